@@ -2,6 +2,7 @@
 
 #include "diagram/overview/svg.h"
 #include "diagram/scene/outlines.h"
+#include "diagram/scene/shadow.h"
 #include "graph/framework/frame.h"
 
 #include <math.h>
@@ -11,7 +12,6 @@ static const double PITCH[THR_CROP_SCALES] = {40,   35, 31, 28, 25.5, 23, 21, 19
                                               14.5, 13, 12, 11, 9.5,  8,  6,  4,  2,    1}; /* mm */
 static const double RING = 0.85; /* pitches of context around what is drawn now */
 static const double EDGE = 1;    /* mm of white around the whole */
-static const double BETWEEN = 4; /* mm between two windows */
 enum { BASE = 6 };               /* scale at which sizes are asked for first */
 
 static void box_point(thr_box *box, const double at[2])
@@ -44,44 +44,28 @@ static thr_status make_scene(thr_crops *crops, int i, thr_err *err)
 
 /* ---- what is seen ---- */
 
-int thr_crop_panel(const thr_scene *scene, int i)
-{
-  const thr_layout *layout = scene->layout;
-  if (!layout->node) return 0;
-  const thr_scene_pass *pass = &scene->pass[i];
-  return 0.5 * (pass->from[0] + pass->to[0]) >
-         (0.5 * (layout->middle[0][0] + layout->middle[1][0]) - scene->origin[0]) * scene->scale;
-}
-
 static void box_mark(thr_box *box, const thr_mark *mark)
 {
   const double edge = 0.8;
   if (mark) thr_box_extend(box, thr_box_around(mark->at[0], mark->at[1], mark->half[0] + edge, mark->half[1] + edge));
 }
 
-/* Of the passes drawn now in a panel, with their turns and marks and a ring of context as far as there is any; false if there are
- * none. */
-static bool box_of_view(const thr_scene *scene, const thr_crop *crop, int panel, thr_box *box)
+/* Of the passes drawn now, with their turns and marks and a ring of context as far as there is any. */
+static thr_box box_of_view(const thr_scene *scene, const thr_crop *crop)
 {
-  const double ring = RING * scene->size.pitch;
+  const double ring = RING * scene->size.pitch, *at = scene->pass[crop->now[0]].from;
   const thr_box all = scene->extent;
-  bool any = false;
+  thr_box box = {at[0], at[1], at[0], at[1]};
   for (int k = 0; k < crop->n_now; k++) {
     int i = crop->now[k];
-    const thr_scene_pass *pass = &scene->pass[i];
-    if (thr_crop_panel(scene, i) != panel) continue;
-    if (!any) *box = (thr_box){pass->from[0], pass->from[1], pass->from[0], pass->from[1]};
-    any = true;
-    box_point(box, pass->from);
-    box_point(box, pass->to);
-    box_point(box, thr_scene_turn_start(scene, i));
-    box_mark(box, thr_scene_mark_before(scene, i));
-    box_mark(box, thr_scene_mark_after(scene, i));
+    box_point(&box, scene->pass[i].from);
+    box_point(&box, scene->pass[i].to);
+    box_point(&box, thr_scene_turn_start(scene, i));
+    box_mark(&box, thr_scene_mark_before(scene, i));
+    box_mark(&box, thr_scene_mark_after(scene, i));
   }
-  if (any)
-    *box = (thr_box){fmax(box->x0 - ring, all.x0 - EDGE), fmax(box->y0 - ring, all.y0 - EDGE),
-                     fmin(box->x1 + ring, all.x1 + EDGE), fmin(box->y1 + ring, all.y1 + EDGE)};
-  return any;
+  return (thr_box){fmax(box.x0 - ring, all.x0 - EDGE), fmax(box.y0 - ring, all.y0 - EDGE), fmin(box.x1 + ring, all.x1 + EDGE),
+                   fmin(box.y1 + ring, all.y1 + EDGE)};
 }
 
 /* Where a view as long as room, of something from low to high, begins so that it shows from .. to and little beyond the rest. */
@@ -92,50 +76,39 @@ static double slide(double from, double to, double room, double low, double high
   return fmin(fmax(start, low), high - room);
 }
 
-static thr_box window_of(const thr_scene *scene, const thr_crop *crop, const thr_crop_view *view, int k)
+static thr_box window_of(const thr_scene *scene, const thr_crop *crop, const double size[2])
 {
-  thr_box box = {0}, all = scene->extent;
-  double width = view->window[k][0], height = view->window[k][1];
-  box_of_view(scene, crop, view->panel[k], &box);
-  double x = slide(box.x0, box.x1, width, all.x0 - EDGE, all.x1 + EDGE),
-         y = slide(box.y0, box.y1, height, all.y0 - EDGE, all.y1 + EDGE);
-  return (thr_box){x, y, x + width, y + height};
+  thr_box box = box_of_view(scene, crop), all = scene->extent;
+  double x = slide(box.x0, box.x1, size[0], all.x0 - EDGE, all.x1 + EDGE),
+         y = slide(box.y0, box.y1, size[1], all.y0 - EDGE, all.y1 + EDGE);
+  return (thr_box){x, y, x + size[0], y + size[1]};
 }
 
-/* What windows of these sizes in pitches take up at a pitch, side by side or above each other. Returns whether that fits. */
-static bool arrange(thr_crop_view *crop_view, double (*pitches)[2], double pitch, const double room[2], const double least[2],
-                    bool stacked)
+thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double room[2], const double least[2], thr_crop_view *view,
+                        thr_err *err)
 {
-  crop_view->stacked = stacked;
-  crop_view->size[0] = crop_view->size[1] = 0;
-  for (int k = 0; k < crop_view->n_windows; k++)
-    for (int i = 0; i < 2; i++) {
-      double wanted = fmax(pitches[k][i] * pitch, least[i]), already = k ? crop_view->size[i] + BETWEEN : 0;
-      crop_view->window[k][i] =
-          fmax(pitches[k][i] * pitch, fmin(wanted, (room[i] - BETWEEN * (crop_view->n_windows - 1)) / crop_view->n_windows));
-      crop_view->size[i] = i == stacked ? already + crop_view->window[k][i] : fmax(crop_view->size[i], crop_view->window[k][i]);
-    }
-  return crop_view->size[0] <= room[0] && crop_view->size[1] <= room[1];
-}
-
-thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double room[2], const double least[2],
-                        thr_crop_view *crop_view, thr_err *err)
-{
-  double pitches[2][2];
   thr_status st = make_scene(crops, BASE, err);
-  *crop_view = (thr_crop_view){.scale = 0};
+  *view = (thr_crop_view){.scale = 0};
   if (st) return st;
-  for (int panel = 0; panel < 2; panel++) {
-    thr_box box;
-    if (!box_of_view(&crops->scene[BASE], crop, panel, &box)) continue;
-    crop_view->panel[crop_view->n_windows] = panel;
-    pitches[crop_view->n_windows][0] = (box.x1 - box.x0) / PITCH[BASE];
-    pitches[crop_view->n_windows++][1] = (box.y1 - box.y0) / PITCH[BASE];
+  thr_box box = box_of_view(&crops->scene[BASE], crop);
+  double pitches[2] = {(box.x1 - box.x0) / PITCH[BASE], (box.y1 - box.y0) / PITCH[BASE]};
+  while (view->scale < THR_CROP_SCALES &&
+         (pitches[0] * PITCH[view->scale] > room[0] || pitches[1] * PITCH[view->scale] > room[1]))
+    view->scale++;
+  for (int i = 0; i < 2; i++) {
+    double own = pitches[i] * PITCH[view->scale < THR_CROP_SCALES ? view->scale : THR_CROP_SCALES - 1];
+    view->size[i] = fmax(own, fmin(least[i], room[i]));
   }
-  while (crop_view->scale < THR_CROP_SCALES && !arrange(crop_view, pitches, PITCH[crop_view->scale], room, least, false) &&
-         !(crop_view->n_windows > 1 && arrange(crop_view, pitches, PITCH[crop_view->scale], room, least, true)))
-    crop_view->scale++;
   return THR_OK;
+}
+
+void thr_crop_fill(const thr_crops *crops, thr_crop_view *view, const double room[2])
+{
+  const thr_scene *scene = &crops->scene[crops->made[view->scale] ? view->scale : BASE];
+  double larger = PITCH[view->scale] / scene->size.pitch;
+  double all[2] = {scene->extent.x1 - scene->extent.x0, scene->extent.y1 - scene->extent.y0};
+  for (int i = 0; i < 2; i++)
+    view->size[i] = fmax(view->size[i], fmin(room[i], larger * all[i] + 2 * EDGE));
 }
 
 /* ---- pictures ---- */
@@ -147,32 +120,29 @@ static void put_frame(thr_box at, const char *colour, double width, thr_text *te
       at.x0, at.y0, at.x1 - at.x0, at.y1 - at.y0, colour, width);
 }
 
-thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, const double at[2], thr_box shown[2],
+thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, const double at[2], thr_box *shown,
                          thr_text *text, thr_err *err)
 {
   thr_scene *scene = &crops->scene[view->scale];
   thr_status st = make_scene(crops, view->scale, err);
+  if (st) return st;
+  thr_box paper = {at[0], at[1], at[0] + view->size[0], at[1] + view->size[1]};
   char scope[32];
   snprintf(scope, sizeof scope, "view-%d", crop->number);
-  if (!st) thr_draw_css(scene, scope, text);
+  *shown = window_of(scene, crop, view->size);
+  if ((st = thr_crop_label(scene, crop, *shown, err))) return st;
+  thr_draw_style style = {.state = crop->state, .window = shown, .anonymous = true, .colour = crop->colour, .no_pieces = true};
+  thr_draw_css(scene, scope, text);
   thr_text_printf(text, "<g class=\"%s\">\n", scope);
-  double corner[2] = {at[0], at[1]};
-  for (int k = 0; k < view->n_windows && !st; k++) {
-    shown[k] = window_of(scene, crop, view, k);
-    if ((st = thr_crop_label(scene, crop, view->panel[k], shown[k], err))) break;
-    thr_box paper = {corner[0], corner[1], corner[0] + view->window[k][0], corner[1] + view->window[k][1]};
-    thr_draw_style style = {.state = crop->state, .window = &shown[k], .anonymous = true, .no_pieces = true};
-    thr_text_printf(text, "<clipPath id=\"%s-%d\"><rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/></clipPath>\n",
-                    scope, k, paper.x0, paper.y0, paper.x1 - paper.x0, paper.y1 - paper.y0);
-    thr_text_printf(text, "<g clip-path=\"url(#%s-%d)\"><g transform=\"translate(%.2f %.2f)\">\n", scope, k,
-                    thr_svg_round(paper.x0 - shown[k].x0), thr_svg_round(paper.y0 - shown[k].y0));
-    thr_draw_feet(scene, &style, text);
-    st = thr_crop_pieces(scene, crop->piece, &shown[k], text, err);
-    thr_draw_scene(scene, &style, NULL, text);
-    thr_text_append(text, "</g></g>\n");
-    put_frame(paper, "#999", 0.25, text);
-    corner[view->stacked] += view->window[k][view->stacked] + BETWEEN;
-  }
+  thr_text_printf(text, "<clipPath id=\"%s\"><rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/></clipPath>\n", scope,
+                  paper.x0, paper.y0, view->size[0], view->size[1]);
+  thr_text_printf(text, "<g clip-path=\"url(#%s)\"><g transform=\"translate(%.2f %.2f)\">\n", scope,
+                  thr_svg_round(paper.x0 - shown->x0), thr_svg_round(paper.y0 - shown->y0));
+  thr_draw_feet(scene, &style, text);
+  st = thr_crop_pieces(scene, crop->piece, shown, text, err);
+  thr_draw_scene(scene, &style, NULL, text);
+  thr_text_append(text, "</g></g>\n");
+  put_frame(paper, "#999", 0.25, text);
   thr_text_append(text, "</g>\n");
   return st;
 }
@@ -208,23 +178,54 @@ thr_status thr_crop_piece(thr_crops *crops, int node, const double at[2], double
   return st;
 }
 
-/* A line for every edge, or for the passes drawn now; passes that follow each other are one line. */
-static void put_lines(const thr_scene *scene, const thr_crop *crop, bool now, const double map[3], thr_text *text)
+static const double LINES = 1.2; /* mm: a pitch in small from which edges have lines of their own */
+
+static void put_small(const double at[2], const double map[3], double out[2])
+{
+  for (int k = 0; k < 2; k++)
+    out[k] = map[0] * at[k] + map[1 + k];
+}
+
+/* All edges: lines, or the area that they cover. */
+static void put_edges(const thr_scene *scene, const double map[3], thr_box paper, thr_text *text)
+{
+  bool lines = map[0] * scene->size.pitch > LINES;
+  thr_shadow shadow = thr_shadow_on(paper);
+  if (lines) thr_text_append(text, "<path fill=\"none\" stroke=\"#bbb\" stroke-width=\"0.20\" d=\"");
+  for (int e = 0; e < scene->paper->n_edges; e++) {
+    double a[2], b[2];
+    put_small(scene->at[scene->paper->edge[e][0]], map, a);
+    put_small(scene->at[scene->paper->edge[e][1]], map, b);
+    if (lines) {
+      thr_svg_move(text, a);
+      thr_svg_line(text, b);
+    } else
+      thr_shadow_line(&shadow, a, b);
+  }
+  if (lines)
+    thr_text_append(text, "\"/>\n");
+  else
+    thr_shadow_put(&shadow, "#ddd", text);
+}
+
+/* A line for the passes drawn now; passes that follow each other are one line. */
+static void put_now(const thr_scene *scene, const thr_crop *crop, const double map[3], thr_text *text)
 {
   int last = -1;
-  for (int k = 0; k < (now ? crop->n_now : scene->n_passes); k++) {
-    int i = !now ? k : crop->now[crop->backward ? crop->n_now - 1 - k : k];
-    int h = scene->pass[i].half, from = thr_tail(scene->paper, h), to = thr_head(scene->paper, h);
-    if (!now && scene->pass[i].lane != 0) continue;
-    if (from != last)
-      thr_svg_move(text, (const double[]){map[0] * scene->at[from][0] + map[1], map[0] * scene->at[from][1] + map[2]});
-    thr_svg_line(text, (const double[]){map[0] * scene->at[to][0] + map[1], map[0] * scene->at[to][1] + map[2]});
+  for (int k = 0; k < crop->n_now; k++) {
+    int h = scene->pass[crop->now[crop->backward ? crop->n_now - 1 - k : k]].half;
+    int from = thr_tail(scene->paper, h), to = thr_head(scene->paper, h);
+    double at[2];
+    put_small(scene->at[from], map, at);
+    if (from != last) thr_svg_move(text, at);
+    put_small(scene->at[to], map, at);
+    thr_svg_line(text, at);
     last = to;
   }
 }
 
-void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, const thr_box shown[2],
-                     thr_box paper, thr_text *text)
+void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, thr_box shown, thr_box paper,
+                     thr_text *text)
 {
   const thr_scene *scene = &crops->scene[view->scale];
   const thr_box all = scene->extent;
@@ -232,17 +233,13 @@ void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_cro
   const double map[3] = {k, paper.x1 - k * all.x1, paper.y0 - k * all.y0}, out = 1;
   char colour[8];
   thr_scene_colour(scene, crop->now[0], colour);
-  for (int now = 0; now < 2; now++) {
-    thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" d=\"", now ? colour : "#bbb",
-                    now ? "0.60" : "0.20");
-    put_lines(scene, crop, now, map, text);
-    thr_text_append(text, "\"/>\n");
-  }
-  for (int i = 0; i < view->n_windows; i++) {
-    thr_box frame = {fmax(k * shown[i].x0 + map[1], paper.x0 - out), fmax(k * shown[i].y0 + map[2], paper.y0 - out),
-                     fmin(k * shown[i].x1 + map[1], paper.x1 + out), fmin(k * shown[i].y1 + map[2], paper.y1 + out)};
-    put_frame(frame, "#D55E00", 0.5, text);
-  }
+  put_edges(scene, map, paper, text);
+  thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"0.60\" d=\"", crop->colour ? crop->colour : colour);
+  put_now(scene, crop, map, text);
+  thr_text_append(text, "\"/>\n");
+  thr_box frame = {fmax(k * shown.x0 + map[1], paper.x0 - out), fmax(k * shown.y0 + map[2], paper.y0 - out),
+                   fmin(k * shown.x1 + map[1], paper.x1 + out), fmin(k * shown.y1 + map[2], paper.y1 + out)};
+  put_frame(frame, "#D55E00", 0.5, text);
 }
 
 thr_status thr_crop_whole(const thr_plan *plan, const thr_layout *layout, const unsigned char *state, thr_box paper,

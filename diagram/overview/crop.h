@@ -33,34 +33,35 @@ typedef struct {
   const unsigned char *piece; /* [pieces]; NULL: all are plain */
   const int *now;             /* [n_now] the passes drawn now, in the order of threading; n_now >= 1 */
   int n_now;
-  bool backward; /* they are threaded against the plan's direction, from the last to the first */
+  const char *colour; /* of the passes drawn now, "#rrggbb"; NULL: their own */
+  bool backward;      /* they are threaded against the plan's direction, from the last to the first */
 } thr_crop;
 
-/* How it is shown: one window on the scene, or one on each of two panels if there are passes drawn now in both. */
+/* How it is shown: a window on the scene. */
 typedef struct {
-  int scale; /* number of the scene; THR_CROP_SCALES: none is small enough */
-  int n_windows;
-  int panel[2];
-  double window[2][2]; /* their widths and heights, mm */
-  bool stacked;        /* two windows are above each other, not side by side */
-  double size[2];      /* of all, mm */
+  int scale;      /* number of the scene; THR_CROP_SCALES: none is small enough */
+  double size[2]; /* mm */
 } thr_crop_view;
 
 /* The largest scale at which the passes drawn now fit in room (width and height, mm) with a ring of their neighbours around them.
- * A window is at least as large as least, if there is room for that. O(n_now), and O(n log n) the first time. */
+ * The window is at least as large as least, if there is room for that. O(n_now), and O(n log n) the first time. */
 thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double room[2], const double least[2], thr_crop_view *view,
                         thr_err *err) THR_MUST_CHECK;
 
-/* Appends the picture with its top left corner at a point of the page: clipped, in frames, each pass that is drawn now with its
+/* Makes the window larger, as far as there is anything more to show, up to room. */
+void thr_crop_fill(const thr_crops *crops, thr_crop_view *view, const double room[2]);
+
+/* Appends the picture with its top left corner at a point of the page: clipped, in a frame, each pass that is drawn now with its
  * number and arrow, names at the places that they come to. It is a group of class "view-NUMBER" and brings its style. shown
- * receives what of the scene each window shows. The view's scale is below THR_CROP_SCALES. O(n). */
-thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, const double at[2], thr_box shown[2],
+ * receives what of the scene the window shows. The view's scale is below THR_CROP_SCALES. The layout is in one panel. O(n). */
+thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, const double at[2], thr_box *shown,
                          thr_text *text, thr_err *err) THR_MUST_CHECK;
 
-/* Appends where that is in the whole, within the paper and in its right upper corner: all beads as thin lines, the passes drawn
- * now, a frame around what is shown. Needs no states; the picture must have been drawn. O(n). */
-void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, const thr_box shown[2],
-                     thr_box paper, thr_text *text);
+/* Appends where that is in the whole, within the paper and in its right upper corner: all beads as thin lines or, where these
+ * would run together, the area that they cover; the passes drawn now, a frame around what is shown. Needs no states; the picture
+ * must have been drawn. O(n). */
+void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, thr_box shown, thr_box paper,
+                     thr_text *text);
 
 /* Appends the whole plan, at the largest scale that fits in the paper, with the numbers that this scale has room for; passes in
  * their state (NULL: all now). Brings the style of the document. O(n log n). THR_ELIMIT if it was interrupted. */
@@ -73,16 +74,13 @@ thr_status thr_crop_whole(const thr_plan *p, const thr_layout *l, const unsigned
 thr_status thr_crop_piece(thr_crops *crops, int node, const double at[2], double room, const thr_scene **scene, int *point,
                           thr_text *text, thr_err *err) THR_MUST_CHECK;
 
-/* Places numbers, arrows and names of the passes drawn now that lie in the panel where they hide least in a window of the scene;
- * all others have none then (crop_labels.c). */
-thr_status thr_crop_label(thr_scene *s, const thr_crop *crop, int panel, thr_box window, thr_err *err) THR_MUST_CHECK;
+/* Places numbers, arrows and names of the passes drawn now where they hide least in a window of the scene; all others have none
+ * then (crop_labels.c). */
+thr_status thr_crop_label(thr_scene *s, const thr_crop *crop, thr_box window, thr_err *err) THR_MUST_CHECK;
 
 /* Appends the pieces in a window of the scene, in few elements, for pages would take ten times as long with one for each
  * (crop_pieces.c). state: as piece in thr_crop. O(n log n). */
 thr_status thr_crop_pieces(const thr_scene *s, const unsigned char *state, const thr_box *window, thr_text *text,
                            thr_err *err) THR_MUST_CHECK;
-
-/* Panel that pass i is drawn in: 0, or with two panels 1 for the right one. */
-int thr_crop_panel(const thr_scene *s, int i);
 
 #endif

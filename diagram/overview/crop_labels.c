@@ -9,13 +9,10 @@
 
 #include <math.h>
 
-static const double CAPTION = 1.4, EDGE = 0.8; /* height in those of the text; mm between it and the window's edge */
-
 /* Labels being placed in a window. */
 typedef struct {
   thr_scene *s;
   const thr_crop *c;
-  int panel;
   thr_box window;
   thr_boxes boxes;
 } labelling;
@@ -183,47 +180,14 @@ static thr_status box_beads(labelling *l, thr_err *err)
   return st;
 }
 
-/* What half of a shell the window shows: at its upper or lower edge where that hides least. The other half's words are out of it.
- */
-static thr_status place_caption(labelling *l, thr_err *err)
-{
-  thr_scene *scene = l->s;
-  double *at = scene->caption[l->panel], *other = scene->caption[1 - l->panel], least = HUGE_VAL;
-  if (!scene->layout->node) return THR_OK;
-  const thr_box *w = &l->window;
-  double half[2] = {0.5 * thr_scene_text_width(thr_scene_caption(scene, l->panel), CAPTION * scene->size.text),
-                    0.5 * CAPTION * scene->size.text};
-  for (int k = 0; k < 6; k++) {
-    double x[3] = {w->x0 + half[0] + EDGE, 0.5 * (w->x0 + w->x1), w->x1 - half[0] - EDGE};
-    double y = k < 3 ? w->y0 + half[1] + EDGE : w->y1 - half[1] - EDGE;
-    thr_box box = thr_box_around(x[k % 3], y, half[0], half[1]);
-    double hidden = 100 * thr_boxes_overlap(&l->boxes, box, THR_BOX_MARK, HUGE_VAL) +
-                    thr_boxes_overlap(&l->boxes, box, THR_BOX_CORD | THR_BOX_BEAD, HUGE_VAL);
-    if (hidden >= least) continue;
-    least = hidden;
-    at[0] = x[k % 3];
-    at[1] = y;
-  }
-  other[0] = w->x0 - 2 * half[0];
-  other[1] = w->y0 - 2 * half[1];
-  return thr_boxes_add(&l->boxes, thr_box_around(at[0], at[1], half[0], half[1]), THR_BOX_NAME, err);
-}
-
-static bool is_mine(const labelling *l, int i)
-{
-  return thr_crop_panel(l->s, i) == l->panel;
-}
-
 static thr_status place_labels(labelling *l, thr_err *err)
 {
   thr_scene *scene = l->s;
   const thr_crop *crop = l->c;
   thr_status st = box_strands(l, err);
-  if (!st) st = place_caption(l, err);
   for (int k = 0; k < crop->n_now && !st; k++)
-    if (is_mine(l, crop->now[k])) st = place_number(l, crop->now[k], err);
+    st = place_number(l, crop->now[k], err);
   for (int k = 0; k < crop->n_now && !st; k++) {
-    if (!is_mine(l, crop->now[k])) continue;
     place_arrow(l, crop->now[k]);
     const double *at = scene->pass[crop->now[k]].arrow;
     st = thr_boxes_add(&l->boxes, thr_box_around(at[0], at[1], 0.5 * scene->size.arrow, 0.5 * scene->size.arrow), THR_BOX_ARROW,
@@ -232,15 +196,15 @@ static thr_status place_labels(labelling *l, thr_err *err)
   if (!st) st = box_beads(l, err);
   for (int k = 0; k < crop->n_now && !st; k++) {
     int h = scene->pass[crop->now[k]].half;
-    if (is_mine(l, crop->now[k])) st = place_name(l, thr_tail(scene->paper, h), err);
-    if (!st && is_mine(l, crop->now[k])) st = place_name(l, thr_head(scene->paper, h), err);
+    st = place_name(l, thr_tail(scene->paper, h), err);
+    if (!st) st = place_name(l, thr_head(scene->paper, h), err);
   }
   return st;
 }
 
-thr_status thr_crop_label(thr_scene *scene, const thr_crop *crop, int panel, thr_box window, thr_err *err)
+thr_status thr_crop_label(thr_scene *scene, const thr_crop *crop, thr_box window, thr_err *err)
 {
-  labelling l = {.s = scene, .c = crop, .panel = panel, .window = window};
+  labelling l = {.s = scene, .c = crop, .window = window};
   for (int i = 0; i < scene->n_passes; i++)
     scene->pass[i].numbered = false;
   for (int v = 0; v < scene->layout->n_points; v++)

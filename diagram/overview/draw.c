@@ -68,6 +68,14 @@ static thr_box box_of_pass(const thr_scene *scene, int i)
   return box_of_strand(scene, i, fmax(scene->size.cord, scene->size.arrow));
 }
 
+static void colour_of(const drawing *d, int i, char hex[8])
+{
+  if (d->style->colour)
+    snprintf(hex, 8, "%s", d->style->colour);
+  else
+    thr_scene_colour(d->s, i, hex);
+}
+
 /* Begins a group or element, with an id if there are to be any. */
 static void open_element(const drawing *d, const char *element, const char *prefix, const char *id, int number, thr_text *text)
 {
@@ -238,7 +246,7 @@ static void write_pass(const drawing *d, int i, thr_text *text)
   const thr_scene *scene = d->s;
   const thr_scene_pass *scene_pass = &scene->pass[i];
   char colour[8], rim[8];
-  thr_scene_colour(scene, i, colour);
+  colour_of(d, i, colour);
   bool rimmed = thr_scene_rim(scene, scene_pass->cord, colour, rim);
   open_element(d, "g", "", scene->id[scene_pass->cord], scene_pass->number, text);
   thr_text_printf(text, " stroke=\"%s\" fill=\"%s\">", colour, colour);
@@ -382,7 +390,7 @@ static void write_seams(const drawing *d, thr_text *text)
       if (state_of(d, pass) != THR_DRAW_NOW ||
           !in_window(d, thr_box_around(mark->at[0], mark->at[1], mark->half[0], mark->half[1])))
         continue;
-      thr_scene_colour(scene, pass, colour);
+      colour_of(d, pass, colour);
       open_element(d, "g", in ? "in-" : "out-", scene->id[scene->pass[pass].cord], scene->pass[pass].number, text);
       thr_text_append(text, ">");
       thr_draw_seam(scene, mark, colour, text);
@@ -404,7 +412,7 @@ static void write_numbers(const drawing *d, thr_text *text)
     thr_scene_number(scene, i, number);
     double w = thr_scene_pill_width(scene, number), h = thr_scene_pill_height(scene);
     if (!in_window(d, thr_box_around(scene_pass->pill[0], scene_pass->pill[1], 0.5 * w, 0.5 * h))) continue;
-    thr_scene_colour(scene, i, colour);
+    colour_of(d, i, colour);
     open_element(d, "g", "n-", scene->id[scene_pass->cord], scene_pass->number, text);
     thr_text_append(text, ">");
     thr_draw_pill(scene, number, colour, scene_pass->pill[0], scene_pass->pill[1], text);

@@ -1,6 +1,8 @@
 #define _XOPEN_SOURCE 700
 #include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
+#include "diagram/sheets/sheets_step.h"
+#include "diagram/space/space.h"
 
 #include "diagram/export/paper.h"
 #include "diagram/export/svg_page.h"
@@ -28,6 +30,7 @@ void thr_sheets_destroy(thr_sheets *sheets)
   thr_guide_destroy(&sheets->guide);
   thr_supplies_destroy(&sheets->supplies);
   thr_crops_destroy(&sheets->crops);
+  thr_space_destroy(&sheets->space);
   free(sheets->copy);
   thr_pieces_destroy(&sheets->pieces);
   free(sheets->part);
@@ -42,7 +45,9 @@ void thr_sheets_destroy(thr_sheets *sheets)
   for (int i = 0; i < sheets->n_pages; i++)
     thr_text_destroy(&sheets->page[i]);
   free(sheets->page);
-  free(sheets->locator);
+  for (int i = 0; i < sheets->n_waiting; i++)
+    thr_step_destroy_text(&sheets->waiting[i]);
+  free(sheets->waiting);
   free(sheets);
 }
 
@@ -61,7 +66,10 @@ static thr_status prepare(thr_sheets *sheets, thr_err *err)
   if (!st) st = thr_sheets_follow(sheets, err);
   if (st) return st;
   thr_crops_make(&sheets->crops, plan, &sheets->guide.layout);
-  return THR_OK;
+  sheets->in_space = !sheets->guide.sides || sheets->guide.layout.node;
+  if (!sheets->in_space) return THR_OK;
+  return thr_space_make(&sheets->space, plan, thr_sheets_labels(sheets),
+                        sheets->guide.sides ? (const double(*)[3])sheets->guide.outward : NULL, err);
 }
 
 /* The title page knows where all others are: it is made last and put first. */
@@ -78,6 +86,7 @@ static void lay_out(thr_sheets *sheets)
     thr_sheets_steps(sheets, c);
     thr_sheets_copies(sheets, c);
   }
+  thr_sheets_flush(sheets);
   first[THR_SHEET_LAST] = sheets->n_pages;
   thr_sheets_last(sheets);
   thr_sheets_name_tags(sheets);
@@ -128,7 +137,10 @@ static void title_of(const thr_sheets *sheets, char title[96])
 /* From which side the pictures are seen: as much of it as two lines take. */
 static void put_view(const thr_sheets *sheets, double foot, thr_text *svg)
 {
-  const char *words = thr_layout_words(sheets->guide.layout.kind);
+  static const char *const in_space =
+      "Each step is drawn from where it is seen best: turn the pieces until they look like the small "
+      "picture. Round openings are arms that come towards you.";
+  const char *words = sheets->in_space ? in_space : thr_layout_words(sheets->guide.layout.kind);
   double width = thr_sheets_width(sheets) - 24;
   int lines = thr_sheets_lines(words, width, THR_SHEET_SMALL);
   for (double y = foot - (lines > 1 ? 1.4 * THR_SHEET_SMALL : 0); *words && y < foot + 0.1; y += 1.4 * THR_SHEET_SMALL) {
@@ -149,7 +161,6 @@ thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_er
   thr_svg_open(svg, sheets->size[0], sheets->size[1], title, "A page of step sheets.");
   thr_text_append(svg, "<style>.thread text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}</style>\n");
   if (body->data) thr_text_append_bytes(svg, body->data, body->length);
-  thr_sheets_locate(sheets, i, svg);
   put_view(sheets, foot, svg);
   snprintf(line, sizeof line, "page %d of %d", i + 1, sheets->n_pages);
   thr_svg_text(svg, sheets->size[0] - THR_SHEET_MARGIN, foot, THR_SHEET_SMALL, " text-anchor=\"end\" style=\"fill:#666\"", line);

@@ -103,6 +103,7 @@ void thr_sheets_copies(thr_sheets *sheets, int c)
   char line[160];
   int n = sheets->plan->n_cords, copies = thr_copies_count(sheets->copy, n, c);
   if (!copies || sheets->st) return;
+  thr_sheets_flush(sheets);
   snprintf(line, sizeof line, "Repeat cord %s with %d other cord%s", sheets->plan->cord[c].id, copies, copies == 1 ? "" : "s");
   thr_sheets_page(sheets, line, line);
   if (sheets->st) return;

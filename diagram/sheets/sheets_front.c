@@ -94,8 +94,7 @@ void thr_sheets_front(thr_sheets *sheets, const int *first)
   put_counts(sheets);
   put_goal(sheets);
   put_contents(sheets, first);
-  if (sheets->plan->n_cords == 1)
-    thr_sheets_paragraph(sheets, 0, "The colour changes every twenty passes, here and in the steps.");
+  if (sheets->plan->n_cords == 1) thr_sheets_paragraph(sheets, 0, "In this picture the colour changes every twenty passes.");
   thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN, thr_sheets_bottom(sheets)};
   thr_status st =
       thr_crop_whole(sheets->plan, &sheets->guide.layout, NULL, paper, sheets->limits, thr_sheets_out(sheets), &sheets->why);

@@ -8,6 +8,7 @@
 #include "diagram/overview/guide.h"
 #include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets.h"
+#include "diagram/space/space.h"
 #include "diagram/tables/supplies.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
@@ -28,13 +29,7 @@ typedef struct {
   double used; /* cord that this needle has used up by then, in units */
 } thr_move;
 
-/* The small picture beside a step, drawn when its page is written: with all beads in it, it is most of the page. */
-typedef struct {
-  int page;       /* of the booklet, the title page being 0 */
-  int first, end; /* visits of the step */
-  thr_crop_view view;
-  thr_box shown[2], paper;
-} thr_locator;
+typedef struct thr_step thr_step; /* sheets_step.h */
 
 /* Failures stick: the first one is kept, and what comes after it does nothing. */
 struct thr_sheets {
@@ -60,16 +55,17 @@ struct thr_sheets {
   int *first_pass; /* [n_cords] in visited */
   int *visited;    /* [n_passes] the visit that each pass leads to, cord by cord as in a scene */
   thr_crops crops;
+  bool in_space; /* do steps have pictures in space, as no flat picture shows the framework whole and without crossings? */
+  thr_space space;
   double size[2];           /* of a page, mm */
   const thr_limits *limits; /* while pages are laid out */
   int n_steps;              /* so far */
-  int step_page;            /* pages when the latest one was put, so that it is on the last of these */
+  int n_waiting, waiting_capacity;
+  thr_step *waiting; /* steps for the next page, which is drawn when it is full */
   int n_pages, pages_capacity;
-  thr_text *page; /* bodies of the pages, without page numbers */
-  int n_locators, locators_capacity;
-  thr_locator *locator; /* page by page */
-  double y;             /* where the next line goes on the page that is being filled, mm */
-  char running[160];    /* heading of the pages that follow when this one is full */
+  thr_text *page;    /* bodies of the pages, without page numbers */
+  double y;          /* where the next line goes on the page that is being filled, mm */
+  char running[160]; /* heading of the pages that follow when this one is full */
 };
 
 /* Keeps the first failure. */
@@ -110,8 +106,6 @@ void thr_sheets_cells(thr_sheets *sheets, int n, const double *x, char (*cell)[9
 thr_status thr_sheets_follow(thr_sheets *sheets, thr_err *err) THR_MUST_CHECK; /* sheets_moves.c */
 int thr_sheets_end(const thr_sheets *sheets, int c);                           /* visit after the last one of a cord */
 const char (*thr_sheets_labels(const thr_sheets *sheets))[THR_LABEL];
-void thr_sheets_locate(const thr_sheets *sheets, int page,
-                       thr_text *text); /* sheets_steps.c: the locators of a page of the booklet */
 /* sheets_front.c: the title page; first[THR_SHEET_PARTS]: pages before each part, this one not counted. */
 typedef enum { THR_SHEET_PREPARE, THR_SHEET_STEPS, THR_SHEET_LAST, THR_SHEET_PARTS } thr_sheet_part;
 void thr_sheets_front(thr_sheets *sheets, const int *first);
@@ -120,6 +114,7 @@ void thr_sheets_prepare(thr_sheets *sheets);       /* sheets_prepare.c */
 void thr_sheets_key(thr_sheets *sheets);           /* sheets_key.c: solid pieces drawn, kind by kind */
 void thr_sheets_name_tags(thr_sheets *sheets);     /* sheets_key.c: the names of all pieces, to stick on */
 void thr_sheets_steps(thr_sheets *sheets, int c);  /* sheets_steps.c: of a path */
+void thr_sheets_flush(thr_sheets *sheets);         /* sheets_steps.c: the page that is waiting; before any other page */
 void thr_sheets_copies(thr_sheets *sheets, int c); /* sheets_copies.c: of a path, if it has any */
 void thr_sheets_last(thr_sheets *sheets);          /* sheets_last.c */
 int thr_sheets_hardest(const thr_sheets *sheets);  /* of the cords the one to pull first */

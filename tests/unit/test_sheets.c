@@ -690,25 +690,49 @@ static int count_before(const char *s, const char *end, const char *what)
   return n;
 }
 
-/* Which half a window shows, in each of them. */
-START_TEST(windows_on_a_shell_say_its_side)
+/* Of a closed shell, which no flat picture shows whole, each step is one picture. */
+START_TEST(a_shell_is_seen_in_space)
 {
-  int windows = 0;
+  int views = 0;
   thr_plan p = plan_number(2);
   thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
   for (int i = 0; i < thr_sheets_pages(s); i++) {
     thr_text svg = {0};
     ck_assert_int_eq(thr_sheets_svg(s, i, &svg, NULL), THR_OK);
-    for (const char *view = strstr(svg.data, "<g class=\"view-"), *next; view; view = next) {
+    for (const char *view = strstr(svg.data, "<g class=\"view-"), *next; view; view = next, views++) {
       next = strstr(view + 1, "<g class=\"view-");
-      int n = count_before(view, next, "<clipPath ");
-      ck_assert_int_eq(count_before(view, next, ">from above<") + count_before(view, next, ">from below<"), n);
-      windows += n;
-      if (n == 2) ck_assert_int_eq(count_before(view, next, ">from above<"), 1);
+      ck_assert_int_eq(count_before(view, next, "<clipPath "), 1);
     }
+    ck_assert(!strstr(svg.data, ">from below<") || i == 0); /* the picture of the whole has two halves */
     thr_text_destroy(&svg);
   }
-  ck_assert_int_gt(windows, 6);
+  ck_assert_int_gt(views, 6);
+  thr_sheets_destroy(s);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* A step ends behind a straight run, not within it, where the run is short enough: rows of seven. */
+START_TEST(steps_end_where_the_cord_turns)
+{
+  thr_plan p = plan_number(0);
+  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
+  thr_text pdf = pdf_of(s), told = told_by("pdftotext -raw", &pdf);
+  int ends = 0;
+  char *text = told.data;
+  for (char *line = strtok_r(text, "\n\f", &text); line; line = strtok_r(NULL, "\n\f", &text)) {
+    const char *range = strstr(line, ": passes ");
+    int first, last;
+    if (!starts(line + strspn(line, "0123456789 "), "Cord ") || !range) continue;
+    read_range(range + strlen(": passes "), &first, &last);
+    const thr_cord *cord = &p.cord[0];
+    if (last == cord->n_passes) continue;
+    ck_assert_msg(thr_turn_angle(&p.frame, cord->half[last - 1], cord->half[last]) > 0.6, "pass %d goes straight on", last);
+    ends++;
+  }
+  ck_assert_int_gt(ends, 2);
+  thr_text_destroy(&told);
+  thr_text_destroy(&pdf);
   thr_sheets_destroy(s);
   thr_plan_destroy(&p);
 }
@@ -768,7 +792,8 @@ int main(void)
   ADD_TEST(s, 20, a_pdf_tells_no_time_and_no_place);
   ADD_TEST(s, 20, an_interrupt_stops_it);
   ADD_TEST(s, 20, an_interrupt_stops_the_layout);
-  ADD_TEST(s, 20, windows_on_a_shell_say_its_side);
+  ADD_TEST(s, 20, a_shell_is_seen_in_space);
+  ADD_TEST(s, 20, steps_end_where_the_cord_turns);
   ADD_TEST(s, 20, plans_that_cannot_be_drawn_are_refused);
   ADD_EXAMPLES(s, 60, every_failing_allocation_is_reported, 2);
   return run_suite(s);

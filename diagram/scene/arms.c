@@ -1,0 +1,99 @@
+/* Two strokes for a piece, the outline below and the fill above. */
+#include "diagram/scene/arms.h"
+
+#include "diagram/overview/svg.h"
+#include "graph/angle.h"
+
+#include <math.h>
+
+static const double TIP = 2.6;  /* length of an arrow's tip, in widths of its cord */
+static const double BEND = 0.5; /* part of the shorter arm along which a cord bends */
+
+/* A point so far from the hub towards an arm's end; beyond it if back is less than 0. */
+static void point_of(const thr_arms *arms, int i, double back, double at[2])
+{
+  double d[2] = {arms->end[i][0] - arms->hub[0], arms->end[i][1] - arms->hub[1]}, length = hypot(d[0], d[1]);
+  double part = length > 0 ? fmax(length - back, 0) / length : 0;
+  for (int k = 0; k < 2; k++)
+    at[k] = arms->hub[k] + part * d[k];
+}
+
+/* Arms in pairs, so that a round corner covers the hub. A piece of one arm goes beyond its hub by half its width. */
+static void put_strokes(const thr_arms *arms, double back, thr_text *text)
+{
+  double at[2];
+  for (int i = 0; i < arms->n; i += 2) {
+    point_of(arms, i, back, at);
+    thr_svg_move(text, at);
+    if (i + 1 < arms->n || i) thr_svg_line(text, arms->hub);
+    if (i + 1 < arms->n) {
+      point_of(arms, i + 1, back, at);
+      thr_svg_line(text, at);
+    } else if (!i) {
+      double d[2] = {arms->end[0][0] - arms->hub[0], arms->end[0][1] - arms->hub[1]}, length = hypot(d[0], d[1]);
+      double beyond = length > 0 ? (0.5 * arms->width - back) / length : 0;
+      thr_svg_line(text, (const double[]){arms->hub[0] - beyond * d[0], arms->hub[1] - beyond * d[1]});
+    }
+  }
+}
+
+void thr_arms_draw(const thr_arms *arms, thr_text *text)
+{
+  const char *const colour[2] = {arms->outline, arms->fill};
+  for (int k = 0; k < 2 && arms->n; k++) {
+    thr_text_printf(text, "<path fill=\"none\" stroke-linejoin=\"round\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", colour[k],
+                    fmax(arms->width + (k ? -1 : 1) * arms->line, 0.1));
+    put_strokes(arms, k ? arms->line : 0, text);
+    thr_text_append(text, "\"/>\n");
+  }
+}
+
+/* The way of the cord: straight in the arms, bent at the hub. */
+static void put_way(const thr_arms *arms, int in, int out, double back, thr_text *text)
+{
+  double from[2], to[2], before[2], after[2], reach[2] = {0, 0};
+  const int arm[2] = {in, out};
+  for (int k = 0; k < 2; k++)
+    if (arm[k] >= 0) reach[k] = hypot(arms->end[arm[k]][0] - arms->hub[0], arms->end[arm[k]][1] - arms->hub[1]);
+  double bend = BEND * fmin(reach[0] > 0 ? reach[0] : reach[1], reach[1] > 0 ? reach[1] : reach[0]);
+  if (in >= 0) point_of(arms, in, 0, from);
+  if (out >= 0) point_of(arms, out, back, to);
+  thr_svg_move(text, in >= 0 ? from : arms->hub);
+  if (in >= 0 && out >= 0) {
+    point_of(arms, in, reach[0] - bend, before);
+    point_of(arms, out, reach[1] - bend, after);
+    thr_svg_line(text, before);
+    thr_svg_curve(text, arms->hub, arms->hub, after);
+  }
+  thr_svg_line(text, out >= 0 ? to : arms->hub);
+}
+
+static void put_tip(const thr_arms *arms, int out, const char *colour, double width, thr_text *text)
+{
+  double d[2] = {arms->end[out][0] - arms->hub[0], arms->end[out][1] - arms->hub[1]}, length = hypot(d[0], d[1]);
+  double tip[2], size = TIP * width;
+  if (!(length > 0)) return;
+  for (int k = 0; k < 2; k++) {
+    d[k] *= size / length;
+    tip[k] = arms->end[out][k] + 0.4 * d[k];
+  }
+  thr_text_printf(text, "<path fill=\"%s\" stroke=\"#fff\" stroke-width=\"0.20\" d=\"", colour);
+  thr_svg_move(text, tip);
+  thr_svg_line(text, (const double[]){tip[0] - d[0] - 0.5 * d[1], tip[1] - d[1] + 0.5 * d[0]});
+  thr_svg_line(text, (const double[]){tip[0] - d[0] + 0.5 * d[1], tip[1] - d[1] - 0.5 * d[0]});
+  thr_text_append(text, "z\"/>\n");
+}
+
+void thr_arms_cord(const thr_arms *arms, int in, int out, const char *colour, double width, thr_text *text)
+{
+  for (int k = 0; k < 2 && (in >= 0 || out >= 0); k++) {
+    thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", k ? colour : "#fff",
+                    k ? width : 1.8 * width);
+    put_way(arms, in, out, (TIP - 1) * width, text);
+    thr_text_append(text, "\"/>\n");
+  }
+  if (in < 0 || out < 0)
+    thr_text_printf(text, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"#111\"/>\n", arms->hub[0], arms->hub[1],
+                    1.1 * width);
+  if (out >= 0) put_tip(arms, out, colour, width, text);
+}

@@ -1,0 +1,256 @@
+/* What is written on the page of a step: heading, rows to tick off, where the needle comes out. */
+#include "diagram/overview/draw.h"
+#include "diagram/overview/guide.h"
+#include "diagram/overview/svg.h"
+#include "diagram/scene/palette.h"
+#include "diagram/scene/pieces.h"
+#include "diagram/sheets/sheets_parts.h"
+#include "diagram/sheets/sheets_step.h"
+#include "diagram/tables/supplies.h"
+#include "graph/framework/frame.h"
+#include "graph/status.h"
+#include "graph/text.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static const double NUMBER = 9;         /* mm: the number of a step */
+static const double LOCATOR = 44;       /* mm: width of the small picture in the corner */
+static const double BOX = 5, COUNT = 8; /* mm: a box to tick, and white behind it; the number of a row */
+static const double AFTER = 0.7;        /* mm after a row */
+
+static double column_width(const thr_sheets *sheets)
+{
+  return 0.5 * (thr_sheets_width(sheets) - 4);
+}
+
+static double line_height(void)
+{
+  return 1.45 * THR_SHEET_SMALL;
+}
+
+/* ---- what is said beside the rows ---- */
+
+/* Where the needle is before a visit. */
+static int place_before(const thr_sheets *sheets, int i)
+{
+  const thr_visit *visit = &sheets->visit[i];
+  return visit->number ? thr_tail(sheets->f, visit->in) : visit->piece;
+}
+
+/* What is done before the first visit of a needle; empty in other steps. */
+static void put_beginning(const thr_sheets *sheets, int i, thr_text *text)
+{
+  thr_needle needle = sheets->move[i].needle;
+  if (!thr_step_begins(sheets, i)) return;
+  if (needle == THR_NEEDLE_ONLY) {
+    thr_text_append(text, "Begin at ");
+    thr_guide_place(&sheets->guide, place_before(sheets, i), text);
+    thr_text_printf(text, ": leave a tail of %.0f mm there and a knot's length.", THR_SUPPLIES_TAIL);
+  } else {
+    thr_text_printf(text, needle == THR_NEEDLE_RIGHT ? "Right needle first: the fold of the cord lies at "
+                                                     : "Now the left needle, from the fold of the cord at ");
+    thr_guide_place(&sheets->guide, place_before(sheets, i), text);
+    thr_text_append(text, ".");
+  }
+}
+
+/* "Check: the needle comes out of F12 and points at E12." Tubes: "Check: the needle comes out at F12; next E12." */
+static void put_check(const thr_sheets *sheets, int last, thr_text *text)
+{
+  const thr_visit *visit = &sheets->visit[last];
+  thr_needle needle = sheets->move[last].needle;
+  int at = visit->number ? thr_head(sheets->f, visit->in) : visit->piece;
+  bool solid = sheets->pieces.solid;
+  thr_text_printf(text, "Check: the %sneedle comes out %s ",
+                  needle == THR_NEEDLE_RIGHT  ? "right "
+                  : needle == THR_NEEDLE_LEFT ? "left "
+                                              : "",
+                  solid ? "of" : "at");
+  thr_guide_place(&sheets->guide, at, text);
+  if (!thr_step_ends(sheets, last))
+    thr_text_printf(text, solid ? " and points at %s." : "; next %s.",
+                    sheets->guide.label[thr_head(sheets->f, sheets->visit[last + 1].in)]);
+  else if (needle == THR_NEEDLE_RIGHT)
+    thr_text_append(text, ": the end of the cord. Leave it there and go on with the left needle.");
+  else
+    thr_text_append(text, needle == THR_NEEDLE_LEFT ? ": the start of the cord." : ": the end of the cord.");
+}
+
+void thr_step_destroy_text(thr_step *p)
+{
+  for (int i = 0; i < p->n_rows; i++)
+    thr_text_destroy(&p->row[i]);
+  thr_text_destroy(&p->before);
+  thr_text_destroy(&p->after);
+  p->n_rows = 0;
+}
+
+static int count_lines(thr_sheets *sheets, const thr_text *words, double width, double size)
+{
+  if (words->failed) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+  return words->data && !words->failed ? thr_sheets_lines(words->data, width, size) : 0;
+}
+
+/* Parts the rows into two columns of nearly equal height. */
+static void part_rows(thr_step *p)
+{
+  double total = 0, left = 0;
+  for (int i = 0; i < p->n_rows; i++)
+    total += p->lines[i] * line_height() + AFTER;
+  for (p->left = 0; p->left < p->n_rows && left < 0.5 * total - 1e-6; p->left++)
+    left += p->lines[p->left] * line_height() + AFTER;
+  p->rows_height = fmax(left, total - left);
+}
+
+double thr_step_rows_height(int lines, int rows)
+{
+  return 0.5 * (lines + 1) * line_height() + 0.5 * (rows + 1) * AFTER;
+}
+
+double thr_step_words_height(double rows_height, int lines_before, int lines_after)
+{
+  return rows_height + (lines_before + lines_after) * THR_SHEET_LINE + (lines_before ? 1 : 0) + THR_SHEET_LINE + 1.5;
+}
+
+int thr_step_row_lines(thr_sheets *sheets, int visit)
+{
+  thr_text row = {0};
+  thr_pieces_say(&sheets->pieces, thr_sheets_labels(sheets), sheets->visit, visit, sheets->step, &row);
+  int lines = count_lines(sheets, &row, column_width(sheets) - BOX - COUNT, THR_SHEET_SMALL);
+  thr_text_destroy(&row);
+  return lines;
+}
+
+/* Fills texts and lines. */
+void thr_step_find_text(thr_sheets *sheets, thr_step *p)
+{
+  thr_step_destroy_text(p);
+  for (int i = p->first; i < p->end && !sheets->st; i++) {
+    thr_text *row = &p->row[p->n_rows];
+    *row = (thr_text){0};
+    thr_pieces_say(&sheets->pieces, thr_sheets_labels(sheets), sheets->visit, i, sheets->step, row);
+    p->lines[p->n_rows++] = count_lines(sheets, row, column_width(sheets) - BOX - COUNT, THR_SHEET_SMALL);
+  }
+  part_rows(p);
+  put_beginning(sheets, p->first, &p->before);
+  put_check(sheets, p->end - 1, &p->after);
+  p->lines_before = count_lines(sheets, &p->before, thr_sheets_width(sheets), THR_SHEET_TEXT);
+  p->lines_after = count_lines(sheets, &p->after, thr_sheets_width(sheets), THR_SHEET_TEXT);
+}
+
+/* "11 pieces to pick up, 5 that are on a cord already; 38 of 49 are threaded then; cord used 640.1 mm, left 1773 mm" */
+static void put_tally(const thr_sheets *sheets, const thr_step *p, thr_text *text)
+{
+  char used[64], left[64];
+  const thr_move *move = &sheets->move[p->end - 1];
+  int picked = 0, before = 0, last = p->end - 1, n = sheets->pieces.n;
+  for (int i = 0; i < p->end; i++) {
+    picked += i >= p->first && sheets->visit[i].nth == 1;
+    before += sheets->visit[i].nth == 1;
+  }
+  while (!thr_step_ends(sheets, last))
+    last++;
+  thr_svg_length(move->used, sheets->f->units, used);
+  if (last >= p->end)
+    thr_svg_length(sheets->move[last].used - move->used, sheets->f->units, left);
+  else
+    snprintf(left, sizeof left, "none");
+  thr_text_printf(text, "%d %s to pick up, %d on a cord already; %d of %d are threaded then; cord used%s %s, left for the way %s",
+                  picked, thr_pieces_word(sheets->plan, picked), p->end - p->first - picked, before, n,
+                  move->needle == THR_NEEDLE_ONLY ? "" : " by this needle", used, left);
+}
+
+/* Number of the first pass that a step draws. */
+static int first_number(const thr_sheets *sheets, const thr_step *p)
+{
+  const thr_visit *visit = &sheets->visit[p->first];
+  return visit->number || p->first + 1 == p->end ? visit->number : visit[1].number;
+}
+
+const char *thr_step_colour(const thr_sheets *sheets, const thr_step *p)
+{
+  enum { VERMILLION = 1 };
+  int c = sheets->visit[p->first].cord;
+  return thr_palette(sheets->plan->n_cords == 1 ? VERMILLION : sheets->copy[c].path).hex;
+}
+
+/* Number, cord and passes; what there is to do. */
+void thr_step_put_heading(thr_sheets *sheets, const thr_step *p, double top)
+{
+  int c = sheets->visit[p->first].cord, low = first_number(sheets, p), high = sheets->visit[p->end - 1].number;
+  thr_needle needle = sheets->move[p->first].needle;
+  char cord[96], line[256], colour[64], big[16];
+  const char *own = thr_step_colour(sheets, p);
+  thr_sheets_cord_words(sheets, c, cord);
+  int n = snprintf(line, sizeof line, "%s%s: ", cord,
+                   needle == THR_NEEDLE_RIGHT  ? ", right needle"
+                   : needle == THR_NEEDLE_LEFT ? ", left needle"
+                                               : "");
+  n += snprintf(line + n, sizeof line - (size_t)n, low == high ? "pass %d" : "passes %d-%d", low, high);
+  snprintf(line + n, sizeof line - (size_t)n, " of %d", sheets->plan->cord[c].n_passes);
+  snprintf(colour, sizeof colour, " font-weight=\"bold\" style=\"fill:%s\"", own);
+  snprintf(big, sizeof big, "%d", p->number);
+  thr_text tally = {0};
+  put_tally(sheets, p, &tally);
+  double x = THR_SHEET_MARGIN, width = thr_sheets_width(sheets) + THR_SHEET_MARGIN - LOCATOR - 3;
+  thr_svg_text(thr_sheets_out(sheets), x, top + 6.5, NUMBER, " font-weight=\"bold\"", big);
+  x += fmax(14, 0.72 * NUMBER * (double)strlen(big) + 3);
+  thr_svg_text(thr_sheets_out(sheets), x, top + 3.5, fmin(4.4, (width - x) / (0.66 * (double)strlen(line))), colour, line);
+  if (tally.failed)
+    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+  else
+    thr_sheets_text(sheets, x, top + 9, THR_SHEET_SMALL, width - x, " style=\"fill:#444\"", tally.data);
+  thr_text_destroy(&tally);
+}
+
+/* What the looks of pieces in the picture mean. */
+void thr_step_put_legend(thr_sheets *sheets, double y)
+{
+  static const char *const words[THR_PIECE_STATES] = {
+      [THR_PIECE_NEW] = "pick up in this step", [THR_PIECE_HELD] = "on a cord already", [THR_PIECE_LATER] = "later"};
+  double x = THR_SHEET_MARGIN;
+  for (int state = THR_PIECE_STATES - 1; state > THR_PIECE_PLAIN; state--) {
+    thr_draw_key(x, y - 2.4, 5, 2.8, (thr_piece_state)state, thr_sheets_out(sheets));
+    thr_svg_text(thr_sheets_out(sheets), x + 6.5, y, THR_SHEET_SMALL, "", words[state]);
+    x += 6.5 + 0.62 * THR_SHEET_SMALL * (double)strlen(words[state]) + 6;
+  }
+}
+
+/* ---- rows ---- */
+
+static void put_words(thr_sheets *sheets, const thr_text *words, const char *attributes)
+{
+  if (words->data)
+    sheets->y =
+        thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, THR_SHEET_TEXT, thr_sheets_width(sheets), attributes, words->data);
+}
+
+/* A row with its box and number. */
+static void put_row(thr_sheets *sheets, const thr_step *p, int i, double x, double y)
+{
+  char number[16] = "S";
+  const thr_visit *visit = &sheets->visit[p->first + i];
+  if (visit->number) snprintf(number, sizeof number, "%d", visit->number);
+  thr_sheets_box(thr_sheets_out(sheets), x, y);
+  thr_svg_text(thr_sheets_out(sheets), x + BOX + COUNT - 1.5, y, THR_SHEET_SMALL, " text-anchor=\"end\" font-weight=\"bold\"",
+               number);
+  thr_sheets_text(sheets, x + BOX + COUNT, y, THR_SHEET_SMALL, column_width(sheets) - BOX - COUNT,
+                  visit->nth == 1 ? "" : " style=\"fill:#444\"", p->row[i].data);
+}
+
+void thr_step_put_rows(thr_sheets *sheets, const thr_step *p)
+{
+  sheets->y += THR_SHEET_LINE;
+  put_words(sheets, &p->before, " style=\"fill:#444\"");
+  if (p->lines_before) sheets->y += 1;
+  double y = sheets->y;
+  for (int i = 0; i < p->n_rows && !sheets->st; i++) {
+    if (i == p->left) y = sheets->y;
+    put_row(sheets, p, i, THR_SHEET_MARGIN + (i < p->left ? 0 : column_width(sheets) + 4), y);
+    y += p->lines[i] * line_height() + AFTER;
+  }
+  sheets->y += p->rows_height + 1;
+  put_words(sheets, &p->after, " font-weight=\"bold\"");
+}

@@ -1,0 +1,115 @@
+/* What pictures in space are made from, and the choice of a view. */
+#include "diagram/space/space.h"
+
+#include "diagram/scene/scene.h"
+#include "graph/framework/frame.h"
+#include "graph/vector.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void thr_space_destroy(thr_space *space)
+{
+  free(space->half);
+  free(space->cord);
+  free(space->first_on);
+  free(space->on);
+  *space = (thr_space){0};
+}
+
+static int by_size(const void *a, const void *b)
+{
+  const double *x = a, *y = b;
+  return *x < *y ? -1 : *x > *y;
+}
+
+static thr_status measure(thr_space *space, thr_err *err)
+{
+  const thr_frame *f = space->f;
+  double *length = thr_calloc((size_t)f->n_edges, sizeof *length);
+  if (!length) return thr_nomem(err);
+  memcpy(length, f->length, (size_t)f->n_edges * sizeof *length);
+  qsort(length, (size_t)f->n_edges, sizeof *length, by_size);
+  space->pitch = length[f->n_edges / 2] > 0 ? length[f->n_edges / 2] : 1;
+  free(length);
+  for (int v = 0; v < f->n_nodes; v++)
+    for (int k = 0; k < 3; k++)
+      space->middle[k] += f->xyz[v][k] / f->n_nodes;
+  return THR_OK;
+}
+
+static void collect(thr_space *space)
+{
+  int i = 0;
+  for (int c = 0; c < space->plan->n_cords; c++)
+    for (int k = 0; k < space->plan->cord[c].n_passes; k++, i++) {
+      space->half[i] = space->plan->cord[c].half[k];
+      space->cord[i] = c;
+      space->first_on[(space->half[i] >> 1) + 2]++;
+    }
+  for (int e = 0; e < space->f->n_edges; e++)
+    space->first_on[e + 2] += space->first_on[e + 1];
+  for (i = 0; i < space->n_passes; i++)
+    space->on[space->first_on[(space->half[i] >> 1) + 1]++] = i;
+}
+
+thr_status thr_space_make(thr_space *space, const thr_plan *plan, const char (*label)[THR_LABEL], const double (*outward)[3],
+                          thr_err *err)
+{
+  *space = (thr_space){
+      .plan = plan, .f = &plan->frame, .label = label, .outward = outward, .solid = plan->options.joint == THR_JOINT_SOLID};
+  thr_status st = thr_scene_check_cords(plan, &space->n_passes, err);
+  if (st) return st;
+  space->half = thr_calloc((size_t)space->n_passes, sizeof *space->half);
+  space->cord = thr_calloc((size_t)space->n_passes, sizeof *space->cord);
+  space->on = thr_calloc((size_t)space->n_passes, sizeof *space->on);
+  space->first_on = thr_calloc((size_t)space->f->n_edges + 2, sizeof *space->first_on);
+  if (!space->half || !space->cord || !space->on || !space->first_on) return thr_nomem(err);
+  collect(space);
+  return measure(space, err);
+}
+
+int thr_space_half(const thr_space *space, const thr_crop *crop, int i)
+{
+  return space->half[i] ^ crop->backward;
+}
+
+/* The way to the outside at a pass: of a shell that at its nodes, else from the middle of all nodes to the pass. */
+static void find_outward(const thr_space *space, int h, double outward[3])
+{
+  int a = thr_tail(space->f, h), b = thr_head(space->f, h);
+  for (int k = 0; k < 3; k++)
+    outward[k] = space->outward ? space->outward[a][k] + space->outward[b][k]
+                                : 0.5 * (space->f->xyz[a][k] + space->f->xyz[b][k]) - space->middle[k];
+  double length = sqrt(thr_dot(outward, outward)), least = space->outward ? 1e-6 : 1e-3 * space->pitch;
+  for (int k = 0; k < 3; k++)
+    outward[k] = length > least ? outward[k] / length : 0;
+}
+
+static void camera_scene(const thr_space *space, const thr_crop *crop, thr_camera_scene *scene)
+{
+  scene->n = crop->n_now < THR_CAMERA_PASSES ? crop->n_now : THR_CAMERA_PASSES;
+  scene->pitch = space->pitch;
+  scene->shell = space->outward != NULL;
+  for (int i = 0; i < scene->n; i++) {
+    int h = thr_space_half(space, crop, crop->now[i]);
+    memcpy(scene->from[i], space->f->xyz[thr_tail(space->f, h)], sizeof scene->from[i]);
+    memcpy(scene->to[i], space->f->xyz[thr_head(space->f, h)], sizeof scene->to[i]);
+    find_outward(space, h, scene->outward[i]);
+  }
+}
+
+bool thr_space_legible(const thr_space *space, const thr_crop *crop, const double room[2])
+{
+  thr_camera_scene scene;
+  camera_scene(space, crop, &scene);
+  return thr_camera_legible(&scene, room);
+}
+
+thr_camera_view thr_space_fit(const thr_space *space, const thr_crop *crop, const double room[2])
+{
+  thr_camera_scene scene;
+  camera_scene(space, crop, &scene);
+  return thr_camera_choose(&scene, room);
+}

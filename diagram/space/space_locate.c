@@ -1,0 +1,64 @@
+/* The whole in small, seen as the step is. */
+#include "diagram/overview/svg.h"
+#include "diagram/scene/boxes.h"
+#include "diagram/scene/shadow.h"
+#include "diagram/space/camera.h"
+#include "diagram/space/space.h"
+#include "graph/framework/frame.h"
+#include "graph/status.h"
+#include "graph/text.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double LINES = 1.2; /* mm: a pitch on paper from which edges have lines of their own */
+
+/* The view that shows all nodes in the upper right corner of the paper; at: where they are. */
+static double place(const thr_space *space, const thr_camera *camera, thr_box paper, double (*at)[3])
+{
+  thr_camera_view view = {.camera = *camera, .scale = 1};
+  thr_box all = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+  for (int v = 0; v < space->f->n_nodes; v++) {
+    thr_camera_project(&view, space->f->xyz[v], at[v]);
+    thr_box_extend(&all, (thr_box){at[v][0], at[v][1], at[v][0], at[v][1]});
+  }
+  double scale = fmin((paper.x1 - paper.x0) / fmax(all.x1 - all.x0, 1e-9 * space->pitch),
+                      (paper.y1 - paper.y0) / fmax(all.y1 - all.y0, 1e-9 * space->pitch));
+  for (int v = 0; v < space->f->n_nodes; v++) {
+    at[v][0] = paper.x1 + scale * (at[v][0] - all.x1);
+    at[v][1] = paper.y0 + scale * (at[v][1] - all.y0);
+  }
+  return scale;
+}
+
+thr_status thr_space_locate(const thr_space *space, const thr_space_step *step, const thr_camera_view *view, thr_box paper,
+                            thr_text *text, thr_err *err)
+{
+  const thr_frame *f = space->f;
+  double(*at)[3] = thr_calloc((size_t)f->n_nodes, sizeof *at);
+  if (!at) return thr_nomem(err);
+  bool lines = place(space, &view->camera, paper, at) * space->pitch > LINES;
+  thr_shadow shadow = thr_shadow_on(paper);
+  if (lines) thr_text_append(text, "<path fill=\"none\" stroke=\"#bbb\" stroke-width=\"0.20\" d=\"");
+  for (int e = 0; e < f->n_edges; e++) {
+    const double *a = at[f->edge[e][0]], *b = at[f->edge[e][1]];
+    if (lines) {
+      thr_svg_move(text, a);
+      thr_svg_line(text, b);
+    } else
+      thr_shadow_line(&shadow, a, b);
+  }
+  if (lines)
+    thr_text_append(text, "\"/>\n");
+  else
+    thr_shadow_put(&shadow, "#ddd", text);
+  thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"0.70\" stroke-linejoin=\"round\" d=\"", step->colour);
+  for (int i = 0; i < step->crop.n_now; i++) {
+    int h = thr_space_half(space, &step->crop, step->crop.now[i]);
+    if (!i) thr_svg_move(text, at[thr_tail(f, h)]);
+    thr_svg_line(text, at[thr_head(f, h)]);
+  }
+  thr_text_append(text, "\"/>\n");
+  free(at);
+  return THR_OK;
+}
