@@ -31,10 +31,10 @@ bool drawings_option(drawings_args *a, const char *command, int option, const ch
   return true;
 }
 
-thr_status drawings_chains(const thr_plan *plan, thr_text *text, thr_err *err)
+thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text, thr_err *err)
 {
   thr_chains chains;
-  thr_status st = thr_plan_chains(plan, &chains, err);
+  thr_status st = thr_plan_chains(plan, a->needles ? a->needles : plan->options.needles, &chains, err);
   if (!st) thr_text_printf(text, "longest loose chain: %d %s", chains.longest, thr_pieces_word(plan, chains.longest));
   return st;
 }

@@ -36,8 +36,8 @@ enum {
   "      --kind-tolerance X   pieces whose points differ by no more are of one kind, in units of the framework (default: a\n"    \
   "                           hundredth of the median edge)\n"                                                                   \
   "      --page a4|letter     paper of the step sheets (default: a4)\n"                                                          \
-  "      --from end|middle    the step sheets thread each cord from its end with one needle (default), or those of\n"            \
-  "                           24 passes and more from their middle with two\n"
+  "      --from end|middle    thread each cord from its end with one needle, or those of 24 passes and more from their\n"        \
+  "                           middle with two (default: as the plan was made for; else closed ones of 48 and more)\n"
 
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
 bool drawings_option(drawings_args *a, const char *command, int option, const char *value, bool *ok);
@@ -50,7 +50,7 @@ int drawings_write(const thr_plan *plan, int i, const char *path, const drawings
 int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a);
 
 /* Appends how loose what is threaded is at most: "longest loose chain: 8 pieces". */
-thr_status drawings_chains(const thr_plan *plan, thr_text *text, thr_err *err) THR_MUST_CHECK;
+thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text, thr_err *err) THR_MUST_CHECK;
 
 /* Does that leave out the step sheets? */
 bool drawings_no_sheets(const thr_plan *plan, const drawings_args *a);

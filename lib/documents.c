@@ -67,6 +67,16 @@ int thr_document_sheets(void)
   return SHEETS;
 }
 
+bool thr_document_threads(int i)
+{
+  return i == SHEETS || i == STEPS;
+}
+
+static int needles_of(const thr_plan *plan, const thr_document_options *a)
+{
+  return a->needles ? a->needles : plan->options.needles;
+}
+
 static thr_status overview(const thr_plan *plan, const thr_document_options *a, const char *const *motion, thr_text *out,
                            thr_err *err)
 {
@@ -83,7 +93,7 @@ static thr_status sheets(const thr_plan *plan, const thr_document_options *a, co
   thr_sheets *pages = NULL;
   thr_sheets_options options = thr_sheets_options_default();
   options.page = (thr_page_size)a->page;
-  options.middle = (a->needles ? a->needles : plan->options.needles) == 2;
+  options.needles = needles_of(plan, a);
   options.kind_tolerance = a->kind_tolerance;
   options.motion = motion;
   thr_status st = thr_sheets_make(&pages, plan, &options, limits, err);
@@ -103,7 +113,7 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
   switch (which) {
   case OVERVIEW: st = overview(plan, a, copies.motion, out, err); break;
   case SHEETS: st = sheets(plan, a, copies.motion, limits, out, err); break;
-  case STEPS: st = thr_steps_text(plan, copies.motion, a->kind_tolerance, out, err); break;
+  case STEPS: st = thr_steps_text(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), out, err); break;
   case VIEWER: st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, out, err); break;
   default: st = thr_table_cords(plan, copies.motion, out, err);
   }

@@ -13,6 +13,7 @@ const char *thr_document_type(int i);    /* as `thread draw --type` names it: "s
 const char *thr_document_file(int i);    /* usual file name: "overview.svg" */
 int thr_document_find(const char *type); /* -1: there is none of that name */
 int thr_document_sheets(void);           /* the one that takes longest: sheets.pdf */
+bool thr_document_threads(int i);        /* does it say, step by step, how the plan is threaded? */
 
 /* How they are drawn; {0} is the usual way. */
 typedef struct {

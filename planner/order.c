@@ -42,7 +42,14 @@ bool thr_order_turns(const thr_request *request, const thr_cord *cord)
 
 bool thr_order_reverses(const thr_request *request, const thr_cord *cord)
 {
-  return cord->n_passes <= THR_ORDER_REVERSED && request->joint == THR_JOINT_SOLID && request->max_pull == 0 &&
+  return cord->n_passes <= THR_ORDER_REVERSED && request->joint == THR_JOINT_SOLID && !thr_wants_symmetry(request) &&
+         (!thr_wants_turning(request) || request->turning.cost == THR_TURN_ANGLE);
+}
+
+/* May cords turn more than they were found to? */
+static bool has_slack(const thr_request *request)
+{
+  return request->order == THR_ORDER_HAND && request->joint == THR_JOINT_SOLID && request->max_pull == 0 &&
          !thr_wants_turning(request) && !thr_wants_symmetry(request);
 }
 
@@ -235,7 +242,8 @@ static void find_room(work *x, int c)
 {
   const thr_plan *plan = x->plan;
   const thr_cord *cord = &plan->cord[c];
-  double part = thr_order_reverses(&plan->options, cord) ? more : 1;
+  double part = has_slack(&plan->options) && thr_order_reverses(&plan->options, cord) ? more : 1;
+  x->room[c].exactly = thr_wants_turning(&plan->options);
   x->room[c].turning = part * thr_cord_turning(&plan->frame, cord, thr_order_turns(&plan->options, cord));
   x->room[c].pulled = part * thr_cord_pulled_turning(&plan->frame, cord);
 }
@@ -368,15 +376,83 @@ static void work_destroy(work *x)
   free(x->allowed);
 }
 
-thr_status thr_plan_order(thr_plan *plan, thr_err *err)
+/* The cords of a plan as they were. */
+typedef struct {
+  thr_cord *cord; /* [n_cords] their passes are the plan's; owned */
+  int *half;      /* [passes] cord by cord; owned */
+} backup;
+
+static thr_status save_cords(const thr_plan *plan, backup *b, thr_err *err)
+{
+  size_t n = 0;
+  for (int c = 0; c < plan->n_cords; c++)
+    n += (size_t)plan->cord[c].n_passes;
+  b->cord = thr_calloc((size_t)plan->n_cords, sizeof *b->cord);
+  b->half = thr_calloc(n, sizeof *b->half);
+  if (!b->cord || !b->half) return thr_nomem(err);
+  memcpy(b->cord, plan->cord, (size_t)plan->n_cords * sizeof *b->cord);
+  n = 0;
+  for (int c = 0; c < plan->n_cords; n += (size_t)plan->cord[c++].n_passes)
+    memcpy(b->half + n, plan->cord[c].half, (size_t)plan->cord[c].n_passes * sizeof *b->half);
+  return THR_OK;
+}
+
+static void restore_cords(thr_plan *plan, const backup *b)
+{
+  const int *half = b->half;
+  memcpy(plan->cord, b->cord, (size_t)plan->n_cords * sizeof *b->cord);
+  for (int c = 0; c < plan->n_cords; half += plan->cord[c++].n_passes)
+    memcpy(plan->cord[c].half, half, (size_t)plan->cord[c].n_passes * sizeof *half);
+}
+
+static thr_status order_all(thr_plan *plan, thr_err *err)
 {
   work x;
-  if (!plan->options.by_hand || plan->n_cords == 0) return THR_OK;
   thr_status st = work_init(&x, plan, err);
   if (!st) st = plan->symmetry.present ? order_paths(&x, err) : order_cords(&x, err);
-  const double length = plan->metrics.length; /* the same passes, whatever the order in which they are added up */
-  if (!st) st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
-  plan->metrics.length = length;
   work_destroy(&x);
+  return st;
+}
+
+/* The longest chain, of those that a hand holds well any. */
+static int worst(thr_chains chains)
+{
+  return chains.longest > THR_HELD_WELL ? chains.longest : THR_HELD_WELL;
+}
+
+/* Orders the cords, if a chain that is too long gets shorter by it. */
+static thr_status order_if_worth(thr_plan *plan, bool *changed, thr_err *err)
+{
+  thr_chains before, after;
+  backup b = {0};
+  thr_status st = thr_plan_chains(plan, plan->options.needles, &before, err);
+  if (st || worst(before) == THR_HELD_WELL) return st;
+  st = save_cords(plan, &b, err);
+  if (!st) st = order_all(plan, err);
+  if (!st) st = thr_plan_chains(plan, plan->options.needles, &after, err);
+  *changed = !st && worst(after) < worst(before);
+  if (!st && !*changed) restore_cords(plan, &b);
+  free(b.cord);
+  free(b.half);
+  return st;
+}
+
+/* Classical tours are to be compared as they were found. */
+static thr_order order_of(const thr_request *request)
+{
+  bool classical = thr_wants_turning(request) && request->turning.tour != THR_TOUR_LEAST;
+  return request->order == THR_ORDER_STARTS && classical ? THR_ORDER_PLANNED : request->order;
+}
+
+thr_status thr_plan_order(thr_plan *plan, thr_err *err)
+{
+  const thr_order order = order_of(&plan->options);
+  bool changed = order == THR_ORDER_HAND;
+  if (order == THR_ORDER_PLANNED || plan->n_cords == 0) return THR_OK;
+  thr_status st = order == THR_ORDER_HAND ? order_all(plan, err) : order_if_worth(plan, &changed, err);
+  if (st || !changed) return st;
+  const double length = plan->metrics.length; /* the same passes, whatever the order in which they are added up */
+  st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  plan->metrics.length = length;
   return st;
 }

@@ -11,6 +11,7 @@
 /* How much a cord may turn, rad: in all, and to the slackest pass (thr_cord_pulled_turning). */
 typedef struct {
   double turning, pulled;
+  bool exactly; /* in all neither more nor less: a proof counts on it */
 } thr_turning_room;
 
 /* May a closed cord begin anywhere? Where ends matter its start is theirs. */

@@ -17,7 +17,7 @@
 /* A chain's pieces beyond those that a hand holds well count by their square, a turn of so many rad as one piece; heat at the
  * beginning, and at the end of that. */
 static const double turn_weight = 1, heat_first = 16, heat_last = 0.01;
-static const double most_steps = 20000, most_visits = 8e6; /* of pieces: 20 ms */
+static const double most_steps = 20000, most_visits = 8e6; /* of pieces: 30 ms */
 
 enum { BEGINNINGS = 8 }; /* one step in so many begins the cord elsewhere */
 
@@ -32,14 +32,73 @@ typedef struct {
   int *best, *half; /* [n] the best passes, scratch; owned */
   int *piece;       /* [n + 1] owned */
   int *chain;       /* [n + 1] scratch; owned */
+  int *arm;         /* [2 n_edges] its number among those of its node; owned */
+  size_t *row;      /* [n_nodes + 1] where the node's turns begin; owned */
+  double *angle;    /* [row[n_nodes]] from arm to arm, rad; < 0 = not asked for yet; owned */
   uint64_t state;   /* of the random numbers */
 } annealer;
+
+/* ---- turns ---- */
+
+enum { MOST_ANGLES = 1000000 };
+
+static size_t count_angles(const thr_frame *frame)
+{
+  size_t n = 0;
+  for (int v = 0; v < frame->n_nodes; v++)
+    n += (size_t)thr_degree(frame, v) * (size_t)thr_degree(frame, v);
+  return n;
+}
+
+static bool has_angles(annealer *x)
+{
+  const thr_frame *frame = x->frame;
+  size_t n = count_angles(frame);
+  x->arm = thr_calloc(2 * (size_t)frame->n_edges, sizeof *x->arm);
+  x->row = thr_calloc((size_t)frame->n_nodes + 1, sizeof *x->row);
+  x->angle = thr_calloc(n, sizeof *x->angle);
+  if (!x->arm || !x->row || !x->angle) return false;
+  for (size_t i = 0; i < n; i++)
+    x->angle[i] = -1;
+  for (int v = 0; v < frame->n_nodes; v++) {
+    int degree = thr_degree(frame, v);
+    x->row[v + 1] = x->row[v] + (size_t)degree * (size_t)degree;
+    for (int i = 0; i < degree; i++)
+      x->arm[frame->half[frame->first[v] + i]] = i;
+  }
+  return true;
+}
+
+/* thr_turn_angle, worked out once. */
+static double angle_of(const annealer *x, int in, int out)
+{
+  int v = thr_tail(x->frame, out);
+  double *angle = &x->angle[x->row[v] + (size_t)x->arm[in ^ 1] * (size_t)thr_degree(x->frame, v) + (size_t)x->arm[out]];
+  if (*angle < 0) *angle = thr_turn_angle(x->frame, in, out);
+  return *angle;
+}
+
+/* thr_cord_pulled_turning of the cord as it is. */
+static double pulled_turning(const annealer *x)
+{
+  const int *half = x->now.half;
+  double whole = 0, before = 0;
+  for (int k = 0; k + 1 < x->now.n_passes; k++)
+    whole += angle_of(x, half[k], half[k + 1]);
+  double larger = whole;
+  for (int k = 0; k + 1 < x->now.n_passes && before < 0.5 * whole; k++) {
+    before += angle_of(x, half[k], half[k + 1]);
+    larger = fmin(larger, fmax(before, whole - before));
+  }
+  return larger;
+}
 
 /* What a cord is worth. */
 typedef struct {
   double excess;  /* of pieces beyond THR_HELD_WELL in chains, squared */
   int longest;    /* >= THR_HELD_WELL */
   double turning; /* rad */
+  double over;    /* by how much it is pulled through more than there is room for, rad */
 } worth;
 
 static worth measure(annealer *x, double turning)
@@ -54,6 +113,7 @@ static worth measure(annealer *x, double turning)
     w.excess += (double)beyond * beyond;
     if (x->chain[i] > w.longest) w.longest = x->chain[i];
   }
+  w.over = fmax(0, pulled_turning(x) - x->room.pulled);
   return w;
 }
 
@@ -64,7 +124,7 @@ static bool is_better(const worth *a, const worth *b)
 
 static double weigh(const worth *w)
 {
-  return w->excess + turn_weight * w->turning;
+  return w->excess + turn_weight * (w->turning + w->over);
 }
 
 /* ---- changes ---- */
@@ -83,7 +143,7 @@ typedef struct {
 static double turn(const annealer *x, int in, int out)
 {
   if (in < 0 || out < 0) return 0;
-  return out == (in ^ 1) ? INFINITY : thr_turn_angle(x->frame, in, out);
+  return out == (in ^ 1) ? INFINITY : angle_of(x, in, out);
 }
 
 /* Half-edge of the pass before visit k, of the one after it; -1 where the cord ends. */
@@ -99,7 +159,7 @@ static int out_of(const annealer *x, int k)
 
 static double turn_at(const annealer *x, int k)
 {
-  return thr_turn_angle(x->frame, into(x, k), out_of(x, k));
+  return angle_of(x, into(x, k), out_of(x, k));
 }
 
 static double turning_of_reverse(const annealer *x, const int at[4])
@@ -210,7 +270,7 @@ static bool choose(annealer *x, change *c)
 static void step(annealer *x, double heat, worth *now)
 {
   change c;
-  if (!choose(x, &c) || now->turning + c.turning > x->room.turning) return;
+  if (!choose(x, &c) || now->turning + c.turning > x->room.turning * (1 + 1e-12)) return;
   make(x, &c);
   worth then = measure(x, now->turning + c.turning);
   double worse = weigh(&then) - weigh(now);
@@ -230,7 +290,8 @@ static void anneal(annealer *x)
   memcpy(x->best, x->now.half, (size_t)n * sizeof *x->best);
   for (long i = 0; i < steps; i++) {
     step(x, heat_first * pow(heat_last, (double)i / (double)steps), &now);
-    if (!is_better(&now, &best) || thr_cord_pulled_turning(x->frame, &x->now) > x->room.pulled) continue;
+    if (x->room.exactly && fabs(now.turning - x->room.turning) > 1e-10 * x->room.turning) continue;
+    if (!is_better(&now, &best) || now.over > 1e-12 * x->room.pulled) continue;
     best = now;
     memcpy(x->best, x->now.half, (size_t)n * sizeof *x->best);
   }
@@ -241,13 +302,14 @@ thr_status thr_order_reverse(const thr_frame *frame, const thr_request *request,
 {
   size_t n = (size_t)cord->n_passes;
   annealer x = {.frame = frame, .request = request, .room = room, .threaded = threaded, .now = *cord};
+  if (count_angles(frame) > MOST_ANGLES) return THR_OK;
   x.turns = thr_order_turns(request, cord);
   x.now.half = thr_calloc(n, sizeof *x.now.half);
   x.best = thr_calloc(n, sizeof *x.best);
   x.half = thr_calloc(n, sizeof *x.half);
   x.piece = thr_calloc(n + 1, sizeof *x.piece);
   x.chain = thr_calloc(n + 1, sizeof *x.chain);
-  bool all = x.now.half && x.best && x.half && x.piece && x.chain;
+  bool all = has_angles(&x) && (x.now.half && x.best && x.half && x.piece && x.chain);
   for (size_t k = 0; k < n && all; k++)
     x.feet |= frame->foot[thr_tail(frame, cord->half[k])];
   if (all) {
@@ -260,5 +322,8 @@ thr_status thr_order_reverse(const thr_frame *frame, const thr_request *request,
   free(x.half);
   free(x.piece);
   free(x.chain);
+  free(x.arm);
+  free(x.row);
+  free(x.angle);
   return all ? THR_OK : thr_nomem(err);
 }

@@ -70,6 +70,7 @@ static void add_snake(thr_plan *p, int n, int *node)
 thr_plan threading_make(const thr_frame *dome, int n, threading kind)
 {
   thr_plan p = {.options = options_for(THR_ENDS_ANY, 1)};
+  p.options.order = THR_ORDER_PLANNED;
   ck_assert_int_eq(dome->n_nodes, n * n);
   ck_assert_int_eq(thr_frame_copy(&p.frame, dome, NULL), THR_OK);
   int *node = calloc((size_t)(2 * n * n), sizeof *node);

@@ -292,7 +292,7 @@ class Options:
         self.max_pull = member(o, "max_pull", "number", p, 1, default=None)
         member(o, "time_limit", "number", p)
         member(o, "needles", "integer", p, 1, 2, default=0)
-        choice(o, "order", p, ("hand", "planned"), default="planned")
+        choice(o, "order", p, ("hand", "planned", "starts"), default="planned")
         choice(o, "engine", p, ("auto", "lp", "matching"), default="auto")
         choice(o, "confirm", p, ("auto", "always", "never"), default="auto")
         require(self.objective == "length" or "confirm" not in o, "options.confirm: only with objective length")

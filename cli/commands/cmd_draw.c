@@ -3,6 +3,7 @@
 #include "cli/guard.h"
 #include "diagram/overview/overview.h"
 #include "graph/plan/plan.h"
+#include "graph/text.h"
 #include "lib/documents.h"
 
 #include <stdio.h>
@@ -84,6 +85,14 @@ static int draw_one(const thr_plan *plan, int type, const char *output, const dr
   return code ? code : drawings_write(plan, type, output, a);
 }
 
+/* Says how loose what is threaded is at most. */
+static void note_chains(const thr_plan *plan, const drawings_args *a)
+{
+  thr_text text = {0};
+  if (!drawings_chains(plan, a, &text, NULL) && !text.failed) cli_note("%s", text.data);
+  thr_text_destroy(&text);
+}
+
 int cmd_draw(int argc, char **argv)
 {
   int done, option;
@@ -121,6 +130,7 @@ int cmd_draw(int argc, char **argv)
     if (!code && !output) cli_note("drawn in the current folder: %s", names);
   } else
     code = draw_one(&plan, type, output, &a);
+  if (!code && (all || thr_document_threads(type))) note_chains(&plan, &a);
   thr_plan_destroy(&plan);
   return code;
 }

@@ -51,8 +51,8 @@ static const char help_rest[] = TURNING_HELP
     "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
     "      --force          in a folder named after FRAME, replace another plan (else FRAME-2, FRAME-3, ..)\n"
     "                       (no sheets.pdf for more than 1500 pieces: thread draw PLAN -T pdf makes it)\n" DRAWINGS_HELP
-    "      --order planned|hand   cords as they are found (default), or begun and run so that what is threaded holds\n"
-    "                       together, for at most a tenth more turning\n"
+    "      --order starts|hand|planned   cords begin and run so that what is threaded holds together: as far as that\n"
+    "                       costs nothing (default), for at most a tenth more turning, or not at all\n"
     "      --json           summary as JSON on stdout\n"
     "      --compare-objectives   pull of this plan beside those for the other objectives, joints simulated\n" PULL_RUN_HELP
     "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
@@ -100,7 +100,7 @@ typedef struct {
   const char *path, *output, *draw;
   drawings_args drawings;
   bool json, compare, force;
-  int order; /* 1: of work, by hand */
+  int order; /* of the work: thr_order */
 } arguments;
 
 static int parse(int argc, char **argv, arguments *a)
@@ -112,7 +112,8 @@ static int parse(int argc, char **argv, arguments *a)
                    .symmetry = symmetry_args_default(),
                    .cords = cords_args_default(),
                    .guard = guard_limits_default(),
-                   .drawings = {.quick = true}};
+                   .drawings = {.quick = true},
+                   .order = THR_ORDER_STARTS};
   pull_args_init(&a->pull, THR_JOINT);
   while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(),
                                  &done)) != -1) {
@@ -128,7 +129,7 @@ static int parse(int argc, char **argv, arguments *a)
     case OPTION_DRAW: a->draw = optarg; break;
     case OPTION_FORCE: a->force = true; break;
     case OPTION_JSON: a->json = true; break;
-    case OPTION_ORDER: ok = cli_choose("plan", "--order", optarg, thr_order_name, 2, &a->order); break;
+    case OPTION_ORDER: ok = cli_choose("plan", "--order", optarg, thr_order_name, THR_N_ORDERS, &a->order); break;
     case 'o': a->output = optarg; break;
     }
     if (!ok) return EXIT_USAGE;
@@ -154,8 +155,8 @@ static void ask(const arguments *a, thr_objective objective, thr_request *option
 {
   aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, objective, options);
   options->joint = a->cords.joint;
-  options->by_hand = a->order;
-  if (options->by_hand) options->needles = a->drawings.needles;
+  options->order = (thr_order)a->order;
+  if (options->order != THR_ORDER_PLANNED) options->needles = a->drawings.needles;
   if (cords_args_limits_pull(&a->cords) && options->max_pull == 0) options->max_pull = 1; /* until it is known how much */
   options->time_limit = a->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : a->guard.seconds;
 }
@@ -462,11 +463,11 @@ static bool is_usual(const arguments *a, const thr_request *options)
          a->guard.seconds < 0 && !a->compare;
 }
 
-static void put_order(const thr_plan *p, thr_text *text)
+static void put_order(const arguments *a, const thr_plan *p, thr_text *text)
 {
   thr_err err = {0};
   thr_text_append(text, "order    ");
-  if (drawings_chains(p, text, &err)) thr_text_append(text, err.text);
+  if (drawings_chains(p, &a->drawings, text, &err)) thr_text_append(text, err.text);
   thr_text_append(text, "\n");
 }
 
@@ -485,7 +486,7 @@ static int print_places(const arguments *a, const thr_plan *p, const char *plan_
     thr_text_printf(&text, ": %s", names);
   }
   thr_text_append(&text, "\n");
-  if (p->options.by_hand || cli_verbose) put_order(p, &text);
+  if (p->options.order == THR_ORDER_HAND || cli_verbose) put_order(a, p, &text);
   int code = cli_write(&text, "-");
   if (code || !is_usual(a, &p->options)) return code;
   advice_put_after_plan(p, a->path, &a->frame, &a->pull.physics, &text);

@@ -269,13 +269,13 @@ static thr_status prepare(viewer *s, double tolerance, thr_err *err)
   if (s->tension) st = thr_tension_usable(p, err);
   if (st) return st;
   s->copy = thr_calloc((size_t)p->n_cords, sizeof *s->copy);
-  thr_part *part = thr_calloc((size_t)p->n_cords, sizeof *part);
+  thr_part *part = thr_calloc(2 * (size_t)p->n_cords, sizeof *part);
   st = s->copy && part ? thr_guide_make(&s->guide, s->f, err) : thr_nomem(err);
   if (!st) st = thr_copies_find(p, s->copy, err);
   if (!st) st = thr_pieces_make(&s->pieces, p, tolerance, err);
   if (!st) {
-    thr_pieces_parts(p, s->copy, part);
-    st = thr_pieces_follow(&s->pieces, part, p->n_cords, &s->visit, &s->n_visits, err);
+    int parts = thr_pieces_parts(p, s->copy, 1, part);
+    st = thr_pieces_follow(&s->pieces, part, parts, &s->visit, &s->n_visits, err);
   }
   free(part);
   return st;

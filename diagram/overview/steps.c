@@ -21,7 +21,8 @@ typedef struct {
   thr_guide guide;
   thr_copy *copy; /* [n_cords] */
   thr_pieces pieces;
-  thr_part *part;   /* [n_cords] in the order of threading */
+  int n_parts;
+  thr_part *part;   /* [n_parts] in the order of threading */
   thr_visit *visit; /* [n_visits] in that order */
   int n_visits;
   int *first; /* [n_cords] visit */
@@ -80,6 +81,14 @@ static void put_row(steps *s, const thr_cord *cord, int i)
   put_wrapped(s, prefix, &words);
 }
 
+/* The pass that the right needle begins with; 0: there is but one needle. */
+static int fold_of(const steps *s, int c)
+{
+  for (int i = 0; i < s->n_parts; i++)
+    if (s->part[i].cord == c && s->part[i].begins) return s->part[i].first;
+  return 0;
+}
+
 static void put_rows(steps *s, int c)
 {
   thr_text words = {0};
@@ -87,14 +96,26 @@ static void put_rows(steps *s, int c)
   char indent[INDENT + 1];
   int start = thr_cord_start(s->f, cord), end = thr_cord_end(s->f, cord);
   snprintf(indent, sizeof indent, "%*s", INDENT, "");
+  int i = s->first[c], left = i + cord->n_passes - fold_of(s, c) + s->pieces.solid, last = i + cord->n_passes + s->pieces.solid;
+  if (left < last) thr_text_append(&words, "right needle, from the fold of the cord: ");
   thr_text_append(&words, "start at ");
-  thr_guide_place(&s->guide, start, &words);
+  thr_guide_place(&s->guide, left < last ? thr_tail(s->f, cord->half[fold_of(s, c)]) : start, &words);
   put_wrapped(s, indent, &words);
-  for (int i = s->first[c]; i < s->n_visits && s->visit[i].cord == c; i++)
+  for (; i < left; i++)
     put_row(s, cord, i);
   thr_text_append(&words, "the needle comes out at ");
   thr_guide_place(&s->guide, end, &words);
-  if (start == end) thr_text_append(&words, ", where it began");
+  if (left == last && start == end) thr_text_append(&words, ", where it began");
+  put_wrapped(s, indent, &words);
+  if (left == last) return;
+  thr_text_append(&words, "left needle, from the fold at ");
+  thr_guide_place(&s->guide, thr_tail(s->f, cord->half[fold_of(s, c)]), &words);
+  thr_text_append(&words, ", numbers falling:");
+  put_wrapped(s, indent, &words);
+  for (; i < last; i++)
+    put_row(s, cord, i);
+  thr_text_append(&words, "the needle comes out at ");
+  thr_guide_place(&s->guide, start, &words);
   put_wrapped(s, indent, &words);
 }
 
@@ -216,31 +237,32 @@ static void put_heading(steps *s, int n_paths)
   put_example(s);
 }
 
-static thr_status prepare(steps *s, double tolerance, thr_err *err)
+static thr_status prepare(steps *s, double tolerance, int needles, thr_err *err)
 {
   const thr_plan *p = s->plan;
   thr_status st = thr_scene_check_cords(p, &s->n_passes, err);
   if (!st && !p->n_cords) st = thr_fail(err, THR_EINPUT, "the plan has no cord to thread");
   if (st) return st;
   s->copy = thr_calloc((size_t)p->n_cords, sizeof *s->copy);
-  s->part = thr_calloc((size_t)p->n_cords, sizeof *s->part);
+  s->part = thr_calloc(2 * (size_t)p->n_cords, sizeof *s->part);
   s->first = thr_calloc((size_t)p->n_cords, sizeof *s->first);
   st = s->copy && s->part && s->first ? thr_guide_make(&s->guide, s->f, err) : thr_nomem(err);
   if (!st) st = thr_copies_find(p, s->copy, err);
   if (!st) st = thr_pieces_make(&s->pieces, p, tolerance, err);
   if (st) return st;
-  thr_pieces_parts(p, s->copy, s->part);
-  st = thr_pieces_follow(&s->pieces, s->part, p->n_cords, &s->visit, &s->n_visits, err);
+  s->n_parts = thr_pieces_parts(p, s->copy, needles, s->part);
+  st = thr_pieces_follow(&s->pieces, s->part, s->n_parts, &s->visit, &s->n_visits, err);
   for (int i = s->n_visits - 1; i >= 0; i--)
     s->first[s->visit[i].cord] = i;
   return st;
 }
 
-thr_status thr_steps_text(const thr_plan *p, const char *const *motion, double tolerance, thr_text *out, thr_err *err)
+thr_status thr_steps_text(const thr_plan *p, const char *const *motion, double tolerance, int needles, thr_text *out,
+                          thr_err *err)
 {
   thr_text text = {0};
   steps s = {.plan = p, .f = &p->frame, .motion = motion, .out = &text};
-  thr_status st = prepare(&s, tolerance, err);
+  thr_status st = prepare(&s, tolerance, needles, err);
   if (st) goto done;
   int n_paths = thr_copies_paths(s.copy, p->n_cords);
   put_heading(&s, n_paths);

@@ -2,6 +2,7 @@
 
 #include "diagram/tables/kinds.h"
 #include "graph/angle.h"
+#include "graph/plan/chains.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -220,12 +221,25 @@ thr_status thr_pieces_follow(const thr_pieces *pieces, const thr_part *parts, in
   return st;
 }
 
-void thr_pieces_parts(const thr_plan *plan, const thr_copy *copy, thr_part *part)
+static int add_parts(const thr_plan *plan, int c, int needles, thr_part *part)
+{
+  const thr_cord *cord = &plan->cord[c];
+  int fold = thr_cord_fold(&plan->frame, needles, cord), n = 0;
+  part[n++] = (thr_part){.cord = c, .first = fold, .end = cord->n_passes, .begins = true};
+  if (fold) part[n++] = (thr_part){.cord = c, .first = 0, .end = fold, .backward = true};
+  return n;
+}
+
+int thr_pieces_parts(const thr_plan *plan, const thr_copy *copy, int needles, thr_part *part)
 {
   int n = 0;
-  for (int path = 0; path < plan->n_cords; path++)
-    for (int c = path; c < plan->n_cords && copy[path].of == path; c++)
-      if (copy[c].of == path) part[n++] = (thr_part){.cord = c, .first = 0, .end = plan->cord[c].n_passes, .begins = true};
+  for (int path = 0; path < plan->n_cords; path++) {
+    if (copy[path].of != path) continue;
+    n += add_parts(plan, path, needles, part + n);
+    for (int c = 0; c < plan->n_cords; c++)
+      if (c != path && copy[c].of == path) n += add_parts(plan, c, needles, part + n);
+  }
+  return n;
 }
 
 /* ---- words ---- */

@@ -78,8 +78,9 @@ typedef struct {
 thr_status thr_pieces_follow(const thr_pieces *pieces, const thr_part *parts, int n_parts, thr_visit **visits, int *n,
                              thr_err *err) THR_MUST_CHECK;
 
-/* In part[n_cords] all cords in the order of threading, each from its start to its end: every path, then its copies. */
-void thr_pieces_parts(const thr_plan *plan, const thr_copy *copy, thr_part *part);
+/* In part[2 * n_cords] all cords in the order of threading, every path before its copies: each from its start to its end, or, if
+ * so many needles thread it from its fold (thr_cord_fold), on to its end and then back to its start. Returns how many parts. */
+int thr_pieces_parts(const thr_plan *plan, const thr_copy *copy, int needles, thr_part *part);
 
 /* Appends what is done at a visit: "start, pick up L-1 (A7): out to A6", "pick up X-10 (B5): in from A5, out to C5", "through F5,
  * on cord A since its row 3: in from E5, out to G5", "pick up tube 2 (A1-A2): in at A1, out at A2". Arms are called by the piece

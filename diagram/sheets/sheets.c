@@ -21,7 +21,7 @@
 
 thr_sheets_options thr_sheets_options_default(void)
 {
-  return (thr_sheets_options){.page = THR_PAGE_A4, .middle = false, .kind_tolerance = 0, .motion = NULL};
+  return (thr_sheets_options){.page = THR_PAGE_A4, .needles = 0, .kind_tolerance = 0, .motion = NULL};
 }
 
 void thr_sheets_destroy(thr_sheets *sheets)

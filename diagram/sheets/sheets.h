@@ -12,8 +12,8 @@
 
 typedef struct {
   thr_page_size page;
-  bool middle;           /* cords of THR_FOLD_LEAST passes and more are folded in their middle and threaded with two needles */
-  double kind_tolerance; /* as in thr_pieces_make */
+  int needles;               /* cords are threaded with (thr_cord_folded): 1; 2 = from their fold; 0 = as is usual */
+  double kind_tolerance;     /* as in thr_pieces_make */
   const char *const *motion; /* as in thr_overview_options; borrowed */
 } thr_sheets_options;
 

@@ -5,7 +5,6 @@
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/tables/supplies.h"
 #include "graph/framework/frame.h"
-#include "graph/plan/chains.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
@@ -13,14 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-static void add_parts(thr_sheets *sheets, int c)
-{
-  const thr_cord *cord = &sheets->plan->cord[c];
-  int fold = sheets->fold[c] = thr_cord_fold(sheets->f, sheets->o.middle ? 2 : 1, cord);
-  sheets->part[sheets->n_parts++] = (thr_part){.cord = c, .first = fold, .end = cord->n_passes, .begins = true};
-  if (fold) sheets->part[sheets->n_parts++] = (thr_part){.cord = c, .first = 0, .end = fold, .backward = true};
-}
 
 /* Everything that is known of the visits, from the parts. */
 static void index_visits(thr_sheets *sheets)
@@ -66,12 +57,9 @@ thr_status thr_sheets_follow(thr_sheets *sheets, thr_err *err)
   if (!sheets->part || !sheets->move || !sheets->step || !sheets->visited || !sheets->first_visit || !sheets->first_pass ||
       !sheets->fold || !sheets->threaded)
     return thr_nomem(err);
-  for (int path = 0; path < n; path++) {
-    if (sheets->copy[path].of != path) continue;
-    add_parts(sheets, path);
-    for (int c = 0; c < n; c++)
-      if (c != path && sheets->copy[c].of == path) add_parts(sheets, c);
-  }
+  sheets->n_parts = thr_pieces_parts(sheets->plan, sheets->copy, sheets->o.needles, sheets->part);
+  for (int i = 0; i < sheets->n_parts; i++)
+    if (sheets->part[i].begins) sheets->fold[sheets->part[i].cord] = sheets->part[i].first;
   thr_status st = thr_pieces_follow(&sheets->pieces, sheets->part, sheets->n_parts, &sheets->visit, &sheets->n_visits, err);
   if (!st) index_visits(sheets);
   return st;

@@ -23,6 +23,12 @@ static void put_length(const thr_sheets *sheets, double length, char cell[96])
     snprintf(cell, 96, "%.5g", length);
 }
 
+/* Is a cord threaded from its fold? */
+static bool some_folded(const thr_sheets *sheets)
+{
+  return sheets->n_parts > sheets->plan->n_cords;
+}
+
 static void put_cord(thr_sheets *sheets, int c, const double *x)
 {
   const thr_cord *cord = &sheets->plan->cord[c];
@@ -55,7 +61,7 @@ static void put_cords(thr_sheets *sheets)
   if (sheets->supplies.mm > 0) snprintf(cord, sizeof cord, ", %.3g mm thick", sheets->supplies.cord);
   snprintf(line, sizeof line, "Cut these cords (lengths in %s%s)", sheets->f->units, cord);
   thr_sheets_title(sheets, line);
-  if (sheets->o.middle) snprintf(head[7], 96, "fold at");
+  if (some_folded(sheets)) snprintf(head[7], 96, "fold at");
   thr_sheets_cells(sheets, 9, x, head, true);
   for (int c = 0; c < sheets->plan->n_cords; c++)
     put_cord(sheets, c, x);
@@ -65,7 +71,7 @@ static void put_cords(thr_sheets *sheets)
              "Cut = length through the middles of the pieces + a tail of %.0f mm to hold at each end + an overhand knot at each "
              "end + what turns take at most where the cord lies at the outside of its bores.%s",
              THR_SUPPLIES_TAIL,
-             sheets->o.middle ? " Fold at: from the end that comes out at the first place of the last column." : "");
+             some_folded(sheets) ? " Fold at: from the end that comes out at the first place of the last column." : "");
   else
     snprintf(line, sizeof line, "The size of cord and pieces is not known: add tails, knots and what turns take.");
   thr_sheets_paragraph(sheets, 0, line);
@@ -196,11 +202,11 @@ static void put_reading(thr_sheets *sheets)
       "In the pictures pieces to pick up have a bold outline, those that are on a cord are grey, those that wait are "
       "dashed. Grey lines are earlier passes, coloured ones those of the step. The small picture shows where they are. "
       "S: a cord starts. E: it ends.");
-  if (sheets->o.middle)
-    thr_sheets_paragraph(
-        sheets, 0,
-        "Cords are threaded from their middle with a needle at each end: first the right needle, to the end of the "
-        "cord, then the left needle from the fold back to its start, with falling numbers.");
+  if (some_folded(sheets))
+    thr_sheets_paragraph(sheets, 0,
+                         "Cords that have a fold in the cut list are threaded from there with a needle at each end: first the "
+                         "right needle, to the "
+                         "end of the cord, then the left needle from the fold back to its start, with falling numbers.");
 }
 
 void thr_sheets_prepare(thr_sheets *sheets)

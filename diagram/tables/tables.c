@@ -219,14 +219,14 @@ thr_status thr_table_steps(const thr_plan *p, double tolerance, thr_text *out, t
   table t;
   thr_text text = {0};
   thr_status st = table_make(&t, p, tolerance, &text, err);
-  thr_part *part = st ? NULL : thr_calloc((size_t)p->n_cords, sizeof *part);
+  thr_part *part = st ? NULL : thr_calloc(2 * (size_t)p->n_cords, sizeof *part);
   thr_visit *visit = NULL;
   int n = 0;
   double used = 0;
   if (!st && !part) st = thr_nomem(err);
   if (!st) {
-    thr_pieces_parts(p, t.copy, part);
-    st = thr_pieces_follow(&t.pieces, part, p->n_cords, &visit, &n, err);
+    int parts = thr_pieces_parts(p, t.copy, 1, part);
+    st = thr_pieces_follow(&t.pieces, part, parts, &visit, &n, err);
   }
   thr_text_append(&text,
                   "cord,step,piece,kind,how,visit,in,out,turn,degrees,length,used,left,path,path_step,edge,from_node,to_node,"

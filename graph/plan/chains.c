@@ -24,7 +24,7 @@ thr_chains thr_chains_of(const int *chain, int n)
 
 bool thr_cord_folded(int needles, const thr_cord *cord)
 {
-  return needles == 2 && cord->n_passes >= THR_FOLD_LEAST;
+  return needles == 0 ? cord->closed && cord->n_passes >= THR_FOLD_LONG : needles == 2 && cord->n_passes >= THR_FOLD_LEAST;
 }
 
 int thr_cord_fold(const thr_frame *frame, int needles, const thr_cord *cord)
@@ -122,7 +122,7 @@ void thr_plan_work(const thr_plan *plan, int *order)
   }
 }
 
-thr_status thr_plan_chains(const thr_plan *plan, thr_chains *chains, thr_err *err)
+thr_status thr_plan_chains(const thr_plan *plan, int needles, thr_chains *chains, thr_err *err)
 {
   thr_threaded threaded = {0};
   int most = 0;
@@ -136,7 +136,7 @@ thr_status thr_plan_chains(const thr_plan *plan, thr_chains *chains, thr_err *er
   for (int i = 0; i < plan->n_cords && !st; i++) {
     const thr_cord *cord = &plan->cord[order[i]];
     int n = thr_cord_pieces(&plan->frame, plan->options.joint, cord, piece);
-    int fold = thr_cord_fold(&plan->frame, plan->options.needles, cord);
+    int fold = thr_cord_fold(&plan->frame, needles, cord);
     *chains = thr_chains_together(*chains, thr_chains_of(chain, thr_threaded_try(&threaded, piece, n, fold, chain)));
     thr_threaded_keep(&threaded, piece, n);
   }

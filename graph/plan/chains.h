@@ -23,11 +23,12 @@ int thr_chains_compare(thr_chains a, thr_chains b);
 /* Of the work one part after the other. */
 thr_chains thr_chains_together(thr_chains a, thr_chains b);
 
-/* Shorter cords are threaded from their end, with two needles too. */
-enum { THR_FOLD_LEAST = 24 };
+/* Passes: shorter cords are threaded from their end, with two needles too; closed cords from THR_FOLD_LONG on, two steps of the
+ * booklet, with two needles if nothing else is said: each draws through half as much cord, half as often. */
+enum { THR_FOLD_LEAST = 24, THR_FOLD_LONG = 48 };
 static const double THR_FOLD_ROUNDING = 1e-9; /* of the length of a cord: so much nearer to its middle is no nearer */
 
-/* Is it threaded from its fold? */
+/* Is it threaded from its fold? needles: 1, 2, or 0: as is usual. */
 bool thr_cord_folded(int needles, const thr_cord *cord);
 
 /* The pass that the right needle begins with: that at whose start the way along the cord is nearest to half of it, of two the
@@ -67,7 +68,7 @@ thr_chains thr_chains_of(const int *chain, int n);
 /* The order in which cords are threaded: as they are numbered, but the copies of a path right after it. order: [n_cords]. */
 void thr_plan_work(const thr_plan *plan, int *order);
 
-/* The loose chains of a plan. O(passes). */
-thr_status thr_plan_chains(const thr_plan *plan, thr_chains *chains, thr_err *err) THR_MUST_CHECK;
+/* The loose chains of a plan threaded with so many needles (thr_cord_folded). O(passes). */
+thr_status thr_plan_chains(const thr_plan *plan, int needles, thr_chains *chains, thr_err *err) THR_MUST_CHECK;
 
 #endif

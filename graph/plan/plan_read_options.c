@@ -139,16 +139,16 @@ static thr_status read_limits(const thr_field_reader *field_reader, const thr_js
 /* How it was found. What is not there was left to the program. */
 static thr_status read_means(const thr_field_reader *field_reader, const thr_json *value, thr_request *options)
 {
-  int engine = THR_ENGINE_AUTO, confirm = THR_CONFIRM_AUTO, order = false;
+  int engine = THR_ENGINE_AUTO, confirm = THR_CONFIRM_AUTO, order = THR_ORDER_PLANNED;
   thr_status st = thr_field_double(field_reader, value, "time_limit", &options->time_limit);
   if (!st && thr_json_get(value, "needles")) st = thr_field_int(field_reader, value, "needles", 1, 2, &options->needles);
   if (!st && thr_json_get(value, "order"))
-    st = thr_field_name(field_reader, value, "options", "order", 2, thr_order_name, &order);
+    st = thr_field_name(field_reader, value, "options", "order", THR_N_ORDERS, thr_order_name, &order);
   if (!st && thr_json_get(value, "engine"))
     st = thr_field_name(field_reader, value, "options", "engine", 3, thr_engine_name, &engine);
   if (!st && thr_json_get(value, "confirm"))
     st = thr_field_name(field_reader, value, "options", "confirm", 3, thr_confirm_name, &confirm);
-  options->by_hand = order;
+  options->order = (thr_order)order;
   options->engine = (thr_engine)engine;
   options->confirm = (thr_confirm)confirm;
   return st;

@@ -188,7 +188,7 @@ static void put_options(thr_writer *writer, const thr_plan *plan)
   put_ends(writer, plan);
   if (thr_wants_turning(options)) put_turning_options(writer, options);
   if (thr_wants_symmetry(options)) put_symmetry_options(writer, options);
-  if (options->by_hand) thr_write_string(writer, "order", thr_order_name(options->by_hand));
+  if (options->order != THR_ORDER_PLANNED) thr_write_string(writer, "order", thr_order_name((int)options->order));
   if (options->needles) thr_write_int(writer, "needles", options->needles);
   if (options->engine != THR_ENGINE_AUTO) thr_write_string(writer, "engine", thr_engine_name(options->engine));
   if (thr_wants_length(options) && options->confirm != THR_CONFIRM_AUTO)

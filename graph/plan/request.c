@@ -16,6 +16,7 @@ thr_request thr_request_default(void)
                        .turning = {.length_slack = -1},
                        .symmetry = {.geometric = -1},
                        .ends = THR_ENDS_CLOSED,
+                       .order = THR_ORDER_STARTS,
                        .physics = thr_physics_default()};
 }
 
@@ -285,9 +286,10 @@ const char *thr_joint_name(int j)
   return j == THR_JOINT_TUBE ? "tube" : "solid";
 }
 
-const char *thr_order_name(int by_hand)
+const char *thr_order_name(int o)
 {
-  return by_hand ? "hand" : "planned";
+  static const char *const name[] = {[THR_ORDER_PLANNED] = "planned", [THR_ORDER_STARTS] = "starts", [THR_ORDER_HAND] = "hand"};
+  return name[o];
 }
 
 const char *thr_engine_name(int e)

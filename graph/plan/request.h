@@ -86,6 +86,10 @@ typedef enum {
   THR_CONFIRM_NEVER
 } thr_confirm;
 
+/* How what is threaded is to hold together while it is threaded (planner/order.h): not looked at, cords stay as they were found;
+ * by where they begin, which way they run and which comes first; and by what that takes, a tenth more turning, too. */
+typedef enum { THR_ORDER_PLANNED, THR_ORDER_STARTS, THR_ORDER_HAND, THR_N_ORDERS } thr_order;
+
 /* What the user asked for; echoed in the plan so that it can be made again. */
 typedef struct {
   thr_aims aims;
@@ -107,8 +111,8 @@ typedef struct {
                           2 * cords; owned, else NULL */
   thr_physics physics; /* of cord and beads, as asked: what eval starts from */
   double time_limit;   /* s, 0 = none */
-  bool by_hand;        /* cords begin and run so that what is threaded holds together (planner/order.h) */
-  int needles;         /* that long cords are threaded with then: 2 (graph/plan/chains.h), else one */
+  thr_order order;     /* of the work */
+  int needles;         /* that cords are threaded with then: 1, 2, or 0: as is usual (thr_cord_folded) */
   thr_engine engine;   /* changes no length */
   thr_confirm confirm; /* of the least length with THR_JOINT_SOLID only */
 } thr_request;
@@ -154,7 +158,7 @@ const char *thr_minimize_name(int largest); /* "turning", "max-turning" */
 const char *thr_pairings_name(int ignore);  /* "keep", "ignore" */
 const char *thr_ends_name(int e);           /* "closed", "any", "feet", "nodes", "counts" */
 const char *thr_joint_name(int j);          /* "solid", "tube" */
-const char *thr_order_name(int by_hand);    /* "planned", "hand" */
+const char *thr_order_name(int o);          /* "planned", "starts", "hand" */
 const char *thr_engine_name(int e);         /* "auto", "lp", "matching" */
 const char *thr_confirm_name(int c);        /* "auto", "always", "never" */
 

@@ -25,7 +25,7 @@ static thr_sheets *sheets_of(const thr_plan *p, thr_page_size page, bool middle)
   thr_sheets *s;
   thr_sheets_options o = thr_sheets_options_default();
   o.page = page;
-  o.middle = middle;
+  o.needles = middle ? 2 : 1;
   ck_assert_msg(thr_sheets_make(&s, p, &o, &none, &err) == THR_OK, "%s", err.text);
   return s;
 }
