@@ -38,8 +38,10 @@ void thr_crops_destroy(thr_crops *crops)
 static thr_status make_scene(thr_crops *crops, int i, thr_err *err)
 {
   thr_status st = crops->made[i] ? THR_OK : thr_scene_build(&crops->scene[i], crops->plan, crops->layout, PITCH[i], true, err);
-  if (!st) crops->made[i] = true;
-  return st;
+  if (st || crops->made[i]) return st;
+  crops->made[i] = true;
+  thr_boxes_destroy(&crops->scene[i].boxes); /* labels are placed anew in each picture */
+  return THR_OK;
 }
 
 /* ---- what is seen ---- */

@@ -2,6 +2,7 @@
 #include "diagram/overview/draw.h"
 
 #include "diagram/layout/layout.h"
+#include "diagram/overview/miniature.h"
 #include "diagram/overview/svg.h"
 #include "diagram/scene/outlines.h"
 #include "diagram/scene/palette.h"
@@ -11,6 +12,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char *const EARLIER = "#b0b0b0";
 
@@ -159,8 +161,8 @@ static void write_pieces(const drawing *d, thr_text *text)
 
 /* ---- passes ---- */
 
-/* rim: its fill, or NULL for the pass's colour. */
-static void write_arrow(const thr_scene_pass *scene_pass, const char *rim, thr_text *text)
+/* Path data of the arrow on a pass, if it has one. */
+static void write_tip(const thr_scene_pass *scene_pass, thr_text *text)
 {
   double length = hypot(scene_pass->to[0] - scene_pass->from[0], scene_pass->to[1] - scene_pass->from[1]);
   if (scene_pass->arrow_size == 0 || !(length > 0)) return;
@@ -168,13 +170,24 @@ static void write_arrow(const thr_scene_pass *scene_pass, const char *rim, thr_t
          dy = (scene_pass->to[1] - scene_pass->from[1]) / length * scene_pass->arrow_size;
   double tip[2] = {scene_pass->arrow[0] + 0.5 * dx, scene_pass->arrow[1] + 0.5 * dy},
          left[2] = {tip[0] - dx - 0.4 * dy, tip[1] - dy + 0.4 * dx}, right[2] = {tip[0] - dx + 0.4 * dy, tip[1] - dy - 0.4 * dx};
-  thr_text_append(text, "<path class=\"arrow\"");
-  if (rim) thr_text_printf(text, " fill=\"%s\"", rim);
-  thr_text_append(text, " d=\"");
   thr_svg_move(text, tip);
   thr_svg_line(text, left);
   thr_svg_line(text, right);
-  thr_text_append(text, "z\"/>");
+  thr_text_append(text, "z");
+}
+
+/* rim: its fill, or NULL for the pass's colour. */
+static void write_arrow(const thr_scene_pass *scene_pass, const char *rim, thr_text *text)
+{
+  thr_text tip = {0};
+  write_tip(scene_pass, &tip);
+  if (tip.data) {
+    thr_text_append(text, "<path class=\"arrow\"");
+    if (rim) thr_text_printf(text, " fill=\"%s\"", rim);
+    thr_text_printf(text, " d=\"%s\"/>", tip.data);
+  }
+  text->failed |= tip.failed;
+  thr_text_destroy(&tip);
 }
 
 /* Path data of a pass in two parts: the curve through the node before it and its lane up to a point, and .. */
@@ -269,23 +282,39 @@ static void write_pass(const drawing *d, int i, thr_text *text)
   thr_text_append(text, "</g>\n");
 }
 
-/* Earlier passes of a cord that do not touch each other but where one leads to the next: two elements draw them as two for each
+/* Passes of a cord that do not touch each other but where one leads to the next: a few elements draw them as a few for each
  * would, and are read in a fraction of the time. */
 enum { TOGETHER = 64 };
 
 typedef struct {
+  const char *colour; /* of passes drawn now; NULL: of earlier ones */
   int n, pass[TOGETHER];
   thr_box box[TOGETHER];
 } bunch;
 
+static void write_strands(const drawing *d, const bunch *b, const char *class, const char *rim, thr_text *text)
+{
+  thr_text_printf(text, "<path class=\"%s\"", class);
+  if (rim) thr_text_printf(text, " stroke=\"%s\"", rim);
+  if (strcmp(class, "casing") != 0) thr_draw_dash(d->s, thr_scene_dash(d->s, d->s->pass[b->pass[0]].cord), text);
+  thr_text_append(text, " d=\"");
+  for (int k = 0; k < b->n; k++)
+    write_strand(d->s, b->pass[k], text);
+  thr_text_append(text, "\"/>\n");
+}
+
 static void write_bunch(const drawing *d, bunch *b, thr_text *text)
 {
-  for (int cord = 0; cord < 2 && b->n; cord++) {
-    thr_text_append(text, cord ? "<path class=\"cord\"" : "<path class=\"casing\"");
-    if (cord) thr_draw_dash(d->s, thr_scene_dash(d->s, d->s->pass[b->pass[0]].cord), text);
-    thr_text_append(text, " d=\"");
+  char rim[8];
+  if (!b->n) return;
+  bool rimmed = b->colour && thr_scene_rim(d->s, d->s->pass[b->pass[0]].cord, b->colour, rim);
+  write_strands(d, b, "casing", NULL, text);
+  if (rimmed) write_strands(d, b, "rim", rim, text);
+  write_strands(d, b, "cord", NULL, text);
+  if (b->colour) {
+    thr_text_printf(text, "<path class=\"arrow\" fill=\"%s\" d=\"", rimmed ? rim : b->colour);
     for (int k = 0; k < b->n; k++)
-      write_strand(d->s, b->pass[k], text);
+      write_tip(&d->s->pass[b->pass[k]], text);
     thr_text_append(text, "\"/>\n");
   }
   b->n = 0;
@@ -317,21 +346,22 @@ static void write_cords(const drawing *d, thr_draw_state state, thr_text *text)
   for (int own = 0; own < 2; own++)
     for (int c = 0; c < scene->plan->n_cords; c++) {
       bool copy = thr_scene_is_copy(scene, c);
-      bunch earlier = {.n = 0};
+      bunch together = {.colour = state == THR_DRAW_NOW ? d->style->colour : NULL};
       if (copy == own || !any_pass(d, c, state)) continue;
-      if (state == THR_DRAW_NOW)
-        open_element(d, "g", "cord-", scene->id[c], -1, text);
-      else
+      if (state == THR_DRAW_NOW) open_element(d, "g", "cord-", scene->id[c], -1, text);
+      if (together.colour)
+        thr_text_printf(text, " stroke=\"%s\"", together.colour);
+      else if (state != THR_DRAW_NOW)
         thr_text_printf(text, "<g stroke=\"%s\"", EARLIER); /* without id: the cord's group is that of the passes drawn now */
       thr_text_printf(text, "%s>\n", copy ? " class=\"copy\"" : "");
       for (int i = scene->first_pass[c]; i < scene->first_pass[c + 1]; i++)
         if (state_of(d, i) != state || !in_window(d, box_of_pass(scene, i)))
           continue;
-        else if (state == THR_DRAW_NOW)
+        else if (state == THR_DRAW_NOW && !together.colour)
           write_pass(d, i, text);
         else
-          bunch_pass(d, &earlier, i, text);
-      write_bunch(d, &earlier, text);
+          bunch_pass(d, &together, i, text);
+      write_bunch(d, &together, text);
       thr_text_append(text, "</g>\n");
     }
 }
@@ -476,6 +506,13 @@ static void write_places(const drawing *d, const thr_box *grid, thr_text *text)
 void thr_draw_scene(const thr_scene *scene, const thr_draw_style *style, const thr_box *grid, thr_text *text)
 {
   drawing d = {scene, style};
+  if (scene->lines) {
+    thr_draw_feet(scene, style, text);
+    thr_miniature_draw(scene, text);
+    write_marks(&d, text);
+    write_places(&d, grid, text);
+    return;
+  }
   if (!style->no_pieces) thr_draw_feet(scene, style, text);
   if (!style->no_pieces) write_pieces(&d, text);
   if (style->state) write_cords(&d, THR_DRAW_EARLIER, text);

@@ -29,7 +29,7 @@ typedef struct {
   const unsigned char *state; /* [n_passes] thr_draw_state; NULL: all are drawn now */
   const thr_box *window;      /* in mm of the scene: what lies outside is left out, not cut off; NULL: nothing is */
   bool anonymous;             /* no ids and titles: a document may hold several pictures, and ids only once */
-  const char *colour;         /* of the passes drawn now; NULL: their own */
+  const char *colour;         /* of the passes drawn now, all of one cord, in few elements; NULL: their own */
   bool no_pieces;             /* the caller draws them and, before them, the pads of feet */
 } thr_draw_style;
 

@@ -111,6 +111,10 @@ double thr_legend_heading(const thr_scene *scene, const char *title, double x, d
            scene->n_passes == 1 ? "" : "es", length);
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
   y = write_view(scene, x, y, width, text);
+  if (scene->lines)
+    return thr_svg_wrap(text, x, y, TEXT_SIZE, width, "",
+                        "So many passes are drawn as lines: pieces, numbers, arrows and names are left out. The step sheets and "
+                        "the viewer show them.");
   if (scene->number_step == 1)
     snprintf(numbers, sizeof numbers, "Every pass%s is numbered", scene->copy ? " of a path to learn" : "");
   else

@@ -77,6 +77,19 @@ static void write_cord(const small *m, int c, thr_text *text)
   if (*before) thr_text_append(text, "\"/>\n");
 }
 
+void thr_miniature_draw(const thr_scene *scene, thr_text *text)
+{
+  small m = {.scene = scene, .scale = 1};
+  thr_text_append(text, "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n");
+  write_beads(&m, text);
+  for (int c = 0; c < scene->plan->n_cords; c++) {
+    thr_text_printf(text, "<g id=\"cord-%s\">\n", scene->id[c]);
+    write_cord(&m, c, text);
+    thr_text_append(text, "</g>\n");
+  }
+  thr_text_append(text, "</g>\n");
+}
+
 thr_status thr_miniature_put(const thr_plan *plan, const thr_layout *layout, double x, double y, double side, thr_text *text,
                              thr_err *err)
 {

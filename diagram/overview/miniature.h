@@ -3,6 +3,7 @@
 #define THR_MINIATURE_H
 
 #include "diagram/layout/layout.h"
+#include "diagram/scene/scene.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
@@ -11,5 +12,8 @@
  * them. layout: of the plan's framework. THR_EINPUT as thr_scene_build. O(passes). */
 thr_status thr_miniature_put(const thr_plan *plan, const thr_layout *layout, double x, double y, double side, thr_text *text,
                              thr_err *err) THR_MUST_CHECK;
+
+/* Appends beads and cords of a scene as they lie, in an element or two for each cord. O(passes). */
+void thr_miniature_draw(const thr_scene *scene, thr_text *text);
 
 #endif

@@ -73,6 +73,7 @@ thr_status thr_overview_svg(const thr_plan *plan, const thr_overview_options *op
     st = thr_scene_build(&scene, plan, options->layout ? options->layout : &own, options->pitch_mm,
                          options->colour == THR_COLOUR_CORD, err);
   if (!st) scene.motion = options->motion;
+  if (!st) scene.lines = scene.n_passes > THR_SCENE_LINES && options->colour != THR_COLOUR_TURNING;
   if (!st && options->colour == THR_COLOUR_TENSION) {
     scene.tension = &plan->evaluation;
     thr_evaluation_range(scene.tension, scene.tension_range);

@@ -25,6 +25,8 @@ thr_overview_options thr_overview_options_default(void);
 /* Appends the picture to svg. Its size is physical (mm); no text is under 7 pt. Elements: <g id="cord-A"> holds the
  * passes, <g id="A-17"> is pass 17 (counted from 1), "piece-12" is node 12 (counted from 0; with tube joints edge 12) with
  * its name in data-piece, "n-A-17" a pass's number.
+ * Of more than 20,000 passes these elements are left out, which the heading says, but those of the cords, whose passes are lines;
+ * not where turning is shown, which needs each of them.
  * A cord's id is used if it is capital letters only, else the id that its index would have. With turning shown, a pass holds the
  * halves of the turns before and after it as <path class="turn">: the curve with the half lane that follows, and the other half
  * lane; "t-A-17" marks a turn of more than 90 degrees to pass 17. Turns that do not count (graph/plan/plan.h) have no colour.

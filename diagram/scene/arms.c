@@ -19,7 +19,7 @@ static void point_of(const thr_arms *arms, int i, double back, double at[2])
 }
 
 /* Arms in pairs, so that a round corner covers the hub. A piece of one arm goes beyond its hub by half its width. */
-static void put_strokes(const thr_arms *arms, double back, thr_text *text)
+void thr_arms_strokes(const thr_arms *arms, double back, thr_text *text)
 {
   double at[2];
   for (int i = 0; i < arms->n; i += 2) {
@@ -43,14 +43,16 @@ void thr_arms_draw(const thr_arms *arms, thr_text *text)
   for (int k = 0; k < 2 && arms->n; k++) {
     thr_text_printf(text, "<path fill=\"none\" stroke-linejoin=\"round\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", colour[k],
                     fmax(arms->width + (k ? -1 : 1) * arms->line, 0.1));
-    put_strokes(arms, k ? arms->line : 0, text);
+    thr_arms_strokes(arms, k ? arms->line : 0, text);
     thr_text_append(text, "\"/>\n");
   }
 }
 
 /* The way of the cord: straight in the arms, bent at the hub. */
-static void put_way(const thr_arms *arms, int in, int out, double back, thr_text *text)
+void thr_arms_way(const thr_arms *arms, int in, int out, double width, thr_text *text)
 {
+  const double back = (TIP - 1) * width;
+  if (in < 0 && out < 0) return;
   double from[2], to[2], before[2], after[2], reach[2] = {0, 0};
   const int arm[2] = {in, out};
   for (int k = 0; k < 2; k++)
@@ -68,7 +70,7 @@ static void put_way(const thr_arms *arms, int in, int out, double back, thr_text
   thr_svg_line(text, out >= 0 ? to : arms->hub);
 }
 
-static void put_tip(const thr_arms *arms, int out, const char *colour, double width, thr_text *text)
+void thr_arms_tip(const thr_arms *arms, int out, double width, thr_text *text)
 {
   double d[2] = {arms->end[out][0] - arms->hub[0], arms->end[out][1] - arms->hub[1]}, length = hypot(d[0], d[1]);
   double tip[2], size = TIP * width;
@@ -77,23 +79,8 @@ static void put_tip(const thr_arms *arms, int out, const char *colour, double wi
     d[k] *= size / length;
     tip[k] = arms->end[out][k] + 0.4 * d[k];
   }
-  thr_text_printf(text, "<path fill=\"%s\" stroke=\"#fff\" stroke-width=\"0.20\" d=\"", colour);
   thr_svg_move(text, tip);
   thr_svg_line(text, (const double[]){tip[0] - d[0] - 0.5 * d[1], tip[1] - d[1] + 0.5 * d[0]});
   thr_svg_line(text, (const double[]){tip[0] - d[0] + 0.5 * d[1], tip[1] - d[1] - 0.5 * d[0]});
-  thr_text_append(text, "z\"/>\n");
-}
-
-void thr_arms_cord(const thr_arms *arms, int in, int out, const char *colour, double width, thr_text *text)
-{
-  for (int k = 0; k < 2 && (in >= 0 || out >= 0); k++) {
-    thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", k ? colour : "#fff",
-                    k ? width : 1.8 * width);
-    put_way(arms, in, out, (TIP - 1) * width, text);
-    thr_text_append(text, "\"/>\n");
-  }
-  if (in < 0 || out < 0)
-    thr_text_printf(text, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"#111\"/>\n", arms->hub[0], arms->hub[1],
-                    1.1 * width);
-  if (out >= 0) put_tip(arms, out, colour, width, text);
+  thr_text_append(text, "z");
 }

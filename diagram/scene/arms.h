@@ -19,8 +19,12 @@ typedef struct {
 /* Appends the piece in two elements. */
 void thr_arms_draw(const thr_arms *arms, thr_text *text);
 
-/* Appends a cord through it: in by arm `in`, out by arm `out`, with a tip there. in = -1: it starts at the hub, with a disc;
- * out = -1: it ends there. width: of the cord, mm. */
-void thr_arms_cord(const thr_arms *arms, int in, int out, const char *colour, double width, thr_text *text);
+/* Path data of its strokes, whose ends are so far from the ends of its arms; {0} of a piece without arms. */
+void thr_arms_strokes(const thr_arms *arms, double back, thr_text *data);
+
+/* Path data of the way of a cord through it: in by arm `in`, out by arm `out`; -1: it starts or ends at the hub. And of the tip
+ * at the end of that way. width: of the cord, mm. */
+void thr_arms_way(const thr_arms *arms, int in, int out, double width, thr_text *data);
+void thr_arms_tip(const thr_arms *arms, int out, double width, thr_text *data);
 
 #endif

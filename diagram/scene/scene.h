@@ -66,6 +66,7 @@ typedef struct {
   double tension_range[2];       /* N */
   bool turning;                  /* turns have colours of their own along the cords */
   thr_copy *copy;                /* [n_cords] if copies are drawn pale and there are any, else NULL */
+  bool lines;                    /* too many passes to be followed one by one: cords are lines (see THR_SCENE_LINES) */
   const char *const *motion;     /* [n_cords] what moves a unique path to a copy (see thr_copies_words), or NULL */
   thr_sizes size;
   bool solid; /* pieces are nodes with arms, not tubes along edges */
@@ -130,6 +131,9 @@ enum { THR_COLOUR_PASSES = 20 };
 /* Is cord c, in a colour, lined with a darker rim (see thr_palette_rim)? Copies are meant to be pale, and turns have colours that
  * need none. */
 bool thr_scene_rim(const thr_scene *scene, int c, const char *colour, char rim[8]);
+
+/* More passes are drawn as lines, without pieces, numbers, arrows and ids: 20,000 take some 13 MB of SVG one by one. */
+enum { THR_SCENE_LINES = 20000 };
 
 /* Smallest pitch at which places that are not in a grid are named, mm. */
 static const double THR_SCENE_NAMED = 8;

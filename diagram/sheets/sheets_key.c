@@ -18,6 +18,7 @@ static const double CARD = 46, AIR = 1.5;              /* mm: height of a card; 
 static const double ROOM = 12.5, NUMBER_OFF = 2;       /* mm: from the hub to the ends of its arms; from there to their lengths */
 static const double NAME = 4;                          /* mm: size of the letters on a card and a tag */
 static const double TAG = 9;                           /* mm: height of a tag */
+enum { SOME_TAGS = 4 };                                /* rows for which a page is begun */
 
 /* ---- cards ---- */
 
@@ -135,7 +136,11 @@ void thr_sheets_name_tags(thr_sheets *sheets)
   int columns = (int)fmax(1, floor(thr_sheets_width(sheets) / (0.75 * NAME * longest + 3)));
   columns = columns > 14 ? 14 : columns;
   double width = thr_sheets_width(sheets) / columns;
-  thr_sheets_page(sheets, "Names to stick on", "Names to stick on (continued)");
+  if (sheets->y + SOME_TAGS * TAG < thr_sheets_bottom(sheets)) {
+    snprintf(sheets->running, sizeof sheets->running, "Names to stick on (continued)");
+    thr_sheets_title(sheets, "Names to stick on");
+  } else
+    thr_sheets_page(sheets, "Names to stick on", "Names to stick on (continued)");
   if (!sheets->st) thr_sheets_paragraph(sheets, 0, words);
   for (int i = 0; i < n && !sheets->st; i++) {
     int column = i % columns;

@@ -4,9 +4,11 @@
 #include "diagram/overview/svg.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/advice.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
+#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -55,6 +57,40 @@ int thr_sheets_hardest(const thr_sheets *sheets)
     if (by_hardness(&other, &first) < 0) first = other;
   }
   return first.cord;
+}
+
+void thr_sheets_too_hard(double newton, thr_text *words)
+{
+  char force[32];
+  thr_svg_force(thr_hand_most, force);
+  if (newton > thr_hand_most) thr_text_printf(words, ": too hard for a hand, which manages about %s", force);
+}
+
+/* How many cords ask for more than a hand has, and what helps. */
+static void put_too_hard(thr_sheets *sheets, const pull *p)
+{
+  thr_text words = {0};
+  char force[32];
+  int n = 0;
+  for (int i = 0; i < sheets->plan->n_cords; i++)
+    n += p[i].known && p[i].hardness > thr_hand_most;
+  if (!n) return;
+  if (sheets->plan->n_cords == 1)
+    thr_text_append(&words, "The cord");
+  else
+    thr_text_printf(&words, "%d of %d cords", n, sheets->plan->n_cords);
+  thr_text_append(&words, n == 1 ? " asks for a pull that is" : " ask for a pull that is");
+  thr_svg_force(thr_hand_most, force);
+  thr_text_printf(&words,
+                  " too hard for a hand, which manages about %s. Draw the slack pass by pass, grip by grip, from its slackest "
+                  "pass, or plan more cords (thread advise).",
+                  force);
+  if (words.failed)
+    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+  else
+    sheets->y = thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y + 1, THR_SHEET_TEXT, 0.92 * thr_sheets_width(sheets),
+                                " font-weight=\"bold\"", words.data);
+  thr_text_destroy(&words);
 }
 
 /* Which end(s) to pull and how hard. */
@@ -124,6 +160,7 @@ static void put_pulling(thr_sheets *sheets, pull *p)
   thr_sheets_cells(sheets, CELLS, x, head, true);
   for (int i = 0; i < n; i++)
     put_cord(sheets, &p[i], x);
+  put_too_hard(sheets, p);
 }
 
 static void put_knots(thr_sheets *sheets)

@@ -449,8 +449,10 @@ static void put_tighten(panel *p, thr_text *words)
     thr_text_printf(words, "its %s, at %s", from_start ? "start" : "end", from_start ? start : end);
   if (known) {
     char force[32];
-    thr_svg_force(fmax(evaluation->cord[c].force, evaluation->cord[c].other_force), force);
+    double pull = fmax(evaluation->cord[c].force, evaluation->cord[c].other_force);
+    thr_svg_force(pull, force);
     thr_text_printf(words, ", with %s at most", force);
+    thr_sheets_too_hard(pull, words);
   }
   thr_text_append(words, ". Then once more.");
   if (from_start) put_pull(p, -1, start);

@@ -109,15 +109,16 @@ const char (*thr_sheets_labels(const thr_sheets *sheets))[THR_LABEL];
 /* sheets_front.c: the title page; first[THR_SHEET_PARTS]: pages before each part, this one not counted. */
 typedef enum { THR_SHEET_PREPARE, THR_SHEET_STEPS, THR_SHEET_LAST, THR_SHEET_PARTS } thr_sheet_part;
 void thr_sheets_front(thr_sheets *sheets, const int *first);
-void thr_sheets_making(thr_sheets *sheets);        /* sheets_making.c: how pieces are handled */
-void thr_sheets_prepare(thr_sheets *sheets);       /* sheets_prepare.c */
-void thr_sheets_key(thr_sheets *sheets);           /* sheets_key.c: solid pieces drawn, kind by kind */
-void thr_sheets_name_tags(thr_sheets *sheets);     /* sheets_key.c: the names of all pieces, to stick on */
-void thr_sheets_steps(thr_sheets *sheets, int c);  /* sheets_steps.c: of a path */
-void thr_sheets_flush(thr_sheets *sheets);         /* sheets_steps.c: the page that is waiting; before any other page */
-void thr_sheets_copies(thr_sheets *sheets, int c); /* sheets_copies.c: of a path, if it has any */
-void thr_sheets_last(thr_sheets *sheets);          /* sheets_last.c */
-int thr_sheets_hardest(const thr_sheets *sheets);  /* of the cords the one to pull first */
+void thr_sheets_making(thr_sheets *sheets);               /* sheets_making.c: how pieces are handled */
+void thr_sheets_prepare(thr_sheets *sheets);              /* sheets_prepare.c */
+void thr_sheets_key(thr_sheets *sheets);                  /* sheets_key.c: solid pieces drawn, kind by kind */
+void thr_sheets_name_tags(thr_sheets *sheets);            /* sheets_key.c: the names of all pieces, to stick on */
+void thr_sheets_steps(thr_sheets *sheets, int c);         /* sheets_steps.c: of a path */
+void thr_sheets_flush(thr_sheets *sheets);                /* sheets_steps.c: the page that is waiting; before any other page */
+void thr_sheets_copies(thr_sheets *sheets, int c);        /* sheets_copies.c: of a path, if it has any */
+void thr_sheets_last(thr_sheets *sheets);                 /* sheets_last.c */
+int thr_sheets_hardest(const thr_sheets *sheets);         /* of the cords the one to pull first */
+void thr_sheets_too_hard(double newton, thr_text *words); /* appends that a hand does not manage so many N; nothing if it does */
 
 /* Words of a cord: "Cord A (blue)", with its dash if it has one; colour as "#rrggbb" for a row of passes. */
 void thr_sheets_cord_words(const thr_sheets *sheets, int c, char words[96]);

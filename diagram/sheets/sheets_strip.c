@@ -22,6 +22,8 @@ static const double NAME = 4.2, AIR = 1.5;   /* mm below an icon for its name; a
 static const double ARM = 0.42, CORD = 0.14; /* widths, of the reach */
 static const double CROWD = 0.8;             /* of the room between many arms that one takes */
 static const double ASIDE = 1.5;             /* mm that an icon is off the middle of its place, for its number */
+static const double LINE[2] = {0.25, 0.5};   /* mm: outlines of pieces held and new */
+enum { CROWDED = 8 };                        /* arms: more run together */
 
 static int columns_of(int visits)
 {
@@ -90,23 +92,64 @@ static void tube_of(const thr_sheets *sheets, const thr_camera *camera, int half
   *out = arms->n ? 1 : -1;
 }
 
-static void put_icon(thr_sheets *sheets, int visit, const thr_camera *camera, const char *colour, const double hub[2],
-                     double reach)
+/* What lies on what, in few elements for all icons: outlines and fills of pieces, held and new; the cord. */
+typedef struct {
+  thr_text piece[2][2], way, tip, end;
+} layers;
+
+static void add_icon(const thr_sheets *sheets, int visit, const thr_camera *camera, const double hub[2], double reach, layers *l)
 {
   const thr_visit *v = &sheets->visit[visit];
   bool new = v->nth == 1;
   int in, out;
-  thr_arms arms = {.hub = {hub[0], hub[1]},
-                   .fill = new ? "#ffdf8c" : "#d5ccb8",
-                   .outline = new ? "#5c4600" : "#857a64",
-                   .line = new ? 0.5 : 0.25};
+  thr_arms arms = {.hub = {hub[0], hub[1]}};
   if (sheets->pieces.solid)
     arms_of(sheets, camera, v->piece, reach, &arms, v->in, v->out, &in, &out);
   else
     tube_of(sheets, camera, v->in, reach, &arms, &in, &out);
-  arms.width = reach * fmin(ARM, CROWD * 2 * THR_PI / (arms.n ? arms.n : 1));
-  thr_arms_draw(&arms, thr_sheets_out(sheets));
-  thr_arms_cord(&arms, in, out, colour, CORD * reach, thr_sheets_out(sheets));
+  for (int k = 0; k < 2; k++)
+    thr_arms_strokes(&arms, k ? LINE[new] : 0, &l->piece[new][k]);
+  thr_arms_way(&arms, in, out, CORD * reach, &l->way);
+  if (out >= 0) thr_arms_tip(&arms, out, CORD * reach, &l->tip);
+  if (in < 0 || out < 0)
+    thr_text_printf(&l->end, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"#111\"/>\n", hub[0], hub[1], 1.1 * CORD * reach);
+}
+
+static void put_path(thr_text *data, const char *fill, const char *stroke, double width, thr_text *text)
+{
+  if (data->data && !data->failed)
+    thr_text_printf(text, "<path fill=\"%s\" stroke-linejoin=\"round\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"%s\"/>\n", fill,
+                    stroke, width, data->data);
+  text->failed |= data->failed;
+  thr_text_destroy(data);
+}
+
+/* width: of an arm. */
+static void put_layers(layers *l, double width, double reach, const char *colour, thr_text *text)
+{
+  static const char *const look[2][2] = {{"#857a64", "#d5ccb8"}, {"#5c4600", "#ffdf8c"}};
+  for (int new = 0; new < 2; new ++)
+    for (int k = 0; k < 2; k++)
+      put_path(&l->piece[new][k], "none", look[new][k], width + (k ? -1 : 1) * LINE[new], text);
+  thr_text casing = {0};
+  if (l->way.data) thr_text_append(&casing, l->way.data);
+  put_path(&casing, "none", "#ffffff", 1.8 * CORD * reach, text);
+  put_path(&l->way, "none", colour, CORD * reach, text);
+  if (l->end.data) thr_text_append(text, l->end.data);
+  text->failed |= l->end.failed;
+  thr_text_destroy(&l->end);
+  put_path(&l->tip, colour, "#ffffff", 0.2, text);
+}
+
+/* Arms are narrower where a piece has many. */
+static double arm_width(const thr_sheets *sheets, const thr_step *step, double reach)
+{
+  int most = 2;
+  for (int i = step->first; i < step->end && sheets->pieces.solid; i++) {
+    int arms = thr_degree(sheets->f, sheets->visit[i].piece);
+    if (arms > most && arms <= CROWDED) most = arms;
+  }
+  return reach * fmin(ARM, CROWD * 2 * THR_PI / most);
 }
 
 /* "X-10 B5" in bold letters of what is picked up, "F5" of what is on a cord already. */
@@ -141,17 +184,19 @@ void thr_step_put_strip(thr_sheets *sheets, const thr_step *step, const thr_came
     thr_svg_move(text, (const double[]){THR_SHEET_MARGIN, y});
     thr_svg_line(text, (const double[]){THR_SHEET_MARGIN + n * width, y});
     thr_text_append(text, "\"/>\n");
+    layers l = {0};
     for (int i = 0; i < n && !sheets->st; i++) {
       int visit = step->first + first + i, number = sheets->visit[visit].number;
       char count[16] = "S";
       double hub[2] = {THR_SHEET_MARGIN + (i + 0.5) * width + ASIDE, y};
       if (number) snprintf(count, sizeof count, "%d", number);
-      put_icon(sheets, visit, camera, colour, hub, reach);
+      add_icon(sheets, visit, camera, hub, reach, &l);
       thr_text_printf(text, "<g fill=\"%s\">", colour);
       thr_svg_text(text, hub[0] - 0.5 * width - ASIDE, y - reach + 2, THR_SHEET_SMALL, " font-weight=\"bold\"", count);
       thr_text_append(text, "</g>\n");
       put_name(sheets, visit, hub[0], y + reach + 3.2, width - 0.5);
     }
+    put_layers(&l, arm_width(sheets, step, reach), reach, colour, text);
   }
   sheets->y += thr_step_strip_height(visits);
 }

@@ -5,6 +5,7 @@
 #include "diagram/overview/svg.h"
 #include "diagram/scene/arms.h"
 #include "diagram/scene/boxes.h"
+#include "diagram/scene/scene.h"
 #include "diagram/space/camera.h"
 #include "diagram/space/space.h"
 #include "graph/framework/frame.h"
@@ -33,8 +34,8 @@ typedef struct {
   double (*at)[3];     /* [n_nodes] on paper, and depth */
   unsigned char *near; /* [n_nodes] of hubs */
   thr_box window;
-  double depth;      /* mean depth of what is drawn now */
-  double pitch, arm; /* mm */
+  double depth, deep; /* mean depth of what is drawn now; so far from it colours are as pale as they get */
+  double pitch, arm;  /* mm */
   thr_text *text;
 } drawing;
 
@@ -52,7 +53,7 @@ static void pale(const char *hex, double white, char out[8])
 
 static double fade_of(const drawing *d, double depth)
 {
-  return FADE * fmin(1, fabs(depth - d->depth) / (DEEP * d->space->pitch));
+  return FADE * fmin(1, fabs(depth - d->depth) / d->deep);
 }
 
 static bool seen(const drawing *d, const double *a, const double *b, double more)
@@ -393,6 +394,7 @@ thr_status thr_space_draw(const thr_space *space, const thr_space_step *step, co
   int most = f->n_nodes > f->n_edges ? f->n_nodes : f->n_edges;
   drawing d = {.space = space, .step = step, .view = view, .text = text, .window = {0, 0, view->size[0], view->size[1]}};
   d.pitch = view->scale * space->pitch;
+  d.deep = DEEP * space->pitch;
   d.arm = fmin(ARM * d.pitch, WIDEST);
   d.at = thr_calloc((size_t)f->n_nodes, sizeof *d.at);
   d.near = thr_calloc((size_t)f->n_nodes, sizeof *d.near);
@@ -410,5 +412,95 @@ thr_status thr_space_draw(const thr_space *space, const thr_space_step *step, co
   free(d.at);
   free(d.near);
   free(list);
+  return st;
+}
+
+/* ---- the whole ---- */
+
+/* The names of nodes that have room, the nearest first. */
+static thr_status put_names(const drawing *d, placed *list, thr_err *err)
+{
+  static const double size = 2.6; /* mm */
+  thr_boxes boxes = {0};
+  thr_status st = thr_boxes_init(&boxes, d->window, 6, err);
+  int n = d->space->f->n_nodes;
+  for (int v = 0; v < n; v++)
+    list[v] = (placed){v, d->at[v][2]};
+  qsort(list, (size_t)n, sizeof *list, back_to_front);
+  thr_text_append(d->text, "<g fill=\"#222\" text-anchor=\"middle\">\n");
+  for (int i = n - 1; i >= 0 && !st; i--) {
+    const double *at = d->at[list[i].piece];
+    const char *name = d->space->label[list[i].piece];
+    thr_box box = thr_box_around(at[0], at[1], 0.5 * thr_scene_text_width(name, size) + 0.3, 0.6 * size);
+    if (thr_boxes_overlap(&boxes, box, ~0, 1e-9) > 0) continue;
+    thr_svg_text(d->text, at[0], at[1] + 0.36 * size, size, "", name);
+    st = thr_boxes_add(&boxes, box, THR_BOX_NAME, err);
+  }
+  thr_text_append(d->text, "</g>\n");
+  thr_boxes_destroy(&boxes);
+  return st;
+}
+
+/* Sees all nodes from the front and above; where they are. */
+static thr_camera_view view_of_all(const thr_space *space, const double size[2], double (*at)[3])
+{
+  static const double azimuth = -1.05, elevation = 0.4; /* rad */
+  thr_camera_view view = {.camera = thr_camera_at(azimuth, elevation), .scale = 1};
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (int v = 0; v < space->f->n_nodes; v++) {
+    thr_camera_project(&view, space->f->xyz[v], at[v]);
+    for (int k = 0; k < 2; k++) {
+      low[k] = fmin(low[k], at[v][k]);
+      high[k] = fmax(high[k], at[v][k]);
+    }
+  }
+  view.scale = HUGE_VAL;
+  for (int k = 0; k < 2; k++) {
+    view.size[k] = size[k];
+    view.middle[k] = 0.5 * (low[k] + high[k]);
+    view.scale = fmin(view.scale, 0.94 * size[k] / fmax(high[k] - low[k], 1e-6 * space->pitch));
+  }
+  for (int v = 0; v < space->f->n_nodes; v++)
+    thr_camera_project(&view, space->f->xyz[v], at[v]);
+  return view;
+}
+
+thr_status thr_space_whole(const thr_space *space, thr_box paper, thr_text *text, thr_err *err)
+{
+  const thr_frame *f = space->f;
+  int most = f->n_nodes > f->n_edges ? f->n_nodes : f->n_edges;
+  const double size[2] = {paper.x1 - paper.x0, paper.y1 - paper.y0};
+  thr_space_step plain = {.next = -1};
+  drawing d = {.space = space, .step = &plain, .text = text, .window = {0, 0, size[0], size[1]}};
+  d.at = thr_calloc((size_t)f->n_nodes, sizeof *d.at);
+  d.near = thr_calloc((size_t)f->n_nodes, sizeof *d.near);
+  placed *list = thr_calloc((size_t)most, sizeof *list);
+  unsigned char *piece = thr_calloc((size_t)most, sizeof *piece);
+  thr_status st = d.at && d.near && list && piece ? THR_OK : thr_nomem(err);
+  if (!st) {
+    thr_camera_view view = view_of_all(space, size, d.at);
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (int v = 0; v < f->n_nodes; v++) {
+      d.near[v] = AROUND;
+      low = fmin(low, d.at[v][2]);
+      high = fmax(high, d.at[v][2]);
+    }
+    plain.crop.piece = piece;
+    d.view = &view;
+    d.depth = high;
+    d.deep = fmax(high - low, space->pitch);
+    d.pitch = view.scale * space->pitch;
+    d.arm = fmin(ARM * d.pitch, WIDEST);
+    thr_text_printf(text, "<g transform=\"translate(%.2f %.2f)\">\n", paper.x0, paper.y0);
+    for (int i = 0; i < (space->solid ? f->n_nodes : f->n_edges); i++)
+      piece[i] = THR_PIECE_HELD;
+    put_pieces(&d, AROUND, false, list);
+    st = put_names(&d, list, err);
+    thr_text_append(text, "</g>\n");
+  }
+  free(d.at);
+  free(d.near);
+  free(list);
+  free(piece);
   return st;
 }

@@ -590,6 +590,22 @@ START_TEST(letters_tell_cords_apart)
 }
 END_TEST
 
+/* More passes than can be followed one by one: lines, in a file of bounded size that says what it leaves out. */
+START_TEST(a_very_large_plan_is_lines)
+{
+  thr_err err = {0};
+  thr_text svg = {0};
+  thr_plan p = plan_of(shape_make(THR_MAKE_DOME, 105, 0), THR_ENDS_FEET, 1);
+  thr_overview_options o = thr_overview_options_default();
+  ck_assert_int_eq(thr_overview_svg(&p, &o, &svg, &err), THR_OK);
+  ck_assert_uint_lt(svg.length, 3000000);
+  ck_assert(strstr(svg.data, "are left out") && strstr(svg.data, "<g id=\"cord-A\"") && strstr(svg.data, "id=\"ends\""));
+  ck_assert(!strstr(svg.data, "id=\"A-1\"") && !strstr(svg.data, "data-piece"));
+  thr_text_destroy(&svg);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("overview");
@@ -599,5 +615,6 @@ int main(void)
   ADD_EXAMPLES(s, 60, what_is_written_is_legible, N_DRAWN);
   ADD_EXAMPLES(s, 60, small_pictures_stay_legible, 11);
   ADD_TEST(s, 20, letters_tell_cords_apart);
+  ADD_TEST(s, 60, a_very_large_plan_is_lines);
   return run_suite(s);
 }
