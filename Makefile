@@ -252,6 +252,23 @@ uninstall: ## remove what `make install` installed
 	rm -f "$(SHARE)/bash-completion/completions/thread" "$(SHARE)/zsh/site-functions/_thread" "$(SHARE)/fish/vendor_completions.d/thread.fish"
 	rm -rf "$(SHARE)/doc/thread"
 
+TARBALL := $(OUT)/thread-$(VERSION).tar.gz
+DEB_PACKAGES := debhelper fakeroot lintian
+
+dist: ## pack the sources that git has: $(OUT)/thread-VERSION.tar.gz
+	@mkdir -p $(OUT)
+	git archive --prefix=thread-$(VERSION)/ HEAD | gzip -9n > $(TARBALL)
+	@echo $(TARBALL)
+
+deb: dist ## build the Debian packages thread, libthread0, libthread-dev below $(OUT)/deb, and look at them with lintian
+	+@tools/install-packages.sh $(BUILD_PACKAGES) $(DEB_PACKAGES)
+	rm -rf $(OUT)/deb
+	mkdir -p $(OUT)/deb
+	tar -xzf $(TARBALL) -C $(OUT)/deb
+	cd $(OUT)/deb/thread-$(VERSION) && env -u MAKEFLAGS -u MAKELEVEL -u OUT -u BUILD -u CC -u CXX dpkg-buildpackage -b -us -uc
+	lintian --fail-on error $(OUT)/deb/*.changes
+	@ls $(OUT)/deb/*.deb
+
 clean: ## remove everything made
 	rm -rf $(OUT)
 
@@ -384,6 +401,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: all library man demo test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: all library man dist deb demo test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
 .PHONY: suite-release suite-asan suite-fuzz suite-built test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)
