@@ -76,6 +76,7 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   bench/smallest) bench/run.py "$OUT/release/thread" --smallest ;;
   library/install) tests/library/run.sh "$OUT/release" "$OUT/library-test" ;;
   readme) tests/readme/run.sh "$OUT/release/thread" ;;
+  examples) tests/examples/run.sh "$OUT/release/thread" ;;
   viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" ;;
   fuzz/*) fuzz "$name" "$log" ;;
   esac >>"$log" 2>&1
@@ -87,7 +88,7 @@ job() { # NAME
   : >"$log"
   spent=$( { time run "$name" "$log" 7>&-; } 2>&1) || code=$?
   case $name in
-  */golden/* | */memory | */watchdog | second/* | viewer/browser | library/* | readme) counts=$(count_lines "$log" "$code") ;;
+  */golden/* | */memory | */watchdog | second/* | viewer/browser | library/* | readme | examples) counts=$(count_lines "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0 0'; else counts='0 1 0'; fi ;;
   esac
@@ -118,7 +119,7 @@ fi
 
 tier=${1:-test}
 export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 FUZZ_RUNS=100000
-builds='release asan' tree='layers layers-self-test format bench/smallest library/install readme' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
+builds='release asan' tree='layers layers-self-test format bench/smallest library/install readme examples' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
