@@ -63,11 +63,12 @@ static int join(thr_text *file, const char *command, int argc, char **argv, int 
     char *word = thr_calloc(size, 1);
     if (!word) return cli_fail(&(thr_err){THR_ENOMEM, "out of memory"});
     if ((end = strchr(line, '\n'))) *end++ = '\0';
-    if (!word_of(line, ++number, command, &applies, word, size)) return EXIT_INPUT;
+    bool good = word_of(line, ++number, command, &applies, word, size);
     if (*word)
       words[(*n)++] = word;
     else
       free(word);
+    if (!good) return EXIT_INPUT;
   }
   n_words = *n - 2;
   return EXIT_OK;
