@@ -114,7 +114,7 @@ void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options
   thr_cord *cord = NULL;
   int n = 0;
   thr_err why = {0};
-  if (!limits->found || frame->n_edges > MOST_EDGES) return;
+  if (!limits->found || frame->n_edges > MOST_EDGES || options->distinct > 0) return;
   if (frame->n_edges > FEW_EDGES && limits->deadline == 0 && is_quick(options)) return;
   bool tube = options->joint == THR_JOINT_TUBE;
   thr_component_cords *make = tube ? thr_tube_first : options->max_length > 0 ? thr_cut_tour : even_cord;

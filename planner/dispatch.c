@@ -20,6 +20,7 @@ static const double part[THR_N_STEPS] = {
     [THR_STEP_LEAST] = 0.6,           [THR_STEP_EVEN_SEED] = 0.5, [THR_STEP_EXCHANGES] = 0.5,
     [THR_STEP_SYMMETRIC_TIED] = 0.85, [THR_STEP_FEWEST] = 0.75,   [THR_STEP_FEW_BOUND] = 0.08,
     [THR_STEP_FEW_TRY] = 0.35,        [THR_STEP_ANY_CORDS] = 0.4, [THR_STEP_COVERS] = 0.3,
+    [THR_STEP_DIFFERENT] = 0.4,
 };
 
 /* Of all that a user allows. */
@@ -45,7 +46,9 @@ static int row_of(const thr_request *options)
 
 thr_planner *thr_dispatch(const thr_request *options)
 {
-  return objectives[row_of(options)].plan;
+  return options->distinct > 0 && !thr_wants_symmetry(options)   ? thr_planner_distinct
+         : options->max_pull > 0 && !thr_wants_symmetry(options) ? thr_planner_pull
+                                                                 : objectives[row_of(options)].plan;
 }
 
 thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step)

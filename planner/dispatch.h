@@ -17,6 +17,8 @@ typedef thr_status thr_planner(const thr_frame *f, const thr_request *o, const t
 const char *thr_dispatch_name(int i);
 thr_objective thr_dispatch_objective(int i);
 
+/* The planner of what is asked: of the objective, but of different cords and of cords within a limit on the pull those that ask
+ * the objective's planner for more than one plan. A symmetric plan keeps to both itself. */
 thr_planner *thr_dispatch(const thr_request *options);
 
 /* Steps of a plan that have a part of the time to themselves, of what is left when their turn comes. */
@@ -36,6 +38,7 @@ typedef enum {
   THR_STEP_SYMMETRIC_TIED, /* a symmetric plan with tube joints; the rest is for its proof of length */
   THR_STEP_ANY_CORDS,      /* cords of a plan for different ones, whichever pass an edge; the rest is for making them different */
   THR_STEP_COVERS,         /* of what is left then, several covers by cords of their own, one after the other */
+  THR_STEP_DIFFERENT,      /* different cords of one number, where it is free */
   THR_N_STEPS
 } thr_step;
 

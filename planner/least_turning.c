@@ -374,33 +374,65 @@ static double largest_turning(const thr_frame *frame, const thr_request *options
   return largest;
 }
 
-/* The least turning with that much more cord than the shortest (< 0: any length), as one more point if there is a plan. */
-static thr_status add_point(sweep *s, double slack, thr_err *err)
+/* Of any cords: as the search finds them. */
+static thr_status make_point(sweep *s, const thr_limits *share, double slack, thr_frontier_point *point, thr_err *err)
 {
   thr_least least = {0};
   thr_least_options lo = search_options(s->o);
-  const thr_limits share = thr_limits_part(&s->limits, 1.0 / s->left--);
-  thr_err unused = {0};
   lo.length_slack = slack;
   begin_with(s->f, &s->start.tube, &lo);
-  thr_status st = find_least(s->f, &lo, &share, &least, &unused);
-  if (st == THR_EINFEASIBLE) return THR_OK;
-  if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", unused.text);
+  thr_status st = find_least(s->f, &lo, share, &least, err);
+  if (st && st != THR_ELIMIT) return st;
   s->shortest = least.shortest;
   thr_turning_claim found;
   st = judge(s->f, s->o, least.cord, least.n_cords, &least, &found, err);
   if (!st)
-    s->out->point[s->out->n++] = (thr_frontier_point){.length = least.length,
-                                                      .overlap = least.length - thr_turning_base_length(s->f, s->o->cover),
-                                                      .price = found.price,
-                                                      .lower_bound = found.lower_bound,
-                                                      .open = found.optimal ? NULL : why_open(&least),
-                                                      .turning = least.turning,
-                                                      .max_turning = largest_turning(s->f, s->o, &least),
-                                                      .pulled = thr_cords_pulled_turning(s->f, least.cord, least.n_cords)};
+    *point = (thr_frontier_point){.length = least.length,
+                                  .overlap = least.length - thr_turning_base_length(s->f, s->o->cover),
+                                  .price = found.price,
+                                  .lower_bound = found.lower_bound,
+                                  .open = found.optimal ? NULL : why_open(&least),
+                                  .turning = least.turning,
+                                  .max_turning = largest_turning(s->f, s->o, &least),
+                                  .pulled = thr_cords_pulled_turning(s->f, least.cord, least.n_cords)};
   thr_turning_proof_destroy(&found.tree);
   thr_least_destroy(&least);
   return st;
+}
+
+/* Of different cords over every edge: a plan of theirs. */
+static thr_status make_different_point(sweep *s, const thr_limits *share, double slack, thr_frontier_point *point, thr_err *err)
+{
+  thr_request options = *s->o;
+  thr_plan plan;
+  options.turning.length_slack = slack;
+  thr_status st = thr_planner_distinct(s->f, &options, share, &plan, NULL, err);
+  const bool whole = plan.n_cords > 0 && plan.metrics.distinct == s->f->n_edges;
+  if (!st || st == THR_ELIMIT) st = whole && plan.turning.present ? THR_OK : THR_EINFEASIBLE;
+  if (!st) {
+    s->shortest = plan.proof.lower_bound;
+    *point = (thr_frontier_point){.length = plan.metrics.length,
+                                  .overlap = plan.metrics.overlap,
+                                  .price = plan.turning.price,
+                                  .lower_bound = plan.turning.lower_bound,
+                                  .open = plan.turning.optimal ? NULL : "the bound is one of any cords",
+                                  .turning = plan.metrics.turning,
+                                  .max_turning = plan.metrics.max_turning,
+                                  .pulled = thr_cords_pulled_turning(s->f, plan.cord, plan.n_cords)};
+  }
+  thr_plan_destroy(&plan);
+  return st;
+}
+
+/* The least turning with that much more cord than the shortest (< 0: any length), as one more point if there is a plan. */
+static thr_status add_point(sweep *s, double slack, thr_err *err)
+{
+  const thr_limits share = thr_limits_part(&s->limits, 1.0 / s->left--);
+  thr_frontier_point point;
+  thr_err why = {0};
+  thr_status st = (s->o->distinct > 0 ? make_different_point : make_point)(s, &share, slack, &point, &why);
+  if (!st) s->out->point[s->out->n++] = point;
+  return !st || st == THR_EINFEASIBLE ? THR_OK : thr_fail(err, st, "%s", why.text);
 }
 
 static int by_length(const void *a, const void *b)

@@ -30,10 +30,7 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, con
   thr_report own = {0};
   *plan = (thr_plan){0};
   thr_planner_tell_at_once(frame, request, limits);
-  thr_planner *planner = request->distinct > 0   ? thr_planner_distinct
-                         : request->max_pull > 0 ? thr_planner_pull
-                                                 : thr_dispatch(request);
-  thr_status st = planner(frame, request, limits, plan, &own, err), finished = THR_OK;
+  thr_status st = thr_dispatch(request)(frame, request, limits, plan, &own, err), finished = THR_OK;
   if (plan->n_cords > 0) finished = thr_plan_order(plan, err);
   if (plan->n_cords > 0 && !finished) finished = sign(plan, err);
   if (finished) {

@@ -41,36 +41,12 @@ bool thr_planner_is_mixed(const thr_request *options)
 
 /* ---- the best of several ---- */
 
-/* What an aim makes of cords. */
-static double value_of(const mixed *m, thr_aim aim, const thr_plan *plan)
-{
-  double sum = 0, most = 0;
-  if (aim == THR_AIM_LONGEST) return thr_cords_longest(m->f, plan->cord, plan->n_cords);
-  for (int i = 0; i < plan->n_cords; i++) {
-    const thr_cord *cord = &plan->cord[i];
-    double price = aim == THR_AIM_LENGTH ? thr_cord_length(m->f, cord) : thr_cord_price(m->f, m->o, cord);
-    sum += price;
-    most = fmax(most, price);
-  }
-  return aim == THR_AIM_MAX_TURNING ? most : sum;
-}
-
-static bool is_better(const mixed *m, const thr_plan *plan)
-{
-  if (m->best.n_cords == 0) return true;
-  for (int i = 0; i < m->o->aims.n; i++) {
-    double a = value_of(m, m->o->aims.aim[i], plan), b = value_of(m, m->o->aims.aim[i], &m->best);
-    if (fabs(a - b) > 1e-9 * fmax(a, b)) return a < b;
-  }
-  return false;
-}
-
 /* Takes a plan whose cords are short enough, need no more pull than is allowed, and are better. */
 static void offer(mixed *m, thr_plan *plan)
 {
   bool fits = m->o->max_length == 0 || thr_cords_longest(m->f, plan->cord, plan->n_cords) <= m->o->max_length * (1 + 1e-12);
   fits = fits && thr_cords_within_pull(m->f, m->o, plan->cord, plan->n_cords);
-  if (plan->n_cords == 0 || !fits || !is_better(m, plan)) return;
+  if (plan->n_cords == 0 || !fits || !thr_planner_is_better(m->o, plan, &m->best)) return;
   thr_plan_destroy(&m->best);
   m->best = *plan;
   *plan = (thr_plan){0};

@@ -38,6 +38,9 @@ void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options
 thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *from, thr_err *err) THR_MUST_CHECK;
 thr_status thr_planner_prove_turning(thr_plan *plan, thr_turning_claim *claim, thr_err *err) THR_MUST_CHECK;
 
+/* Does a plan serve the aims better than another, which may be empty? */
+bool thr_planner_is_better(const thr_request *options, const thr_plan *a, const thr_plan *b);
+
 /* Is what was asked to be least proved to be, by the plan's claims? Else THR_ELIMIT, and how far it may be off. */
 thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 

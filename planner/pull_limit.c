@@ -221,8 +221,8 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
   bool fits;
   thr_err why = {0};
   thr_request few = *options;
+  (void)report;
   *plan = (thr_plan){0};
-  if (thr_wants_symmetry(options)) return thr_planner_symmetric(frame, options, limits, plan, report, err);
   if (options->turning.length_slack >= 0)
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);

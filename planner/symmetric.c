@@ -25,12 +25,12 @@ static thr_status plan_length(const thr_frame *frame, const thr_request *asked, 
   options.aims = thr_aims_shortest;
   if (thr_wants_balance(asked)) options.aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
   options.symmetry = thr_request_default().symmetry;
-  if (!asked->symmetry.counted) options.cords_least = 1;
+  if (!asked->symmetry.counted) options.cords_least = asked->distinct > 0 ? asked->distinct : 1;
   if (!asked->symmetry.counted) options.cords = THR_MOST_CORDS;
   options.confirm = THR_CONFIRM_NEVER;
   share.found = NULL;
-  thr_planner *planner = asked->max_pull > 0 ? thr_planner_pull : thr_planner_length;
-  thr_status st = planner(frame, &options, &share, plan, NULL, why);
+  thr_status st = thr_dispatch(&options)(frame, &options, &share, plan, NULL, why);
+  if (plan->metrics.distinct < frame->n_edges && asked->distinct > 0) thr_plan_destroy(plan);
   if (plan->n_cords > 0) thr_limits_found(limits, plan->cord, plan->n_cords, NULL);
   return st == THR_ENOMEM ? st : THR_OK;
 }

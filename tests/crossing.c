@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const crossing_name[N_CHOICES] = {"objective",  "joint",   "ends",   "pieces", "cords",    "cover", "capacity",
-                                              "own passes", "lengths", "shape",  "limit",  "balance",  "slack", "turn cost",
-                                              "minimize",   "tour",    "engine", "prefer", "geometric"};
+const char *const crossing_name[N_CHOICES] = {"objective",  "joint",   "ends",   "pieces", "cords",     "cover", "capacity",
+                                              "own passes", "lengths", "shape",  "limit",  "balance",   "slack", "turn cost",
+                                              "minimize",   "tour",    "engine", "prefer", "geometric", "cords"};
 
 enum { LENGTH, TORTUOSITY, SYMMETRY };
 enum { CORDS_UNSAID, CORDS_2, CORDS_3, CORDS_1_TO_3, CORDS_2_TO_4, CORDS_UP_TO_8, CORDS_AUTO };
@@ -39,6 +39,7 @@ const char *const crossing_value[N_CHOICES][CROSSING_VALUES] = {
     {"auto", "lp", "matching"},
     {"unsaid", "paths", "turning", "steps"},
     {"unsaid", "0.01"},
+    {"any", "distinct"},
 };
 
 /* What is about turning or symmetry alone, and how cords are counted. */
@@ -117,6 +118,9 @@ const crossing_refused crossing_refusals[] = {
     {BY_TOUR, 2, BY_SLACK, 3},
     {BY_TOUR, 1, BY_MINIMIZE, 1},
     {BY_TOUR, 2, BY_MINIMIZE, 1},
+    {BY_TOUR, 1, BY_DISTINCT, 1},
+    {BY_TOUR, 2, BY_DISTINCT, 1},
+    {BY_CAPACITY, 1, BY_DISTINCT, 1},
 };
 const int n_crossing_refusals = sizeof crossing_refusals / sizeof *crossing_refusals;
 
@@ -385,7 +389,7 @@ static void write_sketch(rng *r, const sketch *s, const int *value, const char *
   static const double units[] = {0, 10, 0, 0};
   char text[3][MOST_EDGES][40];
   const char *list[3][MOST_EDGES];
-  int capacity_least = value[BY_COVER] + 1;
+  int capacity_least = value[BY_COVER] || value[BY_DISTINCT] ? 2 : 1;
   bool foot[MOST_NODES];
   FILE *out = fopen(path, "w");
   ck_assert_ptr_nonnull(out);
@@ -456,7 +460,8 @@ static void say_counts(crossing_case *c, const sketch *s, rng *r)
   c->o.end_count = calloc((size_t)s->n, sizeof *c->o.end_count);
   ck_assert_ptr_nonnull(c->o.end_count);
   for (int k = 0; k < s->pieces; k++) {
-    int cords = c->value[BY_TOUR] ? 1 : free_number ? rng_between(r, 1, 2) : rng_between(r, least, most < 3 ? most : 3);
+    int one = c->o.distinct > 0 ? c->o.distinct : 1;
+    int cords = c->value[BY_TOUR] ? 1 : free_number ? rng_between(r, one, 2) : rng_between(r, least, most < 3 ? most : 3);
     if (cords < fewest) fewest = cords;
     if (cords > greatest) greatest = cords;
     for (int i = 0; i < 2 * cords;) {
@@ -477,6 +482,8 @@ static void say_cords(crossing_case *c)
   int i = c->value[BY_CORDS];
   c->o.cords_least = least[i];
   c->o.cords = i == CORDS_UNSAID && c->value[BY_LIMIT] ? 1000 : most[i];
+  if (c->o.cords_least < c->o.distinct) c->o.cords_least = c->o.distinct;
+  if (c->o.cords < c->o.distinct) c->o.cords = c->o.distinct;
   if (i != CORDS_UNSAID) say(c, " --cords %s", crossing_value[BY_CORDS][i]);
 }
 
@@ -525,12 +532,14 @@ static void say_options(crossing_case *c, const sketch *s, rng *r)
   c->o = thr_request_default();
   want(&c->o, aims[v[BY_BALANCE] ? BALANCED + v[BY_OBJECTIVE] : v[BY_OBJECTIVE]]);
   c->o.joint = v[BY_JOINT] ? THR_JOINT_TUBE : THR_JOINT_SOLID;
-  c->o.cover = 1 + v[BY_COVER];
+  c->o.cover = v[BY_COVER] || v[BY_DISTINCT] ? 2 : 1;
+  c->o.distinct = v[BY_DISTINCT] ? 2 : 0;
   c->o.capacity = v[BY_CAPACITY];
   c->o.symmetry.counted = v[BY_CORDS] || v[BY_LIMIT];
   if (v[BY_OBJECTIVE]) say(c, " --objective %s", crossing_value[BY_OBJECTIVE][v[BY_OBJECTIVE]]);
   if (v[BY_JOINT]) say(c, " --joint tube");
   if (v[BY_COVER]) say(c, " --cover 2");
+  if (v[BY_DISTINCT]) say(c, " --distinct 2");
   if (v[BY_CAPACITY]) say(c, " --capacity %d", v[BY_CAPACITY]);
   if (v[BY_BALANCE]) say(c, " --balance");
   if (v[BY_ENGINE]) say(c, " --engine %s", crossing_value[BY_ENGINE][v[BY_ENGINE]]);

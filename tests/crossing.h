@@ -27,6 +27,7 @@ typedef enum {
   BY_ENGINE,
   BY_PREFER,
   BY_GEOMETRIC,
+  BY_DISTINCT,
   N_CHOICES
 } crossing_choice;
 

@@ -190,6 +190,12 @@ static bool tie_covers(const walks_piece *w, int e)
   return w->tube && w->least[e] == 1 && w->most[e] == INT_MAX && is_tied;
 }
 
+/* As many passes as are needed are those of different cords. */
+static bool cords_cover(const walks_piece *w, int e)
+{
+  return w->least[e] <= w->distinct && w->most[e] == INT_MAX;
+}
+
 /* How far passes are counted. */
 static void take_tops(walks_piece *w, double count_all)
 {
@@ -198,7 +204,7 @@ static void take_tops(walks_piece *w, double count_all)
     left -= w->least[e] * w->length[e];
   for (int e = 0; e < w->n_edges; e++) {
     w->top[e] = w->most[e] < INT_MAX ? w->most[e] : w->least[e];
-    if (!isfinite(count_all) && tie_covers(w, e)) w->top[e] = w->least[e] = 0;
+    if (!isfinite(count_all) && (tie_covers(w, e) || cords_cover(w, e))) w->top[e] = w->least[e] = 0;
     if (!isfinite(count_all)) continue;
     int fit = w->least[e] + (left > 0 ? (int)floor(left / w->length[e] + 1e-6) : 0);
     w->top[e] = fit < w->most[e] ? fit : w->most[e];
@@ -220,6 +226,11 @@ static bool take_strides(walks_piece *w, long most_states)
     w->tie_stride[v] = n;
     if (w->tube) n *= table_of(w->degree[v])->n;
   }
+  for (int e = 0; e < w->n_edges && n <= most_states && w->distinct > 0; e++) {
+    w->cords_stride[e] = n;
+    w->here_stride[e] = n * (w->distinct + 1);
+    n *= 2 * (w->distinct + 1);
+  }
   w->n_states = n;
   return n <= most_states;
 }
@@ -228,7 +239,7 @@ bool walks_piece_init(walks_piece *w, const thr_frame *f, const thr_request *o, 
                       double count_all, long most_states)
 {
   int local[64];
-  *w = (walks_piece){.closed = o->ends == THR_ENDS_CLOSED, .tube = o->joint == THR_JOINT_TUBE};
+  *w = (walks_piece){.closed = o->ends == THR_ENDS_CLOSED, .tube = o->joint == THR_JOINT_TUBE, .distinct = o->distinct};
   if (!take_nodes(w, f, k, local) || !take_edges(w, f, o, local)) return false;
   for (int v = 0; v < w->n_nodes; v++) {
     w->may_end[v] = walks_may_end(f, o, w->node[v]);
@@ -246,9 +257,25 @@ static int digit(long state, long stride, int base)
   return (int)(state / stride % base);
 }
 
+/* The cord that walks passes edge e. */
+static long with_cord(const walks_piece *w, long s, int e)
+{
+  if (w->distinct == 0 || digit(s, w->here_stride[e], 2)) return s;
+  return s + w->here_stride[e] + (digit(s, w->cords_stride[e], w->distinct + 1) < w->distinct ? w->cords_stride[e] : 0);
+}
+
+/* It is at its end: another one walks next. */
+static long without_cord(const walks_piece *w, long s)
+{
+  for (int e = 0; e < w->n_edges && w->distinct > 0; e++)
+    s -= digit(s, w->here_stride[e], 2) * w->here_stride[e];
+  return s;
+}
+
 /* The state with a pass of edge e more; -1: there is no room for it. */
 static long with_pass(const walks_piece *w, long s, int e)
 {
+  s = with_cord(w, s, e);
   if (digit(s, w->stride[e], w->top[e] + 1) < w->top[e]) return s + w->stride[e];
   return w->most[e] == INT_MAX ? s : -1;
 }
@@ -270,8 +297,10 @@ static long with_turn(const walks_piece *w, long s, int in, int out)
 
 bool walks_complete(const walks_piece *w, long s)
 {
-  for (int e = 0; e < w->n_edges; e++)
+  for (int e = 0; e < w->n_edges; e++) {
     if (digit(s, w->stride[e], w->top[e] + 1) < w->least[e]) return false;
+    if (w->distinct > 0 && digit(s, w->cords_stride[e], w->distinct + 1) < w->distinct) return false;
+  }
   for (int v = 0; v < w->n_nodes; v++) {
     if (w->ends[v] > 0 && digit(s, w->end_stride[v], w->ends[v] + 1) < w->ends[v]) return false;
     if (w->tube && digit(s, w->tie_stride[v], table_of(w->degree[v])->n) < table_of(w->degree[v])->n - 1) return false;
@@ -319,6 +348,7 @@ static void reach(walker *x, long s, int h, double cost)
 static void finish(walker *x, long s, double cost)
 {
   if (s < 0) return;
+  s = without_cord(x->w, s);
   if (x->limit >= 0) cost = cost <= x->limit ? 0 : INFINITY;
   if (cost < x->out[s]) x->out[s] = cost;
 }

@@ -1,8 +1,8 @@
 /* The least that cords of a small piece can cost, by exhaustive search over walks: the oracle of tests that cross options. It
  * shares no code with the program. A state is what the cords so far have done: passes of every edge (more than are needed count
- * only where there is a limit), for tube joints which edges of every node their turns tie together, and the ends at nodes where
- * their number is given. A cord is a walk from state to state; passes are not limited otherwise, so the least is that of all
- * plans. */
+ * only where there is a limit), for tube joints which edges of every node their turns tie together, how many different cords
+ * passed every edge, and the ends at nodes where their number is given. A cord is a walk from state to state; passes are not
+ * limited otherwise, so the least is that of all plans. */
 #ifndef THR_TEST_WALKS_H
 #define THR_TEST_WALKS_H
 
@@ -26,9 +26,11 @@ typedef struct {
   int least[WALKS_EDGES], most[WALKS_EDGES];      /* passes; INT_MAX: no limit */
   bool closed, tube, may_end[WALKS_NODES];
   int ends[WALKS_NODES]; /* exactly so many; -1: not counted */
+  int distinct;          /* different cords over every edge; 0: any */
   /* digits of a state */
   int top[WALKS_EDGES]; /* passes are counted up to this; beyond, they are as many (no limit) or too many */
   long stride[WALKS_EDGES], end_stride[WALKS_NODES], tie_stride[WALKS_NODES], n_states;
+  long cords_stride[WALKS_EDGES], here_stride[WALKS_EDGES]; /* cords that passed an edge; does the one that walks? */
 } walks_piece;
 
 /* Piece number k of the framework, its turns priced as by cost. count_all: passes are counted up to those of a plan no longer

@@ -319,15 +319,13 @@ class Options:
             self.least = self.cords = member(o, "cords", "integer", "options", 1, 1000)
 
     def read_distinct(self, o):
-        self.distinct = member(o, "distinct", "integer", "options", 2, min(self.cover, self.least), default=0)
-        exact = self.least == self.cords or self.ends == "counts"
-        plain = not self.balance and self.max_length is None and self.max_pull is None and self.objective != "symmetry"
-        turning = self.objective != "tortuosity" or (self.slack is None and self.tour == "least")
-        require(not self.distinct or (exact and plain and turning), "options.distinct: does not go with other options")
+        least = self.least if self.objective != "symmetry" or self.counted else self.cords  # else of one of the components
+        self.distinct = member(o, "distinct", "integer", "options", 2, min(self.cover, least), default=0)
+        require(not self.distinct or self.objective != "tortuosity" or self.tour == "least", "options.distinct: not with a classical tour")
 
     def alike(self, f):
         """Does every cord pass every edge, each of them being on its own?"""
-        return (self.distinct and self.distinct == self.cords == self.least == self.cover and self.ends != "counts" and not self.tube
+        return (self.distinct and self.objective != "symmetry" and self.distinct == self.cords == self.least == self.cover and self.ends != "counts" and not self.tube
                 and not (self.capacity or f.cover or f.capacity))
 
     def read_ends(self, o, f):
@@ -530,10 +528,39 @@ def check_distinct(p):
     return [f"{p.met} of {p.frame.m} edges passed by {p.options.distinct} different cords"]
 
 
+def bridge_needs(p):
+    """Passes of every edge, where several different cords over a bridge need more: those that pass it once have an end on either side."""
+    f, o = p.frame, p.options
+    needs = list(o.need)
+    for e, (a, b) in enumerate(f.edge):
+        side, waiting = {a}, [a]
+        while waiting and b not in side:
+            v = waiting.pop()
+            for h in f.at[v]:
+                w = f.tail(h ^ 1)
+                if h >> 1 != e and w not in side:
+                    side.add(w)
+                    waiting.append(w)
+        if b in side:
+            continue
+        other = next(set(piece) for piece in f.pieces if a in piece) - side
+        ends = [sum(o.count.get(v, 0) for v in part) if o.ends == "counts" else 2 * o.cords * len(part & o.allowed) for part in (side, other)]
+        needs[e] = max(needs[e], 2 * o.distinct - min(o.distinct, *ends))
+    return needs
+
+
 def parts(p):
-    """What the proofs are about: the plan, or if every cord passes every edge each of its rounds of cords by itself."""
+    """What the proofs are about: the plan, with what its bridges need if it has that, or if every cord passes every edge each of its
+    rounds of cords by itself."""
     if not (p.options.alike(p.frame) and p.met == p.frame.m):
-        return [p]
+        needs = bridge_needs(p) if p.options.distinct and p.options.objective != "symmetry" else p.options.need
+        if needs == p.options.need or any(x < y for x, y in zip(p.passes, needs)):
+            return [p]
+        r = copy.copy(p)
+        r.frame, r.options = copy.copy(p.frame), copy.copy(p.options)
+        r.frame.cover, r.options.need = needs, needs
+        r.extra = [x - y for x, y in zip(p.passes, needs)]
+        return [r]
     rounds = []
     for i in range(p.options.distinct):
         r = copy.copy(p)
@@ -553,7 +580,7 @@ def parts(p):
         require(min(r.extra) >= 0, "cords: one does not pass every edge")
         r.per_piece = [1] * len(p.frame.pieces)
         r.proof = dict(p.proof)
-        for key, names in (("length", ("lower_bound",)), ("turning", ("price", "lower_bound", "pairing_bound"))):
+        for key, names in (("length", ("lower_bound",)), ("turning", ("price", "lower_bound", "pairing_bound", "length_limit"))):
             if type(r.proof.get(key)) is dict:
                 r.proof[key] = {k: x / p.options.distinct if k in names and type(x) in (int, float) else x for k, x in r.proof[key].items()}
         rounds.append(r)

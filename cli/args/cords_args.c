@@ -150,19 +150,12 @@ static int cover_of(const cords_args *a)
   return a->cover ? a->cover : a->distinct ? a->distinct : 1;
 }
 
-static int check_distinct(const cords_args *a, const turning_args *turning, const thr_request *wanted)
+static int check_distinct(const cords_args *a, const turning_args *turning)
 {
   if (a->distinct == 0) return -1;
-  const char *against = thr_wants_symmetry(wanted)                                            ? "--objective symmetry"
-                        : a->balance                                                          ? "--balance"
-                        : a->max_length > 0                                                   ? "--max-length"
-                        : pull_limit(a)                                                       ? pull_limit(a)
-                        : a->least != a->most                                                 ? "a range of --cords"
-                        : turning->frontier                                                   ? "--frontier"
-                        : thr_wants_turning(wanted) && wanted->turning.length_slack >= 0      ? "--length-slack"
-                        : thr_wants_turning(wanted) && wanted->turning.tour != THR_TOUR_LEAST ? "a classical --tour"
-                                                                                              : NULL;
-  if (against) return cli_usage("plan", "--distinct: not with %s", against);
+  if (turning->options.tour != THR_TOUR_LEAST)
+    return cli_usage("plan", "--distinct: not with --tour %s, which makes one cord in each component",
+                     thr_tour_name(turning->options.tour));
   if (a->cover > 0 && a->cover < a->distinct)
     return cli_usage("plan", "--cover %d: --distinct %d needs as many passes", a->cover, a->distinct);
   if (a->most == 0 || a->most >= a->distinct) return -1;
@@ -186,7 +179,7 @@ int cords_args_check(const cords_args *a, const turning_args *turning, const thr
   if (a->capacity > 0 && a->capacity < cover_of(a))
     return cli_usage("plan", "--capacity %d leaves no room for --%s %d", a->capacity, a->cover ? "cover" : "distinct",
                      cover_of(a));
-  int code = check_distinct(a, turning, wanted);
+  int code = check_distinct(a, turning);
   if (code >= 0) return code;
   const char *limit = pull_limit(a) ? pull_limit(a) : "--max-length";
   bool mixed = thr_wants_turning(wanted) && (a->max_length > 0 || pull_limit(a) || a->balance || a->least != a->most);
@@ -338,9 +331,10 @@ static int apply_pull(const cords_args *a, thr_request *options)
 static void apply_number(const cords_args *a, thr_request *options)
 {
   bool free_number = a->most == 0 && cords_args_few(a);
-  int usual = a->distinct ? a->distinct : 1;
+  bool counted = a->most > 0 || free_number || !thr_wants_symmetry(options);
+  int usual = a->distinct && counted ? a->distinct : 1;
   options->cords = a->most ? a->most : free_number ? THR_MOST_CORDS : usual;
-  options->cords_least = a->most ? a->least : usual;
+  options->cords_least = a->most && a->least > usual ? a->least : usual;
 }
 
 int cords_args_apply(const cords_args *a, const thr_frame *frame, thr_request *options)

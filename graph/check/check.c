@@ -1,6 +1,7 @@
 /* The checker. Nothing here trusts what a plan says about itself. With the code that makes plans it shares the framework, the
  * readers, and the one line that defines the weights (thr_certificate_weight). */
 #include "graph/check/check_parts.h"
+#include "graph/plan/distinct_needs.h"
 #include "graph/plan/junction.h"
 #include "graph/vector.h"
 
@@ -555,6 +556,22 @@ static thr_status check_proofs(const thr_plan *plan, const thr_check_walked *che
   return st;
 }
 
+/* The proofs of cords over every edge by several different ones: about passes that bridges need for that, if the plan has them
+ * everywhere. */
+static thr_status check_needed(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err)
+{
+  thr_plan needed = *plan;
+  int *needs = NULL;
+  bool all = true;
+  thr_status st = plan->options.distinct > 0 ? thr_distinct_needs(&plan->frame, &plan->options, &needs, err) : THR_OK;
+  for (int e = 0; needs && e < plan->frame.n_edges; e++)
+    all = all && check_walked->passes[e] >= needs[e];
+  if (needs && all) needed.frame.cover = needs;
+  if (!st) st = check_proofs(&needed, check_walked, err);
+  free(needs);
+  return st;
+}
+
 /* Takes the next cord of every component, after the numbers next[n_components], and the part of the claims that is about these.
  */
 static void take_round(const thr_plan *plan, int n_components, int *next, thr_plan *part)
@@ -572,6 +589,7 @@ static void take_round(const thr_plan *plan, int n_components, int *next, thr_pl
   part->turning.price = plan->turning.price / rounds;
   part->turning.lower_bound = plan->turning.lower_bound / rounds;
   part->turning.pairing_bound = plan->turning.pairing_bound / rounds;
+  if (plan->turning.length_limit > 0) part->turning.length_limit = plan->turning.length_limit / rounds;
 }
 
 /* Every cord passes every edge (thr_request_alike): the claims hold of a cord of every component by itself, whichever it is, in
@@ -612,7 +630,7 @@ thr_status thr_check_plan(const thr_plan *plan, thr_err *err)
   if (!st && whole && thr_request_alike(&plan->frame, &plan->options, &one))
     st = check_alike(plan, &one, check_walked.n_components, err);
   else if (!st)
-    st = check_proofs(plan, &check_walked, err);
+    st = check_needed(plan, &check_walked, err);
   if (!st && plan->evaluation.present) st = thr_check_evaluation(plan, err);
   walked_destroy(&check_walked);
   return st;

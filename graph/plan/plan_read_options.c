@@ -206,10 +206,10 @@ thr_status thr_plan_read_options(const thr_field_reader *field_reader, const thr
   if ((st = read_means(field_reader, value, options))) return st;
   if ((st = thr_field_name(field_reader, value, "options", "ends", THR_ENDS_COUNTS + 1, thr_ends_name, &kind))) return st;
   options->ends = (thr_ends)kind;
-  if (options->distinct > options->cords_least) return thr_field_bad(field_reader, "options.distinct", "more than the cords");
-  const char *against = options->distinct > 0 ? thr_request_not_distinct(options) : NULL;
-  if (against)
-    return thr_fail(field_reader->err, field_reader->code, "%s: options.distinct: not with %s", field_reader->name, against);
+  if (options->distinct > (thr_plan_counted(options) ? options->cords_least : options->cords))
+    return thr_field_bad(field_reader, "options.distinct", "more than the cords");
+  if (options->distinct > 0 && thr_wants_turning(options) && options->turning.tour != THR_TOUR_LEAST)
+    return thr_field_bad(field_reader, "options.distinct", "not with a classical tour");
   if (thr_json_get(value, "end_nodes") && options->ends != THR_ENDS_NODES)
     return thr_field_bad(field_reader, "options.end_nodes", "only with ends `nodes`");
   if (thr_json_get(value, "end_counts") && options->ends != THR_ENDS_COUNTS)

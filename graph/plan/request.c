@@ -328,26 +328,14 @@ double thr_request_most_turning(const thr_request *options)
   return limited ? 2 * log(options->max_pull) / options->physics.mu : INFINITY;
 }
 
-const char *thr_request_not_distinct(const thr_request *options)
-{
-  return thr_wants_symmetry(options)                                                  ? "objective symmetry"
-         : thr_wants_balance(options)                                                 ? "cords of even length"
-         : options->max_length > 0                                                    ? "a greatest length"
-         : options->max_pull > 0                                                      ? "a greatest pull"
-         : options->cords_least != options->cords && options->ends != THR_ENDS_COUNTS ? "a range of cords"
-         : thr_wants_turning(options) && options->turning.length_slack >= 0           ? "a limit on the length"
-         : thr_wants_turning(options) && options->turning.tour != THR_TOUR_LEAST      ? "a classical tour"
-                                                                                      : NULL;
-}
-
 bool thr_request_alike(const thr_frame *frame, const thr_request *options, thr_request *one)
 {
   *one = *options;
   one->cover = one->cords = one->cords_least = 1;
   one->distinct = 0;
-  return options->distinct > 0 && options->distinct == options->cords && options->cords == options->cords_least &&
-         options->distinct == options->cover && !frame->cover && !frame->capacity && options->capacity == 0 &&
-         options->joint == THR_JOINT_SOLID && options->ends != THR_ENDS_COUNTS;
+  return options->distinct > 0 && !thr_wants_symmetry(options) && options->distinct == options->cords &&
+         options->cords == options->cords_least && options->distinct == options->cover && !frame->cover && !frame->capacity &&
+         options->capacity == 0 && options->joint == THR_JOINT_SOLID && options->ends != THR_ENDS_COUNTS;
 }
 
 bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, int v)

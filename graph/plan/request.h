@@ -179,12 +179,9 @@ int thr_plan_cords_least(const thr_request *options);
  * anything, without a limit or without friction. Example: 15 times the seating tension at mu = 0.2: 27.08 rad. */
 double thr_request_most_turning(const thr_request *options);
 
-/* What else is asked for that does not go with distinct, in a few words; NULL: nothing. */
-const char *thr_request_not_distinct(const thr_request *options);
-
 /* Does every cord pass every edge, because there are no more cords than distinct asks for? Then each may be planned by itself,
  * once over every edge, and all of them are alike: *one is that request, whose arrays are borrowed. True of solid joints, if no
- * edge needs more passes, none has a capacity, and the numbers of ends are free. */
+ * edge needs more passes, none has a capacity, the numbers of ends are free, and no symmetric plan is asked for. */
 bool thr_request_alike(const thr_frame *frame, const thr_request *options, thr_request *one);
 
 /* Passes that edge e needs, and the most that it may have (INT_MAX: no limit): what options and framework say together. */

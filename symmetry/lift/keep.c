@@ -15,8 +15,8 @@ enum { MOST_TRIALS = 128 }; /* for each change */
 
 bool thr_keep_asked(const thr_request *request)
 {
-  return thr_wants_symmetry(request) &&
-         (request->symmetry.counted || request->max_length > 0 || request->max_pull > 0 || thr_wants_balance(request));
+  return thr_wants_symmetry(request) && (request->symmetry.counted || request->max_length > 0 || request->max_pull > 0 ||
+                                         request->distinct > 0 || thr_wants_balance(request));
 }
 
 static double length_beyond(const thr_request *request, double length)
@@ -34,12 +34,32 @@ static double turning_beyond(const thr_frame *frame, const thr_request *request,
   return limit > 0 ? turning / limit - 1 : turning;
 }
 
-/* Cords too few and too many, in all components together; the sum of the parts by which cords are too long or need too much pull,
- * and the longest. */
+/* Cords too few and too many, in all components together, and different ones that edges lack; the sum of the parts by which cords
+ * are too long or need too much pull, and the longest. */
 typedef struct {
-  int few, many;
+  int few, many, lacking;
   double beyond, longest;
 } excess;
+
+static thr_status count_lacking(const thr_frame *frame, int distinct, const thr_cord *cord, int n_cords, int *lacking,
+                                thr_err *err)
+{
+  int *last = thr_calloc((size_t)frame->n_edges, sizeof *last); /* the number of the last cord that came by, from 1 */
+  if (!last) return thr_nomem(err);
+  *lacking = distinct * frame->n_edges;
+  int *met = thr_calloc((size_t)frame->n_edges, sizeof *met);
+  for (int i = 0; i < n_cords && met; i++)
+    for (int k = 0; k < cord[i].n_passes; k++) {
+      const int e = cord[i].half[k] >> 1;
+      if (last[e] == i + 1) continue;
+      last[e] = i + 1;
+      *lacking -= ++met[e] <= distinct;
+    }
+  const bool done = met != NULL;
+  free(last);
+  free(met);
+  return done ? THR_OK : thr_nomem(err);
+}
 
 static thr_status find_excess(const thr_frame *frame, const thr_request *request, const int *component, const thr_cord *cord,
                               int n_cords, excess *out, thr_err *err)
@@ -60,12 +80,12 @@ static thr_status find_excess(const thr_frame *frame, const thr_request *request
     if (count[k] > request->cords) out->many += count[k] - request->cords;
   }
   free(count);
-  return THR_OK;
+  return request->distinct > 0 ? count_lacking(frame, request->distinct, cord, n_cords, &out->lacking, err) : THR_OK;
 }
 
 static bool keeps(const excess *x)
 {
-  return x->few == 0 && x->many == 0 && x->beyond == 0;
+  return x->few == 0 && x->many == 0 && x->lacking == 0 && x->beyond == 0;
 }
 
 bool thr_keep_does(const thr_frame *frame, const thr_request *request, const int *component, const thr_cord *cord, int n_cords)
@@ -131,7 +151,7 @@ static void keeper_destroy(keeper *k)
 static bool is_better(const keeper *k, const excess *x, const double *worth)
 {
   if (!k->found) return true;
-  double a = x->few + x->many + x->beyond, b = k->x.few + k->x.many + k->x.beyond;
+  double a = x->few + x->many + x->lacking + x->beyond, b = k->x.few + k->x.many + k->x.lacking + k->x.beyond;
   if (fabs(a - b) > 1e-9) return a < b;
   if (thr_wants_balance(k->o) && fabs(x->longest - k->x.longest) > 1e-9 * x->longest) return x->longest < k->x.longest;
   return thr_programme_compare(&k->p, worth, k->worth) < 0;
@@ -239,7 +259,7 @@ static thr_status change_one(keeper *k, thr_err *err)
 static thr_status search(keeper *k, thr_err *err)
 {
   thr_status st = try_value(k, err);
-  if (!st && k->found && modes_of(k) > 1 && (k->x.few > 0 || k->x.beyond > 0)) {
+  if (!st && k->found && modes_of(k) > 1 && (k->x.few > 0 || k->x.lacking > 0 || k->x.beyond > 0)) {
     k->how.most_closed = k->o->cords;
     st = try_value(k, err);
   }

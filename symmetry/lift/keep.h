@@ -15,11 +15,12 @@
 #include "symmetry/cover/cover_options.h"
 #include "symmetry/group/quotient.h"
 
-/* Is anything asked of the cords of a symmetric plan: their number, a limit on their length or their pull, a short
- * longest cord? */
+/* Is anything asked of the cords of a symmetric plan: their number, a limit on their length or their pull, several different ones
+ * over every edge, a short longest cord? */
 bool thr_keep_asked(const thr_request *request);
 
-/* Do the cords keep to the request's numbers in every component[n_nodes], and to its largest length and pull? */
+/* Do the cords keep to the request's numbers in every component[n_nodes], to its largest length and pull, and do so many
+ * different ones pass every edge? */
 bool thr_keep_does(const thr_frame *frame, const thr_request *request, const int *component, const thr_cord *cord, int n_cords);
 
 /* Cords that every threading under the group has in some component at least, where all are open: a cord over an edge is its own

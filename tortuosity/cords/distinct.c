@@ -18,9 +18,11 @@ typedef struct {
   const thr_limits *limits;
   thr_turning_task task;
   thr_turning_columns columns;
-  bool *end_allowed; /* [n_nodes] owned */
+  bool *end_allowed;   /* [n_nodes] owned */
+  double length_limit; /* of all cords; < 0: none */
   int n_cords;
   int *met;          /* [n_cords] scratch: the last edge, from 1, that the cord was met at; owned */
+  double *own;       /* [n_cords] scratch: lengths of the cords; owned */
   int n_lack, *lack; /* half-edges of the multigraph over edges that lacked cords when they were counted last; owned */
   uint64_t state;
 } search;
@@ -30,6 +32,7 @@ static void search_destroy(search *x)
   thr_turning_columns_destroy(&x->columns);
   free(x->end_allowed);
   free(x->met);
+  free(x->own);
   free(x->lack);
 }
 
@@ -39,7 +42,8 @@ static thr_status search_init(search *x, thr_err *err)
   const thr_request *o = x->o;
   x->end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *x->end_allowed);
   x->met = thr_calloc((size_t)x->n_cords, sizeof *x->met);
-  if (!x->end_allowed || !x->met) return thr_nomem(err);
+  x->own = thr_calloc((size_t)x->n_cords, sizeof *x->own);
+  if (!x->end_allowed || !x->met || !x->own) return thr_nomem(err);
   for (int v = 0; v < frame->n_nodes; v++)
     x->end_allowed[v] = thr_plan_end_allowed(frame, o, v);
   x->task = (thr_turning_task){.cover = o->cover,
@@ -57,18 +61,27 @@ static thr_status search_init(search *x, thr_err *err)
 
 /* ---- what cords are worth ---- */
 
-/* Cords that edges lack; the passes of an edge are next to each other in the multigraph. */
+/* beyond: by which parts cords are longer, or need more pull, than allowed, added up. price: what the turns cost, by the aims of
+ * all cords or of the dearest. smooth: what exchanges make small, rad. */
+typedef struct {
+  int lacking; /* cords that edges lack */
+  double beyond, longest, price, length, smooth;
+} worth;
+
+/* Cords that edges lack, and the lengths of all; the passes of an edge are next to each other in the multigraph. */
 static int lacking(search *x, const thr_threading *t)
 {
   int sum = 0;
   x->n_lack = 0;
   memset(x->met, 0, (size_t)x->n_cords * sizeof *x->met);
+  memset(x->own, 0, (size_t)x->n_cords * sizeof *x->own);
   for (int d = 0; d < t->g->n_darts && t->g->half[d] >= 0;) {
     int edge = t->g->half[d] >> 1, different = 0, first = d;
     for (; d < t->g->n_darts && t->g->half[d] >> 1 == edge; d += 2) {
       int cord = t->place[t->at[d]].cord;
       different += x->met[cord] != edge + 1;
       x->met[cord] = edge + 1;
+      x->own[cord] += x->f->length[edge];
     }
     if (different >= x->o->distinct) continue;
     sum += x->o->distinct - different;
@@ -78,44 +91,100 @@ static int lacking(search *x, const thr_threading *t)
   return sum;
 }
 
-/* What the turns cost, of all cords; or about as much for the dearest, in which a small part of the others counts. */
-static double price_of(const search *x, const thr_threading *t)
+/* n values, smoothly like n times their largest: most of a p-norm is the largest, a small part the others. */
+static double smoothed(double sum_of_powers, double most, int n)
 {
   enum { POWER = 8 };
-  double sum = 0, most = 0, powers = 0;
-  for (int k = 0; k < t->n_cords; k++) {
-    sum += t->total[k];
-    most = fmax(most, t->total[k]);
-  }
-  if (!thr_wants_largest(x->o) || most == 0) return sum;
-  for (int k = 0; k < t->n_cords; k++)
-    powers += pow(t->total[k] / most, POWER);
-  return t->n_cords * most * pow(powers / t->n_cords, 1.0 / POWER);
+  return most > 0 ? n * most * pow(sum_of_powers / n, 1.0 / POWER) : 0;
 }
 
-/* ---- annealing ---- */
-
-typedef struct {
-  int lacking;
-  double price, length;
-} worth;
-
-/* Cords over every edge before anything else, then the aim. */
-static bool is_better(const search *x, worth a, worth b)
+static double power(double part)
 {
-  const double rounding = 1e-12;
-  bool turning = thr_wants_turning(x->o);
-  if (a.lacking != b.lacking) return a.lacking < b.lacking;
-  double first = turning ? a.price - b.price : a.length - b.length, second = turning ? a.length - b.length : a.price - b.price;
-  if (fabs(first) > rounding * (turning ? b.price : b.length)) return first < 0;
-  return second < -rounding * (turning ? b.length : b.price);
+  double two = part * part, four = two * two;
+  return four * four;
+}
+
+static double angle_at(const search *x, const thr_threading *t, const thr_place *place)
+{
+  int in = t->g->half[place->in], out = t->g->half[place->out];
+  return x->task.cost == THR_TURN_ANGLE ? place->price : in < 0 || out < 0 ? 0 : thr_turn_angle(x->f, in ^ 1, out);
+}
+
+/* What a pull has to overcome (thr_cord_pulled_turning); a closed cord begins where its turn is sharpest. */
+static double pulled_turning(const search *x, const thr_threading *t, int k)
+{
+  const int first = t->first[k], n = t->first[k + 1] - first;
+  int start = 0;
+  double whole = 0, before = 0, sharpest = -1;
+  for (int i = 0; i < n; i++) {
+    double angle = angle_at(x, t, &t->place[first + i]);
+    whole += angle;
+    if (angle <= sharpest) continue;
+    sharpest = angle;
+    start = i;
+  }
+  const bool closed = thr_threading_closed(t, k);
+  if (closed) whole -= sharpest;
+  double larger = whole;
+  for (int i = closed; i < n; i++) {
+    before += angle_at(x, t, &t->place[first + (closed ? (start + i) % n : i)]);
+    larger = fmin(larger, fmax(before, whole - before));
+  }
+  return larger;
+}
+
+/* By how much cord k is beyond what is allowed; in parts of that, or of straight cords in rad. */
+static double cord_beyond(const search *x, const thr_threading *t, int k)
+{
+  const double longest = x->o->max_length, most = thr_request_most_turning(x->o) / 2, rounding = 1e-12;
+  double beyond = longest > 0 && x->own[k] > longest * (1 + rounding) ? x->own[k] / longest - 1 : 0;
+  if (most == INFINITY) return beyond;
+  double turning = pulled_turning(x, t, k);
+  if (turning > most * (1 + rounding)) beyond += most > 0 ? turning / most - 1 : turning;
+  return beyond;
 }
 
 /* The worth of the threading is that of its cords; the length stays what it was. */
 static worth measure(search *x, const thr_threading *t, double length)
 {
-  return (worth){lacking(x, t), price_of(x, t), length};
+  static const double each = 20; /* rad that a cord of the mean length counts as, if the longest is to be short */
+  worth w = {.lacking = lacking(x, t), .length = length};
+  double sum = 0, most = 0, turns = 0, lengths = 0;
+  for (int k = 0; k < t->n_cords; k++) {
+    sum += t->total[k];
+    most = fmax(most, t->total[k]);
+    w.longest = fmax(w.longest, x->own[k]);
+    w.beyond += cord_beyond(x, t, k);
+  }
+  const bool largest = thr_wants_largest(x->o) && most > 0, balance = thr_wants_balance(x->o);
+  for (int k = 0; k < t->n_cords && (largest || balance); k++) {
+    turns += largest ? power(t->total[k] / most) : 0;
+    lengths += power(x->own[k] / w.longest);
+  }
+  w.price = w.smooth = largest ? smoothed(turns, most, t->n_cords) : sum;
+  if (balance) w.smooth = each * t->n_cords * smoothed(lengths, w.longest, t->n_cords) / length;
+  if (x->length_limit >= 0 && length > x->length_limit) w.beyond += length / x->length_limit - 1;
+  return w;
 }
+
+/* Less of a, which is more than rounding: -1; more: 1. */
+static int compare(double a, double b)
+{
+  return fabs(a - b) <= 1e-12 * fabs(b) ? 0 : a < b ? -1 : 1;
+}
+
+/* What is allowed and cords over every edge before anything else, then the aims. */
+static bool is_better(const search *x, worth a, worth b)
+{
+  bool turning = thr_wants_turning(x->o);
+  int price = compare(a.price, b.price), length = compare(a.length, b.length), longest = compare(a.longest, b.longest);
+  if (a.beyond != b.beyond) return a.beyond < b.beyond;
+  if (a.lacking != b.lacking) return a.lacking < b.lacking;
+  if (thr_wants_balance(x->o) && longest) return longest < 0;
+  return (turning ? price : length) ? (turning ? price : length) < 0 : (turning ? length : price) < 0;
+}
+
+/* ---- annealing ---- */
 
 /* Where a change may help: every other time at an edge that lacks cords. */
 static int choose_place(const search *x, thr_evener *evener)
@@ -126,7 +195,7 @@ static int choose_place(const search *x, thr_evener *evener)
 }
 
 /* Exchanges at random; *now becomes the worth of the best pairs, which are there in the end. each: what a cord that an edge lacks
- * counts as, rad. best: [n_darts] scratch. */
+ * counts as, rad, or a cord that is longer than allowed by a twentieth. best: [n_darts] scratch. */
 static void anneal(search *x, thr_evener *evener, double each, int steps, int *best, worth *now)
 {
   static const double hot = 0.6, cold = 0.03; /* rad */
@@ -142,7 +211,7 @@ static void anneal(search *x, thr_evener *evener, double each, int steps, int *b
     if (old.n == 0) continue;
     bool cords = thr_evener_follow(evener);
     worth next = cords ? measure(x, t, now->length) : *now;
-    double more = next.price - now->price + each * (next.lacking - now->lacking);
+    double more = next.smooth - now->smooth + each * (next.lacking - now->lacking) + 20 * each * (next.beyond - now->beyond);
     if (cords && (more <= 0 || thr_random_unit(&evener->state) < exp(-more / heat))) {
       *now = next;
       if (!is_better(x, *now, least)) continue;
@@ -207,6 +276,8 @@ typedef struct {
   int tries;
 } record;
 
+static const worth worst = {.lacking = INT_MAX, .beyond = INFINITY};
+
 /* Of a try: so many steps as take about a second. */
 static int steps_for(const thr_cord *cord, int n_cords)
 {
@@ -224,7 +295,7 @@ static thr_status try_from(search *x, const thr_cord *from, int detours, record 
   static const double first = 2.5; /* rad that a cord which an edge lacks counts as */
   const int tries = best->tries++;
   thr_cord *cord = NULL;
-  worth found = {.lacking = INT_MAX};
+  worth found = worst;
   int done = 0;
   thr_status st = thr_cords_copy(from, x->n_cords, &cord, err);
   if (!st && detours > 0) st = thr_distinct_detours(x->f, x->o, cord, x->n_cords, detours, &done, err);
@@ -246,29 +317,35 @@ static thr_status try_from(search *x, const thr_cord *from, int detours, record 
   return st;
 }
 
+static bool has_faults(const record *best)
+{
+  return best->worth.lacking > 0 || best->worth.beyond > 0;
+}
+
 /* Tries through the passes as they are, then with few detours, then with as many as it takes; and whether fewer passes do. */
 static thr_status try_all(search *x, const thr_cord *start, const thr_cord *other, record *best, thr_err *err)
 {
   enum { PLAIN = 6, DETOURS = 4, AGAIN = 4 };
   thr_status st = THR_OK;
-  int more = thr_wants_turning(x->o) ? PLAIN : 0; /* for the aim alone */
-  for (int i = 0; i < PLAIN + more && !st && !thr_limits_stop(x->limits) && (best->worth.lacking > 0 || i < more); i++)
+  const bool aims = thr_wants_turning(x->o) || thr_wants_balance(x->o); /* that exchanges serve */
+  int more = aims ? PLAIN : 0;
+  for (int i = 0; i < PLAIN + more && !st && !thr_limits_stop(x->limits) && (has_faults(best) || i < more); i++)
     st = try_from(x, i % 2 ? best->cord : start, 0, best, err);
-  for (int i = 0; i < DETOURS && !st && !thr_limits_stop(x->limits) && best->worth.lacking > 0; i++)
+  for (int i = 0; i < DETOURS && !st && !thr_limits_stop(x->limits) && has_faults(best); i++)
     st = try_from(x, best->cord, 1, best, err);
-  if (!st && best->worth.lacking > 0) st = try_from(x, best->cord, INT_MAX, best, err);
-  bool longer = best->worth.lacking > 0 || best->worth.length > length_of(x, start) * (1 + 1e-9);
-  if (!st && other && (longer || thr_wants_turning(x->o))) st = try_from(x, other, 0, best, err);
+  if (!st && has_faults(best)) st = try_from(x, best->cord, INT_MAX, best, err);
+  bool longer = has_faults(best) || best->worth.length > length_of(x, start) * (1 + 1e-9);
+  if (!st && other && (longer || aims)) st = try_from(x, other, 0, best, err);
   for (int i = 0; i < AGAIN && !st && !thr_limits_stop(x->limits) && best->worth.length > length_of(x, start) * (1 + 1e-9); i++)
     st = try_from(x, best->cord, 0, best, err);
   return st;
 }
 
-thr_status thr_distinct_make(const thr_frame *frame, const thr_request *options, const thr_limits *limits, const thr_cord *other,
-                             thr_cord *cord, int n_cords, thr_err *err)
+thr_status thr_distinct_make(const thr_frame *frame, const thr_request *options, const thr_limits *limits, double length_limit,
+                             const thr_cord *other, thr_cord *cord, int n_cords, thr_err *err)
 {
-  search x = {.f = frame, .o = options, .limits = limits, .n_cords = n_cords, .state = 1};
-  record best = {.cord = cord, .worth = {.lacking = INT_MAX}};
+  search x = {.f = frame, .o = options, .limits = limits, .length_limit = length_limit, .n_cords = n_cords, .state = 1};
+  record best = {.cord = cord, .worth = worst};
   thr_cord *start = NULL;
   thr_status st = thr_cords_copy(cord, n_cords, &start, err);
   if (!st) st = search_init(&x, err);

@@ -1,0 +1,87 @@
+/* Bridges under several different cords. */
+#include "graph/plan/distinct_needs.h"
+#include "graph/scratch.h"
+
+#include <stdlib.h>
+
+/* Cord ends that there may be at a node; where they are not counted, as many as all cords of a component have. */
+static long ends_at(const thr_frame *frame, const thr_request *options, int v)
+{
+  if (options->ends == THR_ENDS_CLOSED) return 0;
+  if (options->ends == THR_ENDS_COUNTS) return options->end_count[v];
+  return thr_plan_end_allowed(frame, options, v) ? 2L * options->cords : 0;
+}
+
+/* A spanning tree of every component, breadth first: order[n_nodes], and over which half-edge each node was reached (-1: a root).
+ */
+static void span(const thr_frame *frame, int *order, int *via, bool *reached)
+{
+  int n = 0, done = 0;
+  for (int root = 0; root < frame->n_nodes; root++) {
+    if (reached[root]) continue;
+    reached[root] = true;
+    via[root] = -1;
+    for (order[n++] = root; done < n; done++)
+      for (int v = order[done], i = frame->first[v]; i < frame->first[v + 1]; i++) {
+        int w = thr_head(frame, frame->half[i]);
+        if (reached[w]) continue;
+        reached[w] = true;
+        via[w] = frame->half[i];
+        order[n++] = w;
+      }
+  }
+}
+
+/* below[n_nodes]: ends in the part of the tree that hangs at a node. */
+static void sum_below(const thr_frame *frame, const int *order, const int *via, long *below)
+{
+  for (int i = frame->n_nodes - 1; i > 0; i--)
+    if (via[order[i]] >= 0) below[thr_tail(frame, via[order[i]])] += below[order[i]];
+}
+
+/* Raises needs[n_edges] where they are bridges; are any higher then? */
+static thr_status raise_bridges(const thr_frame *frame, const thr_request *options, int *needs, bool *more, thr_err *err)
+{
+  const size_t n = (size_t)frame->n_nodes;
+  thr_scratch own = {0};
+  int *order = thr_scratch_array(&own, n, sizeof *order), *via = thr_scratch_array(&own, n, sizeof *via);
+  bool *reached = thr_scratch_array(&own, n, sizeof *reached),
+       *bridge = thr_scratch_array(&own, (size_t)frame->n_edges, sizeof *bridge);
+  long *below = thr_scratch_array(&own, n, sizeof *below), *all = thr_scratch_array(&own, n, sizeof *all);
+  thr_status st = thr_scratch_check(&own, err);
+  *more = false;
+  if (!st) st = thr_frame_bridges(frame, bridge, err);
+  if (!st) span(frame, order, via, reached);
+  for (int v = 0; v < frame->n_nodes && !st; v++)
+    below[v] = ends_at(frame, options, v);
+  if (!st) sum_below(frame, order, via, below);
+  for (int i = 0; i < frame->n_nodes && !st; i++) {
+    const int v = order[i], e = via[v] >> 1, distinct = options->distinct;
+    all[v] = via[v] < 0 ? below[v] : all[thr_tail(frame, via[v])];
+    if (via[v] < 0 || !bridge[e]) continue;
+    const long other = all[v] - below[v], once = below[v] < other ? below[v] : other;
+    const int least = once < distinct ? 2 * distinct - (int)once : distinct;
+    if (least <= needs[e]) continue;
+    needs[e] = least;
+    *more = true;
+  }
+  thr_scratch_free(&own);
+  return st;
+}
+
+thr_status thr_distinct_needs(const thr_frame *frame, const thr_request *options, int **needs, thr_err *err)
+{
+  bool more = false;
+  *needs = NULL;
+  if (thr_wants_symmetry(options)) return THR_OK;
+  int *found = thr_calloc((size_t)frame->n_edges, sizeof *found);
+  if (!found) return thr_nomem(err);
+  for (int e = 0; e < frame->n_edges; e++)
+    found[e] = thr_plan_cover(frame, options, e);
+  thr_status st = raise_bridges(frame, options, found, &more, err);
+  if (!st && more)
+    *needs = found;
+  else
+    free(found);
+  return st;
+}
