@@ -145,6 +145,11 @@ test test-fast test-rest test-all fuzz:
 asan: ## build the program with the address and undefined-behaviour sanitizers
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=asan all
 
+formats: ## files by the programs that users export from, read, and written in every format: are the counts right?
+	+@tools/install-packages.sh $(BUILD_PACKAGES)
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all
+	@tests/formats/run.sh $(OUT)/release/thread
+
 layers: ## who may include whom
 	@tests/layers.sh
 

@@ -266,11 +266,12 @@ bool cli_output_format(const char *command, const char *output, const char *type
   const thr_format *named = thr_format_of_path(output);
   *format = named;
   if (type && !(*format = thr_format_written(type))) {
-    cli_usage(command, "-T %s: expected json, obj, csv or ply", type);
+    cli_usage(command, "-T %s: expected json, obj, csv, ply, dxf or graphml", type);
     return false;
   }
   if (dot && (!named || (type && named != *format))) {
-    cli_usage(command, "%s: the ending must be %s%s", output, type ? "." : ".json, .obj, .csv or .ply", type ? type : "");
+    cli_usage(command, "%s: the ending must be %s%s", output, type ? "." : ".json, .obj, .csv, .ply, .dxf or .graphml",
+              type ? type : "");
     return false;
   }
   return true;

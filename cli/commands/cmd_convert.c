@@ -14,9 +14,9 @@ static const char help[] =
     "  thread convert dome.obj --scale 1000 --units mm --feet lowest -o dome.json\n"
     "  thread convert - -T csv < dome.json | wc -l\n\n"
     "Options:\n"
-    "  -o, --output FILE    .json, .obj, .csv or .ply (default: stdout)\n"
-    "  -T, --type json|obj|csv|ply   the format, if the file's name does not say (default: json)\n" CLI_FRAME_HELP GUARD_HELP
-    "  -q, --quiet          no notes                                                            -h, --help\n";
+    "  -o, --output FILE    .json, .obj, .csv, .ply, .dxf or .graphml (default: stdout)\n"
+    "  -T, --type json|obj|csv|ply|dxf|graphml   the format, if the file's name does not say (default: json)\n" CLI_FRAME_HELP
+        GUARD_HELP "  -q, --quiet          no notes                                                            -h, --help\n";
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,

@@ -54,6 +54,7 @@ typedef struct {
   thr_text names; /* each with its NUL */
   char units[16]; /* "" = not said */
   bool y_up;      /* the file's maker is known to write y upwards */
+  bool up_is_y;   /* the format says that y points up */
   int pick;       /* asked of the readers of files that hold several frameworks: which of them, from 1; 0 = all of a list */
   double flat;    /* asked of the readers of meshes, rad: triangles that meet at less have no edge between them; 0 = all have */
 } thr_draft;

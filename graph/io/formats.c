@@ -5,10 +5,11 @@
 #include <string.h>
 
 extern const thr_format thr_json_format, thr_obj_format, thr_csv_format, thr_ply_format, thr_off_format, thr_stl_format,
-    thr_dxf_format;
+    thr_dxf_format, thr_graphml_format, thr_gml_format, thr_pajek_format, thr_gltf_format;
 
-static const thr_format *const formats[] = {&thr_json_format, &thr_obj_format, &thr_csv_format, &thr_ply_format,
-                                            &thr_off_format,  &thr_stl_format, &thr_dxf_format, NULL};
+static const thr_format *const formats[] = {&thr_json_format, &thr_obj_format,   &thr_csv_format,  &thr_ply_format,
+                                            &thr_off_format,  &thr_stl_format,   &thr_dxf_format,  &thr_graphml_format,
+                                            &thr_gml_format,  &thr_pajek_format, &thr_gltf_format, NULL};
 
 const thr_format *thr_format_named(const char *name)
 {
@@ -39,47 +40,115 @@ static const thr_format *with_ending(thr_span ending)
   return NULL;
 }
 
+/* What is not read, and what helps. */
+typedef enum { MODEL, GRAPH, TABLE, PACKED, PICTURE, TEXT } foreign_kind;
+
+static const char *const advice[] = {
+    [MODEL] = "which is not read; export the lines or the mesh as OBJ, PLY, DXF, glTF or JSON",
+    [GRAPH] = "which is not read; save the graph as GraphML, GML or node-link JSON, each node with x, y and z",
+    [TABLE] = "which is not read; save the sheet as CSV",
+    [PACKED] = "which is not read; unpack it, or save a spreadsheet as CSV",
+    [PICTURE] = "which is no framework; export the model that it shows as OBJ, DXF or JSON",
+    [TEXT] = "which is no framework; export the model as OBJ, DXF or JSON, or its nodes and edges as CSV"};
+
+/* start: how a file's name ends, or how its text begins. */
+typedef struct {
+  const char *start, *name;
+  foreign_kind kind;
+} foreign;
+
+static const foreign foreign_files[] = {{"dwg", "a DWG drawing", MODEL},
+                                        {"3dm", "a Rhino model", MODEL},
+                                        {"blend", "a Blender file", MODEL},
+                                        {"igs", "an IGES model", MODEL},
+                                        {"iges", "an IGES model", MODEL},
+                                        {"step", "a STEP model", MODEL},
+                                        {"stp", "a STEP model", MODEL},
+                                        {"ifc", "an IFC model", MODEL},
+                                        {"fbx", "an FBX model", MODEL},
+                                        {"dae", "a Collada model", MODEL},
+                                        {"3mf", "a 3MF model", MODEL},
+                                        {"skp", "a SketchUp model", MODEL},
+                                        {"gh", "a Grasshopper definition", MODEL},
+                                        {"ghx", "a Grasshopper definition", MODEL},
+                                        {"vtk", "a VTK file", MODEL},
+                                        {"vtu", "a VTK file", MODEL},
+                                        {"msh", "a mesh of gmsh", MODEL},
+                                        {"wrl", "a VRML scene", MODEL},
+                                        {"x3d", "an X3D scene", MODEL},
+                                        {"gexf", "GEXF", GRAPH},
+                                        {"dot", "a Graphviz graph", GRAPH},
+                                        {"gv", "a Graphviz graph", GRAPH},
+                                        {"xlsx", "a spreadsheet", TABLE},
+                                        {"xls", "a spreadsheet", TABLE},
+                                        {"ods", "a spreadsheet", TABLE},
+                                        {"zip", "a zip archive", PACKED},
+                                        {"gz", "a compressed file", PACKED},
+                                        {"svg", "an SVG picture", PICTURE},
+                                        {"png", "a PNG picture", PICTURE},
+                                        {"jpg", "a JPEG picture", PICTURE},
+                                        {"jpeg", "a JPEG picture", PICTURE},
+                                        {"pdf", "a PDF document", PICTURE},
+                                        {"md", "Markdown", TEXT},
+                                        {"html", "a web page", TEXT},
+                                        {"py", "a Python program", TEXT}};
+
+static const foreign foreign_texts[] = {{"<svg", "an SVG picture", PICTURE},
+                                        {"<?xml", "XML", MODEL},
+                                        {"<gexf", "GEXF", GRAPH},
+                                        {"<COLLADA", "a Collada model", MODEL},
+                                        {"<X3D", "an X3D scene", MODEL},
+                                        {"<VTKFile", "a VTK file", MODEL},
+                                        {"<Archive", "a Grasshopper definition", MODEL},
+                                        {"<!DOCTYPE html", "a web page", TEXT},
+                                        {"<!doctype html", "a web page", TEXT},
+                                        {"<html", "a web page", TEXT},
+                                        {"3D Geometry File", "a Rhino model", MODEL},
+                                        {"ISO-10303-21", "a STEP or IFC model", MODEL},
+                                        {"AC10", "a DWG drawing", MODEL},
+                                        {"Kaydara FBX", "an FBX model", MODEL},
+                                        {"BLENDER", "a Blender file", MODEL},
+                                        {"# vtk DataFile", "a VTK file", MODEL},
+                                        {"$MeshFormat", "a mesh of gmsh", MODEL},
+                                        {"#VRML", "a VRML scene", MODEL},
+                                        {"*HEADING", "an Abaqus model", MODEL},
+                                        {"*Heading", "an Abaqus model", MODEL},
+                                        {"graph {", "a Graphviz graph", GRAPH},
+                                        {"graph G {", "a Graphviz graph", GRAPH},
+                                        {"digraph ", "a Graphviz graph", GRAPH},
+                                        {"strict graph", "a Graphviz graph", GRAPH},
+                                        {"PK\x03\x04", "a zip archive or a spreadsheet", PACKED},
+                                        {"\x1f\x8b", "a compressed file", PACKED},
+                                        {"(\xb5/\xfd", "a compressed file", PACKED},
+                                        {"\xd0\xcf\x11\xe0", "a spreadsheet", TABLE},
+                                        {"%PDF", "a PDF document", PICTURE},
+                                        {"\x89PNG", "a PNG picture", PICTURE},
+                                        {"\xff\xd8\xff", "a JPEG picture", PICTURE},
+                                        {"GIF8", "a GIF picture", PICTURE}};
+
+static thr_status refuse(const foreign *found, const char *name, thr_err *err)
+{
+  return thr_fail(err, THR_EINPUT, "%s: this is %s, %s", name, found->name, advice[found->kind]);
+}
+
 thr_status thr_format_by_name(const char *name, const thr_format **format, thr_err *err)
 {
-  static const char *const foreign[] = {"dwg", "3dm", "graphml", "gml", "gltf", "glb", "blend", "igs", "step", "stp"};
   const thr_span ending = ending_of(name);
   *format = with_ending(ending);
-  for (size_t i = 0; !*format && i < sizeof foreign / sizeof *foreign; i++)
-    if (thr_span_is(ending, foreign[i]))
-      return thr_fail(err, THR_EINPUT, "%s: %s files are not read; export the lines or the mesh as OBJ, PLY, CSV or JSON", name,
-                      foreign[i]);
+  for (size_t i = 0; !*format && i < sizeof foreign_files / sizeof *foreign_files; i++)
+    if (thr_span_is(ending, foreign_files[i].start)) return refuse(&foreign_files[i], name, err);
   return THR_OK;
 }
 
-/* What begins so is of a format that others read. */
-static const struct foreign {
-  const char *start, *name;
-} foreign_texts[] = {{"<svg", "an SVG picture"},
-                     {"<?xml", "XML"},
-                     {"<graphml", "GraphML"},
-                     {"<gexf", "GEXF"},
-                     {"<!DOCTYPE", "a web page"},
-                     {"<html", "a web page"},
-                     {"3D Geometry File", "a 3dm file"},
-                     {"glTF", "a glb file"},
-                     {"ISO-10303-21", "STEP"},
-                     {"AC10", "a DWG drawing"},
-                     {"%PDF", "a PDF document"},
-                     {"PK\x03\x04", "a zip archive"},
-                     {"BLENDER", "a Blender file"},
-                     {"graph [", "GML"},
-                     {"Creator \"", "GML"},
-                     {"*Vertices", "a Pajek network"},
-                     {"# vtk DataFile", "a VTK file"},
-                     {"\x89PNG", "a PNG picture"}};
-
-static const char *foreign_name(const char *text, size_t n)
+/* NULL: it is like none of these. */
+static const foreign *foreign_of(const char *text, size_t n)
 {
   thr_span t = {text, n};
+  if (thr_span_starts(t, "\xef\xbb\xbf")) t = (thr_span){t.s + 3, t.n - 3};
   while (t.n && (t.s[0] == ' ' || t.s[0] == '\t' || t.s[0] == '\r' || t.s[0] == '\n'))
     t = (thr_span){t.s + 1, t.n - 1};
   for (size_t i = 0; i < sizeof foreign_texts / sizeof *foreign_texts; i++)
-    if (thr_span_starts(t, foreign_texts[i].start)) return foreign_texts[i].name;
+    if (thr_span_starts(t, foreign_texts[i].start)) return &foreign_texts[i];
   return NULL;
 }
 
@@ -107,10 +176,8 @@ thr_status thr_format_by_text(const char *text, size_t n, const char *name, cons
 {
   const thr_format *said = format_said(text, n);
   *format = said && (!named || named->begins) ? said : named ? named : &thr_csv_format;
-  const char *foreign = said ? NULL : foreign_name(text, n);
-  if (foreign)
-    return thr_fail(err, THR_EINPUT, "%s: this is %s, which is not read; export the lines or the mesh as OBJ, PLY, CSV or JSON",
-                    name, foreign);
+  const foreign *found = said ? NULL : foreign_of(text, n);
+  if (found) return refuse(found, name, err);
   return THR_OK;
 }
 

@@ -6,6 +6,7 @@
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/io/curve.h"
+#include "graph/io/dxf.h"
 #include "graph/io/faces.h"
 #include "graph/io/formats.h"
 #include "graph/io/scan.h"
@@ -609,15 +610,12 @@ static thr_status read_blocks(dxf *d)
 /* The unit, code 70 after the variable $INSUNITS. */
 static thr_status read_header(dxf *d)
 {
-  static const char *const units[] = {
-      [1] = "in", [2] = "ft", [4] = "mm", [5] = "cm", [6] = "m", [7] = "km", [10] = "yd", [13] = "um", [14] = "dm"};
   int unit = 0;
   for (int i = 0; i + 1 < d->n_pairs; i++)
     if (d->pair[i].code == 9 && thr_span_is(d->pair[i].value, "$INSUNITS") && d->pair[i + 1].code == 70 &&
         !thr_span_int(d->pair[i + 1].value, &unit))
       return fail(d, "has a $INSUNITS that is not a whole number");
-  if (unit <= 0 || unit >= (int)(sizeof units / sizeof *units) || !units[unit]) return THR_OK;
-  return thr_draft_set_units(d->draft, units[unit], d->err);
+  return thr_dxf_unit(unit) ? thr_draft_set_units(d->draft, thr_dxf_unit(unit), d->err) : THR_OK;
 }
 
 /* *model receives the shapes of the section ENTITIES. */
@@ -766,4 +764,4 @@ static bool is_dxf(const char *text, size_t n)
   return thr_span_is(thr_span_trim(code), "0") && thr_span_is(thr_span_trim(value), "SECTION");
 }
 
-const thr_format thr_dxf_format = {.name = "dxf", .ending = {"dxf"}, .parse = parse, .is = is_dxf};
+const thr_format thr_dxf_format = {.name = "dxf", .ending = {"dxf"}, .parse = parse, .is = is_dxf, .write = thr_dxf_write};

@@ -62,9 +62,10 @@ typedef enum { THR_CSV_WHOLE, THR_CSV_NODES_ONLY, THR_CSV_EDGES_ONLY } thr_csv_c
 thr_status thr_csv_scan(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name,
                         thr_csv_content *content, thr_err *err) THR_MUST_CHECK;
 
-/* The writers of write.c. */
+/* The writers of write.c and dxf.c. */
 void thr_json_frame_write(const thr_frame *frame, thr_text *out);
 void thr_obj_write(const thr_frame *frame, thr_text *out);
 void thr_csv_write(const thr_frame *frame, thr_text *out);
+void thr_dxf_write(const thr_frame *frame, thr_text *out);
 
 #endif

@@ -69,7 +69,7 @@ thr_status thr_draft_stand(thr_draft *draft, thr_up up, double factor, thr_read_
 {
   const bool unasked = up == THR_UP_AUTO;
   report->turned = unasked && draft->y_up;
-  if (up == THR_UP_Y || report->turned) {
+  if (up == THR_UP_Y || report->turned || (unasked && draft->up_is_y)) {
     for (int i = 0; i < draft->n_nodes; i++) {
       double *at = draft->node[i].xyz, y = at[1];
       at[1] = at[2] == 0 ? 0 : -at[2];

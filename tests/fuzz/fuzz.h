@@ -5,6 +5,7 @@
 
 #include "graph/io/read.h"
 #include "graph/framework/frame.h"
+#include "graph/framework/near.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
@@ -62,13 +63,27 @@ static void check_round_trip(const thr_frame *f, double tolerance, const thr_for
     MUST((!f->cover || g.cover[e] == f->cover[e]) && (!f->capacity || g.capacity[e] == f->capacity[e]));
   MUST(memcmp(g.length, f->length, (size_t)f->n_edges * sizeof *f->length) == 0);
   if (format != thr_format_named("csv")) MUST(strcmp(f->units, g.units) == 0);
-  if (format == thr_format_named("json")) {
+  if (format == thr_format_named("json") || format == thr_format_named("graphml")) {
     for (int v = 0; v < f->n_nodes; v++)
       MUST(strcmp(f->name[v], g.name[v]) == 0);
   }
   thr_frame_destroy(&g);
   thr_draft_destroy(&d);
   thr_text_destroy(&text);
+}
+
+/* Whatever was read can be looked over, and cut where it touches itself. */
+static void check_nearly(thr_frame *f)
+{
+  thr_near near;
+  thr_read_report r = {0};
+  int n_cut;
+  thr_err err = {0};
+  thr_status st = thr_frame_near(f, &near, &err);
+  MUST(st == THR_OK || st == THR_EINPUT);
+  const int on_edge = near.n_on_edge;
+  st = thr_frame_split(f, &n_cut, &r, &err);
+  MUST(st ? err.code == st : n_cut <= on_edge && f->n_edges > 0);
 }
 
 /* Takes over a draft that was read with status st. */
@@ -82,6 +97,8 @@ static void check_draft(thr_status st, thr_draft *d, thr_read_report *r, const t
     if (!f.own_lengths && !f.cover && !f.capacity) /* which OBJ cannot say */
       check_round_trip(&f, r->weld_tolerance, thr_format_named("obj"));
     check_round_trip(&f, r->weld_tolerance, thr_format_named("csv"));
+    check_round_trip(&f, r->weld_tolerance, thr_format_named("graphml"));
+    check_nearly(&f);
   }
   thr_frame_destroy(&f);
   thr_draft_destroy(d);

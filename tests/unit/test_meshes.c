@@ -225,6 +225,50 @@ static void check_refused(const char *text, const char *name, const char *messag
   thr_draft_destroy(&d);
 }
 
+START_TEST(errors_of_graphs_say_where)
+{
+  check_refused("graph [\n node [ id 1 x 0 y 0 ]\n node [ id 2 x one y 0 ]\n]", "a.gml",
+                "a.gml:3: x 'one' is not a finite number");
+  check_refused("graph [\n node [ id 1 x 0 ]\n]", "a.gml", "a.gml:2: node '1' has no y; nodes need attributes x, y and z");
+  check_refused("graph [\n node [ id 1 x 0 y 0 ]\n edge [ source 1\n target 2 ]\n]", "a.gml", "a.gml:3: there is no node '2'");
+  check_refused("graph [ node [", "a.gml", "a.gml:1: the end where a key was expected");
+  check_refused("<graphml>\n<graph>\n<node id='a'/>\n</graph></graphml>", "a.graphml",
+                "a.graphml:3: node 'a' has no x; nodes need attributes x, y and z");
+  check_refused("<graphml>\n<graph\n", "a.graphml", "a.graphml:2: a tag is not closed");
+  check_refused("<svg>\n</svg>", "a.graphml",
+                "a.graphml: this is an SVG picture, which is no framework; export the model that it "
+                "shows as OBJ, DXF or JSON");
+  check_refused("*Vertices 1\n1 a 0 0\n*Edges\n1 2\n", "a.net", "a.net:4: '2' is no vertex; they are 1 to 1");
+  check_refused("*Vertices 2\n2 a 0 0\n", "a.net", "a.net:2: '2' where vertex 1 comes next");
+}
+END_TEST
+
+START_TEST(errors_of_gltf_say_where)
+{
+  static const char head[] =
+      "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+      "{\"POSITION\":0}}]}],\"accessors\":[{\"componentType\":5126,\"count\":3,\"bufferView\":0}],";
+  static const struct {
+    const char *rest, *message;
+  } bad[] = {{"\"bufferViews\":[],\"buffers\":[]}", "a.gltf: bufferViews[0]: is not there"},
+             {"\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"uri\":\"data:;base64,AAAA\"}]}",
+              "a.gltf: bufferViews[0]: is longer than its buffer"},
+             {"\"bufferViews\":[{\"buffer\":0,\"byteLength\":2}],\"buffers\":[{\"uri\":\"data:;base64,AAAA\"}]}",
+              "a.gltf: accessors[0]: is longer than its bufferView"},
+             {"\"bufferViews\":[],\"buffers\":[{\"uri\":\"../../etc/passwd\"}]}",
+              "a.gltf: buffers[0]: lies elsewhere; put its file beside this one, or save as .glb"},
+             {"\"bufferViews\":[],\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}",
+              "a.gltf: compressed with KHR_draco_mesh_compression, which is not read; export without compression"}};
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    thr_text t = {0};
+    thr_text_append(&t, head);
+    thr_text_append(&t, bad[i].rest);
+    check_refused(t.data, "a.gltf", bad[i].message);
+    thr_text_destroy(&t);
+  }
+}
+END_TEST
+
 START_TEST(errors_say_where)
 {
   check_refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n", "a.ply",
@@ -253,15 +297,17 @@ END_TEST
 START_TEST(foreign_formats_are_called_by_name)
 {
   static const struct {
-    const char *text, *name;
-  } foreign[] = {{"<svg xmlns='x'/>", "an SVG picture"},
-                 {"\n<?xml version='1.0'?>\n<graphml>", "XML"},
-                 {"graph [\n node [ id 1 ]\n", "GML"},
-                 {"ISO-10303-21;\nHEADER;\n", "STEP"}};
+    const char *text, *message;
+  } foreign[] = {
+      {"<svg xmlns='x'/>", "an SVG picture, which is no framework; export the model that it shows as OBJ, DXF or JSON"},
+      {"\n<?xml version='1.0'?>\n<note>", "XML, which is not read; export the lines or the mesh as OBJ, PLY, DXF, glTF or JSON"},
+      {"graph G {\n a -- b;\n", "a Graphviz graph, which is not read; save the graph as GraphML, GML or node-link JSON, each "
+                                "node with x, y and z"},
+      {"ISO-10303-21;\nHEADER;\n",
+       "a STEP or IFC model, which is not read; export the lines or the mesh as OBJ, PLY, DXF, glTF or JSON"}};
   for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) {
     char message[200];
-    snprintf(message, sizeof message,
-             "stdin: this is %s, which is not read; export the lines or the mesh as OBJ, PLY, CSV or JSON", foreign[i].name);
+    snprintf(message, sizeof message, "stdin: this is %s", foreign[i].message);
     check_refused(foreign[i].text, "stdin", message);
   }
 }
@@ -417,6 +463,8 @@ int main(void)
   ADD_LOOP(s, 4, cubes, 0, 2);
   ADD_TEST(s, 4, ply_tells_units_and_what_it_skips);
   ADD_LOOP(s, 4, what_is_cut_is_refused, 0, 5);
+  ADD_TEST(s, 4, errors_of_graphs_say_where);
+  ADD_TEST(s, 4, errors_of_gltf_say_where);
   ADD_TEST(s, 4, errors_say_where);
   ADD_TEST(s, 4, foreign_formats_are_called_by_name);
   ADD_TEST(s, 4, which_way_is_up);

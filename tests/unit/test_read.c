@@ -565,7 +565,7 @@ START_TEST(file_errors)
     thr_status status;
   } bad[] = {{"data/none.json", "data/none.json: cannot open", THR_EIO},
              {"data", "data: cannot read", THR_EIO},
-             {"roof.3DM", "roof.3DM: 3dm files are not read", THR_EINPUT},
+             {"roof.3DM", "roof.3DM: this is a Rhino model, which is not read", THR_EINPUT},
              {"LICENSE", "LICENSE: edges but no columns x and y", THR_EINPUT},
              {"tests/unit/files/alone-nodes.csv", "tests/unit/files/alone-nodes.csv: nodes but no edges", THR_EINPUT}};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

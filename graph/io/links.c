@@ -1,0 +1,101 @@
+/* Edges by name, and the attributes that graph formats give to nodes and edges. */
+#include "graph/io/links.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+thr_status thr_links_add(thr_links *links, const char *from, const char *to, int line, thr_err *err)
+{
+  thr_status st = thr_grow(&links->link, links->n, &links->capacity, sizeof *links->link, err);
+  if (st) return st;
+  struct thr_link link = {.line = line, .from = links->names.length};
+  thr_text_append_clean(&links->names, from);
+  thr_text_append_bytes(&links->names, "", 1);
+  link.to = links->names.length;
+  thr_text_append_clean(&links->names, to);
+  thr_text_append_bytes(&links->names, "", 1);
+  if (links->names.failed) return thr_nomem(err);
+  links->link[links->n++] = link;
+  return THR_OK;
+}
+
+static thr_status find(const thr_links *links, const thr_names *names, size_t at, int *node, const thr_scan *scan, thr_err *err)
+{
+  const thr_span name = thr_span_of(links->names.data + at);
+  *node = thr_names_find(names, name);
+  return *node >= 0 ? THR_OK : thr_scan_fail(scan, err, "there is no node '%.*s'", thr_span_width(name), name.s);
+}
+
+thr_status thr_links_finish(const thr_links *links, thr_draft *draft, const char *name, thr_err *err)
+{
+  thr_names names = {0};
+  thr_scan scan = {.name = name};
+  thr_err why = {0};
+  thr_status st = thr_names_build(&names, draft, name, err);
+  for (int i = 0; i < links->n && !st; i++) {
+    const struct thr_link *link = &links->link[i];
+    int a = 0, b = 0;
+    scan.line = link->line;
+    st = find(links, &names, link->from, &a, &scan, err);
+    if (!st) st = find(links, &names, link->to, &b, &scan, err);
+    if (!st) st = thr_draft_add_edge(draft, a, b, link->length, err);
+    if (!st && thr_draft_edge_passes(draft, link->cover, link->passes, &why)) st = thr_scan_fail(&scan, err, "%s", why.text);
+  }
+  thr_names_destroy(&names);
+  return st;
+}
+
+void thr_links_destroy(thr_links *links)
+{
+  free(links->link);
+  thr_text_destroy(&links->names);
+  *links = (thr_links){0};
+}
+
+static void take_number(thr_span value, double *x, bool *has, const char **what)
+{
+  *has = thr_span_number(value, false, x);
+  if (!*has) *what = "not a finite number";
+}
+
+static void take_count(thr_span value, int *count, const char **what)
+{
+  if (!thr_span_int(value, count) || *count < 1 || *count > 100) *what = "not a whole number from 1 to 100";
+}
+
+void thr_said_take(thr_said *said, thr_span key, thr_span value, const char **what)
+{
+  static const char *const axis[] = {"x", "y", "z"}, *const foot[] = {"is_support", "is_grounded", "is_anchor", "is_fixed",
+                                                                      "foot"};
+  bool unused;
+  double number;
+  value = thr_span_trim(value);
+  for (int i = 0; i < 3; i++)
+    if (thr_span_is(key, axis[i])) take_number(value, &said->xyz[i], &said->has[i], what);
+  for (size_t i = 0; i < sizeof foot / sizeof *foot; i++)
+    if (thr_span_is(key, foot[i]))
+      said->foot = thr_span_is(value, "true") || (thr_span_number(value, false, &number) && number != 0);
+  if (thr_span_is(key, "length")) {
+    take_number(value, &said->length, &unused, what);
+    if (unused && !(said->length > 0)) *what = "not a positive number";
+  }
+  if (thr_span_is(key, "cover")) take_count(value, &said->cover, what);
+  if (thr_span_is(key, "capacity")) take_count(value, &said->capacity, what);
+}
+
+thr_status thr_said_node(const thr_said *said, thr_draft *draft, const char *node, bool *has_z, const thr_scan *scan,
+                         thr_err *err)
+{
+  for (int i = 0; i < 2; i++)
+    if (!said->has[i]) return thr_scan_fail(scan, err, "node '%.40s' has no %c; nodes need attributes x, y and z", node, 'x' + i);
+  *has_z |= said->has[2];
+  return thr_draft_add_node(draft, said->xyz, node, said->foot, err);
+}
+
+void thr_said_link(const thr_said *said, thr_links *links)
+{
+  struct thr_link *link = &links->link[links->n - 1];
+  link->length = said->length;
+  link->cover = said->cover;
+  link->passes = said->capacity;
+}

@@ -1,0 +1,169 @@
+/* Tags, attributes and entities of XML. */
+#include "graph/io/xml.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+thr_status thr_xml_start(thr_xml *xml, const char *text, size_t n, const char *name, thr_err *err)
+{
+  *xml = (thr_xml){0};
+  return thr_scan_start(&xml->scan, text, n, name, err);
+}
+
+/* Moves past the next place of a word, counting lines; false if there is none. */
+static bool pass(thr_xml *xml, const char *word)
+{
+  const size_t n = strlen(word);
+  for (; xml->scan.at < xml->scan.end; xml->scan.at++) {
+    if ((size_t)(xml->scan.end - xml->scan.at) >= n && memcmp(xml->scan.at, word, n) == 0) {
+      xml->scan.at += n;
+      return true;
+    }
+    xml->scan.next += *xml->scan.at == '\n';
+  }
+  return false;
+}
+
+static bool stands_here(const thr_xml *xml, const char *word)
+{
+  return thr_span_starts((thr_span){xml->scan.at, (size_t)(xml->scan.end - xml->scan.at)}, word);
+}
+
+/* The end of a tag, which is no > in quotes. */
+static thr_status pass_tag(thr_xml *xml, thr_err *err)
+{
+  for (char quote = '\0'; xml->scan.at < xml->scan.end; xml->scan.at++) {
+    const char c = *xml->scan.at;
+    xml->scan.next += c == '\n';
+    if (quote) {
+      if (c == quote) quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '>') {
+      return THR_OK;
+    }
+  }
+  return thr_scan_fail(&xml->scan, err, "a tag is not closed");
+}
+
+static bool is_blank(char c)
+{
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+static thr_status read_tag(thr_xml *xml, thr_err *err)
+{
+  const bool close = stands_here(xml, "/");
+  xml->scan.at += close;
+  const char *from = xml->scan.at;
+  thr_status st = pass_tag(xml, err);
+  if (st) return st;
+  thr_span inside = {from, (size_t)(xml->scan.at++ - from)};
+  const bool empty = inside.n && inside.s[inside.n - 1] == '/';
+  inside.n -= empty;
+  xml->kind = close ? THR_XML_CLOSE : empty ? THR_XML_EMPTY : THR_XML_OPEN;
+  size_t n = 0, colon = 0;
+  for (; n < inside.n && !is_blank(inside.s[n]); n++)
+    if (inside.s[n] == ':') colon = n + 1;
+  xml->name = (thr_span){inside.s + colon, n - colon};
+  xml->attributes = (thr_span){inside.s + n, inside.n - n};
+  return THR_OK;
+}
+
+thr_status thr_xml_next(thr_xml *xml, thr_err *err)
+{
+  static const struct {
+    const char *begin, *end;
+  } passed[] = {{"!--", "-->"}, {"?", "?>"}, {"![CDATA[", "]]>"}, {"!", ">"}};
+  for (;;) {
+    const char *from = xml->scan.at;
+    if (!pass(xml, "<")) {
+      xml->kind = THR_XML_END;
+      return THR_OK;
+    }
+    xml->scan.line = xml->scan.next;
+    xml->text = (thr_span){from, (size_t)(xml->scan.at - from - 1)};
+    size_t i = 0;
+    while (i < sizeof passed / sizeof *passed && !stands_here(xml, passed[i].begin))
+      i++;
+    if (i == sizeof passed / sizeof *passed) return read_tag(xml, err);
+    if (!pass(xml, passed[i].end)) return thr_scan_fail(&xml->scan, err, "what begins with <%s is not closed", passed[i].begin);
+  }
+}
+
+/* The bytes of a character in UTF-8; what is none is U+FFFD. */
+static void append_character(thr_text *out, unsigned long c)
+{
+  if (c == 0 || c > 0x10ffff || (c >= 0xd800 && c < 0xe000)) c = 0xfffd;
+  if (c < 0x80) {
+    thr_text_byte(out, (char)c);
+    return;
+  }
+  const int more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
+  static const unsigned char lead[] = {0, 0xc0, 0xe0, 0xf0};
+  thr_text_byte(out, (char)(lead[more] | c >> 6 * more));
+  for (int i = more - 1; i >= 0; i--)
+    thr_text_byte(out, (char)(0x80 | (c >> 6 * i & 0x3f)));
+}
+
+/* Takes one entity, from its & on, and returns how many bytes it has; 0 if it is none. */
+static size_t append_entity(thr_span t, thr_text *out)
+{
+  static const struct {
+    const char *name;
+    char c;
+  } known[] = {{"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&apos;", '\''}};
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+    if (thr_span_starts(t, known[i].name)) {
+      thr_text_byte(out, known[i].c);
+      return strlen(known[i].name);
+    }
+  char digits[12] = "";
+  if (t.n < 4 || t.s[1] != '#') return 0;
+  const bool hexadecimal = t.s[2] == 'x';
+  const size_t first = hexadecimal ? 3 : 2;
+  size_t n = 0;
+  while (n < 10 && first + n < t.n && strchr("0123456789abcdefABCDEF", t.s[first + n]))
+    n++;
+  if (n == 0 || n > 8 || first + n >= t.n || t.s[first + n] != ';') return 0;
+  memcpy(digits, t.s + first, n);
+  append_character(out, strtoul(digits, NULL, hexadecimal ? 16 : 10));
+  return first + n + 1;
+}
+
+void thr_xml_plain(thr_span text, thr_text *out)
+{
+  thr_text_append(out, "");
+  for (size_t i = 0; i < text.n;) {
+    const size_t taken = text.s[i] == '&' ? append_entity((thr_span){text.s + i, text.n - i}, out) : 0;
+    if (!taken) thr_text_byte(out, text.s[i]);
+    i += taken ? taken : 1;
+  }
+}
+
+bool thr_xml_attribute(const thr_xml *xml, const char *name, thr_text *out)
+{
+  const thr_span all = xml->attributes;
+  size_t i = 0;
+  out->length = 0;
+  for (;;) {
+    while (i < all.n && is_blank(all.s[i]))
+      i++;
+    const size_t from = i;
+    while (i < all.n && all.s[i] != '=' && !is_blank(all.s[i]))
+      i++;
+    const thr_span key = {all.s + from, i - from};
+    while (i < all.n && (is_blank(all.s[i]) || all.s[i] == '='))
+      i++;
+    if (i >= all.n || (all.s[i] != '"' && all.s[i] != '\'')) return false;
+    const char quote = all.s[i++];
+    const size_t value = i;
+    while (i < all.n && all.s[i] != quote)
+      i++;
+    if (thr_span_is(key, name)) {
+      thr_xml_plain((thr_span){all.s + value, i - value}, out);
+      return true;
+    }
+    i++;
+  }
+}
