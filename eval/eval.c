@@ -1,5 +1,8 @@
 /* One interface to the three methods: checks what is asked, prepares the record, calls the method, sums up. */
+#include "eval/cord/history.h"
 #include "eval/methods.h"
+#include "graph/framework/units.h"
+#include "graph/plan/schedule.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -37,6 +40,12 @@ static thr_status check_options(const thr_eval_options *options, thr_err *err)
   return THR_OK;
 }
 
+/* Is it told what only a length in mm makes sense of? */
+static bool physics_needs_units(const thr_physics *physics)
+{
+  return physics->wobble > 0 || physics->stiffness > 0 || physics->bead_strength > 0;
+}
+
 static thr_status prepare(const thr_frame *frame, const thr_cord *cord, int n_cords, thr_method method,
                           const thr_eval_options *options, thr_evaluation *evaluation, thr_err *err)
 {
@@ -51,11 +60,23 @@ static thr_status prepare(const thr_frame *frame, const thr_cord *cord, int n_co
   if (st) return st;
   if (!(evaluation->cord = thr_calloc((size_t)n_cords, sizeof *evaluation->cord))) return thr_nomem(err);
   evaluation->n_cords = n_cords;
+  if (physics_needs_units(&evaluation->physics) && (st = thr_units_in_mm(frame->units, &(double){0}, err))) return st;
   for (int i = 0; i < n_cords; i++) {
     evaluation->cord[i].n_passes = cord[i].n_passes;
     evaluation->cord[i].pull = options->cord_pull ? options->cord_pull[i] : options->pull;
   }
   return THR_OK;
+}
+
+/* What was asked for beyond one pull at the ends. */
+static thr_status follow_schedule(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                                  thr_evaluation *evaluation, thr_err *err)
+{
+  thr_status st = THR_OK;
+  if (options->hand > 0) st = thr_history_grips(cord, options->hand, evaluation, &evaluation->schedule, err);
+  for (int k = 0; options->schedule && k < options->schedule->n && !st; k++)
+    st = thr_schedule_add(&evaluation->schedule, &options->schedule->step[k], err);
+  return st || evaluation->schedule.n == 0 ? st : thr_history_follow(frame, cord, &evaluation->schedule, evaluation, err);
 }
 
 static thr_status sum_up(thr_eval *eval, thr_err *err)
@@ -83,6 +104,7 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
   *out = (thr_eval){0};
   thr_status st = prepare(frame, cord, n_cords, method, options, &eval.record, err);
   if (!st) st = run[method](frame, cord, options, limits, &eval, err);
+  if (!st) st = follow_schedule(frame, cord, options, &eval.record, err);
   if (!st)
     st = sum_up(&eval, err);
   else if (st == THR_ELIMIT)

@@ -27,7 +27,9 @@ typedef struct {
   const char *cache; /* folder of measured joints; NULL = none; borrowed */
   double start;      /* N, method structure: pull at which Bullet's structure settles; 0 = 3 x its holding pull. Plans are ranked
                         at one common start */
-  bool dynamics;     /* method structure: confirm by Bullet (true) or limit analysis only */
+  const thr_schedule *schedule; /* what is done to the cords, borrowed; NULL: they are pulled until the slackest pass is seated */
+  double hand;   /* N, methods capstan and joint: 0, or the largest pull of a schedule with the fewest grips, which is made */
+  bool dynamics; /* method structure: confirm by Bullet (true) or limit analysis only */
 } thr_eval_options;
 
 thr_eval_options thr_eval_options_default(void);

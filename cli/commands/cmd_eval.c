@@ -14,9 +14,11 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/schedule.h"
 #include "graph/status.h"
 #include "graph/text.h"
 #include "graph/angle.h"
+#include "eval/cord/profile.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -38,6 +40,13 @@ static const char help[] =
     "                       structure: least pull at which the rigid beads have any equilibrium while the cord is\n"
     "                       drawn in, and which fails first\n" PULL_HELP(
         "holding pull") "      --tension        print the tension in every pass\n"
+                        "      --hand N         the fewest grips with which no pull is above N newtons: where to grip, how hard\n"
+                        "      --schedule TEXT  what is done to the cords, in order, and the tension that it leaves; or a file "
+                        "of that:\n"
+                        "                       \"A: pull both 40; A: release end 5; B: grip 37 20 from start; all: knot both "
+                        "0.5\"\n"
+                        "                       (newtons; passes as in steps.txt, or two nodes; a knot may slip by mm: "
+                        "--stiffness)\n"
                         "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
                         "      --plot FILE      write a plot of the tension along each cord, as SVG: with a fan over the band of "
                         "mu,\n"
@@ -55,7 +64,7 @@ static const char help[] =
                         "every\n"
                         "bead; a cord thinner than the bore cuts corners, turns less and needs less: method joint knows.\n";
 
-enum { OPTION_TENSION = OPTION_PULL_FREE, OPTION_PLOT, OPTION_STILL, OPTION_STRENGTH };
+enum { OPTION_TENSION = OPTION_PULL_FREE, OPTION_PLOT, OPTION_STILL, OPTION_STRENGTH, OPTION_SCHEDULE, OPTION_HAND };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       PULL_OPTIONS,
                                       GUARD_OPTIONS,
@@ -64,6 +73,8 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"plot", required_argument, NULL, OPTION_PLOT},
                                       {"still", required_argument, NULL, OPTION_STILL},
                                       {"cord-strength", required_argument, NULL, OPTION_STRENGTH},
+                                      {"schedule", required_argument, NULL, OPTION_SCHEDULE},
+                                      {"hand", required_argument, NULL, OPTION_HAND},
                                       {NULL, 0, NULL, 0}};
 
 typedef struct {
@@ -71,7 +82,8 @@ typedef struct {
   guard_limits guard;
   bool tension;
   const char *path, *output, *plot, *still;
-  double strength; /* N, of the cord; 0 = not said */
+  const char *schedule; /* as given; NULL: none */
+  double strength;      /* N, of the cord; 0 = not said */
 } arguments;
 
 static int parse(int argc, char **argv, arguments *a)
@@ -93,6 +105,10 @@ static int parse(int argc, char **argv, arguments *a)
     case OPTION_STILL: a->still = optarg; break;
     case OPTION_STRENGTH:
       if (!cli_double("eval", "--cord-strength", optarg, 1e-6, 1e9, &a->strength)) return EXIT_USAGE;
+      break;
+    case OPTION_SCHEDULE: a->schedule = optarg; break;
+    case OPTION_HAND:
+      if (!cli_double("eval", "--hand", optarg, 1e-6, 1e9, &a->pull.options.hand)) return EXIT_USAGE;
     }
     if (optarg && !*optarg) return cli_usage("eval", "an empty name is no place to write to");
   }
@@ -106,6 +122,9 @@ static int parse(int argc, char **argv, arguments *a)
     to_stdout += out[i] && strcmp(out[i], "-") == 0;
   if (to_stdout > 1) return cli_usage("eval", "only one of --json, -o -, --plot - and --still - can have stdout");
   if (pull_check(&a->pull, "eval")) return EXIT_USAGE;
+  if (a->schedule && a->pull.options.hand > 0) return cli_usage("eval", "--hand makes a schedule of its own: no --schedule");
+  if ((a->schedule || a->pull.options.hand > 0) && a->pull.method == THR_STRUCTURE)
+    return cli_usage("eval", "--schedule and --hand are of the methods capstan and joint");
   if (a->still && a->pull.method != THR_STRUCTURE) return cli_usage("eval", "--still needs --method structure");
   if (a->still && !a->pull.options.dynamics) return cli_usage("eval", "--still shows a simulation; take --no-dynamics away");
   return -1;
@@ -252,7 +271,7 @@ static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval,
   else if (eval->error > 0)
     thr_text_printf(text, ", error of each at most %.2f %%", pull_percent(eval->error));
   thr_text_append(text, "\n");
-  put_band(text, evaluation, eval->band);
+  if (evaluation->schedule.n == 0) put_band(text, evaluation, eval->band);
   if (eval->complete && evaluation->method != THR_STRUCTURE) put_hand(text, evaluation->largest, strength);
   if (!eval->complete) {
     thr_text_append(text, "stopped; not known: ");
@@ -372,12 +391,69 @@ static void put_tension(thr_text *text, const thr_plan *plan, const thr_evaluati
   }
 }
 
+/* ---- schedules ---- */
+
+static void put_schedule(thr_text *text, const thr_plan *plan)
+{
+  const thr_schedule *schedule = &plan->evaluation.schedule;
+  const int grips = thr_schedule_grips(schedule, -1);
+  thr_text_append(text, "\nschedule");
+  if (grips)
+    thr_text_printf(text, ", with %d %s on the way (hold each until the next has taken its slack)", grips,
+                    cli_plural(grips, "grip", "grips"));
+  thr_text_append(text, "\n");
+  for (int k = 0; k < schedule->n; k++) {
+    thr_text_append(text, "  ");
+    thr_schedule_put_step(plan, &schedule->step[k], text);
+    thr_text_append(text, "\n");
+  }
+}
+
+/* The least and largest tension that it leaves, of all cords. */
+static void put_left(thr_text *text, const thr_plan *plan)
+{
+  const thr_evaluation *evaluation = &plan->evaluation;
+  double least = INFINITY, most = 0;
+  for (int i = 0; i < evaluation->n_cords; i++)
+    for (int k = 0; evaluation->cord[i].known && k < evaluation->cord[i].n_passes; k++) {
+      least = fmin(least, evaluation->cord[i].tension[k]);
+      most = fmax(most, evaluation->cord[i].tension[k]);
+    }
+  thr_text_printf(text, "afterwards     %.4g to %.4g N in the passes; %s\n", least, most,
+                  least >= evaluation->physics.seating * (1 - 1e-9) ? "every one is seated" : "not every one is seated");
+}
+
+/* Does a face bear what the cords press it with? */
+static void put_pressure(thr_text *text, const thr_plan *plan)
+{
+  const thr_evaluation *evaluation = &plan->evaluation;
+  const thr_frame *frame = &plan->frame;
+  double pressure;
+  int edge;
+  if (evaluation->physics.bead_strength == 0) return;
+  if (thr_profile_pressure(frame, plan->cord, evaluation, &pressure, &edge, NULL)) {
+    text->failed = true;
+    return;
+  }
+  thr_text_append(text, "pressed most   between ");
+  thr_text_append_clean(text, frame->name[frame->edge[edge][0]]);
+  thr_text_append(text, " and ");
+  thr_text_append_clean(text, frame->name[frame->edge[edge][1]]);
+  thr_text_printf(text, ": %.3g MPa, which beads that bear %.3g MPa %s\n", pressure, evaluation->physics.bead_strength,
+                  pressure > evaluation->physics.bead_strength ? "do not stand: they are crushed" : "stand");
+}
+
 static void put_text(thr_text *text, const arguments *a, const thr_plan *plan, const thr_eval *eval, bool stopped)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
-  put_heading(text, evaluation, eval->refused > 0, a->pull.pull);
+  put_heading(text, evaluation, eval->refused > 0, evaluation->schedule.n > 0 ? "by the schedule below" : a->pull.pull);
   put_cords(text, plan, evaluation);
   put_sums(text, plan, eval, a->strength);
+  put_pressure(text, plan);
+  if (evaluation->schedule.n > 0) {
+    put_schedule(text, plan);
+    put_left(text, plan);
+  }
   if (evaluation->method == THR_JOINT) put_joint(text, plan, eval);
   if (evaluation->method == THR_STRUCTURE) put_structure(text, a, plan, eval, stopped);
   if (a->tension) put_tension(text, plan, evaluation);
@@ -488,7 +564,8 @@ static int write_plot(const thr_plan *plan, double strength, const char *path)
   thr_tension_options options = thr_tension_options_default();
   options.hand = evaluation->method != THR_STRUCTURE;
   options.strength = strength;
-  thr_status st = evaluation->method != THR_STRUCTURE && physics->mu_low < physics->mu_high ? THR_OK : THR_EINFEASIBLE;
+  const bool fan = evaluation->method != THR_STRUCTURE && evaluation->schedule.n == 0;
+  thr_status st = fan && physics->mu_low < physics->mu_high ? THR_OK : THR_EINFEASIBLE;
   if (!st) st = eval_at(plan, physics->mu_low, &low, &err);
   if (!st) st = eval_at(plan, physics->mu_high, &high, &err);
   options.low = st ? NULL : &low.record;
@@ -567,6 +644,21 @@ static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eva
   return code ? code : printed;
 }
 
+/* A value with a colon is the schedule itself, another one the name of a file of it. EXIT_OK, or printed. */
+static int read_schedule(const char *value, const thr_plan *plan, thr_schedule *schedule)
+{
+  thr_text text = {0};
+  thr_err err = {0};
+  if (!value) return EXIT_OK;
+  const bool file = !strchr(value, ':');
+  thr_status st = file ? thr_text_read(&text, value, &err) : THR_OK;
+  if (!file) thr_text_append(&text, value);
+  if (!st && text.failed) st = thr_nomem(&err);
+  if (!st) st = thr_schedule_parse(schedule, plan, text.data, text.length, file ? value : "--schedule", &err);
+  thr_text_destroy(&text);
+  return st ? cli_fail(&err) : EXIT_OK;
+}
+
 static bool any_known(const thr_evaluation *evaluation)
 {
   for (int i = 0; i < evaluation->n_cords; i++)
@@ -578,13 +670,16 @@ int cmd_eval(int argc, char **argv)
 {
   arguments a;
   thr_plan plan;
-  thr_eval eval;
+  thr_eval eval = {0};
   guard_end end;
   int code = parse(argc, argv, &a);
   if (code >= 0) return code;
   if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "no result");
   if ((code = cli_read_plan(a.path, &plan))) return code;
-  code = pull_eval(&a.pull, a.path, &plan, (thr_method)a.pull.method, &eval);
+  thr_schedule schedule = {0};
+  code = read_schedule(a.schedule, &plan, &schedule);
+  if (schedule.n > 0) a.pull.options.schedule = &schedule;
+  if (!code) code = pull_eval(&a.pull, a.path, &plan, (thr_method)a.pull.method, &eval);
   bool known = (code == EXIT_OK || code == EXIT_LIMIT) && any_known(&eval.record);
   if (known) { /* the plan takes the record over, so that one thing is written, drawn and printed */
     thr_evaluation_destroy(&plan.evaluation);
@@ -597,6 +692,7 @@ int cmd_eval(int argc, char **argv)
                cli_plural(eval.joints_measured, "joint", "joints"), eval.joints_cached);
   }
   if (code == EXIT_LIMIT) cli_error(known ? "stopped: only a part is known" : "stopped before any cord was known");
+  thr_schedule_destroy(&schedule);
   thr_eval_destroy(&eval);
   thr_plan_destroy(&plan);
   return code;

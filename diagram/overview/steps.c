@@ -1,4 +1,5 @@
 #include "diagram/overview/steps.h"
+#include "diagram/overview/tighten.h"
 
 #include "diagram/layout/layout.h"
 #include "diagram/scene/copies.h"
@@ -7,6 +8,7 @@
 #include "diagram/scene/scene.h"
 #include "diagram/overview/svg.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/evaluation.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -237,6 +239,19 @@ static void put_heading(steps *s, int n_paths)
   put_example(s);
 }
 
+/* How the cords are tightened, if an evaluation says so. */
+static void put_tightening(steps *s)
+{
+  const thr_schedule *schedule = &s->plan->evaluation.schedule;
+  if (schedule->n == 0) return;
+  thr_text_append(s->out, "\nTightening:\n");
+  for (int k = 0; k < schedule->n; k++) {
+    thr_text words = {0};
+    thr_tighten_step(s->plan, &s->guide, &schedule->step[k], &words);
+    put_wrapped(s, "[ ] ", &words);
+  }
+}
+
 static thr_status prepare(steps *s, double tolerance, int needles, thr_err *err)
 {
   const thr_plan *p = s->plan;
@@ -268,6 +283,7 @@ thr_status thr_steps_text(const thr_plan *p, const char *const *motion, double t
   put_heading(&s, n_paths);
   for (int c = 0; c < p->n_cords; c++)
     if (s.copy[c].of == c) put_path(&s, c, n_paths);
+  put_tightening(&s);
   if (!text.failed) thr_text_append_bytes(out, text.data, text.length);
   if (text.failed || out->failed) st = thr_nomem(err);
 done:

@@ -12,6 +12,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/schedule.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
@@ -415,6 +416,32 @@ static void put_pull(const panel *p, double side, const char *place)
   put_label(p, p->x + side * 33, p->y + 5, words);
 }
 
+/* The grips of cord c in the schedule, the first few by their places; all stand in steps.txt. */
+static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
+{
+  enum { FEW = 4 };
+  const thr_schedule *schedule = &sheets->plan->evaluation.schedule;
+  const thr_cord *cord = &sheets->plan->cord[c];
+  const int grips = thr_schedule_grips(schedule, c);
+  char force[32];
+  int n = 0;
+  thr_svg_force(thr_schedule_hardest(schedule, c), force);
+  thr_text_printf(words, "No pull above %s. ", force);
+  for (int k = 0; k < schedule->n && n < FEW; k++) {
+    const thr_schedule_step *step = &schedule->step[k];
+    if (step->cord != c || step->deed != THR_DEED_GRIP) continue;
+    const int half = cord->half[step->pass];
+    thr_text_printf(words, "%s%s and %s (pass %d)", n++ ? ", " : "Grip it between ",
+                    sheets->guide.label[thr_tail(sheets->f, half)], sheets->guide.label[thr_head(sheets->f, half)],
+                    step->pass + 1);
+  }
+  if (grips > n) thr_text_printf(words, " and at %d more places (steps.txt)", grips - n);
+  thr_text_append(
+      words, grips
+                 ? ", last pull its end: each time draw the slack of the part before, and hold until the next grip has taken it."
+                 : "Pull as steps.txt says.");
+}
+
 /* Which cord is first, where it is held and where it is drawn: of an evaluated plan the slack starts where it is slackest. */
 static void put_tighten(panel *p, thr_text *words)
 {
@@ -430,6 +457,13 @@ static void put_tighten(panel *p, thr_text *words)
   thr_text_printf(words, "%sord %s%s. ", sheets->plan->n_cords > 1 ? "The order is on the page \"Last\": first c" : "C", cord->id,
                   sheets->plan->n_cords > 1 ? "" : " is tightened when all is threaded");
   bool from_start = true, from_end = true, known = evaluation->present && evaluation->cord[c].known;
+  if (known && evaluation->schedule.n > 0) {
+    put_schedule(sheets, c, words);
+    put_label(p, p->x, p->y + 10, "first grip");
+    put_arrow(p, p->x - 1, p->y + 7.5, p->x - 1, p->y + 3.5);
+    put_pull(p, 1, end);
+    return;
+  }
   if (known) {
     int pull = evaluation->cord[c].pull, half = cord->half[evaluation->cord[c].slackest];
     from_start = pull != THR_PULL_END;

@@ -22,11 +22,11 @@ static double turn_exponent(thr_law law, double mu, double angle)
 }
 
 /* angle: of the turn after each pass. */
-static thr_status fill_exponents(const thr_cord *cord, const double *angle, thr_law law, double mu, double *exponent,
-                                 thr_err *err)
+static thr_status fill_exponents(const thr_frame *frame, const thr_cord *cord, const double *angle,
+                                 const thr_evaluation *evaluation, double mu, double *exponent, thr_err *err)
 {
   for (int k = 0; k + 1 < cord->n_passes; k++) {
-    exponent[k] = turn_exponent(law, mu, angle[k]);
+    exponent[k] = turn_exponent(evaluation->law, mu, angle[k]) + thr_profile_wobble(frame, &evaluation->physics, cord, k, mu);
     if (!isfinite(exponent[k]))
       return thr_fail(err, THR_EINPUT,
                       "cord %s: by the mitre law no pull overcomes mu = %g at the turn after pass %d (mu sin(theta / 2) = %.3g, "
@@ -37,11 +37,12 @@ static thr_status fill_exponents(const thr_cord *cord, const double *angle, thr_
 }
 
 /* Raises *largest to the cord's larger end force if mu were another, by the same law; INFINITY where it has no answer. */
-static thr_status raise_to_force_at(const thr_cord *cord, const double *angle, const thr_evaluation *evaluation, thr_pull pull,
-                                    double mu, double *exponent, double *largest, thr_err *err)
+static thr_status raise_to_force_at(const thr_frame *frame, const thr_cord *cord, const double *angle,
+                                    const thr_evaluation *evaluation, thr_pull pull, double mu, double *exponent, double *largest,
+                                    thr_err *err)
 {
   thr_eval_cord other = {.force = INFINITY};
-  thr_status st = fill_exponents(cord, angle, evaluation->law, mu, exponent, NULL);
+  thr_status st = fill_exponents(frame, cord, angle, evaluation, mu, exponent, NULL);
   if (!st) st = thr_profile_cord(&other, cord->id, cord->n_passes, exponent, pull, evaluation->physics.seating, NULL);
   free(other.tension);
   if (st == THR_ENOMEM) return thr_nomem(err);
@@ -54,16 +55,17 @@ static thr_status eval_cord(const thr_frame *frame, const thr_cord *cord, const 
 {
   const thr_physics *physics = &evaluation->physics;
   thr_scratch own = {0};
-  double *exponent = thr_scratch_array(&own, (size_t)cord->n_passes, sizeof *exponent),
+  double *other = thr_scratch_array(&own, (size_t)cord->n_passes, sizeof *other),
          *angle = thr_scratch_array(&own, (size_t)cord->n_passes, sizeof *angle);
-  thr_status st = thr_scratch_check(&own, err);
+  out->exponent = thr_calloc((size_t)cord->n_passes, sizeof *out->exponent);
+  thr_status st = out->exponent ? thr_scratch_check(&own, err) : thr_nomem(err);
   double turning = 0;
   for (int k = 0; k + 1 < cord->n_passes && !st; k++)
     turning += angle[k] = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
-  if (!st) st = fill_exponents(cord, angle, evaluation->law, physics->mu, exponent, err);
-  if (!st) st = thr_profile_cord(out, cord->id, cord->n_passes, exponent, out->pull, physics->seating, err);
-  if (!st) st = raise_to_force_at(cord, angle, evaluation, out->pull, physics->mu_low, exponent, &band[0], err);
-  if (!st) st = raise_to_force_at(cord, angle, evaluation, out->pull, physics->mu_high, exponent, &band[1], err);
+  if (!st) st = fill_exponents(frame, cord, angle, evaluation, physics->mu, out->exponent, err);
+  if (!st) st = thr_profile_cord(out, cord->id, cord->n_passes, out->exponent, out->pull, physics->seating, err);
+  if (!st) st = raise_to_force_at(frame, cord, angle, evaluation, out->pull, physics->mu_low, other, &band[0], err);
+  if (!st) st = raise_to_force_at(frame, cord, angle, evaluation, out->pull, physics->mu_high, other, &band[1], err);
   out->turning = out->taut_turning = turning;
   out->known = st == THR_OK;
   thr_scratch_free(&own);

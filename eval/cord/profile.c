@@ -1,5 +1,8 @@
 /* Tension along a cord from what each turn costs. */
 #include "eval/cord/profile.h"
+#include "graph/angle.h"
+#include "graph/framework/units.h"
+#include "graph/plan/physics.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,6 +26,14 @@ static int slackest_pass(int n_passes, const double *exponent, thr_pull pull)
     if (k + 1 < n_passes) before += exponent[k];
   }
   return slackest;
+}
+
+double thr_profile_wobble(const thr_frame *frame, const thr_physics *physics, const thr_cord *cord, int k, double mu)
+{
+  double mm;
+  if (physics->wobble == 0 || thr_units_in_mm(frame->units, &mm, NULL)) return 0;
+  const double way = (frame->length[cord->half[k] >> 1] + frame->length[cord->half[k + 1] >> 1]) / 2;
+  return mu * physics->wobble * way * mm / 1000;
 }
 
 thr_status thr_profile_cord(thr_eval_cord *cord, const char *id, int n_passes, const double *exponent, thr_pull pull,
@@ -57,5 +68,23 @@ thr_status thr_profile_cord(thr_eval_cord *cord, const char *id, int n_passes, c
   cord->work = cord->force + cord->other_force;
   cord->slackest = slackest;
   cord->tension = tension;
+  return THR_OK;
+}
+
+thr_status thr_profile_pressure(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, double *pressure,
+                                int *edge, thr_err *err)
+{
+  const thr_physics *physics = &evaluation->physics;
+  const double width = physics->bead_diameter, bore = physics->bore, ring = THR_PI / 4 * (width * width - bore * bore);
+  double *force = thr_calloc((size_t)frame->n_edges, sizeof *force);
+  if (!force) return thr_nomem(err);
+  for (int i = 0; i < evaluation->n_cords; i++)
+    for (int k = 0; evaluation->cord[i].known && k < cord[i].n_passes; k++)
+      force[cord[i].half[k] >> 1] += evaluation->cord[i].tension[k];
+  *edge = 0;
+  for (int e = 0; e < frame->n_edges; e++)
+    if (force[e] > force[*edge]) *edge = e;
+  *pressure = force[*edge] / ring;
+  free(force);
   return THR_OK;
 }

@@ -7,8 +7,20 @@
 #ifndef THR_PROFILE_H
 #define THR_PROFILE_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/plan.h"
 #include "graph/status.h"
+#include "graph/plan/physics.h"
+
+/* What the way from the middle of pass k to the middle of the next costs beside the turn between them: mu x wobble x metres. The
+ * framework has units whose length is known, or there is no wobble. */
+double thr_profile_wobble(const thr_frame *frame, const thr_physics *physics, const thr_cord *cord, int k, double mu);
+
+/* The largest pressure that cords press a face between two pieces with, MPa: the tensions of all passes through its edge on the
+ * ring between bore and bead; *edge: where. Cords that are not known press nothing. O(passes). */
+thr_status thr_profile_pressure(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, double *pressure,
+                                int *edge, thr_err *err) THR_MUST_CHECK;
 
 /* exponent[n_passes - 1] >= 0: ln of the ratio of the tensions on both sides of the turn after pass k. Allocates cord->tension
  * such that the slackest pass holds seating, and fills n_passes, pull, force, other_force, loss, work, slackest; leaves the other

@@ -289,6 +289,7 @@ static thr_status fill_cord(thr_eval *out, thr_eval_cord *eval_cord, const thr_f
   for (int k = 0; k + 1 < cord->n_passes && !st; k++) {
     double nominal = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
     verdict v = exponent_of(t, nominal, taut[k], &exponent[k], &error[k]);
+    exponent[k] += thr_profile_wobble(frame, &out->record.physics, cord, k, t->mu);
     count[v] += taut[k] >= STRAIGHT;
     eval_cord->turning += nominal;
     eval_cord->taut_turning += taut[k];
@@ -302,21 +303,21 @@ static thr_status fill_cord(thr_eval *out, thr_eval_cord *eval_cord, const thr_f
   out->refused_outside += count[OUTSIDE];
   out->refused_unsettled += count[UNSETTLED];
   *measured += count[MEASURED];
-  free(exponent);
+  eval_cord->exponent = exponent;
   free(error);
   return st;
 }
 
 /* Raises *largest to the cord's larger end force by the closed form; INFINITY if that is past what a number can hold. */
-static thr_status raise_to_closed_form(const thr_cord *cord, thr_pull pull, const double *taut, double mu, double seating,
-                                       double *largest, thr_err *err)
+static thr_status raise_to_closed_form(const thr_frame *frame, const thr_cord *cord, const thr_physics *physics, thr_pull pull,
+                                       const double *taut, double mu, double *largest, thr_err *err)
 {
   thr_eval_cord other = {.force = INFINITY};
   double *exponent = thr_calloc((size_t)cord->n_passes, sizeof *exponent);
   if (!exponent) return thr_nomem(err);
   for (int k = 0; k + 1 < cord->n_passes; k++)
-    exponent[k] = mu * taut[k];
-  thr_status st = thr_profile_cord(&other, cord->id, cord->n_passes, exponent, pull, seating, NULL);
+    exponent[k] = mu * taut[k] + thr_profile_wobble(frame, physics, cord, k, mu);
+  thr_status st = thr_profile_cord(&other, cord->id, cord->n_passes, exponent, pull, physics->seating, NULL);
   free(other.tension);
   free(exponent);
   if (st == THR_ENOMEM) return thr_nomem(err);
@@ -354,9 +355,8 @@ static thr_status compose(const thr_frame *frame, const thr_cord *cord, const th
     thr_eval_cord *eval_cord = &out->record.cord[i];
     st = fill_cord(out, eval_cord, frame, &cord[i], w->table, taut[i], &measured, err);
     if (st || !eval_cord->known) continue;
-    st = raise_to_closed_form(&cord[i], eval_cord->pull, taut[i], physics->mu_low, physics->seating, &out->band[0], err);
-    if (!st)
-      st = raise_to_closed_form(&cord[i], eval_cord->pull, taut[i], physics->mu_high, physics->seating, &out->band[1], err);
+    st = raise_to_closed_form(frame, &cord[i], physics, eval_cord->pull, taut[i], physics->mu_low, &out->band[0], err);
+    if (!st) st = raise_to_closed_form(frame, &cord[i], physics, eval_cord->pull, taut[i], physics->mu_high, &out->band[1], err);
   }
   if (!st && stopped) return thr_fail(err, stopped, "%s", stop.text);
   if (!st && measured == 0) st = check_any_measured(out, &w->drag, w->source->largest_turn, err);

@@ -4,6 +4,8 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/schedule.h"
+#include "graph/framework/units.h"
 #include "graph/status.h"
 
 #include <math.h>
@@ -23,19 +25,11 @@ static thr_status evaluated(const cord_claim *k, const char *name, double stated
   return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: %s: stated %.12g, but expected %.12g", k->id, name, stated, found);
 }
 
-/* The numbers that follow from the tensions. */
-static thr_status check_forces(const cord_claim *k, thr_err *err)
+/* The loss, and that no pass is slacker. */
+static thr_status check_slackest(const cord_claim *k, double force, thr_err *err)
 {
   const thr_eval_cord *eval_cord = k->c;
-  double at_start = eval_cord->tension[0], at_end = eval_cord->tension[eval_cord->n_passes - 1],
-         least = eval_cord->tension[eval_cord->slackest];
-  double force = eval_cord->pull == THR_PULL_START ? at_start : eval_cord->pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
-  double other = eval_cord->pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
-  thr_status st;
-  if ((st = evaluated(k, "force", eval_cord->force, force, err))) return st;
-  if ((st = evaluated(k, "other_force", eval_cord->other_force, other, err))) return st;
-  if ((st = evaluated(k, "work", eval_cord->work, force + other, err))) return st;
-  double loss = force > 0 ? 1 - least / force : 0;
+  const double least = eval_cord->tension[eval_cord->slackest], loss = force > 0 ? 1 - least / force : 0;
   if (!thr_check_close(eval_cord->loss, loss, 1))
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: loss: stated %.12g, but the tensions give %.12g", k->id,
                     eval_cord->loss, loss);
@@ -44,6 +38,20 @@ static thr_status check_forces(const cord_claim *k, thr_err *err)
       return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d is slacker than pass %d, which is said to be slackest",
                       k->id, i + 1, eval_cord->slackest + 1);
   return THR_OK;
+}
+
+/* The numbers that follow from the tensions. */
+static thr_status check_forces(const cord_claim *k, thr_err *err)
+{
+  const thr_eval_cord *eval_cord = k->c;
+  double at_start = eval_cord->tension[0], at_end = eval_cord->tension[eval_cord->n_passes - 1];
+  double force = eval_cord->pull == THR_PULL_START ? at_start : eval_cord->pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
+  double other = eval_cord->pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
+  thr_status st;
+  if ((st = evaluated(k, "force", eval_cord->force, force, err))) return st;
+  if ((st = evaluated(k, "other_force", eval_cord->other_force, other, err))) return st;
+  if ((st = evaluated(k, "work", eval_cord->work, force + other, err))) return st;
+  return check_slackest(k, force, err);
 }
 
 /* A cord that slides towards a pulled end gets tighter on the way, or stays as it is. */
@@ -61,13 +69,22 @@ static thr_status check_rise(const cord_claim *k, thr_err *err)
   return THR_OK;
 }
 
+/* What bores that are not straight add: mu x wobble x metres from the middle of pass i to that of the next. */
+static double wobble_exponent(const cord_claim *k, int i)
+{
+  double mm = 0;
+  if (k->e->physics.wobble == 0 || thr_units_in_mm(k->f->units, &mm, NULL)) return 0;
+  return k->e->physics.mu * k->e->physics.wobble * mm / 2000 *
+         (k->f->length[k->cord->half[i] >> 1] + k->f->length[k->cord->half[i + 1] >> 1]);
+}
+
 /* ln of what the turn after pass i multiplies the tension by; 0 after the last. The mitre law in another form than the one that
  * made the plan. */
 static double law_exponent(const cord_claim *k, int i)
 {
   if (i + 1 >= k->cord->n_passes) return 0;
   double mu = k->e->physics.mu, angle = thr_check_angle(k->f, k->cord->half[i], k->cord->half[i + 1]);
-  return k->e->law == THR_LAW_CAPSTAN ? mu * angle : log(1 / (1 - mu * sin(angle / 2)));
+  return wobble_exponent(k, i) + (k->e->law == THR_LAW_CAPSTAN ? mu * angle : log(1 / (1 - mu * sin(angle / 2))));
 }
 
 /* Does the slackest pass lie where the pull is least? from receives the exponents before it, total those of the whole cord. */
@@ -108,6 +125,23 @@ static thr_status check_law(const cord_claim *k, thr_err *err)
   return THR_OK;
 }
 
+/* After a schedule: the exponents are those of the law, and the tensions what the steps leave, worked out by the checker itself.
+ */
+static thr_status check_scheduled(const cord_claim *k, int i, thr_err *err)
+{
+  const thr_eval_cord *eval_cord = k->c;
+  const double hardest = thr_schedule_hardest(&k->e->schedule, i);
+  thr_status st = evaluated(k, "force", eval_cord->force, hardest, err);
+  if (!st) st = evaluated(k, "other_force", eval_cord->other_force, 0, err);
+  if (!st) st = evaluated(k, "work", eval_cord->work, hardest, err);
+  if (!st) st = check_slackest(k, hardest, err);
+  for (int j = 0; j + 1 < eval_cord->n_passes && !st && k->e->method == THR_CAPSTAN; j++)
+    if (!thr_check_close(eval_cord->exponent[j], law_exponent(k, j), 1))
+      st = thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: exponents[%d]: stated %.12g, but the %s law gives %.12g", k->id,
+                    j, eval_cord->exponent[j], thr_law_name(k->e->law), law_exponent(k, j));
+  return st ? st : thr_check_schedule(k->f, k->cord, &k->e->schedule, i, k->e->physics.stiffness, eval_cord, err);
+}
+
 static thr_status check_cord_evaluation(const thr_plan *plan, int i, thr_err *err)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
@@ -126,6 +160,7 @@ static thr_status check_cord_evaluation(const thr_plan *plan, int i, thr_err *er
   if (!(eval_cord->error >= 0) || (evaluation->method == THR_CAPSTAN && (eval_cord->error > 0 || eval_cord->refused > 0)))
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: error and refused: no such error is possible with this method",
                     k.id);
+  if (evaluation->schedule.n > 0) return check_scheduled(&k, i, err);
   thr_status st = check_forces(&k, err);
   if (!st) st = check_rise(&k, err);
   if (!st && evaluation->method == THR_CAPSTAN) st = check_law(&k, err);

@@ -9,6 +9,7 @@
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
+#include "graph/plan/evaluation.h"
 
 /* Lengths, angles and forces are sums of doubles, taken in an order of the plan's own: equal up to 1e-9 of what they are parts
  * of. */
@@ -100,5 +101,9 @@ thr_status thr_check_symmetry(const thr_plan *plan, thr_err *err) THR_MUST_CHECK
 
 /* Verifies the plan's evaluation, which must be present, with cords that were checked already. */
 thr_status thr_check_evaluation(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+
+/* Are the tensions of cord i those that the schedule leaves in it? */
+thr_status thr_check_schedule(const thr_frame *frame, const thr_cord *path, const thr_schedule *schedule, int i, double stiffness,
+                              const thr_eval_cord *claim, thr_err *err) THR_MUST_CHECK;
 
 #endif

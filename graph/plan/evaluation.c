@@ -2,6 +2,7 @@
 #include "graph/plan/evaluation.h"
 
 #include "graph/plan/plan.h"
+#include "graph/plan/schedule.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -39,8 +40,11 @@ void thr_evaluation_sum(thr_evaluation *evaluation)
 
 void thr_evaluation_destroy(thr_evaluation *evaluation)
 {
-  for (int i = 0; i < evaluation->n_cords; i++)
+  for (int i = 0; i < evaluation->n_cords; i++) {
     free(evaluation->cord[i].tension);
+    free(evaluation->cord[i].exponent);
+  }
+  thr_schedule_destroy(&evaluation->schedule);
   free(evaluation->cord);
   *evaluation = (thr_evaluation){0};
 }
@@ -53,10 +57,11 @@ bool thr_evaluation_range(const thr_evaluation *evaluation, double range[2])
   for (int i = 0; i < evaluation->n_cords; i++)
     for (int k = 0; evaluation->cord[i].known && k < evaluation->cord[i].n_passes; k++) {
       known = true;
-      range[0] = fmin(range[0], evaluation->cord[i].tension[k]);
+      if (evaluation->cord[i].tension[k] > 0 || evaluation->schedule.n == 0)
+        range[0] = fmin(range[0], evaluation->cord[i].tension[k]);
       range[1] = fmax(range[1], evaluation->cord[i].tension[k]);
     }
-  if (!known) range[0] = 0;
+  if (!known || range[0] > range[1]) range[0] = range[1];
   return known;
 }
 
@@ -94,7 +99,16 @@ static void put_tension(thr_writer *writer, const thr_eval_cord *cord, const dou
   thr_write_close(writer);
 }
 
-static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const double range[2])
+static void put_exponents(thr_writer *writer, const thr_eval_cord *cord)
+{
+  thr_write_line(writer, 5);
+  thr_write_row(writer, "exponents");
+  for (int k = 0; k + 1 < cord->n_passes; k++)
+    thr_write_number(writer, NULL, cord->exponent[k]);
+  thr_write_close(writer);
+}
+
+static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const double range[2], bool scheduled)
 {
   char id[12];
   thr_cord_id(i, id);
@@ -114,6 +128,7 @@ static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const
     thr_write_number(writer, "error", cord->error);
     thr_write_int(writer, "slackest", cord->slackest);
     thr_write_int(writer, "refused", cord->refused);
+    if (scheduled) put_exponents(writer, cord);
     put_tension(writer, cord, range);
   }
   thr_write_close(writer);
@@ -139,10 +154,14 @@ void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, 
   thr_write_number(writer, "low", range[0]);
   thr_write_number(writer, "high", range[1]);
   thr_write_close(writer);
+  if (evaluation->schedule.n > 0) {
+    thr_write_line(writer, 2);
+    thr_schedule_write(&evaluation->schedule, writer, "schedule");
+  }
   thr_write_line(writer, 2);
   thr_write_array(writer, "cords");
   for (int i = 0; i < evaluation->n_cords; i++)
-    put_cord(writer, &evaluation->cord[i], i, range);
+    put_cord(writer, &evaluation->cord[i], i, range, evaluation->schedule.n > 0);
   thr_write_line(writer, 2);
   thr_write_close(writer);
   thr_write_close(writer);
@@ -212,10 +231,23 @@ static thr_status read_tension(const reader *r, const thr_json *object, thr_eval
   return THR_OK;
 }
 
+static thr_status read_exponents(const reader *r, const thr_json *object, thr_eval_cord *cord)
+{
+  const thr_json *list = thr_json_get(object, "exponents");
+  if (!list) return THR_OK;
+  const int n = cord->n_passes - 1;
+  if (thr_json_typeof(list) != THR_JSON_ARRAY || thr_json_size(list) != n) return bad(r, "exponents", "not one per turn");
+  if (!(cord->exponent = thr_calloc((size_t)n + 1, sizeof *cord->exponent))) return thr_nomem(r->err);
+  for (int k = 0; k < n; k++)
+    if (!thr_json_number(thr_json_at(list, k), &cord->exponent[k]) || !(cord->exponent[k] >= 0))
+      return thr_fail(r->err, THR_EVIOLATED, "%s.exponents[%d]: not a number from 0 on", r->place, k);
+  return THR_OK;
+}
+
 static thr_status read_cord(const reader *r, const thr_json *object, int i, thr_eval_cord *cord)
 {
   static const char *const all[] = {"id",   "known", "pull",     "turning", "taut_turning", "force",   "other_force", "loss",
-                                    "work", "error", "slackest", "refused", "tension",      "colours", NULL};
+                                    "work", "error", "slackest", "refused", "tension",      "colours", "exponents",   NULL};
   static const char *const unknown[] = {"id", "known", "pull", NULL};
   char name[12];
   thr_cord_id(i, name);
@@ -241,6 +273,7 @@ static thr_status read_cord(const reader *r, const thr_json *object, int i, thr_
   for (size_t k = 0; k < sizeof number / sizeof *number && !st; k++)
     st = get_double(r, object, number[k].key, number[k].to);
   if (!st) st = read_tension(r, object, cord);
+  if (!st) st = read_exponents(r, object, cord);
   if (!st) st = get_int(r, object, "slackest", cord->n_passes - 1, &slackest);
   if (!st) st = get_int(r, object, "refused", cord->n_passes - 1, &refused);
   cord->slackest = (int)slackest;
@@ -288,10 +321,22 @@ static thr_status check_colours(const reader *r, const thr_json *object, const t
   return THR_OK;
 }
 
+static thr_status read_schedule(const reader *r, const thr_json *object, thr_evaluation *evaluation)
+{
+  const thr_json *list = thr_json_get(object, "schedule");
+  char place[256];
+  snprintf(place, sizeof place, "%.200s.schedule", r->place);
+  thr_status st = list ? thr_schedule_from_json(&evaluation->schedule, list, evaluation->n_cords, place, r->err) : THR_OK;
+  for (int i = 0; i < evaluation->n_cords && !st; i++)
+    if (evaluation->cord[i].known && (list != NULL) != (evaluation->cord[i].exponent != NULL))
+      st = bad(r, "schedule", "it comes with the exponents of all cords that are known, and they with it");
+  return st;
+}
+
 static thr_status read_members(const reader *r, const thr_json *object, thr_evaluation *evaluation)
 {
   static const char *const known[] = {"method",  "law",   "physics", "seed",  "time_step", "iterations",
-                                      "largest", "total", "scale",   "cords", NULL};
+                                      "largest", "total", "scale",   "cords", "schedule",  NULL};
   char place[256];
   int method = 0, law = 0;
   int64_t seed = 0;
@@ -316,6 +361,7 @@ static thr_status read_members(const reader *r, const thr_json *object, thr_eval
   if ((st = get_double(r, object, "largest", &evaluation->largest))) return st;
   if ((st = get_double(r, object, "total", &evaluation->total))) return st;
   if ((st = read_cords(r, object, evaluation))) return st;
+  if ((st = read_schedule(r, object, evaluation))) return st;
   return check_colours(r, object, evaluation);
 }
 

@@ -16,13 +16,28 @@ typedef enum {
 } thr_law;
 typedef enum { THR_PULL_START, THR_PULL_END, THR_PULL_BOTH, THR_N_PULLS } thr_pull;
 
+/* One thing that is done to a cord (graph/plan/schedule.h). */
+typedef enum { THR_DEED_PULL, THR_DEED_GRIP, THR_DEED_RELEASE, THR_DEED_KNOT, THR_N_DEEDS } thr_deed;
+typedef struct {
+  thr_deed deed;
+  int cord;
+  thr_pull end; /* of pull, release and knot: which end(s). Of a grip: from which side(s) the cord is drawn */
+  int pass;     /* of a grip, counted from 0 */
+  double force; /* N; of a knot 0 */
+  double slip;  /* of a knot, mm of cord that it gives back; else 0 */
+} thr_schedule_step;
+typedef struct {
+  int n, room;
+  thr_schedule_step *step; /* owned */
+} thr_schedule;
+
 typedef struct {
   bool known;          /* false: stopped before all of this cord's joints were measured; the rest is then 0 and tension NULL */
   thr_pull pull;       /* which end(s) are pulled */
   int n_passes;        /* of the cord */
   double turning;      /* rad, nominal: through the bead centres; without a closed cord's closing turn */
   double taut_turning; /* rad, of the path that the tight cord takes in its bores; capstan and structure: = turning */
-  double force;        /* N at the pulled end; with both ends pulled, at the one that needs more */
+  double force;        /* N at the pulled end; with both ends pulled, at the one that needs more; after a schedule its largest */
   double other_force;  /* N at the other end with both pulled, else 0 */
   double loss;         /* friction loss 1 - tension[slackest] / force */
   double work;         /* J per metre of cord drawn out at every pulled end: force (+ other_force) x 1 m */
@@ -30,6 +45,8 @@ typedef struct {
   int slackest;        /* pass with the least tension, counted from 0 */
   int refused;         /* turns not measured (too sharp, out of range, unsteady): the closed form stands in for them */
   double *tension;     /* [n_passes] N; owned */
+  double *exponent;    /* [n_passes - 1] ln of the ratio of the tensions that a turn holds apart, or NULL; in the plan only with
+                          a schedule; owned */
 } thr_eval_cord;
 
 typedef struct {
@@ -43,6 +60,7 @@ typedef struct {
   thr_eval_cord *cord;          /* owned */
   double largest;               /* N: largest force at any pulled end */
   double total;                 /* N: sum over all pulled ends */
+  thr_schedule schedule;        /* after which the tensions are what they are; empty: at the end of a pull */
 } thr_evaluation;
 
 const char *thr_method_name(int m);    /* "capstan", "joint", "structure" */
@@ -53,7 +71,8 @@ const char *thr_pull_name(thr_pull p); /* "start", "end", "both" */
 void thr_evaluation_sum(thr_evaluation *evaluation);
 void thr_evaluation_destroy(thr_evaluation *evaluation);
 
-/* Least and largest tension of any pass, N; false, and both 0, if no cord is known. */
+/* Least and largest tension of any pass, N; after a schedule the least of those that have any. False, and both 0, if no cord is
+ * known. */
 bool thr_evaluation_range(const thr_evaluation *evaluation, double range[2]);
 
 /* Colour of a tension: a perceptually even, colour-blind safe ramp over the logarithm of range, pale = slack, dark = tight.

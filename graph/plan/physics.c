@@ -9,24 +9,43 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MU, MU_LOW, MU_HIGH, MU_BEAD, MU_GROUND, CORD_DIAMETER, BORE, BEAD_DIAMETER, DENSITY, BEAD_MASS, SEATING, GRAVITY };
+enum {
+  MU,
+  MU_LOW,
+  MU_HIGH,
+  MU_BEAD,
+  MU_GROUND,
+  CORD_DIAMETER,
+  BORE,
+  BEAD_DIAMETER,
+  DENSITY,
+  BEAD_MASS,
+  SEATING,
+  GRAVITY,
+  WOBBLE,
+  STIFFNESS,
+  BEAD_STRENGTH
+};
 
 #define FIELD(name) #name, offsetof(thr_physics, name)
 const thr_physics_field thr_physics_fields[] = {
-    [MU] = {FIELD(mu), 0, 2, false, "", "friction coefficient, cord on bead"},
-    [MU_LOW] = {FIELD(mu_low), 0, 2, false, "", "lower end of the band of mu (0: half of mu)"},
-    [MU_HIGH] = {FIELD(mu_high), 0, 3, false, "", "upper end of the band of mu (0: one and a half mu)"},
-    [MU_BEAD] = {FIELD(mu_bead), 0, 2, false, "", "friction coefficient, bead on bead"},
-    [MU_GROUND] = {FIELD(mu_ground), 0, 2, false, "", "friction coefficient, foot on ground"},
-    [CORD_DIAMETER] = {FIELD(cord_diameter), 0, 1e9, false, "mm",
+    [MU] = {FIELD(mu), 0, 2, false, false, "", "friction coefficient, cord on bead"},
+    [MU_LOW] = {FIELD(mu_low), 0, 2, false, false, "", "lower end of the band of mu (0: half of mu)"},
+    [MU_HIGH] = {FIELD(mu_high), 0, 3, false, false, "", "upper end of the band of mu (0: one and a half mu)"},
+    [MU_BEAD] = {FIELD(mu_bead), 0, 2, false, false, "", "friction coefficient, bead on bead"},
+    [MU_GROUND] = {FIELD(mu_ground), 0, 2, false, false, "", "friction coefficient, foot on ground"},
+    [CORD_DIAMETER] = {FIELD(cord_diameter), 0, 1e9, false, false, "mm",
                        "thickness of the cord (0: 1/20 of the median edge, at most 1/4 of the shortest)"},
-    [BORE] = {FIELD(bore), 0, 1e9, false, "mm", "inner diameter of the channels (0: twice the cord)"},
-    [BEAD_DIAMETER] = {FIELD(bead_diameter), 0, 1e9, false, "mm",
+    [BORE] = {FIELD(bore), 0, 1e9, false, false, "mm", "inner diameter of the channels (0: twice the cord)"},
+    [BEAD_DIAMETER] = {FIELD(bead_diameter), 0, 1e9, false, false, "mm",
                        "width of a bead's arm (0: 0.35 of the median edge, at least 1.5 bores)"},
-    [DENSITY] = {FIELD(density), 0, 25, false, "g/cm3", "density of the beads' material"},
-    [BEAD_MASS] = {FIELD(bead_mass), 0, 1e9, false, "g", "mass of every bead (0: density x volume)"},
-    [SEATING] = {FIELD(seating), 0, 1e9, true, "N", "tension that must reach the slackest point of every cord"},
-    [GRAVITY] = {FIELD(gravity), 0, 1000, false, "m/s2", "gravity"},
+    [DENSITY] = {FIELD(density), 0, 25, false, false, "g/cm3", "density of the beads' material"},
+    [BEAD_MASS] = {FIELD(bead_mass), 0, 1e9, false, false, "g", "mass of every bead (0: density x volume)"},
+    [SEATING] = {FIELD(seating), 0, 1e9, true, false, "N", "tension that must reach the slackest point of every cord"},
+    [GRAVITY] = {FIELD(gravity), 0, 1000, false, false, "m/s2", "gravity"},
+    [WOBBLE] = {FIELD(wobble), 0, 10, false, true, "rad/m", "turning for every metre of cord, beside its turns (0: none)"},
+    [STIFFNESS] = {FIELD(stiffness), 0, 1e12, false, true, "N", "stiffness EA of the cord (0: not known)"},
+    [BEAD_STRENGTH] = {FIELD(bead_strength), 0, 1e6, false, true, "MPa", "pressure that a bead's face bears (0: not known)"},
 };
 const int thr_physics_n_fields = (int)(sizeof thr_physics_fields / sizeof *thr_physics_fields);
 
@@ -221,7 +240,8 @@ void thr_physics_write(const thr_physics *physics, thr_writer *writer, const cha
   thr_write_object(writer, key);
   if (*physics->preset) thr_write_string(writer, "preset", physics->preset);
   for (int i = 0; i < thr_physics_n_fields; i++)
-    thr_write_number(writer, thr_physics_fields[i].key, thr_physics_get(physics, &thr_physics_fields[i]));
+    if (!thr_physics_fields[i].optional || thr_physics_get(physics, &thr_physics_fields[i]) != 0)
+      thr_write_number(writer, thr_physics_fields[i].key, thr_physics_get(physics, &thr_physics_fields[i]));
   thr_write_close(writer);
 }
 

@@ -24,6 +24,9 @@ typedef struct {
   double bead_mass;     /* g per bead; 0 = density x volume */
   double seating;       /* N: tension that must reach the slackest point of every cord */
   double gravity;       /* m/s2, along -z */
+  double wobble;    /* rad per m of cord, added to its turning: bores are not straight (Eurocode 2: 0.005 to 0.01 for tendons) */
+  double stiffness; /* N, EA of the cord: it is longer by force / EA; 0 = not known */
+  double bead_strength; /* MPa that a bead's face bears; 0 = not known */
 } thr_physics;
 
 typedef struct {
@@ -31,6 +34,7 @@ typedef struct {
   size_t offset;    /* of the double in thr_physics */
   double low, high; /* accepted, both inclusive unless positive */
   bool positive;    /* 0 itself is refused */
+  bool optional;    /* 0 stays 0, and is not written */
   const char *unit; /* "mm", "" */
   const char *help; /* one line for --help and the docs */
 } thr_physics_field;

@@ -154,6 +154,7 @@ START_TEST(an_unfinished_evaluation_survives_json)
   thr_plan p = evaluated_plan(&f, THR_ENDS_CLOSED, THR_PULL_BOTH, THR_LAW_CAPSTAN);
   thr_eval_cord *c = &p.evaluation.cord[1];
   free(c->tension);
+  free(c->exponent);
   *c = (thr_eval_cord){.pull = c->pull, .n_passes = c->n_passes};
   thr_evaluation_sum(&p.evaluation);
   assert_plan_sound(&p);

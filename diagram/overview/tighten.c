@@ -1,0 +1,48 @@
+/* Steps of tightening in words. */
+#include "diagram/overview/tighten.h"
+#include "diagram/overview/svg.h"
+#include "graph/framework/frame.h"
+
+static void put_ends(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step, thr_text *words)
+{
+  const thr_cord *cord = &plan->cord[step->cord];
+  const char *start = guide->label[thr_cord_start(&plan->frame, cord)], *end = guide->label[thr_cord_end(&plan->frame, cord)];
+  if (step->end == THR_PULL_BOTH && cord->closed)
+    thr_text_printf(words, "both ends, at %s", start);
+  else if (step->end == THR_PULL_BOTH)
+    thr_text_printf(words, "both ends, at %s and %s", start, end);
+  else
+    thr_text_printf(words, "its %s, at %s", thr_pull_name(step->end), step->end == THR_PULL_START ? start : end);
+}
+
+static void put_grip(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step, thr_text *words)
+{
+  const int half = plan->cord[step->cord].half[step->pass];
+  char force[32];
+  thr_svg_force(step->force, force);
+  thr_text_printf(words, ", pass %d: grip it between %s and %s and draw it from ", step->pass + 1,
+                  guide->label[thr_tail(&plan->frame, half)], guide->label[thr_head(&plan->frame, half)]);
+  if (step->end == THR_PULL_BOTH)
+    thr_text_append(words, "both sides");
+  else
+    thr_text_printf(words, "the side of its %s", thr_pull_name(step->end));
+  thr_text_printf(words, ", with %s; hold it until the next has taken its slack.", force);
+}
+
+void thr_tighten_step(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step, thr_text *words)
+{
+  static const char *const verb[THR_N_DEEDS] = {
+      [THR_DEED_PULL] = ": pull ", [THR_DEED_RELEASE] = ": let down ", [THR_DEED_KNOT] = ": tie "};
+  char force[32];
+  thr_text_printf(words, "Cord %s", plan->cord[step->cord].id);
+  if (step->deed == THR_DEED_GRIP) {
+    put_grip(plan, guide, step, words);
+    return;
+  }
+  thr_text_append(words, verb[step->deed]);
+  put_ends(plan, guide, step, words);
+  thr_svg_force(step->force, force);
+  if (step->deed == THR_DEED_PULL) thr_text_printf(words, ", with %s.", force);
+  if (step->deed == THR_DEED_RELEASE) thr_text_printf(words, ", to %s.", force);
+  if (step->deed == THR_DEED_KNOT) thr_text_append(words, ".");
+}

@@ -1,0 +1,137 @@
+/* The steps of a schedule, and their member of plan.json. */
+#include "graph/plan/schedule.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const deed_name[THR_N_DEEDS] = {"pull", "grip", "release", "knot"};
+
+const char *thr_deed_name(int deed)
+{
+  return deed_name[deed];
+}
+
+thr_status thr_schedule_add(thr_schedule *schedule, const thr_schedule_step *step, thr_err *err)
+{
+  thr_status st = thr_grow(&schedule->step, schedule->n, &schedule->room, sizeof *schedule->step, err);
+  if (!st) schedule->step[schedule->n++] = *step;
+  return st;
+}
+
+void thr_schedule_destroy(thr_schedule *schedule)
+{
+  free(schedule->step);
+  *schedule = (thr_schedule){0};
+}
+
+double thr_schedule_hardest(const thr_schedule *schedule, int i)
+{
+  double hardest = 0;
+  for (int k = 0; k < schedule->n; k++) {
+    const thr_schedule_step *step = &schedule->step[k];
+    const bool pulls = step->deed == THR_DEED_PULL || step->deed == THR_DEED_GRIP;
+    if (pulls && (i < 0 || step->cord == i)) hardest = fmax(hardest, step->force);
+  }
+  return hardest;
+}
+
+int thr_schedule_grips(const thr_schedule *schedule, int i)
+{
+  int n = 0;
+  for (int k = 0; k < schedule->n; k++)
+    n += schedule->step[k].deed == THR_DEED_GRIP && (i < 0 || schedule->step[k].cord == i);
+  return n;
+}
+
+/* ---- plan.json ---- */
+
+void thr_schedule_write(const thr_schedule *schedule, thr_writer *writer, const char *key)
+{
+  thr_write_array(writer, key);
+  for (int k = 0; k < schedule->n; k++) {
+    const thr_schedule_step *step = &schedule->step[k];
+    char id[12];
+    thr_cord_id(step->cord, id);
+    thr_write_line(writer, 4);
+    thr_write_object(writer, NULL);
+    thr_write_string(writer, "cord", id);
+    thr_write_string(writer, "do", thr_deed_name(step->deed));
+    thr_write_string(writer, "end", thr_pull_name(step->end));
+    if (step->deed == THR_DEED_GRIP) thr_write_int(writer, "pass", step->pass);
+    if (step->deed != THR_DEED_KNOT) thr_write_number(writer, "force", step->force);
+    if (step->deed == THR_DEED_KNOT) thr_write_number(writer, "slip", step->slip);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+}
+
+/* Index of the word, or -1. */
+static int word_of(const thr_json *value, const char *(*name)(int), int n)
+{
+  const char *word = thr_json_string(value);
+  for (int i = 0; word && i < n; i++)
+    if (strcmp(word, name(i)) == 0) return i;
+  return -1;
+}
+
+static const char *end_name(int i)
+{
+  return thr_pull_name((thr_pull)i);
+}
+
+/* The cord with this id, or -1. */
+static int cord_of(const char *id, int n_cords)
+{
+  char name[12];
+  for (int i = 0; id && i < n_cords; i++) {
+    thr_cord_id(i, name);
+    if (strcmp(name, id) == 0) return i;
+  }
+  return -1;
+}
+
+/* A member that is there if it has to be, and not otherwise: a number from 0 on. */
+static bool number_if(const thr_json *object, const char *key, bool there, double *value)
+{
+  const thr_json *member = thr_json_get(object, key);
+  *value = 0;
+  return there ? thr_json_number(member, value) && *value >= 0 : !member;
+}
+
+static const char *read_step(const thr_json *object, int n_cords, thr_schedule_step *step)
+{
+  static const char *const known[] = {"cord", "do", "end", "pass", "force", "slip", NULL};
+  double pass;
+  const int deed = word_of(thr_json_get(object, "do"), thr_deed_name, THR_N_DEEDS),
+            end = word_of(thr_json_get(object, "end"), end_name, THR_N_PULLS);
+  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
+  *step = (thr_schedule_step){.cord = cord_of(thr_json_string(thr_json_get(object, "cord")), n_cords)};
+  if (step->cord < 0) return "cord: there is no such cord";
+  if (deed < 0) return "do: expected pull, grip, release or knot";
+  if (end < 0) return "end: expected start, end or both";
+  step->deed = (thr_deed)deed;
+  step->end = (thr_pull)end;
+  if (!number_if(object, "pass", deed == THR_DEED_GRIP, &pass) || pass != floor(pass) || pass > 1e9)
+    return "pass: not that of a grip";
+  if (!number_if(object, "force", deed != THR_DEED_KNOT, &step->force)) return "force: not a number of newtons for this";
+  if (!number_if(object, "slip", deed == THR_DEED_KNOT, &step->slip)) return "slip: not a length for this";
+  step->pass = (int)pass;
+  return NULL;
+}
+
+thr_status thr_schedule_from_json(thr_schedule *schedule, const thr_json *array, int n_cords, const char *place, thr_err *err)
+{
+  const int n = thr_json_size(array);
+  *schedule = (thr_schedule){0};
+  if (thr_json_typeof(array) != THR_JSON_ARRAY || n < 1) return thr_fail(err, THR_EVIOLATED, "%s: not a list of steps", place);
+  thr_status st = THR_OK;
+  for (int k = 0; k < n && !st; k++) {
+    thr_schedule_step step;
+    const char *wrong = read_step(thr_json_at(array, k), n_cords, &step);
+    st = wrong ? thr_fail(err, THR_EVIOLATED, "%s[%d]: %s", place, k, wrong) : thr_schedule_add(schedule, &step, err);
+  }
+  if (st) thr_schedule_destroy(schedule);
+  return st;
+}

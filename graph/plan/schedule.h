@@ -1,0 +1,44 @@
+/* What is done to the cords after threading, in order: pulled, gripped on the way, let down, knotted. The tension that it leaves
+ * in every pass follows from it (eval/cord/history.h), and the checker works it out again.
+ *
+ *   A: grip 37 18.5 from start      the cord is drawn out at its pass 37, from the side of its start, with 18.5 N
+ *   A: pull end 20                  its end is pulled with 20 N, and held
+ *   A: release end 2                its end is let down to 2 N
+ *   A: knot end 0.5                 its end is tied; the knot gives way by 0.5 mm */
+#ifndef THR_SCHEDULE_H
+#define THR_SCHEDULE_H
+
+#include "graph/io/json.h"
+#include "graph/io/writer.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/plan.h"
+#include "graph/status.h"
+#include "graph/text.h"
+
+const char *thr_deed_name(int deed); /* "pull", "grip", "release", "knot" */
+
+/* Adds a step; THR_ENOMEM. */
+thr_status thr_schedule_add(thr_schedule *schedule, const thr_schedule_step *step, thr_err *err) THR_MUST_CHECK;
+void thr_schedule_destroy(thr_schedule *schedule);
+
+/* The largest force, N, that a hand pulls cord i with, or all cords (i < 0). 0 if it never does. */
+double thr_schedule_hardest(const thr_schedule *schedule, int i);
+int thr_schedule_grips(const thr_schedule *schedule, int i); /* of cord i, or of all (i < 0) */
+
+/* Text as above: "CORD: pull|release END N", "CORD: grip PASS N [from END]", "CORD: knot END [MM]"; END is start, end or both;
+ * CORD an id of the plan's, or "all"; PASS counts from 1 as in steps.txt, or is the names of the two nodes of an edge that the
+ * cord passes once. Steps end with a line or a semicolon; # begins a comment. THR_EINPUT with name and line: what is wrong, and
+ * what is expected. O(text x passes). Release with thr_schedule_destroy, also after a failure. */
+thr_status thr_schedule_parse(thr_schedule *schedule, const thr_plan *plan, const char *text, size_t n, const char *name,
+                              thr_err *err) THR_MUST_CHECK;
+
+/* A step in the words of that text; for grips with the nodes on both sides in brackets. */
+void thr_schedule_put_step(const thr_plan *plan, const thr_schedule_step *step, thr_text *text);
+
+/* The member "schedule" of an evaluation, and reading it: shapes and ranges are checked against n_cords; passes by the checker.
+ */
+void thr_schedule_write(const thr_schedule *schedule, thr_writer *writer, const char *key);
+thr_status thr_schedule_from_json(thr_schedule *schedule, const thr_json *array, int n_cords, const char *place,
+                                  thr_err *err) THR_MUST_CHECK;
+
+#endif
