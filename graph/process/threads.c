@@ -181,23 +181,28 @@ static int take(queue *q)
   return job;
 }
 
-/* A thread's job of the team: as many of the queue as it comes to. */
+/* A thread's job of the team: as many of the queue as it comes to, the caller's beginning with job 0. */
 static thr_status take_jobs(void *user, int number, const thr_limits *limits, thr_err *err)
 {
   queue *q = user;
-  (void)number;
   (void)limits;
   (void)err;
-  for (int job; (job = take(q)) >= 0;)
+  for (int job = number == 0 && q->n_jobs > 0 ? 0 : take(q); job >= 0; job = take(q))
     do_job(q->team, q->run, q->user, job);
   return THR_OK;
 }
 
+thr_status thr_team_share(thr_team *team, int n_jobs, thr_threads_job *run, void *user, thr_err *err)
+{
+  queue q = {.team = team, .run = run, .user = user, .n_jobs = n_jobs, .next = 1};
+  return thr_team_run(team, team->n, take_jobs, &q, err);
+}
+
 thr_status thr_threads_run(int n_jobs, thr_threads_job *run, void *user, const thr_limits *limits, thr_err *err)
 {
-  queue q = {.run = run, .user = user, .n_jobs = n_jobs};
-  thr_status st = thr_team_create(&q.team, n_jobs, limits, err);
-  if (!st) st = thr_team_run(q.team, q.team->n, take_jobs, &q, err);
-  thr_team_destroy(q.team);
+  thr_team *team;
+  thr_status st = thr_team_create(&team, n_jobs, limits, err);
+  if (!st) st = thr_team_share(team, n_jobs, run, user, err);
+  thr_team_destroy(team);
   return st;
 }

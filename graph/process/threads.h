@@ -34,4 +34,7 @@ void thr_team_destroy(thr_team *team);
  * this. Of failures the one of lowest number is told. */
 thr_status thr_team_run(thr_team *team, int n_jobs, thr_threads_job *run, void *user, thr_err *err) THR_MUST_CHECK;
 
+/* As thr_threads_run: whichever thread is free takes the next job; job 0 is done in the one that made the team and calls this. */
+thr_status thr_team_share(thr_team *team, int n_jobs, thr_threads_job *run, void *user, thr_err *err) THR_MUST_CHECK;
+
 #endif

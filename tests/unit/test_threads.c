@@ -168,6 +168,43 @@ START_TEST(a_team_does_the_same_job_in_the_same_thread)
 }
 END_TEST
 
+/* Shared by the team of a caller, whose job is always the first. */
+typedef struct {
+  int calls[N_JOBS];
+  pthread_t first;
+} shared;
+
+static thr_status note_thread(void *user, int job, const thr_limits *limits, thr_err *err)
+{
+  shared *s = user;
+  ck_assert_int_eq(limits->threads, 1);
+  s->calls[job]++;
+  if (job == 0) s->first = pthread_self();
+  return job == 7 && s->calls[job] == 20 ? thr_fail(err, THR_EINPUT, "job %d", job) : THR_OK;
+}
+
+START_TEST(a_team_shares_jobs)
+{
+  static const int threads[] = {0, 1, 2, 16, 1000};
+  shared s = {0};
+  thr_err err = {0};
+  const thr_limits limits = {.threads = threads[_i]};
+  thr_team *team;
+  ck_assert_int_eq(thr_team_create(&team, 20, &limits, NULL), THR_OK);
+  for (int runs = 1; runs < 20; runs++) {
+    ck_assert_int_eq(thr_team_share(team, N_JOBS, note_thread, &s, NULL), THR_OK);
+    ck_assert(pthread_equal(s.first, pthread_self()));
+    for (int i = 0; i < N_JOBS; i++)
+      ck_assert_int_eq(s.calls[i], runs);
+  }
+  ck_assert_int_eq(thr_team_share(team, 0, note_thread, &s, NULL), THR_OK);
+  ck_assert_int_eq(s.calls[0], 19);
+  ck_assert_int_eq(thr_team_share(team, N_JOBS, note_thread, &s, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "job 7");
+  thr_team_destroy(team);
+}
+END_TEST
+
 static thr_frame made(thr_shape shape, int size)
 {
   thr_make_options o = thr_make_options_default(shape);
@@ -243,6 +280,7 @@ int main(void)
   ADD_EXAMPLES(s, 60, jobs_come_to_the_same, 5);
   ADD_EXAMPLES(s, 60, the_first_failure_is_told, 5);
   ADD_EXAMPLES(s, 60, a_team_does_the_same_job_in_the_same_thread, 5);
+  ADD_EXAMPLES(s, 60, a_team_shares_jobs, 5);
   ADD_EXAMPLES(s, 120, the_least_turning_does_not_depend_on_threads, 2);
   ADD_EXAMPLES(s, 60, symmetries_do_not_depend_on_threads, 4);
   return run_suite(s);

@@ -143,6 +143,13 @@ static bool closed(const thr_branch *branch, int i)
   return branch->tree.node[i].bound >= enough(branch);
 }
 
+/* Is the root's gap one that programmes and trees hardly close? */
+static bool is_wide(const thr_branch *branch)
+{
+  const double wide = 0.005;
+  return branch->tree.node[0].bound < (1 - wide) * (double)branch->best_price;
+}
+
 bool thr_branch_proved(const thr_branch *branch)
 {
   return branch->found && branch->tree.n_nodes > 0 && closed(branch, 0);
@@ -297,12 +304,41 @@ static thr_status improve_near(thr_branch *branch, int tries, thr_err *err)
   return st;
 }
 
-/* Plans near the best one, near the other one, and of random prices. */
-static thr_status improve_plans(thr_branch *branch, thr_err *err)
+static int tries_of_cycles(const thr_branch *branch)
 {
-  const int tries = (int)fmin(2000, 1e6 / branch->c->f->n_edges), root = 0;
+  return (int)fmin(2000, 1e6 / branch->c->f->n_edges);
+}
+
+/* The programme of the root, and beside it cycles where it is not going to close the gap. */
+typedef struct {
+  thr_branch *branch;
+  const thr_limits *limits;
+} root_search;
+
+static thr_status solve_programme(void *user, bool *enough, thr_err *err)
+{
+  const root_search *r = user;
+  const thr_status st = thr_branch_solve_node(r->branch, 0, r->limits, err);
+  *enough = closed(r->branch, 0);
+  return st;
+}
+
+static thr_status solve_root(thr_branch *branch, const thr_limits *limits, bool *beside, thr_err *err)
+{
+  const thr_turning_columns *c = branch->c;
+  const bool single = !c->task->end_allowed && c->task->cords == 1 && !c->task->tube;
+  *beside = single && branch->found && !thr_connect_later(c) && is_wide(branch);
+  if (c->task->tube && !c->task->free_turns) return solve_tied_root(branch, 0, err);
+  if (!*beside) return thr_branch_solve_node(branch, 0, limits, err);
+  return thr_cycles_beside(branch, tries_of_cycles(branch), solve_programme, &(root_search){branch, limits}, err);
+}
+
+/* Plans near the best one, unless that was done, near the other one, and of random prices. */
+static thr_status improve_plans(thr_branch *branch, bool done, thr_err *err)
+{
+  const int tries = tries_of_cycles(branch), root = 0;
   bool single = !branch->c->task->end_allowed && branch->c->task->cords == 1;
-  thr_status st = thr_cycles_improve(branch, tries, err);
+  thr_status st = done ? THR_OK : thr_cycles_improve(branch, tries, err);
   if (!st && branch->other.found && !closed(branch, root) && !thr_limits_stop(branch->limits)) {
     thr_branch_swap(branch, &branch->other);
     st = thr_cycles_improve(branch, tries, err);
@@ -328,10 +364,8 @@ static thr_limits limits_of_search(const thr_branch *branch)
 static bool is_weak(const thr_branch *branch)
 {
   enum { SMALL = 5000 };
-  const double wide = 0.005;
   const thr_turning_columns *c = branch->c;
-  return !c->task->end_allowed && !c->task->tube && c->n_columns < SMALL &&
-         branch->tree.node[0].bound < (1 - wide) * (double)branch->best_price;
+  return !c->task->end_allowed && !c->task->tube && c->n_columns < SMALL && is_wide(branch);
 }
 
 /* The column to decide on where a lane's point is, with all its images. */
@@ -355,14 +389,14 @@ static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err
 {
   thr_branch *b = user;
   const thr_turning_task *turning_task = b->c->task;
-  bool root = i == 0, tied_root = root && turning_task->tube && !turning_task->free_turns;
+  bool root = i == 0, beside = false;
   const thr_limits search = limits_of_search(b);
   b->tree.stopped = !root && thr_limits_stop(&search);
   if (b->tree.stopped) return THR_OK;
-  thr_status st = tied_root ? solve_tied_root(b, i, err) : thr_branch_solve_node(b, i, &search, err);
+  thr_status st = root ? solve_root(b, &search, &beside, err) : thr_branch_solve_node(b, i, &search, err);
   if (st) return st;
   report(b);
-  if (root && b->found && !turning_task->tube && !b->tree.stopped && !closed(b, i)) st = improve_plans(b, err);
+  if (root && b->found && !turning_task->tube && !b->tree.stopped && !closed(b, i)) st = improve_plans(b, beside, err);
   const thr_limits rest = limits_of_search(b);
   if (!st && root && b->found && is_weak(b)) st = thr_branch_ranks(b, &rest, err);
   b->tree.enough = enough(b);

@@ -301,7 +301,7 @@ thr_status thr_branch_try_joined(thr_branch *branch, const int *x, bool improve,
   st = thr_join_columns(&j, branch->whole, &single, err);
   if (!st && !single) st = thr_transition_join(branch->c->f, &j.g, j.mate, NULL, err);
   if (!st) thr_join_measure(&j);
-  double best = branch->found ? ldexp((double)branch->best_price, -THR_TURNING_BITS) : INFINITY;
+  double best = branch->best_price < INT64_MAX ? ldexp((double)branch->best_price, -THR_TURNING_BITS) : INFINITY;
   if (!st && !single && (improve || j.price < best)) st = thr_improve(&j, branch->limits, err);
   if (!st) return keep_better(branch, &j, branch->passes, err);
   thr_join_destroy(&j);

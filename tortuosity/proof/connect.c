@@ -3,6 +3,7 @@
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/process/threads.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
 #include "tortuosity/proof/branch.h"
@@ -47,7 +48,9 @@ typedef struct {
   bool *even;            /* [n_edges] scratch */
   int *scratch;          /* [n_edges + n_components] */
   thr_turning_dual dual;
-  double best; /* bound */
+  double best;    /* bound */
+  thr_branch own; /* beside the search: joins a matching while the next one is found */
+  int *joined;    /* [n_columns] that matching */
 } connect;
 
 /* ---- rows ---- */
@@ -253,7 +256,7 @@ static double lack(const connect *s, const row *r)
 {
   double sum = 0;
   for (int k = 0; k < r->n; k++)
-    sum += coefficient(r, k) * s->x[r->column[k]];
+    if (s->x[r->column[k]]) sum += coefficient(r, k) * s->x[r->column[k]];
   return r->right - sum;
 }
 
@@ -303,15 +306,45 @@ static bool is_enough(const connect *s)
   return s->branch->found && s->best >= (double)(s->branch->best_price - thr_branch_tolerance(s->branch) / 2);
 }
 
+/* The plan of a matching, and beside it the next matching. */
+typedef struct {
+  connect *s;
+  int step;
+  double *value, *bound;
+} pair;
+
+static thr_status join_or_match(void *user, int job, const thr_limits *limits, thr_err *err)
+{
+  const pair *p = user;
+  connect *s = p->s;
+  (void)limits;
+  return job == 0 ? thr_branch_try_joined(&s->own, s->joined, (p->step - 1) % 50 == 0, err) : match(s, p->value, p->bound, err);
+}
+
+/* The matching of a step; the search has the plan of that before, and at once the plan of the first. */
+static thr_status step_on(connect *s, int step, double *value, double *bound, thr_err *err)
+{
+  if (step == 0) return thr_branch_try_joined(s->branch, s->x, true, err);
+  if (step == 1) {
+    thr_status st = thr_branch_gather(s->branch, err);
+    if (!st) st = thr_branch_init(&s->own, s->branch->c, 1, &s->branch->quiet, err);
+    return st ? st : match(s, value, bound, err);
+  }
+  thr_branch_brief(&s->own, s->branch);
+  const thr_status st = thr_team_share(s->branch->team, 2, join_or_match, &(pair){s, step, value, bound}, err);
+  const thr_status taken = thr_branch_take(s->branch, &s->own, st ? NULL : err); /* of a stopped step, too */
+  return st ? st : taken;
+}
+
 static thr_status climb(connect *s, double bound, thr_err *err)
 {
   double part = 1, value = bound;
-  int idle = 0, steps = steps_of(s->branch->c);
+  int idle = 0, steps = steps_of(s->branch->c), step = 0;
   thr_status st = THR_OK;
   s->best = bound;
-  for (int step = 0; step < steps && !st && !is_enough(s) && !thr_limits_stop(s->limits); step++) {
-    if (step > 0 && (st = match(s, &value, &bound, err))) return st;
-    if ((st = thr_branch_try_joined(s->branch, s->x, step % 50 == 0, err))) return st;
+  for (; step < steps && !is_enough(s) && !thr_limits_stop(s->limits); step++) {
+    if ((st = step_on(s, step, &value, &bound, err))) return st;
+    memcpy(s->joined, s->x, (size_t)s->branch->c->n_columns * sizeof *s->x);
     idle = bound > s->best ? 0 : idle + 1;
     if (bound > s->best || step == 0) {
       s->best = bound;
@@ -325,7 +358,7 @@ static thr_status climb(connect *s, double bound, thr_err *err)
     }
     if (!move(s, value, part)) break;
   }
-  return st;
+  return step > 1 && !is_enough(s) ? thr_branch_try_joined(s->branch, s->joined, false, err) : THR_OK;
 }
 
 /* ---- the proof ---- */
@@ -380,6 +413,7 @@ thr_status thr_connect(thr_branch *branch, thr_pass_matching *passes, const int6
                  .price = thr_scratch_array(&own, n, sizeof *s->price),
                  .left = thr_scratch_array(&own, n, sizeof *s->left),
                  .x = thr_scratch_array(&own, n, sizeof *s->x),
+                 .joined = thr_scratch_array(&own, n, sizeof *s->joined),
                  .even = thr_scratch_array(&own, m, sizeof *s->even),
                  .scratch = thr_scratch_array(&own, m + (size_t)c->n_components, sizeof *s->scratch)};
   thr_status st = thr_scratch_check(&own, err);
@@ -398,6 +432,7 @@ thr_status thr_connect(thr_branch *branch, thr_pass_matching *passes, const int6
   for (int i = 0; i < s->n_rows; i++)
     row_destroy(&s->row[i]);
   thr_turning_dual_destroy(&s->dual);
+  thr_branch_destroy(&s->own);
   thr_scratch_free(&own);
   return st == THR_ELIMIT ? THR_OK : st;
 }

@@ -131,6 +131,29 @@ thr_status thr_pass_matching_init(thr_pass_matching *passes, const thr_turning_c
   return THR_OK;
 }
 
+thr_status thr_pass_matching_copy(thr_pass_matching *passes, const thr_pass_matching *from, thr_err *err)
+{
+  const size_t m = (size_t)from->c->f->n_edges, n = (size_t)n_nodes(from);
+  thr_status st = thr_pass_matching_init(passes, from->c, err);
+  if (st) return st;
+  memcpy(passes->open, from->open, m * sizeof *from->open);
+  memcpy(passes->listed, from->listed, (size_t)from->c->n_columns * sizeof *from->listed);
+  passes->spare = from->spare;
+  passes->most_rounds = from->most_rounds;
+  memcpy(passes->copies, from->copies, m * sizeof *from->copies);
+  number_nodes(passes);
+  if (!from->dual) return THR_OK;
+  passes->dual = thr_calloc(n, sizeof *passes->dual);
+  passes->mate = thr_calloc(n, sizeof *passes->mate);
+  if (!passes->dual || !passes->mate) {
+    thr_pass_matching_destroy(passes);
+    return thr_nomem(err);
+  }
+  memcpy(passes->dual, from->dual, n * sizeof *from->dual);
+  memcpy(passes->mate, from->mate, n * sizeof *from->mate);
+  return THR_OK;
+}
+
 void thr_pass_matching_shrink(thr_pass_matching *passes, const int *x)
 {
   const thr_turning_columns *c = passes->c;

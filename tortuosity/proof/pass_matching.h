@@ -44,6 +44,9 @@ thr_status thr_pass_matching_init(thr_pass_matching *passes, const thr_turning_c
                                   thr_err *err) THR_MUST_CHECK;
 void thr_pass_matching_destroy(thr_pass_matching *passes);
 
+/* With the same copies and turns, and to begin near the same matching. */
+thr_status thr_pass_matching_copy(thr_pass_matching *passes, const thr_pass_matching *from, thr_err *err) THR_MUST_CHECK;
+
 /* Least sum of price[n_columns] x over whole numbers that keep all equations: x receives them. dual receives potentials, those of
  * the ends, and odd sets, appended to what it holds (the first two must be allocated), that prove it, but for rounding. Prices in
  * units of 2^-THR_TURNING_BITS, of any sign. Begins near the matching before. THR_EINFEASIBLE: there are none. THR_ELIMIT:
