@@ -39,9 +39,9 @@ thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_tex
   return st;
 }
 
-static void note_pages(int n)
+static void note_pages(const char *file, int n)
 {
-  cli_note("%s: %d %s", thr_document_file(thr_document_sheets()), n, cli_plural(n, "page", "pages"));
+  cli_note("%s: %d %s", file, n, cli_plural(n, "page", "pages"));
 }
 
 int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *a)
@@ -71,7 +71,7 @@ void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRA
   int n = 0;
   names[0] = '\0';
   for (int i = 0; i < thr_documents_count() && n < DRAWINGS_NAMES; i++)
-    if (i != thr_document_sheets() || !drawings_no_sheets(plan, a))
+    if (thr_document_usual(i) && (i != thr_document_sheets() || !drawings_no_sheets(plan, a)))
       n += snprintf(names + n, (size_t)(DRAWINGS_NAMES - n), "%s%s", n ? " " : "", thr_document_file(i));
 }
 
@@ -98,6 +98,7 @@ int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_
     int i = nth_document(k);
     char path[1200];
     if (i == thr_document_sheets() && drawings_no_sheets(plan, a)) break;
+    if (!thr_document_usual(i)) continue;
     if (too_late(k)) return EXIT_LIMIT;
     code = cli_in_folder(folder, thr_document_file(i), path, sizeof path);
     if (!code) code = drawings_write(plan, i, path, a);

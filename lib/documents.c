@@ -2,6 +2,7 @@
 
 #include "diagram/export/paper.h"
 #include "diagram/export/viewer.h"
+#include "diagram/mat/mat.h"
 #include "diagram/overview/steps.h"
 #include "diagram/scene/polylines.h"
 #include "diagram/sheets/sheets.h"
@@ -21,6 +22,7 @@ typedef enum {
   CHANNELS_TABLE,
   OBJ,
   GLTF,
+  MAT,
   N_DOCUMENTS
 } document;
 
@@ -37,6 +39,7 @@ static const struct {
     [CHANNELS_TABLE] = {"channels.csv", "channels.csv"},
     [OBJ] = {"obj", "cords.obj"},
     [GLTF] = {"gltf", "cords.gltf"},
+    [MAT] = {"mat", "mat.pdf"},
 };
 
 int thr_documents_count(void)
@@ -65,6 +68,11 @@ int thr_document_find(const char *type)
 int thr_document_sheets(void)
 {
   return SHEETS;
+}
+
+bool thr_document_usual(int i)
+{
+  return i != MAT;
 }
 
 bool thr_document_threads(int i)
@@ -97,9 +105,19 @@ static thr_status sheets(const thr_plan *plan, const thr_document_options *a, co
   options.kind_tolerance = a->kind_tolerance;
   options.motion = motion;
   thr_status st = thr_sheets_make(&pages, plan, &options, limits, err);
-  if (!st && a->pages) a->pages(thr_sheets_pages(pages));
+  if (!st && a->pages) a->pages(documents[SHEETS].file, thr_sheets_pages(pages));
   if (!st) st = thr_sheets_pdf(pages, limits, out, err);
   thr_sheets_destroy(pages);
+  return st;
+}
+
+static thr_status mat(const thr_plan *plan, const thr_document_options *a, const thr_limits *limits, thr_text *out, thr_err *err)
+{
+  thr_mat *pages = NULL;
+  thr_status st = thr_mat_make(&pages, plan, (thr_page_size)a->page, a->kind_tolerance, err);
+  if (!st && a->pages) a->pages(documents[MAT].file, thr_mat_pages(pages));
+  if (!st) st = thr_mat_pdf(pages, limits, out, err);
+  thr_mat_destroy(pages);
   return st;
 }
 
@@ -129,6 +147,7 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
   case BEADS_TABLE: return thr_table_beads(plan, options->kind_tolerance, out, err);
   case CHANNELS_TABLE: return thr_table_channels(plan, options->kind_tolerance, out, err);
   case OBJ: return thr_polylines_obj(plan, out, err);
+  case MAT: return mat(plan, options, limits, out, err);
   case GLTF: return thr_polylines_gltf(plan, out, err);
   default: return describe(plan, (document)i, options, limits, out, err);
   }

@@ -13,6 +13,7 @@ const char *thr_document_type(int i);    /* as `thread draw --type` names it: "s
 const char *thr_document_file(int i);    /* usual file name: "overview.svg" */
 int thr_document_find(const char *type); /* -1: there is none of that name */
 int thr_document_sheets(void);           /* the one that takes longest: sheets.pdf */
+bool thr_document_usual(int i);          /* is it one of those that "all" means? Not the mat, which needs a unit */
 bool thr_document_threads(int i);        /* does it say, step by step, how the plan is threaded? */
 
 /* How they are drawn; {0} is the usual way. */
@@ -20,9 +21,9 @@ typedef struct {
   double pitch_mm;            /* of the overview; 0 = automatic */
   thr_overview_colour colour; /* of the overview */
   double kind_tolerance;      /* pieces that differ by no more are of a kind, in units; 0 = the usual one */
-  int page;                   /* of the step sheets: thr_page_size */
-  int needles;          /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = as the plan says */
-  void (*pages)(int n); /* hears how many the step sheets will have, before they are drawn; NULL = nobody */
+  int page;                   /* of step sheets and mat: thr_page_size */
+  int needles; /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = as the plan says */
+  void (*pages)(const char *file, int n); /* hears how many a file of pages will have, before they are drawn; NULL = nobody */
 } thr_document_options;
 
 /* Appends document i of the plan to out. THR_EINPUT: the plan has not what it shows, or an option does not fit. out is for the

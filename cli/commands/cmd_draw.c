@@ -32,6 +32,7 @@ static const char help[] =
     "                       channels.csv   which pass goes from which arm to which, piece by piece, and what crosses\n"
     "                       obj, gltf   cords.obj, cords.gltf: cords as lines for CAD and Blender\n"
     "                       all         all of these, into the folder of -o, else the current one\n"
+    "                       mat         mat.pdf: the outlines of all pieces, true to size, to lay them out on\n"
     "      --color cord|tension|turning   what colours of the overview tell apart: cords (default), how\n"
     "                       tight each pass is, or how sharply the cord turns\n"
     "      --pitch MM       millimetres on paper per edge (default: 24, less for large frameworks)\n" DRAWINGS_HELP GUARD_HELP

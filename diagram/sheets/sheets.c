@@ -1,23 +1,20 @@
-#define _XOPEN_SOURCE 700
 #include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/sheets/sheets_step.h"
 #include "diagram/space/space.h"
 
+#include "diagram/export/pages.h"
 #include "diagram/export/paper.h"
-#include "diagram/export/svg_page.h"
 #include "diagram/layout/layout.h"
 #include "diagram/overview/crop.h"
 #include "diagram/overview/guide.h"
 #include "diagram/scene/copies.h"
 #include "diagram/overview/svg.h"
 #include "diagram/tables/supplies.h"
-#include "graph/process/child.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
 
 thr_sheets_options thr_sheets_options_default(void)
 {
@@ -168,64 +165,21 @@ thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_er
   return svg->failed ? thr_nomem(err) : THR_OK;
 }
 
-/* Ends this process if a page takes so many seconds of processor time: fontconfig without memory tries for ever. */
-static void bound_page(void)
+static thr_status svg_of(const void *user, int i, thr_text *svg, thr_err *err)
 {
-  enum { MOST = 10 };
-  struct rusage used;
-  struct rlimit r;
-  if (getrusage(RUSAGE_SELF, &used) || getrlimit(RLIMIT_CPU, &r)) return;
-  rlim_t end = (rlim_t)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + MOST;
-  if (r.rlim_max != RLIM_INFINITY && r.rlim_max < end) return; /* somebody was stricter */
-  r.rlim_cur = end;
-  setrlimit(RLIMIT_CPU, &r);
-}
-
-/* fontconfig leaves fonts out where an allocation fails, and says nothing: a page is begun only with room for all that it may
- * need. */
-static thr_status check_room(thr_err *err)
-{
-  enum { ROOM = 16 << 20 };
-  void *room = thr_realloc(NULL, ROOM, 1); /* not cleared, which would take longer than drawing */
-  free(room);
-  return room ? THR_OK : thr_nomem(err);
-}
-
-/* In a child process: fontconfig ends the program, or never ends, when memory runs out. */
-static thr_status make_pdf(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
-{
-  const thr_sheets *sheets = *(const thr_sheets **)user;
-  thr_paper *paper = NULL;
-  thr_text out = {0};
-  char title[96];
-  title_of(sheets, title);
-  thr_status st = thr_paper_open(&paper, sheets->o.page, title, &out, err);
-  for (int i = 0; i < sheets->n_pages && !st; i++) {
-    thr_text svg = {0};
-    if (limits->advance) limits->advance(limits->user, "step sheets", (double)i / sheets->n_pages);
-    if (thr_limits_stop(limits))
-      st = thr_fail(err, THR_ELIMIT, "interrupted at page %d of %d of the step sheets", i + 1, sheets->n_pages);
-    bound_page();
-    if (!st) st = check_room(err);
-    if (!st) st = thr_sheets_svg(sheets, i, &svg, err);
-    if (!st) st = thr_svg_page(paper, &svg, err);
-    thr_text_destroy(&svg);
-  }
-  thr_status closed = thr_paper_close(paper, st ? NULL : err);
-  if (!st) st = closed;
-  if (!st) st = thr_child_send(to, &out, err);
-  thr_text_destroy(&out);
-  return st;
+  return thr_sheets_svg(user, i, svg, err);
 }
 
 thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, thr_text *pdf, thr_err *err)
 {
-  const thr_child child = {
-      .what = "the step sheets as PDF", .advice = "free memory, or draw without them (-T svg)", .run = make_pdf, .user = &sheets};
-  thr_text out = {0};
-  thr_status st = thr_child_run(&child, limits, &out, err);
-  if (!st) thr_text_append_bytes(pdf, out.data, out.length);
-  if (!st && pdf->failed) st = thr_nomem(err);
-  thr_text_destroy(&out);
-  return st;
+  char title[96];
+  title_of(sheets, title);
+  const thr_pages pages = {.name = "step sheets",
+                           .advice = "free memory, or draw without them (-T svg)",
+                           .title = title,
+                           .size = sheets->o.page,
+                           .n = sheets->n_pages,
+                           .svg = svg_of,
+                           .user = sheets};
+  return thr_pages_pdf(&pages, limits, pdf, err);
 }
