@@ -118,12 +118,12 @@ fi
 # ---- which jobs ----
 
 tier=${1:-test}
-export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 FUZZ_RUNS=100000
+export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 FUZZ_RUNS=30000
 builds='release asan' tree='layers layers-self-test format bench/smallest library/install readme examples' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
-rest) builds=asan SHARE_ASAN=1 tree='' programs='' whole='release/watchdog release/memory' FUZZ_RUNS=300000 ;;
+rest) builds=asan SHARE_ASAN=3 tree='' programs='' whole='release/watchdog release/memory' FUZZ_RUNS=150000 ;;
 all) SHARE_ASAN=1 whole='release/watchdog release/memory' FUZZ_RUNS=1000000 ;;
 fuzz) builds='' tree='' programs='' FUZZ_RUNS=0 ;;
 *) echo "tests/run.sh: $tier is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
