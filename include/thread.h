@@ -46,6 +46,8 @@ typedef struct {
   double scale;      /* times every coordinate */
   double flat;       /* rad: no edge between triangles that meet at less */
   char up;           /* 'y', 'z', or 'a' = as the maker of the file is known to write */
+  char split;        /* 1: an edge is cut where a node lies on it */
+  int pick;          /* which framework of a file that holds several, from 1; 0 = all */
 } thread_read_options;
 THREAD_API void thread_read_options_init(thread_read_options *options, size_t size);
 

@@ -28,7 +28,10 @@ static thr_status read_options(const thread_read_options *theirs, thr_read_optio
   if (!(o.scale > 0 && o.scale <= 1e9)) return thr_fail(err, THR_EINPUT, "scale %g: not above 0 and up to 1e9", o.scale);
   if (!(o.flat >= 0 && o.flat < 3.15)) return thr_fail(err, THR_EINPUT, "flat %g: not from 0 to pi", o.flat);
   if (o.up != 'y' && o.up != 'z' && o.up != 'a') return thr_fail(err, THR_EINPUT, "up: none of 'y', 'z' and 'a'");
+  if (o.pick < 0) return thr_fail(err, THR_EINPUT, "pick %d: below 0", o.pick);
   out->edges_path = o.edges;
+  out->split = o.split != 0;
+  out->pick = o.pick;
   out->units = o.units;
   out->scale = o.scale;
   out->flat = o.flat;

@@ -44,6 +44,12 @@ c_object() { cc -c "$examples/c/dome.c" $(pkg-config --cflags thread) -o "$out/d
 # shellcheck disable=SC2046
 cplusplus() { echo '#include <thread.h>
 int main() { return thread_version() != THREAD_VERSION; }' | g++ -Wall -Wextra -Werror -x c++ - $(pkg-config --cflags --libs thread) -o "$out/version" && "$out/version"; }
+# shellcheck disable=SC2046
+page_compiles() { # the program in docs/library.md
+  { printf '#include <stdio.h>\n#include <thread.h>\nint main(void)\n{\n'
+    awk '/^```/ { inside = $0 == "```c"; next } inside' docs/library.md
+    printf 'return 0;\n}\n'; } | cc -Wall -Wextra -std=c99 -x c - $(pkg-config --cflags --libs thread) -o "$out/page"
+}
 prints_length() { [ "$("$@")" = $length ]; }
 python_example() { PYTHONDONTWRITEBYTECODE=1 LIBTHREAD=$usr/lib/libthread.so.0 prints_length python3 "$examples/python/dome.py" "$out/python.svg"; }
 as_drawn() { "$usr/bin/thread" draw "$out/plan.json" -o "$out/program.svg" && cmp "$out/program.svg" "$out/c.svg"; }
@@ -77,6 +83,7 @@ test_that 'the C example is compiled' c_object
 test_that 'and linked with the static library' c_static
 test_that 'the static example prints the least length' env -u LD_LIBRARY_PATH bash -c "[ \"\$('$out/dome-static')\" = $length ]"
 test_that 'the header is C++, too' cplusplus
+test_that 'what docs/library.md shows compiles' page_compiles
 test_that 'the Python example prints the least length' python_example
 test_that 'C and Python draw the same picture' same_picture
 test_that 'the program plans the dome' bash -c "'$usr/bin/thread' make dome | '$usr/bin/thread' plan - -o '$out/plan.json'"

@@ -196,6 +196,12 @@ START_TEST(notes_say_what_was_merged)
   thread_frame_nodes(frame, &xyz);
   ck_assert_double_eq(xyz[3], 20);
   thread_frame_free(frame);
+  static const char cross[] = "0,0,0,20,0,0\n10,0,0,10,10,0\n"; /* a T whose bar is one edge */
+  thread_read_options_init(&o, sizeof o);
+  o.split = 1;
+  ck_assert_msg(thread_frame_parse(cross, strlen(cross), "t.csv", &o, &frame, &err) == THREAD_OK, "%s", err.text);
+  ck_assert_int_eq(thread_frame_edges(frame, NULL), 3);
+  thread_frame_free(frame);
 }
 END_TEST
 
