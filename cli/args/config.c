@@ -55,7 +55,8 @@ static int join(thr_text *file, const char *command, int argc, char **argv, int 
   bool applies = true;
   for (size_t i = 0; i < file->length; i++)
     lines += file->data[i] == '\n';
-  if (!(words = thr_calloc((size_t)(argc + lines + 1), sizeof *words))) return cli_fail(&(thr_err){THR_ENOMEM, "out of memory"});
+  if (!(words = thr_calloc((size_t)argc + (size_t)lines + 1, sizeof *words)))
+    return cli_fail(&(thr_err){THR_ENOMEM, "out of memory"});
   words[(*n)++] = argv[0];
   words[(*n)++] = argv[1];
   for (char *line = file->data, *end; line; line = end) {

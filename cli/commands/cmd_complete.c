@@ -20,7 +20,7 @@ static void put(void *user, const char *word)
 static bool is_wanted(const cli_listed *option)
 {
   if (wanted[1] != '-') return option->letter && wanted[1] == option->letter && wanted[2] == '\0';
-  return strncmp(wanted + 2, option->name, strlen(wanted + 2)) == 0;
+  return strstr(option->name, wanted + 2) == option->name;
 }
 
 /* Is it the first of its name that the help lists? */
