@@ -244,8 +244,8 @@ void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_cro
   put_frame(frame, "#D55E00", 0.5, text);
 }
 
-thr_status thr_crop_whole(const thr_plan *plan, const thr_layout *layout, const unsigned char *state, thr_box paper,
-                          const thr_limits *limits, thr_text *text, thr_err *err)
+thr_status thr_crop_whole(const thr_plan *plan, const thr_layout *layout, const unsigned char *state, const unsigned char *piece,
+                          thr_box paper, const thr_limits *limits, thr_text *text, thr_err *err)
 {
   enum { ATTEMPTS = 8 };
   thr_scene scene = {0};
@@ -266,7 +266,7 @@ thr_status thr_crop_whole(const thr_plan *plan, const thr_layout *layout, const 
   thr_draw_css(&scene, "thread", text);
   thr_text_printf(text, "<g transform=\"translate(%.2f %.2f)\">\n", thr_svg_round(x), thr_svg_round(y));
   thr_draw_feet(&scene, &style, text);
-  st = thr_crop_pieces(&scene, NULL, &scene.extent, text, err);
+  st = thr_crop_pieces(&scene, piece, &scene.extent, text, err);
   thr_draw_scene(&scene, &style, &scene.extent, text);
   thr_text_append(text, "</g>\n");
   thr_scene_destroy(&scene);

@@ -109,10 +109,15 @@ const char (*thr_sheets_labels(const thr_sheets *sheets))[THR_LABEL];
 /* sheets_front.c: the title page; first[THR_SHEET_PARTS]: pages before each part, this one not counted. */
 typedef enum { THR_SHEET_PREPARE, THR_SHEET_STEPS, THR_SHEET_LAST, THR_SHEET_PARTS } thr_sheet_part;
 void thr_sheets_front(thr_sheets *sheets, const int *first);
-void thr_sheets_making(thr_sheets *sheets);               /* sheets_making.c: how pieces are handled */
-void thr_sheets_prepare(thr_sheets *sheets);              /* sheets_prepare.c */
-void thr_sheets_key(thr_sheets *sheets);                  /* sheets_key.c: solid pieces drawn, kind by kind */
-void thr_sheets_name_tags(thr_sheets *sheets);            /* sheets_key.c: the names of all pieces, to stick on */
+void thr_sheets_making(thr_sheets *sheets);    /* sheets_making.c: how pieces are handled */
+void thr_sheets_prepare(thr_sheets *sheets);   /* sheets_prepare.c */
+void thr_sheets_key(thr_sheets *sheets);       /* sheets_key.c: solid pieces drawn, kind by kind */
+void thr_sheets_name_tags(thr_sheets *sheets); /* sheets_key.c: the names of all pieces, to stick on */
+/* sheets_sections.c: how many sections visits first .. end - 1 of a path have, 0 = no maps; and the page before so many steps of
+ * one.
+ */
+int thr_sheets_sections(const thr_sheets *sheets, int first, int end);
+void thr_sheets_section(thr_sheets *sheets, int nth, int n, int first, int end, int steps);
 void thr_sheets_steps(thr_sheets *sheets, int c);         /* sheets_steps.c: of a path */
 void thr_sheets_flush(thr_sheets *sheets);                /* sheets_steps.c: the page that is waiting; before any other page */
 void thr_sheets_copies(thr_sheets *sheets, int c);        /* sheets_copies.c: of a path, if it has any */

@@ -206,11 +206,13 @@ void thr_step_put_heading(thr_sheets *sheets, const thr_step *p, double top)
 }
 
 /* What the looks of pieces in the picture mean. */
-void thr_step_put_legend(thr_sheets *sheets, double y)
+void thr_step_put_legend(thr_sheets *sheets, double y, const char *what)
 {
-  static const char *const words[THR_PIECE_STATES] = {
-      [THR_PIECE_NEW] = "pick up in this step", [THR_PIECE_HELD] = "on a cord already", [THR_PIECE_LATER] = "later"};
+  char now[48];
+  const char *const words[THR_PIECE_STATES] = {
+      [THR_PIECE_NEW] = now, [THR_PIECE_HELD] = "on a cord already", [THR_PIECE_LATER] = "later"};
   double x = THR_SHEET_MARGIN;
+  snprintf(now, sizeof now, "pick up in this %s", what);
   for (int state = THR_PIECE_STATES - 1; state > THR_PIECE_PLAIN; state--) {
     thr_draw_key(x, y - 2.4, 5, 2.8, (thr_piece_state)state, thr_sheets_out(sheets));
     thr_svg_text(thr_sheets_out(sheets), x + 6.5, y, THR_SHEET_SMALL, "", words[state]);

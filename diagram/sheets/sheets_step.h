@@ -3,6 +3,8 @@
 #define THR_SHEETS_STEP_H
 
 #include "diagram/overview/crop.h"
+#include "diagram/scene/arms.h"
+#include "diagram/scene/boxes.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/space/camera.h"
 #include "diagram/space/space.h"
@@ -49,7 +51,7 @@ const char *thr_step_colour(const thr_sheets *sheets, const thr_step *step);
 void thr_step_find_text(thr_sheets *sheets, thr_step *step);
 void thr_step_destroy_text(thr_step *step);
 void thr_step_put_heading(thr_sheets *sheets, const thr_step *step, double top);
-void thr_step_put_legend(thr_sheets *sheets, double y);
+void thr_step_put_legend(thr_sheets *sheets, double y, const char *what); /* what: "step", "section" */
 void thr_step_put_rows(thr_sheets *sheets, const thr_step *step);
 
 /* Lines that the row of a visit takes, more or less: what it says of other steps is not known yet. */
@@ -62,6 +64,16 @@ double thr_step_rows_height(int lines, int rows);
 /* ---- the string of pieces (sheets_strip.c) ---- */
 
 double thr_step_strip_height(int visits); /* mm */
+
+/* The arms of a node around arms->hub, the longest so many mm long; *in and *out: the numbers of those by which the needle comes
+ * in and goes out by these half-edges, -1 = by none that is drawn. */
+void thr_step_arms(const thr_sheets *sheets, const thr_camera *camera, int v, double reach, thr_arms *arms, int half_in,
+                   int half_out, int *in, int *out);
+
+/* The hub of most arms of a step, if any has very many, in a corner of the picture that is free of the points at which the step
+ * is busy: busy[n_busy]. Nowhere if none is (sheets_hub.c). */
+void thr_step_put_hub(thr_sheets *sheets, const thr_step *step, const thr_camera *camera, const char *colour, thr_box picture,
+                      const double (*busy)[2], int n_busy);
 
 /* The pieces in the order of threading as they lie in the picture, with the way of the cord through each. camera: of a picture in
  * space, else NULL. */

@@ -4,6 +4,7 @@
 #include "diagram/overview/draw.h"
 #include "diagram/scene/boxes.h"
 #include "diagram/scene/pieces.h"
+#include "diagram/scene/scene.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/sheets/sheets_step.h"
 #include "diagram/space/camera.h"
@@ -61,7 +62,17 @@ static thr_status put_flat(thr_sheets *sheets, thr_step *p, const thr_crop *crop
   thr_status st = thr_crop_draw(&sheets->crops, crop, &p->view, at, &shown, thr_sheets_out(sheets), err);
   if (!st) thr_crop_locate(&sheets->crops, crop, &p->view, shown, paper, thr_sheets_out(sheets));
   sheets->y = at[1] + p->view.size[1];
-  if (!st) thr_step_put_legend(sheets, sheets->y + 4);
+  double busy[2 * THR_STEP_VISITS][2];
+  const thr_scene *scene = &sheets->crops.scene[p->view.scale];
+  for (int i = 0; i < crop->n_now && !st; i++)
+    for (int k = 0; k < 2; k++) {
+      double corner = k ? shown.y0 : shown.x0;
+      busy[2 * i][k] = at[k] + scene->pass[crop->now[i]].from[k] - corner;
+      busy[2 * i + 1][k] = at[k] + scene->pass[crop->now[i]].to[k] - corner;
+    }
+  thr_box picture = {at[0], at[1], at[0] + p->view.size[0], sheets->y};
+  if (!st) thr_step_put_hub(sheets, p, NULL, crop->colour, picture, (const double(*)[2])busy, 2 * crop->n_now);
+  if (!st) thr_step_put_legend(sheets, sheets->y + 4, "step");
   sheets->y += THR_STEP_LEGEND;
   if (!st) thr_step_put_strip(sheets, p, NULL, crop->colour);
   return st;
@@ -79,7 +90,16 @@ static thr_status put_in_space(thr_sheets *sheets, const thr_step *p, const thr_
   thr_status st = thr_space_draw(&sheets->space, &step, &view, at, thr_sheets_out(sheets), err);
   if (!st) st = thr_space_locate(&sheets->space, &step, &view, paper, thr_sheets_out(sheets), err);
   sheets->y = at[1] + view.size[1];
-  if (!st) thr_step_put_legend(sheets, sheets->y + 4);
+  double busy[2 * THR_STEP_VISITS][2], seen[3];
+  for (int i = 0; i < 2 * crop->n_now; i++) {
+    int h = thr_space_half(&sheets->space, crop, crop->now[i / 2]);
+    thr_camera_project(&view, sheets->f->xyz[i % 2 ? thr_head(sheets->f, h) : thr_tail(sheets->f, h)], seen);
+    for (int k = 0; k < 2; k++)
+      busy[i][k] = at[k] + seen[k];
+  }
+  thr_box picture = {at[0], at[1], at[0] + view.size[0], sheets->y};
+  if (!st) thr_step_put_hub(sheets, p, &view.camera, crop->colour, picture, (const double(*)[2])busy, 2 * crop->n_now);
+  if (!st) thr_step_put_legend(sheets, sheets->y + 4, "step");
   sheets->y += THR_STEP_LEGEND;
   if (!st) thr_step_put_strip(sheets, p, &view.camera, crop->colour);
   return st;
@@ -182,13 +202,36 @@ static thr_status wait(thr_sheets *sheets, int first, int end, thr_err *err)
   return st;
 }
 
+/* Where the section ends that begins with step i of n: that many steps, of which the last has picked up its share. */
+static int steps_of_section(const thr_sheets *sheets, const int *end, int n, int i, int new, int share)
+{
+  int first = i ? end[i - 1] : sheets->first_visit[sheets->visit[end[0] - 1].cord], steps = 0;
+  for (int k = first; i + steps < n; k++) {
+    new += sheets->visit[k].nth == 1;
+    if (k + 1 < end[i + steps]) continue;
+    steps++;
+    if (new >= share) break;
+  }
+  return steps;
+}
+
 void thr_sheets_steps(thr_sheets *sheets, int c)
 {
-  int *end = NULL, n = 0, first = sheets->first_visit[c];
+  int *end = NULL, n = 0, first = sheets->first_visit[c], next = 0, section = 0, new = 0;
   thr_status st = sheets->st ? sheets->st : thr_step_divide(sheets, c, &end, &n, &sheets->why);
   if (st) thr_sheets_fail(sheets, st, NULL);
+  int sections = n ? thr_sheets_sections(sheets, first, end[n - 1]) : 0, all = 0;
+  for (int i = first; n && i < end[n - 1]; i++)
+    all += sheets->visit[i].nth == 1;
   for (int i = 0; i < n && !sheets->st; first = end[i++]) {
     poll(sheets, first);
+    if (!sheets->st && i == next && section < sections) {
+      int steps = section + 1 < sections ? steps_of_section(sheets, end, n, i, new, all * (section + 1) / sections) : n - i;
+      thr_sheets_section(sheets, ++section, sections, first, end[i + steps - 1], steps);
+      next = i + steps;
+    }
+    for (int k = first; k < end[i]; k++)
+      new += sheets->visit[k].nth == 1;
     st = sheets->st ? sheets->st : wait(sheets, first, end[i], &sheets->why);
     if (st) thr_sheets_fail(sheets, st, NULL);
   }

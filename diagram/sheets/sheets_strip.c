@@ -57,9 +57,8 @@ static void direction(const thr_sheets *sheets, const thr_camera *camera, int h,
   d[1] = a[1] - b[1];
 }
 
-/* The arms of a node, the longest as long as the reach; *in and *out: the numbers of two of them. */
-static void arms_of(const thr_sheets *sheets, const thr_camera *camera, int v, double reach, thr_arms *arms, int half_in,
-                    int half_out, int *in, int *out)
+void thr_step_arms(const thr_sheets *sheets, const thr_camera *camera, int v, double reach, thr_arms *arms, int half_in,
+                   int half_out, int *in, int *out)
 {
   const thr_frame *f = sheets->f;
   double longest = 0;
@@ -104,7 +103,7 @@ static void add_icon(const thr_sheets *sheets, int visit, const thr_camera *came
   int in, out;
   thr_arms arms = {.hub = {hub[0], hub[1]}};
   if (sheets->pieces.solid)
-    arms_of(sheets, camera, v->piece, reach, &arms, v->in, v->out, &in, &out);
+    thr_step_arms(sheets, camera, v->piece, reach, &arms, v->in, v->out, &in, &out);
   else
     tube_of(sheets, camera, v->in, reach, &arms, &in, &out);
   for (int k = 0; k < 2; k++)

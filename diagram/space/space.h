@@ -56,7 +56,8 @@ thr_status thr_space_locate(const thr_space *space, const thr_space_step *step, 
 
 /* Appends all pieces, from the front and above, as large as the paper takes, with the names of those that have room. O(n log n).
  */
-thr_status thr_space_whole(const thr_space *space, thr_box paper, thr_text *text, thr_err *err) THR_MUST_CHECK;
+thr_status thr_space_whole(const thr_space *space, const unsigned char *state, thr_box paper, thr_text *text,
+                           thr_err *err) THR_MUST_CHECK;
 
 /* The half-edge of pass i in the direction of the needle. */
 int thr_space_half(const thr_space *space, const thr_crop *crop, int i);

@@ -465,7 +465,7 @@ static thr_camera_view view_of_all(const thr_space *space, const double size[2],
   return view;
 }
 
-thr_status thr_space_whole(const thr_space *space, thr_box paper, thr_text *text, thr_err *err)
+thr_status thr_space_whole(const thr_space *space, const unsigned char *state, thr_box paper, thr_text *text, thr_err *err)
 {
   const thr_frame *f = space->f;
   int most = f->n_nodes > f->n_edges ? f->n_nodes : f->n_edges;
@@ -493,7 +493,7 @@ thr_status thr_space_whole(const thr_space *space, thr_box paper, thr_text *text
     d.arm = fmin(ARM * d.pitch, WIDEST);
     thr_text_printf(text, "<g transform=\"translate(%.2f %.2f)\">\n", paper.x0, paper.y0);
     for (int i = 0; i < (space->solid ? f->n_nodes : f->n_edges); i++)
-      piece[i] = THR_PIECE_HELD;
+      piece[i] = state ? state[i] : THR_PIECE_HELD;
     put_pieces(&d, AROUND, false, list);
     st = put_names(&d, list, err);
     thr_text_append(text, "</g>\n");

@@ -592,6 +592,26 @@ START_TEST(odd_plans_are_read_back)
 }
 END_TEST
 
+/* Sections pick up all pieces once. */
+static void assert_sections(const thr_text *pdf, int n_pieces)
+{
+  thr_text told = told_by("pdftotext -raw", pdf);
+  int sections = 0, pieces = 0, last = 0, first, end;
+  char *text = told.data;
+  for (char *line = strtok_r(text, "\n\f", &text); line; line = strtok_r(NULL, "\n\f", &text)) {
+    if (strstr(line, " pieces to lay ready: ")) pieces += atoi(line);
+    if (!starts(line, "Section ") || !strstr(line, ": steps ") || strstr(line, "continued")) continue;
+    ck_assert_int_eq(sscanf(strstr(line, ": steps "), ": steps %d to %d", &first, &end), 2);
+    ck_assert_int_eq(first, last + 1);
+    ck_assert_int_ge(end, first);
+    last = end;
+    sections++;
+  }
+  ck_assert_int_gt(sections, 2);
+  ck_assert_int_eq(pieces, n_pieces);
+  thr_text_destroy(&told);
+}
+
 /* The 1,800 edges of a dome: what hands thread for days. */
 START_TEST(a_large_plan_is_read_back)
 {
@@ -600,6 +620,7 @@ START_TEST(a_large_plan_is_read_back)
   thr_text pdf = pdf_of(s);
   assert_reads_back(&p, &pdf);
   assert_pages(&pdf, thr_sheets_pages(s), 210, 297);
+  assert_sections(&pdf, p.frame.n_nodes);
   thr_text_destroy(&pdf);
   thr_sheets_destroy(s);
   thr_plan_destroy(&p);
