@@ -52,7 +52,11 @@ typedef struct {
   bool cache_failed;    /* method joint: some joint could not be written to the cache folder */
   double interpolation; /* method joint: estimate of the largest relative error of an interpolated exponent, as seen at measured
                            angles left out; NAN if none could be left out, and without friction */
-  thr_holding holding;  /* method structure */
+  thr_holding holding;  /* method structure: the pull while the cords are drawn in */
+  thr_holding equal;    /* the same with equal pulls at all ends; up to 100 beads, all cords pulled at both ends */
+  thr_holding loosest;  /* the force at all ends in any friction state, whatever was done to the cords before */
+  thr_holding after;    /* after a schedule: by what its tensions may be multiplied; it stands if that may be 1 */
+  double let_down;      /* N: to which all ends can then be let down while an equilibrium exists; NAN if that was not asked */
   thr_settle settle;    /* method structure */
 } thr_eval;
 

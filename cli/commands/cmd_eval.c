@@ -123,8 +123,8 @@ static int parse(int argc, char **argv, arguments *a)
   if (to_stdout > 1) return cli_usage("eval", "only one of --json, -o -, --plot - and --still - can have stdout");
   if (pull_check(&a->pull, "eval")) return EXIT_USAGE;
   if (a->schedule && a->pull.options.hand > 0) return cli_usage("eval", "--hand makes a schedule of its own: no --schedule");
-  if ((a->schedule || a->pull.options.hand > 0) && a->pull.method == THR_STRUCTURE)
-    return cli_usage("eval", "--schedule and --hand are of the methods capstan and joint");
+  if (a->pull.options.hand > 0 && a->pull.method == THR_STRUCTURE)
+    return cli_usage("eval", "--hand is of the methods capstan and joint; --schedule takes what it says");
   if (a->still && a->pull.method != THR_STRUCTURE) return cli_usage("eval", "--still needs --method structure");
   if (a->still && !a->pull.options.dynamics) return cli_usage("eval", "--still shows a simulation; take --no-dynamics away");
   return -1;
@@ -344,29 +344,55 @@ static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *s
 }
 
 /* By itself only if an equilibrium without any pull was found. */
-static void put_holding(thr_text *text, const thr_holding *holding)
+static void put_bounds(thr_text *text, const thr_holding *holding, const char *when)
 {
   if (holding->lower > 0)
-    thr_text_printf(text,
-                    "\nholding pull   below %.6g N nothing can hold it while the cord is being drawn in (proved, residual %.1g)",
-                    holding->lower, holding->residual);
+    thr_text_printf(text, "below %.6g N %s nothing holds it (proved, residual %.1g)", holding->lower, when, holding->residual);
   else if (holding->upper == 0)
-    thr_text_append(text, "\nholding pull   0 N: it stands by itself");
+    thr_text_append(text, "0 N: it stands by itself");
   else
-    thr_text_append(text, "\nholding pull   it may stand by itself: not excluded, not shown");
+    thr_text_append(text, "it may stand by itself: not excluded, not shown");
   if (holding->upper > 0 && isfinite(holding->upper)) thr_text_printf(text, "; at %.6g N an equilibrium exists", holding->upper);
   if (!isfinite(holding->upper)) thr_text_append(text, "; no equilibrium was found at any pull");
   thr_text_append(text, "\n");
-  if (holding->lower > 0)
-    thr_text_append(
-        text, "               (a cord that was pulled and let go keeps tension inside: it may hold at a hundredth of it)\n");
+}
+
+/* The three answers: while cords are drawn in, whatever was done to them, and after what was done. */
+static void put_holding(thr_text *text, const thr_eval *eval)
+{
+  thr_text_append(text, "\nholding pull   ");
+  put_bounds(text, &eval->holding, "at the harder ends, while the cords are being drawn in,");
+  if (eval->holding.lower > 0 && eval->loosest.present) {
+    if (eval->equal.present) {
+      thr_text_append(text, "equal pulls    ");
+      put_bounds(text, &eval->equal, "at all ends, while the cords are being drawn in,");
+    }
+    thr_text_append(text, "in any state   ");
+    put_bounds(text, &eval->loosest, "at all ends, whatever was done to the cords before,");
+  }
+}
+
+/* Does it stand after the schedule? */
+static void put_after(thr_text *text, const thr_eval *eval)
+{
+  const thr_holding *after = &eval->after;
+  if (!after->present) return;
+  thr_text_append(text, "after it       ");
+  if (after->upper <= 1)
+    thr_text_printf(text, "it stands, and would with %.4g of the tensions", after->upper);
+  else if (after->lower > 1)
+    thr_text_printf(text, "it falls: %.4g times the tensions are needed (proved)", after->lower);
+  else
+    thr_text_printf(text, "it may stand or fall: between %.4g and %.4g of the tensions", after->lower, after->upper);
+  if (isfinite(eval->let_down)) thr_text_printf(text, "; with all ends let down to %.3g N, too", eval->let_down);
+  thr_text_append(text, "\n");
 }
 
 static void put_structure(thr_text *text, const arguments *a, const thr_plan *plan, const thr_eval *eval, bool stopped)
 {
   const thr_holding *holding = &eval->holding;
   if (!holding->present) return;
-  put_holding(text, holding);
+  put_holding(text, eval);
   if (holding->first_bead >= 0)
     thr_text_printf(text, "just below     bead %s moves fastest (collapse mechanism)\n", plan->frame.name[holding->first_bead]);
   if (!a->pull.options.dynamics) return;
@@ -453,6 +479,7 @@ static void put_text(thr_text *text, const arguments *a, const thr_plan *plan, c
   if (evaluation->schedule.n > 0) {
     put_schedule(text, plan);
     put_left(text, plan);
+    put_after(text, eval);
   }
   if (evaluation->method == THR_JOINT) put_joint(text, plan, eval);
   if (evaluation->method == THR_STRUCTURE) put_structure(text, a, plan, eval, stopped);
@@ -470,16 +497,31 @@ static void put_bead(thr_writer *writer, const char *key, const thr_frame *frame
     thr_write_null(writer, key);
 }
 
-static void put_json_holding(thr_writer *writer, const thr_frame *frame, const thr_holding *holding)
+static void put_json_holding(thr_writer *writer, const thr_frame *frame, const char *key, const thr_holding *holding,
+                             const char *when)
 {
   thr_write_line(writer, 1);
-  thr_write_object(writer, "holding");
+  thr_write_object(writer, key);
   thr_write_number(writer, "lower", holding->lower);
   thr_write_number(writer, "upper", holding->upper);
   thr_write_number(writer, "residual", holding->residual);
   put_bead(writer, "first_bead", frame, holding->first_bead);
-  thr_write_string(writer, "holds", "while the cord is being drawn in");
+  thr_write_string(writer, "holds", when);
   thr_write_close(writer);
+}
+
+/* The three answers of the limit analysis. */
+static void put_json_answers(thr_writer *writer, const thr_frame *frame, const thr_eval *eval)
+{
+  put_json_holding(writer, frame, "holding", &eval->holding, "while the cord is being drawn in");
+  if (eval->equal.present)
+    put_json_holding(writer, frame, "equal_pulls", &eval->equal,
+                     "while the cord is being drawn in, with equal pulls at all ends");
+  if (eval->loosest.present)
+    put_json_holding(writer, frame, "any_state", &eval->loosest, "force at all ends, whatever was done to the cords before");
+  if (!eval->after.present) return;
+  put_json_holding(writer, frame, "after", &eval->after, "factor on the tensions that the schedule leaves");
+  thr_write_number(writer, "let_down", eval->let_down);
 }
 
 static void put_json_simulation(thr_writer *writer, const thr_frame *frame, const thr_settle *settle)
@@ -525,7 +567,7 @@ static void put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval,
   thr_write_number(&writer, "error", eval->error);
   thr_write_int(&writer, "refused", eval->refused);
   if (plan->evaluation.method == THR_JOINT) put_json_joints(&writer, eval);
-  if (eval->holding.present) put_json_holding(&writer, &plan->frame, &eval->holding);
+  if (eval->holding.present) put_json_answers(&writer, &plan->frame, eval);
   if (eval->holding.present && eval->settle.present) put_json_simulation(&writer, &plan->frame, &eval->settle);
   thr_write_close(&writer);
   thr_text_append(text, "\n");

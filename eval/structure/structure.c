@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Above this the band over mu would cost more than the answer. */
+/* Above this the band over mu, and letting ends down bit by bit, would cost more than the answer. */
 enum { BAND_LARGEST = 100 };
 
 static int pass_count(const thr_evaluation *evaluation)
@@ -65,6 +65,101 @@ static thr_status profiles(const thr_frame *frame, const thr_cord *cord, double 
   free(exponent);
   return st;
 }
+
+/* ---- states that friction keeps ---- */
+
+/* Which tensions a cord has whose ends have the same force: as little as the turns let in while both are pulled; as much as they
+ * keep; as much as they keep of the record's, once the ends are let down. */
+typedef enum { DRAWN_IN, KEPT, LET_DOWN } state;
+
+static void set_state(const thr_eval_cord *cord, state which, double force, double *out)
+{
+  const double most = 600; /* of an exponent: more is past what a number holds, and more than enough */
+  double before = 0, total = 0;
+  for (int k = 0; k + 1 < cord->n_passes; k++)
+    total += cord->exponent[k];
+  for (int k = 0; k < cord->n_passes; k++) {
+    const double near = fmin(most, fmin(before, total - before));
+    out[k] = force * exp(which == DRAWN_IN ? -near : near);
+    if (which == LET_DOWN) out[k] = fmin(out[k], cord->tension[k]);
+    if (k + 1 < cord->n_passes) before += cord->exponent[k];
+  }
+}
+
+/* What such cords press the faces with, and what that may be multiplied by. Of all friction states with so much at the ends those
+ * that keep most press most, and to press more never harms: an equilibrium with some tensions taken smaller is one. */
+static thr_status hold_state(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, state which, double force,
+                             const thr_limits *limits, const thr_evaluation *evaluation, thr_holding *out, thr_err *err)
+{
+  double *press = thr_calloc((size_t)beads->n_faces, sizeof *press),
+         *tension = thr_calloc((size_t)pass_count(evaluation), sizeof *tension);
+  thr_status st = press && tension ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < evaluation->n_cords && !st; i++) {
+    const thr_eval_cord *eval_cord = &evaluation->cord[i];
+    set_state(eval_cord, which, force, tension);
+    thr_holding_press(&cord[i], 1, &(const double *){tension}, press);
+  }
+  if (!st) st = thr_holding_pull(beads, frame, &evaluation->physics, press, true, limits, out, err);
+  free(press);
+  free(tension);
+  return st;
+}
+
+/* Does it stand with the ends let down so far? */
+static thr_status stands_at(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double force,
+                            const thr_limits *limits, const thr_evaluation *evaluation, bool *stands, thr_err *err)
+{
+  thr_holding holding = {0};
+  thr_err why = {0};
+  thr_status st = hold_state(frame, cord, beads, LET_DOWN, force, limits, evaluation, &holding, &why);
+  *stands = st == THR_OK && holding.upper <= 1;
+  thr_holding_destroy(&holding);
+  return st == THR_ENOMEM || st == THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
+/* By halves of the logarithm, to half a percent. */
+static thr_status let_down(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, const thr_limits *limits,
+                           const thr_evaluation *evaluation, double *out, thr_err *err)
+{
+  double high = 0;
+  for (int i = 0; i < evaluation->n_cords; i++)
+    high = fmax(high, fmax(evaluation->cord[i].tension[0], evaluation->cord[i].tension[evaluation->cord[i].n_passes - 1]));
+  double low = 1e-6 * high;
+  bool stands = false;
+  thr_status st = stands_at(frame, cord, beads, low, limits, evaluation, &stands, err);
+  if (stands) high = low;
+  while (!st && high > 1.005 * low) {
+    const double middle = sqrt(low * high);
+    st = stands_at(frame, cord, beads, middle, limits, evaluation, &stands, err);
+    if (stands)
+      high = middle;
+    else
+      low = middle;
+  }
+  *out = high;
+  return st;
+}
+
+thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, const thr_limits *limits, thr_eval *out,
+                               thr_err *err)
+{
+  const thr_evaluation *evaluation = &out->record;
+  thr_beads beads = {0};
+  thr_err why = {0};
+  thr_status st = thr_beads_make(frame, &evaluation->physics, &beads, err);
+  if (!st) {
+    st = hold_state(frame, cord, &beads, LET_DOWN, INFINITY, limits, evaluation, &out->after, &why);
+    if (st == THR_EINFEASIBLE)
+      out->after = (thr_holding){.present = true, .lower = INFINITY, .upper = INFINITY, .first_bead = -1};
+    st = st && st != THR_EINFEASIBLE ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  }
+  if (!st && out->after.upper <= 1 && beads.n_beads <= BAND_LARGEST)
+    st = let_down(frame, cord, &beads, limits, evaluation, &out->let_down, err);
+  thr_beads_destroy(&beads);
+  return st;
+}
+
+/* ---- the pull ---- */
 
 static thr_status hold(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double mu, bool want_upper,
                        const thr_limits *limits, thr_evaluation *evaluation, const double **tension, thr_holding *out,
@@ -132,6 +227,7 @@ static void clear_record(thr_evaluation *evaluation)
 {
   for (int i = 0; i < evaluation->n_cords; i++) {
     free(evaluation->cord[i].tension);
+    free(evaluation->cord[i].exponent);
     evaluation->cord[i] = (thr_eval_cord){.pull = evaluation->cord[i].pull, .n_passes = evaluation->cord[i].n_passes};
   }
 }
@@ -198,6 +294,27 @@ static thr_status settle(simulation *m, const thr_limits *limits, thr_settle *ou
   return st;
 }
 
+static thr_status set_exponents(const thr_frame *frame, const thr_cord *cord, thr_evaluation *evaluation, thr_err *err)
+{
+  for (int i = 0; i < evaluation->n_cords; i++) {
+    double *exponent = thr_calloc((size_t)cord[i].n_passes, sizeof *exponent);
+    if (!exponent) return thr_nomem(err);
+    for (int k = 0; k + 1 < cord[i].n_passes; k++)
+      exponent[k] = evaluation->physics.mu * thr_turn_angle(frame, cord[i].half[k], cord[i].half[k + 1]);
+    evaluation->cord[i].exponent = exponent;
+  }
+  return THR_OK;
+}
+
+/* Are both ends of every cord pulled? */
+static bool all_both(const thr_evaluation *evaluation)
+{
+  bool both = true;
+  for (int i = 0; i < evaluation->n_cords; i++)
+    both &= evaluation->cord[i].pull == THR_PULL_BOTH;
+  return both;
+}
+
 /* The pull, then what is worth less than it, so that a stop leaves the most. */
 static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, const thr_eval_options *options,
                       const thr_limits *limits, const double **tension, thr_eval *out, thr_err *err)
@@ -221,6 +338,10 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_be
     st = settle(&m, limits, &out->settle, err);
     thr_settle_judge(&out->settle, start, out->holding.upper);
   }
+  if (!st) st = set_exponents(frame, cord, evaluation, err);
+  if (!st && beads->n_beads <= BAND_LARGEST && all_both(evaluation))
+    st = hold_state(frame, cord, beads, DRAWN_IN, 1, limits, evaluation, &out->equal, err);
+  if (!st) st = hold_state(frame, cord, beads, KEPT, 1, limits, evaluation, &out->loosest, err);
   if (!st && beads->n_beads <= BAND_LARGEST) st = band(frame, cord, beads, limits, evaluation, out->band, err);
   fill_record(evaluation, out->holding.lower);
   return st;
