@@ -10,6 +10,7 @@
 enum {
   STEPS_PER_PASS = 1200, /* what the search may cost without getting anywhere */
   STEPS_LEAST = 300000,  /* small ones get this much */
+  FEW_WALKS = 16,        /* more of them get more */
   PARTNERS = 12          /* shorter walks that a walk is compared with while it cannot be made shorter otherwise */
 };
 
@@ -57,14 +58,36 @@ static void rank(const thr_walks *walks, ranked *order)
   qsort(order, (size_t)walks->n_walks, sizeof *order, by_length);
 }
 
+/* The nodes of walk p are stamped, until the next walk's are. */
+static void stamp(thr_balance *balance, int p)
+{
+  const thr_walk *walk = &balance->s->walks.walk[p];
+  balance->stamps++;
+  for (int i = 0; i <= walk->n; i++)
+    balance->stamp[thr_walk_node(balance->s->f, walk, i)] = balance->stamps;
+}
+
+/* Is walk q at a stamped node? Most walks are not, where there are many. */
+static bool meets(thr_balance *balance, int q)
+{
+  enum { QUICK = 16 }; /* passes looked at in the time of a step */
+  const thr_walk *walk = &balance->s->walks.walk[q];
+  int i = 0;
+  while (i <= walk->n && balance->stamp[thr_walk_node(balance->s->f, walk, i)] != balance->stamps)
+    i++;
+  balance->steps -= 1 + i / QUICK;
+  return i <= walk->n;
+}
+
 /* The best exchange of walk p with a shorter one; two tries with cyclic ones, which meet at a random node. */
 static thr_status exchange_with_shorter(thr_balance *balance, const ranked *order, int p, bool *made, thr_err *err)
 {
   thr_balance_exchange best = {.longer = worth(balance, balance->s->walks.walk[p].length)};
   int with = -1, tries = balance->s->walks.walk[p].cyclic ? 2 : 1;
   thr_status st = THR_OK;
+  stamp(balance, p);
   for (int k = balance->s->walks.n_walks - 1; k >= 0 && order[k].walk != p && !st && balance->steps > 0; k--)
-    for (int t = 0; t < tries && !st; t++) {
+    for (int t = meets(balance, order[k].walk) ? 0 : tries; t < tries && !st; t++) {
       thr_balance_exchange x;
       int q = order[k].walk;
       if (balance->s->walks.walk[p].cyclic && with >= 0) continue; /* only the last one found is at hand */
@@ -107,32 +130,49 @@ static thr_status shuffle(thr_balance *balance, const ranked *order, thr_err *er
   return st;
 }
 
-static thr_status detour(thr_balance *balance, const ranked *order, bool *made, thr_err *err)
+/* Walks that are longer than the mean, which others must be made shorter for, too: the longest may only meet such. */
+static int too_long(const thr_balance *balance, const ranked *order)
 {
+  const double middle = fmax(balance->goal, mean(&balance->s->walks)) * (1 + 1e-9);
+  int n = 0;
+  while (n < balance->s->walks.n_walks && order[n].length > middle)
+    n++;
+  return n;
+}
+
+/* Detours from one of the walks that are too long to some shorter ones: those that come next in *turn, which goes through all
+ * pairs, the shortest walk first. */
+static thr_status detour(thr_balance *balance, const ranked *order, int *turn, bool *made, thr_err *err)
+{
+  const int n = balance->s->walks.n_walks, longer = too_long(balance, order);
   thr_status st = THR_OK;
-  int p = order[0].walk, tried = 0;
   *made = false;
-  for (int k = balance->s->walks.n_walks - 1; k > 0 && tried < PARTNERS && !*made && !st && !stop(balance); k--, tried++)
+  for (int tried = 0; longer > 0 && tried < PARTNERS && !*made && !st && !stop(balance); tried++, ++*turn) {
+    const int i = *turn % longer, k = n - 1 - *turn / longer % (n - 1), p = order[i].walk;
+    if (k <= i) continue;
     st = thr_balance_detour(balance, p, order[k].walk, worth(balance, balance->s->walks.walk[p].length), made, err);
+  }
   return st;
 }
 
-/* Rounds of shuffles and exchanges; after some in vain a detour. */
+/* Rounds of shuffles and exchanges; after some in vain detours, until all of them were in vain, too. */
 static thr_status search(thr_balance *balance, ranked *order, thr_err *err)
 {
   enum { IN_VAIN = 24, STUCK = 20 };
+  const int n = balance->s->walks.n_walks;
   thr_status st = sweep(balance, order, err);
-  for (int vain = 0, stuck = 0; stuck < STUCK && !st && !stop(balance) && !done(balance);) {
+  for (int vain = 0, stuck = 0, turn = 0; (stuck < STUCK || turn < n * (n - 1)) && !st && !stop(balance) && !done(balance);) {
     double most = thr_walks_most(&balance->s->walks);
-    bool made = false;
+    bool made = false, detours = vain == IN_VAIN;
     rank(&balance->s->walks, order);
-    if (vain == IN_VAIN) st = detour(balance, order, &made, err);
-    if (vain == IN_VAIN) stuck += !made;
+    if (detours) st = detour(balance, order, &turn, &made, err);
+    if (detours) stuck += !made;
+    if (made) balance->steps = balance->budget;
     if (!made && !st) st = shuffle(balance, order, err);
     if (!st) st = sweep(balance, order, err);
     bool better = thr_walks_most(&balance->s->walks) < worth(balance, most);
-    vain = better || vain == IN_VAIN ? 0 : vain + 1;
-    if (better) stuck = 0;
+    if (better || made) stuck = turn = 0;
+    vain = made ? IN_VAIN : better || detours ? 0 : vain + 1;
   }
   return st;
 }
@@ -146,11 +186,12 @@ thr_status thr_balance_walks(thr_decomposition *decomposition, double goal, thr_
   for (int i = 0; i < walks->n_walks; i++)
     all += walks->walk[i].n;
   thr_balance balance = {.s = decomposition, .goal = goal, .random = 1};
-  balance.steps = balance.budget = STEPS_LEAST + STEPS_PER_PASS * all;
+  balance.steps = balance.budget = STEPS_LEAST + STEPS_PER_PASS * all * (1 + walks->n_walks / FEW_WALKS);
   balance.first = thr_calloc(n, sizeof *balance.first);
+  balance.stamp = thr_calloc(n, sizeof *balance.stamp);
   ranked *order = thr_calloc((size_t)walks->n_walks, sizeof *order);
   thr_junction_graphs ties = {0};
-  thr_status st = balance.first && order ? THR_OK : thr_nomem(err);
+  thr_status st = balance.first && balance.stamp && order ? THR_OK : thr_nomem(err);
   if (!st && decomposition->o->joint == THR_JOINT_TUBE) {
     st = thr_junction_graphs_init(&ties, decomposition->f, walks, err);
     balance.ties = &ties;
@@ -160,6 +201,7 @@ thr_status thr_balance_walks(thr_decomposition *decomposition, double goal, thr_
     st = search(&balance, order, err);
   }
   free(balance.first);
+  free(balance.stamp);
   free(balance.merged);
   free(order);
   thr_junction_graphs_destroy(&ties);

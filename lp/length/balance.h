@@ -21,6 +21,7 @@ typedef struct {
   uint64_t random;           /* state */
   int64_t steps, budget;     /* left; what a search may cost that does not get the longest walk down */
   int *first;                /* [n_nodes] -1 between uses */
+  int *stamp, stamps;        /* [n_nodes] the last walk that was there of those stamped, by its number; so many */
   int room;                  /* of merged */
   int *merged;               /* [passes of the two walks] of an exchange between cyclic walks */
   int *path;                 /* [n_nodes] of a detour */
