@@ -322,6 +322,34 @@ the first plan and to the proof, and the end of the process beside the proof."""
               end_ratio(run, proved))
 
 
+def threads(b):
+    text = """The same work by one thread and by two, to the clock (2 at best; less where others use the machine): the least turning, with a
+number of tree nodes instead of a time limit. The two plans must be the same, byte for byte."""
+    b.table("Two threads", text, "framework", "edges", "nodes", "-j 1 s", "-j 2 / -j 1, processor", "-j 1 / -j 2, clock")
+    cases = (("geodesic", 135, 5),) if b.smallest else (("sphere", 480, 31), ("sphere", 1920, 11), ("sphere", 1920, 31), ("geodesic", 540, 31))
+    for family, size, nodes in cases:
+        path, edges = b.frame(family, size)
+        how = ["--objective", "tortuosity", "--nodes", nodes, "--time-limit", 0]
+        one, two = [b.plan(path, *how, "-j", j, to="threads-%d.json" % j) for j in (1, 2)]
+        first, second = b.least(one, two, keep=lambda run: run.wall)
+        with open(b.path("threads-1.json"), "rb") as f, open(b.path("threads-2.json"), "rb") as g:
+            if f.read() != g.read():
+                sys.exit("bench: %s, %d nodes: -j 1 and -j 2 make different plans" % (family, nodes))
+        b.row(family, edges, nodes, seconds(first.wall), ratio(second.seconds, first.seconds), ratio(first.wall, second.wall))
+
+
+def balance(b):
+    text = """`thread plan --balance`, %g s at most: how far the longest cord is above its proven bound, %%, and seconds of the processor.""" % b.limit
+    b.table("Cords of even length", text, "framework", "edges", "cords", "ends", "above the bound %", "s")
+    cases = (("grid", 84, 4),) if b.smallest else (("honeycomb", 1000, 16), ("honeycomb", 2862, 16), ("honeycomb", 2862, 32), ("honeycomb", 2862, 64))
+    for family, size, cords in cases:
+        path, edges = b.frame(family, size)
+        run = b.least(b.plan(path, "--cords", cords, "--balance", "--ends", "any", "--time-limit", b.limit))[0]
+        with open(b.path("plan.json"), encoding="utf-8") as f:
+            longest = json.load(f)["proof"]["cords"]["longest"]
+        b.row(family, edges, cords, "any", figure(100 * (longest["length"] / longest["lower_bound"] - 1)), seconds(run.seconds))
+
+
 def pull(b):
     text = """`thread eval` of the shortest cord: simulated joints with an empty cache and a full one, and the limit analysis of the
 structure, each beside the closed form."""
@@ -376,7 +404,7 @@ the same files and, for a plan, writing plan.json: what moving the text alone ta
               ratio(check.seconds, seen.seconds), figure(check.megabytes))
 
 
-PARTS = {f.__name__: f for f in (length, files, turning, symmetry, pull, drawings, joints)}
+PARTS = {f.__name__: f for f in (length, files, turning, symmetry, threads, balance, pull, drawings, joints)}
 
 
 def machine(b):
