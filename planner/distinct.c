@@ -52,7 +52,7 @@ static thr_status plan_alike(const thr_frame *frame, const thr_request *options,
   if (plan->n_cords == 0) return made;
   thr_status st = THR_OK;
   if (thr_wants_balance(options) && !plan->cords_claim.present)
-    st = thr_check_cords(frame, one, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates,
+    st = thr_check_cords(frame, one, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates, NULL,
                          &plan->cords_claim, err);
   plan->options.distinct = options->distinct;
   plan->options.cover = options->cover;

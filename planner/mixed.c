@@ -198,6 +198,10 @@ thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options,
   } else if ((st = plan_length(&m, false, &shortest, &why_not))) {
     thr_fail(err, st, "%s", why_not.text);
   } else if (!(st = options->max_pull > 0 ? try_few(&m, err) : try_numbers(&m, err))) {
+    if (!shortest.proof.walks.unit) { /* of the longest cord, of any plan */
+      shortest.proof.walks = limited.proof.walks;
+      limited.proof.walks = (thr_walk_proof){0};
+    }
     const thr_length_proof proof = shortest.proof;
     shortest.proof = (thr_length_proof){0};
     offer(&m, &shortest);

@@ -10,6 +10,19 @@
 #include "planner/planners.h"
 #include "tortuosity/tie/tube.h"
 
+/* Prices of walks may need another proof of length than there is now: then they go. */
+static thr_status judge_cords(thr_plan *plan, thr_err *err)
+{
+  thr_length_proof *proof = &plan->proof;
+  thr_err why = {0};
+  thr_status st = thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
+                                  proof->n_certificates, &proof->walks, &plan->cords_claim, &why);
+  if (st != THR_EVIOLATED || !proof->walks.unit) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  thr_walk_proof_destroy(&proof->walks);
+  return thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates, NULL,
+                         &plan->cords_claim, err);
+}
+
 thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
@@ -30,9 +43,9 @@ thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
   from->n_certificates = 0;
   thr_status st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, &s, &plan->proof, err);
   thr_shortest_destroy(&s);
-  return st ? st
-            : thr_check_cords(frame, options, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates,
-                              &plan->cords_claim, err);
+  plan->proof.walks = from->walks;
+  from->walks = (thr_walk_proof){0};
+  return st ? st : judge_cords(plan, err);
 }
 
 thr_status thr_planner_prove_turning(thr_plan *plan, thr_turning_claim *claim, thr_err *err)

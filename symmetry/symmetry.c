@@ -269,7 +269,7 @@ static thr_status prove(thr_plan *plan, const thr_limits *limits, thr_err *err)
   thr_shortest_destroy(&shortest);
   if (st || !thr_keep_asked(&plan->options)) return st;
   const thr_length_proof *proof = &plan->proof;
-  return thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
+  return thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates, NULL,
                          &plan->cords_claim, err);
 }
 

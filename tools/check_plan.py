@@ -1380,18 +1380,25 @@ def check_cords_claim(p):
     if claim is None:
         return []
     o, place = p.options, "proof.cords"
-    known(claim, "longest fewest", place)
+    known(claim, "longest fewest walks", place)
     require("length" in p.proof, f"{place}: without a proof of length")
     stated = member(claim, "longest", "object", place)
     known(stated, "status length lower_bound", place + ".longest")
     own = max(p.lengths)
     p.close(member(stated, "length", "number", place + ".longest"), own, own, place + ".longest.length")
+    cords = [o.cords if o.ends != "counts" else p.per_piece[c] for c in range(len(p.frame.pieces))]
     if o.tube:
+        least = [sum(p.frame.exact[e] * o.need[e] for e in p.frame.edges_of(c)) for c in range(len(p.frame.pieces))]
         bound = p.tied.least / (len(p.cords) if o.ends == "counts" else o.cords * len(p.frame.pieces))
     else:
-        cords = [o.cords if o.ends != "counts" else p.per_piece[c] for c in range(len(p.certificate))]
         rows = [(c, p.compared(i) < o.cords and o.ends not in ("closed", "counts")) for i, c in enumerate(p.certificate)]
-        bound = max((c.own if c.optimal and not fewer else c.least(2 * o.cords)) / k for (c, fewer), k in zip(rows, cords))
+        least = [c.own if c.optimal and not fewer else c.least(2 * o.cords) for c, fewer in rows]
+        bound = max(x / k for x, k in zip(least, cords))
+    if "walks" in claim:
+        walks = Walks(p)
+        walks.read(member(claim, "walks", "object", place), place + ".walks")
+        here = walks.component
+        bound = max(bound, walks.bound(cords[here], least[here] * (1 - Fraction(1, 10**11)), place + ".walks"))
     claimed = member(stated, "lower_bound", "number", place + ".longest")
     bound = max(bound, forced_detour(p, claimed))
     bound = max(bound, few_edges_bounds(p, False, claimed)[1])
@@ -1464,15 +1471,26 @@ def pairing_bound(p):
 
 
 class Walks:
-    """Open cords as walks over half-edges, which turn back only at nodes with one edge."""
+    """Walks that cords can be, over half-edges with the weights of their turns, or over nodes with the lengths of edges."""
 
-    def __init__(self, model):
-        self.model, f = model, model.f
-        self.f, self.open = f, {v for a, b in model.weight if b < 0 for v in [f.tail(a)]}
-        self.steps = []  # of half-edge d, passed away from its node: (the next one, weight of the turn)
-        for d in range(2 * f.m):
-            keys = [(h, model.weight.get((min(h, d ^ 1), max(h, d ^ 1)))) for h in f.at[f.tail(d ^ 1)]]
-            self.steps.append([(h, w) for h, w in keys if w is not None])
+    def __init__(self, p, weight=None):
+        self.f, self.need, self.closed, self.turning = p.frame, p.options.need, p.closing, weight is not None
+        f = p.frame
+        count = p.options.count if p.options.ends == "counts" else None
+        self.open = set() if p.closing else {v for v in p.options.allowed if count is None or count[v]}
+        self.bits = 44 if self.turning else 44 - math.frexp(max(f.length))[1]
+        self.after = {}  # place: (the next one, half-edge passed, what counts in units, what it is worth)
+        if self.turning:  # half-edge d, passed away from its node
+            for d in range(2 * f.m):
+                keys = [(h, weight.get((min(h, d ^ 1), max(h, d ^ 1)))) for h in f.at[f.tail(d ^ 1)]]
+                self.after[d] = [(h, h, w, w) for h, w in keys if w is not None]
+        else:
+            size = [x * Fraction(2) ** self.bits for x in f.exact]
+            for v in range(f.n):
+                self.after[v] = [(f.tail(h ^ 1), h, math.floor(size[h >> 1]), math.ceil(size[h >> 1])) for h in f.at[v]]
+
+    def node_of(self, place):
+        return self.f.tail(place ^ 1) if self.turning else place
 
     def forced(self):
         """The most that the turns over a single edge come to, from end to end."""
@@ -1485,39 +1503,43 @@ class Walks:
                 continue
             done.add(d)
             for h in self.f.at[self.f.tail(d)]:  # walks that arrive over h and go on along d
-                here = next((total + w for to, w in self.steps[h ^ 1] if to == d), None)
+                here = next((total + w for to, _, w, _ in self.after[h ^ 1] if to == d), None)
                 if here is not None and here < least.get(h ^ 1, math.inf):
                     least[h ^ 1] = here
                     heapq.heappush(queue, (here, h ^ 1))
         return max([least[2 * e] + least[2 * e + 1] for e in range(self.f.m) if 2 * e in least and 2 * e + 1 in least], default=0)
 
     def read(self, o, place):
-        known(o, "unit units turning edges nodes", place)
+        known(o, "unit units edges nodes " + ("turning" if self.turning else "length"), place)
         self.unit = member(o, "unit", "integer", place, 1, 2**63 - 1)
         self.units = member(o, "units", "integer", place, 0, 2**31 - 3)
-        self.turning = member(o, "turning", "integer", place, 0, 2**56)
+        self.all = member(o, "turning" if self.turning else "length", "integer", place, 0, 2**56)
         self.edge = integers(member(o, "edges", "list", place), place + ".edges", 0, 2**63 - 1, self.f.m)
         self.node = integers(member(o, "nodes", "list", place), place + ".nodes", 0, 2**63 - 1, self.f.n)
+        priced = [self.f.component[self.f.edge[e][0]] for e in range(self.f.m) if self.edge[e]]
+        self.component = priced[0] if priced else 0
+        require(set(priced) <= {self.component}, f"{place}.edges: of two components")
 
     def check(self, place):
-        """The prices are allowed; the half-edges of their component in the order of the recursion."""
-        f, need = self.f, self.model.need
-        priced = [f.component[f.edge[e][0]] for e in range(f.m) if self.edge[e]]
-        c = priced[0] if priced else 0
-        require(self.model.open(c), f"{place}: of a component without cord ends")
-        require(set(priced) <= {c} and all(not y or f.component[v] == c for v, y in enumerate(self.node)), f"{place}: of two components")
-        require(not self.turning or len(f.pieces) == 1, f"{place}.turning: of several components")
-        require(all(not y or sum(need[h >> 1] for h in f.at[v]) % 2 for v, y in enumerate(self.node)), f"{place}.nodes: an even number")
+        """The prices are allowed; the places of their component in the order of the recursion."""
+        f, c = self.f, self.component
+        require(self.closed or not self.open.isdisjoint(f.pieces[c]), f"{place}: of a component without cord ends")
+        require(all(not y or f.component[v] == c for v, y in enumerate(self.node)), f"{place}.nodes: of two components")
+        require(not self.all or not self.turning or len(f.pieces) == 1, f"{place}.turning: of several components")
+        require(all(not y or self.needed_at(v) % 2 for v, y in enumerate(self.node)), f"{place}.nodes: an even number")
         require(Fraction(4 * UNIT, self.unit) <= 10**9, f"{place}.unit: out of range")
-        half = [d for d in range(2 * f.m) if f.component[f.tail(d)] == c]
-        largest = max(self.passing(d) + self.node[f.tail(d ^ 1)] for d in half)
-        require((largest + self.worth(4 * UNIT)) * (self.units + 2) * (len(half) + 1) < 2**61, f"{place}: prices too large")
-        return self.sort(half, place)
+        places = [x for x in self.after if f.component[self.node_of(x)] == c]
+        largest = max(self.passing(h) + self.node[f.tail(h ^ 1)] for h in range(2 * f.m))
+        require((largest + self.worth(4 * UNIT)) * (self.units + 2) * (len(places) + 1) < 2**61, f"{place}: prices too large")
+        return self.sort(places, place)
 
-    def sort(self, half, place):
-        """Half-edges after those that they step to without a unit."""
+    def needed_at(self, v):
+        return sum(self.need[h >> 1] for h in self.f.at[v])
+
+    def sort(self, places, place):
+        """Places after those that they step to without a unit."""
         order, state = [], {}
-        for root in half:
+        for root in places:
             stack = [(root, False)]
             while stack:
                 d, done = stack.pop()
@@ -1527,51 +1549,70 @@ class Walks:
                 elif d not in state:
                     state[d] = 1
                     stack.append((d, True))
-                    after = [to for to, w in self.steps[d] if w < self.unit]
-                    require(all(state.get(to) != 1 for to in after), f"{place}.unit: turns below one unit go round in a circle")
+                    after = [to for to, _, w, _ in self.after[d] if w < self.unit]
+                    require(all(state.get(to) != 1 for to in after), f"{place}.unit: steps below one unit go round in a circle")
                     stack.extend((to, False) for to in after)
         return order
 
-    def passing(self, d):
-        return self.edge[d >> 1] + self.node[self.f.tail(d)] + self.node[self.f.tail(d ^ 1)]
+    def passing(self, h):
+        return self.edge[h >> 1] + self.node[self.f.tail(h)] + self.node[self.f.tail(h ^ 1)]
 
     def worth(self, weight):
-        return -(-self.turning * weight // UNIT)
+        return -(-self.all * weight // UNIT)
 
-    def bound(self, cords, least, place):
-        """Price of the turns of some cord, if any plan has at most so many and their turns cost at least so much."""
-        order, f = self.check(place), self.f
-        steps = {d: [(to, w // self.unit, self.worth(w)) for to, w in self.steps[d]] for d in order}
-        longest = min(self.units, max((u for row in steps.values() for _, u, _ in row), default=0)) + 1
-        require(self.units * sum(map(len, steps.values())) <= 4e9 and longest * len(order) <= 1e9, f"{place}.units: too many")
-        rows = []  # value of half-edge d with so many units left; None: no walk
+    def most(self, order, steps, ends, longest):
+        """The values of the places: the most that walks with so many units left are worth from there; last the rows back to units."""
+        rows = []
         for r in range(self.units + 1):
             row = {}
-            for d in order:
-                v = f.tail(d ^ 1)
-                best = self.node[v] if v in self.open else None
-                for to, u, y in steps[d]:
-                    x = (row if u == 0 else rows[r - u])[to] if u <= r else None
-                    if x is not None and (best is None or x + y > best):
-                        best = x + y
-                row[d] = None if best is None else best + self.passing(d)
+            for x in order:
+                best = ends.get(x)
+                for to, u, y in steps[x]:
+                    here = (row if u == 0 else rows[r - u]).get(to) if u <= r else None
+                    if here is not None and (best is None or here + y > best):
+                        best = here + y
+                if best is not None:
+                    row[x] = best
             rows.append(row)
             if r >= longest:
                 rows[r - longest] = None
-        most = max([x + self.node[f.tail(d)] for d, x in rows[-1].items() if x is not None and f.tail(d) in self.open], default=0)
-        needed = self.turning * math.floor(least * UNIT) // UNIT
-        needed += sum(y * self.model.need[e] for e, y in enumerate(self.edge))
-        needed += sum(y * (sum(self.model.need[h >> 1] for h in f.at[v]) + 1) for v, y in enumerate(self.node))
+        return rows
+
+    def best(self, firsts, rows):
+        values = [(rows[self.units - u].get(to), y) for to, u, y in firsts if u <= self.units]
+        return max([x + y for x, y in values if x is not None], default=0)
+
+    def bound(self, cords, least, place):
+        """Price of the turns of some cord, or its length, if any plan has at most so many and all theirs is so much at least."""
+        order, f = self.check(place), self.f
+        steps = {x: [(to, w // self.unit, self.passing(h) + self.worth(y)) for to, h, w, y in self.after[x]] for x in order}
+        longest = min(self.units, max((u for row in steps.values() for _, u, _ in row), default=0)) + 1
+        runs = sum(not self.turning or x % 2 == 0 for x in order) if self.closed else 1
+        work = self.units * sum(map(len, steps.values())) * runs
+        require(work <= 4e9 and longest * len(order) <= 1e9, f"{place}.units: too many")
+        most = 0
+        if self.closed:  # those that begin at the lowest of their edges, or nodes
+            group = (lambda x: x >> 1) if self.turning else (lambda x: x)
+            for home in sorted(x for x in order if not self.turning or x % 2 == 0):
+                here = [x for x in order if group(x) >= group(home)]
+                most = max(most, self.best(steps[home], self.most(here, steps, {home: 0}, longest)))
+        else:
+            ends = {x: self.node[self.node_of(x)] for x in order if self.node_of(x) in self.open}
+            if self.turning:
+                firsts = [(d, 0, self.passing(d) + self.node[f.tail(d)]) for d in order if f.tail(d) in self.open]
+            else:
+                firsts = [(to, u, y + self.node[v]) for v in ends for to, u, y in steps[v]]
+            most = self.best(firsts, self.most(order, steps, ends, longest))
+        needed = self.all * math.floor(least * Fraction(2) ** self.bits) // UNIT
+        needed += sum(y * self.need[e] for e, y in enumerate(self.edge))
+        needed += sum(y * (self.needed_at(v) + 1) for v, y in enumerate(self.node) if y)
         require(needed > cords * max(0, most), f"{place}: the prices prove nothing")
-        return Fraction(self.unit * (self.units + 1), UNIT)
+        return self.unit * (self.units + 1) / Fraction(2) ** self.bits
 
 
 def largest_bound(p, model, number, least, place):
     """Of the price of the cord that turns most, from the number of cords, single edges and the prices of walks."""
-    if p.closing:
-        require(model.walks is None, f"{place}.walks: of closed cords")
-        return Fraction(0)
-    walks = Walks(model)
+    walks = Walks(p, model.weight)
     bound = Fraction(walks.forced(), UNIT)
     if model.walks is not None:
         walks.read(model.walks, place + ".walks")

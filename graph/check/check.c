@@ -296,7 +296,8 @@ thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *opt
 }
 
 thr_status thr_check_cords(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
-                           const thr_certificate *certificate, int n_certificates, thr_cords_claim *found, thr_err *err)
+                           const thr_certificate *certificate, int n_certificates, const thr_walk_proof *walks,
+                           thr_cords_claim *found, thr_err *err)
 {
   thr_check_walked check_walked;
   thr_check_verdict *verdict = NULL;
@@ -304,7 +305,21 @@ thr_status thr_check_cords(const thr_frame *frame, const thr_request *options, c
   thr_status st = walked_from_cords(&check_walked, frame, options, cord, n_cords, err);
   if (!st) st = check_cord_count(&check_walked, options, err);
   if (!st && certificate) st = judge_certificates(frame, options, &check_walked, certificate, n_certificates, &verdict, err);
-  if (!st) st = thr_check_several(frame, options, &check_walked, cord, n_cords, certificate, verdict, NULL, found, err);
+  if (!st) st = thr_check_several(frame, options, &check_walked, cord, n_cords, certificate, verdict, NULL, walks, found, err);
+  free(verdict);
+  walked_destroy(&check_walked);
+  return st;
+}
+
+thr_status thr_check_component_least(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
+                                     const thr_certificate *certificate, int n_certificates, int component, double *least,
+                                     thr_err *err)
+{
+  thr_check_walked check_walked;
+  thr_check_verdict *verdict = NULL;
+  thr_status st = walked_from_cords(&check_walked, frame, options, cord, n_cords, err);
+  if (!st && certificate) st = judge_certificates(frame, options, &check_walked, certificate, n_certificates, &verdict, err);
+  if (!st) st = thr_check_least_of(frame, options, &check_walked, certificate, verdict, component, least, err);
   free(verdict);
   walked_destroy(&check_walked);
   return st;
@@ -317,7 +332,7 @@ thr_status thr_check_tied_cords(const thr_frame *frame, const thr_request *optio
   *found = (thr_cords_claim){0};
   thr_status st = walked_from_cords(&check_walked, frame, options, cord, n_cords, err);
   if (!st) st = check_cord_count(&check_walked, options, err);
-  if (!st) st = thr_check_several(frame, options, &check_walked, cord, n_cords, NULL, NULL, tied, found, err);
+  if (!st) st = thr_check_several(frame, options, &check_walked, cord, n_cords, NULL, NULL, tied, NULL, found, err);
   walked_destroy(&check_walked);
   return st;
 }
@@ -461,7 +476,7 @@ static thr_status check_cords_claim(const thr_plan *plan, const thr_check_walked
   thr_cords_claim found;
   const thr_turning_proof *tied = plan->options.joint == THR_JOINT_TUBE && plan->proof.present ? &plan->proof.tied : NULL;
   thr_status st = thr_check_several(&plan->frame, &plan->options, check_walked, plan->cord, plan->n_cords,
-                                    plan->proof.certificate, verdict, tied, &found, err);
+                                    plan->proof.certificate, verdict, tied, &plan->proof.walks, &found, err);
   if (st) return st;
   const double whole = found.longest;
   if (!thr_check_close(claim->longest, found.longest, whole))

@@ -22,11 +22,16 @@ thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *opt
 /* What may be claimed of these cords, as many as the options say, with these certificates (NULL, 0 = none): fills found. Their
  * longest is at least the least length of all cords of a component over the number of them allowed there, and the shortest way
  * for a cord over any edge. Cords of at most max_length are too few where their least length, by the certificate with so many
- * ends, is more than they can have. As thr_check_length_proof, and a Dijkstra from the allowed ends; closed: one round the
- * longest edges each, up to 2^24 steps. */
+ * ends, is more than they can have. walks (NULL = none): prices that bound the longest, too. As thr_check_length_proof, and a
+ * Dijkstra from the allowed ends; closed: one round the longest edges each, up to 2^24 steps. */
 thr_status thr_check_cords(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
-                           const thr_certificate *certificate, int n_certificates, thr_cords_claim *found,
-                           thr_err *err) THR_MUST_CHECK;
+                           const thr_certificate *certificate, int n_certificates, const thr_walk_proof *walks,
+                           thr_cords_claim *found, thr_err *err) THR_MUST_CHECK;
+
+/* *least: no cords of a component, as many as it may have, are shorter together. Otherwise as thr_check_cords. */
+thr_status thr_check_component_least(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
+                                     const thr_certificate *certificate, int n_certificates, int component, double *least,
+                                     thr_err *err) THR_MUST_CHECK;
 
 /* The same with tube joints, by their proof of length (graph/plan/junction.h). */
 thr_status thr_check_tied_cords(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,

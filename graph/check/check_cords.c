@@ -6,6 +6,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/plan/walk_proof.h"
 #include "graph/status.h"
 
 #include <math.h>
@@ -244,6 +245,45 @@ static thr_status judge_part(const thr_frame *frame, const thr_request *options,
   return st;
 }
 
+thr_status thr_check_least_of(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
+                              const thr_certificate *certificate, const thr_check_verdict *verdict, int component, double *least,
+                              thr_err *err)
+{
+  part *parts;
+  thr_status st = parts_of(frame, options, check_walked, &parts, err);
+  if (st) return st;
+  const part *p = &parts[component];
+  *least = least_length(options, p, p->most, verdict ? &certificate[component] : NULL, verdict ? &verdict[component] : NULL);
+  free(parts);
+  return THR_OK;
+}
+
+/* ---- worth of walks ---- */
+
+/* What prices of walks prove raises *bound. */
+static thr_status judge_walks(const thr_frame *frame, const thr_request *options, const part *parts,
+                              const thr_certificate *certificate, const thr_check_verdict *verdict, const thr_walk_proof *walks,
+                              double *bound, thr_err *err)
+{
+  const double rounding = 1e-11; /* of a sum of lengths */
+  bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
+  thr_turning_columns columns = {0};
+  double worth = 0;
+  if (!end_allowed) return thr_nomem(err);
+  const thr_turning_task task = thr_walk_length_task(frame, options, end_allowed);
+  thr_status st = thr_turning_columns_init(&columns, frame, &task, err);
+  if (!st) {
+    int k = thr_walk_component(&columns, walks);
+    double least =
+        least_length(options, &parts[k], parts[k].most, verdict ? &certificate[k] : NULL, verdict ? &verdict[k] : NULL);
+    st = thr_walk_proof_check(&columns, THR_WALK_LENGTH, walks, parts[k].most, least * (1 - rounding), &worth, err);
+  }
+  *bound = fmax(*bound, worth);
+  thr_turning_columns_destroy(&columns);
+  free(end_allowed);
+  return st;
+}
+
 /* ---- tube joints: the proof is one of all components together ---- */
 
 /* No cords, from least to most in every component, are shorter together. */
@@ -289,8 +329,8 @@ static thr_status check_tied(const thr_frame *frame, const thr_request *options,
 
 thr_status thr_check_several(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
                              const thr_cord *cord, int n_cords, const thr_certificate *certificate,
-                             const thr_check_verdict *verdict, const thr_turning_proof *tied, thr_cords_claim *found,
-                             thr_err *err)
+                             const thr_check_verdict *verdict, const thr_turning_proof *tied, const thr_walk_proof *walks,
+                             thr_cords_claim *found, thr_err *err)
 {
   part *parts;
   double bound = 0, unit = thr_plan_unit(frame); /* cords have whole numbers of it */
@@ -304,6 +344,7 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
     st = judge_part(frame, options, check_walked->component, c, &parts[c], proof, check_verdict, &sets, &bound, found, err);
   }
   if (tied) st = check_tied(frame, options, tied, parts, check_walked->n_components, &bound, found, err);
+  if (!st && walks && walks->unit) st = judge_walks(frame, options, parts, certificate, verdict, walks, &bound, err);
   free(parts);
   if (st) return st;
   if (!(options->max_length > 0 && thr_plan_cords_least(options) < options->cords)) found->fewest = 0;

@@ -65,11 +65,16 @@ thr_status thr_check_certificates(const thr_frame *frame, const thr_request *opt
 double thr_check_extra(const thr_certificate *certificate, const thr_check_verdict *check_verdict, int64_t ends);
 
 /* What can be claimed of several cords that were checked already: fills found. verdict NULL: no certificates; tied: the proof
- * of tube joints, or NULL. */
+ * of tube joints, or NULL; walks: prices that bound the longest, or NULL. */
 thr_status thr_check_several(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
                              const thr_cord *cord, int n_cords, const thr_certificate *certificate,
-                             const thr_check_verdict *verdict, const thr_turning_proof *tied, thr_cords_claim *found,
-                             thr_err *err) THR_MUST_CHECK;
+                             const thr_check_verdict *verdict, const thr_turning_proof *tied, const thr_walk_proof *walks,
+                             thr_cords_claim *found, thr_err *err) THR_MUST_CHECK;
+
+/* No cords of a component, as many as it may have, are shorter together than *least. */
+thr_status thr_check_least_of(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
+                              const thr_certificate *certificate, const thr_check_verdict *verdict, int component, double *least,
+                              thr_err *err) THR_MUST_CHECK;
 
 /* Verifies the plan's claim about its turning, which must be present, with cords and length proof that were checked already.
  * least_length: what the latter proves. */

@@ -255,7 +255,7 @@ thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request 
   *largest = 0;
   thr_status st = thr_turning_proof_check_columns(columns, tree, all, err);
   if (!st) st = thr_walk_forced(columns, largest, err);
-  if (!st && tree->walks.unit) st = thr_walk_proof_check(columns, &tree->walks, cords, *all, &worth, err);
+  if (!st && tree->walks.unit) st = thr_walk_proof_check(columns, THR_WALK_TURNING, &tree->walks, cords, *all, &worth, err);
   if (!st) st = thr_few_edges_bounds(columns->f, options, limit, &few_sum, &few_largest, err);
   if (st) return st;
   *all = fmax(*all, few_sum);

@@ -1,6 +1,7 @@
 /* Worth of walks, in integers. */
 #include "graph/plan/walk_proof.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
@@ -19,7 +20,7 @@ void thr_walk_proof_destroy(thr_walk_proof *proof)
   *proof = (thr_walk_proof){0};
 }
 
-/* ---- steps ---- */
+/* ---- steps by turning ---- */
 
 /* Calls per step from half-edge d: the next one and the weight of the turn. Returns their number; out: [degree of d's head]. */
 static int next_steps(const thr_turning_columns *columns, int d, const int64_t *back, thr_walk_step *out)
@@ -29,9 +30,9 @@ static int next_steps(const thr_turning_columns *columns, int d, const int64_t *
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
     int h = frame->half[i];
     if (h != (d ^ 1))
-      out[n++] = (thr_walk_step){.to = h, .weight = columns->weight[thr_turning_column(columns, d ^ 1, h)]};
+      out[n++] = (thr_walk_step){.half = h, .weight = columns->weight[thr_turning_column(columns, d ^ 1, h)]};
     else if (back[h] >= 0)
-      out[n++] = (thr_walk_step){.to = h, .weight = back[h]};
+      out[n++] = (thr_walk_step){.half = h, .weight = back[h]};
   }
   return n;
 }
@@ -45,78 +46,158 @@ static void fill_backs(const thr_turning_columns *columns, int64_t *back)
     back[columns->half[j][0]] = columns->weight[j];
 }
 
-/* Places in an order in which every step of no unit leads back (A. B. Kahn 1962). waiting: [2 * n_edges] zeros; some: [largest
- * degree]. false: such steps go in a circle. */
-static bool order_places(thr_walk_steps *steps, int component, int64_t unit, const int64_t *back, int *waiting,
-                         thr_walk_step *some)
+/* What the steps are made with. */
+typedef struct {
+  int64_t unit, *back; /* back: [2 * n_edges] */
+  int *half, *waiting; /* [2 * n_edges] the half-edge at each place; zeros */
+  thr_walk_step *some; /* [largest degree] */
+} making;
+
+/* Places in an order in which every step of no unit leads back (A. B. Kahn 1962). false: such steps go in a circle. */
+static bool order_places(thr_walk_steps *steps, making *m)
 {
   const thr_turning_columns *columns = steps->c;
   int total = 0, placed = 0;
   for (int d = 0; d < 2 * columns->f->n_edges; d++) {
     steps->place[d] = -1;
-    if (columns->component[thr_tail(columns->f, d)] != component) continue;
+    if (columns->component[thr_tail(columns->f, d)] != steps->component) continue;
     total++;
-    for (int n = next_steps(columns, d, back, some); n > 0; n--)
-      waiting[d] += some[n - 1].weight < unit;
-    if (waiting[d] == 0) steps->half[placed++] = d;
+    for (int n = next_steps(columns, d, m->back, m->some); n > 0; n--)
+      m->waiting[d] += m->some[n - 1].weight < m->unit;
+    if (m->waiting[d] == 0) m->half[placed++] = d;
   }
   for (int i = 0; i < placed; i++) { /* what comes before d along a walk is what comes after it the other way */
-    int d = steps->half[i];
+    int d = m->half[i];
     steps->place[d] = i;
-    for (int n = next_steps(columns, d ^ 1, back, some); n > 0; n--)
-      if (some[n - 1].weight < unit && --waiting[some[n - 1].to ^ 1] == 0) steps->half[placed++] = some[n - 1].to ^ 1;
+    for (int n = next_steps(columns, d ^ 1, m->back, m->some); n > 0; n--) {
+      int before = m->some[n - 1].half ^ 1;
+      if (m->some[n - 1].weight < m->unit && --m->waiting[before] == 0) m->half[placed++] = before;
+    }
   }
   steps->n = total;
   return placed == total;
 }
 
-static void fill_steps(thr_walk_steps *steps, int64_t unit, const int64_t *back)
+static void count_units(thr_walk_steps *steps, thr_walk_step *step, int64_t unit)
+{
+  step->units = (int)(step->weight / unit);
+  if (step->units > steps->most_units) steps->most_units = step->units;
+}
+
+static bool fill_turning(thr_walk_steps *steps, making *m)
 {
   int n = 0;
+  fill_backs(steps->c, m->back);
+  if (!order_places(steps, m)) return false;
   for (int i = 0; i < steps->n; i++) {
-    int count = next_steps(steps->c, steps->half[i], back, steps->step + n);
+    int d = m->half[i], count = next_steps(steps->c, d, m->back, steps->step + n);
+    bool may_begin = steps->c->end_column[d] >= 0;
     steps->first[i] = n;
+    steps->group[i] = d >> 1;
+    steps->end[i] = steps->c->end_column[d ^ 1] >= 0 ? 0 : none;
     for (int k = n; k < n + count; k++) {
-      steps->step[k].to = steps->place[steps->step[k].to];
-      steps->step[k].units = (int)(steps->step[k].weight / unit);
-      if (steps->step[k].units > steps->most_units) steps->most_units = steps->step[k].units;
+      steps->step[k].to = steps->place[steps->step[k].half];
+      count_units(steps, &steps->step[k], m->unit);
     }
+    if (!steps->closed && may_begin) steps->begin[steps->n_begins++] = (thr_walk_step){.to = i, .half = d};
     n += count;
   }
   steps->first[steps->n] = n;
+  for (int e = 0; e < steps->c->f->n_edges && steps->closed; e++)
+    if (steps->place[2 * e] >= 0) steps->begin[steps->n_begins++] = (thr_walk_step){.to = steps->place[2 * e], .half = 2 * e};
+  return true;
 }
 
-thr_status thr_walk_steps_init(thr_walk_steps *steps, const thr_turning_columns *columns, int component, int64_t unit,
-                               thr_err *err)
+/* ---- steps by length ---- */
+
+int thr_walk_exponent(const thr_frame *frame, thr_walk_measure measure)
 {
-  const thr_frame *frame = columns->f;
-  size_t m2 = 2 * (size_t)frame->n_edges, squares = 0, most = 0;
-  thr_scratch own = {0};
-  *steps = (thr_walk_steps){.c = columns};
+  double longest = 0;
+  int exponent;
+  if (measure == THR_WALK_TURNING) return THR_TURNING_BITS;
+  for (int e = 0; e < frame->n_edges; e++)
+    longest = fmax(longest, frame->length[e]);
+  frexp(longest, &exponent);
+  return THR_TURNING_BITS - exponent;
+}
+
+/* false: an edge is shorter than a unit. */
+static bool fill_lengths(thr_walk_steps *steps, int64_t unit)
+{
+  const thr_frame *frame = steps->c->f;
+  bool enough = true;
+  int n = 0;
+  for (int v = 0; v < frame->n_nodes; v++)
+    steps->place[v] = steps->c->component[v] == steps->component ? steps->n++ : -1;
+  for (int v = 0; v < frame->n_nodes; v++) {
+    int i = steps->place[v];
+    bool may_end = thr_degree(frame, v) > 0 && steps->c->end_column[frame->half[frame->first[v]]] >= 0;
+    if (i < 0) continue;
+    steps->first[i] = n;
+    steps->group[i] = i;
+    steps->end[i] = may_end ? 0 : none;
+    for (int k = frame->first[v]; k < frame->first[v + 1]; k++) {
+      int h = frame->half[k];
+      thr_walk_step *step = &steps->step[n++];
+      double length = ldexp(frame->length[h >> 1], steps->exponent);
+      *step = (thr_walk_step){.to = steps->place[thr_head(frame, h)], .half = h, .weight = (int64_t)floor(length)};
+      count_units(steps, step, unit);
+      step->weight = (int64_t)ceil(length); /* what it is worth is rounded up */
+      enough &= step->units > 0;
+      if (!steps->closed && may_end) steps->begin[steps->n_begins++] = *step;
+    }
+    if (steps->closed) steps->begin[steps->n_begins++] = (thr_walk_step){.to = i};
+  }
+  steps->first[steps->n] = n;
+  return enough;
+}
+
+/* ---- steps ---- */
+
+static thr_status allocate(thr_walk_steps *steps, making *m, thr_scratch *own, thr_err *err)
+{
+  const thr_frame *frame = steps->c->f;
+  size_t m2 = 2 * (size_t)frame->n_edges, n = (size_t)frame->n_nodes, squares = 0, most = 0;
   for (int v = 0; v < frame->n_nodes; v++) {
     size_t degree = (size_t)thr_degree(frame, v);
-    squares += degree * degree;
+    squares += steps->measure == THR_WALK_LENGTH ? degree : degree * degree;
     if (degree > most) most = degree;
   }
-  steps->half = thr_scratch_array(&steps->own, m2, sizeof *steps->half);
-  steps->place = thr_scratch_array(&steps->own, m2, sizeof *steps->place);
-  steps->first = thr_scratch_array(&steps->own, m2 + 1, sizeof *steps->first);
+  size_t places = m2 > n ? m2 : n;
+  steps->place = thr_scratch_array(&steps->own, places, sizeof *steps->place);
+  steps->group = thr_scratch_array(&steps->own, places, sizeof *steps->group);
+  steps->first = thr_scratch_array(&steps->own, places + 1, sizeof *steps->first);
   steps->step = thr_scratch_array(&steps->own, squares, sizeof *steps->step);
-  steps->pass = thr_scratch_array(&steps->own, m2, sizeof *steps->pass);
-  steps->end = thr_scratch_array(&steps->own, m2, sizeof *steps->end);
-  int64_t *back = thr_scratch_array(&own, m2, sizeof *back);
-  int *waiting = thr_scratch_array(&own, m2, sizeof *waiting);
-  thr_walk_step *some = thr_scratch_array(&own, most, sizeof *some);
+  steps->begin = thr_scratch_array(&steps->own, places, sizeof *steps->begin);
+  steps->end = thr_scratch_array(&steps->own, places, sizeof *steps->end);
+  steps->active = thr_scratch_array(&steps->own, places, sizeof *steps->active);
+  m->back = thr_scratch_array(own, m2, sizeof *m->back);
+  m->half = thr_scratch_array(own, m2, sizeof *m->half);
+  m->waiting = thr_scratch_array(own, m2, sizeof *m->waiting);
+  m->some = thr_scratch_array(own, most, sizeof *m->some);
   thr_status st = thr_scratch_check(&steps->own, err);
-  if (!st) st = thr_scratch_check(&own, err);
-  if (!st && (!columns->task->end_allowed || !thr_turning_open(columns, component)))
+  return st ? st : thr_scratch_check(own, err);
+}
+
+thr_status thr_walk_steps_init(thr_walk_steps *steps, const thr_turning_columns *columns, thr_walk_measure measure, int component,
+                               int64_t unit, thr_err *err)
+{
+  thr_scratch own = {0};
+  making m = {.unit = unit};
+  *steps = (thr_walk_steps){.c = columns,
+                            .measure = measure,
+                            .component = component,
+                            .exponent = thr_walk_exponent(columns->f, measure),
+                            .closed = !columns->task->end_allowed};
+  thr_status st = allocate(steps, &m, &own, err);
+  if (!st && !steps->closed && !thr_turning_open(columns, component))
     st = thr_fail(err, THR_EVIOLATED, "walks: component %d has no cord ends", component);
   if (!st && (unit <= 0 || ldexp(4, THR_TURNING_BITS) / (double)unit > 1e9))
     st = thr_fail(err, THR_EVIOLATED, "walks: a unit of %lld is out of range", (long long)unit);
-  if (!st) fill_backs(columns, back);
-  if (!st && !order_places(steps, component, unit, back, waiting, some))
+  if (!st && measure == THR_WALK_TURNING && !fill_turning(steps, &m))
     st = thr_fail(err, THR_EVIOLATED, "walks: turns below one unit go round in a circle");
-  if (!st) fill_steps(steps, unit, back);
+  if (!st && measure == THR_WALK_LENGTH && !fill_lengths(steps, unit))
+    st = thr_fail(err, THR_EVIOLATED, "walks: an edge is shorter than a unit");
   thr_scratch_free(&own);
   if (st) thr_walk_steps_destroy(steps);
   return st;
@@ -141,88 +222,162 @@ int64_t thr_walk_needed_at(const thr_turning_columns *columns, int v)
 /* 0 or more, and in the component of the walks. */
 static thr_status check_prices(const thr_walk_steps *steps, const thr_walk_proof *proof, thr_err *err)
 {
-  const thr_frame *frame = steps->c->f;
-  if (proof->turning < 0 || (proof->turning > 0 && steps->c->n_components > 1))
-    return thr_fail(err, THR_EVIOLATED, "walks: a price of turning that is negative, or of several components");
+  const thr_turning_columns *columns = steps->c;
+  const thr_frame *frame = columns->f;
+  bool of_all = steps->measure == THR_WALK_TURNING && columns->n_components > 1;
+  if (proof->all < 0 || (proof->all > 0 && of_all))
+    return thr_fail(err, THR_EVIOLATED, "walks: a price of turning or length that is negative, or of several components");
   for (int e = 0; e < frame->n_edges; e++)
-    if (proof->edge[e] < 0 || (proof->edge[e] > 0 && steps->place[2 * e] < 0))
+    if (proof->edge[e] < 0 || (proof->edge[e] > 0 && columns->component[frame->edge[e][0]] != steps->component))
       return thr_fail(err, THR_EVIOLATED, "walks: the price of edge %d is negative, or of another component", e);
   for (int v = 0; v < frame->n_nodes; v++)
     if (proof->node[v] < 0 ||
-        (proof->node[v] > 0 && (thr_walk_needed_at(steps->c, v) % 2 == 0 || steps->place[frame->half[frame->first[v]]] < 0)))
+        (proof->node[v] > 0 && (thr_walk_needed_at(columns, v) % 2 == 0 || columns->component[v] != steps->component)))
       return thr_fail(err, THR_EVIOLATED,
                       "walks: the price of node %d is negative, of another component, or of an even number of needed passes", v);
   return THR_OK;
 }
 
-static int64_t turn_worth(const thr_walk_proof *proof, int64_t weight)
+static int64_t all_worth(const thr_walk_proof *proof, int64_t weight)
 {
-  return (int64_t)(((wide)proof->turning * weight + (INT64_C(1) << THR_TURNING_BITS) - 1) >> THR_TURNING_BITS);
+  return (int64_t)(((wide)proof->all * weight + (INT64_C(1) << THR_TURNING_BITS) - 1) >> THR_TURNING_BITS);
+}
+
+static wide pass_worth(const thr_walk_steps *steps, const thr_walk_proof *proof, int h)
+{
+  const thr_frame *frame = steps->c->f;
+  return (wide)proof->edge[h >> 1] + proof->node[thr_tail(frame, h)] + proof->node[thr_head(frame, h)];
+}
+
+/* No sum of a walk's worths is larger than 64 bits hold. */
+static bool add_up(const thr_walk_steps *steps, const thr_walk_proof *proof)
+{
+  const thr_frame *frame = steps->c->f;
+  wide largest = 0, passes = ((wide)proof->units + 2) * (steps->n + 1); /* of a walk at most */
+  for (int h = 0; h < 2 * frame->n_edges; h++) {
+    wide sum = pass_worth(steps, proof, h) + proof->node[thr_head(frame, h)];
+    if (sum > largest) largest = sum;
+  }
+  return (largest + all_worth(proof, INT64_C(4) << THR_TURNING_BITS)) * passes < (wide)1 << 61;
 }
 
 thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *proof, thr_err *err)
 {
-  const thr_turning_columns *columns = steps->c;
-  wide largest = 0, passes = ((wide)proof->units + 2) * (steps->n + 1); /* of a walk at most */
+  const thr_frame *frame = steps->c->f;
   thr_status st = check_prices(steps, proof, err);
   if (st) return st;
-  if (proof->units < 0 || proof->turning > INT64_C(1) << 56)
-    return thr_fail(err, THR_EVIOLATED, "walks: %d units, or a price of turning that is out of range", proof->units);
-  for (int i = 0; i < steps->n; i++) {
-    int d = steps->half[i], from = thr_tail(columns->f, d), to = thr_head(columns->f, d);
-    wide pass = (wide)proof->edge[d >> 1] + proof->node[from] + proof->node[to], sum = pass + proof->node[to];
-    steps->end[i] = columns->end_column[d ^ 1] >= 0 ? proof->node[to] : none;
-    for (int k = steps->first[i]; k < steps->first[i + 1]; k++)
-      steps->step[k].worth = turn_worth(proof, steps->step[k].weight);
-    if (sum > largest) largest = sum;
-    steps->pass[i] = sum < INT64_MAX ? (int64_t)pass : 0;
+  if (proof->units < 0 || proof->all > INT64_C(1) << 56)
+    return thr_fail(err, THR_EVIOLATED, "walks: %d units, or a price of turning or length that is out of range", proof->units);
+  if (!add_up(steps, proof)) return thr_fail(err, THR_EVIOLATED, "walks: prices are too large to be added up in 64 bits");
+  for (int i = 0; i < steps->n; i++)
+    for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
+      thr_walk_step *step = &steps->step[k];
+      step->worth = (int64_t)pass_worth(steps, proof, step->half) + all_worth(proof, step->weight);
+      if (steps->end[step->to] >= 0) steps->end[step->to] = proof->node[thr_head(frame, step->half)];
+    }
+  for (int k = 0; k < steps->n_begins && !steps->closed; k++) {
+    thr_walk_step *begin = &steps->begin[k];
+    begin->worth = (int64_t)pass_worth(steps, proof, begin->half) + proof->node[thr_tail(frame, begin->half)] +
+                   all_worth(proof, begin->weight);
+    if (steps->end[begin->to] >= 0) steps->end[begin->to] = proof->node[thr_head(frame, begin->half)];
   }
-  if ((largest + turn_worth(proof, INT64_C(4) << THR_TURNING_BITS)) * passes >= (wide)1 << 61)
-    return thr_fail(err, THR_EVIOLATED, "walks: prices are too large to be added up in 64 bits");
   return THR_OK;
 }
 
 /* ---- the recursion ---- */
 
-/* Most from place i on in the row of r units. */
-static int64_t from_place(const thr_walk_steps *steps, int i, int r, int levels, const int64_t *value)
+int thr_walk_runs(const thr_walk_steps *steps)
+{
+  return steps->closed ? steps->n_begins : 1;
+}
+
+/* The most from place i on in the row of r units, which begins at value[row]; size: of the table. */
+static int64_t from_place(const thr_walk_steps *steps, int i, int r, int64_t row, int64_t size, const int64_t *value)
 {
   int64_t most = steps->end[i];
   for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
     const thr_walk_step *step = &steps->step[k];
-    int row = r % levels - step->units;
+    int64_t at = row + step->to - (int64_t)step->units * steps->n;
     if (step->units > r) continue;
-    int64_t here = value[(size_t)(row < 0 ? row + levels : row) * (size_t)steps->n + (size_t)step->to] + step->worth;
+    int64_t here = value[at < 0 ? at + size : at] + step->worth;
     if (here > most) most = here;
   }
-  return most + steps->pass[i];
+  return most;
 }
 
-int64_t thr_walk_best(const thr_walk_steps *steps, int units, int levels, int64_t *value)
+/* The places of closed walks that begin at home, and those no longer. levels: rows of the table. Returns the number of the
+ * former. */
+static int choose_places(thr_walk_steps *steps, int run, int levels, int64_t *value)
+{
+  int home = steps->begin[run].to, n = 0, before = run ? steps->group[steps->begin[run - 1].to] : 0;
+  for (int i = 0; i < steps->n; i++) {
+    if (steps->group[i] >= steps->group[home])
+      steps->active[n++] = i;
+    else if (run == 0 || steps->group[i] >= before)
+      for (int r = 0; r < levels; r++)
+        value[(size_t)r * (size_t)steps->n + (size_t)i] = none;
+  }
+  return n;
+}
+
+void thr_walk_run(thr_walk_steps *steps, int run, int units, int levels, int64_t *value)
+{
+  const int home = steps->closed ? steps->begin[run].to : -1;
+  const int n = steps->closed ? choose_places(steps, run, levels, value) : steps->n;
+  const int64_t size = (int64_t)levels * steps->n;
+  if (steps->closed) steps->end[home] = 0;
+  for (int r = 0; r <= units; r++) {
+    const int64_t row = (int64_t)(r % levels) * steps->n;
+    for (int k = 0; k < n; k++) {
+      int i = steps->closed ? steps->active[k] : k;
+      value[row + i] = from_place(steps, i, r, row, size, value);
+    }
+  }
+  if (steps->closed) steps->end[home] = none;
+}
+
+int thr_walk_firsts(const thr_walk_steps *steps, int run, const thr_walk_step **first)
+{
+  int home = steps->closed ? steps->begin[run].to : -1;
+  *first = steps->closed ? steps->step + steps->first[home] : steps->begin;
+  return steps->closed ? steps->first[home + 1] - steps->first[home] : steps->n_begins;
+}
+
+int64_t thr_walk_worth(const thr_walk_steps *steps, const thr_walk_step *first, int units, int levels, const int64_t *value)
+{
+  if (first->units > units) return none;
+  int64_t on = value[(size_t)((units - first->units) % levels) * (size_t)steps->n + (size_t)first->to];
+  return on < 0 ? none : on + first->worth;
+}
+
+int64_t thr_walk_best(thr_walk_steps *steps, int units, int levels, int64_t *value)
 {
   int64_t best = 0;
-  for (int r = 0; r <= units; r++)
-    for (int i = 0; i < steps->n; i++)
-      value[(size_t)(r % levels) * (size_t)steps->n + (size_t)i] = from_place(steps, i, r, levels, value);
-  const int64_t *last = value + (size_t)(units % levels) * (size_t)steps->n;
-  for (int i = 0; i < steps->n; i++) {
-    int64_t start = steps->end[steps->place[steps->half[i] ^ 1]]; /* the price at the head of the other one: its own tail */
-    if (start >= 0 && last[i] >= 0 && last[i] + start > best) best = last[i] + start;
+  for (int run = 0; run < thr_walk_runs(steps); run++) {
+    const thr_walk_step *first;
+    int n = thr_walk_firsts(steps, run, &first);
+    thr_walk_run(steps, run, units, levels, value);
+    for (int k = 0; k < n; k++) {
+      int64_t worth = thr_walk_worth(steps, &first[k], units, levels, value);
+      if (worth > best) best = worth;
+    }
   }
   return best;
 }
 
-static int64_t in_weights(double price)
-{
-  double weight = floor(ldexp(price, THR_TURNING_BITS) * (1 - 1e-15));
-  return weight < 0 ? 0 : weight > 4e18 ? INT64_C(4000000000000000000) : (int64_t)weight;
-}
+/* ---- the check ---- */
 
 /* Rounded down. */
+static int64_t in_weights(const thr_walk_steps *steps, double price)
+{
+  double weight = floor(ldexp(price, steps->exponent) * (1 - 1e-15));
+  return weight > 0 ? weight < 4e18 ? (int64_t)weight : INT64_C(4000000000000000000) : 0;
+}
+
 static wide needed(const thr_walk_steps *steps, const thr_walk_proof *proof, double least)
 {
   const thr_turning_columns *columns = steps->c;
-  wide sum = ((wide)proof->turning * in_weights(least)) >> THR_TURNING_BITS;
+  wide sum = ((wide)proof->all * in_weights(steps, least)) >> THR_TURNING_BITS;
   for (int e = 0; e < columns->f->n_edges; e++)
     sum += (wide)proof->edge[e] * columns->cover[e];
   for (int v = 0; v < columns->f->n_nodes; v++)
@@ -235,31 +390,45 @@ double thr_walk_needed(const thr_walk_steps *steps, const thr_walk_proof *proof,
   return (double)needed(steps, proof, least);
 }
 
-/* ---- the check ---- */
+thr_turning_task thr_walk_length_task(const thr_frame *frame, const thr_request *options, bool *end_allowed)
+{
+  for (int v = 0; v < frame->n_nodes; v++)
+    end_allowed[v] = thr_plan_end_allowed(frame, options, v);
+  return (thr_turning_task){.cover = options->cover,
+                            .capacity = options->capacity,
+                            .most_passes = thr_turning_most_passes(frame, options->cover),
+                            .cords = options->cords,
+                            .cords_least = options->cords_least,
+                            .end_allowed = options->ends == THR_ENDS_CLOSED ? NULL : end_allowed,
+                            .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
+                            .extra_limit = -1};
+}
 
-static int component_of(const thr_turning_columns *columns, const thr_walk_proof *proof)
+int thr_walk_component(const thr_turning_columns *columns, const thr_walk_proof *proof)
 {
   for (int e = 0; e < columns->f->n_edges; e++)
     if (proof->edge[e] > 0) return columns->component[columns->f->edge[e][0]];
   return 0;
 }
 
-thr_status thr_walk_proof_check(const thr_turning_columns *columns, const thr_walk_proof *proof, int cords, double least,
-                                double *bound, thr_err *err)
+thr_status thr_walk_proof_check(const thr_turning_columns *columns, thr_walk_measure measure, const thr_walk_proof *proof,
+                                int cords, double least, double *bound, thr_err *err)
 {
-  const double most_work = 4e9; /* steps of the recursion; makers keep to a hundredth of it */
+  const double most_work = 4e9; /* steps of the recursion; makers keep to a tenth of it */
   thr_walk_steps steps;
   int64_t *value = NULL;
   *bound = 0;
-  thr_status st = thr_walk_steps_init(&steps, columns, component_of(columns, proof), proof->unit, err);
-  if (!st) st = thr_walk_steps_price(&steps, proof, err);
+  thr_status st = thr_walk_steps_init(&steps, columns, measure, thr_walk_component(columns, proof), proof->unit, err);
+  if (st) return st;
+  st = thr_walk_steps_price(&steps, proof, err);
   int levels = proof->units < steps.most_units ? proof->units + 1 : steps.most_units + 1;
-  if (!st && ((double)proof->units * steps.first[steps.n] > most_work || (double)levels * steps.n > 1e9))
+  double work = (double)proof->units * steps.first[steps.n] * thr_walk_runs(&steps);
+  if (!st && (work > most_work || (double)levels * steps.n > 1e9))
     st = thr_fail(err, THR_EVIOLATED, "walks: %d units are more than can be checked", proof->units);
   if (!st && !(value = thr_calloc((size_t)levels * (size_t)steps.n, sizeof *value))) st = thr_nomem(err);
   if (!st && needed(&steps, proof, least) <= (wide)thr_walk_best(&steps, proof->units, levels, value) * cords)
     st = thr_fail(err, THR_EVIOLATED, "walks: their prices prove nothing");
-  if (!st) *bound = ldexp((double)proof->unit * ((double)proof->units + 1), -THR_TURNING_BITS) * (1 - 1e-15);
+  if (!st) *bound = ldexp((double)proof->unit * ((double)proof->units + 1), -steps.exponent) * (1 - 1e-15);
   free(value);
   thr_walk_steps_destroy(&steps);
   return st;
@@ -283,7 +452,7 @@ static void least_to_end(const thr_turning_columns *columns, const int64_t *back
     int d = queue[first];
     waits[d] = false;
     for (int k = next_steps(columns, d ^ 1, back, some); k > 0; k--) { /* what leads to d is what d the other way leads to */
-      int from = some[k - 1].to ^ 1;
+      int from = some[k - 1].half ^ 1;
       if (least[d] + some[k - 1].weight >= least[from]) continue;
       least[from] = least[d] + some[k - 1].weight;
       if (!waits[from]) queue[(first + n++) % m2] = from;

@@ -54,6 +54,7 @@ void thr_plan_destroy(thr_plan *plan)
     thr_certificate_destroy(&plan->proof.certificate[i]);
   free(plan->proof.certificate);
   thr_turning_proof_destroy(&plan->proof.tied);
+  thr_walk_proof_destroy(&plan->proof.walks);
   thr_turning_proof_destroy(&plan->turning.tree);
   thr_turning_proof_destroy(&plan->pull_claim.tree);
   thr_symmetry_record_destroy(&plan->symmetry);

@@ -60,6 +60,7 @@ typedef struct {
   int n_certificates;
   thr_certificate *certificate; /* one per component; owned */
   thr_turning_proof tied;       /* THR_JOINT_TUBE, instead of certificates: the proof of thr_tied_task (graph/plan/junction.h) */
+  thr_walk_proof walks;         /* of the longest cord (graph/plan/walk_proof.h); unit 0: none */
 } thr_length_proof;
 
 /* What is proved about several cords, of plans with the same options. */

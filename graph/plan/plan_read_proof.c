@@ -153,9 +153,11 @@ static thr_status read_turning_claim(const thr_field_reader *field_reader, const
   return thr_turning_proof_from_json(&claim->tree, frame, thr_json_get(value, "proof"), place, field_reader->err);
 }
 
-static thr_status read_cords_claim(const thr_field_reader *field_reader, const thr_json *object, thr_cords_claim *claim)
+static thr_status read_cords_claim(const thr_field_reader *field_reader, const thr_json *object, const thr_frame *frame,
+                                   thr_cords_claim *claim, thr_walk_proof *walks)
 {
-  static const char *const known[] = {"longest", "fewest", NULL}, *const of_longest[] = {"status", "length", "lower_bound", NULL},
+  static const char *const known[] = {"longest", "fewest", "walks", NULL},
+                           *const of_longest[] = {"status", "length", "lower_bound", NULL},
                            *const of_fewest[] = {"status", "lower_bound", NULL};
   const thr_json *longest, *fewest = thr_json_get(object, "fewest");
   thr_status st = thr_field_only(field_reader, object, "proof.cords", known);
@@ -165,6 +167,9 @@ static thr_status read_cords_claim(const thr_field_reader *field_reader, const t
   if (!st) st = thr_field_amount(field_reader, longest, "length", &claim->longest);
   if (!st) st = thr_field_amount(field_reader, longest, "lower_bound", &claim->longest_bound);
   if (!st) claim->present = true;
+  char place[256];
+  snprintf(place, sizeof place, "%.200s: proof.cords.walks", field_reader->name);
+  if (!st) st = thr_walk_proof_from_json(walks, frame, "length", thr_json_get(object, "walks"), place, field_reader->err);
   if (st || !fewest) return st;
   st = thr_field_only(field_reader, fewest, "proof.cords.fewest", of_fewest);
   if (!st) st = get_status(field_reader, fewest, "proof.cords.fewest", &claim->fewest_optimal);
@@ -200,7 +205,7 @@ thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_
   const thr_json *length = thr_json_get(all, "length"), *turning = thr_json_get(all, "turning"),
                  *cords = thr_json_get(all, "cords"), *pull = thr_json_get(all, "pull");
   if (!st && length) st = read_length_proof(field_reader, length, &plan->frame, &plan->proof);
-  if (!st && cords) st = read_cords_claim(field_reader, cords, &plan->cords_claim);
+  if (!st && cords) st = read_cords_claim(field_reader, cords, &plan->frame, &plan->cords_claim, &plan->proof.walks);
   if (!st && pull) st = read_pull_claim(field_reader, pull, &plan->frame, &plan->pull_claim);
   if (!st && turning) st = read_turning_claim(field_reader, turning, &plan->frame, &plan->turning);
   return st;

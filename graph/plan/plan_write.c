@@ -376,8 +376,9 @@ static void put_turning_proof(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
-static void put_cords_claim(thr_writer *writer, const thr_cords_claim *claim)
+static void put_cords_claim(thr_writer *writer, const thr_plan *plan)
 {
+  const thr_cords_claim *claim = &plan->cords_claim;
   thr_write_object(writer, "cords");
   thr_write_object(writer, "longest");
   thr_write_string(writer, "status", status_name(claim->longest_optimal));
@@ -390,6 +391,7 @@ static void put_cords_claim(thr_writer *writer, const thr_cords_claim *claim)
     thr_write_int(writer, "lower_bound", claim->fewest);
     thr_write_close(writer);
   }
+  thr_walk_proof_write(&plan->proof.walks, &plan->frame, "length", writer);
   thr_write_close(writer);
 }
 
@@ -415,7 +417,7 @@ static void put_proofs(thr_writer *writer, const thr_plan *plan)
   thr_write_object(writer, "proof");
   if (plan->proof.present) put_length_proof(writer, plan);
   if (plan->proof.present && plan->cords_claim.present) thr_write_line(writer, 2);
-  if (plan->cords_claim.present) put_cords_claim(writer, &plan->cords_claim);
+  if (plan->cords_claim.present) put_cords_claim(writer, plan);
   if (plan->pull_claim.present) put_pull_claim(writer, plan);
   bool before = plan->proof.present || plan->cords_claim.present || plan->pull_claim.present;
   if (before && plan->turning.present) thr_write_line(writer, 2);

@@ -113,15 +113,14 @@ static void put_symmetries(thr_writer *writer, const thr_turning_proof *proof, c
   thr_write_close(writer);
 }
 
-/* Prices of walks; a proof with none has no member for them. */
-static void put_walks(thr_writer *writer, const thr_walk_proof *walks, const thr_frame *frame)
+void thr_walk_proof_write(const thr_walk_proof *walks, const thr_frame *frame, const char *all, thr_writer *writer)
 {
   if (walks->unit == 0) return;
   thr_write_line(writer, 3);
   thr_write_object(writer, "walks");
   thr_write_int(writer, "unit", walks->unit);
   thr_write_int(writer, "units", walks->units);
-  thr_write_int(writer, "turning", walks->turning);
+  thr_write_int(writer, all, walks->all);
   thr_write_line(writer, 4);
   put_multipliers(writer, "edges", walks->edge, frame->n_edges);
   thr_write_line(writer, 4);
@@ -146,7 +145,7 @@ void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *fr
   }
   thr_write_close(writer);
   put_symmetries(writer, proof, frame);
-  put_walks(writer, &proof->walks, frame);
+  thr_walk_proof_write(&proof->walks, frame, "turning", writer);
   thr_write_close(writer);
 }
 
@@ -366,18 +365,22 @@ static thr_status read_symmetries(reader *r, const thr_json *value, thr_turning_
   return st;
 }
 
-static thr_status read_walks(const reader *r, const thr_json *value, thr_walk_proof *walks)
+thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *frame, const char *all, const thr_json *value,
+                                    const char *place, thr_err *err)
 {
-  static const char *const known[] = {"unit", "units", "turning", "edges", "nodes", NULL};
+  const char *known[] = {"unit", "units", all, "edges", "nodes", NULL};
+  const reader r = {.place = place, .f = frame, .err = err};
   int64_t units = 0;
+  *walks = (thr_walk_proof){0};
   if (!value) return THR_OK;
-  thr_status st = only_members(r, value, known);
-  if (!st) st = get_int(r, thr_json_get(value, "unit"), "unit", 1, INT64_MAX, &walks->unit);
-  if (!st) st = get_int(r, thr_json_get(value, "units"), "units", 0, INT_MAX - 2, &units);
-  if (!st) st = get_int(r, thr_json_get(value, "turning"), "turning", 0, INT64_MAX, &walks->turning);
-  if (!st) st = read_multipliers(r, value, "edges", r->f->n_edges, &walks->edge);
-  if (!st) st = read_multipliers(r, value, "nodes", r->f->n_nodes, &walks->node);
+  thr_status st = only_members(&r, value, known);
+  if (!st) st = get_int(&r, thr_json_get(value, "unit"), "unit", 1, INT64_MAX, &walks->unit);
+  if (!st) st = get_int(&r, thr_json_get(value, "units"), "units", 0, INT_MAX - 2, &units);
+  if (!st) st = get_int(&r, thr_json_get(value, all), all, 0, INT64_MAX, &walks->all);
+  if (!st) st = read_multipliers(&r, value, "edges", frame->n_edges, &walks->edge);
+  if (!st) st = read_multipliers(&r, value, "nodes", frame->n_nodes, &walks->node);
   walks->units = (int)units;
+  if (st) thr_walk_proof_destroy(walks);
   return st;
 }
 
@@ -409,7 +412,7 @@ thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame
     st = read_node(&r, thr_json_at(tree, i), &proof->node[i]);
   for (int i = 0; i < n_duals && !st; i++)
     st = read_dual(&r, thr_json_at(duals, i), &proof->dual[i]);
-  if (!st) st = read_walks(&r, thr_json_get(value, "walks"), &proof->walks);
+  if (!st) st = thr_walk_proof_from_json(&proof->walks, frame, "turning", thr_json_get(value, "walks"), place, err);
   if (st) thr_turning_proof_destroy(proof);
   return st;
 }

@@ -355,7 +355,7 @@ static thr_status prove_number(thr_plan *plan, thr_certificate *few, thr_err *er
   few->join = proof->certificate[0].join;
   swap_certificates(&proof->certificate[0], few);
   thr_status st = thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
-                                  proof->n_certificates, &claim, err);
+                                  proof->n_certificates, NULL, &claim, err);
   if (!st && claim.fewest > plan->cords_claim.fewest)
     plan->cords_claim = claim;
   else
@@ -371,7 +371,7 @@ static thr_status prove(const thr_decomposition *x, thr_plan *plan, growing *g, 
   if (!st) st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, g->best, &plan->proof, err);
   if (!st) st = prove_places(x, plan, err);
   if (!st)
-    st = thr_check_cords(frame, options, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates,
+    st = thr_check_cords(frame, options, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates, NULL,
                          &plan->cords_claim, err);
   return st ? st : prove_number(plan, &g->few, err);
 }

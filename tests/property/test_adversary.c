@@ -749,7 +749,7 @@ static thr_status state(thr_plan *p, int raise)
   thr_cords_claim *c = &p->cords_claim;
   thr_status st = thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, l->certificate, l->n_certificates,
                                          &l->optimal, &l->lower_bound, NULL);
-  if (!st) st = thr_check_cords(&p->frame, &p->options, p->cord, p->n_cords, l->certificate, l->n_certificates, c, NULL);
+  if (!st) st = thr_check_cords(&p->frame, &p->options, p->cord, p->n_cords, l->certificate, l->n_certificates, NULL, c, NULL);
   if (!l->optimal) l->lower_bound *= 1 + part[raise];
   if (!c->longest_optimal) c->longest_bound *= 1 + part[raise];
   if (raise == 4 && c->fewest > 0) c->fewest++;

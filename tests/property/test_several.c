@@ -190,7 +190,7 @@ START_TEST(bounds_on_several_cords_are_true)
     least[k] = least_longest(&f, &o, k);
   for (int i = 0; i < p.n_cords; i++)
     p.options.max_length = fmax(p.options.max_length, thr_cord_length(&f, &p.cord[i]));
-  thr_status st = thr_check_cords(&f, &p.options, p.cord, p.n_cords, NULL, 0, &found, &err);
+  thr_status st = thr_check_cords(&f, &p.options, p.cord, p.n_cords, NULL, 0, NULL, &found, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   double by_nothing = found.longest_bound;
   thr_shortest s;
@@ -198,7 +198,7 @@ START_TEST(bounds_on_several_cords_are_true)
   thr_certificate_destroy(&p.proof.certificate[0]);
   free(p.proof.certificate);
   ck_assert_int_eq(thr_postman_prove(&f, &p.options, p.cord, p.n_cords, &s, &p.proof, &err), THR_OK);
-  st = thr_check_cords(&f, &p.options, p.cord, p.n_cords, p.proof.certificate, 1, &p.cords_claim, &err);
+  st = thr_check_cords(&f, &p.options, p.cord, p.n_cords, p.proof.certificate, 1, NULL, &p.cords_claim, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   int fewest = 1;
   double best = INFINITY;

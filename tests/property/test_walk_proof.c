@@ -1,5 +1,6 @@
-/* Bounds on the cord that turns most, by single edges and by prices of walks, against all sets of cords of small frameworks. The
- * prices are the programme's, or changed at random to prove more, and the best walk is looked for by trying, too. */
+/* Bounds on the cord that turns most, by single edges and by prices of walks, and on the longest cord by prices of walks, against
+ * all sets of cords of small frameworks, open and closed. The prices are the programme's, or changed at random to prove more, and
+ * the best walk is looked for by trying, too. */
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
@@ -7,7 +8,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
 #include "graph/status.h"
-#include "planner/least_turning.h"
+#include "planner/make_plan.h"
 #include "tests/attack.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
@@ -24,9 +25,10 @@ typedef struct {
   thr_frame frame;
   thr_request o;
   thr_turning_task task;
-  bool end_allowed[NODES], end_node[NODES];
+  thr_walk_measure measure;
+  bool closed, end_allowed[NODES], end_node[NODES];
   thr_turning_columns c;
-  double largest, least; /* the truth: of the cord that turns most, of all cords */
+  double largest, least; /* the truth: of the cord that turns most or is longest, of all cords */
 } instance;
 
 /* false: no plan was found by trying. */
@@ -35,8 +37,11 @@ static bool instance_make(rng *r, instance *x)
   thr_err err = {0};
   *x = (instance){.frame = random_frame(r, rng_between(r, 2, 5), rng_below(r, 3), LENGTHS_EUCLID)};
   bool small = x->frame.n_edges <= TRUTH_TABLE_EDGES;
-  x->o = options_for(rng_below(r, 2) ? THR_ENDS_ANY : THR_ENDS_NODES, rng_below(r, 4) ? 1 : 2);
-  want(&x->o, "max-turning");
+  static const thr_ends ends[] = {THR_ENDS_ANY, THR_ENDS_NODES, THR_ENDS_CLOSED};
+  x->measure = rng_below(r, 2) ? THR_WALK_LENGTH : THR_WALK_TURNING;
+  x->o = options_for(ends[rng_below(r, 3)], rng_below(r, 4) ? 1 : 2);
+  x->closed = x->o.ends == THR_ENDS_CLOSED;
+  want(&x->o, x->measure == THR_WALK_LENGTH ? "longest" : "max-turning");
   x->o.cords = x->o.cords_least = rng_between(r, 1, 3);
   x->o.turning.cost = (thr_turn_cost)rng_below(r, 3);
   for (int v = 0; v < x->frame.n_nodes; v++)
@@ -47,14 +52,15 @@ static bool instance_make(rng *r, instance *x)
   x->task = (thr_turning_task){.cover = x->o.cover,
                                .most_passes = thr_turning_most_passes(&x->frame, x->o.cover),
                                .cords = x->o.cords,
-                               .end_allowed = x->end_allowed,
+                               .end_allowed = x->closed ? NULL : x->end_allowed,
                                .cost = x->o.turning.cost,
                                .extra_limit = -1};
   ck_assert_msg(thr_turning_columns_init(&x->c, &x->frame, &x->task, &err) == THR_OK, "%s", err.text);
   if (small) {
     truth_table table = truth_table_make(&x->frame, &x->o, x->o.cover == 1 ? 3 : 2);
-    x->largest = (double)truth_price(&table, x->o.cords, true, -1);
-    x->least = (double)truth_price(&table, x->o.cords, false, -1);
+    bool length = x->measure == THR_WALK_LENGTH;
+    x->largest = length ? truth_longest(&table, x->o.cords) : (double)truth_price(&table, x->o.cords, true, -1);
+    x->least = length ? truth_length(&x->frame, &x->o, NULL) : (double)truth_price(&table, x->o.cords, false, -1);
     truth_table_destroy(&table);
   }
   return small && x->largest < INFINITY && x->least < INFINITY;
@@ -75,12 +81,13 @@ START_TEST(no_bound_is_above_the_truth)
   thr_plan p;
   thr_err err = {0};
   bool found = instance_make(&r, &x);
-  thr_status st = thr_tortuosity_plan(&x.frame, &x.o, &(thr_limits){0}, &p, &err);
+  thr_status st = thr_plan_make(&x.frame, &x.o, &(thr_limits){0}, &p, NULL, &err);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_EINFEASIBLE, "%s", err.text);
   if (found && st != THR_EINFEASIBLE) {
     const double near = 1e-9 * (1 + x.largest);
-    ck_assert_double_le(p.turning.largest_bound, x.largest + near);
-    ck_assert_double_ge(p.turning.largest, x.largest - near);
+    bool length = x.measure == THR_WALK_LENGTH;
+    ck_assert_double_le(length ? p.cords_claim.longest_bound : p.turning.largest_bound, x.largest + near);
+    ck_assert_double_ge(length ? p.cords_claim.longest : p.turning.largest, x.largest - near);
     ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
   }
   if (st != THR_EINFEASIBLE) thr_plan_destroy(&p);
@@ -97,19 +104,20 @@ START_TEST(no_prices_prove_more_than_is_true)
   instance x;
   if (instance_make(&r, &x)) {
     int64_t edge[2 * NODES] = {0}, node[NODES] = {0}, kept_edge[2 * NODES], kept_node[NODES];
+    const int exponent = thr_walk_exponent(&x.frame, x.measure), most_units = x.closed ? 30 : 60;
     thr_walk_proof proof = {
-        .unit = 1 + (int64_t)(ldexp(x.largest + .01, THR_TURNING_BITS) / rng_between(&r, 2, 60)), .edge = edge, .node = node};
+        .unit = 1 + (int64_t)(ldexp(x.largest + .01, exponent) / rng_between(&r, 2, most_units)), .edge = edge, .node = node};
     double best = 0;
     int proofs = 0;
-    for (int i = 0; i < 3000; i++) {
+    for (int i = 0; i < (x.closed ? 1000 : 3000); i++) {
       thr_walk_proof kept = proof;
       memcpy(kept_edge, edge, sizeof edge);
       memcpy(kept_node, node, sizeof node);
       for (int k = rng_between(&r, 1, 4); k > 0; k--)
         switch (rng_below(&r, 6)) {
-        case 0: proof.units = rng_below(&r, 80); break;
+        case 0: proof.units = rng_below(&r, most_units + 20); break;
         case 1: node[rng_below(&r, x.frame.n_nodes)] = rng_below(&r, 5); break;
-        case 2: proof.turning = rng_below(&r, 3) ? rng_below(&r, 12) : 0; break;
+        case 2: proof.all = rng_below(&r, 3) ? rng_below(&r, 12) : 0; break;
         case 3:
           proof.unit =
               rng_below(&r, 50) ? 1 + (int64_t)fmod((double)proof.unit * rng_between(&r, 50, 80) / 64, 1e15) : attack_integer(&r);
@@ -118,7 +126,7 @@ START_TEST(no_prices_prove_more_than_is_true)
         default: edge[rng_below(&r, x.frame.n_edges)] = 0;
         }
       double bound = 0;
-      thr_status st = thr_walk_proof_check(&x.c, &proof, x.o.cords, x.least, &bound, NULL);
+      thr_status st = thr_walk_proof_check(&x.c, x.measure, &proof, x.o.cords, x.least, &bound, NULL);
       ck_assert(st == THR_OK || st == THR_EVIOLATED);
       ck_assert_double_le(bound, x.largest + 1e-9 * (1 + x.largest));
       proofs += st == THR_OK;
@@ -138,23 +146,52 @@ END_TEST
 
 /* ---- the recursion ---- */
 
-/* Most that a walk is worth that goes on from half-edge d, which is not counted yet; by trying them all. */
-static int64_t try_walks(const instance *x, const thr_walk_proof *p, int d, int units, int depth)
+/* Most that a walk is worth from half-edge d on, which was passed just now; closed ones end where first could follow. By trying
+ * them all, up to so many more passes. */
+static int64_t try_walks(const instance *x, const thr_walk_proof *p, int first, int d, int units, int depth)
 {
   const thr_frame *f = &x->frame;
+  const int exponent = thr_walk_exponent(f, x->measure);
   int v = thr_head(f, d);
-  int64_t best = x->end_allowed[v] ? p->node[v] : INT64_MIN / 2;
+  bool length = x->measure == THR_WALK_LENGTH;
+  int64_t best = !x->closed && x->end_allowed[v]                  ? p->node[v]
+                 : x->closed && length && v == thr_tail(f, first) ? 0
+                                                                  : INT64_MIN / 2;
   for (int i = f->first[v]; i < f->first[v + 1] && depth > 0; i++) {
     int h = f->half[i];
-    if (h == (d ^ 1) && thr_degree(f, v) > 1) continue;
-    int64_t weight = (int64_t)floor(ldexp(thr_turn_price(f, x->o.turning.cost, d, h), THR_TURNING_BITS));
-    int left = units - (int)(weight / p->unit);
+    if (h == (d ^ 1) && thr_degree(f, v) > 1 && !length) continue;
+    double size = ldexp(length ? f->length[h >> 1] : thr_turn_price(f, x->o.turning.cost, d, h), exponent);
+    int left = units - (int)((int64_t)floor(size) / p->unit);
     if (left < 0) continue;
-    int64_t here =
-        (int64_t)ceil(ldexp((double)p->turning * (double)weight, -THR_TURNING_BITS)) + try_walks(x, p, h, left, depth - 1);
+    int64_t all = (int64_t)ceil(ldexp((double)p->all * (length ? ceil(size) : floor(size)), -THR_TURNING_BITS));
+    int64_t pass = p->edge[h >> 1] + p->node[v] + p->node[thr_head(f, h)];
+    if (x->closed && !length && h == first && all > best) best = all;
+    int64_t here = all + pass + try_walks(x, p, first, h, left, depth - 1);
     if (here > best) best = here;
   }
-  return best + p->edge[d >> 1] + p->node[v] + p->node[thr_tail(f, d)];
+  return best;
+}
+
+/* The same of whole walks. */
+static int64_t try_all(const instance *x, const thr_walk_proof *p, int depth)
+{
+  const thr_frame *f = &x->frame;
+  const int exponent = thr_walk_exponent(f, x->measure);
+  int64_t best = 0;
+  for (int h = 0; h < 2 * f->n_edges; h++) {
+    int u = thr_tail(f, h), v = thr_head(f, h), left = p->units;
+    int64_t here = p->edge[h >> 1] + p->node[u] + p->node[v];
+    if (!x->closed && !x->end_allowed[u]) continue;
+    if (!x->closed) here += p->node[u];
+    if (x->measure == THR_WALK_LENGTH) {
+      double size = ldexp(f->length[h >> 1], exponent);
+      left -= (int)((int64_t)floor(size) / p->unit);
+      here += (int64_t)ceil(ldexp((double)p->all * ceil(size), -THR_TURNING_BITS));
+    }
+    if (left >= 0) here += try_walks(x, p, h, h, left, depth);
+    if (left >= 0 && here > best) best = here;
+  }
+  return best;
 }
 
 START_TEST(the_best_walk_is_found)
@@ -171,23 +208,28 @@ START_TEST(the_best_walk_is_found)
       sum += x.c.cover[x.frame.half[i] >> 1];
     node[v] = sum % 2 ? rng_below(&r, 5) : 0;
   }
+  bool length = x.measure == THR_WALK_LENGTH;
+  double shortest = INFINITY;
+  for (int e = 0; e < x.frame.n_edges; e++)
+    shortest = fmin(shortest, x.frame.length[e]);
   thr_walk_proof p = {.unit = INT64_C(1) << (THR_TURNING_BITS - 5), .units = rng_below(&r, 90), .edge = edge, .node = node};
-  p.turning = rng_below(&r, 30);
+  if (length) p.unit = (int64_t)ldexp(shortest * rng_between(&r, 1, 4) / 4, thr_walk_exponent(&x.frame, x.measure));
+  if (length) p.units = rng_below(&r, 8);
+  p.all = rng_below(&r, 30);
   thr_walk_steps steps;
-  if (thr_walk_steps_init(&steps, &x.c, 0, p.unit, NULL) == THR_OK) { /* else turns of nothing go in a circle */
-    int64_t *value = calloc((size_t)(p.units + 1) * (size_t)steps.n, sizeof *value), best = 0;
+  if (thr_walk_steps_init(&steps, &x.c, x.measure, 0, p.unit, NULL) == THR_OK) { /* else turns of nothing go in a circle */
+    enum { DEPTH = 10 };
+    int64_t *value = calloc((size_t)(p.units + 1) * (size_t)steps.n, sizeof *value);
     ck_assert_int_eq(thr_walk_steps_price(&steps, &p, NULL), THR_OK);
-    for (int d = 0; d < 2 * x.frame.n_edges; d++) {
-      int64_t here = x.end_allowed[thr_tail(&x.frame, d)] ? try_walks(&x, &p, d, p.units, 12) + p.node[thr_tail(&x.frame, d)] : 0;
-      if (here > best) best = here;
-    }
-    int64_t found = thr_walk_best(&steps, p.units, p.units + 1, value);
-    ck_assert_int_ge(found, best); /* which has twelve more edges at most */
+    int64_t best = try_all(&x, &p, DEPTH), found = thr_walk_best(&steps, p.units, p.units + 1, value);
+    ck_assert_int_ge(found, best); /* which has eleven passes at most */
     int levels = (p.units < steps.most_units ? p.units : steps.most_units) + 1;
     ck_assert_int_eq(thr_walk_best(&steps, p.units, levels, value), found);
-    if (p.units < 12 * 2) ck_assert_int_eq(found, best);
+    if (length ? p.units <= DEPTH : p.units < 2 * DEPTH) ck_assert_int_eq(found, best);
     free(value);
     thr_walk_steps_destroy(&steps);
+  } else {
+    ck_assert(!length);
   }
   instance_destroy(&x);
 }

@@ -54,7 +54,7 @@ START_TEST(the_longest_cord_has_its_detour)
   thr_err err = {0};
   thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
   if (st == THR_OK || st == THR_ELIMIT) {
-    ck_assert_msg(thr_check_cords(&f, &o, p.cord, p.n_cords, NULL, 0, &found, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_check_cords(&f, &o, p.cord, p.n_cords, NULL, 0, NULL, &found, &err) == THR_OK, "%s", err.text);
     double longest = 0, base = 0;
     for (int i = 0; i < p.n_cords; i++)
       longest = fmax(longest, thr_cord_length(&f, &p.cord[i]));
@@ -95,7 +95,7 @@ START_TEST(the_longest_closed_cord_has_its_detour)
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
   o.cords = o.cords_least = m;
   thr_cords_claim found;
-  ck_assert_int_eq(thr_check_cords(&f, &o, cord, m, NULL, 0, &found, NULL), THR_OK);
+  ck_assert_int_eq(thr_check_cords(&f, &o, cord, m, NULL, 0, NULL, &found, NULL), THR_OK);
   ck_assert_double_eq_tol(found.longest, longest, 1e-12);
   ck_assert_double_eq_tol(found.longest_bound, fmin(longest, longest_by_definition(&f, &o, base, m, 0)), 1e-9);
   thr_cords_destroy(cord, m);
@@ -115,7 +115,7 @@ START_TEST(the_worst_edge_may_be_the_last)
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
   o.cords = o.cords_least = 3;
   thr_cords_claim found;
-  ck_assert_int_eq(thr_check_cords(&f, &o, cord, 3, NULL, 0, &found, NULL), THR_OK);
+  ck_assert_int_eq(thr_check_cords(&f, &o, cord, 3, NULL, 0, NULL, &found, NULL), THR_OK);
   ck_assert_double_eq_tol(found.longest_bound, 10, 1e-12);
   thr_cords_destroy(cord, 3);
   thr_frame_destroy(&f);
@@ -139,7 +139,7 @@ START_TEST(bounds_are_whole_numbers_of_the_unit)
     thr_request o = options_for(THR_ENDS_CLOSED, 1);
     const thr_check_verdict verdict = {.extra = cases[i].bound - 3};
     thr_cords_claim found;
-    ck_assert_int_eq(thr_check_several(&f, &o, &w, &cord, 1, &c, &verdict, NULL, &found, NULL), THR_OK);
+    ck_assert_int_eq(thr_check_several(&f, &o, &w, &cord, 1, &c, &verdict, NULL, NULL, &found, NULL), THR_OK);
     ck_assert_double_eq_tol(found.longest_bound, cases[i].whole, 1e-12);
   }
   thr_frame_destroy(&f);
@@ -189,18 +189,18 @@ START_TEST(the_fewest_cords_have_room)
     thr_cords_claim found;
     thr_err err = {0};
     o.max_length = cases[i].most;
-    ck_assert_msg(thr_check_cords(&f, &o, cord, 2, &c, 1, &found, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_check_cords(&f, &o, cord, 2, &c, 1, NULL, &found, &err) == THR_OK, "%s", err.text);
     ck_assert_int_eq(found.fewest, cases[i].fewest);
     ck_assert_int_eq(found.fewest_optimal, cases[i].fewest == 2);
   }
   thr_cords_claim found;
   o.max_length = 100;
   o.cords = 3, o.cords_least = 2; /* no fewer are asked for */
-  ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, &c, 1, &found, NULL), THR_OK);
+  ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, &c, 1, NULL, &found, NULL), THR_OK);
   ck_assert_int_eq(found.fewest, 2);
   o.cords = 2, o.cords_least = 1;
   o.max_length = 4 - 1e-8; /* the cord over edge 1 is longer */
-  ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, &c, 1, &found, NULL), THR_EVIOLATED);
+  ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, &c, 1, NULL, &found, NULL), THR_EVIOLATED);
   thr_cords_destroy(cord, 2);
   thr_frame_destroy(&f);
 }
@@ -216,7 +216,7 @@ START_TEST(ends_pay_for_extra_passes)
   thr_cords_claim found;
   thr_err err = {0};
   ck_assert_double_eq_tol(p.metrics.length, 12, 1e-9);
-  ck_assert_msg(thr_check_cords(&f, &o, p.cord, 4, p.proof.certificate, 1, &found, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_check_cords(&f, &o, p.cord, 4, p.proof.certificate, 1, NULL, &found, &err) == THR_OK, "%s", err.text);
   ck_assert_double_eq_tol(found.longest_bound, 3, 1e-9);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
@@ -243,7 +243,7 @@ START_TEST(given_ends_are_those_of_half_as_many_cords)
   o.cords = o.cords_least = 2;
   thr_cords_claim found;
   thr_err err = {0};
-  ck_assert_msg(thr_check_cords(&f, &o, cord, 2, NULL, 0, &found, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_check_cords(&f, &o, cord, 2, NULL, 0, NULL, &found, &err) == THR_OK, "%s", err.text);
   ck_assert_double_eq_tol(found.longest_bound, 3 * f.length[0], 1e-9);
   ck_assert(found.longest_optimal);
   thr_frame_destroy(&f);
@@ -289,7 +289,7 @@ START_TEST(a_cord_may_be_as_long_as_rounding_lets_it)
     o.max_length = 1;
     f.length[0] = most / 2;
     f.length[1] = more ? nextafter(most / 2, 1) : most / 2;
-    ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, NULL, 0, &found, NULL), THR_OK);
+    ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, NULL, 0, NULL, &found, NULL), THR_OK);
     ck_assert_int_eq(found.fewest, 1 + more);
     thr_frame_destroy(&f);
   }
@@ -326,7 +326,7 @@ START_TEST(fewer_cords_have_fewer_ends)
     thr_cords_claim found;
     thr_err err = {0};
     o.max_length = cases[i].most;
-    ck_assert_msg(thr_check_cords(&f, &o, cord, 3, &c, 1, &found, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_check_cords(&f, &o, cord, 3, &c, 1, NULL, &found, &err) == THR_OK, "%s", err.text);
     ck_assert_int_eq(found.fewest, cases[i].fewest);
     ck_assert_double_eq_tol(found.longest_bound, 2, 1e-9);
     ck_assert(found.longest_optimal);
@@ -346,7 +346,7 @@ START_TEST(weak_proofs_bound_the_longest)
   const thr_certificate c = {.scale = 1, .denominator = 1, .join = 2, .sum = 1, .n_cuts = 1, .cut = &cut};
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_cords_claim found;
-  ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, &c, 1, &found, NULL), THR_OK);
+  ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, &c, 1, NULL, &found, NULL), THR_OK);
   ck_assert_double_eq_tol(found.longest, 4, 1e-12);
   ck_assert_double_eq_tol(found.longest_bound, 3, 1e-9);
   ck_assert(!found.longest_optimal);
@@ -379,7 +379,7 @@ START_TEST(bounds_beyond_the_plan_are_refused)
     thr_err err = {0};
     o.max_length = cases[i].most;
     o.cords = cases[i].most > 0 ? 3 : 1, o.cords_least = 1;
-    thr_status st = thr_check_several(&f, &o, &w, &cord, 1, &c, &verdict, NULL, &found, &err);
+    thr_status st = thr_check_several(&f, &o, &w, &cord, 1, &c, &verdict, NULL, NULL, &found, &err);
     ck_assert_msg(st == (cases[i].said ? THR_EVIOLATED : THR_OK), "case %zu: %s", i, err.text);
     if (st) assert_one_line(&err, cases[i].said);
   }
@@ -443,7 +443,7 @@ START_TEST(cords_are_counted_in_every_component)
     }
     thr_cords_claim found;
     thr_err err = {0};
-    thr_status st = thr_check_cords(&f, &o, cord, twice < 0 ? 2 : 3, NULL, 0, &found, &err);
+    thr_status st = thr_check_cords(&f, &o, cord, twice < 0 ? 2 : 3, NULL, 0, NULL, &found, &err);
     ck_assert_msg(st == (twice < 0 ? THR_OK : THR_EVIOLATED), "%s", err.text);
     char said[64];
     snprintf(said, sizeof said, "component %d: has 2 cords; the plan's options say 1", twice);

@@ -32,7 +32,7 @@ START_TEST(failures_are_not_forgotten)
     thr_turning_proof tied = {0};
     thr_cords_claim found;
     ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, proof, 1, &optimal, &bound, NULL), expected);
-    ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, proof, 1, &found, NULL), expected);
+    ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, proof, 1, NULL, &found, NULL), expected);
     ck_assert_int_eq(found.present, k == 0);
     ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, 2, &tied, &found, NULL), THR_EVIOLATED); /* that proof is empty */
     ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, NULL, 0, &optimal, &bound, NULL), THR_EVIOLATED);
@@ -84,14 +84,14 @@ START_TEST(cords_end_where_they_may_and_are_no_longer)
       for (int v = 0; v < 3; v++)
         f.foot[v] = v == foot + 1; /* node 2 */
       o.max_length = foot < 0 ? 0.7 : 0.75;
-      ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, NULL, 0, &found, &err), THR_EVIOLATED);
+      ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, NULL, 0, NULL, &found, &err), THR_EVIOLATED);
       assert_one_line(&err, foot < 0 ? "0.75 long; the plan's options allow 0.7" : back ? "ends at node 0" : "starts at node 0");
     }
   const thr_cord cord = {.id = "A", .n_passes = 2, .half = half[0]};
   thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_cords_claim found;
   o.max_length = 0.75;
-  ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, NULL, 0, &found, NULL), THR_OK);
+  ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, NULL, 0, NULL, &found, NULL), THR_OK);
   ck_assert_double_eq_tol(found.longest_bound, 0.75, 1e-9);
   thr_frame_destroy(&f);
 }

@@ -267,7 +267,7 @@ static thr_plan two_squares(int n_cords)
   o.cords = n_cords;
   thr_plan p = plan_of_cords(&f, &o);
   thr_err err = {0};
-  thr_status st = thr_check_cords(&p.frame, &p.options, p.cord, p.n_cords, p.proof.certificate, 1, &p.cords_claim, &err);
+  thr_status st = thr_check_cords(&p.frame, &p.options, p.cord, p.n_cords, p.proof.certificate, 1, NULL, &p.cords_claim, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   thr_frame_destroy(&f);
   return p;
@@ -326,7 +326,8 @@ START_TEST(a_claim_about_the_fewest)
     free(p.proof.certificate);
     ck_assert_int_eq(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err), THR_OK);
     thr_shortest_destroy(&s);
-    ck_assert_int_eq(thr_check_cords(&p.frame, &p.options, p.cord, n, p.proof.certificate, 1, &p.cords_claim, &err), THR_OK);
+    ck_assert_int_eq(thr_check_cords(&p.frame, &p.options, p.cord, n, p.proof.certificate, 1, NULL, &p.cords_claim, &err),
+                     THR_OK);
     ck_assert_int_eq(p.cords_claim.fewest, least < n ? least : n);
     ck_assert_int_eq(p.cords_claim.fewest_optimal, p.cords_claim.fewest == n);
     ck_assert_double_eq_tol(p.cords_claim.longest_bound, 2, 1e-9);
@@ -351,7 +352,7 @@ START_TEST(the_longest_forced_detour)
     p.options.cords = 10;
     thr_cords_claim found;
     thr_err err = {0};
-    ck_assert_int_eq(thr_check_cords(&f, &p.options, p.cord, p.n_cords, NULL, 0, &found, &err), THR_OK);
+    ck_assert_int_eq(thr_check_cords(&f, &p.options, p.cord, p.n_cords, NULL, 0, NULL, &found, &err), THR_OK);
     ck_assert_double_eq_tol(found.longest_bound, ends == 0 ? 10 : ends == 1 ? 2 : 1, 1e-12);
     thr_plan_destroy(&p);
   }
@@ -368,7 +369,7 @@ START_TEST(every_allocation_of_the_check_fails_once)
     for (long k = 1; st; k++) {
       thr_cords_claim found;
       thr_alloc_fail_at(k);
-      st = thr_check_cords(&q->frame, &q->options, q->cord, q->n_cords, q->proof.certificate, 1, &found, NULL);
+      st = thr_check_cords(&q->frame, &q->options, q->cord, q->n_cords, q->proof.certificate, 1, NULL, &found, NULL);
       thr_alloc_fail_at(0);
       ck_assert(st == THR_OK || st == THR_ENOMEM);
     }

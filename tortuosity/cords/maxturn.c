@@ -348,8 +348,8 @@ static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, 
 {
   thr_cord *better = NULL;
   thr_join j = {0};
-  thr_status st = thr_walk_bound(x->c, plan->cord, plan->n_cords, plan->bound, x->enough, x->limits, &plan->proof.walks,
-                                 &x->bound, &better, err);
+  thr_status st = thr_walk_bound(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords, plan->bound, x->enough, x->limits,
+                                 &plan->proof.walks, &x->bound, &better, err);
   for (int steps = 0; steps >= 0 && !st && better; steps = steps ? -1 : steps_of(x)) { /* as they are, and evened out */
     st = thr_join_from_cords(&j, x->c, better, plan->n_cords, err);
     if (!st) st = improve_from(x, &j, steps, err);

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_ROUNDS = 300, MOST_DIVES = 8 };
+enum { MOST_ROUNDS = 300, MOST_DIVES = 20, MOST_DRAWN = 12 };
 
 /* Are cords of at most so many units too few? Then proof is why. */
 static thr_status exclude(thr_walk_programme *p, int units, thr_walk_proof *proof, thr_err *err)
@@ -94,59 +94,82 @@ static thr_status replace_cords(const thr_walk_programme *p, const thr_cord *cor
     free((*all)[i].half);
     (*all)[i].half = walk[k].half;
     (*all)[i].n_passes = walk[k].n_passes;
-    (*all)[i].closed = thr_cord_start(p->c->f, &walk[k]) == thr_cord_end(p->c->f, &walk[k]);
+    (*all)[i].closed = p->steps.closed || thr_cord_start(p->c->f, &walk[k]) == thr_cord_end(p->c->f, &walk[k]);
     walk[k++].half = NULL;
   }
   return st;
 }
 
-/* Dives at limits just above what is excluded. They stop with the first cords that are better. */
-static thr_status dive(thr_walk_programme *p, const thr_cord *cord, int n_cords, int units, thr_cord **better, thr_err *err)
+/* Cords of at most so many units that turn, or are, less than the dearest of those that are known? Then they are better. */
+static thr_status look_below(thr_walk_programme *p, const thr_cord *cord, int n_cords, int units, int *passes, thr_cord **better,
+                             thr_err *err)
 {
-  const double step = .002; /* of the limit, and as much more each time */
-  double largest = thr_walk_price(p->c, cord[thr_walk_dearest(p->c, cord, n_cords)].half,
-                                  cord[thr_walk_dearest(p->c, cord, n_cords)].n_passes);
-  thr_cord *walk = thr_calloc((size_t)p->cords, sizeof *walk);
-  int *passes = thr_calloc((size_t)p->c->f->n_edges, sizeof *passes);
-  thr_status st = walk && passes ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < MOST_DIVES && !st && !*better && !thr_limits_stop(p->limits); i++) {
-    bool found = false;
-    if (units > p->most_units || thr_walk_programme_price(p, units) >= largest * (1 - 1e-6)) break;
-    st = thr_walk_dive(p, units, walk, &found, err);
-    if (!st && found) st = replace_cords(p, cord, n_cords, walk, better, err);
-    if (!st && found) {
-      const thr_cord *most = &(*better)[thr_walk_dearest(p->c, *better, n_cords)];
-      if (!within_limits(p->c, *better, n_cords, passes) ||
-          thr_walk_price(p->c, most->half, most->n_passes) >= largest * (1 - 1e-9)) {
-        thr_cords_destroy(*better, n_cords);
-        *better = NULL;
-      }
-    }
-    units += 1 + (int)(step * (i + 1) * units);
+  const thr_walk_measure measure = p->steps.measure;
+  const thr_cord *known = *better ? *better : cord;
+  double largest = thr_walk_price(p->c, measure, &known[thr_walk_dearest(p->c, measure, known, n_cords)]);
+  thr_cord *walk = thr_calloc((size_t)p->cords, sizeof *walk), *made = NULL;
+  bool found = false;
+  uint64_t random = 1;
+  thr_status st = walk ? thr_walk_dive(p, units, NULL, walk, &found, err) : thr_nomem(err);
+  for (int i = 0; i < MOST_DRAWN && !st && !found && !thr_limits_stop(p->limits); i++)
+    st = thr_walk_dive(p, units, &random, walk, &found, err);
+  if (!st && !found) st = thr_walk_choose(p, units, walk, &found, err);
+  if (!st && found) st = replace_cords(p, cord, n_cords, walk, &made, err);
+  if (made && within_limits(p->c, made, n_cords, passes) &&
+      thr_walk_price(p->c, measure, &made[thr_walk_dearest(p->c, measure, made, n_cords)]) < largest * (1 - 1e-9)) {
+    thr_cords_destroy(*better, n_cords);
+    *better = made;
+    made = NULL;
   }
+  thr_cords_destroy(made, n_cords);
   thr_cords_destroy(walk, p->cords);
+  return st;
+}
+
+/* Looks for cords just above what is excluded, in growing steps up to the first that are better, and then below these. */
+static thr_status look_for_cords(thr_walk_programme *p, const thr_cord *cord, int n_cords, int low, thr_cord **better,
+                                 thr_err *err)
+{
+  const thr_walk_measure measure = p->steps.measure;
+  const double near = 5e-4; /* of the limit */
+  int *passes = thr_calloc((size_t)p->c->f->n_edges, sizeof *passes), units = low;
+  thr_status st = passes ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < MOST_DIVES && !st && !thr_limits_stop(p->limits); i++) {
+    const thr_cord *known = *better ? *better : cord;
+    double largest = thr_walk_price(p->c, measure, &known[thr_walk_dearest(p->c, measure, known, n_cords)]);
+    int high = (int)floor(largest / thr_walk_programme_price(p, 1));
+    if (high > p->most_units) high = p->most_units;
+    if (*better) units = low + (high - low) / 2;
+    if (units > high || thr_walk_programme_price(p, units) >= largest * (1 - 1e-6)) break;
+    if (*better && thr_walk_programme_price(p, high - low) < near * largest) break;
+    thr_cord *before = *better;
+    st = look_below(p, cord, n_cords, units, passes, better, err);
+    if (*better != before) continue;
+    low = units;
+    units += 1 + (high - units) / (i < 2 ? 32 : i < 5 ? 16 : 4);
+  }
   free(passes);
   return st;
 }
 
-thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_cord *cord, int n_cords, double least, double enough,
-                          const thr_limits *limits, thr_walk_proof *proof, double *bound, thr_cord **better, thr_err *err)
+thr_status thr_walk_bound(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords,
+                          double least, double enough, const thr_limits *limits, thr_walk_proof *proof, double *bound,
+                          thr_cord **better, thr_err *err)
 {
   const thr_turning_task *task = columns->task;
-  const thr_cord *most = &cord[thr_walk_dearest(columns, cord, n_cords)];
-  double largest = thr_walk_price(columns, most->half, most->n_passes);
+  double largest = thr_walk_price(columns, measure, &cord[thr_walk_dearest(columns, measure, cord, n_cords)]);
   thr_walk_programme p;
   thr_walk_proof made = {0};
   thr_err why = {0};
   int open = 0;
-  if (!task->end_allowed || task->cords < 2 || *bound >= largest * (1 - 1e-9)) return THR_OK;
-  thr_status st = thr_walk_programme_init(&p, columns, cord, n_cords, least, limits, &why);
+  if (task->cords < 2 || *bound >= largest * (1 - 1e-9)) return THR_OK;
+  thr_status st = thr_walk_programme_init(&p, columns, measure, cord, n_cords, least, limits, &why);
   if (!st && enough > 0)
     st = try_limit(&p, enough, &made, bound, &open, &why);
   else if (!st)
     st = bisect(&p, largest, &made, bound, &open, &why);
   bool wanted = enough <= 0 || *bound <= enough;
-  if (!st && wanted && !task->tube && !task->end_count) st = dive(&p, cord, n_cords, open, better, &why);
+  if (!st && wanted && !task->tube && !task->end_count) st = look_for_cords(&p, cord, n_cords, open, better, &why);
   if (!st && made.edge) {
     thr_walk_proof_destroy(proof);
     *proof = made;

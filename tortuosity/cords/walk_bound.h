@@ -1,4 +1,4 @@
-/* How much some open cord has to turn, and cords that turn little more: the programme over walks. Internal to tortuosity/.
+/* How much some cord has to turn, or how long it must be, and cords little above that: the programme over walks.
  *
  * Example: on a 7 x 7 dome with 14 cords between its feet some cord turns by 257 degrees, which is what the plan has. */
 #ifndef THR_WALK_BOUND_H
@@ -7,16 +7,21 @@
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/plan/walk_proof.h"
 #include "graph/status.h"
 
-/* Raises *bound, on the turning of the cord that turns most, as far as the highest limit below which the walks are too few: by
- * bisection, in the component of the dearest cord. proof receives the prices, if there are any; what it held is released. least:
- * the proved least of the turning of all cords. *better, NULL at first, receives n_cords cords of which the dearest turns less,
- * if the columns make some; the caller's. Nothing is done for closed cords, for one cord in each component, or where half-edges
- * and turning are more than the recursion takes in a moment. enough > 0: asked is only whether some cord turns by more than that;
- * one limit is tried, and better cords are looked for from just below it. */
-thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_cord *cord, int n_cords, double least, double enough,
-                          const thr_limits *limits, thr_walk_proof *proof, double *bound, thr_cord **better,
-                          thr_err *err) THR_MUST_CHECK;
+/* Raises *bound, on the turning of the cord that turns most or the length of the longest, as far as the highest limit below which
+ * the walks are too few: by bisection, in the component of that cord. proof receives the prices, if there are any; what it held
+ * is released. least: the proved least of the turning of all cords, or of the length of that component's. *better, NULL at first,
+ * receives n_cords cords of which the dearest costs less, if the columns make some; the caller's. Nothing is done for one cord in
+ * each component, or where places and units are more than the recursion takes in a moment. enough > 0: asked is only whether some
+ * cord costs more than that; one limit is tried, and better cords are looked for from just below it. */
+thr_status thr_walk_bound(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords,
+                          double least, double enough, const thr_limits *limits, thr_walk_proof *proof, double *bound,
+                          thr_cord **better, thr_err *err) THR_MUST_CHECK;
+
+/* Price of the turns of a cord, or its length; which one has most. */
+double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord);
+int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords);
 
 #endif

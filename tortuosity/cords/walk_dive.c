@@ -1,8 +1,10 @@
-/* Diving on the columns. */
+/* Diving on the columns, or a programme of all of them in integers. */
 #include "tortuosity/cords/walk_dive.h"
 #include "graph/framework/frame.h"
+#include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/random.h"
 #include "graph/status.h"
 #include "lp/model/pool.h"
 #include "lp/model/search.h"
@@ -18,6 +20,7 @@ typedef struct {
   double *left, *cost; /* [n_variables] the right sides that are left; costs of the dual */
   thr_cord *cord;
   int n_cords;
+  uint64_t *random; /* state; NULL: the largest column is taken */
 } dive;
 
 /* Passes that the walk of a row makes of those that are still needed. */
@@ -25,9 +28,8 @@ static double serves(const dive *d, const thr_row *row)
 {
   double sum = 0;
   for (int k = 0; k < row->n; k++) {
-    int j = row->column[k], e = d->p->c->f->n_edges;
-    bool is_edge = j < e && j < d->p->n_variables;
-    if (is_edge) sum += fmax(0, fmin(d->left[j], row->value ? -row->value[k] : -1));
+    int j = row->column[k];
+    if (j < d->p->n_edges) sum += fmax(0, fmin(d->left[j], row->value ? -row->value[k] : -1));
   }
   return sum;
 }
@@ -44,21 +46,36 @@ static thr_status take(dive *d, const thr_row *row, thr_err *err)
   return THR_OK;
 }
 
-/* Takes the walks whose columns are 1, or else the largest. *taken: 0: none serves. */
+/* Of the walks that serve, the one with the largest column; or any, drawn as often as its column says. -1: there is none. */
+static int choose_walk(dive *d)
+{
+  const thr_search *search = &d->p->search;
+  int best = -1, rows = thr_lp_rows(search->lp);
+  double sum = 0, most = 0;
+  for (int i = 0; i < rows; i++) {
+    double value = search->dual[i];
+    if (value < 1e-6 || serves(d, &search->pool.row[i]) == 0) continue;
+    sum += value;
+    bool takes = d->random ? thr_random_unit(d->random) * sum < value : value > most + 1e-9;
+    if (takes || best < 0) best = i;
+    most = fmax(most, value);
+  }
+  return best;
+}
+
+/* Takes the walks whose columns are 1, or else one of the others. *taken: 0: none serves. */
 static thr_status take_some(dive *d, int *taken, thr_err *err)
 {
   thr_search *search = &d->p->search;
-  int best = -1, rows = thr_lp_rows(search->lp);
+  int best, rows = thr_lp_rows(search->lp);
   thr_status st = THR_OK;
   *taken = 0;
   for (int i = 0; i < rows && d->n_cords < d->p->cords && !st; i++) {
-    if (search->dual[i] < 1e-6 || serves(d, &search->pool.row[i]) == 0) continue;
-    if (best < 0 || search->dual[i] > search->dual[best] + 1e-9) best = i;
-    if (search->dual[i] < .999) continue;
+    if (search->dual[i] < .999 || serves(d, &search->pool.row[i]) == 0) continue;
     st = take(d, &search->pool.row[i], err);
     ++*taken;
   }
-  if (!st && *taken == 0 && best >= 0) {
+  if (!st && *taken == 0 && (best = choose_walk(d)) >= 0) {
     st = take(d, &search->pool.row[best], err);
     ++*taken;
   }
@@ -74,9 +91,8 @@ static bool is_covered(const dive *d)
 }
 
 /* Cords that are not needed run over as little as there is. */
-static thr_status fill_up(dive *d, thr_err *err)
+static thr_status fill_up(dive *d, const thr_pool *pool, thr_err *err)
 {
-  const thr_pool *pool = &d->p->search.pool;
   const thr_row *least = NULL;
   thr_status st = THR_OK;
   for (int i = 0; i < pool->count; i++)
@@ -101,14 +117,16 @@ static thr_status run(dive *d, bool *found, thr_err *err)
     st = take_some(d, &taken, err);
   }
   *found = !st && is_covered(d);
-  return *found ? fill_up(d, err) : st;
+  return *found ? fill_up(d, &p->search.pool, err) : st;
 }
 
-thr_status thr_walk_dive(thr_walk_programme *p, int units, thr_cord *cord, bool *found, thr_err *err)
+thr_status thr_walk_dive(thr_walk_programme *p, int units, uint64_t *random, thr_cord *cord, bool *found, thr_err *err)
 {
   const double dear = 10; /* no pass goes without a walk */
   size_t n = (size_t)p->n_variables;
-  dive d = {.p = p, .cord = cord, .left = thr_calloc(n, sizeof *d.left), .cost = thr_calloc(n, sizeof *d.cost)};
+  dive d = {.p = p, .cord = cord, .random = random};
+  d.left = thr_calloc(n, sizeof *d.left);
+  d.cost = thr_calloc(n, sizeof *d.cost);
   *found = false;
   thr_status st = d.left && d.cost ? THR_OK : thr_nomem(err);
   if (!st) memcpy(d.left, p->right, n * sizeof *d.left);
@@ -122,5 +140,65 @@ thr_status thr_walk_dive(thr_walk_programme *p, int units, thr_cord *cord, bool 
   }
   free(d.left);
   free(d.cost);
+  return st;
+}
+
+/* ---- among all walks ---- */
+
+/* Walks of at most so many units as columns, their number to be least; the edges' passes as rows. */
+static thr_status make_choice(const thr_walk_programme *p, const int *walk, int n, thr_lp **lp, thr_err *err)
+{
+  double *cost = thr_calloc((size_t)n, sizeof *cost), *value = thr_calloc((size_t)n, sizeof *value);
+  int *column = thr_calloc((size_t)n, sizeof *column);
+  thr_status st = cost && value && column ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < n && !st; i++)
+    cost[i] = 1;
+  if (!st) st = thr_lp_create(lp, n, cost, NULL, err);
+  for (int j = 0; j < p->n_edges && !st; j++) {
+    int entries = 0;
+    for (int i = 0; i < n; i++) {
+      const thr_row *row = &p->walks.row[walk[i]];
+      for (int k = 0; k < row->n; k++)
+        if (row->column[k] == j) {
+          column[entries] = i;
+          value[entries++] = row->value ? -row->value[k] : -1;
+        }
+    }
+    st = thr_lp_add_row(*lp, entries, column, value, p->right[j], err);
+  }
+  free(cost);
+  free(value);
+  free(column);
+  return st;
+}
+
+thr_status thr_walk_choose(thr_walk_programme *p, int units, thr_cord *cord, bool *found, thr_err *err)
+{
+  const double part = .1; /* of the time */
+  const thr_limits share = thr_limits_part(p->limits, part);
+  thr_lp_outcome outcome = THR_LP_STOPPED;
+  thr_lp *lp = NULL;
+  dive d = {.p = p, .cord = cord, .left = thr_calloc((size_t)p->n_variables, sizeof *d.left)};
+  int n = 0, *walk = thr_calloc((size_t)p->walks.count, sizeof *walk);
+  double *x = thr_calloc((size_t)p->walks.count, sizeof *x);
+  *found = false;
+  thr_status st = d.left && walk && x ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < p->walks.count && !st; i++)
+    if (p->walks.row[i].index <= units) walk[n++] = i;
+  if (!st && n > 0) st = make_choice(p, walk, n, &lp, err);
+  if (!st && n > 0) st = thr_lp_solve(lp, &share, &outcome, err);
+  if (!st && outcome == THR_LP_OPTIMAL) st = thr_lp_solve_integer(lp, &share, &outcome, err);
+  if (!st && outcome == THR_LP_OPTIMAL && thr_lp_objective(lp) < p->cords + .5) {
+    *found = true;
+    thr_lp_primal(lp, x);
+    for (int i = 0; i < n && !st; i++)
+      for (int times = (int)(x[i] + .5); times > 0 && !st; times--)
+        st = take(&d, &p->walks.row[walk[i]], err);
+    if (!st) st = fill_up(&d, &p->walks, err);
+  }
+  thr_lp_destroy(lp);
+  free(d.left);
+  free(walk);
+  free(x);
   return st;
 }

@@ -10,6 +10,7 @@
 #include "lp/model/pool.h"
 #include "lp/model/search.h"
 #include "lp/solver/lp.h"
+#include "tortuosity/cords/walk_bound.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -18,26 +19,42 @@ enum {
   MOST_ENTRIES = 1 << 23, /* of the recursion's table */
   MOST_UNITS = 4000,
   FEWEST_UNITS = 100,
-  MOST_WALKS = 40, /* that one look at the prices adds */
+  MOST_WALKS = 40, /* that one look at the prices adds, of a recursion */
   PATIENCE = 30    /* rounds after which a walk that is not needed is forgotten */
 };
 
 static const double one = 4294967296.0; /* 1 in the integers of a proof */
+static const double most_steps = 2e8;   /* of all recursions for a look at the prices */
+static const double per_step = 2e-9;    /* seconds */
 
-double thr_walk_price(const thr_turning_columns *columns, const int *half, int n)
+/* What the pass after number k of a cord, or the first one for k = -1, adds to it. */
+static double pass_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int k)
+{
+  int out = cord->half[(k + 1) % cord->n_passes];
+  if (measure == THR_WALK_LENGTH) return columns->f->length[out >> 1];
+  return k < 0 ? 0 : thr_turn_price(columns->f, columns->task->cost, cord->half[k], out);
+}
+
+/* Of the passes from number -1 on that have a price: closed cords turn where they close, too. */
+static int priced_passes(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord)
+{
+  return cord->n_passes - (measure == THR_WALK_LENGTH || columns->task->end_allowed);
+}
+
+double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord)
 {
   double price = 0;
-  for (int k = 0; k + 1 < n; k++)
-    price += thr_turn_price(columns->f, columns->task->cost, half[k], half[k + 1]);
+  for (int k = -1; k < priced_passes(columns, measure, cord); k++)
+    price += pass_price(columns, measure, cord, k);
   return price;
 }
 
-int thr_walk_dearest(const thr_turning_columns *columns, const thr_cord *cord, int n_cords)
+int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords)
 {
   double most = -1;
   int dearest = 0;
   for (int i = 0; i < n_cords; i++) {
-    double price = thr_walk_price(columns, cord[i].half, cord[i].n_passes);
+    double price = thr_walk_price(columns, measure, &cord[i]);
     if (price > most) dearest = i;
     most = fmax(most, price);
   }
@@ -46,24 +63,44 @@ int thr_walk_dearest(const thr_turning_columns *columns, const thr_cord *cord, i
 
 /* ---- set up ---- */
 
-/* A unit of which at most so many make up the turning of the cord, and of those up to twice as large the one of which most turns
- * of the cord are nearly whole numbers. */
-static int64_t choose_unit(const thr_turning_columns *columns, const thr_cord *cord, int units)
+/* A unit of which at most so many make up the cord, and of those up to twice as large the one of which most turns, or edges, of
+ * the cord are nearly whole numbers; of lengths no longer than any edge. */
+static int64_t choose_unit(const thr_walk_programme *p, thr_walk_measure measure, const thr_cord *cord, int units)
 {
   enum { CANDIDATES = 256 };
-  double smallest = thr_walk_price(columns, cord->half, cord->n_passes) / units, least_loss = INFINITY, unit = smallest;
+  const thr_frame *frame = p->c->f;
+  double smallest = thr_walk_price(p->c, measure, cord) / units, least_loss = INFINITY, unit = smallest, most = INFINITY;
+  for (int e = 0; e < frame->n_edges && measure == THR_WALK_LENGTH; e++)
+    if (p->c->component[frame->edge[e][0]] == p->component) most = fmin(most, frame->length[e]);
   for (int i = 0; i < CANDIDATES; i++) {
-    double candidate = smallest * (1 + (double)i / CANDIDATES), loss = 0;
-    for (int k = 0; k + 1 < cord->n_passes; k++) {
-      double turn = thr_turn_price(columns->f, columns->task->cost, cord->half[k], cord->half[k + 1]) / candidate;
-      loss += candidate * (turn + 1e-9 - floor(turn + 1e-9));
+    double candidate = fmin(smallest * (1 + (double)i / CANDIDATES), most), loss = 0;
+    for (int k = -1; k < priced_passes(p->c, measure, cord); k++) {
+      double part = pass_price(p->c, measure, cord, k) / candidate;
+      loss += candidate * (part + 1e-9 - floor(part + 1e-9));
     }
     if (loss < least_loss) {
       least_loss = loss;
       unit = candidate;
     }
   }
-  return (int64_t)floor(ldexp(unit, THR_TURNING_BITS) * (1 - 1e-9));
+  return (int64_t)floor(ldexp(unit, thr_walk_exponent(frame, measure)) * (1 - 1e-9));
+}
+
+/* As many as the recursions take in a moment. */
+static int most_units(const thr_turning_columns *columns, thr_walk_measure measure, int component)
+{
+  double halves = 0, squares = 0, nodes = 0;
+  bool length = measure == THR_WALK_LENGTH;
+  for (int v = 0; v < columns->f->n_nodes; v++) {
+    double degree = thr_degree(columns->f, v);
+    if (columns->component[v] != component) continue;
+    nodes++;
+    halves += degree;
+    squares += degree * degree;
+  }
+  double runs = columns->task->end_allowed ? 1 : length ? nodes : halves / 2;
+  double units = fmin(MOST_ENTRIES / (length ? nodes : halves), most_steps / ((length ? halves : squares) * runs));
+  return (int)fmin(units, MOST_UNITS);
 }
 
 static void number_variables(thr_walk_programme *p)
@@ -73,6 +110,7 @@ static void number_variables(thr_walk_programme *p)
     p->edge[e] = p->c->component[frame->edge[e][0]] == p->component ? p->n_variables : -1;
     if (p->edge[e] >= 0) p->right[p->n_variables++] = p->c->cover[e];
   }
+  p->n_edges = p->n_variables;
   for (int v = 0; v < frame->n_nodes; v++) {
     const int64_t needed = thr_walk_needed_at(p->c, v);
     p->node[v] = p->c->component[v] == p->component && needed % 2 ? p->n_variables : -1;
@@ -90,7 +128,7 @@ static thr_status allocate(thr_walk_programme *p, thr_err *err)
   p->x = thr_scratch_array(&p->own, most, sizeof *p->x);
   p->middle = thr_scratch_array(&p->own, most, sizeof *p->middle);
   p->try = thr_scratch_array(&p->own, most, sizeof *p->try);
-  p->start = thr_scratch_array(&p->own, places, sizeof *p->start);
+  p->start = thr_scratch_array(&p->own, MOST_WALKS, sizeof *p->start);
   p->value = thr_scratch_array(&p->own, ((size_t)p->most_units + 1) * places, sizeof *p->value);
   p->half = thr_scratch_array(&p->own, ((size_t)p->most_units + 1) * places, sizeof *p->half);
   p->trial.edge = thr_calloc(m, sizeof *p->trial.edge);
@@ -99,20 +137,20 @@ static thr_status allocate(thr_walk_programme *p, thr_err *err)
   return thr_scratch_check(&p->own, err);
 }
 
-thr_status thr_walk_programme_init(thr_walk_programme *p, const thr_turning_columns *columns, const thr_cord *cord, int n_cords,
-                                   double least, const thr_limits *limits, thr_err *err)
+thr_status thr_walk_programme_init(thr_walk_programme *p, const thr_turning_columns *columns, thr_walk_measure measure,
+                                   const thr_cord *cord, int n_cords, double least, const thr_limits *limits, thr_err *err)
 {
-  const thr_cord *most = &cord[thr_walk_dearest(columns, cord, n_cords)];
-  int component = columns->component[thr_tail(columns->f, most->half[0])], halves = 0;
+  const thr_cord *most = &cord[thr_walk_dearest(columns, measure, cord, n_cords)];
+  int component = columns->component[thr_tail(columns->f, most->half[0])], here = 0;
   *p = (thr_walk_programme){.c = columns, .limits = limits, .component = component};
-  p->cords = columns->task->end_count ? n_cords : columns->task->cords;
-  p->least = columns->n_components == 1 ? least * (1 - 1e-12) : 0;
-  for (int v = 0; v < columns->f->n_nodes; v++)
-    halves += columns->component[v] == component ? thr_degree(columns->f, v) : 0;
-  p->most_units = MOST_ENTRIES / halves < MOST_UNITS ? MOST_ENTRIES / halves : MOST_UNITS;
-  if (p->most_units < FEWEST_UNITS) return thr_fail(err, THR_ELIMIT, "%d half-edges are too many for walks", halves);
-  p->unit = choose_unit(columns, most, p->most_units - 1);
-  thr_status st = thr_walk_steps_init(&p->steps, columns, component, p->unit, err);
+  for (int i = 0; i < n_cords; i++)
+    here += columns->component[thr_tail(columns->f, cord[i].half[0])] == component;
+  p->cords = !columns->task->end_count ? columns->task->cords : measure == THR_WALK_LENGTH ? here : n_cords;
+  p->least = measure == THR_WALK_LENGTH || columns->n_components == 1 ? least * (1 - 1e-10) : 0;
+  p->most_units = most_units(columns, measure, component);
+  if (p->most_units < FEWEST_UNITS) return thr_fail(err, THR_ELIMIT, "the component is too large for walks");
+  p->unit = choose_unit(p, measure, most, p->most_units - 1);
+  thr_status st = thr_walk_steps_init(&p->steps, columns, measure, component, p->unit, err);
   if (st) return st == THR_EVIOLATED ? THR_ELIMIT : st;
   if ((st = allocate(p, err))) return st;
   p->trial.unit = p->unit;
@@ -131,7 +169,7 @@ void thr_walk_programme_destroy(thr_walk_programme *p)
 
 double thr_walk_programme_price(const thr_walk_programme *p, int units)
 {
-  return ldexp((double)p->unit * units, -THR_TURNING_BITS) * (1 - 1e-15);
+  return ldexp((double)p->unit * units, -p->steps.exponent) * (1 - 1e-15);
 }
 
 /* ---- walks at given prices ---- */
@@ -148,25 +186,23 @@ static thr_status set_trial(thr_walk_programme *p, const double *x, thr_err *err
     p->trial.edge[e] = p->edge[e] >= 0 ? whole(x[p->edge[e]]) : 0;
   for (int v = 0; v < p->c->f->n_nodes; v++)
     p->trial.node[v] = p->node[v] >= 0 ? whole(x[p->node[v]]) : 0;
-  p->trial.turning = p->least > 0 ? whole(x[p->n_variables - 1] / p->least) : 0;
+  p->trial.all = p->least > 0 ? whole(ldexp(x[p->n_variables - 1] / p->least, THR_TURNING_BITS - p->steps.exponent)) : 0;
   p->trial.units = p->units;
   return thr_walk_steps_price(&p->steps, &p->trial, err);
 }
 
-/* Worth of the best walk from place i on; below 0: there is none. */
-static int64_t worth_from(const thr_walk_programme *p, int i)
+/* Worth of the best walk with a first pass; below 0: there is none. */
+static int64_t worth_of(const thr_walk_programme *p, const thr_walk_step *first)
 {
-  const thr_walk_steps *steps = &p->steps;
-  int64_t start = steps->end[steps->place[steps->half[i] ^ 1]], on = p->value[(size_t)p->units * (size_t)steps->n + (size_t)i];
-  return start < 0 || on < 0 ? -1 : start + on;
+  return thr_walk_worth(&p->steps, first, p->units, p->units + 1, p->value);
 }
 
 /* The step that the best walk takes from place i with so many units left; NULL: it ends there. */
-static const thr_walk_step *best_step(const thr_walk_programme *p, int i, int units)
+static const thr_walk_step *best_step(const thr_walk_programme *p, int i, int units, int home)
 {
   const thr_walk_steps *steps = &p->steps;
   const thr_walk_step *best = NULL;
-  int64_t most = steps->end[i];
+  int64_t most = i == home ? 0 : steps->end[i];
   for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
     const thr_walk_step *step = &steps->step[k];
     if (step->units > units) continue;
@@ -183,40 +219,39 @@ static void put_node(thr_walk_programme *p, int v)
   if (p->node[v] >= 0) thr_pool_put(&p->search.pool, p->node[v], -1);
 }
 
-/* Puts together the row of the best walk from place i, as thr_row.index and member say. */
-static thr_row put_walk(thr_walk_programme *p, int i)
+/* Puts together the row of the best walk with a first pass, as thr_row.index and member say. home: the place where it closes, -1:
+ * it is open. */
+static thr_row put_walk(thr_walk_programme *p, const thr_walk_step *step, int home)
 {
   const thr_frame *frame = p->c->f;
   thr_row row = {.lower = -1, .member = p->half};
-  double turning = 0;
-  put_node(p, thr_tail(frame, p->steps.half[i]));
-  for (;;) {
-    int half = p->steps.half[i];
-    p->half[row.n_members++] = half;
-    thr_pool_put(&p->search.pool, p->edge[half >> 1], -1);
-    put_node(p, thr_tail(frame, half));
-    put_node(p, thr_head(frame, half));
-    const thr_walk_step *step = best_step(p, i, p->units - row.index);
-    if (!step) break;
+  double all = 0;
+  if (home < 0) put_node(p, thr_tail(frame, step->half));
+  for (int i = 0; step; step = best_step(p, i, p->units - row.index, home)) {
+    p->half[row.n_members++] = step->half;
+    thr_pool_put(&p->search.pool, p->edge[step->half >> 1], -1);
+    put_node(p, thr_tail(frame, step->half));
+    put_node(p, thr_head(frame, step->half));
     row.index += step->units;
-    turning += (double)step->weight;
+    all += (double)step->weight;
     i = step->to;
   }
-  put_node(p, thr_head(frame, p->half[row.n_members - 1]));
-  if (p->least > 0) thr_pool_put(&p->search.pool, p->n_variables - 1, -ldexp(turning, -THR_TURNING_BITS) / p->least);
+  if (home < 0) put_node(p, thr_head(frame, p->half[row.n_members - 1]));
+  if (p->least > 0) thr_pool_put(&p->search.pool, p->n_variables - 1, -ldexp(all, -p->steps.exponent) / p->least);
   return row;
 }
 
-/* The places whose walks are worth most, in that order. */
-static int sort_starts(thr_walk_programme *p)
+/* Of a recursion, the first passes of the walks that are worth most, in that order; returns their number. */
+static int sort_starts(thr_walk_programme *p, int run, int most)
 {
-  int n = 0;
-  for (int i = 0; i < p->steps.n; i++) {
-    int64_t worth = worth_from(p, i);
-    int k = n < MOST_WALKS ? n++ : MOST_WALKS;
-    for (; k > 0 && worth_from(p, p->start[k - 1]) < worth; k--)
-      if (k < MOST_WALKS) p->start[k] = p->start[k - 1];
-    if (k < MOST_WALKS) p->start[k] = i;
+  const thr_walk_step *first;
+  int n = 0, count = thr_walk_firsts(&p->steps, run, &first);
+  for (int i = 0; i < count; i++) {
+    int64_t worth = worth_of(p, &first[i]);
+    int k = n < most ? n++ : most;
+    for (; k > 0 && worth_of(p, p->start[k - 1]) < worth; k--)
+      if (k < most) p->start[k] = p->start[k - 1];
+    if (k < most) p->start[k] = &first[i];
   }
   return n;
 }
@@ -236,12 +271,19 @@ static void judge_prices(thr_walk_programme *p, const double *x, double worth)
 static thr_status price_walks(thr_walk_programme *p, const double *x, int *added, thr_err *err)
 {
   thr_status st = set_trial(p, x, err);
+  const bool closed = p->steps.closed;
+  double most = 1;
   if (st) return st == THR_EVIOLATED ? THR_OK : st;
-  double worth = (double)thr_walk_best(&p->steps, p->units, p->units + 1, p->value);
-  if (p->to_exclude) judge_prices(p, x, fmax(worth, 1));
-  int n = p->excluded ? 0 : sort_starts(p);
-  for (int i = 0; i < n && !st && worth_from(p, p->start[i]) > 0; i++)
-    st = thr_pool_offer(&p->search.pool, put_walk(p, p->start[i]), p->x, 1e-6, added, err);
+  for (int run = 0; run < thr_walk_runs(&p->steps) && !st; run++) {
+    thr_walk_run(&p->steps, run, p->units, p->units + 1, p->value);
+    thr_limits_spend(p->limits, per_step * p->units * p->steps.first[p->steps.n]);
+    int n = sort_starts(p, run, closed ? 1 : MOST_WALKS);
+    if (n > 0) most = fmax(most, (double)worth_of(p, p->start[0]));
+    for (int i = 0; i < n && !st && worth_of(p, p->start[i]) > 0; i++)
+      st =
+          thr_pool_offer(&p->search.pool, put_walk(p, p->start[i], closed ? p->steps.begin[run].to : -1), p->x, 1e-6, added, err);
+  }
+  if (p->to_exclude && !st) judge_prices(p, x, most);
   return st;
 }
 

@@ -1,12 +1,12 @@
-/* A linear programme over the walks that open cords of one component can be, below a limit on their turning. Internal to
- * tortuosity/.
+/* A linear programme over the walks that the cords of one component can be, below a limit on their turning or their length.
+ * Internal to tortuosity/.
  *
- * A column for every walk between nodes where cords may end, at the cost of 1: a cord. Every edge needs its passes; at a node
- * where their number is odd, passes and ends are one more; all cords together turn by the least that cords do. What is solved is
- * the dual, whose variables are prices (graph/plan/walk_proof.h) and whose rows, one for every walk, are found by the recursion
- * that checks the proof (P. C. Gilmore & R. E. Gomory 1961). It goes by prices between the last optimum and the best so far,
- * where optima alone would swing (P. Wentges 1997); any prices give a valid bound (A. A. Farley 1990), which ends most searches
- * early. */
+ * A column for every walk between nodes where cords may end, or every closed one, at the cost of 1: a cord. Every edge needs its
+ * passes; at a node where their number is odd, passes and ends are one more; all cords together turn by the least that cords do,
+ * or are as long as they must be. What is solved is the dual, whose variables are prices (graph/plan/walk_proof.h) and whose
+ * rows, one for every walk, are found by the recursion that checks the proof (P. C. Gilmore & R. E. Gomory 1961). It goes by
+ * prices between the last optimum and the best so far, where optima alone would swing (P. Wentges 1997); any prices give a valid
+ * bound (A. A. Farley 1990), which ends most searches early. */
 #ifndef THR_WALK_PROGRAMME_H
 #define THR_WALK_PROGRAMME_H
 
@@ -23,12 +23,13 @@ typedef struct {
   const thr_turning_columns *c;
   const thr_limits *limits;
   int component, cords; /* that it has at most */
-  double least;         /* of the turning of all cords; 0: not known, or of more than this component */
+  double least;         /* of the turning of all cords, or their length; 0: not known, or turning of more than this component */
   thr_scratch own;      /* the arrays */
   thr_walk_steps steps;
-  int64_t unit;                  /* of turning */
+  int64_t unit;                  /* of turning or length */
   int most_units;                /* that the table is for */
-  int n_variables, *edge, *node; /* [n_edges], [n_nodes] their variables, -1: none. The last one, if least > 0: of turning */
+  int n_variables, *edge, *node; /* [n_edges], [n_nodes] their variables, -1: none. The last one, if least > 0: of all */
+  int n_edges;                   /* variables of edges, which come first */
   double *right;                 /* [n_variables] the right sides: costs of the dual */
   int units;                     /* of the limit that is being tried */
   bool to_exclude;               /* is the limit to be excluded, or are walks looked for? */
@@ -36,18 +37,19 @@ typedef struct {
   double *x, *middle, *try;      /* [n_variables] the last optimum, the best so far, what is priced */
   double best;                   /* number of cords that the best proves; 0: none yet */
   int64_t *value;                /* [most_units + 1][steps.n] table of the recursion */
-  int *start;                    /* [steps.n] places in the order of their worth */
+  const thr_walk_step **start;   /* [most first steps] in the order of their worth */
   int *half;                     /* a walk while it is traced */
   thr_walk_proof trial;
   thr_search search; /* rows: index is the number of units, member the walk's half-edges in order */
   thr_pool walks;    /* of all limits so far */
 } thr_walk_programme;
 
-/* For the component of the cord that turns most, with a unit of which most of its turns are nearly whole numbers. least: the
- * proved least of the turning of all cords. THR_ELIMIT: too large for the recursion. On failure programme is to be destroyed too.
- */
-thr_status thr_walk_programme_init(thr_walk_programme *programme, const thr_turning_columns *columns, const thr_cord *cord,
-                                   int n_cords, double least, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+/* For the component of the cord that turns most, or is longest, with a unit of which most of its turns, or edges, are nearly
+ * whole numbers. least: the proved least of the turning of all cords, or of the length of those of that component. THR_ELIMIT:
+ * too large for the recursion. On failure programme is to be destroyed too. */
+thr_status thr_walk_programme_init(thr_walk_programme *programme, const thr_turning_columns *columns, thr_walk_measure measure,
+                                   const thr_cord *cord, int n_cords, double least, const thr_limits *limits,
+                                   thr_err *err) THR_MUST_CHECK;
 void thr_walk_programme_destroy(thr_walk_programme *programme);
 
 /* Price of so many units, rounded down. */
@@ -61,9 +63,5 @@ thr_status thr_walk_programme_rounds(thr_walk_programme *programme, int most_rou
 
 /* Keeps the walks for the next limit. */
 thr_status thr_walk_programme_end(thr_walk_programme *programme, thr_err *err) THR_MUST_CHECK;
-
-/* Price of the turns of an open cord; the one of most. */
-double thr_walk_price(const thr_turning_columns *columns, const int *half, int n);
-int thr_walk_dearest(const thr_turning_columns *columns, const thr_cord *cord, int n_cords);
 
 #endif

@@ -1,0 +1,168 @@
+/* A short longest cord: from several starts, and by the programme over walks. */
+#include "graph/check/check.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/plan/walk_proof.h"
+#include "graph/random.h"
+#include "graph/status.h"
+#include "graph/threading/walks.h"
+#include "lp/length/cords.h"
+#include "lp/length/decomposition.h"
+#include "planner/planners.h"
+#include "tortuosity/cords/walk_bound.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+
+/* Other cords, which are the caller's, take the place of the plan's. The walks that it has are about any cords. */
+static thr_status take_cords(thr_plan *plan, thr_cord *cord, thr_err *err)
+{
+  thr_plan before = {.proof = plan->proof};
+  thr_cords_destroy(plan->cord, plan->n_cords);
+  plan->cord = cord;
+  plan->proof = (thr_length_proof){0};
+  thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (!st) st = thr_planner_prove_length(plan, &before, err);
+  thr_plan_destroy(&before);
+  return st;
+}
+
+/* What is proved of the cords that the plan has now. */
+static thr_status judge(thr_plan *plan, thr_err *err)
+{
+  const thr_length_proof *proof = &plan->proof;
+  thr_err found = {0};
+  thr_status st = thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
+                                  proof->n_certificates, &proof->walks, &plan->cords_claim, &found);
+  return thr_check_own(st, &found, err);
+}
+
+/* ---- from several starts ---- */
+
+/* The cords of a plan for edges that are longer than they are, each by up to a part of its length, evened out as long as they
+ * are. *cord: NULL, or the caller's. */
+static thr_status start_again(const thr_frame *frame, const thr_request *options, double part, uint64_t *random,
+                              const thr_limits *limits, thr_cord **cord, int *n_cords, thr_err *err)
+{
+  thr_plan asked = {0}, made = {0};
+  thr_decomposition x = {0};
+  thr_err why = {0};
+  *cord = NULL;
+  thr_status st = thr_plan_request(&asked, frame, options, err);
+  if (st) return st;
+  asked.options.confirm = THR_CONFIRM_NEVER;
+  for (int e = 0; e < frame->n_edges; e++)
+    asked.frame.length[e] *= 1 + part * thr_random_unit(random);
+  st = thr_cords_plan(&asked.frame, &asked.options, limits, &made, NULL, &why);
+  bool found = made.n_cords > 0;
+  st = st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no start */
+  if (!st && found) st = thr_decomposition_init(&x, frame, options, limits, err);
+  for (int i = 0; i < made.n_cords && !st; i++)
+    st = thr_walks_copy(&x.walks, frame, made.cord[i].half, made.cord[i].n_passes, options->ends == THR_ENDS_CLOSED, err);
+  if (!st && found) thr_walks_count(&x.walks, x.passes);
+  if (!st && found) st = thr_decomposition_even(&x, 0, err);
+  if (!st && found) st = thr_walks_cords(&x.walks, frame, options, cord, n_cords, err);
+  thr_decomposition_destroy(&x);
+  thr_plan_destroy(&made);
+  thr_plan_destroy(&asked);
+  return st;
+}
+
+/* Keeps the cords with the shorter longest one. */
+static void keep_shorter(const thr_frame *frame, thr_cord **best, thr_cord *cord, int n_cords)
+{
+  bool shorter = thr_cords_longest(frame, cord, n_cords) < thr_cords_longest(frame, *best, n_cords) * (1 - 1e-9);
+  thr_cords_destroy(shorter ? *best : cord, n_cords);
+  if (shorter) *best = cord;
+}
+
+/* *best: n_cords cords, of which the longest is short enough at that length. */
+static thr_status try_starts(const thr_frame *frame, const thr_request *options, double enough, const thr_limits *limits,
+                             thr_cord **best, int n_cords, thr_err *err)
+{
+  enum { STARTS = 3000, UNLIMITED = 30 };
+  static const double part[] = {.02, .1, .4};
+  thr_limits quiet = thr_limits_part(limits, .5);
+  int starts = limits->deadline > 0 ? STARTS : UNLIMITED;
+  uint64_t random = 1;
+  thr_status st = THR_OK;
+  quiet.found = NULL;
+  for (int i = 0; i < starts && !st && thr_cords_longest(frame, *best, n_cords) > enough && !thr_limits_stop(&quiet); i++) {
+    thr_cord *cord;
+    int n = 0;
+    st = start_again(frame, options, part[i % 3], &random, &quiet, &cord, &n, err);
+    if (!st && n == n_cords)
+      keep_shorter(frame, best, cord, n);
+    else
+      thr_cords_destroy(cord, n);
+  }
+  return st;
+}
+
+thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
+                                   thr_cords_word *word, thr_err *err)
+{
+  enum { MOST_EDGES = 1000 };
+  const double near = 1e-3;
+  thr_cord *best = NULL;
+  thr_err why = {0};
+  thr_status st = thr_cords_plan(frame, options, limits, plan, word, &why);
+  const thr_cords_claim *claim = &plan->cords_claim;
+  bool wanted = thr_wants_balance(options) && options->max_length == 0 && frame->n_edges <= MOST_EDGES &&
+                claim->longest > claim->longest_bound * (1 + near);
+  if (st != THR_ELIMIT || !wanted) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  st = thr_cords_copy(plan->cord, plan->n_cords, &best, err);
+  if (!st) st = try_starts(frame, options, claim->longest_bound * (1 + near), limits, &best, plan->n_cords, err);
+  if (!st && thr_cords_longest(frame, best, plan->n_cords) < claim->longest) {
+    st = take_cords(plan, best, err);
+    best = NULL;
+  }
+  thr_cords_destroy(best, plan->n_cords);
+  if (!st) st = judge(plan, err);
+  return st ? st : thr_cords_judge(plan, &(thr_err){0}, err);
+}
+
+/* ---- the programme over walks ---- */
+
+/* *improved: the component of the longest cord has others. */
+static thr_status improve(thr_plan *plan, const thr_turning_columns *columns, const thr_limits *limits, bool *improved,
+                          thr_err *err)
+{
+  const thr_length_proof *proof = &plan->proof;
+  const thr_cord *longest = &plan->cord[thr_walk_dearest(columns, THR_WALK_LENGTH, plan->cord, plan->n_cords)];
+  int component = columns->component[thr_cord_start(&plan->frame, longest)];
+  double least = 0, bound = plan->cords_claim.longest_bound;
+  thr_cord *better = NULL;
+  thr_status st = thr_check_component_least(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
+                                            proof->n_certificates, component, &least, err);
+  if (!st)
+    st = thr_walk_bound(columns, THR_WALK_LENGTH, plan->cord, plan->n_cords, least, 0, limits, &plan->proof.walks, &bound,
+                        &better, err);
+  *improved = better;
+  if (!st && better) st = take_cords(plan, better, err);
+  return st ? st : judge(plan, err);
+}
+
+thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr_err *err)
+{
+  enum { MOST_EDGES = 5000 };
+  double work = 1; /* seconds, where nobody has said how long it may take */
+  thr_limits counted = *limits;
+  if (!thr_wants_balance(&plan->options) || plan->cords_claim.longest_optimal || plan->frame.n_edges > MOST_EDGES) return THR_OK;
+  if (limits->deadline == 0 && !limits->work) counted.work = &work, counted.work_kept = 0;
+  bool *end_allowed = thr_calloc((size_t)plan->frame.n_nodes, sizeof *end_allowed), improved = true;
+  thr_turning_columns columns = {0};
+  if (!end_allowed) return thr_nomem(err);
+  const thr_turning_task task = thr_walk_length_task(&plan->frame, &plan->options, end_allowed);
+  thr_status st = thr_turning_columns_init(&columns, &plan->frame, &task, err);
+  for (int k = 0; k < columns.n_components && !st && improved && !plan->cords_claim.longest_optimal; k++) {
+    st = improve(plan, &columns, &counted, &improved, err);
+    if (!st && improved) thr_limits_found(limits, plan->cord, plan->n_cords, NULL);
+  }
+  thr_turning_columns_destroy(&columns);
+  free(end_allowed);
+  return st;
+}
