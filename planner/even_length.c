@@ -17,6 +17,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+static const double near = 5e-3; /* of the bound: not worth a longer search */
+
 /* Other cords, which are the caller's, take the place of the plan's. The walks that it has are about any cords. */
 static thr_status take_cords(thr_plan *plan, thr_cord *cord, thr_err *err)
 {
@@ -83,12 +85,13 @@ static void keep_shorter(const thr_frame *frame, thr_cord **best, thr_cord *cord
 static thr_status try_starts(const thr_frame *frame, const thr_request *options, double enough, const thr_limits *limits,
                              thr_cord **best, int n_cords, thr_err *err)
 {
-  enum { STARTS = 3000, UNLIMITED = 30 };
+  enum { STARTS = 400, UNLIMITED = 30, PASSES = 20000 };
   static const double part[] = {.02, .1, .4};
   thr_limits quiet = thr_limits_part(limits, .5);
-  int starts = limits->deadline > 0 ? STARTS : UNLIMITED;
+  int starts = limits->deadline > 0 ? PASSES / frame->n_edges : UNLIMITED;
   uint64_t random = 1;
   thr_status st = THR_OK;
+  if (starts > STARTS) starts = STARTS;
   quiet.found = NULL;
   for (int i = 0; i < starts && !st && thr_cords_longest(frame, *best, n_cords) > enough && !thr_limits_stop(&quiet); i++) {
     thr_cord *cord;
@@ -106,7 +109,6 @@ thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *op
                                    thr_cords_word *word, thr_err *err)
 {
   enum { MOST_EDGES = 1000 };
-  const double near = 1e-3;
   thr_cord *best = NULL;
   thr_err why = {0};
   thr_status st = thr_cords_plan(frame, options, limits, plan, word, &why);
@@ -151,14 +153,16 @@ thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr
   enum { MOST_EDGES = 5000 };
   double work = 1; /* seconds, where nobody has said how long it may take */
   thr_limits counted = *limits;
-  if (!thr_wants_balance(&plan->options) || plan->cords_claim.longest_optimal || plan->frame.n_edges > MOST_EDGES) return THR_OK;
+  const thr_cords_claim *claim = &plan->cords_claim;
+  bool enough = claim->longest <= claim->longest_bound * (1 + near);
+  if (!thr_wants_balance(&plan->options) || enough || plan->frame.n_edges > MOST_EDGES) return THR_OK;
   if (limits->deadline == 0 && !limits->work) counted.work = &work, counted.work_kept = 0;
   bool *end_allowed = thr_calloc((size_t)plan->frame.n_nodes, sizeof *end_allowed), improved = true;
   thr_turning_columns columns = {0};
   if (!end_allowed) return thr_nomem(err);
   const thr_turning_task task = thr_walk_length_task(&plan->frame, &plan->options, end_allowed);
   thr_status st = thr_turning_columns_init(&columns, &plan->frame, &task, err);
-  for (int k = 0; k < columns.n_components && !st && improved && !plan->cords_claim.longest_optimal; k++) {
+  for (int k = 0; k < columns.n_components && !st && improved && !claim->longest_optimal; k++) {
     st = improve(plan, &columns, &counted, &improved, err);
     if (!st && improved) thr_limits_found(limits, plan->cord, plan->n_cords, NULL);
   }
