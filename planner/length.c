@@ -111,13 +111,18 @@ static bool one_each(const thr_request *options)
   return options->cords == 1 && options->max_length == 0 && options->ends != THR_ENDS_COUNTS;
 }
 
-/* The cords of a framework of one component, whatever is proved of them. */
+/* A framework of one component. */
 static thr_status one_component(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                                 thr_cords_word *word, thr_err *err)
 {
   thr_err why = {0};
   thr_status st = thr_planner_even_starts(frame, options, limits, plan, word, &why);
-  return st == THR_OK || (st == THR_ELIMIT && plan->n_cords > 0) ? THR_OK : thr_fail(err, st, "%s", why.text);
+  bool open = st == THR_ELIMIT && plan->cords_claim.present && thr_wants_balance(options);
+  if (!open) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  st = thr_planner_even_length(plan, limits, err);
+  if (!st) return thr_cords_judge(plan, &(thr_err){0}, err);
+  thr_plan_destroy(plan);
+  return st;
 }
 
 static thr_status plan_solid(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
@@ -126,10 +131,10 @@ static thr_status plan_solid(const thr_frame *frame, const thr_request *options,
   int n = 1;
   thr_status st = one_each(options) ? THR_OK : count_components(frame, &n, err);
   if (st) return st;
-  if (n == 1 && !thr_wants_balance(options)) return thr_cords_plan(frame, options, limits, plan, word, err);
-  st = n > 1 ? thr_plan_request(plan, frame, options, err) : one_component(frame, options, limits, plan, word, err);
-  if (n > 1 && !st) st = plan_components(thr_planner_even_starts, limits, plan, word, err);
-  if (n > 1 && !st) st = prove_solid(plan, err);
+  if (n == 1) return one_component(frame, options, limits, plan, word, err);
+  st = thr_plan_request(plan, frame, options, err);
+  if (!st) st = plan_components(thr_planner_even_starts, limits, plan, word, err);
+  if (!st) st = prove_solid(plan, err);
   if (!st) st = thr_planner_even_length(plan, limits, err);
   if (!st) return thr_cords_judge(plan, &(thr_err){0}, err);
   thr_plan_destroy(plan);
