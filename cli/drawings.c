@@ -49,6 +49,7 @@ int drawings_write(const thr_plan *plan, int i, const char *path, const drawings
   thr_err err = {0};
   thr_text text = {0};
   const thr_document_options options = {.pitch_mm = a->pitch_mm,
+                                        .lines = a->lines,
                                         .colour = a->colour,
                                         .kind_tolerance = a->kind_tolerance,
                                         .page = a->page,

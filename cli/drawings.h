@@ -4,6 +4,7 @@
 
 #include "cli/cli.h"
 #include "diagram/overview/overview.h"
+#include "diagram/scene/cord_lines.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
@@ -15,6 +16,7 @@ typedef struct {
   double kind_tolerance;      /* pieces that differ by no more are of a kind, in units; 0 = the usual one */
   int page;                   /* of the step sheets: thr_page_size */
   int needles;                /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = not said */
+  thr_line_options lines;     /* of cords for CAD */
   bool quick;                 /* all documents means all but the step sheets of too many pieces */
 } drawings_args;
 

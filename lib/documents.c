@@ -23,6 +23,8 @@ typedef enum {
   OBJ,
   GLTF,
   MAT,
+  DXF,
+  COMPAS,
   N_DOCUMENTS
 } document;
 
@@ -40,6 +42,8 @@ static const struct {
     [OBJ] = {"obj", "cords.obj"},
     [GLTF] = {"gltf", "cords.gltf"},
     [MAT] = {"mat", "mat.pdf"},
+    [DXF] = {"dxf", "cords.dxf"},
+    [COMPAS] = {"compas", "cords.json"},
 };
 
 int thr_documents_count(void)
@@ -72,7 +76,7 @@ int thr_document_sheets(void)
 
 bool thr_document_usual(int i)
 {
-  return i != MAT;
+  return i < MAT;
 }
 
 bool thr_document_threads(int i)
@@ -146,9 +150,11 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
   case STEPS_TABLE: return thr_table_steps(plan, options->kind_tolerance, out, err);
   case BEADS_TABLE: return thr_table_beads(plan, options->kind_tolerance, out, err);
   case CHANNELS_TABLE: return thr_table_channels(plan, options->kind_tolerance, out, err);
-  case OBJ: return thr_polylines_obj(plan, out, err);
   case MAT: return mat(plan, options, limits, out, err);
-  case GLTF: return thr_polylines_gltf(plan, out, err);
+  case OBJ: return thr_polylines_obj(plan, &options->lines, out, err);
+  case GLTF: return thr_polylines_gltf(plan, &options->lines, out, err);
+  case DXF: return thr_polylines_dxf(plan, &options->lines, out, err);
+  case COMPAS: return thr_polylines_compas(plan, &options->lines, out, err);
   default: return describe(plan, (document)i, options, limits, out, err);
   }
 }

@@ -3,6 +3,7 @@
 #define THR_DOCUMENTS_H
 
 #include "diagram/overview/overview.h"
+#include "diagram/scene/cord_lines.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
@@ -13,8 +14,9 @@ const char *thr_document_type(int i);    /* as `thread draw --type` names it: "s
 const char *thr_document_file(int i);    /* usual file name: "overview.svg" */
 int thr_document_find(const char *type); /* -1: there is none of that name */
 int thr_document_sheets(void);           /* the one that takes longest: sheets.pdf */
-bool thr_document_usual(int i);          /* is it one of those that "all" means? Not the mat, which needs a unit */
-bool thr_document_threads(int i);        /* does it say, step by step, how the plan is threaded? */
+bool thr_document_usual(
+    int i); /* is it one of those that "all" means? Not the mat, which needs a unit, nor others that few need */
+bool thr_document_threads(int i); /* does it say, step by step, how the plan is threaded? */
 
 /* How they are drawn; {0} is the usual way. */
 typedef struct {
@@ -22,7 +24,8 @@ typedef struct {
   thr_overview_colour colour; /* of the overview */
   double kind_tolerance;      /* pieces that differ by no more are of a kind, in units; 0 = the usual one */
   int page;                   /* of step sheets and mat: thr_page_size */
-  int needles; /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = as the plan says */
+  int needles;            /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = as the plan says */
+  thr_line_options lines; /* of cords for CAD */
   void (*pages)(const char *file, int n); /* hears how many a file of pages will have, before they are drawn; NULL = nobody */
 } thr_document_options;
 

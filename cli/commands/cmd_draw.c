@@ -33,6 +33,10 @@ static const char help[] =
     "                       obj, gltf   cords.obj, cords.gltf: cords as lines for CAD and Blender\n"
     "                       all         all of these, into the folder of -o, else the current one\n"
     "                       mat         mat.pdf: the outlines of all pieces, true to size, to lay them out on\n"
+    "                       dxf         cords.dxf: a layer, a colour and a polyline in space for each cord\n"
+    "                       compas      cords.json: COMPAS polylines\n"
+    "      --lanes          obj, gltf, dxf, compas: passes of an edge side by side, so that none coincide\n"
+    "      --up y|z         obj, dxf, compas: which coordinate points up (default: z; glTF always: y)\n"
     "      --color cord|tension|turning   what colours of the overview tell apart: cords (default), how\n"
     "                       tight each pass is, or how sharply the cord turns\n"
     "      --pitch MM       millimetres on paper per edge (default: 24, less for large frameworks)\n" DRAWINGS_HELP GUARD_HELP
@@ -40,11 +44,13 @@ static const char help[] =
     "  -h, --help\n\n"
     "Exit codes: 0 drawn, 2 usage, 3 not a plan, 5 not all drawn in the time or memory\n";
 
-enum { OPTION_PITCH = OPTION_FREE, OPTION_COLOR };
+enum { OPTION_PITCH = OPTION_FREE, OPTION_COLOR, OPTION_LANES };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"type", required_argument, NULL, 'T'},
                                       {"pitch", required_argument, NULL, OPTION_PITCH},
                                       {"color", required_argument, NULL, OPTION_COLOR},
+                                      {"lanes", no_argument, NULL, OPTION_LANES},
+                                      {"up", required_argument, NULL, OPTION_UP},
                                       DRAWINGS_OPTIONS,
                                       GUARD_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
@@ -57,20 +63,21 @@ static bool is_folder(const char *path)
   return (n && path[n - 1] == '/') || (stat(path, &s) == 0 && S_ISDIR(s.st_mode));
 }
 
+static const char *up_name(int up)
+{
+  return up ? "z" : "y";
+}
+
 static const char *type_name(int t)
 {
   return t < thr_documents_count() ? thr_document_type(t) : "all";
 }
 
-/* Is output called like a document of another type, or of one that is not made? */
+/* Has output another ending than the type's? A device or a name without an ending has none. */
 static bool is_misnamed(const char *output, int type)
 {
-  const char *dot = strrchr(output, '.'), *own = strrchr(thr_document_file(type), '.');
-  if (!dot || strcmp(dot, own) == 0) return false;
-  bool other = strcmp(dot, ".png") == 0;
-  for (int i = 0; i < thr_documents_count() && !other; i++)
-    other = strcmp(dot, strrchr(thr_document_file(i), '.')) == 0;
-  return other;
+  const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
+  return dot && !is_folder(output) && strcmp(output, "-") != 0 && strcmp(dot, strrchr(thr_document_file(type), '.')) != 0;
 }
 
 /* One document to output, a file, a folder or NULL. */
@@ -101,6 +108,7 @@ int cmd_draw(int argc, char **argv)
   guard_limits guard = guard_limits_default();
   guard_end end;
   int color = THR_COLOUR_CORD, type = 0;
+  int up = 1;
   const char *output = NULL;
   while ((option = cli_next_option(argc, argv, "draw", ":" CLI_COMMON_LETTERS "T:o:", table, help, &done)) != -1) {
     if (option == 'T' && !cli_choose("draw", "--type", optarg, type_name, thr_documents_count() + 1, &type)) return EXIT_USAGE;
@@ -111,9 +119,12 @@ int cmd_draw(int argc, char **argv)
     if (option == OPTION_COLOR && !cli_choose("draw", "--color", optarg, thr_overview_colour_name, THR_N_COLOURS, &color))
       return EXIT_USAGE;
     if (option == 'o') output = optarg;
+    if (option == OPTION_LANES) a.lines.lanes = true;
+    if (option == OPTION_UP && !cli_choose("draw", "--up", optarg, up_name, 2, &up)) return EXIT_USAGE;
   }
   if (done >= 0) return done;
   a.colour = (thr_overview_colour)color;
+  a.lines.up_y = up == 0;
   bool all = type == thr_documents_count();
   if (output && !*output) return cli_usage("draw", "an empty name is no place to write to");
   if (all && output && strcmp(output, "-") == 0) return cli_usage("draw", "--type all makes several files: -o names a folder");

@@ -1,10 +1,12 @@
 #include "diagram/scene/polylines.h"
 
 #include "diagram/scene/copies.h"
+#include "diagram/scene/cord_lines.h"
 #include "diagram/scene/palette.h"
 #include "diagram/scene/scene.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/units.h"
+#include "graph/io/dxf.h"
 #include "graph/io/read.h"
 #include "graph/io/writer.h"
 
@@ -29,23 +31,203 @@ static thr_status take_over(thr_text *text, thr_status st, thr_text *out, thr_er
   return st;
 }
 
-thr_status thr_polylines_obj(const thr_plan *plan, thr_text *out, thr_err *err)
+/* ---- OBJ ---- */
+
+static void put_vertex(const double xyz[3], thr_text *out)
+{
+  thr_text_append(out, "v");
+  for (int i = 0; i < 3; i++) {
+    thr_text_byte(out, ' ');
+    thr_text_double(out, xyz[i]);
+  }
+  thr_text_byte(out, '\n');
+}
+
+static void put_object(const thr_plan *plan, int c, thr_text *out)
+{
+  char id[12];
+  thr_scene_cord_id(plan, c, id);
+  thr_text_printf(out, "o cord-%s\n", id);
+}
+
+/* Each cord through the nodes, which stand before all of them. */
+static void put_passes(const thr_plan *plan, thr_text *out)
+{
+  for (int c = 0; c < plan->n_cords; c++) {
+    put_object(plan, c, out);
+    for (int k = 0; k < plan->cord[c].n_passes; k++)
+      thr_text_printf(out, "l %d %d\n", thr_tail(&plan->frame, plan->cord[c].half[k]) + 1,
+                      thr_head(&plan->frame, plan->cord[c].half[k]) + 1);
+  }
+}
+
+/* Each cord with vertices of its own. */
+static void put_lanes(thr_cord_lines *lines, thr_text *out)
+{
+  for (int c = 0, first = 1; c < lines->plan->n_cords; c++) {
+    thr_cord_lines_next(lines, c);
+    put_object(lines->plan, c, out);
+    for (int i = 0; i < lines->n_points; i++)
+      put_vertex(lines->point[i], out);
+    for (int i = 0; i + 1 < lines->n_points; i++)
+      thr_text_printf(out, "l %d %d\n", first + i, first + i + 1);
+    first += lines->n_points;
+  }
+}
+
+thr_status thr_polylines_obj(const thr_plan *plan, const thr_line_options *options, thr_text *out, thr_err *err)
 {
   int n;
   thr_text text = {0};
+  thr_cord_lines lines;
   thr_status st = check(plan, &n, err);
   if (st) return st;
+  st = thr_cord_lines_begin(&lines, plan, options, err);
   thr_text_printf(&text, "# thread plan: %d cord%s, %d passes\n", plan->n_cords, plan->n_cords == 1 ? "" : "s", n);
-  thr_obj_write_nodes(&plan->frame, &text);
-  for (int c = 0; c < plan->n_cords; c++) {
-    char id[12];
-    thr_scene_cord_id(plan, c, id);
-    thr_text_printf(&text, "o cord-%s\n", id);
-    for (int k = 0; k < plan->cord[c].n_passes; k++)
-      thr_text_printf(&text, "l %d %d\n", thr_tail(&plan->frame, plan->cord[c].half[k]) + 1,
-                      thr_head(&plan->frame, plan->cord[c].half[k]) + 1);
+  if (options->up_y) thr_text_append(&text, "# up: y\n");
+  if (!st && options->lanes) {
+    thr_text_append(&text, "# units: ");
+    thr_text_append_clean(&text, plan->frame.units);
+    thr_text_byte(&text, '\n');
+    put_lanes(&lines, &text);
+  } else if (!st) {
+    thr_obj_write_nodes(&plan->frame, options->up_y, &text);
+    put_passes(plan, &text);
   }
-  return take_over(&text, THR_OK, out, err);
+  thr_cord_lines_end(&lines);
+  return take_over(&text, st, out, err);
+}
+
+/* ---- DXF ---- */
+
+/* The index of AutoCAD's colours that is nearest to "#rrggbb": 10 to 249 are 24 hues in five shades, full and half as vivid. */
+static int colour_index(const char *hex)
+{
+  static const double shade[] = {1, 0.65, 0.5, 0.3, 0.15};
+  const long wanted = strtol(hex + 1, NULL, 16);
+  const double rgb[3] = {(double)(wanted >> 16 & 255) / 255, (double)(wanted >> 8 & 255) / 255, (double)(wanted & 255) / 255};
+  int best = 7;
+  double least = 3;
+  for (int i = 10; i < 250; i++) {
+    const double hue = (i / 10 - 1) / 4.0, value = shade[i % 10 / 2], pale = i % 2 ? value / 2 : 0;
+    double apart = 0;
+    for (int k = 0; k < 3; k++) {
+      double from = fabs(hue - 2 * k); /* sixths of the circle from red, green or blue */
+      if (from > 3) from = 6 - from;
+      const double part = fmin(fmax(2 - from, 0), 1), own = pale + (value - pale) * part;
+      apart += (own - rgb[k]) * (own - rgb[k]);
+    }
+    if (apart < least) {
+      least = apart;
+      best = i;
+    }
+  }
+  return best;
+}
+
+/* The colour of a cord in the overview. */
+static thr_colour colour_of(const thr_plan *plan, const thr_copy *copy, int c)
+{
+  return thr_palette(thr_copies_paths(copy, plan->n_cords) < plan->n_cords ? copy[c].path : c);
+}
+
+static void put_polyline(thr_cord_lines *lines, int c, const char *layer, thr_text *out)
+{
+  enum { IN_SPACE = 8, VERTEX_IN_SPACE = 32 };
+  static const double origin[3] = {0, 0, 0};
+  thr_cord_lines_next(lines, c);
+  thr_dxf_pair(out, 0, "POLYLINE");
+  thr_dxf_pair(out, 8, layer);
+  thr_dxf_int(out, 66, 1);
+  thr_dxf_point(out, 0, origin);
+  thr_dxf_int(out, 70, IN_SPACE);
+  for (int i = 0; i < lines->n_points; i++) {
+    thr_dxf_pair(out, 0, "VERTEX");
+    thr_dxf_pair(out, 8, layer);
+    thr_dxf_point(out, 0, lines->point[i]);
+    thr_dxf_int(out, 70, VERTEX_IN_SPACE);
+  }
+  thr_dxf_pair(out, 0, "SEQEND");
+  thr_dxf_pair(out, 8, layer);
+}
+
+static void name_layer(const thr_plan *plan, const thr_copy *copy, int c, thr_dxf_layer *layer)
+{
+  char id[12];
+  thr_scene_cord_id(plan, c, id);
+  snprintf(layer->name, sizeof layer->name, "cord-%s", id);
+  layer->colour = colour_index(colour_of(plan, copy, c).hex);
+}
+
+thr_status thr_polylines_dxf(const thr_plan *plan, const thr_line_options *options, thr_text *out, thr_err *err)
+{
+  int n;
+  thr_text text = {0};
+  thr_cord_lines lines;
+  thr_status st = check(plan, &n, err);
+  if (st) return st;
+  thr_copy *copy = thr_calloc((size_t)plan->n_cords, sizeof *copy);
+  thr_dxf_layer *layer = thr_calloc((size_t)plan->n_cords, sizeof *layer);
+  st = thr_cord_lines_begin(&lines, plan, options, err);
+  if (!st && (!copy || !layer)) st = thr_nomem(err);
+  if (!st) st = thr_copies_find(plan, copy, err);
+  for (int c = 0; c < plan->n_cords && !st; c++)
+    name_layer(plan, copy, c, &layer[c]);
+  if (!st) thr_dxf_begin(&text, plan->frame.units, layer, plan->n_cords);
+  for (int c = 0; c < plan->n_cords && !st; c++)
+    put_polyline(&lines, c, layer[c].name, &text);
+  thr_dxf_end(&text);
+  thr_cord_lines_end(&lines);
+  free(copy);
+  free(layer);
+  return take_over(&text, st, out, err);
+}
+
+/* ---- COMPAS ---- */
+
+static void put_compas(thr_cord_lines *lines, int c, thr_writer *writer)
+{
+  char id[12], name[24];
+  thr_scene_cord_id(lines->plan, c, id);
+  snprintf(name, sizeof name, "cord-%s", id);
+  thr_cord_lines_next(lines, c);
+  thr_write_line(writer, 0);
+  thr_write_object(writer, NULL);
+  thr_write_string(writer, "dtype", "compas.geometry/Polyline");
+  thr_write_string(writer, "name", name);
+  thr_write_object(writer, "data");
+  thr_write_array(writer, "points");
+  for (int i = 0; i < lines->n_points; i++) {
+    thr_write_row(writer, NULL);
+    for (int k = 0; k < 3; k++)
+      thr_write_number(writer, NULL, lines->point[i][k]);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+  thr_write_close(writer);
+  thr_write_close(writer);
+}
+
+thr_status thr_polylines_compas(const thr_plan *plan, const thr_line_options *options, thr_text *out, thr_err *err)
+{
+  int n;
+  thr_text text = {0};
+  thr_writer writer = {.out = &text};
+  thr_cord_lines lines;
+  thr_status st = check(plan, &n, err);
+  if (st) return st;
+  st = thr_cord_lines_begin(&lines, plan, options, err);
+  thr_write_object(&writer, NULL);
+  thr_write_string(&writer, "units", plan->frame.units);
+  thr_write_string(&writer, "up", options->up_y ? "y" : "z");
+  thr_write_array(&writer, "cords");
+  for (int c = 0; c < plan->n_cords && !st; c++)
+    put_compas(&lines, c, &writer);
+  thr_write_close(&writer);
+  thr_write_close(&writer);
+  thr_text_append(&text, "\n");
+  thr_cord_lines_end(&lines);
+  return take_over(&text, st, out, err);
 }
 
 /* ---- glTF ---- */
@@ -85,27 +267,26 @@ static void put_float(base64 *b, float value)
     put_byte(b, (unsigned char)(bits >> 8 * i & 255));
 }
 
-/* In metres, y upwards. */
-static thr_status position(const thr_frame *frame, int v, double metres, float at[3], thr_err *err)
+/* In metres. */
+static thr_status position(const double at[3], double metres, float out[3], thr_err *err)
 {
-  const double *a = frame->xyz[v], turned[3] = {a[0] * metres, a[2] * metres, -a[1] * metres};
   for (int i = 0; i < 3; i++) {
-    if (!(fabs(turned[i]) <= FLT_MAX))
-      return thr_fail(err, THR_EINPUT, "node %d lies too far away for glTF's numbers; move the framework or set its --units", v);
-    at[i] = turned[i] == 0 ? 0 : (float)turned[i];
+    const double x = at[i] * metres;
+    if (!(fabs(x) <= FLT_MAX))
+      return thr_fail(err, THR_EINPUT, "a node lies too far away for glTF's numbers; move the framework or set its --units");
+    out[i] = x == 0 ? 0 : (float)x;
   }
   return THR_OK;
 }
 
-/* A node has twelve bytes, full groups of three: base64 needs no padding. */
-static thr_status put_strip(const thr_plan *plan, int c, double metres, base64 *b, strip *s, thr_err *err)
+/* A point has twelve bytes, full groups of three: base64 needs no padding. */
+static thr_status put_strip(thr_cord_lines *lines, int c, double metres, base64 *b, strip *s, thr_err *err)
 {
-  const thr_cord *cord = &plan->cord[c];
   float at[3] = {0};
-  *s = (strip){.count = cord->n_passes + 1};
+  thr_cord_lines_next(lines, c);
+  *s = (strip){.count = lines->n_points};
   for (int k = 0; k < s->count; k++) {
-    int v = k ? thr_head(&plan->frame, cord->half[k - 1]) : thr_cord_start(&plan->frame, cord);
-    thr_status st = position(&plan->frame, v, metres, at, err);
+    thr_status st = position(lines->point[k], metres, at, err);
     if (st) return st;
     for (int i = 0; i < 3; i++) {
       s->low[i] = k ? fminf(s->low[i], at[i]) : at[i];
@@ -133,8 +314,7 @@ static double linear(const char *hex)
 
 static void put_material(thr_writer *writer, const thr_plan *plan, const thr_copy *copy, int c)
 {
-  bool symmetric = thr_copies_paths(copy, plan->n_cords) < plan->n_cords;
-  thr_colour colour = thr_palette(symmetric ? copy[c].path : c);
+  const thr_colour colour = colour_of(plan, copy, c);
   const char *hex = copy[c].of == c ? colour.hex : colour.pale;
   thr_write_object(writer, "pbrMetallicRoughness");
   thr_write_array(writer, "baseColorFactor");
@@ -200,7 +380,7 @@ static void put_element(thr_writer *writer, const thr_plan *plan, const thr_copy
   thr_write_close(writer);
 }
 
-static void put_lists(thr_writer *writer, const thr_plan *plan, const thr_copy *copy, const strip *s)
+static void put_members(thr_writer *writer, const thr_plan *plan, const thr_copy *copy, const strip *s)
 {
   static const char *const key[N_LISTS] = {"nodes", "meshes", "materials", "accessors", "bufferViews"};
   for (int what = 0; what < N_LISTS; what++) {
@@ -251,28 +431,35 @@ static void put_buffers(thr_writer *writer, int64_t n, thr_text *address)
   thr_write_close(writer);
 }
 
-thr_status thr_polylines_gltf(const thr_plan *plan, thr_text *out, thr_err *err)
+thr_status thr_polylines_gltf(const thr_plan *plan, const thr_line_options *options, thr_text *out, thr_err *err)
 {
   int n;
   double mm;
+  int64_t n_points = 0;
   thr_text text = {0}, data = {0};
   thr_writer writer = {.out = &text};
   base64 bytes = {.out = &data};
+  thr_cord_lines lines;
   thr_status st = check(plan, &n, err);
   if (st) return st;
   thr_copy *copy = thr_calloc((size_t)plan->n_cords, sizeof *copy);
   strip *s = thr_calloc((size_t)plan->n_cords, sizeof *s);
-  if (!copy || !s) st = thr_nomem(err);
+  const thr_line_options turned = {options->lanes, true};
+  st = thr_cord_lines_begin(&lines, plan, &turned, err);
+  if (!st && (!copy || !s)) st = thr_nomem(err);
   if (!st) st = thr_copies_find(plan, copy, err);
   double metres = thr_units_in_mm(plan->frame.units, &mm, NULL) ? 0.001 : mm / 1000;
   thr_text_append(&data, "data:application/octet-stream;base64,");
-  for (int c = 0; c < plan->n_cords && !st; c++)
-    st = put_strip(plan, c, metres, &bytes, &s[c], err);
+  for (int c = 0; c < plan->n_cords && !st; c++) {
+    st = put_strip(&lines, c, metres, &bytes, &s[c], err);
+    n_points += s[c].count;
+  }
+  thr_cord_lines_end(&lines);
   if (!st) {
     thr_write_object(&writer, NULL);
     put_head(&writer, plan, metres);
-    put_lists(&writer, plan, copy, s);
-    put_buffers(&writer, (int64_t)n + plan->n_cords, &data);
+    put_members(&writer, plan, copy, s);
+    put_buffers(&writer, n_points, &data);
     thr_write_line(&writer, 0);
     thr_write_close(&writer);
     thr_text_append(&text, "\n");

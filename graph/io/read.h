@@ -57,8 +57,9 @@ thr_status thr_json_edge_passes(thr_draft *draft, const thr_json *cover, const t
  * "# feet: .." that thr_obj_parse reads back; CSV: six columns per edge). */
 void thr_frame_write(const thr_frame *frame, const thr_format *format, thr_text *out);
 
-/* Of an OBJ file the comments on units and feet and the v records: vertex v + 1 is node v. */
-void thr_obj_write_nodes(const thr_frame *frame, thr_text *out);
+/* Of an OBJ file the comments on units and feet and the v records: vertex v + 1 is node v; up_y: x, y, z is written as x, z, -y.
+ */
+void thr_obj_write_nodes(const thr_frame *frame, bool up_y, thr_text *out);
 
 /* The format that the path's ending says; NULL if it says none that can be written. */
 const thr_format *thr_format_of_path(const char *path);

@@ -133,11 +133,12 @@ static void read_curve_type(obj *o, thr_span rest)
     if (thr_span_is(word, "bspline") || thr_span_is(word, "bezier")) o->polygonal = true;
 }
 
-/* Our writer's comments "# feet: 1 5 9" and "# units: mm"; other people's comments are left alone. */
+/* Our writer's comments "# feet: 1 5 9", "# units: mm" and "# up: y"; other people's comments are left alone. */
 static thr_status read_comment(obj *o, thr_span line)
 {
   thr_span word;
   if (thr_span_starts(line, "# Blender ")) o->d->y_up = true; /* what its exporters write unless told otherwise */
+  if (thr_span_starts(line, "# up: y")) o->d->up_is_y = true;
   if (thr_span_starts(line, "# units: ")) {
     line = thr_span_trim((thr_span){line.s + 9, line.n - 9});
     char units[sizeof o->d->units];

@@ -115,7 +115,7 @@ void thr_json_frame_write(const thr_frame *frame, thr_text *out)
   thr_text_append(out, "\n");
 }
 
-void thr_obj_write_nodes(const thr_frame *frame, thr_text *out)
+void thr_obj_write_nodes(const thr_frame *frame, bool up_y, thr_text *out)
 {
   thr_text_append(out, "# units: ");
   thr_text_append_clean(out, frame->units);
@@ -127,8 +127,9 @@ void thr_obj_write_nodes(const thr_frame *frame, thr_text *out)
     thr_text_append(out, "\n");
   }
   for (int v = 0; v < frame->n_nodes; v++) {
+    const double *at = frame->xyz[v], turned[3] = {at[0], at[2], at[1] == 0 ? 0 : -at[1]};
     thr_text_append(out, "v ");
-    write_point(frame->xyz[v], " ", out);
+    write_point(up_y ? turned : at, " ", out);
     thr_text_append(out, "\n");
   }
 }
@@ -136,7 +137,7 @@ void thr_obj_write_nodes(const thr_frame *frame, thr_text *out)
 void thr_obj_write(const thr_frame *frame, thr_text *out)
 {
   thr_text_printf(out, "# thread framework: %d nodes, %d edges\n", frame->n_nodes, frame->n_edges);
-  thr_obj_write_nodes(frame, out);
+  thr_obj_write_nodes(frame, false, out);
   for (int e = 0; e < frame->n_edges; e++) /* Blender reads a longer l as one edge */
     thr_text_printf(out, "l %d %d\n", frame->edge[e][0] + 1, frame->edge[e][1] + 1);
 }

@@ -1,4 +1,5 @@
 /* The cords as lines: OBJ read back by the reader of frameworks and record by record, glTF decoded byte by byte. */
+#include "diagram/scene/cord_lines.h"
 #include "diagram/scene/palette.h"
 #include "diagram/scene/polylines.h"
 #include "graph/io/json.h"
@@ -11,16 +12,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef thr_status writer(const thr_plan *p, thr_text *out, thr_err *err);
-static writer *const writers[] = {thr_polylines_obj, thr_polylines_gltf};
-enum { N_WRITERS = 2 };
+typedef thr_status writer(const thr_plan *p, const thr_line_options *options, thr_text *out, thr_err *err);
+static const thr_line_options plain, lanes = {.lanes = true}, upright = {.up_y = true};
+static writer *const writers[] = {thr_polylines_obj, thr_polylines_gltf, thr_polylines_dxf, thr_polylines_compas};
+enum { N_WRITERS = 4 };
 
 static thr_text text_of(const thr_plan *p, writer *write)
 {
   thr_text t = {0}, again = {0};
   thr_err err = {0};
-  ck_assert_msg(write(p, &t, &err) == THR_OK, "%s", err.text);
-  ck_assert_int_eq(write(p, &again, &err), THR_OK);
+  ck_assert_msg(write(p, &plain, &t, &err) == THR_OK, "%s", err.text);
+  ck_assert_int_eq(write(p, &plain, &again, &err), THR_OK);
   assert_same_text(&t, &again);
   thr_text_destroy(&again);
   return t;
@@ -262,6 +264,128 @@ START_TEST(units_break_no_line)
 }
 END_TEST
 
+/* ---- DXF and COMPAS, pair by pair and member by member ---- */
+
+/* The next group code and value of a drawing. */
+static bool next_pair(const char **at, int *code, char value[64])
+{
+  int n = 0;
+  if (sscanf(*at, " %d %63[^\n]%n", code, value, &n) != 2) return false;
+  *at += n;
+  return true;
+}
+
+/* Each cord on a layer that the table has, its vertices the nodes in the order of the passes. */
+START_TEST(dxf_runs_through_the_nodes)
+{
+  thr_plan p = plan_number(_i);
+  thr_text t = text_of(&p, thr_polylines_dxf);
+  const char *at = t.data;
+  int code, cord = -1, k = -1, n_layers = 0, axis = 0;
+  bool vertex = false;
+  char value[64], layer[64] = "";
+  while (next_pair(&at, &code, value)) {
+    n_layers += code == 0 && strcmp(value, "LAYER") == 0;
+    if (code == 0 && strcmp(value, "POLYLINE") == 0) {
+      if (cord >= 0) ck_assert_int_eq(k, p.cord[cord].n_passes);
+      cord++;
+      k = -1;
+    }
+    if (code == 0) vertex = strcmp(value, "VERTEX") == 0;
+    if (code == 0 && vertex) k++;
+    if (code == 8) snprintf(layer, sizeof layer, "cord-%s", p.cord[cord].id);
+    if (code == 8) ck_assert_str_eq(value, layer);
+    if (vertex && (code == 10 || code == 20 || code == 30)) {
+      const int v = k ? thr_head(&p.frame, p.cord[cord].half[k - 1]) : thr_cord_start(&p.frame, &p.cord[cord]);
+      axis = code / 10 - 1;
+      ck_assert(strtod(value, NULL) == p.frame.xyz[v][axis]);
+    }
+  }
+  ck_assert_str_eq(value, "EOF");
+  ck_assert_int_eq(cord + 1, p.n_cords);
+  ck_assert_int_eq(n_layers, p.n_cords);
+  ck_assert_int_eq(k, p.cord[cord].n_passes);
+  thr_text_destroy(&t);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+START_TEST(compas_runs_through_the_nodes)
+{
+  thr_plan p = plan_number(_i);
+  thr_text t = text_of(&p, thr_polylines_compas);
+  thr_json *doc;
+  ck_assert_int_eq(thr_json_parse(&doc, t.data, t.length, "compas", NULL), THR_OK);
+  ck_assert_str_eq(thr_json_string(thr_json_get(doc, "units")), p.frame.units);
+  ck_assert_int_eq(thr_json_size(thr_json_get(doc, "cords")), p.n_cords);
+  for (int c = 0; c < p.n_cords; c++) {
+    const thr_json *cord = thr_json_at(thr_json_get(doc, "cords"), c),
+                   *points = thr_json_get(thr_json_get(cord, "data"), "points");
+    ck_assert_str_eq(thr_json_string(thr_json_get(cord, "dtype")), "compas.geometry/Polyline");
+    ck_assert_int_eq(thr_json_size(points), p.cord[c].n_passes + 1);
+    for (int k = 0; k <= p.cord[c].n_passes; k++) {
+      double xyz[3];
+      const int v = k ? thr_head(&p.frame, p.cord[c].half[k - 1]) : thr_cord_start(&p.frame, &p.cord[c]);
+      ck_assert(thr_json_numbers(thr_json_at(points, k), 3, xyz));
+      ck_assert(memcmp(xyz, p.frame.xyz[v], sizeof xyz) == 0);
+    }
+  }
+  thr_json_destroy(doc);
+  thr_text_destroy(&t);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Of every pass the straight part in its lane, 70 % of its edge; no two of them coincide, and those of an edge are parallel. */
+START_TEST(lanes_do_not_coincide)
+{
+  thr_plan p = plan_number(_i);
+  thr_cord_lines l;
+  int n = 0;
+  double(*part)[2][3] = calloc((size_t)p.metrics.passes, sizeof *part);
+  ck_assert_int_eq(thr_cord_lines_begin(&l, &p, &lanes, NULL), THR_OK);
+  for (int c = 0; c < p.n_cords; c++) {
+    thr_cord_lines_next(&l, c);
+    ck_assert_int_eq(l.n_points, 2 * p.cord[c].n_passes + 2);
+    for (int k = 0; k < p.cord[c].n_passes; k++, n++) {
+      const int h = p.cord[c].half[k];
+      const double *a = p.frame.xyz[thr_tail(&p.frame, h)], *b = p.frame.xyz[thr_head(&p.frame, h)];
+      memcpy(part[n], l.point[1 + 2 * k], sizeof part[n]);
+      for (int i = 0; i < 3; i++) /* along the pass, in its sense */
+        ck_assert_double_eq_tol(part[n][1][i] - part[n][0][i], 0.7 * (b[i] - a[i]), 1e-9 * (1 + fabs(b[i] - a[i])));
+      for (int j = 0; j < n; j++)
+        for (int end = 0; end < 2; end++) {
+          double apart = 0;
+          for (int i = 0; i < 3; i++)
+            apart += (part[n][0][i] - part[j][end][i]) * (part[n][0][i] - part[j][end][i]);
+          ck_assert(apart > 1e-12 * l.spacing * l.spacing);
+        }
+    }
+  }
+  thr_cord_lines_end(&l);
+  free(part);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Written with y up and read again, the framework stands as it did. */
+START_TEST(up_is_said)
+{
+  thr_plan p = plan_number(_i);
+  thr_text t = {0};
+  thr_frame f;
+  thr_read_report r = {0};
+  thr_read_options o = thr_read_options_default();
+  o.weld = 0;
+  ck_assert_int_eq(thr_polylines_obj(&p, &upright, &t, NULL), THR_OK);
+  ck_assert_int_eq(thr_frame_parse(&f, &r, t.data, t.length, "cords.obj", &o, NULL), THR_OK);
+  ck_assert_mem_eq(f.xyz, p.frame.xyz, (size_t)f.n_nodes * sizeof *f.xyz);
+  thr_frame_destroy(&f);
+  thr_text_destroy(&t);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 START_TEST(broken_plans_are_refused)
 {
   for (int w = 0; w < N_WRITERS; w++) {
@@ -270,20 +394,21 @@ START_TEST(broken_plans_are_refused)
     thr_err err = {0};
     int half = p.cord[0].half[2], n = p.n_cords;
     p.cord[0].half[2] = 1000;
-    ck_assert_int_eq(writers[w](&p, &t, &err), THR_EINPUT);
+    ck_assert_int_eq(writers[w](&p, &plain, &t, &err), THR_EINPUT);
     assert_one_line(&err, "edge 500");
     p.cord[0].half[2] = half;
     p.n_cords = 0;
     err = (thr_err){0};
-    ck_assert_int_eq(writers[w](&p, &t, &err), THR_EINPUT);
+    ck_assert_int_eq(writers[w](&p, &plain, &t, &err), THR_EINPUT);
     assert_one_line(&err, "no cord");
     p.n_cords = n;
     for (int v = 0; v < p.frame.n_nodes; v++)
       p.frame.xyz[v][2] += 1e50;
     err = (thr_err){0};
-    ck_assert_int_eq(writers[w](&p, &t, &err), w ? THR_EINPUT : THR_OK);
-    if (w) assert_one_line(&err, "too far");
-    ck_assert(!w || t.length == 0);
+    const bool gltf = writers[w] == thr_polylines_gltf;
+    ck_assert_int_eq(writers[w](&p, &plain, &t, &err), gltf ? THR_EINPUT : THR_OK);
+    if (gltf) assert_one_line(&err, "too far");
+    ck_assert(!gltf || t.length == 0);
     thr_text_destroy(&t);
     thr_plan_destroy(&p);
   }
@@ -298,7 +423,7 @@ typedef struct {
 static thr_status write_wanted(const void *user, thr_text *t, thr_err *err)
 {
   const wanted *w = user;
-  return w->write(&w->plan, t, err);
+  return w->write(&w->plan, &lanes, t, err);
 }
 
 START_TEST(every_allocation_may_fail)
@@ -315,6 +440,10 @@ int main(void)
   ADD_LOOP(s, 30, obj_is_read_back, 0, N_PLANS);
   ADD_LOOP(s, 30, obj_has_the_passes_in_order, 0, N_PLANS);
   ADD_LOOP(s, 30, gltf_runs_through_the_nodes, 0, N_PLANS);
+  ADD_LOOP(s, 30, dxf_runs_through_the_nodes, 0, N_PLANS);
+  ADD_LOOP(s, 30, compas_runs_through_the_nodes, 0, N_PLANS);
+  ADD_LOOP(s, 30, lanes_do_not_coincide, 0, N_PLANS);
+  ADD_LOOP(s, 30, up_is_said, 0, N_PLANS);
   ADD_LOOP(s, 20, colours_are_the_palettes, 0, 2);
   ADD_TEST(s, 20, units_break_no_line);
   ADD_TEST(s, 20, broken_plans_are_refused);
