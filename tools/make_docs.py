@@ -96,7 +96,7 @@ def gallery_row(run, entry, pictures):
     first = "`thread make %s -o %s`<br>" % (" ".join(source), frame) if made else ""
     command = first + "`thread plan %s`" % " ".join([frame, *options])
     show = "<img src=\"pictures/%s.png\" width=\"%d\" alt=\"%s\">"
-    return "| %s | %s | %s<br><br>%d nodes, %d edges; %d cord%s, %.2f m in all; the hardest pull %s |" % (
+    return "| %s | %s | %s<br><br>%d pieces, %d interfaces; %d cord%s, %.2f m in all; the hardest pull %s |" % (
         show % (name, 300, "the %s from above" % name), show % (name + "-step", 240, "a step of the %s" % name), command, said["nodes"],
         said["edges"], said["cords"], "" if said["cords"] == 1 else "s", said["length"] / 1000, newtons(said["pull_factor"]))
 

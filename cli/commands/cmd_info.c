@@ -4,6 +4,7 @@
 #include "eval/structure/rigidity.h"
 #include "graph/framework/frame.h"
 #include "graph/io/writer.h"
+#include "graph/plan/channels.h"
 #include "graph/plan/junction.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
@@ -21,7 +22,8 @@ static const char help[] =
     "Examples:\n"
     "  thread info dome.obj --feet lowest\n"
     "  thread info nodes.csv --edges edges.csv --json\n"
-    "  thread info plan.json                         the framework inside a plan, and the joints that its cords do not tie\n\n"
+    "  thread info plan.json                         the framework inside a plan, the joints that its cords do not tie, and\n"
+    "                                                the channels that cross inside a piece\n\n"
     "The line `hinged` takes every node for a ball joint: can nodes move without an edge getting longer?\n"
     "What can move must be held by joints that lock. A joint is tied if the cord alone holds its edges\n"
     "together (--joint tube); joints of solid beads need not be.\n\n"
@@ -40,7 +42,10 @@ typedef struct {
   thr_rigidity rigidity;
   bool planned; /* the framework came in a plan */
   int n_untied;
-  bool *untied; /* [n_nodes] planned: owned */
+  bool *untied;      /* [n_nodes] planned: owned */
+  bool channels;     /* planned with solid joints: they run through pieces */
+  int64_t crossings; /* of two channels in a piece */
+  int crossed;       /* pieces with one */
 } facts;
 
 /* Is the rank of the rigidity matrix worked out within a second or so? It is sparse unless edges are many for their nodes. */
@@ -76,7 +81,20 @@ static thr_status find_facts(const thr_frame *frame, facts *a, thr_err *err)
   return st || !a->analysed ? st : thr_rigidity_find(frame, &a->rigidity, err);
 }
 
-/* Joints that the cords of a plan do not tie; nothing if the file is no valid plan. stdin has been read already. */
+static thr_status count_crossings(const thr_plan *plan, facts *a, thr_err *err)
+{
+  thr_channels channels;
+  thr_status st = thr_channels_make(&channels, plan, err);
+  if (st) return st;
+  a->channels = true;
+  a->crossings = channels.crossings;
+  a->crossed = channels.crossed;
+  thr_channels_destroy(&channels);
+  return THR_OK;
+}
+
+/* Joints that the cords of a plan do not tie, and channels that cross; nothing if the file is no valid plan. stdin has been read
+ * already. */
 static thr_status find_untied(const char *path, facts *a, thr_err *err)
 {
   thr_plan plan;
@@ -89,6 +107,7 @@ static thr_status find_untied(const char *path, facts *a, thr_err *err)
   for (int v = 0; v < plan.frame.n_nodes && !st; v++)
     a->n_untied += a->untied[v] = !a->untied[v];
   a->planned = !st;
+  if (!st && plan.options.joint == THR_JOINT_SOLID) st = count_crossings(&plan, a, err);
   thr_plan_destroy(&plan);
   return st;
 }
@@ -118,6 +137,9 @@ static void put_rigidity(thr_text *text, const thr_frame *frame, const facts *a)
   for (int v = 0; v < frame->n_nodes && shown < MOST_NAMES; v++)
     if (a->untied[v]) thr_text_printf(text, "%s%s", shown++ ? " " : ": ", frame->name[v]);
   thr_text_append(text, shown < a->n_untied ? " ..\n" : "\n");
+  if (a->channels)
+    thr_text_printf(text, "crossings   %" PRId64 " of two channels, inside %d of %d pieces\n", a->crossings, a->crossed,
+                    frame->n_nodes);
 }
 
 /* Covers or capacities; 0 = none. */
@@ -133,7 +155,8 @@ static void put_range(thr_text *text, const char *what, const int *value, int n)
 
 static void put_text(thr_text *text, const thr_frame *frame, const facts *a)
 {
-  thr_text_printf(text, "nodes       %d\nedges       %d\n", frame->n_nodes, frame->n_edges);
+  thr_text_printf(text, "nodes       %d, a piece each with solid joints\n", frame->n_nodes);
+  thr_text_printf(text, "edges       %d, interfaces of two pieces; with --joint tube a tube each\n", frame->n_edges);
   thr_text_append(text, "degrees    ");
   for (int d = 0; d <= MOST_DEGREES; d++)
     if (a->degree[d]) thr_text_printf(text, " %d x %d%s", a->degree[d], d, d == MOST_DEGREES ? " or more" : "");
@@ -200,6 +223,10 @@ static void put_json(thr_text *text, const thr_frame *frame, const facts *a)
   thr_write_number(&writer, "diagonal", thr_frame_diagonal(frame));
   if (a->analysed) put_rigidity_json(&writer, a);
   if (a->planned) put_untied_json(&writer, frame, a);
+  if (a->channels) {
+    thr_write_int(&writer, "crossings", a->crossings);
+    thr_write_int(&writer, "crossed_pieces", a->crossed);
+  }
   thr_write_hash(&writer, "hash", thr_frame_hash(frame));
   thr_write_close(&writer);
   thr_text_append(text, "\n");

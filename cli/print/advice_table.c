@@ -47,8 +47,8 @@ void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *
 {
   char units[24];
   snprintf(units, sizeof units, "cord, %.15s", frame->units);
-  thr_text_printf(text, "%d nodes, %d %s; pull at both ends of every cord, so that %g N is left at its slackest joint;\n",
-                  frame->n_nodes, frame->n_edges, cli_plural(frame->n_edges, "edge", "edges"), physics->seating);
+  thr_text_printf(text, "%d pieces, %d %s; pull at both ends of every cord, so that %g N is left at its slackest joint;\n",
+                  frame->n_nodes, frame->n_edges, cli_plural(frame->n_edges, "interface", "interfaces"), physics->seating);
   thr_text_printf(text, "friction mu = %g, or anything in its band from %g to %g\n\n", physics->mu, physics->mu_low,
                   physics->mu_high);
   thr_text_printf(text, "   cords  %-11s %14s %8s %10s %12s %9s %19s %6s  %s\n", "ends", units, "overlap", "longest",

@@ -105,13 +105,19 @@ static void put_head(thr_text *text, const thr_plan *plan)
 {
   const thr_request *options = &plan->options;
   int components = pieces_of(plan);
-  thr_text_printf(text, "%d nodes, %d %s, %d %s; %d %s per edge", plan->frame.n_nodes, plan->frame.n_edges,
-                  cli_plural(plan->frame.n_edges, "edge", "edges"), components, cli_plural(components, "component", "components"),
-                  options->cover, cli_plural(options->cover, "pass", "passes"));
+  bool tubes = options->joint == THR_JOINT_TUBE;
+  if (tubes)
+    thr_text_printf(text, "%d %s, %d joints", plan->frame.n_edges, cli_plural(plan->frame.n_edges, "tube", "tubes"),
+                    plan->frame.n_nodes);
+  else
+    thr_text_printf(text, "%d pieces, %d %s", plan->frame.n_nodes, plan->frame.n_edges,
+                    cli_plural(plan->frame.n_edges, "interface", "interfaces"));
+  thr_text_printf(text, ", %d %s; %d %s per %s", components, cli_plural(components, "component", "components"), options->cover,
+                  cli_plural(options->cover, "pass", "passes"), tubes ? "tube" : "interface");
   if (plan->frame.cover) thr_text_append(text, " or as the framework says");
   if (options->capacity) thr_text_printf(text, ", at most %d", options->capacity);
   thr_text_printf(text, "; ends: %s", thr_ends_name(options->ends));
-  if (options->joint == THR_JOINT_TUBE) thr_text_append(text, "; joints: tube");
+  if (tubes) thr_text_append(text, "; joints: tube");
   put_number(text, plan, components);
   thr_text_append(text, "\n\n");
 }
