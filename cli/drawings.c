@@ -24,6 +24,10 @@ bool drawings_option(drawings_args *a, const char *command, int option, const ch
     *ok = cli_double(command, "--kind-tolerance", value, 1e-9, 1e9, &a->kind_tolerance);
     return true;
   }
+  if (option == OPTION_WORKING) {
+    *ok = cli_double(command, "--working-length", value, 10, 1e6, &a->working_mm);
+    return true;
+  }
   if (option != OPTION_PAGE && option != OPTION_FROM) return false;
   *ok = option == OPTION_PAGE ? cli_choose(command, "--page", value, thr_page_name, THR_N_PAGES, &a->page)
                               : cli_choose(command, "--from", value, from_name, 2, &from);
@@ -54,6 +58,7 @@ int drawings_write(const thr_plan *plan, int i, const char *path, const drawings
                                         .kind_tolerance = a->kind_tolerance,
                                         .page = a->page,
                                         .needles = a->needles,
+                                        .working_mm = a->working_mm,
                                         .pages = note_pages};
   thr_limits limits = cli_limits(0);
   if (thr_limits_stop(&limits)) limits.interrupted = NULL; /* an interrupt that has ended the planning does not end this */

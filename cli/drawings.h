@@ -14,6 +14,7 @@ typedef struct {
   double pitch_mm;            /* of the overview; 0 = automatic */
   thr_overview_colour colour; /* of the overview */
   double kind_tolerance;      /* pieces that differ by no more are of a kind, in units; 0 = the usual one */
+  double working_mm;          /* cord that is worked with at a time; 0 = the usual one */
   int page;                   /* of the step sheets: thr_page_size */
   int needles;                /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = not said */
   thr_line_options lines;     /* of cords for CAD */
@@ -25,21 +26,24 @@ enum { DRAWINGS_SHEETS_PIECES = 1500, DRAWINGS_NAMES = 128 };
 
 /* --kind-tolerance; --page, --from: of the step sheets. */
 #define DRAWINGS_OPTIONS                                                                                                         \
-  {"kind-tolerance", required_argument, NULL, OPTION_KIND_TOLERANCE}, {"page", required_argument, NULL, OPTION_PAGE},            \
+  {"kind-tolerance", required_argument, NULL, OPTION_KIND_TOLERANCE},                                                            \
+      {"working-length", required_argument, NULL, OPTION_WORKING}, {"page", required_argument, NULL, OPTION_PAGE},               \
   {                                                                                                                              \
     "from", required_argument, NULL, OPTION_FROM                                                                                 \
   }
 enum {
   OPTION_PAGE = 960,
   OPTION_FROM,
-  OPTION_KIND_TOLERANCE
+  OPTION_KIND_TOLERANCE,
+  OPTION_WORKING
 }; /* between the options that commands number on from each other and those of cord and beads */
 #define DRAWINGS_HELP                                                                                                            \
   "      --kind-tolerance X   pieces whose points differ by no more are of one kind, in units of the framework (default: a\n"    \
   "                           hundredth of the median edge)\n"                                                                   \
   "      --page a4|letter     paper of the step sheets (default: a4)\n"                                                          \
   "      --from end|middle    thread each cord from its end with one needle, or those of 24 passes and more from their\n"        \
-  "                           middle with two (default: as the plan was made for; else closed ones of 48 and more)\n"
+  "                           middle with two (default: as the plan was made for; else closed ones of 48 and more)\n"            \
+  "      --working-length MM  cord to work with at a time, before more is joined on (default: 2000)\n"
 
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
 bool drawings_option(drawings_args *a, const char *command, int option, const char *value, bool *ok);

@@ -106,6 +106,7 @@ static thr_status sheets(const thr_plan *plan, const thr_document_options *a, co
   thr_sheets_options options = thr_sheets_options_default();
   options.page = (thr_page_size)a->page;
   options.needles = needles_of(plan, a);
+  options.working_mm = a->working_mm;
   options.kind_tolerance = a->kind_tolerance;
   options.motion = motion;
   thr_status st = thr_sheets_make(&pages, plan, &options, limits, err);

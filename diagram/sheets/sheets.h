@@ -13,9 +13,12 @@
 typedef struct {
   thr_page_size page;
   int needles;               /* cords are threaded with (thr_cord_folded): 1; 2 = from their fold; 0 = as is usual */
+  double working_mm;         /* cord that is worked with at a time; 0 = THR_SHEETS_WORKING */
   double kind_tolerance;     /* as in thr_pieces_make */
   const char *const *motion; /* as in thr_overview_options; borrowed */
 } thr_sheets_options;
+
+static const double THR_SHEETS_WORKING = 2000; /* mm: somewhat more than both arms reach */
 
 thr_sheets_options thr_sheets_options_default(void);
 

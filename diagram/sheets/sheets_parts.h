@@ -111,6 +111,7 @@ typedef enum { THR_SHEET_PREPARE, THR_SHEET_STEPS, THR_SHEET_LAST, THR_SHEET_PAR
 void thr_sheets_front(thr_sheets *sheets, const int *first);
 void thr_sheets_making(thr_sheets *sheets);    /* sheets_making.c: how pieces are handled */
 void thr_sheets_prepare(thr_sheets *sheets);   /* sheets_prepare.c */
+void thr_sheets_lengths(thr_sheets *sheets);   /* sheets_lengths.c: what is drawn through, where a length is joined on */
 void thr_sheets_key(thr_sheets *sheets);       /* sheets_key.c: solid pieces drawn, kind by kind */
 void thr_sheets_name_tags(thr_sheets *sheets); /* sheets_key.c: the names of all pieces, to stick on */
 /* sheets_sections.c: how many sections visits first .. end - 1 of a path have, 0 = no maps; and the page before so many steps of

@@ -75,6 +75,7 @@ static void put_cords(thr_sheets *sheets)
   else
     snprintf(line, sizeof line, "The size of cord and pieces is not known: add tails, knots and what turns take.");
   thr_sheets_paragraph(sheets, 0, line);
+  thr_sheets_lengths(sheets);
 }
 
 /* ---- pieces ---- */
