@@ -71,7 +71,25 @@ completes() { # WANTED WORDS: bash completes the last of the words so
     "$usr/share/bash-completion/completions/thread" "$@" | tr '\n' ' ' | sed 's/ $//')" = "$wanted" ]
 }
 
+version=$(sed -n 's/^VERSION := //p' Makefile)
+packaged() { # debian/ asks for the libraries that the Makefile asks for, and knows the same names
+  local package
+  for package in $(sed -n '/^BUILD_PACKAGES/,/[^\\]$/p' Makefile | grep -o 'lib[a-z0-9-]*-dev'); do
+    grep -q "^Build-Depends:.* $package" debian/control || { echo "$package"; return 1; }
+  done
+  diff <(sed -n 's/^ \(thread_[a-z_]*\)@.*/\1/p' debian/libthread0.symbols | sort) \
+    <(nm -D --defined-only "$usr/lib/libthread.so" | awk '{ print $3 }' | sort)
+}
+one_version() { # of header, pkg-config, package and citation
+  local major minor patch
+  IFS=. read -r major minor patch <<<"$version"
+  grep -q "^#define THREAD_VERSION $((10000 * major + 100 * minor + patch)) " include/thread.h && [ "$(pkg-config --modversion thread)" = "$version" ] &&
+    head -n 1 debian/changelog | grep -qF "($version)" && grep -qx "version: $version" CITATION.cff
+}
+
 export LD_LIBRARY_PATH=$usr/lib
+test_that 'the Debian packages know the same libraries and names' packaged
+test_that 'all say one version' one_version
 test_that 'the shared library exports thread_* only' only_ours
 test_that 'the static library exports thread_* only' only_ours_static
 test_that 'the header declares what is exported' all_declared
