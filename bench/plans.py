@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plans of two programs side by side: is any of the second worse, is a proof lost, does it take more processor time?
 
-bench/plans.py OLD NEW [--limit S] [--cases N] [--jobs N] FRAME.. > table.tsv
+bench/plans.py OLD NEW [--limit S] [--cases N] FRAME.. > table.tsv
 
 Each framework meets CASES requests out of all combinations of objective x ends x joint x cords, chosen so that each framework meets
 every option, and each objective every pair of options somewhere. Both programs plan at the same time, one on each of two
@@ -150,7 +150,7 @@ def main():
     p.add_argument("old")
     p.add_argument("new")
     p.add_argument("frames", nargs="*")
-    a = p.parse_args()
+    a = p.parse_intermixed_args()
     tally, seconds, bad = {}, [0.0, 0.0], 0
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(2) as pool:
         for i, frame in enumerate(frames_of(a, folder)):
