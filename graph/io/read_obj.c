@@ -1,10 +1,12 @@
-/* Wavefront OBJ: v, l, f and Rhino's degree-1 curves. Names are the file's own vertex numbers, from 1. */
+/* Wavefront OBJ: v, l, f and curves. Names are the file's own vertex numbers, from 1. */
 #include "graph/framework/frame.h"
+#include "graph/io/curve.h"
 #include "graph/io/faces.h"
 #include "graph/io/formats.h"
 #include "graph/io/scan.h"
 #include "graph/status.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,8 +23,13 @@ typedef struct {
     int vertex, line;
   } * foot; /* as the comment lists them: vertices may come after it; owned */
   int n_feet, feet_capacity;
-  int degree;     /* of curves, as deg says */
-  bool polygonal; /* cstype: control points of degree 1 are the curve's corners */
+  int degree;                     /* of curves, as deg says */
+  bool bspline, bezier, rational; /* cstype */
+  /* the curve that was named last, which its knots follow */
+  thr_span open; /* its keyword, n = 0: none */
+  int *curve, n_curve, curve_capacity;
+  double *knot, from, to;
+  int n_knots, knots_capacity;
 } obj;
 
 /* ---- words ---- */
@@ -112,25 +119,104 @@ static thr_status read_face(obj *o, thr_span rest)
   return st ? st : thr_faces_add(&o->faces, o->corner, n, o->err);
 }
 
+/* The knots of a Bezier curve of so many pieces: each end of a piece as often as the degree says, the ends of all once more. */
+static thr_status bezier_knots(obj *o, int pieces)
+{
+  thr_status st = THR_OK;
+  o->n_knots = 0;
+  for (int i = 0; i < (pieces + 1) * o->degree + 2 && !st; i++) {
+    const int piece = i == 0 ? 0 : (i - 1) / o->degree;
+    st = thr_grow(&o->knot, o->n_knots, &o->knots_capacity, sizeof *o->knot, o->err);
+    if (!st) o->knot[o->n_knots++] = piece < pieces ? piece : pieces;
+  }
+  o->from = 0;
+  o->to = pieces;
+  return st;
+}
+
+/* Is the curve one from its first to its last control point, all of it? */
+static bool is_whole(const obj *o, const thr_spline *s)
+{
+  const double *k = o->knot, slack = 1e-9 * (k[o->n_knots - 1] - k[0]);
+  const int n = s->n, p = s->degree;
+  return k[p] - k[1] <= slack && k[n + p - 1] - k[n] <= slack && fabs(o->from - k[p]) <= slack && fabs(o->to - k[n]) <= slack;
+}
+
+/* A curve of a higher degree is one edge from its first vertex to its last, as long as the curve. */
+static thr_status add_curve(obj *o, double (*control)[3])
+{
+  const int n = o->n_curve, p = o->degree;
+  for (int i = 0; i < n; i++)
+    memcpy(control[i], o->d->node[o->curve[i]].xyz, sizeof control[i]);
+  thr_status st = o->bezier && p > 0 && n > p && (n - 1) % p == 0 ? bezier_knots(o, (n - 1) / p) : THR_OK;
+  const thr_spline s = {.degree = p, .n = n, .control = (const double(*)[3])control, .knot = o->knot};
+  if (st) return st;
+  if (o->n_knots == n + p + 1 && thr_spline_is_sound(&s) && is_whole(o, &s) && o->curve[0] != o->curve[n - 1])
+    return thr_draft_add_edge(o->d, o->curve[0], o->curve[n - 1], thr_spline_length(&s), o->err);
+  thr_report_skip(o->report, o->open);
+  return THR_OK;
+}
+
+/* Ends the curve that was named last, once its knots are known. */
+static thr_status finish_curve(obj *o)
+{
+  if (!o->open.n) return THR_OK;
+  double(*control)[3] = thr_calloc((size_t)o->n_curve, sizeof *control);
+  thr_status st = control ? add_curve(o, control) : thr_nomem(o->err);
+  free(control);
+  o->open.n = 0;
+  return st;
+}
+
 /* curv u0 u1 v1 v2 ..: of degree 1 it is the polyline through its control points. */
 static thr_status read_curve(obj *o, thr_span keyword, thr_span rest)
 {
   thr_span word;
-  if (o->degree != 1 || !o->polygonal) {
+  thr_status st = finish_curve(o);
+  bool numbers = true;
+  for (int i = 0; i < 2 && !st; i++) {
+    if (!next_word(&rest, &word)) return thr_scan_fail(&o->scan, o->err, "curv has no start and end parameter");
+    numbers &= thr_span_number(word, false, i ? &o->to : &o->from);
+  }
+  if (st || (o->degree == 1 && (o->bspline || o->bezier))) return st ? st : read_polyline(o, rest);
+  if (!numbers || o->rational || !(o->bspline || o->bezier)) {
     thr_report_skip(o->report, keyword);
     return THR_OK;
   }
-  for (int i = 0; i < 2; i++)
-    if (!next_word(&rest, &word)) return thr_scan_fail(&o->scan, o->err, "curv has no start and end parameter");
-  return read_polyline(o, rest);
+  st = read_corners(o, rest, &o->n_curve);
+  for (int i = 0; i < o->n_curve && !st; i++) {
+    st = thr_grow(&o->curve, i, &o->curve_capacity, sizeof *o->curve, o->err);
+    if (!st) o->curve[i] = o->corner[i];
+  }
+  o->n_knots = 0;
+  o->open = st ? (thr_span){0} : keyword;
+  return st;
 }
 
+/* parm u k1 k2 ..: the knots of the curve. */
+static thr_status read_knots(obj *o, thr_span rest)
+{
+  thr_span word;
+  thr_status st = THR_OK;
+  double knot;
+  if (!o->open.n || !next_word(&rest, &word) || !thr_span_is(word, "u")) return THR_OK;
+  while (!st && next_word(&rest, &word) && thr_span_number(word, false, &knot)) {
+    st = thr_grow(&o->knot, o->n_knots, &o->knots_capacity, sizeof *o->knot, o->err);
+    if (!st) o->knot[o->n_knots++] = knot;
+  }
+  return st;
+}
+
+/* Rational curves have weights, which are not read: only those of degree 1 are. */
 static void read_curve_type(obj *o, thr_span rest)
 {
   thr_span word;
-  o->polygonal = false;
-  while (next_word(&rest, &word))
-    if (thr_span_is(word, "bspline") || thr_span_is(word, "bezier")) o->polygonal = true;
+  o->bspline = o->bezier = o->rational = false;
+  while (next_word(&rest, &word)) {
+    o->bspline |= thr_span_is(word, "bspline");
+    o->bezier |= thr_span_is(word, "bezier");
+    o->rational |= thr_span_is(word, "rat");
+  }
 }
 
 /* Our writer's comments "# feet: 1 5 9", "# units: mm" and "# up: y"; other people's comments are left alone. */
@@ -163,6 +249,7 @@ static thr_status read_record(obj *o, thr_span line)
   static const char *const harmless[] = {"vn",     "vt",     "vp",     "g",      "o",    "s",   "p",
                                          "usemtl", "mtllib", "usemap", "maplib", "parm", "end", NULL};
   thr_span keyword, word;
+  int degree;
   if (line.n && line.s[0] == '#') return read_comment(o, line);
   if (!next_word(&line, &keyword)) return THR_OK;
   if (thr_span_is(keyword, "v")) return read_vertex(o, line);
@@ -172,7 +259,12 @@ static thr_status read_record(obj *o, thr_span line)
   if (thr_span_is(keyword, "cstype"))
     read_curve_type(o, line);
   else if (thr_span_is(keyword, "deg"))
-    o->degree = next_word(&line, &word) && thr_span_is(word, "1") ? 1 : 0;
+    o->degree =
+        next_word(&line, &word) && thr_span_int(word, &degree) && degree > 0 && degree <= THR_SPLINE_MOST_DEGREE ? degree : 0;
+  else if (thr_span_is(keyword, "parm"))
+    return read_knots(o, line);
+  else if (thr_span_is(keyword, "end"))
+    return finish_curve(o);
   else if (!is_one_of(keyword, harmless))
     thr_report_skip(o->report, keyword);
   return THR_OK;
@@ -202,13 +294,16 @@ static thr_status parse(thr_draft *draft, thr_read_report *read_report, const ch
     }
     st = read_record(&o, line);
   }
+  if (!st) st = finish_curve(&o);
   if (!st) st = thr_faces_finish(&o.faces, draft, name, err);
   if (!st) st = mark_feet(&o);
   if (!st && draft->n_edges == 0)
-    st = thr_fail(err, THR_EINPUT, "%s: no l, f or degree-1 curv record; export lines or polylines%s%s", name,
+    st = thr_fail(err, THR_EINPUT, "%s: no l, f or curv record; export lines or polylines%s%s", name,
                   read_report->skipped_records ? ", not " : "", read_report->skipped_records ? read_report->skipped_kind : "");
   thr_faces_destroy(&o.faces);
   free(o.corner);
+  free(o.curve);
+  free(o.knot);
   free(o.foot);
   return st;
 }

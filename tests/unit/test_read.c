@@ -261,7 +261,7 @@ END_TEST
 START_TEST(obj_errors)
 {
   const thr_format *obj = thr_format_named("obj");
-  check_error("v 0 0 0\nv 1 1 1\n", obj, "f: no l, f or degree-1 curv record; export lines or polylines");
+  check_error("v 0 0 0\nv 1 1 1\n", obj, "f: no l, f or curv record; export lines or polylines");
   check_error("v 0 0\n", obj, "f:1: v has 2 numbers; it needs x, y and z");
   check_error("v 0 inf 0\n", obj, "f:1: 'inf' is not a finite number; give y as a decimal number");
   check_error("v 0 0 0\nl 1 2\n", obj, "f:2: vertex 2 does not exist; 1 are defined so far, and the first is 1");
