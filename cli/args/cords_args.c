@@ -294,15 +294,15 @@ static int apply_counts(const cords_args *a, const thr_frame *frame, thr_request
 
 /* ---- together ---- */
 
-/* Cord and bore say how many passes fit, where both were given. A symmetric plan is not held to that. */
+/* Cord and bore say how many passes there is room for, where both were given. A symmetric plan is not held to that. */
 static int apply_bore(thr_request *options)
 {
   const thr_physics *physics = &options->physics;
   if (physics->bore == 0 || physics->cord_diameter == 0 || thr_wants_symmetry(options)) return EXIT_OK;
   int fit = thr_bore_fits(physics->bore, physics->cord_diameter);
   if (fit < options->cover) {
-    cli_error("%d %s of a cord of %g mm %s through a bore of %g mm; --cover asks for %d", fit, cli_plural(fit, "pass", "passes"),
-              physics->cord_diameter, fit == 1 ? "fits" : "fit", physics->bore, options->cover);
+    cli_error("%d %s of a cord of %g mm %s through a bore of %g mm with ease; --cover asks for %d", fit,
+              cli_plural(fit, "pass", "passes"), physics->cord_diameter, fit == 1 ? "goes" : "go", physics->bore, options->cover);
     return EXIT_INFEASIBLE;
   }
   if (options->capacity == 0 || fit < options->capacity) options->capacity = fit;

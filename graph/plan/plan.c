@@ -204,12 +204,17 @@ int thr_plan_turns_over(const thr_plan *plan, double angle)
   return n;
 }
 
-double thr_cord_price(const thr_frame *frame, const thr_request *options, const thr_cord *cord)
+double thr_turns_price(const thr_frame *frame, thr_turn_cost cost, const int *half, int n, int k)
 {
   double sum = 0;
-  for (int k = 0; k < thr_cord_turns(options, cord); k++)
-    sum += thr_turn_price(frame, options->turning.cost, cord->half[k], cord->half[(k + 1) % cord->n_passes]);
+  for (int i = 0; i < k; i++)
+    sum += thr_turn_price(frame, cost, half[i], half[(i + 1) % n]);
   return sum;
+}
+
+double thr_cord_price(const thr_frame *frame, const thr_request *options, const thr_cord *cord)
+{
+  return thr_turns_price(frame, options->turning.cost, cord->half, cord->n_passes, thr_cord_turns(options, cord));
 }
 
 double thr_cord_pulled_turning(const thr_frame *frame, const thr_cord *cord)

@@ -190,6 +190,9 @@ bool thr_turn_over(double turn, double angle);
 /* Turns of all cords that are sharper than angle (rad). */
 int thr_plan_turns_over(const thr_plan *plan, double angle);
 
+/* Price of turns, k of them, between consecutive half-edges half[0], half[1], .. of n; turn n - 1 leads back to the first. */
+double thr_turns_price(const thr_frame *framework, thr_turn_cost cost, const int *half, int n, int k);
+
 /* Price of the turns of a cord. */
 double thr_cord_price(const thr_frame *framework, const thr_request *wishes, const thr_cord *c);
 

@@ -3,6 +3,7 @@
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
+#include "graph/plan/distinct_needs.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
@@ -14,20 +15,23 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- the oracle ---- */
 
 enum { MOST_EDGES = 6, SETS = 1 << MOST_EDGES, MOST_NODES = 7 };
 
-/* least[set]: of one cord over all these edges and perhaps others, closed or between any nodes, turning back anywhere. (Bellman's
- * iteration over node and set, from every node.) */
-static void least_of_one(const thr_frame *f, bool closed, double *least)
+/* least[set]: of one cord over all these edges and perhaps others, closed or between nodes where one may end, turning back anywhere.
+ * (Bellman's iteration over node and set, from every node.) */
+static void least_of_one(const thr_frame *f, const thr_request *o, double *least)
 {
+  const bool closed = o->ends == THR_ENDS_CLOSED;
   int sets = 1 << f->n_edges;
   for (int set = 0; set < sets; set++)
     least[set] = INFINITY;
   for (int start = 0; start < f->n_nodes; start++) {
     double far[MOST_NODES][SETS];
+    if (!thr_plan_end_allowed(f, o, start)) continue;
     for (int v = 0; v < f->n_nodes; v++)
       for (int set = 0; set < sets; set++)
         far[v][set] = v == start && set == 0 ? 0 : INFINITY;
@@ -42,7 +46,7 @@ static void least_of_one(const thr_frame *f, bool closed, double *least)
         }
     }
     for (int v = 0; v < f->n_nodes; v++)
-      for (int set = 1; set < sets && (!closed || v == start); set++)
+      for (int set = 1; set < sets && (closed ? v == start : thr_plan_end_allowed(f, o, v)); set++)
         for (int part = set; part > 0; part = (part - 1) & set)
           least[part] = fmin(least[part], far[v][set]);
   }
@@ -77,7 +81,7 @@ static double truth_of(const thr_frame *f, const thr_request *o, bool longest, i
   int lacks[MOST_EDGES];
   for (int e = 0; e < MOST_EDGES; e++)
     lacks[e] = o->distinct;
-  least_of_one(f, o->ends == THR_ENDS_CLOSED, least);
+  least_of_one(f, o, least);
   return least_of_all(f->n_edges, least, longest, cords, (1 << f->n_edges) - 1, lacks);
 }
 
@@ -165,6 +169,81 @@ START_TEST(trees_are_proved)
   p.options.distinct = 0; /* of any cords the certificate is another's */
   p.metrics.distinct = 0;
   assert_violated(&p, NULL);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Passes that a bridge is said to need are those of some cords, and no fewer do: the least length where it alone has one. */
+START_TEST(bridges_need_what_is_said)
+{
+  rng r = rng_make((uint64_t)_i + 400);
+  thr_frame f = random_frame(&r, rng_between(&r, 4, 5), rng_below(&r, 2), LENGTHS_RANDOM);
+  thr_request o = asked(2, 3, _i % 2 ? THR_ENDS_NODES : THR_ENDS_CLOSED, "length");
+  bool end_node[MOST_NODES] = {false}, bridge[MOST_EDGES];
+  int *needs;
+  for (int v = 0; v < f.n_nodes; v++)
+    end_node[v] = v == 0 || rng_below(&r, 3) == 0;
+  if (_i % 2) o.end_node = end_node;
+  ck_assert_int_eq(thr_frame_bridges(&f, bridge, NULL), THR_OK);
+  ck_assert_int_eq(thr_distinct_needs(&f, &o, &needs, NULL), THR_OK);
+  for (int e = 0; e < f.n_edges; e++) {
+    for (int k = 0; k < f.n_edges; k++)
+      f.length[k] = k == e ? 1 : 1e-9;
+    double passes = floor(truth(&f, &o) + 0.5);
+    ck_assert_int_le(needs ? needs[e] : 2, (int)passes);
+    if (bridge[e]) ck_assert_int_eq(needs ? needs[e] : 2, (int)passes);
+  }
+  free(needs);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Changes a number of the certificate at random; the sum of its cuts stays theirs. */
+static void change_certificate(rng *r, thr_certificate *c)
+{
+  int by = rng_between(r, -3, 3);
+  switch (rng_below(r, 5)) {
+  case 0: c->scale *= rng_below(r, 2) ? 2 : 0.5 + rng_unit(r); break;
+  case 1: c->denominator = rng_between(r, 1, 4); break;
+  case 2: c->end_price += by > 0 ? by : 0; break;
+  case 3: c->join += by; break;
+  default: break;
+  }
+  for (int i = 0; i < c->n_cuts; i++)
+    if (rng_below(r, 2)) c->cut[i].value = llabs(c->cut[i].value + (int64_t)(by * rng_unit(r) * (double)(1 + c->cut[i].value)));
+  c->sum = 0;
+  for (int i = 0; i < c->n_cuts; i++)
+    c->sum += c->cut[i].value;
+}
+
+/* An adversary: whatever its certificate is changed to, no plan proves more than what is true. */
+START_TEST(nothing_is_proved_above_the_truth)
+{
+  enum { ATTACKS = 3000 };
+  rng r = rng_make((uint64_t)_i + 500);
+  thr_frame f = random_frame(&r, rng_between(&r, 3, 5), rng_below(&r, 2), LENGTHS_RANDOM);
+  thr_request o = asked(2, 3, _i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, "length");
+  thr_plan p = made(&f, &o);
+  const double least = truth(&f, &o), longest = truth_of(&f, &o, true, o.cords), above = 1 + 1e-6;
+  ck_assert(p.proof.present && p.proof.n_certificates == 1 && p.metrics.distinct == f.n_edges);
+  p.proof.optimal = p.cords_claim.longest_optimal = false;
+  for (int i = 0; i < ATTACKS; i++) {
+    thr_plan forged = p;
+    thr_certificate certificate = p.proof.certificate[0];
+    thr_cut cut[64];
+    ck_assert_int_le(certificate.n_cuts, 64);
+    memcpy(cut, certificate.cut, (size_t)certificate.n_cuts * sizeof *cut);
+    certificate.cut = cut;
+    change_certificate(&r, &certificate);
+    forged.proof.certificate = &certificate;
+    if (i % 2)
+      forged.cords_claim.longest_bound = longest * above;
+    else
+      forged.proof.lower_bound = least * above;
+    forged.proof.gap = (p.metrics.length - forged.proof.lower_bound) / p.metrics.length;
+    ck_assert_int_ne(thr_check_plan(&forged, NULL), THR_OK);
+  }
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
@@ -352,6 +431,8 @@ int main(void)
   Suite *s = suite_create("different cords");
   ADD_TEST(s, 120, plans_are_between_bound_and_truth);
   ADD_LOOP(s, 60, trees_are_proved, 0, 12);
+  ADD_LOOP(s, 60, bridges_need_what_is_said, 0, 20);
+  ADD_LOOP(s, 60, nothing_is_proved_above_the_truth, 0, 10);
   ADD_TEST(s, 120, even_cords_are_between_bound_and_truth);
   ADD_TEST(s, 120, short_cords_are_few);
   ADD_LOOP(s, 120, other_wishes_are_kept, 0, 4);

@@ -289,10 +289,8 @@ static thr_status keep_best(search *x, const thr_frame *frame, thr_least *plan, 
 
 static double price_of(const thr_frame *frame, const thr_least *plan, const thr_cord *cord)
 {
-  double price = 0;
-  for (int k = 0; k < cord->n_passes - (plan->end_allowed != NULL); k++)
-    price += thr_turn_price(frame, plan->task.cost, cord->half[k], cord->half[(k + 1) % cord->n_passes]);
-  return price;
+  const int turns = cord->n_passes - (plan->end_allowed != NULL);
+  return thr_turns_price(frame, plan->task.cost, cord->half, cord->n_passes, turns);
 }
 
 static double largest_price(const thr_frame *frame, const thr_least *plan)

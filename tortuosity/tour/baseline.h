@@ -16,10 +16,10 @@
  * but for two in a component where a cord may end. Nothing here depends on time.
  *
  * Fleury's tour never takes a pass that is a bridge of what is left while there is another; Hierholzer's splices closed walks
- * into each other where they meet. Among the passes that are left both take by default              the partner of the one they
- * came by in its node's cheapest pairing (graph/threading/pairing.h); where that is taken, Fleury the straightest, Hierholzer the
- * first in the order of the framework's edges with ignore_pairings    the first in that order Hierholzer's closed walks are then
- * the circuits of the cheapest pairings, and two pairs change where one is spliced in.
+ * into each other where they meet. Among the passes that are left both take the partner of the one they came by in its node's
+ * cheapest pairing (graph/threading/pairing.h); where that is taken, Fleury takes the straightest, Hierholzer the first in the
+ * order of the framework's edges. With ignore_pairings both take the first in that order. By default Hierholzer's closed walks
+ * are the circuits of the cheapest pairings, and two pairs change where one is spliced in.
  *
  * Fills out like thr_least_turning, without proof, bound or claim (bound 0, optimal false). U-turns may occur anywhere if
  * pairings are ignored, and where a walk is spliced in. One cord per component; length_slack and most_nodes are not looked at.
