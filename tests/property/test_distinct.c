@@ -21,8 +21,8 @@
 
 enum { MOST_EDGES = 6, SETS = 1 << MOST_EDGES, MOST_NODES = 7 };
 
-/* least[set]: of one cord over all these edges and perhaps others, closed or between nodes where one may end, turning back anywhere.
- * (Bellman's iteration over node and set, from every node.) */
+/* least[set]: of one cord over all these edges and perhaps others, closed or between nodes where one may end, turning back
+ * anywhere. (Bellman's iteration over node and set, from every node.) */
 static void least_of_one(const thr_frame *f, const thr_request *o, double *least)
 {
   const bool closed = o->ends == THR_ENDS_CLOSED;
