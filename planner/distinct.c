@@ -156,6 +156,18 @@ static thr_status plan_any(const maker *x, const thr_request *options, const thr
   return st == THR_ELIMIT && plan->n_cords > 0 ? THR_OK : st;
 }
 
+/* Of any length and pull, for their proof of length alone. */
+static thr_status plan_free(const maker *x, thr_plan *plan, thr_err *err)
+{
+  thr_request any = *x->o;
+  thr_err why = {0};
+  any.aims = thr_aims_shortest;
+  any.max_length = any.max_pull = 0;
+  any.turning = thr_request_default().turning;
+  thr_plan_destroy(plan);
+  return plan_any(x, &any, x->limits, plan, &why) == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+}
+
 /* Takes cords that keep to what is asked, if they are better than the best so far. */
 static thr_status offer(maker *x, thr_cord **cord, int *n_cords, thr_err *err)
 {
@@ -402,8 +414,13 @@ static thr_status plan_different(const thr_frame *frame, const thr_request *opti
   thr_status st = thr_distinct_needs(frame, options, &needs, err);
   if (needs) x.needed.cover = needs;
   if (!st) st = check_room(&x, err);
-  if (!st && (st = plan_any(&x, options, &share, &from, &why))) thr_fail(err, st, "%s", why.text);
-  if (!st) st = make_cords(&x, &from, err);
+  if (!st) st = plan_any(&x, options, &share, &from, &why);
+  if (st == THR_ELIMIT && from.n_cords == 0) { /* covers of their own cords are easier to find */
+    st = try_covers(&x, err);
+    if (!st) st = is_whole(&x) ? plan_free(&x, &from, err) : THR_ELIMIT;
+  } else if (!st)
+    st = make_cords(&x, &from, err);
+  if (st && why.code) thr_fail(err, st, "%s", why.text);
   if (!st) {
     *plan = x.best;
     x.best = (thr_plan){0};
