@@ -11,7 +11,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_ROUNDS = 300, MOST_DIVES = 20, MOST_DRAWN = 12 };
+enum { MOST_ROUNDS = 300, MOST_DIVES = 20, FEW_DIVES = 8, MOST_DRAWN = 12 };
+
+/* Cords no further above the bound than that are near: few dives, no walks drawn at random, none chosen in integers. */
+static const double near_enough = 1.05;
 
 /* Are cords of at most so many units too few? Then proof is why. */
 static thr_status exclude(thr_walk_programme *p, int units, thr_walk_proof *proof, thr_err *err)
@@ -101,19 +104,19 @@ static thr_status replace_cords(const thr_walk_programme *p, const thr_cord *cor
 }
 
 /* Cords of at most so many units that turn, or are, less than the dearest of those that are known? Then they are better. */
-static thr_status look_below(thr_walk_programme *p, const thr_cord *cord, int n_cords, int units, int *passes, thr_cord **better,
-                             thr_err *err)
+static thr_status look_below(thr_walk_programme *p, const thr_cord *cord, int n_cords, double bound, int units, int *passes,
+                             thr_cord **better, thr_err *err)
 {
   const thr_walk_measure measure = p->steps.measure;
   const thr_cord *known = *better ? *better : cord;
   double largest = thr_walk_price(p->c, measure, &known[thr_walk_dearest(p->c, measure, known, n_cords)]);
   thr_cord *walk = thr_calloc((size_t)p->cords, sizeof *walk), *made = NULL;
-  bool found = false;
+  bool found = false, wide = largest > near_enough * bound;
   uint64_t random = 1;
   thr_status st = walk ? thr_walk_dive(p, units, NULL, walk, &found, err) : thr_nomem(err);
-  for (int i = 0; i < MOST_DRAWN && !st && !found && !thr_limits_stop(p->limits); i++)
+  for (int i = 0; i < MOST_DRAWN && wide && !st && !found && !thr_limits_stop(p->limits); i++)
     st = thr_walk_dive(p, units, &random, walk, &found, err);
-  if (!st && !found) st = thr_walk_choose(p, units, walk, &found, err);
+  if (!st && !found && wide) st = thr_walk_choose(p, units, walk, &found, err);
   if (!st && found) st = replace_cords(p, cord, n_cords, walk, &made, err);
   if (made && within_limits(p->c, made, n_cords, passes) &&
       thr_walk_price(p->c, measure, &made[thr_walk_dearest(p->c, measure, made, n_cords)]) < largest * (1 - 1e-9)) {
@@ -127,8 +130,8 @@ static thr_status look_below(thr_walk_programme *p, const thr_cord *cord, int n_
 }
 
 /* Looks for cords just above what is excluded, in growing steps up to the first that are better, and then below these. */
-static thr_status look_for_cords(thr_walk_programme *p, const thr_cord *cord, int n_cords, int low, thr_cord **better,
-                                 thr_err *err)
+static thr_status look_for_cords(thr_walk_programme *p, const thr_cord *cord, int n_cords, double bound, int low,
+                                 thr_cord **better, thr_err *err)
 {
   const thr_walk_measure measure = p->steps.measure;
   const double near = 5e-4; /* of the limit */
@@ -140,10 +143,11 @@ static thr_status look_for_cords(thr_walk_programme *p, const thr_cord *cord, in
     int high = (int)floor(largest / thr_walk_programme_price(p, 1));
     if (high > p->most_units) high = p->most_units;
     if (*better) units = low + (high - low) / 2;
+    if (largest <= near_enough * bound && i >= FEW_DIVES) break;
     if (units > high || thr_walk_programme_price(p, units) >= largest * (1 - 1e-6)) break;
     if (*better && thr_walk_programme_price(p, high - low) < near * largest) break;
     thr_cord *before = *better;
-    st = look_below(p, cord, n_cords, units, passes, better, err);
+    st = look_below(p, cord, n_cords, bound, units, passes, better, err);
     if (*better != before) continue;
     low = units;
     units += 1 + (high - units) / (i < 2 ? 32 : i < 5 ? 16 : 4);
@@ -169,7 +173,7 @@ thr_status thr_walk_bound(const thr_turning_columns *columns, thr_walk_measure m
   else if (!st)
     st = bisect(&p, largest, &made, bound, &open, &why);
   bool wanted = enough <= 0 || *bound <= enough;
-  if (!st && wanted && !task->tube && !task->end_count) st = look_for_cords(&p, cord, n_cords, open, better, &why);
+  if (!st && wanted && !task->tube && !task->end_count) st = look_for_cords(&p, cord, n_cords, *bound, open, better, &why);
   if (!st && made.edge) {
     thr_walk_proof_destroy(proof);
     *proof = made;
