@@ -406,6 +406,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: all library man dist deb demo test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
 .PHONY: suite-release suite-asan suite-fuzz suite-built test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)
