@@ -373,7 +373,7 @@ def drawings(b):
     svg_grows, pdf_grows = Growth(), Growth()
     for name, path, edges, goes_on in b.lines(["grid", "sphere", "honeycomb"], (84, 480, 3000), data("fandisk", "liew_dome")):
         kinds_now = [k for k in kinds if k != "pdf" or not b.smallest]
-        draw = [[b.thread, "draw", b.path("plan.json"), "-T", k, "-o", b.path("drawn." + k)] for k in kinds_now]
+        draw = [[b.thread, "draw", b.path("plan.json"), "-T", k, "-o", b.path("drawn." + ("txt" if k == "steps" else k))] for k in kinds_now]
         plan, *drawn = b.least(b.plan(path), *draw)
         spent = {k: d.seconds for k, d in zip(kinds_now, drawn)}
         b.row(name, edges, seconds(plan.seconds), *(ratio(spent.get(k), plan.seconds) for k in kinds),

@@ -260,9 +260,9 @@ class Frame:
 
 PHYSICS = {"mu": (0, 2), "mu_low": (0, 2), "mu_high": (0, 3), "mu_bead": (0, 2), "mu_ground": (0, 2), "cord_diameter": (0, 1e9),
            "bore": (0, 1e9), "bead_diameter": (0, 1e9), "density": (0, 25), "bead_mass": (0, 1e9), "seating": (5e-324, 1e9),
-           "gravity": (0, 1000)}
+           "gravity": (0, 1000), "wobble": (0, 10), "stiffness": (0, 1e12), "bead_strength": (0, 1e6)}
 DEFAULTS = {None: {"mu": 0.2, "mu_low": 0, "mu_high": 0, "mu_bead": 0.25, "mu_ground": 0.25, "cord_diameter": 0, "bore": 0, "bead_diameter": 0,
-                   "density": 1.24, "bead_mass": 0, "seating": 1, "gravity": 9.80665},
+                   "density": 1.24, "bead_mass": 0, "seating": 1, "gravity": 9.80665, "wobble": 0, "stiffness": 0, "bead_strength": 0},
             "pla-cotton": {"mu": 0.25, "mu_low": 0.15, "mu_high": 0.45, "mu_bead": 0.3, "mu_ground": 0.3},
             "eps-nylon": {"mu": 0.3, "mu_low": 0.15, "mu_high": 0.5, "mu_bead": 0.5, "mu_ground": 0.5, "density": 0.02},
             "wood-paracord": {"mu": 0.3, "mu_low": 0.2, "mu_high": 0.4, "mu_bead": 0.24, "mu_ground": 0.3, "cord_diameter": 4, "density": 0.5}}
@@ -1987,13 +1987,61 @@ def colour(tension, low, high):
     return [a + (max(at, 0) - i) * (b - a) for a, b in zip(RAMP[i], RAMP[i + 1])]
 
 
+def from_pass(turns, at):
+    """Exponents between pass `at` and every other."""
+    sums = [0.0]
+    for x in turns:
+        sums.append(sums[-1] + x)
+    return [abs(x - sums[at]) for x in sums]
+
+
+def let_down(tension, turns, end, force):
+    new = list(tension)
+    for at in {"start": (0,), "end": (-1,), "both": (0, -1)}[end]:
+        new = [min(x, force * math.exp(min(between, 700))) for x, between in zip(new, from_pass(turns, at))]
+    return new
+
+
+def raised(tension, turns, at, force):
+    return [max(x, force * math.exp(-between)) for x, between in zip(tension, from_pass(turns, at))]
+
+
+def after_step(tension, turns, s, metres, stiffness):
+    """A pull raises what slides towards it, letting down lowers what the turns do not hold."""
+    at = s["pass"]
+    if s["do"] == "release":
+        return let_down(tension, turns, s["end"], s["force"])
+    if s["do"] == "knot":
+        return slip(tension, turns, s, metres, stiffness) if s["slip"] else tension
+    if s["do"] == "pull":
+        for k in {"start": (0,), "end": (-1,), "both": (0, -1)}[s["end"]]:
+            tension = raised(tension, turns, k, s["force"])
+        return tension
+    require(at < len(tension), "evaluation.schedule: a grip beyond the cord")
+    low, high = at if s["end"] == "end" else 0, at if s["end"] == "start" else len(tension) - 1
+    return [x if low <= k <= high else old for k, (x, old) in enumerate(zip(raised(tension, turns, at, s["force"]), tension))]
+
+
+def slip(tension, turns, s, metres, stiffness):
+    """Until the cord is shorter by the slip: sum of (tension lost) x length / EA."""
+    require(stiffness > 0, "evaluation.schedule: a knot slips, but the stiffness is not known")
+    shorter = lambda new: math.fsum((a - b) * m for a, b, m in zip(tension, new, metres)) / stiffness * 1000
+    low, high = 0.0, max(tension[0], tension[-1])
+    if shorter(let_down(tension, turns, s["end"], 0.0)) <= s["slip"]:
+        return let_down(tension, turns, s["end"], 0.0)
+    for _ in range(200):
+        middle = (low + high) / 2
+        low, high = (middle, high) if shorter(let_down(tension, turns, s["end"], middle)) > s["slip"] else (low, middle)
+    return let_down(tension, turns, s["end"], high)
+
+
 class Pulled:
     """The record of one cord."""
 
     def __init__(self, p, e, o, i):
         self.place, cord = f"evaluation.cords[{i}]", p.cords[i]
         require(type(o) is dict, f"{self.place}: not an object")
-        known(o, "id known pull turning taut_turning force other_force loss work error slackest refused tension colours", self.place)
+        known(o, "id known pull turning taut_turning force other_force loss work error slackest refused tension colours exponents", self.place)
         require(member(o, "id", "text", self.place) == cord.id, f"{self.place}.id: not {cord.id}")
         self.pull = choice(o, "pull", self.place, ("start", "end", "both"))
         self.force = self.other = 0
@@ -2010,9 +2058,43 @@ class Pulled:
         self.colours = member(o, "colours", "list", self.place)
         self.force, self.other = values["force"], values["other_force"]
         self.slackest = member(o, "slackest", "integer", self.place, 0, len(tension) - 1)
+        self.metres = [p.frame.length[h >> 1] * (UNITS[p.frame.units.lower()] or 1) / 1000 for h in cord.half]
+        require(("exponents" in o) == bool(e.steps), f"{self.place}.exponents: with a schedule, and only with it")
+        if e.steps:
+            self.check_schedule(e, o, values, [s for s in e.steps if s["cord"] == cord.id])
+            return
         self.check_values(e, values, math.fsum(self.angles))
         if e.method == "capstan":
             self.check_law(e)
+
+    def exponents_by_law(self, e):
+        """What every turn, and the way from the middle of a pass to that of the next, costs."""
+        mu, wobble = e.physics["mu"], e.physics["wobble"]
+        ways = [(a + b) / 2 for a, b in zip(self.metres, self.metres[1:])]
+        turn = (lambda x: mu * x) if e.law == "capstan" else (lambda x: -math.log(max(1 - mu * math.sin(x / 2), 5e-324)))
+        return [turn(x) + mu * wobble * way for x, way in zip(self.angles, ways)]
+
+    def check_schedule(self, e, o, values, steps):
+        """The tensions that the steps leave, each the least or the largest state that the turns allow, turn after turn."""
+        turns = [member({"x": x}, "x", "number", self.place, 0) for x in member(o, "exponents", "list", self.place)]
+        require(len(turns) == len(self.tension) - 1, f"{self.place}.exponents: not one per turn")
+        if e.method == "capstan":
+            for stated, x in zip(turns, self.exponents_by_law(e)):
+                near(stated, x, 1 + x, f"{self.place}.exponents")
+        near(values["turning"], math.fsum(self.angles), 1 + values["turning"], self.place + ".turning")
+        require(self.pull == "both", f"{self.place}.pull: after a schedule")
+        left = [0.0] * len(self.tension)
+        for s in steps:
+            left = after_step(left, turns, s, self.metres, e.physics["stiffness"])
+        require(max(left) > 0, f"{self.place}: the schedule leaves no tension")
+        for k, (stated, x) in enumerate(zip(self.tension, left)):
+            near(stated, x, max(x, 1e-6 * max(left)), f"{self.place}.tension[{k}]")
+        hardest = max([s["force"] for s in steps if s["do"] in ("pull", "grip")], default=0)
+        for key, value in (("force", hardest), ("other_force", 0), ("work", hardest), ("loss", 1 - self.tension[self.slackest] / hardest)):
+            near(values[key], value, max(value, 1), f"{self.place}.{key}")
+        require(self.tension[self.slackest] == min(self.tension), f"{self.place}.slackest: not the least tension")
+        require(e.method == "joint" or values["taut_turning"] == values["turning"], f"{self.place}.taut_turning: not the turning")
+        require(values["error"] == 0 or e.method != "capstan", f"{self.place}.error: of a closed form")
 
     def check_values(self, e, values, turning):
         near(values["turning"], turning, 1 + turning, self.place + ".turning")
@@ -2032,10 +2114,8 @@ class Pulled:
 
     def check_law(self, e):
         """Every tension, from the slackest pass, and that no other pass would do with less pull."""
-        mu = e.physics["mu"]
-        steps = [mu * x if e.law == "capstan" else -math.log(max(1 - mu * math.sin(x / 2), 5e-324)) for x in self.angles]
         before = [0.0]
-        for x in steps:
+        for x in self.exponents_by_law(e):
             before.append(before[-1] + x)
         total, at = before[-1], before[self.slackest]
         pull = {"start": lambda x: total - x, "end": lambda x: x, "both": lambda x: max(x, total - x)}[self.pull]
@@ -2056,7 +2136,7 @@ class Pulled:
 class Evaluation:
     def __init__(self, p, o):
         place = "evaluation"
-        known(o, "method law physics seed time_step iterations largest total scale cords", place)
+        known(o, "method law physics seed time_step iterations largest total scale cords schedule", place)
         self.method = choice(o, "method", place, ("capstan", "joint", "structure"))
         require(("law" in o) == (self.method == "capstan"), "evaluation.law: with method capstan, and only with it")
         self.law = choice(o, "law", place, ("capstan", "mitre"), default="capstan")
@@ -2066,11 +2146,13 @@ class Evaluation:
             member(o, key, "number", place, 5e-324)
         rows = member(o, "cords", "list", place)
         require(len(rows) == len(p.cords), "evaluation.cords: not one per cord")
+        self.steps = [self.step(p, s) for s in member(o, "schedule", "list", place)] if "schedule" in o else []
+        require("schedule" not in o or self.steps, "evaluation.schedule: empty")
         cords = [Pulled(p, self, row, i) for i, row in enumerate(rows)]
         largest, total = max(c.force for c in cords), math.fsum(c.force + c.other for c in cords)
         near(member(o, "largest", "number", place), largest, largest, "evaluation.largest")
         near(member(o, "total", "number", place), total, total, "evaluation.total")
-        tensions = [x for c in cords for x in c.tension] or [0]
+        tensions = [x for c in cords for x in c.tension if x > 0 or not self.steps] or [0]
         scale = member(o, "scale", "object", place)
         known(scale, "low high", "evaluation.scale")
         for key, value in (("low", min(tensions)), ("high", max(tensions))):
@@ -2078,6 +2160,16 @@ class Evaluation:
         for cord in cords:
             if cord.tension:
                 cord.check_colours(min(tensions), max(tensions))
+
+    def step(self, p, o):
+        place = "evaluation.schedule"
+        known(o, "cord do end pass force slip", place)
+        do, end = choice(o, "do", place, ("pull", "grip", "release", "knot")), choice(o, "end", place, ("start", "end", "both"))
+        cord = member(o, "cord", "text", place)
+        require(cord in [c.id for c in p.cords], f"{place}: no such cord")
+        require(("pass" in o) == (do == "grip") and ("force" in o) == (do != "knot") and ("slip" in o) == (do == "knot"), f"{place}: not for {do}")
+        return {"cord": cord, "do": do, "end": end, "pass": member(o, "pass", "integer", place, 0, default=0),
+                "force": member(o, "force", "number", place, 0, default=0), "slip": member(o, "slip", "number", place, 0, default=0)}
 
     def check_physics(self, p, o):
         """Complete, and such that the parts fit."""

@@ -19,35 +19,32 @@ typedef struct {
   double *tension, *lower, *length;
 } cord;
 
-/* Tension spreads from pass j to pass `to`: as much as the turns let through, where there is less. */
+/* A pull spreads from pass j to pass `to`: as much as the turns let through, where there is less. */
 static void spread(cord *c, int j, int to, double pull)
 {
   const int step = to < j ? -1 : 1;
-  double here = fmax(c->tension[j], pull);
-  c->tension[j] = here;
+  c->tension[j] = fmax(c->tension[j], pull);
   for (int k = j; k != to; k += step) {
-    here *= exp(-c->exponent[step > 0 ? k : k - 1]);
-    here = fmax(here, c->tension[k + step]);
-    c->tension[k + step] = here;
+    pull *= exp(-c->exponent[step > 0 ? k : k - 1]);
+    c->tension[k + step] = fmax(c->tension[k + step], pull);
   }
 }
 
-/* What is left when one end is let down: each pass gives way as far as its turns do not hold it. */
-static void give_way(const cord *c, const double *from, bool start, double force, double *to)
+/* What is left when one end is let down: each pass gives way as far as the turns between do not hold it. */
+static void give_way(const cord *c, bool start, double force, double *tension)
 {
-  double most = force;
   for (int i = 0; i < c->n; i++) {
     const int k = start ? i : c->n - 1 - i;
-    to[k] = fmin(from[k], most);
-    if (i + 1 < c->n) most = to[k] * exp(c->exponent[start ? k : k - 1]);
+    tension[k] = fmin(tension[k], force);
+    if (i + 1 < c->n) force *= exp(c->exponent[start ? k : k - 1]);
   }
 }
 
 static void let_down(const cord *c, thr_pull end, double force, double *to)
 {
   memcpy(to, c->tension, (size_t)c->n * sizeof *to);
-  if (end != THR_PULL_END) give_way(c, to, true, force, to);
-  if (end != THR_PULL_START) give_way(c, to, false, force, to);
+  if (end != THR_PULL_END) give_way(c, true, force, to);
+  if (end != THR_PULL_START) give_way(c, false, force, to);
 }
 
 /* mm that the cord is shorter by, EA = stiffness. */
