@@ -99,7 +99,9 @@ static thr_status read_beside(gltf *g, int i, const char *uri)
     return bad(g, "buffers", i, "lies elsewhere; put its file beside this one, or save as .glb");
   const int n = snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash - g->file + 1) : 0, g->file, uri);
   if (n < 0 || (size_t)n >= sizeof path) return bad(g, "buffers", i, "the path is too long");
-  return thr_text_read(&g->buffer[i], path, g->err);
+  const thr_status st = thr_text_read(&g->buffer[i], path, NULL);
+  if (st == THR_ENOMEM) return thr_nomem(g->err);
+  return st ? bad(g, "buffers", i, "its file, which should lie beside this one, cannot be read") : THR_OK;
 }
 
 static thr_status read_buffers(gltf *g)
