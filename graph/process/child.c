@@ -151,7 +151,7 @@ static thr_status judge(parent *p, bool stopped, thr_err *err)
   return st ? st : thr_fail(err, THR_ESOLVER, "%s: its process sent too little", p->child->what);
 }
 
-thr_status thr_child_run(const thr_child *c, const thr_limits *limits, thr_text *answer, thr_err *err)
+static thr_status run_once(const thr_child *c, const thr_limits *limits, thr_text *answer, bool *stuck, thr_err *err)
 {
   parent p = {.child = c, .limits = limits, .answer = answer};
   task t = {c, limits};
@@ -160,8 +160,23 @@ thr_status thr_child_run(const thr_child *c, const thr_limits *limits, thr_text 
   if (st) return thr_fail(err, st, "%s: %s", c->what, reason.text);
   bool stopped = watch(&p);
   st = judge(&p, stopped, err);
+  *stuck = p.stuck;
   thr_process_kill(&p.process);
   thr_text_destroy(&p.arrived);
   if (answer->failed) thr_text_destroy(answer);
   return st;
+}
+
+/* A child of a process with several threads may be born with a lock that another thread held (under sanitizers, say), and wait
+ * for it for ever: it gets a second chance. */
+thr_status thr_child_run(const thr_child *c, const thr_limits *limits, thr_text *answer, thr_err *err)
+{
+  thr_err why = {0};
+  bool stuck = false;
+  thr_status st = run_once(c, limits, answer, &stuck, &why);
+  if (stuck && st == THR_ESOLVER) {
+    thr_text_destroy(answer);
+    st = run_once(c, limits, answer, &stuck, &why);
+  }
+  return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
