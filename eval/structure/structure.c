@@ -29,10 +29,12 @@ static int pass_count(const thr_evaluation *evaluation)
   return most;
 }
 
-/* Profile of one cord whose harder pulled end has 1. */
-static thr_status profile(const thr_frame *frame, const thr_cord *cord, double mu, double *exponent, thr_eval_cord *eval_cord,
-                          thr_err *err)
+/* Profile of one cord whose harder pulled end has 1, and its exponents. */
+static thr_status profile(const thr_frame *frame, const thr_cord *cord, double mu, thr_eval_cord *eval_cord, thr_err *err)
 {
+  if (!eval_cord->exponent) eval_cord->exponent = thr_calloc((size_t)cord->n_passes, sizeof *eval_cord->exponent);
+  double *exponent = eval_cord->exponent;
+  if (!exponent) return thr_nomem(err);
   eval_cord->turning = 0;
   for (int k = 0; k + 1 < cord->n_passes; k++) {
     double turn = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
@@ -56,13 +58,11 @@ static thr_status profile(const thr_frame *frame, const thr_cord *cord, double m
 static thr_status profiles(const thr_frame *frame, const thr_cord *cord, double mu, thr_evaluation *evaluation,
                            const double **tension, thr_err *err)
 {
-  double *exponent = thr_calloc((size_t)pass_count(evaluation), sizeof *exponent);
-  thr_status st = exponent ? THR_OK : thr_nomem(err);
+  thr_status st = THR_OK;
   for (int i = 0; i < evaluation->n_cords && !st; i++) {
-    st = profile(frame, &cord[i], mu, exponent, &evaluation->cord[i], err);
+    st = profile(frame, &cord[i], mu, &evaluation->cord[i], err);
     tension[i] = evaluation->cord[i].tension;
   }
-  free(exponent);
   return st;
 }
 
@@ -294,18 +294,6 @@ static thr_status settle(simulation *m, const thr_limits *limits, thr_settle *ou
   return st;
 }
 
-static thr_status set_exponents(const thr_frame *frame, const thr_cord *cord, thr_evaluation *evaluation, thr_err *err)
-{
-  for (int i = 0; i < evaluation->n_cords; i++) {
-    double *exponent = thr_calloc((size_t)cord[i].n_passes, sizeof *exponent);
-    if (!exponent) return thr_nomem(err);
-    for (int k = 0; k + 1 < cord[i].n_passes; k++)
-      exponent[k] = evaluation->physics.mu * thr_turn_angle(frame, cord[i].half[k], cord[i].half[k + 1]);
-    evaluation->cord[i].exponent = exponent;
-  }
-  return THR_OK;
-}
-
 /* Are both ends of every cord pulled? */
 static bool all_both(const thr_evaluation *evaluation)
 {
@@ -338,7 +326,6 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_be
     st = settle(&m, limits, &out->settle, err);
     thr_settle_judge(&out->settle, start, out->holding.upper);
   }
-  if (!st) st = set_exponents(frame, cord, evaluation, err);
   if (!st && beads->n_beads <= BAND_LARGEST && all_both(evaluation))
     st = hold_state(frame, cord, beads, DRAWN_IN, 1, limits, evaluation, &out->equal, err);
   if (!st) st = hold_state(frame, cord, beads, KEPT, 1, limits, evaluation, &out->loosest, err);

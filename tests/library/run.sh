@@ -7,7 +7,8 @@ build=$(realpath "$1")
 mkdir -p "$2"
 out=$(realpath "$2")
 cd "$(dirname "$0")/../.." || exit 2
-root=$out/root usr=$out/root/usr
+root=$out/installed
+usr=$root/usr
 length=1995.248611 # mm, the least length of the dome with 7 x 7 nodes (data/README.md)
 passed=0 failed=0
 export LC_ALL=C
