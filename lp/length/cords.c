@@ -208,7 +208,8 @@ thr_status thr_cords_grow(thr_decomposition *decomposition, double length, thr_c
   if (least < n && decomposition->o->ends != THR_ENDS_COUNTS)
     n = least > decomposition->o->cords_least ? (int)least : decomposition->o->cords_least;
   thr_status st = thr_cords_reach(decomposition->f, decomposition->o, err);
-  for (int tried = 0, step = 1; !st && !*done && n <= most; n += step) { /* larger steps where many numbers are too small */
+  /* Larger steps where many numbers are too small; no more where the table has said that none is right. */
+  for (int tried = 0, step = 1; !st && !*done && !decomposition->none && n <= most; n += step) {
     st = try_number(decomposition, with, n, done, err);
     if (++tried > IN_SINGLE_STEPS && n < most) step = 2 * step < most - n ? 2 * step : most - n;
   }
