@@ -29,6 +29,9 @@ VIEWER_PACKAGES = chromium $(if $(shell command -v npm),,nodejs npm)
 LINT_PACKAGES := clang-format clang-tidy cppcheck
 BENCH_PACKAGES := liblemon-dev libboost-graph-dev python3 time
 COVERAGE_PACKAGES := check gcovr
+WEB_PACKAGES := emscripten
+# what `make web` builds once and keeps: libraries for wasm, with their sources
+WEB_CACHE ?= $(or $(XDG_CACHE_HOME),$(HOME)/.cache)/thread-web
 
 ifeq ($(origin CC),default)
 CC := gcc
@@ -65,8 +68,9 @@ MODE_asan := -O1 -fsanitize=address,undefined $(SANITIZE)
 MODE_cov := -O0 -g --coverage
 MODE_mutants := -O2 -fPIC
 MODE_fuzz := -O1 -fsanitize=fuzzer-no-link,address,undefined $(SANITIZE)
+MODE_web := -O2
 ifeq ($(MODE_$(BUILD)),)
-$(error BUILD=$(BUILD) is not one of release debug asan cov fuzz mutants)
+$(error BUILD=$(BUILD) is not one of release debug asan cov fuzz mutants web)
 endif
 # -ffp-contract=off: no fused multiply-add, so the same digits on every machine
 THR_CFLAGS = -std=c11 $(WARN) -ffp-contract=off $(MODE_$(BUILD)) $(CFLAGS)
@@ -107,7 +111,10 @@ VALIDATE := $(DIR)/validate
 VALIDATE_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/validate/*.c))
 WATCHDOG := $(DIR)/watchdog
 WATCHDOG_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/watchdog/*.c))
-C_FILES = $(wildcard $(foreach d,include $(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/second tests/validate tests/watchdog tests/memory docs,$(d)/*.c $(d)/*.h))
+ifeq ($(BUILD),web)
+include web/web.mk
+endif
+C_FILES = $(wildcard $(foreach d,include web $(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/second tests/validate tests/watchdog tests/memory docs,$(d)/*.c $(d)/*.h))
 
 Q := $(if $(V),,@)
 # `make -jN` given: share its jobs; not given: one per processor
@@ -141,6 +148,12 @@ test test-fast test-rest test-all fuzz:
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(TEST_PACKAGES) || { echo "0 passed, 1 failed"; exit 1; }
 	+@MAKE="$(MAKE)" OUT="$(OUT)" FUZZ_SECONDS="$(FUZZ_SECONDS)" ONLY="$(ONLY)" CLANG_FORMAT="$(CLANG_FORMAT)" \
 	  VIEWER_PACKAGES="$(VIEWER_PACKAGES)" tests/run.sh $(@:test-%=%)
+
+web: ## the program for browsers and node: $(OUT)/web (libraries are built once, some minutes, and kept in WEB_CACHE=~/.cache/thread-web)
+	+@tools/install-packages.sh $(BUILD_PACKAGES) $(WEB_PACKAGES)
+	+@$(MAKE) --no-print-directory BUILD=release $(OUT)/packages.ok
+	@web/libraries.sh "$(WEB_CACHE)"
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=web WEB_CACHE="$(WEB_CACHE)" web-files
 
 asan: ## build the program with the address and undefined-behaviour sanitizers
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=asan all
@@ -358,7 +371,7 @@ $(DIR)/thread.pc: lib/thread.pc.in Makefile FORCE
 $(DIR)/modules.a: $(OBJECTS) $(DIR)/objects.list
 	@echo "  AR    $@"
 	$(Q)rm -f $@
-	$(Q)ar rcs $@ $(OBJECTS)
+	$(Q)$(AR) rcs $@ $(OBJECTS)
 
 $(DIR)/%.o: %.c $(DIR)/flags.list
 	@mkdir -p $(@D)
@@ -406,6 +419,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: web web-files all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
 .PHONY: suite-release suite-asan suite-fuzz suite-built test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

@@ -1,5 +1,6 @@
 #include "lib/documents.h"
 
+#include "diagram/export/pages.h"
 #include "diagram/export/paper.h"
 #include "diagram/export/viewer.h"
 #include "diagram/mat/mat.h"
@@ -76,7 +77,7 @@ int thr_document_sheets(void)
 
 bool thr_document_usual(int i)
 {
-  return i < MAT;
+  return i < MAT && (i != SHEETS || thr_pages_exist());
 }
 
 bool thr_document_threads(int i)

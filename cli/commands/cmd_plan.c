@@ -549,7 +549,7 @@ static int plan_frame(const arguments *a, thr_frame *framework)
   return code;
 }
 
-/* After the child that planned: if it left no plan, but had some cords, they are the plan. */
+/* After the planning, in the parent if there is one: if it left no plan, but had some cords, they are the plan. */
 static int conclude(const arguments *a, guard_end *end)
 {
   places to;
@@ -574,5 +574,6 @@ int cmd_plan(int argc, char **argv)
   if (code >= 0) return code;
   if (guard_fork(&a.guard, &end)) return conclude(&a, &end);
   if ((code = cli_read_frame(a.path, &a.frame, &framework))) return code;
-  return plan_frame(&a, &framework);
+  code = plan_frame(&a, &framework);
+  return guard_alone(code, &end) ? conclude(&a, &end) : code;
 }

@@ -56,6 +56,11 @@ static thr_status make_pdf(void *user, const thr_limits *limits, thr_sender *to,
   return st;
 }
 
+bool thr_pages_exist(void)
+{
+  return true;
+}
+
 thr_status thr_pages_pdf(const thr_pages *pages, const thr_limits *limits, thr_text *pdf, thr_err *err)
 {
   char what[96];

@@ -7,6 +7,8 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
+#include <stdbool.h>
+
 typedef struct {
   const char *name;   /* "step sheets": for whoever watches */
   const char *advice; /* what to do without the memory for it */
@@ -17,8 +19,11 @@ typedef struct {
   const void *user;
 } thr_pages;
 
+/* Can this program make a PDF? Not where it has no cairo: in a browser. */
+bool thr_pages_exist(void);
+
 /* Appends all pages as one PDF; tells limits->advance how far it is. The same pages and fonts give the same bytes. THR_ELIMIT if
- * it was interrupted. pdf is unchanged on failure. */
+ * it was interrupted. pdf is unchanged on failure. THR_ESOLVER where thr_pages_exist() is false. */
 thr_status thr_pages_pdf(const thr_pages *pages, const thr_limits *limits, thr_text *pdf, thr_err *err) THR_MUST_CHECK;
 
 #endif

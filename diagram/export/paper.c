@@ -82,19 +82,6 @@ struct thr_paper {
   const thr_text *out; /* borrowed */
 };
 
-const char *thr_page_name(int s)
-{
-  static const char *const name[] = {"a4", "letter"};
-  return name[s];
-}
-
-void thr_page_mm(thr_page_size s, double size[2])
-{
-  static const double mm[][2] = {{210, 297}, {215.9, 279.4}};
-  for (int i = 0; i < 2; i++)
-    size[i] = mm[s][i];
-}
-
 static cairo_status_t append(void *out, const unsigned char *bytes, unsigned int n)
 {
   thr_text *text = out;

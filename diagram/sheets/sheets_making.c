@@ -201,7 +201,7 @@ static double widest_bore(const thr_sheets *sheets, bool narrowest)
   double found = 0;
   for (int e = 0; e < sheets->f->n_edges; e++) {
     double bore = thr_supplies_bore(&sheets->supplies, e);
-    if (bore > 0 && (!found || (narrowest ? bore < found : bore > found))) found = bore;
+    if (bore > 0 && (found == 0 || (narrowest ? bore < found : bore > found))) found = bore;
   }
   return thr_supplies_bore_mm(&sheets->supplies, found);
 }

@@ -7,13 +7,18 @@
 
 typedef struct {
   const char *name;
-  void *pointer; /* address of a pointer to a function, which receives that of this name */
+  void *pointer;        /* address of a pointer to a function, which receives that of this name */
+  void (*linked)(void); /* the function, where the library is linked with the program (THR_LINKED); else NULL */
 } thr_lazy_symbol;
 
 /* For a list of functions  #define FUNCTIONS(F) F(one) F(two):
  * struct { FUNCTIONS(THR_LAZY_POINTER) bool loaded; } lib, and the symbols {FUNCTIONS(THR_LAZY_SYMBOL)} that fill it. */
 #define THR_LAZY_POINTER(f) __typeof__(f) *(f);
-#define THR_LAZY_SYMBOL(f) {#f, &lib.f},
+#ifdef THR_LINKED
+#define THR_LAZY_SYMBOL(f) {#f, &lib.f, (void (*)(void))(f)},
+#else
+#define THR_LAZY_SYMBOL(f) {#f, &lib.f, NULL},
+#endif
 
 /* Unless *loaded, loads a library by the name that the run-time linker knows it by (libcairo.so.2) and fills the pointers, from
  * it and from the libraries that it needs itself. What is loaded stays. THR_ESOLVER with the linker's reason and what to do. A

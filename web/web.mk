@@ -1,0 +1,51 @@
+# BUILD=web: the program for wasm, by Emscripten, as $(OUT)/web/thread-engine.js and .wasm. `make web` begins it (web/build.sh), when
+# the libraries are in WEB_CACHE. Of the interfaces that a browser cannot keep as they are, web/ has the other implementation:
+#   graph/process/child.h, workers.h, lazy.h   cli/guard.h   diagram/export/pages.h   eval/structure/rank.h   the viewer's page
+CC := emcc
+CXX := em++
+AR := emar
+# Debian's modules, which a node from elsewhere does not find by itself
+export NODE_PATH := /usr/share/nodejs
+
+WEB_REPLACED := graph/process/child.c graph/process/workers.c graph/process/process.c graph/process/lazy.c \
+	diagram/export/pages.c diagram/export/paper.c diagram/export/svg_page.c diagram/export/viewer_page.S eval/structure/spqr.c
+SOURCES := $(filter-out $(WEB_REPLACED),$(SOURCES)) $(wildcard web/*.c)
+OBJECTS = $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%))) $(DIR)/web/viewer_page.o
+CLI_OBJECTS := $(filter-out $(DIR)/cli/guard_process.o,$(CLI_OBJECTS))
+
+WEB_LIBRARIES := $(patsubst %,$(WEB_CACHE)/lib/%.a,glpk igraph nauty bullet)
+PKG_CFLAGS = -isystem $(WEB_CACHE)/include -isystem $(WEB_CACHE)/include/nauty -isystem /usr/include/igraph -DTHR_LINKED
+# clang counts these among -Wconversion, gcc, which the sources are kept clean for, does not
+THR_CFLAGS += -Wno-sign-conversion -Wno-implicit-int-float-conversion
+BULLET_CFLAGS = -isystem /usr/include/bullet -DBT_USE_DOUBLE_PRECISION
+LAZY_NAMES = -DTHR_LIBRARY_IGRAPH='"igraph"'
+# the linker's --wrap: web/host.c
+WEB_LINK := -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sTOTAL_STACK=8MB -sSUPPORT_LONGJMP=1 -sMODULARIZE=1 \
+	-sEXPORT_NAME=ThreadEngine -sENVIRONMENT=web,worker,node -sINVOKE_RUN=0 -sEXIT_RUNTIME=1 \
+	-sEXPORTED_RUNTIME_METHODS=callMain,FS -sNODEJS_CATCH_EXIT=0 -sNODEJS_CATCH_REJECTION=0 -lnodefs.js \
+	-Wl,--wrap=sbrk,--wrap=clock_gettime
+WEB_PROGRAM := $(DIR)/thread-engine.js
+
+$(WEB_PROGRAM): $(CLI_OBJECTS) $(LIBRARY) $(WEB_LIBRARIES) web/web.mk
+	@echo "  LINK  $@"
+	$(Q)em++ $(MODE_web) $(WEB_LINK) -o $@ $(CLI_OBJECTS) $(LIBRARY) $(WEB_LIBRARIES)
+
+# the bytes of the viewer's page as C, which Emscripten's assembler does not take as they are
+$(DIR)/web/viewer_page.c: diagram/export/viewer_page.html
+	@mkdir -p $(@D)
+	@{ echo 'extern const char thr_viewer_page[];'; echo 'const char thr_viewer_page[] = {'; \
+	   od -An -v -tu1 $< | sed 's/[0-9][0-9]*/(char)&,/g'; echo '0};'; } > $@
+$(DIR)/web/viewer_page.o: $(DIR)/web/viewer_page.c
+	@echo "  CC    $@"
+	$(Q)emcc -O1 -c -o $@ $<
+
+# what is handed on: the engine, and the npm package around it
+NPM := $(DIR)/npm
+web-files: $(WEB_PROGRAM) $(DIR)/engine.js $(NPM)/package.json
+$(DIR)/engine.js: web/engine.js
+	@cp $< $@
+$(NPM)/package.json: $(WEB_PROGRAM) $(DIR)/engine.js $(wildcard web/npm/*) Makefile
+	@mkdir -p $(NPM)
+	@cp $(DIR)/thread-engine.js $(DIR)/thread-engine.wasm $(DIR)/engine.js web/npm/README.md web/npm/thread.js web/npm/worker.js LICENSE $(NPM)
+	@sed 's/@VERSION@/$(VERSION)/' web/npm/package.json > $@.new
+	@mv $@.new $@
