@@ -22,7 +22,7 @@ DEMO = plan data/dome7.json --objective length -o $(DEMO_OUT)/plan.json --draw $
 
 # Debian 12 packages
 BUILD_PACKAGES := build-essential pkg-config libglpk-dev libigraph-dev libnauty2-dev libbullet-dev \
-	libsuitesparse-dev libcairo2-dev fonts-dejavu-core
+	libsuitesparse-dev libfontconfig-dev zlib1g-dev fonts-dejavu-core
 TEST_PACKAGES := check clang clang-format libclang-rt-14-dev librsvg2-bin libxml2-utils poppler-utils python3 time
 # npm from elsewhere than Debian serves as well
 VIEWER_PACKAGES = chromium $(if $(shell command -v npm),,nodejs npm)
@@ -47,13 +47,11 @@ OBJCOPY ?= objcopy
 # Asked for once and only when a recipe needs it: on a bare machine `make demo` installs pkg-config and the libraries first.
 PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph nauty))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs nauty bullet-float64))$(PKG_LIBS)
-# Loaded when needed (graph/process/lazy.h): igraph, cairo, SuiteSparseQR with CHOLMOD. Their names at run time, such as
-# libcairo.so.2, are those that the linker writes into a program.
-LAZY_LIBS = $(shell pkg-config --libs igraph cairo-pdf) -lspqr
-LAZY_NAMES = $(eval LAZY_NAMES := $$(shell tools/library-names.sh $$(call quote,$$(COMPILER)) igraph cairo spqr -- $$(LAZY_LIBS)))$(LAZY_NAMES)
+# Loaded when needed (graph/process/lazy.h): igraph, fontconfig, zlib, SuiteSparseQR with CHOLMOD. Their names at run time, such as
+# libz.so.1, are those that the linker writes into a program.
+LAZY_LIBS = $(shell pkg-config --libs igraph fontconfig zlib) -lspqr
+LAZY_NAMES = $(eval LAZY_NAMES := $$(shell tools/library-names.sh $$(call quote,$$(COMPILER)) igraph fontconfig z spqr -- $$(LAZY_LIBS)))$(LAZY_NAMES)
 BULLET_CFLAGS = $(eval BULLET_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags bullet-float64)))$(BULLET_CFLAGS)
-# the cflags of one file only, paper.c
-CAIRO_CFLAGS = $(eval CAIRO_CFLAGS := $$(patsubst -I%,-isystem %,$$(shell pkg-config --cflags cairo-pdf)))$(CAIRO_CFLAGS)
 # no pkg-config file in Debian 12
 SPQR_CFLAGS ?= -isystem /usr/include/suitesparse
 CHECK_CFLAGS = $(eval CHECK_CFLAGS := $$(shell pkg-config --cflags check))$(CHECK_CFLAGS)
@@ -391,7 +389,7 @@ $(DIR)/%.o: %.S %.html $(DIR)/flags.list
 
 $(DIR)/graph/framework/igraph.o $(OUT)/tidy/graph/framework/igraph.ok: private THR_CPPFLAGS += $(LAZY_NAMES)
 $(DIR)/eval/structure/spqr.o $(OUT)/tidy/eval/structure/spqr.ok: private THR_CPPFLAGS += $(SPQR_CFLAGS) $(LAZY_NAMES)
-$(DIR)/diagram/export/paper.o $(OUT)/tidy/diagram/export/paper.ok: private THR_CPPFLAGS += $(CAIRO_CFLAGS) $(LAZY_NAMES)
+$(addprefix $(DIR)/diagram/export/,font_find.o deflate.o) $(addprefix $(OUT)/tidy/diagram/export/,font_find.ok deflate.ok): private THR_CPPFLAGS += $(LAZY_NAMES)
 $(TEST_PROGRAMS:%=%.o) $(TEST_SUPPORT): private THR_CPPFLAGS += $(CHECK_CFLAGS)
 $(OUT)/mutants/tests/%: private LDFLAGS += -Wl,--wrap=_ck_assert_failed
 $(TEST_PROGRAMS): $(DIR)/%: $(DIR)/%.o $(TEST_SUPPORT) $(if $(filter mutants,$(BUILD)),$(DIR)/tools/mutants/stop.o) $(LIBRARY)
@@ -412,7 +410,7 @@ $(DIR)/objects.list: FORCE
 	@echo "$(OBJECTS)" | cmp -s - $@ || echo "$(OBJECTS)" > $@
 
 $(OUT)/packages.ok:
-	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph nauty bullet-float64 cairo-pdf 2>/dev/null && \
+	@command -v $(CC) >/dev/null && command -v $(CXX) >/dev/null && pkg-config --exists igraph nauty bullet-float64 fontconfig zlib 2>/dev/null && \
 	  echo '#include <glpk.h>' | $(CC) -E -x c - >/dev/null 2>&1 || \
 	  { echo 'thread: a compiler or a library is missing: run `make deps` (or `make demo`), or install: $(BUILD_PACKAGES)' >&2; exit 1; }
 	@mkdir -p $(@D)

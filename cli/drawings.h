@@ -22,7 +22,7 @@ typedef struct {
 } drawings_args;
 
 /* With more pieces step sheets are some hundred pages and take long. */
-enum { DRAWINGS_SHEETS_PIECES = 1500, DRAWINGS_NAMES = 128 };
+enum { DRAWINGS_SHEETS_PIECES = 5000, DRAWINGS_NAMES = 128 };
 
 /* --kind-tolerance; --page, --from: of the step sheets. */
 #define DRAWINGS_OPTIONS                                                                                                         \

@@ -103,17 +103,15 @@ static thr_status overview(const thr_plan *plan, const thr_document_options *a, 
 static thr_status sheets(const thr_plan *plan, const thr_document_options *a, const char *const *motion, const thr_limits *limits,
                          thr_text *out, thr_err *err)
 {
-  thr_sheets *pages = NULL;
+  int n = 0;
   thr_sheets_options options = thr_sheets_options_default();
   options.page = (thr_page_size)a->page;
   options.needles = needles_of(plan, a);
   options.working_mm = a->working_mm;
   options.kind_tolerance = a->kind_tolerance;
   options.motion = motion;
-  thr_status st = thr_sheets_make(&pages, plan, &options, limits, err);
-  if (!st && a->pages) a->pages(documents[SHEETS].file, thr_sheets_pages(pages));
-  if (!st) st = thr_sheets_pdf(pages, limits, out, err);
-  thr_sheets_destroy(pages);
+  thr_status st = thr_sheets_write(plan, &options, limits, &n, out, err);
+  if (!st && a->pages) a->pages(documents[SHEETS].file, n);
   return st;
 }
 

@@ -27,7 +27,7 @@ typedef struct {
   int page;                   /* of step sheets and mat: thr_page_size */
   int needles;            /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = as the plan says */
   thr_line_options lines; /* of cords for CAD */
-  void (*pages)(const char *file, int n); /* hears how many a file of pages will have, before they are drawn; NULL = nobody */
+  void (*pages)(const char *file, int n); /* hears how many a file of pages has; NULL = nobody */
 } thr_document_options;
 
 /* Appends document i of the plan to out. THR_EINPUT: the plan has not what it shows, or an option does not fit. out is for the

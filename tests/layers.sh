@@ -38,7 +38,8 @@ traces.h:symmetry/group/nauty.c
 *bt[A-Z]*.h:eval/joint/bullet.cpp
 SuiteSparse*.h:eval/structure/spqr.c
 cholmod*.h:eval/structure/spqr.c
-cairo*.h:diagram/export/paper.c
+fontconfig*.h:diagram/export/font_find.c
+zlib.h:diagram/export/deflate.c
 sys/prctl.h:graph/process/process.c
 dlfcn.h:graph/process/lazy.c
 emscripten.h:web/host.c'

@@ -1,6 +1,6 @@
 #!/bin/sh
 # Prints flags that define the names by which the run-time linker knows libraries, as a program linked with them would have them:
-#   tools/library-names.sh CC cairo spqr -- -lcairo -lspqr   prints   -DTHR_LIBRARY_CAIRO='"libcairo.so.2"' ..
+#   tools/library-names.sh CC z spqr -- -lz -lspqr   prints   -DTHR_LIBRARY_Z='"libz.so.1"' ..
 set -eu
 cc=$1 names=
 shift

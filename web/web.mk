@@ -8,7 +8,7 @@ AR := emar
 export NODE_PATH := /usr/share/nodejs
 
 WEB_REPLACED := graph/process/child.c graph/process/workers.c graph/process/process.c graph/process/lazy.c \
-	diagram/export/pages.c diagram/export/paper.c diagram/export/svg_page.c diagram/export/viewer_page.S eval/structure/spqr.c
+	diagram/export/pages.c $(patsubst %,diagram/export/%.c,paper pdf font font_find deflate svg_page) diagram/export/viewer_page.S eval/structure/spqr.c
 SOURCES := $(filter-out $(WEB_REPLACED),$(SOURCES)) $(wildcard web/*.c)
 OBJECTS = $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%))) $(DIR)/web/viewer_page.o
 CLI_OBJECTS := $(filter-out $(DIR)/cli/guard_process.o,$(CLI_OBJECTS))

@@ -49,7 +49,7 @@ static const char help_rest[] = TURNING_HELP
     "\nFramework:\n" CLI_FRAME_HELP "\nOutput:\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
     "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
-    "                       (no sheets.pdf for more than 1500 pieces: thread draw PLAN -T pdf makes it)\n"
+    "                       (no sheets.pdf for more than 5000 pieces: thread draw PLAN -T pdf makes it)\n"
     "      --force          in a folder named after FRAME, replace another plan (else FRAME-2, FRAME-3, ..)\n" DRAWINGS_HELP
     "      --order starts|hand|planned   cords begin and run so that what is threaded holds together: as far as that\n"
     "                       costs nothing (default), for at most a tenth more turning, or not at all\n"

@@ -1,300 +1,323 @@
-#define _POSIX_C_SOURCE 200809L
 #include "diagram/export/paper.h"
-#include "graph/angle.h"
-#include "graph/process/lazy.h"
 
-#include <cairo-pdf.h>
-#include <stdio.h>
+#include "graph/angle.h"
+
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#ifdef __SANITIZE_ADDRESS__
-/* fontconfig keeps what it has read of fonts until the process ends, where the leak checker cannot see it. */
-const char *__lsan_default_suppressions(void);
-const char *__lsan_default_options(void);
-
-const char *__lsan_default_suppressions(void)
-{
-  return "leak:libfontconfig";
-}
-
-const char *__lsan_default_options(void)
-{
-  return "print_suppressions=0";
-}
-#endif
-
-#define FUNCTIONS(F)                                                                                                             \
-  F(cairo_arc)                                                                                                                   \
-  F(cairo_clip)                                                                                                                  \
-  F(cairo_close_path)                                                                                                            \
-  F(cairo_create)                                                                                                                \
-  F(cairo_curve_to)                                                                                                              \
-  F(cairo_destroy)                                                                                                               \
-  F(cairo_fill)                                                                                                                  \
-  F(cairo_fill_preserve)                                                                                                         \
-  F(cairo_line_to)                                                                                                               \
-  F(cairo_move_to)                                                                                                               \
-  F(cairo_new_path)                                                                                                              \
-  F(cairo_new_sub_path)                                                                                                          \
-  F(cairo_pdf_surface_create_for_stream)                                                                                         \
-  F(cairo_pdf_surface_set_metadata)                                                                                              \
-  F(cairo_rectangle)                                                                                                             \
-  F(cairo_restore)                                                                                                               \
-  F(cairo_save)                                                                                                                  \
-  F(cairo_scale)                                                                                                                 \
-  F(cairo_select_font_face)                                                                                                      \
-  F(cairo_set_dash)                                                                                                              \
-  F(cairo_set_font_size)                                                                                                         \
-  F(cairo_set_line_cap)                                                                                                          \
-  F(cairo_set_line_join)                                                                                                         \
-  F(cairo_set_line_width)                                                                                                        \
-  F(cairo_set_miter_limit)                                                                                                       \
-  F(cairo_set_source_rgba)                                                                                                       \
-  F(cairo_show_page)                                                                                                             \
-  F(cairo_show_text)                                                                                                             \
-  F(cairo_status)                                                                                                                \
-  F(cairo_status_to_string)                                                                                                      \
-  F(cairo_stroke)                                                                                                                \
-  F(cairo_surface_destroy)                                                                                                       \
-  F(cairo_surface_finish)                                                                                                        \
-  F(cairo_surface_status)                                                                                                        \
-  F(cairo_text_extents)                                                                                                          \
-  F(cairo_translate)
-
-/* Of cairo. */
-static struct {
-  FUNCTIONS(THR_LAZY_POINTER)
-  bool loaded;
-} lib;
-
-static thr_status load(thr_err *err)
-{
-  static const thr_lazy_symbol symbol[] = {FUNCTIONS(THR_LAZY_SYMBOL)};
-  return thr_lazy_load(&lib.loaded, THR_LIBRARY_CAIRO, symbol, sizeof symbol / sizeof *symbol, err);
-}
-
 static const double POINT = 25.4 / 72; /* mm */
 
+enum { DEPTH = 32, DASHES = 4 };
+
+/* What the last operators have set; < 0: nothing yet. */
+typedef struct {
+  double fill[3], stroke[3], width, dash[DASHES], dash_offset;
+  int fill_opacity, stroke_opacity, n_dash, cap, join;
+} state;
+
 struct thr_paper {
-  cairo_surface_t *surface;
-  cairo_t *cairo;
-  const thr_text *out; /* borrowed */
+  thr_text out, path;   /* path: that which grows; states may not change inside one, so that they are written before it */
+  const thr_font *font; /* [THR_FACES], borrowed */
+  state open[DEPTH];
+  int depth; /* of the state that holds */
+  thr_paper_needs needs;
 };
 
-static cairo_status_t append(void *out, const unsigned char *bytes, unsigned int n)
+/* ---- operators ---- */
+
+/* A number with up to three decimals and a blank: 12.5, -0.013. What is beyond any page is cut off there. */
+static void put_number(thr_text *out, double value)
 {
-  thr_text *text = out;
-  thr_text_append_bytes(text, (const char *)bytes, n);
-  return text->failed ? CAIRO_STATUS_WRITE_ERROR : CAIRO_STATUS_SUCCESS;
+  enum { MOST = 100000000 };
+  char s[16];
+  int n = sizeof s;
+  double scaled = fmin(fmax(1000 * value, -MOST), MOST);
+  int x = (int)lround(scaled), rest = abs(x) % 1000, whole = abs(x) / 1000;
+  s[--n] = ' ';
+  if (rest) {
+    for (int i = 0; i < 3; i++, rest /= 10)
+      if (rest % 10 || s[n] != ' ') s[--n] = (char)('0' + rest % 10);
+    s[--n] = '.';
+  }
+  do
+    s[--n] = (char)('0' + whole % 10);
+  while (whole /= 10);
+  if (x < 0) s[--n] = '-';
+  thr_text_append_bytes(out, s + n, sizeof s - (size_t)n);
 }
 
-static thr_status failed(cairo_status_t status, thr_err *err)
+static void put(thr_text *out, int n, const double *x, const char *operator)
 {
-  if (status == CAIRO_STATUS_NO_MEMORY || status == CAIRO_STATUS_WRITE_ERROR) return thr_nomem(err);
-  return thr_fail(err, THR_ESOLVER, "cairo cannot write the PDF: %s", lib.cairo_status_to_string(status));
+  for (int i = 0; i < n; i++)
+    put_number(out, x[i]);
+  thr_text_append(out, operator);
+  thr_text_byte(out, '\n');
 }
 
-/* cairo puts the time of day into a file that has no date. */
-static void describe(cairo_surface_t *surface, const char *title)
+thr_status thr_paper_open(thr_paper **out, const double size[2], const thr_font *font, thr_err *err)
 {
-  static const char epoch[] = "2000-01-01T00:00:00Z";
-  lib.cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_TITLE, title);
-  lib.cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, epoch);
-  lib.cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_MOD_DATE, epoch);
-}
-
-/* In mm; mitres as long as in SVG. */
-static void begin_page(thr_paper *paper)
-{
-  lib.cairo_save(paper->cairo);
-  lib.cairo_scale(paper->cairo, 1 / POINT, 1 / POINT);
-  lib.cairo_set_miter_limit(paper->cairo, 4);
-}
-
-thr_status thr_paper_open(thr_paper **paper, thr_page_size size, const char *title, thr_text *out, thr_err *err)
-{
-  double mm[2];
-  *paper = NULL;
-  thr_status st = load(err);
-  if (st) return st;
-  thr_page_mm(size, mm);
-  thr_paper *new = *paper = thr_calloc(1, sizeof *new);
-  if (!new) return thr_nomem(err);
-  new->out = out;
-  new->surface = lib.cairo_pdf_surface_create_for_stream(append, out, mm[0] / POINT, mm[1] / POINT);
-  new->cairo = lib.cairo_create(new->surface);
-  cairo_status_t status = lib.cairo_status(new->cairo);
-  if (status) return failed(status, err);
-  describe(new->surface, title);
-  begin_page(new);
+  thr_paper *paper = *out = thr_calloc(1, sizeof *paper);
+  if (!paper) return thr_nomem(err);
+  const double upright[6] = {1 / POINT, 0, 0, -1 / POINT, 0, size[1] / POINT}, mitre = 4; /* as in SVG */
+  paper->font = font;
+  paper->open[0] =
+      (state){.fill = {-1}, .stroke = {-1}, .width = -1, .fill_opacity = -1, .stroke_opacity = -1, .cap = -1, .join = -1};
+  thr_text_printf(&paper->out, "q\n%.6f 0 0 %.6f 0 %.6f cm\n", upright[0], upright[3], upright[5]);
+  put(&paper->out, 1, &mitre, "M");
   return THR_OK;
 }
 
-thr_status thr_paper_turn(thr_paper *paper, thr_err *err)
+void thr_paper_destroy(thr_paper *paper)
 {
-  lib.cairo_restore(paper->cairo);
-  lib.cairo_show_page(paper->cairo);
-  begin_page(paper);
-  cairo_status_t status = lib.cairo_status(paper->cairo);
-  return status ? failed(status, err) : THR_OK;
+  if (!paper) return;
+  thr_text_destroy(&paper->out);
+  thr_text_destroy(&paper->path);
+  for (int i = 0; i < THR_FACES; i++)
+    free(paper->needs.letter[i]);
+  free(paper);
+}
+
+thr_status thr_paper_content(thr_paper *paper, thr_text const **content, thr_err *err)
+{
+  for (; paper->depth >= 0; paper->depth--)
+    put(&paper->out, 0, NULL, "Q");
+  *content = &paper->out;
+  return paper->out.failed ? thr_nomem(err) : THR_OK;
+}
+
+const thr_paper_needs *thr_paper_needs_of(const thr_paper *paper)
+{
+  return &paper->needs;
 }
 
 /* ---- drawing ---- */
 
 void thr_paper_push(thr_paper *paper)
 {
-  lib.cairo_save(paper->cairo);
+  if (paper->depth + 1 == DEPTH) {
+    paper->out.failed = true;
+    return;
+  }
+  put(&paper->out, 0, NULL, "q");
+  paper->open[paper->depth + 1] = paper->open[paper->depth];
+  paper->depth++;
 }
 
 void thr_paper_pop(thr_paper *paper)
 {
-  lib.cairo_restore(paper->cairo);
+  if (paper->depth == 0) return;
+  put(&paper->out, 0, NULL, "Q");
+  paper->depth--;
 }
 
 void thr_paper_shift(thr_paper *paper, const double by[2])
 {
-  lib.cairo_translate(paper->cairo, by[0], by[1]);
+  const double matrix[6] = {1, 0, 0, 1, by[0], by[1]};
+  put(&paper->out, 6, matrix, "cm");
 }
 
 void thr_paper_move(thr_paper *paper, const double to[2])
 {
-  lib.cairo_move_to(paper->cairo, to[0], to[1]);
+  put(&paper->path, 2, to, "m");
 }
 
 void thr_paper_line(thr_paper *paper, const double to[2])
 {
-  lib.cairo_line_to(paper->cairo, to[0], to[1]);
+  put(&paper->path, 2, to, "l");
 }
 
 void thr_paper_curve(thr_paper *paper, const double a[2], const double b[2], const double to[2])
 {
-  lib.cairo_curve_to(paper->cairo, a[0], a[1], b[0], b[1], to[0], to[1]);
+  const double x[6] = {a[0], a[1], b[0], b[1], to[0], to[1]};
+  put(&paper->path, 6, x, "c");
 }
 
 void thr_paper_end(thr_paper *paper)
 {
-  lib.cairo_close_path(paper->cairo);
+  put(&paper->path, 0, NULL, "h");
+}
+
+/* A quarter of a circle from where the pen is, which is at a multiple i of a right angle: the cubic that leaves it by 0.03 % of
+ * the radius at most has its inner points 4 (sqrt 2 - 1) / 3 radii from its ends. */
+static void put_quarter(thr_paper *paper, const double middle[2], double radius, int i)
+{
+  static const double cosine[] = {1, 0, -1, 0, 1}, sine[] = {0, 1, 0, -1, 0};
+  const double k = 4 * (sqrt(2) - 1) / 3;
+  double x[6];
+  for (int c = 0; c < 2; c++) {
+    const double *axis = c ? sine : cosine, *along = c ? cosine : sine;
+    double sign = c ? 1 : -1;
+    x[c] = middle[c] + radius * (axis[i] + sign * k * along[i]);
+    x[2 + c] = middle[c] + radius * (axis[i + 1] - sign * k * along[i + 1]);
+    x[4 + c] = middle[c] + radius * axis[i + 1];
+  }
+  put(&paper->path, 6, x, "c");
 }
 
 void thr_paper_rect(thr_paper *paper, const double at[2], const double size[2], double radius)
 {
+  const double box[4] = {at[0], at[1], size[0], size[1]};
   if (radius <= 0) {
-    lib.cairo_rectangle(paper->cairo, at[0], at[1], size[0], size[1]);
+    put(&paper->path, 4, box, "re");
     return;
   }
-  lib.cairo_new_sub_path(paper->cairo);
-  for (int i = 0; i < 4; i++) {
-    double x = at[0] + (i == 0 || i == 3 ? size[0] - radius : radius), y = at[1] + (i < 2 ? size[1] - radius : radius);
-    lib.cairo_arc(paper->cairo, x, y, radius, i * THR_PI / 2, (i + 1) * THR_PI / 2);
+  for (int i = 0; i < 4; i++) { /* corners right and low, left and low, left and high, right and high */
+    double middle[2] = {i == 0 || i == 3 ? at[0] + size[0] - radius : at[0] + radius,
+                        i < 2 ? at[1] + size[1] - radius : at[1] + radius};
+    double from[2] = {middle[0] + radius * cos(i * THR_PI / 2), middle[1] + radius * sin(i * THR_PI / 2)};
+    put(&paper->path, 2, from, i ? "l" : "m");
+    put_quarter(paper, middle, radius, i);
   }
-  lib.cairo_close_path(paper->cairo);
+  thr_paper_end(paper);
 }
 
 void thr_paper_circle(thr_paper *paper, const double middle[2], double radius)
 {
-  lib.cairo_new_sub_path(paper->cairo);
-  lib.cairo_arc(paper->cairo, middle[0], middle[1], radius, 0, 2 * THR_PI);
-  lib.cairo_close_path(paper->cairo);
+  const double from[2] = {middle[0] + radius, middle[1]};
+  put(&paper->path, 2, from, "m");
+  for (int i = 0; i < 4; i++)
+    put_quarter(paper, middle, radius, i);
+  thr_paper_end(paper);
 }
 
-static void take_ink(cairo_t *cairo, const thr_ink *ink)
+/* ---- ink ---- */
+
+static void take_ink(thr_paper *paper, const thr_ink *ink, bool stroke)
 {
-  lib.cairo_set_source_rgba(cairo, ink->colour[0], ink->colour[1], ink->colour[2], ink->opacity);
+  state *now = &paper->open[paper->depth];
+  double *colour = stroke ? now->stroke : now->fill;
+  int *opacity = stroke ? &now->stroke_opacity : &now->fill_opacity;
+  int part = (int)lround(100 * fmin(fmax(ink->opacity, 0), 1));
+  if (part != *opacity) {
+    thr_text_printf(&paper->out, "/%c%d gs\n", stroke ? 's' : 'f', part);
+    (stroke ? paper->needs.stroke : paper->needs.fill)[part] = 1;
+    *opacity = part;
+  }
+  if (memcmp(colour, ink->colour, sizeof ink->colour) == 0) return;
+  put(&paper->out, 3, ink->colour, stroke ? "RG" : "rg");
+  memcpy(colour, ink->colour, sizeof ink->colour);
+}
+
+static void take_line(thr_paper *paper, const thr_line *line)
+{
+  state *now = &paper->open[paper->depth];
+  int cap = line->round_ends, join = line->round_corners;
+  take_ink(paper, &line->ink, true);
+  if (line->width != now->width) put(&paper->out, 1, &line->width, "w");
+  if (cap != now->cap) put(&paper->out, 0, NULL, cap ? "1 J" : "0 J");
+  if (join != now->join) put(&paper->out, 0, NULL, join ? "1 j" : "0 j");
+  if (line->n_dash != now->n_dash || line->dash_offset != now->dash_offset ||
+      memcmp(line->dash, now->dash, (size_t)line->n_dash * sizeof *line->dash) != 0) {
+    thr_text_byte(&paper->out, '[');
+    for (int i = 0; i < line->n_dash; i++)
+      put_number(&paper->out, line->dash[i]);
+    thr_text_append(&paper->out, "] ");
+    put(&paper->out, 1, &line->dash_offset, "d");
+  }
+  now->width = line->width;
+  now->cap = cap;
+  now->join = join;
+  now->n_dash = line->n_dash;
+  now->dash_offset = line->dash_offset;
+  memcpy(now->dash, line->dash, sizeof now->dash);
+}
+
+/* The path, how it is painted, and no path. */
+static void end_path(thr_paper *paper, const char *operator)
+{
+  if (paper->path.failed) paper->out.failed = true;
+  if (paper->path.length) thr_text_append_bytes(&paper->out, paper->path.data, paper->path.length);
+  put(&paper->out, 0, NULL, operator);
+  paper->path.length = 0;
 }
 
 void thr_paper_paint(thr_paper *paper, const thr_ink *fill, const thr_line *line)
 {
-  cairo_t *cairo = paper->cairo;
-  if (fill) {
-    take_ink(cairo, fill);
-    if (line)
-      lib.cairo_fill_preserve(cairo);
-    else
-      lib.cairo_fill(cairo);
-  }
-  if (line) {
-    take_ink(cairo, &line->ink);
-    lib.cairo_set_line_width(cairo, line->width);
-    lib.cairo_set_line_cap(cairo, line->round_ends ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
-    lib.cairo_set_line_join(cairo, line->round_corners ? CAIRO_LINE_JOIN_ROUND : CAIRO_LINE_JOIN_MITER);
-    lib.cairo_set_dash(cairo, line->dash, line->n_dash, line->dash_offset);
-    lib.cairo_stroke(cairo);
-  }
-  lib.cairo_new_path(cairo);
+  if (fill) take_ink(paper, fill, false);
+  if (line) take_line(paper, line);
+  if (paper->path.length && (fill || line)) end_path(paper, fill ? line ? "B" : "f" : "S");
+  paper->path.length = 0;
 }
 
 void thr_paper_clip(thr_paper *paper)
 {
-  lib.cairo_clip(paper->cairo);
+  if (paper->path.length) end_path(paper, "W n");
+}
+
+/* ---- text ---- */
+
+/* The next letter of UTF-8 text; what is beyond the basic plane, or no UTF-8, is U+FFFD. */
+static unsigned next_letter(const char **s)
+{
+  const unsigned char *c = (const unsigned char *)*s;
+  int n = *c < 0x80 ? 1 : *c >= 0xf0 ? 4 : *c >= 0xe0 ? 3 : *c >= 0xc0 ? 2 : 1;
+  for (int i = 1; i < n; i++)
+    if ((c[i] & 0xc0) != 0x80) n = i;
+  *s += n;
+  if (n == 1 && *c < 0x80) return *c;
+  if (n == 2 && *c < 0xe0) return (*c & 0x1fu) << 6 | (c[1] & 0x3fu);
+  if (n == 3 && *c < 0xf0) return (*c & 0x0fu) << 12 | (c[1] & 0x3fu) << 6 | (c[2] & 0x3fu);
+  return 0xfffd;
+}
+
+/* Letters as four hexadecimal digits each; returns their width in em. */
+static double put_letters(thr_paper *paper, int face, const char *words, thr_text *out)
+{
+  static const char digit[] = "0123456789ABCDEF";
+  const thr_font *font = &paper->font[face];
+  unsigned char *needs = paper->needs.letter[face];
+  double width = 0;
+  while (*words) {
+    unsigned letter = next_letter(&words);
+    for (int shift = 12; shift >= 0; shift -= 4)
+      thr_text_byte(out, digit[letter >> shift & 15]);
+    needs[letter / 8] |= (unsigned char)(1u << letter % 8);
+    width += thr_font_advance(font, font->glyph[letter]);
+  }
+  return width;
+}
+
+/* What is beyond the basic plane is found as itself, too: the span says what its boxes stand for. */
+static bool open_span(thr_paper *paper, const char *words)
+{
+  bool beyond = false;
+  for (const char *c = words; *c; c++)
+    beyond = beyond || (unsigned char)*c >= 0xf0;
+  if (!beyond) return false;
+  thr_text_append(&paper->out, "/Span <</ActualText <FEFF");
+  for (const char *c = words; *c;) {
+    const unsigned char *s = (const unsigned char *)c;
+    unsigned letter = next_letter(&c);
+    if (*s >= 0xf0 && c - (const char *)s == 4) {
+      unsigned high = ((*s & 7u) << 18 | (s[1] & 0x3fu) << 12 | (s[2] & 0x3fu) << 6 | (s[3] & 0x3fu)) - 0x10000;
+      thr_text_printf(&paper->out, "%04X", 0xd800 | (high >> 10 & 0x3ff));
+      letter = 0xdc00 | (high & 0x3ff);
+    }
+    thr_text_printf(&paper->out, "%04X", letter);
+  }
+  thr_text_append(&paper->out, ">>> BDC\n");
+  return true;
 }
 
 void thr_paper_text(thr_paper *paper, const double at[2], const thr_letters *letters, const char *words)
 {
-  cairo_t *cairo = paper->cairo;
-  cairo_text_extents_t extents = {0};
-  lib.cairo_select_font_face(cairo, letters->mono ? "DejaVu Sans Mono" : "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                             letters->bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  lib.cairo_set_font_size(cairo, letters->size);
-  if (letters->anchor > 0) lib.cairo_text_extents(cairo, words, &extents);
-  take_ink(cairo, &letters->ink);
-  lib.cairo_move_to(cairo, at[0] - letters->anchor * extents.x_advance, at[1]);
-  lib.cairo_show_text(cairo, words);
-  lib.cairo_new_path(cairo);
-}
-
-/* ---- the end ---- */
-
-/* Where text stands last; NULL if it does not. */
-static const char *last_of(const thr_text *pdf, const char *text)
-{
-  size_t length = strlen(text);
-  for (size_t at = pdf->length; at >= length; at--)
-    if (memcmp(pdf->data + at - length, text, length) == 0) return pdf->data + at - length;
-  return NULL;
-}
-
-/* Is every object of a PDF where its table of objects (xref) says? Where cairo has no memory for the stream of a font, it goes on
- * without, says nothing, and the font is an object that is not there. Newer versions of cairo have no such table: true. */
-static bool holds_all(const thr_text *pdf)
-{
-  enum { ENTRY = 20, KIND = 17 }; /* bytes: ten digits of the place, five, n or f, the end of the line */
-  const char *start = last_of(pdf, "startxref");
-  size_t place = 0, end = start ? (size_t)(start - pdf->data) : 0;
-  int n = 0, used = 0;
-  if (!start || sscanf(start, "startxref %zu", &place) != 1 || place >= pdf->length) return false;
-  if (strncmp(pdf->data + place, "xref", 4) != 0) return true;
-  if (sscanf(pdf->data + place, "xref 0 %d %n", &n, &used) != 1 || n < 1) return false;
-  place += (size_t)used;
-  if (end < place || (end - place) / ENTRY < (size_t)n) return false;
-  for (int i = 1; i < n; i++) {
-    char head[32];
-    const char *entry = pdf->data + place + (size_t)i * ENTRY;
-    size_t object = strtoul(entry, NULL, 10);
-    int length = snprintf(head, sizeof head, "%d 0 obj", i);
-    if (entry[KIND] == 'n' && (object >= end || strncmp(pdf->data + object, head, (size_t)length) != 0)) return false;
+  int face = (letters->bold ? THR_FACE_BOLD : 0) + (letters->mono ? THR_FACE_MONO : 0);
+  if (!paper->needs.letter[face]) paper->needs.letter[face] = thr_calloc(THR_FONT_LETTERS / 8, 1);
+  if (!paper->needs.letter[face]) {
+    paper->out.failed = true;
+    return;
   }
-  return true;
-}
-
-/* Where fontconfig finds no font, or has no memory to look for one, pages are drawn without their words. */
-static bool has_fonts(const thr_text *pdf)
-{
-  return last_of(pdf, "/FontFile") || last_of(pdf, "/ObjStm"); /* in there it would be compressed */
-}
-
-thr_status thr_paper_close(thr_paper *paper, thr_err *err)
-{
-  if (!paper) return THR_OK;
-  const thr_text *out = paper->out;
-  lib.cairo_destroy(paper->cairo);
-  lib.cairo_surface_finish(paper->surface);
-  cairo_status_t status = lib.cairo_surface_status(paper->surface);
-  lib.cairo_surface_destroy(paper->surface);
-  free(paper);
-  if (status) return failed(status, err);
-  if (!holds_all(out)) return thr_nomem(err);
-  return has_fonts(out)
-             ? THR_OK
-             : thr_fail(err, THR_ESOLVER, "no font was found for the words of the PDF; install one, as fonts-dejavu-core");
+  thr_text set = {0};
+  double width = put_letters(paper, face, words, &set);
+  const double matrix[6] = {1, 0, 0, -1, at[0] - letters->anchor * letters->size * width, at[1]};
+  take_ink(paper, &letters->ink, false);
+  bool span = open_span(paper, words);
+  thr_text_printf(&paper->out, "BT /F%d ", face);
+  put(&paper->out, 1, &letters->size, "Tf");
+  put(&paper->out, 6, matrix, "Tm");
+  if (set.failed) paper->out.failed = true;
+  if (set.length) thr_text_printf(&paper->out, "<%s> Tj ", set.data);
+  thr_text_append(&paper->out, span ? "ET EMC\n" : "ET\n");
+  thr_text_destroy(&set);
 }

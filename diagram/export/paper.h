@@ -1,8 +1,9 @@
-/* A PDF that is drawn page by page, in mm from a page's upper left corner: vectors stay vectors, text stays text, in real fonts.
- * cairo writes the file. Private to diagram/. */
+/* What is drawn on one page, in mm from its upper left corner: vectors stay vectors, text stays text. Several pages may be drawn
+ * at a time, each in one thread; diagram/export/pdf.h makes a file of them. Private to diagram/. */
 #ifndef THR_PAPER_H
 #define THR_PAPER_H
 
+#include "diagram/export/font.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
@@ -11,20 +12,27 @@ typedef enum { THR_PAGE_A4, THR_PAGE_LETTER, THR_N_PAGES } thr_page_size;
 const char *thr_page_name(int s);                  /* "a4", "letter" */
 void thr_page_mm(thr_page_size s, double size[2]); /* width and height, upright, mm */
 
+enum { THR_OPACITIES = 101 }; /* 0, 0.01, .., 1 */
+
 typedef struct thr_paper thr_paper;
 
-/* Begins a document whose pages are appended to out as they are finished: until thr_paper_close out holds a part of a file.
- * Title: UTF-8 for the file's metadata, which have no date but a fixed one and name no file. out is borrowed. Release with
- * thr_paper_close, after a failure too. The same drawing with the same fonts gives the same bytes. */
-thr_status thr_paper_open(thr_paper **paper, thr_page_size size, const char *title, thr_text *out, thr_err *err) THR_MUST_CHECK;
+/* What a page's drawing asks of the file that it is in. */
+typedef struct {
+  unsigned char *letter[THR_FACES];                         /* [THR_FONT_LETTERS / 8] a bit for each that was set; NULL: none */
+  unsigned char fill[THR_OPACITIES], stroke[THR_OPACITIES]; /* the opacities that were used */
+} thr_paper_needs;
 
-/* Ends the page; what is drawn next is on another. THR_ENOMEM or THR_ESOLVER if anything drawn so far failed. */
-thr_status thr_paper_turn(thr_paper *paper, thr_err *err) THR_MUST_CHECK;
+/* An empty page of so many mm, set in font[THR_FACES] (borrowed). Release with thr_paper_destroy (NULL ok). */
+thr_status thr_paper_open(thr_paper **paper, const double size[2], const thr_font *font, thr_err *err) THR_MUST_CHECK;
+void thr_paper_destroy(thr_paper *paper);
 
-/* Ends the file and releases paper (NULL ok). THR_ENOMEM or THR_ESOLVER if some of it could not be written. */
-thr_status thr_paper_close(thr_paper *paper, thr_err *err) THR_MUST_CHECK;
+/* Ends the page: what was drawn, as operators of a PDF's content stream (ISO 32000-1, 8 and 9), whose fonts are /F0 .. and whose
+ * graphics states /f0 .. /f100 (filling) and /s0 .. (along lines); several may follow each other on a page. Once. THR_ENOMEM if
+ * any of it failed. */
+thr_status thr_paper_content(thr_paper *paper, thr_text const **content, thr_err *err) THR_MUST_CHECK;
+const thr_paper_needs *thr_paper_needs_of(const thr_paper *paper);
 
-/* ---- drawing; failures stick until thr_paper_turn ---- */
+/* ---- drawing; failures stick until thr_paper_content ---- */
 
 typedef struct {
   double colour[3], opacity; /* red, green, blue; all from 0 to 1 */
@@ -37,8 +45,7 @@ typedef struct {
   bool round_ends, round_corners;     /* else cut off at the end; mitred */
 } thr_line;
 
-/* Text is set in DejaVu Sans, or in what fontconfig puts in its place where that is not installed; a letter that it lacks is
- * drawn as a box and found as itself. */
+/* A letter that the font lacks is drawn as a box and found as itself. */
 typedef struct {
   thr_ink ink;
   double size, anchor; /* mm; the part of the width that is left of the point, 0 to 1 */

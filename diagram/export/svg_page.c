@@ -465,6 +465,5 @@ thr_status thr_svg_page(thr_paper *paper, const thr_text *svg, thr_err *err)
   thr_svg_sheet_destroy(&r->sheet);
   thr_text_destroy(&r->words);
   free(r);
-  thr_status turned = st ? THR_OK : thr_paper_turn(paper, err);
-  return st ? st : turned;
+  return st;
 }

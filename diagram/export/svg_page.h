@@ -8,8 +8,8 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* Draws a whole SVG document as a page. THR_ESOLVER with what it does not know, so that nothing is left out silently. A style
- * sheet holds for what comes after it. O(bytes + elements times rules). */
+/* Draws a whole SVG document on a page. Pages may be drawn in several threads. THR_ESOLVER with what it does not know, so that
+ * nothing is left out silently. A style sheet holds for what comes after it. O(bytes + elements times rules). */
 thr_status thr_svg_page(thr_paper *paper, const thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
 #endif

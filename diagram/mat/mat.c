@@ -490,14 +490,20 @@ thr_status thr_mat_svg(const thr_mat *mat, int i, thr_text *svg, thr_err *err)
   return svg->failed ? thr_nomem(err) : THR_OK;
 }
 
-static thr_status svg_of(const void *user, int i, thr_text *svg, thr_err *err)
-{
-  return thr_mat_svg(user, i, svg, err);
-}
-
 thr_status thr_mat_pdf(const thr_mat *mat, const thr_limits *limits, thr_text *pdf, thr_err *err)
 {
-  const thr_pages pages = {
-      .name = "mat", .advice = "free memory", .title = "Mat", .size = mat->page, .n = mat->n, .svg = svg_of, .user = mat};
-  return thr_pages_pdf(&pages, limits, pdf, err);
+  thr_pages *pages = NULL;
+  thr_status st = thr_pages_open(&pages, "mat", mat->page, "Mat", limits, err);
+  for (int i = 0; i < mat->n && !st; i++) {
+    thr_text svg = {0};
+    if (limits->advance) limits->advance(limits->user, "mat", (double)i / mat->n);
+    st = thr_mat_svg(mat, i, &svg, err);
+    if (st)
+      thr_text_destroy(&svg);
+    else
+      st = thr_pages_add(pages, -1, &svg, err);
+  }
+  if (!st) st = thr_pages_close(pages, false, pdf, err);
+  thr_pages_destroy(pages);
+  return st;
 }

@@ -245,12 +245,12 @@ void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_cro
 }
 
 thr_status thr_crop_whole(const thr_plan *plan, const thr_layout *layout, const unsigned char *state, const unsigned char *piece,
-                          thr_box paper, const thr_limits *limits, thr_text *text, thr_err *err)
+                          thr_box paper, double *found, const thr_limits *limits, thr_text *text, thr_err *err)
 {
   enum { ATTEMPTS = 8 };
   thr_scene scene = {0};
   thr_status st = THR_OK;
-  double room[2] = {paper.x1 - paper.x0, paper.y1 - paper.y0}, pitch = PITCH[0], over = 2;
+  double room[2] = {paper.x1 - paper.x0, paper.y1 - paper.y0}, pitch = found && *found > 0 ? *found : PITCH[0], over = 2;
   for (int i = 0; i < ATTEMPTS && over > 1; i++) {
     thr_scene_destroy(&scene);
     if (thr_limits_stop(limits)) return thr_fail(err, THR_ELIMIT, "interrupted at a picture of the whole");
@@ -258,6 +258,7 @@ thr_status thr_crop_whole(const thr_plan *plan, const thr_layout *layout, const 
     double border = scene.places.n_columns ? 18 : 0; /* letters and numbers of places, on both sides */
     over =
         fmax((scene.extent.x1 - scene.extent.x0) / (room[0] - border), (scene.extent.y1 - scene.extent.y0) / (room[1] - border));
+    if (found) *found = pitch;
     pitch *= over > 1 ? 0.98 / over : 1;
   }
   double x = 0.5 * (paper.x0 + paper.x1 - scene.extent.x0 - scene.extent.x1),

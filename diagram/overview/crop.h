@@ -64,10 +64,11 @@ void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_cro
                      thr_text *text);
 
 /* Appends the whole plan, at the largest scale that fits in the paper, with the numbers that this scale has room for; passes and
- * pieces in their states (NULL: all now; all plain). Brings the style of the document. O(n log n). THR_ELIMIT if it was
- * interrupted. */
+ * pieces in their states (NULL: all now; all plain). Brings the style of the document. pitch, mm: it is no larger than
+ * that (0: any), and receives its own, so that many pictures of one size are fitted once; NULL: any. O(n log n). THR_ELIMIT if it
+ * was interrupted. */
 thr_status thr_crop_whole(const thr_plan *p, const thr_layout *l, const unsigned char *state, const unsigned char *piece,
-                          thr_box paper, const thr_limits *limits, thr_text *text, thr_err *err) THR_MUST_CHECK;
+                          thr_box paper, double *pitch, const thr_limits *limits, thr_text *text, thr_err *err) THR_MUST_CHECK;
 
 /* Appends a solid piece alone, as it lies in the picture: its hub at a point of the page, at the largest scale at which it is
  * within room mm of it. *scene receives the scene at that scale, *point the point that is drawn: of a node with two that with

@@ -150,9 +150,11 @@ static thr_status place_name(labelling *l, int v, thr_err *err)
           (0.1 + 0.1 * ring) * scene->size.pitch + fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
       double at[2] = {scene->at[v][0] + d * c, scene->at[v][1] + d * w};
       thr_box box = thr_box_around(at[0], at[1], half_width, half_height);
-      double hidden = 20 * thr_boxes_overlap(&l->boxes, box, THR_BOX_CORD | THR_BOX_ARROW, HUGE_VAL) +
-                      4 * thr_boxes_overlap(&l->boxes, box, THR_BOX_BEAD, HUGE_VAL);
-      judge(l, box, at, hidden + 0.02 * ring, &least, scene->name_at[v]);
+      double cost = 0.02 * ring; /* looked at no further once it is more than the least */
+      if (cost < least && inside(l->window, box))
+        cost += 20 * thr_boxes_overlap(&l->boxes, box, THR_BOX_CORD | THR_BOX_ARROW, (least - cost) / 20);
+      if (cost < least) cost += 4 * thr_boxes_overlap(&l->boxes, box, THR_BOX_BEAD, (least - cost) / 4);
+      if (cost < least) judge(l, box, at, cost, &least, scene->name_at[v]);
     }
   scene->named[v] = least < 60;
   if (!scene->named[v]) return THR_OK;

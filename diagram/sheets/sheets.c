@@ -24,6 +24,7 @@ thr_sheets_options thr_sheets_options_default(void)
 void thr_sheets_destroy(thr_sheets *sheets)
 {
   if (!sheets) return;
+  thr_pages_destroy(sheets->pages);
   thr_guide_destroy(&sheets->guide);
   thr_supplies_destroy(&sheets->supplies);
   thr_crops_destroy(&sheets->crops);
@@ -69,7 +70,7 @@ static thr_status prepare(thr_sheets *sheets, thr_err *err)
                         sheets->guide.sides ? (const double(*)[3])sheets->guide.outward : NULL, err);
 }
 
-/* The title page knows where all others are: it is made last and put first. */
+/* The title page knows where all others are: it is made last, and comes first wherever pages are counted or drawn. */
 static void lay_out(thr_sheets *sheets)
 {
   int first[THR_SHEET_PARTS];
@@ -88,16 +89,21 @@ static void lay_out(thr_sheets *sheets)
   thr_sheets_last(sheets);
   thr_sheets_name_tags(sheets);
   thr_sheets_front(sheets, first);
-  if (sheets->st) return;
-  thr_text title = sheets->page[sheets->n_pages - 1];
-  memmove(sheets->page + 1, sheets->page, (size_t)(sheets->n_pages - 1) * sizeof *sheets->page);
-  sheets->page[0] = title;
-  for (int i = 0; i < sheets->n_pages; i++)
+  thr_sheets_send(sheets);
+  for (int i = 0; i < sheets->n_pages && !sheets->st; i++)
     if (sheets->page[i].failed) thr_sheets_fail(sheets, thr_nomem(NULL), NULL);
 }
 
-thr_status thr_sheets_make(thr_sheets **out, const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits,
-                           thr_err *err)
+/* Why laying out failed, if it did. */
+static thr_status told(const thr_sheets *sheets, thr_err *err)
+{
+  if (!sheets->st) return THR_OK;
+  return sheets->why.code ? thr_fail(err, sheets->st, "%s", sheets->why.text) : thr_nomem(err);
+}
+
+/* All but the pages. *out is NULL on failure. */
+static thr_status start(thr_sheets **out, const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits,
+                        thr_err *err)
 {
   thr_sheets *sheets = *out = thr_calloc(1, sizeof *sheets);
   if (!sheets) return thr_nomem(err);
@@ -106,15 +112,23 @@ thr_status thr_sheets_make(thr_sheets **out, const thr_plan *plan, const thr_she
   sheets->o = *options;
   sheets->limits = limits;
   thr_page_mm(options->page, sheets->size);
-  thr_status st = prepare(sheets, &sheets->why);
-  if (st)
-    sheets->st = st;
-  else
-    lay_out(sheets);
-  sheets->limits = NULL;
-  if (!sheets->st) return THR_OK;
-  st = sheets->why.code ? thr_fail(err, sheets->st, "%s", sheets->why.text) : thr_nomem(err);
+  thr_status st = prepare(sheets, err);
+  if (!st) return THR_OK;
   thr_sheets_destroy(sheets);
+  *out = NULL;
+  return st;
+}
+
+thr_status thr_sheets_make(thr_sheets **out, const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits,
+                           thr_err *err)
+{
+  thr_status st = start(out, plan, options, limits, err);
+  if (st) return st;
+  lay_out(*out);
+  (*out)->limits = NULL;
+  st = told(*out, err);
+  if (!st) return THR_OK;
+  thr_sheets_destroy(*out);
   *out = NULL;
   return st;
 }
@@ -149,37 +163,101 @@ static void put_view(const thr_sheets *sheets, double foot, thr_text *svg)
   }
 }
 
-thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_err *err)
+/* A document that is drawn into by page: begun, without its end. */
+static void open_page(const thr_sheets *sheets, thr_text *svg)
 {
-  char line[128], title[96];
-  const thr_text *body = &sheets->page[i];
-  double foot = sheets->size[1] - THR_SHEET_MARGIN;
+  char title[96];
   title_of(sheets, title);
   thr_svg_open(svg, sheets->size[0], sheets->size[1], title, "A page of step sheets.");
   thr_text_append(svg, "<style>.thread text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}</style>\n");
-  if (body->data) thr_text_append_bytes(svg, body->data, body->length);
+}
+
+/* What stands at the foot of page i; all must be laid out. */
+static void put_foot(const thr_sheets *sheets, int i, thr_text *svg)
+{
+  char line[128];
+  double foot = sheets->size[1] - THR_SHEET_MARGIN;
   put_view(sheets, foot, svg);
   snprintf(line, sizeof line, "page %d of %d", i + 1, sheets->n_pages);
   thr_svg_text(svg, sheets->size[0] - THR_SHEET_MARGIN, foot, THR_SHEET_SMALL, " text-anchor=\"end\" style=\"fill:#666\"", line);
+}
+
+thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_err *err)
+{
+  const thr_text *body = &sheets->page[i ? i - 1 : sheets->n_pages - 1];
+  open_page(sheets, svg);
+  if (body->data) thr_text_append_bytes(svg, body->data, body->length);
+  put_foot(sheets, i, svg);
   thr_text_append(svg, "</svg>\n");
   return svg->failed ? thr_nomem(err) : THR_OK;
 }
 
-static thr_status svg_of(const void *user, int i, thr_text *svg, thr_err *err)
+/* ---- PDF ---- */
+
+/* Gives a body to the file. */
+static thr_status send_body(const thr_sheets *sheets, const thr_text *body, thr_pages *pages, thr_err *err)
 {
-  return thr_sheets_svg(user, i, svg, err);
+  thr_text svg = {0};
+  open_page(sheets, &svg);
+  if (body->data) thr_text_append_bytes(&svg, body->data, body->length);
+  if (body->failed) svg.failed = true;
+  thr_text_append(&svg, "</svg>\n");
+  return thr_pages_add(pages, -1, &svg, err);
 }
+
+void thr_sheets_send(thr_sheets *sheets)
+{
+  if (!sheets->pages || !sheets->n_pages || sheets->st) return;
+  thr_text *body = thr_sheets_out(sheets);
+  thr_status st = send_body(sheets, body, sheets->pages, &sheets->why);
+  thr_text_destroy(body);
+  if (st) thr_sheets_fail(sheets, st, NULL);
+}
+
+/* The title page was added last. */
+static thr_status end_pdf(const thr_sheets *sheets, thr_pages *pages, thr_text *pdf, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int i = 0; i < sheets->n_pages && !st; i++) {
+    thr_text svg = {0};
+    open_page(sheets, &svg);
+    put_foot(sheets, i, &svg);
+    thr_text_append(&svg, "</svg>\n");
+    st = thr_pages_add(pages, i ? i - 1 : sheets->n_pages - 1, &svg, err);
+  }
+  return st ? st : thr_pages_close(pages, true, pdf, err);
+}
+
+static const char NAME[] = "step sheets";
 
 thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, thr_text *pdf, thr_err *err)
 {
   char title[96];
+  thr_pages *pages = NULL;
   title_of(sheets, title);
-  const thr_pages pages = {.name = "step sheets",
-                           .advice = "free memory, or draw without them (-T svg)",
-                           .title = title,
-                           .size = sheets->o.page,
-                           .n = sheets->n_pages,
-                           .svg = svg_of,
-                           .user = sheets};
-  return thr_pages_pdf(&pages, limits, pdf, err);
+  thr_status st = thr_pages_open(&pages, NAME, sheets->o.page, title, limits, err);
+  for (int i = 0; i < sheets->n_pages && !st; i++)
+    st = send_body(sheets, &sheets->page[i], pages, err);
+  if (!st) st = end_pdf(sheets, pages, pdf, err);
+  thr_pages_destroy(pages);
+  return st;
+}
+
+thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits, int *n_pages,
+                            thr_text *pdf, thr_err *err)
+{
+  char title[96];
+  thr_sheets *sheets = NULL;
+  thr_status st = start(&sheets, plan, options, limits, err);
+  if (st) return st;
+  title_of(sheets, title);
+  st = thr_pages_open(&sheets->pages, NAME, options->page, title, limits, err);
+  if (!st) {
+    lay_out(sheets);
+    st = told(sheets, err);
+  }
+  if (!st) st = end_pdf(sheets, sheets->pages, pdf, err);
+  *n_pages = sheets->n_pages;
+  thr_sheets_destroy(sheets);
+  return st;
 }

@@ -40,8 +40,14 @@ int thr_sheets_pages(const thr_sheets *sheets);
 /* A page as a whole SVG document in mm, i from 0. Appended to svg; THR_ENOMEM. */
 thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
-/* Appends all pages as one PDF; tells limits->advance how far it is. The same plan, options and fonts give the same bytes.
- * THR_ELIMIT if it was interrupted. pdf is unchanged on failure. */
+/* Appends all pages as one PDF, drawn in limits->threads threads, of which fonts are embedded: DejaVu Sans (Debian:
+ * fonts-dejavu-core) or what fontconfig puts in its place. The same plan, options and fonts give the same bytes. THR_ELIMIT if it
+ * was interrupted. pdf is unchanged on failure. */
 thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, thr_text *pdf, thr_err *err) THR_MUST_CHECK;
+
+/* The same PDF without sheets that are kept: pages are drawn as they are laid out, so that little memory is taken beyond the
+ * file's own size. *n_pages receives how many they are. Errors: as of thr_sheets_make. */
+thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits, int *n_pages,
+                            thr_text *pdf, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -33,8 +33,8 @@ static void put_picture(thr_sheets *sheets, int path)
   }
   double height = 0.52 * (thr_sheets_bottom(sheets) - sheets->y);
   thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN, sheets->y + height};
-  thr_status st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, NULL, paper, sheets->limits, thr_sheets_out(sheets),
-                                 &sheets->why);
+  thr_status st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, NULL, paper, NULL, sheets->limits,
+                                 thr_sheets_out(sheets), &sheets->why);
   if (st) thr_sheets_fail(sheets, st, NULL);
   sheets->y += height + 2 * THR_SHEET_LINE;
   free(state);

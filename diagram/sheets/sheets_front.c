@@ -99,7 +99,7 @@ void thr_sheets_front(thr_sheets *sheets, const int *first)
     thr_sheets_paragraph(sheets, 0, "In this picture the colour changes every twenty passes.");
   thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN, thr_sheets_bottom(sheets)};
   thr_status st = sheets->in_space ? thr_space_whole(&sheets->space, NULL, paper, thr_sheets_out(sheets), &sheets->why)
-                                   : thr_crop_whole(sheets->plan, &sheets->guide.layout, NULL, NULL, paper, sheets->limits,
+                                   : thr_crop_whole(sheets->plan, &sheets->guide.layout, NULL, NULL, paper, NULL, sheets->limits,
                                                     thr_sheets_out(sheets), &sheets->why);
   if (st) thr_sheets_fail(sheets, st, NULL);
 }

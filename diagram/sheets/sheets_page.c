@@ -102,6 +102,7 @@ double thr_sheets_text(thr_sheets *sheets, double x, double y, double size, doub
 
 void thr_sheets_page(thr_sheets *sheets, const char *heading, const char *running)
 {
+  thr_sheets_send(sheets);
   if (sheets->st) return;
   thr_status st = thr_grow(&sheets->page, sheets->n_pages, &sheets->pages_capacity, sizeof *sheets->page, &sheets->why);
   if (st) {

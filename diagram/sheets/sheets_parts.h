@@ -2,6 +2,7 @@
 #ifndef THR_SHEETS_PARTS_H
 #define THR_SHEETS_PARTS_H
 
+#include "diagram/export/pages.h"
 #include "diagram/scene/boxes.h"
 #include "diagram/scene/copies.h"
 #include "diagram/overview/crop.h"
@@ -55,7 +56,8 @@ struct thr_sheets {
   int *first_pass; /* [n_cords] in visited */
   int *visited;    /* [n_passes] the visit that each pass leads to, cord by cord as in a scene */
   thr_crops crops;
-  bool in_space; /* do steps have pictures in space, as no flat picture shows the framework whole and without crossings? */
+  double map_pitch; /* mm, of the last map of a section; 0 = none yet */
+  bool in_space;    /* do steps have pictures in space, as no flat picture shows the framework whole and without crossings? */
   thr_space space;
   double size[2];           /* of a page, mm */
   const thr_limits *limits; /* while pages are laid out */
@@ -63,13 +65,17 @@ struct thr_sheets {
   int n_waiting, waiting_capacity;
   thr_step *waiting; /* steps for the next page, which is drawn when it is full */
   int n_pages, pages_capacity;
-  thr_text *page;    /* bodies of the pages, without page numbers */
+  thr_text *page;    /* [n_pages] bodies without page numbers, the title page's last; empty once they were sent */
+  thr_pages *pages;  /* a PDF to which each page goes when it is finished, or NULL */
   double y;          /* where the next line goes on the page that is being filled, mm */
   char running[160]; /* heading of the pages that follow when this one is full */
 };
 
 /* Keeps the first failure. */
 void thr_sheets_fail(thr_sheets *sheets, thr_status st, const thr_err *why);
+
+/* The page that is being filled is finished: it goes to sheets->pages (sheets.c). */
+void thr_sheets_send(thr_sheets *sheets);
 
 /* ---- pages (sheets_page.c) ---- */
 

@@ -77,7 +77,8 @@ static thr_status put_map(thr_sheets *sheets, int first, int end, thr_err *err)
     state[i] = THR_DRAW_HIDDEN;
   if (!st && sheets->in_space) st = thr_space_whole(&sheets->space, piece, paper, thr_sheets_out(sheets), err);
   if (!st && !sheets->in_space)
-    st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, piece, paper, sheets->limits, thr_sheets_out(sheets), err);
+    st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, piece, paper, &sheets->map_pitch, sheets->limits,
+                        thr_sheets_out(sheets), err);
   free(piece);
   free(state);
   return st;

@@ -222,7 +222,7 @@ thr_status thr_table_steps(const thr_plan *p, double tolerance, thr_text *out, t
   thr_part *part = st ? NULL : thr_calloc(2 * (size_t)p->n_cords, sizeof *part);
   thr_visit *visit = NULL;
   int n = 0;
-  double used = 0;
+  double used = 0, length = 0;
   if (!st && !part) st = thr_nomem(err);
   if (!st) {
     int parts = thr_pieces_parts(p, t.copy, 1, part);
@@ -231,8 +231,10 @@ thr_status thr_table_steps(const thr_plan *p, double tolerance, thr_text *out, t
   thr_text_append(&text,
                   "cord,step,piece,kind,how,visit,in,out,turn,degrees,length,used,left,path,path_step,edge,from_node,to_node,"
                   "unit\n");
-  for (int i = 0; i < n; i++)
-    put_step(&t, &visit[i], &used, thr_cord_length(t.f, &p->cord[visit[i].cord]));
+  for (int i = 0; i < n; i++) {
+    if (i == 0 || visit[i].cord != visit[i - 1].cord) length = thr_cord_length(t.f, &p->cord[visit[i].cord]);
+    put_step(&t, &visit[i], &used, length);
+  }
   free(part);
   free(visit);
   return table_close(&t, st, out, err);

@@ -20,7 +20,7 @@ typedef struct {
 #define THR_LAZY_SYMBOL(f) {#f, &lib.f, NULL},
 #endif
 
-/* Unless *loaded, loads a library by the name that the run-time linker knows it by (libcairo.so.2) and fills the pointers, from
+/* Unless *loaded, loads a library by the name that the run-time linker knows it by (libz.so.1) and fills the pointers, from
  * it and from the libraries that it needs itself. What is loaded stays. THR_ESOLVER with the linker's reason and what to do. A
  * few ms. */
 thr_status thr_lazy_load(bool *loaded, const char *library, const thr_lazy_symbol *symbol, size_t n, thr_err *err) THR_MUST_CHECK;

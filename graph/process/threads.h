@@ -7,7 +7,7 @@
  *
  * What libraries allow: an igraph with thread-local storage, nauty's sparse functions and Bullet are used from any thread, each
  * with its own objects. GLPK's environment is the thread's, and a programme lives and dies in the thread that made it: jobs that
- * keep one from run to run need a team. cairo is called in children only. */
+ * keep one from run to run need a team. fontconfig is called in a child only. */
 #ifndef THR_THREADS_H
 #define THR_THREADS_H
 

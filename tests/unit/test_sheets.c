@@ -542,12 +542,11 @@ static void judge(thr_plan p, bool middle, thr_page_size page)
 {
   double size[2];
   thr_sheets *s = sheets_of(&p, page, middle);
-  thr_text pdf = pdf_of(s), again = pdf_of(s);
+  thr_text pdf = pdf_of(s);
   int n = thr_sheets_pages(s), steps = 0;
   thr_page_mm(page, size);
   assert_pages(&pdf, n, size[0], size[1]);
   assert_reads_back(&p, &pdf);
-  ck_assert(pdf.length == again.length && memcmp(pdf.data, again.data, pdf.length) == 0);
   for (int i = 0; i < n; i++) {
     thr_text svg = {0};
     ck_assert_int_eq(thr_sheets_svg(s, i, &svg, NULL), THR_OK);
@@ -557,7 +556,6 @@ static void judge(thr_plan p, bool middle, thr_page_size page)
   }
   ck_assert_int_ge(steps, 1);
   thr_text_destroy(&pdf);
-  thr_text_destroy(&again);
   thr_sheets_destroy(s);
   thr_plan_destroy(&p);
 }
@@ -779,25 +777,69 @@ START_TEST(plans_that_cannot_be_drawn_are_refused)
 }
 END_TEST
 
+static long after(long k)
+{
+  return k < 400 ? k + 1 : k + 17;
+}
+
 START_TEST(every_failing_allocation_is_reported)
 {
   thr_plan p = _i ? symmetric_plan(solid_make(TETRAHEDRON), THR_ENDS_ANY, 1, "") : plan_of(path_make(2), THR_ENDS_ANY, 1);
   thr_sheets_options o = thr_sheets_options_default();
   thr_status st = THR_ENOMEM;
-  for (long k = 1; st; k += k < 400 ? 1 : 17) {
+  for (long k = 1; st; k = after(k)) {
     thr_sheets *s = NULL;
-    thr_err err = {0};
-    thr_text pdf = {0};
     thr_alloc_fail_at(k);
-    st = thr_sheets_make(&s, &p, &o, &none, &err);
-    ck_assert(st == THR_OK || !s);
-    if (!st) st = thr_sheets_pdf(s, &none, &pdf, &err);
+    st = thr_sheets_make(&s, &p, &o, &none, NULL);
     thr_alloc_fail_at(0);
-    if (st) ck_assert_int_eq(st, THR_ENOMEM);
-    ck_assert(!st || !pdf.length);
-    thr_text_destroy(&pdf);
+    ck_assert(st == THR_OK || (st == THR_ENOMEM && !s));
     thr_sheets_destroy(s);
   }
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Of the file alone, whose pages are laid out; and of both at once, now and then. Each finds fonts in a child process. */
+START_TEST(every_failing_allocation_of_the_pdf_is_reported)
+{
+  enum { BOTH = 97 };
+  thr_plan p = plan_of(path_make(2), THR_ENDS_ANY, 1);
+  thr_sheets_options o = thr_sheets_options_default();
+  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
+  thr_status st = THR_ENOMEM;
+  int n = 0;
+  for (long k = 1; st; k = _i ? k + BOTH : k < 40 ? k + 1 : k + 17) {
+    thr_text pdf = {0};
+    thr_alloc_fail_at(k);
+    st = _i ? thr_sheets_write(&p, &o, &none, &n, &pdf, NULL) : thr_sheets_pdf(s, &none, &pdf, NULL);
+    thr_alloc_fail_at(0);
+    ck_assert(st == THR_OK || (st == THR_ENOMEM && !pdf.length));
+    thr_text_destroy(&pdf);
+  }
+  thr_sheets_destroy(s);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* In any number of threads, and while pages are laid out: the same bytes. */
+START_TEST(threads_give_the_same_bytes)
+{
+  const thr_limits two = {.threads = 2}, three = {.threads = 3};
+  thr_plan p = plan_of(shape_make(THR_MAKE_DOME, 12, 0), THR_ENDS_FEET, 1);
+  thr_sheets_options o = thr_sheets_options_default();
+  o.needles = 1;
+  thr_sheets *s = sheets_of(&p, THR_PAGE_A4, false);
+  thr_text pdf = pdf_of(s), other = {0}, written = {0};
+  int n = 0;
+  ck_assert_int_eq(thr_sheets_pdf(s, &two, &other, NULL), THR_OK);
+  ck_assert_int_eq(thr_sheets_write(&p, &o, &three, &n, &written, NULL), THR_OK);
+  ck_assert_int_eq(n, thr_sheets_pages(s));
+  ck_assert(pdf.length == other.length && memcmp(pdf.data, other.data, pdf.length) == 0);
+  ck_assert(pdf.length == written.length && memcmp(pdf.data, written.data, pdf.length) == 0);
+  thr_text_destroy(&pdf);
+  thr_text_destroy(&other);
+  thr_text_destroy(&written);
+  thr_sheets_destroy(s);
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -816,6 +858,8 @@ int main(void)
   ADD_TEST(s, 20, a_shell_is_seen_in_space);
   ADD_TEST(s, 20, steps_end_where_the_cord_turns);
   ADD_TEST(s, 20, plans_that_cannot_be_drawn_are_refused);
+  ADD_TEST(s, 20, threads_give_the_same_bytes);
   ADD_EXAMPLES(s, 60, every_failing_allocation_is_reported, 2);
+  ADD_EXAMPLES(s, 60, every_failing_allocation_of_the_pdf_is_reported, 2);
   return run_suite(s);
 }

@@ -1,0 +1,145 @@
+/* fontconfig. */
+#define _XOPEN_SOURCE 700
+#include "diagram/export/font.h"
+
+#include "graph/limits.h"
+#include "graph/process/child.h"
+#include "graph/process/lazy.h"
+#include "graph/status.h"
+#include "graph/text.h"
+
+#include <fontconfig/fontconfig.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+#ifdef __SANITIZE_ADDRESS__
+/* fontconfig keeps what it has read of fonts until the process ends, where the leak checker cannot see it. */
+const char *__lsan_default_suppressions(void);
+const char *__lsan_default_options(void);
+
+const char *__lsan_default_suppressions(void)
+{
+  return "leak:libfontconfig";
+}
+
+const char *__lsan_default_options(void)
+{
+  return "print_suppressions=0";
+}
+#endif
+
+#define FUNCTIONS(F)                                                                                                             \
+  F(FcConfigSubstitute)                                                                                                          \
+  F(FcDefaultSubstitute)                                                                                                         \
+  F(FcFontSetDestroy)                                                                                                            \
+  F(FcFontSort)                                                                                                                  \
+  F(FcNameParse)                                                                                                                 \
+  F(FcPatternDestroy)                                                                                                            \
+  F(FcPatternGetInteger)                                                                                                         \
+  F(FcPatternGetString)
+
+static struct {
+  FUNCTIONS(THR_LAZY_POINTER)
+  bool loaded;
+} lib;
+
+/* Ends this process if it takes so many seconds of processor time: fontconfig without memory tries for ever. */
+static void bound_time(void)
+{
+  enum { MOST = 10 };
+  struct rusage used;
+  struct rlimit r;
+  if (getrusage(RUSAGE_SELF, &used) || getrlimit(RLIMIT_CPU, &r)) return;
+  rlim_t end = (rlim_t)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + MOST;
+  if (r.rlim_max != RLIM_INFINITY && r.rlim_max < end) return; /* somebody was stricter */
+  r.rlim_cur = end;
+  setrlimit(RLIMIT_CPU, &r);
+}
+
+/* Says where a font is if its outlines are TrueType: "index name<newline>path<newline>". */
+static bool tell(FcPattern *font, thr_text *out)
+{
+  FcChar8 *path = NULL, *format = NULL, *name = NULL;
+  int index = 0;
+  char plain[64] = "Font";
+  if (lib.FcPatternGetString(font, FC_FILE, 0, &path) != FcResultMatch) return false;
+  if (lib.FcPatternGetString(font, FC_FONTFORMAT, 0, &format) != FcResultMatch || strcmp((char *)format, "TrueType") != 0)
+    return false;
+  if (strchr((char *)path, '\n')) return false;
+  if (lib.FcPatternGetInteger(font, FC_INDEX, 0, &index) != FcResultMatch) index = 0;
+  if (lib.FcPatternGetString(font, FC_POSTSCRIPT_NAME, 0, &name) == FcResultMatch) {
+    size_t n = 0;
+    for (const char *c = (char *)name; *c && n + 1 < sizeof plain; c++)
+      if (strchr("-0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ", *c)) plain[n++] = *c;
+    plain[n] = '\0';
+  }
+  thr_text_printf(out, "%d %s\n%s\n", index & 0xffff, *plain ? plain : "Font", (char *)path);
+  return true;
+}
+
+static thr_status find_face(const char *words, thr_text *out, thr_err *err)
+{
+  FcResult result = FcResultMatch;
+  FcPattern *pattern = lib.FcNameParse((const FcChar8 *)words);
+  if (!pattern || !lib.FcConfigSubstitute(NULL, pattern, FcMatchPattern)) return thr_nomem(err);
+  lib.FcDefaultSubstitute(pattern);
+  FcFontSet *set = lib.FcFontSort(NULL, pattern, FcFalse, NULL, &result);
+  bool found = false;
+  for (int i = 0; set && i < set->nfont && !found; i++)
+    found = tell(set->fonts[i], out);
+  if (set) lib.FcFontSetDestroy(set);
+  lib.FcPatternDestroy(pattern);
+  if (out->failed || (!set && result == FcResultOutOfMemory)) return thr_nomem(err);
+  return found ? THR_OK
+               : thr_fail(err, THR_ESOLVER,
+                          "no TrueType font was found for the words of the PDF; install one, as fonts-dejavu-core");
+}
+
+static thr_status find_faces(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
+{
+  static const thr_lazy_symbol symbol[] = {FUNCTIONS(THR_LAZY_SYMBOL)};
+  static const char *const face[THR_FACES] = {"DejaVu Sans:style=Book", "DejaVu Sans:bold", "DejaVu Sans Mono:style=Book",
+                                              "DejaVu Sans Mono:bold"};
+  thr_text out = {0};
+  (void)user;
+  (void)limits;
+  bound_time();
+  thr_status st = thr_lazy_load(&lib.loaded, THR_LIBRARY_FONTCONFIG, symbol, sizeof symbol / sizeof *symbol, err);
+  for (int i = 0; i < THR_FACES && !st; i++)
+    st = find_face(face[i], &out, err);
+  if (!st) st = thr_child_send(to, &out, err);
+  thr_text_destroy(&out);
+  return st;
+}
+
+/* The next line of an answer; NULL: there is none. */
+static char *next_line(char **left)
+{
+  char *line = *left, *end = line ? strchr(line, '\n') : NULL;
+  if (!end) return NULL;
+  *end = '\0';
+  *left = end + 1;
+  return line;
+}
+
+thr_status thr_fonts_find(thr_font *font, thr_err *err)
+{
+  const thr_child child = {
+      .what = "finding fonts for the PDF", .advice = "free memory, or draw without it (-T svg)", .run = find_faces};
+  const thr_limits none = {0};
+  thr_text answer = {0};
+  thr_status st = thr_child_run(&child, &none, &answer, err);
+  char *left = answer.data;
+  for (int i = 0; i < THR_FACES && !st; i++) {
+    char *head = next_line(&left), *path = next_line(&left), name[64];
+    int index;
+    if (!head || !path || sscanf(head, "%d %63s", &index, name) != 2)
+      st = thr_fail(err, THR_ESOLVER, "no fonts were found for the PDF");
+    else
+      st = thr_font_read(&font[i], path, index, name, err);
+  }
+  thr_text_destroy(&answer);
+  return st;
+}
