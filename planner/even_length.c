@@ -12,7 +12,9 @@
 #include "lp/length/cords.h"
 #include "lp/length/decomposition.h"
 #include "planner/planners.h"
+#include "tortuosity/cords/anneal.h"
 #include "tortuosity/cords/walk_bound.h"
+#include "tortuosity/cords/walk_programme.h"
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -87,7 +89,7 @@ static thr_status try_starts(const thr_frame *frame, const thr_request *options,
 {
   enum { STARTS = 400, UNLIMITED = 30, PASSES = 20000 };
   static const double part[] = {.02, .1, .4};
-  thr_limits quiet = thr_limits_part(limits, .5);
+  thr_limits quiet = thr_limits_part(limits, .3);
   int starts = limits->deadline > 0 ? PASSES / frame->n_edges : UNLIMITED;
   uint64_t random = 1;
   thr_status st = THR_OK;
@@ -129,6 +131,30 @@ thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *op
 
 /* ---- the programme over walks ---- */
 
+/* The plan's cords annealed, in part of the time that a user gives. */
+static thr_status anneal(thr_plan *plan, const thr_turning_columns *columns, const thr_limits *limits, thr_err *err)
+{
+  enum { STEPS = 6000000 };
+  const double part = .4;
+  const thr_limits share = thr_limits_part(limits, part);
+  thr_cord *cord = NULL;
+  bool better = false;
+  if (limits->deadline == 0 || limits->work || plan->n_cords < 2 || plan->options.joint == THR_JOINT_TUBE ||
+      plan->options.ends == THR_ENDS_COUNTS)
+    return THR_OK;
+  thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &cord, err);
+  if (!st)
+    st = thr_anneal(columns, THR_WALK_LENGTH, STEPS, plan->cords_claim.longest_bound * (1 + near), &share, cord, plan->n_cords,
+                    &better, err);
+  if (!st && better) {
+    st = take_cords(plan, cord, err);
+    cord = NULL;
+    if (!st) st = judge(plan, err);
+  }
+  thr_cords_destroy(cord, cord ? plan->n_cords : 0);
+  return st;
+}
+
 /* *improved: the component of the longest cord has others. */
 static thr_status improve(thr_plan *plan, const thr_turning_columns *columns, const thr_limits *limits, bool *improved,
                           thr_err *err)
@@ -162,6 +188,7 @@ thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr
   if (!end_allowed) return thr_nomem(err);
   const thr_turning_task task = thr_walk_length_task(&plan->frame, &plan->options, end_allowed);
   thr_status st = thr_turning_columns_init(&columns, &plan->frame, &task, err);
+  if (!st) st = anneal(plan, &columns, limits, err);
   for (int k = 0; k < columns.n_components && !st && improved && !claim->longest_optimal; k++) {
     st = improve(plan, &columns, &counted, &improved, err);
     if (!st && improved) thr_limits_found(limits, plan->cord, plan->n_cords, NULL);

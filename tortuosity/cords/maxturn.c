@@ -8,6 +8,7 @@
 #include "graph/threading/even.h"
 #include "graph/threading/multigraph.h"
 #include "graph/threading/threading.h"
+#include "tortuosity/cords/anneal.h"
 #include "tortuosity/cords/circuits.h"
 #include "tortuosity/cords/extra.h"
 #include "tortuosity/cords/improve.h"
@@ -341,19 +342,44 @@ static thr_status find_cords(search *x, const thr_frame *frame, thr_least *plan,
   return st ? st : keep_best(x, frame, plan, err);
 }
 
+/* The plan's cords annealed, in part of the time, unless they are as near to the bound as is worth it. */
+static thr_status anneal_cords(search *x, const thr_frame *frame, thr_least *plan, double part, thr_err *err)
+{
+  enum { MOST_STEPS = 6000000, STEPS = 20000 }; /* STEPS: for a pass */
+  const double near = 2e-3;                     /* of the bound */
+  const thr_limits share = thr_limits_part(x->limits, part);
+  const double enough = fmax(x->bound * (1 + near), x->enough);
+  const int steps = (int)fmin(MOST_STEPS, (double)STEPS * x->best.g.n_darts);
+  thr_cord *cord = NULL;
+  thr_join j = {0};
+  bool better = false;
+  if (plan->n_cords < 2 || x->limits->work || x->c->task->tube || x->c->task->end_count || largest_price(frame, plan) <= enough)
+    return THR_OK;
+  thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &cord, err);
+  if (!st) st = thr_anneal(x->c, THR_WALK_TURNING, steps, enough, &share, cord, plan->n_cords, &better, err);
+  if (!st && better) st = thr_join_from_cords(&j, x->c, cord, plan->n_cords, err);
+  if (!st && better) st = improve_from(x, &j, 0, err);
+  if (!st && better) st = keep_best(x, frame, plan, err);
+  thr_cords_destroy(cord, plan->n_cords);
+  return st;
+}
+
 /* The programme over walks: a higher bound, and cords that it chooses, evened out as the others were. */
 static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
 {
   thr_cord *better = NULL;
   thr_join j = {0};
-  thr_status st = thr_walk_bound(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords, plan->bound, x->enough, x->limits,
-                                 &plan->proof.walks, &x->bound, &better, err);
+  thr_status st = anneal_cords(x, frame, plan, .3, err);
+  if (!st)
+    st = thr_walk_bound(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords, plan->bound, x->enough, x->limits, &plan->proof.walks,
+                        &x->bound, &better, err);
   for (int steps = 0; steps >= 0 && !st && better; steps = steps ? -1 : steps_of(x)) { /* as they are, and evened out */
     st = thr_join_from_cords(&j, x->c, better, plan->n_cords, err);
     if (!st) st = improve_from(x, &j, steps, err);
   }
   if (!st && better) st = keep_best(x, frame, plan, err);
   thr_cords_destroy(better, plan->n_cords);
+  if (!st) st = anneal_cords(x, frame, plan, 1, err);
   return st;
 }
 

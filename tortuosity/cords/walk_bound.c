@@ -6,6 +6,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "tortuosity/cords/walk_dive.h"
+#include "tortuosity/cords/walk_near.h"
 #include "tortuosity/cords/walk_programme.h"
 
 #include <math.h>
@@ -38,11 +39,13 @@ static thr_status exclude(thr_walk_programme *p, int units, thr_walk_proof *proo
 static thr_status bisect(thr_walk_programme *p, double largest, thr_walk_proof *proof, double *bound, int *open, thr_err *err)
 {
   const double near = 5e-4; /* of the largest */
+  int part = 3;             /* limits near what is known are excluded soonest, later ones know more walks */
   int low = (int)floor(*bound / thr_walk_programme_price(p, 1)) - 1, high = (int)ceil(largest / thr_walk_programme_price(p, 1));
   thr_status st = THR_OK;
   if (high > p->most_units) high = p->most_units;
   while (high - low > 1 && thr_walk_programme_price(p, high - low) > near * largest && !st && !thr_limits_stop(p->limits)) {
-    int middle = low + (high - low) / 2;
+    int middle = low + (high - low) / part;
+    part = 2;
     st = exclude(p, middle, proof, err);
     if (st) break;
     if (p->excluded) {
@@ -103,6 +106,24 @@ static thr_status replace_cords(const thr_walk_programme *p, const thr_cord *cor
   return st;
 }
 
+/* With the walks, which are taken over, cords that are within the limits and of which the dearest costs less than largest become
+ * the better ones. passes: [n_edges] scratch. */
+static thr_status keep_better(thr_walk_programme *p, const thr_cord *cord, int n_cords, thr_cord *walk, double largest,
+                              int *passes, thr_cord **better, thr_err *err)
+{
+  const thr_walk_measure measure = p->steps.measure;
+  thr_cord *made = NULL;
+  thr_status st = replace_cords(p, cord, n_cords, walk, &made, err);
+  if (made && within_limits(p->c, made, n_cords, passes) &&
+      thr_walk_price(p->c, measure, &made[thr_walk_dearest(p->c, measure, made, n_cords)]) < largest * (1 - 1e-9)) {
+    thr_cord *before = *better;
+    *better = made;
+    made = before;
+  }
+  thr_cords_destroy(made, n_cords);
+  return st;
+}
+
 /* Cords of at most so many units that turn, or are, less than the dearest of those that are known? Then they are better. */
 static thr_status look_below(thr_walk_programme *p, const thr_cord *cord, int n_cords, double bound, int units, int *passes,
                              thr_cord **better, thr_err *err)
@@ -110,21 +131,14 @@ static thr_status look_below(thr_walk_programme *p, const thr_cord *cord, int n_
   const thr_walk_measure measure = p->steps.measure;
   const thr_cord *known = *better ? *better : cord;
   double largest = thr_walk_price(p->c, measure, &known[thr_walk_dearest(p->c, measure, known, n_cords)]);
-  thr_cord *walk = thr_calloc((size_t)p->cords, sizeof *walk), *made = NULL;
+  thr_cord *walk = thr_calloc((size_t)p->cords, sizeof *walk);
   bool found = false, wide = largest > near_enough * bound;
   uint64_t random = 1;
-  thr_status st = walk ? thr_walk_dive(p, units, NULL, walk, &found, err) : thr_nomem(err);
+  thr_status st = walk ? thr_walk_dive(p, units, NULL, 0, walk, &found, err) : thr_nomem(err);
   for (int i = 0; i < MOST_DRAWN && wide && !st && !found && !thr_limits_stop(p->limits); i++)
-    st = thr_walk_dive(p, units, &random, walk, &found, err);
+    st = thr_walk_dive(p, units, &random, 0, walk, &found, err);
   if (!st && !found && wide) st = thr_walk_choose(p, units, walk, &found, err);
-  if (!st && found) st = replace_cords(p, cord, n_cords, walk, &made, err);
-  if (made && within_limits(p->c, made, n_cords, passes) &&
-      thr_walk_price(p->c, measure, &made[thr_walk_dearest(p->c, measure, made, n_cords)]) < largest * (1 - 1e-9)) {
-    thr_cords_destroy(*better, n_cords);
-    *better = made;
-    made = NULL;
-  }
-  thr_cords_destroy(made, n_cords);
+  if (!st && found) st = keep_better(p, cord, n_cords, walk, largest, passes, better, err);
   thr_cords_destroy(walk, p->cords);
   return st;
 }
@@ -156,24 +170,64 @@ static thr_status look_for_cords(thr_walk_programme *p, const thr_cord *cord, in
   return st;
 }
 
+/* Cords near those that are known, in the programme's component. */
+static thr_status look_near(thr_walk_programme *p, const thr_cord *cord, int n_cords, double bound, thr_cord **better,
+                            thr_err *err)
+{
+  const double near = 5e-3; /* of the bound: not worth a longer search */
+  const thr_walk_measure measure = p->steps.measure;
+  const thr_cord *known = *better ? *better : cord;
+  const double largest = thr_walk_price(p->c, measure, &known[thr_walk_dearest(p->c, measure, known, n_cords)]);
+  thr_cord *walk = NULL;
+  int n = 0, *passes = thr_calloc((size_t)p->c->f->n_edges, sizeof *passes);
+  bool improved = false;
+  thr_status st = passes ? thr_cords_copy(known, n_cords, &walk, err) : thr_nomem(err);
+  for (int i = 0; i < n_cords && !st; i++) { /* those of the component come first, in their order */
+    if (p->c->component[thr_tail(p->c->f, walk[i].half[0])] != p->component) continue;
+    const thr_cord here = walk[i];
+    walk[i] = walk[n];
+    walk[n++] = here;
+  }
+  if (!st && n == p->cords) st = thr_walk_near(p, bound * (1 + near), walk, &improved, err);
+  if (!st && improved) st = keep_better(p, known, n_cords, walk, largest, passes, better, err);
+  thr_cords_destroy(walk, walk ? n_cords : 0);
+  free(passes);
+  return st;
+}
+
+/* Each in its part of the time: the bound; cords just above it; cords near those that are known. */
+static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cords, double enough, double *bound,
+                         thr_walk_proof *made, thr_cord **better, thr_err *err)
+{
+  const double for_bound = .6, for_cords = .3, for_near = .6; /* of what is left */
+  const thr_turning_task *task = p->c->task;
+  const thr_limits *limits = p->limits;
+  const double largest = thr_walk_price(p->c, p->steps.measure, &cord[thr_walk_dearest(p->c, p->steps.measure, cord, n_cords)]);
+  int open = 0;
+  const bool counted = limits->work; /* then that is the limit, and nothing is left for cords near others */
+  thr_limits share = counted ? *limits : thr_limits_part(limits, for_bound);
+  p->limits = &share;
+  thr_status st = enough > 0 ? try_limit(p, enough, made, bound, &open, err) : bisect(p, largest, made, bound, &open, err);
+  const bool wanted = (enough <= 0 || *bound <= enough) && !task->tube && !task->end_count;
+  if (!counted) share = thr_limits_part(limits, for_cords);
+  if (!st && wanted) st = look_for_cords(p, cord, n_cords, *bound, open, better, err);
+  if (!counted) share = thr_limits_part(limits, for_near);
+  if (!st && wanted && !counted) st = look_near(p, cord, n_cords, *bound, better, err);
+  p->limits = limits;
+  return st;
+}
+
 thr_status thr_walk_bound(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords,
                           double least, double enough, const thr_limits *limits, thr_walk_proof *proof, double *bound,
                           thr_cord **better, thr_err *err)
 {
-  const thr_turning_task *task = columns->task;
-  double largest = thr_walk_price(columns, measure, &cord[thr_walk_dearest(columns, measure, cord, n_cords)]);
+  const double largest = thr_walk_price(columns, measure, &cord[thr_walk_dearest(columns, measure, cord, n_cords)]);
   thr_walk_programme p;
   thr_walk_proof made = {0};
   thr_err why = {0};
-  int open = 0;
-  if (task->cords < 2 || *bound >= largest * (1 - 1e-9)) return THR_OK;
+  if (columns->task->cords < 2 || *bound >= largest * (1 - 1e-9)) return THR_OK;
   thr_status st = thr_walk_programme_init(&p, columns, measure, cord, n_cords, least, limits, &why);
-  if (!st && enough > 0)
-    st = try_limit(&p, enough, &made, bound, &open, &why);
-  else if (!st)
-    st = bisect(&p, largest, &made, bound, &open, &why);
-  bool wanted = enough <= 0 || *bound <= enough;
-  if (!st && wanted && !task->tube && !task->end_count) st = look_for_cords(&p, cord, n_cords, *bound, open, better, &why);
+  if (!st) st = search(&p, cord, n_cords, enough, bound, &made, better, &why);
   if (!st && made.edge) {
     thr_walk_proof_destroy(proof);
     *proof = made;

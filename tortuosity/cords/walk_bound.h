@@ -20,8 +20,4 @@ thr_status thr_walk_bound(const thr_turning_columns *columns, thr_walk_measure m
                           double least, double enough, const thr_limits *limits, thr_walk_proof *proof, double *bound,
                           thr_cord **better, thr_err *err) THR_MUST_CHECK;
 
-/* Price of the turns of a cord, or its length; which one has most. */
-double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord);
-int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords);
-
 #endif

@@ -19,8 +19,8 @@ typedef struct {
   thr_walk_programme *p;
   double *left, *cost; /* [n_variables] the right sides that are left; costs of the dual */
   thr_cord *cord;
-  int n_cords;
-  uint64_t *random; /* state; NULL: the largest column is taken */
+  int n_cords, kept; /* of them those that were there before */
+  uint64_t *random;  /* state; NULL: the largest column is taken */
 } dive;
 
 /* Passes that the walk of a row makes of those that are still needed. */
@@ -102,6 +102,24 @@ static thr_status fill_up(dive *d, const thr_pool *pool, thr_err *err)
   return st;
 }
 
+/* What the cords that are kept do is no longer needed. */
+static void take_off(dive *d, const thr_cord *cord)
+{
+  const thr_walk_programme *p = d->p;
+  const thr_frame *frame = p->c->f;
+  double *left = d->left;
+  for (int i = 0; i < cord->n_passes; i++) {
+    const int h = cord->half[i], end[] = {thr_tail(frame, h), thr_head(frame, h)};
+    left[p->edge[h >> 1]] = fmax(0, left[p->edge[h >> 1]] - 1);
+    for (int k = 0; k < 2; k++) {
+      const int j = p->node[end[k]], passes = 1 + (!p->steps.closed && i == (k ? cord->n_passes - 1 : 0));
+      if (j >= 0) left[j] = fmax(0, left[j] - passes);
+    }
+  }
+  if (p->least > 0)
+    left[p->n_variables - 1] = fmax(0, left[p->n_variables - 1] - thr_walk_price(p->c, p->steps.measure, cord) / p->least);
+}
+
 static thr_status run(dive *d, bool *found, thr_err *err)
 {
   enum { FIRST_ROUNDS = 30, ROUNDS = 4 };
@@ -120,21 +138,23 @@ static thr_status run(dive *d, bool *found, thr_err *err)
   return *found ? fill_up(d, &p->search.pool, err) : st;
 }
 
-thr_status thr_walk_dive(thr_walk_programme *p, int units, uint64_t *random, thr_cord *cord, bool *found, thr_err *err)
+thr_status thr_walk_dive(thr_walk_programme *p, int units, uint64_t *random, int kept, thr_cord *cord, bool *found, thr_err *err)
 {
   const double dear = 10; /* no pass goes without a walk */
   size_t n = (size_t)p->n_variables;
-  dive d = {.p = p, .cord = cord, .random = random};
+  dive d = {.p = p, .cord = cord, .n_cords = kept, .kept = kept, .random = random};
   d.left = thr_calloc(n, sizeof *d.left);
   d.cost = thr_calloc(n, sizeof *d.cost);
   *found = false;
   thr_status st = d.left && d.cost ? THR_OK : thr_nomem(err);
   if (!st) memcpy(d.left, p->right, n * sizeof *d.left);
+  for (int i = 0; i < kept && !st; i++)
+    take_off(&d, &cord[i]);
   p->to_exclude = false;
   if (!st) st = thr_walk_programme_begin(p, units, dear, err);
   if (!st) st = run(&d, found, err);
   if (!st) st = thr_walk_programme_end(p, err);
-  for (int i = 0; i < d.n_cords && !*found; i++) {
+  for (int i = kept; i < d.n_cords && !*found; i++) {
     free(cord[i].half);
     cord[i] = (thr_cord){0};
   }

@@ -10,8 +10,9 @@
 
 /* Below so many units: columns of value 1 are fixed, or else the largest, or one drawn at random (NULL: none is), and what is
  * left is solved again with few new walks, until the edges have their passes. cord[programme->cords] receives the walks, *found
- * whether there were enough. The search is begun and ended here. */
-thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *random, thr_cord *cord, bool *found,
+ * whether there were enough. kept: so many of them are there already, at the front of cord, and stay. The search is begun and
+ * ended here. */
+thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *random, int kept, thr_cord *cord, bool *found,
                          thr_err *err) THR_MUST_CHECK;
 
 /* The same by an integer programme over the walks that are known, in a part of the time. */

@@ -10,7 +10,6 @@
 #include "lp/model/pool.h"
 #include "lp/model/search.h"
 #include "lp/solver/lp.h"
-#include "tortuosity/cords/walk_bound.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -64,4 +64,8 @@ thr_status thr_walk_programme_rounds(thr_walk_programme *programme, int most_rou
 /* Keeps the walks for the next limit. */
 thr_status thr_walk_programme_end(thr_walk_programme *programme, thr_err *err) THR_MUST_CHECK;
 
+/* Price of the turns of a cord, or its length; which one has most. */
+double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord);
+int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords);
+
 #endif

@@ -1,0 +1,95 @@
+/* The walks that are annealed, and changes of them. Internal to tortuosity/. */
+#ifndef THR_ANNEAL_PARTS_H
+#define THR_ANNEAL_PARTS_H
+
+#include "graph/limits.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/plan/walk_proof.h"
+#include "graph/scratch.h"
+#include "graph/status.h"
+
+#include <stdint.h>
+
+/* A cord. An open one visits the nodes between its passes, number i ahead of pass i, for i = 1 .. n - 1; a closed one also ahead
+ * of pass 0. */
+typedef struct {
+  int n, room, *half, *slot; /* [room]; slot: of visit i, in the list of its node */
+  double *sum;               /* [room] price as far as into pass i; of a closed one from pass 0 on */
+  double total;
+} thr_anneal_walk;
+
+typedef struct {
+  int cord, at;
+} thr_anneal_visit;
+
+/* A change of one cord or two, put together from sections of what there is and of new passes. */
+typedef struct {
+  int n_cords, cord[2];
+  double total[2]; /* what the cords turn by afterwards */
+  int n[2];        /* passes of each in made */
+} thr_anneal_change;
+
+typedef struct {
+  const thr_turning_columns *c;
+  thr_walk_measure measure;
+  bool closed;
+  thr_scratch own; /* all but the walks' arrays */
+  int n_cords;
+  thr_anneal_walk *walk;    /* [n_cords] */
+  int *pair_first;          /* [n_nodes] of the prices of the turns at a node */
+  double *price;            /* [sum of the squares of the degrees] by the numbers of both half-edges at their node */
+  double *end_price;        /* [n_edges] of a cord end; lengths are half those of the passes before and after a turn */
+  double noise;             /* of the prices of a route */
+  int *visit_first;         /* [n_nodes] of a node's visits */
+  int *n_visits;            /* [n_nodes] */
+  thr_anneal_visit *visit;  /* as many as there may be passes */
+  int *passes;              /* [n_edges] */
+  int *count;               /* [n_edges] zeros: passes of what is looked at */
+  double extra, most_extra; /* length of the passes beyond the covers, and how much it may be */
+  double *to_end;           /* [2 * n_edges] open: least price of the turns from a half-edge to an end; */
+  int *next;                /* [2 * n_edges] the half-edge after it on that way, -1: it ends there */
+  int room;                 /* of made, for each cord */
+  int *made[2];             /* what a change makes of its cords */
+  int *route, n_route;      /* [room] new passes */
+  double *reached;          /* [2 * n_edges] searches for routes */
+  int *before, *hops, *stamp, *queue, search;
+  uint64_t state; /* of the random numbers */
+} thr_annealer;
+
+/* Price of a turn from half-edge in to half-edge out; THR_FORBIDDEN: that is not done. */
+static inline double thr_anneal_turn(const thr_annealer *x, int in, int out)
+{
+  const thr_turning_columns *c = x->c;
+  const int v = c->f->edge[out >> 1][out & 1];
+  const int degree = c->f->first[v + 1] - c->f->first[v];
+  return x->price[x->pair_first[v] + c->position[in ^ 1] * degree + c->position[out]];
+}
+
+/* Passes from .. end - 1 of half[], turned round if backwards, are put at the end of what is made of a change's cord i. */
+void thr_anneal_put(thr_annealer *x, thr_anneal_change *change, int i, const int *half, int from, int end, bool backwards);
+
+/* What the passes that are made for cord i of a change turn by; THR_FORBIDDEN or more: they turn back. O(passes). */
+double thr_anneal_total(const thr_annealer *x, const thr_anneal_change *change, int i);
+
+/* Are the passes from .. end - 1 of a cord covered without it, too? */
+bool thr_anneal_spare(thr_annealer *x, const thr_anneal_walk *walk, int from, int end);
+
+/* Each proposes a change of cord a and says whether there is one. Those of the first kind know its totals at once, and call
+ * thr_anneal_build to put it together if it is taken; those of the second have done so. */
+typedef struct {
+  thr_anneal_change change;
+  enum { THR_ANNEAL_TAILS, THR_ANNEAL_REVERSE, THR_ANNEAL_LOOP, THR_ANNEAL_MIDDLES } kind;
+  int i, i2, j, j2, m; /* places on both cords; of a loop, where it is entered */
+  bool turned;         /* the part of the second cord, or the loop, runs backwards */
+} thr_anneal_exchange;
+
+bool thr_anneal_exchanges(thr_annealer *x, int a, thr_anneal_exchange *exchange);
+void thr_anneal_build(thr_annealer *x, thr_anneal_exchange *exchange);
+bool thr_anneal_drop_loop(thr_annealer *x, int a, thr_anneal_change *change);
+bool thr_anneal_end_elsewhere(thr_annealer *x, int a, thr_anneal_change *change);
+bool thr_anneal_reroute(thr_annealer *x, int a, thr_anneal_change *change);
+
+/* A visit to a node, drawn from all; cord -1: there is none. */
+thr_anneal_visit thr_anneal_visit_at(thr_annealer *x, int node);
+
+#endif
