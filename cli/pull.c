@@ -42,7 +42,7 @@ static bool pull_by_name(const char *value, size_t n, thr_pull *pull)
   return false;
 }
 
-/* The list A=start,B=end: item by item. False at its end; *ok false if the item is no such thing or ends the list
+/* The list A=start,B=none: item by item. False at its end; *ok false if the item is no such thing or ends the list
  * with a comma. */
 static bool next_pull(const char **list, char id[12], thr_pull *pull, bool *ok)
 {
@@ -71,7 +71,7 @@ static bool check_pull(const char *command, const char *value)
 {
   thr_pull pull;
   char id[12];
-  bool ok = pull_by_name(value, strlen(value), &pull);
+  bool ok = pull_by_name(value, strlen(value), &pull) && pull != THR_PULL_NONE;
   if (!ok && strchr(value, '=')) {
     const char *list = value;
     for (ok = true; ok && next_pull(&list, id, &pull, &ok);) {
@@ -80,7 +80,7 @@ static bool check_pull(const char *command, const char *value)
       return false;
     }
   }
-  if (!ok) cli_usage(command, "--pull %s: expected start, end or both, or a list like A=start,B=both", value);
+  if (!ok) cli_usage(command, "--pull %s: expected start, end or both, or a list like A=none,B=both", value);
   return ok;
 }
 
@@ -168,8 +168,9 @@ static int resolve_pulls(const pull_args *a, const char *path, const thr_plan *p
     }
     (*out)[i] = pull;
   }
-  options->cord_pull = *out;
-  return EXIT_OK;
+  for (int i = 0; i < plan->n_cords; i++)
+    if ((*out)[i] != THR_PULL_NONE) options->cord_pull = *out;
+  return options->cord_pull ? EXIT_OK : cli_usage("eval", "--pull %s: no cord of %s is pulled", a->pull, path);
 }
 
 /* Sizes that were not said follow from the edges: a very short one makes every cord thin. Once is enough. */

@@ -43,7 +43,7 @@ enum {
   "      --cache DIR      keep measured joints here (default: $XDG_CACHE_HOME/thread or ~/.cache/thread);  --no-cache\n"
 #define PULL_HELP(START)                                                                                                         \
   "      --law capstan|mitre   of method capstan: exp(mu x turning), or the mitred bead of the thesis (default: capstan)\n"      \
-  "      --pull start|end|both   which end of each cord is pulled (default: both); or A=start,B=end for single cords\n"          \
+  "      --pull start|end|both   which end of each cord is pulled (default: both); or A=start,B=none for single cords\n"         \
   "      --seed N         of a simulation's small initial disorder, 0 to 2^53 (default: 0)\n"                                    \
   "      --time-step X    factor on the simulation's validated time step, 0.01 to 10 (default: 1)\n"                             \
   "      --iterations X   factor on its validated iterations, 0.1 to 100 (default: 1)\n"                                         \

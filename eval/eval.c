@@ -22,6 +22,8 @@ void thr_eval_destroy(thr_eval *eval)
   thr_holding_destroy(&eval->loosest);
   thr_holding_destroy(&eval->after);
   thr_settle_destroy(&eval->settle);
+  thr_holding_destroy(&eval->loaded);
+  free(eval->carries);
   *eval = (thr_eval){0};
 }
 
@@ -103,12 +105,13 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
   static thr_status (*const run[THR_N_METHODS])(const thr_frame *, const thr_cord *, const thr_eval_options *, const thr_limits *,
                                                 thr_eval *, thr_err *) = {
       [THR_CAPSTAN] = thr_capstan_method, [THR_JOINT] = thr_joint_method, [THR_STRUCTURE] = thr_structure_method};
-  thr_eval eval = {.interpolation = NAN, .let_down = NAN};
+  thr_eval eval = {.interpolation = NAN, .let_down = NAN, .after_carries = {.first_bead = -1}};
   *out = (thr_eval){0};
   thr_status st = prepare(frame, cord, n_cords, method, options, &eval.record, err);
   if (!st) st = run[method](frame, cord, options, limits, &eval, err);
   if (!st) st = follow_schedule(frame, cord, options, &eval.record, err);
-  if (!st && method == THR_STRUCTURE && eval.record.schedule.n > 0) st = thr_structure_after(frame, cord, limits, &eval, err);
+  if (!st && method == THR_STRUCTURE && eval.record.schedule.n > 0)
+    st = thr_structure_after(frame, cord, options, limits, &eval, err);
   if (!st)
     st = sum_up(&eval, err);
   else if (st == THR_ELIMIT)

@@ -28,11 +28,22 @@ typedef struct {
   double start;      /* N, method structure: pull at which Bullet's structure settles; 0 = 3 x its holding pull. Plans are ranked
                         at one common start */
   const thr_schedule *schedule; /* what is done to the cords, borrowed; NULL: they are pulled until the slackest pass is seated */
+  const double (*load)[3];      /* N, method structure: [n_nodes] that acts at the nodes; NULL = none; borrowed */
+  const double *load_pull;      /* N: at which pulls of all ends it is asked what may be carried .. */
+  int n_load_pulls;             /* .. so many; 0 = some; borrowed */
+  double tilt, azimuth;         /* rad, method structure: of the ground, and where it goes down (from x towards y) */
+  bool clamped;                 /* method structure: feet are held in place; else they stand on the ground */
   double hand;   /* N, methods capstan and joint: 0, or the largest pull of a schedule with the fewest grips, which is made */
   bool dynamics; /* method structure: confirm by Bullet (true) or limit analysis only */
 } thr_eval_options;
 
 thr_eval_options thr_eval_options_default(void);
+
+/* What of the load is carried at a pull of all ends while the cords are drawn in; -1 as carry.first_bead: not decided. */
+typedef struct {
+  double pull; /* N */
+  thr_carry carry;
+} thr_load_point;
 
 /* What a method measured beside the record. */
 typedef struct {
@@ -57,7 +68,11 @@ typedef struct {
   thr_holding loosest;  /* the force at all ends in any friction state, whatever was done to the cords before */
   thr_holding after;    /* after a schedule: by what its tensions may be multiplied; it stands if that may be 1 */
   double let_down;      /* N: to which all ends can then be let down while an equilibrium exists; NAN if that was not asked */
-  thr_settle settle;    /* method structure */
+  thr_holding loaded;   /* pull of all ends at which the load is carried while the cords are drawn in */
+  thr_load_point *carries; /* [n_carries] pulls of all ends, and what of the load they carry; owned */
+  int n_carries;
+  thr_carry after_carries; /* of the load, after a schedule; of first_bead -1 if that was not asked */
+  thr_settle settle;       /* method structure; none with a load, which it does not know */
 } thr_eval;
 
 /* Contract of each method: THR_EINPUT for absurd physics or an overflow (one line that says what to change); THR_ELIMIT when

@@ -20,8 +20,9 @@ thr_status thr_joint_method(const thr_frame *frame, const thr_cord *cord, const 
  * holds it, THR_ESOLVER if that is not decided; at an end of the band the one is INFINITY, the other NAN. */
 thr_status thr_structure_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
                                 const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
-/* Does the structure stand with the tensions of the record, which a schedule left, and how far can the ends be let down? */
-thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, const thr_limits *limits, thr_eval *out,
-                               thr_err *err) THR_MUST_CHECK;
+/* Does the structure stand with the tensions of the record, which a schedule left, how far can the ends be let down, and what
+ * of the load is carried? */
+thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                               const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

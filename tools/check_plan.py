@@ -2043,7 +2043,7 @@ class Pulled:
         require(type(o) is dict, f"{self.place}: not an object")
         known(o, "id known pull turning taut_turning force other_force loss work error slackest refused tension colours exponents", self.place)
         require(member(o, "id", "text", self.place) == cord.id, f"{self.place}.id: not {cord.id}")
-        self.pull = choice(o, "pull", self.place, ("start", "end", "both"))
+        self.pull = choice(o, "pull", self.place, ("start", "end", "both", "none"))
         self.force = self.other = 0
         self.tension = []
         if not member(o, "known", "truth", self.place):
@@ -2064,7 +2064,7 @@ class Pulled:
             self.check_schedule(e, o, values, [s for s in e.steps if s["cord"] == cord.id])
             return
         self.check_values(e, values, math.fsum(self.angles))
-        if e.method == "capstan":
+        if e.method == "capstan" and self.pull != "none":
             self.check_law(e)
 
     def exponents_by_law(self, e):
@@ -2102,13 +2102,14 @@ class Pulled:
             require(values["taut_turning"] == values["turning"], f"{self.place}.taut_turning: not the turning")
         require(values["error"] == 0 or e.method != "capstan", f"{self.place}.error: of a closed form")
         first, last = self.tension[0], self.tension[-1]
-        force, other = {"start": (first, 0), "end": (last, 0), "both": (max(first, last), min(first, last))}[self.pull]
+        force, other = {"start": (first, 0), "end": (last, 0), "both": (max(first, last), min(first, last)), "none": (0, 0)}[self.pull]
         for key, value in (("force", force), ("other_force", other), ("work", force + other)):
             near(values[key], value, max(value, values[key]), f"{self.place}.{key}")
         slack = self.tension[self.slackest]
         require(slack == min(self.tension), f"{self.place}.slackest: not the least tension")
         near(values["loss"], 1 - slack / force if force else 0, 1, self.place + ".loss")
-        ways = {"start": [self.tension[self.slackest::-1]], "end": [self.tension[self.slackest:]]}
+        require(self.pull != "none" or not any(self.tension), f"{self.place}.tension: of a cord that is not pulled")
+        ways = {"none": [], "start": [self.tension[self.slackest::-1]], "end": [self.tension[self.slackest:]]}
         for way in ways["start"] + ways["end"] if self.pull == "both" else ways[self.pull]:
             require(all(a <= b * (1 + 1e-9) for a, b in zip(way, way[1:])), f"{self.place}: tension falls towards a pulled end")
 

@@ -1,4 +1,6 @@
 /* thread eval: how hard must one pull? */
+#include "cli/args/load_args.h"
+#include "cli/print/load_words.h"
 #include "cli/print/plain.h"
 #include "cli/pull.h"
 #include "diagram/overview/still.h"
@@ -46,7 +48,7 @@ static const char help[] =
                         "                       \"A: pull both 40; A: release end 5; B: grip 37 20 from start; all: knot both "
                         "0.5\"\n"
                         "                       (newtons; passes as in steps.txt, or two nodes; a knot may slip by mm: "
-                        "--stiffness)\n"
+                        "--stiffness)\n" LOAD_HELP
                         "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
                         "      --plot FILE      write a plot of the tension along each cord, as SVG: with a fan over the band of "
                         "mu,\n"
@@ -68,6 +70,7 @@ enum { OPTION_TENSION = OPTION_PULL_FREE, OPTION_PLOT, OPTION_STILL, OPTION_STRE
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       PULL_OPTIONS,
                                       GUARD_OPTIONS,
+                                      LOAD_OPTIONS,
                                       {"tension", no_argument, NULL, OPTION_TENSION},
                                       {"output", required_argument, NULL, 'o'},
                                       {"plot", required_argument, NULL, OPTION_PLOT},
@@ -80,6 +83,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
 typedef struct {
   pull_args pull;
   guard_limits guard;
+  load_args load;
   bool tension;
   const char *path, *output, *plot, *still;
   const char *schedule; /* as given; NULL: none */
@@ -94,7 +98,8 @@ static int parse(int argc, char **argv, arguments *a)
   pull_args_init(&a->pull, THR_CAPSTAN);
   while ((option = cli_physics_option(&a->pull.physics, argc, argv, "eval", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help,
                                       &done)) != -1) {
-    if (pull_option(&a->pull, "eval", option, optarg, &ok) || guard_option(&a->guard, "eval", option, optarg, &ok)) {
+    if (pull_option(&a->pull, "eval", option, optarg, &ok) || guard_option(&a->guard, "eval", option, optarg, &ok) ||
+        load_option(&a->load, "eval", option, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
       continue;
     }
@@ -126,6 +131,12 @@ static int parse(int argc, char **argv, arguments *a)
   if (a->pull.options.hand > 0 && a->pull.method == THR_STRUCTURE)
     return cli_usage("eval", "--hand is of the methods capstan and joint; --schedule takes what it says");
   if (a->still && a->pull.method != THR_STRUCTURE) return cli_usage("eval", "--still needs --method structure");
+  if (load_any(&a->load) && a->pull.method != THR_STRUCTURE)
+    return cli_usage("eval", "--load, --tilt and --clamp-feet are of --method structure");
+  if (a->load.n_pulls && !a->load.load) return cli_usage("eval", "--load-pulls needs --load");
+  if (load_any(&a->load) && a->output)
+    return cli_usage("eval", "a plan has no place for --load, --tilt and --clamp-feet: --json instead of -o");
+  if (a->still && a->load.load) return cli_usage("eval", "--still shows a simulation, which knows no loads");
   if (a->still && !a->pull.options.dynamics) return cli_usage("eval", "--still shows a simulation; take --no-dynamics away");
   return -1;
 }
@@ -204,7 +215,10 @@ static void put_cord(thr_text *text, const char *id, const thr_eval_cord *cord, 
   put_loss(text, cord->loss);
   thr_text_printf(text, " %10.4g J", cord->work);
   if (method == THR_JOINT) put_error(text, cord);
-  thr_text_printf(text, "  %d of %d\n", cord->slackest + 1, cord->n_passes);
+  if (cord->pull == THR_PULL_NONE)
+    thr_text_append(text, "  not pulled\n");
+  else
+    thr_text_printf(text, "  %d of %d\n", cord->slackest + 1, cord->n_passes);
 }
 
 static void put_cords(thr_text *text, const thr_plan *plan, const thr_evaluation *evaluation)
@@ -395,7 +409,8 @@ static void put_structure(thr_text *text, const arguments *a, const thr_plan *pl
   put_holding(text, eval);
   if (holding->first_bead >= 0)
     thr_text_printf(text, "just below     bead %s moves fastest (collapse mechanism)\n", plan->frame.name[holding->first_bead]);
-  if (!a->pull.options.dynamics) return;
+  if (a->load.load) load_put(text, &plan->frame, eval);
+  if (!a->pull.options.dynamics || a->load.load) return;
   if (eval->settle.present)
     put_settle(text, plan, &eval->settle, holding->upper);
   else if (plan->frame.n_nodes > thr_settle_largest)
@@ -568,6 +583,7 @@ static void put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval,
   thr_write_int(&writer, "refused", eval->refused);
   if (plan->evaluation.method == THR_JOINT) put_json_joints(&writer, eval);
   if (eval->holding.present) put_json_answers(&writer, &plan->frame, eval);
+  if (eval->n_carries) load_put_json(&writer, &plan->frame, eval);
   if (eval->holding.present && eval->settle.present) put_json_simulation(&writer, &plan->frame, &eval->settle);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
@@ -719,7 +735,9 @@ int cmd_eval(int argc, char **argv)
   if (guard_fork(&a.guard, &end)) return guard_conclude(&end, "no result");
   if ((code = cli_read_plan(a.path, &plan))) return code;
   thr_schedule schedule = {0};
+  double(*load)[3] = NULL;
   code = read_schedule(a.schedule, &plan, &schedule);
+  if (!code) code = load_apply(&a.load, &plan.frame, &a.pull.options, &load);
   if (schedule.n > 0) a.pull.options.schedule = &schedule;
   if (!code) code = pull_eval(&a.pull, a.path, &plan, (thr_method)a.pull.method, &eval);
   bool known = (code == EXIT_OK || code == EXIT_LIMIT) && any_known(&eval.record);
@@ -735,6 +753,7 @@ int cmd_eval(int argc, char **argv)
   }
   if (code == EXIT_LIMIT) cli_error(known ? "stopped: only a part is known" : "stopped before any cord was known");
   thr_schedule_destroy(&schedule);
+  free(load);
   thr_eval_destroy(&eval);
   thr_plan_destroy(&plan);
   return code;

@@ -119,7 +119,10 @@ static void put_tension(viewer *s, const thr_eval_cord *cord)
   thr_writer *writer = &s->out;
   char text[32], words[64], hex[8];
   thr_svg_force(cord->force, text);
-  snprintf(words, sizeof words, "pull at %s: %s", cord->pull == THR_PULL_BOTH ? "both ends" : thr_pull_name(cord->pull), text);
+  if (cord->pull == THR_PULL_NONE)
+    snprintf(words, sizeof words, "not pulled");
+  else
+    snprintf(words, sizeof words, "pull at %s: %s", cord->pull == THR_PULL_BOTH ? "both ends" : thr_pull_name(cord->pull), text);
   thr_write_line(writer, 1);
   thr_write_string(writer, "pull", words);
   thr_write_array(writer, "tension");

@@ -322,6 +322,7 @@ static void write_cord_marks(const plot *s, int c, thr_text *text)
     along += step_of(s, c, k);
   thr_text_printf(text, "<circle class=\"slackest\" stroke=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", thr_palette(c).hex,
                   thr_svg_round(place_x(s, slackest)), thr_svg_round(place_y(s, cord->tension[cord->slackest])), 0.7 * SIGN);
+  if (cord->pull == THR_PULL_NONE) return;
   if (cord->pull != THR_PULL_END) write_pulled_end(s, c, 0, cord->tension[0], -1, text);
   if (cord->pull != THR_PULL_START) write_pulled_end(s, c, along, cord->tension[cord->n_passes - 1], 1, text);
 }

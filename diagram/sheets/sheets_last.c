@@ -103,6 +103,7 @@ static void put_force(const thr_sheets *sheets, const thr_eval_cord *known, int 
   switch (known->pull) {
   case THR_PULL_START: snprintf(cell[1], 96, "start, at %.40s", from); break;
   case THR_PULL_END: snprintf(cell[1], 96, "end, at %.40s", to); break;
+  case THR_PULL_NONE: snprintf(cell[1], 96, "not pulled"); break;
   default: snprintf(cell[1], 96, "both, at %.30s and %.30s", from, to);
   }
   if (known->pull == THR_PULL_BOTH)

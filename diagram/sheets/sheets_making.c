@@ -456,7 +456,8 @@ static void put_tighten(panel *p, thr_text *words)
   put_cord(p, p->x - 36, p->y, p->x + 36, p->y, OLD);
   thr_text_printf(words, "%sord %s%s. ", sheets->plan->n_cords > 1 ? "The order is on the page \"Last\": first c" : "C", cord->id,
                   sheets->plan->n_cords > 1 ? "" : " is tightened when all is threaded");
-  bool from_start = true, from_end = true, known = evaluation->present && evaluation->cord[c].known;
+  bool from_start = true, from_end = true,
+       known = evaluation->present && evaluation->cord[c].known && evaluation->cord[c].pull != THR_PULL_NONE;
   if (known && evaluation->schedule.n > 0) {
     put_schedule(sheets, c, words);
     put_label(p, p->x, p->y + 10, "first grip");

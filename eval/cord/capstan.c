@@ -43,7 +43,7 @@ static thr_status raise_to_force_at(const thr_frame *frame, const thr_cord *cord
 {
   thr_eval_cord other = {.force = INFINITY};
   thr_status st = fill_exponents(frame, cord, angle, evaluation, mu, exponent, NULL);
-  if (!st) st = thr_profile_cord(&other, cord->id, cord->n_passes, exponent, pull, evaluation->physics.seating, NULL);
+  if (!st) st = thr_profile_cord(&other, cord, exponent, pull, evaluation->physics.seating, NULL);
   free(other.tension);
   if (st == THR_ENOMEM) return thr_nomem(err);
   *largest = fmax(*largest, other.force);
@@ -63,7 +63,7 @@ static thr_status eval_cord(const thr_frame *frame, const thr_cord *cord, const 
   for (int k = 0; k + 1 < cord->n_passes && !st; k++)
     turning += angle[k] = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
   if (!st) st = fill_exponents(frame, cord, angle, evaluation, physics->mu, out->exponent, err);
-  if (!st) st = thr_profile_cord(out, cord->id, cord->n_passes, out->exponent, out->pull, physics->seating, err);
+  if (!st) st = thr_profile_cord(out, cord, out->exponent, out->pull, physics->seating, err);
   if (!st) st = raise_to_force_at(frame, cord, angle, evaluation, out->pull, physics->mu_low, other, &band[0], err);
   if (!st) st = raise_to_force_at(frame, cord, angle, evaluation, out->pull, physics->mu_high, other, &band[1], err);
   out->turning = out->taut_turning = turning;

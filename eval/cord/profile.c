@@ -7,23 +7,34 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The pass that the tension reaches last: the far end, or between two pulled ends the pass that costs its farther end least; of
- * several the last before the middle of the cord. */
-static int slackest_pass(int n_passes, const double *exponent, thr_pull pull)
+/* Which of passes i < k comes first whichever end of the cord is called its start? The one nearer to the middle; of two as near
+ * the one of the lower edge, and if that is the same the one whose outer neighbours have it. */
+static bool comes_first(const thr_cord *cord, int i, int k)
 {
-  if (pull == THR_PULL_START) return n_passes - 1;
+  const int last = cord->n_passes - 1;
+  if (i + k != last) return i + k > last;
+  for (; i >= 0; i--, k++)
+    if (cord->half[i] >> 1 != cord->half[k] >> 1) return cord->half[i] >> 1 < cord->half[k] >> 1;
+  return true; /* the same from either end */
+}
+
+/* The pass that the tension reaches last: the far end, or between two pulled ends the pass that costs its farther end least. */
+static int slackest_pass(const thr_cord *cord, const double *exponent, thr_pull pull)
+{
+  if (pull == THR_PULL_START) return cord->n_passes - 1;
   if (pull == THR_PULL_END) return 0;
   int slackest = 0;
   double total = 0, before = 0, best = INFINITY;
-  for (int k = 0; k + 1 < n_passes; k++)
+  for (int k = 0; k + 1 < cord->n_passes; k++)
     total += exponent[k];
-  for (int k = 0; k < n_passes; k++) {
+  const double same = 1e-12 * (1 + total); /* sums from either end differ by rounding */
+  for (int k = 0; k < cord->n_passes; k++) {
     double worse = fmax(before, total - before);
-    if (worse < best || (worse == best && 2 * k < n_passes)) {
-      best = worse;
+    if (worse < best - same || (worse <= best + same && !comes_first(cord, slackest, k))) {
       slackest = k;
+      best = fmin(best, worse);
     }
-    if (k + 1 < n_passes) before += exponent[k];
+    if (k + 1 < cord->n_passes) before += exponent[k];
   }
   return slackest;
 }
@@ -36,12 +47,26 @@ double thr_profile_wobble(const thr_frame *frame, const thr_physics *physics, co
   return mu * physics->wobble * way * mm / 1000;
 }
 
-thr_status thr_profile_cord(thr_eval_cord *cord, const char *id, int n_passes, const double *exponent, thr_pull pull,
-                            double seating, thr_err *err)
+static void leave_slack(thr_eval_cord *out, int n_passes, double *tension)
 {
-  int slackest = slackest_pass(n_passes, exponent, pull);
+  out->n_passes = n_passes;
+  out->pull = THR_PULL_NONE;
+  out->force = out->other_force = out->loss = out->work = 0;
+  out->slackest = 0;
+  out->tension = tension;
+}
+
+thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const double *exponent, thr_pull pull, double seating,
+                            thr_err *err)
+{
+  const int n_passes = cord->n_passes;
   double *tension = thr_calloc((size_t)n_passes, sizeof *tension);
   if (!tension) return thr_nomem(err);
+  if (pull == THR_PULL_NONE) {
+    leave_slack(out, n_passes, tension);
+    return THR_OK;
+  }
+  int slackest = slackest_pass(cord, exponent, pull);
   double from = 0, to = 0; /* cost between the slackest pass and the pass at hand, towards the start and the end */
   tension[slackest] = seating;
   for (int i = slackest; i > 0; i--) {
@@ -58,16 +83,16 @@ thr_status thr_profile_cord(thr_eval_cord *cord, const char *id, int n_passes, c
     return thr_fail(err, THR_EINPUT,
                     "cord %s: the pull would be e^%.0f times the seating tension of %g N, past what a number can hold (e^700); "
                     "use a smaller mu, or a plan with more cords",
-                    id, fmax(from, to), seating);
+                    cord->id, fmax(from, to), seating);
   }
-  cord->n_passes = n_passes;
-  cord->pull = pull;
-  cord->force = pull == THR_PULL_START ? at_start : pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
-  cord->other_force = pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
-  cord->loss = 1 - seating / cord->force;
-  cord->work = cord->force + cord->other_force;
-  cord->slackest = slackest;
-  cord->tension = tension;
+  out->n_passes = n_passes;
+  out->pull = pull;
+  out->force = pull == THR_PULL_START ? at_start : pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
+  out->other_force = pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
+  out->loss = 1 - seating / out->force;
+  out->work = out->force + out->other_force;
+  out->slackest = slackest;
+  out->tension = tension;
   return THR_OK;
 }
 

@@ -21,6 +21,8 @@ static thr_status allocate(thr_beads *beads, thr_err *err)
   beads->mass_centre = thr_scratch_array(&beads->own, n, sizeof *beads->mass_centre);
   beads->mass = thr_scratch_array(&beads->own, n, sizeof *beads->mass);
   beads->fixed = thr_scratch_array(&beads->own, n, sizeof *beads->fixed);
+  beads->load = thr_scratch_array(&beads->own, n, sizeof *beads->load);
+  beads->down[2] = -1;
   beads->middle = thr_scratch_array(&beads->own, m, sizeof *beads->middle);
   beads->axis = thr_scratch_array(&beads->own, m, sizeof *beads->axis);
   beads->corner = thr_scratch_array(&beads->own, m, sizeof *beads->corner);
@@ -182,4 +184,11 @@ void thr_beads_clamp(thr_beads *beads, const bool *fixed)
 {
   memcpy(beads->fixed, fixed, (size_t)beads->n_beads * sizeof *fixed);
   beads->n_feet = 0;
+}
+
+void thr_beads_tilt(thr_beads *beads, double angle, double azimuth)
+{
+  beads->down[0] = sin(angle) * cos(azimuth);
+  beads->down[1] = sin(angle) * sin(azimuth);
+  beads->down[2] = -cos(angle);
 }

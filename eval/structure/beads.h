@@ -31,6 +31,8 @@ typedef struct {
   double (*foot_point)[4][3]; /* [n_feet] contact points with the ground, m: a square of side width, sides along x and y, half a
                                  width below the foot's node: each foot has its own patch of level ground at its underside */
   bool *fixed;                /* [n_beads] held in place: such beads need no equilibrium. All false until thr_beads_clamp */
+  double down[3];             /* unit: where weight draws; (0, 0, -1) until thr_beads_tilt */
+  double (*load)[3];          /* [n_beads] N at the node, beside the weight; all 0 until it is filled in */
   double size;                /* m: diagonal of the bounding box, for tolerances */
   thr_scratch own;            /* the arrays */
 } thr_beads;
@@ -44,5 +46,9 @@ void thr_beads_destroy(thr_beads *beads);
 
 /* Holds the beads with fixed[n_beads] true in place and takes the ground away (n_feet = 0): for cantilevers and the like. */
 void thr_beads_clamp(thr_beads *beads, const bool *fixed);
+
+/* The ground is tilted about a horizontal axis by angle, rad, so that weight draws towards azimuth (rad from x towards y), too.
+ */
+void thr_beads_tilt(thr_beads *beads, double angle, double azimuth);
 
 #endif

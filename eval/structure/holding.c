@@ -40,7 +40,9 @@ typedef struct {
   const thr_beads *b;
   const thr_frame *f;
   const thr_physics *physics;
-  const double *press;         /* [n_faces] */
+  const double *press;         /* [n_faces] of a pull of 1; N where the load is asked for */
+  const double (*load)[3];     /* [n_beads] N, at its node; NULL = none */
+  bool carries;                /* the unknown is not the pull but what the load is multiplied by */
   double most;                 /* press above it is taken for it .. */
   bool merged;                 /* .. and the beads on either side for one body */
   double weight, length, pull; /* N, m, N */
@@ -48,7 +50,8 @@ typedef struct {
   contact *contact;
   int *body;           /* [n_beads] */
   double (*origin)[3]; /* [n_bodies] where moments are taken about, m */
-  double (*wrench)[6]; /* [n_bodies] of the cords at a pull of 1 */
+  double (*wrench)[6]; /* [n_bodies] of what is unknown: the cords at a pull of 1, or the load */
+  double (*given)[6];  /* [n_bodies] of the other one; none of a pull that is unknown */
   int *row;            /* [n_bodies] first of a body's six rows, -1 = held in place */
   int (*tie)[2];       /* [n_ties] bodies whose copies of the pull are equal */
   thr_scratch own;     /* the arrays */
@@ -152,21 +155,28 @@ static void set_bodies(structure *s, int *parent)
     if (s->row[v] == 0) s->row[v] = s->n_rows, s->n_rows += 6;
 }
 
-/* The cords draw the two beads of a face together. */
+static void add_force(const structure *s, double (*wrench)[6], int bead, const double force[3], const double at[3], double times)
+{
+  const int body = s->body[bead];
+  double lever[3], moment[3];
+  for (int k = 0; k < 3; k++)
+    lever[k] = at[k] - s->origin[body][k];
+  cross(lever, force, moment);
+  for (int k = 0; k < 3; k++) {
+    wrench[body][k] += times * force[k];
+    wrench[body][k + 3] += times * moment[k];
+  }
+}
+
+/* The cords draw the two beads of a face together; the load acts on the nodes. */
 static void set_wrenches(structure *s)
 {
+  double(*of_cords)[6] = s->carries ? s->given : s->wrench, (*of_load)[6] = s->carries ? s->wrench : s->given;
   for (int e = 0; e < s->b->n_faces; e++)
-    for (int side = 0; side < 2 && !inside(s, e); side++) {
-      int v = s->body[s->f->edge[e][side]];
-      double size = (side ? -1 : 1) * fmin(s->press[e], s->most), lever[3], moment[3];
-      for (int k = 0; k < 3; k++)
-        lever[k] = s->b->middle[e][k] - s->origin[v][k];
-      cross(lever, s->b->axis[e], moment);
-      for (int k = 0; k < 3; k++) {
-        s->wrench[v][k] += size * s->b->axis[e][k];
-        s->wrench[v][k + 3] += size * moment[k];
-      }
-    }
+    for (int side = 0; side < 2 && !inside(s, e); side++)
+      add_force(s, of_cords, s->f->edge[e][side], s->b->axis[e], s->b->middle[e], (side ? -1 : 1) * fmin(s->press[e], s->most));
+  for (int v = 0; v < s->b->n_beads && s->load; v++)
+    add_force(s, of_load, v, s->load[v], s->b->centre[v], 1);
 }
 
 static void set_ties(structure *s, int *parent)
@@ -196,6 +206,7 @@ static thr_status structure_make(structure *s, double widen, thr_err *err)
   s->body = thr_scratch_array(&s->own, n, sizeof *s->body);
   s->origin = thr_scratch_array(&s->own, n, sizeof *s->origin);
   s->wrench = thr_scratch_array(&s->own, n, sizeof *s->wrench);
+  s->given = thr_scratch_array(&s->own, n, sizeof *s->given);
   s->row = thr_scratch_array(&s->own, n, sizeof *s->row);
   s->tie = thr_scratch_array(&s->own, n, sizeof *s->tie);
   if (thr_scratch_check(&s->own, err)) {
@@ -259,7 +270,7 @@ static void contact_columns(const structure *s, programme *p)
   }
 }
 
-/* Copies of the pull; the first one costs. */
+/* Copies of the unknown; the first one costs. */
 static void pull_columns(const structure *s, programme *p, double cost)
 {
   double unit = s->pull / s->weight;
@@ -286,14 +297,23 @@ static void weigh(const structure *s, int bead, double *rhs)
 {
   int body = s->body[bead], row = s->row[body];
   if (row < 0) return;
-  const double force = s->b->mass[bead] * s->physics->gravity / s->weight, up[3] = {0, 0, force};
-  double lever[3], moment[3];
-  for (int k = 0; k < 3; k++)
+  double lever[3], moment[3], up[3];
+  for (int k = 0; k < 3; k++) {
+    up[k] = -s->b->down[k] * s->b->mass[bead] * s->physics->gravity / s->weight;
     lever[k] = (s->b->mass_centre[bead][k] - s->origin[body][k]) / s->length;
+  }
   cross(lever, up, moment);
-  rhs[row + 2] += force;
-  for (int k = 0; k < 3; k++)
+  for (int k = 0; k < 3; k++) {
+    rhs[row + k] += up[k];
     rhs[row + 3 + k] += moment[k];
+  }
+}
+
+/* What carries the forces on a body that are given. */
+static void carry_given(const structure *s, int body, double *rhs)
+{
+  for (int k = 0; k < 6 && s->row[body] >= 0; k++)
+    rhs[s->row[body] + k] -= s->given[body][k] / (k < 3 ? s->weight : s->weight * s->length);
 }
 
 static thr_status programme_make(const structure *s, bool hands, programme *p, thr_err *err)
@@ -313,8 +333,10 @@ static thr_status programme_make(const structure *s, bool hands, programme *p, t
   }
   for (int v = 0; v < s->b->n_beads; v++)
     weigh(s, v, p->rhs);
+  for (int v = 0; v < s->n_bodies; v++)
+    carry_given(s, v, p->rhs);
   contact_columns(s, p);
-  pull_columns(s, p, hands ? 0 : 1);
+  pull_columns(s, p, hands ? 0 : s->carries ? -1 : 1); /* the least pull, the largest load */
   if (hands) hand_columns(s, p);
   return THR_OK;
 }
@@ -489,18 +511,23 @@ static double parting(const structure *s, const double (*velocity)[6], int face)
   return sum;
 }
 
-/* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull, W/N, by their true tensions. */
+/* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull, W/N, by their true tensions; the
+ * load. */
 typedef struct {
-  double falling, most, resistance;
+  double falling, most, resistance, load;
 } powers;
 
 static powers balance(const structure *s, const double (*velocity)[6])
 {
   powers p = {0};
   for (int v = 0; v < s->b->n_beads; v++) {
-    double weight = s->b->mass[v] * s->physics->gravity;
-    p.falling -= weight * velocity[v][2];
+    double weight = s->b->mass[v] * s->physics->gravity, node[3];
+    p.falling += weight * thr_dot(s->b->down, velocity[v]);
     p.most += weight * translation(velocity[v]);
+    if (!s->load) continue;
+    point_velocity(s, v, velocity, s->b->centre[v], node);
+    p.load += thr_dot(s->load[v], node);
+    p.most += fabs(thr_dot(s->load[v], node));
   }
   for (int e = 0; e < s->b->n_faces; e++)
     p.resistance += s->press[e] * parting(s, velocity, e);
@@ -523,14 +550,17 @@ static void answer_destroy(answer *a)
   *a = (answer){0};
 }
 
-/* Weak duality, in our own sums: the pull at which the cords' resistance makes up for the weights. */
+/* Weak duality, in our own sums: the pull at which the cords' resistance makes up for the weights, and for the load; or the load
+ * at which both make up for the cords. */
 static void certify(const structure *s, answer *a)
 {
   const double(*velocity)[6] = (const double(*)[6])a->velocity;
   powers p = balance(s, velocity);
+  const double given = p.falling + p.load;
   a->residual = fmax(0, -least_opening(s, velocity));
-  bool falls = p.falling > 1e-9 * p.most; /* less is rounding: it stands by itself */
-  a->lower = !falls ? 0 : p.resistance > 0 ? p.falling / p.resistance : INFINITY;
+  bool falls = given > 1e-9 * p.most; /* less is rounding: it stands by itself */
+  a->lower = !falls ? 0 : p.resistance > 0 ? given / p.resistance : INFINITY;
+  if (s->carries) a->lower = p.load > 0 ? fmax(0, (p.resistance - p.falling) / p.load) : INFINITY;
   double apart = fabs(a->pull - a->lower);
   a->gap = isfinite(apart) ? apart / (a->pull + 1e-3 * s->pull) : 1;
 }
@@ -544,7 +574,7 @@ static thr_status solve_pull(const structure *s, const thr_limits *limits, answe
   thr_status st = solve(s, false, limits, &o, err);
   if (!st) st = mechanism(s, o.dual, a->velocity, err);
   if (!st) {
-    if (!s->merged) a->pull = o.imbalance < 1e-5 ? fmax(0, o.objective) * s->pull : INFINITY;
+    if (!s->merged) a->pull = o.imbalance < 1e-5 ? fmax(0, s->carries ? -o.objective : o.objective) * s->pull : INFINITY;
     if (a->pull < 1e-9 * s->pull) a->pull = 0;
     certify(s, a);
   }
@@ -559,13 +589,23 @@ typedef struct {
   const thr_frame *f;
   const thr_physics *physics;
   const double *press;
+  const double (*load)[3];
+  bool carries;
+  double unit; /* factor on what the unknown is counted in */
   const thr_limits *limits;
   double least, largest; /* press of any face that is pressed */
 } task;
 
 static structure part(const task *t, double most, bool merged)
 {
-  return (structure){.b = t->b, .f = t->f, .physics = t->physics, .press = t->press, .most = most, .merged = merged};
+  return (structure){.b = t->b,
+                     .f = t->f,
+                     .physics = t->physics,
+                     .press = t->press,
+                     .load = t->load,
+                     .carries = t->carries,
+                     .most = most,
+                     .merged = merged};
 }
 
 /* One programme: replaces the mechanism in a, if there was one. Merged, its pull is about a->pull. */
@@ -575,6 +615,7 @@ static thr_status pull_of(const task *t, double most, bool merged, double widen,
   thr_status st = structure_make(&s, widen, err);
   if (st) return st;
   if (merged) s.pull = a->pull;
+  s.pull *= t->unit;
   free(a->velocity);
   a->velocity = NULL;
   st = solve_pull(&s, t->limits, a, err);
@@ -587,10 +628,10 @@ static bool closed(const answer *a, double within)
   return a->gap < within && a->residual < STILL;
 }
 
-/* Moves a to best if it is near and its bound the higher one. */
-static void keep_better(answer *a, double most, answer *best, double *best_most)
+/* Moves a to best if it is near and its bound the better one: the higher pull, the lower load. */
+static void keep_better(const task *t, answer *a, double most, answer *best, double *best_most)
 {
-  if (!closed(a, NEAR) || (best->velocity && a->lower <= best->lower)) return;
+  if (!closed(a, NEAR) || (best->velocity && (t->carries ? a->lower >= best->lower : a->lower <= best->lower))) return;
   answer_destroy(best);
   *best = *a;
   *best_most = most;
@@ -601,9 +642,9 @@ static void keep_better(answer *a, double most, answer *best, double *best_most)
 static bool gives_way(const structure *s, const double (*velocity)[6])
 {
   powers p = balance(s, velocity);
-  if (!(least_opening(s, velocity) >= -STILL) || !(p.falling > 1e-6 * p.most)) return false;
+  if (!(least_opening(s, velocity) >= -STILL) || !(p.falling + p.load > 1e-6 * p.most)) return false;
   for (int e = 0; e < s->b->n_faces; e++)
-    if (s->press[e] > 0 && parting(s, velocity, e) > 1e-6 * p.falling / p.most) return false;
+    if (s->press[e] > 0 && parting(s, velocity, e) > 1e-6 * (p.falling + p.load) / p.most) return false;
   return true;
 }
 
@@ -641,15 +682,15 @@ static thr_status lower_at(const task *t, double most, answer *a, answer *best, 
 {
   thr_status st = pull_of(t, most, false, WIDEN, a, err);
   if (st || closed(a, CLOSE)) return st;
-  keep_better(a, most, best, best_most);
+  keep_better(t, a, most, best, best_most);
   if (t->largest <= most || !(a->pull > 0) || !isfinite(a->pull)) return THR_OK;
   st = pull_of(t, most, true, WIDEN, a, err);
-  if (!st && !closed(a, CLOSE)) keep_better(a, most, best, best_most);
+  if (!st && !closed(a, CLOSE)) keep_better(t, a, most, best, best_most);
   return st;
 }
 
 /* With the first cap on the tensions at which the bound closes. *most: that cap. */
-static thr_status lower_pull(const task *t, double *most, answer *a, thr_err *err)
+static thr_status lower_pull_in(const task *t, double *most, answer *a, thr_err *err)
 {
   answer best = {0};
   double best_most = 0;
@@ -658,7 +699,7 @@ static thr_status lower_pull(const task *t, double *most, answer *a, thr_err *er
     *most = t->least * cap[i];
     st = lower_at(t, *most, a, &best, &best_most, err);
     if (st || (a->velocity && closed(a, CLOSE))) goto done;
-    if (i == 0 && !best.velocity && (st = check_feasible(t, err))) goto done;
+    if (i == 0 && !best.velocity && !t->carries && (st = check_feasible(t, err))) goto done;
     if (t->largest <= *most) break;
   }
   if (best.velocity) {
@@ -676,6 +717,20 @@ done:
   return st;
 }
 
+/* Rounding may spoil a large programme in one scale and not in another. */
+static thr_status lower_pull(task *t, double *most, answer *a, thr_err *err)
+{
+  static const double unit[] = {1, 0.1, 10};
+  thr_err why = {0};
+  thr_status st = THR_ESOLVER;
+  for (int i = 0; i < 3 && st == THR_ESOLVER; i++) {
+    answer_destroy(a);
+    t->unit = unit[i];
+    st = lower_pull_in(t, most, a, &why);
+  }
+  return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
 void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *tension, double *press)
 {
   for (int i = 0; i < n_cords; i++)
@@ -683,37 +738,60 @@ void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *t
       press[cord[i].half[k] >> 1] += tension[i][k];
 }
 
-static thr_status hold(const task *t, bool want_upper, thr_holding *holding, thr_err *err)
+/* upper: with the pyramids inside the cones, where it is wanted. */
+static thr_status hold(task *t, bool want_upper, thr_holding *holding, thr_err *err)
 {
-  answer a = {0}, above = {0};
+  answer a = {0}, inside_cones = {0};
   double most;
   thr_status st = lower_pull(t, &most, &a, err);
-  if (!st && want_upper) st = pull_of(t, most, false, 1, &above, err);
+  if (!st && want_upper) st = pull_of(t, most, false, 1, &inside_cones, err);
   if (!st) {
     assert(a.velocity);
     holding->present = true;
     holding->lower = a.lower;
-    holding->upper = above.pull;
+    holding->upper = inside_cones.pull;
     holding->residual = a.residual;
-    holding->first_bead = a.lower > 0 ? fastest(t->b, (const double(*)[6])a.velocity) : -1;
+    holding->first_bead = a.lower > 0 || t->carries ? fastest(t->b, (const double(*)[6])a.velocity) : -1;
     holding->velocity = a.velocity;
     a.velocity = NULL;
   }
   answer_destroy(&a);
-  answer_destroy(&above);
+  answer_destroy(&inside_cones);
   return st;
+}
+
+static task task_of(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
+                    const thr_limits *limits)
+{
+  task t = {.b = beads, .f = frame, .physics = physics, .press = press, .limits = limits, .least = INFINITY, .unit = 1};
+  for (int e = 0; e < beads->n_faces; e++) {
+    if (press[e] > 0) t.least = fmin(t.least, press[e]);
+    t.largest = fmax(t.largest, press[e]);
+  }
+  return t;
 }
 
 thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                             bool want_upper, const thr_limits *limits, thr_holding *out, thr_err *err)
 {
-  task t = {.b = beads, .f = frame, .physics = physics, .press = press, .limits = limits, .least = INFINITY};
-  for (int e = 0; e < beads->n_faces; e++) {
-    if (press[e] > 0) t.least = fmin(t.least, press[e]);
-    t.largest = fmax(t.largest, press[e]);
-  }
+  task t = task_of(beads, frame, physics, press, limits);
+  t.load = (const double(*)[3])beads->load;
   *out = (thr_holding){0};
   return hold(&t, want_upper, out, err);
+}
+
+thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
+                             const double (*load)[3], const thr_limits *limits, thr_carry *out, thr_err *err)
+{
+  thr_holding found = {0};
+  task t = task_of(beads, frame, physics, press, limits);
+  t.load = load;
+  t.carries = true;
+  *out = (thr_carry){0};
+  thr_status st = hold(&t, true, &found, err);
+  if (!st) *out = (thr_carry){.beyond = found.lower, .carried = found.upper, .first_bead = found.first_bead};
+  thr_holding_destroy(&found);
+  return st;
 }
 
 void thr_holding_destroy(thr_holding *holding)

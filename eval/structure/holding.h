@@ -38,6 +38,18 @@ void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *t
  * e.g. feet slide); THR_ESOLVER if neither was decided, because tensions span too many powers of ten; THR_ELIMIT when stopped. */
 thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                             bool want_upper, const thr_limits *limits, thr_holding *out, thr_err *err) THR_MUST_CHECK;
+/* What a load may be multiplied by. */
+typedef struct {
+  double
+      carried; /* at so many times the load an equilibrium exists (friction pyramids inside the cones); 0 if it does not stand */
+  double beyond;  /* above so many times none does (pyramids round the cones), proved by the power balance of a mechanism */
+  int first_bead; /* that moves fastest in it */
+} thr_carry;
+
+/* press: thr_holding_press of tensions in N. load: N, [n_beads], acts at the nodes, beside the weights; beads->load is left out.
+ * THR_ESOLVER if it is not decided: among others where no multiple is too much (a foot pushed into the ground). */
+thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
+                             const double (*load)[3], const thr_limits *limits, thr_carry *out, thr_err *err) THR_MUST_CHECK;
 void thr_holding_destroy(thr_holding *holding);
 
 #endif

@@ -259,9 +259,10 @@ static thr_status build(model *m, const thr_physics *physics, const thr_settle_o
   if (s != THR_OK) return s;
   iterations *= ITERATIONS_PER_BEAD;
   if (iterations < LEAST_ITERATIONS) iterations = LEAST_ITERATIONS;
+  const double *down = m->b->down, gravity = physics->gravity > 0 ? 1 : 0;
   thr_world_options world_options = {.time_step = m->dt,
                                      .iterations = (int)ceil(options->iterations * finer * iterations),
-                                     .gravity = {0, 0, physics->gravity > 0 ? -1 : 0},
+                                     .gravity = {gravity * down[0], gravity * down[1], gravity * down[2]},
                                      .cached_friction = true,
                                      .erp = -1,
                                      .erp2 = -1,

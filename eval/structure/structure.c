@@ -30,7 +30,8 @@ static int pass_count(const thr_evaluation *evaluation)
 }
 
 /* Profile of one cord whose harder pulled end has 1, and its exponents. */
-static thr_status profile(const thr_frame *frame, const thr_cord *cord, double mu, thr_eval_cord *eval_cord, thr_err *err)
+static thr_status profile(const thr_frame *frame, const thr_cord *cord, const thr_physics *physics, double mu,
+                          thr_eval_cord *eval_cord, thr_err *err)
 {
   if (!eval_cord->exponent) eval_cord->exponent = thr_calloc((size_t)cord->n_passes, sizeof *eval_cord->exponent);
   double *exponent = eval_cord->exponent;
@@ -38,18 +39,19 @@ static thr_status profile(const thr_frame *frame, const thr_cord *cord, double m
   eval_cord->turning = 0;
   for (int k = 0; k + 1 < cord->n_passes; k++) {
     double turn = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
-    exponent[k] = mu * turn;
+    exponent[k] = mu * turn + thr_profile_wobble(frame, physics, cord, k, mu);
     eval_cord->turning += turn;
   }
   free(eval_cord->tension);
   eval_cord->tension = NULL;
-  thr_status st = thr_profile_cord(eval_cord, cord->id, cord->n_passes, exponent, eval_cord->pull, 1, err);
+  thr_status st = thr_profile_cord(eval_cord, cord, exponent, eval_cord->pull, 1, err);
   if (st) return st;
-  double force = eval_cord->force;
+  const bool pulled = eval_cord->pull != THR_PULL_NONE;
+  const double force = pulled ? eval_cord->force : 1;
   for (int k = 0; k < cord->n_passes; k++)
     eval_cord->tension[k] /= force;
   eval_cord->other_force /= force;
-  eval_cord->force = 1;
+  eval_cord->force = pulled ? 1 : 0;
   eval_cord->taut_turning = eval_cord->turning;
   return THR_OK;
 }
@@ -60,7 +62,7 @@ static thr_status profiles(const thr_frame *frame, const thr_cord *cord, double 
 {
   thr_status st = THR_OK;
   for (int i = 0; i < evaluation->n_cords && !st; i++) {
-    st = profile(frame, &cord[i], mu, &evaluation->cord[i], err);
+    st = profile(frame, &cord[i], &evaluation->physics, mu, &evaluation->cord[i], err);
     tension[i] = evaluation->cord[i].tension;
   }
   return st;
@@ -76,32 +78,104 @@ static void set_state(const thr_eval_cord *cord, state which, double force, doub
 {
   const double most = 600; /* of an exponent: more is past what a number holds, and more than enough */
   double before = 0, total = 0;
+  if (cord->pull == THR_PULL_NONE) force = 0; /* slack, whatever is done to the others */
   for (int k = 0; k + 1 < cord->n_passes; k++)
     total += cord->exponent[k];
   for (int k = 0; k < cord->n_passes; k++) {
     const double near = fmin(most, fmin(before, total - before));
-    out[k] = force * exp(which == DRAWN_IN ? -near : near);
+    out[k] = force > 0 ? force * exp(which == DRAWN_IN ? -near : near) : 0;
     if (which == LET_DOWN) out[k] = fmin(out[k], cord->tension[k]);
     if (k + 1 < cord->n_passes) before += cord->exponent[k];
   }
 }
 
-/* What such cords press the faces with, and what that may be multiplied by. Of all friction states with so much at the ends those
- * that keep most press most, and to press more never harms: an equilibrium with some tensions taken smaller is one. */
+/* press[n_faces], 0 before: what such cords press the faces with. */
+static thr_status press_of(const thr_cord *cord, const thr_evaluation *evaluation, state which, double force, double *press,
+                           thr_err *err)
+{
+  double *tension = thr_calloc((size_t)pass_count(evaluation), sizeof *tension);
+  for (int i = 0; i < evaluation->n_cords && tension; i++) {
+    set_state(&evaluation->cord[i], which, force, tension);
+    thr_holding_press(&cord[i], 1, &(const double *){tension}, press);
+  }
+  const bool done = tension != NULL;
+  free(tension);
+  return done ? THR_OK : thr_nomem(err);
+}
+
+/* What the tensions of such cords may be multiplied by. Of all friction states with so much at the ends those that keep most
+ * press most, and to press more never harms: an equilibrium with some tensions taken smaller is one. */
 static thr_status hold_state(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, state which, double force,
                              const thr_limits *limits, const thr_evaluation *evaluation, thr_holding *out, thr_err *err)
 {
-  double *press = thr_calloc((size_t)beads->n_faces, sizeof *press),
-         *tension = thr_calloc((size_t)pass_count(evaluation), sizeof *tension);
-  thr_status st = press && tension ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < evaluation->n_cords && !st; i++) {
-    const thr_eval_cord *eval_cord = &evaluation->cord[i];
-    set_state(eval_cord, which, force, tension);
-    thr_holding_press(&cord[i], 1, &(const double *){tension}, press);
-  }
+  double *press = thr_calloc((size_t)beads->n_faces, sizeof *press);
+  thr_status st = press ? press_of(cord, evaluation, which, force, press, err) : thr_nomem(err);
   if (!st) st = thr_holding_pull(beads, frame, &evaluation->physics, press, true, limits, out, err);
   free(press);
-  free(tension);
+  return st;
+}
+
+/* What of the load such cords carry; first_bead -1 where that is not decided. */
+static thr_status carry_state(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, state which, double force,
+                              const double (*load)[3], const thr_limits *limits, const thr_evaluation *evaluation, thr_carry *out,
+                              thr_err *err)
+{
+  thr_err why = {0};
+  double *press = thr_calloc((size_t)beads->n_faces, sizeof *press);
+  thr_status st = press ? press_of(cord, evaluation, which, force, press, &why) : thr_nomem(&why);
+  if (!st) st = thr_holding_carry(beads, frame, &evaluation->physics, press, load, limits, out, &why);
+  free(press);
+  if (st) *out = (thr_carry){.first_bead = -1};
+  return st == THR_OK || st == THR_ESOLVER ? THR_OK : thr_fail(err, st, "%s", why.text);
+}
+
+/* The pull of all ends that carries the whole load; INFINITY: none does. */
+static thr_status carry_all(const thr_frame *frame, const thr_cord *cord, thr_beads *beads, const thr_eval_options *options,
+                            const thr_limits *limits, thr_eval *out, thr_err *err)
+{
+  thr_err why = {0};
+  const size_t bytes = (size_t)beads->n_beads * sizeof *beads->load;
+  memcpy(beads->load, options->load, bytes);
+  thr_status st = hold_state(frame, cord, beads, DRAWN_IN, 1, limits, &out->record, &out->loaded, &why);
+  memset(beads->load, 0, bytes);
+  if (st == THR_EINFEASIBLE || st == THR_ESOLVER)
+    out->loaded =
+        (thr_holding){.present = true, .lower = st == THR_EINFEASIBLE ? INFINITY : 0, .upper = INFINITY, .first_bead = -1};
+  return st == THR_OK || st == THR_EINFEASIBLE || st == THR_ESOLVER ? THR_OK : thr_fail(err, st, "%s", why.text);
+}
+
+/* The load against the pull. */
+static thr_status carry_at_pulls(const thr_frame *frame, const thr_cord *cord, thr_beads *beads, const thr_eval_options *options,
+                                 const thr_limits *limits, thr_eval *out, thr_err *err)
+{
+  static const double usual[] = {1, 2, 5, 10, 20, 50}, few[] = {10, 50}; /* 50 N: a hand */
+  const bool large = beads->n_beads > BAND_LARGEST;
+  const double *pull = options->n_load_pulls > 0 ? options->load_pull : large ? few : usual;
+  const int n = options->n_load_pulls > 0 ? options->n_load_pulls : large ? 2 : 6;
+  thr_status st = carry_all(frame, cord, beads, options, limits, out, err);
+  if (st) return st;
+  if (!(out->carries = thr_calloc((size_t)n, sizeof *out->carries))) return thr_nomem(err);
+  for (int i = 0; i < n && !st; i++) {
+    thr_load_point *point = &out->carries[i];
+    point->pull = pull[i];
+    st = carry_state(frame, cord, beads, DRAWN_IN, pull[i], options->load, limits, &out->record, &point->carry, err);
+    out->n_carries += !st;
+  }
+  return st;
+}
+
+/* The beads with what is done to them beside the pull. */
+static thr_status make_beads(const thr_frame *frame, const thr_physics *physics, const thr_eval_options *options,
+                             thr_beads *beads, thr_err *err)
+{
+  thr_status st = thr_beads_make(frame, physics, beads, err);
+  bool *held = st ? NULL : thr_calloc((size_t)beads->n_beads, sizeof *held);
+  if (!st && !held) st = thr_nomem(err);
+  for (int k = 0; !st && k < beads->n_feet; k++)
+    held[beads->foot[k]] = true;
+  if (!st && options->clamped) thr_beads_clamp(beads, held);
+  if (!st) thr_beads_tilt(beads, options->tilt, options->azimuth);
+  free(held);
   return st;
 }
 
@@ -140,13 +214,13 @@ static thr_status let_down(const thr_frame *frame, const thr_cord *cord, const t
   return st;
 }
 
-thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, const thr_limits *limits, thr_eval *out,
-                               thr_err *err)
+thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                               const thr_limits *limits, thr_eval *out, thr_err *err)
 {
   const thr_evaluation *evaluation = &out->record;
   thr_beads beads = {0};
   thr_err why = {0};
-  thr_status st = thr_beads_make(frame, &evaluation->physics, &beads, err);
+  thr_status st = make_beads(frame, &evaluation->physics, options, &beads, err);
   if (!st) {
     st = hold_state(frame, cord, &beads, LET_DOWN, INFINITY, limits, evaluation, &out->after, &why);
     if (st == THR_EINFEASIBLE)
@@ -155,6 +229,8 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, con
   }
   if (!st && out->after.upper <= 1 && beads.n_beads <= BAND_LARGEST)
     st = let_down(frame, cord, &beads, limits, evaluation, &out->let_down, err);
+  if (!st && options->load)
+    st = carry_state(frame, cord, &beads, LET_DOWN, INFINITY, options->load, limits, evaluation, &out->after_carries, err);
   thr_beads_destroy(&beads);
   return st;
 }
@@ -214,10 +290,10 @@ static void fill_record(thr_evaluation *evaluation, double pull)
     thr_eval_cord *eval_cord = &evaluation->cord[i];
     for (int k = 0; k < eval_cord->n_passes; k++)
       eval_cord->tension[k] *= pull;
-    eval_cord->force = pull;
+    eval_cord->force *= pull;
     eval_cord->other_force *= pull;
     eval_cord->work = eval_cord->force + eval_cord->other_force;
-    eval_cord->loss = pull > 0 ? 1 - eval_cord->tension[eval_cord->slackest] / eval_cord->force : 0;
+    eval_cord->loss = eval_cord->force > 0 ? 1 - eval_cord->tension[eval_cord->slackest] / eval_cord->force : 0;
     eval_cord->known = true;
   }
 }
@@ -294,17 +370,17 @@ static thr_status settle(simulation *m, const thr_limits *limits, thr_settle *ou
   return st;
 }
 
-/* Are both ends of every cord pulled? */
+/* Are both ends of every cord pulled that is pulled? */
 static bool all_both(const thr_evaluation *evaluation)
 {
   bool both = true;
   for (int i = 0; i < evaluation->n_cords; i++)
-    both &= evaluation->cord[i].pull == THR_PULL_BOTH;
+    both &= evaluation->cord[i].pull == THR_PULL_BOTH || evaluation->cord[i].pull == THR_PULL_NONE;
   return both;
 }
 
 /* The pull, then what is worth less than it, so that a stop leaves the most. */
-static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, const thr_eval_options *options,
+static thr_status run(const thr_frame *frame, const thr_cord *cord, thr_beads *beads, const thr_eval_options *options,
                       const thr_limits *limits, const double **tension, thr_eval *out, thr_err *err)
 {
   thr_evaluation *evaluation = &out->record;
@@ -315,7 +391,7 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_be
     return st;
   }
   double start = options->start > 0 ? options->start : 3 * out->holding.lower;
-  if (options->dynamics && start > 0 && beads->n_beads <= thr_settle_largest) {
+  if (options->dynamics && !options->load && start > 0 && beads->n_beads <= thr_settle_largest) {
     simulation m = {frame,
                     cord,
                     beads,
@@ -330,6 +406,7 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_be
     st = hold_state(frame, cord, beads, DRAWN_IN, 1, limits, evaluation, &out->equal, err);
   if (!st) st = hold_state(frame, cord, beads, KEPT, 1, limits, evaluation, &out->loosest, err);
   if (!st && beads->n_beads <= BAND_LARGEST) st = band(frame, cord, beads, limits, evaluation, out->band, err);
+  if (!st && options->load) st = carry_at_pulls(frame, cord, beads, options, limits, out, err);
   fill_record(evaluation, out->holding.lower);
   return st;
 }
@@ -339,7 +416,7 @@ thr_status thr_structure_method(const thr_frame *frame, const thr_cord *cord, co
 {
   thr_beads beads = {0};
   const double **tension = thr_calloc((size_t)out->record.n_cords, sizeof *tension);
-  thr_status st = tension ? thr_beads_make(frame, &out->record.physics, &beads, err) : thr_nomem(err);
+  thr_status st = tension ? make_beads(frame, &out->record.physics, options, &beads, err) : thr_nomem(err);
   if (!st) st = run(frame, cord, &beads, options, limits, tension, out, err);
   thr_beads_destroy(&beads);
   free(tension);

@@ -45,7 +45,10 @@ static thr_status check_forces(const cord_claim *k, thr_err *err)
 {
   const thr_eval_cord *eval_cord = k->c;
   double at_start = eval_cord->tension[0], at_end = eval_cord->tension[eval_cord->n_passes - 1];
-  double force = eval_cord->pull == THR_PULL_START ? at_start : eval_cord->pull == THR_PULL_END ? at_end : fmax(at_start, at_end);
+  double force = eval_cord->pull == THR_PULL_START  ? at_start
+                 : eval_cord->pull == THR_PULL_END  ? at_end
+                 : eval_cord->pull == THR_PULL_NONE ? 0
+                                                    : fmax(at_start, at_end);
   double other = eval_cord->pull == THR_PULL_BOTH ? fmin(at_start, at_end) : 0;
   thr_status st;
   if ((st = evaluated(k, "force", eval_cord->force, force, err))) return st;
@@ -142,6 +145,15 @@ static thr_status check_scheduled(const cord_claim *k, int i, thr_err *err)
   return st ? st : thr_check_schedule(k->f, k->cord, &k->e->schedule, i, k->e->physics.stiffness, eval_cord, err);
 }
 
+/* A cord that is not pulled is slack all along. */
+static thr_status check_slack(const cord_claim *k, thr_err *err)
+{
+  for (int i = 0; i < k->c->n_passes; i++)
+    if (k->c->tension[i] != 0)
+      return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d has tension, but the cord is not pulled", k->id, i + 1);
+  return THR_OK;
+}
+
 static thr_status check_cord_evaluation(const thr_plan *plan, int i, thr_err *err)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
@@ -162,6 +174,7 @@ static thr_status check_cord_evaluation(const thr_plan *plan, int i, thr_err *er
                     k.id);
   if (evaluation->schedule.n > 0) return check_scheduled(&k, i, err);
   thr_status st = check_forces(&k, err);
+  if (eval_cord->pull == THR_PULL_NONE) return st ? st : check_slack(&k, err);
   if (!st) st = check_rise(&k, err);
   if (!st && evaluation->method == THR_CAPSTAN) st = check_law(&k, err);
   return st;

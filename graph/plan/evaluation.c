@@ -12,7 +12,7 @@
 
 static const char *const method_name[] = {"capstan", "joint", "structure"};
 static const char *const law_name[] = {"capstan", "mitre"};
-static const char *const pull_name[] = {"start", "end", "both"};
+static const char *const pull_name[] = {"start", "end", "both", "none"};
 
 const char *thr_method_name(int m)
 {

@@ -14,14 +14,14 @@ typedef enum {
   THR_LAW_MITRE,   /* thesis, Fig. 13: a mitred bead takes mu T_out sin(theta / 2) off the tension */
   THR_N_LAWS
 } thr_law;
-typedef enum { THR_PULL_START, THR_PULL_END, THR_PULL_BOTH, THR_N_PULLS } thr_pull;
+typedef enum { THR_PULL_START, THR_PULL_END, THR_PULL_BOTH, THR_PULL_NONE, THR_N_PULLS } thr_pull;
 
 /* One thing that is done to a cord (graph/plan/schedule.h). */
 typedef enum { THR_DEED_PULL, THR_DEED_GRIP, THR_DEED_RELEASE, THR_DEED_KNOT, THR_N_DEEDS } thr_deed;
 typedef struct {
   thr_deed deed;
   int cord;
-  thr_pull end; /* of pull, release and knot: which end(s). Of a grip: from which side(s) the cord is drawn */
+  thr_pull end; /* of pull, release and knot: which end(s). Of a grip: from which side(s) the cord is drawn. Never none */
   int pass;     /* of a grip, counted from 0 */
   double force; /* N; of a knot 0 */
   double slip;  /* of a knot, mm of cord that it gives back; else 0 */
@@ -65,7 +65,7 @@ typedef struct {
 
 const char *thr_method_name(int m);    /* "capstan", "joint", "structure" */
 const char *thr_law_name(int l);       /* "capstan", "mitre" */
-const char *thr_pull_name(thr_pull p); /* "start", "end", "both" */
+const char *thr_pull_name(thr_pull p); /* "start", "end", "both", "none" */
 
 /* Largest and total from the cords; those that are not known count as 0. */
 void thr_evaluation_sum(thr_evaluation *evaluation);

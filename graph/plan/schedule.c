@@ -105,7 +105,7 @@ static const char *read_step(const thr_json *object, int n_cords, thr_schedule_s
   static const char *const known[] = {"cord", "do", "end", "pass", "force", "slip", NULL};
   double pass;
   const int deed = word_of(thr_json_get(object, "do"), thr_deed_name, THR_N_DEEDS),
-            end = word_of(thr_json_get(object, "end"), end_name, THR_N_PULLS);
+            end = word_of(thr_json_get(object, "end"), end_name, THR_PULL_NONE);
   if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
   *step = (thr_schedule_step){.cord = cord_of(thr_json_string(thr_json_get(object, "cord")), n_cords)};
   if (step->cord < 0) return "cord: there is no such cord";

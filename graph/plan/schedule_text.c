@@ -25,7 +25,7 @@ static thr_status expected(const reader *r, thr_span found, const char *what)
 
 static thr_status read_end(const reader *r, thr_span word, thr_pull *end)
 {
-  for (int i = 0; i < THR_N_PULLS; i++)
+  for (int i = 0; i < THR_PULL_NONE; i++)
     if (thr_span_is(word, thr_pull_name((thr_pull)i))) {
       *end = (thr_pull)i;
       return THR_OK;

@@ -131,9 +131,11 @@ START_TEST(profile_is_filled_from_its_exponents_alone)
     double force, other;
   } table[] = {{THR_PULL_START, 4, 1.1, -INFINITY}, {THR_PULL_END, 0, 1.1, -INFINITY}, {THR_PULL_BOTH, 2, 0.6, 0.5}};
   for (int i = 0; i < 3; i++) {
+    int half[5] = {0};
+    const thr_cord cord = {.id = "A", .n_passes = 5, .half = half};
     thr_eval_cord c = {.n_passes = -1, .pull = THR_PULL_BOTH};
     thr_err err = {0};
-    ck_assert_msg(thr_profile_cord(&c, "A", 5, exponent, table[i].pull, 4, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_profile_cord(&c, &cord, exponent, table[i].pull, 4, &err) == THR_OK, "%s", err.text);
     ck_assert(c.n_passes == 5 && c.pull == table[i].pull && c.slackest == table[i].slackest);
     for (int k = 0; k < 5; k++)
       ck_assert_double_eq_tol(c.tension[k], 4 * held(exponent, table[i].slackest, k), 1e-12);
@@ -147,19 +149,51 @@ START_TEST(profile_is_filled_from_its_exponents_alone)
 }
 END_TEST
 
-/* Where all passes of a straight cord would do, the slackest is the last that begins before the middle. */
+/* Where all passes of a straight cord would do, the slackest is the one in the middle. */
 START_TEST(slackest_of_a_straight_cord_is_in_its_middle)
 {
   static const double none[12];
   for (int n = 1; n <= 12; n++) {
+    int last = 0, half[12] = {0};
+    const thr_cord cord = {.id = "A", .n_passes = n, .half = half};
     thr_eval_cord c = {0};
-    int last = 0;
     while (last + 1 < 0.5 * n)
       last++;
-    ck_assert_int_eq(thr_profile_cord(&c, "A", n, none, THR_PULL_BOTH, 1, NULL), THR_OK);
+    ck_assert_int_eq(thr_profile_cord(&c, &cord, none, THR_PULL_BOTH, 1, NULL), THR_OK);
     ck_assert_int_eq(c.slackest, last);
     free(c.tension);
   }
+}
+END_TEST
+
+/* Two passes would do: the one of the lower edge is slackest, whichever end is called the start. */
+START_TEST(slackest_pass_does_not_depend_on_the_direction)
+{
+  static const double exponent[] = {1, 2, 3, 2, 1};
+  int half[] = {0, 2, 4, 6, 8, 10}, back[] = {11, 9, 7, 5, 3, 1};
+  const thr_cord one = {.id = "A", .n_passes = 6, .half = half}, other = {.id = "A", .n_passes = 6, .half = back};
+  thr_eval_cord c = {0}, d = {0};
+  ck_assert_int_eq(thr_profile_cord(&c, &one, exponent, THR_PULL_BOTH, 1, NULL), THR_OK);
+  ck_assert_int_eq(thr_profile_cord(&d, &other, exponent, THR_PULL_BOTH, 1, NULL), THR_OK);
+  ck_assert_int_eq(c.slackest, 2);
+  ck_assert_int_eq(d.slackest, 3);
+  for (int k = 0; k < 6; k++)
+    ck_assert_double_eq(c.tension[k], d.tension[5 - k]);
+  free(c.tension);
+  free(d.tension);
+}
+END_TEST
+
+START_TEST(cord_that_is_not_pulled_is_slack)
+{
+  static const double exponent[] = {1, 800};
+  int half[3] = {0};
+  const thr_cord cord = {.id = "A", .n_passes = 3, .half = half};
+  thr_eval_cord c = {0};
+  ck_assert_int_eq(thr_profile_cord(&c, &cord, exponent, THR_PULL_NONE, 5, NULL), THR_OK);
+  ck_assert(c.pull == THR_PULL_NONE && c.force == 0 && c.other_force == 0 && c.work == 0 && c.loss == 0);
+  ck_assert(c.tension[0] == 0 && c.tension[1] == 0 && c.tension[2] == 0);
+  free(c.tension);
 }
 END_TEST
 
@@ -176,9 +210,11 @@ START_TEST(profile_refuses_what_no_number_holds)
       {{700, 700}, 1, THR_PULL_BOTH, true},    {{0, 700}, 1e5, THR_PULL_START, false},  {{0, 700}, 1e5, THR_PULL_END, false},
       {{700.25, 0}, 1, THR_PULL_START, false}, {{0, 700.25}, 1, THR_PULL_END, false},   {{700, 700}, 1e4, THR_PULL_BOTH, false}};
   for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+    int half[3] = {0};
+    const thr_cord cord = {.id = "A7", .n_passes = 3, .half = half};
     thr_eval_cord c = {0};
     thr_err err = {0};
-    thr_status st = thr_profile_cord(&c, "A7", 3, table[i].exponent, table[i].pull, table[i].seating, &err);
+    thr_status st = thr_profile_cord(&c, &cord, table[i].exponent, table[i].pull, table[i].seating, &err);
     ck_assert_msg(st == (table[i].good ? THR_OK : THR_EINPUT), "case %zu: %d", i, (int)st);
     if (st) assert_one_line(&err, "A7");
     ck_assert(!st == (c.tension != NULL));
@@ -389,6 +425,8 @@ int main(void)
   ADD_TEST(s, 10, band_is_what_other_mu_give);
   ADD_TEST(s, 10, profile_is_filled_from_its_exponents_alone);
   ADD_TEST(s, 10, slackest_of_a_straight_cord_is_in_its_middle);
+  ADD_TEST(s, 10, slackest_pass_does_not_depend_on_the_direction);
+  ADD_TEST(s, 10, cord_that_is_not_pulled_is_slack);
   ADD_TEST(s, 10, profile_refuses_what_no_number_holds);
   ADD_TEST(s, 10, band_is_infinite_where_no_pull_would_do);
   ADD_TEST(s, 10, interrupt_leaves_what_is_complete);

@@ -91,11 +91,11 @@ static void assert_cord_sound(const thr_frame *f, const thr_cord *cord, const th
 
 START_TEST(records_are_sound_whichever_end_is_pulled)
 {
-  thr_method method = (thr_method)(_i / THR_N_PULLS);
+  thr_method method = (thr_method)(_i / THR_PULL_NONE);
   thr_frame f = post_make(1);
   thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
   thr_eval_options o = options();
-  o.pull = (thr_pull)(_i % THR_N_PULLS);
+  o.pull = (thr_pull)(_i % THR_PULL_NONE);
   o.physics.seating = 3;
   thr_eval e = eval(&p, method, &o);
   const thr_evaluation *r = &e.record;
@@ -483,7 +483,7 @@ int main(void)
 {
   Suite *s = suite_create("eval");
   if (!mkdtemp(cache)) return 1;
-  ADD_EXAMPLES(s, 60, records_are_sound_whichever_end_is_pulled, THR_N_METHODS * THR_N_PULLS);
+  ADD_EXAMPLES(s, 60, records_are_sound_whichever_end_is_pulled, THR_N_METHODS * THR_PULL_NONE);
   ADD_LOOP(s, 60, every_cord_can_be_pulled_its_own_way, 0, THR_N_METHODS);
   ADD_LOOP(s, 60, more_friction_is_never_less_pull, 0, THR_N_METHODS);
   ADD_LOOP(s, 60, pull_is_proportional, 0, THR_N_METHODS);

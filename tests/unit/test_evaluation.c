@@ -125,7 +125,7 @@ START_TEST(an_evaluation_survives_json)
 {
   static const solid shape[] = {TETRAHEDRON, OCTAHEDRON, DODECAHEDRON};
   thr_frame f = solid_make(shape[_i % 3]);
-  thr_plan p = evaluated_plan(&f, _i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, (thr_pull)(_i % THR_N_PULLS), (thr_law)(_i / 3 % 2));
+  thr_plan p = evaluated_plan(&f, _i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, (thr_pull)(_i % THR_PULL_NONE), (thr_law)(_i / 3 % 2));
   assert_plan_sound(&p);
   thr_text t = plan_text(&p);
   thr_plan q = plan_from(t.data);
@@ -423,7 +423,7 @@ START_TEST(nonsense_in_json_is_refused)
       {"{\"id\": \"A\", \"known\"", "{\"id\": \"B\", \"known\"", "cords[0].id"},
       {"\"known\": true", "\"known\": 1", "cords[0].known"},
       {"\"known\": true", "\"known\": false", "cords[0].turning"},
-      {"\"pull\": \"both\"", "\"pull\": \"none\"", "cords[0].pull"},
+      {"\"pull\": \"both\"", "\"pull\": \"neither\"", "cords[0].pull"},
       {"\"force\": ", "\"force\": null, \"f\": ", "cords[0]"},
       {"\"slackest\": 0", "\"slackest\": 3", "cords[0].slackest"},
       {"\"refused\": 0", "\"refused\": 0.5", "cords[0].refused"},

@@ -12,6 +12,8 @@
 #include "eval/structure/holding.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
+#include "graph/threading/walks.h"
+#include "graph/vector.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -458,8 +460,19 @@ static void add_point(plain *p, const model *m, int bead, int other, const doubl
   }
 }
 
-/* All columns at once, the pull in one column; INFINITY if infeasible. */
-static double by_simplex(const model *m)
+/* The wrench of a force at a bead's node. */
+static void node_wrench(const thr_beads *b, int bead, const double force[3], double wrench[6])
+{
+  double size = sqrt(thr_dot(force, force)), direction[3] = {0};
+  memset(wrench, 0, 6 * sizeof *wrench);
+  for (int k = 0; k < 3 && size > 0; k++)
+    direction[k] = force[k] / size;
+  add_force(b, bead, size, direction, b->centre[bead], wrench);
+}
+
+/* All columns at once, the unknown in one: the least pull, INFINITY if there is none, or, with a load, how many times so much is
+ * carried at that pull, -INFINITY if it does not stand, INFINITY if no multiple is too much. */
+static double by_simplex(const model *m, const double (*load)[3], double pull)
 {
   const thr_beads *b = &m->beads;
   plain *p = calloc(1, sizeof *p);
@@ -471,13 +484,18 @@ static double by_simplex(const model *m)
     for (int i = 0; i < 4; i++)
       add_point(p, m, b->foot[j], -1, b->foot_point[j][i], (const double[]){0, 0, 1}, m->physics.mu_ground);
   p->start[p->n + 1] = p->start[p->n];
-  for (int v = 0; v < b->n_beads; v++)
+  for (int v = 0; v < b->n_beads; v++) {
+    double of_load[6] = {0};
+    if (load) node_wrench(b, v, load[v], of_load);
     for (int k = 0; k < 6 && !b->fixed[v]; k++) {
+      const double scale = k < 3 ? 1 : 100;
       p->row[p->start[p->n + 1]] = 6 * v + k;
-      p->value[p->start[p->n + 1]++] = m->wrench[v][k] * (k < 3 ? 1 : 100);
+      p->value[p->start[p->n + 1]++] = (load ? of_load[k] : m->wrench[v][k]) * scale;
       if (k == 2) p->rhs[6 * v + k] = b->mass[v] * m->physics.gravity;
+      if (load) p->rhs[6 * v + k] -= pull * m->wrench[v][k] * scale;
     }
-  p->cost[p->n++] = 1;
+  }
+  p->cost[p->n++] = load ? -1 : 1;
   ck_assert(p->n < 4096);
   thr_lp *lp;
   thr_lp_outcome outcome;
@@ -486,19 +504,64 @@ static double by_simplex(const model *m)
                     THR_OK,
                 "%s", err.text);
   ck_assert_msg(thr_lp_solve(lp, &no_limit, &outcome, &err) == THR_OK, "%s", err.text);
-  double pull = outcome == THR_LP_OPTIMAL ? thr_lp_objective(lp) : INFINITY;
+  double found = outcome == THR_LP_OPTIMAL ? thr_lp_objective(lp) : INFINITY;
+  if (load) found = outcome == THR_LP_OPTIMAL ? -found : outcome == THR_LP_INFEASIBLE ? -INFINITY : INFINITY;
   thr_lp_destroy(lp);
   free(p);
-  return pull;
+  return found;
 }
+
+/* A load at one bead that is not held, as heavy as all beads. */
+static void random_load(const model *m, rng *r, double (*load)[3])
+{
+  int v = rng_below(r, m->beads.n_beads);
+  while (m->beads.fixed[v])
+    v = (v + 1) % m->beads.n_beads;
+  for (int k = 0; k < 3; k++)
+    load[v][k] = m->beads.mass[v] * m->physics.gravity * m->beads.n_beads * (2 * rng_unit(r) - 1);
+}
+
+START_TEST(loads_equal_a_plain_programme_by_simplex)
+{
+  model m = random_model((uint64_t)_i + 1, 8);
+  rng r = rng_make((uint64_t)_i + 700);
+  thr_holding h = {0};
+  thr_carry carry;
+  thr_err err = {0};
+  double load[64][3] = {{0}};
+  if (thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &h, NULL) == THR_OK && isfinite(h.upper)) {
+    const double pull = fmax(1.5 * h.upper, 0.1);
+    random_load(&m, &r, load);
+    double *press = calloc((size_t)m.frame.n_edges, sizeof *press);
+    for (int e = 0; e < m.frame.n_edges; e++)
+      press[e] = pull * m.press[e];
+    thr_status st = thr_holding_carry(&m.beads, &m.frame, &m.physics, press, (const double(*)[3])load, &no_limit, &carry, &err);
+    double carried = by_simplex(&m, (const double(*)[3])load, pull);
+    m.physics.mu_bead /= cos(THR_PI / 8);
+    m.physics.mu_ground /= cos(THR_PI / 8);
+    double beyond = by_simplex(&m, (const double(*)[3])load, pull);
+    if (isinf(beyond)) {
+      ck_assert_int_eq(st, THR_ESOLVER);
+    } else {
+      ck_assert_msg(st == THR_OK, "%s", err.text);
+      ck_assert_double_eq_tol(carry.beyond, beyond, 2e-6 * beyond + 1e-7);
+      if (isfinite(carried)) ck_assert_double_eq_tol(carry.carried, carried, 2e-6 * carried + 1e-7);
+      ck_assert(carry.first_bead >= 0 && carry.carried <= carry.beyond * (1 + 1e-6) + 1e-9);
+    }
+    free(press);
+  }
+  thr_holding_destroy(&h);
+  model_destroy(&m);
+}
+END_TEST
 
 START_TEST(equals_a_plain_programme_by_simplex)
 {
   model m = random_model((uint64_t)_i + 1, 8);
-  double upper = by_simplex(&m), mu_bead = m.physics.mu_bead, mu_ground = m.physics.mu_ground;
+  double upper = by_simplex(&m, NULL, 0), mu_bead = m.physics.mu_bead, mu_ground = m.physics.mu_ground;
   m.physics.mu_bead /= cos(THR_PI / 8);
   m.physics.mu_ground /= cos(THR_PI / 8);
-  double lower = by_simplex(&m);
+  double lower = by_simplex(&m, NULL, 0);
   m.physics.mu_bead = mu_bead;
   m.physics.mu_ground = mu_ground;
   thr_holding h;
@@ -579,6 +642,33 @@ START_TEST(mirrored_plans_pull_alike)
     model_destroy(&mirrored);
     thr_plan_destroy(&p);
   }
+}
+END_TEST
+
+/* Of every second cord the other end is called the start: nothing changes. */
+START_TEST(direction_of_writing_changes_nothing)
+{
+  static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-stairs.json"};
+  thr_plan p;
+  thr_eval e[2];
+  thr_err err = {0};
+  thr_eval_options o = thr_eval_options_default();
+  o.dynamics = false;
+  ck_assert_msg(thr_plan_read(&p, plans[_i], &err) == THR_OK, "%s", err.text);
+  for (int way = 0; way < 2; way++) {
+    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[way], &err) == THR_OK, "%s",
+                  err.text);
+    for (int i = 1; i < p.n_cords; i += 2)
+      thr_walk_reverse(p.cord[i].half, p.cord[i].n_passes);
+  }
+  const thr_holding *a[] = {&e[0].holding, &e[0].equal, &e[0].loosest}, *b[] = {&e[1].holding, &e[1].equal, &e[1].loosest};
+  for (int k = 0; k < 3; k++) {
+    ck_assert_double_eq_tol(a[k]->lower, b[k]->lower, 1e-6 * a[k]->lower);
+    ck_assert_double_eq_tol(a[k]->upper, b[k]->upper, 1e-6 * a[k]->upper);
+  }
+  thr_eval_destroy(&e[0]);
+  thr_eval_destroy(&e[1]);
+  thr_plan_destroy(&p);
 }
 END_TEST
 
@@ -753,9 +843,11 @@ int main(void)
   ADD_TEST(s, 20, memory_may_run_out_anywhere);
   ADD_EXAMPLES(s, 20, bounds_are_proved_and_close, 60);
   ADD_EXAMPLES(s, 20, equals_a_plain_programme_by_simplex, 40);
+  ADD_EXAMPLES(s, 20, loads_equal_a_plain_programme_by_simplex, 40);
   ADD_EXAMPLES(s, 20, uneven_cords_decide_alike, 40);
   ADD_TEST(s, 10, twice_the_weight_needs_twice_the_pull);
   ADD_TEST(s, 30, mirrored_plans_pull_alike);
+  ADD_EXAMPLES(s, 60, direction_of_writing_changes_nothing, 2);
   ADD_TEST(s, 10, same_bits_again);
   ADD_LARGE(s, 60, straight_lines_pull_least, 0, 1);
   ADD_LARGE(s, 60, rough_cords_are_never_hopeless, 0, 3);

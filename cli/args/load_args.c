@@ -1,0 +1,133 @@
+/* Loads, tilt, clamped feet. */
+#include "cli/args/load_args.h"
+#include "cli/args/suggestion.h"
+#include "graph/angle.h"
+#include "graph/framework/frame.h"
+#include "graph/status.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Numbers with commas between them; how many, -1 if that is no such list or one of more than most. */
+static int parse_numbers(const char *text, size_t length, double *out, int most)
+{
+  char word[400], *at = word, *end;
+  int n = 0;
+  if (length >= sizeof word) return -1;
+  snprintf(word, sizeof word, "%.*s", (int)length, text);
+  for (;; at = end + 1) {
+    if (n == most) return -1;
+    out[n] = strtod(at, &end);
+    if (end == at || !isfinite(out[n++])) return -1;
+    if (*end == '\0') return n;
+    if (*end != ',') return -1;
+  }
+}
+
+static bool parse_pulls(load_args *a, const char *command, const char *value)
+{
+  a->n_pulls = parse_numbers(value, strlen(value), a->pulls, LOAD_MOST_PULLS);
+  bool ok = a->n_pulls > 0;
+  for (int i = 0; i < a->n_pulls; i++)
+    ok &= a->pulls[i] > 0 && a->pulls[i] <= 1e12;
+  if (!ok)
+    cli_usage(command, "--load-pulls %s: expected up to %d newtons above 0 with commas, as 1,5,50", value, LOAD_MOST_PULLS);
+  return ok;
+}
+
+static bool parse_tilt(load_args *a, const char *command, const char *value)
+{
+  double number[2] = {0};
+  const int n = parse_numbers(value, strlen(value), number, 2);
+  const bool ok = n > 0 && number[0] >= 0 && number[0] < 90 && fabs(number[1]) <= 360;
+  if (!ok) cli_usage(command, "--tilt %s: expected degrees from 0 to below 90, or DEG,AZIMUTH", value);
+  a->tilt = number[0] * THR_PI / 180;
+  a->azimuth = number[1] * THR_PI / 180;
+  return ok;
+}
+
+bool load_option(load_args *a, const char *command, int option, const char *value, bool *ok)
+{
+  *ok = true;
+  switch (option) {
+  case OPTION_LOAD:
+    *ok = !a->load;
+    if (a->load) cli_usage(command, "--load is there twice; several nodes go into one, with semicolons");
+    a->load = value;
+    return true;
+  case OPTION_LOAD_PULLS: *ok = parse_pulls(a, command, value); return true;
+  case OPTION_TILT: *ok = parse_tilt(a, command, value); return true;
+  case OPTION_CLAMP: a->clamped = true; return true;
+  default: return false;
+  }
+}
+
+bool load_any(const load_args *a)
+{
+  return a->load || a->tilt > 0 || a->clamped;
+}
+
+static int no_node(const thr_frame *frame, const char *name)
+{
+  char question[CLI_SUGGESTION_TEXT];
+  cli_suggestion suggestion = {.word = name};
+  for (int v = 0; v < frame->n_nodes; v++)
+    cli_suggestion_try(&suggestion, frame->name[v]);
+  cli_suggestion_ask(&suggestion, question);
+  cli_error("--load: there is no node %s; the first is %s%s", name, frame->name[0], question);
+  return EXIT_INPUT;
+}
+
+/* One load, "D4=10" or "D4=0,1,-10": a single number hangs. */
+static int add_load(const thr_frame *frame, const char *text, size_t length, double (*load)[3])
+{
+  char name[256];
+  double force[3];
+  size_t equals = length;
+  while (equals > 0 && text[equals - 1] != '=')
+    equals--;
+  const int n = equals > 1 ? parse_numbers(text + equals, length - equals, force, 3) : -1;
+  if ((n != 1 && n != 3) || equals - 1 >= sizeof name)
+    return cli_usage("eval", "--load %.*s: expected NODE=N, newtons that hang there, or NODE=FX,FY,FZ", (int)length, text);
+  snprintf(name, sizeof name, "%.*s", (int)(equals - 1), text);
+  const int v = thr_frame_find(frame, name);
+  if (v < 0) return no_node(frame, name);
+  for (int k = 0; k < 3; k++)
+    load[v][k] += n == 3 ? force[k] : k == 2 ? -force[0] : 0;
+  return EXIT_OK;
+}
+
+static int read_loads(const char *list, const thr_frame *frame, double (*load)[3])
+{
+  bool some = false;
+  for (const char *at = list; *at;) {
+    const size_t length = strcspn(at, ";");
+    const int code = add_load(frame, at, length, load);
+    if (code) return code;
+    at += length + (at[length] == ';');
+  }
+  for (int v = 0; v < frame->n_nodes; v++)
+    some |= load[v][0] != 0 || load[v][1] != 0 || load[v][2] != 0;
+  return some ? EXIT_OK : cli_usage("eval", "--load %s: no force at all", list);
+}
+
+int load_apply(const load_args *a, const thr_frame *frame, thr_eval_options *options, double (**load)[3])
+{
+  int code = EXIT_OK;
+  *load = NULL;
+  options->tilt = a->tilt;
+  options->azimuth = a->azimuth;
+  options->clamped = a->clamped;
+  options->load_pull = a->pulls;
+  options->n_load_pulls = a->n_pulls;
+  if (!a->load) return EXIT_OK;
+  if (!(*load = thr_calloc((size_t)frame->n_nodes, sizeof **load))) {
+    cli_error("out of memory");
+    return EXIT_INTERNAL;
+  }
+  code = read_loads(a->load, frame, *load);
+  options->load = (const double(*)[3]) * load;
+  return code;
+}
