@@ -7,6 +7,7 @@
 #include "diagram/overview/steps.h"
 #include "diagram/scene/polylines.h"
 #include "diagram/sheets/sheets.h"
+#include "diagram/sheets/sheets_html.h"
 #include "diagram/tables/tables.h"
 #include "lib/motions.h"
 
@@ -26,6 +27,7 @@ typedef enum {
   MAT,
   DXF,
   COMPAS,
+  PAGES,
   N_DOCUMENTS
 } document;
 
@@ -45,6 +47,7 @@ static const struct {
     [MAT] = {"mat", "mat.pdf"},
     [DXF] = {"dxf", "cords.dxf"},
     [COMPAS] = {"compas", "cords.json"},
+    [PAGES] = {"sheets.html", "sheets.html"},
 };
 
 int thr_documents_count(void)
@@ -77,7 +80,7 @@ int thr_document_sheets(void)
 
 bool thr_document_usual(int i)
 {
-  return i < MAT && (i != SHEETS || thr_pages_exist());
+  return i == PAGES ? !thr_pages_exist() : i < MAT && (i != SHEETS || thr_pages_exist());
 }
 
 bool thr_document_threads(int i)
@@ -100,16 +103,34 @@ static thr_status overview(const thr_plan *plan, const thr_document_options *a, 
   return thr_overview_svg(plan, &options, out, err);
 }
 
-static thr_status sheets(const thr_plan *plan, const thr_document_options *a, const char *const *motion, const thr_limits *limits,
-                         thr_text *out, thr_err *err)
+static thr_sheets_options sheets_options(const thr_plan *plan, const thr_document_options *a, const char *const *motion)
 {
-  int n = 0;
   thr_sheets_options options = thr_sheets_options_default();
   options.page = (thr_page_size)a->page;
   options.needles = needles_of(plan, a);
   options.working_mm = a->working_mm;
   options.kind_tolerance = a->kind_tolerance;
   options.motion = motion;
+  return options;
+}
+
+static thr_status sheets_html(const thr_plan *plan, const thr_document_options *a, const char *const *motion,
+                              const thr_limits *limits, thr_text *out, thr_err *err)
+{
+  thr_sheets *pages = NULL;
+  const thr_sheets_options options = sheets_options(plan, a, motion);
+  thr_status st = thr_sheets_make(&pages, plan, &options, limits, err);
+  if (!st && a->pages) a->pages(documents[PAGES].file, thr_sheets_pages(pages));
+  if (!st) st = thr_sheets_html(pages, out, err);
+  thr_sheets_destroy(pages);
+  return st;
+}
+
+static thr_status sheets(const thr_plan *plan, const thr_document_options *a, const char *const *motion, const thr_limits *limits,
+                         thr_text *out, thr_err *err)
+{
+  int n = 0;
+  const thr_sheets_options options = sheets_options(plan, a, motion);
   thr_status st = thr_sheets_write(plan, &options, limits, &n, out, err);
   if (!st && a->pages) a->pages(documents[SHEETS].file, n);
   return st;
@@ -135,6 +156,7 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
   switch (which) {
   case OVERVIEW: st = overview(plan, a, copies.motion, out, err); break;
   case SHEETS: st = sheets(plan, a, copies.motion, limits, out, err); break;
+  case PAGES: st = sheets_html(plan, a, copies.motion, limits, out, err); break;
   case STEPS: st = thr_steps_text(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), out, err); break;
   case VIEWER: st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, out, err); break;
   default: st = thr_table_cords(plan, copies.motion, out, err);

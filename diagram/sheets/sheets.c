@@ -138,7 +138,7 @@ int thr_sheets_pages(const thr_sheets *sheets)
   return sheets->n_pages;
 }
 
-static void title_of(const thr_sheets *sheets, char title[96])
+void thr_sheets_heading(const thr_sheets *sheets, char title[96])
 {
   int n = sheets->plan->n_cords;
   snprintf(title, 96, "Step sheets: %d %s, %d cord%s", sheets->pieces.n, thr_pieces_word(sheets->plan, sheets->pieces.n), n,
@@ -167,7 +167,7 @@ static void put_view(const thr_sheets *sheets, double foot, thr_text *svg)
 static void open_page(const thr_sheets *sheets, thr_text *svg)
 {
   char title[96];
-  title_of(sheets, title);
+  thr_sheets_heading(sheets, title);
   thr_svg_open(svg, sheets->size[0], sheets->size[1], title, "A page of step sheets.");
   thr_text_append(svg, "<style>.thread text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}</style>\n");
 }
@@ -234,7 +234,7 @@ thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, th
 {
   char title[96];
   thr_pages *pages = NULL;
-  title_of(sheets, title);
+  thr_sheets_heading(sheets, title);
   thr_status st = thr_pages_open(&pages, NAME, sheets->o.page, title, limits, err);
   for (int i = 0; i < sheets->n_pages && !st; i++)
     st = send_body(sheets, &sheets->page[i], pages, err);
@@ -250,7 +250,7 @@ thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *opti
   thr_sheets *sheets = NULL;
   thr_status st = start(&sheets, plan, options, limits, err);
   if (st) return st;
-  title_of(sheets, title);
+  thr_sheets_heading(sheets, title);
   st = thr_pages_open(&sheets->pages, NAME, options->page, title, limits, err);
   if (!st) {
     lay_out(sheets);

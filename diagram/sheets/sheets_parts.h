@@ -99,6 +99,8 @@ double thr_sheets_text(thr_sheets *sheets, double x, double y, double size, doub
                        const char *words);
 
 /* Flowing text: a heading within the page, a paragraph, a paragraph with a box to tick. */
+/* "Step sheets: 49 pieces, 4 cords". */
+void thr_sheets_heading(const thr_sheets *sheets, char title[96]);
 void thr_sheets_title(thr_sheets *sheets, const char *words);
 void thr_sheets_paragraph(thr_sheets *sheets, double indent, const char *words);
 void thr_sheets_tick(thr_sheets *sheets, const char *words);

@@ -469,6 +469,26 @@ const tests = {
     assert.equal((await state(page)).piece, passes[19].piece);
     await close();
   },
+
+  async 'step sheets for browsers print as the PDF does: as many pages of as much paper, the same words'({several, space}) {
+    for (const [{name}, paper] of [[several, 'a4'], [space, 'letter']]) {
+      for (const type of ['pdf', 'sheets.html'])
+        thread('draw', file(`${name}.json`), '-T', type, '--page', paper, '-o', file(`${name}-sheets.${type.slice(-4).replace('.', '')}`));
+      const page = await browser.newPage();
+      await page.goto(pathToFileURL(file(`${name}-sheets.html`)).href);
+      await page.pdf({path: file(`${name}-printed.pdf`), preferCSSPageSize: true, printBackground: true});
+      const ids = await page.evaluate(() => [...document.querySelectorAll('[id]')].map((node) => node.id));
+      assert.equal(new Set(ids).size, ids.length, 'a name stands for one thing');
+      await page.close();
+      const [made, printed] = [`${name}-sheets.pdf`, `${name}-printed.pdf`].map((one) => {
+        const words = execFileSync('pdftotext', ['-layout', file(one), '-'], {encoding: 'utf8'});
+        const [, wide, high] = /Page size:\s*([\d.]+) x ([\d.]+)/.exec(execFileSync('pdfinfo', [file(one)], {encoding: 'utf8'}));
+        return {pages: words.split('\f').map((one) => one.split(/\s+/).sort()), size: [Number(wide), Number(high)]};
+      });
+      assert.deepEqual(printed.pages, made.pages);
+      for (const side of [0, 1]) assert.ok(Math.abs(printed.size[side] - made.size[side]) < 1, `${printed.size} and ${made.size}`);
+    }
+  },
 };
 
 // ---- running ----
