@@ -274,8 +274,9 @@ static thr_status verdict(const thr_plan *plan, const thr_least *least, thr_err 
   return thr_not_proved(err, what, claim->price, claim->lower_bound);
 }
 
-thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_request *options, const thr_plan *seed,
-                                    const thr_limits *limits, thr_plan *plan, thr_err *err)
+/* *missed: the search found no cords, which is no proof that there are none. */
+static thr_status plan_from(const thr_frame *frame, const thr_request *options, const thr_plan *seed, const thr_limits *limits,
+                            thr_plan *plan, bool *missed, thr_err *err)
 {
   shortest_plan shortest = {0};
   thr_least least = {0};
@@ -284,7 +285,9 @@ thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_request *o
   any_pull.max_pull = 0;
   *plan = (thr_plan){0};
   thr_status st = find_shortest(frame, options, limits, &shortest, &unproved);
-  if (!st || st == THR_ELIMIT) st = find_cords(frame, options, &shortest, seed, limits, &least, &unproved);
+  const bool may_be = !st || st == THR_ELIMIT;
+  if (may_be) st = find_cords(frame, options, &shortest, seed, limits, &least, &unproved);
+  *missed = may_be && st == THR_EINFEASIBLE;
   if (st && st != THR_ELIMIT)
     st = thr_fail(err, st, "%s", unproved.text);
   else
@@ -294,6 +297,13 @@ thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_request *o
   thr_least_destroy(&least);
   shortest_destroy(&shortest);
   return st;
+}
+
+thr_status thr_tortuosity_plan_from(const thr_frame *frame, const thr_request *options, const thr_plan *seed,
+                                    const thr_limits *limits, thr_plan *plan, thr_err *err)
+{
+  bool missed;
+  return plan_from(frame, options, seed, limits, plan, &missed, err);
 }
 
 thr_status thr_tortuosity_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
@@ -343,7 +353,10 @@ thr_status thr_planner_turning(const thr_frame *frame, const thr_request *option
   if (!st && thr_wants_largest(options) && options->cords > 1 && options->ends != THR_ENDS_COUNTS &&
       options->ends != THR_ENDS_CLOSED && options->joint == THR_JOINT_SOLID)
     st = cut_seed(frame, options, limits, &seed, err);
-  if (!st) st = thr_tortuosity_plan_from(frame, options, seed.n_cords ? &seed : NULL, limits, plan, err);
+  bool missed = false;
+  thr_err why = {0};
+  if (!st) st = plan_from(frame, options, seed.n_cords ? &seed : NULL, limits, plan, &missed, &why);
+  if (why.code) st = thr_fail(err, missed ? THR_ELIMIT : st, "%s", why.text);
   thr_plan_destroy(&seed);
   return st;
 }

@@ -54,7 +54,8 @@ void plain_put_length_proof(thr_text *text, const thr_plan *plan)
   const thr_length_proof *proof = &plan->proof;
   bool counted = plan->cords_claim.fewest > 0; /* the fewest come first, and then the least length */
   plain_put_proof(text, proof->optimal, plan->metrics.length, proof->lower_bound,
-                  counted ? "with so many cords nothing shorter exists" : "nothing shorter exists", "shortest possible");
+                  counted ? "with so many cords nothing shorter exists" : "nothing shorter exists",
+                  plan->symmetry.present ? "shortest cords without symmetry" : "shortest possible");
 }
 
 void plain_put_hand(thr_text *text, double newton)

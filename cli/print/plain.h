@@ -19,7 +19,7 @@ const char *plain_force(double newton, char out[64]);
  * that is to the shortest possible is not known". */
 void plain_put_proof(thr_text *text, bool optimal, double value, double bound, const char *less, const char *least);
 
-/* The same of a plan's length. */
+/* The same of a plan's length; of a symmetric one what its symmetry may cost, as the bound is one of any cords. */
 void plain_put_length_proof(thr_text *text, const thr_plan *plan);
 
 /* Whether a hand can pull that much: "too hard for a hand, which manages about 50 N (5.1 kg)"; "within the 10 N (1 kg) that a

@@ -8,12 +8,14 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "planner/make_plan.h"
+#include "tests/attack.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"
 
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -426,6 +428,125 @@ START_TEST(alike_cords_have_the_proof_of_one)
 }
 END_TEST
 
+/* ---- an adversary ---- */
+
+enum { PIECES = 2, MOST_CUTS = 16 };
+
+/* A plan with words of its own; frame and cords are borrowed, and so are the nodes of cuts. */
+typedef struct {
+  thr_plan plan;
+  thr_certificate certificate[PIECES];
+  thr_cut cut[PIECES][MOST_CUTS];
+} forgery;
+
+/* Does the plan fit a forgery? If so that is it, as it stands. */
+static bool forge(const thr_plan *p, forgery *x)
+{
+  memset(x, 0, sizeof *x);
+  x->plan = *p;
+  if (p->proof.n_certificates > PIECES) return false;
+  for (int k = 0; k < p->proof.n_certificates; k++) {
+    x->certificate[k] = p->proof.certificate[k];
+    if (x->certificate[k].n_cuts > MOST_CUTS) return false;
+    for (int i = 0; i < x->certificate[k].n_cuts; i++)
+      x->cut[k][i] = x->certificate[k].cut[i];
+  }
+  return true;
+}
+
+static void change_numbers(rng *r, forgery *x)
+{
+  if (x->plan.proof.n_certificates == 0) return;
+  const int k = rng_below(r, x->plan.proof.n_certificates);
+  thr_certificate *c = &x->certificate[k];
+  c->cut = x->cut[k];
+  if (rng_below(r, 4))
+    change_certificate(r, c);
+  else if (rng_below(r, 2))
+    c->denominator = 1 + (int64_t)fmin(1e12, (double)c->denominator * attack_factor(r));
+  else
+    c->end_price = attack_integer(r);
+}
+
+static void change_forgery(rng *r, const void *target, void *what)
+{
+  static const double part[] = {1 + 1e-10, 1 + 1e-8, 1 + 1e-6, 1.001, 1.1, 2, .9};
+  const thr_plan *p = target;
+  forgery *x = what;
+  thr_plan *y = &x->plan;
+  switch (rng_below(r, 9)) {
+  case 0:
+  case 1: change_numbers(r, x); break;
+  case 2: y->proof.lower_bound *= part[rng_below(r, 7)]; break;
+  case 3: y->cords_claim.longest_bound *= part[rng_below(r, 7)]; break;
+  case 4: y->proof.optimal = rng_below(r, 2); break;
+  case 5: y->cords_claim.longest_optimal = rng_below(r, 2); break;
+  case 6: y->metrics.distinct = rng_between(r, 0, p->frame.n_edges); break;
+  case 7: y->options.distinct = y->options.cover = rng_between(r, 2, 3); break;
+  default: y->options.cords_least = rng_between(r, 2, y->options.cords); break;
+  }
+  y->proof.gap = (y->metrics.length - y->proof.lower_bound) / y->metrics.length;
+}
+
+/* How far what is said, and accepted, is above the truth. */
+static double judge_forgery(const void *target, const void *what)
+{
+  const forgery *x = what;
+  thr_plan p = x->plan;
+  thr_certificate certificate[PIECES];
+  thr_cut cut[PIECES][MOST_CUTS];
+  (void)target;
+  memcpy(cut, x->cut, sizeof cut);
+  for (int k = 0; k < p.proof.n_certificates; k++) {
+    certificate[k] = x->certificate[k];
+    certificate[k].cut = cut[k];
+    certificate[k].sum = 0;
+    for (int i = 0; i < certificate[k].n_cuts; i++)
+      certificate[k].sum += cut[k][i].value;
+  }
+  p.proof.certificate = certificate;
+  if (thr_check_plan(&p, NULL)) return -INFINITY;
+  double least = INFINITY, longest = INFINITY;
+  for (int n = p.options.cords_least; n <= p.options.cords; n++) {
+    least = fmin(least, truth_of(&p.frame, &p.options, false, n));
+    longest = fmin(longest, truth_of(&p.frame, &p.options, true, n));
+  }
+  if (p.metrics.distinct != edges_met(&p)) return 1;
+  double above = p.proof.present ? p.proof.lower_bound / least - 1 : -1;
+  if (p.proof.optimal) above = fmax(above, p.metrics.length / least - 1);
+  if (!p.cords_claim.present) return above;
+  if (p.cords_claim.longest_optimal) above = fmax(above, p.cords_claim.longest / longest - 1);
+  return fmax(above, p.cords_claim.longest_bound / longest - 1);
+}
+
+static const attack_kind of_forgeries = {sizeof(forgery), change_forgery, judge_forgery, 4e-9};
+
+START_TEST(no_forged_claim_of_different_cords_is_accepted)
+{
+  enum { STEPS = 150 };
+  attack_tally tally = {.name = "different cords", .best = -INFINITY};
+  const long most = attack_number(4000);
+  for (uint64_t seed = attack_seed(); tally.judged < most; seed++) {
+    rng r = rng_make(seed);
+    const int nodes = rng_between(&r, 3, 5), distinct = rng_between(&r, 2, 3);
+    thr_frame f = random_frame(&r, nodes, rng_below(&r, MOST_EDGES - nodes + 2), LENGTHS_RANDOM);
+    thr_request o = asked(distinct, distinct + rng_below(&r, 3), rng_below(&r, 2) ? THR_ENDS_ANY : THR_ENDS_CLOSED,
+                          rng_below(&r, 2) ? "length" : "longest");
+    thr_plan p = made(&f, &o);
+    forgery x;
+    for (int again = 0; again < 3 && forge(&p, &x); again++)
+      if (attack_climb(&r, &of_forgeries, &p, &x, STEPS, &tally))
+        printf("seed %ld: %g above the truth, %d cords, %d different\n", (long)seed, judge_forgery(&p, &x), x.plan.n_cords,
+               x.plan.options.distinct);
+    thr_plan_destroy(&p);
+    thr_frame_destroy(&f);
+  }
+  attack_report(&tally);
+  ck_assert_int_eq(tally.holes, 0);
+  ck_assert(tally.accepted > tally.judged / 20);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("different cords");
@@ -439,6 +560,7 @@ int main(void)
   ADD_LOOP(s, 120, solids_need_no_more_cord, 0, 3);
   ADD_TEST(s, 20, false_claims_are_refused);
   ADD_TEST(s, 20, the_least_needs_all_edges);
+  ADD_TEST(s, 120, no_forged_claim_of_different_cords_is_accepted);
   ADD_LOOP(s, 60, alike_cords_have_the_proof_of_one, 0, 6);
   return run_suite(s);
 }
