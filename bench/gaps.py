@@ -59,7 +59,7 @@ def run(program, frame, aim, ends, cords, limit):
         unit = 180 / math.pi if aim == "turning" else 1
         value = part.get("turning", part.get("price", part.get("length", math.nan))) * unit
         bound = part.get("lower_bound", 0) * unit
-        gap = 100 * (value - bound) / bound if bound > 0 else math.inf
+        gap = 100 * (value - bound) / bound if bound > 0 else 0 if value == 0 else math.inf  # nan: no such cords were found
         status = part.get("status", "none")
         right = subprocess.run([program, "check", plan, "-q"], capture_output=True, check=False).returncode == 0
         mark = "*" if gap > LARGE[aim] and status != "optimal" else ""
