@@ -1,6 +1,7 @@
 #include "cli/best.h"
 #include "cli/cli.h"
 #include "cli/guard.h"
+#include "cli/progress.h"
 #include "graph/check/check.h"
 #include "graph/limits.h"
 #include "graph/status.h"
@@ -83,6 +84,7 @@ static void keep_better(thr_plan *plan, double now)
   if (!is_wanted(plan)) return;
   thr_plan_write(plan, &text);
   guard_keep(&text);
+  if (progress_wanted()) progress_plan(plan);
   if (cli_verbose)
     cli_note("plan: length %.10g, turning %.10g rad, %.3f CPU s", plan->metrics.length, plan->metrics.turning,
              cli_processor_seconds());

@@ -1,6 +1,7 @@
 /* Messages, options, reading and writing for all subcommands. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
+#include "cli/progress.h"
 #include "cli/args/config.h"
 #include "cli/args/suggestion.h"
 #include "graph/angle.h"
@@ -541,6 +542,7 @@ thr_limits cli_limits(double seconds)
   else if (!cli_quiet && cli_is_terminal(STDERR_FILENO))
     limits.progress = show_progress;
   if (!cli_quiet && cli_is_terminal(STDERR_FILENO)) limits.advance = show_advance;
+  if (progress_wanted()) progress_listen(&limits);
   return limits;
 }
 

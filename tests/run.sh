@@ -8,7 +8,7 @@ export LC_ALL=C OUT=${OUT:-build} FUZZ_SECONDS=${FUZZ_SECONDS:-60} MAKE=${MAKE:-
 export RESULTS=$OUT/results
 
 # Longest first, so that none of them is left alone at the end.
-longest='second/plans release/watchdog release/memory viewer/browser unit/test_sheets property/test_cover property/test_tube_cords
+longest='web second/plans release/watchdog release/memory viewer/browser unit/test_sheets property/test_cover property/test_tube_cords
 property/test_evenly unit/test_holding golden/eval unit/test_overview property/test_cross property/test_circuits
 property/test_adversary_turning unit/test_diagram unit/test_tied_symmetry unit/test_group golden/draw golden/plan'
 
@@ -77,6 +77,7 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   library/install) tests/library/run.sh "$OUT/release" "$OUT/library-test" ;;
   readme) tests/readme/run.sh "$OUT/release/thread" ;;
   examples) tests/examples/run.sh "$OUT/release/thread" ;;
+  web) tests/web.sh "$OUT/release/thread" "$OUT/web" "$OUT/web-test" ;;
   viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" ;;
   fuzz/*) fuzz "$name" "$log" ;;
   esac >>"$log" 2>&1
@@ -88,7 +89,7 @@ job() { # NAME
   : >"$log"
   spent=$( { time run "$name" "$log" 7>&-; } 2>&1) || code=$?
   case $name in
-  */golden/* | */memory | */watchdog | second/* | viewer/browser | library/* | readme | examples) counts=$(count_lines "$log" "$code") ;;
+  */golden/* | */memory | */watchdog | second/* | viewer/browser | library/* | readme | examples | web) counts=$(count_lines "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0 0'; else counts='0 1 0'; fi ;;
   esac
@@ -124,7 +125,7 @@ case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
 rest) builds=asan SHARE_ASAN=3 tree='' programs='' whole='release/watchdog release/memory' FUZZ_RUNS=150000 ;;
-all) SHARE_ASAN=1 whole='release/watchdog release/memory' FUZZ_RUNS=1000000 ;;
+all) SHARE_ASAN=1 whole='release/watchdog release/memory web' FUZZ_RUNS=1000000 ;;
 fuzz) builds='' tree='' programs='' FUZZ_RUNS=0 ;;
 *) echo "tests/run.sh: $tier is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
 esac

@@ -15,7 +15,7 @@
  *   files    {name: Uint8Array} of all files that the command made or changed; folders stand in the name: 'dome/plan.json'
  * files: {name: Uint8Array | string}, left as they are. options, all of them optional:
  *   onStdout(line), onStderr(line)   each line as it is written, without its end. With --progress in args those of stderr that
- *                          begin with { are JSON (docs/formats.md)
+ *                          begin with { are JSON (docs/outputs.md)
  *   onPlan(text)           the best plan so far, a whole plan.json that claims no proof: at most five times a second. Who keeps
  *                          the last one may end the worker at any time, and loses nothing
  *   isStopped() -> bool    asked some twenty times a second while a search with --time-limit runs: true stops it as Ctrl-C does,

@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # Builds the libraries that thread stands on for wasm, with Emscripten, from Debian's own sources: GLPK, igraph, nauty, Bullet, and
-# the small version of GMP. Usage: web/libraries.sh FOLDER. What is there already is not built again: FOLDER/lib/*.a and, of those
-# headers that differ from the ones that Debian installs, FOLDER/include.
+# the small version of GMP. Usage: web/libraries.sh [--fetch] FOLDER; --fetch: the sources only. What is there already is not built
+# again: FOLDER/lib/*.a and, of those headers that differ from the ones that Debian installs, FOLDER/include.
 #
 # The sources come through apt from wherever this system gets its packages (deb-src beside its deb; nothing of the system is
 # changed); their versions are pinned here and their bytes by web/sources.sha256.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
+only_fetch=
+if [ "${1:-}" = --fetch ]; then only_fetch=yes && shift; fi
 folder=${1:?which folder?}
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
@@ -129,6 +131,7 @@ if [ ! -e "$folder/source/fetched" ]; then
   fetch
   touch "$folder/source/fetched"
 fi
+[ -z "$only_fetch" ] || exit 0
 for library in glpk nauty igraph bullet; do
   if wanted "$library"; then ("$library"); fi
 done

@@ -1,6 +1,6 @@
-# BUILD=web: the program for wasm, by Emscripten, as $(OUT)/web/thread-engine.js and .wasm. `make web` begins it (web/build.sh), when
-# the libraries are in WEB_CACHE. Of the interfaces that a browser cannot keep as they are, web/ has the other implementation:
-#   graph/process/child.h, workers.h, lazy.h   cli/guard.h   diagram/export/pages.h   eval/structure/rank.h   the viewer's page
+# BUILD=web: the program for wasm, by Emscripten, as $(OUT)/web/thread-engine.js and .wasm. `make web` begins it
+# when web/libraries.sh has put the libraries into WEB_CACHE. Of the interfaces that a browser cannot keep as they are, web/ has the other implementation:
+#   graph/process/child.h, workers.h, lazy.h   cli/guard.h   diagram/export/pages.h   eval/structure/rank.h   the viewer's page   <math.h>
 CC := emcc
 CXX := em++
 AR := emar
@@ -19,11 +19,11 @@ PKG_CFLAGS = -isystem $(WEB_CACHE)/include -isystem $(WEB_CACHE)/include/nauty -
 THR_CFLAGS += -Wno-sign-conversion -Wno-implicit-int-float-conversion
 BULLET_CFLAGS = -isystem /usr/include/bullet -DBT_USE_DOUBLE_PRECISION
 LAZY_NAMES = -DTHR_LIBRARY_IGRAPH='"igraph"'
-# the linker's --wrap: web/host.c
+# the linker's --wrap: web/host.c, web/libm.c
 WEB_LINK := -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sTOTAL_STACK=8MB -sSUPPORT_LONGJMP=1 -sMODULARIZE=1 \
 	-sEXPORT_NAME=ThreadEngine -sENVIRONMENT=web,worker,node -sINVOKE_RUN=0 -sEXIT_RUNTIME=1 \
 	-sEXPORTED_RUNTIME_METHODS=callMain,FS -sNODEJS_CATCH_EXIT=0 -sNODEJS_CATCH_REJECTION=0 -lnodefs.js \
-	-Wl,--wrap=sbrk,--wrap=clock_gettime
+	-Wl,--wrap=sbrk,--wrap=clock_gettime,--wrap=sin,--wrap=cos,--wrap=tan,--wrap=asin,--wrap=acos,--wrap=atan2,--wrap=hypot
 WEB_PROGRAM := $(DIR)/thread-engine.js
 
 $(WEB_PROGRAM): $(CLI_OBJECTS) $(LIBRARY) $(WEB_LIBRARIES) web/web.mk

@@ -4,6 +4,7 @@
 #include "cli/args/aims_args.h"
 #include "cli/drawings.h"
 #include "cli/guard.h"
+#include "cli/progress.h"
 #include "cli/print/plan_summary.h"
 #include "cli/print/symmetry_table.h"
 #include "diagram/overview/frontier_chart.h"
@@ -43,10 +44,11 @@ static const char help_requests[] =
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
     "                       an S that is given, and so do the drawings; else each search has its 20 s\n" GUARD_MEMORY_HELP "\n";
-static const char help_rest[] = TURNING_HELP
-    "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
-    "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
-    "\nFramework:\n" CLI_FRAME_HELP "\nOutput:\n"
+static const char help_rest[] = TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
+                                             "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
+                                             "\nFramework:\n" CLI_FRAME_HELP;
+static const char help_output[] =
+    "\nOutput:\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
     "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
     "                       (no sheets.pdf for more than 5000 pieces: thread draw PLAN -T pdf makes it)\n"
@@ -54,6 +56,7 @@ static const char help_rest[] = TURNING_HELP
     "      --order starts|hand|planned   cords begin and run so that what is threaded holds together: as far as that\n"
     "                       costs nothing (default), for at most a tenth more turning, or not at all\n"
     "      --json           summary as JSON on stdout\n"
+    "      --progress       a line of JSON on stderr each time the plan or its bound is better\n"
     "      --compare-objectives   pull of this plan beside those for the other objectives, joints simulated\n" PULL_RUN_HELP
     "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
     "Exit codes: 0 proved (or a classical tour), 2 usage, 3 bad input, 4 infeasible or none found, 5 not proved (plan\n"
@@ -62,12 +65,12 @@ static const char help_rest[] = TURNING_HELP
 /* One text: as one literal it would be longer than C promises to take. */
 static const char *help(void)
 {
-  static char text[sizeof help_requests + sizeof help_rest];
-  snprintf(text, sizeof text, "%s%s", help_requests, help_rest);
+  static char text[sizeof help_requests + sizeof help_rest + sizeof help_output];
+  snprintf(text, sizeof text, "%s%s%s", help_requests, help_rest, help_output);
   return text;
 }
 
-enum { OPTION_COMPARE = OPTION_AIMS_FREE, OPTION_DRAW, OPTION_FORCE, OPTION_JSON, OPTION_ORDER };
+enum { OPTION_COMPARE = OPTION_AIMS_FREE, OPTION_DRAW, OPTION_FORCE, OPTION_JSON, OPTION_ORDER, OPTION_PROGRESS };
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
@@ -84,6 +87,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       DRAWINGS_OPTIONS,
                                       {"json", no_argument, NULL, OPTION_JSON},
                                       {"order", required_argument, NULL, OPTION_ORDER},
+                                      {"progress", no_argument, NULL, OPTION_PROGRESS},
                                       {NULL, 0, NULL, 0}};
 
 /* ---- options ---- */
@@ -129,6 +133,7 @@ static int parse(int argc, char **argv, arguments *a)
     case OPTION_DRAW: a->draw = optarg; break;
     case OPTION_FORCE: a->force = true; break;
     case OPTION_JSON: a->json = true; break;
+    case OPTION_PROGRESS: progress_begin(); break;
     case OPTION_ORDER: ok = cli_choose("plan", "--order", optarg, thr_order_name, THR_N_ORDERS, &a->order); break;
     case 'o': a->output = optarg; break;
     }
