@@ -1,0 +1,166 @@
+// thread.html in headless Chromium, walked by what a person sees: labels and buttons. page.cjs PACKAGES PROGRAM PAGE SCRATCH: the
+// folder with playwright-core, the installed program, thread.html, an empty folder, where pictures stay to be looked at. Closes with
+// "N passed, N failed".
+'use strict';
+const {execFileSync, spawnSync} = require('node:child_process');
+const {createRequire} = require('node:module');
+const assert = require('node:assert/strict');
+const fs = require('node:fs');
+const path = require('node:path');
+const {pathToFileURL} = require('node:url');
+
+const [packages, program, html, scratch] = process.argv.slice(2).map((name) => path.resolve(name));
+const {chromium} = createRequire(path.join(packages, 'package.json'))('playwright-core');
+const DATA = path.join(__dirname, '../../data');
+const file = (name) => path.join(scratch, name);
+const thread = (...words) => execFileSync(program, words, {encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe']});
+let browser;
+
+async function open({viewport = {width: 1100, height: 900}, hash = '', context = null, ...more} = {}) {
+  const own = context || (await browser.newContext({viewport, acceptDownloads: true, ...more}));
+  const page = await own.newPage(), strangers = [], complaints = [];
+  page.on('request', (request) => /^(https?|wss?):/.test(request.url()) && strangers.push(request.url()));
+  page.on('pageerror', (error) => complaints.push(error.message));
+  await page.goto(pathToFileURL(html).href + hash);
+  await page.waitForSelector('html[data-ready]');
+  const close = async () => {
+    assert.deepEqual([strangers, complaints], [[], []], 'nothing leaves the page, nothing fails in it');
+    await own.close();
+  };
+  return {page, own, close};
+}
+
+const choose = (page, name) => page.getByLabel('Choose a file').setInputFiles(name);
+const shown = (page) => page.locator('#counts:not(:empty)').innerText();
+const trouble = (page) => page.getByRole('alert').innerText();
+
+async function made(page) {
+  await page.getByRole('button', {name: 'Thread it'}).click();
+  await page.locator('#files li').first().waitFor({timeout: 120000});
+}
+
+async function download(page, name) {
+  const [got] = await Promise.all([page.waitForEvent('download'), page.getByText(name, {exact: true}).click()]);
+  await got.saveAs(file(name));
+  return file(name);
+}
+
+const tests = {
+  async 'from an OBJ to a printed booklet: feet, advice, plan, pages, a zip'() {
+    thread('make', 'dome', '--size', '5', '-o', file('dome.obj'));
+    const {page, own, close} = await open();
+    await choose(page, file('dome.obj'));
+    assert.match(await shown(page), /25 pieces that meet at 40 interfaces/);
+    await page.getByRole('button', {name: 'the lowest ones'}).click();
+    await page.waitForFunction(() => document.getElementById('feet').value.split(',').length === 4);
+    await page.getByRole('button', {name: /^Take \d+ cords?/}).click({timeout: 60000});
+    await page.screenshot({path: file('questions.png'), fullPage: true});
+    await made(page);
+    assert.match(await page.locator('#verdict').innerText(), /^Every claim of this plan was verified/);
+    assert.match(await page.locator('#summary').innerText(), /25 pieces, 40 interfaces/);
+    await page.screenshot({path: file('result.png'), fullPage: true});
+    const plan = await download(page, 'plan.json');
+    assert.match(thread('check', plan), /: holds: /, 'the installed program agrees');
+    const [booklet] = await Promise.all([own.waitForEvent('page'), page.getByRole('button', {name: 'Open the booklet to print'}).click()]);
+    await booklet.locator('.page').first().waitFor();
+    await booklet.pdf({path: file('booklet.pdf'), preferCSSPageSize: true, printBackground: true});
+    thread('draw', plan, '-T', 'pdf', '-o', file('sheets.pdf'));
+    const words = ['booklet.pdf', 'sheets.pdf'].map((name) => execFileSync('pdftotext', ['-layout', file(name), '-'], {encoding: 'utf8'}).split(/\s+/).sort());
+    assert.deepEqual(words[0], words[1]);
+    await booklet.close();
+    const [zip] = await Promise.all([page.waitForEvent('download', {timeout: 60000}), page.getByRole('button', {name: 'Save everything as a zip'}).click()]);
+    await zip.saveAs(file('all.zip'));
+    const listed = execFileSync('python3', ['-c', 'import sys, zipfile; z = zipfile.ZipFile(sys.argv[1]); assert z.testzip() is None; print(*z.namelist())', file('all.zip')], {encoding: 'utf8'});
+    assert.match(listed, /plan\.json overview\.svg steps\.txt sheets\.html/);
+    await close();
+  },
+
+  async 'a plan is dropped in again, survives a reload, and Undo goes back'() {
+    thread('plan', path.join(DATA, 'dome7.json'), '--cords', '2', '--ends', 'feet', '-o', file('two.json'));
+    const {page, close} = await open();
+    await choose(page, file('two.json'));
+    await page.locator('#files li').first().waitFor({timeout: 60000});
+    assert.match(await page.locator('#summary').innerText(), /2 cords/);
+    await page.reload();
+    await page.locator('#files li').first().waitFor({timeout: 60000});
+    assert.match(await shown(page), /^two: 49 pieces/);
+    await page.getByLabel('How many cords?').selectOption('4');
+    await page.getByRole('button', {name: 'Undo'}).click();
+    assert.equal(await page.getByLabel('How many cords?').inputValue(), '');
+    await close();
+  },
+
+  async 'bad files get the line of the command line'() {
+    fs.writeFileSync(file('bad.obj'), 'v 0 0 0\nv 1 0\nl 1 2\n');
+    const said = spawnSync(program, ['info', file('bad.obj')], {encoding: 'utf8'}).stderr;
+    const {page, close} = await open();
+    await choose(page, file('bad.obj'));
+    await page.getByRole('alert').waitFor();
+    assert.equal(await trouble(page), said.trim().replace(/^thread: /, '').replaceAll(file('bad.obj'), 'bad.obj'));
+    await close();
+  },
+
+  async 'a search that is stopped keeps its best plan, and so does a page that is closed'() {
+    const {page, own, close} = await open();
+    await choose(page, path.join(DATA, 'jax_fdm/liew_dome.json'));
+    await shown(page);
+    await page.getByLabel('Where may they end?').selectOption('any');
+    await page.getByLabel('How many cords?').selectOption('1');
+    await page.getByLabel('What matters most?').selectOption('tortuosity');
+    await page.getByLabel('How long may it search?').selectOption('600');
+    await page.getByRole('button', {name: 'Thread it'}).click();
+    await page.getByText(/Found: 1 cord/).waitFor({timeout: 60000});
+    const other = await own.newPage(); // as if the first were closed
+    await other.goto(pathToFileURL(html).href);
+    await other.locator('#files li').first().waitFor({timeout: 60000});
+    assert.match(await other.locator('#verdict').innerText(), /verified/);
+    await other.close();
+    await page.getByRole('button', {name: 'Stop and keep the best'}).click();
+    await page.locator('#files li').first().waitFor({timeout: 60000});
+    assert.match(await page.locator('#verdict').innerText(), /verified/);
+    await close();
+  },
+
+  async 'a link brings the answers; a telephone in the dark; feet by keyboard'() {
+    const {page, close} = await open({viewport: {width: 360, height: 740}, colorScheme: 'dark', hash: '#cords=3&ends=any&pull=50'});
+    await page.getByLabel('or take an example').selectOption('tube');
+    assert.match(await shown(page), /interfaces/);
+    assert.equal(await page.getByLabel('How many cords?').inputValue(), '3');
+    assert.equal(await page.getByLabel('How hard can you pull?').inputValue(), '50');
+    await page.getByLabel('Feet, where cord may come out').fill('A1, zz');
+    await page.keyboard.press('Tab');
+    await page.getByRole('alert').waitFor();
+    assert.match(await trouble(page), /no piece zz/);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(wide <= 360, `${wide} pixels are wider than the telephone`);
+    await page.screenshot({path: file('telephone.png'), fullPage: true});
+    await close();
+  },
+};
+
+async function main() {
+  let passed = 0, failed = 0;
+  browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM || '/usr/bin/chromium',
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'],
+  });
+  for (const [name, test] of Object.entries(tests)) {
+    const begun = Date.now();
+    try {
+      await test();
+      passed++;
+      console.log(`ok    ${name} (${Date.now() - begun} ms)`);
+    } catch (error) {
+      failed++;
+      console.log(`FAIL  ${name}\n${String(error.stack).replace(/^/gm, '      ')}`);
+    }
+  }
+  await browser.close();
+  console.log(`${passed} passed, ${failed} failed`);
+  process.exitCode = failed ? 1 : 0;
+}
+
+main().catch((error) => {
+  console.log(`${error.stack}\n0 passed, 1 failed`);
+  process.exit(1);
+});

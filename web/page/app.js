@@ -1,0 +1,363 @@
+// The page: a framework, questions in plain words, a search, a plan.
+
+const $ = (id) => document.getElementById(id);
+const sources = [$('worker').textContent, $('wasm').textContent];
+const engine = new EngineClient(...sources), adviser = new EngineClient(...sources); // advice does not wait for a search
+const QUESTIONS = ['pull', 'cords', 'ends', 'aim', 'joint', 'seconds'];
+const text = (bytes) => new TextDecoder().decode(bytes);
+
+let frame = null; // thread-frame, as JSON
+let name = ''; // of the file, without its ending
+let plan = ''; // text of plan.json
+let best = ''; // the same, while the search runs
+let said = ''; // what the program said of the plan when it was made
+let past = []; // states before, for Undo
+const sketch = new Sketch($('sketch'), (node) => changeFeet(toggled(node)));
+
+// ---- words ----
+
+function complain(line) {
+  $('trouble').hidden = !line;
+  $('trouble').textContent = line;
+}
+
+// The line that the command line would print, without the name of the program.
+const lastLine = (stderr) => stderr.trim().split('\n').filter((line) => !/^thread: note:/.test(line)).pop()?.replace(/^thread: /, '') || '';
+
+const notesOf = (stderr) => stderr.split('\n').filter((line) => /^thread: note:/.test(line)).map((line) => line.replace(/^thread: note: /, ''));
+
+// ---- state: undo, reload, link ----
+
+const answers = () => Object.fromEntries(QUESTIONS.map((id) => [id, $(id).value]));
+
+function setAnswers(given) {
+  for (const id of QUESTIONS) if (given[id] !== undefined && [...$(id).options].some((option) => option.value === given[id])) $(id).value = given[id];
+}
+
+const state = () => ({frame, name, plan, said, answers: answers()});
+let settled = null; // the state that Undo comes back to
+
+function remember() {
+  if (settled) past.push(settled);
+  past = past.slice(-50);
+  settled = state();
+  $('undo').disabled = past.length === 0;
+  keepState(settled);
+}
+
+function restore(kept) {
+  ({frame, name, plan, said} = kept);
+  setAnswers(kept.answers);
+  settled = state();
+  showFrame();
+  showResult();
+  keepState(settled);
+}
+
+function undo() {
+  const before = past.pop();
+  $('undo').disabled = past.length === 0;
+  if (before) restore(before);
+}
+
+const hashOf = () => new URLSearchParams(answers()).toString();
+
+async function copyLink() {
+  const link = `${location.href.split('#')[0]}#${hashOf()}`;
+  history.replaceState(null, '', `#${hashOf()}`);
+  await navigator.clipboard?.writeText(link).catch(() => {});
+  $('link').textContent = 'The link is in the address line';
+}
+
+// ---- 1: the framework ----
+
+async function openFile(file) {
+  const bytes = new Uint8Array(await file.arrayBuffer()), ending = /\.[^.]*$/.exec(file.name)?.[0].toLowerCase() || '';
+  await readBytes(bytes, file.name.replace(/\.[^.]*$/, '') || 'framework', `given${ending}`, file.name);
+}
+
+async function readBytes(bytes, title, path, shownName) {
+  complain('');
+  busy(`Reading ${shownName} ..`);
+  const isPlan = /^\s*\{\s*"format"\s*:\s*"thread-plan"/.test(text(bytes.subarray(0, 200)));
+  const {exit, stderr, files} = await engine.run(['convert', path, '-T', 'json', '-o', 'frame.json'], {[path]: bytes});
+  busy('');
+  if (exit !== 0 || !files['frame.json']) {
+    complain(lastLine(stderr).replaceAll(path, shownName));
+    return;
+  }
+  frame = JSON.parse(text(files['frame.json']));
+  name = title;
+  plan = said = '';
+  if (!frame.feet?.length) $('ends').value = 'any';
+  if (isPlan) plan = text(bytes);
+  remember();
+  showFrame(notesOf(stderr).map((note) => note.replaceAll(path, shownName)));
+  await showResult();
+}
+
+async function example(words) {
+  const [shape, size] = words.split(' ');
+  const {files, exit, stderr} = await engine.run(['make', shape, '--size', size, '-o', 'frame.json']);
+  if (exit) complain(lastLine(stderr));
+  else await readBytes(files['frame.json'], `${shape}${size}`, 'given.json', shape);
+}
+
+const plural = (n, word) => `${n} ${word}${n === 1 ? '' : 's'}`;
+
+function showFrame(notes = []) {
+  $('shown').hidden = $('question-part').hidden = !frame;
+  if (!frame) return;
+  const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}`, ...notes];
+  $('counts').textContent = `${said.join('. ')}.`;
+  $('feet').value = (frame.feet || []).map(nameOf).join(', ');
+  sketch.show(frame);
+  advise();
+}
+
+const nameOf = (node) => (frame.names ? String(frame.names[node]) : String(node));
+
+function toggled(node) {
+  const feet = new Set(frame.feet || []);
+  if (!feet.delete(node)) feet.add(node);
+  return [...feet].sort((a, b) => a - b);
+}
+
+function changeFeet(feet) {
+  frame = {...frame, feet};
+  plan = said = '';
+  if (!feet.length && $('ends').value === 'feet') $('ends').value = 'any';
+  remember();
+  showFrame();
+  showResult();
+}
+
+function typedFeet() {
+  const wanted = $('feet').value.split(/[,;]\s*/).map((word) => word.trim()).filter(Boolean);
+  const found = wanted.map((word) => frame.nodes.findIndex((_, node) => nameOf(node).toLowerCase() === word.toLowerCase()));
+  const lost = wanted.filter((_, i) => found[i] < 0);
+  complain(lost.length ? `There is no piece ${lost.join(', ')}; the first is ${nameOf(0)}.` : '');
+  if (!lost.length) changeFeet([...new Set(found)].sort((a, b) => a - b));
+}
+
+async function lowestFeet() {
+  const {exit, stderr, files} = await engine.run(['convert', 'frame.json', '--feet', 'lowest', '-o', 'out.json'], {'frame.json': frameText()});
+  if (exit) complain(lastLine(stderr));
+  else changeFeet(JSON.parse(text(files['out.json'])).feet || []);
+}
+
+const frameText = () => JSON.stringify(frame);
+const frameFile = () => `${name.replace(/[^\w.-]+/g, '-').replace(/^[-.]+/, '') || 'frame'}.json`; // named in pictures and commands
+
+// ---- 2: the questions ----
+
+let asked = 0;
+
+// The picture, and the row that the program recommends as a button.
+async function advise() {
+  const mine = ++asked, figure = $('advice');
+  figure.replaceChildren(caption('Looking how many cords a hand can pull ..'));
+  adviser.stop();
+  const args = ['advise', frameFile(), '--hand', $('pull').value || '10'], files = {[frameFile()]: frameText()};
+  const drawn = await adviser.run([...args, '-T', 'svg', '-o', 'advice.svg'], files);
+  if (mine !== asked || drawn.exit === -1) return;
+  const picture = drawn.files['advice.svg'];
+  if (!picture) {
+    figure.replaceChildren(caption(lastLine(drawn.stderr) || 'No advice for this framework.'));
+    return;
+  }
+  const image = new Image();
+  image.alt = 'Pull and length of cord against the number of cords';
+  image.src = URL.createObjectURL(new Blob([picture], {type: 'image/svg+xml'}));
+  figure.replaceChildren(image);
+  const table = await adviser.run([...args, '--json'], files);
+  if (mine === asked && table.exit === 0) figure.prepend(takeButton(JSON.parse(table.stdout)));
+}
+
+const ENDS = {feet: 'to the feet', any: 'ending anywhere', closed: 'in loops'};
+
+function takeButton({rows, recommended}) {
+  const row = rows[recommended], button = document.createElement('button');
+  button.type = 'button';
+  button.textContent = row ? `Take ${plural(row.cords, 'cord')} ${ENDS[row.ends]}, ${row.pull.toPrecision(2)} N to pull` : 'No number of cords is easy enough';
+  button.disabled = !row;
+  button.addEventListener('click', () => {
+    setAnswers({cords: String(row.cords), ends: row.ends, aim: 'tortuosity', pull: ''});
+    remember();
+    $('go').focus();
+  });
+  return button;
+}
+
+function caption(words) {
+  const node = document.createElement('figcaption');
+  node.textContent = words;
+  return node;
+}
+
+// The command line that the answers stand for.
+function wanted() {
+  const {pull, cords, ends, aim, joint, seconds} = answers(), args = ['plan', frameFile(), '--objective', aim, '--ends', ends, '--joint', joint];
+  if (pull) args.push('--max-pull', pull);
+  if (cords) args.push('--cords', cords);
+  return [...args, '--time-limit', seconds, '--progress', '-o', 'plan.json'];
+}
+
+// ---- the search ----
+
+function busy(words) {
+  $('work-part').hidden = !words;
+  $('work').textContent = words;
+  $('stop').hidden = true;
+  $('go').disabled = Boolean(words);
+}
+
+// What a line of progress says, in words.
+function progressWords(line) {
+  if (!line.startsWith('{')) return '';
+  const {what, best: value, bound, gap, length, cords} = JSON.parse(line);
+  if (what === 'plan') return `Found: ${plural(cords, 'cord')}, ${length.toPrecision(4)} ${frame.units || ''}.`;
+  if (value === undefined || bound === undefined) return '';
+  return gap > 0 ? `Nothing can be more than ${gap.toPrecision(2)} % better.` : '';
+}
+
+async function search(event) {
+  event.preventDefault();
+  complain('');
+  busy('Searching ..');
+  $('stop').hidden = false;
+  best = '';
+  const told = {};
+  const onLine = (line) => {
+    const words = progressWords(line);
+    if (words) told[words.startsWith('Found') ? 0 : 1] = words;
+    $('work').textContent = ['Searching ..', told[0], told[1]].filter(Boolean).join(' ');
+  };
+  const onPlan = (found) => {
+    best = found;
+    keepState({...state(), plan: best}); // closing the page loses nothing that was found
+  };
+  const {exit, stdout, stderr, files} = await engine.run(wanted(), {[frameFile()]: frameText()}, {onLine, onPlan});
+  busy('');
+  const found = files['plan.json'] ? text(files['plan.json']) : best;
+  if (!found) {
+    complain(exit === -1 ? 'Stopped before anything was found.' : lastLine(stderr));
+    return;
+  }
+  plan = found;
+  said = stdout.replace(/^plan +plan\.json\n/m, '').trim();
+  remember();
+  await showResult();
+  if (exit !== 0 && exit !== -1) $('verdict').textContent += ` ${lastLine(stderr)}.`;
+}
+
+// ---- 3: the result ----
+
+async function draw(type, file) {
+  const {exit, stderr, files} = await engine.run(['draw', 'plan.json', '-T', type, '-o', file], {'plan.json': plan});
+  if (exit || !files[file]) complain(lastLine(stderr));
+  return files[file];
+}
+
+async function showResult() {
+  $('result-part').hidden = !plan;
+  $('viewer').srcdoc = '';
+  $('files').replaceChildren();
+  if (!plan) return;
+  const shown = plan, check = await engine.run(['check', 'plan.json'], {'plan.json': plan});
+  if (shown !== plan) return;
+  $('summary').textContent = said || check.stdout.replace(/^plan\.json: /, '').trim() || lastLine(check.stderr);
+  $('verdict').textContent = check.exit === 0 ? 'Every claim of this plan was verified on this device.' : lastLine(check.stderr);
+  const viewer = await draw('html', 'viewer.html');
+  if (viewer && shown === plan) $('viewer').srcdoc = text(viewer);
+  listFiles();
+  $('result-title').scrollIntoView({block: 'start'});
+}
+
+const FILES = [['plan', 'plan.json'], ['svg', 'overview.svg'], ['steps', 'steps.txt'], ['sheets.html', 'sheets.html'], ['html', 'viewer.html'],
+  ['cords.csv', 'cords.csv'], ['beads.csv', 'beads.csv'], ['steps.csv', 'steps.csv'], ['channels.csv', 'channels.csv'], ['obj', 'cords.obj'],
+  ['gltf', 'cords.gltf'], ['dxf', 'cords.dxf']];
+
+const contentOf = async (type, file) => (type === 'plan' ? new TextEncoder().encode(plan) : draw(type, file));
+
+function save(blob, title) {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(blob);
+  link.download = title;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}
+
+function listFiles() {
+  $('files').replaceChildren(...FILES.map(([type, file]) => {
+    const item = document.createElement('li'), link = document.createElement('a');
+    link.href = '#';
+    link.textContent = file;
+    link.addEventListener('click', async (event) => {
+      event.preventDefault();
+      const bytes = await contentOf(type, file);
+      if (bytes) save(new Blob([bytes]), file);
+    });
+    item.append(link);
+    return item;
+  }));
+}
+
+async function saveAll() {
+  const files = {};
+  busy('Drawing everything ..');
+  for (const [type, file] of FILES) {
+    const bytes = await contentOf(type, file);
+    if (bytes) files[file] = bytes;
+  }
+  busy('');
+  save(zip(files), `${name || 'plan'}.zip`);
+}
+
+async function openBooklet() {
+  const page = window.open('', '_blank');
+  const bytes = await draw('sheets.html', 'sheets.html');
+  if (!bytes) return page?.close();
+  const url = URL.createObjectURL(new Blob([bytes], {type: 'text/html'}));
+  if (page) page.location = url;
+  else save(new Blob([bytes], {type: 'text/html'}), 'sheets.html');
+}
+
+// ---- events ----
+
+function listenForFiles() {
+  const drop = $('drop');
+  $('file').addEventListener('change', () => $('file').files[0] && openFile($('file').files[0]).then(() => ($('file').value = '')));
+  for (const kind of ['dragover', 'drop', 'dragleave'])
+    document.addEventListener(kind, (event) => {
+      event.preventDefault();
+      drop.classList.toggle('over', kind === 'dragover');
+      if (kind === 'drop' && event.dataTransfer.files[0]) openFile(event.dataTransfer.files[0]);
+    });
+  $('example').addEventListener('change', () => $('example').value && example($('example').value).then(() => ($('example').value = '')));
+}
+
+async function begin() {
+  listenForFiles();
+  $('questions').addEventListener('submit', search);
+  $('questions').addEventListener('change', (event) => {
+    remember();
+    if (event.target.id === 'pull') advise();
+  });
+  $('stop').addEventListener('click', () => engine.stop());
+  $('undo').addEventListener('click', undo);
+  $('link').addEventListener('click', copyLink);
+  $('feet').addEventListener('change', typedFeet);
+  $('lowest').addEventListener('click', lowestFeet);
+  $('booklet').addEventListener('click', openBooklet);
+  $('all').addEventListener('click', saveAll);
+  document.addEventListener('keydown', (event) => {
+    if ((event.ctrlKey || event.metaKey) && event.key === 'z' && event.target.tagName !== 'INPUT') undo();
+  });
+  const kept = await keptState();
+  if (kept?.frame) restore(kept);
+  setAnswers(Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
+  document.documentElement.dataset.ready = '';
+}
+
+begin();

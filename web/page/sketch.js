@@ -1,0 +1,106 @@
+// The framework as a picture that turns: arms from every piece to the middles of its edges, feet as squares.
+
+class Sketch {
+  constructor(canvas, onPick) {
+    this.canvas = canvas;
+    this.onPick = onPick;
+    this.turn = [-0.6, 0.95];
+    this.zoom = 1;
+    new ResizeObserver(() => this.draw()).observe(canvas);
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw());
+    this.listen();
+  }
+
+  show(frame) {
+    const all = [0, 1, 2].map((k) => frame.nodes.map((p) => p[k]));
+    this.frame = frame;
+    this.middle = all.map((list) => (list.reduce((a, b) => Math.min(a, b)) + list.reduce((a, b) => Math.max(a, b))) / 2);
+    this.size = Math.hypot(...all.map((list, k) => list.reduce((a, b) => Math.max(a, Math.abs(b - this.middle[k])), 0))) || 1;
+    this.draw();
+  }
+
+  // Where a point is on the canvas, in CSS pixels, and how near it is.
+  place(p) {
+    const [x, y, z] = p.map((value, k) => (value - this.middle[k]) / this.size), [round, up] = this.turn;
+    const across = x * Math.cos(round) - y * Math.sin(round), into = x * Math.sin(round) + y * Math.cos(round);
+    const unit = 0.52 * this.zoom * Math.min(this.canvas.clientWidth, this.canvas.clientHeight) * 0.95;
+    const high = z * Math.sin(up) + into * Math.cos(up);
+    return [this.canvas.clientWidth / 2 + unit * across, this.canvas.clientHeight / 2 - unit * high, z * Math.cos(up) - into * Math.sin(up)];
+  }
+
+  draw() {
+    const {canvas, frame} = this, scale = devicePixelRatio || 1;
+    if (!frame || !canvas.clientWidth) return;
+    canvas.width = canvas.clientWidth * scale;
+    canvas.height = canvas.clientHeight * scale;
+    const pen = canvas.getContext('2d'), style = getComputedStyle(document.documentElement);
+    const colour = (name) => style.getPropertyValue(name).trim(), at = frame.nodes.map((p) => this.place(p)), feet = new Set(frame.feet || []);
+    const lengths = frame.edges.map(([a, b]) => Math.hypot(at[a][0] - at[b][0], at[a][1] - at[b][1])).sort((a, b) => a - b);
+    const wide = Math.min(Math.max(0.22 * (lengths[lengths.length >> 1] || 10), 1.5), 14);
+    pen.scale(scale, scale);
+    pen.lineCap = 'butt';
+    const edges = frame.edges.map(([a, b]) => [a, b, at[a][2] + at[b][2]]).sort((p, q) => p[2] - q[2]);
+    for (const [a, b] of edges)
+      for (const [from, to] of [[at[a], at[b]], [at[b], at[a]]]) {
+        const part = 0.47, end = [from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1])];
+        for (const [ink, width] of [[colour('--ink'), wide + 2], [colour('--piece'), wide]]) {
+          pen.strokeStyle = ink;
+          pen.lineWidth = width;
+          pen.beginPath();
+          pen.moveTo(from[0], from[1]);
+          pen.lineTo(...end);
+          pen.stroke();
+        }
+      }
+    pen.fillStyle = colour('--foot');
+    for (const v of feet) pen.fillRect(at[v][0] - wide / 2 - 2, at[v][1] - wide / 2 - 2, wide + 4, wide + 4);
+  }
+
+  pick(x, y) {
+    let best = -1, far = 18;
+    this.frame.nodes.forEach((p, v) => {
+      const at = this.place(p), away = Math.hypot(at[0] - x, at[1] - y) - 1e-3 * at[2];
+      if (away < far) [best, far] = [v, away];
+    });
+    return best;
+  }
+
+  listen() {
+    const {canvas} = this;
+    let down = null, moved = 0;
+    canvas.addEventListener('pointerdown', (event) => {
+      [down, moved] = [[event.clientX, event.clientY], 0];
+      canvas.setPointerCapture(event.pointerId);
+    });
+    canvas.addEventListener('pointermove', (event) => {
+      if (!down) return;
+      const [x, y] = [event.clientX - down[0], event.clientY - down[1]];
+      moved += Math.abs(x) + Math.abs(y);
+      down = [event.clientX, event.clientY];
+      this.rotate(0.008 * x, 0.008 * y);
+    });
+    canvas.addEventListener('pointerup', (event) => {
+      if (down && moved < 6 && this.frame) {
+        const v = this.pick(event.offsetX, event.offsetY);
+        if (v >= 0) this.onPick(v);
+      }
+      down = null;
+    });
+    canvas.addEventListener('wheel', (event) => {
+      event.preventDefault();
+      this.zoom = Math.min(Math.max(this.zoom * Math.exp(-0.001 * event.deltaY), 0.5), 8);
+      this.draw();
+    }, {passive: false});
+    canvas.addEventListener('keydown', (event) => {
+      const by = {ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, -0.15], ArrowDown: [0, 0.15]}[event.key];
+      if (!by) return;
+      event.preventDefault();
+      this.rotate(...by);
+    });
+  }
+
+  rotate(round, up) {
+    this.turn = [this.turn[0] + round, Math.min(Math.max(this.turn[1] + up, 0), Math.PI / 2)];
+    this.draw();
+  }
+}
