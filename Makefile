@@ -147,7 +147,7 @@ test test-fast test-rest test-all fuzz:
 	+@MAKE="$(MAKE)" OUT="$(OUT)" FUZZ_SECONDS="$(FUZZ_SECONDS)" ONLY="$(ONLY)" CLANG_FORMAT="$(CLANG_FORMAT)" \
 	  VIEWER_PACKAGES="$(VIEWER_PACKAGES)" tests/run.sh $(@:test-%=%)
 
-web: ## the program for browsers and node: $(OUT)/web (libraries are built once, some minutes, and kept in WEB_CACHE=~/.cache/thread-web)
+web: ## the program for browsers and node, and thread.html, the page: $(OUT)/web (libraries are built once, some minutes, and kept in WEB_CACHE=~/.cache/thread-web)
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(WEB_PACKAGES)
 	+@$(MAKE) --no-print-directory BUILD=release $(OUT)/packages.ok
 	@web/libraries.sh "$(WEB_CACHE)"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tests/web.sh [PROGRAM [BUILD [FOLDER [FRAMES]]]]: the program for browsers and node, as `make web` leaves it in BUILD (build/web),
 # beside the installed one (build/release/thread): the same plans and evaluations for FRAMES frameworks (20), under node and in
-# headless Chromium; the command line under node; modes of files; sizes and times, which are printed and not judged but for the sizes.
+# headless Chromium; thread.html walked by what a person sees; the command line under node; modes of files; sizes and times, which are printed and not judged but for the sizes.
 # FOLDER (build/web-test) is for what it writes. Builds what is missing. Closes with "N passed, N failed", or, unless CI=true,
 # "N skipped" and exit code 77 where Emscripten, the sources, npm or a browser cannot be had.
 set -u
@@ -24,4 +24,12 @@ fi
 [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || tools/install-packages.sh chromium >&2 || skip 'there is no browser'
 tools/npm-packages.sh tests/viewer "$folder/packages" || skip "npm's packages cannot be had"
 rm -rf "$folder/scratch" && mkdir -p "$folder/scratch"
-exec timeout 1200 node tests/web/compare.cjs "$program" "$build" "$folder/packages" "$folder/scratch" "$frames"
+mkdir -p "$folder/scratch/page"
+{
+  timeout 1200 node tests/web/compare.cjs "$program" "$build" "$folder/packages" "$folder/scratch" "$frames"
+  timeout 600 node tests/web/page.cjs "$folder/packages" "$program" "$build/thread.html" "$folder/scratch/page"
+} | tee "$folder/scratch/log"
+# The sum of both, each of which closes with a line of its own.
+awk '
+  /^[0-9]+ passed, [0-9]+ failed$/ { passed += $1; failed += $3; lines++ }
+  END { failed += 2 - lines; printf "%d passed, %d failed\n", passed, failed; exit failed > 0 }' "$folder/scratch/log"

@@ -39,9 +39,12 @@ $(DIR)/web/viewer_page.o: $(DIR)/web/viewer_page.c
 	@echo "  CC    $@"
 	$(Q)emcc -O1 -c -o $@ $<
 
-# what is handed on: the engine, and the npm package around it
+# what is handed on: the engine, the page with all in it, and the npm package around it
 NPM := $(DIR)/npm
-web-files: $(WEB_PROGRAM) $(DIR)/engine.js $(NPM)/package.json
+web-files: $(WEB_PROGRAM) $(DIR)/engine.js $(DIR)/thread.html $(NPM)/package.json
+$(DIR)/thread.html: $(wildcard web/page/*) $(WEB_PROGRAM) $(DIR)/engine.js Makefile
+	@echo "  PAGE  $@"
+	$(Q)web/page/build.sh $(DIR) $(VERSION)
 $(DIR)/engine.js: web/engine.js
 	@cp $< $@
 $(NPM)/package.json: $(WEB_PROGRAM) $(DIR)/engine.js $(wildcard web/npm/*) Makefile
