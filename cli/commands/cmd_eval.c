@@ -14,12 +14,14 @@
 #include "graph/io/writer.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/advice.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/schedule.h"
 #include "graph/status.h"
 #include "graph/text.h"
 #include "graph/angle.h"
+#include "eval/cord/history.h"
 #include "eval/cord/profile.h"
 
 #include <inttypes.h>
@@ -275,6 +277,20 @@ static void put_hand(thr_text *text, double newton, double strength)
     thr_text_printf(text, "a cord that bears %s %s\n", plain_force(strength, force), newton > strength ? "breaks" : "holds");
 }
 
+/* What is beyond a hand at once, grips on the way draw in, or more cords need less. Nothing if one turn alone is too much. */
+static void put_grips(thr_text *text, const thr_plan *plan)
+{
+  thr_schedule schedule = {0};
+  char force[64];
+  if (plan->evaluation.largest <= thr_hand_most || plan->evaluation.schedule.n > 0) return;
+  if (thr_history_grips(plan->cord, thr_hand_most, &plan->evaluation, &schedule, NULL) == THR_OK) {
+    const int grips = thr_schedule_grips(&schedule, -1);
+    thr_text_printf(text, "with %d %s on the way no pull is above %s (--hand %g), and more cords need less (thread advise)\n",
+                    grips, cli_plural(grips, "grip", "grips"), plain_force(thr_hand_most, force), thr_hand_most);
+  }
+  thr_schedule_destroy(&schedule);
+}
+
 static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval, double strength)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
@@ -287,6 +303,7 @@ static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval,
   thr_text_append(text, "\n");
   if (evaluation->schedule.n == 0) put_band(text, evaluation, eval->band);
   if (eval->complete && evaluation->method != THR_STRUCTURE) put_hand(text, evaluation->largest, strength);
+  if (eval->complete && evaluation->method != THR_STRUCTURE) put_grips(text, plan);
   if (!eval->complete) {
     thr_text_append(text, "stopped; not known: ");
     pull_unknown_cords(plan, evaluation, text);
