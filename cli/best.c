@@ -8,9 +8,11 @@
 #include "graph/text.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/cover/cover_options.h"
+#include "planner/uncross.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double OFTEN =
     0.2; /* s between two plans that are kept, but for the first two: one that takes no search, and a good one */
@@ -73,6 +75,7 @@ static bool is_wanted(thr_plan *plan)
 {
   if (!fits(plan) || thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, NULL))
     return false;
+  if (thr_plan_uncross(plan, NULL)) return false;
   if (plan->options.distinct > 0 && plan->metrics.distinct < plan->frame.n_edges) return false;
   return value_of(plan) < best.value * (1 - 1e-9) && thr_check_plan(plan, NULL) == THR_OK;
 }
@@ -94,11 +97,27 @@ static void keep_better(thr_plan *plan, double now)
   best.n++;
 }
 
+/* Passes of their own for the cords, which are borrowed, if they may be led otherwise. */
+static bool own_passes(thr_plan *plan, int **half)
+{
+  size_t n = 0;
+  if (plan->options.crossings == THR_CROSSINGS_ALLOW) return true;
+  for (int i = 0; i < plan->n_cords; i++)
+    n += (size_t)plan->cord[i].n_passes;
+  int *to = *half = thr_calloc(n, sizeof *to);
+  for (int i = 0; to && i < plan->n_cords; to += plan->cord[i++].n_passes) {
+    memcpy(to, plan->cord[i].half, (size_t)plan->cord[i].n_passes * sizeof *to);
+    plan->cord[i].half = to;
+  }
+  return *half != NULL;
+}
+
 void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetry_record *symmetry)
 {
   (void)user;
   double now = thr_clock();
   thr_symmetry_record own = {0};
+  int *half = NULL;
   if (!best.f || n_cords == 0 || (best.n > 1 && now - best.at < OFTEN)) return;
   thr_plan plan = {.frame = *best.f, .options = *best.o, .n_cords = n_cords};
   plan.cord = thr_calloc((size_t)n_cords, sizeof *plan.cord);
@@ -112,7 +131,8 @@ void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetr
     sound = !*best.o->symmetry.group && thr_cords_alone(best.f, &how, plan.cord, n_cords, &own, NULL) == THR_OK;
   }
   if (copies) plan.symmetry = symmetry ? *symmetry : own;
-  if (sound) keep_better(&plan, now);
+  if (sound && own_passes(&plan, &half)) keep_better(&plan, now);
+  free(half);
   thr_symmetry_record_destroy(&own);
   free(plan.cord);
 }

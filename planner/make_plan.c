@@ -5,6 +5,7 @@
 #include "planner/dispatch.h"
 #include "planner/order.h"
 #include "planner/planners.h"
+#include "planner/uncross.h"
 #include "symmetry/group/automorphisms.h"
 
 #include <stdio.h>
@@ -31,7 +32,8 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, con
   *plan = (thr_plan){0};
   thr_planner_tell_at_once(frame, request, limits);
   thr_status st = thr_dispatch(request)(frame, request, limits, plan, &own, err), finished = THR_OK;
-  if (plan->n_cords > 0) finished = thr_plan_order(plan, err);
+  if (plan->n_cords > 0) finished = thr_plan_uncross(plan, err);
+  if (plan->n_cords > 0 && !finished) finished = thr_plan_order(plan, err);
   if (plan->n_cords > 0 && !finished) finished = sign(plan, err);
   if (finished) {
     thr_plan_destroy(plan);

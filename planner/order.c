@@ -42,8 +42,8 @@ bool thr_order_turns(const thr_request *request, const thr_cord *cord)
 
 bool thr_order_reverses(const thr_request *request, const thr_cord *cord)
 {
-  return cord->n_passes <= THR_ORDER_REVERSED && request->joint == THR_JOINT_SOLID && !thr_wants_symmetry(request) &&
-         (!thr_wants_turning(request) || request->turning.cost == THR_TURN_ANGLE);
+  return cord->n_passes <= THR_ORDER_REVERSED && request->joint == THR_JOINT_SOLID && request->crossings == THR_CROSSINGS_ALLOW &&
+         !thr_wants_symmetry(request) && (!thr_wants_turning(request) || request->turning.cost == THR_TURN_ANGLE);
 }
 
 /* May cords turn more than they were found to? */
@@ -451,8 +451,10 @@ thr_status thr_plan_order(thr_plan *plan, thr_err *err)
   if (order == THR_ORDER_PLANNED || plan->n_cords == 0) return THR_OK;
   thr_status st = order == THR_ORDER_HAND ? order_all(plan, err) : order_if_worth(plan, &changed, err);
   if (st || !changed) return st;
+  const int crossings = plan->metrics.crossings;
   const double length = plan->metrics.length; /* the same passes, whatever the order in which they are added up */
   st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
   plan->metrics.length = length;
+  plan->metrics.crossings = crossings; /* channels are the same ones */
   return st;
 }

@@ -281,7 +281,7 @@ def check_physics(o, place):
 class Options:
     def __init__(self, o, f):
         p = "options"
-        known(o, "objective joint cover capacity distinct cords max_length max_pull balance ends end_nodes end_counts needles order engine confirm turning symmetry"
+        known(o, "objective joint cover capacity distinct cords max_length max_pull balance ends end_nodes end_counts needles order crossings engine confirm turning symmetry"
               " time_limit physics", p)
         self.objective = choice(o, "objective", p, ("length", "tortuosity", "symmetry"))
         self.tube = choice(o, "joint", p, ("solid", "tube")) == "tube"
@@ -293,6 +293,8 @@ class Options:
         member(o, "time_limit", "number", p)
         member(o, "needles", "integer", p, 1, 2, default=0)
         choice(o, "order", p, ("hand", "planned", "starts"), default="planned")
+        self.crossings = choice(o, "crossings", p, ("allow", "forbid", "price"), default="allow")
+        require(self.crossings == "allow" or not self.tube, "options.crossings: not with tube joints")
         choice(o, "engine", p, ("auto", "lp", "matching"), default="auto")
         choice(o, "confirm", p, ("auto", "always", "never"), default="auto")
         require(self.objective == "length" or "confirm" not in o, "options.confirm: only with objective length")
@@ -498,7 +500,7 @@ def check_tied(p):
 def check_metrics(p):
     f, m = p.frame, member(p.file, "metrics", "object", "")
     known(m, "length base_length overlap passes most_passes turning max_turning worst_turn u_turns"
-          + (" distinct" if p.options.distinct else ""), "metrics")
+          + (" distinct" if p.options.distinct else "") + (" crossings" if p.options.crossings != "allow" else ""), "metrics")
     base = sum(f.exact[e] * n for e, n in enumerate(p.options.need))
     angles = [[f.angle(a, b) for a, b in cord.turns(p.closing)] for cord in p.cords]
     p.turning = [math.fsum(x) for x in angles]
@@ -510,6 +512,66 @@ def check_metrics(p):
     back = sum(a == b for cord in p.cords for a, b in cord.turns(p.closing))
     for key, value in (("passes", sum(p.passes)), ("most_passes", max(p.passes)), ("u_turns", back)):
         require(member(m, key, "integer", "metrics") == value, f"metrics.{key}: not {value}")
+
+
+def arms_around(f, v):
+    """Place of each half-edge of a node in their order around the direction in which they spread least: that is the eigenvector of the least
+    eigenvalue of the sum of their outer products, by power iteration on what it lacks to its trace, from the normal of the widest angle with
+    the first arm."""
+    def cross(a, b):
+        return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+    def dot(a, b):
+        return sum(x * y for x, y in zip(a, b))
+
+    arms = []
+    for h in f.at[v]:
+        d = [b - a for a, b in zip(f.xyz[v], f.xyz[f.edge[h >> 1][1 - (h & 1)]])]
+        size = math.sqrt(dot(d, d))
+        arms.append([x / size for x in d] if size else [0.0] * 3)
+    spread = [[sum(d[i] * d[j] for d in arms) for j in range(3)] for i in range(3)]
+    trace, most, normal = spread[0][0] + spread[1][1] + spread[2][2], 1e-12, [0.0] * 3
+    for d in arms:
+        c = cross(arms[0], d)
+        if dot(c, c) > most * (1 + 1e-9):
+            normal = c
+        most = max(most, dot(c, c))
+    for step in range(100):
+        size = math.sqrt(dot(normal, normal))
+        if not size:
+            break
+        normal = [x / size for x in normal]
+        if step < 99:
+            normal = [trace * x - dot(row, normal) for x, row in zip(normal, spread)]
+    along, most = [0.0] * 3, 0
+    for d in arms:
+        up = dot(d, normal)
+        flat = [x - up * y for x, y in zip(d, normal)]
+        if dot(flat, flat) > most + 1e-9:
+            along, most = flat, dot(flat, flat)
+    across, angle = cross(normal, along), {}
+    for h, d in zip(f.at[v], arms):
+        x, y = dot(d, along), dot(d, across)
+        angle[h] = round(math.atan2(y, x) * 1e9) if x * x + y * y > 1e-18 else 0
+    return {h: i for i, h in enumerate(sorted(f.at[v], key=lambda h: (angle[h], h)))}
+
+
+def check_crossings(p):
+    """Pairs of channels of a node with four different arms that lie alternately around it."""
+    if p.options.crossings == "allow":
+        return []
+    channels, crossings = [[] for _ in range(p.frame.n)], 0
+    for cord in p.cords:
+        for a, b in cord.turns(p.closing):
+            channels[p.frame.tail(a)].append((a, b))
+    for v, list_of in enumerate(channels):
+        rank = arms_around(p.frame, v)
+        chords = [sorted((rank[a], rank[b])) for a, b in list_of]
+        for i, (a, b) in enumerate(chords):
+            crossings += sum(len({a, b, c, d}) == 4 and (a < c < b) != (a < d < b) for c, d in chords[:i])
+    require(member(p.file["metrics"], "crossings", "integer", "metrics") == crossings, f"metrics.crossings: not {crossings}")
+    require(p.options.crossings == "price" or not crossings, "options.crossings: forbidden, and there are some")
+    return [f"{crossings} crossings of channels"]
 
 
 def check_distinct(p):
@@ -2213,7 +2275,7 @@ def check(data):
     p = Plan(parse(data))
     check_cords(p)
     check_metrics(p)
-    found = check_distinct(p) + check_symmetry(p)
+    found = check_distinct(p) + check_crossings(p) + check_symmetry(p)
     for part in parts(p):
         proved = check_length(part) + check_cords_claim(part) + check_pull(part) + check_turning(part)
     found += proved + check_evaluation(p)

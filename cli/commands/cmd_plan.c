@@ -41,6 +41,8 @@ static const char help_requests[] =
     "  thread plan dome.obj --objective symmetry     a short path to learn, and its mirrored and turned copies\n"
     "  thread make dome | thread plan - -o - | thread check -\n\n"
     "What is planned:\n" AIMS_HELP CORDS_HELP
+    "      --crossings allow|price|forbid   channels that cross inside a piece: any (default); fewer, where cords can be led\n"
+    "                       otherwise at equal length, by more turns (with an aim of turning: at equal turning); none\n"
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
     "                       an S that is given, and so do the drawings; else each search has its 20 s\n" GUARD_MEMORY_HELP "\n";
@@ -70,7 +72,15 @@ static const char *help(void)
   return text;
 }
 
-enum { OPTION_COMPARE = OPTION_AIMS_FREE, OPTION_DRAW, OPTION_FORCE, OPTION_JSON, OPTION_ORDER, OPTION_PROGRESS };
+enum {
+  OPTION_COMPARE = OPTION_AIMS_FREE,
+  OPTION_DRAW,
+  OPTION_FORCE,
+  OPTION_JSON,
+  OPTION_ORDER,
+  OPTION_PROGRESS,
+  OPTION_CROSSINGS
+};
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
@@ -88,6 +98,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"json", no_argument, NULL, OPTION_JSON},
                                       {"order", required_argument, NULL, OPTION_ORDER},
                                       {"progress", no_argument, NULL, OPTION_PROGRESS},
+                                      {"crossings", required_argument, NULL, OPTION_CROSSINGS},
                                       {NULL, 0, NULL, 0}};
 
 /* ---- options ---- */
@@ -104,8 +115,23 @@ typedef struct {
   const char *path, *output, *draw;
   drawings_args drawings;
   bool json, compare, force;
-  int order; /* of the work: thr_order */
+  int order;     /* of the work: thr_order */
+  int crossings; /* thr_crossings */
 } arguments;
+
+/* -1 if it goes with what else is asked for. */
+static int check_crossings(const arguments *a)
+{
+  const char *other = a->cords.joint == THR_JOINT_TUBE           ? "--joint tube"
+                      : thr_wants_symmetry(&a->wanted)           ? "--objective symmetry"
+                      : cords_args_limits_pull(&a->cords)        ? "a limit of the pull"
+                      : a->wanted.turning.tour != THR_TOUR_LEAST ? "a classical tour"
+                                                                 : NULL;
+  if (a->crossings == THR_CROSSINGS_FORBID && thr_wants_turning(&a->wanted))
+    other = "an aim of turning, whose proof would not hold: use price";
+  if (a->crossings == THR_CROSSINGS_ALLOW || !other) return -1;
+  return cli_usage("plan", "--crossings %s does not go with %s", thr_crossings_name(a->crossings), other);
+}
 
 static int parse(int argc, char **argv, arguments *a)
 {
@@ -135,6 +161,9 @@ static int parse(int argc, char **argv, arguments *a)
     case OPTION_JSON: a->json = true; break;
     case OPTION_PROGRESS: progress_begin(); break;
     case OPTION_ORDER: ok = cli_choose("plan", "--order", optarg, thr_order_name, THR_N_ORDERS, &a->order); break;
+    case OPTION_CROSSINGS:
+      ok = cli_choose("plan", "--crossings", optarg, thr_crossings_name, THR_N_CROSSINGS, &a->crossings);
+      break;
     case 'o': a->output = optarg; break;
     }
     if (!ok) return EXIT_USAGE;
@@ -151,6 +180,7 @@ static int parse(int argc, char **argv, arguments *a)
   aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, a->aims.objective, &a->wanted);
   if (a->symmetry.given && !thr_wants_symmetry(&a->wanted))
     return cli_usage("plan", "%s needs --objective symmetry", a->symmetry.given);
+  if ((code = check_crossings(a)) >= 0) return code;
   code = turning_args_check(&a->turning, &a->wanted);
   return code < 0 ? cords_args_check(&a->cords, &a->turning, &a->wanted) : code;
 }
@@ -161,6 +191,7 @@ static void ask(const arguments *a, thr_objective objective, thr_request *option
   aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, objective, options);
   options->joint = a->cords.joint;
   options->order = (thr_order)a->order;
+  options->crossings = (thr_crossings)a->crossings;
   if (options->order != THR_ORDER_PLANNED) options->needles = a->drawings.needles;
   if (cords_args_limits_pull(&a->cords) && options->max_pull == 0) options->max_pull = 1; /* until it is known how much */
   options->time_limit = a->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : a->guard.seconds;

@@ -4,6 +4,7 @@
 #include "graph/plan/distinct_needs.h"
 #include "graph/plan/junction.h"
 #include "graph/vector.h"
+#include "graph/plan/channels.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -415,6 +416,20 @@ static thr_metrics recompute(const thr_plan *plan, const int *passes)
   return metrics;
 }
 
+/* The crossings that are stated, and that there are none where none are allowed. */
+static thr_status check_crossings(const thr_plan *plan, thr_err *err)
+{
+  thr_channels channels;
+  if (plan->options.crossings == THR_CROSSINGS_ALLOW) return THR_OK;
+  thr_status st = thr_channels_make(&channels, plan, err);
+  if (st) return st;
+  double found = (double)channels.crossings;
+  thr_channels_destroy(&channels);
+  if (plan->options.crossings == THR_CROSSINGS_FORBID && found > 0)
+    return thr_fail(err, THR_EVIOLATED, "options.crossings: forbidden, but the cords cross %.0f times inside pieces", found);
+  return metric("crossings", plan->metrics.crossings, found, 0, err);
+}
+
 static thr_status check_metrics(const thr_plan *plan, const int *passes, thr_err *err)
 {
   thr_metrics metrics = recompute(plan, passes);
@@ -428,7 +443,8 @@ static thr_status check_metrics(const thr_plan *plan, const int *passes, thr_err
   if ((st = metric("turning", s->turning, metrics.turning, 1 + metrics.turning, err))) return st;
   if ((st = metric("max_turning", s->max_turning, metrics.max_turning, 1 + metrics.turning, err))) return st;
   if ((st = metric("worst_turn", s->worst_turn, metrics.worst_turn, 1 + metrics.turning, err))) return st;
-  return metric("u_turns", s->u_turns, metrics.u_turns, 0, err);
+  if ((st = metric("u_turns", s->u_turns, metrics.u_turns, 0, err))) return st;
+  return check_crossings(plan, err);
 }
 
 /* *proved: no cords with these options are shorter. */

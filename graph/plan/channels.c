@@ -141,7 +141,7 @@ static bool between(int x, int a, int b)
   return a < b ? x > a && x < b : x > a || x < b;
 }
 
-static bool cross(const int *rank, const thr_channel *a, const thr_channel *b)
+bool thr_channels_cross(const int *rank, const thr_channel *a, const thr_channel *b)
 {
   if (a->in < 0 || a->out < 0 || b->in < 0 || b->out < 0) return false;
   int p = rank[a->in], q = rank[a->out], s = rank[b->in], t = rank[b->out];
@@ -154,7 +154,7 @@ static void find_crossings(thr_channels *channels, int v, const int *rank)
   int64_t before = channels->crossings;
   for (int i = channels->first[v]; i < channels->first[v + 1]; i++)
     for (int j = channels->first[v]; j < i; j++) {
-      if (!cross(rank, &channels->channel[i], &channels->channel[j])) continue;
+      if (!thr_channels_cross(rank, &channels->channel[i], &channels->channel[j])) continue;
       channels->channel[i].crosses++;
       channels->channel[j].crosses++;
       channels->crossings++;

@@ -34,4 +34,7 @@ void thr_channels_destroy(thr_channels *channels);
  * rotation is that of no side. Arms in one line stand by ascending number. O(n log n). */
 thr_status thr_channels_around(const thr_frame *frame, int *around, thr_err *err) THR_MUST_CHECK;
 
+/* Do two channels of a node cross? rank[2 * n_edges]: places of half-edges in `around`. */
+bool thr_channels_cross(const int *rank, const thr_channel *a, const thr_channel *b);
+
 #endif

@@ -128,6 +128,7 @@ typedef struct {
   int passes;         /* of all cords */
   int most_passes;    /* on one edge */
   int distinct;       /* edges passed by at least options.distinct different cords; 0 where that is not asked for */
+  int crossings;      /* of channels inside pieces (thr_channels_make); 0 where options.crossings allows any */
   double turning;     /* sum of turning angles over all cords, rad; with THR_ENDS_CLOSED also the turn where a cord closes */
   double max_turning; /* of the cord that turns most, rad */
   double worst_turn;  /* sharpest single turn, rad */

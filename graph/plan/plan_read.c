@@ -281,8 +281,8 @@ static thr_status read_metrics(const thr_field_reader *field_reader, const thr_j
 {
   thr_metrics *metrics = &plan->metrics;
   const thr_json *value;
-  static const char *const known[] = {"length",  "base_length", "overlap",    "passes",  "most_passes", "distinct",
-                                      "turning", "max_turning", "worst_turn", "u_turns", NULL};
+  static const char *const known[] = {"length",    "base_length", "overlap",     "passes",     "most_passes", "distinct",
+                                      "crossings", "turning",     "max_turning", "worst_turn", "u_turns",     NULL};
   thr_status st = thr_field_need(field_reader, doc, "metrics", THR_JSON_OBJECT, &value);
   if (!st) st = thr_field_only(field_reader, value, "metrics", known);
   if (st) return st;
@@ -294,6 +294,11 @@ static thr_status read_metrics(const thr_field_reader *field_reader, const thr_j
   if ((plan->options.distinct > 0) != (thr_json_get(value, "distinct") != NULL))
     return thr_field_bad(field_reader, "metrics.distinct", "goes with options.distinct");
   if (plan->options.distinct > 0 && (st = thr_field_int(field_reader, value, "distinct", 0, INT32_MAX, &metrics->distinct)))
+    return st;
+  if ((plan->options.crossings != THR_CROSSINGS_ALLOW) != (thr_json_get(value, "crossings") != NULL))
+    return thr_field_bad(field_reader, "metrics.crossings", "goes with options.crossings");
+  if (plan->options.crossings != THR_CROSSINGS_ALLOW &&
+      (st = thr_field_int(field_reader, value, "crossings", 0, INT32_MAX, &metrics->crossings)))
     return st;
   if ((st = thr_field_double(field_reader, value, "turning", &metrics->turning))) return st;
   if ((st = thr_field_double(field_reader, value, "max_turning", &metrics->max_turning))) return st;

@@ -78,7 +78,7 @@ static thr_status read_objective(const thr_field_reader *field_reader, const thr
   static const char *const own[THR_N_OBJECTIVES] = {"confirm", "turning", "symmetry"};
   const char *known[] = {"objective", "joint",   "cover", "capacity",  "distinct",   "cords",      "max_length",
                          "max_pull",  "balance", "ends",  "end_nodes", "end_counts", "time_limit", "physics",
-                         "engine",    "needles", "order", NULL,        NULL};
+                         "engine",    "needles", "order", "crossings", NULL,         NULL};
   int objective, joint;
   thr_status st = thr_field_name(field_reader, value, "options", "objective", THR_N_OBJECTIVES, thr_objective_name, &objective);
   if (st) return st;
@@ -139,16 +139,21 @@ static thr_status read_limits(const thr_field_reader *field_reader, const thr_js
 /* How it was found. What is not there was left to the program. */
 static thr_status read_means(const thr_field_reader *field_reader, const thr_json *value, thr_request *options)
 {
-  int engine = THR_ENGINE_AUTO, confirm = THR_CONFIRM_AUTO, order = THR_ORDER_PLANNED;
+  int engine = THR_ENGINE_AUTO, confirm = THR_CONFIRM_AUTO, order = THR_ORDER_PLANNED, crossings = THR_CROSSINGS_ALLOW;
   thr_status st = thr_field_double(field_reader, value, "time_limit", &options->time_limit);
   if (!st && thr_json_get(value, "needles")) st = thr_field_int(field_reader, value, "needles", 1, 2, &options->needles);
   if (!st && thr_json_get(value, "order"))
     st = thr_field_name(field_reader, value, "options", "order", THR_N_ORDERS, thr_order_name, &order);
+  if (!st && thr_json_get(value, "crossings"))
+    st = thr_field_name(field_reader, value, "options", "crossings", THR_N_CROSSINGS, thr_crossings_name, &crossings);
+  if (!st && crossings != THR_CROSSINGS_ALLOW && options->joint == THR_JOINT_TUBE)
+    st = thr_field_bad(field_reader, "options.crossings", "goes with solid joints");
   if (!st && thr_json_get(value, "engine"))
     st = thr_field_name(field_reader, value, "options", "engine", 3, thr_engine_name, &engine);
   if (!st && thr_json_get(value, "confirm"))
     st = thr_field_name(field_reader, value, "options", "confirm", 3, thr_confirm_name, &confirm);
   options->order = (thr_order)order;
+  options->crossings = (thr_crossings)crossings;
   options->engine = (thr_engine)engine;
   options->confirm = (thr_confirm)confirm;
   return st;

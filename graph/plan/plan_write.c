@@ -189,6 +189,8 @@ static void put_options(thr_writer *writer, const thr_plan *plan)
   if (thr_wants_turning(options)) put_turning_options(writer, options);
   if (thr_wants_symmetry(options)) put_symmetry_options(writer, options);
   if (options->order != THR_ORDER_PLANNED) thr_write_string(writer, "order", thr_order_name((int)options->order));
+  if (options->crossings != THR_CROSSINGS_ALLOW)
+    thr_write_string(writer, "crossings", thr_crossings_name((int)options->crossings));
   if (options->needles) thr_write_int(writer, "needles", options->needles);
   if (options->engine != THR_ENGINE_AUTO) thr_write_string(writer, "engine", thr_engine_name(options->engine));
   if (thr_wants_length(options) && options->confirm != THR_CONFIRM_AUTO)
@@ -280,6 +282,7 @@ static void put_metrics(thr_writer *writer, const thr_plan *plan)
   thr_write_int(writer, "most_passes", metrics->most_passes);
   if (plan->options.distinct > 0) thr_write_int(writer, "distinct", metrics->distinct);
   thr_write_line(writer, 2);
+  if (plan->options.crossings != THR_CROSSINGS_ALLOW) thr_write_int(writer, "crossings", metrics->crossings);
   thr_write_number(writer, "turning", metrics->turning);
   thr_write_number(writer, "max_turning", metrics->max_turning);
   thr_write_number(writer, "worst_turn", metrics->worst_turn);

@@ -286,6 +286,12 @@ const char *thr_joint_name(int j)
   return j == THR_JOINT_TUBE ? "tube" : "solid";
 }
 
+const char *thr_crossings_name(int c)
+{
+  static const char *const name[THR_N_CROSSINGS] = {"allow", "price", "forbid"};
+  return name[c];
+}
+
 const char *thr_order_name(int o)
 {
   static const char *const name[] = {[THR_ORDER_PLANNED] = "planned", [THR_ORDER_STARTS] = "starts", [THR_ORDER_HAND] = "hand"};

@@ -90,6 +90,10 @@ typedef enum {
  * by where they begin, which way they run and which comes first; and by what that takes, a tenth more turning, too. */
 typedef enum { THR_ORDER_PLANNED, THR_ORDER_STARTS, THR_ORDER_HAND, THR_N_ORDERS } thr_order;
 
+/* Channels that cross inside solid pieces (graph/plan/channels.h): as it comes; fewer, where passes can go on otherwise at equal
+ * length and, of a plan for little turning, at equal turning; or none (planner/uncross.h). */
+typedef enum { THR_CROSSINGS_ALLOW, THR_CROSSINGS_PRICE, THR_CROSSINGS_FORBID, THR_N_CROSSINGS } thr_crossings;
+
 /* What the user asked for; echoed in the plan so that it can be made again. */
 typedef struct {
   thr_aims aims;
@@ -111,10 +115,11 @@ typedef struct {
                           2 * cords; owned, else NULL */
   thr_physics physics; /* of cord and beads, as asked: what eval starts from */
   double time_limit;   /* s, 0 = none */
-  thr_order order;     /* of the work */
-  int needles;         /* that cords are threaded with then: 1, 2, or 0: as is usual (thr_cord_folded) */
-  thr_engine engine;   /* changes no length */
-  thr_confirm confirm; /* of the least length with THR_JOINT_SOLID only */
+  thr_crossings crossings; /* solid joints; not of symmetric plans, classical tours or with max_pull */
+  thr_order order;         /* of the work */
+  int needles;             /* that cords are threaded with then: 1, 2, or 0: as is usual (thr_cord_folded) */
+  thr_engine engine;       /* changes no length */
+  thr_confirm confirm;     /* of the least length with THR_JOINT_SOLID only */
 } thr_request;
 
 thr_request thr_request_default(void);
@@ -158,6 +163,7 @@ const char *thr_minimize_name(int largest); /* "turning", "max-turning" */
 const char *thr_pairings_name(int ignore);  /* "keep", "ignore" */
 const char *thr_ends_name(int e);           /* "closed", "any", "feet", "nodes", "counts" */
 const char *thr_joint_name(int j);          /* "solid", "tube" */
+const char *thr_crossings_name(int c);      /* "allow", "price", "forbid" */
 const char *thr_order_name(int o);          /* "planned", "starts", "hand" */
 const char *thr_engine_name(int e);         /* "auto", "lp", "matching" */
 const char *thr_confirm_name(int c);        /* "auto", "always", "never" */
