@@ -100,20 +100,27 @@ const tests = {
     await close();
   },
 
-  async 'a search that is stopped keeps its best plan, and so does a page that is closed'() {
+  async 'a search that is stopped keeps its best plan, and so does a page that is closed, with the plan before it'() {
     const {page, own, close} = await open();
     await choose(page, path.join(DATA, 'jax_fdm/liew_dome.json'));
     await shown(page);
     await page.getByLabel('Where may they end?').selectOption('any');
+    await page.getByLabel('How many cords?').selectOption('3');
+    await made(page);
+    assert.match(await page.locator('#summary').innerText(), /3 cords/);
     await page.getByLabel('How many cords?').selectOption('1');
     await page.getByLabel('What matters most?').selectOption('tortuosity');
     await page.getByLabel('How long may it search?').selectOption('600');
     await page.getByRole('button', {name: 'Thread it'}).click();
     await page.getByText(/Found: 1 cord/).waitFor({timeout: 60000});
+    assert.ok(await page.evaluate(() => document.getElementById('frame-part').inert), 'what is searched for is not changed meanwhile');
     const other = await own.newPage(); // as if the first were closed
     await other.goto(pathToFileURL(html).href);
     await other.locator('#files li').first().waitFor({timeout: 60000});
     assert.match(await other.locator('#verdict').innerText(), /verified/);
+    assert.match(await other.locator('#summary').innerText(), /holds: 1 cord,/);
+    await other.getByRole('button', {name: 'Undo'}).click();
+    await other.getByText(/; 3 cords/).waitFor();
     await other.close();
     await page.getByRole('button', {name: 'Stop and keep the best'}).click();
     await page.locator('#files li').first().waitFor({timeout: 60000});
@@ -122,10 +129,10 @@ const tests = {
   },
 
   async 'a link brings the answers; a telephone in the dark; feet by keyboard'() {
-    const {page, close} = await open({viewport: {width: 360, height: 740}, colorScheme: 'dark', hash: '#cords=3&ends=any&pull=50'});
+    const {page, close} = await open({viewport: {width: 360, height: 740}, colorScheme: 'dark', hash: '#cords=5&ends=any&pull=50'});
     await page.getByLabel('or take an example').selectOption('tube');
     assert.match(await shown(page), /interfaces/);
-    assert.equal(await page.getByLabel('How many cords?').inputValue(), '3');
+    assert.equal(await page.getByLabel('How many cords?').inputValue(), '5');
     assert.equal(await page.getByLabel('How hard can you pull?').inputValue(), '50');
     await page.getByLabel('Feet, where cord may come out').fill('A1, zz');
     await page.keyboard.press('Tab');

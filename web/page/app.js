@@ -30,8 +30,15 @@ const notesOf = (stderr) => stderr.split('\n').filter((line) => /^thread: note:/
 
 const answers = () => Object.fromEntries(QUESTIONS.map((id) => [id, $(id).value]));
 
+// Numbers of cords that are not in the list, which advice and links may bring, are added to it.
 function setAnswers(given) {
-  for (const id of QUESTIONS) if (given[id] !== undefined && [...$(id).options].some((option) => option.value === given[id])) $(id).value = given[id];
+  for (const id of QUESTIONS) {
+    const value = given[id], known = [...$(id).options].some((option) => option.value === value);
+    if (value === undefined) continue;
+    if (!known && id === 'cords' && /^[1-9]\d{0,2}$/.test(value)) $(id).add(new Option(value));
+    else if (!known) continue;
+    $(id).value = value;
+  }
 }
 
 const state = () => ({frame, name, plan, said, answers: answers()});
@@ -42,16 +49,16 @@ function remember() {
   past = past.slice(-50);
   settled = state();
   $('undo').disabled = past.length === 0;
-  keepState(settled);
+  keep('now', settled);
 }
 
-function restore(kept) {
-  ({frame, name, plan, said} = kept);
-  setAnswers(kept.answers);
+function restore(before) {
+  ({frame, name, plan, said} = before);
+  setAnswers(before.answers);
   settled = state();
   showFrame();
   showResult();
-  keepState(settled);
+  keep('now', settled);
 }
 
 function undo() {
@@ -64,9 +71,16 @@ const hashOf = () => new URLSearchParams(answers()).toString();
 
 async function copyLink() {
   const link = `${location.href.split('#')[0]}#${hashOf()}`;
-  history.replaceState(null, '', `#${hashOf()}`);
-  await navigator.clipboard?.writeText(link).catch(() => {});
-  $('link').textContent = 'The link is in the address line';
+  const copied = await navigator.clipboard?.writeText(link).then(() => true, () => false);
+  if (!copied) window.prompt('Copy this link:', link);
+  $('link').textContent = copied ? 'The link is copied' : 'Copy a link to these answers';
+}
+
+// A link's answers hold once: what is changed afterwards survives a reload.
+function takeLink() {
+  if (!location.hash) return;
+  setAnswers(Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
+  history.replaceState(null, '', location.href.split('#')[0]);
 }
 
 // ---- 1: the framework ----
@@ -171,7 +185,7 @@ async function advise() {
   image.src = URL.createObjectURL(new Blob([picture], {type: 'image/svg+xml'}));
   figure.replaceChildren(image);
   const table = await adviser.run([...args, '--json'], files);
-  if (mine === asked && table.exit === 0) figure.prepend(takeButton(JSON.parse(table.stdout)));
+  if (mine === asked && table.stdout) figure.prepend(takeButton(JSON.parse(table.stdout))); // without a recommended row, too
 }
 
 const ENDS = {feet: 'to the feet', any: 'ending anywhere', closed: 'in loops'};
@@ -206,6 +220,7 @@ function wanted() {
 // ---- the search ----
 
 function busy(words) {
+  for (const id of ['frame-part', 'question-part', 'result-part']) $(id).inert = Boolean(words); // a search is for what is shown
   $('work-part').hidden = !words;
   $('work').textContent = words;
   $('stop').hidden = true;
@@ -235,10 +250,11 @@ async function search(event) {
   };
   const onPlan = (found) => {
     best = found;
-    keepState({...state(), plan: best}); // closing the page loses nothing that was found
+    keep('search', {...state(), plan: best, said: ''}); // closing the page loses nothing that was found
   };
   const {exit, stdout, stderr, files} = await engine.run(wanted(), {[frameFile()]: frameText()}, {onLine, onPlan});
   busy('');
+  keep('search', null);
   const found = files['plan.json'] ? text(files['plan.json']) : best;
   if (!found) {
     complain(exit === -1 ? 'Stopped before anything was found.' : lastLine(stderr));
@@ -248,13 +264,13 @@ async function search(event) {
   said = stdout.replace(/^plan +plan\.json\n/m, '').trim();
   remember();
   await showResult();
-  if (exit !== 0 && exit !== -1) $('verdict').textContent += ` ${lastLine(stderr)}.`;
+  if (exit !== 0 && exit !== -1) $('verdict').textContent += ` Of the search: ${lastLine(stderr)}.`;
 }
 
 // ---- 3: the result ----
 
 async function draw(type, file) {
-  const {exit, stderr, files} = await engine.run(['draw', 'plan.json', '-T', type, '-o', file], {'plan.json': plan});
+  const {exit, stderr, files} = await engine.run(['draw', 'plan.json', '-T', type, '--page', $('paper').value, '-o', file], {'plan.json': plan});
   if (exit || !files[file]) complain(lastLine(stderr));
   return files[file];
 }
@@ -332,7 +348,7 @@ function listenForFiles() {
     document.addEventListener(kind, (event) => {
       event.preventDefault();
       drop.classList.toggle('over', kind === 'dragover');
-      if (kind === 'drop' && event.dataTransfer.files[0]) openFile(event.dataTransfer.files[0]);
+      if (kind === 'drop' && event.dataTransfer.files[0] && !$('frame-part').inert) openFile(event.dataTransfer.files[0]);
     });
   $('example').addEventListener('change', () => $('example').value && example($('example').value).then(() => ($('example').value = '')));
 }
@@ -352,11 +368,17 @@ async function begin() {
   $('booklet').addEventListener('click', openBooklet);
   $('all').addEventListener('click', saveAll);
   document.addEventListener('keydown', (event) => {
-    if ((event.ctrlKey || event.metaKey) && event.key === 'z' && event.target.tagName !== 'INPUT') undo();
+    if ((event.ctrlKey || event.metaKey) && event.key === 'z' && event.target.tagName !== 'INPUT' && !$('frame-part').inert) undo();
   });
-  const kept = await keptState();
-  if (kept?.frame) restore(kept);
-  setAnswers(Object.fromEntries(new URLSearchParams(location.hash.slice(1))));
+  const [before, cut] = await Promise.all([kept('now'), kept('search')]);
+  if (before?.frame) restore(before);
+  if (cut?.frame) { // a search that the page's end cut short: Undo goes back to the plan before
+    if (before?.frame) past.push(before);
+    restore(cut);
+    $('undo').disabled = past.length === 0;
+    keep('search', null);
+  }
+  takeLink();
   document.documentElement.dataset.ready = '';
 }
 

@@ -11,13 +11,15 @@ class EngineClient {
     this.compiled = inflate(wasmText).then((bytes) => WebAssembly.compile(bytes));
     this.waiting = new Map();
     this.count = 0;
+    this.stops = 0;
   }
 
   async start() {
-    const worker = (this.worker = new Worker(this.source));
+    const module = await this.compiled, worker = new Worker(this.source);
     worker.onmessage = ({data}) => this.take(data);
     worker.onerror = (event) => this.fail(event.message || 'the program could not be started in this browser');
-    worker.postMessage({module: await this.compiled});
+    worker.postMessage({module});
+    this.worker = worker;
   }
 
   take({id, line, plan, result}) {
@@ -38,7 +40,13 @@ class EngineClient {
 
   // {exit, stdout, stderr, files}; exit -1: stopped.
   async run(args, files = {}, {onLine, onPlan} = {}) {
-    if (!this.worker) await (this.starting ??= this.start().finally(() => (this.starting = null)));
+    const {stops} = this, nothing = (exit, stderr) => ({exit, stdout: '', stderr, files: {}});
+    try {
+      if (!this.worker) await (this.starting ??= this.start().finally(() => (this.starting = null)));
+    } catch (error) {
+      return nothing(70, `thread: this browser cannot run the program (${error.message}); a newer one can`);
+    }
+    if (stops !== this.stops) return nothing(-1, '');
     const id = ++this.count;
     return new Promise((resolve) => {
       this.waiting.set(id, {resolve, onLine, onPlan});
@@ -47,6 +55,7 @@ class EngineClient {
   }
 
   stop() {
+    this.stops++;
     this.worker?.terminate();
     this.worker = null;
     for (const job of this.waiting.values()) job.resolve({exit: -1, stdout: '', stderr: '', files: {}});

@@ -1,4 +1,5 @@
-// What survives a reload: one record in the browser's own database, on this device. Where there is none, nothing is kept.
+// What survives a reload, in the browser's own database, on this device: the state of the page, and the best plan of a search that is
+// under way. Where there is no database, nothing is kept.
 
 function database() {
   return new Promise((resolve, reject) => {
@@ -18,5 +19,5 @@ async function inStore(mode, act) {
   });
 }
 
-const keepState = (state) => inStore('readwrite', (store) => store.put(state, 'now')).catch(() => {});
-const keptState = () => inStore('readonly', (store) => store.get('now')).catch(() => undefined);
+const keep = (record, state) => inStore('readwrite', (store) => store.put(state, record)).catch(() => {});
+const kept = (record) => inStore('readonly', (store) => store.get(record)).catch(() => undefined);
