@@ -75,7 +75,7 @@ completes() { # WANTED WORDS: bash completes the last of the words so
 version=$(sed -n 's/^VERSION := //p' Makefile)
 packaged() { # debian/ asks for the libraries that the Makefile asks for, and knows the same names
   local package
-  for package in $(sed -n '/^BUILD_PACKAGES/,/[^\\]$/p' Makefile | grep -o 'lib[a-z0-9-]*-dev'); do
+  for package in $(sed -n '/^BUILD_PACKAGES/,/[^\\]$/p' Makefile | grep -o '\<[a-z0-9-]*-dev'); do
     grep -q "^Build-Depends:.* $package" debian/control || { echo "$package"; return 1; }
   done
   diff <(sed -n 's/^ \(thread_[a-z_]*\)@.*/\1/p' debian/libthread0.symbols | sort) \

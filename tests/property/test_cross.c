@@ -550,6 +550,14 @@ static void judge_none(judged *j, counts *n)
   n->missed += is_one == 1 && admits(j->said);
 }
 
+/* None was found, and nothing is claimed: of different cords that may be so where there is one. */
+static void judge_missed(judged *j, counts *n)
+{
+  const bool is_one = exists(j, BACK_AT_LEAVES, rounding) == 1;
+  n->missed += is_one;
+  if (is_one && j->c.o.distinct == 0) finding(j, "no plan was found, but there is one");
+}
+
 static void judge_written(judged *j, counts *n)
 {
   const thr_plan *p = &j->plan;
@@ -598,7 +606,7 @@ static void judge_case(judged *j, counts *n)
   drop_notes(j->said);
   j->written = access(plan, F_OK) == 0;
   n->cases++;
-  bool none = j->code == 5 && !j->written && j->c.o.distinct > 0 && admits(j->said); /* of different cords it may find none */
+  bool none = j->code == 5 && !j->written && admits(j->said);
   if (!none && j->written != (j->code == 0 || j->code == 5)) finding(j, "exit code %d, plan written: %d", j->code, j->written);
   if (j->code && j->code != 5 && !one_line(j->said)) finding(j, "not one line on standard error");
   if (j->written && thr_plan_read(&j->plan, plan, &err) != THR_OK)
@@ -608,7 +616,7 @@ static void judge_case(judged *j, counts *n)
   else if (j->code == 4)
     judge_none(j, n);
   else if (none)
-    n->missed += exists(j, BACK_AT_LEAVES, rounding) == 1;
+    judge_missed(j, n);
   else
     finding(j, "exit code %d", j->code);
   n->findings += j->findings > 0;

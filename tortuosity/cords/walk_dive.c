@@ -134,7 +134,8 @@ static thr_status run(dive *d, bool *found, thr_err *err)
     if (-p->search.objective > p->cords - d->n_cords + 1e-6) break;
     st = take_some(d, &taken, err);
   }
-  *found = !st && is_covered(d);
+  /* What is kept may do all that is needed before a walk is known: then there is none to fill up with. */
+  *found = !st && is_covered(d) && (d->n_cords == p->cords || p->search.pool.count > 0);
   return *found ? fill_up(d, &p->search.pool, err) : st;
 }
 
