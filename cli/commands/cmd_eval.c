@@ -1,5 +1,6 @@
 /* thread eval: how hard must one pull? */
 #include "cli/args/load_args.h"
+#include "cli/calibrate.h"
 #include "cli/print/load_words.h"
 #include "cli/print/plain.h"
 #include "cli/pull.h"
@@ -30,7 +31,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
+static const char help_method[] =
     "thread eval PLAN [options]: pull force, friction loss and tension along each cord\n\n"
     "Examples:\n"
     "  thread eval plan.json --mu 0.3 --seating 5         newtons at the pulled ends so that 5 N reaches every bead\n"
@@ -42,33 +43,49 @@ static const char help[] =
     "                       capstan: closed form, force = seating tension x exp(mu x turning) (default)\n"
     "                       joint: each joint's friction measured in simulation, along the path the tight cord takes\n"
     "                       structure: least pull at which the rigid beads have any equilibrium while the cord is\n"
-    "                       drawn in, and which fails first\n" PULL_HELP(
-        "holding pull") "      --tension        print the tension in every pass\n"
-                        "      --hand N         the fewest grips with which no pull is above N newtons: where to grip, how hard\n"
-                        "      --schedule TEXT  what is done to the cords, in order, and the tension that it leaves; or a file "
-                        "of that:\n"
-                        "                       \"A: pull both 40; A: release end 5; B: grip 37 20 from start; all: knot both "
-                        "0.5\"\n"
-                        "                       (newtons; passes as in steps.txt, or two nodes; a knot may slip by mm: "
-                        "--stiffness)\n" LOAD_HELP
-                        "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
-                        "      --plot FILE      write a plot of the tension along each cord, as SVG: with a fan over the band of "
-                        "mu,\n"
-                        "                       and with lines at what a hand manages and at --cord-strength\n"
-                        "      --cord-strength N   newtons that the cord bears: says whether the pull would break it\n"
-                        "      --still FILE     structure: write a picture of the beads before and after the fall, as SVG\n"
-                        "      --json           everything as JSON\n"
-                        "  -q, --quiet          no notes and no progress       -h, --help\n\n"
-                        "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating tension "
-                        "(capstan, joint), or at "
-                        "which\n"
-                        "the structure can just stand while the cord is drawn in (structure). These are different things. The "
-                        "closed form takes the cord "
-                        "through the middle of "
-                        "every\n"
-                        "bead; a cord thinner than the bore cuts corners, turns less and needs less: method joint knows.\n";
+    "                       drawn in, and which fails first\n" PULL_HELP("holding pull");
+static const char help_rest[] =
+    "      --tension        print the tension in every pass\n"
+    "      --hand N         the fewest grips with which no pull is above N newtons: where to grip, how hard\n"
+    "      --schedule TEXT  what is done to the cords, in order, and the tension that it leaves; or a file "
+    "of that:\n"
+    "                       \"A: pull both 40; A: release end 5; B: grip 37 20 from start; all: knot both "
+    "0.5\"\n"
+    "                       (newtons; passes as in steps.txt, or two nodes; a knot may slip by mm: "
+    "--stiffness)\n" LOAD_HELP CALIBRATE_HELP "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
+    "      --plot FILE      write a plot of the tension along each cord, as SVG: with a fan over the band of "
+    "mu,\n"
+    "                       and with lines at what a hand manages and at --cord-strength\n"
+    "      --cord-strength N   newtons that the cord bears: says whether the pull would break it\n"
+    "      --still FILE     structure: write a picture of the beads before and after the fall, as SVG\n"
+    "      --json           everything as JSON\n"
+    "  -q, --quiet          no notes and no progress       -h, --help\n\n"
+    "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating tension "
+    "(capstan, joint), or at "
+    "which\n"
+    "the structure can just stand while the cord is drawn in (structure). These are different things. The "
+    "closed form takes the cord "
+    "through the middle of "
+    "every\n"
+    "bead; a cord thinner than the bore cuts corners, turns less and needs less: method joint knows.\n";
 
-enum { OPTION_TENSION = OPTION_PULL_FREE, OPTION_PLOT, OPTION_STILL, OPTION_STRENGTH, OPTION_SCHEDULE, OPTION_HAND };
+/* One text: as one literal it would be longer than C promises to take. */
+static const char *help(void)
+{
+  static char text[sizeof help_method + sizeof help_rest];
+  snprintf(text, sizeof text, "%s%s", help_method, help_rest);
+  return text;
+}
+
+enum {
+  OPTION_TENSION = OPTION_PULL_FREE,
+  OPTION_PLOT,
+  OPTION_STILL,
+  OPTION_STRENGTH,
+  OPTION_SCHEDULE,
+  OPTION_HAND,
+  OPTION_CALIBRATE
+};
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       PULL_OPTIONS,
                                       GUARD_OPTIONS,
@@ -80,6 +97,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"cord-strength", required_argument, NULL, OPTION_STRENGTH},
                                       {"schedule", required_argument, NULL, OPTION_SCHEDULE},
                                       {"hand", required_argument, NULL, OPTION_HAND},
+                                      {"calibrate", required_argument, NULL, OPTION_CALIBRATE},
                                       {NULL, 0, NULL, 0}};
 
 typedef struct {
@@ -88,9 +106,18 @@ typedef struct {
   load_args load;
   bool tension;
   const char *path, *output, *plot, *still;
-  const char *schedule; /* as given; NULL: none */
-  double strength;      /* N, of the cord; 0 = not said */
+  const char *schedule, *calibrate; /* as given; NULL: none */
+  double strength;                  /* N, of the cord; 0 = not said */
 } arguments;
+
+/* Needs no plan, and nothing of cord and beads but the bore. */
+static int calibrate(const arguments *a, bool with_plan)
+{
+  thr_physics physics = thr_physics_default();
+  if (with_plan) return cli_usage("eval", "--calibrate takes no plan");
+  int code = cli_physics_apply(&a->pull.physics, &physics);
+  return code ? code : calibrate_run(a->calibrate, physics.bore > 0 ? physics.bore : 2, a->output, a->pull.json);
+}
 
 static int parse(int argc, char **argv, arguments *a)
 {
@@ -98,8 +125,8 @@ static int parse(int argc, char **argv, arguments *a)
   bool ok;
   *a = (arguments){.guard = guard_limits_default()};
   pull_args_init(&a->pull, THR_CAPSTAN);
-  while ((option = cli_physics_option(&a->pull.physics, argc, argv, "eval", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help,
-                                      &done)) != -1) {
+  while ((option = cli_physics_option(&a->pull.physics, argc, argv, "eval", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table,
+                                      help(), &done)) != -1) {
     if (pull_option(&a->pull, "eval", option, optarg, &ok) || guard_option(&a->guard, "eval", option, optarg, &ok) ||
         load_option(&a->load, "eval", option, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
@@ -114,12 +141,14 @@ static int parse(int argc, char **argv, arguments *a)
       if (!cli_double("eval", "--cord-strength", optarg, 1e-6, 1e9, &a->strength)) return EXIT_USAGE;
       break;
     case OPTION_SCHEDULE: a->schedule = optarg; break;
+    case OPTION_CALIBRATE: a->calibrate = optarg; break;
     case OPTION_HAND:
       if (!cli_double("eval", "--hand", optarg, 1e-6, 1e9, &a->pull.options.hand)) return EXIT_USAGE;
     }
     if (optarg && !*optarg) return cli_usage("eval", "an empty name is no place to write to");
   }
   if (done >= 0) return done;
+  if (a->calibrate) return calibrate(a, optind < argc);
   if (optind + 1 != argc)
     return cli_usage("eval", optind == argc ? "which plan?" : "one plan at a time; `thread compare` takes several");
   a->path = argv[optind];

@@ -63,6 +63,60 @@ const thr_physics_preset thr_physics_presets[] = {
       .mu_ground = 0.3,
       .density = 1.24,
       COMMON}},
+    {"pla-braid",
+     "Printed PLA beads, braided polyethylene (fishing line). mu: 0.16 and 0.23, from what a 12-strand UHMWPE rope keeps over "
+     "one "
+     "and two metal carabiners of 10 mm (60 % over 180 degrees, 48 % over both: tests of the Hownot2 workshop); none found on "
+     "PLA, "
+     "the band is wider. Density 1.24 g/cm3: usual in makers' data sheets. mu_bead, mu_ground: estimates.",
+     {.preset = "pla-braid",
+      .mu = 0.18,
+      .mu_low = 0.1,
+      .mu_high = 0.3,
+      .mu_bead = 0.3,
+      .mu_ground = 0.3,
+      .density = 1.24,
+      COMMON}},
+    {"pla-monofilament",
+     "Printed PLA beads, nylon monofilament. mu: estimate, no measurement on PLA found; thread friction depends on speed, angle, "
+     "load "
+     "and humidity (Zunic-Lojen and Gersak, Int. J. of Clothing Science and Technology 15, 2003), nylon takes up water: the band "
+     "is "
+     "wide. Density as above. mu_bead, mu_ground: estimates.",
+     {.preset = "pla-monofilament",
+      .mu = 0.25,
+      .mu_low = 0.12,
+      .mu_high = 0.4,
+      .mu_bead = 0.3,
+      .mu_ground = 0.3,
+      .density = 1.24,
+      COMMON}},
+    {"pla-waxed",
+     "Printed PLA beads, waxed polyester cord. mu: estimate; polyester yarn on its own package 0.23 to 0.48 (Textile Research "
+     "Journal "
+     "70, 2000), wax lowers it (Zunic-Lojen and Gersak 2003), by how much on PLA is not known. Density as above. mu_bead, "
+     "mu_ground: "
+     "estimates.",
+     {.preset = "pla-waxed",
+      .mu = 0.2,
+      .mu_low = 0.1,
+      .mu_high = 0.35,
+      .mu_bead = 0.3,
+      .mu_ground = 0.3,
+      .density = 1.24,
+      COMMON}},
+    {"pla-elastic",
+     "Printed PLA beads, elastic cord with a woven sheath. mu: estimate, as of polyester yarn (0.23 to 0.48, Textile Research "
+     "Journal "
+     "70, 2000); the sheath opens as it is stretched: the band is wide. Density as above. mu_bead, mu_ground: estimates.",
+     {.preset = "pla-elastic",
+      .mu = 0.3,
+      .mu_low = 0.15,
+      .mu_high = 0.5,
+      .mu_bead = 0.3,
+      .mu_ground = 0.3,
+      .density = 1.24,
+      COMMON}},
     {"eps-nylon",
      "Expanded polystyrene blocks, nylon cord. Density 0.02 g/cm3: blocks of 0.015 to 0.035 are usual (Khan and "
      "Meguid, Int. J. of Geosynthetics and Ground Engineering 4, 2018). mu_bead 0.5: moulded or wire-cut EPS on "

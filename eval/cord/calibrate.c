@@ -1,0 +1,29 @@
+/* The capstan law, the other way round. */
+#include "eval/cord/calibrate.h"
+
+#include <math.h>
+
+static thr_status check(const thr_weighing *w, int i, thr_err *err)
+{
+  if (w->out > 0 && w->out <= w->hang && w->hang <= w->in && isfinite(w->in)) return THR_OK;
+  return thr_fail(err, THR_EINPUT,
+                  "weighing %d: %g hang, %g draw in, %g let slip: more must draw in than hangs, and less let it slip", i + 1,
+                  w->hang, w->in, w->out);
+}
+
+thr_status thr_calibrate(const thr_weighing *weighing, int n, double angle, double error, thr_friction *out, thr_err *err)
+{
+  const double open = 2 * error / angle; /* both weights of a ratio off, to opposite sides */
+  *out = (thr_friction){0, INFINITY, 0};
+  for (int i = 0; i < n; i++) {
+    const thr_weighing *w = &weighing[i];
+    thr_status st = check(w, i, err);
+    if (st) return st;
+    const double in = log(w->in / w->hang) / angle, slip = log(w->hang / w->out) / angle;
+    out->mu += (in + slip) / (2 * n);
+    out->low = fmin(out->low, fmin(in, slip) - open);
+    out->high = fmax(out->high, fmax(in, slip) + open);
+  }
+  out->low = fmax(out->low, 0);
+  return THR_OK;
+}
