@@ -48,7 +48,7 @@ enum { OPTION_PLOT = OPTION_PULL_FREE };
 static const struct option table[] = {
     CLI_COMMON_OPTIONS, PULL_OPTIONS, GUARD_OPTIONS, {"plot", required_argument, NULL, OPTION_PLOT}, {NULL, 0, NULL, 0}};
 
-enum { CAPSTAN, JOINT, HOLDING, SIMULATION, N_RANKINGS };
+enum { CAPSTAN, JOINT, HOLDING, STANDING, SIMULATION, N_RANKINGS };
 
 typedef compare_entry entry;
 
@@ -80,6 +80,11 @@ static void rank_plan(ranking *r, int by, const entry *e, int i)
     r->value[i] = r->low[i] = compare_largest(e, THR_STRUCTURE);
     r->high[i] = holding->upper >= holding->lower ? holding->upper : INFINITY;
     break;
+  case STANDING:
+    holding = &e->eval[THR_STRUCTURE].loosest;
+    r->value[i] = r->low[i] = holding->present ? holding->lower : NAN;
+    r->high[i] = holding->upper >= holding->lower ? holding->upper : INFINITY;
+    break;
   default:
     r->value[i] = isnan(fine) ? NAN : rough;
     r->low[i] = fmin(rough, fine);
@@ -91,6 +96,13 @@ static bool simulated(const entry *e, int n)
 {
   for (int i = 0; i < n; i++)
     if (!isnan(e[i].index[0])) return true;
+  return false;
+}
+
+static bool stands(const entry *e, int n)
+{
+  for (int i = 0; i < n; i++)
+    if (e[i].eval[THR_STRUCTURE].loosest.present) return true;
   return false;
 }
 
@@ -107,16 +119,20 @@ static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranki
       [HOLDING] = {.title = "holding pull while drawn in (below the first force nothing holds it, at the second it can stand)",
                    .key = "holding",
                    .unit = " N"},
+      [STANDING] = {.title = "force at all ends once the cords are in, in any state that friction keeps (the same two forces)",
+                    .key = "any_state",
+                    .unit = " N"},
       [SIMULATION] = {
           .title = "simulation of the structure, an index without unit (coarse .. fine; its spread over seeds is not counted)",
           .key = "simulation",
           .unit = ""}};
-  static const thr_method method[N_RANKINGS] = {THR_CAPSTAN, THR_JOINT, THR_STRUCTURE, THR_STRUCTURE};
+  static const thr_method method[N_RANKINGS] = {THR_CAPSTAN, THR_JOINT, THR_STRUCTURE, THR_STRUCTURE, THR_STRUCTURE};
   bool all = a->method == PULL_ALL_METHODS;
   *count = 0;
   for (int by = 0; by < N_RANKINGS; by++) {
     if (!all && a->method != (int)method[by]) continue;
     if (by == SIMULATION && !simulated(e, n)) continue;
+    if (by == STANDING && !stands(e, n)) continue;
     r[*count] = kind[by];
     thr_status st = ranking_init(&r[*count], n, err);
     if (st) return st;
@@ -136,15 +152,24 @@ static bool find_disagreement(const ranking *r, int count, int which[2], int pai
   return false;
 }
 
+/* Rankings that agree say little if all of them ask for the pull while cords are drawn in. */
 static void put_agreement(const ranking *r, int count, const char *const *name, thr_text *text)
 {
+  bool let_go = false;
+  int orders = 0; /* that tell any plans apart */
+  for (int i = 0; i < count; i++) {
+    bool apart = r[i].n_ranked > 1 && r[i].rank[r[i].order[r[i].n_ranked - 1]] > 1;
+    orders += apart;
+    let_go |= apart && strcmp(r[i].key, "any_state") == 0;
+  }
   int which[2], pair[2];
-  if (count < 2) return;
+  if (orders < 2) return;
   if (find_disagreement(r, count, which, pair))
     thr_text_printf(text, "the rankings disagree: %s needs less than %s by %s, more by %s\n", name[pair[0]], name[pair[1]],
                     r[which[0]].key, r[which[1]].key);
   else
-    thr_text_append(text, "the rankings agree, ties aside\n");
+    thr_text_append(text, let_go ? "the rankings agree, while cords are drawn in and afterwards, ties aside\n"
+                                 : "the rankings agree, ties aside; both ask for the pull while cords are drawn in\n");
 }
 
 /* ---- output ---- */
