@@ -32,7 +32,8 @@ typedef struct {
   const double *load_pull;      /* N: at which pulls of all ends it is asked what may be carried .. */
   int n_load_pulls;             /* .. so many; 0 = some; borrowed */
   double tilt, azimuth;         /* rad, method structure: of the ground, and where it goes down (from x towards y) */
-  bool clamped;                 /* method structure: feet are held in place; else they stand on the ground */
+  int rays;      /* method structure: of the friction pyramids, 0 = THR_USUAL_RAYS; more bring both bounds closer */
+  bool clamped;  /* method structure: feet are held in place; else they stand on the ground */
   double hand;   /* N, methods capstan and joint: 0, or the largest pull of a schedule with the fewest grips, which is made */
   bool dynamics; /* method structure: confirm by Bullet (true) or limit analysis only */
 } thr_eval_options;

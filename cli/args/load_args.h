@@ -6,10 +6,16 @@
 #include "graph/framework/frame.h"
 #include "eval/eval.h"
 
-enum { OPTION_LOAD = 950, OPTION_LOAD_PULLS, OPTION_TILT, OPTION_CLAMP }; /* beyond the options that commands number on */
+enum {
+  OPTION_LOAD = 950,
+  OPTION_LOAD_PULLS,
+  OPTION_TILT,
+  OPTION_CLAMP,
+  OPTION_RAYS
+}; /* beyond the options that commands number on */
 #define LOAD_OPTIONS                                                                                                             \
   {"load", required_argument, NULL, OPTION_LOAD}, {"load-pulls", required_argument, NULL, OPTION_LOAD_PULLS},                    \
-      {"tilt", required_argument, NULL, OPTION_TILT},                                                                            \
+      {"tilt", required_argument, NULL, OPTION_TILT}, {"rays", required_argument, NULL, OPTION_RAYS},                            \
   {                                                                                                                              \
     "clamp-feet", no_argument, NULL, OPTION_CLAMP                                                                                \
   }
@@ -19,14 +25,16 @@ enum { OPTION_LOAD = 950, OPTION_LOAD_PULLS, OPTION_TILT, OPTION_CLAMP }; /* bey
   "      --load-pulls LIST   at these pulls of all ends, newtons with commas (default: 1,2,5,10,20,50; above 100 pieces "        \
   "10,50)\n"                                                                                                                     \
   "      --tilt DEG       structure: the ground leans by so many degrees towards x, or DEG,AZIMUTH (from x to y)\n"              \
-  "      --clamp-feet     structure: feet are held in place; else they stand on the ground\n"
+  "      --clamp-feet     structure: feet are held in place; else they stand on the ground\n"                                    \
+  "      --rays N         structure: rays of the pyramids that stand for friction cones, 8 to 48 (default: 8; 24: the\n"         \
+  "                       bounds are ten times closer, and take some three times as long)\n"
 
 enum { LOAD_MOST_PULLS = 32 };
 
 typedef struct {
   const char *load; /* as given; NULL = none */
   double pulls[LOAD_MOST_PULLS], tilt, azimuth;
-  int n_pulls;
+  int n_pulls, rays;
   bool clamped;
 } load_args;
 

@@ -164,6 +164,7 @@ static int parse(int argc, char **argv, arguments *a)
   if (a->still && a->pull.method != THR_STRUCTURE) return cli_usage("eval", "--still needs --method structure");
   if (load_any(&a->load) && a->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "--load, --tilt and --clamp-feet are of --method structure");
+  if (a->load.rays && a->pull.method != THR_STRUCTURE) return cli_usage("eval", "--rays is of --method structure");
   if (a->load.n_pulls && !a->load.load) return cli_usage("eval", "--load-pulls needs --load");
   if (load_any(&a->load) && a->output)
     return cli_usage("eval", "a plan has no place for --load, --tilt and --clamp-feet: --json instead of -o");

@@ -23,6 +23,7 @@ static thr_status allocate(thr_beads *beads, thr_err *err)
   beads->fixed = thr_scratch_array(&beads->own, n, sizeof *beads->fixed);
   beads->load = thr_scratch_array(&beads->own, n, sizeof *beads->load);
   beads->down[2] = -1;
+  beads->rays = THR_USUAL_RAYS;
   beads->middle = thr_scratch_array(&beads->own, m, sizeof *beads->middle);
   beads->axis = thr_scratch_array(&beads->own, m, sizeof *beads->axis);
   beads->corner = thr_scratch_array(&beads->own, m, sizeof *beads->corner);

@@ -15,6 +15,8 @@
 #include "graph/scratch.h"
 #include "graph/status.h"
 
+enum { THR_USUAL_RAYS = 8, THR_MOST_RAYS = 48 }; /* of the pyramids that stand for friction cones */
+
 /* Units here are SI: m, kg, N. */
 typedef struct {
   int n_beads, n_faces;       /* = nodes, edges of the framework */
@@ -31,6 +33,7 @@ typedef struct {
   double (*foot_point)[4][3]; /* [n_feet] contact points with the ground, m: a square of side width, sides along x and y, half a
                                  width below the foot's node: each foot has its own patch of level ground at its underside */
   bool *fixed;                /* [n_beads] held in place: such beads need no equilibrium. All false until thr_beads_clamp */
+  int rays;                   /* of a friction pyramid; THR_USUAL_RAYS until it is set */
   double down[3];             /* unit: where weight draws; (0, 0, -1) until thr_beads_tilt */
   double (*load)[3];          /* [n_beads] N at the node, beside the weight; all 0 until it is filled in */
   double size;                /* m: diagonal of the bounding box, for tolerances */

@@ -20,8 +20,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EDGES = 8, CORNERS = 4 };
-#define WIDEN (1 / cos(THR_PI / EDGES)) /* puts the pyramids round the cones */
+enum { CORNERS = 4 };
 /* Tensions are capped at so many times the least one, until the bound closes: further apart, the solver loses the small ones. */
 enum { CAPS = 5 };
 static const double cap[CAPS] = {1e4, 1e6, 1e8, 1e10, 1e12};
@@ -31,7 +30,7 @@ static const double CLOSE = 1e-6, NEAR = 1e-3, STILL = 1e-12;
 
 typedef struct {
   int bead, other; /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
-  double at[3], ray[EDGES][3];
+  double at[3], ray[THR_MOST_RAYS][3];
 } contact;
 
 /* Bodies are beads, or sets of beads that move as one. Forces are counted in weights of a mean bead, lengths in `length`, the
@@ -72,6 +71,12 @@ typedef struct {
   double *dual;     /* rows */
 } solution;
 
+/* The factor on friction that puts the pyramids round the cones. */
+static double widening(const thr_beads *beads)
+{
+  return 1 / cos(THR_PI / beads->rays);
+}
+
 static void cross(const double a[3], const double b[3], double out[3])
 {
   for (int k = 0; k < 3; k++)
@@ -101,9 +106,11 @@ static void add_contact(structure *s, int bead, int other, const double at[3], c
   cross(normal, tangent[0], tangent[1]);
   *c = (contact){.bead = bead, .other = other};
   memcpy(c->at, at, sizeof c->at);
-  for (int e = 0; e < EDGES; e++)
+  for (int e = 0; e < s->b->rays; e++) {
+    const double angle = 2 * THR_PI * e / s->b->rays;
     for (int i = 0; i < 3; i++)
-      c->ray[e][i] = normal[i] + mu * (cos(2 * THR_PI * e / EDGES) * tangent[0][i] + sin(2 * THR_PI * e / EDGES) * tangent[1][i]);
+      c->ray[e][i] = normal[i] + mu * (cos(angle) * tangent[0][i] + sin(angle) * tangent[1][i]);
+  }
 }
 
 /* widen: factor on friction, to put the pyramids round the cones. */
@@ -262,7 +269,7 @@ static void contact_columns(const structure *s, programme *p)
 {
   for (int i = 0; i < s->n_contacts; i++) {
     const contact *c = &s->contact[i];
-    for (int e = 0; e < EDGES; e++, p->n_columns++) {
+    for (int e = 0; e < s->b->rays; e++, p->n_columns++) {
       column(p, 0);
       contact_entries(s, p, c, c->bead, c->ray[e], 1);
       contact_entries(s, p, c, c->other, c->ray[e], -1);
@@ -318,7 +325,7 @@ static void carry_given(const structure *s, int body, double *rhs)
 
 static thr_status programme_make(const structure *s, bool hands, programme *p, thr_err *err)
 {
-  size_t n = (size_t)s->n_bodies, rays = (size_t)s->n_contacts * EDGES;
+  size_t n = (size_t)s->n_bodies, rays = (size_t)s->n_contacts * (size_t)s->b->rays;
   size_t columns = rays + n + (hands ? 2 * (size_t)s->n_rows : 0);
   size_t entries = 12 * rays + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows;
   *p = (programme){0};
@@ -411,7 +418,7 @@ static double least_opening(const structure *s, const double (*velocity)[6])
       for (int k = 0; k < 3; k++)
         apart[k] -= back[k];
     }
-    for (int e = 0; e < EDGES; e++)
+    for (int e = 0; e < s->b->rays; e++)
       least = fmin(least, thr_dot(c->ray[e], apart));
   }
   return least;
@@ -657,7 +664,7 @@ static thr_status check_feasible(const task *t, thr_err *err)
   solution o = {0};
   double(*velocity)[6] = thr_calloc((size_t)t->b->n_beads, sizeof *velocity);
   if (!velocity) return thr_nomem(err);
-  thr_status st = structure_make(&s, WIDEN, err);
+  thr_status st = structure_make(&s, widening(t->b), err);
   if (st) {
     free(velocity);
     return st;
@@ -680,11 +687,11 @@ static thr_status check_feasible(const task *t, thr_err *err)
 /* At one cap; merged too if the bound does not close otherwise. */
 static thr_status lower_at(const task *t, double most, answer *a, answer *best, double *best_most, thr_err *err)
 {
-  thr_status st = pull_of(t, most, false, WIDEN, a, err);
+  thr_status st = pull_of(t, most, false, widening(t->b), a, err);
   if (st || closed(a, CLOSE)) return st;
   keep_better(t, a, most, best, best_most);
   if (t->largest <= most || !(a->pull > 0) || !isfinite(a->pull)) return THR_OK;
-  st = pull_of(t, most, true, WIDEN, a, err);
+  st = pull_of(t, most, true, widening(t->b), a, err);
   if (!st && !closed(a, CLOSE)) keep_better(t, a, most, best, best_most);
   return st;
 }

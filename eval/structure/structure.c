@@ -174,6 +174,7 @@ static thr_status make_beads(const thr_frame *frame, const thr_physics *physics,
   for (int k = 0; !st && k < beads->n_feet; k++)
     held[beads->foot[k]] = true;
   if (!st && options->clamped) thr_beads_clamp(beads, held);
+  if (!st && options->rays > 0) beads->rays = options->rays;
   if (!st) thr_beads_tilt(beads, options->tilt, options->azimuth);
   free(held);
   return st;

@@ -645,6 +645,32 @@ START_TEST(mirrored_plans_pull_alike)
 }
 END_TEST
 
+/* Pyramids of 24 rays lie between those of 8, inside the cones and round them. */
+START_TEST(more_rays_bring_the_bounds_closer)
+{
+  static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-snake.json"};
+  thr_plan p;
+  thr_eval e[2];
+  thr_err err = {0};
+  thr_eval_options o = thr_eval_options_default();
+  o.dynamics = false;
+  ck_assert_msg(thr_plan_read(&p, plans[_i], &err) == THR_OK, "%s", err.text);
+  for (int k = 0; k < 2; k++) {
+    o.rays = k ? 24 : 0;
+    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k], &err) == THR_OK, "%s",
+                  err.text);
+  }
+  const thr_holding *few[] = {&e[0].holding, &e[0].equal, &e[0].loosest}, *many[] = {&e[1].holding, &e[1].equal, &e[1].loosest};
+  for (int k = 0; k < 3; k++) {
+    ck_assert(few[k]->lower <= many[k]->lower * (1 + 1e-6) && many[k]->upper <= few[k]->upper * (1 + 1e-6));
+    ck_assert(many[k]->lower <= many[k]->upper && many[k]->upper - many[k]->lower < 0.2 * (few[k]->upper - few[k]->lower));
+  }
+  thr_eval_destroy(&e[0]);
+  thr_eval_destroy(&e[1]);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 /* Of every second cord the other end is called the start: nothing changes. */
 START_TEST(direction_of_writing_changes_nothing)
 {
@@ -848,6 +874,7 @@ int main(void)
   ADD_TEST(s, 10, twice_the_weight_needs_twice_the_pull);
   ADD_TEST(s, 30, mirrored_plans_pull_alike);
   ADD_EXAMPLES(s, 60, direction_of_writing_changes_nothing, 2);
+  ADD_EXAMPLES(s, 60, more_rays_bring_the_bounds_closer, 2);
   ADD_TEST(s, 10, same_bits_again);
   ADD_LARGE(s, 60, straight_lines_pull_least, 0, 1);
   ADD_LARGE(s, 60, rough_cords_are_never_hopeless, 0, 3);
