@@ -307,17 +307,21 @@ static void put_hand(thr_text *text, double newton, double strength)
     thr_text_printf(text, "a cord that bears %s %s\n", plain_force(strength, force), newton > strength ? "breaks" : "holds");
 }
 
-/* What is beyond a hand at once, grips on the way draw in, or more cords need less. Nothing if one turn alone is too much. */
+/* What is beyond a hand at once, grips on the way draw in, unless one turn alone is too much; more cords need less. */
 static void put_grips(thr_text *text, const thr_plan *plan)
 {
   thr_schedule schedule = {0};
   char force[64];
   if (plan->evaluation.largest <= thr_hand_most || plan->evaluation.schedule.n > 0) return;
-  if (thr_history_grips(plan->cord, thr_hand_most, &plan->evaluation, &schedule, NULL) == THR_OK) {
-    const int grips = thr_schedule_grips(&schedule, -1);
+  const thr_status st = thr_history_grips(plan->cord, thr_hand_most, &plan->evaluation, &schedule, NULL);
+  const int grips = thr_schedule_grips(&schedule, -1);
+  if (st == THR_OK)
     thr_text_printf(text, "with %d %s on the way no pull is above %s (--hand %g), and more cords need less (thread advise)\n",
                     grips, cli_plural(grips, "grip", "grips"), plain_force(thr_hand_most, force), thr_hand_most);
-  }
+  else if (st == THR_EINPUT)
+    thr_text_append(text, "one turn alone takes more than a hand: more cords, or a smoother cord, need less (thread advise)\n");
+  else
+    text->failed = true;
   thr_schedule_destroy(&schedule);
 }
 
