@@ -724,13 +724,14 @@ done:
   return st;
 }
 
-/* Rounding may spoil a large programme in one scale and not in another. */
+/* Rounding may spoil a programme in one scale and not in another; beyond a thousand beads another try takes too long. */
 static thr_status lower_pull(task *t, double *most, answer *a, thr_err *err)
 {
   static const double unit[] = {1, 0.1, 10};
+  const int tries = t->b->n_beads > 1000 ? 1 : 3;
   thr_err why = {0};
   thr_status st = THR_ESOLVER;
-  for (int i = 0; i < 3 && st == THR_ESOLVER; i++) {
+  for (int i = 0; i < tries && st == THR_ESOLVER; i++) {
     answer_destroy(a);
     t->unit = unit[i];
     st = lower_pull_in(t, most, a, &why);
