@@ -8,7 +8,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -87,8 +86,8 @@ static void wake(int signal)
 typedef struct {
   pid_t pid;
   int pipe, status;
-  double end_by; /* thr_clock() at which the child is killed; 0 = never */
-  double first;  /* when the first signal came; 0 = none has */
+  thr_grace grace;
+  double first; /* when the first signal came; 0 = none has */
   bool ended, writing, out_of_memory;
   bool by_itself;   /* it said that it would end, and how */
   thr_text arrived; /* bytes that are no whole message yet */
@@ -112,7 +111,7 @@ static void take(void *user, const thr_message *h, const char *bytes)
   case NO_MEMORY: g->out_of_memory = true; break;
   case ENDING: g->by_itself = true; break;
   case ALLOW:
-    if (!g->first) g->end_by = h->value[0] > 0 ? thr_clock() + h->value[0] + GRACE : 0;
+    if (!g->first) g->grace = (thr_grace){h->value[0] > 0 ? thr_clock() + h->value[0] : 0, 0};
     break;
   }
 }
@@ -137,7 +136,7 @@ static void heed_signals(guarded *g)
   }
   if (g->first > 0) return;
   g->first = now;
-  g->end_by = now + GRACE;
+  g->grace = (thr_grace){now, 0};
   kill(g->pid, SIGTERM);
 }
 
@@ -145,16 +144,15 @@ static void watch(guarded *g)
 {
   struct pollfd news = {.fd = g->pipe, .events = POLLIN};
   while (!g->ended) {
-    double now = thr_clock(), left = g->end_by > 0 ? fmax(0, g->end_by - now) : LOOK;
-    if (poll(&news, 1, (int)ceil(1000 * fmin(left, LOOK))) > 0 && news.revents & POLLHUP && !(news.revents & POLLIN))
+    if (poll(&news, 1, (int)(1000 * LOOK)) > 0 && news.revents & POLLHUP && !(news.revents & POLLIN))
       news.fd = -1; /* closed: only the end is left to wait for */
     receive(g);
     heed_signals(g);
     g->ended = waitpid(g->pid, &g->status, WNOHANG) == g->pid;
-    if (g->ended || g->writing || g->end_by == 0 || thr_clock() < g->end_by) continue;
+    if (g->ended || g->writing || !thr_grace_over(&g->grace, g->pid, GRACE)) continue;
     kill(g->pid, SIGKILL);
     g->end->reason = g->first > 0 ? GUARD_INTERRUPTED : GUARD_TIME;
-    g->end_by = 0;
+    g->grace = (thr_grace){0};
   }
   receive(g);
 }
@@ -258,9 +256,9 @@ static bool fork_failed(guard_end *end)
 bool guard_fork(const guard_limits *l, guard_end *end)
 {
   int ends[2];
-  guarded g = {.end = end};
   *end = (guard_end){0};
   deadline = l->seconds > 0 ? thr_clock() + l->seconds : 0;
+  guarded g = {.end = end, .grace = {deadline, 0}};
   if (pipe(ends)) return fork_failed(end);
   g.pid = fork_quietly();
   if (g.pid < 0) return fork_failed(end);
@@ -273,7 +271,6 @@ bool guard_fork(const guard_limits *l, guard_end *end)
   close(ends[1]);
   g.pipe = ends[0];
   fcntl(g.pipe, F_SETFL, O_NONBLOCK);
-  g.end_by = deadline > 0 ? deadline + GRACE : 0;
   watch(&g);
   close(g.pipe);
   if (WIFSIGNALED(g.status) && WTERMSIG(g.status) == SIGPIPE) die_of(SIGPIPE);

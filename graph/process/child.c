@@ -85,7 +85,7 @@ typedef struct {
   const thr_limits *limits;
   thr_process process;
   thr_text *answer, arrived; /* bytes not yet taken for a message */
-  double asked;              /* thr_clock() when the child was asked to stop; 0 = not yet */
+  thr_grace grace;           /* from when the child was asked to stop */
   bool stuck;                /* the child waits for itself */
   bool ended;                /* the message of its end has come, with this status and text */
   thr_err end;
@@ -116,7 +116,7 @@ static void take(void *user, const thr_message *h, const char *bytes)
 static bool receive(parent *p)
 {
   struct pollfd news = {.fd = p->process.pipe, .events = POLLIN};
-  double wait = p->asked > 0 ? fmax(p->asked + GRACE - thr_clock(), 0) : thr_limits_left(p->limits, WATCH);
+  double wait = p->grace.from > 0 ? WATCH : thr_limits_left(p->limits, WATCH);
   if (poll(&news, 1, (int)ceil(1000 * fmin(wait, WATCH))) <= 0) {
     p->stuck = thr_process_stuck(&p->process);
     return true;
@@ -129,11 +129,11 @@ static bool receive(parent *p)
 static bool watch(parent *p)
 {
   while (!p->arrived.failed && !p->answer->failed && !p->stuck && receive(p)) {
-    if (!p->asked && thr_limits_left(p->limits, 1) <= 0) { /* what waiting takes is no work */
-      p->asked = thr_clock();
+    if (!p->grace.from && thr_limits_left(p->limits, 1) <= 0) { /* what waiting takes is no work */
+      p->grace.from = thr_clock();
       kill(p->process.pid, SIGUSR1);
     }
-    if (p->asked > 0 && thr_clock() > p->asked + GRACE) return false;
+    if (thr_grace_over(&p->grace, p->process.pid, GRACE)) return false;
   }
   return true;
 }

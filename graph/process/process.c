@@ -1,6 +1,7 @@
 /* Forking, the signals and descriptors of a child, and how its end is told. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/process.h"
+#include "graph/limits.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -199,6 +200,23 @@ static double cpu_time(pid_t pid)
   struct timespec t;
   if (clock_getcpuclockid(pid, &clock) || clock_gettime(clock, &t)) return 0;
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Sanitizers slow everything down. */
+#if defined __SANITIZE_ADDRESS__
+static const double SLOWER = 4;
+#else
+static const double SLOWER = 1;
+#endif
+static const double MOST_GRACES = 10;
+
+bool thr_grace_over(thr_grace *grace, pid_t pid, double seconds)
+{
+  const double gone = thr_clock() - grace->from, used = cpu_time(pid);
+  if (grace->from == 0 || gone < 0) return false;
+  if (grace->used == 0) grace->used = used;
+  seconds *= SLOWER;
+  return gone >= MOST_GRACES * seconds || (gone >= seconds && used - grace->used >= seconds);
 }
 
 bool thr_process_stuck(thr_process *process)

@@ -46,6 +46,16 @@ thr_status thr_process_end(thr_process *process, const char *who, const char *ad
 /* In a child: it is killed when its parent dies, whose process it was told; at once if that is dead already. */
 void thr_process_die_with(pid_t parent);
 
+/* What a process has to end by itself after it should have begun to: so many seconds and as much of its own processor time, so
+ * that a busy machine does not kill it before its word is out. {0} is valid: it shall go on. */
+typedef struct {
+  double from; /* thr_clock() at which it is to begin; 0 = never */
+  double used; /* its processor time then, s; 0 before */
+} thr_grace;
+
+/* Is it over? At the latest after ten times `seconds`. To be called every 0.1 s or so. */
+bool thr_grace_over(thr_grace *grace, pid_t pid, double seconds);
+
 /* Has it slept for some 20 s of such calls, one every 0.1 s? A library that waits for itself where memory is out while it
  * holds a lock never ends. */
 bool thr_process_stuck(thr_process *process);
