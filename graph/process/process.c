@@ -208,7 +208,7 @@ static const double SLOWER = 4;
 #else
 static const double SLOWER = 1;
 #endif
-static const double MOST_GRACES = 10;
+static const double MOST_GRACES = 5;
 
 bool thr_grace_over(thr_grace *grace, pid_t pid, double seconds)
 {

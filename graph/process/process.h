@@ -53,7 +53,7 @@ typedef struct {
   double used; /* its processor time then, s; 0 before */
 } thr_grace;
 
-/* Is it over? At the latest after ten times `seconds`. To be called every 0.1 s or so. */
+/* Is it over? At the latest after five times `seconds`. To be called every 0.1 s or so. */
 bool thr_grace_over(thr_grace *grace, pid_t pid, double seconds);
 
 /* Has it slept for some 20 s of such calls, one every 0.1 s? A library that waits for itself where memory is out while it
