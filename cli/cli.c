@@ -3,7 +3,7 @@
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "cli/args/config.h"
-#include "cli/args/suggestion.h"
+#include "graph/suggestion.h"
 #include "graph/angle.h"
 #include "graph/io/stand.h"
 #include "cli/guard.h"
@@ -90,20 +90,20 @@ int cli_usage(const char *command, const char *format, ...)
 /* The word is "--name" or "--name=value" of no option, of several, or of one that takes no value. */
 static int bad_long_option(const char *word, const char *command, const struct option *table)
 {
-  char name[64], question[CLI_SUGGESTION_TEXT], several[160] = "";
-  cli_suggestion suggestion = {.word = name};
+  char name[64], question[THR_SUGGESTION_TEXT], several[160] = "";
+  thr_suggestion suggestion = {.word = name};
   int n = 0;
   snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
   for (; table->name; table++) {
     if (strcmp(table->name, name) == 0) return cli_usage(command, "--%s takes no value", name);
-    cli_suggestion_try(&suggestion, table->name);
+    thr_suggestion_try(&suggestion, table->name);
     if (strncmp(table->name, name, strlen(name)) != 0) continue;
     size_t length = strlen(several);
     snprintf(several + length, sizeof several - length, "%s--%s", n++ ? ", " : "", table->name);
   }
   if (n == 1) return cli_usage(command, "%s takes no value", several);
   if (n > 1) return cli_usage(command, "--%s may be %s", name, several);
-  cli_suggestion_ask(&suggestion, question);
+  thr_suggestion_ask(&suggestion, question);
   char *at = strstr(question, "mean ");
   if (!at) return cli_usage(command, "--%s is not an option here", name);
   return cli_usage(command, "--%s is not an option here; did you mean --%s", name, at + strlen("mean "));
@@ -172,13 +172,13 @@ bool cli_int(const char *command, const char *option, const char *text, int low,
 
 bool cli_choose(const char *command, const char *option, const char *value, const char *(*name)(int), int n, int *out)
 {
-  char known[160] = "", question[CLI_SUGGESTION_TEXT];
-  cli_suggestion suggestion = {.word = value};
+  char known[160] = "", question[THR_SUGGESTION_TEXT];
+  thr_suggestion suggestion = {.word = value};
   for (*out = 0; *out < n; ++*out) {
     if (strcmp(value, name(*out)) == 0) return true;
-    cli_suggestion_try(&suggestion, name(*out));
+    thr_suggestion_try(&suggestion, name(*out));
   }
-  cli_suggestion_ask(&suggestion, question);
+  thr_suggestion_ask(&suggestion, question);
   for (int i = 0; i < n; i++) {
     size_t length = strlen(known);
     snprintf(known + length, sizeof known - length, "%s%s", i == 0 ? "" : i == n - 1 ? " or " : ", ", name(i));
@@ -216,7 +216,7 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
     *ok = cli_double(command, "--flat", value, 1e-6, 179, &a->read.flat);
     a->read.flat *= THR_PI / 180;
     return true;
-  case OPTION_PICK: *ok = cli_int(command, "--pick", value, 1, 1000000000, &a->read.pick); return true;
+  case OPTION_PICK: a->read.pick = value; return true;
   case OPTION_SPLIT: a->read.split = true; return true;
   case OPTION_FEET: a->feet = value; return true;
   case OPTION_WELD: *ok = cli_double(command, "--weld", value, 0, 1e300, &a->read.weld); return true;
@@ -282,11 +282,11 @@ static bool mark_node(const thr_frame *frame, const char *name, const char *opti
 {
   int v = thr_frame_find(frame, name);
   if (v < 0) {
-    char question[CLI_SUGGESTION_TEXT];
-    cli_suggestion suggestion = {.word = name};
+    char question[THR_SUGGESTION_TEXT];
+    thr_suggestion suggestion = {.word = name};
     for (v = 0; v < frame->n_nodes; v++)
-      cli_suggestion_try(&suggestion, frame->name[v]);
-    cli_suggestion_ask(&suggestion, question);
+      thr_suggestion_try(&suggestion, frame->name[v]);
+    thr_suggestion_ask(&suggestion, question);
     cli_error("%s: there is no file and no node called %s; the first node is %s%s", option, name, frame->name[0], question);
     return false;
   }

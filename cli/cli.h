@@ -125,7 +125,7 @@ enum {
   "      --up y|z         which coordinate points up (default: z, but y in OBJ files by Blender)\n"                              \
   "      --flat DEG       meshes: no edge between triangles that meet at less than DEG degrees\n"                                \
   "      --split          cut an edge where a node lies on it\n"                                                                 \
-  "      --pick N         the Nth framework of a file that holds several (default: all of a list as one)\n"
+  "      --pick NAME|N    of a file of several frameworks, objects, groups or layers: this one, or the Nth (default: all)\n"
 
 cli_frame_args cli_frame_args_default(void);
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */

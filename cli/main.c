@@ -1,6 +1,6 @@
 /* thread: plans how cord is threaded through bead structures. This file only finds the subcommand. */
 #include "cli/args/config.h"
-#include "cli/args/suggestion.h"
+#include "graph/suggestion.h"
 #include "cli/cli.h"
 #include "cli/guard.h"
 #include "eval/joint/world.h"
@@ -62,11 +62,11 @@ static int run(const cli_command *command, int argc, char **argv)
 
 static int no_command(const char *name)
 {
-  char question[CLI_SUGGESTION_TEXT];
-  cli_suggestion suggestion = {.word = name};
+  char question[THR_SUGGESTION_TEXT];
+  thr_suggestion suggestion = {.word = name};
   for (int i = 0; i < cli_n_commands; i++)
-    cli_suggestion_try(&suggestion, cli_commands[i].name);
-  cli_suggestion_ask(&suggestion, question);
+    thr_suggestion_try(&suggestion, cli_commands[i].name);
+  thr_suggestion_ask(&suggestion, question);
   cli_error("there is no command %s%s%s `thread --help` lists them", name, question, *question ? "" : ";");
   return EXIT_USAGE;
 }

@@ -18,7 +18,8 @@ void thread_read_options_init(thread_read_options *options, size_t size)
   memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
 }
 
-static thr_status read_options(const thread_read_options *theirs, thr_read_options *out, thr_err *err)
+/* number: receives pick as digits, to which *out refers. */
+static thr_status read_options(const thread_read_options *theirs, thr_read_options *out, char number[12], thr_err *err)
 {
   thread_read_options o;
   *out = thr_read_options_default();
@@ -31,7 +32,8 @@ static thr_status read_options(const thread_read_options *theirs, thr_read_optio
   if (o.pick < 0) return thr_fail(err, THR_EINPUT, "pick %d: below 0", o.pick);
   out->edges_path = o.edges;
   out->split = o.split != 0;
-  out->pick = o.pick;
+  snprintf(number, 12, "%d", o.pick);
+  out->pick = o.part ? o.part : o.pick ? number : NULL;
   out->units = o.units;
   out->scale = o.scale;
   out->flat = o.flat;
@@ -67,7 +69,8 @@ thread_status thread_frame_read(const char *path, const thread_read_options *opt
   thr_read_options how;
   *out = NULL;
   thr_library_lock();
-  thr_status st = read_options(options, &how, &why);
+  char number[12];
+  thr_status st = read_options(options, &how, number, &why);
   if (!st) st = thr_frame_read(&frame, &report, path, &how, NULL, 0, &why);
   return hand_over(st, &frame, &report, out, &why, err);
 }
@@ -81,7 +84,8 @@ thread_status thread_frame_parse(const char *text, size_t n, const char *name, c
   thr_read_options how;
   *out = NULL;
   thr_library_lock();
-  thr_status st = read_options(options, &how, &why);
+  char number[12];
+  thr_status st = read_options(options, &how, number, &why);
   if (!st && how.edges_path) st = thr_fail(&why, THR_EINPUT, "edges: only with thread_frame_read");
   if (!st) st = thr_frame_parse(&frame, &report, text, n, name ? name : "text", &how, &why);
   return hand_over(st, &frame, &report, out, &why, err);

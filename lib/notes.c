@@ -22,8 +22,8 @@ static void put_report(thr_text *out, const thr_read_report *report)
   if (report->frameworks_read > 1)
     thr_text_printf(out, "%d frameworks of the file are read as one; --pick N reads the Nth alone\n", report->frameworks_read);
   if (left)
-    thr_text_printf(out, "%d more %s in the file, which %s not read; --pick N reads the Nth\n", left,
-                    left == 1 ? "framework is" : "frameworks are", left == 1 ? "is" : "are");
+    thr_text_printf(out, "%d more %s of the file %s not read; --pick reads another by its name or number\n", left,
+                    left == 1 ? "part" : "parts", left == 1 ? "is" : "are");
 }
 
 /* What a file leaves unsaid and is worth a look. */

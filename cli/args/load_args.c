@@ -1,6 +1,6 @@
 /* Loads, tilt, clamped feet. */
 #include "cli/args/load_args.h"
-#include "cli/args/suggestion.h"
+#include "graph/suggestion.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/status.h"
@@ -72,11 +72,11 @@ bool load_any(const load_args *a)
 
 static int no_node(const thr_frame *frame, const char *name)
 {
-  char question[CLI_SUGGESTION_TEXT];
-  cli_suggestion suggestion = {.word = name};
+  char question[THR_SUGGESTION_TEXT];
+  thr_suggestion suggestion = {.word = name};
   for (int v = 0; v < frame->n_nodes; v++)
-    cli_suggestion_try(&suggestion, frame->name[v]);
-  cli_suggestion_ask(&suggestion, question);
+    thr_suggestion_try(&suggestion, frame->name[v]);
+  thr_suggestion_ask(&suggestion, question);
   cli_error("--load: there is no node %s; the first is %s%s", name, frame->name[0], question);
   return EXIT_INPUT;
 }

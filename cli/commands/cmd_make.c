@@ -1,5 +1,5 @@
 /* thread make: example frameworks. */
-#include "cli/args/suggestion.h"
+#include "graph/suggestion.h"
 #include "cli/cli.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/make.h"
@@ -37,13 +37,13 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
 
 static int find_shape(const char *name)
 {
-  char question[CLI_SUGGESTION_TEXT];
-  cli_suggestion suggestion = {.word = name};
+  char question[THR_SUGGESTION_TEXT];
+  thr_suggestion suggestion = {.word = name};
   for (int i = 0; i < THR_N_SHAPES; i++) {
     if (strcmp(name, thr_shape_name(i)) == 0) return i;
-    cli_suggestion_try(&suggestion, thr_shape_name(i));
+    thr_suggestion_try(&suggestion, thr_shape_name(i));
   }
-  cli_suggestion_ask(&suggestion, question);
+  thr_suggestion_ask(&suggestion, question);
   cli_usage("make", "there is no shape %s; there are dome, geodesic, sphere, tube and honeycomb%s", name, question);
   return -1;
 }

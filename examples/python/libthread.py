@@ -32,7 +32,7 @@ class _Text(ctypes.Structure):
 
 class ReadOptions(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("edges", c_char_p), ("units", c_char_p), ("weld", c_double), ("scale", c_double),
-                ("flat", c_double), ("up", c_char), ("split", c_char), ("pick", c_int)]
+                ("flat", c_double), ("up", c_char), ("split", c_char), ("pick", c_int), ("part", c_char_p)]
 
 
 _Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_char_p, c_double, c_double)

@@ -51,12 +51,13 @@ typedef struct {
     int cover;     /* 0 = not said */
     int capacity;  /* 0 = no limit */
   } * edge;
-  thr_text names; /* each with its NUL */
-  char units[16]; /* "" = not said */
-  bool y_up;      /* the file's maker is known to write y upwards */
-  bool up_is_y;   /* the format says that y points up */
-  int pick;       /* asked of the readers of files that hold several frameworks: which of them, from 1; 0 = all of a list */
-  double flat;    /* asked of the readers of meshes, rad: triangles that meet at less have no edge between them; 0 = all have */
+  thr_text names;   /* each with its NUL */
+  char units[16];   /* "" = not said */
+  bool y_up;        /* the file's maker is known to write y upwards */
+  bool up_is_y;     /* the format says that y points up */
+  const char *pick; /* asked of the readers of files that hold several frameworks: the name or the number of one of them, from 1;
+                       NULL = all of a list; borrowed */
+  double flat;      /* asked of the readers of meshes, rad: triangles that meet at less have no edge between them; 0 = all have */
 } thr_draft;
 
 /* What node v is called until another node is added; NULL means the index in decimal. */

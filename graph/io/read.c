@@ -114,8 +114,8 @@ static thr_status build(const thr_read_options *options, const char *name, thr_d
 /* THR_EINPUT if there is no framework of the number that the options name. */
 static thr_status check_pick(const thr_read_options *options, const thr_read_report *report, const char *name, thr_err *err)
 {
-  if (options->pick <= 1 || report->frameworks) return THR_OK;
-  return thr_fail(err, THR_EINPUT, "%s: there is no framework %d to pick; the file holds 1", name, options->pick);
+  if (!options->pick || strcmp(options->pick, "1") == 0 || report->frameworks) return THR_OK;
+  return thr_fail(err, THR_EINPUT, "%s: there is no part '%.40s' to pick; the file holds one framework", name, options->pick);
 }
 
 thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char *text, size_t n, const char *name,

@@ -21,7 +21,8 @@ typedef struct {
   thr_up up;              /* with y, a node at x, y, z stands at x, -z, y */
   double scale;           /* of all coordinates and lengths, > 0 */
   double flat;            /* rad: two triangles that meet at less have no edge between them; 0 = all sides are edges */
-  int pick;               /* which framework of a file that holds several, from 1; 0 = all of a list */
+  const char *pick;       /* of a file that holds several frameworks, objects or layers: the name or the number of one of them,
+                             from 1; NULL = all of a list */
   bool split;             /* an edge is cut where a node lies on it */
 } thr_read_options;
 

@@ -9,6 +9,7 @@
 #include "graph/io/dxf.h"
 #include "graph/io/faces.h"
 #include "graph/io/formats.h"
+#include "graph/io/parts.h"
 #include "graph/io/scan.h"
 #include "graph/io/sites.h"
 #include "graph/status.h"
@@ -42,6 +43,7 @@ typedef struct {
   shape_kind kind;
   int first, last;     /* PATH, RING: points; INSERT: which of inserted */
   double curve_length; /* PATH of two points: how long the curve between them is, 0 = straight */
+  int layer;           /* -1 = layer 0, which in a block is that of the INSERT */
 } shape;
 
 typedef struct {
@@ -83,6 +85,9 @@ typedef struct {
   thr_faces faces; /* runs of sites; lengths of those of two are in length */
   double *length;  /* of each run, 0 = straight */
   int n_placed;    /* insertions */
+  thr_parts parts; /* layers */
+  int ground;      /* layer 0; -1 = there is nothing on it, outside of blocks */
+  int layer;       /* of the entity being read, as in shape */
   int length_capacity;
 } dxf;
 
@@ -232,7 +237,7 @@ static thr_status add_point(dxf *d, const placing *p, const double xyz[3])
 static thr_status add_shape(dxf *d, shape_kind kind, int first, int last, double curve_length)
 {
   thr_status st = thr_grow(&d->shape, d->n_shapes, &d->shapes_capacity, sizeof *d->shape, d->err);
-  if (!st) d->shape[d->n_shapes++] = (shape){kind, first, last, curve_length};
+  if (!st) d->shape[d->n_shapes++] = (shape){kind, first, last, curve_length, d->layer};
   return st;
 }
 
@@ -559,6 +564,15 @@ static thr_status read_insert(dxf *d)
   return st;
 }
 
+/* The layer of the entity that was taken: code 8. */
+static thr_status find_layer(dxf *d)
+{
+  const pair *named = find(d, 8);
+  d->layer = -1;
+  if (!named || thr_span_is(named->value, "0")) return THR_OK;
+  return thr_parts_find(&d->parts, named->value, &d->layer, d->err);
+}
+
 static thr_status read_entity(dxf *d)
 {
   static const struct {
@@ -567,6 +581,7 @@ static thr_status read_entity(dxf *d)
   } known[] = {{"LINE", read_line}, {"LWPOLYLINE", read_lwpolyline}, {"3DFACE", read_face},  {"SPLINE", read_spline},
                {"ARC", read_arc},   {"ELLIPSE", read_ellipse},       {"INSERT", read_insert}};
   thr_status st = take_entity(d);
+  if (!st && d->parts.asked) st = find_layer(d);
   if (st) return st;
   if (thr_span_is(d->type, "POLYLINE")) return read_polyline(d);
   if (is_skipped(d)) return THR_OK;
@@ -672,13 +687,14 @@ static thr_status place_run(dxf *d, const shape *s, const placing *p)
   return thr_faces_close(&d->faces, d->err);
 }
 
-static thr_status place_shapes(dxf *d, int first, int last, const placing *p, int depth)
+static thr_status place_shapes(dxf *d, int first, int last, const placing *p, int layer, int depth)
 {
   thr_status st = THR_OK;
   for (int i = first; i < last && !st; i++) {
     const shape *s = &d->shape[i];
+    const int own = s->layer >= 0 ? s->layer : layer;
     if (s->kind != INSERT) {
-      st = place_run(d, s, p);
+      if (thr_parts_has(&d->parts, own)) st = place_run(d, s, p);
       continue;
     }
     const insertion *in = &d->inserted[s->first];
@@ -694,7 +710,7 @@ static thr_status place_shapes(dxf *d, int first, int last, const placing *p, in
       base.t[k] = -b->base[k];
     placing q = after(&in->place, &base);
     q = after(p, &q);
-    st = place_shapes(d, b->first, b->last, &q, depth + 1);
+    st = place_shapes(d, b->first, b->last, &q, own, depth + 1);
   }
   return st;
 }
@@ -722,6 +738,18 @@ static thr_status fill_draft(dxf *d)
   return st;
 }
 
+/* Layer 0 comes last: what stands on it is counted only where it is placed. */
+static thr_status choose_layers(dxf *d, const block *model)
+{
+  bool grounded = false;
+  thr_status st = THR_OK;
+  d->ground = -1;
+  for (int i = model->first; i < model->last; i++)
+    grounded |= d->shape[i].layer < 0;
+  if (grounded && d->parts.asked) st = thr_parts_find(&d->parts, thr_span_of("0"), &d->ground, d->err);
+  return st ? st : thr_parts_choose(&d->parts, d->scan.name, "layer", "layers", d->err);
+}
+
 static void destroy(dxf *d)
 {
   free(d->pair);
@@ -738,15 +766,17 @@ static void destroy(dxf *d)
 
 static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
 {
-  dxf d = {.draft = draft, .report = report, .err = err};
+  dxf d = {.draft = draft, .report = report, .err = err, .parts = {.asked = draft->pick}};
   block model = {0};
   thr_status st = THR_OK;
   if (n >= sizeof binary - 1 && memcmp(text, binary, sizeof binary - 1) == 0)
     st = thr_fail(err, THR_EINPUT, "%s: binary DXF is not read; export it as text", name);
   if (!st) st = thr_scan_start(&d.scan, text, n, name, err);
   if (!st) st = read_sections(&d, &model);
-  if (!st) st = place_shapes(&d, model.first, model.last, &unmoved, 0);
+  if (!st) st = choose_layers(&d, &model);
+  if (!st) st = place_shapes(&d, model.first, model.last, &unmoved, d.ground, 0);
   if (!st) st = fill_draft(&d);
+  thr_parts_finish(&d.parts, report);
   destroy(&d);
   return st;
 }

@@ -4,6 +4,7 @@
 #include "graph/io/faces.h"
 #include "graph/io/formats.h"
 #include "graph/io/json.h"
+#include "graph/io/parts.h"
 #include "graph/io/scan.h"
 #include "graph/io/sites.h"
 #include "graph/status.h"
@@ -39,6 +40,8 @@ typedef struct {
   int n_buffers;
   thr_text *buffer; /* [n_buffers] bytes of those that are decoded or read; owned */
   bool *entered;    /* [nodes] placed already; owned */
+  thr_parts parts;  /* nodes that have a mesh, called as they or it */
+  int *part;        /* [nodes] -1 = has no mesh; owned */
   thr_sites sites;
   thr_faces faces;
   thr_draft *draft;
@@ -303,11 +306,27 @@ static thr_status read_node(gltf *g, int i, const placing *outer, int depth)
   const int m = member(node, "mesh", -1);
   const thr_json *mesh = element(g, "meshes", m), *primitives = thr_json_get(mesh, "primitives");
   thr_status st = thr_json_get(node, "mesh") && !mesh ? bad(g, "meshes", m, "is not there") : THR_OK;
-  for (int k = 0; k < thr_json_size(primitives) && !st; k++)
+  for (int k = 0; k < thr_json_size(primitives) && !st && thr_parts_has(&g->parts, g->part[i]); k++)
     st = read_primitive(g, m, thr_json_at(primitives, k), &here);
   for (int k = 0; k < thr_json_size(children) && !st; k++)
     st = read_node(g, int_of(thr_json_at(children, k), -1), &here, depth + 1);
   return st;
+}
+
+/* The parts that may be asked for. */
+static thr_status name_parts(gltf *g, const thr_json *nodes)
+{
+  const int n = thr_json_size(nodes);
+  thr_status st = THR_OK;
+  if (!(g->part = thr_calloc((size_t)n, sizeof *g->part))) return thr_nomem(g->err);
+  for (int i = 0; i < n && !st; i++) {
+    const thr_json *node = thr_json_at(nodes, i);
+    const char *name = thr_json_string(thr_json_get(node, "name"));
+    if (!name) name = thr_json_string(thr_json_get(element(g, "meshes", member(node, "mesh", -1)), "name"));
+    g->part[i] = -1;
+    if (thr_json_get(node, "mesh")) st = thr_parts_add(&g->parts, thr_span_of(name ? name : ""), &g->part[i], g->err);
+  }
+  return st ? st : thr_parts_choose(&g->parts, g->file, "object", "objects", g->err);
 }
 
 /* The scene that is shown, else the first one, else every node that no other one has for a child. */
@@ -317,10 +336,10 @@ static thr_status read_scene(gltf *g)
   const thr_json *nodes = thr_json_get(g->doc, "nodes");
   const thr_json *roots = thr_json_get(element(g, "scenes", member(g->doc, "scene", 0)), "nodes");
   const int n = thr_json_size(nodes);
-  thr_status st = THR_OK;
+  thr_status st = name_parts(g, nodes);
   bool *child = thr_calloc((size_t)n, sizeof *child);
   g->entered = thr_calloc((size_t)n, sizeof *g->entered);
-  if (!child || !g->entered) st = thr_nomem(g->err);
+  if (!st && (!child || !g->entered)) st = thr_nomem(g->err);
   for (int i = 0; i < n && !st && !roots; i++) {
     const thr_json *children = thr_json_get(thr_json_at(nodes, i), "children");
     for (int k = 0; k < thr_json_size(children); k++) {
@@ -396,7 +415,7 @@ static thr_status place(gltf *g)
 
 static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
 {
-  gltf g = {.file = name, .draft = draft, .report = report, .err = err};
+  gltf g = {.file = name, .draft = draft, .report = report, .err = err, .parts = {.asked = draft->pick}};
   thr_span json;
   thr_status st = open_binary(&g, text, n, &json);
   if (!st) st = thr_json_parse(&g.doc, json.s, json.n, name, err);
@@ -408,6 +427,8 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
     thr_text_destroy(&g.buffer[i]);
   free(g.buffer);
   free(g.entered);
+  free(g.part);
+  thr_parts_finish(&g.parts, report);
   thr_sites_destroy(&g.sites);
   thr_faces_destroy(&g.faces);
   thr_json_destroy(g.doc);

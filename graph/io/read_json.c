@@ -5,6 +5,7 @@
 #include "graph/io/json.h"
 #include "graph/io/faces.h"
 #include "graph/io/formats.h"
+#include "graph/io/parts.h"
 #include "graph/io/read.h"
 #include "graph/io/scan.h"
 #include "graph/status.h"
@@ -32,8 +33,9 @@ typedef struct {
   bool has_z;       /* some point has a z of its own */
   uint64_t *place;  /* [n_found] of the frameworks of the document, where each stands but for numbers (place_of); owned */
   int n_found, found_capacity;
-  int n_seen;   /* in the second walk through the document */
-  int n_chosen; /* how many are read */
+  thr_parts parts; /* the frameworks */
+  int n_seen;      /* in the second walk through the document */
+  int n_chosen;    /* how many are read */
 } reader;
 
 static size_t write_path(const where *at, char *out, size_t size)
@@ -826,20 +828,29 @@ static uint64_t place_of(const where *at)
   return (hash ^ '/') * UINT64_C(0x100000001b3);
 }
 
+/* What a framework of the document is called: by its member name, else by the nearest key above it. */
+static thr_span called(const where *at, const thr_json *v)
+{
+  const char *name = is_object(v) ? thr_json_string(thr_json_get(v, "name")) : NULL;
+  for (; !name && at; at = at->up)
+    if (at->key) name = at->key;
+  return thr_span_of(name ? name : "");
+}
+
 /* Notes where a framework of the document stands. */
 static thr_status note_place(reader *r, const where *at, const thr_json *v, read_function *read)
 {
-  (void)v;
   (void)read;
+  int part;
   thr_status st = thr_grow(&r->place, r->n_found, &r->found_capacity, sizeof *r->place, r->err);
   if (st) return st;
   r->place[r->n_found++] = place_of(at);
-  return THR_OK;
+  return thr_parts_add(&r->parts, called(at, v), &part, r->err);
 }
 
 static bool is_chosen(const reader *r, int i)
 {
-  return r->d->pick ? i + 1 == r->d->pick : r->place[i] == r->place[0];
+  return r->d->pick ? thr_parts_has(&r->parts, i) : r->place[i] == r->place[0];
 }
 
 /* Reads a framework into a draft of its own and appends that, its nodes called by its number as well: 3:17. */
@@ -894,8 +905,7 @@ static thr_status read_document(reader *r, const thr_json *doc)
   thr_status st = walk(r, &top, doc, note_place);
   if (!st && !r->n_found)
     st = thr_fail(r->err, THR_EINPUT, "%s: no framework in this JSON; docs/formats.md shows the forms that are read", r->file);
-  if (!st && r->d->pick > r->n_found)
-    st = thr_fail(r->err, THR_EINPUT, "%s: there is no framework %d to pick; the file holds %d", r->file, r->d->pick, r->n_found);
+  if (!st) st = thr_parts_choose(&r->parts, r->file, "framework", "frameworks", r->err);
   for (int i = 0; i < r->n_found && !st; i++)
     r->n_chosen += is_chosen(r, i);
   if (!st) st = walk(r, &top, doc, read_chosen);
@@ -908,8 +918,9 @@ static thr_status parse(thr_draft *draft, thr_read_report *read_report, const ch
   thr_json *doc;
   thr_status st = thr_json_parse(&doc, text, n, name, err);
   if (st) return st;
-  reader reading = {.file = name, .d = draft, .report = read_report, .err = err};
+  reader reading = {.file = name, .d = draft, .report = read_report, .err = err, .parts = {.asked = draft->pick}};
   st = read_document(&reading, doc);
+  thr_parts_finish(&reading.parts, read_report);
   read_report->frameworks = reading.n_found;
   read_report->frameworks_read = reading.n_chosen;
   read_report->no_z = !reading.has_z;

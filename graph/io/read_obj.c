@@ -3,6 +3,7 @@
 #include "graph/io/curve.h"
 #include "graph/io/faces.h"
 #include "graph/io/formats.h"
+#include "graph/io/parts.h"
 #include "graph/io/scan.h"
 #include "graph/status.h"
 
@@ -23,6 +24,9 @@ typedef struct {
     int vertex, line;
   } * foot; /* as the comment lists them: vertices may come after it; owned */
   int n_feet, feet_capacity;
+  thr_parts parts;                /* objects, or groups where there are none */
+  const char *part_keyword;       /* "o" or "g" */
+  int part;                       /* the one at hand; -1 before the first */
   int degree;                     /* of curves, as deg says */
   bool bspline, bezier, rational; /* cstype */
   /* the curve that was named last, which its knots follow */
@@ -244,6 +248,24 @@ static thr_status read_comment(obj *o, thr_span line)
   return THR_OK;
 }
 
+/* The parts of a file of which one is asked for. What stands before the first one has no name and is no part. */
+static thr_status name_parts(obj *o, const char *text, size_t n, const char *file)
+{
+  static const char *const keywords[] = {"o", "g"};
+  thr_span line, keyword;
+  thr_scan scan;
+  int part;
+  thr_status st = THR_OK;
+  for (int i = 0; i < 2 && o->parts.asked && !o->parts.n && !st; i++) {
+    o->part_keyword = keywords[i];
+    st = thr_scan_start(&scan, text, n, file, o->err);
+    while (!st && thr_scan_line(&scan, &line))
+      if (next_word(&line, &keyword) && thr_span_is(keyword, o->part_keyword))
+        st = thr_parts_add(&o->parts, thr_span_trim(line), &part, o->err);
+  }
+  return st ? st : thr_parts_choose(&o->parts, file, "object or group", "objects and no groups", o->err);
+}
+
 static thr_status read_record(obj *o, thr_span line)
 {
   static const char *const harmless[] = {"vn",     "vt",     "vp",     "g",      "o",    "s",   "p",
@@ -253,6 +275,8 @@ static thr_status read_record(obj *o, thr_span line)
   if (line.n && line.s[0] == '#') return read_comment(o, line);
   if (!next_word(&line, &keyword)) return THR_OK;
   if (thr_span_is(keyword, "v")) return read_vertex(o, line);
+  if (o->part_keyword && thr_span_is(keyword, o->part_keyword)) o->part++;
+  if (!thr_parts_has(&o->parts, o->part)) return THR_OK;
   if (thr_span_is(keyword, "l")) return read_polyline(o, line);
   if (thr_span_is(keyword, "f")) return read_face(o, line);
   if (thr_span_is(keyword, "curv")) return read_curve(o, keyword, line);
@@ -285,9 +309,10 @@ static thr_status mark_feet(obj *o)
 static thr_status parse(thr_draft *draft, thr_read_report *read_report, const char *text, size_t n, const char *name,
                         thr_err *err)
 {
-  obj o = {.d = draft, .report = read_report, .err = err};
+  obj o = {.d = draft, .report = read_report, .err = err, .parts = {.asked = draft->pick}, .part = -1};
   thr_span line;
-  thr_status st = thr_scan_start(&o.scan, text, n, name, err);
+  thr_status st = name_parts(&o, text, n, name);
+  if (!st) st = thr_scan_start(&o.scan, text, n, name, err);
   while (!st && thr_scan_line(&o.scan, &line)) {
     line = thr_span_trim(line);
     while (line.n && line.s[0] != '#' && line.s[line.n - 1] == '\\' && thr_scan_extend(&o.scan, &line)) {
@@ -300,6 +325,7 @@ static thr_status parse(thr_draft *draft, thr_read_report *read_report, const ch
   if (!st && draft->n_edges == 0)
     st = thr_fail(err, THR_EINPUT, "%s: no l, f or curv record; export lines or polylines%s%s", name,
                   read_report->skipped_records ? ", not " : "", read_report->skipped_records ? read_report->skipped_kind : "");
+  thr_parts_finish(&o.parts, read_report);
   thr_faces_destroy(&o.faces);
   free(o.corner);
   free(o.curve);

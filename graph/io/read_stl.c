@@ -2,6 +2,7 @@
 #include "graph/framework/frame.h"
 #include "graph/io/faces.h"
 #include "graph/io/formats.h"
+#include "graph/io/parts.h"
 #include "graph/io/sites.h"
 #include "graph/io/scan.h"
 #include "graph/status.h"
@@ -65,13 +66,28 @@ static thr_status read_vertex(const thr_scan *scan, thr_sites *c, thr_span rest,
   return thr_sites_add(c, xyz, err);
 }
 
-static thr_status read_text(thr_sites *c, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status name_parts(thr_parts *parts, const char *text, size_t n, const char *name, thr_err *err)
 {
   thr_scan scan;
   thr_span line;
+  int part;
   thr_status st = thr_scan_start(&scan, text, n, name, err);
+  while (!st && parts->asked && thr_scan_line(&scan, &line))
+    if (thr_span_is(thr_span_word(&line), "solid")) st = thr_parts_add(parts, thr_span_trim(line), &part, err);
+  return st ? st : thr_parts_choose(parts, name, "solid", "solids", err);
+}
+
+static thr_status read_text(thr_sites *c, thr_parts *parts, const char *text, size_t n, const char *name, thr_err *err)
+{
+  thr_scan scan;
+  thr_span line;
+  int part = -1;
+  thr_status st = name_parts(parts, text, n, name, err);
+  if (!st) st = thr_scan_start(&scan, text, n, name, err);
   while (!st && thr_scan_line(&scan, &line)) {
     thr_span word = thr_span_word(&line);
+    part += thr_span_is(word, "solid");
+    if (!thr_parts_has(parts, part)) continue;
     if (thr_span_is(word, "vertex")) st = read_vertex(&scan, c, line, err);
     if (!st && thr_span_is(word, "endfacet") && c->n % 3) st = thr_scan_fail(&scan, err, "a facet needs three vertices");
   }
@@ -100,10 +116,11 @@ static thr_status fill_draft(const thr_sites *c, thr_draft *draft, const char *n
 
 static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
 {
-  (void)report; /* nothing of such a file is skipped */
   thr_sites c = {0};
-  thr_status st = is_binary(text, n) ? read_binary(&c, text, n, name, err) : read_text(&c, text, n, name, err);
+  thr_parts solids = {.asked = draft->pick};
+  thr_status st = is_binary(text, n) ? read_binary(&c, text, n, name, err) : read_text(&c, &solids, text, n, name, err);
   if (!st) st = fill_draft(&c, draft, name, err);
+  thr_parts_finish(&solids, report);
   thr_sites_destroy(&c);
   return st;
 }

@@ -1,4 +1,4 @@
-#include "cli/args/suggestion.h"
+#include "graph/suggestion.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -28,7 +28,7 @@ static int distance_of(const char *a, const char *b)
   return row[n][m];
 }
 
-void cli_suggestion_try(cli_suggestion *suggestion, const char *candidate)
+void thr_suggestion_try(thr_suggestion *suggestion, const char *candidate)
 {
   size_t n = strlen(suggestion->word), m = strlen(candidate);
   int distance = strcasecmp(suggestion->word, candidate) == 0 ? 0 : distance_of(suggestion->word, candidate);
@@ -37,8 +37,8 @@ void cli_suggestion_try(cli_suggestion *suggestion, const char *candidate)
   suggestion->distance = distance;
 }
 
-void cli_suggestion_ask(const cli_suggestion *suggestion, char question[CLI_SUGGESTION_TEXT])
+void thr_suggestion_ask(const thr_suggestion *suggestion, char question[THR_SUGGESTION_TEXT])
 {
   question[0] = '\0';
-  if (suggestion->best) snprintf(question, CLI_SUGGESTION_TEXT, "; did you mean %.*s?", MOST, suggestion->best);
+  if (suggestion->best) snprintf(question, THR_SUGGESTION_TEXT, "; did you mean %.*s?", MOST, suggestion->best);
 }
