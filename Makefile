@@ -303,7 +303,7 @@ GOLDEN_JOBS := $(patsubst tests/%,run/$(BUILD)/%,$(wildcard tests/golden/*.case)
 $(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
 $(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
 run/library/install: $(PROGRAM) $(SHARED) $(STATIC) $(DIR)/thread.pc $(MAN_PAGES)
-$(GOLDEN_JOBS) run/readme run/examples run/web run/second/plans run/viewer/browser run/bench/smallest: $(PROGRAM)
+$(GOLDEN_JOBS) run/readme run/formats/mutants run/examples run/web run/second/plans run/viewer/browser run/bench/smallest: $(PROGRAM)
 run/second/json: $(DIR)/tests/second/dump_json
 run/$(BUILD)/memory: $(PROGRAM) $(DIR)/tests/memory/fail_malloc.so
 run/$(BUILD)/watchdog: $(PROGRAM) $(WATCHDOG)

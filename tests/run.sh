@@ -75,6 +75,7 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   viewer/page) viewer_page ;;
   bench/smallest) bench/run.py "$OUT/release/thread" --smallest ;;
   library/install) tests/library/run.sh "$OUT/release" "$OUT/library-test" ;;
+  formats/mutants) tests/formats/mutants.py "$OUT/release/thread" --each "$MUTANTS" ;;
   readme) tests/readme/run.sh "$OUT/release/thread" ;;
   examples) tests/examples/run.sh "$OUT/release/thread" ;;
   web) tests/web.sh "$OUT/release/thread" "$OUT/web" "$OUT/web-test" ;;
@@ -89,7 +90,7 @@ job() { # NAME
   : >"$log"
   spent=$( { time run "$name" "$log" 7>&-; } 2>&1) || code=$?
   case $name in
-  */golden/* | */memory | */watchdog | second/* | viewer/browser | library/* | readme | examples | web) counts=$(count_lines "$log" "$code") ;;
+  */golden/* | */memory | */watchdog | second/* | viewer/browser | library/* | readme | examples | web | formats/*) counts=$(count_lines "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0 0'; else counts='0 1 0'; fi ;;
   esac
@@ -119,13 +120,13 @@ fi
 # ---- which jobs ----
 
 tier=${1:-test}
-export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 FUZZ_RUNS=30000
-builds='release asan' tree='layers layers-self-test format bench/smallest library/install readme examples' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
+export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 MUTANTS=50 FUZZ_RUNS=30000
+builds='release asan' tree='layers layers-self-test format bench/smallest library/install readme examples formats/mutants' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
 rest) builds=asan SHARE_ASAN=3 tree='' programs='' whole='release/watchdog release/memory' FUZZ_RUNS=150000 ;;
-all) SHARE_ASAN=1 whole='release/watchdog release/memory web' FUZZ_RUNS=1000000 ;;
+all) SHARE_ASAN=1 whole='release/watchdog release/memory web' MUTANTS=2000 FUZZ_RUNS=1000000 ;;
 fuzz) builds='' tree='' programs='' FUZZ_RUNS=0 ;;
 *) echo "tests/run.sh: $tier is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
 esac
