@@ -71,6 +71,21 @@ completes() { # WANTED WORDS: bash completes the last of the words so
   [ "$(PATH=$usr/bin:$PATH bash -c '. "$1"; shift; COMP_WORDS=(thread "$@"); COMP_CWORD=$#; _thread; echo "${COMPREPLY[*]}"' - \
     "$usr/share/bash-completion/completions/thread" "$@" | tr '\n' ' ' | sed 's/ $//')" = "$wanted" ]
 }
+zsh_offers() { # WANTED WORDS: what the function hands to zsh, less what zsh leaves out since it begins otherwise than the last word
+  local wanted=$1 prefix=${*: -1}
+  shift
+  # shellcheck disable=SC2016
+  [ "$(PATH=$usr/bin:$PATH zsh -f -c '
+    fpath=("$1" $fpath); shift; autoload -Uz _thread
+    _describe() { print -l -- "${(@P)2}" }
+    _files() { print files }
+    ask() { local -a words; words=("$@"); local CURRENT=$#; _thread }
+    ask "$@"' - "$usr/share/zsh/site-functions" "$@" | sed -n "s/^\($prefix[^:]*\).*/\1/p" | tr '\n' ' ' | sed 's/ $//')" = "$wanted" ]
+}
+fish_offers() { # WANTED LINE
+  [ "$(PATH=$usr/bin:$PATH HOME=$out fish --no-config -c 'source $argv[1]; complete -C $argv[2]' "$usr/share/fish/vendor_completions.d/thread.fish" "$2" |
+    cut -f 1 | tr '\n' ' ' | sed 's/ $//')" = "$1" ]
+}
 
 version=$(sed -n 's/^VERSION := //p' Makefile)
 packaged() { # debian/ asks for the libraries that the Makefile asks for, and knows the same names
@@ -117,8 +132,17 @@ test_that 'bash completes values' completes 'tortuosity' plan --objective t
 test_that 'bash completes values after =' completes 'tube' plan --joint = t
 test_that 'bash completes values that the help explains below' completes 'steps steps.csv' draw -T st
 test_that 'bash leaves files to itself' completes '' check pl
-if command -v zsh >/dev/null; then test_that 'zsh reads its completion' zsh -n "$usr/share/zsh/site-functions/_thread"; fi
-if command -v fish >/dev/null; then test_that 'fish reads its completion' fish -n "$usr/share/fish/vendor_completions.d/thread.fish"; fi
+if command -v zsh >/dev/null; then
+  test_that 'zsh reads its completion' zsh -n "$usr/share/zsh/site-functions/_thread"
+  test_that 'zsh offers commands' zsh_offers 'check' thread ch
+  test_that 'zsh offers values' zsh_offers 'length tortuosity symmetry' thread plan x --objective ''
+  test_that 'zsh leaves files to itself' zsh_offers 'files' thread check ''
+fi
+if command -v fish >/dev/null; then
+  test_that 'fish reads its completion' fish -n "$usr/share/fish/vendor_completions.d/thread.fish"
+  test_that 'fish offers commands' fish_offers 'check' 'thread ch'
+  test_that 'fish offers values' fish_offers 'length tortuosity symmetry' 'thread plan x --objective '
+fi
 
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]
