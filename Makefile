@@ -381,6 +381,9 @@ $(DIR)/%.o: %.cpp $(DIR)/flags.list
 	@echo "  CXX   $@"
 	$(Q)$(COMPILER_CXX) -I. $(BULLET_CFLAGS) $(CPPFLAGS) $(THR_CXXFLAGS) $(STRICT) -MMD -MP -c -o $@ $<
 
+# dense work in long loops, which pays to be unrolled
+$(DIR)/lp/solver/normal.o: THR_CFLAGS += $(if $(filter release web,$(BUILD)),-O3)
+
 # the viewer's page, as it lies built in the tree, becomes bytes of the program
 $(DIR)/%.o: %.S %.html $(DIR)/flags.list
 	@mkdir -p $(@D)

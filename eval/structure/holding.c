@@ -24,6 +24,9 @@ enum { CORNERS = 4 };
 /* Tensions are capped at so many times the least one, until the bound closes: further apart, the solver loses the small ones. */
 enum { CAPS = 5 };
 static const double cap[CAPS] = {1e4, 1e6, 1e8, 1e10, 1e12};
+/* Beads from which on the solver's bounds need not be nearer to each other, relative. */
+enum { LARGE = 1000 };
+static const double ROUGH = 1e-4;
 /* A bound has closed if it is that near to a pull that holds, relative, and no contact closes faster. Where none does, by
  * rounding, the best of those that are near is taken. */
 static const double CLOSE = 1e-6, NEAR = 1e-3, STILL = 1e-12;
@@ -381,7 +384,7 @@ static thr_status solve(const structure *s, bool hands, const thr_limits *limits
   if (st) return st;
   out->x = thr_calloc((size_t)p.n_columns, sizeof *out->x);
   out->dual = thr_calloc((size_t)rows, sizeof *out->dual);
-  const thr_equations equations = {{rows, p.n_columns, p.start, p.row, p.value}, p.rhs, p.cost};
+  const thr_equations equations = {{rows, p.n_columns, p.start, p.row, p.value}, p.rhs, p.cost, s->n_bodies > LARGE ? ROUGH : 0};
   thr_interior found = {.x = out->x, .dual = out->dual};
   st = out->x && out->dual ? thr_interior_solve(&equations, limits, &found, err) : thr_nomem(err);
   out->outcome = found.outcome;
@@ -630,6 +633,11 @@ static thr_status pull_of(const task *t, double most, bool merged, double widen,
   return st;
 }
 
+static double close_enough(const task *t)
+{
+  return t->b->n_beads > LARGE ? 2 * ROUGH : CLOSE;
+}
+
 static bool closed(const answer *a, double within)
 {
   return a->gap < within && a->residual < STILL;
@@ -688,11 +696,11 @@ static thr_status check_feasible(const task *t, thr_err *err)
 static thr_status lower_at(const task *t, double most, answer *a, answer *best, double *best_most, thr_err *err)
 {
   thr_status st = pull_of(t, most, false, widening(t->b), a, err);
-  if (st || closed(a, CLOSE)) return st;
+  if (st || closed(a, close_enough(t))) return st;
   keep_better(t, a, most, best, best_most);
   if (t->largest <= most || !(a->pull > 0) || !isfinite(a->pull)) return THR_OK;
   st = pull_of(t, most, true, widening(t->b), a, err);
-  if (!st && !closed(a, CLOSE)) keep_better(t, a, most, best, best_most);
+  if (!st && !closed(a, close_enough(t))) keep_better(t, a, most, best, best_most);
   return st;
 }
 
@@ -705,7 +713,7 @@ static thr_status lower_pull_in(const task *t, double *most, answer *a, thr_err 
   for (int i = 0; i < CAPS; i++) {
     *most = t->least * cap[i];
     st = lower_at(t, *most, a, &best, &best_most, err);
-    if (st || (a->velocity && closed(a, CLOSE))) goto done;
+    if (st || (a->velocity && closed(a, close_enough(t)))) goto done;
     if (i == 0 && !best.velocity && !t->carries && (st = check_feasible(t, err))) goto done;
     if (t->largest <= *most) break;
   }
@@ -728,7 +736,7 @@ done:
 static thr_status lower_pull(task *t, double *most, answer *a, thr_err *err)
 {
   static const double unit[] = {1, 0.1, 10};
-  const int tries = t->b->n_beads > 1000 ? 1 : 3;
+  const int tries = t->b->n_beads > LARGE ? 1 : 3;
   thr_err why = {0};
   thr_status st = THR_ESOLVER;
   for (int i = 0; i < tries && st == THR_ESOLVER; i++) {

@@ -8,7 +8,8 @@
 #include <string.h>
 
 enum { MOST_ITERATIONS = 200, PATIENCE = 6, MOST_CORRECTORS = 3 };
-static const double GOAL = 1e-8, NOTHING = 1e-6; /* an objective below that is 0 */
+static const double GOAL = 1e-8, MET = 1e-6 /* the equations, however rough the goal */,
+                    NOTHING = 1e-6; /* an objective below that is 0 */
 
 typedef struct {
   double *x, *y, *z;
@@ -18,11 +19,12 @@ typedef struct {
   const thr_equations *e;
   thr_normal *normal;
   int m, n;
+  double goal;  /* relative error to end at */
   double *room; /* all arrays below; owned */
   point at, step, trial;
   double *p, *q, *r;
-  double *weight;                /* x / z */
-  double *columns, *rows, *rise; /* scratch */
+  double *weight;                      /* x / z */
+  double *columns, *rows, *rise, *way; /* scratch */
 } state;
 
 static void carve(double **room, double **array, int n)
@@ -34,7 +36,7 @@ static void carve(double **room, double **array, int n)
 static thr_status state_make(state *s, thr_err *err)
 {
   size_t m = (size_t)s->m, n = (size_t)s->n;
-  double *room = s->room = thr_calloc(6 * m + 10 * n, sizeof *room);
+  double *room = s->room = thr_calloc(7 * m + 10 * n, sizeof *room);
   if (!room) return thr_nomem(err);
   point *points[] = {&s->at, &s->step, &s->trial};
   for (int i = 0; i < 3; i++) {
@@ -49,6 +51,7 @@ static thr_status state_make(state *s, thr_err *err)
   carve(&room, &s->p, s->m);
   carve(&room, &s->rows, s->m);
   carve(&room, &s->rise, s->m);
+  carve(&room, &s->way, s->m);
   return thr_normal_create(&s->normal, &s->e->a, err);
 }
 
@@ -68,30 +71,57 @@ static double product(const double *a, const double *b, int n)
   return sum;
 }
 
-/* Step that answers p, q, r: A dx = p, A^T dy + dz = q, z dx + x dz = r. Near the optimum x / z magnifies the rounding of dz;
- * what A dx then lacks is made up for by smaller and smaller steps. */
+/* What A d->x lacks of p, into s->rows. */
+static double lack(state *s, const double *p, const point *d)
+{
+  thr_columns_times(&s->e->a, d->x, s->rows);
+  for (int i = 0; i < s->m; i++)
+    s->rows[i] = (p ? p[i] : 0) - s->rows[i];
+  return largest(s->rows, s->m);
+}
+
+/* Moves d along s->way, a direction of y, by the step that is the best in the norm of the equations; now: what the factors say of
+ * s->rows times s->rows. False if rounding leaves no such step. */
+static bool move_along(state *s, double now, point *d)
+{
+  double power = 0;
+  thr_columns_transposed(&s->e->a, s->way, s->columns);
+  for (int j = 0; j < s->n; j++)
+    power += s->weight[j] * s->columns[j] * s->columns[j];
+  if (!(power > 0) || !(now > 0)) return false;
+  const double step = now / power;
+  for (int j = 0; j < s->n; j++) {
+    d->z[j] -= step * s->columns[j];
+    d->x[j] += step * s->weight[j] * s->columns[j];
+  }
+  for (int i = 0; i < s->m; i++)
+    d->y[i] += step * s->way[i];
+  return true;
+}
+
+/* Step that answers p, q, r: A dx = p, A^T dy + dz = q, z dx + x dz = r. Near the optimum x / z spans twenty powers of ten and
+ * the factors are rough: conjugate gradients with them as the preconditioner make up for what A dx lacks (M. R. Hestenes &
+ * E. Stiefel, 1952), as far as the next point needs it. */
 static void newton(state *s, const double *p, const double *q, const double *r, point *d)
 {
-  enum { ROUNDS = 3 };
+  enum { ROUNDS = 8 };
   const point *at = &s->at;
-  const thr_columns *a = &s->e->a;
+  const double enough = fmax(0.01 * s->goal * largest(s->e->rhs, s->m), 0.1 * largest(s->p, s->m));
   memset(d->y, 0, (size_t)s->m * sizeof *d->y);
+  memset(s->way, 0, (size_t)s->m * sizeof *s->way);
   for (int j = 0; j < s->n; j++) {
     d->z[j] = q ? q[j] : 0;
     d->x[j] = (r[j] - at->x[j] * d->z[j]) / at->z[j];
   }
+  double before = INFINITY;
+  lack(s, p, d);
   for (int round = 0; round < ROUNDS; round++) {
-    thr_columns_times(a, d->x, s->rows);
-    for (int i = 0; i < s->m; i++)
-      s->rows[i] = (p ? p[i] : 0) - s->rows[i];
     thr_normal_solve(s->normal, s->rows, s->rise);
-    thr_columns_transposed(a, s->rise, s->columns);
-    for (int j = 0; j < s->n; j++) {
-      d->z[j] -= s->columns[j];
-      d->x[j] += s->weight[j] * s->columns[j];
-    }
+    const double now = product(s->rows, s->rise, s->m), share = now / before;
+    before = now;
     for (int i = 0; i < s->m; i++)
-      d->y[i] += s->rise[i];
+      s->way[i] = s->rise[i] + share * s->way[i];
+    if (!move_along(s, now, d) || lack(s, p, d) <= enough) return;
   }
 }
 
@@ -155,7 +185,7 @@ static quality measure(state *s)
   k.missing[0] = largest(s->p, s->m) / (DBL_MIN + largest(equations->rhs, s->m));
   k.missing[1] = largest(s->q, s->n) / (DBL_MIN + largest(equations->cost, s->n));
   double gap = fabs(k.primal - k.dual) / (NOTHING + fmax(fabs(k.primal), fabs(k.dual)));
-  k.error = fmax(gap, fmax(k.missing[0], k.missing[1]));
+  k.error = fmax(gap, fmax(k.missing[0] * fmax(1, s->goal / MET), k.missing[1]));
   return k;
 }
 
@@ -248,7 +278,7 @@ static void run(state *s, const thr_limits *limits, thr_interior *out)
     quality k = measure(s);
     if (!isfinite(k.error)) return;
     since = keep(s, &k, &bound, out) ? 0 : since + 1;
-    if (k.error < GOAL) {
+    if (k.error < s->goal) {
       out->outcome = THR_LP_OPTIMAL;
       return;
     }
@@ -268,7 +298,10 @@ static void run(state *s, const thr_limits *limits, thr_interior *out)
 
 thr_status thr_interior_solve(const thr_equations *equations, const thr_limits *limits, thr_interior *out, thr_err *err)
 {
-  state s = {.e = equations, .m = equations->a.n_rows, .n = equations->a.n_columns};
+  state s = {.e = equations,
+             .m = equations->a.n_rows,
+             .n = equations->a.n_columns,
+             .goal = equations->goal > 0 ? equations->goal : GOAL};
   thr_status st = state_make(&s, err);
   if (!st) run(&s, limits, out);
   thr_normal_destroy(s.normal);

@@ -1,22 +1,38 @@
-/* Least degree by explicit elimination: what is left of a row's neighbours when it goes is its column of the factor. */
+/* Factors by blocks of columns with the same rows below them: dense work, which a processor does fastest (supernodal, looking
+ * left: a block takes off what the blocks before it bring, when its turn comes). */
 #include "lp/solver/normal.h"
 #include "graph/scratch.h"
-#include "graph/sort.h"
+#include "lp/solver/factor_order.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Rows whose pivot is that small a part of what it was before others were taken off depend on others, at the first weights: they
+ * are left out. At all weights the diagonal gets LEAST of itself more: what is smaller is rounding, and would leave pivots of any
+ * sign. Callers improve the solution. */
+static const double DEPENDS = 1e-12, LEAST = 1e-15;
+
 struct thr_normal {
   thr_columns a;
-  int *place;              /* [n_rows] of a row in the order */
-  int *start, *row;        /* the factor's columns below the diagonal, rows by place, ascending */
-  double *value, *pivot;   /* pivot: its diagonal */
-  int *by_start, *by_item; /* entries of A by place of their row: indices into a.row */
-  int *owner;              /* [entries of A] column */
-  int *head, *next, *at;   /* columns that update the next column: lists, and where in them */
-  double *work;            /* [n_rows] */
-  thr_scratch own;         /* the arrays */
+  thr_factor_order order;
+  int *place;            /* [entries of A] of its row; ascending within a column */
+  double *entry;         /* values in that order */
+  int *by_start, *by_at; /* by place: where in place[] its entries stand */
+  int *ends;             /* [entries of A] end of the column that the entry by_at is in */
+  int *owner;            /* and that column */
+  size_t *panel;         /* [n_blocks] where its columns begin in value */
+  double *value;         /* each column from the block's first row down, the upper part of it unused */
+  bool *depends;         /* [n_rows] on the rows before it, by place */
+  bool known;            /* which do */
+  double *whole;         /* [n_rows] diagonal before anything was taken off */
+  int *block_of;         /* [n_rows] by place */
+  int *head, *next;      /* blocks that bring something to a block: lists .. */
+  size_t *at;            /* .. and where in order.below their next rows begin */
+  int *where;            /* [n_rows] row of a place in the current block's panel */
+  double *work;          /* [n_rows] */
+  double *update;        /* [most rows below a block] */
+  thr_scratch own;       /* the arrays */
 };
 
 void thr_columns_times(const thr_columns *a, const double *x, double *y)
@@ -37,154 +53,76 @@ void thr_columns_transposed(const thr_columns *a, const double *y, double *x)
   }
 }
 
-/* ---- order ---- */
-
-typedef struct {
-  int count, *item; /* ascending; owned */
-} set;
-
-/* Neighbours of every row: the rows that share a column with it. by_start, by_item in order of rows still. */
-static thr_status neighbours(const thr_normal *normal, set *row, thr_err *err)
-{
-  const thr_columns *a = &normal->a;
-  int m = a->n_rows, *seen = thr_calloc((size_t)m, sizeof *seen), *list = thr_calloc((size_t)m, sizeof *list);
-  thr_status st = seen && list ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < m && !st; i++) {
-    int count = 0;
-    seen[i] = i + 1;
-    for (int k = normal->by_start[i]; k < normal->by_start[i + 1]; k++) {
-      int j = normal->owner[normal->by_item[k]];
-      for (int l = a->start[j]; l < a->start[j + 1]; l++)
-        if (seen[a->row[l]] != i + 1) seen[a->row[l]] = i + 1, list[count++] = a->row[l];
-    }
-    thr_sort_ints(list, (size_t)count);
-    row[i].item = thr_calloc((size_t)count, sizeof *list);
-    if (!row[i].item) st = thr_nomem(err);
-    if (!st) memcpy(row[i].item, list, (size_t)count * sizeof *list);
-    row[i].count = count;
-  }
-  free(seen);
-  free(list);
-  return st;
-}
-
-/* u's neighbours become those of either, without both. room[] holds them meanwhile. */
-static thr_status merge(set *row, int u, int v, int *room, thr_err *err)
-{
-  const set *a = &row[u], *b = &row[v];
-  int n = 0, i = 0, k = 0;
-  while (i < a->count || k < b->count) {
-    int next = k == b->count || (i < a->count && a->item[i] <= b->item[k]) ? a->item[i] : b->item[k];
-    if (i < a->count && a->item[i] == next) i++;
-    if (k < b->count && b->item[k] == next) k++;
-    if (next != u && next != v) room[n++] = next;
-  }
-  if (n > a->count) {
-    int *grown = thr_realloc(row[u].item, (size_t)n, sizeof *grown);
-    if (!grown) return thr_nomem(err);
-    row[u].item = grown;
-  }
-  memcpy(row[u].item, room, (size_t)n * sizeof *room);
-  row[u].count = n;
-  return THR_OK;
-}
-
-/* Takes the rows out by least degree, the lowest first among equals. */
-static thr_status eliminate(thr_normal *normal, set *row, int *order, thr_err *err)
-{
-  int m = normal->a.n_rows, *room = thr_calloc((size_t)m, sizeof *room);
-  thr_status st = room ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < m; i++)
-    normal->place[i] = -1;
-  for (int step = 0; step < m && !st; step++) {
-    int v = -1;
-    for (int i = 0; i < m; i++)
-      if (normal->place[i] < 0 && (v < 0 || row[i].count < row[v].count)) v = i;
-    normal->place[v] = step;
-    order[step] = v;
-    for (int k = 0; k < row[v].count && !st; k++)
-      st = merge(row, row[v].item[k], v, room, err);
-  }
-  free(room);
-  return st;
-}
-
 /* ---- making ---- */
 
-/* Entries of A by row, or by the row's place once there is one. */
-static void sort_entries(thr_normal *normal, bool by_place)
+static int width(const thr_factor_order *o, int block)
 {
-  const thr_columns *a = &normal->a;
-  int entries = a->start[a->n_columns];
-  memset(normal->by_start, 0, ((size_t)a->n_rows + 2) * sizeof *normal->by_start);
-  for (int k = 0; k < entries; k++)
-    normal->by_start[(by_place ? normal->place[a->row[k]] : a->row[k]) + 2]++;
-  for (int i = 2; i < a->n_rows + 2; i++)
-    normal->by_start[i] += normal->by_start[i - 1];
-  for (int k = 0; k < entries; k++)
-    normal->by_item[normal->by_start[(by_place ? normal->place[a->row[k]] : a->row[k]) + 1]++] = k;
+  return o->first[block + 1] - o->first[block];
 }
 
-static thr_status make_factor(thr_normal *normal, const set *row, const int *order, thr_err *err)
+/* Rows of a block: its own and those below. */
+static size_t height(const thr_factor_order *o, int block)
 {
-  int m = normal->a.n_rows;
-  size_t entries = 0;
+  return (size_t)width(o, block) + (o->end[block + 1] - o->end[block]);
+}
+
+/* The columns of A with rows by place, ascending, and these by place. */
+static void sort_entries(thr_normal *normal)
+{
+  const thr_columns *a = &normal->a;
+  const int m = a->n_rows;
+  for (int j = 0; j < a->n_columns; j++)
+    for (int k = a->start[j]; k < a->start[j + 1]; k++) {
+      const int place = normal->order.place[a->row[k]];
+      int at = k;
+      for (; at > a->start[j] && normal->place[at - 1] > place; at--)
+        normal->place[at] = normal->place[at - 1], normal->entry[at] = normal->entry[at - 1];
+      normal->place[at] = place;
+      normal->entry[at] = a->value[k];
+      normal->by_start[place + 1]++;
+    }
   for (int i = 0; i < m; i++)
-    entries += (size_t)row[i].count;
-  if (entries > INT32_MAX / 2)
-    return thr_fail(err, THR_EINPUT, "the equations are too many: their factors need %zu numbers", entries);
-  normal->row = thr_scratch_array(&normal->own, entries, sizeof *normal->row);
-  normal->value = thr_scratch_array(&normal->own, entries, sizeof *normal->value);
-  if (thr_scratch_check(&normal->own, err)) return THR_ENOMEM;
-  for (int s = 0; s < m; s++) {
-    const set *from = &row[order[s]];
-    int *to = normal->row + normal->start[s];
-    normal->start[s + 1] = normal->start[s] + from->count;
-    for (int k = 0; k < from->count; k++)
-      to[k] = normal->place[from->item[k]];
-    thr_sort_ints(to, (size_t)from->count);
-  }
-  return THR_OK;
+    normal->by_start[i + 1] += normal->by_start[i];
+  for (int j = 0; j < a->n_columns; j++)
+    for (int k = a->start[j]; k < a->start[j + 1]; k++) {
+      const int to = normal->by_start[normal->place[k]]++;
+      normal->by_at[to] = k;
+      normal->ends[to] = a->start[j + 1];
+      normal->owner[to] = j;
+    }
+  for (int i = m; i > 0; i--)
+    normal->by_start[i] = normal->by_start[i - 1];
+  normal->by_start[0] = 0;
 }
 
 static thr_status allocate(thr_normal *normal, thr_err *err)
 {
-  size_t m = (size_t)normal->a.n_rows, entries = (size_t)normal->a.start[normal->a.n_columns];
-  normal->place = thr_scratch_array(&normal->own, m, sizeof *normal->place);
-  normal->start = thr_scratch_array(&normal->own, m + 1, sizeof *normal->start);
-  normal->pivot = thr_scratch_array(&normal->own, m, sizeof *normal->pivot);
-  normal->by_start = thr_scratch_array(&normal->own, m + 2, sizeof *normal->by_start);
-  normal->by_item = thr_scratch_array(&normal->own, entries, sizeof *normal->by_item);
-  normal->owner = thr_scratch_array(&normal->own, entries, sizeof *normal->owner);
-  normal->head = thr_scratch_array(&normal->own, m, sizeof *normal->head);
-  normal->next = thr_scratch_array(&normal->own, m, sizeof *normal->next);
-  normal->at = thr_scratch_array(&normal->own, m, sizeof *normal->at);
-  normal->work = thr_scratch_array(&normal->own, m, sizeof *normal->work);
-  if (thr_scratch_check(&normal->own, err)) return THR_ENOMEM;
-  for (int j = 0; j < normal->a.n_columns; j++)
-    for (int k = normal->a.start[j]; k < normal->a.start[j + 1]; k++)
-      normal->owner[k] = j;
-  return THR_OK;
-}
-
-static thr_status find_factor(thr_normal *normal, thr_err *err)
-{
-  size_t m = (size_t)normal->a.n_rows;
-  set *row = thr_calloc(m, sizeof *row);
-  int *order = thr_calloc(m, sizeof *order);
-  thr_status st = row && order ? THR_OK : thr_nomem(err);
-  if (!st) {
-    sort_entries(normal, false);
-    st = neighbours(normal, row, err);
+  const thr_factor_order *o = &normal->order;
+  const size_t m = (size_t)o->n_rows, n = (size_t)o->n_blocks, entries = (size_t)normal->a.start[normal->a.n_columns];
+  size_t values = 0, update = 0;
+  normal->panel = thr_scratch_array(&normal->own, n, sizeof *normal->panel);
+  for (int b = 0; b < o->n_blocks && normal->panel; b++) {
+    normal->panel[b] = values;
+    values += height(o, b) * (size_t)width(o, b);
+    if (o->end[b + 1] - o->end[b] > update) update = o->end[b + 1] - o->end[b];
   }
-  if (!st) st = eliminate(normal, row, order, err);
-  if (!st) st = make_factor(normal, row, order, err);
-  if (!st) sort_entries(normal, true);
-  for (size_t i = 0; i < m && row; i++)
-    free(row[i].item);
-  free(row);
-  free(order);
-  return st;
+  normal->value = thr_scratch_array(&normal->own, values, sizeof *normal->value);
+  normal->update = thr_scratch_array(&normal->own, update, sizeof *normal->update);
+  normal->place = thr_scratch_array(&normal->own, entries, sizeof *normal->place);
+  normal->entry = thr_scratch_array(&normal->own, entries, sizeof *normal->entry);
+  normal->by_start = thr_scratch_array(&normal->own, m + 1, sizeof *normal->by_start);
+  normal->by_at = thr_scratch_array(&normal->own, entries, sizeof *normal->by_at);
+  normal->ends = thr_scratch_array(&normal->own, entries, sizeof *normal->ends);
+  normal->owner = thr_scratch_array(&normal->own, entries, sizeof *normal->owner);
+  normal->depends = thr_scratch_array(&normal->own, m, sizeof *normal->depends);
+  normal->whole = thr_scratch_array(&normal->own, m, sizeof *normal->whole);
+  normal->head = thr_scratch_array(&normal->own, n, sizeof *normal->head);
+  normal->next = thr_scratch_array(&normal->own, n, sizeof *normal->next);
+  normal->at = thr_scratch_array(&normal->own, n, sizeof *normal->at);
+  normal->where = thr_scratch_array(&normal->own, m, sizeof *normal->where);
+  normal->work = thr_scratch_array(&normal->own, m, sizeof *normal->work);
+  normal->block_of = thr_scratch_array(&normal->own, m, sizeof *normal->block_of);
+  return thr_scratch_check(&normal->own, err);
 }
 
 thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, thr_err *err)
@@ -193,12 +131,16 @@ thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, thr_err 
   thr_normal *made = thr_calloc(1, sizeof *made);
   if (!made) return thr_nomem(err);
   made->a = *a;
-  thr_status st = allocate(made, err);
-  if (!st) st = find_factor(made, err);
+  thr_status st = thr_factor_order_make(&made->order, a, err);
+  if (!st) st = allocate(made, err);
   if (st) {
     thr_normal_destroy(made);
     return st;
   }
+  sort_entries(made);
+  for (int b = 0; b < made->order.n_blocks; b++)
+    for (int i = made->order.first[b]; i < made->order.first[b + 1]; i++)
+      made->block_of[i] = b;
   *normal = made;
   return THR_OK;
 }
@@ -206,77 +148,186 @@ thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, thr_err 
 void thr_normal_destroy(thr_normal *normal)
 {
   if (!normal) return;
+  thr_factor_order_destroy(&normal->order);
   thr_scratch_free(&normal->own);
   free(normal);
 }
 
-/* ---- factors ---- */
+/* ---- dense work, columns of `rows` numbers each ---- */
 
-/* Column i of A D A^T from the diagonal down, into work. */
-static void load_column(thr_normal *normal, const double *weights, int i)
+/* to -= sum over k of from[k] x factor[k]; n_k columns of from, `apart` numbers apart, as are the factors. */
+static void subtract(double *restrict to, const double *restrict from, const double *factor, size_t apart, int n_k, size_t n)
 {
-  const thr_columns *a = &normal->a;
-  for (int k = normal->by_start[i]; k < normal->by_start[i + 1]; k++) {
-    int j = normal->owner[normal->by_item[k]];
-    double factor = a->value[normal->by_item[k]] * weights[j];
-    for (int l = a->start[j]; l < a->start[j + 1]; l++)
-      if (normal->place[a->row[l]] >= i) normal->work[normal->place[a->row[l]]] += factor * a->value[l];
+  int k = 0;
+  for (; k + 4 <= n_k; k += 4, from += 4 * apart, factor += 4 * apart) {
+    const double *f1 = from + apart, *f2 = f1 + apart, *f3 = f2 + apart;
+    const double c0 = factor[0], c1 = factor[apart], c2 = factor[2 * apart], c3 = factor[3 * apart];
+    for (size_t i = 0; i < n; i++)
+      to[i] -= from[i] * c0 + f1[i] * c1 + f2[i] * c2 + f3[i] * c3;
+  }
+  for (; k < n_k; k++, from += apart, factor += apart)
+    for (size_t i = 0; i < n; i++)
+      to[i] -= from[i] * factor[0];
+}
+
+/* The block's own columns: Cholesky, and the rows below by it. */
+static void factor_panel(thr_normal *normal, int block)
+{
+  const int n = width(&normal->order, block), first = normal->order.first[block];
+  const size_t rows = height(&normal->order, block);
+  double *panel = normal->value + normal->panel[block];
+  for (int j = 0; j < n; j++) {
+    double *column = panel + (size_t)j * rows, pivot, whole = normal->whole[first + j];
+    subtract(column + j, panel + j, panel + j, rows, j, rows - (size_t)j);
+    if (!normal->known) normal->depends[first + j] = !(column[j] > DEPENDS * whole);
+    pivot = normal->depends[first + j] ? 0 : sqrt(fmax(column[j], LEAST * whole));
+    column[j] = pivot;
+    for (size_t i = (size_t)j + 1; i < rows; i++)
+      column[i] = pivot > 0 ? column[i] / pivot : 0;
   }
 }
 
-/* Column k waits for the row of its next entry. */
-static void enlist(thr_normal *normal, int k)
+/* ---- factors ---- */
+
+/* The block's columns of A D A^T from the diagonal down. */
+static void load_panel(thr_normal *normal, const double *weights, int block)
 {
-  if (normal->at[k] == normal->start[k + 1]) return;
-  int i = normal->row[normal->at[k]];
-  normal->next[k] = normal->head[i];
-  normal->head[i] = k;
+  const size_t rows = height(&normal->order, block);
+  const int first = normal->order.first[block], n = width(&normal->order, block);
+  double *panel = normal->value + normal->panel[block];
+  memset(panel, 0, rows * (size_t)n * sizeof *panel);
+  for (int i = 0; i < n; i++) {
+    double *column = panel + (size_t)i * rows;
+    for (int k = normal->by_start[first + i]; k < normal->by_start[first + i + 1]; k++) {
+      const int at = normal->by_at[k];
+      const double factor = normal->entry[at] * weights[normal->owner[k]];
+      for (int l = at; l < normal->ends[k]; l++)
+        column[normal->where[normal->place[l]]] += factor * normal->entry[l];
+    }
+    column[i] += LEAST * normal->whole[first + i];
+  }
+}
+
+/* The block waits for the one that its next row belongs to. */
+static void enlist(thr_normal *normal, int block)
+{
+  if (normal->at[block] == normal->order.end[block + 1]) return;
+  const int to = normal->block_of[normal->order.below[normal->at[block]]];
+  normal->next[block] = normal->head[to];
+  normal->head[to] = block;
+}
+
+/* Takes off what the block `from` brings to `to`, and moves on to its next rows. */
+static void bring(thr_normal *normal, int from, int to)
+{
+  const thr_factor_order *o = &normal->order;
+  const size_t rows = height(o, from), rows_to = height(o, to), begin = normal->at[from], end = o->end[from + 1];
+  const size_t above = (size_t)width(o, from) + (begin - o->end[from]), n = end - begin;
+  const double *panel = normal->value + normal->panel[from] + above;
+  size_t columns = 0;
+  while (begin + columns < end && o->below[begin + columns] < o->first[to + 1])
+    columns++;
+  for (size_t c = 0; c < columns; c++) {
+    double *sum = normal->update;
+    memset(sum, 0, (n - c) * sizeof *sum);
+    subtract(sum, panel + c, panel + c, rows, width(o, from), n - c);
+    double *column = normal->value + normal->panel[to] + (size_t)(o->below[begin + c] - o->first[to]) * rows_to;
+    for (size_t i = c; i < n; i++)
+      column[normal->where[o->below[begin + i]]] += sum[i - c];
+  }
+  normal->at[from] = begin + columns;
+}
+
+/* The diagonal of A D A^T. */
+static void set_diagonal(thr_normal *normal, const double *weights)
+{
+  const thr_columns *a = &normal->a;
+  memset(normal->whole, 0, (size_t)a->n_rows * sizeof *normal->whole);
+  for (int j = 0; j < a->n_columns; j++)
+    for (int k = a->start[j]; k < a->start[j + 1]; k++)
+      normal->whole[normal->place[k]] += weights[j] * normal->entry[k] * normal->entry[k];
 }
 
 void thr_normal_factor(thr_normal *normal, const double *weights)
 {
-  int m = normal->a.n_rows;
-  for (int i = 0; i < m; i++)
-    normal->head[i] = -1, normal->work[i] = 0;
-  for (int i = 0; i < m; i++) {
-    load_column(normal, weights, i);
-    double whole = normal->work[i];
-    for (int k = normal->head[i], after; k >= 0; k = after) {
-      after = normal->next[k];
-      double factor = normal->value[normal->at[k]];
-      for (int l = normal->at[k]; l < normal->start[k + 1]; l++)
-        normal->work[normal->row[l]] -= factor * normal->value[l];
-      normal->at[k]++;
-      enlist(normal, k);
+  const thr_factor_order *o = &normal->order;
+  set_diagonal(normal, weights);
+  for (int b = 0; b < o->n_blocks; b++)
+    normal->head[b] = -1;
+  for (int b = 0; b < o->n_blocks; b++) {
+    for (int i = o->first[b]; i < o->first[b + 1]; i++)
+      normal->where[i] = i - o->first[b];
+    for (size_t i = o->end[b]; i < o->end[b + 1]; i++)
+      normal->where[o->below[i]] = width(o, b) + (int)(i - o->end[b]);
+    load_panel(normal, weights, b);
+    for (int from = normal->head[b], after; from >= 0; from = after) {
+      after = normal->next[from];
+      bring(normal, from, b);
+      enlist(normal, from);
     }
-    bool depends = !(normal->work[i] > 1e-14 * whole);
-    normal->pivot[i] = depends ? 0 : sqrt(normal->work[i]);
-    normal->work[i] = 0;
-    for (int l = normal->start[i]; l < normal->start[i + 1]; l++) {
-      normal->value[l] = depends ? 0 : normal->work[normal->row[l]] / normal->pivot[i];
-      normal->work[normal->row[l]] = 0;
+    factor_panel(normal, b);
+    normal->at[b] = o->end[b];
+    enlist(normal, b);
+  }
+  normal->known = true;
+}
+
+/* w becomes L^-1 w, block by block. */
+static void solve_down(const thr_normal *normal, double *w)
+{
+  const thr_factor_order *o = &normal->order;
+  for (int b = 0; b < o->n_blocks; b++) {
+    const int n = width(o, b);
+    const size_t rows = height(o, b), below = rows - (size_t)n;
+    const double *column = normal->value + normal->panel[b];
+    double *own = w + o->first[b], *sum = normal->update;
+    memset(sum, 0, below * sizeof *sum);
+    for (int j = 0; j < n; j++, column += rows) {
+      own[j] = column[j] > 0 ? own[j] / column[j] : 0;
+      for (int i = j + 1; i < n; i++)
+        own[i] -= column[i] * own[j];
+      for (size_t i = 0; i < below; i++)
+        sum[i] += column[(size_t)n + i] * own[j];
     }
-    normal->at[i] = normal->start[i];
-    enlist(normal, i);
+    for (size_t i = 0; i < below; i++)
+      w[o->below[o->end[b] + i]] -= sum[i];
+  }
+}
+
+/* w becomes L^-T w. */
+static void solve_up(const thr_normal *normal, double *w)
+{
+  const thr_factor_order *o = &normal->order;
+  for (int b = o->n_blocks - 1; b >= 0; b--) {
+    const int n = width(o, b);
+    const size_t rows = height(o, b), below = rows - (size_t)n;
+    double *own = w + o->first[b], *after = normal->update;
+    for (size_t i = 0; i < below; i++)
+      after[i] = w[o->below[o->end[b] + i]];
+    for (int j = n - 1; j >= 0; j--) {
+      const double *column = normal->value + normal->panel[b] + (size_t)j * rows;
+      double sum[4] = {own[j]};
+      size_t i = 0;
+      for (int k = j + 1; k < n; k++)
+        sum[0] -= column[k] * own[k];
+      for (; i + 4 <= below; i += 4)
+        for (int k = 0; k < 4; k++)
+          sum[k] -= column[(size_t)n + i + (size_t)k] * after[i + (size_t)k];
+      for (; i < below; i++)
+        sum[0] -= column[(size_t)n + i] * after[i];
+      const double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+      own[j] = column[j] > 0 ? all / column[j] : 0;
+    }
   }
 }
 
 void thr_normal_solve(thr_normal *normal, const double *r, double *y)
 {
-  int m = normal->a.n_rows;
-  double *w = normal->work;
+  const int m = normal->a.n_rows, *place = normal->order.place;
   for (int i = 0; i < m; i++)
-    w[normal->place[i]] = r[i];
-  for (int i = 0; i < m; i++) {
-    w[i] = normal->pivot[i] > 0 ? w[i] / normal->pivot[i] : 0;
-    for (int l = normal->start[i]; l < normal->start[i + 1]; l++)
-      w[normal->row[l]] -= normal->value[l] * w[i];
-  }
-  for (int i = m - 1; i >= 0; i--) {
-    for (int l = normal->start[i]; l < normal->start[i + 1]; l++)
-      w[i] -= normal->value[l] * w[normal->row[l]];
-    w[i] = normal->pivot[i] > 0 ? w[i] / normal->pivot[i] : 0;
-  }
+    normal->work[place[i]] = r[i];
+  solve_down(normal, normal->work);
+  solve_up(normal, normal->work);
   for (int i = 0; i < m; i++)
-    y[i] = w[normal->place[i]];
+    y[i] = normal->work[place[i]];
 }

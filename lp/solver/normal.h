@@ -1,9 +1,9 @@
 /* Normal equations (A D A^T) y = r of a sparse matrix A and a positive diagonal D: what an interior point method solves at every
- * step. Sparse Cholesky factors in an order of least degree (W. F. Tinney & J. W. Walker 1967), found once.
+ * step. Sparse Cholesky factors in an order found once (lp/solver/factor_order.h).
  *
- * A D A^T = L L^T; L y' = r, then L^T y = y'. A row that depends on others gives a pivot of 0, which is skipped. For the sake of
- * such rows the factors are not CHOLMOD's, which can raise a pivot that is rounding but cannot leave its row out: with pivots
- * raised to 1e-30 .. 1e-12 the bounds of the holding pull of domes of 20 x 20 beads stay a tenth apart or are not found.
+ * A D A^T = L L^T; L y' = r, then L^T y = y'. The factors are the program's own and not CHOLMOD's: the same digits on every
+ * machine and in a browser, dense work that does not wait for a fast BLAS, and rows that depend on others are left out. They are
+ * those of A D A^T with a little more on the diagonal.
  *
  * Example: A = (1 1), D = diag(2, 3), r = 10: 5 y = 10, y = 2. */
 #ifndef THR_NORMAL_H
@@ -24,7 +24,8 @@ typedef struct thr_normal thr_normal;
 thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, thr_err *err) THR_MUST_CHECK;
 void thr_normal_destroy(thr_normal *normal);
 
-/* Factors for weights[n_columns] > 0. Rows that depend on others get no part in the solution. */
+/* Factors for weights[n_columns] > 0. The first ones, which must be near each other, tell which rows depend on others: those get
+ * no part in any solution. */
 void thr_normal_factor(thr_normal *normal, const double *weights);
 
 /* y[n_rows] from r[n_rows], by the factors alone: rounding is the caller's to improve. */
