@@ -158,7 +158,7 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
   case SHEETS: st = sheets(plan, a, copies.motion, limits, out, err); break;
   case PAGES: st = sheets_html(plan, a, copies.motion, limits, out, err); break;
   case STEPS: st = thr_steps_text(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), out, err); break;
-  case VIEWER: st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, out, err); break;
+  case VIEWER: st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), out, err); break;
   default: st = thr_table_cords(plan, copies.motion, out, err);
   }
   thr_motions_destroy(&copies);
@@ -169,7 +169,7 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
                              thr_text *out, thr_err *err)
 {
   switch ((document)i) {
-  case STEPS_TABLE: return thr_table_steps(plan, options->kind_tolerance, out, err);
+  case STEPS_TABLE: return thr_table_steps(plan, options->kind_tolerance, needles_of(plan, options), out, err);
   case BEADS_TABLE: return thr_table_beads(plan, options->kind_tolerance, out, err);
   case CHANNELS_TABLE: return thr_table_channels(plan, options->kind_tolerance, out, err);
   case MAT: return mat(plan, options, limits, out, err);

@@ -63,7 +63,7 @@ function showWords() {
   const now = $('now'), last = plan.steps.length;
   if (done) {
     const step = plan.steps[done - 1], cord = plan.cords[step.cord];
-    const copy = step.k === 0 && copyOf(step.cord) ? ` (the same as cord ${plan.cords[cord.of].id}${cord.how})` : '';
+    const copy = step.i === 0 && copyOf(step.cord) ? ` (the same as cord ${plan.cords[cord.of].id}${cord.how})` : '';
     now.replaceChildren(chip(step), ` ${capital(instruction(plan, step))}${copy}`);
   } else {
     now.textContent = `Nothing is threaded yet: ${plural(last, 'pass')} to go.`;
@@ -103,7 +103,7 @@ function tag(name, node, text, taken) {
 function placeTags() {
   const step = plan.steps[done - 1], ahead = plan.steps[done];
   const here = step ? plan.head(step.half) : plan.tail(ahead.half);
-  const start = ahead && ahead.k === 0 && step ? plan.tail(ahead.half) : -1;
+  const start = ahead && ahead.begins && step ? plan.tail(ahead.half) : -1;
   const to = ahead ? plan.head(ahead.half) : -1;
   const taken = [];
   tag('now', here, plan.places[here], taken);

@@ -17,6 +17,12 @@ function orderOf(cords) {
   return cords.flatMap((cord, c) => (cord.of === c ? [c, ...copies[c]] : []));
 }
 
+// Passes of a cord as they are threaded: from its fold to its end, then, with the left needle, from there back to its start.
+function orderOfPasses({half, fold}) {
+  const right = half.map((h, k) => ({k, half: h, left: false})), left = right.splice(0, fold).reverse();
+  return [...right, ...left.map(({k, half: h}) => ({k, half: h ^ 1, left: true}))];
+}
+
 export function readPlan(text) {
   const plan = JSON.parse(text);
   const held = new Int32Array(plan.edges.length);
@@ -26,14 +32,17 @@ export function readPlan(text) {
   plan.head = (h) => plan.edges[h >> 1][1 - (h & 1)];
   for (const c of plan.order) {
     const cord = plan.cords[c];
-    let used = 0;
+    const needle = {used: 0, whole: 0}, lengthOf = (half) => plan.lengths[half >> 1];
     cord.first = steps.length;
-    cord.half.forEach((half, k) => {
-      const edge = half >> 1;
-      used += plan.lengths[edge];
-      steps.push({cord: c, k, half, edge, piece: plan.solid ? plan.head(half) : edge, visit: ++held[edge], used});
+    orderOfPasses(cord).forEach(({k, half, left}, i) => {
+      const edge = half >> 1, begins = i === 0 || i === cord.half.length - cord.fold;
+      if (begins) {
+        const part = left ? cord.half.slice(0, cord.fold) : cord.half.slice(cord.fold);
+        Object.assign(needle, {used: 0, whole: part.reduce((sum, h) => sum + lengthOf(h), 0)});
+      }
+      needle.used += lengthOf(half);
+      steps.push({cord: c, i, k, half, left, begins, edge, piece: plan.solid ? plan.head(half) : edge, visit: ++held[edge], ...needle});
     });
-    cord.total = used;
   }
   plan.steps = steps;
   plan.most = held.reduce((a, b) => Math.max(a, b), 1);
@@ -54,20 +63,21 @@ export function forceText(newton) {
 }
 
 // The piece in which a cord starts, where pieces are solid: it is held before the first pass; else -1.
-export const startOf = (plan, step) => (plan.solid && step.k === 0 ? plan.tail(step.half) : -1);
+export const startOf = (plan, step) => (plan.solid && step.i === 0 ? plan.tail(step.half) : -1);
 
 // What to do in a step, for its pass: "pick up X-10 (B5): in from A5, out to C5"; before the first one what the start needs.
 export function instruction(plan, step) {
-  const {does} = plan.cords[step.cord];
-  if (!plan.solid) return does[step.k];
-  return step.k ? does[step.k + 1] : `${does[0]}; ${does[1]}`;
+  const {does, fold} = plan.cords[step.cord];
+  const needle = fold && step.begins ? `${step.left ? 'left' : 'right'} needle, from the fold: ` : '';
+  if (!plan.solid) return needle + does[step.i];
+  return needle + (step.i ? does[step.i + 1] : `${does[0]}; ${does[1]}`);
 }
 
 // How far along, after a step.
 export function progress(plan, step) {
-  const cord = plan.cords[step.cord], left = cord.total - step.used;
-  const end = step.k + 1 === cord.half.length;
-  const length = `cord used ${lengthText(step.used, plan.units)}`;
+  const cord = plan.cords[step.cord], left = step.whole - step.used;
+  const end = step.k === (step.left ? 0 : cord.half.length - 1);
+  const length = `${cord.fold ? 'of its half of the cord' : 'cord'} used ${lengthText(step.used, plan.units)}`;
   if (end) return `${length}; the needle comes out at ${plan.places[plan.head(step.half)]}`;
   return `${length}, left ${lengthText(Math.max(left, 0), plan.units)}`;
 }
@@ -76,10 +86,10 @@ export function progress(plan, step) {
 export function findPass(plan, text) {
   const parts = /^\s*([A-Za-z]*)\s*([0-9]+)\s*$/.exec(text);
   if (!parts) return NaN;
-  const number = Number(parts[2]);
-  if (!parts[1]) return number <= plan.steps.length ? number : NaN;
-  const cord = plan.cords.find((one) => one.id.toUpperCase() === parts[1].toUpperCase());
-  return cord && number >= 1 && number <= cord.half.length ? cord.first + number : NaN;
+  const number = Number(parts[2]), several = plan.cords.length > 1;
+  if (!parts[1] && (several || number === 0)) return number <= plan.steps.length ? number : NaN;
+  const cord = several || parts[1] ? plan.cords.findIndex((one) => one.id.toUpperCase() === parts[1].toUpperCase()) : 0;
+  return plan.steps.findIndex((step) => step.cord === cord && step.k + 1 === number) + 1 || NaN;
 }
 
 // Piece by its name ("B5", "A1-A2") or a tube by its two places, "A1 B1"; -1 if there is none.

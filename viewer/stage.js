@@ -145,15 +145,24 @@ export class Stage {
   }
 
   addFeet() {
-    const {plan, sizes} = this, at = new Matrix4();
+    const {plan, sizes} = this;
     if (!plan.feet.length) return;
     const pad = new CylinderGeometry(1.5 * sizes.radius, 2.1 * sizes.radius, 1.2 * sizes.radius, 20).rotateX(Math.PI / 2);
     this.feet = new InstancedMesh(pad, new MeshLambertMaterial(), plan.feet.length);
-    plan.feet.forEach((v, i) => {
-      const p = this.nodes[v];
-      this.feet.setMatrixAt(i, at.makeTranslation(p.x, p.y, p.z - 1.6 * sizes.radius));
-    });
+    this.uncover(-1);
     this.scene.add(this.feet);
+  }
+
+  // The pads under the feet, but for that of the piece in hand, which it would hide from below.
+  uncover(now) {
+    const at = new Matrix4();
+    this.plan.feet.forEach((v, i) => {
+      const p = this.nodes[v];
+      at.makeTranslation(p.x, p.y, p.z - 1.6 * this.sizes.radius);
+      if (this.plan.solid && v === now) at.makeScale(0, 0, 0);
+      this.feet.setMatrixAt(i, at);
+    });
+    this.feet.instanceMatrix.needsUpdate = true;
   }
 
   addCords() {
@@ -198,13 +207,13 @@ export class Stage {
   }
 
   paint(c, colours) {
-    const {mesh, tube} = this.cords[c], key = colours.join();
+    const {plan} = this, {mesh, tube} = this.cords[c], key = colours.join();
     if (this.cords[c].painted === key) return;
     this.cords[c].painted = key;
     const attribute = mesh.geometry.getAttribute('color'), colour = new Color();
     let vertex = 0;
-    tube.vertexEnd.forEach((end, k) => {
-      colour.set(colours[k % colours.length]);
+    tube.vertexEnd.forEach((end, i) => {
+      colour.set(colours[plan.steps[plan.cords[c].first + i].k % colours.length]);
       for (; vertex < end; vertex++) attribute.setXYZ(vertex, colour.r, colour.g, colour.b);
     });
     attribute.needsUpdate = true;
@@ -227,6 +236,7 @@ export class Stage {
       mesh.instanceColor.needsUpdate = true;
     }
     this.swell(now);
+    if (this.feet) this.uncover(now);
     this.cords.forEach(({mesh, tube}, c) => {
       const passes = Math.min(Math.max(done - plan.cords[c].first, 0), plan.cords[c].half.length);
       mesh.visible = passes > 0 && !hidden.has(c);

@@ -60,10 +60,14 @@ export function centreLine(plan, nodes, sizes, lane, i, segments) {
   const points = [], reach = (edge) => 0.75 * sizes.gap[edge];
   const lift = (node, near) => nodes[node].clone().add(near.clone().sub(nodes[node]).multiplyScalar(0.25));
   let start, pull;
-  if (step.k > 0) {
+  if (step.i > 0 && !step.begins) {
     const before = lane[i - 1];
     start = before.to;
     pull = start.clone().addScaledVector(before.along, reach(plan.steps[i - 1].edge));
+  } else if (step.begins && step.left) { // from where the right needle began, the other way
+    const other = lane[cord.first];
+    start = other.from;
+    pull = start.clone().addScaledVector(other.along, -reach(plan.steps[cord.first].edge));
   } else {
     start = lift(plan.tail(step.half), from);
     pull = start.clone().lerp(from, 0.3);
@@ -75,7 +79,7 @@ export function centreLine(plan, nodes, sizes, lane, i, segments) {
       .addScaledVector(push, 3 * u * t * t).addScaledVector(from, t * t * t));
   }
   points.push(to.clone());
-  if (step.k + 1 === cord.half.length) points.push(lift(plan.head(step.half), to));
+  if (step.k === (step.left ? 0 : cord.half.length - 1)) points.push(lift(plan.head(step.half), to));
   return points;
 }
 

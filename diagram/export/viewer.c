@@ -10,6 +10,7 @@
 #include "diagram/overview/tension.h"
 #include "graph/framework/frame.h"
 #include "graph/io/writer.h"
+#include "graph/plan/chains.h"
 #include "graph/plan/evaluation.h"
 
 #include <assert.h>
@@ -28,6 +29,7 @@ typedef struct {
   thr_copy *copy; /* [n_cords] */
   bool tension;   /* are there any? */
   double range[2];
+  int needles; /* as in thr_cord_folded */
   thr_pieces pieces;
   thr_visit *visit; /* [n_visits] in the order of threading */
   int n_visits;
@@ -172,6 +174,7 @@ static void put_cord(viewer *s, int c)
   thr_write_string(writer, "length", words);
   thr_write_line(writer, 1);
   thr_write_ints(writer, "half", cord->half, cord->n_passes);
+  thr_write_int(writer, "fold", thr_cord_fold(s->f, s->needles, cord));
   put_visits(s, c);
   if (s->tension && s->plan->evaluation.cord[c].known) put_tension(s, &s->plan->evaluation.cord[c]);
   thr_write_close(writer);
@@ -277,17 +280,18 @@ static thr_status prepare(viewer *s, double tolerance, thr_err *err)
   if (!st) st = thr_copies_find(p, s->copy, err);
   if (!st) st = thr_pieces_make(&s->pieces, p, tolerance, err);
   if (!st) {
-    int parts = thr_pieces_parts(p, s->copy, 1, part);
+    int parts = thr_pieces_parts(p, s->copy, s->needles, part);
     st = thr_pieces_follow(&s->pieces, part, parts, &s->visit, &s->n_visits, err);
   }
   free(part);
   return st;
 }
 
-thr_status thr_viewer_html(const thr_plan *p, const char *const *motion, double tolerance, thr_text *html, thr_err *err)
+thr_status thr_viewer_html(const thr_plan *p, const char *const *motion, double tolerance, int needles, thr_text *html,
+                           thr_err *err)
 {
   thr_text json = {0}, page = {0};
-  viewer s = {.plan = p, .f = &p->frame, .motion = motion, .out = {.out = &json, .compact = true}};
+  viewer s = {.plan = p, .f = &p->frame, .motion = motion, .needles = needles, .out = {.out = &json, .compact = true}};
   const char *mark = strstr(thr_viewer_page, THR_VIEWER_MARK);
   assert(mark);
   thr_status st = prepare(&s, tolerance, err);

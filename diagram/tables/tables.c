@@ -169,11 +169,23 @@ static int arm_out(const thr_visit *visit, bool solid)
   return visit->out < 0 ? -1 : solid ? visit->out : visit->out ^ 1;
 }
 
-/* How the cord turns: in a solid piece, or from the tube before into this one. */
-static void put_turn(table *t, const thr_visit *visit)
+/* What a needle has behind it; whether it is the one that goes back from the fold, or the only one. */
+typedef struct {
+  bool left, alone;
+  double used, length; /* of its part of the cord */
+} needle;
+
+/* The half-edge by which the needle came through the tube before this one; -1 = there is none. */
+static int tube_before(const thr_cord *cord, const thr_visit *visit, bool left)
 {
-  const thr_cord *cord = &t->plan->cord[visit->cord];
-  int in = t->pieces.solid ? visit->in : visit->number > 1 ? cord->half[visit->number - 2] : -1;
+  if (left) return visit->number < cord->n_passes ? cord->half[visit->number] ^ 1 : -1;
+  return visit->number > 1 ? cord->half[visit->number - 2] : -1;
+}
+
+/* How the cord turns: in a solid piece, or from the tube before into this one. */
+static void put_turn(table *t, const thr_visit *visit, bool left)
+{
+  int in = t->pieces.solid ? visit->in : tube_before(&t->plan->cord[visit->cord], visit, left);
   int out = t->pieces.solid ? visit->out : visit->in;
   if (in >= 0 && out >= 0) {
     put_text(t, way_name(thr_guide_way(&t->guide, in, out)));
@@ -182,12 +194,12 @@ static void put_turn(table *t, const thr_visit *visit)
     thr_text_printf(t->out, "%s,,", in < 0 ? "start" : "end");
 }
 
-static void put_step(table *t, const thr_visit *visit, double *used, double length)
+static void put_step(table *t, const thr_visit *visit, needle *now)
 {
   const thr_cord *cord = &t->plan->cord[visit->cord];
   bool solid = t->pieces.solid;
   double pass = visit->number ? t->f->length[visit->in >> 1] : 0;
-  *used = visit->number > 1 ? *used + pass : pass;
+  now->used += pass;
   put_text(t, cord->id);
   put_int(t, visit->number);
   put_name(t, visit->piece);
@@ -196,10 +208,10 @@ static void put_step(table *t, const thr_visit *visit, double *used, double leng
   put_int(t, visit->nth);
   put_arm(t, arm_in(visit, solid));
   put_arm(t, arm_out(visit, solid));
-  put_turn(t, visit);
+  put_turn(t, visit, now->left);
   put_number(t, pass);
-  put_number(t, *used);
-  put_number(t, visit->number < cord->n_passes ? length - *used : 0);
+  put_number(t, now->used);
+  put_number(t, visit->number == (now->left ? 1 : cord->n_passes) ? 0 : now->length - now->used);
   put_text(t, t->plan->cord[t->copy[visit->cord].of].id);
   put_int(t, visit->number ? path_step(t, visit->cord, visit->number - 1) : 0);
   if (visit->number)
@@ -211,30 +223,41 @@ static void put_step(table *t, const thr_visit *visit, double *used, double leng
   else
     put_text(t, "");
   put_int(t, visit->number ? thr_head(t->f, visit->in) : thr_tail(t->f, visit->out));
+  put_text(t, now->alone ? "" : now->left ? "left" : "right");
   put_unit(t);
 }
 
-thr_status thr_table_steps(const thr_plan *p, double tolerance, thr_text *out, thr_err *err)
+/* The rows of one needle; returns how many. */
+static int put_part(table *t, const thr_part *part, const thr_visit *visit)
+{
+  const thr_cord *cord = &t->plan->cord[part->cord];
+  const int n = part->end - part->first + (part->begins && t->pieces.solid);
+  needle now = {.left = part->backward, .alone = part->end - part->first == cord->n_passes};
+  for (int k = part->first; k < part->end; k++)
+    now.length += t->f->length[cord->half[k] >> 1];
+  for (int i = 0; i < n; i++)
+    put_step(t, &visit[i], &now);
+  return n;
+}
+
+thr_status thr_table_steps(const thr_plan *p, double tolerance, int needles, thr_text *out, thr_err *err)
 {
   table t;
   thr_text text = {0};
   thr_status st = table_make(&t, p, tolerance, &text, err);
   thr_part *part = st ? NULL : thr_calloc(2 * (size_t)p->n_cords, sizeof *part);
   thr_visit *visit = NULL;
-  int n = 0;
-  double used = 0, length = 0;
+  int n = 0, parts = 0;
   if (!st && !part) st = thr_nomem(err);
   if (!st) {
-    int parts = thr_pieces_parts(p, t.copy, 1, part);
+    parts = thr_pieces_parts(p, t.copy, needles, part);
     st = thr_pieces_follow(&t.pieces, part, parts, &visit, &n, err);
   }
   thr_text_append(&text,
                   "cord,step,piece,kind,how,visit,in,out,turn,degrees,length,used,left,path,path_step,edge,from_node,to_node,"
-                  "unit\n");
-  for (int i = 0; i < n; i++) {
-    if (i == 0 || visit[i].cord != visit[i - 1].cord) length = thr_cord_length(t.f, &p->cord[visit[i].cord]);
-    put_step(&t, &visit[i], &used, length);
-  }
+                  "needle,unit\n");
+  for (int k = 0, i = 0; k < parts && !st; k++)
+    i += put_part(&t, &part[k], visit + i);
   free(part);
   free(visit);
   return table_close(&t, st, out, err);

@@ -10,8 +10,9 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* A row per visit to a piece, in the order of thr_steps_text and in its words. tolerance: as in thr_pieces_make. O(n log n). */
-thr_status thr_table_steps(const thr_plan *plan, double tolerance, thr_text *out, thr_err *err) THR_MUST_CHECK;
+/* A row per visit to a piece, in the order of thr_steps_text and in its words. tolerance: as in thr_pieces_make; needles: as in
+ * thr_cord_folded. O(n log n). */
+thr_status thr_table_steps(const thr_plan *plan, double tolerance, int needles, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 /* A row per cord: the cut list, with allowances as in diagram/tables/supplies.h. motion: as in thr_overview_options. O(n log n).
  */

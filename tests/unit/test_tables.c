@@ -90,7 +90,7 @@ typedef enum { STEPS, CORDS, BEADS, CHANNELS, N_TABLES } kind;
 
 static thr_status make(const thr_plan *p, kind k, const char *const *motion, thr_text *t, thr_err *err)
 {
-  if (k == STEPS) return thr_table_steps(p, 0, t, err);
+  if (k == STEPS) return thr_table_steps(p, 0, 1, t, err);
   if (k == CHANNELS) return thr_table_channels(p, 0, t, err);
   return k == CORDS ? thr_table_cords(p, motion, t, err) : thr_table_beads(p, 0, t, err);
 }
@@ -313,6 +313,52 @@ START_TEST(steps_are_the_plan)
 {
   thr_plan p = plan_number(_i / 2);
   judge_steps(&p, _i % 2, false);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* The rows of a cord, from row on, against the plan: the right needle from the fold to the end, then the left one back from there
+ * to the start. Returns the row after them. */
+static int judge_needles(const csv *c, int row, const json_plan *j, bool rigid)
+{
+  const thr_json *cord = cord_of(j, at(c, row, "cord"));
+  const int n = thr_json_size(thr_json_get(cord, "nodes")) - 1,
+            first = rigid ? integer(c, row + 1, "step") : integer(c, row, "step");
+  const bool folded = first > 1;
+  double used[2] = {0, 0}, last_left[2] = {0, 0};
+  if (rigid) ck_assert_int_eq(integer(c, row++, "step"), 0);
+  for (int k = 0; k < n; k++, row++) {
+    const bool left = k > n - first;
+    const int step = left ? n - k : first + k;
+    ck_assert_int_eq(integer(c, row, "step"), step);
+    assert_says(c, row, "needle", !folded ? "" : left ? "left" : "right");
+    ck_assert_int_eq(integer(c, row, "from_node"), item(cord, "nodes", left ? step : step - 1));
+    ck_assert_int_eq(integer(c, row, "to_node"), item(cord, "nodes", left ? step - 1 : step));
+    used[left] += number(c, row, "length");
+    last_left[left] = number(c, row, "left");
+    ck_assert_double_eq_tol(number(c, row, "used"), used[left], 1e-6 * used[left]);
+  }
+  ck_assert(last_left[0] == 0 && last_left[1] == 0);
+  ck_assert_double_eq_tol(used[0] + used[1], length_of(j, cord), 1e-6 * (used[0] + used[1]));
+  ck_assert_int_eq(folded, n >= 24); /* docs/outputs.md */
+  if (folded) ck_assert(fabs(used[0] - used[1]) < 0.5 * (used[0] + used[1]));
+  return row;
+}
+
+START_TEST(two_needles_go_from_the_fold)
+{
+  thr_plan p = plan_number(_i / 2);
+  const bool rigid = _i % 2;
+  thr_text t = {0};
+  p.options.joint = rigid ? THR_JOINT_SOLID : THR_JOINT_TUBE;
+  json_plan j = json_of(&p);
+  ck_assert_int_eq(thr_table_steps(&p, 0, 2, &t, NULL), THR_OK);
+  csv c = csv_read(&t);
+  for (int row = 1; row < c.n_rows;)
+    row = judge_needles(&c, row, &j, rigid);
+  csv_destroy(&c);
+  thr_text_destroy(&t);
+  json_destroy(&j);
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -708,6 +754,7 @@ int main(void)
 {
   Suite *s = suite_create("tables");
   ADD_EXAMPLES(s, 30, steps_are_the_plan, 2 * N_PLANS);
+  ADD_EXAMPLES(s, 30, two_needles_go_from_the_fold, 2 * N_PLANS);
   ADD_LOOP(s, 20, left_is_left_on_flat_ground, 0, 2);
   ADD_EXAMPLES(s, 30, cords_are_cut_long_enough, N_PLANS);
   ADD_TEST(s, 20, repetitions_are_said);
