@@ -7,6 +7,7 @@ THREAD is the program, beside its library. LEMON and Boost come from Debian; BLO
 with the sources of Blossom V and of PyMatching 2, which are compiled here. HOW below says what is measured, and how.
 """
 import argparse
+import contextlib
 import datetime
 import glob
 import json
@@ -19,6 +20,8 @@ import subprocess
 import sys
 import tempfile
 import time
+
+from frames import SHAPES, data, real_frameworks, shake, write_planar
 
 HOW = """# How long it takes
 
@@ -33,14 +36,6 @@ SLOW = 2  # s: no second run
 PEER_SECONDS = 10  # for each run of another code
 HERE = os.path.dirname(os.path.abspath(__file__))
 
-# What `thread make` is asked for to get about so many edges.
-SHAPES = {
-    "grid": lambda m: ("dome", round(math.sqrt(m / 2) + 0.5)),
-    "sphere": lambda m: ("sphere", round(math.sqrt(m / 30))),
-    "geodesic": lambda m: ("geodesic", round(math.sqrt(m / 15 + 0.1) - 0.33)),
-    "tube": lambda m: ("tube", round(math.sqrt(m / 2)), "--rings", round(math.sqrt(m / 2))),
-    "honeycomb": lambda m: ("honeycomb", round(math.sqrt(m / 9) + 0.17)),
-}
 # Other codes: their name, the instance they take, where their sources are or how they are linked
 PEERS = {
     "LEMON_PAIRS": ("LEMON, pairs", "pairs", "-llemon"),
@@ -68,11 +63,19 @@ class Run:
             self.megabytes = int(f.read().split()[-1]) / 1024
 
 
+class Failed(Exception):
+    """A command that has not done what is measured; fault: nor what the program promises (its exit code 4 is an answer, too)."""
+
+    def __init__(self, command, why, fault=True):
+        super().__init__(why)
+        self.fault, self.command = fault, " ".join(map(str, command))
+
+
 class Bench:
     def __init__(self, a, folder):
         self.thread, self.folder, self.repeats, self.limit = os.path.abspath(a.thread), folder, a.repeats, a.limit
         self.smallest, self.sizes, self.output, self.frames = a.smallest, a.sizes, a.output, {}
-        self.peers, self.missing = {}, []
+        self.peers, self.missing, self.faults = {}, [], []
 
     def print(self, text):
         print(text, flush=True)
@@ -88,19 +91,41 @@ class Bench:
     def row(self, *cells):
         self.print("| " + " | ".join(map(str, cells)) + " |")
 
+    @contextlib.contextmanager
+    def line(self, *cells):
+        """Of a command in here that fails the row says so, after these cells; the next one goes on."""
+        try:
+            yield
+        except Failed as failed:
+            self.row(*cells, failed)
+            if failed.fault:
+                self.faults.append("%s: %s" % (failed.command, failed))
+
     def path(self, name):
         return os.path.join(self.folder, name)
 
+    def once(self, command):
+        """What a command is to write after -o is not there when it begins: to take an old file's place is the file system's work.
+        Failed, if the program does not end with exit code 0 or 5, or has not written that."""
+        written = command[command.index("-o") + 1] if "-o" in command else None
+        if written and os.path.exists(written):
+            os.remove(written)
+        run = Run(command, self.folder)
+        said = run.said.strip().split("\n")[-1] or "nothing said"
+        if command[0] == self.thread and run.code not in (0, 5):
+            raise Failed(command, "exit code %d: %s" % (run.code, said), run.code != 4)
+        if written and not os.path.exists(written):
+            raise Failed(command, "nothing found: %s" % said, run.code != 5)
+        return run
+
     def least(self, *commands, keep=lambda run: run.seconds):
-        """Runs them in turns; of each the run of which keep is least. A command that fails ends everything."""
+        """Runs them in turns; of each the run of which keep is least. Failed, if one of them does."""
         best = [None] * len(commands)
         for _ in range(self.repeats):
             for i, command in enumerate(commands):
                 if best[i] and best[i].seconds > SLOW:
                     continue
-                run = Run(command, self.folder)
-                if command[0] == self.thread and run.code not in (0, 5):
-                    sys.exit("bench: %s: exit code %d: %s" % (" ".join(map(str, command)), run.code, run.said))
+                run = self.once(command)
                 if not best[i] or keep(run) < keep(best[i]):
                     best[i] = run
         return best
@@ -158,43 +183,6 @@ class Bench:
                 self.peers[code] = PEERS[code]
 
 
-# ---- frameworks ----
-
-def write_frame(path, nodes, edges):
-    with open(path, "w", encoding="utf-8") as f:
-        json.dump({"format": "thread-frame", "version": 1, "units": "mm", "nodes": nodes, "edges": edges}, f)
-
-
-def shake(path):
-    """Every node moved a little: lengths that have no common measure."""
-    with open(path, encoding="utf-8") as f:
-        frame = json.load(f)
-    write_frame(path, [[x + random.uniform(-5, 5) for x in node] for node in frame["nodes"]], frame["edges"])
-
-
-def write_planar(path, edges):
-    """Points at random in the cells of a grid, joined along it and across some of its cells, some edges left out."""
-    side = max(3, round(math.sqrt(edges / 2.3)))
-    nodes = [[20 * (v % side + random.random()), 20 * (v // side + random.random()), 0] for v in range(side * side)]
-    pairs = []
-    for v in range(side * side):
-        right, up = v % side < side - 1, v // side < side - 1
-        pairs += [(v, v + 1)] if right else []
-        pairs += [(v, v + side)] if up and (v % side == 0 or random.random() < 0.65) else []
-        if right and up and random.random() < 0.65:
-            pairs.append(random.choice([(v, v + side + 1), (v + 1, v + side)]))
-    write_frame(path, nodes, pairs)
-
-
-def real_frameworks():
-    every = os.path.join(os.path.dirname(HERE), "data/*/*")
-    return [p for kind in (".json", ".obj", "-nodes.csv") for p in sorted(glob.glob(every + kind))]
-
-
-def data(*names):
-    return [p for p in real_frameworks() if os.path.basename(p).split(".")[0] in names]
-
-
 # ---- cells ----
 
 def figure(x, digits=2):
@@ -241,7 +229,7 @@ def solver_times(b, path):
                 continue
             spent, value = run.out.split()
             if value != (weight if instance == "pairs" else length):
-                sys.exit("bench: %s: %s finds %s, not %s" % (path, code, value, weight if instance == "pairs" else length))
+                raise Failed([code, path], "%s finds %s, not %s" % (code, value, weight if instance == "pairs" else length))
             others[code] = min(others.get(code, math.inf), float(spent))
     return ours, alone, odd, others
 
@@ -259,12 +247,13 @@ theirs. *shaken*: a honeycomb with every node moved; *planar*: triangles and qua
             *("%s / %s" % (name, "matching" if kind == "pairs" else "T-join") for name, kind, _ in b.peers.values()))
     grows, join_grows = Growth(), Growth()
     for name, path, edges, goes_on in b.lines([*SHAPES, "shaken", "planar"], b.sizes, real_frameworks()):
-        whole, other, check = b.least(b.plan(path), b.plan(path, "--ends", "any", to="any.json"), [b.thread, "check", b.path("plan.json")])
-        ours, alone, odd, others = solver_times(b, path)
-        b.row(name, edges, odd, seconds(whole.seconds), grows(edges, whole.seconds, goes_on), figure(whole.megabytes),
-              ratio(other.seconds, whole.seconds), ratio(check.seconds, whole.seconds), ratio(ours, whole.seconds),
-              join_grows(edges, ours, goes_on), ratio(alone, ours),
-              *(ratio(others.get(c), alone if b.peers[c][1] == "pairs" else ours) for c in b.peers))
+        with b.line(name, edges):
+            whole, other, check = b.least(b.plan(path), b.plan(path, "--ends", "any", to="any.json"), [b.thread, "check", b.path("plan.json")])
+            ours, alone, odd, others = solver_times(b, path)
+            b.row(name, edges, odd, seconds(whole.seconds), grows(edges, whole.seconds, goes_on), figure(whole.megabytes),
+                  ratio(other.seconds, whole.seconds), ratio(check.seconds, whole.seconds), ratio(ours, whole.seconds),
+                  join_grows(edges, ours, goes_on), ratio(alone, ours),
+                  *(ratio(others.get(c), alone if b.peers[c][1] == "pairs" else ours) for c in b.peers))
 
 
 def milestones(run, plan, part):
@@ -291,17 +280,18 @@ shortest cord beside the proven bound.""" % b.limit
             "Fleury / bound", "Hierholzer / bound", "shortest / bound")
     grows = Growth()
     for name, path, edges, goes_on in b.lines(SHAPES, (150, 700, 3000, 8000), data("fandisk", "creased_shell", "liew_dome", "barrel")):
-        run = b.least(said_plan(b, path, "--objective", "tortuosity"))[0]
-        first, proved, proof = milestones(run, b.path("plan.json"), "turning")
-        bound, price = proof.get("lower_bound"), proof.get("price")
-        rivals = []
-        for options in (["tortuosity", "--tour", "fleury"], ["tortuosity", "--tour", "hierholzer"], ["length"]):
-            Run(b.plan(path, "--objective", *options, "--time-limit", b.limit), b.folder)
-            with open(b.path("plan.json"), encoding="utf-8") as f:
-                rivals.append(json.load(f)["metrics"]["turning"])
-        b.row(name, edges, seconds(first), seconds(proved), grows(edges, proved, goes_on), end_ratio(run, proved),
-              "0" if proved is not None else figure(100 * (1 - bound / price)) if bound and price else "-", figure(run.megabytes),
-              *(ratio(r, bound) for r in rivals))
+        with b.line(name, edges):
+            run = b.least(said_plan(b, path, "--objective", "tortuosity"))[0]
+            first, proved, proof = milestones(run, b.path("plan.json"), "turning")
+            bound, price = proof.get("lower_bound"), proof.get("price")
+            rivals = []
+            for options in (["tortuosity", "--tour", "fleury"], ["tortuosity", "--tour", "hierholzer"], ["length"]):
+                b.once(b.plan(path, "--objective", *options, "--time-limit", b.limit))
+                with open(b.path("plan.json"), encoding="utf-8") as f:
+                    rivals.append(json.load(f)["metrics"]["turning"])
+            b.row(name, edges, seconds(first), seconds(proved), grows(edges, proved, goes_on), end_ratio(run, proved),
+                  "0" if proved is not None else figure(100 * (1 - bound / price)) if bound and price else "-", figure(run.megabytes),
+                  *(ratio(r, bound) for r in rivals))
 
 
 def symmetry(b):
@@ -312,30 +302,52 @@ the first plan and to the proof, and the end of the process beside the proof."""
             "-j 1 / -j 2, clock", "first plan s", "proved s", "end / proved")
     frames = list(b.lines(SHAPES, (84, 480), data("fandisk", "liew_dome", "barrel")))
     for name, path, edges, _ in frames:
-        how = [b.thread, "symmetries", path, "-q", "--json", "--time-limit", b.limit]
-        one, two = b.least([*how, "-j", "1"], [*how, "-j", "2"], keep=lambda run: run.wall)
-        run = b.least(said_plan(b, path, "--objective", "symmetry"))[0]
-        first, proved, _ = milestones(run, b.path("plan.json"), None)
-        found = json.loads(one.out)
-        b.row(name, edges, "%.4g" % found["order"], len(found["groups"]), seconds(one.seconds) + ("" if one.code == 0 else "*"),
-              figure(one.megabytes), ratio(two.seconds, one.seconds), ratio(one.wall, two.wall), seconds(first), seconds(proved),
-              end_ratio(run, proved))
+        with b.line(name, edges):
+            how = [b.thread, "symmetries", path, "-q", "--json", "--time-limit", b.limit]
+            one, two = b.least([*how, "-j", "1"], [*how, "-j", "2"], keep=lambda run: run.wall)
+            run = b.least(said_plan(b, path, "--objective", "symmetry"))[0]
+            first, proved, _ = milestones(run, b.path("plan.json"), None)
+            found = json.loads(one.out)
+            b.row(name, edges, "%.4g" % found["order"], len(found["groups"]), seconds(one.seconds) + ("" if one.code == 0 else "*"),
+                  figure(one.megabytes), ratio(two.seconds, one.seconds), ratio(one.wall, two.wall), seconds(first), seconds(proved),
+                  end_ratio(run, proved))
+
+
+def same_work(b, cells, one, two, outputs):
+    """A row: these cells, and one command beside the other, which does the same in two threads. outputs: what they write, or None:
+    what they print."""
+    first, second = b.least(one, two, keep=lambda run: run.wall)
+    made = [first.out, second.out]
+    if outputs:
+        made = []
+        for path in outputs:
+            with open(path, encoding="utf-8") as f:
+                made.append(f.read())
+    if made[0] != made[1]:
+        raise Failed(two, "-j 1 and -j 2 do not make the same")
+    b.row(*cells, seconds(first.wall), ratio(second.seconds, first.seconds), ratio(first.wall, second.wall))
 
 
 def threads(b):
     text = """The same work by one thread and by two, to the clock (2 at best; less where others use the machine): the least turning, with a
-number of tree nodes instead of a time limit. The two plans must be the same, byte for byte."""
-    b.table("Two threads", text, "framework", "edges", "nodes", "-j 1 s", "-j 2 / -j 1, processor", "-j 1 / -j 2, clock")
-    cases = (("geodesic", 135, 5),) if b.smallest else (("sphere", 480, 31), ("sphere", 1920, 11), ("sphere", 1920, 31), ("geodesic", 540, 31))
-    for family, size, nodes in cases:
+number of tree nodes instead of a time limit, and `thread symmetries`, with so much counted work for each row. What comes out must
+be the same, byte for byte."""
+    b.table("Two threads", text, "framework", "edges", "what", "-j 1 s", "-j 2 / -j 1, processor", "-j 1 / -j 2, clock")
+    turns = (("geodesic", 135, 5),) if b.smallest else (("sphere", 480, 31), ("sphere", 1920, 11), ("sphere", 1920, 31), ("geodesic", 540, 31))
+    for family, size, nodes in turns:
         path, edges = b.frame(family, size)
-        how = ["--objective", "tortuosity", "--nodes", nodes, "--time-limit", 0]
-        one, two = [b.plan(path, *how, "-j", j, to="threads-%d.json" % j) for j in (1, 2)]
-        first, second = b.least(one, two, keep=lambda run: run.wall)
-        with open(b.path("threads-1.json"), "rb") as f, open(b.path("threads-2.json"), "rb") as g:
-            if f.read() != g.read():
-                sys.exit("bench: %s, %d nodes: -j 1 and -j 2 make different plans" % (family, nodes))
-        b.row(family, edges, nodes, seconds(first.wall), ratio(second.seconds, first.seconds), ratio(first.wall, second.wall))
+        cells = [family, edges, "turning, %d nodes" % nodes]
+        with b.line(*cells):
+            how, to = ["--objective", "tortuosity", "--nodes", nodes, "--time-limit", 0], ["threads-1.json", "threads-2.json"]
+            one, two = [b.plan(path, *how, "-j", j + 1, to=to[j]) for j in (0, 1)]
+            same_work(b, cells, one, two, [b.path(name) for name in to])
+    rows = (("grid", 84, 0.01),) if b.smallest else (("sphere", 270, 0.5), ("sphere", 480, 0.2), ("tube", 435, 0.2))
+    for family, size, work in rows:
+        path, edges = b.frame(family, size)
+        cells = [family, edges, "symmetries, work %g" % work]
+        with b.line(*cells):
+            how = [b.thread, "symmetries", path, "-q", "--json", "--row-work", work]
+            same_work(b, cells, [*how, "-j", 1], [*how, "-j", 2], None)
 
 
 def balance(b):
@@ -344,10 +356,11 @@ def balance(b):
     cases = (("grid", 84, 4),) if b.smallest else (("honeycomb", 1000, 16), ("honeycomb", 2862, 16), ("honeycomb", 2862, 32), ("honeycomb", 2862, 64))
     for family, size, cords in cases:
         path, edges = b.frame(family, size)
-        run = b.least(b.plan(path, "--cords", cords, "--balance", "--ends", "any", "--time-limit", b.limit))[0]
-        with open(b.path("plan.json"), encoding="utf-8") as f:
-            longest = json.load(f)["proof"]["cords"]["longest"]
-        b.row(family, edges, cords, "any", figure(100 * (longest["length"] / longest["lower_bound"] - 1)), seconds(run.seconds))
+        with b.line(family, edges, cords):
+            run = b.least(b.plan(path, "--cords", cords, "--balance", "--ends", "any", "--time-limit", b.limit))[0]
+            with open(b.path("plan.json"), encoding="utf-8") as f:
+                longest = json.load(f)["proof"]["cords"]["longest"]
+            b.row(family, edges, cords, "any", figure(100 * (longest["length"] / longest["lower_bound"] - 1)), seconds(run.seconds))
 
 
 def pull(b):
@@ -357,13 +370,14 @@ structure, each beside the closed form."""
             "limit analysis s", "/ closed form", "growth")
     grows = Growth()
     for name, path, edges, goes_on in b.lines(["grid"], (84, 364, 760), data("fandisk")):
-        Run(b.plan(path), b.folder)
-        evaluate, cache = [b.thread, "eval", b.path("plan.json")], b.path("cache-%s-%d" % (name, edges))
-        cold = None if b.smallest else Run([*evaluate, "--method", "joint", "--cache", cache], b.folder).seconds
-        warm = None if b.smallest else b.least([*evaluate, "--method", "joint", "--cache", cache])[0].seconds
-        closed, limit = b.least(evaluate, [*evaluate, "--method", "structure", "--no-dynamics"])
-        b.row(name, edges, seconds(closed.seconds), ratio(cold, closed.seconds), ratio(warm, closed.seconds),
-              seconds(limit.seconds), ratio(limit.seconds, closed.seconds), grows(edges, limit.seconds, goes_on))
+        with b.line(name, edges):
+            b.once(b.plan(path))
+            evaluate, cache = [b.thread, "eval", b.path("plan.json")], b.path("cache-%s-%d" % (name, edges))
+            cold = None if b.smallest else b.once([*evaluate, "--method", "joint", "--cache", cache]).seconds
+            warm = None if b.smallest else b.least([*evaluate, "--method", "joint", "--cache", cache])[0].seconds
+            closed, limit = b.least(evaluate, [*evaluate, "--method", "structure", "--no-dynamics"])
+            b.row(name, edges, seconds(closed.seconds), ratio(cold, closed.seconds), ratio(warm, closed.seconds),
+                  seconds(limit.seconds), ratio(limit.seconds, closed.seconds), grows(edges, limit.seconds, goes_on))
 
 
 def drawings(b):
@@ -372,36 +386,59 @@ def drawings(b):
             *(k + " / plan" for k in kinds), "growth of svg", "of pdf")
     svg_grows, pdf_grows = Growth(), Growth()
     for name, path, edges, goes_on in b.lines(["grid", "sphere", "honeycomb"], (84, 480, 3000), data("fandisk", "liew_dome")):
-        kinds_now = [k for k in kinds if k != "pdf" or not b.smallest]
-        draw = [[b.thread, "draw", b.path("plan.json"), "-T", k, "-o", b.path("drawn." + ("txt" if k == "steps" else k))] for k in kinds_now]
-        plan, *drawn = b.least(b.plan(path), *draw)
-        spent = {k: d.seconds for k, d in zip(kinds_now, drawn)}
-        b.row(name, edges, seconds(plan.seconds), *(ratio(spent.get(k), plan.seconds) for k in kinds),
-              svg_grows(edges, spent["svg"], goes_on), pdf_grows(edges, spent.get("pdf"), goes_on))
+        with b.line(name, edges):
+            kinds_now = [k for k in kinds if k != "pdf" or not b.smallest]
+            draw = [[b.thread, "draw", b.path("plan.json"), "-T", k, "-o", b.path("drawn." + ("txt" if k == "steps" else k))] for k in kinds_now]
+            plan, *drawn = b.least(b.plan(path), *draw)
+            spent = {k: d.seconds for k, d in zip(kinds_now, drawn)}
+            b.row(name, edges, seconds(plan.seconds), *(ratio(spent.get(k), plan.seconds) for k in kinds),
+                  svg_grows(edges, spent["svg"], goes_on), pdf_grows(edges, spent.get("pdf"), goes_on))
 
 
 def joints(b):
     b.table("Tube joints", "`thread plan` with tube joints beside solid ones.", "framework", "edges", "solid s", "tube / solid")
     for name, path, edges, _ in b.lines(SHAPES, (100,) if b.smallest else (10000,), []):
-        solid, tube = b.least(b.plan(path), b.plan(path, "--joint", "tube", to="tube.json"))
-        b.row(name, edges, seconds(solid.seconds), ratio(tube.seconds, solid.seconds) + (" (not proved)" if tube.code else ""))
+        with b.line(name, edges):
+            solid, tube = b.least(b.plan(path), b.plan(path, "--joint", "tube", to="tube.json"))
+            b.row(name, edges, seconds(solid.seconds), ratio(tube.seconds, solid.seconds) + (" (not proved)" if tube.code else ""))
 
 
 def files(b):
     text = """Whole processes from file to file: `thread plan` and `thread check` beside Python's json module (written in C) reading
 the same files and, for a plan, writing plan.json: what moving the text alone takes."""
     b.table("Reading and writing", text, "framework", "edges", "plan s", "growth", "plan / json", "MB", "check s", "growth",
-            "check / json", "MB")
+            "check / json", "MB", "plan + check s")
     plan_grows, check_grows = Growth(), Growth()
     for name, path, edges, goes_on in b.lines(["grid"], (10000, 100000, 1000000), []):
-        load = "import json; d = [json.load(open(name)) for name in %r]; " % [path, b.path("plan.json")]
-        write = "open(%r, 'w').write(json.dumps(d[1]))" % b.path("copy.json")
-        read = "import json; json.load(open(%r))" % b.path("plan.json")
-        plan, moved, check, seen = b.least(b.plan(path), [sys.executable, "-c", load + write],
-                                           [b.thread, "check", "-q", b.path("plan.json")], [sys.executable, "-c", read])
-        b.row(name, edges, seconds(plan.seconds), plan_grows(edges, plan.seconds, goes_on), ratio(plan.seconds, moved.seconds),
-              figure(plan.megabytes), seconds(check.seconds), check_grows(edges, check.seconds, goes_on),
-              ratio(check.seconds, seen.seconds), figure(check.megabytes))
+        with b.line(name, edges):
+            load = "import json; d = [json.load(open(name)) for name in %r]; " % [path, b.path("plan.json")]
+            write = "open(%r, 'w').write(json.dumps(d[1]))" % b.path("copy.json")
+            read = "import json; json.load(open(%r))" % b.path("plan.json")
+            plan, moved, check, seen = b.least(b.plan(path), [sys.executable, "-c", load + write],
+                                               [b.thread, "check", "-q", b.path("plan.json")], [sys.executable, "-c", read])
+            b.row(name, edges, seconds(plan.seconds), plan_grows(edges, plan.seconds, goes_on), ratio(plan.seconds, moved.seconds),
+                  figure(plan.megabytes), seconds(check.seconds), check_grows(edges, check.seconds, goes_on),
+                  ratio(check.seconds, seen.seconds), figure(check.megabytes), seconds(plan.seconds + check.seconds))
+    formats(b)
+
+
+def formats(b):
+    text = """`thread info` of the same framework in other formats: reading and what is counted in it; and `thread convert` from each to a
+file of frame JSON."""
+    b.table("Reading other formats", text, "format", "edges", "info s", "MB", "/ info of JSON", "convert s", "MB")
+    path, edges = b.frame("grid", 100 if b.smallest else 1000000)
+    base = None
+    for kind in ("json", "obj", "csv", "ply"):
+        with b.line(kind, edges):
+            other = b.path("other." + kind)
+            b.once([b.thread, "convert", path, "-q", "-o", other])
+            info, convert = b.least([b.thread, "info", other, "-q", "--json"],
+                                    [b.thread, "convert", other, "-q", "-o", b.path("back.json")])
+            if json.loads(info.out)["edges"] != edges:
+                raise Failed([other], "not all edges were read")
+            base = base or info
+            b.row(kind, edges, seconds(info.seconds), figure(info.megabytes), ratio(info.seconds, base.seconds),
+                  seconds(convert.seconds), figure(convert.megabytes))
 
 
 PARTS = {f.__name__: f for f in (length, files, turning, symmetry, threads, balance, pull, drawings, joints)}
@@ -437,8 +474,14 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         b = Bench(a, folder)
         b.print(HOW % a.repeats + machine(b))
+        spent = []
         for part in a.only or PARTS:
+            began = time.monotonic()
             PARTS[part](b)
+            spent.append("%s %.0f s" % (part, time.monotonic() - began))
+        b.print("\nBy the clock: %s." % ", ".join(spent))
+    if b.faults:
+        sys.exit("bench: %d rows are faults: %s" % (len(b.faults), "; ".join(b.faults)))
 
 
 if __name__ == "__main__":

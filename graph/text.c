@@ -337,10 +337,13 @@ thr_status thr_text_read(thr_text *text, const char *path, thr_err *err)
   if (!*path) return thr_fail(err, THR_EIO, NO_NAME);
   FILE *f = is_stdin ? stdin : fopen(path, "rb");
   if (!f) return thr_fail(err, THR_EIO, "%s: cannot open: %s", path, strerror(errno));
-  char block[1 << 16];
-  size_t n;
-  while (!text->failed && text->length <= MAX_INPUT_BYTES && (n = fread(block, 1, sizeof block, f)) > 0)
-    thr_text_append_bytes(text, block, n);
+  struct stat about;
+  const bool regular = fstat(fileno(f), &about) == 0 && S_ISREG(about.st_mode);
+  size_t block = 1 << 16, n;
+  if (regular && about.st_size >= (off_t)block && about.st_size <= MAX_INPUT_BYTES) block = (size_t)about.st_size + 1;
+  for (; text->length <= MAX_INPUT_BYTES && reserve(text, block); text->length += n, block = 1 << 16)
+    if ((n = fread(text->data + text->length, 1, block, f)) == 0) break;
+  if (text->data) text->data[text->length] = '\0';
   thr_status st = THR_OK;
   if (ferror(f))
     st = thr_fail(err, THR_EIO, "%s: cannot read: %s", path, strerror(errno));

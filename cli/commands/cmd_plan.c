@@ -476,6 +476,7 @@ static int check_text(const thr_text *text, const char *path, thr_plan *plan)
 static int write_plan(const arguments *a, thr_plan *p, places *to, int code)
 {
   thr_text text = {0};
+  thr_frame_keep_hash(&p->frame);
   thr_plan_write(p, &text);
   int refused = find_places(a, &text, to);
   if (!refused) refused = check_text(&text, to->plan, p);

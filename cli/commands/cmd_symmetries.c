@@ -28,7 +28,9 @@ static const char help[] =
     "      --capacity N     at most N passes through any edge (default: what the framework file says, or any number)\n"
     "      --joint solid|tube   tube: only edges are beads, and cords tie them at every node (default: solid)\n" SYMMETRY_HELP
     "      --mu X           friction, for the capstan factor (default: 0.2)\n"
-    "      --time-limit S   for all groups together, 0 = no limit (default: 20)\n" GUARD_MEMORY_HELP CLI_PROCESSES_HELP
+    "      --time-limit S   for all groups together, 0 = no limit (default: 20, with --row-work none)\n"
+    "      --row-work N     for each row so much work, counted and not measured (1 is some seconds): the same table on every\n"
+    "                       machine (default: each row has a share of the time)\n" GUARD_MEMORY_HELP CLI_PROCESSES_HELP
     "      --json           as JSON\n" CLI_FRAME_HELP
     "  -q, --quiet          no notes and no progress       -v, --verbose  what the solver does       -h, --help\n\n"
     "* marks the default choice of thread plan --objective symmetry. A step, what is to be learned, is a pass of a unique\n"
@@ -36,7 +38,7 @@ static const char help[] =
     "Exit codes: 0 every row optimal by the solver's word, 2 usage, 3 bad input, 4 infeasible, 5 some rows not in\n"
     "time (table printed)\n";
 
-enum { OPTION_ENDS = OPTION_SYMMETRY_FREE, OPTION_COVER, OPTION_CAPACITY, OPTION_JOINT, OPTION_MU, OPTION_JSON };
+enum { OPTION_ENDS = OPTION_SYMMETRY_FREE, OPTION_COVER, OPTION_CAPACITY, OPTION_JOINT, OPTION_MU, OPTION_ROW_WORK, OPTION_JSON };
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
@@ -46,6 +48,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"capacity", required_argument, NULL, OPTION_CAPACITY},
                                       {"joint", required_argument, NULL, OPTION_JOINT},
                                       {"mu", required_argument, NULL, OPTION_MU},
+                                      {"row-work", required_argument, NULL, OPTION_ROW_WORK},
                                       GUARD_OPTIONS,
                                       CLI_PROCESSES_OPTION,
                                       {"json", no_argument, NULL, OPTION_JSON},
@@ -72,9 +75,10 @@ static int parse(int argc, char **argv, arguments *a)
 {
   int done, o;
   bool ok = true;
+  double row_work = 0;
   *a = (arguments){.frame = cli_frame_args_default(),
                    .symmetry = symmetry_args_default(),
-                   .guard = {.seconds = 20, .memory = guard_limits_default().memory},
+                   .guard = guard_limits_default(),
                    .plan = thr_request_default(),
                    .ends = "closed"};
   while ((o = cli_next_option(argc, argv, "symmetries", ":" CLI_COMMON_LETTERS CLI_PROCESSES_LETTER, table, help, &done)) != -1) {
@@ -87,6 +91,7 @@ static int parse(int argc, char **argv, arguments *a)
       case OPTION_CAPACITY: ok = cli_int("symmetries", "--capacity", optarg, 1, 1000, &a->plan.capacity); break;
       case OPTION_JOINT: ok = parse_joint(optarg, &a->plan.joint); break;
       case OPTION_MU: ok = cli_double("symmetries", "--mu", optarg, 0, 10, &a->plan.physics.mu); break;
+      case OPTION_ROW_WORK: ok = cli_double("symmetries", "--row-work", optarg, 1e-6, 1e9, &row_work); break;
       case OPTION_JSON: a->json = true; break;
       }
     }
@@ -97,7 +102,9 @@ static int parse(int argc, char **argv, arguments *a)
   if (a->plan.capacity > 0 && a->plan.capacity < a->plan.cover)
     return cli_usage("symmetries", "--capacity %d leaves no room for --cover %d", a->plan.capacity, a->plan.cover);
   a->path = argv[optind];
+  if (a->guard.seconds < 0) a->guard.seconds = row_work > 0 ? 0 : 20;
   a->plan.symmetry = a->symmetry.options;
+  a->plan.symmetry.row_work = row_work;
   a->plan.aims.n = THR_N_AIMS;
   memcpy(a->plan.aims.aim, a->symmetry.prefer, sizeof a->symmetry.prefer);
   a->plan.time_limit = a->guard.seconds;

@@ -257,13 +257,19 @@ static int most_extra(const workspace *k, const thr_certificate *certificate, in
   return most < room ? most : room;
 }
 
+/* As fmax(0, x), in one instruction instead of a call. */
+static inline double at_least_0(double x)
+{
+  return x > 0 ? x : 0;
+}
+
 /* What rounding an edge's length up to its weight may add to a bound. */
 static void charge_rounding(const workspace *k, const thr_certificate *certificate, int e, int64_t units, thr_check_verdict *out)
 {
   double weight = (double)units / certificate->scale, added = weight - k->f->length[e];
   int most = most_extra(k, certificate, e);
-  out->rounding += fmax(0, added) * most;
-  out->rounding_above += fmax(0, added - THR_CHECK_ROUNDING * weight) * most;
+  out->rounding += at_least_0(added) * most;
+  out->rounding_above += at_least_0(added - THR_CHECK_ROUNDING * weight) * most;
 }
 
 /* Compares the stated sums with the true ones, and says what they prove. */

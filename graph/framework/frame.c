@@ -613,6 +613,7 @@ double thr_frame_total_length(const thr_frame *frame)
 
 uint64_t thr_frame_hash(const thr_frame *frame)
 {
+  if (frame->hash) return frame->hash;
   uint64_t hash = FNV_START;
   hash = fnv(hash, &frame->n_nodes, sizeof frame->n_nodes);
   hash = fnv(hash, &frame->n_edges, sizeof frame->n_edges);
@@ -623,6 +624,12 @@ uint64_t thr_frame_hash(const thr_frame *frame)
   if (frame->cover) hash = fnv(hash, frame->cover, (size_t)frame->n_edges * sizeof *frame->cover);
   if (frame->capacity) hash = fnv(fnv(hash, "capacity", 8), frame->capacity, (size_t)frame->n_edges * sizeof *frame->capacity);
   return hash;
+}
+
+void thr_frame_keep_hash(thr_frame *frame)
+{
+  frame->hash = 0;
+  frame->hash = thr_frame_hash(frame);
 }
 
 thr_status thr_frame_components(const thr_frame *frame, int *component, int *count, thr_err *err)
@@ -699,7 +706,7 @@ void thr_direction(const thr_frame *frame, int half, double d[3])
   double largest = 0;
   for (int i = 0; i < 3; i++) {
     d[i] = to[i] - from[i];
-    if (fabs(d[i]) > largest) largest = fabs(d[i]);
+    largest = fabs(d[i]) > largest ? fabs(d[i]) : largest;
   }
   for (int i = 0; i < 3; i++)
     d[i] /= largest;

@@ -21,6 +21,7 @@ typedef struct {
   bool own_lengths; /* lengths were given, not Euclidean */
   int *first;       /* [n_nodes + 1] half-edges leaving v: half[first[v] .. first[v + 1] - 1], by ascending edge */
   int *half;        /* [2 * n_edges] */
+  uint64_t hash;    /* kept by thr_frame_keep_hash; 0 = not */
 } thr_frame;
 
 static inline int thr_tail(const thr_frame *frame, int h)
@@ -139,8 +140,11 @@ double thr_frame_total_length(const thr_frame *frame);
 double thr_frame_diagonal(const thr_frame *frame); /* of the bounding box, in units */
 
 /* 64-bit FNV-1a over counts, coordinates, edges, lengths, feet and, if there are any, covers and capacities: names a framework in
- * outputs. Not for security. */
+ * outputs. Not for security. O(n + m), unless it is kept. */
 uint64_t thr_frame_hash(const thr_frame *frame);
+
+/* Works the hash out and keeps it, for who writes a framework that nobody changes any more and reads it back. */
+void thr_frame_keep_hash(thr_frame *frame);
 
 /* Component number of every node (0, 1, .. by lowest node) in component[n_nodes]; *count receives how many. */
 thr_status thr_frame_components(const thr_frame *frame, int *component, int *count, thr_err *err) THR_MUST_CHECK;

@@ -70,6 +70,7 @@ typedef struct {
   char group[16];   /* row of `thread symmetries` or name of a point group; "" = the default choice */
   double geometric; /* isometries within this tolerance only; < 0 = any automorphism */
   bool counted;     /* cords and cords_least are asked for, as of other plans; otherwise there are as many as there are */
+  double row_work;  /* counted work (thr_limits_spend) for each row, which then ends by nothing else; 0 = by the time */
 } thr_symmetry_options;
 
 /* Which engine finds the shortest passes (lp/tjoin/engine.h). */

@@ -322,8 +322,9 @@ static thr_status begin(thr_cover_search *s, const thr_cover *known, thr_err *er
 static thr_status stopped(const thr_cover_search *s, const char *what, thr_err *err)
 {
   const thr_limits *limits = s->limits;
-  const char *why =
-      limits->interrupted && *limits->interrupted ? "the search was stopped before it could" : "the time was too short to";
+  const char *why = limits->interrupted && *limits->interrupted ? "the search was stopped before it could"
+                    : limits->work                              ? "the work allowed was too little to"
+                                                                : "the time was too short to";
   return thr_fail(err, THR_ELIMIT, "%s %s", why, what);
 }
 

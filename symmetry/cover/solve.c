@@ -370,15 +370,17 @@ static void fill(queue *q)
   qsort(q->next, (size_t)q->n, sizeof *q->next, by_steps);
 }
 
-/* One of them, with its share of the time. */
+/* One of them, with its share of the time, or its own work. */
 static thr_status solve_next(void *user, int job, const thr_limits *limits, thr_err *err)
 {
   const queue *q = user;
   thr_limits share = *limits;
   const int left = q->n - job;
+  double work = q->s->o->symmetry.row_work;
   share.deadline = thr_limits_part(&q->all, left > q->threads ? (double)q->threads / left : 1).deadline;
   if (limits->advance)
     limits->advance(limits->user, "threading under each group", (q->r + 1 - (double)left / q->s->t->n) / N_ROUNDS);
+  if (work > 0) share.work = &work, share.work_kept = 0;
   q->had[q->next[job].row] = true;
   return solve(q->s, q->next[job].row, q->r != PROOFS, &share, err);
 }
