@@ -1,0 +1,99 @@
+/* thread eval as JSON. */
+#include "cli/print/eval_print.h"
+#include "cli/print/load_words.h"
+#include "eval/eval.h"
+#include "eval/structure/holding.h"
+#include "eval/structure/settle.h"
+#include "graph/framework/frame.h"
+#include "graph/io/writer.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/plan.h"
+#include "graph/text.h"
+
+#include <math.h>
+
+/* Its name, or null if there is none. */
+static void put_bead(thr_writer *writer, const char *key, const thr_frame *frame, int bead)
+{
+  if (bead >= 0)
+    thr_write_string(writer, key, frame->name[bead]);
+  else
+    thr_write_null(writer, key);
+}
+
+static void put_json_holding(thr_writer *writer, const thr_frame *frame, const char *key, const thr_holding *holding,
+                             const char *when)
+{
+  thr_write_line(writer, 1);
+  thr_write_object(writer, key);
+  thr_write_number(writer, "lower", holding->lower);
+  thr_write_number(writer, "upper", holding->upper);
+  thr_write_number(writer, "residual", holding->residual);
+  put_bead(writer, "first_bead", frame, holding->first_bead);
+  thr_write_string(writer, "holds", when);
+  thr_write_close(writer);
+}
+
+/* The three answers of the limit analysis. */
+static void put_json_answers(thr_writer *writer, const thr_frame *frame, const thr_eval *eval)
+{
+  put_json_holding(writer, frame, "holding", &eval->holding, "while the cord is being drawn in");
+  if (eval->equal.present)
+    put_json_holding(writer, frame, "equal_pulls", &eval->equal,
+                     "while the cord is being drawn in, with equal pulls at all ends");
+  if (eval->loosest.present)
+    put_json_holding(writer, frame, "any_state", &eval->loosest, "force at all ends, whatever was done to the cords before");
+  if (!eval->after.present) return;
+  put_json_holding(writer, frame, "after", &eval->after, "factor on the tensions that the schedule leaves");
+  thr_write_number(writer, "let_down", eval->let_down);
+}
+
+static void put_json_simulation(thr_writer *writer, const thr_frame *frame, const thr_settle *settle)
+{
+  static const char *const status[] = {"fell", "held", "never settled", "too large", "crept"};
+  const bool ranked = settle->status == THR_SETTLE_FELL || settle->status == THR_SETTLE_HELD;
+  thr_write_line(writer, 1);
+  thr_write_object(writer, "simulation");
+  thr_write_string(writer, "status", status[settle->status]);
+  thr_write_number(writer, "ranking_index", ranked ? settle->index : NAN);
+  put_bead(writer, "first_bead", frame, settle->first_bead);
+  thr_write_number(writer, "gap_before_mm", settle->gap_before);
+  thr_write_number(writer, "gap_after_mm", settle->gap_after);
+  thr_write_number(writer, "drift_mm", settle->drift);
+  thr_write_number(writer, "finer", settle->finer);
+  thr_write_close(writer);
+}
+
+static void put_json_joints(thr_writer *writer, const thr_eval *eval)
+{
+  thr_write_int(writer, "refused_sharp", eval->refused_sharp);
+  thr_write_int(writer, "refused_unsettled", eval->refused_unsettled);
+  thr_write_int(writer, "refused_outside", eval->refused_outside);
+  thr_write_line(writer, 1);
+  thr_write_object(writer, "joints");
+  thr_write_int(writer, "unsettled", eval->joints_unsettled);
+  thr_write_number(writer, "interpolation", eval->interpolation);
+  thr_write_close(writer);
+}
+
+void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, bool stopped)
+{
+  thr_writer writer = {.out = text};
+  thr_write_object(&writer, NULL);
+  thr_write_hash(&writer, "framework", thr_frame_hash(&plan->frame));
+  thr_write_bool(&writer, "complete", eval->complete && !stopped);
+  thr_evaluation_write(&plan->evaluation, &writer, "evaluation");
+  thr_write_line(&writer, 1);
+  thr_write_array(&writer, "band");
+  thr_write_number(&writer, NULL, eval->band[0]);
+  thr_write_number(&writer, NULL, eval->band[1]);
+  thr_write_close(&writer);
+  thr_write_number(&writer, "error", eval->error);
+  thr_write_int(&writer, "refused", eval->refused);
+  if (plan->evaluation.method == THR_JOINT) put_json_joints(&writer, eval);
+  if (eval->holding.present) put_json_answers(&writer, &plan->frame, eval);
+  if (eval->n_carries) load_put_json(&writer, &plan->frame, eval);
+  if (eval->holding.present && eval->settle.present) put_json_simulation(&writer, &plan->frame, &eval->settle);
+  thr_write_close(&writer);
+  thr_text_append(text, "\n");
+}

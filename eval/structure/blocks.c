@@ -1,0 +1,335 @@
+/* Contacts, wrenches and the columns of the programme, which an interior point method solves: the equilibrium of a bead involves
+ * its neighbours only, so that the factors stay sparse. The one long column, the pull, is split into a copy per bead, tied along
+ * a spanning forest. */
+#include "eval/structure/blocks.h"
+
+#include "graph/angle.h"
+#include "graph/disjoint.h"
+#include "graph/vector.h"
+#include "lp/solver/interior.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CORNERS = 4 };
+
+typedef struct {
+  int n_columns, capacity;
+  double *rhs, *cost, *value;
+  int *start, *row;
+  thr_scratch own; /* the arrays */
+} programme;
+
+double thr_blocks_widening(const thr_beads *beads)
+{
+  return 1 / cos(THR_PI / beads->rays);
+}
+
+/* ---- the structure ---- */
+
+bool thr_blocks_inside(const thr_blocks *s, int face)
+{
+  return s->body[s->f->edge[face][0]] == s->body[s->f->edge[face][1]];
+}
+
+static void add_contact(thr_blocks *s, int bead, int other, const double at[3], const double normal[3], double mu)
+{
+  thr_contact *c = &s->contact[s->n_contacts++];
+  double least[3] = {0}, tangent[2][3];
+  int k = 0;
+  for (int i = 1; i < 3; i++)
+    if (fabs(normal[i]) < fabs(normal[k])) k = i;
+  least[k] = 1;
+  thr_cross(normal, least, tangent[0]);
+  double norm = sqrt(thr_dot(tangent[0], tangent[0]));
+  for (int i = 0; i < 3; i++)
+    tangent[0][i] /= norm;
+  thr_cross(normal, tangent[0], tangent[1]);
+  *c = (thr_contact){.bead = bead, .other = other};
+  memcpy(c->at, at, sizeof c->at);
+  for (int e = 0; e < s->b->rays; e++) {
+    const double angle = 2 * THR_PI * e / s->b->rays;
+    for (int i = 0; i < 3; i++)
+      c->ray[e][i] = normal[i] + mu * (cos(angle) * tangent[0][i] + sin(angle) * tangent[1][i]);
+  }
+}
+
+/* widen: factor on friction, to put the pyramids round the cones. */
+static void set_contacts(thr_blocks *s, double widen)
+{
+  const thr_beads *beads = s->b;
+  const double up[3] = {0, 0, 1};
+  s->n_contacts = 0;
+  for (int e = 0; e < beads->n_faces; e++)
+    for (int i = 0; i < CORNERS && !thr_blocks_inside(s, e); i++)
+      add_contact(s, s->f->edge[e][1], s->f->edge[e][0], beads->corner[e][i], beads->axis[e], widen * s->physics->mu_bead);
+  for (int k = 0; k < beads->n_feet; k++)
+    for (int i = 0; i < CORNERS; i++)
+      add_contact(s, beads->foot[k], -1, beads->foot_point[k][i], up, widen * s->physics->mu_ground);
+}
+
+static void set_units(thr_blocks *s)
+{
+  const thr_beads *beads = s->b;
+  double mass = 0, square = 0;
+  int n = 0, bodies = 0;
+  for (int v = 0; v < beads->n_beads; v++)
+    if (!beads->fixed[v]) mass += beads->mass[v], n++;
+  s->weight = n && mass * s->physics->gravity > 0 ? mass * s->physics->gravity / n : 1;
+  s->length = beads->width;
+  for (int v = 0; v < s->n_bodies; v++)
+    if (s->row[v] >= 0) {
+      square += thr_dot(s->wrench[v], s->wrench[v]) + thr_dot(s->wrench[v] + 3, s->wrench[v] + 3) / (s->length * s->length);
+      bodies++;
+    }
+  s->pull = square > 0 ? s->weight / sqrt(square / bodies) : s->weight;
+}
+
+/* Numbers the bodies by their lowest beads. parent[n_beads]: scratch. */
+static void set_bodies(thr_blocks *s, int *parent)
+{
+  const thr_beads *beads = s->b;
+  for (int v = 0; v < beads->n_beads; v++)
+    parent[v] = v;
+  for (int e = 0; e < beads->n_faces && s->merged; e++)
+    if (s->press[e] > s->most) thr_disjoint_join(parent, s->f->edge[e][0], s->f->edge[e][1]);
+  for (int v = 0; v < beads->n_beads; v++) {
+    int root = thr_disjoint_find(parent, v);
+    if (root == v) memcpy(s->origin[s->n_bodies], beads->mass_centre[v], sizeof *s->origin);
+    s->body[v] = root == v ? s->n_bodies++ : s->body[root];
+    if (beads->fixed[v]) s->row[s->body[v]] = -1;
+  }
+  for (int v = 0; v < s->n_bodies; v++)
+    if (s->row[v] == 0) s->row[v] = s->n_rows, s->n_rows += 6;
+}
+
+static void add_force(const thr_blocks *s, double (*wrench)[6], int bead, const double force[3], const double at[3], double times)
+{
+  const int body = s->body[bead];
+  double lever[3], moment[3];
+  for (int k = 0; k < 3; k++)
+    lever[k] = at[k] - s->origin[body][k];
+  thr_cross(lever, force, moment);
+  for (int k = 0; k < 3; k++) {
+    wrench[body][k] += times * force[k];
+    wrench[body][k + 3] += times * moment[k];
+  }
+}
+
+/* The cords draw the two beads of a face together; the load acts on the nodes. */
+static void set_wrenches(thr_blocks *s)
+{
+  double(*of_cords)[6] = s->carries ? s->given : s->wrench, (*of_load)[6] = s->carries ? s->wrench : s->given;
+  for (int e = 0; e < s->b->n_faces; e++)
+    for (int side = 0; side < 2 && !thr_blocks_inside(s, e); side++)
+      add_force(s, of_cords, s->f->edge[e][side], s->b->axis[e], s->b->middle[e], (side ? -1 : 1) * fmin(s->press[e], s->most));
+  for (int v = 0; v < s->b->n_beads && s->load; v++)
+    add_force(s, of_load, v, s->load[v], s->b->centre[v], 1);
+}
+
+static void set_ties(thr_blocks *s, int *parent)
+{
+  for (int v = 0; v < s->n_bodies; v++)
+    parent[v] = v;
+  for (int e = 0; e < s->b->n_faces; e++) {
+    int a = s->body[s->f->edge[e][0]], b = s->body[s->f->edge[e][1]];
+    if (thr_disjoint_join(parent, a, b)) s->tie[s->n_ties][0] = a, s->tie[s->n_ties++][1] = b;
+  }
+  for (int v = 1; v < s->n_bodies; v++)
+    if (thr_disjoint_join(parent, 0, v)) s->tie[s->n_ties][0] = 0, s->tie[s->n_ties++][1] = v;
+}
+
+void thr_blocks_destroy(thr_blocks *s)
+{
+  thr_scratch_free(&s->own);
+}
+
+thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
+{
+  const thr_beads *beads = s->b;
+  size_t n = (size_t)beads->n_beads;
+  int *parent = thr_scratch_array(&s->own, n, sizeof *parent);
+  s->contact = thr_scratch_array(&s->own, (size_t)(beads->n_faces + beads->n_feet) * CORNERS, sizeof *s->contact);
+  s->body = thr_scratch_array(&s->own, n, sizeof *s->body);
+  s->origin = thr_scratch_array(&s->own, n, sizeof *s->origin);
+  s->wrench = thr_scratch_array(&s->own, n, sizeof *s->wrench);
+  s->given = thr_scratch_array(&s->own, n, sizeof *s->given);
+  s->row = thr_scratch_array(&s->own, n, sizeof *s->row);
+  s->tie = thr_scratch_array(&s->own, n, sizeof *s->tie);
+  if (thr_scratch_check(&s->own, err)) {
+    thr_blocks_destroy(s);
+    return THR_ENOMEM;
+  }
+  set_bodies(s, parent);
+  set_wrenches(s);
+  set_units(s);
+  set_ties(s, parent);
+  set_contacts(s, widen);
+  return THR_OK;
+}
+
+/* ---- the programme ---- */
+
+static void programme_destroy(programme *p)
+{
+  thr_scratch_free(&p->own);
+}
+
+static void entry(programme *p, int row, double value)
+{
+  if (value == 0) return;
+  int *end = &p->start[p->n_columns + 1];
+  p->row[*end] = row;
+  p->value[(*end)++] = value;
+}
+
+/* Begins the next column at the end of the last. */
+static void column(programme *p, double cost)
+{
+  p->cost[p->n_columns] = cost;
+  p->start[p->n_columns + 1] = p->start[p->n_columns];
+}
+
+/* A force of one weight along ray at the contact. */
+static void contact_entries(const thr_blocks *s, programme *p, const thr_contact *c, int bead, const double ray[3], double sign)
+{
+  int body = bead < 0 ? -1 : s->body[bead];
+  if (body < 0 || s->row[body] < 0) return;
+  double lever[3], moment[3];
+  for (int k = 0; k < 3; k++)
+    lever[k] = (c->at[k] - s->origin[body][k]) / s->length;
+  thr_cross(lever, ray, moment);
+  for (int k = 0; k < 3; k++)
+    entry(p, s->row[body] + k, sign * ray[k]);
+  for (int k = 0; k < 3; k++)
+    entry(p, s->row[body] + 3 + k, sign * moment[k]);
+}
+
+static void contact_columns(const thr_blocks *s, programme *p)
+{
+  for (int i = 0; i < s->n_contacts; i++) {
+    const thr_contact *c = &s->contact[i];
+    for (int e = 0; e < s->b->rays; e++, p->n_columns++) {
+      column(p, 0);
+      contact_entries(s, p, c, c->bead, c->ray[e], 1);
+      contact_entries(s, p, c, c->other, c->ray[e], -1);
+    }
+  }
+}
+
+/* Copies of the unknown; the first one costs. */
+static void pull_columns(const thr_blocks *s, programme *p, double cost)
+{
+  double unit = s->pull / s->weight;
+  for (int v = 0; v < s->n_bodies; v++, p->n_columns++) {
+    column(p, v == 0 ? cost : 0);
+    for (int k = 0; k < 6 && s->row[v] >= 0; k++)
+      entry(p, s->row[v] + k, unit * s->wrench[v][k] / (k < 3 ? 1 : s->length));
+    for (int t = 0; t < s->n_ties; t++)
+      if (s->tie[t][0] == v || s->tie[t][1] == v) entry(p, s->n_rows + t, s->tie[t][0] == v ? 1 : -1);
+  }
+}
+
+/* Hands that push and turn each bead at a cost: with them any structure stands. */
+static void hand_columns(const thr_blocks *s, programme *p)
+{
+  for (int i = 0; i < 2 * s->n_rows; i++, p->n_columns++) {
+    column(p, 1);
+    entry(p, i / 2, i % 2 ? -1 : 1);
+  }
+}
+
+/* What carries a bead's weight. */
+static void weigh(const thr_blocks *s, int bead, double *rhs)
+{
+  int body = s->body[bead], row = s->row[body];
+  if (row < 0) return;
+  double lever[3], moment[3], up[3];
+  for (int k = 0; k < 3; k++) {
+    up[k] = -s->b->down[k] * s->b->mass[bead] * s->physics->gravity / s->weight;
+    lever[k] = (s->b->mass_centre[bead][k] - s->origin[body][k]) / s->length;
+  }
+  thr_cross(lever, up, moment);
+  for (int k = 0; k < 3; k++) {
+    rhs[row + k] += up[k];
+    rhs[row + 3 + k] += moment[k];
+  }
+}
+
+/* What carries the forces on a body that are given. */
+static void carry_given(const thr_blocks *s, int body, double *rhs)
+{
+  for (int k = 0; k < 6 && s->row[body] >= 0; k++)
+    rhs[s->row[body] + k] -= s->given[body][k] / (k < 3 ? s->weight : s->weight * s->length);
+}
+
+static thr_status programme_make(const thr_blocks *s, bool hands, programme *p, thr_err *err)
+{
+  size_t n = (size_t)s->n_bodies, rays = (size_t)s->n_contacts * (size_t)s->b->rays;
+  size_t columns = rays + n + (hands ? 2 * (size_t)s->n_rows : 0);
+  size_t entries = 12 * rays + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows;
+  *p = (programme){0};
+  p->rhs = thr_scratch_array(&p->own, (size_t)s->n_rows + (size_t)s->n_ties, sizeof *p->rhs);
+  p->cost = thr_scratch_array(&p->own, columns, sizeof *p->cost);
+  p->start = thr_scratch_array(&p->own, columns + 1, sizeof *p->start);
+  p->row = thr_scratch_array(&p->own, entries, sizeof *p->row);
+  p->value = thr_scratch_array(&p->own, entries, sizeof *p->value);
+  if (thr_scratch_check(&p->own, err)) {
+    programme_destroy(p);
+    return THR_ENOMEM;
+  }
+  for (int v = 0; v < s->b->n_beads; v++)
+    weigh(s, v, p->rhs);
+  for (int v = 0; v < s->n_bodies; v++)
+    carry_given(s, v, p->rhs);
+  contact_columns(s, p);
+  pull_columns(s, p, hands ? 0 : s->carries ? -1 : 1); /* the least pull, the largest load */
+  if (hands) hand_columns(s, p);
+  return THR_OK;
+}
+
+void thr_blocks_solution_destroy(thr_blocks_solution *o)
+{
+  free(o->x);
+  free(o->dual);
+  *o = (thr_blocks_solution){0};
+}
+
+/* Objective, and the largest difference between A x and rhs. */
+static thr_status finish(const programme *p, int n_rows, thr_blocks_solution *o, thr_err *err)
+{
+  double *left = thr_calloc((size_t)n_rows, sizeof *left);
+  if (!left) return thr_nomem(err);
+  memcpy(left, p->rhs, (size_t)n_rows * sizeof *left);
+  for (int j = 0; j < p->n_columns; j++) {
+    o->objective += p->cost[j] * o->x[j];
+    for (int k = p->start[j]; k < p->start[j + 1]; k++)
+      left[p->row[k]] -= p->value[k] * o->x[j];
+  }
+  for (int i = 0; i < n_rows; i++)
+    o->imbalance = fmax(o->imbalance, fabs(left[i]));
+  free(left);
+  return THR_OK;
+}
+
+thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits, thr_blocks_solution *out, thr_err *err)
+{
+  programme p;
+  int rows = s->n_rows + s->n_ties;
+  *out = (thr_blocks_solution){0};
+  thr_status st = programme_make(s, hands, &p, err);
+  if (st) return st;
+  out->x = thr_calloc((size_t)p.n_columns, sizeof *out->x);
+  out->dual = thr_calloc((size_t)rows, sizeof *out->dual);
+  const thr_equations equations = {
+      {rows, p.n_columns, p.start, p.row, p.value}, p.rhs, p.cost, s->n_bodies > THR_BLOCKS_LARGE ? THR_BLOCKS_ROUGH : 0};
+  thr_interior found = {.x = out->x, .dual = out->dual};
+  st = out->x && out->dual ? thr_interior_solve(&equations, limits, &found, err) : thr_nomem(err);
+  out->outcome = found.outcome;
+  if (!st && out->outcome == THR_LP_STOPPED) st = thr_fail(err, THR_ELIMIT, "stopped before the holding pull was found");
+  if (!st) st = finish(&p, rows, out, err);
+  programme_destroy(&p);
+  if (st) thr_blocks_solution_destroy(out);
+  return st;
+}

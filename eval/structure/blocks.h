@@ -1,0 +1,75 @@
+/* The framework as rigid blocks, and the linear programme of their equilibrium (eval/structure/holding.h says what for). Private
+ * to the limit analysis.
+ *
+ * Example: two beads merged into one body give six equations, not twelve. */
+#ifndef THR_BLOCKS_H
+#define THR_BLOCKS_H
+
+#include "eval/structure/beads.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/physics.h"
+#include "graph/scratch.h"
+#include "graph/status.h"
+#include "lp/solver/lp.h"
+
+#include <stdbool.h>
+
+/* Beads from which on the solver's bounds need not be nearer to each other than THR_BLOCKS_ROUGH, relative. */
+enum { THR_BLOCKS_LARGE = 1000 };
+static const double THR_BLOCKS_ROUGH = 1e-4;
+
+typedef struct {
+  int bead, other; /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
+  double at[3], ray[THR_MOST_RAYS][3];
+} thr_contact;
+
+/* Bodies are beads, or sets of beads that move as one. Forces are counted in weights of a mean bead, lengths in `length`, the
+ * pull in `pull`: numbers near 1 for the solver. */
+typedef struct {
+  const thr_beads *b;
+  const thr_frame *f;
+  const thr_physics *physics;
+  const double *press;         /* [n_faces] of a pull of 1; N where the load is asked for */
+  const double (*load)[3];     /* [n_beads] N, at its node; NULL = none */
+  bool carries;                /* the unknown is not the pull but what the load is multiplied by */
+  double most;                 /* press above it is taken for it .. */
+  bool merged;                 /* .. and the beads on either side for one body */
+  double weight, length, pull; /* N, m, N */
+  int n_bodies, n_contacts, n_rows, n_ties;
+  thr_contact *contact;
+  int *body;           /* [n_beads] */
+  double (*origin)[3]; /* [n_bodies] where moments are taken about, m */
+  double (*wrench)[6]; /* [n_bodies] of what is unknown: the cords at a pull of 1, or the load */
+  double (*given)[6];  /* [n_bodies] of the other one; none of a pull that is unknown */
+  int *row;            /* [n_bodies] first of a body's six rows, -1 = held in place */
+  int (*tie)[2];       /* [n_ties] bodies whose copies of the pull are equal */
+  thr_scratch own;     /* the arrays */
+} thr_blocks;
+
+typedef struct {
+  thr_lp_outcome outcome;
+  double objective;
+  double imbalance; /* largest violation of an equation, in weights */
+  double *x;        /* columns */
+  double *dual;     /* rows */
+} thr_blocks_solution;
+
+/* The factor on friction that puts the pyramids round the cones. */
+double thr_blocks_widening(const thr_beads *beads);
+
+/* Is the face within a body? */
+bool thr_blocks_inside(const thr_blocks *s, int face);
+
+/* From s->b, f, physics, press, load, carries, most and merged; the rest is 0. widen: factor on friction. s is freed on failure.
+ */
+thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err) THR_MUST_CHECK;
+void thr_blocks_destroy(thr_blocks *s);
+
+/* The least pull, or the largest load, at which they are in equilibrium; with hands, that push and turn each bead at a cost, the
+ * least of that cost. THR_ELIMIT when stopped. Release out whatever comes back. */
+thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits, thr_blocks_solution *out,
+                            thr_err *err) THR_MUST_CHECK;
+void thr_blocks_solution_destroy(thr_blocks_solution *o);
+
+#endif

@@ -1,0 +1,147 @@
+/* Velocities from the solver's multipliers, made exactly feasible. */
+#include "eval/structure/mechanism.h"
+
+#include "graph/vector.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Velocity of a bead's point at. */
+static void point_velocity(const thr_blocks *s, int bead, const double (*velocity)[6], const double at[3], double out[3])
+{
+  double lever[3];
+  for (int k = 0; k < 3; k++)
+    lever[k] = at[k] - s->b->mass_centre[bead][k];
+  thr_cross(velocity[bead] + 3, lever, out);
+  for (int k = 0; k < 3; k++)
+    out[k] += velocity[bead][k];
+}
+
+double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6])
+{
+  double least = INFINITY;
+  for (int i = 0; i < s->n_contacts; i++) {
+    const thr_contact *c = &s->contact[i];
+    double apart[3], back[3];
+    point_velocity(s, c->bead, velocity, c->at, apart);
+    if (c->other >= 0) {
+      point_velocity(s, c->other, velocity, c->at, back);
+      for (int k = 0; k < 3; k++)
+        apart[k] -= back[k];
+    }
+    for (int e = 0; e < s->b->rays; e++)
+      least = fmin(least, thr_dot(c->ray[e], apart));
+  }
+  return least;
+}
+
+/* All beads fly apart from a point deep below the ground, or from a bead that is held: this opens every contact, and a little of
+ * it makes up for the solver's rounding. */
+static void flight(const thr_blocks *s, double (*velocity)[6])
+{
+  const thr_beads *beads = s->b;
+  double from[3] = {0};
+  for (int v = 0; v < beads->n_beads; v++)
+    for (int k = 0; k < 3; k++)
+      from[k] += beads->centre[v][k] / beads->n_beads;
+  from[2] -= 2 * beads->size * (1 + s->physics->mu_ground);
+  for (int v = beads->n_beads - 1; v >= 0; v--)
+    if (beads->fixed[v]) memcpy(from, beads->centre[v], sizeof from);
+  for (int v = 0; v < beads->n_beads; v++)
+    for (int k = 0; k < 3; k++)
+      velocity[v][k] = s->row[s->body[v]] < 0 ? 0 : (s->origin[s->body[v]][k] - from[k]) / beads->size;
+}
+
+static void scale(const thr_blocks *s, double (*velocity)[6], double factor)
+{
+  for (int v = 0; v < s->b->n_beads; v++)
+    for (int k = 0; k < 6; k++)
+      velocity[v][k] *= factor;
+}
+
+static double translation(const double velocity[6])
+{
+  return sqrt(thr_dot(velocity, velocity));
+}
+
+static double largest_translation(const thr_beads *beads, const double (*velocity)[6])
+{
+  double largest = 0;
+  for (int v = 0; v < beads->n_beads; v++)
+    largest = fmax(largest, translation(velocity[v]));
+  return largest;
+}
+
+/* The lowest bead among the fastest: those that symmetry makes equal differ by what the solver leaves open. */
+int thr_mechanism_fastest(const thr_beads *beads, const double (*velocity)[6])
+{
+  double largest = largest_translation(beads, velocity);
+  for (int v = 0; v < beads->n_beads; v++)
+    if (largest > 0 && translation(velocity[v]) >= 0.99 * largest) return v;
+  return -1;
+}
+
+static void move_with_body(const thr_blocks *s, int bead, const double *dual, double velocity[6])
+{
+  int body = s->body[bead], row = s->row[body];
+  double lever[3], turn[3];
+  if (row < 0) return;
+  for (int k = 0; k < 6; k++)
+    velocity[k] = -dual[row + k] / (k < 3 ? 1 : s->length);
+  for (int k = 0; k < 3; k++)
+    lever[k] = s->b->mass_centre[bead][k] - s->origin[body][k];
+  thr_cross(velocity + 3, lever, turn);
+  for (int k = 0; k < 3; k++)
+    velocity[k] += turn[k];
+}
+
+/* Dual values as velocities, scaled to a largest translation of 1. Contacts that would close are opened by a little flight. */
+thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, double (*velocity)[6], thr_err *err)
+{
+  double(*apart)[6] = thr_calloc((size_t)s->b->n_beads, sizeof *apart);
+  if (!apart) return thr_nomem(err);
+  for (int v = 0; v < s->b->n_beads; v++)
+    move_with_body(s, v, dual, velocity[v]);
+  flight(s, apart);
+  double margin = thr_mechanism_opening(s, (const double(*)[6])apart);
+  for (int round = 0; round < 3; round++) { /* rounding again, far smaller each time */
+    double largest = largest_translation(s->b, (const double(*)[6])velocity);
+    if (largest > 0) scale(s, velocity, 1 / largest);
+    double opening = thr_mechanism_opening(s, (const double(*)[6])velocity);
+    if (opening >= 0 || !(margin > 0)) break;
+    for (int v = 0; v < s->b->n_beads; v++)
+      for (int k = 0; k < 6; k++)
+        velocity[v][k] -= opening / margin * (1 + 1e-9) * apart[v][k];
+  }
+  free(apart);
+  return THR_OK;
+}
+
+double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], int face)
+{
+  double one[3], other[3], sum = 0;
+  if (thr_blocks_inside(s, face)) return 0;
+  point_velocity(s, s->f->edge[face][1], velocity, s->b->middle[face], one);
+  point_velocity(s, s->f->edge[face][0], velocity, s->b->middle[face], other);
+  for (int k = 0; k < 3; k++)
+    sum += s->b->axis[face][k] * (one[k] - other[k]);
+  return sum;
+}
+
+thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6])
+{
+  thr_powers p = {0};
+  for (int v = 0; v < s->b->n_beads; v++) {
+    double weight = s->b->mass[v] * s->physics->gravity, node[3];
+    p.falling += weight * thr_dot(s->b->down, velocity[v]);
+    p.most += weight * translation(velocity[v]);
+    if (!s->load) continue;
+    point_velocity(s, v, velocity, s->b->centre[v], node);
+    p.load += thr_dot(s->load[v], node);
+    p.most += fabs(thr_dot(s->load[v], node));
+  }
+  for (int e = 0; e < s->b->n_faces; e++)
+    p.resistance += s->press[e] * thr_mechanism_parting(s, velocity, e);
+  return p;
+}

@@ -1,0 +1,34 @@
+/* Collapse mechanisms of rigid blocks: velocities of all beads, with which no contact closes, and the powers of what acts on
+ * them. Their balance is the proof of the limit analysis, in sums that know no solver. Private to it.
+ *
+ * A velocity has six numbers: translation of the bead's mass centre, rotation (1/m). Example: a bead that slides down a face of
+ * friction mu opens it by mu times its speed: the ray of the pyramid that resists has power 0. */
+#ifndef THR_MECHANISM_H
+#define THR_MECHANISM_H
+
+#include "eval/structure/beads.h"
+#include "eval/structure/blocks.h"
+#include "graph/status.h"
+
+/* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull, W/N, by their true tensions; the
+ * load. */
+typedef struct {
+  double falling, most, resistance, load;
+} thr_powers;
+
+/* Dual values of thr_blocks_solve as velocities [n_beads], scaled to a largest translation of 1. Contacts that would close are
+ * opened by a little flight. */
+thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, double (*velocity)[6], thr_err *err) THR_MUST_CHECK;
+
+/* Least power of any contact force: a mechanism has none below 0. */
+double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6]);
+
+/* How fast the beads of a face part at its middle, where the cords press. */
+double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], int face);
+
+thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6]);
+
+/* The lowest bead among the fastest; -1 if none moves. */
+int thr_mechanism_fastest(const thr_beads *beads, const double (*velocity)[6]);
+
+#endif
