@@ -5,6 +5,7 @@
 #include "eval/cord/calibrate.h"
 #include "graph/angle.h"
 #include "graph/io/writer.h"
+#include "graph/io/read.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
@@ -17,9 +18,9 @@ static const double WEIGHT_ERROR = 0.02; /* relative: of weights that are cups o
 static int draw_piece(double bore, const char *output)
 {
   thr_text text = {0};
-  const char *ending = output ? strrchr(output, '.') : NULL;
-  const bool stl = ending && strcmp(ending, ".stl") == 0;
-  if (ending && !stl && strcmp(ending, ".svg") != 0)
+  const char *ending = thr_path_ending(output ? output : "");
+  const bool stl = strcmp(ending, "stl") == 0;
+  if (*ending && !stl && strcmp(ending, "svg") != 0)
     return cli_usage("eval", "%s: the test piece is drawn as .svg, or as .stl to print it", output);
   if (stl)
     thr_test_piece_stl(bore, &text);

@@ -263,14 +263,14 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame)
 
 bool cli_output_format(const char *command, const char *output, const char *type, const thr_format **format)
 {
-  const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
+  const bool ends = *thr_path_ending(output) != '\0';
   const thr_format *named = thr_format_of_path(output);
   *format = named;
   if (type && !(*format = thr_format_written(type))) {
     cli_usage(command, "-T %s: expected json, obj, csv, ply, dxf or graphml", type);
     return false;
   }
-  if (dot && (!named || (type && named != *format))) {
+  if (ends && (!named || (type && named != *format))) {
     cli_usage(command, "%s: the ending must be %s%s", output, type ? "." : ".json, .obj, .csv, .ply, .dxf or .graphml",
               type ? type : "");
     return false;
@@ -278,16 +278,22 @@ bool cli_output_format(const char *command, const char *output, const char *type
   return true;
 }
 
+int cli_no_node(const thr_frame *frame, const char *option, const char *what, const char *name)
+{
+  char question[THR_SUGGESTION_TEXT];
+  thr_suggestion suggestion = {.word = name};
+  for (int v = 0; v < frame->n_nodes; v++)
+    thr_suggestion_try(&suggestion, frame->name[v]);
+  thr_suggestion_ask(&suggestion, question);
+  cli_error("%s: there is no %s %s; the first node is %s%s", option, what, name, frame->name[0], question);
+  return EXIT_INPUT;
+}
+
 static bool mark_node(const thr_frame *frame, const char *name, const char *option, bool *mark)
 {
   int v = thr_frame_find(frame, name);
   if (v < 0) {
-    char question[THR_SUGGESTION_TEXT];
-    thr_suggestion suggestion = {.word = name};
-    for (v = 0; v < frame->n_nodes; v++)
-      thr_suggestion_try(&suggestion, frame->name[v]);
-    thr_suggestion_ask(&suggestion, question);
-    cli_error("%s: there is no file and no node called %s; the first node is %s%s", option, name, frame->name[0], question);
+    cli_no_node(frame, option, "file and no node called", name);
     return false;
   }
   mark[v] = true;

@@ -138,6 +138,10 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame);
  * disagree, or it is not a format that is written (printed). */
 bool cli_output_format(const char *command, const char *output, const char *type, const thr_format **format);
 
+/* Says that there is no node of this name, and which comes nearest; what: "node", or what else was looked for. Returns
+ * EXIT_INPUT. */
+int cli_no_node(const thr_frame *frame, const char *option, const char *what, const char *name);
+
 /* Marks one node by its name, the nodes in a list of names, or those in a file of names; false prints why. */
 bool cli_mark_nodes(const thr_frame *frame, const char *list, const char *option, bool *mark);
 

@@ -1,6 +1,5 @@
 /* Loads, tilt, clamped feet. */
 #include "cli/args/load_args.h"
-#include "graph/suggestion.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/status.h"
@@ -70,17 +69,6 @@ bool load_any(const load_args *a)
   return a->load || a->tilt > 0 || a->clamped;
 }
 
-static int no_node(const thr_frame *frame, const char *name)
-{
-  char question[THR_SUGGESTION_TEXT];
-  thr_suggestion suggestion = {.word = name};
-  for (int v = 0; v < frame->n_nodes; v++)
-    thr_suggestion_try(&suggestion, frame->name[v]);
-  thr_suggestion_ask(&suggestion, question);
-  cli_error("--load: there is no node %s; the first is %s%s", name, frame->name[0], question);
-  return EXIT_INPUT;
-}
-
 /* One load, "D4=10" or "D4=0,1,-10": a single number hangs. */
 static int add_load(const thr_frame *frame, const char *text, size_t length, double (*load)[3])
 {
@@ -94,7 +82,7 @@ static int add_load(const thr_frame *frame, const char *text, size_t length, dou
     return cli_usage("eval", "--load %.*s: expected NODE=N, newtons that hang there, or NODE=FX,FY,FZ", (int)length, text);
   snprintf(name, sizeof name, "%.*s", (int)(equals - 1), text);
   const int v = thr_frame_find(frame, name);
-  if (v < 0) return no_node(frame, name);
+  if (v < 0) return cli_no_node(frame, "--load", "node", name);
   for (int k = 0; k < 3; k++)
     load[v][k] += n == 3 ? force[k] : k == 2 ? -force[0] : 0;
   return EXIT_OK;

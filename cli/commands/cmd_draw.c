@@ -2,6 +2,7 @@
 #include "cli/drawings.h"
 #include "cli/guard.h"
 #include "diagram/overview/overview.h"
+#include "graph/io/read.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
 #include "lib/documents.h"
@@ -77,8 +78,9 @@ static const char *type_name(int t)
 /* Has output another ending than the type's? A device or a name without an ending has none. */
 static bool is_misnamed(const char *output, int type)
 {
-  const char *slash = strrchr(output, '/'), *dot = strrchr(slash ? slash : output, '.');
-  return dot && !is_folder(output) && strcmp(output, "-") != 0 && strcmp(dot, strrchr(thr_document_file(type), '.')) != 0;
+  const char *ending = thr_path_ending(output);
+  return *ending && !is_folder(output) && strcmp(output, "-") != 0 &&
+         strcmp(ending, thr_path_ending(thr_document_file(type))) != 0;
 }
 
 /* One document to output, a file, a folder or NULL. */

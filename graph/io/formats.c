@@ -24,11 +24,10 @@ const thr_format *thr_format_written(const char *name)
   return format && format->write ? format : NULL;
 }
 
-/* What follows the last dot of the file's name, "" if nothing does. */
-static thr_span ending_of(const char *path)
+const char *thr_path_ending(const char *path)
 {
   const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
-  return thr_span_of(dot ? dot + 1 : "");
+  return dot ? dot + 1 : "";
 }
 
 /* NULL if there is none. */
@@ -133,7 +132,7 @@ static thr_status refuse(const foreign *found, const char *name, thr_err *err)
 
 thr_status thr_format_by_name(const char *name, const thr_format **format, thr_err *err)
 {
-  const thr_span ending = ending_of(name);
+  const thr_span ending = thr_span_of(thr_path_ending(name));
   *format = with_ending(ending);
   for (size_t i = 0; !*format && i < sizeof foreign_files / sizeof *foreign_files; i++)
     if (thr_span_is(ending, foreign_files[i].start)) return refuse(&foreign_files[i], name, err);
@@ -183,7 +182,7 @@ thr_status thr_format_by_text(const char *text, size_t n, const char *name, cons
 
 const thr_format *thr_format_of_path(const char *path)
 {
-  const thr_format *format = with_ending(ending_of(path));
+  const thr_format *format = with_ending(thr_span_of(thr_path_ending(path)));
   return format && format->write ? format : NULL;
 }
 

@@ -62,6 +62,9 @@ void thr_frame_write(const thr_frame *frame, const thr_format *format, thr_text 
  */
 void thr_obj_write_nodes(const thr_frame *frame, bool up_y, thr_text *out);
 
+/* What follows the last dot of the file's name, "" if nothing does; borrowed from the path. */
+const char *thr_path_ending(const char *path);
+
 /* The format that the path's ending says; NULL if it says none that can be written. */
 const thr_format *thr_format_of_path(const char *path);
 
