@@ -1,6 +1,7 @@
 /* One interface to the three methods: checks what is asked, prepares the record, calls the method, sums up. */
 #include "eval/cord/history.h"
 #include "eval/methods.h"
+#include "graph/plan/seating.h"
 #include "graph/framework/units.h"
 #include "graph/plan/schedule.h"
 
@@ -84,16 +85,18 @@ static thr_status follow_schedule(const thr_frame *frame, const thr_cord *cord, 
   return st || evaluation->schedule.n == 0 ? st : thr_history_follow(frame, cord, &evaluation->schedule, evaluation, err);
 }
 
-static thr_status sum_up(thr_eval *eval, thr_err *err)
+static thr_status sum_up(const thr_frame *frame, const thr_cord *cord, thr_eval *eval, thr_err *err)
 {
   eval->complete = true;
   for (int i = 0; i < eval->record.n_cords; i++) {
-    const thr_eval_cord *cord = &eval->record.cord[i];
-    eval->complete &= cord->known;
-    eval->error = fmax(eval->error, cord->error);
-    eval->refused += cord->refused;
+    const thr_eval_cord *record = &eval->record.cord[i];
+    eval->complete &= record->known;
+    eval->error = fmax(eval->error, record->error);
+    eval->refused += record->refused;
   }
   thr_evaluation_sum(&eval->record);
+  thr_status st = thr_seating_fraction(frame, cord, &eval->record, err);
+  if (st) return st;
   if (isfinite(eval->record.total)) return THR_OK;
   return thr_fail(err, THR_EINPUT,
                   "all pulls together are past what a number can hold; use a smaller mu, or a plan with more cords");
@@ -113,9 +116,9 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
   if (!st && method == THR_STRUCTURE && eval.record.schedule.n > 0)
     st = thr_structure_after(frame, cord, options, limits, &eval, err);
   if (!st)
-    st = sum_up(&eval, err);
+    st = sum_up(frame, cord, &eval, err);
   else if (st == THR_ELIMIT)
-    (void)sum_up(&eval, NULL); /* what is complete stays, whatever it adds up to */
+    (void)sum_up(frame, cord, &eval, NULL); /* what is complete stays, whatever it adds up to */
   if (st && st != THR_ELIMIT) thr_eval_destroy(&eval);
   *out = eval;
   return st;

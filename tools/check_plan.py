@@ -2199,7 +2199,7 @@ class Pulled:
 class Evaluation:
     def __init__(self, p, o):
         place = "evaluation"
-        known(o, "method law physics seed time_step iterations largest total scale cords schedule", place)
+        known(o, "method law physics seed time_step iterations largest total seated scale cords schedule", place)
         self.method = choice(o, "method", place, ("capstan", "joint", "structure"))
         require(("law" in o) == (self.method == "capstan"), "evaluation.law: with method capstan, and only with it")
         self.law = choice(o, "law", place, ("capstan", "mitre"), default="capstan")
@@ -2215,6 +2215,8 @@ class Evaluation:
         largest, total = max(c.force for c in cords), math.fsum(c.force + c.other for c in cords)
         near(member(o, "largest", "number", place), largest, largest, "evaluation.largest")
         near(member(o, "total", "number", place), total, total, "evaluation.total")
+        if "seated" in o:
+            self.check_seated(p, cords, member(o, "seated", "number", place, 0, 1))
         tensions = [x for c in cords for x in c.tension if x > 0 or not self.steps] or [0]
         scale = member(o, "scale", "object", place)
         known(scale, "low high", "evaluation.scale")
@@ -2223,6 +2225,16 @@ class Evaluation:
         for cord in cords:
             if cord.tension:
                 cord.check_colours(min(tensions), max(tensions))
+
+    def check_seated(self, p, cords, stated):
+        """The part of the gaps that are pressed with the seating tension; those at the threshold count either way."""
+        press = {}
+        for cord, row in zip(p.cords, cords):
+            require(len(row.tension) == len(cord.half), "evaluation.seated: not every cord is known")
+            for h, x in zip(cord.half, row.tension):
+                press[h >> 1] = press.get(h >> 1, 0) + x
+        low, high = (sum(x >= self.physics["seating"] * (1 + s) for x in press.values()) / len(press) for s in (1e-8, -1e-8))
+        require(low - 1e-9 <= stated <= high + 1e-9, f"evaluation.seated: {stated}, but the tensions seat {high}")
 
     def step(self, p, o):
         place = "evaluation.schedule"

@@ -21,7 +21,8 @@ enum {
   }
 #define LOAD_HELP                                                                                                                \
   "      --load NODE=N    structure: newtons that hang on a node, or NODE=FX,FY,FZ; several with semicolons: what pull\n"        \
-  "                       they need, how many times so much is carried at some pulls, and what moves first\n"                    \
+  "                       they need, how many times so much is carried at some pulls, and what moves first;\n"                   \
+  "                       NODE=0,0,N lifts, like a hand or a counterweight: the pull that is then needed\n"                      \
   "      --load-pulls LIST   at these pulls of all ends, newtons with commas (default: 1,2,5,10,20,50; above 100 pieces "        \
   "10,50)\n"                                                                                                                     \
   "      --tilt DEG       structure: the ground leans by so many degrees towards x, or DEG,AZIMUTH (from x to y)\n"              \

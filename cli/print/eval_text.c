@@ -4,6 +4,7 @@
 #include "cli/cli.h"
 #include "cli/print/load_words.h"
 #include "cli/print/plain.h"
+#include "cli/print/seated.h"
 #include "cli/pull.h"
 #include "eval/cord/history.h"
 #include "eval/cord/profile.h"
@@ -390,6 +391,7 @@ void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan, 
   put_heading(text, evaluation, eval->refused > 0, evaluation->schedule.n > 0 ? "by the schedule below" : view->pulled);
   put_cords(text, plan, evaluation);
   put_sums(text, plan, eval, view->strength);
+  seated_put(text, plan);
   put_pressure(text, plan);
   if (evaluation->schedule.n > 0) {
     put_schedule(text, plan);

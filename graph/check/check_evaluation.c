@@ -9,6 +9,7 @@
 #include "graph/status.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* What is claimed about one cord. */
 typedef struct {
@@ -196,6 +197,38 @@ static thr_status check_physics(const thr_plan *plan, thr_err *err)
   return THR_OK;
 }
 
+/* Part of the gaps that the cords go through whose passes press with the seating tension or more. Gaps at the threshold, which
+ * rounding may count either way, may be counted either way. */
+static thr_status check_seated(const thr_plan *plan, thr_err *err)
+{
+  const thr_evaluation *evaluation = &plan->evaluation;
+  const int n_edges = plan->frame.n_edges;
+  double *press = thr_calloc((size_t)n_edges + 1, sizeof *press);
+  if (!press) return thr_nomem(err);
+  for (int e = 0; e < n_edges; e++)
+    press[e] = -1; /* no cord goes through */
+  bool known = true;
+  for (int i = 0; i < evaluation->n_cords; i++) {
+    known &= evaluation->cord[i].known;
+    for (int k = 0; k < plan->cord[i].n_passes; k++) {
+      double *at = &press[plan->cord[i].half[k] >> 1];
+      *at = fmax(*at, 0) + (evaluation->cord[i].known ? evaluation->cord[i].tension[k] : 0);
+    }
+  }
+  int gaps = 0, surely = 0, perhaps = 0;
+  for (int e = 0; e < n_edges; e++) {
+    gaps += press[e] >= 0;
+    surely += press[e] > evaluation->physics.seating * (1 + 1e-8);
+    perhaps += press[e] >= evaluation->physics.seating * (1 - 1e-8);
+  }
+  free(press);
+  const double least = gaps > 0 ? (double)surely / gaps : 0, most = gaps > 0 ? (double)perhaps / gaps : 0;
+  if (known && evaluation->seated >= least - 1e-9 && evaluation->seated <= most + 1e-9) return THR_OK;
+  if (!known) return thr_fail(err, THR_EVIOLATED, "evaluation.seated: stated, but not every cord's tensions are known");
+  return thr_fail(err, THR_EVIOLATED, "evaluation.seated: stated %.12g, but the tensions seat %.12g of the gaps",
+                  evaluation->seated, most);
+}
+
 thr_status thr_check_evaluation(const thr_plan *plan, thr_err *err)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
@@ -215,5 +248,5 @@ thr_status thr_check_evaluation(const thr_plan *plan, thr_err *err)
                     largest);
   if (!thr_check_close(evaluation->total, total, total))
     return thr_fail(err, THR_EVIOLATED, "evaluation.total: stated %.12g, but the cords give %.12g", evaluation->total, total);
-  return THR_OK;
+  return evaluation->seated_known ? check_seated(plan, err) : THR_OK;
 }

@@ -149,6 +149,7 @@ void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, 
   thr_write_number(writer, "iterations", evaluation->iterations);
   thr_write_number(writer, "largest", evaluation->largest);
   thr_write_number(writer, "total", evaluation->total);
+  if (evaluation->seated_known) thr_write_number(writer, "seated", evaluation->seated);
   thr_write_line(writer, 2);
   thr_write_object(writer, "scale");
   thr_write_number(writer, "low", range[0]);
@@ -335,8 +336,8 @@ static thr_status read_schedule(const reader *r, const thr_json *object, thr_eva
 
 static thr_status read_members(const reader *r, const thr_json *object, thr_evaluation *evaluation)
 {
-  static const char *const known[] = {"method",  "law",   "physics", "seed",  "time_step", "iterations",
-                                      "largest", "total", "scale",   "cords", "schedule",  NULL};
+  static const char *const known[] = {"method", "law",    "physics", "seed",  "time_step", "iterations", "largest",
+                                      "total",  "seated", "scale",   "cords", "schedule",  NULL};
   char place[256];
   int method = 0, law = 0;
   int64_t seed = 0;
@@ -360,6 +361,8 @@ static thr_status read_members(const reader *r, const thr_json *object, thr_eval
   if ((st = get_double(r, object, "iterations", &evaluation->iterations))) return st;
   if ((st = get_double(r, object, "largest", &evaluation->largest))) return st;
   if ((st = get_double(r, object, "total", &evaluation->total))) return st;
+  evaluation->seated_known = thr_json_get(object, "seated") != NULL;
+  if (evaluation->seated_known && (st = get_double(r, object, "seated", &evaluation->seated))) return st;
   if ((st = read_cords(r, object, evaluation))) return st;
   if ((st = read_schedule(r, object, evaluation))) return st;
   return check_colours(r, object, evaluation);

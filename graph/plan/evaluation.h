@@ -60,6 +60,8 @@ typedef struct {
   thr_eval_cord *cord;          /* owned */
   double largest;               /* N: largest force at any pulled end */
   double total;                 /* N: sum over all pulled ends */
+  bool seated_known;            /* false: seated is not stated, since not every cord is known or an older version wrote it */
+  double seated;                /* part of the gaps that is seated (graph/plan/seating.h), 0 to 1 */
   thr_schedule schedule;        /* after which the tensions are what they are; empty: at the end of a pull */
 } thr_evaluation;
 

@@ -132,6 +132,7 @@ START_TEST(an_evaluation_survives_json)
   const thr_evaluation *a = &p.evaluation, *b = &q.evaluation;
   ck_assert(b->present && b->method == a->method && b->law == a->law && b->seed == a->seed && b->time_step == a->time_step);
   ck_assert(b->iterations == a->iterations && b->largest == a->largest && b->total == a->total && b->n_cords == a->n_cords);
+  ck_assert(a->seated_known && b->seated_known && b->seated == a->seated && a->seated == 1);
   ck_assert(memcmp(&b->physics, &a->physics, sizeof a->physics) == 0);
   for (int i = 0; i < a->n_cords; i++) {
     const thr_eval_cord *c = &a->cord[i], *d = &b->cord[i];
@@ -157,6 +158,8 @@ START_TEST(an_unfinished_evaluation_survives_json)
   free(c->exponent);
   *c = (thr_eval_cord){.pull = c->pull, .n_passes = c->n_passes};
   thr_evaluation_sum(&p.evaluation);
+  assert_violated(&p, "evaluation.seated");
+  p.evaluation.seated_known = false;
   assert_plan_sound(&p);
   thr_text t = plan_text(&p);
   thr_plan q = plan_from(t.data);
@@ -200,6 +203,7 @@ ALTER(other_law, e->law = THR_LAW_MITRE)
 ALTER(other_end, c->pull = THR_PULL_END)
 ALTER(more_largest, e->largest *= 1.001)
 ALTER(less_total, e->total *= 0.999)
+ALTER(less_seated, e->seated -= 0.01)
 ALTER(no_step, e->time_step = 0)
 ALTER(no_iteration, e->iterations = 0)
 
@@ -222,6 +226,7 @@ static const alteration alterations[] = {{"force", more_force},
                                          {"cord A", other_end},
                                          {"evaluation.largest", more_largest},
                                          {"evaluation.total", less_total},
+                                         {"evaluation.seated", less_seated},
                                          {"time_step", no_step},
                                          {"iterations", no_iteration}};
 
@@ -281,6 +286,7 @@ START_TEST(the_checker_takes_any_tension_behind_the_slackest_pass)
   thr_plan p = evaluated_plan(&f, THR_ENDS_CLOSED, THR_PULL_START, THR_LAW_CAPSTAN);
   thr_eval_cord *c = &p.evaluation.cord[0];
   const int n = c->n_passes;
+  p.evaluation.seated_known = false;
   p.evaluation.method = THR_JOINT;
   c->slackest = n - 3;
   const double least = c->tension[n - 3], parts[] = {1, 0.1, 0.01, 0};
@@ -319,6 +325,7 @@ START_TEST(the_checker_takes_any_tension_before_the_slackest_pass)
   thr_plan p = evaluated_plan(&f, THR_ENDS_CLOSED, THR_PULL_END, THR_LAW_CAPSTAN);
   thr_eval_cord *c = &p.evaluation.cord[0];
   const int n = c->n_passes;
+  p.evaluation.seated_known = false;
   p.evaluation.method = THR_JOINT;
   c->slackest = 2;
   c->tension[0] = 1.2 * c->tension[2], c->tension[1] = 1.5 * c->tension[2];
