@@ -203,8 +203,9 @@ bench: ## times of everything, beside other codes (half an hour), write docs/ben
 
 validate: ## measure the pull force against theory (a few minutes), write docs/validation.md
 	+@tools/install-packages.sh $(BUILD_PACKAGES)
-	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release $(OUT)/release/validate
-	@$(OUT)/release/validate docs/validation.md
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=release all $(OUT)/release/validate
+	@$(OUT)/release/validate docs/validation.md; first=$$?; \
+	tests/validate/claims.py $(OUT)/release/thread docs/validation.md docs/pictures && exit $$first
 
 memory: ## every command with an allocation of each distinct stack of calls failing (hours; SAMPLES=N: N of each command)
 	+@tools/install-packages.sh $(BUILD_PACKAGES)
