@@ -97,19 +97,26 @@ static void keep_better(thr_plan *plan, double now)
   best.n++;
 }
 
-/* Passes of their own for the cords, which are borrowed, if they may be led otherwise. */
-static bool own_passes(thr_plan *plan, int **half)
+/* Passes of their own for the cords, which are borrowed, if they may be led otherwise; false, and none, if there is no memory. */
+static bool own_passes(thr_plan *plan)
 {
-  size_t n = 0;
+  int i;
   if (plan->options.crossings == THR_CROSSINGS_ALLOW) return true;
-  for (int i = 0; i < plan->n_cords; i++)
-    n += (size_t)plan->cord[i].n_passes;
-  int *to = *half = thr_calloc(n, sizeof *to);
-  for (int i = 0; to && i < plan->n_cords; to += plan->cord[i++].n_passes) {
-    memcpy(to, plan->cord[i].half, (size_t)plan->cord[i].n_passes * sizeof *to);
-    plan->cord[i].half = to;
+  for (i = 0; i < plan->n_cords; i++) {
+    int *half = thr_calloc((size_t)plan->cord[i].n_passes, sizeof *half);
+    if (!half) break;
+    plan->cord[i].half = memcpy(half, plan->cord[i].half, (size_t)plan->cord[i].n_passes * sizeof *half);
   }
-  return *half != NULL;
+  if (i == plan->n_cords) return true;
+  while (i-- > 0)
+    free(plan->cord[i].half);
+  return false;
+}
+
+static void free_passes(thr_plan *plan)
+{
+  for (int i = 0; i < plan->n_cords && plan->options.crossings != THR_CROSSINGS_ALLOW; i++)
+    free(plan->cord[i].half);
 }
 
 void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetry_record *symmetry)
@@ -117,7 +124,6 @@ void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetr
   (void)user;
   double now = thr_clock();
   thr_symmetry_record own = {0};
-  int *half = NULL;
   if (!best.f || n_cords == 0 || (best.n > 1 && now - best.at < OFTEN)) return;
   thr_plan plan = {.frame = *best.f, .options = *best.o, .n_cords = n_cords};
   plan.cord = thr_calloc((size_t)n_cords, sizeof *plan.cord);
@@ -131,8 +137,10 @@ void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetr
     sound = !*best.o->symmetry.group && thr_cords_alone(best.f, &how, plan.cord, n_cords, &own, NULL) == THR_OK;
   }
   if (copies) plan.symmetry = symmetry ? *symmetry : own;
-  if (sound && own_passes(&plan, &half)) keep_better(&plan, now);
-  free(half);
+  if (sound && own_passes(&plan)) {
+    keep_better(&plan, now);
+    free_passes(&plan);
+  }
   thr_symmetry_record_destroy(&own);
   free(plan.cord);
 }

@@ -5,6 +5,7 @@
 #include "graph/plan/request.h"
 #include "planner/order_parts.h"
 #include "planner/starts.h"
+#include "planner/uncross.h"
 
 #include <limits.h>
 #include <math.h>
@@ -42,8 +43,8 @@ bool thr_order_turns(const thr_request *request, const thr_cord *cord)
 
 bool thr_order_reverses(const thr_request *request, const thr_cord *cord)
 {
-  return cord->n_passes <= THR_ORDER_REVERSED && request->joint == THR_JOINT_SOLID && request->crossings == THR_CROSSINGS_ALLOW &&
-         !thr_wants_symmetry(request) && (!thr_wants_turning(request) || request->turning.cost == THR_TURN_ANGLE);
+  return cord->n_passes <= THR_ORDER_REVERSED && request->joint == THR_JOINT_SOLID && !thr_wants_symmetry(request) &&
+         (!thr_wants_turning(request) || request->turning.cost == THR_TURN_ANGLE);
 }
 
 /* May cords turn more than they were found to? */
@@ -157,7 +158,7 @@ static thr_status thread_next(work *x, int c, thr_err *err)
   thr_status st = find_beginning(x, (alike){&c, 1}, 0, &at, err);
   if (!st) begin(x, cord, &at);
   if (!st && at.chains.longest > THR_HELD_WELL && thr_order_reverses(&plan->options, cord)) {
-    st = thr_order_reverse(&plan->frame, &plan->options, x->room[c], &x->threaded, cord, err);
+    st = thr_order_reverse(plan, c, x->room[c], &x->threaded, err);
     if (!st) st = find_beginning(x, (alike){&c, 1}, 0, &at, err);
     if (!st) begin(x, cord, &at);
   }
@@ -451,10 +452,8 @@ thr_status thr_plan_order(thr_plan *plan, thr_err *err)
   if (order == THR_ORDER_PLANNED || plan->n_cords == 0) return THR_OK;
   thr_status st = order == THR_ORDER_HAND ? order_all(plan, err) : order_if_worth(plan, &changed, err);
   if (st || !changed) return st;
-  const int crossings = plan->metrics.crossings;
   const double length = plan->metrics.length; /* the same passes, whatever the order in which they are added up */
   st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
   plan->metrics.length = length;
-  plan->metrics.crossings = crossings; /* channels are the same ones */
-  return st;
+  return st ? st : thr_plan_count_crossings(plan, err);
 }

@@ -3,6 +3,7 @@
 #include "graph/random.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/chains.h"
+#include "graph/plan/channels.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
@@ -26,16 +27,19 @@ typedef struct {
   const thr_request *request;
   thr_turning_room room;
   thr_threaded *threaded;
-  bool turns;       /* it may begin anywhere */
-  bool feet;        /* at feet only */
-  thr_cord now;     /* half: [n] owned */
-  int *best, *half; /* [n] the best passes, scratch; owned */
-  int *piece;       /* [n + 1] owned */
-  int *chain;       /* [n + 1] scratch; owned */
-  int *arm;         /* [2 n_edges] its number among those of its node; owned */
-  size_t *row;      /* [n_nodes + 1] where the node's turns begin; owned */
-  double *angle;    /* [row[n_nodes]] from arm to arm, rad; < 0 = not asked for yet; owned */
-  uint64_t state;   /* of the random numbers */
+  bool turns;            /* it may begin anywhere */
+  bool feet;             /* at feet only */
+  thr_cord now;          /* half: [n] owned */
+  int *best, *half;      /* [n] the best passes, scratch; owned */
+  int *piece;            /* [n + 1] owned */
+  int *chain;            /* [n + 1] scratch; owned */
+  int *arm;              /* [2 n_edges] its number among those of its node; owned */
+  size_t *row;           /* [n_nodes + 1] where the node's turns begin; owned */
+  int *rank;             /* [2 n_edges] of half-edges around their nodes (thr_channels_cross); NULL = channels may cross; owned */
+  thr_channels channels; /* of all cords: those of others count; owned */
+  int number;            /* of the cord */
+  double *angle;         /* [row[n_nodes]] from arm to arm, rad; < 0 = not asked for yet; owned */
+  uint64_t state;        /* of the random numbers */
 } annealer;
 
 /* ---- turns ---- */
@@ -264,6 +268,62 @@ static bool choose(annealer *x, change *c)
   return true;
 }
 
+/* ---- crossings ---- */
+
+/* The channel of visit k of the cord as it is; without two arms at its ends. */
+static thr_channel channel_at(const annealer *x, int k)
+{
+  int in = into(x, k);
+  return (thr_channel){.in = in < 0 ? in : in ^ 1, .out = out_of(x, k)};
+}
+
+/* Visits of a cord that begins anywhere: the last is the first. */
+static int count_visits(const annealer *x)
+{
+  return x->now.n_passes + !x->turns;
+}
+
+/* Pairs of channels of node v that cross, one of them or both of the cord; piece is up to date. O(passes + channels^2). */
+static int crossings_in(const annealer *x, int v)
+{
+  int n = 0;
+  for (int k = 0; k < count_visits(x); k++) {
+    if (x->piece[k] != v) continue;
+    thr_channel one = channel_at(x, k);
+    if (one.in < 0 || one.out < 0) continue;
+    for (int i = k + 1; i < count_visits(x); i++) {
+      thr_channel other = channel_at(x, i);
+      n += x->piece[i] == v && other.in >= 0 && other.out >= 0 && thr_channels_cross(x->rank, &one, &other);
+    }
+    for (int i = x->channels.first[v]; i < x->channels.first[v + 1]; i++) {
+      const thr_channel *other = &x->channels.channel[i];
+      n += other->cord != x->number && other->in >= 0 && other->out >= 0 && thr_channels_cross(x->rank, &one, other);
+    }
+  }
+  return n;
+}
+
+/* Those in the nodes v and w whose channels a change changes; none for a cord that is only begun elsewhere. */
+static int crossings_of(const annealer *x, const change *c, int v, int w)
+{
+  if (!x->rank || c->kind == BEGIN) return 0;
+  return crossings_in(x, v) + (w == v ? 0 : crossings_in(x, w));
+}
+
+static bool has_channels(annealer *x, const thr_plan *plan)
+{
+  size_t n = 2 * (size_t)x->frame->n_edges;
+  if (plan->options.crossings == THR_CROSSINGS_ALLOW) return true;
+  int *around = thr_calloc(n, sizeof *around);
+  x->rank = thr_calloc(n, sizeof *x->rank);
+  bool all = around && x->rank && thr_channels_around(x->frame, around, NULL) == THR_OK &&
+             thr_channels_make(&x->channels, plan, NULL) == THR_OK;
+  for (size_t i = 0; i < n && all; i++)
+    x->rank[around[i]] = (int)i;
+  free(around);
+  return all;
+}
+
 /* ---- annealing ---- */
 
 /* One change at random of the cord that is worth *now; taken back if it is not accepted. */
@@ -271,9 +331,10 @@ static void step(annealer *x, double heat, worth *now)
 {
   change c;
   if (!choose(x, &c) || now->turning + c.turning > x->room.turning * (1 + 1e-12)) return;
+  int v = x->piece[c.at[0]], w = x->piece[c.at[1]], crossings = crossings_of(x, &c, v, w);
   make(x, &c);
   worth then = measure(x, now->turning + c.turning);
-  double worse = weigh(&then) - weigh(now);
+  double worse = crossings_of(x, &c, v, w) > crossings ? HUGE_VAL : weigh(&then) - weigh(now);
   if (worse <= 0 || thr_random_unit(&x->state) < exp(-worse / heat)) {
     *now = then;
     return;
@@ -297,11 +358,13 @@ static void anneal(annealer *x)
   }
 }
 
-thr_status thr_order_reverse(const thr_frame *frame, const thr_request *request, thr_turning_room room, thr_threaded *threaded,
-                             thr_cord *cord, thr_err *err)
+thr_status thr_order_reverse(const thr_plan *plan, int c, thr_turning_room room, thr_threaded *threaded, thr_err *err)
 {
+  const thr_frame *frame = &plan->frame;
+  const thr_request *request = &plan->options;
+  thr_cord *cord = &plan->cord[c];
   size_t n = (size_t)cord->n_passes;
-  annealer x = {.frame = frame, .request = request, .room = room, .threaded = threaded, .now = *cord};
+  annealer x = {.frame = frame, .request = request, .room = room, .threaded = threaded, .now = *cord, .number = c};
   if (count_angles(frame) > MOST_ANGLES) return THR_OK;
   x.turns = thr_order_turns(request, cord);
   x.now.half = thr_calloc(n, sizeof *x.now.half);
@@ -309,7 +372,7 @@ thr_status thr_order_reverse(const thr_frame *frame, const thr_request *request,
   x.half = thr_calloc(n, sizeof *x.half);
   x.piece = thr_calloc(n + 1, sizeof *x.piece);
   x.chain = thr_calloc(n + 1, sizeof *x.chain);
-  bool all = has_angles(&x) && (x.now.half && x.best && x.half && x.piece && x.chain);
+  bool all = has_angles(&x) && has_channels(&x, plan) && (x.now.half && x.best && x.half && x.piece && x.chain);
   for (size_t k = 0; k < n && all; k++)
     x.feet |= frame->foot[thr_tail(frame, cord->half[k])];
   if (all) {
@@ -325,5 +388,7 @@ thr_status thr_order_reverse(const thr_frame *frame, const thr_request *request,
   free(x.arm);
   free(x.row);
   free(x.angle);
+  free(x.rank);
+  thr_channels_destroy(&x.channels);
   return all ? THR_OK : thr_nomem(err);
 }

@@ -4,33 +4,79 @@
 #include "graph/plan/channels.h"
 #include "graph/plan/request.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct {
-  const thr_frame *frame;
+  thr_plan *plan;
   const int *rank;
-  thr_cord *cord;
-  int turns;    /* of the cord (thr_cord_turns) */
-  bool exactly; /* the turning must stay the same */
+  const thr_channels *channels; /* of the plan as it was: they say in which nodes some cross */
+  bool exactly;                 /* the turning must stay the same */
+  bool between;                 /* cords may exchange their ends */
   int node, n;
-  thr_channel *channel; /* [n] those of the cord in the node, by pass; room for all its passes */
+  thr_channel *channel; /* [n] those of the node, by cord and pass; room for as many as any node has */
 } uncrossing;
 
+/* How two channels, the first of the earlier cord or pass, are to be led instead. */
+typedef enum {
+  REVERSE,  /* of one cord: the part between them is run the other way round */
+  EXCHANGE, /* of two: each cord ends as the other did */
+  TURN      /* of two: the first cord ends as the second began, backwards, and the second begins as the first ended */
+} way;
+
+typedef struct {
+  way way;
+  thr_channel a, b;
+  int longer;  /* of two cords that exchange their ends, passes of the longer one then; 0 = of one cord */
+  double more; /* turning, rad */
+} change;
+
+/* Which channels there are in the node now. */
 static void list_channels(uncrossing *x)
 {
-  const thr_cord *cord = x->cord;
+  const thr_plan *plan = x->plan;
   x->n = 0;
-  for (int k = 0; k < x->turns; k++)
-    if (thr_head(x->frame, cord->half[k]) == x->node)
-      x->channel[x->n++] = (thr_channel){.pass = k, .in = cord->half[k] ^ 1, .out = cord->half[(k + 1) % cord->n_passes]};
+  for (int c = 0; c < plan->n_cords; c++) {
+    const thr_cord *cord = &plan->cord[c];
+    for (int k = 0, turns = thr_cord_turns(&plan->options, cord); k < turns; k++)
+      if (thr_head(&plan->frame, cord->half[k]) == x->node)
+        x->channel[x->n++] = (thr_channel){c, k, cord->half[k] ^ 1, cord->half[(k + 1) % cord->n_passes], 0};
+  }
 }
 
-/* By how much the cord would turn more, rad, if the part between two channels were run the other way round. */
-static double more_turning(const uncrossing *x, const thr_channel *a, const thr_channel *b)
+/* By how much the cords would turn more, rad. */
+static double more_turning(const thr_frame *frame, way how, const thr_channel *a, const thr_channel *b)
 {
-  double now = thr_turn_angle(x->frame, a->in ^ 1, a->out) + thr_turn_angle(x->frame, b->in ^ 1, b->out);
-  return thr_turn_angle(x->frame, a->in ^ 1, b->in) + thr_turn_angle(x->frame, a->out ^ 1, b->out) - now;
+  double now = thr_turn_angle(frame, a->in ^ 1, a->out) + thr_turn_angle(frame, b->in ^ 1, b->out);
+  if (how == EXCHANGE) return thr_turn_angle(frame, a->in ^ 1, b->out) + thr_turn_angle(frame, b->in ^ 1, a->out) - now;
+  return thr_turn_angle(frame, a->in ^ 1, b->in) + thr_turn_angle(frame, a->out ^ 1, b->out) - now;
+}
+
+/* Passes of the longer of two cords that exchange their ends. */
+static int longer_of(const thr_plan *plan, way how, const thr_channel *a, const thr_channel *b)
+{
+  int all = plan->cord[a->cord].n_passes + plan->cord[b->cord].n_passes, before = b->pass + 1;
+  int first = a->pass + 1 + (how == EXCHANGE ? plan->cord[b->cord].n_passes - before : before);
+  return first > all - first ? first : all - first;
+}
+
+/* Those of one cord first; of two the most even, then what turns least. */
+static bool is_less(const change *a, const change *b)
+{
+  return a->longer != b->longer ? a->longer < b->longer : a->more < b->more;
+}
+
+/* Ways to lead a pair of channels that cross, if they are better than *best. */
+static void try_ways(const uncrossing *x, const thr_channel *a, const thr_channel *b, change *best)
+{
+  bool one = a->cord == b->cord;
+  if (!one && !x->between) return;
+  for (way how = one ? REVERSE : EXCHANGE; how <= (one ? REVERSE : TURN); how++) {
+    change c = {how, *a, *b, one ? 0 : longer_of(x->plan, how, a, b), more_turning(&x->plan->frame, how, a, b)};
+    if (is_less(&c, best) && (!x->exactly || fabs(c.more) <= 1e-12)) *best = c;
+  }
 }
 
 static void reverse(int *half, int from, int last)
@@ -42,83 +88,159 @@ static void reverse(int *half, int from, int last)
   }
 }
 
-/* Runs a part round such that one pair of channels in the node crosses no longer: that which costs least turning. False: none. */
-static bool uncross_pair(uncrossing *x)
+/* Two cords go on, after passes i of a and j of b, as the other did; owned passes take the place of those that they had. */
+static thr_status exchange(thr_plan *plan, thr_cord *a, int i, thr_cord *b, int j, thr_err *err)
 {
-  double least = HUGE_VAL;
-  int from = 0, last = 0;
-  list_channels(x);
-  for (int j = 0; j < x->n; j++)
-    for (int i = 0; i < j; i++) {
-      const thr_channel *a = &x->channel[i], *b = &x->channel[j];
-      if (!thr_channels_cross(x->rank, a, b)) continue;
-      double more = more_turning(x, a, b);
-      if (more >= least || (x->exactly && fabs(more) > 1e-12)) continue;
-      least = more;
-      from = a->pass + 1;
-      last = b->pass;
-    }
-  if (least == HUGE_VAL) return false;
-  reverse(x->cord->half, from, last);
-  return true;
+  int n = i + b->n_passes - j, m = j + a->n_passes - i;
+  int *one = thr_calloc((size_t)n, sizeof *one), *other = thr_calloc((size_t)m, sizeof *other);
+  if (!one || !other) {
+    free(one);
+    free(other);
+    return thr_nomem(err);
+  }
+  memcpy(one, a->half, (size_t)i * sizeof *one);
+  memcpy(one + i, b->half + j, (size_t)(n - i) * sizeof *one);
+  memcpy(other, b->half, (size_t)j * sizeof *other);
+  memcpy(other + j, a->half + i, (size_t)(m - j) * sizeof *other);
+  free(a->half);
+  free(b->half);
+  a->half = one;
+  a->n_passes = n;
+  b->half = other;
+  b->n_passes = m;
+  a->closed = thr_cord_start(&plan->frame, a) == thr_cord_end(&plan->frame, a);
+  b->closed = thr_cord_start(&plan->frame, b) == thr_cord_end(&plan->frame, b);
+  return THR_OK;
 }
 
-static thr_status uncross_cord(uncrossing *x, thr_err *err)
+static thr_status make(thr_plan *plan, const change *c, thr_err *err)
 {
-  x->channel = thr_calloc((size_t)x->cord->n_passes, sizeof *x->channel);
-  if (!x->channel) return thr_nomem(err);
-  for (x->node = 0; x->node < x->frame->n_nodes; x->node++)
-    while (uncross_pair(x))
-      ;
-  free(x->channel);
-  return THR_OK;
+  thr_cord *a = &plan->cord[c->a.cord], *b = &plan->cord[c->b.cord];
+  int j = c->b.pass + 1;
+  if (c->way == REVERSE) {
+    reverse(a->half, c->a.pass + 1, c->b.pass);
+    return THR_OK;
+  }
+  if (c->way == TURN) { /* backwards the second cord comes by the arm by which it went */
+    reverse(b->half, 0, b->n_passes - 1);
+    j = b->n_passes - j;
+  }
+  return exchange(plan, a, c->a.pass + 1, b, j, err);
+}
+
+/* Leads one pair of channels of the node otherwise, such that it crosses no longer. *changed: there was one. */
+static thr_status uncross_pair(uncrossing *x, bool *changed, thr_err *err)
+{
+  change best = {.longer = INT_MAX, .more = HUGE_VAL};
+  list_channels(x);
+  for (int j = 0; j < x->n; j++)
+    for (int i = 0; i < j; i++)
+      if (thr_channels_cross(x->rank, &x->channel[i], &x->channel[j])) try_ways(x, &x->channel[i], &x->channel[j], &best);
+  *changed = best.longer < INT_MAX;
+  return *changed ? make(x->plan, &best, err) : THR_OK;
+}
+
+/* Node by node; once more where cords changed, as channels of two cords may be of one then. */
+static thr_status uncross_nodes(uncrossing *x, thr_err *err)
+{
+  const int *first = x->channels->first;
+  thr_status st = THR_OK;
+  for (bool some = true; some && !st;) {
+    some = false;
+    for (x->node = 0; x->node < x->plan->frame.n_nodes && !st; x->node++) {
+      bool changed = false, crossed = false;
+      for (int k = first[x->node]; k < first[x->node + 1]; k++)
+        crossed |= x->channels->channel[k].crosses > 0;
+      do {
+        if (crossed) st = uncross_pair(x, &changed, err);
+        some |= changed;
+      } while (changed && !st);
+    }
+  }
+  return st;
+}
+
+/* Where nothing is asked of single cords, and their ends are not their own, the cords may exchange ends. */
+static bool may_exchange(const thr_request *o)
+{
+  return thr_wants_length(o) && !thr_wants_balance(o) && o->ends != THR_ENDS_CLOSED && o->max_length == 0 && o->max_pull == 0 &&
+         o->distinct == 0;
 }
 
 static thr_status uncross_cords(thr_plan *plan, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
-  size_t n = 2 * (size_t)frame->n_edges;
+  size_t n = 2 * (size_t)frame->n_edges, most = 0;
+  thr_channels channels = {0};
   int *around = thr_calloc(n, sizeof *around), *rank = thr_calloc(n, sizeof *rank);
   thr_status st = around && rank ? thr_channels_around(frame, around, err) : thr_nomem(err);
   for (int i = 0; i < (int)n && !st; i++)
     rank[around[i]] = i;
-  for (int c = 0; c < plan->n_cords && !st; c++) {
-    thr_cord *cord = &plan->cord[c];
-    uncrossing x = {.frame = frame,
-                    .rank = rank,
-                    .cord = cord,
-                    .turns = thr_cord_turns(&plan->options, cord),
-                    .exactly = thr_wants_turning(&plan->options)};
-    st = uncross_cord(&x, err);
-  }
+  if (!st) st = thr_channels_make(&channels, plan, err);
+  for (int v = 0; v < frame->n_nodes && !st; v++)
+    if ((size_t)(channels.first[v + 1] - channels.first[v]) > most) most = (size_t)(channels.first[v + 1] - channels.first[v]);
+  uncrossing x = {.plan = plan,
+                  .rank = rank,
+                  .channels = &channels,
+                  .exactly = thr_wants_turning(&plan->options),
+                  .between = may_exchange(&plan->options),
+                  .channel = thr_calloc(most, sizeof *x.channel)};
+  if (!st) st = x.channel ? uncross_nodes(&x, err) : thr_nomem(err);
+  free(x.channel);
+  thr_channels_destroy(&channels);
   free(around);
   free(rank);
   return st;
 }
 
-/* How many are left, and in which piece one is. */
-static thr_status count(thr_plan *plan, thr_err *err)
+/* How many cross, and in how many pieces. */
+static thr_status count(thr_plan *plan, int *crossed, thr_err *err)
 {
   thr_channels channels;
+  *crossed = 0;
+  if (plan->options.crossings == THR_CROSSINGS_ALLOW) return THR_OK;
   thr_status st = thr_channels_make(&channels, plan, err);
   if (st) return st;
   plan->metrics.crossings = (int)channels.crossings;
-  int crossed = channels.crossed;
+  *crossed = channels.crossed;
   thr_channels_destroy(&channels);
+  return THR_OK;
+}
+
+thr_status thr_plan_count_crossings(thr_plan *plan, thr_err *err)
+{
+  int crossed;
+  return count(plan, &crossed, err);
+}
+
+static thr_status refuse(const thr_plan *plan, int crossed, thr_err *err)
+{
   if (plan->options.crossings != THR_CROSSINGS_FORBID || plan->metrics.crossings == 0) return THR_OK;
   return thr_fail(
       err, THR_ELIMIT,
-      "no plan without crossing channels was found: %d cross inside %d of %d pieces; use --crossings price, or one cord "
-      "in each component, which never needs any",
+      "no plan without crossing channels was found: %d cross inside %d of %d pieces; use --crossings price, one cord in "
+      "each component, or several with --ends any or feet, which need none unless something is asked of their lengths",
       plan->metrics.crossings, crossed, plan->frame.n_nodes);
+}
+
+/* Another cord may be the longest now; what bounds it holds of any cords. */
+static void claim_longest(thr_plan *plan)
+{
+  thr_cords_claim *claim = &plan->cords_claim;
+  if (!claim->present) return;
+  claim->longest = thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
+  claim->longest_optimal = claim->longest <= claim->longest_bound * (1 + 1e-9);
 }
 
 thr_status thr_plan_uncross(thr_plan *plan, thr_err *err)
 {
+  int crossed = 0;
   if (plan->options.crossings == THR_CROSSINGS_ALLOW || plan->n_cords == 0) return THR_OK;
   const double length = plan->metrics.length; /* the same passes, whatever the order in which they are added up */
   thr_status st = uncross_cords(plan, err);
   if (!st) st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
   plan->metrics.length = length;
-  return st ? st : count(plan, err);
+  claim_longest(plan);
+  if (!st) st = count(plan, &crossed, err);
+  return st ? st : refuse(plan, crossed, err);
 }

@@ -42,7 +42,9 @@ static const char help_requests[] =
     "  thread make dome | thread plan - -o - | thread check -\n\n"
     "What is planned:\n" AIMS_HELP CORDS_HELP
     "      --crossings allow|price|forbid   channels that cross inside a piece: any (default); fewer, where cords can be led\n"
-    "                       otherwise at equal length, by more turns (with an aim of turning: at equal turning); none\n"
+    "                       otherwise at equal length, by more turns (with an aim of turning: at equal turning); none.\n"
+    "                       Cords that cross each other exchange their ends, if these are not closed and nothing is\n"
+    "                       asked of single cords (--balance, --max-length, --distinct)\n"
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
     "                       an S that is given, and so do the drawings; else each search has its 20 s\n" GUARD_MEMORY_HELP "\n";

@@ -3,6 +3,7 @@
 #include "graph/framework/frame.h"
 #include "graph/framework/make.h"
 #include "graph/limits.h"
+#include "graph/plan/chains.h"
 #include "graph/plan/channels.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
@@ -84,6 +85,52 @@ START_TEST(one_cord_never_needs_a_crossing)
 }
 END_TEST
 
+/* Nor do several that are not closed: they exchange ends, and their order, by hand, brings none back. */
+START_TEST(open_cords_never_need_a_crossing)
+{
+  static const thr_shape shape[] = {THR_MAKE_DOME, THR_MAKE_TUBE, THR_MAKE_SPHERE, THR_MAKE_HONEYCOMB};
+  thr_err err = {0};
+  thr_plan p, as_found;
+  thr_frame f = shape_make(shape[_i % 4], _i % 4 == 2 ? 2 : 6, 4);
+  thr_request o = thr_request_default();
+  o.ends = THR_ENDS_ANY;
+  o.cords = o.cords_least = 2 + _i / 4;
+  o.order = _i / 4 % 2 ? THR_ORDER_HAND : THR_ORDER_STARTS;
+  ck_assert_msg(!thr_plan_make(&f, &o, &(thr_limits){0}, &as_found, NULL, &err), "%s", err.text);
+  o.crossings = THR_CROSSINGS_FORBID;
+  ck_assert_msg(!thr_plan_make(&f, &o, &(thr_limits){0}, &p, NULL, &err), "%s", err.text);
+  ck_assert_int_eq(p.n_cords, as_found.n_cords);
+  ck_assert_double_eq_tol(p.metrics.length, as_found.metrics.length, 1e-9 * as_found.metrics.length);
+  ck_assert_int_eq(crossings_of(&p), 0);
+  ck_assert_int_eq(p.metrics.crossings, 0);
+  ck_assert_msg(!thr_check_plan(&p, &err), "%s", err.text);
+  thr_plan_destroy(&as_found);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* What a hand holds is looked for among channels that cross no more than before: a cord of the dome of 49 pieces. */
+START_TEST(chains_stay_short_without_crossings)
+{
+  thr_chains planned, ordered;
+  thr_frame f = shape_make(THR_MAKE_DOME, 7, 0);
+  for (thr_order order = THR_ORDER_PLANNED; order <= THR_ORDER_HAND; order++) {
+    thr_plan p;
+    thr_request o = thr_request_default();
+    o.crossings = THR_CROSSINGS_FORBID;
+    o.order = order;
+    ck_assert_int_eq(thr_plan_make(&f, &o, &(thr_limits){0}, &p, NULL, NULL), THR_OK);
+    ck_assert_int_eq(crossings_of(&p), 0);
+    ck_assert_int_eq(thr_plan_chains(&p, 0, order == THR_ORDER_PLANNED ? &planned : &ordered, NULL), THR_OK);
+    if (order != THR_ORDER_PLANNED) ck_assert_int_lt(ordered.longest, planned.longest);
+    thr_plan_destroy(&p);
+  }
+  ck_assert_int_le(ordered.longest, 9);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Where the cords' crossings are forbidden and there are some, the checker says so, whatever the plan states. */
 START_TEST(forbidden_crossings_are_found)
 {
@@ -108,6 +155,8 @@ int main(void)
   Suite *s = suite_create("uncross");
   ADD_TEST(s, 10, an_eight_is_uncrossed);
   ADD_EXAMPLES(s, 20, one_cord_never_needs_a_crossing, 16);
+  ADD_EXAMPLES(s, 20, open_cords_never_need_a_crossing, 16);
+  ADD_TEST(s, 20, chains_stay_short_without_crossings);
   ADD_TEST(s, 10, forbidden_crossings_are_found);
   return run_suite(s);
 }
