@@ -33,12 +33,13 @@ static thr_status cutter_init(cutter *x, const thr_plan *plan, const thr_request
                 .end = thr_calloc(n, sizeof *x->end),
                 .last = thr_calloc(n, sizeof *x->last)};
   if (!x->before || !x->length || !x->end || !x->last) return thr_nomem(err);
+  thr_turns turns = thr_turns_begin(&plan->frame, cord->half[0]);
   for (int k = 0; k < x->n; k++) {
     const int half = cord->half[k];
     const bool ends = k + 1 == x->n || thr_plan_end_allowed(&plan->frame, options, thr_head(&plan->frame, half));
     x->end[k] = ends ? k : k > 0 ? x->end[k - 1] : -1;
     x->length[k + 1] = x->length[k] + plan->frame.length[half >> 1];
-    if (k > 0) x->before[k] = x->before[k - 1] + thr_turn_angle(&plan->frame, cord->half[k - 1], half);
+    if (k > 0) x->before[k] = x->before[k - 1] + thr_turns_next(&turns, half);
   }
   return THR_OK;
 }

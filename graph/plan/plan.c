@@ -167,11 +167,28 @@ double thr_turn_angle(const thr_frame *frame, int in, int out)
   return thr_angle_between(a, b);
 }
 
+thr_turns thr_turns_begin(const thr_frame *frame, int half)
+{
+  thr_turns turns = {.frame = frame};
+  thr_direction(frame, half, turns.way[0]);
+  return turns;
+}
+
+double thr_turns_next(thr_turns *turns, int half)
+{
+  const double *in = turns->way[turns->last];
+  turns->last = 1 - turns->last;
+  thr_direction(turns->frame, half, turns->way[turns->last]);
+  return thr_angle_between(in, turns->way[turns->last]);
+}
+
 double thr_cord_turning(const thr_frame *frame, const thr_cord *cord, bool with_closure)
 {
   double sum = 0;
+  if (cord->n_passes == 0) return 0;
+  thr_turns turns = thr_turns_begin(frame, cord->half[0]);
   for (int i = 0; i + 1 < cord->n_passes; i++)
-    sum += thr_turn_angle(frame, cord->half[i], cord->half[i + 1]);
+    sum += thr_turns_next(&turns, cord->half[i + 1]);
   if (with_closure && cord->closed) sum += thr_turn_angle(frame, cord->half[cord->n_passes - 1], cord->half[0]);
   return sum;
 }
@@ -220,8 +237,10 @@ double thr_cord_price(const thr_frame *frame, const thr_request *options, const 
 double thr_cord_pulled_turning(const thr_frame *frame, const thr_cord *cord)
 {
   double whole = thr_cord_turning(frame, cord, false), before = 0, larger = whole;
-  for (int k = 0; k + 1 < cord->n_passes; k++) {
-    before += thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
+  if (cord->n_passes == 0) return 0;
+  thr_turns turns = thr_turns_begin(frame, cord->half[0]);
+  for (int k = 0; k + 1 < cord->n_passes && before < whole - before; k++) { /* from there on what is before only grows */
+    before += thr_turns_next(&turns, cord->half[k + 1]);
     larger = fmin(larger, fmax(before, whole - before));
   }
   return larger;
@@ -275,12 +294,10 @@ static void measure_cord(const thr_frame *frame, const thr_request *options, con
   metrics->passes += cord->n_passes;
   for (int i = 0; i < cord->n_passes; i++)
     if (++passes[cord->half[i] >> 1] > metrics->most_passes) metrics->most_passes = passes[cord->half[i] >> 1];
-  double way[2][3]; /* of passes i and i + 1, in turns */
-  thr_direction(frame, cord->half[0], way[0]);
+  thr_turns turns = thr_turns_begin(frame, cord->half[0]);
   for (int i = 0; i < thr_cord_turns(options, cord); i++) {
     int next = cord->half[i + 1 < cord->n_passes ? i + 1 : 0];
-    thr_direction(frame, next, way[(i + 1) % 2]);
-    double angle = thr_angle_between(way[i % 2], way[(i + 1) % 2]);
+    double angle = thr_turns_next(&turns, next);
     if (i + 1 < cord->n_passes || cord->closed) turning += angle;
     if (angle > metrics->worst_turn) metrics->worst_turn = angle;
     if (next == (cord->half[i] ^ 1)) metrics->u_turns++;

@@ -174,6 +174,16 @@ double thr_cords_longest(const thr_frame *framework, const thr_cord *cord, int n
  * 0 = straight on, pi = U-turn. */
 double thr_turn_angle(const thr_frame *framework, int in, int out);
 
+/* The same along a cord, where every direction is worked out once: begun with a half-edge, next says how the one that follows
+ * turns away from the last. The frame is borrowed. */
+typedef struct {
+  const thr_frame *frame;
+  double way[2][3];
+  int last; /* of the two */
+} thr_turns;
+thr_turns thr_turns_begin(const thr_frame *framework, int half);
+double thr_turns_next(thr_turns *turns, int half);
+
 /* Sum of the turning angles inside a cord, rad; with_closure adds the turn between a closed cord's last and first pass. */
 double thr_cord_turning(const thr_frame *framework, const thr_cord *c, bool with_closure);
 
