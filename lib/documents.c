@@ -4,6 +4,7 @@
 #include "diagram/export/paper.h"
 #include "diagram/export/viewer.h"
 #include "diagram/mat/mat.h"
+#include "diagram/overview/poster.h"
 #include "diagram/overview/steps.h"
 #include "diagram/scene/polylines.h"
 #include "diagram/sheets/sheets.h"
@@ -28,6 +29,7 @@ typedef enum {
   DXF,
   COMPAS,
   PAGES,
+  POSTER,
   N_DOCUMENTS
 } document;
 
@@ -48,6 +50,7 @@ static const struct {
     [DXF] = {"dxf", "cords.dxf"},
     [COMPAS] = {"compas", "cords.json"},
     [PAGES] = {"sheets.html", "sheets.html"},
+    [POSTER] = {"poster", "poster.pdf"},
 };
 
 int thr_documents_count(void)
@@ -103,6 +106,18 @@ static thr_status overview(const thr_plan *plan, const thr_document_options *a, 
   return thr_overview_svg(plan, &options, out, err);
 }
 
+static thr_status poster(const thr_plan *plan, const thr_document_options *a, const char *const *motion, const thr_limits *limits,
+                         thr_text *out, thr_err *err)
+{
+  int n = 0;
+  thr_text picture = {0};
+  thr_status st = overview(plan, a, motion, &picture, err);
+  if (!st) st = thr_poster_pdf(&picture, (thr_page_size)a->page, limits, &n, out, err);
+  if (!st && a->pages) a->pages(documents[POSTER].file, n);
+  thr_text_destroy(&picture);
+  return st;
+}
+
 static thr_sheets_options sheets_options(const thr_plan *plan, const thr_document_options *a, const char *const *motion)
 {
   thr_sheets_options options = thr_sheets_options_default();
@@ -156,6 +171,7 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
   switch (which) {
   case OVERVIEW: st = overview(plan, a, copies.motion, out, err); break;
   case SHEETS: st = sheets(plan, a, copies.motion, limits, out, err); break;
+  case POSTER: st = poster(plan, a, copies.motion, limits, out, err); break;
   case PAGES: st = sheets_html(plan, a, copies.motion, limits, out, err); break;
   case STEPS: st = thr_steps_text(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), out, err); break;
   case VIEWER: st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), out, err); break;

@@ -34,6 +34,7 @@ static const char help[] =
     "                       obj, gltf   cords.obj, cords.gltf: cords as lines for CAD and Blender\n"
     "                       all         all of these, into the folder of -o, else the current one\n"
     "                       mat         mat.pdf: the outlines of all pieces, true to size, to lay them out on\n"
+    "                       poster      poster.pdf: the overview over several sheets, to glue together; --pitch says how large\n"
     "                       sheets.html sheets.html: the pages of sheets.pdf for any browser, which prints them\n"
     "                       dxf         cords.dxf: a layer, a colour and a polyline in space for each cord\n"
     "                       compas      cords.json: COMPAS polylines\n"

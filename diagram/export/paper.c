@@ -117,6 +117,12 @@ void thr_paper_shift(thr_paper *paper, const double by[2])
   put(&paper->out, 6, matrix, "cm");
 }
 
+void thr_paper_turn(thr_paper *paper, double degrees)
+{
+  const double c = cos(degrees * THR_PI / 180), s = sin(degrees * THR_PI / 180), matrix[6] = {c, s, -s, c, 0, 0};
+  put(&paper->out, 6, matrix, "cm");
+}
+
 void thr_paper_move(thr_paper *paper, const double to[2])
 {
   put(&paper->path, 2, to, "m");

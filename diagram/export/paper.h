@@ -56,6 +56,7 @@ typedef struct {
 void thr_paper_push(thr_paper *paper);
 void thr_paper_pop(thr_paper *paper);
 void thr_paper_shift(thr_paper *paper, const double by[2]);
+void thr_paper_turn(thr_paper *paper, double degrees); /* clockwise, as y points down */
 
 /* The path grows until it is painted or clipped to, which begins another. */
 void thr_paper_move(thr_paper *paper, const double to[2]);

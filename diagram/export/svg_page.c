@@ -141,12 +141,12 @@ static thr_status read_numbers(reader *r, const tag *t, int n, const char *const
 /* Is the attribute one that the element draws by, or one that says nothing of the picture? */
 static bool is_known(const tag *t, thr_slice name)
 {
-  static const char *const any[] = {"class", "style", "id"};
+  static const char *const any[] = {"class", "style", "id", "data-piece", "data-for", "shape-rendering"};
   static const char *const known[][8] = {{"svg", "xmlns", "width", "height", "viewBox", "role", "aria-labelledby"},
-                                         {"g", "transform", "clip-path", "data-piece"},
-                                         {"rect", "x", "y", "width", "height", "rx", "data-piece"},
-                                         {"circle", "cx", "cy", "r", "data-piece"},
-                                         {"path", "d", "data-piece"},
+                                         {"g", "transform", "clip-path"},
+                                         {"rect", "x", "y", "width", "height", "rx", "transform"},
+                                         {"circle", "cx", "cy", "r"},
+                                         {"path", "d"},
                                          {"text", "x", "y"}};
   if (thr_svg_is_property(name)) return true;
   for (size_t i = 0; i < sizeof any / sizeof *any; i++)
@@ -286,11 +286,41 @@ static thr_status trace_shape(reader *r, const tag *t)
   return st;
 }
 
+/* Takes word off the beginning; false if the text begins otherwise. */
+static bool take_word(thr_slice *text, const char *word)
+{
+  const size_t n = strlen(word);
+  if (text->n < n || memcmp(text->s, word, n) != 0) return false;
+  skip(text, n);
+  return true;
+}
+
+/* "translate(x y)", and perhaps "rotate(degrees)" after it */
+static thr_status shift(reader *r, thr_slice text)
+{
+  thr_slice rest = text;
+  double by[2], degrees;
+  if (!take_word(&rest, "translate(") || !thr_slice_number(&rest, &by[0]) || !thr_slice_number(&rest, &by[1]) ||
+      !take_word(&rest, ")"))
+    return broken(r, "not known is", text);
+  thr_paper_shift(r->paper, by);
+  if (!rest.n) return THR_OK;
+  if (!take_word(&rest, " rotate(") || !thr_slice_number(&rest, &degrees) || !thr_slice_is(rest, ")"))
+    return broken(r, "not known is", text);
+  thr_paper_turn(r->paper, degrees);
+  return THR_OK;
+}
+
 static thr_status draw_shape(reader *r, const tag *t)
 {
   thr_ink fill;
   thr_line line;
+  const thr_slice *transform = find(t, "transform");
   thr_status st = push(r, t);
+  if (!st && transform) {
+    thr_paper_push(r->paper);
+    st = shift(r, *transform);
+  }
   if (!st) st = trace_shape(r, t);
   if (st) return st;
   const thr_svg_style *style = &r->open[--r->depth].style;
@@ -301,6 +331,7 @@ static thr_status draw_shape(reader *r, const tag *t)
     drawn = false;
   }
   thr_paper_paint(r->paper, filled ? &fill : NULL, drawn ? &line : NULL);
+  if (transform) thr_paper_pop(r->paper);
   return st;
 }
 
@@ -352,19 +383,6 @@ static thr_status draw_text(reader *r, const tag *t)
 /* ---- containers ---- */
 
 /* transform="translate(1.00 2.00)" */
-static thr_status shift(reader *r, thr_slice text)
-{
-  static const char word[] = "translate(";
-  thr_slice rest = text;
-  double by[2];
-  if (text.n < sizeof word - 1 || memcmp(text.s, word, sizeof word - 1) != 0) return broken(r, "not known is", text);
-  skip(&rest, sizeof word - 1);
-  if (!thr_slice_number(&rest, &by[0]) || !thr_slice_number(&rest, &by[1]) || !thr_slice_is(rest, ")"))
-    return broken(r, "not known is", text);
-  thr_paper_shift(r->paper, by);
-  return THR_OK;
-}
-
 /* clip-path="url(#id)" */
 static thr_status clip_to(reader *r, thr_slice text)
 {

@@ -1,6 +1,6 @@
 /* A page drawn from SVG, read in one pass. It knows the SVG that diagram/ writes for pages: svg (in mm), title, desc, style, g
- * with translations and clipping, clipPath around a rect, rect, circle, path of M L H V C Z and their small letters, text; and of
- * these no attribute but those that are drawn or say nothing of the picture. Private to diagram/. */
+ * with translations and clipping, clipPath around a rect, rect, turned or not, circle, path of M L H V C Z and their small
+ * letters, text; and of these no attribute but those that are drawn or say nothing of the picture. Private to diagram/. */
 #ifndef THR_SVG_PAGE_H
 #define THR_SVG_PAGE_H
 
