@@ -7,6 +7,8 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 static const double PITCH[THR_CROP_SCALES] = {40,   35, 31, 28, 25.5, 23, 21, 19, 17.5, 16,
                                               14.5, 13, 12, 11, 9.5,  8,  6,  4,  2,    1}; /* mm */
@@ -32,6 +34,8 @@ void thr_crops_destroy(thr_crops *crops)
 {
   for (int i = 0; i < THR_CROP_SCALES; i++)
     if (crops->made[i]) thr_scene_destroy(&crops->scene[i]);
+  for (int i = 0; i < THR_CROP_SCALES; i++)
+    thr_text_destroy(&crops->whole[i]);
   *crops = (thr_crops){0};
 }
 
@@ -180,34 +184,31 @@ thr_status thr_crop_piece(thr_crops *crops, int node, const double at[2], double
   return st;
 }
 
-static const double LINES = 1.2; /* mm: a pitch in small from which edges have lines of their own */
-
 static void put_small(const double at[2], const double map[3], double out[2])
 {
   for (int k = 0; k < 2; k++)
     out[k] = map[0] * at[k] + map[1 + k];
 }
 
-/* All edges: lines, or the area that they cover. */
-static void put_edges(const thr_scene *scene, const double map[3], thr_box paper, thr_text *text)
+/* All edges, at one scale; kept for the next picture, which most often has it at the same place. */
+static void put_edges(thr_crops *crops, int scale, const double map[3], thr_box paper, thr_text *text)
 {
-  bool lines = map[0] * scene->size.pitch > LINES;
-  thr_shadow shadow = thr_shadow_on(paper);
-  if (lines) thr_text_append(text, "<path fill=\"none\" stroke=\"#bbb\" stroke-width=\"0.20\" d=\"");
-  for (int e = 0; e < scene->paper->n_edges; e++) {
-    double a[2], b[2];
-    put_small(scene->at[scene->paper->edge[e][0]], map, a);
-    put_small(scene->at[scene->paper->edge[e][1]], map, b);
-    if (lines) {
-      thr_svg_move(text, a);
-      thr_svg_line(text, b);
-    } else
-      thr_shadow_line(&shadow, a, b);
+  const thr_scene *scene = &crops->scene[scale];
+  thr_text *whole = &crops->whole[scale];
+  if (whole->length == 0 || memcmp(&paper, &crops->whole_paper[scale], sizeof paper) != 0) {
+    double(*at)[2] = thr_calloc((size_t)scene->paper->n_nodes, sizeof *at);
+    for (int v = 0; at && v < scene->paper->n_nodes; v++)
+      put_small(scene->at[v], map, at[v]);
+    thr_text_destroy(whole);
+    if (at)
+      thr_shadow_edges(scene->paper, at[0], 2, map[0] * scene->size.pitch, paper, whole);
+    else
+      text->failed = true;
+    crops->whole_paper[scale] = paper;
+    free(at);
   }
-  if (lines)
-    thr_text_append(text, "\"/>\n");
-  else
-    thr_shadow_put(&shadow, "#ddd", text);
+  if (whole->failed) text->failed = true;
+  if (whole->data) thr_text_append(text, whole->data);
 }
 
 /* A line for the passes drawn now; passes that follow each other are one line. */
@@ -226,7 +227,7 @@ static void put_now(const thr_scene *scene, const thr_crop *crop, const double m
   }
 }
 
-void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, thr_box shown, thr_box paper,
+void thr_crop_locate(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, thr_box shown, thr_box paper,
                      thr_text *text)
 {
   const thr_scene *scene = &crops->scene[view->scale];
@@ -235,7 +236,7 @@ void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_cro
   const double map[3] = {k, paper.x1 - k * all.x1, paper.y0 - k * all.y0}, out = 1;
   char colour[8];
   thr_scene_colour(scene, crop->now[0], colour);
-  put_edges(scene, map, paper, text);
+  put_edges(crops, view->scale, map, paper, text);
   thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"0.60\" d=\"", crop->colour ? crop->colour : colour);
   put_now(scene, crop, map, text);
   thr_text_append(text, "\"/>\n");

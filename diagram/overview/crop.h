@@ -20,6 +20,8 @@ typedef struct {
   double slender; /* height of the layout over its width, at most 1e6 */
   thr_scene scene[THR_CROP_SCALES];
   bool made[THR_CROP_SCALES];
+  thr_text whole[THR_CROP_SCALES];      /* all edges in small (thr_crop_locate), empty until asked for; owned */
+  thr_box whole_paper[THR_CROP_SCALES]; /* where they are */
 } thr_crops;
 
 /* Plan and layout are borrowed and must outlive crops. */
@@ -59,8 +61,8 @@ thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_
 
 /* Appends where that is in the whole, within the paper and in its right upper corner: all beads as thin lines or, where these
  * would run together, the area that they cover; the passes drawn now, a frame around what is shown. Needs no states; the picture
- * must have been drawn. O(n). */
-void thr_crop_locate(const thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, thr_box shown, thr_box paper,
+ * must have been drawn. O(n) the first time at a scale and place. */
+void thr_crop_locate(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, thr_box shown, thr_box paper,
                      thr_text *text);
 
 /* Appends the whole plan, at the largest scale that fits in the paper, with the numbers that this scale has room for; passes and

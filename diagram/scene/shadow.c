@@ -4,7 +4,8 @@
 
 #include <math.h>
 
-static const double CELL = 0.7; /* mm, at least */
+static const double CELL = 0.7;  /* mm, at least */
+static const double LINES = 1.2; /* mm: a pitch in small from which edges have lines of their own */
 
 thr_shadow thr_shadow_on(thr_box paper)
 {
@@ -40,4 +41,23 @@ void thr_shadow_put(const thr_shadow *shadow, const char *colour, thr_text *text
       thr_svg_line(text, (const double[]){shadow->paper.x0 + i * shadow->cell, y});
     }
   thr_text_append(text, "\"/>\n");
+}
+
+void thr_shadow_edges(const thr_frame *frame, const double *at, int stride, double pitch, thr_box paper, thr_text *text)
+{
+  bool lines = pitch > LINES;
+  thr_shadow shadow = thr_shadow_on(paper);
+  if (lines) thr_text_append(text, "<path fill=\"none\" stroke=\"#bbb\" stroke-width=\"0.20\" d=\"");
+  for (int e = 0; e < frame->n_edges; e++) {
+    const double *a = at + (size_t)stride * (size_t)frame->edge[e][0], *b = at + (size_t)stride * (size_t)frame->edge[e][1];
+    if (lines) {
+      thr_svg_move(text, a);
+      thr_svg_line(text, b);
+    } else
+      thr_shadow_line(&shadow, a, b);
+  }
+  if (lines)
+    thr_text_append(text, "\"/>\n");
+  else
+    thr_shadow_put(&shadow, "#ddd", text);
 }

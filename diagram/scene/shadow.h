@@ -4,6 +4,7 @@
 #define THR_SHADOW_H
 
 #include "diagram/scene/boxes.h"
+#include "graph/framework/frame.h"
 #include "graph/text.h"
 
 enum { THR_SHADOW_CELLS = 64 }; /* across, at most */
@@ -22,5 +23,9 @@ void thr_shadow_line(thr_shadow *shadow, const double a[2], const double b[2]);
 
 /* Appends the area as one element. */
 void thr_shadow_put(const thr_shadow *shadow, const char *colour, thr_text *text);
+
+/* Appends the edges of a framework in small, within the paper: lines of their own if the pitch on paper, mm, leaves room between
+ * them, else the area that they cover. Node v lies at at[stride * v], mm. O(edges). */
+void thr_shadow_edges(const thr_frame *frame, const double *at, int stride, double pitch, thr_box paper, thr_text *text);
 
 #endif

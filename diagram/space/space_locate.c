@@ -11,8 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double LINES = 1.2; /* mm: a pitch on paper from which edges have lines of their own */
-
 /* The view that shows all nodes in the upper right corner of the paper; at: where they are. */
 static double place(const thr_space *space, const thr_camera *camera, thr_box paper, double (*at)[3])
 {
@@ -37,21 +35,8 @@ thr_status thr_space_locate(const thr_space *space, const thr_space_step *step, 
   const thr_frame *f = space->f;
   double(*at)[3] = thr_calloc((size_t)f->n_nodes, sizeof *at);
   if (!at) return thr_nomem(err);
-  bool lines = place(space, &view->camera, paper, at) * space->pitch > LINES;
-  thr_shadow shadow = thr_shadow_on(paper);
-  if (lines) thr_text_append(text, "<path fill=\"none\" stroke=\"#bbb\" stroke-width=\"0.20\" d=\"");
-  for (int e = 0; e < f->n_edges; e++) {
-    const double *a = at[f->edge[e][0]], *b = at[f->edge[e][1]];
-    if (lines) {
-      thr_svg_move(text, a);
-      thr_svg_line(text, b);
-    } else
-      thr_shadow_line(&shadow, a, b);
-  }
-  if (lines)
-    thr_text_append(text, "\"/>\n");
-  else
-    thr_shadow_put(&shadow, "#ddd", text);
+  double pitch = place(space, &view->camera, paper, at) * space->pitch;
+  thr_shadow_edges(f, at[0], 3, pitch, paper, text);
   thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"0.70\" stroke-linejoin=\"round\" d=\"", step->colour);
   for (int i = 0; i < step->crop.n_now; i++) {
     int h = thr_space_half(space, &step->crop, step->crop.now[i]);
