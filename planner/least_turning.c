@@ -182,6 +182,21 @@ static thr_status find_starts(const thr_frame *frame, const thr_request *options
   return st;
 }
 
+/* Small frameworks do not hold many closed cords within the most passes that are looked at otherwise: a path of four edges holds
+ * four within 8 passes over an edge. Two passes over every edge hold one, so twice as many as cords hold them all. */
+static thr_status find_with_room(const thr_frame *frame, const thr_request *options, thr_least_options *lo,
+                                 const thr_limits *limits, thr_least *least, thr_err *err)
+{
+  const int room = 2 * lo->cords, usual = thr_turning_most_passes(frame, lo->cover);
+  thr_err why = {0};
+  thr_status st = find_least(frame, lo, limits, least, &why);
+  if (st == THR_EINFEASIBLE && options->ends == THR_ENDS_CLOSED && room > (lo->most_passes > 0 ? lo->most_passes : usual)) {
+    lo->most_passes = room;
+    return find_least(frame, lo, limits, least, err);
+  }
+  return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
 /* Begins with the cords of the shortest plan where that has as many. */
 static thr_status find_from_shortest(const thr_frame *frame, const thr_request *options, const shortest_plan *s,
                                      const thr_limits *limits, thr_least *least, thr_err *err)
@@ -196,7 +211,7 @@ static thr_status find_from_shortest(const thr_frame *frame, const thr_request *
   }
   lo.also = start;
   lo.n_also = lo.tube ? 0 : N_STARTS;
-  if (!st) st = find_least(frame, &lo, limits, least, err);
+  if (!st) st = find_with_room(frame, options, &lo, limits, least, err);
   for (int i = 0; i < N_STARTS; i++)
     thr_cords_destroy(start[i].cord, start[i].n);
   return st;
