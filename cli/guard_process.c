@@ -111,7 +111,7 @@ static void take(void *user, const thr_message *h, const char *bytes)
   case NO_MEMORY: g->out_of_memory = true; break;
   case ENDING: g->by_itself = true; break;
   case ALLOW:
-    if (!g->first) g->grace = (thr_grace){h->value[0] > 0 ? thr_clock() + h->value[0] : 0, 0};
+    if (!g->first) g->grace = (thr_grace){.from = h->value[0] > 0 ? thr_clock() + h->value[0] : 0};
     break;
   }
 }
@@ -136,7 +136,7 @@ static void heed_signals(guarded *g)
   }
   if (g->first > 0) return;
   g->first = now;
-  g->grace = (thr_grace){now, 0};
+  g->grace = (thr_grace){.from = now};
   kill(g->pid, SIGTERM);
 }
 
@@ -258,7 +258,7 @@ bool guard_fork(const guard_limits *l, guard_end *end)
   int ends[2];
   *end = (guard_end){0};
   deadline = l->seconds > 0 ? thr_clock() + l->seconds : 0;
-  guarded g = {.end = end, .grace = {deadline, 0}};
+  guarded g = {.end = end, .grace = {.from = deadline}};
   if (pipe(ends)) return fork_failed(end);
   g.pid = fork_quietly();
   if (g.pid < 0) return fork_failed(end);

@@ -49,15 +49,17 @@ void thr_process_die_with(pid_t parent);
 /* What a process has to end by itself after it should have begun to: so many seconds and as much of its own processor time, so
  * that a busy machine does not kill it before its word is out. {0} is valid: it shall go on. */
 typedef struct {
-  double from; /* thr_clock() at which it is to begin; 0 = never */
-  double used; /* its processor time then, s; 0 before */
+  double from;        /* thr_clock() at which it is to begin; 0 = never */
+  double begun, used; /* its processor time then, and at the last look, s; 0 before */
+  double idle_from;   /* thr_clock() at which that last grew */
 } thr_grace;
 
-/* Is it over? At the latest after five times `seconds`. To be called every 0.1 s or so. */
+/* Is it over? At the latest after five times `seconds`; at once when it has done nothing but sleep for so long. To be called
+ * every 0.1 s or so. */
 bool thr_grace_over(thr_grace *grace, pid_t pid, double seconds);
 
-/* Has it slept for some 20 s of such calls, one every 0.1 s? A library that waits for itself where memory is out while it
- * holds a lock never ends. */
+/* Has it slept without any work for some 20 s (3 s under sanitizers) of such calls, one every 0.1 s? A library that waits for
+ * itself where memory is out while it holds a lock never ends. */
 bool thr_process_stuck(thr_process *process);
 
 /* Ends it at once, whatever it does, and closes the pipes; nothing if there is no child. */
