@@ -167,14 +167,20 @@ static thr_status run_once(const thr_child *c, const thr_limits *limits, thr_tex
   return st;
 }
 
+#if defined __SANITIZE_ADDRESS__
+enum { MOST_BIRTHS = 4 };
+#else
+enum { MOST_BIRTHS = 2 };
+#endif
+
 /* A child of a process with several threads may be born with a lock that another thread held (under sanitizers, say), and wait
- * for it for ever: it gets a second chance. */
+ * for it for ever: then another one is born. */
 thr_status thr_child_run(const thr_child *c, const thr_limits *limits, thr_text *answer, thr_err *err)
 {
   thr_err why = {0};
-  bool stuck = false;
-  thr_status st = run_once(c, limits, answer, &stuck, &why);
-  if (stuck && st == THR_ESOLVER) {
+  bool stuck = true;
+  thr_status st = THR_ESOLVER;
+  for (int i = 0; i < MOST_BIRTHS && stuck && st == THR_ESOLVER; i++) {
     thr_text_destroy(answer);
     st = run_once(c, limits, answer, &stuck, &why);
   }
