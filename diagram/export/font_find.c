@@ -124,13 +124,32 @@ static char *next_line(char **left)
   return line;
 }
 
-thr_status thr_fonts_find(thr_font *font, thr_err *err)
+/* Are all faces of the family that was asked for? */
+static bool is_family(const thr_text *answer)
+{
+  int n = 0;
+  for (const char *at = answer->data; at && (at = strstr(at, " DejaVuSans")); at++)
+    n++;
+  return n == THR_FACES;
+}
+
+/* Where an allocation fails, fontconfig answers with another family and says nothing: only a second answer of that kind is
+ * believed. */
+static thr_status ask(thr_text *answer, thr_err *err)
 {
   const thr_child child = {
       .what = "finding fonts for the PDF", .advice = "free memory, or draw without it (-T svg)", .run = find_faces};
   const thr_limits none = {0};
+  thr_status st = thr_child_run(&child, &none, answer, err);
+  if (st || is_family(answer)) return st;
+  thr_text_destroy(answer);
+  return thr_child_run(&child, &none, answer, err);
+}
+
+thr_status thr_fonts_find(thr_font *font, thr_err *err)
+{
   thr_text answer = {0};
-  thr_status st = thr_child_run(&child, &none, &answer, err);
+  thr_status st = ask(&answer, err);
   char *left = answer.data;
   for (int i = 0; i < THR_FACES && !st; i++) {
     char *head = next_line(&left), *path = next_line(&left), name[64];
