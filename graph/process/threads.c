@@ -30,6 +30,34 @@ struct thr_team {
   pthread_mutex_t speak; /* of outer's functions */
 };
 
+/* ---- one at a time under sanitizers ---- */
+
+/* A job may fork. The address sanitizer's allocator does not wait for other threads at a fork, as malloc does: a child could be
+ * born with a lock that another thread holds, and wait or spin for ever. So one thread works at a time there. */
+#if defined __SANITIZE_ADDRESS__
+static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
+
+static void take_turn(const thr_team *team)
+{
+  if (team->n > 1) pthread_mutex_lock(&turn);
+}
+
+static void give_turn(const thr_team *team)
+{
+  if (team->n > 1) pthread_mutex_unlock(&turn);
+}
+#else
+static void take_turn(const thr_team *team)
+{
+  (void)team;
+}
+
+static void give_turn(const thr_team *team)
+{
+  (void)team;
+}
+#endif
+
 /* ---- outer's functions, from any thread ---- */
 
 static void progress(void *user, const char *what, double best, double bound)
@@ -78,8 +106,24 @@ static void do_job(thr_team *team, thr_threads_job *run, void *user, int job)
 
 static void do_jobs(thr_team *team, int number)
 {
+  take_turn(team);
   for (int job = number; job < team->n_jobs; job += team->n)
     do_job(team, team->run, team->user, job);
+  give_turn(team);
+}
+
+/* With the team's lock. */
+static void be_done(thr_team *team)
+{
+  if (--team->busy == 0) pthread_cond_signal(&team->done);
+}
+
+/* With the team's lock, which it gives back. */
+static void wait_for_others(thr_team *team)
+{
+  while (team->busy > 0)
+    pthread_cond_wait(&team->done, &team->lock);
+  pthread_mutex_unlock(&team->lock);
 }
 
 static void *wait_and_work(void *user)
@@ -87,6 +131,7 @@ static void *wait_and_work(void *user)
   const member *own = user;
   thr_team *team = own->team;
   pthread_mutex_lock(&team->lock);
+  be_done(team);
   for (int seen = 0;;) {
     while (team->runs == seen && !team->over)
       pthread_cond_wait(&team->go, &team->lock);
@@ -95,7 +140,7 @@ static void *wait_and_work(void *user)
     pthread_mutex_unlock(&team->lock);
     do_jobs(team, own->number);
     pthread_mutex_lock(&team->lock);
-    if (--team->busy == 0) pthread_cond_signal(&team->done);
+    be_done(team);
   }
   pthread_mutex_unlock(&team->lock);
   return NULL;
@@ -116,11 +161,14 @@ thr_status thr_team_create(thr_team **out, int most, const thr_limits *limits, t
   pthread_mutex_init(&team->speak, NULL);
   pthread_cond_init(&team->go, NULL);
   pthread_cond_init(&team->done, NULL);
+  pthread_mutex_lock(&team->lock);
   for (; team->member && team->n < wanted; team->n++) {
     member *next = &team->member[team->n - 1];
     *next = (member){.team = team, .number = team->n};
     if (pthread_create(&next->thread, NULL, wait_and_work, next) != 0) break;
+    team->busy++;
   }
+  wait_for_others(team); /* a thread that is still starting may hold a lock of the allocator's */
   if (team->member) return THR_OK;
   thr_team_destroy(team);
   *out = NULL;
@@ -157,9 +205,7 @@ thr_status thr_team_run(thr_team *team, int n_jobs, thr_threads_job *run, void *
   pthread_mutex_unlock(&team->lock);
   do_jobs(team, 0);
   pthread_mutex_lock(&team->lock);
-  while (team->busy > 0)
-    pthread_cond_wait(&team->done, &team->lock);
-  pthread_mutex_unlock(&team->lock);
+  wait_for_others(team);
   return team->failed < INT_MAX ? thr_fail(err, team->failure.code, "%s", team->failure.text) : THR_OK;
 }
 
