@@ -347,7 +347,8 @@ static int by_steps(const void *a, const void *b)
   return (x->row > y->row) - (x->row < y->row);
 }
 
-/* The rows whose turn it is, those with the fewest learned steps first. */
+/* The rows whose turn it is, those with the fewest learned steps first. Where each has its own work they are all solved in any
+ * case: the smallest groups first, whose programmes are the largest, so that no thread is left alone with one at the end. */
 typedef struct {
   solver *s;
   turn r;
@@ -360,12 +361,13 @@ typedef struct {
 static void fill(queue *q)
 {
   const solver *s = q->s;
+  const bool all = s->o->symmetry.row_work > 0 && !s->only_choice;
   q->n = 0;
   for (int i = 0; i < s->t->n; i++) {
     if (q->had[i] || !has_turn(s, q->r, i)) continue;
     const standing own = standing_of(s, i);
     const double steps = !own.there ? own.least_steps : own.overlap > overlap_within(s) ? INFINITY : own.steps;
-    q->next[q->n++] = (candidate){i, steps};
+    q->next[q->n++] = (candidate){i, all ? -i : steps};
   }
   qsort(q->next, (size_t)q->n, sizeof *q->next, by_steps);
 }
