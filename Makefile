@@ -30,8 +30,8 @@ LINT_PACKAGES := clang-format clang-tidy cppcheck
 BENCH_PACKAGES := liblemon-dev libboost-graph-dev python3 time
 COVERAGE_PACKAGES := check gcovr
 WEB_PACKAGES := emscripten
-# what `make web` builds once and keeps: libraries for wasm, with their sources
-WEB_CACHE ?= $(or $(XDG_CACHE_HOME),$(HOME)/.cache)/thread-web
+# what `make web` and `make static` build once and keep: the libraries that they link, with their sources
+LIBRARIES ?= $(or $(XDG_CACHE_HOME),$(HOME)/.cache)/thread-libraries
 
 ifeq ($(origin CC),default)
 CC := gcc
@@ -67,8 +67,9 @@ MODE_cov := -O0 -g --coverage
 MODE_mutants := -O2 -fPIC
 MODE_fuzz := -O1 -fsanitize=fuzzer-no-link,address,undefined $(SANITIZE)
 MODE_web := -O2
+MODE_static := -O2
 ifeq ($(MODE_$(BUILD)),)
-$(error BUILD=$(BUILD) is not one of release debug asan cov fuzz mutants web)
+$(error BUILD=$(BUILD) is not one of release debug asan cov fuzz mutants web static)
 endif
 # -ffp-contract=off: no fused multiply-add, so the same digits on every machine
 THR_CFLAGS = -std=c11 $(WARN) -ffp-contract=off $(MODE_$(BUILD)) $(CFLAGS)
@@ -112,7 +113,10 @@ WATCHDOG_OBJECTS := $(patsubst %.c,$(DIR)/%.o,$(wildcard tests/watchdog/*.c))
 ifeq ($(BUILD),web)
 include web/web.mk
 endif
-C_FILES = $(wildcard $(foreach d,include web $(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/second tests/validate tests/watchdog tests/memory docs,$(d)/*.c $(d)/*.h))
+ifeq ($(BUILD),static)
+include targets/static.mk
+endif
+C_FILES = $(wildcard $(foreach d,include web targets $(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/second tests/validate tests/watchdog tests/memory docs,$(d)/*.c $(d)/*.h))
 
 Q := $(if $(V),,@)
 # `make -jN` given: share its jobs; not given: one per processor
@@ -147,11 +151,16 @@ test test-fast test-rest test-all fuzz:
 	+@MAKE="$(MAKE)" OUT="$(OUT)" FUZZ_SECONDS="$(FUZZ_SECONDS)" ONLY="$(ONLY)" CLANG_FORMAT="$(CLANG_FORMAT)" \
 	  VIEWER_PACKAGES="$(VIEWER_PACKAGES)" tests/run.sh $(@:test-%=%)
 
-web: ## the program for browsers and node, and thread.html, the page: $(OUT)/web (libraries are built once, some minutes, and kept in WEB_CACHE=~/.cache/thread-web)
+web: ## the program for browsers and node, and thread.html, the page: $(OUT)/web (libraries are built once, some minutes, and kept in LIBRARIES=~/.cache/thread-libraries)
 	+@tools/install-packages.sh $(BUILD_PACKAGES) $(WEB_PACKAGES)
 	+@$(MAKE) --no-print-directory BUILD=release $(OUT)/packages.ok
-	@web/libraries.sh "$(WEB_CACHE)"
-	+@$(MAKE) --no-print-directory $(JOBS) BUILD=web WEB_CACHE="$(WEB_CACHE)" web-files
+	@targets/libraries.sh wasm "$(LIBRARIES)"
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=web LIBRARIES="$(LIBRARIES)" web-files
+
+static: ## the program as one file that runs on any Linux of this processor: $(OUT)/static/thread (libraries as for `make web`)
+	+@tools/install-packages.sh $(BUILD_PACKAGES)
+	@targets/libraries.sh linux "$(LIBRARIES)"
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=static LIBRARIES="$(LIBRARIES)" all
 
 asan: ## build the program with the address and undefined-behaviour sanitizers
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=asan all
@@ -304,7 +313,7 @@ GOLDEN_JOBS := $(patsubst tests/%,run/$(BUILD)/%,$(wildcard tests/golden/*.case)
 $(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
 $(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
 run/library/install: $(PROGRAM) $(SHARED) $(STATIC) $(DIR)/thread.pc $(MAN_PAGES)
-$(GOLDEN_JOBS) run/readme run/formats/mutants run/examples run/web run/second/plans run/viewer/browser run/bench/smallest: $(PROGRAM)
+$(GOLDEN_JOBS) run/readme run/formats/mutants run/examples run/web run/static run/second/plans run/viewer/browser run/bench/smallest: $(PROGRAM)
 run/second/json: $(DIR)/tests/second/dump_json
 run/$(BUILD)/memory: $(PROGRAM) $(DIR)/tests/memory/fail_malloc.so
 run/$(BUILD)/watchdog: $(PROGRAM) $(WATCHDOG)
@@ -383,7 +392,7 @@ $(DIR)/%.o: %.cpp $(DIR)/flags.list
 	$(Q)$(COMPILER_CXX) -I. $(BULLET_CFLAGS) $(CPPFLAGS) $(THR_CXXFLAGS) $(STRICT) -MMD -MP -c -o $@ $<
 
 # dense work in long loops, which pays to be unrolled
-$(DIR)/lp/solver/normal.o: THR_CFLAGS += $(if $(filter release web,$(BUILD)),-O3)
+$(DIR)/lp/solver/normal.o: THR_CFLAGS += $(if $(filter release web static,$(BUILD)),-O3)
 
 # the viewer's page, as it lies built in the tree, becomes bytes of the program
 $(DIR)/%.o: %.S %.html $(DIR)/flags.list
@@ -421,6 +430,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: web web-files all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: web web-files static all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
 .PHONY: suite-release suite-asan suite-fuzz suite-built test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

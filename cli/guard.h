@@ -52,8 +52,8 @@ typedef struct {
  * second ends both at once. */
 bool guard_fork(const guard_limits *l, guard_end *end);
 
-/* Where there is only one process (in a browser, web/alone_guard.c), guard_fork returns false, and the command asks this when it
- * is done, with its exit code: true if it left nothing but has kept something, for which *end is then filled as for a parent.
+/* Where there is only one process (in a browser, targets/alone_guard.c), guard_fork returns false, and the command asks this when
+ * it is done, with its exit code: true if it left nothing but has kept something, for which *end is then filled as for a parent.
  * False where there are two. */
 bool guard_alone(int code, guard_end *end);
 

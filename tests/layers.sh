@@ -20,7 +20,8 @@ planner:planner graph lp symmetry tortuosity
 include:include
 lib:lib include graph lp symmetry tortuosity planner eval diagram
 cli:cli lib include graph lp symmetry tortuosity planner eval diagram
-web:web cli graph eval diagram'
+targets:targets cli graph eval diagram
+web:web targets cli graph eval diagram'
 
 # The checker reaches, also through other headers, only headers of these folders: nothing that makes plans.
 checker=graph/check
@@ -260,7 +261,7 @@ check_machine() { # every text file except build output and fuzz seeds
 
 check_tree() {
   local -a sources=() headers=() tests=()
-  mapfile -t sources < <(for m in graph lp symmetry tortuosity planner eval diagram include lib cli web; do
+  mapfile -t sources < <(for m in graph lp symmetry tortuosity planner eval diagram include lib cli targets web; do
     for f in "$m"/*.c "$m"/*.h "$m"/*.cpp "$m"/*/*.c "$m"/*/*.h "$m"/*/*.cpp; do [ -e "$f" ] && echo "$f"; done
   done)
   mapfile -t tests < <(for f in tests/*.c tests/*.h tests/*/*.c tests/*/*.h bench/*.c; do [ -e "$f" ] && echo "$f"; done)
@@ -328,7 +329,7 @@ self_test() {
   expect eval/a.c:1 eval/a.c 'void f(void) { _exit(1); }\n'
   expect lp/a.c:1 lp/a.c '#include <curl/curl.h>\n'
   expect web/a.c:1 web/a.c '#include <emscripten.h>\n'
-  expect cli/a.c:1 cli/a.c '#include "web/host.h"\n'
+  expect cli/a.c:1 cli/a.c '#include "targets/host.h"\n'
   expect graph/a.c:1 graph/a.c 'int f(void) { return printf("x"); }\n'
   expect lp/a.c:2 lp/a.c '\nvoid f(void) { exit (1); }\n'
   expect lp/a.c:1 lp/a.c 'void f(void) { abort(); }\n'

@@ -18,7 +18,7 @@ plain_make() { env -u MAKEFLAGS -u MAKELEVEL "${MAKE:-make}" "$@" >&2; }
 [ -x "$program" ] || plain_make BUILD=release || exit 1
 if [ ! -e "$build/npm/package.json" ]; then
   command -v emcc >/dev/null || tools/install-packages.sh emscripten >&2 || skip 'there is no Emscripten'
-  web/libraries.sh --fetch "${WEB_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/thread-web}" || skip 'there are no sources of the libraries'
+  targets/libraries.sh --fetch "${LIBRARIES:-${XDG_CACHE_HOME:-$HOME/.cache}/thread-libraries}" || skip 'there are no sources of the libraries'
   plain_make web || { echo '0 passed, 1 failed' && exit 1; }
 fi
 [ -x "${CHROMIUM:-/usr/bin/chromium}" ] || tools/install-packages.sh chromium >&2 || skip 'there is no browser'

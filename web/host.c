@@ -3,7 +3,7 @@
  * The linker puts __wrap_x in the place of the library's x (--wrap): the clock, which every search with a time limit asks, also
  * asks the host whether to stop; sbrk, from which malloc has its memory, holds --memory. */
 #define _GNU_SOURCE
-#include "web/host.h"
+#include "targets/host.h"
 
 #include <emscripten.h>
 #include <errno.h>

@@ -1,5 +1,5 @@
 # BUILD=web: the program for wasm, by Emscripten, as $(OUT)/web/thread-engine.js and .wasm. `make web` begins it
-# when web/libraries.sh has put the libraries into WEB_CACHE. Of the interfaces that a browser cannot keep as they are, web/ has the other implementation:
+# when targets/libraries.sh has put the libraries into LIBRARIES. Of the interfaces that a browser cannot keep as they are, web/ and targets/ have the other implementation:
 #   graph/process/child.h, workers.h, lazy.h   cli/guard.h   diagram/export/pages.h   eval/structure/rank.h   the viewer's page   <math.h>
 CC := emcc
 CXX := em++
@@ -9,17 +9,17 @@ export NODE_PATH := /usr/share/nodejs
 
 WEB_REPLACED := graph/process/child.c graph/process/workers.c graph/process/process.c graph/process/lazy.c \
 	diagram/export/pages.c $(patsubst %,diagram/export/%.c,paper pdf font font_find deflate svg_page) diagram/export/viewer_page.S eval/structure/spqr.c
-SOURCES := $(filter-out $(WEB_REPLACED),$(SOURCES)) $(wildcard web/*.c)
+SOURCES := $(filter-out $(WEB_REPLACED),$(SOURCES)) $(wildcard web/*.c targets/*.c)
 OBJECTS = $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%))) $(DIR)/web/viewer_page.o
 CLI_OBJECTS := $(filter-out $(DIR)/cli/guard_process.o,$(CLI_OBJECTS))
 
-WEB_LIBRARIES := $(patsubst %,$(WEB_CACHE)/lib/%.a,glpk igraph nauty bullet)
-PKG_CFLAGS = -isystem $(WEB_CACHE)/include -isystem $(WEB_CACHE)/include/nauty -isystem /usr/include/igraph -DTHR_LINKED
+WEB_LIBRARIES := $(patsubst %,$(LIBRARIES)/wasm/lib/%.a,glpk igraph nauty bullet)
+PKG_CFLAGS = -isystem $(LIBRARIES)/wasm/include -isystem $(LIBRARIES)/wasm/include/nauty -isystem /usr/include/igraph -DTHR_LINKED
 # clang counts these among -Wconversion, gcc, which the sources are kept clean for, does not
 THR_CFLAGS += -Wno-sign-conversion -Wno-implicit-int-float-conversion
 BULLET_CFLAGS = -isystem /usr/include/bullet -DBT_USE_DOUBLE_PRECISION
 LAZY_NAMES = -DTHR_LIBRARY_IGRAPH='"igraph"'
-# the linker's --wrap: web/host.c, web/libm.c
+# the linker's --wrap: web/host.c, targets/libm.c
 WEB_LINK := -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sTOTAL_STACK=8MB -sSUPPORT_LONGJMP=1 -sMODULARIZE=1 \
 	-sEXPORT_NAME=ThreadEngine -sENVIRONMENT=web,worker,node -sINVOKE_RUN=0 -sEXIT_RUNTIME=1 \
 	-sEXPORTED_RUNTIME_METHODS=callMain,FS -sNODEJS_CATCH_EXIT=0 -sNODEJS_CATCH_REJECTION=0 -lnodefs.js \

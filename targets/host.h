@@ -1,4 +1,4 @@
-/* What the program asks of the page, worker or node that runs it (web/engine.js). */
+/* What a program of one process asks of what runs it: of the page, worker or node (web/host.c). */
 #ifndef THR_HOST_H
 #define THR_HOST_H
 

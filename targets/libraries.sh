@@ -1,24 +1,31 @@
 #!/usr/bin/env bash
-# Builds the libraries that thread stands on for wasm, with Emscripten, from Debian's own sources: GLPK, igraph, nauty, Bullet, and
-# the small version of GMP. Usage: web/libraries.sh [--fetch] FOLDER; --fetch: the sources only. What is there already is not built
-# again: FOLDER/lib/*.a and, of those headers that differ from the ones that Debian installs, FOLDER/include.
+# Builds the libraries that thread stands on, to be linked with it, from Debian's own sources: GLPK, igraph, nauty, Bullet, and the
+# small version of GMP. Usage: targets/libraries.sh wasm|linux FOLDER: with Emscripten, or with gcc for this machine's processor; or
+# targets/libraries.sh --fetch FOLDER: the sources only. What is there already is not built again: FOLDER/TARGET/lib/*.a and, of
+# those headers that differ from the ones that Debian installs, FOLDER/TARGET/include.
 #
 # The sources come through apt from wherever this system gets its packages (deb-src beside its deb; nothing of the system is
-# changed); their versions are pinned here and their bytes by web/sources.sha256.
+# changed); their versions are pinned here and their bytes by targets/sources.sha256.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-only_fetch=
-if [ "${1:-}" = --fetch ]; then only_fetch=yes && shift; fi
-folder=${1:?which folder?}
+target=${1:?which target: wasm or linux?}
+folder=${2:?which folder?}
+case $target in
+wasm) cc=emcc cxx=em++ ar=emar ;;
+linux) cc=gcc cxx=g++ ar=ar ;;
+--fetch) ;;
+*) echo "targets/libraries.sh: $target is neither wasm nor linux" >&2 && exit 2 ;;
+esac
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
+built=$folder/$target
 export LC_ALL=C
 packages='glpk=5.0-1 igraph=0.10.2+ds-2 nauty=2.8.6+ds-2 bullet=3.24+dfsg-2 gmp=2:6.2.1+dfsg1-1.1'
-flags='-O2 -ffp-contract=off -w'
+flags='-O2 -ffp-contract=off -ffunction-sections -fdata-sections -w' # the linker drops what nothing calls, and what that calls
 
 # ---- sources ----
 
-say() { echo "web/libraries.sh: $*" >&2; }
+say() { echo "targets/libraries.sh: $*" >&2; }
 
 source_lists() { # this system's package lists, asked for sources
   sed 's/^Types:.*/Types: deb-src/' /etc/apt/sources.list.d/*.sources >"$folder/apt/all.sources" 2>/dev/null || rm -f "$folder/apt/all.sources"
@@ -55,22 +62,22 @@ END
 compile() { # LIBRARY FLAGS.. < the files, named from the top of the source: an archive of them
   local library=$1
   shift
-  local objects=$folder/objects/$library
+  local objects=$built/objects/$library
   rm -rf "$objects"
-  mkdir -p "$objects" "$folder/lib" "$folder/include"
+  mkdir -p "$objects" "$built/lib" "$built/include"
   # shellcheck disable=SC2016
-  FLAGS="$flags $*" OBJECTS=$objects xargs -P "$(nproc)" -I{} sh -c '
+  CC=$cc CXX=$cxx FLAGS="$flags $*" OBJECTS=$objects xargs -P "$(nproc)" -I{} sh -c '
     name=$OBJECTS/$(echo "{}" | tr / _).o
-    case {} in *.c) set -- emcc ;; *) set -- em++ -std=c++17 ;; esac
+    case {} in *.c) set -- $CC ;; *) set -- $CXX -std=c++17 ;; esac
     "$@" $FLAGS -c "{}" -o "$name" || exit 255'
-  rm -f "$folder/lib/$library.a"
-  emar rcs "$folder/lib/$library.part" "$objects"/*.o
-  mv "$folder/lib/$library.part" "$folder/lib/$library.a"
+  rm -f "$built/lib/$library.a"
+  "$ar" rcs "$built/lib/$library.part" "$objects"/*.o
+  mv "$built/lib/$library.part" "$built/lib/$library.a"
 }
 
 wanted() { # LIBRARY: is it still to be built?
-  [ ! -e "$folder/lib/$1.a" ] || return 1
-  say "building $1"
+  [ ! -e "$built/lib/$1.a" ] || return 1
+  say "building $1 for $target"
 }
 
 glpk() {
@@ -78,28 +85,32 @@ glpk() {
   local part includes=
   for part in amd api bflib colamd draft env intopt minisat misc mpl npp proxy simplex zlib; do includes+=" -Isrc/$part"; done
   # shellcheck disable=SC2086
-  find src -name '*.c' ! -name main.c | sort | compile glpk -Isrc $includes
-  cp src/glpk.h "$folder/include"
+  find src -name '*.c' ! -name main.c | sort | compile glpk -Isrc $includes $([ "$target" = wasm ] || echo -DTLS=_Thread_local -DHAVE_GMP)
+  cp src/glpk.h "$built/include"
 }
 
-# The headers are Debian's, but for the sizes of this processor; no thread-local storage, no instructions of another one.
+# The headers are Debian's, but for the sizes of this processor; in wasm there is no thread-local storage. No instructions that some
+# processors have not.
 nauty() {
-  mkdir -p "$folder/include/nauty"
-  cp /usr/include/nauty/*.h "$folder/include/nauty"
-  sed -e 's/^\(#define SIZEOF_LONG\) 8/\1 4/' -e 's/^\(#define SIZEOF_POINTER\) 8/\1 4/' \
-    -e 's/^\(#define SIZEOF_INT128[_T]*\) 16/\1 0/' -e '/^#define USE_TLS/d' -e 's/^\(#define TLS_SUPPORTED\) 1/\1 0/' \
-    -e 's/^\(#define TLS_ATTR\) .*/\1/' -e 's/^\(#define HAVE_HW[A-Z]*\) 1/\1 0/' \
-    /usr/include/*/nauty/nauty.h >"$folder/include/nauty/nauty.h"
+  local header=$built/include/nauty/nauty.h
+  mkdir -p "$built/include/nauty"
+  cp /usr/include/nauty/*.h "$built/include/nauty"
+  sed 's/^\(#define HAVE_HW[A-Z]*\) 1/\1 0/' /usr/include/*/nauty/nauty.h >"$header"
+  if [ "$target" = wasm ]; then
+    sed -i -e 's/^\(#define SIZEOF_LONG\) 8/\1 4/' -e 's/^\(#define SIZEOF_POINTER\) 8/\1 4/' \
+      -e 's/^\(#define SIZEOF_INT128[_T]*\) 16/\1 0/' -e '/^#define USE_TLS/d' -e 's/^\(#define TLS_SUPPORTED\) 1/\1 0/' \
+      -e 's/^\(#define TLS_ATTR\) .*/\1/' "$header"
+  fi
   cd "$folder/source/nauty2_8_6"
-  printf '%s.c\n' nauty nautil naugraph nausparse schreier naurng traces | compile nauty -I"$folder/include" -I"$folder/include/nauty"
+  printf '%s.c\n' nauty nautil naugraph nausparse schreier naurng traces | compile nauty -I"$built/include" -I"$built/include/nauty"
 }
 
 # Without GLPK, LAPACK, libxml2 and what reads files: what thread calls needs none of them. An integer has 64 bits, as in Debian.
 igraph() {
   cd "$folder/source/igraph-0.10.2+ds"
-  mkdir -p "$folder/include/mini-gmp"
-  cp "$folder"/source/gmp-*/mini-gmp/mini-gmp.[ch] "$folder/include/mini-gmp"
-  cat >"$folder/include/mini-gmp/config.h" <<'END'
+  mkdir -p "$built/include/mini-gmp"
+  cp "$folder"/source/gmp-*/mini-gmp/mini-gmp.[ch] "$built/include/mini-gmp"
+  cat >"$built/include/mini-gmp/config.h" <<END
 #include "igraph_config.h"
 #define HAVE_STRCASECMP 1
 #define HAVE_STRNCASECMP 1
@@ -109,16 +120,16 @@ igraph() {
 #define HAVE___UINT128_T 1
 #define INTERNAL_GMP 1
 #define IGRAPH_F77_SAVE static
-#define IGRAPH_THREAD_LOCAL
+#define IGRAPH_THREAD_LOCAL $([ "$target" = wasm ] || echo _Thread_local)
 END
   {
     ls src/version.c src/core/*.c src/graph/*.c src/internal/*.c src/math/*.c src/random/*.c src/flow/*.c src/isomorphism/*.c* \
       src/isomorphism/bliss/*.cc src/layout/kamada_kawai.c src/layout/layout_random.c src/layout/circular.c \
       src/connectivity/*.c src/constructors/*.c src/paths/*.c src/properties/*.c src/operators/*.c src/misc/*.c \
       vendor/pcg/*.c vendor/cs/*.c
-    echo "$folder/include/mini-gmp/mini-gmp.c"
+    echo "$built/include/mini-gmp/mini-gmp.c"
   } | grep -v -e glpk_support -e power_law_fit | compile igraph -I/usr/include/igraph -Isrc -Ivendor -Iinclude \
-    -I"$folder/include" -I"$folder/include/mini-gmp" -DIGRAPH_STATIC
+    -I"$built/include" -I"$built/include/mini-gmp" -DIGRAPH_STATIC
 }
 
 bullet() {
@@ -131,7 +142,7 @@ if [ ! -e "$folder/source/fetched" ]; then
   fetch
   touch "$folder/source/fetched"
 fi
-[ -z "$only_fetch" ] || exit 0
+[ "$target" != --fetch ] || exit 0
 for library in glpk nauty igraph bullet; do
   if wanted "$library"; then ("$library"); fi
 done

@@ -4,7 +4,7 @@
 #include "cli/guard.h"
 #include "graph/limits.h"
 #include "graph/text.h"
-#include "web/host.h"
+#include "targets/host.h"
 
 #include <stdio.h>
 

@@ -1,0 +1,14 @@
+# BUILD=static: the program with everything that it needs in it, as $(OUT)/static/thread. `make static` begins it when
+# targets/libraries.sh has put the libraries into LIBRARIES; Debian's own archives are there for fontconfig and zlib. The interfaces
+# that are implemented a second time here:
+#   graph/process/lazy.h (the libraries are linked)   eval/structure/rank.h (SuiteSparse wants BLAS and Fortran's runtime)
+SOURCES := $(filter-out graph/process/lazy.c eval/structure/spqr.c,$(SOURCES)) targets/linked.c targets/householder.c
+OBJECTS = $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%)))
+
+PKG_CFLAGS = -isystem $(LIBRARIES)/linux/include -isystem $(LIBRARIES)/linux/include/nauty -isystem /usr/include/igraph -DTHR_LINKED
+BULLET_CFLAGS = -isystem /usr/include/bullet -DBT_USE_DOUBLE_PRECISION
+LAZY_NAMES = $(foreach name,IGRAPH FONTCONFIG Z,-DTHR_LIBRARY_$(name)='"$(name)"')
+STATIC_LIBRARIES := $(patsubst %,$(LIBRARIES)/linux/lib/%.a,igraph nauty glpk bullet)
+$(DIR)/thread: $(STATIC_LIBRARIES)
+THR_LIBS = -lgmp $(shell pkg-config --static --libs fontconfig zlib) -lm $(LDLIBS)
+LINK += -static -Wl,--gc-sections
