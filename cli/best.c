@@ -4,6 +4,7 @@
 #include "cli/progress.h"
 #include "graph/check/check.h"
 #include "graph/limits.h"
+#include "graph/os.h"
 #include "graph/status.h"
 #include "graph/text.h"
 #include "symmetry/cover/cover.h"
@@ -90,7 +91,7 @@ static void keep_better(thr_plan *plan, double now)
   if (progress_wanted()) progress_plan(plan);
   if (cli_verbose)
     cli_note("plan: length %.10g, turning %.10g rad, %.3f CPU s", plan->metrics.length, plan->metrics.turning,
-             cli_processor_seconds());
+             thr_os_processor_seconds());
   thr_text_destroy(&text);
   best.value = value_of(plan);
   best.at = now;

@@ -6,6 +6,7 @@
 #include "graph/suggestion.h"
 #include "graph/angle.h"
 #include "graph/io/stand.h"
+#include "graph/os.h"
 #include "cli/guard.h"
 #include "graph/check/check.h"
 #include "graph/framework/units.h"
@@ -13,13 +14,11 @@
 
 #include <errno.h>
 #include <math.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <sys/time.h>
 #include <unistd.h>
 
 bool cli_quiet, cli_verbose;
@@ -304,9 +303,8 @@ bool cli_mark_nodes(const thr_frame *frame, const char *list, const char *option
 {
   thr_err err = {0};
   thr_text text = {0};
-  struct stat s;
   if (thr_frame_find(frame, list) >= 0) return mark_node(frame, list, option, mark); /* "(0, 1)" is one COMPAS key */
-  if (stat(list, &s) == 0 && S_ISREG(s.st_mode)) {
+  if (thr_os_is_file(list)) {
     if (thr_text_read(&text, list, &err)) {
       cli_fail(&err);
       return false;
@@ -357,8 +355,7 @@ int cli_read_plan(const char *path, thr_plan *plan)
 
 void cli_stem(const char *path, char *out, size_t size)
 {
-  const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-  const char *dot = strrchr(name, '.');
+  const char *name = thr_os_name(path), *dot = strrchr(name, '.');
   int n = dot && dot > name ? (int)(dot - name) : (int)strlen(name);
   if (strcmp(path, "-") == 0 || n == 0)
     snprintf(out, size, "frame");
@@ -379,14 +376,15 @@ int cli_in_folder(const char *folder, const char *file, char *out, size_t size)
     return EXIT_INPUT;
   }
   for (size_t i = 1; i <= n; i++) { /* like mkdir -p */
-    if (folder[i] != '/' && folder[i] != '\0') continue;
+    if (!thr_os_is_separator(folder[i]) && folder[i] != '\0') continue;
     snprintf(part, sizeof part, "%.*s", (int)i, folder);
-    struct stat s;
-    if (mkdir(part, 0777) == 0 || (stat(part, &s) == 0 && S_ISDIR(s.st_mode))) continue;
-    cli_error("%s: cannot make this folder (%s); say where to write with -o or --draw", part, strerror(errno));
+    if (thr_os_make_folder(part)) continue;
+    const int why = errno;
+    if (thr_os_is_folder(part)) continue;
+    cli_error("%s: cannot make this folder (%s); say where to write with -o or --draw", part, strerror(why));
     return EXIT_INPUT;
   }
-  snprintf(out, size, "%s%s%s", folder, n && folder[n - 1] == '/' ? "" : "/", file);
+  snprintf(out, size, "%s%s%s", folder, n && thr_os_is_separator(folder[n - 1]) ? "" : "/", file);
   return EXIT_OK;
 }
 
@@ -484,30 +482,14 @@ static void show_advance(void *user, const char *what, double done)
   fflush(stderr);
 }
 
-static double seconds_of(struct timeval time)
-{
-  return (double)time.tv_sec + 1e-6 * (double)time.tv_usec;
-}
-
-double cli_processor_seconds(void)
-{
-  double sum = 0;
-  const int whose[] = {RUSAGE_SELF, RUSAGE_CHILDREN};
-  for (int i = 0; i < 2; i++) {
-    struct rusage used;
-    if (getrusage(whose[i], &used) == 0) sum += seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
-  }
-  return sum;
-}
-
 static void log_progress(void *user, const char *what, double best, double bound)
 {
   (void)user;
   if (is_turning(what)) /* in rad, or as --turn-cost prices them */
     cli_note("turning: price of all turns %.9g, at least %.9g, gap %.3g %%, %.3f CPU s", best, fmax(bound, 0),
-             progress_gap(best, bound), cli_processor_seconds());
+             progress_gap(best, bound), thr_os_processor_seconds());
   else
-    cli_note("%s: best join %.0f, bound %.1f (integer weights), %.3f CPU s", what, best, bound, cli_processor_seconds());
+    cli_note("%s: best join %.0f, bound %.1f (integer weights), %.3f CPU s", what, best, bound, thr_os_processor_seconds());
 }
 
 bool cli_is_terminal(int file)
@@ -518,16 +500,14 @@ bool cli_is_terminal(int file)
 
 void cli_heed_signals(void)
 {
-  struct sigaction act = {.sa_handler = on_interrupt};
-  sigaction(SIGINT, &act, NULL);
-  sigaction(SIGTERM, &act, NULL); /* what timeout and batch systems send */
+  thr_os_heed_stop(on_interrupt);
 }
 
 int cli_processes(void)
 {
   if (processes > 0) return processes;
-  long processors = sysconf(_SC_NPROCESSORS_ONLN);
-  return processors > 1 ? processors < MOST_PROCESSES ? (int)processors : MOST_PROCESSES : 1;
+  const int processors = thr_os_processors();
+  return processors < MOST_PROCESSES ? processors : MOST_PROCESSES;
 }
 
 bool cli_processes_option(const char *command, const char *value)

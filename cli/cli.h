@@ -169,9 +169,6 @@ int cli_write_drawn(thr_status st, thr_text *text, const char *path, const thr_e
 /* From now on SIGINT and SIGTERM only set what cli_limits' interrupt looks at, the second one after a while ends the process. */
 void cli_heed_signals(void);
 
-/* Processor time of this process and of its children that have ended, user and system, s. */
-double cli_processor_seconds(void);
-
 /* Limits with a deadline (0 = none), Ctrl-C and, on a terminal, a progress line on stderr with the time left. */
 thr_limits cli_limits(double seconds);
 void cli_progress_end(void); /* wipes the progress line */

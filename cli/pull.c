@@ -4,6 +4,7 @@
 #include "graph/framework/frame.h"
 #include "graph/framework/units.h"
 #include "graph/limits.h"
+#include "graph/os.h"
 #include "graph/plan/physics.h"
 #include "graph/status.h"
 
@@ -12,23 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* As the XDG base directory specification says: relative folders do not count. */
-static void default_cache(char cache[1024])
-{
-  const char *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-  int n = 0;
-  if (xdg && *xdg == '/')
-    n = snprintf(cache, 1024, "%s/thread", xdg);
-  else if (home && *home == '/')
-    n = snprintf(cache, 1024, "%s/.cache/thread", home);
-  if (n <= 0 || n >= 1024) cache[0] = '\0';
-}
-
 void pull_args_init(pull_args *a, thr_method method)
 {
   *a = (pull_args){.options = thr_eval_options_default(), .method = method, .pull = "both"};
   a->options.processes = cli_processes();
-  default_cache(a->cache);
+  thr_os_cache_folder(a->cache, sizeof a->cache);
 }
 
 static bool pull_by_name(const char *value, size_t n, thr_pull *pull)

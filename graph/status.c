@@ -1,16 +1,14 @@
 /* Status codes, error text and checked allocation. */
-#define _DEFAULT_SOURCE /* madvise */
 #include "graph/status.h"
+#include "graph/os.h"
 #include "graph/text.h"
 
-#include <errno.h>
 #include <limits.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
 static _Thread_local long fail_at;     /* 0: never; 1: the next allocation fails */
 static _Thread_local bool fails_later; /* .. and so does each one after it */
@@ -51,35 +49,16 @@ static bool may_allocate(size_t n, size_t size)
   return size == 0 || n <= PTRDIFF_MAX / size;
 }
 
-/* Asks for pages of 2 MB under a large block, before it is touched. Of 4 kB each a million edges take 140,000 pages, and a fault
- * for every one of them, which is a fifth of the time (Linux, madvise(2)). It is a wish that the system may leave unheard, so
- * what it answers counts for nothing. Returns the block. */
-static void *on_large_pages(void *block, size_t bytes)
-{
-#ifdef MADV_HUGEPAGE
-  const size_t page = (size_t)1 << 21, large = page / 2;
-  const int said = errno;
-  if (block && bytes >= large) {
-    char *first = (char *)block - (uintptr_t)block % page; /* the whole pages that the block is in */
-    (void)madvise(first, ((size_t)((char *)block - first) + bytes + page - 1) / page * page, MADV_HUGEPAGE);
-  }
-  errno = said;
-#else
-  (void)bytes;
-#endif
-  return block;
-}
-
 void *thr_calloc(size_t n, size_t size)
 {
   if (!may_allocate(n, size)) return NULL;
-  return on_large_pages(calloc(n ? n : 1, size ? size : 1), n * size);
+  return thr_os_on_large_pages(calloc(n ? n : 1, size ? size : 1), n * size);
 }
 
 void *thr_realloc(void *p, size_t n, size_t size)
 {
   if (!may_allocate(n, size)) return NULL;
-  return on_large_pages(realloc(p, n && size ? n * size : 1), n * size);
+  return thr_os_on_large_pages(realloc(p, n && size ? n * size : 1), n * size);
 }
 
 thr_status thr_grow(void *array, int count, int *capacity, size_t size, thr_err *err)

@@ -1,18 +1,16 @@
-/* Growing text, number formatting, cleaning of foreign text, whole-file input and atomic output. */
+/* Growing text, number formatting, cleaning of foreign text, whole-file input and output. */
 #define _XOPEN_SOURCE 700
 #include "graph/text.h"
 #include "graph/number.h"
+#include "graph/os.h"
 
 #include <math.h>
 #include <errno.h>
-#include <fcntl.h>
-#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 enum { MAX_INPUT_BYTES = 1 << 30 };
 
@@ -237,98 +235,14 @@ static thr_status write_stdout(const thr_text *text, thr_err *err)
   return fflush(stdout) == 0 ? THR_OK : write_failed("stdout", err);
 }
 
-/* Waits until what was written is on the disk, where the file is on one: pipes and some file systems know no fsync. */
-static bool reach_disk(int fd)
-{
-  return fsync(fd) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
-}
-
-static bool write_all(FILE *f, const thr_text *text)
-{
-  bool ok = text->length == 0 || fwrite(text->data, 1, text->length, f) == text->length;
-  ok = fflush(f) == 0 && reach_disk(fileno(f)) && ok;
-  int why = errno;
-  bool closed = fclose(f) == 0;
-  if (!ok) errno = why;
-  return closed && ok;
-}
-
-/* The new name is in the folder, which is written back by itself (open group, "fsync"; Linux fsync(2)). Best effort: the file is
- * whole under either name, and a folder that may be written to but not read cannot be opened. */
-static void folder_reaches_disk(const char *path, size_t folder)
-{
-  char *name = thr_calloc(folder + 2, 1);
-  if (!name) return;
-  memcpy(name, folder ? path : ".", folder ? folder : 1);
-  int fd = open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (fd >= 0) {
-    (void)reach_disk(fd);
-    close(fd);
-  }
-  free(name);
-}
-
-/* A new file beside path, which then takes path's place; mode is what path is to have. */
-static thr_status replace_file(const thr_text *text, const char *path, mode_t mode, thr_err *err)
-{
-  static const char name[] = ".thread-XXXXXX"; /* short: the folder may allow no longer name than path's */
-  const char *slash = strrchr(path, '/');
-  size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
-  char *temporary = thr_calloc(folder + sizeof name, 1);
-  if (!temporary) return thr_nomem(err);
-  memcpy(temporary, path, folder);
-  memcpy(temporary + folder, name, sizeof name);
-  thr_status st = THR_OK;
-  int fd = mkstemp(temporary);
-  FILE *f = fd >= 0 && fchmod(fd, mode) == 0 ? fdopen(fd, "wb") : NULL;
-  if (!f || !write_all(f, text) || rename(temporary, path) != 0) {
-    st = write_failed(path, err);
-    if (!f && fd >= 0) close(fd);
-    if (fd >= 0) unlink(temporary);
-  } else {
-    folder_reaches_disk(path, folder);
-  }
-  free(temporary);
-  return st;
-}
-
-/* The same with the signals held back that would leave the temporary file behind. */
-static thr_status replace_undisturbed(const thr_text *text, const char *path, mode_t mode, thr_err *err)
-{
-  sigset_t held, before;
-  sigemptyset(&held);
-  const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGXFSZ};
-  for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
-    sigaddset(&held, signals[i]);
-  sigprocmask(SIG_BLOCK, &held, &before);
-  thr_status st = replace_file(text, path, mode, err);
-  sigprocmask(SIG_SETMASK, &before, NULL);
-  return st;
-}
-
 thr_status thr_text_write(const thr_text *text, const char *path, thr_err *err)
 {
   if (text->failed) return thr_nomem(err);
   if (strcmp(path, "-") == 0) return write_stdout(text, err);
   if (!*path) return thr_fail(err, THR_EIO, NO_NAME);
-  struct stat target;
-  bool exists = stat(path, &target) == 0;
-  if (exists && S_ISDIR(target.st_mode)) return thr_fail(err, THR_EIO, "%s: is a folder; give the name of a file", path);
-  if (exists && !S_ISREG(target.st_mode)) { /* a device or pipe (/dev/stdout) must be written through, not replaced */
-    FILE *f = fopen(path, "wb");
-    return f && write_all(f, text) ? THR_OK : write_failed(path, err);
-  }
-  if (!exists) {
-    mode_t mask = umask(0);
-    umask(mask);
-    return replace_undisturbed(text, path, 0666 & ~mask, err);
-  }
-  if (access(path, W_OK) != 0) return write_failed(path, err); /* rename would not ask */
-  char *real = realpath(path, NULL);                           /* a link stays a link */
-  if (!real) return write_failed(path, err);
-  thr_status st = replace_undisturbed(text, real, target.st_mode & 07777, err);
-  free(real);
-  return st;
+  if (thr_os_is_folder(path)) return thr_fail(err, THR_EIO, "%s: is a folder; give the name of a file", path);
+  if (thr_os_write(path, text->data, text->length)) return THR_OK;
+  return errno == ENOMEM ? thr_nomem(err) : write_failed(path, err);
 }
 
 thr_status thr_text_read(thr_text *text, const char *path, thr_err *err)

@@ -3,13 +3,13 @@
 #include "cli/guard.h"
 #include "diagram/overview/overview.h"
 #include "graph/io/read.h"
+#include "graph/os.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
 #include "lib/documents.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static const char help[] =
     "thread draw PLAN [options]: pictures, steps, tables and lines of a plan\n\n"
@@ -61,9 +61,8 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
 
 static bool is_folder(const char *path)
 {
-  struct stat s;
   size_t n = strlen(path);
-  return (n && path[n - 1] == '/') || (stat(path, &s) == 0 && S_ISDIR(s.st_mode));
+  return (n && thr_os_is_separator(path[n - 1])) || thr_os_is_folder(path);
 }
 
 static const char *up_name(int up)

@@ -13,6 +13,7 @@
 #include "graph/framework/frame.h"
 #include "graph/io/writer.h"
 #include "graph/limits.h"
+#include "graph/os.h"
 #include "graph/plan/advice.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
@@ -558,7 +559,7 @@ static thr_status make_plan(const arguments *a, const thr_frame *framework, cons
   limits.found = best_found;
   thr_status st = thr_plan_make(framework, options, &limits, &x->plan, &x->report, err);
   cli_progress_end();
-  if (cli_verbose) cli_note("search: ended, %.3f CPU s", cli_processor_seconds());
+  if (cli_verbose) cli_note("search: ended, %.3f CPU s", thr_os_processor_seconds());
   if (a->guard.seconds < 0) guard_allow(0);
   return st;
 }

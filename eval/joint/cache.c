@@ -1,18 +1,14 @@
 /* One file per measured joint, named by a hash of its key; the key itself stands in it, so a collision is only a miss. */
-#define _POSIX_C_SOURCE 200809L
 #include "eval/joint/cache.h"
 #include "eval/joint/world.h"
+#include "graph/os.h"
 
 #include <assert.h>
-#include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 enum { MAX_FILE = 4096, MAX_VALUES = 512 };
 
@@ -82,27 +78,6 @@ static bool file_name(const char *folder, const thr_text *key, thr_text *path)
   return !path->failed;
 }
 
-/* Bytes of a regular file of at most MAX_FILE - 1 bytes, or -1. O_NONBLOCK: a pipe of that name must not stop us. */
-static ssize_t read_small(const char *path, char *data)
-{
-  struct stat info;
-  int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  if (fd < 0) return -1;
-  ssize_t n = -1, got = 0;
-  if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_size < MAX_FILE) {
-    for (n = 0; n < MAX_FILE; n += got) {
-      got = read(fd, data + n, (size_t)(MAX_FILE - n));
-      if (got < 0 && errno == EINTR)
-        got = 0;
-      else if (got <= 0)
-        break;
-    }
-    if (got < 0) n = -1;
-  }
-  close(fd);
-  return n < MAX_FILE ? n : -1;
-}
-
 bool thr_cache_load(const char *folder, const thr_drag *drag, thr_drag_result *out)
 {
   char data[MAX_FILE];
@@ -110,7 +85,7 @@ bool thr_cache_load(const char *folder, const thr_drag *drag, thr_drag_result *o
   bool found = false;
   thr_cache_key(drag, &key);
   if (file_name(folder, &key, &path)) {
-    ssize_t n = read_small(path.data, data);
+    int n = thr_os_read_small(path.data, data, MAX_FILE);
     found = n >= 0 && thr_cache_parse(data, (size_t)n, &key, out);
   }
   thr_text_destroy(&key);
@@ -122,16 +97,16 @@ bool thr_cache_load(const char *folder, const thr_drag *drag, thr_drag_result *o
 static void make_folders(char *path)
 {
   for (char *c = path + 1; *c; c++) {
-    if (*c != '/') continue;
+    if (!thr_os_is_separator(*c)) continue;
+    const char separator = *c;
     *c = 0;
-    (void)mkdir(path, 0777);
-    *c = '/';
+    (void)thr_os_make_folder(path);
+    *c = separator;
   }
 }
 
 thr_status thr_cache_store(const char *folder, const thr_drag *drag, const thr_drag_result *result, thr_err *err)
 {
-  struct stat info;
   thr_text key = {0}, path = {0}, text = {0};
   thr_status st;
   thr_cache_key(drag, &key);
@@ -142,7 +117,7 @@ thr_status thr_cache_store(const char *folder, const thr_drag *drag, const thr_d
     st = thr_nomem(err);
   else {
     make_folders(path.data);
-    if (lstat(path.data, &info) == 0 && !S_ISREG(info.st_mode))
+    if (thr_os_is_no_file(path.data))
       st = thr_fail(err, THR_EIO, "%s: is not a file; remove it", path.data);
     else
       st = thr_text_write(&text, path.data, err);

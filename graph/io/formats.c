@@ -1,6 +1,7 @@
 /* The table of formats, and which of them a file is in: by its name's ending or, failing that, by its first line. */
 #include "graph/io/formats.h"
 #include "graph/io/read.h"
+#include "graph/os.h"
 
 #include <string.h>
 
@@ -26,7 +27,7 @@ const thr_format *thr_format_written(const char *name)
 
 const char *thr_path_ending(const char *path)
 {
-  const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
+  const char *dot = strrchr(thr_os_name(path), '.');
   return dot ? dot + 1 : "";
 }
 

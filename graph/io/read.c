@@ -2,6 +2,7 @@
 #include "graph/framework/near.h"
 #include "graph/io/formats.h"
 #include "graph/io/scan.h"
+#include "graph/os.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -36,8 +37,8 @@ thr_status thr_draft_parse(thr_draft *draft, thr_read_report *report, const char
 /* path with the last `have` of its file name replaced by `want`; NULL in *other if there is none. */
 static thr_status replace_word(const char *path, const char *have, const char *want, char **other, thr_err *err)
 {
-  const char *slash = strrchr(path, '/'), *found = NULL;
-  for (const char *c = slash ? slash : path; (c = strstr(c, have)); c++)
+  const char *found = NULL;
+  for (const char *c = thr_os_name(path); (c = strstr(c, have)); c++)
     found = c;
   *other = NULL;
   if (!found) return THR_OK;

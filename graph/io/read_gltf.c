@@ -7,6 +7,7 @@
 #include "graph/io/parts.h"
 #include "graph/io/scan.h"
 #include "graph/io/sites.h"
+#include "graph/os.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
@@ -97,10 +98,9 @@ static void decode_base64(const char *c, thr_text *out)
 static thr_status read_beside(gltf *g, int i, const char *uri)
 {
   char path[1200];
-  const char *slash = strrchr(g->file, '/');
-  if (uri[0] == '/' || strstr(uri, "..") || strchr(uri, ':'))
+  if (thr_os_is_separator(uri[0]) || strstr(uri, "..") || strchr(uri, ':'))
     return bad(g, "buffers", i, "lies elsewhere; put its file beside this one, or save as .glb");
-  const int n = snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash - g->file + 1) : 0, g->file, uri);
+  const int n = snprintf(path, sizeof path, "%.*s%s", (int)(thr_os_name(g->file) - g->file), g->file, uri);
   if (n < 0 || (size_t)n >= sizeof path) return bad(g, "buffers", i, "the path is too long");
   const thr_status st = thr_text_read(&g->buffer[i], path, NULL);
   if (st == THR_ENOMEM) return thr_nomem(g->err);

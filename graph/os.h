@@ -1,0 +1,51 @@
+/* What systems differ in, and nothing else: files and folders, signals, processors, pages of memory. os.c for POSIX. */
+#ifndef THR_OS_H
+#define THR_OS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* ---- files; paths are UTF-8 ---- */
+
+/* What follows the last separator of a path, within it: "a/b.obj": "b.obj". */
+const char *thr_os_name(const char *path);
+bool thr_os_is_separator(char c);
+
+/* Links are followed: a link to a folder is one. */
+bool thr_os_is_folder(const char *path);
+bool thr_os_is_file(const char *path);
+
+/* Is something there that is no regular file, be it a link to one? */
+bool thr_os_is_no_file(const char *path);
+
+/* One new folder, in one that exists; false with errno. */
+bool thr_os_make_folder(const char *path);
+
+/* Writes n bytes through a temporary file in the same folder and rename, so that path is either the old file or the whole new
+ * one, and after a loss of power as well. The file keeps its rights, a link stays a link, a device or pipe is written to. False
+ * with errno: ENOMEM if there was no memory. */
+bool thr_os_write(const char *path, const char *data, size_t n);
+
+/* Length of the regular file at path, whose bytes are then in data, if it is less than size; else -1. Waits for no pipe. */
+int thr_os_read_small(const char *path, char *data, int size);
+
+/* Where a user's programs keep what they can make again: with thread's own folder appended; "" if there is no such place. */
+void thr_os_cache_folder(char *path, size_t size);
+
+/* ---- processes ---- */
+
+/* Calls on_stop at Ctrl-C and when the program is told to end, every time. */
+void thr_os_heed_stop(void (*on_stop)(int signal));
+
+int thr_os_processors(void);
+
+/* Processor time, user and system, s, of this process and of its children that have ended. */
+double thr_os_processor_seconds(void);
+
+/* ---- memory ---- */
+
+/* Asks for large pages under a large block, before it is touched: a wish that the system may leave unheard. Returns the block;
+ * errno is what it was. */
+void *thr_os_on_large_pages(void *block, size_t bytes);
+
+#endif
