@@ -12,13 +12,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double more = 1.1, rounding = 1e-12; /* of the turning, where it is no aim */
+/* Of the turning, where it is no aim: what --order hand may use, and what --order starts tries, the first that serves. */
+static const double tenth = 1.1, tried[] = {1, 1.01, 1.02, 1.05};
+static const double rounding = 1e-12;
 
 /* Of cords of one component: all orders of so many; and so many visits of pieces, some 10 ms, are worth it. */
 enum { FEW_CORDS = 6, MOST_VISITS = 100000 };
 
 typedef struct {
   thr_plan *plan;
+  double more; /* of its turning a cord may have, at most so many times what it was found with */
   thr_threaded threaded;
   thr_turning_room *room; /* [n_cords] owned */
   int *half, *piece;      /* [most], [2 * most + 2] scratch; owned */
@@ -50,8 +53,8 @@ bool thr_order_reverses(const thr_request *request, const thr_cord *cord)
 /* May cords turn more than they were found to? */
 static bool has_slack(const thr_request *request)
 {
-  return request->order == THR_ORDER_HAND && request->joint == THR_JOINT_SOLID && request->max_pull == 0 &&
-         !thr_wants_turning(request) && !thr_wants_symmetry(request);
+  return request->joint == THR_JOINT_SOLID && request->max_pull == 0 && !thr_wants_turning(request) &&
+         !thr_wants_symmetry(request);
 }
 
 /* ---- beginnings ---- */
@@ -243,7 +246,7 @@ static void find_room(work *x, int c)
 {
   const thr_plan *plan = x->plan;
   const thr_cord *cord = &plan->cord[c];
-  double part = has_slack(&plan->options) && thr_order_reverses(&plan->options, cord) ? more : 1;
+  double part = thr_order_reverses(&plan->options, cord) ? x->more : 1;
   x->room[c].exactly = thr_wants_turning(&plan->options);
   x->room[c].turning = part * thr_cord_turning(&plan->frame, cord, thr_order_turns(&plan->options, cord));
   x->room[c].pulled = part * thr_cord_pulled_turning(&plan->frame, cord);
@@ -350,9 +353,9 @@ static thr_status order_paths(work *x, thr_err *err)
 
 /* ---- the whole ---- */
 
-static thr_status work_init(work *x, thr_plan *plan, thr_err *err)
+static thr_status work_init(work *x, thr_plan *plan, double more, thr_err *err)
 {
-  *x = (work){.plan = plan, .room = thr_calloc((size_t)plan->n_cords, sizeof *x->room)};
+  *x = (work){.plan = plan, .more = more, .room = thr_calloc((size_t)plan->n_cords, sizeof *x->room)};
   for (int c = 0; c < plan->n_cords; c++)
     x->most = (size_t)plan->cord[c].n_passes > x->most ? (size_t)plan->cord[c].n_passes : x->most;
   x->half = thr_calloc(x->most, sizeof *x->half);
@@ -406,10 +409,17 @@ static void restore_cords(thr_plan *plan, const backup *b)
     memcpy(plan->cord[c].half, half, (size_t)plan->cord[c].n_passes * sizeof *half);
 }
 
-static thr_status order_all(thr_plan *plan, thr_err *err)
+static void free_cords(backup *b)
+{
+  free(b->cord);
+  free(b->half);
+  *b = (backup){0};
+}
+
+static thr_status order_all(thr_plan *plan, double more, thr_err *err)
 {
   work x;
-  thr_status st = work_init(&x, plan, err);
+  thr_status st = work_init(&x, plan, more, err);
   if (!st) st = plan->symmetry.present ? order_paths(&x, err) : order_cords(&x, err);
   work_destroy(&x);
   return st;
@@ -421,20 +431,34 @@ static int worst(thr_chains chains)
   return chains.longest > THR_HELD_WELL ? chains.longest : THR_HELD_WELL;
 }
 
-/* Orders the cords, if a chain that is too long gets shorter by it. */
+/* Replaces what was kept. */
+static thr_status keep_cords(const thr_plan *plan, backup *b, thr_err *err)
+{
+  free_cords(b);
+  return save_cords(plan, b, err);
+}
+
+/* Orders the cords, if a chain that is too long gets shorter by it: without more turning, or with as little as serves. */
 static thr_status order_if_worth(thr_plan *plan, bool *changed, thr_err *err)
 {
-  thr_chains before, after;
-  backup b = {0};
-  thr_status st = thr_plan_chains(plan, plan->options.needles, &before, err);
-  if (st || worst(before) == THR_HELD_WELL) return st;
-  st = save_cords(plan, &b, err);
-  if (!st) st = order_all(plan, err);
-  if (!st) st = thr_plan_chains(plan, plan->options.needles, &after, err);
-  *changed = !st && worst(after) < worst(before);
-  if (!st && !*changed) restore_cords(plan, &b);
-  free(b.cord);
-  free(b.half);
+  const int n = has_slack(&plan->options) ? sizeof tried / sizeof *tried : 1;
+  thr_chains least, after;
+  backup found = {0}, best = {0};
+  thr_status st = thr_plan_chains(plan, plan->options.needles, &least, err);
+  if (!st) st = save_cords(plan, &found, err);
+  if (!st) st = save_cords(plan, &best, err);
+  for (int i = 0; i < n && !st && worst(least) > THR_HELD_WELL; i++) {
+    restore_cords(plan, &found);
+    st = order_all(plan, tried[i], err);
+    if (!st) st = thr_plan_chains(plan, plan->options.needles, &after, err);
+    if (st || worst(after) >= worst(least)) continue;
+    least = after;
+    *changed = true;
+    st = keep_cords(plan, &best, err);
+  }
+  if (!st) restore_cords(plan, &best);
+  free_cords(&found);
+  free_cords(&best);
   return st;
 }
 
@@ -450,7 +474,8 @@ thr_status thr_plan_order(thr_plan *plan, thr_err *err)
   const thr_order order = order_of(&plan->options);
   bool changed = order == THR_ORDER_HAND;
   if (order == THR_ORDER_PLANNED || plan->n_cords == 0) return THR_OK;
-  thr_status st = order == THR_ORDER_HAND ? order_all(plan, err) : order_if_worth(plan, &changed, err);
+  thr_status st =
+      order == THR_ORDER_HAND ? order_all(plan, has_slack(&plan->options) ? tenth : 1, err) : order_if_worth(plan, &changed, err);
   if (st || !changed) return st;
   const double length = plan->metrics.length; /* the same passes, whatever the order in which they are added up */
   st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);

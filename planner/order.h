@@ -11,7 +11,8 @@ enum { THR_ORDER_MOST = 5000, THR_ORDER_REVERSED = 2500 };
 /* As the plan's request asks (thr_order), cords of a plan without an evaluation are begun elsewhere, turned round and numbered
  * anew, such that the longest loose chain is short, and then the sum of squares of all loose chains is small
  * (graph/plan/chains.h). Passes, claims and their proofs stay as they are; metrics are measured again. THR_ORDER_STARTS: if a
- * chain that is longer than a hand holds well gets shorter by it, and without more turning or pull. What changes:
+ * chain that is longer than a hand holds well gets shorter by it; without more turning or pull, or, in plans that are short and
+ * nothing else, with as little as serves, a twentieth more turning at most. What changes:
  * - Closed cords, where ends do not matter, begin at a foot if they come by one, where a knot can lie; all directions and, of
  *   few cords, all orders are tried (of many, that which holds together best comes next).
  * - With solid joints parts of a cord between visits of its nodes are run the other way round, or change places, as long as

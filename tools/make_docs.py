@@ -143,6 +143,14 @@ def put(path, text, check):
     return old == text
 
 
+def forget_pictures():
+    """Those that are made here; `make validate` and the tests of the page make the others."""
+    os.makedirs(PICTURES, exist_ok=True)
+    for name in os.listdir(PICTURES):
+        if not name.startswith(("validation-", "page-")):
+            os.remove(os.path.join(PICTURES, name))
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
@@ -152,8 +160,7 @@ def main():
     same = True
     try:
         if not check:
-            shutil.rmtree(PICTURES, ignore_errors=True)
-            os.makedirs(PICTURES)
+            forget_pictures()
         pages = {name: os.path.join("docs", name) for name in ("tutorial.md", "gallery.md")}
         text = {name: open(path, encoding="utf-8").read() for name, path in pages.items()}
         same &= put(pages["tutorial.md"], with_outputs(run, text["tutorial.md"]), check)

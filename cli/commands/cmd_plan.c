@@ -58,8 +58,8 @@ static const char help_output[] =
     "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
     "                       (no sheets.pdf for more than 5000 pieces: thread draw PLAN -T pdf makes it)\n"
     "      --force          in a folder named after FRAME, replace another plan (else FRAME-2, FRAME-3, ..)\n" DRAWINGS_HELP
-    "      --order starts|hand|planned   cords begin and run so that what is threaded holds together: as far as that\n"
-    "                       costs nothing (default), for at most a tenth more turning, or not at all\n"
+    "      --order starts|hand|planned   cords begin and run so that what is threaded holds together: for as little\n"
+    "                       turning as serves, a twentieth more at most (default), a tenth, or not at all\n"
     "      --json           summary as JSON on stdout\n"
     "      --progress       a line of JSON on stderr each time the plan or its bound is better\n"
     "      --compare-objectives   pull of this plan beside those for the other objectives, joints simulated\n" PULL_RUN_HELP

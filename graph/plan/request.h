@@ -88,7 +88,8 @@ typedef enum {
 } thr_confirm;
 
 /* How what is threaded is to hold together while it is threaded (planner/order.h): not looked at, cords stay as they were found;
- * by where they begin, which way they run and which comes first; and by what that takes, a tenth more turning, too. */
+ * by where they begin, which way they run and which comes first, and in short plans by what that takes, a twentieth more turning
+ * at most; or whatever a tenth more turning serves for. */
 typedef enum { THR_ORDER_PLANNED, THR_ORDER_STARTS, THR_ORDER_HAND, THR_N_ORDERS } thr_order;
 
 /* Channels that cross inside solid pieces (graph/plan/channels.h): as it comes; fewer, where passes can go on otherwise at equal

@@ -311,14 +311,14 @@ START_TEST(parts_run_otherwise_keep_passes_and_room)
 }
 END_TEST
 
-/* Without a tenth more: no turn, and no tenth of a newton, for shorter chains; what a hand holds well stays as it was found. */
-START_TEST(nothing_is_paid_for_where_cords_begin)
+/* By default a twentieth more at most, nothing where little turning is the aim; what a hand holds well stays as it was found. */
+START_TEST(little_is_paid_for_where_cords_begin)
 {
   static const struct {
     thr_shape shape;
     int size, longest;
     const char *aims;
-  } cases[] = {{THR_MAKE_DOME, 7, 10, "length"},  {THR_MAKE_TUBE, 12, 10, "length"},  {THR_MAKE_SPHERE, 2, 10, "length"},
+  } cases[] = {{THR_MAKE_DOME, 7, 8, "length"},   {THR_MAKE_TUBE, 12, 10, "length"},  {THR_MAKE_SPHERE, 2, 7, "length"},
                {THR_MAKE_DOME, 7, 11, "turning"}, {THR_MAKE_TUBE, 12, 10, "turning"}, {THR_MAKE_DOME, 4, 9, "length"},
                {THR_MAKE_DOME, 12, 22, "length"}};
   for (int needles = 0; needles <= 2; needles++) {
@@ -338,8 +338,9 @@ START_TEST(nothing_is_paid_for_where_cords_begin)
       ck_assert_mem_eq(p.cord[0].half, q.cord[0].half, (size_t)p.cord[0].n_passes * sizeof *p.cord[0].half);
     else
       ck_assert_int_le(now.longest, before.longest);
-    ck_assert_double_le(q.metrics.turning, p.metrics.turning * (1 + 1e-9));
-    ck_assert_double_le(thr_cord_pulled_turning(&f, &q.cord[0]), thr_cord_pulled_turning(&f, &p.cord[0]) * (1 + 1e-9));
+    const double most = (strcmp(cases[_i].aims, "length") == 0 ? 1.05 : 1) * (1 + 1e-9);
+    ck_assert_double_le(q.metrics.turning, most * p.metrics.turning);
+    ck_assert_double_le(thr_cord_pulled_turning(&f, &q.cord[0]), most * thr_cord_pulled_turning(&f, &p.cord[0]));
     ck_assert_int_le(q.metrics.u_turns, p.metrics.u_turns);
     assert_same_passes(&p, &q);
     assert_plan_sound(&q);
@@ -355,7 +356,7 @@ int main(void)
   Suite *s = suite_create("order of work");
   ADD_EXAMPLES(s, 60, no_start_direction_and_order_holds_together_better, 40);
   ADD_EXAMPLES(s, 30, chains_and_pull_of_every_start, 200);
-  ADD_LOOP(s, 60, nothing_is_paid_for_where_cords_begin, 0, 7);
+  ADD_LOOP(s, 60, little_is_paid_for_where_cords_begin, 0, 7);
   ADD_LOOP(s, 60, parts_run_otherwise_keep_passes_and_room, 0, 5);
   return run_suite(s);
 }
