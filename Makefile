@@ -30,7 +30,8 @@ LINT_PACKAGES := clang-format clang-tidy cppcheck
 BENCH_PACKAGES := liblemon-dev libboost-graph-dev python3 time
 COVERAGE_PACKAGES := check gcovr
 WEB_PACKAGES := emscripten
-# what `make web` and `make static` build once and keep: the libraries that they link, with their sources
+WINDOWS_PACKAGES := gcc-mingw-w64-x86-64-posix g++-mingw-w64-x86-64-posix
+# what `make web`, `make static` and `make windows` build once and keep: the libraries that they link, with their sources
 LIBRARIES ?= $(or $(XDG_CACHE_HOME),$(HOME)/.cache)/thread-libraries
 
 ifeq ($(origin CC),default)
@@ -68,8 +69,9 @@ MODE_mutants := -O2 -fPIC
 MODE_fuzz := -O1 -fsanitize=fuzzer-no-link,address,undefined $(SANITIZE)
 MODE_web := -O2
 MODE_static := -O2
+MODE_windows := -O2
 ifeq ($(MODE_$(BUILD)),)
-$(error BUILD=$(BUILD) is not one of release debug asan cov fuzz mutants web static)
+$(error BUILD=$(BUILD) is not one of release debug asan cov fuzz mutants web static windows)
 endif
 # -ffp-contract=off: no fused multiply-add, so the same digits on every machine
 THR_CFLAGS = -std=c11 $(WARN) -ffp-contract=off $(MODE_$(BUILD)) $(CFLAGS)
@@ -116,7 +118,10 @@ endif
 ifeq ($(BUILD),static)
 include targets/static.mk
 endif
-C_FILES = $(wildcard $(foreach d,include web targets $(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/second tests/validate tests/watchdog tests/memory docs,$(d)/*.c $(d)/*.h))
+ifeq ($(BUILD),windows)
+include targets/windows.mk
+endif
+C_FILES = $(wildcard $(foreach d,include web targets targets/windows $(FOLDERS) $(CLI_FOLDERS) tests tests/unit tests/property tests/fuzz tests/second tests/validate tests/watchdog tests/memory docs,$(d)/*.c $(d)/*.h))
 
 Q := $(if $(V),,@)
 # `make -jN` given: share its jobs; not given: one per processor
@@ -162,6 +167,12 @@ static: ## the program as one file that runs on any Linux of this processor: $(O
 	@targets/libraries.sh linux "$(LIBRARIES)"
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=static LIBRARIES="$(LIBRARIES)" all
 
+windows: ## the program as one file for Windows (64 bits): $(OUT)/windows/thread.exe (libraries as for `make web`)
+	+@tools/install-packages.sh $(BUILD_PACKAGES) $(WINDOWS_PACKAGES)
+	+@$(MAKE) --no-print-directory BUILD=release $(OUT)/packages.ok
+	@targets/libraries.sh windows "$(LIBRARIES)"
+	+@$(MAKE) --no-print-directory $(JOBS) BUILD=windows LIBRARIES="$(LIBRARIES)" all
+
 asan: ## build the program with the address and undefined-behaviour sanitizers
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=asan all
 
@@ -181,7 +192,8 @@ format-check:
 	+@tools/install-packages.sh clang-format
 	@$(CLANG_FORMAT) --dry-run -Werror $(C_FILES)
 
-tidy: $(patsubst %.c,$(OUT)/tidy/%.ok,$(filter %.c,$(filter-out tests/%,$(C_FILES))))
+# without those that know another system, whose headers are not here
+tidy: $(patsubst %.c,$(OUT)/tidy/%.ok,$(filter %.c,$(filter-out tests/% web/host.c targets/windows/%,$(C_FILES))))
 # one file per process: clang-tidy 14 reports every va_list of a second file as uninitialized
 $(OUT)/tidy/%.ok: %.c $(filter %.h,$(C_FILES)) .clang-tidy
 	@mkdir -p $(@D)
@@ -313,7 +325,7 @@ GOLDEN_JOBS := $(patsubst tests/%,run/$(BUILD)/%,$(wildcard tests/golden/*.case)
 $(TEST_PROGRAMS:$(DIR)/tests/%=run/$(BUILD)/%): run/$(BUILD)/%: $(DIR)/tests/%
 $(FUZZ_PROGRAMS:$(DIR)/tests/%=run/%): run/%: $(DIR)/tests/%
 run/library/install: $(PROGRAM) $(SHARED) $(STATIC) $(DIR)/thread.pc $(MAN_PAGES)
-$(GOLDEN_JOBS) run/readme run/formats/mutants run/examples run/web run/static run/second/plans run/viewer/browser run/bench/smallest: $(PROGRAM)
+$(GOLDEN_JOBS) run/readme run/formats/mutants run/examples run/web run/static run/windows run/second/plans run/viewer/browser run/bench/smallest: $(PROGRAM)
 run/second/json: $(DIR)/tests/second/dump_json
 run/$(BUILD)/memory: $(PROGRAM) $(DIR)/tests/memory/fail_malloc.so
 run/$(BUILD)/watchdog: $(PROGRAM) $(WATCHDOG)
@@ -392,7 +404,7 @@ $(DIR)/%.o: %.cpp $(DIR)/flags.list
 	$(Q)$(COMPILER_CXX) -I. $(BULLET_CFLAGS) $(CPPFLAGS) $(THR_CXXFLAGS) $(STRICT) -MMD -MP -c -o $@ $<
 
 # dense work in long loops, which pays to be unrolled
-$(DIR)/lp/solver/normal.o: THR_CFLAGS += $(if $(filter release web static,$(BUILD)),-O3)
+$(DIR)/lp/solver/normal.o: THR_CFLAGS += $(if $(filter release web static windows,$(BUILD)),-O3)
 
 # the viewer's page, as it lies built in the tree, becomes bytes of the program
 $(DIR)/%.o: %.S %.html $(DIR)/flags.list
@@ -430,6 +442,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: web web-files static all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: web web-files static windows all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
 .PHONY: suite-release suite-asan suite-fuzz suite-built test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

@@ -1,4 +1,5 @@
-/* What a program of one process asks of what runs it: of the page, worker or node (web/host.c). */
+/* What a program of one process asks of what runs it: of the page, worker or node (web/host.c), of
+ * Windows (targets/windows/os.c). */
 #ifndef THR_HOST_H
 #define THR_HOST_H
 

@@ -1,6 +1,7 @@
 /* Functions of <math.h> as the installed program has them: rounded to the nearest double but for one case in some thousands, as
- * by glibc. Emscripten's own (musl's) are up to one unit in the last place off, in a fifth of all cases: two pairings of passes
- * that turn by the same angle would then be told apart, and another one of two plans that are as good be written.
+ * by glibc. Emscripten's own (musl's) are up to one unit in the last place off, in a fifth of all cases, and MinGW's are others:
+ * two pairings of passes that turn by the same angle would then be told apart, and another one of two plans that are as good be
+ * written.
  *
  * Each is computed in pairs of doubles (high + low, some 105 bits; T. J. Dekker, Numer. Math. 18, 1971): sines and cosines by
  * Taylor's series, the others from what musl gives for them by one step of Newton's method: with t near atan2(y, x),

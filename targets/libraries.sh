@@ -1,20 +1,21 @@
 #!/usr/bin/env bash
 # Builds the libraries that thread stands on, to be linked with it, from Debian's own sources: GLPK, igraph, nauty, Bullet, and the
-# small version of GMP. Usage: targets/libraries.sh wasm|linux FOLDER: with Emscripten, or with gcc for this machine's processor; or
-# targets/libraries.sh --fetch FOLDER: the sources only. What is there already is not built again: FOLDER/TARGET/lib/*.a and, of
+# small version of GMP. Usage: targets/libraries.sh wasm|linux|windows FOLDER: with Emscripten, with gcc for this machine's
+# processor, or with MinGW; or targets/libraries.sh --fetch FOLDER: the sources only. What is there already is not built again: FOLDER/TARGET/lib/*.a and, of
 # those headers that differ from the ones that Debian installs, FOLDER/TARGET/include.
 #
 # The sources come through apt from wherever this system gets its packages (deb-src beside its deb; nothing of the system is
 # changed); their versions are pinned here and their bytes by targets/sources.sha256.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-target=${1:?which target: wasm or linux?}
+target=${1:?which target: wasm, linux or windows?}
 folder=${2:?which folder?}
 case $target in
 wasm) cc=emcc cxx=em++ ar=emar ;;
 linux) cc=gcc cxx=g++ ar=ar ;;
+windows) cc=x86_64-w64-mingw32-gcc-posix cxx=x86_64-w64-mingw32-g++-posix ar=x86_64-w64-mingw32-ar ;;
 --fetch) ;;
-*) echo "targets/libraries.sh: $target is neither wasm nor linux" >&2 && exit 2 ;;
+*) echo "targets/libraries.sh: $target is none of wasm, linux, windows" >&2 && exit 2 ;;
 esac
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
@@ -84,8 +85,12 @@ glpk() {
   cd "$folder/source/glpk-5.0"
   local part includes=
   for part in amd api bflib colamd draft env intopt minisat misc mpl npp proxy simplex zlib; do includes+=" -Isrc/$part"; done
+  local options=(-DTLS=_Thread_local -fwrapv) # its own whole numbers rely on sums that wrap
+  if [ "$target" = wasm ]; then options=(-fwrapv); fi
+  if [ "$target" = linux ]; then options+=(-DHAVE_GMP); fi
+  if [ "$target" = windows ]; then options+=(-D__WOE__); fi
   # shellcheck disable=SC2086
-  find src -name '*.c' ! -name main.c | sort | compile glpk -Isrc $includes $([ "$target" = wasm ] || echo -DTLS=_Thread_local -DHAVE_GMP)
+  find src -name '*.c' ! -name main.c | sort | compile glpk -Isrc $includes "${options[@]}"
   cp src/glpk.h "$built/include"
 }
 
@@ -100,9 +105,12 @@ nauty() {
     sed -i -e 's/^\(#define SIZEOF_LONG\) 8/\1 4/' -e 's/^\(#define SIZEOF_POINTER\) 8/\1 4/' \
       -e 's/^\(#define SIZEOF_INT128[_T]*\) 16/\1 0/' -e '/^#define USE_TLS/d' -e 's/^\(#define TLS_SUPPORTED\) 1/\1 0/' \
       -e 's/^\(#define TLS_ATTR\) .*/\1/' "$header"
+  elif [ "$target" = windows ]; then
+    sed -i 's/^\(#define SIZEOF_LONG\) 8/\1 4/' "$header"
   fi
   cd "$folder/source/nauty2_8_6"
-  printf '%s.c\n' nauty nautil naugraph nausparse schreier naurng traces | compile nauty -I"$built/include" -I"$built/include/nauty"
+  printf '%s.c\n' nauty nautil naugraph nausparse schreier naurng traces |
+    compile nauty -DAVOID_SYS_WAIT_H -I"$built/include" -I"$built/include/nauty"
 }
 
 # Without GLPK, LAPACK, libxml2 and what reads files: what thread calls needs none of them. An integer has 64 bits, as in Debian.
@@ -122,12 +130,15 @@ igraph() {
 #define IGRAPH_F77_SAVE static
 #define IGRAPH_THREAD_LOCAL $([ "$target" = wasm ] || echo _Thread_local)
 END
+  # what nothing calls, but MinGW's linker looks for
+  printf 'int igraph_arpack_%s(void) { return 1; }\n' rssolve rnsolve options_get_default >"$built/include/mini-gmp/unused.c"
   {
     ls src/version.c src/core/*.c src/graph/*.c src/internal/*.c src/math/*.c src/random/*.c src/flow/*.c src/isomorphism/*.c* \
       src/isomorphism/bliss/*.cc src/layout/kamada_kawai.c src/layout/layout_random.c src/layout/circular.c \
       src/connectivity/*.c src/constructors/*.c src/paths/*.c src/properties/*.c src/operators/*.c src/misc/*.c \
       vendor/pcg/*.c vendor/cs/*.c
     echo "$built/include/mini-gmp/mini-gmp.c"
+    if [ "$target" = windows ]; then echo "$built/include/mini-gmp/unused.c"; fi
   } | grep -v -e glpk_support -e power_law_fit | compile igraph -I/usr/include/igraph -Isrc -Ivendor -Iinclude \
     -I"$built/include" -I"$built/include/mini-gmp" -DIGRAPH_STATIC
 }

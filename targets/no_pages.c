@@ -19,7 +19,7 @@ thr_status thr_pages_open(thr_pages **pages, const char *name, thr_page_size siz
   (void)limits;
   *pages = NULL;
   return thr_fail(err, THR_ESOLVER,
-                  "the %s as PDF: thread in a browser makes no PDF; the installed program draws it from the same plan", name);
+                  "the %s as PDF: this build of thread makes no PDF; the installed program draws it from the same plan", name);
 }
 
 void thr_pages_destroy(thr_pages *pages)

@@ -43,7 +43,10 @@ fontconfig*.h:diagram/export/font_find.c
 zlib.h:diagram/export/deflate.c
 sys/prctl.h:graph/process/process.c
 dlfcn.h:graph/process/lazy.c
-emscripten.h:web/host.c'
+emscripten.h:web/host.c
+windows.h:targets/windows/os.c
+io.h:targets/windows/os.c
+process.h:targets/windows/os.c'
 
 # C++, in the file that shims a C++ library
 cpp_headers='new utility cerrno cfloat cmath cstdio cstdlib cstring vector version'
@@ -329,6 +332,7 @@ self_test() {
   expect eval/a.c:1 eval/a.c 'void f(void) { _exit(1); }\n'
   expect lp/a.c:1 lp/a.c '#include <curl/curl.h>\n'
   expect web/a.c:1 web/a.c '#include <emscripten.h>\n'
+  expect targets/a.c:1 targets/a.c '#include <windows.h>\n'
   expect cli/a.c:1 cli/a.c '#include "targets/host.h"\n'
   expect graph/a.c:1 graph/a.c 'int f(void) { return printf("x"); }\n'
   expect lp/a.c:2 lp/a.c '\nvoid f(void) { exit (1); }\n'

@@ -1,13 +1,20 @@
 #!/usr/bin/env bash
-# tests/targets.sh static [PROGRAM [OTHER]]: the program as one file (OTHER: build/static/thread, as `make static` leaves it) beside
-# the installed one (PROGRAM: build/release/thread): plans, checks, drawings and evaluations of five frameworks, and lines about bad
-# input, must be the same, byte for byte. It runs where there is nothing else: in a folder of its own as the root of its file system,
-# with the fonts for the PDF. Builds what is missing. Closes with "N passed, N failed", or, unless CI=true, "1 skipped" and exit
-# code 77 where the sources of the libraries or the right to change the root cannot be had.
+# tests/targets.sh static|windows [PROGRAM [OTHER]]: the program as one file (OTHER: build/static/thread or build/windows/thread.exe,
+# as `make static` and `make windows` leave it) beside the installed one (PROGRAM: build/release/thread): plans, checks, drawings and
+# evaluations of five frameworks, and lines about bad input, must be the same, byte for byte.
+# static: it runs where there is nothing else: in a folder of its own as the root of its file system, with the fonts for the PDF.
+# windows: it runs under Wine. Plans name another build of nauty, sheets.html stands for sheets.pdf, and the last digits of an
+# evaluation are those of another exp(): no more may differ.
+# Builds what is missing. Closes with "N passed, N failed", or, unless CI=true, "1 skipped" and exit code 77 where the sources of the
+# libraries, Wine or the right to change the root cannot be had.
 set -u
 cd "$(dirname "$0")/.." || exit 1
-target=${1:?static} program=${2:-build/release/thread} other=${3:-build/$1/thread} passed=0 failed=0
-[ "$target" = static ] || { echo "tests/targets.sh: $target is not static" >&2 && exit 2; }
+target=${1:?static or windows?} program=${2:-build/release/thread} passed=0 failed=0
+case $target in
+static) other=${3:-build/static/thread} ;;
+windows) other=${3:-build/windows/thread.exe} ;;
+*) echo "tests/targets.sh: $target is neither static nor windows" >&2 && exit 2 ;;
+esac
 skip() {
   echo "tests/targets.sh: $1" >&2
   [ "${CI:-}" = true ] && echo '0 passed, 1 failed' && exit 1
@@ -20,34 +27,50 @@ if [ ! -e "$other" ]; then
   targets/libraries.sh --fetch "${LIBRARIES:-${XDG_CACHE_HOME:-$HOME/.cache}/thread-libraries}" || skip 'there are no sources of the libraries'
   plain_make "$target" || { echo '0 passed, 1 failed' && exit 1; }
 fi
+if [ "$target" = windows ]; then tools/install-packages.sh wine wine64 >&2 || skip 'there is no Wine'; fi
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 program=$(realpath "$program")
 
-# Two folders that look the same to the two programs; to the other one it is the whole file system.
+# Two folders that look the same to the two programs; `other` runs the other one in its folder.
 here=$work/here there=$work/there
-mkdir -p "$here/out" "$there/out" "$there/etc" "$there/usr/share"
+mkdir -p "$here/out" "$there/out"
 cp "$other" "$there/thread" || exit 1
-cp -rL /etc/fonts "$there/etc" && cp -rL /usr/share/fonts "$there/usr/share" || exit 1
-enter=(chroot "$there")
-[ "$(id -u)" = 0 ] || enter=(unshare --map-root-user chroot "$there")
-"${enter[@]}" /thread --version >/dev/null || skip 'the program does not run with another root'
+if [ "$target" = static ]; then
+  mkdir -p "$there/etc" "$there/usr/share"
+  cp -rL /etc/fonts "$there/etc" && cp -rL /usr/share/fonts "$there/usr/share" || exit 1
+  enter=(chroot "$there")
+  [ "$(id -u)" = 0 ] || enter=(unshare --map-root-user chroot "$there")
+  other() { timeout 300 "${enter[@]}" /thread "$@"; }
+  other --version >/dev/null || skip 'the program does not run with another root'
+  alike() { cat; }
+  near() { cat; }
+else
+  mv "$there/thread" "$work/thread.exe"
+  export WINEPREFIX=$work/wine WINEDEBUG=-all LC_ALL=C.UTF-8
+  other() (cd "$there" && timeout 300 wine "$work/thread.exe" "$@")
+  other --version >"$work/version" 2>"$work/log" || { cat "$work/log" >&2 && skip 'Wine does not run the program'; }
+  alike() { sed -e '/^ *"generator": /d' -e '/^thread: sheets\./d' -e 's/ sheets\.[a-z]*//'; }
+  near() { python3 -c 'import re, sys; print(re.sub(r"\d+\.\d+", lambda n: "%.12g" % float(n[0]), sys.stdin.read()))'; }
+fi
 cp data/jax_fdm/barrel.obj data/jax_fdm/monkey_saddle.json data/jax_fdm/liew_dome.json "$here"
-cp "$here"/* "$there" 2>/dev/null
+cp "$here"/*.* "$there"
+
+report() { # WHETHER WHAT: counts, and tells what failed
+  if [ "$1" = yes ]; then passed=$((passed + 1)); else failed=$((failed + 1)) && echo "$2"; fi
+}
 
 same() { # CODE ARGUMENTS..: exit code and what is printed
-  local a b
-  (cd "$here" && XDG_CACHE_HOME=/none timeout 300 "$program" "${@:2}" >"$work/a.out" 2>"$work/a.err" </dev/null)
-  a=$?
-  timeout 300 "${enter[@]}" /thread "${@:2}" >"$work/b.out" 2>"$work/b.err" </dev/null
-  b=$?
-  if [ $a = "$1" ] && [ $b = "$1" ] && cmp -s "$work/a.out" "$work/b.out" && cmp -s "$work/a.err" "$work/b.err"; then
-    passed=$((passed + 1))
-  else
-    failed=$((failed + 1))
-    echo "thread ${*:2}: exit codes $a and $b, expected $1"
-    diff "$work/a.err" "$work/b.err" | head -n 5
-  fi
+  local a b ok=no how=alike
+  if [ "$2" = eval ]; then how=near; fi
+  (cd "$here" && XDG_CACHE_HOME=/none timeout 300 "$program" "${@:2}" 2>"$work/a.err" </dev/null) | $how >"$work/a.out"
+  a=${PIPESTATUS[0]}
+  other "${@:2}" 2>"$work/b.err" </dev/null | $how >"$work/b.out"
+  b=${PIPESTATUS[0]}
+  alike <"$work/a.err" >"$work/a.said"
+  alike <"$work/b.err" >"$work/b.said"
+  if [ "$a" = "$1" ] && [ "$b" = "$1" ] && cmp -s "$work/a.out" "$work/b.out" && cmp -s "$work/a.said" "$work/b.said"; then ok=yes; fi
+  report $ok "thread ${*:2}: exit codes $a and $b, expected $1$(diff "$work/a.said" "$work/b.said" | head -n 5)$(diff "$work/a.out" "$work/b.out" | head -n 5)"
 }
 
 same 0 make dome -o dome.json
@@ -66,6 +89,27 @@ same 0 plan dome.json --objective symmetry --group 3 -o out/symmetry.json
 same 3 plan missing.obj -o out/none.json
 printf 'v 0 0 0\nv 1 0\nl 1 2\n' | tee "$here/bad.obj" >"$there/bad.obj"
 same 3 plan bad.obj -o out/none.json
-if diff -rq "$here/out" "$there/out"; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+
+# What the other one wrote: the same files, and plans that the installed program takes.
+for plan in "$there"/out/*.json; do
+  if "$program" check -q "$plan" >"$work/log" 2>&1; then report yes; else report no "$(cat "$work/log")"; fi
+done
+ok=yes
+diff <(cd "$here/out" && find . -type f ! -name 'sheets.*' | sort) <(cd "$there/out" && find . -type f ! -name 'sheets.*' | sort) || ok=no
+while read -r file; do
+  cmp -s <(alike <"$here/out/$file") <(alike <"$there/out/$file") || { ok=no && echo "out/$file"; }
+done < <(cd "$here/out" && find . -type f ! -name 'sheets.*')
+report $ok 'the outputs differ'
+if [ "$target" = static ]; then
+  if cmp "$here/out/dome/sheets.pdf" "$there/out/dome/sheets.pdf"; then report yes; else report no 'sheets.pdf differs'; fi
+else
+  ok=no
+  other plan dome.json -q -o 'out\Grüße.json' --draw 'new\folder' && [ -s "$there/out/Grüße.json" ] &&
+    [ -s "$there/new/folder/overview.svg" ] && ok=yes
+  report $ok "names in another alphabet, with the separators of Windows"
+  ok=no
+  other plan - -q -o - <"$here/dome.json" | cmp <(alike <"$there/out/dome.json") <(alike) && ok=yes
+  report $ok 'bytes through pipes'
+fi
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
