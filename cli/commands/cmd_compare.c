@@ -361,7 +361,7 @@ static int evaluate(const pull_args *a, entry *e, int n)
   return worst;
 }
 
-enum { CREPT = -1 }; /* in place of an index */
+enum { CREPT = -1, LATE = -2 }; /* in place of an index */
 
 typedef struct {
   const pull_args *args;
@@ -372,7 +372,7 @@ typedef struct {
 } simulation;
 
 /* Job 2 k simulates plan[k], job 2 k + 1 the same at finer settings; the result is a double, NAN if it never came to rest, or
- * CREPT. */
+ * CREPT, or LATE. */
 static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
 {
   const simulation *s = user;
@@ -394,9 +394,10 @@ static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
   if (!st)
     st = thr_settle_run(&beads, &e->plan.frame, e->plan.cord, evaluation->n_cords, (const double *const *)tension,
                         &evaluation->physics, &options, s->limits, &out, err);
-  thr_settle_judge(&out, options.start, e->eval[THR_STRUCTURE].holding.upper);
+  thr_settle_judge(&out, options.start, e->eval[THR_STRUCTURE].holding.lower, e->eval[THR_STRUCTURE].holding.upper);
   bool known = out.status == THR_SETTLE_FELL || out.status == THR_SETTLE_HELD;
-  *(double *)result = st ? NAN : known ? out.index : out.status == THR_SETTLE_CREPT ? CREPT : NAN;
+  const double why_not = out.status == THR_SETTLE_CREPT ? CREPT : out.status == THR_SETTLE_LATE ? LATE : NAN;
+  *(double *)result = st ? NAN : known ? out.index : why_not;
   thr_settle_destroy(&out);
   for (int i = 0; i < evaluation->n_cords && tension; i++)
     free(tension[i]);
@@ -428,14 +429,15 @@ static thr_status run_simulations(const pull_args *a, entry *e, const int *plan,
   return st;
 }
 
-/* Why there is no index, and takes away what only says that contacts crept. */
+/* Why there is no index, and takes away what only says why. */
 static void note_simulation(entry *e, bool stopped)
 {
-  bool crept = false, restless = false;
+  bool crept = false, late = false, restless = false;
   for (int i = 0; i < 2; i++) {
     restless |= isnan(e->index[i]);
     crept |= e->index[i] == CREPT;
-    if (e->index[i] == CREPT) e->index[i] = NAN;
+    late |= e->index[i] == LATE;
+    if (e->index[i] < 0) e->index[i] = NAN;
   }
   if (restless && !stopped)
     cli_note("note: the simulation of %s never came to rest; `thread eval --method structure` says more", e->path);
@@ -443,6 +445,10 @@ static void note_simulation(entry *e, bool stopped)
     cli_note("note: no index where the simulation of %s moved at a pull of more than %.6g N, at which an equilibrium exists: its "
              "contacts crept",
              e->path, e->eval[THR_STRUCTURE].holding.upper);
+  if (late)
+    cli_note("note: no index where the simulation of %s stood until the pull was gone, though nothing holds it below %.6g N: it "
+             "fell too slowly to be seen",
+             e->path, e->eval[THR_STRUCTURE].holding.lower);
 }
 
 /* All from one pull, each twice; not where no pull is needed, since then there is none to let off. */

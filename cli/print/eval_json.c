@@ -50,7 +50,7 @@ static void put_json_answers(thr_writer *writer, const thr_frame *frame, const t
 
 static void put_json_simulation(thr_writer *writer, const thr_frame *frame, const thr_settle *settle)
 {
-  static const char *const status[] = {"fell", "held", "never settled", "too large", "crept"};
+  static const char *const status[] = {"fell", "held", "never settled", "too large", "crept", "late"};
   const bool ranked = settle->status == THR_SETTLE_FELL || settle->status == THR_SETTLE_HELD;
   thr_write_line(writer, 1);
   thr_write_object(writer, "simulation");

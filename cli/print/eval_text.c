@@ -223,8 +223,15 @@ static void put_joint(thr_text *text, const thr_plan *plan, const thr_eval *eval
                     100 * eval->interpolation);
 }
 
-static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *settle, double equilibrium)
+static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *settle, double least, double equilibrium)
 {
+  if (settle->status == THR_SETTLE_LATE) {
+    thr_text_printf(text,
+                    "simulation     stood until the pull was gone, though nothing holds it below %.6g N (proved): it fell too\n"
+                    "               slowly to be seen. No ranking index; try a smaller --time-step\n",
+                    least);
+    return;
+  }
   if (settle->status == THR_SETTLE_CREPT) {
     thr_text_printf(text,
                     "simulation     a bead moved at a pull of more than %.6g N, at which an equilibrium exists: the contacts\n"
@@ -313,7 +320,7 @@ static void put_structure(thr_text *text, const eval_view *view, const thr_plan 
   if (view->loaded) load_put(text, &plan->frame, eval);
   if (!view->simulated) return;
   if (eval->settle.present)
-    put_settle(text, plan, &eval->settle, holding->upper);
+    put_settle(text, plan, &eval->settle, holding->lower, holding->upper);
   else if (plan->frame.n_nodes > thr_settle_largest)
     thr_text_printf(text, "simulation     left out: more than %d beads\n", thr_settle_largest);
   else if (view->stopped)

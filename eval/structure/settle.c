@@ -498,10 +498,12 @@ static thr_status check(const thr_settle_options *options, thr_err *err)
   return THR_OK;
 }
 
-void thr_settle_judge(thr_settle *s, double start, double equilibrium)
+void thr_settle_judge(thr_settle *s, double start, double least, double equilibrium)
 {
-  if (!s->present || s->status != THR_SETTLE_FELL || !(s->index * start > equilibrium)) return;
-  s->status = THR_SETTLE_CREPT;
+  const bool crept = s->status == THR_SETTLE_FELL && s->index * start > equilibrium,
+             late = s->status == THR_SETTLE_HELD && least > 0;
+  if (!s->present || (!crept && !late)) return;
+  s->status = crept ? THR_SETTLE_CREPT : THR_SETTLE_LATE;
   s->index = 0;
 }
 

@@ -24,14 +24,15 @@ typedef enum {
   THR_SETTLE_HELD,
   THR_SETTLE_NEVER_SETTLED,
   THR_SETTLE_TOO_LARGE,
-  THR_SETTLE_CREPT /* a bead moved at a pull at which an equilibrium exists (thr_settle_judge) */
+  THR_SETTLE_CREPT, /* a bead moved at a pull at which an equilibrium exists (thr_settle_judge) */
+  THR_SETTLE_LATE   /* it stood without any pull, where limit analysis proves that it needs one (thr_settle_judge) */
 } thr_settle_status;
 
 typedef struct {
   bool present;
   int status;                   /* thr_settle_status */
   double index;                 /* pull at the fall / start: only its order among plans with the same start means anything; 0 =
-                                   none if CREPT */
+                                   none if CREPT or LATE */
   int first_bead;               /* that moved; -1 if none */
   double gap_before, gap_after; /* mm, widest gap between two adjacent faces, settled and at the end */
   double drift;                 /* mm, largest movement while settling */
@@ -54,8 +55,10 @@ typedef struct {
 extern const int thr_settle_largest;
 
 /* Limit analysis has found an equilibrium at the pull `equilibrium` (N; INFINITY: at none), and so at every larger one, since
- * more tension only presses the faces more. If the structure fell above it, its contacts crept: status CREPT, no index. */
-void thr_settle_judge(thr_settle *settle, double start, double equilibrium);
+ * more tension only presses the faces more. If the structure fell above it, its contacts crept: status CREPT, no index. It has
+ * proved that there is none below the pull `least` (N; 0: nothing is proved). If the structure stood until the pull was gone, its
+ * fall was too slow to be seen: status LATE, no index. */
+void thr_settle_judge(thr_settle *settle, double start, double least, double equilibrium);
 
 thr_status thr_settle_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord, int n_cords,
                           const double *const *tension, const thr_physics *physics, const thr_settle_options *options,

@@ -401,7 +401,7 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, thr_beads *b
                     tension,
                     {.start = start, .time_step = options->time_step, .iterations = options->iterations, .seed = options->seed}};
     st = settle(&m, limits, &out->settle, err);
-    thr_settle_judge(&out->settle, start, out->holding.upper);
+    thr_settle_judge(&out->settle, start, out->holding.lower, out->holding.upper);
   }
   if (!st && beads->n_beads <= BAND_LARGEST && all_both(evaluation))
     st = hold_state(frame, cord, beads, DRAWN_IN, 1, limits, evaluation, &out->equal, err);
