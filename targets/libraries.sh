@@ -106,7 +106,7 @@ nauty() {
       -e 's/^\(#define SIZEOF_INT128[_T]*\) 16/\1 0/' -e '/^#define USE_TLS/d' -e 's/^\(#define TLS_SUPPORTED\) 1/\1 0/' \
       -e 's/^\(#define TLS_ATTR\) .*/\1/' "$header"
   elif [ "$target" = windows ]; then
-    sed -i 's/^\(#define SIZEOF_LONG\) 8/\1 4/' "$header"
+    sed -i -e 's/^\(#define SIZEOF_LONG\) 8/\1 4/' -e 's/^\(#define DEFAULT_WORDSIZE\) 0/\1 64/' "$header"
   fi
   cd "$folder/source/nauty2_8_6"
   printf '%s.c\n' nauty nautil naugraph nausparse schreier naurng traces |

@@ -3,8 +3,8 @@
 # as `make static` and `make windows` leave it) beside the installed one (PROGRAM: build/release/thread): plans, checks, drawings and
 # evaluations of five frameworks, and lines about bad input, must be the same, byte for byte.
 # static: it runs where there is nothing else: in a folder of its own as the root of its file system, with the fonts for the PDF.
-# windows: it runs under Wine. Plans name another build of nauty, sheets.html stands for sheets.pdf, and the last digits of an
-# evaluation are those of another exp(): no more may differ.
+# windows: it runs under Wine. sheets.html stands for sheets.pdf, and the last digits of an evaluation are those of another exp():
+# no more may differ.
 # Builds what is missing. Closes with "N passed, N failed", or, unless CI=true, "1 skipped" and exit code 77 where the sources of the
 # libraries, Wine or the right to change the root cannot be had.
 set -u
@@ -29,7 +29,11 @@ if [ ! -e "$other" ]; then
 fi
 if [ "$target" = windows ]; then tools/install-packages.sh wine wine64 >&2 || skip 'there is no Wine'; fi
 work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
+leave() {
+  if [ -e "$work/wine" ]; then wineserver --kill --wait; fi # Wine's own process, of this folder alone
+  rm -rf "$work"
+}
+trap leave EXIT
 program=$(realpath "$program")
 
 # Two folders that look the same to the two programs; `other` runs the other one in its folder.
@@ -50,7 +54,7 @@ else
   export WINEPREFIX=$work/wine WINEDEBUG=-all LC_ALL=C.UTF-8
   other() (cd "$there" && timeout 300 wine "$work/thread.exe" "$@")
   other --version >"$work/version" 2>"$work/log" || { cat "$work/log" >&2 && skip 'Wine does not run the program'; }
-  alike() { sed -e '/^ *"generator": /d' -e '/^thread: sheets\./d' -e 's/ sheets\.[a-z]*//'; }
+  alike() { sed -e '/^thread: sheets\./d' -e 's/ sheets\.[a-z]*//'; }
   near() { python3 -c 'import re, sys; print(re.sub(r"\d+\.\d+", lambda n: "%.12g" % float(n[0]), sys.stdin.read()))'; }
 fi
 cp data/jax_fdm/barrel.obj data/jax_fdm/monkey_saddle.json data/jax_fdm/liew_dome.json "$here"
