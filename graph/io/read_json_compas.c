@@ -1,0 +1,264 @@
+/* COMPAS 1.x and 2.x, lists of its lines, assembly_instances and conmech. */
+#include "graph/io/read_json.h"
+#include "graph/framework/frame.h"
+#include "graph/io/faces.h"
+#include "graph/io/json.h"
+#include "graph/io/scan.h"
+#include "graph/status.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct {
+  const char *key;
+  const thr_json *value;
+  int64_t number; /* of the key, if all keys are numbers */
+  int index;      /* in the file */
+} keyed;
+
+static int by_number(const void *pa, const void *pb)
+{
+  const keyed *a = pa, *b = pb;
+  if (a->number != b->number) return a->number < b->number ? -1 : 1;
+  return (a->index > b->index) - (a->index < b->index);
+}
+
+bool thr_json_parse_key(const char *key, int64_t *number)
+{
+  size_t n = strlen(key), digits = strspn(key + (*key == '-'), "0123456789");
+  if (digits == 0 || digits > 18 || digits + (*key == '-') != n) return false;
+  *number = strtoll(key, NULL, 10);
+  return true;
+}
+
+bool thr_json_is_support(const thr_json *node, const thr_json *defaults)
+{
+  static const char *const said[] = {"is_support", "is_anchor", "is_fixed", "is_grounded"};
+  for (size_t i = 0; i < sizeof said / sizeof *said; i++) {
+    const thr_json *own = thr_json_get(node, said[i]);
+    if (thr_json_true(own ? own : thr_json_get(defaults, said[i]))) return true;
+  }
+  return false;
+}
+
+/* Lists an object's members; keys that are all integers come in numeric order, so that node i is key i. */
+static thr_status list_members(thr_json_reader *r, const thr_json *object, keyed **list)
+{
+  keyed *k = *list = thr_calloc((size_t)thr_json_size(object), sizeof *k);
+  if (!k) return thr_nomem(r->err);
+  bool numbers = true;
+  int n = 0;
+  void *iter = NULL;
+  for (const char *key; thr_json_next(object, &iter, &key, &k[n].value); n++) {
+    k[n].key = key;
+    k[n].index = n;
+    numbers = numbers && thr_json_parse_key(key, &k[n].number);
+    if (n + 1 == thr_json_size(object)) break; /* no room to look for another */
+  }
+  if (numbers) qsort(k, (size_t)thr_json_size(object), sizeof *k, by_number);
+  return THR_OK;
+}
+
+static thr_status read_compas_nodes(thr_json_reader *r, const thr_json_where *list, const thr_json *nodes,
+                                    const thr_json *defaults)
+{
+  keyed *k;
+  thr_status st = list_members(r, nodes, &k);
+  for (int i = 0; i < thr_json_size(nodes) && !st; i++) {
+    thr_json_where here = {list, k[i].key, 0};
+    double xyz[3];
+    const char *name;
+    st = thr_json_point(r, &here, k[i].value, defaults, xyz);
+    if (!st) st = thr_json_key_name(r, &here, k[i].key, &name);
+    if (!st) st = thr_draft_add_node(r->d, xyz, name, thr_json_is_support(k[i].value, defaults), r->err);
+  }
+  free(k);
+  return st;
+}
+
+/* {u: {v: ..}}. Adjacency lists say each edge from both ends: then only one of the two counts. */
+static thr_status read_compas_edges(thr_json_reader *r, const thr_json_where *list, const thr_json *edges, bool both_ways)
+{
+  void *outer = NULL;
+  const char *from, *to, *name;
+  const thr_json *targets, *unused;
+  while (thr_json_next(edges, &outer, &from, &targets)) {
+    thr_json_where here = {list, from, 0};
+    void *inner = NULL;
+    int a, b;
+    if (!thr_json_is_object(targets)) return thr_json_bad(r, &here, "not an object of neighbours");
+    thr_status st = thr_json_key_name(r, &here, from, &name);
+    if (!st) st = thr_json_find_node(r, &here, name, &a);
+    while (!st && thr_json_next(targets, &inner, &to, &unused)) {
+      thr_json_where there = {&here, to, 0};
+      st = thr_json_key_name(r, &there, to, &name);
+      if (!st) st = thr_json_find_node(r, &there, name, &b);
+      if (!st && both_ways && a > b && thr_json_get(thr_json_get(edges, to), from)) continue;
+      if (!st) st = thr_draft_add_edge(r->d, a, b, 0, r->err);
+    }
+    if (st) return st;
+  }
+  return THR_OK;
+}
+
+/* A face is a list of vertices. */
+static thr_status read_compas_face(thr_json_reader *r, const thr_json_where *at, const thr_json *face)
+{
+  int n = thr_json_size(face), *corner = thr_calloc((size_t)n, sizeof *corner);
+  if (!corner) return thr_nomem(r->err);
+  thr_status st = thr_json_is_array(face) ? THR_OK : thr_json_bad(r, at, "not a face; list its vertices");
+  for (int i = 0; i < n && !st; i++) {
+    thr_json_where here = {at, NULL, i};
+    st = thr_json_reference(r, &here, thr_json_at(face, i), &corner[i]);
+  }
+  if (!st) st = thr_faces_add(&r->faces, corner, n, r->err);
+  free(corner);
+  return st;
+}
+
+static thr_status read_compas_faces(thr_json_reader *r, const thr_json_where *list, const thr_json *faces)
+{
+  thr_status st = THR_OK;
+  for (int i = 0; thr_json_is_array(faces) && i < thr_json_size(faces) && !st; i++) {
+    thr_json_where here = {list, NULL, i};
+    st = read_compas_face(r, &here, thr_json_at(faces, i));
+  }
+  void *iter = NULL;
+  const char *key;
+  const thr_json *face;
+  while (!st && thr_json_next(faces, &iter, &key, &face)) {
+    thr_json_where here = {list, key, 0};
+    st = read_compas_face(r, &here, face);
+  }
+  return st;
+}
+
+thr_status thr_json_read_compas(thr_json_reader *r, const thr_json_where *at, const thr_json *object)
+{
+  const char *node_key, *default_key, *edge_key;
+  const thr_json *nodes = THR_JSON_MEMBER(object, &node_key, "node", "vertex");
+  const thr_json *defaults =
+      THR_JSON_MEMBER(object, &default_key, "default_node_attributes", "default_vertex_attributes", "dna", "dva");
+  const thr_json *edges = THR_JSON_MEMBER(object, &edge_key, "edge", "adjacency"), *faces = thr_json_get(object, "face");
+  thr_json_where node_list = {at, node_key, 0}, face_list = {at, "face", 0};
+  thr_status st = read_compas_nodes(r, &node_list, nodes, defaults);
+  if (!st) st = thr_names_build(&r->names, r->d, r->file, r->err);
+  if (!st && thr_json_size(edges) == 0 && thr_json_size(faces) == 0)
+    edges = THR_JSON_MEMBER(object, &edge_key, "adjacency", "halfedge");
+  thr_json_where thr_json_edge_list = {at, edge_key, 0};
+  bool both_ways = strcmp(edge_key, "edge") != 0;
+  if (!st) st = read_compas_edges(r, &thr_json_edge_list, edges, both_ways);
+  return st ? st : read_compas_faces(r, &face_list, faces);
+}
+
+/* ---- lines: [[[x, y, z], [x, y, z]], ..] or COMPAS Line and Polyline objects, in a list or an object ---- */
+
+const thr_json *thr_json_points_of_line(const thr_json *v, const char **key)
+{
+  const char *which;
+  *key = NULL;
+  if (thr_json_is_array(v)) return v;
+  const thr_json *data = THR_JSON_MEMBER(v, &which, "data", "value");
+  if (!data) data = v;
+  *key = "points";
+  const thr_json *points = thr_json_get(data, "points");
+  return points ? points : thr_json_get(data, "start") && thr_json_get(data, "end") ? data : NULL;
+}
+
+static thr_status read_line(thr_json_reader *r, const thr_json_where *at, const thr_json *v)
+{
+  static const char *const end[] = {"start", "end"};
+  const char *key;
+  const thr_json *points = thr_json_points_of_line(v, &key);
+  bool two = thr_json_is_object(points);
+  int n = two ? 2 : thr_json_size(points);
+  if (n < 2) return thr_json_bad(r, at, "not a line; give at least two points");
+  thr_status st = THR_OK;
+  for (int i = 0; i < n && !st; i++) {
+    thr_json_where here = {at, two ? end[i] : NULL, i};
+    double xyz[3];
+    st = thr_json_point(r, &here, two ? thr_json_get(points, end[i]) : thr_json_at(points, i), NULL, xyz);
+    if (!st) st = thr_draft_add_node(r->d, xyz, NULL, false, r->err);
+    if (!st && i) st = thr_draft_add_edge(r->d, r->d->n_nodes - 2, r->d->n_nodes - 1, 0, r->err);
+  }
+  return st;
+}
+
+thr_status thr_json_read_lines(thr_json_reader *r, const thr_json_where *at, const thr_json *list)
+{
+  thr_status st = THR_OK;
+  for (int i = 0; thr_json_is_array(list) && i < thr_json_size(list) && !st; i++) {
+    thr_json_where here = {at, NULL, i};
+    st = read_line(r, &here, thr_json_at(list, i));
+  }
+  void *iter = NULL;
+  const char *key;
+  const thr_json *line;
+  while (!st && thr_json_next(list, &iter, &key, &line)) {
+    thr_json_where here = {at, key, 0};
+    st = read_line(r, &here, line);
+  }
+  return st;
+}
+
+/* ---- assembly_instances (node_list) and conmech (nodes) ---- */
+
+static thr_status read_assembly_nodes(thr_json_reader *r, const thr_json_where *list, const thr_json *nodes)
+{
+  for (int i = 0; i < thr_json_size(nodes); i++) {
+    thr_json_where here = {list, NULL, i}, point = {&here, "point", 0};
+    const thr_json *node = thr_json_at(nodes, i);
+    const char *id_key, *name;
+    double xyz[3];
+    thr_status st = thr_json_point(r, &point, thr_json_get(node, "point"), NULL, xyz);
+    if (st) return st;
+    const thr_json *id = THR_JSON_MEMBER(node, &id_key, "node_id", "node_ind");
+    thr_json_where id_here = {&here, id_key, 0};
+    char number[16];
+    snprintf(number, sizeof number, "%d", i);
+    name = number;
+    if (id) st = thr_json_name_of(r, &id_here, id, &name);
+    if (!st) st = thr_draft_add_node(r->d, xyz, name, thr_json_is_support(node, NULL), r->err);
+    if (st) return st;
+  }
+  return thr_names_build(&r->names, r->d, r->file, r->err);
+}
+
+static thr_status read_assembly_elements(thr_json_reader *r, const thr_json_where *list, const thr_json *elements)
+{
+  thr_status st = THR_OK;
+  for (int e = 0; e < thr_json_size(elements) && !st; e++) {
+    const char *key;
+    const thr_json *ends = THR_JSON_MEMBER(thr_json_at(elements, e), &key, "end_node_ids", "end_node_inds");
+    thr_json_where here = {list, NULL, e}, there = {&here, key, 0};
+    if (!thr_json_is_array(ends) || thr_json_size(ends) != 2) return thr_json_bad(r, &there, "not two node numbers");
+    int end[2] = {0, 0};
+    for (int i = 0; i < 2 && !st; i++) {
+      thr_json_where side = {&there, NULL, i};
+      st = thr_json_reference(r, &side, thr_json_at(ends, i), &end[i]);
+    }
+    if (!st) st = thr_draft_add_edge(r->d, end[0], end[1], 0, r->err);
+  }
+  return st;
+}
+
+thr_status thr_json_read_assembly(thr_json_reader *r, const thr_json_where *at, const thr_json *object)
+{
+  const char *node_key, *element_key, *unit_key;
+  const thr_json *nodes = THR_JSON_MEMBER(object, &node_key, "node_list", "nodes");
+  const thr_json *elements = THR_JSON_MEMBER(object, &element_key, "element_list", "elements"),
+                 *supports = thr_json_get(object, "supports");
+  const thr_json *units = THR_JSON_MEMBER(object, &unit_key, "unit", "units");
+  thr_json_where node_list = {at, node_key, 0}, element_list = {at, element_key, 0}, support_list = {at, "supports", 0};
+  thr_status st = thr_json_units(r, at, unit_key, units);
+  if (!st) st = read_assembly_nodes(r, &node_list, nodes);
+  if (!st) st = read_assembly_elements(r, &element_list, elements);
+  for (int i = 0; i < thr_json_size(supports) && !st; i++) {
+    thr_json_where here = {&support_list, NULL, i}, id = {&here, "node_ind", 0};
+    int v = 0;
+    st = thr_json_reference(r, &id, thr_json_get(thr_json_at(supports, i), "node_ind"), &v);
+    if (!st) r->d->node[v].foot = true;
+  }
+  return st;
+}
