@@ -257,7 +257,9 @@ static thr_status draw_still(const thr_plan *plan, const thr_settle *settle, thr
   char note[160];
   snprintf(note, sizeof note, "%s",
            settle->status == THR_SETTLE_HELD ? "It stands until the pull is gone."
-                                             : "Before: under the pull at the start. After: the pull let off until it fell.");
+           : settle->status == THR_SETTLE_LATE
+               ? "Before: under the pull at the start. After: without any pull; it falls too slowly to be seen."
+               : "Before: under the pull at the start. After: the pull let off until it fell.");
   const thr_still still = {.title = "The structure in simulation",
                            .note = note,
                            .width = plan->evaluation.physics.bead_diameter / mm,

@@ -348,8 +348,8 @@ static void put_schedule(thr_text *text, const thr_plan *plan)
   const int grips = thr_schedule_grips(schedule, -1);
   thr_text_append(text, "\nschedule");
   if (grips)
-    thr_text_printf(text, ", with %d %s on the way (hold each until the next has taken its slack)", grips,
-                    cli_plural(grips, "grip", "grips"));
+    thr_text_printf(text, " of %d pulls, %d of them %s on the way (hold each until the next has taken its slack)",
+                    thr_schedule_pulls(schedule), grips, cli_plural(grips, "a grip", "grips"));
   thr_text_append(text, "\n");
   for (int k = 0; k < schedule->n; k++) {
     thr_text_append(text, "  ");

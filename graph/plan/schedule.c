@@ -45,6 +45,14 @@ int thr_schedule_grips(const thr_schedule *schedule, int i)
   return n;
 }
 
+int thr_schedule_pulls(const thr_schedule *schedule)
+{
+  int n = 0;
+  for (int k = 0; k < schedule->n; k++)
+    n += schedule->step[k].deed == THR_DEED_GRIP || schedule->step[k].deed == THR_DEED_PULL;
+  return n;
+}
+
 /* ---- plan.json ---- */
 
 void thr_schedule_write(const thr_schedule *schedule, thr_writer *writer, const char *key)

@@ -24,6 +24,7 @@ void thr_schedule_destroy(thr_schedule *schedule);
 /* The largest force, N, that a hand pulls cord i with, or all cords (i < 0). 0 if it never does. */
 double thr_schedule_hardest(const thr_schedule *schedule, int i);
 int thr_schedule_grips(const thr_schedule *schedule, int i); /* of cord i, or of all (i < 0) */
+int thr_schedule_pulls(const thr_schedule *schedule);        /* grips too; both ends at once are one */
 
 /* Text as above: "CORD: pull|release END N", "CORD: grip PASS N [from END]", "CORD: knot END [MM]"; END is start, end or both;
  * CORD an id of the plan's, or "all"; PASS counts from 1 as in steps.txt, or is the names of the two nodes of an edge that the

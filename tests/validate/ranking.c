@@ -6,6 +6,7 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -81,10 +82,11 @@ static void judge(report *r, const char *what, const double value[PLANS])
   report_holds(r, what, "lines < stairs < snake", found, value[0] < value[1] && value[1] < value[2]);
 }
 
-/* What a setting is judged by. */
+/* What a setting is judged by; NAN, which is in no order, if it fell too slowly to be seen. */
 static double value_of(const setting *s, const pulls *p, double start)
 {
   if (s->method != THR_STRUCTURE) return p->largest;
+  if (p->status == THR_SETTLE_LATE) return NAN;
   return p->status == THR_SETTLE_CREPT ? p->upper / start : p->index;
 }
 
