@@ -223,17 +223,23 @@ function busy(words) {
   for (const id of ['frame-part', 'question-part', 'result-part']) $(id).inert = Boolean(words); // a search is for what is shown
   $('work-part').hidden = !words;
   $('work').textContent = words;
+  $('bar').removeAttribute('value');
   $('stop').hidden = true;
   $('go').disabled = Boolean(words);
 }
 
-// What a line of progress says, in words.
+const degrees = (rad) => `${((rad * 180) / Math.PI).toFixed(0)} degrees`;
+
+// What a line of progress says, in words: of the plan, or of what is proved.
 function progressWords(line) {
-  if (!line.startsWith('{')) return '';
-  const {what, best: value, bound, gap, length, cords} = JSON.parse(line);
-  if (what === 'plan') return `Found: ${plural(cords, 'cord')}, ${length.toPrecision(4)} ${frame.units || ''}.`;
-  if (value === undefined || bound === undefined) return '';
-  return gap > 0 ? `Nothing can be more than ${gap.toPrecision(2)} % better.` : '';
+  if (!line.startsWith('{')) return {};
+  const {what, best: value, bound, gap, length, cords, done} = JSON.parse(line);
+  if (what === 'plan') return {plan: `Found: ${plural(cords, 'cord')}, ${length.toPrecision(4)} ${frame.units || ''}.`};
+  if (done !== undefined) return {done};
+  if (!(bound > 0)) return {};
+  const better = gap >= 0.005 ? `Nothing can be more than ${gap.toPrecision(2)} % better` : 'Nothing is better';
+  if (what !== 'turning') return {proved: `${better}.`};
+  return {proved: `It turns by ${degrees(value)}, and none can by less than ${degrees(bound)}: ${better.toLowerCase()}.`};
 }
 
 async function search(event) {
@@ -244,9 +250,9 @@ async function search(event) {
   best = '';
   const told = {};
   const onLine = (line) => {
-    const words = progressWords(line);
-    if (words) told[words.startsWith('Found') ? 0 : 1] = words;
-    $('work').textContent = ['Searching ..', told[0], told[1]].filter(Boolean).join(' ');
+    Object.assign(told, progressWords(line));
+    $('work').textContent = ['Searching ..', told.plan, told.proved].filter(Boolean).join(' ');
+    if (told.done > 0) $('bar').value = told.done;
   };
   const onPlan = (found) => {
     best = found;
@@ -264,7 +270,8 @@ async function search(event) {
   said = stdout.replace(/^plan +plan\.json\n/m, '').trim();
   remember();
   await showResult();
-  if (exit !== 0 && exit !== -1) $('verdict').textContent += ` Of the search: ${lastLine(stderr)}.`;
+  if (exit === -1) $('verdict').textContent += ` The search was stopped. ${told.proved || 'Nothing was proved by then'}`.replace(/\.?$/, '.');
+  else if (exit !== 0) $('verdict').textContent += ` Of the search: ${lastLine(stderr)}.`;
 }
 
 // ---- 3: the result ----
@@ -370,7 +377,7 @@ async function begin() {
   document.addEventListener('keydown', (event) => {
     if ((event.ctrlKey || event.metaKey) && event.key === 'z' && event.target.tagName !== 'INPUT' && !$('frame-part').inert) undo();
   });
-  const [before, cut] = await Promise.all([kept('now'), kept('search')]);
+  const {now: before, search: cut} = await kept();
   if (before?.frame) restore(before);
   if (cut?.frame) { // a search that the page's end cut short: Undo goes back to the plan before
     if (before?.frame) past.push(before);
