@@ -9,7 +9,6 @@
 #include "planner/advise.h"
 #include "planner/dispatch.h"
 
-
 /* Work that is counted, in seconds: of advice, and of the line beside a plan. */
 static const double usual_work = 2, work_beside_plan = 1;
 
