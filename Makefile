@@ -162,6 +162,13 @@ web: ## the program for browsers and node, and thread.html, the page: $(OUT)/web
 	@targets/libraries.sh wasm "$(LIBRARIES)"
 	+@$(MAKE) --no-print-directory $(JOBS) BUILD=web LIBRARIES="$(LIBRARIES)" web-files
 
+web-pictures: web ## the pictures in docs/tutorial-page.md, taken by the tests of the page in their browser
+	+@tools/install-packages.sh chromium imagemagick
+	@tools/npm-packages.sh tests/viewer $(OUT)/web-test/packages
+	@rm -rf $(OUT)/web-test/pictures && mkdir -p $(OUT)/web-test/pictures
+	@node tests/web/page.cjs $(OUT)/web-test/packages $(OUT)/release/thread $(OUT)/web/thread.html $(OUT)/web-test/pictures
+	@for name in questions:640 result:640 telephone:240; do convert $(OUT)/web-test/pictures/$${name%:*}.png -resize $${name#*:}x -colors 96 -strip docs/pictures/page-$${name%:*}.png; done
+
 static: ## the program as one file that runs on any Linux of this processor: $(OUT)/static/thread (libraries as for `make web`)
 	+@tools/install-packages.sh $(BUILD_PACKAGES)
 	@targets/libraries.sh linux "$(LIBRARIES)"
@@ -442,6 +449,6 @@ $(OUT)/packages.ok:
 	@touch $@
 
 FORCE:
-.PHONY: web web-files static windows all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
+.PHONY: web web-pictures web-files static windows all library man dist deb demo docs formats test test-fast test-rest test-all fuzz asan layers lint format-check tidy cppcheck format viewer bench validate memory watchdog mutants coverage deps test-deps install uninstall clean help
 .PHONY: suite-release suite-asan suite-fuzz suite-built test-programs fuzz-programs list-tests list-fuzz list-flags list-c FORCE
 -include $(wildcard $(DIR)/*/*.d $(DIR)/*/*/*.d)

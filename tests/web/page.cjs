@@ -58,7 +58,7 @@ const tests = {
     await made(page);
     assert.match(await page.locator('#verdict').innerText(), /^Every claim of this plan was verified/);
     assert.match(await page.locator('#summary').innerText(), /25 pieces, 40 interfaces/);
-    await page.screenshot({path: file('result.png'), fullPage: true});
+    await page.locator('#result-part').screenshot({path: file('result.png')});
     const plan = await download(page, 'plan.json');
     assert.match(thread('check', plan), /: holds: /, 'the installed program agrees');
     const [booklet] = await Promise.all([own.waitForEvent('page'), page.getByRole('button', {name: 'Open the booklet to print'}).click()]);
@@ -198,13 +198,13 @@ const tests = {
     assert.match(await shown(page), /interfaces/);
     assert.equal(await page.getByLabel('How many cords?').inputValue(), '5');
     assert.equal(await page.getByLabel('How hard can you pull?').inputValue(), '50');
+    await page.screenshot({path: file('telephone.png'), fullPage: true});
     await page.getByLabel('Feet, where cord may come out').fill('A1, zz');
     await page.keyboard.press('Tab');
     await page.getByRole('alert').waitFor();
     assert.match(await trouble(page), /no piece zz/);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(wide <= 360, `${wide} pixels are wider than the telephone`);
-    await page.screenshot({path: file('telephone.png'), fullPage: true});
     await close();
   },
 };
