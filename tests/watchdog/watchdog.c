@@ -22,12 +22,11 @@
 #include <time.h>
 #include <unistd.h>
 
-static const double cpu_limit = 3; /* s, with --time-limit 2 */
-static const double plan_by =
-    1.2; /* CPU s, with --time-limit 2: there is some plan after that, where others leave that much .. */
-static const double time_used = 1.5;       /* s: .. if it was the time that ended the search, not the size of the problem */
-static const double after_signal = 1;      /* s */
-static const double started = 0.05;        /* s: before, a signal may meet a process that is still being loaded */
+static const double cpu_limit = 3;    /* s, with --time-limit 2 */
+static const double plan_by = 1.2;    /* CPU s, with --time-limit 2: there is some plan after that, where others leave it .. */
+static const double time_used = 1.5;  /* s: .. if it was the time that ended the search, not the size of the problem */
+static const double after_signal = 1; /* s */
+static const double started = 0.05;   /* s: before, a signal may meet a process that is still being loaded */
 static const long memory_limit = 1L << 20; /* KiB */
 enum { MOST_WORDS = 40, TICK = 10 /* ms */ };
 
