@@ -41,7 +41,10 @@ $(DIR)/web/viewer_page.o: $(DIR)/web/viewer_page.c
 
 # what is handed on: the engine, the page with all in it, and the npm package around it
 NPM := $(DIR)/npm
-web-files: $(WEB_PROGRAM) $(DIR)/engine.js $(DIR)/thread.html $(NPM)/package.json
+web-files: $(WEB_PROGRAM) $(DIR)/engine.js $(DIR)/thread.html $(DIR)/thread-3dm.js $(NPM)/package.json
+$(DIR)/thread-3dm.js: $(wildcard web/rhino/*)
+	@echo "  PAGE  $@"
+	$(Q)web/rhino/build.sh $(LIBRARIES)/rhino3dm $@
 $(DIR)/thread.html: $(wildcard web/page/*) $(WEB_PROGRAM) $(DIR)/engine.js Makefile
 	@echo "  PAGE  $@"
 	$(Q)web/page/build.sh $(DIR) $(VERSION)

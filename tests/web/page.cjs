@@ -8,6 +8,7 @@ const assert = require('node:assert/strict');
 const fs = require('node:fs');
 const path = require('node:path');
 const {pathToFileURL} = require('node:url');
+const {gunzipSync} = require('node:zlib');
 
 const [packages, program, html, scratch] = process.argv.slice(2).map((name) => path.resolve(name));
 const {chromium} = createRequire(path.join(packages, 'package.json'))('playwright-core');
@@ -93,7 +94,7 @@ const tests = {
   async 'bad files get the line of the command line'() {
     const bad = {
       'bad.obj': 'v 0 0 0\nv 1 0\nl 1 2\n', 'cut.json': '{"nodes": [[0, 0, 0], [1, 0', 'empty.csv': '', 'picture.svg': '<svg xmlns="http://www.w3.org/2000/svg"/>',
-      'part.step': 'ISO-10303-21;\nHEADER;\n', 'rhino.3dm': '3D Geometry File Format        4\0\0\0', 'short.stl': 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n',
+      'part.step': 'ISO-10303-21;\nHEADER;\n', 'short.stl': 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n',
     };
     const {page, close} = await open();
     for (const [name, words] of Object.entries(bad)) {
@@ -121,6 +122,33 @@ const tests = {
       const words = await shown(page), counts = / (\d+) pieces? that meet at (\d+) interfaces?/.exec(words).slice(1).map(Number);
       assert.deepEqual([path.basename(name), ...counts], [path.basename(name), nodes, edges]);
     }
+    await close();
+  },
+
+  async 'a 3dm file: lines, polylines, meshes, arcs; its units; what is none'() {
+    const makeRhino = require(path.join(path.dirname(html), 'thread-3dm.js'));
+    const rhino = await makeRhino({wasmBinary: gunzipSync(Buffer.from(globalThis.RHINO3DM_WASM, 'base64'))}), {File3dm} = rhino;
+    const doc = new File3dm(), objects = doc.objects(), chain = new rhino.Polyline(3), mesh = new rhino.Mesh();
+    objects.addLine([0, 0, 0], [1, 0, 0]);
+    for (const p of [[0, 0, 0], [0, 1, 0], [1, 1, 0]]) chain.add(...p);
+    objects.add(new rhino.PolylineCurve(chain), null);
+    for (const p of [[1, 0, 0], [2, 0, 0], [2, 1, 0], [1, 1, 0]]) mesh.vertices().add(...p);
+    mesh.faces().addQuadFace(0, 1, 2, 3);
+    objects.add(mesh, null);
+    objects.add(rhino.NurbsCurve.create(false, 2, [[0, 1, 0], [1, 3, 0], [2, 1, 0]]), null);
+    doc.settings().modelUnitSystem = rhino.UnitSystem.Meters;
+    fs.writeFileSync(file('model.3dm'), doc.toByteArray());
+    const {page, close} = await open();
+    await choose(page, file('model.3dm'));
+    assert.match(await shown(page), /^model: 6 pieces that meet at 8 interfaces/);
+    const [units, arc] = await page.evaluate(() => [frame.units, Math.max(...frame.lengths)]);
+    assert.equal(units, 'm');
+    const exact = Math.sqrt(5) + Math.asinh(2) / 2; // of the parabola y = 1 + 2 x - x^2 from 0 to 2
+    assert.ok(Math.abs(arc / exact - 1) < 1e-5, `${arc} is not ${exact}`);
+    fs.writeFileSync(file('none.3dm'), '3D Geometry File Format        4 and no more');
+    await choose(page, file('none.3dm'));
+    await page.getByRole('alert').waitFor();
+    assert.match(await trouble(page), /^none\.3dm: not a 3dm file that rhino3dm can read/);
     await close();
   },
 

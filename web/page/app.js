@@ -87,10 +87,42 @@ function takeLink() {
 
 async function openFile(file) {
   const bytes = new Uint8Array(await file.arrayBuffer()), ending = /\.[^.]*$/.exec(file.name)?.[0].toLowerCase() || '';
-  await readBytes(bytes, file.name.replace(/\.[^.]*$/, '') || 'framework', `given${ending}`, file.name);
+  const title = file.name.replace(/\.[^.]*$/, '') || 'framework';
+  if (ending !== '.3dm') return readBytes(bytes, title, `given${ending}`, file.name);
+  const frame = await readRhino(bytes, file.name);
+  if (frame) await readBytes(new TextEncoder().encode(frame.text), title, 'given.json', file.name, frame.notes);
 }
 
-async function readBytes(bytes, title, path, shownName) {
+let rhino = null; // thread-3dm.js, once it is wanted
+
+// It lies beside the page: rhino3dm with its reader.
+function loadRhino() {
+  return new Promise((resolve, reject) => {
+    const script = document.createElement('script');
+    script.src = 'thread-3dm.js';
+    script.addEventListener('load', resolve);
+    script.addEventListener('error', () => reject(new Error('3dm files want thread-3dm.js in the folder of this page; or save it as DXF or OBJ')));
+    document.head.append(script);
+  });
+}
+
+// A 3dm file as frame JSON, with notes; undefined with the trouble said.
+async function readRhino(bytes, shownName) {
+  complain('');
+  busy(`Reading ${shownName} ..`);
+  try {
+    await (rhino ??= loadRhino());
+    return await frameOf3dm(bytes);
+  } catch (error) {
+    if (!globalThis.frameOf3dm) rhino = null; // the file may be put there
+    complain(`${shownName}: ${error.message}`);
+    return undefined;
+  } finally {
+    busy('');
+  }
+}
+
+async function readBytes(bytes, title, path, shownName, more = []) {
   complain('');
   busy(`Reading ${shownName} ..`);
   const isPlan = /^\s*\{\s*"format"\s*:\s*"thread-plan"/.test(text(bytes.subarray(0, 200)));
@@ -106,7 +138,7 @@ async function readBytes(bytes, title, path, shownName) {
   if (!frame.feet?.length) $('ends').value = 'any';
   if (isPlan) plan = text(bytes);
   remember();
-  showFrame(notesOf(stderr).map((note) => note.replaceAll(path, shownName)));
+  showFrame([...more, ...notesOf(stderr)].map((note) => note.replaceAll(path, shownName)));
   await showResult();
 }
 
