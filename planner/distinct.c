@@ -277,7 +277,7 @@ static thr_status search_near(maker *x, int from, thr_err *err)
   enum { NEAR = 3 };
   thr_status st = THR_OK;
   for (int i = 0; i < NEAR && !st; i++)
-    for (int sign = -1; sign <= (i > 0) && !st && !thr_limits_stop(x->limits); sign += 2) {
+    for (int sign = -1; sign <= (i > 0 ? 1 : 0) && !st && !thr_limits_stop(x->limits); sign += 2) {
       int n = from + sign * i;
       if (n >= x->o->cords_least && n <= x->o->cords) st = try_number(x, n, err);
     }

@@ -74,7 +74,7 @@ static thr_status read_own_edges(thr_json_reader *r, const thr_json_where *up, c
   if (listed) return listed;
   for (int e = 0; e < thr_json_size(edges); e++) {
     thr_json_where here = {&list, NULL, e}, length_here = {&length_list, NULL, e};
-    int end[2];
+    int end[2] = {0, 0};
     double length = 0;
     thr_status st = read_pair(r, &here, thr_json_at(edges, e), end);
     if (!st && lengths) st = thr_json_length(r, &length_here, thr_json_at(lengths, e), &length);
