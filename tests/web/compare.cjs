@@ -256,6 +256,9 @@ function sizesTest() {
   const packed = zlib.gzipSync(js, {level: 9}).length + zlib.gzipSync(wasm, {level: 9}).length;
   console.log(`size    engine ${((js.length + wasm.length) / 1e6).toFixed(2)} MB, ${(packed / 1e6).toFixed(2)} MB compressed`);
   assert.ok(js.length + wasm.length < 5e6 && packed < 1.5e6);
+  const html = fs.readFileSync(path.join(build, 'thread.html')), small = zlib.gzipSync(html, {level: 9}).length;
+  console.log(`size    thread.html ${(html.length / 1e6).toFixed(2)} MB, ${(small / 1e6).toFixed(2)} MB compressed`);
+  assert.ok(html.length < 5e6 && small < 1.5e6);
 }
 
 async function time(run, name, words, files) {
@@ -274,6 +277,9 @@ async function timesTest(run) {
   await time(run, 'dome 7 x 7, check', ['check', 'plan.json'], frame('plan.json'));
   await time(run, 'dome 7 x 7, drawn', ['draw', 'plan.json', '-T', 'html', '-o', 'viewer.html'], frame('plan.json'));
   await time(run, 'shell of 1,984 edges, plan', ['plan', 'shell.json', '-q', '-o', 'shell-plan.json'], frame('shell.json'));
+  native('make', 'sphere', '--size', '3', '-o', 'sphere.json');
+  const search = ['plan', 'sphere.json', '--objective', 'tortuosity', '--nodes', '31', '--time-limit', '0', '-j', '1', '-q', '-o', 'sphere-plan.json'];
+  await time(run, 'sphere, a search of 31 nodes for little turning', search, frame('sphere.json'));
   await time(run, 'dome 7 x 7, joints', ['eval', 'plan.json', '--method', 'joint', '--processes', '1', '-q'], frame('plan.json'));
 }
 

@@ -199,25 +199,26 @@ const frameFile = () => `${name.replace(/[^\w.-]+/g, '-').replace(/^[-.]+/, '') 
 
 let asked = 0;
 
-// The picture, and the row that the program recommends as a button.
+// The row that the program recommends as a button, and the picture.
 async function advise() {
   const mine = ++asked, figure = $('advice');
   figure.replaceChildren(caption('Looking how many cords a hand can pull ..'));
   adviser.stop();
   const args = ['advise', frameFile(), '--hand', $('pull').value || '10'], files = {[frameFile()]: frameText()};
+  const table = await adviser.run([...args, '--json'], files);
+  if (mine !== asked || table.exit === -1) return;
+  if (table.stdout) figure.prepend(takeButton(JSON.parse(table.stdout))); // without a recommended row, too
   const drawn = await adviser.run([...args, '-T', 'svg', '-o', 'advice.svg'], files);
   if (mine !== asked || drawn.exit === -1) return;
   const picture = drawn.files['advice.svg'];
   if (!picture) {
-    figure.replaceChildren(caption(lastLine(drawn.stderr) || 'No advice for this framework.'));
+    figure.lastChild.replaceWith(caption(lastLine(drawn.stderr) || 'No advice for this framework.'));
     return;
   }
   const image = new Image();
   image.alt = 'Pull and length of cord against the number of cords';
   image.src = URL.createObjectURL(new Blob([picture], {type: 'image/svg+xml'}));
-  figure.replaceChildren(image);
-  const table = await adviser.run([...args, '--json'], files);
-  if (mine === asked && table.stdout) figure.prepend(takeButton(JSON.parse(table.stdout))); // without a recommended row, too
+  figure.lastChild.replaceWith(image);
 }
 
 const ENDS = {feet: 'to the feet', any: 'ending anywhere', closed: 'in loops'};

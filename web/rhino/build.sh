@@ -8,7 +8,9 @@ if ! "$here/../../tools/npm-packages.sh" "$here" "$1"; then
   exit 0
 fi
 {
-  echo '// rhino3dm (c) Robert McNeel & Associates, MIT license: github.com/mcneel/rhino3dm'
+  echo '/*'
+  cat "$here/LICENSE"
+  echo '*/'
   cat "$1/node_modules/rhino3dm/rhino3dm.min.js"
   echo
   printf 'globalThis.RHINO3DM_WASM = "'
