@@ -73,6 +73,7 @@ static int no_command(const char *name)
 
 static int dispatch(int argc, char **argv)
 {
+  static char show[] = "--help";
   if (argc < 2) {
     help(stderr);
     return EXIT_USAGE;
@@ -82,7 +83,7 @@ static int dispatch(int argc, char **argv)
   if (strcmp(name, "complete") == 0) return cmd_complete(argc - 1, argv + 1);
   if (strcmp(name, "help") == 0 && argc > 2) { /* `thread help plan` */
     argv[1] = argv[2];
-    argv[2] = (char[]){"--help"};
+    argv[2] = show;
     argc = 3;
     name = argv[1];
   }
