@@ -85,7 +85,7 @@ bool thr_camera_legible(const thr_camera_scene *scene, const double size[2])
 {
   for (int i = 0; i < DIRECTIONS; i++) {
     thr_camera camera = camera_number(i);
-    sight s;
+    sight s = {0};
     look(scene, &camera, size, &s);
     if (s.least >= 1 && (!scene->shell || s.most_hidden > RIM)) return true;
   }
@@ -146,7 +146,7 @@ thr_camera_view thr_camera_choose(const thr_camera_scene *scene, const double si
   double most = -HUGE_VAL;
   for (int i = 0; i < DIRECTIONS; i++) {
     thr_camera camera = camera_number(i);
-    sight s;
+    sight s = {0};
     look(scene, &camera, size, &s);
     double worth = judge_lengths(scene, &s);
     if (worth <= most) continue;
