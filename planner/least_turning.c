@@ -456,7 +456,7 @@ static thr_status make_different_point(sweep *s, const thr_limits *share, double
 static thr_status add_point(sweep *s, double slack, thr_err *err)
 {
   const thr_limits share = thr_limits_part(&s->limits, 1.0 / s->left--);
-  thr_frontier_point point;
+  thr_frontier_point point = {0};
   thr_err why = {0};
   thr_status st = (s->o->distinct > 0 ? make_different_point : make_point)(s, &share, slack, &point, &why);
   if (!st) s->out->point[s->out->n++] = point;

@@ -110,10 +110,22 @@ void rows_fill(model *m)
 
 /* ---- rows ---- */
 
-/* What all rows together take off the columns' prices, and their right sides. */
+enum { PIECES = 2, SEVERAL = PIECES }; /* components of a model; the place of rows that are in both */
+
+/* What all rows together take off the columns' prices, and the right sides of those of a component. */
 typedef struct {
-  wide taken[MOST], constant;
+  wide taken[MOST], constant[PIECES + 1];
 } sums;
+
+static int piece_of_half(const model *m, int h)
+{
+  return m->component[m->frame.edge[h / 2][0]];
+}
+
+static int piece_of_group(const model *m, int k)
+{
+  return m->task.end_count ? m->component[k] : k;
+}
 
 /* How often half-edge h is in the column. */
 static int times(const column *x, int h)
@@ -128,14 +140,14 @@ static void add_equations(const model *m, const thr_turning_dual *d, sums *s)
       const column *x = &m->column[j];
       s->taken[j] += (wide)d->potential[h] * (x->kind == EXTRA ? -(x->a / 2 == h / 2) : times(x, h));
     }
-    s->constant += (wide)d->potential[h] * rows_cover(m, h / 2);
+    s->constant[piece_of_half(m, h)] += (wide)d->potential[h] * rows_cover(m, h / 2);
   }
   int n = m->task.end_count ? m->frame.n_nodes : m->n_components;
   for (int k = 0; k < n; k++) {
     for (int j = 0; j < m->columns.n_columns; j++)
       if (m->column[j].kind == END && group_of(m, m->column[j].node) == k) s->taken[j] += d->ends[k];
     wide least = (wide)d->ends[k] * rows_supply(m, k, false), most = (wide)d->ends[k] * rows_supply(m, k, true);
-    s->constant += least < most ? least : most;
+    s->constant[piece_of_group(m, k)] += least < most ? least : most;
   }
 }
 
@@ -154,12 +166,23 @@ static bool leaves(const model *m, const thr_turning_set *set, const column *x)
   return x->kind != BACK && a != holds(set, x->b);
 }
 
+/* The only component with members of a set, of half-edges and ends of groups, or of edges. */
+static int piece_of_set(const model *m, const thr_turning_set *set, bool edges)
+{
+  int members[PIECES] = {0}, darts = 2 * m->frame.n_edges;
+  for (int i = 0; i < set->n; i++) {
+    int x = set->member[i];
+    members[edges ? piece_of_half(m, 2 * x) : x < darts ? piece_of_half(m, x) : piece_of_group(m, x - darts)]++;
+  }
+  return members[0] == set->n ? 0 : members[1] == set->n ? 1 : SEVERAL;
+}
+
 static void add_sets(const model *m, const thr_turning_dual *d, sums *s)
 {
   for (int i = 0; i < d->n_odd; i++) {
     for (int j = 0; j < m->columns.n_columns; j++)
       if (leaves(m, &d->odd[i], &m->column[j])) s->taken[j] += d->odd[i].value;
-    s->constant += d->odd[i].value;
+    s->constant[piece_of_set(m, &d->odd[i], false)] += d->odd[i].value;
   }
   for (int i = 0; i < d->n_groups; i++) {
     const thr_turning_set *g = &d->group[i];
@@ -168,7 +191,7 @@ static void add_sets(const model *m, const thr_turning_dual *d, sums *s)
       bool out = x->kind == TURN && holds(g, x->a / 2) != holds(g, x->b / 2);
       if (out || (x->kind == END && holds(g, x->a / 2))) s->taken[j] += g->value;
     }
-    s->constant += 2 * (wide)g->value;
+    s->constant[piece_of_set(m, g, true)] += 2 * (wide)g->value;
   }
 }
 
@@ -196,7 +219,7 @@ static bool is_ranked(const model *m, int v)
 static void add_partition(const model *m, const thr_turning_partition *p, bool rank, sums *s)
 {
   const thr_frame *f = &m->frame;
-  int connections = 0, n_blocks[2] = {0, 0};
+  int n_blocks[PIECES] = {0, 0};
   for (int b = 0; b < f->n_edges; b++)
     for (int e = 0; e < f->n_edges; e++)
       if (p->block[e] == b) {
@@ -204,8 +227,7 @@ static void add_partition(const model *m, const thr_turning_partition *p, bool r
         break;
       }
   for (int k = 0; k < m->n_components; k++)
-    connections += n_blocks[k] > m->task.cords ? n_blocks[k] - m->task.cords : 0;
-  s->constant += (wide)p->value * connections;
+    s->constant[k] += (wide)p->value * (n_blocks[k] > m->task.cords ? n_blocks[k] - m->task.cords : 0);
   for (int v = 0; v < f->n_nodes; v++) {
     int meet = 0, odd = 0;
     for (int b = 0; b < f->n_edges; b++) {
@@ -224,7 +246,7 @@ static void add_partition(const model *m, const thr_turning_partition *p, bool r
           passes_at(m, p->block, v, p->block[x->a / 2]) % 2 == 0)
         s->taken[j] += half;
     }
-    s->constant -= half * odd;
+    s->constant[m->component[v]] -= half * odd;
   }
 }
 
@@ -243,7 +265,7 @@ static void add_junction(const model *m, const thr_turning_junction *p, sums *s)
     const column *x = &m->column[j];
     if (x->kind == TURN && x->node == p->node && block_at(m, p, x->a) != block_at(m, p, x->b)) s->taken[j] += p->value;
   }
-  s->constant += (wide)p->value * (blocks - 1);
+  s->constant[m->component[p->node]] += (wide)p->value * (blocks - 1);
 }
 
 /* ---- ranks ---- */
@@ -335,11 +357,11 @@ static wide ranked_node(const model *m, const thr_turning_dual *d, int v, const 
   return best;
 }
 
-wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const int *high)
+wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const int *high, int piece)
 {
   const wide one = (wide)1 << THR_LENGTH_BITS;
   static wide left[MOST];
-  sums s = {{0}, 0};
+  sums s = {{0}, {0}};
   add_equations(m, d, &s);
   add_sets(m, d, &s);
   for (int i = 0; i < d->n_partitions; i++)
@@ -349,16 +371,19 @@ wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const
   for (int i = 0; i < d->n_junctions; i++)
     add_junction(m, &d->junction[i], &s);
   bool limited = m->columns.extra_limit >= 0;
-  wide total = s.constant * one - (limited ? (wide)d->length * m->columns.extra_limit : 0);
+  wide total = -(limited ? (wide)d->length * m->columns.extra_limit : 0);
+  for (int k = 0; k <= PIECES; k++)
+    if (piece < 0 || k == piece) total += s.constant[k] * one;
   for (int j = 0; j < m->columns.n_columns; j++) {
     const column *x = &m->column[j];
     wide reduced = (x->weight - s.taken[j]) * one;
     if (limited && x->kind == EXTRA) reduced += (wide)d->length * m->columns.length[x->a / 2];
     bool apart = d->n_ranks > 0 && x->kind == TURN && is_ranked(m, x->node);
     left[j] = reduced;
+    if (piece >= 0 && piece_of_half(m, x->a) != piece) continue;
     if (reduced < 0 || !apart) total += reduced * (reduced < 0 ? high[j] : low[j]);
   }
   for (int v = 0; v < m->frame.n_nodes && d->n_ranks > 0; v++)
-    if (is_ranked(m, v)) total += ranked_node(m, d, v, left, one);
+    if (is_ranked(m, v) && (piece < 0 || m->component[v] == piece)) total += ranked_node(m, d, v, left, one);
   return total;
 }

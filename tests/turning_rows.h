@@ -37,7 +37,8 @@ int rows_cover(const model *m, int e);                /* passes that edge e need
 int rows_supply(const model *m, int k, bool largest); /* ends of group k: least or largest number */
 
 /* What the multipliers prove of plans whose columns lie in low .. high, times 2^40: the limit on the length has multipliers of
- * that. O(rows * columns). */
-wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const int *high);
+ * that. Of the cords of one component, or of all (piece < 0): in one, rows that are in several have the right side 0, and the
+ * limit on the length is as it is. O(rows * columns). */
+wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const int *high, int piece);
 
 #endif

@@ -914,38 +914,60 @@ class Model:
         """Have the cords of component c ends?"""
         return any(self.supply[k][0] for k in {self.group[v] for v in self.f.pieces[c]})
 
+    def component(self, h):
+        """Of a half-edge, or of the ends that are counted together, which come after these."""
+        f = self.f
+        return f.component[f.tail(h)] if h < 2 * f.m else f.component[self.group.index(h - 2 * f.m)]
+
+    def component_of(self, halves):
+        """The last place of a list by components for those of several."""
+        components = {self.component(h) for h in halves}
+        return components.pop() if len(components) == 1 else -1
+
     def apply(self, dual, place):
-        """Reduced costs of the columns and the constant that multipliers give."""
-        f, cost, constant = self.f, dict(self.weight), 0
+        """Reduced costs of the columns; what multipliers give in every component, last in several at once; and what the limit on the
+        length takes."""
+        f, cost, gain, taken = self.f, dict(self.weight), [0] * (len(self.f.pieces) + 1), 0
         for h, y in enumerate(dual["potentials"]):
-            constant += y * self.need[h >> 1]
+            gain[self.component(h)] += y * self.need[h >> 1]
             cost[h & ~1, h | 1] += y
         for a, b in cost:
             if b < 0:
                 cost[a, b] -= dual["potentials"][a] + dual["ends"][self.group[f.tail(a)]]
             elif a >> 1 != b >> 1 or a == b:
                 cost[a, b] -= dual["potentials"][a] + dual["potentials"][b]
-        for (low, high), y in zip(self.supply, dual["ends"]):
-            constant += y * (low if y >= 0 else high)
+        for k, (y, (low, high)) in enumerate(zip(dual["ends"], self.supply)):
+            if y:
+                gain[self.component(2 * f.m + k)] += y * (low if y >= 0 else high)
         if dual["length"] and self.limit is not None:
             longest = max(f.exact)
             for e in range(f.m):
                 cost[2 * e, 2 * e + 1] += Fraction(dual["length"]) * self.length[e] / longest
             base = sum(x * n for x, n in zip(f.exact, self.need))
-            constant -= Fraction(dual["length"]) * max(Fraction(0), Fraction(self.limit) - base) / longest
+            taken = Fraction(dual["length"]) * max(Fraction(0), Fraction(self.limit) - base) / longest
         for row in dual["odd_sets"]:
-            constant += self.odd_set(row, cost, place)
+            gain[self.component_of(row["members"])] += self.odd_set(row, cost, place)
         for row in dual["groups"]:
-            constant += self.a_group(row, cost, place)
+            gain[self.component_of(2 * e for e in row["members"])] += self.a_group(row, cost, place)
         for row in dual["partitions"]:
-            constant += self.partition(row, cost, place)
+            self.partition(row, cost, gain, place)
         for row in dual["junctions"]:
-            constant += self.junction(row, cost, place)
+            gain[f.component[row["node"]]] += self.junction(row, cost, place)
         for row in dual["ranks"]:
-            constant += self.partition(row, cost, place, True)
-        if dual["ranks"]:
-            constant += sum(self.ranked_node(v, dual["ranks"], cost) for v in range(f.n) if self.ranked(v))
-        return cost, constant
+            self.partition(row, cost, gain, place, True)
+        for v in range(f.n) if dual["ranks"] else []:
+            if self.ranked(v):
+                gain[f.component[v]] += self.ranked_node(v, dual["ranks"], cost)
+        return cost, gain, taken
+
+    def widest(self, cost, gain, taken):
+        """Least values of the cords of every component, and last of all, with columns in their widest limits. Rows of several components
+        take only off the prices in one of them, and the limit on the length holds for each."""
+        value = [x - taken for x in gain[:-1]] + [sum(gain) - taken]
+        for c, x in cost.items():
+            value[self.component(c[0])] += min(0, x * self.high[c])
+            value[-1] += min(0, x * self.high[c])
+        return value
 
     def ranked(self, v):
         """Are connections at the node counted exactly?"""
@@ -1017,7 +1039,7 @@ class Model:
     def blocks(self, blocks, place):
         require(set(blocks) == set(range(max(blocks) + 1)), f"{place}: a block number is not in use")
 
-    def partition(self, row, cost, place, rank=False):
+    def partition(self, row, cost, gain, place, rank=False):
         f, y, block = self.f, row["value"], row["blocks"]
         require(self.o.ends == "closed", f"{place}: partitions are for closed cords")
         self.blocks(block, place)
@@ -1025,7 +1047,8 @@ class Model:
         for e in range(f.m):
             c = f.component[f.edge[e][0]]
             require(owner.setdefault(block[e], c) == c, f"{place}: a block in two components")
-        right = sum(max(0, list(owner.values()).count(c) - self.cords) for c in range(len(f.pieces)))
+        for c in range(len(f.pieces)):
+            gain[c] += y * max(0, list(owner.values()).count(c) - self.cords)
         for v in range(f.n):
             here = {block[h >> 1] for h in f.at[v]}
             if len(here) < 2 or rank and self.ranked(v):
@@ -1038,8 +1061,7 @@ class Model:
                 for b in f.at[v][i + 1:]:
                     if block[a >> 1] != block[b >> 1]:
                         cost[a, b] -= share
-            right -= Fraction((len(here) - 1) * len(odd), 2 * len(here))
-        return y * right
+            gain[f.component[v]] -= share / 2 * len(odd)
 
     def junction(self, row, cost, place):
         require(self.tied, f"{place}: junctions are for tube joints")
@@ -1140,20 +1162,23 @@ class Model:
                         self.length[c[0] >> 1] = self.length[d[0] >> 1] = short
 
     def bound(self, place):
-        """Least price over all leaves, in units of 1 / UNIT; None if no plan is left."""
+        """Least price over all leaves, in units of 1 / UNIT; None if no plan is left. bound_of: of the cords of every component."""
         applied = []
         for i, dual in enumerate(self.duals):
-            cost, constant = self.apply(dual, f"{place}.multipliers[{i}]")
-            applied.append((cost, constant + sum(x * self.high[c] for c, x in cost.items() if x < 0)))
+            cost, gain, taken = self.apply(dual, f"{place}.multipliers[{i}]")
+            applied.append((cost, self.widest(cost, gain, taken)))
         best, stack = None, [(0, {})]
         while stack:
             i, box = stack.pop()
             node = self.tree[i]
             if "multipliers" in node:
-                cost, total = applied[node["multipliers"]]
+                cost, widest = applied[node["multipliers"]]
+                value = list(widest)
                 for c, (low, high) in box.items():
-                    total += min(cost[c] * low, cost[c] * high) - min(0, cost[c] * self.high[c])
-                best = total if best is None else min(best, total)
+                    more = min(cost[c] * low, cost[c] * high) - min(0, cost[c] * self.high[c])
+                    value[self.component(c[0])] += more
+                    value[-1] += more
+                best = value if best is None else list(map(min, best, value))
                 continue
             c = self.column(node["a"], node["b"])
             low, high = box.get(c, (0, self.high[c]))
@@ -1169,7 +1194,23 @@ class Model:
                 stack.append((node["low"], below))
             if max(low, node["value"] + 1) <= high:
                 stack.append((node["high"], {**box, c: (max(low, node["value"] + 1), high)}))
-        return best
+        if best is None:
+            return None
+        self.bound_of = [max(0, x) for x in best[:-1]]
+        self.share_bounds()
+        return best[-1]
+
+    def share_bounds(self):
+        """The leaves are about a plan or one of its images: what is proved of a component is so of those that are its images."""
+        changed = len(self.bound_of) > 1
+        while changed:
+            changed = False
+            for image in self.symmetries:
+                for c, d in image.items():
+                    a, b = self.component(c[0]), self.component(d[0])
+                    least = min(self.bound_of[a], self.bound_of[b])
+                    changed |= self.bound_of[a] > least or self.bound_of[b] > least
+                    self.bound_of[a] = self.bound_of[b] = least
 
 
 class Tied:
@@ -1579,15 +1620,14 @@ class Walks:
         self.edge = integers(member(o, "edges", "list", place), place + ".edges", 0, 2**63 - 1, self.f.m)
         self.node = integers(member(o, "nodes", "list", place), place + ".nodes", 0, 2**63 - 1, self.f.n)
         priced = [self.f.component[self.f.edge[e][0]] for e in range(self.f.m) if self.edge[e]]
+        priced += [self.f.component[v] for v in range(self.f.n) if self.node[v]]
         self.component = priced[0] if priced else 0
-        require(set(priced) <= {self.component}, f"{place}.edges: of two components")
+        require(set(priced) <= {self.component}, f"{place}: prices in two components")
 
     def check(self, place):
         """The prices are allowed; the places of their component in the order of the recursion."""
         f, c = self.f, self.component
         require(self.closed or not self.open.isdisjoint(f.pieces[c]), f"{place}: of a component without cord ends")
-        require(all(not y or f.component[v] == c for v, y in enumerate(self.node)), f"{place}.nodes: of two components")
-        require(not self.all or not self.turning or len(f.pieces) == 1, f"{place}.turning: of several components")
         require(all(not y or self.needed_at(v) % 2 for v, y in enumerate(self.node)), f"{place}.nodes: an even number")
         require(Fraction(4 * UNIT, self.unit) <= 10**9, f"{place}.unit: out of range")
         places = [x for x in self.after if f.component[self.node_of(x)] == c]
@@ -1672,13 +1712,17 @@ class Walks:
         return self.unit * (self.units + 1) / Fraction(2) ** self.bits
 
 
-def largest_bound(p, model, number, least, place):
-    """Of the price of the cord that turns most, from the number of cords, single edges and the prices of walks."""
+def largest_bound(p, model, number, place):
+    """Of the price of the cord that turns most, from the number of cords, each component's least, single edges and the prices of
+    walks."""
     walks = Walks(p, model.weight)
     bound = Fraction(walks.forced(), UNIT)
+    for c, least in enumerate(model.bound_of):
+        ends = sum(p.options.count.get(v, 0) for v in p.frame.pieces[c]) if p.options.ends == "counts" else 0
+        bound = max(bound, Fraction(least) / UNIT / (ends // 2 or number))
     if model.walks is not None:
         walks.read(model.walks, place + ".walks")
-        bound = max(bound, walks.bound(number, least, place + ".walks"))
+        bound = max(bound, walks.bound(number, Fraction(model.bound_of[walks.component]) / UNIT, place + ".walks"))
     return bound
 
 
@@ -1706,7 +1750,7 @@ def check_turning(p):
     model.read(member(claim, "proof", "object", place), place + ".proof")
     bound = model.bound(place + ".proof")
     require(bound is not None, f"{place}.proof: proves that there is no plan")
-    bound = tree = max(Fraction(0), Fraction(bound) / UNIT)
+    bound = max(Fraction(0), Fraction(bound) / UNIT)
     largest = member(claim, "largest", "object", place)
     few, few_largest = few_edges_bounds(p, True, member(largest, "lower_bound", "number", place + ".largest", 0))
     bound = max(bound, few)
@@ -1723,7 +1767,7 @@ def check_turning(p):
     p.close(member(largest, "price", "number", place + ".largest"), max(prices), scale, place + ".largest.price")
     number = len(p.cords) if o.ends == "counts" else o.cords * len(f.pieces)
     each = len(p.cords) if o.ends == "counts" else o.cords
-    share = max((Fraction(price) if optimal else bound) / number, few_largest, largest_bound(p, model, each, tree, place + ".proof"))
+    share = max((Fraction(price) if optimal else bound) / number, few_largest, largest_bound(p, model, each, place + ".proof"))
     require(share - max(prices) <= rounding, f"{place}: some cord is proved to turn by {float(share)}, more than any does")
     attained = max(prices) - share <= rounding
     word = check_claim(largest, Fraction(max(prices)), attained, share, 1, place + ".largest", gap=False)
@@ -1758,7 +1802,7 @@ def too_few(p, claim, place):
     require(all_turns is not None, f"{place}.proof: proves that there is no plan")
     all_turns = max(Fraction(0), Fraction(all_turns) / UNIT)
     needed = 2 * math.log(o.max_pull) / o.mu + (math.pi if p.closing else 0) if o.mu > 0 else 0
-    bound = max(all_turns / (cords * len(f.pieces)), largest_bound(other, model, cords, all_turns, place + ".proof"),
+    bound = max(all_turns / (cords * len(f.pieces)), largest_bound(other, model, cords, place + ".proof"),
                 few_edges_bounds(other, True, needed * (1 + 1e-7) + 1e-7)[1])
     if p.closing:  # Fenchel 1929; the last turn of a closed cord is at its ends
         bound = max(bound, Fraction(2 * math.pi)) - Fraction(math.pi)

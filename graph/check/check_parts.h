@@ -81,7 +81,8 @@ thr_status thr_check_least_of(const thr_frame *frame, const thr_request *options
 thr_status thr_check_turning_claim(const thr_plan *plan, double least_length, thr_err *err) THR_MUST_CHECK;
 
 /* What a tree, single edges, walks and, through few edges, all sets of cords prove of the price of turns: *all: of all cords;
- * *largest: of the dearest (limit: it need not be known above that). cords: that every component has at most. */
+ * *largest: of the dearest, component by component (limit: it need not be known above that). cords: that every component has at
+ * most. */
 thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request *options, int cords,
                           const thr_turning_proof *tree, double limit, double *all, double *largest, thr_err *err) THR_MUST_CHECK;
 

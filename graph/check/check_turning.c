@@ -248,18 +248,41 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err
 
 /* ---- the claim ---- */
 
+/* Cords that component k has at most, where all have so many at most: given ends tell. */
+static int cords_of(const thr_turning_columns *columns, int k, int cords)
+{
+  int ends = 0;
+  for (int v = 0; v < columns->f->n_nodes && columns->task->end_count; v++)
+    if (columns->component[v] == k) ends += columns->task->end_count[v];
+  return ends > 0 ? ends / 2 : cords;
+}
+
+/* *largest: raised to what the tree proves of each component alone, shared out among its cords, and what walks do with that. */
+static thr_status check_components(const thr_turning_columns *columns, int cords, const thr_turning_proof *tree, double *all,
+                                   double *largest, thr_err *err)
+{
+  double worth = 0, *bound_of = thr_calloc((size_t)columns->n_components, sizeof *bound_of);
+  if (!bound_of) return thr_nomem(err);
+  thr_status st = thr_turning_proof_check_columns(columns, tree, all, bound_of, err);
+  if (!st && tree->walks.unit)
+    st = thr_walk_proof_check(columns, THR_WALK_TURNING, &tree->walks, cords, bound_of[thr_walk_component(columns, &tree->walks)],
+                              &worth, err);
+  for (int k = 0; k < columns->n_components && !st; k++)
+    *largest = fmax(*largest, fmax(worth, bound_of[k] / cords_of(columns, k, cords)));
+  free(bound_of);
+  return st;
+}
+
 thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request *options, int cords,
                           const thr_turning_proof *tree, double limit, double *all, double *largest, thr_err *err)
 {
-  double worth = 0, few_sum, few_largest;
-  *largest = 0;
-  thr_status st = thr_turning_proof_check_columns(columns, tree, all, err);
-  if (!st) st = thr_walk_forced(columns, largest, err);
-  if (!st && tree->walks.unit) st = thr_walk_proof_check(columns, THR_WALK_TURNING, &tree->walks, cords, *all, &worth, err);
+  double few_sum, few_largest;
+  thr_status st = thr_walk_forced(columns, largest, err);
+  if (!st) st = check_components(columns, cords, tree, all, largest, err);
   if (!st) st = thr_few_edges_bounds(columns->f, options, limit, &few_sum, &few_largest, err);
   if (st) return st;
   *all = fmax(*all, few_sum);
-  *largest = fmax(*largest, fmax(worth, few_largest));
+  *largest = fmax(*largest, few_largest);
   return THR_OK;
 }
 

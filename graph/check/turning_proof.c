@@ -79,11 +79,31 @@ typedef struct {
   thr_scratch own; /* the arrays */
   wide *reduced;   /* [n_columns] price less what the multipliers take */
   bool *member;    /* [2 * n_edges + n_ends] all false between sets */
-  wide constant;
-  int *edges;  /* [n_components] */
-  bool *open;  /* [n_components] may cords end there? */
-  bool ranked; /* connections are counted exactly where they can be */
+  wide *constant;  /* [n_components + 1] what the multipliers take in a component; last, what sets of several do, >= 0 */
+  wide limit;      /* what the multiplier of the length takes off the sum, >= 0 */
+  int *of_ends;    /* [n_ends] component of an equation of ends */
+  int *edges;      /* [n_components] */
+  bool *open;      /* [n_components] may cords end there? */
+  bool ranked;     /* connections are counted exactly where they can be */
 } leaf;
+
+static int component_of(const leaf *k, int h)
+{
+  return k->c->component[k->c->f->edge[h >> 1][0]];
+}
+
+/* Component of an odd set's members, or of a group's edges; n_components: of several. */
+static int component_of_set(const leaf *k, const thr_turning_set *set, bool of_edges)
+{
+  const int darts = 2 * k->c->f->n_edges;
+  int own = -1;
+  for (int j = 0; j < set->n; j++) {
+    const int i = of_edges ? 2 * set->member[j] : set->member[j], here = i < darts ? component_of(k, i) : k->of_ends[i - darts];
+    if (own >= 0 && here != own) return k->c->n_components;
+    own = here;
+  }
+  return own;
+}
 
 static thr_status check_set(const char *what, int i, const thr_turning_set *turning_set, int limit, thr_err *err)
 {
@@ -111,9 +131,9 @@ static void take_potentials(leaf *k)
         (wide)turning_columns->weight[j] + (j >= turning_columns->first_extra && j < turning_columns->first_end ? sum : -sum);
   }
   for (int h = 0; h < 2 * turning_columns->f->n_edges; h++)
-    k->constant += (wide)turning_columns->cover[h >> 1] * k->d->potential[h];
+    k->constant[component_of(k, h)] += (wide)turning_columns->cover[h >> 1] * k->d->potential[h];
   for (int i = 0; i < turning_columns->n_ends; i++)
-    k->constant += (wide)turning_columns->supply[i][k->d->ends[i] < 0] * k->d->ends[i];
+    k->constant[k->of_ends[i]] += (wide)turning_columns->supply[i][k->d->ends[i] < 0] * k->d->ends[i];
 }
 
 /* Takes value off the turns at half-edge h that leave the marked set. */
@@ -143,7 +163,7 @@ static void take_odd(leaf *k, const thr_turning_set *turning_set)
     if (turning_columns->end_column[h] >= 0 && !k->member[darts + turning_columns->end_group[thr_tail(turning_columns->f, h)]])
       k->reduced[turning_columns->end_column[h]] -= turning_set->value;
   }
-  k->constant += turning_set->value;
+  k->constant[component_of_set(k, turning_set, false)] += turning_set->value;
 }
 
 static thr_status run_odd(leaf *k, int i, thr_err *err)
@@ -195,7 +215,7 @@ static thr_status run_group(leaf *k, int i, thr_err *err)
     }
   for (int j = 0; j < turning_set->n; j++)
     k->member[turning_set->member[j]] = false;
-  k->constant += 2 * (wide)turning_set->value;
+  k->constant[component_of_set(k, turning_set, true)] += 2 * (wide)turning_set->value;
   return THR_OK;
 }
 
@@ -250,7 +270,7 @@ static void take_partition(leaf *k, const thr_turning_partition *partition, bool
           k->reduced[thr_turning_column(turning_columns, half[i], half[j])] -= share;
       if (even[i]) k->reduced[turning_columns->first_extra + (half[i] >> 1)] -= part;
     }
-    k->constant -= (wide)part * odd;
+    k->constant[turning_columns->component[v]] -= (wide)part * odd;
   }
 }
 
@@ -284,11 +304,13 @@ static thr_status run_partition(leaf *k, const thr_turning_partition *partition,
   int *scratch = thr_calloc((size_t)turning_columns->f->n_edges + (size_t)turning_columns->n_components, sizeof *scratch);
   bool *even = thr_calloc((size_t)turning_columns->f->n_edges, sizeof *even);
   thr_status st = scratch && even ? THR_OK : thr_nomem(err);
-  int connections = st ? 0 : thr_turning_connections(turning_columns, partition->block, scratch);
-  if (connections < 0) st = thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: bad block numbers", what, i);
+  const int cords = turning_columns->task->cords, *blocks = scratch ? scratch + turning_columns->f->n_edges : NULL;
+  if (!st && thr_turning_connections(turning_columns, partition->block, scratch) < 0)
+    st = thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: bad block numbers", what, i);
   if (!st) {
     take_partition(k, partition, rank, even);
-    k->constant += (wide)partition->value * connections;
+    for (int own = 0; own < turning_columns->n_components; own++)
+      if (blocks[own] > cords) k->constant[own] += (wide)partition->value * (blocks[own] - cords);
   }
   free(scratch);
   free(even);
@@ -323,7 +345,7 @@ static thr_status run_junction(leaf *k, int i, thr_err *err)
     for (int b = a + 1; b < d; b++)
       if (turning_junction->block[a] != turning_junction->block[b])
         k->reduced[thr_turning_column(turning_columns, half[a], half[b])] -= turning_junction->value;
-  k->constant += (wide)turning_junction->value * (blocks - 1);
+  k->constant[turning_columns->component[turning_junction->node]] += (wide)turning_junction->value * (blocks - 1);
   return THR_OK;
 }
 
@@ -354,7 +376,7 @@ static thr_status count_ranks(leaf *k, thr_err *err)
   for (int i = 0; i < k->d->n_ranks && !st; i++)
     value[i] = k->d->rank[i].value;
   for (int v = 0; v < k->c->f->n_nodes && !st; v++)
-    if (is_ranked(k, v)) k->constant += node_worth(k, v, value, block);
+    if (is_ranked(k, v)) k->constant[k->c->component[v]] += node_worth(k, v, value, block);
   thr_scratch_free(&own);
   return st;
 }
@@ -375,7 +397,7 @@ static void take_length(leaf *k)
   const thr_turning_columns *turning_columns = k->c;
   int64_t length = turning_columns->extra_limit < 0 ? 0 : k->d->length;
   if (length == 0) return;
-  k->constant -= ((wide)length * turning_columns->extra_limit >> THR_LENGTH_BITS) + 1;
+  k->limit = ((wide)length * turning_columns->extra_limit >> THR_LENGTH_BITS) + 1;
   for (int j = turning_columns->first_extra; j < turning_columns->first_end; j++)
     k->reduced[j] += (wide)length * turning_columns->length[j - turning_columns->first_extra] >> THR_LENGTH_BITS;
 }
@@ -413,6 +435,8 @@ static thr_status leaf_allocate(leaf *k, thr_err *err)
 {
   const thr_turning_columns *turning_columns = k->c;
   k->reduced = thr_scratch_array(&k->own, (size_t)turning_columns->n_columns, sizeof *k->reduced);
+  k->constant = thr_scratch_array(&k->own, (size_t)turning_columns->n_components + 1, sizeof *k->constant);
+  k->of_ends = thr_scratch_array(&k->own, (size_t)turning_columns->n_ends, sizeof *k->of_ends);
   k->member =
       thr_scratch_array(&k->own, 2 * (size_t)turning_columns->f->n_edges + (size_t)turning_columns->n_ends, sizeof *k->member);
   k->edges = thr_scratch_array(&k->own, (size_t)turning_columns->n_components, sizeof *k->edges);
@@ -421,8 +445,10 @@ static thr_status leaf_allocate(leaf *k, thr_err *err)
   if (st) return st;
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     k->edges[turning_columns->component[turning_columns->f->edge[e][0]]]++;
-  for (int v = 0; v < turning_columns->f->n_nodes; v++)
+  for (int v = 0; v < turning_columns->f->n_nodes; v++) {
     k->open[turning_columns->component[v]] |= turning_columns->supply[turning_columns->end_group[v]][1] > 0;
+    k->of_ends[turning_columns->end_group[v]] = turning_columns->component[v];
+  }
   return THR_OK;
 }
 
@@ -454,7 +480,9 @@ thr_status thr_turning_dual_bound(const thr_turning_columns *turning_columns, co
   bool empty = false;
   *bound = INT64_MIN;
   thr_status st = leaf_init(&k, turning_columns, dual, err);
-  wide total = k.constant;
+  wide total = -k.limit;
+  for (int i = 0; i <= turning_columns->n_components && !st; i++)
+    total += k.constant[i];
   for (int j = 0; j < turning_columns->n_columns && !st; j++) {
     int least = low ? low[j] : 0, most = high ? high[j] : thr_turning_most(turning_columns, j);
     empty |= least > most;
@@ -516,6 +544,9 @@ typedef struct {
   int *low, *high;
   int *narrowed, n_narrowed; /* columns that are decided above the node */
   bool *listed;
+  /* [n_components + 1] values of the cords of a component, and of all */
+  wide *widest, *here; /* of a leaf's multipliers without and with the branches above it */
+  int64_t *least;      /* of all leaves so far */
 } boxes;
 
 static thr_status boxes_init(boxes *x, thr_err *err)
@@ -527,10 +558,15 @@ static thr_status boxes_init(boxes *x, thr_err *err)
   x->high = thr_scratch_array(&x->own, columns, sizeof *x->high);
   x->narrowed = thr_scratch_array(&x->own, columns, sizeof *x->narrowed);
   x->listed = thr_scratch_array(&x->own, columns, sizeof *x->listed);
+  x->widest = thr_scratch_array(&x->own, (size_t)x->c->n_components + 1, sizeof *x->widest);
+  x->here = thr_scratch_array(&x->own, (size_t)x->c->n_components + 1, sizeof *x->here);
+  x->least = thr_scratch_array(&x->own, (size_t)x->c->n_components + 1, sizeof *x->least);
   thr_status st = thr_scratch_check(&x->own, err);
   if (st) return st;
   for (size_t j = 0; j < columns; j++)
     x->high[j] = thr_turning_most(x->c, (int)j);
+  for (int i = 0; i <= x->c->n_components; i++)
+    x->least[i] = INT64_MAX;
   return link_tree(x->c, x->p, x->parent, x->column, err);
 }
 
@@ -575,17 +611,37 @@ static void widen(boxes *x)
   x->n_narrowed = 0;
 }
 
-/* What the narrow box adds to the value over the widest one; *empty if nothing is in it. */
-static wide correct(const boxes *x, const leaf *k, bool *empty)
+/* x->widest of a leaf. In one component alone, sets of several only take off prices, and the limit on all extra length holds for
+ * that of the component. */
+static void find_widest(boxes *x, const leaf *k)
 {
-  wide sum = 0;
-  *empty = false;
+  const int n = x->c->n_components;
+  x->widest[n] = k->constant[n] - k->limit;
+  for (int i = 0; i < n; i++) {
+    x->widest[i] = k->constant[i] - k->limit;
+    x->widest[n] += k->constant[i];
+  }
+  for (int j = 0; j < x->c->n_columns; j++) {
+    wide adds = column_adds(k, j, 0, thr_turning_most(x->c, j));
+    x->widest[component_of(k, x->c->half[j][0])] += adds;
+    x->widest[n] += adds;
+  }
+}
+
+/* x->here, in the narrow box. Returns whether nothing is in it. */
+static bool correct(boxes *x, const leaf *k)
+{
+  const int n = x->c->n_components;
+  bool empty = false;
+  memcpy(x->here, x->widest, ((size_t)n + 1) * sizeof *x->here);
   for (int i = 0; i < x->n_narrowed; i++) {
     int j = x->narrowed[i];
-    *empty |= x->low[j] > x->high[j];
-    sum += column_adds(k, j, x->low[j], x->high[j]) - column_adds(k, j, 0, thr_turning_most(x->c, j));
+    empty |= x->low[j] > x->high[j];
+    wide adds = column_adds(k, j, x->low[j], x->high[j]) - column_adds(k, j, 0, thr_turning_most(x->c, j));
+    x->here[component_of(k, x->c->half[j][0])] += adds;
+    x->here[n] += adds;
   }
-  return sum;
+  return empty;
 }
 
 /* Does the symmetry keep the narrow box? */
@@ -656,32 +712,48 @@ static void sort_leaves(const thr_turning_proof *proof, int *first, int *number)
     if (!proof->node[i].low) number[first[proof->node[i].dual + 1]++] = i;
 }
 
-/* Least value over the boxes of n leaves that have the multipliers dual. O(columns + what dual lists, each member as often as
- * there are turns at it, + leaves * depth). */
-static thr_status least_of_leaves(boxes *x, const thr_turning_dual *dual, const int *node, int n, int64_t *least, thr_err *err)
+/* Least values over the boxes of n leaves that have the multipliers dual. O(columns + what dual lists, each member as often as
+ * there are turns at it, + leaves * (depth + components)). */
+static thr_status least_of_leaves(boxes *x, const thr_turning_dual *dual, const int *node, int n, thr_err *err)
 {
   leaf k;
-  bool empty;
   thr_status st = leaf_init(&k, x->c, dual, err);
-  wide widest = k.constant;
-  for (int j = 0; j < x->c->n_columns && !st; j++)
-    widest += column_adds(&k, j, 0, thr_turning_most(x->c, j));
+  if (!st) find_widest(x, &k);
   for (int i = 0; i < n && !st; i++) {
     narrow(x, node[i]);
-    int64_t here = in_64_bits(widest + correct(x, &k, &empty));
+    bool empty = correct(x, &k);
     widen(x);
-    if (!empty && here < *least) *least = here;
+    for (int j = 0; j <= x->c->n_components && !empty; j++) {
+      int64_t here = in_64_bits(x->here[j]);
+      if (here < x->least[j]) x->least[j] = here;
+    }
   }
   thr_scratch_free(&k.own);
   return st;
 }
 
+/* Leaves are about a plan or one of its images: a component's bound is also that of those which symmetries make of it. */
+static void share_bounds(const thr_turning_columns *columns, const thr_turning_proof *proof, double *bound_of)
+{
+  const int *component = columns->component;
+  const int m = columns->f->n_edges;
+  for (bool changed = columns->n_components > 1; changed;) {
+    changed = false;
+    for (int i = 0; i < proof->n_symmetries * m; i++) {
+      double *a = &bound_of[component[columns->f->edge[i % m][0]]],
+             *b = &bound_of[component[columns->f->edge[proof->symmetry[i] >> 1][0]]];
+      changed |= *a != *b;
+      *a = *b = fmin(*a, *b);
+    }
+  }
+}
+
 /* The least over all leaves. */
 static thr_status check_tree(const thr_turning_columns *turning_columns, const thr_turning_proof *proof, double *bound,
-                             thr_err *err)
+                             double *bound_of, thr_err *err)
 {
   boxes x = {.c = turning_columns, .p = proof};
-  int64_t least = INT64_MAX;
+  const int n = turning_columns->n_components;
   int *first = thr_scratch_array(&x.own, (size_t)proof->n_duals + 2, sizeof *first);
   int *leaves = thr_scratch_array(&x.own, (size_t)proof->n_nodes, sizeof *leaves);
   thr_status st = thr_scratch_check(&x.own, err);
@@ -689,24 +761,26 @@ static thr_status check_tree(const thr_turning_columns *turning_columns, const t
   if (!st) st = check_orbits(&x, err);
   if (!st) sort_leaves(proof, first, leaves);
   for (int d = 0; d < proof->n_duals && !st; d++)
-    if (first[d + 1] > first[d])
-      st = least_of_leaves(&x, &proof->dual[d], leaves + first[d], first[d + 1] - first[d], &least, err);
-  if (!st && least > 0) *bound = ldexp((double)least, -THR_TURNING_BITS);
+    if (first[d + 1] > first[d]) st = least_of_leaves(&x, &proof->dual[d], leaves + first[d], first[d + 1] - first[d], err);
+  if (!st && x.least[n] > 0) *bound = ldexp((double)x.least[n], -THR_TURNING_BITS);
+  for (int i = 0; i < n && !st && bound_of; i++)
+    bound_of[i] = fmax(0, ldexp((double)x.least[i], -THR_TURNING_BITS));
+  if (!st && bound_of) share_bounds(turning_columns, proof, bound_of);
   thr_scratch_free(&x.own);
   return st;
 }
 
 thr_status thr_turning_proof_check_columns(const thr_turning_columns *turning_columns, const thr_turning_proof *proof,
-                                           double *bound, thr_err *err)
+                                           double *bound, double *bound_of, thr_err *err)
 {
   thr_turning_columns lower;
   *bound = 0;
   thr_status st = check_dual_shape(turning_columns, proof, err);
-  if (st || proof->n_symmetries == 0) return st ? st : check_tree(turning_columns, proof, bound, err);
+  if (st || proof->n_symmetries == 0) return st ? st : check_tree(turning_columns, proof, bound, bound_of, err);
   st = check_symmetries(turning_columns, proof, err);
   if (!st) st = thr_turning_lower(turning_columns, proof->symmetry, proof->n_symmetries, &lower, err);
   if (st) return st;
-  st = check_tree(&lower, proof, bound, err);
+  st = check_tree(&lower, proof, bound, bound_of, err);
   thr_turning_columns_destroy(&lower);
   return st;
 }
@@ -719,7 +793,7 @@ thr_status thr_turning_proof_check(const thr_frame *frame, const thr_turning_tas
   if (proof->walks.unit) return thr_fail(err, THR_EVIOLATED, "turning proof: walks, which are about the cord that turns most");
   thr_status st = thr_turning_columns_init(&turning_columns, frame, task, err);
   if (st) return st;
-  st = thr_turning_proof_check_columns(&turning_columns, proof, bound, err);
+  st = thr_turning_proof_check_columns(&turning_columns, proof, bound, NULL, err);
   thr_turning_columns_destroy(&turning_columns);
   return st;
 }

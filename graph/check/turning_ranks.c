@@ -24,9 +24,10 @@ static int64_t find_tree(const thr_rank_node *node, int set, thr_rank_turns *tur
     via[i] = at;
   }
   for (int left = set & ~(1 << at); left; left &= ~(1 << at)) {
-    at = -1;
-    for (int i = 0; i < node->degree; i++)
-      if (left >> i & 1 && (at < 0 || key[i] < key[at])) at = i;
+    for (at = 0; !(left >> at & 1);)
+      at++;
+    for (int i = at + 1; i < node->degree; i++)
+      if (left >> i & 1 && key[i] < key[at]) at = i;
     sum += key[at];
     if (turns) {
       turns->turn[turns->n_turns][0] = via[at];
@@ -88,11 +89,12 @@ static void part_rest(forests *s, int left, int64_t price)
 int64_t thr_rank_least(const thr_rank_node *node, thr_rank_turns *turns)
 {
   forests s = {.node = node, .least = INT64_MAX};
+  const int together = (1 << node->degree) - 1;
   for (int set = 1; set < 1 << node->degree; set++)
     s.tree[set] = find_tree(node, set, NULL);
   for (int i = 0; i < node->n_rows; i++)
-    s.most_gain += node->value[i] * rank_of_parts(node, i, &(int){(1 << node->degree) - 1}, 1);
-  part_rest(&s, (1 << node->degree) - 1, 0);
+    s.most_gain += node->value[i] * rank_of_parts(node, i, &together, 1);
+  part_rest(&s, together, 0);
   if (!turns) return s.least;
   turns->n_turns = 0;
   for (int p = 0; p < s.n_best; p++)

@@ -224,9 +224,7 @@ static thr_status check_prices(const thr_walk_steps *steps, const thr_walk_proof
 {
   const thr_turning_columns *columns = steps->c;
   const thr_frame *frame = columns->f;
-  bool of_all = steps->measure == THR_WALK_TURNING && columns->n_components > 1;
-  if (proof->all < 0 || (proof->all > 0 && of_all))
-    return thr_fail(err, THR_EVIOLATED, "walks: a price of turning or length that is negative, or of several components");
+  if (proof->all < 0) return thr_fail(err, THR_EVIOLATED, "walks: a price of turning or length that is negative");
   for (int e = 0; e < frame->n_edges; e++)
     if (proof->edge[e] < 0 || (proof->edge[e] > 0 && columns->component[frame->edge[e][0]] != steps->component))
       return thr_fail(err, THR_EVIOLATED, "walks: the price of edge %d is negative, or of another component", e);
@@ -408,6 +406,8 @@ int thr_walk_component(const thr_turning_columns *columns, const thr_walk_proof 
 {
   for (int e = 0; e < columns->f->n_edges; e++)
     if (proof->edge[e] > 0) return columns->component[columns->f->edge[e][0]];
+  for (int v = 0; v < columns->f->n_nodes; v++)
+    if (proof->node[v] > 0) return columns->component[v];
   return 0;
 }
 

@@ -298,7 +298,7 @@ static thr_status read_lwpolyline(dxf *d)
 {
   placing own;
   double z, x;
-  int flags;
+  int flags = 0;
   d->n_vertices = 0;
   thr_status st = own_coordinates(d, &own);
   if (!st) st = number(d, 38, 0, &z);
@@ -452,7 +452,7 @@ enum { FRAME_POINT = 16, FACE_RECORD = 128, FACE_PLACE = 64 };           /* of a
 static thr_status read_face_record(dxf *d)
 {
   thr_status st = THR_OK;
-  int corner[4], n = 0;
+  int corner[4] = {0}, n = 0;
   for (int i = 0; i < 4 && !st; i++) {
     int v;
     st = whole(d, 71 + i, &v);

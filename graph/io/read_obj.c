@@ -193,7 +193,7 @@ static thr_status read_curve(obj *o, thr_span keyword, thr_span rest)
     if (!st) o->curve[i] = o->corner[i];
   }
   o->n_knots = 0;
-  o->open = st ? (thr_span){0} : keyword;
+  if (!st) o->open = keyword;
   return st;
 }
 

@@ -226,9 +226,10 @@ thr_status thr_turning_dual_bound(const thr_turning_columns *turning_columns, co
 thr_status thr_turning_proof_check(const thr_frame *frame, const thr_turning_task *task, const thr_turning_proof *proof,
                                    double *bound, thr_err *err) THR_MUST_CHECK;
 
-/* The same with the columns of the task at hand. */
+/* The same with the columns of the task at hand. bound_of: NULL, or [n_components] receives what the cords of a component alone
+ * are proved to cost together, >= 0: the least of what the leaves prove of it, which may be less than a sum over a leaf. */
 thr_status thr_turning_proof_check_columns(const thr_turning_columns *turning_columns, const thr_turning_proof *proof,
-                                           double *bound, thr_err *err) THR_MUST_CHECK;
+                                           double *bound, double *bound_of, thr_err *err) THR_MUST_CHECK;
 
 /* JSON of a proof, one object; and back, strictly: unknown, missing or mistyped members and indices that the framework does not
  * have are THR_EVIOLATED, "place: what". Whether it proves anything is for thr_turning_proof_check. */

@@ -102,12 +102,12 @@ double thr_walk_needed(const thr_walk_steps *steps, const thr_walk_proof *proof,
 /* What the length of cords is asked among: covers and ends. end_allowed: [n_nodes] filled, and borrowed by the task. */
 thr_turning_task thr_walk_length_task(const thr_frame *frame, const thr_request *options, bool *end_allowed);
 
-/* The component that a proof is about: of the edges with a price, the first if there are none. */
+/* The component that a proof is about: of an edge with a price, or else of a node, the first if there are none. */
 int thr_walk_component(const thr_turning_columns *columns, const thr_walk_proof *proof);
 
 /* *bound: in every plan whose components have at most so many cords one of them has turns of this price, or this length. least as
- * above: of the turning of the whole framework, of the length of the component. Nothing in the proof is trusted; THR_EVIOLATED
- * says why it proves nothing. */
+ * above, of the cords of the component that the proof is about. Nothing in the proof is trusted; THR_EVIOLATED says why it proves
+ * nothing. */
 thr_status thr_walk_proof_check(const thr_turning_columns *columns, thr_walk_measure measure, const thr_walk_proof *proof,
                                 int cords, double least, double *bound, thr_err *err) THR_MUST_CHECK;
 

@@ -69,7 +69,7 @@ static void pair_by_halves(const int *dart, int n, int *mate)
 thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, double (*four)[3],
                                thr_err *err)
 {
-  double unused[3];
+  double unused[3] = {0};
   thr_status st = THR_OK;
   for (int v = 0; v < multigraph->n_nodes && !st; v++) {
     const int *dart = multigraph->dart + multigraph->first[v];

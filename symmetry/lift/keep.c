@@ -99,7 +99,7 @@ int thr_keep_fewest(const thr_quotient *quotient, const int *component)
   const thr_frame *frame = quotient->f;
   int fewest = 1, order = quotient->h->order;
   for (int e = 0; e < frame->n_edges; e++) {
-    int fixed = 0, same = 0; /* elements that leave a half-edge, and the component, where they are */
+    int fixed = 0, same = 0; /* elements that leave a half-edge (the identity is one), and the component, where they are */
     for (int i = 0; i < order; i++) {
       int half = quotient->half_image[(size_t)i * 2 * (size_t)frame->n_edges + 2 * (size_t)e];
       fixed += half == 2 * e;

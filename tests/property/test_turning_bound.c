@@ -174,7 +174,7 @@ static void assert_bound(const model *m, const thr_turning_dual *d, const int *l
   int64_t bound;
   thr_err err = {0};
   ck_assert_msg(thr_turning_dual_bound(&m->columns, d, low, high, &bound, &err) == THR_OK, "%s", err.text);
-  wide exact = rows_bound(m, d, low, high), one = (wide)1 << THR_LENGTH_BITS, slack = 0;
+  wide exact = rows_bound(m, d, low, high, -1), one = (wide)1 << THR_LENGTH_BITS, slack = 0;
   for (int j = 0; j < m->columns.n_columns; j++)
     if (m->column[j].kind == EXTRA) slack += high[j];
   bool limited = d->length > 0 && m->columns.extra_limit >= 0;
@@ -230,24 +230,24 @@ END_TEST
 
 /* ---- trees ---- */
 
-/* Exact bound of the tree at node i, whose box is low .. high; the box is left as it was. */
-static wide tree_bound(model *m, const thr_turning_proof *p, int i)
+/* Exact bound of the tree at node i, whose box is low .. high, of a component or all (-1); the box is left as it was. */
+static wide tree_bound(model *m, const thr_turning_proof *p, int i, int piece)
 {
   const thr_turning_node *n = &p->node[i];
   if (n->low == 0) {
     for (int j = 0; j < m->columns.n_columns; j++)
       if (m->low[j] > m->high[j]) return (wide)1 << 120;
-    return rows_bound(m, &p->dual[n->dual], m->low, m->high);
+    return rows_bound(m, &p->dual[n->dual], m->low, m->high, piece);
   }
   int j = 0;
   while (m->column[j].a != n->a || m->column[j].b != n->b)
     j++;
   int low = m->low[j], high = m->high[j];
   m->high[j] = n->value < high ? n->value : high;
-  wide first = tree_bound(m, p, n->low);
+  wide first = tree_bound(m, p, n->low, piece);
   m->high[j] = high;
   m->low[j] = n->value + 1 > low ? n->value + 1 : low;
-  wide second = tree_bound(m, p, n->high);
+  wide second = tree_bound(m, p, n->high, piece);
   m->low[j] = low;
   return first < second ? first : second;
 }
@@ -302,11 +302,15 @@ START_TEST(trees_prove_their_worst_leaf)
   thr_turning_proof p = {.n_nodes = 7, .n_duals = 3, .n_ends = m.columns.n_ends, .node = node, .dual = dual};
   for (int j = 0; j < m.columns.n_columns; j++)
     m.low[j] = 0, m.high[j] = m.column[j].most;
-  wide exact = tree_bound(&m, &p, 0) >> THR_LENGTH_BITS;
-  double bound;
+  wide exact = tree_bound(&m, &p, 0, -1) >> THR_LENGTH_BITS;
+  double bound, bound_of[2];
   thr_err err = {0};
-  ck_assert_msg(thr_turning_proof_check(&m.frame, &m.task, &p, &bound, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_turning_proof_check_columns(&m.columns, &p, &bound, bound_of, &err) == THR_OK, "%s", err.text);
   ck_assert_double_eq(bound, exact > 0 ? (double)exact / 17592186044416.0 : 0);
+  for (int k = 0; k < m.n_components; k++) {
+    exact = tree_bound(&m, &p, 0, k) >> THR_LENGTH_BITS;
+    ck_assert_double_eq(bound_of[k], exact > 0 ? (double)exact / 17592186044416.0 : 0);
+  }
   for (int i = 0; i < 3; i++)
     thr_turning_dual_destroy(&dual[i]);
   model_destroy(&m);

@@ -378,7 +378,7 @@ START_TEST(proofs_of_another_shape)
   dual[1].odd = &bad, dual[1].n_odd = 1;
   ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &s.task, NULL), THR_OK);
   bound = 7; /* nothing is left over from before */
-  ck_assert_int_eq(thr_turning_proof_check_columns(&c, &nothing, &bound, NULL), THR_OK);
+  ck_assert_int_eq(thr_turning_proof_check_columns(&c, &nothing, &bound, NULL, NULL), THR_OK);
   ck_assert_double_eq(bound, 0);
   thr_turning_columns_destroy(&c);
   s.task.cords = 0, bound = 7;

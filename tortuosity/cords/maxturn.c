@@ -15,6 +15,8 @@
 #include "tortuosity/cords/join.h"
 #include "tortuosity/cords/maxturn_small.h"
 #include "tortuosity/cords/walk_bound.h"
+#include "tortuosity/cords/walk_programme.h"
+#include "tortuosity/cords/walk_programme.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>
@@ -29,8 +31,9 @@ typedef struct {
   thr_join best;
   double largest, value; /* of best: the largest total, the sum of the powers */
   int *passes, *ends;
-  double *weight; /* [n_edges] */
-  double *point;  /* [n_columns] tube joints */
+  double *weight;   /* [n_edges] */
+  double *point;    /* [n_columns] tube joints */
+  double *bound_of; /* [n_components] what the cords of a component are proved to turn together */
   uint64_t state;
 } search;
 
@@ -302,6 +305,22 @@ static double largest_price(const thr_frame *frame, const thr_least *plan)
   return largest;
 }
 
+/* x->bound_of, and what follows from it for the cord that turns most. */
+static thr_status find_bounds(search *x, const thr_least *plan, thr_err *err)
+{
+  const int n = x->c->n_components, cords = plan->task.end_count ? plan->n_cords : plan->task.cords;
+  double all = plan->bound;
+  thr_status st = THR_OK;
+  if (n == 1)
+    x->bound_of[0] = plan->bound;
+  else if (plan->proof.n_nodes > 0)
+    st = thr_turning_proof_check_columns(x->c, &plan->proof, &all, x->bound_of, err);
+  for (int k = 0; k < n && !st; k++)
+    x->bound = fmax(x->bound, x->bound_of[k] / cords);
+  x->bound = fmax(x->bound, all / plan->n_cords);
+  return st;
+}
+
 static thr_status search_init(search *x, const thr_turning_columns *turning_columns, const thr_limits *limits,
                               const thr_least *plan, double largest, double bound, thr_err *err)
 {
@@ -317,7 +336,10 @@ static thr_status search_init(search *x, const thr_turning_columns *turning_colu
   x->weight = thr_calloc(m, sizeof *x->weight);
   x->point = thr_calloc((size_t)turning_columns->n_columns, sizeof *x->point);
   x->ends = thr_calloc((size_t)turning_columns->f->n_nodes, sizeof *x->ends);
-  if (!x->passes || !x->weight || !x->point || !x->ends) return thr_nomem(err);
+  x->bound_of = thr_calloc((size_t)turning_columns->n_components, sizeof *x->bound_of);
+  if (!x->passes || !x->weight || !x->point || !x->ends || !x->bound_of) return thr_nomem(err);
+  thr_status st = find_bounds(x, plan, err);
+  if (st) return st;
   return thr_join_from_cords(&x->best, turning_columns, plan->cord, plan->n_cords, err);
 }
 
@@ -328,6 +350,7 @@ static void search_destroy(search *x)
   free(x->weight);
   free(x->point);
   free(x->ends);
+  free(x->bound_of);
 }
 
 /* Cords from the table, or from the search. */
@@ -370,9 +393,12 @@ static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, 
   thr_cord *better = NULL;
   thr_join j = {0};
   thr_status st = anneal_cords(x, frame, plan, .3, err);
-  if (!st)
-    st = thr_walk_bound(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords, plan->bound, x->enough, x->limits, &plan->proof.walks,
+  if (!st) {
+    const thr_cord *dearest = &plan->cord[thr_walk_dearest(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords)];
+    double least = x->bound_of[x->c->component[thr_tail(frame, dearest->half[0])]];
+    st = thr_walk_bound(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords, least, x->enough, x->limits, &plan->proof.walks,
                         &x->bound, &better, err);
+  }
   for (int steps = 0; steps >= 0 && !st && better; steps = steps ? -1 : steps_of(x)) { /* as they are, and evened out */
     st = thr_join_from_cords(&j, x->c, better, plan->n_cords, err);
     if (!st) st = improve_from(x, &j, steps, err);
@@ -392,7 +418,6 @@ static thr_status improve(way *by, const thr_frame *frame, double enough, const 
   thr_turning_columns turning_columns = {0};
   search x = {0};
   double forced = 0;
-  out->bound = fmax(out->bound, plan->bound / plan->n_cords);
   thr_status st = thr_turning_columns_init(&turning_columns, frame, &plan->task, err);
   if (!st) st = thr_walk_forced(&turning_columns, &forced, err);
   out->bound = fmax(out->bound, forced);

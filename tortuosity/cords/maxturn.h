@@ -14,7 +14,7 @@
 
 typedef struct {
   double largest; /* price of the turns of the cord that turns most */
-  double bound;   /* no plan of the task has less: the proved least of all cords, shared out evenly */
+  double bound;   /* no plan of the task has less: the proved least of a component's cords, shared out evenly, at least */
 } thr_max_turning;
 
 /* Evens out the turning of the cords in plan: of small components exactly (tortuosity/cords/maxturn_small.h), else by

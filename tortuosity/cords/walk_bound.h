@@ -12,10 +12,10 @@
 
 /* Raises *bound, on the turning of the cord that turns most or the length of the longest, as far as the highest limit below which
  * the walks are too few: by bisection, in the component of that cord. proof receives the prices, if there are any; what it held
- * is released. least: the proved least of the turning of all cords, or of the length of that component's. *better, NULL at first,
- * receives n_cords cords of which the dearest costs less, if the columns make some; the caller's. Nothing is done for one cord in
- * each component, or where places and units are more than the recursion takes in a moment. enough > 0: asked is only whether some
- * cord costs more than that; one limit is tried, and better cords are looked for from just below it. */
+ * is released. least: the proved least of the turning of that component's cords together, or of their length. *better, NULL at
+ * first, receives n_cords cords of which the dearest costs less, if the columns make some; the caller's. Nothing is done for one
+ * cord in each component, or where places and units are more than the recursion takes in a moment. enough > 0: asked is only
+ * whether some cord costs more than that; one limit is tried, and better cords are looked for from just below it. */
 thr_status thr_walk_bound(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords,
                           double least, double enough, const thr_limits *limits, thr_walk_proof *proof, double *bound,
                           thr_cord **better, thr_err *err) THR_MUST_CHECK;

@@ -145,7 +145,7 @@ thr_status thr_walk_programme_init(thr_walk_programme *p, const thr_turning_colu
   for (int i = 0; i < n_cords; i++)
     here += columns->component[thr_tail(columns->f, cord[i].half[0])] == component;
   p->cords = !columns->task->end_count ? columns->task->cords : measure == THR_WALK_LENGTH ? here : n_cords;
-  p->least = measure == THR_WALK_LENGTH || columns->n_components == 1 ? least * (1 - 1e-10) : 0;
+  p->least = least * (1 - 1e-10);
   p->most_units = most_units(columns, measure, component);
   if (p->most_units < FEWEST_UNITS) return thr_fail(err, THR_ELIMIT, "the component is too large for walks");
   p->unit = choose_unit(p, measure, most, p->most_units - 1);
@@ -259,7 +259,7 @@ static int sort_starts(thr_walk_programme *p, int run, int most)
 static void judge_prices(thr_walk_programme *p, const double *x, double worth)
 {
   double needed = thr_walk_needed(&p->steps, &p->trial, p->least);
-  p->excluded = needed > p->cords * worth * (1 + 1e-9);
+  p->excluded = needed > p->cords * worth * (1 + 1e-9) && thr_walk_component(p->c, &p->trial) == p->component;
   if (needed / worth <= p->best) return;
   p->best = needed / worth;
   for (int j = 0; j < p->n_variables; j++)

@@ -23,7 +23,7 @@ typedef struct {
   const thr_turning_columns *c;
   const thr_limits *limits;
   int component, cords; /* that it has at most */
-  double least;         /* of the turning of all cords, or their length; 0: not known, or turning of more than this component */
+  double least;         /* of the turning of its cords together, or their length; 0: not known */
   thr_scratch own;      /* the arrays */
   thr_walk_steps steps;
   int64_t unit;                  /* of turning or length */
@@ -45,8 +45,8 @@ typedef struct {
 } thr_walk_programme;
 
 /* For the component of the cord that turns most, or is longest, with a unit of which most of its turns, or edges, are nearly
- * whole numbers. least: the proved least of the turning of all cords, or of the length of those of that component. THR_ELIMIT:
- * too large for the recursion. On failure programme is to be destroyed too. */
+ * whole numbers. least: the proved least of the turning of that component's cords together, or of their length. THR_ELIMIT: too
+ * large for the recursion. On failure programme is to be destroyed too. */
 thr_status thr_walk_programme_init(thr_walk_programme *programme, const thr_turning_columns *columns, thr_walk_measure measure,
                                    const thr_cord *cord, int n_cords, double least, const thr_limits *limits,
                                    thr_err *err) THR_MUST_CHECK;

@@ -210,7 +210,7 @@ static thr_status finish(const thr_frame *frame, thr_branch *branch, thr_least *
   out->shortened = branch->matched;
   if ((st = thr_branch_proof(branch, &out->proof, err))) return st;
   thr_err found = {0};
-  st = thr_turning_proof_check_columns(branch->c, &out->proof, &out->bound, &found);
+  st = thr_turning_proof_check_columns(branch->c, &out->proof, &out->bound, NULL, &found);
   if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the proof does not pass its own check: %s", found.text);
   if (st) return thr_fail(err, st, "%s", found.text);
   thr_least_judge(out, why_open(branch));

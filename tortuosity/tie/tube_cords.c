@@ -78,7 +78,7 @@ static thr_status make_walks(several *x, int n, bool even, double goal, bool *fo
 
 static thr_status make_number(several *x, int n, bool even, thr_err *err)
 {
-  bool found, certain;
+  bool found = false, certain = false;
   thr_status st = short_walks(x, n, err);
   if (!st) st = make_walks(x, n, even, 0, &found, &certain, err);
   if (st || found) return st;
