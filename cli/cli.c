@@ -260,6 +260,25 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame)
   return EXIT_OK;
 }
 
+bool cli_is_folder(const char *path)
+{
+  size_t n = strlen(path);
+  return (n && thr_os_is_separator(path[n - 1])) || thr_os_is_folder(path);
+}
+
+bool cli_misnamed(const char *output, const char *like)
+{
+  const char *ending = thr_path_ending(output);
+  return *ending && !cli_is_folder(output) && strcmp(output, "-") != 0 && strcmp(ending, thr_path_ending(like)) != 0;
+}
+
+bool cli_no_plan_name(const char *command, const char *output)
+{
+  const bool wrong = cli_misnamed(output, "plan.json");
+  if (wrong) cli_usage(command, "%s: a plan is JSON; end its name in .json (thread draw makes the pictures)", output);
+  return wrong;
+}
+
 bool cli_output_format(const char *command, const char *output, const char *type, const thr_format **format)
 {
   const bool ends = *thr_path_ending(output) != '\0';

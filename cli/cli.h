@@ -134,6 +134,15 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
 /* Reads, says on stderr what was merged, dropped or odd, and sets the feet. Returns EXIT_OK or prints and returns the code. */
 int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame);
 
+/* Is it a folder, or a name that ends like one? */
+bool cli_is_folder(const char *path);
+
+/* Has output another ending than the file's usual name? A folder, a device, "-" or a name without an ending has none. */
+bool cli_misnamed(const char *output, const char *like);
+
+/* Is output no name for a plan? Prints the line about it. */
+bool cli_no_plan_name(const char *command, const char *output);
+
 /* The format to write a framework in, NULL = JSON: what the output's name says, else type (NULL: nothing was said). false: they
  * disagree, or it is not a format that is written (printed). */
 bool cli_output_format(const char *command, const char *output, const char *type, const thr_format **format);

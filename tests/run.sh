@@ -81,6 +81,7 @@ run() { # NAME LOG: runs the job; its exit code, 77 = skipped
   web) tests/web.sh "$OUT/release/thread" "$OUT/web" "$OUT/web-test" ;;
   static) tests/targets.sh static "$OUT/release/thread" "$OUT/static/thread" ;;
   windows) tests/targets.sh windows "$OUT/release/thread" "$OUT/windows/thread.exe" ;;
+  exchange) tests/exchange.sh "$OUT/release/thread" ;;
   viewer/browser) tests/viewer/run.sh "$OUT/release/thread" "$OUT/viewer-test" ;;
   fuzz/*) fuzz "$name" "$log" ;;
   esac >>"$log" 2>&1
@@ -92,7 +93,7 @@ job() { # NAME
   : >"$log"
   spent=$( { time run "$name" "$log" 7>&-; } 2>&1) || code=$?
   case $name in
-  */golden/* | */memory | */watchdog | second/* | viewer/browser | library/* | readme | examples | web | static | windows | formats/*) counts=$(count_lines "$log" "$code") ;;
+  */golden/* | */memory | */watchdog | second/* | viewer/browser | library/* | readme | examples | exchange | web | static | windows | formats/*) counts=$(count_lines "$log" "$code") ;;
   asan/* | release/*) counts=$(count_check "$log" "$code") ;;
   *) if [ "$code" -eq 0 ]; then counts='1 0 0'; else counts='0 1 0'; fi ;;
   esac
@@ -128,7 +129,7 @@ case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
 rest) builds=asan SHARE_ASAN=3 tree='' programs='' whole='release/watchdog release/memory' FUZZ_RUNS=150000 ;;
-all) SHARE_ASAN=1 whole='release/watchdog release/memory web static windows' MUTANTS=2000 FUZZ_RUNS=1000000 ;;
+all) SHARE_ASAN=1 whole='release/watchdog release/memory exchange web static windows' MUTANTS=2000 FUZZ_RUNS=1000000 ;;
 fuzz) builds='' tree='' programs='' FUZZ_RUNS=0 ;;
 *) echo "tests/run.sh: $tier is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
 esac

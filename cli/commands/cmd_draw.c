@@ -3,7 +3,6 @@
 #include "cli/guard.h"
 #include "diagram/overview/overview.h"
 #include "graph/io/read.h"
-#include "graph/os.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
 #include "lib/documents.h"
@@ -59,12 +58,6 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
                                       {NULL, 0, NULL, 0}};
 
-static bool is_folder(const char *path)
-{
-  size_t n = strlen(path);
-  return (n && thr_os_is_separator(path[n - 1])) || thr_os_is_folder(path);
-}
-
 static const char *up_name(int up)
 {
   return up ? "z" : "y";
@@ -75,21 +68,13 @@ static const char *type_name(int t)
   return t < thr_documents_count() ? thr_document_type(t) : "all";
 }
 
-/* Has output another ending than the type's? A device or a name without an ending has none. */
-static bool is_misnamed(const char *output, int type)
-{
-  const char *ending = thr_path_ending(output);
-  return *ending && !is_folder(output) && strcmp(output, "-") != 0 &&
-         strcmp(ending, thr_path_ending(thr_document_file(type))) != 0;
-}
-
 /* One document to output, a file, a folder or NULL. */
 static int draw_one(const thr_plan *plan, int type, const char *output, const drawings_args *a)
 {
   char inside[1200];
   int code = EXIT_OK;
   if (!output) output = thr_document_file(type);
-  if (is_folder(output)) {
+  if (cli_is_folder(output)) {
     code = cli_in_folder(output, thr_document_file(type), inside, sizeof inside);
     output = inside;
   }
@@ -131,7 +116,7 @@ int cmd_draw(int argc, char **argv)
   bool all = type == thr_documents_count();
   if (output && !*output) return cli_usage("draw", "an empty name is no place to write to");
   if (all && output && strcmp(output, "-") == 0) return cli_usage("draw", "--type all makes several files: -o names a folder");
-  if (!all && output && is_misnamed(output, type))
+  if (!all && output && cli_misnamed(output, thr_document_file(type)))
     return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type), thr_document_file(type));
   if (optind + 1 != argc) return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
   if (guard_fork(&guard, &end)) return guard_conclude(&end, all ? "not all documents are drawn" : "nothing is drawn");

@@ -150,6 +150,7 @@ static int parse(int argc, char **argv, arguments *a)
   for (int i = 0; i < 3; i++)
     to_stdout += out[i] && strcmp(out[i], "-") == 0;
   if (to_stdout > 1) return cli_usage("eval", "only one of --json, -o -, --plot - and --still - can have stdout");
+  if (a->output && cli_no_plan_name("eval", a->output)) return EXIT_USAGE;
   if (pull_check(&a->pull, "eval")) return EXIT_USAGE;
   if (a->schedule && a->pull.options.hand > 0) return cli_usage("eval", "--hand makes a schedule of its own: no --schedule");
   if (a->pull.options.hand > 0 && a->pull.method == THR_STRUCTURE)

@@ -176,6 +176,7 @@ static int parse(int argc, char **argv, arguments *a)
   if (optind + 1 != argc) return cli_usage("plan", optind == argc ? "which framework?" : "one framework at a time");
   a->path = argv[optind];
   if ((a->output && !*a->output) || (a->draw && !*a->draw)) return cli_usage("plan", "an empty name is no place to write to");
+  if (a->output && cli_no_plan_name("plan", a->output)) return EXIT_USAGE;
   const char *wordy = a->json ? "--json" : a->compare ? "--compare-objectives" : a->turning.frontier ? "--frontier" : NULL;
   if (wordy && a->output && strcmp(a->output, "-") == 0) return cli_usage("plan", "%s and -o - both want stdout", wordy);
   int code = aims_args_settle(&a->aims, &a->turning, &a->symmetry, &a->cords);

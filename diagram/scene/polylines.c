@@ -50,14 +50,26 @@ static void put_object(const thr_plan *plan, int c, thr_text *out)
   thr_text_printf(out, "o cord-%s\n", id);
 }
 
-/* Each cord through the nodes, which stand before all of them. */
-static void put_passes(const thr_plan *plan, thr_text *out)
+/* Each cord through the nodes, which stand before all of them. Where it passes an edge again it goes on to a vertex of its own:
+ * two vertices have one edge in a mesh of Blender. last: [n_edges] zeros. */
+static void put_passes(thr_cord_lines *lines, int *last, thr_text *out)
 {
+  const thr_plan *plan = lines->plan;
+  int n_vertices = plan->frame.n_nodes;
   for (int c = 0; c < plan->n_cords; c++) {
+    const thr_cord *cord = &plan->cord[c];
+    thr_cord_lines_next(lines, c);
     put_object(plan, c, out);
-    for (int k = 0; k < plan->cord[c].n_passes; k++)
-      thr_text_printf(out, "l %d %d\n", thr_tail(&plan->frame, plan->cord[c].half[k]) + 1,
-                      thr_head(&plan->frame, plan->cord[c].half[k]) + 1);
+    for (int k = 0, from = thr_cord_start(&plan->frame, cord) + 1, to; k < cord->n_passes; k++, from = to) {
+      const int e = cord->half[k] >> 1;
+      to = thr_head(&plan->frame, cord->half[k]) + 1;
+      if (last[e] == c + 1) {
+        put_vertex(lines->point[k + 1], out);
+        to = ++n_vertices;
+      }
+      last[e] = c + 1;
+      thr_text_printf(out, "l %d %d\n", from, to);
+    }
   }
 }
 
@@ -82,7 +94,9 @@ thr_status thr_polylines_obj(const thr_plan *plan, const thr_line_options *optio
   thr_cord_lines lines;
   thr_status st = check(plan, &n, err);
   if (st) return st;
+  int *last = thr_calloc((size_t)plan->frame.n_edges, sizeof *last);
   st = thr_cord_lines_begin(&lines, plan, options, err);
+  if (!st && !last) st = thr_nomem(err);
   thr_text_printf(&text, "# thread plan: %d cord%s, %d passes\n", plan->n_cords, plan->n_cords == 1 ? "" : "s", n);
   if (options->up_y) thr_text_append(&text, "# up: y\n");
   if (!st && options->lanes) {
@@ -92,8 +106,9 @@ thr_status thr_polylines_obj(const thr_plan *plan, const thr_line_options *optio
     put_lanes(&lines, &text);
   } else if (!st) {
     thr_obj_write_nodes(&plan->frame, options->up_y, &text);
-    put_passes(plan, &text);
+    put_passes(&lines, last, &text);
   }
+  free(last);
   thr_cord_lines_end(&lines);
   return take_over(&text, st, out, err);
 }
