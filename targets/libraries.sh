@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Builds the libraries that thread stands on, to be linked with it, from Debian's own sources: GLPK, igraph, nauty, Bullet, and the
 # small version of GMP. Usage: targets/libraries.sh wasm|linux|windows FOLDER: with Emscripten, with gcc for this machine's
-# processor, or with MinGW; or targets/libraries.sh --fetch FOLDER: the sources only. What is there already is not built again: FOLDER/TARGET/lib/*.a and, of
-# those headers that differ from the ones that Debian installs, FOLDER/TARGET/include.
+# processor, or with MinGW; or targets/libraries.sh --fetch FOLDER: the sources only. What is there already is not built again, as long
+# as it was built by the same compiler and this same file (FOLDER/TARGET/built-by): FOLDER/TARGET/lib/*.a and, of those headers that
+# differ from the ones that Debian installs, FOLDER/TARGET/include.
 #
 # The sources come through apt from wherever this system gets its packages (deb-src beside its deb; nothing of the system is
 # changed); their versions are pinned here and their bytes by targets/sources.sha256.
@@ -154,6 +155,12 @@ if [ ! -e "$folder/source/fetched" ]; then
   touch "$folder/source/fetched"
 fi
 [ "$target" != --fetch ] || exit 0
+by=$({ cat "$here/libraries.sh" "$here/sources.sha256" && "$cc" --version; } | sha256sum)
+if [ "$(cat "$built/built-by" 2>/dev/null)" != "$by" ]; then
+  rm -rf "$built"
+  mkdir -p "$built"
+  echo "$by" >"$built/built-by"
+fi
 for library in glpk nauty igraph bullet; do
   if wanted "$library"; then ("$library"); fi
 done

@@ -85,24 +85,36 @@ static uint64_t place_of(const thr_json_where *at)
   return (hash ^ '/') * UINT64_C(0x100000001b3);
 }
 
-/* What a framework of the document is called: by its member name, else by the nearest key above it. */
-static thr_span called(const thr_json_where *at, const thr_json *v)
+static const thr_json *value_at(const thr_json_reader *r, const thr_json_where *at)
 {
-  const char *name = thr_json_is_object(v) ? thr_json_string(thr_json_get(v, "name")) : NULL;
-  for (; !name && at; at = at->up)
-    if (at->key) name = at->key;
+  if (!at->up) return r->document;
+  const thr_json *above = value_at(r, at->up);
+  return at->key ? thr_json_get(above, at->key) : thr_json_at(above, at->index);
+}
+
+/* What a framework of the document is called: by its member name, or that of the object whose member data it is, as in COMPAS;
+ * else by the nearest key above it. */
+static thr_span called(const thr_json_reader *r, const thr_json_where *at)
+{
+  const char *name = thr_json_string(thr_json_get(value_at(r, at), "name"));
+  for (; !name && at->up; at = at->up)
+    if (at->key && strcmp(at->key, "data") == 0)
+      name = thr_json_string(thr_json_get(value_at(r, at->up), "name"));
+    else
+      name = at->key;
   return thr_span_of(name ? name : "");
 }
 
 /* Notes where a framework of the document stands. */
 static thr_status note_place(thr_json_reader *r, const thr_json_where *at, const thr_json *v, read_function *read)
 {
+  (void)v;
   (void)read;
   int part;
   thr_status st = thr_grow(&r->place, r->n_found, &r->found_capacity, sizeof *r->place, r->err);
   if (st) return st;
   r->place[r->n_found++] = place_of(at);
-  return thr_parts_add(&r->parts, called(at, v), &part, r->err);
+  return thr_parts_add(&r->parts, called(r, at), &part, r->err);
 }
 
 static bool is_chosen(const thr_json_reader *r, int i)
@@ -159,6 +171,7 @@ static thr_status walk(thr_json_reader *r, const thr_json_where *at, const thr_j
 static thr_status read_document(thr_json_reader *r, const thr_json *doc)
 {
   thr_json_where top = {0};
+  r->document = doc;
   thr_status st = walk(r, &top, doc, note_place);
   if (!st && !r->n_found)
     st = thr_fail(r->err, THR_EINPUT, "%s: no framework in this JSON; docs/formats.md shows the forms that are read", r->file);

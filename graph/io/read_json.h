@@ -22,6 +22,7 @@ typedef struct thr_json_where {
 
 typedef struct {
   const char *file;
+  const thr_json *document; /* borrowed */
   thr_draft *d;
   thr_read_report *report;
   thr_err *err;
