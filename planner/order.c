@@ -12,8 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the turning, where it is no aim: what --order hand may use, and what --order starts tries, the first that serves. */
-static const double tenth = 1.1, tried[] = {1, 1.01, 1.02, 1.05};
+/* Of the turning, where it is no aim: what is tried. The last one by --order hand only. */
+enum { TRIED = 5 };
+static const double tried[TRIED] = {1, 1.01, 1.02, 1.05, 1.1};
 static const double rounding = 1e-12;
 
 /* Of cords of one component: all orders of so many; and so many visits of pieces, some 10 ms, are worth it. */
@@ -425,10 +426,12 @@ static thr_status order_all(thr_plan *plan, double more, thr_err *err)
   return st;
 }
 
-/* The longest chain, of those that a hand holds well any. */
-static int worst(thr_chains chains)
+/* Is one order of work better than another? By hand in any way; else only if its longest chain is shorter, and chains that a hand
+ * holds well are alike. */
+static bool serves_better(bool by_hand, thr_chains a, thr_chains b)
 {
-  return chains.longest > THR_HELD_WELL ? chains.longest : THR_HELD_WELL;
+  if (by_hand) return thr_chains_compare(a, b) < 0;
+  return a.longest < b.longest && b.longest > THR_HELD_WELL;
 }
 
 /* Replaces what was kept. */
@@ -438,20 +441,20 @@ static thr_status keep_cords(const thr_plan *plan, backup *b, thr_err *err)
   return save_cords(plan, b, err);
 }
 
-/* Orders the cords, if a chain that is too long gets shorter by it: without more turning, or with as little as serves. */
-static thr_status order_if_worth(thr_plan *plan, bool *changed, thr_err *err)
+/* Orders the cords, if chains get shorter by it: without more turning, or with as little as serves. */
+static thr_status order_if_worth(thr_plan *plan, bool by_hand, bool *changed, thr_err *err)
 {
-  const int n = has_slack(&plan->options) ? sizeof tried / sizeof *tried : 1;
+  const int n = !has_slack(&plan->options) ? 1 : by_hand ? TRIED : TRIED - 1;
   thr_chains least, after;
   backup found = {0}, best = {0};
   thr_status st = thr_plan_chains(plan, plan->options.needles, &least, err);
   if (!st) st = save_cords(plan, &found, err);
   if (!st) st = save_cords(plan, &best, err);
-  for (int i = 0; i < n && !st && worst(least) > THR_HELD_WELL; i++) {
+  for (int i = 0; i < n && !st && (by_hand || least.longest > THR_HELD_WELL); i++) {
     restore_cords(plan, &found);
     st = order_all(plan, tried[i], err);
     if (!st) st = thr_plan_chains(plan, plan->options.needles, &after, err);
-    if (st || worst(after) >= worst(least)) continue;
+    if (st || !serves_better(by_hand, after, least)) continue;
     least = after;
     *changed = true;
     st = keep_cords(plan, &best, err);
@@ -472,10 +475,9 @@ static thr_order order_of(const thr_request *request)
 thr_status thr_plan_order(thr_plan *plan, thr_err *err)
 {
   const thr_order order = order_of(&plan->options);
-  bool changed = order == THR_ORDER_HAND;
+  bool changed = false;
   if (order == THR_ORDER_PLANNED || plan->n_cords == 0) return THR_OK;
-  thr_status st =
-      order == THR_ORDER_HAND ? order_all(plan, has_slack(&plan->options) ? tenth : 1, err) : order_if_worth(plan, &changed, err);
+  thr_status st = order_if_worth(plan, order == THR_ORDER_HAND, &changed, err);
   if (st || !changed) return st;
   const double length = plan->metrics.length; /* the same passes, whatever the order in which they are added up */
   st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);

@@ -16,8 +16,9 @@ enum { THR_ORDER_MOST = 5000, THR_ORDER_REVERSED = 2500 };
  * - Closed cords, where ends do not matter, begin at a foot if they come by one, where a knot can lie; all directions and, of
  *   few cords, all orders are tried (of many, that which holds together best comes next).
  * - With solid joints parts of a cord between visits of its nodes are run the other way round, or change places, as long as
- *   chains are longer than a hand holds well. THR_ORDER_HAND, in plans that are short and nothing else: a cord turns by a tenth
- *   more at most, in all and as far as it is pulled. Other cords turn as much as before, and need no more pull.
+ *   chains are longer than a hand holds well. THR_ORDER_HAND: whatever makes chains shorter; in plans that are short and nothing
+ *   else a cord may turn by a tenth more, in all and as far as it is pulled. Other cords turn as much as before, and need no more
+ *   pull.
  * - Copies in a symmetric plan follow their path. */
 thr_status thr_plan_order(thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
