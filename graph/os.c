@@ -14,6 +14,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 
 /* ---- paths ---- */
@@ -203,13 +204,11 @@ static double seconds_of(struct timeval time)
 
 double thr_os_processor_seconds(void)
 {
-  double sum = 0;
-  const int whose[] = {RUSAGE_SELF, RUSAGE_CHILDREN};
-  for (int i = 0; i < 2; i++) {
-    struct rusage used;
-    if (getrusage(whose[i], &used) == 0) sum += seconds_of(used.ru_utime) + seconds_of(used.ru_stime);
-  }
-  return sum;
+  struct timespec own = {0};
+  struct rusage children = {0};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &own);
+  getrusage(RUSAGE_CHILDREN, &children);
+  return (double)own.tv_sec + 1e-9 * (double)own.tv_nsec + seconds_of(children.ru_utime) + seconds_of(children.ru_stime);
 }
 
 /* ---- memory ---- */

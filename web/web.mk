@@ -23,7 +23,7 @@ LAZY_NAMES = -DTHR_LIBRARY_IGRAPH='"igraph"'
 WEB_LINK := -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB -sTOTAL_STACK=8MB -sSUPPORT_LONGJMP=1 -sMODULARIZE=1 \
 	-sEXPORT_NAME=ThreadEngine -sENVIRONMENT=web,worker,node -sINVOKE_RUN=0 -sEXIT_RUNTIME=1 \
 	-sEXPORTED_RUNTIME_METHODS=callMain,FS -sNODEJS_CATCH_EXIT=0 -sNODEJS_CATCH_REJECTION=0 -lnodefs.js \
-	-Wl,--wrap=sbrk,--wrap=clock_gettime,--wrap=sin,--wrap=cos,--wrap=tan,--wrap=asin,--wrap=acos,--wrap=atan2,--wrap=hypot
+	-Wl,--wrap=sbrk,--wrap=clock_gettime,--wrap=getrusage,--wrap=sin,--wrap=cos,--wrap=tan,--wrap=asin,--wrap=acos,--wrap=atan2,--wrap=hypot
 WEB_PROGRAM := $(DIR)/thread-engine.js
 
 $(WEB_PROGRAM): $(CLI_OBJECTS) $(LIBRARY) $(WEB_LIBRARIES) web/web.mk

@@ -28,7 +28,7 @@ static const char help[] =
     "Options:\n"
     "  -T, --type text|svg  a table (default), or a picture\n"
     "  -o, --output FILE    (default: stdout)\n"
-    "      --json           the table as JSON\n"
+    "      --json           the table as JSON, with -T svg on stdout beside the picture in -o\n"
     "      --hand N         what the pull is to stay within, in newton, even at the upper end of the band of mu\n"
     "                       (default: 10, what a hand manages time after time; 50: the most)\n"
     "      --cover N        at least N passes over every interface (default: 1)\n"
@@ -102,7 +102,8 @@ static int parse(int argc, char **argv, arguments *a)
   if (optind + 1 != argc) return cli_usage("advise", optind == argc ? "which framework?" : "one framework at a time");
   a->path = argv[optind];
   if (!*a->output) return cli_usage("advise", "an empty name is no place to write to");
-  if (a->json && a->type == TYPE_SVG) return cli_usage("advise", "--json makes no picture: one of the two");
+  if (a->json && a->type == TYPE_SVG && strcmp(a->output, "-") == 0)
+    return cli_usage("advise", "--json and the picture both want stdout; -o FILE takes the picture");
   return -1;
 }
 
@@ -146,12 +147,21 @@ static thr_status draw(const arguments *a, const thr_frame *frame, const thr_adv
   return thr_advice_svg(advice, &(thr_advice_chart){.name = stem, .units = frame->units, .command = command}, text, err);
 }
 
+/* To stdout where the picture has the file. */
+static int write_json(const arguments *a, const thr_frame *frame, const thr_advice *advice, const char *command)
+{
+  thr_text text = {0};
+  advice_put_json(&(thr_writer){.out = &text}, frame, advice, command);
+  thr_text_append(&text, "\n");
+  return cli_write(&text, a->type == TYPE_SVG ? "-" : a->output);
+}
+
 static int write_advice(const arguments *a, const thr_frame *frame, const thr_advice *advice)
 {
   thr_text text = {0}, options = {0}, command = {0};
   thr_err err = {0};
   thr_status st = THR_OK;
-  thr_writer writer = {.out = &text};
+  int code = EXIT_OK;
   advice_command_options(&a->frame, &a->physics, &options);
   if (advice->chosen >= 0) advice_put_command(&command, a->path, options.data ? options.data : "", &advice->row[advice->chosen]);
   const char *words = command.data ? command.data : "";
@@ -159,12 +169,11 @@ static int write_advice(const arguments *a, const thr_frame *frame, const thr_ad
     st = thr_nomem(&err);
   else if (a->type == TYPE_SVG)
     st = draw(a, frame, advice, words, &text, &err);
-  else if (a->json) {
-    advice_put_json(&writer, frame, advice, words);
-    thr_text_append(&text, "\n");
-  } else
+  else if (!a->json)
     advice_put_table(&text, frame, advice, words);
-  int code = cli_write_drawn(st, &text, a->output, &err);
+  if (!st && a->json) code = write_json(a, frame, advice, words);
+  if (!code && (st || !a->json || a->type == TYPE_SVG)) code = cli_write_drawn(st, &text, a->output, &err);
+  thr_text_destroy(&text);
   thr_text_destroy(&options);
   thr_text_destroy(&command);
   return code;

@@ -140,6 +140,11 @@ function npm(words, more = {}) {
 }
 
 const commandLineTests = {
+  'processor time is measured, which searches with a time limit go by': () => {
+    const words = ['plan', 'frame1.json', '--objective', 'tortuosity', '--nodes', '3', '-v', '-o', 'clock.json'], begun = Date.now(), {stderr} = npm(words);
+    const told = [...stderr.matchAll(/([0-9.]+) CPU s/g)].map((match) => Number(match[1])), gone = (Date.now() - begun) / 1000;
+    assert.ok(told.length > 1 && told[0] < told.at(-1) && told.at(-1) <= gone, `${told.join(', ')} in ${gone} s`);
+  },
   'files are written with the rights that the umask gives': () => {
     assert.equal(npm(['plan', 'frame1.json', '-q', '-o', 'mode.json', '--draw', 'drawn']).exit, 0);
     assert.equal(fs.statSync(place('mode.json')).mode & 0o777, 0o640);

@@ -149,6 +149,14 @@ async function example(words) {
   else await readBytes(files['frame.json'], `${shape}${size}`, 'given.json', shape);
 }
 
+// Also for those who hear the page: at once, or of what comes often now and then.
+let heard = 0;
+function hear(words, often = false) {
+  if (often && Date.now() - heard < 5000) return;
+  heard = Date.now();
+  $('heard').textContent = words;
+}
+
 const plural = (n, word) => `${n} ${word}${n === 1 ? '' : 's'}`;
 
 function showFrame(notes = []) {
@@ -156,6 +164,7 @@ function showFrame(notes = []) {
   if (!frame) return;
   const said = [`${name}: ${plural(frame.nodes.length, 'piece')} that meet at ${plural(frame.edges.length, 'interface')}`, ...notes];
   $('counts').textContent = `${said.join('. ')}.`;
+  hear($('counts').textContent);
   $('feet').value = (frame.feet || []).map(nameOf).join(', ');
   sketch.show(frame);
   advise();
@@ -204,15 +213,13 @@ async function advise() {
   const mine = ++asked, figure = $('advice');
   figure.replaceChildren(caption('Looking how many cords a hand can pull ..'));
   adviser.stop();
-  const args = ['advise', frameFile(), '--hand', $('pull').value || '10'], files = {[frameFile()]: frameText()};
-  const table = await adviser.run([...args, '--json'], files);
-  if (mine !== asked || table.exit === -1) return;
-  if (table.stdout) figure.prepend(takeButton(JSON.parse(table.stdout))); // without a recommended row, too
-  const drawn = await adviser.run([...args, '-T', 'svg', '-o', 'advice.svg'], files);
-  if (mine !== asked || drawn.exit === -1) return;
-  const picture = drawn.files['advice.svg'];
+  const args = ['advise', frameFile(), '--hand', $('pull').value || '10', '--json', '-T', 'svg', '-o', 'advice.svg'];
+  const {exit, stdout, stderr, files} = await adviser.run(args, {[frameFile()]: frameText()});
+  if (mine !== asked || exit === -1) return;
+  if (stdout) figure.prepend(takeButton(JSON.parse(stdout))); // without a recommended row, too
+  const picture = files['advice.svg'];
   if (!picture) {
-    figure.lastChild.replaceWith(caption(lastLine(drawn.stderr) || 'No advice for this framework.'));
+    figure.lastChild.replaceWith(caption(lastLine(stderr) || 'No advice for this framework.'));
     return;
   }
   const image = new Image();
@@ -256,6 +263,7 @@ function busy(words) {
   for (const id of ['frame-part', 'question-part', 'result-part']) $(id).inert = Boolean(words); // a search is for what is shown
   $('work-part').hidden = !words;
   $('work').textContent = words;
+  if (words) hear(words);
   $('bar').removeAttribute('value');
   $('stop').hidden = true;
   $('go').disabled = Boolean(words);
@@ -282,9 +290,12 @@ async function search(event) {
   $('stop').hidden = false;
   best = '';
   const told = {};
+  let heardPlan;
   const onLine = (line) => {
     Object.assign(told, progressWords(line));
     $('work').textContent = ['Searching ..', told.plan, told.proved].filter(Boolean).join(' ');
+    hear($('work').textContent, told.plan === heardPlan);
+    heardPlan = told.plan;
     if (told.done > 0) $('bar').value = told.done;
   };
   const onPlan = (found) => {
@@ -305,6 +316,7 @@ async function search(event) {
   await showResult();
   if (exit === -1) $('verdict').textContent += ` The search was stopped. ${told.proved || 'Nothing was proved by then'}`.replace(/\.?$/, '.');
   else if (exit !== 0) $('verdict').textContent += ` Of the search: ${lastLine(stderr)}.`;
+  hear($('verdict').textContent);
 }
 
 // ---- 3: the result ----
