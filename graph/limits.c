@@ -7,7 +7,7 @@
 
 static double read_clock(clockid_t id)
 {
-  struct timespec t;
+  struct timespec t = {0};
   clock_gettime(id, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
