@@ -54,6 +54,25 @@ async function listen(page) {
   return () => page.evaluate(() => heardWords.join('\n'));
 }
 
+// How wide what is drawn on a canvas is, as a part of its width.
+const inked = (picture) => picture.evaluate((canvas) => {
+  const {width, height} = canvas, {data} = canvas.getContext('2d').getImageData(0, 0, width, height);
+  const columns = [...Array(width).keys()].filter((x) => [...Array(height).keys()].some((y) => data[4 * (y * width + x) + 3] > 0));
+  return (columns.at(-1) - columns[0] + 1) / width;
+});
+
+// Two fingers in the middle of a picture go apart until they are so many times as far.
+async function pinch(own, page, picture, times) {
+  await picture.scrollIntoViewIfNeeded();
+  const box = await picture.boundingBox(), x = box.x + box.width / 2, y = box.y + box.height / 2, from = 0.1 * box.width;
+  const session = await own.newCDPSession(page);
+  const fingers = (far) => [{x: x - far, y, id: 0}, {x: x + far, y, id: 1}];
+  await session.send('Input.dispatchTouchEvent', {type: 'touchStart', touchPoints: fingers(from)});
+  for (let step = 1; step <= 8; step++)
+    await session.send('Input.dispatchTouchEvent', {type: 'touchMove', touchPoints: fingers(from * (1 + ((times - 1) * step) / 8))});
+  await session.send('Input.dispatchTouchEvent', {type: 'touchEnd', touchPoints: []});
+}
+
 // Tab until what has the focus is called so.
 async function tabTo(page, name) {
   for (let tries = 0; tries < 200; tries++) {
@@ -328,13 +347,19 @@ const tests = {
     await close();
   },
 
-  async 'a link brings the answers; a telephone in the dark; feet by keyboard'() {
-    const {page, close} = await open({viewport: {width: 360, height: 740}, colorScheme: 'dark', hash: '#cords=5&ends=any&pull=50'});
+  async 'a link brings the answers; a telephone in the dark; two fingers enlarge the framework; feet by keyboard'() {
+    const {page, own, close} = await open({viewport: {width: 360, height: 740}, hasTouch: true, isMobile: true, colorScheme: 'dark', hash: '#cords=5&ends=any&pull=50'});
     await page.getByLabel('or take an example').selectOption('tube');
     assert.match(await shown(page), /interfaces/);
     assert.equal(await page.getByLabel('How many cords?').inputValue(), '5');
     assert.equal(await page.getByLabel('How hard can you pull?').inputValue(), '50');
+    const feet = await page.getByLabel('Feet, where cord may come out').inputValue();
     await page.screenshot({path: file('telephone.png'), fullPage: true});
+    const picture = page.getByRole('img', {name: /^The framework/}), before = await inked(picture);
+    await pinch(own, page, picture, 2);
+    const after = await inked(picture);
+    assert.ok(after > 1.3 * before, `${before} of the width, then ${after}`);
+    assert.equal(await page.getByLabel('Feet, where cord may come out').inputValue(), feet, 'two fingers choose no foot');
     await page.getByLabel('Feet, where cord may come out').fill('A1, zz');
     await page.keyboard.press('Tab');
     await page.getByRole('alert').waitFor();

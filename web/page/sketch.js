@@ -67,36 +67,47 @@ class Sketch {
 
   listen() {
     const {canvas} = this;
-    let down = null, moved = 0;
+    const fingers = new Map(); // where each is, by the number of its pointer
+    const apart = () => { const [[a, b], [c, d]] = fingers.values(); return Math.hypot(a - c, b - d); };
+    let moved = 0;
     canvas.addEventListener('pointerdown', (event) => {
-      [down, moved] = [[event.clientX, event.clientY], 0];
+      fingers.set(event.pointerId, [event.clientX, event.clientY]);
+      moved = fingers.size === 1 ? 0 : Infinity; // two fingers pick nothing
       canvas.setPointerCapture(event.pointerId);
     });
     canvas.addEventListener('pointermove', (event) => {
-      if (!down) return;
-      const [x, y] = [event.clientX - down[0], event.clientY - down[1]];
+      const from = fingers.get(event.pointerId);
+      if (!from) return;
+      const before = fingers.size === 2 ? apart() : 0, [x, y] = [event.clientX - from[0], event.clientY - from[1]];
       moved += Math.abs(x) + Math.abs(y);
-      down = [event.clientX, event.clientY];
-      this.rotate(0.008 * x, 0.008 * y);
+      fingers.set(event.pointerId, [event.clientX, event.clientY]);
+      if (fingers.size === 1) this.rotate(0.008 * x, 0.008 * y);
+      if (before) this.enlarge(apart() / before);
     });
     canvas.addEventListener('pointerup', (event) => {
-      if (down && moved < 6 && this.frame) {
+      if (fingers.has(event.pointerId) && moved < 6 && this.frame) {
         const v = this.pick(event.offsetX, event.offsetY);
         if (v >= 0) this.onPick(v);
       }
-      down = null;
+      fingers.delete(event.pointerId);
     });
+    canvas.addEventListener('pointercancel', (event) => fingers.delete(event.pointerId));
     canvas.addEventListener('wheel', (event) => {
       event.preventDefault();
-      this.zoom = Math.min(Math.max(this.zoom * Math.exp(-0.001 * event.deltaY), 0.5), 8);
-      this.draw();
+      this.enlarge(Math.exp(-0.001 * event.deltaY));
     }, {passive: false});
     canvas.addEventListener('keydown', (event) => {
-      const by = {ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, -0.15], ArrowDown: [0, 0.15]}[event.key];
-      if (!by) return;
+      const larger = {'+': 1.25, '=': 1.25, '-': 0.8}[event.key], by = {ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, -0.15], ArrowDown: [0, 0.15]}[event.key];
+      if (!by && (!larger || event.ctrlKey || event.metaKey)) return;
       event.preventDefault();
-      this.rotate(...by);
+      if (by) this.rotate(...by);
+      else this.enlarge(larger);
     });
+  }
+
+  enlarge(by) {
+    this.zoom = Math.min(Math.max(this.zoom * by, 0.5), 8);
+    this.draw();
   }
 
   rotate(round, up) {
