@@ -39,7 +39,7 @@ thr_limits thr_limits_part(const thr_limits *limits, double part)
 {
   thr_limits some = *limits;
   double now = thr_clock(), left = limits->deadline - now;
-  if (limits->deadline > 0) some.deadline = now + part * (left > 0 ? left : 0);
+  if (limits->deadline > 0 && !limits->work) some.deadline = now + part * (left > 0 ? left : 0);
   if (limits->work) some.work_kept = fmax(limits->work_kept, *limits->work - part * (*limits->work - limits->work_kept));
   return some;
 }

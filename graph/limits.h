@@ -43,7 +43,8 @@ double thr_limits_left(const thr_limits *limits, double most);
 /* Work is counted that takes about so many seconds, beyond what thr_limits_stop counts. Without limits->work: nothing. */
 void thr_limits_spend(const thr_limits *limits, double seconds);
 
-/* The same with only a part of the time and the work that are left, 0 .. 1. */
+/* The same with only a part of the work that is left, 0 .. 1, or of the time where none is counted: the deadline of counted work
+ * is that of all parts. */
 thr_limits thr_limits_part(const thr_limits *limits, double part);
 
 /* Cords of the whole framework that may be what is asked for, as soon as there are some and whenever there are better ones: they

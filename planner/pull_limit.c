@@ -19,6 +19,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* How many cords it takes is looked for with so much counted work (graph/limits.h) for a second that the user allows, so that the
+ * number does not depend on the machine: it takes a tenth to a half of that second. */
+static const double counted_part = 1.2;
+
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
@@ -216,13 +220,15 @@ static thr_status claim_number(fewest *x, thr_plan *plan, thr_err *err)
 thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                             thr_report *report, thr_err *err)
 {
-  const thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
+  thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
+  double work = counted_part * options->time_limit;
   fewest x = {.f = frame, .o = options, .limits = &share, .claim.excluded = options->cords_least - 1};
   bool fits;
   thr_err why = {0};
   thr_request few = *options;
   (void)report;
   *plan = (thr_plan){0};
+  if (work > 0 && !share.work) share.work = &work, share.work_kept = 0;
   if (options->turning.length_slack >= 0)
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
