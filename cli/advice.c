@@ -90,6 +90,5 @@ thr_limits advice_limits(double seconds, double *work)
   thr_limits limits = cli_limits(seconds > 0 ? thr_dispatch_search_seconds(seconds, false, false) : 0);
   if (!cli_verbose) limits.progress = NULL;
   limits.advance = NULL;
-  if (*work > 0) limits.work = work;
-  return limits;
+  return *work > 0 ? thr_limits_counted(&limits, work) : limits;
 }

@@ -38,10 +38,20 @@ double thr_limits_left(const thr_limits *limits, double most)
 thr_limits thr_limits_part(const thr_limits *limits, double part)
 {
   thr_limits some = *limits;
-  double now = thr_clock(), left = limits->deadline - now;
-  if (limits->deadline > 0 && !limits->work) some.deadline = now + part * (left > 0 ? left : 0);
-  if (limits->work) some.work_kept = fmax(limits->work_kept, *limits->work - part * (*limits->work - limits->work_kept));
+  const double now = thr_clock();
+  if (limits->work)
+    some.work_kept = fmax(limits->work_kept, *limits->work - part * (*limits->work - limits->work_kept));
+  else if (limits->deadline > 0)
+    some.deadline = now + part * fmax(0, limits->deadline - now);
   return some;
+}
+
+thr_limits thr_limits_counted(const thr_limits *limits, double *work)
+{
+  thr_limits counted = *limits;
+  counted.work = work;
+  counted.work_kept = 0;
+  return counted;
 }
 
 bool thr_limits_stop(const thr_limits *limits)

@@ -47,6 +47,9 @@ void thr_limits_spend(const thr_limits *limits, double seconds);
  * is that of all parts. */
 thr_limits thr_limits_part(const thr_limits *limits, double part);
 
+/* The same with *work seconds that are counted, whatever was counted before; work is borrowed. */
+thr_limits thr_limits_counted(const thr_limits *limits, double *work);
+
 /* Cords of the whole framework that may be what is asked for, as soon as there are some and whenever there are better ones: they
  * are what is left if the search has to be ended. Who listens finds out itself whether they are; symmetry: of cords that are
  * copies of each other, else NULL. Nothing is taken over. */

@@ -178,11 +178,11 @@ thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr
 {
   enum { MOST_EDGES = 5000 };
   double work = 1; /* seconds, where nobody has said how long it may take */
-  thr_limits counted = *limits;
+  const bool unsaid = limits->deadline == 0 && !limits->work;
+  const thr_limits counted = unsaid ? thr_limits_counted(limits, &work) : *limits;
   const thr_cords_claim *claim = &plan->cords_claim;
   bool enough = claim->longest <= claim->longest_bound * (1 + near);
   if (!thr_wants_balance(&plan->options) || enough || plan->frame.n_edges > MOST_EDGES) return THR_OK;
-  if (limits->deadline == 0 && !limits->work) counted.work = &work, counted.work_kept = 0;
   bool *end_allowed = thr_calloc((size_t)plan->frame.n_nodes, sizeof *end_allowed), improved = true;
   thr_turning_columns columns = {0};
   if (!end_allowed) return thr_nomem(err);

@@ -21,7 +21,7 @@
 
 /* How many cords it takes is looked for with so much counted work (graph/limits.h) for a second that the user allows, so that the
  * number does not depend on the machine: it takes a tenth to a half of that second. */
-static const double counted_part = 1.2;
+static const double work_per_second = 1.2;
 
 typedef struct {
   const thr_frame *f;
@@ -221,14 +221,14 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
                             thr_report *report, thr_err *err)
 {
   thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
-  double work = counted_part * options->time_limit;
+  double work = work_per_second * options->time_limit;
   fewest x = {.f = frame, .o = options, .limits = &share, .claim.excluded = options->cords_least - 1};
   bool fits;
   thr_err why = {0};
   thr_request few = *options;
   (void)report;
   *plan = (thr_plan){0};
-  if (work > 0 && !share.work) share.work = &work, share.work_kept = 0;
+  if (work > 0 && !share.work) share = thr_limits_counted(&share, &work);
   if (options->turning.length_slack >= 0)
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);

@@ -382,7 +382,7 @@ static thr_status solve_next(void *user, int job, const thr_limits *limits, thr_
   share.deadline = thr_limits_part(&q->all, left > q->threads ? (double)q->threads / left : 1).deadline;
   if (limits->advance)
     limits->advance(limits->user, "threading under each group", (q->r + 1 - (double)left / q->s->t->n) / N_ROUNDS);
-  if (work > 0) share.work = &work, share.work_kept = 0;
+  if (work > 0) share = thr_limits_counted(&share, &work);
   q->had[q->next[job].row] = true;
   return solve(q->s, q->next[job].row, q->r != PROOFS, &share, err);
 }

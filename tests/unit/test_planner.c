@@ -245,6 +245,9 @@ START_TEST(time_is_shared_out)
     const thr_limits all = {.deadline = now + 100};
     const thr_limits share = thr_dispatch_share(&all, (thr_step)i);
     ck_assert(share.deadline > now + 1 && share.deadline < all.deadline);
+    double work = 8; /* where it is counted, it alone is shared out */
+    const thr_limits counted = thr_limits_counted(&all, &work), part = thr_dispatch_share(&counted, (thr_step)i);
+    ck_assert(part.deadline == all.deadline && part.work == &work && part.work_kept > 0 && part.work_kept < work);
   }
 }
 END_TEST

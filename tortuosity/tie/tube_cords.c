@@ -37,12 +37,11 @@ static thr_status take_cords(several *x, const thr_tube *tube, thr_err *err)
 static thr_status short_walks(several *x, int n, thr_err *err)
 {
   thr_request options = *x->s.o;
-  thr_limits some = *x->s.limits;
+  const thr_limits some = thr_limits_counted(x->s.limits, &x->work);
   thr_tube tube = {0};
   thr_err why = {0};
   if (closed_cords(x) || options.ends == THR_ENDS_COUNTS || x->shortest->n_cords == n) return take_cords(x, x->shortest, err);
   options.cords = options.cords_least = n;
-  some.work = &x->work;
   thr_status st = x->work > 0 ? thr_tube_shortest(x->s.f, &options, &some, &tube, &why)
                               : thr_tube_some(x->s.f, &options, x->s.limits, &tube, &why);
   if (st == THR_OK || st == THR_ELIMIT)

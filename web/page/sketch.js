@@ -68,7 +68,10 @@ class Sketch {
   listen() {
     const {canvas} = this;
     const fingers = new Map(); // where each is, by the number of its pointer
-    const apart = () => { const [[a, b], [c, d]] = fingers.values(); return Math.hypot(a - c, b - d); };
+    const apart = () => {
+      const [one, other = one] = fingers.values();
+      return Math.hypot(one[0] - other[0], one[1] - other[1]);
+    };
     let moved = 0;
     canvas.addEventListener('pointerdown', (event) => {
       fingers.set(event.pointerId, [event.clientX, event.clientY]);
@@ -78,11 +81,11 @@ class Sketch {
     canvas.addEventListener('pointermove', (event) => {
       const from = fingers.get(event.pointerId);
       if (!from) return;
-      const before = fingers.size === 2 ? apart() : 0, [x, y] = [event.clientX - from[0], event.clientY - from[1]];
+      const before = apart(), [x, y] = [event.clientX - from[0], event.clientY - from[1]];
       moved += Math.abs(x) + Math.abs(y);
       fingers.set(event.pointerId, [event.clientX, event.clientY]);
       if (fingers.size === 1) this.rotate(0.008 * x, 0.008 * y);
-      if (before) this.enlarge(apart() / before);
+      if (fingers.size === 2 && before) this.enlarge(apart() / before);
     });
     canvas.addEventListener('pointerup', (event) => {
       if (fingers.has(event.pointerId) && moved < 6 && this.frame) {
@@ -97,11 +100,12 @@ class Sketch {
       this.enlarge(Math.exp(-0.001 * event.deltaY));
     }, {passive: false});
     canvas.addEventListener('keydown', (event) => {
-      const larger = {'+': 1.25, '=': 1.25, '-': 0.8}[event.key], by = {ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, -0.15], ArrowDown: [0, 0.15]}[event.key];
-      if (!by && (!larger || event.ctrlKey || event.metaKey)) return;
+      const by = {ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, -0.15], ArrowDown: [0, 0.15]}[event.key];
+      const times = !event.ctrlKey && !event.metaKey && {'+': 1.25, '=': 1.25, '-': 0.8}[event.key]; // with Ctrl: the browser's own
+      if (!by && !times) return;
       event.preventDefault();
       if (by) this.rotate(...by);
-      else this.enlarge(larger);
+      else this.enlarge(times);
     });
   }
 
