@@ -4,6 +4,7 @@
 #include "graph/framework/frame.h"
 #include "lp/model/search.h"
 #include "lp/tjoin/oddcut.h"
+#include "tortuosity/cords/anneal_turns.h"
 #include "tortuosity/proof/ascent.h"
 #include "tortuosity/proof/column_groups.h"
 #include "tortuosity/proof/connect.h"
@@ -323,12 +324,28 @@ static thr_status solve_programme(void *user, bool *enough, thr_err *err)
   return st;
 }
 
+/* Annealing takes the place of the other ways to better plans where the gap is wide. */
+static bool is_annealed(const thr_branch *branch)
+{
+  return branch->found && is_wide(branch) && thr_anneal_turns_serves(branch->c);
+}
+
+static thr_status anneal(thr_branch *branch, thr_err *err)
+{
+  const thr_limits some = thr_limits_part(branch->limits, 0.8);
+  return thr_branch_anneal_turns(branch, &some, err);
+}
+
 static thr_status solve_root(thr_branch *branch, const thr_limits *limits, bool *beside, thr_err *err)
 {
   const thr_turning_columns *c = branch->c;
   const bool single = !c->task->end_allowed && c->task->cords == 1 && !c->task->tube;
   *beside = single && branch->found && !thr_connect_later(c) && is_wide(branch);
   if (c->task->tube && !c->task->free_turns) return solve_tied_root(branch, 0, err);
+  if (*beside && is_annealed(branch)) {
+    thr_status st = anneal(branch, err);
+    return st || closed(branch, 0) ? st : thr_branch_solve_node(branch, 0, limits, err);
+  }
   if (!*beside) return thr_branch_solve_node(branch, 0, limits, err);
   return thr_cycles_beside(branch, tries_of_cycles(branch), solve_programme, &(root_search){branch, limits}, err);
 }
@@ -336,6 +353,7 @@ static thr_status solve_root(thr_branch *branch, const thr_limits *limits, bool 
 /* Plans near the best one, unless that was done, near the other one, and of random prices. */
 static thr_status improve_plans(thr_branch *branch, bool done, thr_err *err)
 {
+  if (!done && is_annealed(branch)) return anneal(branch, err);
   const int tries = tries_of_cycles(branch), root = 0;
   bool single = !branch->c->task->end_allowed && branch->c->task->cords == 1;
   thr_status st = done ? THR_OK : thr_cycles_improve(branch, tries, err);

@@ -99,6 +99,10 @@ void thr_branch_best(const thr_branch *branch, int *passes, int *ends);
 /* Tube joints: from the best plan by annealing (tortuosity/tie/tie.h), kept if that turns less. */
 thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int rounds, thr_err *err) THR_MUST_CHECK;
 
+/* One cord, solid joints: from the best plan by annealing (tortuosity/cords/anneal_turns.h), several runs of a round at once, and
+ * rounds until the limits' time is over or there were enough. There must be a plan. */
+thr_status thr_branch_anneal_turns(thr_branch *branch, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+
 /* The bound of a matching, and its plan: of all turns without connectedness, if that hangs together
  * (tortuosity/proof/branch_match.c); of the shortest closed cords with tube joints (tortuosity/proof/unit_matching.h). Others
  * begin without. thr_branch_run does it if nobody has. */

@@ -1,0 +1,99 @@
+/* Plans by annealing from the best one. */
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/process/threads.h"
+#include "graph/scratch.h"
+#include "graph/status.h"
+#include "graph/threading/multigraph.h"
+#include "tortuosity/cords/anneal_turns.h"
+#include "tortuosity/proof/branch.h"
+
+#include <string.h>
+
+enum {
+  RUNS = 4,          /* at once, each with other random numbers, and each from where it was */
+  VAIN = 2,          /* rounds without a better plan that are enough */
+  PER_EDGE = 1000,   /* steps of a run, and */
+  AT_LEAST = 200000, /* more */
+};
+
+typedef struct {
+  thr_branch *branch;
+  const thr_limits *limits;
+  int round;
+  int *x[RUNS]; /* [n_columns] */
+  bool better[RUNS];
+} runs;
+
+/* The columns of the best plan. */
+static void take_best(thr_branch *branch, int *x)
+{
+  const thr_turning_columns *c = branch->c;
+  const thr_multigraph *g = &branch->best.g;
+  memset(x, 0, (size_t)c->n_columns * sizeof *x);
+  thr_branch_best(branch, branch->passes, branch->ends);
+  for (int e = 0; e < c->f->n_edges; e++)
+    x[c->first_extra + e] = branch->passes[e] - c->cover[e];
+  for (int d = 0; d < g->n_darts; d++) {
+    const int mate = branch->best.mate[d], a = g->half[d], b = mate < 0 ? -1 : g->half[mate];
+    if (mate < d || a < 0) continue; /* ends have the highest numbers */
+    if (b < 0)
+      x[c->end_column[a]]++;
+    else if (a != b)
+      x[thr_turning_column(c, a, b)]++;
+    else
+      for (int j = c->first_back; j < c->n_columns; j++)
+        x[j] += c->half[j][0] == a;
+  }
+}
+
+/* A job. */
+static thr_status run_one(void *user, int k, const thr_limits *limits, thr_err *err)
+{
+  runs *r = user;
+  (void)limits;
+  const thr_turning_columns *c = r->branch->c;
+  const int64_t steps = (int64_t)PER_EDGE * c->f->n_edges + AT_LEAST;
+  return thr_anneal_turns(c, r->round > 0, steps, (uint64_t)(r->round * RUNS + k), r->limits, r->x[k], &r->better[k], err);
+}
+
+static thr_status run_all(runs *r, thr_err *err)
+{
+  thr_status st = thr_team_share(r->branch->team, RUNS, run_one, r, err);
+  for (int k = 0; k < RUNS && !st; k++)
+    if (r->better[k]) st = thr_branch_try_joined(r->branch, r->x[k], true, err);
+  r->round++;
+  return st;
+}
+
+/* Rounds until some in turn were in vain. */
+static thr_status run_rounds(runs *r, thr_err *err)
+{
+  thr_branch *branch = r->branch;
+  thr_status st = THR_OK;
+  for (int vain = 0; vain < VAIN && !st && !thr_branch_proved(branch) && !thr_limits_stop(r->limits);) {
+    const int64_t before = branch->best_price;
+    st = run_all(r, err);
+    vain = branch->best_price < before ? 0 : vain + 1;
+  }
+  return st;
+}
+
+thr_status thr_branch_anneal_turns(thr_branch *branch, const thr_limits *limits, thr_err *err)
+{
+  if (!thr_anneal_turns_serves(branch->c)) return THR_OK;
+  thr_scratch own = {0};
+  thr_status st = thr_branch_gather(branch, err);
+  thr_limits quiet = branch->quiet;
+  quiet.deadline = limits->deadline;
+  runs r = {.branch = branch, .limits = &quiet};
+  for (int k = 0; k < RUNS; k++)
+    r.x[k] = thr_scratch_array(&own, (size_t)branch->c->n_columns, sizeof *r.x[k]);
+  if (!st) st = thr_scratch_check(&own, err);
+  for (int k = 0; k < RUNS && !st; k++)
+    take_best(branch, r.x[k]);
+  if (!st) st = run_rounds(&r, err);
+  thr_scratch_free(&own);
+  return st;
+}
