@@ -7,6 +7,7 @@
 #include "graph/os.h"
 #include "graph/plan/physics.h"
 #include "graph/status.h"
+#include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <stdio.h>

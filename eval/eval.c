@@ -24,6 +24,9 @@ void thr_eval_destroy(thr_eval *eval)
   thr_holding_destroy(&eval->after);
   thr_settle_destroy(&eval->settle);
   thr_holding_destroy(&eval->loaded);
+  for (int i = 0; i < eval->n_carries; i++)
+    thr_carry_destroy(&eval->carries[i].carry);
+  thr_carry_destroy(&eval->after_carries);
   free(eval->carries);
   *eval = (thr_eval){0};
 }
@@ -115,6 +118,10 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
   if (!st) st = follow_schedule(frame, cord, options, &eval.record, err);
   if (!st && method == THR_STRUCTURE && eval.record.schedule.n > 0)
     st = thr_structure_after(frame, cord, options, limits, &eval, err);
+  if (eval.record.standing.present && (!st || st == THR_ELIMIT)) {
+    const thr_status kept = thr_structure_record(frame->n_nodes, options, &eval, err);
+    if (kept) st = kept;
+  }
   if (!st)
     st = sum_up(frame, cord, &eval, err);
   else if (st == THR_ELIMIT)

@@ -13,6 +13,7 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/pulled.h"
 #include "graph/status.h"
 
 typedef struct {

@@ -6,6 +6,7 @@
 #include "eval/eval.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 
@@ -24,5 +25,9 @@ thr_status thr_structure_method(const thr_frame *frame, const thr_cord *cord, co
  * of the load is carried? */
 thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
                                const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
+/* How the cords of the record are drawn in, before a schedule changes it. */
+thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_options *options, thr_err *err) THR_MUST_CHECK;
+/* Lays what was found into the record, for the plan (record.c). */
+thr_status thr_structure_record(int n_beads, const thr_eval_options *options, thr_eval *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

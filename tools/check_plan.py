@@ -264,6 +264,10 @@ PHYSICS = {"mu": (0, 2), "mu_low": (0, 2), "mu_high": (0, 3), "mu_bead": (0, 2),
 DEFAULTS = {None: {"mu": 0.2, "mu_low": 0, "mu_high": 0, "mu_bead": 0.25, "mu_ground": 0.25, "cord_diameter": 0, "bore": 0, "bead_diameter": 0,
                    "density": 1.24, "bead_mass": 0, "seating": 1, "gravity": 9.80665, "wobble": 0, "stiffness": 0, "bead_strength": 0},
             "pla-cotton": {"mu": 0.25, "mu_low": 0.15, "mu_high": 0.45, "mu_bead": 0.3, "mu_ground": 0.3},
+            "pla-braid": {"mu": 0.18, "mu_low": 0.1, "mu_high": 0.3, "mu_bead": 0.3, "mu_ground": 0.3},
+            "pla-monofilament": {"mu": 0.25, "mu_low": 0.12, "mu_high": 0.4, "mu_bead": 0.3, "mu_ground": 0.3},
+            "pla-waxed": {"mu": 0.2, "mu_low": 0.1, "mu_high": 0.35, "mu_bead": 0.3, "mu_ground": 0.3},
+            "pla-elastic": {"mu": 0.3, "mu_low": 0.15, "mu_high": 0.5, "mu_bead": 0.3, "mu_ground": 0.3},
             "eps-nylon": {"mu": 0.3, "mu_low": 0.15, "mu_high": 0.5, "mu_bead": 0.5, "mu_ground": 0.5, "density": 0.02},
             "wood-paracord": {"mu": 0.3, "mu_low": 0.2, "mu_high": 0.4, "mu_bead": 0.24, "mu_ground": 0.3, "cord_diameter": 4, "density": 0.5}}
 
@@ -2165,7 +2169,8 @@ class Pulled:
         self.force, self.other = values["force"], values["other_force"]
         self.slackest = member(o, "slackest", "integer", self.place, 0, len(tension) - 1)
         self.metres = [p.frame.length[h >> 1] * (UNITS[p.frame.units.lower()] or 1) / 1000 for h in cord.half]
-        require(("exponents" in o) == bool(e.steps), f"{self.place}.exponents: with a schedule, and only with it")
+        require(("exponents" in o) == (bool(e.steps) or e.taut), f"{self.place}.exponents: with a schedule or tight turns, and only with them")
+        self.steps = self.turns(e, o)
         if e.steps:
             self.check_schedule(e, o, values, [s for s in e.steps if s["cord"] == cord.id])
             return
@@ -2180,13 +2185,20 @@ class Pulled:
         turn = (lambda x: mu * x) if e.law == "capstan" else (lambda x: -math.log(max(1 - mu * math.sin(x / 2), 5e-324)))
         return [turn(x) + mu * wobble * way for x, way in zip(self.angles, ways)]
 
-    def check_schedule(self, e, o, values, steps):
-        """The tensions that the steps leave, each the least or the largest state that the turns allow, turn after turn."""
+    def turns(self, e, o):
+        """The exponents: by the law, or as stated, and then by the law too where that can be."""
+        law = self.exponents_by_law(e) if e.method != "joint" and not e.taut else []
+        if "exponents" not in o:
+            return law
         turns = [member({"x": x}, "x", "number", self.place, 0) for x in member(o, "exponents", "list", self.place)]
         require(len(turns) == len(self.tension) - 1, f"{self.place}.exponents: not one per turn")
-        if e.method == "capstan":
-            for stated, x in zip(turns, self.exponents_by_law(e)):
-                near(stated, x, 1 + x, f"{self.place}.exponents")
+        for stated, x in zip(turns, law):
+            near(stated, x, 1 + x, f"{self.place}.exponents")
+        return turns
+
+    def check_schedule(self, e, o, values, steps):
+        """The tensions that the steps leave, each the least or the largest state that the turns allow, turn after turn."""
+        turns = self.steps
         near(values["turning"], math.fsum(self.angles), 1 + values["turning"], self.place + ".turning")
         require(self.pull == "both", f"{self.place}.pull: after a schedule")
         left = [0.0] * len(self.tension)
@@ -2199,12 +2211,12 @@ class Pulled:
         for key, value in (("force", hardest), ("other_force", 0), ("work", hardest), ("loss", 1 - self.tension[self.slackest] / hardest)):
             near(values[key], value, max(value, 1), f"{self.place}.{key}")
         require(self.tension[self.slackest] == min(self.tension), f"{self.place}.slackest: not the least tension")
-        require(e.method == "joint" or values["taut_turning"] == values["turning"], f"{self.place}.taut_turning: not the turning")
+        require(e.method == "joint" or e.taut or values["taut_turning"] == values["turning"], f"{self.place}.taut_turning: not the turning")
         require(values["error"] == 0 or e.method != "capstan", f"{self.place}.error: of a closed form")
 
     def check_values(self, e, values, turning):
         near(values["turning"], turning, 1 + turning, self.place + ".turning")
-        if e.method != "joint":
+        if e.method != "joint" and not e.taut:
             require(values["taut_turning"] == values["turning"], f"{self.place}.taut_turning: not the turning")
         require(values["error"] == 0 or e.method != "capstan", f"{self.place}.error: of a closed form")
         first, last = self.tension[0], self.tension[-1]
@@ -2240,10 +2252,173 @@ class Pulled:
             require(good and all(abs(a - b) <= 1.5 for a, b in zip(rgb, colour(tension, low, high))), f"{self.place}.colours: not so")
 
 
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def plus(a, b, times=1.0):
+    return tuple(x + times * y for x, y in zip(a, b))
+
+
+class Standing:
+    """The limit analysis: beads as rigid bodies (SI units), and what each stated mechanism proves."""
+
+    ASKED = ("holding", "equal", "any_state", "after", "loaded", "carried", "carried_after")
+
+    def __init__(self, p, e, cords, o):
+        place = self.place = "evaluation.structure"
+        known(o, "clamped taut tilt azimuth let_down loads drawn answers", place)
+        self.frame, self.physics, self.cords, self.scheduled = p.frame, e.physics, cords, bool(e.steps)
+        self.paths = [[h >> 1 for h in cord.half] for cord in p.cords]
+        self.clamped = member(o, "clamped", "truth", place)
+        tilt, azimuth = member(o, "tilt", "number", place, 0), member(o, "azimuth", "number", place)
+        require(tilt < math.pi / 2, f"{place}.tilt: a right angle or more")
+        self.down = (math.sin(tilt) * math.cos(azimuth), math.sin(tilt) * math.sin(azimuth), -math.cos(tilt))
+        require(all(cord.tension for cord in cords), f"{place}: not every cord is known")
+        self.bodies()
+        self.loads = [self.load(x) for x in member(o, "loads", "list", place)] if "loads" in o else []
+        require("loads" not in o or self.loads, f"{place}.loads: empty")
+        drawn = member(o, "drawn", "list", place)
+        require(len(drawn) == len(cords), f"{place}.drawn: not one per cord")
+        self.drawn = [self.draw(x, cord) for x, cord in zip(drawn, cords)]
+        answers = member(o, "answers", "list", place)
+        require(answers, f"{place}.answers: empty")
+        found = [self.answer(x) for x in answers]
+        self.proved = sum(proved is not None for _, proved in found)
+        if not self.scheduled:
+            self.check_tensions(next((x for asked, x in found[::-1] if asked == "holding"), None) or 0.0)
+        if "let_down" in o:
+            least = max([x for asked, x in found if asked == "any_state" and x] or [0])
+            require(self.scheduled and member(o, "let_down", "number", place, 0) >= least * (1 - 1e-6), f"{place}.let_down: no state holds with that")
+
+    def bodies(self):
+        """Centres, masses and mass centres of the beads; middle, axis and sides of the faces; feet."""
+        f, v = self.frame, self.physics
+        metre, self.width, bore = UNITS[f.units.lower()] / 1000, v["bead_diameter"] / 1000, v["bore"] / 1000
+        self.at = [tuple(metre * x for x in xyz) for xyz in f.xyz]
+        area = self.width**2 - math.pi / 4 * bore**2
+        volume, moment = [0.0] * f.n, [(0.0, 0.0, 0.0)] * f.n
+        self.face = []
+        for a, b in f.edge:
+            way = plus(self.at[b], self.at[a], -1)
+            length = math.dist(self.at[a], self.at[b])
+            axis = tuple(x / length for x in way)
+            level = math.hypot(axis[0], axis[1])
+            side = (-axis[1] / level, axis[0] / level, 0.0) if level > 1e-9 else (1.0, 0.0, 0.0)
+            self.face.append((tuple((x + y) / 2 for x, y in zip(self.at[a], self.at[b])), axis, side, cross(axis, side)))
+            for node, sign in ((a, 1), (b, -1)):
+                arm, k = length / 2, len(f.at[node])
+                near = min(self.width / 2, arm)
+                off = near * (1 - 2 / k) if k > 2 else 0.0
+                volume[node] += area * (arm - off)
+                moment[node] = plus(moment[node], axis, sign * area * (arm**2 - off * near) / 2)
+        self.centre = [plus(at, m, 1 / x) for at, m, x in zip(self.at, moment, volume)]
+        self.weight = [(v["bead_mass"] / 1000 if v["bead_mass"] else 1000 * v["density"] * x) * v["gravity"] for x in volume]
+        lowest, size = min(z for _, _, z in self.at), math.dist(*[[side(x) for x in zip(*self.at)] for side in (min, max)])
+        self.feet = f.feet or {i for i, x in enumerate(self.at) if x[2] <= lowest + 1e-6 * size}
+
+    def load(self, o):
+        known(o, "node force", self.place + ".loads")
+        force = member(o, "force", "list", self.place)
+        require(len(force) == 3, f"{self.place}.loads: not three numbers")
+        return member(o, "node", "integer", self.place, 0, self.frame.n - 1), [member({"x": x}, "x", "number", self.place) for x in force]
+
+    def draw(self, o, cord):
+        """Exponents before every pass, the ends that are pulled, and the slackest pass, which has to be one."""
+        known(o, "pull slackest", self.place + ".drawn")
+        pull, last = choice(o, "pull", self.place, ("start", "end", "both", "none")), len(cord.tension) - 1
+        slackest = member(o, "slackest", "integer", self.place, 0, last)
+        before = [0.0, *itertools.accumulate(cord.steps)]
+        reach = [max(x, before[-1] - x) for x in before]
+        fits = {"start": slackest == last, "end": slackest == 0, "none": slackest == 0,
+                "both": reach[slackest] <= min(reach) + 1e-9 * (1 + before[-1])}[pull]
+        require(fits, f"{self.place}.drawn: the slackest pass is another")
+        require(self.scheduled or pull == cord.pull, f"{self.place}.drawn: pulled otherwise")
+        return before, pull, slackest
+
+    def tensions(self, i, asked):
+        """Of cord i at a pull of 1, or as the schedule leaves them."""
+        before, pull, slackest = self.drawn[i]
+        if asked in ("after", "carried_after"):
+            return self.cords[i].tension
+        if pull == "none":
+            return [0.0] * len(before)
+        if asked == "holding":
+            end = {"start": before[slackest], "end": before[-1] - before[slackest], "both": max(before[slackest], before[-1] - before[slackest])}[pull]
+            return [math.exp(abs(x - before[slackest]) - end) for x in before]
+        near = [min(600, x, before[-1] - x) for x in before]
+        return [math.exp(x if asked == "any_state" else -x) for x in near]
+
+    def check_tensions(self, pull):
+        for i, cord in enumerate(self.cords):
+            for k, (stated, x) in enumerate(zip(cord.tension, self.tensions(i, "holding"))):
+                near(stated, pull * x, pull * x * (1 + self.drawn[i][0][-1]), f"{cord.place}.tension[{k}]")
+
+    def answer(self, o):
+        """What was asked, and what is proved: None if nothing is."""
+        place = self.place + ".answers"
+        known(o, "asked pull found proved mechanism", place)
+        asked = choice(o, "asked", place, self.ASKED)
+        of_load = asked in ("carried", "carried_after")
+        require(("pull" in o) == (asked == "carried"), f"{place}.pull: with carried, and only with it")
+        require(self.scheduled or asked not in ("after", "carried_after"), f"{place}: without a schedule")
+        require(self.loads or not of_load and asked != "loaded", f"{place}: without a load")
+        require(("proved" in o) == ("mechanism" in o), f"{place}: what is proved, and by what, come together")
+        pull = member(o, "pull", "number", place, 0, default=1)
+        found = member(o, "found", "number", place, 0, default=None)
+        if "proved" not in o:
+            return asked, None
+        proved = member(o, "proved", "number", place, 0)
+        if found is not None:
+            require(found <= proved * (1 + 1e-6) if of_load else found >= proved * (1 - 1e-6), f"{place}.found: an equilibrium where there is none")
+        self.check_mechanism(asked, of_load, pull, proved, member(o, "mechanism", "list", place))
+        return asked, proved
+
+    def check_mechanism(self, asked, of_load, pull, proved, numbers):
+        f, v, place = self.frame, self.physics, f"{self.place}: {asked}"
+        require(len(numbers) == 6 * f.n, f"{place}: not six numbers for every node")
+        numbers = [float(member({"x": x}, "x", "number", place)) for x in numbers]
+        moves = [(tuple(numbers[i:i + 3]), tuple(numbers[i + 3:i + 6])) for i in range(0, len(numbers), 6)]
+        velocity = lambda node, at: plus(moves[node][0], cross(moves[node][1], plus(at, self.centre[node], -1)))
+        corners = lambda middle, one, other: [plus(plus(middle, one, s * self.width / 2), other, t * self.width / 2) for s in (1, -1) for t in (1, -1)]
+
+        def opens(apart, normal, mu):
+            along = dot(apart, normal)
+            return along >= mu * math.hypot(*plus(apart, normal, -along)) - 1e-12
+
+        require(all(math.hypot(*x) <= 1 + 1e-9 for x, _ in moves), f"{place}: a bead moves by more than 1")
+        for (a, b), (middle, axis, one, other) in zip(f.edge, self.face):
+            for at in corners(middle, one, other):
+                require(opens(plus(velocity(b, at), velocity(a, at), -1), axis, v["mu_bead"]), f"{place}: beads go into each other")
+        for foot in self.feet:
+            if self.clamped:
+                require(not any(moves[foot][0] + moves[foot][1]), f"{place}: a foot that is held moves")
+                continue
+            for at in corners(plus(self.at[foot], (0, 0, -self.width / 2)), (1, 0, 0), (0, 1, 0)):
+                require(opens(velocity(foot, at), (0, 0, 1), v["mu_ground"]), f"{place}: a foot goes into the ground")
+        press = [0.0] * f.m
+        for i, path in enumerate(self.paths):
+            for edge, x in zip(path, self.tensions(i, asked)):
+                press[edge] += pull * x
+        falling = [w * d * x for w, (move, _) in zip(self.weight, moves) for d, x in zip(self.down, move)]
+        load = [dot(force, velocity(node, self.at[node])) for node, force in self.loads] if of_load or asked == "loaded" else []
+        resistance = [sign * press[i] * dot(axis, velocity(node, middle)) for i, ((a, b), (middle, axis, _, _)) in enumerate(zip(f.edge, self.face))
+                      for node, sign in ((a, -1), (b, 1))]
+        times = [1, proved, 1] if of_load else [1, 1, proved]
+        sums = [x * math.fsum(terms) for x, terms in zip(times, (falling, load, resistance))]
+        slip = 1e-14 * math.fsum(x * abs(y) for x, terms in zip(times, (falling, load, resistance)) for y in terms)
+        require((math.fsum(load) if of_load else sums[0] + sums[1]) > slip, f"{place}: nothing drives the mechanism")
+        require(sums[0] + sums[1] - sums[2] >= -slip - 1e-9 * max(map(abs, sums)), f"{place}: the powers do not prove {proved}")
+
+
 class Evaluation:
     def __init__(self, p, o):
         place = "evaluation"
-        known(o, "method law physics seed time_step iterations largest total seated scale cords schedule", place)
+        known(o, "method law physics seed time_step iterations largest total seated scale cords schedule structure", place)
         self.method = choice(o, "method", place, ("capstan", "joint", "structure"))
         require(("law" in o) == (self.method == "capstan"), "evaluation.law: with method capstan, and only with it")
         self.law = choice(o, "law", place, ("capstan", "mitre"), default="capstan")
@@ -2255,6 +2430,8 @@ class Evaluation:
         require(len(rows) == len(p.cords), "evaluation.cords: not one per cord")
         self.steps = [self.step(p, s) for s in member(o, "schedule", "list", place)] if "schedule" in o else []
         require("schedule" not in o or self.steps, "evaluation.schedule: empty")
+        require("structure" not in o or self.method == "structure", "evaluation.structure: of another method")
+        self.taut = "structure" in o and member(member(o, "structure", "object", place), "taut", "truth", "evaluation.structure")
         cords = [Pulled(p, self, row, i) for i, row in enumerate(rows)]
         largest, total = max(c.force for c in cords), math.fsum(c.force + c.other for c in cords)
         near(member(o, "largest", "number", place), largest, largest, "evaluation.largest")
@@ -2269,6 +2446,7 @@ class Evaluation:
         for cord in cords:
             if cord.tension:
                 cord.check_colours(min(tensions), max(tensions))
+        self.standing = Standing(p, self, cords, o["structure"]) if "structure" in o else None
 
     def check_seated(self, p, cords, stated):
         """The part of the gaps that are pressed with the seating tension; those at the threshold count either way."""
@@ -2308,6 +2486,8 @@ def check_evaluation(p):
     e = Evaluation(p, member(p.file, "evaluation", "object", ""))
     if e.method == "capstan":
         return [f"evaluation: tensions follow the law {e.law}, which friction of true beads need not"]
+    if e.standing:
+        return [f"evaluation (structure): {count(e.standing.proved, 'answer')} of the limit analysis proved by mechanisms"]
     return [f"evaluation ({e.method}): consistent; the tensions themselves are not verified"]
 
 

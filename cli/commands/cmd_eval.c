@@ -14,6 +14,7 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/pulled.h"
 #include "graph/plan/schedule.h"
 #include "graph/status.h"
 #include "graph/text.h"
@@ -160,8 +161,6 @@ static int parse(int argc, char **argv, arguments *a)
     return cli_usage("eval", "--load, --tilt and --clamp-feet are of --method structure");
   if (a->load.rays && a->pull.method != THR_STRUCTURE) return cli_usage("eval", "--rays is of --method structure");
   if (a->load.n_pulls && !a->load.load) return cli_usage("eval", "--load-pulls needs --load");
-  if (load_any(&a->load) && a->output)
-    return cli_usage("eval", "a plan has no place for --load, --tilt and --clamp-feet: --json instead of -o");
   if (a->still && a->load.load) return cli_usage("eval", "--still shows a simulation, which knows no loads");
   if (a->still && !a->pull.options.dynamics) return cli_usage("eval", "--still shows a simulation; take --no-dynamics away");
   return -1;

@@ -2,6 +2,7 @@
 #include "cli/cli.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/request.h"
+#include "graph/plan/standing.h"
 
 #include <ctype.h>
 #include <string.h>
@@ -97,13 +98,38 @@ static bool slack_proved(const thr_plan *plan)
 
 static bool measured(const thr_plan *plan)
 {
-  return plan->evaluation.present && plan->evaluation.method != THR_CAPSTAN;
+  const thr_evaluation *evaluation = &plan->evaluation;
+  return evaluation->present && evaluation->method != THR_CAPSTAN && (!evaluation->standing.present || evaluation->standing.taut);
 }
 
 /* Was a row of a table asked for, which says nothing without the table? */
 static bool row_asked(const thr_plan *plan)
 {
   return thr_wants_symmetry(&plan->options) && isdigit((unsigned char)plan->options.symmetry.group[0]);
+}
+
+/* "below 4.14 N at the harder ends, .. nothing holds it: verified", a line for each answer of the limit analysis. */
+static void standing_put(thr_text *text, const thr_plan *plan)
+{
+  static const char *const below[] = {
+      [THR_ASKED_HOLDING] = "N at the harder ends, while the cords are drawn in, nothing holds it",
+      [THR_ASKED_EQUAL] = "N at all ends, while the cords are drawn in, nothing holds it",
+      [THR_ASKED_ANY_STATE] = "N at all ends, whatever was done to the cords before, nothing holds it",
+      [THR_ASKED_AFTER] = "of the tensions that the schedule leaves nothing holds it",
+      [THR_ASKED_LOADED] = "N at all ends, while the cords are drawn in, it does not carry the load"};
+  const thr_standing *standing = &plan->evaluation.standing;
+  for (int i = 0; i < standing->n_answers; i++) {
+    const thr_answer *answer = &standing->answer[i];
+    if (answer->n_beads == 0) continue;
+    if (!thr_asked_of_load(answer->asked))
+      thr_text_printf(text, "  below %.6g %s: verified\n", answer->proved, below[answer->asked]);
+    else if (answer->asked == THR_ASKED_CARRIED)
+      thr_text_printf(text, "  %.6g N at all ends carry no more than %.4g times the load: verified\n", answer->pull,
+                      answer->proved);
+    else
+      thr_text_printf(text, "  after the schedule it carries no more than %.4g times the load: verified\n", answer->proved);
+  }
+  if (standing->present) thr_text_append(text, "  not verified: that the equilibria which the limit analysis found exist\n");
 }
 
 void terms_put(thr_text *text, const thr_plan *plan)
@@ -119,6 +145,7 @@ void terms_put(thr_text *text, const thr_plan *plan)
   if (measured(plan))
     thr_text_printf(text, "  not verified: the tensions, which method %s measured; what follows from them is\n",
                     thr_method_name(plan->evaluation.method));
+  standing_put(text, plan);
 }
 
 void terms_put_json(thr_writer *writer, const thr_plan *plan)

@@ -12,6 +12,7 @@
 #include "graph/io/writer.h"
 #include "graph/plan/chains.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/pulled.h"
 
 #include <assert.h>
 #include <math.h>

@@ -2,6 +2,7 @@
 #include "diagram/overview/tighten.h"
 #include "diagram/overview/svg.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/pulled.h"
 
 static void put_ends(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step, thr_text *words)
 {

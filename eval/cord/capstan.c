@@ -7,6 +7,7 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/pulled.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
 

@@ -3,6 +3,7 @@
 #include "graph/framework/units.h"
 #include "graph/plan/schedule.h"
 #include "graph/scratch.h"
+#include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <stdlib.h>

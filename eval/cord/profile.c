@@ -3,6 +3,7 @@
 #include "graph/angle.h"
 #include "graph/framework/units.h"
 #include "graph/plan/physics.h"
+#include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <stdlib.h>

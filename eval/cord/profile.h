@@ -10,6 +10,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/pulled.h"
 #include "graph/status.h"
 #include "graph/plan/physics.h"
 

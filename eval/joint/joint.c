@@ -6,6 +6,7 @@
 #include "graph/angle.h"
 #include "graph/framework/units.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/pulled.h"
 #include "graph/plan/physics.h"
 #include "graph/process/workers.h"
 

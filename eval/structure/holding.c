@@ -280,9 +280,15 @@ thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, con
   t.carries = true;
   *out = (thr_carry){0};
   thr_status st = hold(&t, true, &found, err);
-  if (!st) *out = (thr_carry){.beyond = found.lower, .carried = found.upper, .first_bead = found.first_bead};
-  thr_holding_destroy(&found);
+  if (!st)
+    *out = (thr_carry){.beyond = found.lower, .carried = found.upper, .first_bead = found.first_bead, .velocity = found.velocity};
   return st;
+}
+
+void thr_carry_destroy(thr_carry *carry)
+{
+  free(carry->velocity);
+  *carry = (thr_carry){.first_bead = -1};
 }
 
 void thr_holding_destroy(thr_holding *holding)

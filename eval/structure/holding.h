@@ -43,7 +43,8 @@ typedef struct {
   double
       carried; /* at so many times the load an equilibrium exists (friction pyramids inside the cones); 0 if it does not stand */
   double beyond;  /* above so many times none does (pyramids round the cones), proved by the power balance of a mechanism */
-  int first_bead; /* that moves fastest in it */
+  int first_bead; /* that moves fastest in it; -1: not decided, and the rest says nothing */
+  double (*velocity)[6]; /* [n_beads] the mechanism, as of a holding; owned */
 } thr_carry;
 
 /* press: thr_holding_press of tensions in N. load: N, [n_beads], acts at the nodes, beside the weights; beads->load is left out.
@@ -51,5 +52,6 @@ typedef struct {
 thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                              const double (*load)[3], const thr_limits *limits, thr_carry *out, thr_err *err) THR_MUST_CHECK;
 void thr_holding_destroy(thr_holding *holding);
+void thr_carry_destroy(thr_carry *carry);
 
 #endif

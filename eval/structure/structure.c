@@ -409,7 +409,7 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, thr_beads *b
   if (!st && beads->n_beads <= BAND_LARGEST) st = band(frame, cord, beads, limits, evaluation, out->band, err);
   if (!st && options->load) st = carry_at_pulls(frame, cord, beads, options, limits, out, err);
   fill_record(evaluation, out->holding.lower);
-  return st;
+  return st ? st : thr_structure_drawn(evaluation, options, err);
 }
 
 thr_status thr_structure_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,

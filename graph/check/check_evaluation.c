@@ -74,21 +74,25 @@ static thr_status check_rise(const cord_claim *k, thr_err *err)
 }
 
 /* What bores that are not straight add: mu x wobble x metres from the middle of pass i to that of the next. */
-static double wobble_exponent(const cord_claim *k, int i)
+static double wobble_exponent(const thr_frame *frame, const thr_physics *physics, const thr_cord *cord, int i)
 {
   double mm = 0;
-  if (k->e->physics.wobble == 0 || thr_units_in_mm(k->f->units, &mm, NULL)) return 0;
-  return k->e->physics.mu * k->e->physics.wobble * mm / 2000 *
-         (k->f->length[k->cord->half[i] >> 1] + k->f->length[k->cord->half[i + 1] >> 1]);
+  if (physics->wobble == 0 || thr_units_in_mm(frame->units, &mm, NULL)) return 0;
+  return physics->mu * physics->wobble * mm / 2000 * (frame->length[cord->half[i] >> 1] + frame->length[cord->half[i + 1] >> 1]);
 }
 
-/* ln of what the turn after pass i multiplies the tension by; 0 after the last. The mitre law in another form than the one that
- * made the plan. */
+/* The mitre law in another form than the one that made the plan. */
+double thr_check_exponent(const thr_frame *frame, const thr_evaluation *evaluation, const thr_cord *cord, int i)
+{
+  if (i + 1 >= cord->n_passes) return 0;
+  double mu = evaluation->physics.mu, angle = thr_check_angle(frame, cord->half[i], cord->half[i + 1]);
+  return wobble_exponent(frame, &evaluation->physics, cord, i) +
+         (evaluation->law == THR_LAW_CAPSTAN ? mu * angle : log(1 / (1 - mu * sin(angle / 2))));
+}
+
 static double law_exponent(const cord_claim *k, int i)
 {
-  if (i + 1 >= k->cord->n_passes) return 0;
-  double mu = k->e->physics.mu, angle = thr_check_angle(k->f, k->cord->half[i], k->cord->half[i + 1]);
-  return wobble_exponent(k, i) + (k->e->law == THR_LAW_CAPSTAN ? mu * angle : log(1 / (1 - mu * sin(angle / 2))));
+  return thr_check_exponent(k->f, k->e, k->cord, i);
 }
 
 /* Does the slackest pass lie where the pull is least? from receives the exponents before it, total those of the whole cord. */
@@ -135,11 +139,13 @@ static thr_status check_scheduled(const cord_claim *k, int i, thr_err *err)
 {
   const thr_eval_cord *eval_cord = k->c;
   const double hardest = thr_schedule_hardest(&k->e->schedule, i);
+  if (eval_cord->pull != THR_PULL_BOTH)
+    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pull: after a schedule it says both", k->id);
   thr_status st = evaluated(k, "force", eval_cord->force, hardest, err);
   if (!st) st = evaluated(k, "other_force", eval_cord->other_force, 0, err);
   if (!st) st = evaluated(k, "work", eval_cord->work, hardest, err);
   if (!st) st = check_slackest(k, hardest, err);
-  for (int j = 0; j + 1 < eval_cord->n_passes && !st && k->e->method == THR_CAPSTAN; j++)
+  for (int j = 0; j + 1 < eval_cord->n_passes && !st && k->e->method != THR_JOINT && !k->e->standing.taut; j++)
     if (!thr_check_close(eval_cord->exponent[j], law_exponent(k, j), 1))
       st = thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: exponents[%d]: stated %.12g, but the %s law gives %.12g", k->id,
                     j, eval_cord->exponent[j], thr_law_name(k->e->law), law_exponent(k, j));
@@ -161,15 +167,16 @@ static thr_status check_cord_evaluation(const thr_plan *plan, int i, thr_err *er
   const thr_cord *cord = &plan->cord[i];
   const thr_eval_cord *eval_cord = &evaluation->cord[i];
   const cord_claim k = {&plan->frame, cord, evaluation, eval_cord, cord->id};
+  const bool tight = evaluation->method == THR_JOINT || evaluation->standing.taut;
   double turning = 0;
   for (int j = 0; j + 1 < cord->n_passes; j++)
     turning += thr_check_angle(&plan->frame, cord->half[j], cord->half[j + 1]);
   if (!thr_check_close(eval_cord->turning, turning, 1 + turning))
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: turning: stated %.12g, but the cord turns by %.12g", k.id,
                     eval_cord->turning, turning);
-  if (!(eval_cord->taut_turning >= 0) || (evaluation->method != THR_JOINT && eval_cord->taut_turning != eval_cord->turning))
+  if (!(eval_cord->taut_turning >= 0) || (!tight && eval_cord->taut_turning != eval_cord->turning))
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: taut_turning: %.12g; expected %s", k.id, eval_cord->taut_turning,
-                    evaluation->method == THR_JOINT ? "0 or more" : "the turning, for this method");
+                    tight ? "0 or more" : "the turning, for this method");
   if (!(eval_cord->error >= 0) || (evaluation->method == THR_CAPSTAN && (eval_cord->error > 0 || eval_cord->refused > 0)))
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: error and refused: no such error is possible with this method",
                     k.id);
@@ -248,5 +255,6 @@ thr_status thr_check_evaluation(const thr_plan *plan, thr_err *err)
                     largest);
   if (!thr_check_close(evaluation->total, total, total))
     return thr_fail(err, THR_EVIOLATED, "evaluation.total: stated %.12g, but the cords give %.12g", evaluation->total, total);
-  return evaluation->seated_known ? check_seated(plan, err) : THR_OK;
+  if (evaluation->seated_known && (st = check_seated(plan, err))) return st;
+  return evaluation->standing.present ? thr_check_standing(plan, err) : THR_OK;
 }

@@ -108,6 +108,12 @@ thr_status thr_check_symmetry(const thr_plan *plan, thr_err *err) THR_MUST_CHECK
 /* Verifies the plan's evaluation, which must be present, with cords that were checked already. */
 thr_status thr_check_evaluation(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
+/* ln of the ratio of the tensions on both sides of the turn after pass i, by the evaluation's law; 0 after the last pass. */
+double thr_check_exponent(const thr_frame *frame, const thr_evaluation *evaluation, const thr_cord *cord, int i);
+
+/* Verifies what the limit analysis proved of the structure, which must be present, by the powers of its mechanisms. */
+thr_status thr_check_standing(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+
 /* Are the tensions of cord i those that the schedule leaves in it? */
 thr_status thr_check_schedule(const thr_frame *frame, const thr_cord *path, const thr_schedule *schedule, int i, double stiffness,
                               const thr_eval_cord *claim, thr_err *err) THR_MUST_CHECK;

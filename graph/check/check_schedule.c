@@ -8,6 +8,7 @@
 #include "graph/status.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <string.h>

@@ -12,7 +12,6 @@
 
 static const char *const method_name[] = {"capstan", "joint", "structure"};
 static const char *const law_name[] = {"capstan", "mitre"};
-static const char *const pull_name[] = {"start", "end", "both", "none"};
 
 const char *thr_method_name(int m)
 {
@@ -22,11 +21,6 @@ const char *thr_method_name(int m)
 const char *thr_law_name(int l)
 {
   return law_name[l];
-}
-
-const char *thr_pull_name(thr_pull p)
-{
-  return pull_name[p];
 }
 
 void thr_evaluation_sum(thr_evaluation *evaluation)
@@ -45,8 +39,14 @@ void thr_evaluation_destroy(thr_evaluation *evaluation)
     free(evaluation->cord[i].exponent);
   }
   thr_schedule_destroy(&evaluation->schedule);
+  thr_standing_destroy(&evaluation->standing);
   free(evaluation->cord);
   *evaluation = (thr_evaluation){0};
+}
+
+bool thr_evaluation_exponents(const thr_evaluation *evaluation)
+{
+  return evaluation->schedule.n > 0 || evaluation->standing.taut;
 }
 
 bool thr_evaluation_range(const thr_evaluation *evaluation, double range[2])
@@ -108,7 +108,7 @@ static void put_exponents(thr_writer *writer, const thr_eval_cord *cord)
   thr_write_close(writer);
 }
 
-static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const double range[2], bool scheduled)
+static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const double range[2], bool exponents)
 {
   char id[12];
   thr_cord_id(i, id);
@@ -128,7 +128,7 @@ static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const
     thr_write_number(writer, "error", cord->error);
     thr_write_int(writer, "slackest", cord->slackest);
     thr_write_int(writer, "refused", cord->refused);
-    if (scheduled) put_exponents(writer, cord);
+    if (exponents) put_exponents(writer, cord);
     put_tension(writer, cord, range);
   }
   thr_write_close(writer);
@@ -159,10 +159,14 @@ void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, 
     thr_write_line(writer, 2);
     thr_schedule_write(&evaluation->schedule, writer, "schedule");
   }
+  if (evaluation->standing.present) {
+    thr_write_line(writer, 2);
+    thr_standing_write(&evaluation->standing, writer, "structure");
+  }
   thr_write_line(writer, 2);
   thr_write_array(writer, "cords");
   for (int i = 0; i < evaluation->n_cords; i++)
-    put_cord(writer, &evaluation->cord[i], i, range, evaluation->schedule.n > 0);
+    put_cord(writer, &evaluation->cord[i], i, range, thr_evaluation_exponents(evaluation));
   thr_write_line(writer, 2);
   thr_write_close(writer);
   thr_write_close(writer);
@@ -254,13 +258,13 @@ static thr_status read_cord(const reader *r, const thr_json *object, int i, thr_
   thr_cord_id(i, name);
   const char *id = thr_json_string(thr_json_get(object, "id"));
   const thr_json *known = thr_json_get(object, "known");
-  int pull;
+  const int pull = thr_pull_named(thr_json_string(thr_json_get(object, "pull")));
   int64_t slackest = 0, refused = 0;
   if (!id || strcmp(id, name) != 0) return bad(r, "id", "not the plan's cord with this number");
   if (thr_json_typeof(known) != THR_JSON_BOOL) return bad(r, "known", "missing; expected true or false");
   cord->known = thr_json_true(known);
   thr_status st = only_members(r, object, cord->known ? all : unknown);
-  if (!st) st = get_word(r, object, "pull", pull_name, THR_N_PULLS, &pull);
+  if (!st && pull < 0) st = bad(r, "pull", "missing or an unknown word");
   if (st) return st;
   cord->pull = (thr_pull)pull;
   if (!cord->known) return THR_OK;
@@ -322,6 +326,16 @@ static thr_status check_colours(const reader *r, const thr_json *object, const t
   return THR_OK;
 }
 
+static thr_status read_standing(const reader *r, const thr_json *object, thr_evaluation *evaluation)
+{
+  const thr_json *value = thr_json_get(object, "structure");
+  char place[256];
+  if (!value) return THR_OK;
+  if (evaluation->method != THR_STRUCTURE) return bad(r, "structure", "only the method structure finds it");
+  snprintf(place, sizeof place, "%.200s.structure", r->place);
+  return thr_standing_from_json(&evaluation->standing, value, evaluation->n_cords, place, r->err);
+}
+
 static thr_status read_schedule(const reader *r, const thr_json *object, thr_evaluation *evaluation)
 {
   const thr_json *list = thr_json_get(object, "schedule");
@@ -329,15 +343,15 @@ static thr_status read_schedule(const reader *r, const thr_json *object, thr_eva
   snprintf(place, sizeof place, "%.200s.schedule", r->place);
   thr_status st = list ? thr_schedule_from_json(&evaluation->schedule, list, evaluation->n_cords, place, r->err) : THR_OK;
   for (int i = 0; i < evaluation->n_cords && !st; i++)
-    if (evaluation->cord[i].known && (list != NULL) != (evaluation->cord[i].exponent != NULL))
-      st = bad(r, "schedule", "it comes with the exponents of all cords that are known, and they with it");
+    if (evaluation->cord[i].known && thr_evaluation_exponents(evaluation) != (evaluation->cord[i].exponent != NULL))
+      st = bad(r, "cords", "exponents come with a schedule, or with turns of the tight cord, of all cords that are known");
   return st;
 }
 
 static thr_status read_members(const reader *r, const thr_json *object, thr_evaluation *evaluation)
 {
   static const char *const known[] = {"method", "law",    "physics", "seed",  "time_step", "iterations", "largest",
-                                      "total",  "seated", "scale",   "cords", "schedule",  NULL};
+                                      "total",  "seated", "scale",   "cords", "schedule",  "structure",  NULL};
   char place[256];
   int method = 0, law = 0;
   int64_t seed = 0;
@@ -364,6 +378,7 @@ static thr_status read_members(const reader *r, const thr_json *object, thr_eval
   evaluation->seated_known = thr_json_get(object, "seated") != NULL;
   if (evaluation->seated_known && (st = get_double(r, object, "seated", &evaluation->seated))) return st;
   if ((st = read_cords(r, object, evaluation))) return st;
+  if ((st = read_standing(r, object, evaluation))) return st;
   if ((st = read_schedule(r, object, evaluation))) return st;
   return check_colours(r, object, evaluation);
 }

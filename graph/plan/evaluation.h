@@ -6,6 +6,8 @@
 #include "graph/io/json.h"
 #include "graph/io/writer.h"
 #include "graph/plan/physics.h"
+#include "graph/plan/pulled.h"
+#include "graph/plan/standing.h"
 #include "graph/status.h"
 
 typedef enum { THR_CAPSTAN, THR_JOINT, THR_STRUCTURE, THR_N_METHODS } thr_method;
@@ -14,7 +16,6 @@ typedef enum {
   THR_LAW_MITRE,   /* thesis, Fig. 13: a mitred bead takes mu T_out sin(theta / 2) off the tension */
   THR_N_LAWS
 } thr_law;
-typedef enum { THR_PULL_START, THR_PULL_END, THR_PULL_BOTH, THR_PULL_NONE, THR_N_PULLS } thr_pull;
 
 /* One thing that is done to a cord (graph/plan/schedule.h). */
 typedef enum { THR_DEED_PULL, THR_DEED_GRIP, THR_DEED_RELEASE, THR_DEED_KNOT, THR_N_DEEDS } thr_deed;
@@ -46,7 +47,7 @@ typedef struct {
   int refused;         /* turns not measured (too sharp, out of range, unsteady): the closed form stands in for them */
   double *tension;     /* [n_passes] N; owned */
   double *exponent;    /* [n_passes - 1] ln of the ratio of the tensions that a turn holds apart, or NULL; in the plan only with
-                          a schedule; owned */
+                          a schedule or turns of the tight cord (thr_standing); owned */
 } thr_eval_cord;
 
 typedef struct {
@@ -63,15 +64,18 @@ typedef struct {
   bool seated_known;            /* false: seated is not stated, since not every cord is known or an older version wrote it */
   double seated;                /* part of the gaps that is seated (graph/plan/seating.h), 0 to 1 */
   thr_schedule schedule;        /* after which the tensions are what they are; empty: at the end of a pull */
+  thr_standing standing;        /* of method structure: what acts on it, and what was proved; an older version wrote none */
 } thr_evaluation;
 
 const char *thr_method_name(int m);    /* "capstan", "joint", "structure" */
 const char *thr_law_name(int l);       /* "capstan", "mitre" */
-const char *thr_pull_name(thr_pull p); /* "start", "end", "both", "none" */
 
 /* Largest and total from the cords; those that are not known count as 0. */
 void thr_evaluation_sum(thr_evaluation *evaluation);
 void thr_evaluation_destroy(thr_evaluation *evaluation);
+
+/* Does the plan state the exponents of every cord, which then cannot be worked out again from the law or belong to a schedule? */
+bool thr_evaluation_exponents(const thr_evaluation *evaluation);
 
 /* Least and largest tension of any pass, N; after a schedule the least of those that have any. False, and both 0, if no cord is
  * known. */

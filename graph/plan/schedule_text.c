@@ -3,6 +3,7 @@
 #include "graph/io/scan.h"
 #include "graph/plan/schedule.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/pulled.h"
 #include "graph/status.h"
 #include "graph/plan/evaluation.h"
 #include "graph/text.h"

@@ -6,6 +6,7 @@
 #include "eval/cord/profile.h"
 #include "graph/angle.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,6 +7,7 @@
 #include "eval/eval.h"
 #include "graph/io/writer.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/pulled.h"
 #include "graph/plan/physics.h"
 
 #include <dirent.h>

@@ -5,6 +5,7 @@
 #include "eval/eval.h"
 #include "graph/check/check.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -9,6 +9,7 @@
 #include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/pulled.h"
 #include "graph/plan/schedule.h"
 #include "graph/limits.h"
 

@@ -4,6 +4,7 @@
 #include "tests/plans.h"
 #include "eval/eval.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/pulled.h"
 #include "graph/plan/schedule.h"
 #include "graph/plan/seating.h"
 

@@ -1,0 +1,90 @@
+/* What the limit analysis found, as the plan keeps it: answers that are proved come with their mechanisms. */
+#include "eval/eval.h"
+#include "eval/methods.h"
+#include "eval/structure/holding.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/standing.h"
+#include "graph/status.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Room for the named answers and one of every pull with a load. */
+enum { NAMED = THR_N_ASKED };
+
+static thr_status add(thr_standing *standing, int n_beads, const thr_answer *answer, const double (*velocity)[6], thr_err *err)
+{
+  thr_answer *to = &standing->answer[standing->n_answers++];
+  const bool of_load = thr_asked_of_load(answer->asked), proved = of_load ? isfinite(answer->proved) : answer->proved > 0;
+  *to = *answer;
+  if (of_load ? to->found > to->proved : to->found < to->proved) to->found = INFINITY; /* rounding: nothing is said of it */
+  if (!proved || !isfinite(answer->proved) || !velocity) {
+    to->proved = of_load ? INFINITY : 0;
+    return THR_OK;
+  }
+  if (!(to->velocity = thr_calloc((size_t)n_beads, sizeof *to->velocity))) return thr_nomem(err);
+  memcpy(to->velocity, velocity, (size_t)n_beads * sizeof *velocity);
+  to->n_beads = n_beads;
+  return THR_OK;
+}
+
+/* Where no pull holds it, a plan says nothing: what shows it is of another kind. */
+static thr_status add_holding(thr_standing *standing, int n_beads, thr_asked asked, const thr_holding *holding, thr_err *err)
+{
+  if (!holding->present || !isfinite(holding->lower)) return THR_OK;
+  return add(standing, n_beads, &(thr_answer){.asked = asked, .proved = holding->lower, .found = holding->upper},
+             (const double(*)[6])holding->velocity, err);
+}
+
+static thr_status add_carry(thr_standing *standing, int n_beads, thr_asked asked, double pull, const thr_carry *carry,
+                            thr_err *err)
+{
+  if (carry->first_bead < 0) return THR_OK;
+  return add(standing, n_beads, &(thr_answer){.asked = asked, .pull = pull, .proved = carry->beyond, .found = carry->carried},
+             (const double(*)[6])carry->velocity, err);
+}
+
+static thr_status add_loads(thr_standing *standing, int n_nodes, const double (*load)[3], thr_err *err)
+{
+  if (!load) return THR_OK;
+  if (!(standing->load = thr_calloc((size_t)n_nodes, sizeof *standing->load))) return thr_nomem(err);
+  for (int v = 0; v < n_nodes; v++) {
+    if (load[v][0] == 0 && load[v][1] == 0 && load[v][2] == 0) continue;
+    standing->load[standing->n_loads].node = v;
+    memcpy(standing->load[standing->n_loads++].force, load[v], sizeof *load);
+  }
+  return THR_OK;
+}
+
+thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_options *options, thr_err *err)
+{
+  thr_standing *standing = &evaluation->standing;
+  *standing = (thr_standing){.present = true,
+                             .clamped = options->clamped,
+                             .tilt = options->tilt,
+                             .azimuth = options->tilt > 0 ? options->azimuth : 0,
+                             .let_down = NAN,
+                             .n_cords = evaluation->n_cords};
+  standing->drawn = thr_calloc((size_t)evaluation->n_cords, sizeof *standing->drawn);
+  if (!standing->drawn) return thr_nomem(err);
+  for (int i = 0; i < evaluation->n_cords; i++)
+    standing->drawn[i] = (thr_drawn){(int)evaluation->cord[i].pull, evaluation->cord[i].slackest};
+  return THR_OK;
+}
+
+thr_status thr_structure_record(int n_beads, const thr_eval_options *options, thr_eval *out, thr_err *err)
+{
+  thr_standing *standing = &out->record.standing;
+  standing->let_down = out->let_down;
+  standing->answer = thr_calloc((size_t)(NAMED + out->n_carries), sizeof *standing->answer);
+  if (!standing->answer) return thr_nomem(err);
+  thr_status st = add_loads(standing, n_beads, options->load, err);
+  if (!st) st = add_holding(standing, n_beads, THR_ASKED_HOLDING, &out->holding, err);
+  if (!st) st = add_holding(standing, n_beads, THR_ASKED_EQUAL, &out->equal, err);
+  if (!st) st = add_holding(standing, n_beads, THR_ASKED_ANY_STATE, &out->loosest, err);
+  if (!st) st = add_holding(standing, n_beads, THR_ASKED_AFTER, &out->after, err);
+  if (!st) st = add_holding(standing, n_beads, THR_ASKED_LOADED, &out->loaded, err);
+  for (int i = 0; i < out->n_carries && !st; i++)
+    st = add_carry(standing, n_beads, THR_ASKED_CARRIED, out->carries[i].pull, &out->carries[i].carry, err);
+  return st ? st : add_carry(standing, n_beads, THR_ASKED_CARRIED_AFTER, 0, &out->after_carries, err);
+}

@@ -1,0 +1,391 @@
+/* The checker's part for the limit analysis: beads as rigid bodies, and the powers of what acts on them in the mechanisms that
+ * the plan states. Knows nothing of eval/, and no solver: if no contact closes, contact forces within their cones do no work on
+ * the mechanism that is negative, and equilibrium is impossible where weights and loads do more than the cords resist. */
+#include "graph/angle.h"
+#include "graph/check/check_parts.h"
+#include "graph/framework/frame.h"
+#include "graph/framework/units.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/standing.h"
+#include "graph/scratch.h"
+#include "graph/status.h"
+#include "graph/vector.h"
+
+#include <math.h>
+
+/* A contact that closes slower than this, where the fastest bead has 1, does not close; powers are compared within so much of
+ * the sum of their terms. Both are rounding: some hundred units in the last place of a double. */
+static const double STILL = 1e-12, ROUNDING = 1e-14;
+
+/* Bodies in SI units. */
+typedef struct {
+  const thr_plan *plan;
+  const thr_evaluation *e;
+  const thr_standing *s;
+  double unit, width, down[3];
+  double *mass, (*centre)[3], (*mass_centre)[3];
+  bool *foot;
+  double *press; /* [n_edges] of what is asked at the time */
+  double *at;    /* [longest cord] exponents before each pass */
+  thr_scratch own;
+} bodies;
+
+/* ---- geometry (docs/plan-format.md, "structure") ---- */
+
+static void place_nodes(bodies *b)
+{
+  const thr_frame *frame = &b->plan->frame;
+  double lowest = INFINITY, low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  bool any = false;
+  for (int v = 0; v < frame->n_nodes; v++) {
+    for (int k = 0; k < 3; k++) {
+      b->centre[v][k] = b->unit * frame->xyz[v][k];
+      low[k] = fmin(low[k], b->centre[v][k]);
+      high[k] = fmax(high[k], b->centre[v][k]);
+    }
+    lowest = fmin(lowest, b->centre[v][2]);
+    any |= frame->foot[v];
+  }
+  const double size = sqrt((high[0] - low[0]) * (high[0] - low[0]) + (high[1] - low[1]) * (high[1] - low[1]) +
+                           (high[2] - low[2]) * (high[2] - low[2]));
+  for (int v = 0; v < frame->n_nodes; v++)
+    b->foot[v] = any ? frame->foot[v] : b->centre[v][2] <= lowest + 1e-6 * size;
+}
+
+/* Adds one arm of node v, half an edge long: what it weighs, and where. */
+static void add_arm(bodies *b, int v, int other, int degree)
+{
+  const thr_physics *physics = &b->e->physics;
+  const double bore = 1e-3 * physics->bore, area = b->width * b->width - THR_PI / 4 * bore * bore;
+  double arm[3];
+  for (int k = 0; k < 3; k++)
+    arm[k] = (b->centre[other][k] - b->centre[v][k]) / 2;
+  const double length = sqrt(thr_dot(arm, arm)), near = fmin(b->width / 2, length),
+               off = degree > 2 ? (1 - 2.0 / degree) * near : 0;
+  b->mass[v] += area * (length - off);
+  for (int k = 0; k < 3; k++)
+    b->mass_centre[v][k] += area * (length * length - off * near) / 2 * arm[k] / length;
+}
+
+static void weigh(bodies *b)
+{
+  const thr_frame *frame = &b->plan->frame;
+  const thr_physics *physics = &b->e->physics;
+  for (int h = 0; h < 2 * frame->n_edges; h++)
+    add_arm(b, thr_tail(frame, h), thr_head(frame, h), thr_degree(frame, thr_tail(frame, h)));
+  for (int v = 0; v < frame->n_nodes; v++) {
+    for (int k = 0; k < 3; k++)
+      b->mass_centre[v][k] = b->centre[v][k] + b->mass_centre[v][k] / b->mass[v];
+    b->mass[v] = physics->bead_mass > 0 ? physics->bead_mass / 1e3 : 1e3 * physics->density * b->mass[v];
+  }
+}
+
+static thr_status bodies_make(bodies *b, const thr_plan *plan, thr_err *err)
+{
+  const size_t n = (size_t)plan->frame.n_nodes;
+  const thr_standing *s = &plan->evaluation.standing;
+  double mm;
+  int longest = 1;
+  for (int i = 0; i < plan->n_cords; i++)
+    longest = plan->cord[i].n_passes > longest ? plan->cord[i].n_passes : longest;
+  *b = (bodies){.plan = plan, .e = &plan->evaluation, .s = s, .width = plan->evaluation.physics.bead_diameter / 1e3};
+  b->mass = thr_scratch_array(&b->own, n, sizeof *b->mass);
+  b->centre = thr_scratch_array(&b->own, n, sizeof *b->centre);
+  b->mass_centre = thr_scratch_array(&b->own, n, sizeof *b->mass_centre);
+  b->foot = thr_scratch_array(&b->own, n, sizeof *b->foot);
+  b->press = thr_scratch_array(&b->own, (size_t)plan->frame.n_edges + 1, sizeof *b->press);
+  b->at = thr_scratch_array(&b->own, (size_t)longest, sizeof *b->at);
+  thr_status st = thr_scratch_check(&b->own, err);
+  if (!st && thr_units_in_mm(plan->frame.units, &mm, NULL))
+    st = thr_fail(err, THR_EVIOLATED, "evaluation.structure: beads, but nobody knows how long a unit is");
+  if (st) return st;
+  b->unit = mm / 1e3;
+  b->down[0] = sin(s->tilt) * cos(s->azimuth);
+  b->down[1] = sin(s->tilt) * sin(s->azimuth);
+  b->down[2] = -cos(s->tilt);
+  place_nodes(b);
+  weigh(b);
+  return THR_OK;
+}
+
+/* ---- what the cords press faces with ---- */
+
+/* Fills b->at; the whole sum. */
+static double exponents(bodies *b, int i)
+{
+  const thr_eval_cord *cord = &b->e->cord[i];
+  double sum = 0;
+  for (int k = 0; k < cord->n_passes; k++) {
+    b->at[k] = sum;
+    if (k + 1 < cord->n_passes)
+      sum += cord->exponent ? cord->exponent[k] : thr_check_exponent(&b->plan->frame, b->e, &b->plan->cord[i], k);
+  }
+  return sum;
+}
+
+/* Tension of pass k of a cord that is asked about at a pull of 1, or as the schedule leaves it. */
+static double tension_of(const bodies *b, const thr_drawn *drawn, thr_asked asked, int i, int k, double total)
+{
+  const double most = 600, near = fmin(most, fmin(b->at[k], total - b->at[k])), slackest = b->at[drawn->slackest];
+  const double hard = drawn->pull == THR_PULL_START ? slackest
+                      : drawn->pull == THR_PULL_END ? total - slackest
+                                                    : fmax(slackest, total - slackest);
+  if (asked == THR_ASKED_AFTER || asked == THR_ASKED_CARRIED_AFTER) return b->e->cord[i].tension[k];
+  if (drawn->pull == THR_PULL_NONE) return 0;
+  if (asked == THR_ASKED_HOLDING) return exp(fabs(b->at[k] - slackest) - hard);
+  return exp(asked == THR_ASKED_ANY_STATE ? near : -near);
+}
+
+static void press(bodies *b, const thr_answer *answer)
+{
+  const thr_plan *plan = b->plan;
+  for (int e = 0; e < plan->frame.n_edges; e++)
+    b->press[e] = 0;
+  for (int i = 0; i < plan->n_cords; i++) {
+    const double total = exponents(b, i);
+    for (int k = 0; k < plan->cord[i].n_passes; k++)
+      b->press[plan->cord[i].half[k] >> 1] +=
+          (answer->asked == THR_ASKED_CARRIED ? answer->pull : 1) * tension_of(b, &b->s->drawn[i], answer->asked, i, k, total);
+  }
+}
+
+/* ---- mechanisms ---- */
+
+static void point_velocity(const bodies *b, const thr_answer *a, int v, const double at[3], double out[3])
+{
+  double lever[3];
+  for (int k = 0; k < 3; k++)
+    lever[k] = at[k] - b->mass_centre[v][k];
+  thr_cross(a->velocity[v] + 3, lever, out);
+  for (int k = 0; k < 3; k++)
+    out[k] += a->velocity[v][k];
+}
+
+/* Does no force within the friction cone round normal, on what moves with apart, do negative work? */
+static bool opens(const double apart[3], const double normal[3], double mu)
+{
+  const double along = thr_dot(apart, normal);
+  double across[3];
+  for (int k = 0; k < 3; k++)
+    across[k] = apart[k] - along * normal[k];
+  return along >= mu * sqrt(thr_dot(across, across)) - STILL;
+}
+
+/* Unit vector along edge e, and two across it, the first one level. */
+static void axes_of(const bodies *b, int e, double axis[3], double side[2][3])
+{
+  const int *end = b->plan->frame.edge[e];
+  for (int k = 0; k < 3; k++)
+    axis[k] = b->centre[end[1]][k] - b->centre[end[0]][k];
+  const double length = sqrt(thr_dot(axis, axis)), inverse = 1 / length;
+  for (int k = 0; k < 3; k++)
+    axis[k] *= inverse;
+  const double level = hypot(axis[0], axis[1]);
+  side[0][0] = level > 1e-9 ? -axis[1] / level : 1;
+  side[0][1] = level > 1e-9 ? axis[0] / level : 0;
+  side[0][2] = 0;
+  thr_cross(axis, side[0], side[1]);
+}
+
+/* Point number i of the corners of a square of side width round `middle`. */
+static void corner_of(const bodies *b, const double middle[3], const double side[2][3], int i, double out[3])
+{
+  for (int k = 0; k < 3; k++)
+    out[k] = middle[k] + b->width / 2 * ((i & 1 ? 1 : -1) * side[0][k] + (i & 2 ? 1 : -1) * side[1][k]);
+}
+
+static bool face_opens(const bodies *b, const thr_answer *a, int e)
+{
+  const int *end = b->plan->frame.edge[e];
+  double axis[3], side[2][3], middle[3], at[3], one[3], other[3];
+  axes_of(b, e, axis, side);
+  for (int k = 0; k < 3; k++)
+    middle[k] = (b->centre[end[0]][k] + b->centre[end[1]][k]) / 2;
+  for (int i = 0; i < 4; i++) {
+    corner_of(b, middle, (const double(*)[3])side, i, at);
+    point_velocity(b, a, end[1], at, one);
+    point_velocity(b, a, end[0], at, other);
+    for (int k = 0; k < 3; k++)
+      one[k] -= other[k];
+    if (!opens(one, axis, b->e->physics.mu_bead)) return false;
+  }
+  return true;
+}
+
+/* A foot on the ground lifts or slides without closing; one that is held does not move. */
+static bool foot_opens(const bodies *b, const thr_answer *a, int v)
+{
+  static const double up[3] = {0, 0, 1}, side[2][3] = {{1, 0, 0}, {0, 1, 0}};
+  double below[3] = {b->centre[v][0], b->centre[v][1], b->centre[v][2] - b->width / 2}, at[3], apart[3];
+  if (b->s->clamped) {
+    for (int k = 0; k < 6; k++)
+      if (a->velocity[v][k] != 0) return false;
+    return true;
+  }
+  for (int i = 0; i < 4; i++) {
+    corner_of(b, below, side, i, at);
+    point_velocity(b, a, v, at, apart);
+    if (!opens(apart, up, b->e->physics.mu_ground)) return false;
+  }
+  return true;
+}
+
+/* A sum of powers, and of what they are before they cancel. */
+typedef struct {
+  double sum, terms;
+} power;
+
+static void add_power(power *p, double value)
+{
+  p->sum += value;
+  p->terms += fabs(value);
+}
+
+static void cords_power(const bodies *b, const thr_answer *a, power *resistance)
+{
+  for (int e = 0; e < b->plan->frame.n_edges; e++) {
+    const int *end = b->plan->frame.edge[e];
+    double axis[3], side[2][3], middle[3], velocity[3];
+    axes_of(b, e, axis, side);
+    for (int k = 0; k < 3; k++)
+      middle[k] = (b->centre[end[0]][k] + b->centre[end[1]][k]) / 2;
+    for (int which = 0; which < 2; which++) {
+      point_velocity(b, a, end[which], middle, velocity);
+      add_power(resistance, (which ? 1 : -1) * b->press[e] * thr_dot(axis, velocity));
+    }
+  }
+}
+
+static void loads_power(const bodies *b, const thr_answer *a, power *load)
+{
+  for (int i = 0; i < b->s->n_loads; i++) {
+    double velocity[3];
+    point_velocity(b, a, b->s->load[i].node, b->centre[b->s->load[i].node], velocity);
+    add_power(load, thr_dot(b->s->load[i].force, velocity));
+  }
+}
+
+/* Powers at what is claimed: given by weights (and the load), resisted by the cords at the pull; or given by the load, and
+ * resisted by cords and weights. */
+static bool proves(bodies *b, const thr_answer *a)
+{
+  power falling = {0}, load = {0}, resistance = {0};
+  const bool of_load = thr_asked_of_load(a->asked);
+  for (int v = 0; v < b->plan->frame.n_nodes; v++)
+    for (int k = 0; k < 3; k++)
+      add_power(&falling, b->mass[v] * b->e->physics.gravity * b->down[k] * a->velocity[v][k]);
+  if (of_load || a->asked == THR_ASKED_LOADED) loads_power(b, a, &load);
+  press(b, a);
+  cords_power(b, a, &resistance);
+  const double pull = of_load ? 1 : a->proved, times = of_load ? a->proved : 1;
+  const double slip = ROUNDING * (falling.terms + times * load.terms + pull * resistance.terms);
+  const double over = falling.sum + times * load.sum - pull * resistance.sum;
+  const double scale = fmax(fabs(falling.sum), fmax(fabs(times * load.sum), fabs(pull * resistance.sum)));
+  const bool drives = of_load ? load.sum > slip : falling.sum + load.sum > slip;
+  return drives && over >= -slip - 1e-9 * scale;
+}
+
+static thr_status check_answer(bodies *b, int i, thr_err *err)
+{
+  const thr_frame *frame = &b->plan->frame;
+  const thr_answer *a = &b->s->answer[i];
+  if (a->n_beads == 0) return THR_OK; /* nothing is proved, and nothing said to be */
+  if (a->n_beads != frame->n_nodes)
+    return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: not one velocity per node", i);
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (!(thr_dot(a->velocity[v], a->velocity[v]) <= 1 + 1e-9))
+      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: a bead that moves by more than 1", i);
+  for (int e = 0; e < frame->n_edges; e++)
+    if (!face_opens(b, a, e))
+      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: beads go into each other at edge %d", i,
+                      e);
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (b->foot[v] && !foot_opens(b, a, v))
+      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: foot %d %s", i, v,
+                      b->s->clamped ? "is held, but moves" : "goes into the ground");
+  if (proves(b, a)) return THR_OK;
+  return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].proved: the powers of the mechanism do not prove %.12g",
+                  i, a->proved);
+}
+
+/* ---- the rest ---- */
+
+/* What must hold of the answers without any mechanism. */
+static const char *misfit(const thr_standing *s, const thr_answer *a, bool scheduled)
+{
+  const bool of_load = thr_asked_of_load(a->asked), after = a->asked == THR_ASKED_AFTER || a->asked == THR_ASKED_CARRIED_AFTER;
+  if (after && !scheduled) return "it comes with a schedule";
+  if ((of_load || a->asked == THR_ASKED_LOADED) && s->n_loads == 0) return "it comes with loads";
+  if (of_load ? a->found > a->proved * (1 + 1e-6) : a->found < a->proved * (1 - 1e-6))
+    return "an equilibrium, where there is proved to be none";
+  return NULL;
+}
+
+/* No state with less at all ends than any state holds with is an equilibrium. */
+static bool let_down_fits(const thr_standing *s)
+{
+  for (int i = 0; i < s->n_answers; i++)
+    if (s->answer[i].asked == THR_ASKED_ANY_STATE && s->let_down < s->answer[i].proved * (1 - 1e-6)) return false;
+  return true;
+}
+
+static thr_status check_cords(bodies *b, thr_err *err)
+{
+  for (int i = 0; i < b->plan->n_cords; i++) {
+    const thr_drawn *drawn = &b->s->drawn[i];
+    const int last = b->plan->cord[i].n_passes - 1;
+    if (!b->e->cord[i].known) return thr_fail(err, THR_EVIOLATED, "evaluation.structure: not every cord is known");
+    if (drawn->slackest > last || (drawn->pull == THR_PULL_START && drawn->slackest != last) ||
+        ((drawn->pull == THR_PULL_END || drawn->pull == THR_PULL_NONE) && drawn->slackest != 0))
+      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.drawn[%d].slackest: not the pass that a pull reaches last", i);
+    if (drawn->pull != THR_PULL_BOTH) continue;
+    const double total = exponents(b, i), mine = fmax(b->at[drawn->slackest], total - b->at[drawn->slackest]);
+    for (int k = 0; k <= last; k++)
+      if (fmax(b->at[k], total - b->at[k]) < mine - 1e-9 * (1 + total))
+        return thr_fail(err, THR_EVIOLATED, "evaluation.structure.drawn[%d].slackest: another pass needs less pull", i);
+  }
+  return THR_OK;
+}
+
+/* Without a schedule the tensions are those of the first answer: all cords drawn in with so much at their harder ends. */
+static thr_status check_tensions(bodies *b, thr_err *err)
+{
+  double pull = 0;
+  if (b->e->schedule.n > 0) return THR_OK;
+  for (int i = 0; i < b->s->n_answers; i++)
+    if (b->s->answer[i].asked == THR_ASKED_HOLDING) pull = b->s->answer[i].proved;
+  for (int i = 0; i < b->plan->n_cords; i++) {
+    const double total = exponents(b, i);
+    if ((int)b->e->cord[i].pull != b->s->drawn[i].pull)
+      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.drawn[%d].pull: not that of the cord", i);
+    for (int k = 0; k < b->plan->cord[i].n_passes; k++) {
+      const double expected = pull * tension_of(b, &b->s->drawn[i], THR_ASKED_HOLDING, i, k, total);
+      if (!thr_check_close(b->e->cord[i].tension[k], expected, expected * (1 + total)))
+        return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d: stated %.12g N, but the holding pull gives %.12g N",
+                        b->plan->cord[i].id, k + 1, b->e->cord[i].tension[k], expected);
+    }
+  }
+  return THR_OK;
+}
+
+thr_status thr_check_standing(const thr_plan *plan, thr_err *err)
+{
+  const thr_standing *s = &plan->evaluation.standing;
+  bodies b;
+  thr_status st = bodies_make(&b, plan, err);
+  for (int i = 0; i < s->n_loads && !st; i++)
+    if (s->load[i].node >= plan->frame.n_nodes)
+      st = thr_fail(err, THR_EVIOLATED, "evaluation.structure.loads[%d].node: there is no such node", i);
+  if (!st) st = check_cords(&b, err);
+  if (!st) st = check_tensions(&b, err);
+  for (int i = 0; i < s->n_answers && !st; i++) {
+    const char *wrong = misfit(s, &s->answer[i], plan->evaluation.schedule.n > 0);
+    st = wrong ? thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d]: %s", i, wrong) : check_answer(&b, i, err);
+  }
+  if (!st && isfinite(s->let_down) && (plan->evaluation.schedule.n == 0 || !let_down_fits(s)))
+    st = thr_fail(err, THR_EVIOLATED, "evaluation.structure.let_down: not what ends can be let down to after a schedule");
+  thr_scratch_free(&b.own);
+  return st;
+}

@@ -1,0 +1,18 @@
+/* Names of the ends that are pulled. */
+#include "graph/plan/pulled.h"
+
+#include <string.h>
+
+static const char *const pull_name[] = {"start", "end", "both", "none"};
+
+const char *thr_pull_name(thr_pull p)
+{
+  return pull_name[p];
+}
+
+int thr_pull_named(const char *name)
+{
+  for (int i = 0; name && i < THR_N_PULLS; i++)
+    if (strcmp(name, pull_name[i]) == 0) return i;
+  return -1;
+}

@@ -1,0 +1,235 @@
+/* The limit analysis of a structure in plan.json. */
+#include "graph/plan/standing.h"
+
+#include "graph/angle.h"
+#include "graph/plan/pulled.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const asked_name[] = {"holding", "equal", "any_state", "after", "loaded", "carried", "carried_after"};
+
+const char *thr_asked_name(int asked)
+{
+  return asked_name[asked];
+}
+
+bool thr_asked_of_load(thr_asked asked)
+{
+  return asked == THR_ASKED_CARRIED || asked == THR_ASKED_CARRIED_AFTER;
+}
+
+void thr_standing_destroy(thr_standing *standing)
+{
+  for (int i = 0; i < standing->n_answers; i++)
+    free(standing->answer[i].velocity);
+  free(standing->answer);
+  free(standing->load);
+  free(standing->drawn);
+  *standing = (thr_standing){0};
+}
+
+/* ---- writing ---- */
+
+static void put_answer(thr_writer *writer, const thr_answer *answer)
+{
+  thr_write_line(writer, 5);
+  thr_write_object(writer, NULL);
+  thr_write_string(writer, "asked", thr_asked_name(answer->asked));
+  if (answer->asked == THR_ASKED_CARRIED) thr_write_number(writer, "pull", answer->pull);
+  if (isfinite(answer->found)) thr_write_number(writer, "found", answer->found);
+  if (answer->n_beads > 0) {
+    thr_write_number(writer, "proved", answer->proved);
+    thr_write_row(writer, "mechanism");
+    for (int v = 0; v < answer->n_beads; v++)
+      for (int k = 0; k < 6; k++)
+        thr_write_number(writer, NULL, answer->velocity[v][k]);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+}
+
+static void put_loads(thr_writer *writer, const thr_standing *standing)
+{
+  thr_write_line(writer, 4);
+  thr_write_array(writer, "loads");
+  for (int i = 0; i < standing->n_loads; i++) {
+    thr_write_object(writer, NULL);
+    thr_write_int(writer, "node", standing->load[i].node);
+    thr_write_row(writer, "force");
+    for (int k = 0; k < 3; k++)
+      thr_write_number(writer, NULL, standing->load[i].force[k]);
+    thr_write_close(writer);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+}
+
+static void put_drawn(thr_writer *writer, const thr_standing *standing)
+{
+  thr_write_line(writer, 4);
+  thr_write_array(writer, "drawn");
+  for (int i = 0; i < standing->n_cords; i++) {
+    thr_write_object(writer, NULL);
+    thr_write_string(writer, "pull", thr_pull_name((thr_pull)standing->drawn[i].pull));
+    thr_write_int(writer, "slackest", standing->drawn[i].slackest);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+}
+
+void thr_standing_write(const thr_standing *standing, thr_writer *writer, const char *key)
+{
+  thr_write_object(writer, key);
+  thr_write_bool(writer, "clamped", standing->clamped);
+  thr_write_bool(writer, "taut", standing->taut);
+  thr_write_number(writer, "tilt", standing->tilt);
+  thr_write_number(writer, "azimuth", standing->azimuth);
+  if (isfinite(standing->let_down)) thr_write_number(writer, "let_down", standing->let_down);
+  if (standing->n_loads > 0) put_loads(writer, standing);
+  put_drawn(writer, standing);
+  thr_write_line(writer, 4);
+  thr_write_array(writer, "answers");
+  for (int i = 0; i < standing->n_answers; i++)
+    put_answer(writer, &standing->answer[i]);
+  thr_write_close(writer);
+  thr_write_line(writer, 3);
+  thr_write_close(writer);
+}
+
+/* ---- reading ---- */
+
+/* Index of the word, or -1. */
+static int word_of(const thr_json *value, const char *const *word, int n)
+{
+  const char *text = thr_json_string(value);
+  for (int i = 0; text && i < n; i++)
+    if (strcmp(text, word[i]) == 0) return i;
+  return -1;
+}
+
+/* A number from 0 on, if it is there. */
+static bool amount(const thr_json *object, const char *key, bool needed, double *value)
+{
+  const thr_json *member = thr_json_get(object, key);
+  if (!member) return !needed;
+  return thr_json_number(member, value) && *value >= 0;
+}
+
+static const char *read_mechanism(const thr_json *list, thr_answer *answer)
+{
+  const int n = thr_json_size(list);
+  if (n < 6 || n % 6) return "mechanism: not six numbers for every node";
+  if (!(answer->velocity = thr_calloc((size_t)n / 6, sizeof *answer->velocity))) return "";
+  answer->n_beads = n / 6;
+  return thr_json_numbers(list, n, &answer->velocity[0][0]) ? NULL : "mechanism: not numbers";
+}
+
+/* What is wrong; "": no memory. */
+static const char *read_answer(const thr_json *object, thr_answer *answer)
+{
+  static const char *const known[] = {"asked", "pull", "found", "proved", "mechanism", NULL};
+  const thr_json *proved = thr_json_get(object, "proved"), *mechanism = thr_json_get(object, "mechanism");
+  const int asked = word_of(thr_json_get(object, "asked"), asked_name, THR_N_ASKED);
+  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
+  if (asked < 0) return "asked: an unknown word";
+  *answer = (thr_answer){.asked = (thr_asked)asked, .found = INFINITY};
+  if (thr_asked_of_load(answer->asked) && !proved) answer->proved = INFINITY;
+  if ((asked == THR_ASKED_CARRIED) != (thr_json_get(object, "pull") != NULL)) return "pull: with carried, and only with it";
+  if (!amount(object, "pull", false, &answer->pull)) return "pull: not a number from 0 on";
+  if (!amount(object, "found", false, &answer->found)) return "found: not a number from 0 on";
+  if (!amount(object, "proved", false, &answer->proved)) return "proved: not a number from 0 on";
+  if ((proved != NULL) != (mechanism != NULL)) return "mechanism: with what it proves, and only with it";
+  return mechanism ? read_mechanism(mechanism, answer) : NULL;
+}
+
+static const char *read_load(const thr_json *object, thr_load *load)
+{
+  static const char *const known[] = {"node", "force", NULL};
+  const thr_json *force = thr_json_get(object, "force");
+  int64_t node;
+  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
+  if (!thr_json_int(thr_json_get(object, "node"), &node) || node < 0 || node > INT32_MAX) return "node: not a number of a node";
+  if (thr_json_size(force) != 3 || !thr_json_numbers(force, 3, load->force)) return "force: not three numbers";
+  load->node = (int)node;
+  return NULL;
+}
+
+static const char *read_drawn(const thr_json *object, thr_drawn *drawn)
+{
+  static const char *const known[] = {"pull", "slackest", NULL};
+  int64_t slackest;
+  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
+  if ((drawn->pull = thr_pull_named(thr_json_string(thr_json_get(object, "pull")))) < 0) return "pull: an unknown word";
+  if (!thr_json_int(thr_json_get(object, "slackest"), &slackest) || slackest < 0 || slackest > INT32_MAX)
+    return "slackest: not a number of a pass";
+  drawn->slackest = (int)slackest;
+  return NULL;
+}
+
+typedef struct {
+  const char *place;
+  thr_err *err;
+} reader;
+
+static thr_status bad(const reader *r, const char *list, int i, const char *what)
+{
+  if (!*what) return thr_nomem(r->err);
+  if (i < 0) return thr_fail(r->err, THR_EVIOLATED, "%s.%s: %s", r->place, list, what);
+  return thr_fail(r->err, THR_EVIOLATED, "%s.%s[%d].%s", r->place, list, i, what);
+}
+
+static thr_status read_lists(const reader *r, const thr_json *object, thr_standing *standing)
+{
+  const thr_json *loads = thr_json_get(object, "loads"), *drawn = thr_json_get(object, "drawn"),
+                 *answers = thr_json_get(object, "answers");
+  const char *what = NULL;
+  const int n_loads = thr_json_size(loads), n_answers = thr_json_size(answers);
+  if (loads && (thr_json_typeof(loads) != THR_JSON_ARRAY || n_loads < 1)) return bad(r, "loads", -1, "not a list of loads");
+  if (thr_json_typeof(drawn) != THR_JSON_ARRAY || thr_json_size(drawn) != standing->n_cords)
+    return bad(r, "drawn", -1, "not one per cord");
+  if (thr_json_typeof(answers) != THR_JSON_ARRAY || n_answers < 1) return bad(r, "answers", -1, "missing or empty");
+  standing->load = thr_calloc((size_t)n_loads + 1, sizeof *standing->load);
+  standing->drawn = thr_calloc((size_t)standing->n_cords, sizeof *standing->drawn);
+  standing->answer = thr_calloc((size_t)n_answers, sizeof *standing->answer);
+  if (!standing->load || !standing->drawn || !standing->answer) return thr_nomem(r->err);
+  for (; standing->n_loads < n_loads; standing->n_loads++)
+    if ((what = read_load(thr_json_at(loads, standing->n_loads), &standing->load[standing->n_loads])))
+      return bad(r, "loads", standing->n_loads, what);
+  for (int i = 0; i < standing->n_cords; i++)
+    if ((what = read_drawn(thr_json_at(drawn, i), &standing->drawn[i]))) return bad(r, "drawn", i, what);
+  while (standing->n_answers < n_answers) {
+    const int i = standing->n_answers++;
+    if ((what = read_answer(thr_json_at(answers, i), &standing->answer[i]))) return bad(r, "answers", i, what);
+  }
+  return THR_OK;
+}
+
+static thr_status read_members(const reader *r, const thr_json *object, thr_standing *standing)
+{
+  static const char *const known[] = {"clamped", "taut", "tilt", "azimuth", "let_down", "loads", "drawn", "answers", NULL};
+  const char *key = thr_json_unknown(object, known);
+  if (key) return bad(r, key, -1, "this version does not know it and cannot check it");
+  if (thr_json_typeof(thr_json_get(object, "clamped")) != THR_JSON_BOOL) return bad(r, "clamped", -1, "expected true or false");
+  if (thr_json_typeof(thr_json_get(object, "taut")) != THR_JSON_BOOL) return bad(r, "taut", -1, "expected true or false");
+  standing->clamped = thr_json_true(thr_json_get(object, "clamped"));
+  standing->taut = thr_json_true(thr_json_get(object, "taut"));
+  if (!amount(object, "tilt", true, &standing->tilt) || !(standing->tilt < THR_PI / 2))
+    return bad(r, "tilt", -1, "not an angle from 0 to a right one");
+  if (!thr_json_number(thr_json_get(object, "azimuth"), &standing->azimuth)) return bad(r, "azimuth", -1, "not a finite number");
+  if (!amount(object, "let_down", false, &standing->let_down)) return bad(r, "let_down", -1, "not a number from 0 on");
+  return read_lists(r, object, standing);
+}
+
+thr_status thr_standing_from_json(thr_standing *standing, const thr_json *object, int n_cords, const char *place, thr_err *err)
+{
+  const reader r = {place, err};
+  *standing = (thr_standing){.present = true, .let_down = NAN, .n_cords = n_cords};
+  thr_status st = thr_json_typeof(object) == THR_JSON_OBJECT ? read_members(&r, object, standing)
+                                                             : thr_fail(err, THR_EVIOLATED, "%s: not an object", place);
+  if (st) thr_standing_destroy(standing);
+  return st;
+}
