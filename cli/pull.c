@@ -6,7 +6,9 @@
 #include "graph/limits.h"
 #include "graph/os.h"
 #include "graph/plan/physics.h"
+#include "graph/plan/schedule.h"
 #include "graph/status.h"
+#include "graph/text.h"
 #include "graph/plan/pulled.h"
 
 #include <math.h>
@@ -216,6 +218,20 @@ int pull_eval(const pull_args *a, const char *path, const thr_plan *plan, thr_me
   }
   thr_fail(&err, st, "%s: %s", path, found.text);
   return cli_fail(&err);
+}
+
+int pull_read_schedule(const char *value, const thr_plan *plan, thr_schedule *schedule)
+{
+  thr_text text = {0};
+  thr_err err = {0};
+  if (!value) return EXIT_OK;
+  const bool file = !strchr(value, ':');
+  thr_status st = file ? thr_text_read(&text, value, &err) : THR_OK;
+  if (!file) thr_text_append(&text, value);
+  if (!st && text.failed) st = thr_nomem(&err);
+  if (!st) st = thr_schedule_parse(schedule, plan, text.data, text.length, file ? value : "--schedule", &err);
+  thr_text_destroy(&text);
+  return st ? cli_fail(&err) : EXIT_OK;
 }
 
 double pull_percent(double error)

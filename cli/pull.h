@@ -73,6 +73,10 @@ int pull_check(const pull_args *a, const char *command);
  * with out holding what is known; or prints and returns the code. */
 int pull_eval(const pull_args *a, const char *path, const thr_plan *plan, thr_method method, thr_eval *out);
 
+/* A schedule that was given: a value with a colon is it, another one the name of a file of it; NULL is none. Returns EXIT_OK, or
+ * prints and returns the code. Release with thr_schedule_destroy. */
+int pull_read_schedule(const char *value, const thr_plan *plan, thr_schedule *schedule);
+
 /* A relative error from an exponent's, in percent. */
 double pull_percent(double error);
 

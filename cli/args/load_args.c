@@ -50,6 +50,7 @@ static bool parse_tilt(load_args *a, const char *command, const char *value)
 bool load_option(load_args *a, const char *command, int option, const char *value, bool *ok)
 {
   *ok = true;
+  a->command = command;
   switch (option) {
   case OPTION_LOAD:
     *ok = !a->load;
@@ -70,7 +71,7 @@ bool load_any(const load_args *a)
 }
 
 /* One load, "D4=10" or "D4=0,1,-10": a single number hangs. */
-static int add_load(const thr_frame *frame, const char *text, size_t length, double (*load)[3])
+static int add_load(const char *command, const thr_frame *frame, const char *text, size_t length, double (*load)[3])
 {
   char name[256];
   double force[3];
@@ -79,7 +80,7 @@ static int add_load(const thr_frame *frame, const char *text, size_t length, dou
     equals--;
   const int n = equals > 1 ? parse_numbers(text + equals, length - equals, force, 3) : -1;
   if ((n != 1 && n != 3) || equals - 1 >= sizeof name)
-    return cli_usage("eval", "--load %.*s: expected NODE=N, newtons that hang there, or NODE=FX,FY,FZ", (int)length, text);
+    return cli_usage(command, "--load %.*s: expected NODE=N, newtons that hang there, or NODE=FX,FY,FZ", (int)length, text);
   snprintf(name, sizeof name, "%.*s", (int)(equals - 1), text);
   const int v = thr_frame_find(frame, name);
   if (v < 0) return cli_no_node(frame, "--load", "node", name);
@@ -88,18 +89,18 @@ static int add_load(const thr_frame *frame, const char *text, size_t length, dou
   return EXIT_OK;
 }
 
-static int read_loads(const char *list, const thr_frame *frame, double (*load)[3])
+static int read_loads(const char *command, const char *list, const thr_frame *frame, double (*load)[3])
 {
   bool some = false;
   for (const char *at = list; *at;) {
     const size_t length = strcspn(at, ";");
-    const int code = add_load(frame, at, length, load);
+    const int code = add_load(command, frame, at, length, load);
     if (code) return code;
     at += length + (at[length] == ';');
   }
   for (int v = 0; v < frame->n_nodes; v++)
     some |= load[v][0] != 0 || load[v][1] != 0 || load[v][2] != 0;
-  return some ? EXIT_OK : cli_usage("eval", "--load %s: no force at all", list);
+  return some ? EXIT_OK : cli_usage(command, "--load %s: no force at all", list);
 }
 
 int load_apply(const load_args *a, const thr_frame *frame, thr_eval_options *options, double (**load)[3])
@@ -117,7 +118,7 @@ int load_apply(const load_args *a, const thr_frame *frame, thr_eval_options *opt
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  code = read_loads(a->load, frame, *load);
+  code = read_loads(a->command, a->load, frame, *load);
   options->load = (const double(*)[3]) * load;
   return code;
 }

@@ -33,7 +33,8 @@ enum {
 enum { LOAD_MOST_PULLS = 32 };
 
 typedef struct {
-  const char *load; /* as given; NULL = none */
+  const char *command; /* for messages */
+  const char *load;    /* as given; NULL = none */
   double pulls[LOAD_MOST_PULLS], tilt, azimuth;
   int n_pulls, rays;
   bool clamped;
@@ -41,7 +42,7 @@ typedef struct {
 
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
 bool load_option(load_args *a, const char *command, int option, const char *value, bool *ok);
-/* Is anything asked for that the evaluation's record in a plan has no place for? */
+/* Does anything act on the structure beside weight and cords? */
 bool load_any(const load_args *a);
 /* Sets options; *load receives [n_nodes] that the caller frees. EXIT_OK, or prints and returns the code. */
 int load_apply(const load_args *a, const thr_frame *frame, thr_eval_options *options, double (**load)[3]);

@@ -1,4 +1,5 @@
 /* thread compare: plans of one framework side by side, ranked by how hard they are to pull. */
+#include "cli/args/load_args.h"
 #include "cli/print/compare_rows.h"
 #include "cli/print/ranking.h"
 #include "diagram/overview/compare_chart.h"
@@ -13,6 +14,7 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
+#include "graph/plan/schedule.h"
 #include "graph/process/workers.h"
 #include "graph/status.h"
 #include "graph/text.h"
@@ -28,11 +30,20 @@ static const char help[] =
     "Examples:\n"
     "  thread compare closed.json feet.json --mu 0.3           ranked by pull, joints measured in simulation\n"
     "  thread compare closed.json feet.json --method capstan   the same by the closed form, at once\n"
-    "  thread compare data/dome7-*.json --method all           closed form, joints, structure: do they agree?\n\n"
+    "  thread compare data/dome7-*.json --method all           closed form, joints, structure: do they agree?\n"
+    "  thread compare data/dome7-*.json --method structure --load D4=1 --schedule \"all: pull both 20\"\n"
+    "                                                          by what they carry, drawn in and afterwards\n\n"
     "Options:\n"
     "      --method joint|capstan|structure|all\n"
     "                       what to rank by (default: joint); the closed form is always shown beside it\n" PULL_HELP(
-        "largest holding pull of the plans") "      --plot FILE      write a picture as SVG: the plans side by side, small, with "
+        "largest holding pull of the plans") "      --load NODE=N    structure: rank by what the plans carry, too: newtons that "
+                                             "hang on a node, or\n"
+                                             "                       NODE=FX,FY,FZ; several with semicolons\n"
+                                             "      --load-pulls N   with so many newtons at all ends (default: 10)\n"
+                                             "      --schedule TEXT  structure: and after what is done to the cords, as `thread "
+                                             "eval` takes it\n"
+                                             "      --tilt DEG, --clamp-feet, --rays N   structure: as `thread eval` takes them\n"
+                                             "      --plot FILE      write a picture as SVG: the plans side by side, small, with "
                                              "pull, cord and number of cords\n"
                                              "      --json           as JSON\n"
                                              "  -q, --quiet          no notes and no progress       -h, --help\n\n"
@@ -41,14 +52,27 @@ static const char help[] =
                                              "with half\n"
                                              "the time step and twice the iterations, all from one pull; only what both runs "
                                              "tell apart is no tie. It takes minutes;\n"
-                                             "--no-dynamics is fast. How far its index spreads over seeds is not counted: try a "
+                                             "--no-dynamics is fast; it knows no loads, leaning ground, held feet and schedules, "
+                                             "and is left out with them. How far its index spreads over seeds is not counted: "
+                                             "try a "
                                              "few --seed before you rely on it.\n";
 
-enum { OPTION_PLOT = OPTION_PULL_FREE };
-static const struct option table[] = {
-    CLI_COMMON_OPTIONS, PULL_OPTIONS, GUARD_OPTIONS, {"plot", required_argument, NULL, OPTION_PLOT}, {NULL, 0, NULL, 0}};
+enum { OPTION_PLOT = OPTION_PULL_FREE, OPTION_SCHEDULE };
+static const struct option table[] = {CLI_COMMON_OPTIONS,
+                                      PULL_OPTIONS,
+                                      GUARD_OPTIONS,
+                                      LOAD_OPTIONS,
+                                      {"plot", required_argument, NULL, OPTION_PLOT},
+                                      {"schedule", required_argument, NULL, OPTION_SCHEDULE},
+                                      {NULL, 0, NULL, 0}};
 
-enum { CAPSTAN, JOINT, HOLDING, STANDING, SIMULATION, N_RANKINGS };
+enum { CAPSTAN, JOINT, HOLDING, STANDING, AFTER, LOADED, CARRIED, CARRIED_AFTER, SIMULATION, N_RANKINGS };
+
+/* What is done to the structures beside pulling. */
+typedef struct {
+  load_args load;
+  const char *schedule; /* as given; NULL: none */
+} deeds;
 
 typedef compare_entry entry;
 
@@ -60,10 +84,24 @@ static bool wanted(const pull_args *a, thr_method i)
 
 /* ---- rankings ---- */
 
+/* A pull or a factor that is needed: from what is proved to what was found. */
+static void rank_need(ranking *r, const thr_holding *holding, int i)
+{
+  r->value[i] = r->low[i] = holding->present ? holding->lower : NAN; /* INFINITY: none does */
+  r->high[i] = holding->upper >= holding->lower ? holding->upper : INFINITY;
+}
+
+/* What is carried, the most first. */
+static void rank_carry(ranking *r, const thr_carry *carry, int i)
+{
+  r->value[i] = r->high[i] = carry->first_bead < 0 ? NAN : -carry->carried;
+  r->low[i] = -carry->beyond;
+}
+
 /* Fills value and interval of plan i; leaves it unknown if it is. */
 static void rank_plan(ranking *r, int by, const entry *e, int i)
 {
-  const thr_holding *holding = &e->eval[THR_STRUCTURE].holding;
+  const thr_eval *structure = &e->eval[THR_STRUCTURE];
   double rough = e->index[0], fine = e->index[1];
   switch (by) {
   case CAPSTAN:
@@ -76,14 +114,15 @@ static void rank_plan(ranking *r, int by, const entry *e, int i)
     r->low[i] = r->value[i] * exp(-e->eval[THR_JOINT].error);
     r->high[i] = e->eval[THR_JOINT].refused ? INFINITY : r->value[i] * exp(e->eval[THR_JOINT].error);
     break;
-  case HOLDING:
-    r->value[i] = r->low[i] = compare_largest(e, THR_STRUCTURE);
-    r->high[i] = holding->upper >= holding->lower ? holding->upper : INFINITY;
+  case HOLDING: rank_need(r, &structure->holding, i); break;
+  case STANDING: rank_need(r, &structure->loosest, i); break;
+  case AFTER: rank_need(r, &structure->after, i); break;
+  case LOADED: rank_need(r, &structure->loaded, i); break;
+  case CARRIED:
+    if (structure->n_carries) rank_carry(r, &structure->carries[0].carry, i);
     break;
-  case STANDING:
-    holding = &e->eval[THR_STRUCTURE].loosest;
-    r->value[i] = r->low[i] = holding->present ? holding->lower : NAN;
-    r->high[i] = holding->upper >= holding->lower ? holding->upper : INFINITY;
+  case CARRIED_AFTER:
+    if (structure->after.present) rank_carry(r, &structure->after_carries, i);
     break;
   default:
     r->value[i] = isnan(fine) ? NAN : rough;
@@ -99,10 +138,17 @@ static bool simulated(const entry *e, int n)
   return false;
 }
 
-static bool stands(const entry *e, int n)
+/* Was this asked of any plan? */
+static bool asked(int by, const entry *e, int n)
 {
-  for (int i = 0; i < n; i++)
-    if (e[i].eval[THR_STRUCTURE].loosest.present) return true;
+  if (by == SIMULATION) return simulated(e, n);
+  for (int i = 0; i < n; i++) {
+    const thr_eval *structure = &e[i].eval[THR_STRUCTURE];
+    if (by < STANDING || (by == STANDING && structure->loosest.present) || (by == AFTER && structure->after.present) ||
+        ((by == LOADED || by == CARRIED) && structure->n_carries > 0) ||
+        (by == CARRIED_AFTER && structure->after.present && structure->n_carries > 0))
+      return true;
+  }
   return false;
 }
 
@@ -122,17 +168,31 @@ static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranki
       [STANDING] = {.title = "force at all ends once the cords are in, in any state that friction keeps (the same two forces)",
                     .key = "any_state",
                     .unit = " N"},
+      [AFTER] = {.title = "part of the tensions after the schedule that would do (the same two, over 1: it falls)",
+                 .key = "after",
+                 .unit = ""},
+      [LOADED] = {.title = "pull at all ends that carries the load while the cords are drawn in (the same two forces)",
+                  .key = "loaded",
+                  .unit = " N"},
+      [CARRIED] = {.title =
+                       "load carried at the pull that was given, while the cords are drawn in (at the first it can stand, above "
+                       "the second nothing holds it)",
+                   .key = "carried",
+                   .unit = " x",
+                   .most = true},
+      [CARRIED_AFTER] = {.title = "load carried after the schedule (the same two)",
+                         .key = "carried_after",
+                         .unit = " x",
+                         .most = true},
       [SIMULATION] = {
           .title = "simulation of the structure, an index without unit (coarse .. fine; its spread over seeds is not counted)",
           .key = "simulation",
           .unit = ""}};
-  static const thr_method method[N_RANKINGS] = {THR_CAPSTAN, THR_JOINT, THR_STRUCTURE, THR_STRUCTURE, THR_STRUCTURE};
   bool all = a->method == PULL_ALL_METHODS;
   *count = 0;
   for (int by = 0; by < N_RANKINGS; by++) {
-    if (!all && a->method != (int)method[by]) continue;
-    if (by == SIMULATION && !simulated(e, n)) continue;
-    if (by == STANDING && !stands(e, n)) continue;
+    const thr_method method = by == CAPSTAN ? THR_CAPSTAN : by == JOINT ? THR_JOINT : THR_STRUCTURE;
+    if ((!all && a->method != (int)method) || !asked(by, e, n)) continue;
     r[*count] = kind[by];
     thr_status st = ranking_init(&r[*count], n, err);
     if (st) return st;
@@ -152,21 +212,54 @@ static bool find_disagreement(const ranking *r, int count, int which[2], int pai
   return false;
 }
 
+static bool tells_apart(const ranking *r)
+{
+  return r->n_ranked > 1 && r->rank[r->order[r->n_ranked - 1]] > 1;
+}
+
+static bool same_order(const ranking *a, const ranking *b)
+{
+  if (a->n_ranked != b->n_ranked) return false;
+  for (int k = 0; k < a->n_ranked; k++)
+    if (a->order[k] != b->order[k] || a->rank[a->order[k]] != b->rank[b->order[k]]) return false;
+  return true;
+}
+
+/* Which rankings that tell plans apart have which order: "lines.json, stairs.json = snake.json  by holding, carried". */
+static void put_orders(const ranking *r, int count, const char *const *name, thr_text *text)
+{
+  thr_text_append(text, "the rankings disagree:\n");
+  for (int i = 0; i < count; i++) {
+    bool said = !tells_apart(&r[i]);
+    for (int k = 0; k < i; k++)
+      said |= same_order(&r[k], &r[i]);
+    if (said) continue;
+    for (int k = 0; k < r[i].n_ranked; k++)
+      thr_text_printf(text, "%s%s",
+                      k == 0                                                     ? "  "
+                      : r[i].rank[r[i].order[k]] == r[i].rank[r[i].order[k - 1]] ? " = "
+                                                                                 : ", ",
+                      name[r[i].order[k]]);
+    for (int k = i; k < count; k++)
+      if (same_order(&r[k], &r[i])) thr_text_printf(text, "%s%s", k == i ? "  by " : ", ", r[k].key);
+    thr_text_append(text, "\n");
+  }
+}
+
 /* Rankings that agree say little if all of them ask for the pull while cords are drawn in. */
 static void put_agreement(const ranking *r, int count, const char *const *name, thr_text *text)
 {
   bool let_go = false;
   int orders = 0; /* that tell any plans apart */
   for (int i = 0; i < count; i++) {
-    bool apart = r[i].n_ranked > 1 && r[i].rank[r[i].order[r[i].n_ranked - 1]] > 1;
+    const bool apart = tells_apart(&r[i]);
     orders += apart;
-    let_go |= apart && strcmp(r[i].key, "any_state") == 0;
+    let_go |= apart && (strcmp(r[i].key, "any_state") == 0 || strstr(r[i].key, "after"));
   }
   int which[2], pair[2];
   if (orders < 2) return;
   if (find_disagreement(r, count, which, pair))
-    thr_text_printf(text, "the rankings disagree: %s needs less than %s by %s, more by %s\n", name[pair[0]], name[pair[1]],
-                    r[which[0]].key, r[which[1]].key);
+    put_orders(r, count, name, text);
   else
     thr_text_append(text, let_go ? "the rankings agree, while cords are drawn in and afterwards, ties aside\n"
                                  : "the rankings agree, ties aside; both ask for the pull while cords are drawn in\n");
@@ -342,16 +435,52 @@ static int read_entries(char **path, int n, entry *e)
   return EXIT_OK;
 }
 
-/* Every method for every plan. One that fails for a plan leaves it unknown, its message printed; but nothing compares if not even
- * the closed form is known, or if the user has stopped it. */
-static int evaluate(const pull_args *a, entry *e, int n)
+/* Loads and schedule as nodes and cords of a plan. */
+static int read_deeds(const deeds *d, const entry *e, thr_eval_options *options, thr_schedule *schedule, double (**load)[3])
+{
+  const int code = pull_read_schedule(d->schedule, &e->plan, schedule);
+  return code ? code : load_apply(&d->load, &e->plan.frame, options, load);
+}
+
+/* Do they fit every plan? */
+static int try_deeds(const deeds *d, const entry *e, int n)
+{
+  int code = EXIT_OK;
+  for (int i = 0; i < n && !code; i++) {
+    thr_eval_options options = thr_eval_options_default();
+    thr_schedule schedule = {0};
+    double(*load)[3] = NULL;
+    code = read_deeds(d, &e[i], &options, &schedule, &load);
+    thr_schedule_destroy(&schedule);
+    free(load);
+  }
+  return code;
+}
+
+/* One plan by one method; loads and schedules are of the structure alone. */
+static int evaluate_one(const pull_args *a, const deeds *d, thr_method method, entry *e)
 {
   pull_args plain = *a;
-  int worst = EXIT_OK;
+  thr_schedule schedule = {0};
+  double(*load)[3] = NULL;
+  int code = EXIT_OK;
   plain.options.dynamics = false; /* the simulation follows, when the common start is known */
+  if (method == THR_STRUCTURE) code = read_deeds(d, e, &plain.options, &schedule, &load);
+  if (schedule.n > 0) plain.options.schedule = &schedule;
+  if (!code) code = pull_eval(&plain, e->path, &e->plan, method, &e->eval[method]);
+  thr_schedule_destroy(&schedule);
+  free(load);
+  return code;
+}
+
+/* Every method for every plan. One that fails for a plan leaves it unknown, its message printed; but nothing compares if not even
+ * the closed form is known, or if the user has stopped it. */
+static int evaluate(const pull_args *a, const deeds *d, entry *e, int n)
+{
+  int worst = EXIT_OK;
   for (int method = 0; method < THR_N_METHODS; method++)
     for (int i = 0; i < n && wanted(a, (thr_method)method); i++) {
-      int code = pull_eval(&plain, e[i].path, &e[i].plan, (thr_method)method, &e[i].eval[method]);
+      int code = evaluate_one(a, d, (thr_method)method, &e[i]);
       if (code == EXIT_LIMIT || (code && method == THR_CAPSTAN)) return code;
       if (!worst) worst = code;
       if (i > 0 && method == THR_CAPSTAN && !same_physics(&e[i].eval[0].record.physics, &e[0].eval[0].record.physics))
@@ -494,11 +623,12 @@ static int print(const pull_args *a, const entry *e, int n)
 }
 
 /* plot: where the picture goes, NULL = nowhere. */
-static int compare(const pull_args *a, char **path, int n, entry *e, const char *plot)
+static int compare(const pull_args *a, const deeds *d, char **path, int n, entry *e, const char *plot)
 {
   int code = read_entries(path, n, e);
   if (code) return code;
-  code = evaluate(a, e, n);
+  if ((code = try_deeds(d, e, n))) return code;
+  code = evaluate(a, d, e, n);
   if (code && code != EXIT_LIMIT && !e[n - 1].eval[THR_CAPSTAN].record.present) return code;
   if (code != EXIT_LIMIT && wanted(a, THR_STRUCTURE) && a->options.dynamics) {
     int settled = settle(a, e, n);
@@ -513,6 +643,22 @@ static int compare(const pull_args *a, char **path, int n, entry *e, const char 
   return printed ? printed : code;
 }
 
+/* What would be ignored is refused; the simulation knows only cords and weights. */
+static int check_deeds(pull_args *a, deeds *d)
+{
+  const bool structure = a->method == THR_STRUCTURE || a->method == PULL_ALL_METHODS, any = load_any(&d->load) || d->schedule;
+  if (!structure && (any || d->load.rays))
+    return cli_usage("compare", "--load, --tilt, --clamp-feet, --rays and --schedule are of --method structure or all");
+  if (d->schedule && !*d->schedule) return cli_usage("compare", "--schedule: an empty one does nothing");
+  if (d->load.n_pulls && !d->load.load) return cli_usage("compare", "--load-pulls needs --load");
+  if (d->load.n_pulls > 1) return cli_usage("compare", "--load-pulls: one pull, to rank by what is carried at it");
+  if (any && a->options.start > 0)
+    return cli_usage("compare", "--start is of the simulation, which knows no loads and schedules");
+  if (d->load.load && !d->load.n_pulls) d->load.pulls[d->load.n_pulls++] = 10;
+  if (any) a->options.dynamics = false;
+  return EXIT_OK;
+}
+
 int cmd_compare(int argc, char **argv)
 {
   int done, option;
@@ -521,12 +667,16 @@ int cmd_compare(int argc, char **argv)
   guard_limits guard = guard_limits_default();
   guard_end end;
   const char *plot = NULL;
+  deeds d = {0};
   pull_args_init(&a, THR_JOINT);
   while ((option = cli_physics_option(&a.physics, argc, argv, "compare", ":" CLI_COMMON_LETTERS PULL_LETTERS, table, help,
                                       &done)) != -1) {
     if (option == OPTION_PLOT) plot = optarg;
+    if (option == OPTION_SCHEDULE) d.schedule = optarg;
     if (plot && !*plot) return cli_usage("compare", "an empty name is no place to write to");
-    if ((pull_option(&a, "compare", option, optarg, &ok) || guard_option(&guard, "compare", option, optarg, &ok)) && !ok)
+    if ((pull_option(&a, "compare", option, optarg, &ok) || guard_option(&guard, "compare", option, optarg, &ok) ||
+         load_option(&d.load, "compare", option, optarg, &ok)) &&
+        !ok)
       return EXIT_USAGE;
   }
   if (done >= 0) return done;
@@ -534,6 +684,7 @@ int cmd_compare(int argc, char **argv)
   if (n < 1) return cli_usage("compare", "which plans?");
   if (a.json && plot && strcmp(plot, "-") == 0) return cli_usage("compare", "--json and --plot - both want stdout");
   int code = pull_check(&a, "compare");
+  if (!code) code = check_deeds(&a, &d);
   if (code) return code;
   if (guard_fork(&guard, &end)) return guard_conclude(&end, "no comparison");
   entry *e = thr_calloc((size_t)n, sizeof *e);
@@ -541,7 +692,7 @@ int cmd_compare(int argc, char **argv)
     cli_error("out of memory");
     return EXIT_INTERNAL;
   }
-  code = compare(&a, argv + optind, n, e, plot);
+  code = compare(&a, &d, argv + optind, n, e, plot);
   for (int i = 0; i < n; i++) {
     thr_plan_destroy(&e[i].plan);
     for (int k = 0; k < THR_N_METHODS; k++)

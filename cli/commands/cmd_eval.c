@@ -317,21 +317,6 @@ static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eva
   return code ? code : printed;
 }
 
-/* A value with a colon is the schedule itself, another one the name of a file of it. EXIT_OK, or printed. */
-static int read_schedule(const char *value, const thr_plan *plan, thr_schedule *schedule)
-{
-  thr_text text = {0};
-  thr_err err = {0};
-  if (!value) return EXIT_OK;
-  const bool file = !strchr(value, ':');
-  thr_status st = file ? thr_text_read(&text, value, &err) : THR_OK;
-  if (!file) thr_text_append(&text, value);
-  if (!st && text.failed) st = thr_nomem(&err);
-  if (!st) st = thr_schedule_parse(schedule, plan, text.data, text.length, file ? value : "--schedule", &err);
-  thr_text_destroy(&text);
-  return st ? cli_fail(&err) : EXIT_OK;
-}
-
 static bool any_known(const thr_evaluation *evaluation)
 {
   for (int i = 0; i < evaluation->n_cords; i++)
@@ -351,7 +336,7 @@ int cmd_eval(int argc, char **argv)
   if ((code = cli_read_plan(a.path, &plan))) return code;
   thr_schedule schedule = {0};
   double(*load)[3] = NULL;
-  code = read_schedule(a.schedule, &plan, &schedule);
+  code = pull_read_schedule(a.schedule, &plan, &schedule);
   if (!code) code = load_apply(&a.load, &plan.frame, &a.pull.options, &load);
   if (schedule.n > 0) a.pull.options.schedule = &schedule;
   if (!code) code = pull_eval(&a.pull, a.path, &plan, (thr_method)a.pull.method, &eval);

@@ -96,6 +96,8 @@ static bool is_known(const compare_entry *e, thr_method method)
 }
 double compare_largest(const compare_entry *e, thr_method method)
 {
+  if (method == THR_STRUCTURE && is_known(e, method))
+    return e->eval[method].holding.lower; /* the record's may follow a schedule */
   return is_known(e, method) ? e->eval[method].record.largest : NAN;
 }
 static double total_of(const compare_entry *e, thr_method method)

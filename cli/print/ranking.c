@@ -61,16 +61,37 @@ void ranking_make(ranking *r)
   join_ties(r);
 }
 
+/* What plan i has, as people count it. */
+typedef struct {
+  double value, low, high;
+} counted;
+
+static counted count_of(const ranking *r, int i)
+{
+  if (r->most) return (counted){-r->value[i], -r->high[i], -r->low[i]};
+  return (counted){r->value[i], r->low[i], r->high[i]};
+}
+
 /* +-0.4 %, or from .. to. */
 static void put_interval(const ranking *r, int i, thr_text *text)
 {
-  double low = r->low[i], high = r->high[i];
+  const double low = count_of(r, i).low, high = count_of(r, i).high;
   if (!isfinite(high))
     thr_text_printf(text, " (at least %.4g%s%s%s)", low, r->unit, r->open ? ": " : "", r->open ? r->open : "");
   else if (r->error && r->value[i] > 0)
     thr_text_printf(text, " (+-%.3g %%)", 100 * (high / r->value[i] - 1));
   else if (!r->error && high > low * (1 + 1e-5))
     thr_text_printf(text, " (%.4g .. %.4g%s)", low, high, r->unit);
+}
+
+static void put_value(const ranking *r, int i, thr_text *text)
+{
+  if (isinf(r->value[i])) {
+    thr_text_append(text, "none, proved");
+    return;
+  }
+  thr_text_printf(text, "%.4g%s", count_of(r, i).value, r->unit);
+  put_interval(r, i, text);
 }
 
 void ranking_put_text(const ranking *r, const char *const *name, thr_text *text)
@@ -81,10 +102,12 @@ void ranking_put_text(const ranking *r, const char *const *name, thr_text *text)
   thr_text_printf(text, "ranking by %s\n", r->title);
   for (int k = 0; k < r->n_ranked; k++) {
     int i = r->order[k];
-    thr_text_printf(text, "  %d. %-*s %.4g%s", r->rank[i], widest, name[i], r->value[i], r->unit);
-    put_interval(r, i, text);
+    thr_text_printf(text, "  %d. %-*s ", r->rank[i], widest, name[i]);
+    put_value(r, i, text);
     if (k > 0)
-      thr_text_append(text, r->rank[i] == r->rank[r->order[k - 1]] ? "  tie, within the error" : "  more, beyond the error");
+      thr_text_append(text, r->rank[i] == r->rank[r->order[k - 1]] ? "  tie, within the error"
+                            : r->most                              ? "  less, beyond the error"
+                                                                   : "  more, beyond the error");
     thr_text_append(text, "\n");
   }
   for (int i = 0; i < r->n; i++)
@@ -95,14 +118,15 @@ void ranking_put_json(const ranking *r, const char *const *name, thr_writer *wri
 {
   thr_write_object(writer, NULL);
   thr_write_string(writer, "by", r->key);
+  thr_write_string(writer, "first", r->most ? "most" : "least");
   thr_write_array(writer, "order");
   for (int k = 0; k < r->n_ranked; k++) {
     int i = r->order[k];
     thr_write_object(writer, NULL);
     thr_write_string(writer, "plan", name[i]);
-    thr_write_number(writer, "value", r->value[i]);
-    thr_write_number(writer, "low", r->low[i]);
-    thr_write_number(writer, "high", r->high[i]);
+    thr_write_number(writer, "value", count_of(r, i).value);
+    thr_write_number(writer, "low", count_of(r, i).low);
+    thr_write_number(writer, "high", count_of(r, i).high);
     thr_write_int(writer, "rank", r->rank[i]);
     thr_write_close(writer);
   }

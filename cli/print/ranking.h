@@ -6,16 +6,18 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* Least first. Plans whose intervals overlap, or are joined by others that do, are a tie and share a rank: between plans of
- * different rank no interval reaches across. Filled by ranking_make from value, low and high. */
+/* Least first, or most. Plans whose intervals overlap, or are joined by others that do, are a tie and share a rank: between plans
+ * of different rank no interval reaches across. Filled by ranking_make from value, low and high. */
 typedef struct {
   const char *title;          /* "simulated seating pull" */
   const char *key;            /* in JSON: "joint" */
   const char *unit;           /* " N", or "" for a bare number */
   const char *open;           /* what to say of a plan without an upper end; NULL = nothing */
+  bool most;                  /* most first: value, low and high are then negative, and printed without the sign */
   bool error;                 /* print the interval as +- percent, else as from .. to */
   int n, n_ranked;            /* plans, and how many of them have a rank */
-  double *value, *low, *high; /* [n] of plan i; value NAN = not known, not ranked; high INFINITY = no upper end; owned */
+  double *value, *low, *high; /* [n] of plan i; value NAN = not known, not ranked; INFINITY = proved that there is none; high
+                                 INFINITY = no upper end; owned */
   int *order;                 /* [n_ranked] plans; owned */
   int *rank;                  /* [n] 1, 2, .. of plan i, 0 = not ranked; owned */
 } ranking;

@@ -67,8 +67,8 @@ typedef struct {
   thr_standing standing;        /* of method structure: what acts on it, and what was proved; an older version wrote none */
 } thr_evaluation;
 
-const char *thr_method_name(int m);    /* "capstan", "joint", "structure" */
-const char *thr_law_name(int l);       /* "capstan", "mitre" */
+const char *thr_method_name(int m); /* "capstan", "joint", "structure" */
+const char *thr_law_name(int l);    /* "capstan", "mitre" */
 
 /* Largest and total from the cords; those that are not known count as 0. */
 void thr_evaluation_sum(thr_evaluation *evaluation);

@@ -108,6 +108,25 @@ START_TEST(only_sure_orders_contradict)
 }
 END_TEST
 
+/* Of loads the most comes first, with its interval the right way round; and where there is proved to be none, it is last. */
+START_TEST(the_most_first)
+{
+  const double most[2][3] = {{-4, -3, -3}, {-9, -8, -8}}, need[2][3] = {{INFINITY, INFINITY, INFINITY}, {1, 1, 2}};
+  const char *const name[2] = {"a", "b"};
+  ranking r = ranking_of(2, most), q = ranking_of(2, need);
+  thr_text t = {0};
+  r.most = true;
+  ck_assert_int_eq(r.order[0], 1);
+  ranking_put_text(&r, name, &t);
+  ck_assert_ptr_nonnull(strstr(t.data, "1. b 8 N (8 .. 9 N)\n  2. a 3 N (3 .. 4 N)  less, beyond the error\n"));
+  ranking_put_text(&q, name, &t);
+  ck_assert_ptr_nonnull(strstr(t.data, "1. b 1 N (1 .. 2 N)\n  2. a none, proved  more, beyond the error\n"));
+  thr_text_destroy(&t);
+  ranking_destroy(&r);
+  ranking_destroy(&q);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("ranking");
@@ -115,5 +134,6 @@ int main(void)
   ADD_TEST(s, 10, open_ends_and_unknown_plans);
   ADD_TEST(s, 10, ranks_are_chains_of_overlaps);
   ADD_TEST(s, 10, only_sure_orders_contradict);
+  ADD_TEST(s, 10, the_most_first);
   return run_suite(s);
 }
