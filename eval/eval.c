@@ -3,6 +3,7 @@
 #include "eval/methods.h"
 #include "graph/plan/seating.h"
 #include "graph/framework/units.h"
+#include "graph/plan/friction.h"
 #include "graph/plan/schedule.h"
 
 #include <inttypes.h>
@@ -55,6 +56,14 @@ static bool physics_needs_units(const thr_physics *physics)
   return physics->wobble > 0 || physics->stiffness > 0 || physics->bead_strength > 0;
 }
 
+/* Friction that changes with the load is known in closed form only. */
+static thr_status check_friction(thr_method method, thr_law law, const thr_physics *physics, thr_err *err)
+{
+  if (thr_friction_of(physics).power == 1 || (method == THR_CAPSTAN && law == THR_LAW_CAPSTAN)) return THR_OK;
+  return thr_fail(err, THR_EINPUT,
+                  "mu_power: friction that changes with the load is of method capstan and its law; --mu-power 0 leaves it out");
+}
+
 static thr_status prepare(const thr_frame *frame, const thr_cord *cord, int n_cords, thr_method method,
                           const thr_eval_options *options, thr_evaluation *evaluation, thr_err *err)
 {
@@ -66,6 +75,7 @@ static thr_status prepare(const thr_frame *frame, const thr_cord *cord, int n_co
                                  .iterations = options->iterations};
   thr_status st = check_options(options, err);
   if (!st) st = thr_physics_resolve(&options->physics, frame, &evaluation->physics, err);
+  if (!st) st = check_friction(method, evaluation->law, &evaluation->physics, err);
   if (st) return st;
   if (!(evaluation->cord = thr_calloc((size_t)n_cords, sizeof *evaluation->cord))) return thr_nomem(err);
   evaluation->n_cords = n_cords;

@@ -260,9 +260,9 @@ class Frame:
 
 PHYSICS = {"mu": (0, 2), "mu_low": (0, 2), "mu_high": (0, 3), "mu_bead": (0, 2), "mu_ground": (0, 2), "cord_diameter": (0, 1e9),
            "bore": (0, 1e9), "bead_diameter": (0, 1e9), "density": (0, 25), "bead_mass": (0, 1e9), "seating": (5e-324, 1e9),
-           "gravity": (0, 1000), "wobble": (0, 10), "stiffness": (0, 1e12), "bead_strength": (0, 1e6)}
+           "gravity": (0, 1000), "wobble": (0, 10), "mu_power": (0, 1), "mu_tension": (0, 1e9), "stiffness": (0, 1e12), "bead_strength": (0, 1e6)}
 DEFAULTS = {None: {"mu": 0.2, "mu_low": 0, "mu_high": 0, "mu_bead": 0.25, "mu_ground": 0.25, "cord_diameter": 0, "bore": 0, "bead_diameter": 0,
-                   "density": 1.24, "bead_mass": 0, "seating": 1, "gravity": 9.80665, "wobble": 0, "stiffness": 0, "bead_strength": 0},
+                   "density": 1.24, "bead_mass": 0, "seating": 1, "gravity": 9.80665, "wobble": 0, "mu_power": 0, "mu_tension": 0, "stiffness": 0, "bead_strength": 0},
             "pla-cotton": {"mu": 0.25, "mu_low": 0.15, "mu_high": 0.45, "mu_bead": 0.3, "mu_ground": 0.3},
             "pla-braid": {"mu": 0.18, "mu_low": 0.1, "mu_high": 0.3, "mu_bead": 0.3, "mu_ground": 0.3},
             "pla-monofilament": {"mu": 0.25, "mu_low": 0.12, "mu_high": 0.4, "mu_bead": 0.3, "mu_ground": 0.3},
@@ -2105,44 +2105,57 @@ def from_pass(turns, at):
     return [abs(x - sums[at]) for x in sums]
 
 
-def let_down(tension, turns, end, force):
+def held(tension, exponent, physics):
+    """What turns with that exponent hold against a tension, on its tight side (on its slack side if negative): with mu_power n the
+    tension to the power 1 - n grows by (1 - n) x exponent x mu_tension to the same power."""
+    m = 1 - physics["mu_power"]
+    if m in (0, 1):
+        return tension * math.exp(min(exponent, 700))
+    if tension <= 0:
+        return physics["mu_tension"] * (m * exponent) ** (1 / m) if exponent > 0 else 0.0
+    grown = m * exponent * (physics["mu_tension"] / tension) ** m
+    return tension * math.exp(math.log1p(grown) / m) if grown > -1 else 0.0
+
+
+def let_down(tension, turns, end, force, physics):
     new = list(tension)
     for at in {"start": (0,), "end": (-1,), "both": (0, -1)}[end]:
-        new = [min(x, force * math.exp(min(between, 700))) for x, between in zip(new, from_pass(turns, at))]
+        new = [min(x, held(force, between, physics)) for x, between in zip(new, from_pass(turns, at))]
     return new
 
 
-def raised(tension, turns, at, force):
-    return [max(x, force * math.exp(-between)) for x, between in zip(tension, from_pass(turns, at))]
+def raised(tension, turns, at, force, physics):
+    return [max(x, held(force, -between, physics)) for x, between in zip(tension, from_pass(turns, at))]
 
 
-def after_step(tension, turns, s, metres, stiffness):
+def after_step(tension, turns, s, metres, physics):
     """A pull raises what slides towards it, letting down lowers what the turns do not hold."""
     at = s["pass"]
     if s["do"] == "release":
-        return let_down(tension, turns, s["end"], s["force"])
+        return let_down(tension, turns, s["end"], s["force"], physics)
     if s["do"] == "knot":
-        return slip(tension, turns, s, metres, stiffness) if s["slip"] else tension
+        return slip(tension, turns, s, metres, physics) if s["slip"] else tension
     if s["do"] == "pull":
         for k in {"start": (0,), "end": (-1,), "both": (0, -1)}[s["end"]]:
-            tension = raised(tension, turns, k, s["force"])
+            tension = raised(tension, turns, k, s["force"], physics)
         return tension
     require(at < len(tension), "evaluation.schedule: a grip beyond the cord")
     low, high = at if s["end"] == "end" else 0, at if s["end"] == "start" else len(tension) - 1
-    return [x if low <= k <= high else old for k, (x, old) in enumerate(zip(raised(tension, turns, at, s["force"]), tension))]
+    return [x if low <= k <= high else old for k, (x, old) in enumerate(zip(raised(tension, turns, at, s["force"], physics), tension))]
 
 
-def slip(tension, turns, s, metres, stiffness):
+def slip(tension, turns, s, metres, physics):
     """Until the cord is shorter by the slip: sum of (tension lost) x length / EA."""
+    stiffness = physics["stiffness"]
     require(stiffness > 0, "evaluation.schedule: a knot slips, but the stiffness is not known")
     shorter = lambda new: math.fsum((a - b) * m for a, b, m in zip(tension, new, metres)) / stiffness * 1000
     low, high = 0.0, max(tension[0], tension[-1])
-    if shorter(let_down(tension, turns, s["end"], 0.0)) <= s["slip"]:
-        return let_down(tension, turns, s["end"], 0.0)
+    if shorter(let_down(tension, turns, s["end"], 0.0, physics)) <= s["slip"]:
+        return let_down(tension, turns, s["end"], 0.0, physics)
     for _ in range(200):
         middle = (low + high) / 2
-        low, high = (middle, high) if shorter(let_down(tension, turns, s["end"], middle)) > s["slip"] else (low, middle)
-    return let_down(tension, turns, s["end"], high)
+        low, high = (middle, high) if shorter(let_down(tension, turns, s["end"], middle, physics)) > s["slip"] else (low, middle)
+    return let_down(tension, turns, s["end"], high, physics)
 
 
 class Pulled:
@@ -2203,7 +2216,7 @@ class Pulled:
         require(self.pull == "both", f"{self.place}.pull: after a schedule")
         left = [0.0] * len(self.tension)
         for s in steps:
-            left = after_step(left, turns, s, self.metres, e.physics["stiffness"])
+            left = after_step(left, turns, s, self.metres, e.physics)
         require(max(left) > 0, f"{self.place}: the schedule leaves no tension")
         for k, (stated, x) in enumerate(zip(self.tension, left)):
             near(stated, x, max(x, 1e-6 * max(left)), f"{self.place}.tension[{k}]")
@@ -2240,8 +2253,8 @@ class Pulled:
         pull = {"start": lambda x: total - x, "end": lambda x: x, "both": lambda x: max(x, total - x)}[self.pull]
         require(pull(at) <= min(map(pull, before)) + 1e-9 * (1 + total), f"{self.place}.slackest: another pass needs less pull")
         for k, x in enumerate(before):
-            expected = math.log(e.physics["seating"]) + abs(x - at)
-            require(self.tension[k] > 0 and abs(math.log(self.tension[k]) - expected) <= 1e-9 * (1 + total),
+            expected = held(e.physics["seating"], abs(x - at), e.physics)
+            require(self.tension[k] > 0 and abs(math.log(self.tension[k]) - math.log(expected)) <= 1e-9 * (1 + total),
                     f"{self.place}.tension[{k}]: not by the law")
 
     def check_colours(self, low, high):
@@ -2478,6 +2491,8 @@ class Evaluation:
         require(0 < v["cord_diameter"] < v["bore"] < min(shortest, v["bead_diameter"]), "evaluation.physics: cord, bore, bead and edges do not fit")
         require(0 < v["mu_low"] <= v["mu"] <= v["mu_high"], "evaluation.physics: the band of mu does not hold it")
         require(v["density"] or v["bead_mass"], "evaluation.physics: beads without mass")
+        require(v["mu_tension"] or not v["mu_power"], "evaluation.physics.mu_tension: missing")
+        require(v["mu_power"] in (0, 1) or self.law == "capstan" and self.method == "capstan", "evaluation.physics.mu_power: with another law")
 
 
 def check_evaluation(p):

@@ -16,6 +16,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/advice.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/friction.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/schedule.h"
 #include "graph/plan/plan.h"
@@ -35,6 +36,8 @@ static const char *method_words(const thr_evaluation *evaluation, bool refused)
   default:
     return evaluation->law == THR_LAW_MITRE
                ? "mitred beads, by the closed form; --method joint measures the joints in simulation"
+           : thr_friction_of(&evaluation->physics).power < 1
+               ? "by the closed form of friction that grows with less than the load"
                : "by the closed form exp(mu x turning); --method joint measures the joints in simulation";
   }
 }
@@ -44,6 +47,8 @@ static void put_heading(thr_text *text, const thr_evaluation *evaluation, bool r
   const thr_physics *physics = &evaluation->physics;
   thr_text_printf(text, "%s\nfriction mu = %g (band %g to %g), ", method_words(evaluation, refused), physics->mu, physics->mu_low,
                   physics->mu_high);
+  if (thr_friction_of(physics).power < 1)
+    thr_text_printf(text, "at %g N; friction = a x load^%g, ", physics->mu_tension, physics->mu_power);
   if (evaluation->method == THR_STRUCTURE) {
     thr_text_printf(text, "bead on bead %g, foot on ground %g, ", physics->mu_bead, physics->mu_ground);
     if (physics->bead_mass > 0)

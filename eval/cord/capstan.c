@@ -5,6 +5,7 @@
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/friction.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/pulled.h"
@@ -42,9 +43,10 @@ static thr_status raise_to_force_at(const thr_frame *frame, const thr_cord *cord
                                     const thr_evaluation *evaluation, thr_pull pull, double mu, double *exponent, double *largest,
                                     thr_err *err)
 {
+  const thr_friction friction = thr_friction_of(&evaluation->physics);
   thr_eval_cord other = {.force = INFINITY};
   thr_status st = fill_exponents(frame, cord, angle, evaluation, mu, exponent, NULL);
-  if (!st) st = thr_profile_cord(&other, cord, exponent, pull, evaluation->physics.seating, NULL);
+  if (!st) st = thr_profile_cord(&other, cord, exponent, pull, evaluation->physics.seating, &friction, NULL);
   free(other.tension);
   if (st == THR_ENOMEM) return thr_nomem(err);
   *largest = fmax(*largest, other.force);
@@ -54,6 +56,7 @@ static thr_status raise_to_force_at(const thr_frame *frame, const thr_cord *cord
 static thr_status eval_cord(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, thr_eval_cord *out,
                             double band[2], thr_err *err)
 {
+  const thr_friction friction = thr_friction_of(&evaluation->physics);
   const thr_physics *physics = &evaluation->physics;
   thr_scratch own = {0};
   double *other = thr_scratch_array(&own, (size_t)cord->n_passes, sizeof *other),
@@ -64,7 +67,7 @@ static thr_status eval_cord(const thr_frame *frame, const thr_cord *cord, const 
   for (int k = 0; k + 1 < cord->n_passes && !st; k++)
     turning += angle[k] = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
   if (!st) st = fill_exponents(frame, cord, angle, evaluation, physics->mu, out->exponent, err);
-  if (!st) st = thr_profile_cord(out, cord, out->exponent, out->pull, physics->seating, err);
+  if (!st) st = thr_profile_cord(out, cord, out->exponent, out->pull, physics->seating, &friction, err);
   if (!st) st = raise_to_force_at(frame, cord, angle, evaluation, out->pull, physics->mu_low, other, &band[0], err);
   if (!st) st = raise_to_force_at(frame, cord, angle, evaluation, out->pull, physics->mu_high, other, &band[1], err);
   out->turning = out->taut_turning = turning;

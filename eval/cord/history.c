@@ -1,6 +1,8 @@
 /* Tensions after a schedule, and the schedule of fewest grips. */
 #include "eval/cord/history.h"
 #include "graph/framework/units.h"
+#include "graph/plan/friction.h"
+#include "graph/plan/physics.h"
 #include "graph/plan/schedule.h"
 #include "graph/scratch.h"
 #include "graph/plan/pulled.h"
@@ -16,6 +18,7 @@ typedef struct {
   double *tension; /* [n] N */
   double *length;  /* [n] mm */
   double stiffness;
+  thr_friction friction;
 } state;
 
 static bool at_start(thr_pull end)
@@ -32,14 +35,14 @@ static bool at_end(thr_pull end)
 static void raise_from(state *s, int j, double pull, int from, int to)
 {
   for (int k = from; k <= to; k++)
-    s->tension[k] = fmax(s->tension[k], pull * exp(-fabs(s->sum[k] - s->sum[j])));
+    s->tension[k] = fmax(s->tension[k], thr_friction_less(&s->friction, pull, fabs(s->sum[k] - s->sum[j])));
 }
 
 static double lowered(const state *s, int k, thr_pull end, double force)
 {
   double tension = s->tension[k];
-  if (at_start(end)) tension = fmin(tension, force * exp(s->sum[k] - s->sum[0]));
-  if (at_end(end)) tension = fmin(tension, force * exp(s->sum[s->n - 1] - s->sum[k]));
+  if (at_start(end)) tension = fmin(tension, thr_friction_more(&s->friction, force, s->sum[k] - s->sum[0]));
+  if (at_end(end)) tension = fmin(tension, thr_friction_more(&s->friction, force, s->sum[s->n - 1] - s->sum[k]));
   return tension;
 }
 
@@ -88,16 +91,16 @@ static void apply(state *s, const thr_schedule_step *step)
 }
 
 static thr_status state_init(state *s, const thr_frame *frame, const thr_cord *cord, const thr_eval_cord *eval_cord,
-                             double stiffness, thr_scratch *own, thr_err *err)
+                             const thr_physics *physics, thr_scratch *own, thr_err *err)
 {
   const size_t n = (size_t)cord->n_passes;
   double mm = 1;
-  *s = (state){.n = cord->n_passes, .stiffness = stiffness};
+  *s = (state){.n = cord->n_passes, .stiffness = physics->stiffness, .friction = thr_friction_of(physics)};
   s->sum = thr_scratch_array(own, n, sizeof *s->sum);
   s->length = thr_scratch_array(own, n, sizeof *s->length);
   s->tension = thr_scratch_array(own, n, sizeof *s->tension);
   thr_status st = thr_scratch_check(own, err);
-  if (!st && stiffness > 0) st = thr_units_in_mm(frame->units, &mm, err);
+  if (!st && s->stiffness > 0) st = thr_units_in_mm(frame->units, &mm, err);
   for (int k = 0; k < s->n && !st; k++) {
     s->length[k] = mm * frame->length[cord->half[k] >> 1];
     if (k > 0) s->sum[k] = s->sum[k - 1] + eval_cord->exponent[k - 1];
@@ -129,12 +132,12 @@ static thr_status take_state(const state *s, const char *id, double hardest, thr
   return THR_OK;
 }
 
-static thr_status follow(const thr_frame *frame, const thr_cord *cord, const thr_schedule *schedule, int i, double stiffness,
-                         thr_eval_cord *out, thr_err *err)
+static thr_status follow(const thr_frame *frame, const thr_cord *cord, const thr_schedule *schedule, int i,
+                         const thr_physics *physics, thr_eval_cord *out, thr_err *err)
 {
   thr_scratch own = {0};
   state s;
-  thr_status st = state_init(&s, frame, cord, out, stiffness, &own, err);
+  thr_status st = state_init(&s, frame, cord, out, physics, &own, err);
   for (int k = 0; k < schedule->n && !st; k++)
     if (schedule->step[k].cord == i) apply(&s, &schedule->step[k]);
   if (!st) st = take_state(&s, cord->id, thr_schedule_hardest(schedule, i), out, err);
@@ -152,7 +155,7 @@ thr_status thr_history_follow(const thr_frame *frame, const thr_cord *cord, cons
       return thr_fail(err, THR_EINPUT,
                       "schedule: a knot that slips lets go of tension by the cord's stiffness; give --stiffness, EA in N");
   for (int i = 0; i < evaluation->n_cords && !st; i++)
-    if (evaluation->cord[i].known) st = follow(frame, &cord[i], schedule, i, stiffness, &evaluation->cord[i], err);
+    if (evaluation->cord[i].known) st = follow(frame, &cord[i], schedule, i, &evaluation->physics, &evaluation->cord[i], err);
   if (!st) thr_evaluation_sum(evaluation);
   return st;
 }
@@ -199,25 +202,28 @@ static thr_status add(thr_schedule *schedule, int cord, thr_deed deed, thr_pull 
 }
 
 /* Grips from a start that is tied, the last at the end. */
-static thr_status grip_on(const thr_eval_cord *cord, int i, double seating, double most, thr_schedule *schedule, thr_err *err)
+static thr_status grip_on(const thr_eval_cord *cord, int i, double seating, const thr_friction *friction, double most,
+                          thr_schedule *schedule, thr_err *err)
 {
   const int last = cord->n_passes - 1;
   double part = 0;
   thr_status st = add(schedule, i, THR_DEED_KNOT, THR_PULL_START, 0, 0, err);
   for (int k = 0; k < last && !st; k++) {
     if (part + cord->exponent[k] > most) {
-      st = add(schedule, i, THR_DEED_GRIP, THR_PULL_START, k, seating * exp(part), err);
+      st = add(schedule, i, THR_DEED_GRIP, THR_PULL_START, k, thr_friction_more(friction, seating, part), err);
       part = 0;
     }
     part += cord->exponent[k];
   }
-  return st ? st : add(schedule, i, THR_DEED_PULL, THR_PULL_END, 0, seating * exp(part), err);
+  return st ? st : add(schedule, i, THR_DEED_PULL, THR_PULL_END, 0, thr_friction_more(friction, seating, part), err);
 }
 
-static thr_status grip_cord(const thr_eval_cord *cord, const char *id, int i, double seating, double hand, thr_schedule *schedule,
-                            thr_err *err)
+static thr_status grip_cord(const thr_eval_cord *cord, const char *id, int i, const thr_physics *physics, double hand,
+                            thr_schedule *schedule, thr_err *err)
 {
-  const double most = log(hand / seating) * (1 + 1e-12), both = fmax(cord->force, cord->other_force);
+  const thr_friction friction = thr_friction_of(physics);
+  const double seating = physics->seating, most = thr_friction_exponent(&friction, hand, seating) * (1 + 1e-12),
+               both = fmax(cord->force, cord->other_force);
   double largest;
   thr_status st;
   if (cord->pull == THR_PULL_BOTH && both <= hand) {
@@ -229,7 +235,7 @@ static thr_status grip_cord(const thr_eval_cord *cord, const char *id, int i, do
           err, THR_EINPUT,
           "cord %s: %g N at one grip do not bring %g N past every single turn; more --hand, less --seating or a smaller mu", id,
           hand, seating);
-    st = grip_on(cord, i, seating, even_parts(cord, most, parts) * (1 + 1e-12), schedule, err);
+    st = grip_on(cord, i, seating, &friction, even_parts(cord, most, parts) * (1 + 1e-12), schedule, err);
   }
   return st ? st : add(schedule, i, THR_DEED_KNOT, THR_PULL_BOTH, 0, 0, err);
 }
@@ -240,8 +246,7 @@ thr_status thr_history_grips(const thr_cord *cord, double hand, const thr_evalua
   thr_status st = THR_OK;
   *schedule = (thr_schedule){0};
   for (int i = 0; i < evaluation->n_cords && !st; i++)
-    if (evaluation->cord[i].known)
-      st = grip_cord(&evaluation->cord[i], cord[i].id, i, evaluation->physics.seating, hand, schedule, err);
+    if (evaluation->cord[i].known) st = grip_cord(&evaluation->cord[i], cord[i].id, i, &evaluation->physics, hand, schedule, err);
   if (st) thr_schedule_destroy(schedule);
   return st;
 }

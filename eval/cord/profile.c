@@ -58,7 +58,7 @@ static void leave_slack(thr_eval_cord *out, int n_passes, double *tension)
 }
 
 thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const double *exponent, thr_pull pull, double seating,
-                            thr_err *err)
+                            const thr_friction *friction, thr_err *err)
 {
   const int n_passes = cord->n_passes;
   double *tension = thr_calloc((size_t)n_passes, sizeof *tension);
@@ -72,14 +72,14 @@ thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const doub
   tension[slackest] = seating;
   for (int i = slackest; i > 0; i--) {
     from += exponent[i - 1];
-    tension[i - 1] = seating * exp(from);
+    tension[i - 1] = thr_friction_more(friction, seating, from);
   }
   for (int i = slackest; i + 1 < n_passes; i++) {
     to += exponent[i];
-    tension[i + 1] = seating * exp(to);
+    tension[i + 1] = thr_friction_more(friction, seating, to);
   }
   double at_start = tension[0], at_end = tension[n_passes - 1], sum = at_start + at_end;
-  if (!(fmax(from, to) <= 700) || !isfinite(sum)) {
+  if (!(friction->power < 1 || fmax(from, to) <= 700) || !isfinite(sum)) {
     free(tension);
     return thr_fail(err, THR_EINPUT,
                     "cord %s: the pull would be e^%.0f times the seating tension of %g N, past what a number can hold (e^700); "

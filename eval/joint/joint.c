@@ -6,6 +6,7 @@
 #include "graph/angle.h"
 #include "graph/framework/units.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/friction.h"
 #include "graph/plan/pulled.h"
 #include "graph/plan/physics.h"
 #include "graph/process/workers.h"
@@ -295,7 +296,9 @@ static thr_status fill_cord(thr_eval *out, thr_eval_cord *eval_cord, const thr_f
     eval_cord->turning += nominal;
     eval_cord->taut_turning += taut[k];
   }
-  if (!st) st = thr_profile_cord(eval_cord, cord, exponent, eval_cord->pull, out->record.physics.seating, err);
+  if (!st)
+    st = thr_profile_cord(eval_cord, cord, exponent, eval_cord->pull, out->record.physics.seating, &(thr_friction){.power = 1},
+                          err);
   if (!st) eval_cord->error = error_from_slackest(eval_cord, error);
   eval_cord->known = !st;
   eval_cord->refused = count[SHARP] + count[OUTSIDE] + count[UNSETTLED];
@@ -317,7 +320,7 @@ static thr_status raise_to_closed_form(const thr_frame *frame, const thr_cord *c
   if (!exponent) return thr_nomem(err);
   for (int k = 0; k + 1 < cord->n_passes; k++)
     exponent[k] = mu * taut[k] + thr_profile_wobble(frame, physics, cord, k, mu);
-  thr_status st = thr_profile_cord(&other, cord, exponent, pull, physics->seating, NULL);
+  thr_status st = thr_profile_cord(&other, cord, exponent, pull, physics->seating, &(thr_friction){.power = 1}, NULL);
   free(other.tension);
   free(exponent);
   if (st == THR_ENOMEM) return thr_nomem(err);

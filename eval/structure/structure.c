@@ -8,6 +8,7 @@
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/friction.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/process/child.h"
@@ -44,7 +45,7 @@ static thr_status profile(const thr_frame *frame, const thr_cord *cord, const th
   }
   free(eval_cord->tension);
   eval_cord->tension = NULL;
-  thr_status st = thr_profile_cord(eval_cord, cord, exponent, eval_cord->pull, 1, err);
+  thr_status st = thr_profile_cord(eval_cord, cord, exponent, eval_cord->pull, 1, &(thr_friction){.power = 1}, err);
   if (st) return st;
   const bool pulled = eval_cord->pull != THR_PULL_NONE;
   const double force = pulled ? eval_cord->force : 1;

@@ -90,6 +90,16 @@ double thr_check_exponent(const thr_frame *frame, const thr_evaluation *evaluati
          (evaluation->law == THR_LAW_CAPSTAN ? mu * angle : log(1 / (1 - mu * sin(angle / 2))));
 }
 
+/* Howell's friction, from T'^m = T^m + m x exponent x T0^m, m = 1 - n. */
+double thr_check_tension(const thr_physics *physics, double tension, double exponent)
+{
+  const double m = 1 - physics->mu_power, at = physics->mu_tension;
+  if (physics->mu_power == 0 || physics->mu_power == 1) return tension * exp(exponent);
+  if (!(tension > 0)) return exponent > 0 ? at * pow(m * exponent, 1 / m) : 0;
+  const double grown = m * exponent * pow(at / tension, m);
+  return grown > -1 ? tension * exp(log1p(grown) / m) : 0;
+}
+
 static double law_exponent(const cord_claim *k, int i)
 {
   return thr_check_exponent(k->f, k->e, k->cord, i);
@@ -124,7 +134,7 @@ static thr_status check_law(const cord_claim *k, thr_err *err)
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d is not where its tension is least", k->id,
                     eval_cord->slackest + 1);
   for (int i = 0; i < eval_cord->n_passes; i++) {
-    double expected = log(seating) + fabs(before - from);
+    double expected = log(thr_check_tension(&k->e->physics, seating, fabs(before - from)));
     if (!thr_check_close(log(eval_cord->tension[i]), expected, 1 + total))
       return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d: stated %.12g N, but the %s law gives %.12g N", k->id,
                       i + 1, eval_cord->tension[i], thr_law_name(k->e->law), exp(expected));
@@ -149,7 +159,7 @@ static thr_status check_scheduled(const cord_claim *k, int i, thr_err *err)
     if (!thr_check_close(eval_cord->exponent[j], law_exponent(k, j), 1))
       st = thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: exponents[%d]: stated %.12g, but the %s law gives %.12g", k->id,
                     j, eval_cord->exponent[j], thr_law_name(k->e->law), law_exponent(k, j));
-  return st ? st : thr_check_schedule(k->f, k->cord, &k->e->schedule, i, k->e->physics.stiffness, eval_cord, err);
+  return st ? st : thr_check_schedule(k->f, k->cord, &k->e->schedule, i, &k->e->physics, eval_cord, err);
 }
 
 /* A cord that is not pulled is slack all along. */
@@ -201,6 +211,9 @@ static thr_status check_physics(const thr_plan *plan, thr_err *err)
     if (thr_physics_get(stated, &thr_physics_fields[i]) != thr_physics_get(&again, &thr_physics_fields[i]))
       return thr_fail(err, THR_EVIOLATED, "evaluation.physics.%s: an evaluation states what it used, so not 0",
                       thr_physics_fields[i].key);
+  if (stated->mu_power > 0 && stated->mu_power < 1 &&
+      (plan->evaluation.method != THR_CAPSTAN || plan->evaluation.law != THR_LAW_CAPSTAN))
+    return thr_fail(err, THR_EVIOLATED, "evaluation.physics.mu_power: only the capstan law of method capstan has it");
   return THR_OK;
 }
 

@@ -4,6 +4,7 @@
 
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/prices.h"
 #include "graph/plan/request.h"
@@ -111,11 +112,15 @@ thr_status thr_check_evaluation(const thr_plan *plan, thr_err *err) THR_MUST_CHE
 /* ln of the ratio of the tensions on both sides of the turn after pass i, by the evaluation's law; 0 after the last pass. */
 double thr_check_exponent(const thr_frame *frame, const thr_evaluation *evaluation, const thr_cord *cord, int i);
 
+/* The tension that turns with this exponent, negative towards the slack side, lead from a tension to, by the law of the physics.
+ */
+double thr_check_tension(const thr_physics *physics, double tension, double exponent);
+
 /* Verifies what the limit analysis proved of the structure, which must be present, by the powers of its mechanisms. */
 thr_status thr_check_standing(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* Are the tensions of cord i those that the schedule leaves in it? */
-thr_status thr_check_schedule(const thr_frame *frame, const thr_cord *path, const thr_schedule *schedule, int i, double stiffness,
-                              const thr_eval_cord *claim, thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_schedule(const thr_frame *frame, const thr_cord *path, const thr_schedule *schedule, int i,
+                              const thr_physics *physics, const thr_eval_cord *claim, thr_err *err) THR_MUST_CHECK;
 
 #endif

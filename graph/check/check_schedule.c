@@ -7,6 +7,7 @@
 #include "graph/plan/evaluation.h"
 #include "graph/status.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/pulled.h"
 
@@ -16,6 +17,7 @@
 /* A cord: tension and length of each pass, and by what factor each turn holds the tensions on both sides of it apart. */
 typedef struct {
   int n;
+  const thr_physics *physics;
   const double *exponent;
   double *tension, *lower, *length;
 } cord;
@@ -26,7 +28,7 @@ static void spread(cord *c, int j, int to, double pull)
   const int step = to < j ? -1 : 1;
   c->tension[j] = fmax(c->tension[j], pull);
   for (int k = j; k != to; k += step) {
-    pull *= exp(-c->exponent[step > 0 ? k : k - 1]);
+    pull = thr_check_tension(c->physics, pull, -c->exponent[step > 0 ? k : k - 1]);
     c->tension[k + step] = fmax(c->tension[k + step], pull);
   }
 }
@@ -37,7 +39,7 @@ static void give_way(const cord *c, bool start, double force, double *tension)
   for (int i = 0; i < c->n; i++) {
     const int k = start ? i : c->n - 1 - i;
     tension[k] = fmin(tension[k], force);
-    if (i + 1 < c->n) force *= exp(c->exponent[start ? k : k - 1]);
+    if (i + 1 < c->n) force = thr_check_tension(c->physics, force, c->exponent[start ? k : k - 1]);
   }
 }
 
@@ -109,13 +111,15 @@ static thr_status compare(const cord *c, const char *id, const thr_eval_cord *cl
   return THR_OK;
 }
 
-thr_status thr_check_schedule(const thr_frame *frame, const thr_cord *path, const thr_schedule *schedule, int i, double stiffness,
-                              const thr_eval_cord *claim, thr_err *err)
+thr_status thr_check_schedule(const thr_frame *frame, const thr_cord *path, const thr_schedule *schedule, int i,
+                              const thr_physics *physics, const thr_eval_cord *claim, thr_err *err)
 {
   thr_scratch own = {0};
   const size_t n = (size_t)path->n_passes;
+  const double stiffness = physics->stiffness;
   double mm = 1;
   cord c = {.n = path->n_passes,
+            .physics = physics,
             .exponent = claim->exponent,
             .tension = thr_scratch_array(&own, n, sizeof *c.tension),
             .lower = thr_scratch_array(&own, n, sizeof *c.lower),

@@ -23,6 +23,8 @@ enum {
   SEATING,
   GRAVITY,
   WOBBLE,
+  MU_POWER,
+  MU_TENSION,
   STIFFNESS,
   BEAD_STRENGTH
 };
@@ -44,6 +46,10 @@ const thr_physics_field thr_physics_fields[] = {
     [SEATING] = {FIELD(seating), 0, 1e9, true, false, "N", "tension that must reach the slackest point of every cord"},
     [GRAVITY] = {FIELD(gravity), 0, 1000, false, false, "m/s2", "gravity"},
     [WOBBLE] = {FIELD(wobble), 0, 10, false, true, "rad/m", "turning for every metre of cord, beside its turns (0: none)"},
+    [MU_POWER] = {FIELD(mu_power), 0, 1, false, true, "",
+                  "friction grows with load^N, N below 1: mu falls with tension (0: it does not)"},
+    [MU_TENSION] = {FIELD(mu_tension), 0, 1e9, false, true, "N",
+                    "tension at which mu holds, with mu_power (0: the seating tension)"},
     [STIFFNESS] = {FIELD(stiffness), 0, 1e12, false, true, "N", "stiffness EA of the cord (0: not known)"},
     [BEAD_STRENGTH] = {FIELD(bead_strength), 0, 1e6, false, true, "MPa", "pressure that a bead's face bears (0: not known)"},
 };
@@ -340,6 +346,7 @@ static void fill_in(thr_physics *physics, const edges *e)
 {
   if (physics->mu_low == 0) physics->mu_low = fmin(physics->mu, rounded(physics->mu / 2));
   if (physics->mu_high == 0) physics->mu_high = fmax(physics->mu, rounded(1.5 * physics->mu));
+  if (physics->mu_power > 0 && physics->mu_tension == 0) physics->mu_tension = physics->seating;
   if (physics->cord_diameter == 0) physics->cord_diameter = fmin(e->median / 20, e->shortest / 4);
   if (physics->bore == 0) physics->bore = THR_BORE_CORDS * physics->cord_diameter;
   if (physics->bead_diameter == 0) physics->bead_diameter = fmax(0.35 * e->median, 1.5 * physics->bore);

@@ -24,8 +24,10 @@ typedef struct {
   double bead_mass;     /* g per bead; 0 = density x volume */
   double seating;       /* N: tension that must reach the slackest point of every cord */
   double gravity;       /* m/s2, along -z */
-  double wobble;    /* rad per m of cord, added to its turning: bores are not straight (Eurocode 2: 0.005 to 0.01 for tendons) */
-  double stiffness; /* N, EA of the cord: it is longer by force / EA; 0 = not known */
+  double wobble;   /* rad per m of cord, added to its turning: bores are not straight (Eurocode 2: 0.005 to 0.01 for tendons) */
+  double mu_power; /* friction = a load^n: n, below 1: less friction for the load where that is large; 0 or 1: the capstan law */
+  double mu_tension;    /* N: tension at which mu holds then; 0 = the seating tension */
+  double stiffness;     /* N, EA of the cord: it is longer by force / EA; 0 = not known */
   double bead_strength; /* MPa that a bead's face bears; 0 = not known */
 } thr_physics;
 

@@ -1,5 +1,6 @@
 /* What seats a gap, from the tensions of the passes through it. */
 #include "graph/plan/seating.h"
+#include "graph/plan/friction.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -56,8 +57,9 @@ thr_status thr_seating_fraction(const thr_frame *frame, const thr_cord *cord, th
   return THR_OK;
 }
 
-/* Adds to every gap what a pull of 1 at the cord's pulled ends presses it with. */
-static void press_of_one(const thr_cord *cord, const thr_eval_cord *known, double *press)
+/* Adds to every gap what pulls at the cord's pulled ends press it with, pull[edge] for that of the edge. */
+static void press_of(const thr_cord *cord, const thr_eval_cord *known, const thr_friction *friction, const double *pull,
+                     double *press)
 {
   const double *tension = known->tension;
   const int n = cord->n_passes;
@@ -65,11 +67,46 @@ static void press_of_one(const thr_cord *cord, const thr_eval_cord *known, doubl
   const bool end = known->pull == THR_PULL_END || known->pull == THR_PULL_BOTH;
   double total = 0, before = 0; /* exponents */
   for (int k = 0; k + 1 < n; k++)
-    total += fabs(log(tension[k] / tension[k + 1]));
+    total += fabs(thr_friction_exponent(friction, tension[k], tension[k + 1]));
   for (int k = 0; k < n; k++) {
-    press[cord->half[k] >> 1] += fmax(start ? exp(-before) : 0, end ? exp(fmin(0, before - total)) : 0);
-    if (k + 1 < n) before += fabs(log(tension[k] / tension[k + 1]));
+    const int e = cord->half[k] >> 1;
+    press[e] += fmax(start ? thr_friction_less(friction, pull[e], before) : 0,
+                     end ? thr_friction_less(friction, pull[e], fmax(0, total - before)) : 0);
+    if (k + 1 < n) before += fabs(thr_friction_exponent(friction, tension[k], tension[k + 1]));
   }
+}
+
+/* The same of the cord `only`, or of all, into press from 0. */
+static void press_all(const thr_cord *cord, const thr_evaluation *evaluation, int only, int n_edges, const double *pull,
+                      double *press)
+{
+  const thr_friction friction = thr_friction_of(&evaluation->physics);
+  for (int e = 0; e < n_edges; e++)
+    press[e] = 0;
+  for (int i = 0; i < evaluation->n_cords; i++)
+    if ((only < 0 || only == i) && evaluation->cord[i].pull != THR_PULL_NONE)
+      press_of(&cord[i], &evaluation->cord[i], &friction, pull, press);
+}
+
+/* Where the press is no multiple of the pull: all gaps by halves at once, between nothing and what is enough for each of them. */
+static void halve(const thr_cord *cord, const thr_evaluation *evaluation, int only, int n_edges, double *pull, double *press,
+                  double *low)
+{
+  const double seating = evaluation->physics.seating;
+  double *high = low + n_edges, *middle = high + n_edges;
+  for (int e = 0; e < n_edges; e++) {
+    low[e] = 0;
+    high[e] = pull[e]; /* INFINITY: only slack cords pass, and stay so */
+  }
+  for (int round = 0; round < 60; round++) {
+    for (int e = 0; e < n_edges; e++)
+      middle[e] = isfinite(high[e]) ? (low[e] + high[e]) / 2 : 0;
+    press_all(cord, evaluation, only, n_edges, middle, press);
+    for (int e = 0; e < n_edges; e++)
+      if (isfinite(high[e])) *(press[e] >= seating ? &high[e] : &low[e]) = middle[e];
+  }
+  for (int e = 0; e < n_edges; e++)
+    pull[e] = high[e];
 }
 
 static int by_size(const void *a, const void *b)
@@ -81,18 +118,29 @@ static int by_size(const void *a, const void *b)
 thr_status thr_seating_pulls(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, int only,
                              double *pull, int *n_gaps, thr_err *err)
 {
+  const int n_edges = frame->n_edges;
+  const bool by_factors = thr_friction_of(&evaluation->physics).power == 1;
   bool *passed;
-  double *press;
+  double *press, *work = thr_calloc(3 * (size_t)n_edges + 1, sizeof *work);
   *n_gaps = 0;
-  thr_status st = make_arrays(frame->n_edges, &passed, &press, err);
-  if (st) return st;
+  if (!work) return thr_nomem(err);
+  thr_status st = make_arrays(n_edges, &passed, &press, err);
+  if (st) {
+    free(work);
+    return st;
+  }
   count_gaps(cord, evaluation->n_cords, passed);
-  for (int i = 0; i < evaluation->n_cords; i++)
-    if ((only < 0 || only == i) && evaluation->cord[i].pull != THR_PULL_NONE) press_of_one(&cord[i], &evaluation->cord[i], press);
-  for (int e = 0; e < frame->n_edges; e++)
-    if (passed[e]) pull[(*n_gaps)++] = press[e] > 0 ? evaluation->physics.seating / press[e] : INFINITY;
+  for (int e = 0; e < n_edges; e++)
+    pull[e] = by_factors ? 1 : evaluation->largest; /* seats every gap that a pulled cord passes */
+  press_all(cord, evaluation, only, n_edges, pull, press);
+  for (int e = 0; e < n_edges; e++)
+    pull[e] = press[e] > 0 ? (by_factors ? evaluation->physics.seating / press[e] : pull[e]) : INFINITY;
+  if (!by_factors) halve(cord, evaluation, only, n_edges, pull, press, work);
+  for (int e = 0; e < n_edges; e++)
+    if (passed[e]) pull[(*n_gaps)++] = pull[e];
   if (*n_gaps > 0) qsort(pull, (size_t)*n_gaps, sizeof *pull, by_size);
   free(passed);
   free(press);
+  free(work);
   return THR_OK;
 }

@@ -6,11 +6,14 @@
 #include "eval/cord/profile.h"
 #include "graph/angle.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/friction.h"
 #include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const thr_friction amontons = {.power = 1};
 
 static thr_eval_options options_of(thr_pull pull, double mu, double seating)
 {
@@ -136,7 +139,7 @@ START_TEST(profile_is_filled_from_its_exponents_alone)
     const thr_cord cord = {.id = "A", .n_passes = 5, .half = half};
     thr_eval_cord c = {.n_passes = -1, .pull = THR_PULL_BOTH};
     thr_err err = {0};
-    ck_assert_msg(thr_profile_cord(&c, &cord, exponent, table[i].pull, 4, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_profile_cord(&c, &cord, exponent, table[i].pull, 4, &amontons, &err) == THR_OK, "%s", err.text);
     ck_assert(c.n_passes == 5 && c.pull == table[i].pull && c.slackest == table[i].slackest);
     for (int k = 0; k < 5; k++)
       ck_assert_double_eq_tol(c.tension[k], 4 * held(exponent, table[i].slackest, k), 1e-12);
@@ -160,7 +163,7 @@ START_TEST(slackest_of_a_straight_cord_is_in_its_middle)
     thr_eval_cord c = {0};
     while (last + 1 < 0.5 * n)
       last++;
-    ck_assert_int_eq(thr_profile_cord(&c, &cord, none, THR_PULL_BOTH, 1, NULL), THR_OK);
+    ck_assert_int_eq(thr_profile_cord(&c, &cord, none, THR_PULL_BOTH, 1, &amontons, NULL), THR_OK);
     ck_assert_int_eq(c.slackest, last);
     free(c.tension);
   }
@@ -174,8 +177,8 @@ START_TEST(slackest_pass_does_not_depend_on_the_direction)
   int half[] = {0, 2, 4, 6, 8, 10}, back[] = {11, 9, 7, 5, 3, 1};
   const thr_cord one = {.id = "A", .n_passes = 6, .half = half}, other = {.id = "A", .n_passes = 6, .half = back};
   thr_eval_cord c = {0}, d = {0};
-  ck_assert_int_eq(thr_profile_cord(&c, &one, exponent, THR_PULL_BOTH, 1, NULL), THR_OK);
-  ck_assert_int_eq(thr_profile_cord(&d, &other, exponent, THR_PULL_BOTH, 1, NULL), THR_OK);
+  ck_assert_int_eq(thr_profile_cord(&c, &one, exponent, THR_PULL_BOTH, 1, &amontons, NULL), THR_OK);
+  ck_assert_int_eq(thr_profile_cord(&d, &other, exponent, THR_PULL_BOTH, 1, &amontons, NULL), THR_OK);
   ck_assert_int_eq(c.slackest, 2);
   ck_assert_int_eq(d.slackest, 3);
   for (int k = 0; k < 6; k++)
@@ -191,7 +194,7 @@ START_TEST(cord_that_is_not_pulled_is_slack)
   int half[3] = {0};
   const thr_cord cord = {.id = "A", .n_passes = 3, .half = half};
   thr_eval_cord c = {0};
-  ck_assert_int_eq(thr_profile_cord(&c, &cord, exponent, THR_PULL_NONE, 5, NULL), THR_OK);
+  ck_assert_int_eq(thr_profile_cord(&c, &cord, exponent, THR_PULL_NONE, 5, &amontons, NULL), THR_OK);
   ck_assert(c.pull == THR_PULL_NONE && c.force == 0 && c.other_force == 0 && c.work == 0 && c.loss == 0);
   ck_assert(c.tension[0] == 0 && c.tension[1] == 0 && c.tension[2] == 0);
   free(c.tension);
@@ -215,7 +218,7 @@ START_TEST(profile_refuses_what_no_number_holds)
     const thr_cord cord = {.id = "A7", .n_passes = 3, .half = half};
     thr_eval_cord c = {0};
     thr_err err = {0};
-    thr_status st = thr_profile_cord(&c, &cord, table[i].exponent, table[i].pull, table[i].seating, &err);
+    thr_status st = thr_profile_cord(&c, &cord, table[i].exponent, table[i].pull, table[i].seating, &amontons, &err);
     ck_assert_msg(st == (table[i].good ? THR_OK : THR_EINPUT), "case %zu: %d", i, (int)st);
     if (st) assert_one_line(&err, "A7");
     ck_assert(!st == (c.tension != NULL));
