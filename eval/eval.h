@@ -34,6 +34,7 @@ typedef struct {
   int n_load_pulls;             /* .. so many; 0 = some; borrowed */
   double tilt, azimuth;         /* rad, method structure: of the ground, and where it goes down (from x towards y) */
   int rays;      /* method structure: of the friction pyramids, 0 = THR_USUAL_RAYS; more bring both bounds closer */
+  bool taut;     /* method structure: turns are those of the tight cord in its bores, as of method joint; else of their middles */
   bool clamped;  /* method structure: feet are held in place; else they stand on the ground */
   double hand;   /* N, methods capstan and joint: 0, or the largest pull of a schedule with the fewest grips, which is made */
   bool dynamics; /* method structure: confirm by Bullet (true) or limit analysis only */

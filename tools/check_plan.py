@@ -2184,6 +2184,9 @@ class Pulled:
         self.metres = [p.frame.length[h >> 1] * (UNITS[p.frame.units.lower()] or 1) / 1000 for h in cord.half]
         require(("exponents" in o) == (bool(e.steps) or e.taut), f"{self.place}.exponents: with a schedule or tight turns, and only with them")
         self.steps = self.turns(e, o)
+        if e.taut:
+            total = e.physics["mu"] * (values["taut_turning"] - math.fsum(self.angles)) + math.fsum(self.exponents_by_law(e))
+            near(math.fsum(self.steps), total, 1 + e.physics["mu"] * math.fsum(self.angles), f"{self.place}.exponents: their sum")
         if e.steps:
             self.check_schedule(e, o, values, [s for s in e.steps if s["cord"] == cord.id])
             return

@@ -60,6 +60,7 @@ bool load_option(load_args *a, const char *command, int option, const char *valu
   case OPTION_LOAD_PULLS: *ok = parse_pulls(a, command, value); return true;
   case OPTION_TILT: *ok = parse_tilt(a, command, value); return true;
   case OPTION_CLAMP: a->clamped = true; return true;
+  case OPTION_TAUT: a->taut = true; return true;
   case OPTION_RAYS: *ok = cli_int(command, "--rays", value, THR_USUAL_RAYS, THR_MOST_RAYS, &a->rays); return true;
   default: return false;
   }
@@ -110,6 +111,7 @@ int load_apply(const load_args *a, const thr_frame *frame, thr_eval_options *opt
   options->tilt = a->tilt;
   options->azimuth = a->azimuth;
   options->clamped = a->clamped;
+  options->taut = a->taut;
   options->rays = a->rays;
   options->load_pull = a->pulls;
   options->n_load_pulls = a->n_pulls;

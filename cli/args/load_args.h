@@ -11,11 +11,13 @@ enum {
   OPTION_LOAD_PULLS,
   OPTION_TILT,
   OPTION_CLAMP,
-  OPTION_RAYS
+  OPTION_RAYS,
+  OPTION_TAUT
 }; /* beyond the options that commands number on */
 #define LOAD_OPTIONS                                                                                                             \
   {"load", required_argument, NULL, OPTION_LOAD}, {"load-pulls", required_argument, NULL, OPTION_LOAD_PULLS},                    \
       {"tilt", required_argument, NULL, OPTION_TILT}, {"rays", required_argument, NULL, OPTION_RAYS},                            \
+      {"taut", no_argument, NULL, OPTION_TAUT},                                                                                  \
   {                                                                                                                              \
     "clamp-feet", no_argument, NULL, OPTION_CLAMP                                                                                \
   }
@@ -27,6 +29,8 @@ enum {
   "10,50)\n"                                                                                                                     \
   "      --tilt DEG       structure: the ground leans by so many degrees towards x, or DEG,AZIMUTH (from x to y)\n"              \
   "      --clamp-feet     structure: feet are held in place; else they stand on the ground\n"                                    \
+  "      --taut           structure: turns are those of the tight cord in its bores, as --method joint finds them, not those\n"  \
+  "                       of the middles of the bores: it needs less while it is drawn in, and keeps less\n"                     \
   "      --rays N         structure: rays of the pyramids that stand for friction cones, 8 to 48 (default: 8; 24: the\n"         \
   "                       bounds are ten times closer, and take some three times as long)\n"
 
@@ -37,7 +41,7 @@ typedef struct {
   const char *load;    /* as given; NULL = none */
   double pulls[LOAD_MOST_PULLS], tilt, azimuth;
   int n_pulls, rays;
-  bool clamped;
+  bool clamped, taut;
 } load_args;
 
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */

@@ -42,7 +42,8 @@ static const char help[] =
                                              "      --load-pulls N   with so many newtons at all ends (default: 10)\n"
                                              "      --schedule TEXT  structure: and after what is done to the cords, as `thread "
                                              "eval` takes it\n"
-                                             "      --tilt DEG, --clamp-feet, --rays N   structure: as `thread eval` takes them\n"
+                                             "      --tilt DEG, --clamp-feet, --taut, --rays N   structure: as `thread eval` "
+                                             "takes them\n"
                                              "      --plot FILE      write a picture as SVG: the plans side by side, small, with "
                                              "pull, cord and number of cords\n"
                                              "      --json           as JSON\n"
@@ -647,8 +648,8 @@ static int compare(const pull_args *a, const deeds *d, char **path, int n, entry
 static int check_deeds(pull_args *a, deeds *d)
 {
   const bool structure = a->method == THR_STRUCTURE || a->method == PULL_ALL_METHODS, any = load_any(&d->load) || d->schedule;
-  if (!structure && (any || d->load.rays))
-    return cli_usage("compare", "--load, --tilt, --clamp-feet, --rays and --schedule are of --method structure or all");
+  if (!structure && (any || d->load.rays || d->load.taut))
+    return cli_usage("compare", "--load, --tilt, --clamp-feet, --taut, --rays and --schedule are of --method structure or all");
   if (d->schedule && !*d->schedule) return cli_usage("compare", "--schedule: an empty one does nothing");
   if (d->load.n_pulls && !d->load.load) return cli_usage("compare", "--load-pulls needs --load");
   if (d->load.n_pulls > 1) return cli_usage("compare", "--load-pulls: one pull, to rank by what is carried at it");

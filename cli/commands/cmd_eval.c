@@ -159,7 +159,8 @@ static int parse(int argc, char **argv, arguments *a)
   if (a->still && a->pull.method != THR_STRUCTURE) return cli_usage("eval", "--still needs --method structure");
   if (load_any(&a->load) && a->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "--load, --tilt and --clamp-feet are of --method structure");
-  if (a->load.rays && a->pull.method != THR_STRUCTURE) return cli_usage("eval", "--rays is of --method structure");
+  if ((a->load.rays || a->load.taut) && a->pull.method != THR_STRUCTURE)
+    return cli_usage("eval", "%s is of --method structure", a->load.rays ? "--rays" : "--taut");
   if (a->load.n_pulls && !a->load.load) return cli_usage("eval", "--load-pulls needs --load");
   if (a->still && a->load.load) return cli_usage("eval", "--still shows a simulation, which knows no loads");
   if (a->still && !a->pull.options.dynamics) return cli_usage("eval", "--still shows a simulation; take --no-dynamics away");

@@ -34,8 +34,7 @@ static const char *method_words(const thr_evaluation *evaluation, bool refused)
                    : "joints measured in simulation, composed along the path of the tight cord";
   case THR_STRUCTURE: return "structure: least pull at which rigid beads can stand while the cord is drawn in (limit analysis)";
   default:
-    return evaluation->law == THR_LAW_MITRE
-               ? "mitred beads, by the closed form; --method joint measures the joints in simulation"
+    return evaluation->law == THR_LAW_MITRE ? "mitred beads, by the closed form; --method joint measures the joints in simulation"
            : thr_friction_of(&evaluation->physics).power < 1
                ? "by the closed form of friction that grows with less than the load"
                : "by the closed form exp(mu x turning); --method joint measures the joints in simulation";
@@ -58,7 +57,7 @@ static void put_heading(thr_text *text, const thr_evaluation *evaluation, bool r
   } else {
     thr_text_printf(text, "seating tension %g N, ", physics->seating);
   }
-  if (evaluation->method == THR_JOINT)
+  if (evaluation->method == THR_JOINT || evaluation->standing.taut)
     thr_text_printf(text, "cord %.4g mm in bores of %.4g mm, ", physics->cord_diameter, physics->bore);
   thr_text_printf(text, "pulled at: %s\n\n", pulled);
 }
@@ -93,10 +92,10 @@ static void put_error(thr_text *text, const thr_eval_cord *cord)
   thr_text_printf(text, " %6s %%", cell);
 }
 
-static void put_cord(thr_text *text, const char *id, const thr_eval_cord *cord, thr_method method)
+static void put_cord(thr_text *text, const char *id, const thr_eval_cord *cord, thr_method method, bool tight)
 {
   thr_text_printf(text, "%-5s %8.1f deg", id, thr_degrees(cord->turning));
-  if (method == THR_JOINT) thr_text_printf(text, " %8.1f deg", thr_degrees(cord->taut_turning));
+  if (tight) thr_text_printf(text, " %8.1f deg", thr_degrees(cord->taut_turning));
   put_cell(text, 12, digits(method), cord->force, true);
   put_cell(text, 13, digits(method), cord->other_force, cord->pull == THR_PULL_BOTH);
   put_loss(text, cord->loss);
@@ -110,12 +109,12 @@ static void put_cord(thr_text *text, const char *id, const thr_eval_cord *cord, 
 
 static void put_cords(thr_text *text, const thr_plan *plan, const thr_evaluation *evaluation)
 {
-  bool joint = evaluation->method == THR_JOINT;
-  thr_text_printf(text, "%-5s %12s%s %12s %13s %9s %12s%s  %s\n", "cord", "turning", joint ? "    when tight" : "", "pull (N)",
+  const bool joint = evaluation->method == THR_JOINT, tight = joint || evaluation->standing.taut;
+  thr_text_printf(text, "%-5s %12s%s %12s %13s %9s %12s%s  %s\n", "cord", "turning", tight ? "    when tight" : "", "pull (N)",
                   "other end (N)", "loss", "work per m", joint ? "   error +-" : "", "slackest pass");
   for (int i = 0; i < evaluation->n_cords; i++) {
     if (evaluation->cord[i].known)
-      put_cord(text, plan->cord[i].id, &evaluation->cord[i], evaluation->method);
+      put_cord(text, plan->cord[i].id, &evaluation->cord[i], evaluation->method, tight);
     else
       thr_text_printf(text, "%-5s not known: stopped before\n", plan->cord[i].id);
   }

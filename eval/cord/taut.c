@@ -4,6 +4,7 @@
  * Gauss-Seidel over the openings settles a straight run of n of them in n^2 sweeps; Newton steps with a barrier take the same few
  * dozen for 20 nodes and for 7,000. */
 #include "eval/cord/taut.h"
+#include "graph/framework/units.h"
 #include "graph/angle.h"
 #include "graph/scratch.h"
 #include "graph/vector.h"
@@ -423,4 +424,19 @@ thr_status thr_taut_path(const thr_frame *frame, const thr_cord *cord, double ra
   if (!st) taut_points(&p, frame, cord, clearance, point, length);
   path_destroy(&p);
   return st;
+}
+
+thr_status thr_taut_turns(const thr_frame *frame, const thr_cord *cord, int n_cords, const thr_physics *physics,
+                          const thr_limits *limits, double **taut, thr_err *err)
+{
+  double mm;
+  if (thr_units_in_mm(frame->units, &mm, NULL)) mm = 1; /* as thr_physics_resolve took them: all sizes come from the framework */
+  for (int i = 0; i < n_cords; i++) {
+    if (thr_limits_stop(limits)) return thr_fail(err, THR_ELIMIT, "stopped before the taut path of cord %s", cord[i].id);
+    if (!(taut[i] = thr_calloc((size_t)cord[i].n_passes, sizeof **taut))) return thr_nomem(err);
+    thr_status st = thr_taut_path(frame, &cord[i], physics->cord_diameter / 2 / mm,
+                                  (physics->bore - physics->cord_diameter) / 2 / mm, taut[i], NULL, NULL, err);
+    if (st) return st;
+  }
+  return THR_OK;
 }

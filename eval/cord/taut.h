@@ -10,6 +10,8 @@
 #define THR_TAUT_H
 
 #include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 
@@ -32,5 +34,10 @@
  * one place; THR_ESOLVER if that is not reached. */
 thr_status thr_taut_path(const thr_frame *frame, const thr_cord *cord, double radius, double clearance, double *turn,
                          double (*point)[3], double *length, thr_err *err) THR_MUST_CHECK;
+
+/* The turns of every cord by resolved physics: taut[i] is allocated, of as many as cord i has passes, also where this fails.
+ * Where a unit is of no known length, all sizes come from the framework, and it counts as a mm. THR_ELIMIT when stopped. */
+thr_status thr_taut_turns(const thr_frame *frame, const thr_cord *cord, int n_cords, const thr_physics *physics,
+                          const thr_limits *limits, double **taut, thr_err *err) THR_MUST_CHECK;
 
 #endif

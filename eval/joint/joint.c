@@ -366,22 +366,6 @@ static thr_status compose(const thr_frame *frame, const thr_cord *cord, const th
   return st;
 }
 
-/* Taut turns of every cord: taut[i] is allocated here. */
-static thr_status taut_turns(const thr_frame *frame, const thr_cord *cord, int n_cords, const thr_physics *physics,
-                             const thr_limits *limits, double **taut, thr_err *err)
-{
-  double mm;
-  if (thr_units_in_mm(frame->units, &mm, NULL)) mm = 1; /* as thr_physics_resolve took them: all sizes come from the framework */
-  for (int i = 0; i < n_cords; i++) {
-    if (thr_limits_stop(limits)) return thr_fail(err, THR_ELIMIT, "stopped before the taut path of cord %s", cord[i].id);
-    if (!(taut[i] = thr_calloc((size_t)cord[i].n_passes, sizeof **taut))) return thr_nomem(err);
-    thr_status st = thr_taut_path(frame, &cord[i], physics->cord_diameter / 2 / mm,
-                                  (physics->bore - physics->cord_diameter) / 2 / mm, taut[i], NULL, NULL, err);
-    if (st) return st;
-  }
-  return THR_OK;
-}
-
 static double quantized(double x)
 {
   return rint(x * QUANTA) / QUANTA;
@@ -415,7 +399,7 @@ thr_status thr_joint_compose(const thr_frame *frame, const thr_cord *cord, const
   thr_status st = check_bore(source, w.drag.bore, physics, err);
   if (st) return st;
   double **taut = thr_calloc((size_t)n_cords, sizeof *taut);
-  st = taut ? taut_turns(frame, cord, n_cords, physics, limits, taut, err) : thr_nomem(err);
+  st = taut ? thr_taut_turns(frame, cord, n_cords, physics, limits, taut, err) : thr_nomem(err);
   if (!st) st = table_make(&t, source->largest_turn, physics->mu, err);
   if (!st && !(w.job = thr_calloc((size_t)t.n, sizeof *w.job))) st = thr_nomem(err);
   if (!st) st = compose(frame, cord, options, limits, &w, taut, out, err);

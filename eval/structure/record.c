@@ -61,6 +61,7 @@ thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_option
   thr_standing *standing = &evaluation->standing;
   *standing = (thr_standing){.present = true,
                              .clamped = options->clamped,
+                             .taut = options->taut,
                              .tilt = options->tilt,
                              .azimuth = options->tilt > 0 ? options->azimuth : 0,
                              .let_down = NAN,

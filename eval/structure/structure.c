@@ -1,5 +1,6 @@
 /* Method structure: every cord's tension profile by the capstan law, the pull by limit analysis, its failure shown by Bullet. */
 #include "eval/cord/profile.h"
+#include "eval/cord/taut.h"
 #include "eval/eval.h"
 #include "eval/methods.h"
 #include "eval/structure/beads.h"
@@ -37,11 +38,13 @@ static thr_status profile(const thr_frame *frame, const thr_cord *cord, const th
   if (!eval_cord->exponent) eval_cord->exponent = thr_calloc((size_t)cord->n_passes, sizeof *eval_cord->exponent);
   double *exponent = eval_cord->exponent;
   if (!exponent) return thr_nomem(err);
-  eval_cord->turning = 0;
+  eval_cord->turning = eval_cord->taut_turning = 0;
   for (int k = 0; k + 1 < cord->n_passes; k++) {
-    double turn = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
-    exponent[k] = mu * turn + thr_profile_wobble(frame, physics, cord, k, mu);
+    const double turn = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]),
+                 counts = eval_cord->turn ? eval_cord->turn[k] : turn;
+    exponent[k] = mu * counts + thr_profile_wobble(frame, physics, cord, k, mu);
     eval_cord->turning += turn;
+    eval_cord->taut_turning += counts;
   }
   free(eval_cord->tension);
   eval_cord->tension = NULL;
@@ -53,7 +56,6 @@ static thr_status profile(const thr_frame *frame, const thr_cord *cord, const th
     eval_cord->tension[k] /= force;
   eval_cord->other_force /= force;
   eval_cord->force = pulled ? 1 : 0;
-  eval_cord->taut_turning = eval_cord->turning;
   return THR_OK;
 }
 
@@ -277,10 +279,13 @@ static thr_status band(const thr_frame *frame, const thr_cord *cord, const thr_b
   copy.cord = thr_calloc((size_t)evaluation->n_cords, sizeof *copy.cord);
   thr_status st = tension && copy.cord ? THR_OK : thr_nomem(err);
   for (int i = 0; i < evaluation->n_cords && !st; i++)
-    copy.cord[i] = (thr_eval_cord){.pull = evaluation->cord[i].pull, .n_passes = evaluation->cord[i].n_passes};
+    copy.cord[i] = (thr_eval_cord){
+        .pull = evaluation->cord[i].pull, .n_passes = evaluation->cord[i].n_passes, .turn = evaluation->cord[i].turn};
   for (int i = 0; i < 2 && !st; i++)
     st = band_end(frame, cord, beads, mu[i], limits, &copy, tension, &out[i], err);
   free(tension);
+  for (int i = 0; i < evaluation->n_cords && copy.cord; i++)
+    copy.cord[i].turn = NULL; /* the record's */
   if (copy.cord) thr_evaluation_destroy(&copy);
   return st;
 }
@@ -306,6 +311,7 @@ static void clear_record(thr_evaluation *evaluation)
   for (int i = 0; i < evaluation->n_cords; i++) {
     free(evaluation->cord[i].tension);
     free(evaluation->cord[i].exponent);
+    free(evaluation->cord[i].turn);
     evaluation->cord[i] = (thr_eval_cord){.pull = evaluation->cord[i].pull, .n_passes = evaluation->cord[i].n_passes};
   }
 }
@@ -413,12 +419,25 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, thr_beads *b
   return st ? st : thr_structure_drawn(evaluation, options, err);
 }
 
+static thr_status take_taut_turns(const thr_frame *frame, const thr_cord *cord, const thr_limits *limits,
+                                  thr_evaluation *evaluation, thr_err *err)
+{
+  double **turn = thr_calloc((size_t)evaluation->n_cords, sizeof *turn);
+  thr_status st =
+      turn ? thr_taut_turns(frame, cord, evaluation->n_cords, &evaluation->physics, limits, turn, err) : thr_nomem(err);
+  for (int i = 0; i < evaluation->n_cords && turn; i++)
+    evaluation->cord[i].turn = turn[i];
+  free(turn);
+  return st;
+}
+
 thr_status thr_structure_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
                                 const thr_limits *limits, thr_eval *out, thr_err *err)
 {
   thr_beads beads = {0};
   const double **tension = thr_calloc((size_t)out->record.n_cords, sizeof *tension);
   thr_status st = tension ? make_beads(frame, &out->record.physics, options, &beads, err) : thr_nomem(err);
+  if (!st && options->taut) st = take_taut_turns(frame, cord, limits, &out->record, err);
   if (!st) st = run(frame, cord, &beads, options, limits, tension, out, err);
   thr_beads_destroy(&beads);
   free(tension);

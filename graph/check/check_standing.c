@@ -349,6 +349,22 @@ static thr_status check_cords(bodies *b, thr_err *err)
   return THR_OK;
 }
 
+/* The exponents of tight turns are stated: together they are what the turning that is stated, too, makes of them. */
+static thr_status check_taut(bodies *b, thr_err *err)
+{
+  const double mu = b->e->physics.mu;
+  for (int i = 0; i < b->plan->n_cords && b->s->taut; i++) {
+    const thr_eval_cord *cord = &b->e->cord[i];
+    double expected = mu * (cord->taut_turning - cord->turning);
+    for (int k = 0; k < cord->n_passes; k++)
+      expected += thr_check_exponent(&b->plan->frame, b->e, &b->plan->cord[i], k);
+    if (!thr_check_close(exponents(b, i), expected, 1 + mu * cord->turning))
+      return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: its exponents do not add up to mu x taut_turning",
+                      b->plan->cord[i].id);
+  }
+  return THR_OK;
+}
+
 /* Without a schedule the tensions are those of the first answer: all cords drawn in with so much at their harder ends. */
 static thr_status check_tensions(bodies *b, thr_err *err)
 {
@@ -379,6 +395,7 @@ thr_status thr_check_standing(const thr_plan *plan, thr_err *err)
     if (s->load[i].node >= plan->frame.n_nodes)
       st = thr_fail(err, THR_EVIOLATED, "evaluation.structure.loads[%d].node: there is no such node", i);
   if (!st) st = check_cords(&b, err);
+  if (!st) st = check_taut(&b, err);
   if (!st) st = check_tensions(&b, err);
   for (int i = 0; i < s->n_answers && !st; i++) {
     const char *wrong = misfit(s, &s->answer[i], plan->evaluation.schedule.n > 0);

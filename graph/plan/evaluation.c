@@ -36,6 +36,7 @@ void thr_evaluation_destroy(thr_evaluation *evaluation)
 {
   for (int i = 0; i < evaluation->n_cords; i++) {
     free(evaluation->cord[i].tension);
+    free(evaluation->cord[i].turn);
     free(evaluation->cord[i].exponent);
   }
   thr_schedule_destroy(&evaluation->schedule);

@@ -46,8 +46,9 @@ typedef struct {
   int slackest;        /* pass with the least tension, counted from 0 */
   int refused;         /* turns not measured (too sharp, out of range, unsteady): the closed form stands in for them */
   double *tension;     /* [n_passes] N; owned */
-  double *exponent;    /* [n_passes - 1] ln of the ratio of the tensions that a turn holds apart, or NULL; in the plan only with
-                          a schedule or turns of the tight cord (thr_standing); owned */
+  double *turn; /* [n_passes - 1] rad: of the tight cord, where method structure counts those; else NULL; owned, not in plans */
+  double *exponent; /* [n_passes - 1] ln of the ratio of the tensions that a turn holds apart, or NULL; in the plan only with
+                       a schedule or turns of the tight cord (thr_standing); owned */
 } thr_eval_cord;
 
 typedef struct {

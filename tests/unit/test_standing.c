@@ -2,6 +2,7 @@
 #include "tests/support.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
+#include "eval/cord/taut.h"
 #include "eval/eval.h"
 #include "graph/check/check.h"
 #include "graph/plan/evaluation.h"
@@ -222,6 +223,42 @@ START_TEST(every_alteration_is_seen)
 }
 END_TEST
 
+/* Turns of the tight cord are those of its shortest path, and the plan's exponents add up to them. */
+START_TEST(tight_turns_are_those_of_the_tight_path)
+{
+  thr_plan plan;
+  thr_eval_options options = thr_eval_options_default();
+  const thr_limits none = {0};
+  thr_eval eval;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_plan_read(&plan, "data/dome7-stairs.json", NULL), THR_OK);
+  options.taut = true;
+  options.dynamics = false;
+  ck_assert_msg(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_STRUCTURE, &options, &none, &eval, &err) == THR_OK, "%s",
+                err.text);
+  const thr_physics *physics = &eval.record.physics;
+  for (int i = 0; i < plan.n_cords; i++) {
+    double turn[32], sum = 0;
+    ck_assert_int_eq(thr_taut_path(&plan.frame, &plan.cord[i], physics->cord_diameter / 2,
+                                   (physics->bore - physics->cord_diameter) / 2, turn, NULL, NULL, NULL),
+                     THR_OK);
+    for (int k = 0; k + 1 < plan.cord[i].n_passes; k++) {
+      ck_assert_double_eq_tol(eval.record.cord[i].exponent[k], physics->mu * turn[k], 1e-12);
+      sum += turn[k];
+    }
+    ck_assert_double_eq_tol(eval.record.cord[i].taut_turning, sum, 1e-9);
+    ck_assert_double_le(sum, eval.record.cord[i].turning);
+  }
+  plan.evaluation = eval.record;
+  eval.record = (thr_evaluation){0};
+  thr_eval_destroy(&eval);
+  ck_assert_msg(thr_check_plan(&plan, &err) == THR_OK, "%s", err.text);
+  plan.evaluation.cord[1].exponent[2] += 1e-6;
+  assert_violated(&plan, "");
+  thr_plan_destroy(&plan);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("standing");
@@ -230,5 +267,6 @@ int main(void)
   ADD_LOOP(s, 30, every_answer_is_believed_and_no_better_one, 0, 2);
   ADD_LOOP(s, 30, answers_survive_json, 0, 2);
   ADD_LOOP(s, 30, every_alteration_is_seen, 0, 13);
+  ADD_TEST(s, 30, tight_turns_are_those_of_the_tight_path);
   return run_suite(s);
 }
