@@ -25,23 +25,35 @@ static thr_status sign(thr_plan *plan, thr_err *err)
   return (plan->generator = thr_strdup(versions)) ? THR_OK : thr_nomem(err);
 }
 
+/* Where no crossing is allowed cords may turn more, or be less even, than what the planner judged. */
+static bool is_to_be_judged(const thr_plan *plan)
+{
+  return plan->options.crossings == THR_CROSSINGS_FORBID &&
+         (plan->turning.present || (plan->cords_claim.present && thr_wants_balance(&plan->options)));
+}
+
 thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, const thr_limits *limits, thr_plan *plan,
                          thr_report *report, thr_err *err)
 {
   thr_report own = {0};
+  thr_err why = {0};
   *plan = (thr_plan){0};
   thr_planner_tell_at_once(frame, request, limits);
-  thr_status st = thr_dispatch(request)(frame, request, limits, plan, &own, err), finished = THR_OK;
+  thr_status st = thr_dispatch(request)(frame, request, limits, plan, &own, &why), finished = THR_OK;
   if (plan->n_cords > 0) finished = thr_plan_uncross(plan, err);
+  if (plan->n_cords > 0 && !finished && is_to_be_judged(plan)) {
+    why = (thr_err){0};
+    st = thr_planner_verdict(plan, &why);
+  }
   if (plan->n_cords > 0 && !finished) finished = thr_plan_order(plan, err);
   if (plan->n_cords > 0 && !finished) finished = sign(plan, err);
-  if (finished) {
+  if (finished)
     thr_plan_destroy(plan);
-    st = finished;
-  }
+  else if (st)
+    thr_fail(err, st, "%s", why.text);
   if (report)
     *report = own;
   else
     thr_report_destroy(&own);
-  return st;
+  return finished ? finished : st;
 }

@@ -3,6 +3,9 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/channels.h"
 #include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "planner/planners.h"
+#include "planner/recut.h"
 
 #include <limits.h>
 #include <math.h>
@@ -14,7 +17,7 @@ typedef struct {
   const int *rank;
   const thr_channels *channels; /* of the plan as it was: they say in which nodes some cross */
   bool exactly;                 /* the turning must stay the same */
-  bool between;                 /* cords may exchange their ends */
+  bool between;                 /* cords may exchange their ends; closed ones are joined */
   int node, n;
   thr_channel *channel; /* [n] those of the node, by cord and pass; room for as many as any node has */
 } uncrossing;
@@ -22,14 +25,14 @@ typedef struct {
 /* How two channels, the first of the earlier cord or pass, are to be led instead. */
 typedef enum {
   REVERSE,  /* of one cord: the part between them is run the other way round */
-  EXCHANGE, /* of two: each cord ends as the other did */
+  EXCHANGE, /* of two: each cord ends as the other did; closed, they are one then */
   TURN      /* of two: the first cord ends as the second began, backwards, and the second begins as the first ended */
 } way;
 
 typedef struct {
   way way;
   thr_channel a, b;
-  int longer;  /* of two cords that exchange their ends, passes of the longer one then; 0 = of one cord */
+  int longer;  /* of two cords, passes of the longer one then, or of the one; 0 = of one cord */
   double more; /* turning, rad */
 } change;
 
@@ -58,6 +61,7 @@ static double more_turning(const thr_frame *frame, way how, const thr_channel *a
 static int longer_of(const thr_plan *plan, way how, const thr_channel *a, const thr_channel *b)
 {
   int all = plan->cord[a->cord].n_passes + plan->cord[b->cord].n_passes, before = b->pass + 1;
+  if (plan->options.ends == THR_ENDS_CLOSED) return all;
   int first = a->pass + 1 + (how == EXCHANGE ? plan->cord[b->cord].n_passes - before : before);
   return first > all - first ? first : all - first;
 }
@@ -76,15 +80,6 @@ static void try_ways(const uncrossing *x, const thr_channel *a, const thr_channe
   for (way how = one ? REVERSE : EXCHANGE; how <= (one ? REVERSE : TURN); how++) {
     change c = {how, *a, *b, one ? 0 : longer_of(x->plan, how, a, b), more_turning(&x->plan->frame, how, a, b)};
     if (is_less(&c, best) && (!x->exactly || fabs(c.more) <= 1e-12)) *best = c;
-  }
-}
-
-static void reverse(int *half, int from, int last)
-{
-  for (; from <= last; from++, last--) {
-    int one = half[from] ^ 1;
-    half[from] = half[last] ^ 1;
-    half[last] = one;
   }
 }
 
@@ -118,11 +113,12 @@ static thr_status make(thr_plan *plan, const change *c, thr_err *err)
   thr_cord *a = &plan->cord[c->a.cord], *b = &plan->cord[c->b.cord];
   int j = c->b.pass + 1;
   if (c->way == REVERSE) {
-    reverse(a->half, c->a.pass + 1, c->b.pass);
+    thr_passes_reverse(a->half, c->a.pass + 1, c->b.pass);
     return THR_OK;
   }
+  if (plan->options.ends == THR_ENDS_CLOSED) return thr_cords_join(plan, &c->a, &c->b, c->way == TURN, err);
   if (c->way == TURN) { /* backwards the second cord comes by the arm by which it went */
-    reverse(b->half, 0, b->n_passes - 1);
+    thr_passes_reverse(b->half, 0, b->n_passes - 1);
     j = b->n_passes - j;
   }
   return exchange(plan, a, c->a.pass + 1, b, j, err);
@@ -160,14 +156,13 @@ static thr_status uncross_nodes(uncrossing *x, thr_err *err)
   return st;
 }
 
-/* Where nothing is asked of single cords, and their ends are not their own, the cords may exchange ends. */
+/* Different cords may be led otherwise where a plan is short; or in any case, if no crossing is allowed. */
 static bool may_exchange(const thr_request *o)
 {
-  return thr_wants_length(o) && !thr_wants_balance(o) && o->ends != THR_ENDS_CLOSED && o->max_length == 0 && o->max_pull == 0 &&
-         o->distinct == 0;
+  return (thr_wants_length(o) || o->crossings == THR_CROSSINGS_FORBID) && o->max_pull == 0;
 }
 
-static thr_status uncross_cords(thr_plan *plan, thr_err *err)
+static thr_status uncross_cords(thr_plan *plan, bool between, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   size_t n = 2 * (size_t)frame->n_edges, most = 0;
@@ -182,15 +177,65 @@ static thr_status uncross_cords(thr_plan *plan, thr_err *err)
   uncrossing x = {.plan = plan,
                   .rank = rank,
                   .channels = &channels,
-                  .exactly = thr_wants_turning(&plan->options),
-                  .between = may_exchange(&plan->options),
+                  .exactly = thr_wants_turning(&plan->options) && plan->options.crossings != THR_CROSSINGS_FORBID,
+                  .between = between,
                   .channel = thr_calloc(most, sizeof *x.channel)};
-  if (!st) st = x.channel ? uncross_nodes(&x, err) : thr_nomem(err);
+  thr_recut recut = {.rank = rank};
+  if (!st) st = x.channel ? thr_recut_count(&recut, plan, err) : thr_nomem(err);
+  if (!st) st = uncross_nodes(&x, err);
+  if (!st) st = thr_recut_cords(&recut, plan, err);
+  thr_recut_destroy(&recut);
   free(x.channel);
   thr_channels_destroy(&channels);
   free(around);
   free(rank);
   return st;
+}
+
+/* ---- what is asked of single cords ---- */
+
+/* Metrics of the cords as they are now: the same passes, so that their length is the same to the last bit. */
+static thr_status measure(thr_plan *plan, thr_err *err)
+{
+  const double length = plan->metrics.length;
+  thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  plan->metrics.length = length;
+  return st;
+}
+
+/* As many cords as before, over every edge as many different ones, and none longer than may be; even ones stay as even, unless
+ * no crossing is allowed. */
+static bool serves(const thr_plan *plan, int n_cords, int distinct, double longest)
+{
+  const thr_request *o = &plan->options;
+  double limit = o->max_length > 0 ? o->max_length : HUGE_VAL;
+  if (thr_wants_balance(o) && o->crossings != THR_CROSSINGS_FORBID) limit = longest;
+  return plan->n_cords == n_cords && plan->metrics.distinct >= distinct &&
+         thr_cords_longest(&plan->frame, plan->cord, plan->n_cords) <= limit * (1 + 1e-12);
+}
+
+/* Each cord by itself, and those of different cords too if what is asked of single cords is kept. */
+static thr_status uncross(thr_plan *plan, thr_err *err)
+{
+  const int n = plan->n_cords, distinct = plan->metrics.distinct;
+  const double longest = thr_cords_longest(&plan->frame, plan->cord, n);
+  thr_cord *before = NULL;
+  if (n == 1 || !may_exchange(&plan->options)) {
+    thr_status st = uncross_cords(plan, false, err);
+    return st ? st : measure(plan, err);
+  }
+  thr_status st = thr_cords_copy(plan->cord, n, &before, err);
+  if (!st) st = uncross_cords(plan, true, err);
+  if (!st) st = measure(plan, err);
+  if (st || serves(plan, n, distinct, longest)) {
+    thr_cords_destroy(before, n);
+    return st;
+  }
+  thr_cords_destroy(plan->cord, plan->n_cords);
+  plan->cord = before;
+  plan->n_cords = n;
+  st = uncross_cords(plan, false, err);
+  return st ? st : measure(plan, err);
 }
 
 /* How many cross, and in how many pieces. */
@@ -216,11 +261,10 @@ thr_status thr_plan_count_crossings(thr_plan *plan, thr_err *err)
 static thr_status refuse(const thr_plan *plan, int crossed, thr_err *err)
 {
   if (plan->options.crossings != THR_CROSSINGS_FORBID || plan->metrics.crossings == 0) return THR_OK;
-  return thr_fail(
-      err, THR_ELIMIT,
-      "no plan without crossing channels was found: %d cross inside %d of %d pieces; use --crossings price, one cord in "
-      "each component, or several with --ends any or feet, which need none unless something is asked of their lengths",
-      plan->metrics.crossings, crossed, plan->frame.n_nodes);
+  return thr_fail(err, THR_ELIMIT,
+                  "no plan without crossing channels was found: %d cross inside %d of %d pieces; use --crossings price, fewer "
+                  "cords, or nothing that is asked of single cords (--balance, --max-length, --distinct)",
+                  plan->metrics.crossings, crossed, plan->frame.n_nodes);
 }
 
 /* Another cord may be the longest now; what bounds it holds of any cords. */
@@ -232,15 +276,23 @@ static void claim_longest(thr_plan *plan)
   claim->longest_optimal = claim->longest <= claim->longest_bound * (1 + 1e-9);
 }
 
+/* The cords may turn more now; what bounds that holds of any cords. */
+static thr_status claim_turning(thr_plan *plan, thr_err *err)
+{
+  thr_turning_claim claim = plan->turning;
+  plan->turning = (thr_turning_claim){0};
+  thr_status st = thr_planner_prove_turning(plan, &claim, err);
+  thr_turning_proof_destroy(&claim.tree);
+  return st;
+}
+
 thr_status thr_plan_uncross(thr_plan *plan, thr_err *err)
 {
   int crossed = 0;
   if (plan->options.crossings == THR_CROSSINGS_ALLOW || plan->n_cords == 0) return THR_OK;
-  const double length = plan->metrics.length; /* the same passes, whatever the order in which they are added up */
-  thr_status st = uncross_cords(plan, err);
-  if (!st) st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
-  plan->metrics.length = length;
+  thr_status st = uncross(plan, err);
   claim_longest(plan);
+  if (!st && plan->options.crossings == THR_CROSSINGS_FORBID) st = claim_turning(plan, err);
   if (!st) st = count(plan, &crossed, err);
   return st ? st : refuse(plan, crossed, err);
 }

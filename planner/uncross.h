@@ -10,12 +10,14 @@
  * other channels. A third channel that crosses one of the new ones, or both, crossed as many of the old ones, so that crossings
  * become fewer each time, and a plan of one cord in each component ends without any. Two cords that cross there go on as each
  * other, from a to d and from c to b, or from a to c and from b to d, whichever leaves them more even: there are as many cords,
- * as long together, with the same ends, and none of those crossings either. That is done where nothing is asked of single cords:
- * in short plans whose cords are not closed, without balance, max_length, max_pull and distinct; elsewhere crossings of different
- * cords stay. Of several pairs those of one cord come first, and of these that which takes least turning; in plans for little
- * turning only where the turning stays the same. Metrics are measured again. options.crossings says whether it is asked for.
- * Passes of cords are owned, and others may take their place. THR_ELIMIT: none are allowed and some are left (said how many),
- * which does not prove that there is no such plan. O(crossings x passes). */
+ * as long together, with the same ends, and none of those crossings either. Closed cords become one by that, which is cut again
+ * when nothing crosses any longer (planner/recut.h). Different cords are led otherwise in short plans, and in any if no crossing
+ * is allowed, as long as that keeps to max_length and distinct, and to balance where crossings only have their price. Of several
+ * pairs those of one cord come first, and of these that which takes least turning; in plans for little turning only where the
+ * turning stays the same, unless no crossing is allowed. Metrics are measured again, and claims of the turning and of the longest
+ * cord are made for what the cords are now: bounds are of any cords. options.crossings says whether it is asked for. Passes of
+ * cords are owned, and others may take their place, as may plan->cord. THR_ELIMIT: none are allowed and some are left (said how
+ * many), which does not prove that there is no such plan. O(crossings x passes). */
 thr_status thr_plan_uncross(thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* metrics.crossings, if the request asks for anything but any number of them. O(n log n). */

@@ -43,9 +43,10 @@ static const char help_requests[] =
     "  thread make dome | thread plan - -o - | thread check -\n\n"
     "What is planned:\n" AIMS_HELP CORDS_HELP
     "      --crossings allow|price|forbid   channels that cross inside a piece: any (default); fewer, where cords can be led\n"
-    "                       otherwise at equal length, by more turns (with an aim of turning: at equal turning); none.\n"
-    "                       Cords that cross each other exchange their ends, if these are not closed and nothing is\n"
-    "                       asked of single cords (--balance, --max-length, --distinct)\n"
+    "                       otherwise at equal length, by more turns (with an aim of turning: at equal turning); none, by\n"
+    "                       more turns in any case. Cords that cross each other exchange their ends, closed ones are\n"
+    "                       joined and cut elsewhere, if what is asked of single cords allows it (--balance, --max-length,\n"
+    "                       --distinct). Not with tube joints or copies\n"
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
     "                       an S that is given, and so do the drawings; else each search has its 20 s\n" GUARD_MEMORY_HELP "\n";
@@ -125,13 +126,12 @@ typedef struct {
 /* -1 if it goes with what else is asked for. */
 static int check_crossings(const arguments *a)
 {
-  const char *other = a->cords.joint == THR_JOINT_TUBE           ? "--joint tube"
-                      : thr_wants_symmetry(&a->wanted)           ? "--objective symmetry"
+  const char *other = a->cords.joint == THR_JOINT_TUBE
+                          ? "--joint tube: the cords of a tube lie side by side in one bore and cross nowhere inside"
+                      : thr_wants_symmetry(&a->wanted) ? "--objective symmetry: copies of a cord cross each other where they meet"
                       : cords_args_limits_pull(&a->cords)        ? "a limit of the pull"
                       : a->wanted.turning.tour != THR_TOUR_LEAST ? "a classical tour"
                                                                  : NULL;
-  if (a->crossings == THR_CROSSINGS_FORBID && thr_wants_turning(&a->wanted))
-    other = "an aim of turning, whose proof would not hold: use price";
   if (a->crossings == THR_CROSSINGS_ALLOW || !other) return -1;
   return cli_usage("plan", "--crossings %s does not go with %s", thr_crossings_name(a->crossings), other);
 }

@@ -110,6 +110,89 @@ START_TEST(open_cords_never_need_a_crossing)
 }
 END_TEST
 
+/* Nor do several closed ones: where they cross they become one, which is cut elsewhere, along the same passes. */
+START_TEST(closed_cords_never_need_a_crossing)
+{
+  static const thr_shape shape[] = {THR_MAKE_DOME, THR_MAKE_TUBE, THR_MAKE_SPHERE, THR_MAKE_HONEYCOMB};
+  thr_err err = {0};
+  thr_frame f = shape_make(shape[_i % 4], _i % 4 == 2 ? 2 : 6, 4);
+  thr_request o = thr_request_default();
+  o.cords = o.cords_least = 2 + _i / 4;
+  thr_plan p, as_found;
+  ck_assert_msg(!thr_plan_make(&f, &o, &(thr_limits){0}, &as_found, NULL, &err), "%s", err.text);
+  o.crossings = THR_CROSSINGS_FORBID;
+  ck_assert_msg(!thr_plan_make(&f, &o, &(thr_limits){0}, &p, NULL, &err), "%s", err.text);
+  int *before = calloc((size_t)f.n_edges, sizeof *before), *after = calloc((size_t)f.n_edges, sizeof *after);
+  count_passes(&as_found, before);
+  count_passes(&p, after);
+  ck_assert(memcmp(before, after, (size_t)f.n_edges * sizeof *before) == 0);
+  ck_assert_int_eq(p.n_cords, o.cords);
+  for (int c = 0; c < p.n_cords; c++)
+    ck_assert_int_eq(thr_cord_start(&f, &p.cord[c]), thr_cord_end(&f, &p.cord[c]));
+  ck_assert_int_eq(crossings_of(&p), 0);
+  ck_assert_msg(!thr_check_plan(&p, &err), "%s", err.text);
+  free(before);
+  free(after);
+  thr_plan_destroy(&as_found);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A cord that turns least may have to turn more then: its bound stays, as it is one of any cords, and it says optimal no longer.
+ */
+START_TEST(turning_is_judged_again)
+{
+  thr_err err = {0};
+  thr_plan p, least;
+  thr_frame f = shape_make(THR_MAKE_DOME, 5, 0);
+  thr_request o = thr_request_default();
+  o.aims = (thr_aims){1, {THR_AIM_TURNING}};
+  ck_assert_int_eq(thr_plan_make(&f, &o, &(thr_limits){0}, &least, NULL, NULL), THR_OK);
+  ck_assert_int_gt((int)crossings_of(&least), 0);
+  o.crossings = THR_CROSSINGS_FORBID;
+  ck_assert_int_eq(thr_plan_make(&f, &o, &(thr_limits){0}, &p, NULL, &err), THR_ELIMIT);
+  assert_one_line(&err, "above the least");
+  ck_assert_int_eq(crossings_of(&p), 0);
+  ck_assert(p.turning.present && !p.turning.optimal);
+  ck_assert_double_eq_tol(p.turning.lower_bound, least.turning.price, 1e-6);
+  ck_assert_double_gt(p.turning.price, least.turning.price);
+  ck_assert_int_eq(thr_check_plan(&p, NULL), THR_OK);
+  thr_plan_destroy(&least);
+  thr_plan_destroy(&p);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* Even cords stay as even where crossings have a price, and may be less even where there must be none; either way their bound is
+ * the one of any cords. */
+START_TEST(even_cords_are_judged_again)
+{
+  thr_err err = {0};
+  thr_plan even, priced, none;
+  thr_frame f = shape_make(THR_MAKE_DOME, 5, 0);
+  thr_request o = thr_request_default();
+  o.aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
+  o.cords = o.cords_least = 3;
+  ck_assert_int_eq(thr_plan_make(&f, &o, &(thr_limits){0}, &even, NULL, NULL), THR_OK);
+  o.crossings = THR_CROSSINGS_PRICE;
+  ck_assert_int_eq(thr_plan_make(&f, &o, &(thr_limits){0}, &priced, NULL, NULL), THR_OK);
+  ck_assert(priced.cords_claim.longest_optimal);
+  ck_assert_int_le((int)crossings_of(&priced), (int)crossings_of(&even));
+  o.crossings = THR_CROSSINGS_FORBID;
+  ck_assert_int_eq(thr_plan_make(&f, &o, &(thr_limits){0}, &none, NULL, &err), THR_ELIMIT);
+  assert_one_line(&err, "the length of the longest cord");
+  ck_assert_int_eq(crossings_of(&none), 0);
+  ck_assert(!none.cords_claim.longest_optimal);
+  ck_assert_double_eq_tol(none.cords_claim.longest_bound, even.cords_claim.longest, 1e-6);
+  ck_assert_int_eq(thr_check_plan(&none, NULL), THR_OK);
+  thr_plan_destroy(&even);
+  thr_plan_destroy(&priced);
+  thr_plan_destroy(&none);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* What a hand holds is looked for among channels that cross no more than before: a cord of the dome of 49 pieces. */
 START_TEST(chains_stay_short_without_crossings)
 {
@@ -156,6 +239,9 @@ int main(void)
   ADD_TEST(s, 10, an_eight_is_uncrossed);
   ADD_EXAMPLES(s, 20, one_cord_never_needs_a_crossing, 16);
   ADD_EXAMPLES(s, 20, open_cords_never_need_a_crossing, 16);
+  ADD_EXAMPLES(s, 20, closed_cords_never_need_a_crossing, 16);
+  ADD_TEST(s, 20, turning_is_judged_again);
+  ADD_TEST(s, 20, even_cords_are_judged_again);
   ADD_TEST(s, 20, chains_stay_short_without_crossings);
   ADD_TEST(s, 10, forbidden_crossings_are_found);
   return run_suite(s);
