@@ -2,6 +2,7 @@
 #include "planner/make_plan.h"
 #include "lp/solver/lp.h"
 #include "graph/framework/cuttree.h"
+#include "graph/plan/turning_proof.h"
 #include "planner/dispatch.h"
 #include "planner/order.h"
 #include "planner/planners.h"
@@ -32,6 +33,18 @@ static bool is_to_be_judged(const thr_plan *plan)
          (plan->turning.present || (plan->cords_claim.present && thr_wants_balance(&plan->options)));
 }
 
+/* Claims about the cords as they are now; their bounds are of any cords. *st and why: the verdict. */
+static thr_status judge(thr_plan *plan, thr_status *st, thr_err *why, thr_err *err)
+{
+  thr_turning_claim claim = plan->turning;
+  plan->turning = (thr_turning_claim){0};
+  thr_status failed = thr_planner_prove_turning(plan, &claim, err);
+  thr_turning_proof_destroy(&claim.tree);
+  *why = (thr_err){0};
+  if (!failed) *st = thr_planner_verdict(plan, why);
+  return failed;
+}
+
 thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, const thr_limits *limits, thr_plan *plan,
                          thr_report *report, thr_err *err)
 {
@@ -41,10 +54,7 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, con
   thr_planner_tell_at_once(frame, request, limits);
   thr_status st = thr_dispatch(request)(frame, request, limits, plan, &own, &why), finished = THR_OK;
   if (plan->n_cords > 0) finished = thr_plan_uncross(plan, err);
-  if (plan->n_cords > 0 && !finished && is_to_be_judged(plan)) {
-    why = (thr_err){0};
-    st = thr_planner_verdict(plan, &why);
-  }
+  if (plan->n_cords > 0 && !finished && is_to_be_judged(plan)) finished = judge(plan, &st, &why, err);
   if (plan->n_cords > 0 && !finished) finished = thr_plan_order(plan, err);
   if (plan->n_cords > 0 && !finished) finished = sign(plan, err);
   if (finished)

@@ -3,8 +3,6 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/channels.h"
 #include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "planner/planners.h"
 #include "planner/recut.h"
 
 #include <limits.h>
@@ -276,23 +274,12 @@ static void claim_longest(thr_plan *plan)
   claim->longest_optimal = claim->longest <= claim->longest_bound * (1 + 1e-9);
 }
 
-/* The cords may turn more now; what bounds that holds of any cords. */
-static thr_status claim_turning(thr_plan *plan, thr_err *err)
-{
-  thr_turning_claim claim = plan->turning;
-  plan->turning = (thr_turning_claim){0};
-  thr_status st = thr_planner_prove_turning(plan, &claim, err);
-  thr_turning_proof_destroy(&claim.tree);
-  return st;
-}
-
 thr_status thr_plan_uncross(thr_plan *plan, thr_err *err)
 {
   int crossed = 0;
   if (plan->options.crossings == THR_CROSSINGS_ALLOW || plan->n_cords == 0) return THR_OK;
   thr_status st = uncross(plan, err);
   claim_longest(plan);
-  if (!st && plan->options.crossings == THR_CROSSINGS_FORBID) st = claim_turning(plan, err);
   if (!st) st = count(plan, &crossed, err);
   return st ? st : refuse(plan, crossed, err);
 }

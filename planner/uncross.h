@@ -14,10 +14,10 @@
  * when nothing crosses any longer (planner/recut.h). Different cords are led otherwise in short plans, and in any if no crossing
  * is allowed, as long as that keeps to max_length and distinct, and to balance where crossings only have their price. Of several
  * pairs those of one cord come first, and of these that which takes least turning; in plans for little turning only where the
- * turning stays the same, unless no crossing is allowed. Metrics are measured again, and claims of the turning and of the longest
- * cord are made for what the cords are now: bounds are of any cords. options.crossings says whether it is asked for. Passes of
- * cords are owned, and others may take their place, as may plan->cord. THR_ELIMIT: none are allowed and some are left (said how
- * many), which does not prove that there is no such plan. O(crossings x passes). */
+ * turning stays the same, unless no crossing is allowed: the claim of the turning is then to be made anew. Metrics are measured
+ * again, and the claim of the longest cord is about the cords as they are now. options.crossings says whether it is asked for.
+ * Passes of cords are owned, and others may take their place, as may plan->cord. THR_ELIMIT: none are allowed and some are left
+ * (said how many), which does not prove that there is no such plan. O(crossings x passes). */
 thr_status thr_plan_uncross(thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* metrics.crossings, if the request asks for anything but any number of them. O(n log n). */
