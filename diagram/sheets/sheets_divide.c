@@ -14,8 +14,8 @@
 
 enum { SMALLEST = 13 };          /* number of the least scale of a flat picture */
 static const double TURNED = 40; /* degrees: a cord that turns by more has come to the end of a run */
-static const double STEP = 4, STRAIGHT = 20, NEW = 6, SHORT = 3; /* prices: of a step, of one that ends badly */
-enum { FEW = 6 };                                                /* visits of a short step */
+static const double STEP = 4, STRAIGHT = 20, NEW = 6, SHORT = 4; /* prices: of a step, of one that ends badly, */
+enum { FEW = 6 };                                                /* of each visit that it has less than so many */
 
 bool thr_step_begins(const thr_sheets *sheets, int i)
 {
@@ -108,8 +108,7 @@ static void choose(const path *p, double *least, int *before)
     least[e] = HUGE_VAL;
   for (int i = 0; i < p->n; i++)
     for (int e = i + fewest(p, i); e <= p->reach[i]; e++) {
-      double price =
-          least[i] + STEP + price_of_end(p, e - 1) + (e - i < FEW && !thr_step_ends(p->sheets, p->first + e - 1)) * SHORT;
+      double price = least[i] + STEP + price_of_end(p, e - 1) + (e - i < FEW ? (FEW - e + i) * SHORT : 0);
       if (price >= least[e]) continue;
       least[e] = price;
       before[e] = i;

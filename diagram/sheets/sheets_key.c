@@ -99,6 +99,20 @@ static void put_crossings(thr_sheets *sheets)
   thr_sheets_paragraph(sheets, 0, line);
 }
 
+/* Below what is on the page, if that takes fewer pages than to begin a new one; else there. */
+static void begin_key(thr_sheets *sheets, const char *title)
+{
+  const double head = 12, row = CARD + AIR, here = thr_sheets_bottom(sheets) - sheets->y - head - 5;
+  const double page = thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - head;
+  const int rows = (sheets->pieces.n_kinds + CARDS - 1) / CARDS, fit = (int)floor((page + AIR) / row);
+  const int now = here > 0 ? (int)floor((here + AIR) / row) : 0, left = rows > now ? rows - now : 0;
+  if (now > 0 && (left + fit - 1) / fit < (rows + fit - 1) / fit) {
+    snprintf(sheets->running, sizeof sheets->running, "%s", title);
+    thr_sheets_title(sheets, title);
+  } else
+    thr_sheets_page(sheets, title, title);
+}
+
 void thr_sheets_key(thr_sheets *sheets)
 {
   char title[96];
@@ -109,7 +123,7 @@ void thr_sheets_key(thr_sheets *sheets)
   if (!sheets->guide.sides || pieces->n_kinds > MOST_CARDS) return; /* a flat picture would not tell them apart */
   snprintf(title, sizeof title, "The %d %s: %d kind%s", pieces->n, thr_pieces_word(sheets->plan, pieces->n), pieces->n_kinds,
            pieces->n_kinds == 1 ? "" : "s");
-  thr_sheets_page(sheets, title, title);
+  begin_key(sheets, title);
   if (sheets->st) return;
   snprintf(title, sizeof title, "Outer side up, as in the picture. Numbers: arms from the hub to the face, in %.15s.",
            sheets->f->units);

@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- cords ---- */
 
@@ -103,61 +104,104 @@ static int most_cords(const thr_sheets *sheets, int piece)
   return most;
 }
 
-/* Kind k in a row of the table: the bore is the widest that one of its pieces needs. */
-static void put_kind(thr_sheets *sheets, int k, int most, double bore, char (*row)[96])
-{
-  const thr_pieces *pieces = &sheets->pieces;
+/* A row of the table: a kind, or so many that have one piece each, of one shape, with as many cords and as wide a bore. */
+typedef struct {
   char name[24];
-  thr_pieces_kind_name(pieces, k, name);
-  snprintf(row[0], 96, "%s", name);
-  snprintf(row[1], 96, "%d", pieces->members[k]);
-  if (pieces->solid)
-    snprintf(row[2], 96, "%d", thr_pieces_arms(pieces, pieces->model[k]));
+  int model, pieces, cords;
+  double bore; /* the widest that one of its pieces needs */
+} kind_row;
+
+/* More kinds of one piece each are counted together: no step calls them by their numbers. */
+enum { MOST_SINGLE = 12 };
+
+static void put_kind(const thr_sheets *sheets, const kind_row *kind, char (*row)[96])
+{
+  snprintf(row[0], 96, "%s", kind->name);
+  snprintf(row[1], 96, "%d", kind->pieces);
+  if (sheets->pieces.solid)
+    snprintf(row[2], 96, "%d", thr_pieces_arms(&sheets->pieces, kind->model));
   else
-    put_length(sheets, sheets->f->length[pieces->model[k]], row[2]);
-  snprintf(row[3], 96, "%d", most);
-  put_bore(sheets, bore, row[4]);
+    put_length(sheets, sheets->f->length[kind->model], row[2]);
+  snprintf(row[3], 96, "%d", kind->cords);
+  put_bore(sheets, kind->bore, row[4]);
 }
 
 /* Rows in two columns, from left to right, then down. */
-static void put_kinds(thr_sheets *sheets, const int *most, const double *bore)
+static void put_kinds(thr_sheets *sheets, const kind_row *row, int n)
 {
   static const double x[2 * CELLS] = {-14, -28, -48, -64, -86, -109, -123, -143, -159, -181};
   char cell[2 * CELLS][96];
   const char *const head[CELLS] = {"kind", "pieces", sheets->pieces.solid ? "arms" : "length", "cords", "bore"};
-  int filled = 0, n = sheets->pieces.n_kinds;
+  int filled = 0;
   for (int i = 0; i < 2 * CELLS; i++)
     snprintf(cell[i], 96, "%s", head[i % CELLS]);
   thr_sheets_cells(sheets, n > 1 ? 2 * CELLS : CELLS, x, cell, true);
-  for (int k = 1; k <= n; k++) {
-    put_kind(sheets, k, most[k], bore[k], cell + filled);
+  for (int k = 0; k < n; k++) {
+    put_kind(sheets, &row[k], cell + filled);
     filled = (filled + CELLS) % (2 * CELLS);
-    if (!filled || k == n) thr_sheets_cells(sheets, filled ? CELLS : 2 * CELLS, x, cell, false);
+    if (!filled || k == n - 1) thr_sheets_cells(sheets, filled ? CELLS : 2 * CELLS, x, cell, false);
   }
+}
+
+/* Of each kind k, from 1, the most cords and the widest bore: row[k - 1]. Returns how many have one piece only. */
+static int find_kinds(const thr_sheets *sheets, kind_row *row)
+{
+  const thr_pieces *pieces = &sheets->pieces;
+  int single = 0;
+  for (int k = 0; k < pieces->n_kinds; k++) {
+    thr_pieces_kind_name(pieces, k + 1, row[k].name);
+    row[k].model = pieces->model[k + 1];
+    row[k].pieces = pieces->members[k + 1];
+    single += row[k].pieces == 1;
+  }
+  for (int i = 0; i < pieces->n; i++) {
+    kind_row *kind = &row[pieces->kind[i] - 1];
+    int cords = most_cords(sheets, i);
+    double bore = pieces->solid ? thr_supplies_node_bore(&sheets->supplies, i) : thr_supplies_bore(&sheets->supplies, i);
+    kind->cords = cords > kind->cords ? cords : kind->cords;
+    kind->bore = fmax(kind->bore, bore);
+  }
+  return single;
+}
+
+/* Kinds of one piece each become one row where only their numbers differ. Returns how many rows are left of n. */
+static int count_together(kind_row *row, int n)
+{
+  int left = 0;
+  for (int k = 0; k < n; k++) {
+    kind_row kind = row[k];
+    int same = left;
+    if (kind.pieces == 1) {
+      kind.name[strcspn(kind.name, "-")] = '\0';
+      for (same = 0; same < left; same++)
+        if (strcmp(row[same].name, kind.name) == 0 && row[same].cords == kind.cords && fabs(row[same].bore - kind.bore) < 1e-9)
+          break;
+    }
+    if (same == left)
+      row[left++] = kind;
+    else
+      row[same].pieces++;
+  }
+  return left;
 }
 
 static void put_pieces(thr_sheets *sheets)
 {
   const thr_pieces *pieces = &sheets->pieces;
   char line[240];
-  int *most = thr_calloc((size_t)pieces->n_kinds + 1, sizeof *most);
-  double *bore = thr_calloc((size_t)pieces->n_kinds + 1, sizeof *bore);
-  if (!most || !bore) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  for (int i = 0; i < pieces->n && !sheets->st; i++) {
-    int k = pieces->kind[i], cords = most_cords(sheets, i);
-    most[k] = cords > most[k] ? cords : most[k];
-    bore[k] =
-        fmax(bore[k], pieces->solid ? thr_supplies_node_bore(&sheets->supplies, i) : thr_supplies_bore(&sheets->supplies, i));
+  kind_row *row = thr_calloc((size_t)pieces->n_kinds, sizeof *row);
+  if (!row) {
+    thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
+    return;
   }
-  if (!sheets->st) {
-    int n = snprintf(line, sizeof line, "%d %s in %d kind%s by shape", pieces->n, thr_pieces_word(sheets->plan, pieces->n),
-                     pieces->n_kinds, pieces->n_kinds == 1 ? "" : "s");
-    if (!pieces->solid) snprintf(line + n, sizeof line - (size_t)n, " (lengths in %s)", sheets->f->units);
-    thr_sheets_title(sheets, line);
-    put_kinds(sheets, most, bore);
-  }
-  free(most);
-  free(bore);
+  bool together = find_kinds(sheets, row) > MOST_SINGLE && pieces->solid;
+  int n = snprintf(line, sizeof line, "%d %s in %d kind%s by shape", pieces->n, thr_pieces_word(sheets->plan, pieces->n),
+                   pieces->n_kinds, pieces->n_kinds == 1 ? "" : "s");
+  if (!pieces->solid) snprintf(line + n, sizeof line - (size_t)n, " (lengths in %s)", sheets->f->units);
+  thr_sheets_title(sheets, line);
+  put_kinds(sheets, row, together ? count_together(row, pieces->n_kinds) : pieces->n_kinds);
+  if (together) thr_sheets_paragraph(sheets, 0, "Letters without a number: so many pieces, each one of a kind.");
+  free(row);
 }
 
 static void put_feet(thr_sheets *sheets)

@@ -695,7 +695,7 @@ START_TEST(an_interrupt_stops_the_layout)
   thr_sheets_options o = thr_sheets_options_default();
   thr_sheets *s;
   ck_assert_int_eq(thr_sheets_make(&s, &p, &o, &limits, &err), THR_ELIMIT);
-  assert_one_line(&err, "interrupted at page 4 of the step sheets");
+  assert_one_line(&err, "interrupted at page 3 of the step sheets");
   ck_assert_ptr_null(s);
   thr_plan_destroy(&p);
 }
