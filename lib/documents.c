@@ -3,6 +3,7 @@
 #include "diagram/export/pages.h"
 #include "diagram/export/paper.h"
 #include "diagram/export/viewer.h"
+#include "diagram/mat/emboss.h"
 #include "diagram/mat/mat.h"
 #include "diagram/overview/poster.h"
 #include "diagram/overview/steps.h"
@@ -30,6 +31,7 @@ typedef enum {
   COMPAS,
   PAGES,
   POSTER,
+  LABELS,
   N_DOCUMENTS
 } document;
 
@@ -51,6 +53,7 @@ static const struct {
     [COMPAS] = {"compas", "cords.json"},
     [PAGES] = {"sheets.html", "sheets.html"},
     [POSTER] = {"poster", "poster.pdf"},
+    [LABELS] = {"labels", "labels.svg"},
 };
 
 int thr_documents_count(void)
@@ -188,6 +191,7 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
   case STEPS_TABLE: return thr_table_steps(plan, options->kind_tolerance, needles_of(plan, options), out, err);
   case BEADS_TABLE: return thr_table_beads(plan, options->kind_tolerance, out, err);
   case CHANNELS_TABLE: return thr_table_channels(plan, options->kind_tolerance, out, err);
+  case LABELS: return thr_emboss_svg(plan, out, err);
   case MAT: return mat(plan, options, limits, out, err);
   case OBJ: return thr_polylines_obj(plan, &options->lines, out, err);
   case GLTF: return thr_polylines_gltf(plan, &options->lines, out, err);

@@ -1,14 +1,14 @@
 # BUILD=windows: the program for Windows, by MinGW, as $(OUT)/windows/thread.exe, which needs nothing but Windows 10 or later (64 bits).
 # `make windows` begins it when targets/libraries.sh has put the libraries into LIBRARIES. The interfaces that are implemented a
 # second time, in targets/ and targets/windows/:
-#   graph/os.h   graph/process/child.h, workers.h, lazy.h   cli/guard.h   diagram/export/pages.h   eval/structure/rank.h   <math.h>
+#   graph/os.h   graph/process/child.h, workers.h, lazy.h   cli/guard.h   diagram/export/pages.h, letters.h   eval/structure/rank.h   <math.h>
 CC := x86_64-w64-mingw32-gcc-posix
 CXX := x86_64-w64-mingw32-g++-posix
 AR := x86_64-w64-mingw32-ar
 WINDRES := x86_64-w64-mingw32-windres
 
 WINDOWS_REPLACED := graph/os.c $(patsubst %,graph/process/%.c,child workers process lazy) \
-	$(patsubst %,diagram/export/%.c,pages paper pdf font font_find deflate svg_page) eval/structure/spqr.c
+	$(patsubst %,diagram/export/%.c,pages paper pdf font font_outline font_find letters deflate svg_page) eval/structure/spqr.c
 SOURCES := $(filter-out $(WINDOWS_REPLACED),$(SOURCES)) $(wildcard targets/*.c targets/windows/*.c)
 OBJECTS = $(addsuffix .o,$(basename $(SOURCES:%=$(DIR)/%)))
 CLI_OBJECTS := $(filter-out $(DIR)/cli/guard_process.o,$(CLI_OBJECTS)) $(DIR)/targets/windows/manifest.o

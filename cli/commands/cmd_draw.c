@@ -33,6 +33,7 @@ static const char help[] =
     "                       obj, gltf   cords.obj, cords.gltf: cords as lines for CAD and Blender\n"
     "                       all         all of these, into the folder of -o, else the current one\n"
     "                       mat         mat.pdf: the outlines of all pieces, true to size, to lay them out on\n"
+    "                       labels      labels.svg: the pieces' names as outlines, true to size, to raise on printed pieces\n"
     "                       poster      poster.pdf: the overview over several sheets, to glue together; --pitch says how large\n"
     "                       sheets.html sheets.html: the pages of sheets.pdf for any browser, which prints them\n"
     "                       dxf         cords.dxf: a layer, a colour and a polyline in space for each cord\n"

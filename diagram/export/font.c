@@ -1,26 +1,15 @@
 #include "diagram/export/font.h"
+#include "diagram/export/font_parts.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- bytes: big-endian; what is beyond the end is 0 ---- */
-
-static unsigned read_16(const thr_font *f, size_t at)
-{
-  const unsigned char *s = (const unsigned char *)f->file.data;
-  return at + 2 <= f->file.length && at + 2 > at ? (unsigned)s[at] << 8 | s[at + 1] : 0;
-}
-
-static int read_signed(const thr_font *f, size_t at)
-{
-  int value = (int)read_16(f, at);
-  return value >= 0x8000 ? value - 0x10000 : value;
-}
+/* ---- bytes ---- */
 
 static size_t read_32(const thr_font *f, size_t at)
 {
-  return (size_t)read_16(f, at) << 16 | read_16(f, at + 2);
+  return (size_t)thr_font_16(f, at) << 16 | thr_font_16(f, at + 2);
 }
 
 static void put_16(thr_text *out, unsigned value)
@@ -42,7 +31,7 @@ typedef struct {
 static table find(const thr_font *f, const char *tag)
 {
   enum { HEADER = 12, RECORD = 16 };
-  unsigned n = read_16(f, f->start + 4);
+  unsigned n = thr_font_16(f, f->start + 4);
   for (unsigned i = 0; i < n; i++) {
     size_t at = f->start + HEADER + (size_t)i * RECORD;
     if (at + RECORD > f->file.length) break;
@@ -57,12 +46,13 @@ static table find(const thr_font *f, const char *tag)
 /* A table of segments (format 4): runs of letters whose glyphs are theirs plus a constant, or stand in a list. */
 static void read_segments(thr_font *f, size_t at)
 {
-  size_t n = read_16(f, at + 6) / 2, ends = at + 14, starts = ends + 2 * n + 2, deltas = starts + 2 * n, lists = deltas + 2 * n;
+  size_t n = thr_font_16(f, at + 6) / 2, ends = at + 14, starts = ends + 2 * n + 2, deltas = starts + 2 * n,
+         lists = deltas + 2 * n;
   for (size_t i = 0; i < n; i++) {
-    unsigned first = read_16(f, starts + 2 * i), last = read_16(f, ends + 2 * i), list = read_16(f, lists + 2 * i),
-             delta = read_16(f, deltas + 2 * i);
+    unsigned first = thr_font_16(f, starts + 2 * i), last = thr_font_16(f, ends + 2 * i), list = thr_font_16(f, lists + 2 * i),
+             delta = thr_font_16(f, deltas + 2 * i);
     for (unsigned c = first; c <= last && c < THR_FONT_LETTERS - 1; c++) {
-      unsigned glyph = list ? read_16(f, lists + 2 * i + list + 2 * (size_t)(c - first)) : c;
+      unsigned glyph = list ? thr_font_16(f, lists + 2 * i + list + 2 * (size_t)(c - first)) : c;
       if (glyph || !list) glyph = (glyph + delta) & 0xffff;
       f->glyph[c] = (int)glyph < f->n_glyphs ? (uint16_t)glyph : 0;
     }
@@ -72,11 +62,11 @@ static void read_segments(thr_font *f, size_t at)
 static bool read_letters(thr_font *f)
 {
   table cmap = find(f, "cmap");
-  for (unsigned i = 0; cmap.n && i < read_16(f, cmap.at + 2); i++) {
+  for (unsigned i = 0; cmap.n && i < thr_font_16(f, cmap.at + 2); i++) {
     size_t record = cmap.at + 4 + 8 * (size_t)i, at = cmap.at + read_32(f, record + 4);
-    unsigned platform = read_16(f, record), encoding = read_16(f, record + 2);
+    unsigned platform = thr_font_16(f, record), encoding = thr_font_16(f, record + 2);
     bool unicode = platform == 0 || (platform == 3 && encoding == 1);
-    if (!unicode || read_16(f, at) != 4) continue;
+    if (!unicode || thr_font_16(f, at) != 4) continue;
     read_segments(f, at);
     return true;
   }
@@ -97,13 +87,13 @@ thr_status thr_font_read(thr_font *f, const char *path, int index, const char *n
   table head = find(f, "head"), hhea = find(f, "hhea"), maxp = find(f, "maxp"), hmtx = find(f, "hmtx");
   if (!head.n || !hhea.n || !maxp.n || !hmtx.n || !find(f, "glyf").n || !find(f, "loca").n)
     return no_font(path, "it has no TrueType outlines", err);
-  f->units = (int)read_16(f, head.at + 18);
+  f->units = (int)thr_font_16(f, head.at + 18);
   for (size_t i = 0; i < 4; i++)
-    f->box[i] = read_signed(f, head.at + 36 + 2 * i);
-  f->ascent = read_signed(f, hhea.at + 4);
-  f->descent = read_signed(f, hhea.at + 6);
-  f->n_metrics = (int)read_16(f, hhea.at + 34);
-  f->n_glyphs = (int)read_16(f, maxp.at + 4);
+    f->box[i] = thr_font_signed(f, head.at + 36 + 2 * i);
+  f->ascent = thr_font_signed(f, hhea.at + 4);
+  f->descent = thr_font_signed(f, hhea.at + 6);
+  f->n_metrics = (int)thr_font_16(f, hhea.at + 34);
+  f->n_glyphs = (int)thr_font_16(f, maxp.at + 4);
   if (!f->units || !f->n_metrics || !f->n_glyphs) return no_font(path, "its sizes are none", err);
   f->glyph = thr_calloc(THR_FONT_LETTERS, sizeof *f->glyph);
   if (!f->glyph) return thr_nomem(err);
@@ -117,10 +107,23 @@ void thr_font_destroy(thr_font *f)
   *f = (thr_font){0};
 }
 
+unsigned thr_font_letter(const char **s)
+{
+  const unsigned char *c = (const unsigned char *)*s;
+  int n = *c < 0x80 ? 1 : *c >= 0xf0 ? 4 : *c >= 0xe0 ? 3 : *c >= 0xc0 ? 2 : 1;
+  for (int i = 1; i < n; i++)
+    if ((c[i] & 0xc0) != 0x80) n = i;
+  *s += n;
+  if (n == 1 && *c < 0x80) return *c;
+  if (n == 2 && *c < 0xe0) return (*c & 0x1fu) << 6 | (c[1] & 0x3fu);
+  if (n == 3 && *c < 0xf0) return (*c & 0x0fu) << 12 | (c[1] & 0x3fu) << 6 | (c[2] & 0x3fu);
+  return 0xfffd;
+}
+
 double thr_font_advance(const thr_font *f, int glyph)
 {
   int i = glyph < f->n_metrics ? glyph : f->n_metrics - 1;
-  return (double)read_16(f, find(f, "hmtx").at + 4 * (size_t)i) / f->units;
+  return (double)thr_font_16(f, find(f, "hmtx").at + 4 * (size_t)i) / f->units;
 }
 
 /* ---- a part of a font ---- */
@@ -129,12 +132,20 @@ double thr_font_advance(const thr_font *f, int glyph)
 static table outline_of(const thr_font *f, int glyph)
 {
   table glyf = find(f, "glyf"), loca = find(f, "loca");
-  bool wide = read_16(f, find(f, "head").at + 50) != 0;
+  bool wide = thr_font_16(f, find(f, "head").at + 50) != 0;
   size_t i = (size_t)glyph, from, to;
   if ((wide ? 4 : 2) * (i + 2) > loca.n) return (table){0, 0};
-  from = wide ? read_32(f, loca.at + 4 * i) : 2 * (size_t)read_16(f, loca.at + 2 * i);
-  to = wide ? read_32(f, loca.at + 4 * i + 4) : 2 * (size_t)read_16(f, loca.at + 2 * i + 2);
+  from = wide ? read_32(f, loca.at + 4 * i) : 2 * (size_t)thr_font_16(f, loca.at + 2 * i);
+  to = wide ? read_32(f, loca.at + 4 * i + 4) : 2 * (size_t)thr_font_16(f, loca.at + 2 * i + 2);
   return from < to && to <= glyf.n ? (table){glyf.at + from, to - from} : (table){0, 0};
+}
+
+bool thr_font_place(const thr_font *f, int glyph, size_t *at, size_t *n)
+{
+  table outline = glyph >= 0 && glyph < f->n_glyphs ? outline_of(f, glyph) : (table){0, 0};
+  *at = outline.at;
+  *n = outline.n;
+  return outline.n > 0;
 }
 
 /* Marks the parts of a composed glyph; each mark is new once, so it ends. */
@@ -144,11 +155,11 @@ static void mark_parts(const thr_font *f, int glyph, unsigned char *used)
   int stack[DEPTH], depth = 0;
   for (stack[depth++] = glyph; depth;) {
     table outline = outline_of(f, stack[--depth]);
-    if (outline.n < 10 || read_signed(f, outline.at) >= 0) continue;
+    if (outline.n < 10 || thr_font_signed(f, outline.at) >= 0) continue;
     unsigned flags = MORE;
     for (size_t at = outline.at + 10; flags & MORE && at + 4 <= outline.at + outline.n;) {
-      int part = (int)read_16(f, at + 2);
-      flags = read_16(f, at);
+      int part = (int)thr_font_16(f, at + 2);
+      flags = thr_font_16(f, at);
       at += 4 + (flags & WORDS ? 4u : 2u) + (flags & SCALE ? 2u : flags & TWO_SCALES ? 4u : flags & MATRIX ? 8u : 0u);
       if (part >= f->n_glyphs || used[part]) continue;
       used[part] = 1;

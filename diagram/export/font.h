@@ -26,12 +26,20 @@ typedef struct {
 thr_status thr_font_read(thr_font *font, const char *path, int index, const char *name, thr_err *err) THR_MUST_CHECK;
 void thr_font_destroy(thr_font *font);
 
+/* The next letter of UTF-8 text, which *words is moved beyond; what is beyond the basic plane, or no UTF-8, is U+FFFD. */
+unsigned thr_font_letter(const char **words);
+
 /* Advance of a glyph, in em. */
 double thr_font_advance(const thr_font *font, int glyph);
 
 /* Appends a font file with the same numbers of glyphs, of which only those with used[glyph], and those that they are composed of,
  * have an outline. used: [n_glyphs], extended by these. O(bytes). */
 thr_status thr_font_subset(const thr_font *font, unsigned char *used, thr_text *out, thr_err *err) THR_MUST_CHECK;
+
+/* Appends the outline of a glyph to an SVG path: closed curves, quadratic ones, with numbers of three decimals. A point x, y of
+ * it, in units, goes to place[0] x + place[2] y + place[4], place[1] x + place[3] y + place[5]. Nothing for a blank. O(points).
+ */
+void thr_font_outline(const thr_font *font, int glyph, const double place[6], thr_text *path);
 
 /* The faces that pages are set in, found by fontconfig: DejaVu Sans or what it puts in its place. In a child process, as
  * fontconfig ends the program, or never ends, when memory runs out. */

@@ -253,20 +253,6 @@ void thr_paper_clip(thr_paper *paper)
 
 /* ---- text ---- */
 
-/* The next letter of UTF-8 text; what is beyond the basic plane, or no UTF-8, is U+FFFD. */
-static unsigned next_letter(const char **s)
-{
-  const unsigned char *c = (const unsigned char *)*s;
-  int n = *c < 0x80 ? 1 : *c >= 0xf0 ? 4 : *c >= 0xe0 ? 3 : *c >= 0xc0 ? 2 : 1;
-  for (int i = 1; i < n; i++)
-    if ((c[i] & 0xc0) != 0x80) n = i;
-  *s += n;
-  if (n == 1 && *c < 0x80) return *c;
-  if (n == 2 && *c < 0xe0) return (*c & 0x1fu) << 6 | (c[1] & 0x3fu);
-  if (n == 3 && *c < 0xf0) return (*c & 0x0fu) << 12 | (c[1] & 0x3fu) << 6 | (c[2] & 0x3fu);
-  return 0xfffd;
-}
-
 /* Letters as four hexadecimal digits each; returns their width in em. */
 static double put_letters(thr_paper *paper, int face, const char *words, thr_text *out)
 {
@@ -275,7 +261,7 @@ static double put_letters(thr_paper *paper, int face, const char *words, thr_tex
   unsigned char *needs = paper->needs.letter[face];
   double width = 0;
   while (*words) {
-    unsigned letter = next_letter(&words);
+    unsigned letter = thr_font_letter(&words);
     for (int shift = 12; shift >= 0; shift -= 4)
       thr_text_byte(out, digit[letter >> shift & 15]);
     needs[letter / 8] |= (unsigned char)(1u << letter % 8);
@@ -294,7 +280,7 @@ static bool open_span(thr_paper *paper, const char *words)
   thr_text_append(&paper->out, "/Span <</ActualText <FEFF");
   for (const char *c = words; *c;) {
     const unsigned char *s = (const unsigned char *)c;
-    unsigned letter = next_letter(&c);
+    unsigned letter = thr_font_letter(&c);
     if (*s >= 0xf0 && c - (const char *)s == 4) {
       unsigned high = ((*s & 7u) << 18 | (s[1] & 0x3fu) << 12 | (s[2] & 0x3fu) << 6 | (s[3] & 0x3fu)) - 0x10000;
       thr_text_printf(&paper->out, "%04X", 0xd800 | (high >> 10 & 0x3ff));

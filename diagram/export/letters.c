@@ -1,0 +1,66 @@
+#include "diagram/export/letters.h"
+
+#include "diagram/export/font.h"
+#include "diagram/export/font_parts.h"
+
+#include <stdlib.h>
+
+struct thr_letters_set {
+  thr_font font[THR_FACES];
+  double em; /* of a line whose capitals are 1 high */
+};
+
+static const thr_font *face(const thr_letters_set *set)
+{
+  return &set->font[THR_FACE_BOLD];
+}
+
+/* Of a letter H, over its base line; of a font that has none, most of its letters' height. */
+static double capitals(const thr_font *font)
+{
+  enum { TOP = 8 }; /* byte of an outline at which its greatest y stands */
+  size_t at, n;
+  if (font->glyph['H'] && thr_font_place(font, font->glyph['H'], &at, &n) && thr_font_signed(font, at + TOP) > 0)
+    return (double)thr_font_signed(font, at + TOP) / font->units;
+  return 0.7;
+}
+
+thr_status thr_letters_open(thr_letters_set **out, thr_err *err)
+{
+  thr_letters_set *set = *out = thr_calloc(1, sizeof *set);
+  if (!set) return thr_nomem(err);
+  thr_status st = thr_fonts_find(set->font, err);
+  if (!st) {
+    set->em = 1 / capitals(face(set));
+    return THR_OK;
+  }
+  thr_letters_close(set);
+  *out = NULL;
+  return st;
+}
+
+void thr_letters_close(thr_letters_set *set)
+{
+  for (int i = 0; set && i < THR_FACES; i++)
+    thr_font_destroy(&set->font[i]);
+  free(set);
+}
+
+double thr_letters_width(const thr_letters_set *set, const char *words)
+{
+  double width = 0;
+  while (*words)
+    width += set->em * thr_font_advance(face(set), face(set)->glyph[thr_font_letter(&words)]);
+  return width;
+}
+
+void thr_letters_put(const thr_letters_set *set, const char *words, const double at[2], double height, thr_text *path)
+{
+  const double size = height * set->em, unit = size / face(set)->units;
+  double place[6] = {unit, 0, 0, -unit, at[0], at[1]};
+  while (*words) {
+    const int glyph = face(set)->glyph[thr_font_letter(&words)];
+    thr_font_outline(face(set), glyph, place, path);
+    place[4] += size * thr_font_advance(face(set), glyph);
+  }
+}
