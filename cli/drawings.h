@@ -21,8 +21,8 @@ typedef struct {
   bool quick;                 /* all documents means all but the step sheets of too many pieces */
 } drawings_args;
 
-/* With more pieces step sheets are some hundred pages and take long. */
-enum { DRAWINGS_SHEETS_PIECES = 5000, DRAWINGS_NAMES = 128 };
+/* With more pieces step sheets are hundreds of pages, which nobody prints unasked. */
+enum { DRAWINGS_SHEETS_PIECES = 1000, DRAWINGS_NAMES = 128 };
 
 /* --kind-tolerance; --page, --from: of the step sheets. */
 #define DRAWINGS_OPTIONS                                                                                                         \

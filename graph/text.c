@@ -55,13 +55,15 @@ void thr_text_printf(thr_text *text, const char *format, ...)
   va_list args, again;
   va_start(args, format);
   va_copy(again, args);
-  int n = vsnprintf(NULL, 0, format, args);
+  const size_t room = text->data && !text->failed ? text->capacity - text->length : 0; /* most often enough */
+  int n = vsnprintf(room ? text->data + text->length : NULL, room, format, args);
   va_end(args);
   if (n >= 0 && reserve(text, (size_t)n)) {
-    vsnprintf(text->data + text->length, (size_t)n + 1, format, again);
+    if ((size_t)n >= room) vsnprintf(text->data + text->length, (size_t)n + 1, format, again);
     text->length += (size_t)n;
   }
   va_end(again);
+  if (room && !text->failed) text->data[text->length] = '\0';
 }
 
 void thr_text_double(thr_text *text, double value)

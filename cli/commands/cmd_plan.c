@@ -57,7 +57,7 @@ static const char help_output[] =
     "\nOutput:\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
     "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
-    "                       (no sheets.pdf for more than 5000 pieces: thread draw PLAN -T pdf makes it)\n"
+    "                       (no sheets.pdf for more than 1000 pieces: thread draw PLAN -T pdf makes it)\n"
     "      --force          in a folder named after FRAME, replace another plan (else FRAME-2, FRAME-3, ..)\n" DRAWINGS_HELP
     "      --order starts|hand|planned   cords begin and run so that what is threaded holds together: for as little\n"
     "                       turning as serves, a twentieth more at most (default), a tenth, or not at all\n"
@@ -544,7 +544,7 @@ static int write_outputs(const arguments *a, planned *x, int planned_code)
   if (drawn != EXIT_LIMIT) code = code ? code : drawn; /* the plan's own code says how it was with the time */
   bool to_stdout = strcmp(to.plan, "-") == 0;
   if (!code && to.folder && drawings_no_sheets(p, &a->drawings))
-    cli_note("no sheets.pdf, which takes long for more than %d pieces: thread draw %s -T pdf", DRAWINGS_SHEETS_PIECES,
+    cli_note("no sheets.pdf, which has hundreds of pages for more than %d pieces: thread draw %s -T pdf", DRAWINGS_SHEETS_PIECES,
              to_stdout ? "plan.json" : to.plan);
   if (code || to_stdout || (cli_quiet && !a->json && !a->turning.plot)) return code;
   code = print_summary(a, x);

@@ -26,13 +26,15 @@ struct thr_paper {
 
 /* ---- operators ---- */
 
-/* A number with up to three decimals and a blank: 12.5, -0.013. What is beyond any page is cut off there. */
-static void put_number(thr_text *out, double value)
+enum { NUMBER = 16, NUMBERS = 6 }; /* bytes of a number at most; numbers of an operator */
+
+/* A number with up to three decimals and a blank: 12.5, -0.013. What is beyond any page is cut off there. Returns its length. */
+static size_t print_number(double value, char *to)
 {
-  enum { MOST = 100000000 };
-  char s[16];
-  int n = sizeof s;
-  double scaled = fmin(fmax(1000 * value, -MOST), MOST);
+  const double most = 100000000;
+  char s[NUMBER];
+  size_t n = sizeof s;
+  double scaled = 1000 * value < -most ? -most : 1000 * value > most ? most : 1000 * value;
   int x = (int)lround(scaled), rest = abs(x) % 1000, whole = abs(x) / 1000;
   s[--n] = ' ';
   if (rest) {
@@ -44,15 +46,27 @@ static void put_number(thr_text *out, double value)
     s[--n] = (char)('0' + whole % 10);
   while (whole /= 10);
   if (x < 0) s[--n] = '-';
-  thr_text_append_bytes(out, s + n, sizeof s - (size_t)n);
+  memcpy(to, s + n, sizeof s - n);
+  return sizeof s - n;
 }
 
+static void put_number(thr_text *out, double value)
+{
+  char s[NUMBER];
+  thr_text_append_bytes(out, s, print_number(value, s));
+}
+
+/* n <= NUMBERS; the operator is a short word. */
 static void put(thr_text *out, int n, const double *x, const char *operator)
 {
+  char s[NUMBERS * NUMBER + 8];
+  size_t length = 0;
   for (int i = 0; i < n; i++)
-    put_number(out, x[i]);
-  thr_text_append(out, operator);
-  thr_text_byte(out, '\n');
+    length += print_number(x[i], s + length);
+  for (; *operator&& length + 1<sizeof s; operator++)
+    s[length++] = *operator;
+  s[length++] = '\n';
+  thr_text_append_bytes(out, s, length);
 }
 
 thr_status thr_paper_open(thr_paper **out, const double size[2], const thr_font *font, thr_err *err)

@@ -9,6 +9,7 @@
 
 bool thr_slice_is(thr_slice slice, const char *word)
 {
+  if (slice.n && *slice.s != *word) return false;
   return strlen(word) == slice.n && memcmp(slice.s, word, slice.n) == 0;
 }
 
@@ -26,6 +27,24 @@ thr_slice thr_slice_trim(thr_slice slice)
   return slice;
 }
 
+/* "-12.34" by so few digits that both their number and the power of ten are exact, so that the quotient is the nearest double. */
+static bool read_few_digits(const char *s, size_t n, double *value)
+{
+  enum { MOST = 15 };
+  static const double power[MOST + 1] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  const bool minus = n && *s == '-';
+  int64_t digits = 0;
+  int behind = -1; /* digits behind the point; -1: there is none yet */
+  if (n <= minus || n > MOST || (s[minus] == '.' && n == 1u + minus)) return false;
+  for (size_t i = minus; i < n; i++) {
+    if (s[i] == '.' && behind >= 0) return false;
+    if (s[i] != '.') digits = 10 * digits + (s[i] - '0');
+    behind += behind >= 0 || s[i] == '.';
+  }
+  *value = (double)(minus ? -digits : digits) / power[behind > 0 ? behind : 0];
+  return true;
+}
+
 bool thr_slice_number(thr_slice *text, double *value)
 {
   size_t n = 0, end;
@@ -33,7 +52,7 @@ bool thr_slice_number(thr_slice *text, double *value)
     n++;
   for (end = n + (n < text->n && text->s[n] == '-'); end < text->n; end++)
     if ((text->s[end] < '0' || text->s[end] > '9') && text->s[end] != '.') break;
-  if (!thr_number_parse(text->s + n, end - n, value)) return false;
+  if (!read_few_digits(text->s + n, end - n, value) && !thr_number_parse(text->s + n, end - n, value)) return false;
   *text = (thr_slice){text->s + end, text->n - end};
   return true;
 }

@@ -59,30 +59,39 @@ double thr_svg_wrap(thr_text *text, double x, double y, double size, double widt
   return y;
 }
 
-/* As "%.2f" of thr_svg_round: most of a picture is such numbers, and printf takes most of its time for them. */
-static void put_number(thr_text *text, double value)
+enum { NUMBER = THR_INT_TEXT + 4 };
+
+/* As "%.2f" of thr_svg_round: most of a picture is such numbers, and printf takes most of its time for them. False: it is beyond
+ * any picture. */
+static bool print_number(double value, char **to)
 {
   static const double most = 1e12;
-  char digits[THR_INT_TEXT], cents[4];
-  if (!(fabs(value) < most)) {
-    thr_text_printf(text, "%.2f", value);
-    return;
-  }
+  if (!(value < most && value > -most)) return false;
   int64_t hundredths = (int64_t)round(value * 100), size = hundredths < 0 ? -hundredths : hundredths;
-  if (hundredths < 0) thr_text_byte(text, '-');
-  thr_text_append_bytes(text, digits, thr_int_print(size / 100, digits));
-  cents[0] = '.';
-  cents[1] = (char)('0' + size % 100 / 10);
-  cents[2] = (char)('0' + size % 10);
-  thr_text_append_bytes(text, cents, 3);
+  char *at = *to;
+  if (hundredths < 0) *at++ = '-';
+  if (size < 1000)
+    *at++ = (char)('0' + size / 100);
+  else
+    at += thr_int_print(size / 100, at);
+  *at++ = '.';
+  *at++ = (char)('0' + size % 100 / 10);
+  *at++ = (char)('0' + size % 10);
+  *to = at;
+  return true;
 }
 
 static void put_point(thr_text *text, char before, const double at[2])
 {
-  thr_text_byte(text, before);
-  put_number(text, at[0]);
-  thr_text_byte(text, ' ');
-  put_number(text, at[1]);
+  char s[2 * NUMBER + 2], *end = s;
+  *end++ = before;
+  bool fits = print_number(at[0], &end);
+  *end++ = ' ';
+  fits = fits && print_number(at[1], &end);
+  if (fits)
+    thr_text_append_bytes(text, s, (size_t)(end - s));
+  else
+    thr_text_printf(text, "%c%.2f %.2f", before, at[0], at[1]);
 }
 
 void thr_svg_move(thr_text *text, const double at[2])

@@ -13,10 +13,10 @@ thr_box thr_box_around(double x, double y, double half_width, double half_height
 
 void thr_box_extend(thr_box *box, thr_box other)
 {
-  box->x0 = fmin(box->x0, other.x0);
-  box->y0 = fmin(box->y0, other.y0);
-  box->x1 = fmax(box->x1, other.x1);
-  box->y1 = fmax(box->y1, other.y1);
+  if (other.x0 < box->x0) box->x0 = other.x0;
+  if (other.y0 < box->y0) box->y0 = other.y0;
+  if (other.x1 > box->x1) box->x1 = other.x1;
+  if (other.y1 > box->y1) box->y1 = other.y1;
 }
 
 thr_status thr_boxes_init(thr_boxes *b, thr_box bounds, double cell, thr_err *err)
@@ -77,7 +77,8 @@ thr_status thr_boxes_add(thr_boxes *b, thr_box box, int kind, thr_err *err)
 static double shared(const thr_box *a, const thr_box *b)
 {
   if (a->x1 <= b->x0 || b->x1 <= a->x0 || a->y1 <= b->y0 || b->y1 <= a->y0) return 0;
-  return (fmin(a->x1, b->x1) - fmax(a->x0, b->x0)) * (fmin(a->y1, b->y1) - fmax(a->y0, b->y0));
+  const double wide = (a->x1 < b->x1 ? a->x1 : b->x1) - (a->x0 > b->x0 ? a->x0 : b->x0);
+  return wide * ((a->y1 < b->y1 ? a->y1 : b->y1) - (a->y0 > b->y0 ? a->y0 : b->y0));
 }
 
 double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds, double enough)
@@ -91,9 +92,10 @@ double thr_boxes_overlap(thr_boxes *b, thr_box box, int kinds, double enough)
       for (int i = b->head[r * b->columns + c]; i >= 0; i = b->link[i].next) {
         struct thr_boxes_item *it = &b->item[b->link[i].item];
         if (++looks > MAX_LOOKS) return area + (box.x1 - box.x0) * (box.y1 - box.y0);
-        if (!(it->kind & kinds) || it->asked == b->question) continue;
+        const double common = it->kind & kinds ? shared(&it->box, &box) : 0;
+        if (!(common > 0) || it->asked == b->question) continue;
         it->asked = b->question;
-        area += shared(&it->box, &box);
+        area += common;
         if (area >= enough) return area;
       }
   return area;
