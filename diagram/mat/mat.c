@@ -205,6 +205,7 @@ static thr_status prepare(thr_mat *mat, double tolerance, thr_err *err)
     return thr_fail(err, THR_EINPUT, "a mat is of true size, and nobody knows the framework's unit: plan it with --units");
   thr_status st = thr_physics_resolve(&mat->plan->options.physics, mat->f, &physics, err);
   if (!st) st = thr_supplies_make(&mat->supplies, mat->plan, err);
+  if (!st) st = thr_supplies_find_sizes(&mat->supplies, err);
   if (!st) st = thr_guide_make(&mat->guide, mat->f, err);
   if (!st) st = thr_pieces_make(&mat->pieces, mat->plan, tolerance, err);
   if (st) return st;
@@ -435,7 +436,7 @@ static void put_map(const sheet *s, int tile)
 static void put_head(const sheet *s, int i)
 {
   const thr_mat *mat = s->mat;
-  char line[200];
+  char line[200], doubt[160];
   snprintf(line, sizeof line, "Mat, page %d of %d", i + 1, mat->n);
   thr_svg_text(s->svg, MARGIN, MARGIN + 5, 5, " font-weight=\"bold\"", line);
   thr_svg_text(s->svg, MARGIN, MARGIN + 10, TEXT, "",
@@ -443,6 +444,8 @@ static void put_head(const sheet *s, int i)
                                  : "Print at 100 %: the bar at the foot is 100 mm long. Each tube in its place.");
   if (mat->n > 1)
     thr_svg_text(s->svg, MARGIN, MARGIN + 14, TEXT, "", "Lay the next page below the grey strip of this one, marks on marks.");
+  if (thr_supplies_doubt(&mat->supplies, doubt))
+    thr_svg_text(s->svg, MARGIN, MARGIN + 17.5, TEXT, " font-weight=\"bold\"", doubt);
   if (mat->n > 1) put_map(s, mat->tile[i]);
 }
 

@@ -95,6 +95,8 @@ void thr_sheets_front(thr_sheets *sheets, const int *first)
   put_counts(sheets);
   put_goal(sheets);
   put_contents(sheets, first);
+  char doubt[160];
+  if (thr_supplies_doubt(&sheets->supplies, doubt)) thr_sheets_paragraph(sheets, 0, doubt);
   if (sheets->plan->n_cords == 1 && !sheets->in_space)
     thr_sheets_paragraph(sheets, 0, "In this picture the colour changes every twenty passes.");
   thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN, thr_sheets_bottom(sheets)};

@@ -7,6 +7,7 @@
 #include "graph/plan/physics.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 thr_status thr_supplies_make(thr_supplies *supplies, const thr_plan *plan, thr_err *err)
@@ -47,6 +48,18 @@ thr_status thr_supplies_find_sizes(thr_supplies *supplies, thr_err *err)
   supplies->cord = sizes.cord_diameter;
   supplies->bore = sizes.bore;
   return THR_OK;
+}
+
+bool thr_supplies_doubt(const thr_supplies *supplies, char line[160])
+{
+  const double thinnest = 0.2, thickest = 15; /* mm: of sewing thread, of rope */
+  const thr_physics *asked = &supplies->plan->options.physics;
+  bool said = asked->cord_diameter > 0 || asked->bore > 0 || asked->bead_diameter > 0;
+  if (said || !(supplies->mm > 0) || (supplies->cord >= thinnest && supplies->cord <= thickest)) return false;
+  snprintf(line, 160,
+           "A cord of %.3g mm through bores of %.4g mm: is that the size to be built? Else plan it with --units or --scale.",
+           supplies->cord, supplies->bore);
+  return true;
 }
 
 double thr_supplies_bore(const thr_supplies *supplies, int e)

@@ -23,6 +23,10 @@ void thr_supplies_destroy(thr_supplies *supplies);
  * framework whose size is not known, or is no bead's, leaves them open. THR_EINPUT for sizes that do not fit the framework. */
 thr_status thr_supplies_find_sizes(thr_supplies *supplies, thr_err *err) THR_MUST_CHECK;
 
+/* Were cord and bores worked out from a framework that is hardly the size of what is to be built: is the cord thinner than any
+ * thread, or thicker than a rope that a hand threads? Then line asks for it. False where the sizes are not known or were said. */
+bool thr_supplies_doubt(const thr_supplies *supplies, char line[160]);
+
 /* Bore of edge e as it is printed, in cord diameters: that of the plan (as evaluated or asked for, else THR_BORE_CORDS), or wider
  * where its passes need more to be drawn with ease (thr_bore_clear); 0 without a pass. And of the node's widest one. */
 double thr_supplies_bore(const thr_supplies *supplies, int e);
