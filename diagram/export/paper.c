@@ -1,5 +1,6 @@
 #include "diagram/export/paper.h"
 
+#include "diagram/scene/boxes.h"
 #include "graph/angle.h"
 
 #include <math.h>
@@ -7,20 +8,27 @@
 #include <string.h>
 
 static const double POINT = 25.4 / 72; /* mm */
+static const double MITRE = 4;         /* as in SVG: how far a corner reaches, in halves of the line's width */
 
 enum { DEPTH = 32, DASHES = 4 };
+
+static const thr_box nowhere = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
 
 /* What the last operators have set; < 0: nothing yet. */
 typedef struct {
   double fill[3], stroke[3], width, dash[DASHES], dash_offset;
   int fill_opacity, stroke_opacity, n_dash, cap, join;
+  double at[2];  /* where 0, 0 is, mm on the page */
+  bool turned;   /* about it: then what is clipped away is not known */
+  thr_box shown; /* what is not clipped away, mm on the page */
 } state;
 
 struct thr_paper {
   thr_text out, path;   /* path: that which grows; states may not change inside one, so that they are written before it */
   const thr_font *font; /* [THR_FACES], borrowed */
   state open[DEPTH];
-  int depth; /* of the state that holds */
+  int depth;   /* of the state that holds */
+  thr_box box; /* around the path that grows */
   thr_paper_needs needs;
 };
 
@@ -73,12 +81,19 @@ thr_status thr_paper_open(thr_paper **out, const double size[2], const thr_font 
 {
   thr_paper *paper = *out = thr_calloc(1, sizeof *paper);
   if (!paper) return thr_nomem(err);
-  const double upright[6] = {1 / POINT, 0, 0, -1 / POINT, 0, size[1] / POINT}, mitre = 4; /* as in SVG */
+  const double upright[6] = {1 / POINT, 0, 0, -1 / POINT, 0, size[1] / POINT};
   paper->font = font;
-  paper->open[0] =
-      (state){.fill = {-1}, .stroke = {-1}, .width = -1, .fill_opacity = -1, .stroke_opacity = -1, .cap = -1, .join = -1};
+  paper->box = nowhere;
+  paper->open[0] = (state){.shown = {-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL},
+                           .fill = {-1},
+                           .stroke = {-1},
+                           .width = -1,
+                           .fill_opacity = -1,
+                           .stroke_opacity = -1,
+                           .cap = -1,
+                           .join = -1};
   thr_text_printf(&paper->out, "q\n%.6f 0 0 %.6f 0 %.6f cm\n", upright[0], upright[3], upright[5]);
-  put(&paper->out, 1, &mitre, "M");
+  put(&paper->out, 1, &MITRE, "M");
   return THR_OK;
 }
 
@@ -129,28 +144,39 @@ void thr_paper_shift(thr_paper *paper, const double by[2])
 {
   const double matrix[6] = {1, 0, 0, 1, by[0], by[1]};
   put(&paper->out, 6, matrix, "cm");
+  for (int k = 0; k < 2; k++)
+    paper->open[paper->depth].at[k] += by[k];
 }
 
 void thr_paper_turn(thr_paper *paper, double degrees)
 {
   const double c = cos(degrees * THR_PI / 180), s = sin(degrees * THR_PI / 180), matrix[6] = {c, s, -s, c, 0, 0};
   put(&paper->out, 6, matrix, "cm");
+  paper->open[paper->depth].turned = true;
+}
+
+/* Puts an operator of the path with its points. */
+static void put_path(thr_paper *paper, int points, const double *x, const char *operator)
+{
+  for (int i = 0; i < points; i++)
+    thr_box_extend(&paper->box, (thr_box){x[2 * i], x[2 * i + 1], x[2 * i], x[2 * i + 1]});
+  put(&paper->path, 2 * points, x, operator);
 }
 
 void thr_paper_move(thr_paper *paper, const double to[2])
 {
-  put(&paper->path, 2, to, "m");
+  put_path(paper, 1, to, "m");
 }
 
 void thr_paper_line(thr_paper *paper, const double to[2])
 {
-  put(&paper->path, 2, to, "l");
+  put_path(paper, 1, to, "l");
 }
 
 void thr_paper_curve(thr_paper *paper, const double a[2], const double b[2], const double to[2])
 {
   const double x[6] = {a[0], a[1], b[0], b[1], to[0], to[1]};
-  put(&paper->path, 6, x, "c");
+  put_path(paper, 3, x, "c");
 }
 
 void thr_paper_end(thr_paper *paper)
@@ -172,13 +198,14 @@ static void put_quarter(thr_paper *paper, const double middle[2], double radius,
     x[2 + c] = middle[c] + radius * (axis[i + 1] - sign * k * along[i + 1]);
     x[4 + c] = middle[c] + radius * axis[i + 1];
   }
-  put(&paper->path, 6, x, "c");
+  put_path(paper, 3, x, "c");
 }
 
 void thr_paper_rect(thr_paper *paper, const double at[2], const double size[2], double radius)
 {
   const double box[4] = {at[0], at[1], size[0], size[1]};
   if (radius <= 0) {
+    thr_box_extend(&paper->box, (thr_box){at[0], at[1], at[0] + size[0], at[1] + size[1]});
     put(&paper->path, 4, box, "re");
     return;
   }
@@ -186,7 +213,7 @@ void thr_paper_rect(thr_paper *paper, const double at[2], const double size[2], 
     double middle[2] = {i == 0 || i == 3 ? at[0] + size[0] - radius : at[0] + radius,
                         i < 2 ? at[1] + size[1] - radius : at[1] + radius};
     double from[2] = {middle[0] + radius * cos(i * THR_PI / 2), middle[1] + radius * sin(i * THR_PI / 2)};
-    put(&paper->path, 2, from, i ? "l" : "m");
+    put_path(paper, 1, from, i ? "l" : "m");
     put_quarter(paper, middle, radius, i);
   }
   thr_paper_end(paper);
@@ -195,7 +222,7 @@ void thr_paper_rect(thr_paper *paper, const double at[2], const double size[2], 
 void thr_paper_circle(thr_paper *paper, const double middle[2], double radius)
 {
   const double from[2] = {middle[0] + radius, middle[1]};
-  put(&paper->path, 2, from, "m");
+  put_path(paper, 1, from, "m");
   for (int i = 0; i < 4; i++)
     put_quarter(paper, middle, radius, i);
   thr_paper_end(paper);
@@ -243,45 +270,76 @@ static void take_line(thr_paper *paper, const thr_line *line)
   memcpy(now->dash, line->dash, sizeof now->dash);
 }
 
+/* Is a box, with so much around it, all clipped away? */
+static bool is_hidden(const thr_paper *paper, thr_box box, double around)
+{
+  const state *now = &paper->open[paper->depth];
+  const thr_box *shown = &now->shown;
+  return !now->turned && (box.x1 + around + now->at[0] < shown->x0 || box.x0 - around + now->at[0] > shown->x1 ||
+                          box.y1 + around + now->at[1] < shown->y0 || box.y0 - around + now->at[1] > shown->y1);
+}
+
+static void forget_path(thr_paper *paper)
+{
+  paper->path.length = 0;
+  paper->box = nowhere;
+}
+
 /* The path, how it is painted, and no path. */
 static void end_path(thr_paper *paper, const char *operator)
 {
   if (paper->path.failed) paper->out.failed = true;
   if (paper->path.length) thr_text_append_bytes(&paper->out, paper->path.data, paper->path.length);
   put(&paper->out, 0, NULL, operator);
-  paper->path.length = 0;
+  forget_path(paper);
 }
 
 void thr_paper_paint(thr_paper *paper, const thr_ink *fill, const thr_line *line)
 {
+  if (is_hidden(paper, paper->box, line ? MITRE / 2 * line->width : 0)) { /* corners reach so far beyond the line */
+    forget_path(paper);
+    return;
+  }
   if (fill) take_ink(paper, fill, false);
   if (line) take_line(paper, line);
   if (paper->path.length && (fill || line)) end_path(paper, fill ? line ? "B" : "f" : "S");
-  paper->path.length = 0;
+  forget_path(paper);
 }
 
 void thr_paper_clip(thr_paper *paper)
 {
+  state *now = &paper->open[paper->depth];
+  if (paper->path.length && !now->turned) {
+    now->shown.x0 = fmax(now->shown.x0, paper->box.x0 + now->at[0]);
+    now->shown.y0 = fmax(now->shown.y0, paper->box.y0 + now->at[1]);
+    now->shown.x1 = fmin(now->shown.x1, paper->box.x1 + now->at[0]);
+    now->shown.y1 = fmin(now->shown.y1, paper->box.y1 + now->at[1]);
+  }
   if (paper->path.length) end_path(paper, "W n");
 }
 
 /* ---- text ---- */
 
-/* Letters as four hexadecimal digits each; returns their width in em. */
-static double put_letters(thr_paper *paper, int face, const char *words, thr_text *out)
+/* In em. */
+static double width_of(const thr_font *font, const char *words)
+{
+  double width = 0;
+  while (*words)
+    width += thr_font_advance(font, font->glyph[thr_font_letter(&words)]);
+  return width;
+}
+
+/* Letters as four hexadecimal digits each. */
+static void put_letters(thr_paper *paper, int face, const char *words, thr_text *out)
 {
   static const char digit[] = "0123456789ABCDEF";
-  const thr_font *font = &paper->font[face];
   unsigned char *needs = paper->needs.letter[face];
-  double width = 0;
   while (*words) {
     unsigned letter = thr_font_letter(&words);
     for (int shift = 12; shift >= 0; shift -= 4)
       thr_text_byte(out, digit[letter >> shift & 15]);
     needs[letter / 8] |= (unsigned char)(1u << letter % 8);
-    width += thr_font_advance(font, font->glyph[letter]);
   }
-  return width;
 }
 
 /* What is beyond the basic plane is found as itself, too: the span says what its boxes stand for. */
@@ -309,14 +367,16 @@ static bool open_span(thr_paper *paper, const char *words)
 void thr_paper_text(thr_paper *paper, const double at[2], const thr_letters *letters, const char *words)
 {
   int face = (letters->bold ? THR_FACE_BOLD : 0) + (letters->mono ? THR_FACE_MONO : 0);
+  const double size = letters->size, width = size * width_of(&paper->font[face], words), left = at[0] - letters->anchor * width;
+  if (is_hidden(paper, (thr_box){left, at[1], left + width, at[1]}, 2 * size)) return; /* no letter reaches further */
   if (!paper->needs.letter[face]) paper->needs.letter[face] = thr_calloc(THR_FONT_LETTERS / 8, 1);
   if (!paper->needs.letter[face]) {
     paper->out.failed = true;
     return;
   }
   thr_text set = {0};
-  double width = put_letters(paper, face, words, &set);
-  const double matrix[6] = {1, 0, 0, -1, at[0] - letters->anchor * letters->size * width, at[1]};
+  put_letters(paper, face, words, &set);
+  const double matrix[6] = {1, 0, 0, -1, left, at[1]};
   take_ink(paper, &letters->ink, false);
   bool span = open_span(paper, words);
   thr_text_printf(&paper->out, "BT /F%d ", face);

@@ -6,6 +6,7 @@
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
 #include "diagram/space/space.h"
+#include "diagram/tables/supplies.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"

@@ -116,7 +116,20 @@ static const char *const pictures[] = {
     "style=\"paint-order:stroke\"/>"
     "<rect x=\"120\" y=\"120\" width=\"60\" height=\"60\" fill=\"#00f\" fill-opacity=\"0.4\" stroke=\"#f00\" "
     "stroke-opacity=\"0.5\" "
-    "stroke-width=\"12\" stroke-dasharray=\"20 6 8 6\" stroke-dashoffset=\"9\"/>"};
+    "stroke-width=\"12\" stroke-dasharray=\"20 6 8 6\" stroke-dashoffset=\"9\"/>",
+    /* what lies wholly outside of a clipping path is left out, and nothing that reaches into it: by the width of its line, by its
+     * corner, turned, after a shift, in one clipped again; after the group all is drawn */
+    "<clipPath id=\"one\"><rect x=\"50\" y=\"50\" width=\"100\" height=\"100\"/></clipPath>"
+    "<clipPath id=\"two\"><rect x=\"0\" y=\"0\" width=\"60\" height=\"60\"/></clipPath>"
+    "<g clip-path=\"url(#one)\" fill=\"#07a\" stroke=\"#c00\" stroke-width=\"10\">"
+    "<rect x=\"10\" y=\"60\" width=\"36\" height=\"20\"/><rect x=\"10\" y=\"90\" width=\"34\" height=\"20\"/>"
+    "<path fill=\"none\" d=\"M60 25L69 38L78 25\"/><path fill=\"none\" d=\"M156 70H170\"/><circle cx=\"100\" cy=\"165\" "
+    "r=\"12\"/>"
+    "<rect x=\"20\" y=\"-8\" width=\"90\" height=\"16\" transform=\"translate(160 100) rotate(120)\"/>"
+    "<g transform=\"translate(70 70)\" clip-path=\"url(#two)\"><circle cx=\"70\" cy=\"30\" r=\"9\"/><circle cx=\"-20\" "
+    "cy=\"-20\" "
+    "r=\"15\"/><circle cx=\"200\" cy=\"30\" r=\"30\"/></g><circle cx=\"140\" cy=\"140\" r=\"4\"/></g>"
+    "<rect x=\"20\" y=\"200\" width=\"30\" height=\"30\"/><path d=\"M160 20h30v20z\"/>"};
 
 enum { N_PICTURES = sizeof pictures / sizeof *pictures };
 
