@@ -37,10 +37,16 @@ bool drawings_option(drawings_args *a, const char *command, int option, const ch
 
 thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text, thr_err *err)
 {
-  thr_chains chains;
+  thr_chains chains, planned;
   thr_status st = thr_plan_chains(plan, a->needles ? a->needles : plan->options.needles, &chains, err);
-  if (!st) thr_text_printf(text, "longest loose chain: %d %s", chains.longest, thr_pieces_word(plan, chains.longest));
-  return st;
+  if (!st) st = thr_plan_chains(plan, plan->options.needles, &planned, err);
+  if (st) return st;
+  thr_text_printf(text, "longest loose chain: %d %s", chains.longest, thr_pieces_word(plan, chains.longest));
+  if (planned.longest < chains.longest &&
+      plan->options.order != THR_ORDER_PLANNED) /* the order of work is not the one for so many needles */
+    thr_text_printf(text, ", %d as planned; thread plan --from %s puts the work in order for that", planned.longest,
+                    a->needles == 1 ? "end" : "middle");
+  return THR_OK;
 }
 
 static void note_pages(const char *file, int n)

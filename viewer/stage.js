@@ -1,6 +1,6 @@
 // The picture in space: pieces, cords, feet, the camera. Draws only when something changed.
 import {
-  AmbientLight, BackSide, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, Fog, InstancedMesh,
+  AmbientLight, BackSide, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, Fog, Group, InstancedMesh,
   LatheGeometry, Matrix4, Mesh, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, Quaternion, Raycaster, Scene,
   Sphere, SphereGeometry, Vector2, Vector3, WebGLRenderer,
 } from 'three';
@@ -65,6 +65,7 @@ export class Stage {
     const {plan} = this;
     this.parts = []; // meshes of many like parts, and of each part its piece and where it is
     this.partsOf = plan.pieces.map(() => []);
+    this.tips = plan.pieces.map(() => []); // ends of its arms, from its middle
     if (plan.solid) this.addSolid();
     else this.addTubes();
     this.place = plan.pieces.map((_, i) => (plan.solid ? this.nodePlace(i) : this.edgePlace(i)));
@@ -113,6 +114,7 @@ export class Stage {
       ends.forEach((v, side) => {
         const axis = this.frame[e].axis.clone().multiplyScalar(side ? -1 : 1);
         const middle = nodes[v].clone().addScaledVector(axis, 0.5 * length);
+        this.tips[v].push(axis.clone().multiplyScalar(length));
         arms.push({piece: v, middle, turn: new Quaternion().setFromUnitVectors(up, axis), scale: new Vector3(radius, length, radius)});
         widest[v] = Math.max(widest[v], radius);
       });
@@ -124,6 +126,23 @@ export class Stage {
     const sides = [16, 10, 6][detail];
     this.addTranslucent(new CylinderGeometry(1, 1, 1, sides), material, arms);
     this.addTranslucent(new SphereGeometry(1, sides, Math.max(sides >> 1, 4)), material, hubs);
+    this.hand = new Group();
+    this.handMaterial = new MeshLambertMaterial({transparent: true, opacity: 0.5, depthTest: false, fog: false});
+    this.scene.add(this.hand);
+  }
+
+  // The solid piece in hand once more, seen through all that lies before it.
+  hold(piece) {
+    if (!this.hand) return;
+    this.hand.clear();
+    this.handMaterial.color.copy(this.theme.now);
+    for (const [p, i] of piece < 0 ? [] : this.partsOf[piece]) {
+      const mesh = new Mesh(this.parts[p].mesh.geometry, this.handMaterial);
+      this.parts[p].mesh.getMatrixAt(i, mesh.matrix);
+      mesh.matrixAutoUpdate = false;
+      mesh.renderOrder = 2.5;
+      this.hand.add(mesh);
+    }
   }
 
   addTubes() {
@@ -140,6 +159,7 @@ export class Stage {
       const radius = Math.min(sizes.radius, 0.28 * sizes.lengths[piece]), length = sizes.lengths[piece] - 2 * sizes.gap[piece];
       const turn = new Quaternion().setFromUnitVectors(up, this.frame[piece].axis);
       const middle = this.nodes[a].clone().lerp(this.nodes[b], 0.5);
+      for (const end of [a, b]) this.tips[piece].push(this.nodes[end].clone().sub(middle));
       return {piece, middle, turn, scale: new Vector3(radius, Math.max(length, 0.4 * radius), radius)};
     }));
   }
@@ -236,6 +256,7 @@ export class Stage {
       mesh.instanceColor.needsUpdate = true;
     }
     this.swell(now);
+    this.hold(now);
     if (this.feet) this.uncover(now);
     this.cords.forEach(({mesh, tube}, c) => {
       const passes = Math.min(Math.max(done - plan.cords[c].first, 0), plan.cords[c].half.length);
@@ -346,12 +367,23 @@ export class Stage {
     controls.update();
   }
 
-  // Looks at a piece from outside, near enough to see its neighbours.
+  // From where a piece is so many pixels long in the picture, as a thumb is wide.
+  near(piece, view) {
+    const THUMB = 150, {camera, canvas} = this, right = across(view, new Vector3(-view.y, view.x, 0)), up = new Vector3().crossVectors(view, right);
+    const span = (axis) => {
+      const along = [0, ...this.tips[piece].map((tip) => tip.dot(axis))];
+      return along.reduce((a, b) => Math.max(a, b)) - along.reduce((a, b) => Math.min(a, b));
+    };
+    const length = Math.max(span(right), span(up)) + 2 * this.sizes.radius, size = (canvas.clientHeight * length) / THUMB;
+    return Math.max(size / (2 * Math.tan((camera.fov * Math.PI) / 360)), 2 * length);
+  }
+
+  // Looks at a piece from outside, near enough to see it well and some of its neighbours.
   face(piece, still) {
-    const {camera, controls, sizes} = this, {middle, out} = this.place[piece];
-    const far = Math.min(9 * sizes.pitch, 2.5 * this.radius + 3 * sizes.pitch), view = out.clone();
+    const {camera, controls, sizes} = this, {middle, out} = this.place[piece], view = out.clone();
     if (Math.abs(view.z) > 0.97) view.y -= 0.3; // from straight above the picture would spin
-    const goal = middle.clone().addScaledVector(view.normalize(), far);
+    const far = Math.min(9 * sizes.pitch, 2.5 * this.radius + 3 * sizes.pitch, this.near(piece, view.normalize()));
+    const goal = middle.clone().addScaledVector(view, Math.max(far, this.controls.minDistance));
     cancelAnimationFrame(this.flight);
     if (still) {
       camera.position.copy(goal);
