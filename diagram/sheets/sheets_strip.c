@@ -21,7 +21,7 @@ static const double REACH[2] = {6.2, 5};     /* mm from a hub to the longest arm
 static const double NAME = 4.2, AIR = 1.5;   /* mm below an icon for its name; above the first row */
 static const double ARM = 0.42, CORD = 0.14; /* widths, of the reach */
 static const double CROWD = 0.8;             /* of the room between many arms that one takes */
-static const double ASIDE = 1.5;             /* mm that an icon is off the middle of its place, for its number */
+static const double ASIDE[2] = {1.5, 2.6};   /* mm that an icon is off the middle of its place, for its number; of four digits */
 static const double LINE[2] = {0.25, 0.5};   /* mm: outlines of pieces held and new */
 enum { CROWDED = 8 };                        /* arms: more run together */
 
@@ -171,10 +171,19 @@ static void put_name(thr_sheets *sheets, int visit, double x, double y, double w
     thr_svg_text(thr_sheets_out(sheets), x, y, THR_SHEET_SMALL, attributes, words);
 }
 
+/* Of the pass by which the needle comes in, above the icon. */
+static void put_number(thr_sheets *sheets, int visit, double x, double y)
+{
+  char count[16] = "S";
+  if (sheets->visit[visit].number) snprintf(count, sizeof count, "%d", sheets->visit[visit].number);
+  thr_svg_text(thr_sheets_out(sheets), x, y, THR_SHEET_SMALL, " font-weight=\"bold\"", count);
+}
+
 void thr_step_put_strip(thr_sheets *sheets, const thr_step *step, const thr_camera *camera, const char *colour)
 {
   int visits = step->end - step->first, columns = columns_of(visits);
   double reach = reach_of(visits), high = 2 * reach + NAME, width = thr_sheets_width(sheets) / columns;
+  const double aside = ASIDE[sheets->n_passes > 999];
   thr_text *text = thr_sheets_out(sheets);
   for (int first = 0; first < visits; first += columns) {
     int n = visits - first < columns ? visits - first : columns;
@@ -185,17 +194,15 @@ void thr_step_put_strip(thr_sheets *sheets, const thr_step *step, const thr_came
     thr_text_append(text, "\"/>\n");
     layers l = {0};
     for (int i = 0; i < n && !sheets->st; i++) {
-      int visit = step->first + first + i, number = sheets->visit[visit].number;
-      char count[16] = "S";
-      double hub[2] = {THR_SHEET_MARGIN + (i + 0.5) * width + ASIDE, y};
-      if (number) snprintf(count, sizeof count, "%d", number);
-      add_icon(sheets, visit, camera, hub, reach, &l);
-      thr_text_printf(text, "<g fill=\"%s\">", colour);
-      thr_svg_text(text, hub[0] - 0.5 * width - ASIDE, y - reach + 2, THR_SHEET_SMALL, " font-weight=\"bold\"", count);
-      thr_text_append(text, "</g>\n");
-      put_name(sheets, visit, hub[0], y + reach + 3.2, width - 0.5);
+      const double hub[2] = {THR_SHEET_MARGIN + (i + 0.5) * width + aside, y};
+      add_icon(sheets, step->first + first + i, camera, hub, reach, &l);
+      put_name(sheets, step->first + first + i, hub[0], y + reach + 3.2, width - 0.5);
     }
     put_layers(&l, arm_width(sheets, step, reach), reach, colour, text);
+    thr_text_printf(text, "<g fill=\"%s\">\n", colour);
+    for (int i = 0; i < n; i++)
+      put_number(sheets, step->first + first + i, THR_SHEET_MARGIN + i * width, y - reach + 2);
+    thr_text_append(text, "</g>\n");
   }
   sheets->y += thr_step_strip_height(visits);
 }
