@@ -43,6 +43,7 @@ typedef struct {
   int first, n;
   int *lines; /* [n + 1] of the rows before */
   int *reach; /* [n] the last end of a step that begins there */
+  int view;   /* of pictures in space, from which the last was legible */
 } path;
 
 /* A step that is nothing but the start of a cord has no pass to draw. */
@@ -65,7 +66,7 @@ static thr_status is_good(path *p, int i, int end, bool *good, thr_err *err)
   *good = room[1] >= THR_STEP_PICTURE[1];
   if (!*good) return THR_OK;
   if (sheets->in_space) {
-    *good = thr_space_legible(&sheets->space, &crop, room);
+    *good = thr_space_legible(&sheets->space, &crop, room, &p->view);
     return THR_OK;
   }
   thr_status st = thr_crop_fit(&sheets->crops, &crop, room, THR_STEP_PICTURE, &view, err);

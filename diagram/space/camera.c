@@ -81,13 +81,25 @@ static void look(const thr_camera_scene *scene, const thr_camera *camera, const 
   }
 }
 
-bool thr_camera_legible(const thr_camera_scene *scene, const double size[2])
+/* Does a pass of a shell lie on its far side, or at its rim? */
+static bool some_hidden(const thr_camera_scene *scene, const thr_camera *camera)
 {
-  for (int i = 0; i < DIRECTIONS; i++) {
+  for (int i = 0; i < scene->n && scene->shell; i++)
+    if (thr_dot(scene->outward[i], camera->eye) <= RIM) return true;
+  return false;
+}
+
+bool thr_camera_legible(const thr_camera_scene *scene, const double size[2], int *first)
+{
+  for (int k = 0; k < DIRECTIONS; k++) {
+    const int i = (*first + k) % DIRECTIONS;
     thr_camera camera = camera_number(i);
     sight s = {0};
+    if (some_hidden(scene, &camera)) continue;
     look(scene, &camera, size, &s);
-    if (s.least >= 1 && (!scene->shell || s.most_hidden > RIM)) return true;
+    if (s.least < 1) continue;
+    *first = i;
+    return true;
   }
   return false;
 }

@@ -32,8 +32,9 @@ typedef struct {
 static const double THR_CAMERA_PASS = 9;
 
 /* Is there a direction from which every pass is that long, and on a shell on the near side, on paper of a size in mm? O(n) a
- * direction, some hundred of them. */
-bool thr_camera_legible(const thr_camera_scene *scene, const double size[2]);
+ * direction, some hundred of them, of which number *first comes first (0, or as it was left): it receives that of the one that is
+ * found, which is likely the one for a little more of the same. */
+bool thr_camera_legible(const thr_camera_scene *scene, const double size[2], int *first);
 
 /* The best direction: penalized are passes that are too short on paper, numbers that would lie on each other, passes that cross;
  * then the least foreshortened, seen from outside rather than from inside. Deterministic. O(n^2) a direction. */

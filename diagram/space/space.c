@@ -100,11 +100,11 @@ static void camera_scene(const thr_space *space, const thr_crop *crop, thr_camer
   }
 }
 
-bool thr_space_legible(const thr_space *space, const thr_crop *crop, const double room[2])
+bool thr_space_legible(const thr_space *space, const thr_crop *crop, const double room[2], int *first)
 {
   thr_camera_scene scene;
   camera_scene(space, crop, &scene);
-  return thr_camera_legible(&scene, room);
+  return thr_camera_legible(&scene, room, first);
 }
 
 thr_camera_view thr_space_fit(const thr_space *space, const thr_crop *crop, const double room[2])

@@ -40,8 +40,9 @@ typedef struct {
   int next;
 } thr_space_step;
 
-/* Does some view show every pass drawn now at least THR_CAMERA_PASS long? O(n_now). */
-bool thr_space_legible(const thr_space *space, const thr_crop *crop, const double room[2]);
+/* Does some view show every pass drawn now at least THR_CAMERA_PASS long? first: as in thr_camera_legible.
+ * O(n_now). */
+bool thr_space_legible(const thr_space *space, const thr_crop *crop, const double room[2], int *first);
 
 /* The best view for a picture that fills room (width and height, mm). O(n_now^2). */
 thr_camera_view thr_space_fit(const thr_space *space, const thr_crop *crop, const double room[2]);
