@@ -2,6 +2,7 @@
 
 #include "cli/guard.h"
 #include "diagram/export/paper.h"
+#include "diagram/layout/layout.h"
 #include "diagram/scene/pieces.h"
 #include "graph/plan/chains.h"
 #include "graph/limits.h"
@@ -54,12 +55,14 @@ static void note_pages(const char *file, int n)
   cli_note("%s: %d %s", file, n, cli_plural(n, "page", "pages"));
 }
 
-int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *a)
+/* layout: NULL = of its own. */
+static int write_one(const thr_plan *plan, int i, const thr_layout *layout, const char *path, const drawings_args *a)
 {
   thr_err err = {0};
   thr_text text = {0};
   const thr_document_options options = {.pitch_mm = a->pitch_mm,
                                         .lines = a->lines,
+                                        .layout = layout,
                                         .colour = a->colour,
                                         .kind_tolerance = a->kind_tolerance,
                                         .page = a->page,
@@ -71,6 +74,11 @@ int drawings_write(const thr_plan *plan, int i, const char *path, const drawings
   thr_status st = thr_document_make(plan, i, &options, &limits, &text, &err);
   cli_progress_end();
   return cli_write_drawn(st, &text, path, &err);
+}
+
+int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *a)
+{
+  return write_one(plan, i, NULL, path, a);
 }
 
 bool drawings_no_sheets(const thr_plan *plan, const drawings_args *a)
@@ -103,7 +111,7 @@ static bool too_late(int k)
   return true;
 }
 
-int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a)
+static int write_all(const thr_plan *plan, const thr_layout *layout, const char *folder, const drawings_args *a)
 {
   int code = EXIT_OK;
   for (int k = 0; k < thr_documents_count() && !code; k++) {
@@ -113,7 +121,17 @@ int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_
     if (!thr_document_usual(i)) continue;
     if (too_late(k)) return EXIT_LIMIT;
     code = cli_in_folder(folder, thr_document_file(i), path, sizeof path);
-    if (!code) code = drawings_write(plan, i, path, a);
+    if (!code) code = write_one(plan, i, layout, path, a);
   }
+  return code;
+}
+
+int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a)
+{
+  thr_layout layout = {0};
+  thr_err err = {0};
+  if (thr_layout_choose(&layout, &plan->frame, NULL, 0, &err)) return cli_fail(&err);
+  int code = write_all(plan, &layout, folder, a);
+  thr_layout_destroy(&layout);
   return code;
 }

@@ -106,6 +106,7 @@ static thr_status overview(const thr_plan *plan, const thr_document_options *a, 
   options.pitch_mm = a->pitch_mm;
   options.colour = a->colour;
   options.motion = motion;
+  options.layout = a->layout;
   return thr_overview_svg(plan, &options, out, err);
 }
 
@@ -129,6 +130,7 @@ static thr_sheets_options sheets_options(const thr_plan *plan, const thr_documen
   options.working_mm = a->working_mm;
   options.kind_tolerance = a->kind_tolerance;
   options.motion = motion;
+  options.layout = a->layout;
   return options;
 }
 
@@ -176,9 +178,9 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
   case SHEETS: st = sheets(plan, a, copies.motion, limits, out, err); break;
   case POSTER: st = poster(plan, a, copies.motion, limits, out, err); break;
   case PAGES: st = sheets_html(plan, a, copies.motion, limits, out, err); break;
-  case STEPS: st = thr_steps_text(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), out, err); break;
-  case VIEWER: st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), out, err); break;
-  default: st = thr_table_cords(plan, copies.motion, out, err);
+  case STEPS: st = thr_steps_text(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), a->layout, out, err); break;
+  case VIEWER: st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), a->layout, out, err); break;
+  default: st = thr_table_cords(plan, copies.motion, a->layout, out, err);
   }
   thr_motions_destroy(&copies);
   return st;
@@ -188,9 +190,9 @@ thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_opt
                              thr_text *out, thr_err *err)
 {
   switch ((document)i) {
-  case STEPS_TABLE: return thr_table_steps(plan, options->kind_tolerance, needles_of(plan, options), out, err);
-  case BEADS_TABLE: return thr_table_beads(plan, options->kind_tolerance, out, err);
-  case CHANNELS_TABLE: return thr_table_channels(plan, options->kind_tolerance, out, err);
+  case STEPS_TABLE: return thr_table_steps(plan, options->kind_tolerance, needles_of(plan, options), options->layout, out, err);
+  case BEADS_TABLE: return thr_table_beads(plan, options->kind_tolerance, options->layout, out, err);
+  case CHANNELS_TABLE: return thr_table_channels(plan, options->kind_tolerance, options->layout, out, err);
   case LABELS: return thr_emboss_svg(plan, out, err);
   case MAT: return mat(plan, options, limits, out, err);
   case OBJ: return thr_polylines_obj(plan, &options->lines, out, err);

@@ -2,6 +2,7 @@
 #ifndef THR_DOCUMENTS_H
 #define THR_DOCUMENTS_H
 
+#include "diagram/layout/layout.h"
 #include "diagram/overview/overview.h"
 #include "diagram/scene/cord_lines.h"
 #include "graph/limits.h"
@@ -27,6 +28,8 @@ typedef struct {
   int page;                   /* of step sheets and mat: thr_page_size */
   int needles;            /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = as the plan says */
   thr_line_options lines; /* of cords for CAD */
+  const thr_layout
+      *layout; /* of the plan's framework, by thr_layout_choose: what several documents share; NULL: each lays out anew */
   void (*pages)(const char *file, int n); /* hears how many a file of pages has; NULL = nobody */
 } thr_document_options;
 

@@ -266,7 +266,7 @@ static void put_in_script(const thr_text *json, thr_text *out)
   thr_text_append_bytes(out, from, (size_t)(end - from));
 }
 
-static thr_status prepare(viewer *s, double tolerance, thr_err *err)
+static thr_status prepare(viewer *s, double tolerance, const thr_layout *layout, thr_err *err)
 {
   const thr_plan *p = s->plan;
   int n_passes;
@@ -277,7 +277,7 @@ static thr_status prepare(viewer *s, double tolerance, thr_err *err)
   if (st) return st;
   s->copy = thr_calloc((size_t)p->n_cords, sizeof *s->copy);
   thr_part *part = thr_calloc(2 * (size_t)p->n_cords, sizeof *part);
-  st = s->copy && part ? thr_guide_make(&s->guide, s->f, err) : thr_nomem(err);
+  st = s->copy && part ? thr_guide_make(&s->guide, s->f, layout, err) : thr_nomem(err);
   if (!st) st = thr_copies_find(p, s->copy, err);
   if (!st) st = thr_pieces_make(&s->pieces, p, tolerance, err);
   if (!st) {
@@ -288,14 +288,14 @@ static thr_status prepare(viewer *s, double tolerance, thr_err *err)
   return st;
 }
 
-thr_status thr_viewer_html(const thr_plan *p, const char *const *motion, double tolerance, int needles, thr_text *html,
-                           thr_err *err)
+thr_status thr_viewer_html(const thr_plan *p, const char *const *motion, double tolerance, int needles, const thr_layout *layout,
+                           thr_text *html, thr_err *err)
 {
   thr_text json = {0}, page = {0};
   viewer s = {.plan = p, .f = &p->frame, .motion = motion, .needles = needles, .out = {.out = &json, .compact = true}};
   const char *mark = strstr(thr_viewer_page, THR_VIEWER_MARK);
   assert(mark);
-  thr_status st = prepare(&s, tolerance, err);
+  thr_status st = prepare(&s, tolerance, layout, err);
   if (st) goto done;
   put_plan(&s);
   thr_text_append_bytes(&page, thr_viewer_page, (size_t)(mark - thr_viewer_page));

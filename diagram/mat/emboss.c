@@ -88,7 +88,7 @@ static thr_status put_all(const embossed *l, thr_text *svg, thr_err *err)
 thr_status thr_emboss_svg(const thr_plan *plan, thr_text *svg, thr_err *err)
 {
   embossed l = {.plan = plan};
-  thr_status st = thr_guide_make(&l.guide, &plan->frame, err);
+  thr_status st = thr_guide_make(&l.guide, &plan->frame, NULL, err);
   if (!st) st = thr_pieces_make(&l.pieces, plan, 0, err);
   if (!st) st = find_room(&l, err);
   if (!st) st = thr_letters_open(&l.letters, err);

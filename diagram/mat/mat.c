@@ -206,7 +206,7 @@ static thr_status prepare(thr_mat *mat, double tolerance, thr_err *err)
   thr_status st = thr_physics_resolve(&mat->plan->options.physics, mat->f, &physics, err);
   if (!st) st = thr_supplies_make(&mat->supplies, mat->plan, err);
   if (!st) st = thr_supplies_find_sizes(&mat->supplies, err);
-  if (!st) st = thr_guide_make(&mat->guide, mat->f, err);
+  if (!st) st = thr_guide_make(&mat->guide, mat->f, NULL, err);
   if (!st) st = thr_pieces_make(&mat->pieces, mat->plan, tolerance, err);
   if (st) return st;
   mat->paper = thr_layout_paper(&mat->guide.layout, mat->f);

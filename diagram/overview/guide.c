@@ -136,13 +136,13 @@ thr_status thr_guide_around(const thr_guide *guide, int *around, thr_err *err)
   return st;
 }
 
-thr_status thr_guide_make(thr_guide *guide, const thr_frame *frame, thr_err *err)
+thr_status thr_guide_make(thr_guide *guide, const thr_frame *frame, const thr_layout *layout, thr_err *err)
 {
   *guide = (thr_guide){.f = frame};
   guide->outward = thr_calloc((size_t)frame->n_nodes, sizeof *guide->outward);
   guide->label = thr_calloc((size_t)frame->n_nodes, sizeof *guide->label);
   if (!guide->outward || !guide->label) return thr_nomem(err);
-  thr_status st = thr_layout_choose(&guide->layout, frame, NULL, 0, err);
+  thr_status st = layout ? thr_layout_copy(&guide->layout, layout, err) : thr_layout_choose(&guide->layout, frame, NULL, 0, err);
   if (!st && thr_layout_to_scale(guide->layout.kind))
     st = thr_places_find(&guide->places, frame, (const double(*)[2])guide->layout.xy, guide->layout.median, err);
   guide->sides = !guide->layout.crossings && !guide->layout.estimated && guide->layout.kind != THR_LAYOUT_DRAWN;

@@ -19,8 +19,9 @@ typedef struct {
   char (*label)[THR_LABEL]; /* [n_nodes] the node's place as in the overview; all different, without blanks */
 } thr_guide;
 
-/* Lays the framework out as the overview does. O(n log n). Release with thr_guide_destroy, after a failure too. */
-thr_status thr_guide_make(thr_guide *guide, const thr_frame *frame, thr_err *err) THR_MUST_CHECK;
+/* Lays the framework out as the overview does: as layout, which is copied, or, NULL, as thr_layout_choose. O(n log n). Release
+ * with thr_guide_destroy, after a failure too. */
+thr_status thr_guide_make(thr_guide *guide, const thr_frame *frame, const thr_layout *layout, thr_err *err) THR_MUST_CHECK;
 void thr_guide_destroy(thr_guide *guide);
 
 /* Appends "foot A1 (node 17)": the node's own name where it is called by its place. */

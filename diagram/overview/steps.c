@@ -252,7 +252,7 @@ static void put_tightening(steps *s)
   }
 }
 
-static thr_status prepare(steps *s, double tolerance, int needles, thr_err *err)
+static thr_status prepare(steps *s, double tolerance, int needles, const thr_layout *layout, thr_err *err)
 {
   const thr_plan *p = s->plan;
   thr_status st = thr_scene_check_cords(p, &s->n_passes, err);
@@ -261,7 +261,7 @@ static thr_status prepare(steps *s, double tolerance, int needles, thr_err *err)
   s->copy = thr_calloc((size_t)p->n_cords, sizeof *s->copy);
   s->part = thr_calloc(2 * (size_t)p->n_cords, sizeof *s->part);
   s->first = thr_calloc((size_t)p->n_cords, sizeof *s->first);
-  st = s->copy && s->part && s->first ? thr_guide_make(&s->guide, s->f, err) : thr_nomem(err);
+  st = s->copy && s->part && s->first ? thr_guide_make(&s->guide, s->f, layout, err) : thr_nomem(err);
   if (!st) st = thr_copies_find(p, s->copy, err);
   if (!st) st = thr_pieces_make(&s->pieces, p, tolerance, err);
   if (st) return st;
@@ -272,12 +272,12 @@ static thr_status prepare(steps *s, double tolerance, int needles, thr_err *err)
   return st;
 }
 
-thr_status thr_steps_text(const thr_plan *p, const char *const *motion, double tolerance, int needles, thr_text *out,
-                          thr_err *err)
+thr_status thr_steps_text(const thr_plan *p, const char *const *motion, double tolerance, int needles, const thr_layout *layout,
+                          thr_text *out, thr_err *err)
 {
   thr_text text = {0};
   steps s = {.plan = p, .f = &p->frame, .motion = motion, .out = &text};
-  thr_status st = prepare(&s, tolerance, needles, err);
+  thr_status st = prepare(&s, tolerance, needles, layout, err);
   if (st) goto done;
   int n_paths = thr_copies_paths(s.copy, p->n_cords);
   put_heading(&s, n_paths);

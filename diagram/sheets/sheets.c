@@ -60,7 +60,7 @@ static thr_status prepare(thr_sheets *sheets, thr_err *err)
   if (!sheets->copy) return thr_nomem(err);
   st = thr_copies_find(plan, sheets->copy, err);
   if (!st) st = thr_pieces_make(&sheets->pieces, plan, sheets->o.kind_tolerance, err);
-  if (!st) st = thr_guide_make(&sheets->guide, sheets->f, err);
+  if (!st) st = thr_guide_make(&sheets->guide, sheets->f, sheets->o.layout, err);
   if (!st) st = thr_sheets_follow(sheets, err);
   if (st) return st;
   thr_crops_make(&sheets->crops, plan, &sheets->guide.layout);

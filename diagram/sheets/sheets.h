@@ -4,6 +4,7 @@
 #ifndef THR_SHEETS_H
 #define THR_SHEETS_H
 
+#include "diagram/layout/layout.h"
 #include "diagram/export/paper.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
@@ -16,6 +17,7 @@ typedef struct {
   double working_mm;         /* cord that is worked with at a time; 0 = THR_SHEETS_WORKING */
   double kind_tolerance;     /* as in thr_pieces_make */
   const char *const *motion; /* as in thr_overview_options; borrowed */
+  const thr_layout *layout;  /* the same */
 } thr_sheets_options;
 
 static const double THR_SHEETS_WORKING = 2000; /* mm: somewhat more than both arms reach */

@@ -91,7 +91,7 @@ static void put_unit(table *t)
 
 /* ---- what they share ---- */
 
-static thr_status table_make(table *t, const thr_plan *p, double tolerance, thr_text *out, thr_err *err)
+static thr_status table_make(table *t, const thr_plan *p, double tolerance, const thr_layout *layout, thr_text *out, thr_err *err)
 {
   *t = (table){.plan = p, .f = &p->frame, .out = out};
   thr_status st = thr_supplies_make(&t->supplies, p, err);
@@ -100,7 +100,7 @@ static thr_status table_make(table *t, const thr_plan *p, double tolerance, thr_
   if (!t->copy) return thr_nomem(err);
   st = thr_copies_find(p, t->copy, err);
   if (!st) st = thr_pieces_make(&t->pieces, p, tolerance, err);
-  return st ? st : thr_guide_make(&t->guide, t->f, err);
+  return st ? st : thr_guide_make(&t->guide, t->f, layout, err);
 }
 
 /* Takes the text over into out, if all went well. */
@@ -240,11 +240,12 @@ static int put_part(table *t, const thr_part *part, const thr_visit *visit)
   return n;
 }
 
-thr_status thr_table_steps(const thr_plan *p, double tolerance, int needles, thr_text *out, thr_err *err)
+thr_status thr_table_steps(const thr_plan *p, double tolerance, int needles, const thr_layout *layout, thr_text *out,
+                           thr_err *err)
 {
   table t;
   thr_text text = {0};
-  thr_status st = table_make(&t, p, tolerance, &text, err);
+  thr_status st = table_make(&t, p, tolerance, layout, &text, err);
   thr_part *part = st ? NULL : thr_calloc(2 * (size_t)p->n_cords, sizeof *part);
   thr_visit *visit = NULL;
   int n = 0, parts = 0;
@@ -290,11 +291,11 @@ static void put_cord(table *t, int c, const char *const *motion)
   put_unit(t);
 }
 
-thr_status thr_table_cords(const thr_plan *p, const char *const *motion, thr_text *out, thr_err *err)
+thr_status thr_table_cords(const thr_plan *p, const char *const *motion, const thr_layout *layout, thr_text *out, thr_err *err)
 {
   table t;
   thr_text text = {0};
-  thr_status st = table_make(&t, p, 0, &text, err);
+  thr_status st = table_make(&t, p, 0, layout, &text, err);
   if (!st) st = thr_supplies_find_sizes(&t.supplies, err);
   thr_text_append(&text, "cord,closed,start,end,passes,length,tails,knots,turns,cut,turning_degrees,path,repeated,unit\n");
   for (int c = 0; c < p->n_cords && !st; c++)
@@ -362,11 +363,11 @@ static void put_piece(table *t, int piece, const int *around, const int *visits)
   put_unit(t);
 }
 
-thr_status thr_table_beads(const thr_plan *p, double tolerance, thr_text *out, thr_err *err)
+thr_status thr_table_beads(const thr_plan *p, double tolerance, const thr_layout *layout, thr_text *out, thr_err *err)
 {
   table t;
   thr_text text = {0};
-  thr_status st = table_make(&t, p, tolerance, &text, err);
+  thr_status st = table_make(&t, p, tolerance, layout, &text, err);
   if (!st) st = thr_supplies_find_sizes(&t.supplies, err);
   int *visits = st ? NULL : thr_calloc((size_t)p->frame.n_nodes, sizeof *visits);
   int *around = st ? NULL : thr_calloc(2 * (size_t)p->frame.n_edges, sizeof *around);
@@ -408,12 +409,12 @@ static void put_tube_channels(table *t)
     }
 }
 
-thr_status thr_table_channels(const thr_plan *p, double tolerance, thr_text *out, thr_err *err)
+thr_status thr_table_channels(const thr_plan *p, double tolerance, const thr_layout *layout, thr_text *out, thr_err *err)
 {
   table t;
   thr_text text = {0};
   thr_channels channels = {0};
-  thr_status st = table_make(&t, p, tolerance, &text, err);
+  thr_status st = table_make(&t, p, tolerance, layout, &text, err);
   if (!st) st = thr_channels_make(&channels, p, err);
   thr_text_append(&text, "piece,kind,cord,step,in,out,cords_in,cords_out,crosses,degrees\n");
   for (int v = 0; v < p->frame.n_nodes && !st && t.pieces.solid; v++)

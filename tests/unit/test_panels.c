@@ -204,7 +204,7 @@ START_TEST(sides_are_known_on_the_seam)
 {
   thr_frame f = shell(_i);
   thr_guide g;
-  ck_assert_int_eq(thr_guide_make(&g, &f, NULL), THR_OK);
+  ck_assert_int_eq(thr_guide_make(&g, &f, NULL, NULL), THR_OK);
   ck_assert_int_eq(g.layout.kind, THR_LAYOUT_PANELS);
   ck_assert(g.sides);
   for (int v = 0; v < f.n_nodes; v++) {

@@ -79,7 +79,7 @@ static reader reader_make(const thr_plan *p)
 {
   reader r = {.p = p, .at = -1, .due = -1, .solid = p->options.joint == THR_JOINT_SOLID};
   r.n_pieces = r.solid ? p->frame.n_nodes : p->frame.n_edges;
-  ck_assert_int_eq(thr_guide_make(&r.guide, &p->frame, NULL), THR_OK);
+  ck_assert_int_eq(thr_guide_make(&r.guide, &p->frame, NULL, NULL), THR_OK);
   r.half = calloc((size_t)p->n_cords, sizeof *r.half);
   r.cord = calloc((size_t)r.n_pieces, sizeof *r.cord);
   r.row = calloc((size_t)r.n_pieces, sizeof *r.row);

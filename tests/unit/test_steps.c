@@ -38,7 +38,7 @@ static thr_text steps_of(const thr_plan *p, const char *const *motion)
 {
   thr_text t = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_steps_text(p, motion, 0, 1, &t, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_steps_text(p, motion, 0, 1, NULL, &t, &err) == THR_OK, "%s", err.text);
   return t;
 }
 
@@ -446,7 +446,7 @@ START_TEST(left_is_left_from_outside)
   thr_plan p = plan_of(shape_make(shape[_i].shape, shape[_i].size, shape[_i].rings), THR_ENDS_CLOSED, 1);
   const thr_frame *f = &p.frame;
   thr_guide guide;
-  ck_assert_int_eq(thr_guide_make(&guide, f, NULL), THR_OK);
+  ck_assert_int_eq(thr_guide_make(&guide, f, NULL, NULL), THR_OK);
   int left = 0, right = 0;
   for (int k = 1; k < p.cord[0].n_passes; k++) {
     double a[3], b[3], cross[3], out[3];
@@ -480,7 +480,7 @@ START_TEST(a_tangle_has_no_sides)
   thr_guide guide;
   reader back = reader_make(&p, t.data);
   assert_read_back(&back);
-  ck_assert_int_eq(thr_guide_make(&guide, &f, NULL), THR_OK);
+  ck_assert_int_eq(thr_guide_make(&guide, &f, NULL, NULL), THR_OK);
   ck_assert(!guide.sides);
   for (int k = 1; k < p.cord[0].n_passes; k++) {
     thr_way way = thr_guide_way(&guide, p.cord[0].half[k - 1], p.cord[0].half[k]);
@@ -548,17 +548,17 @@ START_TEST(broken_plans_are_refused)
   thr_err err = {0};
   int half = p.cord[0].half[2];
   p.cord[0].half[2] = half ^ 1;
-  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, 1, &t, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, 1, NULL, &t, &err), THR_EINPUT);
   assert_one_line(&err, "pass 3");
   p.cord[0].half[2] = 1000;
   err = (thr_err){0};
-  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, 1, &t, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, 1, NULL, &t, &err), THR_EINPUT);
   assert_one_line(&err, "edge 500");
   p.cord[0].half[2] = half;
   int n = p.n_cords;
   p.n_cords = 0;
   err = (thr_err){0};
-  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, 1, &t, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_steps_text(&p, NULL, 0, 1, NULL, &t, &err), THR_EINPUT);
   assert_one_line(&err, "no cord");
   ck_assert_uint_eq(t.length, 0);
   p.n_cords = n;
@@ -575,7 +575,7 @@ START_TEST(every_allocation_may_fail)
     thr_text t = {0};
     thr_err err = {0};
     thr_alloc_fail_at(k);
-    st = thr_steps_text(&p, NULL, 0, 1, &t, &err);
+    st = thr_steps_text(&p, NULL, 0, 1, NULL, &t, &err);
     thr_alloc_fail_at(0);
     if (st) {
       ck_assert_int_eq(st, THR_ENOMEM);

@@ -90,9 +90,9 @@ typedef enum { STEPS, CORDS, BEADS, CHANNELS, N_TABLES } kind;
 
 static thr_status make(const thr_plan *p, kind k, const char *const *motion, thr_text *t, thr_err *err)
 {
-  if (k == STEPS) return thr_table_steps(p, 0, 1, t, err);
-  if (k == CHANNELS) return thr_table_channels(p, 0, t, err);
-  return k == CORDS ? thr_table_cords(p, motion, t, err) : thr_table_beads(p, 0, t, err);
+  if (k == STEPS) return thr_table_steps(p, 0, 1, NULL, t, err);
+  if (k == CHANNELS) return thr_table_channels(p, 0, NULL, t, err);
+  return k == CORDS ? thr_table_cords(p, motion, NULL, t, err) : thr_table_beads(p, 0, NULL, t, err);
 }
 
 static csv table_of(const thr_plan *p, kind k, const char *const *motion)
@@ -352,7 +352,7 @@ START_TEST(two_needles_go_from_the_fold)
   thr_text t = {0};
   p.options.joint = rigid ? THR_JOINT_SOLID : THR_JOINT_TUBE;
   json_plan j = json_of(&p);
-  ck_assert_int_eq(thr_table_steps(&p, 0, 2, &t, NULL), THR_OK);
+  ck_assert_int_eq(thr_table_steps(&p, 0, 2, NULL, &t, NULL), THR_OK);
   csv c = csv_read(&t);
   for (int row = 1; row < c.n_rows;)
     row = judge_needles(&c, row, &j, rigid);

@@ -26,7 +26,7 @@ static thr_text page_of(const thr_plan *p, const char *const *motion)
 {
   thr_text t = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_viewer_html(p, motion, 0, 0, &t, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_viewer_html(p, motion, 0, 0, NULL, &t, &err) == THR_OK, "%s", err.text);
   return t;
 }
 
@@ -233,7 +233,7 @@ static void assert_refused(const thr_plan *p, const char *word)
   thr_text t = {0};
   thr_err err = {0};
   thr_text_append(&t, "kept");
-  ck_assert_int_eq(thr_viewer_html(p, NULL, 0, 0, &t, &err), THR_EINPUT);
+  ck_assert_int_eq(thr_viewer_html(p, NULL, 0, 0, NULL, &t, &err), THR_EINPUT);
   assert_one_line(&err, word);
   ck_assert_str_eq(t.data, "kept");
   thr_text_destroy(&t);
@@ -265,7 +265,7 @@ START_TEST(every_allocation_fails_once)
     thr_text t = {0};
     thr_err err = {0};
     thr_alloc_fail_at(++k);
-    st = thr_viewer_html(&p, NULL, 0, 0, &t, &err);
+    st = thr_viewer_html(&p, NULL, 0, 0, NULL, &t, &err);
     thr_alloc_fail_at(0);
     if (st) {
       ck_assert_msg(st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
