@@ -126,6 +126,7 @@ command_fails make dome --size 3 -o new.json
 command_fails info frame.json
 command_fails plan frame.json --ends feet -o new.json
 command_fails plan frame.json --ends feet --cords 2 --balance -o new.json
+command_fails plan frame.json --crossings forbid --cords 2 -o new.json
 command_fails plan frame.json --ends feet --engine lp -o new.json
 command_fails plan frame.json --ends feet --objective tortuosity -o new.json
 command_fails plan frame.json --ends feet --objective symmetry -o new.json
