@@ -1,6 +1,7 @@
 /* Options -> groups -> the best symmetric threading of each -> one of them -> plan. */
 #include "symmetry/symmetry.h"
 #include "graph/check/check.h"
+#include "graph/plan/reading.h"
 #include "lp/length/postman.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/cover/cover_options.h"
@@ -32,11 +33,13 @@ static int compare(double a, double b)
   return a < b - least ? -1 : a > b + least;
 }
 
-/* By learned steps (not if none is within the slack), the longest cord if it is an aim, cord, number of cords, turning. */
+/* By learned steps and what there is to read (not if none is within the slack), the longest cord if it is an aim, cord, number of
+ * cords, turning. */
 static bool is_better(const thr_symmetry_row *a, const thr_symmetry_row *b, bool within)
 {
   int by = within ? compare(a->record.steps, b->record.steps) : 0;
   if (!by) by = compare(a->longest, b->longest);
+  if (!by && within) by = (a->instructions > b->instructions) - (a->instructions < b->instructions);
   if (!by) by = compare(a->metrics.overlap, b->metrics.overlap);
   if (!by && !within) by = compare(a->record.steps, b->record.steps);
   if (!by) by = (a->n_cords > b->n_cords) - (a->n_cords < b->n_cords);
@@ -142,6 +145,9 @@ static thr_status take_plan(const thr_plan *plan, thr_symmetry_row *row, thr_err
   if (!st) st = thr_cords_alone(&plan->frame, &how, row->cord, row->n_cords, &row->record, err);
   if (st) return st;
   snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
+  thr_plan copied = *plan;
+  copied.symmetry = row->record;
+  row->instructions = thr_reading_of(&copied).instructions;
   row->metrics = plan->metrics;
   row->value[THR_AIM_OVERLAP] = plan->metrics.overlap;
   row->value[THR_AIM_STEPS] = row->record.steps;

@@ -34,7 +34,8 @@ static const char help[] =
     "      --json           as JSON\n" CLI_FRAME_HELP
     "  -q, --quiet          no notes and no progress       -v, --verbose  what the solver does       -h, --help\n\n"
     "* marks the default choice of thread plan --objective symmetry. A step, what is to be learned, is a pass of a unique\n"
-    "path or, with --ends any, an end of it.\n"
+    "path or, with --ends any, an end of it. Read: the instructions for that; beads straight on are one, and so is what\n"
+    "comes again turned, mirrored or moved along.\n"
     "Exit codes: 0 every row optimal by the solver's word, 2 usage, 3 bad input, 4 infeasible, 5 some rows not in\n"
     "time (table printed)\n";
 

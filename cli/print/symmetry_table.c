@@ -119,12 +119,13 @@ static void put_row(thr_text *text, const thr_request *options, const thr_symmet
                   *row->name ? row->name : "graph");
   if (row->n_cords > 0) {
     copies_of(row, copies);
-    thr_text_printf(text, "%7.1f %% %14s %8.6g %6d %8.0f deg %8.0f deg %12s %11s", 100 * metrics->overlap / metrics->base_length,
-                    copies, row->record.steps, row->n_cords, thr_degrees(metrics->turning), thr_degrees(metrics->max_turning),
+    thr_text_printf(text, "%7.1f %% %14s %8.6g %5d %6d %8.0f deg %8.0f deg %12s %11s",
+                    100 * metrics->overlap / metrics->base_length, copies, row->record.steps, row->instructions, row->n_cords,
+                    thr_degrees(metrics->turning), thr_degrees(metrics->max_turning),
                     plain_newtons(row_pull(options, row), force), solvers_word(options, row));
   } else {
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
-    thr_text_printf(text, "  %-89.89s", open ? row->why.text : row->why.code ? "no threading" : "not asked for");
+    thr_text_printf(text, "  %-95.95s", open ? row->why.text : row->why.code ? "no threading" : "not asked for");
   }
   thr_text_printf(text, " %8.3f  ", row->residual);
   put_kinds(text, row);
@@ -169,8 +170,9 @@ void symmetry_put_table(thr_text *text, const thr_request *options, const thr_sy
 {
   int first, last, behind = 0, at = 0;
   choose_window(options, symmetries, *options->symmetry.group ? symmetries->n : most, &first, &last);
-  thr_text_printf(text, "%6s %6s  %-6s %9s %14s %8s %6s %12s %12s %12s %11s %8s  %s\n", "number", "order", "group", "overlap",
-                  "paths x copies", "steps", "cords", "turning", "largest", "pull, N", "may be less", "residual", "elements");
+  thr_text_printf(text, "%6s %6s  %-6s %9s %14s %8s %5s %6s %12s %12s %12s %11s %8s  %s\n", "number", "order", "group", "overlap",
+                  "paths x copies", "steps", "read", "cords", "turning", "largest", "pull, N", "may be less", "residual",
+                  "elements");
   if (first > 0) thr_text_printf(text, "    ..  %d larger\n", first);
   for (int i = 0; i < symmetries->n; i++) {
     behind += symmetries->row[i].behind > 0;
@@ -222,6 +224,9 @@ static void put_reading(thr_text *text, const thr_plan *plan)
   if (reading.repeated > 0)
     thr_text_printf(text, ", %d %s the same again further on", reading.repeated,
                     cli_plural(reading.repeated, "path does", "paths do"));
+  if (reading.mapped > 0)
+    thr_text_printf(text, ", %d %s turned or mirrored", reading.mapped,
+                    cli_plural(reading.mapped, "path goes on as its beginning", "paths go on as their beginning"));
   if (reading.moved > 0)
     thr_text_printf(text, ", %d %s moved along", reading.moved, cli_plural(reading.moved, "path is another", "paths are others"));
   thr_text_append(text, "\n");
@@ -283,6 +288,7 @@ static void put_threading_json(thr_writer *writer, const thr_request *options, c
   thr_write_int(writer, "most_copies", row->most_copies);
   thr_write_int(writer, "cords", row->n_cords);
   thr_write_number(writer, "steps", row->record.steps);
+  thr_write_int(writer, "instructions", row->instructions);
   thr_write_number(writer, "turning", metrics->turning);
   thr_write_number(writer, "max_turning", metrics->max_turning);
   thr_write_number(writer, "max_capstan", turning_capstan(options->physics.mu, metrics->max_turning));
@@ -353,6 +359,7 @@ void symmetry_put_json(thr_writer *writer, const thr_plan *plan)
   const thr_reading reading = thr_reading_of(plan);
   thr_write_int(writer, "instructions", reading.instructions);
   thr_write_int(writer, "repeated_paths", reading.repeated);
+  thr_write_int(writer, "mapped_paths", reading.mapped);
   thr_write_int(writer, "moved_paths", reading.moved);
   thr_write_array(writer, "copies");
   for (int i = 0; i < plan->n_cords; i++) {

@@ -18,11 +18,13 @@ static const double THR_READING_NEAR = 0.05;
 typedef struct {
   int instructions; /* runs; ends that may be anywhere; one more for each path that repeats itself, or is repeated elsewhere */
   int repeated;     /* paths that repeat themselves: their first period is read */
+  int mapped;       /* paths that are images of a part of themselves under the plan's group: that part is read, up to where it is
+                       turned, or to the mirror */
   int moved;        /* unique paths that are an earlier one moved along, without a turn: not read */
 } thr_reading;
 
-/* Of the plan's unique paths, or of all its cords if it has no record of symmetry. O(passes^2) at worst for every path, and for
- * every two paths of as many passes. */
+/* Of the plan's unique paths, or of all its cords if it has no record of symmetry. O(passes^2) at worst for every path, for every
+ * two paths of as many passes, and for every generator and two copies of a path. */
 thr_reading thr_reading_of(const thr_plan *plan);
 
 #endif

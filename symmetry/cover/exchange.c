@@ -65,6 +65,7 @@ typedef struct visitor {
   double worth[THR_N_AIMS];
   bool better;
   /* trying */
+  bool level; /* only what turns no more */
   thr_status (*attempt)(void *user, thr_err *err);
   void *user;
 } visitor;
@@ -306,16 +307,17 @@ thr_status thr_programme_improve(const thr_programme *p, const thr_limits *limit
 
 static bool attempt(visitor *v, const exchange *x, thr_err *err, thr_status *st)
 {
+  if (v->level && x->turning > thr_programme_tolerance(v->p, THR_AIM_TURNING)) return true;
   apply(x, 1, v->value);
   *st = v->attempt(v->user, err);
   apply(x, -1, v->value);
   return !*st;
 }
 
-thr_status thr_programme_attempt(const thr_programme *p, int *value, thr_status (*attempt_one)(void *user, thr_err *err),
-                                 void *user, thr_err *err)
+thr_status thr_programme_attempt(const thr_programme *p, int *value, bool level,
+                                 thr_status (*attempt_one)(void *user, thr_err *err), void *user, thr_err *err)
 {
-  visitor v = {.visit = attempt, .p = p, .value = value, .attempt = attempt_one, .user = user};
+  visitor v = {.visit = attempt, .p = p, .value = value, .level = level, .attempt = attempt_one, .user = user};
   thr_status st = visitor_init(&v, err);
   for (int y = 0; y < p->q->n_pairs && !st; y++)
     if (value[p->first_pair + y] > 0) st = visit_turn(&v, y, err);

@@ -99,9 +99,10 @@ thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err) 
 /* Where every cord is open: two ends instead of a turn, in every set without ends that has a node where ends may be. */
 thr_status thr_programme_open(const thr_programme *p, int *value, thr_err *err) THR_MUST_CHECK;
 
-/* Calls attempt with value after each exchange that leaves what is tied so; which is then taken back. */
-thr_status thr_programme_attempt(const thr_programme *p, int *value, thr_status (*attempt)(void *user, thr_err *err), void *user,
-                                 thr_err *err) THR_MUST_CHECK;
+/* Calls attempt with value after each exchange that leaves what is tied so (level: and turns no more); which is then taken
+ * back. */
+thr_status thr_programme_attempt(const thr_programme *p, int *value, bool level, thr_status (*attempt)(void *user, thr_err *err),
+                                 void *user, thr_err *err) THR_MUST_CHECK;
 
 /* Exchanges that make a valid solution better in the aims' order, until there is none or the limits stop it. */
 thr_status thr_programme_improve(const thr_programme *p, const thr_limits *limits, int *value, thr_err *err) THR_MUST_CHECK;

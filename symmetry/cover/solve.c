@@ -8,6 +8,7 @@
 #include "symmetry/group/group.h"
 #include "symmetry/group/quotient.h"
 #include "symmetry/lift/keep.h"
+#include "symmetry/lift/legible.h"
 
 #include <limits.h>
 #include <math.h>
@@ -131,6 +132,17 @@ static thr_status refuse(const thr_frame *frame, thr_symmetry_row *row, thr_err 
                   frame->units);
 }
 
+/* Fewer instructions for the same aims. */
+static thr_status make_legible(const solver *s, const thr_quotient *quotient, const thr_limits *limits, thr_cover *c,
+                               thr_symmetry_row *row, thr_err *err)
+{
+  thr_threading threading = {row->cord, row->n_cords, row->record};
+  thr_status st = thr_legible_cords(quotient, &s->how, s->o, limits, c, &threading, &row->instructions, err);
+  row->cord = threading.cord;
+  row->record = threading.record;
+  return st;
+}
+
 /* The cords of a cover, which becomes that of other cords where those do not keep to what is asked of them. */
 static thr_status make_cords(const solver *s, const thr_quotient *quotient, const thr_limits *limits, thr_cover *c,
                              thr_symmetry_row *row, thr_err *err)
@@ -142,6 +154,7 @@ static thr_status make_cords(const solver *s, const thr_quotient *quotient, cons
   memcpy(row->value, c->value, sizeof row->value);
   memcpy(row->bound, c->bound, sizeof row->bound);
   if (!st && !kept) st = refuse(quotient->f, row, err);
+  if (!st) st = make_legible(s, quotient, limits, c, row, err);
   if (st) return st;
   snprintf(row->record.name, sizeof row->record.name, "%s", row->name);
   st = count_copies(row, err);
@@ -308,8 +321,7 @@ static bool is_ahead(const solver *s, const standing *a, const standing *b)
   const double within = overlap_within(s), same = 1e-8 * fmax(1, s->base);
   if (thr_wants_balance(s->o)) return a->even && a->overlap <= within && b->least_steps > a->steps + 1e-6;
   if (a->overlap > within) return b->least_overlap > a->overlap + same;
-  if (b->least_overlap > within + same || b->least_steps > a->steps + 1e-6) return true;
-  return b->least_steps > a->steps - 1e-6 && b->least_overlap > a->overlap + same;
+  return b->least_overlap > within + same || b->least_steps > a->steps + 1e-6;
 }
 
 /* The row that is sure to be chosen rather than this one, -1 = none; made: only one with a plan counts, no bare cover. */

@@ -223,7 +223,7 @@ static bool can_swap(const keeper *k, int y, int sign)
 
 static thr_status attempt_all(keeper *k, thr_err *err)
 {
-  thr_status st = thr_programme_attempt(&k->p, k->value, attempt, k, err);
+  thr_status st = thr_programme_attempt(&k->p, k->value, false, attempt, k, err);
   for (int i = 0; i < 2 * k->q->n_pairs && !st; i++) {
     int sign = i % 2 ? -1 : 1;
     if (!can_swap(k, i / 2, sign)) continue;

@@ -31,7 +31,7 @@ static void go(sketch *s, double x, double y)
   s->last[s->n_cords - 1] = s->n++;
 }
 
-static thr_reading read_sketch(const sketch *s, thr_ends ends)
+static thr_reading read_with(const sketch *s, thr_ends ends, const thr_symmetry_record *record)
 {
   int edge[MOST_NODES][2], half[MOST_NODES], m = 0;
   thr_cord cord[MOST_CORDS] = {0};
@@ -53,6 +53,7 @@ static thr_reading read_sketch(const sketch *s, thr_ends ends)
     half[i] += p.frame.edge[half[i] >> 1][0] != edge[i][0];
   p.cord = cord;
   p.n_cords = s->n_cords;
+  if (record) p.symmetry = *record;
   const thr_reading out = thr_reading_of(&p);
   thr_frame_destroy(&p.frame);
   return out;
@@ -60,7 +61,7 @@ static thr_reading read_sketch(const sketch *s, thr_ends ends)
 
 static void assert_reads(const sketch *s, thr_ends ends, int instructions, int repeated, int moved)
 {
-  const thr_reading r = read_sketch(s, ends);
+  const thr_reading r = read_with(s, ends, NULL);
   ck_assert_msg(r.instructions == instructions && r.repeated == repeated && r.moved == moved, "%d instructions, %d, %d",
                 r.instructions, r.repeated, r.moved);
 }
@@ -153,6 +154,95 @@ START_TEST(what_is_moved_along_is_not_read_again)
 }
 END_TEST
 
+/* ---- paths that a group maps to themselves ---- */
+
+static thr_reading read_with_group(const sketch *s, thr_ends ends, int n_generators, const int *generator, int n_images,
+                                   const int *image, int *unique, int *element)
+{
+  const thr_symmetry_record record = {.present = true,
+                                      .n_generators = n_generators,
+                                      .generator = (int *)generator,
+                                      .n_images = n_images,
+                                      .image = (int *)image,
+                                      .unique = unique,
+                                      .element = element};
+  return read_with(s, ends, &record);
+}
+
+static void star_ring(sketch *s, double x, int tips)
+{
+  begin(s, true);
+  for (int i = 0; i < 2 * tips; i++) {
+    const double radius = i % 2 ? 1 : 2, angle = 12 * THR_STRAIGHT * i / tips;
+    go(s, x + radius * cos(angle), radius * sin(angle));
+  }
+}
+
+/* A star of six tips: turned, tip and valley are read; mirrored, one edge. Without a group all twelve. */
+START_TEST(a_star_is_read_for_one_tip)
+{
+  enum { N = 12 };
+  sketch s = {0};
+  int generator[2 * N], identity[N], unique[] = {0}, element[] = {0};
+  star_ring(&s, 0, N / 2);
+  for (int v = 0; v < N; v++) {
+    generator[v] = (v + 2) % N;
+    generator[N + v] = (N - v) % N;
+    identity[v] = v;
+  }
+  assert_reads(&s, THR_ENDS_CLOSED, N, 0, 0);
+  thr_reading r = read_with_group(&s, THR_ENDS_CLOSED, 1, generator, 1, identity, unique, element);
+  ck_assert_msg(r.instructions == 3 && r.mapped == 1, "%d", r.instructions);
+  r = read_with_group(&s, THR_ENDS_CLOSED, 2, generator, 1, identity, unique, element);
+  ck_assert_msg(r.instructions == 2 && r.mapped == 1, "%d", r.instructions);
+  r = read_with_group(&s, THR_ENDS_CLOSED, 1, generator + N, 1, identity, unique,
+                      element); /* five tips and valleys between mirrors */
+  ck_assert_msg(r.instructions == 7 && r.mapped == 1, "%d", r.instructions);
+}
+END_TEST
+
+/* Two stars, and one element that takes the first to the second and, turned by a tip, back: only doing it twice maps a star to
+ * itself. */
+START_TEST(what_turns_a_path_may_go_by_its_copy)
+{
+  enum { N = 12 };
+  sketch s = {0};
+  int generator[2 * N], image[4 * N], unique[] = {0, 0}, element[] = {0, 1};
+  star_ring(&s, 0, N / 2);
+  star_ring(&s, 10, N / 2);
+  for (int v = 0; v < N; v++) {
+    generator[v] = N + v;
+    generator[N + v] = (v + 4) % N;
+  }
+  for (int v = 0; v < 2 * N; v++) {
+    image[v] = v;
+    image[2 * N + v] = generator[v];
+  }
+  const thr_reading r = read_with_group(&s, THR_ENDS_CLOSED, 1, generator, 2, image, unique, element);
+  ck_assert_msg(r.instructions == 5 && r.mapped == 1 && r.moved == 0, "%d", r.instructions);
+}
+END_TEST
+
+/* A zigzag of six passes and five turns, mirrored at its middle: three passes and "back as you came"; of two ends one. */
+START_TEST(an_open_path_is_read_to_its_middle)
+{
+  enum { N = 7 };
+  sketch s = {0};
+  int generator[N], identity[N], unique[] = {0}, element[] = {0};
+  static const double y[N] = {0, 1, 0.5, 2, 0.5, 1, 0};
+  begin(&s, false);
+  for (int v = 0; v < N; v++) {
+    go(&s, v, y[v]);
+    generator[v] = N - 1 - v;
+    identity[v] = v;
+  }
+  assert_reads(&s, THR_ENDS_ANY, 8, 0, 0);
+  const thr_reading feet = read_with_group(&s, THR_ENDS_FEET, 1, generator, 1, identity, unique, element),
+                    any = read_with_group(&s, THR_ENDS_ANY, 1, generator, 1, identity, unique, element);
+  ck_assert_msg(feet.instructions == 4 && any.instructions == 5, "%d, %d", feet.instructions, any.instructions);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("reading");
@@ -160,5 +250,8 @@ int main(void)
   ADD_TEST(s, 10, rings_are_read_once_round);
   ADD_TEST(s, 10, what_repeats_is_read_once);
   ADD_TEST(s, 10, what_is_moved_along_is_not_read_again);
+  ADD_TEST(s, 10, a_star_is_read_for_one_tip);
+  ADD_TEST(s, 10, what_turns_a_path_may_go_by_its_copy);
+  ADD_TEST(s, 10, an_open_path_is_read_to_its_middle);
   return run_suite(s);
 }
