@@ -418,3 +418,23 @@ void walks_one_more(const walks_piece *w, walks_weights weights, double limit, c
     walk(&x, in);
   free(x.at);
 }
+
+double walks_least_length(const thr_frame *f, const thr_request *o, int cords)
+{
+  const walks_weights by = {1, 0};
+  walks_piece w;
+  ck_assert(walks_piece_init(&w, f, o, 0, BACK_ANYWHERE, o->turning.cost, INFINITY, 100000));
+  double *in = calloc((size_t)w.n_states, sizeof *in), *out = calloc((size_t)w.n_states, sizeof *out);
+  ck_assert(in && out);
+  walks_begin(&w, in);
+  for (int n = 0; n < cords; n++) {
+    double *swap = in;
+    walks_one_more(&w, by, -1, in, out);
+    in = out;
+    out = swap;
+  }
+  const double least = walks_least(&w, in);
+  free(in);
+  free(out);
+  return least;
+}

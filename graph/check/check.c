@@ -1,8 +1,10 @@
 /* The checker. Nothing here trusts what a plan says about itself. With the code that makes plans it shares the framework, the
  * readers, and the one line that defines the weights (thr_certificate_weight). */
 #include "graph/check/check_parts.h"
+#include "graph/check/few_edges.h"
 #include "graph/plan/distinct_needs.h"
 #include "graph/plan/junction.h"
+#include "graph/scratch.h"
 #include "graph/vector.h"
 #include "graph/plan/channels.h"
 
@@ -234,25 +236,50 @@ static double length_of(const thr_frame *frame, const int *passes)
   return sum;
 }
 
-static double base_length_of(const thr_frame *frame, const thr_request *options)
+/* Least length of the cords of each component by what their edges need and the verdicts: least[n_components], and of the passes
+ * themselves, own[n_components]. */
+static void take_verdicts(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
+                          const thr_check_verdict *verdict, double *least, double *own)
 {
-  double sum = 0;
-  for (int e = 0; e < frame->n_edges; e++)
-    sum += thr_plan_cover(frame, options, e) * frame->length[e];
-  return sum;
+  for (int k = 0; k < check_walked->n_components; k++) {
+    least[k] = verdict[k].extra;
+    own[k] = 0;
+  }
+  for (int e = 0; e < frame->n_edges; e++) {
+    const int k = check_walked->component[frame->edge[e][0]];
+    least[k] += thr_plan_cover(frame, options, e) * frame->length[e];
+    own[k] += check_walked->passes[e] * frame->length[e];
+  }
 }
 
-/* What the verdicts prove of passes with this length. */
-static void sum_verdicts(const thr_frame *frame, const thr_request *options, const thr_check_verdict *verdict, int n,
-                         double length, bool *optimal, double *lower_bound)
+/* What the verdicts prove of passes with this length; and, of cords, what all sets of few edges do. Not where the length is
+ * limited to a part above the least, which is then that of the certificates. */
+static thr_status sum_verdicts(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
+                               bool of_cords, const thr_check_verdict *verdict, double length, bool *optimal, double *lower_bound,
+                               thr_err *err)
 {
-  double extra = 0;
+  const int n = check_walked->n_components;
+  const bool slack = thr_wants_turning(options) && options->turning.length_slack >= 0;
+  thr_scratch scratch = {0};
+  double *least = thr_scratch_array(&scratch, (size_t)n, sizeof *least),
+         *own = thr_scratch_array(&scratch, (size_t)n, sizeof *own), *few = thr_scratch_array(&scratch, (size_t)n, sizeof *few),
+         sum = 0;
+  thr_status st = thr_scratch_check(&scratch, err);
   *optimal = true;
-  for (int i = 0; i < n; i++) {
-    *optimal &= verdict[i].optimal;
-    extra += verdict[i].extra;
+  for (int k = 0; k < n && !st; k++)
+    *optimal &= verdict[k].optimal;
+  if (!st) take_verdicts(frame, options, check_walked, verdict, least, own);
+  if (!st && !*optimal && of_cords && !slack)
+    st = thr_few_edges_lengths(frame, options, check_walked->component, n,
+                               thr_check_fewest_first(options) ? check_walked->cords : NULL, few, err);
+  *optimal = true;
+  for (int k = 0; k < n && !st; k++) {
+    *optimal &= verdict[k].optimal || few[k] >= own[k] * (1 - 1e-9);
+    sum += fmax(least[k], few[k]);
   }
-  *lower_bound = *optimal ? length : fmin(length, base_length_of(frame, options) + extra);
+  *lower_bound = *optimal ? length : fmin(length, sum);
+  thr_scratch_free(&scratch);
+  return st;
 }
 
 /* Verifies the certificates for passes that were checked already. *verdict is for the caller to free; NULL on failure. */
@@ -269,14 +296,14 @@ static thr_status judge_certificates(const thr_frame *frame, const thr_request *
   return st;
 }
 
-/* For passes of this length. */
+/* For passes of this length, or cords. */
 static thr_status check_proof(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
-                              double length, const thr_certificate *certificate, int n, bool *optimal, double *lower_bound,
-                              thr_err *err)
+                              bool of_cords, double length, const thr_certificate *certificate, int n, bool *optimal,
+                              double *lower_bound, thr_err *err)
 {
   thr_check_verdict *verdict;
   thr_status st = judge_certificates(frame, options, check_walked, certificate, n, &verdict, err);
-  if (!st) sum_verdicts(frame, options, verdict, n, length, optimal, lower_bound);
+  if (!st) st = sum_verdicts(frame, options, check_walked, of_cords, verdict, length, optimal, lower_bound, err);
   free(verdict);
   return st;
 }
@@ -291,7 +318,7 @@ thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *opt
   if (!st) st = check_cord_count(&check_walked, options, err);
   for (int i = 0; i < n_cords; i++)
     length += thr_cord_length(frame, &cord[i]);
-  if (!st) st = check_proof(frame, options, &check_walked, length, certificate, n_certificates, optimal, lower_bound, err);
+  if (!st) st = check_proof(frame, options, &check_walked, true, length, certificate, n_certificates, optimal, lower_bound, err);
   walked_destroy(&check_walked);
   return st;
 }
@@ -370,8 +397,8 @@ thr_status thr_check_length_of_passes(const thr_frame *frame, const thr_request 
   memcpy(check_walked.passes, passes, (size_t)frame->n_edges * sizeof *passes);
   st = check_passes(frame, options, &check_walked, err);
   if (!st)
-    st = check_proof(frame, options, &check_walked, length_of(frame, check_walked.passes), certificate, n_certificates, optimal,
-                     lower_bound, err);
+    st = check_proof(frame, options, &check_walked, false, length_of(frame, check_walked.passes), certificate, n_certificates,
+                     optimal, lower_bound, err);
   walked_destroy(&check_walked);
   return st;
 }
@@ -462,7 +489,8 @@ static thr_status check_length_claim(const thr_plan *plan, const thr_check_walke
                       length);
     optimal = thr_check_close(lower_bound, length, length);
   } else {
-    sum_verdicts(&plan->frame, &plan->options, verdict, check_walked->n_components, length, &optimal, &lower_bound);
+    thr_status st = sum_verdicts(&plan->frame, &plan->options, check_walked, true, verdict, length, &optimal, &lower_bound, err);
+    if (st) return st;
   }
   *proved = lower_bound;
   if (!claim->slack_open && !thr_plan_within_slack(&plan->options, length, lower_bound))

@@ -344,6 +344,36 @@ void thr_few_edges_cords(const thr_frame *frame, const thr_request *options, con
   *least = *most = ends / 2;
 }
 
+/* Edges of each component. */
+static thr_status count_all_edges(const thr_frame *frame, const int *component, int n_components, int **edges, thr_err *err)
+{
+  if (!(*edges = thr_calloc((size_t)n_components, sizeof **edges))) return thr_nomem(err);
+  for (int e = 0; e < frame->n_edges; e++)
+    (*edges)[component[frame->edge[e][0]]]++;
+  return THR_OK;
+}
+
+thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *options, const int *component, int n_components,
+                                 const int *cords, double *least, thr_err *err)
+{
+  int sets = THR_FEW_SETS, *edges = NULL;
+  thr_status st = count_all_edges(frame, component, n_components, &edges, err);
+  for (int c = 0; c < n_components && !st; c++) {
+    thr_few_edges few = {0};
+    int from, to;
+    least[c] = 0;
+    if (edges[c] > THR_FEW_SUMMED) continue;
+    thr_few_edges_cords(frame, options, component, c, &from, &to);
+    if (cords) to = cords[c];
+    if (to > 1) st = thr_few_edges_init(&few, frame, options, component, c, false, INFINITY, sets, err);
+    if (few.n > 0) sets -= 1 << few.n;
+    if (!st && few.n > 0) st = thr_few_edges_sum(&few, from, to, &least[c], err);
+    thr_few_edges_destroy(&few);
+  }
+  free(edges);
+  return st;
+}
+
 thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *options, double limit, double *sum, double *dearest,
                                 thr_err *err)
 {

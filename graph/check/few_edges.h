@@ -49,6 +49,12 @@ thr_status thr_few_edges_sum(const thr_few_edges *few, int least, int most, doub
 void thr_few_edges_cords(const thr_frame *frame, const thr_request *options, const int *component, int number, int *least,
                          int *most);
 
+/* Least length of all cords of each component together, least[components]; 0 of those that may have one cord only, have more than
+ * THR_FEW_SUMMED edges, or come when the sets are used up. cords[components]: at most as many as these, NULL: as the options
+ * allow. */
+thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *options, const int *component, int n_components,
+                                 const int *cords, double *least, thr_err *err) THR_MUST_CHECK;
+
 /* By the price of turns, for the components of a framework, as many cords in each as the options allow. *sum: in all, 0 if there
  * are too many edges; *dearest: of the dearest cord in any component of few edges, INFINITY above limit. Components that may have
  * one cord only, and those for which the sets of the ones before leave no room (THR_FEW_SETS), count as large. */

@@ -12,6 +12,7 @@
 #include "tests/plans.h"
 #include "tests/support.h"
 #include "tests/truth.h"
+#include "tests/walks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -121,11 +122,35 @@ START_TEST(larger_ones_are_those_of_the_planner)
 }
 END_TEST
 
+/* As many cords as there are edges and more, closed or not: all plans are proved, and truly the shortest. */
+START_TEST(lengths_of_many_cords_are_proved)
+{
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  rng r = rng_make((uint64_t)_i + 500);
+  for (int i = 0; i < 3; i++) {
+    thr_frame f = random_frame(&r, rng_between(&r, 2, 5), rng_below(&r, 4), (length_kind)rng_below(&r, LENGTH_KINDS));
+    thr_request o = options_for(ends[i], 1);
+    thr_plan p;
+    o.cords = o.cords_least = rng_between(&r, 2, f.n_edges + 3);
+    if (f.n_edges <= WALKS_EDGES) {
+      const double least = walks_least_length(&f, &o, o.cords);
+      ck_assert_int_eq(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, NULL), THR_OK);
+      ck_assert(p.proof.optimal && p.n_cords == o.cords);
+      ck_assert_double_eq_tol(p.metrics.length, least, 1e-9 * least);
+      assert_holds(&p);
+      thr_plan_destroy(&p);
+    }
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("few edges");
   ADD_EXAMPLES(s, 60, tables_are_true, 300);
   ADD_EXAMPLES(s, 60, larger_ones_are_those_of_the_planner, 30);
   ADD_TEST(s, 20, bounds_are_of_all_pieces);
+  ADD_EXAMPLES(s, 60, lengths_of_many_cords_are_proved, 40);
   return run_suite(s);
 }
