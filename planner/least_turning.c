@@ -9,6 +9,7 @@
 #include "planner/make_plan.h"
 #include "planner/planners.h"
 #include "symmetry/group/isometry.h"
+#include "tortuosity/cords/maxturn.h"
 #include "tortuosity/proof/least.h"
 #include "tortuosity/tie/tube.h"
 #include "tortuosity/tour/baseline.h"
@@ -183,14 +184,17 @@ static thr_status find_starts(const thr_frame *frame, const thr_request *options
 }
 
 /* Small frameworks do not hold many closed cords within the most passes that are looked at otherwise: a path of four edges holds
- * four within 8 passes over an edge. Two passes over every edge hold one, so twice as many as cords hold them all. */
+ * four within 8 passes over an edge. Two passes over every edge hold one, so twice as many as cords hold them all; of more cords
+ * than edges the best may be many over one edge. */
 static thr_status find_with_room(const thr_frame *frame, const thr_request *options, thr_least_options *lo,
                                  const thr_limits *limits, thr_least *least, thr_err *err)
 {
   const int room = 2 * lo->cords, usual = thr_turning_most_passes(frame, lo->cover);
+  const bool more = options->ends == THR_ENDS_CLOSED && room > (lo->most_passes > 0 ? lo->most_passes : usual);
   thr_err why = {0};
+  if (more && lo->cords > frame->n_edges) lo->most_passes = room;
   thr_status st = find_least(frame, lo, limits, least, &why);
-  if (st == THR_EINFEASIBLE && options->ends == THR_ENDS_CLOSED && room > (lo->most_passes > 0 ? lo->most_passes : usual)) {
+  if (st == THR_EINFEASIBLE && more && lo->most_passes != room) {
     lo->most_passes = room;
     return find_least(frame, lo, limits, least, err);
   }
@@ -217,13 +221,29 @@ static thr_status find_from_shortest(const thr_frame *frame, const thr_request *
   return st;
 }
 
+/* The least turning of all cords together; of several closed ones through few edges the table knows it. */
+static thr_status find_together(const thr_frame *frame, const thr_request *options, const shortest_plan *s,
+                                const thr_limits *limits, thr_least *least, thr_err *err)
+{
+  thr_err why = {0};
+  const thr_status st = find_from_shortest(frame, options, s, limits, least, &why);
+  if (st == THR_ELIMIT && least->n_cords > 1 && options->ends == THR_ENDS_CLOSED) {
+    const thr_status made = thr_least_turning_small(frame, limits, least, err);
+    if (made) {
+      thr_least_destroy(least);
+      return made;
+    }
+  }
+  return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
 static thr_status find_cords(const thr_frame *frame, const thr_request *options, const shortest_plan *s, const thr_plan *seed,
                              const thr_limits *limits, thr_least *least, thr_err *err)
 {
   const thr_least_options lo = search_options(options);
   if (options->turning.tour != THR_TOUR_LEAST)
     return thr_baseline_tour(frame, &lo, options->turning.tour, options->turning.ignore_pairings, s->solid.passes, least, err);
-  if (!thr_wants_largest(options)) return find_from_shortest(frame, options, s, limits, least, err);
+  if (!thr_wants_largest(options)) return find_together(frame, options, s, limits, least, err);
   const double enough = options->max_pull > 0 ? thr_request_most_turning(options) : 0;
   const thr_limits first = thr_dispatch_share(limits, THR_STEP_LEAST);
   thr_status st = find_from_shortest(frame, options, s, &first, least, err);

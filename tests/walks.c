@@ -419,11 +419,11 @@ void walks_one_more(const walks_piece *w, walks_weights weights, double limit, c
   free(x.at);
 }
 
-double walks_least_length(const thr_frame *f, const thr_request *o, int cords)
+double walks_least_of(const thr_frame *f, const thr_request *o, int cords, walks_weights by)
 {
-  const walks_weights by = {1, 0};
   walks_piece w;
-  ck_assert(walks_piece_init(&w, f, o, 0, BACK_ANYWHERE, o->turning.cost, INFINITY, 100000));
+  const walks_back back = by.turn > 0 ? BACK_AT_LEAVES : BACK_ANYWHERE;
+  ck_assert(walks_piece_init(&w, f, o, 0, back, o->turning.cost, INFINITY, 100000));
   double *in = calloc((size_t)w.n_states, sizeof *in), *out = calloc((size_t)w.n_states, sizeof *out);
   ck_assert(in && out);
   walks_begin(&w, in);

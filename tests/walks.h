@@ -57,8 +57,8 @@ double walks_length(const walks_piece *w, long state); /* of the passes counted 
 /* Least of the complete states; INFINITY: none. */
 double walks_least(const walks_piece *w, const double *cost);
 
-/* Least length of just so many cords through a framework of one piece. */
-double walks_least_length(const thr_frame *f, const thr_request *o, int cords);
+/* Of just so many cords through a framework of one piece; they turn back anywhere, or where turning counts at leaves. */
+double walks_least_of(const thr_frame *f, const thr_request *o, int cords, walks_weights weights);
 
 /* What the turn from half-edge in to out of the framework costs, as docs/plan-format.md has it. */
 double walks_price(const thr_frame *f, thr_turn_cost cost, int in, int out);

@@ -8,6 +8,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "graph/threading/small_cords.h"
+#include "planner/least_turning.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"
@@ -133,7 +134,7 @@ START_TEST(lengths_of_many_cords_are_proved)
     thr_plan p;
     o.cords = o.cords_least = rng_between(&r, 2, f.n_edges + 3);
     if (f.n_edges <= WALKS_EDGES) {
-      const double least = walks_least_length(&f, &o, o.cords);
+      const double least = walks_least_of(&f, &o, o.cords, (walks_weights){.length = 1});
       ck_assert_int_eq(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, NULL), THR_OK);
       ck_assert(p.proof.optimal && p.n_cords == o.cords);
       ck_assert_double_eq_tol(p.metrics.length, least, 1e-9 * least);
@@ -145,6 +146,26 @@ START_TEST(lengths_of_many_cords_are_proved)
 }
 END_TEST
 
+START_TEST(turning_of_many_closed_cords_is_proved)
+{
+  rng r = rng_make((uint64_t)_i + 900);
+  thr_frame f = random_frame(&r, rng_between(&r, 2, 5), rng_below(&r, 4), LENGTHS_EUCLID);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
+  thr_plan p;
+  want(&o, "turning");
+  o.cords = o.cords_least = rng_between(&r, 2, f.n_edges + 3);
+  if (f.n_edges <= WALKS_EDGES) {
+    const double least = walks_least_of(&f, &o, o.cords, (walks_weights){.turn = 1});
+    const thr_status st = thr_tortuosity_plan(&f, &o, &(thr_limits){0}, &p, NULL);
+    ck_assert(st == THR_OK && p.turning.optimal && p.n_cords == o.cords);
+    ck_assert_double_eq_tol(p.turning.price, least, 1e-9 * least);
+    assert_holds(&p);
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("few edges");
@@ -152,5 +173,6 @@ int main(void)
   ADD_EXAMPLES(s, 60, larger_ones_are_those_of_the_planner, 30);
   ADD_TEST(s, 20, bounds_are_of_all_pieces);
   ADD_EXAMPLES(s, 60, lengths_of_many_cords_are_proved, 40);
+  ADD_EXAMPLES(s, 60, turning_of_many_closed_cords_is_proved, 60);
   return run_suite(s);
 }

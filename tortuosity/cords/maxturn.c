@@ -360,7 +360,7 @@ static thr_status find_cords(search *x, const thr_frame *frame, thr_least *plan,
   thr_status st = THR_OK;
   if (x->enough > 0 && x->bound > x->enough) return THR_OK;
   if (x->bound < x->scale * (1 - 1e-9))
-    st = thr_max_turning_small(x->c, plan->cord, plan->n_cords, x->limits, &x->best, &found, err);
+    st = thr_max_turning_small(x->c, plan->cord, plan->n_cords, true, x->limits, &x->best, &found, err);
   if (!st && !found) st = run(x, err);
   return st ? st : keep_best(x, frame, plan, err);
 }
@@ -441,4 +441,18 @@ thr_status thr_max_turning_walks(const thr_frame *frame, double enough, const th
                                  thr_max_turning *out, thr_err *err)
 {
   return improve(use_walks, frame, enough, limits, plan, out, err);
+}
+
+/* Cords from the table that turn least together. */
+static thr_status use_table(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
+{
+  bool found = false;
+  thr_status st = thr_max_turning_small(x->c, plan->cord, plan->n_cords, false, x->limits, &x->best, &found, err);
+  return st || !found ? st : keep_best(x, frame, plan, err);
+}
+
+thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits, thr_least *plan, thr_err *err)
+{
+  thr_max_turning out = {0};
+  return improve(use_table, frame, 0, limits, plan, &out, err);
 }

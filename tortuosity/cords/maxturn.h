@@ -35,4 +35,8 @@ thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const 
 thr_status thr_max_turning_walks(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
                                  thr_max_turning *out, thr_err *err) THR_MUST_CHECK;
 
+/* Cords of small components that turn least together, where the plan's turn more: exactly, as thr_max_turning_improve does it. */
+thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits, thr_least *plan,
+                                   thr_err *err) THR_MUST_CHECK;
+
 #endif

@@ -53,9 +53,9 @@ static thr_status table_init(table *x, const thr_turning_columns *turning_column
   return thr_components_init(&x->parts, turning_columns->f, &x->o, err);
 }
 
-static thr_status improve_component(table *x, int k, const thr_limits *limits, bool *certain, thr_err *err)
+static thr_status improve_component(table *x, int k, bool even, const thr_limits *limits, bool *certain, thr_err *err)
 {
-  thr_small_ask ask = {.turning = true, .even = true, .limit = INFINITY};
+  thr_small_ask ask = {.turning = true, .even = even, .limit = INFINITY};
   for (int i = 0; i < x->n_cords; i++) {
     if (x->cord[i].component != k) continue;
     const double price = thr_cord_price(x->c->f, &x->o, &x->cord[i]);
@@ -97,7 +97,7 @@ static thr_status keep_limits(const table *x, bool *keep, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords,
+thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords, bool even,
                                  const thr_limits *limits, thr_join *j, bool *found, thr_err *err)
 {
   table x;
@@ -105,7 +105,7 @@ thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, con
   *found = true;
   thr_status st = table_init(&x, turning_columns, cord, n_cords, err);
   for (int k = 0; k < turning_columns->n_components && !st && *found; k++)
-    st = improve_component(&x, k, limits, found, err);
+    st = improve_component(&x, k, even, limits, found, err);
   if (!st && *found) st = keep_limits(&x, found, err);
   if (!st && *found) st = thr_join_from_cords(&new, turning_columns, x.cord, n_cords, err);
   if (!st && *found) {
