@@ -70,7 +70,8 @@ static thr_status put_all(const embossed *l, thr_text *svg, thr_err *err)
            l->height < PRINTED ? ": fine for engraving; few printers raise letters below 3 mm" : "");
   thr_svg_open(svg, APART + columns * step[0], APART + rows * step[1], "Names of the pieces, to emboss", words);
   for (int i = 0; i < l->pieces.n; i++) {
-    const double at[2] = {APART + i % columns * step[0], (1 + i / columns) * step[1]};
+    const int row = i / columns;
+    const double at[2] = {APART + i % columns * step[0], (1 + row) * step[1]};
     thr_text name;
     thr_status st = name_of(l, i, &name, err);
     if (st) return st;
