@@ -7,13 +7,14 @@
 
 #include <stdlib.h>
 
-enum { BATCH = 32 }; /* pages drawn at a time */
+enum { BATCH = 32, BYTES = 32 << 20 }; /* pages drawn at a time, and of what size */
 
 struct thr_pages {
   thr_pdf *pdf;
   const char *name;
   const thr_limits *limits;
   int n, drawn; /* pages that wait; drawn before them */
+  size_t bytes; /* of those that wait */
   int page[BATCH];
   thr_text svg[BATCH];
   thr_leaf leaf[BATCH];
@@ -42,6 +43,7 @@ static void empty(thr_pages *pages)
   }
   pages->drawn += pages->n;
   pages->n = 0;
+  pages->bytes = 0;
 }
 
 void thr_pages_destroy(thr_pages *pages)
@@ -77,8 +79,9 @@ thr_status thr_pages_add(thr_pages *pages, int page, thr_text *svg, thr_err *err
 {
   pages->page[pages->n] = page;
   pages->svg[pages->n++] = *svg;
+  pages->bytes += svg->length;
   *svg = (thr_text){0};
-  return pages->n == BATCH ? draw(pages, err) : THR_OK;
+  return pages->n == BATCH || pages->bytes > BYTES ? draw(pages, err) : THR_OK;
 }
 
 thr_status thr_pages_close(thr_pages *pages, bool last_first, thr_text *out, thr_err *err)

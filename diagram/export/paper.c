@@ -27,8 +27,10 @@ struct thr_paper {
   thr_text out, path;   /* path: that which grows; states may not change inside one, so that they are written before it */
   const thr_font *font; /* [THR_FACES], borrowed */
   state open[DEPTH];
-  int depth;   /* of the state that holds */
-  thr_box box; /* around the path that grows */
+  int depth;           /* of the state that holds */
+  thr_box box;         /* around the path that grows */
+  double pen[2], trim; /* where it is; so much around its parts, the rest of which is clipped away, is drawn; < 0: all is */
+  bool lifted;         /* the pen: what came before is left out */
   thr_paper_needs needs;
 };
 
@@ -84,6 +86,7 @@ thr_status thr_paper_open(thr_paper **out, const double size[2], const thr_font 
   const double upright[6] = {1 / POINT, 0, 0, -1 / POINT, 0, size[1] / POINT};
   paper->font = font;
   paper->box = nowhere;
+  paper->trim = -1;
   paper->open[0] = (state){.shown = {-HUGE_VAL, -HUGE_VAL, HUGE_VAL, HUGE_VAL},
                            .fill = {-1},
                            .stroke = {-1},
@@ -155,6 +158,15 @@ void thr_paper_turn(thr_paper *paper, double degrees)
   paper->open[paper->depth].turned = true;
 }
 
+/* Is a box, with so much around it, all clipped away? */
+static bool is_hidden(const thr_paper *paper, thr_box box, double around)
+{
+  const state *now = &paper->open[paper->depth];
+  const thr_box *shown = &now->shown;
+  return !now->turned && (box.x1 + around + now->at[0] < shown->x0 || box.x0 - around + now->at[0] > shown->x1 ||
+                          box.y1 + around + now->at[1] < shown->y0 || box.y0 - around + now->at[1] > shown->y1);
+}
+
 /* Puts an operator of the path with its points. */
 static void put_path(thr_paper *paper, int points, const double *x, const char *operator)
 {
@@ -163,20 +175,43 @@ static void put_path(thr_paper *paper, int points, const double *x, const char *
   put(&paper->path, 2 * points, x, operator);
 }
 
+/* Puts a part of the path from the pen to the last of its points, if any of it may be seen. */
+static void put_part(thr_paper *paper, int points, const double *x, const char *operator)
+{
+  if (paper->trim >= 0) {
+    thr_box box = {paper->pen[0], paper->pen[1], paper->pen[0], paper->pen[1]};
+    for (int i = 0; i < points; i++)
+      thr_box_extend(&box, (thr_box){x[2 * i], x[2 * i + 1], x[2 * i], x[2 * i + 1]});
+    const bool hidden = is_hidden(paper, box, paper->trim);
+    if (!hidden && paper->lifted) put_path(paper, 1, paper->pen, "m");
+    paper->lifted = hidden;
+    memcpy(paper->pen, x + 2 * (points - 1), sizeof paper->pen);
+    if (hidden) return;
+  }
+  put_path(paper, points, x, operator);
+}
+
+void thr_paper_trim(thr_paper *paper, const thr_line *line)
+{
+  paper->trim = line ? MITRE / 2 * line->width : -1;
+}
+
 void thr_paper_move(thr_paper *paper, const double to[2])
 {
-  put_path(paper, 1, to, "m");
+  memcpy(paper->pen, to, sizeof paper->pen);
+  paper->lifted = true;
+  if (paper->trim < 0) put_path(paper, 1, to, "m");
 }
 
 void thr_paper_line(thr_paper *paper, const double to[2])
 {
-  put_path(paper, 1, to, "l");
+  put_part(paper, 1, to, "l");
 }
 
 void thr_paper_curve(thr_paper *paper, const double a[2], const double b[2], const double to[2])
 {
   const double x[6] = {a[0], a[1], b[0], b[1], to[0], to[1]};
-  put_path(paper, 3, x, "c");
+  put_part(paper, 3, x, "c");
 }
 
 void thr_paper_end(thr_paper *paper)
@@ -268,15 +303,6 @@ static void take_line(thr_paper *paper, const thr_line *line)
   now->n_dash = line->n_dash;
   now->dash_offset = line->dash_offset;
   memcpy(now->dash, line->dash, sizeof now->dash);
-}
-
-/* Is a box, with so much around it, all clipped away? */
-static bool is_hidden(const thr_paper *paper, thr_box box, double around)
-{
-  const state *now = &paper->open[paper->depth];
-  const thr_box *shown = &now->shown;
-  return !now->turned && (box.x1 + around + now->at[0] < shown->x0 || box.x0 - around + now->at[0] > shown->x1 ||
-                          box.y1 + around + now->at[1] < shown->y0 || box.y0 - around + now->at[1] > shown->y1);
 }
 
 static void forget_path(thr_paper *paper)

@@ -58,6 +58,10 @@ void thr_paper_pop(thr_paper *paper);
 void thr_paper_shift(thr_paper *paper, const double by[2]);
 void thr_paper_turn(thr_paper *paper, double degrees); /* clockwise, as y points down */
 
+/* Parts of a path that lie where all is clipped away are left out from now on: of one that is drawn by this undashed line, not
+ * filled and not closed. NULL: no longer. */
+void thr_paper_trim(thr_paper *paper, const thr_line *line);
+
 /* The path grows until it is painted or clipped to, which begins another. */
 void thr_paper_move(thr_paper *paper, const double to[2]);
 void thr_paper_line(thr_paper *paper, const double to[2]);

@@ -311,6 +311,13 @@ static thr_status shift(reader *r, thr_slice text)
   return THR_OK;
 }
 
+/* Is it a path, of parts that are not closed? */
+static bool is_open(const tag *t)
+{
+  const thr_slice *d = thr_slice_is(t->name, "path") ? find(t, "d") : NULL;
+  return d && d->n && !memchr(d->s, 'z', d->n) && !memchr(d->s, 'Z', d->n);
+}
+
 static thr_status draw_shape(reader *r, const tag *t)
 {
   thr_ink fill;
@@ -321,10 +328,13 @@ static thr_status draw_shape(reader *r, const tag *t)
     thr_paper_push(r->paper);
     st = shift(r, *transform);
   }
-  if (!st) st = trace_shape(r, t);
   if (st) return st;
   const thr_svg_style *style = &r->open[--r->depth].style;
   bool filled = ink_of(style, THR_SVG_FILL, THR_SVG_FILL_OPACITY, &fill), drawn = line_of(style, &line);
+  if (drawn && !filled && !line.n_dash && is_open(t)) thr_paper_trim(r->paper, &line);
+  st = trace_shape(r, t);
+  thr_paper_trim(r->paper, NULL);
+  if (st) return st;
   if (drawn && filled && style->value[THR_SVG_PAINT_ORDER].x[0] > 0) {
     thr_paper_paint(r->paper, NULL, &line);
     st = trace_shape(r, t);

@@ -129,7 +129,15 @@ static const char *const pictures[] = {
     "<g transform=\"translate(70 70)\" clip-path=\"url(#two)\"><circle cx=\"70\" cy=\"30\" r=\"9\"/><circle cx=\"-20\" "
     "cy=\"-20\" "
     "r=\"15\"/><circle cx=\"200\" cy=\"30\" r=\"30\"/></g><circle cx=\"140\" cy=\"140\" r=\"4\"/></g>"
-    "<rect x=\"20\" y=\"200\" width=\"30\" height=\"30\"/><path d=\"M160 20h30v20z\"/>"};
+    "<rect x=\"20\" y=\"200\" width=\"30\" height=\"30\"/><path d=\"M160 20h30v20z\"/>",
+    /* of lines that go out and come in again what is outside is left out: corners, curves, several in one, and not of filled,
+     * closed or dashed ones */
+    "<clipPath id=\"one\"><rect x=\"50\" y=\"50\" width=\"100\" height=\"100\"/></clipPath>"
+    "<g clip-path=\"url(#one)\" fill=\"none\" stroke=\"#07a\" stroke-width=\"6\"><path d=\"M60 10L60 20L70 90L20 100L10 30L30 "
+    "5L120 44L47 "
+    "130L20 190L100 190L100 160L110 100C110 20 140 20 140 100C140 200 160 200 190 160L200 60L120 70\"/>"
+    "<path stroke=\"#c40\" d=\"M10 140H60M20 10H90M90 148H200\"/><path fill=\"#9c9\" d=\"M130 20L190 60L100 60\"/>"
+    "<path stroke-dasharray=\"9 5\" d=\"M55 20H20V200H75V90\"/><path d=\"M160 130L190 190L20 170z\"/></g>"};
 
 enum { N_PICTURES = sizeof pictures / sizeof *pictures };
 
