@@ -24,12 +24,12 @@ double thr_profile_wobble(const thr_frame *frame, const thr_physics *physics, co
 thr_status thr_profile_pressure(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, double *pressure,
                                 int *edge, thr_err *err) THR_MUST_CHECK;
 
-/* exponent[n_passes - 1] >= 0: ln of the ratio of the tensions on both sides of the turn after pass k, or what takes its place with
- * another friction. Allocates out->tension
- * such that the slackest pass holds seating, and fills n_passes, pull, force, other_force, loss, work, slackest; leaves the other
- * members. A cord that is not pulled has no tension. Pulled at one end the tension falls at every turn towards the other; pulled
- * at both, the slackest is the pass with exponents from both ends most nearly equal. THR_EINPUT if an exponent total is past 700
- * (what a double can hold): names the cord, advises more cords. O(n). */
+/* exponent[n_passes - 1] >= 0: ln of the ratio of the tensions on both sides of the turn after pass k, or what takes its place
+ * with another friction. Allocates out->tension such that the slackest pass holds seating, and fills n_passes, pull, force,
+ * other_force, loss, work, slackest; leaves the other members. A cord that is not pulled has no tension. Pulled at one end the
+ * tension falls at every turn towards the other; pulled at both, the slackest is the pass with exponents from both ends most
+ * nearly equal. THR_EINPUT if an exponent total is past 700 (what a double can hold): names the cord, advises more cords. O(n).
+ */
 thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const double *exponent, thr_pull pull, double seating,
                             const thr_friction *friction, thr_err *err) THR_MUST_CHECK;
 

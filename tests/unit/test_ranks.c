@@ -5,6 +5,8 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/turning_ranks.h"
 #include "tests/support.h"
+#include "tortuosity/proof/orbit_ranks.h"
+#include "tortuosity/proof/orbits.h"
 #include "tortuosity/proof/pass_matching.h"
 #include "tortuosity/proof/ranks.h"
 
@@ -188,6 +190,132 @@ START_TEST(a_sphere_is_proved_within_two_percent)
 }
 END_TEST
 
+/* ---- with symmetries ---- */
+
+static int third_node(const thr_frame *f, int a, int b)
+{
+  for (int i = f->first[a]; i < f->first[a + 1]; i++)
+    for (int k = f->first[b]; k < f->first[b + 1]; k++)
+      if (thr_head(f, f->half[i]) == thr_head(f, f->half[k])) return thr_head(f, f->half[i]);
+  ck_abort();
+}
+
+static void columns_of(const thr_frame *f, const int *node, double at[3][3])
+{
+  for (int i = 0; i < 3; i++)
+    memcpy(at[i], f->xyz[node[i]], sizeof at[i]);
+}
+
+/* x = sum of t_i a_i; t by Cramer's rule. The three nodes and the centre of the sphere are in no plane. */
+static void coordinates(double a[3][3], const double *x, double *t)
+{
+#define DET(p, q, r)                                                                                                             \
+  ((p)[0] * ((q)[1] * (r)[2] - (q)[2] * (r)[1]) - (p)[1] * ((q)[0] * (r)[2] - (q)[2] * (r)[0]) +                                 \
+   (p)[2] * ((q)[0] * (r)[1] - (q)[1] * (r)[0]))
+  const double all = DET(a[0], a[1], a[2]);
+  t[0] = DET(x, a[1], a[2]) / all;
+  t[1] = DET(a[0], x, a[2]) / all;
+  t[2] = DET(a[0], a[1], x) / all;
+#undef DET
+}
+
+static int node_at(const thr_frame *f, const double *x)
+{
+  for (int v = 0; v < f->n_nodes; v++)
+    if (fabs(f->xyz[v][0] - x[0]) + fabs(f->xyz[v][1] - x[1]) + fabs(f->xyz[v][2] - x[2]) < 1e-6) return v;
+  return -1;
+}
+
+static double apart(const double *a, const double *b)
+{
+  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+/* The images of all nodes when three are sent to three others; false: that is no motion onto itself. */
+static bool send(const thr_frame *f, const int *from, const int *to, int *image)
+{
+  double a[3][3], b[3][3];
+  columns_of(f, from, a);
+  columns_of(f, to, b);
+  for (int i = 0; i < 3; i++)
+    if (fabs(apart(a[i], a[(i + 1) % 3]) - apart(b[i], b[(i + 1) % 3])) > 1e-6) return false;
+  for (int v = 0; v < f->n_nodes; v++) {
+    double t[3], x[3];
+    coordinates(a, f->xyz[v], t);
+    for (int k = 0; k < 3; k++)
+      x[k] = t[0] * b[0][k] + t[1] * b[1][k] + t[2] * b[2][k];
+    if ((image[v] = node_at(f, x)) < 0) return false;
+  }
+  return true;
+}
+
+/* All motions of the framework onto itself: those that send three nodes of a triangle to three of another, tried one by one. */
+static thr_status all_motions(const thr_frame *f, const thr_limits *limits, int **image, int *n, thr_err *err)
+{
+  (void)limits;
+  (void)err;
+  const size_t nodes = (size_t)f->n_nodes;
+  *n = 0;
+  ck_assert_ptr_nonnull(*image = calloc(500 * nodes, sizeof **image));
+  const int a = f->edge[0][0], b = f->edge[0][1], c = third_node(f, a, b);
+  for (int p = 0; p < f->n_nodes; p++)
+    for (int q = 0; q < f->n_nodes; q++)
+      for (int r = 0; r < f->n_nodes && *n < 500; r++)
+        *n += send(f, (const int[]){a, b, c}, (const int[]){p, q, r}, *image + (size_t)*n * nodes);
+  return THR_OK;
+}
+
+static double bound_by_orbits(shell *s, thr_orbits_motions *motions)
+{
+  const thr_limits none = {0};
+  thr_orbits orbits;
+  int64_t bound = 0;
+  bool found;
+  thr_turning_dual_destroy(&s->dual);
+  ck_assert_int_eq(thr_orbits_init(&orbits, &s->c, motions, &none, NULL), THR_OK);
+  ck_assert_int_eq(thr_orbit_ranks(&s->c, &orbits, s->x, &none, &s->dual, &found, NULL), THR_OK);
+  if (found) ck_assert_int_eq(thr_turning_dual_bound(&s->c, &s->dual, NULL, NULL, &bound, NULL), THR_OK);
+  ck_assert_int_eq(found, motions != NULL);
+  thr_orbits_destroy(&orbits);
+  return degrees(bound);
+}
+
+/* The optimum of the linear programme over all turns that the nodes may have, made symmetric by the same motions, with the rank
+ * of the circuits and the groups that they are, is 5311.143037 degrees (HiGHS). */
+START_TEST(orbits_prove_what_the_linear_programme_does)
+{
+  shell s;
+  shell_make(&s, 1);
+  ck_assert_double_eq_tol(bound_by_orbits(&s, all_motions), 5311.143037, 1e-4);
+  ck_assert_int_eq(s.dual.n_ranks, 1);
+  ck_assert_int_eq(s.dual.n_groups, 6); /* the great circles; the rest of the edges as a group proves nothing */
+  ck_assert_double_eq(bound_by_orbits(&s, NULL), 0);
+  shell_destroy(&s);
+}
+END_TEST
+
+START_TEST(orbits_without_memory_fail)
+{
+  const thr_limits none = {0};
+  thr_orbits orbits;
+  thr_status st = THR_ENOMEM;
+  shell s;
+  shell_make(&s, 1);
+  ck_assert_int_eq(thr_orbits_init(&orbits, &s.c, all_motions, &none, NULL), THR_OK);
+  for (long k = 1; st != THR_OK; k++) {
+    const thr_limits past = {.deadline = 1e-9};
+    bool found;
+    thr_turning_dual_destroy(&s.dual);
+    thr_alloc_fail_at(k);
+    st = thr_orbit_ranks(&s.c, &orbits, s.x, &past, &s.dual, &found, NULL);
+    thr_alloc_fail_at(0);
+    ck_assert(st == THR_OK || st == THR_ENOMEM);
+  }
+  thr_orbits_destroy(&orbits);
+  shell_destroy(&s);
+}
+END_TEST
+
 /* Two cords need one connection less, and no group; and with no time at all there is still a bound. */
 START_TEST(several_cords_and_no_time)
 {
@@ -233,6 +361,8 @@ int main(void)
   ADD_EXAMPLES(s, 20, a_forest_is_the_least_of_all_turns, 20);
   ADD_TEST(s, 20, the_largest_numbers_fit);
   ADD_TEST(s, 60, a_sphere_is_proved_within_two_percent);
+  ADD_TEST(s, 60, orbits_prove_what_the_linear_programme_does);
+  ADD_TEST(s, 60, orbits_without_memory_fail);
   ADD_TEST(s, 60, several_cords_and_no_time);
   ADD_TEST(s, 60, a_run_without_memory_fails);
   return run_suite(s);

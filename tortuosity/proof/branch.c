@@ -378,12 +378,10 @@ static thr_limits limits_of_search(const thr_branch *branch)
   return less;
 }
 
-/* A gap that no tree closes, on a framework that some thousand steps go through in a second. */
+/* A gap that no tree closes. */
 static bool is_weak(const thr_branch *branch)
 {
-  enum { SMALL = 5000 };
-  const thr_turning_columns *c = branch->c;
-  return !c->task->end_allowed && !c->task->tube && c->n_columns < SMALL && is_wide(branch);
+  return !branch->c->task->end_allowed && !branch->c->task->tube && is_wide(branch);
 }
 
 /* The column to decide on where a lane's point is, with all its images. */
@@ -402,7 +400,21 @@ static thr_status choose(thr_branch *branch, int k, thr_tree_branch *out, thr_er
   return st;
 }
 
-/* A node's bound and plans; then the column to branch on. */
+static thr_status find_symmetries(thr_branch *branch, thr_err *err)
+{
+  const thr_limits search = limits_of_search(branch), some = thr_limits_part(&search, 0.05);
+  return branch->orbits.c ? THR_OK : thr_orbits_init(&branch->orbits, branch->c, branch->motions, &some, err);
+}
+
+static thr_status count_ranks(thr_branch *branch, thr_err *err)
+{
+  const thr_limits search = limits_of_search(branch);
+  if (!branch->found || !is_weak(branch)) return THR_OK;
+  thr_status st = find_symmetries(branch, err);
+  return st ? st : thr_branch_ranks(branch, &search, err);
+}
+
+/* A node's bound and plans; then the column to branch on. Where programmes are slow, ranks come first. */
 static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err)
 {
   thr_branch *b = user;
@@ -411,17 +423,15 @@ static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err
   const thr_limits search = limits_of_search(b);
   b->tree.stopped = !root && thr_limits_stop(&search);
   if (b->tree.stopped) return THR_OK;
-  thr_status st = root ? solve_root(b, &search, &beside, err) : thr_branch_solve_node(b, i, &search, err);
+  const bool early = root && !thr_connect_later(b->c);
+  thr_status st = early ? count_ranks(b, err) : THR_OK;
+  if (!st) st = root ? solve_root(b, &search, &beside, err) : thr_branch_solve_node(b, i, &search, err);
   if (st) return st;
   report(b);
   if (root && b->found && !turning_task->tube && !b->tree.stopped && !closed(b, i)) st = improve_plans(b, beside, err);
-  const thr_limits rest = limits_of_search(b);
-  if (!st && root && b->found && is_weak(b)) st = thr_branch_ranks(b, &rest, err);
+  if (!st && root && !early) st = count_ranks(b, err);
+  if (!st && root && !closed(b, i)) st = find_symmetries(b, err);
   b->tree.enough = enough(b);
-  if (!st && root && !closed(b, i) && !b->tree.stopped) {
-    const thr_limits some = thr_limits_part(&rest, 0.05);
-    st = thr_orbits_init(&b->orbits, b->c, b->motions, &some, err);
-  }
   return st ? st : choose(b, 0, branch, err);
 }
 

@@ -5,6 +5,7 @@
 #include "graph/status.h"
 #include "tortuosity/proof/branch.h"
 #include "tortuosity/proof/connect.h"
+#include "tortuosity/proof/orbit_ranks.h"
 #include "tortuosity/proof/pass_matching.h"
 #include "tortuosity/proof/ranks.h"
 
@@ -117,14 +118,21 @@ thr_status thr_branch_match(thr_branch *branch, thr_err *err)
   return st;
 }
 
-/* Ranks for the parts of the first matching, beginning with the multipliers that the root has. */
+/* Ranks for the parts of the first matching: of a symmetric framework the best there are; else, where some thousand steps take a
+ * second, from the multipliers that the root has. */
 static thr_status count_ranks(thr_branch *branch, const int *x, const thr_limits *limits, thr_err *err)
 {
+  enum { SMALL = 5000 };
   const thr_turning_columns *c = branch->c;
   const thr_turning_dual *from = &branch->dual[branch->tree.node[0].proof];
   thr_turning_dual dual;
-  thr_status st = thr_turning_dual_init(&dual, c, err);
-  if (!st) st = thr_ranks_run(c, x, from, (double)branch->best_price, limits, &dual, err);
+  bool found;
+  thr_status st = thr_orbit_ranks(c, &branch->orbits, x, limits, &dual, &found, err);
+  if (st || (!found && c->n_columns >= SMALL)) return st;
+  if (!found) {
+    st = thr_turning_dual_init(&dual, c, err);
+    if (!st) st = thr_ranks_run(c, x, from, (double)branch->best_price, limits, &dual, err);
+  }
   if (!st) return thr_branch_keep_dual(branch, 0, dual, NULL, NULL, err);
   thr_turning_dual_destroy(&dual);
   return st;
