@@ -322,8 +322,12 @@ thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *l
   if (st) return st;
   out->x = thr_calloc((size_t)p.n_columns, sizeof *out->x);
   out->dual = thr_calloc((size_t)rows, sizeof *out->dual);
-  const thr_equations equations = {
-      {rows, p.n_columns, p.start, p.row, p.value}, p.rhs, p.cost, s->n_bodies > THR_BLOCKS_LARGE ? THR_BLOCKS_ROUGH : 0};
+  const bool large = s->n_bodies > THR_BLOCKS_LARGE;
+  const thr_equations equations = {{rows, p.n_columns, p.start, p.row, p.value},
+                                   p.rhs,
+                                   p.cost,
+                                   large ? THR_BLOCKS_ROUGH : 0,
+                                   large && s->bound ? THR_BLOCKS_UNMET : 0};
   thr_interior found = {.x = out->x, .dual = out->dual};
   st = out->x && out->dual ? thr_interior_solve(&equations, limits, &found, err) : thr_nomem(err);
   out->outcome = found.outcome;

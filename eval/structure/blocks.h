@@ -18,6 +18,8 @@
 /* Beads from which on the solver's bounds need not be nearer to each other than THR_BLOCKS_ROUGH, relative. */
 enum { THR_BLOCKS_LARGE = 1000 };
 static const double THR_BLOCKS_ROUGH = 1e-4;
+/* How far the equations are met then, in weights, where only the multipliers count: their bound is proved by itself. */
+static const double THR_BLOCKS_UNMET = 1e-3;
 
 typedef struct {
   int bead, other; /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
@@ -32,6 +34,7 @@ typedef struct {
   const thr_physics *physics;
   const double *press;         /* [n_faces] of a pull of 1; N where the load is asked for */
   const double (*load)[3];     /* [n_beads] N, at its node; NULL = none */
+  bool bound;                  /* only the multipliers count */
   bool carries;                /* the unknown is not the pull but what the load is multiplied by */
   double most;                 /* press above it is taken for it .. */
   bool merged;                 /* .. and the beads on either side for one body */

@@ -59,7 +59,8 @@ static thr_status solve_pull(const thr_blocks *s, const thr_limits *limits, answ
   thr_status st = thr_blocks_solve(s, false, limits, &o, err);
   if (!st) st = thr_mechanism_make(s, o.dual, a->velocity, err);
   if (!st) {
-    if (!s->merged) a->pull = o.imbalance < 1e-5 ? fmax(0, s->carries ? -o.objective : o.objective) * s->pull : INFINITY;
+    const double balanced = s->bound && s->n_bodies > THR_BLOCKS_LARGE ? 10 * THR_BLOCKS_UNMET : 1e-5;
+    if (!s->merged) a->pull = o.imbalance < balanced ? fmax(0, s->carries ? -o.objective : o.objective) * s->pull : INFINITY;
     if (a->pull < 1e-9 * s->pull) a->pull = 0;
     certify(s, a);
   }
@@ -99,6 +100,7 @@ static thr_status pull_of(const task *t, double most, bool merged, double widen,
   thr_blocks s = part(t, most, merged);
   thr_status st = thr_blocks_make(&s, widen, err);
   if (st) return st;
+  s.bound = widen > 1;
   if (merged) s.pull = a->pull;
   s.pull *= t->unit;
   free(a->velocity);

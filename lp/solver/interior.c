@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum { MOST_ITERATIONS = 200, PATIENCE = 6, MOST_CORRECTORS = 3 };
-static const double GOAL = 1e-8, MET = 1e-6 /* the equations, however rough the goal */,
+static const double GOAL = 1e-8, MET = 1e-6 /* the equations, however rough the goal, unless the caller says more */,
                     NOTHING = 1e-6; /* an objective below that is 0 */
 
 typedef struct {
@@ -20,6 +20,7 @@ typedef struct {
   thr_normal *normal;
   int m, n;
   double goal;  /* relative error to end at */
+  double unmet; /* what a relative error of the equations counts */
   double *room; /* all arrays below; owned */
   point at, step, trial;
   double *p, *q, *r;
@@ -104,9 +105,9 @@ static bool move_along(state *s, double now, point *d)
  * E. Stiefel, 1952), as far as the next point needs it. */
 static void newton(state *s, const double *p, const double *q, const double *r, point *d)
 {
-  enum { ROUNDS = 8 };
+  enum { ROUNDS = 20 };
   const point *at = &s->at;
-  const double enough = fmax(0.01 * s->goal * largest(s->e->rhs, s->m), 0.1 * largest(s->p, s->m));
+  const double enough = fmax(0.01 * s->goal / fmin(1, s->unmet) * largest(s->e->rhs, s->m), 0.1 * largest(s->p, s->m));
   memset(d->y, 0, (size_t)s->m * sizeof *d->y);
   memset(s->way, 0, (size_t)s->m * sizeof *s->way);
   for (int j = 0; j < s->n; j++) {
@@ -185,7 +186,7 @@ static quality measure(state *s)
   k.missing[0] = largest(s->p, s->m) / (DBL_MIN + largest(equations->rhs, s->m));
   k.missing[1] = largest(s->q, s->n) / (DBL_MIN + largest(equations->cost, s->n));
   double gap = fabs(k.primal - k.dual) / (NOTHING + fmax(fabs(k.primal), fabs(k.dual)));
-  k.error = fmax(gap, fmax(k.missing[0] * fmax(1, s->goal / MET), k.missing[1]));
+  k.error = fmax(gap, fmax(k.missing[0] * s->unmet, k.missing[1]));
   return k;
 }
 
@@ -302,6 +303,7 @@ thr_status thr_interior_solve(const thr_equations *equations, const thr_limits *
              .m = equations->a.n_rows,
              .n = equations->a.n_columns,
              .goal = equations->goal > 0 ? equations->goal : GOAL};
+  s.unmet = equations->met > 0 ? s.goal / equations->met : fmax(1, s.goal / MET);
   thr_status st = state_make(&s, err);
   if (!st) run(&s, limits, out);
   thr_normal_destroy(s.normal);

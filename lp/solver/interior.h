@@ -18,7 +18,8 @@ typedef struct {
   thr_columns a;
   const double *rhs;  /* [n_rows] */
   const double *cost; /* [n_columns] */
-  double goal;        /* relative gap to end at, 0 = 1e-8; the equations are met to 1e-6 at least */
+  double goal;        /* relative gap to end at, 0 = 1e-8 .. */
+  double met;         /* .. and how far the equations are met, relative, 0 = 1e-6: more ends sooner where only dual counts */
 } thr_equations;
 
 /* The best that was seen; both arrays are the caller's. x and dual may come from different steps: rounding spoils x first. */
