@@ -7,6 +7,7 @@
 #include "graph/framework/frame.h"
 #include "graph/io/writer.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/play.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
 
@@ -46,6 +47,22 @@ static void put_json_answers(thr_writer *writer, const thr_frame *frame, const t
   if (!eval->after.present) return;
   put_json_holding(writer, frame, "after", &eval->after, "factor on the tensions that the schedule leaves");
   thr_write_number(writer, "let_down", eval->let_down);
+}
+
+static void put_json_play(thr_writer *writer, const thr_plan *plan)
+{
+  thr_play play;
+  if (thr_play_find(&plan->frame, &plan->evaluation.physics, &play, NULL)) {
+    writer->out->failed = true;
+    return;
+  }
+  thr_write_line(writer, 1);
+  thr_write_object(writer, "play");
+  thr_write_number(writer, "gap_mm", play.gap);
+  put_bead(writer, "piece", &plan->frame, play.piece);
+  thr_write_int(writer, "gaps", play.gaps);
+  thr_write_number(writer, "most_mm", play.most);
+  thr_write_close(writer);
 }
 
 static void put_json_simulation(thr_writer *writer, const thr_frame *frame, const thr_settle *settle)
@@ -92,6 +109,7 @@ void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, b
   thr_write_int(&writer, "refused", eval->refused);
   if (plan->evaluation.method == THR_JOINT) put_json_joints(&writer, eval);
   if (eval->holding.present) put_json_answers(&writer, &plan->frame, eval);
+  if (eval->holding.present) put_json_play(&writer, plan);
   if (eval->n_carries) load_put_json(&writer, &plan->frame, eval);
   if (eval->holding.present && eval->settle.present) put_json_simulation(&writer, &plan->frame, &eval->settle);
   thr_write_close(&writer);

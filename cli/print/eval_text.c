@@ -18,6 +18,7 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/friction.h"
 #include "graph/plan/physics.h"
+#include "graph/plan/play.h"
 #include "graph/plan/schedule.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
@@ -396,6 +397,21 @@ static void put_pressure(thr_text *text, const thr_plan *plan)
                   pressure > evaluation->physics.bead_strength ? "do not stand: they are crushed" : "stand");
 }
 
+/* How far the farthest piece can shift, as its bores are wider than the cord. */
+static void put_play(thr_text *text, const thr_plan *plan)
+{
+  thr_play play;
+  if (thr_play_find(&plan->frame, &plan->evaluation.physics, &play, NULL)) {
+    text->failed = true;
+    return;
+  }
+  if (play.gaps == 0) return;
+  thr_text_printf(text, "play: %.3g mm at a gap (bore less cord); piece ", play.gap);
+  thr_text_append_clean(text, plan->frame.name[play.piece]);
+  thr_text_printf(text, ", %d %s from a foot, may be out by %.3g mm if all of it adds up\n", play.gaps,
+                  cli_plural(play.gaps, "gap", "gaps"), play.most);
+}
+
 void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan, const thr_eval *eval)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
@@ -404,6 +420,7 @@ void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan, 
   put_sums(text, plan, eval, view->strength);
   seated_put(text, plan);
   put_pressure(text, plan);
+  if (evaluation->method == THR_STRUCTURE) put_play(text, plan);
   if (evaluation->schedule.n > 0) {
     put_schedule(text, plan);
     put_left(text, plan);

@@ -156,6 +156,168 @@ def fig_13(report, program, pictures):
     picture(report, pictures, "validation-mitre.svg", "Loss at one piece against its turn")
 
 
+# ---- Fig. 14 ----
+
+
+def hung(shift, n):
+    """mm that the last of n pieces of one length hangs low: all bores are pushed as far down on the cord as their walls let them, one
+    after the other from the wall, which holds the first."""
+    height = 0.0
+    for _ in range(n):
+        height -= shift
+    return -height
+
+
+def fig_14(report, program, pictures):
+    report.section("The thesis's Fig. 14: play adds up to sag",
+                   "The same cantilever, 400 mm, of ever more pieces on a cord of 1 mm in bores of 1.5 and 2 mm. Every gap lets the next "
+                   "piece hang lower by bore less cord, so the sag grows with the number of pieces, where the pull that holds them does "
+                   "not (Fig. 12): few long pieces are the stiffer ones, as the thesis says.")
+    series = []
+    for bore, colour in ((1.5, BLUE), (2, ORANGE)):
+        found = []
+        for n in (3, 5, 10, 20, 40):
+            step = LENGTH / (n - 0.5)
+            program.frame("row.json", [[i * step, 0, 1000] for i in range(n + 1)], [[i, i + 1] for i in range(n)], [0])
+            program.run("plan", "row.json", "--cords", 1, "--ends", "any", "-q", "-o", "row.plan.json")
+            said = program.evaluate("row.plan.json", "--method", "structure", "--no-dynamics", "--clamp-feet", "--bead-diameter", 20,
+                                    "--bore", bore, "--cord-diameter", 1)["play"]
+            report.relative(f"{n} pieces, bores of {bore:g} mm: sag of the last one, mm", hung(bore - 1, n), said["most_mm"], 1e-9)
+            found.append((n, said["most_mm"]))
+        series.append((f"bore {bore:g} mm", colour, found))
+    plot(os.path.join(pictures, "validation-play.svg"), "Cantilever: sag by play against the number of pieces", "pieces",
+         "sag of the last piece, mm", series)
+    picture(report, pictures, "validation-play.svg", "Sag against the number of pieces: it adds up")
+
+
+# ---- Fig. 24 ----
+
+
+def seats(plan, mu, pull):
+    """The part of the gaps that a pull at both ends of all cords seats with 1 N, by the capstan law on the nodes of the plan."""
+    at = plan["framework"]["nodes"]
+    press = {}
+    for cord in plan["cords"]:
+        nodes = cord["nodes"]
+        ways = [[b - a for a, b in zip(at[v], at[w])] for v, w in zip(nodes, nodes[1:])]
+        before = [0.0]
+        for u, v in zip(ways, ways[1:]):
+            dot = sum(x * y for x, y in zip(u, v))
+            before.append(before[-1] + mu * math.acos(max(-1.0, min(1.0, dot / math.hypot(*u) / math.hypot(*v)))))
+        for edge, x in zip(cord["edges"], before):
+            press[edge] = press.get(edge, 0) + pull * math.exp(-min(x, before[-1] - x))
+    return sum(x >= 1 - 1e-9 for x in press.values()) / len(press)
+
+
+def fig_24(report, program, pictures, data):
+    report.section("The thesis's Fig. 24: cords pulled at the four feet",
+                   "A 7x7 dome on four cords, each from foot to foot. Pulled at all of them with ever more, gap after gap closes, first at "
+                   "the feet, until the whole is seated and stands. Expected: the capstan law, added up here over the nodes of the plan; "
+                   "that it stands is the limit analysis's word. Without tension it falls: that is proved.")
+    program.run("plan", os.path.join(data, "dome7.json"), "--cords", 4, "--ends", "feet", "--objective", "tortuosity", "-q", "-o",
+                "four.json", codes=(0, 5))
+    plan = json.load(open(os.path.join(program.folder, "four.json"), encoding="utf-8"))
+    found, law = [], []
+    for pull in (0.25, 0.5, 0.75, 1, 1.5, 2, 2.5, 3, 3.5, 4):
+        said = program.evaluate("four.json", "--mu", 0.2, "--schedule", f"all: pull both {pull}")["evaluation"]["seated"]
+        expected = seats(plan, 0.2, pull)
+        report.holds(f"{pull:g} N at all ends: gaps seated", f"{100 * expected:.1f} %", f"{100 * said:.1f} %", abs(said - expected) < 1e-9)
+        found.append((pull, 100 * said))
+        law.append((pull, 100 * expected))
+    report.holds("4 N seat", "all of it", f"{found[-1][1]:.0f} %", found[-1][1] == 100)
+    after = program.evaluate("four.json", "--method", "structure", "--no-dynamics", "--schedule", "all: pull both 4")
+    report.holds("pulled with 4 N", "stands", f"with {after['after']['upper']:.3g} of its tensions, too", after["after"]["upper"] < 1)
+    report.holds("without tension", "falls (proved)", f"below {after['any_state']['lower']:.3g} N at all ends", after["any_state"]["lower"] > 0)
+    plot(os.path.join(pictures, "validation-seated.svg"), "Four cords to the feet: gaps closed against pull", "pull at all ends, N",
+         "gaps seated, %", [("capstan law", ORANGE, law), ("found", BLUE, found)])
+    picture(report, pictures, "validation-seated.svg", "Gaps seated against the pull at the feet")
+
+
+# ---- Fig. 25 ----
+
+
+def fig_25(report, program, pictures, data):
+    report.section("The thesis's Fig. 25: a counterweight at the apex",
+                   "A 7x7 dome that two cords go through at every gap (`--distinct 2 --cords 2`). It is no funicular dome: whatever was done "
+                   "to the cords, some tension is needed, which is proved. A hand or a counterweight that lifts its apex takes "
+                   "tension off. The least pull with an equilibrium is the optimum of a linear programme and the lift its right-hand "
+                   "side, so that it falls on a convex line: each row's bound must not lie above the chord of the equilibria beside it.")
+    program.run("plan", os.path.join(data, "dome7.json"), "--cords", 2, "--distinct", 2, "--ends", "feet", "-q", "-o", "window.json",
+                codes=(0, 5))
+    lifts = (0, 0.05, 0.1, 0.15, 0.2)
+    low, high = [], []
+    for lift in lifts:
+        said = program.evaluate("window.json", "--method", "structure", "--no-dynamics", "--load", f"D4=0,0,{lift or 1e-9}",
+                                "--load-pulls", 10)
+        low.append((lift, said["load"]["needs_at_least"]))
+        high.append((lift, said["load"]["needs"]))
+        if not lift:
+            report.holds("without tension", "falls (proved)", f"below {said['any_state']['lower']:.3g} N at all ends",
+                         said["any_state"]["lower"] > 0)
+            report.holds("once drawn in, friction keeps it up with", "less than while it is drawn in",
+                         f"{said['any_state']['upper']:.3g} N instead of {said['equal_pulls']['lower']:.3g}",
+                         said["any_state"]["upper"] < said["equal_pulls"]["lower"])
+    for k, lift in enumerate(lifts[1:], 1):
+        report.holds(f"lifted with {lift:g} N: pull at all ends, N", "less than before", f"{low[k][1]:.4g} .. {high[k][1]:.4g}",
+                     low[k][1] < low[k - 1][1] and high[k][1] < high[k - 1][1])
+    for k in range(1, len(lifts) - 1):
+        chord = (high[k - 1][1] + high[k + 1][1]) / 2
+        report.holds(f"convex at {lifts[k]:g} N", f"at most {chord:.4g}", f"{low[k][1]:.4g}", low[k][1] <= chord)
+    plot(os.path.join(pictures, "validation-lift.svg"), "Two cords through every gap: pull against lift at the apex", "lift, N",
+         "pull at all ends, N", [("stands", BLUE, high), ("falls below", ORANGE, low)])
+    picture(report, pictures, "validation-lift.svg", "Pull that is needed against the lift at the apex")
+
+
+# ---- two strings fix planar faces, three any ----
+
+
+def rank(rows):
+    """Of a matrix, by elimination with the largest pivot."""
+    rows, found = [list(row) for row in rows], 0
+    for column in range(len(rows[0]) if rows else 0):
+        pivot = max(range(found, len(rows)), key=lambda i: abs(rows[i][column]), default=None)
+        if pivot is None or abs(rows[pivot][column]) < 1e-9:
+            continue
+        rows[found], rows[pivot] = rows[pivot], rows[found]
+        for i in range(found + 1, len(rows)):
+            times = rows[i][column] / rows[found][column]
+            rows[i] = [x - times * y for x, y in zip(rows[i], rows[found])]
+        found += 1
+    return found
+
+
+def freedom(strings, planar, apart=True):
+    """In how many ways a piece can still move against its neighbour: z is across the face, six velocities (v, w) of the one against the
+    other, v + w x p = 0 at the place p of every string. A planar face that is pressed does not open, either: neither leaves it nor tilts."""
+    places = [(math.cos(2 * math.pi * k / strings), math.sin(2 * math.pi * k / strings)) if apart else (0.0, 0.0) for k in range(strings)]
+    rows = [[0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, 0, 1, 0]] if planar else []
+    for x, y in places:
+        rows += [[1, 0, 0, 0, 0, -y], [0, 1, 0, 0, 0, x], [0, 0, 1, y, -x, 0]]
+    return 6 - rank(rows)
+
+
+def strings(report, program, data):
+    report.section("Two strings fix planar faces, three fix any",
+                   "A string that is drawn tight through a face holds the two pieces together at the place where it goes through. With one "
+                   "string pieces turn about it; with two, each at its own place in the face, planar faces are fixed and others turn about "
+                   "the line through both; with three, any are. (All in the middle of the face they would fix no more than one.) Counted "
+                   "as the rank of these conditions, for the strings through every gap of plans for the 7x7 dome.")
+    for given, planar, other, middle in ((1, 1, 3, 1), (2, 0, 1, 1), (3, 0, 0, 1)):
+        asked = ("--distinct", given, "--cords", given) if given > 1 else ("--cords", 1)
+        program.run("plan", os.path.join(data, "dome7.json"), *asked, "--ends", "any", "-q", "-o", "strings.json", codes=(0, 5))
+        program.run("check", "-q", "strings.json")
+        plan = json.load(open(os.path.join(program.folder, "strings.json"), encoding="utf-8"))
+        through = [{cord["id"] for cord in plan["cords"] if edge in cord["edges"]} for edge in range(len(plan["framework"]["edges"]))]
+        least = min(map(len, through))
+        name = f"{given} string{'s' if given > 1 else ''}"
+        report.holds(f"{name}: different cords through every gap", f"at least {given}", least, least >= given)
+        for word, flat, expected in (("planar faces", True, planar), ("any faces", False, other)):
+            found = max(freedom(len(ids), flat) for ids in through)
+            report.holds(f"{name}, {word}: ways to move, at the loosest gap", expected, found, found == expected)
+        found = max(freedom(len(ids), True, apart=False) for ids in through)
+        report.holds(f"{name}, planar faces, all in the middle", middle, found, found == middle)
+
+
 # ---- Fig. 22, 25: states of one structure ----
 
 
@@ -237,7 +399,11 @@ def main():
         program = Program(program_path, folder)
         fig_12(report, program, pictures)
         fig_13(report, program, pictures)
+        fig_14(report, program, pictures)
         states(report, program, pictures, data)
+        fig_24(report, program, pictures, data)
+        fig_25(report, program, pictures, data)
+        strings(report, program, data)
         straightest(report, program, data)
     report.lines += ["", f"{report.rows} values by the command line, {report.outside} outside their bound.", ""]
     with open(report_path, "a", encoding="utf-8") as out:

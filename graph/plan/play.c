@@ -1,0 +1,50 @@
+/* Breadth first from the feet. */
+#include "graph/plan/play.h"
+
+#include "graph/scratch.h"
+
+#include <math.h>
+
+/* Puts the feet first into the queue; how many. */
+static int start_at_feet(const thr_frame *frame, int *queue, int *distance)
+{
+  double lowest = INFINITY;
+  bool any = false;
+  int n = 0;
+  for (int v = 0; v < frame->n_nodes; v++) {
+    any |= frame->foot[v];
+    lowest = fmin(lowest, frame->xyz[v][2]);
+  }
+  const double near = lowest + 1e-6 * thr_frame_diagonal(frame);
+  for (int v = 0; v < frame->n_nodes; v++) {
+    const bool foot = any ? frame->foot[v] : frame->xyz[v][2] <= near;
+    distance[v] = foot ? 0 : -1;
+    if (foot) queue[n++] = v;
+  }
+  return n;
+}
+
+thr_status thr_play_find(const thr_frame *frame, const thr_physics *physics, thr_play *out, thr_err *err)
+{
+  thr_scratch own = {0};
+  const size_t nodes = (size_t)frame->n_nodes;
+  int *queue = thr_scratch_array(&own, nodes, sizeof *queue), *distance = thr_scratch_array(&own, nodes, sizeof *distance);
+  thr_status st = thr_scratch_check(&own, err);
+  *out = (thr_play){.gap = physics->bore - physics->cord_diameter, .piece = -1};
+  int n = st ? 0 : start_at_feet(frame, queue, distance);
+  for (int i = 0; i < n; i++)
+    for (int k = frame->first[queue[i]]; k < frame->first[queue[i] + 1]; k++) {
+      const int v = thr_head(frame, frame->half[k]);
+      if (distance[v] >= 0) continue;
+      distance[v] = distance[queue[i]] + 1;
+      queue[n++] = v;
+    }
+  for (int v = 0; v < frame->n_nodes && !st; v++)
+    if (distance[v] >= 0 && (out->piece < 0 || distance[v] > out->gaps)) {
+      out->piece = v;
+      out->gaps = distance[v];
+    }
+  out->most = out->gaps * out->gap;
+  thr_scratch_free(&own);
+  return st;
+}
