@@ -65,6 +65,12 @@ double thr_dispatch_usual_seconds(const thr_request *options)
   return hard ? hard_seconds : objectives[row_of(options)].seconds;
 }
 
+double thr_dispatch_patience(const thr_request *options)
+{
+  const double busy = 10;
+  return thr_dispatch(options) == thr_planner_pull ? busy : 1;
+}
+
 double thr_dispatch_search_seconds(double seconds, bool drawn, bool compared)
 {
   if (compared) return part_compared * seconds;

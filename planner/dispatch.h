@@ -47,6 +47,9 @@ thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step);
 /* Seconds for a plan if nobody says how many; 0 = any time. */
 double thr_dispatch_usual_seconds(const thr_request *options);
 
+/* How many times as long it may take on a busy machine: where the planner counts its work, only that ends it. */
+double thr_dispatch_patience(const thr_request *options);
+
 /* What of the seconds that everything may take is for the search: the rest is for checking and writing, for drawing, or for the
  * plans that it is held against. */
 double thr_dispatch_search_seconds(double seconds, bool drawn, bool compared);

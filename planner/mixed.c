@@ -116,17 +116,22 @@ static thr_status try_numbers(mixed *m, thr_err *err)
   return st;
 }
 
-/* Within a limit on the pull: so many cords for the aims. For a short plan cords of which none turns much, little longer than the
- * shortest. */
-static thr_status try_few(mixed *m, thr_err *err)
+/* Within a limit on the pull: so many cords for the aims. For a short plan cords of which none turns much, a little longer than
+ * the shortest: between what was too short for the limit and the best so far. */
+static thr_status try_few(mixed *m, double shortest, thr_err *err)
 {
-  static const double slack[] = {0, .02, .05};
-  enum { TRIES = sizeof slack / sizeof *slack };
+  enum { TRIES = 5 };
+  static const double near = 0.003; /* of the length */
   if (thr_wants_turning(m->o)) return try_number(m, m->o->cords, -1, m->limits, err);
+  double low = -near, slack = 0;
   thr_status st = THR_OK;
-  for (int i = 0; i < TRIES && !st; i++) {
+  for (int i = 0; i < TRIES && !st && !thr_limits_stop(m->limits); i++) {
     const thr_limits share = thr_limits_part(m->limits, 1.0 / (TRIES - i));
-    if (!thr_limits_stop(m->limits)) st = try_number(m, m->o->cords, slack[i], &share, err);
+    st = try_number(m, m->o->cords, slack, &share, err);
+    const double high = m->best.n_cords > 0 ? m->best.metrics.length / shortest - 1 : INFINITY;
+    if (high > slack) low = slack;
+    if (high - low <= near) break;
+    slack = fmin((low + high) / 2, low + 0.02 * (i + 1));
   }
   return st;
 }
@@ -197,7 +202,7 @@ thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options,
     thr_fail(err, st, "%s", st == THR_ENOMEM ? "out of memory" : why.text);
   } else if ((st = plan_length(&m, false, &shortest, &why_not))) {
     thr_fail(err, st, "%s", why_not.text);
-  } else if (!(st = options->max_pull > 0 ? try_few(&m, err) : try_numbers(&m, err))) {
+  } else if (!(st = options->max_pull > 0 ? try_few(&m, shortest.metrics.length, err) : try_numbers(&m, err))) {
     if (!shortest.proof.walks.unit) { /* of the longest cord, of any plan */
       shortest.proof.walks = limited.proof.walks;
       limited.proof.walks = (thr_walk_proof){0};

@@ -19,9 +19,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* How many cords it takes is looked for with so much counted work (graph/limits.h) for a second that the user allows, so that the
- * number does not depend on the machine: it takes a tenth to a half of that second. */
-static const double work_per_second = 1.2;
+/* Counted work (graph/limits.h) for a second that the user allows, so that the plan does not depend on the machine: to find how
+ * many cords it takes, and then cords that serve the aims. Together they take a tenth of that second up to all of it. */
+static const double work_to_find = 1.2, work_to_serve = 0.4;
 
 typedef struct {
   const thr_frame *f;
@@ -221,7 +221,7 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
                             thr_report *report, thr_err *err)
 {
   thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
-  double work = work_per_second * options->time_limit;
+  double work = work_to_find * options->time_limit;
   fewest x = {.f = frame, .o = options, .limits = &share, .claim.excluded = options->cords_least - 1};
   bool fits;
   thr_err why = {0};
@@ -234,10 +234,13 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
   thr_status st = is_range(options) ? bound_all(&x, err) : THR_OK;
   if (!st) st = is_range(options) ? search_numbers(&x, err) : try_number(&x, options->cords, &fits, err);
-  x.limits = limits;
+  double rest = work_to_serve * options->time_limit;
+  thr_limits last = *limits;
+  if (rest > 0 && !last.work) last = thr_limits_counted(&last, &rest);
+  x.limits = &last;
   if (x.found.n_cords > 0) few.cords = x.number;
   bool hopeless = is_range(options) ? x.found.n_cords == 0 : x.claim.excluded >= options->cords;
-  if (!st && !hopeless) st = thr_planner_mixed(frame, &few, &x.found, limits, plan, &why);
+  if (!st && !hopeless) st = thr_planner_mixed(frame, &few, &x.found, &last, plan, &why);
   if (!st && hopeless) st = THR_EINFEASIBLE;
   if (st == THR_EINFEASIBLE || (st && plan->n_cords == 0 && why.code))
     st = not_found(&x, &why, err);

@@ -49,7 +49,9 @@ static const char help_requests[] =
     "                       --distinct). Not with tube joints or copies\n"
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
-    "                       an S that is given, and so do the drawings; else each search has its 20 s\n" GUARD_MEMORY_HELP "\n";
+    "                       an S that is given, and so do the drawings; else each search has its 20 s.\n"
+    "                       --max-pull without S counts its work instead: the same plan, later, on a busy "
+    "machine\n" GUARD_MEMORY_HELP "\n";
 static const char help_rest[] = TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
                                              "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
                                              "\nFramework:\n" CLI_FRAME_HELP;
@@ -551,11 +553,12 @@ static int write_outputs(const arguments *a, planned *x, int planned_code)
   return code || a->json || cli_quiet ? code : print_places(a, p, to.plan, drawn ? NULL : to.folder);
 }
 
-/* Time that nobody asked for is the search's alone. */
+/* Time that nobody asked for is the search's alone, and no limit on work that is counted. */
 static thr_status make_plan(const arguments *a, const thr_frame *framework, const thr_request *options, planned *x, thr_err *err)
 {
-  if (a->guard.seconds < 0) guard_allow(options->time_limit > 0 ? 1 + 1.1 * options->time_limit : 0);
-  thr_limits limits = cli_limits(time_of_plan(a, options));
+  const double patience = a->guard.seconds < 0 ? thr_dispatch_patience(options) : 1;
+  if (a->guard.seconds < 0) guard_allow(options->time_limit > 0 ? 1 + 1.1 * patience * options->time_limit : 0);
+  thr_limits limits = cli_limits(patience * time_of_plan(a, options));
   best_begin(framework, options);
   limits.found = best_found;
   thr_status st = thr_plan_make(framework, options, &limits, &x->plan, &x->report, err);
