@@ -1244,7 +1244,7 @@ class Tied:
 
 # ---- components of few edges ----
 
-FEW_EDGES, FEW_SUMMED, FEW_SETS = 18, 12, 2**18
+FEW_EDGES, FEW_SUMMED, FEW_SETS, FEW_SHARED = 18, 12, 2**18, 400000
 ONE, LEAST = {}, {}  # tables that were made before, and what they came to
 
 
@@ -1405,6 +1405,35 @@ class FewEdges:
         return more
 
 
+    def different(self, each, low, high):
+        """In all, of low .. high cords of which every edge is passed by so many different ones; 0: one, or too many sets."""
+        if each == 1 or (2 * each + 1) ** self.n > FEW_SHARED:
+            return 0
+        stride = [(each + 1) ** i for i in range(self.n)]
+        offset = [sum(s for i, s in enumerate(stride) if mask >> i & 1) for mask in range(1 << self.n)]
+        needs = (each + 1) ** self.n
+        holds = [sum(1 << i for i, s in enumerate(stride) if x // s % (each + 1)) for x in range(needs)]
+        best, result = [0.0] + [math.inf] * (needs - 1), math.inf
+        for n in range(1, min(high, each * self.n) + 1):
+            more = [self.one[0] + best[0]]
+            for x in range(1, needs):
+                lowest = holds[x] & -holds[x]
+                rest = part = holds[x] ^ lowest
+                least = math.inf
+                while True:
+                    least = min(least, self.one[part | lowest] + best[x - offset[part | lowest]])
+                    if not part:
+                        break
+                    part = (part - 1) & rest
+                more.append(least)
+            best = more
+            if low <= n:
+                result = min(result, best[-1])
+        if high > each * self.n:
+            result = min(result, best[-1] + (max(low, each * self.n + 1) - each * self.n) * self.one[0])
+        return result
+
+
 def few_edges(p, turning, enough):
     """Per component: its FewEdges, or None if it is large; and the least and the most cords it may have."""
     f, o, sets, found = p.frame, p.options, FEW_SETS, []
@@ -1436,7 +1465,9 @@ def few_edges_lengths(p):
         edges = f.edges_of(c)
         small = high > 1 and len(edges) <= FEW_SUMMED and 1 << len(edges) <= sets
         sets -= (1 << len(edges)) if small else 0
-        least = FewEdges(p, edges, False, math.inf).least(low, high, False) if small else 0
+        table = FewEdges(p, edges, False, math.inf) if small else None
+        each = o.distinct if o.distinct and p.met == f.m else 1
+        least = (table.different(each, low, high) or table.least(low, high, False)) if small else 0
         found.append(Fraction(min(least, sys.float_info.max)))
     return found
 

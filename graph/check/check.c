@@ -236,6 +236,41 @@ static double length_of(const thr_frame *frame, const int *passes)
   return sum;
 }
 
+/* Edges that so many different cords pass. */
+static thr_status count_different(const thr_frame *frame, int distinct, const thr_cord *cord, int n_cords, int *found,
+                                  thr_err *err)
+{
+  int *cords = thr_calloc((size_t)frame->n_edges, sizeof *cords);
+  bool *here = thr_calloc((size_t)frame->n_edges, sizeof *here);
+  thr_status st = cords && here ? THR_OK : thr_nomem(err);
+  *found = 0;
+  for (int i = 0; i < n_cords && !st; i++) {
+    for (int k = 0; k < cord[i].n_passes; k++) {
+      cords[cord[i].half[k] >> 1] += !here[cord[i].half[k] >> 1];
+      here[cord[i].half[k] >> 1] = true;
+    }
+    for (int k = 0; k < cord[i].n_passes; k++)
+      here[cord[i].half[k] >> 1] = false;
+  }
+  for (int e = 0; e < frame->n_edges && !st; e++)
+    *found += cords[e] >= distinct;
+  free(cords);
+  free(here);
+  return st;
+}
+
+/* How many different cords plans like this one have over every edge: what is asked for, if it has them. */
+static thr_status count_each(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords, int *each,
+                             thr_err *err)
+{
+  int found = 0;
+  *each = 1;
+  if (options->distinct < 2) return THR_OK;
+  thr_status st = count_different(frame, options->distinct, cord, n_cords, &found, err);
+  if (found == frame->n_edges) *each = options->distinct;
+  return st;
+}
+
 /* Least length of the cords of each component by what their edges need and the verdicts: least[n_components], and of the passes
  * themselves, own[n_components]. */
 static void take_verdicts(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
@@ -252,11 +287,10 @@ static void take_verdicts(const thr_frame *frame, const thr_request *options, co
   }
 }
 
-/* What the verdicts prove of passes with this length; and, of cords, what all sets of few edges do. Not where the length is
- * limited to a part above the least, which is then that of the certificates. */
-static thr_status sum_verdicts(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
-                               bool of_cords, const thr_check_verdict *verdict, double length, bool *optimal, double *lower_bound,
-                               thr_err *err)
+/* What the verdicts prove of passes with this length; and, of cords (each > 0: so many different ones over every edge), what all
+ * sets of few edges do. Not where the length is limited to a part above the least, which is then that of the certificates. */
+static thr_status sum_verdicts(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked, int each,
+                               const thr_check_verdict *verdict, double length, bool *optimal, double *lower_bound, thr_err *err)
 {
   const int n = check_walked->n_components;
   const bool slack = thr_wants_turning(options) && options->turning.length_slack >= 0;
@@ -269,9 +303,9 @@ static thr_status sum_verdicts(const thr_frame *frame, const thr_request *option
   for (int k = 0; k < n && !st; k++)
     *optimal &= verdict[k].optimal;
   if (!st) take_verdicts(frame, options, check_walked, verdict, least, own);
-  if (!st && !*optimal && of_cords && !slack)
+  if (!st && !*optimal && each > 0 && !slack)
     st = thr_few_edges_lengths(frame, options, check_walked->component, n,
-                               thr_check_fewest_first(options) ? check_walked->cords : NULL, few, err);
+                               thr_check_fewest_first(options) ? check_walked->cords : NULL, each, few, err);
   *optimal = true;
   for (int k = 0; k < n && !st; k++) {
     *optimal &= verdict[k].optimal || few[k] >= own[k] * (1 - 1e-9);
@@ -297,13 +331,13 @@ static thr_status judge_certificates(const thr_frame *frame, const thr_request *
 }
 
 /* For passes of this length, or cords. */
-static thr_status check_proof(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
-                              bool of_cords, double length, const thr_certificate *certificate, int n, bool *optimal,
-                              double *lower_bound, thr_err *err)
+static thr_status check_proof(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked, int each,
+                              double length, const thr_certificate *certificate, int n, bool *optimal, double *lower_bound,
+                              thr_err *err)
 {
   thr_check_verdict *verdict;
   thr_status st = judge_certificates(frame, options, check_walked, certificate, n, &verdict, err);
-  if (!st) st = sum_verdicts(frame, options, check_walked, of_cords, verdict, length, optimal, lower_bound, err);
+  if (!st) st = sum_verdicts(frame, options, check_walked, each, verdict, length, optimal, lower_bound, err);
   free(verdict);
   return st;
 }
@@ -314,11 +348,13 @@ thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *opt
 {
   thr_check_walked check_walked;
   double length = 0;
+  int each = 1;
   thr_status st = walked_from_cords(&check_walked, frame, options, cord, n_cords, err);
   if (!st) st = check_cord_count(&check_walked, options, err);
+  if (!st) st = count_each(frame, options, cord, n_cords, &each, err);
   for (int i = 0; i < n_cords; i++)
     length += thr_cord_length(frame, &cord[i]);
-  if (!st) st = check_proof(frame, options, &check_walked, true, length, certificate, n_certificates, optimal, lower_bound, err);
+  if (!st) st = check_proof(frame, options, &check_walked, each, length, certificate, n_certificates, optimal, lower_bound, err);
   walked_destroy(&check_walked);
   return st;
 }
@@ -397,7 +433,7 @@ thr_status thr_check_length_of_passes(const thr_frame *frame, const thr_request 
   memcpy(check_walked.passes, passes, (size_t)frame->n_edges * sizeof *passes);
   st = check_passes(frame, options, &check_walked, err);
   if (!st)
-    st = check_proof(frame, options, &check_walked, false, length_of(frame, check_walked.passes), certificate, n_certificates,
+    st = check_proof(frame, options, &check_walked, 0, length_of(frame, check_walked.passes), certificate, n_certificates,
                      optimal, lower_bound, err);
   walked_destroy(&check_walked);
   return st;
@@ -489,7 +525,9 @@ static thr_status check_length_claim(const thr_plan *plan, const thr_check_walke
                       length);
     optimal = thr_check_close(lower_bound, length, length);
   } else {
-    thr_status st = sum_verdicts(&plan->frame, &plan->options, check_walked, true, verdict, length, &optimal, &lower_bound, err);
+    int each = 1;
+    thr_status st = count_each(&plan->frame, &plan->options, plan->cord, plan->n_cords, &each, err);
+    if (!st) st = sum_verdicts(&plan->frame, &plan->options, check_walked, each, verdict, length, &optimal, &lower_bound, err);
     if (st) return st;
   }
   *proved = lower_bound;
@@ -577,26 +615,12 @@ thr_status thr_check_own(thr_status st, const thr_err *found, thr_err *err)
   return st ? thr_fail(err, st, "%s", found->text) : THR_OK;
 }
 
-/* Edges that enough different cords pass, counted anew; without all of them nothing is optimal. */
+/* Without enough different cords over all edges nothing is optimal. */
 static thr_status check_distinct(const thr_plan *plan, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
-  int *cords = thr_calloc((size_t)frame->n_edges, sizeof *cords), found = 0;
-  bool *here = thr_calloc((size_t)frame->n_edges, sizeof *here);
-  thr_status st = cords && here ? THR_OK : thr_nomem(err);
-  for (int i = 0; i < plan->n_cords && !st; i++) {
-    const thr_cord *cord = &plan->cord[i];
-    for (int k = 0; k < cord->n_passes; k++) {
-      cords[cord->half[k] >> 1] += !here[cord->half[k] >> 1];
-      here[cord->half[k] >> 1] = true;
-    }
-    for (int k = 0; k < cord->n_passes; k++)
-      here[cord->half[k] >> 1] = false;
-  }
-  for (int e = 0; e < frame->n_edges && !st; e++)
-    found += cords[e] >= plan->options.distinct;
-  free(cords);
-  free(here);
+  int found = 0;
+  thr_status st = count_different(frame, plan->options.distinct, plan->cord, plan->n_cords, &found, err);
   if (!st) st = metric("distinct", plan->metrics.distinct, found, 0, err);
   bool optimal = plan->proof.optimal || plan->cords_claim.longest_optimal || plan->cords_claim.fewest_optimal ||
                  plan->pull_claim.optimal || plan->turning.optimal || plan->turning.largest_optimal;

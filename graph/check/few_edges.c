@@ -330,6 +330,91 @@ thr_status thr_few_edges_sum(const thr_few_edges *few, int least, int most, doub
   return st;
 }
 
+/* ---- several different cords over every edge ---- */
+
+/* Needs of all edges are the digits of a number to the base each + 1, the first edge's the lowest. */
+typedef struct {
+  const thr_few_edges *few;
+  int base, needs;     /* needs: how many numbers there are */
+  int *offset;         /* [2^n] of a set: one pass less over each of its edges */
+  double *best, *more; /* [needs] */
+} sharing;
+
+static unsigned edges_of(const sharing *x, int needs)
+{
+  unsigned set = 0;
+  for (int i = 0; i < x->few->n; i++, needs /= x->base)
+    if (needs % x->base > 0) set |= 1u << i;
+  return set;
+}
+
+/* best becomes that of one cord more. */
+static void share_once_more(sharing *x)
+{
+  for (int needs = 0; needs < x->needs; needs++) {
+    const unsigned set = edges_of(x, needs), lowest = set & (~set + 1), rest = set & ~lowest;
+    x->more[needs] = INFINITY;
+    for (unsigned part = rest;; part = (part - 1) & rest) {
+      const unsigned cord = part | lowest;
+      x->more[needs] = fmin(x->more[needs], x->few->one[cord] + x->best[needs - x->offset[cord]]);
+      if (part == 0) break;
+    }
+  }
+  double *swap = x->best;
+  x->best = x->more;
+  x->more = swap;
+}
+
+/* How many needs there are, and are the sets of them few enough? */
+static bool is_small(int each, int n, int *needs)
+{
+  const double most = 400000;
+  double sets = 1;
+  *needs = 1;
+  for (int i = 0; i < n && sets <= most; i++) {
+    sets *= 2 * each + 1;
+    *needs *= each + 1;
+  }
+  return sets <= most;
+}
+
+static void fill_offsets(sharing *x)
+{
+  for (unsigned set = 1; set < 1u << x->few->n; set++) {
+    int stride = 1;
+    for (int i = 0; !(set >> i & 1u); i++)
+      stride *= x->base;
+    x->offset[set] = x->offset[set & (set - 1)] + stride;
+  }
+}
+
+thr_status thr_few_edges_different(const thr_few_edges *few, int each, int least, int most, double *cost, thr_err *err)
+{
+  thr_scratch own = {0};
+  sharing x = {.few = few, .base = each + 1};
+  *cost = 0;
+  if (!is_small(each, few->n, &x.needs)) return THR_OK;
+  const int enough = each * few->n; /* more cords than that only cost more */
+  x.offset = thr_scratch_array(&own, (size_t)1 << few->n, sizeof *x.offset);
+  x.best = thr_scratch_array(&own, (size_t)x.needs, sizeof *x.best);
+  x.more = thr_scratch_array(&own, (size_t)x.needs, sizeof *x.more);
+  thr_status st = thr_scratch_check(&own, err);
+  if (!st) fill_offsets(&x);
+  for (int needs = 1; needs < x.needs && !st; needs++)
+    x.best[needs] = INFINITY;
+  *cost = INFINITY;
+  for (int n = 1; n <= most && n <= enough && !st; n++) {
+    share_once_more(&x);
+    if (n >= least) *cost = fmin(*cost, x.best[x.needs - 1]);
+  }
+  if (!st && most > enough) {
+    const int n = least > enough ? least : enough + 1;
+    *cost = fmin(*cost, x.best[x.needs - 1] + (n - enough) * few->one[0]);
+  }
+  thr_scratch_free(&own);
+  return st;
+}
+
 /* ---- all components ---- */
 
 void thr_few_edges_cords(const thr_frame *frame, const thr_request *options, const int *component, int number, int *least,
@@ -354,7 +439,7 @@ static thr_status count_all_edges(const thr_frame *frame, const int *component, 
 }
 
 thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *options, const int *component, int n_components,
-                                 const int *cords, double *least, thr_err *err)
+                                 const int *cords, int each, double *least, thr_err *err)
 {
   int sets = THR_FEW_SETS, *edges = NULL;
   thr_status st = count_all_edges(frame, component, n_components, &edges, err);
@@ -367,7 +452,8 @@ thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *opti
     if (cords) to = cords[c];
     if (to > 1) st = thr_few_edges_init(&few, frame, options, component, c, false, INFINITY, sets, err);
     if (few.n > 0) sets -= 1 << few.n;
-    if (!st && few.n > 0) st = thr_few_edges_sum(&few, from, to, &least[c], err);
+    if (!st && few.n > 0 && each > 1) st = thr_few_edges_different(&few, each, from, to, &least[c], err);
+    if (!st && few.n > 0 && least[c] == 0) st = thr_few_edges_sum(&few, from, to, &least[c], err);
     thr_few_edges_destroy(&few);
   }
   free(edges);

@@ -49,11 +49,17 @@ thr_status thr_few_edges_sum(const thr_few_edges *few, int least, int most, doub
 void thr_few_edges_cords(const thr_frame *frame, const thr_request *options, const int *component, int number, int *least,
                          int *most);
 
+/* Least cost in all of least .. most cords of which every edge is passed by `each` different ones, at least; 0: too many sets of
+ * what edges still need, (2 each + 1)^n. best_n[needs] = min over T of one[T] + best_(n-1)[needs - T] over the sets T of edges
+ * with needs that hold the lowest of them. */
+thr_status thr_few_edges_different(const thr_few_edges *few, int each, int least, int most, double *cost,
+                                   thr_err *err) THR_MUST_CHECK;
+
 /* Least length of all cords of each component together, least[components]; 0 of those that may have one cord only, have more than
  * THR_FEW_SUMMED edges, or come when the sets are used up. cords[components]: at most as many as these, NULL: as the options
- * allow. */
+ * allow. each: different cords over every edge, at least. */
 thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *options, const int *component, int n_components,
-                                 const int *cords, double *least, thr_err *err) THR_MUST_CHECK;
+                                 const int *cords, int each, double *least, thr_err *err) THR_MUST_CHECK;
 
 /* By the price of turns, for the components of a framework, as many cords in each as the options allow. *sum: in all, 0 if there
  * are too many edges; *dearest: of the dearest cord in any component of few edges, INFINITY above limit. Components that may have
