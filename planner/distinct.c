@@ -8,6 +8,7 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "planner/dispatch.h"
+#include "planner/distinct_few.h"
 #include "planner/make_plan.h"
 #include "planner/planners.h"
 #include "tortuosity/cords/distinct.h"
@@ -284,6 +285,17 @@ static thr_status search_near(maker *x, int from, thr_err *err)
   return st;
 }
 
+/* Of few edges the shortest cords, where that is all that is asked for. */
+static thr_status try_few(maker *x, thr_err *err)
+{
+  thr_cord *cord;
+  int n;
+  thr_status st = thr_distinct_few(x->f, x->o, x->limits, &cord, &n, err);
+  if (!st && n > 0) st = offer(x, &cord, &n, err);
+  thr_cords_destroy(cord, n);
+  return st;
+}
+
 /* One component: from is any cords of it. */
 static thr_status make_component(maker *x, const thr_plan *from, thr_err *err)
 {
@@ -298,7 +310,7 @@ static thr_status make_component(maker *x, const thr_plan *from, thr_err *err)
   else
     st = search_near(x, start.n_cords, err);
   thr_cords_destroy(start.cord, start.n_cords);
-  return st;
+  return st ? st : try_few(x, err);
 }
 
 /* One component after the other, where each has a number of cords of its own. */

@@ -55,6 +55,11 @@ void thr_few_edges_cords(const thr_frame *frame, const thr_request *options, con
 thr_status thr_few_edges_different(const thr_few_edges *few, int each, int least, int most, double *cost,
                                    thr_err *err) THR_MUST_CHECK;
 
+/* The sets of edges, set[cords], that the cheapest of so many cords pass, each at least. *found false: too many sets to look at,
+ * or there are none. */
+thr_status thr_few_edges_sets(const thr_few_edges *few, int each, int cords, unsigned *set, bool *found,
+                              thr_err *err) THR_MUST_CHECK;
+
 /* Least length of all cords of each component together, least[components]; 0 of those that may have one cord only, have more than
  * THR_FEW_SUMMED edges, or come when the sets are used up. cords[components]: at most as many as these, NULL: as the options
  * allow. each: different cords over every edge, at least. */
