@@ -2,6 +2,7 @@
 #include "graph/plan/prices.h"
 #include "graph/check/check.h"
 #include "lp/length/cords.h"
+#include "graph/check/few_edges.h"
 #include "tests/support.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
@@ -77,13 +78,16 @@ static thr_plan plan_with(const thr_frame *f, thr_ends ends, int cords, int *end
   return p;
 }
 
-/* K cords that end at the first node of a path of 3 edges: the first edge has 2K places there, and the last must be reached. */
+/* More edges than all sets of them are tried of (graph/check/few_edges.h): only then prices are the proof. */
+enum { EDGES = THR_FEW_SUMMED + 2 };
+
+/* K cords that end at the first node of a path: the first edge has 2K places there, and the last must be reached. */
 START_TEST(cords_from_one_foot_take_a_pass_for_every_end)
 {
-  thr_frame f = path_make(4);
+  thr_frame f = path_make(EDGES + 1);
   for (int cords = 1; cords <= 6; cords++) {
     thr_plan p = plan_with(&f, THR_ENDS_FEET, cords, NULL);
-    ck_assert_double_eq_tol(p.metrics.length, 2 * cords + 4, 1e-9);
+    ck_assert_double_eq_tol(p.metrics.length, 2 * cords + 2 * (EDGES - 1), 1e-9);
     ck_assert_int_eq(p.proof.certificate[0].n_prices, cords > 1);
     thr_plan_destroy(&p);
   }
@@ -153,11 +157,11 @@ static void assert_refused(const thr_plan *p, const char *word)
 START_TEST(forged_prices_are_refused)
 {
   static const thr_ends ends[] = {THR_ENDS_FEET, THR_ENDS_COUNTS, THR_ENDS_CLOSED};
-  thr_frame f = path_make(4);
-  int end_count[4] = {6};
-  thr_plan p = plan_with(&f, ends[_i], 3 + 3 * (_i == 2), ends[_i] == THR_ENDS_COUNTS ? end_count : NULL);
+  thr_frame f = path_make(EDGES + 1);
+  int end_count[EDGES + 1] = {6};
+  thr_plan p = plan_with(&f, ends[_i], _i == 2 ? EDGES + 3 : 3, ends[_i] == THR_ENDS_COUNTS ? end_count : NULL);
   thr_certificate *c = &p.proof.certificate[0];
-  ck_assert_int_eq(c->n_prices, ends[_i] == THR_ENDS_COUNTS ? 4 : 1);
+  ck_assert_int_eq(c->n_prices, ends[_i] == THR_ENDS_COUNTS ? EDGES + 1 : 1);
   int64_t kept = c->place_price[0];
   ck_assert_int_gt(kept, 0);
   c->place_price[0] = -1;
