@@ -24,6 +24,7 @@ void thr_eval_destroy(thr_eval *eval)
   thr_holding_destroy(&eval->loosest);
   thr_holding_destroy(&eval->after);
   thr_settle_destroy(&eval->settle);
+  thr_erect_destroy(&eval->erect);
   thr_holding_destroy(&eval->loaded);
   for (int i = 0; i < eval->n_carries; i++)
     thr_carry_destroy(&eval->carries[i].carry);
@@ -42,7 +43,7 @@ static thr_status check_options(const thr_eval_options *options, thr_err *err)
     return thr_fail(err, THR_EINPUT, "iterations: a factor of %g; expected 0.1 to 100 times the validated number",
                     options->iterations);
   if (!(options->start >= 0) || !isfinite(options->start))
-    return thr_fail(err, THR_EINPUT, "start: a pull of %g N; expected more than 0, or 0 for three times the holding pull",
+    return thr_fail(err, THR_EINPUT, "start: a pull of %g N; expected more than 0, or 0 for 1.3 times the holding pull",
                     options->start);
   if (options->processes < 1) return thr_fail(err, THR_EINPUT, "processes: %d; expected 1 or more", options->processes);
   if (options->seed > largest_seed)

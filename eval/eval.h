@@ -7,6 +7,7 @@
 
 #include "eval/structure/holding.h"
 #include "eval/cord/profile.h"
+#include "eval/structure/erect.h"
 #include "eval/structure/settle.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
@@ -22,12 +23,11 @@ typedef struct {
   const thr_pull *cord_pull; /* .. or [n_cords] of each; borrowed, may be NULL */
   thr_law law;               /* method capstan only */
   uint64_t seed;
-  double time_step;  /* factor on the validated time step, 1; 0.5 halves it */
-  double iterations; /* factor on the validated iterations, 1 */
-  int processes;     /* that measure joints at a time, >= 1; results do not depend on it */
-  const char *cache; /* folder of measured joints; NULL = none; borrowed */
-  double start;      /* N, method structure: pull at which Bullet's structure settles; 0 = 3 x its holding pull. Plans are ranked
-                        at one common start */
+  double time_step;             /* factor on the validated time step, 1; 0.5 halves it */
+  double iterations;            /* factor on the validated iterations, 1 */
+  int processes;                /* that measure joints at a time, >= 1; results do not depend on it */
+  const char *cache;            /* folder of measured joints; NULL = none; borrowed */
+  double start;                 /* N, method structure: pull at which Bullet's structure settles; 0 = 1.3 x its holding pull */
   const thr_schedule *schedule; /* what is done to the cords, borrowed; NULL: they are pulled until the slackest pass is seated */
   const double (*load)[3];      /* N, method structure: [n_nodes] that acts at the nodes; NULL = none; borrowed */
   const double *load_pull;      /* N: at which pulls of all ends it is asked what may be carried .. */
@@ -38,6 +38,7 @@ typedef struct {
   bool clamped;  /* method structure: feet are held in place; else they stand on the ground */
   double hand;   /* N, methods capstan and joint: 0, or the largest pull of a schedule with the fewest grips, which is made */
   bool dynamics; /* method structure: confirm by Bullet (true) or limit analysis only */
+  bool erect;    /* method structure, with dynamics: simulate how it comes up from slack */
 } thr_eval_options;
 
 thr_eval_options thr_eval_options_default(void);
@@ -75,7 +76,9 @@ typedef struct {
   thr_load_point *carries; /* [n_carries] pulls of all ends, and what of the load they carry; owned */
   int n_carries;
   thr_carry after_carries; /* of the load, after a schedule; of first_bead -1 if that was not asked */
-  thr_settle settle;       /* method structure; none with a load, which it does not know */
+  thr_settle settle;       /* method structure: while being drawn in, after a schedule let down; none with a load, which it does
+                              not know */
+  thr_erect erect;         /* if that was asked and a pull is needed */
 } thr_eval;
 
 /* Contract of each method: THR_EINPUT for absurd physics or an overflow (one line that says what to change); THR_ELIMIT when

@@ -53,12 +53,10 @@ static const char help[] =
                                              "A difference within the measured error is a tie. The simulation of the structure "
                                              "runs twice for each plan, the second time "
                                              "with half\n"
-                                             "the time step and twice the iterations, all from one pull; only what both runs "
-                                             "tell apart is no tie. It takes minutes;\n"
-                                             "--no-dynamics is fast; it knows no loads, leaning ground, held feet and schedules, "
-                                             "and is left out with them. How far its index spreads over seeds is not counted: "
-                                             "try a "
-                                             "few --seed before you rely on it.\n";
+                                             "the time step; only what both runs and their errors tell apart is no tie. It takes "
+                                             "minutes; --no-dynamics is fast;\n"
+                                             "it knows no loads, leaning ground, held feet and schedules, and is left out with "
+                                             "them.\n";
 
 enum { OPTION_PLOT = OPTION_PULL_FREE, OPTION_SCHEDULE };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
@@ -105,7 +103,6 @@ static void rank_carry(ranking *r, const thr_carry *carry, int i)
 static void rank_plan(ranking *r, int by, const entry *e, int i)
 {
   const thr_eval *structure = &e->eval[THR_STRUCTURE];
-  double rough = e->index[0], fine = e->index[1];
   switch (by) {
   case CAPSTAN:
     r->value[i] = compare_largest(e, THR_CAPSTAN);
@@ -128,16 +125,16 @@ static void rank_plan(ranking *r, int by, const entry *e, int i)
     if (structure->after.present) rank_carry(r, &structure->after_carries, i);
     break;
   default:
-    r->value[i] = isnan(fine) ? NAN : rough;
-    r->low[i] = fmin(rough, fine);
-    r->high[i] = fmax(rough, fine);
+    r->value[i] = isnan(e->fall[1]) ? NAN : e->fall[0];
+    r->low[i] = fmin(e->fall[0] - e->fall_error[0], e->fall[1] - e->fall_error[1]);
+    r->high[i] = fmax(e->fall[0] + e->fall_error[0], e->fall[1] + e->fall_error[1]);
   }
 }
 
 static bool simulated(const entry *e, int n)
 {
   for (int i = 0; i < n; i++)
-    if (!isnan(e[i].index[0])) return true;
+    if (!isnan(e[i].fall[0])) return true;
   return false;
 }
 
@@ -187,10 +184,7 @@ static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranki
                          .key = "carried_after",
                          .unit = " x",
                          .most = true},
-      [SIMULATION] = {
-          .title = "simulation of the structure, an index without unit (coarse .. fine; its spread over seeds is not counted)",
-          .key = "simulation",
-          .unit = ""}};
+      [SIMULATION] = {.title = "pull at which the structure falls in simulation", .key = "simulation", .unit = " N"}};
   bool all = a->method == PULL_ALL_METHODS;
   *count = 0;
   for (int by = 0; by < N_RANKINGS; by++) {
@@ -428,7 +422,7 @@ static int read_entries(char **path, int n, entry *e)
 {
   for (int i = 0; i < n; i++) {
     e[i].path = path[i];
-    e[i].index[0] = e[i].index[1] = NAN;
+    e[i].fall[0] = e[i].fall[1] = NAN;
     int code = cli_read_plan(path[i], &e[i].plan);
     if (code) return code;
     if (i == 0 || thr_frame_hash(&e[i].plan.frame) == thr_frame_hash(&e[0].plan.frame)) continue;
@@ -467,7 +461,7 @@ static int evaluate_one(const pull_args *a, const deeds *d, thr_method method, e
   thr_schedule schedule = {0};
   double(*load)[3] = NULL;
   int code = EXIT_OK;
-  plain.options.dynamics = false; /* the simulation follows, when the common start is known */
+  plain.options.dynamics = false; /* the simulation follows */
   if (method == THR_STRUCTURE) code = read_deeds(d, e, &plain.options, &schedule, &load);
   if (schedule.n > 0) plain.options.schedule = &schedule;
   if (!code) code = pull_eval(&plain, e->path, &e->plan, method, &e->eval[method]);
@@ -493,26 +487,29 @@ static int evaluate(const pull_args *a, const deeds *d, entry *e, int n)
   return worst;
 }
 
-enum { CREPT = -1, LATE = -2 }; /* in place of an index */
-
 typedef struct {
   const pull_args *args;
   const entry *e;
   const int *plan; /* which are simulated */
-  double start;
   const thr_limits *limits;
 } simulation;
 
-/* Job 2 k simulates plan[k], job 2 k + 1 the same at finer settings; the result is a double, NAN if it never came to rest, or
- * CREPT, or LATE. */
+typedef struct {
+  double fall, error; /* N */
+  int status;         /* thr_settle_status */
+} settled;
+
+/* Job 2 k simulates plan[k], job 2 k + 1 the same with half the time step. */
 static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
 {
   const simulation *s = user;
   const entry *e = &s->e[s->plan[job / 2]];
   const thr_evaluation *evaluation = &e->eval[THR_STRUCTURE].record;
-  const thr_settle_options options = {.start = s->start,
+  const thr_settle_options options = {.least = e->eval[THR_STRUCTURE].holding.lower,
+                                      .equilibrium = e->eval[THR_STRUCTURE].holding.upper,
+                                      .start = s->args->options.start,
                                       .time_step = s->args->options.time_step * (job & 1 ? 0.5 : 1),
-                                      .iterations = s->args->options.iterations * (job & 1 ? 2 : 1),
+                                      .iterations = s->args->options.iterations,
                                       .seed = s->args->options.seed};
   thr_beads beads = {0};
   thr_settle out = {0};
@@ -521,15 +518,12 @@ static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
   for (int i = 0; i < evaluation->n_cords && !st; i++) { /* of a pull of 1 */
     if (!(tension[i] = thr_calloc((size_t)evaluation->cord[i].n_passes, sizeof **tension))) st = thr_nomem(err);
     for (int k = 0; k < evaluation->cord[i].n_passes && !st; k++)
-      tension[i][k] = evaluation->cord[i].tension[k] / evaluation->cord[i].force;
+      tension[i][k] = evaluation->cord[i].tension[k] / options.least;
   }
   if (!st)
-    st = thr_settle_run(&beads, &e->plan.frame, e->plan.cord, evaluation->n_cords, (const double *const *)tension,
+    st = thr_settle_run(&beads, &e->plan.frame, e->plan.cord, evaluation->n_cords, (const double *const *)tension, NULL,
                         &evaluation->physics, &options, s->limits, &out, err);
-  thr_settle_judge(&out, options.start, e->eval[THR_STRUCTURE].holding.lower, e->eval[THR_STRUCTURE].holding.upper);
-  bool known = out.status == THR_SETTLE_FELL || out.status == THR_SETTLE_HELD;
-  const double why_not = out.status == THR_SETTLE_CREPT ? CREPT : out.status == THR_SETTLE_LATE ? LATE : NAN;
-  *(double *)result = st ? NAN : known ? out.index : why_not;
+  *(settled *)result = (settled){out.fall, out.error, out.status};
   thr_settle_destroy(&out);
   for (int i = 0; i < evaluation->n_cords && tension; i++)
     free(tension[i]);
@@ -538,56 +532,40 @@ static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
   return st;
 }
 
-static thr_status run_simulations(const pull_args *a, entry *e, const int *plan, int n, double start, thr_err *err)
+static thr_status run_simulations(const pull_args *a, entry *e, const int *plan, int n, thr_err *err)
 {
   const thr_limits limits = cli_limits(0);
   const thr_limits quiet = {.interrupted = limits.interrupted}; /* in a child: only the parent draws the bar */
-  simulation s = {a, e, plan, start, &quiet};
+  simulation s = {a, e, plan, &quiet};
   const thr_work work = {.n_jobs = 2 * n,
-                         .result_size = sizeof(double),
+                         .result_size = sizeof(settled),
                          .run = settle_plan,
                          .user = &s,
                          .what = "simulating structures",
                          .advice = "use --no-dynamics"};
-  double *index = thr_calloc(2 * (size_t)n, sizeof *index);
+  settled *found = thr_calloc(2 * (size_t)n, sizeof *found);
   bool *finished = thr_calloc(2 * (size_t)n, sizeof *finished);
   thr_status st =
-      index && finished ? thr_workers_run(&work, a->options.processes, &limits, index, finished, err) : thr_nomem(err);
-  for (int i = 0; i < 2 * n && index && finished; i++)
-    if (finished[i]) e[plan[i / 2]].index[i & 1] = index[i];
-  free(index);
+      found && finished ? thr_workers_run(&work, a->options.processes, &limits, found, finished, err) : thr_nomem(err);
+  for (int i = 0; i < 2 * n && found && finished; i++) {
+    entry *of = &e[plan[i / 2]];
+    if (finished[i] && found[i].status == THR_SETTLE_FELL) {
+      of->fall[i & 1] = found[i].fall;
+      of->fall_error[i & 1] = found[i].error;
+    } else if (finished[i] && !(i & 1 && isnan(of->fall[0]))) {
+      cli_note("note: the simulation of %s has not settled; `thread eval --method structure` says more", of->path);
+    }
+  }
+  free(found);
   free(finished);
   cli_progress_end();
   return st;
 }
 
-/* Why there is no index, and takes away what only says why. */
-static void note_simulation(entry *e, bool stopped)
-{
-  bool crept = false, late = false, restless = false;
-  for (int i = 0; i < 2; i++) {
-    restless |= isnan(e->index[i]);
-    crept |= e->index[i] == CREPT;
-    late |= e->index[i] == LATE;
-    if (e->index[i] < 0) e->index[i] = NAN;
-  }
-  if (restless && !stopped)
-    cli_note("note: the simulation of %s never came to rest; `thread eval --method structure` says more", e->path);
-  if (crept)
-    cli_note("note: no index where the simulation of %s moved at a pull of more than %.6g N, at which an equilibrium exists: its "
-             "contacts crept",
-             e->path, e->eval[THR_STRUCTURE].holding.upper);
-  if (late)
-    cli_note("note: no index where the simulation of %s stood until the pull was gone, though nothing holds it below %.6g N: it "
-             "fell too slowly to be seen",
-             e->path, e->eval[THR_STRUCTURE].holding.lower);
-}
-
-/* All from one pull, each twice; not where no pull is needed, since then there is none to let off. */
+/* Each twice; not where no pull is needed, since then there is none to let off. */
 static int settle(const pull_args *a, entry *e, int n)
 {
   thr_err err = {0};
-  double start = 0;
   int count = 0, *plan = thr_calloc((size_t)n, sizeof *plan);
   thr_status st = plan ? THR_OK : thr_nomem(&err);
   bool large = e[0].plan.frame.n_nodes > thr_settle_largest;
@@ -595,13 +573,9 @@ static int settle(const pull_args *a, entry *e, int n)
   for (int i = 0; i < n && plan && !large; i++) {
     double pull = compare_largest(&e[i], THR_STRUCTURE);
     if (pull > 0) plan[count++] = i;
-    if (pull > 0) start = fmax(start, 3 * pull);
     if (pull <= 0) cli_note("note: %s is not simulated: it needs no pull, so that there is none to let off", e[i].path);
   }
-  if (a->options.start > 0) start = a->options.start;
-  if (count > 0) st = run_simulations(a, e, plan, count, start, &err);
-  for (int k = 0; k < count; k++)
-    note_simulation(&e[plan[k]], st != THR_OK);
+  if (count > 0) st = run_simulations(a, e, plan, count, &err);
   free(plan);
   return st == THR_ELIMIT ? EXIT_LIMIT : st ? cli_fail(&err) : EXIT_OK;
 }
@@ -634,8 +608,8 @@ static int compare(const pull_args *a, const deeds *d, char **path, int n, entry
   code = evaluate(a, d, e, n);
   if (code && code != EXIT_LIMIT && !e[n - 1].eval[THR_CAPSTAN].record.present) return code;
   if (code != EXIT_LIMIT && wanted(a, THR_STRUCTURE) && a->options.dynamics) {
-    int settled = settle(a, e, n);
-    if (!code || settled == EXIT_LIMIT) code = settled;
+    int ended = settle(a, e, n);
+    if (!code || ended == EXIT_LIMIT) code = ended;
   }
   for (int i = 0; i < n && !a->json; i++)
     thr_text_clean(path[i]); /* the files are read; what follows is for people */

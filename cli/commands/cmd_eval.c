@@ -7,6 +7,7 @@
 #include "diagram/overview/still.h"
 #include "diagram/overview/tension.h"
 #include "eval/eval.h"
+#include "eval/structure/erect.h"
 #include "eval/structure/settle.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/units.h"
@@ -52,6 +53,8 @@ static const char help_rest[] =
     "                       against pull, and which piece moves first\n"
     "      --cord-strength N   newtons that the cord bears: says whether the pull would break it\n"
     "      --still FILE     structure: write a picture of the beads before and after the fall, as SVG\n"
+    "      --stills FILE    structure: how it comes up from slack as the cords are drawn in, in stills, as SVG, and the\n"
+    "                       counterweight that takes (--pull A=both,B=none: by one cord alone)\n"
     "      --json           everything as JSON\n"
     "  -q, --quiet          no notes and no progress       -h, --help\n\n"
     "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating tension "
@@ -75,6 +78,7 @@ enum {
   OPTION_TENSION = OPTION_PULL_FREE,
   OPTION_PLOT,
   OPTION_STILL,
+  OPTION_STILLS,
   OPTION_STRENGTH,
   OPTION_SCHEDULE,
   OPTION_HAND,
@@ -88,6 +92,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
                                       {"plot", required_argument, NULL, OPTION_PLOT},
                                       {"still", required_argument, NULL, OPTION_STILL},
+                                      {"stills", required_argument, NULL, OPTION_STILLS},
                                       {"cord-strength", required_argument, NULL, OPTION_STRENGTH},
                                       {"schedule", required_argument, NULL, OPTION_SCHEDULE},
                                       {"hand", required_argument, NULL, OPTION_HAND},
@@ -99,7 +104,7 @@ typedef struct {
   guard_limits guard;
   load_args load;
   bool tension;
-  const char *path, *output, *plot, *still;
+  const char *path, *output, *plot, *still, *stills;
   const char *schedule, *calibrate; /* as given; NULL: none */
   double strength;                  /* N, of the cord; 0 = not said */
 } arguments;
@@ -131,6 +136,10 @@ static int parse(int argc, char **argv, arguments *a)
     case 'o': a->output = optarg; break;
     case OPTION_PLOT: a->plot = optarg; break;
     case OPTION_STILL: a->still = optarg; break;
+    case OPTION_STILLS:
+      a->stills = optarg;
+      a->pull.options.erect = true;
+      break;
     case OPTION_STRENGTH:
       if (!cli_double("eval", "--cord-strength", optarg, 1e-6, 1e9, &a->strength)) return EXIT_USAGE;
       break;
@@ -146,24 +155,27 @@ static int parse(int argc, char **argv, arguments *a)
   if (optind + 1 != argc)
     return cli_usage("eval", optind == argc ? "which plan?" : "one plan at a time; `thread compare` takes several");
   a->path = argv[optind];
-  const char *const out[] = {a->output, a->plot, a->still};
+  const char *const out[] = {a->output, a->plot, a->still, a->stills};
   int to_stdout = a->pull.json;
-  for (int i = 0; i < 3; i++)
+  for (int i = 0; i < 4; i++)
     to_stdout += out[i] && strcmp(out[i], "-") == 0;
-  if (to_stdout > 1) return cli_usage("eval", "only one of --json, -o -, --plot - and --still - can have stdout");
+  if (to_stdout > 1) return cli_usage("eval", "only one of --json, -o -, --plot -, --still - and --stills - can have stdout");
   if (a->output && cli_no_plan_name("eval", a->output)) return EXIT_USAGE;
   if (pull_check(&a->pull, "eval")) return EXIT_USAGE;
   if (a->schedule && a->pull.options.hand > 0) return cli_usage("eval", "--hand makes a schedule of its own: no --schedule");
   if (a->pull.options.hand > 0 && a->pull.method == THR_STRUCTURE)
     return cli_usage("eval", "--hand is of the methods capstan and joint; --schedule takes what it says");
-  if (a->still && a->pull.method != THR_STRUCTURE) return cli_usage("eval", "--still needs --method structure");
+  if ((a->still || a->stills) && a->pull.method != THR_STRUCTURE)
+    return cli_usage("eval", "%s needs --method structure", a->still ? "--still" : "--stills");
+  if (a->stills && a->schedule) return cli_usage("eval", "--stills draws the cords in; take --schedule away");
   if (load_any(&a->load) && a->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "--load, --tilt and --clamp-feet are of --method structure");
   if ((a->load.rays || a->load.taut) && a->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "%s is of --method structure", a->load.rays ? "--rays" : "--taut");
   if (a->load.n_pulls && !a->load.load) return cli_usage("eval", "--load-pulls needs --load");
-  if (a->still && a->load.load) return cli_usage("eval", "--still shows a simulation, which knows no loads");
-  if (a->still && !a->pull.options.dynamics) return cli_usage("eval", "--still shows a simulation; take --no-dynamics away");
+  const char *shows = a->still ? "--still" : a->stills ? "--stills" : NULL;
+  if (shows && a->load.load) return cli_usage("eval", "%s shows a simulation, which knows no loads", shows);
+  if (shows && !a->pull.options.dynamics) return cli_usage("eval", "%s shows a simulation; take --no-dynamics away", shows);
   return -1;
 }
 
@@ -244,34 +256,91 @@ static int write_load_plot(const thr_plan *plan, const thr_eval *eval, const cha
 }
 
 /* Poses come in m and with the ground at 0; the picture wants units of the framework. */
+static double (*poses_of(const double (*from)[7], size_t n, double mm))[7]
+{
+  double(*pose)[7] = thr_calloc(n, sizeof *pose);
+  for (size_t i = 0; i < n && pose; i++) {
+    memcpy(pose[i], from[i], sizeof *pose);
+    for (int k = 0; k < 3; k++)
+      pose[i][k] *= 1000 / mm;
+  }
+  return pose;
+}
+
 static thr_status draw_still(const thr_plan *plan, const thr_settle *settle, thr_text *svg, thr_err *err)
 {
+  const size_t n = (size_t)settle->n_beads;
   double mm = 1;
-  size_t n = (size_t)settle->n_beads;
-  double(*pose)[7] = thr_calloc(2 * n, sizeof *pose);
-  thr_status st = pose ? thr_units_in_mm(plan->frame.units, &mm, err) : thr_nomem(err);
-  for (size_t v = 0; v < 2 * n && !st; v++) {
-    memcpy(pose[v], v < n ? settle->before[v] : settle->after[v - n], sizeof *pose);
-    for (int k = 0; k < 3; k++)
-      pose[v][k] *= 1000 / mm;
-  }
-  char note[160];
-  snprintf(note, sizeof note, "%s",
-           settle->status == THR_SETTLE_HELD ? "It stands until the pull is gone."
-           : settle->status == THR_SETTLE_LATE
-               ? "Before: under the pull at the start. After: without any pull; it falls too slowly to be seen."
-               : "Before: under the pull at the start. After: the pull let off until it fell.");
+  thr_status st = thr_units_in_mm(plan->frame.units, &mm, err);
+  if (st) return st;
+  double(*before)[7] = poses_of((const double(*)[7])settle->before, n, mm),
+  (*after)[7] = poses_of((const double(*)[7])settle->after, n, mm);
+  char caption[2][160], first[80] = "";
+  if (settle->first_bead >= 0) snprintf(first, sizeof first, "; bead %.60s moved first", plan->frame.name[settle->first_bead]);
+  snprintf(caption[0], sizeof caption[0], "Before: widest gap %.3g mm", settle->gap_before);
+  snprintf(caption[1], sizeof caption[1], "After: widest gap %.3g mm%s", settle->gap_after, first);
+  const thr_still_panel panel[] = {{"before", caption[0], (const double(*)[7])before},
+                                   {"after", caption[1], (const double(*)[7])after}};
+  const char *note =
+      settle->status == THR_SETTLE_FELL   ? "Before: under the pull at the start. After: the pull let off until it fell."
+      : settle->status == THR_SETTLE_HELD ? "It stands until the pull is gone."
+                                          : "Not settled: when it falls is not known, and what is seen here creeps.";
   const thr_still still = {.title = "The structure in simulation",
                            .note = note,
                            .width = plan->evaluation.physics.bead_diameter / mm,
-                           .before = (const double(*)[7])pose,
-                           .after = (const double(*)[7])(pose ? pose + n : NULL),
-                           .first_bead = settle->first_bead,
-                           .gap_before = settle->gap_before,
-                           .gap_after = settle->gap_after};
-  if (!st) st = thr_still_svg(&plan->frame, &still, svg, err);
+                           .n_panels = 2,
+                           .panel = panel,
+                           .first_bead = settle->first_bead};
+  st = before && after ? thr_still_svg(&plan->frame, &still, svg, err) : thr_nomem(err);
+  free(before);
+  free(after);
+  return st;
+}
+
+/* How it comes up: slack, drawn in, let alone. */
+static thr_status draw_stills(const thr_plan *plan, const thr_erect *erect, thr_text *svg, thr_err *err)
+{
+  static const char *const id[THR_ERECT_STILLS] = {"slack", "half", "once", "twice", "alone", "rested"};
+  static const char *const when[THR_ERECT_STILLS] = {"Slack",  "Drawn in", "Drawn in", "Drawn in", "Without counterweight",
+                                                     "At rest"};
+  thr_still_panel panel[THR_ERECT_STILLS];
+  char caption[THR_ERECT_STILLS][200];
+  thr_text note = {0};
+  double mm = 1;
+  thr_status st = thr_units_in_mm(plan->frame.units, &mm, err);
+  if (st) return st;
+  double(*pose)[7] = poses_of((const double(*)[7])erect->pose, THR_ERECT_STILLS * (size_t)erect->n_beads, mm);
+  for (int i = 0; i < THR_ERECT_STILLS; i++) {
+    const thr_erect_still *s = &erect->still[i];
+    snprintf(caption[i], sizeof caption[i],
+             "%s: %.3g N at the harder ends, counterweight %.3g N; %d of %d gaps closed, %.3g mm high", when[i], s->pull,
+             s->lift * erect->weight, s->closed, erect->n_gaps, s->height);
+    panel[i] = (thr_still_panel){id[i], caption[i], (const double(*)[7])(pose ? pose + i * erect->n_beads : NULL)};
+  }
+  erect_put(&note, erect);
+  const thr_still still = {.title = "How the structure comes up",
+                           .note = note.data,
+                           .width = plan->evaluation.physics.bead_diameter / mm,
+                           .n_panels = THR_ERECT_STILLS,
+                           .panel = panel,
+                           .first_bead = -1};
+  st = pose && !note.failed ? thr_still_svg(&plan->frame, &still, svg, err) : thr_nomem(err);
+  thr_text_destroy(&note);
   free(pose);
   return st;
+}
+
+static int write_stills(const thr_plan *plan, const thr_erect *erect, bool stopped, const char *path)
+{
+  thr_err err = {0};
+  thr_text svg = {0};
+  if (!erect->present) {
+    cli_error(stopped ? "%s: not written: stopped before the simulation was done"
+                      : "%s: nothing to draw: there was no simulation",
+              path);
+    return stopped ? EXIT_OK : EXIT_INPUT; /* what stopped it has a code of its own */
+  }
+  return draw_stills(plan, erect, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
 }
 
 static int write_still(const thr_plan *plan, const thr_settle *settle, bool stopped, const char *path)
@@ -305,10 +374,11 @@ static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eva
   else if (!code && a->plot)
     code = write_plot(plan, a->strength, a->plot);
   if (!code && a->still) code = write_still(plan, &eval->settle, stopped, a->still);
-  const char *const out[] = {a->output, a->plot, a->still};
+  if (!code && a->stills) code = write_stills(plan, &eval->erect, stopped, a->stills);
+  const char *const out[] = {a->output, a->plot, a->still, a->stills};
   const eval_view view = {a->pull.pull, a->strength, a->tension, a->load.load != NULL, a->pull.options.dynamics && !a->load.load,
                           stopped};
-  for (int i = 0; i < 3; i++)
+  for (int i = 0; i < 4; i++)
     if (out[i] && strcmp(out[i], "-") == 0) return code;
   if (a->pull.json)
     eval_put_json(&text, plan, eval, stopped);

@@ -140,13 +140,13 @@ static double holding(const compare_entry *e)
 {
   return compare_largest(e, THR_STRUCTURE);
 }
-static double settle_index(const compare_entry *e)
+static double settle_fall(const compare_entry *e)
 {
-  return e->index[0];
+  return e->fall[0];
 }
-static double settle_index_fine(const compare_entry *e)
+static double settle_fall_fine(const compare_entry *e)
 {
-  return e->index[1];
+  return e->fall[1];
 }
 
 const compare_row compare_rows[] = {
@@ -177,8 +177,8 @@ const compare_row compare_rows[] = {
     {"turns by closed form", "joint_refused", joint_refused, false, -1, THR_JOINT, false, false},
     {"all pulls together, simulated, N", "joint_total", joint_total, true, -4, THR_JOINT, false, false},
     {"holding pull while drawn in, N", "holding_pull", holding, true, -6, THR_STRUCTURE, false, false},
-    {"simulation: index, no newtons", "ranking_index", settle_index, false, -3, THR_STRUCTURE, false, false},
-    {"the same, finer steps", "ranking_index_fine", settle_index_fine, false, -3, THR_STRUCTURE, false, false},
+    {"falls in simulation at, N", "falls_at", settle_fall, false, -4, THR_STRUCTURE, false, false},
+    {"the same, finer steps, N", "falls_at_fine", settle_fall_fine, false, -4, THR_STRUCTURE, false, false},
 };
 const int compare_n_rows = (int)(sizeof compare_rows / sizeof *compare_rows);
 

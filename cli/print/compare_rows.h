@@ -11,8 +11,8 @@
 typedef struct {
   const char *path;
   thr_plan plan;
-  thr_eval eval[THR_N_METHODS]; /* record.present only where the method ran and did not fail */
-  double index[2];              /* of the simulation at the settings given, and finer; NAN = none */
+  thr_eval eval[THR_N_METHODS];  /* record.present only where the method ran and did not fail */
+  double fall[2], fall_error[2]; /* N, in simulation at the settings given and with half the time step; NAN = not settled */
 } compare_entry;
 
 typedef struct {

@@ -3,6 +3,7 @@
 #include "cli/print/load_words.h"
 #include "eval/eval.h"
 #include "eval/structure/holding.h"
+#include "eval/structure/erect.h"
 #include "eval/structure/settle.h"
 #include "graph/framework/frame.h"
 #include "graph/io/writer.h"
@@ -65,19 +66,45 @@ static void put_json_play(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
-static void put_json_simulation(thr_writer *writer, const thr_frame *frame, const thr_settle *settle)
+static void put_json_simulation(thr_writer *writer, const thr_frame *frame, const thr_settle *settle, bool after)
 {
-  static const char *const status[] = {"fell", "held", "never settled", "too large", "crept", "late"};
-  const bool ranked = settle->status == THR_SETTLE_FELL || settle->status == THR_SETTLE_HELD;
+  static const char *const status[] = {"fell", "held", "not settled", "too large", "not settled", "not settled"},
+                           *const why[] = {NULL, NULL, "never came to rest", NULL, "crept", "late"};
+  const bool fell = settle->status == THR_SETTLE_FELL;
   thr_write_line(writer, 1);
   thr_write_object(writer, "simulation");
   thr_write_string(writer, "status", status[settle->status]);
-  thr_write_number(writer, "ranking_index", ranked ? settle->index : NAN);
+  if (why[settle->status]) thr_write_string(writer, "why", why[settle->status]);
+  thr_write_string(writer, "state", after ? "ends let down after the schedule" : "while the cord is being drawn in");
+  thr_write_number(writer, "falls_at", fell ? settle->fall : NAN);
+  thr_write_number(writer, "falls_error", fell ? settle->error : NAN);
   put_bead(writer, "first_bead", frame, settle->first_bead);
   thr_write_number(writer, "gap_before_mm", settle->gap_before);
   thr_write_number(writer, "gap_after_mm", settle->gap_after);
   thr_write_number(writer, "drift_mm", settle->drift);
-  thr_write_number(writer, "finer", settle->finer);
+  thr_write_number(writer, "effort", settle->effort);
+  thr_write_close(writer);
+}
+
+static void put_json_erection(thr_writer *writer, const thr_erect *erect)
+{
+  thr_write_line(writer, 1);
+  thr_write_object(writer, "from_slack");
+  thr_write_number(writer, "weight", erect->weight);
+  thr_write_number(writer, "counterweight", erect->lift * erect->weight);
+  thr_write_array(writer, "stills");
+  for (int i = 0; i < THR_ERECT_STILLS; i++) {
+    const thr_erect_still *s = &erect->still[i];
+    thr_write_line(writer, 2);
+    thr_write_object(writer, NULL);
+    thr_write_number(writer, "pull", s->pull);
+    thr_write_number(writer, "counterweight", s->lift * erect->weight);
+    thr_write_int(writer, "closed", s->closed);
+    thr_write_number(writer, "height_mm", s->height);
+    thr_write_number(writer, "gap_mm", s->gap);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
   thr_write_close(writer);
 }
 
@@ -111,7 +138,9 @@ void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, b
   if (eval->holding.present) put_json_answers(&writer, &plan->frame, eval);
   if (eval->holding.present) put_json_play(&writer, plan);
   if (eval->n_carries) load_put_json(&writer, &plan->frame, eval);
-  if (eval->holding.present && eval->settle.present) put_json_simulation(&writer, &plan->frame, &eval->settle);
+  if (eval->holding.present && eval->settle.present)
+    put_json_simulation(&writer, &plan->frame, &eval->settle, eval->after.present);
+  if (eval->erect.present) put_json_erection(&writer, &eval->erect);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }

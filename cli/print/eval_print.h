@@ -3,6 +3,7 @@
 #define THR_EVAL_PRINT_H
 
 #include "eval/eval.h"
+#include "eval/structure/erect.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
 
@@ -17,6 +18,8 @@ typedef struct {
 } eval_view;
 
 void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan, const thr_eval *eval);
+/* With which counterweight it comes up: a sentence without a newline. */
+void erect_put(thr_text *text, const thr_erect *erect);
 void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, bool stopped);
 
 #endif

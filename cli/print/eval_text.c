@@ -11,6 +11,7 @@
 #include "eval/eval.h"
 #include "eval/joint/drag.h"
 #include "eval/structure/holding.h"
+#include "eval/structure/erect.h"
 #include "eval/structure/settle.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
@@ -228,46 +229,37 @@ static void put_joint(thr_text *text, const thr_plan *plan, const thr_eval *eval
                     100 * eval->interpolation);
 }
 
-static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *settle, double least, double equilibrium)
+static void put_fall(thr_text *text, const thr_plan *plan, const thr_settle *settle, bool after)
 {
-  if (settle->status == THR_SETTLE_LATE) {
-    thr_text_printf(text,
-                    "simulation     stood until the pull was gone, though nothing holds it below %.6g N (proved): it fell too\n"
-                    "               slowly to be seen. No ranking index; try a smaller --time-step\n",
-                    least);
-    return;
-  }
-  if (settle->status == THR_SETTLE_CREPT) {
-    thr_text_printf(text,
-                    "simulation     a bead moved at a pull of more than %.6g N, at which an equilibrium exists: the contacts\n"
-                    "               crept. No ranking index; try a smaller --start, or a smaller --time-step with more\n"
-                    "               --iterations\n",
-                    equilibrium);
-    return;
-  }
-  if (settle->status == THR_SETTLE_TOO_LARGE) {
-    thr_text_printf(text, "simulation     left out: more than %d beads\n", thr_settle_largest);
-    return;
-  }
-  if (settle->status == THR_SETTLE_NEVER_SETTLED) {
-    thr_text_append(text,
-                    "simulation     never came to rest under the pull at its start: nothing is known of the fall (nor with\n"
-                    "               time step and iterations halved twice). Try a smaller --start, or a smaller --time-step\n"
-                    "               with more --iterations\n");
-    return;
-  }
-  if (settle->status == THR_SETTLE_FELL && settle->first_bead >= 0)
-    thr_text_printf(text, "simulation     bead %s moves first; widest gap %.3g mm before, %.3g mm after\n",
-                    plan->frame.name[settle->first_bead], settle->gap_before, settle->gap_after);
-  else
-    thr_text_printf(text, "simulation     stands until the pull is gone; widest gap %.3g mm\n", settle->gap_before);
-  if (settle->finer < 1)
-    thr_text_printf(text, "               it came to rest only with time step and iterations times %g: weaker evidence\n",
-                    settle->finer);
   thr_text_printf(text,
-                  "ranking index  %.3g of the pull at its start; only its order among plans that begin at one --start means\n"
-                  "               anything: no newtons (friction contacts creep)\n",
-                  settle->index);
+                  "simulation     falls %s %.4g N +- %.2g N; bead %s moves first; widest gap %.3g mm before, %.3g mm after\n",
+                  after ? "when all ends are let down to" : "at", settle->fall, settle->error,
+                  plan->frame.name[settle->first_bead], settle->gap_before, settle->gap_after);
+}
+
+/* Newtons, or why there are none. */
+static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *settle, bool after)
+{
+  switch (settle->status) {
+  case THR_SETTLE_FELL: put_fall(text, plan, settle, after); break;
+  case THR_SETTLE_HELD:
+    thr_text_printf(text, "simulation     stands until the pull is gone; widest gap %.3g mm\n", settle->gap_before);
+    break;
+  case THR_SETTLE_TOO_LARGE: thr_text_printf(text, "simulation     left out: more than %d beads\n", thr_settle_largest); break;
+  case THR_SETTLE_NEVER_SETTLED:
+    thr_text_append(text,
+                    "simulation     not settled: it never came to rest under the pull at its start. Nothing is known of the\n"
+                    "               fall; a larger --start or more --iterations may help\n");
+    break;
+  case THR_SETTLE_CREPT:
+    thr_text_append(text,
+                    "simulation     not settled: a bead crept at pulls at which an equilibrium exists. Nothing is known of the\n"
+                    "               fall; a smaller --time-step or more --iterations may help\n");
+    break;
+  default:
+    thr_text_append(text,
+                    "simulation     not settled: it stood where nothing holds it (proved), its fall was too slow to be seen\n");
+  }
 }
 
 /* By itself only if an equilibrium without any pull was found. */
@@ -315,6 +307,25 @@ static void put_after(thr_text *text, const thr_eval *eval)
   thr_text_append(text, "\n");
 }
 
+void erect_put(thr_text *text, const thr_erect *erect)
+{
+  const thr_erect_still *last = &erect->still[THR_ERECT_STILLS - 1];
+  if (erect->lift == 0)
+    thr_text_printf(text, "Drawn in with %.3g N at the harder ends it comes up by itself", last->pull);
+  else if (erect->lift > 0)
+    thr_text_printf(
+        text,
+        "Drawn in with %.3g N at the harder ends it comes up under a counterweight of %.3g N (%.0f %% of its weight), and then "
+        "stands alone",
+        last->pull, erect->lift * erect->weight, 100 * erect->lift);
+  else
+    thr_text_printf(
+        text,
+        "Drawn in with %.3g N at the harder ends it does not come up to its shape, not even with all its weight of %.3g N "
+        "carried",
+        last->pull, erect->weight);
+}
+
 static void put_structure(thr_text *text, const eval_view *view, const thr_plan *plan, const thr_eval *eval)
 {
   const thr_holding *holding = &eval->holding;
@@ -325,11 +336,15 @@ static void put_structure(thr_text *text, const eval_view *view, const thr_plan 
   if (view->loaded) load_put(text, &plan->frame, eval);
   if (!view->simulated) return;
   if (eval->settle.present)
-    put_settle(text, plan, &eval->settle, holding->lower, holding->upper);
+    put_settle(text, plan, &eval->settle, eval->after.present);
   else if (plan->frame.n_nodes > thr_settle_largest)
     thr_text_printf(text, "simulation     left out: more than %d beads\n", thr_settle_largest);
   else if (view->stopped)
     thr_text_append(text, "simulation     stopped: not known\n");
+  if (!eval->erect.present) return;
+  thr_text_append(text, "from slack     ");
+  erect_put(text, &eval->erect);
+  thr_text_append(text, "\n");
 }
 
 static void put_tension(thr_text *text, const thr_plan *plan, const thr_evaluation *evaluation)

@@ -11,7 +11,8 @@
 static const double MARGIN = 10, PANEL = 130, GAP = 8, TITLE_SIZE = 5, TEXT_SIZE = 3.2; /* mm */
 static const double AZIMUTH = -0.95, ELEVATION = 0.42;                                  /* rad, of the eye */
 static const double LIGHT[3] = {0.32, -0.52, 0.79};                                     /* unit, towards the light */
-static const double ROAM = 0.3; /* share of the picture before by which the picture after may be larger */
+static const double ROAM = 0.3; /* share of the first picture by which the others may be larger */
+enum { MOST_IN_ROW = 3 };
 static const int BEAD[3] = {205, 184, 140}, END[3] = {255, 246, 226}, FIRST[3] = {213, 94, 0}, FIRST_END[3] = {255, 190, 140};
 
 typedef struct {
@@ -153,12 +154,12 @@ static void stretch(double low[2], double high[2], const double at[2])
   }
 }
 
-/* The ground: a rectangle round where the beads stand before. */
+/* The ground: a rectangle round where the beads stand in the first picture. */
 static void ground_corners(const view *w, double at[4][2])
 {
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   for (int v = 0; v < w->f->n_nodes; v++)
-    stretch(low, high, w->still->before[v]);
+    stretch(low, high, w->still->panel[0].pose[v]);
   double room = 2 * w->still->width;
   for (int i = 0; i < 4; i++) {
     double p[3] = {i == 0 || i == 3 ? low[0] - room : high[0] + room, i < 2 ? low[1] - room : high[1] + room, w->still->ground};
@@ -167,23 +168,30 @@ static void ground_corners(const view *w, double at[4][2])
   }
 }
 
+/* Round the faces of a panel. */
+static void bound(view *w, const double (*pose)[7], double low[2], double high[2])
+{
+  const int n = collect(w, pose);
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < 4; k++)
+      stretch(low, high, w->face[i].at[k]);
+}
+
+/* All panels, but what is far from the first one. */
 static void measure(view *w)
 {
-  double low[2][2] = {{HUGE_VAL, HUGE_VAL}, {HUGE_VAL, HUGE_VAL}}, high[2][2] = {{-HUGE_VAL, -HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
-  double corner[4][2];
-  for (int after = 0; after < 2; after++) {
-    int n = collect(w, after ? w->still->after : w->still->before);
-    for (int i = 0; i < n; i++)
-      for (int k = 0; k < 4; k++)
-        stretch(low[after], high[after], w->face[i].at[k]);
-  }
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, corner[4][2];
+  bound(w, w->still->panel[0].pose, low, high);
   ground_corners(w, corner);
   for (int i = 0; i < 4; i++)
-    stretch(low[0], high[0], corner[i]);
-  double room = ROAM * fmax(high[0][0] - low[0][0], high[0][1] - low[0][1]);
+    stretch(low, high, corner[i]);
+  const double room = ROAM * fmax(high[0] - low[0], high[1] - low[1]);
+  double all_low[2] = {low[0], low[1]}, all_high[2] = {high[0], high[1]};
+  for (int p = 1; p < w->still->n_panels; p++)
+    bound(w, w->still->panel[p].pose, all_low, all_high);
   for (int k = 0; k < 2; k++) {
-    w->low[k] = fmin(low[0][k], fmax(low[1][k], low[0][k] - room));
-    w->high[k] = fmax(high[0][k], fmin(high[1][k], high[0][k] + room));
+    w->low[k] = fmax(all_low[k], low[k] - room);
+    w->high[k] = fmin(all_high[k], high[k] + room);
   }
   w->scale = PANEL / fmax(w->high[0] - w->low[0], w->high[1] - w->low[1]);
 }
@@ -216,31 +224,26 @@ static void write_panel(view *w, const char *id, const double (*pose)[7], double
   thr_text_append(text, "</g>\n");
 }
 
-static void caption(const view *w, bool after, char line[200])
-{
-  const thr_still *s = w->still;
-  int n = snprintf(line, 200, "%s: widest gap %.3g mm", after ? "After" : "Before", after ? s->gap_after : s->gap_before);
-  if (after && s->first_bead >= 0) snprintf(line + n, (size_t)(200 - n), "; bead %.60s moved first", w->f->name[s->first_bead]);
-}
-
 static void write_sheet(view *w, thr_text *text)
 {
-  const char *title = w->still->title && *w->still->title ? w->still->title : "Before and after";
+  const thr_still *still = w->still;
+  const char *title = still->title && *still->title ? still->title : "Before and after";
+  const int in_row = still->n_panels < MOST_IN_ROW ? still->n_panels : MOST_IN_ROW;
   thr_text body = {0};
-  char line[200];
   double wide = (w->high[0] - w->low[0]) * w->scale, high = (w->high[1] - w->low[1]) * w->scale;
-  double column = fmax(wide, 75), width = 2 * column + GAP; /* captions need room too */
+  double column = fmax(wide, 75), width = in_row * column + (in_row - 1) * GAP; /* captions need room too */
   double y = thr_svg_wrap(&body, MARGIN, MARGIN + TITLE_SIZE, TITLE_SIZE, width, " font-weight=\"bold\"", title), bottom = 0;
-  for (int after = 0; after < 2; after++) {
-    double x = MARGIN + after * (column + GAP);
-    write_panel(w, after ? "after" : "before", after ? w->still->after : w->still->before, x + 0.5 * (column - wide), y, &body);
-    caption(w, after, line);
-    bottom = fmax(bottom, thr_svg_wrap(&body, x, y + high + 2 + TEXT_SIZE, TEXT_SIZE, column, "", line));
+  for (int p = 0; p < still->n_panels; p++) {
+    const thr_still_panel *panel = &still->panel[p];
+    double x = MARGIN + p % in_row * (column + GAP);
+    if (p > 0 && p % in_row == 0) y = bottom + 1;
+    write_panel(w, panel->id, panel->pose, x + 0.5 * (column - wide), y, &body);
+    bottom = fmax(bottom, thr_svg_wrap(&body, x, y + high + 2 + TEXT_SIZE, TEXT_SIZE, column, "", panel->caption));
   }
-  if (w->still->note) bottom = thr_svg_wrap(&body, MARGIN, bottom + 1, TEXT_SIZE, width, "", w->still->note);
+  if (still->note) bottom = thr_svg_wrap(&body, MARGIN, bottom + 1, TEXT_SIZE, width, "", still->note);
   width += 2 * MARGIN;
   bottom += MARGIN - TEXT_SIZE;
-  thr_svg_open(text, width, bottom, title, "Rigid beads before and after, seen from one side, drawn back to front.");
+  thr_svg_open(text, width, bottom, title, "Rigid beads, seen from one side, drawn back to front.");
   thr_text_append(text, "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
                         ".thread .panel{stroke:#4a4030;stroke-width:0.12;stroke-linejoin:round}\n"
                         ".thread .ground{fill:#eef0ea;stroke:#9aa08c;stroke-width:0.25}\n</style>\n");
@@ -258,9 +261,9 @@ static thr_status check(const thr_frame *frame, const thr_still *s, thr_err *err
   if (!(s->width > 0) || !isfinite(s->width)) return thr_fail(err, THR_EINPUT, "arms %g wide cannot be drawn", s->width);
   if (s->first_bead < -1 || s->first_bead >= frame->n_nodes)
     return thr_fail(err, THR_EINPUT, "bead %d is not one of the %d", s->first_bead, frame->n_nodes);
-  for (int v = 0; v < frame->n_nodes; v++)
-    for (int k = 0; k < 7; k++)
-      if (!(fabs(s->before[v][k]) < 1e100 && fabs(s->after[v][k]) < 1e100))
+  for (int i = 0; i < s->n_panels * frame->n_nodes; i++)
+    for (int v = i % frame->n_nodes, k = 0; k < 7; k++)
+      if (!(fabs(s->panel[i / frame->n_nodes].pose[v][k]) < 1e100))
         return thr_fail(err, THR_EINPUT, "bead %s has no place in space to be drawn at", frame->name[v]);
   return THR_OK;
 }

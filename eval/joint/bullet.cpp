@@ -3,6 +3,7 @@
 #include "eval/joint/world.h"
 #include "graph/status.h"
 
+#include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>
 #include <btBulletDynamicsCommon.h>
 
@@ -81,6 +82,209 @@ private:
   double rest;
 };
 
+// Contacts as the limit analysis has them: the impulse of each lies in its friction cone, and what slides opens by mu times its
+// slide, so that a step is a convex problem with one answer (M. Anitescu & A. Tasora 2010): nothing moves where an equilibrium
+// exists. Bullet's own rows have a pyramid round the cone, begin every step without lateral impulses, and leave the torque of
+// forces out of them: firmly pressed faces creep. Here all impulses start from those of the last step, and iterations carry on
+// along the last ones' direction as long as they become smaller (M. Silcowitz, S. Niebe & K. Erleben 2010).
+class Cones final : public btSequentialImpulseConstraintSolver
+{
+protected:
+  btScalar solveGroupCacheFriendlySetup(btCollisionObject **bodies, int n_bodies, btPersistentManifold **manifolds,
+                                        int n_manifolds, btTypedConstraint **joints, int n_joints, const btContactSolverInfo &info,
+                                        btIDebugDraw *drawer) override
+  {
+    const btScalar result = btSequentialImpulseConstraintSolver::solveGroupCacheFriendlySetup(
+        bodies, n_bodies, manifolds, n_manifolds, joints, n_joints, info, drawer);
+    for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); i++) {
+      const btManifoldPoint *point = static_cast<const btManifoldPoint *>(row(i, 0).m_originalContactPoint);
+      demand(row(i, 1));
+      demand(row(i, 2));
+      add(row(i, 1), point->m_appliedImpulseLateral1);
+      add(row(i, 2), point->m_appliedImpulseLateral2);
+    }
+    return result;
+  }
+
+  btScalar solveSingleIteration(int iteration, btCollisionObject **, int, btPersistentManifold **, int, btTypedConstraint **, int,
+                                const btContactSolverInfo &, btIDebugDraw *) override
+  {
+    const int n = m_tmpSolverContactConstraintPool.size();
+    btScalar fastest = 0;
+    if (iteration == 0) begin(n);
+    for (int i = 0; i < n; i++)
+      for (int k = 0; k < 3; k++) {
+        if (factor > 0) add(row(i, k), factor * direction[3 * i + k]);
+        before[3 * i + k] = row(i, k).m_appliedImpulse;
+      }
+    for (int i = 0; i < n; i++)
+      btSetMax(fastest, resolve(row(i, 0), row(i, 1), row(i, 2)));
+    carry_on(n, iteration == 0);
+    return fastest * fastest;
+  }
+
+private:
+  btAlignedObjectArray<btScalar> direction, before; // three a contact
+  btScalar factor = 0, last = 0;
+
+  void begin(int n)
+  {
+    direction.resize(3 * n);
+    before.resize(3 * n);
+    for (int i = 0; i < 3 * n; i++)
+      direction[i] = 0;
+    factor = 0;
+    last = BT_LARGE_FLOAT;
+  }
+
+  // How the next iteration begins.
+  void carry_on(int n, bool first)
+  {
+    btScalar size = 0;
+    for (int i = 0; i < 3 * n; i++) {
+      before[i] = row(i / 3, i % 3).m_appliedImpulse - before[i]; // the step
+      size += before[i] * before[i];
+    }
+    const bool smaller = size <= last;
+    for (int i = 0; i < 3 * n; i++)
+      direction[i] = smaller ? factor * direction[i] + before[i] : 0;
+    factor = !smaller ? 0 : first ? 1 : last > 0 ? size / last : 0;
+    last = size;
+  }
+
+  // Normal or one of two lateral rows of a contact.
+  btSolverConstraint &row(int contact, int k)
+  {
+    btSolverConstraint &normal = m_tmpSolverContactConstraintPool[contact];
+    return k == 0 ? normal : m_tmpSolverContactFrictionConstraintPool[normal.m_frictionIndex + k - 1];
+  }
+
+  // What stops sliding.
+  void demand(btSolverConstraint &row)
+  {
+    const btSolverBody &a = m_tmpSolverBodyPool[row.m_solverBodyIdA], &b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
+    row.m_rhs = -row.m_jacDiagABInv * (row.m_contactNormal1.dot(a.m_linearVelocity + a.m_externalForceImpulse) +
+                                       row.m_relpos1CrossNormal.dot(a.m_angularVelocity + a.m_externalTorqueImpulse) +
+                                       row.m_contactNormal2.dot(b.m_linearVelocity + b.m_externalForceImpulse) +
+                                       row.m_relpos2CrossNormal.dot(b.m_angularVelocity + b.m_externalTorqueImpulse));
+  }
+
+  void add(btSolverConstraint &row, btScalar impulse)
+  {
+    btSolverBody &a = m_tmpSolverBodyPool[row.m_solverBodyIdA], &b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
+    row.m_appliedImpulse += impulse;
+    a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA, impulse);
+    b.internalApplyImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB, impulse);
+  }
+
+  // The velocity that the row lacks.
+  btScalar missing(const btSolverConstraint &row)
+  {
+    const btSolverBody &a = m_tmpSolverBodyPool[row.m_solverBodyIdA], &b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
+    const btScalar velocity =
+        row.m_contactNormal1.dot(a.getDeltaLinearVelocity()) + row.m_relpos1CrossNormal.dot(a.getDeltaAngularVelocity()) +
+        row.m_contactNormal2.dot(b.getDeltaLinearVelocity()) + row.m_relpos2CrossNormal.dot(b.getDeltaAngularVelocity());
+    return row.m_rhs / row.m_jacDiagABInv - velocity;
+  }
+
+  // To the nearest impulse in the cone; the change of velocity.
+  btScalar resolve(btSolverConstraint &normal, btSolverConstraint &u, btSolverConstraint &v)
+  {
+    const btScalar mu = u.m_friction, step = 3 / (1 / normal.m_jacDiagABInv + 1 / u.m_jacDiagABInv + 1 / v.m_jacDiagABInv),
+                   old[3] = {btScalar(normal.m_appliedImpulse), btScalar(u.m_appliedImpulse), btScalar(v.m_appliedImpulse)};
+    btScalar n = old[0] + step * missing(normal), x = old[1] + step * missing(u), y = old[2] + step * missing(v);
+    const btScalar lateral = btSqrt(x * x + y * y);
+    if (mu * lateral <= -n) {
+      n = x = y = 0;
+    } else if (lateral > mu * n) {
+      n = (n + mu * lateral) / (1 + mu * mu);
+      x *= mu * n / lateral;
+      y *= mu * n / lateral;
+    }
+    add(normal, n - old[0]);
+    add(u, x - old[1]);
+    add(v, y - old[2]);
+    return btMax(btFabs(n - old[0]), btMax(btFabs(x - old[1]), btFabs(y - old[2]))) / step;
+  }
+};
+
+// Boxes meet end to end: the four corners of the narrower one's end touch the plane of the other's. Bullet's own detector clips
+// one face against the other and keeps four points of up to eight, which need not be the corners, and drops them as faces open.
+class Ends final : public btCollisionAlgorithm
+{
+public:
+  Ends(const btCollisionAlgorithmConstructionInfo &info, const btCollisionObjectWrapper *a, const btCollisionObjectWrapper *b)
+      : btCollisionAlgorithm(info), manifold(m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject()))
+  {
+  }
+
+  ~Ends() override { m_dispatcher->releaseManifold(manifold); }
+
+  void processCollision(const btCollisionObjectWrapper *a, const btCollisionObjectWrapper *b, const btDispatcherInfo &,
+                        btManifoldResult *result) override
+  {
+    const End first(*a, *b), second(*b, *a);
+    result->setPersistentManifold(manifold);
+    const bool swapped = second.half < first.half;
+    const End &narrow = swapped ? second : first, &wide = swapped ? first : second;
+    for (int i = 0; i < 4; i++) {
+      const btVector3 corner = narrow.corner(i);
+      const btScalar apart = (corner - wide.middle).dot(wide.normal);
+      if (!wide.covers(corner)) continue;
+      result->addContactPoint(swapped ? -wide.normal : wide.normal, swapped ? corner : corner - apart * wide.normal, apart);
+    }
+    result->refreshContactPoints();
+  }
+
+  btScalar calculateTimeOfImpact(btCollisionObject *, btCollisionObject *, const btDispatcherInfo &, btManifoldResult *) override
+  {
+    return 1;
+  }
+
+  void getAllContactManifolds(btManifoldArray &manifolds) override { manifolds.push_back(manifold); }
+
+  struct Maker final : btCollisionAlgorithmCreateFunc {
+    btCollisionAlgorithm *CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo &info, const btCollisionObjectWrapper *a,
+                                                   const btCollisionObjectWrapper *b) override
+    {
+      void *memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Ends));
+      return ::new (memory) Ends(info, a, b);
+    }
+  };
+
+  static constexpr double SKIN = 0.02; // by which shapes are longer at either end, so that open faces are still seen
+
+private:
+  // The end of a box, along its own third axis, that looks to another box.
+  struct End {
+    btVector3 middle, normal, side[2];
+    btScalar half;
+
+    End(const btCollisionObjectWrapper &box, const btCollisionObjectWrapper &other)
+    {
+      const btTransform &at = box.getWorldTransform();
+      const btVector3 sizes = static_cast<const btBoxShape *>(box.getCollisionShape())->getHalfExtentsWithMargin();
+      normal = at.getBasis().getColumn(2);
+      if (normal.dot(other.getWorldTransform().getOrigin() - at.getOrigin()) < 0) normal = -normal;
+      middle = at.getOrigin() + (sizes[2] - SKIN) * normal;
+      half = sizes[0];
+      for (int k = 0; k < 2; k++)
+        side[k] = at.getBasis().getColumn(k);
+    }
+
+    btVector3 corner(int i) const { return middle + half * ((i & 1 ? 1 : -1) * side[0] + (i & 2 ? 1 : -1) * side[1]); }
+
+    bool covers(const btVector3 &point) const // or nearly
+    {
+      return btMax(btFabs(side[0].dot(point - middle)), btFabs(side[1].dot(point - middle))) < 1.2 * half;
+    }
+  };
+
+  btPersistentManifold *manifold;
+};
+
+Ends::Maker make_ends;
+
 } // namespace
 
 struct thr_world {
@@ -108,8 +312,12 @@ static void configure(btContactSolverInfo &info, const thr_world_options &o)
   info.m_linearSlop = o.slop;
   info.m_splitImpulse = o.split_impulse;
   info.m_solverMode = SOLVER_SIMD;
-  if (o.warm_start) info.m_solverMode |= SOLVER_USE_WARMSTARTING;
-  if (o.cached_friction) info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
+  if (o.warm_start || o.cones) info.m_solverMode |= SOLVER_USE_WARMSTARTING;
+  if (!o.cones) return;
+  info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING |
+                       SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
+  info.m_warmstartingFactor = 1;
+  info.m_leastSquaresResidualThreshold = o.still * o.still;
 }
 
 thr_status thr_world_create(thr_world **out, const thr_world_options *o, thr_err *err)
@@ -123,13 +331,14 @@ thr_status thr_world_create(thr_world **out, const thr_world_options *o, thr_err
   w->configuration = make<btDefaultCollisionConfiguration>();
   if (w->configuration) w->dispatcher = make<btCollisionDispatcher>(w->configuration);
   w->broadphase = make<btDbvtBroadphase>();
-  w->solver = make<btSequentialImpulseConstraintSolver>();
+  w->solver = o->cones ? make<Cones>() : make<btSequentialImpulseConstraintSolver>();
   if (w->dispatcher && w->broadphase && w->solver)
     w->dynamics = make<btDiscreteDynamicsWorld>(w->dispatcher, w->broadphase, w->solver, w->configuration);
   if (!w->dynamics) {
     thr_world_destroy(w);
     return thr_nomem(err);
   }
+  w->dispatcher->registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &make_ends);
   w->dynamics->setGravity(vector_of(o->gravity));
   w->dynamics->setForceUpdateAllAabbs(false);
   configure(w->dynamics->getSolverInfo(), *o);
@@ -249,7 +458,7 @@ static thr_status compound_of(thr_world *w, const thr_world_boxes *b, btCompound
   int first = w->n_shapes;
   thr_status s = THR_OK;
   for (int i = 0; s == THR_OK && i < b->n_boxes; i++) {
-    s = keep_shape(w, make<btBoxShape>(vector_of(b->half[i])), -1, err);
+    s = keep_shape(w, make<btBoxShape>(vector_of(b->half[i]) + btVector3(0, 0, Ends::SKIN)), -1, err);
     if (s == THR_OK) w->shape[first + i]->setUserIndex(b->tag[i]);
   }
   if (s != THR_OK) return s;
@@ -271,11 +480,7 @@ thr_status thr_world_add_boxes(thr_world *w, const thr_world_boxes *b, int *body
   btRigidBody::btRigidBodyConstructionInfo info(b->mass, nullptr, compound, vector_of(b->inertia));
   info.m_startWorldTransform = transform_of(b->pose);
   info.m_friction = b->friction;
-  s = add_body(w, info, 1, 1, body, err);
-  if (s != THR_OK) return s;
-  btRigidBody *added = w->body[*body];
-  if (b->anchor) added->setCollisionFlags(added->getCollisionFlags() | btCollisionObject::CF_HAS_FRICTION_ANCHOR);
-  return THR_OK;
+  return add_body(w, info, 1, 1, body, err);
 }
 
 thr_status thr_world_add_sphere(thr_world *w, double radius, double mass, const double at[3], double friction, int group,

@@ -15,11 +15,12 @@ typedef struct {
   double time_step; /* s */
   int iterations;   /* of sequential impulse */
   double gravity[3];
-  bool cached_friction;  /* two cached friction directions per contact: structures creep less */
   double erp, erp2, cfm; /* error reduction and constraint force mixing; negative = Bullet's default */
   double slop;           /* allowed penetration (linear slop) */
   bool split_impulse;
   bool warm_start; /* of contacts; Bullet starts links from nothing */
+  bool cones;      /* contacts have friction cones and start from all of the last step's impulses; for worlds without links */
+  double still;    /* with cones: a step's iterations end before their number when none changes a velocity by so much, m/s */
 } thr_world_options;
 
 thr_status thr_world_create(thr_world **w, const thr_world_options *o, thr_err *err) THR_MUST_CHECK;
@@ -41,8 +42,9 @@ typedef struct {
 thr_status thr_world_add_hulls(thr_world *w, const thr_world_hulls *h, int *body, thr_err *err) THR_MUST_CHECK;
 
 /* A body of one or more boxes that meets only other such bodies, and there only boxes of the same tag: what is to touch is known
- * beforehand, and arms that cross inside a joint do not. half: half sides; place: position and quaternion of each box in the
- * body's frame (origin = mass centre). The rest as above. */
+ * beforehand, and arms that cross inside a joint do not. Two boxes meet end to end along their own third axes, and touch at the
+ * four corners of the narrower end. half: half sides; place: position and quaternion of each box in the body's frame (origin =
+ * mass centre). The rest as above. */
 typedef struct {
   int n_boxes;
   const double (*half)[3];
@@ -52,7 +54,6 @@ typedef struct {
   double inertia[3];
   double pose[7];
   double friction;
-  bool anchor; /* keep friction anchors */
 } thr_world_boxes;
 thr_status thr_world_add_boxes(thr_world *w, const thr_world_boxes *b, int *body, thr_err *err) THR_MUST_CHECK;
 

@@ -4,6 +4,7 @@
 #include "eval/eval.h"
 #include "eval/methods.h"
 #include "eval/structure/beads.h"
+#include "eval/structure/erect.h"
 #include "eval/structure/holding.h"
 #include "eval/structure/settle.h"
 #include "graph/framework/frame.h"
@@ -13,6 +14,7 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/process/child.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
@@ -69,6 +71,122 @@ static thr_status profiles(const thr_frame *frame, const thr_cord *cord, double 
     tension[i] = evaluation->cord[i].tension;
   }
   return st;
+}
+
+/* ---- the simulation, in a child process: Bullet does not look whether it was given memory ---- */
+
+typedef struct {
+  const thr_frame *f;
+  const thr_cord *cord;
+  const thr_beads *b;
+  const thr_physics *physics;
+  int n_cords;
+  const double *const *tension, *const *most;
+  thr_settle_options o;
+} simulation;
+
+static thr_status simulate(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
+{
+  const simulation *m = user;
+  thr_settle found = {0};
+  thr_text text = {0};
+  thr_status st = thr_settle_run(m->b, m->f, m->cord, m->n_cords, m->tension, m->most, m->physics, &m->o, limits, &found, err);
+  size_t poses = (size_t)found.n_beads * sizeof *found.before;
+  if (!st) {
+    thr_text_append_bytes(&text, (const char *)&found, sizeof found);
+    if (found.before) thr_text_append_bytes(&text, (const char *)found.before, poses);
+    if (found.after) thr_text_append_bytes(&text, (const char *)found.after, poses);
+    st = thr_child_send(to, &text, err);
+  }
+  thr_text_destroy(&text);
+  thr_settle_destroy(&found);
+  return st;
+}
+
+/* Moves n poses from the text at *at, which goes on behind them; NULL if there are none or no memory. */
+static double (*take_poses(const char **at, bool present, size_t n))[7]
+{
+  double(*pose)[7] = present ? thr_calloc(n, sizeof *pose) : NULL;
+  if (pose) memcpy(pose, *at, n * sizeof *pose);
+  if (present) *at += n * sizeof *pose;
+  return pose;
+}
+
+static thr_status take_settle(const thr_text *text, thr_settle *out, thr_err *err)
+{
+  memcpy(out, text->data, sizeof *out);
+  const char *at = text->data + sizeof *out;
+  const bool before = out->before, after = out->after; /* there, not here */
+  out->before = take_poses(&at, before, (size_t)out->n_beads);
+  out->after = take_poses(&at, after, (size_t)out->n_beads);
+  if ((!before || out->before) && (!after || out->after)) return THR_OK;
+  thr_settle_destroy(out);
+  return thr_nomem(err);
+}
+
+static thr_status settle(simulation *m, const thr_limits *limits, thr_settle *out, thr_err *err)
+{
+  const thr_child child = {.what = "simulating the structure", .advice = "use --no-dynamics", .run = simulate, .user = m};
+  thr_text answer = {0};
+  *out = (thr_settle){0};
+  thr_status st = thr_child_run(&child, limits, &answer, err);
+  if (!st) st = take_settle(&answer, out, err);
+  thr_text_destroy(&answer);
+  return st;
+}
+
+typedef struct {
+  const simulation *of;
+  thr_erect_options o;
+} erection;
+
+static thr_status simulate_erection(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
+{
+  const erection *m = user;
+  const simulation *of = m->of;
+  thr_erect found = {0};
+  thr_text text = {0};
+  thr_status st = thr_erect_run(of->b, of->f, of->cord, of->n_cords, of->tension, of->physics, &m->o, limits, &found, err);
+  if (!st) {
+    thr_text_append_bytes(&text, (const char *)&found, sizeof found);
+    if (found.pose)
+      thr_text_append_bytes(&text, (const char *)found.pose, THR_ERECT_STILLS * (size_t)found.n_beads * sizeof *found.pose);
+    st = thr_child_send(to, &text, err);
+  }
+  thr_text_destroy(&text);
+  thr_erect_destroy(&found);
+  return st;
+}
+
+static thr_status erect(const simulation *of, double pull, const thr_limits *limits, thr_erect *out, thr_err *err)
+{
+  erection m = {of, {pull, of->o.time_step, of->o.iterations, of->o.seed}};
+  const thr_child child = {
+      .what = "simulating how the structure comes up", .advice = "leave --stills out", .run = simulate_erection, .user = &m};
+  thr_text answer = {0};
+  *out = (thr_erect){0};
+  thr_status st = thr_child_run(&child, limits, &answer, err);
+  if (!st) {
+    memcpy(out, answer.data, sizeof *out);
+    const char *at = answer.data + sizeof *out;
+    const bool there = out->pose;
+    out->pose = take_poses(&at, there, THR_ERECT_STILLS * (size_t)out->n_beads);
+    if (there && !out->pose) st = thr_nomem(err);
+  }
+  if (st) *out = (thr_erect){0};
+  thr_text_destroy(&answer);
+  return st;
+}
+
+/* Between a pull below which nothing holds and one at which an equilibrium exists. */
+static thr_settle_options between(const thr_eval_options *options, double least, double equilibrium)
+{
+  return (thr_settle_options){.least = least,
+                              .equilibrium = equilibrium,
+                              .start = options->start,
+                              .time_step = options->time_step,
+                              .iterations = options->iterations,
+                              .seed = options->seed};
 }
 
 /* ---- states that friction keeps ---- */
@@ -183,38 +301,66 @@ static thr_status make_beads(const thr_frame *frame, const thr_physics *physics,
   return st;
 }
 
-/* Does it stand with the ends let down so far? */
+/* Does it stand with the ends let down so far; is it proved that it falls? */
 static thr_status stands_at(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double force,
-                            const thr_limits *limits, const thr_evaluation *evaluation, bool *stands, thr_err *err)
+                            const thr_limits *limits, const thr_evaluation *evaluation, bool *stands, bool *falls, thr_err *err)
 {
   thr_holding holding = {0};
   thr_err why = {0};
   thr_status st = hold_state(frame, cord, beads, LET_DOWN, force, limits, evaluation, &holding, &why);
   *stands = st == THR_OK && holding.upper <= 1;
+  *falls = st == THR_EINFEASIBLE || (st == THR_OK && holding.lower > 1);
   thr_holding_destroy(&holding);
   return st == THR_ENOMEM || st == THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
-/* By halves of the logarithm, to half a percent. */
+/* By halves of the logarithm, to half a percent: the force at which it stands (proved false: the one at which it is proved to
+ * fall; 0 if it is at none). */
 static thr_status let_down(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, const thr_limits *limits,
-                           const thr_evaluation *evaluation, double *out, thr_err *err)
+                           const thr_evaluation *evaluation, bool proved, double *out, thr_err *err)
 {
   double high = 0;
   for (int i = 0; i < evaluation->n_cords; i++)
     high = fmax(high, fmax(evaluation->cord[i].tension[0], evaluation->cord[i].tension[evaluation->cord[i].n_passes - 1]));
   double low = 1e-6 * high;
-  bool stands = false;
-  thr_status st = stands_at(frame, cord, beads, low, limits, evaluation, &stands, err);
-  if (stands) high = low;
+  bool stands, falls;
+  thr_status st = stands_at(frame, cord, beads, low, limits, evaluation, &stands, &falls, err);
+  if (!st && (proved ? !falls : stands)) {
+    *out = proved ? 0 : low;
+    return THR_OK;
+  }
   while (!st && high > 1.005 * low) {
     const double middle = sqrt(low * high);
-    st = stands_at(frame, cord, beads, middle, limits, evaluation, &stands, err);
-    if (stands)
+    st = stands_at(frame, cord, beads, middle, limits, evaluation, &stands, &falls, err);
+    if (proved ? !falls : stands)
       high = middle;
     else
       low = middle;
   }
-  *out = high;
+  *out = proved ? low : high;
+  return st;
+}
+
+/* Simulates how the cords as they are now are let down at all ends. */
+static thr_status settle_let_down(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads,
+                                  const thr_eval_options *options, const thr_limits *limits, double least, thr_eval *out,
+                                  thr_err *err)
+{
+  const thr_evaluation *evaluation = &out->record;
+  const size_t n = (size_t)evaluation->n_cords;
+  thr_scratch own = {0};
+  const double **tension = thr_scratch_array(&own, n, sizeof *tension), **most = thr_scratch_array(&own, n, sizeof *most);
+  for (int i = 0; i < evaluation->n_cords && tension && most; i++) {
+    double *kept = thr_scratch_array(&own, (size_t)cord[i].n_passes, sizeof *kept);
+    if (kept) set_state(&evaluation->cord[i], KEPT, 1, kept);
+    tension[i] = kept;
+    most[i] = evaluation->cord[i].tension;
+  }
+  thr_status st = thr_scratch_check(&own, err);
+  simulation m = {
+      frame, cord, beads, &evaluation->physics, evaluation->n_cords, tension, most, between(options, least, out->let_down)};
+  if (!st) st = settle(&m, limits, &out->settle, err);
+  thr_scratch_free(&own);
   return st;
 }
 
@@ -231,8 +377,14 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, con
       out->after = (thr_holding){.present = true, .lower = INFINITY, .upper = INFINITY, .first_bead = -1};
     st = st && st != THR_EINFEASIBLE ? thr_fail(err, st, "%s", why.text) : THR_OK;
   }
-  if (!st && out->after.upper <= 1 && beads.n_beads <= BAND_LARGEST)
-    st = let_down(frame, cord, &beads, limits, evaluation, &out->let_down, err);
+  if (!st && out->after.upper <= 1 && beads.n_beads <= BAND_LARGEST) {
+    st = let_down(frame, cord, &beads, limits, evaluation, false, &out->let_down, err);
+    double least = 0;
+    if (!st && options->dynamics && !options->load) {
+      st = let_down(frame, cord, &beads, limits, evaluation, true, &least, err);
+      if (!st) st = settle_let_down(frame, cord, &beads, options, limits, least, out, err);
+    }
+  }
   if (!st && options->load)
     st = carry_state(frame, cord, &beads, LET_DOWN, INFINITY, options->load, limits, evaluation, &out->after_carries, err);
   thr_beads_destroy(&beads);
@@ -316,68 +468,6 @@ static void clear_record(thr_evaluation *evaluation)
   }
 }
 
-/* ---- the simulation, in a child process: Bullet does not look whether it was given memory ---- */
-
-typedef struct {
-  const thr_frame *f;
-  const thr_cord *cord;
-  const thr_beads *b;
-  const thr_physics *physics;
-  int n_cords;
-  const double **tension;
-  thr_settle_options o;
-} simulation;
-
-static thr_status simulate(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
-{
-  const simulation *m = user;
-  thr_settle found = {0};
-  thr_text text = {0};
-  thr_status st = thr_settle_run(m->b, m->f, m->cord, m->n_cords, m->tension, m->physics, &m->o, limits, &found, err);
-  size_t poses = (size_t)found.n_beads * sizeof *found.before;
-  if (!st) {
-    thr_text_append_bytes(&text, (const char *)&found, sizeof found);
-    if (found.before) thr_text_append_bytes(&text, (const char *)found.before, poses);
-    if (found.after) thr_text_append_bytes(&text, (const char *)found.after, poses);
-    st = thr_child_send(to, &text, err);
-  }
-  thr_text_destroy(&text);
-  thr_settle_destroy(&found);
-  return st;
-}
-
-/* Moves n poses from the text at *at, which goes on behind them; NULL if there are none or no memory. */
-static double (*take_poses(const char **at, bool present, size_t n))[7]
-{
-  double(*pose)[7] = present ? thr_calloc(n, sizeof *pose) : NULL;
-  if (pose) memcpy(pose, *at, n * sizeof *pose);
-  if (present) *at += n * sizeof *pose;
-  return pose;
-}
-
-static thr_status take_settle(const thr_text *text, thr_settle *out, thr_err *err)
-{
-  memcpy(out, text->data, sizeof *out);
-  const char *at = text->data + sizeof *out;
-  const bool before = out->before, after = out->after; /* there, not here */
-  out->before = take_poses(&at, before, (size_t)out->n_beads);
-  out->after = take_poses(&at, after, (size_t)out->n_beads);
-  if ((!before || out->before) && (!after || out->after)) return THR_OK;
-  thr_settle_destroy(out);
-  return thr_nomem(err);
-}
-
-static thr_status settle(simulation *m, const thr_limits *limits, thr_settle *out, thr_err *err)
-{
-  const thr_child child = {.what = "simulating the structure", .advice = "use --no-dynamics", .run = simulate, .user = m};
-  thr_text answer = {0};
-  *out = (thr_settle){0};
-  thr_status st = thr_child_run(&child, limits, &answer, err);
-  if (!st) st = take_settle(&answer, out, err);
-  thr_text_destroy(&answer);
-  return st;
-}
-
 /* Are both ends of every cord pulled that is pulled? */
 static bool all_both(const thr_evaluation *evaluation)
 {
@@ -398,18 +488,18 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, thr_beads *b
     clear_record(evaluation);
     return st;
   }
-  double start = options->start > 0 ? options->start : 3 * out->holding.lower;
-  if (options->dynamics && !options->load && start > 0 && beads->n_beads <= thr_settle_largest) {
-    simulation m = {frame,
-                    cord,
-                    beads,
-                    &evaluation->physics,
-                    evaluation->n_cords,
-                    tension,
-                    {.start = start, .time_step = options->time_step, .iterations = options->iterations, .seed = options->seed}};
-    st = settle(&m, limits, &out->settle, err);
-    thr_settle_judge(&out->settle, start, out->holding.lower, out->holding.upper);
-  }
+  const bool small = beads->n_beads <= thr_settle_largest && !options->load && options->dynamics;
+  simulation m = {frame,
+                  cord,
+                  beads,
+                  &evaluation->physics,
+                  evaluation->n_cords,
+                  tension,
+                  NULL,
+                  between(options, out->holding.lower, out->holding.upper)};
+  if (small && !options->schedule && (options->start > 0 || out->holding.lower > 0)) st = settle(&m, limits, &out->settle, err);
+  if (!st && small && options->erect && out->holding.lower > 0)
+    st = erect(&m, isfinite(out->holding.upper) ? out->holding.upper : out->holding.lower, limits, &out->erect, err);
   if (!st && beads->n_beads <= BAND_LARGEST && all_both(evaluation))
     st = hold_state(frame, cord, beads, DRAWN_IN, 1, limits, evaluation, &out->equal, err);
   if (!st) st = hold_state(frame, cord, beads, KEPT, 1, limits, evaluation, &out->loosest, err);

@@ -656,7 +656,8 @@ static thr_text still_of(const thr_frame *f, const double (*pose)[7], int first)
 {
   thr_text svg = {0};
   thr_err err = {0};
-  const thr_still s = {.width = 0.3, .ground = -0.15, .before = pose, .after = pose, .first_bead = first, .gap_after = 1.5};
+  const thr_still_panel panel[] = {{"before", "Before: whole", pose}, {"after", "After: open", pose}};
+  const thr_still s = {.width = 0.3, .ground = -0.15, .n_panels = 2, .panel = panel, .first_bead = first};
   ck_assert_msg(thr_still_svg(f, &s, &svg, &err) == THR_OK, "%s", err.text);
   return svg;
 }
@@ -775,7 +776,8 @@ START_TEST(still_refuses_nonsense)
   thr_frame f = path_make(3);
   double pose[3][7];
   rest_poses(&f, pose);
-  thr_still s = {.width = 0.3, .before = (const double(*)[7])pose, .after = (const double(*)[7])pose, .first_bead = -1};
+  const thr_still_panel panel[] = {{"before", "Before", (const double(*)[7])pose}, {"after", "After", (const double(*)[7])pose}};
+  thr_still s = {.width = 0.3, .n_panels = 2, .panel = panel, .first_bead = -1};
   thr_text svg = {0};
   for (int i = 0; i < 4; i++) {
     thr_still bad = s;
@@ -797,7 +799,8 @@ START_TEST(allocations_may_fail)
   thr_plan p = path_plan(5, 9);
   double pose[6][7];
   rest_poses(&p.frame, pose);
-  const thr_still still = {.width = 0.3, .before = (const double(*)[7])pose, .after = (const double(*)[7])pose, .first_bead = 1};
+  const thr_still_panel panel[] = {{"before", "Before", (const double(*)[7])pose}, {"after", "After", (const double(*)[7])pose}};
+  const thr_still still = {.width = 0.3, .n_panels = 2, .panel = panel, .first_bead = 1};
   thr_tension_options o = thr_tension_options_default();
   for (int c = 0; c < 9; c++)
     fill(&p, c, 2 + c);
