@@ -1579,13 +1579,16 @@ def check_cords_claim(p):
 # ---- proof.turning ----
 
 
-def cheapest_pairing(f, o, v, count):
-    """Least price of pairing count[i] passes of the i-th half-edge at v; None if that is too much to work out."""
+def cheapest_pairing(f, o, v, count, ends):
+    """Least price of pairing count[i] passes of the i-th half-edge at v, and ends, which turn nothing and are not paired with one
+    another; None if that is too much to work out."""
     at = f.at[v]
-    price = {}
+    price = {(i, len(at)): 0.0 for i in range(len(at))}
+    price[len(at), len(at)] = math.inf
     for i, a in enumerate(at):
         for j, b in enumerate(at[i:], i):
             price[i, j] = math.inf if i == j and len(at) > 1 else o.price(f, a, b)
+    count = count + [ends]
     best = {(0,) * len(count): 0.0}
 
     def solve(state):
@@ -1612,17 +1615,16 @@ def cheapest_pairing(f, o, v, count):
 
 def pairing_bound(p):
     f, o = p.frame, p.options
-    count = [p.passes[h >> 1] for h in range(2 * f.m)]
-    actual = [0.0] * f.n
+    actual, ends = [0.0] * f.n, [0] * f.n
     for cord in p.cords:
         if not p.closing:
-            count[cord.half[0]] -= 1
-            count[cord.half[-1] ^ 1] -= 1
+            ends[f.tail(cord.half[0])] += 1
+            ends[f.tail(cord.half[-1] ^ 1)] += 1
         for a, b in cord.turns(p.closing):
             actual[f.tail(a)] += o.price(f, a, b)
     total = []
     for v in range(f.n):
-        value = cheapest_pairing(f, o, v, [count[h] for h in f.at[v]])
+        value = cheapest_pairing(f, o, v, [p.passes[h >> 1] for h in f.at[v]], ends[v])
         total.append(actual[v] if value is None else min(value, actual[v]))
     return math.fsum(total)
 
