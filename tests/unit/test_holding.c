@@ -526,7 +526,7 @@ START_TEST(loads_equal_a_plain_programme_by_simplex)
   model m = random_model((uint64_t)_i + 1, 8);
   rng r = rng_make((uint64_t)_i + 700);
   thr_holding h = {0};
-  thr_carry carry;
+  thr_carry carry = {0};
   thr_err err = {0};
   double load[64][3] = {{0}};
   if (thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &h, NULL) == THR_OK && isfinite(h.upper)) {
@@ -548,6 +548,7 @@ START_TEST(loads_equal_a_plain_programme_by_simplex)
       if (isfinite(carried)) ck_assert_double_eq_tol(carry.carried, carried, 2e-6 * carried + 1e-7);
       ck_assert(carry.first_bead >= 0 && carry.carried <= carry.beyond * (1 + 1e-6) + 1e-9);
     }
+    thr_carry_destroy(&carry);
     free(press);
   }
   thr_holding_destroy(&h);
