@@ -5,7 +5,7 @@ bench/falls.py PROGRAM [--seeds 1,2,3] [--steps 1,0.5] [-j N] [--only REGEX] [--
 bench/falls.py --read table.tsv .. --append FILE.md
 
 Every plan is simulated with every seed and every factor on the time step (`thread eval --method structure --json`); without PLANs
-the twenty of PLANS below are made first. A line of the table: plan, beads, the pulls between which it must fall (below the first
+those of PLANS below are made first. A line of the table: plan, beads, the pulls between which it must fall (below the first
 nothing holds it, at the second an equilibrium exists), seed, step, what came out, the fall and its error in newtons, the fall as a
 part of either pull, processor seconds. The last lines count. --append writes a summary, a row
 for each plan, at the end of a file, also from tables that were written before. Exit code 1 if any fall is told that is not within
@@ -34,6 +34,7 @@ PLANS = {  # name: (what to make, how to plan)
     "dome 8, straight": ("dome --size 8", TURNING + " --ends any --cords 16"),
     "dome 10, straight": ("dome --size 10", TURNING + " --ends any --cords 20"),
     "dome 14, straight": ("dome --size 14", TURNING + " --ends any --cords 28"),
+    "dome 20, straight": ("dome --size 20", TURNING + " --ends any --cords 40"),
     "honeycomb 2": ("honeycomb --size 2", ""),
     "honeycomb 2, 8 cords": ("honeycomb --size 2", TURNING + " --ends any --cords 8"),
     "honeycomb 3": ("honeycomb --size 3", "--cords 4 --ends any"),

@@ -48,7 +48,8 @@ enum {
   "      --time-step X    factor on the simulation's validated time step, 0.01 to 10 (default: 1)\n"                             \
   "      --iterations X   factor on its validated iterations, 0.1 to 100 (default: 1)\n"                                         \
   "      --start N        structure: pull in newton at which the simulation begins (default: 1.3 x the " START ")\n"             \
-  "      --no-dynamics    structure: limit analysis only, no simulation\n" PULL_RUN_HELP GUARD_HELP
+  "      --no-dynamics    structure: limit analysis only, no simulation (of up to\n"                                             \
+  "                       400 pieces; seconds, beyond 100 minutes)\n" PULL_RUN_HELP GUARD_HELP
 
 enum { PULL_ALL_METHODS = THR_N_METHODS };
 

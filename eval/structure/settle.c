@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-const int thr_settle_largest = 200;
+const int thr_settle_largest = 400;
 
 /* The protocol. */
 static const double SETTLE_TIME = 2;
