@@ -191,10 +191,8 @@ thr_status thr_planner_length(const thr_frame *frame, const thr_request *options
 bool thr_planner_is_quick(const thr_frame *frame, const thr_request *options)
 {
   enum { EDGES = 20000, DEGREE = 1000 };
-  int most = 0;
-  for (int v = 0; v < frame->n_nodes; v++)
-    if (thr_degree(frame, v) > most) most = thr_degree(frame, v);
-  return options->joint == THR_JOINT_SOLID && frame->n_edges <= EDGES && most <= DEGREE && options->engine != THR_ENGINE_LP;
+  return options->joint == THR_JOINT_SOLID && frame->n_edges <= EDGES && thr_frame_largest_degree(frame) <= DEGREE &&
+         options->engine != THR_ENGINE_LP;
 }
 
 thr_limits thr_planner_share(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_step step)

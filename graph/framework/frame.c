@@ -611,6 +611,14 @@ double thr_frame_total_length(const thr_frame *frame)
   return sum;
 }
 
+int thr_frame_largest_degree(const thr_frame *frame)
+{
+  int most = 0;
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (thr_degree(frame, v) > most) most = thr_degree(frame, v);
+  return most;
+}
+
 uint64_t thr_frame_hash(const thr_frame *frame)
 {
   if (frame->hash) return frame->hash;

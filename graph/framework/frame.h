@@ -137,6 +137,9 @@ void thr_frame_feet_lowest(thr_frame *frame);
 void thr_direction(const thr_frame *frame, int half, double d[3]);
 
 double thr_frame_total_length(const thr_frame *frame);
+
+/* Edges at a node at most. O(nodes). */
+int thr_frame_largest_degree(const thr_frame *frame);
 double thr_frame_diagonal(const thr_frame *frame); /* of the bounding box, in units */
 
 /* 64-bit FNV-1a over counts, coordinates, edges, lengths, feet and, if there are any, covers and capacities: names a framework in

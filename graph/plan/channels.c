@@ -90,10 +90,7 @@ static void sort_arms(const thr_frame *frame, int v, const double normal[3], arm
 
 thr_status thr_channels_around(const thr_frame *frame, int *around, thr_err *err)
 {
-  int most = 0;
-  for (int v = 0; v < frame->n_nodes; v++)
-    most = thr_degree(frame, v) > most ? thr_degree(frame, v) : most;
-  arm *arms = thr_calloc((size_t)most, sizeof *arms);
+  arm *arms = thr_calloc((size_t)thr_frame_largest_degree(frame), sizeof *arms);
   if (!arms) return thr_nomem(err);
   for (int v = 0; v < frame->n_nodes; v++) {
     double normal[3];

@@ -189,9 +189,8 @@ static thr_status fill_columns(thr_turning_columns *turning_columns, thr_err *er
 {
   const thr_frame *frame = turning_columns->f;
   const thr_turning_task *turning_task = turning_columns->task;
-  int end = turning_columns->first_end, back = turning_columns->first_back, most = 0;
-  for (int v = 0; v < frame->n_nodes; v++)
-    if (thr_degree(frame, v) > most) most = thr_degree(frame, v);
+  int end = turning_columns->first_end, back = turning_columns->first_back;
+  const int most = thr_frame_largest_degree(frame);
   double(*out)[3] = thr_calloc((size_t)most, sizeof *out);
   if (!out) return thr_nomem(err);
   for (int v = 0; v < frame->n_nodes; v++) {

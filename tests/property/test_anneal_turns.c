@@ -23,23 +23,6 @@ typedef struct {
   int *x;        /* [n_columns] */
 } asked;
 
-/* The point of a joined multigraph with these passes. */
-static void take_point(asked *a, const thr_join *j, const int *passes)
-{
-  for (int e = 0; e < a->f.n_edges; e++)
-    a->x[a->c.first_extra + e] = passes[e] - a->c.cover[e];
-  for (int d = 0; d < j->g.n_darts; d++) {
-    const int mate = j->mate[d], h = j->g.half[d], k = mate < 0 ? -1 : j->g.half[mate];
-    if (h < 0 || mate < d) continue;
-    if (k < 0)
-      a->x[a->c.end_column[h]]++;
-    else if (k != h)
-      a->x[thr_turning_column(&a->c, h, k)]++;
-    for (int b = a->c.first_back; b < a->c.n_columns && k == h; b++)
-      a->x[b] += a->c.half[b][0] == h;
-  }
-}
-
 static asked *ask(thr_frame f, bool open, double slack)
 {
   asked *a = calloc(1, sizeof *a);
@@ -61,7 +44,7 @@ static asked *ask(thr_frame f, bool open, double slack)
   ck_assert_int_eq(thr_join_init(&j, &a->c, passes, a->ends, &err), THR_OK);
   ck_assert_int_eq(thr_join_greedy(&j, 0, &limits, &err), THR_OK);
   ck_assert_ptr_nonnull(a->x = calloc((size_t)a->c.n_columns, sizeof *a->x));
-  take_point(a, &j, passes);
+  thr_join_point(&j, a->x);
   thr_join_destroy(&j);
   free(passes);
   return a;

@@ -30,10 +30,8 @@ typedef struct {
 bool thr_anneal_turns_serves(const thr_turning_columns *c)
 {
   const thr_turning_task *task = c->task;
-  int most = 0;
-  for (int v = 0; v < c->f->n_nodes; v++)
-    if (thr_degree(c->f, v) > most) most = thr_degree(c->f, v);
-  return !task->tube && !task->free_turns && task->cords == 1 && !task->end_count && most <= THR_TURN_DEGREE;
+  return !task->tube && !task->free_turns && task->cords == 1 && !task->end_count &&
+         thr_frame_largest_degree(c->f) <= THR_TURN_DEGREE;
 }
 
 /* ---- at one node ---- */

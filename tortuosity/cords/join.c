@@ -185,6 +185,27 @@ thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *er
   return st;
 }
 
+void thr_join_point(const thr_join *j, int *x)
+{
+  const thr_turning_columns *c = j->c;
+  memset(x, 0, (size_t)c->n_columns * sizeof *x);
+  for (int e = 0; e < c->f->n_edges; e++)
+    x[c->first_extra + e] = -c->cover[e];
+  for (int d = 0; d < j->g.n_darts; d++) {
+    const int mate = j->mate[d], a = j->g.half[d], b = mate < 0 ? -1 : j->g.half[mate];
+    if (a < 0) continue; /* virtual ones have the highest numbers */
+    x[c->first_extra + (a >> 1)] += d % 2;
+    if (mate < d) continue;
+    if (b < 0)
+      x[c->end_column[a]]++;
+    else if (a != b)
+      x[thr_turning_column(c, a, b)]++;
+    else
+      for (int k = c->first_back; k < c->n_columns; k++)
+        x[k] += c->half[k][0] == a;
+  }
+}
+
 /* ---- tied ---- */
 
 thr_status thr_join_tie(thr_join *j, const thr_turning_columns *turning_columns, const int *passes, const int *ends, bool *found,

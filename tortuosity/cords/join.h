@@ -61,6 +61,9 @@ thr_status thr_join_greedy(thr_join *j, int apart, const thr_limits *limits, thr
  * passes at no price. *single: whether that left one circuit per component, or open cords alone. */
 thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *err) THR_MUST_CHECK;
 
+/* The other way: x[n_columns] of joined pairs. O(columns + darts). */
+void thr_join_point(const thr_join *j, int *x);
+
 /* Tube joints: pairs that tie every node (tortuosity/tie/tie.h), for passes and ends (NULL = closed cords) as in thr_join_init.
  * The circuits are as many as it happens. *found is false, and j empty, if a node cannot be tied. */
 thr_status thr_join_tie(thr_join *j, const thr_turning_columns *turning_columns, const int *passes, const int *ends, bool *found,

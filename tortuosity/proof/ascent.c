@@ -39,17 +39,9 @@ static void ascent_destroy(ascent *a)
   free(a->via);
 }
 
-static int largest_degree(const thr_frame *frame)
-{
-  int most = 1;
-  for (int v = 0; v < frame->n_nodes; v++)
-    if (thr_degree(frame, v) > most) most = thr_degree(frame, v);
-  return most;
-}
-
 static thr_status ascent_init(ascent *a, const thr_turning_columns *turning_columns, thr_err *err)
 {
-  int m = turning_columns->f->n_edges, degree = largest_degree(turning_columns->f);
+  int m = turning_columns->f->n_edges, degree = thr_frame_largest_degree(turning_columns->f);
   *a = (ascent){.c = turning_columns, .m = m, .n = 2 * m + 1, .scale = 1 / sqrt(m)};
   double *room = a->room =
       thr_calloc((size_t)turning_columns->n_columns + 10 * (size_t)m + 4 * (size_t)a->n + (size_t)degree, sizeof *room);
@@ -338,7 +330,7 @@ static thr_status prove_tree(const thr_turning_columns *turning_columns, thr_tur
 
 static thr_status prove_trees(const thr_turning_columns *turning_columns, thr_turning_dual *dual, thr_err *err)
 {
-  size_t most = (size_t)largest_degree(turning_columns->f);
+  size_t most = (size_t)thr_frame_largest_degree(turning_columns->f);
   int capacity = 0, junctions = most_junctions(turning_columns->f);
   turn *list = thr_calloc(most, sizeof *list);
   int *parent = thr_calloc(most, sizeof *parent);

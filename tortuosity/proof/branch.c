@@ -156,14 +156,6 @@ bool thr_branch_proved(const thr_branch *branch)
   return branch->found && branch->tree.n_nodes > 0 && closed(branch, 0);
 }
 
-static int largest_degree(const thr_frame *frame)
-{
-  int most = 0;
-  for (int v = 0; v < frame->n_nodes; v++)
-    if (thr_degree(frame, v) > most) most = thr_degree(frame, v);
-  return most;
-}
-
 /* Tube joints: the bound of the ascent, and from the mean of its solutions passes to begin with. */
 static thr_status climb(thr_branch *branch, int root, thr_err *err)
 {
@@ -175,8 +167,8 @@ static thr_status climb(thr_branch *branch, int root, thr_err *err)
   const thr_limits half = thr_limits_part(branch->limits, branch->dense ? 0.5 : 1);
   thr_status st = mean ? thr_ascent_run(branch->c, target, &half, &dual, mean, err) : thr_nomem(err);
   if (!st) st = thr_branch_keep_dual(branch, root, dual, NULL, NULL, err);
-  bool more = !branch->found ||
-              (!closed(branch, root) && !thr_limits_stop(branch->limits) && largest_degree(branch->c->f) <= TIED_DEGREE);
+  bool more = !branch->found || (!closed(branch, root) && !thr_limits_stop(branch->limits) &&
+                                 thr_frame_largest_degree(branch->c->f) <= TIED_DEGREE);
   if (!st && more) st = thr_tie_round(branch->c, mean, branch->passes, branch->ends, &found, err);
   if (!st && found) st = thr_tie_improve(branch->c, &some, branch->passes, branch->ends, err);
   if (!st && found) st = thr_branch_try(branch, branch->passes, branch->ends, err);

@@ -5,11 +5,9 @@
 #include "graph/process/threads.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
-#include "graph/threading/multigraph.h"
 #include "tortuosity/cords/anneal_turns.h"
+#include "tortuosity/cords/join.h"
 #include "tortuosity/proof/branch.h"
-
-#include <string.h>
 
 enum {
   RUNS = 4,          /* at once, each with other random numbers, and each from where it was */
@@ -25,28 +23,6 @@ typedef struct {
   int *x[RUNS]; /* [n_columns] */
   bool better[RUNS];
 } runs;
-
-/* The columns of the best plan. */
-static void take_best(thr_branch *branch, int *x)
-{
-  const thr_turning_columns *c = branch->c;
-  const thr_multigraph *g = &branch->best.g;
-  memset(x, 0, (size_t)c->n_columns * sizeof *x);
-  thr_branch_best(branch, branch->passes, branch->ends);
-  for (int e = 0; e < c->f->n_edges; e++)
-    x[c->first_extra + e] = branch->passes[e] - c->cover[e];
-  for (int d = 0; d < g->n_darts; d++) {
-    const int mate = branch->best.mate[d], a = g->half[d], b = mate < 0 ? -1 : g->half[mate];
-    if (mate < d || a < 0) continue; /* ends have the highest numbers */
-    if (b < 0)
-      x[c->end_column[a]]++;
-    else if (a != b)
-      x[thr_turning_column(c, a, b)]++;
-    else
-      for (int j = c->first_back; j < c->n_columns; j++)
-        x[j] += c->half[j][0] == a;
-  }
-}
 
 /* A job. */
 static thr_status run_one(void *user, int k, const thr_limits *limits, thr_err *err)
@@ -92,7 +68,7 @@ thr_status thr_branch_anneal_turns(thr_branch *branch, const thr_limits *limits,
     r.x[k] = thr_scratch_array(&own, (size_t)branch->c->n_columns, sizeof *r.x[k]);
   if (!st) st = thr_scratch_check(&own, err);
   for (int k = 0; k < RUNS && !st; k++)
-    take_best(branch, r.x[k]);
+    thr_join_point(&branch->best, r.x[k]);
   if (!st) st = run_rounds(&r, err);
   thr_scratch_free(&own);
   return st;

@@ -100,9 +100,7 @@ thr_status thr_junctions_separate(void *user, int *added, thr_err *err)
   thr_relax *relax = user;
   const thr_turning_columns *turning_columns = relax->c;
   const thr_frame *frame = turning_columns->f;
-  size_t most = 1;
-  for (int v = 0; v < frame->n_nodes; v++)
-    if ((size_t)thr_degree(frame, v) > most) most = (size_t)thr_degree(frame, v);
+  const size_t most = (size_t)thr_frame_largest_degree(frame);
   double *between = thr_calloc(most * most, sizeof *between);
   int *block = thr_calloc(most, sizeof *block);
   thr_status st = between && block ? THR_OK : thr_nomem(err);
