@@ -134,18 +134,17 @@ thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *op
 /* The plan's cords annealed, in part of the time that a user gives. */
 static thr_status anneal(thr_plan *plan, const thr_turning_columns *columns, const thr_limits *limits, thr_err *err)
 {
-  enum { STEPS = 6000000 };
   const double part = .4;
   const thr_limits share = thr_limits_part(limits, part);
+  const thr_anneal_task task = {
+      .measure = THR_WALK_LENGTH, .steps = 6000000, .rounds = 2, .enough = plan->cords_claim.longest_bound * (1 + near)};
   thr_cord *cord = NULL;
   bool better = false;
   if (limits->deadline == 0 || limits->work || plan->n_cords < 2 || plan->options.joint == THR_JOINT_TUBE ||
       plan->options.ends == THR_ENDS_COUNTS)
     return THR_OK;
   thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &cord, err);
-  if (!st)
-    st = thr_anneal(columns, THR_WALK_LENGTH, STEPS, plan->cords_claim.longest_bound * (1 + near), &share, cord, plan->n_cords,
-                    &better, err);
+  if (!st) st = thr_anneal(columns, &task, &share, cord, plan->n_cords, &better, err);
   if (!st && better) {
     st = take_cords(plan, cord, err);
     cord = NULL;

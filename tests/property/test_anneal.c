@@ -98,7 +98,8 @@ static bool anneal(asked *a, int steps, double enough)
   thr_err err = {0};
   bool better;
   ck_assert_int_eq(thr_turning_columns_init(&a->columns, &a->f, &a->task, &err), THR_OK);
-  thr_status st = thr_anneal(&a->columns, a->measure, steps, enough, &limits, a->plan.cord, a->plan.n_cords, &better, &err);
+  const thr_anneal_task task = {.measure = a->measure, .steps = steps, .rounds = 2, .enough = enough};
+  thr_status st = thr_anneal(&a->columns, &task, &limits, a->plan.cord, a->plan.n_cords, &better, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   return better;
 }
@@ -179,6 +180,7 @@ END_TEST
 START_TEST(running_out_of_memory_leaves_cords)
 {
   asked a = ask(0, 12, 10);
+  const thr_anneal_task task = {.measure = a.measure, .steps = 2000, .rounds = 1};
   const thr_limits limits = {0};
   thr_status st = THR_ENOMEM;
   thr_err err = {0};
@@ -186,10 +188,33 @@ START_TEST(running_out_of_memory_leaves_cords)
   for (long k = 1; st != THR_OK; k++) {
     bool better;
     thr_alloc_fail_at(k);
-    st = thr_anneal(&a.columns, a.measure, 2000, 0, &limits, a.plan.cord, a.plan.n_cords, &better, &err);
+    st = thr_anneal(&a.columns, &task, &limits, a.plan.cord, a.plan.n_cords, &better, &err);
     thr_alloc_fail_at(0);
     ck_assert(st == THR_OK || st == THR_ENOMEM);
   }
+  forget(&a);
+}
+END_TEST
+
+START_TEST(threads_change_nothing)
+{
+  asked a = ask(_i, 12, 10);
+  thr_err err = {0};
+  thr_cord *cord[2] = {NULL, NULL};
+  ck_assert_int_eq(thr_turning_columns_init(&a.columns, &a.f, &a.task, &err), THR_OK);
+  for (int k = 0; k < 2 && a.plan.n_cords > 0; k++) {
+    const thr_anneal_task task = {.measure = a.measure, .steps = 3000, .first = 1, .rounds = 3};
+    const thr_limits limits = {.threads = 1 + k};
+    bool better;
+    ck_assert_int_eq(thr_cords_copy(a.plan.cord, a.plan.n_cords, &cord[k], &err), THR_OK);
+    ck_assert_int_eq(thr_anneal(&a.columns, &task, &limits, cord[k], a.plan.n_cords, &better, &err), THR_OK);
+  }
+  for (int i = 0; i < a.plan.n_cords; i++) {
+    ck_assert_int_eq(cord[0][i].n_passes, cord[1][i].n_passes);
+    ck_assert_mem_eq(cord[0][i].half, cord[1][i].half, (size_t)cord[0][i].n_passes * sizeof *cord[0][i].half);
+  }
+  for (int k = 0; k < 2; k++)
+    thr_cords_destroy(cord[k], cord[k] ? a.plan.n_cords : 0);
   forget(&a);
 }
 END_TEST
@@ -200,6 +225,7 @@ int main(void)
   ADD_EXAMPLES(s, 60, cords_keep_what_is_asked, 60);
   ADD_EXAMPLES(s, 30, enough_ends_it, 6);
   ADD_EXAMPLES(s, 60, cords_are_the_best_as_a_rule, 1);
+  ADD_EXAMPLES(s, 60, threads_change_nothing, 12);
   ADD_EXAMPLES(s, 60, running_out_of_memory_leaves_cords, 1);
   return run_suite(s);
 }

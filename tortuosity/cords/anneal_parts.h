@@ -3,10 +3,12 @@
 #define THR_ANNEAL_PARTS_H
 
 #include "graph/limits.h"
+#include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
+#include "tortuosity/cords/anneal.h"
 
 #include <stdint.h>
 
@@ -65,6 +67,14 @@ static inline double thr_anneal_turn(const thr_annealer *x, int in, int out)
   return x->price[x->pair_first[v] + c->position[in ^ 1] * degree + c->position[out]];
 }
 
+/* With the cords as walks. Random numbers begin at 1. On failure the annealer is to be destroyed too. O(passes + turns). */
+thr_status thr_annealer_init(thr_annealer *x, const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord,
+                             int n_cords, thr_err *err) THR_MUST_CHECK;
+void thr_annealer_destroy(thr_annealer *x);
+
+/* Makes a change, unless edges would no longer keep to their covers and limits. O(passes of its cords). */
+thr_status thr_anneal_make(thr_annealer *x, const thr_anneal_change *change, thr_err *err) THR_MUST_CHECK;
+
 /* Passes from .. end - 1 of half[], turned round if backwards, are put at the end of what is made of a change's cord i. */
 void thr_anneal_put(thr_annealer *x, thr_anneal_change *change, int i, const int *half, int from, int end, bool backwards);
 
@@ -91,5 +101,9 @@ bool thr_anneal_reroute(thr_annealer *x, int a, thr_anneal_change *change);
 
 /* A visit to a node, drawn from all; cord -1: there is none. */
 thr_anneal_visit thr_anneal_visit_at(thr_annealer *x, int node);
+
+/* One run of a task, with random numbers of its own. Odd ones begin hotter, and pass over more of what is good to get there. */
+thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task, int number, const thr_limits *limits,
+                          thr_cord *cord, int n_cords, bool *better, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -16,7 +16,6 @@
 #include "tortuosity/cords/maxturn_small.h"
 #include "tortuosity/cords/walk_bound.h"
 #include "tortuosity/cords/walk_programme.h"
-#include "tortuosity/cords/walk_programme.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>
@@ -365,21 +364,27 @@ static thr_status find_cords(search *x, const thr_frame *frame, thr_least *plan,
   return st ? st : keep_best(x, frame, plan, err);
 }
 
-/* The plan's cords annealed, in part of the time, unless they are as near to the bound as is worth it. */
-static thr_status anneal_cords(search *x, const thr_frame *frame, thr_least *plan, double part, thr_err *err)
+/* The plan's cords annealed, in part of the time, unless they are as near to the bound as is worth it. first, rounds: of the
+ * annealing. */
+static thr_status anneal_cords(search *x, const thr_frame *frame, thr_least *plan, double part, int first, int rounds,
+                               thr_err *err)
 {
   enum { MOST_STEPS = 6000000, STEPS = 20000 }; /* STEPS: for a pass */
   const double near = 2e-3;                     /* of the bound */
   const thr_limits share = thr_limits_part(x->limits, part);
-  const double enough = fmax(x->bound * (1 + near), x->enough);
-  const int steps = (int)fmin(MOST_STEPS, (double)STEPS * x->best.g.n_darts);
+  const thr_anneal_task task = {.measure = THR_WALK_TURNING,
+                                .steps = (int)fmin(MOST_STEPS, (double)STEPS * x->best.g.n_darts),
+                                .first = first,
+                                .rounds = rounds,
+                                .enough = fmax(x->bound * (1 + near), x->enough)};
   thr_cord *cord = NULL;
   thr_join j = {0};
   bool better = false;
-  if (plan->n_cords < 2 || x->limits->work || x->c->task->tube || x->c->task->end_count || largest_price(frame, plan) <= enough)
+  if (plan->n_cords < 2 || x->limits->work || x->c->task->tube || x->c->task->end_count ||
+      largest_price(frame, plan) <= task.enough)
     return THR_OK;
   thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &cord, err);
-  if (!st) st = thr_anneal(x->c, THR_WALK_TURNING, steps, enough, &share, cord, plan->n_cords, &better, err);
+  if (!st) st = thr_anneal(x->c, &task, &share, cord, plan->n_cords, &better, err);
   if (!st && better) st = thr_join_from_cords(&j, x->c, cord, plan->n_cords, err);
   if (!st && better) st = improve_from(x, &j, 0, err);
   if (!st && better) st = keep_best(x, frame, plan, err);
@@ -390,9 +395,11 @@ static thr_status anneal_cords(search *x, const thr_frame *frame, thr_least *pla
 /* The programme over walks: a higher bound, and cords that it chooses, evened out as the others were. */
 static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
 {
+  enum { SHORT = 1, MANY = 64 }; /* rounds of annealing; without a limit of time as few */
+  const int last = x->limits->deadline > 0 ? MANY : SHORT;
   thr_cord *better = NULL;
   thr_join j = {0};
-  thr_status st = anneal_cords(x, frame, plan, .3, err);
+  thr_status st = anneal_cords(x, frame, plan, .3, 0, SHORT, err);
   if (!st) {
     const thr_cord *dearest = &plan->cord[thr_walk_dearest(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords)];
     double least = x->bound_of[x->c->component[thr_tail(frame, dearest->half[0])]];
@@ -405,7 +412,7 @@ static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, 
   }
   if (!st && better) st = keep_best(x, frame, plan, err);
   thr_cords_destroy(better, plan->n_cords);
-  if (!st) st = anneal_cords(x, frame, plan, 1, err);
+  if (!st) st = anneal_cords(x, frame, plan, 1, SHORT, last, err);
   return st;
 }
 

@@ -199,7 +199,7 @@ static thr_status look_near(thr_walk_programme *p, const thr_cord *cord, int n_c
 static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cords, double enough, double *bound,
                          thr_walk_proof *made, thr_cord **better, thr_err *err)
 {
-  const double for_bound = .6, for_cords = .3, for_near = .6; /* of what is left */
+  const double for_bound = .6, for_cords = .2, for_near = .3; /* of what is left */
   const thr_turning_task *task = p->c->task;
   const thr_limits *limits = p->limits;
   const double largest = thr_walk_price(p->c, p->steps.measure, &cord[thr_walk_dearest(p->c, p->steps.measure, cord, n_cords)]);
