@@ -10,7 +10,7 @@ static bool is_asked(const thr_frame *frame, const thr_request *options)
 {
   const bool counted = options->cords == options->cords_least && options->ends != THR_ENDS_COUNTS;
   const bool alone = options->max_length == 0 && options->max_pull == 0 && options->capacity == 0 && !frame->capacity &&
-                     !thr_wants_balance(options) && thr_wants_length(options);
+                     thr_wants_length(options);
   return counted && alone && options->joint == THR_JOINT_SOLID && options->cover <= options->distinct && !frame->cover;
 }
 
@@ -51,6 +51,26 @@ static thr_status walk_over_all(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
+/* The sets of edges that the cords pass: together the cheapest; or, even, of which the dearest is as cheap as can be, and
+ * together the cheapest of these if there are few enough to tell. */
+static thr_status choose_sets(thr_few_edges *few, const thr_request *options, bool even, unsigned *set, bool *found, thr_err *err)
+{
+  const int n = options->cords;
+  double proved, dearest = INFINITY;
+  thr_status st = THR_OK;
+  *found = false;
+  if (even) {
+    st = thr_few_edges_different_dearest(few, options->distinct, n, 0, set, &proved, &dearest, err);
+    for (unsigned k = 0; k < 1u << few->n; k++)
+      if (few->one[k] > dearest) few->one[k] = INFINITY;
+  }
+  bool summed = false;
+  const bool known = dearest < INFINITY;
+  if (!st && (known || !even) && few->n <= THR_FEW_SUMMED) st = thr_few_edges_sets(few, options->distinct, n, set, &summed, err);
+  *found = !st && (known || summed);
+  return st;
+}
+
 thr_status thr_distinct_few(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_cord **cord,
                             int *n_cords, thr_err *err)
 {
@@ -60,14 +80,15 @@ thr_status thr_distinct_few(const thr_frame *frame, const thr_request *options, 
   bool found = false;
   *cord = NULL;
   *n_cords = 0;
-  if (!is_asked(frame, options) || frame->n_edges > THR_FEW_SUMMED) return THR_OK;
+  const bool even = thr_wants_balance(options);
+  if (!is_asked(frame, options) || frame->n_edges > (even ? THR_FEW_EDGES : THR_FEW_SUMMED)) return THR_OK;
   int *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
   unsigned *set = thr_calloc((size_t)n, sizeof *set);
   thr_cord *made = thr_calloc((size_t)n, sizeof *made);
   thr_status st = component && set && made ? THR_OK : thr_nomem(err);
   if (!st) st = thr_frame_components(frame, component, &parts, err);
   if (!st && parts == 1) st = thr_few_edges_init(&few, frame, options, component, 0, false, INFINITY, THR_FEW_SETS, err);
-  if (!st && few.n > 0) st = thr_few_edges_sets(&few, options->distinct, n, set, &found, err);
+  if (!st && few.n > 0) st = choose_sets(&few, options, even, set, &found, err);
   if (!st && found) st = walk_over_all(frame, options, set, limits, made, &found, err);
   if (!st && found) {
     *cord = made;

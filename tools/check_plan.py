@@ -455,6 +455,10 @@ class Plan:
         o = self.options
         return self.per_piece[c] if o.max_length is not None and o.counted and o.least < o.cords else o.cords
 
+    def different(self):
+        """Different cords over every edge of plans like this one: what is asked for, if it has them."""
+        return self.options.distinct if self.options.distinct and self.met == self.frame.m else 1
+
     def close(self, stated, value, scale, name):
         require(abs(Fraction(stated) - Fraction(value)) <= TOLERANCE * Fraction(scale), f"{name}: stated {stated}, but it is {float(value)}")
 
@@ -1433,6 +1437,76 @@ class FewEdges:
             result = min(result, best[-1] + (max(low, each * self.n + 1) - each * self.n) * self.one[0])
         return result
 
+    def different_fit(self, each, cords, limit):
+        """Can so many cords, none dearer than the limit, pass every edge so that it has each different ones? Also where that would
+        take long to find out."""
+        key = (self.key, each, cords, limit)
+        if key not in LEAST:
+            LEAST[key] = Different(self.n, [x <= limit for x in self.one]).fit([(1 << self.n) - 1] * each, cords)
+        return LEAST[key]
+
+
+class Different:
+    """Sets of n edges, of which a cord passes one at most. Needs are a list of sets: the edges that lack one cord at least, two .."""
+
+    ROUNDS, WORK = 200, 2**29
+
+    def __init__(self, n, fits):
+        self.n, self.fits, self.failed, self.work = n, fits, {}, 0
+        for bit in (1 << i for i in range(n)):
+            for mask in range(1 << n):
+                if not mask & bit and fits[mask | bit]:
+                    fits[mask] = True
+        bits = [1 << i for i in range(n)]
+        self.most = [m for m in range(1, 1 << n) if fits[m] and not any(fits[m | b] for b in bits if not m & b)]
+        self.holding = [[m for m in self.most if m & b] for b in bits]
+        self.weigh()
+
+    def weights(self, of):
+        """Of sets, in two halves."""
+        tables = [[0], [0]]
+        for i, w in enumerate(of):
+            tables[2 * i >= self.n] += [w + x for x in tables[2 * i >= self.n]]
+        return tables, (self.n + 1) // 2
+
+    def weight(self, mask):
+        return self.low[mask & self.half] + self.high[mask >> self.shift]
+
+    def weigh(self):
+        """Whole weights of edges: what one cord passes weighs self.heaviest at most. Edges of the heaviest set get lighter, again and again."""
+        of, best = [10**6] * self.n, None
+        for _ in range(self.ROUNDS):
+            (low, high), shift = self.weights(of)
+            half = (1 << shift) - 1
+            most, mask = max(((low[m & half] + high[m >> shift], m) for m in self.most), default=(0, 0))
+            if most and (best is None or sum(of) * best[1] > best[0] * most):
+                best = sum(of), most, low, high
+            of = [w - w // 12 if mask >> i & 1 else w for i, w in enumerate(of)]
+        self.shift, self.half = shift, half
+        _, self.heaviest, self.low, self.high = best or (0, 0, low, high)
+
+    def fit(self, needs, cords):
+        some, all_of_them = needs[0], needs[cords - 1] if cords <= len(needs) else 0
+        if not some:
+            return True
+        if len(needs) > cords and needs[cords] or not self.fits[all_of_them]:
+            return False
+        if sum(map(self.weight, needs)) > cords * self.heaviest:
+            return False
+        key = tuple(needs)
+        if cords == 1 or self.work > self.WORK:
+            return True
+        if self.failed.get(key, 0) >= cords:
+            return False
+        self.work += len(self.most)
+        shortest = min((self.holding[i] for i in range(self.n) if some >> i & 1), key=len)
+        for mask in {m & some for m in shortest if not all_of_them & ~m}:
+            left = [a & ~(mask & ~b) for a, b in zip(needs, needs[1:] + [0])]
+            if self.fit(left, cords - 1):
+                return True
+        self.failed[key] = cords
+        return False
+
 
 def few_edges(p, turning, enough):
     """Per component: its FewEdges, or None if it is large; and the least and the most cords it may have."""
@@ -1456,6 +1530,16 @@ def few_edges_bounds(p, turning, enough):
     return Fraction(min(total, sys.float_info.max)), Fraction(min(dearest, sys.float_info.max))
 
 
+def few_edges_longest(p, enough):
+    """The least of the longest cord in any component that is not large, which is known up to enough."""
+    each = p.different()
+    if each == 1:
+        return few_edges_bounds(p, False, enough)[1]
+    limit = float(enough) * (1 - 5e-10)
+    small = [(t, high) for t, _, high in few_edges(p, False, limit) if t]
+    return Fraction(limit if any(not t.different_fit(each, high, limit) for t, high in small) else 0)
+
+
 def few_edges_lengths(p):
     """Per component the least length of its cords together, of as many as length is compared with; 0 if it is large."""
     f, o, sets, found = p.frame, p.options, FEW_SETS, []
@@ -1466,7 +1550,7 @@ def few_edges_lengths(p):
         small = high > 1 and len(edges) <= FEW_SUMMED and 1 << len(edges) <= sets
         sets -= (1 << len(edges)) if small else 0
         table = FewEdges(p, edges, False, math.inf) if small else None
-        each = o.distinct if o.distinct and p.met == f.m else 1
+        each = p.different()
         least = (table.different(each, low, high) or table.least(low, high, False)) if small else 0
         found.append(Fraction(min(least, sys.float_info.max)))
     return found
@@ -1505,12 +1589,12 @@ def forced_detour(p, enough):
 
 def fewest_cords(p):
     """Cords in all components together that no plan has fewer of."""
-    o, limit, total = p.options, Fraction(p.options.max_length) * (1 + 2 * TOLERANCE), 0
+    o, limit, total, each = p.options, Fraction(p.options.max_length) * (1 + 2 * TOLERANCE), 0, p.different()
     for c, (table, j, _) in enumerate(few_edges(p, False, float(limit))):
         base = sum(p.frame.exact[e] * o.need[e] for e in p.frame.edges_of(c))
         while j < p.per_piece[c]:
             least = base if o.tube else p.certificate[c].least(2 * j)
-            if least <= j * limit and (table is None or table.fit(j, limit)):
+            if least <= j * limit and (table is None or (table.fit(j, limit) if each == 1 else table.different_fit(each, j, float(limit)))):
                 break
             j += 1
         total += j
@@ -1558,7 +1642,7 @@ def check_cords_claim(p):
         bound = max(bound, walks.bound(cords[here], least[here] * (1 - Fraction(1, 10**11)), place + ".walks"))
     claimed = member(stated, "lower_bound", "number", place + ".longest")
     bound = max(bound, forced_detour(p, claimed))
-    bound = max(bound, few_edges_bounds(p, False, claimed)[1])
+    bound = max(bound, few_edges_longest(p, claimed))
     unit = longest_unit(p.frame)
     if unit:
         bound = max(bound, unit * math.ceil(bound / unit * (1 - 2 * TOLERANCE)))

@@ -259,9 +259,8 @@ static thr_status count_different(const thr_frame *frame, int distinct, const th
   return st;
 }
 
-/* How many different cords plans like this one have over every edge: what is asked for, if it has them. */
-static thr_status count_each(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords, int *each,
-                             thr_err *err)
+thr_status thr_check_different(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords, int *each,
+                               thr_err *err)
 {
   int found = 0;
   *each = 1;
@@ -351,7 +350,7 @@ thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *opt
   int each = 1;
   thr_status st = walked_from_cords(&check_walked, frame, options, cord, n_cords, err);
   if (!st) st = check_cord_count(&check_walked, options, err);
-  if (!st) st = count_each(frame, options, cord, n_cords, &each, err);
+  if (!st) st = thr_check_different(frame, options, cord, n_cords, &each, err);
   for (int i = 0; i < n_cords; i++)
     length += thr_cord_length(frame, &cord[i]);
   if (!st) st = check_proof(frame, options, &check_walked, each, length, certificate, n_certificates, optimal, lower_bound, err);
@@ -526,7 +525,7 @@ static thr_status check_length_claim(const thr_plan *plan, const thr_check_walke
     optimal = thr_check_close(lower_bound, length, length);
   } else {
     int each = 1;
-    thr_status st = count_each(&plan->frame, &plan->options, plan->cord, plan->n_cords, &each, err);
+    thr_status st = thr_check_different(&plan->frame, &plan->options, plan->cord, plan->n_cords, &each, err);
     if (!st) st = sum_verdicts(&plan->frame, &plan->options, check_walked, each, verdict, length, &optimal, &lower_bound, err);
     if (st) return st;
   }

@@ -208,8 +208,19 @@ static bool too_long(double length, int cords, const thr_request *options)
   return length > cords * options->max_length * (1 + 2e-9);
 }
 
+/* No so many cords, of which each edge is passed by so many different ones, have a longest that is shorter than *longest. known:
+ * the longest of some that are known. */
+static thr_status longest_of(const thr_few_edges *few, int each, int cords, double known, double *longest, thr_err *err)
+{
+  double found;
+  *longest = 0;
+  if (few->n == 0) return THR_OK;
+  if (each == 1) return thr_few_edges_dearest(few, cords, longest, err);
+  return thr_few_edges_different_dearest(few, each, cords, known, NULL, longest, &found, err);
+}
+
 /* Raises *least, cords of a component, as far as the certificate and, of few edges, all sets of cords exclude that number. */
-static thr_status rule_out_part(const thr_request *options, const part *p, const thr_certificate *certificate,
+static thr_status rule_out_part(const thr_request *options, const part *p, int each, const thr_certificate *certificate,
                                 const thr_check_verdict *check_verdict, const thr_few_edges *few, int *least, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -217,18 +228,18 @@ static thr_status rule_out_part(const thr_request *options, const part *p, const
   while (!st && ruled_out && *least < p->most) {
     double longest = 0;
     ruled_out = too_long(least_length(options, p, *least, certificate, check_verdict), *least, options);
-    if (!ruled_out && few->n > 0) st = thr_few_edges_dearest(few, *least, &longest, err);
+    if (!ruled_out) st = longest_of(few, each, *least, options->max_length, &longest, err);
     ruled_out |= !st && longest > options->max_length * (1 + 2e-9);
     if (ruled_out) ++*least;
   }
   return st;
 }
 
-/* What is claimed of component number: its fewest cords, and what raises *bound on the longest. sets: of edges that may be looked
- * at yet. */
+/* What is claimed of component number: its fewest cords, and what raises *bound on the longest. each: so many different ones over
+ * every edge; sets: of edges that may be looked at yet. */
 static thr_status judge_part(const thr_frame *frame, const thr_request *options, const int *component, int number, const part *p,
-                             const thr_certificate *certificate, const thr_check_verdict *verdict, int *sets, double *bound,
-                             thr_cords_claim *found, thr_err *err)
+                             int each, const thr_certificate *certificate, const thr_check_verdict *verdict, int *sets,
+                             double *bound, thr_cords_claim *found, thr_err *err)
 {
   const double limit = fmax(found->longest, options->max_length) * (1 + 1e-6);
   thr_few_edges few = {0};
@@ -237,8 +248,8 @@ static thr_status judge_part(const thr_frame *frame, const thr_request *options,
   thr_status st = THR_OK;
   if (p->most > 1) st = thr_few_edges_init(&few, frame, options, component, number, false, limit, *sets, err);
   if (few.n > 0) *sets -= 1 << few.n;
-  if (!st && few.n > 0) st = thr_few_edges_dearest(&few, p->most, &longest, err);
-  if (!st) st = rule_out_part(options, p, certificate, verdict, &few, &least, err);
+  if (!st) st = longest_of(&few, each, p->most, found->longest, &longest, err);
+  if (!st) st = rule_out_part(options, p, each, certificate, verdict, &few, &least, err);
   thr_few_edges_destroy(&few);
   *bound = fmax(*bound, fmax(longest, least_length(options, p, p->most, certificate, verdict) / p->most));
   found->fewest += least;
@@ -334,14 +345,15 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
 {
   part *parts;
   double bound = 0, unit = thr_plan_unit(frame); /* cords have whole numbers of it */
-  int sets = THR_FEW_SETS;
+  int sets = THR_FEW_SETS, each;
   *found = (thr_cords_claim){.present = true, .longest = thr_cords_longest(frame, cord, n_cords)};
   thr_status st = parts_of(frame, options, check_walked, &parts, err);
   if (st) return st;
+  st = thr_check_different(frame, options, cord, n_cords, &each, err);
   for (int c = 0; c < check_walked->n_components && !st; c++) {
     const thr_certificate *proof = verdict ? &certificate[c] : NULL;
     const thr_check_verdict *check_verdict = verdict ? &verdict[c] : NULL;
-    st = judge_part(frame, options, check_walked->component, c, &parts[c], proof, check_verdict, &sets, &bound, found, err);
+    st = judge_part(frame, options, check_walked->component, c, &parts[c], each, proof, check_verdict, &sets, &bound, found, err);
   }
   if (!st && tied) st = check_tied(frame, options, tied, parts, check_walked->n_components, &bound, found, err);
   if (!st && walks && walks->unit) st = judge_walks(frame, options, parts, certificate, verdict, walks, &bound, err);

@@ -65,6 +65,10 @@ thr_status thr_check_certificates(const thr_frame *frame, const thr_request *opt
 /* Least extra cord of that component, in units, with so many cord ends, by a certificate with this verdict. */
 double thr_check_extra(const thr_certificate *certificate, const thr_check_verdict *check_verdict, int64_t ends);
 
+/* How many different cords plans like this one have over every edge: what is asked for, if it has them; else 1. */
+thr_status thr_check_different(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords, int *each,
+                               thr_err *err) THR_MUST_CHECK;
+
 /* What can be claimed of several cords that were checked already: fills found. verdict NULL: no certificates; tied: the proof
  * of tube joints, or NULL; walks: prices that bound the longest, or NULL. */
 thr_status thr_check_several(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,

@@ -241,8 +241,7 @@ static bool suffice(families *x, const thr_few_edges *few, int cords, double lim
   return false;
 }
 
-/* value[n], ascending: the costs that there are. */
-static thr_status list_costs(const thr_few_edges *few, double **value, size_t *n, thr_err *err)
+thr_status thr_few_edges_costs(const thr_few_edges *few, double **value, size_t *n, thr_err *err)
 {
   size_t sets = (size_t)1 << few->n, all = 0;
   *n = 0;
@@ -267,7 +266,7 @@ thr_status thr_few_edges_dearest(const thr_few_edges *few, int cords, double *co
   x.product = thr_scratch_array(&x.own, x.sets, sizeof *x.product);
   if (cords > few->n) cords = few->n; /* more cords than edges cost no less */
   thr_status st = thr_scratch_check(&x.own, err);
-  if (!st) st = list_costs(few, &value, &n, err);
+  if (!st) st = thr_few_edges_costs(few, &value, &n, err);
   for (size_t high = n; !st && low < high;) {
     size_t middle = low + (high - low) / 2;
     if (suffice(&x, few, cords, value[middle]))
@@ -327,135 +326,6 @@ thr_status thr_few_edges_sum(const thr_few_edges *few, int least, int most, doub
     *cost = fmin(*cost, k > n ? of[n] + (k - n) * few->one[0] : of[k]);
     if (k > n) break; /* more cords than edges only cost more */
   }
-  return st;
-}
-
-/* ---- several different cords over every edge ---- */
-
-/* Needs of all edges are the digits of a number to the base each + 1, the first edge's the lowest. */
-typedef struct {
-  const thr_few_edges *few;
-  int base, needs; /* needs: how many numbers there are */
-  int *offset;     /* [2^n] of a set: one pass less over each of its edges */
-} sharing;
-
-static unsigned edges_of(const sharing *x, int needs)
-{
-  unsigned set = 0;
-  for (int i = 0; i < x->few->n; i++, needs /= x->base)
-    if (needs % x->base > 0) set |= 1u << i;
-  return set;
-}
-
-/* The best set for one cord, of those that hold the lowest edge with needs, and what it and the others cost: best is of these. */
-static double best_part(const sharing *x, int needs, const double *best, unsigned *cord)
-{
-  const unsigned set = edges_of(x, needs), lowest = set & (~set + 1), rest = set & ~lowest;
-  double least = INFINITY;
-  *cord = lowest;
-  for (unsigned part = rest;; part = (part - 1) & rest) {
-    const double cost = x->few->one[part | lowest] + best[needs - x->offset[part | lowest]];
-    if (cost < least) {
-      least = cost;
-      *cord = part | lowest;
-    }
-    if (part == 0) return least;
-  }
-}
-
-/* more: of one cord more than best is of. */
-static void share_once_more(const sharing *x, const double *best, double *more)
-{
-  unsigned cord;
-  for (int needs = 0; needs < x->needs; needs++)
-    more[needs] = best_part(x, needs, best, &cord);
-}
-
-/* How many needs there are, and are the sets of them few enough? */
-static bool is_small(int each, int n, int *needs)
-{
-  const double most = 400000;
-  double sets = 1;
-  *needs = 1;
-  for (int i = 0; i < n && sets <= most; i++) {
-    sets *= 2 * each + 1;
-    *needs *= each + 1;
-  }
-  return sets <= most;
-}
-
-static void fill_offsets(sharing *x)
-{
-  for (unsigned set = 1; set < 1u << x->few->n; set++) {
-    int stride = 1;
-    for (int i = 0; !(set >> i & 1u); i++)
-      stride *= x->base;
-    x->offset[set] = x->offset[set & (set - 1)] + stride;
-  }
-}
-
-/* best[n * needs]: of n cords, n = 0 .. most. */
-static thr_status share_all(sharing *x, int most, double **best, thr_err *err)
-{
-  const size_t needs = (size_t)x->needs;
-  x->offset = thr_calloc((size_t)1 << x->few->n, sizeof *x->offset);
-  *best = thr_calloc(((size_t)most + 1) * needs, sizeof **best);
-  if (!x->offset || !*best) return thr_nomem(err);
-  fill_offsets(x);
-  for (size_t i = 1; i < needs; i++)
-    (*best)[i] = INFINITY;
-  for (size_t n = 0; n < (size_t)most; n++)
-    share_once_more(x, *best + n * needs, *best + (n + 1) * needs);
-  return THR_OK;
-}
-
-thr_status thr_few_edges_different(const thr_few_edges *few, int each, int least, int most, double *cost, thr_err *err)
-{
-  const int enough = each * few->n, n = most < enough ? most : enough; /* more cords than that only cost more */
-  sharing x = {.few = few, .base = each + 1};
-  double *best = NULL;
-  *cost = 0;
-  if (!is_small(each, few->n, &x.needs)) return THR_OK;
-  thr_status st = share_all(&x, n, &best, err);
-  *cost = INFINITY;
-  for (int k = least; k <= n && !st; k++)
-    *cost = fmin(*cost, best[((size_t)k + 1) * (size_t)x.needs - 1]);
-  if (!st && most > enough) {
-    const int more = least > enough ? least - enough : 1;
-    *cost = fmin(*cost, best[((size_t)n + 1) * (size_t)x.needs - 1] + more * few->one[0]);
-  }
-  free(x.offset);
-  free(best);
-  return st;
-}
-
-/* One edge that a cord passes at no more cost than any: what cords beyond those that are needed do. */
-static unsigned cheapest_edge(const thr_few_edges *few)
-{
-  int best = 0;
-  for (int e = 1; e < few->n; e++)
-    if (few->one[1u << e] < few->one[1u << best]) best = e;
-  return 1u << best;
-}
-
-thr_status thr_few_edges_sets(const thr_few_edges *few, int each, int cords, unsigned *set, bool *found, thr_err *err)
-{
-  const int enough = each * few->n, n = cords < enough ? cords : enough;
-  sharing x = {.few = few, .base = each + 1};
-  double *best = NULL;
-  *found = false;
-  if (!is_small(each, few->n, &x.needs)) return THR_OK;
-  thr_status st = share_all(&x, n, &best, err);
-  int needs = x.needs - 1;
-  *found = !st && best[(size_t)n * (size_t)x.needs + (size_t)needs] < INFINITY;
-  for (int k = 0; k < cords && *found; k++) {
-    set[k] = 0;
-    if (k < n) best_part(&x, needs, best + (size_t)(n - k - 1) * (size_t)x.needs, &set[k]);
-    needs -= x.offset[set[k]];
-    if (set[k] == 0) set[k] = cheapest_edge(few);
-  }
-  free(x.offset);
-  free(best);
   return st;
 }
 

@@ -45,6 +45,9 @@ thr_status thr_few_edges_dearest(const thr_few_edges *few, int cords, double *co
  * O(3^n n). */
 thr_status thr_few_edges_sum(const thr_few_edges *few, int least, int most, double *cost, thr_err *err) THR_MUST_CHECK;
 
+/* The costs that there are, ascending: value[n], the caller's. */
+thr_status thr_few_edges_costs(const thr_few_edges *few, double **value, size_t *n, thr_err *err) THR_MUST_CHECK;
+
 /* Cords that component number may have. */
 void thr_few_edges_cords(const thr_frame *frame, const thr_request *options, const int *component, int number, int *least,
                          int *most);
@@ -59,6 +62,14 @@ thr_status thr_few_edges_different(const thr_few_edges *few, int each, int least
  * or there are none. */
 thr_status thr_few_edges_sets(const thr_few_edges *few, int each, int cords, unsigned *set, bool *found,
                               thr_err *err) THR_MUST_CHECK;
+
+/* The same of the dearest of so many cords: no less than *proved, and *found can be had, INFINITY where that is not known; these
+ * are one number, unless there are too many sets to look at. Of a limit it is decided whether cords below it do, one after the
+ * other over the largest sets there; weights of the edges, which any would be right, show where the sets that are left cannot do.
+ * set[cords] (NULL: not wanted) receives the edges that the cords pass then, each at least. known: the cost of some that are
+ * known, from where to look downwards; 0: none. */
+thr_status thr_few_edges_different_dearest(const thr_few_edges *few, int each, int cords, double known, unsigned *set,
+                                           double *proved, double *found, thr_err *err) THR_MUST_CHECK;
 
 /* Least length of all cords of each component together, least[components]; 0 of those that may have one cord only, have more than
  * THR_FEW_SUMMED edges, or come when the sets are used up. cords[components]: at most as many as these, NULL: as the options

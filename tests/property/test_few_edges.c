@@ -123,6 +123,44 @@ START_TEST(larger_ones_are_those_of_the_planner)
 }
 END_TEST
 
+/* Different cords over every edge: one over each is the table above, by another way; as many as there are cords pass all edges;
+ * and what is found in between is what it is said to be, no cheaper with more over every edge. */
+START_TEST(different_ones_are_true)
+{
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  enum { CORDS = 4 };
+  rng r = rng_make((uint64_t)_i + 177);
+  int component[16] = {0};
+  thr_frame f = random_frame(&r, rng_between(&r, 8, 14), rng_below(&r, 4), LENGTHS_EUCLID); /* up to 17 edges */
+  thr_request o = options_for(ends[_i % 3], 1);
+  const bool turning = rng_below(&r, 2);
+  double before = 0, once;
+  thr_few_edges few;
+  ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, turning, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+  ck_assert_int_eq(thr_few_edges_dearest(&few, CORDS, &once, NULL), THR_OK);
+  for (int each = 1; each <= CORDS; each++) {
+    double proved, found;
+    unsigned set[CORDS];
+    const double known = rng_below(&r, 2) ? 0 : before;
+    ck_assert_int_eq(thr_few_edges_different_dearest(&few, each, CORDS, known, set, &proved, &found, NULL), THR_OK);
+    ck_assert(proved == found && proved >= before);
+    ck_assert(each > 1 || proved == once);
+    ck_assert(each < CORDS || proved == few.one[(1u << few.n) - 1]);
+    for (int e = 0; e < few.n && isfinite(found); e++) {
+      int cords = 0;
+      for (int k = 0; k < CORDS; k++)
+        cords += (int)(set[k] >> e & 1u);
+      ck_assert_int_ge(cords, each);
+    }
+    for (int k = 0; k < CORDS && isfinite(found); k++)
+      ck_assert(set[k] != 0 && few.one[set[k]] <= found);
+    before = proved;
+  }
+  thr_few_edges_destroy(&few);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* As many cords as there are edges and more, closed or not: all plans are proved, and truly the shortest. */
 START_TEST(lengths_of_many_cords_are_proved)
 {
@@ -171,6 +209,7 @@ int main(void)
   Suite *s = suite_create("few edges");
   ADD_EXAMPLES(s, 60, tables_are_true, 300);
   ADD_EXAMPLES(s, 60, larger_ones_are_those_of_the_planner, 30);
+  ADD_EXAMPLES(s, 60, different_ones_are_true, 60);
   ADD_TEST(s, 20, bounds_are_of_all_pieces);
   ADD_EXAMPLES(s, 60, lengths_of_many_cords_are_proved, 40);
   ADD_EXAMPLES(s, 60, turning_of_many_closed_cords_is_proved, 60);
