@@ -1,5 +1,6 @@
 /* A short longest cord: from several starts, and by the programme over walks. */
 #include "graph/check/check.h"
+#include "graph/check/short_cords.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
@@ -16,6 +17,7 @@
 #include "tortuosity/cords/walk_bound.h"
 #include "tortuosity/cords/walk_programme.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -42,6 +44,21 @@ static thr_status judge(thr_plan *plan, thr_err *err)
   thr_status st = thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
                                   proof->n_certificates, &proof->walks, &plan->cords_claim, &found);
   return thr_check_own(st, &found, err);
+}
+
+/* Do as many passes fit as the cords make? */
+static bool has_room(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n)
+{
+  bool fits = true;
+  for (int e = 0; e < frame->n_edges && fits; e++) {
+    const int room = thr_plan_capacity(frame, options, e);
+    int passes = 0;
+    for (int i = 0; i < n; i++)
+      for (int k = 0; k < cord[i].n_passes; k++)
+        passes += cord[i].half[k] >> 1 == e;
+    fits = passes >= thr_plan_cover(frame, options, e) && passes <= room;
+  }
+  return fits;
 }
 
 /* ---- from several starts ---- */
@@ -129,6 +146,50 @@ thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *op
   return st ? st : thr_cords_judge(plan, &(thr_err){0}, err);
 }
 
+/* ---- all sets of edges ---- */
+
+/* The cords over chosen sets; more of them are copies of the first. *cord is the caller's. */
+static thr_status walk_over(const thr_short_cords *cords, const int *chosen, int n, thr_cord **cord, thr_err *err)
+{
+  thr_status st = THR_OK;
+  if (!(*cord = thr_calloc((size_t)n, sizeof **cord))) return thr_nomem(err);
+  for (int k = n - 1; k >= 0 && !st; k--) { /* the last are the first that are chosen */
+    st = thr_short_cords_walk(cords, chosen[k] >= 0 ? chosen[k] : 0, &(*cord)[n - 1 - k], err);
+    if (!st) thr_cord_id(n - 1 - k, (*cord)[n - 1 - k].id);
+  }
+  return st;
+}
+
+/* Where cords are short all sets of edges that one of them can pass are few: then the longest is as short as can be, and proved.
+ */
+static thr_status try_sets(thr_plan *plan, thr_err *err)
+{
+  const thr_frame *frame = &plan->frame;
+  const double longest = plan->cords_claim.longest, before = plan->cords_claim.longest_bound;
+  const int n = plan->n_cords;
+  double proved = 0, found = INFINITY;
+  thr_short_cords cords;
+  thr_cord *cord = NULL;
+  int *chosen = thr_calloc((size_t)n, sizeof *chosen);
+  thr_status st = chosen ? thr_short_cords_init(&cords, frame, &plan->options, longest, err) : thr_nomem(err);
+  if (!chosen) return st;
+  const bool few = !st && cords.n > 0;
+  if (few) st = thr_short_cords_longest(&cords, n, longest, chosen, &proved, &found, err);
+  if (few && !st && found < longest * (1 - 1e-9)) st = walk_over(&cords, chosen, n, &cord, err);
+  if (!st && cord && has_room(frame, &plan->options, cord, n)) {
+    st = take_cords(plan, cord, err);
+    cord = NULL;
+  }
+  if (!st && proved > before * (1 + 1e-9)) {
+    plan->proof.walks.sets = true;
+    st = judge(plan, err);
+  }
+  thr_cords_destroy(cord, cord ? n : 0);
+  thr_short_cords_destroy(&cords);
+  free(chosen);
+  return st;
+}
+
 /* ---- the programme over walks ---- */
 
 /* The plan's cords annealed, in part of the time that a user gives. */
@@ -187,11 +248,14 @@ thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr
   if (!end_allowed) return thr_nomem(err);
   const thr_turning_task task = thr_walk_length_task(&plan->frame, &plan->options, end_allowed);
   thr_status st = thr_turning_columns_init(&columns, &plan->frame, &task, err);
-  if (!st) st = anneal(plan, &columns, limits, err);
+  const bool one = columns.n_components == 1 && plan->options.joint == THR_JOINT_SOLID;
+  if (!st && one) st = try_sets(plan, err);
+  if (!st && !claim->longest_optimal) st = anneal(plan, &columns, limits, err);
   for (int k = 0; k < columns.n_components && !st && improved && !claim->longest_optimal; k++) {
     st = improve(plan, &columns, &counted, &improved, err);
     if (!st && improved) thr_limits_found(limits, plan->cord, plan->n_cords, NULL);
   }
+  if (!st && one && !claim->longest_optimal) st = try_sets(plan, err);
   thr_turning_columns_destroy(&columns);
   free(end_allowed);
   return st;

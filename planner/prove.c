@@ -17,7 +17,7 @@ static thr_status judge_cords(thr_plan *plan, thr_err *err)
   thr_err why = {0};
   thr_status st = thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
                                   proof->n_certificates, &proof->walks, &plan->cords_claim, &why);
-  if (st != THR_EVIOLATED || !proof->walks.unit) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  if (st != THR_EVIOLATED || !(proof->walks.unit || proof->walks.sets)) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
   thr_walk_proof_destroy(&proof->walks);
   return thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates, NULL,
                          &plan->cords_claim, err);

@@ -1530,6 +1530,147 @@ def few_edges_bounds(p, turning, enough):
     return Fraction(min(total, sys.float_info.max)), Fraction(min(dearest, sys.float_info.max))
 
 
+SHORT_EDGES, SHORT_STATES = 128, 2**19 + 2**16
+
+
+class ShortCords:
+    """Sets of edges that cords no longer than the limit pass, found from walk to walk, and whether so many of them are enough."""
+
+    WORK = 2**24
+
+    def __init__(self, p, limit):
+        f, o = p.frame, p.options
+        self.f, self.limit, self.states, self.failed, self.work = f, limit, 0, {}, 0
+        self.closed, self.allowed = o.ends == "closed", o.allowed
+        self.half = [min(f.length[h >> 1] for h in f.at[v]) / 2 if f.at[v] else 0 for v in range(f.n)]
+        found = set()
+        for first in range(f.n) if self.closed else [None]:
+            self.walks(first, found)
+        self.most = self.largest(found)
+        self.holding = [[s for s in self.most if s >> e & 1] for e in range(f.m)]
+        self.weigh(sum(1 << e for e in range(f.m) if o.need[e]))
+
+    def back(self, first):
+        """From every node the shortest way to where a cord may end, through nodes from the first on."""
+        f = self.f
+        way = {v: 0.0 for v in ([first] if self.closed else self.allowed)}
+        queue = [(0.0, v) for v in way]
+        heapq.heapify(queue)
+        while queue:
+            x, v = heapq.heappop(queue)
+            for h in f.at[v] if x <= way[v] else []:
+                w, y = f.tail(h ^ 1), x + f.length[h >> 1]
+                if (first is None or w >= first) and y < way.get(w, math.inf):
+                    way[w] = y
+                    heapq.heappush(queue, (y, w))
+        return way
+
+    def walks(self, first, found):
+        f, way = self.f, self.back(first)
+        steps = {v: [(f.tail(h ^ 1), 1 << (h >> 1), f.length[h >> 1]) for h in f.at[v] if f.tail(h ^ 1) in way] for v in way}
+        ends = {first} if self.closed else self.allowed
+        best = {(0, v): 0.0 for v in ends}
+        queue = [(0.0, 0, v) for v in ends]
+        heapq.heapify(queue)
+        while queue:
+            x, passed, v = heapq.heappop(queue)
+            if x > best[passed, v]:
+                continue
+            if passed and v in ends:
+                found.add(passed)
+            for w, bit, y in steps[v]:
+                y += x
+                key = (passed | bit, w)
+                if y + way[w] <= self.limit and y < best.get(key, math.inf):
+                    best[key] = y
+                    heapq.heappush(queue, (y, *key))
+                    require(self.states + len(best) <= SHORT_STATES, "proof.cords.sets: more sets than are tried")
+        self.states += len(best)
+
+    def largest(self, sets):
+        """Those that are part of no other."""
+        kept, holding = [], [[] for _ in range(self.f.m)]
+        for s in sorted(sets, key=lambda s: -bin(s).count("1")):
+            edges = [e for e in range(self.f.m) if s >> e & 1]
+            if not any(s & ~t == 0 for t in min((holding[e] for e in edges), key=len)):
+                kept.append(s)
+                for e in edges:
+                    holding[e].append(s)
+        return kept
+
+    def weigh(self, needed):
+        """Whole weights of edges by their bytes: no set weighs more than self.heaviest, and what is needed weighs much."""
+        of, best = [2**30 if needed >> e & 1 else 0 for e in range(self.f.m)], None
+        self.needed, self.bytes = needed, (self.f.m + 7) // 8
+        for _ in range(max(20, min(300, 2**20 // (len(self.most) + 1)))):
+            self.tables = self.tables_of(of)
+            most, s = max(((self.weight(s), s) for s in self.most), default=(0, 0))
+            if most and (best is None or self.weight(needed) * best[1] > best[0] * most):
+                best = self.weight(needed), most, self.tables
+            of = [w - w // 24 if s >> e & 1 else w for e, w in enumerate(of)]
+        _, self.heaviest, self.tables = best or (0, 0, self.tables)
+
+    def tables_of(self, of):
+        tables = []
+        for i in range(self.bytes):
+            table = [0]
+            for w in of[8 * i : 8 * i + 8]:
+                table += [w + x for x in table]
+            tables.append(table)
+        return tables
+
+    def weight(self, s):
+        return sum(t[b] for t, b in zip(self.tables, s.to_bytes(self.bytes, "little")))
+
+    def least(self, lacking, cords):
+        """No so many cords over these edges are shorter together: odd nodes without an end need half of their shortest edge more."""
+        f, total, odd = self.f, 0.0, {}
+        while lacking:
+            e = (lacking & -lacking).bit_length() - 1
+            lacking &= lacking - 1
+            total += f.length[e]
+            for v in f.edge[e]:
+                odd[v] = not odd.get(v)
+        free = []
+        for v in (v for v, is_odd in odd.items() if is_odd):
+            if not self.closed and v in self.allowed:
+                free.append(self.half[v])
+            else:
+                total += self.half[v]
+        return total + sum(sorted(free)[: max(0, len(free) - 2 * cords)])
+
+    def too_much(self, lacking, cords):
+        self.work += 1
+        return self.weight(lacking) > cords * self.heaviest or self.least(lacking, cords) > cords * self.limit * (1 + 1e-9)
+
+    def fit(self, lacking, cords):
+        """Do so many cords pass what is lacking? Also where that would take long to find out."""
+        if not lacking or self.work > self.WORK:
+            return True
+        if cords == 0 or self.failed.get(lacking, 0) >= cords:
+            return False
+        shortest = min((self.holding[e] for e in range(self.f.m) if lacking >> e & 1), key=len)
+        if cords == 1:
+            return any(lacking & ~s == 0 for s in shortest)
+        kept = []
+        for s in sorted({s & lacking for s in shortest}, key=lambda s: -bin(s).count("1")):
+            if not self.too_much(lacking & ~s, cords - 1) and not any(s & ~t == 0 for t in kept):
+                kept.append(s)
+                if self.fit(lacking & ~s, cords - 1):
+                    return True
+        self.failed[lacking] = cords
+        return False
+
+
+def short_cords_longest(p, claimed):
+    """The longest cord, up to a claimed bound, where all sets of edges that cords below it pass are too few."""
+    f, o, limit = p.frame, p.options, float(claimed) * (1 - 5e-10)
+    cords = ShortCords(p, limit)
+    number = min(o.cords, f.m)
+    fit = not cords.too_much(cords.needed, number) and cords.fit(cords.needed, number)
+    return Fraction(0 if fit else limit)
+
+
 def few_edges_longest(p, enough):
     """The least of the longest cord in any component that is not large, which is known up to enough."""
     each = p.different()
@@ -1621,7 +1762,7 @@ def check_cords_claim(p):
     if claim is None:
         return []
     o, place = p.options, "proof.cords"
-    known(claim, "longest fewest walks", place)
+    known(claim, "longest fewest walks sets", place)
     require("length" in p.proof, f"{place}: without a proof of length")
     stated = member(claim, "longest", "object", place)
     known(stated, "status length lower_bound", place + ".longest")
@@ -1643,6 +1784,11 @@ def check_cords_claim(p):
     claimed = member(stated, "lower_bound", "number", place + ".longest")
     bound = max(bound, forced_detour(p, claimed))
     bound = max(bound, few_edges_longest(p, claimed))
+    require(claim.get("sets", True) is True, f"{place}.sets: not true")
+    of_one = len(p.frame.pieces) == 1 and p.frame.m <= SHORT_EDGES and not o.tube and o.ends != "counts"
+    require("sets" not in claim or of_one, f"{place}.sets: not of this framework")
+    if "sets" in claim and bound < claimed * (1 - TOLERANCE):
+        bound = max(bound, short_cords_longest(p, claimed))
     unit = longest_unit(p.frame)
     if unit:
         bound = max(bound, unit * math.ceil(bound / unit * (1 - 2 * TOLERANCE)))

@@ -1,6 +1,7 @@
 /* Claims about several cords: how short the longest can be, and how few they can be. */
 #include "graph/check/check_parts.h"
 #include "graph/check/few_edges.h"
+#include "graph/check/short_cords.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/junction.h"
 #include "graph/plan/plan.h"
@@ -295,6 +296,21 @@ static thr_status judge_walks(const thr_frame *frame, const thr_request *options
   return st;
 }
 
+/* All sets of edges that cords pass below the bound are too few, and raise it. */
+static thr_status judge_sets(const thr_frame *frame, const thr_request *options, double *bound, const thr_cords_claim *found,
+                             thr_err *err)
+{
+  thr_short_cords cords;
+  double longest = 0, known;
+  thr_status st = thr_short_cords_init(&cords, frame, options, found->longest * (1 + 1e-9), err);
+  if (!st && cords.n == 0)
+    st = thr_fail(err, THR_EVIOLATED, "proof.cords.sets: not of this framework, or there are more than are tried");
+  if (!st) st = thr_short_cords_longest(&cords, options->cords, found->longest, NULL, &longest, &known, err);
+  thr_short_cords_destroy(&cords);
+  *bound = fmax(*bound, longest);
+  return st;
+}
+
 /* ---- tube joints: the proof is one of all components together ---- */
 
 /* No cords, from least to most in every component, are shorter together. */
@@ -357,6 +373,7 @@ thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
   }
   if (!st && tied) st = check_tied(frame, options, tied, parts, check_walked->n_components, &bound, found, err);
   if (!st && walks && walks->unit) st = judge_walks(frame, options, parts, certificate, verdict, walks, &bound, err);
+  if (!st && walks && walks->sets) st = judge_sets(frame, options, &bound, found, err);
   free(parts);
   if (st) return st;
   if (!(options->max_length > 0 && thr_plan_cords_least(options) < options->cords)) found->fewest = 0;

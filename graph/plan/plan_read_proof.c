@@ -156,7 +156,7 @@ static thr_status read_turning_claim(const thr_field_reader *field_reader, const
 static thr_status read_cords_claim(const thr_field_reader *field_reader, const thr_json *object, const thr_frame *frame,
                                    thr_cords_claim *claim, thr_walk_proof *walks)
 {
-  static const char *const known[] = {"longest", "fewest", "walks", NULL},
+  static const char *const known[] = {"longest", "fewest", "walks", "sets", NULL},
                            *const of_longest[] = {"status", "length", "lower_bound", NULL},
                            *const of_fewest[] = {"status", "lower_bound", NULL};
   const thr_json *longest, *fewest = thr_json_get(object, "fewest");
@@ -170,6 +170,10 @@ static thr_status read_cords_claim(const thr_field_reader *field_reader, const t
   char place[256];
   snprintf(place, sizeof place, "%.200s: proof.cords.walks", field_reader->name);
   if (!st) st = thr_walk_proof_from_json(walks, frame, "length", thr_json_get(object, "walks"), place, field_reader->err);
+  const thr_json *sets = thr_json_get(object, "sets");
+  if (!st && sets && (thr_json_typeof(sets) != THR_JSON_BOOL || !thr_json_true(sets)))
+    st = thr_field_bad(field_reader, "proof.cords.sets", "true, or left out");
+  walks->sets = sets;
   if (st || !fewest) return st;
   st = thr_field_only(field_reader, fewest, "proof.cords.fewest", of_fewest);
   if (!st) st = get_status(field_reader, fewest, "proof.cords.fewest", &claim->fewest_optimal);

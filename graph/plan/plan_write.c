@@ -395,6 +395,7 @@ static void put_cords_claim(thr_writer *writer, const thr_plan *plan)
     thr_write_close(writer);
   }
   thr_walk_proof_write(&plan->proof.walks, &plan->frame, "length", writer);
+  if (plan->proof.walks.sets) thr_write_bool(writer, "sets", true);
   thr_write_close(writer);
 }
 

@@ -187,12 +187,14 @@ typedef struct {
 } thr_turning_node;
 
 /* Prices that bound the turning of the cord that turns most, or the length of the longest (graph/plan/walk_proof.h), >= 0; of one
- * component. */
+ * component. Of lengths also that all sets of edges that cords pass below the bound were tried, which takes no prices
+ * (graph/check/short_cords.h). */
 typedef struct {
   int64_t unit;         /* of turning, in 2^-THR_TURNING_BITS of the price, or of length; 0: there is no such proof */
   int units;            /* cords of at most so many are worth too little */
   int64_t all;          /* price of 2^THR_TURNING_BITS of those, turned or run by all cords together */
   int64_t *edge, *node; /* [n_edges] of a pass; [n_nodes] of a pass or an end at it; owned */
+  bool sets;            /* of lengths: all sets were tried */
 } thr_walk_proof;
 
 typedef struct {

@@ -1,5 +1,6 @@
 /* Several cords through few edges, by the checker's tables, against all numbers of passes of all cords (tests/truth.h). */
 #include "graph/check/few_edges.h"
+#include "graph/check/short_cords.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
@@ -51,6 +52,83 @@ START_TEST(tables_are_true)
     thr_few_edges_destroy(&by_turning);
     truth_table_destroy(&table);
   }
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* What was chosen are cords: between ends, or closed, none above the limit, and over all edges. */
+static void assert_cords(const thr_frame *f, const thr_request *o, const thr_short_cords *cords, const int *chosen, int n,
+                         double limit)
+{
+  bool seen[32] = {false};
+  for (int k = 0; k < n; k++) {
+    thr_cord cord;
+    if (chosen[k] < 0) continue;
+    ck_assert_int_eq(thr_short_cords_walk(cords, chosen[k], &cord, NULL), THR_OK);
+    const int from = thr_cord_start(f, &cord), to = thr_cord_end(f, &cord);
+    ck_assert(o->ends == THR_ENDS_CLOSED ? from == to : thr_plan_end_allowed(f, o, from) && thr_plan_end_allowed(f, o, to));
+    ck_assert_double_le(thr_cord_length(f, &cord), limit * (1 + 1e-9));
+    for (int i = 0; i < cord.n_passes; i++) {
+      ck_assert(i == 0 || thr_head(f, cord.half[i - 1]) == thr_tail(f, cord.half[i]));
+      seen[cord.half[i] >> 1] = true;
+    }
+    free(cord.half);
+  }
+  for (int e = 0; e < f->n_edges; e++)
+    ck_assert(seen[e]);
+}
+
+/* Sets found from walk to walk: the longest cord is that of the table over all sets, above a limit and below it. */
+START_TEST(short_cords_are_those_of_the_table)
+{
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  rng r = rng_make((uint64_t)_i + 277);
+  int component[16] = {0}, chosen[6];
+  thr_frame f = random_frame(&r, rng_between(&r, 2, 13), rng_below(&r, 5), (length_kind)rng_below(&r, LENGTH_KINDS));
+  thr_request o = options_for(ends[_i % 3], 1);
+  const int n = o.cords = o.cords_least = rng_between(&r, 1, 6);
+  double least, proved, found;
+  thr_few_edges few;
+  thr_short_cords cords;
+  ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+  ck_assert_int_eq(thr_few_edges_dearest(&few, n, &least, NULL), THR_OK);
+  ck_assert(few.n == f.n_edges && isfinite(least));
+  const double limit = least * (1 + rng_unit(&r));
+  ck_assert_int_eq(thr_short_cords_init(&cords, &f, &o, limit, NULL), THR_OK);
+  ck_assert_int_gt(cords.n, 0);
+  ck_assert_int_eq(thr_short_cords_longest(&cords, n, rng_below(&r, 2) ? limit : 0, chosen, &proved, &found, NULL), THR_OK);
+  ck_assert_double_eq_tol(proved, least, 1e-9 * least);
+  ck_assert_double_eq(found, proved);
+  assert_cords(&f, &o, &cords, chosen, n, found);
+  thr_short_cords_destroy(&cords);
+  const double below = least * (1 - 1e-6);
+  ck_assert_int_eq(thr_short_cords_init(&cords, &f, &o, below, NULL), THR_OK);
+  ck_assert_int_eq(thr_short_cords_longest(&cords, n, 0, chosen, &proved, &found, NULL), THR_OK);
+  ck_assert(cords.n == 0 || (proved == below && isinf(found)));
+  thr_short_cords_destroy(&cords);
+  thr_few_edges_destroy(&few);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* A plan may say that all sets were tried; what that proves is found out again, and nothing above it is taken. */
+START_TEST(all_sets_prove_no_more_than_is_true)
+{
+  thr_frame f = grid_make(4, 4);
+  thr_request o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
+  thr_plan p;
+  want(&o, "longest,length");
+  o.cords = o.cords_least = 5 + _i / 2;
+  const thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, NULL);
+  ck_assert(st == THR_OK || st == THR_ELIMIT);
+  p.proof.walks.sets = true;
+  assert_holds(&p);
+  p.cords_claim.longest_bound = p.cords_claim.longest * (1 + 1e-6);
+  assert_violated(&p, NULL);
+  p.cords_claim.longest_bound = p.cords_claim.longest;
+  p.options.joint = THR_JOINT_TUBE;
+  assert_violated(&p, NULL);
+  thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -210,6 +288,8 @@ int main(void)
   ADD_EXAMPLES(s, 60, tables_are_true, 300);
   ADD_EXAMPLES(s, 60, larger_ones_are_those_of_the_planner, 30);
   ADD_EXAMPLES(s, 60, different_ones_are_true, 60);
+  ADD_EXAMPLES(s, 60, short_cords_are_those_of_the_table, 200);
+  ADD_LOOP(s, 60, all_sets_prove_no_more_than_is_true, 0, 6);
   ADD_TEST(s, 20, bounds_are_of_all_pieces);
   ADD_EXAMPLES(s, 60, lengths_of_many_cords_are_proved, 40);
   ADD_EXAMPLES(s, 60, turning_of_many_closed_cords_is_proved, 60);
