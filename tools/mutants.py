@@ -38,7 +38,7 @@ CERTIFICATES = ["unit/test_check_rounding", "unit/test_check_cuts", "unit/test_c
 TURNING = ["unit/test_check_turning", "property/test_turning_bound", "unit/test_turning_proof",
            "unit/test_turning_prices", "unit/test_tortuosity:more_cords_than_the_shortest_passes_hold"]
 ADVERSARY, ATTACKS = ["property/test_adversary"], "20000"  # attacks of each kind
-ADVERSARY_TURNING = ["property/test_adversary_turning"]
+ADVERSARY_TURNING = ["property/test_adversary_turning", "property/test_adversary_claims"]
 SYMMETRY = ["unit/test_check_symmetry", "unit/test_symmetry_plan"]
 MATCHING = ["unit/test_blossom", "property/test_blossom", "property/test_moat"]
 INTERIOR = ["unit/test_lp:interior_finds_the_shortest_way", "unit/test_lp:interior_finds_the_optimum_it_was_made_from",
