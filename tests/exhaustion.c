@@ -96,8 +96,7 @@ static void list_kinds(exhaustive *x, int orbit, int e)
   }
 }
 
-void exhaustive_init(exhaustive *x, const thr_frame *f, const thr_group *g, const thr_subgroup *h,
-                            const thr_cover_options *o)
+void exhaustive_init(exhaustive *x, const thr_frame *f, const thr_group *g, const thr_subgroup *h, const thr_cover_options *o)
 {
   bool done[32] = {false};
   memset(x, 0, sizeof *x);

@@ -1,5 +1,5 @@
-/* What an adversary attacks of turning and tied lengths: plans of small frameworks whose least is known, and proofs without pointers
- * that are changed at random. Shared by property/test_adversary_turning.c and test_adversary_claims.c. */
+/* What an adversary attacks of turning and tied lengths: plans of small frameworks whose least is known, and proofs without
+ * pointers that are changed at random. Shared by property/test_adversary_turning.c and test_adversary_claims.c. */
 #ifndef THR_TESTS_TURNING_TARGETS_H
 #define THR_TESTS_TURNING_TARGETS_H
 
