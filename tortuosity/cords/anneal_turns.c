@@ -18,7 +18,7 @@ static const double whole_share = 0.2; /* of the points that are to hang togethe
 
 typedef struct {
   thr_turn_state s;
-  thr_short_cycles cycles;
+  const thr_short_cycles *cycles;
   uint64_t random;
   double unit, hot, heat, price_apart; /* price of 1 rad; temperatures, first and now; price of a part */
   int apart;                           /* parts above one in every component */
@@ -165,9 +165,9 @@ static int pass_change(const annealer *an, int e)
 static bool go_round(annealer *an)
 {
   const thr_turning_columns *c = an->s.c;
-  if (an->cycles.n == 0) return false;
-  const int i = thr_random_below(&an->random, an->cycles.n), *half = an->cycles.half + an->cycles.first[i];
-  const int n = an->cycles.first[i + 1] - an->cycles.first[i];
+  if (an->cycles->n == 0) return false;
+  const int i = thr_random_below(&an->random, an->cycles->n), *half = an->cycles->half + an->cycles->first[i];
+  const int n = an->cycles->first[i + 1] - an->cycles->first[i];
   int by[THR_CYCLE_MOST];
   for (int k = 0; k < n; k++)
     if ((by[k] = pass_change(an, half[k] >> 1)) == 0) return false;
@@ -236,17 +236,16 @@ static void run(annealer *an, int64_t steps, const thr_limits *limits)
   }
 }
 
-thr_status thr_anneal_turns(const thr_turning_columns *c, bool again, int64_t steps, uint64_t seed, const thr_limits *limits,
-                            int *x, bool *better, thr_err *err)
+thr_status thr_anneal_turns(const thr_turning_columns *c, const thr_short_cycles *cycles, bool again, int64_t steps,
+                            uint64_t seed, const thr_limits *limits, int *x, bool *better, thr_err *err)
 {
-  annealer an = {.random = seed, .unit = thr_turn_cost_of(c->task->cost, THR_PI) / THR_PI};
+  annealer an = {.cycles = cycles, .random = seed, .unit = thr_turn_cost_of(c->task->cost, THR_PI) / THR_PI};
   an.price_apart = apart_first * an.unit;
   an.hot = (again ? warm : hottest) * an.unit;
   *better = false;
   thr_status st = thr_turn_state_init(&an.s, c, x, err);
   an.best = thr_scratch_array(&an.s.own, (size_t)c->n_columns, sizeof *an.best);
   if (!st) st = thr_scratch_check(&an.s.own, err);
-  if (!st) st = thr_short_cycles_find(&an.cycles, c, err);
   if (!st) {
     for (int j = 0; j < c->n_columns; j++)
       an.value += x[j] * an.s.cost[j];
@@ -255,7 +254,6 @@ thr_status thr_anneal_turns(const thr_turning_columns *c, bool again, int64_t st
     *better = an.best_value < before;
     if (*better) memcpy(x, an.best, (size_t)c->n_columns * sizeof *x);
   }
-  thr_short_cycles_destroy(&an.cycles);
   thr_turn_state_destroy(&an.s);
   return st;
 }

@@ -17,6 +17,7 @@
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
+#include "tortuosity/cords/short_cycles.h"
 
 #include <stdint.h>
 
@@ -24,11 +25,11 @@
  * at a node. */
 bool thr_anneal_turns_serves(const thr_turning_columns *columns);
 
-/* x[n_columns], whole numbers that keep the equations and hang together, is replaced if something cheaper is found: in so many
- * steps of one run with these random numbers, or when the limits stop it. again: x was found by such a run, and the temperature
- * begins so low that most of it stays. Cord ends stay at their nodes. A step is O(length of a cycle * degree), and what it looks
- * at to see whether all hangs together; memory O(columns + cycles). */
-thr_status thr_anneal_turns(const thr_turning_columns *columns, bool again, int64_t steps, uint64_t seed,
-                            const thr_limits *limits, int *x, bool *better, thr_err *err) THR_MUST_CHECK;
+/* cycles: of these columns (thr_short_cycles_find). x[n_columns], whole numbers that keep the equations and hang together, is
+ * replaced if something cheaper is found: in so many steps of one run with these random numbers, or when the limits stop it.
+ * again: x was found by such a run, and the temperature begins so low that most of it stays. Cord ends stay at their nodes. A
+ * step is O(length of a cycle * degree), and what it looks at to see whether all hangs together; memory O(columns). */
+thr_status thr_anneal_turns(const thr_turning_columns *columns, const thr_short_cycles *cycles, bool again, int64_t steps,
+                            uint64_t seed, const thr_limits *limits, int *x, bool *better, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,4 +1,4 @@
-/* The counts of turns under change, what hangs together by them, and short cycles. */
+/* The counts of turns under change, and what hangs together by them. */
 #include "tortuosity/cords/anneal_turns_parts.h"
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
@@ -6,89 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* ---- short cycles ---- */
-
-typedef struct {
-  const thr_frame *f;
-  int *by, *seen, *queue; /* [n_nodes] half-edge that reached a node; search that did; nodes in order */
-  int search;
-} finder;
-
-/* The half-edges of a shortest path from a node to another that keeps off a third; 0: none of so many edges. */
-static int find_path(finder *s, int from, int to, int off, int most, int *half)
-{
-  int head = 0, tail = 0, depth = 0, end_of_level = 1;
-  s->search++;
-  s->queue[tail++] = from;
-  s->seen[from] = s->seen[off] = s->search;
-  for (; head < tail && s->seen[to] != s->search && depth < most; head++) {
-    if (head == end_of_level) {
-      depth++;
-      end_of_level = tail;
-      if (depth == most) break;
-    }
-    const int u = s->queue[head];
-    for (int i = s->f->first[u]; i < s->f->first[u + 1]; i++) {
-      const int h = s->f->half[i], w = thr_head(s->f, h);
-      if (s->seen[w] == s->search) continue;
-      s->seen[w] = s->search;
-      s->by[w] = h;
-      s->queue[tail++] = w;
-    }
-  }
-  if (s->seen[to] != s->search) return 0;
-  int n = 0;
-  for (int v = to; v != from; v = thr_tail(s->f, s->by[v]))
-    n++;
-  for (int v = to, k = n; v != from; v = thr_tail(s->f, s->by[v]))
-    half[--k] = s->by[v];
-  return n;
-}
-
-static thr_status add_cycle(thr_short_cycles *cycles, int *n, int *room, const int *half, int length, thr_err *err)
-{
-  for (int k = 0; k < length; k++) {
-    thr_status st = thr_grow(&cycles->half, *n, room, sizeof *cycles->half, err);
-    if (st) return st;
-    cycles->half[(*n)++] = half[k];
-  }
-  cycles->first[++cycles->n] = *n;
-  return THR_OK;
-}
-
-thr_status thr_short_cycles_find(thr_short_cycles *cycles, const thr_turning_columns *c, thr_err *err)
-{
-  thr_scratch own = {0};
-  const size_t n = (size_t)c->f->n_nodes;
-  finder s = {.f = c->f,
-              .by = thr_scratch_array(&own, n, sizeof *s.by),
-              .seen = thr_scratch_array(&own, n, sizeof *s.seen),
-              .queue = thr_scratch_array(&own, n, sizeof *s.queue)};
-  int filled = 0, room = 0, half[THR_CYCLE_MOST];
-  *cycles = (thr_short_cycles){.first = thr_calloc((size_t)c->first_extra + 1, sizeof *cycles->first)};
-  thr_status st = cycles->first ? thr_scratch_check(&own, err) : thr_nomem(err);
-  for (int j = 0; j < c->first_extra && !st; j++) {
-    const int a = c->half[j][0], b = c->half[j][1], from = thr_head(c->f, b), to = thr_head(c->f, a);
-    if (from == to) continue; /* parallel edges */
-    const int path = find_path(&s, from, to, thr_tail(c->f, a), THR_CYCLE_MOST - 2, half + 1);
-    if (path == 0) continue;
-    half[0] = b;
-    half[path + 1] = a ^ 1;
-    st = add_cycle(cycles, &filled, &room, half, path + 2, err);
-  }
-  thr_scratch_free(&own);
-  return st;
-}
-
-void thr_short_cycles_destroy(thr_short_cycles *cycles)
-{
-  free(cycles->first);
-  free(cycles->half);
-  *cycles = (thr_short_cycles){0};
-}
-
-/* ---- counts ---- */
 
 /* Half-edges a and b of a node turn into each other, or do so no longer. */
 static void toggle(thr_turn_state *s, int a, int b)

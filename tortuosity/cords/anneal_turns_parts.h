@@ -5,19 +5,9 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
+#include "tortuosity/cords/short_cycles.h"
 
 #include <stdint.h>
-
-/* Short cycles: half-edges half[first[i]] .. half[first[i + 1] - 1], each leaving the node at which the one before arrives. */
-typedef struct {
-  int n, *first, *half; /* owned */
-} thr_short_cycles;
-
-/* Through every turn between two edges a shortest cycle, where it has at most THR_CYCLE_MOST edges: the faces of a mesh, and
- * what surrounds two of them. O(turns * what is that near). */
-enum { THR_CYCLE_MOST = 8 };
-thr_status thr_short_cycles_find(thr_short_cycles *cycles, const thr_turning_columns *columns, thr_err *err) THR_MUST_CHECK;
-void thr_short_cycles_destroy(thr_short_cycles *cycles);
 
 /* Edges at a node at most; changes of columns that are tried together. */
 enum { THR_TURN_DEGREE = 64, THR_TURN_CHANGES = 5 * THR_CYCLE_MOST + 8 };

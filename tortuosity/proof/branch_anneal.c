@@ -7,6 +7,7 @@
 #include "graph/status.h"
 #include "tortuosity/cords/anneal_turns.h"
 #include "tortuosity/cords/join.h"
+#include "tortuosity/cords/short_cycles.h"
 #include "tortuosity/proof/branch.h"
 
 enum {
@@ -20,7 +21,8 @@ typedef struct {
   thr_branch *branch;
   const thr_limits *limits;
   int round;
-  int *x[RUNS]; /* [n_columns] */
+  thr_short_cycles cycles; /* of all runs */
+  int *x[RUNS];            /* [n_columns] */
   bool better[RUNS];
 } runs;
 
@@ -31,7 +33,8 @@ static thr_status run_one(void *user, int k, const thr_limits *limits, thr_err *
   (void)limits;
   const thr_turning_columns *c = r->branch->c;
   const int64_t steps = (int64_t)PER_EDGE * c->f->n_edges + AT_LEAST;
-  return thr_anneal_turns(c, r->round > 0, steps, (uint64_t)(r->round * RUNS + k), r->limits, r->x[k], &r->better[k], err);
+  return thr_anneal_turns(c, &r->cycles, r->round > 0, steps, (uint64_t)(r->round * RUNS + k), r->limits, r->x[k], &r->better[k],
+                          err);
 }
 
 static thr_status run_all(runs *r, thr_err *err)
@@ -69,7 +72,9 @@ thr_status thr_branch_anneal_turns(thr_branch *branch, const thr_limits *limits,
   if (!st) st = thr_scratch_check(&own, err);
   for (int k = 0; k < RUNS && !st; k++)
     thr_join_point(&branch->best, r.x[k]);
+  if (!st) st = thr_short_cycles_find(&r.cycles, branch->c, err);
   if (!st) st = run_rounds(&r, err);
+  thr_short_cycles_destroy(&r.cycles);
   thr_scratch_free(&own);
   return st;
 }

@@ -4,6 +4,7 @@
 #include "graph/limits.h"
 #include "graph/process/threads.h"
 #include "graph/scratch.h"
+#include "tortuosity/cords/short_cycles.h"
 #include "tortuosity/proof/branch.h"
 
 #include <stdatomic.h>
@@ -14,9 +15,9 @@ enum { AT_ONCE = 8, MOST_EACH = 8 }; /* attempts, and tries of each, between two
 
 /* One try after another, with what it needs for itself. */
 typedef struct {
-  thr_branch own;      /* takes the plan if it is better than the best one */
-  int *trial;          /* [n_edges] passes */
-  int *by, *queue;     /* [n_nodes] half-edge that reached a node */
+  thr_branch own; /* takes the plan if it is better than the best one */
+  int *trial;     /* [n_edges] passes */
+  thr_path_finder finder;
   int *cycle, n_cycle; /* edges */
 } attempt;
 
@@ -63,8 +64,7 @@ static thr_status searcher_create(thr_branch *branch, int most_tries, searcher *
   for (int k = 0; k < AT_ONCE && !st; k++) {
     attempt *a = &s->attempt[k];
     a->trial = thr_scratch_array(&s->own, m, sizeof *a->trial);
-    a->by = thr_scratch_array(&s->own, n, sizeof *a->by);
-    a->queue = thr_scratch_array(&s->own, n, sizeof *a->queue);
+    thr_path_finder_init(&a->finder, branch->c->f, &s->own);
     a->cycle = thr_scratch_array(&s->own, n + 1, sizeof *a->cycle);
     st = thr_branch_init(&a->own, branch->c, 1, &branch->quiet, err);
   }
@@ -78,27 +78,16 @@ static thr_status searcher_create(thr_branch *branch, int most_tries, searcher *
   return st;
 }
 
-/* Breadth-first from one end of edge e to the other without it. No cycle through a bridge: n_cycle = 0. */
+/* A shortest cycle through an edge. None through a bridge: n_cycle = 0. */
 static void find_cycle(attempt *s, const thr_frame *frame, int e)
 {
-  int head = 0, tail = 0, from = frame->edge[e][0], to = frame->edge[e][1];
-  for (int v = 0; v < frame->n_nodes; v++)
-    s->by[v] = -1;
+  const int *end = frame->edge[e], path = thr_path_find(&s->finder, end[0], end[1], -1, e, frame->n_nodes, s->cycle);
   s->n_cycle = 0;
-  s->queue[tail++] = from;
-  while (head < tail && s->by[to] < 0) {
-    int u = s->queue[head++];
-    for (int i = frame->first[u]; i < frame->first[u + 1]; i++) {
-      int h = frame->half[i], w = thr_head(frame, h);
-      if (h >> 1 == e || w == from || s->by[w] >= 0) continue;
-      s->by[w] = h;
-      s->queue[tail++] = w;
-    }
-  }
-  if (s->by[to] < 0) return;
-  s->cycle[s->n_cycle++] = e;
-  for (int v = to; v != from; v = thr_tail(frame, s->by[v]))
-    s->cycle[s->n_cycle++] = s->by[v] >> 1;
+  if (path == 0) return;
+  for (int i = 0; i < path; i++)
+    s->cycle[i] >>= 1;
+  s->cycle[path] = e;
+  s->n_cycle = path + 1;
 }
 
 static thr_status try_cycle(const searcher *s, attempt *a, int edge, thr_err *err)
