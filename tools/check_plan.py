@@ -758,7 +758,7 @@ class Certificate:
         else:
             limit = {e: self.weight[e] * self.unit for e in edges if opt.most[e] != opt.need[e]}
         cuts = Cuts(member(o, "cuts", "list", place), place, piece, odd)
-        self.sum = sum(cuts.value)
+        self.sum, self.cuts, self.has_prices = sum(cuts.value), cuts, bool(prices)
         require(member(o, "sum", "integer", place) == self.sum, f"{place}.sum: not {self.sum}")
         for e, most in limit.items():
             require(cuts.left(*f.edge[e]) <= most, f"{place}: the cuts over edge {e} add up to more than its weight")
@@ -1728,6 +1728,36 @@ def forced_detour(p, enough):
     return Fraction(best)
 
 
+def ways_in(p, c):
+    """The longest cord of component c by cuts round where cords may end, which each crosses twice that passes anything beyond."""
+    f, o, certificate = p.frame, p.options, p.certificate[c]
+    if o.ends not in ("any", "feet", "nodes") or certificate.has_prices:
+        return Fraction(0)
+    cuts, nodes, edges, number = certificate.cuts, f.pieces[c], f.edges_of(c), o.cords
+    inside = [set() for _ in cuts.value]
+    for v, held in cuts.sets.items():
+        for i in held.values():
+            while i is not None:
+                inside[i].add(v)
+                i = cuts.parent[i]
+    left = [sum(1 << e for e in edges if (f.edge[e][0] in s) != (f.edge[e][1] in s)) for s in inside]
+    rounding = max((Fraction(1, 2) / (f.exact[e] * certificate.scale) for e in edges if f.exact[e]), default=Fraction(0))
+    unit = certificate.unit * certificate.scale * (1 + rounding)
+    way, best = f.distances([v for v in nodes if v in o.allowed]), Fraction(0)
+    if any(way[v] is None for v in nodes):
+        return best
+    base = sum(o.need[e] * f.exact[e] for e in edges)
+    for radius in sorted({way[v] for v in nodes})[:-1]:
+        crossing = [e for e in edges if min(way[v] for v in f.edge[e]) <= radius < max(way[v] for v in f.edge[e])]
+        mask, shortest = sum(1 << e for e in crossing), min(f.exact[e] for e in crossing)
+        value = sum(y for y, edges_left in zip(cuts.value, left) if not edges_left & mask) - 2 * number * certificate.end_price
+        more = max(0, 2 * number - sum(o.need[e] for e in crossing)) * shortest
+        every = (base + max(0, value) / unit + more) / number
+        beyond = sum(o.need[e] * f.exact[e] for e in edges if min(way[v] for v in f.edge[e]) > radius)
+        best = max(best, min(every, beyond / (number - 1) + 2 * shortest) if number > 1 else every)
+    return best
+
+
 def fewest_cords(p):
     """Cords in all components together that no plan has fewer of."""
     o, limit, total, each = p.options, Fraction(p.options.max_length) * (1 + 2 * TOLERANCE), 0, p.different()
@@ -1784,6 +1814,8 @@ def check_cords_claim(p):
     claimed = member(stated, "lower_bound", "number", place + ".longest")
     bound = max(bound, forced_detour(p, claimed))
     bound = max(bound, few_edges_longest(p, claimed))
+    if bound < claimed and not o.tube:
+        bound = max([bound] + [ways_in(p, c) for c in range(len(p.frame.pieces))])
     require(claim.get("sets", True) is True, f"{place}.sets: not true")
     of_one = len(p.frame.pieces) == 1 and p.frame.m <= SHORT_EDGES and not o.tube and o.ends != "counts"
     require("sets" not in claim or of_one, f"{place}.sets: not of this framework")

@@ -2,6 +2,7 @@
 #include "graph/check/check_parts.h"
 #include "graph/check/few_edges.h"
 #include "graph/check/short_cords.h"
+#include "graph/check/ways_in.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/junction.h"
 #include "graph/plan/plan.h"
@@ -244,7 +245,7 @@ static thr_status judge_part(const thr_frame *frame, const thr_request *options,
 {
   const double limit = fmax(found->longest, options->max_length) * (1 + 1e-6);
   thr_few_edges few = {0};
-  double longest = 0;
+  double longest = 0, by_ways = 0;
   int least = p->least;
   thr_status st = THR_OK;
   if (p->most > 1) st = thr_few_edges_init(&few, frame, options, component, number, false, limit, *sets, err);
@@ -252,6 +253,8 @@ static thr_status judge_part(const thr_frame *frame, const thr_request *options,
   if (!st) st = longest_of(&few, each, p->most, found->longest, &longest, err);
   if (!st) st = rule_out_part(options, p, each, certificate, verdict, &few, &least, err);
   thr_few_edges_destroy(&few);
+  if (!st && verdict) st = thr_ways_in(frame, options, component, number, p->most, certificate, &by_ways, err);
+  *bound = fmax(*bound, by_ways);
   *bound = fmax(*bound, fmax(longest, least_length(options, p, p->most, certificate, verdict) / p->most));
   found->fewest += least;
   return st;

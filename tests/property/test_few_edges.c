@@ -1,6 +1,7 @@
 /* Several cords through few edges, by the checker's tables, against all numbers of passes of all cords (tests/truth.h). */
 #include "graph/check/few_edges.h"
 #include "graph/check/short_cords.h"
+#include "graph/check/ways_in.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
@@ -107,6 +108,61 @@ START_TEST(short_cords_are_those_of_the_table)
   ck_assert(cords.n == 0 || (proved == below && isinf(found)));
   thr_short_cords_destroy(&cords);
   thr_few_edges_destroy(&few);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* What cuts round the feet prove is no more than the table over all sets has, and often more than the least length shared out. */
+START_TEST(ways_in_are_no_longer_than_the_table)
+{
+  const int examples = share_of(400);
+  int more = 0;
+  for (int i = 0; i < examples; i++) {
+    rng r = rng_make((uint64_t)i + 377);
+    int component[16] = {0};
+    thr_frame f = random_frame(&r, rng_between(&r, 3, 9), rng_below(&r, 4), (length_kind)rng_below(&r, LENGTH_KINDS));
+    thr_request o = options_for(THR_ENDS_FEET, 1);
+    thr_few_edges few;
+    thr_plan p;
+    for (int v = 0; v < f.n_nodes; v++)
+      f.foot[v] = v == 0 || (v == 1 && i % 2);
+    o.cords = o.cords_least = rng_between(&r, 1, 6);
+    ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+    const thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, NULL);
+    ck_assert(st == THR_OK || st == THR_ELIMIT);
+    if (p.proof.n_certificates == 1) {
+      double longest, least;
+      ck_assert_int_eq(thr_few_edges_dearest(&few, o.cords, &least, NULL), THR_OK);
+      ck_assert_int_eq(thr_ways_in(&f, &o, component, 0, o.cords, p.proof.certificate, &longest, NULL), THR_OK);
+      ck_assert_double_le(longest, least * (1 + 1e-9));
+      more += longest > p.proof.lower_bound / o.cords * (1 + 1e-6);
+    }
+    thr_few_edges_destroy(&few);
+    thr_plan_destroy(&p);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_msg(10 * more >= examples, "%d of %d are more than the share", more, examples);
+}
+END_TEST
+
+/* Two feet 8 apart, and a stalk of length 3 from one to two triangles of length 4: of three cords one passes the edge between the
+ * feet, and two go up the stalk and round a triangle, which makes 10. If all went up, the longest would have 34 / 3. */
+START_TEST(one_cord_may_stay_at_the_feet)
+{
+  static const double xyz[7][3] = {{0, 0, 0}, {8, 0, 0}, {0, 0, 3}, {1, 0, 4}, {0, 1, 4}, {-1, 0, 4}, {0, -1, 4}};
+  static const int edge[8][2] = {{0, 1}, {0, 2}, {2, 3}, {3, 4}, {4, 2}, {2, 5}, {5, 6}, {6, 2}}, feet[] = {0, 1, -1};
+  static const double length[8] = {8, 3, 1, 2, 1, 1, 2, 1};
+  int component[7] = {0};
+  thr_frame f = frame_make(7, xyz, 8, edge, length, feet);
+  thr_request o = options_for(THR_ENDS_FEET, 1);
+  thr_plan p;
+  double longest;
+  o.cords = o.cords_least = 3;
+  ck_assert_int_eq(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, NULL), THR_OK);
+  ck_assert_int_eq(p.proof.n_certificates, 1);
+  ck_assert_int_eq(thr_ways_in(&f, &o, component, 0, 3, p.proof.certificate, &longest, NULL), THR_OK);
+  ck_assert_double_eq_tol(longest, 10, 1e-9);
+  thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -289,6 +345,8 @@ int main(void)
   ADD_EXAMPLES(s, 60, larger_ones_are_those_of_the_planner, 30);
   ADD_EXAMPLES(s, 60, different_ones_are_true, 60);
   ADD_EXAMPLES(s, 60, short_cords_are_those_of_the_table, 200);
+  ADD_TEST(s, 60, ways_in_are_no_longer_than_the_table);
+  ADD_TEST(s, 20, one_cord_may_stay_at_the_feet);
   ADD_LOOP(s, 60, all_sets_prove_no_more_than_is_true, 0, 6);
   ADD_TEST(s, 20, bounds_are_of_all_pieces);
   ADD_EXAMPLES(s, 60, lengths_of_many_cords_are_proved, 40);
