@@ -380,6 +380,19 @@ structure, each beside the closed form."""
                   seconds(limit.seconds), ratio(limit.seconds, closed.seconds), grows(edges, limit.seconds, goes_on))
 
 
+def structure(b):
+    text = """`thread eval --method structure --no-dynamics`: the limit analysis of square domes on straight cords, two for each row, while
+they are drawn in and in any state."""
+    b.table("Limit analysis of large structures", text, "framework", "pieces", "cords", "s", "growth")
+    grows = Growth()
+    for side in (7,) if b.smallest else (20, 39, 45):
+        path, edges = b.frame("grid", 2 * side * (side - 1))
+        with b.line("grid", edges):
+            b.once(b.plan(path, *"--objective tortuosity --minimize turning --nodes 50 --ends any --cords".split(), 2 * side))
+            run = b.least([b.thread, "eval", b.path("plan.json"), "--method", "structure", "--no-dynamics"])[0]
+            b.row("grid", side * side, 2 * side, seconds(run.seconds), grows(side * side, run.seconds, side > 20))
+
+
 def drawings(b):
     kinds = ["svg", "steps", "html", "gltf", "pdf"]
     b.table("Drawings", "`thread draw` of the shortest cord, each kind beside `thread plan`.", "framework", "edges", "plan s",
@@ -441,7 +454,7 @@ file of frame JSON."""
                   seconds(convert.seconds), figure(convert.megabytes))
 
 
-PARTS = {f.__name__: f for f in (length, files, turning, symmetry, threads, balance, pull, drawings, joints)}
+PARTS = {f.__name__: f for f in (length, files, turning, symmetry, threads, balance, pull, structure, drawings, joints)}
 
 
 def machine(b):

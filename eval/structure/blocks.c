@@ -1,12 +1,14 @@
 /* Contacts, wrenches and the columns of the programme, which an interior point method solves: the equilibrium of a bead involves
- * its neighbours only, so that the factors stay sparse. The one long column, the pull, is split into a copy per bead, tied along
- * a spanning forest. */
+ * its neighbours only, so that the factors stay sparse. The one long column, the pull, is split into a copy for every two
+ * beads, tied along a spanning forest. */
 #include "eval/structure/blocks.h"
 
 #include "graph/angle.h"
 #include "graph/disjoint.h"
 #include "graph/vector.h"
+#include "lp/solver/bundles.h"
 #include "lp/solver/interior.h"
+#include "lp/solver/rays.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,10 +17,11 @@
 enum { CORNERS = 4 };
 
 typedef struct {
-  int n_columns, capacity;
+  int n_columns, n_costs; /* so far; each contact's three columns stand for its rays */
   double *rhs, *cost, *value;
-  int *start, *row;
-  thr_scratch own; /* the arrays */
+  int *start, *row, *kind;
+  double (*ray)[3]; /* of both kinds: between beads, on the ground */
+  thr_scratch own;  /* the arrays */
 } programme;
 
 double thr_blocks_widening(const thr_beads *beads)
@@ -31,6 +34,15 @@ double thr_blocks_widening(const thr_beads *beads)
 bool thr_blocks_inside(const thr_blocks *s, int face)
 {
   return s->body[s->f->edge[face][0]] == s->body[s->f->edge[face][1]];
+}
+
+/* A ray of a friction pyramid: along the normal and the two tangents. */
+static void set_ray(const thr_beads *beads, int e, double mu, double ray[3])
+{
+  const double angle = 2 * THR_PI * e / beads->rays;
+  ray[0] = 1;
+  ray[1] = mu * cos(angle);
+  ray[2] = mu * sin(angle);
 }
 
 static void add_contact(thr_blocks *s, int bead, int other, const double at[3], const double normal[3], double mu)
@@ -48,10 +60,13 @@ static void add_contact(thr_blocks *s, int bead, int other, const double at[3], 
   thr_cross(normal, tangent[0], tangent[1]);
   *c = (thr_contact){.bead = bead, .other = other};
   memcpy(c->at, at, sizeof c->at);
+  memcpy(c->axis[0], normal, sizeof c->axis[0]);
+  memcpy(c->axis[1], tangent, sizeof tangent);
   for (int e = 0; e < s->b->rays; e++) {
-    const double angle = 2 * THR_PI * e / s->b->rays;
+    double ray[3];
+    set_ray(s->b, e, mu, ray);
     for (int i = 0; i < 3; i++)
-      c->ray[e][i] = normal[i] + mu * (cos(angle) * tangent[0][i] + sin(angle) * tangent[1][i]);
+      c->ray[e][i] = ray[0] * normal[i] + ray[1] * tangent[0][i] + ray[2] * tangent[1][i];
   }
 }
 
@@ -61,6 +76,7 @@ static void set_contacts(thr_blocks *s, double widen)
   const thr_beads *beads = s->b;
   const double up[3] = {0, 0, 1};
   s->n_contacts = 0;
+  s->widen = widen;
   for (int e = 0; e < beads->n_faces; e++)
     for (int i = 0; i < CORNERS && !thr_blocks_inside(s, e); i++)
       add_contact(s, s->f->edge[e][1], s->f->edge[e][0], beads->corner[e][i], beads->axis[e], widen * s->physics->mu_bead);
@@ -128,16 +144,26 @@ static void set_wrenches(thr_blocks *s)
     add_force(s, of_load, v, s->load[v], s->b->centre[v], 1);
 }
 
-static void set_ties(thr_blocks *s, int *parent)
+/* Two neighbours share a copy of the pull where they can: they have each other's rows anyway. Copies are tied along a spanning
+ * forest. */
+static void set_copies(thr_blocks *s, int *parent)
 {
   for (int v = 0; v < s->n_bodies; v++)
-    parent[v] = v;
+    s->copy[v] = -1;
   for (int e = 0; e < s->b->n_faces; e++) {
-    int a = s->body[s->f->edge[e][0]], b = s->body[s->f->edge[e][1]];
+    const int a = s->body[s->f->edge[e][0]], b = s->body[s->f->edge[e][1]];
+    if (a != b && s->copy[a] < 0 && s->copy[b] < 0) s->copy[a] = s->copy[b] = s->n_copies++;
+  }
+  for (int v = 0; v < s->n_bodies; v++)
+    if (s->copy[v] < 0) s->copy[v] = s->n_copies++;
+  for (int c = 0; c < s->n_copies; c++)
+    parent[c] = c;
+  for (int e = 0; e < s->b->n_faces; e++) {
+    const int a = s->copy[s->body[s->f->edge[e][0]]], b = s->copy[s->body[s->f->edge[e][1]]];
     if (thr_disjoint_join(parent, a, b)) s->tie[s->n_ties][0] = a, s->tie[s->n_ties++][1] = b;
   }
-  for (int v = 1; v < s->n_bodies; v++)
-    if (thr_disjoint_join(parent, 0, v)) s->tie[s->n_ties][0] = 0, s->tie[s->n_ties++][1] = v;
+  for (int c = 1; c < s->n_copies; c++)
+    if (thr_disjoint_join(parent, 0, c)) s->tie[s->n_ties][0] = 0, s->tie[s->n_ties++][1] = c;
 }
 
 void thr_blocks_destroy(thr_blocks *s)
@@ -155,6 +181,7 @@ thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
   s->origin = thr_scratch_array(&s->own, n, sizeof *s->origin);
   s->wrench = thr_scratch_array(&s->own, n, sizeof *s->wrench);
   s->given = thr_scratch_array(&s->own, n, sizeof *s->given);
+  s->copy = thr_scratch_array(&s->own, n, sizeof *s->copy);
   s->row = thr_scratch_array(&s->own, n, sizeof *s->row);
   s->tie = thr_scratch_array(&s->own, n, sizeof *s->tie);
   if (thr_scratch_check(&s->own, err)) {
@@ -164,7 +191,7 @@ thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
   set_bodies(s, parent);
   set_wrenches(s);
   set_units(s);
-  set_ties(s, parent);
+  set_copies(s, parent);
   set_contacts(s, widen);
   return THR_OK;
 }
@@ -178,20 +205,18 @@ static void programme_destroy(programme *p)
 
 static void entry(programme *p, int row, double value)
 {
-  if (value == 0) return;
   int *end = &p->start[p->n_columns + 1];
   p->row[*end] = row;
   p->value[(*end)++] = value;
 }
 
 /* Begins the next column at the end of the last. */
-static void column(programme *p, double cost)
+static void column(programme *p)
 {
-  p->cost[p->n_columns] = cost;
   p->start[p->n_columns + 1] = p->start[p->n_columns];
 }
 
-/* A force of one weight along ray at the contact. */
+/* A force of one weight along ray at the contact. All its entries are kept: those of a face have the same rows. */
 static void contact_entries(const thr_blocks *s, programme *p, const thr_contact *c, int bead, const double ray[3], double sign)
 {
   int body = bead < 0 ? -1 : s->body[bead];
@@ -210,24 +235,32 @@ static void contact_columns(const thr_blocks *s, programme *p)
 {
   for (int i = 0; i < s->n_contacts; i++) {
     const thr_contact *c = &s->contact[i];
-    for (int e = 0; e < s->b->rays; e++, p->n_columns++) {
-      column(p, 0);
-      contact_entries(s, p, c, c->bead, c->ray[e], 1);
-      contact_entries(s, p, c, c->other, c->ray[e], -1);
+    p->kind[i] = c->other < 0;
+    for (int k = 0; k < 3; k++, p->n_columns++) {
+      column(p);
+      contact_entries(s, p, c, c->bead, c->axis[k], 1);
+      contact_entries(s, p, c, c->other, c->axis[k], -1);
     }
   }
+  for (int e = 0; e < s->b->rays; e++) {
+    set_ray(s->b, e, s->widen * s->physics->mu_bead, p->ray[e]);
+    set_ray(s->b, e, s->widen * s->physics->mu_ground, p->ray[s->b->rays + e]);
+  }
+  p->n_costs = s->n_contacts * s->b->rays;
 }
 
 /* Copies of the unknown; the first one costs. */
 static void pull_columns(const thr_blocks *s, programme *p, double cost)
 {
   double unit = s->pull / s->weight;
-  for (int v = 0; v < s->n_bodies; v++, p->n_columns++) {
-    column(p, v == 0 ? cost : 0);
-    for (int k = 0; k < 6 && s->row[v] >= 0; k++)
-      entry(p, s->row[v] + k, unit * s->wrench[v][k] / (k < 3 ? 1 : s->length));
+  for (int c = 0; c < s->n_copies; c++, p->n_columns++) {
+    column(p);
+    p->cost[p->n_costs++] = c == 0 ? cost : 0;
+    for (int v = 0; v < s->n_bodies; v++)
+      for (int k = 0; k < 6 && s->copy[v] == c && s->row[v] >= 0; k++)
+        entry(p, s->row[v] + k, unit * s->wrench[v][k] / (k < 3 ? 1 : s->length));
     for (int t = 0; t < s->n_ties; t++)
-      if (s->tie[t][0] == v || s->tie[t][1] == v) entry(p, s->n_rows + t, s->tie[t][0] == v ? 1 : -1);
+      if (s->tie[t][0] == c || s->tie[t][1] == c) entry(p, s->n_rows + t, s->tie[t][0] == c ? 1 : -1);
   }
 }
 
@@ -235,7 +268,8 @@ static void pull_columns(const thr_blocks *s, programme *p, double cost)
 static void hand_columns(const thr_blocks *s, programme *p)
 {
   for (int i = 0; i < 2 * s->n_rows; i++, p->n_columns++) {
-    column(p, 1);
+    column(p);
+    p->cost[p->n_costs++] = 1;
     entry(p, i / 2, i % 2 ? -1 : 1);
   }
 }
@@ -266,12 +300,14 @@ static void carry_given(const thr_blocks *s, int body, double *rhs)
 
 static thr_status programme_make(const thr_blocks *s, bool hands, programme *p, thr_err *err)
 {
-  size_t n = (size_t)s->n_bodies, rays = (size_t)s->n_contacts * (size_t)s->b->rays;
-  size_t columns = rays + n + (hands ? 2 * (size_t)s->n_rows : 0);
-  size_t entries = 12 * rays + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows;
+  size_t n = (size_t)s->n_bodies, contacts = (size_t)s->n_contacts, rays = (size_t)s->b->rays;
+  size_t others = n + (hands ? 2 * (size_t)s->n_rows : 0), columns = 3 * contacts + others;
+  size_t entries = 36 * contacts + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows;
   *p = (programme){0};
   p->rhs = thr_scratch_array(&p->own, (size_t)s->n_rows + (size_t)s->n_ties, sizeof *p->rhs);
-  p->cost = thr_scratch_array(&p->own, columns, sizeof *p->cost);
+  p->cost = thr_scratch_array(&p->own, rays * contacts + others, sizeof *p->cost);
+  p->kind = thr_scratch_array(&p->own, contacts, sizeof *p->kind);
+  p->ray = thr_scratch_array(&p->own, 2 * rays, sizeof *p->ray);
   p->start = thr_scratch_array(&p->own, columns + 1, sizeof *p->start);
   p->row = thr_scratch_array(&p->own, entries, sizeof *p->row);
   p->value = thr_scratch_array(&p->own, entries, sizeof *p->value);
@@ -297,20 +333,27 @@ void thr_blocks_solution_destroy(thr_blocks_solution *o)
 }
 
 /* Objective, and the largest difference between A x and rhs. */
-static thr_status finish(const programme *p, int n_rows, thr_blocks_solution *o, thr_err *err)
+static thr_status finish(const thr_equations *e, thr_blocks_solution *o, thr_err *err)
 {
-  double *left = thr_calloc((size_t)n_rows, sizeof *left);
-  if (!left) return thr_nomem(err);
-  memcpy(left, p->rhs, (size_t)n_rows * sizeof *left);
-  for (int j = 0; j < p->n_columns; j++) {
-    o->objective += p->cost[j] * o->x[j];
-    for (int k = p->start[j]; k < p->start[j + 1]; k++)
-      left[p->row[k]] -= p->value[k] * o->x[j];
+  const thr_columns *a = &e->a;
+  const thr_rays rays = {e->n_cones, e->n_rays, a->n_columns - 3 * e->n_cones, e->kind, e->ray};
+  thr_scratch own = {0};
+  double *left = thr_scratch_array(&own, (size_t)a->n_rows, sizeof *left);
+  double *u = thr_scratch_array(&own, (size_t)a->n_columns, sizeof *u);
+  thr_status st = thr_scratch_check(&own, err);
+  if (!st) {
+    memcpy(left, e->rhs, (size_t)a->n_rows * sizeof *left);
+    thr_rays_gather(&rays, o->x, u);
+    for (int j = 0; j < a->n_columns; j++)
+      for (int k = a->start[j]; k < a->start[j + 1]; k++)
+        left[a->row[k]] -= a->value[k] * u[j];
+    for (int i = 0; i < a->n_rows; i++)
+      o->imbalance = fmax(o->imbalance, fabs(left[i]));
+    for (int j = 0; j < thr_rays_unknowns(&rays); j++)
+      o->objective += e->cost[j] * o->x[j];
   }
-  for (int i = 0; i < n_rows; i++)
-    o->imbalance = fmax(o->imbalance, fabs(left[i]));
-  free(left);
-  return THR_OK;
+  thr_scratch_free(&own);
+  return st;
 }
 
 thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits, thr_blocks_solution *out, thr_err *err)
@@ -320,19 +363,28 @@ thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *l
   *out = (thr_blocks_solution){0};
   thr_status st = programme_make(s, hands, &p, err);
   if (st) return st;
-  out->x = thr_calloc((size_t)p.n_columns, sizeof *out->x);
+  out->x = thr_calloc((size_t)p.n_costs, sizeof *out->x);
   out->dual = thr_calloc((size_t)rows, sizeof *out->dual);
   const bool large = s->n_bodies > THR_BLOCKS_LARGE;
-  const thr_equations equations = {{rows, p.n_columns, p.start, p.row, p.value},
-                                   p.rhs,
-                                   p.cost,
-                                   large ? THR_BLOCKS_ROUGH : 0,
-                                   large && s->bound ? THR_BLOCKS_UNMET : 0};
+  const thr_equations equations = {.a = {rows, p.n_columns, p.start, p.row, p.value},
+                                   .rhs = p.rhs,
+                                   .cost = p.cost,
+                                   .goal = !large     ? 0
+                                           : s->bound ? THR_BLOCKS_ROUGH
+                                                      : 2 * THR_BLOCKS_ROUGH,
+                                   .met = !large     ? 0
+                                          : s->bound ? THR_BLOCKS_UNMET
+                                                     : THR_BLOCKS_MET,
+                                   .warm = large ? s->warm : NULL,
+                                   .n_cones = s->n_contacts,
+                                   .n_rays = s->b->rays,
+                                   .kind = p.kind,
+                                   .ray = (const double(*)[3])p.ray};
   thr_interior found = {.x = out->x, .dual = out->dual};
   st = out->x && out->dual ? thr_interior_solve(&equations, limits, &found, err) : thr_nomem(err);
   out->outcome = found.outcome;
   if (!st && out->outcome == THR_LP_STOPPED) st = thr_fail(err, THR_ELIMIT, "stopped before the holding pull was found");
-  if (!st) st = finish(&p, rows, out, err);
+  if (!st) st = finish(&equations, out, err);
   programme_destroy(&p);
   if (st) thr_blocks_solution_destroy(out);
   return st;

@@ -11,19 +11,22 @@
 #include "graph/plan/physics.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
+#include "lp/solver/interior.h"
 #include "lp/solver/lp.h"
 
 #include <stdbool.h>
 
-/* Beads from which on the solver's bounds need not be nearer to each other than THR_BLOCKS_ROUGH, relative. */
+/* Beads from which on the solver's bounds need not be nearer to each other than THR_BLOCKS_ROUGH, relative; twice that where the
+ * multipliers do not count. */
 enum { THR_BLOCKS_LARGE = 1000 };
-static const double THR_BLOCKS_ROUGH = 1e-4;
-/* How far the equations are met then, in weights, where only the multipliers count: their bound is proved by itself. */
-static const double THR_BLOCKS_UNMET = 1e-3;
+static const double THR_BLOCKS_ROUGH = 5e-4;
+/* How far the equations are met then, in weights; and where only the multipliers count: their bound is proved by itself. */
+static const double THR_BLOCKS_MET = 5e-6, THR_BLOCKS_UNMET = 1e-3;
 
 typedef struct {
-  int bead, other; /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
-  double at[3], ray[THR_MOST_RAYS][3];
+  int bead, other;          /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
+  double at[3], axis[3][3]; /* normal and tangents */
+  double ray[THR_MOST_RAYS][3];
 } thr_contact;
 
 /* Bodies are beads, or sets of beads that move as one. Forces are counted in weights of a mean bead, lengths in `length`, the
@@ -34,19 +37,22 @@ typedef struct {
   const thr_physics *physics;
   const double *press;         /* [n_faces] of a pull of 1; N where the load is asked for */
   const double (*load)[3];     /* [n_beads] N, at its node; NULL = none */
+  thr_warm *warm;              /* where a large programme may start, and leaves a start for the next; NULL ok */
   bool bound;                  /* only the multipliers count */
   bool carries;                /* the unknown is not the pull but what the load is multiplied by */
   double most;                 /* press above it is taken for it .. */
   bool merged;                 /* .. and the beads on either side for one body */
   double weight, length, pull; /* N, m, N */
-  int n_bodies, n_contacts, n_rows, n_ties;
+  double widen;                /* factor on friction */
+  int n_bodies, n_contacts, n_rows, n_copies, n_ties;
   thr_contact *contact;
   int *body;           /* [n_beads] */
   double (*origin)[3]; /* [n_bodies] where moments are taken about, m */
   double (*wrench)[6]; /* [n_bodies] of what is unknown: the cords at a pull of 1, or the load */
   double (*given)[6];  /* [n_bodies] of the other one; none of a pull that is unknown */
   int *row;            /* [n_bodies] first of a body's six rows, -1 = held in place */
-  int (*tie)[2];       /* [n_ties] bodies whose copies of the pull are equal */
+  int *copy;           /* [n_bodies] of the pull that acts on it */
+  int (*tie)[2];       /* [n_ties] copies that are equal */
   thr_scratch own;     /* the arrays */
 } thr_blocks;
 

@@ -80,6 +80,7 @@ typedef struct {
   double unit; /* factor on what the unknown is counted in */
   const thr_limits *limits;
   double least, largest; /* press of any face that is pressed */
+  thr_start *start;
 } task;
 
 static thr_blocks part(const task *t, double most, bool merged)
@@ -94,6 +95,16 @@ static thr_blocks part(const task *t, double most, bool merged)
                       .merged = merged};
 }
 
+/* A start from a programme whose tensions were capped alike; else a fresh one, as others would mislead. */
+static thr_warm *warm_at(const task *t, double most, bool merged)
+{
+  if (merged) return NULL;
+  const double span = fmin(most, t->largest) / t->least;
+  if (span > 2 * t->start->span || t->start->span > 2 * span) thr_warm_destroy(&t->start->point);
+  t->start->span = span;
+  return &t->start->point;
+}
+
 /* One programme: replaces the mechanism in a, if there was one. Merged, its pull is about a->pull. */
 static thr_status pull_of(const task *t, double most, bool merged, double widen, answer *a, thr_err *err)
 {
@@ -103,6 +114,7 @@ static thr_status pull_of(const task *t, double most, bool merged, double widen,
   s.bound = widen > 1;
   if (merged) s.pull = a->pull;
   s.pull *= t->unit;
+  s.warm = warm_at(t, most, merged);
   free(a->velocity);
   a->velocity = NULL;
   st = solve_pull(&s, t->limits, a, err);
@@ -265,23 +277,30 @@ static task task_of(const thr_beads *beads, const thr_frame *frame, const thr_ph
 }
 
 thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                            bool want_upper, const thr_limits *limits, thr_holding *out, thr_err *err)
+                            bool want_upper, thr_start *start, const thr_limits *limits, thr_holding *out, thr_err *err)
 {
+  thr_start fresh = {0};
   task t = task_of(beads, frame, physics, press, limits);
+  t.start = start ? start : &fresh;
   t.load = (const double(*)[3])beads->load;
   *out = (thr_holding){0};
-  return hold(&t, want_upper, out, err);
+  thr_status st = hold(&t, want_upper, out, err);
+  thr_start_destroy(&fresh);
+  return st;
 }
 
 thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                              const double (*load)[3], const thr_limits *limits, thr_carry *out, thr_err *err)
 {
   thr_holding found = {0};
+  thr_start fresh = {0};
   task t = task_of(beads, frame, physics, press, limits);
+  t.start = &fresh;
   t.load = load;
   t.carries = true;
   *out = (thr_carry){0};
   thr_status st = hold(&t, true, &found, err);
+  thr_start_destroy(&fresh);
   if (!st)
     *out = (thr_carry){.beyond = found.lower, .carried = found.upper, .first_bead = found.first_bead, .velocity = found.velocity};
   return st;
@@ -291,6 +310,11 @@ void thr_carry_destroy(thr_carry *carry)
 {
   free(carry->velocity);
   *carry = (thr_carry){.first_bead = -1};
+}
+
+void thr_start_destroy(thr_start *start)
+{
+  thr_warm_destroy(&start->point);
 }
 
 void thr_holding_destroy(thr_holding *holding)

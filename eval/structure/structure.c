@@ -227,11 +227,12 @@ static thr_status press_of(const thr_cord *cord, const thr_evaluation *evaluatio
 /* What the tensions of such cords may be multiplied by. Of all friction states with so much at the ends those that keep most
  * press most, and to press more never harms: an equilibrium with some tensions taken smaller is one. */
 static thr_status hold_state(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, state which, double force,
-                             const thr_limits *limits, const thr_evaluation *evaluation, thr_holding *out, thr_err *err)
+                             thr_start *start, const thr_limits *limits, const thr_evaluation *evaluation, thr_holding *out,
+                             thr_err *err)
 {
   double *press = thr_calloc((size_t)beads->n_faces, sizeof *press);
   thr_status st = press ? press_of(cord, evaluation, which, force, press, err) : thr_nomem(err);
-  if (!st) st = thr_holding_pull(beads, frame, &evaluation->physics, press, true, limits, out, err);
+  if (!st) st = thr_holding_pull(beads, frame, &evaluation->physics, press, true, start, limits, out, err);
   free(press);
   return st;
 }
@@ -257,7 +258,7 @@ static thr_status carry_all(const thr_frame *frame, const thr_cord *cord, thr_be
   thr_err why = {0};
   const size_t bytes = (size_t)beads->n_beads * sizeof *beads->load;
   memcpy(beads->load, options->load, bytes);
-  thr_status st = hold_state(frame, cord, beads, DRAWN_IN, 1, limits, &out->record, &out->loaded, &why);
+  thr_status st = hold_state(frame, cord, beads, DRAWN_IN, 1, NULL, limits, &out->record, &out->loaded, &why);
   memset(beads->load, 0, bytes);
   if (st == THR_EINFEASIBLE || st == THR_ESOLVER)
     out->loaded =
@@ -307,7 +308,7 @@ static thr_status stands_at(const thr_frame *frame, const thr_cord *cord, const 
 {
   thr_holding holding = {0};
   thr_err why = {0};
-  thr_status st = hold_state(frame, cord, beads, LET_DOWN, force, limits, evaluation, &holding, &why);
+  thr_status st = hold_state(frame, cord, beads, LET_DOWN, force, NULL, limits, evaluation, &holding, &why);
   *stands = st == THR_OK && holding.upper <= 1;
   *falls = st == THR_EINFEASIBLE || (st == THR_OK && holding.lower > 1);
   thr_holding_destroy(&holding);
@@ -372,7 +373,7 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, con
   thr_err why = {0};
   thr_status st = make_beads(frame, &evaluation->physics, options, &beads, err);
   if (!st) {
-    st = hold_state(frame, cord, &beads, LET_DOWN, INFINITY, limits, evaluation, &out->after, &why);
+    st = hold_state(frame, cord, &beads, LET_DOWN, INFINITY, NULL, limits, evaluation, &out->after, &why);
     if (st == THR_EINFEASIBLE)
       out->after = (thr_holding){.present = true, .lower = INFINITY, .upper = INFINITY, .first_bead = -1};
     st = st && st != THR_EINFEASIBLE ? thr_fail(err, st, "%s", why.text) : THR_OK;
@@ -394,14 +395,14 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, con
 /* ---- the pull ---- */
 
 static thr_status hold(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double mu, bool want_upper,
-                       const thr_limits *limits, thr_evaluation *evaluation, const double **tension, thr_holding *out,
-                       thr_err *err)
+                       thr_start *start, const thr_limits *limits, thr_evaluation *evaluation, const double **tension,
+                       thr_holding *out, thr_err *err)
 {
   double *press = thr_calloc((size_t)beads->n_faces, sizeof *press);
   thr_status st = press ? profiles(frame, cord, mu, evaluation, tension, err) : thr_nomem(err);
   if (!st) {
     thr_holding_press(cord, evaluation->n_cords, tension, press);
-    st = thr_holding_pull(beads, frame, &evaluation->physics, press, want_upper, limits, out, err);
+    st = thr_holding_pull(beads, frame, &evaluation->physics, press, want_upper, start, limits, out, err);
   }
   free(press);
   return st;
@@ -414,7 +415,7 @@ static thr_status band_end(const thr_frame *frame, const thr_cord *cord, const t
 {
   thr_err why = {0};
   thr_holding holding = {0};
-  thr_status st = hold(frame, cord, beads, mu, false, limits, evaluation, tension, &holding, &why);
+  thr_status st = hold(frame, cord, beads, mu, false, NULL, limits, evaluation, tension, &holding, &why);
   *out = st == THR_OK ? holding.lower : st == THR_EINFEASIBLE ? INFINITY : NAN;
   thr_holding_destroy(&holding);
   if (st == THR_OK || st == THR_EINFEASIBLE || st == THR_EINPUT || st == THR_ESOLVER) return THR_OK;
@@ -482,9 +483,11 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, thr_beads *b
                       const thr_limits *limits, const double **tension, thr_eval *out, thr_err *err)
 {
   thr_evaluation *evaluation = &out->record;
+  thr_start start = {0};
   out->band[0] = out->band[1] = NAN;
-  thr_status st = hold(frame, cord, beads, evaluation->physics.mu, true, limits, evaluation, tension, &out->holding, err);
+  thr_status st = hold(frame, cord, beads, evaluation->physics.mu, true, &start, limits, evaluation, tension, &out->holding, err);
   if (st) {
+    thr_start_destroy(&start);
     clear_record(evaluation);
     return st;
   }
@@ -501,9 +504,10 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, thr_beads *b
   if (!st && small && options->erect && out->holding.lower > 0)
     st = erect(&m, isfinite(out->holding.upper) ? out->holding.upper : out->holding.lower, limits, &out->erect, err);
   if (!st && beads->n_beads <= BAND_LARGEST && all_both(evaluation))
-    st = hold_state(frame, cord, beads, DRAWN_IN, 1, limits, evaluation, &out->equal, err);
-  if (!st) st = hold_state(frame, cord, beads, KEPT, 1, limits, evaluation, &out->loosest, err);
+    st = hold_state(frame, cord, beads, DRAWN_IN, 1, &start, limits, evaluation, &out->equal, err);
+  if (!st) st = hold_state(frame, cord, beads, KEPT, 1, &start, limits, evaluation, &out->loosest, err);
   if (!st && beads->n_beads <= BAND_LARGEST) st = band(frame, cord, beads, limits, evaluation, out->band, err);
+  thr_start_destroy(&start);
   if (!st && options->load) st = carry_at_pulls(frame, cord, beads, options, limits, out, err);
   fill_record(evaluation, out->holding.lower);
   return st ? st : thr_structure_drawn(evaluation, options, err);

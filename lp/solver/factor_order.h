@@ -9,7 +9,7 @@
 
 #include "graph/scratch.h"
 #include "graph/status.h"
-#include "lp/solver/normal.h"
+#include "lp/solver/bundles.h"
 
 typedef struct {
   int n_rows, n_blocks;

@@ -1,6 +1,9 @@
 /* Notation: x, z primal values and reduced costs, y row multipliers, d* their steps, p, q, r what is missing in
  * A x = rhs,  A^T y + z = cost,  x z = target. */
+#include "lp/solver/bundles.h"
 #include "lp/solver/interior.h"
+
+#include "lp/solver/rays.h"
 
 #include <float.h>
 #include <math.h>
@@ -9,7 +12,8 @@
 
 enum { MOST_ITERATIONS = 200, PATIENCE = 6, MOST_CORRECTORS = 3 };
 static const double GOAL = 1e-8, MET = 1e-6 /* the equations, however rough the goal, unless the caller says more */,
-                    NOTHING = 1e-6; /* an objective below that is 0 */
+                    NOTHING = 1e-6, /* an objective below that is 0 */
+    WARM = 0.05;                    /* gap at which a point is kept as a start for others */
 
 typedef struct {
   double *x, *y, *z;
@@ -17,15 +21,20 @@ typedef struct {
 
 typedef struct {
   const thr_equations *e;
+  thr_rays rays;
   thr_normal *normal;
-  int m, n;
+  const thr_bundles *a;
+  int m, n, components;
   double goal;  /* relative error to end at */
   double unmet; /* what a relative error of the equations counts */
   double *room; /* all arrays below; owned */
   point at, step, trial;
   double *p, *q, *r;
-  double *weight;                      /* x / z */
+  double *weight;                      /* x / z .. */
+  double *weights;                     /* .. and for the normal equations */
   double *columns, *rows, *rise, *way; /* scratch */
+  double *gain, *pushed;               /* [n_rows] */
+  double *force, *weighed;             /* [components] */
 } state;
 
 static void carve(double **room, double **array, int n)
@@ -37,7 +46,8 @@ static void carve(double **room, double **array, int n)
 static thr_status state_make(state *s, thr_err *err)
 {
   size_t m = (size_t)s->m, n = (size_t)s->n;
-  double *room = s->room = thr_calloc(7 * m + 10 * n, sizeof *room);
+  const size_t components = (size_t)s->components;
+  double *room = s->room = thr_calloc(9 * m + 10 * n + 4 * components, sizeof *room);
   if (!room) return thr_nomem(err);
   point *points[] = {&s->at, &s->step, &s->trial};
   for (int i = 0; i < 3; i++) {
@@ -53,14 +63,33 @@ static thr_status state_make(state *s, thr_err *err)
   carve(&room, &s->rows, s->m);
   carve(&room, &s->rise, s->m);
   carve(&room, &s->way, s->m);
-  return thr_normal_create(&s->normal, &s->e->a, err);
+  carve(&room, &s->gain, s->m);
+  carve(&room, &s->pushed, s->m);
+  carve(&room, &s->force, s->components);
+  carve(&room, &s->weighed, s->components);
+  carve(&room, &s->weights, 2 * s->components); /* three numbers become six */
+  thr_status st = thr_normal_create(&s->normal, &s->e->a, s->rays.n_cones, err);
+  if (!st) s->a = thr_normal_bundles(s->normal);
+  return st;
+}
+
+/* ---- sums ---- */
+
+static inline double larger(double a, double b)
+{
+  return a > b ? a : b;
+}
+
+static inline double smaller(double a, double b)
+{
+  return a < b ? a : b;
 }
 
 static double largest(const double *a, int n)
 {
   double most = 0;
   for (int i = 0; i < n; i++)
-    most = fmax(most, fabs(a[i]));
+    most = larger(fabs(a[i]), most);
   return most;
 }
 
@@ -72,58 +101,115 @@ static double product(const double *a, const double *b, int n)
   return sum;
 }
 
+/* y = A x. */
+static void times(state *s, const double *x, double *y)
+{
+  thr_rays_gather(&s->rays, x, s->force);
+  thr_bundles_times(s->a, s->force, y);
+}
+
+/* x = A^T y. */
+static void transposed(state *s, const double *y, double *x)
+{
+  thr_bundles_transposed(s->a, y, s->force);
+  thr_rays_spread(&s->rays, s->force, x);
+}
+
+/* Factors at s->weight. */
+static void factor(state *s)
+{
+  thr_rays_weigh(&s->rays, s->weight, s->weights);
+  thr_normal_factor(s->normal, s->weights);
+}
+
 /* What A d->x lacks of p, into s->rows. */
 static double lack(state *s, const double *p, const point *d)
 {
-  thr_columns_times(&s->e->a, d->x, s->rows);
+  times(s, d->x, s->rows);
   for (int i = 0; i < s->m; i++)
     s->rows[i] = (p ? p[i] : 0) - s->rows[i];
   return largest(s->rows, s->m);
 }
 
-/* Moves d along s->way, a direction of y, by the step that is the best in the norm of the equations; now: what the factors say of
- * s->rows times s->rows. False if rounding leaves no such step. */
-static bool move_along(state *s, double now, point *d)
+/* The next direction of conjugate gradients with the factors as the preconditioner (M. R. Hestenes & E. Stiefel, 1952), into
+ * s->way. before: what the last round returned, INFINITY at first. */
+static double turn(state *s, double before)
 {
-  double power = 0;
-  thr_columns_transposed(&s->e->a, s->way, s->columns);
-  for (int j = 0; j < s->n; j++)
-    power += s->weight[j] * s->columns[j] * s->columns[j];
-  if (!(power > 0) || !(now > 0)) return false;
-  const double step = now / power;
+  thr_normal_solve(s->normal, s->rows, s->rise);
+  const double now = product(s->rows, s->rise, s->m), share = now / before;
+  for (int i = 0; i < s->m; i++)
+    s->way[i] = s->rise[i] + share * s->way[i];
+  return now;
+}
+
+/* (A D A^T) gain = rows, until what is left of rows is enough. Returns how many rounds it took. */
+static int improve(state *s, double enough, int rounds)
+{
+  double before = INFINITY;
+  memset(s->gain, 0, (size_t)s->m * sizeof *s->gain);
+  memset(s->way, 0, (size_t)s->m * sizeof *s->way);
+  for (int round = 1; round <= rounds; round++) {
+    before = turn(s, before);
+    thr_bundles_transposed(s->a, s->way, s->force);
+    thr_rays_weighted(&s->rays, s->weights, s->force, s->weighed);
+    thr_bundles_times(s->a, s->weighed, s->pushed);
+    const double power = product(s->way, s->pushed, s->m), step = before / power;
+    if (!(power > 0) || !(before > 0)) return round; /* rounding leaves no such step */
+    for (int i = 0; i < s->m; i++) {
+      s->gain[i] += step * s->way[i];
+      s->rows[i] -= step * s->pushed[i];
+    }
+    if (largest(s->rows, s->m) <= enough) return round;
+  }
+  return rounds;
+}
+
+/* Moves d along a direction of y. */
+static void move_along(state *s, const double *way, double step, point *d)
+{
   for (int j = 0; j < s->n; j++) {
     d->z[j] -= step * s->columns[j];
     d->x[j] += step * s->weight[j] * s->columns[j];
   }
   for (int i = 0; i < s->m; i++)
-    d->y[i] += step * s->way[i];
-  return true;
+    d->y[i] += step * way[i];
+}
+
+/* As improve, but with what d->x lacks itself at every round: where that is mostly rounding. */
+static void improve_exactly(state *s, const double *p, double enough, int rounds, point *d)
+{
+  double before = INFINITY;
+  memset(s->way, 0, (size_t)s->m * sizeof *s->way);
+  for (int round = 0; round < rounds; round++) {
+    double power = 0;
+    before = turn(s, before);
+    transposed(s, s->way, s->columns);
+    for (int j = 0; j < s->n; j++)
+      power += s->weight[j] * s->columns[j] * s->columns[j];
+    if (!(power > 0) || !(before > 0)) return;
+    move_along(s, s->way, before / power, d);
+    if (lack(s, p, d) <= enough) return;
+  }
 }
 
 /* Step that answers p, q, r: A dx = p, A^T dy + dz = q, z dx + x dz = r. Near the optimum x / z spans twenty powers of ten and
- * the factors are rough: conjugate gradients with them as the preconditioner make up for what A dx lacks (M. R. Hestenes &
- * E. Stiefel, 1952), as far as the next point needs it. */
+ * the factors are rough: what A dx lacks is made up for as far as the next point needs it. */
 static void newton(state *s, const double *p, const double *q, const double *r, point *d)
 {
   enum { ROUNDS = 20 };
   const point *at = &s->at;
-  const double enough = fmax(0.01 * s->goal / fmin(1, s->unmet) * largest(s->e->rhs, s->m), 0.1 * largest(s->p, s->m));
+  const double share = s->e->met > 0 ? 0.2 : 0.01; /* of what may be missing at last */
+  const double enough = fmax(share * s->goal / s->unmet * largest(s->e->rhs, s->m), 0.1 * largest(s->p, s->m));
   memset(d->y, 0, (size_t)s->m * sizeof *d->y);
-  memset(s->way, 0, (size_t)s->m * sizeof *s->way);
   for (int j = 0; j < s->n; j++) {
     d->z[j] = q ? q[j] : 0;
     d->x[j] = (r[j] - at->x[j] * d->z[j]) / at->z[j];
   }
-  double before = INFINITY;
   lack(s, p, d);
-  for (int round = 0; round < ROUNDS; round++) {
-    thr_normal_solve(s->normal, s->rows, s->rise);
-    const double now = product(s->rows, s->rise, s->m), share = now / before;
-    before = now;
-    for (int i = 0; i < s->m; i++)
-      s->way[i] = s->rise[i] + share * s->way[i];
-    if (!move_along(s, now, d) || lack(s, p, d) <= enough) return;
-  }
+  const int left = ROUNDS - improve(s, enough, ROUNDS / 2);
+  transposed(s, s->gain, s->columns);
+  move_along(s, s->gain, 1, d);
+  if (lack(s, p, d) > enough) improve_exactly(s, p, enough, left, d);
 }
 
 /* How far a stays positive along d, at most 1. */
@@ -131,7 +217,7 @@ static double reach(const double *a, const double *d, int n)
 {
   double most = 1;
   for (int j = 0; j < n; j++)
-    if (d[j] < 0) most = fmin(most, -a[j] / d[j]);
+    if (a[j] + most * d[j] < 0) most = -a[j] / d[j];
   return most;
 }
 
@@ -141,12 +227,12 @@ static void start(state *s)
   point *at = &s->at;
   for (int j = 0; j < s->n; j++)
     s->weight[j] = 1;
-  thr_normal_factor(s->normal, s->weight);
+  factor(s);
   thr_normal_solve(s->normal, s->e->rhs, at->y);
-  thr_columns_transposed(&s->e->a, at->y, at->x);
-  thr_columns_times(&s->e->a, s->e->cost, s->rows);
+  transposed(s, at->y, at->x);
+  times(s, s->e->cost, s->rows);
   thr_normal_solve(s->normal, s->rows, at->y);
-  thr_columns_transposed(&s->e->a, at->y, at->z);
+  transposed(s, at->y, at->z);
   double up_x = 0, up_z = 0, sum_x = 0, sum_z = 0, both = 0;
   for (int j = 0; j < s->n; j++) {
     at->z[j] = s->e->cost[j] - at->z[j];
@@ -166,9 +252,45 @@ static void start(state *s)
   }
 }
 
+/* A start from where a programme like this one was on its way. */
+static bool start_warm(state *s)
+{
+  const thr_warm *warm = s->e->warm;
+  if (!warm || warm->m != s->m || warm->n != s->n) return false;
+  memcpy(s->at.x, warm->x, (size_t)s->n * sizeof *warm->x);
+  memcpy(s->at.z, warm->z, (size_t)s->n * sizeof *warm->z);
+  memcpy(s->at.y, warm->y, (size_t)s->m * sizeof *warm->y);
+  for (int j = 0; j < s->n; j++)
+    s->weight[j] = 1;
+  factor(s); /* which rows depend on others */
+  return true;
+}
+
+/* Without memory there is no start for others. */
+static void keep_warm(const state *s)
+{
+  thr_warm *warm = s->e->warm;
+  const size_t m = (size_t)s->m, n = (size_t)s->n;
+  if (warm->m != s->m || warm->n != s->n) {
+    thr_warm_destroy(warm);
+    if (!(warm->x = thr_calloc(2 * n + m, sizeof *warm->x))) return;
+    *warm = (thr_warm){.m = s->m, .n = s->n, .x = warm->x, .z = warm->x + n, .y = warm->x + 2 * n};
+  }
+  memcpy(warm->x, s->at.x, n * sizeof *warm->x);
+  memcpy(warm->z, s->at.z, n * sizeof *warm->z);
+  memcpy(warm->y, s->at.y, m * sizeof *warm->y);
+}
+
+void thr_warm_destroy(thr_warm *warm)
+{
+  free(warm->x);
+  *warm = (thr_warm){0};
+}
+
 typedef struct {
   double primal, dual; /* objectives */
   double missing[2];   /* of the equations and of the reduced costs, relative */
+  double gap;          /* relative */
   double error;        /* largest of those and of the gap */
 } quality;
 
@@ -176,17 +298,17 @@ static quality measure(state *s)
 {
   const point *at = &s->at;
   const thr_equations *equations = s->e;
-  thr_columns_times(&equations->a, at->x, s->p);
+  times(s, at->x, s->p);
   for (int i = 0; i < s->m; i++)
     s->p[i] = equations->rhs[i] - s->p[i];
-  thr_columns_transposed(&equations->a, at->y, s->q);
+  transposed(s, at->y, s->q);
   for (int j = 0; j < s->n; j++)
     s->q[j] = equations->cost[j] - at->z[j] - s->q[j];
   quality k = {.primal = product(equations->cost, at->x, s->n), .dual = product(equations->rhs, at->y, s->m)};
   k.missing[0] = largest(s->p, s->m) / (DBL_MIN + largest(equations->rhs, s->m));
   k.missing[1] = largest(s->q, s->n) / (DBL_MIN + largest(equations->cost, s->n));
-  double gap = fabs(k.primal - k.dual) / (NOTHING + fmax(fabs(k.primal), fabs(k.dual)));
-  k.error = fmax(gap, fmax(k.missing[0] * s->unmet, k.missing[1]));
+  k.gap = fabs(k.primal - k.dual) / (NOTHING + fmax(fabs(k.primal), fabs(k.dual)));
+  k.error = fmax(k.gap, fmax(k.missing[0] * s->unmet, k.missing[1]));
   return k;
 }
 
@@ -214,17 +336,28 @@ static double predict_and_correct(state *s)
   return target;
 }
 
+/* Where the gap is closed but the equations are not met: towards the middle only, with longer steps. */
+static double meet(state *s)
+{
+  point *at = &s->at;
+  const double target = product(at->x, at->z, s->n) / s->n;
+  for (int j = 0; j < s->n; j++)
+    s->r[j] = target - at->x[j] * at->z[j];
+  newton(s, s->p, s->q, s->r, &s->step);
+  return target;
+}
+
 /* Corrects products x z that a longer step would leave far from the target; kept only if the step gets longer. */
 static bool correct_again(state *s, double target)
 {
-  const double least = 0.1, most = 10, further = 0.1;
+  const double least = 0.1, most = 10, further = 0.2;
   point *at = &s->at, *d = &s->step, *t = &s->trial;
   double along_x = reach(at->x, d->x, s->n), along_z = reach(at->z, d->z, s->n);
   double try_x = fmin(1, along_x + further), try_z = fmin(1, along_z + further);
   for (int j = 0; j < s->n; j++) {
     double now = (at->x[j] + try_x * d->x[j]) * (at->z[j] + try_z * d->z[j]);
-    double wanted = fmin(fmax(now, least * target), most * target);
-    s->r[j] = fmax(wanted - now, -most * target);
+    double wanted = smaller(larger(now, least * target), most * target);
+    s->r[j] = larger(wanted - now, -most * target);
   }
   newton(s, NULL, NULL, s->r, t);
   for (int j = 0; j < s->n; j++) {
@@ -272,12 +405,13 @@ static void run(state *s, const thr_limits *limits, thr_interior *out)
 {
   double bound = -INFINITY;
   int since = 0;
-  start(s);
+  if (!start_warm(s)) start(s);
   out->error = INFINITY;
   out->outcome = THR_LP_UNDECIDED;
   for (out->iterations = 0; out->iterations < MOST_ITERATIONS && since < PATIENCE; out->iterations++) {
     quality k = measure(s);
     if (!isfinite(k.error)) return;
+    if (s->e->warm && k.gap > WARM) keep_warm(s);
     since = keep(s, &k, &bound, out) ? 0 : since + 1;
     if (k.error < s->goal) {
       out->outcome = THR_LP_OPTIMAL;
@@ -289,8 +423,8 @@ static void run(state *s, const thr_limits *limits, thr_interior *out)
     }
     for (int j = 0; j < s->n; j++)
       s->weight[j] = s->at.x[j] / s->at.z[j];
-    thr_normal_factor(s->normal, s->weight);
-    double target = predict_and_correct(s);
+    factor(s);
+    double target = k.gap < 0.9 * s->goal ? meet(s) : predict_and_correct(s);
     for (int i = 0; i < MOST_CORRECTORS && correct_again(s, target); i++)
       ;
     advance(s);
@@ -300,10 +434,16 @@ static void run(state *s, const thr_limits *limits, thr_interior *out)
 thr_status thr_interior_solve(const thr_equations *equations, const thr_limits *limits, thr_interior *out, thr_err *err)
 {
   state s = {.e = equations,
+             .rays = {.n_cones = equations->n_cones,
+                      .n_rays = equations->n_rays,
+                      .n_plain = equations->a.n_columns - 3 * equations->n_cones,
+                      .kind = equations->kind,
+                      .ray = equations->ray},
              .m = equations->a.n_rows,
-             .n = equations->a.n_columns,
+             .components = equations->a.n_columns,
              .goal = equations->goal > 0 ? equations->goal : GOAL};
   s.unmet = equations->met > 0 ? s.goal / equations->met : fmax(1, s.goal / MET);
+  s.n = thr_rays_unknowns(&s.rays);
   thr_status st = state_make(&s, err);
   if (!st) run(&s, limits, out);
   thr_normal_destroy(s.normal);

@@ -10,22 +10,36 @@
 
 #include "graph/limits.h"
 #include "graph/status.h"
+#include "lp/solver/bundles.h"
 #include "lp/solver/lp.h"
 #include "lp/solver/normal.h"
 
-/* min cost x, A x = rhs, x >= 0. */
+/* A point on the way to an optimum, from which a programme of the same size that differs little starts. 0 at first. */
+typedef struct {
+  int m, n;
+  double *x, *y, *z; /* one array, owned */
+} thr_warm;
+
+void thr_warm_destroy(thr_warm *warm);
+
+/* min cost x, A x = rhs, x >= 0. A is a, but that its first columns are the three directions of cones, each of which stands for
+ * the cone's rays (lp/solver/rays.h): x has n_rays numbers for each cone, then one for each other column. */
 typedef struct {
   thr_columns a;
   const double *rhs;  /* [n_rows] */
-  const double *cost; /* [n_columns] */
+  const double *cost; /* of each x */
   double goal;        /* relative gap to end at, 0 = 1e-8 .. */
   double met;         /* .. and how far the equations are met, relative, 0 = 1e-6: more ends sooner where only dual counts */
+  thr_warm *warm;     /* started from if it fits, and replaced; NULL = none */
+  int n_cones, n_rays;
+  const int *kind;        /* [n_cones] */
+  const double (*ray)[3]; /* [kinds * n_rays] in a cone's three directions */
 } thr_equations;
 
 /* The best that was seen; both arrays are the caller's. x and dual may come from different steps: rounding spoils x first. */
 typedef struct {
   thr_lp_outcome outcome; /* OPTIMAL, UNDECIDED (none exists, or numbers too bad) or STOPPED */
-  double *x;              /* [n_columns] > 0 */
+  double *x;              /* > 0 */
   double *dual;           /* [n_rows] multipliers */
   double error;           /* of x: largest of the relative residuals, primal and dual, and the gap */
   int iterations;

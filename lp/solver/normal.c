@@ -2,7 +2,9 @@
  * left: a block takes off what the blocks before it bring, when its turn comes). */
 #include "lp/solver/normal.h"
 #include "graph/scratch.h"
+#include "lp/solver/dense.h"
 #include "lp/solver/factor_order.h"
+#include "lp/solver/wide.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,45 +15,29 @@
  * sign. Callers improve the solution. */
 static const double DEPENDS = 1e-12, LEAST = 1e-15;
 
+enum { STRIP = THR_DENSE_MOST /* columns that are worked on together */ };
+
 struct thr_normal {
-  thr_columns a;
   thr_factor_order order;
-  int *place;            /* [entries of A] of its row; ascending within a column */
-  double *entry;         /* values in that order */
-  int *by_start, *by_at; /* by place: where in place[] its entries stand */
-  int *ends;             /* [entries of A] end of the column that the entry by_at is in */
-  int *owner;            /* and that column */
-  size_t *panel;         /* [n_blocks] where its columns begin in value */
-  double *value;         /* each column from the block's first row down, the upper part of it unused */
-  bool *depends;         /* [n_rows] on the rows before it, by place */
-  bool known;            /* which do */
-  double *whole;         /* [n_rows] diagonal before anything was taken off */
-  int *block_of;         /* [n_rows] by place */
-  int *head, *next;      /* blocks that bring something to a block: lists .. */
-  size_t *at;            /* .. and where in order.below their next rows begin */
-  int *where;            /* [n_rows] row of a place in the current block's panel */
-  double *work;          /* [n_rows] */
-  double *update;        /* [most rows below a block] */
-  thr_scratch own;       /* the arrays */
+  thr_bundles a;
+  int n_threes;
+  size_t *to;       /* where a bundle's products of two rows are added in value: its rows, each with those from it on */
+  double *weighed;  /* [most rows x most columns of a bundle] A W */
+  double *sum;      /* [most rows of a bundle] */
+  size_t *panel;    /* [n_blocks + 1] where its columns begin in value */
+  double *value;    /* each column from the block's first row down, the upper part of it unused */
+  bool *depends;    /* [n_rows] on the rows before it, by place */
+  bool known;       /* which do */
+  double *whole;    /* [n_rows] diagonal before anything was taken off */
+  int *block_of;    /* [n_rows] by place */
+  int *head, *next; /* blocks that bring something to a block: lists .. */
+  size_t *at;       /* .. and where in order.below their next rows begin */
+  int *where;       /* [n_rows] row of a place in the current block's panel */
+  double *work;     /* [n_rows] */
+  int *rows;        /* [most rows of a block] */
+  double *update;   /* [STRIP x most rows of a block] */
+  thr_scratch own;  /* the arrays */
 };
-
-void thr_columns_times(const thr_columns *a, const double *x, double *y)
-{
-  memset(y, 0, (size_t)a->n_rows * sizeof *y);
-  for (int j = 0; j < a->n_columns; j++)
-    for (int k = a->start[j]; k < a->start[j + 1]; k++)
-      y[a->row[k]] += a->value[k] * x[j];
-}
-
-void thr_columns_transposed(const thr_columns *a, const double *y, double *x)
-{
-  for (int j = 0; j < a->n_columns; j++) {
-    double sum = 0;
-    for (int k = a->start[j]; k < a->start[j + 1]; k++)
-      sum += a->value[k] * y[a->row[k]];
-    x[j] = sum;
-  }
-}
 
 /* ---- making ---- */
 
@@ -66,54 +52,57 @@ static size_t height(const thr_factor_order *o, int block)
   return (size_t)width(o, block) + (o->end[block + 1] - o->end[block]);
 }
 
-/* The columns of A with rows by place, ascending, and these by place. */
-static void sort_entries(thr_normal *normal)
+/* Where the entry of two places is in value, the later one's row in the earlier one's column. */
+static size_t entry_of(const thr_normal *normal, int one, int other)
 {
-  const thr_columns *a = &normal->a;
-  const int m = a->n_rows;
-  for (int j = 0; j < a->n_columns; j++)
-    for (int k = a->start[j]; k < a->start[j + 1]; k++) {
-      const int place = normal->order.place[a->row[k]];
-      int at = k;
-      for (; at > a->start[j] && normal->place[at - 1] > place; at--)
-        normal->place[at] = normal->place[at - 1], normal->entry[at] = normal->entry[at - 1];
-      normal->place[at] = place;
-      normal->entry[at] = a->value[k];
-      normal->by_start[place + 1]++;
+  const thr_factor_order *o = &normal->order;
+  const int early = one < other ? one : other, late = one < other ? other : one, block = normal->block_of[early];
+  size_t low = o->end[block], high = o->end[block + 1], row = (size_t)(late - o->first[block]);
+  if (late >= o->first[block + 1]) {
+    while (high - low > 1) {
+      const size_t middle = low + (high - low) / 2;
+      if (o->below[middle] <= late)
+        low = middle;
+      else
+        high = middle;
     }
-  for (int i = 0; i < m; i++)
-    normal->by_start[i + 1] += normal->by_start[i];
-  for (int j = 0; j < a->n_columns; j++)
-    for (int k = a->start[j]; k < a->start[j + 1]; k++) {
-      const int to = normal->by_start[normal->place[k]]++;
-      normal->by_at[to] = k;
-      normal->ends[to] = a->start[j + 1];
-      normal->owner[to] = j;
-    }
-  for (int i = m; i > 0; i--)
-    normal->by_start[i] = normal->by_start[i - 1];
-  normal->by_start[0] = 0;
+    row = (size_t)width(o, block) + (low - o->end[block]);
+  }
+  return normal->panel[block] + (size_t)(early - o->first[block]) * height(o, block) + row;
+}
+
+static void find_entries(thr_normal *normal)
+{
+  const int *place = normal->order.place;
+  size_t *to = normal->to;
+  for (int g = 0; g < normal->a.n_bundles; g++)
+    for (int i = normal->a.first[g]; i < normal->a.first[g + 1]; i++)
+      for (int k = i; k < normal->a.first[g + 1]; k++)
+        *to++ = entry_of(normal, place[normal->a.row[i]], place[normal->a.row[k]]);
 }
 
 static thr_status allocate(thr_normal *normal, thr_err *err)
 {
   const thr_factor_order *o = &normal->order;
-  const size_t m = (size_t)o->n_rows, n = (size_t)o->n_blocks, entries = (size_t)normal->a.start[normal->a.n_columns];
-  size_t values = 0, update = 0;
-  normal->panel = thr_scratch_array(&normal->own, n, sizeof *normal->panel);
+  const thr_bundles *a = &normal->a;
+  const size_t m = (size_t)o->n_rows, n = (size_t)o->n_blocks;
+  size_t values = 0, most = 0, pairs = 0;
+  normal->panel = thr_scratch_array(&normal->own, n + 1, sizeof *normal->panel);
   for (int b = 0; b < o->n_blocks && normal->panel; b++) {
-    normal->panel[b] = values;
     values += height(o, b) * (size_t)width(o, b);
-    if (o->end[b + 1] - o->end[b] > update) update = o->end[b + 1] - o->end[b];
+    normal->panel[b + 1] = values;
+    if (height(o, b) > most) most = height(o, b);
   }
+  for (int g = 0; g < a->n_bundles; g++) {
+    const size_t high = (size_t)(a->first[g + 1] - a->first[g]);
+    pairs += high * (high + 1) / 2;
+  }
+  normal->to = thr_scratch_array(&normal->own, pairs, sizeof *normal->to);
+  normal->weighed = thr_scratch_array(&normal->own, (size_t)a->most_rows * (size_t)a->most_wide, sizeof *normal->weighed);
+  normal->sum = thr_scratch_array(&normal->own, (size_t)a->most_rows, sizeof *normal->sum);
   normal->value = thr_scratch_array(&normal->own, values, sizeof *normal->value);
-  normal->update = thr_scratch_array(&normal->own, update, sizeof *normal->update);
-  normal->place = thr_scratch_array(&normal->own, entries, sizeof *normal->place);
-  normal->entry = thr_scratch_array(&normal->own, entries, sizeof *normal->entry);
-  normal->by_start = thr_scratch_array(&normal->own, m + 1, sizeof *normal->by_start);
-  normal->by_at = thr_scratch_array(&normal->own, entries, sizeof *normal->by_at);
-  normal->ends = thr_scratch_array(&normal->own, entries, sizeof *normal->ends);
-  normal->owner = thr_scratch_array(&normal->own, entries, sizeof *normal->owner);
+  normal->update = thr_scratch_array(&normal->own, STRIP * most, sizeof *normal->update);
+  normal->rows = thr_scratch_array(&normal->own, most, sizeof *normal->rows);
   normal->depends = thr_scratch_array(&normal->own, m, sizeof *normal->depends);
   normal->whole = thr_scratch_array(&normal->own, m, sizeof *normal->whole);
   normal->head = thr_scratch_array(&normal->own, n, sizeof *normal->head);
@@ -125,22 +114,23 @@ static thr_status allocate(thr_normal *normal, thr_err *err)
   return thr_scratch_check(&normal->own, err);
 }
 
-thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, thr_err *err)
+thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, int n_threes, thr_err *err)
 {
   *normal = NULL;
   thr_normal *made = thr_calloc(1, sizeof *made);
   if (!made) return thr_nomem(err);
-  made->a = *a;
+  made->n_threes = n_threes;
   thr_status st = thr_factor_order_make(&made->order, a, err);
+  if (!st) st = thr_bundles_make(&made->a, a, 3 * n_threes, err);
   if (!st) st = allocate(made, err);
   if (st) {
     thr_normal_destroy(made);
     return st;
   }
-  sort_entries(made);
   for (int b = 0; b < made->order.n_blocks; b++)
     for (int i = made->order.first[b]; i < made->order.first[b + 1]; i++)
       made->block_of[i] = b;
+  find_entries(made);
   *normal = made;
   return THR_OK;
 }
@@ -149,62 +139,115 @@ void thr_normal_destroy(thr_normal *normal)
 {
   if (!normal) return;
   thr_factor_order_destroy(&normal->order);
+  thr_bundles_destroy(&normal->a);
   thr_scratch_free(&normal->own);
   free(normal);
 }
 
-/* ---- dense work, columns of `rows` numbers each ---- */
-
-/* to -= sum over k of from[k] x factor[k]; n_k columns of from, `apart` numbers apart, as are the factors. */
-static void subtract(double *restrict to, const double *restrict from, const double *factor, size_t apart, int n_k, size_t n)
+const thr_bundles *thr_normal_bundles(const thr_normal *normal)
 {
-  int k = 0;
-  for (; k + 4 <= n_k; k += 4, from += 4 * apart, factor += 4 * apart) {
-    const double *f1 = from + apart, *f2 = f1 + apart, *f3 = f2 + apart;
-    const double c0 = factor[0], c1 = factor[apart], c2 = factor[2 * apart], c3 = factor[3 * apart];
-    for (size_t i = 0; i < n; i++)
-      to[i] -= from[i] * c0 + f1[i] * c1 + f2[i] * c2 + f3[i] * c3;
-  }
-  for (; k < n_k; k++, from += apart, factor += apart)
-    for (size_t i = 0; i < n; i++)
-      to[i] -= from[i] * factor[0];
+  return &normal->a;
 }
 
-/* The block's own columns: Cholesky, and the rows below by it. */
-static void factor_panel(thr_normal *normal, int block)
+/* ---- A W A^T ---- */
+
+/* A W of a bundle whose columns are weighed three by three, n rows each. */
+THR_INLINE void weigh_threes(double *restrict to, const double *restrict from, const double *restrict w, int wide, int n)
 {
-  const int n = width(&normal->order, block), first = normal->order.first[block];
-  const size_t rows = height(&normal->order, block);
-  double *panel = normal->value + normal->panel[block];
-  for (int j = 0; j < n; j++) {
-    double *column = panel + (size_t)j * rows, pivot, whole = normal->whole[first + j];
-    subtract(column + j, panel + j, panel + j, rows, j, rows - (size_t)j);
-    if (!normal->known) normal->depends[first + j] = !(column[j] > DEPENDS * whole);
-    pivot = normal->depends[first + j] ? 0 : sqrt(fmax(column[j], LEAST * whole));
-    column[j] = pivot;
-    for (size_t i = (size_t)j + 1; i < rows; i++)
-      column[i] = pivot > 0 ? column[i] / pivot : 0;
+  for (int k = 0; k < wide; k += 3, w += 6, from += 3 * n, to += 3 * n)
+    for (int i = 0; i < n; i++) {
+      const double x = from[i], y = from[n + i], z = from[2 * n + i];
+      to[i] = w[0] * x + w[1] * y + w[2] * z;
+      to[n + i] = w[1] * x + w[3] * y + w[4] * z;
+      to[2 * n + i] = w[2] * x + w[4] * y + w[5] * z;
+    }
+}
+
+THR_INLINE void weigh_each(double *restrict to, const double *restrict from, const double *restrict w, int wide, int n)
+{
+  for (int k = 0; k < wide; k++)
+    for (int i = 0; i < n; i++)
+      to[k * n + i] = w[k] * from[k * n + i];
+}
+
+/* sum[n] = sum over columns of weighed[column] x factor[row of the column]. */
+THR_INLINE void mix(double *restrict sum, const double *restrict weighed, const double *restrict factor, int wide, int n)
+{
+  for (int i = 0; i < n; i++)
+    sum[i] = 0;
+  for (int k = 0; k < wide; k++)
+    for (int i = 0; i < n; i++)
+      sum[i] += weighed[k * n + i] * factor[k * n];
+}
+
+/* Adds the bundle's A W A^T, from each row on. */
+THR_INLINE void add_bundle(thr_normal *normal, int g, const double *w, bool threes, int wide, int n, const size_t **to)
+{
+  const double *from = normal->a.value + normal->a.at[g];
+  double *value = normal->value, *sum = normal->sum;
+  if (threes)
+    weigh_threes(normal->weighed, from, w, wide, n);
+  else
+    weigh_each(normal->weighed, from, w, wide, n);
+  for (int i = 0; i < n; i++) {
+    mix(sum, normal->weighed, from + i, wide, n);
+    for (int k = i; k < n; k++)
+      value[*(*to)++] += sum[k];
   }
+}
+
+enum { USUAL = 12 /* rows and columns of a face between two beads: loops of that length are unrolled */ };
+
+/* A W A^T, and its diagonal. */
+THR_WIDE static void load(thr_normal *normal, const double *weights)
+{
+  const thr_factor_order *o = &normal->order;
+  const size_t *to = normal->to;
+  memset(normal->value, 0, normal->panel[o->n_blocks] * sizeof *normal->value);
+  for (int g = 0; g < normal->a.n_bundles; g++) {
+    const int j = normal->a.column[g], wide = normal->a.column[g + 1] - j, n = normal->a.first[g + 1] - normal->a.first[g];
+    const bool threes = j < 3 * normal->n_threes;
+    const double *w = weights + (threes ? 2 * j : j + 3 * normal->n_threes);
+    if (threes && wide == USUAL && n == USUAL)
+      add_bundle(normal, g, w, true, USUAL, USUAL, &to);
+    else
+      add_bundle(normal, g, w, threes, wide, n, &to);
+  }
+  for (int b = 0; b < o->n_blocks; b++)
+    for (int i = 0; i < width(o, b); i++) {
+      double *pivot = normal->value + normal->panel[b] + (size_t)i * (height(o, b) + 1);
+      normal->whole[o->first[b] + i] = *pivot;
+      *pivot += LEAST * *pivot;
+    }
 }
 
 /* ---- factors ---- */
 
-/* The block's columns of A D A^T from the diagonal down. */
-static void load_panel(thr_normal *normal, const double *weights, int block)
+/* The block's own columns: Cholesky, and the rows below by it. */
+THR_WIDE static void factor_panel(thr_normal *normal, int block)
 {
+  const int n = width(&normal->order, block), first = normal->order.first[block];
   const size_t rows = height(&normal->order, block);
-  const int first = normal->order.first[block], n = width(&normal->order, block);
   double *panel = normal->value + normal->panel[block];
-  memset(panel, 0, rows * (size_t)n * sizeof *panel);
-  for (int i = 0; i < n; i++) {
-    double *column = panel + (size_t)i * rows;
-    for (int k = normal->by_start[first + i]; k < normal->by_start[first + i + 1]; k++) {
-      const int at = normal->by_at[k];
-      const double factor = normal->entry[at] * weights[normal->owner[k]];
-      for (int l = at; l < normal->ends[k]; l++)
-        column[normal->where[normal->place[l]]] += factor * normal->entry[l];
+  for (int begin = 0; begin < n; begin += STRIP) {
+    const int end = begin + STRIP < n ? begin + STRIP : n;
+    const size_t left = rows - (size_t)begin;
+    if (begin > 0) thr_dense_product(normal->update, panel + begin, panel + begin, rows, begin, left, end - begin);
+    for (int j = begin; j < end; j++) {
+      double *column = panel + (size_t)j * rows, pivot, whole = normal->whole[first + j], factor[STRIP];
+      const double *brought = normal->update + (size_t)(j - begin) * left;
+      for (size_t i = (size_t)j; i < rows && begin > 0; i++)
+        column[i] -= brought[i - (size_t)begin];
+      for (int k = begin; k < j; k++)
+        factor[k - begin] = panel[(size_t)k * rows + (size_t)j];
+      if (j > begin) thr_dense_take(column + j, panel + (size_t)begin * rows + j, rows, factor, j - begin, rows - (size_t)j);
+      if (!normal->known) normal->depends[first + j] = !(column[j] > DEPENDS * whole);
+      pivot = normal->depends[first + j] ? 0 : sqrt(fmax(column[j], LEAST * whole));
+      column[j] = pivot;
+      const double inverse = pivot > 0 ? 1 / pivot : 0;
+      for (size_t i = (size_t)j + 1; i < rows; i++)
+        column[i] *= inverse;
     }
-    column[i] += LEAST * normal->whole[first + i];
   }
 }
 
@@ -218,40 +261,37 @@ static void enlist(thr_normal *normal, int block)
 }
 
 /* Takes off what the block `from` brings to `to`, and moves on to its next rows. */
-static void bring(thr_normal *normal, int from, int to)
+THR_WIDE static void bring(thr_normal *normal, int from, int to)
 {
   const thr_factor_order *o = &normal->order;
   const size_t rows = height(o, from), rows_to = height(o, to), begin = normal->at[from], end = o->end[from + 1];
-  const size_t above = (size_t)width(o, from) + (begin - o->end[from]), n = end - begin;
+  const size_t above = (size_t)width(o, from) + (begin - o->end[from]);
   const double *panel = normal->value + normal->panel[from] + above;
+  const int *below = o->below + begin;
   size_t columns = 0;
-  while (begin + columns < end && o->below[begin + columns] < o->first[to + 1])
+  while (begin + columns < end && below[columns] < o->first[to + 1])
     columns++;
-  for (size_t c = 0; c < columns; c++) {
-    double *sum = normal->update;
-    memset(sum, 0, (n - c) * sizeof *sum);
-    subtract(sum, panel + c, panel + c, rows, width(o, from), n - c);
-    double *column = normal->value + normal->panel[to] + (size_t)(o->below[begin + c] - o->first[to]) * rows_to;
-    for (size_t i = c; i < n; i++)
-      column[normal->where[o->below[begin + i]]] += sum[i - c];
+  int *at = normal->rows;
+  for (size_t i = 0; i < end - begin; i++)
+    at[i] = normal->where[below[i]];
+  for (size_t c = 0; c < columns; c += STRIP) {
+    const size_t n = end - begin - c;
+    const int strip = columns - c < STRIP ? (int)(columns - c) : STRIP;
+    thr_dense_product(normal->update, panel + c, panel + c, rows, width(o, from), n, strip);
+    for (int q = 0; q < strip; q++) {
+      const double *brought = normal->update + (size_t)q * n;
+      double *column = normal->value + normal->panel[to] + (size_t)(below[c + (size_t)q] - o->first[to]) * rows_to;
+      for (size_t i = (size_t)q; i < n; i++)
+        column[at[c + i]] -= brought[i];
+    }
   }
   normal->at[from] = begin + columns;
-}
-
-/* The diagonal of A D A^T. */
-static void set_diagonal(thr_normal *normal, const double *weights)
-{
-  const thr_columns *a = &normal->a;
-  memset(normal->whole, 0, (size_t)a->n_rows * sizeof *normal->whole);
-  for (int j = 0; j < a->n_columns; j++)
-    for (int k = a->start[j]; k < a->start[j + 1]; k++)
-      normal->whole[normal->place[k]] += weights[j] * normal->entry[k] * normal->entry[k];
 }
 
 void thr_normal_factor(thr_normal *normal, const double *weights)
 {
   const thr_factor_order *o = &normal->order;
-  set_diagonal(normal, weights);
+  load(normal, weights);
   for (int b = 0; b < o->n_blocks; b++)
     normal->head[b] = -1;
   for (int b = 0; b < o->n_blocks; b++) {
@@ -259,7 +299,6 @@ void thr_normal_factor(thr_normal *normal, const double *weights)
       normal->where[i] = i - o->first[b];
     for (size_t i = o->end[b]; i < o->end[b + 1]; i++)
       normal->where[o->below[i]] = width(o, b) + (int)(i - o->end[b]);
-    load_panel(normal, weights, b);
     for (int from = normal->head[b], after; from >= 0; from = after) {
       after = normal->next[from];
       bring(normal, from, b);
@@ -273,57 +312,64 @@ void thr_normal_factor(thr_normal *normal, const double *weights)
 }
 
 /* w becomes L^-1 w, block by block. */
-static void solve_down(const thr_normal *normal, double *w)
+THR_WIDE static void solve_down(const thr_normal *normal, double *w)
 {
   const thr_factor_order *o = &normal->order;
+  double *part = normal->update;
   for (int b = 0; b < o->n_blocks; b++) {
-    const int n = width(o, b);
-    const size_t rows = height(o, b), below = rows - (size_t)n;
-    const double *column = normal->value + normal->panel[b];
-    double *own = w + o->first[b], *sum = normal->update;
-    memset(sum, 0, below * sizeof *sum);
-    for (int j = 0; j < n; j++, column += rows) {
-      own[j] = column[j] > 0 ? own[j] / column[j] : 0;
-      for (int i = j + 1; i < n; i++)
-        own[i] -= column[i] * own[j];
-      for (size_t i = 0; i < below; i++)
-        sum[i] += column[(size_t)n + i] * own[j];
+    const int n = width(o, b), *below = o->below + o->end[b];
+    const size_t rows = height(o, b), left = rows - (size_t)n;
+    const double *panel = normal->value + normal->panel[b];
+    double *own = w + o->first[b];
+    memcpy(part, own, (size_t)n * sizeof *part);
+    memset(part + n, 0, left * sizeof *part);
+    for (int begin = 0; begin < n; begin += STRIP) {
+      const int end = begin + STRIP < n ? begin + STRIP : n;
+      for (int j = begin; j < end; j++) {
+        const double *column = panel + (size_t)j * rows;
+        part[j] = column[j] > 0 ? part[j] / column[j] : 0;
+        for (int i = j + 1; i < end; i++)
+          part[i] -= column[i] * part[j];
+      }
+      thr_dense_take(part + end, panel + (size_t)begin * rows + end, rows, part + begin, end - begin, rows - (size_t)end);
     }
-    for (size_t i = 0; i < below; i++)
-      w[o->below[o->end[b] + i]] -= sum[i];
+    memcpy(own, part, (size_t)n * sizeof *part);
+    for (size_t i = 0; i < left; i++)
+      w[below[i]] += part[(size_t)n + i];
   }
 }
 
 /* w becomes L^-T w. */
-static void solve_up(const thr_normal *normal, double *w)
+THR_WIDE static void solve_up(const thr_normal *normal, double *w)
 {
   const thr_factor_order *o = &normal->order;
+  double *part = normal->update, sum[STRIP];
   for (int b = o->n_blocks - 1; b >= 0; b--) {
-    const int n = width(o, b);
-    const size_t rows = height(o, b), below = rows - (size_t)n;
-    double *own = w + o->first[b], *after = normal->update;
-    for (size_t i = 0; i < below; i++)
-      after[i] = w[o->below[o->end[b] + i]];
-    for (int j = n - 1; j >= 0; j--) {
-      const double *column = normal->value + normal->panel[b] + (size_t)j * rows;
-      double sum[4] = {own[j]};
-      size_t i = 0;
-      for (int k = j + 1; k < n; k++)
-        sum[0] -= column[k] * own[k];
-      for (; i + 4 <= below; i += 4)
-        for (int k = 0; k < 4; k++)
-          sum[k] -= column[(size_t)n + i + (size_t)k] * after[i + (size_t)k];
-      for (; i < below; i++)
-        sum[0] -= column[(size_t)n + i] * after[i];
-      const double all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-      own[j] = column[j] > 0 ? all / column[j] : 0;
+    const int n = width(o, b), *below = o->below + o->end[b];
+    const size_t rows = height(o, b), left = rows - (size_t)n;
+    const double *panel = normal->value + normal->panel[b];
+    double *own = w + o->first[b];
+    memcpy(part, own, (size_t)n * sizeof *part);
+    for (size_t i = 0; i < left; i++)
+      part[(size_t)n + i] = w[below[i]];
+    for (int end = n; end > 0; end = (end - 1) / STRIP * STRIP) {
+      const int begin = (end - 1) / STRIP * STRIP;
+      thr_dense_sums(sum, panel + (size_t)begin * rows + end, rows, part + end, end - begin, rows - (size_t)end);
+      for (int j = end - 1; j >= begin; j--) {
+        const double *column = panel + (size_t)j * rows;
+        double all = part[j] - sum[j - begin];
+        for (int k = j + 1; k < end; k++)
+          all -= column[k] * part[k];
+        part[j] = column[j] > 0 ? all / column[j] : 0;
+      }
     }
+    memcpy(own, part, (size_t)n * sizeof *part);
   }
 }
 
 void thr_normal_solve(thr_normal *normal, const double *r, double *y)
 {
-  const int m = normal->a.n_rows, *place = normal->order.place;
+  const int m = normal->order.n_rows, *place = normal->order.place;
   for (int i = 0; i < m; i++)
     normal->work[place[i]] = r[i];
   solve_down(normal, normal->work);

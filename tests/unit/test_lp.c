@@ -2,9 +2,11 @@
 #include "tests/support.h"
 #include "tests/frameworks.h"
 #include "graph/framework/cuttree.h"
+#include "lp/solver/bundles.h"
 #include "lp/solver/interior.h"
 #include "graph/limits.h"
 #include "lp/solver/lp.h"
+#include "lp/solver/dense.h"
 #include "lp/solver/normal.h"
 
 #include <math.h>
@@ -405,7 +407,7 @@ START_TEST(normal_equations_are_solved)
   draw_columns(&p, &r);
   thr_columns a = {p.m, p.n, p.start, p.row, p.value};
   thr_normal *normal;
-  ck_assert_int_eq(thr_normal_create(&normal, &a, NULL), THR_OK);
+  ck_assert_int_eq(thr_normal_create(&normal, &a, 0, NULL), THR_OK);
   for (int round = 0; round < 3; round++) {
     double weight[400], dense[64][64], wanted[64], right[64] = {0}, found[64], most = 0;
     for (int j = 0; j < p.n; j++)
@@ -439,20 +441,116 @@ START_TEST(equal_rows_are_solved_once)
   thr_columns a = {3, 3, start, row, value};
   thr_normal *normal;
   double y[4] = {0, 0, 0, 77}, z[4] = {0, 0, 0, 77}, back[4] = {0, 0, 0, 77};
-  ck_assert_int_eq(thr_normal_create(&normal, &a, NULL), THR_OK);
+  ck_assert_int_eq(thr_normal_create(&normal, &a, 0, NULL), THR_OK);
   thr_normal_factor(normal, weight);
   thr_normal_solve(normal, right, y);
   ck_assert((y[0] == 0) != (y[2] == 0));
-  thr_columns_transposed(&a, y, z);
+  thr_bundles_transposed(thr_normal_bundles(normal), y, z);
   ck_assert(z[3] == 77);
   for (int j = 0; j < 3; j++)
     z[j] *= weight[j];
-  thr_columns_times(&a, z, back);
+  thr_bundles_times(thr_normal_bundles(normal), z, back);
   for (int i = 0; i < 3; i++)
     ck_assert_double_eq_tol(back[i], right[i], 1e-12);
   ck_assert(y[3] == 77 && back[3] == 77);
   thr_normal_destroy(normal);
   thr_normal_destroy(NULL);
+}
+END_TEST
+
+/* Columns three by three, with weights that are positive definite blocks: the dense matrix of the same, by definition. */
+START_TEST(columns_are_weighed_three_by_three)
+{
+  rng r = rng_make((uint64_t)_i + 900);
+  programme p = {.m = rng_between(&r, 8, 40)};
+  const int threes = rng_between(&r, 1, 20), rest = rng_between(&r, 0, 20);
+  p.n = 3 * threes + rest;
+  double block[100][3][3] = {{{0}}}, weight[200], dense[64][64] = {{0}}, wanted[64], right[64] = {0}, found[64], most = 0;
+  for (int j = 0, high = 1; j < p.n; j++) { /* often the rows of the one before */
+    const bool alike = j > 0 && (j % 3 > 0 || rng_below(&r, 2));
+    if (!alike) high = rng_between(&r, 1, 8);
+    for (int k = 0, first = rng_below(&r, p.m); k < high; k++) {
+      p.row[p.start[j] + k] = alike ? p.row[p.start[j - 1] + k] : (first + k) % p.m;
+      p.value[p.start[j] + k] = 2 * rng_unit(&r) - 1;
+    }
+    p.start[j + 1] = p.start[j] + high;
+  }
+  for (int t = 0; t < threes; t++) {
+    double root[3][3], *w = weight + 6 * t;
+    for (int k = 0; k < 9; k++)
+      root[k / 3][k % 3] = (k % 4 == 0) + 0.5 * rng_unit(&r);
+    for (int k = 0; k < 27; k++)
+      block[t][k / 9][k / 3 % 3] += root[k / 9][k % 3] * root[k / 3 % 3][k % 3];
+    for (int k = 0, at = 0; k < 3; k++)
+      for (int l = k; l < 3; l++)
+        w[at++] = block[t][k][l];
+  }
+  for (int j = 0; j < rest; j++)
+    weight[6 * threes + j] = 0.1 + rng_unit(&r);
+  for (int j = 0; j < p.n; j++)
+    for (int l = j / 3 < threes ? j / 3 * 3 : j; l < (j / 3 < threes ? j / 3 * 3 + 3 : j + 1); l++)
+      for (int k = p.start[j]; k < p.start[j + 1]; k++)
+        for (int q = p.start[l]; q < p.start[l + 1]; q++)
+          dense[p.row[k]][p.row[q]] +=
+              p.value[k] * p.value[q] * (j / 3 < threes ? block[j / 3][j % 3][l % 3] : weight[3 * threes + j]);
+  const thr_columns a = {p.m, p.n, p.start, p.row, p.value};
+  thr_normal *normal;
+  ck_assert_int_eq(thr_normal_create(&normal, &a, threes, NULL), THR_OK);
+  for (int i = 0; i < p.m; i++)
+    wanted[i] = 2 * rng_unit(&r) - 1;
+  for (int i = 0; i < p.m; i++)
+    for (int k = 0; k < p.m; k++)
+      right[i] += dense[i][k] * wanted[k];
+  thr_normal_factor(normal, weight);
+  thr_normal_solve(normal, right, found);
+  for (int i = 0; i < p.m; i++)
+    most = fmax(most, fabs(right[i]));
+  for (int i = 0; i < p.m; i++) {
+    double left = right[i];
+    for (int k = 0; k < p.m; k++)
+      left -= dense[i][k] * found[k];
+    ck_assert_double_eq_tol(left, 0, 1e-8 * most);
+  }
+  thr_normal_destroy(normal);
+}
+END_TEST
+
+/* Every length and number of columns, beside sums as they are written down. */
+START_TEST(dense_sums_are_right)
+{
+  enum { MOST = 29, APART = 31, MOST_K = 6 };
+  rng r = rng_make(7);
+  double from[APART * MOST_K + MOST], to[THR_DENSE_MOST * MOST], with[APART], factor[THR_DENSE_MOST];
+  for (size_t i = 0; i < sizeof from / sizeof *from; i++)
+    from[i] = 2 * rng_unit(&r) - 1;
+  for (int i = 0; i < APART; i++)
+    with[i] = rng_unit(&r);
+  for (int n = 0; n <= MOST; n++)
+    for (int n_q = 1; n_q <= THR_DENSE_MOST; n_q++) {
+      thr_dense_product(to, from, from, APART, MOST_K, (size_t)n, n_q);
+      thr_dense_sums(factor, from, APART, with, n_q, (size_t)n);
+      for (int q = 0; q < n_q; q++) {
+        double all = 0;
+        for (int i = 0; i < n; i++) {
+          double sum = 0;
+          for (int k = 0; k < MOST_K; k++)
+            sum += from[k * APART + i] * from[k * APART + q];
+          ck_assert_double_eq_tol(to[q * n + i], sum, 1e-14);
+          all += from[q * APART + i] * with[i];
+        }
+        ck_assert_double_eq_tol(factor[q], all, 1e-13);
+      }
+      double left[MOST + 1];
+      for (int i = 0; i <= MOST; i++)
+        left[i] = i;
+      thr_dense_take(left, from, APART, with, n_q, (size_t)n);
+      for (int i = 0; i <= MOST; i++) {
+        double wanted = i;
+        for (int q = 0; q < n_q && i < n; q++)
+          wanted -= from[q * APART + i] * with[q];
+        ck_assert_double_eq_tol(left[i], wanted, 1e-13);
+      }
+    }
 }
 END_TEST
 
@@ -483,6 +581,68 @@ START_TEST(interior_finds_the_optimum_it_was_made_from)
   ck_assert_msg(found.outcome == THR_LP_OPTIMAL && found.error < 1e-8, "error %g after %d", found.error, found.iterations);
   ck_assert_int_le(found.iterations, MOST_STEPS);
   ck_assert_double_eq_tol(assert_optimal(&p), wanted, 1e-6 * (1 + fabs(wanted)));
+}
+END_TEST
+
+/* Cones of which each has its own directions: the same optimum as with a column for every ray, which another solver is asked. And
+ * again from where it was on its way, with other costs. */
+START_TEST(cones_stand_for_their_rays)
+{
+  enum { CONES = 12, RAYS = 5, REST = 8, ROWS = 10, N = CONES * RAYS + REST };
+  static const double ray[2 * RAYS][3] = {{1, 0.5, 0},   {1, -0.5, 0}, {1, 0, 0.5}, {1, 0, -0.5}, {1, 0.1, 0.1},
+                                          {1, 0.2, 0.1}, {1, -0.2, 0}, {1, 0, 0.3}, {1, 0, -0.1}, {1, 0, 0}};
+  rng r = rng_make((uint64_t)_i + 77);
+  int start[3 * CONES + REST + 1] = {0}, row[(3 * CONES + REST) * ROWS], kind[CONES];
+  int wide_start[N + 1] = {0}, wide_row[N * ROWS];
+  double value[(3 * CONES + REST) * ROWS], wide[N * ROWS], cost[N], rhs[ROWS] = {0}, x[N], dual[ROWS];
+  for (int j = 0; j < 3 * CONES + REST; j++) {
+    start[j + 1] = (j + 1) * ROWS;
+    for (int i = 0; i < ROWS; i++) {
+      row[j * ROWS + i] = i;
+      value[j * ROWS + i] = 2 * rng_unit(&r) - 1;
+    }
+  }
+  for (int c = 0; c < CONES; c++)
+    kind[c] = rng_below(&r, 2);
+  for (int j = 0; j < N; j++) {
+    wide_start[j + 1] = (j + 1) * ROWS;
+    const int c = j / RAYS, plain = 3 * CONES + j - CONES * RAYS;
+    for (int i = 0; i < ROWS; i++) {
+      wide_row[j * ROWS + i] = i;
+      wide[j * ROWS + i] = c < CONES ? 0 : value[plain * ROWS + i];
+      for (int k = 0; k < 3 && c < CONES; k++)
+        wide[j * ROWS + i] += ray[kind[c] * RAYS + j % RAYS][k] * value[(3 * c + k) * ROWS + i];
+      if (rng_below(&r, 4) == 0) rhs[i] += wide[j * ROWS + i];
+    }
+    cost[j] = 1 + rng_unit(&r);
+  }
+  thr_warm warm = {0};
+  for (int round = 0; round < 2; round++) {
+    const thr_equations e = {.a = {ROWS, 3 * CONES + REST, start, row, value},
+                             .rhs = rhs,
+                             .cost = cost,
+                             .warm = &warm,
+                             .n_cones = CONES,
+                             .n_rays = RAYS,
+                             .kind = kind,
+                             .ray = ray};
+    thr_interior found = {.x = x, .dual = dual};
+    thr_lp *lp;
+    thr_err err = {0};
+    double primal = 0;
+    ck_assert_int_eq(thr_interior_solve(&e, &no_limit, &found, &err), THR_OK);
+    ck_assert_int_eq(found.outcome, THR_LP_OPTIMAL);
+    ck_assert_int_eq(thr_lp_create_equations(&lp, ROWS, rhs, N, cost, NULL, wide_start, wide_row, wide, &err), THR_OK);
+    assert_outcome(lp, false, THR_LP_OPTIMAL);
+    for (int j = 0; j < N; j++)
+      primal += cost[j] * x[j];
+    ck_assert_double_eq_tol(primal, thr_lp_objective(lp), 1e-6 * primal);
+    thr_lp_destroy(lp);
+    for (int j = 0; j < N; j++)
+      cost[j] += 0.05 * rng_unit(&r);
+  }
+  ck_assert_int_eq(warm.n, N);
+  thr_warm_destroy(&warm);
 }
 END_TEST
 
@@ -667,6 +827,9 @@ int main(void)
   ADD_TEST(s, 10, equations_without_a_solution);
   ADD_LOOP(s, 10, normal_equations_are_solved, 0, 60);
   ADD_TEST(s, 10, equal_rows_are_solved_once);
+  ADD_LOOP(s, 10, columns_are_weighed_three_by_three, 0, 40);
+  ADD_TEST(s, 10, dense_sums_are_right);
+  ADD_LOOP(s, 10, cones_stand_for_their_rays, 0, 20);
   ADD_LOOP(s, 10, interior_finds_the_optimum_it_was_made_from, 0, 40);
   ADD_LOOP(s, 10, interior_finds_the_shortest_way, 0, 20);
   ADD_TEST(s, 10, interior_gives_up_and_stops);
