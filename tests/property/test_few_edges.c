@@ -189,6 +189,37 @@ START_TEST(all_sets_prove_no_more_than_is_true)
 }
 END_TEST
 
+/* Every allocation fails once: then there is no answer, and nothing is lost. */
+START_TEST(running_out_of_memory_gives_no_answer)
+{
+  int component[16] = {0}, chosen[4];
+  unsigned set[4];
+  thr_frame f = grid_make(3, 3);
+  thr_request o = options_for(THR_ENDS_CLOSED, 1);
+  thr_few_edges few;
+  ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+  for (int kind = 0; kind < 2; kind++) {
+    thr_status st = THR_ENOMEM;
+    for (long k = 1; st != THR_OK; k++) {
+      thr_short_cords cords;
+      double proved, found = 0;
+      thr_alloc_fail_at(k);
+      if (kind > 0)
+        st = thr_few_edges_different_dearest(&few, 2, 4, 0, set, &proved, &found, NULL);
+      else {
+        st = thr_short_cords_init(&cords, &f, &o, 1e4, NULL);
+        if (!st) st = thr_short_cords_longest(&cords, 4, 0, chosen, &proved, &found, NULL);
+        thr_short_cords_destroy(&cords);
+      }
+      thr_alloc_fail_at(0);
+      ck_assert(st == THR_OK ? isfinite(found) : st == THR_ENOMEM);
+    }
+  }
+  thr_few_edges_destroy(&few);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* Pieces one by one, until the sets run out; given ends say how many cords there are. */
 START_TEST(bounds_are_of_all_pieces)
 {
@@ -346,6 +377,7 @@ int main(void)
   ADD_EXAMPLES(s, 60, different_ones_are_true, 60);
   ADD_EXAMPLES(s, 60, short_cords_are_those_of_the_table, 200);
   ADD_TEST(s, 60, ways_in_are_no_longer_than_the_table);
+  ADD_TEST(s, 60, running_out_of_memory_gives_no_answer);
   ADD_TEST(s, 20, one_cord_may_stay_at_the_feet);
   ADD_LOOP(s, 60, all_sets_prove_no_more_than_is_true, 0, 6);
   ADD_TEST(s, 20, bounds_are_of_all_pieces);
