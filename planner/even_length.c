@@ -160,18 +160,20 @@ static thr_status walk_over(const thr_short_cords *cords, const int *chosen, int
   return st;
 }
 
-/* Where cords are short all sets of edges that one of them can pass are few: then the longest is as short as can be, and proved.
- */
-static thr_status try_sets(thr_plan *plan, thr_err *err)
+/* Where cords are short all sets of edges that one of them can pass are few: then the longest is as short as can be. Raises
+ * *bound to what they prove of it. */
+static thr_status try_sets(thr_plan *plan, const thr_limits *limits, double *bound, thr_err *err)
 {
+  const double part = .15; /* of the time; the checker's search takes as long */
+  const thr_limits share = thr_limits_part(limits, part);
   const thr_frame *frame = &plan->frame;
-  const double longest = plan->cords_claim.longest, before = plan->cords_claim.longest_bound;
+  const double longest = plan->cords_claim.longest;
   const int n = plan->n_cords;
   double proved = 0, found = INFINITY;
   thr_short_cords cords;
   thr_cord *cord = NULL;
   int *chosen = thr_calloc((size_t)n, sizeof *chosen);
-  thr_status st = chosen ? thr_short_cords_init(&cords, frame, &plan->options, longest, err) : thr_nomem(err);
+  thr_status st = chosen ? thr_short_cords_init(&cords, frame, &plan->options, longest, &share, err) : thr_nomem(err);
   if (!chosen) return st;
   const bool few = !st && cords.n > 0;
   if (few) st = thr_short_cords_longest(&cords, n, longest, chosen, &proved, &found, err);
@@ -179,11 +181,9 @@ static thr_status try_sets(thr_plan *plan, thr_err *err)
   if (!st && cord && has_room(frame, &plan->options, cord, n)) {
     st = take_cords(plan, cord, err);
     cord = NULL;
+    if (!st) st = judge(plan, err);
   }
-  if (!st && proved > before * (1 + 1e-9)) {
-    plan->proof.walks.sets = true;
-    st = judge(plan, err);
-  }
+  *bound = fmax(*bound, proved);
   thr_cords_destroy(cord, cord ? n : 0);
   thr_short_cords_destroy(&cords);
   free(chosen);
@@ -239,7 +239,9 @@ thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr
   enum { MOST_EDGES = 5000 };
   double work = 1; /* seconds, where nobody has said how long it may take */
   const bool unsaid = limits->deadline == 0 && !limits->work;
-  const thr_limits counted = unsaid ? thr_limits_counted(limits, &work) : *limits;
+  const bool timed = limits->deadline > 0;
+  const double again = 1.5;  /* as long as the sets took is left to the checker, which tries them again */
+  thr_limits rest = *limits; /* of the time */
   const thr_cords_claim *claim = &plan->cords_claim;
   bool enough = claim->longest <= claim->longest_bound * (1 + near);
   if (!thr_wants_balance(&plan->options) || enough || plan->frame.n_edges > MOST_EDGES) return THR_OK;
@@ -249,13 +251,22 @@ thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr
   const thr_turning_task task = thr_walk_length_task(&plan->frame, &plan->options, end_allowed);
   thr_status st = thr_turning_columns_init(&columns, &plan->frame, &task, err);
   const bool one = columns.n_components == 1 && plan->options.joint == THR_JOINT_SOLID;
-  if (!st && one) st = try_sets(plan, err);
-  if (!st && !claim->longest_optimal) st = anneal(plan, &columns, limits, err);
-  for (int k = 0; k < columns.n_components && !st && improved && !claim->longest_optimal; k++) {
+  double by_sets = 0, start = timed ? thr_clock() : 0; /* bound on the longest; when it is looked for */
+  if (!st && one) st = try_sets(plan, limits, &by_sets, err);
+  if (timed && by_sets > claim->longest_bound) rest.deadline -= again * (thr_clock() - start);
+  const double before = claim->longest;
+  const bool settled = by_sets >= before * (1 - 1e-9);
+  const thr_limits counted = unsaid ? thr_limits_counted(limits, &work) : rest;
+  if (!st && !settled) st = anneal(plan, &columns, &rest, err);
+  for (int k = 0; k < columns.n_components && !st && improved && !settled && !claim->longest_optimal; k++) {
     st = improve(plan, &columns, &counted, &improved, err);
     if (!st && improved) thr_limits_found(limits, plan->cord, plan->n_cords, NULL);
   }
-  if (!st && one && !claim->longest_optimal) st = try_sets(plan, err);
+  if (!st && one && !claim->longest_optimal && claim->longest < before) st = try_sets(plan, limits, &by_sets, err);
+  if (!st && by_sets > claim->longest_bound * (1 + 1e-9)) {
+    plan->proof.walks.sets = true;
+    st = judge(plan, err);
+  }
   thr_turning_columns_destroy(&columns);
   free(end_allowed);
   return st;

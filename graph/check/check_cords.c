@@ -305,7 +305,7 @@ static thr_status judge_sets(const thr_frame *frame, const thr_request *options,
 {
   thr_short_cords cords;
   double longest = 0, known;
-  thr_status st = thr_short_cords_init(&cords, frame, options, found->longest * (1 + 1e-9), err);
+  thr_status st = thr_short_cords_init(&cords, frame, options, found->longest * (1 + 1e-9), NULL, err);
   if (!st && cords.n == 0)
     st = thr_fail(err, THR_EVIOLATED, "proof.cords.sets: not of this framework, or there are more than are tried");
   if (!st) st = thr_short_cords_longest(&cords, options->cords, found->longest, NULL, &longest, &known, err);

@@ -1,6 +1,7 @@
 /* Sets of edges that short cords pass, and whether so many of them are enough. */
 #include "graph/check/short_cords.h"
 #include "graph/framework/frame.h"
+#include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/scratch.h"
@@ -12,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NONE = -1, PLACES = 2 * THR_SHORT_STATES };
+enum { NONE = -1, PLACES = 2 * THR_SHORT_STATES, LOOK = 1024 };
 
 static bool holds(thr_edge_set set, int e)
 {
@@ -151,6 +152,7 @@ static void walk_on(walker *x)
   const thr_frame *frame = out->f;
   while (x->n_queue > 0 && !x->full) {
     const int s = take_shortest(x);
+    x->full |= s % LOOK == 0 && out->limits && thr_limits_stop(out->limits);
     const thr_short_state here = out->state[s];
     if (here.set != 0 && ends_at(x, here.node)) note_set(x, s);
     for (int i = frame->first[here.node]; i < frame->first[here.node + 1]; i++) {
@@ -187,12 +189,12 @@ static thr_status is_asked(const thr_frame *frame, const thr_request *options, b
 }
 
 thr_status thr_short_cords_init(thr_short_cords *cords, const thr_frame *frame, const thr_request *options, double limit,
-                                thr_err *err)
+                                const thr_limits *limits, thr_err *err)
 {
   walker x = {.out = cords, .closed = options->ends == THR_ENDS_CLOSED};
   thr_scratch own = {0};
   bool asked;
-  *cords = (thr_short_cords){.f = frame, .o = options, .limit = limit};
+  *cords = (thr_short_cords){.f = frame, .o = options, .limits = limits, .limit = limit};
   thr_status st = is_asked(frame, options, &asked, err);
   if (st || !asked) return st;
   cords->set = thr_scratch_array(&cords->own, THR_SHORT_STATES, sizeof *cords->set);
@@ -451,6 +453,7 @@ static bool suffice(decision *x, thr_edge_set lacking, int cords, counted *next)
     return true;
   }
   if (cords == 0 || find_failure(x, lacking)->cords >= cords) return false;
+  if (x->all->limits && thr_limits_stop(x->all->limits)) x->work = INFINITY;
   const int n = list_next(x, lacking, cords - 1, next);
   for (int i = 0; i < n && x->work <= most_work; i++) {
     x->chosen[cords - 1] = next[i].set;

@@ -16,6 +16,7 @@
 #define THR_SHORT_CORDS_H
 
 #include "graph/framework/frame.h"
+#include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/scratch.h"
@@ -44,6 +45,7 @@ typedef struct {
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
+  const thr_limits *limits; /* that stop the searches; NULL: none */
   double limit;
   int n; /* sets; 0: none is known, or there are too many */
   int n_states;
@@ -52,11 +54,11 @@ typedef struct {
   thr_scratch own;
 } thr_short_cords;
 
-/* Sets of cords of at most this length. n = 0 also for several components, tube joints, given numbers of ends and more than
- * THR_SHORT_EDGES edges. O(states (degree + log states)), 100 bytes a state. Release with thr_short_cords_destroy, after a
- * failure too. */
+/* Sets of cords of at most this length. limits: NULL = none; where they stop it, or the search below, nothing is known. n = 0
+ * also for several components, tube joints, given numbers of ends and more than THR_SHORT_EDGES edges. O(states (degree + log
+ * states)), 100 bytes a state. Release with thr_short_cords_destroy, after a failure too. */
 thr_status thr_short_cords_init(thr_short_cords *cords, const thr_frame *frame, const thr_request *options, double limit,
-                                thr_err *err) THR_MUST_CHECK;
+                                const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 void thr_short_cords_destroy(thr_short_cords *cords);
 
 /* The longest of so many cords, of those that pass every edge which needs passes: no less than *proved, the limit if none can

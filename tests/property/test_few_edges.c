@@ -95,7 +95,7 @@ START_TEST(short_cords_are_those_of_the_table)
   ck_assert_int_eq(thr_few_edges_dearest(&few, n, &least, NULL), THR_OK);
   ck_assert(few.n == f.n_edges && isfinite(least));
   const double limit = least * (1 + rng_unit(&r));
-  ck_assert_int_eq(thr_short_cords_init(&cords, &f, &o, limit, NULL), THR_OK);
+  ck_assert_int_eq(thr_short_cords_init(&cords, &f, &o, limit, NULL, NULL), THR_OK);
   ck_assert_int_gt(cords.n, 0);
   ck_assert_int_eq(thr_short_cords_longest(&cords, n, rng_below(&r, 2) ? limit : 0, chosen, &proved, &found, NULL), THR_OK);
   ck_assert_double_eq_tol(proved, least, 1e-9 * least);
@@ -103,7 +103,7 @@ START_TEST(short_cords_are_those_of_the_table)
   assert_cords(&f, &o, &cords, chosen, n, found);
   thr_short_cords_destroy(&cords);
   const double below = least * (1 - 1e-6);
-  ck_assert_int_eq(thr_short_cords_init(&cords, &f, &o, below, NULL), THR_OK);
+  ck_assert_int_eq(thr_short_cords_init(&cords, &f, &o, below, NULL, NULL), THR_OK);
   ck_assert_int_eq(thr_short_cords_longest(&cords, n, 0, chosen, &proved, &found, NULL), THR_OK);
   ck_assert(cords.n == 0 || (proved == below && isinf(found)));
   thr_short_cords_destroy(&cords);
@@ -207,7 +207,7 @@ START_TEST(running_out_of_memory_gives_no_answer)
       if (kind > 0)
         st = thr_few_edges_different_dearest(&few, 2, 4, 0, set, &proved, &found, NULL);
       else {
-        st = thr_short_cords_init(&cords, &f, &o, 1e4, NULL);
+        st = thr_short_cords_init(&cords, &f, &o, 1e4, NULL, NULL);
         if (!st) st = thr_short_cords_longest(&cords, 4, 0, chosen, &proved, &found, NULL);
         thr_short_cords_destroy(&cords);
       }
