@@ -54,7 +54,7 @@ static const char help_rest[] =
     "      --cord-strength N   newtons that the cord bears: says whether the pull would break it\n"
     "      --still FILE     structure: write a picture of the beads before and after the fall, as SVG\n"
     "      --stills FILE    structure: how it comes up from slack as the cords are drawn in, in stills, as SVG, and the\n"
-    "                       counterweight that takes (--pull A=both,B=none: by one cord alone)\n"
+    "                       counterweight that takes (--pull A=both,B=none: by one cord alone); -o keeps their poses\n"
     "      --json           everything as JSON\n"
     "  -q, --quiet          no notes and no progress       -h, --help\n\n"
     "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating tension "

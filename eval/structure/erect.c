@@ -2,6 +2,7 @@
 #include "eval/structure/erect.h"
 #include "eval/structure/settle.h"
 #include "eval/structure/simulated.h"
+#include "graph/plan/standing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +16,6 @@ static const double MOST = 2;       /* times the pull */
 static const double REST_TIME = 3;
 static const double ALONE_TIME = 3; /* for the counterweight to go */
 static const double DAMPING = 0.9;  /* of the velocity, per unit of time */
-static const double CLOSED = 0.01;  /* of an edge */
 static const double UP_GAP = 0.02, UP_HEIGHT = 0.9;
 static const double PART[] = {0, 0.25, 0.5, 0.75, 1};
 enum { PARTS = sizeof PART / sizeof *PART };
@@ -37,7 +37,7 @@ static void take_still(const thr_simulated *m, int i, thr_erect *out)
                                     .lift = m->lift,
                                     .height = 1e3 * height_of((const double(*)[7])pose, m->b->n_beads),
                                     .gap = 1e3 * m->unit * thr_simulated_widest_gap(m),
-                                    .closed = thr_simulated_closed(m, CLOSED)};
+                                    .closed = thr_simulated_closed(m, THR_SEATED)};
 }
 
 static thr_status rest(thr_simulated *m, double time, thr_err *err)

@@ -1,6 +1,7 @@
 /* What the limit analysis found, as the plan keeps it: answers that are proved come with their mechanisms. */
 #include "eval/eval.h"
 #include "eval/methods.h"
+#include "eval/structure/erect.h"
 #include "eval/structure/holding.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/standing.h"
@@ -56,6 +57,22 @@ static thr_status add_loads(thr_standing *standing, int n_nodes, const double (*
   return THR_OK;
 }
 
+static thr_status add_stills(thr_standing *standing, int n_beads, const thr_erect *erect, thr_err *err)
+{
+  if (!erect->present) return THR_OK;
+  if (!(standing->still = thr_calloc(THR_ERECT_STILLS, sizeof *standing->still))) return thr_nomem(err);
+  while (standing->n_stills < THR_ERECT_STILLS) {
+    const int i = standing->n_stills++;
+    const thr_erect_still *from = &erect->still[i];
+    thr_posed *to = &standing->still[i];
+    *to = (thr_posed){.pull = from->pull, .counterweight = from->lift * erect->weight, .seated = from->closed};
+    if (!(to->pose = thr_calloc((size_t)n_beads, sizeof *to->pose))) return thr_nomem(err);
+    memcpy(to->pose, erect->pose + i * n_beads, (size_t)n_beads * sizeof *to->pose);
+    to->n_beads = n_beads;
+  }
+  return THR_OK;
+}
+
 thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_options *options, thr_err *err)
 {
   thr_standing *standing = &evaluation->standing;
@@ -80,6 +97,7 @@ thr_status thr_structure_record(int n_beads, const thr_eval_options *options, th
   standing->answer = thr_calloc((size_t)(NAMED + out->n_carries), sizeof *standing->answer);
   if (!standing->answer) return thr_nomem(err);
   thr_status st = add_loads(standing, n_beads, options->load, err);
+  if (!st) st = add_stills(standing, n_beads, &out->erect, err);
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_HOLDING, &out->holding, err);
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_EQUAL, &out->equal, err);
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_ANY_STATE, &out->loosest, err);

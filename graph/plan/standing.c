@@ -26,7 +26,10 @@ void thr_standing_destroy(thr_standing *standing)
 {
   for (int i = 0; i < standing->n_answers; i++)
     free(standing->answer[i].velocity);
+  for (int i = 0; i < standing->n_stills; i++)
+    free(standing->still[i].pose);
   free(standing->answer);
+  free(standing->still);
   free(standing->load);
   free(standing->drawn);
   *standing = (thr_standing){0};
@@ -81,6 +84,30 @@ static void put_drawn(thr_writer *writer, const thr_standing *standing)
   thr_write_close(writer);
 }
 
+static void put_still(thr_writer *writer, const thr_posed *still)
+{
+  thr_write_line(writer, 5);
+  thr_write_object(writer, NULL);
+  thr_write_number(writer, "pull", still->pull);
+  thr_write_number(writer, "counterweight", still->counterweight);
+  thr_write_int(writer, "seated", still->seated);
+  thr_write_row(writer, "poses");
+  for (int v = 0; v < still->n_beads; v++)
+    for (int k = 0; k < 7; k++)
+      thr_write_number(writer, NULL, still->pose[v][k]);
+  thr_write_close(writer);
+  thr_write_close(writer);
+}
+
+static void put_stills(thr_writer *writer, const thr_standing *standing)
+{
+  thr_write_line(writer, 4);
+  thr_write_array(writer, "stills");
+  for (int i = 0; i < standing->n_stills; i++)
+    put_still(writer, &standing->still[i]);
+  thr_write_close(writer);
+}
+
 void thr_standing_write(const thr_standing *standing, thr_writer *writer, const char *key)
 {
   thr_write_object(writer, key);
@@ -91,6 +118,7 @@ void thr_standing_write(const thr_standing *standing, thr_writer *writer, const 
   if (isfinite(standing->let_down)) thr_write_number(writer, "let_down", standing->let_down);
   if (standing->n_loads > 0) put_loads(writer, standing);
   put_drawn(writer, standing);
+  if (standing->n_stills > 0) put_stills(writer, standing);
   thr_write_line(writer, 4);
   thr_write_array(writer, "answers");
   for (int i = 0; i < standing->n_answers; i++)
@@ -146,6 +174,25 @@ static const char *read_answer(const thr_json *object, thr_answer *answer)
   return mechanism ? read_mechanism(mechanism, answer) : NULL;
 }
 
+/* What is wrong; "": no memory. */
+static const char *read_still(const thr_json *object, thr_posed *still)
+{
+  static const char *const known[] = {"pull", "counterweight", "seated", "poses", NULL};
+  const thr_json *poses = thr_json_get(object, "poses");
+  const int n = thr_json_size(poses);
+  int64_t seated;
+  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
+  if (!amount(object, "pull", true, &still->pull)) return "pull: not a number from 0 on";
+  if (!amount(object, "counterweight", true, &still->counterweight)) return "counterweight: not a number from 0 on";
+  if (!thr_json_int(thr_json_get(object, "seated"), &seated) || seated < 0 || seated > INT32_MAX)
+    return "seated: not a number of gaps";
+  still->seated = (int)seated;
+  if (n < 7 || n % 7) return "poses: not seven numbers for every node";
+  if (!(still->pose = thr_calloc((size_t)n / 7, sizeof *still->pose))) return "";
+  still->n_beads = n / 7;
+  return thr_json_numbers(poses, n, &still->pose[0][0]) ? NULL : "poses: not numbers";
+}
+
 static const char *read_load(const thr_json *object, thr_load *load)
 {
   static const char *const known[] = {"node", "force", NULL};
@@ -182,6 +229,21 @@ static thr_status bad(const reader *r, const char *list, int i, const char *what
   return thr_fail(r->err, THR_EVIOLATED, "%s.%s[%d].%s", r->place, list, i, what);
 }
 
+static thr_status read_stills(const reader *r, const thr_json *list, thr_standing *standing)
+{
+  const int n = thr_json_size(list);
+  if (!list) return THR_OK;
+  if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1) return bad(r, "stills", -1, "not a list of stills");
+  standing->still = thr_calloc((size_t)n, sizeof *standing->still);
+  if (!standing->still) return thr_nomem(r->err);
+  while (standing->n_stills < n) {
+    const int i = standing->n_stills++;
+    const char *what = read_still(thr_json_at(list, i), &standing->still[i]);
+    if (what) return bad(r, "stills", i, what);
+  }
+  return THR_OK;
+}
+
 static thr_status read_lists(const reader *r, const thr_json *object, thr_standing *standing)
 {
   const thr_json *loads = thr_json_get(object, "loads"), *drawn = thr_json_get(object, "drawn"),
@@ -210,7 +272,8 @@ static thr_status read_lists(const reader *r, const thr_json *object, thr_standi
 
 static thr_status read_members(const reader *r, const thr_json *object, thr_standing *standing)
 {
-  static const char *const known[] = {"clamped", "taut", "tilt", "azimuth", "let_down", "loads", "drawn", "answers", NULL};
+  static const char *const known[] = {"clamped", "taut",  "tilt",   "azimuth", "let_down",
+                                      "loads",   "drawn", "stills", "answers", NULL};
   const char *key = thr_json_unknown(object, known);
   if (key) return bad(r, key, -1, "this version does not know it and cannot check it");
   if (thr_json_typeof(thr_json_get(object, "clamped")) != THR_JSON_BOOL) return bad(r, "clamped", -1, "expected true or false");
@@ -221,7 +284,8 @@ static thr_status read_members(const reader *r, const thr_json *object, thr_stan
     return bad(r, "tilt", -1, "not an angle from 0 to a right one");
   if (!thr_json_number(thr_json_get(object, "azimuth"), &standing->azimuth)) return bad(r, "azimuth", -1, "not a finite number");
   if (!amount(object, "let_down", false, &standing->let_down)) return bad(r, "let_down", -1, "not a number from 0 on");
-  return read_lists(r, object, standing);
+  thr_status st = read_stills(r, thr_json_get(object, "stills"), standing);
+  return st ? st : read_lists(r, object, standing);
 }
 
 thr_status thr_standing_from_json(thr_standing *standing, const thr_json *object, int n_cords, const char *place, thr_err *err)
