@@ -4,6 +4,7 @@
 #include "graph/text.h"
 
 #include <limits.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -86,5 +87,7 @@ char *thr_strdup(const char *s)
 thr_status thr_not_proved(thr_err *err, const char *what, double value, double bound)
 {
   if (!(bound > 0)) return thr_fail(err, THR_ELIMIT, "%s is not proved to be near the least", what);
-  return thr_fail(err, THR_ELIMIT, "%s is proved to be at most %.3g %% above the least", what, 100 * (value / bound - 1));
+  const double finest = 1e-4; /* per cent: what is nearer is said to be so near */
+  return thr_fail(err, THR_ELIMIT, "%s is proved to be at most %.3g %% above the least", what,
+                  fmax(finest, 100 * (value / bound - 1)));
 }

@@ -19,8 +19,8 @@ static const double part[THR_N_STEPS] = {
     [THR_STEP_ONE_CORD] = 0.1,        [THR_STEP_SHORTEST] = 0.3,  [THR_STEP_BY_LENGTH] = 0.2,
     [THR_STEP_LEAST] = 0.35,          [THR_STEP_EVEN_SEED] = 0.5, [THR_STEP_EXCHANGES] = 0.2,
     [THR_STEP_SYMMETRIC_TIED] = 0.85, [THR_STEP_FEWEST] = 0.75,   [THR_STEP_FEW_BOUND] = 0.08,
-    [THR_STEP_FEW_TRY] = 0.35,        [THR_STEP_ANY_CORDS] = 0.4, [THR_STEP_COVERS] = 0.3,
-    [THR_STEP_DIFFERENT] = 0.4,
+    [THR_STEP_FEW_WALKS] = 0.4,       [THR_STEP_FEW_TRY] = 0.35,  [THR_STEP_ANY_CORDS] = 0.4,
+    [THR_STEP_COVERS] = 0.3,          [THR_STEP_DIFFERENT] = 0.4,
 };
 
 /* The same where work is counted, for steps whose part differs: nothing is annealed then, which would need time. */

@@ -34,6 +34,7 @@ typedef enum {
   THR_STEP_EVEN_SEED,      /* of that, from the seed; the rest is for the search's own cords */
   THR_STEP_FEWEST,         /* the fewest cords within a limit on the pull; the rest is for the aims with so many */
   THR_STEP_FEW_BOUND,      /* of that, a bound on the turning of so many cords */
+  THR_STEP_FEW_WALKS,      /* of that, few cords by the programme over walks, and how many are too few by it */
   THR_STEP_FEW_TRY,        /* of that, cords of one number */
   THR_STEP_SYMMETRIC_TIED, /* a symmetric plan with tube joints; the rest is for its proof of length */
   THR_STEP_ANY_CORDS,      /* cords of a plan for different ones, whichever pass an edge; the rest is for making them different */

@@ -6,6 +6,7 @@
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "lp/length/cords.h"
 #include "planner/dispatch.h"
@@ -52,6 +53,20 @@ thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *op
  * deadline the work is counted.
  */
 thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+
+/* Few cords within options.max_pull, of any number up to options.cords in a component, by the programme over walks
+ * (tortuosity/cords/walk_pull.h); without proofs. plan is empty where none were found. */
+thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
+                                thr_err *err) THR_MUST_CHECK;
+
+/* *excluded: more cords in every component than the known number, but fewer than some component of a plan within the pull has,
+ * are proved to be too few by walks, which may be taken; 0: none are. */
+thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *options, const thr_plan *plan, int known,
+                                    const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err) THR_MUST_CHECK;
+
+/* With a limit on the pull, of a plan for little length whose length is not proved: what the programme over walks proves of it
+ * (tortuosity/cords/walk_pull.h). Solid joints. */
+thr_status thr_planner_pull_length(thr_plan *plan, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
 /* Is what was asked to be least proved to be, by the plan's claims? Else THR_ELIMIT, and how far it may be off. */
 thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;

@@ -37,6 +37,7 @@ typedef struct {
 static void fewest_destroy(fewest *x)
 {
   thr_turning_proof_destroy(&x->claim.tree);
+  thr_walk_proof_destroy(&x->claim.walks);
   thr_plan_destroy(&x->found);
 }
 
@@ -62,6 +63,7 @@ static thr_status rule_out(fewest *x, int n, thr_turning_claim *made, thr_err *e
   if (st == THR_EVIOLATED) return THR_OK; /* rows of one number of closed cords only */
   if (st || !too_few) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
   thr_turning_proof_destroy(&x->claim.tree);
+  thr_walk_proof_destroy(&x->claim.walks);
   x->claim.tree = made->tree;
   x->claim.excluded = n;
   x->claim.most_passes = made->most_passes;
@@ -102,6 +104,56 @@ static thr_status bound_number(fewest *x, int n, double *each, thr_err *err)
   return st;
 }
 
+/* Takes cords within the limit. */
+static void take_found(fewest *x, thr_plan *plan, int number)
+{
+  thr_plan_destroy(&x->found);
+  x->found = *plan;
+  x->number = number;
+  *plan = (thr_plan){0};
+  thr_limits_found(x->limits, x->found.cord, x->found.n_cords, NULL);
+}
+
+/* How many cords are too few by walks, if that is more than is known. */
+static thr_status exclude_by_walks(fewest *x, thr_err *err)
+{
+  const thr_limits share = thr_dispatch_share(x->limits, THR_STEP_FEW_WALKS);
+  thr_walk_proof walks = {0};
+  int excluded = 0;
+  if (x->found.n_cords == 0 || x->number - 1 <= x->claim.excluded || x->o->joint == THR_JOINT_TUBE || x->o->physics.mu <= 0)
+    return THR_OK;
+  thr_status st = thr_planner_pull_too_few(x->f, x->o, &x->found, x->claim.excluded, &share, &walks, &excluded, err);
+  if (!st && excluded > x->claim.excluded) {
+    thr_turning_proof_destroy(&x->claim.tree);
+    thr_walk_proof_destroy(&x->claim.walks);
+    x->claim.walks = walks;
+    x->claim.excluded = excluded;
+    walks = (thr_walk_proof){0};
+  }
+  thr_walk_proof_destroy(&walks);
+  return st;
+}
+
+/* Cords of the programme over walks. */
+static thr_status use_walks(fewest *x, thr_err *err)
+{
+  const thr_limits share = thr_dispatch_share(x->limits, THR_STEP_FEW_WALKS);
+  thr_plan plan;
+  int number = 0;
+  if (x->o->joint == THR_JOINT_TUBE || x->o->physics.mu <= 0) return THR_OK;
+  thr_status st = thr_planner_pull_few(x->f, x->o, &share, &plan, err);
+  bool short_enough = x->o->max_length == 0 || thr_cords_longest(x->f, plan.cord, plan.n_cords) <= x->o->max_length;
+  for (int i = 0; i < plan.n_cords; i++) {
+    int here = 0;
+    for (int k = 0; k < plan.n_cords; k++)
+      here += plan.cord[k].component == plan.cord[i].component;
+    if (here > number) number = here;
+  }
+  if (!st && plan.n_cords > 0 && short_enough) take_found(x, &plan, number);
+  thr_plan_destroy(&plan);
+  return st ? st : exclude_by_walks(x, err);
+}
+
 /* Cords of which the one that turns most turns little enough, or a proof that there are none. */
 static thr_status try_number(fewest *x, int n, bool *fits, thr_err *err)
 {
@@ -113,10 +165,7 @@ static thr_status try_number(fewest *x, int n, bool *fits, thr_err *err)
   double turning = plan.n_cords > 0 ? thr_cords_pulled_turning(x->f, plan.cord, plan.n_cords) : INFINITY;
   x->beyond = fmin(1, fmax(0, 2 * turning / thr_request_most_turning(x->o) - 1));
   if (*fits && (x->found.n_cords == 0 || n < x->number)) {
-    thr_plan_destroy(&x->found);
-    x->found = plan;
-    x->number = n;
-    thr_limits_found(x->limits, x->found.cord, x->found.n_cords, NULL);
+    take_found(x, &plan, n);
     return st;
   }
   if (!st && !*fits) st = rule_out(x, n, &plan.turning, err);
@@ -156,7 +205,7 @@ static thr_status search_numbers(fewest *x, thr_err *err)
   int failed = x->claim.excluded, n = failed + 1, step = 1;
   bool fits = false;
   thr_status st = THR_OK;
-  while (!st && !fits && n <= x->o->cords && !is_over(x)) {
+  while (!st && !fits && n <= (x->found.n_cords > 0 ? x->number - 1 : x->o->cords) && !is_over(x)) {
     st = try_number(x, n, &fits, err);
     if (fits) break;
     failed = n;
@@ -207,11 +256,12 @@ static thr_status claim_number(fewest *x, thr_plan *plan, thr_err *err)
     if (plan->cord[i].component >= n) n = plan->cord[i].component + 1;
   if (!is_range(x->o)) return THR_OK;
   x->claim.fewest = x->o->cords_least * n;
-  if (x->claim.tree.n_nodes > 0) x->claim.fewest += x->claim.excluded + 1 - x->o->cords_least;
+  if (thr_pull_excludes(&x->claim)) x->claim.fewest += x->claim.excluded + 1 - x->o->cords_least;
   x->claim.present = true;
   x->claim.optimal = x->claim.fewest == plan->n_cords;
   plan->pull_claim = x->claim;
   x->claim.tree = (thr_turning_proof){0};
+  x->claim.walks = (thr_walk_proof){0};
   if (plan->pull_claim.optimal) return THR_OK;
   return thr_fail(err, THR_ELIMIT, "%d cords keep to the pull; it is proved only that fewer than %d cannot", plan->n_cords,
                   plan->pull_claim.fewest);
@@ -233,7 +283,10 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
   thr_status st = is_range(options) ? bound_all(&x, err) : THR_OK;
+  if (!st && is_range(options)) st = use_walks(&x, err);
+  const bool before = x.found.n_cords > 0;
   if (!st) st = is_range(options) ? search_numbers(&x, err) : try_number(&x, options->cords, &fits, err);
+  if (!st && is_range(options) && !before) st = exclude_by_walks(&x, err);
   double rest = work_to_serve * options->time_limit;
   thr_limits last = *limits;
   if (rest > 0 && !last.work) last = thr_limits_counted(&last, &rest);
@@ -241,6 +294,11 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
   if (x.found.n_cords > 0) few.cords = x.number;
   bool hopeless = is_range(options) ? x.found.n_cords == 0 : x.claim.excluded >= options->cords;
   if (!st && !hopeless) st = thr_planner_mixed(frame, &few, &x.found, &last, plan, &why);
+  if (plan->n_cords > 0 && st == THR_ELIMIT) {
+    why = (thr_err){0};
+    st = thr_planner_pull_length(plan, &last, &why);
+    if (!st) st = thr_planner_verdict(plan, &why);
+  }
   if (!st && hopeless) st = THR_EINFEASIBLE;
   if (st == THR_EINFEASIBLE || (st && plan->n_cords == 0 && why.code))
     st = not_found(&x, &why, err);

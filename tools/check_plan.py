@@ -850,8 +850,9 @@ def check_length(p):
     if claim is None:
         return ["no proof of length"]
     place = "proof.length"
-    known(claim, "status lower_bound slack gap method certificate proof", place)
+    known(claim, "status lower_bound slack gap method certificate proof walks", place)
     if p.options.tube:
+        require("walks" not in claim, f"{place}.walks: not with tube joints")
         require("certificate" not in claim, f"{place}.certificate: not with tube joints")
         p.tied = Tied(p, member(claim, "proof", "object", place))
         optimal, bound = p.tied.optimal, p.tied.least
@@ -867,6 +868,8 @@ def check_length(p):
         optimal = all(c.optimal for c in p.certificate)
         if not optimal and (p.options.objective != "tortuosity" or p.options.slack is None):
             few = few_edges_lengths(p)
+            if "walks" in claim:
+                few = [max(x, y) for x, y in zip(few, pulled_lengths(p, member(claim, "walks", "object", place), place + ".walks"))]
             optimal = all(c.optimal or x >= c.own * (1 - TOLERANCE) for c, x in zip(p.certificate, few))
             least = [max(x, y) for x, y in zip(least, few)]
         bound = sum(least)
@@ -2030,6 +2033,58 @@ class Walks:
         return self.unit * (self.units + 1) / Fraction(2) ** self.bits
 
 
+class PulledWalks(Walks):
+    """Walks with a pass before and after which they turn by no more than a pull overcomes, less their lengths."""
+
+    def __init__(self, p):
+        f = p.frame
+        super().__init__(p, {(h, k): math.floor(f.angle(h, k) * UNIT) for h in range(2 * f.m) for k in f.at[f.tail(h)] if h <= k})
+        o = p.options
+        require(o.max_pull is not None and o.mu > 0, "proof.length.walks: there is no limit on the pull")
+        limit = math.log(o.max_pull)
+        self.turning_allowed = math.floor(math.ldexp((limit + 2e-9 * (1 + limit)) / o.mu, 44))
+
+    def read(self, o, place):
+        known(o, "unit units bits edges nodes", place)
+        stated = dict(o, turning=0)
+        self.bits_of_length = member(stated, "bits", "integer", place, 0, 44)
+        del stated["bits"]
+        super().read(stated, place)
+        require((self.units + 1) * self.unit > self.turning_allowed, f"{place}.units: leave out cords that are within the pull")
+        scale = Fraction(2) ** (self.bits_of_length - math.frexp(max(self.f.length))[1])
+        self.cost = [math.floor(x * scale) for x in self.f.exact]
+        self.scale = scale
+
+    def passing(self, h):
+        return super().passing(h) - self.cost[h >> 1]
+
+    def length(self, cords, place):
+        """Of so many cords at most, together."""
+        order, f, best = self.check(place), self.f, 0
+        steps = {x: [(to, w // self.unit, self.passing(h)) for to, h, w, _ in self.after[x]] for x in order}
+        longest = min(self.units, max((u for row in steps.values() for _, u, _ in row), default=0)) + 1
+        homes = [[v] for v in f.pieces[self.component]] if self.closed else [self.open & set(f.pieces[self.component])]
+        require(2 * self.units * sum(map(len, steps.values())) * len(homes) <= 8e9, f"{place}.units: too many")
+        for home in map(set, homes):
+            more = (lambda v: 0) if self.closed else (lambda v: self.node[v])
+            ends = {x: more(self.node_of(x)) for x in order if self.node_of(x) in home}
+            after = self.most(order, steps, ends, longest)[self.units]
+            before = self.most(order, steps, after, longest)[self.units]
+            best = max([best] + [before[d] + self.passing(d) + more(f.tail(d)) for d in order if f.tail(d) in home and d in before])
+        needed = sum(y * self.need[e] for e, y in enumerate(self.edge))
+        needed += sum(y * (self.needed_at(v) + 1) for v, y in enumerate(self.node) if y)
+        return max(Fraction(0), (needed - cords * best) / self.scale)
+
+
+def pulled_lengths(p, o, place):
+    """What prices of walks prove of the length of each component."""
+    walks = PulledWalks(p)
+    walks.read(o, place)
+    here = walks.component
+    cords = p.options.cords if p.options.ends != "counts" else p.per_piece[here]
+    return [walks.length(cords, place) if c == here else 0 for c in range(len(p.frame.pieces))]
+
+
 def largest_bound(p, model, number, place):
     """Of the price of the cord that turns most, from the number of cords, each component's least, single edges and the prices of
     walks."""
@@ -2135,12 +2190,21 @@ def check_pull(p):
     if claim is None:
         return []
     o, place = p.options, "proof.pull"
-    known(claim, "status lower_bound excluded most_passes proof", place)
+    known(claim, "status lower_bound excluded most_passes proof walks", place)
     require(o.max_pull is not None, f"{place}: without a limit on the pull")
-    require(("proof" in claim) == ("excluded" in claim) == ("most_passes" in claim), f"{place}: a part of the proof is missing")
+    require(("proof" in claim) == ("most_passes" in claim), f"{place}: a part of the proof is missing")
+    require(("proof" in claim) + ("walks" in claim) == ("excluded" in claim), f"{place}: not one proof of what is excluded")
     fewest = len(p.cords) if o.ends == "counts" else o.least * len(p.frame.pieces)
     if "proof" in claim:
         fewest += max(0, too_few(p, claim, place) + 1 - o.least)
+    if "walks" in claim:
+        cords = member(claim, "excluded", "integer", place, 1, 1000)
+        walks = PulledWalks(p)
+        walks.read(member(claim, "walks", "object", place), place + ".walks")
+        require(walks.bits_of_length == 0, f"{place}.walks.bits: not 0")
+        most = o.cords if o.ends != "counts" else p.per_piece[walks.component]
+        require(walks.length(min(cords, most), place + ".walks") > 0, f"{place}: {cords} cords are not proved to be too few")
+        fewest += max(0, cords + 1 - o.least)
     number = member(claim, "lower_bound", "integer", place, 1)
     require(number <= fewest and number <= len(p.cords), f"{place}.lower_bound: stated {number}, but {fewest} is proved")
     status = choice(claim, "status", place, ("optimal", "bound"))

@@ -287,9 +287,11 @@ static void take_verdicts(const thr_frame *frame, const thr_request *options, co
 }
 
 /* What the verdicts prove of passes with this length; and, of cords (each > 0: so many different ones over every edge), what all
- * sets of few edges do. Not where the length is limited to a part above the least, which is then that of the certificates. */
+ * sets of few edges do, and prices of walks within a pull (NULL: none). Not where the length is limited to a part above the
+ * least, which is then that of the certificates. */
 static thr_status sum_verdicts(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked, int each,
-                               const thr_check_verdict *verdict, double length, bool *optimal, double *lower_bound, thr_err *err)
+                               const thr_check_verdict *verdict, const thr_walk_proof *pulled, double length, bool *optimal,
+                               double *lower_bound, thr_err *err)
 {
   const int n = check_walked->n_components;
   const bool slack = thr_wants_turning(options) && options->turning.length_slack >= 0;
@@ -305,6 +307,8 @@ static thr_status sum_verdicts(const thr_frame *frame, const thr_request *option
   if (!st && !*optimal && each > 0 && !slack)
     st = thr_few_edges_lengths(frame, options, check_walked->component, n,
                                thr_check_fewest_first(options) ? check_walked->cords : NULL, each, few, err);
+  if (!st && pulled && pulled->unit && each > 0 && !slack)
+    st = thr_check_pulled_length(frame, options, check_walked, pulled, few, err);
   *optimal = true;
   for (int k = 0; k < n && !st; k++) {
     *optimal &= verdict[k].optimal || few[k] >= own[k] * (1 - 1e-9);
@@ -331,12 +335,12 @@ static thr_status judge_certificates(const thr_frame *frame, const thr_request *
 
 /* For passes of this length, or cords. */
 static thr_status check_proof(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked, int each,
-                              double length, const thr_certificate *certificate, int n, bool *optimal, double *lower_bound,
-                              thr_err *err)
+                              double length, const thr_certificate *certificate, int n, const thr_walk_proof *pulled,
+                              bool *optimal, double *lower_bound, thr_err *err)
 {
   thr_check_verdict *verdict;
   thr_status st = judge_certificates(frame, options, check_walked, certificate, n, &verdict, err);
-  if (!st) st = sum_verdicts(frame, options, check_walked, each, verdict, length, optimal, lower_bound, err);
+  if (!st) st = sum_verdicts(frame, options, check_walked, each, verdict, pulled, length, optimal, lower_bound, err);
   free(verdict);
   return st;
 }
@@ -344,6 +348,13 @@ static thr_status check_proof(const thr_frame *frame, const thr_request *options
 thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                                   const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                                   thr_err *err)
+{
+  return thr_check_length_within(frame, options, cord, n_cords, certificate, n_certificates, NULL, optimal, lower_bound, err);
+}
+
+thr_status thr_check_length_within(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
+                                   const thr_certificate *certificate, int n_certificates, const thr_walk_proof *pulled,
+                                   bool *optimal, double *lower_bound, thr_err *err)
 {
   thr_check_walked check_walked;
   double length = 0;
@@ -353,7 +364,8 @@ thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *opt
   if (!st) st = thr_check_different(frame, options, cord, n_cords, &each, err);
   for (int i = 0; i < n_cords; i++)
     length += thr_cord_length(frame, &cord[i]);
-  if (!st) st = check_proof(frame, options, &check_walked, each, length, certificate, n_certificates, optimal, lower_bound, err);
+  if (!st)
+    st = check_proof(frame, options, &check_walked, each, length, certificate, n_certificates, pulled, optimal, lower_bound, err);
   walked_destroy(&check_walked);
   return st;
 }
@@ -432,7 +444,7 @@ thr_status thr_check_length_of_passes(const thr_frame *frame, const thr_request 
   memcpy(check_walked.passes, passes, (size_t)frame->n_edges * sizeof *passes);
   st = check_passes(frame, options, &check_walked, err);
   if (!st)
-    st = check_proof(frame, options, &check_walked, 0, length_of(frame, check_walked.passes), certificate, n_certificates,
+    st = check_proof(frame, options, &check_walked, 0, length_of(frame, check_walked.passes), certificate, n_certificates, NULL,
                      optimal, lower_bound, err);
   walked_destroy(&check_walked);
   return st;
@@ -526,7 +538,9 @@ static thr_status check_length_claim(const thr_plan *plan, const thr_check_walke
   } else {
     int each = 1;
     thr_status st = thr_check_different(&plan->frame, &plan->options, plan->cord, plan->n_cords, &each, err);
-    if (!st) st = sum_verdicts(&plan->frame, &plan->options, check_walked, each, verdict, length, &optimal, &lower_bound, err);
+    if (!st)
+      st = sum_verdicts(&plan->frame, &plan->options, check_walked, each, verdict, &claim->pulled, length, &optimal, &lower_bound,
+                        err);
     if (st) return st;
   }
   *proved = lower_bound;
@@ -634,7 +648,7 @@ static thr_status check_proofs(const thr_plan *plan, const thr_check_walked *che
 {
   double least_length = 0;
   thr_status st = check_claims(plan, check_walked, &least_length, err);
-  if (!st && plan->pull_claim.present) st = thr_check_pull_claim(plan, check_walked->n_components, err);
+  if (!st && plan->pull_claim.present) st = thr_check_pull_claim(plan, check_walked, err);
   if (!st && plan->turning.present) st = thr_check_turning_claim(plan, least_length, err);
   return st;
 }

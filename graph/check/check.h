@@ -19,6 +19,11 @@ thr_status thr_check_length_proof(const thr_frame *frame, const thr_request *opt
                                   const thr_certificate *certificate, int n_certificates, bool *optimal, double *lower_bound,
                                   thr_err *err) THR_MUST_CHECK;
 
+/* The same with what prices of walks prove of the length within options.max_pull (NULL: none). */
+thr_status thr_check_length_within(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
+                                   const thr_certificate *certificate, int n_certificates, const thr_walk_proof *pulled,
+                                   bool *optimal, double *lower_bound, thr_err *err) THR_MUST_CHECK;
+
 /* What may be claimed of these cords, as many as the options say, with these certificates (NULL, 0 = none): fills found. Their
  * longest is at least the least length of all cords of a component over the number of them allowed there, and the shortest way
  * for a cord over any edge. Cords of at most max_length are too few where their least length, by the certificate with so many

@@ -95,8 +95,12 @@ thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request 
 thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                            thr_err *err) THR_MUST_CHECK;
 
+/* What prices of walks within the pull prove of the length of their component, if that is more than length[n_components] says. */
+thr_status thr_check_pulled_length(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
+                                   const thr_walk_proof *pulled, double *length, thr_err *err) THR_MUST_CHECK;
+
 /* Verifies the plan's claim about the fewest cords for its pull, which must be present. */
-thr_status thr_check_pull_claim(const thr_plan *plan, int n_components, thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_pull_claim(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err) THR_MUST_CHECK;
 
 /* The elements of a symmetric plan's group as images of the nodes. */
 typedef struct {

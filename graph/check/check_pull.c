@@ -6,6 +6,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/plan/walk_proof.h"
 #include "graph/status.h"
 
 #include <math.h>
@@ -41,6 +42,41 @@ thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, c
                       cord[i].id, exp(exponent), options->max_pull);
   }
   return THR_OK;
+}
+
+/* ---- their length ---- */
+
+/* *bound: so many cords of the prices' component at most have this length at least; cords 0: as many as the options say. */
+static thr_status walks_bound(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
+                              const thr_walk_proof *walks, int cords, int *component, double *bound, thr_err *err)
+{
+  bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
+  int *most = thr_calloc((size_t)check_walked->n_components, sizeof *most);
+  thr_turning_columns columns = {0};
+  thr_status st = end_allowed && most ? THR_OK : thr_nomem(err);
+  if (!st) {
+    const thr_turning_task task = thr_walk_pull_task(frame, options, end_allowed);
+    thr_check_most_cords(frame, options, check_walked, most);
+    st = thr_turning_columns_init(&columns, frame, &task, err);
+    *component = st ? 0 : thr_walk_component(&columns, walks);
+    if (!st)
+      st = thr_walk_pull_check(&columns, options, walks, cords > 0 && cords < most[*component] ? cords : most[*component], bound,
+                               err);
+    thr_turning_columns_destroy(&columns);
+  }
+  free(end_allowed);
+  free(most);
+  return st;
+}
+
+thr_status thr_check_pulled_length(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
+                                   const thr_walk_proof *pulled, double *length, thr_err *err)
+{
+  double bound = 0;
+  int k;
+  thr_status st = walks_bound(frame, options, check_walked, pulled, 0, &k, &bound, err);
+  if (!st) length[k] = fmax(length[k], bound);
+  return st;
 }
 
 /* ---- too few cords ---- */
@@ -113,16 +149,31 @@ static thr_status check_tree(const thr_plan *plan, thr_err *err)
                   claim->excluded);
 }
 
-thr_status thr_check_pull_claim(const thr_plan *plan, int n_components, thr_err *err)
+/* Any length at all of so many cords means that there are none where lengths count for nothing (thr_walk_proof.bits 0). */
+static thr_status check_walks(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err)
+{
+  const thr_pull_claim *claim = &plan->pull_claim;
+  double bound = 0;
+  int k;
+  if (claim->walks.bits != 0) return thr_fail(err, THR_EVIOLATED, "proof.pull.walks.bits: %d; 0 is expected", claim->walks.bits);
+  thr_status st = walks_bound(&plan->frame, &plan->options, check_walked, &claim->walks, claim->excluded, &k, &bound, err);
+  if (st || bound > 0) return st;
+  return thr_fail(err, THR_EVIOLATED, "proof.pull: it is not proved that %d cords in every component are too few for the pull",
+                  claim->excluded);
+}
+
+thr_status thr_check_pull_claim(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err)
 {
   const thr_pull_claim *claim = &plan->pull_claim;
   const thr_request *options = &plan->options;
-  int least = thr_plan_cords_least(options), fewest = options->ends == THR_ENDS_COUNTS ? plan->n_cords : least * n_components;
+  int least = thr_plan_cords_least(options),
+      fewest = options->ends == THR_ENDS_COUNTS ? plan->n_cords : least * check_walked->n_components;
   if (options->max_pull <= 0) return thr_fail(err, THR_EVIOLATED, "proof.pull: the options set no limit on the pull");
   thr_status st = claim->tree.n_nodes > 0 ? check_tree(plan, err) : THR_OK;
+  if (!st && claim->walks.unit > 0) st = check_walks(plan, check_walked, err);
   if (st) return st;
   /* some component has one more, the others may have the least */
-  if (claim->tree.n_nodes > 0 && claim->excluded >= least) fewest += claim->excluded + 1 - least;
+  if (thr_pull_excludes(claim) && claim->excluded >= least) fewest += claim->excluded + 1 - least;
   if (claim->fewest > fewest)
     return thr_fail(err, THR_EVIOLATED, "proof.pull.lower_bound: stated %d, but only %d is proved", claim->fewest, fewest);
   if (claim->fewest > plan->n_cords)

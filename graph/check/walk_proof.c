@@ -1,17 +1,25 @@
 /* Worth of walks, in integers. */
 #include "graph/plan/walk_proof.h"
+#include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
 __extension__ typedef __int128 wide;
 
-static const int64_t none = -(INT64_C(1) << 62); /* and so much less than any walk is worth that sums stay below 0 */
+static const int64_t none = -(INT64_C(1) << 62);   /* and so much less than any walk is worth that sums stay below */
+static const int64_t lowest = -(INT64_C(1) << 61); /* what no walk is worth */
+
+bool thr_walk_is_none(int64_t worth)
+{
+  return worth < lowest;
+}
 
 void thr_walk_proof_destroy(thr_walk_proof *proof)
 {
@@ -37,11 +45,11 @@ static int next_steps(const thr_turning_columns *columns, int d, const int64_t *
   return n;
 }
 
-/* Weight of turning back into each half-edge; -1: that is not done. */
-static void fill_backs(const thr_turning_columns *columns, int64_t *back)
+/* Weight of turning back into each half-edge; -1: that is not done. anywhere: also at nodes with other edges. */
+static void fill_backs(const thr_turning_columns *columns, bool anywhere, int64_t *back)
 {
   for (int h = 0; h < 2 * columns->f->n_edges; h++)
-    back[h] = -1;
+    back[h] = anywhere ? (int64_t)floor(ldexp(THR_PI, THR_TURNING_BITS) * (1 - 1e-15)) : -1;
   for (int j = columns->first_back; j < columns->n_columns; j++)
     back[columns->half[j][0]] = columns->weight[j];
 }
@@ -84,16 +92,30 @@ static void count_units(thr_walk_steps *steps, thr_walk_step *step, int64_t unit
   if (step->units > steps->most_units) steps->most_units = step->units;
 }
 
+/* Closed walks begin at their first edge, both ways alike, or where a pull counts at the node where their ends are. */
+static void fill_closed(thr_walk_steps *steps)
+{
+  const thr_frame *frame = steps->c->f;
+  for (int e = 0; e < frame->n_edges && steps->measure == THR_WALK_TURNING; e++)
+    if (steps->place[2 * e] >= 0) steps->begin[steps->n_begins++] = (thr_walk_step){.to = steps->place[2 * e], .half = 2 * e};
+  for (int v = 0; v < frame->n_nodes && steps->measure == THR_WALK_PULL; v++) {
+    if (steps->c->component[v] != steps->component || thr_degree(frame, v) == 0) continue;
+    for (int k = frame->first[v]; k < frame->first[v + 1]; k++)
+      steps->begin[steps->n_begins++] = (thr_walk_step){.to = steps->place[frame->half[k]], .half = frame->half[k]};
+    steps->from[++steps->n_homes] = steps->n_begins;
+  }
+}
+
 static bool fill_turning(thr_walk_steps *steps, making *m)
 {
   int n = 0;
-  fill_backs(steps->c, m->back);
+  fill_backs(steps->c, steps->measure == THR_WALK_PULL, m->back);
   if (!order_places(steps, m)) return false;
   for (int i = 0; i < steps->n; i++) {
     int d = m->half[i], count = next_steps(steps->c, d, m->back, steps->step + n);
     bool may_begin = steps->c->end_column[d] >= 0;
     steps->first[i] = n;
-    steps->group[i] = d >> 1;
+    steps->group[i] = steps->measure == THR_WALK_PULL ? thr_head(steps->c->f, d) : d >> 1;
     steps->end[i] = steps->c->end_column[d ^ 1] >= 0 ? 0 : none;
     for (int k = n; k < n + count; k++) {
       steps->step[k].to = steps->place[steps->step[k].half];
@@ -103,8 +125,7 @@ static bool fill_turning(thr_walk_steps *steps, making *m)
     n += count;
   }
   steps->first[steps->n] = n;
-  for (int e = 0; e < steps->c->f->n_edges && steps->closed; e++)
-    if (steps->place[2 * e] >= 0) steps->begin[steps->n_begins++] = (thr_walk_step){.to = steps->place[2 * e], .half = 2 * e};
+  if (steps->closed) fill_closed(steps);
   return true;
 }
 
@@ -114,7 +135,7 @@ int thr_walk_exponent(const thr_frame *frame, thr_walk_measure measure)
 {
   double longest = 0;
   int exponent;
-  if (measure == THR_WALK_TURNING) return THR_TURNING_BITS;
+  if (measure != THR_WALK_LENGTH) return THR_TURNING_BITS;
   for (int e = 0; e < frame->n_edges; e++)
     longest = fmax(longest, frame->length[e]);
   frexp(longest, &exponent);
@@ -171,6 +192,7 @@ static thr_status allocate(thr_walk_steps *steps, making *m, thr_scratch *own, t
   steps->begin = thr_scratch_array(&steps->own, places, sizeof *steps->begin);
   steps->end = thr_scratch_array(&steps->own, places, sizeof *steps->end);
   steps->active = thr_scratch_array(&steps->own, places, sizeof *steps->active);
+  steps->from = thr_scratch_array(&steps->own, n + 1, sizeof *steps->from);
   m->back = thr_scratch_array(own, m2, sizeof *m->back);
   m->half = thr_scratch_array(own, m2, sizeof *m->half);
   m->waiting = thr_scratch_array(own, m2, sizeof *m->waiting);
@@ -194,7 +216,7 @@ thr_status thr_walk_steps_init(thr_walk_steps *steps, const thr_turning_columns 
     st = thr_fail(err, THR_EVIOLATED, "walks: component %d has no cord ends", component);
   if (!st && (unit <= 0 || ldexp(4, THR_TURNING_BITS) / (double)unit > 1e9))
     st = thr_fail(err, THR_EVIOLATED, "walks: a unit of %lld is out of range", (long long)unit);
-  if (!st && measure == THR_WALK_TURNING && !fill_turning(steps, &m))
+  if (!st && measure != THR_WALK_LENGTH && !fill_turning(steps, &m))
     st = thr_fail(err, THR_EVIOLATED, "walks: turns below one unit go round in a circle");
   if (!st && measure == THR_WALK_LENGTH && !fill_lengths(steps, unit))
     st = thr_fail(err, THR_EVIOLATED, "walks: an edge is shorter than a unit");
@@ -247,13 +269,26 @@ static wide pass_worth(const thr_walk_steps *steps, const thr_walk_proof *proof,
   return (wide)proof->edge[h >> 1] + proof->node[thr_tail(frame, h)] + proof->node[thr_head(frame, h)];
 }
 
-/* No sum of a walk's worths is larger than 64 bits hold. */
+/* Where a pull counts, exponent of the prices: those are lengths. */
+static int length_exponent(const thr_walk_steps *steps, const thr_walk_proof *proof)
+{
+  return thr_walk_exponent(steps->c->f, THR_WALK_LENGTH) - THR_TURNING_BITS + proof->bits;
+}
+
+/* What a pass costs. */
+static int64_t pass_cost(const thr_walk_steps *steps, const thr_walk_proof *proof, int h)
+{
+  if (steps->measure != THR_WALK_PULL) return 0;
+  return (int64_t)floor(ldexp(steps->c->f->length[h >> 1], length_exponent(steps, proof)));
+}
+
+/* No sum of a walk's worths, or of its costs, is larger than 64 bits hold. */
 static bool add_up(const thr_walk_steps *steps, const thr_walk_proof *proof)
 {
   const thr_frame *frame = steps->c->f;
   wide largest = 0, passes = ((wide)proof->units + 2) * (steps->n + 1); /* of a walk at most */
   for (int h = 0; h < 2 * frame->n_edges; h++) {
-    wide sum = pass_worth(steps, proof, h) + proof->node[thr_head(frame, h)];
+    wide sum = pass_worth(steps, proof, h) + proof->node[thr_head(frame, h)] + pass_cost(steps, proof, h);
     if (sum > largest) largest = sum;
   }
   return (largest + all_worth(proof, INT64_C(4) << THR_TURNING_BITS)) * passes < (wide)1 << 61;
@@ -264,19 +299,24 @@ thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *pro
   const thr_frame *frame = steps->c->f;
   thr_status st = check_prices(steps, proof, err);
   if (st) return st;
-  if (proof->units < 0 || proof->all > INT64_C(1) << 56)
+  if (proof->units < 0 || proof->all > INT64_C(1) << 56 || proof->bits < 0 || proof->bits > THR_TURNING_BITS)
     return thr_fail(err, THR_EVIOLATED, "walks: %d units, or a price of turning or length that is out of range", proof->units);
   if (!add_up(steps, proof)) return thr_fail(err, THR_EVIOLATED, "walks: prices are too large to be added up in 64 bits");
   for (int i = 0; i < steps->n; i++)
     for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
       thr_walk_step *step = &steps->step[k];
-      step->worth = (int64_t)pass_worth(steps, proof, step->half) + all_worth(proof, step->weight);
+      step->worth =
+          (int64_t)pass_worth(steps, proof, step->half) + all_worth(proof, step->weight) - pass_cost(steps, proof, step->half);
       if (steps->end[step->to] >= 0) steps->end[step->to] = proof->node[thr_head(frame, step->half)];
     }
+  for (int k = 0; k < steps->n_homes; k++)
+    for (int i = steps->from[k]; i < steps->from[k + 1]; i++)
+      steps->begin[i].worth =
+          (int64_t)pass_worth(steps, proof, steps->begin[i].half) - pass_cost(steps, proof, steps->begin[i].half);
   for (int k = 0; k < steps->n_begins && !steps->closed; k++) {
     thr_walk_step *begin = &steps->begin[k];
     begin->worth = (int64_t)pass_worth(steps, proof, begin->half) + proof->node[thr_tail(frame, begin->half)] +
-                   all_worth(proof, begin->weight);
+                   all_worth(proof, begin->weight) - pass_cost(steps, proof, begin->half);
     if (steps->end[begin->to] >= 0) steps->end[begin->to] = proof->node[thr_head(frame, begin->half)];
   }
   return THR_OK;
@@ -286,13 +326,15 @@ thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *pro
 
 int thr_walk_runs(const thr_walk_steps *steps)
 {
-  return steps->closed ? steps->n_begins : 1;
+  return steps->n_homes > 0 ? steps->n_homes : steps->closed ? steps->n_begins : 1;
 }
 
-/* The most from place i on in the row of r units, which begins at value[row]; size: of the table. */
-static int64_t from_place(const thr_walk_steps *steps, int i, int r, int64_t row, int64_t size, const int64_t *value)
+/* The most from place i on in the row of r units, which begins at value[row]; size: of the table. end[i]: it may go no further.
+ */
+static int64_t from_place(const thr_walk_steps *steps, const int64_t *end, int i, int r, int64_t row, int64_t size,
+                          const int64_t *value)
 {
-  int64_t most = steps->end[i];
+  int64_t most = end[i];
   for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
     const thr_walk_step *step = &steps->step[k];
     int64_t at = row + step->to - (int64_t)step->units * steps->n;
@@ -318,25 +360,47 @@ static int choose_places(thr_walk_steps *steps, int run, int levels, int64_t *va
   return n;
 }
 
+/* Where closed walks of a recursion may end. */
+static void set_ends(thr_walk_steps *steps, int run, int64_t worth)
+{
+  if (steps->n_homes == 0) steps->end[steps->begin[run].to] = worth;
+  for (int k = steps->n_homes > 0 ? steps->from[run] : 0; steps->n_homes > 0 && k < steps->from[run + 1]; k++)
+    steps->end[steps->place[steps->begin[k].half ^ 1]] = worth;
+}
+
+size_t thr_walk_tables(thr_walk_measure measure)
+{
+  return measure == THR_WALK_PULL ? 2 : 1;
+}
+
 void thr_walk_run(thr_walk_steps *steps, int run, int units, int levels, int64_t *value)
 {
-  const int home = steps->closed ? steps->begin[run].to : -1;
-  const int n = steps->closed ? choose_places(steps, run, levels, value) : steps->n;
+  const bool chosen = steps->closed && steps->n_homes == 0;
+  const int n = chosen ? choose_places(steps, run, levels, value) : steps->n;
   const int64_t size = (int64_t)levels * steps->n;
-  if (steps->closed) steps->end[home] = 0;
-  for (int r = 0; r <= units; r++) {
-    const int64_t row = (int64_t)(r % levels) * steps->n;
-    for (int k = 0; k < n; k++) {
-      int i = steps->closed ? steps->active[k] : k;
-      value[row + i] = from_place(steps, i, r, row, size, value);
+  const int64_t *end = steps->end;
+  if (steps->closed) set_ends(steps, run, 0);
+  for (int part = steps->measure == THR_WALK_PULL ? 1 : 0; part >= 0; part--) {
+    int64_t *table = value + part * size;
+    for (int r = 0; r <= units; r++) {
+      const int64_t row = (int64_t)(r % levels) * steps->n;
+      for (int k = 0; k < n; k++) {
+        int i = chosen ? steps->active[k] : k;
+        table[row + i] = from_place(steps, end, i, r, row, size, table);
+      }
     }
+    end = table + (int64_t)(units % levels) * steps->n;
   }
-  if (steps->closed) steps->end[home] = none;
+  if (steps->closed) set_ends(steps, run, none);
 }
 
 int thr_walk_firsts(const thr_walk_steps *steps, int run, const thr_walk_step **first)
 {
   int home = steps->closed ? steps->begin[run].to : -1;
+  if (steps->n_homes > 0) {
+    *first = steps->begin + steps->from[run];
+    return steps->from[run + 1] - steps->from[run];
+  }
   *first = steps->closed ? steps->step + steps->first[home] : steps->begin;
   return steps->closed ? steps->first[home + 1] - steps->first[home] : steps->n_begins;
 }
@@ -345,7 +409,7 @@ int64_t thr_walk_worth(const thr_walk_steps *steps, const thr_walk_step *first, 
 {
   if (first->units > units) return none;
   int64_t on = value[(size_t)((units - first->units) % levels) * (size_t)steps->n + (size_t)first->to];
-  return on < 0 ? none : on + first->worth;
+  return thr_walk_is_none(on) ? none : on + first->worth;
 }
 
 int64_t thr_walk_best(thr_walk_steps *steps, int units, int levels, int64_t *value)
@@ -411,25 +475,74 @@ int thr_walk_component(const thr_turning_columns *columns, const thr_walk_proof 
   return 0;
 }
 
+/* The most that a walk is worth. */
+static thr_status best_of(thr_walk_steps *steps, const thr_walk_proof *proof, int64_t *best, thr_err *err)
+{
+  const double most_work = 4e9; /* steps of the recursion; makers keep to a tenth of it */
+  int levels = proof->units < steps->most_units ? proof->units + 1 : steps->most_units + 1;
+  double work = (double)proof->units * steps->first[steps->n] * thr_walk_runs(steps);
+  if (work > most_work || (double)levels * steps->n > 1e9)
+    return thr_fail(err, THR_EVIOLATED, "walks: %d units are more than can be checked", proof->units);
+  int64_t *value = thr_calloc((size_t)levels * (size_t)steps->n * thr_walk_tables(steps->measure), sizeof *value);
+  if (!value) return thr_nomem(err);
+  *best = thr_walk_best(steps, proof->units, levels, value);
+  free(value);
+  return THR_OK;
+}
+
 thr_status thr_walk_proof_check(const thr_turning_columns *columns, thr_walk_measure measure, const thr_walk_proof *proof,
                                 int cords, double least, double *bound, thr_err *err)
 {
-  const double most_work = 4e9; /* steps of the recursion; makers keep to a tenth of it */
   thr_walk_steps steps;
-  int64_t *value = NULL;
+  int64_t best = 0;
   *bound = 0;
   thr_status st = thr_walk_steps_init(&steps, columns, measure, thr_walk_component(columns, proof), proof->unit, err);
   if (st) return st;
   st = thr_walk_steps_price(&steps, proof, err);
-  int levels = proof->units < steps.most_units ? proof->units + 1 : steps.most_units + 1;
-  double work = (double)proof->units * steps.first[steps.n] * thr_walk_runs(&steps);
-  if (!st && (work > most_work || (double)levels * steps.n > 1e9))
-    st = thr_fail(err, THR_EVIOLATED, "walks: %d units are more than can be checked", proof->units);
-  if (!st && !(value = thr_calloc((size_t)levels * (size_t)steps.n, sizeof *value))) st = thr_nomem(err);
-  if (!st && needed(&steps, proof, least) <= (wide)thr_walk_best(&steps, proof->units, levels, value) * cords)
+  if (!st) st = best_of(&steps, proof, &best, err);
+  if (!st && needed(&steps, proof, least) <= (wide)best * cords)
     st = thr_fail(err, THR_EVIOLATED, "walks: their prices prove nothing");
   if (!st) *bound = ldexp((double)proof->unit * ((double)proof->units + 1), -steps.exponent) * (1 - 1e-15);
-  free(value);
+  thr_walk_steps_destroy(&steps);
+  return st;
+}
+
+/* ---- the length within a limit on the pull ---- */
+
+thr_turning_task thr_walk_pull_task(const thr_frame *frame, const thr_request *options, bool *end_allowed)
+{
+  return thr_walk_length_task(frame, options, end_allowed); /* angles are what turns cost */
+}
+
+int thr_walk_pull_units(const thr_request *options, int64_t unit)
+{
+  const double rounding = 1e-9, most = log(options->max_pull); /* twice what cords are allowed */
+  const double weight = ldexp((most + 2 * rounding * (1 + most)) / options->physics.mu, THR_TURNING_BITS);
+  const double units = floor(weight / (double)unit * (1 + 1e-15));
+  return units < INT_MAX / 2 ? (int)units : INT_MAX / 2;
+}
+
+double thr_walk_pull_bound(const thr_walk_steps *steps, const thr_walk_proof *proof, int cords, int64_t best)
+{
+  const wide sum = needed(steps, proof, 0) - (wide)best * cords;
+  return sum <= 0 ? 0 : ldexp((double)sum * (1 - 1e-15), -length_exponent(steps, proof));
+}
+
+thr_status thr_walk_pull_check(const thr_turning_columns *columns, const thr_request *options, const thr_walk_proof *proof,
+                               int cords, double *bound, thr_err *err)
+{
+  thr_walk_steps steps;
+  int64_t best = 0;
+  *bound = 0;
+  if (options->max_pull <= 0 || options->physics.mu <= 0)
+    return thr_fail(err, THR_EVIOLATED, "walks: there is no limit on the pull");
+  thr_status st = thr_walk_steps_init(&steps, columns, THR_WALK_PULL, thr_walk_component(columns, proof), proof->unit, err);
+  if (st) return st;
+  if (proof->all != 0 || proof->units < thr_walk_pull_units(options, proof->unit))
+    st = thr_fail(err, THR_EVIOLATED, "walks: %d units leave out cords that are within the pull", proof->units);
+  if (!st) st = thr_walk_steps_price(&steps, proof, err);
+  if (!st) st = best_of(&steps, proof, &best, err);
+  if (!st) *bound = thr_walk_pull_bound(&steps, proof, cords, best);
   thr_walk_steps_destroy(&steps);
   return st;
 }
@@ -477,7 +590,7 @@ thr_status thr_walk_forced(const thr_turning_columns *columns, double *bound, th
   thr_walk_step *some = thr_scratch_array(&own, most, sizeof *some);
   thr_status st = thr_scratch_check(&own, err);
   if (!st) {
-    fill_backs(columns, back);
+    fill_backs(columns, false, back);
     least_to_end(columns, back, some, least, queue, waits);
     for (int e = 0; e < frame->n_edges; e++)
       if (least[2 * e] < INT64_MAX / 8 && least[2 * e + 1] < INT64_MAX / 8 && least[2 * e] + least[2 * e + 1] > largest)

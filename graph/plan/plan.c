@@ -47,6 +47,11 @@ thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err 
   return thr_nomem(err);
 }
 
+bool thr_pull_excludes(const thr_pull_claim *claim)
+{
+  return claim->tree.n_nodes > 0 || claim->walks.unit > 0;
+}
+
 void thr_plan_destroy(thr_plan *plan)
 {
   thr_cords_destroy(plan->cord, plan->n_cords);
@@ -55,6 +60,8 @@ void thr_plan_destroy(thr_plan *plan)
   free(plan->proof.certificate);
   thr_turning_proof_destroy(&plan->proof.tied);
   thr_walk_proof_destroy(&plan->proof.walks);
+  thr_walk_proof_destroy(&plan->proof.pulled);
+  thr_walk_proof_destroy(&plan->pull_claim.walks);
   thr_turning_proof_destroy(&plan->turning.tree);
   thr_turning_proof_destroy(&plan->pull_claim.tree);
   thr_symmetry_record_destroy(&plan->symmetry);

@@ -61,6 +61,7 @@ typedef struct {
   thr_certificate *certificate; /* one per component; owned */
   thr_turning_proof tied;       /* THR_JOINT_TUBE, instead of certificates: the proof of thr_tied_task (graph/plan/junction.h) */
   thr_walk_proof walks;         /* of the longest cord (graph/plan/walk_proof.h); unit 0: none */
+  thr_walk_proof pulled;        /* of the length within options.max_pull; unit 0: none */
 } thr_length_proof;
 
 /* What is proved about several cords, of plans with the same options. */
@@ -81,8 +82,12 @@ typedef struct {
   int fewest;   /* no such plan has fewer cords in all */
   int excluded; /* at most so many in every component are too few: one would turn too much; below options.cords_least: none */
   int most_passes;
-  thr_turning_proof tree; /* of so many cords at most; empty where nothing is excluded */
+  thr_turning_proof tree; /* of so many cords at most; empty where nothing is excluded, or walks prove it */
+  thr_walk_proof walks;   /* of any plans (graph/plan/walk_proof.h); unit 0: none */
 } thr_pull_claim;
+
+/* Is a number of cords excluded? */
+bool thr_pull_excludes(const thr_pull_claim *claim);
 
 /* What is proved about the turning of a plan that turns little: of no plan with the same options, U-turns at nodes with one edge
  * only, at most most_passes over any edge and no more cord than length_limit are all turns together cheaper than lower_bound. */

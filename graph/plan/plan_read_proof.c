@@ -96,9 +96,10 @@ static thr_status read_slack(const thr_field_reader *field_reader, const thr_jso
 static thr_status read_length_proof(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
                                     thr_length_proof *proof)
 {
-  static const char *const solid[] = {"status", "lower_bound", "slack", "gap", "method", "certificate", NULL};
+  static const char *const solid[] = {"status", "lower_bound", "slack", "gap", "method", "certificate", "walks", NULL};
   static const char *const tube[] = {"status", "lower_bound", "slack", "gap", "method", "proof", NULL};
   const thr_json *list, *tied = thr_json_get(value, "proof");
+  char place[256];
   thr_status st = thr_field_only(field_reader, value, "proof.length", tied ? tube : solid);
   if (!st) st = get_status(field_reader, value, "proof.length", &proof->optimal);
   if (!st) st = thr_field_amount(field_reader, value, "lower_bound", &proof->lower_bound);
@@ -106,8 +107,7 @@ static thr_status read_length_proof(const thr_field_reader *field_reader, const 
   if (!st) st = thr_field_amount(field_reader, value, "gap", &proof->gap);
   if (!st) proof->present = true;
   if (!st && tied) {
-    char place[256];
-    snprintf(place, sizeof place, "%s: proof.length.proof", field_reader->name);
+    snprintf(place, sizeof place, "%.200s: proof.length.proof", field_reader->name);
     return thr_turning_proof_from_json(&proof->tied, frame, tied, place, field_reader->err);
   }
   if (!st) st = thr_field_need(field_reader, value, "certificate", THR_JSON_ARRAY, &list);
@@ -117,7 +117,8 @@ static thr_status read_length_proof(const thr_field_reader *field_reader, const 
   proof->n_certificates = n;
   for (int i = 0; i < n; i++)
     if ((st = read_certificate(field_reader, thr_json_at(list, i), frame, &proof->certificate[i]))) return st;
-  return THR_OK;
+  snprintf(place, sizeof place, "%.200s: proof.length.walks", field_reader->name);
+  return thr_walk_proof_from_json(&proof->pulled, frame, NULL, thr_json_get(value, "walks"), place, field_reader->err);
 }
 
 static thr_status read_largest(const thr_field_reader *field_reader, const thr_json *object, thr_turning_claim *claim)
@@ -183,15 +184,21 @@ static thr_status read_cords_claim(const thr_field_reader *field_reader, const t
 static thr_status read_pull_claim(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
                                   thr_pull_claim *claim)
 {
-  static const char *const known[] = {"status", "lower_bound", "excluded", "most_passes", "proof", NULL};
-  const thr_json *proof = thr_json_get(value, "proof");
+  static const char *const by_tree[] = {"status", "lower_bound", "excluded", "most_passes", "proof", NULL}, *const by_walks[] = {
+                                                                                                                "status",
+                                                                                                                "lower_bound",
+                                                                                                                "excluded",
+                                                                                                                "walks", NULL};
+  const thr_json *proof = thr_json_get(value, "proof"), *walks = thr_json_get(value, "walks");
   char place[256];
-  thr_status st = thr_field_only(field_reader, value, "proof.pull", known);
+  thr_status st = thr_field_only(field_reader, value, "proof.pull", walks ? by_walks : by_tree);
   if (!st) st = get_status(field_reader, value, "proof.pull", &claim->optimal);
   if (!st) st = thr_field_int(field_reader, value, "lower_bound", 1, INT32_MAX, &claim->fewest);
   if (!st) claim->present = true;
-  if (st || !proof) return st;
+  if (st || (!proof && !walks)) return st;
   st = thr_field_int(field_reader, value, "excluded", 1, THR_MOST_CORDS, &claim->excluded);
+  snprintf(place, sizeof place, "%.200s: proof.pull.walks", field_reader->name);
+  if (st || walks) return st ? st : thr_walk_proof_from_json(&claim->walks, frame, NULL, walks, place, field_reader->err);
   if (!st) st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
   if (st) return st;
   snprintf(place, sizeof place, "%.200s: proof.pull.proof", field_reader->name);

@@ -350,6 +350,7 @@ static void put_length_proof(thr_writer *writer, const thr_plan *plan)
     }
     thr_write_line(writer, 2);
     thr_write_close(writer);
+    thr_walk_proof_write(&proof->pulled, &plan->frame, NULL, writer);
   }
   thr_write_close(writer);
 }
@@ -406,8 +407,9 @@ static void put_pull_claim(thr_writer *writer, const thr_plan *plan)
   thr_write_object(writer, "pull");
   thr_write_string(writer, "status", status_name(claim->optimal));
   thr_write_int(writer, "lower_bound", claim->fewest);
+  if (thr_pull_excludes(claim)) thr_write_int(writer, "excluded", claim->excluded);
+  thr_walk_proof_write(&claim->walks, &plan->frame, NULL, writer);
   if (claim->tree.n_nodes > 0) {
-    thr_write_int(writer, "excluded", claim->excluded);
     thr_write_int(writer, "most_passes", claim->most_passes);
     thr_write_line(writer, 2);
     thr_turning_proof_write(&claim->tree, &plan->frame, writer, "proof");

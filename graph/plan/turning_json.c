@@ -120,7 +120,7 @@ void thr_walk_proof_write(const thr_walk_proof *walks, const thr_frame *frame, c
   thr_write_object(writer, "walks");
   thr_write_int(writer, "unit", walks->unit);
   thr_write_int(writer, "units", walks->units);
-  thr_write_int(writer, all, walks->all);
+  thr_write_int(writer, all ? all : "bits", all ? walks->all : walks->bits);
   thr_write_line(writer, 4);
   put_multipliers(writer, "edges", walks->edge, frame->n_edges);
   thr_write_line(writer, 4);
@@ -368,18 +368,20 @@ static thr_status read_symmetries(reader *r, const thr_json *value, thr_turning_
 thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *frame, const char *all, const thr_json *value,
                                     const char *place, thr_err *err)
 {
-  const char *known[] = {"unit", "units", all, "edges", "nodes", NULL};
+  const char *known[] = {"unit", "units", all ? all : "bits", "edges", "nodes", NULL};
   const reader r = {.place = place, .f = frame, .err = err};
-  int64_t units = 0;
+  int64_t units = 0, bits = 0;
   *walks = (thr_walk_proof){0};
   if (!value) return THR_OK;
   thr_status st = only_members(&r, value, known);
   if (!st) st = get_int(&r, thr_json_get(value, "unit"), "unit", 1, INT64_MAX, &walks->unit);
   if (!st) st = get_int(&r, thr_json_get(value, "units"), "units", 0, INT_MAX - 2, &units);
-  if (!st) st = get_int(&r, thr_json_get(value, all), all, 0, INT64_MAX, &walks->all);
+  if (!st && all) st = get_int(&r, thr_json_get(value, all), all, 0, INT64_MAX, &walks->all);
+  if (!st && !all) st = get_int(&r, thr_json_get(value, "bits"), "bits", 0, THR_TURNING_BITS, &bits);
   if (!st) st = read_multipliers(&r, value, "edges", frame->n_edges, &walks->edge);
   if (!st) st = read_multipliers(&r, value, "nodes", frame->n_nodes, &walks->node);
   walks->units = (int)units;
+  walks->bits = (int)bits;
   if (st) thr_walk_proof_destroy(walks);
   return st;
 }

@@ -186,13 +186,14 @@ typedef struct {
   int dual;            /* leaf: index of its multipliers */
 } thr_turning_node;
 
-/* Prices that bound the turning of the cord that turns most, or the length of the longest (graph/plan/walk_proof.h), >= 0; of one
- * component. Of lengths also that all sets of edges that cords pass below the bound were tried, which takes no prices
- * (graph/check/short_cords.h). */
+/* Prices that bound the turning of the cord that turns most, the length of the longest, or that of all cords within a limit on
+ * the pull (graph/plan/walk_proof.h), >= 0; of one component. Of lengths of the longest also that all sets of edges that cords
+ * pass below the bound were tried, which takes no prices (graph/check/short_cords.h). */
 typedef struct {
   int64_t unit;         /* of turning, in 2^-THR_TURNING_BITS of the price, or of length; 0: there is no such proof */
-  int units;            /* cords of at most so many are worth too little */
-  int64_t all;          /* price of 2^THR_TURNING_BITS of those, turned or run by all cords together */
+  int units;            /* cords of at most so many are worth too little, or are all that are within the pull */
+  int64_t all;          /* price of 2^THR_TURNING_BITS of those, turned or run by all cords together; with a pull 0 */
+  int bits;             /* with a pull: prices are lengths, in units of 2^-bits of a power of two above the longest edge */
   int64_t *edge, *node; /* [n_edges] of a pass; [n_nodes] of a pass or an end at it; owned */
   bool sets;            /* of lengths: all sets were tried */
 } thr_walk_proof;
@@ -207,8 +208,8 @@ typedef struct {
 
 void thr_walk_proof_destroy(thr_walk_proof *proof);
 
-/* JSON of such prices, member "walks" of an object; all: what theirs of all cords together is called, "turning" or "length".
- * Nothing is written where there are none. And back, as thr_turning_proof_from_json; value NULL: none. */
+/* JSON of such prices, member "walks" of an object; all: what theirs of all cords together is called, "turning" or "length";
+ * NULL: with a pull. Nothing is written where there are none. And back, as thr_turning_proof_from_json; value NULL: none. */
 void thr_walk_proof_write(const thr_walk_proof *proof, const thr_frame *frame, const char *all, thr_writer *writer);
 thr_status thr_walk_proof_from_json(thr_walk_proof *proof, const thr_frame *frame, const char *all, const thr_json *value,
                                     const char *place, thr_err *err) THR_MUST_CHECK;

@@ -17,6 +17,18 @@
  * Length takes the place of turning for the longest cord. Then a walk may turn back anywhere, at no cost: its places are nodes;
  * where turning counts they are half-edges, and walks turn back only at nodes with one edge.
  *
+ * With a limit on the pull the same recursion bounds the length of all cords together. The walks are those that have a pass with
+ * turns of at most L = log(pull) / mu before it, and after it: those after it are one recursion, and those before it another,
+ * whose walks end with the best that comes after. They turn back into an edge at 180 degrees, too; a closed one begins at any
+ * node, and its last turn, which is at its ends, is free. Prices are lengths, and a walk is worth the prices that it passes less
+ * its own length: at most B >= 0. The cords' lengths are at least what they are worth in prices less B each, so K cords are
+ * together at least as long as
+ *
+ *   the prices of what every plan has, as above, less K B.
+ *
+ * Any prices will do; those of the linear programme "the shortest walks, at most K of them, that pass every edge" prove its
+ * value.
+ *
  * Example: three edges in a row that turn by 30 degrees twice, ends at the outer nodes, one cord. Price 1 on the middle edge, L =
  * 60 degrees: no walk below L passes it, so B = 0 < 1, and some cord turns by 60 degrees. */
 #ifndef THR_WALK_PROOF_H
@@ -30,8 +42,8 @@
 
 #include <stdint.h>
 
-/* What a limit is on: each cord's price of turns, or its length. */
-typedef enum { THR_WALK_TURNING, THR_WALK_LENGTH } thr_walk_measure;
+/* What a limit is on: each cord's price of turns, or its length, or the turning that a pull has to overcome. */
+typedef enum { THR_WALK_TURNING, THR_WALK_LENGTH, THR_WALK_PULL } thr_walk_measure;
 
 /* The next pass of a walk. */
 typedef struct {
@@ -39,7 +51,8 @@ typedef struct {
   int half;       /* half-edge that is passed */
   int units;      /* the price of the turn, or the length of the pass, rounded down */
   int64_t weight; /* the same in units of 2^-exponent; lengths rounded up */
-  int64_t worth;  /* of the pass, and what the price of turning makes of it, rounded up; of a first one also its cord end */
+  int64_t worth;  /* of the pass, and what the price of turning makes of it, rounded up; of a first one also its cord end; with a
+                     pull less its length, rounded down */
 } thr_walk_step;
 
 /* Walks that the cords of one component can be, in an order of the places in which the recursion finds what it needs. A place is
@@ -52,7 +65,8 @@ typedef struct {
   thr_scratch own; /* the arrays */
   int n;           /* places */
   int *place;      /* [2 * n_edges] of half-edges, or [n_nodes]; -1: of another component */
-  int *group;      /* [n] a closed walk begins at one of its places of the lowest group: edges, or nodes */
+  int *group;      /* [n] a closed walk begins at one of its places of the lowest group: edges, or nodes; with a pull the node
+                      that is reached, where it may begin in any case */
   int *first;      /* [n + 1] steps from place i: step[first[i]] .. step[first[i + 1] - 1] */
   thr_walk_step *step;
   int n_begins;         /* open: first passes of walks; closed: places that they begin at */
@@ -60,6 +74,7 @@ typedef struct {
   int most_units;       /* of a step */
   int64_t *end;         /* [n] worth of a cord end there; < 0: none may be there */
   int *active;          /* [n] closed: the places of no lower group than where the walks begin */
+  int n_homes, *from;   /* closed, with a pull: nodes where walks begin; of node k: begin[from[k]] .. begin[from[k + 1] - 1] */
 } thr_walk_steps;
 
 /* For walks of a component: unit in 2^-exponent of the price of turns, or of length, > 0. THR_EVIOLATED where the component has
@@ -79,17 +94,24 @@ int64_t thr_walk_needed_at(const thr_turning_columns *columns, int v);
  * passes, or so large that a walk's worth might not fit 64 bits. */
 thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *proof, thr_err *err) THR_MUST_CHECK;
 
+/* Is this what the recursion says where there is no walk? */
+bool thr_walk_is_none(int64_t worth);
+
 /* Recursions that walks take: 1 for open ones. They come in order, from 0 on. */
 int thr_walk_runs(const thr_walk_steps *steps);
 
-/* Number run of them. value[levels * n] receives, in row r % levels, the most that a walk with r units left is worth from place i
- * on; below 0: there is no such walk. levels is units + 1, to trace walks, or at least most_units + 1. O(units * steps). */
+/* Tables that a recursion fills: with a pull one before the slackest pass and one after it. */
+size_t thr_walk_tables(thr_walk_measure measure);
+
+/* Number run of them. value[tables * levels * n] receives, in row r % levels of each, the most that a walk with r units left is
+ * worth from place i on (thr_walk_is_none: there is no such walk). levels is units + 1, to trace walks, or at least most_units
+ * + 1. O(units * steps). */
 void thr_walk_run(thr_walk_steps *steps, int run, int units, int levels, int64_t *value);
 
 /* The first passes of the walks of a recursion; returns their number. */
 int thr_walk_firsts(const thr_walk_steps *steps, int run, const thr_walk_step **first);
 
-/* The most that the walks with a first pass are worth after a recursion; below 0: there are none. */
+/* The most that the walks with a first pass are worth after a recursion; thr_walk_is_none: there are none. */
 int64_t thr_walk_worth(const thr_walk_steps *steps, const thr_walk_step *first, int units, int levels, const int64_t *value);
 
 /* The most that a walk of at most so many units is worth, 0 if there is none: all recursions. */
@@ -110,6 +132,20 @@ int thr_walk_component(const thr_turning_columns *columns, const thr_walk_proof 
  * nothing. */
 thr_status thr_walk_proof_check(const thr_turning_columns *columns, thr_walk_measure measure, const thr_walk_proof *proof,
                                 int cords, double least, double *bound, thr_err *err) THR_MUST_CHECK;
+
+/* What the length within a limit on the pull is asked among, as thr_walk_length_task. */
+thr_turning_task thr_walk_pull_task(const thr_frame *frame, const thr_request *options, bool *end_allowed);
+
+/* Units of turning that no cord within the pull has more of on either side of some pass. */
+int thr_walk_pull_units(const thr_request *options, int64_t unit);
+
+/* The length of all cords of the component, at most so many, that prices prove, of which a walk is worth best at most. */
+double thr_walk_pull_bound(const thr_walk_steps *steps, const thr_walk_proof *proof, int cords, int64_t best);
+
+/* *bound: at most so many cords of the proof's component, none beyond options.max_pull, are together at least so long. Nothing in
+ * the proof is trusted; THR_EVIOLATED: it is none. */
+thr_status thr_walk_pull_check(const thr_turning_columns *columns, const thr_request *options, const thr_walk_proof *proof,
+                               int cords, double *bound, thr_err *err) THR_MUST_CHECK;
 
 /* What a single edge forces: some cord passes it, and from there has to reach an end on both sides. *bound: the largest over the
  * edges of the least price of the turns of such a cord; 0 for closed cords. O(edges * rounds), shortest paths by Bellman and

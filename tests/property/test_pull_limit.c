@@ -3,6 +3,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "planner/make_plan.h"
 #include "tests/frameworks.h"
@@ -13,15 +14,162 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { NODES = 8, MOST = 6 };
+enum { NODES = 8, MOST = 6, EDGES = TRUTH_TABLE_EDGES, SETS = 1 << EDGES, HALVES = 2 * EDGES };
 
 typedef struct {
   thr_frame frame;
   thr_request o;
   bool end_node[NODES];
-  long double
-      least[MOST + 1]; /* the truth: turning of the cord that turns most, by the number of cords; with a closed one's last */
 } instance;
+
+/* ---- the truth: all sets of edges that a cord within the pull may pass ---- */
+
+/* A walk that began with some pass: its edges and last half-edge say where it stands in the list. */
+typedef struct {
+  int set, half;
+  double length, turning;
+} part;
+
+/* For walks that begin with a pass and keep to the limit on one side of it. */
+typedef struct {
+  const thr_frame *f;
+  const thr_request *o;
+  double most; /* rad */
+  bool back_anywhere;
+  int n;
+  part label[200000];
+} parts;
+
+static parts side; /* too large for the stack */
+
+/* Is there one that is no worse? */
+static bool is_dominated(const part *new)
+{
+  for (int i = 0; i < side.n; i++) {
+    const part *old = &side.label[i];
+    if (old->set == new->set && old->half == new->half && old->length <= new->length + 1e-12 &&
+        old->turning <= new->turning + 1e-12)
+      return true;
+  }
+  return false;
+}
+
+static void grow(int first)
+{
+  const thr_frame *f = side.f;
+  side.n = 0;
+  side.label[side.n++] = (part){1 << (first >> 1), first, f->length[first >> 1], 0};
+  for (int i = 0; i < side.n; i++) {
+    const part at = side.label[i];
+    int v = thr_head(f, at.half);
+    for (int k = f->first[v]; k < f->first[v + 1]; k++) {
+      int h = f->half[k];
+      part next = {at.set | 1 << (h >> 1), h, at.length + f->length[h >> 1], at.turning + thr_turn_angle(f, at.half, h)};
+      if (h == (at.half ^ 1) && !side.back_anywhere && thr_degree(f, v) > 1) continue;
+      if (next.turning > side.most || is_dominated(&next)) continue;
+      ck_assert_int_lt(side.n, 200000);
+      side.label[side.n++] = next;
+    }
+  }
+}
+
+/* length[h][set]: of the shortest walks whose last pass is over h, where a cord may end after it; open ones all in length[0]. */
+static void ends_of(int first, bool closed, double length[HALVES][SETS])
+{
+  grow(first);
+  for (int h = 0; h < HALVES; h++)
+    for (int set = 0; set < SETS; set++)
+      length[h][set] = INFINITY;
+  for (int i = 0; i < side.n; i++) {
+    const part *at = &side.label[i];
+    double *to = &length[closed ? at->half : 0][at->set];
+    if (thr_plan_end_allowed(side.f, side.o, thr_head(side.f, at->half))) *to = fmin(*to, at->length);
+  }
+}
+
+/* May a cord's parts before and after a pass end with these half-edges? Closed ones meet at a node, and turn back there as they
+ * do elsewhere. */
+static bool do_meet(bool closed, int before, int after)
+{
+  if (!closed) return before == 0 && after == 0;
+  int v = thr_head(side.f, after);
+  return thr_head(side.f, before) == v && (before != after || side.back_anywhere || thr_degree(side.f, v) == 1);
+}
+
+/* shortest[set]: length of the shortest cord within the pull over all edges of the set, INFINITY: there is none. Some pass is the
+ * slackest; what is before and after it are parts that both begin with it. */
+static void shortest_cords(const thr_frame *f, const thr_request *o, bool back_anywhere, double shortest[SETS])
+{
+  static double after[HALVES][SETS], before[HALVES][SETS];
+  const bool closed = o->ends == THR_ENDS_CLOSED;
+  const double limit = log(o->max_pull) / o->physics.mu;
+  side.f = f;
+  side.o = o;
+  side.back_anywhere = back_anywhere;
+  side.most = limit + 1e-8 * (1 + limit);
+  for (int set = 0; set < SETS; set++)
+    shortest[set] = INFINITY;
+  for (int d = 0; d < 2 * f->n_edges; d++) {
+    ends_of(d, closed, after);
+    ends_of(d ^ 1, closed, before);
+    for (int h = 0; h < 2 * f->n_edges; h++)
+      for (int k = 0; k < 2 * f->n_edges; k++)
+        for (int a = 0; a < SETS && do_meet(closed, k, h); a++)
+          for (int b = 0; b < SETS && isfinite(after[h][a]); b++)
+            shortest[a | b] = fmin(shortest[a | b], after[h][a] + before[k][b] - f->length[d >> 1]);
+  }
+  for (int e = 0; e < f->n_edges; e++)
+    for (int set = 0; set < SETS; set++)
+      if (!(set >> e & 1)) shortest[set] = fmin(shortest[set], shortest[set | 1 << e]);
+}
+
+/* least[n]: length of n cords over all edges, each within the pull; INFINITY: there are none. */
+static void least_lengths(const thr_frame *f, const thr_request *o, bool back_anywhere, double least[MOST + 1])
+{
+  static double shortest[SETS], of[MOST + 1][SETS];
+  shortest_cords(f, o, back_anywhere, shortest);
+  for (int set = 0; set < SETS; set++)
+    of[0][set] = set ? INFINITY : 0;
+  for (int n = 1; n <= MOST; n++)
+    for (int set = 0; set < SETS; set++) {
+      of[n][set] = INFINITY;
+      for (int own = set;; own = (own - 1) & set) {
+        of[n][set] = fmin(of[n][set], of[n - 1][set & ~own] + shortest[own]);
+        if (own == 0) break;
+      }
+    }
+  for (int n = 0; n <= MOST; n++)
+    least[n] = of[n][(1 << f->n_edges) - 1];
+}
+
+/* The fewest cords within the pull; more than MOST: so few are not enough. */
+static int fewest_possible(const instance *x, const thr_request *o, bool back_anywhere)
+{
+  double least[MOST + 1];
+  int n = 1;
+  least_lengths(&x->frame, o, back_anywhere, least);
+  while (n <= MOST && isinf(least[n]))
+    n++;
+  return n;
+}
+
+/* What prices of walks prove, they prove of cords that turn back anywhere. */
+static bool is_by_walks(const thr_plan *p)
+{
+  return p->pull_claim.walks.unit > 0;
+}
+
+/* The least length of the plan's cords, or fewer, within the pull. */
+static double least_length(const thr_plan *p)
+{
+  double least[MOST + 1], most = INFINITY;
+  least_lengths(&p->frame, &p->options, true, least);
+  for (int n = p->options.cords_least; n <= p->options.cords && n <= MOST; n++)
+    most = fmin(most, least[n]);
+  return most;
+}
+
+/* ---- instances ---- */
 
 /* false: too large to try. */
 static bool instance_make(rng *r, instance *x)
@@ -37,25 +185,7 @@ static bool instance_make(rng *r, instance *x)
   for (int v = 0; v < x->frame.n_nodes; v++)
     x->end_node[v] = v == 0 || rng_below(r, 2);
   if (x->o.ends == THR_ENDS_NODES) x->o.end_node = x->end_node;
-  if (!small) return false;
-  thr_request angles = x->o;
-  angles.turning.cost = THR_TURN_ANGLE;
-  truth_table table = truth_table_make(&x->frame, &angles, 3);
-  for (int n = 1; n <= MOST; n++)
-    x->least[n] = truth_price(&table, n, true, -1);
-  truth_table_destroy(&table);
-  return true;
-}
-
-/* No number below has cords that turn little enough: the fewest that there may be. Of closed cords the last turn counts for
- * nothing, at most pi. */
-static int fewest_possible(const instance *x, const thr_request *o)
-{
-  double most = thr_request_most_turning(o) + (o->ends == THR_ENDS_CLOSED ? acos(-1) : 0);
-  int n = 1;
-  while (n <= MOST && x->least[n] > most)
-    n++;
-  return n;
+  return small;
 }
 
 /* The larger part of the turning, by trying every pass for the slackest. */
@@ -78,7 +208,7 @@ START_TEST(plans_keep_to_the_pull_and_claim_what_is_true)
   thr_plan p;
   thr_err err = {0};
   if (instance_make(&r, &x)) {
-    int fewest = fewest_possible(&x, &x.o);
+    int fewest = fewest_possible(&x, &x.o, false);
     thr_status st = thr_plan_make(&x.frame, &x.o, &(thr_limits){0}, &p, NULL, &err);
     ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_EINFEASIBLE, "%s", err.text);
     ck_assert(st != THR_EINFEASIBLE || fewest > MOST);
@@ -86,7 +216,8 @@ START_TEST(plans_keep_to_the_pull_and_claim_what_is_true)
     if (p.n_cords > 0) {
       assert_plan_sound(&p);
       ck_assert_int_le(p.pull_claim.fewest, p.n_cords);
-      ck_assert_int_le(p.pull_claim.fewest, fewest);
+      ck_assert_int_le(p.pull_claim.fewest, is_by_walks(&p) ? fewest_possible(&x, &x.o, true) : fewest);
+      if (p.proof.present) ck_assert_double_le(p.proof.lower_bound, least_length(&p) * (1 + 1e-8));
       ck_assert(!p.pull_claim.optimal || p.pull_claim.fewest == p.n_cords);
       for (int i = 0; i < p.n_cords; i++) {
         double pull = pull_of(&x.frame, &p.cord[i], x.o.physics.mu);
@@ -100,21 +231,68 @@ START_TEST(plans_keep_to_the_pull_and_claim_what_is_true)
 }
 END_TEST
 
+/* ---- forged claims ---- */
+
+/* A price, the unit, the number of units or of bits. */
+static void forge_walks(rng *r, const thr_plan *p, thr_walk_proof *walks)
+{
+  if (!walks->unit) return;
+  int64_t *price = rng_below(r, 2) ? &walks->edge[rng_below(r, p->frame.n_edges)] : &walks->node[rng_below(r, p->frame.n_nodes)];
+  switch (rng_below(r, 5)) {
+  case 0: *price += *price / 8 * rng_between(r, -4, 4); break;
+  case 1: *price = rng_below(r, 2) ? 0 : *price + (INT64_C(1) << rng_below(r, 40)); break;
+  case 2: walks->unit += walks->unit / 16 * rng_between(r, -8, 8); break;
+  case 3: walks->units += rng_between(r, -3, 1); break;
+  default: walks->bits += rng_between(r, -1, 1);
+  }
+}
+
+/* A bound that is higher, with the gap that goes with it. */
+static void forge_length(rng *r, thr_plan *p)
+{
+  p->proof.lower_bound += rng_unit(r) * (p->metrics.length - p->proof.lower_bound);
+  p->proof.gap = (p->metrics.length - p->proof.lower_bound) / p->metrics.length;
+}
+
+static void save(const thr_walk_proof *walks, const thr_frame *f, int64_t *price)
+{
+  for (int e = 0; e < f->n_edges && walks->unit; e++)
+    price[e] = walks->edge[e];
+  for (int v = 0; v < f->n_nodes && walks->unit; v++)
+    price[EDGES + v] = walks->node[v];
+}
+
+static void restore(thr_walk_proof *walks, const thr_walk_proof *from, const thr_frame *f, const int64_t *price)
+{
+  if (from->unit) *walks = *from;
+  for (int e = 0; e < f->n_edges && from->unit; e++)
+    walks->edge[e] = price[e];
+  for (int v = 0; v < f->n_nodes && from->unit; v++)
+    walks->node[v] = price[EDGES + v];
+}
+
 /* Changes to what a plan claims, or to what it is about: whatever the checker lets pass is true. */
 START_TEST(no_forged_claim_is_verified)
 {
   rng r = rng_make((uint64_t)_i + 5000);
   instance x;
   thr_plan p;
+  int64_t price[2][EDGES + NODES];
   if (instance_make(&r, &x)) {
     thr_status st = thr_plan_make(&x.frame, &x.o, &(thr_limits){0}, &p, NULL, NULL);
     ck_assert(st == THR_OK || st == THR_ELIMIT || st == THR_EINFEASIBLE);
+    save(&p.proof.pulled, &x.frame, price[0]);
+    save(&p.pull_claim.walks, &x.frame, price[1]);
     for (int i = 0; i < 300 && p.n_cords > 0; i++) {
       thr_request asked = p.options;
       thr_pull_claim claim = p.pull_claim;
-      p.turning.present = p.proof.present = p.cords_claim.present = false;
+      const thr_length_proof proof = p.proof;
+      p.turning.present = p.cords_claim.present = false;
+      if (!proof.pulled.unit) p.proof.present = false;
       for (int k = rng_between(&r, 1, 3); k > 0; k--)
-        switch (rng_below(&r, 6)) {
+        switch (rng_below(&r, 8)) {
+        case 6: forge_walks(&r, &p, is_by_walks(&p) ? &p.pull_claim.walks : &p.proof.pulled); break;
+        case 7: forge_length(&r, &p); break;
         case 0: p.pull_claim.fewest += rng_between(&r, -1, 2); break;
         case 1: p.pull_claim.excluded = rng_between(&r, 1, MOST); break;
         case 2: p.options.max_pull = fmax(1, p.options.max_pull * (1 + (rng_unit(&r) - .5) * .2)); break;
@@ -123,13 +301,17 @@ START_TEST(no_forged_claim_is_verified)
         default: p.pull_claim.optimal = rng_below(&r, 2);
         }
       if (thr_check_plan(&p, NULL) == THR_OK) {
-        int least = p.options.cords_least, fewest = fewest_possible(&x, &p.options);
+        int least = p.options.cords_least, fewest = fewest_possible(&x, &p.options, is_by_walks(&p));
         ck_assert_int_le(p.pull_claim.fewest, fewest > least ? fewest : least);
         ck_assert(!p.pull_claim.optimal || p.pull_claim.fewest == p.n_cords);
+        if (p.proof.present) ck_assert_double_le(p.proof.lower_bound, least_length(&p) * (1 + 1e-8));
         for (int k = 0; k < p.n_cords; k++)
           ck_assert_double_le(pull_of(&x.frame, &p.cord[k], x.o.physics.mu), p.options.max_pull * (1 + 1e-8));
       }
       p.options = asked;
+      restore(&p.proof.pulled, &proof.pulled, &x.frame, price[0]);
+      restore(&p.pull_claim.walks, &claim.walks, &x.frame, price[1]);
+      p.proof = proof;
       p.pull_claim = claim;
     }
     thr_plan_destroy(&p);

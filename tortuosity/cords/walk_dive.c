@@ -34,6 +34,11 @@ static double serves(const dive *d, const thr_row *row)
   return sum;
 }
 
+static bool is_price_of_cord(const thr_walk_programme *p, int variable)
+{
+  return p->lengths && variable == p->n_variables - 1;
+}
+
 static thr_status take(dive *d, const thr_row *row, thr_err *err)
 {
   thr_cord *cord = &d->cord[d->n_cords];
@@ -41,8 +46,10 @@ static thr_status take(dive *d, const thr_row *row, thr_err *err)
   if (!(cord->half = thr_calloc((size_t)row->n_members, sizeof *cord->half))) return thr_nomem(err);
   memcpy(cord->half, row->member, (size_t)row->n_members * sizeof *cord->half);
   d->n_cords++;
-  for (int k = 0; k < row->n; k++)
-    d->left[row->column[k]] = fmax(0, d->left[row->column[k]] + (row->value ? row->value[k] : 1));
+  for (int k = 0; k < row->n; k++) {
+    const int j = row->column[k];
+    if (!is_price_of_cord(d->p, j)) d->left[j] = fmax(0, d->left[j] + (row->value ? row->value[k] : 1));
+  }
   return THR_OK;
 }
 
@@ -75,7 +82,7 @@ static thr_status take_some(dive *d, int *taken, thr_err *err)
     st = take(d, &search->pool.row[i], err);
     ++*taken;
   }
-  if (!st && *taken == 0 && (best = choose_walk(d)) >= 0) {
+  if (!st && *taken == 0 && d->n_cords < d->p->cords && (best = choose_walk(d)) >= 0) {
     st = take(d, &search->pool.row[best], err);
     ++*taken;
   }
@@ -120,28 +127,42 @@ static void take_off(dive *d, const thr_cord *cord)
     left[p->n_variables - 1] = fmax(0, left[p->n_variables - 1] - thr_walk_price(p->c, p->steps.measure, cord) / p->least);
 }
 
+/* Walks in a part of the time; where that ends it, those will do. */
+static thr_status first_walks(thr_walk_programme *p, thr_err *err)
+{
+  enum { ROUNDS = 200 };
+  const double part = .6;
+  const thr_limits *limits = p->limits, share = thr_limits_part(limits, part);
+  p->limits = &share;
+  thr_status st = thr_walk_programme_rounds(p, ROUNDS, err);
+  p->limits = limits;
+  if (p->search.outcome == THR_LP_STOPPED && !thr_limits_stop(limits)) p->search.outcome = THR_LP_OPTIMAL;
+  return st;
+}
+
 static thr_status run(dive *d, bool *found, thr_err *err)
 {
   enum { FIRST_ROUNDS = 30, ROUNDS = 4 };
   thr_walk_programme *p = d->p;
+  const bool few = p->per_cord > 0;
   thr_status st = THR_OK;
   for (int taken = 1, step = 0; taken > 0 && !st && !is_covered(d); step++) {
     for (int j = 0; j < p->n_variables; j++)
       d->cost[j] = -d->left[j];
     st = thr_lp_set_costs(p->search.lp, d->cost, err);
-    if (!st) st = thr_walk_programme_rounds(p, step ? ROUNDS : FIRST_ROUNDS, err);
+    if (!st) st = few && step == 0 ? first_walks(p, err) : thr_walk_programme_rounds(p, step ? ROUNDS : FIRST_ROUNDS, err);
     if (st || p->search.outcome != THR_LP_OPTIMAL) break;
-    if (-p->search.objective > p->cords - d->n_cords + 1e-6) break;
+    if (!few && -p->search.objective > p->cords - d->n_cords + 1e-6) break;
     st = take_some(d, &taken, err);
   }
   /* What is kept may do all that is needed before a walk is known: then there is none to fill up with. */
   *found = !st && is_covered(d) && (d->n_cords == p->cords || p->search.pool.count > 0);
-  return *found ? fill_up(d, &p->search.pool, err) : st;
+  return *found && !few ? fill_up(d, &p->search.pool, err) : st;
 }
 
 thr_status thr_walk_dive(thr_walk_programme *p, int units, uint64_t *random, int kept, thr_cord *cord, bool *found, thr_err *err)
 {
-  const double dear = 10; /* no pass goes without a walk */
+  const double dear = p->per_cord > 0 ? p->dearest : 10; /* no pass goes without a walk */
   size_t n = (size_t)p->n_variables;
   dive d = {.p = p, .cord = cord, .n_cords = kept, .kept = kept, .random = random};
   d.left = thr_calloc(n, sizeof *d.left);

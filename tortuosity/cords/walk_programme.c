@@ -3,6 +3,7 @@
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
 #include "graph/scratch.h"
@@ -11,10 +12,13 @@
 #include "lp/model/search.h"
 #include "lp/solver/lp.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 
 enum {
+  FEWEST_BITS = 20,       /* of a price */
+  MOST_PRICE = 200,       /* lengths of the longest edge that a pass costs at most, with a pull */
   MOST_ENTRIES = 1 << 23, /* of the recursion's table */
   MOST_UNITS = 4000,
   FEWEST_UNITS = 100,
@@ -22,9 +26,10 @@ enum {
   PATIENCE = 30    /* rounds after which a walk that is not needed is forgotten */
 };
 
-static const double one = 4294967296.0; /* 1 in the integers of a proof */
-static const double most_steps = 2e8;   /* of all recursions for a look at the prices */
-static const double per_step = 2e-9;    /* seconds */
+static const double one = 4294967296.0;    /* 1 in the integers of a proof */
+static const double most_steps = 2e8;      /* of all recursions for a look at the prices */
+static const double most_pull_steps = 3e7; /* where they are about all cords, and look longer */
+static const double per_step = 2e-9;       /* seconds */
 
 /* What the pass after number k of a cord, or the first one for k = -1, adds to it. */
 static double pass_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int k)
@@ -34,10 +39,10 @@ static double pass_price(const thr_turning_columns *columns, thr_walk_measure me
   return k < 0 ? 0 : thr_turn_price(columns->f, columns->task->cost, cord->half[k], out);
 }
 
-/* Of the passes from number -1 on that have a price: closed cords turn where they close, too. */
+/* Of the passes from number -1 on that have a price: closed cords turn where they close, too, if that is not at their ends. */
 static int priced_passes(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord)
 {
-  return cord->n_passes - (measure == THR_WALK_LENGTH || columns->task->end_allowed);
+  return cord->n_passes - (measure != THR_WALK_TURNING || columns->task->end_allowed);
 }
 
 double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord)
@@ -62,13 +67,13 @@ int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measur
 
 /* ---- set up ---- */
 
-/* A unit of which at most so many make up the cord, and of those up to twice as large the one of which most turns, or edges, of
+/* A unit of which at most so many make up the whole, and of those up to twice as large the one of which most turns, or edges, of
  * the cord are nearly whole numbers; of lengths no longer than any edge. */
-static int64_t choose_unit(const thr_walk_programme *p, thr_walk_measure measure, const thr_cord *cord, int units)
+static int64_t choose_unit(const thr_walk_programme *p, thr_walk_measure measure, const thr_cord *cord, double whole, int units)
 {
   enum { CANDIDATES = 256 };
   const thr_frame *frame = p->c->f;
-  double smallest = thr_walk_price(p->c, measure, cord) / units, least_loss = INFINITY, unit = smallest, most = INFINITY;
+  double smallest = whole / units, least_loss = INFINITY, unit = smallest, most = INFINITY;
   for (int e = 0; e < frame->n_edges && measure == THR_WALK_LENGTH; e++)
     if (p->c->component[frame->edge[e][0]] == p->component) most = fmin(most, frame->length[e]);
   for (int i = 0; i < CANDIDATES; i++) {
@@ -89,7 +94,7 @@ static int64_t choose_unit(const thr_walk_programme *p, thr_walk_measure measure
 static int most_units(const thr_turning_columns *columns, thr_walk_measure measure, int component)
 {
   double halves = 0, squares = 0, nodes = 0;
-  bool length = measure == THR_WALK_LENGTH;
+  bool length = measure == THR_WALK_LENGTH, pull = measure == THR_WALK_PULL;
   for (int v = 0; v < columns->f->n_nodes; v++) {
     double degree = thr_degree(columns->f, v);
     if (columns->component[v] != component) continue;
@@ -97,8 +102,9 @@ static int most_units(const thr_turning_columns *columns, thr_walk_measure measu
     halves += degree;
     squares += degree * degree;
   }
-  double runs = columns->task->end_allowed ? 1 : length ? nodes : halves / 2;
-  double units = fmin(MOST_ENTRIES / (length ? nodes : halves), most_steps / ((length ? halves : squares) * runs));
+  double runs = columns->task->end_allowed ? 1 : length || pull ? nodes : halves / 2;
+  double steps = pull ? most_pull_steps : most_steps;
+  double units = fmin(MOST_ENTRIES / (length ? nodes : halves), steps / ((length ? halves : squares) * runs));
   return (int)fmin(units, MOST_UNITS);
 }
 
@@ -116,6 +122,7 @@ static void number_variables(thr_walk_programme *p)
     if (p->node[v] >= 0) p->right[p->n_variables++] = (double)needed + 1;
   }
   if (p->least > 0) p->right[p->n_variables++] = 1;
+  if (p->lengths) p->right[p->n_variables++] = -p->cords;
 }
 
 static thr_status allocate(thr_walk_programme *p, thr_err *err)
@@ -128,33 +135,77 @@ static thr_status allocate(thr_walk_programme *p, thr_err *err)
   p->middle = thr_scratch_array(&p->own, most, sizeof *p->middle);
   p->try = thr_scratch_array(&p->own, most, sizeof *p->try);
   p->start = thr_scratch_array(&p->own, MOST_WALKS, sizeof *p->start);
-  p->value = thr_scratch_array(&p->own, ((size_t)p->most_units + 1) * places, sizeof *p->value);
-  p->half = thr_scratch_array(&p->own, ((size_t)p->most_units + 1) * places, sizeof *p->half);
+  size_t entries = ((size_t)p->most_units + 1) * places * thr_walk_tables(p->steps.measure);
+  p->value = thr_scratch_array(&p->own, entries, sizeof *p->value);
+  p->half = thr_scratch_array(&p->own, entries, sizeof *p->half);
   p->trial.edge = thr_calloc(m, sizeof *p->trial.edge);
   p->trial.node = thr_calloc(n, sizeof *p->trial.node);
   if (!p->trial.edge || !p->trial.node) return thr_nomem(err);
   return thr_scratch_check(&p->own, err);
 }
 
-thr_status thr_walk_programme_init(thr_walk_programme *p, const thr_turning_columns *columns, thr_walk_measure measure,
-                                   const thr_cord *cord, int n_cords, double least, const thr_limits *limits, thr_err *err)
+static thr_status init(thr_walk_programme *p, const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord,
+                       int n_cords, const thr_cord *most, double whole, double least, bool lengths, const thr_limits *limits,
+                       thr_err *err)
 {
-  const thr_cord *most = &cord[thr_walk_dearest(columns, measure, cord, n_cords)];
   int component = columns->component[thr_tail(columns->f, most->half[0])], here = 0;
-  *p = (thr_walk_programme){.c = columns, .limits = limits, .component = component};
+  *p = (thr_walk_programme){.c = columns, .limits = limits, .component = component, .scale = one, .lengths = lengths};
   for (int i = 0; i < n_cords; i++)
     here += columns->component[thr_tail(columns->f, cord[i].half[0])] == component;
   p->cords = !columns->task->end_count ? columns->task->cords : measure == THR_WALK_LENGTH ? here : n_cords;
   p->least = least * (1 - 1e-10);
   p->most_units = most_units(columns, measure, component);
   if (p->most_units < FEWEST_UNITS) return thr_fail(err, THR_ELIMIT, "the component is too large for walks");
-  p->unit = choose_unit(p, measure, most, p->most_units - 1);
+  p->unit = choose_unit(p, measure, most, whole, p->most_units - 1);
   thr_status st = thr_walk_steps_init(&p->steps, columns, measure, component, p->unit, err);
   if (st) return st == THR_EVIOLATED ? THR_ELIMIT : st;
   if ((st = allocate(p, err))) return st;
   p->trial.unit = p->unit;
   number_variables(p);
   return thr_pool_init(&p->walks, p->n_variables, err);
+}
+
+thr_status thr_walk_programme_init(thr_walk_programme *p, const thr_turning_columns *columns, thr_walk_measure measure,
+                                   const thr_cord *cord, int n_cords, double least, const thr_limits *limits, thr_err *err)
+{
+  const thr_cord *most = &cord[thr_walk_dearest(columns, measure, cord, n_cords)];
+  return init(p, columns, measure, cord, n_cords, most, thr_walk_price(columns, measure, most), least, false, limits, err);
+}
+
+/* Prices, of which a pass costs at most most lengths of the longest edge, have as many bits as their sums leave room for. */
+static void choose_bits(thr_walk_programme *p, double most)
+{
+  const int all = 61; /* in 64 bits */
+  int passes, price;
+  frexp(((double)p->units + 2) * (p->steps.n + 1), &passes);
+  frexp(5 * most, &price); /* a pass, its nodes, an end, and a length */
+  const int bits = all - price - passes;
+  p->trial.bits = bits < THR_TURNING_BITS ? bits : THR_TURNING_BITS;
+  p->scale = ldexp(p->longest, thr_walk_exponent(p->c->f, THR_WALK_LENGTH) - THR_TURNING_BITS + p->trial.bits);
+}
+
+thr_status thr_walk_programme_init_pull(thr_walk_programme *p, const thr_turning_columns *columns, const thr_request *options,
+                                        const thr_cord *cord, int n_cords, int component, bool lengths, const thr_limits *limits,
+                                        thr_err *err)
+{
+  const thr_cord *most = NULL;
+  for (int i = 0; i < n_cords; i++)
+    if (columns->component[thr_tail(columns->f, cord[i].half[0])] == component &&
+        (!most || thr_walk_price(columns, THR_WALK_PULL, &cord[i]) > thr_walk_price(columns, THR_WALK_PULL, most)))
+      most = &cord[i];
+  *p = (thr_walk_programme){0};
+  if (!most) return THR_ELIMIT;
+  const double half = thr_request_most_turning(options) / 2;
+  thr_status st = init(p, columns, THR_WALK_PULL, cord, n_cords, most, half, 0, lengths, limits, err);
+  if (st) return st;
+  p->units = thr_walk_pull_units(options, p->unit);
+  for (int e = 0; e < columns->f->n_edges; e++)
+    if (p->edge[e] >= 0) p->longest = fmax(p->longest, columns->f->length[e]);
+  p->dearest = MOST_PRICE;
+  if (lengths) choose_bits(p, p->dearest);
+  if (p->units > p->most_units || (lengths && p->trial.bits < FEWEST_BITS))
+    return thr_fail(err, THR_ELIMIT, "the component is too large for walks");
+  return THR_OK;
 }
 
 void thr_walk_programme_destroy(thr_walk_programme *p)
@@ -173,19 +224,19 @@ double thr_walk_programme_price(const thr_walk_programme *p, int units)
 
 /* ---- walks at given prices ---- */
 
-static int64_t whole(double price)
+static int64_t whole(double price, double scale)
 {
-  return price > 0 ? (int64_t)floor(price * one) : 0;
+  return price > 0 ? (int64_t)floor(price * scale) : 0;
 }
 
 /* The variables as the prices of a proof. */
 static thr_status set_trial(thr_walk_programme *p, const double *x, thr_err *err)
 {
   for (int e = 0; e < p->c->f->n_edges; e++)
-    p->trial.edge[e] = p->edge[e] >= 0 ? whole(x[p->edge[e]]) : 0;
+    p->trial.edge[e] = p->edge[e] >= 0 ? whole(x[p->edge[e]], p->scale) : 0;
   for (int v = 0; v < p->c->f->n_nodes; v++)
-    p->trial.node[v] = p->node[v] >= 0 ? whole(x[p->node[v]]) : 0;
-  p->trial.all = p->least > 0 ? whole(ldexp(x[p->n_variables - 1] / p->least, THR_TURNING_BITS - p->steps.exponent)) : 0;
+    p->trial.node[v] = p->node[v] >= 0 ? whole(x[p->node[v]], p->scale) : 0;
+  p->trial.all = p->least > 0 ? whole(ldexp(x[p->n_variables - 1] / p->least, THR_TURNING_BITS - p->steps.exponent), one) : 0;
   p->trial.units = p->units;
   return thr_walk_steps_price(&p->steps, &p->trial, err);
 }
@@ -196,18 +247,31 @@ static int64_t worth_of(const thr_walk_programme *p, const thr_walk_step *first)
   return thr_walk_worth(&p->steps, first, p->units, p->units + 1, p->value);
 }
 
-/* The step that the best walk takes from place i with so many units left; NULL: it ends there. */
-static const thr_walk_step *best_step(const thr_walk_programme *p, int i, int units, int home)
+/* What a walk of a recursion is worth from place i on that goes no further there; last: after the slackest pass, if a pull
+ * counts. */
+static int64_t end_worth(const thr_walk_programme *p, int run, int i, bool last)
 {
   const thr_walk_steps *steps = &p->steps;
+  if (!last) return p->value[((size_t)p->units + 1 + (size_t)p->units) * (size_t)steps->n + (size_t)i];
+  if (!steps->closed) return steps->end[i];
+  bool home =
+      steps->n_homes > 0 ? steps->group[i] == thr_tail(p->c->f, steps->begin[steps->from[run]].half) : i == steps->begin[run].to;
+  return home ? 0 : INT64_MIN;
+}
+
+/* The step that the best walk takes from place i with so many units left; NULL: it ends there, or may turn as much again. */
+static const thr_walk_step *best_step(const thr_walk_programme *p, int run, int i, int units, bool last)
+{
+  const thr_walk_steps *steps = &p->steps;
+  const size_t table = last && steps->measure == THR_WALK_PULL ? (size_t)p->units + 1 : 0;
   const thr_walk_step *best = NULL;
-  int64_t most = i == home ? 0 : steps->end[i];
+  int64_t most = end_worth(p, run, i, last);
   for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
     const thr_walk_step *step = &steps->step[k];
     if (step->units > units) continue;
-    int64_t here = p->value[(size_t)(units - step->units) * (size_t)steps->n + (size_t)step->to] + step->worth;
-    if (here <= most || here < 0) continue;
-    most = here;
+    const int64_t on = p->value[(table + (size_t)(units - step->units)) * (size_t)steps->n + (size_t)step->to];
+    if (thr_walk_is_none(on) || on + step->worth <= most) continue;
+    most = on + step->worth;
     best = step;
   }
   return best;
@@ -218,24 +282,56 @@ static void put_node(thr_walk_programme *p, int v)
   if (p->node[v] >= 0) thr_pool_put(&p->search.pool, p->node[v], -1);
 }
 
-/* Puts together the row of the best walk with a first pass, as thr_row.index and member say. home: the place where it closes, -1:
- * it is open. */
-static thr_row put_walk(thr_walk_programme *p, const thr_walk_step *step, int home)
+/* Puts together the row of a walk over n half-edges. */
+static thr_row put_walk(thr_walk_programme *p, int *half, int n)
 {
   const thr_frame *frame = p->c->f;
-  thr_row row = {.lower = -1, .member = p->half};
-  double all = 0;
-  if (home < 0) put_node(p, thr_tail(frame, step->half));
-  for (int i = 0; step; step = best_step(p, i, p->units - row.index, home)) {
-    p->half[row.n_members++] = step->half;
-    thr_pool_put(&p->search.pool, p->edge[step->half >> 1], -1);
-    put_node(p, thr_tail(frame, step->half));
-    put_node(p, thr_head(frame, step->half));
-    row.index += step->units;
-    all += (double)step->weight;
-    i = step->to;
+  thr_row row = {.lower = -1, .member = half, .n_members = n};
+  double length = 0;
+  for (int k = 0; k < n; k++) {
+    thr_pool_put(&p->search.pool, p->edge[half[k] >> 1], -1);
+    put_node(p, thr_tail(frame, half[k]));
+    put_node(p, thr_head(frame, half[k]));
+    length += frame->length[half[k] >> 1];
   }
-  if (home < 0) put_node(p, thr_head(frame, p->half[row.n_members - 1]));
+  if (!p->steps.closed) {
+    put_node(p, thr_tail(frame, half[0]));
+    put_node(p, thr_head(frame, half[n - 1]));
+  }
+  if (!p->lengths) return row;
+  row.lower = -length / p->longest;
+  thr_pool_put(&p->search.pool, p->n_variables - 1, 1);
+  return row;
+}
+
+/* Cords that are looked for turn back only at nodes with one edge: does a closed walk elsewhere? */
+static bool closes_back(const thr_walk_programme *p, int n)
+{
+  const int first = p->half[0];
+  return p->per_cord > 0 && p->steps.closed && p->half[n - 1] == (first ^ 1) && thr_degree(p->c->f, thr_tail(p->c->f, first)) > 1;
+}
+
+/* The row of the best walk of a recursion with a first pass, as thr_row.index and member say; without members: it is none. */
+static thr_row trace_walk(thr_walk_programme *p, int run, const thr_walk_step *step)
+{
+  int n = 0, units = 0, left = p->units;
+  bool last = p->steps.measure != THR_WALK_PULL;
+  double all = 0;
+  while (step) {
+    const int i = step->to;
+    p->half[n++] = step->half;
+    units += step->units;
+    left -= step->units;
+    all += (double)step->weight;
+    step = best_step(p, run, i, left, last);
+    if (step || last) continue;
+    last = true;
+    left = p->units;
+    step = best_step(p, run, i, left, last);
+  }
+  if (closes_back(p, n)) return (thr_row){0};
+  thr_row row = put_walk(p, p->half, n);
+  if (p->steps.measure != THR_WALK_PULL) row.index = units;
   if (p->least > 0) thr_pool_put(&p->search.pool, p->n_variables - 1, -ldexp(all, -p->steps.exponent) / p->least);
   return row;
 }
@@ -255,6 +351,17 @@ static int sort_starts(thr_walk_programme *p, int run, int most)
   return n;
 }
 
+/* What they prove of the length of all cords within a limit on the pull. */
+static void judge_lengths(thr_walk_programme *p, const double *x, int64_t worth)
+{
+  const double bound = thr_walk_pull_bound(&p->steps, &p->trial, p->cords, worth);
+  if (bound <= p->best) return;
+  p->best = bound;
+  for (int j = 0; j < p->n_variables; j++)
+    p->middle[j] = x[j];
+  p->excluded = bound >= p->enough * (1 - 1e-9);
+}
+
 /* What these prices, of which a walk is worth so much at most, prove. */
 static void judge_prices(thr_walk_programme *p, const double *x, double worth)
 {
@@ -270,19 +377,20 @@ static void judge_prices(thr_walk_programme *p, const double *x, double worth)
 static thr_status price_walks(thr_walk_programme *p, const double *x, int *added, thr_err *err)
 {
   thr_status st = set_trial(p, x, err);
-  const bool closed = p->steps.closed;
-  double most = 1;
+  int64_t most = p->lengths ? 0 : 1;
   if (st) return st == THR_EVIOLATED ? THR_OK : st;
   for (int run = 0; run < thr_walk_runs(&p->steps) && !st; run++) {
     thr_walk_run(&p->steps, run, p->units, p->units + 1, p->value);
-    thr_limits_spend(p->limits, per_step * p->units * p->steps.first[p->steps.n]);
-    int n = sort_starts(p, run, closed ? 1 : MOST_WALKS);
-    if (n > 0) most = fmax(most, (double)worth_of(p, p->start[0]));
-    for (int i = 0; i < n && !st && worth_of(p, p->start[i]) > 0; i++)
-      st =
-          thr_pool_offer(&p->search.pool, put_walk(p, p->start[i], closed ? p->steps.begin[run].to : -1), p->x, 1e-6, added, err);
+    thr_limits_spend(p->limits, per_step * p->units * p->steps.first[p->steps.n] * (double)thr_walk_tables(p->steps.measure));
+    int n = sort_starts(p, run, p->steps.closed ? 1 : MOST_WALKS);
+    if (n > 0 && worth_of(p, p->start[0]) > most) most = worth_of(p, p->start[0]);
+    for (int i = 0; i < n && !st && worth_of(p, p->start[i]) > 0; i++) {
+      const thr_row row = trace_walk(p, run, p->start[i]);
+      if (row.n_members > 0) st = thr_pool_offer(&p->search.pool, row, p->x, 1e-6, added, err);
+    }
   }
-  if (p->to_exclude && !st) judge_prices(p, x, most);
+  if (p->to_exclude && !st && p->lengths) judge_lengths(p, x, most);
+  if (p->to_exclude && !st && !p->lengths) judge_prices(p, x, (double)most);
   return st;
 }
 
@@ -298,6 +406,28 @@ static thr_status find_walks(void *user, int *added, thr_err *err)
   return st || p->excluded || *added > 0 ? st : price_walks(p, p->x, added, err);
 }
 
+void thr_walk_programme_round_up(thr_walk_programme *p, double per_cord)
+{
+  thr_walk_steps *steps = &p->steps;
+  const double rounding = 2e-9; /* twice what the unit is less than turns of whole numbers of it */
+  for (int d = 0; d < 2 * p->c->f->n_edges; d++) {
+    const int i = steps->place[d];
+    for (int k = i < 0 ? 0 : steps->first[i]; i >= 0 && k < steps->first[i + 1]; k++) {
+      thr_walk_step *step = &steps->step[k];
+      const bool back = step->half == (d ^ 1) && thr_degree(p->c->f, thr_head(p->c->f, d)) > 1;
+      step->units = back ? INT_MAX : (int)ceil((double)step->weight / (double)p->unit * (1 - rounding));
+    }
+  }
+  p->per_cord = per_cord;
+  p->dearest = 2 * per_cord;
+  choose_bits(p, p->dearest);
+}
+
+thr_status thr_walk_programme_middle(thr_walk_programme *p, thr_err *err)
+{
+  return set_trial(p, p->middle, err);
+}
+
 /* ---- a limit ---- */
 
 /* Rows of walks of at most so many units from pool to pool. */
@@ -310,7 +440,9 @@ static thr_status carry_walks(const thr_pool *from, int units, thr_pool *to, thr
     for (int k = 0; k < row->n; k++)
       thr_pool_put(to, row->column[k], row->value ? row->value[k] : 1);
     st = thr_pool_add(
-        to, (thr_row){.name = row->name, .index = row->index, .lower = -1, .n_members = row->n_members, .member = row->member},
+        to,
+        (thr_row){
+            .name = row->name, .index = row->index, .lower = row->lower, .n_members = row->n_members, .member = row->member},
         err);
   }
   return st;
@@ -328,6 +460,7 @@ thr_status thr_walk_programme_begin(thr_walk_programme *p, int units, double pri
     upper[j] = j + 1 == p->n_variables && p->least > 0 ? 2 * p->cords : price;
   }
   if (!st) st = thr_lp_create(&p->search.lp, p->n_variables, cost, upper, err);
+  if (!st && p->per_cord > 0) st = thr_lp_set_bounds(p->search.lp, p->n_variables - 1, p->per_cord, p->per_cord, err);
   if (!st) st = carry_walks(&p->walks, units, &p->search.pool, err);
   if (!st) thr_search_use(&p->search, find_walks, p, THR_SLOW);
   free(cost);
@@ -339,14 +472,23 @@ thr_status thr_walk_programme_begin(thr_walk_programme *p, int units, double pri
 static thr_status look(void *user, thr_err *err)
 {
   thr_walk_programme *p = user;
+  const double value = -p->search.objective, near = 1e-9;
   (void)err;
-  p->search.enough = p->to_exclude && p->search.outcome == THR_LP_OPTIMAL && -p->search.objective <= p->cords * (1 + 1e-9);
+  const double most = p->enough > 0 ? p->enough : p->cords; /* of cords, where their number counts */
+  const bool enough = p->lengths ? p->best >= value * p->longest * (1 - near) : value <= most * (1 + near);
+  p->search.enough = p->to_exclude && p->search.outcome == THR_LP_OPTIMAL && enough;
   return THR_OK;
+}
+
+thr_status thr_walk_programme_add(thr_walk_programme *p, const thr_cord *cord, thr_err *err)
+{
+  return thr_pool_add(&p->search.pool, put_walk(p, cord->half, cord->n_passes), err);
 }
 
 thr_status thr_walk_programme_rounds(thr_walk_programme *p, int most_rounds, thr_err *err)
 {
-  const thr_search_calls calls = {.user = p, .look = look, .most_rounds = most_rounds, .patience = p->to_exclude ? PATIENCE : 0};
+  const bool forgets = p->to_exclude && !p->lengths;
+  const thr_search_calls calls = {.user = p, .look = look, .most_rounds = most_rounds, .patience = forgets ? PATIENCE : 0};
   return thr_search_rounds(&p->search, &calls, p->limits, err);
 }
 

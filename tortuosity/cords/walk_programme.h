@@ -12,6 +12,7 @@
 
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
 #include "graph/scratch.h"
@@ -30,15 +31,20 @@ typedef struct {
   int most_units;                /* that the table is for */
   int n_variables, *edge, *node; /* [n_edges], [n_nodes] their variables, -1: none. The last one, if least > 0: of all */
   int n_edges;                   /* variables of edges, which come first */
-  double *right;                 /* [n_variables] the right sides: costs of the dual */
-  int units;                     /* of the limit that is being tried */
-  bool to_exclude;               /* is the limit to be excluded, or are walks looked for? */
-  bool excluded;                 /* it is, by the prices in trial */
-  double *x, *middle, *try;      /* [n_variables] the last optimum, the best so far, what is priced */
-  double best;                   /* number of cords that the best proves; 0: none yet */
-  int64_t *value;                /* [most_units + 1][steps.n] table of the recursion */
-  const thr_walk_step **start;   /* [most first steps] in the order of their worth */
-  int *half;                     /* a walk while it is traced */
+  bool lengths;             /* with a pull: walks cost their length, else each as much, and the last variable is a cord's price */
+  double *right;            /* [n_variables] the right sides: costs of the dual */
+  double scale, longest;    /* of prices to the integers of a proof; with a pull 1 is the length of the longest edge */
+  double enough;            /* with a pull: a bound on the length that ends the search, or so few cords */
+  double dearest;           /* with a pull: price of a pass at most */
+  double per_cord;          /* with a pull, 0: the cords are as many as there may be; else what one of any number costs */
+  int units;                /* of the limit that is being tried */
+  bool to_exclude;          /* is the limit to be excluded, or are walks looked for? */
+  bool excluded;            /* it is, by the prices in trial */
+  double *x, *middle, *try; /* [n_variables] the last optimum, the best so far, what is priced */
+  double best;              /* number of cords that the best proves, or their length; 0: none yet */
+  int64_t *value;           /* [tables][most_units + 1][steps.n] of the recursion */
+  const thr_walk_step **start; /* [most first steps] in the order of their worth */
+  int *half;                   /* a walk while it is traced */
   thr_walk_proof trial;
   thr_search search; /* rows: index is the number of units, member the walk's half-edges in order */
   thr_pool walks;    /* of all limits so far */
@@ -50,6 +56,13 @@ typedef struct {
 thr_status thr_walk_programme_init(thr_walk_programme *programme, const thr_turning_columns *columns, thr_walk_measure measure,
                                    const thr_cord *cord, int n_cords, double least, const thr_limits *limits,
                                    thr_err *err) THR_MUST_CHECK;
+
+/* The same for all cords of a component within options.max_pull, as many as suffice; or if lengths count a given number: then a
+ * variable more is the price of a cord, and walks cost their length. units are set. cord: of which one that pulls hardest says
+ * what unit is used. */
+thr_status thr_walk_programme_init_pull(thr_walk_programme *programme, const thr_turning_columns *columns,
+                                        const thr_request *options, const thr_cord *cord, int n_cords, int component,
+                                        bool lengths, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 void thr_walk_programme_destroy(thr_walk_programme *programme);
 
 /* Price of so many units, rounded down. */
@@ -58,8 +71,18 @@ double thr_walk_programme_price(const thr_walk_programme *programme, int units);
 /* Starts with the walks of at most so many units that are known. price: of a pass that no walk makes. */
 thr_status thr_walk_programme_begin(thr_walk_programme *programme, int units, double price, thr_err *err) THR_MUST_CHECK;
 
+/* Adds the walk of a cord of the component. */
+thr_status thr_walk_programme_add(thr_walk_programme *programme, const thr_cord *cord, thr_err *err) THR_MUST_CHECK;
+
 /* Adds walks, at most so many times, until the optimum knows all that it needs or the limit is excluded. */
 thr_status thr_walk_programme_rounds(thr_walk_programme *programme, int most_rounds, thr_err *err) THR_MUST_CHECK;
+
+/* With a pull: from now on walks are only those that certainly keep to it and turn back only at nodes with one edge, as many as
+ * one likes at that price each, in lengths of the longest edge. */
+void thr_walk_programme_round_up(thr_walk_programme *programme, double per_cord);
+
+/* The best prices so far become the trial. */
+thr_status thr_walk_programme_middle(thr_walk_programme *programme, thr_err *err) THR_MUST_CHECK;
 
 /* Keeps the walks for the next limit. */
 thr_status thr_walk_programme_end(thr_walk_programme *programme, thr_err *err) THR_MUST_CHECK;

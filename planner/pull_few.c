@@ -1,0 +1,119 @@
+/* Few cords within a limit on the pull, as the programme over walks finds them. */
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/plan/walk_proof.h"
+#include "graph/status.h"
+#include "planner/planners.h"
+#include "tortuosity/cords/walk_pull.h"
+
+#include <stdlib.h>
+
+/* Some cords in every component, short ones. *found: there are. */
+static thr_status some_cords(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *some,
+                             thr_err *err)
+{
+  thr_request any = *options;
+  thr_limits quiet = *limits;
+  thr_err why = {0};
+  quiet.found = NULL;
+  any.aims = thr_aims_shortest;
+  any.turning = thr_request_default().turning;
+  any.confirm = THR_CONFIRM_NEVER;
+  any.max_length = any.max_pull = 0;
+  any.cords = any.cords_least;
+  thr_status st = thr_planner_length(frame, &any, &quiet, some, NULL, &why);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves none */
+}
+
+/* Those of a component become the last of the plan. *found false: there are none. */
+static thr_status add_component(const thr_turning_columns *columns, const thr_plan *some, int component, const thr_limits *limits,
+                                thr_plan *plan, bool *found, thr_err *err)
+{
+  const thr_request *options = &plan->options;
+  thr_cord *cord = plan->cord + plan->n_cords;
+  int n = 0;
+  thr_status st =
+      thr_walk_pull_few(columns, options, some->cord, some->n_cords, component, limits, options->cords, cord, &n, err);
+  for (int i = 0; i < n; i++) {
+    cord[i].closed =
+        options->ends == THR_ENDS_CLOSED || thr_cord_start(&plan->frame, &cord[i]) == thr_cord_end(&plan->frame, &cord[i]);
+    thr_cord_id(plan->n_cords + i, cord[i].id);
+  }
+  plan->n_cords += n;
+  *found = n >= options->cords_least && n > 0;
+  return st;
+}
+
+/* The component with most cords, and how many those are. */
+static int most_cords(const thr_plan *plan, int n_components, int *number)
+{
+  int most = 0;
+  *number = 0;
+  for (int k = 0; k < n_components; k++) {
+    int here = 0;
+    for (int i = 0; i < plan->n_cords; i++)
+      here += plan->cord[i].component == k;
+    if (here > *number) most = k;
+    if (here > *number) *number = here;
+  }
+  return most;
+}
+
+/* Every component's cords. *found false: not of all. */
+static thr_status find_cords(const thr_turning_columns *columns, const thr_plan *some, const thr_limits *limits, thr_plan *plan,
+                             bool *found, thr_err *err)
+{
+  const size_t most = (size_t)plan->options.cords * (size_t)columns->n_components;
+  thr_status st = THR_OK;
+  *found = some->n_cords > 0;
+  if (!(plan->cord = thr_calloc(most, sizeof *plan->cord))) return thr_nomem(err);
+  for (int k = 0; k < columns->n_components && !st && *found; k++) {
+    const thr_limits share = thr_limits_part(limits, 1.0 / (columns->n_components - k));
+    st = add_component(columns, some, k, &share, plan, found, err);
+  }
+  *found = *found && thr_cords_within_pull(&plan->frame, &plan->options, plan->cord, plan->n_cords);
+  if (!st && *found) st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  return st;
+}
+
+thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
+                                thr_err *err)
+{
+  thr_plan some = {0};
+  thr_turning_columns columns = {0};
+  bool found = false, *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
+  *plan = (thr_plan){0};
+  if (!end_allowed) return thr_nomem(err);
+  const thr_turning_task task = thr_walk_pull_task(frame, options, end_allowed);
+  thr_status st = some_cords(frame, options, limits, &some, err);
+  if (!st) st = thr_plan_request(plan, frame, options, err);
+  if (!st) st = thr_turning_columns_init(&columns, frame, &task, err);
+  if (!st) st = find_cords(&columns, &some, limits, plan, &found, err);
+  if (st || !found) thr_plan_destroy(plan);
+  thr_plan_destroy(&some);
+  thr_turning_columns_destroy(&columns);
+  free(end_allowed);
+  return st;
+}
+
+thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *options, const thr_plan *plan, int known,
+                                    const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err)
+{
+  thr_turning_columns columns = {0};
+  int number = 0;
+  bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
+  *excluded = 0;
+  if (!end_allowed) return thr_nomem(err);
+  const thr_turning_task task = thr_walk_pull_task(frame, options, end_allowed);
+  thr_status st = thr_turning_columns_init(&columns, frame, &task, err);
+  const int component = st ? 0 : most_cords(plan, columns.n_components, &number);
+  if (!st)
+    st = thr_walk_pull_too_few(&columns, options, plan->cord, plan->n_cords, component, known, number - 1, limits, walks,
+                               excluded, err);
+  thr_turning_columns_destroy(&columns);
+  free(end_allowed);
+  return st;
+}

@@ -1,0 +1,137 @@
+/* The length within a limit on the pull, from walks of the known cords on. */
+#include "tortuosity/cords/walk_pull.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/plan/plan.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "tortuosity/cords/walk_cover.h"
+#include "tortuosity/cords/walk_dive.h"
+#include "tortuosity/cords/walk_programme.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_ROUNDS = 400 };
+
+/* The best prices that were looked at, as a proof. */
+static thr_status take_proof(thr_walk_programme *p, thr_walk_proof *proof, thr_err *err)
+{
+  thr_status st = p->best > 0 ? thr_walk_programme_middle(p, err) : THR_OK;
+  if (st || p->best <= 0) return st;
+  *proof = p->trial;
+  p->trial = (thr_walk_proof){0};
+  return THR_OK;
+}
+
+static bool is_of(const thr_walk_programme *p, const thr_cord *cord)
+{
+  return p->c->component[thr_cord_start(p->c->f, cord)] == p->component;
+}
+
+/* Length of the cords of the programme's component. */
+static double length_of(const thr_walk_programme *p, const thr_cord *cord, int n_cords)
+{
+  double sum = 0;
+  for (int i = 0; i < n_cords; i++)
+    if (is_of(p, &cord[i])) sum += thr_cord_length(p->c->f, &cord[i]);
+  return sum;
+}
+
+static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cords, thr_err *err)
+{
+  const double length = length_of(p, cord, n_cords);
+  p->to_exclude = true;
+  p->enough = length;
+  thr_status st = thr_walk_programme_begin(p, p->units, p->dearest, err);
+  for (int i = 0; i < n_cords && !st; i++)
+    if (is_of(p, &cord[i])) st = thr_walk_programme_add(p, &cord[i], err);
+  if (!st) st = thr_walk_programme_rounds(p, MOST_ROUNDS, err);
+  return st;
+}
+
+thr_status thr_walk_pull_length(const thr_turning_columns *columns, const thr_request *options, const thr_cord *cord, int n_cords,
+                                int component, const thr_limits *limits, thr_walk_proof *proof, double *bound, thr_err *err)
+{
+  thr_walk_programme p;
+  thr_err why = {0};
+  *bound = 0;
+  thr_status st = thr_walk_programme_init_pull(&p, columns, options, cord, n_cords, component, true, limits, &why);
+  if (!st) st = search(&p, cord, n_cords, &why);
+  if (!st) st = take_proof(&p, proof, &why);
+  if (!st) *bound = p.best;
+  thr_walk_programme_destroy(&p);
+  return st == THR_ELIMIT ? THR_OK : st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
+/* ---- few cords ---- */
+
+/* Edges of the component. */
+static int count_edges(const thr_turning_columns *columns, int component)
+{
+  int n = 0;
+  for (int e = 0; e < columns->f->n_edges; e++)
+    n += columns->component[columns->f->edge[e][0]] == component;
+  return n;
+}
+
+static int count_cords(const thr_cord *cord, int most)
+{
+  int n = 0;
+  while (n < most && cord[n].half)
+    n++;
+  return n;
+}
+
+thr_status thr_walk_pull_few(const thr_turning_columns *columns, const thr_request *options, const thr_cord *some, int n_some,
+                             int component, const thr_limits *limits, int most, thr_cord *cord, int *n, thr_err *err)
+{
+  thr_walk_programme p;
+  thr_err why = {0};
+  bool found = false;
+  *n = 0;
+  thr_status st = thr_walk_programme_init_pull(&p, columns, options, some, n_some, component, true, limits, &why);
+  if (!st) {
+    p.cords = most;
+    thr_walk_programme_round_up(&p, count_edges(columns, component));
+    st = thr_walk_dive(&p, p.units, NULL, 0, cord, &found, &why);
+  }
+  if (!st && found) {
+    p.cords = count_cords(cord, most);
+    st = thr_walk_cover(&p, cord, &why);
+    *n = count_cords(cord, most);
+  }
+  thr_walk_programme_destroy(&p);
+  return st == THR_ELIMIT ? THR_OK : st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
+/* ---- too few ---- */
+
+thr_status thr_walk_pull_too_few(const thr_turning_columns *columns, const thr_request *options, const thr_cord *cord,
+                                 int n_cords, int component, int known, int cords, const thr_limits *limits,
+                                 thr_walk_proof *proof, int *excluded, thr_err *err)
+{
+  thr_walk_programme p;
+  thr_err why = {0};
+  double bound = 0;
+  *excluded = 0;
+  thr_status st = thr_walk_programme_init_pull(&p, columns, options, cord, n_cords, component, false, limits, &why);
+  p.cords = cords;
+  p.enough = known + 1;
+  p.to_exclude = true;
+  if (!st) st = thr_walk_programme_begin(&p, p.units, 1, &why); /* no walk that counts is worth more than 1 */
+  for (int i = 0; i < n_cords && !st; i++)
+    if (is_of(&p, &cord[i])) st = thr_walk_programme_add(&p, &cord[i], &why);
+  if (!st) st = thr_walk_programme_rounds(&p, MOST_ROUNDS, &why);
+  const int number = (int)fmin(cords, ceil(p.best * (1 - 1e-9)) - 1);
+  if (!st) st = take_proof(&p, proof, &why);
+  if (!st && proof->unit && number > 0) st = thr_walk_pull_check(columns, options, proof, number, &bound, &why);
+  if (bound > 0)
+    *excluded = number;
+  else
+    thr_walk_proof_destroy(proof);
+  thr_walk_programme_destroy(&p);
+  return st == THR_ELIMIT || st == THR_EVIOLATED ? THR_OK : st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
