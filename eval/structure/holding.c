@@ -221,11 +221,11 @@ done:
   return st;
 }
 
-/* Rounding may spoil a programme in one scale and not in another; beyond a thousand beads another try takes too long. */
+/* Rounding may spoil a programme in one scale and not in another; beyond a thousand beads a third try takes too long. */
 static thr_status lower_pull(task *t, double *most, answer *a, thr_err *err)
 {
   static const double unit[] = {1, 0.1, 10};
-  const int tries = t->b->n_beads > THR_BLOCKS_LARGE ? 1 : 3;
+  const int tries = t->b->n_beads > THR_BLOCKS_LARGE ? 2 : 3;
   thr_err why = {0};
   thr_status st = THR_ESOLVER;
   for (int i = 0; i < tries && st == THR_ESOLVER; i++) {

@@ -350,7 +350,7 @@ static double meet(state *s)
 /* Corrects products x z that a longer step would leave far from the target; kept only if the step gets longer. */
 static bool correct_again(state *s, double target)
 {
-  const double least = 0.1, most = 10, further = 0.2;
+  const double least = 0.1, most = 10, further = 0.1;
   point *at = &s->at, *d = &s->step, *t = &s->trial;
   double along_x = reach(at->x, d->x, s->n), along_z = reach(at->z, d->z, s->n);
   double try_x = fmin(1, along_x + further), try_z = fmin(1, along_z + further);
