@@ -20,8 +20,9 @@
 #include <stdlib.h>
 
 /* Counted work (graph/limits.h) for a second that the user allows, so that the plan does not depend on the machine: to find how
- * many cords it takes, and then cords that serve the aims. Together they take a tenth of that second up to all of it. */
-static const double work_to_find = 1.2, work_to_serve = 0.4;
+ * many cords it takes, by search and by walks, and then cords that serve the aims. Together they take a tenth of that second up
+ * to twice as long. */
+static const double work_to_find = 1.2, work_to_choose = 1.2, work_to_serve = 0.4;
 
 typedef struct {
   const thr_frame *f;
@@ -134,13 +135,15 @@ static thr_status exclude_by_walks(fewest *x, thr_err *err)
   return st;
 }
 
-/* Cords of the programme over walks. */
+/* Fewer cords by the programme over walks than were found without, unless these are proved to be few enough. */
 static thr_status use_walks(fewest *x, thr_err *err)
 {
+  enum { MOST_EDGES = 500 }; /* no walks that serve are found in larger frameworks in the time */
   const thr_limits share = thr_dispatch_share(x->limits, THR_STEP_FEW_WALKS);
   thr_plan plan;
   int number = 0;
-  if (x->o->joint == THR_JOINT_TUBE || x->o->physics.mu <= 0) return THR_OK;
+  if (x->o->joint == THR_JOINT_TUBE || x->o->physics.mu <= 0 || x->f->n_edges > MOST_EDGES) return THR_OK;
+  if (x->found.n_cords > 0 && x->number - 1 <= x->claim.excluded) return THR_OK;
   thr_status st = thr_planner_pull_few(x->f, x->o, &share, &plan, err);
   bool short_enough = x->o->max_length == 0 || thr_cords_longest(x->f, plan.cord, plan.n_cords) <= x->o->max_length;
   for (int i = 0; i < plan.n_cords; i++) {
@@ -149,7 +152,8 @@ static thr_status use_walks(fewest *x, thr_err *err)
       here += plan.cord[k].component == plan.cord[i].component;
     if (here > number) number = here;
   }
-  if (!st && plan.n_cords > 0 && short_enough) take_found(x, &plan, number);
+  const bool fewer = plan.n_cords > 0 && (x->found.n_cords == 0 || number < x->number);
+  if (!st && fewer && short_enough) take_found(x, &plan, number);
   thr_plan_destroy(&plan);
   return st ? st : exclude_by_walks(x, err);
 }
@@ -205,7 +209,7 @@ static thr_status search_numbers(fewest *x, thr_err *err)
   int failed = x->claim.excluded, n = failed + 1, step = 1;
   bool fits = false;
   thr_status st = THR_OK;
-  while (!st && !fits && n <= (x->found.n_cords > 0 ? x->number - 1 : x->o->cords) && !is_over(x)) {
+  while (!st && !fits && n <= x->o->cords && !is_over(x)) {
     st = try_number(x, n, &fits, err);
     if (fits) break;
     failed = n;
@@ -271,7 +275,7 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
                             thr_report *report, thr_err *err)
 {
   thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
-  double work = work_to_find * options->time_limit;
+  double work = work_to_find * options->time_limit, for_walks = work_to_choose * options->time_limit;
   fewest x = {.f = frame, .o = options, .limits = &share, .claim.excluded = options->cords_least - 1};
   bool fits;
   thr_err why = {0};
@@ -283,10 +287,12 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
   thr_status st = is_range(options) ? bound_all(&x, err) : THR_OK;
-  if (!st && is_range(options)) st = use_walks(&x, err);
-  const bool before = x.found.n_cords > 0;
   if (!st) st = is_range(options) ? search_numbers(&x, err) : try_number(&x, options->cords, &fits, err);
-  if (!st && is_range(options) && !before) st = exclude_by_walks(&x, err);
+  if (!st && is_range(options)) {
+    share = thr_dispatch_share(limits, THR_STEP_FEWEST);
+    if (for_walks > 0 && !share.work) share = thr_limits_counted(&share, &for_walks);
+    st = use_walks(&x, err);
+  }
   double rest = work_to_serve * options->time_limit;
   thr_limits last = *limits;
   if (rest > 0 && !last.work) last = thr_limits_counted(&last, &rest);
