@@ -47,6 +47,13 @@ static void join_ties(ranking *r)
     r->rank[r->order[k]] = k == 0 || r->rank[r->order[k]] ? k + 1 : r->rank[r->order[k - 1]];
 }
 
+/* Values that differ in their last digits only stay in the order of the plans. */
+static bool is_less(double a, double b)
+{
+  const double alike = 1e-6;
+  return a + alike * fabs(a) < b;
+}
+
 void ranking_make(ranking *r)
 {
   r->n_ranked = 0;
@@ -54,7 +61,7 @@ void ranking_make(ranking *r)
     r->rank[i] = 0;
     if (isnan(r->value[i])) continue;
     int k = r->n_ranked++;
-    for (; k > 0 && r->value[r->order[k - 1]] > r->value[i]; k--)
+    for (; k > 0 && is_less(r->value[i], r->value[r->order[k - 1]]); k--)
       r->order[k] = r->order[k - 1];
     r->order[k] = i;
   }
