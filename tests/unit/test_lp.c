@@ -337,7 +337,7 @@ typedef struct {
 
 static thr_interior interior(programme *p, const thr_limits *limits)
 {
-  const thr_equations e = {{p->m, p->n, p->start, p->row, p->value}, p->rhs, p->cost, 0, 0};
+  const thr_equations e = {.a = {p->m, p->n, p->start, p->row, p->value}, .rhs = p->rhs, .cost = p->cost};
   thr_interior found = {.x = p->x, .dual = p->dual};
   thr_err err = {0};
   ck_assert_msg(thr_interior_solve(&e, limits, &found, &err) == THR_OK, "%s", err.text);
