@@ -658,7 +658,7 @@ static thr_status read_sections(dxf *d, block *model)
 static const block *find_block(const dxf *d, thr_span name)
 {
   for (int i = 0; i < d->n_blocks; i++)
-    if (d->block[i].name.n == name.n && memcmp(d->block[i].name.s, name.s, name.n) == 0) return &d->block[i];
+    if (name.n > 0 && d->block[i].name.n == name.n && memcmp(d->block[i].name.s, name.s, name.n) == 0) return &d->block[i];
   return NULL;
 }
 
