@@ -116,7 +116,7 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
 
 enum {
   RUNS = 2, /* at once */
-  VAIN = 8, /* rounds without better cords that are enough */
+  VAIN = 24, /* rounds without better cords that are enough */
 };
 
 typedef struct {
