@@ -115,7 +115,7 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
 /* ---- rounds ---- */
 
 enum {
-  RUNS = 2, /* at once */
+  RUNS = 2,  /* at once */
   VAIN = 24, /* rounds without better cords that are enough */
 };
 
