@@ -121,8 +121,7 @@ static thr_status exclude_by_walks(fewest *x, thr_err *err)
   const thr_limits share = thr_dispatch_share(x->limits, THR_STEP_FEW_WALKS);
   thr_walk_proof walks = {0};
   int excluded = 0;
-  if (x->found.n_cords == 0 || x->number - 1 <= x->claim.excluded || x->o->joint == THR_JOINT_TUBE || x->o->physics.mu <= 0)
-    return THR_OK;
+  if (x->found.n_cords == 0 || x->number - 1 <= x->claim.excluded) return THR_OK;
   thr_status st = thr_planner_pull_too_few(x->f, x->o, &x->found, x->claim.excluded, &share, &walks, &excluded, err);
   if (!st && excluded > x->claim.excluded) {
     thr_turning_proof_destroy(&x->claim.tree);

@@ -20,19 +20,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static thr_frame made(thr_shape shape, int size)
-{
-  thr_make_options o = thr_make_options_default(shape);
-  thr_draft d = {0};
-  thr_frame f;
-  thr_read_report report;
-  o.size = size;
-  ck_assert_int_eq(thr_make(&d, &o, NULL), THR_OK);
-  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &report, NULL), THR_OK);
-  thr_draft_destroy(&d);
-  return f;
-}
-
 /* Rings of n nodes, each ring turned by half a step, with diagonals only; the lowest are the feet. */
 static thr_frame diagonal_tube(int n, int rings)
 {
@@ -109,10 +96,10 @@ static void expect(thr_frame f, const row *list, int n)
 
 START_TEST(domes)
 {
-  EXPECT(made(THR_MAKE_DOME, 6), {4, "C2v", THR_ENDS_FEET, 1, 13.0, 17, 1}, {4, "C4", THR_ENDS_FEET, 1, 13.0, 17, 1},
+  EXPECT(shape_make(THR_MAKE_DOME, 6, 0), {4, "C2v", THR_ENDS_FEET, 1, 13.0, 17, 1}, {4, "C4", THR_ENDS_FEET, 1, 13.0, 17, 1},
          {8, "C4v", THR_ENDS_FEET, 1, 20.3, 9, 2});
-  EXPECT(made(THR_MAKE_DOME, 8), {8, "C4v", THR_ENDS_FEET, 2, 0, 28, 1});
-  EXPECT(made(THR_MAKE_DOME, 20), {4, "C4", THR_ENDS_FEET, 1, 4.7, 199, 1});
+  EXPECT(shape_make(THR_MAKE_DOME, 8, 0), {8, "C4v", THR_ENDS_FEET, 2, 0, 28, 1});
+  EXPECT(shape_make(THR_MAKE_DOME, 20, 0), {4, "C4", THR_ENDS_FEET, 1, 4.7, 199, 1});
   EXPECT(diagonal_tube(12, 7), {24, "C12v", THR_ENDS_FEET, 1, 0, 6, 1});
 }
 END_TEST
@@ -121,13 +108,13 @@ START_TEST(solids)
 {
   EXPECT(solid_make(CUBE), {48, "Oh", THR_ENDS_CLOSED, 1, 100, 0.5, 1}, {16, NULL, THR_ENDS_CLOSED, 1, 33.33, 1, 1});
   EXPECT(truncated_icosahedron(), {120, "Ih", THR_ENDS_CLOSED, 1, 33.33, 1, 1});
-  EXPECT(made(THR_MAKE_SPHERE, 3), {12, "T", THR_ENDS_CLOSED, 1, 6.2, 24, 1}, {60, "I", THR_ENDS_CLOSED, 1, 30.9, 6, 1});
+  EXPECT(shape_make(THR_MAKE_SPHERE, 3, 0), {12, "T", THR_ENDS_CLOSED, 1, 6.2, 24, 1}, {60, "I", THR_ENDS_CLOSED, 1, 30.9, 6, 1});
 }
 END_TEST
 
 START_TEST(large_sphere)
 {
-  EXPECT(made(THR_MAKE_SPHERE, 6), {12, "T", THR_ENDS_CLOSED, 1, 3.07, 93, 1});
+  EXPECT(shape_make(THR_MAKE_SPHERE, 6, 0), {12, "T", THR_ENDS_CLOSED, 1, 3.07, 93, 1});
 }
 END_TEST
 

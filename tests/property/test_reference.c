@@ -3,6 +3,7 @@
 #include "graph/angle.h"
 #include "tests/support.h"
 #include "tests/frameworks.h"
+#include "tests/symmetric.h"
 #include "tortuosity/proof/least.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
@@ -40,44 +41,6 @@ static thr_frame helix_tube(int n, int rings)
   thr_frame f = frame_make(n * rings, (const double(*)[3])xyz, m, (const int(*)[2])edge, NULL, NULL);
   free(xyz);
   free(edge);
-  return f;
-}
-
-/* Every corner of the icosahedron cut off at a third of its edges. */
-static thr_frame truncated_icosahedron(void)
-{
-  thr_frame ico = solid_make(ICOSAHEDRON);
-  double xyz[60][3];
-  int edge[90][2], m = 0;
-  ck_assert_int_eq(ico.n_edges, 30);
-  for (int h = 0; h < 60; h++)
-    for (int i = 0; i < 3; i++)
-      xyz[h][i] = (2 * ico.xyz[thr_tail(&ico, h)][i] + ico.xyz[thr_head(&ico, h)][i]) / 3;
-  for (int a = 0; a < 60; a++)
-    for (int b = a + 1; b < 60; b++) {
-      double square = 0;
-      for (int i = 0; i < 3; i++)
-        square += (xyz[a][i] - xyz[b][i]) * (xyz[a][i] - xyz[b][i]);
-      if (square > 1.001 / 9) continue;
-      ck_assert_int_lt(m, 90);
-      edge[m][0] = a;
-      edge[m++][1] = b;
-    }
-  ck_assert_int_eq(m, 90);
-  thr_frame_destroy(&ico);
-  return frame_make(60, (const double(*)[3])xyz, m, (const int(*)[2])edge, NULL, NULL);
-}
-
-static thr_frame made(thr_shape shape, int size)
-{
-  thr_draft draft = {0};
-  thr_frame f;
-  thr_make_options o = thr_make_options_default(shape);
-  o.size = size;
-  ck_assert_int_eq(thr_make(&draft, &o, NULL), THR_OK);
-  thr_read_report report;
-  ck_assert_int_eq(thr_draft_build(&draft, -1, &f, &report, NULL), THR_OK);
-  thr_draft_destroy(&draft);
   return f;
 }
 
@@ -158,14 +121,14 @@ END_TEST
 
 START_TEST(icospheres)
 {
-  expect_between(made(THR_MAKE_SPHERE, 2), 5262, 5410);
-  expect_between(made(THR_MAKE_SPHERE, 3), 7918, 8348);
+  expect_between(shape_make(THR_MAKE_SPHERE, 2, 0), 5262, 5410);
+  expect_between(shape_make(THR_MAKE_SPHERE, 3, 0), 7918, 8348);
 }
 END_TEST
 
 START_TEST(hemisphere)
 {
-  expect_between(made(THR_MAKE_GEODESIC, 4), 6862, 6977);
+  expect_between(shape_make(THR_MAKE_GEODESIC, 4, 0), 6862, 6977);
 }
 END_TEST
 
@@ -174,7 +137,7 @@ START_TEST(grid_domes)
 {
   static const int size[] = {6, 8, 10, 12, 14, 16, 18, 20};
   for (int i = 0; i < 8; i++) {
-    thr_frame f = made(THR_MAKE_DOME, size[i]);
+    thr_frame f = shape_make(THR_MAKE_DOME, size[i], 0);
     thr_least l = solve(&f, -1, 1);
     ck_assert(l.optimal);
     ck_assert_int_eq(l.proof.n_nodes, 1);

@@ -398,6 +398,27 @@ static void draw_columns(programme *p, rng *r)
   }
 }
 
+/* Right sides of which a solution is known are met, with this error of the largest. */
+static void assert_solves(thr_normal *normal, int m, double dense[64][64], const double *weight, rng *r, double error)
+{
+  double wanted[64], right[64] = {0}, found[64], most = 0;
+  for (int i = 0; i < m; i++)
+    wanted[i] = 2 * rng_unit(r) - 1;
+  for (int i = 0; i < m; i++)
+    for (int k = 0; k < m; k++)
+      right[i] += dense[i][k] * wanted[k];
+  thr_normal_factor(normal, weight);
+  thr_normal_solve(normal, right, found);
+  for (int i = 0; i < m; i++)
+    most = fmax(most, fabs(right[i]));
+  for (int i = 0; i < m; i++) {
+    double left = right[i];
+    for (int k = 0; k < m; k++)
+      left -= dense[i][k] * found[k];
+    ck_assert_double_eq_tol(left, 0, error * most);
+  }
+}
+
 /* Against the dense matrix, factored with weights of several sizes; what is asked for has a solution, though rows may depend on
  * each other. */
 START_TEST(normal_equations_are_solved)
@@ -409,25 +430,11 @@ START_TEST(normal_equations_are_solved)
   thr_normal *normal;
   ck_assert_int_eq(thr_normal_create(&normal, &a, 0, NULL), THR_OK);
   for (int round = 0; round < 3; round++) {
-    double weight[400], dense[64][64], wanted[64], right[64] = {0}, found[64], most = 0;
+    double weight[400], dense[64][64];
     for (int j = 0; j < p.n; j++)
       weight[j] = (0.1 + rng_unit(&r)) * pow(1e12, round - 1);
     weigh(&p, weight, dense);
-    for (int i = 0; i < p.m; i++)
-      wanted[i] = 2 * rng_unit(&r) - 1;
-    for (int i = 0; i < p.m; i++)
-      for (int k = 0; k < p.m; k++)
-        right[i] += dense[i][k] * wanted[k];
-    thr_normal_factor(normal, weight);
-    thr_normal_solve(normal, right, found);
-    for (int i = 0; i < p.m; i++)
-      most = fmax(most, fabs(right[i]));
-    for (int i = 0; i < p.m; i++) {
-      double left = right[i];
-      for (int k = 0; k < p.m; k++)
-        left -= dense[i][k] * found[k];
-      ck_assert_double_eq_tol(left, 0, 1e-9 * most);
-    }
+    assert_solves(normal, p.m, dense, weight, &r, 1e-9);
   }
   thr_normal_destroy(normal);
 }
@@ -465,7 +472,7 @@ START_TEST(columns_are_weighed_three_by_three)
   programme p = {.m = rng_between(&r, 8, 40)};
   const int threes = rng_between(&r, 1, 20), rest = rng_between(&r, 0, 20);
   p.n = 3 * threes + rest;
-  double block[100][3][3] = {{{0}}}, weight[200], dense[64][64] = {{0}}, wanted[64], right[64] = {0}, found[64], most = 0;
+  double block[100][3][3] = {{{0}}}, weight[200], dense[64][64] = {{0}};
   for (int j = 0, high = 1; j < p.n; j++) { /* often the rows of the one before */
     const bool alike = j > 0 && (j % 3 > 0 || rng_below(&r, 2));
     if (!alike) high = rng_between(&r, 1, 8);
@@ -496,21 +503,7 @@ START_TEST(columns_are_weighed_three_by_three)
   const thr_columns a = {p.m, p.n, p.start, p.row, p.value};
   thr_normal *normal;
   ck_assert_int_eq(thr_normal_create(&normal, &a, threes, NULL), THR_OK);
-  for (int i = 0; i < p.m; i++)
-    wanted[i] = 2 * rng_unit(&r) - 1;
-  for (int i = 0; i < p.m; i++)
-    for (int k = 0; k < p.m; k++)
-      right[i] += dense[i][k] * wanted[k];
-  thr_normal_factor(normal, weight);
-  thr_normal_solve(normal, right, found);
-  for (int i = 0; i < p.m; i++)
-    most = fmax(most, fabs(right[i]));
-  for (int i = 0; i < p.m; i++) {
-    double left = right[i];
-    for (int k = 0; k < p.m; k++)
-      left -= dense[i][k] * found[k];
-    ck_assert_double_eq_tol(left, 0, 1e-8 * most);
-  }
+  assert_solves(normal, p.m, dense, weight, &r, 1e-8);
   thr_normal_destroy(normal);
 }
 END_TEST

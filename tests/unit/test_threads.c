@@ -4,6 +4,7 @@
 #include "planner/make_plan.h"
 #include "tests/support.h"
 #include "tests/frameworks.h"
+#include "tests/symmetric.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/make.h"
 #include "graph/limits.h"
@@ -205,25 +206,12 @@ START_TEST(a_team_shares_jobs)
 }
 END_TEST
 
-static thr_frame made(thr_shape shape, int size)
-{
-  thr_make_options o = thr_make_options_default(shape);
-  thr_draft d = {0};
-  thr_frame f;
-  thr_read_report report;
-  o.size = size;
-  ck_assert_int_eq(thr_make(&d, &o, NULL), THR_OK);
-  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &report, NULL), THR_OK);
-  thr_draft_destroy(&d);
-  return f;
-}
-
 /* Nodes of the tree and tries of cycles: the plan with its proof, as it is written. */
 START_TEST(the_least_turning_does_not_depend_on_threads)
 {
   static const int threads[] = {1, 2, 16};
   thr_text plan[3] = {{0}, {0}, {0}};
-  thr_frame f = made(_i % 2 ? THR_MAKE_HONEYCOMB : THR_MAKE_SPHERE, _i % 2 ? 4 : 2);
+  thr_frame f = shape_make(_i % 2 ? THR_MAKE_HONEYCOMB : THR_MAKE_SPHERE, _i % 2 ? 4 : 2, 0);
   for (int k = 0; k < 3; k++) {
     thr_request o = thr_request_default();
     thr_plan p;
