@@ -1934,12 +1934,16 @@ class Walks:
         return max([least[2 * e] + least[2 * e + 1] for e in range(self.f.m) if 2 * e in least and 2 * e + 1 in least], default=0)
 
     def read(self, o, place):
-        known(o, "unit units edges nodes " + ("turning" if self.turning else "length"), place)
+        known(o, "unit units edges nodes memory " + ("turning" if self.turning else "length"), place)
         self.unit = member(o, "unit", "integer", place, 1, 2**63 - 1)
         self.units = member(o, "units", "integer", place, 0, 2**31 - 3)
         self.all = member(o, "turning" if self.turning else "length", "integer", place, 0, 2**56)
         self.edge = integers(member(o, "edges", "list", place), place + ".edges", 0, 2**63 - 1, self.f.m)
         self.node = integers(member(o, "nodes", "list", place), place + ".nodes", 0, 2**63 - 1, self.f.n)
+        self.memory = [
+            (member(x, "edge", "integer", place + ".memory", 0, self.f.m - 1), member(x, "places", "list", place + ".memory"))
+            for x in member(o, "memory", "list", place, default=[])
+        ]
         priced = [self.f.component[self.f.edge[e][0]] for e in range(self.f.m) if self.edge[e]]
         priced += [self.f.component[v] for v in range(self.f.n) if self.node[v]]
         self.component = priced[0] if priced else 0
@@ -1955,6 +1959,34 @@ class Walks:
         largest = max(self.passing(h) + self.node[f.tail(h ^ 1)] for h in range(2 * f.m))
         require((largest + self.worth(4 * UNIT)) * (self.units + 2) * (len(places) + 1) < 2**61, f"{place}: prices too large")
         return self.sort(places, place)
+
+    def remember(self, places, starts, place):
+        """Where walks remember: self.remembered[x] are the edges that they remember at place x. Returns the sets of edges that a
+        walk may know of at each place, if walks start at places with the edges that they have passed there."""
+        f = self.f
+        self.remembered = {x: set() for x in places}
+        ascending = lambda row: all(a < b for a, b in zip(row, row[1:]))
+        require(ascending([e for e, _ in self.memory]), f"{place}.memory: edges are not ascending")
+        for e, at in self.memory:
+            integers(at, place + ".memory.places", 0, 2**31)
+            require(f.component[f.edge[e][0]] == self.component and self.need[e] == 1, f"{place}.memory: edge {e}")
+            require(ascending(at) and set(at) <= self.remembered.keys(), f"{place}.memory: places of edge {e}")
+            for x in at:
+                self.remembered[x].add(e)
+        require(all(len(row) <= 16 for row in self.remembered.values()), f"{place}.memory: too much")
+        require(sum(2 ** len(row) for row in self.remembered.values()) <= 2**20, f"{place}.memory: too much")
+        sets = {x: set() for x in places}
+        queue = [(x, frozenset(passed) & self.remembered[x]) for x, passed in starts]
+        while queue:
+            x, known_edges = queue.pop()
+            if known_edges not in sets[x]:
+                sets[x].add(known_edges)
+                queue.extend((to, self.then(known_edges, h, to)) for to, h, _, _ in self.after[x])
+        return sets
+
+    def then(self, known_edges, h, to):
+        """What a walk remembers at the place that it comes to over h."""
+        return (known_edges | {h >> 1}) & self.remembered[to]
 
     def needed_at(self, v):
         return sum(self.need[h >> 1] for h in self.f.at[v])
@@ -1979,6 +2011,9 @@ class Walks:
 
     def passing(self, h):
         return self.edge[h >> 1] + self.node[self.f.tail(h)] + self.node[self.f.tail(h ^ 1)]
+
+    def first_passing(self, h, known_edges):
+        return self.passing(h) - (self.edge[h >> 1] if h >> 1 in known_edges else 0)
 
     def worth(self, weight):
         return -(-self.all * weight // UNIT)
@@ -2007,24 +2042,47 @@ class Walks:
 
     def bound(self, cords, least, place):
         """Price of the turns of some cord, or its length, if any plan has at most so many and all theirs is so much at least."""
-        order, f = self.check(place), self.f
-        steps = {x: [(to, w // self.unit, self.passing(h) + self.worth(y)) for to, h, w, y in self.after[x]] for x in order}
+        f, places = self.f, self.check(place)
+        homes = sorted(x for x in places if not self.turning or x % 2 == 0) if self.closed else []
+        if self.closed:
+            starts = [(x, []) for x in homes]
+        elif self.turning:
+            starts = [(d, [d >> 1]) for d in places if f.tail(d) in self.open]
+        else:
+            starts = [(to, [h >> 1]) for v in places if v in self.open for to, h, _, _ in self.after[v]]
+        sets = self.remember(places, starts, place)
+        order = [(x, known_edges) for x in places for known_edges in sorted(sets[x], key=sorted)]
+        steps = {
+            (x, known_edges): [
+                ((to, self.then(known_edges, h, to)), w // self.unit, self.first_passing(h, known_edges) + self.worth(y))
+                for to, h, w, y in self.after[x]
+            ]
+            for x, known_edges in order
+        }
         longest = min(self.units, max((u for row in steps.values() for _, u, _ in row), default=0)) + 1
-        runs = sum(not self.turning or x % 2 == 0 for x in order) if self.closed else 1
-        work = self.units * sum(map(len, steps.values())) * runs
+        work = self.units * sum(map(len, steps.values())) * (len(homes) if self.closed else 1)
         require(work <= 4e9 and longest * len(order) <= 1e9, f"{place}.units: too many")
         most = 0
         if self.closed:  # those that begin at the lowest of their edges, or nodes
             group = (lambda x: x >> 1) if self.turning else (lambda x: x)
-            for home in sorted(x for x in order if not self.turning or x % 2 == 0):
-                here = [x for x in order if group(x) >= group(home)]
-                most = max(most, self.best(steps[home], self.most(here, steps, {home: 0}, longest)))
+            for home in homes:
+                here = [x for x in order if group(x[0]) >= group(home)]
+                ends = {x: 0 for x in here if x[0] == home}
+                most = max(most, self.best(steps[home, frozenset()], self.most(here, steps, ends, longest)))
         else:
-            ends = {x: self.node[self.node_of(x)] for x in order if self.node_of(x) in self.open}
+            ends = {x: self.node[self.node_of(x[0])] for x in order if self.node_of(x[0]) in self.open}
+            nothing = frozenset()
             if self.turning:
-                firsts = [(d, 0, self.passing(d) + self.node[f.tail(d)]) for d in order if f.tail(d) in self.open]
+                firsts = [
+                    ((d, self.then(nothing, d, d)), 0, self.passing(d) + self.node[f.tail(d)]) for d in places if f.tail(d) in self.open
+                ]
             else:
-                firsts = [(to, u, y + self.node[v]) for v in ends for to, u, y in steps[v]]
+                firsts = [
+                    ((to, self.then(nothing, h, to)), w // self.unit, self.passing(h) + self.worth(y) + self.node[v])
+                    for v in places
+                    if v in self.open
+                    for to, h, w, y in self.after[v]
+                ]
             most = self.best(firsts, self.most(order, steps, ends, longest))
         needed = self.all * math.floor(least * Fraction(2) ** self.bits) // UNIT
         needed += sum(y * self.need[e] for e, y in enumerate(self.edge))
@@ -2045,7 +2103,7 @@ class PulledWalks(Walks):
         self.turning_allowed = math.floor(math.ldexp((limit + 2e-9 * (1 + limit)) / o.mu, 44))
 
     def read(self, o, place):
-        known(o, "unit units bits edges nodes", place)
+        known(o, "unit units bits edges nodes memory", place)
         stated = dict(o, turning=0)
         self.bits_of_length = member(stated, "bits", "integer", place, 0, 44)
         del stated["bits"]
@@ -2060,17 +2118,26 @@ class PulledWalks(Walks):
 
     def length(self, cords, place):
         """Of so many cords at most, together."""
-        order, f, best = self.check(place), self.f, 0
-        steps = {x: [(to, w // self.unit, self.passing(h)) for to, h, w, _ in self.after[x]] for x in order}
+        places, f, best = self.check(place), self.f, 0
+        begins = set(f.pieces[self.component]) & (set(range(f.n)) if self.closed else self.open)
+        sets = self.remember(places, [(d, [d >> 1]) for d in places if f.tail(d) in begins], place)
+        order = [(x, known_edges) for x in places for known_edges in sorted(sets[x], key=sorted)]
+        steps = {
+            (x, known_edges): [
+                ((to, self.then(known_edges, h, to)), w // self.unit, self.first_passing(h, known_edges)) for to, h, w, _ in self.after[x]
+            ]
+            for x, known_edges in order
+        }
         longest = min(self.units, max((u for row in steps.values() for _, u, _ in row), default=0)) + 1
         homes = [[v] for v in f.pieces[self.component]] if self.closed else [self.open & set(f.pieces[self.component])]
         require(2 * self.units * sum(map(len, steps.values())) * len(homes) <= 8e9, f"{place}.units: too many")
         for home in map(set, homes):
             more = (lambda v: 0) if self.closed else (lambda v: self.node[v])
-            ends = {x: more(self.node_of(x)) for x in order if self.node_of(x) in home}
+            ends = {x: more(self.node_of(x[0])) for x in order if self.node_of(x[0]) in home}
             after = self.most(order, steps, ends, longest)[self.units]
             before = self.most(order, steps, after, longest)[self.units]
-            best = max([best] + [before[d] + self.passing(d) + more(f.tail(d)) for d in order if f.tail(d) in home and d in before])
+            firsts = [(d, (d, self.then(frozenset(), d, d))) for d in places if f.tail(d) in home]
+            best = max([best] + [before[x] + self.passing(d) + more(f.tail(d)) for d, x in firsts if x in before])
         needed = sum(y * self.need[e] for e, y in enumerate(self.edge))
         needed += sum(y * (self.needed_at(v) + 1) for v, y in enumerate(self.node) if y)
         return max(Fraction(0), (needed - cords * best) / self.scale)

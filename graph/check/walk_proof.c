@@ -25,6 +25,9 @@ void thr_walk_proof_destroy(thr_walk_proof *proof)
 {
   free(proof->edge);
   free(proof->node);
+  for (int i = 0; i < proof->n_memories; i++)
+    free(proof->memory[i].place);
+  free(proof->memory);
   *proof = (thr_walk_proof){0};
 }
 
@@ -175,6 +178,19 @@ static bool fill_lengths(thr_walk_steps *steps, int64_t unit)
 
 /* ---- steps ---- */
 
+/* Every spot is one place until something is remembered. */
+static thr_status fill_spots(thr_walk_steps *steps, thr_err *err)
+{
+  steps->n_spots = steps->n;
+  steps->spot = thr_scratch_array(&steps->own, (size_t)steps->n, sizeof *steps->spot);
+  steps->copy = thr_scratch_array(&steps->own, (size_t)steps->n + 1, sizeof *steps->copy);
+  thr_status st = thr_scratch_check(&steps->own, err);
+  for (int i = 0; i < steps->n && !st; i++)
+    steps->spot[i] = steps->copy[i] = i;
+  if (!st) steps->copy[steps->n] = steps->n;
+  return st;
+}
+
 static thr_status allocate(thr_walk_steps *steps, making *m, thr_scratch *own, thr_err *err)
 {
   const thr_frame *frame = steps->c->f;
@@ -220,6 +236,7 @@ thr_status thr_walk_steps_init(thr_walk_steps *steps, const thr_turning_columns 
     st = thr_fail(err, THR_EVIOLATED, "walks: turns below one unit go round in a circle");
   if (!st && measure == THR_WALK_LENGTH && !fill_lengths(steps, unit))
     st = thr_fail(err, THR_EVIOLATED, "walks: an edge is shorter than a unit");
+  if (!st) st = fill_spots(steps, err);
   thr_scratch_free(&own);
   if (st) thr_walk_steps_destroy(steps);
   return st;
@@ -229,6 +246,19 @@ void thr_walk_steps_destroy(thr_walk_steps *steps)
 {
   thr_scratch_free(&steps->own);
   *steps = (thr_walk_steps){0};
+}
+
+int thr_walk_begun(const thr_walk_steps *steps, int half)
+{
+  for (int k = 0; k < steps->n_begins; k++)
+    if (steps->begin[k].half == half) return steps->begin[k].to;
+  return -1;
+}
+
+int thr_walk_closed(const thr_walk_steps *steps, int last)
+{
+  const bool length = steps->measure == THR_WALK_LENGTH;
+  return steps->copy[steps->place[length ? thr_head(steps->c->f, last) : last]];
 }
 
 /* ---- prices ---- */
@@ -286,7 +316,7 @@ static int64_t pass_cost(const thr_walk_steps *steps, const thr_walk_proof *proo
 static bool add_up(const thr_walk_steps *steps, const thr_walk_proof *proof)
 {
   const thr_frame *frame = steps->c->f;
-  wide largest = 0, passes = ((wide)proof->units + 2) * (steps->n + 1); /* of a walk at most */
+  wide largest = 0, passes = ((wide)proof->units + 2) * (steps->n_spots + 1); /* of a walk at most */
   for (int h = 0; h < 2 * frame->n_edges; h++) {
     wide sum = pass_worth(steps, proof, h) + proof->node[thr_head(frame, h)] + pass_cost(steps, proof, h);
     if (sum > largest) largest = sum;
@@ -307,6 +337,7 @@ thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *pro
       thr_walk_step *step = &steps->step[k];
       step->worth =
           (int64_t)pass_worth(steps, proof, step->half) + all_worth(proof, step->weight) - pass_cost(steps, proof, step->half);
+      if (step->known) step->worth -= proof->edge[step->half >> 1];
       if (steps->end[step->to] >= 0) steps->end[step->to] = proof->node[thr_head(frame, step->half)];
     }
   for (int k = 0; k < steps->n_homes; k++)
@@ -363,9 +394,12 @@ static int choose_places(thr_walk_steps *steps, int run, int levels, int64_t *va
 /* Where closed walks of a recursion may end. */
 static void set_ends(thr_walk_steps *steps, int run, int64_t worth)
 {
-  if (steps->n_homes == 0) steps->end[steps->begin[run].to] = worth;
-  for (int k = steps->n_homes > 0 ? steps->from[run] : 0; steps->n_homes > 0 && k < steps->from[run + 1]; k++)
-    steps->end[steps->place[steps->begin[k].half ^ 1]] = worth;
+  const int homes = steps->n_homes, first = homes > 0 ? steps->from[run] : run, last = homes > 0 ? steps->from[run + 1] : run + 1;
+  for (int k = first; k < last; k++) {
+    const int spot = homes > 0 ? steps->place[steps->begin[k].half ^ 1] : steps->spot[steps->begin[k].to];
+    for (int i = steps->copy[spot]; i < steps->copy[spot + 1]; i++)
+      steps->end[i] = worth;
+  }
 }
 
 size_t thr_walk_tables(thr_walk_measure measure)
@@ -498,7 +532,8 @@ thr_status thr_walk_proof_check(const thr_turning_columns *columns, thr_walk_mea
   *bound = 0;
   thr_status st = thr_walk_steps_init(&steps, columns, measure, thr_walk_component(columns, proof), proof->unit, err);
   if (st) return st;
-  st = thr_walk_steps_price(&steps, proof, err);
+  st = thr_walk_steps_remember(&steps, proof->memory, proof->n_memories, err);
+  if (!st) st = thr_walk_steps_price(&steps, proof, err);
   if (!st) st = best_of(&steps, proof, &best, err);
   if (!st && needed(&steps, proof, least) <= (wide)best * cords)
     st = thr_fail(err, THR_EVIOLATED, "walks: their prices prove nothing");
@@ -540,6 +575,7 @@ thr_status thr_walk_pull_check(const thr_turning_columns *columns, const thr_req
   if (st) return st;
   if (proof->all != 0 || proof->units < thr_walk_pull_units(options, proof->unit))
     st = thr_fail(err, THR_EVIOLATED, "walks: %d units leave out cords that are within the pull", proof->units);
+  if (!st) st = thr_walk_steps_remember(&steps, proof->memory, proof->n_memories, err);
   if (!st) st = thr_walk_steps_price(&steps, proof, err);
   if (!st) st = best_of(&steps, proof, &best, err);
   if (!st) *bound = thr_walk_pull_bound(&steps, proof, cords, best);

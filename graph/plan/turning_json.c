@@ -113,6 +113,21 @@ static void put_symmetries(thr_writer *writer, const thr_turning_proof *proof, c
   thr_write_close(writer);
 }
 
+/* Where walks remember edges, if they do. */
+static void put_memory(thr_writer *writer, const thr_walk_proof *walks)
+{
+  if (walks->n_memories == 0) return;
+  thr_write_line(writer, 4);
+  thr_write_array(writer, "memory");
+  for (int i = 0; i < walks->n_memories; i++) {
+    thr_write_object(writer, NULL);
+    thr_write_int(writer, "edge", walks->memory[i].edge);
+    thr_write_ints(writer, "places", walks->memory[i].place, walks->memory[i].n);
+    thr_write_close(writer);
+  }
+  thr_write_close(writer);
+}
+
 void thr_walk_proof_write(const thr_walk_proof *walks, const thr_frame *frame, const char *all, thr_writer *writer)
 {
   if (walks->unit == 0) return;
@@ -125,6 +140,7 @@ void thr_walk_proof_write(const thr_walk_proof *walks, const thr_frame *frame, c
   put_multipliers(writer, "edges", walks->edge, frame->n_edges);
   thr_write_line(writer, 4);
   put_multipliers(writer, "nodes", walks->node, frame->n_nodes);
+  put_memory(writer, walks);
   thr_write_close(writer);
 }
 
@@ -365,10 +381,38 @@ static thr_status read_symmetries(reader *r, const thr_json *value, thr_turning_
   return st;
 }
 
+static thr_status read_memory(const reader *r, const thr_json *value, thr_walk_proof *walks)
+{
+  static const char *const known[] = {"edge", "places", NULL};
+  const int most = 2 * r->f->n_edges > r->f->n_nodes ? 2 * r->f->n_edges : r->f->n_nodes;
+  const thr_json *list, *places = NULL;
+  if (!thr_json_get(value, "memory")) return THR_OK;
+  thr_status st = get_array(r, value, "memory", &list);
+  if (st) return st;
+  const int n = thr_json_size(list);
+  if (!(walks->memory = thr_calloc((size_t)n, sizeof *walks->memory))) return thr_nomem(r->err);
+  walks->n_memories = n;
+  for (int i = 0; i < n && !st; i++) {
+    thr_walk_memory *memory = &walks->memory[i];
+    const thr_json *entry = thr_json_at(list, i);
+    int64_t edge = 0;
+    st = only_members(r, entry, known);
+    if (!st) st = get_int(r, thr_json_get(entry, "edge"), "edge", 0, r->f->n_edges - 1, &edge);
+    if (!st) st = get_array(r, entry, "places", &places);
+    if (st) break;
+    memory->edge = (int)edge;
+    memory->n = thr_json_size(places);
+    memory->place = thr_calloc((size_t)memory->n, sizeof *memory->place);
+    st = memory->place ? read_ints(r, places, "places", most, memory->place) : thr_nomem(r->err);
+  }
+  return st;
+}
+
 thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *frame, const char *all, const thr_json *value,
                                     const char *place, thr_err *err)
 {
-  const char *known[] = {"unit", "units", all ? all : "bits", "edges", "nodes", NULL};
+  const bool remembers = value && thr_json_get(value, "memory");
+  const char *known[] = {"unit", "units", all ? all : "bits", "edges", "nodes", remembers ? "memory" : NULL, NULL};
   const reader r = {.place = place, .f = frame, .err = err};
   int64_t units = 0, bits = 0;
   *walks = (thr_walk_proof){0};
@@ -380,6 +424,7 @@ thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *fram
   if (!st && !all) st = get_int(&r, thr_json_get(value, "bits"), "bits", 0, THR_TURNING_BITS, &bits);
   if (!st) st = read_multipliers(&r, value, "edges", frame->n_edges, &walks->edge);
   if (!st) st = read_multipliers(&r, value, "nodes", frame->n_nodes, &walks->node);
+  if (!st) st = read_memory(&r, value, walks);
   walks->units = (int)units;
   walks->bits = (int)bits;
   if (st) thr_walk_proof_destroy(walks);

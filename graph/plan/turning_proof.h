@@ -186,6 +186,12 @@ typedef struct {
   int dual;            /* leaf: index of its multipliers */
 } thr_turning_node;
 
+/* Walks remember that they have passed an edge as long as they are at these places after it, and are not worth its price again.
+ */
+typedef struct {
+  int edge, n, *place; /* place[n] ascending: half-edges that were passed, or of lengths nodes; owned */
+} thr_walk_memory;
+
 /* Prices that bound the turning of the cord that turns most, the length of the longest, or that of all cords within a limit on
  * the pull (graph/plan/walk_proof.h), >= 0; of one component. Of lengths of the longest also that all sets of edges that cords
  * pass below the bound were tried, which takes no prices (graph/check/short_cords.h). */
@@ -195,7 +201,9 @@ typedef struct {
   int64_t all;          /* price of 2^THR_TURNING_BITS of those, turned or run by all cords together; with a pull 0 */
   int bits;             /* with a pull: prices are lengths, in units of 2^-bits of a power of two above the longest edge */
   int64_t *edge, *node; /* [n_edges] of a pass; [n_nodes] of a pass or an end at it; owned */
-  bool sets;            /* of lengths: all sets were tried */
+  int n_memories;
+  thr_walk_memory *memory; /* [n_memories] edges ascending; owned */
+  bool sets;               /* of lengths: all sets were tried */
 } thr_walk_proof;
 
 typedef struct {

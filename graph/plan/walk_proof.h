@@ -14,6 +14,14 @@
  * which every turn counts as so many whole units, rounded down: a walk below L then has no more units than L. Closed walks have
  * one such recursion for every place that may be the first of theirs in the order of the places.
  *
+ * An edge that needs one pass is worth its price once only, though the recursion may count it each time that a walk comes round
+ * to it: cords that pass it again serve nobody. So a proof may say at which places a walk remembers that it has passed an edge
+ * before, as long as it has been at such places since; then it is not worth the price again. A place is then one for every set of
+ * edges that are remembered there. Any such lists will do; good ones hold the places of the rounds that the programme's walks
+ * make. (ng-routes: R. Baldacci, A. Mingozzi & R. Roberti, Operations Research 59, 2011; lists that grow where they are needed:
+ * Roberti & Mingozzi, Transportation Science 48, 2014.) Example: a triangle with a price on one edge; remembered at all of its
+ * places the edge is worth its price once, else in every round.
+ *
  * Length takes the place of turning for the longest cord. Then a walk may turn back anywhere, at no cost: its places are nodes;
  * where turning counts they are half-edges, and walks turn back only at nodes with one edge.
  *
@@ -49,6 +57,7 @@ typedef enum { THR_WALK_TURNING, THR_WALK_LENGTH, THR_WALK_PULL } thr_walk_measu
 typedef struct {
   int to;         /* place after it */
   int half;       /* half-edge that is passed */
+  bool known;     /* the walk remembers that it passed this edge before */
   int units;      /* the price of the turn, or the length of the pass, rounded down */
   int64_t weight; /* the same in units of 2^-exponent; lengths rounded up */
   int64_t worth;  /* of the pass, and what the price of turning makes of it, rounded up; of a first one also its cord end; with a
@@ -56,7 +65,8 @@ typedef struct {
 } thr_walk_step;
 
 /* Walks that the cords of one component can be, in an order of the places in which the recursion finds what it needs. A place is
- * a half-edge that was passed away from its node, or of lengths the node where the walk is. */
+ * a half-edge that was passed away from its node, or of lengths the node where the walk is; where edges are remembered there are
+ * several of the same spot. */
 typedef struct {
   const thr_turning_columns *c;
   thr_walk_measure measure;
@@ -64,7 +74,10 @@ typedef struct {
   bool closed;
   thr_scratch own; /* the arrays */
   int n;           /* places */
-  int *place;      /* [2 * n_edges] of half-edges, or [n_nodes]; -1: of another component */
+  int n_spots;     /* without what is remembered at them */
+  int *spot;       /* [n] of each place */
+  int *copy;       /* [n_spots + 1] the places of a spot: copy[k] .. copy[k + 1] - 1, ahead the one where nothing is remembered */
+  int *place;      /* spots [2 * n_edges] of half-edges, or [n_nodes]; -1: of another component */
   int *group;      /* [n] a closed walk begins at one of its places of the lowest group: edges, or nodes; with a pull the node
                       that is reached, where it may begin in any case */
   int *first;      /* [n + 1] steps from place i: step[first[i]] .. step[first[i + 1] - 1] */
@@ -83,6 +96,17 @@ typedef struct {
 thr_status thr_walk_steps_init(thr_walk_steps *steps, const thr_turning_columns *columns, thr_walk_measure measure, int component,
                                int64_t unit, thr_err *err) THR_MUST_CHECK;
 void thr_walk_steps_destroy(thr_walk_steps *steps);
+
+/* Gives the walks a memory; once, before prices. THR_EVIOLATED: of an edge that does not need just one pass, of edges or places
+ * that are not ascending or are in another component, or of more than THR_MOST_PLACES places. On failure steps is as it was.
+ * O(places * degree * edges remembered at a place). */
+thr_status thr_walk_steps_remember(thr_walk_steps *steps, const thr_walk_memory *memory, int n, thr_err *err) THR_MUST_CHECK;
+
+enum { THR_MOST_PLACES = 1 << 20 }; /* counting all sets of the edges that are remembered at a spot */
+
+/* Place where a walk is that has begun with a pass, open or, with closed walks, whose last pass it is. */
+int thr_walk_begun(const thr_walk_steps *steps, int half);
+int thr_walk_closed(const thr_walk_steps *steps, int last);
 
 /* What a limit on turning, or on length, is counted in: 2^-exponent of it. */
 int thr_walk_exponent(const thr_frame *frame, thr_walk_measure measure);

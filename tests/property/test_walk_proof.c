@@ -72,6 +72,51 @@ static void instance_destroy(instance *x)
   thr_frame_destroy(&x->frame);
 }
 
+/* What walks remember: of each edge a set of places. */
+typedef struct {
+  uint32_t at[2 * NODES];
+  thr_walk_memory list[2 * NODES];
+  int place[2 * NODES][32];
+} memories;
+
+static int place_after(const instance *x, int half)
+{
+  return x->measure == THR_WALK_LENGTH ? thr_head(&x->frame, half) : half;
+}
+
+/* Changes a place, or all at random, or none. */
+static void change_memory(rng *r, const instance *x, memories *m)
+{
+  const int kind = rng_below(r, 8), places = x->measure == THR_WALK_LENGTH ? x->frame.n_nodes : 2 * x->frame.n_edges;
+  for (int e = 0; e < x->frame.n_edges && kind == 0; e++)
+    m->at[e] = rng_below(r, 2) ? 0 : (uint32_t)rng_below(r, 1 << (places < 30 ? places : 30));
+  if (kind > 0 && kind < 5) m->at[rng_below(r, x->frame.n_edges)] ^= (uint32_t)1 << rng_below(r, places);
+}
+
+/* The lists that say so. */
+static void write_memory(const instance *x, memories *m, thr_walk_proof *proof)
+{
+  proof->n_memories = 0;
+  proof->memory = m->list;
+  for (int e = 0; e < x->frame.n_edges; e++) {
+    thr_walk_memory *list = &m->list[proof->n_memories];
+    if (m->at[e] == 0 || x->c.cover[e] != 1) continue;
+    *list = (thr_walk_memory){.edge = e, .place = m->place[proof->n_memories++]};
+    for (int k = 0; k < 32; k++)
+      if (m->at[e] >> k & 1) list->place[list->n++] = k;
+  }
+}
+
+/* Of the edges passed before, and the last one, those that are remembered. */
+static uint32_t known_after(const instance *x, const thr_walk_proof *p, uint32_t known, int half)
+{
+  uint32_t after = 0;
+  for (int i = 0; i < p->n_memories; i++)
+    for (int k = 0; k < p->memory[i].n; k++)
+      if (p->memory[i].place[k] == place_after(x, half)) after |= (uint32_t)1 << p->memory[i].edge;
+  return after & (known | (uint32_t)1 << (half >> 1));
+}
+
 /* ---- the programme's own bounds ---- */
 
 START_TEST(no_bound_is_above_the_truth)
@@ -107,14 +152,16 @@ START_TEST(no_prices_prove_more_than_is_true)
     const int exponent = thr_walk_exponent(&x.frame, x.measure), most_units = x.closed ? 30 : 60;
     thr_walk_proof proof = {
         .unit = 1 + (int64_t)(ldexp(x.largest + .01, exponent) / rng_between(&r, 2, most_units)), .edge = edge, .node = node};
+    memories memory = {0}, kept_memory;
     double best = 0;
     int proofs = 0;
     for (int i = 0; i < (x.closed ? 1000 : 3000); i++) {
       thr_walk_proof kept = proof;
       memcpy(kept_edge, edge, sizeof edge);
       memcpy(kept_node, node, sizeof node);
+      kept_memory = memory;
       for (int k = rng_between(&r, 1, 4); k > 0; k--)
-        switch (rng_below(&r, 6)) {
+        switch (rng_below(&r, 7)) {
         case 0: proof.units = rng_below(&r, most_units + 20); break;
         case 1: node[rng_below(&r, x.frame.n_nodes)] = rng_below(&r, 5); break;
         case 2: proof.all = rng_below(&r, 3) ? rng_below(&r, 12) : 0; break;
@@ -123,8 +170,10 @@ START_TEST(no_prices_prove_more_than_is_true)
               rng_below(&r, 50) ? 1 + (int64_t)fmod((double)proof.unit * rng_between(&r, 50, 80) / 64, 1e15) : attack_integer(&r);
           break;
         case 4: edge[rng_below(&r, x.frame.n_edges)] = rng_below(&r, 200) ? rng_below(&r, 9) : attack_integer(&r); break;
+        case 5: change_memory(&r, &x, &memory); break;
         default: edge[rng_below(&r, x.frame.n_edges)] = 0;
         }
+      write_memory(&x, &memory, &proof);
       double bound = 0;
       thr_status st = thr_walk_proof_check(&x.c, x.measure, &proof, x.o.cords, x.least, &bound, NULL);
       ck_assert(st == THR_OK || st == THR_EVIOLATED);
@@ -138,6 +187,7 @@ START_TEST(no_prices_prove_more_than_is_true)
       proof = kept;
       memcpy(edge, kept_edge, sizeof edge);
       memcpy(node, kept_node, sizeof node);
+      memory = kept_memory;
     }
   }
   instance_destroy(&x);
@@ -146,9 +196,10 @@ END_TEST
 
 /* ---- the recursion ---- */
 
-/* Most that a walk is worth from half-edge d on, which was passed just now; closed ones end where first could follow. By trying
- * them all, up to so many more passes. */
-static int64_t try_walks(const instance *x, const thr_walk_proof *p, int first, int d, int units, int depth)
+/* Most that a walk is worth from half-edge d on, which was passed just now, and of which it remembers the known edges; closed
+ * ones end with the pass of first, which is the lowest edge of theirs, or at its node, which is the lowest. By trying them all,
+ * up to so many more passes. */
+static int64_t try_walks(const instance *x, const thr_walk_proof *p, int first, int d, uint32_t known, int units, int depth)
 {
   const thr_frame *f = &x->frame;
   const int exponent = thr_walk_exponent(f, x->measure);
@@ -160,13 +211,14 @@ static int64_t try_walks(const instance *x, const thr_walk_proof *p, int first, 
   for (int i = f->first[v]; i < f->first[v + 1] && depth > 0; i++) {
     int h = f->half[i];
     if (h == (d ^ 1) && thr_degree(f, v) > 1 && !length) continue;
+    if (x->closed && (length ? thr_head(f, h) < thr_tail(f, first) : h >> 1 < first >> 1)) continue;
     double size = ldexp(length ? f->length[h >> 1] : thr_turn_price(f, x->o.turning.cost, d, h), exponent);
     int left = units - (int)((int64_t)floor(size) / p->unit);
     if (left < 0) continue;
     int64_t all = (int64_t)ceil(ldexp((double)p->all * (length ? ceil(size) : floor(size)), -THR_TURNING_BITS));
-    int64_t pass = p->edge[h >> 1] + p->node[v] + p->node[thr_head(f, h)];
-    if (x->closed && !length && h == first && all > best) best = all;
-    int64_t here = all + pass + try_walks(x, p, first, h, left, depth - 1);
+    int64_t pass = (known >> (h >> 1) & 1 ? 0 : p->edge[h >> 1]) + p->node[v] + p->node[thr_head(f, h)];
+    if (x->closed && !length && h == first && all + pass > best) best = all + pass;
+    int64_t here = all + pass + try_walks(x, p, first, h, known_after(x, p, known, h), left, depth - 1);
     if (here > best) best = here;
   }
   return best;
@@ -181,14 +233,18 @@ static int64_t try_all(const instance *x, const thr_walk_proof *p, int depth)
   for (int h = 0; h < 2 * f->n_edges; h++) {
     int u = thr_tail(f, h), v = thr_head(f, h), left = p->units;
     int64_t here = p->edge[h >> 1] + p->node[u] + p->node[v];
+    bool length = x->measure == THR_WALK_LENGTH, counts_last = x->closed && !length;
     if (!x->closed && !x->end_allowed[u]) continue;
+    if (counts_last && h % 2) continue;
+    if (x->closed && length && v < u) continue;
     if (!x->closed) here += p->node[u];
-    if (x->measure == THR_WALK_LENGTH) {
+    if (length) {
       double size = ldexp(f->length[h >> 1], exponent);
       left -= (int)((int64_t)floor(size) / p->unit);
       here += (int64_t)ceil(ldexp((double)p->all * ceil(size), -THR_TURNING_BITS));
     }
-    if (left >= 0) here += try_walks(x, p, h, h, left, depth);
+    if (counts_last) here = 0;
+    if (left >= 0) here += try_walks(x, p, h, h, counts_last ? 0 : known_after(x, p, 0, h), left, depth);
     if (left >= 0 && here > best) best = here;
   }
   return best;
@@ -216,9 +272,14 @@ START_TEST(the_best_walk_is_found)
   if (length) p.unit = (int64_t)ldexp(shortest * rng_between(&r, 1, 4) / 4, thr_walk_exponent(&x.frame, x.measure));
   if (length) p.units = rng_below(&r, 8);
   p.all = rng_below(&r, 30);
+  memories memory = {0};
+  for (int k = rng_below(&r, 40); k > 0; k--)
+    change_memory(&r, &x, &memory);
+  write_memory(&x, &memory, &p);
   thr_walk_steps steps;
   if (thr_walk_steps_init(&steps, &x.c, x.measure, 0, p.unit, NULL) == THR_OK) { /* else turns of nothing go in a circle */
     enum { DEPTH = 10 };
+    ck_assert_int_eq(thr_walk_steps_remember(&steps, p.memory, p.n_memories, NULL), THR_OK);
     int64_t *value = calloc((size_t)(p.units + 1) * (size_t)steps.n, sizeof *value);
     ck_assert_int_eq(thr_walk_steps_price(&steps, &p, NULL), THR_OK);
     int64_t best = try_all(&x, &p, DEPTH), found = thr_walk_best(&steps, p.units, p.units + 1, value);

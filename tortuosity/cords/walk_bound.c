@@ -6,6 +6,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "tortuosity/cords/walk_dive.h"
+#include "tortuosity/cords/walk_memory.h"
 #include "tortuosity/cords/walk_near.h"
 #include "tortuosity/cords/walk_programme.h"
 
@@ -17,39 +18,57 @@ enum { MOST_ROUNDS = 300, MOST_DIVES = 20, FEW_DIVES = 8, MOST_DRAWN = 12 };
 /* Cords no further above the bound than that are near: few dives, no walks drawn at random, none chosen in integers. */
 static const double near_enough = 1.05;
 
-/* Are cords of at most so many units too few? Then proof is why. */
-static thr_status exclude(thr_walk_programme *p, int units, thr_walk_proof *proof, thr_err *err)
+/* The prices in trial, and what the walks remember, become the proof. */
+static thr_status take_proof(thr_walk_programme *p, thr_walk_proof *proof, thr_err *err)
 {
-  p->to_exclude = true;
-  thr_status st = thr_walk_programme_begin(p, units, 1, err); /* no walk that counts is worth more than 1 */
-  if (!st) st = thr_walk_programme_rounds(p, MOST_ROUNDS, err);
-  if (!st) st = thr_walk_programme_end(p, err);
-  if (st || !p->excluded) return st;
-  thr_walk_proof made = p->trial;
-  p->trial = *proof;
-  *proof = made;
-  if (p->trial.edge && p->trial.node) return THR_OK;
+  thr_walk_memory *memory = NULL;
+  thr_status st = thr_walk_memory_copy(p->memory, p->n_memories, &memory, err);
+  if (st) return st;
+  thr_walk_proof_destroy(proof);
+  *proof = p->trial;
+  proof->memory = memory;
+  proof->n_memories = p->n_memories;
   p->trial = (thr_walk_proof){.unit = p->unit};
   p->trial.edge = thr_calloc((size_t)p->c->f->n_edges, sizeof *p->trial.edge);
   p->trial.node = thr_calloc((size_t)p->c->f->n_nodes, sizeof *p->trial.node);
   return p->trial.edge && p->trial.node ? THR_OK : thr_nomem(err);
 }
 
-/* The highest limit that is excluded, nearly; *open: the lowest that was found not to be. */
-static thr_status bisect(thr_walk_programme *p, double largest, thr_walk_proof *proof, double *bound, int *open, thr_err *err)
+/* Are cords of at most so many units too few? Then proof is why. *grown, where it is asked for: the walks that were enough go
+ * round and round, which they remember from now on. */
+static thr_status exclude(thr_walk_programme *p, int units, bool *grown, thr_walk_proof *proof, thr_err *err)
+{
+  p->to_exclude = true;
+  thr_status st = thr_walk_programme_begin(p, units, 1, err); /* no walk that counts is worth more than 1 */
+  if (!st) st = thr_walk_programme_rounds(p, MOST_ROUNDS, err);
+  if (!st && p->excluded) st = take_proof(p, proof, err);
+  if (grown) *grown = false;
+  if (st) return st;
+  return grown && !p->excluded ? thr_walk_remember(p, grown, err) : thr_walk_programme_end(p, err);
+}
+
+/* The highest limit that is excluded, nearly; *open: the lowest that was found not to be. Without remembers the walks learn
+ * nothing. */
+static thr_status bisect(thr_walk_programme *p, double largest, bool remembers, thr_walk_proof *proof, double *bound, int *open,
+                         thr_err *err)
 {
   const double near = 5e-4; /* of the largest */
   int part = 3;             /* limits near what is known are excluded soonest, later ones know more walks */
   int low = (int)floor(*bound / thr_walk_programme_price(p, 1)) - 1, high = (int)ceil(largest / thr_walk_programme_price(p, 1));
   thr_status st = THR_OK;
+  int most = remembers ? 1 + low / 500 : high / 2; /* units of a step; with a memory few at first and more with each success */
   if (high > p->most_units) high = p->most_units;
   while (high - low > 1 && thr_walk_programme_price(p, high - low) > near * largest && !st && !thr_limits_stop(p->limits)) {
-    int middle = low + (high - low) / part;
+    const int step = (high - low) / part, middle = low + (step < most ? step : most);
+    bool grown = false;
+    do
+      st = exclude(p, middle, remembers ? &grown : NULL, proof, err);
+    while (!st && grown && !thr_limits_stop(p->limits));
     part = 2;
-    st = exclude(p, middle, proof, err);
-    if (st) break;
+    if (st || grown) break;
     if (p->excluded) {
       low = middle;
+      most = (int)fmin(high, 2 * most + low * (p->best / p->cords - 1) / 2);
       *bound = fmax(*bound, thr_walk_programme_price(p, low + 1));
     } else {
       high = middle;
@@ -68,7 +87,7 @@ static thr_status try_limit(thr_walk_programme *p, double enough, thr_walk_proof
   if (thr_walk_programme_price(p, units + 1) <= enough) units++; /* prices are rounded down */
   *open = units - units / part;
   if (units > p->most_units) return THR_OK;
-  thr_status st = exclude(p, units, proof, err);
+  thr_status st = exclude(p, units, NULL, proof, err);
   if (!st && p->excluded) *bound = fmax(*bound, thr_walk_programme_price(p, units + 1));
   return st;
 }
@@ -207,7 +226,8 @@ static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cord
   const bool counted = limits->work; /* then that is the limit, and nothing is left for cords near others */
   thr_limits share = counted ? *limits : thr_limits_part(limits, for_bound);
   p->limits = &share;
-  thr_status st = enough > 0 ? try_limit(p, enough, made, bound, &open, err) : bisect(p, largest, made, bound, &open, err);
+  thr_status st = enough > 0 ? try_limit(p, enough, made, bound, &open, err) : bisect(p, largest, false, made, bound, &open, err);
+  if (!st && enough <= 0) st = bisect(p, largest, true, made, bound, &open, err);
   const bool wanted = (enough <= 0 || *bound <= enough) && !task->tube && !task->end_count;
   if (!counted) share = thr_limits_part(limits, for_cords);
   if (!st && wanted) st = look_for_cords(p, cord, n_cords, *bound, open, better, err);

@@ -11,6 +11,7 @@
 #include "lp/model/pool.h"
 #include "lp/model/search.h"
 #include "lp/solver/lp.h"
+#include "tortuosity/cords/walk_memory.h"
 
 #include <limits.h>
 #include <math.h>
@@ -23,6 +24,7 @@ enum {
   MOST_UNITS = 4000,
   FEWEST_UNITS = 100,
   MOST_WALKS = 40, /* that one look at the prices adds, of a recursion */
+  SOME_WALKS = 16, /* of several recursions: the others are not looked at then */
   PATIENCE = 30    /* rounds after which a walk that is not needed is forgotten */
 };
 
@@ -136,11 +138,11 @@ static thr_status allocate(thr_walk_programme *p, thr_err *err)
   p->try = thr_scratch_array(&p->own, most, sizeof *p->try);
   p->start = thr_scratch_array(&p->own, MOST_WALKS, sizeof *p->start);
   size_t entries = ((size_t)p->most_units + 1) * places * thr_walk_tables(p->steps.measure);
-  p->value = thr_scratch_array(&p->own, entries, sizeof *p->value);
+  p->value = thr_calloc(entries, sizeof *p->value);
   p->half = thr_scratch_array(&p->own, entries, sizeof *p->half);
   p->trial.edge = thr_calloc(m, sizeof *p->trial.edge);
   p->trial.node = thr_calloc(n, sizeof *p->trial.node);
-  if (!p->trial.edge || !p->trial.node) return thr_nomem(err);
+  if (!p->value || !p->trial.edge || !p->trial.node) return thr_nomem(err);
   return thr_scratch_check(&p->own, err);
 }
 
@@ -214,6 +216,8 @@ void thr_walk_programme_destroy(thr_walk_programme *p)
   thr_walk_proof_destroy(&p->trial);
   thr_search_destroy(&p->search);
   thr_pool_destroy(&p->walks);
+  thr_walk_memory_free(p->memory, p->n_memories);
+  free(p->value);
   thr_scratch_free(&p->own);
 }
 
@@ -254,8 +258,8 @@ static int64_t end_worth(const thr_walk_programme *p, int run, int i, bool last)
   const thr_walk_steps *steps = &p->steps;
   if (!last) return p->value[((size_t)p->units + 1 + (size_t)p->units) * (size_t)steps->n + (size_t)i];
   if (!steps->closed) return steps->end[i];
-  bool home =
-      steps->n_homes > 0 ? steps->group[i] == thr_tail(p->c->f, steps->begin[steps->from[run]].half) : i == steps->begin[run].to;
+  bool home = steps->n_homes > 0 ? steps->group[i] == thr_tail(p->c->f, steps->begin[steps->from[run]].half)
+                                 : steps->spot[i] == steps->spot[steps->begin[run].to];
   return home ? 0 : INT64_MIN;
 }
 
@@ -277,30 +281,49 @@ static const thr_walk_step *best_step(const thr_walk_programme *p, int run, int 
   return best;
 }
 
-static void put_node(thr_walk_programme *p, int v)
+static void put_node(const thr_walk_programme *p, thr_pool *pool, int v)
 {
-  if (p->node[v] >= 0) thr_pool_put(&p->search.pool, p->node[v], -1);
+  if (p->node[v] >= 0) thr_pool_put(pool, p->node[v], -1);
 }
 
-/* Puts together the row of a walk over n half-edges. */
-static thr_row put_walk(thr_walk_programme *p, int *half, int n)
+/* The place of a walk before its pass number first that may be known. */
+static int place_before(const thr_walk_programme *p, const int *half, int n, int first)
+{
+  return first ? thr_walk_begun(&p->steps, half[0]) : thr_walk_closed(&p->steps, half[n - 1]);
+}
+
+/* Goes on from a place over a half-edge; is that a pass that the walk knows of? */
+static bool go_on(const thr_walk_programme *p, int half, int *place)
+{
+  const thr_walk_steps *steps = &p->steps;
+  int k = steps->first[*place];
+  while (steps->step[k].half != half)
+    k++;
+  *place = steps->step[k].to;
+  return steps->step[k].known;
+}
+
+thr_row thr_walk_programme_row(const thr_walk_programme *p, thr_pool *pool, const int *half, int n)
 {
   const thr_frame *frame = p->c->f;
-  thr_row row = {.lower = -1, .member = half, .n_members = n};
+  const int first = p->steps.closed ? 0 : 1;
+  thr_row row = {.lower = -1, .member = (int *)half, .n_members = n}; /* copied by the pool */
+  int place = p->n_memories > 0 ? place_before(p, half, n, first) : -1;
   double length = 0;
   for (int k = 0; k < n; k++) {
-    thr_pool_put(&p->search.pool, p->edge[half[k] >> 1], -1);
-    put_node(p, thr_tail(frame, half[k]));
-    put_node(p, thr_head(frame, half[k]));
+    const bool known = place >= 0 && k >= first && go_on(p, half[k], &place);
+    if (!known) thr_pool_put(pool, p->edge[half[k] >> 1], -1);
+    put_node(p, pool, thr_tail(frame, half[k]));
+    put_node(p, pool, thr_head(frame, half[k]));
     length += frame->length[half[k] >> 1];
   }
   if (!p->steps.closed) {
-    put_node(p, thr_tail(frame, half[0]));
-    put_node(p, thr_head(frame, half[n - 1]));
+    put_node(p, pool, thr_tail(frame, half[0]));
+    put_node(p, pool, thr_head(frame, half[n - 1]));
   }
   if (!p->lengths) return row;
   row.lower = -length / p->longest;
-  thr_pool_put(&p->search.pool, p->n_variables - 1, 1);
+  thr_pool_put(pool, p->n_variables - 1, 1);
   return row;
 }
 
@@ -330,7 +353,7 @@ static thr_row trace_walk(thr_walk_programme *p, int run, const thr_walk_step *s
     step = best_step(p, run, i, left, last);
   }
   if (closes_back(p, n)) return (thr_row){0};
-  thr_row row = put_walk(p, p->half, n);
+  thr_row row = thr_walk_programme_row(p, &p->search.pool, p->half, n);
   if (p->steps.measure != THR_WALK_PULL) row.index = units;
   if (p->least > 0) thr_pool_put(&p->search.pool, p->n_variables - 1, -ldexp(all, -p->steps.exponent) / p->least);
   return row;
@@ -373,21 +396,33 @@ static void judge_prices(thr_walk_programme *p, const double *x, double worth)
     p->middle[j] = x[j] * one / worth;
 }
 
-/* The walks that are worth most at these prices, as far as the last optimum does not know them. */
+/* The walks of a recursion that are worth most, as far as the last optimum does not know them. *most: what any is worth. */
+static thr_status price_run(thr_walk_programme *p, int run, int64_t *most, int *added, thr_err *err)
+{
+  thr_status st = THR_OK;
+  thr_walk_run(&p->steps, run, p->units, p->units + 1, p->value);
+  thr_limits_spend(p->limits, per_step * p->units * p->steps.first[p->steps.n] * (double)thr_walk_tables(p->steps.measure));
+  const int n = sort_starts(p, run, p->steps.closed ? 1 : MOST_WALKS);
+  if (n > 0 && worth_of(p, p->start[0]) > *most) *most = worth_of(p, p->start[0]);
+  for (int i = 0; i < n && !st && worth_of(p, p->start[i]) > 0; i++) {
+    const thr_row row = trace_walk(p, run, p->start[i]);
+    if (row.n_members > 0) st = thr_pool_offer(&p->search.pool, row, p->x, 1e-6, added, err);
+  }
+  return st;
+}
+
+/* The same of all recursions, which say what the prices prove; or of those from where the last look ended until there are some
+ * walks. */
 static thr_status price_walks(thr_walk_programme *p, const double *x, int *added, thr_err *err)
 {
   thr_status st = set_trial(p, x, err);
   int64_t most = p->lengths ? 0 : 1;
   if (st) return st == THR_EVIOLATED ? THR_OK : st;
-  for (int run = 0; run < thr_walk_runs(&p->steps) && !st; run++) {
-    thr_walk_run(&p->steps, run, p->units, p->units + 1, p->value);
-    thr_limits_spend(p->limits, per_step * p->units * p->steps.first[p->steps.n] * (double)thr_walk_tables(p->steps.measure));
-    int n = sort_starts(p, run, p->steps.closed ? 1 : MOST_WALKS);
-    if (n > 0 && worth_of(p, p->start[0]) > most) most = worth_of(p, p->start[0]);
-    for (int i = 0; i < n && !st && worth_of(p, p->start[i]) > 0; i++) {
-      const thr_row row = trace_walk(p, run, p->start[i]);
-      if (row.n_members > 0) st = thr_pool_offer(&p->search.pool, row, p->x, 1e-6, added, err);
-    }
+  const int runs = thr_walk_runs(&p->steps);
+  for (int i = 0; i < runs && !st; i++) {
+    p->run = (p->run + 1) % runs;
+    st = price_run(p, p->run, &most, added, err);
+    if (*added >= SOME_WALKS && i + 1 < runs) return st;
   }
   if (p->to_exclude && !st && p->lengths) judge_lengths(p, x, most);
   if (p->to_exclude && !st && !p->lengths) judge_prices(p, x, (double)most);
@@ -482,7 +517,7 @@ static thr_status look(void *user, thr_err *err)
 
 thr_status thr_walk_programme_add(thr_walk_programme *p, const thr_cord *cord, thr_err *err)
 {
-  return thr_pool_add(&p->search.pool, put_walk(p, cord->half, cord->n_passes), err);
+  return thr_pool_add(&p->search.pool, thr_walk_programme_row(p, &p->search.pool, cord->half, cord->n_passes), err);
 }
 
 thr_status thr_walk_programme_rounds(thr_walk_programme *p, int most_rounds, thr_err *err)

@@ -27,6 +27,8 @@ typedef struct {
   double least;         /* of the turning of its cords together, or their length; 0: not known */
   thr_scratch own;      /* the arrays */
   thr_walk_steps steps;
+  int n_memories;
+  thr_walk_memory *memory;       /* what the walks remember, as in a proof; owned */
   int64_t unit;                  /* of turning or length */
   int most_units;                /* that the table is for */
   int n_variables, *edge, *node; /* [n_edges], [n_nodes] their variables, -1: none. The last one, if least > 0: of all */
@@ -41,8 +43,9 @@ typedef struct {
   bool to_exclude;          /* is the limit to be excluded, or are walks looked for? */
   bool excluded;            /* it is, by the prices in trial */
   double *x, *middle, *try; /* [n_variables] the last optimum, the best so far, what is priced */
+  int run;                  /* of the recursions, the one that was looked at last */
   double best;              /* number of cords that the best proves, or their length; 0: none yet */
-  int64_t *value;           /* [tables][most_units + 1][steps.n] of the recursion */
+  int64_t *value;           /* [tables][most_units + 1][steps.n] of the recursion; owned */
   const thr_walk_step **start; /* [most first steps] in the order of their worth */
   int *half;                   /* a walk while it is traced */
   thr_walk_proof trial;
@@ -83,6 +86,9 @@ void thr_walk_programme_round_up(thr_walk_programme *programme, double per_cord)
 
 /* The best prices so far become the trial. */
 thr_status thr_walk_programme_middle(thr_walk_programme *programme, thr_err *err) THR_MUST_CHECK;
+
+/* Puts together the row of a walk over n half-edges, which has to be added to the pool, without the passes that it knows of. */
+thr_row thr_walk_programme_row(const thr_walk_programme *programme, thr_pool *pool, const int *half, int n);
 
 /* Keeps the walks for the next limit. */
 thr_status thr_walk_programme_end(thr_walk_programme *programme, thr_err *err) THR_MUST_CHECK;

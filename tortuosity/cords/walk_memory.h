@@ -1,0 +1,18 @@
+/* What the walks of a programme remember, so that they are not worth going round and round. Internal to tortuosity/. */
+#ifndef THR_WALK_MEMORY_H
+#define THR_WALK_MEMORY_H
+
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "tortuosity/cords/walk_programme.h"
+
+/* Of the walks in the last optimum of a programme that has begun, the shortest rounds in which an edge is passed again are
+ * remembered from now on; *grown: there were some, and there was room. The recursion and the known walks change with it. Takes
+ * the place of thr_walk_programme_end. (R. Roberti & A. Mingozzi, Transportation Science 48, 2014.) */
+thr_status thr_walk_remember(thr_walk_programme *programme, bool *grown, thr_err *err) THR_MUST_CHECK;
+
+/* *to: a copy, the caller's (thr_walk_memory_free). */
+thr_status thr_walk_memory_copy(const thr_walk_memory *from, int n, thr_walk_memory **to, thr_err *err) THR_MUST_CHECK;
+void thr_walk_memory_free(thr_walk_memory *memory, int n);
+
+#endif
