@@ -183,16 +183,16 @@ static thr_status find_starts(const thr_frame *frame, const thr_request *options
   return st;
 }
 
-/* Small frameworks do not hold many closed cords within the most passes that are looked at otherwise: a path of four edges holds
- * four within 8 passes over an edge. Two passes over every edge hold one, so twice as many as cords hold them all; of more cords
- * than edges the best may be many over one edge. */
+/* Small frameworks do not hold many cords within the most passes that are looked at otherwise: a path of four edges holds four
+ * closed ones within 8 passes over an edge, and 8 from end to end. Two passes over every edge hold one closed cord, or open ones
+ * between two nodes, so twice as many as cords hold them all; of more closed cords than edges the best may be many over one edge. */
 static thr_status find_with_room(const thr_frame *frame, const thr_request *options, thr_least_options *lo,
                                  const thr_limits *limits, thr_least *least, thr_err *err)
 {
   const int room = 2 * lo->cords, usual = thr_turning_most_passes(frame, lo->cover);
-  const bool more = options->ends == THR_ENDS_CLOSED && room > (lo->most_passes > 0 ? lo->most_passes : usual);
+  const bool more = room > (lo->most_passes > 0 ? lo->most_passes : usual);
   thr_err why = {0};
-  if (more && lo->cords > frame->n_edges) lo->most_passes = room;
+  if (more && options->ends == THR_ENDS_CLOSED && lo->cords > frame->n_edges) lo->most_passes = room;
   thr_status st = find_least(frame, lo, limits, least, &why);
   if (st == THR_EINFEASIBLE && more && lo->most_passes != room) {
     lo->most_passes = room;
