@@ -185,7 +185,8 @@ static thr_status find_starts(const thr_frame *frame, const thr_request *options
 
 /* Small frameworks do not hold many cords within the most passes that are looked at otherwise: a path of four edges holds four
  * closed ones within 8 passes over an edge, and 8 from end to end. Two passes over every edge hold one closed cord, or open ones
- * between two nodes, so twice as many as cords hold them all; of more closed cords than edges the best may be many over one edge. */
+ * between two nodes, so twice as many as cords hold them all; of more closed cords than edges the best may be many over one edge.
+ */
 static thr_status find_with_room(const thr_frame *frame, const thr_request *options, thr_least_options *lo,
                                  const thr_limits *limits, thr_least *least, thr_err *err)
 {

@@ -185,6 +185,7 @@ thr_status thr_walk_steps_remember(thr_walk_steps *steps, const thr_walk_memory 
     made.group = thr_scratch_array(&steps->own, places, sizeof *made.group);
     made.first = thr_scratch_array(&steps->own, places + 1, sizeof *made.first);
     made.step = thr_scratch_array(&steps->own, (size_t)m.n_steps, sizeof *made.step);
+    made.move = thr_scratch_array(&steps->own, (size_t)m.n_steps, sizeof *made.move);
     made.end = thr_scratch_array(&steps->own, places, sizeof *made.end);
     made.active = thr_scratch_array(&steps->own, places, sizeof *made.active);
     made.own = steps->own;

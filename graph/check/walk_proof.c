@@ -205,6 +205,7 @@ static thr_status allocate(thr_walk_steps *steps, making *m, thr_scratch *own, t
   steps->group = thr_scratch_array(&steps->own, places, sizeof *steps->group);
   steps->first = thr_scratch_array(&steps->own, places + 1, sizeof *steps->first);
   steps->step = thr_scratch_array(&steps->own, squares, sizeof *steps->step);
+  steps->move = thr_scratch_array(&steps->own, squares, sizeof *steps->move);
   steps->begin = thr_scratch_array(&steps->own, places, sizeof *steps->begin);
   steps->end = thr_scratch_array(&steps->own, places, sizeof *steps->end);
   steps->active = thr_scratch_array(&steps->own, places, sizeof *steps->active);
@@ -338,6 +339,8 @@ thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *pro
       step->worth =
           (int64_t)pass_worth(steps, proof, step->half) + all_worth(proof, step->weight) - pass_cost(steps, proof, step->half);
       if (step->known) step->worth -= proof->edge[step->half >> 1];
+      steps->move[k] =
+          (thr_walk_move){.worth = step->worth, .back = step->to - (int64_t)step->units * steps->n, .units = step->units};
       if (steps->end[step->to] >= 0) steps->end[step->to] = proof->node[thr_head(frame, step->half)];
     }
   for (int k = 0; k < steps->n_homes; k++)
@@ -366,11 +369,11 @@ static int64_t from_place(const thr_walk_steps *steps, const int64_t *end, int i
                           const int64_t *value)
 {
   int64_t most = end[i];
-  for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
-    const thr_walk_step *step = &steps->step[k];
-    int64_t at = row + step->to - (int64_t)step->units * steps->n;
-    if (step->units > r) continue;
-    int64_t here = value[at < 0 ? at + size : at] + step->worth;
+  const thr_walk_move *move = steps->move + steps->first[i], *last = steps->move + steps->first[i + 1];
+  for (; move < last; move++) {
+    const int64_t at = row + move->back;
+    if (move->units > r) continue;
+    const int64_t here = value[at < 0 ? at + size : at] + move->worth;
     if (here > most) most = here;
   }
   return most;

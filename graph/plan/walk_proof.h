@@ -64,6 +64,12 @@ typedef struct {
                      pull less its length, rounded down */
 } thr_walk_step;
 
+/* A step as the recursion needs it: from place i with r units left it takes the value at i's row + back. */
+typedef struct {
+  int64_t worth, back;
+  int units;
+} thr_walk_move;
+
 /* Walks that the cords of one component can be, in an order of the places in which the recursion finds what it needs. A place is
  * a half-edge that was passed away from its node, or of lengths the node where the walk is; where edges are remembered there are
  * several of the same spot. */
@@ -82,6 +88,7 @@ typedef struct {
                       that is reached, where it may begin in any case */
   int *first;      /* [n + 1] steps from place i: step[first[i]] .. step[first[i + 1] - 1] */
   thr_walk_step *step;
+  thr_walk_move *move;  /* the same, with prices */
   int n_begins;         /* open: first passes of walks; closed: places that they begin at */
   thr_walk_step *begin; /* [n_begins] open: the passes; closed: to is the place, lowest groups first */
   int most_units;       /* of a step */

@@ -131,7 +131,8 @@ typedef struct {
 static thr_status run_one(void *user, int k, const thr_limits *limits, thr_err *err)
 {
   runs *r = user;
-  return thr_anneal_run(r->columns, r->task, r->round * RUNS + k, limits, r->cord[k], r->n_cords, &r->better[k], err);
+  const int number = r->round * RUNS + (r->task->alone ? r->round % RUNS : k);
+  return thr_anneal_run(r->columns, r->task, number, limits, r->cord[k], r->n_cords, &r->better[k], err);
 }
 
 static double dearest(const runs *r, const thr_cord *cord)
@@ -143,19 +144,20 @@ static double dearest(const runs *r, const thr_cord *cord)
 /* Runs from cord[n_cords], which become the best of theirs. */
 static thr_status run_round(runs *r, const thr_limits *limits, thr_cord *cord, bool *better, thr_err *err)
 {
+  const int n = r->task->alone ? 1 : RUNS;
   thr_status st = THR_OK;
   int best = -1;
-  for (int k = 0; k < RUNS && !st; k++)
+  for (int k = 0; k < n && !st; k++)
     st = thr_cords_copy(cord, r->n_cords, &r->cord[k], err);
-  if (!st) st = thr_threads_run(RUNS, run_one, r, limits, err);
-  for (int k = 0; k < RUNS && !st; k++)
+  if (!st) st = thr_threads_run(n, run_one, r, limits, err);
+  for (int k = 0; k < n && !st; k++)
     if (r->better[k] && (best < 0 || dearest(r, r->cord[k]) < dearest(r, r->cord[best]))) best = k;
   for (int i = 0; i < r->n_cords && best >= 0; i++) {
     const thr_cord old = cord[i];
     cord[i] = r->cord[best][i];
     r->cord[best][i] = old;
   }
-  for (int k = 0; k < RUNS; k++) {
+  for (int k = 0; k < n; k++) {
     thr_cords_destroy(r->cord[k], r->cord[k] ? r->n_cords : 0);
     r->cord[k] = NULL;
   }

@@ -18,14 +18,15 @@ typedef struct {
   int steps; /* of a run at most: changes at random */
   int first,
       rounds;    /* number of the first round, whose random numbers are others than those of the rounds before; and how many */
+  bool alone;    /* one run in a round instead of two: this thread has no other beside it */
   double enough; /* largest price or length that need not become less */
 } thr_anneal_task;
 
 /* Lowers the largest price of the turns of n_cords cords, or their largest length, and replaces them where it falls, as long as
- * it is above enough: in rounds of two runs each from the best so far, of which one begins hotter, until all rounds are done, or
- * several in turn were in vain, or the limits' time is up. Solid joints, and no given numbers of ends at nodes. Every edge keeps
- * the passes that the columns ask for, and has no more than they allow. *better: whether it fell. A change that is not taken
- * takes time that does not depend on the framework, one that is O(passes of two cords). */
+ * it is above enough: in rounds of two runs each from the best so far, of which one begins hotter (alone: in turn), until all
+ * rounds are done, or several in turn were in vain, or the limits' time is up. Solid joints, and no given numbers of ends at
+ * nodes. Every edge keeps the passes that the columns ask for, and has no more than they allow. *better: whether it fell. A
+ * change that is not taken takes time that does not depend on the framework, one that is O(passes of two cords). */
 thr_status thr_anneal(const thr_turning_columns *columns, const thr_anneal_task *task, const thr_limits *limits, thr_cord *cord,
                       int n_cords, bool *better, thr_err *err) THR_MUST_CHECK;
 

@@ -4,6 +4,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
+#include "graph/process/threads.h"
 #include "graph/random.h"
 #include "graph/threading/even.h"
 #include "graph/threading/multigraph.h"
@@ -364,55 +365,93 @@ static thr_status find_cords(search *x, const thr_frame *frame, thr_least *plan,
   return st ? st : keep_best(x, frame, plan, err);
 }
 
-/* The plan's cords annealed, in part of the time, unless they are as near to the bound as is worth it. first, rounds: of the
- * annealing. */
-static thr_status anneal_cords(search *x, const thr_frame *frame, thr_least *plan, double part, int first, int rounds,
-                               thr_err *err)
+enum { SHORT = 1, MANY = 64 }; /* rounds of annealing; without a limit of time as few */
+
+/* Of the plan's cords, until they are as near to the bound as is worth it. */
+static thr_anneal_task annealing(const search *x, int first, int rounds)
 {
   enum { MOST_STEPS = 6000000, STEPS = 20000 }; /* STEPS: for a pass */
   const double near = 2e-3;                     /* of the bound */
-  const thr_limits share = thr_limits_part(x->limits, part);
-  const thr_anneal_task task = {.measure = THR_WALK_TURNING,
-                                .steps = (int)fmin(MOST_STEPS, (double)STEPS * x->best.g.n_darts),
-                                .first = first,
-                                .rounds = rounds,
-                                .enough = fmax(x->bound * (1 + near), x->enough)};
-  thr_cord *cord = NULL;
+  return (thr_anneal_task){.measure = THR_WALK_TURNING,
+                           .steps = (int)fmin(MOST_STEPS, (double)STEPS * x->best.g.n_darts),
+                           .first = first,
+                           .rounds = rounds,
+                           .alone = x->limits->deadline > 0 && x->limits->threads < 2,
+                           .enough = fmax(x->bound * (1 + near), x->enough)};
+}
+
+static bool may_anneal(const search *x, const thr_frame *frame, const thr_least *plan, const thr_anneal_task *task)
+{
+  return plan->n_cords >= 2 && !x->limits->work && !x->c->task->tube && !x->c->task->end_count &&
+         largest_price(frame, plan) > task->enough;
+}
+
+/* The plan has these cords, evened out with so many steps, too, if they are better. */
+static thr_status consider(search *x, const thr_frame *frame, thr_least *plan, const thr_cord *cord, int steps, thr_err *err)
+{
   thr_join j = {0};
+  thr_status st = thr_join_from_cords(&j, x->c, cord, plan->n_cords, err);
+  if (!st) st = improve_from(x, &j, steps, err);
+  return st ? st : keep_best(x, frame, plan, err);
+}
+
+/* The plan's cords annealed, in part of the time. */
+static thr_status anneal_cords(search *x, const thr_frame *frame, thr_least *plan, double part, int first, int rounds,
+                               thr_err *err)
+{
+  const thr_limits share = thr_limits_part(x->limits, part);
+  const thr_anneal_task task = annealing(x, first, rounds);
+  thr_cord *cord = NULL;
   bool better = false;
-  if (plan->n_cords < 2 || x->limits->work || x->c->task->tube || x->c->task->end_count ||
-      largest_price(frame, plan) <= task.enough)
-    return THR_OK;
+  if (!may_anneal(x, frame, plan, &task)) return THR_OK;
   thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &cord, err);
   if (!st) st = thr_anneal(x->c, &task, &share, cord, plan->n_cords, &better, err);
-  if (!st && better) st = thr_join_from_cords(&j, x->c, cord, plan->n_cords, err);
-  if (!st && better) st = improve_from(x, &j, 0, err);
-  if (!st && better) st = keep_best(x, frame, plan, err);
+  if (!st && better) st = consider(x, frame, plan, cord, 0, err);
   thr_cords_destroy(cord, plan->n_cords);
   return st;
 }
 
-/* The programme over walks: a higher bound, and cords that it chooses, evened out as the others were. */
+/* The programme over walks in one thread, and annealing in another. */
+typedef struct {
+  search *x;
+  thr_least *plan;
+  thr_anneal_task task;
+  double least;              /* turning of the component of the cord that turns most */
+  thr_cord *better, *cooled; /* what walks make, or NULL; the annealed cords */
+  bool fell;                 /* they turn less */
+} beside;
+
+static thr_status do_one(void *user, int job, const thr_limits *limits, thr_err *err)
+{
+  beside *b = user;
+  search *x = b->x;
+  thr_least *plan = b->plan;
+  if (job == 1) return thr_anneal(x->c, &b->task, limits, b->cooled, plan->n_cords, &b->fell, err);
+  return thr_walk_bound(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords, b->least, x->enough, limits, &plan->proof.walks,
+                        &x->bound, &b->better, err);
+}
+
+/* The programme over walks: a higher bound, and cords that it chooses, evened out as the others were. Where another thread is
+ * free in part of the time, it anneals. */
 static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
 {
-  enum { SHORT = 1, MANY = 64 }; /* rounds of annealing; without a limit of time as few */
-  const int last = x->limits->deadline > 0 ? MANY : SHORT;
-  thr_cord *better = NULL;
-  thr_join j = {0};
-  thr_status st = anneal_cords(x, frame, plan, .3, 0, SHORT, err);
-  if (!st) {
-    const thr_cord *dearest = &plan->cord[thr_walk_dearest(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords)];
-    double least = x->bound_of[x->c->component[thr_tail(frame, dearest->half[0])]];
-    st = thr_walk_bound(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords, least, x->enough, x->limits, &plan->proof.walks,
-                        &x->bound, &better, err);
-  }
-  for (int steps = 0; steps >= 0 && !st && better; steps = steps ? -1 : steps_of(x)) { /* as they are, and evened out */
-    st = thr_join_from_cords(&j, x->c, better, plan->n_cords, err);
-    if (!st) st = improve_from(x, &j, steps, err);
-  }
-  if (!st && better) st = keep_best(x, frame, plan, err);
-  thr_cords_destroy(better, plan->n_cords);
-  if (!st) st = anneal_cords(x, frame, plan, 1, SHORT, last, err);
+  const double first = .2, most = .7; /* parts of the time */
+  const bool timed = x->limits->deadline > 0;
+  thr_status st = anneal_cords(x, frame, plan, first, 0, SHORT, err);
+  const thr_cord *dearest = &plan->cord[thr_walk_dearest(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords)];
+  beside b = {.x = x, .plan = plan, .task = annealing(x, SHORT, MANY)};
+  const bool both = timed && x->limits->threads > 1 && may_anneal(x, frame, plan, &b.task);
+  const thr_limits share = both ? thr_limits_part(x->limits, most) : *x->limits;
+  b.task.alone = true;
+  b.least = x->bound_of[x->c->component[thr_tail(frame, dearest->half[0])]];
+  if (!st && both) st = thr_cords_copy(plan->cord, plan->n_cords, &b.cooled, err);
+  if (!st) st = thr_threads_run(both ? 2 : 1, do_one, &b, &share, err);
+  if (!st && b.fell) st = consider(x, frame, plan, b.cooled, 0, err);
+  for (int steps = 0; steps >= 0 && !st && b.better; steps = steps ? -1 : steps_of(x)) /* as they are, and evened out */
+    st = consider(x, frame, plan, b.better, steps, err);
+  thr_cords_destroy(b.better, plan->n_cords);
+  thr_cords_destroy(b.cooled, b.cooled ? plan->n_cords : 0);
+  if (!st) st = anneal_cords(x, frame, plan, 1, both ? SHORT + MANY : SHORT, timed ? MANY : SHORT, err);
   return st;
 }
 

@@ -13,7 +13,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_ROUNDS = 300, MOST_DIVES = 20, FEW_DIVES = 8, MOST_DRAWN = 12 };
+enum { MOST_ROUNDS = 300, MOST_GROWTHS = 6, MOST_DIVES = 20, FEW_DIVES = 8, MOST_DRAWN = 12 };
 
 /* Cords no further above the bound than that are near: few dives, no walks drawn at random, none chosen in integers. */
 static const double near_enough = 1.05;
@@ -60,12 +60,11 @@ static thr_status bisect(thr_walk_programme *p, double largest, bool remembers, 
   if (high > p->most_units) high = p->most_units;
   while (high - low > 1 && thr_walk_programme_price(p, high - low) > near * largest && !st && !thr_limits_stop(p->limits)) {
     const int step = (high - low) / part, middle = low + (step < most ? step : most);
-    bool grown = false;
-    do
+    bool grown = remembers;
+    for (int i = 0; i < MOST_GROWTHS && !st && (grown || i == 0) && !thr_limits_stop(p->limits); i++)
       st = exclude(p, middle, remembers ? &grown : NULL, proof, err);
-    while (!st && grown && !thr_limits_stop(p->limits));
     part = 2;
-    if (st || grown) break;
+    if (st) break;
     if (p->excluded) {
       low = middle;
       most = (int)fmin(high, 2 * most + low * (p->best / p->cords - 1) / 2);
