@@ -84,10 +84,16 @@ char *thr_strdup(const char *s)
   return copy;
 }
 
+double thr_percent_above(double value, double bound)
+{
+  double percent = fmax(0, 100 * (value / bound - 1)), unit = percent < 10 ? 0.01 : percent < 100 ? 0.1 : 1;
+  return unit * ceil(percent / unit - 1e-9);
+}
+
 thr_status thr_not_proved(thr_err *err, const char *what, double value, double bound)
 {
   if (!(bound > 0)) return thr_fail(err, THR_ELIMIT, "%s is not proved to be near the least", what);
-  const double finest = 1e-4; /* per cent: what is nearer is said to be so near */
-  return thr_fail(err, THR_ELIMIT, "%s is proved to be at most %.3g %% above the least", what,
-                  fmax(finest, 100 * (value / bound - 1)));
+  const double finest = 0.01; /* per cent: what is nearer is said to be so near */
+  return thr_fail(err, THR_ELIMIT, "%s is proved to be at most %.6g %% above the least", what,
+                  fmax(finest, thr_percent_above(value, bound)));
 }

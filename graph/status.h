@@ -48,6 +48,10 @@ void *thr_realloc(void *p, size_t n, size_t size) THR_MUST_CHECK;
 /* Makes room for one more element in a growing array: doubles *capacity as needed. *array stays valid on failure. */
 thr_status thr_grow(void *array, int count, int *capacity, size_t size, thr_err *err) THR_MUST_CHECK;
 
+/* By how much a value is above its bound > 0, per cent, rounded up: to a hundredth, from 10 % on to a tenth, from 100 % on to a
+ * whole one, so that what is said is no less than what is proved. */
+double thr_percent_above(double value, double bound);
+
 /* THR_ELIMIT: "WHAT is proved to be at most 3.1 % above the least", of a value and what it is at least. */
 thr_status thr_not_proved(thr_err *err, const char *what, double value, double bound);
 

@@ -1,5 +1,6 @@
 #include "cli/print/plain.h"
 #include "graph/plan/advice.h"
+#include "graph/status.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -45,8 +46,7 @@ void plain_put_proof(thr_text *text, bool optimal, double value, double bound, c
     thr_text_printf(text, "how near that is to the %s is not known", least);
     return;
   }
-  double percent = fmax(0, 100 * (value / bound - 1)), unit = percent < 10 ? 0.01 : percent < 100 ? 0.1 : 1;
-  thr_text_printf(text, "at most %.6g %% above the %s (proved)", unit * ceil(percent / unit - 1e-9), least);
+  thr_text_printf(text, "at most %.6g %% above the %s (proved)", thr_percent_above(value, bound), least);
 }
 
 void plain_put_length_proof(thr_text *text, const thr_plan *plan)

@@ -61,24 +61,46 @@ static void flag_words(const thr_advice_row *row, char words[120])
 
 /* ---- plot ---- */
 
-/* Does the band leave words of that width over the line free, at the right end of the plot or at its left? */
-static bool is_free(const picture *p, double hand, double wide, bool right)
+/* What a line of the chart (0: lower end of the band, 1: the pull, 2: upper end) is at x, between its points. */
+static double line_y(const picture *p, double x, int line)
 {
-  double y = thr_pull_y(&p->axis, hand), column = p->axis.width / p->n;
-  for (int i = 0; i < p->n; i++) {
-    double from_end = right ? p->axis.x + p->axis.width - place_x(p, i) : place_x(p, i) - p->axis.x;
-    bool above = thr_pull_y(&p->axis, p->row[i].pull[THR_ADVICE_LOW]) < y - 1.5 * SMALL - MARK;
-    bool below = thr_pull_y(&p->axis, p->row[i].pull[THR_ADVICE_HIGH]) > y - MARK;
-    if (from_end < wide + column / 2 && !above && !below) return false;
-  }
-  return true;
+  double at = fmin(fmax((x - p->axis.x) / p->axis.width * p->n - 0.5, 0), p->n - 1);
+  int i = (int)at, next = i + 1 < p->n ? i + 1 : i;
+  return thr_pull_y(&p->axis, p->row[i].pull[line]) * (1 - (at - i)) + thr_pull_y(&p->axis, p->row[next].pull[line]) * (at - i);
 }
 
+/* What words over the line of a hand, from x to x, would lie on: 0 nothing, 1 the band, 2 the pull, 3 the marked row's line. */
+static int lies_on(const picture *p, double hand, double from, double to)
+{
+  enum { STEPS = 32 };
+  double low = thr_pull_y(&p->axis, hand) - MARK / 2, high = low - 1.5 * SMALL;
+  int on = 0;
+  if (p->chosen >= 0 && fabs(place_x(p, p->chosen) - (from + to) / 2) < (to - from) / 2) return 3;
+  for (int k = 0; k <= STEPS; k++) {
+    double x = from + (to - from) * k / STEPS, pull = line_y(p, x, THR_ADVICE_MU);
+    if (x < place_x(p, 0) || x > place_x(p, p->n - 1)) continue;
+    if (pull < low + MARK && pull > high - MARK)
+      on = 2;
+    else if (line_y(p, x, THR_ADVICE_HIGH) < low && line_y(p, x, THR_ADVICE_LOW) > high)
+      on = on > 1 ? on : 1;
+  }
+  return on;
+}
+
+/* The words stand where they lie on least: at the right end of the plot, at its left, or beside the line of the marked row. */
 static void write_hand(const picture *p, double hand, thr_text *text)
 {
   char words[80];
-  double wide = thr_pull_hand_words(hand, words);
-  thr_pull_hand(&p->axis, hand, !is_free(p, hand, wide, true) && is_free(p, hand, wide, false), text);
+  double wide = thr_pull_hand_words(hand, words), left = p->axis.x + 1, right = p->axis.x + p->axis.width - 1;
+  double line = p->chosen < 0 ? left : place_x(p, p->chosen);
+  const double place[4] = {right, left, fmax(line - 2 * MARK, left + wide), fmin(line + 2 * MARK, right - wide)};
+  int best = 0, least = 4;
+  for (int i = 0; i < 4; i++) {
+    double from = i % 2 ? place[i] : place[i] - wide;
+    int on = lies_on(p, hand, from, from + wide);
+    if (on < least) best = i, least = on;
+  }
+  thr_pull_hand(&p->axis, hand, place[best], best % 2, text);
 }
 
 static void write_band(const picture *p, thr_text *text)

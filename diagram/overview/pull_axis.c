@@ -35,7 +35,7 @@ void thr_pull_words(double newton, char words[24])
 {
   if (isinf(newton))
     snprintf(words, 24, ">1e300");
-  else if (newton >= 9999.5) {
+  else if (newton >= 99999.5) {
     int power = (int)floor(log10(newton / 9.5) + 1); /* 9.7e5 is 1e6 */
     snprintf(words, 24, "%.0fe%d", newton / pow(10, power), power);
   } else
@@ -89,15 +89,14 @@ void thr_pull_hand_line(const thr_pull_axis *axis, double hand, thr_text *text)
   thr_svg_text(text, axis->x + axis->width + 1, y + 0.36 * SMALL, SMALL, " fill=\"#00664B\"", words);
 }
 
-void thr_pull_hand(const thr_pull_axis *axis, double hand, bool left, thr_text *text)
+void thr_pull_hand(const thr_pull_axis *axis, double hand, double x, bool begin, thr_text *text)
 {
   char words[80];
   double y = thr_svg_round(thr_pull_y(axis, hand));
   if (thr_pull_beyond(axis, hand)) return;
   thr_text_printf(text, "<path class=\"hand\" d=\"M%.2f %.2fh%.2f\"/>\n", axis->x, y, axis->width);
   thr_pull_hand_words(hand, words);
-  thr_svg_text(text, left ? axis->x + 1 : axis->x + axis->width - 1, y - 1, SMALL,
-               left ? " class=\"halo\" fill=\"#00664B\"" : " class=\"end halo\" fill=\"#00664B\"", words);
+  thr_svg_text(text, x, y - 1, SMALL, begin ? " class=\"halo\" fill=\"#00664B\"" : " class=\"end halo\" fill=\"#00664B\"", words);
 }
 
 void thr_pull_point(const thr_pull_axis *axis, double x, double newton, bool chosen, thr_text *text)

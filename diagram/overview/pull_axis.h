@@ -25,7 +25,7 @@ void thr_pull_choose(thr_pull_axis *axis, double low, double high, double hand, 
 double thr_pull_y(const thr_pull_axis *axis, double newton);
 bool thr_pull_beyond(const thr_pull_axis *axis, double newton);
 
-/* Two or three digits: "3.5", "151", "2e6"; "> 1e300". */
+/* "3.5", "151", "10430", "2e6"; "> 1e300". */
 void thr_pull_words(double newton, char words[24]);
 
 /* A line for every power of ten, or for every so many where they are more than 12, with its number at the left; and the ground of
@@ -33,11 +33,11 @@ void thr_pull_words(double newton, char words[24]);
 void thr_pull_grid(const thr_pull_axis *axis, thr_text *text);
 void thr_pull_within(const thr_pull_axis *axis, double hand, thr_text *text);
 
-/* "10 N: a hand, time after time", and how wide that is, mm; a dashed line there with those words above it, at its left or its
- * right end: nothing beyond the axis. */
+/* "10 N: a hand, time after time", and how wide that is, mm; a dashed line there with those words above it, which begin or end at
+ * x: nothing beyond the axis. */
 double thr_pull_hand_words(double hand, char words[80]);
 void thr_pull_hand_line(const thr_pull_axis *axis, double hand, thr_text *text); /* with its number alone, right of the plot */
-void thr_pull_hand(const thr_pull_axis *axis, double hand, bool left, thr_text *text);
+void thr_pull_hand(const thr_pull_axis *axis, double hand, double x, bool begin, thr_text *text);
 
 /* A disc at a pull, x mm from the left of the sheet; a triangle at the upper end if it is beyond. */
 void thr_pull_point(const thr_pull_axis *axis, double x, double newton, bool chosen, thr_text *text);

@@ -32,20 +32,31 @@ void thr_svg_text(thr_text *text, double x, double y, double size, const char *a
   thr_text_append(text, "</text>\n");
 }
 
+/* Do the words on both sides of this space belong together, as in "mu = 0.2", "1 N." and "5 mm"? */
+static bool is_tied(const char *words, int space)
+{
+  const char *next = words + space + 1;
+  char last = space > 0 ? words[space - 1] : ' ';
+  size_t unit = strcspn(next, " .,;:)");
+  bool measure = (unit == 1 && strchr("N%m", *next)) || (unit == 2 && next[1] == 'm');
+  return last == '=' || (*next == '=' && unit == 1) || (last >= '0' && last <= '9' && measure);
+}
+
 double thr_svg_wrap(thr_text *text, double x, double y, double size, double width, const char *attributes, const char *words)
 {
   char line[512];
   int n = 0, fits = (int)(width / (0.58 * size));
   while (*words) {
     n = 0;
-    int last_space = -1, wide = 0; /* in characters */
+    int last_space = -1, slash = 0, wide = 0; /* in characters */
     while (n < 500 && words[n]) {
       wide += !thr_text_is_inside(words[n]);
       if (wide > fits && n) break;
-      if (words[n] == ' ') last_space = n;
+      if (words[n] == ' ' && !is_tied(words, n)) last_space = n;
       n++;
+      if (words[n - 1] == '/') slash = n;
     }
-    if (words[n] && words[n] != ' ' && last_space > 0) n = last_space;
+    if (words[n] && (words[n] != ' ' || is_tied(words, n))) n = last_space > 0 ? last_space : slash > 0 ? slash : n;
     /* never cut a character in two */
     while (n > 1 && thr_text_is_inside(words[n]))
       n--;

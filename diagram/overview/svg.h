@@ -13,7 +13,8 @@ void thr_svg_open(thr_text *text, double width, double height, const char *title
 /* <text> at the baseline point; attributes is put in as it is ("" for none), e.g. " text-anchor=\"middle\"". */
 void thr_svg_text(thr_text *text, double x, double y, double size, const char *attributes, const char *s);
 
-/* The same in lines of at most width mm (estimated for a wide face), broken at spaces; returns the y of the next line. */
+/* The same in lines of at most width mm (estimated for a wide face), broken at spaces, but for "mu = 0.2" and "1 N", and in a
+ * name that is too wide behind a slash; returns the y of the next line. */
 double thr_svg_wrap(thr_text *text, double x, double y, double size, double width, const char *attributes, const char *words);
 
 void thr_svg_move(thr_text *text, const double at[2]);

@@ -469,11 +469,11 @@ static double write_key_of_limits(const plot *s, double y, thr_text *text)
   if (s->options->low && s->options->high) {
     thr_text_printf(text, "<rect class=\"fan\" fill=\"#555\" x=\"%.2f\" y=\"%.2f\" width=\"8.00\" height=\"3.00\"/>\n", x,
                     y - 1.5);
-    snprintf(words, sizeof words, "mu from %g to %g", physics->mu_low, physics->mu_high);
+    snprintf(words, sizeof words, "mu from %g to %g (closed form)", physics->mu_low, physics->mu_high);
     thr_svg_text(text, x + 10, base, TEXT_SIZE, "", words);
     y += 5.5;
   }
-  if (s->options->hand) {
+  if (s->options->hand && thr_hand_always <= s->high) {
     thr_text_printf(text, "<path class=\"hand\" d=\"M%.2f %.2fh8.00\"/>\n", x, y);
     snprintf(words, sizeof words, "what a hand manages: %g N time after time, %g N at most", thr_hand_always, thr_hand_most);
     thr_svg_text(text, x + 10, y + 0.36 * TEXT_SIZE, TEXT_SIZE, "", words);

@@ -252,7 +252,18 @@ static int count_class(const svg_tree *t, const char *word)
   return n;
 }
 
-/* Up to 48 columns with pulls beyond any axis: texts stay on the sheet and off each other. */
+/* Where the line of the recommended column runs, mm from the left; -1: there is none. */
+static double chosen_x(const svg_tree *t)
+{
+  for (int i = 0; i < t->n; i++) {
+    char d[256];
+    if (svg_has_class(t, i, "chosen-line") && svg_attribute(t, i, "d", d)) return strtod(d + 1, NULL);
+  }
+  return -1;
+}
+
+/* Up to 48 columns with pulls beyond any axis: texts stay on the sheet, off each other, and those over a line off the line that
+ * marks a column. */
 START_TEST(pictures_are_well_formed_and_texts_lie_apart)
 {
   enum { MOST = 20 };
@@ -276,11 +287,13 @@ START_TEST(pictures_are_well_formed_and_texts_lie_apart)
   svg_tree t = svg_parse(svg.data);
   ck_assert_int_eq(count_class(&t, "base"), advice.n);
   ck_assert_int_eq(count_class(&t, "flag"), advice.chosen >= 0);
+  double marked = chosen_x(&t);
   for (int i = 0; i < t.n; i++) {
     double box[4], other[4];
     if (strcmp(t.element[i].name, "text") != 0) continue;
     svg_box(&t, i, box);
     ck_assert_msg(box[0] >= 0 && box[2] <= t.width && box[1] >= 0 && box[3] <= t.height, "%s", t.element[i].text);
+    if (svg_has_class(&t, i, "halo")) ck_assert(marked < box[0] || marked > box[2]);
     for (int j = 0; j < i; j++) {
       if (strcmp(t.element[j].name, "text") != 0) continue;
       svg_box(&t, j, other);

@@ -41,6 +41,7 @@ START_TEST(proofs_round_up)
 {
   rng r = rng_make((uint64_t)_i);
   thr_text text = {0};
+  thr_err err = {0};
   double bound = exp(8 * rng_unit(&r)), value = bound * (1 + exp(-9 + 11 * rng_unit(&r)));
   plain_put_proof(&text, false, value, bound, "nothing shorter exists", "shortest possible");
   ck_assert_ptr_nonnull(text.data);
@@ -48,6 +49,8 @@ START_TEST(proofs_round_up)
   double percent = strtod(text.data + strlen("at most "), NULL), true_percent = 100 * (value / bound - 1);
   ck_assert_double_ge(percent, true_percent * (1 - 1e-6));
   ck_assert_double_le(percent, true_percent * 1.1 + 0.0101);
+  ck_assert_int_eq(thr_not_proved(&err, "the length", value, bound), THR_ELIMIT);
+  ck_assert_double_eq(strtod(strstr(err.text, "at most ") + strlen("at most "), NULL), percent);
   thr_text_destroy(&text);
 }
 END_TEST
