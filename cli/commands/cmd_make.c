@@ -24,7 +24,8 @@ static const char help[] = "thread make SHAPE [options]: an example framework\n\
                            "      --rings N        tube: rings along the axis\n"
                            "      --pitch MM       distance between neighbours in mm\n"
                            "      --rise R         dome, honeycomb: height over half span\n"
-                           "  -o, --output FILE    .json, .obj, .csv or .ply (default: JSON on stdout) -h, --help\n";
+                           "  -o, --output FILE    .json, .obj, .csv, .ply, .dxf or .graphml (default: JSON on stdout)\n"
+                           "  -h, --help\n";
 
 enum { OPTION_SIZE = OPTION_FREE, OPTION_RINGS, OPTION_PITCH, OPTION_RISE };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
