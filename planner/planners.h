@@ -59,6 +59,9 @@ thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr
 thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                                 thr_err *err) THR_MUST_CHECK;
 
+/* The most cords that a component has, and which one has them. */
+int thr_planner_most_cords(const thr_plan *plan, int *component);
+
 /* *excluded: more cords in every component than the known number, but fewer than some component of a plan within the pull has,
  * are proved to be too few by walks, which may be taken; 0: none are. */
 thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *options, const thr_plan *plan, int known,

@@ -47,17 +47,17 @@ static thr_status add_component(const thr_turning_columns *columns, const thr_pl
   return st;
 }
 
-/* The component with most cords, and how many those are. */
-static int most_cords(const thr_plan *plan, int n_components, int *number)
+int thr_planner_most_cords(const thr_plan *plan, int *component)
 {
   int most = 0;
-  *number = 0;
-  for (int k = 0; k < n_components; k++) {
+  *component = 0;
+  for (int i = 0; i < plan->n_cords; i++) {
+    const int k = plan->cord[i].component;
     int here = 0;
-    for (int i = 0; i < plan->n_cords; i++)
-      here += plan->cord[i].component == k;
-    if (here > *number) most = k;
-    if (here > *number) *number = here;
+    for (int j = 0; j < plan->n_cords; j++)
+      here += plan->cord[j].component == k;
+    if (here > most || (here == most && k < *component)) *component = k;
+    if (here > most) most = here;
   }
   return most;
 }
@@ -103,13 +103,13 @@ thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *o
                                     const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err)
 {
   thr_turning_columns columns = {0};
-  int number = 0;
+  int component;
+  const int number = thr_planner_most_cords(plan, &component);
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   *excluded = 0;
   if (!end_allowed) return thr_nomem(err);
   const thr_turning_task task = thr_walk_pull_task(frame, options, end_allowed);
   thr_status st = thr_turning_columns_init(&columns, frame, &task, err);
-  const int component = st ? 0 : most_cords(plan, columns.n_components, &number);
   if (!st)
     st = thr_walk_pull_too_few(&columns, options, plan->cord, plan->n_cords, component, known, number - 1, limits, walks,
                                excluded, err);

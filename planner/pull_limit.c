@@ -140,17 +140,12 @@ static thr_status use_walks(fewest *x, thr_err *err)
   enum { MOST_EDGES = 500 }; /* no walks that serve are found in larger frameworks in the time */
   const thr_limits share = thr_dispatch_share(x->limits, THR_STEP_FEW_WALKS);
   thr_plan plan;
-  int number = 0;
+  int component;
   if (x->o->joint == THR_JOINT_TUBE || x->o->physics.mu <= 0 || x->f->n_edges > MOST_EDGES) return THR_OK;
   if (x->found.n_cords > 0 && x->number - 1 <= x->claim.excluded) return THR_OK;
   thr_status st = thr_planner_pull_few(x->f, x->o, &share, &plan, err);
   bool short_enough = x->o->max_length == 0 || thr_cords_longest(x->f, plan.cord, plan.n_cords) <= x->o->max_length;
-  for (int i = 0; i < plan.n_cords; i++) {
-    int here = 0;
-    for (int k = 0; k < plan.n_cords; k++)
-      here += plan.cord[k].component == plan.cord[i].component;
-    if (here > number) number = here;
-  }
+  const int number = thr_planner_most_cords(&plan, &component);
   const bool fewer = plan.n_cords > 0 && (x->found.n_cords == 0 || number < x->number);
   if (!st && fewer && short_enough) take_found(x, &plan, number);
   thr_plan_destroy(&plan);

@@ -40,12 +40,12 @@ static double length_of(const thr_walk_programme *p, const thr_cord *cord, int n
   return sum;
 }
 
-static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cords, thr_err *err)
+/* Prices that prove the most from the walks of the cords on, until that is enough; a walk is worth most_worth at most. */
+static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cords, double enough, double most_worth, thr_err *err)
 {
-  const double length = length_of(p, cord, n_cords);
   p->to_exclude = true;
-  p->enough = length;
-  thr_status st = thr_walk_programme_begin(p, p->units, p->dearest, err);
+  p->enough = enough;
+  thr_status st = thr_walk_programme_begin(p, p->units, most_worth, err);
   for (int i = 0; i < n_cords && !st; i++)
     if (is_of(p, &cord[i])) st = thr_walk_programme_add(p, &cord[i], err);
   if (!st) st = thr_walk_programme_rounds(p, MOST_ROUNDS, err);
@@ -59,7 +59,7 @@ thr_status thr_walk_pull_length(const thr_turning_columns *columns, const thr_re
   thr_err why = {0};
   *bound = 0;
   thr_status st = thr_walk_programme_init_pull(&p, columns, options, cord, n_cords, component, true, limits, &why);
-  if (!st) st = search(&p, cord, n_cords, &why);
+  if (!st) st = search(&p, cord, n_cords, length_of(&p, cord, n_cords), p.dearest, &why);
   if (!st) st = take_proof(&p, proof, &why);
   if (!st) *bound = p.best;
   thr_walk_programme_destroy(&p);
@@ -119,12 +119,7 @@ thr_status thr_walk_pull_too_few(const thr_turning_columns *columns, const thr_r
   *excluded = 0;
   thr_status st = thr_walk_programme_init_pull(&p, columns, options, cord, n_cords, component, false, limits, &why);
   p.cords = cords;
-  p.enough = known + 1;
-  p.to_exclude = true;
-  if (!st) st = thr_walk_programme_begin(&p, p.units, 1, &why); /* no walk that counts is worth more than 1 */
-  for (int i = 0; i < n_cords && !st; i++)
-    if (is_of(&p, &cord[i])) st = thr_walk_programme_add(&p, &cord[i], &why);
-  if (!st) st = thr_walk_programme_rounds(&p, MOST_ROUNDS, &why);
+  if (!st) st = search(&p, cord, n_cords, known + 1, 1, &why); /* no walk that counts is worth more than 1 */
   const int number = (int)fmin(cords, ceil(p.best * (1 - 1e-9)) - 1);
   if (!st) st = take_proof(&p, proof, &why);
   if (!st && proof->unit && number > 0) st = thr_walk_pull_check(columns, options, proof, number, &bound, &why);
