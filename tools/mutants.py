@@ -45,6 +45,8 @@ INTERIOR = ["unit/test_lp:interior_finds_the_shortest_way", "unit/test_lp:interi
             "unit/test_lp:interior_gives_up_and_stops"]
 SUITES = {
     "graph/check/check.c": CERTIFICATES + ["unit/test_check_turning", "unit/test_symmetry_plan", "unit/test_evaluation"] + ADVERSARY,
+    "graph/check/check_length.c": CERTIFICATES + ADVERSARY,
+    "graph/check/check_walked.c": CERTIFICATES + ADVERSARY,
     "graph/check/check_certificate.c": CERTIFICATES + ADVERSARY,
     "graph/check/check_cords.c": CERTIFICATES + ADVERSARY,
     "graph/check/prices.c": CERTIFICATES + ADVERSARY,

@@ -30,6 +30,21 @@ typedef struct {
   int *cords;     /* [n_components] owned; of cords that are not known: the most */
 } thr_check_walked;
 
+/* Without passes yet. On failure check_walked is empty. */
+thr_status thr_check_walked_init(thr_check_walked *check_walked, const thr_frame *frame, const thr_request *options,
+                                 thr_err *err) THR_MUST_CHECK;
+
+/* The same from cords, which are checked on the way. */
+thr_status thr_check_walked_from(thr_check_walked *check_walked, const thr_frame *frame, const thr_request *options,
+                                 const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
+void thr_check_walked_destroy(thr_check_walked *check_walked);
+
+/* Every edge has the passes that it needs, and no more than fit. */
+thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, const int *passes, thr_err *err) THR_MUST_CHECK;
+
+/* As many cords in every component as the options say; where they were not asked for, in the one that has most. */
+thr_status thr_check_cord_count(const thr_check_walked *check_walked, const thr_request *options, thr_err *err) THR_MUST_CHECK;
+
 /* Are few cords asked for before little length? Then length is compared with that of as many cords as a plan has. */
 bool thr_check_fewest_first(const thr_request *options);
 
@@ -65,9 +80,25 @@ thr_status thr_check_certificates(const thr_frame *frame, const thr_request *opt
 /* Least extra cord of that component, in units, with so many cord ends, by a certificate with this verdict. */
 double thr_check_extra(const thr_certificate *certificate, const thr_check_verdict *check_verdict, int64_t ends);
 
+/* Length of passes, and the edges that so many different cords pass. */
+double thr_check_length_of(const thr_frame *frame, const int *passes);
+thr_status thr_check_count_different(const thr_frame *frame, int distinct, const thr_cord *cord, int n_cords, int *found,
+                                     thr_err *err) THR_MUST_CHECK;
+
 /* How many different cords plans like this one have over every edge: what is asked for, if it has them; else 1. */
 thr_status thr_check_different(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords, int *each,
                                thr_err *err) THR_MUST_CHECK;
+
+/* Verifies the certificates for passes that were checked already. *verdict is for the caller to free; NULL on failure. */
+thr_status thr_check_judge(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
+                           const thr_certificate *certificate, int n, thr_check_verdict **verdict, thr_err *err) THR_MUST_CHECK;
+
+/* What the verdicts prove of passes with this length; and, of cords (each > 0: so many different ones over every edge), what all
+ * sets of few edges do, and prices of walks within a pull (NULL: none). Not where the length is limited to a part above the
+ * least, which is then that of the certificates. */
+thr_status thr_check_sum_verdicts(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
+                                  int each, const thr_check_verdict *verdict, const thr_walk_proof *pulled, double length,
+                                  bool *optimal, double *lower_bound, thr_err *err) THR_MUST_CHECK;
 
 /* What can be claimed of several cords that were checked already: fills found. verdict NULL: no certificates; tied: the proof
  * of tube joints, or NULL; walks: prices that bound the longest, or NULL. */
