@@ -149,7 +149,7 @@ static thr_status use_walks(fewest *x, thr_err *err)
   const bool fewer = plan.n_cords > 0 && (x->found.n_cords == 0 || number < x->number);
   if (!st && fewer && short_enough) take_found(x, &plan, number);
   thr_plan_destroy(&plan);
-  return st ? st : exclude_by_walks(x, err);
+  return st || !is_range(x->o) ? st : exclude_by_walks(x, err);
 }
 
 /* Cords of which the one that turns most turns little enough, or a proof that there are none. */
@@ -235,8 +235,8 @@ static thr_status not_found(const fewest *x, const thr_err *why, thr_err *err)
   if (x->claim.excluded >= o->cords)
     return thr_fail(
         err, THR_EINFEASIBLE,
-        "with at most %d cords in a component some cord needs more than %.6g N (proved); allow more cords or more pull", o->cords,
-        newtons);
+        "with at most %d cord%s in a component some cord needs more than %.6g N (proved); allow more cords or more pull",
+        o->cords, o->cords == 1 ? "" : "s", newtons);
   if (x->claim.excluded >= o->cords_least && is_range(o))
     return thr_fail(err, THR_ELIMIT,
                     "no cords were found of which none needs more than %.6g N; %d in every component are too few (proved); allow "
@@ -282,7 +282,7 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
   thr_status st = is_range(options) ? bound_all(&x, err) : THR_OK;
   if (!st) st = is_range(options) ? search_numbers(&x, err) : try_number(&x, options->cords, &fits, err);
-  if (!st && is_range(options)) {
+  if (!st && (is_range(options) || (x.found.n_cords == 0 && x.claim.excluded < options->cords))) {
     share = thr_dispatch_share(limits, THR_STEP_FEWEST);
     if (for_walks > 0 && !share.work) share = thr_limits_counted(&share, &for_walks);
     st = use_walks(&x, err);
