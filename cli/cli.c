@@ -324,7 +324,7 @@ bool cli_mark_nodes(const thr_frame *frame, const char *list, const char *option
   thr_text text = {0};
   if (thr_frame_find(frame, list) >= 0) return mark_node(frame, list, option, mark); /* "(0, 1)" is one COMPAS key */
   if (thr_os_is_file(list)) {
-    if (thr_text_read(&text, list, &err)) {
+    if (thr_text_read_plain(&text, list, &err)) {
       cli_fail(&err);
       return false;
     }

@@ -226,7 +226,7 @@ int pull_read_schedule(const char *value, const thr_plan *plan, thr_schedule *sc
   thr_err err = {0};
   if (!value) return EXIT_OK;
   const bool file = !strchr(value, ':');
-  thr_status st = file ? thr_text_read(&text, value, &err) : THR_OK;
+  thr_status st = file ? thr_text_read_plain(&text, value, &err) : THR_OK;
   if (!file) thr_text_append(&text, value);
   if (!st && text.failed) st = thr_nomem(&err);
   if (!st) st = thr_schedule_parse(schedule, plan, text.data, text.length, file ? value : "--schedule", &err);

@@ -75,9 +75,8 @@ static bool reach_disk(int fd)
 
 static bool write_all(FILE *f, const char *data, size_t n)
 {
-  bool ok = n == 0 || fwrite(data, 1, n, f) == n;
-  ok = fflush(f) == 0 && reach_disk(fileno(f)) && ok;
-  int why = errno;
+  bool ok = (n == 0 || fwrite(data, 1, n, f) == n) && fflush(f) == 0 && reach_disk(fileno(f));
+  int why = errno; /* of what failed first */
   bool closed = fclose(f) == 0;
   if (!ok) errno = why;
   return closed && ok;

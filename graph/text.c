@@ -271,3 +271,11 @@ thr_status thr_text_read(thr_text *text, const char *path, thr_err *err)
   if (st) thr_text_destroy(text);
   return st;
 }
+
+thr_status thr_text_read_plain(thr_text *text, const char *path, thr_err *err)
+{
+  thr_status st = thr_text_read(text, path, err);
+  if (st || !text->length || !memchr(text->data, 0, text->length)) return st;
+  thr_text_destroy(text);
+  return thr_fail(err, THR_EINPUT, "%s: a NUL byte, so this is not plain text; save the file as UTF-8 text", path);
+}

@@ -76,4 +76,7 @@ thr_status thr_text_write(const thr_text *text, const char *path, thr_err *err) 
 /* Reads a whole file ("-" is stdin) into an empty text. At most 1 GiB. */
 thr_status thr_text_read(thr_text *text, const char *path, thr_err *err) THR_MUST_CHECK;
 
+/* The same of a text for people: THR_EINPUT if it has NUL bytes, as UTF-16 has. */
+thr_status thr_text_read_plain(thr_text *text, const char *path, thr_err *err) THR_MUST_CHECK;
+
 #endif

@@ -107,7 +107,7 @@ int cli_config(int *argc, char ***argv)
   if (!take_out(argc, *argv)) return cli_usage((*argv)[1], "--config needs a value");
   if (!source) return EXIT_OK;
   if (strcmp(source, "-") == 0) return cli_usage((*argv)[1], "--config -: options come from a file, not from stdin");
-  if (thr_text_read(&file, source, &err)) return cli_fail(&err);
+  if (thr_text_read_plain(&file, source, &err)) return cli_fail(&err);
   int code = join(&file, (*argv)[1], *argc, *argv, &n);
   thr_text_destroy(&file);
   if (code) return code;
