@@ -51,6 +51,7 @@ SUITES = {
     "graph/check/check_cords.c": CERTIFICATES + ADVERSARY,
     "graph/check/prices.c": CERTIFICATES + ADVERSARY,
     "graph/check/check_turning.c": TURNING + ADVERSARY_TURNING,
+    "graph/check/turning_leaf.c": TURNING + ADVERSARY_TURNING,
     "graph/check/turning_proof.c": TURNING + ADVERSARY_TURNING,
     "graph/plan/turning.c": TURNING + ADVERSARY_TURNING,
     "graph/check/junction.c": ["unit/test_check_tubes", "unit/test_requests"],
