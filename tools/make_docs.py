@@ -27,7 +27,7 @@ GALLERY = [
     ("dome", ["dome", "--size", "7"], ["--cords", "4", "--ends", "feet"]),
     ("tube", ["tube", "--size", "12", "--rings", "7"], ["--cords", "6", "--ends", "feet"]),
     ("sphere", ["sphere", "--size", "2"], ["--cords", "6", "--ends", "any"]),
-    ("geodesic", ["geodesic", "--size", "2"], ["--cords", "5", "--ends", "feet"]),
+    ("geodesic", ["geodesic", "--size", "2"], ["--cords", "4", "--ends", "feet"]),
     ("honeycomb", ["honeycomb", "--size", "4"], ["--cords", "12", "--ends", "any"]),
     ("pattern", ["dome", "--size", "6"], ["--objective", "symmetry", "--ends", "feet"]),
     ("barrel", "jax_fdm/barrel.obj", ["--feet", "lowest", "--cords", "10", "--ends", "any"]),
