@@ -47,7 +47,7 @@ void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *
 {
   char units[24];
   snprintf(units, sizeof units, "cord, %.15s", frame->units);
-  thr_text_printf(text, "%d pieces, %d %s; pull at both ends of every cord, so that %g N is left at its slackest joint;\n",
+  thr_text_printf(text, "%d pieces, %d %s; pull at both ends of every cord, so that %g N is left where it is slackest;\n",
                   frame->n_nodes, frame->n_edges, cli_plural(frame->n_edges, "interface", "interfaces"), physics->seating);
   thr_text_printf(text, "friction mu = %g, or anything in its band from %g to %g\n\n", physics->mu, physics->mu_low,
                   physics->mu_high);

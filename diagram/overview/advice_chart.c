@@ -250,11 +250,10 @@ static double write_heading(const picture *p, thr_text *text)
   double y = MARGIN + TITLE_SIZE;
   thr_svg_text(text, MARGIN, y, TITLE_SIZE, " font-weight=\"bold\"", "How many cords?");
   y = thr_svg_wrap(text, MARGIN, y + 6.5, NAME_SIZE, WIDTH, "", p->chart->name);
-  snprintf(
-      line, sizeof line,
-      "Pull at both ends of every cord that brings %g N of tension to the slackest joint (closed form; mu = %g, band %g to %g), "
-      "and the cord that it takes.",
-      physics->seating, physics->mu, physics->mu_low, physics->mu_high);
+  snprintf(line, sizeof line,
+           "Pull at both ends of every cord, so that %g N is left where it is slackest (closed form; mu = %g, band %g to %g), "
+           "and the cord that it takes.",
+           physics->seating, physics->mu, physics->mu_low, physics->mu_high);
   y = thr_svg_wrap(text, MARGIN, y - 0.5, TEXT_SIZE, WIDTH, " class=\"quiet\"", line);
   if (p->advice->n > 0 && p->advice->row[0].ends == THR_ENDS_CLOSED) {
     thr_pull_words(p->advice->row[0].pull[THR_ADVICE_MU], force);

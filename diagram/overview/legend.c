@@ -106,7 +106,7 @@ double thr_legend_heading(const thr_scene *scene, const char *title, double x, d
   int feet = count_feet(frame);
   snprintf(line, sizeof line, "%d %s, %d %s%s, %d %s; %d cord%s, %d pass%s, %s of cord.", thr_pieces_count(scene->plan),
            thr_pieces_word(scene->plan, thr_pieces_count(scene->plan)), scene->solid ? frame->n_edges : frame->n_nodes,
-           scene->solid ? "joint" : "place", plural(scene->solid ? frame->n_edges : frame->n_nodes), feet,
+           scene->solid ? "interface" : "place", plural(scene->solid ? frame->n_edges : frame->n_nodes), feet,
            feet == 1 ? "foot" : "feet", scene->plan->n_cords, plural(scene->plan->n_cords), scene->n_passes,
            scene->n_passes == 1 ? "" : "es", length);
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
