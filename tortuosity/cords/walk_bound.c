@@ -18,22 +18,6 @@ enum { MOST_ROUNDS = 300, MOST_GROWTHS = 6, MOST_DIVES = 20, FEW_DIVES = 8, MOST
 /* Cords no further above the bound than that are near: few dives, no walks drawn at random, none chosen in integers. */
 static const double near_enough = 1.05;
 
-/* The prices in trial, and what the walks remember, become the proof. */
-static thr_status take_proof(thr_walk_programme *p, thr_walk_proof *proof, thr_err *err)
-{
-  thr_walk_memory *memory = NULL;
-  thr_status st = thr_walk_memory_copy(p->memory, p->n_memories, &memory, err);
-  if (st) return st;
-  thr_walk_proof_destroy(proof);
-  *proof = p->trial;
-  proof->memory = memory;
-  proof->n_memories = p->n_memories;
-  p->trial = (thr_walk_proof){.unit = p->unit};
-  p->trial.edge = thr_calloc((size_t)p->c->f->n_edges, sizeof *p->trial.edge);
-  p->trial.node = thr_calloc((size_t)p->c->f->n_nodes, sizeof *p->trial.node);
-  return p->trial.edge && p->trial.node ? THR_OK : thr_nomem(err);
-}
-
 /* Are cords of at most so many units too few? Then proof is why. *grown, where it is asked for: the walks that were enough go
  * round and round, which they remember from now on. */
 static thr_status exclude(thr_walk_programme *p, int units, bool *grown, thr_walk_proof *proof, thr_err *err)
@@ -41,7 +25,7 @@ static thr_status exclude(thr_walk_programme *p, int units, bool *grown, thr_wal
   p->to_exclude = true;
   thr_status st = thr_walk_programme_begin(p, units, 1, err); /* no walk that counts is worth more than 1 */
   if (!st) st = thr_walk_programme_rounds(p, MOST_ROUNDS, err);
-  if (!st && p->excluded) st = take_proof(p, proof, err);
+  if (!st && p->excluded) st = thr_walk_take_proof(p, proof, err);
   if (grown) *grown = false;
   if (st) return st;
   return grown && !p->excluded ? thr_walk_remember(p, grown, err) : thr_walk_programme_end(p, err);

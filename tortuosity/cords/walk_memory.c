@@ -18,7 +18,8 @@ enum {
   MOST_THERE = 8,        /* edges remembered at a place */
   MOST_ENTRIES = 1 << 24 /* of the recursion's table */
 };
-static const double most_steps = 4e8; /* of all recursions for a look at the prices */
+static const double most_steps = 4e8;       /* of all recursions for a look at the prices */
+static const double most_pull_steps = 12e7; /* with a pull */
 
 /* ---- lists ---- */
 
@@ -29,7 +30,8 @@ void thr_walk_memory_free(thr_walk_memory *memory, int n)
   free(memory);
 }
 
-thr_status thr_walk_memory_copy(const thr_walk_memory *from, int n, thr_walk_memory **to, thr_err *err)
+/* *to: a copy, the caller's. */
+static thr_status copy_memory(const thr_walk_memory *from, int n, thr_walk_memory **to, thr_err *err)
 {
   thr_walk_memory *made = thr_calloc((size_t)n, sizeof *made);
   for (int i = 0; i < n && made; i++) {
@@ -44,6 +46,21 @@ thr_status thr_walk_memory_copy(const thr_walk_memory *from, int n, thr_walk_mem
   if (!made) return thr_nomem(err);
   *to = made;
   return THR_OK;
+}
+
+thr_status thr_walk_take_proof(thr_walk_programme *p, thr_walk_proof *proof, thr_err *err)
+{
+  thr_walk_memory *memory = NULL;
+  thr_status st = copy_memory(p->memory, p->n_memories, &memory, err);
+  if (st) return st;
+  thr_walk_proof_destroy(proof);
+  *proof = p->trial;
+  proof->memory = memory;
+  proof->n_memories = p->n_memories;
+  p->trial = (thr_walk_proof){.unit = proof->unit, .bits = proof->bits};
+  p->trial.edge = thr_calloc((size_t)p->c->f->n_edges, sizeof *p->trial.edge);
+  p->trial.node = thr_calloc((size_t)p->c->f->n_nodes, sizeof *p->trial.node);
+  return p->trial.edge && p->trial.node ? THR_OK : thr_nomem(err);
 }
 
 /* The list of an edge; begun if there is none. NULL: memory runs out. */
@@ -178,7 +195,9 @@ static thr_status add_rounds(thr_walk_programme *p, int *added, thr_err *err)
 static bool has_table(const thr_walk_programme *p)
 {
   const double steps = (double)p->units * p->steps.first[p->steps.n] * thr_walk_runs(&p->steps);
-  return ((double)p->most_units + 1) * p->steps.n <= MOST_ENTRIES && steps <= most_steps;
+  const double tables = (double)thr_walk_tables(p->steps.measure);
+  return tables * (p->most_units + 1) * p->steps.n <= MOST_ENTRIES &&
+         steps <= (p->steps.measure == THR_WALK_PULL ? most_pull_steps : most_steps);
 }
 
 /* Steps, and a table, with what is remembered now. THR_ELIMIT: they are too many. */
@@ -194,7 +213,7 @@ static thr_status make_steps(thr_walk_programme *p, thr_err *err)
   st = thr_walk_steps_remember(&p->steps, p->memory, p->n_memories, &why);
   if (st == THR_EVIOLATED || (!st && !has_table(p))) return thr_fail(err, THR_ELIMIT, "walks remember too much");
   if (st) return thr_fail(err, st, "%s", why.text);
-  int64_t *value = thr_calloc(((size_t)p->most_units + 1) * (size_t)p->steps.n, sizeof *value);
+  int64_t *value = thr_calloc(((size_t)p->most_units + 1) * (size_t)p->steps.n * thr_walk_tables(measure), sizeof *value);
   if (!value) return thr_nomem(err);
   free(p->value);
   p->value = value;
@@ -236,7 +255,7 @@ thr_status thr_walk_remember(thr_walk_programme *p, bool *grown, thr_err *err)
   const int n_before = p->n_memories;
   int added = 0;
   *grown = false;
-  thr_status st = thr_walk_memory_copy(p->memory, n_before, &before, err);
+  thr_status st = copy_memory(p->memory, n_before, &before, err);
   if (!st && p->search.outcome == THR_LP_OPTIMAL) st = add_rounds(p, &added, err);
   if (!st) st = thr_walk_programme_end(p, err);
   if (!st && added > 0) {

@@ -11,8 +11,10 @@
  * the place of thr_walk_programme_end. (R. Roberti & A. Mingozzi, Transportation Science 48, 2014.) */
 thr_status thr_walk_remember(thr_walk_programme *programme, bool *grown, thr_err *err) THR_MUST_CHECK;
 
-/* *to: a copy, the caller's (thr_walk_memory_free). */
-thr_status thr_walk_memory_copy(const thr_walk_memory *from, int n, thr_walk_memory **to, thr_err *err) THR_MUST_CHECK;
+/* The prices in trial, and what the walks remember, become the proof; what it held is released. trial is as after
+ * thr_walk_programme_init. */
+thr_status thr_walk_take_proof(thr_walk_programme *programme, thr_walk_proof *proof, thr_err *err) THR_MUST_CHECK;
+
 void thr_walk_memory_free(thr_walk_memory *memory, int n);
 
 #endif

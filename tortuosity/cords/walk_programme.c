@@ -306,7 +306,7 @@ static bool go_on(const thr_walk_programme *p, int half, int *place)
 thr_row thr_walk_programme_row(const thr_walk_programme *p, thr_pool *pool, const int *half, int n)
 {
   const thr_frame *frame = p->c->f;
-  const int first = p->steps.closed ? 0 : 1;
+  const int first = p->steps.closed && p->steps.n_homes == 0 ? 0 : 1;
   thr_row row = {.lower = -1, .member = (int *)half, .n_members = n}; /* copied by the pool */
   int place = p->n_memories > 0 ? place_before(p, half, n, first) : -1;
   double length = 0;

@@ -8,22 +8,20 @@
 #include "graph/status.h"
 #include "tortuosity/cords/walk_cover.h"
 #include "tortuosity/cords/walk_dive.h"
+#include "tortuosity/cords/walk_memory.h"
 #include "tortuosity/cords/walk_programme.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_ROUNDS = 400 };
+enum { MOST_ROUNDS = 400, MOST_LOOKS = 8 };
 
 /* The best prices that were looked at, as a proof. */
 static thr_status take_proof(thr_walk_programme *p, thr_walk_proof *proof, thr_err *err)
 {
   thr_status st = p->best > 0 ? thr_walk_programme_middle(p, err) : THR_OK;
-  if (st || p->best <= 0) return st;
-  *proof = p->trial;
-  p->trial = (thr_walk_proof){0};
-  return THR_OK;
+  return st || p->best <= 0 ? st : thr_walk_take_proof(p, proof, err);
 }
 
 static bool is_of(const thr_walk_programme *p, const thr_cord *cord)
@@ -40,15 +38,35 @@ static double length_of(const thr_walk_programme *p, const thr_cord *cord, int n
   return sum;
 }
 
-/* Prices that prove the most from the walks of the cords on, until that is enough; a walk is worth most_worth at most. */
-static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cords, double enough, double most_worth, thr_err *err)
+static thr_status look(thr_walk_programme *p, const thr_cord *cord, int n_cords, double most_worth, thr_err *err)
 {
-  p->to_exclude = true;
-  p->enough = enough;
   thr_status st = thr_walk_programme_begin(p, p->units, most_worth, err);
   for (int i = 0; i < n_cords && !st; i++)
     if (is_of(p, &cord[i])) st = thr_walk_programme_add(p, &cord[i], err);
-  if (!st) st = thr_walk_programme_rounds(p, MOST_ROUNDS, err);
+  return st ? st : thr_walk_programme_rounds(p, MOST_ROUNDS, err);
+}
+
+/* Prices that prove the most from the walks of the cords on, until that is enough; a walk is worth most_worth at most. Walks that
+ * go round and round remember it, and what they prove then is at least as much. */
+static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cords, double enough, double most_worth, thr_err *err)
+{
+  double *kept = thr_calloc((size_t)p->n_variables, sizeof *kept), best = 0;
+  bool grown = true;
+  thr_status st = kept ? THR_OK : thr_nomem(err);
+  p->to_exclude = true;
+  p->enough = enough;
+  for (int i = 0; i < MOST_LOOKS && grown && !st && !thr_limits_stop(p->limits); i++) {
+    st = look(p, cord, n_cords, most_worth, err);
+    if (!st && p->best > best) {
+      best = p->best;
+      memcpy(kept, p->middle, (size_t)p->n_variables * sizeof *kept);
+    }
+    grown = false;
+    if (!st && !p->excluded) st = thr_walk_remember(p, &grown, err);
+  }
+  p->best = best;
+  if (!st) memcpy(p->middle, kept, (size_t)p->n_variables * sizeof *kept);
+  free(kept);
   return st;
 }
 
