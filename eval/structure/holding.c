@@ -8,6 +8,7 @@
 
 #include "eval/structure/blocks.h"
 #include "eval/structure/mechanism.h"
+#include "lp/solver/interior.h"
 
 #include <assert.h>
 #include <math.h>
@@ -80,7 +81,8 @@ typedef struct {
   double unit; /* factor on what the unknown is counted in */
   const thr_limits *limits;
   double least, largest; /* press of any face that is pressed */
-  thr_start *start;
+  thr_warm warm;         /* where the programme of a large structure may start: near the optimum of one that differs little .. */
+  double span;           /* .. its tensions, too */
 } task;
 
 static thr_blocks part(const task *t, double most, bool merged)
@@ -96,17 +98,17 @@ static thr_blocks part(const task *t, double most, bool merged)
 }
 
 /* A start from a programme whose tensions were capped alike; else a fresh one, as others would mislead. */
-static thr_warm *warm_at(const task *t, double most, bool merged)
+static thr_warm *warm_at(task *t, double most, bool merged)
 {
   if (merged) return NULL;
   const double span = fmin(most, t->largest) / t->least;
-  if (span > 2 * t->start->span || t->start->span > 2 * span) thr_warm_destroy(&t->start->point);
-  t->start->span = span;
-  return &t->start->point;
+  if (span > 2 * t->span || t->span > 2 * span) thr_warm_destroy(&t->warm);
+  t->span = span;
+  return &t->warm;
 }
 
 /* One programme: replaces the mechanism in a, if there was one. Merged, its pull is about a->pull. */
-static thr_status pull_of(const task *t, double most, bool merged, double widen, answer *a, thr_err *err)
+static thr_status pull_of(task *t, double most, bool merged, double widen, answer *a, thr_err *err)
 {
   thr_blocks s = part(t, most, merged);
   thr_status st = thr_blocks_make(&s, widen, err);
@@ -182,7 +184,7 @@ static thr_status check_feasible(const task *t, thr_err *err)
 }
 
 /* At one cap; merged too if the bound does not close otherwise. */
-static thr_status lower_at(const task *t, double most, answer *a, answer *best, double *best_most, thr_err *err)
+static thr_status lower_at(task *t, double most, answer *a, answer *best, double *best_most, thr_err *err)
 {
   thr_status st = pull_of(t, most, false, thr_blocks_widening(t->b), a, err);
   if (st || closed(a, close_enough(t))) return st;
@@ -194,7 +196,7 @@ static thr_status lower_at(const task *t, double most, answer *a, answer *best, 
 }
 
 /* With the first cap on the tensions at which the bound closes. *most: that cap. */
-static thr_status lower_pull_in(const task *t, double *most, answer *a, thr_err *err)
+static thr_status lower_pull_in(task *t, double *most, answer *a, thr_err *err)
 {
   answer best = {0};
   double best_most = 0;
@@ -262,6 +264,7 @@ static thr_status hold(task *t, bool want_upper, thr_holding *holding, thr_err *
   }
   answer_destroy(&a);
   answer_destroy(&inside_cones);
+  thr_warm_destroy(&t->warm);
   return st;
 }
 
@@ -277,30 +280,23 @@ static task task_of(const thr_beads *beads, const thr_frame *frame, const thr_ph
 }
 
 thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                            bool want_upper, thr_start *start, const thr_limits *limits, thr_holding *out, thr_err *err)
+                            bool want_upper, const thr_limits *limits, thr_holding *out, thr_err *err)
 {
-  thr_start fresh = {0};
   task t = task_of(beads, frame, physics, press, limits);
-  t.start = start ? start : &fresh;
   t.load = (const double(*)[3])beads->load;
   *out = (thr_holding){0};
-  thr_status st = hold(&t, want_upper, out, err);
-  thr_start_destroy(&fresh);
-  return st;
+  return hold(&t, want_upper, out, err);
 }
 
 thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                              const double (*load)[3], const thr_limits *limits, thr_carry *out, thr_err *err)
 {
   thr_holding found = {0};
-  thr_start fresh = {0};
   task t = task_of(beads, frame, physics, press, limits);
-  t.start = &fresh;
   t.load = load;
   t.carries = true;
   *out = (thr_carry){0};
   thr_status st = hold(&t, true, &found, err);
-  thr_start_destroy(&fresh);
   if (!st)
     *out = (thr_carry){.beyond = found.lower, .carried = found.upper, .first_bead = found.first_bead, .velocity = found.velocity};
   return st;
@@ -310,11 +306,6 @@ void thr_carry_destroy(thr_carry *carry)
 {
   free(carry->velocity);
   *carry = (thr_carry){.first_bead = -1};
-}
-
-void thr_start_destroy(thr_start *start)
-{
-  thr_warm_destroy(&start->point);
 }
 
 void thr_holding_destroy(thr_holding *holding)

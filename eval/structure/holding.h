@@ -16,7 +16,6 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
-#include "lp/solver/interior.h"
 
 typedef struct {
   bool present;
@@ -32,23 +31,13 @@ typedef struct {
                             translation of 1; owned */
 } thr_holding;
 
-/* Where the programme of a large structure may start: near the optimum of one that differs little, such as the same cords with
- * other tensions. 0 at first. */
-typedef struct {
-  thr_warm point;
-  double span; /* of its tensions */
-} thr_start;
-
-void thr_start_destroy(thr_start *start);
-
 /* Adds to press[n_faces] what the cords press each face with at a pull of 1; tension[i] is cord i's tension per pass. */
 void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *tension, double *press);
 
 /* press: thr_holding_press, from 0. THR_EINFEASIBLE if no pull holds it, by a mechanism verified here (says which bead fails:
  * e.g. feet slide); THR_ESOLVER if neither was decided, because tensions span too many powers of ten; THR_ELIMIT when stopped. */
 thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                            bool want_upper, thr_start *start, const thr_limits *limits, thr_holding *out,
-                            thr_err *err) THR_MUST_CHECK;
+                            bool want_upper, const thr_limits *limits, thr_holding *out, thr_err *err) THR_MUST_CHECK;
 /* What a load may be multiplied by. */
 typedef struct {
   double

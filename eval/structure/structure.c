@@ -14,6 +14,7 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/process/child.h"
+#include "graph/process/threads.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
 #include "graph/text.h"
@@ -227,12 +228,11 @@ static thr_status press_of(const thr_cord *cord, const thr_evaluation *evaluatio
 /* What the tensions of such cords may be multiplied by. Of all friction states with so much at the ends those that keep most
  * press most, and to press more never harms: an equilibrium with some tensions taken smaller is one. */
 static thr_status hold_state(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, state which, double force,
-                             thr_start *start, const thr_limits *limits, const thr_evaluation *evaluation, thr_holding *out,
-                             thr_err *err)
+                             const thr_limits *limits, const thr_evaluation *evaluation, thr_holding *out, thr_err *err)
 {
   double *press = thr_calloc((size_t)beads->n_faces, sizeof *press);
   thr_status st = press ? press_of(cord, evaluation, which, force, press, err) : thr_nomem(err);
-  if (!st) st = thr_holding_pull(beads, frame, &evaluation->physics, press, true, start, limits, out, err);
+  if (!st) st = thr_holding_pull(beads, frame, &evaluation->physics, press, true, limits, out, err);
   free(press);
   return st;
 }
@@ -251,39 +251,54 @@ static thr_status carry_state(const thr_frame *frame, const thr_cord *cord, cons
   return st == THR_OK || st == THR_ESOLVER ? THR_OK : thr_fail(err, st, "%s", why.text);
 }
 
+typedef struct {
+  const thr_frame *frame;
+  const thr_cord *cord;
+  const thr_beads *beads;
+  const double (*load)[3];
+  thr_eval *out;
+} loading;
+
 /* The pull of all ends that carries the whole load; INFINITY: none does. */
-static thr_status carry_all(const thr_frame *frame, const thr_cord *cord, thr_beads *beads, const thr_eval_options *options,
-                            const thr_limits *limits, thr_eval *out, thr_err *err)
+static thr_status carry_all(const loading *l, const thr_limits *limits, thr_err *err)
 {
   thr_err why = {0};
-  const size_t bytes = (size_t)beads->n_beads * sizeof *beads->load;
-  memcpy(beads->load, options->load, bytes);
-  thr_status st = hold_state(frame, cord, beads, DRAWN_IN, 1, NULL, limits, &out->record, &out->loaded, &why);
-  memset(beads->load, 0, bytes);
+  const size_t n = (size_t)l->beads->n_beads;
+  thr_beads loaded = *l->beads;
+  loaded.load = thr_calloc(n, sizeof *loaded.load);
+  if (!loaded.load) return thr_nomem(err);
+  memcpy(loaded.load, l->load, n * sizeof *loaded.load);
+  thr_status st = hold_state(l->frame, l->cord, &loaded, DRAWN_IN, 1, limits, &l->out->record, &l->out->loaded, &why);
+  free(loaded.load);
   if (st == THR_EINFEASIBLE || st == THR_ESOLVER)
-    out->loaded =
+    l->out->loaded =
         (thr_holding){.present = true, .lower = st == THR_EINFEASIBLE ? INFINITY : 0, .upper = INFINITY, .first_bead = -1};
   return st == THR_OK || st == THR_EINFEASIBLE || st == THR_ESOLVER ? THR_OK : thr_fail(err, st, "%s", why.text);
 }
 
+/* Job 0: the pull that carries it all; job k: what the k-th pull carries. */
+static thr_status carry_one(void *user, int job, const thr_limits *limits, thr_err *err)
+{
+  const loading *l = user;
+  if (job == 0) return carry_all(l, limits, err);
+  thr_load_point *point = &l->out->carries[job - 1];
+  return carry_state(l->frame, l->cord, l->beads, DRAWN_IN, point->pull, l->load, limits, &l->out->record, &point->carry, err);
+}
+
 /* The load against the pull. */
-static thr_status carry_at_pulls(const thr_frame *frame, const thr_cord *cord, thr_beads *beads, const thr_eval_options *options,
-                                 const thr_limits *limits, thr_eval *out, thr_err *err)
+static thr_status carry_at_pulls(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads,
+                                 const thr_eval_options *options, const thr_limits *limits, thr_eval *out, thr_err *err)
 {
   static const double usual[] = {1, 2, 5, 10, 20, 50}, few[] = {10, 50}; /* 50 N: a hand */
   const bool large = beads->n_beads > BAND_LARGEST;
   const double *pull = options->n_load_pulls > 0 ? options->load_pull : large ? few : usual;
   const int n = options->n_load_pulls > 0 ? options->n_load_pulls : large ? 2 : 6;
-  thr_status st = carry_all(frame, cord, beads, options, limits, out, err);
-  if (st) return st;
   if (!(out->carries = thr_calloc((size_t)n, sizeof *out->carries))) return thr_nomem(err);
-  for (int i = 0; i < n && !st; i++) {
-    thr_load_point *point = &out->carries[i];
-    point->pull = pull[i];
-    st = carry_state(frame, cord, beads, DRAWN_IN, pull[i], options->load, limits, &out->record, &point->carry, err);
-    out->n_carries += !st;
-  }
-  return st;
+  out->n_carries = n;
+  for (int i = 0; i < n; i++)
+    out->carries[i] = (thr_load_point){.pull = pull[i], .carry = {.first_bead = -1}};
+  loading l = {frame, cord, beads, options->load, out};
+  return thr_threads_run(n + 1, carry_one, &l, limits, err);
 }
 
 /* The beads with what is done to them beside the pull. */
@@ -308,7 +323,7 @@ static thr_status stands_at(const thr_frame *frame, const thr_cord *cord, const 
 {
   thr_holding holding = {0};
   thr_err why = {0};
-  thr_status st = hold_state(frame, cord, beads, LET_DOWN, force, NULL, limits, evaluation, &holding, &why);
+  thr_status st = hold_state(frame, cord, beads, LET_DOWN, force, limits, evaluation, &holding, &why);
   *stands = st == THR_OK && holding.upper <= 1;
   *falls = st == THR_EINFEASIBLE || (st == THR_OK && holding.lower > 1);
   thr_holding_destroy(&holding);
@@ -373,7 +388,7 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, con
   thr_err why = {0};
   thr_status st = make_beads(frame, &evaluation->physics, options, &beads, err);
   if (!st) {
-    st = hold_state(frame, cord, &beads, LET_DOWN, INFINITY, NULL, limits, evaluation, &out->after, &why);
+    st = hold_state(frame, cord, &beads, LET_DOWN, INFINITY, limits, evaluation, &out->after, &why);
     if (st == THR_EINFEASIBLE)
       out->after = (thr_holding){.present = true, .lower = INFINITY, .upper = INFINITY, .first_bead = -1};
     st = st && st != THR_EINFEASIBLE ? thr_fail(err, st, "%s", why.text) : THR_OK;
@@ -394,53 +409,77 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, con
 
 /* ---- the pull ---- */
 
-static thr_status hold(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double mu, bool want_upper,
-                       thr_start *start, const thr_limits *limits, thr_evaluation *evaluation, const double **tension,
-                       thr_holding *out, thr_err *err)
+/* With cords whose tensions at a pull of 1 are these. */
+static thr_status hold(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, bool want_upper,
+                       const thr_limits *limits, const thr_evaluation *evaluation, const double *const *tension, thr_holding *out,
+                       thr_err *err)
 {
   double *press = thr_calloc((size_t)beads->n_faces, sizeof *press);
-  thr_status st = press ? profiles(frame, cord, mu, evaluation, tension, err) : thr_nomem(err);
-  if (!st) {
-    thr_holding_press(cord, evaluation->n_cords, tension, press);
-    st = thr_holding_pull(beads, frame, &evaluation->physics, press, want_upper, start, limits, out, err);
-  }
+  if (!press) return thr_nomem(err);
+  thr_holding_press(cord, evaluation->n_cords, tension, press);
+  thr_status st = thr_holding_pull(beads, frame, &evaluation->physics, press, want_upper, limits, out, err);
   free(press);
   return st;
 }
 
-/* One end of the band: unknown where tensions span more than numbers can hold, or than the solver can. */
-static thr_status band_end(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double mu,
-                           const thr_limits *limits, thr_evaluation *evaluation, const double **tension, double *out,
-                           thr_err *err)
+/* Below which pull nothing holds at another friction of the cords; unknown where tensions span more than numbers can hold, or
+ * than the solver can. */
+static thr_status hold_at(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double mu,
+                          const thr_limits *limits, thr_evaluation *evaluation, const double **tension, double *out, thr_err *err)
 {
   thr_err why = {0};
   thr_holding holding = {0};
-  thr_status st = hold(frame, cord, beads, mu, false, NULL, limits, evaluation, tension, &holding, &why);
+  thr_status st = profiles(frame, cord, mu, evaluation, tension, &why);
+  if (!st) st = hold(frame, cord, beads, false, limits, evaluation, tension, &holding, &why);
   *out = st == THR_OK ? holding.lower : st == THR_EINFEASIBLE ? INFINITY : NAN;
   thr_holding_destroy(&holding);
   if (st == THR_OK || st == THR_EINFEASIBLE || st == THR_EINPUT || st == THR_ESOLVER) return THR_OK;
   return thr_fail(err, st, "%s", why.text);
 }
 
-/* Holding pull at both ends of the band of mu, on a copy of the record's cords. */
-static thr_status band(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, const thr_limits *limits,
-                       const thr_evaluation *evaluation, double out[2], thr_err *err)
+/* One end of the band of mu, on a copy of the record's cords. */
+static thr_status band_end(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double mu,
+                           const thr_limits *limits, const thr_evaluation *evaluation, double *out, thr_err *err)
 {
   thr_evaluation copy = *evaluation;
-  const double mu[2] = {evaluation->physics.mu_low, evaluation->physics.mu_high},
-               **tension = thr_calloc((size_t)evaluation->n_cords, sizeof *tension);
+  const double **tension = thr_calloc((size_t)evaluation->n_cords, sizeof *tension);
   copy.cord = thr_calloc((size_t)evaluation->n_cords, sizeof *copy.cord);
   thr_status st = tension && copy.cord ? THR_OK : thr_nomem(err);
   for (int i = 0; i < evaluation->n_cords && !st; i++)
     copy.cord[i] = (thr_eval_cord){
         .pull = evaluation->cord[i].pull, .n_passes = evaluation->cord[i].n_passes, .turn = evaluation->cord[i].turn};
-  for (int i = 0; i < 2 && !st; i++)
-    st = band_end(frame, cord, beads, mu[i], limits, &copy, tension, &out[i], err);
+  if (!st) st = hold_at(frame, cord, beads, mu, limits, &copy, tension, out, err);
   free(tension);
   for (int i = 0; i < evaluation->n_cords && copy.cord; i++)
     copy.cord[i].turn = NULL; /* the record's */
   if (copy.cord) thr_evaluation_destroy(&copy);
   return st;
+}
+
+/* What is asked of the cords as they are drawn in, each by itself. */
+typedef enum { PULL, EQUAL_PULLS, ANY_STATE, BAND_LOW, BAND_HIGH, N_QUESTIONS } question;
+
+typedef struct {
+  const thr_frame *frame;
+  const thr_cord *cord;
+  const thr_beads *beads;
+  const double *const *tension;
+  thr_eval *out;
+  int n, n_answered;
+  question asked[N_QUESTIONS]; /* [n] */
+} questions;
+
+static thr_status answer(void *user, int job, const thr_limits *limits, thr_err *err)
+{
+  const questions *q = user;
+  const thr_evaluation *record = &q->out->record;
+  switch (q->asked[q->n_answered + job]) {
+  case PULL: return hold(q->frame, q->cord, q->beads, true, limits, record, q->tension, &q->out->holding, err);
+  case EQUAL_PULLS: return hold_state(q->frame, q->cord, q->beads, DRAWN_IN, 1, limits, record, &q->out->equal, err);
+  case ANY_STATE: return hold_state(q->frame, q->cord, q->beads, KEPT, 1, limits, record, &q->out->loosest, err);
+  case BAND_LOW: return band_end(q->frame, q->cord, q->beads, record->physics.mu_low, limits, record, &q->out->band[0], err);
+  default: return band_end(q->frame, q->cord, q->beads, record->physics.mu_high, limits, record, &q->out->band[1], err);
+  }
 }
 
 /* From profiles of a pull of 1 to newtons. */
@@ -478,36 +517,56 @@ static bool all_both(const thr_evaluation *evaluation)
   return both;
 }
 
-/* The pull, then what is worth less than it, so that a stop leaves the most. */
-static thr_status run(const thr_frame *frame, const thr_cord *cord, thr_beads *beads, const thr_eval_options *options,
+/* The questions from where they were left, each by whichever thread is free. */
+static thr_status answer_up_to(questions *q, int n, const thr_limits *limits, thr_err *err)
+{
+  thr_status st = thr_threads_run(n - q->n_answered, answer, q, limits, err);
+  q->n_answered = n;
+  return st;
+}
+
+/* As far as its size allows, most wanted first. */
+static void ask(questions *q)
+{
+  const bool small = q->beads->n_beads <= BAND_LARGEST;
+  q->asked[q->n++] = PULL;
+  if (small && all_both(&q->out->record)) q->asked[q->n++] = EQUAL_PULLS;
+  q->asked[q->n++] = ANY_STATE;
+  if (small) q->asked[q->n++] = BAND_LOW, q->asked[q->n++] = BAND_HIGH;
+}
+
+/* Bullet, with the pull that was found. */
+static thr_status show(const questions *q, const thr_eval_options *options, const thr_limits *limits, thr_err *err)
+{
+  thr_eval *out = q->out;
+  const thr_evaluation *record = &out->record;
+  const double lower = out->holding.lower, upper = out->holding.upper;
+  simulation m = {q->frame,        q->cord,    q->beads, &record->physics,
+                  record->n_cords, q->tension, NULL,     between(options, lower, upper)};
+  thr_status st = THR_OK;
+  if (!options->schedule && (options->start > 0 || lower > 0)) st = settle(&m, limits, &out->settle, err);
+  if (!st && options->erect && lower > 0) st = erect(&m, isfinite(upper) ? upper : lower, limits, &out->erect, err);
+  return st;
+}
+
+/* The pull, then what is worth less than it, so that a stop leaves the most. All at once where nothing is simulated. */
+static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, const thr_eval_options *options,
                       const thr_limits *limits, const double **tension, thr_eval *out, thr_err *err)
 {
   thr_evaluation *evaluation = &out->record;
-  thr_start start = {0};
+  const bool simulated = beads->n_beads <= thr_settle_largest && !options->load && options->dynamics;
+  questions q = {.frame = frame, .cord = cord, .beads = beads, .tension = tension, .out = out};
   out->band[0] = out->band[1] = NAN;
-  thr_status st = hold(frame, cord, beads, evaluation->physics.mu, true, &start, limits, evaluation, tension, &out->holding, err);
-  if (st) {
-    thr_start_destroy(&start);
+  thr_status st = profiles(frame, cord, evaluation->physics.mu, evaluation, tension, err);
+  ask(&q);
+  if (!st) st = answer_up_to(&q, simulated ? 1 : q.n, limits, err);
+  if (st && !out->holding.present) {
+    thr_holding_destroy(&out->loosest); /* of another thread */
     clear_record(evaluation);
     return st;
   }
-  const bool small = beads->n_beads <= thr_settle_largest && !options->load && options->dynamics;
-  simulation m = {frame,
-                  cord,
-                  beads,
-                  &evaluation->physics,
-                  evaluation->n_cords,
-                  tension,
-                  NULL,
-                  between(options, out->holding.lower, out->holding.upper)};
-  if (small && !options->schedule && (options->start > 0 || out->holding.lower > 0)) st = settle(&m, limits, &out->settle, err);
-  if (!st && small && options->erect && out->holding.lower > 0)
-    st = erect(&m, isfinite(out->holding.upper) ? out->holding.upper : out->holding.lower, limits, &out->erect, err);
-  if (!st && beads->n_beads <= BAND_LARGEST && all_both(evaluation))
-    st = hold_state(frame, cord, beads, DRAWN_IN, 1, &start, limits, evaluation, &out->equal, err);
-  if (!st) st = hold_state(frame, cord, beads, KEPT, 1, &start, limits, evaluation, &out->loosest, err);
-  if (!st && beads->n_beads <= BAND_LARGEST) st = band(frame, cord, beads, limits, evaluation, out->band, err);
-  thr_start_destroy(&start);
+  if (!st && simulated) st = show(&q, options, limits, err);
+  if (!st) st = answer_up_to(&q, q.n, limits, err);
   if (!st && options->load) st = carry_at_pulls(frame, cord, beads, options, limits, out, err);
   fill_record(evaluation, out->holding.lower);
   return st ? st : thr_structure_drawn(evaluation, options, err);

@@ -103,7 +103,7 @@ static thr_holding hold(const model *m)
 {
   thr_holding h;
   thr_err err = {0};
-  thr_status st = thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, NULL, &no_limit, &h, &err);
+  thr_status st = thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, &no_limit, &h, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   ck_assert(h.present);
   return h;
@@ -250,8 +250,7 @@ static void assert_hopeless(model *m, const char *node)
   thr_holding h;
   char word[40];
   snprintf(word, sizeof word, "node %s ", node);
-  ck_assert_int_eq(thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, NULL, &no_limit, &h, &err),
-                   THR_EINFEASIBLE);
+  ck_assert_int_eq(thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, &no_limit, &h, &err), THR_EINFEASIBLE);
   assert_one_line(&err, word);
   ck_assert(!h.present && h.velocity == NULL);
   model_destroy(m);
@@ -284,7 +283,7 @@ START_TEST(stops_when_told)
   model m = cantilever(5, 20, 8, 1, 0);
   thr_err err = {0};
   thr_holding h;
-  ck_assert_int_eq(thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, NULL, &limits, &h, &err), THR_ELIMIT);
+  ck_assert_int_eq(thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &limits, &h, &err), THR_ELIMIT);
   assert_one_line(&err, "stopped");
   ck_assert(!h.present && h.velocity == NULL);
   model_destroy(&m);
@@ -300,7 +299,7 @@ START_TEST(memory_may_run_out_anywhere)
     thr_holding h;
     thr_err err = {0};
     thr_alloc_fail_at(failed + 1);
-    st = thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, NULL, &no_limit, &h, &err);
+    st = thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &h, &err);
     thr_alloc_fail_at(0);
     if (st) {
       failed++;
@@ -404,7 +403,7 @@ START_TEST(bounds_are_proved_and_close)
   model m = random_model((uint64_t)_i + 1, 12);
   thr_holding h;
   thr_err err = {0};
-  thr_status st = thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, NULL, &no_limit, &h, &err);
+  thr_status st = thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &h, &err);
   if (st == THR_OK) {
     ck_assert(h.lower <= h.upper * (1 + 1e-6) + 1e-9);
     ck_assert(h.residual < 1e-12);
@@ -530,7 +529,7 @@ START_TEST(loads_equal_a_plain_programme_by_simplex)
   thr_carry carry = {0};
   thr_err err = {0};
   double load[64][3] = {{0}};
-  if (thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, NULL, &no_limit, &h, NULL) == THR_OK && isfinite(h.upper)) {
+  if (thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &h, NULL) == THR_OK && isfinite(h.upper)) {
     const double pull = fmax(1.5 * h.upper, 0.1);
     random_load(&m, &r, load);
     double *press = calloc((size_t)m.frame.n_edges, sizeof *press);
@@ -568,7 +567,7 @@ START_TEST(equals_a_plain_programme_by_simplex)
   m.physics.mu_ground = mu_ground;
   thr_holding h;
   thr_err err = {0};
-  thr_status st = thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, NULL, &no_limit, &h, &err);
+  thr_status st = thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &h, &err);
   if (isinf(lower)) {
     ck_assert_msg(st == THR_EINFEASIBLE, "lower %g N", h.lower);
   } else {
@@ -589,10 +588,10 @@ START_TEST(uneven_cords_decide_alike)
   rng r = rng_make((uint64_t)_i + 99);
   thr_holding even, uneven;
   thr_err err = {0}, why = {0};
-  thr_status st = thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, NULL, &no_limit, &even, &err);
+  thr_status st = thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &even, &err);
   for (int e = 0; e < m.frame.n_edges; e++)
     m.press[e] = pow(10, -12 * rng_unit(&r));
-  ck_assert_int_eq(thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, NULL, &no_limit, &uneven, &why), st);
+  ck_assert_int_eq(thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &uneven, &why), st);
   if (st == THR_OK) ck_assert(uneven.lower >= even.lower * (1 - 1e-5) && uneven.upper >= uneven.lower * (1 - 1e-5));
   thr_holding_destroy(&even);
   thr_holding_destroy(&uneven);

@@ -88,7 +88,7 @@ static thr_status measure(const cantilever *c, pulls *out, thr_err *err)
     tension[i] = 1;
   if (!st) {
     thr_holding_press(&c->cord, 1, profile, press);
-    st = thr_holding_pull(&c->beads, &c->frame, &c->physics, press, true, NULL, &none, &h, err);
+    st = thr_holding_pull(&c->beads, &c->frame, &c->physics, press, true, &none, &h, err);
   }
   thr_settle_options o = {.least = h.lower, .equilibrium = h.upper, .time_step = 1, .iterations = 1, .seed = 1};
   if (!st) st = thr_settle_run(&c->beads, &c->frame, &c->cord, 1, profile, NULL, &c->physics, &o, &none, &s, err);
