@@ -30,11 +30,10 @@ typedef struct {
   double *room; /* all arrays below; owned */
   point at, step, trial;
   double *p, *q, *r;
-  double *weight;                      /* x / z .. */
-  double *weights;                     /* .. and for the normal equations */
-  double *columns, *rows, *rise, *way; /* scratch */
-  double *gain, *pushed;               /* [n_rows] */
-  double *force, *weighed;             /* [components] */
+  double *weight;            /* x / z .. */
+  double *weights;           /* .. and for the normal equations */
+  double *rows, *rise, *way; /* [n_rows] scratch */
+  double *force, *pushed;    /* [components] */
 } state;
 
 static void carve(double **room, double **array, int n)
@@ -47,7 +46,7 @@ static thr_status state_make(state *s, thr_err *err)
 {
   size_t m = (size_t)s->m, n = (size_t)s->n;
   const size_t components = (size_t)s->components;
-  double *room = s->room = thr_calloc(9 * m + 10 * n + 4 * components, sizeof *room);
+  double *room = s->room = thr_calloc(7 * m + 9 * n + 4 * components, sizeof *room);
   if (!room) return thr_nomem(err);
   point *points[] = {&s->at, &s->step, &s->trial};
   for (int i = 0; i < 3; i++) {
@@ -58,15 +57,12 @@ static thr_status state_make(state *s, thr_err *err)
   carve(&room, &s->q, s->n);
   carve(&room, &s->r, s->n);
   carve(&room, &s->weight, s->n);
-  carve(&room, &s->columns, s->n);
   carve(&room, &s->p, s->m);
   carve(&room, &s->rows, s->m);
   carve(&room, &s->rise, s->m);
   carve(&room, &s->way, s->m);
-  carve(&room, &s->gain, s->m);
-  carve(&room, &s->pushed, s->m);
   carve(&room, &s->force, s->components);
-  carve(&room, &s->weighed, s->components);
+  carve(&room, &s->pushed, s->components);
   carve(&room, &s->weights, 2 * s->components); /* three numbers become six */
   thr_status st = thr_normal_create(&s->normal, &s->e->a, s->rays.n_cones, err);
   if (!st) s->a = thr_normal_bundles(s->normal);
@@ -122,10 +118,10 @@ static void factor(state *s)
   thr_normal_factor(s->normal, s->weights);
 }
 
-/* What A d->x lacks of p, into s->rows. */
-static double lack(state *s, const double *p, const point *d)
+/* What A R x lacks of p, into s->rows; of its components R x. */
+static double missing(state *s, const double *p, const double *components)
 {
-  times(s, d->x, s->rows);
+  thr_bundles_times(s->a, components, s->rows);
   for (int i = 0; i < s->m; i++)
     s->rows[i] = (p ? p[i] : 0) - s->rows[i];
   return largest(s->rows, s->m);
@@ -142,53 +138,21 @@ static double turn(state *s, double before)
   return now;
 }
 
-/* (A D A^T) gain = rows, until what is left of rows is enough. Returns how many rounds it took. */
-static int improve(state *s, double enough, int rounds)
+/* Makes up for what A d->x lacks, until that is little enough or no step makes it less. */
+static void make_up(state *s, const double *p, double enough, point *d)
 {
+  enum { ROUNDS = 20 };
   double before = INFINITY;
-  memset(s->gain, 0, (size_t)s->m * sizeof *s->gain);
   memset(s->way, 0, (size_t)s->m * sizeof *s->way);
-  for (int round = 1; round <= rounds; round++) {
+  for (int round = 0; round < ROUNDS; round++) {
     before = turn(s, before);
     thr_bundles_transposed(s->a, s->way, s->force);
-    thr_rays_weighted(&s->rays, s->weights, s->force, s->weighed);
-    thr_bundles_times(s->a, s->weighed, s->pushed);
-    const double power = product(s->way, s->pushed, s->m), step = before / power;
-    if (!(power > 0) || !(before > 0)) return round; /* rounding leaves no such step */
-    for (int i = 0; i < s->m; i++) {
-      s->gain[i] += step * s->way[i];
-      s->rows[i] -= step * s->pushed[i];
-    }
-    if (largest(s->rows, s->m) <= enough) return round;
-  }
-  return rounds;
-}
-
-/* Moves d along a direction of y. */
-static void move_along(state *s, const double *way, double step, point *d)
-{
-  for (int j = 0; j < s->n; j++) {
-    d->z[j] -= step * s->columns[j];
-    d->x[j] += step * s->weight[j] * s->columns[j];
-  }
-  for (int i = 0; i < s->m; i++)
-    d->y[i] += step * way[i];
-}
-
-/* As improve, but with what d->x lacks itself at every round: where that is mostly rounding. */
-static void improve_exactly(state *s, const double *p, double enough, int rounds, point *d)
-{
-  double before = INFINITY;
-  memset(s->way, 0, (size_t)s->m * sizeof *s->way);
-  for (int round = 0; round < rounds; round++) {
-    double power = 0;
-    before = turn(s, before);
-    transposed(s, s->way, s->columns);
-    for (int j = 0; j < s->n; j++)
-      power += s->weight[j] * s->columns[j] * s->columns[j];
-    if (!(power > 0) || !(before > 0)) return;
-    move_along(s, s->way, before / power, d);
-    if (lack(s, p, d) <= enough) return;
+    const double power = thr_rays_power(&s->rays, s->weight, s->force), step = before / power;
+    if (!(power > 0) || !(before > 0)) return; /* rounding leaves no such step */
+    thr_rays_move(&s->rays, s->weight, s->force, step, d->x, d->z, s->pushed);
+    for (int i = 0; i < s->m; i++)
+      d->y[i] += step * s->way[i];
+    if (missing(s, p, s->pushed) <= enough) return;
   }
 }
 
@@ -196,7 +160,6 @@ static void improve_exactly(state *s, const double *p, double enough, int rounds
  * the factors are rough: what A dx lacks is made up for as far as the next point needs it. */
 static void newton(state *s, const double *p, const double *q, const double *r, point *d)
 {
-  enum { ROUNDS = 20 };
   const point *at = &s->at;
   const double share = s->e->met > 0 ? 0.2 : 0.01; /* of what may be missing at last */
   const double enough = fmax(share * s->goal / s->unmet * largest(s->e->rhs, s->m), 0.1 * largest(s->p, s->m));
@@ -205,11 +168,9 @@ static void newton(state *s, const double *p, const double *q, const double *r, 
     d->z[j] = q ? q[j] : 0;
     d->x[j] = (r[j] - at->x[j] * d->z[j]) / at->z[j];
   }
-  lack(s, p, d);
-  const int left = ROUNDS - improve(s, enough, ROUNDS / 2);
-  transposed(s, s->gain, s->columns);
-  move_along(s, s->gain, 1, d);
-  if (lack(s, p, d) > enough) improve_exactly(s, p, enough, left, d);
+  thr_rays_gather(&s->rays, d->x, s->pushed);
+  missing(s, p, s->pushed);
+  make_up(s, p, enough, d);
 }
 
 /* How far a stays positive along d, at most 1. */

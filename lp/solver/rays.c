@@ -3,7 +3,10 @@
 
 #include "lp/solver/wide.h"
 
+#include <assert.h>
 #include <string.h>
+
+enum { USUAL = 8 /* loops of that length are unrolled */, MOST_RAYS = 64 };
 
 int thr_rays_unknowns(const thr_rays *r)
 {
@@ -62,14 +65,58 @@ THR_WIDE void thr_rays_weigh(const thr_rays *r, const double *d, double *w)
   memcpy(w, d, (size_t)r->n_plain * sizeof *w);
 }
 
-THR_WIDE void thr_rays_weighted(const thr_rays *r, const double *w, const double *u, double *v)
+/* Every ray's share is added up by itself: what the sum is does not depend on how many are added at a time. */
+THR_INLINE double power(const thr_rays *r, const double *d, const double *u, int n_rays)
 {
-  for (int i = 0; i < r->n_cones; i++, w += 6, u += 3, v += 3) {
-    const double x = u[0], y = u[1], z = u[2];
-    v[0] = w[0] * x + w[1] * y + w[2] * z;
-    v[1] = w[1] * x + w[3] * y + w[4] * z;
-    v[2] = w[2] * x + w[4] * y + w[5] * z;
+  double share[MOST_RAYS] = {0}, sum = 0;
+  for (int i = 0; i < r->n_cones; i++, u += 3, d += n_rays) {
+    const double(*ray)[3] = rays_of(r, i), u0 = u[0], u1 = u[1], u2 = u[2];
+    for (int e = 0; e < n_rays; e++) {
+      const double along = ray[e][0] * u0 + ray[e][1] * u1 + ray[e][2] * u2;
+      share[e] += d[e] * along * along;
+    }
   }
+  for (int e = 0; e < n_rays; e++)
+    sum += share[e];
   for (int j = 0; j < r->n_plain; j++)
-    v[j] = w[j] * u[j];
+    sum += d[j] * u[j] * u[j];
+  return sum;
+}
+
+THR_WIDE double thr_rays_power(const thr_rays *r, const double *d, const double *u)
+{
+  assert(r->n_rays <= MOST_RAYS);
+  return r->n_rays == USUAL ? power(r, d, u, USUAL) : power(r, d, u, r->n_rays);
+}
+
+THR_INLINE void move(const thr_rays *r, const double *d, const double *u, double step, double *restrict x, double *restrict z,
+                     double *restrict v, int n_rays)
+{
+  for (int i = 0; i < r->n_cones; i++, u += 3, v += 3, d += n_rays, x += n_rays, z += n_rays) {
+    const double(*ray)[3] = rays_of(r, i), u0 = step * u[0], u1 = step * u[1], u2 = step * u[2];
+    double v0 = 0, v1 = 0, v2 = 0;
+    for (int e = 0; e < n_rays; e++) {
+      const double along = ray[e][0] * u0 + ray[e][1] * u1 + ray[e][2] * u2;
+      z[e] -= along;
+      x[e] += d[e] * along;
+    }
+    for (int e = 0; e < n_rays; e++) {
+      v0 += ray[e][0] * x[e];
+      v1 += ray[e][1] * x[e];
+      v2 += ray[e][2] * x[e];
+    }
+    v[0] = v0, v[1] = v1, v[2] = v2;
+  }
+  for (int j = 0; j < r->n_plain; j++) {
+    z[j] -= step * u[j];
+    v[j] = x[j] += step * d[j] * u[j];
+  }
+}
+
+THR_WIDE void thr_rays_move(const thr_rays *r, const double *d, const double *u, double step, double *x, double *z, double *v)
+{
+  if (r->n_rays == USUAL)
+    move(r, d, u, step, x, z, v, USUAL);
+  else
+    move(r, d, u, step, x, z, v, r->n_rays);
 }

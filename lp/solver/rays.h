@@ -21,7 +21,9 @@ void thr_rays_gather(const thr_rays *r, const double *x, double *u); /* componen
 void thr_rays_spread(const thr_rays *r, const double *u, double *x); /* x = R^T u */
 /* R D R^T: six numbers for each cone (xx xy xz yy yz zz), one for each of the rest. */
 void thr_rays_weigh(const thr_rays *r, const double *d, double *w);
-/* v = R D R^T u, from those numbers. */
-void thr_rays_weighted(const thr_rays *r, const double *w, const double *u, double *v);
+/* u R D R^T u */
+double thr_rays_power(const thr_rays *r, const double *d, const double *u);
+/* z -= step R^T u, x += step D R^T u; v = R x then. */
+void thr_rays_move(const thr_rays *r, const double *d, const double *u, double step, double *x, double *z, double *v);
 
 #endif
