@@ -412,7 +412,7 @@ $(DIR)/%.o: %.cpp $(DIR)/flags.list
 	$(Q)$(COMPILER_CXX) -I. $(BULLET_CFLAGS) $(CPPFLAGS) $(THR_CXXFLAGS) $(STRICT) -MMD -MP -c -o $@ $<
 
 # dense work in long loops, which pays to be unrolled
-$(addprefix $(DIR)/lp/solver/,normal.o dense.o bundles.o rays.o interior.o): THR_CFLAGS += $(if $(filter release web static windows,$(BUILD)),-O3)
+$(addprefix $(DIR)/lp/solver/,normal.o dense.o bundles.o rays.o interior.o cones.o): THR_CFLAGS += $(if $(filter release web static windows,$(BUILD)),-O3)
 
 # the viewer's page, as it lies built in the tree, becomes bytes of the program
 $(DIR)/%.o: %.S %.html $(DIR)/flags.list

@@ -31,8 +31,9 @@ enum {
   "      --clamp-feet     structure: feet are held in place; else they stand on the ground\n"                                    \
   "      --taut           structure: turns are those of the tight cord in its bores, as --method joint finds them, not those\n"  \
   "                       of the middles of the bores: it needs less while it is drawn in, and keeps less\n"                     \
-  "      --rays N         structure: rays of the pyramids that stand for friction cones, 8 to 48 (default: 8; 24: the\n"         \
-  "                       bounds are ten times closer, and take some three times as long)\n"
+  "      --rays N         structure: rays of the pyramids that stand for friction cones, 8 to 48 (default: 8, and\n"             \
+  "                       beyond 1,000 pieces the cones themselves; 24: the bounds are ten times closer, and take\n"             \
+  "                       some three times as long)\n"
 
 enum { LOAD_MOST_PULLS = 32 };
 

@@ -7,6 +7,7 @@
 #include "graph/disjoint.h"
 #include "graph/vector.h"
 #include "lp/solver/bundles.h"
+#include "lp/solver/cones.h"
 #include "lp/solver/interior.h"
 #include "lp/solver/rays.h"
 
@@ -45,7 +46,7 @@ static void set_ray(const thr_beads *beads, int e, double mu, double ray[3])
   ray[2] = mu * sin(angle);
 }
 
-static void add_contact(thr_blocks *s, int bead, int other, const double at[3], const double normal[3], double mu)
+static thr_contact *add_contact(thr_blocks *s, int bead, int other, const double at[3], const double normal[3], double mu)
 {
   thr_contact *c = &s->contact[s->n_contacts++];
   double least[3] = {0}, tangent[2][3];
@@ -68,6 +69,7 @@ static void add_contact(thr_blocks *s, int bead, int other, const double at[3], 
     for (int i = 0; i < 3; i++)
       c->ray[e][i] = ray[0] * normal[i] + ray[1] * tangent[0][i] + ray[2] * tangent[1][i];
   }
+  return c;
 }
 
 /* widen: factor on friction, to put the pyramids round the cones. */
@@ -79,7 +81,8 @@ static void set_contacts(thr_blocks *s, double widen)
   s->widen = widen;
   for (int e = 0; e < beads->n_faces; e++)
     for (int i = 0; i < CORNERS && !thr_blocks_inside(s, e); i++)
-      add_contact(s, s->f->edge[e][1], s->f->edge[e][0], beads->corner[e][i], beads->axis[e], widen * s->physics->mu_bead);
+      add_contact(s, s->f->edge[e][1], s->f->edge[e][0], beads->corner[e][i], beads->axis[e], widen * s->physics->mu_bead)
+          ->press = fmin(s->press[e], s->most) / CORNERS;
   for (int k = 0; k < beads->n_feet; k++)
     for (int i = 0; i < CORNERS; i++)
       add_contact(s, beads->foot[k], -1, beads->foot_point[k][i], up, widen * s->physics->mu_ground);
@@ -196,6 +199,11 @@ thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
   return THR_OK;
 }
 
+double thr_blocks_friction(const thr_blocks *s, const thr_contact *contact)
+{
+  return s->widen * (contact->other < 0 ? s->physics->mu_ground : s->physics->mu_bead);
+}
+
 /* ---- the programme ---- */
 
 static void programme_destroy(programme *p)
@@ -237,11 +245,14 @@ static void contact_columns(const thr_blocks *s, programme *p)
     const thr_contact *c = &s->contact[i];
     p->kind[i] = c->other < 0;
     for (int k = 0; k < 3; k++, p->n_columns++) {
+      const double unit = s->round && k > 0 ? thr_blocks_friction(s, c) : 1;
       column(p);
-      contact_entries(s, p, c, c->bead, c->axis[k], 1);
-      contact_entries(s, p, c, c->other, c->axis[k], -1);
+      contact_entries(s, p, c, c->bead, c->axis[k], unit);
+      contact_entries(s, p, c, c->other, c->axis[k], -unit);
     }
   }
+  p->n_costs = 3 * s->n_contacts;
+  if (s->round) return;
   for (int e = 0; e < s->b->rays; e++) {
     set_ray(s->b, e, s->widen * s->physics->mu_bead, p->ray[e]);
     set_ray(s->b, e, s->widen * s->physics->mu_ground, p->ray[s->b->rays + e]);
@@ -332,59 +343,120 @@ void thr_blocks_solution_destroy(thr_blocks_solution *o)
   *o = (thr_blocks_solution){0};
 }
 
-/* Objective, and the largest difference between A x and rhs. */
-static thr_status finish(const thr_equations *e, thr_blocks_solution *o, thr_err *err)
+static thr_columns columns_of(const thr_blocks *s, const programme *p)
 {
-  const thr_columns *a = &e->a;
-  const thr_rays rays = {e->n_cones, e->n_rays, a->n_columns - 3 * e->n_cones, e->kind, e->ray};
+  return (thr_columns){s->n_rows + s->n_ties, p->n_columns, p->start, p->row, p->value};
+}
+
+/* How far forces are outside their cones, at most, in weights. */
+static double outside(const thr_blocks *s, const double *x)
+{
+  double most = 0;
+  for (int i = 0; i < s->n_contacts; i++, x += 3)
+    most = fmax(most, hypot(x[1], x[2]) - x[0]);
+  for (int c = 0; c < s->n_copies; c++)
+    most = fmax(most, -x[c]);
+  return most;
+}
+
+/* Objective, and the largest difference between A x and rhs. */
+static thr_status finish(const thr_blocks *s, const programme *p, thr_blocks_solution *o, thr_err *err)
+{
+  const thr_columns a = columns_of(s, p);
+  const thr_rays rays = {s->n_contacts, s->b->rays, a.n_columns - 3 * s->n_contacts, p->kind, (const double(*)[3])p->ray};
   thr_scratch own = {0};
-  double *left = thr_scratch_array(&own, (size_t)a->n_rows, sizeof *left);
-  double *u = thr_scratch_array(&own, (size_t)a->n_columns, sizeof *u);
+  double *left = thr_scratch_array(&own, (size_t)a.n_rows, sizeof *left);
+  double *u = thr_scratch_array(&own, (size_t)a.n_columns, sizeof *u);
   thr_status st = thr_scratch_check(&own, err);
   if (!st) {
-    memcpy(left, e->rhs, (size_t)a->n_rows * sizeof *left);
-    thr_rays_gather(&rays, o->x, u);
-    for (int j = 0; j < a->n_columns; j++)
-      for (int k = a->start[j]; k < a->start[j + 1]; k++)
-        left[a->row[k]] -= a->value[k] * u[j];
-    for (int i = 0; i < a->n_rows; i++)
-      o->imbalance = fmax(o->imbalance, fabs(left[i]));
-    for (int j = 0; j < thr_rays_unknowns(&rays); j++)
-      o->objective += e->cost[j] * o->x[j];
+    memcpy(left, p->rhs, (size_t)a.n_rows * sizeof *left);
+    if (s->round)
+      memcpy(u, o->x, (size_t)a.n_columns * sizeof *u), o->imbalance = outside(s, o->x);
+    else
+      thr_rays_gather(&rays, o->x, u);
+    for (int j = 0; j < a.n_columns; j++)
+      for (int k = a.start[j]; k < a.start[j + 1]; k++)
+        left[a.row[k]] -= a.value[k] * u[j];
+    for (int i = 0; i < a.n_rows; i++)
+      o->imbalance = fmax(o->imbalance, isfinite(left[i]) ? fabs(left[i]) : INFINITY);
+    for (int j = 0; j < p->n_costs; j++)
+      o->objective += p->cost[j] * o->x[j];
   }
   thr_scratch_free(&own);
   return st;
 }
 
+/* What the cords press the contacts with at the pull that is guessed, and no less than a weight; the ground carries all weights:
+ * balanced but for those. */
+static void guess_forces(const thr_blocks *s, double *x)
+{
+  const double pull = s->carries ? 1 : s->guess;
+  int on_ground = 0;
+  for (int i = 0; i < s->n_contacts; i++)
+    on_ground += s->contact[i].other < 0;
+  for (int i = 0; i < s->n_contacts; i++)
+    x[3 * i] = s->contact[i].other < 0 ? (double)s->b->n_beads / on_ground : fmax(1, pull * s->contact[i].press / s->weight);
+  for (int c = 0; c < s->n_copies; c++)
+    x[3 * s->n_contacts + c] = s->carries ? 1 : pull / s->pull;
+}
+
+/* So many weights in terms of what a solver takes for 1: the largest of the right sides. */
+static double relative(const thr_blocks *s, const programme *p, double weights)
+{
+  double largest = 1;
+  for (int i = 0; i < s->n_rows; i++)
+    largest = fmax(largest, fabs(p->rhs[i]));
+  return weights / largest;
+}
+
+static thr_status solve_round(const thr_blocks *s, const programme *p, const thr_limits *limits, thr_interior *found,
+                              thr_err *err)
+{
+  guess_forces(s, found->x);
+  const thr_cone_equations equations = {.a = columns_of(s, p),
+                                        .rhs = p->rhs,
+                                        .cost = p->cost,
+                                        .goal =
+                                            s->merged ? 1e-9 : THR_BLOCKS_ROUGH, /* of merged ones no rounding is made up for */
+                                        .met = relative(s, p, s->merged ? THR_BLOCKS_UNMET : THR_BLOCKS_MET),
+                                        .start = found->x,
+                                        .n_cones = s->n_contacts};
+  return thr_cones_solve(&equations, limits, found, err);
+}
+
+static thr_status solve_pyramids(const thr_blocks *s, const programme *p, const thr_limits *limits, thr_interior *found,
+                                 thr_err *err)
+{
+  const bool large = s->n_bodies > THR_BLOCKS_LARGE;
+  const thr_equations equations = {.a = columns_of(s, p),
+                                   .rhs = p->rhs,
+                                   .cost = p->cost,
+                                   .goal = !large     ? 0
+                                           : s->bound ? THR_BLOCKS_ROUGH
+                                                      : 2 * THR_BLOCKS_ROUGH,
+                                   .met = large ? relative(s, p, s->bound ? THR_BLOCKS_UNMET : THR_BLOCKS_MET) : 0,
+                                   .warm = large ? s->warm : NULL,
+                                   .n_cones = s->n_contacts,
+                                   .n_rays = s->b->rays,
+                                   .kind = p->kind,
+                                   .ray = (const double(*)[3])p->ray};
+  return thr_interior_solve(&equations, limits, found, err);
+}
+
 thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits, thr_blocks_solution *out, thr_err *err)
 {
   programme p;
-  int rows = s->n_rows + s->n_ties;
   *out = (thr_blocks_solution){0};
   thr_status st = programme_make(s, hands, &p, err);
   if (st) return st;
   out->x = thr_calloc((size_t)p.n_costs, sizeof *out->x);
-  out->dual = thr_calloc((size_t)rows, sizeof *out->dual);
-  const bool large = s->n_bodies > THR_BLOCKS_LARGE;
-  const thr_equations equations = {.a = {rows, p.n_columns, p.start, p.row, p.value},
-                                   .rhs = p.rhs,
-                                   .cost = p.cost,
-                                   .goal = !large     ? 0
-                                           : s->bound ? THR_BLOCKS_ROUGH
-                                                      : 2 * THR_BLOCKS_ROUGH,
-                                   .met = !large     ? 0
-                                          : s->bound ? THR_BLOCKS_UNMET
-                                                     : THR_BLOCKS_MET,
-                                   .warm = large ? s->warm : NULL,
-                                   .n_cones = s->n_contacts,
-                                   .n_rays = s->b->rays,
-                                   .kind = p.kind,
-                                   .ray = (const double(*)[3])p.ray};
+  out->dual = thr_calloc((size_t)s->n_rows + (size_t)s->n_ties, sizeof *out->dual);
   thr_interior found = {.x = out->x, .dual = out->dual};
-  st = out->x && out->dual ? thr_interior_solve(&equations, limits, &found, err) : thr_nomem(err);
+  if (!out->x || !out->dual) st = thr_nomem(err);
+  if (!st) st = (s->round ? solve_round : solve_pyramids)(s, &p, limits, &found, err);
   out->outcome = found.outcome;
   if (!st && out->outcome == THR_LP_STOPPED) st = thr_fail(err, THR_ELIMIT, "stopped before the holding pull was found");
-  if (!st) st = finish(&equations, out, err);
+  if (!st) st = finish(s, &p, out, err);
   programme_destroy(&p);
   if (st) thr_blocks_solution_destroy(out);
   return st;

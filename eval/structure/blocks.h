@@ -25,6 +25,7 @@ static const double THR_BLOCKS_MET = 5e-6, THR_BLOCKS_UNMET = 1e-3;
 
 typedef struct {
   int bead, other;          /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
+  double press;             /* N: its share of what the cords press its face with, as thr_blocks.press */
   double at[3], axis[3][3]; /* normal and tangents */
   double ray[THR_MOST_RAYS][3];
 } thr_contact;
@@ -39,6 +40,8 @@ typedef struct {
   const double (*load)[3];     /* [n_beads] N, at its node; NULL = none */
   thr_warm *warm;              /* where a large programme may start, and leaves a start for the next; NULL ok */
   bool bound;                  /* only the multipliers count */
+  bool round;                  /* contact forces are within cones, not pyramids .. */
+  double guess;                /* .. and N: a pull that is enough, not a thousand times too much */
   bool carries;                /* the unknown is not the pull but what the load is multiplied by */
   double most;                 /* press above it is taken for it .. */
   bool merged;                 /* .. and the beads on either side for one body */
@@ -66,6 +69,9 @@ typedef struct {
 
 /* The factor on friction that puts the pyramids round the cones. */
 double thr_blocks_widening(const thr_beads *beads);
+
+/* Friction of a contact, widened. */
+double thr_blocks_friction(const thr_blocks *s, const thr_contact *contact);
 
 /* Is the face within a body? */
 bool thr_blocks_inside(const thr_blocks *s, int face);

@@ -1,6 +1,9 @@
 /* The least pull by the programme of eval/structure/blocks.h. What the solver says is not believed: its dual values are made an
  * exactly feasible mechanism (mechanism.h), whose power balance is the bound.
  *
+ * Beyond 1,000 beads contact forces are within the cones themselves: one programme then tells both bounds, sooner than two with
+ * pyramids, which are the rest's, and what is left where that one fails.
+ *
  * Tensions may span more powers of ten than a double has digits. Two things are true whatever they span, and keep the numbers
  * tame: equilibrium with some tensions taken smaller is equilibrium (the cords press a face together with what they draw its
  * beads together; more of both changes nothing else), and a mechanism in which some beads move as one is a mechanism. */
@@ -78,6 +81,7 @@ typedef struct {
   const double *press;
   const double (*load)[3];
   bool carries;
+  bool round;  /* cones of friction, not pyramids: one programme tells both bounds */
   double unit; /* factor on what the unknown is counted in */
   const thr_limits *limits;
   double least, largest; /* press of any face that is pressed */
@@ -94,7 +98,8 @@ static thr_blocks part(const task *t, double most, bool merged)
                       .load = t->load,
                       .carries = t->carries,
                       .most = most,
-                      .merged = merged};
+                      .merged = merged,
+                      .round = t->round};
 }
 
 /* A start from a programme whose tensions were capped alike; else a fresh one, as others would mislead. */
@@ -110,11 +115,13 @@ static thr_warm *warm_at(task *t, double most, bool merged)
 /* One programme: replaces the mechanism in a, if there was one. Merged, its pull is about a->pull. */
 static thr_status pull_of(task *t, double most, bool merged, double widen, answer *a, thr_err *err)
 {
+  const double plenty = 3000; /* weights of a bead in what draws it: ten times what a dome of 2,000 beads needs */
   thr_blocks s = part(t, most, merged);
   thr_status st = thr_blocks_make(&s, widen, err);
   if (st) return st;
   s.bound = widen > 1;
   if (merged) s.pull = a->pull;
+  s.guess = a->pull > 0 && isfinite(a->pull) ? a->pull : plenty * s.pull;
   s.pull *= t->unit;
   s.warm = warm_at(t, most, merged);
   free(a->velocity);
@@ -160,6 +167,7 @@ static thr_status check_feasible(const task *t, thr_err *err)
 {
   bool friction = t->physics->mu_bead > 0;
   thr_blocks s = part(t, friction ? 0 : INFINITY, friction);
+  s.round = false;
   thr_blocks_solution o = {0};
   double(*velocity)[6] = thr_calloc((size_t)t->b->n_beads, sizeof *velocity);
   if (!velocity) return thr_nomem(err);
@@ -186,11 +194,12 @@ static thr_status check_feasible(const task *t, thr_err *err)
 /* At one cap; merged too if the bound does not close otherwise. */
 static thr_status lower_at(task *t, double most, answer *a, answer *best, double *best_most, thr_err *err)
 {
-  thr_status st = pull_of(t, most, false, thr_blocks_widening(t->b), a, err);
+  const double widen = t->round ? 1 : thr_blocks_widening(t->b);
+  thr_status st = pull_of(t, most, false, widen, a, err);
   if (st || closed(a, close_enough(t))) return st;
   keep_better(t, a, most, best, best_most);
   if (t->largest <= most || !(a->pull > 0) || !isfinite(a->pull)) return THR_OK;
-  st = pull_of(t, most, true, thr_blocks_widening(t->b), a, err);
+  st = pull_of(t, most, true, widen, a, err);
   if (!st && !closed(a, close_enough(t))) keep_better(t, a, most, best, best_most);
   return st;
 }
@@ -206,7 +215,7 @@ static thr_status lower_pull_in(task *t, double *most, answer *a, thr_err *err)
     st = lower_at(t, *most, a, &best, &best_most, err);
     if (st || (a->velocity && closed(a, close_enough(t)))) goto done;
     if (i == 0 && !best.velocity && !t->carries && (st = check_feasible(t, err))) goto done;
-    if (t->largest <= *most) break;
+    if (t->largest <= *most || (t->round && !isfinite(a->pull))) break; /* a greater span is no easier for cones */
   }
   if (best.velocity) {
     answer_destroy(a);
@@ -245,25 +254,45 @@ void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *t
       press[cord[i].half[k] >> 1] += tension[i][k];
 }
 
-/* upper: with the pyramids inside the cones, where it is wanted. */
+/* upper: at which there is an equilibrium within the cones. Where a programme with cones is not decided, one with pyramids inside
+ * them tells it, if it is wanted. */
+static thr_status bounds(task *t, bool want_upper, answer *a, double *upper, thr_err *err)
+{
+  answer inside_cones = {0};
+  double most;
+  *upper = 0;
+  if (t->round) {
+    thr_status st = lower_pull_in(t, &most, a, err);
+    if (st != THR_ESOLVER) {
+      *upper = a->pull;
+      return st;
+    }
+    answer_destroy(a);
+    t->round = false;
+  }
+  thr_status st = lower_pull(t, &most, a, err);
+  if (!st && want_upper) st = pull_of(t, most, false, 1, &inside_cones, err);
+  *upper = inside_cones.pull;
+  answer_destroy(&inside_cones);
+  return st;
+}
+
 static thr_status hold(task *t, bool want_upper, thr_holding *holding, thr_err *err)
 {
-  answer a = {0}, inside_cones = {0};
-  double most;
-  thr_status st = lower_pull(t, &most, &a, err);
-  if (!st && want_upper) st = pull_of(t, most, false, 1, &inside_cones, err);
+  answer a = {0};
+  double upper;
+  thr_status st = bounds(t, want_upper, &a, &upper, err);
   if (!st) {
     assert(a.velocity);
     holding->present = true;
     holding->lower = a.lower;
-    holding->upper = inside_cones.pull;
+    holding->upper = upper;
     holding->residual = a.residual;
     holding->first_bead = a.lower > 0 || t->carries ? thr_mechanism_fastest(t->b, (const double(*)[6])a.velocity) : -1;
     holding->velocity = a.velocity;
     a.velocity = NULL;
   }
   answer_destroy(&a);
-  answer_destroy(&inside_cones);
   thr_warm_destroy(&t->warm);
   return st;
 }
@@ -272,6 +301,7 @@ static task task_of(const thr_beads *beads, const thr_frame *frame, const thr_ph
                     const thr_limits *limits)
 {
   task t = {.b = beads, .f = frame, .physics = physics, .press = press, .limits = limits, .least = INFINITY, .unit = 1};
+  t.round = beads->n_beads > THR_BLOCKS_LARGE && beads->rays == THR_USUAL_RAYS;
   for (int e = 0; e < beads->n_faces; e++) {
     if (press[e] > 0) t.least = fmin(t.least, press[e]);
     t.largest = fmax(t.largest, press[e]);

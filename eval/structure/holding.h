@@ -19,11 +19,11 @@
 
 typedef struct {
   bool present;
-  double
-      lower; /* N: below it no equilibrium exists while the cords are drawn in (friction pyramids round the cones), proved by the
-                power balance of the mechanism `velocity`, and within a thousandth of the least such pull; 0 if none is needed */
-  double upper; /* N: at it an equilibrium exists (pyramids inside the cones), 0 if not computed, INFINITY if none was found. The
-                   structure stands by itself if this is 0 too */
+  double lower;   /* N: below it no equilibrium exists while the cords are drawn in (friction pyramids round the cones, or cones),
+                     proved by the   power balance of the mechanism `velocity`, and within a thousandth of the least such pull; 0 if
+                     none is needed */
+  double upper;   /* N: at it an equilibrium exists (pyramids inside the cones, or cones), 0 if not computed, INFINITY if none was
+                     found. The   structure stands by itself if this is 0 too */
   int first_bead; /* that moves fastest in the collapse mechanism just below lower; -1 if lower is 0 */
   double
       residual; /* fastest closing of a contact in the mechanism, whose fastest bead moves with 1: how exactly lower is proved */

@@ -18,6 +18,17 @@ static void point_velocity(const thr_blocks *s, int bead, const double (*velocit
     out[k] += velocity[bead][k];
 }
 
+/* Least power of a force of the contact, whose beads part so. */
+static double power(const thr_blocks *s, const thr_contact *c, const double apart[3])
+{
+  double least = INFINITY;
+  if (s->round)
+    return thr_dot(c->axis[0], apart) - thr_blocks_friction(s, c) * hypot(thr_dot(c->axis[1], apart), thr_dot(c->axis[2], apart));
+  for (int e = 0; e < s->b->rays; e++)
+    least = fmin(least, thr_dot(c->ray[e], apart));
+  return least;
+}
+
 double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6])
 {
   double least = INFINITY;
@@ -30,8 +41,7 @@ double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6])
       for (int k = 0; k < 3; k++)
         apart[k] -= back[k];
     }
-    for (int e = 0; e < s->b->rays; e++)
-      least = fmin(least, thr_dot(c->ray[e], apart));
+    least = fmin(least, power(s, c, apart));
   }
   return least;
 }

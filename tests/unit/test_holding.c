@@ -791,6 +791,60 @@ START_TEST(rough_cords_are_never_hopeless)
 }
 END_TEST
 
+/* Beyond 1,000 beads friction is that of cones: both bounds lie between those of pyramids of many rays, and near each other. */
+START_TEST(cones_lie_between_pyramids)
+{
+  enum { SIDE = 32 };
+  thr_draft draft = {0};
+  thr_frame dome;
+  thr_read_report report;
+  thr_make_options make = thr_make_options_default(THR_MAKE_DOME);
+  thr_eval_options o = thr_eval_options_default();
+  make.size = SIDE;
+  ck_assert_int_eq(thr_make(&draft, &make, NULL), THR_OK);
+  ck_assert_int_eq(thr_draft_build(&draft, -1, &dome, &report, NULL), THR_OK);
+  thr_plan p = threading_make(&dome, SIDE, THREAD_LINES);
+  thr_eval e[2];
+  thr_err err;
+  o.dynamics = false;
+  for (int k = 0; k < 2; k++) {
+    o.rays = k ? 16 : 0;
+    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k], &err) == THR_OK, "%s",
+                  err.text);
+  }
+  const thr_holding *cones[] = {&e[0].holding, &e[0].loosest}, *pyramids[] = {&e[1].holding, &e[1].loosest};
+  for (int k = 0; k < 2; k++) {
+    ck_assert(cones[k]->residual < 1e-12 && cones[k]->lower <= cones[k]->upper && cones[k]->upper < 1.001 * cones[k]->lower);
+    ck_assert(cones[k]->lower > 0.999 * pyramids[k]->lower && cones[k]->upper < 1.001 * pyramids[k]->upper);
+    ck_assert(cones[k]->upper - cones[k]->lower < 0.3 * (pyramids[k]->upper - pyramids[k]->lower));
+  }
+  thr_eval_destroy(&e[0]);
+  thr_eval_destroy(&e[1]);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
+/* Without friction between beads this one does not stand: told so, or not decided, but never that it does. */
+START_TEST(large_domes_need_friction)
+{
+  thr_draft draft = {0};
+  thr_frame dome;
+  thr_read_report report;
+  thr_make_options make = thr_make_options_default(THR_MAKE_DOME);
+  thr_eval_options o = thr_eval_options_default();
+  make.size = 32;
+  ck_assert_int_eq(thr_make(&draft, &make, NULL), THR_OK);
+  ck_assert_int_eq(thr_draft_build(&draft, -1, &dome, &report, NULL), THR_OK);
+  thr_plan p = threading_make(&dome, 32, THREAD_LINES);
+  thr_eval e;
+  o.dynamics = false;
+  o.physics.mu_bead = 0;
+  const thr_status st = thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, NULL);
+  ck_assert(st == THR_EINFEASIBLE || st == THR_ESOLVER);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 /* Large enough that rounding leaves a gap between bound and equilibrium: the bound is then given, not withheld. */
 START_TEST(large_domes_are_decided)
 {
@@ -879,6 +933,8 @@ int main(void)
   ADD_TEST(s, 10, same_bits_again);
   ADD_LARGE(s, 60, straight_lines_pull_least, 0, 1);
   ADD_LARGE(s, 60, rough_cords_are_never_hopeless, 0, 3);
+  ADD_LARGE(s, 60, cones_lie_between_pyramids, 0, 1);
+  ADD_LARGE(s, 60, large_domes_need_friction, 0, 1);
   ADD_LARGE(s, 60, large_domes_are_decided, THREAD_LINES, THREAD_SNAKE);
   ADD_TEST(s, 20, too_rough_is_unknown);
   ADD_TEST(s, 20, what_stands_has_no_forces);

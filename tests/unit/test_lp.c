@@ -3,6 +3,7 @@
 #include "tests/frameworks.h"
 #include "graph/framework/cuttree.h"
 #include "lp/solver/bundles.h"
+#include "lp/solver/cones.h"
 #include "lp/solver/interior.h"
 #include "graph/limits.h"
 #include "lp/solver/lp.h"
@@ -639,6 +640,65 @@ START_TEST(cones_stand_for_their_rays)
 }
 END_TEST
 
+/* A pair that is complementary in a cone: one of them within it and the other 0, or both on its boundary. */
+static void complementary(rng *r, double x[3], double z[3])
+{
+  const double angle = 6.28 * rng_unit(r), size = 0.5 + rng_unit(r), other = 0.5 + rng_unit(r);
+  const int kind = rng_below(r, 3);
+  const double boundary[3] = {1, cos(angle), sin(angle)};
+  for (int k = 0; k < 3; k++) {
+    const double mirrored = k > 0 ? -boundary[k] : 1, within = k > 0 ? 0.7 * boundary[k] : 1;
+    x[k] = kind == 0 ? size * boundary[k] : kind == 1 ? size * within : 0;
+    z[k] = kind == 0 ? other * mirrored : kind == 1 ? 0 : other * within;
+  }
+}
+
+/* Made round a point and multipliers that prove each other optimal: x and z complementary, b = A x, c = A^T y + z. */
+START_TEST(cones_find_a_planted_optimum)
+{
+  enum { CONES = 9, REST = 6, ROWS = 8, N = 3 * CONES + REST };
+  rng r = rng_make((uint64_t)_i + 5);
+  int start[N + 1] = {0}, row[N * ROWS];
+  double value[N * ROWS], x[N], z[N], y[ROWS], cost[N], rhs[ROWS] = {0}, begin[N] = {0}, found_x[N], dual[ROWS];
+  for (int c = 0; c < CONES; c++) {
+    complementary(&r, x + 3 * c, z + 3 * c);
+    begin[3 * c] = 1;
+  }
+  for (int j = 3 * CONES; j < N; j++) {
+    x[j] = j % 2 ? 0 : 1 + rng_unit(&r);
+    z[j] = j % 2 ? 1 + rng_unit(&r) : 0;
+    begin[j] = 1;
+  }
+  for (int i = 0; i < ROWS; i++)
+    y[i] = 2 * rng_unit(&r) - 1;
+  for (int j = 0; j < N; j++) {
+    start[j + 1] = (j + 1) * ROWS;
+    cost[j] = z[j];
+    for (int i = 0; i < ROWS; i++) {
+      row[j * ROWS + i] = i;
+      value[j * ROWS + i] = 2 * rng_unit(&r) - 1;
+      rhs[i] += value[j * ROWS + i] * x[j];
+      cost[j] += value[j * ROWS + i] * y[i];
+    }
+  }
+  const thr_cone_equations e = {
+      .a = {ROWS, N, start, row, value}, .rhs = rhs, .cost = cost, .start = begin, .goal = 1e-7, .met = 1e-7, .n_cones = CONES};
+  thr_interior found = {.x = found_x, .dual = dual};
+  double wanted = 0, primal = 0, proved = 0;
+  ck_assert_int_eq(thr_cones_solve(&e, &no_limit, &found, NULL), THR_OK);
+  ck_assert_int_eq(found.outcome, THR_LP_OPTIMAL);
+  for (int j = 0; j < N; j++) {
+    wanted += cost[j] * x[j];
+    primal += cost[j] * found_x[j];
+    ck_assert(j >= 3 * CONES ? found_x[j] > 0 : j % 3 || found_x[j] > hypot(found_x[j + 1], found_x[j + 2]));
+  }
+  for (int i = 0; i < ROWS; i++)
+    proved += rhs[i] * dual[i];
+  ck_assert_double_eq_tol(primal, wanted, 1e-5 * (1 + fabs(wanted)));
+  ck_assert_double_eq_tol(proved, wanted, 1e-5 * (1 + fabs(wanted)));
+}
+END_TEST
+
 /* A unit of flow through layers of nodes, all equations, of which one depends on the others: the shortest way, layer by layer. */
 START_TEST(interior_finds_the_shortest_way)
 {
@@ -823,6 +883,7 @@ int main(void)
   ADD_LOOP(s, 10, columns_are_weighed_three_by_three, 0, 40);
   ADD_TEST(s, 10, dense_sums_are_right);
   ADD_LOOP(s, 10, cones_stand_for_their_rays, 0, 20);
+  ADD_LOOP(s, 10, cones_find_a_planted_optimum, 0, 20);
   ADD_LOOP(s, 10, interior_finds_the_optimum_it_was_made_from, 0, 40);
   ADD_LOOP(s, 10, interior_finds_the_shortest_way, 0, 20);
   ADD_TEST(s, 10, interior_gives_up_and_stops);
