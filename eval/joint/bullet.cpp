@@ -1,6 +1,7 @@
 /* Bullet 3.24 behind world.h: the only file that knows the library. */
 
 #include "eval/joint/world.h"
+#include "eval/joint/cones.h"
 #include "graph/status.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
@@ -82,13 +83,23 @@ private:
   double rest;
 };
 
-// Contacts as the limit analysis has them: the impulse of each lies in its friction cone, and what slides opens by mu times its
-// slide, so that a step is a convex problem with one answer (M. Anitescu & A. Tasora 2010): nothing moves where an equilibrium
-// exists. Bullet's own rows have a pyramid round the cone, begin every step without lateral impulses, and leave the torque of
-// forces out of them: firmly pressed faces creep. Here all impulses start from those of the last step, and iterations carry on
-// along the last ones' direction as long as they become smaller (M. Silcowitz, S. Niebe & K. Erleben 2010).
+// Contacts as the limit analysis has them (eval/joint/cones.h). Bullet's own rows have a pyramid round the cone, begin every step
+// without lateral impulses, and leave the torque of forces out of them; and what its iterations leave unsolved lets firmly pressed
+// faces creep. Here all impulses start from those of the last step.
 class Cones final : public btSequentialImpulseConstraintSolver
 {
+public:
+  thr_status begin(double slowest, thr_err *err)
+  {
+    still = slowest;
+    return thr_cones_create(&cones, err);
+  }
+
+  ~Cones() override { thr_cones_destroy(cones); }
+
+  // What went wrong in the last steps.
+  thr_status status(thr_err *err) const { return failed == THR_OK ? THR_OK : thr_fail(err, failed, "%s", why.text); }
+
 protected:
   btScalar solveGroupCacheFriendlySetup(btCollisionObject **bodies, int n_bodies, btPersistentManifold **manifolds,
                                         int n_manifolds, btTypedConstraint **joints, int n_joints, const btContactSolverInfo &info,
@@ -106,50 +117,61 @@ protected:
     return result;
   }
 
-  btScalar solveSingleIteration(int iteration, btCollisionObject **, int, btPersistentManifold **, int, btTypedConstraint **, int,
-                                const btContactSolverInfo &, btIDebugDraw *) override
+  // All of it in one.
+  btScalar solveSingleIteration(int, btCollisionObject **, int, btPersistentManifold **, int, btTypedConstraint **, int,
+                                const btContactSolverInfo &info, btIDebugDraw *) override
   {
     const int n = m_tmpSolverContactConstraintPool.size();
-    btScalar fastest = 0;
-    if (iteration == 0) begin(n);
+    if (n == 0 || failed != THR_OK) return 0;
+    number_bodies();
+    contacts.resizeNoInitialize(n);
     for (int i = 0; i < n; i++)
-      for (int k = 0; k < 3; k++) {
-        if (factor > 0) add(row(i, k), factor * direction[3 * i + k]);
-        before[3 * i + k] = row(i, k).m_appliedImpulse;
-      }
-    for (int i = 0; i < n; i++)
-      btSetMax(fastest, resolve(row(i, 0), row(i, 1), row(i, 2)));
-    carry_on(n, iteration == 0);
-    return fastest * fastest;
+      describe(i, contacts[i]);
+    failed = thr_cones_solve(cones, mass.size() / 2, reinterpret_cast<const double(*)[2]>(&mass[0]), n, &contacts[0], still,
+                             info.m_numIterations, &why);
+    for (int i = 0; i < n && failed == THR_OK; i++)
+      for (int k = 0; k < 3; k++)
+        add(row(i, k), contacts[i].impulse[k] - row(i, k).m_appliedImpulse);
+    return 0;
   }
 
 private:
-  btAlignedObjectArray<btScalar> direction, before; // three a contact
-  btScalar factor = 0, last = 0;
+  thr_cones *cones = nullptr;
+  double still = 0;
+  thr_status failed = THR_OK;
+  thr_err why = {};
+  btAlignedObjectArray<thr_cone_contact> contacts;
+  btAlignedObjectArray<int> number;  // of a solver body among those that move; -1
+  btAlignedObjectArray<double> mass; // and moment of inertia of each of these
 
-  void begin(int n)
+  void number_bodies()
   {
-    direction.resize(3 * n);
-    before.resize(3 * n);
-    for (int i = 0; i < 3 * n; i++)
-      direction[i] = 0;
-    factor = 0;
-    last = BT_LARGE_FLOAT;
+    number.resizeNoInitialize(m_tmpSolverBodyPool.size());
+    mass.resizeNoInitialize(0);
+    for (int i = 0; i < number.size(); i++) {
+      const btRigidBody *body = m_tmpSolverBodyPool[i].m_originalBody;
+      const bool moves = body && body->getInvMass() > 0;
+      number[i] = moves ? mass.size() / 2 : -1;
+      if (!moves) continue;
+      mass.push_back(1 / body->getInvMass());
+      mass.push_back(1 / body->getInvInertiaDiagLocal()[0]);
+    }
   }
 
-  // How the next iteration begins.
-  void carry_on(int n, bool first)
+  void describe(int i, thr_cone_contact &out)
   {
-    btScalar size = 0;
-    for (int i = 0; i < 3 * n; i++) {
-      before[i] = row(i / 3, i % 3).m_appliedImpulse - before[i]; // the step
-      size += before[i] * before[i];
+    out.mu = row(i, 1).m_friction;
+    out.body[0] = number[row(i, 0).m_solverBodyIdA];
+    out.body[1] = number[row(i, 0).m_solverBodyIdB];
+    for (int k = 0; k < 3; k++) {
+      const btSolverConstraint &from = row(i, k);
+      copy_out(from.m_contactNormal1, out.jacobian[k][0]);
+      copy_out(from.m_relpos1CrossNormal, out.jacobian[k][0] + 3);
+      copy_out(from.m_contactNormal2, out.jacobian[k][1]);
+      copy_out(from.m_relpos2CrossNormal, out.jacobian[k][1] + 3);
+      out.target[k] = from.m_rhs / from.m_jacDiagABInv;
+      out.impulse[k] = from.m_appliedImpulse;
     }
-    const bool smaller = size <= last;
-    for (int i = 0; i < 3 * n; i++)
-      direction[i] = smaller ? factor * direction[i] + before[i] : 0;
-    factor = !smaller ? 0 : first ? 1 : last > 0 ? size / last : 0;
-    last = size;
   }
 
   // Normal or one of two lateral rows of a contact.
@@ -176,40 +198,12 @@ private:
     a.internalApplyImpulse(row.m_contactNormal1 * a.internalGetInvMass(), row.m_angularComponentA, impulse);
     b.internalApplyImpulse(row.m_contactNormal2 * b.internalGetInvMass(), row.m_angularComponentB, impulse);
   }
-
-  // The velocity that the row lacks.
-  btScalar missing(const btSolverConstraint &row)
-  {
-    const btSolverBody &a = m_tmpSolverBodyPool[row.m_solverBodyIdA], &b = m_tmpSolverBodyPool[row.m_solverBodyIdB];
-    const btScalar velocity =
-        row.m_contactNormal1.dot(a.getDeltaLinearVelocity()) + row.m_relpos1CrossNormal.dot(a.getDeltaAngularVelocity()) +
-        row.m_contactNormal2.dot(b.getDeltaLinearVelocity()) + row.m_relpos2CrossNormal.dot(b.getDeltaAngularVelocity());
-    return row.m_rhs / row.m_jacDiagABInv - velocity;
-  }
-
-  // To the nearest impulse in the cone; the change of velocity.
-  btScalar resolve(btSolverConstraint &normal, btSolverConstraint &u, btSolverConstraint &v)
-  {
-    const btScalar mu = u.m_friction, step = 3 / (1 / normal.m_jacDiagABInv + 1 / u.m_jacDiagABInv + 1 / v.m_jacDiagABInv),
-                   old[3] = {btScalar(normal.m_appliedImpulse), btScalar(u.m_appliedImpulse), btScalar(v.m_appliedImpulse)};
-    btScalar n = old[0] + step * missing(normal), x = old[1] + step * missing(u), y = old[2] + step * missing(v);
-    const btScalar lateral = btSqrt(x * x + y * y);
-    if (mu * lateral <= -n) {
-      n = x = y = 0;
-    } else if (lateral > mu * n) {
-      n = (n + mu * lateral) / (1 + mu * mu);
-      x *= mu * n / lateral;
-      y *= mu * n / lateral;
-    }
-    add(normal, n - old[0]);
-    add(u, x - old[1]);
-    add(v, y - old[2]);
-    return btMax(btFabs(n - old[0]), btMax(btFabs(x - old[1]), btFabs(y - old[2]))) / step;
-  }
 };
 
 // Boxes meet end to end: the four corners of the narrower one's end touch the plane of the other's. Bullet's own detector clips
 // one face against the other and keeps four points of up to eight, which need not be the corners, and drops them as faces open.
+// Corners that are off by less than TOUCH touch, no more and no less: rigid faces are never quite together at all four, and where
+// corners carry only once they have closed, something always moves.
 class Ends final : public btCollisionAlgorithm
 {
 public:
@@ -229,7 +223,7 @@ public:
     const End &narrow = swapped ? second : first, &wide = swapped ? first : second;
     for (int i = 0; i < 4; i++) {
       const btVector3 corner = narrow.corner(i);
-      const btScalar apart = (corner - wide.middle).dot(wide.normal);
+      const btScalar off = (corner - wide.middle).dot(wide.normal), apart = off - btMin(btMax(off, -TOUCH), TOUCH);
       if (!wide.covers(corner)) continue;
       result->addContactPoint(swapped ? -wide.normal : wide.normal, swapped ? corner : corner - apart * wide.normal, apart);
     }
@@ -252,7 +246,8 @@ public:
     }
   };
 
-  static constexpr double SKIN = 0.02; // by which shapes are longer at either end, so that open faces are still seen
+  static constexpr btScalar TOUCH = 1e-4; // 3 micrometres of pieces of 30 mm
+  static constexpr double SKIN = 0.02;    // by which shapes are longer at either end, so that open faces are still seen
 
 private:
   // The end of a box, along its own third axis, that looks to another box.
@@ -309,7 +304,6 @@ static void configure(btContactSolverInfo &info, const thr_world_options &o)
   if (o.erp >= 0) info.m_erp = o.erp;
   if (o.erp2 >= 0) info.m_erp2 = o.erp2;
   if (o.cfm >= 0) info.m_globalCfm = o.cfm;
-  info.m_linearSlop = o.slop;
   info.m_splitImpulse = o.split_impulse;
   info.m_solverMode = SOLVER_SIMD;
   if (o.warm_start || o.cones) info.m_solverMode |= SOLVER_USE_WARMSTARTING;
@@ -317,7 +311,8 @@ static void configure(btContactSolverInfo &info, const thr_world_options &o)
   info.m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING |
                        SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
   info.m_warmstartingFactor = 1;
-  info.m_leastSquaresResidualThreshold = o.still * o.still;
+  info.m_leastSquaresResidualThreshold = 0; // one iteration
+  info.m_minimumSolverBatchSize = 1 << 30;  // for all bodies
 }
 
 thr_status thr_world_create(thr_world **out, const thr_world_options *o, thr_err *err)
@@ -337,6 +332,11 @@ thr_status thr_world_create(thr_world **out, const thr_world_options *o, thr_err
   if (!w->dynamics) {
     thr_world_destroy(w);
     return thr_nomem(err);
+  }
+  thr_status s = o->cones ? static_cast<Cones *>(w->solver)->begin(o->still, err) : THR_OK;
+  if (s != THR_OK) {
+    thr_world_destroy(w);
+    return s;
   }
   w->dispatcher->registerCollisionCreateFunc(BOX_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &make_ends);
   w->dynamics->setGravity(vector_of(o->gravity));
@@ -543,7 +543,7 @@ thr_status thr_world_step(thr_world *w, thr_err *err)
     if (!std::isfinite(p[0] + p[1] + p[2]))
       return thr_fail(err, THR_ESOLVER, "the simulation diverged: choose a smaller time step or more iterations");
   }
-  return THR_OK;
+  return w->options.cones ? static_cast<const Cones *>(w->solver)->status(err) : THR_OK;
 }
 
 void thr_world_position(const thr_world *w, int body, double at[3])

@@ -13,14 +13,13 @@ typedef struct thr_world thr_world;
 
 typedef struct {
   double time_step; /* s */
-  int iterations;   /* of sequential impulse */
+  int iterations;   /* of sequential impulse; with cones: linear systems in a step, at most */
   double gravity[3];
   double erp, erp2, cfm; /* error reduction and constraint force mixing; negative = Bullet's default */
-  double slop;           /* allowed penetration (linear slop) */
   bool split_impulse;
   bool warm_start; /* of contacts; Bullet starts links from nothing */
   bool cones;      /* contacts have friction cones and start from all of the last step's impulses; for worlds without links */
-  double still;    /* with cones: a step's iterations end before their number when none changes a velocity by so much, m/s */
+  double still;    /* with cones: a step is solved when no velocity is wrong by so much, m/s */
 } thr_world_options;
 
 thr_status thr_world_create(thr_world **w, const thr_world_options *o, thr_err *err) THR_MUST_CHECK;
@@ -43,8 +42,8 @@ thr_status thr_world_add_hulls(thr_world *w, const thr_world_hulls *h, int *body
 
 /* A body of one or more boxes that meets only other such bodies, and there only boxes of the same tag: what is to touch is known
  * beforehand, and arms that cross inside a joint do not. Two boxes meet end to end along their own third axes, and touch at the
- * four corners of the narrower end. half: half sides; place: position and quaternion of each box in the body's frame (origin =
- * mass centre). The rest as above. */
+ * four corners of the narrower end, which may be off by 1e-4 m. half: half sides; place: position and quaternion of each box in
+ * the body's frame (origin = mass centre). The rest as above. */
 typedef struct {
   int n_boxes;
   const double (*half)[3];

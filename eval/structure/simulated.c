@@ -10,11 +10,9 @@
 
 /* A tenth of the usual erp: what pushes sunk faces apart shakes the others. */
 static const double TIME_STEP = 6e-3;
-static const int LEAST_ITERATIONS = 120;
-static const int ITERATIONS_PER_BEAD = 40; /* .. between a support and the bead farthest from one */
-static const double STILL = 1e-6; /* velocity at which a step's iterations end, at the usual number; a 16th at four times it */
+static const double SYSTEMS = 200; /* linear systems in a step, at most; some five are enough while a structure stands */
+static const double STILL = 1e-6;  /* velocity that may be wrong at the usual number; a 16th at four times it */
 static const double ERP = 0.01;
-static const double SLOP = 1e-5;        /* of an edge: faces sink in so far, so that they keep in touch */
 static const double DISORDER = 1e-5;    /* of an edge: initial displacements */
 static const double TILT_LENGTH = 0.35; /* of an edge: over which a cord between two holes out of line leans */
 static const int STEPS_PER_REPORT = 20;
@@ -187,57 +185,22 @@ static thr_status add_ground(thr_simulated *m, int foot, const thr_physics *phys
   return thr_world_add_boxes(m->world, &body, &ignored, err);
 }
 
-/* Edges between the supports and the bead farthest from them: what presses there is passed on bead by bead. */
-static thr_status depth(const thr_simulated *m, int *out, thr_err *err)
-{
-  int n = m->b->n_beads, last = 0, *queue = thr_calloc((size_t)n, sizeof *queue), *far = thr_calloc((size_t)n, sizeof *far);
-  *out = 0;
-  if (!queue || !far) {
-    free(queue);
-    free(far);
-    return thr_nomem(err);
-  }
-  for (int i = 0; i < m->b->n_feet; i++)
-    far[m->b->foot[i]] = 1;
-  for (int v = 0; v < n; v++) {
-    if (m->b->fixed[v]) far[v] = 1;
-    if (far[v]) queue[last++] = v;
-  }
-  for (int i = 0; i < last; i++)
-    for (int k = m->f->first[queue[i]]; k < m->f->first[queue[i] + 1]; k++) {
-      int w = thr_head(m->f, m->f->half[k]);
-      if (far[w]) continue;
-      far[w] = far[queue[i]] + 1;
-      queue[last++] = w;
-    }
-  if (last > 0) *out = far[queue[last - 1]] - 1;
-  free(queue);
-  free(far);
-  return THR_OK;
-}
-
 thr_status thr_simulated_build(thr_simulated *m, const thr_simulated_options *options, thr_err *err)
 {
   const thr_physics *physics = m->physics;
-  int iterations;
   thr_world_destroy(m->world);
   m->world = NULL;
   m->dt = TIME_STEP * options->time_step;
   m->steps = 0;
   m->lift = 0;
   m->leans = false;
-  thr_status s = depth(m, &iterations, err);
-  if (s != THR_OK) return s;
-  iterations *= ITERATIONS_PER_BEAD;
-  if (iterations < LEAST_ITERATIONS) iterations = LEAST_ITERATIONS;
   const double *down = m->b->down, gravity = physics->gravity > 0 ? 1 : 0;
   thr_world_options world_options = {.time_step = m->dt,
-                                     .iterations = (int)ceil(options->iterations * iterations),
+                                     .iterations = (int)ceil(options->iterations * SYSTEMS),
                                      .gravity = {gravity * down[0], gravity * down[1], gravity * down[2]},
                                      .erp = -1,
                                      .erp2 = ERP,
                                      .cfm = -1,
-                                     .slop = SLOP,
                                      .cones = true,
                                      .still = STILL / (options->iterations * options->iterations)};
   int most = 1;
@@ -246,7 +209,7 @@ thr_status thr_simulated_build(thr_simulated *m, const thr_simulated_options *op
   boxes parts = {.half = thr_calloc((size_t)most, sizeof *parts.half),
                  .place = thr_calloc((size_t)most, sizeof *parts.place),
                  .tag = thr_calloc((size_t)most, sizeof *parts.tag)};
-  s = parts.half && parts.place && parts.tag ? thr_world_create(&m->world, &world_options, err) : thr_nomem(err);
+  thr_status s = parts.half && parts.place && parts.tag ? thr_world_create(&m->world, &world_options, err) : thr_nomem(err);
   uint64_t random = options->seed;
   for (int i = 0; s == THR_OK && i < m->b->n_feet; i++)
     s = add_ground(m, i, physics, err);

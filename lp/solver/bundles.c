@@ -47,20 +47,28 @@ static thr_status allocate(thr_bundles *b, const thr_columns *a, thr_err *err)
   return thr_scratch_check(&b->own, err);
 }
 
-static void fill(thr_bundles *b, const thr_columns *a)
+static void place(thr_bundles *b, const thr_columns *a)
 {
   size_t at = 0;
   for (int g = 0; g < b->n_bundles; g++) {
     const int j = b->column[g], high = rows_of(a, j), wide = b->column[g + 1] - j;
-    const double *value = a->value + a->start[j];
     b->at[g] = at;
     b->first[g + 1] = b->first[g] + high;
     memcpy(b->row + b->first[g], a->row + a->start[j], (size_t)high * sizeof *a->row);
+    at += (size_t)high * (size_t)wide;
+  }
+}
+
+void thr_bundles_refill(thr_bundles *b, const thr_columns *a)
+{
+  for (int g = 0; g < b->n_bundles; g++) {
+    const int j = b->column[g], high = rows_of(a, j), wide = b->column[g + 1] - j;
+    const double *value = a->value + a->start[j];
+    const size_t at = b->at[g];
     memcpy(b->value + at, value, (size_t)high * (size_t)wide * sizeof *value);
     for (int k = 0; k < wide; k++)
       for (int i = 0; i < high; i++)
         b->across[at + (size_t)i * (size_t)wide + (size_t)k] = value[(size_t)k * (size_t)high + (size_t)i];
-    at += (size_t)high * (size_t)wide;
   }
 }
 
@@ -71,10 +79,12 @@ thr_status thr_bundles_make(thr_bundles *b, const thr_columns *a, int n_alone, t
   thr_status st = thr_scratch_check(&b->own, err);
   if (!st) b->n_bundles = form_bundles(a, n_alone, b->column);
   if (!st) st = allocate(b, a, err);
-  if (!st)
-    fill(b, a);
-  else
+  if (st) {
     thr_bundles_destroy(b);
+    return st;
+  }
+  place(b, a);
+  thr_bundles_refill(b, a);
   return st;
 }
 

@@ -28,6 +28,8 @@ typedef struct {
 
 /* n_alone: no bundle goes past this many of the first columns. The columns are not needed any more then. */
 thr_status thr_bundles_make(thr_bundles *b, const thr_columns *a, int n_alone, thr_err *err) THR_MUST_CHECK;
+/* Other values in the same places. */
+void thr_bundles_refill(thr_bundles *b, const thr_columns *a);
 void thr_bundles_destroy(thr_bundles *b);
 
 void thr_bundles_times(const thr_bundles *b, const double *x, double *y);      /* y = A x */

@@ -19,6 +19,9 @@ typedef struct thr_normal thr_normal;
 thr_status thr_normal_create(thr_normal **normal, const thr_columns *a, int n_threes, thr_err *err) THR_MUST_CHECK;
 void thr_normal_destroy(thr_normal *normal);
 
+/* Other values in the same places of A. Rows that depended on others are still taken to. */
+void thr_normal_refill(thr_normal *normal, const thr_columns *a);
+
 /* Factors for positive weights: six numbers for each three columns (xx xy xz yy yz zz), one for each of the rest. The first ones,
  * which must be near each other, tell which rows depend on others: those get no part in any solution. */
 void thr_normal_factor(thr_normal *normal, const double *weights);

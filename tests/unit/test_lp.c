@@ -420,8 +420,8 @@ static void assert_solves(thr_normal *normal, int m, double dense[64][64], const
   }
 }
 
-/* Against the dense matrix, factored with weights of several sizes; what is asked for has a solution, though rows may depend on
- * each other. */
+/* Against the dense matrix, factored with other values and with weights of several sizes; what is asked for has a solution,
+ * though rows may depend on each other. */
 START_TEST(normal_equations_are_solved)
 {
   rng r = rng_make((uint64_t)_i + 500);
@@ -432,6 +432,9 @@ START_TEST(normal_equations_are_solved)
   ck_assert_int_eq(thr_normal_create(&normal, &a, 0, NULL), THR_OK);
   for (int round = 0; round < 3; round++) {
     double weight[400], dense[64][64];
+    for (int k = 0; k < p.start[p.n] && round > 0; k++)
+      p.value[k] = rng_unit(&r) + 0.1;
+    thr_normal_refill(normal, &a);
     for (int j = 0; j < p.n; j++)
       weight[j] = (0.1 + rng_unit(&r)) * pow(1e12, round - 1);
     weigh(&p, weight, dense);
