@@ -111,7 +111,10 @@ def section(rows):
         seconds = "%.0f" % (sum(float(row[-1]) for row in of) / len(of))
         lines.append("| " + " | ".join([name, of[0][1], of[0][2], of[0][3], str(len(of)), str(len(told)), *spread, seconds, "ok" if ok else "OUTSIDE"]) + " |")
     told = sum(row[6] == "fell" for row in rows)
-    lines += ["", "%d runs, %d told, %d not settled." % (len(rows), told, len(rows) - told), ""]
+    silent = ["%s, seed %s, step %s" % (row[0], row[4], row[5]) for row in rows if row[6] != "fell"]
+    whole = [name for name, of in plans.items() if len({(row[4], row[5]) for row in of}) >= 20]
+    lines += ["", "%d runs, %d told, %d not settled%s. %d of %d plans went through 10 seeds and 2 time steps or more." % (
+        len(rows), told, len(silent), ": " * bool(silent) + "; ".join(silent), len(whole), len(plans)), ""]
     return "\n".join(lines)
 
 

@@ -60,8 +60,7 @@ void thr_settle_judge(thr_settle *settle, double least, double equilibrium);
  * half a unit; it began to when that was a tenth as much. NEVER_SETTLED: a bead moved by a twentieth of an edge at the start.
  * What does not count is tried once more with four times the linear systems and a 16th of the velocity that may be wrong. Same
  * input and seed, same bits on one machine. Some 1,500 steps of five linear systems: 49 beads 4 s, 400 beads
- * two minutes. THR_EINPUT for
- * options out of range, THR_ELIMIT when stopped, both with out empty. */
+ * two minutes. THR_EINPUT for options out of range, THR_ELIMIT when stopped, both with out empty. */
 thr_status thr_settle_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord, int n_cords,
                           const double *const *tension, const double *const *most, const thr_physics *physics,
                           const thr_settle_options *options, const thr_limits *limits, thr_settle *out,
