@@ -1,7 +1,7 @@
 /* Bullet 3.24 behind world.h: the only file that knows the library. */
 
 #include "eval/joint/world.h"
-#include "eval/joint/cones.h"
+#include "eval/joint/contacts.h"
 #include "graph/status.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
@@ -83,7 +83,7 @@ private:
   double rest;
 };
 
-// Contacts as the limit analysis has them (eval/joint/cones.h). Bullet's own rows have a pyramid round the cone, begin every step
+// Contacts as the limit analysis has them (eval/joint/contacts.h). Bullet's own rows have a pyramid round the cone, begin every step
 // without lateral impulses, and leave the torque of forces out of them; and what its iterations leave unsolved lets firmly pressed
 // faces creep. Here all impulses start from those of the last step.
 class Cones final : public btSequentialImpulseConstraintSolver
@@ -92,10 +92,10 @@ public:
   thr_status begin(double slowest, thr_err *err)
   {
     still = slowest;
-    return thr_cones_create(&cones, err);
+    return thr_contacts_create(&cones, err);
   }
 
-  ~Cones() override { thr_cones_destroy(cones); }
+  ~Cones() override { thr_contacts_destroy(cones); }
 
   // What went wrong in the last steps.
   thr_status status(thr_err *err) const { return failed == THR_OK ? THR_OK : thr_fail(err, failed, "%s", why.text); }
@@ -127,7 +127,7 @@ protected:
     contacts.resizeNoInitialize(n);
     for (int i = 0; i < n; i++)
       describe(i, contacts[i]);
-    failed = thr_cones_solve(cones, mass.size() / 2, reinterpret_cast<const double(*)[2]>(&mass[0]), n, &contacts[0], still,
+    failed = thr_contacts_solve(cones, mass.size() / 2, reinterpret_cast<const double(*)[2]>(&mass[0]), n, &contacts[0], still,
                              info.m_numIterations, &why);
     for (int i = 0; i < n && failed == THR_OK; i++)
       for (int k = 0; k < 3; k++)
@@ -136,7 +136,7 @@ protected:
   }
 
 private:
-  thr_cones *cones = nullptr;
+  thr_contacts *cones = nullptr;
   double still = 0;
   thr_status failed = THR_OK;
   thr_err why = {};

@@ -10,8 +10,8 @@
  * that stands has no velocity, however hard its faces are pressed; iterations contact by contact leave some there.
  *
  * Example: a box of mass 1 that would fall at 0.06 within the step, on one contact: t = 0.06 upwards, the impulse is 0.06. */
-#ifndef THR_CONES_H
-#define THR_CONES_H
+#ifndef THR_CONTACTS_H
+#define THR_CONTACTS_H
 
 #ifdef __cplusplus
 extern "C" {
@@ -19,7 +19,7 @@ extern "C" {
 
 #include "graph/status.h"
 
-typedef struct thr_cones thr_cones;
+typedef struct thr_contacts thr_contacts;
 
 typedef struct {
   int body[2];              /* -1: what does not move */
@@ -29,13 +29,13 @@ typedef struct {
   double impulse[3]; /* to begin with; then the answer */
 } thr_cone_contact;
 
-thr_status thr_cones_create(thr_cones **cones, thr_err *err) THR_MUST_CHECK;
-void thr_cones_destroy(thr_cones *cones);
+thr_status thr_contacts_create(thr_contacts **cones, thr_err *err) THR_MUST_CHECK;
+void thr_contacts_destroy(thr_contacts *cones);
 
 /* mass[n_bodies]: mass and moment of inertia. No velocity is wrong by more than still, but after `most` linear systems it is what
  * it is. Faster when the same bodies touch as the last time. */
-thr_status thr_cones_solve(thr_cones *cones, int n_bodies, const double (*mass)[2], int n_contacts, thr_cone_contact *contact,
-                           double still, int most, thr_err *err) THR_MUST_CHECK;
+thr_status thr_contacts_solve(thr_contacts *cones, int n_bodies, const double (*mass)[2], int n_contacts,
+                              thr_cone_contact *contact, double still, int most, thr_err *err) THR_MUST_CHECK;
 
 #ifdef __cplusplus
 }

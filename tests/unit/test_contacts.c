@@ -1,6 +1,6 @@
-/* One step of bodies in contact, eval/joint/cones.h: what statics and the law of sliding say of boxes; and of bodies thrown
+/* One step of bodies in contact, eval/joint/contacts.h: what statics and the law of sliding say of boxes; and of bodies thrown
  * together at random that the answer meets the conditions that only the best one meets (the problem is convex). */
-#include "eval/joint/cones.h"
+#include "eval/joint/contacts.h"
 #include "tests/support.h"
 
 #include <math.h>
@@ -20,11 +20,11 @@ static thr_cone_contact on_ground(const double velocity[3], double mu)
 
 static void solve(int n_bodies, const double (*mass)[2], int n_contacts, thr_cone_contact *contact)
 {
-  thr_cones *cones;
+  thr_contacts *cones;
   thr_err err = {0};
-  ck_assert_int_eq(thr_cones_create(&cones, &err), THR_OK);
-  ck_assert_msg(thr_cones_solve(cones, n_bodies, mass, n_contacts, contact, 1e-12, 1000, &err) == THR_OK, "%s", err.text);
-  thr_cones_destroy(cones);
+  ck_assert_int_eq(thr_contacts_create(&cones, &err), THR_OK);
+  ck_assert_msg(thr_contacts_solve(cones, n_bodies, mass, n_contacts, contact, 1e-12, 1000, &err) == THR_OK, "%s", err.text);
+  thr_contacts_destroy(cones);
 }
 
 START_TEST(what_lies_within_its_cone_stops)
@@ -126,14 +126,14 @@ static void assert_best(const double mass[BODIES][2], const thr_cone_contact *co
 START_TEST(the_answer_is_the_best)
 {
   rng r = rng_make((uint64_t)_i + 70);
-  thr_cones *cones;
-  ck_assert_int_eq(thr_cones_create(&cones, NULL), THR_OK);
+  thr_contacts *cones;
+  ck_assert_int_eq(thr_contacts_create(&cones, NULL), THR_OK);
   for (int round = 0; round < 3; round++) {
     double mass[BODIES][2];
     thr_cone_contact contact[CONTACTS];
     throw_together(&r, mass, contact);
     for (int pass = 0; pass < 2; pass++) {
-      ck_assert_int_eq(thr_cones_solve(cones, BODIES, (const double(*)[2])mass, CONTACTS, contact, 1e-11, 1000, NULL), THR_OK);
+      ck_assert_int_eq(thr_contacts_solve(cones, BODIES, (const double(*)[2])mass, CONTACTS, contact, 1e-11, 1000, NULL), THR_OK);
       assert_best((const double(*)[2])mass, contact);
       for (int i = 0; i < CONTACTS; i++)
         for (int k = 0; k < 3; k++) {
@@ -142,13 +142,13 @@ START_TEST(the_answer_is_the_best)
         }
     }
   }
-  thr_cones_destroy(cones);
+  thr_contacts_destroy(cones);
 }
 END_TEST
 
 int main(void)
 {
-  Suite *s = suite_create("cones");
+  Suite *s = suite_create("contacts");
   ADD_TEST(s, 10, what_lies_within_its_cone_stops);
   ADD_TEST(s, 10, what_slides_opens_by_mu_times_its_slide);
   ADD_TEST(s, 10, what_goes_away_is_let_go);

@@ -1,5 +1,5 @@
 /* Augmented Lagrangian outside, Newton's method with an exact line search inside. */
-#include "eval/joint/cones.h"
+#include "eval/joint/contacts.h"
 #include "graph/scratch.h"
 #include "lp/solver/bundles.h"
 #include "lp/solver/normal.h"
@@ -14,7 +14,7 @@ static const double STIFF = 1e4;
 
 /* The matrix has three columns for each contact, J^T, and then the unit of each of a body's six rows: J^T W J + M are normal
  * equations (lp/solver/normal.h). */
-struct thr_cones {
+struct thr_contacts {
   int n_bodies, n_contacts, n_columns;
   int (*body)[2]; /* [n_contacts] */
   int *start, *row;
@@ -34,20 +34,20 @@ struct thr_cones {
   thr_scratch own;
 };
 
-thr_status thr_cones_create(thr_cones **cones, thr_err *err)
+thr_status thr_contacts_create(thr_contacts **cones, thr_err *err)
 {
   *cones = thr_calloc(1, sizeof **cones);
   return *cones ? THR_OK : thr_nomem(err);
 }
 
-static void empty(thr_cones *c)
+static void empty(thr_contacts *c)
 {
   thr_normal_destroy(c->normal);
   thr_scratch_free(&c->own);
-  *c = (thr_cones){0};
+  *c = (thr_contacts){0};
 }
 
-void thr_cones_destroy(thr_cones *cones)
+void thr_contacts_destroy(thr_contacts *cones)
 {
   if (!cones) return;
   empty(cones);
@@ -56,7 +56,7 @@ void thr_cones_destroy(thr_cones *cones)
 
 /* ---- the matrix ---- */
 
-static bool same_pattern(const thr_cones *c, int n_bodies, int n_contacts, const thr_cone_contact *contact)
+static bool same_pattern(const thr_contacts *c, int n_bodies, int n_contacts, const thr_cone_contact *contact)
 {
   if (!c->normal || c->n_bodies != n_bodies || c->n_contacts != n_contacts) return false;
   for (int i = 0; i < n_contacts; i++)
@@ -64,7 +64,7 @@ static bool same_pattern(const thr_cones *c, int n_bodies, int n_contacts, const
   return true;
 }
 
-static void fill_values(thr_cones *c, const thr_cone_contact *contact)
+static void fill_values(thr_contacts *c, const thr_cone_contact *contact)
 {
   double *value = c->value;
   for (int i = 0; i < c->n_contacts; i++)
@@ -76,7 +76,7 @@ static void fill_values(thr_cones *c, const thr_cone_contact *contact)
     *value++ = 1;
 }
 
-static void fill_rows(thr_cones *c, const thr_cone_contact *contact)
+static void fill_rows(thr_contacts *c, const thr_cone_contact *contact)
 {
   int column = 0, at = 0;
   for (int i = 0; i < c->n_contacts; i++) {
@@ -94,12 +94,12 @@ static void fill_rows(thr_cones *c, const thr_cone_contact *contact)
   }
 }
 
-static thr_columns matrix(const thr_cones *c)
+static thr_columns matrix(const thr_contacts *c)
 {
   return (thr_columns){6 * c->n_bodies, c->n_columns, c->start, c->row, c->value};
 }
 
-static thr_status renew(thr_cones *c, int n_bodies, int n_contacts, const thr_cone_contact *contact, thr_err *err)
+static thr_status renew(thr_contacts *c, int n_bodies, int n_contacts, const thr_cone_contact *contact, thr_err *err)
 {
   empty(c);
   const size_t n = 6 * (size_t)n_bodies, m = 3 * (size_t)n_contacts, entries = 12 * m + n;
@@ -155,7 +155,7 @@ static void project(const double y[3], double mu, double p[3], double w[6])
 }
 
 /* Impulses at the change + step x direction, into found; weights if asked for. */
-static void respond(thr_cones *c, double step, bool weigh)
+static void respond(thr_contacts *c, double step, bool weigh)
 {
   for (int i = 0; i < c->n_contacts; i++) {
     double y[3];
@@ -167,13 +167,13 @@ static void respond(thr_cones *c, double step, bool weigh)
   }
 }
 
-static double mass_of(const thr_cones *c, int row)
+static double mass_of(const thr_contacts *c, int row)
 {
   return c->mass[row / 6][row % 6 >= 3];
 }
 
 /* J d - t, of contacts. */
-static void measure(thr_cones *c)
+static void measure(thr_contacts *c)
 {
   thr_bundles_transposed(thr_normal_bundles(c->normal), c->change, c->lack);
   for (int j = 0; j < 3 * c->n_contacts; j++)
@@ -181,7 +181,7 @@ static void measure(thr_cones *c)
 }
 
 /* The energy's slope along the direction, at so much of it; it only grows. */
-static double slope_at(thr_cones *c, double step)
+static double slope_at(thr_contacts *c, double step)
 {
   double sum = 0;
   respond(c, step, false);
@@ -193,7 +193,7 @@ static double slope_at(thr_cones *c, double step)
 }
 
 /* Where the slope is nothing, nearly: by regula falsi (Illinois). */
-static double line_search(thr_cones *c)
+static double line_search(thr_contacts *c)
 {
   const double first = slope_at(c, 0), enough = 0.01 * fabs(first);
   double low = 0, high = 1, at_low = first, at_high = slope_at(c, 1);
@@ -225,7 +225,7 @@ static double line_search(thr_cones *c)
 /* ---- steps ---- */
 
 /* The energy's slope, downwards; the largest velocity that it stands for. */
-static double downwards(thr_cones *c)
+static double downwards(thr_contacts *c)
 {
   double most = 0;
   for (int j = 0; j < 6 * c->n_bodies; j++)
@@ -237,7 +237,7 @@ static double downwards(thr_cones *c)
 }
 
 /* One linear system, from weights and slope. */
-static void newton(thr_cones *c)
+static void newton(thr_contacts *c)
 {
   for (int j = 0; j < 6 * c->n_bodies; j++)
     c->weight[6 * c->n_contacts + j] = mass_of(c, j);
@@ -250,7 +250,7 @@ static void newton(thr_cones *c)
 }
 
 /* The multipliers become what was found; how fast contacts moved against that. */
-static double take(thr_cones *c)
+static double take(thr_contacts *c)
 {
   double most = 0;
   for (int j = 0; j < 3 * c->n_contacts; j++) {
@@ -261,7 +261,7 @@ static double take(thr_cones *c)
 }
 
 /* STIFF times the contacts' mean effective mass. */
-static double stiffness(const thr_cones *c)
+static double stiffness(const thr_contacts *c)
 {
   double sum = 0;
   for (int i = 0; i < c->n_contacts; i++) {
@@ -276,7 +276,7 @@ static double stiffness(const thr_cones *c)
   return STIFF * sum / c->n_contacts;
 }
 
-static thr_status set_up(thr_cones *c, int n_bodies, int n_contacts, const thr_cone_contact *contact, thr_err *err)
+static thr_status set_up(thr_contacts *c, int n_bodies, int n_contacts, const thr_cone_contact *contact, thr_err *err)
 {
   if (!same_pattern(c, n_bodies, n_contacts, contact)) return renew(c, n_bodies, n_contacts, contact, err);
   fill_values(c, contact);
@@ -286,7 +286,7 @@ static thr_status set_up(thr_cones *c, int n_bodies, int n_contacts, const thr_c
 }
 
 /* Impulses as they would be if they went on as from the step before the last, and what they change. */
-static void begin(thr_cones *c)
+static void begin(thr_contacts *c)
 {
   const int n = 3 * c->n_contacts;
   for (int j = 0; j < n; j++) {
@@ -301,8 +301,8 @@ static void begin(thr_cones *c)
     c->change[j] = c->slope[j] / mass_of(c, j);
 }
 
-thr_status thr_cones_solve(thr_cones *c, int n_bodies, const double (*mass)[2], int n_contacts, thr_cone_contact *contact,
-                           double still, int most, thr_err *err)
+thr_status thr_contacts_solve(thr_contacts *c, int n_bodies, const double (*mass)[2], int n_contacts, thr_cone_contact *contact,
+                              double still, int most, thr_err *err)
 {
   thr_status st = n_contacts > 0 ? set_up(c, n_bodies, n_contacts, contact, err) : THR_OK;
   if (st || n_contacts == 0) return st;
