@@ -138,9 +138,16 @@ const rgb = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
 // Where the middle of a solid piece of the plan is on the page.
 async function middleOf(page, plan, node) {
   const at = plan.framework.nodes[node], canvas = await page.locator('#canvas').boundingBox();
-  const p = await page.evaluate((point) => {
-    const {project, nodes} = window.threadViewer;
-    return project(nodes[0].clone().set(...point));
+  const p = await page.evaluate(async (point) => { // once the camera has come to rest
+    const {project, nodes} = window.threadViewer, where = () => project(nodes[0].clone().set(...point));
+    const frame = () => new Promise((done) => requestAnimationFrame(done));
+    let before = null, now = where();
+    while (!before || now.x !== before.x || now.y !== before.y) {
+      before = now;
+      for (let i = 0; i < 3; i++) await frame();
+      now = where();
+    }
+    return now;
   }, at);
   return {x: canvas.x + p.x, y: canvas.y + p.y};
 }
