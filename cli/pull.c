@@ -117,6 +117,7 @@ bool pull_option(pull_args *a, const char *command, int option, const char *valu
     return true;
   case OPTION_PULL_NO_CACHE: a->no_cache = true; return true;
   case OPTION_PULL_NO_DYNAMICS: options->dynamics = false; return true;
+  case OPTION_PULL_DYNAMICS: options->large = true; return true;
   case OPTION_PULL_JSON: a->json = true; return true;
   default: return false;
   }
@@ -130,6 +131,8 @@ int pull_check(const pull_args *a, const char *command)
   if (a->options.law != THR_LAW_CAPSTAN && !closed) return cli_usage(command, "--law is for --method capstan");
   if (a->options.start > 0 && !structure) return cli_usage(command, "--start needs --method structure");
   if (!a->options.dynamics && !structure) return cli_usage(command, "--no-dynamics needs --method structure");
+  if (a->options.large && !structure) return cli_usage(command, "--dynamics needs --method structure");
+  if (a->options.large && !a->options.dynamics) return cli_usage(command, "--dynamics and --no-dynamics exclude each other");
   if (a->options.start > 0 && !a->options.dynamics)
     return cli_usage(command, "--start is of the simulation that --no-dynamics leaves out");
   return EXIT_OK;

@@ -19,6 +19,7 @@ enum {
   OPTION_PULL_CACHE,
   OPTION_PULL_NO_CACHE,
   OPTION_PULL_NO_DYNAMICS,
+  OPTION_PULL_DYNAMICS,
   OPTION_PULL_START,
   OPTION_PULL_JSON,
   OPTION_PULL_FREE
@@ -34,7 +35,8 @@ enum {
       {"pull", required_argument, NULL, OPTION_PULL_END}, {"seed", required_argument, NULL, OPTION_PULL_SEED},                   \
       {"time-step", required_argument, NULL, OPTION_PULL_TIME_STEP},                                                             \
       {"iterations", required_argument, NULL, OPTION_PULL_ITERATIONS},                                                           \
-      {"no-dynamics", no_argument, NULL, OPTION_PULL_NO_DYNAMICS}, {"start", required_argument, NULL, OPTION_PULL_START},        \
+      {"no-dynamics", no_argument, NULL, OPTION_PULL_NO_DYNAMICS}, {"dynamics", no_argument, NULL, OPTION_PULL_DYNAMICS},        \
+      {"start", required_argument, NULL, OPTION_PULL_START},                                                                     \
   {                                                                                                                              \
     "json", no_argument, NULL, OPTION_PULL_JSON                                                                                  \
   }
@@ -49,7 +51,8 @@ enum {
   "      --iterations X   factor on its validated iterations, 0.1 to 100 (default: 1)\n"                                         \
   "      --start N        structure: pull in newton at which the simulation begins (default: 1.3 x the " START ")\n"             \
   "      --no-dynamics    structure: limit analysis only, no simulation (of up to\n"                                             \
-  "                       400 pieces; seconds, beyond 100 minutes)\n" PULL_RUN_HELP GUARD_HELP
+  "                       400 pieces; seconds, beyond 100 minutes)\n"                                                            \
+  "      --dynamics       structure: simulate up to 1,000 pieces (a quarter of an hour)\n" PULL_RUN_HELP GUARD_HELP
 
 enum { PULL_ALL_METHODS = THR_N_METHODS };
 

@@ -38,6 +38,7 @@ typedef struct {
   bool clamped;  /* method structure: feet are held in place; else they stand on the ground */
   double hand;   /* N, methods capstan and joint: 0, or the largest pull of a schedule with the fewest grips, which is made */
   bool dynamics; /* method structure: confirm by Bullet (true) or limit analysis only */
+  bool large;    /* .. also where that takes many minutes: up to thr_settle_largest(true) beads */
   bool erect;    /* method structure, with dynamics: simulate how it comes up from slack */
 } thr_eval_options;
 

@@ -568,8 +568,10 @@ static int settle(const pull_args *a, entry *e, int n)
   thr_err err = {0};
   int count = 0, *plan = thr_calloc((size_t)n, sizeof *plan);
   thr_status st = plan ? THR_OK : thr_nomem(&err);
-  bool large = e[0].plan.frame.n_nodes > thr_settle_largest;
-  if (large) cli_note("note: no simulation of the structure: it has more than %d beads", thr_settle_largest);
+  bool large = e[0].plan.frame.n_nodes > thr_settle_largest(a->options.large);
+  if (large)
+    cli_note("note: no simulation of the structure: it has more than %d beads%s", thr_settle_largest(a->options.large),
+             a->options.large ? "" : "; --dynamics takes more");
   for (int i = 0; i < n && plan && !large; i++) {
     double pull = compare_largest(&e[i], THR_STRUCTURE);
     if (pull > 0) plan[count++] = i;

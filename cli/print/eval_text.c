@@ -237,6 +237,12 @@ static void put_fall(thr_text *text, const thr_plan *plan, const thr_settle *set
                   plan->frame.name[settle->first_bead], settle->gap_before, settle->gap_after);
 }
 
+static void put_too_large(thr_text *text)
+{
+  thr_text_printf(text, "simulation     left out: more than %d beads (with --dynamics up to %d)\n", thr_settle_largest(false),
+                  thr_settle_largest(true));
+}
+
 /* Newtons, or why there are none. */
 static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *settle, bool after)
 {
@@ -245,7 +251,7 @@ static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *s
   case THR_SETTLE_HELD:
     thr_text_printf(text, "simulation     stands until the pull is gone; widest gap %.3g mm\n", settle->gap_before);
     break;
-  case THR_SETTLE_TOO_LARGE: thr_text_printf(text, "simulation     left out: more than %d beads\n", thr_settle_largest); break;
+  case THR_SETTLE_TOO_LARGE: put_too_large(text); break;
   case THR_SETTLE_NEVER_SETTLED:
     thr_text_append(text,
                     "simulation     not settled: it never came to rest under the pull at its start. Nothing is known of the\n"
@@ -337,8 +343,8 @@ static void put_structure(thr_text *text, const eval_view *view, const thr_plan 
   if (!view->simulated) return;
   if (eval->settle.present)
     put_settle(text, plan, &eval->settle, eval->after.present);
-  else if (plan->frame.n_nodes > thr_settle_largest)
-    thr_text_printf(text, "simulation     left out: more than %d beads\n", thr_settle_largest);
+  else if (plan->frame.n_nodes > thr_settle_largest(false))
+    put_too_large(text);
   else if (view->stopped)
     thr_text_append(text, "simulation     stopped: not known\n");
   if (!eval->erect.present) return;

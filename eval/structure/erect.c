@@ -120,7 +120,7 @@ thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const t
   if (!(options->pull > 0 && options->pull <= 1e12))
     return thr_fail(err, THR_EINPUT, "structure: a pull of %g N draws nothing up: give more than 0 and at most 1e12",
                     options->pull);
-  if (beads->n_beads > thr_settle_largest) return THR_OK;
+  if (beads->n_beads > thr_settle_largest(false)) return THR_OK;
   thr_simulated m = {
       .b = beads, .f = frame, .physics = physics, .limits = limits, .cord = cord, .n_cords = n_cords, .tension = tension};
   out->present = true;

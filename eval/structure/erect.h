@@ -45,7 +45,7 @@ typedef struct {
 /* tension: N, of a pull of 1 N. It comes up if no face opens by a fiftieth of an edge and nine tenths of the drawn height are
  * there, when the counterweight is gone. Stills are those of the least counterweight that does it, or of the largest. Same input
  * and seed, same bits on one machine. At most five runs of some 4,000 steps: 49 beads half a minute. THR_EINPUT for a pull that
- * is not positive, THR_ELIMIT when stopped, both with out empty; above thr_settle_largest beads not present. */
+ * is not positive, THR_ELIMIT when stopped, both with out empty; above thr_settle_largest(false) beads not present. */
 thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord, int n_cords,
                          const double *const *tension, const thr_physics *physics, const thr_erect_options *options,
                          const thr_limits *limits, thr_erect *out, thr_err *err) THR_MUST_CHECK;

@@ -5,7 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-const int thr_settle_largest = 400;
+int thr_settle_largest(bool large)
+{
+  return large ? 1000 : 400;
+}
 
 /* The protocol. */
 static const double SETTLE_TIME = 2;
@@ -167,7 +170,7 @@ thr_status thr_settle_run(const thr_beads *beads, const thr_frame *frame, const 
   thr_status s = check(options, start, err);
   if (s != THR_OK) return s;
   *out = (thr_settle){.present = true, .first_bead = -1, .n_beads = beads->n_beads, .status = THR_SETTLE_TOO_LARGE};
-  if (beads->n_beads > thr_settle_largest) return THR_OK;
+  if (beads->n_beads > thr_settle_largest(options->large)) return THR_OK;
   thr_simulated m = {.b = beads,
                      .f = frame,
                      .physics = physics,

@@ -21,6 +21,7 @@ typedef struct {
   double start;       /* N: pull at which the structure settles; 0 = 1.3 x equilibrium, or least where none was found */
   double time_step, iterations; /* factors on the protocol's, 1 */
   uint64_t seed;
+  bool large; /* thr_settle_largest */
 } thr_settle_options;
 
 typedef enum {
@@ -45,8 +46,8 @@ typedef struct {
                                        position as a quaternion (x y z w) of each bead, settled and after the fall; owned */
 } thr_settle;
 
-/* n_beads above it: status TOO_LARGE, nothing else. */
-extern const int thr_settle_largest;
+/* n_beads above it: status TOO_LARGE, nothing else; large: where it is asked for, and takes many minutes. */
+int thr_settle_largest(bool large);
 
 /* A fall counts if it is known to a twentieth and not more than a twentieth above a pull at which an equilibrium exists (CREPT
  * otherwise) or below the one below which none does (LATE). Without a proof (least 0) it need not be known so well. What does not

@@ -187,7 +187,8 @@ static thr_settle_options between(const thr_eval_options *options, double least,
                               .start = options->start,
                               .time_step = options->time_step,
                               .iterations = options->iterations,
-                              .seed = options->seed};
+                              .seed = options->seed,
+                              .large = options->large};
 }
 
 /* ---- states that friction keeps ---- */
@@ -554,7 +555,7 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_be
                       const thr_limits *limits, const double **tension, thr_eval *out, thr_err *err)
 {
   thr_evaluation *evaluation = &out->record;
-  const bool simulated = beads->n_beads <= thr_settle_largest && !options->load && options->dynamics;
+  const bool simulated = beads->n_beads <= thr_settle_largest(options->large) && !options->load && options->dynamics;
   questions q = {.frame = frame, .cord = cord, .beads = beads, .tension = tension, .out = out};
   out->band[0] = out->band[1] = NAN;
   thr_status st = profiles(frame, cord, evaluation->physics.mu, evaluation, tension, err);

@@ -323,7 +323,7 @@ END_TEST
 
 START_TEST(too_large_is_refused)
 {
-  row r = row_of(thr_settle_largest, 1, 0.002, ALONG_X, 1);
+  row r = row_of(thr_settle_largest(false), 1, 0.002, ALONG_X, 1);
   thr_settle_options o = open_options(1);
   thr_settle s = run(&r, &o);
   ck_assert_int_eq(s.status, THR_SETTLE_TOO_LARGE);
