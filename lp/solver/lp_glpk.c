@@ -472,6 +472,16 @@ typedef struct {
   int code;
 } integer_call;
 
+/* Where to branch is found by a row of the tableau for every fractional column, each of which takes all entries of the matrix. */
+static void spend_on_branching(const thr_limits *limits, glp_prob *p, glp_tree *tree)
+{
+  const double each = 3e-9; /* s for an entry */
+  int fractional = 0;
+  for (int j = 1; j <= glp_get_num_cols(p); j++)
+    fractional += glp_ios_can_branch(tree, j) != 0;
+  thr_limits_spend(limits, each * fractional * glp_get_num_nz(p));
+}
+
 /* At every step of the tree, which counts as a pivot too. */
 static void watch_tree(glp_tree *tree, void *call)
 {
@@ -479,6 +489,7 @@ static void watch_tree(glp_tree *tree, void *call)
   int pivots = glp_get_it_cnt(c->problem);
   spend(c->limits, c->problem, 1 + pivots - c->pivots);
   c->pivots = pivots;
+  if (glp_ios_reason(tree) == GLP_IBRANCH) spend_on_branching(c->limits, c->problem, tree);
   if (thr_limits_stop(c->limits)) glp_ios_terminate(tree);
 }
 

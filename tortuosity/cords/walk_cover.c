@@ -9,6 +9,7 @@
 #include "lp/model/pool.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,8 +23,10 @@ typedef struct {
 typedef struct {
   thr_walk_programme *p;
   thr_scratch own;
-  int most;     /* walks that a choice has room for */
-  double *left; /* [edge variables] passes that are missing; < 0: too many */
+  int most;                  /* walks that a choice has room for */
+  double *left;              /* [edge variables] passes that are missing; < 0: too many */
+  int words;                 /* 0, or if every edge needs just one pass, of a set of edges: */
+  uint64_t *edges, *missing; /* [walks][words] the edges of a walk; [words] those that lack their pass */
   choice now, try, best;
   uint64_t random;
 } cover;
@@ -64,9 +67,47 @@ static double serves(const cover *x, int walk, bool chosen)
   double sum = 0;
   for (int k = 0; k < row->n; k++) {
     const int j = row->column[k];
-    if (j < x->p->n_edges) sum += fmax(0, fmin(passes(row, k), x->left[j] + (chosen ? passes(row, k) : 0)));
+    if (j >= x->p->n_edges || (x->left[j] <= 0 && !chosen)) continue;
+    const double made = passes(row, k), missing = x->left[j] + (chosen ? made : 0);
+    if (missing > 0) sum += missing < made ? missing : made;
   }
   return sum;
+}
+
+/* The same of walks that are not chosen: by sets, where one pass of an edge is all that counts. */
+static double serves_now(const cover *x, int walk)
+{
+  const uint64_t *edges = x->edges + (size_t)walk * (size_t)x->words;
+  int sum = 0;
+  if (x->words == 0) return serves(x, walk, false);
+  for (int k = 0; k < x->words; k++)
+    sum += __builtin_popcountll(edges[k] & x->missing[k]);
+  return sum;
+}
+
+static void fill_missing(cover *x)
+{
+  for (int k = 0; k < x->words; k++)
+    x->missing[k] = 0;
+  for (int j = 0; j < x->p->n_edges && x->words > 0; j++)
+    if (x->left[j] > 0) x->missing[j / 64] |= UINT64_C(1) << j % 64;
+}
+
+static thr_status fill_edges(cover *x, thr_err *err)
+{
+  const thr_pool *walks = &x->p->walks;
+  for (int j = 0; j < x->p->n_edges; j++)
+    if (x->p->right[j] != 1) return THR_OK;
+  x->words = (x->p->n_edges + 63) / 64;
+  x->edges = thr_scratch_array(&x->own, (size_t)walks->count * (size_t)x->words, sizeof *x->edges);
+  x->missing = thr_scratch_array(&x->own, (size_t)x->words, sizeof *x->missing);
+  thr_status st = thr_scratch_check(&x->own, err);
+  for (int i = 0; i < walks->count && !st; i++)
+    for (int k = 0; k < walks->row[i].n; k++) {
+      const int j = walks->row[i].column[k];
+      if (j < x->p->n_edges) x->edges[(size_t)i * (size_t)x->words + (size_t)(j / 64)] |= UINT64_C(1) << j % 64;
+    }
+  return st;
 }
 
 /* The walk that serves most for its cost, which chance makes up to a part larger; -1: none serves. */
@@ -75,8 +116,9 @@ static int best_walk(cover *x)
   const double part = .3;
   double most = 0;
   int best = -1;
+  fill_missing(x);
   for (int i = 0; i < x->p->walks.count; i++) {
-    const double worth = serves(x, i, false) / cost_of(x, i) * (1 + part * thr_random_unit(&x->random));
+    const double worth = serves_now(x, i) / cost_of(x, i) * (1 + part * thr_random_unit(&x->random));
     if (worth > most) best = i;
     most = fmax(most, worth);
   }
@@ -167,6 +209,7 @@ thr_status thr_walk_cover(thr_walk_programme *p, thr_cord *cord, thr_err *err)
     all[i]->walk = thr_scratch_array(&x.own, (size_t)x.most + 1, sizeof *all[i]->walk);
   x.left = thr_scratch_array(&x.own, (size_t)p->n_edges, sizeof *x.left);
   thr_status st = thr_scratch_check(&x.own, err);
+  if (!st) st = fill_edges(&x, err);
   if (!st) search(&x);
   if (!st) st = replace(&x, cord, err);
   thr_scratch_free(&x.own);
