@@ -66,7 +66,7 @@ static thr_status make_lists(making *m, const thr_walk_memory *memory, int n, th
     m->offset[s + 1] = (int)places;
     m->first[s + 1] += m->first[s];
   }
-  for (int i = n; i-- > 0;) /* from the end of each list, which offset stands in for */
+  for (int i = n; i-- > 0;) /* each list is filled from its end, where first[s + 1] is */
     for (int k = 0; k < memory[i].n; k++)
       m->edge[--m->first[steps->place[memory[i].place[k]] + 1]] = memory[i].edge;
   for (int s = 0; s < steps->n_spots; s++)
@@ -94,6 +94,13 @@ static int set_after(const making *m, int before, int set, int edge, int spot)
   return after;
 }
 
+/* The set where a walk begins: with the first pass, if it is made there. */
+static int first_set(const making *m, const thr_walk_step *begin)
+{
+  const bool passed = !m->steps->closed || m->steps->n_homes > 0;
+  return passed ? set_after(m, -1, 0, begin->half >> 1, begin->to) : 0;
+}
+
 static void find_place(making *m, int spot, int set)
 {
   const int i = m->offset[spot] + set;
@@ -114,11 +121,8 @@ static thr_status find_places(making *m, thr_err *err)
   thr_status st = thr_scratch_check(&m->own, err);
   for (size_t i = 0; i < most && !st; i++)
     m->place[i] = -1;
-  const bool passed = !steps->closed || steps->n_homes > 0; /* the first pass is made where walks begin */
-  for (int k = 0; k < steps->n_begins && !st; k++) {
-    const thr_walk_step *begin = &steps->begin[k];
-    find_place(m, begin->to, passed ? set_after(m, -1, 0, begin->half >> 1, begin->to) : 0);
-  }
+  for (int k = 0; k < steps->n_begins && !st; k++)
+    find_place(m, steps->begin[k].to, first_set(m, &steps->begin[k]));
   for (int i = 0; i < m->n && !st; i++) {
     const int spot = m->at[i], set = m->queue[i] - m->offset[spot];
     m->n_steps += steps->first[spot + 1] - steps->first[spot];
@@ -163,11 +167,8 @@ static void copy_steps(const making *m, thr_walk_steps *to)
     }
   }
   to->first[to->n] = n;
-  const bool passed = !from->closed || from->n_homes > 0;
-  for (int k = 0; k < from->n_begins; k++) {
-    const int s = from->begin[k].to;
-    to->begin[k].to = m->place[m->offset[s] + (passed ? set_after(m, -1, 0, from->begin[k].half >> 1, s) : 0)];
-  }
+  for (int k = 0; k < from->n_begins; k++)
+    to->begin[k].to = m->place[m->offset[from->begin[k].to] + first_set(m, &from->begin[k])];
 }
 
 thr_status thr_walk_steps_remember(thr_walk_steps *steps, const thr_walk_memory *memory, int n, thr_err *err)

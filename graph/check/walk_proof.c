@@ -21,13 +21,18 @@ bool thr_walk_is_none(int64_t worth)
   return worth < lowest;
 }
 
+void thr_walk_memory_free(thr_walk_memory *memory, int n)
+{
+  for (int i = 0; memory && i < n; i++)
+    free(memory[i].place);
+  free(memory);
+}
+
 void thr_walk_proof_destroy(thr_walk_proof *proof)
 {
   free(proof->edge);
   free(proof->node);
-  for (int i = 0; i < proof->n_memories; i++)
-    free(proof->memory[i].place);
-  free(proof->memory);
+  thr_walk_memory_free(proof->memory, proof->n_memories);
   *proof = (thr_walk_proof){0};
 }
 

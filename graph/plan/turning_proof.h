@@ -215,6 +215,7 @@ typedef struct {
 } thr_turning_proof;
 
 void thr_walk_proof_destroy(thr_walk_proof *proof);
+void thr_walk_memory_free(thr_walk_memory *memory, int n); /* [n]; NULL ok */
 
 /* JSON of such prices, member "walks" of an object; all: what theirs of all cords together is called, "turning" or "length";
  * NULL: with a pull. Nothing is written where there are none. And back, as thr_turning_proof_from_json; value NULL: none. */

@@ -5,6 +5,7 @@
 #include "graph/scratch.h"
 #include "lp/solver/bundles.h"
 #include "lp/solver/normal.h"
+#include "lp/solver/sums.h"
 
 #include <float.h>
 #include <math.h>
@@ -57,22 +58,6 @@ static thr_status state_make(state *s, thr_err *err)
   if (!st) st = thr_normal_create(&s->normal, &s->e->a, s->n_cones, err);
   if (!st) s->a = thr_normal_bundles(s->normal);
   return st;
-}
-
-static double largest(const double *a, int n)
-{
-  double most = 0;
-  for (int i = 0; i < n; i++)
-    most = fmax(fabs(a[i]), most);
-  return most;
-}
-
-static double product(const double *a, const double *b, int n)
-{
-  double sum = 0;
-  for (int i = 0; i < n; i++)
-    sum += a[i] * b[i];
-  return sum;
 }
 
 /* ---- cones ---- */
@@ -163,7 +148,7 @@ static double missing(state *s, const double *p, const double *x)
   thr_bundles_times(s->a, x, s->rows);
   for (int i = 0; i < s->m; i++)
     s->rows[i] = p[i] - s->rows[i];
-  return largest(s->rows, s->m);
+  return thr_sums_largest(s->rows, s->m);
 }
 
 /* Makes up for what A dx lacks by conjugate gradients, the factors as preconditioner. */
@@ -175,12 +160,12 @@ static void make_up(state *s, double enough)
   memset(s->way, 0, (size_t)s->m * sizeof *s->way);
   for (int round = 0; round < ROUNDS && (round == 0 || left > enough); round++) {
     thr_normal_solve(s->normal, s->rows, s->rise);
-    const double now = product(s->rows, s->rise, s->m), share = now / before;
+    const double now = thr_sums_product(s->rows, s->rise, s->m), share = now / before;
     for (int i = 0; i < s->m; i++)
       s->way[i] = s->rise[i] + share * s->way[i];
     thr_bundles_transposed(s->a, s->way, s->force);
     apply(s, s->w, s->force, s->g);
-    const double power = product(s->g, s->g, s->n), far = now / power;
+    const double power = thr_sums_product(s->g, s->g, s->n), far = now / power;
     if (!(power > 0) || !(now > 0)) return; /* rounding leaves no such step */
     apply(s, s->w, s->g, s->g);
     for (int j = 0; j < s->n; j++) {
@@ -204,7 +189,7 @@ static void newton(state *s)
   for (int j = 0; j < s->n; j++)
     s->g[j] -= d->x[j];
   apply(s, s->w, s->g, d->x);
-  make_up(s, fmax(0.2 * s->e->met * largest(s->e->rhs, s->m), 0.1 * largest(s->p, s->m)));
+  make_up(s, fmax(0.2 * s->e->met * thr_sums_largest(s->e->rhs, s->m), 0.1 * thr_sums_largest(s->p, s->m)));
 }
 
 static double closeness(const state *s, double along_x, double along_z)
@@ -263,7 +248,7 @@ static void advance(state *s)
 static void start(state *s)
 {
   const double times = 10, *x = s->e->start;
-  const double target = times * fabs(product(s->e->cost, x, s->n)) / (s->n - 2 * s->n_cones);
+  const double target = times * fabs(thr_sums_product(s->e->cost, x, s->n)) / (s->n - 2 * s->n_cones);
   point *at = &s->at;
   int j = 0;
   memcpy(at->x, x, (size_t)s->n * sizeof *x);
@@ -289,13 +274,14 @@ static quality measure(state *s)
   const point *at = &s->at;
   const thr_cone_equations *e = s->e;
   memcpy(s->p, e->rhs, (size_t)s->m * sizeof *s->p);
-  const double missing_x = missing(s, s->p, at->x) / (DBL_MIN + largest(e->rhs, s->m));
+  const double missing_x = missing(s, s->p, at->x) / (DBL_MIN + thr_sums_largest(e->rhs, s->m));
   memcpy(s->p, s->rows, (size_t)s->m * sizeof *s->p);
   thr_bundles_transposed(s->a, at->y, s->q);
   for (int j = 0; j < s->n; j++)
     s->q[j] = e->cost[j] - at->z[j] - s->q[j];
-  const double primal = product(e->cost, at->x, s->n);
-  quality k = {.dual = product(e->rhs, at->y, s->m), .missing_z = largest(s->q, s->n) / (DBL_MIN + largest(e->cost, s->n))};
+  const double primal = thr_sums_product(e->cost, at->x, s->n);
+  quality k = {.dual = thr_sums_product(e->rhs, at->y, s->m),
+               .missing_z = thr_sums_largest(s->q, s->n) / (DBL_MIN + thr_sums_largest(e->cost, s->n))};
   const double gap = fabs(primal - k.dual) / (NOTHING + fmax(fabs(primal), fabs(k.dual)));
   k.error = fmax(gap, fmax(missing_x * e->goal / e->met, k.missing_z));
   return k;

@@ -4,6 +4,7 @@
 #include "lp/solver/interior.h"
 
 #include "lp/solver/rays.h"
+#include "lp/solver/sums.h"
 
 #include <float.h>
 #include <math.h>
@@ -81,22 +82,6 @@ static inline double smaller(double a, double b)
   return a < b ? a : b;
 }
 
-static double largest(const double *a, int n)
-{
-  double most = 0;
-  for (int i = 0; i < n; i++)
-    most = larger(fabs(a[i]), most);
-  return most;
-}
-
-static double product(const double *a, const double *b, int n)
-{
-  double sum = 0;
-  for (int i = 0; i < n; i++)
-    sum += a[i] * b[i];
-  return sum;
-}
-
 /* y = A x. */
 static void times(state *s, const double *x, double *y)
 {
@@ -124,7 +109,7 @@ static double missing(state *s, const double *p, const double *components)
   thr_bundles_times(s->a, components, s->rows);
   for (int i = 0; i < s->m; i++)
     s->rows[i] = (p ? p[i] : 0) - s->rows[i];
-  return largest(s->rows, s->m);
+  return thr_sums_largest(s->rows, s->m);
 }
 
 /* The next direction of conjugate gradients with the factors as the preconditioner (M. R. Hestenes & E. Stiefel, 1952), into
@@ -132,7 +117,7 @@ static double missing(state *s, const double *p, const double *components)
 static double turn(state *s, double before)
 {
   thr_normal_solve(s->normal, s->rows, s->rise);
-  const double now = product(s->rows, s->rise, s->m), share = now / before;
+  const double now = thr_sums_product(s->rows, s->rise, s->m), share = now / before;
   for (int i = 0; i < s->m; i++)
     s->way[i] = s->rise[i] + share * s->way[i];
   return now;
@@ -162,7 +147,7 @@ static void newton(state *s, const double *p, const double *q, const double *r, 
 {
   const point *at = &s->at;
   const double share = s->e->met > 0 ? 0.2 : 0.01; /* of what may be missing at last */
-  const double enough = fmax(share * s->goal / s->unmet * largest(s->e->rhs, s->m), 0.1 * largest(s->p, s->m));
+  const double enough = fmax(share * s->goal / s->unmet * thr_sums_largest(s->e->rhs, s->m), 0.1 * thr_sums_largest(s->p, s->m));
   memset(d->y, 0, (size_t)s->m * sizeof *d->y);
   for (int j = 0; j < s->n; j++) {
     d->z[j] = q ? q[j] : 0;
@@ -265,9 +250,9 @@ static quality measure(state *s)
   transposed(s, at->y, s->q);
   for (int j = 0; j < s->n; j++)
     s->q[j] = equations->cost[j] - at->z[j] - s->q[j];
-  quality k = {.primal = product(equations->cost, at->x, s->n), .dual = product(equations->rhs, at->y, s->m)};
-  k.missing[0] = largest(s->p, s->m) / (DBL_MIN + largest(equations->rhs, s->m));
-  k.missing[1] = largest(s->q, s->n) / (DBL_MIN + largest(equations->cost, s->n));
+  quality k = {.primal = thr_sums_product(equations->cost, at->x, s->n), .dual = thr_sums_product(equations->rhs, at->y, s->m)};
+  k.missing[0] = thr_sums_largest(s->p, s->m) / (DBL_MIN + thr_sums_largest(equations->rhs, s->m));
+  k.missing[1] = thr_sums_largest(s->q, s->n) / (DBL_MIN + thr_sums_largest(equations->cost, s->n));
   k.gap = fabs(k.primal - k.dual) / (NOTHING + fmax(fabs(k.primal), fabs(k.dual)));
   k.error = fmax(k.gap, fmax(k.missing[0] * s->unmet, k.missing[1]));
   return k;
@@ -288,7 +273,7 @@ static double predict_and_correct(state *s)
   for (int j = 0; j < s->n; j++)
     s->r[j] = -at->x[j] * at->z[j];
   newton(s, s->p, s->q, s->r, d);
-  double before = product(at->x, at->z, s->n) / s->n;
+  double before = thr_sums_product(at->x, at->z, s->n) / s->n;
   double after = closeness(s, reach(at->x, d->x, s->n), reach(at->z, d->z, s->n));
   double target = before * pow(after / before, 3);
   for (int j = 0; j < s->n; j++)
@@ -301,7 +286,7 @@ static double predict_and_correct(state *s)
 static double meet(state *s)
 {
   point *at = &s->at;
-  const double target = product(at->x, at->z, s->n) / s->n;
+  const double target = thr_sums_product(at->x, at->z, s->n) / s->n;
   for (int j = 0; j < s->n; j++)
     s->r[j] = target - at->x[j] * at->z[j];
   newton(s, s->p, s->q, s->r, &s->step);

@@ -23,13 +23,6 @@ static const double most_pull_steps = 12e7; /* with a pull */
 
 /* ---- lists ---- */
 
-void thr_walk_memory_free(thr_walk_memory *memory, int n)
-{
-  for (int i = 0; memory && i < n; i++)
-    free(memory[i].place);
-  free(memory);
-}
-
 /* *to: a copy, the caller's. */
 static thr_status copy_memory(const thr_walk_memory *from, int n, thr_walk_memory **to, thr_err *err)
 {

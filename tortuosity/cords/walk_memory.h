@@ -15,6 +15,4 @@ thr_status thr_walk_remember(thr_walk_programme *programme, bool *grown, thr_err
  * thr_walk_programme_init. */
 thr_status thr_walk_take_proof(thr_walk_programme *programme, thr_walk_proof *proof, thr_err *err) THR_MUST_CHECK;
 
-void thr_walk_memory_free(thr_walk_memory *memory, int n);
-
 #endif
