@@ -46,7 +46,8 @@ def run(program, frame, aim, ends, cords, limit):
         plan = os.path.join(folder, "plan.json")
         options = ["--objective", "tortuosity"] if aim == "turning" else ["--balance"]
         options += frame[1] + ([] if frame[2] else ["--feet", "lowest"])
-        options += ["--ends", ends, "--cords", str(cords), "--time-limit", str(limit), "-q", "-o", plan]
+        options += ["--ends", ends, "--cords", str(cords), "-q", "-o", plan]
+        options += ["--time-limit", str(limit)] if limit else []
         start = time.time()
         done = subprocess.run([program, "plan", frame[0], *options], capture_output=True, text=True, check=False)
         spent = time.time() - start

@@ -19,6 +19,7 @@ typedef struct {
    * at the same place on any machine, whatever else that does. Work is over when work_kept of it is left. One thread at a time.
    */
   double *work, work_kept;
+  bool brief; /* so little work is counted that cords are not annealed */
   /* called now and then with what is being done and the best value and proven bound so far (same unit) */
   void (*progress)(void *user, const char *what, double best, double bound);
   /* called by work whose amount is known beforehand, with the part that is done: 0 .. 1 */

@@ -163,6 +163,10 @@ static thr_status make(const thread_plan_options *o, const thr_frame *frame, thr
   thr_status st = read_wishes(o, frame, &wishes, err);
   if (!st && !o->request) wishes.time_limit = o->seconds < 0 ? thr_dispatch_usual_seconds(&wishes) : o->seconds;
   double seconds = st ? 0 : o->seconds < 0 ? wishes.time_limit : o->seconds;
+  double work = thr_dispatch_work(&wishes);
+  const bool unsaid = !st && o->seconds < 0 && seconds > 0;
+  if (unsaid) seconds *= thr_dispatch_patience(&wishes);
+  if (unsaid && work > 0) limits = thr_limits_counted(&limits, &work);
   if (seconds > 0) limits.deadline = thr_clock() + seconds;
   if (!st) st = thr_plan_make(frame, &wishes, &limits, plan, NULL, err);
   free(wishes.end_node);

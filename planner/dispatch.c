@@ -23,8 +23,8 @@ static const double part[THR_N_STEPS] = {
     [THR_STEP_COVERS] = 0.3,          [THR_STEP_DIFFERENT] = 0.4,
 };
 
-/* The same where work is counted, for steps whose part differs: nothing is annealed then, which would need time. */
-static const double part_of_work[THR_N_STEPS] = {[THR_STEP_SEED] = 0.25, [THR_STEP_LEAST] = 0.6, [THR_STEP_EXCHANGES] = 0.5};
+/* The same where little work is counted, for steps whose part differs: nothing is annealed then. */
+static const double part_if_brief[THR_N_STEPS] = {[THR_STEP_SEED] = 0.25, [THR_STEP_LEAST] = 0.6, [THR_STEP_EXCHANGES] = 0.5};
 
 /* Of all that a user allows. */
 static const double part_drawing = 0.15, part_checking = 0.05, part_compared = 0.5, most_after_search = 3; /* s */
@@ -56,7 +56,7 @@ thr_planner *thr_dispatch(const thr_request *options)
 
 thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step)
 {
-  return thr_limits_part(limits, limits->work && part_of_work[step] > 0 ? part_of_work[step] : part[step]);
+  return thr_limits_part(limits, limits->brief && part_if_brief[step] > 0 ? part_if_brief[step] : part[step]);
 }
 
 double thr_dispatch_usual_seconds(const thr_request *options)
@@ -65,10 +65,17 @@ double thr_dispatch_usual_seconds(const thr_request *options)
   return hard ? hard_seconds : objectives[row_of(options)].seconds;
 }
 
+double thr_dispatch_work(const thr_request *options)
+{
+  const double second = .45; /* of work that takes about a second */
+  const bool several = thr_dispatch(options) == thr_planner_turning && thr_wants_largest(options) && options->cords > 1;
+  return several && options->joint == THR_JOINT_SOLID ? second * options->time_limit : 0;
+}
+
 double thr_dispatch_patience(const thr_request *options)
 {
   const double busy = 10;
-  return thr_dispatch(options) == thr_planner_pull ? busy : 1;
+  return thr_dispatch(options) == thr_planner_pull || thr_dispatch_work(options) > 0 ? busy : 1;
 }
 
 double thr_dispatch_search_seconds(double seconds, bool drawn, bool compared)

@@ -48,6 +48,10 @@ thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step);
 /* Seconds for a plan if nobody says how many; 0 = any time. */
 double thr_dispatch_usual_seconds(const thr_request *options);
 
+/* Work that may be done, counted (graph/limits.h), for a plan of which nobody said how long it may take: it is then the same on
+ * any machine. 0: the time by the clock is what counts. */
+double thr_dispatch_work(const thr_request *options);
+
 /* How many times as long it may take on a busy machine: where the planner counts its work, only that ends it. */
 double thr_dispatch_patience(const thr_request *options);
 

@@ -201,7 +201,7 @@ static thr_status anneal(thr_plan *plan, const thr_turning_columns *columns, con
       .measure = THR_WALK_LENGTH, .steps = 6000000, .rounds = 2, .enough = plan->cords_claim.longest_bound * (1 + near)};
   thr_cord *cord = NULL;
   bool better = false;
-  if (limits->deadline == 0 || limits->work || plan->n_cords < 2 || plan->options.joint == THR_JOINT_TUBE ||
+  if (limits->deadline == 0 || limits->brief || plan->n_cords < 2 || plan->options.joint == THR_JOINT_TUBE ||
       plan->options.ends == THR_ENDS_COUNTS)
     return THR_OK;
   thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &cord, err);
@@ -256,7 +256,8 @@ thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr
   if (timed && by_sets > claim->longest_bound) rest.deadline -= again * (thr_clock() - start);
   const double before = claim->longest;
   const bool settled = by_sets >= before * (1 - 1e-9);
-  const thr_limits counted = unsaid ? thr_limits_counted(limits, &work) : rest;
+  thr_limits counted = unsaid ? thr_limits_counted(limits, &work) : rest;
+  counted.brief |= unsaid;
   if (!st && !settled) st = anneal(plan, &columns, &rest, err);
   for (int k = 0; k < columns.n_components && !st && improved && !settled && !claim->longest_optimal; k++) {
     st = improve(plan, &columns, &counted, &improved, err);

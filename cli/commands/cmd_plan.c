@@ -50,8 +50,8 @@ static const char help_requests[] =
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
     "                       an S that is given, and so do the drawings; else each search has its 20 s.\n"
-    "                       --max-pull without S counts its work instead: the same plan, later, on a busy "
-    "machine\n" GUARD_MEMORY_HELP "\n";
+    "                       Without S --max-pull, and several cords by their largest turning, count their work\n"
+    "                       instead: the same plan on every machine, later on a busy one\n" GUARD_MEMORY_HELP "\n";
 static const char help_rest[] = TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
                                              "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
                                              "\nFramework:\n" CLI_FRAME_HELP;
@@ -266,6 +266,15 @@ static int put_refused(thr_writer *writer, const arguments *a, thr_objective obj
   return EXIT_OK;
 }
 
+/* Time that nobody asked for is no limit on work that is counted. *work: what limits count with. */
+static thr_limits limits_for(const arguments *a, const thr_request *options, double seconds, double *work)
+{
+  const bool unsaid = a->guard.seconds < 0;
+  const thr_limits limits = cli_limits((unsaid ? thr_dispatch_patience(options) : 1) * seconds);
+  *work = thr_dispatch_work(options);
+  return unsaid && *work > 0 ? thr_limits_counted(&limits, work) : limits;
+}
+
 static int plan_and_put(thr_writer *writer, const arguments *a, thr_objective objective, const thr_plan *p, double deadline)
 {
   thr_err err = {0};
@@ -275,7 +284,8 @@ static int plan_and_put(thr_writer *writer, const arguments *a, thr_objective ob
   ask(a, objective, &options);
   const char *refused = cords_args_refused(&a->cords, &options);
   if (refused) return put_refused(writer, a, objective, refused);
-  thr_limits limits = cli_limits(options.time_limit);
+  double work;
+  thr_limits limits = limits_for(a, &options, options.time_limit, &work);
   if (deadline > 0) limits.deadline = deadline;
   thr_status st = thr_plan_make(&p->frame, &options, &limits, &other, NULL, &err);
   cli_progress_end();
@@ -553,12 +563,13 @@ static int write_outputs(const arguments *a, planned *x, int planned_code)
   return code || a->json || cli_quiet ? code : print_places(a, p, to.plan, drawn ? NULL : to.folder);
 }
 
-/* Time that nobody asked for is the search's alone, and no limit on work that is counted. */
+/* Time that nobody asked for is the search's alone. */
 static thr_status make_plan(const arguments *a, const thr_frame *framework, const thr_request *options, planned *x, thr_err *err)
 {
-  const double patience = a->guard.seconds < 0 ? thr_dispatch_patience(options) : 1;
-  if (a->guard.seconds < 0) guard_allow(options->time_limit > 0 ? 1 + 1.1 * patience * options->time_limit : 0);
-  thr_limits limits = cli_limits(patience * time_of_plan(a, options));
+  double work;
+  if (a->guard.seconds < 0)
+    guard_allow(options->time_limit > 0 ? 1 + 1.1 * thr_dispatch_patience(options) * options->time_limit : 0);
+  thr_limits limits = limits_for(a, options, time_of_plan(a, options), &work);
   best_begin(framework, options);
   limits.found = best_found;
   thr_status st = thr_plan_make(framework, options, &limits, &x->plan, &x->report, err);

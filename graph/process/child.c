@@ -65,6 +65,8 @@ static bool run_job(void *user, int fd)
   const thr_limits limits = {.deadline = t->limits->deadline,
                              .interrupted = &told_to_stop,
                              .work = t->limits->work ? &work : NULL,
+                             .work_kept = t->limits->work_kept,
+                             .brief = t->limits->brief,
                              .progress = t->limits->progress ? post_progress : NULL,
                              .advance = t->limits->advance ? post_advance : NULL,
                              .user = &to};

@@ -4,6 +4,7 @@
 #include "graph/plan/plan.h"
 
 #include <limits.h>
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 
@@ -250,5 +251,36 @@ thr_status thr_threads_run(int n_jobs, thr_threads_job *run, void *user, const t
   thr_status st = thr_team_create(&team, n_jobs, limits, err);
   if (!st) st = thr_team_share(team, n_jobs, run, user, err);
   thr_team_destroy(team);
+  return st;
+}
+
+/* ---- beside each other ---- */
+
+typedef struct {
+  thr_threads_job *run;
+  void *user;
+  double left[THR_BESIDE]; /* work of every job */
+} counted;
+
+static thr_status run_counted(void *user, int job, const thr_limits *limits, thr_err *err)
+{
+  counted *c = user;
+  const thr_limits own = thr_limits_counted(limits, &c->left[job]);
+  return c->run(c->user, job, &own, err);
+}
+
+thr_status thr_threads_beside(int n_jobs, thr_threads_job *run, void *user, const thr_limits *limits, thr_err *err)
+{
+  if (!limits->work) return thr_threads_run(n_jobs, run, user, limits, err);
+  counted c = {.run = run, .user = user};
+  thr_limits uncounted = *limits;
+  double least = *limits->work - limits->work_kept;
+  uncounted.work = NULL;
+  for (int i = 0; i < n_jobs; i++)
+    c.left[i] = least;
+  thr_status st = thr_threads_run(n_jobs, run_counted, &c, &uncounted, err);
+  for (int i = 0; i < n_jobs; i++)
+    least = fmin(least, c.left[i]);
+  *limits->work = limits->work_kept + least;
   return st;
 }

@@ -22,6 +22,12 @@ typedef thr_status thr_threads_job(void *user, int job, const thr_limits *limits
  * failed job of lowest number, the same whatever the number of threads. */
 thr_status thr_threads_run(int n_jobs, thr_threads_job *run, void *user, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
+/* The same of at most THR_BESIDE jobs, as if each had a processor of its own: where work is counted, each has all that is left,
+ * and as much is gone as took the one that took most. */
+enum { THR_BESIDE = 4 };
+thr_status thr_threads_beside(int n_jobs, thr_threads_job *run, void *user, const thr_limits *limits,
+                              thr_err *err) THR_MUST_CHECK;
+
 /* Threads that stay from run to run. */
 typedef struct thr_team thr_team;
 

@@ -238,6 +238,14 @@ START_TEST(time_is_shared_out)
   o.joint = THR_JOINT_TUBE;
   ck_assert_double_eq(thr_dispatch_usual_seconds(&o), 20);
   ck_assert_double_eq(thr_dispatch_search_seconds(10, false, true), 5);
+  ck_assert_double_eq(thr_dispatch_work(&o), 0);
+  o = thr_request_default();
+  o.aims = thr_aims_straightest;
+  ck_assert(thr_dispatch_work(&o) == 0 && thr_dispatch_patience(&o) == 1); /* one cord: the time counts */
+  o.aims = (thr_aims){1, {THR_AIM_MAX_TURNING}};
+  o.cords = o.cords_least = 4;
+  o.time_limit = 20;
+  ck_assert(thr_dispatch_work(&o) > 0 && thr_dispatch_work(&o) < 20 && thr_dispatch_patience(&o) > 1);
   ck_assert_double_lt(thr_dispatch_search_seconds(10, true, false), thr_dispatch_search_seconds(10, false, false));
   ck_assert_double_ge(thr_dispatch_search_seconds(1000, true, false), 997);
   for (int i = 0; i < THR_N_STEPS; i++) {

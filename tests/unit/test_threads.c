@@ -132,6 +132,36 @@ START_TEST(the_first_failure_is_told)
 }
 END_TEST
 
+/* Spends job + 1 s of its own, more than is left from the third job on. */
+static thr_status spend(void *user, int job, const thr_limits *limits, thr_err *err)
+{
+  jobs *j = user;
+  (void)err;
+  j->calls[job]++;
+  thr_limits_spend(limits, job + 1);
+  j->value[job] = thr_limits_left(limits, 1) > 0;
+  return THR_OK;
+}
+
+START_TEST(work_beside_each_other_is_that_of_the_longest)
+{
+  static const int threads[] = {0, 1, 2, 16, 1000};
+  jobs j = {.fails_from = N_JOBS};
+  double work = 12;
+  thr_limits limits = {.threads = threads[_i], .work = &work, .work_kept = 9.5};
+  ck_assert_int_eq(thr_threads_beside(2, spend, &j, &limits, NULL), THR_OK);
+  ck_assert_double_eq_tol(work, 10, 1e-12); /* 2 s of the second job */
+  ck_assert(j.value[0] == 1 && j.value[1] == 1);
+  work = 12;
+  ck_assert_int_eq(thr_threads_beside(3, spend, &j, &limits, NULL), THR_OK);
+  ck_assert_double_eq_tol(work, 9, 1e-12);
+  ck_assert(j.calls[0] == 2 && j.calls[1] == 2 && j.calls[2] == 1 && j.value[1] == 1 && j.value[2] == 0);
+  limits.work = NULL;
+  ck_assert_int_eq(thr_threads_beside(2, spend, &j, &limits, NULL), THR_OK);
+  ck_assert(j.calls[1] == 3 && work == 9);
+}
+END_TEST
+
 /* Where each job was last done: in the same thread every time. */
 typedef struct {
   pthread_t thread[N_JOBS];
@@ -266,6 +296,7 @@ int main(void)
   Suite *s = suite_create("threads");
   ADD_TEST(s, 120, two_threads_plan_as_one);
   ADD_EXAMPLES(s, 60, jobs_come_to_the_same, 5);
+  ADD_EXAMPLES(s, 60, work_beside_each_other_is_that_of_the_longest, 5);
   ADD_EXAMPLES(s, 60, the_first_failure_is_told, 5);
   ADD_EXAMPLES(s, 60, a_team_does_the_same_job_in_the_same_thread, 5);
   ADD_EXAMPLES(s, 60, a_team_shares_jobs, 5);

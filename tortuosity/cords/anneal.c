@@ -79,25 +79,39 @@ static thr_status take_cords(const thr_annealer *x, thr_cord *cord, thr_err *err
   return THR_OK;
 }
 
+static int passes_of(const thr_cord *cord, int n_cords)
+{
+  int passes = 0;
+  for (int i = 0; i < n_cords; i++)
+    passes += cord[i].n_passes;
+  return passes;
+}
+
+/* Seconds, counted or by the clock; 0: any. */
+static double left_of(const thr_limits *limits)
+{
+  return limits->work ? *limits->work - limits->work_kept : limits->deadline > 0 ? limits->deadline - thr_clock() : 0;
+}
+
 thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task, int number, const thr_limits *limits,
                           thr_cord *cord, int n_cords, bool *better, thr_err *err)
 {
   enum { CYCLES = 3, LOOK = 64 };
-  const double first_part = .15, last_part = .015, hot = number % 2 ? 2 : .5, cooling = .01, per_step = 1e-6 /* s */;
+  const double first_part = .15, last_part = .015, hot = number % 2 ? 2 : .5, cooling = .01;
   thr_annealer x;
   course at = {0};
   *better = false;
   thr_status st = thr_annealer_init(&x, columns, task->measure, cord, n_cords, err);
   if (!st) at.best = largest(&x);
   x.state = (uint64_t)number + 1;
-  const double from = limits->deadline > 0 ? thr_clock() : 0, seconds = limits->deadline > 0 ? limits->deadline - from : 0;
+  const double all = left_of(limits), per_step = 6e-8 + 5e-10 * passes_of(cord, n_cords) / n_cords; /* s, counted */
   for (int i = 0; i < task->steps && !st && at.best > task->enough; i++) {
     bool made;
     if (i % LOOK == 0) {
-      if (thr_limits_stop(limits)) break;
+      if (thr_limits_left(limits, 1) <= 0) break;
       thr_limits_spend(limits, LOOK * per_step);
       double done = (double)i / task->steps;
-      if (seconds > 0) done = fmax(done, (thr_clock() - from) / seconds);
+      if (all > 0) done = fmax(done, 1 - left_of(limits) / all);
       done = fmod(fmin(done, .999) * CYCLES, 1);
       at.part = at.best * first_part * pow(last_part / first_part, done);
       at.heat = hot * pow(cooling, done);
@@ -149,7 +163,7 @@ static thr_status run_round(runs *r, const thr_limits *limits, thr_cord *cord, b
   int best = -1;
   for (int k = 0; k < n && !st; k++)
     st = thr_cords_copy(cord, r->n_cords, &r->cord[k], err);
-  if (!st) st = thr_threads_run(n, run_one, r, limits, err);
+  if (!st) st = thr_threads_beside(n, run_one, r, limits, err);
   for (int k = 0; k < n && !st; k++)
     if (r->better[k] && (best < 0 || dearest(r, r->cord[k]) < dearest(r, r->cord[best]))) best = k;
   for (int i = 0; i < r->n_cords && best >= 0; i++) {

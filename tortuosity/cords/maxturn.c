@@ -376,13 +376,13 @@ static thr_anneal_task annealing(const search *x, int first, int rounds)
                            .steps = (int)fmin(MOST_STEPS, (double)STEPS * x->best.g.n_darts),
                            .first = first,
                            .rounds = rounds,
-                           .alone = x->limits->deadline > 0 && x->limits->threads < 2,
+                           .alone = !x->limits->work && x->limits->deadline > 0 && x->limits->threads < 2,
                            .enough = fmax(x->bound * (1 + near), x->enough)};
 }
 
 static bool may_anneal(const search *x, const thr_frame *frame, const thr_least *plan, const thr_anneal_task *task)
 {
-  return plan->n_cords >= 2 && !x->limits->work && !x->c->task->tube && !x->c->task->end_count &&
+  return plan->n_cords >= 2 && !x->limits->brief && !x->c->task->tube && !x->c->task->end_count &&
          largest_price(frame, plan) > task->enough;
 }
 
@@ -436,16 +436,16 @@ static thr_status do_one(void *user, int job, const thr_limits *limits, thr_err 
 static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
 {
   const double first = .2, most = .7; /* parts of the time */
-  const bool timed = x->limits->deadline > 0;
+  const bool timed = x->limits->deadline > 0 || x->limits->work;
   thr_status st = anneal_cords(x, frame, plan, first, 0, SHORT, err);
   const thr_cord *dearest = &plan->cord[thr_walk_dearest(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords)];
   beside b = {.x = x, .plan = plan, .task = annealing(x, SHORT, MANY)};
-  const bool both = timed && x->limits->threads > 1 && may_anneal(x, frame, plan, &b.task);
+  const bool both = timed && (x->limits->work || x->limits->threads > 1) && may_anneal(x, frame, plan, &b.task);
   const thr_limits share = both ? thr_limits_part(x->limits, most) : *x->limits;
   b.task.alone = true;
   b.least = x->bound_of[x->c->component[thr_tail(frame, dearest->half[0])]];
   if (!st && both) st = thr_cords_copy(plan->cord, plan->n_cords, &b.cooled, err);
-  if (!st) st = thr_threads_run(both ? 2 : 1, do_one, &b, &share, err);
+  if (!st) st = thr_threads_beside(both ? 2 : 1, do_one, &b, &share, err);
   if (!st && b.fell) st = consider(x, frame, plan, b.cooled, 0, err);
   for (int steps = 0; steps >= 0 && !st && b.better; steps = steps ? -1 : steps_of(x)) /* as they are, and evened out */
     st = consider(x, frame, plan, b.better, steps, err);

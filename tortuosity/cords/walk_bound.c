@@ -206,16 +206,16 @@ static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cord
   const thr_limits *limits = p->limits;
   const double largest = thr_walk_price(p->c, p->steps.measure, &cord[thr_walk_dearest(p->c, p->steps.measure, cord, n_cords)]);
   int open = 0;
-  const bool counted = limits->work; /* then that is the limit, and nothing is left for cords near others */
-  thr_limits share = counted ? *limits : thr_limits_part(limits, for_bound);
+  const bool brief = limits->brief; /* nothing is left for cords near others */
+  thr_limits share = brief ? *limits : thr_limits_part(limits, for_bound);
   p->limits = &share;
   thr_status st = enough > 0 ? try_limit(p, enough, made, bound, &open, err) : bisect(p, largest, false, made, bound, &open, err);
   if (!st && enough <= 0) st = bisect(p, largest, true, made, bound, &open, err);
   const bool wanted = (enough <= 0 || *bound <= enough) && !task->tube && !task->end_count;
-  if (!counted) share = thr_limits_part(limits, for_cords);
+  if (!brief) share = thr_limits_part(limits, for_cords);
   if (!st && wanted) st = look_for_cords(p, cord, n_cords, *bound, open, better, err);
-  if (!counted) share = thr_limits_part(limits, for_near);
-  if (!st && wanted && !counted) st = look_near(p, cord, n_cords, *bound, better, err);
+  if (!brief) share = thr_limits_part(limits, for_near);
+  if (!st && wanted && !brief) st = look_near(p, cord, n_cords, *bound, better, err);
   p->limits = limits;
   return st;
 }
