@@ -4,7 +4,7 @@
 bench/falls.py PROGRAM [--seeds 1,2,3] [--steps 1,0.5] [-j N] [--only REGEX] [--append FILE.md] [PLAN ..] > table.tsv
 bench/falls.py --read table.tsv .. --append FILE.md
 
-Every plan is simulated with every seed and every factor on the time step (`thread eval --method structure --json`); without PLANs
+Every plan is simulated with every seed and every factor on the time step (`thread eval --method structure --dynamics --json`); without PLANs
 those of PLANS below are made first. A line of the table: plan, beads, the pulls between which it must fall (below the first
 nothing holds it, at the second an equilibrium exists), seed, step, what came out, the fall and its error in newtons, the fall as a
 part of either pull, processor seconds. The last lines count. --append writes a summary, a row
@@ -35,6 +35,9 @@ PLANS = {  # name: (what to make, how to plan)
     "dome 10, straight": ("dome --size 10", TURNING + " --ends any --cords 20"),
     "dome 14, straight": ("dome --size 14", TURNING + " --ends any --cords 28"),
     "dome 20, straight": ("dome --size 20", TURNING + " --ends any --cords 40"),
+    "dome 31, 62 cords": ("dome --size 31", TURNING + " --ends any --cords 62"),
+    "dome 31, 60 cords": ("dome --size 31", TURNING + " --ends any --cords 60"),
+    "dome 31, 56 cords": ("dome --size 31", TURNING + " --ends any --cords 56"),
     "honeycomb 2": ("honeycomb --size 2", ""),
     "honeycomb 2, 8 cords": ("honeycomb --size 2", TURNING + " --ends any --cords 8"),
     "honeycomb 3": ("honeycomb --size 3", "--cords 4 --ends any"),
@@ -65,7 +68,7 @@ def make_plans(program, folder, only):
 
 def simulate(program, plan, seed, step):
     """What the program answers, and its processor seconds; None if it cannot say."""
-    command = [program, "eval", plan, "--method", "structure", "--json", "-q", "--seed", seed, "--time-step", step]
+    command = [program, "eval", plan, "--method", "structure", "--dynamics", "--json", "-q", "--seed", seed, "--time-step", step]
     with tempfile.TemporaryFile("w+") as out:
         process = subprocess.Popen(command, stdout=out, stderr=subprocess.DEVNULL)
         _, status, usage = os.wait4(process.pid, 0)

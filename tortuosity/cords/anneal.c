@@ -20,8 +20,16 @@
 
 typedef struct {
   double best;       /* largest total of the best cords */
-  double part, heat; /* of best: totals count as exp(total / part); of that sum a change may raise so much, more or less */
+  double part, heat; /* totals count as exp(total / part); of that sum a change may raise so much, more or less */
 } course;
+
+/* Part at the beginning of a cycle: about one turn, now and then some; of lengths so much of the longest. */
+static double first_part(thr_walk_measure measure, int number, double best)
+{
+  static const double turning[] = {.5, .5, 2}; /* rad */
+  const double of_length = .15;
+  return measure == THR_WALK_LENGTH ? of_length * best : turning[number / 2 % 3];
+}
 
 static double largest(const thr_annealer *x)
 {
@@ -97,7 +105,7 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
                           thr_cord *cord, int n_cords, bool *better, thr_err *err)
 {
   enum { CYCLES = 3, LOOK = 64 };
-  const double first_part = .15, last_part = .015, hot = number % 2 ? 2 : .5, cooling = .01;
+  const double narrowing = .1, hot = number % 2 ? 2 : .5, cooling = .01;
   thr_annealer x;
   course at = {0};
   *better = false;
@@ -113,7 +121,7 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
       double done = (double)i / task->steps;
       if (all > 0) done = fmax(done, 1 - left_of(limits) / all);
       done = fmod(fmin(done, .999) * CYCLES, 1);
-      at.part = at.best * first_part * pow(last_part / first_part, done);
+      at.part = first_part(task->measure, number, at.best) * pow(narrowing, done);
       at.heat = hot * pow(cooling, done);
     }
     st = step(&x, &at, &made, err);

@@ -258,18 +258,17 @@ thr_anneal_visit thr_anneal_visit_at(thr_annealer *x, int node)
   return x->visit[x->visit_first[node] + thr_random_below(&x->state, x->n_visits[node])];
 }
 
-thr_status thr_anneal_make(thr_annealer *x, const thr_anneal_change *change, thr_err *err)
+/* Counts the passes of a change in place of those of its cords; false, and nothing is counted, where edges would no longer keep
+ * to their covers and limits. */
+static bool exchange_passes(thr_annealer *x, const thr_anneal_change *change)
 {
   const thr_turning_columns *c = x->c;
   const double extra = x->extra;
   bool right = true;
-  thr_status st = THR_OK;
   for (int i = 0; i < change->n_cords; i++)
     add_passes(x, x->walk[change->cord[i]].half, x->walk[change->cord[i]].n, -1);
-  for (int i = 0; i < change->n_cords; i++) {
-    right &= change->n[i] > 0;
+  for (int i = 0; i < change->n_cords; i++)
     add_passes(x, x->made[i], change->n[i], 1);
-  }
   for (int i = 0; i < change->n_cords; i++) {
     const thr_anneal_walk *walk = &x->walk[change->cord[i]];
     for (int k = 0; k < walk->n; k++)
@@ -277,14 +276,22 @@ thr_status thr_anneal_make(thr_annealer *x, const thr_anneal_change *change, thr
     for (int k = 0; k < change->n[i]; k++)
       right &= x->passes[x->made[i][k] >> 1] <= c->most[x->made[i][k] >> 1];
   }
-  if (!right || (x->extra > x->most_extra && x->extra > extra)) {
-    for (int i = 0; i < change->n_cords; i++) {
-      add_passes(x, x->made[i], change->n[i], -1);
-      add_passes(x, x->walk[change->cord[i]].half, x->walk[change->cord[i]].n, 1);
-    }
-    x->extra = extra;
-    return THR_OK;
+  if (right && (x->extra <= x->most_extra || x->extra <= extra)) return true;
+  for (int i = 0; i < change->n_cords; i++) {
+    add_passes(x, x->made[i], change->n[i], -1);
+    add_passes(x, x->walk[change->cord[i]].half, x->walk[change->cord[i]].n, 1);
   }
+  x->extra = extra;
+  return false;
+}
+
+thr_status thr_anneal_make(thr_annealer *x, const thr_anneal_change *change, thr_err *err)
+{
+  bool right = true;
+  thr_status st = THR_OK;
+  for (int i = 0; i < change->n_cords; i++)
+    right &= change->n[i] > 0;
+  if (!right || (!change->exchange && !exchange_passes(x, change))) return THR_OK;
   for (int i = 0; i < change->n_cords; i++)
     forget_visits(x, &x->walk[change->cord[i]]);
   for (int i = 0; i < change->n_cords && !st; i++) {
