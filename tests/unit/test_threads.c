@@ -264,6 +264,33 @@ START_TEST(the_least_turning_does_not_depend_on_threads)
 }
 END_TEST
 
+/* Work ends the search for the cord that turns most, which anneals beside the programme over walks. */
+START_TEST(the_largest_turning_does_not_depend_on_threads)
+{
+  static const int threads[] = {1, 2, 16};
+  thr_text plan[3] = {{0}, {0}, {0}};
+  thr_frame f = shape_make(THR_MAKE_DOME, 5, 0);
+  for (int k = 0; k < 3; k++) {
+    thr_request o = thr_request_default();
+    thr_plan p;
+    double work = .5;
+    o.aims = (thr_aims){1, {THR_AIM_MAX_TURNING}};
+    o.ends = THR_ENDS_ANY;
+    o.cords = o.cords_least = 4;
+    const thr_limits limits = {.threads = threads[k], .work = &work, .deadline = thr_clock() + 1000};
+    ck_assert_int_eq(thr_plan_make(&f, &o, &limits, &p, NULL, NULL), THR_ELIMIT);
+    ck_assert_double_le(work, .01);
+    ck_assert(p.n_cords == 4 && p.turning.tree.walks.unit > 0);
+    thr_plan_write(&p, &plan[k]);
+    thr_plan_destroy(&p);
+    ck_assert_str_eq(plan[k].data, plan[0].data);
+  }
+  for (int k = 0; k < 3; k++)
+    thr_text_destroy(&plan[k]);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* The table of symmetries has its rows solved in threads. */
 START_TEST(symmetries_do_not_depend_on_threads)
 {
@@ -301,6 +328,7 @@ int main(void)
   ADD_EXAMPLES(s, 60, a_team_does_the_same_job_in_the_same_thread, 5);
   ADD_EXAMPLES(s, 60, a_team_shares_jobs, 5);
   ADD_EXAMPLES(s, 120, the_least_turning_does_not_depend_on_threads, 2);
+  ADD_TEST(s, 120, the_largest_turning_does_not_depend_on_threads);
   ADD_EXAMPLES(s, 60, symmetries_do_not_depend_on_threads, 4);
   return run_suite(s);
 }
