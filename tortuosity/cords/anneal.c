@@ -23,12 +23,14 @@ typedef struct {
   double part, heat; /* totals count as exp(total / part); of that sum a change may raise so much, more or less */
 } course;
 
-/* Part at the beginning of a cycle: about one turn, now and then some; of lengths so much of the longest. */
-static double first_part(thr_walk_measure measure, int number, double best)
+/* Part at the beginning of a cycle: a turn or some turns; less where passes are so many that a run has few steps for each. Of
+ * lengths so much of the longest. */
+static double first_part(thr_walk_measure measure, int number, int passes, double best)
 {
-  static const double turning[] = {.5, .5, 2}; /* rad */
+  enum { MANY = 300 };
+  static const double turning[2][3] = {{2, 2, .5}, {.5, .5, 2}}; /* rad */
   const double of_length = .15;
-  return measure == THR_WALK_LENGTH ? of_length * best : turning[number / 2 % 3];
+  return measure == THR_WALK_LENGTH ? of_length * best : turning[passes > MANY][number / 2 % 3];
 }
 
 static double largest(const thr_annealer *x)
@@ -112,7 +114,8 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
   thr_status st = thr_annealer_init(&x, columns, task->measure, cord, n_cords, err);
   if (!st) at.best = largest(&x);
   x.state = (uint64_t)number + 1;
-  const double all = left_of(limits), per_step = 6e-8 + 5e-10 * passes_of(cord, n_cords) / n_cords; /* s, counted */
+  const int passes = passes_of(cord, n_cords);
+  const double all = left_of(limits), per_step = 6e-8 + 5e-10 * passes / n_cords; /* s, counted */
   for (int i = 0; i < task->steps && !st && at.best > task->enough; i++) {
     bool made;
     if (i % LOOK == 0) {
@@ -121,7 +124,7 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
       double done = (double)i / task->steps;
       if (all > 0) done = fmax(done, 1 - left_of(limits) / all);
       done = fmod(fmin(done, .999) * CYCLES, 1);
-      at.part = first_part(task->measure, number, at.best) * pow(narrowing, done);
+      at.part = first_part(task->measure, number, passes, at.best) * pow(narrowing, done);
       at.heat = hot * pow(cooling, done);
     }
     st = step(&x, &at, &made, err);
