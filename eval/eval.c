@@ -116,6 +116,17 @@ static thr_status sum_up(const thr_frame *frame, const thr_cord *cord, thr_eval 
                   "all pulls together are past what a number can hold; use a smaller mu, or a plan with more cords");
 }
 
+/* All that is left where no pull holds. */
+static void keep_shape(thr_eval *eval)
+{
+  const thr_erect shape = eval->erect;
+  const thr_physics physics = eval->record.physics;
+  eval->erect = (thr_erect){0};
+  thr_eval_destroy(eval);
+  eval->erect = shape;
+  if (shape.present) eval->record.physics = physics;
+}
+
 thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cords, thr_method method,
                          const thr_eval_options *options, const thr_limits *limits, thr_eval *out, thr_err *err)
 {
@@ -137,7 +148,7 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
     st = sum_up(frame, cord, &eval, err);
   else if (st == THR_ELIMIT)
     (void)sum_up(frame, cord, &eval, NULL); /* what is complete stays, whatever it adds up to */
-  if (st && st != THR_ELIMIT) thr_eval_destroy(&eval);
+  if (st && st != THR_ELIMIT) keep_shape(&eval);
   *out = eval;
   return st;
 }

@@ -79,7 +79,7 @@ typedef struct {
   thr_carry after_carries; /* of the load, after a schedule; of first_bead -1 if that was not asked */
   thr_settle settle;       /* method structure: while being drawn in, after a schedule let down; none with a load, which it does
                               not know */
-  thr_erect erect;         /* if that was asked and a pull is needed */
+  thr_erect erect;         /* if that was asked and a pull is needed; where no pull holds all that is left, with record.physics */
 } thr_eval;
 
 /* Contract of each method: THR_EINPUT for absurd physics or an overflow (one line that says what to change); THR_ELIMIT when

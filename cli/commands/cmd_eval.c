@@ -422,6 +422,11 @@ int cmd_eval(int argc, char **argv)
       cli_note("note: %d %s measured, %d from the cache", eval.joints_measured,
                cli_plural(eval.joints_measured, "joint", "joints"), eval.joints_cached);
   }
+  if (code == EXIT_INFEASIBLE && eval.erect.present) {
+    plan.evaluation.physics = eval.record.physics;
+    const int written = write_stills(&plan, &eval.erect, false, a.stills);
+    if (written) code = written;
+  }
   if (code == EXIT_LIMIT) cli_error(known ? "stopped: only a part is known" : "stopped before any cord was known");
   thr_schedule_destroy(&schedule);
   free(load);

@@ -274,6 +274,51 @@ static void carry(thr_simulated *m)
   }
 }
 
+/* Where the lowest foot stands, upwards; far below where nothing stands on ground. */
+static double level_of_ground(const thr_simulated *m)
+{
+  double least = INFINITY;
+  for (int i = 0; i < m->b->n_feet; i++)
+    least = fmin(least, (m->b->centre[m->b->foot[i]][2] - 0.5 * m->b->width) / m->unit);
+  return isfinite(least) ? least : -INFINITY;
+}
+
+/* Ground under a corner of a bead that has sunk into it: a spring and a damper, weak enough for the time step, and friction that
+ * grows with the speed up to Coulomb's. share: of the bead's mass. */
+static void push_up(thr_simulated *m, int v, const double at[3], double depth, double share)
+{
+  const double stiff = 0.1 / (m->dt * m->dt), damping = 0.3 / m->dt;
+  double linear[3], angular[3], arm[3], moves[3], force[3] = {0};
+  thr_world_velocity(m->world, m->body[v], linear, angular);
+  for (int k = 0; k < 3; k++)
+    arm[k] = at[k] - m->now[v].at[k];
+  thr_cross(angular, arm, moves);
+  for (int k = 0; k < 3; k++)
+    moves[k] += linear[k];
+  force[2] = fmax(0, share * (stiff * depth - damping * moves[2]));
+  const double speed = hypot(moves[0], moves[1]), most = m->physics->mu_ground * force[2];
+  const double drag = fmin(share * damping, speed > 0 ? most / speed : 0);
+  force[0] = -drag * moves[0];
+  force[1] = -drag * moves[1];
+  thr_world_force_at(m->world, m->body[v], force, at);
+}
+
+/* What falls comes to lie on the ground, beads without feet, too. */
+static void lie_on_ground(thr_simulated *m)
+{
+  const double level = level_of_ground(m);
+  for (int v = 0; v < m->b->n_beads; v++) {
+    const int degree = thr_degree(m->f, v);
+    const double share = m->b->mass[v] / m->mass / (4 * degree);
+    for (int i = m->f->first[v]; i < m->f->first[v + 1] && !m->b->fixed[v]; i++)
+      for (int k = 0; k < 4; k++) {
+        double at[3];
+        carried(m, v, m->b->corner[m->f->half[i] >> 1][k], at);
+        if (at[2] < level) push_up(m, v, at, level - at[2], share);
+      }
+  }
+}
+
 thr_status thr_simulated_step(thr_simulated *m, thr_err *err)
 {
   if (m->steps % STEPS_PER_REPORT == 0) {
@@ -285,6 +330,7 @@ thr_status thr_simulated_step(thr_simulated *m, thr_err *err)
   set_press(m);
   pull_cords(m);
   if (m->lift > 0) carry(m);
+  if (m->leans) lie_on_ground(m);
   thr_status s = thr_world_step(m->world, err);
   if (s == THR_OK) look(m);
   return s;

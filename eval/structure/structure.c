@@ -550,6 +550,18 @@ static thr_status show(const questions *q, const thr_eval_options *options, cons
   return st;
 }
 
+/* What comes of it where no pull holds, drawn in as hard as it is heavy: a picture, without which there is one answer less. */
+static void show_fallen(const questions *q, const thr_eval_options *options, const thr_limits *limits)
+{
+  const thr_evaluation *record = &q->out->record;
+  const simulation m = {q->frame, q->cord, q->beads, &record->physics, record->n_cords, q->tension, NULL, between(options, 0, 0)};
+  thr_err why = {0};
+  double weight = 0;
+  for (int v = 0; v < q->beads->n_beads; v++)
+    if (!q->beads->fixed[v]) weight += q->beads->mass[v] * record->physics.gravity;
+  if (erect(&m, weight, limits, &q->out->erect, &why)) thr_erect_destroy(&q->out->erect);
+}
+
 /* The pull, then what is worth less than it, so that a stop leaves the most. All at once where nothing is simulated. */
 static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, const thr_eval_options *options,
                       const thr_limits *limits, const double **tension, thr_eval *out, thr_err *err)
@@ -562,6 +574,7 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_be
   ask(&q);
   if (!st) st = answer_up_to(&q, simulated ? 1 : q.n, limits, err);
   if (st && !out->holding.present) {
+    if (st == THR_EINFEASIBLE && simulated && options->erect) show_fallen(&q, options, limits);
     thr_holding_destroy(&out->loosest); /* of another thread */
     clear_record(evaluation);
     return st;
