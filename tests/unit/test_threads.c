@@ -147,18 +147,18 @@ START_TEST(work_beside_each_other_is_that_of_the_longest)
 {
   static const int threads[] = {0, 1, 2, 16, 1000};
   jobs j = {.fails_from = N_JOBS};
-  double work = 12;
-  thr_limits limits = {.threads = threads[_i], .work = &work, .work_kept = 9.5};
+  double left = 12;
+  thr_limits limits = {.threads = threads[_i], .work = &left, .work_kept = 9.5};
   ck_assert_int_eq(thr_threads_beside(2, spend, &j, &limits, NULL), THR_OK);
-  ck_assert_double_eq_tol(work, 10, 1e-12); /* 2 s of the second job */
+  ck_assert_double_eq_tol(left, 10, 1e-12); /* 2 s of the second job */
   ck_assert(j.value[0] == 1 && j.value[1] == 1);
-  work = 12;
+  left = 12;
   ck_assert_int_eq(thr_threads_beside(3, spend, &j, &limits, NULL), THR_OK);
-  ck_assert_double_eq_tol(work, 9, 1e-12);
+  ck_assert_double_eq_tol(left, 9, 1e-12);
   ck_assert(j.calls[0] == 2 && j.calls[1] == 2 && j.calls[2] == 1 && j.value[1] == 1 && j.value[2] == 0);
   limits.work = NULL;
   ck_assert_int_eq(thr_threads_beside(2, spend, &j, &limits, NULL), THR_OK);
-  ck_assert(j.calls[1] == 3 && work == 9);
+  ck_assert(j.calls[1] == 3 && left == 9);
 }
 END_TEST
 
@@ -273,13 +273,13 @@ START_TEST(the_largest_turning_does_not_depend_on_threads)
   for (int k = 0; k < 3; k++) {
     thr_request o = thr_request_default();
     thr_plan p;
-    double work = .5;
+    double left = .5;
     o.aims = (thr_aims){1, {THR_AIM_MAX_TURNING}};
     o.ends = THR_ENDS_ANY;
     o.cords = o.cords_least = 4;
-    const thr_limits limits = {.threads = threads[k], .work = &work, .deadline = thr_clock() + 1000};
+    const thr_limits limits = {.threads = threads[k], .work = &left, .deadline = thr_clock() + 1000};
     ck_assert_int_eq(thr_plan_make(&f, &o, &limits, &p, NULL, NULL), THR_ELIMIT);
-    ck_assert_double_le(work, .01);
+    ck_assert_double_le(left, .01);
     ck_assert(p.n_cords == 4 && p.turning.tree.walks.unit > 0);
     thr_plan_write(&p, &plan[k]);
     thr_plan_destroy(&p);
