@@ -35,9 +35,6 @@ PLANS = {  # name: (what to make, how to plan)
     "dome 10, straight": ("dome --size 10", TURNING + " --ends any --cords 20"),
     "dome 14, straight": ("dome --size 14", TURNING + " --ends any --cords 28"),
     "dome 20, straight": ("dome --size 20", TURNING + " --ends any --cords 40"),
-    "dome 31, 62 cords": ("dome --size 31", TURNING + " --ends any --cords 62"),
-    "dome 31, 60 cords": ("dome --size 31", TURNING + " --ends any --cords 60"),
-    "dome 31, 56 cords": ("dome --size 31", TURNING + " --ends any --cords 56"),
     "honeycomb 2": ("honeycomb --size 2", ""),
     "honeycomb 2, 8 cords": ("honeycomb --size 2", TURNING + " --ends any --cords 8"),
     "honeycomb 3": ("honeycomb --size 3", "--cords 4 --ends any"),
@@ -48,12 +45,17 @@ PLANS = {  # name: (what to make, how to plan)
     "stairs": ("data/dome7-stairs.json", None),
     "snake": ("data/dome7-snake.json", None),
 }
+LARGE = {  # ten minutes and more a run: only where --only names them
+    "dome 31, 62 cords": ("dome --size 31", TURNING + " --ends any --cords 62"),
+    "dome 31, 60 cords": ("dome --size 31", TURNING + " --ends any --cords 60"),
+    "dome 31, 56 cords": ("dome --size 31", TURNING + " --ends any --cords 56"),
+}
 
 
 def make_plans(program, folder, only):
     """The plans' names and files."""
     made = []
-    for name, (shape, options) in PLANS.items():
+    for name, (shape, options) in {**PLANS, **(LARGE if only else {})}.items():
         if not re.search(only, name):
             continue
         if options is None:
@@ -142,7 +144,7 @@ def main():
     parser.add_argument("--seeds", default="1,2,3")
     parser.add_argument("--steps", default="1,0.5")
     parser.add_argument("-j", type=int, default=1)
-    parser.add_argument("--only", default="", help="those of the twenty whose names have it")
+    parser.add_argument("--only", default="", help="those whose names have it, the largest too")
     parser.add_argument("plans", nargs="*", metavar="PLAN")
     a = parser.parse_args()
     if a.read:

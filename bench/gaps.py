@@ -4,9 +4,10 @@
 bench/gaps.py PROGRAM [--limit S] [--cords 2,4,8,12] [--ends feet,any,closed] [--aims turning,length] [-j N] [FRAME..] > table.tsv
 
 The aims: the cord that turns most (--objective tortuosity; turning) and the longest cord (--balance; length). Without FRAMEs all
-those of data/. Where a framework has no feet its lowest nodes are its feet. A line of the table: framework, aim, ends, cords, exit
-code, value (degrees, or units of length), lower bound, gap in % of the bound, status, seconds by the clock. `thread check` must
-accept every plan: exit code 1 if it does not. Lines come as the runs end; gaps above 5 % (turning) or 3 % (length) are marked *.
+those of data/. With --limit 0 plans end as they do without --time-limit. Where a framework has no feet its lowest nodes are its
+feet. A line of the table: framework, aim, ends, cords, exit code, value (degrees, or units of length), lower bound, gap in % of
+the bound, status, seconds by the clock. `thread check` must accept every plan: exit code 1 if it does not. Lines come as the runs
+end; gaps above 5 % (turning) or 3 % (length) are marked *.
 """
 import argparse
 import concurrent.futures

@@ -85,7 +85,8 @@ typedef struct {
 /* Contract of each method: THR_EINPUT for absurd physics or an overflow (one line that says what to change); THR_ELIMIT when
  * stopped, with out holding what is complete (total may be INFINITY then); same plan, options and seed give the same bits
  * whatever the number of processes. largest, total, tension do not fall when mu grows; tension[slackest] is the least of a cord,
- * and for capstan and joint it is the seating tension. Release with thr_eval_destroy (also after THR_ELIMIT). */
+ * and for capstan and joint it is the seating tension. Release with thr_eval_destroy (also after THR_ELIMIT, and THR_EINFEASIBLE,
+ * where erect may be left). */
 thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cords, thr_method method,
                          const thr_eval_options *options, const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
 void thr_eval_destroy(thr_eval *eval);

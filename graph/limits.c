@@ -27,9 +27,14 @@ void thr_limits_spend(const thr_limits *limits, double seconds)
   if (limits->work) *limits->work -= seconds;
 }
 
+double thr_limits_work(const thr_limits *limits)
+{
+  return *limits->work - limits->work_kept;
+}
+
 double thr_limits_left(const thr_limits *limits, double most)
 {
-  if ((limits->interrupted && *limits->interrupted) || (limits->work && *limits->work <= limits->work_kept)) return 0;
+  if ((limits->interrupted && *limits->interrupted) || (limits->work && thr_limits_work(limits) <= 0)) return 0;
   if (limits->deadline == 0) return most;
   double left = limits->deadline - thr_clock();
   return left < 0 ? 0 : left < most ? left : most;
@@ -40,7 +45,7 @@ thr_limits thr_limits_part(const thr_limits *limits, double part)
   thr_limits some = *limits;
   const double now = thr_clock();
   if (limits->work)
-    some.work_kept = fmax(limits->work_kept, *limits->work - part * (*limits->work - limits->work_kept));
+    some.work_kept = fmax(limits->work_kept, *limits->work - part * thr_limits_work(limits));
   else if (limits->deadline > 0)
     some.deadline = now + part * fmax(0, limits->deadline - now);
   return some;
@@ -52,6 +57,13 @@ thr_limits thr_limits_counted(const thr_limits *limits, double *work)
   counted.work = work;
   counted.work_kept = 0;
   return counted;
+}
+
+thr_limits thr_limits_brief(const thr_limits *limits, double *work)
+{
+  thr_limits few = *work > 0 && !limits->work ? thr_limits_counted(limits, work) : *limits;
+  few.brief = few.work;
+  return few;
 }
 
 bool thr_limits_stop(const thr_limits *limits)

@@ -44,12 +44,18 @@ double thr_limits_left(const thr_limits *limits, double most);
 /* Work is counted that takes about so many seconds, beyond what thr_limits_stop counts. Without limits->work: nothing. */
 void thr_limits_spend(const thr_limits *limits, double seconds);
 
+/* Work that is left where it is counted, below 0: more was done. */
+double thr_limits_work(const thr_limits *limits);
+
 /* The same with only a part of the work that is left, 0 .. 1, or of the time where none is counted: the deadline of counted work
  * is that of all parts. */
 thr_limits thr_limits_part(const thr_limits *limits, double part);
 
 /* The same with *work seconds that are counted, whatever was counted before; work is borrowed. */
 thr_limits thr_limits_counted(const thr_limits *limits, double *work);
+
+/* The same of so little work that cords are not annealed, or of what is counted already; as it was where *work is 0. */
+thr_limits thr_limits_brief(const thr_limits *limits, double *work);
 
 /* Cords of the whole framework that may be what is asked for, as soon as there are some and whenever there are better ones: they
  * are what is left if the search has to be ended. Who listens finds out itself whether they are; symmetry: of cords that are

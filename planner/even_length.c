@@ -256,8 +256,7 @@ thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr
   if (timed && by_sets > claim->longest_bound) rest.deadline -= again * (thr_clock() - start);
   const double before = claim->longest;
   const bool settled = by_sets >= before * (1 - 1e-9);
-  thr_limits counted = unsaid ? thr_limits_counted(limits, &work) : rest;
-  counted.brief |= unsaid;
+  const thr_limits counted = unsaid ? thr_limits_brief(limits, &work) : rest;
   if (!st && !settled) st = anneal(plan, &columns, &rest, err);
   for (int k = 0; k < columns.n_components && !st && improved && !settled && !claim->longest_optimal; k++) {
     st = improve(plan, &columns, &counted, &improved, err);

@@ -265,14 +265,6 @@ static thr_status claim_number(fewest *x, thr_plan *plan, thr_err *err)
                   plan->pull_claim.fewest);
 }
 
-/* So little work, unless it is counted already. */
-static thr_limits counted(const thr_limits *limits, double *work)
-{
-  thr_limits few = *work > 0 && !limits->work ? thr_limits_counted(limits, work) : *limits;
-  few.brief = few.work;
-  return few;
-}
-
 thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                             thr_report *report, thr_err *err)
 {
@@ -284,7 +276,7 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
   thr_request few = *options;
   (void)report;
   *plan = (thr_plan){0};
-  share = counted(&share, &work);
+  share = thr_limits_brief(&share, &work);
   if (options->turning.length_slack >= 0)
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
@@ -292,11 +284,11 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
   if (!st) st = is_range(options) ? search_numbers(&x, err) : try_number(&x, options->cords, &fits, err);
   if (!st && (is_range(options) || (x.found.n_cords == 0 && x.claim.excluded < options->cords))) {
     share = thr_dispatch_share(limits, THR_STEP_FEWEST);
-    share = counted(&share, &for_walks);
+    share = thr_limits_brief(&share, &for_walks);
     st = use_walks(&x, err);
   }
   double rest = work_to_serve * options->time_limit;
-  const thr_limits last = counted(limits, &rest);
+  const thr_limits last = thr_limits_brief(limits, &rest);
   x.limits = &last;
   if (x.found.n_cords > 0) few.cords = x.number;
   bool hopeless = is_range(options) ? x.found.n_cords == 0 : x.claim.excluded >= options->cords;

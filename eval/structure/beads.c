@@ -181,6 +181,14 @@ void thr_beads_destroy(thr_beads *beads)
   *beads = (thr_beads){0};
 }
 
+double thr_beads_weight(const thr_beads *beads, const thr_physics *physics)
+{
+  double weight = 0;
+  for (int v = 0; v < beads->n_beads; v++)
+    if (!beads->fixed[v]) weight += beads->mass[v] * physics->gravity;
+  return weight;
+}
+
 void thr_beads_clamp(thr_beads *beads, const bool *fixed)
 {
   memcpy(beads->fixed, fixed, (size_t)beads->n_beads * sizeof *fixed);

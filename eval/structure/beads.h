@@ -47,6 +47,9 @@ typedef struct {
 thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, thr_beads *out, thr_err *err) THR_MUST_CHECK;
 void thr_beads_destroy(thr_beads *beads);
 
+/* N, of all beads that are not fixed. */
+double thr_beads_weight(const thr_beads *beads, const thr_physics *physics);
+
 /* Holds the beads with fixed[n_beads] true in place and takes the ground away (n_feet = 0): for cantilevers and the like. */
 void thr_beads_clamp(thr_beads *beads, const bool *fixed);
 

@@ -126,10 +126,9 @@ thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const t
   out->present = true;
   out->n_beads = beads->n_beads;
   out->n_gaps = beads->n_faces;
-  for (int v = 0; v < beads->n_beads; v++) {
-    if (!beads->fixed[v]) out->weight += beads->mass[v] * physics->gravity;
+  out->weight = thr_beads_weight(beads, physics);
+  for (int v = 0; v < beads->n_beads; v++)
     out->drawn = fmax(out->drawn, 1e3 * beads->centre[v][2]);
-  }
   out->pose = thr_calloc(THR_ERECT_STILLS * (size_t)beads->n_beads, sizeof *out->pose);
   thr_status s = out->pose ? thr_simulated_begin(&m, err) : thr_nomem(err);
   for (int i = 0; i < PARTS && !s && isnan(out->lift); i++) {

@@ -274,15 +274,6 @@ static void carry(thr_simulated *m)
   }
 }
 
-/* Where the lowest foot stands, upwards; far below where nothing stands on ground. */
-static double level_of_ground(const thr_simulated *m)
-{
-  double least = INFINITY;
-  for (int i = 0; i < m->b->n_feet; i++)
-    least = fmin(least, (m->b->centre[m->b->foot[i]][2] - 0.5 * m->b->width) / m->unit);
-  return isfinite(least) ? least : -INFINITY;
-}
-
 /* Ground under a corner of a bead that has sunk into it: a spring and a damper, weak enough for the time step, and friction that
  * grows with the speed up to Coulomb's. share: of the bead's mass. */
 static void push_up(thr_simulated *m, int v, const double at[3], double depth, double share)
@@ -303,10 +294,9 @@ static void push_up(thr_simulated *m, int v, const double at[3], double depth, d
   thr_world_force_at(m->world, m->body[v], force, at);
 }
 
-/* What falls comes to lie on the ground, beads without feet, too. */
+/* What falls comes to lie on the ground, at z = 0 if feet stand on it, beads without feet, too. */
 static void lie_on_ground(thr_simulated *m)
 {
-  const double level = level_of_ground(m);
   for (int v = 0; v < m->b->n_beads; v++) {
     const int degree = thr_degree(m->f, v);
     const double share = m->b->mass[v] / m->mass / (4 * degree);
@@ -314,7 +304,7 @@ static void lie_on_ground(thr_simulated *m)
       for (int k = 0; k < 4; k++) {
         double at[3];
         carried(m, v, m->b->corner[m->f->half[i] >> 1][k], at);
-        if (at[2] < level) push_up(m, v, at, level - at[2], share);
+        if (at[2] < 0) push_up(m, v, at, -at[2], share);
       }
   }
 }
@@ -330,7 +320,7 @@ thr_status thr_simulated_step(thr_simulated *m, thr_err *err)
   set_press(m);
   pull_cords(m);
   if (m->lift > 0) carry(m);
-  if (m->leans) lie_on_ground(m);
+  if (m->leans && m->b->n_feet > 0) lie_on_ground(m);
   thr_status s = thr_world_step(m->world, err);
   if (s == THR_OK) look(m);
   return s;

@@ -536,14 +536,18 @@ static void ask(questions *q)
   if (small) q->asked[q->n++] = BAND_LOW, q->asked[q->n++] = BAND_HIGH;
 }
 
+static simulation simulation_of(const questions *q, thr_settle_options how)
+{
+  const thr_evaluation *record = &q->out->record;
+  return (simulation){q->frame, q->cord, q->beads, &record->physics, record->n_cords, q->tension, NULL, how};
+}
+
 /* Bullet, with the pull that was found. */
 static thr_status show(const questions *q, const thr_eval_options *options, const thr_limits *limits, thr_err *err)
 {
   thr_eval *out = q->out;
-  const thr_evaluation *record = &out->record;
   const double lower = out->holding.lower, upper = out->holding.upper;
-  simulation m = {q->frame,        q->cord,    q->beads, &record->physics,
-                  record->n_cords, q->tension, NULL,     between(options, lower, upper)};
+  simulation m = simulation_of(q, between(options, lower, upper));
   thr_status st = THR_OK;
   if (!options->schedule && (options->start > 0 || lower > 0)) st = settle(&m, limits, &out->settle, err);
   if (!st && options->erect && lower > 0) st = erect(&m, isfinite(upper) ? upper : lower, limits, &out->erect, err);
@@ -553,12 +557,9 @@ static thr_status show(const questions *q, const thr_eval_options *options, cons
 /* What comes of it where no pull holds, drawn in as hard as it is heavy: a picture, without which there is one answer less. */
 static void show_fallen(const questions *q, const thr_eval_options *options, const thr_limits *limits)
 {
-  const thr_evaluation *record = &q->out->record;
-  const simulation m = {q->frame, q->cord, q->beads, &record->physics, record->n_cords, q->tension, NULL, between(options, 0, 0)};
+  const simulation m = simulation_of(q, between(options, 0, 0));
+  const double weight = thr_beads_weight(q->beads, m.physics);
   thr_err why = {0};
-  double weight = 0;
-  for (int v = 0; v < q->beads->n_beads; v++)
-    if (!q->beads->fixed[v]) weight += q->beads->mass[v] * record->physics.gravity;
   if (erect(&m, weight, limits, &q->out->erect, &why)) thr_erect_destroy(&q->out->erect);
 }
 

@@ -158,6 +158,14 @@ double thr_cord_length(const thr_frame *frame, const thr_cord *cord)
   return sum;
 }
 
+int thr_cords_passes(const thr_cord *cord, int n)
+{
+  int passes = 0;
+  for (int i = 0; i < n; i++)
+    passes += cord[i].n_passes;
+  return passes;
+}
+
 double thr_cords_longest(const thr_frame *frame, const thr_cord *cord, int n)
 {
   double longest = 0;

@@ -274,7 +274,7 @@ thr_status thr_threads_beside(int n_jobs, thr_threads_job *run, void *user, cons
   if (!limits->work) return thr_threads_run(n_jobs, run, user, limits, err);
   counted c = {.run = run, .user = user};
   thr_limits uncounted = *limits;
-  double least = *limits->work - limits->work_kept;
+  double least = thr_limits_work(limits);
   uncounted.work = NULL;
   for (int i = 0; i < n_jobs; i++)
     c.left[i] = least;

@@ -206,6 +206,7 @@ static thr_status tell_progress(void *user, const thr_limits *limits, thr_sender
   (void)user;
   limits->progress(limits->user, "adding", 3, 2);
   limits->advance(limits->user, "counting", 0.25);
+  ck_assert(limits->work_kept == 10 && limits->brief);
   *limits->work -= 40;
   return send_word(to, "done", err);
 }
@@ -215,7 +216,8 @@ START_TEST(progress_and_work_come_back)
   seen s = {0};
   double work = 100;
   thr_child c = {.what = "sum", .run = tell_progress};
-  thr_limits limits = {.work = &work, .progress = note_progress, .advance = note_advance, .user = &s};
+  thr_limits limits = {
+      .work = &work, .work_kept = 10, .brief = true, .progress = note_progress, .advance = note_advance, .user = &s};
   thr_text answer = {0};
   ck_assert_int_eq(thr_child_run(&c, &limits, &answer, NULL), THR_OK);
   ck_assert_str_eq(answer.data, "done");

@@ -236,30 +236,41 @@ START_TEST(a_team_shares_jobs)
 }
 END_TEST
 
-/* Nodes of the tree and tries of cycles: the plan with its proof, as it is written. */
-START_TEST(the_least_turning_does_not_depend_on_threads)
+/* Plans of a request in 1, 2 and 16 threads, as they are written with their proofs, are the same; *plan: one of them. most: work
+ * that each may do, counted; 0: any. */
+static void plan_in_threads(const thr_frame *f, const thr_request *o, double most, thr_status expected, thr_plan *plan)
 {
   static const int threads[] = {1, 2, 16};
-  thr_text plan[3] = {{0}, {0}, {0}};
-  thr_frame f = shape_make(_i % 2 ? THR_MAKE_HONEYCOMB : THR_MAKE_SPHERE, _i % 2 ? 4 : 2, 0);
+  thr_text written[3] = {{0}, {0}, {0}};
   for (int k = 0; k < 3; k++) {
-    thr_request o = thr_request_default();
-    thr_plan p;
-    o.aims = thr_aims_straightest;
-    o.ends = THR_ENDS_ANY;
-    if (_i % 2)
-      o.turning.length_slack = 0;
-    else
-      o.turning.nodes = 41;
-    thr_status st = thr_plan_make(&f, &o, &(thr_limits){.threads = threads[k]}, &p, NULL, NULL);
-    ck_assert_int_eq(st, _i % 2 ? THR_OK : THR_ELIMIT);
-    if (_i % 2) ck_assert_int_gt(p.turning.tree.n_nodes, 10);
-    thr_plan_write(&p, &plan[k]);
-    thr_plan_destroy(&p);
-    ck_assert_str_eq(plan[k].data, plan[0].data);
+    double left = most;
+    thr_limits limits = {.threads = threads[k]};
+    if (most > 0) limits = (thr_limits){.threads = threads[k], .work = &left, .deadline = thr_clock() + 1000};
+    ck_assert_int_eq(thr_plan_make(f, o, &limits, plan, NULL, NULL), expected);
+    ck_assert_double_le(left, .01);
+    thr_plan_write(plan, &written[k]);
+    ck_assert_str_eq(written[k].data, written[0].data);
+    if (k < 2) thr_plan_destroy(plan);
   }
   for (int k = 0; k < 3; k++)
-    thr_text_destroy(&plan[k]);
+    thr_text_destroy(&written[k]);
+}
+
+/* Nodes of the tree and tries of cycles. */
+START_TEST(the_least_turning_does_not_depend_on_threads)
+{
+  thr_frame f = shape_make(_i % 2 ? THR_MAKE_HONEYCOMB : THR_MAKE_SPHERE, _i % 2 ? 4 : 2, 0);
+  thr_request o = thr_request_default();
+  thr_plan p;
+  o.aims = thr_aims_straightest;
+  o.ends = THR_ENDS_ANY;
+  if (_i % 2)
+    o.turning.length_slack = 0;
+  else
+    o.turning.nodes = 41;
+  plan_in_threads(&f, &o, 0, _i % 2 ? THR_OK : THR_ELIMIT, &p);
+  if (_i % 2) ck_assert_int_gt(p.turning.tree.n_nodes, 10);
+  thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
 END_TEST
@@ -267,26 +278,15 @@ END_TEST
 /* Work ends the search for the cord that turns most, which anneals beside the programme over walks. */
 START_TEST(the_largest_turning_does_not_depend_on_threads)
 {
-  static const int threads[] = {1, 2, 16};
-  thr_text plan[3] = {{0}, {0}, {0}};
   thr_frame f = shape_make(THR_MAKE_DOME, 5, 0);
-  for (int k = 0; k < 3; k++) {
-    thr_request o = thr_request_default();
-    thr_plan p;
-    double left = .5;
-    o.aims = (thr_aims){1, {THR_AIM_MAX_TURNING}};
-    o.ends = THR_ENDS_ANY;
-    o.cords = o.cords_least = 4;
-    const thr_limits limits = {.threads = threads[k], .work = &left, .deadline = thr_clock() + 1000};
-    ck_assert_int_eq(thr_plan_make(&f, &o, &limits, &p, NULL, NULL), THR_ELIMIT);
-    ck_assert_double_le(left, .01);
-    ck_assert(p.n_cords == 4 && p.turning.tree.walks.unit > 0);
-    thr_plan_write(&p, &plan[k]);
-    thr_plan_destroy(&p);
-    ck_assert_str_eq(plan[k].data, plan[0].data);
-  }
-  for (int k = 0; k < 3; k++)
-    thr_text_destroy(&plan[k]);
+  thr_request o = thr_request_default();
+  thr_plan p;
+  o.aims = (thr_aims){1, {THR_AIM_MAX_TURNING}};
+  o.ends = THR_ENDS_ANY;
+  o.cords = o.cords_least = 4;
+  plan_in_threads(&f, &o, .5, THR_ELIMIT, &p);
+  ck_assert(p.n_cords == 4 && p.turning.tree.walks.unit > 0);
+  thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
 END_TEST

@@ -89,18 +89,10 @@ static thr_status take_cords(const thr_annealer *x, thr_cord *cord, thr_err *err
   return THR_OK;
 }
 
-static int passes_of(const thr_cord *cord, int n_cords)
-{
-  int passes = 0;
-  for (int i = 0; i < n_cords; i++)
-    passes += cord[i].n_passes;
-  return passes;
-}
-
 /* Seconds, counted or by the clock; 0: any. */
 static double left_of(const thr_limits *limits)
 {
-  return limits->work ? *limits->work - limits->work_kept : limits->deadline > 0 ? limits->deadline - thr_clock() : 0;
+  return limits->work ? thr_limits_work(limits) : limits->deadline > 0 ? limits->deadline - thr_clock() : 0;
 }
 
 thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task, int number, const thr_limits *limits,
@@ -114,7 +106,7 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
   thr_status st = thr_annealer_init(&x, columns, task->measure, cord, n_cords, err);
   if (!st) at.best = largest(&x);
   x.state = (uint64_t)number + 1;
-  const int passes = passes_of(cord, n_cords);
+  const int passes = thr_cords_passes(cord, n_cords);
   const double all = left_of(limits), per_step = 6e-8 + 5e-10 * passes / n_cords; /* s, counted */
   for (int i = 0; i < task->steps && !st && at.best > task->enough; i++) {
     bool made;

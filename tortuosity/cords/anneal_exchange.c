@@ -215,7 +215,7 @@ void thr_anneal_build(thr_annealer *x, thr_anneal_exchange *e)
 {
   thr_anneal_change *change = &e->change;
   const thr_anneal_walk *a = &x->walk[change->cord[0]], *b = &x->walk[change->cord[1]];
-  change->exchange = true;
+  change->keeps = true;
   if (e->kind == THR_ANNEAL_TAILS) {
     build_tails(x, e);
     return;

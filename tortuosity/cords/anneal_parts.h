@@ -29,7 +29,7 @@ typedef struct {
   int n_cords, cord[2];
   double total[2]; /* what the cords turn by afterwards */
   int n[2];        /* passes of each in made */
-  bool exchange;   /* every edge keeps its passes */
+  bool keeps;      /* every edge keeps its passes */
 } thr_anneal_change;
 
 typedef struct {

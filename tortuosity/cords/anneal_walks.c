@@ -260,7 +260,7 @@ thr_anneal_visit thr_anneal_visit_at(thr_annealer *x, int node)
 
 /* Counts the passes of a change in place of those of its cords; false, and nothing is counted, where edges would no longer keep
  * to their covers and limits. */
-static bool exchange_passes(thr_annealer *x, const thr_anneal_change *change)
+static bool recount_passes(thr_annealer *x, const thr_anneal_change *change)
 {
   const thr_turning_columns *c = x->c;
   const double extra = x->extra;
@@ -291,7 +291,7 @@ thr_status thr_anneal_make(thr_annealer *x, const thr_anneal_change *change, thr
   thr_status st = THR_OK;
   for (int i = 0; i < change->n_cords; i++)
     right &= change->n[i] > 0;
-  if (!right || (!change->exchange && !exchange_passes(x, change))) return THR_OK;
+  if (!right || (!change->keeps && !recount_passes(x, change))) return THR_OK;
   for (int i = 0; i < change->n_cords; i++)
     forget_visits(x, &x->walk[change->cord[i]]);
   for (int i = 0; i < change->n_cords && !st; i++) {

@@ -282,9 +282,7 @@ static const worth worst = {.lacking = INT_MAX, .beyond = INFINITY};
 static int steps_for(const thr_cord *cord, int n_cords)
 {
   enum { MOST_STEPS = 300000, WORK = 100000000, EACH = 2000 };
-  int passes = 0;
-  for (int i = 0; i < n_cords; i++)
-    passes += cord[i].n_passes;
+  const int passes = thr_cords_passes(cord, n_cords);
   int most = passes > WORK / MOST_STEPS ? WORK / passes : MOST_STEPS;
   return passes < most / EACH ? EACH * passes : most;
 }

@@ -367,6 +367,17 @@ static thr_status find_cords(search *x, const thr_frame *frame, thr_least *plan,
 
 enum { SHORT = 1, MANY = 64 }; /* rounds of annealing; without a limit of time as few */
 
+static bool is_timed(const search *x)
+{
+  return x->limits->deadline > 0 || x->limits->work;
+}
+
+/* May annealing go on beside something else? Where work is counted, as if there were a thread for it. */
+static bool goes_beside(const search *x)
+{
+  return x->limits->work || x->limits->threads > 1;
+}
+
 /* Of the plan's cords, until they are as near to the bound as is worth it. */
 static thr_anneal_task annealing(const search *x, int first, int rounds)
 {
@@ -376,7 +387,7 @@ static thr_anneal_task annealing(const search *x, int first, int rounds)
                            .steps = (int)fmin(MOST_STEPS, (double)STEPS * x->best.g.n_darts),
                            .first = first,
                            .rounds = rounds,
-                           .alone = !x->limits->work && x->limits->deadline > 0 && x->limits->threads < 2,
+                           .alone = is_timed(x) && !goes_beside(x),
                            .enough = fmax(x->bound * (1 + near), x->enough)};
 }
 
@@ -436,11 +447,11 @@ static thr_status do_one(void *user, int job, const thr_limits *limits, thr_err 
 static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
 {
   const double first = .2, most = .7; /* parts of the time */
-  const bool timed = x->limits->deadline > 0 || x->limits->work;
+  const bool timed = is_timed(x);
   thr_status st = anneal_cords(x, frame, plan, first, 0, SHORT, err);
   const thr_cord *dearest = &plan->cord[thr_walk_dearest(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords)];
   beside b = {.x = x, .plan = plan, .task = annealing(x, SHORT, MANY)};
-  const bool both = timed && (x->limits->work || x->limits->threads > 1) && may_anneal(x, frame, plan, &b.task);
+  const bool both = timed && goes_beside(x) && may_anneal(x, frame, plan, &b.task);
   const thr_limits share = both ? thr_limits_part(x->limits, most) : *x->limits;
   b.task.alone = true;
   b.least = x->bound_of[x->c->component[thr_tail(frame, dearest->half[0])]];
