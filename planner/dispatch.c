@@ -67,7 +67,7 @@ double thr_dispatch_usual_seconds(const thr_request *options)
 
 double thr_dispatch_work(const thr_request *options)
 {
-  const double second = .45; /* of work that takes about a second */
+  const double second = .5; /* of work that takes about a second */
   const bool several = thr_dispatch(options) == thr_planner_turning && thr_wants_largest(options) && options->cords > 1;
   return several && options->joint == THR_JOINT_SOLID ? second * options->time_limit : 0;
 }

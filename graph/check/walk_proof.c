@@ -6,6 +6,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
+#include "graph/wide.h"
 
 #include <limits.h>
 #include <math.h>
@@ -65,21 +66,23 @@ static void fill_backs(const thr_turning_columns *columns, bool anywhere, int64_
 /* What the steps are made with. */
 typedef struct {
   int64_t unit, *back; /* back: [2 * n_edges] */
-  int *half, *waiting; /* [2 * n_edges] the half-edge at each place; zeros */
+  int *half, *waiting; /* [2 * n_edges] the half-edge at each place; steps that do not lead back yet */
   thr_walk_step *some; /* [largest degree] */
 } making;
 
-/* Places in an order in which every step of no unit leads back (A. B. Kahn 1962). false: such steps go in a circle. */
-static bool order_places(thr_walk_steps *steps, making *m)
+/* Places in an order in which every step of fewer units leads back (A. B. Kahn 1962). false: such steps go in a circle. */
+static bool order_places(thr_walk_steps *steps, making *m, int units)
 {
   const thr_turning_columns *columns = steps->c;
+  const int64_t most = m->unit < INT64_MAX / units ? units * m->unit : INT64_MAX;
   int total = 0, placed = 0;
   for (int d = 0; d < 2 * columns->f->n_edges; d++) {
     steps->place[d] = -1;
+    m->waiting[d] = 0;
     if (columns->component[thr_tail(columns->f, d)] != steps->component) continue;
     total++;
     for (int n = next_steps(columns, d, m->back, m->some); n > 0; n--)
-      m->waiting[d] += m->some[n - 1].weight < m->unit;
+      m->waiting[d] += m->some[n - 1].weight < most;
     if (m->waiting[d] == 0) m->half[placed++] = d;
   }
   for (int i = 0; i < placed; i++) { /* what comes before d along a walk is what comes after it the other way */
@@ -87,7 +90,7 @@ static bool order_places(thr_walk_steps *steps, making *m)
     steps->place[d] = i;
     for (int n = next_steps(columns, d ^ 1, m->back, m->some); n > 0; n--) {
       int before = m->some[n - 1].half ^ 1;
-      if (m->some[n - 1].weight < m->unit && --m->waiting[before] == 0) m->half[placed++] = before;
+      if (m->some[n - 1].weight < most && --m->waiting[before] == 0) m->half[placed++] = before;
     }
   }
   steps->n = total;
@@ -118,7 +121,7 @@ static bool fill_turning(thr_walk_steps *steps, making *m)
 {
   int n = 0;
   fill_backs(steps->c, steps->measure == THR_WALK_PULL, m->back);
-  if (!order_places(steps, m)) return false;
+  if (!order_places(steps, m, THR_WALK_WIDTH) && !order_places(steps, m, 1)) return false;
   for (int i = 0; i < steps->n; i++) {
     int d = m->half[i], count = next_steps(steps->c, d, m->back, steps->step + n);
     bool may_begin = steps->c->end_column[d] >= 0;
@@ -344,8 +347,7 @@ thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *pro
       step->worth =
           (int64_t)pass_worth(steps, proof, step->half) + all_worth(proof, step->weight) - pass_cost(steps, proof, step->half);
       if (step->known) step->worth -= proof->edge[step->half >> 1];
-      steps->move[k] =
-          (thr_walk_move){.worth = step->worth, .back = step->to - (int64_t)step->units * steps->n, .units = step->units};
+      steps->move[k] = (thr_walk_move){.worth = step->worth, .to = step->to, .units = step->units};
       if (steps->end[step->to] >= 0) steps->end[step->to] = proof->node[thr_head(frame, step->half)];
     }
   for (int k = 0; k < steps->n_homes; k++)
@@ -368,20 +370,58 @@ int thr_walk_runs(const thr_walk_steps *steps)
   return steps->n_homes > 0 ? steps->n_homes : steps->closed ? steps->n_begins : 1;
 }
 
-/* The most from place i on in the row of r units, which begins at value[row]; size: of the table. end[i]: it may go no further.
- */
-static int64_t from_place(const thr_walk_steps *steps, const int64_t *end, int i, int r, int64_t row, int64_t size,
-                          const int64_t *value)
+int thr_walk_levels(int units)
 {
-  int64_t most = end[i];
-  const thr_walk_move *move = steps->move + steps->first[i], *last = steps->move + steps->first[i + 1];
-  for (; move < last; move++) {
-    const int64_t at = row + move->back;
-    if (move->units > r) continue;
-    const int64_t here = value[at < 0 ? at + size : at] + move->worth;
-    if (here > most) most = here;
+  return (units / THR_WALK_WIDTH + 1) * THR_WALK_WIDTH;
+}
+
+int thr_walk_few_levels(const thr_walk_steps *steps, int units)
+{
+  const int all = thr_walk_levels(units), reached = thr_walk_levels(steps->most_units + THR_WALK_WIDTH - 1);
+  return all < reached ? all : reached;
+}
+
+/* Levels that are found together: all that steps of few units lead to has been found then. */
+static int width_of(const thr_walk_steps *steps)
+{
+  for (int i = 0; i < steps->n; i++)
+    for (int k = steps->first[i]; k < steps->first[i + 1]; k++)
+      if (steps->step[k].units < THR_WALK_WIDTH && steps->step[k].to >= i) return 1;
+  return THR_WALK_WIDTH;
+}
+
+/* What is worth more, here or with a move, at the levels from number level on, which are r units and more. column: the levels of
+ * the place that the move leads to. */
+THR_INLINE void take_more(int64_t *most, const thr_walk_move *move, int r, int level, int levels, int width,
+                          const int64_t *column)
+{
+  const int units = move->units, back = level - units + (level < units ? levels : 0);
+  if (units <= r && width == THR_WALK_WIDTH && back + THR_WALK_WIDTH <= levels) {
+    for (int k = 0; k < THR_WALK_WIDTH; k++) {
+      const int64_t here = column[back + k] + move->worth;
+      most[k] = here > most[k] ? here : most[k];
+    }
+    return;
   }
-  return most;
+  for (int k = units > r ? units - r : 0; k < width; k++) {
+    const int at = level + k - units;
+    const int64_t here = column[at < 0 ? at + levels : at] + move->worth;
+    if (here > most[k]) most[k] = here;
+  }
+}
+
+/* The most from place i on at these levels; worth: if it goes no further. */
+THR_INLINE void from_place(const thr_walk_steps *steps, int64_t worth, int i, int r, int level, int levels, int width,
+                           int64_t *value)
+{
+  const thr_walk_move *move = steps->move + steps->first[i], *last = steps->move + steps->first[i + 1];
+  int64_t most[THR_WALK_WIDTH];
+  for (int k = 0; k < THR_WALK_WIDTH; k++)
+    most[k] = worth;
+  for (; move < last; move++)
+    if (move->units < r + width) take_more(most, move, r, level, levels, width, value + (size_t)move->to * (size_t)levels);
+  for (int k = 0; k < width; k++)
+    value[(size_t)i * (size_t)levels + (size_t)(level + k)] = most[k];
 }
 
 /* The places of closed walks that begin at home, and those no longer. levels: rows of the table. Returns the number of the
@@ -394,7 +434,7 @@ static int choose_places(thr_walk_steps *steps, int run, int levels, int64_t *va
       steps->active[n++] = i;
     else if (run == 0 || steps->group[i] >= before)
       for (int r = 0; r < levels; r++)
-        value[(size_t)r * (size_t)steps->n + (size_t)i] = none;
+        value[thr_walk_entry(i, r, levels)] = none;
   }
   return n;
 }
@@ -415,23 +455,21 @@ size_t thr_walk_tables(thr_walk_measure measure)
   return measure == THR_WALK_PULL ? 2 : 1;
 }
 
-void thr_walk_run(thr_walk_steps *steps, int run, int units, int levels, int64_t *value)
+THR_WIDE void thr_walk_run(thr_walk_steps *steps, int run, int units, int levels, int64_t *value)
 {
   const bool chosen = steps->closed && steps->n_homes == 0;
-  const int n = chosen ? choose_places(steps, run, levels, value) : steps->n;
-  const int64_t size = (int64_t)levels * steps->n;
-  const int64_t *end = steps->end;
+  const int n = chosen ? choose_places(steps, run, levels, value) : steps->n, width = width_of(steps);
   if (steps->closed) set_ends(steps, run, 0);
+  const int64_t *after = NULL; /* the last level after the slackest pass */
   for (int part = steps->measure == THR_WALK_PULL ? 1 : 0; part >= 0; part--) {
-    int64_t *table = value + part * size;
-    for (int r = 0; r <= units; r++) {
-      const int64_t row = (int64_t)(r % levels) * steps->n;
+    int64_t *table = value + (size_t)part * (size_t)levels * (size_t)steps->n;
+    for (int r = 0, level = 0; r <= units; r += width, level = level + width < levels ? level + width : 0)
       for (int k = 0; k < n; k++) {
-        int i = chosen ? steps->active[k] : k;
-        table[row + i] = from_place(steps, end, i, r, row, size, table);
+        const int i = chosen ? steps->active[k] : k;
+        const int64_t end = after ? after[(size_t)i * (size_t)levels] : steps->end[i];
+        from_place(steps, end, i, r, level, levels, width, table);
       }
-    }
-    end = table + (int64_t)(units % levels) * steps->n;
+    after = table + units % levels;
   }
   if (steps->closed) set_ends(steps, run, none);
 }
@@ -447,10 +485,10 @@ int thr_walk_firsts(const thr_walk_steps *steps, int run, const thr_walk_step **
   return steps->closed ? steps->first[home + 1] - steps->first[home] : steps->n_begins;
 }
 
-int64_t thr_walk_worth(const thr_walk_steps *steps, const thr_walk_step *first, int units, int levels, const int64_t *value)
+int64_t thr_walk_worth(const thr_walk_step *first, int units, int levels, const int64_t *value)
 {
   if (first->units > units) return none;
-  int64_t on = value[(size_t)((units - first->units) % levels) * (size_t)steps->n + (size_t)first->to];
+  const int64_t on = value[thr_walk_entry(first->to, units - first->units, levels)];
   return thr_walk_is_none(on) ? none : on + first->worth;
 }
 
@@ -462,7 +500,7 @@ int64_t thr_walk_best(thr_walk_steps *steps, int units, int levels, int64_t *val
     int n = thr_walk_firsts(steps, run, &first);
     thr_walk_run(steps, run, units, levels, value);
     for (int k = 0; k < n; k++) {
-      int64_t worth = thr_walk_worth(steps, &first[k], units, levels, value);
+      int64_t worth = thr_walk_worth(&first[k], units, levels, value);
       if (worth > best) best = worth;
     }
   }
@@ -521,7 +559,7 @@ int thr_walk_component(const thr_turning_columns *columns, const thr_walk_proof 
 static thr_status best_of(thr_walk_steps *steps, const thr_walk_proof *proof, int64_t *best, thr_err *err)
 {
   const double most_work = 4e9; /* steps of the recursion; makers keep to a tenth of it */
-  int levels = proof->units < steps->most_units ? proof->units + 1 : steps->most_units + 1;
+  const int levels = thr_walk_few_levels(steps, proof->units);
   double work = (double)proof->units * steps->first[steps->n] * thr_walk_runs(steps);
   if (work > most_work || (double)levels * steps->n > 1e9)
     return thr_fail(err, THR_EVIOLATED, "walks: %d units are more than can be checked", proof->units);

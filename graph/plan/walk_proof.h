@@ -64,10 +64,10 @@ typedef struct {
                      pull less its length, rounded down */
 } thr_walk_step;
 
-/* A step as the recursion needs it: from place i with r units left it takes the value at i's row + back. */
+/* A step as the recursion needs it. */
 typedef struct {
-  int64_t worth, back;
-  int units;
+  int64_t worth;
+  int to, units;
 } thr_walk_move;
 
 /* Walks that the cords of one component can be, in an order of the places in which the recursion finds what it needs. A place is
@@ -134,16 +134,29 @@ int thr_walk_runs(const thr_walk_steps *steps);
 /* Tables that a recursion fills: with a pull one before the slackest pass and one after it. */
 size_t thr_walk_tables(thr_walk_measure measure);
 
-/* Number run of them. value[tables * levels * n] receives, in row r % levels of each, the most that a walk with r units left is
- * worth from place i on (thr_walk_is_none: there is no such walk). levels is units + 1, to trace walks, or at least most_units
- * + 1. O(units * steps). */
+/* Where a table has the value of place i with r units left: the levels of a place follow each other, as a step looks at nearly
+ * the same ones from level to level. */
+static inline size_t thr_walk_entry(int i, int r, int levels)
+{
+  return (size_t)i * (size_t)levels + (size_t)(r % levels);
+}
+
+/* So many levels are found at once. */
+enum { THR_WALK_WIDTH = 8 };
+
+/* Levels of a table for walks of at most so many units, in which they can be traced; and of one that is used over and over. */
+int thr_walk_levels(int units);
+int thr_walk_few_levels(const thr_walk_steps *steps, int units);
+
+/* Number run of them. value[tables * levels * n] receives the most that a walk with r units left is worth from place i on
+ * (thr_walk_is_none: there is no such walk). levels: one of the numbers above. O(units * steps). */
 void thr_walk_run(thr_walk_steps *steps, int run, int units, int levels, int64_t *value);
 
 /* The first passes of the walks of a recursion; returns their number. */
 int thr_walk_firsts(const thr_walk_steps *steps, int run, const thr_walk_step **first);
 
 /* The most that the walks with a first pass are worth after a recursion; thr_walk_is_none: there are none. */
-int64_t thr_walk_worth(const thr_walk_steps *steps, const thr_walk_step *first, int units, int levels, const int64_t *value);
+int64_t thr_walk_worth(const thr_walk_step *first, int units, int levels, const int64_t *value);
 
 /* The most that a walk of at most so many units is worth, 0 if there is none: all recursions. */
 int64_t thr_walk_best(thr_walk_steps *steps, int units, int levels, int64_t *value);

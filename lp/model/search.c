@@ -56,6 +56,7 @@ static thr_status read_point(thr_search *s, thr_err *err)
   double *dual = thr_realloc(s->dual, (size_t)thr_lp_rows(s->lp), sizeof *dual);
   if (!dual) return thr_nomem(err);
   s->dual = dual;
+  s->n_dual = thr_lp_rows(s->lp);
   thr_lp_primal(s->lp, s->x);
   thr_lp_dual(s->lp, s->dual);
   s->objective = thr_lp_objective(s->lp);

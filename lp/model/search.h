@@ -30,7 +30,8 @@ typedef struct {
   int n_fixed, help;      /* help: a column of value 1 in every row of the pool, which keeps it feasible; at first -1: none */
   bool bare;              /* the next solve begins without the pool's rows, for which its basis is not feasible */
   double *x;              /* [columns of lp] borrowed: the point of the last solve */
-  double *dual;           /* [rows at the last solve] its multipliers; owned */
+  int n_dual;             /* rows at the last solve */
+  double *dual;           /* [n_dual] its multipliers; owned */
   double objective;       /* its value */
   thr_lp_outcome outcome; /* its outcome; THR_LP_STOPPED also where a slow separator was not begun */
   bool whole, enough;     /* what thr_search_calls.look says of it */

@@ -1,7 +1,7 @@
 /* Forming the bundles; products. */
 #include "lp/solver/bundles.h"
 
-#include "lp/solver/wide.h"
+#include "graph/wide.h"
 
 #include <string.h>
 

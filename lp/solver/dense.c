@@ -1,7 +1,7 @@
 /* Loops of known lengths, which compilers unroll and vectorize. */
 #include "lp/solver/dense.h"
 
-#include "lp/solver/wide.h"
+#include "graph/wide.h"
 
 #include <string.h>
 

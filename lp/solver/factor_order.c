@@ -155,12 +155,45 @@ static int rows_of(const elimination *e, const set *groups)
   return n;
 }
 
+/* Is every group that is left next to all others that are? Then that stays so. */
+static bool all_meet(const elimination *e, int left)
+{
+  for (int g = 0; g < e->n_groups; g++)
+    if (e->rank[g] < 0 && e->next_to[g].count < left - 1) return false;
+  return true;
+}
+
+/* Group v goes, and all that are left meet: only its own list is needed. */
+static void take_out_of_all(elimination *e, int v, int *degree)
+{
+  set *mine = &e->next_to[v];
+  mine->count = 0;
+  for (int g = 0; g < e->n_groups; g++) {
+    if (e->rank[g] >= 0) continue;
+    mine->item[mine->count++] = g;
+    degree[g] -= e->size[v];
+  }
+}
+
+/* Group v goes: its neighbours become each other's. */
+static thr_status take_out(elimination *e, int v, int *degree, int *room, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int k = 0; k < e->next_to[v].count && !st; k++) {
+    const int u = e->next_to[v].item[k];
+    st = merge(e->next_to, u, v, room, err);
+    degree[u] = rows_of(e, &e->next_to[u]);
+  }
+  return st;
+}
+
 /* Takes the groups out by least degree, the lowest first among equals. */
 static thr_status eliminate(elimination *e, thr_err *err)
 {
   thr_scratch own = {0};
   int *room = thr_scratch_array(&own, (size_t)e->n_groups, sizeof *room);
   int *degree = thr_scratch_array(&own, (size_t)e->n_groups, sizeof *degree);
+  bool meet = false;
   thr_status st = thr_scratch_check(&own, err);
   for (int g = 0; g < e->n_groups && !st; g++) {
     e->rank[g] = -1;
@@ -171,12 +204,12 @@ static thr_status eliminate(elimination *e, thr_err *err)
     int v = -1;
     for (int g = 0; g < e->n_groups; g++)
       if (e->rank[g] < 0 && (v < 0 || degree[g] < degree[v])) v = g;
+    meet = meet || all_meet(e, e->n_groups - step);
     e->rank[v] = step;
-    for (int k = 0; k < e->next_to[v].count && !st; k++) {
-      const int u = e->next_to[v].item[k];
-      st = merge(e->next_to, u, v, room, err);
-      degree[u] = rows_of(e, &e->next_to[u]);
-    }
+    if (meet)
+      take_out_of_all(e, v, degree);
+    else
+      st = take_out(e, v, degree, room, err);
   }
   thr_scratch_free(&own);
   return st;

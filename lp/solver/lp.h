@@ -7,7 +7,8 @@
 #include "graph/limits.h"
 #include "graph/status.h"
 
-/* The work of limits counts every pivot as a hundred-millionth of a second for each row and column of its programme, and 3000. */
+/* The work of limits counts every pivot as a hundred-millionth of a second for each row and column of its programme, and 3000,
+ * and a 250th of that for each row with each column. */
 typedef struct thr_lp thr_lp;
 
 typedef enum {

@@ -4,7 +4,7 @@
 #include "graph/scratch.h"
 #include "lp/solver/dense.h"
 #include "lp/solver/factor_order.h"
-#include "lp/solver/wide.h"
+#include "graph/wide.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* Sums over rays. */
 #include "lp/solver/rays.h"
 
-#include "lp/solver/wide.h"
+#include "graph/wide.h"
 
 #include <assert.h>
 #include <string.h>

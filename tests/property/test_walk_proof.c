@@ -280,11 +280,12 @@ START_TEST(the_best_walk_is_found)
   if (thr_walk_steps_init(&steps, &x.c, x.measure, 0, p.unit, NULL) == THR_OK) { /* else turns of nothing go in a circle */
     enum { DEPTH = 10 };
     ck_assert_int_eq(thr_walk_steps_remember(&steps, p.memory, p.n_memories, NULL), THR_OK);
-    int64_t *value = calloc((size_t)(p.units + 1) * (size_t)steps.n, sizeof *value);
+    int64_t *value = calloc((size_t)thr_walk_levels(p.units) * (size_t)steps.n, sizeof *value);
     ck_assert_int_eq(thr_walk_steps_price(&steps, &p, NULL), THR_OK);
-    int64_t best = try_all(&x, &p, DEPTH), found = thr_walk_best(&steps, p.units, p.units + 1, value);
+    int64_t best = try_all(&x, &p, DEPTH), found = thr_walk_best(&steps, p.units, thr_walk_levels(p.units), value);
     ck_assert_int_ge(found, best); /* which has eleven passes at most */
-    int levels = (p.units < steps.most_units ? p.units : steps.most_units) + 1;
+    const int levels = thr_walk_few_levels(&steps, p.units);
+    ck_assert_int_le(levels, thr_walk_levels(p.units));
     ck_assert_int_eq(thr_walk_best(&steps, p.units, levels, value), found);
     if (length ? p.units <= DEPTH : p.units < 2 * DEPTH) ck_assert_int_eq(found, best);
     free(value);

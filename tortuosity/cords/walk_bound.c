@@ -5,6 +5,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
+#include "tortuosity/cords/walk_centre.h"
 #include "tortuosity/cords/walk_dive.h"
 #include "tortuosity/cords/walk_memory.h"
 #include "tortuosity/cords/walk_near.h"
@@ -13,7 +14,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { MOST_ROUNDS = 300, MOST_GROWTHS = 6, MOST_DIVES = 20, FEW_DIVES = 8, MOST_DRAWN = 12 };
+enum {
+  MOST_LOOKS = 300,
+  MOST_DENSE = 450 /* variables whose dense factors take less time than corners */,
+  MOST_GROWTHS = 6,
+  MOST_DIVES = 20,
+  FEW_DIVES = 8,
+  MOST_DRAWN = 12
+};
 
 /* Cords no further above the bound than that are near: few dives, no walks drawn at random, none chosen in integers. */
 static const double near_enough = 1.05;
@@ -24,7 +32,8 @@ static thr_status exclude(thr_walk_programme *p, int units, bool *grown, thr_wal
 {
   p->to_exclude = true;
   thr_status st = thr_walk_programme_begin(p, units, 1, err); /* no walk that counts is worth more than 1 */
-  if (!st) st = thr_walk_programme_rounds(p, MOST_ROUNDS, err);
+  if (!st)
+    st = p->n_variables <= MOST_DENSE ? thr_walk_centre(p, MOST_LOOKS, err) : thr_walk_programme_rounds(p, MOST_LOOKS, err);
   if (!st && p->excluded) st = thr_walk_take_proof(p, proof, err);
   if (grown) *grown = false;
   if (st) return st;
@@ -201,7 +210,7 @@ static thr_status look_near(thr_walk_programme *p, const thr_cord *cord, int n_c
 static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cords, double enough, double *bound,
                          thr_walk_proof *made, thr_cord **better, thr_err *err)
 {
-  const double for_bound = .6, for_cords = .2, for_near = .3; /* of what is left */
+  const double for_bound = .8, for_cords = .3, for_near = .6; /* of what is left */
   const thr_turning_task *task = p->c->task;
   const thr_limits *limits = p->limits;
   const double largest = thr_walk_price(p->c, p->steps.measure, &cord[thr_walk_dearest(p->c, p->steps.measure, cord, n_cords)]);

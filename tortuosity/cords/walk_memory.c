@@ -7,7 +7,6 @@
 #include "graph/status.h"
 #include "lp/model/pool.h"
 #include "lp/model/search.h"
-#include "lp/solver/lp.h"
 #include "tortuosity/cords/walk_programme.h"
 
 #include <stdlib.h>
@@ -118,11 +117,11 @@ static int place_after(const thr_walk_programme *p, int half)
 static int find_rounds(const thr_walk_programme *p, int *last, around *list)
 {
   const thr_search *search = &p->search;
-  const int rows = thr_lp_rows(search->lp);
+  const double little = 1e-3;
   int n = 0;
-  for (int i = 0; i < search->pool.count && i < rows; i++) {
+  for (int i = 0; i < search->pool.count && i < search->n_dual; i++) {
     const thr_row *row = &search->pool.row[i];
-    if (search->dual[i] < 1e-6) continue;
+    if (search->dual[i] < little) continue;
     for (int e = 0; e < p->c->f->n_edges; e++)
       last[e] = -1;
     for (int k = 0; k < row->n_members; k++) {
@@ -206,7 +205,8 @@ static thr_status make_steps(thr_walk_programme *p, thr_err *err)
   st = thr_walk_steps_remember(&p->steps, p->memory, p->n_memories, &why);
   if (st == THR_EVIOLATED || (!st && !has_table(p))) return thr_fail(err, THR_ELIMIT, "walks remember too much");
   if (st) return thr_fail(err, st, "%s", why.text);
-  int64_t *value = thr_calloc(((size_t)p->most_units + 1) * (size_t)p->steps.n * thr_walk_tables(measure), sizeof *value);
+  int64_t *value =
+      thr_calloc((size_t)thr_walk_levels(p->most_units) * (size_t)p->steps.n * thr_walk_tables(measure), sizeof *value);
   if (!value) return thr_nomem(err);
   free(p->value);
   p->value = value;

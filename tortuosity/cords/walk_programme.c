@@ -16,6 +16,7 @@
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum {
   FEWEST_BITS = 20,       /* of a price */
@@ -23,15 +24,15 @@ enum {
   MOST_ENTRIES = 1 << 23, /* of the recursion's table */
   MOST_UNITS = 4000,
   FEWEST_UNITS = 100,
-  MOST_WALKS = 40, /* that one look at the prices adds, of a recursion */
-  SOME_WALKS = 16, /* of several recursions: the others are not looked at then */
-  PATIENCE = 30    /* rounds after which a walk that is not needed is forgotten */
+  MOST_STARTS = 400, /* first passes that one look at the prices goes through, of a recursion */
+  MOST_WALKS = 40,   /* that it adds */
+  SOME_WALKS = 16    /* of several recursions: the others are not looked at then */
 };
 
 static const double one = 4294967296.0;    /* 1 in the integers of a proof */
 static const double most_steps = 2e8;      /* of all recursions for a look at the prices */
 static const double most_pull_steps = 3e7; /* where they are about all cords, and look longer */
-static const double per_step = 2e-9;       /* seconds */
+static const double per_step = 1e-9;       /* seconds */
 
 /* What the pass after number k of a cord, or the first one for k = -1, adds to it. */
 static double pass_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int k)
@@ -133,11 +134,13 @@ static thr_status allocate(thr_walk_programme *p, thr_err *err)
   p->edge = thr_scratch_array(&p->own, m, sizeof *p->edge);
   p->node = thr_scratch_array(&p->own, n, sizeof *p->node);
   p->right = thr_scratch_array(&p->own, most, sizeof *p->right);
+  p->upper = thr_scratch_array(&p->own, most, sizeof *p->upper);
+  p->passed = thr_scratch_array(&p->own, m, sizeof *p->passed);
   p->x = thr_scratch_array(&p->own, most, sizeof *p->x);
   p->middle = thr_scratch_array(&p->own, most, sizeof *p->middle);
   p->try = thr_scratch_array(&p->own, most, sizeof *p->try);
-  p->start = thr_scratch_array(&p->own, MOST_WALKS, sizeof *p->start);
-  size_t entries = ((size_t)p->most_units + 1) * places * thr_walk_tables(p->steps.measure);
+  p->start = thr_scratch_array(&p->own, MOST_STARTS, sizeof *p->start);
+  size_t entries = (size_t)thr_walk_levels(p->most_units) * places * thr_walk_tables(p->steps.measure);
   p->value = thr_calloc(entries, sizeof *p->value);
   p->half = thr_scratch_array(&p->own, entries, sizeof *p->half);
   p->trial.edge = thr_calloc(m, sizeof *p->trial.edge);
@@ -248,7 +251,14 @@ static thr_status set_trial(thr_walk_programme *p, const double *x, thr_err *err
 /* Worth of the best walk with a first pass; below 0: there is none. */
 static int64_t worth_of(const thr_walk_programme *p, const thr_walk_step *first)
 {
-  return thr_walk_worth(&p->steps, first, p->units, p->units + 1, p->value);
+  return thr_walk_worth(first, p->units, thr_walk_levels(p->units), p->value);
+}
+
+/* Of the recursion; last: after the slackest pass, if a pull counts. */
+static const int64_t *table_of(const thr_walk_programme *p, bool last)
+{
+  const size_t entries = (size_t)thr_walk_levels(p->units) * (size_t)p->steps.n;
+  return p->value + (last && p->steps.measure == THR_WALK_PULL ? entries : 0);
 }
 
 /* What a walk of a recursion is worth from place i on that goes no further there; last: after the slackest pass, if a pull
@@ -256,7 +266,7 @@ static int64_t worth_of(const thr_walk_programme *p, const thr_walk_step *first)
 static int64_t end_worth(const thr_walk_programme *p, int run, int i, bool last)
 {
   const thr_walk_steps *steps = &p->steps;
-  if (!last) return p->value[((size_t)p->units + 1 + (size_t)p->units) * (size_t)steps->n + (size_t)i];
+  if (!last) return table_of(p, true)[thr_walk_entry(i, p->units, thr_walk_levels(p->units))];
   if (!steps->closed) return steps->end[i];
   bool home = steps->n_homes > 0 ? steps->group[i] == thr_tail(p->c->f, steps->begin[steps->from[run]].half)
                                  : steps->spot[i] == steps->spot[steps->begin[run].to];
@@ -267,13 +277,14 @@ static int64_t end_worth(const thr_walk_programme *p, int run, int i, bool last)
 static const thr_walk_step *best_step(const thr_walk_programme *p, int run, int i, int units, bool last)
 {
   const thr_walk_steps *steps = &p->steps;
-  const size_t table = last && steps->measure == THR_WALK_PULL ? (size_t)p->units + 1 : 0;
+  const int64_t *table = table_of(p, last);
+  const int levels = thr_walk_levels(p->units);
   const thr_walk_step *best = NULL;
   int64_t most = end_worth(p, run, i, last);
   for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
     const thr_walk_step *step = &steps->step[k];
     if (step->units > units) continue;
-    const int64_t on = p->value[(table + (size_t)(units - step->units)) * (size_t)steps->n + (size_t)step->to];
+    const int64_t on = table[thr_walk_entry(step->to, units - step->units, levels)];
     if (thr_walk_is_none(on) || on + step->worth <= most) continue;
     most = on + step->worth;
     best = step;
@@ -334,28 +345,38 @@ static bool closes_back(const thr_walk_programme *p, int n)
   return p->per_cord > 0 && p->steps.closed && p->half[n - 1] == (first ^ 1) && thr_degree(p->c->f, thr_tail(p->c->f, first)) > 1;
 }
 
-/* The row of the best walk of a recursion with a first pass, as thr_row.index and member say; without members: it is none. */
-static thr_row trace_walk(thr_walk_programme *p, int run, const thr_walk_step *step)
+typedef struct {
+  int n, units;  /* passes, in p->half */
+  double weight; /* of its turns, or its length */
+} traced;
+
+/* The best walk of a recursion with a first pass. */
+static traced trace_walk(thr_walk_programme *p, int run, const thr_walk_step *step)
 {
-  int n = 0, units = 0, left = p->units;
+  traced walk = {0};
+  int left = p->units;
   bool last = p->steps.measure != THR_WALK_PULL;
-  double all = 0;
   while (step) {
     const int i = step->to;
-    p->half[n++] = step->half;
-    units += step->units;
+    p->half[walk.n++] = step->half;
+    walk.units += step->units;
     left -= step->units;
-    all += (double)step->weight;
+    walk.weight += (double)step->weight;
     step = best_step(p, run, i, left, last);
     if (step || last) continue;
     last = true;
     left = p->units;
     step = best_step(p, run, i, left, last);
   }
-  if (closes_back(p, n)) return (thr_row){0};
-  thr_row row = thr_walk_programme_row(p, &p->search.pool, p->half, n);
-  if (p->steps.measure != THR_WALK_PULL) row.index = units;
-  if (p->least > 0) thr_pool_put(&p->search.pool, p->n_variables - 1, -ldexp(all, -p->steps.exponent) / p->least);
+  return walk;
+}
+
+/* Its row, put together. */
+static thr_row row_of(thr_walk_programme *p, const traced *walk)
+{
+  thr_row row = thr_walk_programme_row(p, &p->search.pool, p->half, walk->n);
+  if (p->steps.measure != THR_WALK_PULL) row.index = walk->units;
+  if (p->least > 0) thr_pool_put(&p->search.pool, p->n_variables - 1, -ldexp(walk->weight, -p->steps.exponent) / p->least);
   return row;
 }
 
@@ -396,24 +417,38 @@ static void judge_prices(thr_walk_programme *p, const double *x, double worth)
     p->middle[j] = x[j] * one / worth;
 }
 
+/* Notes the passes of a walk; are less than a tenth of them new? Then it is much like those of this look. */
+static bool is_like_others(thr_walk_programme *p, int n)
+{
+  int old = 0;
+  for (int k = 0; k < n; k++)
+    old += p->passed[p->half[k] >> 1];
+  if (10 * old > 9 * n) return true;
+  for (int k = 0; k < n; k++)
+    p->passed[p->half[k] >> 1] = true;
+  return false;
+}
+
 /* The walks of a recursion that are worth most, as far as the last optimum does not know them. *most: what any is worth. */
 static thr_status price_run(thr_walk_programme *p, int run, int64_t *most, int *added, thr_err *err)
 {
   thr_status st = THR_OK;
-  thr_walk_run(&p->steps, run, p->units, p->units + 1, p->value);
+  thr_walk_run(&p->steps, run, p->units, thr_walk_levels(p->units), p->value);
   thr_limits_spend(p->limits, per_step * p->units * p->steps.first[p->steps.n] * (double)thr_walk_tables(p->steps.measure));
-  const int n = sort_starts(p, run, p->steps.closed ? 1 : MOST_WALKS);
+  const int n = sort_starts(p, run, p->steps.closed ? 1 : MOST_STARTS);
   if (n > 0 && worth_of(p, p->start[0]) > *most) *most = worth_of(p, p->start[0]);
-  for (int i = 0; i < n && !st && worth_of(p, p->start[i]) > 0; i++) {
-    const thr_row row = trace_walk(p, run, p->start[i]);
-    if (row.n_members > 0) st = thr_pool_offer(&p->search.pool, row, p->x, 1e-6, added, err);
+  memset(p->passed, 0, (size_t)p->c->f->n_edges * sizeof *p->passed);
+  for (int i = 0, taken = 0; i < n && taken < MOST_WALKS && !st && worth_of(p, p->start[i]) > 0; i++) {
+    const traced walk = trace_walk(p, run, p->start[i]);
+    if (closes_back(p, walk.n) || is_like_others(p, walk.n)) continue;
+    st = thr_pool_offer(&p->search.pool, row_of(p, &walk), p->x, 1e-6, added, err);
+    taken++;
   }
   return st;
 }
 
-/* The same of all recursions, which say what the prices prove; or of those from where the last look ended until there are some
- * walks. */
-static thr_status price_walks(thr_walk_programme *p, const double *x, int *added, thr_err *err)
+/* All recursions say what the prices prove; or those from where the last look ended until there are some walks. */
+thr_status thr_walk_programme_look(thr_walk_programme *p, const double *x, int *added, thr_err *err)
 {
   thr_status st = set_trial(p, x, err);
   int64_t most = p->lengths ? 0 : 1;
@@ -429,16 +464,20 @@ static thr_status price_walks(thr_walk_programme *p, const double *x, int *added
   return st;
 }
 
-static thr_status find_walks(void *user, int *added, thr_err *err)
+thr_status thr_walk_programme_find(thr_walk_programme *p, int *added, thr_err *err)
 {
-  thr_walk_programme *p = user;
   thr_status st = THR_OK;
   if (p->to_exclude && p->best > 0) {
     for (int j = 0; j < p->n_variables; j++)
       p->try[j] = .3 * p->x[j] + .7 * p->middle[j];
-    st = price_walks(p, p->try, added, err);
+    st = thr_walk_programme_look(p, p->try, added, err);
   }
-  return st || p->excluded || *added > 0 ? st : price_walks(p, p->x, added, err);
+  return st || p->excluded || *added > 0 ? st : thr_walk_programme_look(p, p->x, added, err);
+}
+
+static thr_status find_walks(void *user, int *added, thr_err *err)
+{
+  return thr_walk_programme_find(user, added, err);
 }
 
 void thr_walk_programme_round_up(thr_walk_programme *p, double per_cord)
@@ -485,21 +524,20 @@ static thr_status carry_walks(const thr_pool *from, int units, thr_pool *to, thr
 
 thr_status thr_walk_programme_begin(thr_walk_programme *p, int units, double price, thr_err *err)
 {
-  double *cost = thr_calloc((size_t)p->n_variables, sizeof *cost), *upper = thr_calloc((size_t)p->n_variables, sizeof *upper);
-  thr_status st = cost && upper ? thr_search_init(&p->search, p->n_variables, p->x, err) : thr_nomem(err);
+  double *cost = thr_calloc((size_t)p->n_variables, sizeof *cost);
+  thr_status st = cost ? thr_search_init(&p->search, p->n_variables, p->x, err) : thr_nomem(err);
   p->units = units;
   p->excluded = false;
   p->best = 0;
   for (int j = 0; j < p->n_variables && !st; j++) {
     cost[j] = -p->right[j];
-    upper[j] = j + 1 == p->n_variables && p->least > 0 ? 2 * p->cords : price;
+    p->upper[j] = j + 1 == p->n_variables && p->least > 0 ? 2 * p->cords : price;
   }
-  if (!st) st = thr_lp_create(&p->search.lp, p->n_variables, cost, upper, err);
+  if (!st) st = thr_lp_create(&p->search.lp, p->n_variables, cost, p->upper, err);
   if (!st && p->per_cord > 0) st = thr_lp_set_bounds(p->search.lp, p->n_variables - 1, p->per_cord, p->per_cord, err);
   if (!st) st = carry_walks(&p->walks, units, &p->search.pool, err);
   if (!st) thr_search_use(&p->search, find_walks, p, THR_SLOW);
   free(cost);
-  free(upper);
   return st;
 }
 
@@ -522,8 +560,7 @@ thr_status thr_walk_programme_add(thr_walk_programme *p, const thr_cord *cord, t
 
 thr_status thr_walk_programme_rounds(thr_walk_programme *p, int most_rounds, thr_err *err)
 {
-  const bool forgets = p->to_exclude && !p->lengths;
-  const thr_search_calls calls = {.user = p, .look = look, .most_rounds = most_rounds, .patience = forgets ? PATIENCE : 0};
+  const thr_search_calls calls = {.user = p, .look = look, .most_rounds = most_rounds};
   return thr_search_rounds(&p->search, &calls, p->limits, err);
 }
 

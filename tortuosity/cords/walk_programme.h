@@ -6,7 +6,8 @@
  * or are as long as they must be. What is solved is the dual, whose variables are prices (graph/plan/walk_proof.h) and whose
  * rows, one for every walk, are found by the recursion that checks the proof (P. C. Gilmore & R. E. Gomory 1961). It goes by
  * prices between the last optimum and the best so far, where optima alone would swing (P. Wentges 1997); any prices give a valid
- * bound (A. A. Farley 1990), which ends most searches early. */
+ * bound (A. A. Farley 1990), which ends most searches early. Optima are corners, by the simplex method, or near the middle
+ * (tortuosity/cords/walk_centre.h). */
 #ifndef THR_WALK_PROGRAMME_H
 #define THR_WALK_PROGRAMME_H
 
@@ -34,7 +35,7 @@ typedef struct {
   int n_variables, *edge, *node; /* [n_edges], [n_nodes] their variables, -1: none. The last one, if least > 0: of all */
   int n_edges;                   /* variables of edges, which come first */
   bool lengths;             /* with a pull: walks cost their length, else each as much, and the last variable is a cord's price */
-  double *right;            /* [n_variables] the right sides: costs of the dual */
+  double *right, *upper;    /* [n_variables] the right sides: costs of the dual; and what a variable is at most */
   double scale, longest;    /* of prices to the integers of a proof; with a pull 1 is the length of the longest edge */
   double enough;            /* with a pull: a bound on the length that ends the search, or so few cords */
   double dearest;           /* with a pull: price of a pass at most */
@@ -45,8 +46,9 @@ typedef struct {
   double *x, *middle, *try; /* [n_variables] the last optimum, the best so far, what is priced */
   int run;                  /* of the recursions, the one that was looked at last */
   double best;              /* number of cords that the best proves, or their length; 0: none yet */
-  int64_t *value;           /* [tables][most_units + 1][steps.n] of the recursion; owned */
+  int64_t *value;           /* [tables][steps.n][most_units + 1] of the recursion; owned */
   const thr_walk_step **start; /* [most first steps] in the order of their worth */
+  bool *passed;                /* [n_edges] by a walk that was found in this look at a recursion */
   int *half;                   /* a walk while it is traced */
   thr_walk_proof trial;
   thr_search search; /* rows: index is the number of units, member the walk's half-edges in order */
@@ -79,6 +81,14 @@ thr_status thr_walk_programme_add(thr_walk_programme *programme, const thr_cord 
 
 /* Adds walks, at most so many times, until the optimum knows all that it needs or the limit is excluded. */
 thr_status thr_walk_programme_rounds(thr_walk_programme *programme, int most_rounds, thr_err *err) THR_MUST_CHECK;
+
+/* Adds the walks that are worth most at prices x[n_variables], as far as the pool has none like them and the last optimum does
+ * not know them, counted in *added. Where limits are to be excluded, what the prices prove: best, middle and excluded. Of closed
+ * walks a look goes through the recursions only until it has some. */
+thr_status thr_walk_programme_look(thr_walk_programme *programme, const double *x, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* The same at prices between the last optimum, x, and the best so far; where these find none, at x. */
+thr_status thr_walk_programme_find(thr_walk_programme *programme, int *added, thr_err *err) THR_MUST_CHECK;
 
 /* With a pull: from now on walks are only those that certainly keep to it and turn back only at nodes with one edge, as many as
  * one likes at that price each, in lengths of the longest edge. */
