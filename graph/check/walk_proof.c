@@ -338,7 +338,8 @@ thr_status thr_walk_steps_price(thr_walk_steps *steps, const thr_walk_proof *pro
   const thr_frame *frame = steps->c->f;
   thr_status st = check_prices(steps, proof, err);
   if (st) return st;
-  if (proof->units < 0 || proof->all > INT64_C(1) << 56 || proof->bits < 0 || proof->bits > THR_TURNING_BITS)
+  if (proof->units < 0 || proof->units > INT_MAX / 2 || proof->all > INT64_C(1) << 56 || proof->bits < 0 ||
+      proof->bits > THR_TURNING_BITS)
     return thr_fail(err, THR_EVIOLATED, "walks: %d units, or a price of turning or length that is out of range", proof->units);
   if (!add_up(steps, proof)) return thr_fail(err, THR_EVIOLATED, "walks: prices are too large to be added up in 64 bits");
   for (int i = 0; i < steps->n; i++)
@@ -377,8 +378,8 @@ int thr_walk_levels(int units)
 
 int thr_walk_few_levels(const thr_walk_steps *steps, int units)
 {
-  const int all = thr_walk_levels(units), reached = thr_walk_levels(steps->most_units + THR_WALK_WIDTH - 1);
-  return all < reached ? all : reached;
+  const int reached = thr_walk_levels(steps->most_units + THR_WALK_WIDTH - 1);
+  return units < reached - THR_WALK_WIDTH ? thr_walk_levels(units) : reached;
 }
 
 /* Levels that are found together: all that steps of few units lead to has been found then. */
