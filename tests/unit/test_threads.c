@@ -284,7 +284,7 @@ START_TEST(the_largest_turning_does_not_depend_on_threads)
   o.aims = (thr_aims){1, {THR_AIM_MAX_TURNING}};
   o.ends = THR_ENDS_ANY;
   o.cords = o.cords_least = 4;
-  plan_in_threads(&f, &o, .5, THR_ELIMIT, &p);
+  plan_in_threads(&f, &o, .3, THR_ELIMIT, &p);
   ck_assert(p.n_cords == 4 && p.turning.tree.walks.unit > 0);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
