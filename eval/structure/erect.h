@@ -2,8 +2,8 @@
  *
  * A heap under tight cords does not rise by itself: faces that lean on each other's edges lock. A counterweight over every bead
  * (the thesis's Fig. 25) that carries a part of its weight lets the cords close the gaps. The least of five parts that does is
- * found by trying. Cords lead from hole to hole and have the tensions of being drawn in; beads
- * without feet come to lie on the ground, too.
+ * found by trying. Cords lead from hole to hole and have the tensions of being drawn in; beads without feet come to lie on the
+ * ground, too.
  *
  * This is a picture of one way up, not a proof: friction, damping and the way down are the simulation's. */
 #ifndef THR_ERECT_H

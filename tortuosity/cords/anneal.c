@@ -23,14 +23,19 @@ typedef struct {
   double part, heat; /* totals count as exp(total / part); of that sum a change may raise so much, more or less */
 } course;
 
-/* Part at the beginning of a cycle: a turn or some turns; less where passes are so many that a run has few steps for each. Of
- * lengths so much of the longest. */
-static double first_part(thr_walk_measure measure, int number, int passes, double best)
+/* How far a cycle is, 0 to 1. At first all of a total counts nearly alike, so that cords turn little together, and at last only
+ * the largest ones. The heat is a turn of a radian, or for lengths a part of part; it falls to a hundredth. */
+static void cool(course *at, thr_walk_measure measure, int number, double done)
 {
-  enum { MANY = 300 };
-  static const double turning[2][3] = {{2, 2, .5}, {.5, .5, 2}}; /* rad */
-  const double of_length = .15;
-  return measure == THR_WALK_LENGTH ? of_length * best : turning[passes > MANY][number / 2 % 3];
+  const double of_length = .15, narrowing = .1, hot = number % 2 ? 2 : .5, cooling = .01;
+  const double turn = 1, narrow = .01; /* rad; of the largest total */
+  if (measure == THR_WALK_LENGTH) {
+    at->part = of_length * at->best * pow(narrowing, done);
+    at->heat = hot * pow(cooling, done);
+  } else {
+    at->part = at->best * pow(narrow, done);
+    at->heat = turn * pow(cooling, done) / at->part;
+  }
 }
 
 static double largest(const thr_annealer *x)
@@ -57,20 +62,20 @@ static thr_status step(thr_annealer *x, const course *at, bool *made, thr_err *e
 {
   int a = thr_random_below(&x->state, x->n_cords), b = thr_random_below(&x->state, x->n_cords);
   if (x->walk[b].total > x->walk[a].total) a = b;
-  const double kind = thr_random_unit(&x->state);
+  const double kind = thr_random_unit(&x->state), exchanges = .82, drops = .83, ends = .92; /* kinds below that */
   thr_anneal_exchange exchange = {0};
   bool found;
-  if (kind < .75)
+  if (kind < exchanges)
     found = thr_anneal_exchanges(x, a, &exchange);
-  else if (kind < .8)
+  else if (kind < drops)
     found = thr_anneal_drop_loop(x, a, &exchange.change);
-  else if (kind < .88 && !x->closed)
+  else if (kind < ends && !x->closed)
     found = thr_anneal_end_elsewhere(x, a, &exchange.change);
   else
     found = thr_anneal_reroute(x, a, &exchange.change);
   *made = found && is_taken(x, at, &exchange.change);
   if (!*made) return THR_OK;
-  if (kind < .75) thr_anneal_build(x, &exchange);
+  if (kind < exchanges) thr_anneal_build(x, &exchange);
   return thr_anneal_make(x, &exchange.change, err);
 }
 
@@ -99,7 +104,6 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
                           thr_cord *cord, int n_cords, bool *better, thr_err *err)
 {
   enum { CYCLES = 3, LOOK = 64 };
-  const double narrowing = .1, hot = number % 2 ? 2 : .5, cooling = .01;
   thr_annealer x;
   course at = {0};
   *better = false;
@@ -107,7 +111,7 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
   if (!st) at.best = largest(&x);
   x.state = (uint64_t)number + 1;
   const int passes = thr_cords_passes(cord, n_cords);
-  const double all = left_of(limits), per_step = 6e-8 + 5e-10 * passes / n_cords; /* s, counted */
+  const double all = left_of(limits), per_step = 3.6e-8 + 3e-10 * passes / n_cords; /* s, counted */
   for (int i = 0; i < task->steps && !st && at.best > task->enough; i++) {
     bool made;
     if (i % LOOK == 0) {
@@ -116,8 +120,7 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
       double done = (double)i / task->steps;
       if (all > 0) done = fmax(done, 1 - left_of(limits) / all);
       done = fmod(fmin(done, .999) * CYCLES, 1);
-      at.part = first_part(task->measure, number, passes, at.best) * pow(narrowing, done);
-      at.heat = hot * pow(cooling, done);
+      cool(&at, task->measure, number, done);
     }
     st = step(&x, &at, &made, err);
     if (st || !made || largest(&x) >= at.best * (1 - 1e-9)) continue;

@@ -5,6 +5,7 @@
 #include "tortuosity/cords/anneal_parts.h"
 
 #include <math.h>
+#include <string.h>
 
 bool thr_anneal_drop_loop(thr_annealer *x, int a, thr_anneal_change *change)
 {
@@ -24,14 +25,24 @@ bool thr_anneal_drop_loop(thr_annealer *x, int a, thr_anneal_change *change)
   return true;
 }
 
+/* Are the n passes that are made, alike up to pass from, the walk itself? */
+static bool is_walk(const thr_annealer *x, const thr_anneal_walk *walk, int from, int n, bool backwards)
+{
+  bool same = n == walk->n;
+  for (int k = from; k < n && same; k++)
+    same = x->made[0][k] == (backwards ? walk->half[n - 1 - k] ^ 1 : walk->half[k]);
+  return same;
+}
+
 bool thr_anneal_end_elsewhere(thr_annealer *x, int a, thr_anneal_change *change)
 {
   const thr_frame *frame = x->c->f;
   const bool *allowed = x->c->task->end_allowed;
   const thr_anneal_walk *walk = &x->walk[a];
   int *made = x->made[0], spare = walk->n;
+  const bool backwards = thr_random_below(&x->state, 2);
   *change = (thr_anneal_change){.n_cords = 1, .cord = {a}};
-  thr_anneal_put(x, change, 0, walk->half, 0, walk->n, thr_random_below(&x->state, 2));
+  thr_anneal_put(x, change, 0, walk->half, 0, walk->n, backwards);
   while (spare > 1) { /* passes of the tail that are not needed */
     const int e = made[spare - 1] >> 1;
     if (x->passes[e] - x->count[e] <= x->c->cover[e]) break;
@@ -53,6 +64,7 @@ bool thr_anneal_end_elsewhere(thr_annealer *x, int a, thr_anneal_change *change)
     made[n++] = next;
   }
   change->n[0] = n;
+  if (is_walk(x, walk, spare, n, backwards)) return false;
   change->total[0] = thr_anneal_total(x, change, 0);
   return true;
 }
@@ -115,12 +127,13 @@ bool thr_anneal_reroute(thr_annealer *x, int a, thr_anneal_change *change)
   enum { MOST_PASSES = 6 };
   const thr_anneal_walk *walk = &x->walk[a];
   if (walk->n < 3) return false;
-  const int i = 1 + thr_random_below(&x->state, walk->n - 1);
-  int j = i + thr_random_below(&x->state, MOST_PASSES);
+  const int i = 1 + thr_random_below(&x->state, walk->n - 2);
+  int j = i + 1 + thr_random_below(&x->state, MOST_PASSES - 1);
   if (j > walk->n - 1) j = walk->n - 1;
   if (!thr_anneal_spare(x, walk, i, j)) return false;
   find_route(x, walk->half[i - 1], walk->half[j]);
   if (x->n_route < 0 || walk->n + x->n_route > x->room) return false;
+  if (x->n_route == j - i && memcmp(x->route, walk->half + i, (size_t)(j - i) * sizeof *x->route) == 0) return false;
   *change = (thr_anneal_change){.n_cords = 1, .cord = {a}};
   thr_anneal_put(x, change, 0, walk->half, 0, i, false);
   thr_anneal_put(x, change, 0, x->route, 0, x->n_route, false);

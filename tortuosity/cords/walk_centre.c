@@ -126,7 +126,6 @@ static thr_status look_beside(thr_walk_programme *p, int first, int *added, thr_
   enum { TIMES = 4 };
   thr_status st = THR_OK;
   memcpy(p->try, p->x, (size_t)p->n_variables * sizeof *p->try);
-  p->to_exclude = false;
   for (int i = 0; i < TIMES && first < p->search.pool.count && !st && !thr_limits_stop(p->limits); i++) {
     const thr_row *row = &p->search.pool.row[first];
     for (int k = 0; k < row->n; k++)
@@ -136,7 +135,6 @@ static thr_status look_beside(thr_walk_programme *p, int first, int *added, thr_
     st = thr_walk_programme_look(p, p->try, &more, err);
     *added += more;
   }
-  p->to_exclude = true;
   return st;
 }
 

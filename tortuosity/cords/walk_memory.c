@@ -188,7 +188,7 @@ static bool has_table(const thr_walk_programme *p)
 {
   const double steps = (double)p->units * p->steps.first[p->steps.n] * thr_walk_runs(&p->steps);
   const double tables = (double)thr_walk_tables(p->steps.measure);
-  return tables * (p->most_units + 1) * p->steps.n <= MOST_ENTRIES &&
+  return tables * thr_walk_levels(p->most_units) * p->steps.n <= MOST_ENTRIES &&
          steps <= (p->steps.measure == THR_WALK_PULL ? most_pull_steps : most_steps);
 }
 

@@ -386,11 +386,11 @@ static int sort_starts(thr_walk_programme *p, int run, int most)
   const thr_walk_step *first;
   int n = 0, count = thr_walk_firsts(&p->steps, run, &first);
   for (int i = 0; i < count; i++) {
-    int64_t worth = worth_of(p, &first[i]);
+    const thr_walk_start here = {worth_of(p, &first[i]), &first[i]};
     int k = n < most ? n++ : most;
-    for (; k > 0 && worth_of(p, p->start[k - 1]) < worth; k--)
+    for (; k > 0 && p->start[k - 1].worth < here.worth; k--)
       if (k < most) p->start[k] = p->start[k - 1];
-    if (k < most) p->start[k] = &first[i];
+    if (k < most) p->start[k] = here;
   }
   return n;
 }
@@ -436,10 +436,10 @@ static thr_status price_run(thr_walk_programme *p, int run, int64_t *most, int *
   thr_walk_run(&p->steps, run, p->units, thr_walk_levels(p->units), p->value);
   thr_limits_spend(p->limits, per_step * p->units * p->steps.first[p->steps.n] * (double)thr_walk_tables(p->steps.measure));
   const int n = sort_starts(p, run, p->steps.closed ? 1 : MOST_STARTS);
-  if (n > 0 && worth_of(p, p->start[0]) > *most) *most = worth_of(p, p->start[0]);
+  if (n > 0 && p->start[0].worth > *most) *most = p->start[0].worth;
   memset(p->passed, 0, (size_t)p->c->f->n_edges * sizeof *p->passed);
-  for (int i = 0, taken = 0; i < n && taken < MOST_WALKS && !st && worth_of(p, p->start[i]) > 0; i++) {
-    const traced walk = trace_walk(p, run, p->start[i]);
+  for (int i = 0, taken = 0; i < n && taken < MOST_WALKS && !st && p->start[i].worth > 0; i++) {
+    const traced walk = trace_walk(p, run, p->start[i].first);
     if (closes_back(p, walk.n) || is_like_others(p, walk.n)) continue;
     st = thr_pool_offer(&p->search.pool, row_of(p, &walk), p->x, 1e-6, added, err);
     taken++;

@@ -21,6 +21,12 @@
 #include "lp/model/pool.h"
 #include "lp/model/search.h"
 
+/* A first pass, and what the best walk from there is worth. */
+typedef struct {
+  int64_t worth;
+  const thr_walk_step *first;
+} thr_walk_start;
+
 typedef struct {
   const thr_turning_columns *c;
   const thr_limits *limits;
@@ -47,9 +53,9 @@ typedef struct {
   int run;                  /* of the recursions, the one that was looked at last */
   double best;              /* number of cords that the best proves, or their length; 0: none yet */
   int64_t *value;           /* [tables][steps.n][most_units + 1] of the recursion; owned */
-  const thr_walk_step **start; /* [most first steps] in the order of their worth */
-  bool *passed;                /* [n_edges] by a walk that was found in this look at a recursion */
-  int *half;                   /* a walk while it is traced */
+  thr_walk_start *start;    /* [most first passes] in the order of their worth */
+  bool *passed;             /* [n_edges] by a walk that was found in this look at a recursion */
+  int *half;                /* a walk while it is traced */
   thr_walk_proof trial;
   thr_search search; /* rows: index is the number of units, member the walk's half-edges in order */
   thr_pool walks;    /* of all limits so far */
