@@ -9,7 +9,7 @@ export RESULTS=$OUT/results
 
 # Longest first, so that none of them is left alone at the end.
 longest='web second/plans release/watchdog release/memory viewer/browser unit/test_sheets property/test_cover property/test_tube_cords
-property/test_evenly unit/test_holding golden/figures golden/eval unit/test_overview property/test_cross property/test_circuits
+property/test_evenly unit/test_structure unit/test_holding golden/figures golden/eval unit/test_overview property/test_cross property/test_circuits
 property/test_adversary_turning property/test_adversary_claims unit/test_diagram unit/test_tied_symmetry unit/test_group golden/draw golden/plan'
 
 # ---- one job: tests/run.sh job NAME. Writes "passed failed skipped" to $RESULTS/NAME.count and prints a line to file 7 (make has 3 and 4). ----
