@@ -8,7 +8,7 @@
 #include "graph/status.h"
 
 /* The work of limits counts every pivot as a hundred-millionth of a second for each row and column of its programme, and 3000,
- * and a 250th of that for each row with each column. */
+ * and three hundredths of that for each entry that is not 0. */
 typedef struct thr_lp thr_lp;
 
 typedef enum {

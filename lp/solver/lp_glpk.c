@@ -422,14 +422,14 @@ static thr_lp_outcome outcome_of(glp_prob *problem)
   }
 }
 
-/* Takes pivots from the work that is left: of a small programme one takes as long as 3000 rows and columns do, of a large one
- * longer than in proportion. */
+/* Takes pivots from the work that is left: of a small programme one takes as long as 3000 rows and columns do, of a dense one
+ * longer. */
 static void spend(const thr_limits *limits, glp_prob *p, int pivots)
 {
   enum { SMALL = 3000 };
-  const double each = 1e-8, both = 4e-11; /* s for a row or a column, and for a row and a column */
-  const double rows = glp_get_num_rows(p), columns = glp_get_num_cols(p);
-  thr_limits_spend(limits, pivots * (each * (SMALL + rows + columns) + both * rows * columns));
+  const double each = 1e-8, of_entry = 3e-10; /* s for a row or a column, and for what is not 0 */
+  const double size = SMALL + glp_get_num_rows(p) + glp_get_num_cols(p), entries = glp_get_num_nz(p);
+  thr_limits_spend(limits, pivots * (each * size + of_entry * entries));
 }
 
 static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
