@@ -23,10 +23,10 @@ typedef struct {
 } thr_anneal_task;
 
 /* Lowers the largest price of the turns of n_cords cords, or their largest length, and replaces them where it falls, as long as
- * it is above enough: in rounds of two runs each from the best so far, of which one begins hotter (alone: in turn), until all
- * rounds are done, or several in turn were in vain, or the limits' time is up. Solid joints, and no given numbers of ends at
- * nodes. Every edge keeps the passes that the columns ask for, and has no more than they allow. *better: whether it fell. A
- * change that is not taken takes time that does not depend on the framework, one that is O(passes of two cords). */
+ * it is above enough: in rounds of two runs each from the best so far (alone: of one; of lengths every second run begins hotter),
+ * until all rounds are done, or several in turn were in vain, or the limits' time is up. Solid joints, and no given numbers of
+ * ends at nodes. Every edge keeps the passes that the columns ask for, and has no more than they allow. *better: whether it fell.
+ * A change that is not taken takes time that does not depend on the framework, one that is O(passes of two cords). */
 thr_status thr_anneal(const thr_turning_columns *columns, const thr_anneal_task *task, const thr_limits *limits, thr_cord *cord,
                       int n_cords, bool *better, thr_err *err) THR_MUST_CHECK;
 
