@@ -52,7 +52,7 @@ typedef struct {
   double *x, *middle, *try; /* [n_variables] the last optimum, the best so far, what is priced */
   int run;                  /* of the recursions, the one that was looked at last */
   double best;              /* number of cords that the best proves, or their length; 0: none yet */
-  int64_t *value;           /* [tables][steps.n][most_units + 1] of the recursion; owned */
+  int64_t *value;           /* [tables * steps.n * thr_walk_levels(most_units)] of the recursion; owned */
   thr_walk_start *start;    /* [most first passes] in the order of their worth */
   bool *passed;             /* [n_edges] by a walk that was found in this look at a recursion */
   int *half;                /* a walk while it is traced */
