@@ -3,6 +3,7 @@
 #include "tests/frameworks.h"
 #include "tests/oracles.h"
 #include "tests/plans.h"
+#include "tests/symmetric.h"
 #include "graph/framework/make.h"
 #include "lp/length/postman.h"
 #include "tortuosity/tour/baseline.h"
@@ -298,13 +299,7 @@ END_TEST
 
 START_TEST(pairings_spare_turns_on_domes)
 {
-  thr_draft d = {0};
-  thr_frame f;
-  thr_read_report report;
-  thr_make_options o = thr_make_options_default(THR_MAKE_DOME);
-  o.size = _i;
-  ck_assert_int_eq(thr_make(&d, &o, NULL), THR_OK);
-  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &report, NULL), THR_OK);
+  thr_frame f = shape_make(THR_MAKE_DOME, _i, 0);
   for (int k = 0; k < 2; k++)
     for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++) {
       thr_least keep = tour_make(&f, (thr_ends)ends, 1, tours[k], false);
@@ -313,7 +308,6 @@ START_TEST(pairings_spare_turns_on_domes)
       thr_least_destroy(&keep);
       thr_least_destroy(&ignore);
     }
-  thr_draft_destroy(&d);
   thr_frame_destroy(&f);
 }
 END_TEST

@@ -3,6 +3,7 @@
 #include "tests/support.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
+#include "tests/symmetric.h"
 #include "graph/angle.h"
 #include "tests/threadings.h"
 #include "eval/eval.h"
@@ -65,56 +66,57 @@ START_TEST(straight_lines_pull_least)
 }
 END_TEST
 
+static const thr_holding *holding_of(const thr_eval *e, int k)
+{
+  return k == 0 ? &e->holding : k == 1 ? &e->equal : &e->loosest;
+}
+
+/* The plan of a file twice: the second time with more rays, or with the other end of every second cord called the start. */
+static void eval_twice(const char *path, int rays, bool turned, thr_eval e[2])
+{
+  thr_plan p;
+  thr_err err = {0};
+  thr_eval_options o = thr_eval_options_default();
+  o.dynamics = false;
+  ck_assert_msg(thr_plan_read(&p, path, &err) == THR_OK, "%s", err.text);
+  for (int k = 0; k < 2; k++) {
+    for (int i = 1; i < p.n_cords && turned && k == 1; i += 2)
+      thr_walk_reverse(p.cord[i].half, p.cord[i].n_passes);
+    o.rays = k ? rays : 0;
+    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k], &err) == THR_OK, "%s",
+                  err.text);
+  }
+  thr_plan_destroy(&p);
+}
+
 /* Pyramids of 24 rays lie between those of 8, inside the cones and round them. */
 START_TEST(more_rays_bring_the_bounds_closer)
 {
   static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-snake.json"};
-  thr_plan p;
   thr_eval e[2];
-  thr_err err = {0};
-  thr_eval_options o = thr_eval_options_default();
-  o.dynamics = false;
-  ck_assert_msg(thr_plan_read(&p, plans[_i], &err) == THR_OK, "%s", err.text);
-  for (int k = 0; k < 2; k++) {
-    o.rays = k ? 24 : 0;
-    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k], &err) == THR_OK, "%s",
-                  err.text);
-  }
-  const thr_holding *few[] = {&e[0].holding, &e[0].equal, &e[0].loosest}, *many[] = {&e[1].holding, &e[1].equal, &e[1].loosest};
+  eval_twice(plans[_i], 24, false, e);
   for (int k = 0; k < 3; k++) {
-    ck_assert(few[k]->lower <= many[k]->lower * (1 + 1e-6) && many[k]->upper <= few[k]->upper * (1 + 1e-6));
-    ck_assert(many[k]->lower <= many[k]->upper && many[k]->upper - many[k]->lower < 0.2 * (few[k]->upper - few[k]->lower));
+    const thr_holding *few = holding_of(&e[0], k), *many = holding_of(&e[1], k);
+    ck_assert(few->lower <= many->lower * (1 + 1e-6) && many->upper <= few->upper * (1 + 1e-6));
+    ck_assert(many->lower <= many->upper && many->upper - many->lower < 0.2 * (few->upper - few->lower));
   }
   thr_eval_destroy(&e[0]);
   thr_eval_destroy(&e[1]);
-  thr_plan_destroy(&p);
 }
 END_TEST
 
-/* Of every second cord the other end is called the start: nothing changes. */
 START_TEST(direction_of_writing_changes_nothing)
 {
   static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-stairs.json"};
-  thr_plan p;
   thr_eval e[2];
-  thr_err err = {0};
-  thr_eval_options o = thr_eval_options_default();
-  o.dynamics = false;
-  ck_assert_msg(thr_plan_read(&p, plans[_i], &err) == THR_OK, "%s", err.text);
-  for (int way = 0; way < 2; way++) {
-    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[way], &err) == THR_OK, "%s",
-                  err.text);
-    for (int i = 1; i < p.n_cords; i += 2)
-      thr_walk_reverse(p.cord[i].half, p.cord[i].n_passes);
-  }
-  const thr_holding *a[] = {&e[0].holding, &e[0].equal, &e[0].loosest}, *b[] = {&e[1].holding, &e[1].equal, &e[1].loosest};
+  eval_twice(plans[_i], 0, true, e);
   for (int k = 0; k < 3; k++) {
-    ck_assert_double_eq_tol(a[k]->lower, b[k]->lower, 1e-6 * a[k]->lower);
-    ck_assert_double_eq_tol(a[k]->upper, b[k]->upper, 1e-6 * a[k]->upper);
+    const thr_holding *a = holding_of(&e[0], k), *b = holding_of(&e[1], k);
+    ck_assert_double_eq_tol(a->lower, b->lower, 1e-6 * a->lower);
+    ck_assert_double_eq_tol(a->upper, b->upper, 1e-6 * a->upper);
   }
   thr_eval_destroy(&e[0]);
   thr_eval_destroy(&e[1]);
-  thr_plan_destroy(&p);
 }
 END_TEST
 
@@ -150,16 +152,9 @@ END_TEST
 
 static thr_plan dome_plan(int side, threading kind)
 {
-  thr_draft draft = {0};
-  thr_frame dome;
-  thr_read_report report;
-  thr_make_options make = thr_make_options_default(THR_MAKE_DOME);
-  make.size = side;
-  ck_assert_int_eq(thr_make(&draft, &make, NULL), THR_OK);
-  ck_assert_int_eq(thr_draft_build(&draft, -1, &dome, &report, NULL), THR_OK);
+  thr_frame dome = shape_make(THR_MAKE_DOME, side, 0);
   const thr_plan p = threading_make(&dome, side, kind);
   thr_frame_destroy(&dome);
-  thr_draft_destroy(&draft);
   return p;
 }
 
