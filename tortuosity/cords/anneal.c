@@ -21,21 +21,51 @@
 typedef struct {
   double best;       /* largest total of the best cords */
   double part, heat; /* totals count as exp(total / part); of that sum a change may raise so much, more or less */
+  bool near;         /* cycles stay near the best cords */
 } course;
 
+/* By equal factors to so much of the first. */
+static double fall(double first, double to, double done)
+{
+  return first * pow(to, done);
+}
+
 /* How far a cycle is, 0 to 1. At first all of a total counts nearly alike, so that cords turn little together, and at last only
- * the largest ones. The heat is a turn of a radian, or for lengths a part of part; it falls to a hundredth. */
+ * the largest ones. The heat is a turn of a radian, or for lengths a part of part; it falls to a hundredth. Near the best cords
+ * both stay where changes become rare but have not ended: a heat of 1 rad forgets them, and below .07 rad hardly any is taken. */
 static void cool(course *at, thr_walk_measure measure, int number, double done)
 {
-  const double of_length = .15, narrowing = .1, hot = number % 2 ? 2 : .5, cooling = .01;
-  const double turn = 1, narrow = .01; /* rad; of the largest total */
+  const double hot = number % 2 ? 2 : .5;
   if (measure == THR_WALK_LENGTH) {
-    at->part = of_length * at->best * pow(narrowing, done);
-    at->heat = hot * pow(cooling, done);
+    at->part = fall(.15 * at->best, .1, done);
+    at->heat = fall(hot, .01, done);
+  } else if (at->near) {
+    at->part = fall(.2 * at->best, .15, done);
+    at->heat = fall(.4, .175, done) / at->part; /* rad */
   } else {
-    at->part = at->best * pow(narrow, done);
-    at->heat = turn * pow(cooling, done) / at->part;
+    at->part = fall(at->best, .01, done);
+    at->heat = fall(1, .01, done) / at->part; /* rad */
   }
+}
+
+/* Of a run with so many passes. Near the best cords many short ones find as much as a few long ones. */
+static int cycles_of(const thr_anneal_task *task, bool near, int passes)
+{
+  enum { FEW = 3, MANY = 10, STEPS = 4000 /* for a pass */ };
+  return near ? (int)fmax(FEW, fmin(MANY, (double)task->steps / ((double)STEPS * passes))) : FEW;
+}
+
+/* From the best cords again. */
+static thr_status go_back(thr_annealer *x, const thr_cord *cord, thr_err *err)
+{
+  const thr_turning_columns *columns = x->c;
+  const thr_walk_measure measure = x->measure;
+  const uint64_t state = x->state;
+  const int n_cords = x->n_cords;
+  thr_annealer_destroy(x);
+  thr_status st = thr_annealer_init(x, columns, measure, cord, n_cords, err);
+  x->state = state;
+  return st;
 }
 
 static double largest(const thr_annealer *x)
@@ -100,17 +130,18 @@ static double left_of(const thr_limits *limits)
   return limits->work ? thr_limits_work(limits) : limits->deadline > 0 ? limits->deadline - thr_clock() : 0;
 }
 
-thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task, int number, const thr_limits *limits,
-                          thr_cord *cord, int n_cords, bool *better, thr_err *err)
+thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task, int number, bool near,
+                          const thr_limits *limits, thr_cord *cord, int n_cords, bool *better, thr_err *err)
 {
-  enum { CYCLES = 3, LOOK = 64 };
+  enum { LOOK = 64 };
   thr_annealer x;
-  course at = {0};
+  course at = {.near = near};
+  int cycle = 0;
   *better = false;
   thr_status st = thr_annealer_init(&x, columns, task->measure, cord, n_cords, err);
   if (!st) at.best = largest(&x);
   x.state = (uint64_t)number + 1;
-  const int passes = thr_cords_passes(cord, n_cords);
+  const int passes = thr_cords_passes(cord, n_cords), cycles = cycles_of(task, near, passes);
   const double all = left_of(limits), per_step = 3.6e-8 + 3e-10 * passes / n_cords; /* s, counted */
   for (int i = 0; i < task->steps && !st && at.best > task->enough; i++) {
     bool made;
@@ -119,8 +150,11 @@ thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_t
       thr_limits_spend(limits, LOOK * per_step);
       double done = (double)i / task->steps;
       if (all > 0) done = fmax(done, 1 - left_of(limits) / all);
-      done = fmod(fmin(done, .999) * CYCLES, 1);
-      cool(&at, task->measure, number, done);
+      done = fmin(done, .999) * cycles;
+      if (near && (int)done > cycle) st = go_back(&x, cord, err);
+      if (st) break;
+      cycle = (int)done;
+      cool(&at, task->measure, number, done - cycle);
     }
     st = step(&x, &at, &made, err);
     if (st || !made || largest(&x) >= at.best * (1 - 1e-9)) continue;
@@ -152,7 +186,7 @@ static thr_status run_one(void *user, int k, const thr_limits *limits, thr_err *
 {
   runs *r = user;
   const int number = r->round * RUNS + (r->task->alone ? r->round % RUNS : k);
-  return thr_anneal_run(r->columns, r->task, number, limits, r->cord[k], r->n_cords, &r->better[k], err);
+  return thr_anneal_run(r->columns, r->task, number, r->task->near && k == 0, limits, r->cord[k], r->n_cords, &r->better[k], err);
 }
 
 static double dearest(const runs *r, const thr_cord *cord)

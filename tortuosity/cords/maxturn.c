@@ -382,7 +382,7 @@ static bool goes_beside(const search *x)
 static thr_anneal_task annealing(const search *x, int first, int rounds)
 {
   enum { MOST_STEPS = 10000000, STEPS = 33333 }; /* STEPS: for a pass */
-  const double near = 2e-3;                      /* of the bound */
+  const double near = 3e-3;                      /* of the bound: less is not worth longer cords */
   return (thr_anneal_task){.measure = THR_WALK_TURNING,
                            .steps = (int)fmin(MOST_STEPS, (double)STEPS * x->best.g.n_darts),
                            .first = first,
@@ -406,12 +406,13 @@ static thr_status consider(search *x, const thr_frame *frame, thr_least *plan, c
   return st ? st : keep_best(x, frame, plan, err);
 }
 
-/* The plan's cords annealed, in part of the time. */
+/* The plan's cords annealed, in part of the time; at last not only from anywhere. */
 static thr_status anneal_cords(search *x, const thr_frame *frame, thr_least *plan, double part, int first, int rounds,
                                thr_err *err)
 {
   const thr_limits share = thr_limits_part(x->limits, part);
-  const thr_anneal_task task = annealing(x, first, rounds);
+  thr_anneal_task task = annealing(x, first, rounds);
+  task.near = rounds == MANY;
   thr_cord *cord = NULL;
   bool better = false;
   if (!may_anneal(x, frame, plan, &task)) return THR_OK;
