@@ -98,7 +98,8 @@ static bool anneal(asked *a, int steps, double enough)
   thr_err err = {0};
   bool better;
   ck_assert_int_eq(thr_turning_columns_init(&a->columns, &a->f, &a->task, &err), THR_OK);
-  const thr_anneal_task task = {.measure = a->measure, .steps = steps, .rounds = 2, .enough = enough};
+  const thr_anneal_task task = {
+      .measure = a->measure, .steps = steps, .rounds = 2, .near = a->measure == THR_WALK_TURNING, .enough = enough};
   thr_status st = thr_anneal(&a->columns, &task, &limits, a->plan.cord, a->plan.n_cords, &better, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   return better;
@@ -180,7 +181,7 @@ END_TEST
 START_TEST(running_out_of_memory_leaves_cords)
 {
   asked a = ask(0, 12, 10);
-  const thr_anneal_task task = {.measure = a.measure, .steps = 2000, .rounds = 1};
+  const thr_anneal_task task = {.measure = a.measure, .steps = 2000, .rounds = 1, .near = true};
   const thr_limits limits = {0};
   thr_status st = THR_ENOMEM;
   thr_err err = {0};
@@ -203,7 +204,8 @@ START_TEST(threads_change_nothing)
   thr_cord *cord[2] = {NULL, NULL};
   ck_assert_int_eq(thr_turning_columns_init(&a.columns, &a.f, &a.task, &err), THR_OK);
   for (int k = 0; k < 2 && a.plan.n_cords > 0; k++) {
-    const thr_anneal_task task = {.measure = a.measure, .steps = 3000, .first = 1, .rounds = 3};
+    const thr_anneal_task task = {
+        .measure = a.measure, .steps = 3000, .first = 1, .rounds = 3, .near = a.measure == THR_WALK_TURNING};
     const thr_limits limits = {.threads = 1 + k};
     bool better;
     ck_assert_int_eq(thr_cords_copy(a.plan.cord, a.plan.n_cords, &cord[k], &err), THR_OK);
