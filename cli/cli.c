@@ -29,12 +29,31 @@ enum { MOST_PROCESSES = 1024 };
 
 /* ---- messages ---- */
 
+/* Words of more than 400 bytes lose their middle: a value pasted by mistake does not fill the screen. */
+static void shorten_words(char *line)
+{
+  enum { MOST = 400, KEPT = 100 /* at each end */ };
+  for (char *word = line; *word; word += strcspn(word, " ")) {
+    word += strspn(word, " ");
+    const size_t length = strcspn(word, " ");
+    if (length <= MOST) continue;
+    char *from = word + KEPT, *to = word + length - KEPT;
+    while (((unsigned char)*from & 0xc0) == 0x80) /* inside a letter */
+      from--;
+    while (((unsigned char)*to & 0xc0) == 0x80)
+      to++;
+    memcpy(from, "..", 2);
+    memmove(from + 2, to, strlen(to) + 1);
+  }
+}
+
 /* One line, whatever the names in it. It needs no memory that could run out. */
 static void say(const char *format, va_list args, const char *after)
 {
   char line[8192];
   vsnprintf(line, sizeof line, format, args);
   thr_text_clean(line);
+  shorten_words(line);
   fprintf(stderr, "thread: %s%s\n", line, after);
 }
 
