@@ -186,7 +186,8 @@ static thr_status run_one(void *user, int k, const thr_limits *limits, thr_err *
 {
   runs *r = user;
   const int number = r->round * RUNS + (r->task->alone ? r->round % RUNS : k);
-  return thr_anneal_run(r->columns, r->task, number, r->task->near && k == 0, limits, r->cord[k], r->n_cords, &r->better[k], err);
+  const bool near = r->task->near && number % 2 == 0;
+  return thr_anneal_run(r->columns, r->task, number, near, limits, r->cord[k], r->n_cords, &r->better[k], err);
 }
 
 static double dearest(const runs *r, const thr_cord *cord)

@@ -19,7 +19,7 @@ typedef struct {
   int first,
       rounds;    /* number of the first round, whose random numbers are others than those of the rounds before; and how many */
   bool alone;    /* one run in a round instead of two: this thread has no other beside it */
-  bool near;     /* of turnings: one of the runs stays near the best cords, again and again, where the others forget them */
+  bool near;     /* of turnings: every second run stays near the best cords, again and again, where the others forget them */
   double enough; /* largest price or length that need not become less */
 } thr_anneal_task;
 
