@@ -4,6 +4,7 @@
 #include "cli/progress.h"
 #include "cli/args/config.h"
 #include "graph/suggestion.h"
+#include "graph/text.h"
 #include "graph/angle.h"
 #include "graph/io/stand.h"
 #include "graph/os.h"
@@ -38,9 +39,9 @@ static void shorten_words(char *line)
     const size_t length = strcspn(word, " ");
     if (length <= MOST) continue;
     char *from = word + KEPT, *to = word + length - KEPT;
-    while (((unsigned char)*from & 0xc0) == 0x80) /* inside a letter */
+    while (thr_text_is_inside(*from))
       from--;
-    while (((unsigned char)*to & 0xc0) == 0x80)
+    while (thr_text_is_inside(*to))
       to++;
     memcpy(from, "..", 2);
     memmove(from + 2, to, strlen(to) + 1);

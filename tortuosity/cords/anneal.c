@@ -130,10 +130,11 @@ static double left_of(const thr_limits *limits)
   return limits->work ? thr_limits_work(limits) : limits->deadline > 0 ? limits->deadline - thr_clock() : 0;
 }
 
-thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task, int number, bool near,
-                          const thr_limits *limits, thr_cord *cord, int n_cords, bool *better, thr_err *err)
+thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task, int number, const thr_limits *limits,
+                          thr_cord *cord, int n_cords, bool *better, thr_err *err)
 {
   enum { LOOK = 64 };
+  const bool near = task->near && number % 2 == 0;
   thr_annealer x;
   course at = {.near = near};
   int cycle = 0;
@@ -186,8 +187,7 @@ static thr_status run_one(void *user, int k, const thr_limits *limits, thr_err *
 {
   runs *r = user;
   const int number = r->round * RUNS + (r->task->alone ? r->round % RUNS : k);
-  const bool near = r->task->near && number % 2 == 0;
-  return thr_anneal_run(r->columns, r->task, number, near, limits, r->cord[k], r->n_cords, &r->better[k], err);
+  return thr_anneal_run(r->columns, r->task, number, limits, r->cord[k], r->n_cords, &r->better[k], err);
 }
 
 static double dearest(const runs *r, const thr_cord *cord)
