@@ -539,7 +539,7 @@ thr_turning_task thr_walk_length_task(const thr_frame *frame, const thr_request 
     end_allowed[v] = thr_plan_end_allowed(frame, options, v);
   return (thr_turning_task){.cover = options->cover,
                             .capacity = options->capacity,
-                            .most_passes = thr_turning_most_passes(frame, options->cover),
+                            .most_passes = thr_request_most_passes(frame, options),
                             .cords = options->cords,
                             .cords_least = options->cords_least,
                             .end_allowed = options->ends == THR_ENDS_CLOSED ? NULL : end_allowed,

@@ -69,6 +69,13 @@ bool thr_wants_largest(const thr_request *options)
   return thr_aims_have(options, THR_AIM_MAX_TURNING);
 }
 
+int thr_request_most_passes(const thr_frame *frame, const thr_request *options)
+{
+  const int usual = thr_turning_most_passes(frame, options->cover), room = 2 * options->cords;
+  const bool few = options->ends != THR_ENDS_CLOSED && options->ends != THR_ENDS_ANY;
+  return few && room > usual ? room : usual;
+}
+
 void thr_aims_order(const thr_request *options, thr_aim order[THR_N_AIMS])
 {
   bool taken[THR_N_AIMS] = {false};

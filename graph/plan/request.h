@@ -142,6 +142,11 @@ bool thr_wants_symmetry(const thr_request *options); /* a symmetric one */
 bool thr_wants_balance(const thr_request *options);  /* a short longest cord */
 bool thr_wants_largest(const thr_request *options);  /* that the cord that turns most turns little */
 
+/* Passes over any edge up to which several cords are looked for: thr_turning_most_passes, and where cords end at some nodes only
+ * at least 2 * cords, for all of them pass the few edges that lead there. Example: an arch on two feet with one edge at each;
+ * every cord from foot to foot passes both edges. O(edges). */
+int thr_request_most_passes(const thr_frame *frame, const thr_request *options);
+
 /* The order of a symmetric plan's aims; the usual one where the aims name none of them. */
 void thr_aims_order(const thr_request *options, thr_aim order[THR_N_AIMS]);
 
