@@ -15,12 +15,16 @@ static const double hard_seconds = 20; /* of any objective: tied cords, or few c
 
 /* Of the time that is left when a step begins. */
 static const double part[THR_N_STEPS] = {
-    [THR_STEP_FIRST] = 0.2,           [THR_STEP_TIED] = 0.5,      [THR_STEP_SEED] = 0.15,
-    [THR_STEP_ONE_CORD] = 0.1,        [THR_STEP_SHORTEST] = 0.3,  [THR_STEP_BY_LENGTH] = 0.2,
-    [THR_STEP_LEAST] = 0.35,          [THR_STEP_EVEN_SEED] = 0.5, [THR_STEP_EXCHANGES] = 0.2,
-    [THR_STEP_SYMMETRIC_TIED] = 0.85, [THR_STEP_FEWEST] = 0.75,   [THR_STEP_FEW_BOUND] = 0.08,
-    [THR_STEP_FEW_WALKS] = 0.4,       [THR_STEP_FEW_TRY] = 0.35,  [THR_STEP_ANY_CORDS] = 0.4,
-    [THR_STEP_COVERS] = 0.3,          [THR_STEP_DIFFERENT] = 0.4,
+    [THR_STEP_FIRST] = 0.2,           [THR_STEP_TIED] = 0.5,
+    [THR_STEP_SEED] = 0.15,           [THR_STEP_ONE_CORD] = 0.1,
+    [THR_STEP_SHORTEST] = 0.3,        [THR_STEP_BY_LENGTH] = 0.2,
+    [THR_STEP_LEAST] = 0.35,          [THR_STEP_EVEN_SEED] = 0.5,
+    [THR_STEP_EXCHANGES] = 0.2,       [THR_STEP_SYMMETRIC_FEWER] = 0.5,
+    [THR_STEP_SYMMETRIC_TIED] = 0.85, [THR_STEP_FEWEST] = 0.75,
+    [THR_STEP_FEW_BOUND] = 0.08,      [THR_STEP_FEW_WALKS] = 0.4,
+    [THR_STEP_FEW_TRY] = 0.35,        [THR_STEP_FEW_ANNEAL] = 1,
+    [THR_STEP_ANY_CORDS] = 0.4,       [THR_STEP_COVERS] = 0.3,
+    [THR_STEP_DIFFERENT] = 0.4,
 };
 
 /* The same where little work is counted, for steps whose part differs: nothing is annealed then. */

@@ -178,6 +178,32 @@ static thr_status plan_tied(const thr_frame *frame, const thr_request *options, 
 
 /* ---- the planner ---- */
 
+/* Cords within a limit on their length of which it is not proved that they are the fewest, or none: fewer by another way. st: of
+ * what there is. */
+static thr_status few_short(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_status st,
+                            thr_plan *plan, thr_err *err)
+{
+  enum { MOST_EDGES = 2000 };
+  thr_err why = {0};
+  int n = 0;
+  double longest = 0;
+  if (st != THR_ELIMIT || options->max_length == 0 || options->max_pull > 0 || thr_wants_balance(options) ||
+      options->ends == THR_ENDS_COUNTS || frame->n_edges > MOST_EDGES)
+    return st;
+  thr_status found = count_components(frame, &n, &why);
+  if (!found && n == 1) found = thr_planner_short_few(frame, options, limits, plan, &longest, &why);
+  if (found == THR_ENOMEM) return thr_nomem(err);
+  if (plan->n_cords == 0 && longest > 0) {
+    *err = (thr_err){0};
+    return thr_fail(
+        err, st, "did not find %d cords with none longer than %g %s; with --balance instead of --max-length the longest is %g %s",
+        options->cords, options->max_length, frame->units, longest, frame->units);
+  }
+  if (found || n != 1 || plan->n_cords == 0) return st;
+  *err = (thr_err){0};
+  return thr_cords_judge(plan, &(thr_err){0}, err);
+}
+
 thr_status thr_planner_length(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                               thr_report *report, thr_err *err)
 {
@@ -185,7 +211,7 @@ thr_status thr_planner_length(const thr_frame *frame, const thr_request *options
   *plan = (thr_plan){0};
   thr_status st = (options->joint == THR_JOINT_TUBE ? plan_tied : plan_solid)(frame, options, limits, plan, &word, err);
   if (report) report->word = word;
-  return st;
+  return options->joint == THR_JOINT_SOLID ? few_short(frame, options, limits, st, plan, err) : st;
 }
 
 bool thr_planner_is_quick(const thr_frame *frame, const thr_request *options)

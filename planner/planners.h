@@ -59,6 +59,13 @@ thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr
 thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                                 thr_err *err) THR_MUST_CHECK;
 
+/* Of a plan within options.max_length that is not proved to have the fewest cords, or is empty, because shares of the shortest
+ * passes were not short enough: one of fewer cords, the longest of which is short by annealing and walks, if there is one. Solid
+ * joints, one component. Bisection on the number, a plan for each. *longest: of a given number, the longest cord of those that
+ * were tried; 0: there were none. */
+thr_status thr_planner_short_few(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
+                                 double *longest, thr_err *err) THR_MUST_CHECK;
+
 /* The most cords that a component has, and which one has them. */
 int thr_planner_most_cords(const thr_plan *plan, int *component);
 

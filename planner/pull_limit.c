@@ -20,9 +20,9 @@
 #include <stdlib.h>
 
 /* Counted work (graph/limits.h) for a second that the user allows, so that the plan does not depend on the machine: to find how
- * many cords it takes, by search and by walks, and then cords that serve the aims. Together they take a tenth of that second up
- * to twice as long. */
-static const double work_to_find = 1.2, work_to_choose = 1.2, work_to_serve = 0.4;
+ * many cords it takes, by search, by walks and by annealing fewer, and then cords that serve the aims. Together they take a tenth
+ * of that second up to twice as long. */
+static const double work_to_find = 1.2, work_to_choose = 1.2, work_to_anneal = 0.5, work_to_serve = 0.4;
 
 typedef struct {
   const thr_frame *f;
@@ -86,7 +86,9 @@ static thr_status plan_number(const fewest *x, int n, thr_aim aim, thr_step step
   options.turning = thr_request_default().turning;
   options.max_length = 0;
   if (options.ends != THR_ENDS_COUNTS) options.cords = options.cords_least = n;
-  thr_status st = thr_tortuosity_plan(x->f, &options, &share, plan, &why);
+  if (step == THR_STEP_FEW_ANNEAL) options.max_pull = 0; /* all of the work goes into even cords, none into a proof */
+  thr_status st = step == THR_STEP_FEW_ANNEAL ? thr_planner_turning(x->f, &options, &share, plan, NULL, &why)
+                                              : thr_tortuosity_plan(x->f, &options, &share, plan, &why);
   if (st == THR_ENOMEM) return thr_nomem(err);
   return THR_OK; /* what else fails leaves no plan */
 }
@@ -153,10 +155,10 @@ static thr_status use_walks(fewest *x, thr_err *err)
 }
 
 /* Cords of which the one that turns most turns little enough, or a proof that there are none. */
-static thr_status try_number(fewest *x, int n, bool *fits, thr_err *err)
+static thr_status try_number(fewest *x, int n, thr_step step, bool *fits, thr_err *err)
 {
   thr_plan plan;
-  thr_status st = plan_number(x, n, THR_AIM_MAX_TURNING, THR_STEP_FEW_TRY, &plan, err);
+  thr_status st = plan_number(x, n, THR_AIM_MAX_TURNING, step, &plan, err);
   double limit = x->o->max_length * (1 + 1e-12);
   bool short_enough = limit == 0 || thr_cords_longest(x->f, plan.cord, plan.n_cords) <= limit;
   *fits = !st && plan.n_cords > 0 && short_enough && thr_cords_within_pull(x->f, x->o, plan.cord, plan.n_cords);
@@ -204,7 +206,7 @@ static thr_status search_numbers(fewest *x, thr_err *err)
   bool fits = false;
   thr_status st = THR_OK;
   while (!st && !fits && n <= x->o->cords && !is_over(x)) {
-    st = try_number(x, n, &fits, err);
+    st = try_number(x, n, THR_STEP_FEW_TRY, &fits, err);
     if (fits) break;
     failed = n;
     int more = x->claim.excluded < failed ? (int)fmax(step, floor(n * x->beyond)) : 1;
@@ -213,8 +215,27 @@ static thr_status search_numbers(fewest *x, thr_err *err)
   }
   while (!st && x->found.n_cords > 0 && x->number - failed > 1 && !is_over(x)) {
     int middle = failed + (x->number - failed) / 2;
-    st = try_number(x, middle, &fits, err);
+    st = try_number(x, middle, THR_STEP_FEW_TRY, &fits, err);
     if (!fits) failed = middle;
+  }
+  return st;
+}
+
+/* One cord less at a time as long as there are some, or of a given number cords at all: each number with as much work as cords
+ * take without a limit on the pull, and some numbers at most. */
+static thr_status anneal_fewer(fewest *x, const thr_limits *limits, thr_err *err)
+{
+  enum { MOST_NUMBERS = 4 };
+  bool fits = true;
+  thr_status st = THR_OK;
+  for (int i = 0; i < MOST_NUMBERS && !st && fits && (x->found.n_cords == 0) != is_range(x->o); i++) {
+    const int n = x->found.n_cords > 0 ? x->number - 1 : x->o->cords;
+    double work = work_to_anneal * x->o->time_limit;
+    const thr_limits counted = thr_limits_counted(limits, &work);
+    if (n <= x->claim.excluded || thr_limits_left(limits, 1) <= 0) break;
+    x->limits = &counted;
+    st = try_number(x, n, THR_STEP_FEW_ANNEAL, &fits, err);
+    x->limits = limits;
   }
   return st;
 }
@@ -281,11 +302,12 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
   thr_status st = is_range(options) ? bound_all(&x, err) : THR_OK;
-  if (!st) st = is_range(options) ? search_numbers(&x, err) : try_number(&x, options->cords, &fits, err);
+  if (!st) st = is_range(options) ? search_numbers(&x, err) : try_number(&x, options->cords, THR_STEP_FEW_TRY, &fits, err);
   if (!st && (is_range(options) || (x.found.n_cords == 0 && x.claim.excluded < options->cords))) {
     share = thr_dispatch_share(limits, THR_STEP_FEWEST);
     share = thr_limits_brief(&share, &for_walks);
     st = use_walks(&x, err);
+    if (!st) st = anneal_fewer(&x, limits, err);
   }
   double rest = work_to_serve * options->time_limit;
   const thr_limits last = thr_limits_brief(limits, &rest);

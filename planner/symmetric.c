@@ -51,6 +51,42 @@ static thr_status judge_longest(const thr_plan *plan, thr_err *err)
   return thr_not_proved(err, "the length of the longest cord", claim->longest, claim->longest_bound);
 }
 
+/* With a limit on the pull, or the length, the fewest cords come first: symmetric plans of fewer cords than this one's as long as
+ * there are some under a group that has more than the identity, each in a part of the time. table: of the last, NULL = not
+ * wanted. */
+static thr_status take_fewer(const thr_frame *frame, const thr_request *options, const thr_plan *shortest,
+                             const thr_limits *limits, thr_symmetries *table, thr_plan *plan, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (bool fewer = true; fewer && !thr_limits_stop(limits);) {
+    const thr_limits share = thr_dispatch_share(limits, THR_STEP_SYMMETRIC_FEWER);
+    thr_request few = *options;
+    thr_symmetries rows = {0};
+    thr_plan next = {0};
+    thr_err why = {0};
+    int component;
+    few.cords = thr_planner_most_cords(plan, &component) - 1;
+    if (few.cords < 1 || few.cords < few.cords_least) break;
+    const thr_status found = thr_symmetry_plan_from(frame, &few, shortest, &share, table ? &rows : NULL, &next, &why);
+    fewer = next.n_cords > 0 && next.symmetry.order > 1;
+    if (fewer) {
+      thr_plan_destroy(plan);
+      *plan = next;
+      next = (thr_plan){0};
+      st = found;
+      *err = why;
+    }
+    if (fewer && table) {
+      thr_symmetries_destroy(table);
+      *table = rows;
+      rows = (thr_symmetries){0};
+    }
+    thr_symmetries_destroy(&rows);
+    thr_plan_destroy(&next);
+  }
+  return st;
+}
+
 thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                                  thr_report *report, thr_err *err)
 {
@@ -65,6 +101,9 @@ thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *opti
   const thr_limits share = tied ? thr_dispatch_share(limits, THR_STEP_SYMMETRIC_TIED) : *limits;
   thr_status found =
       thr_symmetry_plan_from(frame, options, shortest.n_cords > 0 ? &shortest : NULL, &share, table, plan, &unproved);
+  if (plan->n_cords > 0 && plan->symmetry.order > 1 && (options->max_pull > 0 || options->max_length > 0) &&
+      options->cords_least < options->cords)
+    found = take_fewer(frame, options, shortest.n_cords > 0 ? &shortest : NULL, &share, table, plan, &unproved);
   if (plan->n_cords > 0 && shortest.pull_claim.present && plan->n_cords >= shortest.pull_claim.fewest) { /* it is of any plan */
     plan->pull_claim = shortest.pull_claim;
     plan->pull_claim.optimal = plan->n_cords == plan->pull_claim.fewest;
