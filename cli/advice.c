@@ -84,6 +84,16 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
   thr_advice_destroy(&advice);
 }
 
+void advice_put_hint(const thr_plan *plan, thr_text *text)
+{
+  char force[64];
+  const double newton = force_of(plan);
+  if (newton <= thr_hand_most || plan->options.max_pull > 0) return;
+  thr_text_printf(text, "hand     %s is ", plain_force(newton, force));
+  plain_put_hand(text, newton);
+  thr_text_printf(text, "; --max-pull %g takes as few cords as need no more\n", thr_hand_most);
+}
+
 thr_limits advice_limits(double seconds, double *work)
 {
   if (seconds < 0) *work = usual_work;

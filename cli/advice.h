@@ -21,4 +21,8 @@ thr_limits advice_limits(double seconds, double *work);
 void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_frame_args *a, const cli_physics *physics,
                            thr_text *text);
 
+/* A line of the hand where a plan that was asked for with options is beyond it: what option takes as few cords as are not.
+ * Nothing where a limit on the pull was given. */
+void advice_put_hint(const thr_plan *plan, thr_text *text);
+
 #endif

@@ -179,6 +179,23 @@ bool cli_double(const char *command, const char *option, const char *text, doubl
   return false;
 }
 
+bool cli_hand(const char *command, const char *text, double *newtons)
+{
+  const double one = 50, two = 100, least = 1e-6, most = 1e9; /* N */
+  const bool is_one = strcmp(text, "one") == 0;
+  char *end;
+  if (is_one || strcmp(text, "two") == 0) {
+    *newtons = is_one ? one : two;
+    return true;
+  }
+  const double force = strtod(text, &end);
+  if (end == text || !(force > 0)) {
+    cli_usage(command, "--hand %s: expected one, two or a force in newtons", text);
+    return false;
+  }
+  return cli_double(command, "--hand", text, least, most, newtons);
+}
+
 bool cli_int(const char *command, const char *option, const char *text, int low, int high, int *out)
 {
   double x;

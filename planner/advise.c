@@ -125,6 +125,7 @@ static void measure_row(adviser *x, const kind *k, const thr_plan *plan, thr_adv
   double reach = thr_cords_pulled_turning(x->frame, plan->cord, plan->n_cords);
   row->ends = k->ends;
   row->cords = plan->options.cords;
+  row->all = plan->n_cords;
   row->length = plan->metrics.length;
   row->longest = thr_cords_longest(x->frame, plan->cord, plan->n_cords);
   row->turning = plan->metrics.max_turning;

@@ -68,18 +68,6 @@ static bool parse_force(const char *option, const char *value, double *newtons)
   return *newtons > 0;
 }
 
-/* What hands pull again and again without effort (docs/method.md, "Few cords within a pull"). */
-static bool parse_hand(cords_args *a, const char *value)
-{
-  const double one = 50, two = 100; /* N */
-  a->hand = strcmp(value, "one") == 0 ? one : strcmp(value, "two") == 0 ? two : 0;
-  char *end;
-  if (a->hand > 0) return true;
-  (void)strtod(value, &end);
-  if (end == value) cli_usage("plan", "--hand %s: expected one, two or a force in newtons", value);
-  return end != value && parse_force("--hand", value, &a->hand);
-}
-
 bool cords_option(cords_args *a, int option, const char *value, bool *ok)
 {
   int i = 0;
@@ -93,7 +81,7 @@ bool cords_option(cords_args *a, int option, const char *value, bool *ok)
     }
     return true;
   case OPTION_CORDS_MAX_PULL: *ok = parse_pull(a, value); return true;
-  case OPTION_CORDS_HAND: *ok = parse_hand(a, value); return true;
+  case OPTION_CORDS_HAND: *ok = cli_hand("plan", value, &a->hand); return true;
   case OPTION_CORDS_STRENGTH: *ok = parse_force("--cord-strength", value, &a->strength); return true;
   case OPTION_CORDS_BALANCE: a->balance = true; return true;
   case OPTION_CORDS_COVER: *ok = cli_int("plan", "--cover", value, 1, MOST_PASSES, &a->cover); return true;

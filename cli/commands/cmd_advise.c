@@ -30,7 +30,7 @@ static const char help[] =
     "  -o, --output FILE    (default: stdout)\n"
     "      --json           the table as JSON, with -T svg on stdout beside the picture in -o\n"
     "      --hand N         what the pull is to stay within, in newton, even at the upper end of the band of mu\n"
-    "                       (default: 10, what a hand manages time after time; 50: the most)\n"
+    "                       (default: 10, what a hand manages time after time; one: 50, the most; two: 100)\n"
     "      --cover N        at least N passes over every interface (default: 1)\n"
     "      --time-limit S   for all rows together, 0 = until every search has ended\n"
     "                       (without it some two seconds, counted: the same rows on every machine)\n" GUARD_MEMORY_HELP
@@ -80,7 +80,7 @@ static bool take_option(arguments *a, int option, const char *value)
   switch (option) {
   case 'T': return cli_choose("advise", "--type", value, type_name, N_TYPES, &a->type);
   case 'o': a->output = value; return true;
-  case OPTION_HAND: return cli_double("advise", "--hand", value, 1e-6, 1e9, &a->hand);
+  case OPTION_HAND: return cli_hand("advise", value, &a->hand);
   case OPTION_COVER: return cli_int("advise", "--cover", value, 1, 100, &a->request.cover);
   case OPTION_JSON: a->json = true; return true;
   default: return true;

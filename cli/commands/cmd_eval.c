@@ -39,7 +39,7 @@ static const char help_method[] =
     "                       drawn in, and which fails first\n" PULL_HELP("holding pull");
 static const char help_rest[] =
     "      --tension        print the tension in every pass\n"
-    "      --hand N         the fewest grips with which no pull is above N newtons: where to grip, how hard\n"
+    "      --hand N         the fewest grips with which no pull is above N newtons (one: 50, two: 100): where, how hard\n"
     "      --schedule TEXT  what is done to the cords, in order, and the tension that it leaves; or a file "
     "of that:\n"
     "                       \"A: pull both 40; A: release end 5; B: grip 37 20 from start; all: knot both "
@@ -146,7 +146,7 @@ static int parse(int argc, char **argv, arguments *a)
     case OPTION_SCHEDULE: a->schedule = optarg; break;
     case OPTION_CALIBRATE: a->calibrate = optarg; break;
     case OPTION_HAND:
-      if (!cli_double("eval", "--hand", optarg, 1e-6, 1e9, &a->pull.options.hand)) return EXIT_USAGE;
+      if (!cli_hand("eval", optarg, &a->pull.options.hand)) return EXIT_USAGE;
     }
     if (optarg && !*optarg) return cli_usage("eval", "an empty name is no place to write to");
   }

@@ -540,6 +540,7 @@ static int print_places(const arguments *a, const thr_plan *p, const char *plan_
   }
   thr_text_append(&text, "\n");
   if (p->options.order == THR_ORDER_HAND || cli_verbose) put_order(a, p, &text);
+  if (!is_usual(a, &p->options)) advice_put_hint(p, &text);
   int code = cli_write(&text, "-");
   if (code || !is_usual(a, &p->options)) return code;
   advice_put_after_plan(p, a->path, &a->frame, &a->pull.physics, &text);

@@ -38,7 +38,9 @@ void advice_put_cords(thr_text *text, const thr_advice_row *row)
 {
   const char *closed = row->ends == THR_ENDS_CLOSED ? "closed " : "";
   const char *where = row->ends == THR_ENDS_CLOSED ? "" : row->ends == THR_ENDS_FEET ? " to the feet" : " with ends anywhere";
-  thr_text_printf(text, "%d %s%s%s", row->cords, closed, cli_plural(row->cords, "cord", "cords"), where);
+  thr_text_printf(text, "%d %s%s", row->cords, closed, cli_plural(row->cords, "cord", "cords"));
+  if (row->all > row->cords) thr_text_printf(text, " in every component, %d in all,", row->all);
+  thr_text_append(text, where);
 }
 
 /* ---- text ---- */
@@ -90,7 +92,7 @@ static void put_choice(thr_text *text, const thr_advice *advice, const char *com
   const thr_advice_row *row = &advice->row[advice->chosen];
   thr_text_append(text, "> ");
   advice_put_cords(text, row);
-  thr_text_printf(text, ": %s, or %s to %s N in the band. The fewest that stay within %s%s even at mu = %g\n  ",
+  thr_text_printf(text, ": %s, or %s to %s N in the band. The fewest found that stay within %s%s even at mu = %g\n  ",
                   plain_force(row->pull[THR_ADVICE_MU], pull), plain_newtons(row->pull[THR_ADVICE_LOW], low),
                   plain_newtons(row->pull[THR_ADVICE_HIGH], high), hand, hand_words(advice->hand), advice->physics.mu_high);
   thr_text_append_clean(text, command);

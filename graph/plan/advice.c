@@ -57,16 +57,23 @@ static bool is_better(const thr_advice_row *row, const thr_advice_row *other)
   return row->length < other->length;
 }
 
-static int choose(const thr_advice *advice)
+/* The fewest cords that stay within the hand, of rows with ends at the feet only or of all; -1: there are none. */
+static int fewest(const thr_advice *advice, bool feet)
 {
   int chosen = -1;
-  for (int feet = 1; feet >= 0 && chosen < 0; feet--)
-    for (int i = 0; i < advice->n; i++) {
-      const thr_advice_row *row = &advice->row[i];
-      if ((feet && row->ends != THR_ENDS_FEET) || !thr_advice_within(advice, row)) continue;
-      if (chosen < 0 || is_better(row, &advice->row[chosen])) chosen = i;
-    }
+  for (int i = 0; i < advice->n; i++) {
+    const thr_advice_row *row = &advice->row[i];
+    if ((feet && row->ends != THR_ENDS_FEET) || !thr_advice_within(advice, row)) continue;
+    if (chosen < 0 || is_better(row, &advice->row[chosen])) chosen = i;
+  }
   return chosen;
+}
+
+static int choose(const thr_advice *advice)
+{
+  const double most = 1.5; /* as much cord, for ends at the feet */
+  const int feet = fewest(advice, true), all = fewest(advice, false);
+  return feet >= 0 && advice->row[feet].length <= most * advice->row[all].length ? feet : all;
 }
 
 /* ---- what buys nothing ---- */

@@ -24,7 +24,7 @@ enum { THR_ADVICE_LOW, THR_ADVICE_MU, THR_ADVICE_HIGH, THR_ADVICE_PULLS };
 
 /* A plan of `cords` cords in every component, whose cord that turns most turns as little as was found in time. */
 typedef struct {
-  int cords;
+  int cords, all;                /* all: of all components together */
   thr_ends ends;                 /* closed, any or feet */
   double length, longest;        /* units, of all cords and of the longest */
   double turning;                /* rad, of the cord that turns most */
@@ -69,8 +69,9 @@ void thr_advice_pulls(const thr_physics *physics, double reach, double pull[THR_
 bool thr_advice_within(const thr_advice *advice, const thr_advice_row *row);
 
 /* Sorts the rows, chooses, marks the frontier and drops what buys nothing. Chosen is the row with the fewest cords that stays
- * within the hand at mu_high: of those with ends at the feet if one of them does, else of all. A row buys nothing if another with
- * no more cords, and ends of the same kind or at the feet, has at most a twentieth more pull and no more cord. O(n^2). */
+ * within the hand at mu_high: of those with ends at the feet, if one of them does and needs no more than half as much cord again
+ * as the fewest of all, else of all. A row buys nothing if another with no more cords, and ends of the same kind or at the feet,
+ * has at most a twentieth more pull and no more cord. O(n^2). */
 void thr_advice_settle(thr_advice *advice);
 
 /* "closed", "at the feet", "anywhere". */

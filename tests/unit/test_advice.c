@@ -143,6 +143,12 @@ START_TEST(the_fewest_at_the_feet_are_chosen)
   thr_advice_settle(&advice);
   ck_assert_int_eq(advice.chosen, -1);
   thr_advice_destroy(&advice);
+  const thr_advice_row far[] = {{.cords = 3, .ends = THR_ENDS_ANY, .length = 100, .pull = {2, 4, 8}},
+                                {.cords = 4, .ends = THR_ENDS_FEET, .length = 160, .pull = {2, 4, 9}}};
+  advice = advice_of(2, far);
+  thr_advice_settle(&advice);
+  ck_assert(advice.row[advice.chosen].ends == THR_ENDS_ANY); /* ends at the feet take more than half as much cord again */
+  thr_advice_destroy(&advice);
 }
 END_TEST
 
