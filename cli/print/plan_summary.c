@@ -199,19 +199,52 @@ static int edges_alone(const thr_plan *plan, const int *only, int cord)
   return n;
 }
 
-/* Pieces all of whose interfaces have no other cord. */
-static int pieces_alone(const thr_plan *plan, const int *only, int cord)
+/* With tube joints a piece is an edge, else a node. */
+static int count_pieces(const thr_plan *plan)
+{
+  return plan->options.joint == THR_JOINT_TUBE ? plan->frame.n_edges : plan->frame.n_nodes;
+}
+
+/* Have all interfaces of a piece no other cord? */
+static bool is_alone(const thr_plan *plan, const int *only, int cord, int piece)
 {
   const thr_frame *frame = &plan->frame;
+  if (plan->options.joint == THR_JOINT_TUBE) return only[piece] == cord;
+  bool alone = thr_degree(frame, piece) > 0;
+  for (int i = frame->first[piece]; i < frame->first[piece + 1]; i++)
+    alone = alone && only[frame->half[i] >> 1] == cord;
+  return alone;
+}
+
+static int pieces_alone(const thr_plan *plan, const int *only, int cord)
+{
   int n = 0;
-  if (plan->options.joint == THR_JOINT_TUBE) return edges_alone(plan, only, cord);
-  for (int v = 0; v < frame->n_nodes; v++) {
-    bool alone = thr_degree(frame, v) > 0;
-    for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
-      alone = alone && only[frame->half[i] >> 1] == cord;
-    n += alone;
-  }
+  for (int i = 0; i < count_pieces(plan); i++)
+    n += is_alone(plan, only, cord, i);
   return n;
+}
+
+static void put_piece(thr_text *text, const thr_plan *plan, int piece)
+{
+  const thr_frame *frame = &plan->frame;
+  const bool tube = plan->options.joint == THR_JOINT_TUBE;
+  thr_text_append_clean(text, frame->name[tube ? frame->edge[piece][0] : piece]);
+  if (!tube) return;
+  thr_text_append(text, "-");
+  thr_text_append_clean(text, frame->name[frame->edge[piece][1]]);
+}
+
+/* The names of the pieces that are wholly loose without a cord. */
+static void put_loose(thr_text *text, const thr_plan *plan, const int *only, int cord)
+{
+  const char *between = ": ";
+  for (int i = 0; i < count_pieces(plan); i++) {
+    if (!is_alone(plan, only, cord, i)) continue;
+    thr_text_append(text, between);
+    put_piece(text, plan, i);
+    between = ", ";
+  }
+  thr_text_append(text, "\n");
 }
 
 /* What comes loose if one of several cords is cut: the worst of them, and each if more is to be said. */
@@ -235,9 +268,11 @@ static void put_cut(thr_text *text, const thr_plan *plan)
   else
     thr_text_printf(text, "cut      if one cord is cut, at worst %d of %d %ss are left without any (cord %s)\n", most,
                     plan->frame.n_edges, what, plan->cord[worst].id);
-  for (int i = 0; i < plan->n_cords && cli_verbose && most > 0; i++)
-    thr_text_printf(text, "         cord %s: %d without any, %d %s wholly loose\n", plan->cord[i].id, edges_alone(plan, only, i),
+  for (int i = 0; i < plan->n_cords && cli_verbose && most > 0; i++) {
+    thr_text_printf(text, "         cord %s: %d without any, %d %s wholly loose", plan->cord[i].id, edges_alone(plan, only, i),
                     pieces_alone(plan, only, i), cli_plural(pieces_alone(plan, only, i), "piece", "pieces"));
+    put_loose(text, plan, only, i);
+  }
   free(only);
 }
 
@@ -306,7 +341,21 @@ static void put_claim_json(thr_writer *writer, const thr_plan *plan, thr_cords_w
   thr_write_string(writer, "fewest_status", claim->fewest_optimal ? "optimal" : "bound");
 }
 
-/* Of several cords, the edges that each alone passes, and how many pieces come wholly loose without it. */
+static void put_loose_json(thr_writer *writer, const thr_plan *plan, const int *only, int cord)
+{
+  thr_write_row(writer, "loose");
+  for (int i = 0; i < count_pieces(plan); i++) {
+    thr_text name = {0};
+    if (!is_alone(plan, only, cord, i)) continue;
+    put_piece(&name, plan, i);
+    thr_write_string(writer, NULL, name.data ? name.data : "");
+    writer->out->failed |= name.failed;
+    thr_text_destroy(&name);
+  }
+  thr_write_close(writer);
+}
+
+/* Of several cords, the edges that each alone passes, and which pieces come wholly loose without it. */
 static void put_cut_json(thr_writer *writer, const thr_plan *plan)
 {
   int *only = thr_calloc((size_t)plan->frame.n_edges, sizeof *only);
@@ -320,6 +369,7 @@ static void put_cut_json(thr_writer *writer, const thr_plan *plan)
     thr_write_object(writer, NULL);
     thr_write_string(writer, "cord", plan->cord[i].id);
     thr_write_int(writer, "pieces", pieces_alone(plan, only, i));
+    put_loose_json(writer, plan, only, i);
     thr_write_row(writer, "edges");
     for (int e = 0; e < plan->frame.n_edges; e++)
       if (only[e] == i) thr_write_int(writer, NULL, e);
