@@ -178,14 +178,15 @@ static thr_status plan_tied(const thr_frame *frame, const thr_request *options, 
 
 /* ---- the planner ---- */
 
-/* Cords within a limit on their length of which it is not proved that they are the fewest, or none: fewer by another way. st: of
- * what there is. */
+/* Cords within a limit on their length of which it is not proved that they are the fewest, or none: fewer by another way, of
+ * which the solver says nothing. st: of what there is. */
 static thr_status few_short(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_status st,
-                            thr_plan *plan, thr_err *err)
+                            thr_plan *plan, thr_cords_word *word, thr_err *err)
 {
   enum { MOST_EDGES = 2000 };
   thr_err why = {0};
   int n = 0;
+  const int before = plan->n_cords;
   double longest = 0;
   if (st != THR_ELIMIT || options->max_length == 0 || options->max_pull > 0 || thr_wants_balance(options) ||
       options->ends == THR_ENDS_COUNTS || frame->n_edges > MOST_EDGES)
@@ -199,7 +200,8 @@ static thr_status few_short(const thr_frame *frame, const thr_request *options, 
         err, st, "did not find %d cords with none longer than %g %s; with --balance instead of --max-length the longest is %g %s",
         options->cords, options->max_length, frame->units, longest, frame->units);
   }
-  if (found || n != 1 || plan->n_cords == 0) return st;
+  if (found || n != 1 || plan->n_cords == before) return st;
+  *word = (thr_cords_word){0};
   *err = (thr_err){0};
   return thr_cords_judge(plan, &(thr_err){0}, err);
 }
@@ -210,8 +212,9 @@ thr_status thr_planner_length(const thr_frame *frame, const thr_request *options
   thr_cords_word word = {0};
   *plan = (thr_plan){0};
   thr_status st = (options->joint == THR_JOINT_TUBE ? plan_tied : plan_solid)(frame, options, limits, plan, &word, err);
+  if (options->joint == THR_JOINT_SOLID) st = few_short(frame, options, limits, st, plan, &word, err);
   if (report) report->word = word;
-  return options->joint == THR_JOINT_SOLID ? few_short(frame, options, limits, st, plan, err) : st;
+  return st;
 }
 
 bool thr_planner_is_quick(const thr_frame *frame, const thr_request *options)

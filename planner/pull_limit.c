@@ -86,9 +86,10 @@ static thr_status plan_number(const fewest *x, int n, thr_aim aim, thr_step step
   options.turning = thr_request_default().turning;
   options.max_length = 0;
   if (options.ends != THR_ENDS_COUNTS) options.cords = options.cords_least = n;
-  if (step == THR_STEP_FEW_ANNEAL) options.max_pull = 0; /* all of the work goes into even cords, none into a proof */
-  thr_status st = step == THR_STEP_FEW_ANNEAL ? thr_planner_turning(x->f, &options, &share, plan, NULL, &why)
-                                              : thr_tortuosity_plan(x->f, &options, &share, plan, &why);
+  const bool annealed = step == THR_STEP_FEW_ANNEAL;
+  if (annealed) options.max_pull = 0; /* all of the work goes into even cords, none into a proof */
+  thr_status st = annealed ? thr_planner_turning(x->f, &options, &share, plan, NULL, &why)
+                           : thr_tortuosity_plan(x->f, &options, &share, plan, &why);
   if (st == THR_ENOMEM) return thr_nomem(err);
   return THR_OK; /* what else fails leaves no plan */
 }
