@@ -9,8 +9,8 @@
 #include "planner/advise.h"
 #include "planner/dispatch.h"
 
-/* Work that is counted, in seconds: of advice, and of the line beside a plan. */
-static const double usual_work = 2, work_beside_plan = 1;
+/* Counted, in seconds: as much for the line beside a plan, so that it recommends what the table of advice does. */
+static const double usual_work = 2;
 
 static void put_option(thr_text *text, const char *option, const char *value)
 {
@@ -74,7 +74,7 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
   thr_text_printf(text, "hand     %s is ", plain_force(newton, force));
   plain_put_hand(text, newton);
   thr_text_append(text, ":\n");
-  double work = work_beside_plan;
+  double work = usual_work;
   thr_limits limits = advice_limits(0, &work);
   if (thr_advise(&plan->frame, &plan->options, &options, &limits, &advice, NULL)) advice.chosen = -1;
   if (advice.chosen >= 0)
