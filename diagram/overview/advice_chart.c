@@ -269,12 +269,13 @@ static double write_foot(const picture *p, double y, thr_text *text)
   char length[64], line[400];
   if (advice->chosen >= 0) y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, COMMAND, " class=\"command\"", p->chart->command) + 1.5;
   thr_svg_length(advice->base_length, p->chart->units, length);
-  if (advice->chosen >= 0)
+  const thr_advice_row *row = advice->chosen >= 0 ? &advice->row[advice->chosen] : NULL;
+  if (row)
     snprintf(
         line, sizeof line,
-        "Marked: the fewest cords that stay within %g N even at mu %g. Cord: the light part of a bar is %s, what the edges need; "
-        "the dark part is overlap. Tails and knots are not counted. Twice the seating tension, twice the pull.",
-        advice->hand, advice->physics.mu_high, length);
+        "Marked: the fewest cords found that stay within %g N even at mu %g%s. Cord: the light part of a bar is %s, what the "
+        "edges need; the dark part is overlap. Tails and knots are not counted. Twice the seating tension, twice the pull.",
+        advice->hand, advice->physics.mu_high, row->all > row->cords ? ", as many in every component" : "", length);
   else
     snprintf(
         line, sizeof line,
