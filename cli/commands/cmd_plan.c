@@ -378,7 +378,7 @@ static int put_turning(thr_writer *writer, const arguments *a, planned *x)
   thr_status st = thr_rivals_make(&x->plan, &x->report.shortest, a->turning.compare, a->turning.frontier, &limits, &rivals, &err);
   cli_progress_end();
   if (a->turning.frontier && !a->turning.minimize && x->plan.options.cords > 1)
-    cli_note("with --frontier all turning together is minimized; --minimize max-turning is for the cord that turns most");
+    cli_note("note: with --frontier all turning together is minimized; --minimize max-turning is for the cord that turns most");
   if (rivals.no_frontier.code) cli_note("no frontier: %s", rivals.no_frontier.text);
   put_plan(writer, a, x, &rivals);
   int code = st ? cli_fail(&err) : EXIT_OK;
