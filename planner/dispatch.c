@@ -22,7 +22,7 @@ static const double part[THR_N_STEPS] = {
     [THR_STEP_EXCHANGES] = 0.2,       [THR_STEP_SYMMETRIC_FEWER] = 0.5,
     [THR_STEP_SYMMETRIC_TIED] = 0.85, [THR_STEP_FEWEST] = 0.75,
     [THR_STEP_FEW_BOUND] = 0.08,      [THR_STEP_FEW_WALKS] = 0.4,
-    [THR_STEP_FEW_TRY] = 0.35,        [THR_STEP_FEW_ANNEAL] = 1,
+    [THR_STEP_FEW_TRY] = 0.35,        [THR_STEP_FEW_ANNEAL] = 0.9,
     [THR_STEP_ANY_CORDS] = 0.4,       [THR_STEP_COVERS] = 0.3,
     [THR_STEP_DIFFERENT] = 0.4,
 };

@@ -51,40 +51,59 @@ static thr_status judge_longest(const thr_plan *plan, thr_err *err)
   return thr_not_proved(err, "the length of the longest cord", claim->longest, claim->longest_bound);
 }
 
+/* A plan of fewer cords than were asked for at most is one of that request, too, of which less may be proved. With tube joints
+ * the proof comes later. */
+static thr_status take_request(thr_plan *plan, int cords, thr_err *err)
+{
+  plan->options.cords = cords;
+  if (plan->options.joint == THR_JOINT_TUBE) return THR_OK;
+  thr_plan before = {.proof = plan->proof};
+  plan->proof = (thr_length_proof){0};
+  thr_status st = thr_planner_prove_length(plan, &before, err);
+  thr_plan_destroy(&before);
+  return st;
+}
+
+/* What takes the place of a plan: another with its table, if there is one to be told. */
+static void replace(thr_plan *plan, thr_plan *next, thr_symmetries *table, thr_symmetries *rows)
+{
+  thr_plan_destroy(plan);
+  *plan = *next;
+  *next = (thr_plan){0};
+  if (!table) return;
+  thr_symmetries_destroy(table);
+  *table = *rows;
+  *rows = (thr_symmetries){0};
+}
+
 /* With a limit on the pull, or the length, the fewest cords come first: symmetric plans of fewer cords than this one's as long as
  * there are some under a group that has more than the identity, each in a part of the time. table: of the last, NULL = not
- * wanted. */
+ * wanted. found, why: what was said of the plan, and then of the last. */
 static thr_status take_fewer(const thr_frame *frame, const thr_request *options, const thr_plan *shortest,
-                             const thr_limits *limits, thr_symmetries *table, thr_plan *plan, thr_err *err)
+                             const thr_limits *limits, thr_symmetries *table, thr_plan *plan, thr_status found, thr_err *why)
 {
   thr_status st = THR_OK;
-  for (bool fewer = true; fewer && !thr_limits_stop(limits);) {
+  for (bool fewer = true; fewer && !st && !thr_limits_stop(limits);) {
     const thr_limits share = thr_dispatch_share(limits, THR_STEP_SYMMETRIC_FEWER);
     thr_request few = *options;
     thr_symmetries rows = {0};
     thr_plan next = {0};
-    thr_err why = {0};
+    thr_err said = {0};
     int component;
     few.cords = thr_planner_most_cords(plan, &component) - 1;
     if (few.cords < 1 || few.cords < few.cords_least) break;
-    const thr_status found = thr_symmetry_plan_from(frame, &few, shortest, &share, table ? &rows : NULL, &next, &why);
+    const thr_status made = thr_symmetry_plan_from(frame, &few, shortest, &share, table ? &rows : NULL, &next, &said);
     fewer = next.n_cords > 0 && next.symmetry.order > 1;
-    if (fewer) {
-      thr_plan_destroy(plan);
-      *plan = next;
-      next = (thr_plan){0};
-      st = found;
-      *err = why;
-    }
-    if (fewer && table) {
-      thr_symmetries_destroy(table);
-      *table = rows;
-      rows = (thr_symmetries){0};
+    if (fewer) st = take_request(&next, options->cords, &(thr_err){0});
+    if (fewer && !st) {
+      replace(plan, &next, table, &rows);
+      found = made;
+      *why = said;
     }
     thr_symmetries_destroy(&rows);
     thr_plan_destroy(&next);
   }
-  return st;
+  return st == THR_ENOMEM ? st : found;
 }
 
 thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
@@ -103,7 +122,7 @@ thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *opti
       thr_symmetry_plan_from(frame, options, shortest.n_cords > 0 ? &shortest : NULL, &share, table, plan, &unproved);
   if (plan->n_cords > 0 && plan->symmetry.order > 1 && (options->max_pull > 0 || options->max_length > 0) &&
       options->cords_least < options->cords)
-    found = take_fewer(frame, options, shortest.n_cords > 0 ? &shortest : NULL, &share, table, plan, &unproved);
+    found = take_fewer(frame, options, shortest.n_cords > 0 ? &shortest : NULL, &share, table, plan, found, &unproved);
   if (plan->n_cords > 0 && shortest.pull_claim.present && plan->n_cords >= shortest.pull_claim.fewest) { /* it is of any plan */
     plan->pull_claim = shortest.pull_claim;
     plan->pull_claim.optimal = plan->n_cords == plan->pull_claim.fewest;
