@@ -9,8 +9,7 @@
 #include "planner/advise.h"
 #include "planner/dispatch.h"
 
-/* Counted, in seconds: as much for the line beside a plan, so that it recommends what the table of advice does. */
-static const double usual_work = 2;
+static const double usual_work = 2; /* counted, in seconds */
 
 static void put_option(thr_text *text, const char *option, const char *value)
 {
@@ -63,19 +62,24 @@ static void put_line(const thr_advice *advice, const thr_plan *plan, const char 
   thr_text_destroy(&command);
 }
 
+/* That so much is beyond a hand; the line goes on. */
+static void put_too_hard(thr_text *text, double newton)
+{
+  char force[64];
+  thr_text_printf(text, "hand     %s is ", plain_force(newton, force));
+  plain_put_hand(text, newton);
+}
+
 void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_frame_args *a, const cli_physics *physics,
                            thr_text *text)
 {
   const thr_advise_options options = {.hand = thr_hand_always, .plan = plan};
   thr_advice advice = {0};
-  char force[64];
-  double newton = force_of(plan);
+  double newton = force_of(plan), work;
   if (newton <= thr_hand_most) return;
-  thr_text_printf(text, "hand     %s is ", plain_force(newton, force));
-  plain_put_hand(text, newton);
+  put_too_hard(text, newton);
   thr_text_append(text, ":\n");
-  double work = usual_work;
-  thr_limits limits = advice_limits(0, &work);
+  thr_limits limits = advice_limits(-1, &work); /* as of the table, so that it recommends the same */
   if (thr_advise(&plan->frame, &plan->options, &options, &limits, &advice, NULL)) advice.chosen = -1;
   if (advice.chosen >= 0)
     put_line(&advice, plan, path, a, physics, text);
@@ -86,11 +90,9 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
 
 void advice_put_hint(const thr_plan *plan, thr_text *text)
 {
-  char force[64];
   const double newton = force_of(plan);
   if (newton <= thr_hand_most || plan->options.max_pull > 0) return;
-  thr_text_printf(text, "hand     %s is ", plain_force(newton, force));
-  plain_put_hand(text, newton);
+  put_too_hard(text, newton);
   thr_text_printf(text, "; --max-pull %g takes as few cords as need no more\n", thr_hand_most);
 }
 

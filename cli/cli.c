@@ -8,6 +8,7 @@
 #include "graph/angle.h"
 #include "graph/io/stand.h"
 #include "graph/os.h"
+#include "graph/plan/advice.h"
 #include "cli/guard.h"
 #include "graph/check/check.h"
 #include "graph/framework/units.h"
@@ -181,7 +182,7 @@ bool cli_double(const char *command, const char *option, const char *text, doubl
 
 bool cli_hand(const char *command, const char *text, double *newtons)
 {
-  const double one = 50, two = 100, least = 1e-6, most = 1e9; /* N */
+  const double one = thr_hand_most, two = 2 * thr_hand_most, least = 1e-6, most = 1e9; /* N */
   const bool is_one = strcmp(text, "one") == 0;
   char *end;
   if (is_one || strcmp(text, "two") == 0) {

@@ -83,9 +83,10 @@ int cli_processes(void);
 
 /* Numbers in options, checked against a range: false prints why (a usage error). */
 bool cli_double(const char *command, const char *option, const char *text, double low, double high, double *out);
+bool cli_int(const char *command, const char *option, const char *text, int low, int high, int *out);
+
 /* Newtons for --hand: "one" and "two" hands are what these pull again and again (docs/method.md, "Few cords within a pull"). */
 bool cli_hand(const char *command, const char *text, double *newtons);
-bool cli_int(const char *command, const char *option, const char *text, int low, int high, int *out);
 
 /* One of n words, name(0) .. name(n - 1); false prints which there are. */
 bool cli_choose(const char *command, const char *option, const char *value, const char *(*name)(int), int n, int *out);

@@ -193,7 +193,7 @@ static thr_status find_with_room(const thr_frame *frame, const thr_request *opti
   const int room = 2 * lo->cords, usual = thr_turning_most_passes(frame, lo->cover);
   const bool more = room > (lo->most_passes > 0 ? lo->most_passes : usual);
   thr_err why = {0};
-  if (more && thr_wants_largest(options)) lo->most_passes = thr_request_most_passes(frame, options);
+  if (more && thr_wants_largest(options) && thr_request_most_passes(frame, options) >= room) lo->most_passes = room;
   if (more && options->ends == THR_ENDS_CLOSED && lo->cords > frame->n_edges) lo->most_passes = room;
   thr_status st = find_least(frame, lo, limits, least, &why);
   if (st == THR_EINFEASIBLE && more && lo->most_passes != room) {

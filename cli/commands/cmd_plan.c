@@ -529,6 +529,7 @@ static void put_order(const arguments *a, const thr_plan *p, thr_text *text)
 /* Where the plan is and, unless folder is NULL, the drawings; and what to do if a hand cannot pull it. */
 static int print_places(const arguments *a, const thr_plan *p, const char *plan_path, const char *folder)
 {
+  const bool usual = is_usual(a, &p->options);
   char names[DRAWINGS_NAMES];
   thr_text text = {0};
   thr_text_append(&text, a->compare || thr_wants_turning(&p->options) ? "\n" : "");
@@ -542,9 +543,9 @@ static int print_places(const arguments *a, const thr_plan *p, const char *plan_
   }
   thr_text_append(&text, "\n");
   if (p->options.order == THR_ORDER_HAND || cli_verbose) put_order(a, p, &text);
-  if (!is_usual(a, &p->options)) advice_put_hint(p, &text);
+  if (!usual) advice_put_hint(p, &text);
   int code = cli_write(&text, "-");
-  if (code || !is_usual(a, &p->options)) return code;
+  if (code || !usual) return code;
   advice_put_after_plan(p, a->path, &a->frame, &a->pull.physics, &text);
   return cli_write(&text, "-");
 }
