@@ -55,6 +55,13 @@ static void offer(mixed *m, thr_plan *plan)
 
 /* ---- turning ---- */
 
+/* Does a claim bound what is to be minimized from higher up than another? */
+static bool says_more(const thr_request *options, const thr_turning_claim *a, const thr_turning_claim *b)
+{
+  if (thr_wants_largest(options) && a->largest_bound != b->largest_bound) return a->largest_bound > b->largest_bound;
+  return a->lower_bound > b->lower_bound;
+}
+
 /* What the tree of plan proves of any plan with the request's numbers of cords: the better one is kept. */
 static thr_status keep_tree(mixed *m, thr_plan *plan, thr_err *err)
 {
@@ -69,7 +76,7 @@ static thr_status keep_tree(mixed *m, thr_plan *plan, thr_err *err)
   }
   if (st == THR_EVIOLATED) return THR_OK; /* of one number of cords only, as rows for a single closed cord are */
   if (st) return thr_fail(err, st, "%s", why.text);
-  if ((m->tree.present && found.lower_bound <= m->tree.lower_bound)) return THR_OK;
+  if (m->tree.present && !says_more(m->o, &found, &m->tree)) return THR_OK;
   thr_turning_proof_destroy(&m->tree.tree);
   m->tree = found;
   m->tree.tree = plan->turning.tree;

@@ -54,6 +54,10 @@ thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *op
  */
 thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
+/* Short cords in every component, as few as the options allow, without their limits on the pull and the length. */
+thr_status thr_planner_some_cords(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *some,
+                                  thr_err *err) THR_MUST_CHECK;
+
 /* Few cords within options.max_pull, of any number up to options.cords in a component, by the programme over walks
  * (tortuosity/cords/walk_pull.h); without proofs. plan is empty where none were found. */
 thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
@@ -70,7 +74,8 @@ thr_status thr_planner_short_few(const thr_frame *frame, const thr_request *opti
 int thr_planner_most_cords(const thr_plan *plan, int *component);
 
 /* *excluded: more cords in every component than the known number, but fewer than some component of a plan within the pull has,
- * are proved to be too few by walks, which may be taken; 0: none are. */
+ * are proved to be too few by walks, which may be taken; 0: none are. Of an empty plan they may be as many as the options allow.
+ */
 thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *options, const thr_plan *plan, int known,
                                     const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err) THR_MUST_CHECK;
 

@@ -11,21 +11,27 @@
 
 #include <stdlib.h>
 
-/* Some cords in every component, short ones. *found: there are. */
-static thr_status some_cords(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *some,
-                             thr_err *err)
+thr_status thr_planner_some_cords(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *some,
+                                  thr_err *err)
 {
   thr_request any = *options;
   thr_limits quiet = *limits;
-  thr_err why = {0};
   quiet.found = NULL;
   any.aims = thr_aims_shortest;
   any.turning = thr_request_default().turning;
   any.confirm = THR_CONFIRM_NEVER;
   any.max_length = any.max_pull = 0;
   any.cords = any.cords_least;
-  thr_status st = thr_planner_length(frame, &any, &quiet, some, NULL, &why);
-  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves none */
+  return thr_planner_length(frame, &any, &quiet, some, NULL, err);
+}
+
+/* None where that fails. */
+static thr_status some_cords(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *some,
+                             thr_err *err)
+{
+  thr_err why = {0};
+  const thr_status st = thr_planner_some_cords(frame, options, limits, some, &why);
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
 /* Those of a component become the last of the plan. *found false: there are none. */
@@ -99,21 +105,37 @@ thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
+/* From known + 1 to so many cords of some component, none of which is within the pull, or of the one that has most. */
+static thr_status exclude(const thr_turning_columns *columns, const thr_request *options, const thr_plan *plan, bool within,
+                          int known, const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err)
+{
+  int largest;
+  const int number = thr_planner_most_cords(plan, &largest), first = within ? largest : 0,
+            end = within ? largest + 1 : columns->n_components;
+  thr_status st = THR_OK;
+  for (int k = first; k < end && !st && *excluded == 0; k++) {
+    const thr_limits share = thr_limits_part(limits, 1.0 / (end - k));
+    st = thr_walk_pull_too_few(columns, options, plan->cord, plan->n_cords, k, known, within ? number - 1 : options->cords,
+                               &share, walks, excluded, err);
+  }
+  return st;
+}
+
 thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *options, const thr_plan *plan, int known,
                                     const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err)
 {
   thr_turning_columns columns = {0};
-  int component;
-  const int number = thr_planner_most_cords(plan, &component);
+  thr_plan some = {0};
+  const bool within = plan->n_cords > 0;
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   *excluded = 0;
   if (!end_allowed) return thr_nomem(err);
   const thr_turning_task task = thr_walk_pull_task(frame, options, end_allowed);
-  thr_status st = thr_turning_columns_init(&columns, frame, &task, err);
-  if (!st)
-    st = thr_walk_pull_too_few(&columns, options, plan->cord, plan->n_cords, component, known, number - 1, limits, walks,
-                               excluded, err);
+  thr_status st = within ? THR_OK : some_cords(frame, options, limits, &some, err);
+  if (!st) st = thr_turning_columns_init(&columns, frame, &task, err);
+  if (!st) st = exclude(&columns, options, within ? plan : &some, within, known, limits, walks, excluded, err);
   thr_turning_columns_destroy(&columns);
+  thr_plan_destroy(&some);
   free(end_allowed);
   return st;
 }

@@ -32,6 +32,7 @@ typedef struct {
   thr_pull_claim claim; /* the most cords that are proved to be too few */
   thr_plan found;       /* within the limit, of the fewest cords so far; n_cords is 0: none yet */
   int number;           /* of them in every component */
+  bool is_short;        /* they were found as short cords, not as ones that turn little */
   double beyond;        /* the last cords turn by this part more than they may, at most twice as much */
 } fewest;
 
@@ -86,10 +87,11 @@ static thr_status plan_number(const fewest *x, int n, thr_aim aim, thr_step step
   options.turning = thr_request_default().turning;
   options.max_length = 0;
   if (options.ends != THR_ENDS_COUNTS) options.cords = options.cords_least = n;
-  const bool annealed = step == THR_STEP_FEW_ANNEAL;
-  if (annealed) options.max_pull = 0; /* all of the work goes into even cords, none into a proof */
-  thr_status st = annealed ? thr_planner_turning(x->f, &options, &share, plan, NULL, &why)
-                           : thr_tortuosity_plan(x->f, &options, &share, plan, &why);
+  const bool annealed = step == THR_STEP_FEW_ANNEAL, shortest = aim == THR_AIM_LENGTH;
+  if (annealed || shortest) options.max_pull = 0; /* all of the work goes into even cords, none into a proof */
+  thr_status st = annealed   ? thr_planner_turning(x->f, &options, &share, plan, NULL, &why)
+                  : shortest ? thr_planner_length(x->f, &options, &share, plan, NULL, &why)
+                             : thr_tortuosity_plan(x->f, &options, &share, plan, &why);
   if (st == THR_ENOMEM) return thr_nomem(err);
   return THR_OK; /* what else fails leaves no plan */
 }
@@ -114,17 +116,18 @@ static void take_found(fewest *x, thr_plan *plan, int number)
   thr_plan_destroy(&x->found);
   x->found = *plan;
   x->number = number;
+  x->is_short = false;
   *plan = (thr_plan){0};
   thr_limits_found(x->limits, x->found.cord, x->found.n_cords, NULL);
 }
 
-/* How many cords are too few by walks, if that is more than is known. */
+/* How many cords are too few by walks, if that is more than is known; where none were found that may be all that are allowed. */
 static thr_status exclude_by_walks(fewest *x, thr_err *err)
 {
   const thr_limits share = thr_dispatch_share(x->limits, THR_STEP_FEW_WALKS);
   thr_walk_proof walks = {0};
   int excluded = 0;
-  if (x->found.n_cords == 0 || x->number - 1 <= x->claim.excluded) return THR_OK;
+  if (x->found.n_cords > 0 && (!is_range(x->o) || x->number - 1 <= x->claim.excluded)) return THR_OK;
   thr_status st = thr_planner_pull_too_few(x->f, x->o, &x->found, x->claim.excluded, &share, &walks, &excluded, err);
   if (!st && excluded > x->claim.excluded) {
     thr_turning_proof_destroy(&x->claim.tree);
@@ -152,7 +155,15 @@ static thr_status use_walks(fewest *x, thr_err *err)
   const bool fewer = plan.n_cords > 0 && (x->found.n_cords == 0 || number < x->number);
   if (!st && fewer && short_enough) take_found(x, &plan, number);
   thr_plan_destroy(&plan);
-  return st || !is_range(x->o) ? st : exclude_by_walks(x, err);
+  return st ? st : exclude_by_walks(x, err);
+}
+
+/* Are a plan's cords within both limits? */
+static bool keeps(const fewest *x, const thr_plan *plan)
+{
+  const double limit = x->o->max_length * (1 + 1e-12);
+  const bool short_enough = limit == 0 || thr_cords_longest(x->f, plan->cord, plan->n_cords) <= limit;
+  return plan->n_cords > 0 && short_enough && thr_cords_within_pull(x->f, x->o, plan->cord, plan->n_cords);
 }
 
 /* Cords of which the one that turns most turns little enough, or a proof that there are none. */
@@ -160,17 +171,33 @@ static thr_status try_number(fewest *x, int n, thr_step step, bool *fits, thr_er
 {
   thr_plan plan;
   thr_status st = plan_number(x, n, THR_AIM_MAX_TURNING, step, &plan, err);
-  double limit = x->o->max_length * (1 + 1e-12);
-  bool short_enough = limit == 0 || thr_cords_longest(x->f, plan.cord, plan.n_cords) <= limit;
-  *fits = !st && plan.n_cords > 0 && short_enough && thr_cords_within_pull(x->f, x->o, plan.cord, plan.n_cords);
+  *fits = !st && keeps(x, &plan);
   double turning = plan.n_cords > 0 ? thr_cords_pulled_turning(x->f, plan.cord, plan.n_cords) : INFINITY;
   x->beyond = fmin(1, fmax(0, 2 * turning / thr_request_most_turning(x->o) - 1));
-  if (*fits && (x->found.n_cords == 0 || n < x->number)) {
+  if (*fits && (x->found.n_cords == 0 || n < x->number + x->is_short)) {
     take_found(x, &plan, n);
     return st;
   }
   if (!st && !*fits) st = rule_out(x, n, &plan.turning, err);
   thr_plan_destroy(&plan);
+  return st;
+}
+
+/* Short cords, which may turn back at their ends where those that turn little do not; closed ones over single edges are within
+ * many a limit. Numbers that are not excluded are tried from the least on, as a small framework may hold some of them. */
+static thr_status try_short(fewest *x, thr_err *err)
+{
+  enum { MOST_EDGES = 18 };
+  const int most = x->o->cords < x->f->n_edges ? x->o->cords : x->f->n_edges;
+  thr_status st = THR_OK;
+  if (x->o->ends != THR_ENDS_CLOSED || x->o->joint == THR_JOINT_TUBE || x->f->n_edges > MOST_EDGES) return THR_OK;
+  for (int n = x->claim.excluded + 1; n <= most && !st && x->found.n_cords == 0 && !thr_limits_stop(x->limits); n++) {
+    thr_plan plan;
+    st = plan_number(x, n, THR_AIM_LENGTH, THR_STEP_FEW_TRY, &plan, err);
+    if (!st && keeps(x, &plan)) take_found(x, &plan, n);
+    x->is_short = x->found.n_cords > 0;
+    thr_plan_destroy(&plan);
+  }
   return st;
 }
 
@@ -203,15 +230,16 @@ static thr_status bound_all(fewest *x, thr_err *err)
  */
 static thr_status search_numbers(fewest *x, thr_err *err)
 {
+  const int most = x->found.n_cords > 0 ? x->number - !x->is_short : x->o->cords;
   int failed = x->claim.excluded, n = failed + 1, step = 1;
   bool fits = false;
   thr_status st = THR_OK;
-  while (!st && !fits && n <= x->o->cords && !is_over(x)) {
+  while (!st && !fits && n <= most && !is_over(x)) {
     st = try_number(x, n, THR_STEP_FEW_TRY, &fits, err);
     if (fits) break;
     failed = n;
     int more = x->claim.excluded < failed ? (int)fmax(step, floor(n * x->beyond)) : 1;
-    n += n < x->o->cords && n + more > x->o->cords ? x->o->cords - n : more;
+    n += n < most && n + more > most ? most - n : more;
     if (x->claim.excluded < failed) step *= 2;
   }
   while (!st && x->found.n_cords > 0 && x->number - failed > 1 && !is_over(x)) {
@@ -243,9 +271,15 @@ static thr_status anneal_fewer(fewest *x, const thr_limits *limits, thr_err *err
 
 /* ---- the plan ---- */
 
+/* Why there is no plan: of any cords, or of cords within the pull. */
 static thr_status not_found(const fewest *x, const thr_err *why, thr_err *err)
 {
   const thr_request *o = x->o;
+  thr_plan some;
+  thr_err none = {0};
+  const thr_status any = thr_planner_some_cords(x->f, o, x->limits, &some, &none);
+  thr_plan_destroy(&some);
+  if (any == THR_EINFEASIBLE || any == THR_ENOMEM) return thr_fail(err, any, "%s", none.text);
   const char *more = is_range(o) ? "time, cords" : "time";
   double newtons = o->max_pull * o->physics.seating;
   if (why->code == THR_EINPUT || why->code == THR_ENOMEM) return thr_fail(err, why->code, "%s", why->text);
@@ -302,8 +336,9 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
   if (options->turning.length_slack >= 0)
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
-  thr_status st = is_range(options) ? bound_all(&x, err) : THR_OK;
-  if (!st) st = is_range(options) ? search_numbers(&x, err) : try_number(&x, options->cords, THR_STEP_FEW_TRY, &fits, err);
+  thr_status st = is_range(options) ? bound_all(&x, err) : try_number(&x, options->cords, THR_STEP_FEW_TRY, &fits, err);
+  if (!st) st = try_short(&x, err);
+  if (!st && is_range(options)) st = search_numbers(&x, err);
   if (!st && (is_range(options) || (x.found.n_cords == 0 && x.claim.excluded < options->cords))) {
     share = thr_dispatch_share(limits, THR_STEP_FEWEST);
     share = thr_limits_brief(&share, &for_walks);

@@ -153,6 +153,17 @@ static int fewest_possible(const instance *x, const thr_request *o, bool back_an
   return n;
 }
 
+/* Is there an edge over which no cord keeps to the pull, however many there are? */
+static bool is_hopeless(const instance *x)
+{
+  static double shortest[SETS];
+  bool none = false;
+  shortest_cords(&x->frame, &x->o, true, shortest);
+  for (int e = 0; e < x->frame.n_edges; e++)
+    none |= isinf(shortest[1 << e]);
+  return none;
+}
+
 /* What prices of walks prove, they prove of cords that turn back anywhere. */
 static bool is_by_walks(const thr_plan *p)
 {
@@ -212,6 +223,7 @@ START_TEST(plans_keep_to_the_pull_and_claim_what_is_true)
     thr_status st = thr_plan_make(&x.frame, &x.o, &(thr_limits){0}, &p, NULL, &err);
     ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_EINFEASIBLE, "%s", err.text);
     ck_assert(st != THR_EINFEASIBLE || fewest > MOST);
+    ck_assert(st == THR_EINFEASIBLE || !is_hopeless(&x));
     ck_assert(st != THR_OK || p.n_cords > 0);
     if (p.n_cords > 0) {
       assert_plan_sound(&p);

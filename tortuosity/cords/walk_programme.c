@@ -406,15 +406,23 @@ static void judge_lengths(thr_walk_programme *p, const double *x, int64_t worth)
   p->excluded = bound >= p->enough * (1 - 1e-9);
 }
 
-/* What these prices, of which a walk is worth so much at most, prove. */
+/* What the best walk is said to be worth where none is: a small part of what a pass may cost, so that more cords are too few than
+ * any plan has. */
+static double least_worth(const thr_walk_programme *p)
+{
+  return 0x1p-12 * one * p->upper[0];
+}
+
+/* What these prices, of which a walk is worth so much at most, prove. Where none is worth anything they prove it at any scale. */
 static void judge_prices(thr_walk_programme *p, const double *x, double worth)
 {
+  const double scale = worth > least_worth(p) ? worth : one * p->upper[0];
   double needed = thr_walk_needed(&p->steps, &p->trial, p->least);
   p->excluded = needed > p->cords * worth * (1 + 1e-9) && thr_walk_component(p->c, &p->trial) == p->component;
   if (needed / worth <= p->best) return;
   p->best = needed / worth;
   for (int j = 0; j < p->n_variables; j++)
-    p->middle[j] = x[j] * one / worth;
+    p->middle[j] = x[j] * one / scale;
 }
 
 /* Notes the passes of a walk; are less than a tenth of them new? Then it is much like those of this look. */
@@ -451,7 +459,7 @@ static thr_status price_run(thr_walk_programme *p, int run, int64_t *most, int *
 thr_status thr_walk_programme_look(thr_walk_programme *p, const double *x, int *added, thr_err *err)
 {
   thr_status st = set_trial(p, x, err);
-  int64_t most = p->lengths ? 0 : 1;
+  int64_t most = p->lengths ? 0 : (int64_t)least_worth(p);
   if (st) return st == THR_EVIOLATED ? THR_OK : st;
   const int runs = thr_walk_runs(&p->steps);
   for (int i = 0; i < runs && !st; i++) {

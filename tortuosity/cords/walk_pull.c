@@ -134,10 +134,12 @@ thr_status thr_walk_pull_too_few(const thr_turning_columns *columns, const thr_r
   thr_walk_programme p;
   thr_err why = {0};
   double bound = 0;
+  const bool within = thr_cords_within_pull(columns->f, options, cord, n_cords); /* their walks are columns */
   *excluded = 0;
   thr_status st = thr_walk_programme_init_pull(&p, columns, options, cord, n_cords, component, false, limits, &why);
   p.cords = cords;
-  if (!st) st = search(&p, cord, n_cords, known + 1, 1, &why); /* no walk that counts is worth more than 1 */
+  const double dearest = within ? 1 : cords + 1; /* no walk is worth more than 1; but what none passes may be worth them all */
+  if (!st) st = search(&p, cord, within ? n_cords : 0, known + 1, dearest, &why);
   const int number = (int)fmin(cords, ceil(p.best * (1 - 1e-9)) - 1);
   if (!st) st = take_proof(&p, proof, &why);
   if (!st && proof->unit && number > 0) st = thr_walk_pull_check(columns, options, proof, number, &bound, &why);

@@ -27,7 +27,7 @@ thr_status thr_walk_pull_few(const thr_turning_columns *columns, const thr_reque
                              thr_err *err) THR_MUST_CHECK;
 
 /* *excluded: so many cords of the component, at most `cords`, are proved to be too few for options.max_pull; 0: none are that
- * were not known to be. proof, empty at first, receives the prices that prove it. cord: of a plan within the pull. */
+ * were not known to be. proof, empty at first, receives the prices that prove it. cord: of a plan within the pull, or of any. */
 thr_status thr_walk_pull_too_few(const thr_turning_columns *columns, const thr_request *options, const thr_cord *cord,
                                  int n_cords, int component, int known, int cords, const thr_limits *limits,
                                  thr_walk_proof *proof, int *excluded, thr_err *err) THR_MUST_CHECK;
