@@ -12,6 +12,7 @@
 #include "graph/threading/walks.h"
 #include "lp/length/cords.h"
 #include "lp/length/decomposition.h"
+#include "planner/images.h"
 #include "planner/planners.h"
 #include "tortuosity/cords/anneal.h"
 #include "tortuosity/cords/walk_bound.h"
@@ -226,9 +227,8 @@ static thr_status improve(thr_plan *plan, const thr_turning_columns *columns, co
   thr_cord *better = NULL;
   thr_status st = thr_check_component_least(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
                                             proof->n_certificates, component, &least, err);
-  if (!st)
-    st = thr_walk_bound(columns, THR_WALK_LENGTH, plan->cord, plan->n_cords, least, 0, limits, &plan->proof.walks, &bound,
-                        &better, err);
+  const thr_walk_ask ask = {THR_WALK_LENGTH, plan->cord, plan->n_cords, least, 0, thr_planner_near_motions};
+  if (!st) st = thr_walk_bound(columns, &ask, limits, &plan->proof.walks, &bound, &better, err);
   *improved = better;
   if (!st && better) st = take_cords(plan, better, err);
   return st ? st : judge(plan, err);

@@ -3,6 +3,7 @@
 #include "graph/plan/junction.h"
 #include "graph/plan/turning_proof.h"
 #include "planner/dispatch.h"
+#include "planner/images.h"
 #include "symmetry/symmetry.h"
 #include "tortuosity/cords/maxturn.h"
 
@@ -96,5 +97,7 @@ thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, double
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_EXCHANGES);
   thr_max_turning found;
   thr_status st = exchange(frame, seed, enough, &share, least, &found, err);
-  return st || is_done(frame, least, &found, enough) ? st : thr_max_turning_walks(frame, enough, limits, least, &found, err);
+  return st || is_done(frame, least, &found, enough)
+             ? st
+             : thr_max_turning_walks(frame, enough, thr_planner_near_motions, limits, least, &found, err);
 }

@@ -7,8 +7,8 @@
 #include "planner/dispatch.h"
 #include "planner/even_turning.h"
 #include "planner/make_plan.h"
+#include "planner/images.h"
 #include "planner/planners.h"
-#include "symmetry/group/isometry.h"
 #include "tortuosity/cords/maxturn.h"
 #include "tortuosity/proof/least.h"
 #include "tortuosity/tie/tube.h"
@@ -17,19 +17,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-
-/* All motions of the framework onto itself, to rounding, if they are not very many. */
-static thr_status find_motions(const thr_frame *frame, const thr_limits *limits, int **image, int *n, thr_err *err)
-{
-  enum { MOST = 240 };
-  const double rounding = 1e-9; /* of the framework's size */
-  thr_err why = {0};
-  thr_status st = thr_isometries_find(frame, NULL, rounding, MOST, limits, image, n, &why);
-  if (!st) return THR_OK;
-  *image = NULL;
-  *n = 0;
-  return st == THR_ELIMIT ? THR_OK : thr_fail(err, st, "%s", why.text);
-}
 
 static thr_least_options search_options(const thr_request *options)
 {
@@ -44,7 +31,7 @@ static thr_least_options search_options(const thr_request *options)
   lo.cost = options->turning.cost;
   lo.length_slack = options->turning.length_slack;
   if (options->turning.nodes > 0) lo.most_nodes = options->turning.nodes;
-  lo.motions = find_motions;
+  lo.motions = thr_planner_motions;
   return lo;
 }
 

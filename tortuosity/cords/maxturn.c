@@ -35,6 +35,7 @@ typedef struct {
   double *point;    /* [n_columns] tube joints */
   double *bound_of; /* [n_components] what the cords of a component are proved to turn together */
   uint64_t state;
+  thr_orbits_motions *motions; /* for the programme over walks; NULL: none */
 } search;
 
 /* j becomes the best if its largest total is less, or as large and the sum of the powers less. */
@@ -439,8 +440,8 @@ static thr_status do_one(void *user, int job, const thr_limits *limits, thr_err 
   search *x = b->x;
   thr_least *plan = b->plan;
   if (job == 1) return thr_anneal(x->c, &b->task, limits, b->cooled, plan->n_cords, &b->fell, err);
-  return thr_walk_bound(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords, b->least, x->enough, limits, &plan->proof.walks,
-                        &x->bound, &b->better, err);
+  const thr_walk_ask ask = {THR_WALK_TURNING, plan->cord, plan->n_cords, b->least, x->enough, x->motions};
+  return thr_walk_bound(x->c, &ask, limits, &plan->proof.walks, &x->bound, &b->better, err);
 }
 
 /* The programme over walks: a higher bound, and cords that it chooses, evened out as the others were. Where another thread is
@@ -470,8 +471,8 @@ static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, 
 typedef thr_status way(search *x, const thr_frame *frame, thr_least *plan, thr_err *err);
 
 /* out->bound: what is known already, 0 = nothing. */
-static thr_status improve(way *by, const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
-                          thr_max_turning *out, thr_err *err)
+static thr_status improve(way *by, const thr_frame *frame, double enough, thr_orbits_motions *motions, const thr_limits *limits,
+                          thr_least *plan, thr_max_turning *out, thr_err *err)
 {
   thr_turning_columns turning_columns = {0};
   search x = {0};
@@ -481,6 +482,7 @@ static thr_status improve(way *by, const thr_frame *frame, double enough, const 
   out->bound = fmax(out->bound, forced);
   if (!st) st = search_init(&x, &turning_columns, limits, plan, largest_price(frame, plan), out->bound, err);
   x.enough = enough;
+  x.motions = motions;
   if (!st) st = by(&x, frame, plan, err);
   if (!st) *out = (thr_max_turning){.largest = largest_price(frame, plan), .bound = x.bound};
   search_destroy(&x);
@@ -492,13 +494,13 @@ thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const 
                                    thr_max_turning *out, thr_err *err)
 {
   *out = (thr_max_turning){0};
-  return improve(find_cords, frame, enough, limits, plan, out, err);
+  return improve(find_cords, frame, enough, NULL, limits, plan, out, err);
 }
 
-thr_status thr_max_turning_walks(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
-                                 thr_max_turning *out, thr_err *err)
+thr_status thr_max_turning_walks(const thr_frame *frame, double enough, thr_orbits_motions *motions, const thr_limits *limits,
+                                 thr_least *plan, thr_max_turning *out, thr_err *err)
 {
-  return improve(use_walks, frame, enough, limits, plan, out, err);
+  return improve(use_walks, frame, enough, motions, limits, plan, out, err);
 }
 
 /* Cords from the table that turn least together. */
@@ -512,5 +514,5 @@ static thr_status use_table(search *x, const thr_frame *frame, thr_least *plan, 
 thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits, thr_least *plan, thr_err *err)
 {
   thr_max_turning out = {0};
-  return improve(use_table, frame, 0, limits, plan, &out, err);
+  return improve(use_table, frame, 0, NULL, limits, plan, &out, err);
 }

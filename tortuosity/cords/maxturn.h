@@ -31,9 +31,10 @@ thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const 
                                    thr_max_turning *out, thr_err *err) THR_MUST_CHECK;
 
 /* What the programme over walks adds for open cords (tortuosity/cords/walk_bound.h): raises out->bound, of which plan.proof then
- * has the walks, and changes the cords if it finds better ones; also where the limits stop it. */
-thr_status thr_max_turning_walks(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
-                                 thr_max_turning *out, thr_err *err) THR_MUST_CHECK;
+ * has the walks, and changes the cords if it finds better ones; also where the limits stop it. motions: near ones will do; NULL:
+ * none. */
+thr_status thr_max_turning_walks(const thr_frame *frame, double enough, thr_orbits_motions *motions, const thr_limits *limits,
+                                 thr_least *plan, thr_max_turning *out, thr_err *err) THR_MUST_CHECK;
 
 /* Cords of small components that turn least together, where the plan's turn more: exactly, as thr_max_turning_improve does it. */
 thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits, thr_least *plan,

@@ -206,21 +206,33 @@ static thr_status look_near(thr_walk_programme *p, const thr_cord *cord, int n_c
   return st;
 }
 
+/* Has every edge its price, so that columns are walks that cords can be? */
+static bool has_own_prices(const thr_walk_programme *p)
+{
+  int edges = 0;
+  for (int e = 0; e < p->c->f->n_edges; e++)
+    edges += p->edge[e] >= 0;
+  return p->n_edges == edges;
+}
+
 /* Each in its part of the time: the bound; cords just above it; cords near those that are known. */
-static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cords, double enough, double *bound,
-                         thr_walk_proof *made, thr_cord **better, thr_err *err)
+static thr_status search(thr_walk_programme *p, const thr_walk_ask *ask, double *bound, thr_walk_proof *made, thr_cord **better,
+                         thr_err *err)
 {
   const double for_bound = .8, for_cords = .3, for_near = .6; /* of what is left */
   const thr_turning_task *task = p->c->task;
   const thr_limits *limits = p->limits;
-  const double largest = thr_walk_price(p->c, p->steps.measure, &cord[thr_walk_dearest(p->c, p->steps.measure, cord, n_cords)]);
+  const thr_cord *cord = ask->cord;
+  const int n_cords = ask->n_cords;
+  const double largest = thr_walk_price(p->c, ask->measure, &cord[thr_walk_dearest(p->c, ask->measure, cord, n_cords)]);
   int open = 0;
   const bool brief = limits->brief; /* nothing is left for cords near others */
   thr_limits share = brief ? *limits : thr_limits_part(limits, for_bound);
   p->limits = &share;
-  thr_status st = enough > 0 ? try_limit(p, enough, made, bound, &open, err) : bisect(p, largest, false, made, bound, &open, err);
-  if (!st && enough <= 0) st = bisect(p, largest, true, made, bound, &open, err);
-  const bool wanted = (enough <= 0 || *bound <= enough) && !task->tube && !task->end_count;
+  thr_status st =
+      ask->enough > 0 ? try_limit(p, ask->enough, made, bound, &open, err) : bisect(p, largest, false, made, bound, &open, err);
+  if (!st && ask->enough <= 0) st = bisect(p, largest, true, made, bound, &open, err);
+  const bool wanted = (ask->enough <= 0 || *bound <= ask->enough) && !task->tube && !task->end_count && has_own_prices(p);
   if (!brief) share = thr_limits_part(limits, for_cords);
   if (!st && wanted) st = look_for_cords(p, cord, n_cords, *bound, open, better, err);
   if (!brief) share = thr_limits_part(limits, for_near);
@@ -229,17 +241,32 @@ static thr_status search(thr_walk_programme *p, const thr_cord *cord, int n_cord
   return st;
 }
 
-thr_status thr_walk_bound(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords,
-                          double least, double enough, const thr_limits *limits, thr_walk_proof *proof, double *bound,
-                          thr_cord **better, thr_err *err)
+/* One price for all images, where there are many. */
+static thr_status merge_images(thr_walk_programme *p, thr_orbits_motions *motions, thr_err *err)
 {
-  const double largest = thr_walk_price(columns, measure, &cord[thr_walk_dearest(columns, measure, cord, n_cords)]);
+  const thr_frame *frame = p->c->f;
+  bool alike = false;
+  if (!motions || p->n_variables <= MOST_DENSE) return THR_OK;
+  int *edge = thr_calloc((size_t)frame->n_edges, sizeof *edge), *node = thr_calloc((size_t)frame->n_nodes, sizeof *node);
+  thr_status st = edge && node ? thr_orbits_lowest(p->c, motions, p->limits, edge, node, &alike, err) : thr_nomem(err);
+  if (!st && alike) st = thr_walk_programme_merge(p, edge, node, err);
+  free(edge);
+  free(node);
+  return st;
+}
+
+thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_walk_ask *ask, const thr_limits *limits,
+                          thr_walk_proof *proof, double *bound, thr_cord **better, thr_err *err)
+{
+  const int dearest = thr_walk_dearest(columns, ask->measure, ask->cord, ask->n_cords);
+  const double largest = thr_walk_price(columns, ask->measure, &ask->cord[dearest]);
   thr_walk_programme p;
   thr_walk_proof made = {0};
   thr_err why = {0};
   if (columns->task->cords < 2 || *bound >= largest * (1 - 1e-9)) return THR_OK;
-  thr_status st = thr_walk_programme_init(&p, columns, measure, cord, n_cords, least, limits, &why);
-  if (!st) st = search(&p, cord, n_cords, enough, bound, &made, better, &why);
+  thr_status st = thr_walk_programme_init(&p, columns, ask->measure, ask->cord, ask->n_cords, ask->least, limits, &why);
+  if (!st) st = merge_images(&p, ask->motions, &why);
+  if (!st) st = search(&p, ask, bound, &made, better, &why);
   if (!st && made.edge) {
     thr_walk_proof_destroy(proof);
     *proof = made;

@@ -111,18 +111,30 @@ static int most_units(const thr_turning_columns *columns, thr_walk_measure measu
   return (int)fmin(units, MOST_UNITS);
 }
 
-static void number_variables(thr_walk_programme *p)
+/* The variable that the lowest of its images has, or a new one (of -1); more stands on its right side. */
+static int number_of(thr_walk_programme *p, int lowest, double right)
+{
+  const int j = lowest < 0 ? p->n_variables++ : lowest;
+  p->right[j] = (lowest < 0 ? 0 : p->right[j]) + right;
+  return j;
+}
+
+/* edge, node: as for thr_walk_programme_merge, or NULL. */
+static void number_variables(thr_walk_programme *p, const int *edge, const int *node)
 {
   const thr_frame *frame = p->c->f;
+  p->n_variables = 0;
   for (int e = 0; e < frame->n_edges; e++) {
-    p->edge[e] = p->c->component[frame->edge[e][0]] == p->component ? p->n_variables : -1;
-    if (p->edge[e] >= 0) p->right[p->n_variables++] = p->c->cover[e];
+    const int lowest = edge ? edge[e] : e;
+    const bool here = p->c->component[frame->edge[e][0]] == p->component;
+    p->edge[e] = here ? number_of(p, lowest < e ? p->edge[lowest] : -1, p->c->cover[e]) : -1;
   }
   p->n_edges = p->n_variables;
   for (int v = 0; v < frame->n_nodes; v++) {
     const int64_t needed = thr_walk_needed_at(p->c, v);
-    p->node[v] = p->c->component[v] == p->component && needed % 2 ? p->n_variables : -1;
-    if (p->node[v] >= 0) p->right[p->n_variables++] = (double)needed + 1;
+    const int lowest = node ? node[v] : v;
+    const bool here = p->c->component[v] == p->component && needed % 2;
+    p->node[v] = here ? number_of(p, lowest < v ? p->node[lowest] : -1, (double)needed + 1) : -1;
   }
   if (p->least > 0) p->right[p->n_variables++] = 1;
   if (p->lengths) p->right[p->n_variables++] = -p->cords;
@@ -166,7 +178,7 @@ static thr_status init(thr_walk_programme *p, const thr_turning_columns *columns
   if (st) return st == THR_EVIOLATED ? THR_ELIMIT : st;
   if ((st = allocate(p, err))) return st;
   p->trial.unit = p->unit;
-  number_variables(p);
+  number_variables(p, NULL, NULL);
   return thr_pool_init(&p->walks, p->n_variables, err);
 }
 
@@ -211,6 +223,13 @@ thr_status thr_walk_programme_init_pull(thr_walk_programme *p, const thr_turning
   if (p->units > p->most_units || (lengths && p->trial.bits < FEWEST_BITS))
     return thr_fail(err, THR_ELIMIT, "the component is too large for walks");
   return THR_OK;
+}
+
+thr_status thr_walk_programme_merge(thr_walk_programme *p, const int *edge, const int *node, thr_err *err)
+{
+  number_variables(p, edge, node);
+  thr_pool_destroy(&p->walks);
+  return thr_pool_init(&p->walks, p->n_variables, err);
 }
 
 void thr_walk_programme_destroy(thr_walk_programme *p)
@@ -430,10 +449,10 @@ static bool is_like_others(thr_walk_programme *p, int n)
 {
   int old = 0;
   for (int k = 0; k < n; k++)
-    old += p->passed[p->half[k] >> 1];
+    old += p->passed[p->edge[p->half[k] >> 1]];
   if (10 * old > 9 * n) return true;
   for (int k = 0; k < n; k++)
-    p->passed[p->half[k] >> 1] = true;
+    p->passed[p->edge[p->half[k] >> 1]] = true;
   return false;
 }
 

@@ -54,7 +54,7 @@ typedef struct {
   double best;              /* number of cords that the best proves, or their length; 0: none yet */
   int64_t *value;           /* [tables * steps.n * thr_walk_levels(most_units)] of the recursion; owned */
   thr_walk_start *start;    /* [most first passes] in the order of their worth */
-  bool *passed;             /* [n_edges] by a walk that was found in this look at a recursion */
+  bool *passed;             /* [n_edges] by a walk that was found in this look at a recursion, or an image of it */
   int *half;                /* a walk while it is traced */
   thr_walk_proof trial;
   thr_search search; /* rows: index is the number of units, member the walk's half-edges in order */
@@ -75,6 +75,11 @@ thr_status thr_walk_programme_init_pull(thr_walk_programme *programme, const thr
                                         const thr_request *options, const thr_cord *cord, int n_cords, int component,
                                         bool lengths, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 void thr_walk_programme_destroy(thr_walk_programme *programme);
+
+/* What has the same edge[n_edges] or node[n_nodes], the lowest of each, has one price from now on (tortuosity/proof/orbits.h).
+ * That proves as much where all are images of each other, and walks that are images of each other are one row; but cords cannot
+ * be chosen from them. Before any walk is known. */
+thr_status thr_walk_programme_merge(thr_walk_programme *programme, const int *edge, const int *node, thr_err *err) THR_MUST_CHECK;
 
 /* Price of so many units, rounded down. */
 double thr_walk_programme_price(const thr_walk_programme *programme, int units);

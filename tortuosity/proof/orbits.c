@@ -46,8 +46,8 @@ static bool is_identity(const int *image, int n_edges)
   return true;
 }
 
-/* Keeps those that are symmetries of the task. */
-static thr_status choose(thr_orbits *orbits, const int *node, int n, thr_err *err)
+/* Keeps those that are symmetries of the task; priced: with its prices. */
+static thr_status choose(thr_orbits *orbits, const int *node, int n, bool priced, thr_err *err)
 {
   const thr_frame *frame = orbits->c->f;
   const size_t m = (size_t)frame->n_edges;
@@ -57,27 +57,66 @@ static thr_status choose(thr_orbits *orbits, const int *node, int n, thr_err *er
     int *image = orbits->image + (size_t)orbits->n * m;
     bool yes = map_edges(frame, node + (size_t)i * (size_t)frame->n_nodes, image) && !is_identity(image, frame->n_edges);
     if (yes) st = thr_turning_symmetric(orbits->c, image, &yes, err);
-    orbits->n += !st && yes && keeps_prices(orbits->c, image);
+    orbits->n += !st && yes && (!priced || keeps_prices(orbits->c, image));
   }
+  return st;
+}
+
+static thr_status find(thr_orbits *orbits, const thr_turning_columns *turning_columns, thr_orbits_motions *motions, bool priced,
+                       const thr_limits *limits, thr_err *err)
+{
+  int *node = NULL, n = 0;
+  *orbits = (thr_orbits){.c = turning_columns};
+  thr_status st = motions ? motions(turning_columns->f, limits, &node, &n, err) : THR_OK;
+  if (!st && n > 0) st = choose(orbits, node, n, priced, err);
+  free(node);
+  if (st) thr_orbits_destroy(orbits);
   return st;
 }
 
 thr_status thr_orbits_init(thr_orbits *orbits, const thr_turning_columns *turning_columns, thr_orbits_motions *motions,
                            const thr_limits *limits, thr_err *err)
 {
-  int *node = NULL, n = 0;
-  *orbits = (thr_orbits){.c = turning_columns};
-  thr_status st = motions ? motions(turning_columns->f, limits, &node, &n, err) : THR_OK;
-  if (!st && n > 0) st = choose(orbits, node, n, err);
-  free(node);
-  if (st) thr_orbits_destroy(orbits);
-  return st;
+  return find(orbits, turning_columns, motions, true, limits, err);
 }
 
 void thr_orbits_destroy(thr_orbits *orbits)
 {
   free(orbits->image);
   *orbits = (thr_orbits){0};
+}
+
+/* Where a symmetry maps the nodes of its edges, as far as these stay in their component. */
+static void lower(const thr_turning_columns *columns, const int *image, int *edge, int *node, bool *alike)
+{
+  const thr_frame *frame = columns->f;
+  for (int e = 0; e < frame->n_edges; e++) {
+    const int to = image[e], from[2] = {frame->edge[e][0], frame->edge[e][1]};
+    const int end[2] = {thr_tail(frame, to), thr_head(frame, to)};
+    if (columns->component[from[0]] != columns->component[end[0]]) continue;
+    *alike |= to >> 1 != e;
+    if (to >> 1 < edge[e]) edge[e] = to >> 1;
+    for (int k = 0; k < 2; k++)
+      if (end[k] < node[from[k]]) node[from[k]] = end[k];
+  }
+}
+
+thr_status thr_orbits_lowest(const thr_turning_columns *turning_columns, thr_orbits_motions *motions, const thr_limits *limits,
+                             int *edge, int *node, bool *alike, thr_err *err)
+{
+  const thr_frame *frame = turning_columns->f;
+  thr_orbits orbits;
+  *alike = false;
+  for (int e = 0; e < frame->n_edges; e++)
+    edge[e] = e;
+  for (int v = 0; v < frame->n_nodes; v++)
+    node[v] = v;
+  thr_status st = find(&orbits, turning_columns, motions, false, limits, err);
+  if (st) return st;
+  for (int i = 0; i < orbits.n; i++)
+    lower(turning_columns, orbits.image + (size_t)i * (size_t)frame->n_edges, edge, node, alike);
+  thr_orbits_destroy(&orbits);
+  return THR_OK;
 }
 
 /* Does it keep the bounds in force on all columns that are decided on the way to the root? */

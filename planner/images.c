@@ -1,0 +1,29 @@
+/* Isometries, if any. */
+#include "planner/images.h"
+#include "graph/framework/frame.h"
+#include "graph/limits.h"
+#include "graph/status.h"
+#include "symmetry/group/isometry.h"
+
+#include <stddef.h>
+
+static thr_status find(const thr_frame *frame, double rounding, const thr_limits *limits, int **image, int *n, thr_err *err)
+{
+  enum { MOST = 240 };
+  thr_err why = {0};
+  thr_status st = thr_isometries_find(frame, NULL, rounding, MOST, limits, image, n, &why);
+  if (!st) return THR_OK;
+  *image = NULL;
+  *n = 0;
+  return st == THR_ELIMIT ? THR_OK : thr_fail(err, st, "%s", why.text);
+}
+
+thr_status thr_planner_motions(const thr_frame *frame, const thr_limits *limits, int **image, int *n, thr_err *err)
+{
+  return find(frame, 1e-9, limits, image, n, err);
+}
+
+thr_status thr_planner_near_motions(const thr_frame *frame, const thr_limits *limits, int **image, int *n, thr_err *err)
+{
+  return find(frame, 1e-4, limits, image, n, err);
+}
