@@ -105,7 +105,8 @@ thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
-/* From known + 1 to so many cords of some component, none of which is within the pull, or of the one that has most. */
+/* More than the known number are too few: of the component that has most cords in a plan within the pull, fewer than it has;
+ * where no plan is within it, of some component as many as the options allow. */
 static thr_status exclude(const thr_turning_columns *columns, const thr_request *options, const thr_plan *plan, bool within,
                           int known, const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err)
 {

@@ -121,6 +121,14 @@ static void take_found(fewest *x, thr_plan *plan, int number)
   thr_limits_found(x->limits, x->found.cord, x->found.n_cords, NULL);
 }
 
+/* Are a plan's cords within both limits? */
+static bool keeps(const fewest *x, const thr_plan *plan)
+{
+  const double limit = x->o->max_length * (1 + 1e-12);
+  const bool short_enough = limit == 0 || thr_cords_longest(x->f, plan->cord, plan->n_cords) <= limit;
+  return plan->n_cords > 0 && short_enough && thr_cords_within_pull(x->f, x->o, plan->cord, plan->n_cords);
+}
+
 /* How many cords are too few by walks, if that is more than is known; where none were found that may be all that are allowed. */
 static thr_status exclude_by_walks(fewest *x, thr_err *err)
 {
@@ -150,20 +158,10 @@ static thr_status use_walks(fewest *x, thr_err *err)
   if (x->o->joint == THR_JOINT_TUBE || x->o->physics.mu <= 0 || x->f->n_edges > MOST_EDGES) return THR_OK;
   if (x->found.n_cords > 0 && x->number - 1 <= x->claim.excluded) return THR_OK;
   thr_status st = thr_planner_pull_few(x->f, x->o, &share, &plan, err);
-  bool short_enough = x->o->max_length == 0 || thr_cords_longest(x->f, plan.cord, plan.n_cords) <= x->o->max_length;
   const int number = thr_planner_most_cords(&plan, &component);
-  const bool fewer = plan.n_cords > 0 && (x->found.n_cords == 0 || number < x->number);
-  if (!st && fewer && short_enough) take_found(x, &plan, number);
+  if (!st && keeps(x, &plan) && (x->found.n_cords == 0 || number < x->number)) take_found(x, &plan, number);
   thr_plan_destroy(&plan);
   return st ? st : exclude_by_walks(x, err);
-}
-
-/* Are a plan's cords within both limits? */
-static bool keeps(const fewest *x, const thr_plan *plan)
-{
-  const double limit = x->o->max_length * (1 + 1e-12);
-  const bool short_enough = limit == 0 || thr_cords_longest(x->f, plan->cord, plan->n_cords) <= limit;
-  return plan->n_cords > 0 && short_enough && thr_cords_within_pull(x->f, x->o, plan->cord, plan->n_cords);
 }
 
 /* Cords of which the one that turns most turns little enough, or a proof that there are none. */
@@ -321,30 +319,39 @@ static thr_status claim_number(fewest *x, thr_plan *plan, thr_err *err)
                   plan->pull_claim.fewest);
 }
 
+/* The fewest cords, by all means in turn. */
+static thr_status find_fewest(fewest *x, const thr_limits *limits, thr_err *err)
+{
+  double work = work_to_find * x->o->time_limit, for_walks = work_to_choose * x->o->time_limit;
+  thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
+  bool fits;
+  share = thr_limits_brief(&share, &work);
+  x->limits = &share;
+  thr_status st = is_range(x->o) ? bound_all(x, err) : try_number(x, x->o->cords, THR_STEP_FEW_TRY, &fits, err);
+  if (!st) st = try_short(x, err);
+  if (!st && is_range(x->o)) st = search_numbers(x, err);
+  if (!st && (is_range(x->o) || (x->found.n_cords == 0 && x->claim.excluded < x->o->cords))) {
+    share = thr_dispatch_share(limits, THR_STEP_FEWEST);
+    share = thr_limits_brief(&share, &for_walks);
+    st = use_walks(x, err);
+    if (!st) st = anneal_fewer(x, limits, err);
+  }
+  x->limits = limits;
+  return st;
+}
+
 thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                             thr_report *report, thr_err *err)
 {
-  thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
-  double work = work_to_find * options->time_limit, for_walks = work_to_choose * options->time_limit;
-  fewest x = {.f = frame, .o = options, .limits = &share, .claim.excluded = options->cords_least - 1};
-  bool fits;
+  fewest x = {.f = frame, .o = options, .limits = limits, .claim.excluded = options->cords_least - 1};
   thr_err why = {0};
   thr_request few = *options;
   (void)report;
   *plan = (thr_plan){0};
-  share = thr_limits_brief(&share, &work);
   if (options->turning.length_slack >= 0)
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
-  thr_status st = is_range(options) ? bound_all(&x, err) : try_number(&x, options->cords, THR_STEP_FEW_TRY, &fits, err);
-  if (!st) st = try_short(&x, err);
-  if (!st && is_range(options)) st = search_numbers(&x, err);
-  if (!st && (is_range(options) || (x.found.n_cords == 0 && x.claim.excluded < options->cords))) {
-    share = thr_dispatch_share(limits, THR_STEP_FEWEST);
-    share = thr_limits_brief(&share, &for_walks);
-    st = use_walks(&x, err);
-    if (!st) st = anneal_fewer(&x, limits, err);
-  }
+  thr_status st = find_fewest(&x, limits, err);
   double rest = work_to_serve * options->time_limit;
   const thr_limits last = thr_limits_brief(limits, &rest);
   x.limits = &last;
