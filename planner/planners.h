@@ -59,9 +59,9 @@ thr_status thr_planner_some_cords(const thr_frame *frame, const thr_request *opt
                                   thr_err *err) THR_MUST_CHECK;
 
 /* Few cords within options.max_pull, of any number up to options.cords in a component, by the programme over walks
- * (tortuosity/cords/walk_pull.h); without proofs. plan is empty where none were found. */
-thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                                thr_err *err) THR_MUST_CHECK;
+ * (tortuosity/cords/walk_pull.h); without proofs. some: any cords, or none. plan is empty where none were found. */
+thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *options, const thr_plan *some,
+                                const thr_limits *limits, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* Of a plan within options.max_length that is not proved to have the fewest cords, or is empty, because shares of the shortest
  * passes were not short enough: one of fewer cords, the longest of which is short by annealing and walks, if there is one. Solid
@@ -74,8 +74,8 @@ thr_status thr_planner_short_few(const thr_frame *frame, const thr_request *opti
 int thr_planner_most_cords(const thr_plan *plan, int *component);
 
 /* *excluded: more cords in every component than the known number, but fewer than some component of a plan within the pull has,
- * are proved to be too few by walks, which may be taken; 0: none are. Of an empty plan they may be as many as the options allow.
- */
+ * are proved to be too few by walks, which may be taken; 0: none are. Of a plan that is not within it they may be as many as the
+ * options allow. */
 thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *options, const thr_plan *plan, int known,
                                     const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err) THR_MUST_CHECK;
 

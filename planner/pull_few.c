@@ -25,15 +25,6 @@ thr_status thr_planner_some_cords(const thr_frame *frame, const thr_request *opt
   return thr_planner_length(frame, &any, &quiet, some, NULL, err);
 }
 
-/* None where that fails. */
-static thr_status some_cords(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *some,
-                             thr_err *err)
-{
-  thr_err why = {0};
-  const thr_status st = thr_planner_some_cords(frame, options, limits, some, &why);
-  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
-}
-
 /* Those of a component become the last of the plan. *found false: there are none. */
 static thr_status add_component(const thr_turning_columns *columns, const thr_plan *some, int component, const thr_limits *limits,
                                 thr_plan *plan, bool *found, thr_err *err)
@@ -85,21 +76,18 @@ static thr_status find_cords(const thr_turning_columns *columns, const thr_plan 
   return st;
 }
 
-thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                                thr_err *err)
+thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *options, const thr_plan *some,
+                                const thr_limits *limits, thr_plan *plan, thr_err *err)
 {
-  thr_plan some = {0};
   thr_turning_columns columns = {0};
   bool found = false, *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   *plan = (thr_plan){0};
   if (!end_allowed) return thr_nomem(err);
   const thr_turning_task task = thr_walk_pull_task(frame, options, end_allowed);
-  thr_status st = some_cords(frame, options, limits, &some, err);
-  if (!st) st = thr_plan_request(plan, frame, options, err);
+  thr_status st = thr_plan_request(plan, frame, options, err);
   if (!st) st = thr_turning_columns_init(&columns, frame, &task, err);
-  if (!st) st = find_cords(&columns, &some, limits, plan, &found, err);
+  if (!st) st = find_cords(&columns, some, limits, plan, &found, err);
   if (st || !found) thr_plan_destroy(plan);
-  thr_plan_destroy(&some);
   thr_turning_columns_destroy(&columns);
   free(end_allowed);
   return st;
@@ -107,9 +95,10 @@ thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *optio
 
 /* More than the known number are too few: of the component that has most cords in a plan within the pull, fewer than it has;
  * where no plan is within it, of some component as many as the options allow. */
-static thr_status exclude(const thr_turning_columns *columns, const thr_request *options, const thr_plan *plan, bool within,
-                          int known, const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err)
+static thr_status exclude(const thr_turning_columns *columns, const thr_request *options, const thr_plan *plan, int known,
+                          const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err)
 {
+  const bool within = thr_cords_within_pull(columns->f, options, plan->cord, plan->n_cords);
   int largest;
   const int number = thr_planner_most_cords(plan, &largest), first = within ? largest : 0,
             end = within ? largest + 1 : columns->n_components;
@@ -126,17 +115,13 @@ thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *o
                                     const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err)
 {
   thr_turning_columns columns = {0};
-  thr_plan some = {0};
-  const bool within = plan->n_cords > 0;
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   *excluded = 0;
   if (!end_allowed) return thr_nomem(err);
   const thr_turning_task task = thr_walk_pull_task(frame, options, end_allowed);
-  thr_status st = within ? THR_OK : some_cords(frame, options, limits, &some, err);
-  if (!st) st = thr_turning_columns_init(&columns, frame, &task, err);
-  if (!st) st = exclude(&columns, options, within ? plan : &some, within, known, limits, walks, excluded, err);
+  thr_status st = thr_turning_columns_init(&columns, frame, &task, err);
+  if (!st) st = exclude(&columns, options, plan, known, limits, walks, excluded, err);
   thr_turning_columns_destroy(&columns);
-  thr_plan_destroy(&some);
   free(end_allowed);
   return st;
 }

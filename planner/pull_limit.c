@@ -129,14 +129,16 @@ static bool keeps(const fewest *x, const thr_plan *plan)
   return plan->n_cords > 0 && short_enough && thr_cords_within_pull(x->f, x->o, plan->cord, plan->n_cords);
 }
 
-/* How many cords are too few by walks, if that is more than is known; where none were found that may be all that are allowed. */
-static thr_status exclude_by_walks(fewest *x, thr_err *err)
+/* How many cords are too few by walks, if that is more than is known; where none were found that may be all that are allowed.
+ * some: any cords. */
+static thr_status exclude_by_walks(fewest *x, const thr_plan *some, thr_err *err)
 {
   const thr_limits share = thr_dispatch_share(x->limits, THR_STEP_FEW_WALKS);
   thr_walk_proof walks = {0};
   int excluded = 0;
   if (x->found.n_cords > 0 && (!is_range(x->o) || x->number - 1 <= x->claim.excluded)) return THR_OK;
-  thr_status st = thr_planner_pull_too_few(x->f, x->o, &x->found, x->claim.excluded, &share, &walks, &excluded, err);
+  const thr_plan *plan = x->found.n_cords > 0 ? &x->found : some;
+  thr_status st = thr_planner_pull_too_few(x->f, x->o, plan, x->claim.excluded, &share, &walks, &excluded, err);
   if (!st && excluded > x->claim.excluded) {
     thr_turning_proof_destroy(&x->claim.tree);
     thr_walk_proof_destroy(&x->claim.walks);
@@ -153,15 +155,20 @@ static thr_status use_walks(fewest *x, thr_err *err)
 {
   enum { MOST_EDGES = 500 }; /* no walks that serve are found in larger frameworks in the time */
   const thr_limits share = thr_dispatch_share(x->limits, THR_STEP_FEW_WALKS);
-  thr_plan plan;
+  thr_plan plan = {0}, some;
+  thr_err why = {0};
   int component;
   if (x->o->joint == THR_JOINT_TUBE || x->o->physics.mu <= 0 || x->f->n_edges > MOST_EDGES) return THR_OK;
   if (x->found.n_cords > 0 && x->number - 1 <= x->claim.excluded) return THR_OK;
-  thr_status st = thr_planner_pull_few(x->f, x->o, &share, &plan, err);
+  thr_status st = thr_planner_some_cords(x->f, x->o, &share, &some, &why);
+  st = st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves none */
+  if (!st) st = thr_planner_pull_few(x->f, x->o, &some, &share, &plan, err);
   const int number = thr_planner_most_cords(&plan, &component);
   if (!st && keeps(x, &plan) && (x->found.n_cords == 0 || number < x->number)) take_found(x, &plan, number);
   thr_plan_destroy(&plan);
-  return st ? st : exclude_by_walks(x, err);
+  if (!st) st = exclude_by_walks(x, &some, err);
+  thr_plan_destroy(&some);
+  return st;
 }
 
 /* Cords of which the one that turns most turns little enough, or a proof that there are none. */
@@ -275,9 +282,6 @@ static thr_status not_found(const fewest *x, const thr_err *why, thr_err *err)
   const thr_request *o = x->o;
   thr_plan some;
   thr_err none = {0};
-  const thr_status any = thr_planner_some_cords(x->f, o, x->limits, &some, &none);
-  thr_plan_destroy(&some);
-  if (any == THR_EINFEASIBLE || any == THR_ENOMEM) return thr_fail(err, any, "%s", none.text);
   const char *more = is_range(o) ? "time, cords" : "time";
   double newtons = o->max_pull * o->physics.seating;
   if (why->code == THR_EINPUT || why->code == THR_ENOMEM) return thr_fail(err, why->code, "%s", why->text);
@@ -291,6 +295,9 @@ static thr_status not_found(const fewest *x, const thr_err *why, thr_err *err)
         err, THR_EINFEASIBLE,
         "with at most %d cord%s in a component some cord needs more than %.6g N (proved); allow more cords or more pull",
         o->cords, o->cords == 1 ? "" : "s", newtons);
+  const thr_status any = thr_planner_some_cords(x->f, o, x->limits, &some, &none);
+  thr_plan_destroy(&some);
+  if (any == THR_EINFEASIBLE || any == THR_ENOMEM) return thr_fail(err, any, "%s", none.text);
   if (x->claim.excluded >= o->cords_least && is_range(o))
     return thr_fail(err, THR_ELIMIT,
                     "no cords were found of which none needs more than %.6g N; %d in every component are too few (proved); allow "

@@ -245,11 +245,10 @@ static thr_status search(thr_walk_programme *p, const thr_walk_ask *ask, double 
 static thr_status merge_images(thr_walk_programme *p, thr_orbits_motions *motions, thr_err *err)
 {
   const thr_frame *frame = p->c->f;
-  bool alike = false;
   if (!motions || p->n_variables <= MOST_DENSE) return THR_OK;
   int *edge = thr_calloc((size_t)frame->n_edges, sizeof *edge), *node = thr_calloc((size_t)frame->n_nodes, sizeof *node);
-  thr_status st = edge && node ? thr_orbits_lowest(p->c, motions, p->limits, edge, node, &alike, err) : thr_nomem(err);
-  if (!st && alike) st = thr_walk_programme_merge(p, edge, node, err);
+  thr_status st = edge && node ? thr_orbits_lowest(p->c, motions, p->limits, edge, node, err) : thr_nomem(err);
+  if (!st) st = thr_walk_programme_merge(p, edge, node, err);
   free(edge);
   free(node);
   return st;

@@ -87,14 +87,13 @@ void thr_orbits_destroy(thr_orbits *orbits)
 }
 
 /* Where a symmetry maps the nodes of its edges, as far as these stay in their component. */
-static void lower(const thr_turning_columns *columns, const int *image, int *edge, int *node, bool *alike)
+static void lower(const thr_turning_columns *columns, const int *image, int *edge, int *node)
 {
   const thr_frame *frame = columns->f;
   for (int e = 0; e < frame->n_edges; e++) {
     const int to = image[e], from[2] = {frame->edge[e][0], frame->edge[e][1]};
     const int end[2] = {thr_tail(frame, to), thr_head(frame, to)};
     if (columns->component[from[0]] != columns->component[end[0]]) continue;
-    *alike |= to >> 1 != e;
     if (to >> 1 < edge[e]) edge[e] = to >> 1;
     for (int k = 0; k < 2; k++)
       if (end[k] < node[from[k]]) node[from[k]] = end[k];
@@ -102,11 +101,10 @@ static void lower(const thr_turning_columns *columns, const int *image, int *edg
 }
 
 thr_status thr_orbits_lowest(const thr_turning_columns *turning_columns, thr_orbits_motions *motions, const thr_limits *limits,
-                             int *edge, int *node, bool *alike, thr_err *err)
+                             int *edge, int *node, thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   thr_orbits orbits;
-  *alike = false;
   for (int e = 0; e < frame->n_edges; e++)
     edge[e] = e;
   for (int v = 0; v < frame->n_nodes; v++)
@@ -114,7 +112,7 @@ thr_status thr_orbits_lowest(const thr_turning_columns *turning_columns, thr_orb
   thr_status st = find(&orbits, turning_columns, motions, false, limits, err);
   if (st) return st;
   for (int i = 0; i < orbits.n; i++)
-    lower(turning_columns, orbits.image + (size_t)i * (size_t)frame->n_edges, edge, node, alike);
+    lower(turning_columns, orbits.image + (size_t)i * (size_t)frame->n_edges, edge, node);
   thr_orbits_destroy(&orbits);
   return THR_OK;
 }

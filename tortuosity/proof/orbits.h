@@ -36,9 +36,9 @@ thr_status thr_orbits_init(thr_orbits *orbits, const thr_turning_columns *turnin
 void thr_orbits_destroy(thr_orbits *orbits);
 
 /* The lowest edge and the lowest node of its component that each is mapped to, edge[n_edges] and node[n_nodes], by symmetries of
- * the task but for prices. *alike: some are mapped to others. As thr_orbits_init. */
+ * the task but for prices. As thr_orbits_init. */
 thr_status thr_orbits_lowest(const thr_turning_columns *turning_columns, thr_orbits_motions *motions, const thr_limits *limits,
-                             int *edge, int *node, bool *alike, thr_err *err) THR_MUST_CHECK;
+                             int *edge, int *node, thr_err *err) THR_MUST_CHECK;
 
 /* Of a column at a node of the tree that place is at. O(symmetries * columns decided above the node). */
 thr_status thr_orbits_at(const thr_orbits *orbits, const thr_tree *tree, const thr_tree_place *place, int column,
