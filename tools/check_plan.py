@@ -2878,20 +2878,24 @@ class Standing:
         velocity = lambda node, at: plus(moves[node][0], cross(moves[node][1], plus(at, self.centre[node], -1)))
         corners = lambda middle, one, other: [plus(plus(middle, one, s * self.width / 2), other, t * self.width / 2) for s in (1, -1) for t in (1, -1)]
 
+        bead = max(math.hypot(*x) for x, _ in moves)
+        require(abs(bead - 1) <= 1e-9, f"{place}: the fastest bead has the speed {bead}, not 1")
+        faces = [[(velocity(a, at), velocity(b, at)) for at in corners(middle, one, other)] for (a, b), (middle, _, one, other) in zip(f.edge, self.face)]
+        feet = [] if self.clamped else [[velocity(foot, at) for at in corners(plus(self.at[foot], (0, 0, -self.width / 2)), (1, 0, 0), (0, 1, 0))]
+                                        for foot in self.feet]
+        fastest = max([bead] + [math.hypot(*x) for face in faces for pair in face for x in pair] + [math.hypot(*x) for foot in feet for x in foot])
+        require(fastest < math.inf, f"{place}: a bead turns too fast")
+
         def opens(apart, normal, mu):
             along = dot(apart, normal)
-            return along >= mu * math.hypot(*plus(apart, normal, -along)) - 1e-12
+            return along >= mu * math.hypot(*plus(apart, normal, -along)) - 1e-13 * fastest
 
-        require(all(math.hypot(*x) <= 1 + 1e-9 for x, _ in moves), f"{place}: a bead moves by more than 1")
-        for (a, b), (middle, axis, one, other) in zip(f.edge, self.face):
-            for at in corners(middle, one, other):
-                require(opens(plus(velocity(b, at), velocity(a, at), -1), axis, v["mu_bead"]), f"{place}: beads go into each other")
-        for foot in self.feet:
-            if self.clamped:
-                require(not any(moves[foot][0] + moves[foot][1]), f"{place}: a foot that is held moves")
-                continue
-            for at in corners(plus(self.at[foot], (0, 0, -self.width / 2)), (1, 0, 0), (0, 1, 0)):
-                require(opens(velocity(foot, at), (0, 0, 1), v["mu_ground"]), f"{place}: a foot goes into the ground")
+        for face, (_, axis, _, _) in zip(faces, self.face):
+            require(all(opens(plus(b, a, -1), axis, v["mu_bead"]) for a, b in face), f"{place}: beads go into each other")
+        for foot in feet:
+            require(all(opens(x, (0, 0, 1), v["mu_ground"]) for x in foot), f"{place}: a foot goes into the ground")
+        if self.clamped:
+            require(not any(x for foot in self.feet for x in moves[foot][0] + moves[foot][1]), f"{place}: a foot that is held moves")
         press = [0.0] * f.m
         for i, path in enumerate(self.paths):
             for edge, x in zip(path, self.tensions(i, asked)):
@@ -2903,8 +2907,11 @@ class Standing:
         times = [1, proved, 1] if of_load else [1, 1, proved]
         sums = [x * math.fsum(terms) for x, terms in zip(times, (falling, load, resistance))]
         slip = 1e-14 * math.fsum(x * abs(y) for x, terms in zip(times, (falling, load, resistance)) for y in terms)
-        require((math.fsum(load) if of_load else sums[0] + sums[1]) > slip, f"{place}: nothing drives the mechanism")
-        require(sums[0] + sums[1] - sums[2] >= -slip - 1e-9 * max(map(abs, sums)), f"{place}: the powers do not prove {proved}")
+        most = (0 if of_load else sum(self.weight)) + sum(math.hypot(*force) for _, force in self.loads if load)
+        drive = math.fsum(load) if of_load else sums[0] + sums[1]
+        require(drive > max(slip, 1e-7 * fastest * most), f"{place}: nothing drives the mechanism")
+        claimed = abs(sums[1] if of_load else sums[2])
+        require(sums[0] + sums[1] - sums[2] >= -slip - 1e-9 * claimed, f"{place}: the powers do not prove {proved}")
 
 
 class Evaluation:

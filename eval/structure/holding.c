@@ -23,7 +23,7 @@ enum { CAPS = 5 };
 static const double cap[CAPS] = {1e4, 1e6, 1e8, 1e10, 1e12};
 /* A bound has closed if it is that near to a pull that holds, relative, and no contact closes faster. Where none does, by
  * rounding, the best of those that are near is taken. */
-static const double CLOSE = 1e-6, NEAR = 1e-3, STILL = 1e-12;
+static const double CLOSE = 1e-6, NEAR = 1e-3, STILL = 1e-13;
 
 typedef struct {
   double pull;  /* N: the programme's optimum; INFINITY if its equilibrium is none */
@@ -47,9 +47,9 @@ static void certify(const thr_blocks *s, answer *a)
   thr_powers p = thr_mechanism_balance(s, velocity);
   const double given = p.falling + p.load;
   a->residual = fmax(0, -thr_mechanism_opening(s, velocity));
-  bool falls = given > 1e-9 * p.most; /* less is rounding: it stands by itself */
+  bool falls = given > THR_MECHANISM_DRIVE * (p.all + p.all_loads); /* less is rounding: it stands by itself */
   a->lower = !falls ? 0 : p.resistance > 0 ? given / p.resistance : INFINITY;
-  if (s->carries) a->lower = p.load > 0 ? fmax(0, (p.resistance - p.falling) / p.load) : INFINITY;
+  if (s->carries) a->lower = p.load > THR_MECHANISM_DRIVE * p.all_loads ? fmax(0, (p.resistance - p.falling) / p.load) : INFINITY;
   double apart = fabs(a->pull - a->lower);
   a->gap = isfinite(apart) ? apart / (a->pull + 1e-3 * s->pull) : 1;
 }

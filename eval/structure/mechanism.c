@@ -146,10 +146,12 @@ thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6
     double weight = s->b->mass[v] * s->physics->gravity, node[3];
     p.falling += weight * thr_dot(s->b->down, velocity[v]);
     p.most += weight * translation(velocity[v]);
+    p.all += weight;
     if (!s->load) continue;
     point_velocity(s, v, velocity, s->b->centre[v], node);
     p.load += thr_dot(s->load[v], node);
     p.most += fabs(thr_dot(s->load[v], node));
+    p.all_loads += sqrt(thr_dot(s->load[v], s->load[v]));
   }
   for (int e = 0; e < s->b->n_faces; e++)
     p.resistance += s->press[e] * thr_mechanism_parting(s, velocity, e);

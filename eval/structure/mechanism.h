@@ -11,10 +11,14 @@
 #include "graph/status.h"
 
 /* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull, W/N, by their true tensions; the
- * load. */
+ * load. all, all_loads: of all weights, and loads, if each went its own way with the speed 1. */
 typedef struct {
-  double falling, most, resistance, load;
+  double falling, most, resistance, load, all, all_loads;
 } thr_powers;
+
+/* What drives a mechanism has to be more than this part of all that could: twice what the checker asks for, which counts the
+ * fastest point and not the fastest bead (graph/check/check_standing.c). */
+static const double THR_MECHANISM_DRIVE = 2e-7;
 
 /* Dual values of thr_blocks_solve as velocities [n_beads], scaled to a largest translation of 1. Contacts that would close are
  * opened by a little flight. */

@@ -15,9 +15,12 @@
 
 #include <math.h>
 
-/* A contact that closes slower than this, where the fastest bead has 1, does not close; powers are compared within so much of
- * the sum of their terms. Both are rounding: some hundred units in the last place of a double. */
-static const double STILL = 1e-12, ROUNDING = 1e-14;
+/* All tolerances are parts of what the mechanism itself has, so that no mechanism is slow enough to hide in them. STILL is the
+ * part of the speed of the fastest point that a contact may close with, and ROUNDING the part of the sum of the terms of all
+ * powers that they are compared within: both are rounding. DRIVE is the part of all weights and loads, each moving with that
+ * speed, that has to drive the mechanism. It is so much more than STILL that no chain of contacts, each closing by what STILL
+ * allows, comes to it. A bead is FASTEST if its speed is 1 within that part. */
+static const double STILL = 1e-13, ROUNDING = 1e-14, DRIVE = 1e-7, FASTEST = 1e-9;
 
 /* Bodies in SI units. */
 typedef struct {
@@ -163,14 +166,15 @@ static void point_velocity(const bodies *b, const thr_answer *a, int v, const do
     out[k] += a->velocity[v][k];
 }
 
-/* Does no force within the friction cone round normal, on what moves with apart, do negative work? */
-static bool opens(const double apart[3], const double normal[3], double mu)
+/* Returns whether no force within the friction cone round normal, on what moves with apart, does negative work. closing is the
+ * speed up to which a contact counts as still. */
+static bool opens(const double apart[3], const double normal[3], double mu, double closing)
 {
   const double along = thr_dot(apart, normal);
   double across[3];
   for (int k = 0; k < 3; k++)
     across[k] = apart[k] - along * normal[k];
-  return along >= mu * sqrt(thr_dot(across, across)) - STILL;
+  return along >= mu * sqrt(thr_dot(across, across)) - closing;
 }
 
 /* Unit vector along edge e, and two across it, the first one level. */
@@ -196,39 +200,93 @@ static void corner_of(const bodies *b, const double middle[3], const double side
     out[k] = middle[k] + b->width / 2 * ((i & 1 ? 1 : -1) * side[0][k] + (i & 2 ? 1 : -1) * side[1][k]);
 }
 
-static bool face_opens(const bodies *b, const thr_answer *a, int e)
+/* Computes the corners of the face of edge e, and their velocities on both of its beads. */
+static void face_velocities(const bodies *b, const thr_answer *a, int e, double axis[3], double velocity[2][4][3])
 {
   const int *end = b->plan->frame.edge[e];
-  double axis[3], side[2][3], middle[3], at[3], one[3], other[3];
+  double side[2][3], middle[3], at[3];
   axes_of(b, e, axis, side);
   for (int k = 0; k < 3; k++)
     middle[k] = (b->centre[end[0]][k] + b->centre[end[1]][k]) / 2;
+
   for (int i = 0; i < 4; i++) {
     corner_of(b, middle, (const double(*)[3])side, i, at);
-    point_velocity(b, a, end[1], at, one);
-    point_velocity(b, a, end[0], at, other);
+    for (int which = 0; which < 2; which++)
+      point_velocity(b, a, end[which], at, velocity[which][i]);
+  }
+}
+
+/* Computes the velocities of the corners on which foot v stands. */
+static void foot_velocities(const bodies *b, const thr_answer *a, int v, double velocity[4][3])
+{
+  static const double side[2][3] = {{1, 0, 0}, {0, 1, 0}};
+  const double below[3] = {b->centre[v][0], b->centre[v][1], b->centre[v][2] - b->width / 2};
+  double at[3];
+  for (int i = 0; i < 4; i++) {
+    corner_of(b, below, side, i, at);
+    point_velocity(b, a, v, at, velocity[i]);
+  }
+}
+
+static double speed(const double velocity[3])
+{
+  return sqrt(thr_dot(velocity, velocity));
+}
+
+/* Returns the speed of the fastest mass centre. */
+static double fastest_bead(const bodies *b, const thr_answer *a)
+{
+  double fastest = 0;
+  for (int v = 0; v < b->plan->frame.n_nodes; v++)
+    fastest = fmax(fastest, speed(a->velocity[v]));
+  return fastest;
+}
+
+/* Returns the speed of the fastest point of the mechanism: of all mass centres and all corners that touch something. */
+static double fastest_point(const bodies *b, const thr_answer *a)
+{
+  double fastest = fastest_bead(b, a), axis[3], face[2][4][3], foot[4][3];
+  for (int e = 0; e < b->plan->frame.n_edges; e++) {
+    face_velocities(b, a, e, axis, face);
+    for (int i = 0; i < 8; i++)
+      fastest = fmax(fastest, speed(face[i / 4][i % 4]));
+  }
+
+  for (int v = 0; v < b->plan->frame.n_nodes; v++) {
+    if (!b->foot[v] || b->s->clamped) continue;
+    foot_velocities(b, a, v, foot);
+    for (int i = 0; i < 4; i++)
+      fastest = fmax(fastest, speed(foot[i]));
+  }
+  return fastest;
+}
+
+static bool face_opens(const bodies *b, const thr_answer *a, int e, double closing)
+{
+  double axis[3], velocity[2][4][3], apart[3];
+  face_velocities(b, a, e, axis, velocity);
+  for (int i = 0; i < 4; i++) {
     for (int k = 0; k < 3; k++)
-      one[k] -= other[k];
-    if (!opens(one, axis, b->e->physics.mu_bead)) return false;
+      apart[k] = velocity[1][i][k] - velocity[0][i][k];
+    if (!opens(apart, axis, b->e->physics.mu_bead, closing)) return false;
   }
   return true;
 }
 
 /* A foot on the ground lifts or slides without closing; one that is held does not move. */
-static bool foot_opens(const bodies *b, const thr_answer *a, int v)
+static bool foot_opens(const bodies *b, const thr_answer *a, int v, double closing)
 {
-  static const double up[3] = {0, 0, 1}, side[2][3] = {{1, 0, 0}, {0, 1, 0}};
-  double below[3] = {b->centre[v][0], b->centre[v][1], b->centre[v][2] - b->width / 2}, at[3], apart[3];
+  static const double up[3] = {0, 0, 1};
+  double velocity[4][3];
   if (b->s->clamped) {
     for (int k = 0; k < 6; k++)
       if (a->velocity[v][k] != 0) return false;
     return true;
   }
-  for (int i = 0; i < 4; i++) {
-    corner_of(b, below, side, i, at);
-    point_velocity(b, a, v, at, apart);
-    if (!opens(apart, up, b->e->physics.mu_ground)) return false;
-  }
+
+  foot_velocities(b, a, v, velocity);
+  for (int i = 0; i < 4; i++)
+    if (!opens(velocity[i], up, b->e->physics.mu_ground, closing)) return false;
   return true;
 }
 
@@ -267,9 +325,21 @@ static void loads_power(const bodies *b, const thr_answer *a, power *load)
   }
 }
 
-/* Powers at what is claimed: given by weights (and the load), resisted by the cords at the pull; or given by the load, and
- * resisted by cords and weights. */
-static bool proves(bodies *b, const thr_answer *a)
+/* Returns the power of all weights and loads that drive a mechanism if each of them moved its own way as fast as fastest: loads
+ * alone where they are what is asked for. */
+static double most_drive(const bodies *b, const thr_answer *a, double fastest)
+{
+  double sum = 0;
+  for (int v = 0; v < b->plan->frame.n_nodes && !thr_asked_of_load(a->asked); v++)
+    sum += b->mass[v] * b->e->physics.gravity;
+  for (int i = 0; i < b->s->n_loads && (thr_asked_of_load(a->asked) || a->asked == THR_ASKED_LOADED); i++)
+    sum += speed(b->s->load[i].force);
+  return sum * fastest;
+}
+
+/* Compares the powers at what is claimed. They are given by weights (and the load) and resisted by the cords at the pull; or
+ * given by the load and resisted by cords and weights. The balance may be short by 1e-9 of the one that the claim multiplies. */
+static bool proves(bodies *b, const thr_answer *a, double fastest)
 {
   power falling = {0}, load = {0}, resistance = {0};
   const bool of_load = thr_asked_of_load(a->asked);
@@ -279,12 +349,13 @@ static bool proves(bodies *b, const thr_answer *a)
   if (of_load || a->asked == THR_ASKED_LOADED) loads_power(b, a, &load);
   press(b, a);
   cords_power(b, a, &resistance);
+
   const double pull = of_load ? 1 : a->proved, times = of_load ? a->proved : 1;
   const double slip = ROUNDING * (falling.terms + times * load.terms + pull * resistance.terms);
   const double over = falling.sum + times * load.sum - pull * resistance.sum;
-  const double scale = fmax(fabs(falling.sum), fmax(fabs(times * load.sum), fabs(pull * resistance.sum)));
-  const bool drives = of_load ? load.sum > slip : falling.sum + load.sum > slip;
-  return drives && over >= -slip - 1e-9 * scale;
+  const double drive = of_load ? load.sum : falling.sum + load.sum;
+  const double claimed = fabs(of_load ? times * load.sum : pull * resistance.sum);
+  return drive > fmax(slip, DRIVE * most_drive(b, a, fastest)) && over >= -slip - 1e-9 * claimed;
 }
 
 static thr_status check_answer(bodies *b, int i, thr_err *err)
@@ -294,18 +365,25 @@ static thr_status check_answer(bodies *b, int i, thr_err *err)
   if (a->n_beads == 0) return THR_OK; /* nothing is proved, and nothing said to be */
   if (a->n_beads != frame->n_nodes)
     return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: not one velocity per node", i);
-  for (int v = 0; v < frame->n_nodes; v++)
-    if (!(thr_dot(a->velocity[v], a->velocity[v]) <= 1 + 1e-9))
-      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: a bead that moves by more than 1", i);
+
+  if (!(fabs(fastest_bead(b, a) - 1) <= FASTEST))
+    return thr_fail(err, THR_EVIOLATED,
+                    "evaluation.structure.answers[%d].mechanism: the fastest bead has the speed %.12g; expected 1", i,
+                    fastest_bead(b, a));
+  const double fastest = fastest_point(b, a), closing = STILL * fastest;
+  if (!isfinite(fastest))
+    return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: a bead turns too fast", i);
+
   for (int e = 0; e < frame->n_edges; e++)
-    if (!face_opens(b, a, e))
+    if (!face_opens(b, a, e, closing))
       return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: beads go into each other at edge %d", i,
                       e);
   for (int v = 0; v < frame->n_nodes; v++)
-    if (b->foot[v] && !foot_opens(b, a, v))
+    if (b->foot[v] && !foot_opens(b, a, v, closing))
       return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: foot %d %s", i, v,
                       b->s->clamped ? "is held, but moves" : "goes into the ground");
-  if (proves(b, a)) return THR_OK;
+
+  if (proves(b, a, fastest)) return THR_OK;
   return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].proved: the powers of the mechanism do not prove %.12g",
                   i, a->proved);
 }

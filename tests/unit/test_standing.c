@@ -11,6 +11,7 @@
 #include "graph/plan/standing.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -105,6 +106,66 @@ START_TEST(what_is_no_mechanism_proves_nothing)
   default: velocity[1][2] = -velocity[1][2]; /* nothing falls */
   }
   assert_violated(&plan, "answers[0]");
+  thr_plan_destroy(&plan);
+  thr_frame_destroy(&frame);
+}
+END_TEST
+
+/* A mechanism that moves nothing but by rounding, or by so much less than what it does for nothing, proves nothing, however much
+ * is claimed: two pieces on the ground, which hold. */
+START_TEST(no_mechanism_hides_in_a_tolerance)
+{
+  static const double SLOW[] = {9e-13, 9e-14, 1e-13, 1e-9};
+  const double slow = SLOW[_i % 4];
+  thr_frame frame;
+  thr_plan plan = row_plan(&frame);
+  claim(&plan, 1e6);
+  thr_evaluation *e = &plan.evaluation;
+  double(*velocity)[6] = e->standing.answer[0].velocity;
+  e->standing.clamped = false;
+  memset(velocity, 0, 2 * sizeof *velocity);
+  for (int v = 0; v < 2; v++)
+    velocity[v][2] = -slow; /* all sink into the ground */
+  switch (_i / 4) {
+  case 0: break;
+  case 1: /* while all slide for nothing */
+    e->physics.mu_ground = 0;
+    velocity[0][0] = velocity[1][0] = 1;
+    break;
+  case 2: /* while one slides for nothing */
+    e->physics.mu_ground = e->physics.mu_bead = 0;
+    velocity[1][1] = 1;
+    break;
+  case 3: /* while all turn for nothing, and fast */
+    e->physics.mu_ground = e->physics.mu_bead = 0;
+    velocity[0][5] = velocity[1][5] = 1e6;
+    velocity[1][1] = 1;
+    break;
+  default: /* a bead turns faster than numbers can */ velocity[1][0] = 1; velocity[1][5] = 1e308;
+  }
+  assert_violated(&plan, "answers[0]");
+  thr_plan_destroy(&plan);
+  thr_frame_destroy(&frame);
+}
+END_TEST
+
+/* What is proved in one unit of length is proved in every other. */
+START_TEST(proofs_hold_in_every_unit)
+{
+  static const struct {
+    const char *units;
+    double of_mm;
+  } unit[] = {{"um", 1e3}, {"m", 1e-3}, {"km", 1e-6}, {"in", 1 / 25.4}};
+  const double xyz[][3] = {{0, 0, 0}, {100 * unit[_i].of_mm, 0, 0}};
+  static const int edge[][2] = {{0, 1}}, foot[] = {0, -1};
+  thr_frame frame = frame_make(2, xyz, 1, edge, NULL, foot);
+  snprintf(frame.units, sizeof frame.units, "%s", unit[_i].units);
+  thr_plan plan = plan_simple(&frame, THR_ENDS_ANY, 1);
+  thr_err err = {0};
+  claim(&plan, GRAVITY * 0.025);
+  ck_assert_msg(thr_check_plan(&plan, &err) == THR_OK, "%s", err.text);
+  plan.evaluation.standing.answer[0].velocity[1][0] -= 1e-12;
+  assert_violated(&plan, "beads go into each other");
   thr_plan_destroy(&plan);
   thr_frame_destroy(&frame);
 }
@@ -262,6 +323,8 @@ int main(void)
   Suite *s = suite_create("standing");
   ADD_LOOP(s, 10, moments_about_the_lower_edge_prove_the_pull, 0, 5);
   ADD_LOOP(s, 10, what_is_no_mechanism_proves_nothing, 0, 6);
+  ADD_LOOP(s, 10, no_mechanism_hides_in_a_tolerance, 0, 20);
+  ADD_LOOP(s, 10, proofs_hold_in_every_unit, 0, 4);
   ADD_LOOP(s, 30, every_answer_is_believed_and_no_better_one, 0, 2);
   ADD_LOOP(s, 30, answers_survive_json, 0, 2);
   ADD_LOOP(s, 30, every_alteration_is_seen, 0, 13);
