@@ -15,7 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CORNERS = 4 };
+/* What is asked for: the least pull or the largest load; the least that hands must do; forces that balance each other. */
+typedef enum { EQUILIBRIUM, WITH_HANDS, SELF_STRESS } aim;
 
 typedef struct {
   int n_columns, n_costs; /* so far; each contact's three columns stand for its rays */
@@ -34,7 +35,8 @@ double thr_blocks_widening(const thr_beads *beads)
 
 bool thr_blocks_inside(const thr_blocks *s, int face)
 {
-  return s->body[s->f->edge[face][0]] == s->body[s->f->edge[face][1]];
+  const int one = s->body[s->f->edge[face][0]], other = s->body[s->f->edge[face][1]];
+  return one == other || (s->row[one] < 0 && s->row[other] < 0);
 }
 
 /* A ray of a friction pyramid: along the normal and the two tangents. */
@@ -80,11 +82,11 @@ static void set_contacts(thr_blocks *s, double widen)
   s->n_contacts = 0;
   s->widen = widen;
   for (int e = 0; e < beads->n_faces; e++)
-    for (int i = 0; i < CORNERS && !thr_blocks_inside(s, e); i++)
+    for (int i = 0; i < THR_CORNERS && !thr_blocks_inside(s, e); i++)
       add_contact(s, s->f->edge[e][1], s->f->edge[e][0], beads->corner[e][i], beads->axis[e], widen * s->physics->mu_bead)
-          ->press = fmin(s->press[e], s->most) / CORNERS;
+          ->press = fmin(s->press[e], s->most) / THR_CORNERS;
   for (int k = 0; k < beads->n_feet; k++)
-    for (int i = 0; i < CORNERS; i++)
+    for (int i = 0; i < THR_CORNERS; i++)
       add_contact(s, beads->foot[k], -1, beads->foot_point[k][i], up, widen * s->physics->mu_ground);
 }
 
@@ -110,7 +112,7 @@ static void set_bodies(thr_blocks *s, int *parent)
 {
   const thr_beads *beads = s->b;
   for (int v = 0; v < beads->n_beads; v++)
-    parent[v] = v;
+    parent[v] = s->weld ? s->weld[v] : v;
   for (int e = 0; e < beads->n_faces && s->merged; e++)
     if (s->press[e] > s->most) thr_disjoint_join(parent, s->f->edge[e][0], s->f->edge[e][1]);
   for (int v = 0; v < beads->n_beads; v++) {
@@ -179,7 +181,7 @@ thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
   const thr_beads *beads = s->b;
   size_t n = (size_t)beads->n_beads;
   int *parent = thr_scratch_array(&s->own, n, sizeof *parent);
-  s->contact = thr_scratch_array(&s->own, (size_t)(beads->n_faces + beads->n_feet) * CORNERS, sizeof *s->contact);
+  s->contact = thr_scratch_array(&s->own, (size_t)(beads->n_faces + beads->n_feet) * THR_CORNERS, sizeof *s->contact);
   s->body = thr_scratch_array(&s->own, n, sizeof *s->body);
   s->origin = thr_scratch_array(&s->own, n, sizeof *s->origin);
   s->wrench = thr_scratch_array(&s->own, n, sizeof *s->wrench);
@@ -239,7 +241,8 @@ static void contact_entries(const thr_blocks *s, programme *p, const thr_contact
     entry(p, s->row[body] + 3 + k, sign * moment[k]);
 }
 
-static void contact_columns(const thr_blocks *s, programme *p)
+/* counted: the sum of all normal forces is an equation behind those of the bodies. */
+static void contact_columns(const thr_blocks *s, bool counted, programme *p)
 {
   for (int i = 0; i < s->n_contacts; i++) {
     const thr_contact *c = &s->contact[i];
@@ -249,6 +252,7 @@ static void contact_columns(const thr_blocks *s, programme *p)
       column(p);
       contact_entries(s, p, c, c->bead, c->axis[k], unit);
       contact_entries(s, p, c, c->other, c->axis[k], -unit);
+      if (counted) entry(p, s->n_rows, k == 0 ? 1 : 0);
     }
   }
   p->n_costs = 3 * s->n_contacts;
@@ -309,11 +313,12 @@ static void carry_given(const thr_blocks *s, int body, double *rhs)
     rhs[s->row[body] + k] -= s->given[body][k] / (k < 3 ? s->weight : s->weight * s->length);
 }
 
-static thr_status programme_make(const thr_blocks *s, bool hands, programme *p, thr_err *err)
+static thr_status programme_make(const thr_blocks *s, aim what, programme *p, thr_err *err)
 {
+  const bool hands = what != EQUILIBRIUM;
   size_t n = (size_t)s->n_bodies, contacts = (size_t)s->n_contacts, rays = (size_t)s->b->rays;
   size_t others = n + (hands ? 2 * (size_t)s->n_rows : 0), columns = 3 * contacts + others;
-  size_t entries = 36 * contacts + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows;
+  size_t entries = 39 * contacts + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows;
   *p = (programme){0};
   p->rhs = thr_scratch_array(&p->own, (size_t)s->n_rows + (size_t)s->n_ties, sizeof *p->rhs);
   p->cost = thr_scratch_array(&p->own, rays * contacts + others, sizeof *p->cost);
@@ -326,11 +331,12 @@ static thr_status programme_make(const thr_blocks *s, bool hands, programme *p, 
     programme_destroy(p);
     return THR_ENOMEM;
   }
-  for (int v = 0; v < s->b->n_beads; v++)
+  for (int v = 0; v < s->b->n_beads && what != SELF_STRESS; v++)
     weigh(s, v, p->rhs);
-  for (int v = 0; v < s->n_bodies; v++)
+  for (int v = 0; v < s->n_bodies && what != SELF_STRESS; v++)
     carry_given(s, v, p->rhs);
-  contact_columns(s, p);
+  if (what == SELF_STRESS) p->rhs[s->n_rows] = s->n_contacts;
+  contact_columns(s, what == SELF_STRESS, p);
   pull_columns(s, p, hands ? 0 : s->carries ? -1 : 1); /* the least pull, the largest load */
   if (hands) hand_columns(s, p);
   return THR_OK;
@@ -443,11 +449,11 @@ static thr_status solve_pyramids(const thr_blocks *s, const programme *p, const 
   return thr_interior_solve(&equations, limits, found, err);
 }
 
-thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits, thr_blocks_solution *out, thr_err *err)
+static thr_status solve(const thr_blocks *s, aim what, const thr_limits *limits, thr_blocks_solution *out, thr_err *err)
 {
   programme p;
   *out = (thr_blocks_solution){0};
-  thr_status st = programme_make(s, hands, &p, err);
+  thr_status st = programme_make(s, what, &p, err);
   if (st) return st;
   out->x = thr_calloc((size_t)p.n_costs, sizeof *out->x);
   out->dual = thr_calloc((size_t)s->n_rows + (size_t)s->n_ties, sizeof *out->dual);
@@ -460,4 +466,19 @@ thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *l
   programme_destroy(&p);
   if (st) thr_blocks_solution_destroy(out);
   return st;
+}
+
+thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits, thr_blocks_solution *out, thr_err *err)
+{
+  return solve(s, hands ? WITH_HANDS : EQUILIBRIUM, limits, out, err);
+}
+
+/* The equation of the sum takes the place of those that tie the copies of the pull, which is not there. */
+thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits, thr_blocks_solution *out, thr_err *err)
+{
+  thr_blocks alone = *s;
+  alone.round = false;
+  alone.n_copies = 0;
+  alone.n_ties = 1;
+  return solve(&alone, SELF_STRESS, limits, out, err);
 }

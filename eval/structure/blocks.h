@@ -19,6 +19,7 @@
 /* Beads from which on the solver's bounds need not be nearer to each other than THR_BLOCKS_ROUGH, relative; twice that where the
  * multipliers do not count. */
 enum { THR_BLOCKS_LARGE = 1000 };
+enum { THR_CORNERS = 4 }; /* contacts of a face, one after the other, faces before feet */
 static const double THR_BLOCKS_ROUGH = 5e-4;
 /* How far the equations are met then, in weights; and where only the multipliers count: their bound is proved by itself. */
 static const double THR_BLOCKS_MET = 5e-6, THR_BLOCKS_UNMET = 1e-3;
@@ -45,6 +46,7 @@ typedef struct {
   bool carries;                /* the unknown is not the pull but what the load is multiplied by */
   double most;                 /* press above it is taken for it .. */
   bool merged;                 /* .. and the beads on either side for one body */
+  const int *weld;             /* [n_beads] beads with equal numbers are one body (welds.h); NULL = none are */
   double weight, length, pull; /* N, m, N */
   double widen;                /* factor on friction */
   int n_bodies, n_contacts, n_rows, n_copies, n_ties;
@@ -73,7 +75,7 @@ double thr_blocks_widening(const thr_beads *beads);
 /* Friction of a contact, widened. */
 double thr_blocks_friction(const thr_blocks *s, const thr_contact *contact);
 
-/* Is the face within a body? */
+/* Is the face within a body, or between two that are held? */
 bool thr_blocks_inside(const thr_blocks *s, int face);
 
 /* From s->b, f, physics, press, load, carries, most and merged; the rest is 0. widen: factor on friction. s is freed on failure.
@@ -85,6 +87,12 @@ void thr_blocks_destroy(thr_blocks *s);
  * least of that cost. THR_ELIMIT when stopped. Release out whatever comes back. */
 thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits, thr_blocks_solution *out,
                             thr_err *err) THR_MUST_CHECK;
+
+/* Contact forces that balance each other without any weight or cord, of one on the mean: hands that push and turn do what is
+ * missing, at a cost. With the cost 0 they are a self-stress, x of each contact's rays; else the multipliers are velocities that
+ * open every contact. Release out whatever comes back. */
+thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits, thr_blocks_solution *out,
+                                  thr_err *err) THR_MUST_CHECK;
 void thr_blocks_solution_destroy(thr_blocks_solution *o);
 
 #endif

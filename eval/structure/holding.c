@@ -11,6 +11,7 @@
 
 #include "eval/structure/blocks.h"
 #include "eval/structure/mechanism.h"
+#include "eval/structure/welds.h"
 #include "lp/solver/interior.h"
 
 #include <assert.h>
@@ -60,8 +61,12 @@ static thr_status solve_pull(const thr_blocks *s, const thr_limits *limits, answ
   thr_blocks_solution o;
   a->velocity = thr_calloc((size_t)s->b->n_beads, sizeof *a->velocity);
   if (!a->velocity) return thr_nomem(err);
+  if (s->n_rows == 0) { /* all is held */
+    certify(s, a);
+    return THR_OK;
+  }
   thr_status st = thr_blocks_solve(s, false, limits, &o, err);
-  if (!st) st = thr_mechanism_make(s, o.dual, a->velocity, err);
+  if (!st) st = thr_mechanism_make(s, o.dual, limits, a->velocity, err);
   if (!st) {
     const double balanced = s->bound && s->n_bodies > THR_BLOCKS_LARGE ? 10 * THR_BLOCKS_UNMET : 1e-5;
     if (!s->merged) a->pull = o.imbalance < balanced ? fmax(0, s->carries ? -o.objective : o.objective) * s->pull : INFINITY;
@@ -87,9 +92,17 @@ typedef struct {
   double least, largest; /* press of any face that is pressed */
   thr_warm warm;         /* where the programme of a large structure may start: near the optimum of one that differs little .. */
   double span;           /* .. its tensions, too */
+  int *weld[2];          /* [n_beads] what held feet wedge, with cones' pyramids inside them, and round them (welds.h); owned */
 } task;
 
-static thr_blocks part(const task *t, double most, bool merged)
+static void task_destroy(task *t)
+{
+  thr_warm_destroy(&t->warm);
+  free(t->weld[0]);
+  free(t->weld[1]);
+}
+
+static thr_blocks part(const task *t, double most, bool merged, double widen)
 {
   return (thr_blocks){.b = t->b,
                       .f = t->f,
@@ -99,7 +112,21 @@ static thr_blocks part(const task *t, double most, bool merged)
                       .carries = t->carries,
                       .most = most,
                       .merged = merged,
+                      .weld = t->weld[widen > 1],
                       .round = t->round};
+}
+
+static thr_status find_welds(task *t, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int i = 0; i < 2 && !st; i++) {
+    const double widen = i ? thr_blocks_widening(t->b) : 1;
+    const thr_blocks s = part(t, INFINITY, false, widen);
+    int *weld = thr_calloc((size_t)t->b->n_beads, sizeof *weld);
+    st = weld ? thr_welds_find(&s, widen, t->limits, weld, err) : thr_nomem(err);
+    t->weld[i] = weld;
+  }
+  return st;
 }
 
 /* A start from a programme whose tensions were capped alike; else a fresh one, as others would mislead. */
@@ -116,7 +143,7 @@ static thr_warm *warm_at(task *t, double most, bool merged)
 static thr_status pull_of(task *t, double most, bool merged, double widen, answer *a, thr_err *err)
 {
   const double plenty = 3000; /* weights of a bead in what draws it: ten times what a dome of 2,000 beads needs */
-  thr_blocks s = part(t, most, merged);
+  thr_blocks s = part(t, most, merged, widen);
   thr_status st = thr_blocks_make(&s, widen, err);
   if (st) return st;
   s.bound = widen > 1;
@@ -166,18 +193,19 @@ static bool gives_way(const thr_blocks *s, const double (*velocity)[6])
 static thr_status check_feasible(const task *t, thr_err *err)
 {
   bool friction = t->physics->mu_bead > 0;
-  thr_blocks s = part(t, friction ? 0 : INFINITY, friction);
+  const double widen = thr_blocks_widening(t->b);
+  thr_blocks s = part(t, friction ? 0 : INFINITY, friction, widen);
   s.round = false;
   thr_blocks_solution o = {0};
   double(*velocity)[6] = thr_calloc((size_t)t->b->n_beads, sizeof *velocity);
   if (!velocity) return thr_nomem(err);
-  thr_status st = thr_blocks_make(&s, thr_blocks_widening(t->b), err);
+  thr_status st = thr_blocks_make(&s, widen, err);
   if (st) {
     free(velocity);
     return st;
   }
   if (s.n_rows > 0) st = thr_blocks_solve(&s, true, t->limits, &o, err);
-  if (!st && s.n_rows > 0) st = thr_mechanism_make(&s, o.dual, velocity, err);
+  if (!st && s.n_rows > 0) st = thr_mechanism_make(&s, o.dual, t->limits, velocity, err);
   if (!st && gives_way(&s, (const double(*)[6])velocity)) {
     int v = thr_mechanism_fastest(t->b, (const double(*)[6])velocity);
     st = thr_fail(err, THR_EINFEASIBLE,
@@ -223,10 +251,14 @@ static thr_status lower_pull_in(task *t, double *most, answer *a, thr_err *err)
     *most = best_most;
     return THR_OK;
   }
-  st = thr_fail(err, THR_ESOLVER,
-                "the holding pull is not decided: the solver's numbers do not suffice (tensions along the cords span a factor of "
-                "%.0e); a smaller --mu or more cords, each with less turning, may help",
-                t->least > 0 ? t->largest / t->least : 1);
+  const double span = t->least > 0 ? t->largest / t->least : 1;
+  st = span > 1 / CLOSE
+           ? thr_fail(err, THR_ESOLVER,
+                      "the holding pull is not decided: the solver's numbers do not suffice (tensions along the cords "
+                      "span a factor of %.0e); a smaller --mu or more cords, each with less turning, may help",
+                      span)
+           : thr_fail(err, THR_ESOLVER,
+                      "the holding pull is not decided: the solver's numbers do not suffice; other --rays may help");
 done:
   answer_destroy(&best);
   return st;
@@ -280,8 +312,9 @@ static thr_status bounds(task *t, bool want_upper, answer *a, double *upper, thr
 static thr_status hold(task *t, bool want_upper, thr_holding *holding, thr_err *err)
 {
   answer a = {0};
-  double upper;
-  thr_status st = bounds(t, want_upper, &a, &upper, err);
+  double upper = 0;
+  thr_status st = find_welds(t, err);
+  if (!st) st = bounds(t, want_upper, &a, &upper, err);
   if (!st) {
     assert(a.velocity);
     holding->present = true;
@@ -293,7 +326,7 @@ static thr_status hold(task *t, bool want_upper, thr_holding *holding, thr_err *
     a.velocity = NULL;
   }
   answer_destroy(&a);
-  thr_warm_destroy(&t->warm);
+  task_destroy(t);
   return st;
 }
 

@@ -1,6 +1,7 @@
 /* Velocities from the solver's multipliers, made exactly feasible. */
 #include "eval/structure/mechanism.h"
 
+#include "graph/limits.h"
 #include "graph/vector.h"
 
 #include <math.h>
@@ -106,26 +107,48 @@ static void move_with_body(const thr_blocks *s, int bead, const double *dual, do
     velocity[k] += turn[k];
 }
 
-/* Dual values as velocities, scaled to a largest translation of 1. Contacts that would close are opened by a little flight. */
-thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, double (*velocity)[6], thr_err *err)
+/* Velocities that open every contact, and by how much at least: a flight, or, where feet that are held are in its way, the
+ * multipliers of contact forces that would balance each other. *margin: 0 if there are none. */
+static thr_status open_all(const thr_blocks *s, const thr_limits *limits, double (*apart)[6], double *margin, thr_err *err)
 {
+  thr_blocks_solution o = {0};
+  flight(s, apart);
+  *margin = thr_mechanism_opening(s, (const double(*)[6])apart);
+  if (*margin > 0 || s->n_rows == 0 || s->n_contacts == 0) return THR_OK;
+  thr_status st = thr_blocks_self_stress(s, limits, &o, err);
+  for (int v = 0; v < s->b->n_beads && !st; v++) {
+    memset(apart[v], 0, sizeof apart[v]);
+    move_with_body(s, v, o.dual, apart[v]);
+  }
+  if (!st) *margin = thr_mechanism_opening(s, (const double(*)[6])apart);
+  thr_blocks_solution_destroy(&o);
+  return st;
+}
+
+/* Dual values as velocities, scaled to a largest translation of 1. Contacts that would close are opened by a little of what opens
+ * all. */
+thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, const thr_limits *limits, double (*velocity)[6],
+                              thr_err *err)
+{
+  double margin = 0;
+  thr_status st = THR_OK;
   double(*apart)[6] = thr_calloc((size_t)s->b->n_beads, sizeof *apart);
   if (!apart) return thr_nomem(err);
   for (int v = 0; v < s->b->n_beads; v++)
     move_with_body(s, v, dual, velocity[v]);
-  flight(s, apart);
-  double margin = thr_mechanism_opening(s, (const double(*)[6])apart);
   for (int round = 0; round < 3; round++) { /* rounding again, far smaller each time */
     double largest = largest_translation(s->b, (const double(*)[6])velocity);
     if (largest > 0) scale(s, velocity, 1 / largest);
     double opening = thr_mechanism_opening(s, (const double(*)[6])velocity);
-    if (opening >= 0 || !(margin > 0)) break;
+    if (opening >= 0) break;
+    if (round == 0) st = open_all(s, limits, apart, &margin, err);
+    if (st || !(margin > 0)) break;
     for (int v = 0; v < s->b->n_beads; v++)
       for (int k = 0; k < 6; k++)
         velocity[v][k] -= opening / margin * (1 + 1e-9) * apart[v][k];
   }
   free(apart);
-  return THR_OK;
+  return st;
 }
 
 double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], int face)

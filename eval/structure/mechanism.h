@@ -8,6 +8,7 @@
 
 #include "eval/structure/beads.h"
 #include "eval/structure/blocks.h"
+#include "graph/limits.h"
 #include "graph/status.h"
 
 /* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull, W/N, by their true tensions; the
@@ -22,7 +23,8 @@ static const double THR_MECHANISM_DRIVE = 2e-7;
 
 /* Dual values of thr_blocks_solve as velocities [n_beads], scaled to a largest translation of 1. Contacts that would close are
  * opened by a little flight. */
-thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, double (*velocity)[6], thr_err *err) THR_MUST_CHECK;
+thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, const thr_limits *limits, double (*velocity)[6],
+                              thr_err *err) THR_MUST_CHECK;
 
 /* Least power of any contact force: a mechanism has none below 0. */
 double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6]);

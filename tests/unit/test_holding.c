@@ -551,18 +551,17 @@ START_TEST(loads_equal_a_plain_programme_by_simplex)
 }
 END_TEST
 
-START_TEST(equals_a_plain_programme_by_simplex)
+static void assert_equals_simplex(model *m)
 {
-  model m = random_model((uint64_t)_i + 1, 8);
-  double upper = by_simplex(&m, NULL, 0), mu_bead = m.physics.mu_bead, mu_ground = m.physics.mu_ground;
-  m.physics.mu_bead /= cos(THR_PI / 8);
-  m.physics.mu_ground /= cos(THR_PI / 8);
-  double lower = by_simplex(&m, NULL, 0);
-  m.physics.mu_bead = mu_bead;
-  m.physics.mu_ground = mu_ground;
+  double upper = by_simplex(m, NULL, 0), mu_bead = m->physics.mu_bead, mu_ground = m->physics.mu_ground;
+  m->physics.mu_bead /= cos(THR_PI / 8);
+  m->physics.mu_ground /= cos(THR_PI / 8);
+  double lower = by_simplex(m, NULL, 0);
+  m->physics.mu_bead = mu_bead;
+  m->physics.mu_ground = mu_ground;
   thr_holding h;
   thr_err err = {0};
-  thr_status st = thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &h, &err);
+  thr_status st = thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, &no_limit, &h, &err);
   if (isinf(lower)) {
     ck_assert_msg(st == THR_EINFEASIBLE, "lower %g N", h.lower);
   } else {
@@ -572,7 +571,44 @@ START_TEST(equals_a_plain_programme_by_simplex)
     if (isinf(upper)) ck_assert(isinf(h.upper));
     thr_holding_destroy(&h);
   }
+}
+
+START_TEST(equals_a_plain_programme_by_simplex)
+{
+  model m = random_model((uint64_t)_i + 1, 8);
+  assert_equals_simplex(&m);
   model_destroy(&m);
+}
+END_TEST
+
+/* Between beads that are held, contact forces may be as large as one likes: every case is decided all the same. */
+START_TEST(many_held_beads_equal_a_plain_programme_by_simplex)
+{
+  model m = random_model((uint64_t)_i + 1, 8);
+  rng r = rng_make((uint64_t)_i + 300);
+  bool held[64] = {true, true};
+  for (int v = 2; v < m.beads.n_beads; v++)
+    held[v] = rng_below(&r, 3) == 0;
+  held[rng_below(&r, m.beads.n_beads)] = false;
+  thr_beads_clamp(&m.beads, held);
+  assert_equals_simplex(&m);
+  model_destroy(&m);
+}
+END_TEST
+
+/* n beads in a row, both ends held: wedged, they need no pull. */
+START_TEST(a_row_between_held_ends_needs_no_pull)
+{
+  for (int n = 3; n < 12; n++) {
+    model m = cantilever(n, 40, 8, 0.3, 0.4);
+    bool held[12] = {true};
+    held[n - 1] = true;
+    thr_beads_clamp(&m.beads, held);
+    thr_holding h = hold(&m);
+    ck_assert(h.lower == 0 && h.upper == 0 && h.first_bead < 0);
+    thr_holding_destroy(&h);
+    model_destroy(&m);
+  }
 }
 END_TEST
 
@@ -666,6 +702,8 @@ int main(void)
   ADD_TEST(s, 20, memory_may_run_out_anywhere);
   ADD_EXAMPLES(s, 20, bounds_are_proved_and_close, 60);
   ADD_EXAMPLES(s, 20, equals_a_plain_programme_by_simplex, 40);
+  ADD_EXAMPLES(s, 20, many_held_beads_equal_a_plain_programme_by_simplex, 100);
+  ADD_TEST(s, 10, a_row_between_held_ends_needs_no_pull);
   ADD_EXAMPLES(s, 20, loads_equal_a_plain_programme_by_simplex, 40);
   ADD_EXAMPLES(s, 20, uneven_cords_decide_alike, 40);
   ADD_TEST(s, 10, twice_the_weight_needs_twice_the_pull);
