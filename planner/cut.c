@@ -1,6 +1,7 @@
 /* Cords cut evenly by what they turn. */
 #include "planner/cut.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/least_pull.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -154,15 +155,6 @@ bool thr_parts_into(thr_parts *cuts, int parts)
   return done;
 }
 
-/* What passes first .. last turn before the slackest of them, both ends pulled. */
-static double pulled_of(const cutter *x, int first, int last)
-{
-  const double whole = x->before[last] - x->before[first];
-  const int k = reach_of(x, first, last, whole / 2); /* the larger of both sides is least here or at the next */
-  double larger = fmax(x->before[k] - x->before[first], x->before[last] - x->before[k]);
-  return k < last ? fmin(larger, x->before[k + 1] - x->before[first]) : larger;
-}
-
 thr_parts_measures thr_parts_measure(const thr_parts *cuts)
 {
   thr_parts_measures m = {0};
@@ -171,7 +163,8 @@ thr_parts_measures thr_parts_measure(const thr_parts *cuts)
     for (int i = 0, first = 0; i < x->n_parts; first = x->last[i++] + 1) {
       const int last = x->last[i];
       m.turning = fmax(m.turning, x->before[last] - x->before[first]);
-      m.pulled = fmax(m.pulled, pulled_of(x, first, last));
+      const thr_parting parting = thr_least_pull(x->before, first, last);
+      m.pulled = fmax(m.pulled, thr_parting_larger(&parting));
       m.longest = fmax(m.longest, x->length[last + 1] - x->length[first]);
     }
   }

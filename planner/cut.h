@@ -22,8 +22,8 @@ void thr_parts_destroy(thr_parts *cuts);
  * cuts are saved. False where the cords do not come by enough such nodes. O(parts log passes) for each of some 60 limits. */
 bool thr_parts_into(thr_parts *cuts, int parts);
 
-/* Of the parts: what the one turns that turns most, what one of them turns at most before its slackest pass when both its ends
- * are pulled (thr_cord_pulled_turning), rad, and the length of the longest. O(parts log passes). */
+/* Of the parts: what the one turns that turns most, what an end of one of them has to overcome at most when both its ends are
+ * pulled (thr_cord_pulled_turning), rad, and the length of the longest. O(parts log passes). */
 typedef struct {
   double turning, pulled, longest;
 } thr_parts_measures;

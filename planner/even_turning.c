@@ -62,7 +62,7 @@ static thr_status seed_fits(const thr_frame *frame, const thr_least *least, cons
 static bool is_done(const thr_frame *frame, const thr_least *least, const thr_max_turning *found, double enough)
 {
   if (found->largest <= found->bound * (1 + 1e-9)) return true;
-  return enough > 0 && thr_cords_pulled_turning(frame, least->cord, least->n_cords) <= enough / 2;
+  return enough > 0 && thr_cords_pulled_turning(frame, least->cord, least->n_cords) <= enough;
 }
 
 /* Exchanges from the seed's cords, and if that is not enough from least's; the better cords stay. */

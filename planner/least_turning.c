@@ -233,7 +233,7 @@ static thr_status find_cords(const thr_frame *frame, const thr_request *options,
   if (options->turning.tour != THR_TOUR_LEAST)
     return thr_baseline_tour(frame, &lo, options->turning.tour, options->turning.ignore_pairings, s->solid.passes, least, err);
   if (!thr_wants_largest(options)) return find_together(frame, options, s, limits, least, err);
-  const double enough = options->max_pull > 0 ? thr_request_most_turning(options) : 0;
+  const double enough = options->max_pull > 0 ? thr_request_most_pulled(options) : 0;
   const thr_limits first = thr_dispatch_share(limits, THR_STEP_LEAST);
   thr_status st = find_from_shortest(frame, options, s, &first, least, err);
   if (st && st != THR_ELIMIT) return st;

@@ -8,7 +8,7 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 
-/* How much a cord may turn, rad: in all, and to the slackest pass (thr_cord_pulled_turning). */
+/* How much a cord may turn, rad: in all, and before an end that is pulled (thr_cord_pulled_turning). */
 typedef struct {
   double turning, pulled;
   bool exactly; /* in all neither more nor less: a proof counts on it */

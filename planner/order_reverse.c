@@ -4,6 +4,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/chains.h"
 #include "graph/plan/channels.h"
+#include "graph/plan/least_pull.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
@@ -86,15 +87,13 @@ static double angle_of(const annealer *x, int in, int out)
 static double pulled_turning(const annealer *x)
 {
   const int *half = x->now.half;
-  double whole = 0, before = 0;
+  double whole = 0;
   for (int k = 0; k + 1 < x->now.n_passes; k++)
     whole += angle_of(x, half[k], half[k + 1]);
-  double larger = whole;
-  for (int k = 0; k + 1 < x->now.n_passes && before < 0.5 * whole; k++) {
-    before += angle_of(x, half[k], half[k + 1]);
-    larger = fmin(larger, fmax(before, whole - before));
-  }
-  return larger;
+  thr_least_pull_walk walk = thr_least_pull_begin(whole);
+  for (int k = 0; k + 1 < x->now.n_passes; k++)
+    if (!thr_least_pull_next(&walk, angle_of(x, half[k], half[k + 1]))) break;
+  return walk.larger;
 }
 
 /* What a cord is worth. */

@@ -178,7 +178,7 @@ static thr_status try_number(fewest *x, int n, thr_step step, bool *fits, thr_er
   thr_status st = plan_number(x, n, THR_AIM_MAX_TURNING, step, &plan, err);
   *fits = !st && keeps(x, &plan);
   double turning = plan.n_cords > 0 ? thr_cords_pulled_turning(x->f, plan.cord, plan.n_cords) : INFINITY;
-  x->beyond = fmin(1, fmax(0, 2 * turning / thr_request_most_turning(x->o) - 1));
+  x->beyond = fmin(1, fmax(0, turning / thr_request_most_pulled(x->o) - 1));
   if (*fits && (x->found.n_cords == 0 || n < x->number + x->is_short)) {
     take_found(x, &plan, n);
     return st;

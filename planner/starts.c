@@ -1,5 +1,6 @@
 /* A window that moves round a closed cord, and the pieces in it that are on the cord when they are come to. */
 #include "planner/starts.h"
+#include "graph/plan/least_pull.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -200,13 +201,9 @@ thr_status thr_starts_pulled(const thr_frame *frame, const thr_cord *cord, doubl
   if (!turned) return thr_nomem(err);
   for (int p = 0; p < 2 * n; p++)
     turned[p + 1] = turned[p] + thr_turn_angle(frame, cord->half[(p + n - 1) % n], cord->half[p % n]);
-  for (int s = 0, part = 0; s < n; s++) { /* turns into passes s + 1 .. s + n - 1, parted behind that into pass `part` */
-    double from = turned[s + 1], whole = turned[s + n] - from;
-    part = part < s ? s : part;
-    while (part + 1 < s + n && turned[part + 2] - from <= whole / 2)
-      part++;
-    double before = turned[part + 1] - from, more = part + 1 < s + n ? turned[part + 2] - from : whole;
-    pulled[s] = fmin(whole - before, more);
+  for (int s = 0; s < n; s++) { /* begun with pass s, the cord turns into the passes s + 1 .. s + n - 1 */
+    const thr_parting parting = thr_least_pull(turned + 1, s, s + n - 1);
+    pulled[s] = thr_parting_larger(&parting);
   }
   free(turned);
   return THR_OK;

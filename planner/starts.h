@@ -14,7 +14,7 @@
 thr_status thr_starts_chains(const thr_frame *frame, const thr_request *request, const thr_cord *cord,
                              const thr_threaded *threaded, thr_chains *chains, thr_err *err) THR_MUST_CHECK;
 
-/* pulled[s]: thr_cord_pulled_turning of it, rad. O(passes). */
+/* pulled[s]: thr_cord_pulled_turning of it, rad. O(passes log passes). */
 thr_status thr_starts_pulled(const thr_frame *frame, const thr_cord *cord, double *pulled, thr_err *err) THR_MUST_CHECK;
 
 /* half[n_passes]: the passes of a closed cord begun with pass start; backwards: where that begins, with the pass before it. */

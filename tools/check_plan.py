@@ -429,11 +429,12 @@ class Plan:
     def __init__(self, o):
         if type(o) is not dict or o.get("format") != "thread-plan":
             raise Unreadable("format: not a thread plan")
-        if type(o.get("version")) is not int or o["version"] != 1:
-            raise Unreadable("version: not 1")
+        if type(o.get("version")) is not int or o["version"] not in (1, 2):
+            raise Unreadable("version: neither 1 nor 2")
         member(o, "generator", "text", "", default="")
         f = self.frame = Frame(member(o, "framework", "object", ""))
         self.options = Options(member(o, "options", "object", ""), f)
+        self.options.old_pull = o["version"] == 1
         cords = member(o, "cords", "list", "")
         require(cords, "cords: none")
         self.cords = [Cord(c, i, f) for i, c in enumerate(cords)]
@@ -2218,13 +2219,19 @@ def check_turning(p):
 # ---- proof.pull ----
 
 
+def larger_part(turns, old):
+    """Of the parting where it is least: at a turn, which counts for neither side; in plans of version 1 at a pass."""
+    before = list(itertools.accumulate(turns, initial=0.0))
+    if old:
+        return min(max(x, before[-1] - x) for x in before)
+    return min((max(x, before[-1] - y) for x, y in zip(before, before[1:])), default=0.0)
+
+
 def check_pulls(p):
     """Pulled at both ends: the larger part of the turning, parted where that is least."""
     o = p.options
     for cord in p.cords if o.max_pull is not None else []:
-        angles = [p.frame.angle(a, b) for a, b in cord.turns(False)]
-        before = list(itertools.accumulate(angles, initial=0.0))
-        part = min(max(x, before[-1] - x) for x in before)
+        part = larger_part([p.frame.angle(a, b) for a, b in cord.turns(False)], o.old_pull)
         require(o.mu * part <= math.log(o.max_pull) + 1e-9 * (1 + math.log(o.max_pull)), f"cord {cord.id}: needs more than options.max_pull")
 
 
@@ -2241,13 +2248,14 @@ def too_few(p, claim, place):
     all_turns = model.bound(place + ".proof")
     require(all_turns is not None, f"{place}.proof: proves that there is no plan")
     all_turns = max(Fraction(0), Fraction(all_turns) / UNIT)
-    needed = 2 * math.log(o.max_pull) / o.mu + (math.pi if p.closing else 0) if o.mu > 0 else 0
+    free = 0 if o.old_pull else math.pi  # at most, of the turn that neither end slides over
+    needed = 2 * math.log(o.max_pull) / o.mu + free + (math.pi if p.closing else 0) if o.mu > 0 else 0
     bound = max(all_turns / (cords * len(f.pieces)), largest_bound(other, model, cords, place + ".proof"),
                 few_edges_bounds(other, True, needed * (1 + 1e-7) + 1e-7)[1])
     if p.closing:  # Fenchel 1929; the last turn of a closed cord is at its ends
         bound = max(bound, Fraction(2 * math.pi)) - Fraction(math.pi)
     limit = math.log(o.max_pull)
-    require(bound * Fraction(o.mu) / 2 > limit + 2 * TOLERANCE * (1 + Fraction(limit)), f"{place}: {cords} cords are not proved to be too few")
+    require((bound - Fraction(free)) * Fraction(o.mu) / 2 > limit + 2 * TOLERANCE * (1 + Fraction(limit)), f"{place}: {cords} cords are not proved to be too few")
     return cords
 
 

@@ -17,16 +17,17 @@ static const double rounding = 1e-9;
 
 /* ---- the cords ---- */
 
-/* The larger part of a cord's turning, rad, parted where that is least. */
-static double larger_part(const thr_frame *frame, const thr_cord *cord)
+/* The larger part of a cord's turning, rad, parted where that is least: at a turn, or for plans of version 1 at a pass. */
+static double larger_part(const thr_frame *frame, const thr_cord *cord, bool at_pass)
 {
-  double whole = 0, before = 0, larger;
+  double whole = 0, before = 0;
   for (int k = 1; k < cord->n_passes; k++)
     whole += thr_check_angle(frame, cord->half[k - 1], cord->half[k]);
-  larger = whole;
+  double larger = whole;
   for (int k = 1; k < cord->n_passes; k++) {
-    before += thr_check_angle(frame, cord->half[k - 1], cord->half[k]);
-    larger = fmin(larger, fmax(before, whole - before));
+    const double turn = thr_check_angle(frame, cord->half[k - 1], cord->half[k]);
+    larger = fmin(larger, fmax(before + (at_pass ? turn : 0), whole - before - turn));
+    before += turn;
   }
   return larger;
 }
@@ -35,7 +36,7 @@ thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, c
 {
   const double mu = options->physics.mu;
   for (int i = 0; i < n_cords && options->max_pull > 0; i++) {
-    double exponent = mu * larger_part(frame, &cord[i]), most = log(options->max_pull);
+    double exponent = mu * larger_part(frame, &cord[i], options->old_pull), most = log(options->max_pull);
     if (exponent > most + rounding * (1 + most))
       return thr_fail(err, THR_EVIOLATED,
                       "cord %s: pulled at both ends it needs %.12g times the seating tension; the plan's options allow %.12g",
@@ -128,7 +129,8 @@ thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options,
     thr_turning_columns_destroy(&columns);
   }
   free(end_allowed);
-  if (!st) *too_few = options->physics.mu * bound / 2 > most + 2 * rounding * (1 + most); /* twice that which cords are allowed */
+  const double part = (options->old_pull ? bound : bound - THR_PI) / 2;              /* neither end slides over one turn */
+  if (!st) *too_few = options->physics.mu * part > most + 2 * rounding * (1 + most); /* twice that which cords are allowed */
   return st;
 }
 

@@ -1,6 +1,7 @@
 /* Plans: names, ends, turning angles, metrics. */
 #include "graph/plan/plan.h"
 #include "graph/angle.h"
+#include "graph/plan/least_pull.h"
 
 #include <limits.h>
 #include <math.h>
@@ -251,14 +252,12 @@ double thr_cord_price(const thr_frame *frame, const thr_request *options, const 
 
 double thr_cord_pulled_turning(const thr_frame *frame, const thr_cord *cord)
 {
-  double whole = thr_cord_turning(frame, cord, false), before = 0, larger = whole;
+  thr_least_pull_walk walk = thr_least_pull_begin(thr_cord_turning(frame, cord, false));
   if (cord->n_passes == 0) return 0;
   thr_turns turns = thr_turns_begin(frame, cord->half[0]);
-  for (int k = 0; k + 1 < cord->n_passes && before < whole - before; k++) { /* from there on what is before only grows */
-    before += thr_turns_next(&turns, cord->half[k + 1]);
-    larger = fmin(larger, fmax(before, whole - before));
-  }
-  return larger;
+  for (int k = 1; k < cord->n_passes; k++)
+    if (!thr_least_pull_next(&walk, thr_turns_next(&turns, cord->half[k]))) break;
+  return walk.larger;
 }
 
 double thr_cords_pulled_turning(const thr_frame *frame, const thr_cord *cord, int n)
@@ -272,7 +271,7 @@ double thr_cords_pulled_turning(const thr_frame *frame, const thr_cord *cord, in
 bool thr_cords_within_pull(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n)
 {
   const double rounding = 1e-10; /* a tenth of the checker's */
-  double most = thr_request_most_turning(options) / 2;
+  const double most = thr_request_most_pulled(options);
   return isinf(most) || thr_cords_pulled_turning(frame, cord, n) <= most + rounding * (most + 1 / options->physics.mu);
 }
 

@@ -214,9 +214,9 @@ double thr_turns_price(const thr_frame *framework, thr_turn_cost cost, const int
 double thr_cord_price(const thr_frame *framework, const thr_request *wishes, const thr_cord *c);
 
 /* Turning that a pull has to overcome at the end that needs more, both being pulled, rad: the larger part of the cord's, parted
- * at the pass where that is least (a closed cord's last turn is at its ends and counts for neither part); and the largest of
- * several cords. By the capstan law the pull is exp(mu x that) times the tension at the slackest pass. O(passes).
- * Example: turns of 30, 90 and 60 degrees part into 120 and 60. */
+ * at the turn where that is least (graph/plan/least_pull.h; a closed cord's last turn is at its ends and counts for neither
+ * part); and the largest of several cords. By the capstan law the pull is exp(mu x that) times the seating tension. O(passes).
+ * Example: turns of 30, 90 and 60 degrees are parted at the 90, and 60 are left to the end. */
 double thr_cord_pulled_turning(const thr_frame *framework, const thr_cord *cord);
 double thr_cords_pulled_turning(const thr_frame *framework, const thr_cord *cord, int n);
 

@@ -336,13 +336,14 @@ static thr_status read_document(thr_field_reader *field_reader, const thr_json *
     return thr_field_bad(field_reader, "format", "not a thread plan; make one with `thread plan`");
   thr_status st = thr_field_int(field_reader, doc, "version", 1, INT32_MAX, &version);
   if (st) return st;
-  if (version != 1)
-    return thr_field_bad(field_reader, "version", "written by another version of thread; this one reads version 1");
+  if (version > 2)
+    return thr_field_bad(field_reader, "version", "written by a newer version of thread; this one reads versions 1 and 2");
   const char *generator = thr_json_string(thr_json_get(doc, "generator"));
   if (!(plan->generator = thr_strdup(generator ? generator : ""))) return thr_nomem(field_reader->err);
   thr_text_clean(plan->generator);
   if ((st = read_frame(field_reader, doc, known, &plan->frame))) return st;
   if ((st = thr_plan_read_options(field_reader, doc, &plan->frame, &plan->options))) return st;
+  plan->options.old_pull = version == 1;
   field_reader->code = THR_EVIOLATED;
   if ((st = read_cords(field_reader, doc, plan))) return st;
   if ((st = read_symmetry(field_reader, doc, plan, &plan->symmetry))) return st;

@@ -438,7 +438,7 @@ void thr_plan_write(const thr_plan *plan, thr_text *text)
   put_line(&writer);
   thr_write_string(&writer, "format", "thread-plan");
   put_line(&writer);
-  thr_write_int(&writer, "version", 1);
+  thr_write_int(&writer, "version", plan->options.old_pull ? 1 : 2);
   put_line(&writer);
   thr_write_string(&writer, "generator", plan->generator ? plan->generator : "");
   put_frame(&writer, &plan->frame);

@@ -1,5 +1,6 @@
 /* What is asked of a plan: lists of aims, names, and what options and framework say together. */
 #include "graph/plan/request.h"
+#include "graph/angle.h"
 
 #include <limits.h>
 #include <math.h>
@@ -335,10 +336,15 @@ int thr_plan_cords_least(const thr_request *options)
   return thr_plan_counted(options) ? options->cords_least : 1;
 }
 
-double thr_request_most_turning(const thr_request *options)
+double thr_request_most_pulled(const thr_request *options)
 {
   bool limited = options->max_pull > 0 && options->physics.mu > 0;
-  return limited ? 2 * log(options->max_pull) / options->physics.mu : INFINITY;
+  return limited ? log(options->max_pull) / options->physics.mu : INFINITY;
+}
+
+double thr_request_most_turning(const thr_request *options)
+{
+  return 2 * thr_request_most_pulled(options) + (options->old_pull ? 0 : THR_PI);
 }
 
 bool thr_request_alike(const thr_frame *frame, const thr_request *options, thr_request *one)

@@ -109,6 +109,7 @@ typedef struct {
   double max_length; /* no cord is longer, in units; 0 = no limit */
   double max_pull;   /* pulled at both ends, no cord needs more at either (thr_cord_pull): times the seating tension,
                         >= 1; 0 = no limit */
+  bool old_pull;     /* of a plan of version 1, which parts cords at a pass, that both ends reach, and not at a turn */
   thr_turning_options turning;   /* of plans that turn little only */
   thr_symmetry_options symmetry; /* of symmetric plans only */
   thr_ends ends;
@@ -188,8 +189,12 @@ bool thr_plan_counted(const thr_request *options);
  * have fewer: 1. */
 int thr_plan_cords_least(const thr_request *options);
 
-/* By how much a cord may turn between its ends, rad, within max_pull: half of it from each end, 2 ln(max_pull) / mu. INFINITY: by
- * anything, without a limit or without friction. Example: 15 times the seating tension at mu = 0.2: 27.08 rad. */
+/* What an end of a cord may have to overcome within max_pull (thr_cord_pulled_turning), rad: ln(max_pull) / mu. INFINITY:
+ * anything, without a limit or without friction. Example: 15 times the seating tension at mu = 0.2: 13.54 rad. */
+double thr_request_most_pulled(const thr_request *options);
+
+/* By how much a cord may turn between its ends then: by so much from each of them, and by the turn that neither slides over,
+ * which is 180 degrees at most. Example: 15 times the seating tension at mu = 0.2: 30.22 rad. */
 double thr_request_most_turning(const thr_request *options);
 
 /* Does every cord pass every edge, because there are no more cords than distinct asks for? Then each may be planned by itself,

@@ -28,7 +28,7 @@ static double length_beyond(const thr_request *request, double length)
 /* In parts of the turning that the pull may overcome; of straight cords in rad. */
 static double turning_beyond(const thr_frame *frame, const thr_request *request, const thr_cord *cord)
 {
-  double limit = thr_request_most_turning(request) / 2;
+  double limit = thr_request_most_pulled(request);
   if (thr_cords_within_pull(frame, request, cord, 1)) return 0;
   double turning = thr_cord_pulled_turning(frame, cord);
   return limit > 0 ? turning / limit - 1 : turning;

@@ -318,7 +318,7 @@ START_TEST(little_is_paid_for_where_cords_begin)
     thr_shape shape;
     int size, longest;
     const char *aims;
-  } cases[] = {{THR_MAKE_DOME, 7, 8, "length"},   {THR_MAKE_TUBE, 12, 10, "length"},  {THR_MAKE_SPHERE, 2, 7, "length"},
+  } cases[] = {{THR_MAKE_DOME, 7, 9, "length"},   {THR_MAKE_TUBE, 12, 10, "length"},  {THR_MAKE_SPHERE, 2, 7, "length"},
                {THR_MAKE_DOME, 7, 11, "turning"}, {THR_MAKE_TUBE, 12, 10, "turning"}, {THR_MAKE_DOME, 4, 9, "length"},
                {THR_MAKE_DOME, 12, 22, "length"}};
   for (int needles = 0; needles <= 2; needles++) {

@@ -199,14 +199,14 @@ static bool instance_make(rng *r, instance *x)
   return small;
 }
 
-/* The larger part of the turning, by trying every pass for the slackest. */
+/* The larger part of the turning, by trying every turn for the one that neither end slides over. */
 static double pull_of(const thr_frame *f, const thr_cord *cord, double mu)
 {
-  double least = INFINITY;
-  for (int slack = 0; slack < cord->n_passes; slack++) {
+  double least = cord->n_passes > 1 ? INFINITY : 1;
+  for (int free = 0; free + 1 < cord->n_passes; free++) {
     double pull[2] = {1, 1};
     for (int k = 0; k + 1 < cord->n_passes; k++)
-      pull[k >= slack] *= exp(mu * thr_turn_angle(f, cord->half[k], cord->half[k + 1]));
+      if (k != free) pull[k > free] *= exp(mu * thr_turn_angle(f, cord->half[k], cord->half[k + 1]));
     least = fmin(least, fmax(pull[0], pull[1]));
   }
   return least;

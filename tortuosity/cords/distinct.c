@@ -1,5 +1,6 @@
 /* Exchanges until every edge is passed by enough different cords. */
 #include "tortuosity/cords/distinct.h"
+#include "graph/plan/least_pull.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/random.h"
 #include "graph/threading/even.h"
@@ -115,7 +116,7 @@ static double pulled_turning(const search *x, const thr_threading *t, int k)
 {
   const int first = t->first[k], n = t->first[k + 1] - first;
   int start = 0;
-  double whole = 0, before = 0, sharpest = -1;
+  double whole = 0, sharpest = -1;
   for (int i = 0; i < n; i++) {
     double angle = angle_at(x, t, &t->place[first + i]);
     whole += angle;
@@ -125,18 +126,16 @@ static double pulled_turning(const search *x, const thr_threading *t, int k)
   }
   const bool closed = thr_threading_closed(t, k);
   if (closed) whole -= sharpest;
-  double larger = whole;
-  for (int i = closed; i < n; i++) {
-    before += angle_at(x, t, &t->place[first + (closed ? (start + i) % n : i)]);
-    larger = fmin(larger, fmax(before, whole - before));
-  }
-  return larger;
+  thr_least_pull_walk walk = thr_least_pull_begin(whole);
+  for (int i = closed; i < n; i++)
+    if (!thr_least_pull_next(&walk, angle_at(x, t, &t->place[first + (closed ? (start + i) % n : i)]))) break;
+  return walk.larger;
 }
 
 /* By how much cord k is beyond what is allowed; in parts of that, or of straight cords in rad. */
 static double cord_beyond(const search *x, const thr_threading *t, int k)
 {
-  const double longest = x->o->max_length, most = thr_request_most_turning(x->o) / 2, rounding = 1e-12;
+  const double longest = x->o->max_length, most = thr_request_most_pulled(x->o), rounding = 1e-12;
   double beyond = longest > 0 && x->own[k] > longest * (1 + rounding) ? x->own[k] / longest - 1 : 0;
   if (most == INFINITY) return beyond;
   double turning = pulled_turning(x, t, k);

@@ -27,7 +27,7 @@ typedef struct {
   const thr_turning_columns *c;
   const thr_limits *limits;
   double bound, scale;
-  double enough; /* rad that a cord may turn by, half of it from each end; 0: the less the better */
+  double enough; /* rad that an end may have to overcome (thr_cord_pulled_turning); 0: the less the better */
   thr_join best;
   double largest, value; /* of best: the largest total, the sum of the powers */
   int *passes, *ends;
@@ -190,14 +190,20 @@ static thr_status try_passes(search *x, bool shortest, int steps, thr_err *err)
   return st;
 }
 
+/* By how much a cord may turn if enough is to be enough: neither end slides over one turn, of 180 degrees at most. */
+static double most_turning(const search *x)
+{
+  return x->enough > 0 ? 2 * x->enough + THR_PI : 0;
+}
+
 /* Does no cord of the best need more pull than is enough? */
 static thr_status is_enough(const search *x, double largest, bool *done, thr_err *err)
 {
   int n = thr_join_count(&x->best);
-  if (x->enough <= 0 || largest > x->enough + THR_PI) return THR_OK; /* a closed cord's last turn does not count */
+  if (x->enough <= 0 || largest > most_turning(x) + THR_PI) return THR_OK; /* a closed cord's last turn does not count */
   thr_cord *cord = thr_calloc((size_t)n, sizeof *cord);
   thr_status st = cord ? thr_join_cords(&x->best, cord, n, err) : thr_nomem(err);
-  if (!st) *done = *done || thr_cords_pulled_turning(x->c->f, cord, n) <= x->enough / 2;
+  if (!st) *done = *done || thr_cords_pulled_turning(x->c->f, cord, n) <= x->enough;
   thr_cords_destroy(cord, n);
   return st;
 }
@@ -359,7 +365,7 @@ static thr_status find_cords(search *x, const thr_frame *frame, thr_least *plan,
 {
   bool found = false;
   thr_status st = THR_OK;
-  if (x->enough > 0 && x->bound > x->enough) return THR_OK;
+  if (x->enough > 0 && x->bound > most_turning(x)) return THR_OK;
   if (x->bound < x->scale * (1 - 1e-9))
     st = thr_max_turning_small(x->c, plan->cord, plan->n_cords, true, x->limits, &x->best, &found, err);
   if (!st && !found) st = run(x, err);
@@ -389,7 +395,7 @@ static thr_anneal_task annealing(const search *x, int first, int rounds)
                            .first = first,
                            .rounds = rounds,
                            .alone = is_timed(x) && !goes_beside(x),
-                           .enough = fmax(x->bound * (1 + near), x->enough)};
+                           .enough = fmax(x->bound * (1 + near), 2 * x->enough)}; /* half of a cord's turning is always enough */
 }
 
 static bool may_anneal(const search *x, const thr_frame *frame, const thr_least *plan, const thr_anneal_task *task)
@@ -440,7 +446,7 @@ static thr_status do_one(void *user, int job, const thr_limits *limits, thr_err 
   search *x = b->x;
   thr_least *plan = b->plan;
   if (job == 1) return thr_anneal(x->c, &b->task, limits, b->cooled, plan->n_cords, &b->fell, err);
-  const thr_walk_ask ask = {THR_WALK_TURNING, plan->cord, plan->n_cords, b->least, x->enough, x->motions};
+  const thr_walk_ask ask = {THR_WALK_TURNING, plan->cord, plan->n_cords, b->least, most_turning(x), x->motions};
   return thr_walk_bound(x->c, &ask, limits, &plan->proof.walks, &x->bound, &b->better, err);
 }
 

@@ -25,8 +25,8 @@ typedef struct {
  * leave every node tied. Cords, prices, turning and
  * length of plan change; its proof (of the sum) still holds, its claim of optimality (of the sum) may not. Stops when the largest
  * is at the bound, when the count is used up, or by the limits (no error). The same input gives the same cords.
- * enough > 0, rad: it also stops as soon as half of that is no less than any cord's thr_cord_pulled_turning, or at once if
- * some cord is known to turn by more than enough. */
+ * enough > 0, rad: it also stops as soon as that is no less than any cord's thr_cord_pulled_turning, or at once if some cord is
+ * known to turn by more than twice that and 180 degrees. */
 thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
                                    thr_max_turning *out, thr_err *err) THR_MUST_CHECK;
 

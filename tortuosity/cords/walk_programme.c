@@ -212,7 +212,7 @@ thr_status thr_walk_programme_init_pull(thr_walk_programme *p, const thr_turning
       most = &cord[i];
   *p = (thr_walk_programme){0};
   if (!most) return THR_ELIMIT;
-  const double half = thr_request_most_turning(options) / 2;
+  const double half = thr_request_most_pulled(options);
   thr_status st = init(p, columns, THR_WALK_PULL, cord, n_cords, most, half, 0, lengths, limits, err);
   if (st) return st;
   p->units = thr_walk_pull_units(options, p->unit);
