@@ -22,6 +22,9 @@
 /* Tensions are capped at so many times the least one, until the bound closes: further apart, the solver loses the small ones. */
 enum { CAPS = 5 };
 static const double cap[CAPS] = {1e4, 1e6, 1e8, 1e10, 1e12};
+/* Factors on what the unknown is counted in: rounding may spoil a programme in one scale and not in another. */
+enum { UNITS = 5 };
+static const double unit[UNITS] = {1, 0.1, 10, 0.01, 100};
 /* A bound has closed if it is that near to a pull that holds, relative, and no contact closes faster. Where none does, by
  * rounding, the best of those that are near is taken. */
 static const double CLOSE = 1e-6, NEAR = 1e-3, STILL = 1e-13;
@@ -264,11 +267,10 @@ done:
   return st;
 }
 
-/* Rounding may spoil a programme in one scale and not in another; beyond a thousand beads a third try takes too long. */
+/* Beyond a thousand beads a third try takes too long. */
 static thr_status lower_pull(task *t, double *most, answer *a, thr_err *err)
 {
-  static const double unit[] = {1, 0.1, 10};
-  const int tries = t->b->n_beads > THR_BLOCKS_LARGE ? 2 : 3;
+  const int tries = t->b->n_beads > THR_BLOCKS_LARGE ? 2 : UNITS;
   thr_err why = {0};
   thr_status st = THR_ESOLVER;
   for (int i = 0; i < tries && st == THR_ESOLVER; i++) {
@@ -284,6 +286,25 @@ void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *t
   for (int i = 0; i < n_cords; i++)
     for (int k = 0; k < cord[i].n_passes; k++)
       press[cord[i].half[k] >> 1] += tension[i][k];
+}
+
+/* The pull at which there is an equilibrium within pyramids inside the cones: of the rays that are asked for, then of as many as
+ * there may be. */
+static thr_status upper_pull(task *t, double most, answer *a, thr_err *err)
+{
+  const thr_beads *usual = t->b;
+  thr_beads finer = *usual;
+  finer.rays = THR_MOST_RAYS;
+  thr_status st = THR_OK;
+  for (int i = 0; i < 2 * UNITS && !st && !(i > 0 && isfinite(a->pull)); i++) {
+    if (i == UNITS && (usual->rays == THR_MOST_RAYS || usual->n_beads > THR_BLOCKS_LARGE)) break;
+    t->b = i < UNITS ? usual : &finer;
+    t->unit = unit[i % UNITS];
+    a->pull = 0;
+    st = pull_of(t, most, false, 1, a, err);
+  }
+  t->b = usual;
+  return st;
 }
 
 /* upper: at which there is an equilibrium within the cones. Where a programme with cones is not decided, one with pyramids inside
@@ -303,7 +324,7 @@ static thr_status bounds(task *t, bool want_upper, answer *a, double *upper, thr
     t->round = false;
   }
   thr_status st = lower_pull(t, &most, a, err);
-  if (!st && want_upper) st = pull_of(t, most, false, 1, &inside_cones, err);
+  if (!st && want_upper) st = upper_pull(t, most, &inside_cones, err);
   *upper = inside_cones.pull;
   answer_destroy(&inside_cones);
   return st;

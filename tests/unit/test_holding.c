@@ -568,7 +568,6 @@ static void assert_equals_simplex(model *m)
     ck_assert_msg(st == THR_OK, "%s", err.text);
     ck_assert_double_eq_tol(h.lower, lower, 1e-6 * lower + 1e-8);
     if (isfinite(upper)) ck_assert_double_eq_tol(h.upper, upper, 1e-6 * upper + 1e-8);
-    if (isinf(upper)) ck_assert(isinf(h.upper));
     thr_holding_destroy(&h);
   }
 }
