@@ -286,16 +286,69 @@ static const char *why_open(const thr_least *least)
 static thr_status verdict(const thr_plan *plan, const thr_least *least, thr_err *err)
 {
   const thr_turning_claim *claim = &plan->turning;
-  if (!claim->present) return THR_OK;
+  if (plan->options.turning.tour != THR_TOUR_LEAST) return THR_OK;
   if (plan->proof.slack_open)
     return thr_fail(err, THR_ELIMIT, "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
                     100 * (plan->metrics.length / plan->proof.lower_bound - 1));
+  if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
   if (thr_wants_largest(&plan->options) && !claim->largest_optimal)
     return thr_not_proved(err, "the largest turning of a cord", claim->largest, claim->largest_bound);
   if (thr_wants_largest(&plan->options) || claim->optimal) return THR_OK;
   char what[160];
   snprintf(what, sizeof what, "%s: the turning", why_open(least));
   return thr_not_proved(err, what, claim->price, claim->lower_bound);
+}
+
+/* Keeps the length first where the aims say so. The search knows only cords that turn back at nodes with one edge, and several
+ * closed cords that are short may have to turn back elsewhere. So where the plan is not proved to be within the slack, or is
+ * empty, the shortest cords are planned, too: what is proved of their length holds for the plan, and where the plan is longer
+ * than the slack above them allows, they take its place.
+ *
+ * Example: two closed cords over a triangle are one round it and one back and forth over its shortest edge. */
+static thr_status keep_length(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
+                              thr_err *err)
+{
+  const double slack = options->turning.length_slack;
+  const bool within = plan->n_cords > 0 && !plan->proof.slack_open;
+  thr_request length = *options;
+  thr_plan shortest = {0};
+  thr_err why = {0};
+  if (slack < 0 || options->turning.tour != THR_TOUR_LEAST || within) return THR_OK;
+
+  /* Plans the shortest cords, for the same number and ends. */
+  length.aims = thr_aims_shortest;
+  length.turning = thr_request_default().turning;
+  length.max_pull = 0;
+  thr_limits quiet = *limits;
+  quiet.found = NULL;
+  if (thr_planner_is_quick(frame, options)) quiet.deadline = 0;
+  thr_status st = thr_planner_length(frame, &length, &quiet, &shortest, NULL, &why);
+  if (shortest.n_cords == 0) return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+
+  /* Takes their place where the plan is too long. */
+  thr_turning_claim claim = plan->turning;
+  plan->turning = (thr_turning_claim){0};
+  const double most = shortest.metrics.length * (1 + slack) * (1 + 1e-9);
+  st = plan->frame.n_nodes > 0 ? THR_OK : thr_plan_request(plan, frame, options, err);
+  if (!st && (plan->n_cords == 0 || plan->metrics.length > most)) {
+    thr_cords_destroy(plan->cord, plan->n_cords);
+    plan->cord = shortest.cord;
+    plan->n_cords = shortest.n_cords;
+    shortest.cord = NULL;
+    shortest.n_cords = 0;
+    st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  }
+
+  /* Proves the length anew, and keeps what is proved of the turning if the cords are of that kind. */
+  thr_length_proof before = plan->proof;
+  plan->proof = (thr_length_proof){0};
+  if (!st) st = thr_planner_prove_length(plan, &shortest, err);
+  plan->proof.slack_open = !thr_plan_within_slack(options, plan->metrics.length, plan->proof.lower_bound);
+  if (!st) st = thr_planner_prove_turning(plan, &claim, err);
+  thr_plan rest = {.proof = before, .turning = claim};
+  thr_plan_destroy(&rest);
+  thr_plan_destroy(&shortest);
+  return st;
 }
 
 /* *missed: the search found no cords, which is no proof that there are none. */
@@ -316,6 +369,12 @@ static thr_status plan_from(const thr_frame *frame, const thr_request *options, 
     st = thr_fail(err, st, "%s", unproved.text);
   else
     st = assemble(frame, &any_pull, &least, &shortest, plan, err);
+  if (!st || *missed) {
+    thr_err kept = {0};
+    const thr_status made = keep_length(frame, &any_pull, limits, plan, &kept);
+    if (made || plan->n_cords > 0) st = made;
+    if (made || plan->n_cords > 0) *err = kept;
+  }
   if (!st) st = verdict(plan, &least, err);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
   thr_least_destroy(&least);

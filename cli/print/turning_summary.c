@@ -219,10 +219,11 @@ static void put_u_turns(thr_text *text, const thr_plan *plan)
   thr_text_append(text, more ? ", ..\n" : "\n");
 }
 
-static void put_tour_status(thr_text *text, const thr_plan *plan, const thr_rivals *rivals)
+static void put_open_status(thr_text *text, const thr_plan *plan, const thr_rivals *rivals)
 {
   const thr_turning_claim *claim = claim_of(plan, rivals);
-  thr_text_append(text, "; a classical tour, of which nothing is proved\n");
+  const bool tour = plan->options.turning.tour != THR_TOUR_LEAST;
+  thr_text_append(text, tour ? "; a classical tour, of which nothing is proved\n" : "; nothing is proved of it\n");
   if (!claim) return;
   thr_text_append(text, "         the least turning is at least ");
   put_price(text, plan, claim->lower_bound);
@@ -239,7 +240,7 @@ void turning_put_status(thr_text *text, const thr_plan *plan, const thr_rivals *
     put_price(text, plan, price_of(plan, plan));
   }
   if (!claim->present) {
-    put_tour_status(text, plan, rivals);
+    put_open_status(text, plan, rivals);
   } else {
     thr_text_append(text, "; ");
     plain_put_proof(text, claim->optimal, claim->price, claim->lower_bound,
