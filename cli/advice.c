@@ -99,7 +99,7 @@ void advice_put_hint(const thr_plan *plan, thr_text *text)
 thr_limits advice_limits(double seconds, double *work)
 {
   if (seconds < 0) *work = usual_work;
-  thr_limits limits = cli_limits(seconds > 0 ? thr_dispatch_search_seconds(seconds, false, false) : 0);
+  thr_limits limits = cli_limits(seconds > 0 ? thr_dispatch_search_seconds(seconds, false) : 0);
   if (!cli_verbose) limits.progress = NULL;
   limits.advance = NULL;
   return *work > 0 ? thr_limits_counted(&limits, work) : limits;

@@ -1,6 +1,7 @@
 /* Messages, options, reading and writing for all subcommands. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
+#include "cli/files.h"
 #include "cli/progress.h"
 #include "cli/args/config.h"
 #include "graph/suggestion.h"
@@ -151,8 +152,16 @@ int cli_next_option(int argc, char **argv, const char *command, const char *lett
   }
   for (;;) {
     int o = getopt_long(argc, argv, letters, table, NULL);
-    for (int i = optind; o == -1 && *done < 0 && i < argc; i++)
+    for (int i = optind; o == -1 && *done < 0 && i < argc; i++) {
       if (!*argv[i]) *done = cli_usage(command, "an empty name is no file");
+      files_heard(NULL, argv[i]);
+    }
+    if (o == -1 && *done < 0) {
+      const int code = files_settle(command);
+      if (code) *done = code;
+    }
+    for (const struct option *option = table; option->name && o > 0 && optarg; option++)
+      if (option->val == o) files_heard(option->name, optarg);
     switch (o) {
     case 'h':
       fputs(help, stdout);
@@ -282,6 +291,11 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame)
   thr_status st = thr_frame_read(frame, &report, path, &a->read, pair, sizeof pair, &err);
   if (pair[0]) cli_note("note: read together with %s", pair); /* before an error that may name that file */
   if (st) return cli_fail(&err);
+  const int taken = pair[0] ? files_also_read(pair) : EXIT_OK;
+  if (taken) {
+    thr_frame_destroy(frame);
+    return taken;
+  }
   if (note_read(frame, &report, &err)) {
     thr_frame_destroy(frame);
     return cli_fail(&err);
@@ -420,37 +434,72 @@ void cli_stem(const char *path, char *out, size_t size)
     snprintf(out, size, "%.*s", n, name);
 }
 
-int cli_in_folder(const char *folder, const char *file, char *out, size_t size)
+int cli_make_folder(const char *folder)
 {
   char part[1024];
-  size_t n = strlen(folder);
-  if (n == 0) {
-    cli_error("an empty name is no folder");
-    return EXIT_USAGE;
-  }
-  if (n + strlen(file) + 2 > size || n >= sizeof part) {
+  const size_t n = strlen(folder);
+  if (n >= sizeof part) {
     cli_error("%.60s..: the path is too long", folder);
     return EXIT_INPUT;
   }
   for (size_t i = 1; i <= n; i++) { /* like mkdir -p */
     if (!thr_os_is_separator(folder[i]) && folder[i] != '\0') continue;
     snprintf(part, sizeof part, "%.*s", (int)i, folder);
-    if (thr_os_make_folder(part)) continue;
+    if (thr_os_is_folder(part)) continue;
+    if (thr_os_make_folder(part)) {
+      files_made(part);
+      continue;
+    }
     const int why = errno;
     if (thr_os_is_folder(part)) continue;
     cli_error("%s: cannot make this folder (%s); say where to write with -o or --draw", part, strerror(why));
     return EXIT_INPUT;
   }
-  snprintf(out, size, "%s%s%s", folder, n && thr_os_is_separator(folder[n - 1]) ? "" : "/", file);
   return EXIT_OK;
+}
+
+int cli_in_folder(const char *folder, const char *file, char *out, size_t size)
+{
+  const size_t n = strlen(folder);
+  if (n == 0) {
+    cli_error("an empty name is no folder");
+    return EXIT_USAGE;
+  }
+  if (n + strlen(file) + 2 > size) {
+    cli_error("%.60s..: the path is too long", folder);
+    return EXIT_INPUT;
+  }
+  const int code = cli_make_folder(folder);
+  if (!code) snprintf(out, size, "%s%s%s", folder, thr_os_is_separator(folder[n - 1]) ? "" : "/", file);
+  return code;
 }
 
 int cli_write(thr_text *text, const char *path)
 {
   thr_err err = {0};
-  thr_status st = thr_text_write(text, path, &err);
+  int code = files_may_write(path);
+  if (!code && thr_text_write(text, path, &err)) code = cli_fail(&err);
   thr_text_destroy(text);
-  return st ? cli_fail(&err) : EXIT_OK;
+  return code;
+}
+
+int cli_write_kept(thr_text *text, const char **path)
+{
+  static char beside[300];
+  thr_err err = {0}, again = {0};
+  int code = files_may_write(*path);
+  if (!code && thr_text_write(text, *path, &err)) code = EXIT_INPUT;
+  if (code == EXIT_INPUT && err.code == THR_ENOMEM) {
+    code = cli_fail(&err);
+  } else if (code) {
+    files_name_beside(*path, beside, sizeof beside);
+    const bool left = thr_text_write(text, beside, &again) == THR_OK;
+    *path = left ? beside : "-";
+    cli_error("%s%sit is %s%s instead", err.text, *err.text ? "; " : "", left ? "in " : "on ", left ? beside : "stdout");
+    if (!left && thr_text_write(text, "-", &again)) cli_fail(&again);
+  }
+  thr_text_destroy(text);
+  return code;
 }
 
 int cli_write_drawn(thr_status st, thr_text *text, const char *path, const thr_err *err)
@@ -470,8 +519,7 @@ static void on_interrupt(int signal)
 {
   static double first;
   double now = thr_clock();
-  (void)signal;
-  if (interrupted && now - first > 0.3) _exit(130);
+  if (interrupted && now - first > 0.3 && signal != THR_OS_HANGUP) _exit(130);
   if (!interrupted) first = now;
   interrupted = 1;
 }

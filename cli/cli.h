@@ -167,18 +167,26 @@ int cli_read_plan(const char *path, thr_plan *plan);
 /* File name of a path without folder and extension ("frame" for "-"). */
 void cli_stem(const char *path, char *out, size_t size);
 
+/* Makes a folder and those that it is in, if they are not there. Returns EXIT_OK or prints and returns the code. */
+int cli_make_folder(const char *folder);
+
 /* folder/file; makes the folder if needed. Returns EXIT_OK or prints and returns the code. */
 int cli_in_folder(const char *folder, const char *file, char *out, size_t size);
 
-/* Writes and destroys the text; prints and returns the code on failure. */
+/* Writes and destroys the text; prints and returns the code on failure, and if the file is one that the command has read. */
 int cli_write(thr_text *text, const char *path);
+
+/* The same for what took long to compute: if it cannot be written to *path, it is left in the current folder under another name,
+ * or on stdout if that fails as well, *path is where, and what is printed says so. */
+int cli_write_kept(thr_text *text, const char **path);
 
 /* The same for what was drawn, unless that failed with st: then err is printed. */
 int cli_write_drawn(thr_status st, thr_text *text, const char *path, const thr_err *err);
 
 /* ---- long computations ---- */
 
-/* From now on SIGINT and SIGTERM only set what cli_limits' interrupt looks at, the second one after a while ends the process. */
+/* From now on SIGINT, SIGTERM and SIGHUP only set what cli_limits' interrupt looks at; another one after a while, but for SIGHUP,
+ * ends the process. */
 void cli_heed_signals(void);
 
 /* Limits with a deadline (0 = none), Ctrl-C and, on a terminal, a progress line on stderr with the time left. */

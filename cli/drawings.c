@@ -1,16 +1,19 @@
 #include "cli/drawings.h"
 
+#include "cli/files.h"
 #include "cli/guard.h"
 #include "diagram/export/paper.h"
 #include "diagram/layout/layout.h"
 #include "diagram/scene/pieces.h"
 #include "graph/plan/chains.h"
 #include "graph/limits.h"
+#include "graph/os.h"
 #include "graph/status.h"
 #include "graph/text.h"
 #include "lib/documents.h"
 
 #include <stdio.h>
+#include <string.h>
 
 static const char *from_name(int i)
 {
@@ -93,6 +96,43 @@ void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRA
   for (int i = 0; i < thr_documents_count() && n < DRAWINGS_NAMES; i++)
     if (thr_document_usual(i) && (i != thr_document_sheets() || !drawings_no_sheets(plan, a)))
       n += snprintf(names + n, (size_t)(DRAWINGS_NAMES - n), "%s%s", n ? " " : "", thr_document_file(i));
+}
+
+/* Is document i one of those that are asked for? */
+static bool is_asked(int asked, int i)
+{
+  return asked < 0 ? thr_document_usual(i) : i == asked;
+}
+
+static void name_in(const char *folder, const char *file, char path[1200])
+{
+  const size_t n = strlen(folder);
+  snprintf(path, 1200, "%s%s%s", folder, n && thr_os_is_separator(folder[n - 1]) ? "" : "/", file);
+}
+
+int drawings_claim(const char *command, const char *folder, int i)
+{
+  int code = EXIT_OK;
+  char path[1200];
+  for (int k = 0; k < thr_documents_count() && !code; k++) {
+    if (!is_asked(i, k)) continue;
+    name_in(folder, thr_document_file(k), path);
+    code = files_claim(command, NULL, path);
+  }
+  return code;
+}
+
+bool drawings_would_lose(const char *folder)
+{
+  bool lost = false;
+  char path[1200];
+  for (int k = 0; k < thr_documents_count(); k++) {
+    if (!thr_document_usual(k)) continue;
+    name_in(folder, thr_document_file(k), path);
+    lost = lost || files_is_taken(path, NULL);
+  }
+  name_in(folder, "plan.json", path);
+  return lost || files_is_taken(path, NULL);
 }
 
 /* In this order: the step sheets last, which take longest, so that who stops them has all others. */

@@ -55,6 +55,13 @@ int drawings_write(const thr_plan *plan, int i, const char *path, const drawings
  * and with EXIT_LIMIT, printed, where the time of the command is over. */
 int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a);
 
+/* Compares the names of document i, or of all that drawings_write_all may write (i = -1), in folder with the files that this
+ * command reads and writes (cli/files.h). Returns EXIT_OK, or prints which one would be lost and returns EXIT_USAGE. */
+int drawings_claim(const char *command, const char *folder, int i);
+
+/* Would one of all documents take the place of such a file? */
+bool drawings_would_lose(const char *folder);
+
 /* Appends how loose what is threaded is at most: "longest loose chain: 8 pieces". */
 thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text, thr_err *err) THR_MUST_CHECK;
 

@@ -48,8 +48,8 @@ typedef struct {
 } guard_end;
 
 /* Forks. Returns false in the child. Returns true in the parent, after the child has ended, or if there could be none (printed:
- * GUARD_DONE with EXIT_INTERNAL). The first SIGINT or SIGTERM is passed on to the child, which has half a second more then; the
- * second ends both at once. */
+ * GUARD_DONE with EXIT_INTERNAL). The first SIGINT, SIGTERM or SIGHUP is passed on to the child, which has half a second more
+ * then; the second ends both at once, but for another SIGHUP. */
 bool guard_fork(const guard_limits *l, guard_end *end);
 
 /* Where there is only one process (in a browser, targets/alone_guard.c), guard_fork returns false, and the command asks this when

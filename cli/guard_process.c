@@ -70,12 +70,22 @@ double guard_deadline(void)
 
 /* ---- the parent ---- */
 
-static volatile sig_atomic_t signals;
+static volatile sig_atomic_t signals, hung_up;
 
 static void count_signal(int signal)
 {
   (void)signal;
   signals++;
+}
+
+/* The terminal closes, which kernel and shell both say: it counts once. Nobody reading is no reason to end before the plan is
+ * written. */
+static void count_hangup(int signal_number)
+{
+  (void)signal_number;
+  signal(SIGPIPE, SIG_IGN);
+  if (!hung_up) signals++;
+  hung_up = 1;
 }
 
 static void wake(int signal)
@@ -137,7 +147,7 @@ static void heed_signals(guarded *g)
   if (g->first > 0) return;
   g->first = now;
   g->grace = (thr_grace){.from = now};
-  kill(g->pid, SIGTERM);
+  kill(g->pid, hung_up ? SIGHUP : SIGTERM);
 }
 
 static void watch(guarded *g)
@@ -215,9 +225,12 @@ static void bound_memory(double bytes)
 static void count_signals(void)
 {
   struct sigaction count = {.sa_handler = count_signal}, ended = {.sa_handler = wake, .sa_flags = SA_NOCLDSTOP};
+  struct sigaction hangup = {.sa_handler = count_hangup}, before;
   sigaction(SIGINT, &count, NULL);
   sigaction(SIGTERM, &count, NULL);
-  sigaction(SIGCHLD, &ended, NULL); /* so that poll returns */
+  if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &hangup, NULL); /* not with nohup */
+  sigaction(SIGCHLD, &ended, NULL);   /* so that poll returns */
 }
 
 /* Forks with signals held back until either process knows what to do with them. */

@@ -2,6 +2,7 @@
 #include "cli/args/config.h"
 #include "graph/suggestion.h"
 #include "cli/cli.h"
+#include "cli/files.h"
 #include "cli/guard.h"
 #include "eval/joint/world.h"
 #include "graph/framework/cuttree.h"
@@ -104,6 +105,7 @@ int main(int argc, char **argv)
     cli_error("cannot write to stdout");
     code = EXIT_INPUT;
   }
+  files_tidy();
   guard_ending(code);
   return code;
 }

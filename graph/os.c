@@ -53,6 +53,73 @@ bool thr_os_make_folder(const char *path)
   return mkdir(path, 0777) == 0;
 }
 
+bool thr_os_remove_folder(const char *path)
+{
+  return rmdir(path) == 0;
+}
+
+/* Returns how many bytes of a path name the folder that its file is in. */
+static size_t folder_length(const char *path)
+{
+  return (size_t)(thr_os_name(path) - path);
+}
+
+/* Returns the path that a link leads to, whether a file is there or not, and of anything else the path itself: to be freed. NULL
+ * with errno: no memory, or links that go round in a circle. */
+static char *follow_links(const char *path)
+{
+  enum { MOST_LINKS = 40, MOST_BYTES = 4096 };
+  char *at = thr_strdup(path), to[MOST_BYTES];
+  for (int i = 0; at && i < MOST_LINKS; i++) {
+    const ssize_t n = readlink(at, to, sizeof to);
+    if (n < 0 || n == sizeof to) return at; /* no link, or nothing at all */
+
+    /* What a link says counts from the folder that it is in. */
+    const size_t folder = *to == '/' ? 0 : folder_length(at);
+    char *next = thr_calloc(folder + (size_t)n + 1, 1);
+    if (next) {
+      memcpy(next, at, folder);
+      memcpy(next + folder, to, (size_t)n);
+    }
+    free(at);
+    at = next;
+  }
+  const int why = at ? ELOOP : ENOMEM;
+  free(at);
+  errno = why;
+  return NULL;
+}
+
+/* Finds the folder of a path whose links have been followed; false if there is none. */
+static bool stat_folder(const char *path, struct stat *about)
+{
+  const size_t n = folder_length(path);
+  char *folder = n ? strndup(path, n) : thr_strdup(".");
+  const bool found = folder && stat(folder, about) == 0;
+  free(folder);
+  return found;
+}
+
+/* Are they names of one file in one folder, once it is made? */
+static bool will_be_same(const char *a, const char *b)
+{
+  struct stat in_a, in_b;
+  char *x = follow_links(a), *y = follow_links(b);
+  const bool same = x && y && strcmp(thr_os_name(x), thr_os_name(y)) == 0 && stat_folder(x, &in_a) && stat_folder(y, &in_b) &&
+                    in_a.st_dev == in_b.st_dev && in_a.st_ino == in_b.st_ino;
+  free(x);
+  free(y);
+  return same;
+}
+
+bool thr_os_is_same_file(const char *a, const char *b)
+{
+  struct stat x, y;
+  const bool has_a = stat(a, &x) == 0, has_b = stat(b, &y) == 0;
+  if (has_a && has_b) return S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+  return !has_a && !has_b && will_be_same(a, b);
+}
+
 /* As the XDG base directory specification says: relative folders do not count. */
 void thr_os_cache_folder(char *path, size_t size)
 {
@@ -97,39 +164,66 @@ static void folder_reaches_disk(const char *path, size_t folder)
   free(name);
 }
 
+/* Opens a new file beside path; -1 with errno. *temporary is its name, to be freed. */
+static int open_beside(const char *path, char **temporary)
+{
+  static const char name[] = ".thread-XXXXXX"; /* short: the folder may allow no longer name than path's */
+  const size_t folder = folder_length(path);
+  if (!(*temporary = thr_calloc(folder + sizeof name, 1))) {
+    errno = ENOMEM;
+    return -1;
+  }
+  memcpy(*temporary, path, folder);
+  memcpy(*temporary + folder, name, sizeof name);
+  return mkstemp(*temporary);
+}
+
 /* A new file beside path, which then takes path's place; mode is what path is to have. */
 static bool replace_file(const char *path, mode_t mode, const char *data, size_t n)
 {
-  static const char name[] = ".thread-XXXXXX"; /* short: the folder may allow no longer name than path's */
-  size_t folder = (size_t)(thr_os_name(path) - path);
-  char *temporary = thr_calloc(folder + sizeof name, 1);
-  if (!temporary) {
-    errno = ENOMEM;
-    return false;
-  }
-  memcpy(temporary, path, folder);
-  memcpy(temporary + folder, name, sizeof name);
-  int fd = mkstemp(temporary);
+  char *temporary;
+  int fd = open_beside(path, &temporary);
   FILE *f = fd >= 0 && fchmod(fd, mode) == 0 ? fdopen(fd, "wb") : NULL;
   bool done = f && write_all(f, data, n) && rename(temporary, path) == 0;
   int why = errno;
   if (!f && fd >= 0) close(fd);
   if (!done && fd >= 0) unlink(temporary);
-  if (done) folder_reaches_disk(path, folder);
+  if (done) folder_reaches_disk(path, folder_length(path));
   free(temporary);
   errno = why;
   return done;
 }
 
-/* The same with the signals held back that would leave the temporary file behind. */
-static bool replace_undisturbed(const char *path, mode_t mode, const char *data, size_t n)
+/* Opens a file beside path and takes it away again. */
+static bool try_beside(const char *path)
 {
-  sigset_t held, before;
-  sigemptyset(&held);
+  char *temporary;
+  const int fd = open_beside(path, &temporary);
+  const int why = errno;
+  if (fd >= 0) {
+    close(fd);
+    unlink(temporary);
+  }
+  free(temporary);
+  errno = why;
+  return fd >= 0;
+}
+
+/* Holds back the signals that would leave a temporary file behind. */
+static void hold_signals(sigset_t *before)
+{
   const int signals[] = {SIGINT, SIGTERM, SIGHUP, SIGXFSZ};
+  sigset_t held;
+  sigemptyset(&held);
   for (size_t i = 0; i < sizeof signals / sizeof *signals; i++)
     sigaddset(&held, signals[i]);
-  sigprocmask(SIG_BLOCK, &held, &before);
+  sigprocmask(SIG_BLOCK, &held, before);
+}
+
+static bool replace_undisturbed(const char *path, mode_t mode, const char *data, size_t n)
+{
+  sigset_t before;
+  hold_signals(&before);
   bool done = replace_file(path, mode, data, n);
   int why = errno;
   sigprocmask(SIG_SETMASK, &before, NULL);
@@ -141,23 +235,40 @@ bool thr_os_write(const char *path, const char *data, size_t n)
 {
   struct stat target;
   bool exists = stat(path, &target) == 0;
+  if (!exists && errno != ENOENT) return false;
   if (exists && !S_ISREG(target.st_mode)) { /* a device or pipe (/dev/stdout) must be written through, not replaced */
     FILE *f = fopen(path, "wb");
     return f && write_all(f, data, n);
   }
-  if (!exists) {
-    mode_t mask = umask(0);
-    umask(mask);
-    return replace_undisturbed(path, 0666 & ~mask, data, n);
-  }
-  if (access(path, W_OK) != 0) return false; /* rename would not ask */
-  char *real = realpath(path, NULL);         /* a link stays a link */
+  if (exists && access(path, W_OK) != 0) return false; /* rename would not ask */
+  mode_t mask = umask(0);
+  umask(mask);
+  char *real = follow_links(path); /* a link stays a link */
   if (!real) return false;
-  bool done = replace_undisturbed(real, target.st_mode & 07777, data, n);
+  bool done = replace_undisturbed(real, exists ? target.st_mode & 07777 : 0666 & ~mask, data, n);
   int why = errno;
   free(real);
   errno = why;
   return done;
+}
+
+bool thr_os_can_write(const char *path)
+{
+  struct stat target;
+  const bool exists = stat(path, &target) == 0;
+  if (!exists && errno != ENOENT) return false;
+  if (exists && access(path, W_OK) != 0) return false;
+  if (exists && !S_ISREG(target.st_mode)) return true;
+  char *real = follow_links(path);
+  if (!real) return false;
+  sigset_t before;
+  hold_signals(&before);
+  const bool can = try_beside(real);
+  const int why = errno;
+  sigprocmask(SIG_SETMASK, &before, NULL);
+  free(real);
+  errno = why;
+  return can;
 }
 
 /* O_NONBLOCK: a pipe of that name must not stop us. */
@@ -183,11 +294,23 @@ int thr_os_read_small(const char *path, char *data, int size)
 
 /* ---- processes ---- */
 
+static void (*stop)(int signal);
+
+/* Whoever read what the program prints is gone with the terminal, too: the plan is written all the same. */
+static void on_hangup(int signal_number)
+{
+  (void)signal_number;
+  signal(SIGPIPE, SIG_IGN);
+  stop(THR_OS_HANGUP);
+}
+
 void thr_os_heed_stop(void (*on_stop)(int signal))
 {
-  struct sigaction act = {.sa_handler = on_stop};
+  struct sigaction act = {.sa_handler = on_stop}, hangup = {.sa_handler = on_hangup}, before;
+  stop = on_stop;
   sigaction(SIGINT, &act, NULL);
   sigaction(SIGTERM, &act, NULL); /* what timeout and batch systems send */
+  if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(SIGHUP, &hangup, NULL);
 }
 
 int thr_os_processors(void)

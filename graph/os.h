@@ -18,12 +18,20 @@ bool thr_os_is_file(const char *path);
 /* Is something there that is no regular file, be it a link to one? */
 bool thr_os_is_no_file(const char *path);
 
-/* One new folder, in one that exists; false with errno. */
+/* Do both paths lead to one regular file, over links of either kind and whatever the spelling? Of files that are not there yet:
+ * would they be one? */
+bool thr_os_is_same_file(const char *a, const char *b);
+
+/* One new folder, in one that exists; false with errno. Removing takes an empty one. */
 bool thr_os_make_folder(const char *path);
+bool thr_os_remove_folder(const char *path);
+
+/* Tries whether thr_os_write can write to path, and leaves all as it was; false with errno. */
+bool thr_os_can_write(const char *path);
 
 /* Writes n bytes through a temporary file in the same folder and rename, so that path is either the old file or the whole new
- * one, and after a loss of power as well. The file keeps its rights, a link stays a link, a device or pipe is written to. False
- * with errno: ENOMEM if there was no memory. */
+ * one, and after a loss of power as well. The file keeps its rights, a link stays a link, be there a file at its end or
+ * not yet, a device or pipe is written to. False with errno: ENOMEM if there was no memory. */
 bool thr_os_write(const char *path, const char *data, size_t n);
 
 /* Length of the regular file at path, whose bytes are then in data, if it is less than size; else -1. Waits for no pipe. */
@@ -34,7 +42,9 @@ void thr_os_cache_folder(char *path, size_t size);
 
 /* ---- processes ---- */
 
-/* Calls on_stop at Ctrl-C and when the program is told to end, every time. */
+/* Calls on_stop at Ctrl-C, when the program is told to end and when its terminal closes, every time. What the terminal took with
+ * it ends nothing then: nobody reading is no reason to end. A program that was told to outlive its terminal (nohup) does. */
+enum { THR_OS_HANGUP = 1 }; /* what on_stop hears then */
 void thr_os_heed_stop(void (*on_stop)(int signal));
 
 int thr_os_processors(void);

@@ -31,7 +31,7 @@ static const double part[THR_N_STEPS] = {
 static const double part_if_brief[THR_N_STEPS] = {[THR_STEP_SEED] = 0.25, [THR_STEP_LEAST] = 0.6, [THR_STEP_EXCHANGES] = 0.5};
 
 /* Of all that a user allows. */
-static const double part_drawing = 0.15, part_checking = 0.05, part_compared = 0.5, most_after_search = 3; /* s */
+static const double part_checking = 0.05, part_compared = 0.5, most_after_search = 3; /* s */
 
 const char *thr_dispatch_name(int i)
 {
@@ -82,8 +82,8 @@ double thr_dispatch_patience(const thr_request *options)
   return thr_dispatch(options) == thr_planner_pull || thr_dispatch_work(options) > 0 ? busy : 1;
 }
 
-double thr_dispatch_search_seconds(double seconds, bool drawn, bool compared)
+double thr_dispatch_search_seconds(double seconds, bool compared)
 {
   if (compared) return part_compared * seconds;
-  return seconds - fmin(most_after_search, seconds * (drawn ? part_drawing : part_checking));
+  return seconds - fmin(most_after_search, part_checking * seconds);
 }

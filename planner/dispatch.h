@@ -57,8 +57,8 @@ double thr_dispatch_work(const thr_request *options);
 /* How many times as long it may take on a busy machine: where the planner counts its work, only that ends it. */
 double thr_dispatch_patience(const thr_request *options);
 
-/* What of the seconds that everything may take is for the search: the rest is for checking and writing, for drawing, or for the
- * plans that it is held against. */
-double thr_dispatch_search_seconds(double seconds, bool drawn, bool compared);
+/* What of the seconds that everything may take is for the search: the rest is for checking and writing, or for the plans that it
+ * is held against. Drawings have their own. */
+double thr_dispatch_search_seconds(double seconds, bool compared);
 
 #endif

@@ -1,5 +1,6 @@
 #include "cli/args/config.h"
 #include "cli/cli.h"
+#include "cli/files.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
@@ -108,6 +109,7 @@ int cli_config(int *argc, char ***argv)
   if (!source) return EXIT_OK;
   if (strcmp(source, "-") == 0) return cli_usage((*argv)[1], "--config -: options come from a file, not from stdin");
   if (thr_text_read_plain(&file, source, &err)) return cli_fail(&err);
+  files_heard("config", source);
   int code = join(&file, (*argv)[1], *argc, *argv, &n);
   thr_text_destroy(&file);
   if (code) return code;

@@ -120,6 +120,9 @@ int cmd_draw(int argc, char **argv)
   if (!all && output && cli_misnamed(output, thr_document_file(type)))
     return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type), thr_document_file(type));
   if (optind + 1 != argc) return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
+  const char *folder = !output ? "." : cli_is_folder(output) || all ? output : NULL;
+  const int claimed = folder ? drawings_claim("draw", folder, all ? -1 : type) : EXIT_OK;
+  if (claimed) return claimed;
   if (guard_fork(&guard, &end)) return guard_conclude(&end, all ? "not all documents are drawn" : "nothing is drawn");
   thr_plan plan;
   int code = cli_read_plan(argv[optind], &plan);

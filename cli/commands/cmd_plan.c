@@ -3,6 +3,7 @@
 #include "cli/best.h"
 #include "cli/args/aims_args.h"
 #include "cli/drawings.h"
+#include "cli/files.h"
 #include "cli/guard.h"
 #include "cli/progress.h"
 #include "cli/print/plan_summary.h"
@@ -49,7 +50,7 @@ static const char help_requests[] =
     "                       --distinct). Not with tube joints or copies\n"
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
-    "                       an S that is given, and so do the drawings; else each search has its 20 s.\n"
+    "                       an S that is given; else each search has its 20 s. Drawings are made whole, and take their time.\n"
     "                       Without S --max-pull, and several cords by their largest turning, count their work\n"
     "                       instead: the same plan on every machine, later on a busy one\n" GUARD_MEMORY_HELP "\n";
 static const char help_rest[] = TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
@@ -326,8 +327,7 @@ static double deadline_of(const arguments *a)
 static double time_of_plan(const arguments *a, const thr_request *options)
 {
   bool more = a->turning.compare || a->turning.frontier || a->compare;
-  return a->guard.seconds <= 0 ? options->time_limit
-                               : thr_dispatch_search_seconds(options->time_limit, a->draw || !a->output, more);
+  return a->guard.seconds <= 0 ? options->time_limit : thr_dispatch_search_seconds(options->time_limit, more);
 }
 
 static void put_plan(thr_writer *writer, const arguments *a, const planned *x, const thr_rivals *rivals)
@@ -452,17 +452,33 @@ static bool holds_another(const char *folder, const thr_text *text)
   return !same;
 }
 
-/* dome, or the first of dome-2, dome-3, .. that holds no other plan. */
+/* dome, or the first of dome-2, dome-3, .. that holds no other plan, and no file that is read. */
 static void find_folder(const arguments *a, const thr_text *text, char folder[280])
 {
   enum { MOST = 1000 };
   char stem[256];
   cli_stem(a->path, stem, sizeof stem);
   snprintf(folder, 280, "%s", stem);
-  for (int i = 2; i <= MOST && !a->force && holds_another(folder, text); i++)
+  const bool reads = drawings_would_lose(stem);
+  for (int i = 2; i <= MOST && ((!a->force && holds_another(folder, text)) || drawings_would_lose(folder)); i++)
     snprintf(folder, 280, "%s-%d", stem, i);
   if (strcmp(folder, stem) != 0)
-    cli_note("note: %s holds another plan: this one is in %s (--force replaces the other)", stem, folder);
+    cli_note(reads ? "note: in %s a drawing would take the place of a file that is read: this plan is in %s"
+                   : "note: %s holds another plan: this one is in %s (--force replaces the other)",
+             stem, folder);
+}
+
+/* Before the search: where drawings and the plan go unasked is tried, and no drawing takes the place of a file that is named. */
+static int try_places(const arguments *a)
+{
+  char stem[256];
+  cli_stem(a->path, stem, sizeof stem);
+  if (!a->draw && !a->output) return files_try_folder(stem);
+  int code = a->draw ? drawings_claim("plan", a->draw, -1) : EXIT_OK;
+  if (code || !a->draw || a->output) return code;
+  char plan[1200];
+  code = cli_in_folder(a->draw, "plan.json", plan, sizeof plan);
+  return code ? code : files_claim("plan", "draw", plan);
 }
 
 static int find_places(const arguments *a, const thr_text *text, places *to)
@@ -490,7 +506,8 @@ static int check_text(const thr_text *text, const char *path, thr_plan *plan)
   return EXIT_INTERNAL;
 }
 
-/* From here on the plan is what this run leaves, with this exit code. */
+/* From here on the plan is what this run leaves, with this exit code. Where it cannot be written, to->plan says where it is
+ * instead. */
 static int write_plan(const arguments *a, thr_plan *p, places *to, int code)
 {
   thr_text text = {0};
@@ -500,10 +517,11 @@ static int write_plan(const arguments *a, thr_plan *p, places *to, int code)
   if (!refused) refused = check_text(&text, to->plan, p);
   if (refused) {
     thr_text_destroy(&text);
+    to->plan = NULL;
     return refused;
   }
   guard_writing();
-  int written = cli_write(&text, to->plan);
+  int written = cli_write_kept(&text, &to->plan);
   guard_written(written ? written : code);
   return written;
 }
@@ -550,21 +568,31 @@ static int print_places(const arguments *a, const thr_plan *p, const char *plan_
   return cli_write(&text, "-");
 }
 
-/* code: of the plan. */
+/* Drawings are always whole: a limit on the time is the search's, not theirs. */
+static int write_drawings(const arguments *a, const thr_plan *p, const places *to)
+{
+  if (!to->folder) return EXIT_OK;
+  guard_allow(0);
+  const int code = drawings_write_all(p, to->folder, &a->drawings);
+  if (!code && drawings_no_sheets(p, &a->drawings))
+    cli_note("no sheets.pdf, which has hundreds of pages for more than %d pieces: thread draw %s -T pdf", DRAWINGS_SHEETS_PIECES,
+             strcmp(to->plan, "-") == 0 ? "plan.json" : to->plan);
+  return code;
+}
+
+/* planned_code: of the plan. */
 static int write_outputs(const arguments *a, planned *x, int planned_code)
 {
   thr_plan *p = &x->plan;
-  places to;
-  int code = write_plan(a, p, &to, planned_code);
-  int drawn = !code && to.folder ? drawings_write_all(p, to.folder, &a->drawings) : EXIT_OK;
-  if (drawn != EXIT_LIMIT) code = code ? code : drawn; /* the plan's own code says how it was with the time */
-  bool to_stdout = strcmp(to.plan, "-") == 0;
-  if (!code && to.folder && drawings_no_sheets(p, &a->drawings))
-    cli_note("no sheets.pdf, which has hundreds of pages for more than %d pieces: thread draw %s -T pdf", DRAWINGS_SHEETS_PIECES,
-             to_stdout ? "plan.json" : to.plan);
-  if (code || to_stdout || (cli_quiet && !a->json && !a->turning.plot)) return code;
-  code = print_summary(a, x);
-  return code || a->json || cli_quiet ? code : print_places(a, p, to.plan, drawn ? NULL : to.folder);
+  places to = {0};
+  const int written = write_plan(a, p, &to, planned_code);
+  if (!to.plan) return written; /* there is none */
+  const bool is_silent = strcmp(to.plan, "-") == 0 || (cli_quiet && !a->json && !a->turning.plot);
+  int code = is_silent ? EXIT_OK : print_summary(a, x);
+  const int drawn = written ? EXIT_OK : write_drawings(a, p, &to);
+  if (!code) code = drawn;
+  if (!code && !is_silent && !a->json && !cli_quiet) code = print_places(a, p, to.plan, written ? NULL : to.folder);
+  return written ? written : code;
 }
 
 /* Time that nobody asked for is the search's alone. */
@@ -617,7 +645,7 @@ static int conclude(const arguments *a, guard_end *end)
   bool told = end->reason == GUARD_DONE && !searched; /* what the user wants to know */
   if (end->kept.length == 0 || told) return guard_conclude(end, "no plan was found");
   int code = find_places(a, &end->kept, &to);
-  if (!code) code = cli_write(&end->kept, to.plan);
+  if (!code) code = cli_write_kept(&end->kept, &to.plan);
   thr_text_destroy(&end->kept);
   if (code) return code;
   cli_error("%s%s%s holds the best plan so far, of which nothing is proved", end->why, *end->why ? ": " : "", to.plan);
@@ -630,7 +658,7 @@ int cmd_plan(int argc, char **argv)
   thr_frame framework;
   guard_end end;
   int code = parse(argc, argv, &a);
-  if (code >= 0) return code;
+  if (code >= 0 || (code = try_places(&a))) return code;
   if (guard_fork(&a.guard, &end)) return conclude(&a, &end);
   if ((code = cli_read_frame(a.path, &a.frame, &framework))) return code;
   code = plan_frame(&a, &framework);

@@ -93,6 +93,33 @@ bool thr_os_make_folder(const char *path)
   return false;
 }
 
+bool thr_os_remove_folder(const char *path)
+{
+  return RemoveDirectoryA(path);
+}
+
+/* What the system calls a file that is there: false if none is, or it is no file. */
+static bool identity_of(const char *path, BY_HANDLE_FILE_INFORMATION *is)
+{
+  HANDLE file = CreateFileA(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL, OPEN_EXISTING, 0, NULL);
+  if (file == INVALID_HANDLE_VALUE) return false;
+  const bool found = GetFileType(file) == FILE_TYPE_DISK && GetFileInformationByHandle(file, is);
+  CloseHandle(file);
+  return found;
+}
+
+bool thr_os_is_same_file(const char *a, const char *b)
+{
+  BY_HANDLE_FILE_INFORMATION x, y;
+  char whole_a[MAX_PATH], whole_b[MAX_PATH];
+  const bool has_a = identity_of(a, &x), has_b = identity_of(b, &y);
+  if (has_a && has_b)
+    return x.dwVolumeSerialNumber == y.dwVolumeSerialNumber && x.nFileIndexHigh == y.nFileIndexHigh &&
+           x.nFileIndexLow == y.nFileIndexLow;
+  const DWORD n = GetFullPathNameA(a, MAX_PATH, whole_a, NULL), m = GetFullPathNameA(b, MAX_PATH, whole_b, NULL);
+  return !has_a && !has_b && n > 0 && n < MAX_PATH && m > 0 && m < MAX_PATH && _stricmp(whole_a, whole_b) == 0;
+}
+
 void thr_os_cache_folder(char *path, size_t size)
 {
   const char *local = getenv("LOCALAPPDATA");
@@ -171,6 +198,30 @@ bool thr_os_write(const char *path, const char *data, size_t n)
   const bool link = is != INVALID_FILE_ATTRIBUTES && (is & FILE_ATTRIBUTE_REPARSE_POINT); /* stays one */
   if (link || is_device(path)) return write_to(path, link ? TRUNCATE_EXISTING : OPEN_EXISTING, link, data, n);
   return replace_file(path, data, n);
+}
+
+bool thr_os_can_write(const char *path)
+{
+  enum { NAME = 32 };
+  const DWORD is = attributes_of(path);
+  const size_t folder = (size_t)(thr_os_name(path) - path);
+  if (is != INVALID_FILE_ATTRIBUTES) {
+    if (is & FILE_ATTRIBUTE_READONLY) errno = EACCES;
+    return !(is & FILE_ATTRIBUTE_READONLY);
+  }
+  char *temporary = thr_calloc(folder + NAME, 1);
+  if (!temporary) {
+    errno = ENOMEM;
+    return false;
+  }
+  memcpy(temporary, path, folder);
+  snprintf(temporary + folder, NAME, ".thread-%d", _getpid());
+  const bool can = write_to(temporary, CREATE_ALWAYS, false, "", 0);
+  const int why = errno;
+  DeleteFileA(temporary);
+  free(temporary);
+  errno = why;
+  return can;
 }
 
 int thr_os_read_small(const char *path, char *data, int size)

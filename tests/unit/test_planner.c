@@ -237,7 +237,7 @@ START_TEST(time_is_shared_out)
   ck_assert_double_eq(thr_dispatch_usual_seconds(&o), 0);
   o.joint = THR_JOINT_TUBE;
   ck_assert_double_eq(thr_dispatch_usual_seconds(&o), 20);
-  ck_assert_double_eq(thr_dispatch_search_seconds(10, false, true), 5);
+  ck_assert_double_eq(thr_dispatch_search_seconds(10, true), 5);
   ck_assert_double_eq(thr_dispatch_work(&o), 0);
   o = thr_request_default();
   o.aims = thr_aims_straightest;
@@ -246,8 +246,8 @@ START_TEST(time_is_shared_out)
   o.cords = o.cords_least = 4;
   o.time_limit = 20;
   ck_assert(thr_dispatch_work(&o) > 0 && thr_dispatch_work(&o) < 20 && thr_dispatch_patience(&o) > 1);
-  ck_assert_double_lt(thr_dispatch_search_seconds(10, true, false), thr_dispatch_search_seconds(10, false, false));
-  ck_assert_double_ge(thr_dispatch_search_seconds(1000, true, false), 997);
+  ck_assert_double_eq(thr_dispatch_search_seconds(10, false), 9.5);
+  ck_assert_double_ge(thr_dispatch_search_seconds(1000, false), 997);
   for (int i = 0; i < THR_N_STEPS; i++) {
     const double now = thr_clock();
     const thr_limits all = {.deadline = now + 100};

@@ -23,6 +23,7 @@
 #include <unistd.h>
 
 static const double cpu_limit = 3;    /* s, with --time-limit 2 */
+static const double draw_limit = 60;  /* the same with drawings, which are made whole */
 static const double plan_by = 1.2;    /* CPU s, with --time-limit 2: there is some plan after that, where others leave it .. */
 static const double time_used = 1.5;  /* s: .. if it was the time that ended the search, not the size of the problem */
 static const double after_signal = 1; /* s */
@@ -299,7 +300,7 @@ static void all_signals(int count)
 
 /* ---- other commands ---- */
 
-static void try_words(const char *name, const char *const word[])
+static void try_words(const char *name, const char *const word[], double limit)
 {
   char *argv[MOST_WORDS];
   int n = 0;
@@ -308,7 +309,7 @@ static void try_words(const char *name, const char *const word[])
   for (int i = 0; word[i] && n + 1 < MOST_WORDS; i++)
     argv[n++] = (char *)(size_t)word[i];
   argv[n] = NULL;
-  result r = run(argv, 0, 0, cpu_limit);
+  result r = run(argv, 0, 0, limit);
   report(name, judge(&r, NULL, false), &r);
 }
 
@@ -323,16 +324,18 @@ static void other_commands(bool full)
     snprintf(frame, sizeof frame, "%s/%s.obj", folder, watchdog_frame_name(f));
     unlink(plan);
     snprintf(name, sizeof name, "plan-draw %s", watchdog_frame_name(f));
-    try_words(name, (const char *[]){"plan", frame, "-o", plan, "--draw", drawn, "-q", "--time-limit", "2", NULL});
+    try_words(name, (const char *[]){"plan", frame, "-o", plan, "--draw", drawn, "-q", "--time-limit", "2", NULL}, draw_limit);
     snprintf(name, sizeof name, "draw %s", watchdog_frame_name(f));
-    if (is_there(plan)) try_words(name, (const char *[]){"draw", plan, "-T", "all", "-o", drawn, "--time-limit", "2", NULL});
+    if (is_there(plan))
+      try_words(name, (const char *[]){"draw", plan, "-T", "all", "-o", drawn, "--time-limit", "2", NULL}, cpu_limit);
     snprintf(name, sizeof name, "info %s", watchdog_frame_name(f));
-    if (full || f % 3 == 2) try_words(name, (const char *[]){"info", frame, "--time-limit", "2", NULL});
+    if (full || f % 3 == 2) try_words(name, (const char *[]){"info", frame, "--time-limit", "2", NULL}, cpu_limit);
     snprintf(name, sizeof name, "symmetries %s", watchdog_frame_name(f));
-    if (full || f % 3 == 0) try_words(name, (const char *[]){"symmetries", frame, "--time-limit", "2", NULL});
+    if (full || f % 3 == 0) try_words(name, (const char *[]){"symmetries", frame, "--time-limit", "2", NULL}, cpu_limit);
     snprintf(name, sizeof name, "symmetries-any-tube %s", watchdog_frame_name(f));
     if (full || f % 3 == 1)
-      try_words(name, (const char *[]){"symmetries", frame, "--ends", "any", "--joint", "tube", "--time-limit", "2", NULL});
+      try_words(name, (const char *[]){"symmetries", frame, "--ends", "any", "--joint", "tube", "--time-limit", "2", NULL},
+                cpu_limit);
   }
 }
 
