@@ -271,6 +271,7 @@ static thr_status assemble(const thr_frame *frame, const thr_request *options, t
   else if (!st)
     st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &s->solid, &plan->proof, err);
   plan->proof.slack_open = !thr_plan_within_slack(options, plan->metrics.length, plan->proof.lower_bound);
+  least->length_limit = thr_planner_length_limit(plan, least->length_limit);
   if (!st && options->turning.tour == THR_TOUR_LEAST)
     st = judge(&plan->frame, &plan->options, plan->cord, plan->n_cords, least, &plan->turning, err);
   return st;

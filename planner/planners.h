@@ -40,6 +40,10 @@ void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options
 thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *from, thr_err *err) THR_MUST_CHECK;
 thr_status thr_planner_prove_turning(thr_plan *plan, thr_turning_claim *claim, thr_err *err) THR_MUST_CHECK;
 
+/* Returns a limit on the length of the plans that a claim is about (< 0: none), raised to what the slack above the proved length
+ * allows, so that no plan is shut out that the request allows. */
+double thr_planner_length_limit(const thr_plan *plan, double limit);
+
 /* Does a plan serve the aims better than another, which may be empty? */
 bool thr_planner_is_better(const thr_request *options, const thr_plan *a, const thr_plan *b);
 

@@ -10,6 +10,8 @@
 #include "planner/planners.h"
 #include "tortuosity/tie/tube.h"
 
+#include <math.h>
+
 /* Prices of walks may need another proof of length than there is now: then they go. */
 static thr_status judge_cords(thr_plan *plan, thr_err *err)
 {
@@ -48,10 +50,17 @@ thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
   return st ? st : judge_cords(plan, err);
 }
 
+double thr_planner_length_limit(const thr_plan *plan, double limit)
+{
+  if (limit < 0 || !plan->proof.present) return limit;
+  return fmax(limit, (1 + plan->options.turning.length_slack) * plan->proof.lower_bound);
+}
+
 thr_status thr_planner_prove_turning(thr_plan *plan, thr_turning_claim *claim, thr_err *err)
 {
   thr_err why = {0};
   if (!claim->present) return THR_OK;
+  claim->length_limit = thr_planner_length_limit(plan, claim->length_limit);
   thr_turning_claim found;
   thr_status st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, claim, &found, &why);
   if (st == THR_EVIOLATED) return THR_OK;

@@ -867,7 +867,7 @@ def check_length(p):
             p.certificate.append(Certificate(p, o, f"{place}.certificate[{c}]", c))
         least = [c.own if c.optimal else c.least(2 * p.compared(i)) for i, c in enumerate(p.certificate)]
         optimal = all(c.optimal for c in p.certificate)
-        if not optimal and (p.options.objective != "tortuosity" or p.options.slack is None):
+        if not optimal:
             few = few_edges_lengths(p)
             if "walks" in claim:
                 few = [max(x, y) for x, y in zip(few, pulled_lengths(p, member(claim, "walks", "object", place), place + ".walks"))]
@@ -876,6 +876,7 @@ def check_length(p):
         bound = sum(least)
     status = check_claim(claim, p.length, optimal, bound, 0, place)
     p.least = p.length if optimal else bound
+    p.least_stated = min(p.least, Fraction(claim["lower_bound"]))
     slack = p.options.slack if p.options.objective == "tortuosity" else None
     if "slack" in claim:
         choice(claim, "slack", place, ("open",))
@@ -2183,7 +2184,7 @@ def check_turning(p):
     limit = None if claim.get("length_limit", 0) is None else member(claim, "length_limit", "number", place, 0)
     require(limit is None or o.slack is not None, f"{place}.length_limit: the options allow any length")
     require(limit is None or "length" in p.proof, f"{place}.length_limit: without a proof of the least length")
-    needed = None if limit is None else (1 + Fraction(o.slack)) * p.least
+    needed = None if limit is None else (1 + Fraction(o.slack)) * p.least_stated
     require(limit is None or limit >= needed * (1 - TOLERANCE / 200), f"{place}.length_limit: the options allow up to {float(needed or 0)}")
     require(limit is None or p.length <= Fraction(limit) * (1 + TOLERANCE), f"{place}.length_limit: the plan is longer")
     model = Model(p, o.cords, most, False)

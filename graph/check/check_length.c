@@ -34,7 +34,6 @@ thr_status thr_check_sum_verdicts(const thr_frame *frame, const thr_request *opt
                                   bool *optimal, double *lower_bound, thr_err *err)
 {
   const int n = check_walked->n_components;
-  const bool slack = thr_wants_turning(options) && options->turning.length_slack >= 0;
   thr_scratch scratch = {0};
   double *least = thr_scratch_array(&scratch, (size_t)n, sizeof *least),
          *own = thr_scratch_array(&scratch, (size_t)n, sizeof *own), *few = thr_scratch_array(&scratch, (size_t)n, sizeof *few),
@@ -44,11 +43,10 @@ thr_status thr_check_sum_verdicts(const thr_frame *frame, const thr_request *opt
   for (int k = 0; k < n && !st; k++)
     *optimal &= verdict[k].optimal;
   if (!st) take_verdicts(frame, options, check_walked, verdict, least, own);
-  if (!st && !*optimal && each > 0 && !slack)
+  if (!st && !*optimal && each > 0)
     st = thr_few_edges_lengths(frame, options, check_walked->component, n,
                                thr_check_fewest_first(options) ? check_walked->cords : NULL, each, few, err);
-  if (!st && pulled && pulled->unit && each > 0 && !slack)
-    st = thr_check_pulled_length(frame, options, check_walked, pulled, few, err);
+  if (!st && pulled && pulled->unit && each > 0) st = thr_check_pulled_length(frame, options, check_walked, pulled, few, err);
   *optimal = true;
   for (int k = 0; k < n && !st; k++) {
     *optimal &= verdict[k].optimal || few[k] >= own[k] * (1 - 1e-9);

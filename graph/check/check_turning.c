@@ -378,11 +378,12 @@ static thr_status check_optimal(const thr_turning_claim *claim, const thr_turnin
   return THR_OK;
 }
 
-/* The limit on the length must let in everything that the options allow: that part above the least length that is proved. (A plan
- * with a weak proof of length may have a lower limit: what is said of its turning names the limit.) */
+/* The limit on the length must let in everything that the options allow: that part above the least length that the plan states,
+ * which is no more than what is proved. (A plan with a weak proof of length may have a lower limit: what is said of its turning
+ * names the limit.) */
 static thr_status check_limit(const thr_plan *plan, double least_length, thr_err *err)
 {
-  double slack = plan->options.turning.length_slack, limit = plan->turning.length_limit;
+  const double slack = plan->options.turning.length_slack, limit = plan->turning.length_limit;
   if (slack < 0) {
     if (limit < 0) return THR_OK;
     return thr_fail(err, THR_EVIOLATED, "proof.turning.length_limit: %.12g, but the options allow any length", limit);
@@ -390,7 +391,7 @@ static thr_status check_limit(const thr_plan *plan, double least_length, thr_err
   if (limit < 0) return THR_OK; /* more than asked for */
   if (!plan->proof.present)
     return thr_fail(err, THR_EVIOLATED, "proof.turning.length_limit: nothing says what the least length is (no proof.length)");
-  double needed = (1 + slack) * least_length;
+  const double needed = (1 + slack) * fmin(least_length, plan->proof.lower_bound);
   if (limit >= needed * (1 - 5e-12)) return THR_OK; /* the proof allows 1e-11 more: thr_turning_extra_limit */
   return thr_fail(err, THR_EVIOLATED, "proof.turning.length_limit: %.12g shuts out plans of up to %.12g, which the options allow",
                   limit, needed);

@@ -36,6 +36,7 @@ START_TEST(turning_after_length_keeps_the_length)
   } else {
     ck_assert_msg(plan.n_cords == request.cords, "no plan: %s", why.text);
     ck_assert_double_le(plan.metrics.length, least * (1 + slack[which]) * (1 + 1e-9));
+    ck_assert_msg(slack[which] > 0 || plan.proof.optimal, "%s", why.text);
     assert_plan_sound(&plan);
   }
   thr_plan_destroy(&plan);
