@@ -53,6 +53,7 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, con
   *plan = (thr_plan){0};
   thr_planner_tell_at_once(frame, request, limits);
   thr_status st = thr_dispatch(request)(frame, request, limits, plan, &own, &why), finished = THR_OK;
+  if (st == THR_EVIOLATED) st = THR_ESOLVER; /* a claim of the search's own */
   if (plan->n_cords > 0) finished = thr_plan_uncross(plan, err);
   if (plan->n_cords > 0 && !finished && is_to_be_judged(plan)) finished = judge(plan, &st, &why, err);
   if (plan->n_cords > 0 && !finished) finished = thr_plan_order(plan, err);

@@ -13,6 +13,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
+#include "graph/text.h"
 #include "lp/length/cords.h"
 #include "symmetry/symmetry.h"
 
@@ -32,5 +33,13 @@ void thr_report_destroy(thr_report *report);
  * do not go together (said). Otherwise the plan is empty; the report must be released in any case. */
 thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, const thr_limits *limits, thr_plan *plan,
                          thr_report *report, thr_err *err) THR_MUST_CHECK;
+
+/* What the name of one of the THR_CLAIM_ .. is in sentences. */
+const char *thr_claim_name(int claim);
+
+/* Reads back the text of a plan that was just written, which takes the plan's place, and checks the whole of it, as `thread
+ * check` does. Of claims that do not hold as few as may be are dropped; *dropped receives their sum, 0: all hold. Then the text
+ * is written anew. name: of the file, for messages. THR_ESOLVER: the plan is broken without any claim, too; it is then empty. */
+thr_status thr_plan_confirm(thr_plan *plan, thr_text *text, const char *name, int *dropped, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,4 +1,4 @@
-/* Proofs of one plan for the cords of another. */
+/* Proofs of one plan for the cords of another, and what is kept of a plan of which not every proof holds. */
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/junction.h"
@@ -6,7 +6,9 @@
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
+#include "graph/text.h"
 #include "lp/length/postman.h"
+#include "planner/make_plan.h"
 #include "planner/planners.h"
 #include "tortuosity/tie/tube.h"
 
@@ -84,4 +86,59 @@ thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err)
   if (largest ? claim->largest_optimal : claim->optimal) return THR_OK;
   return largest ? thr_not_proved(err, "the largest turning of a cord", claim->largest, claim->largest_bound)
                  : thr_not_proved(err, "the turning", claim->price, claim->lower_bound);
+}
+
+/* ---- as it was written ---- */
+
+const char *thr_claim_name(int claim)
+{
+  switch (claim) {
+  case THR_CLAIM_TURNING: return "its turning";
+  case THR_CLAIM_PULL: return "the number of cords within the pull";
+  case THR_CLAIM_CORDS: return "its longest cord";
+  default: return "its length";
+  }
+}
+
+static int count_claims(int claims)
+{
+  int n = 0;
+  for (; claims; claims &= claims - 1)
+    n++;
+  return n;
+}
+
+/* Reads the plan without some claims, and checks it. plan is empty on failure. */
+static thr_status confirm_without(thr_plan *plan, const thr_text *text, const char *name, int claims, thr_err *err)
+{
+  thr_status st = thr_plan_parse_without(plan, text->data, text->length, name, claims, err);
+  if (!st && (st = thr_check_plan(plan, err))) thr_plan_destroy(plan);
+  return st;
+}
+
+thr_status thr_plan_confirm(thr_plan *plan, thr_text *text, const char *name, int *dropped, thr_err *err)
+{
+  const int confirmed = plan->proof.confirmed, unconfirmed = plan->proof.unconfirmed; /* are not written */
+  thr_err why = {0};
+  *dropped = 0;
+  thr_status st = thr_plan_parse_back(plan, text->data, text->length, name, &why);
+  if (!st && (st = thr_check_plan(plan, &why))) thr_plan_destroy(plan);
+
+  /* First each claim alone is left out, then two of them, .. */
+  for (int n = 1; n <= count_claims(THR_CLAIMS_ALL) && st && st != THR_ENOMEM; n++)
+    for (int claims = 1; claims <= THR_CLAIMS_ALL && st && st != THR_ENOMEM; claims++) {
+      if (count_claims(claims) != n) continue;
+      thr_err again = {0};
+      st = confirm_without(plan, text, name, claims, &again);
+      if (st == THR_ENOMEM) why = again;
+      *dropped = claims;
+    }
+  if (st) return thr_fail(err, st == THR_ENOMEM ? st : THR_ESOLVER, "%s", why.text);
+
+  plan->proof.confirmed = confirmed;
+  plan->proof.unconfirmed = unconfirmed;
+  if (*dropped == 0) return THR_OK;
+  thr_text_destroy(text);
+  thr_plan_write(plan, text);
+  return text->failed ? thr_nomem(err) : THR_OK;
 }

@@ -489,32 +489,36 @@ static int find_places(const arguments *a, const thr_text *text, places *to)
   return to->folder ? cli_in_folder(to->folder, "plan.json", to->in_folder, sizeof to->in_folder) : EXIT_OK;
 }
 
-/* What is written is first read back, which takes the place of the plan, and checked as a whole, as by thread check: a plan that
- * it would refuse is not left. The framework in it is compared with the one in memory, number by number. */
-static int check_text(const thr_text *text, const char *path, thr_plan *plan)
+/* What is written is first read back and checked as a whole, as by thread check: a claim that it would refuse is not left. *code:
+ * of the plan, if it is kept. */
+static int check_text(thr_text *text, const char *path, thr_plan *plan, int *code)
 {
   thr_err err = {0};
-  if (text->failed) return EXIT_OK;                                                   /* writing says so */
-  const int confirmed = plan->proof.confirmed, unconfirmed = plan->proof.unconfirmed; /* not written */
-  thr_status st = thr_plan_parse_back(plan, text->data, text->length, strcmp(path, "-") == 0 ? "stdout" : path, &err);
-  if (!st) st = thr_check_plan(plan, &err);
-  plan->proof.confirmed = confirmed;
-  plan->proof.unconfirmed = unconfirmed;
-  if (st == THR_OK) return EXIT_OK;
+  int dropped;
+  if (text->failed) return EXIT_OK; /* writing says so */
+  thr_status st = thr_plan_confirm(plan, text, strcmp(path, "-") == 0 ? "stdout" : path, &dropped, &err);
   if (st == THR_ENOMEM) return cli_fail(&err);
-  cli_error("a fault of this program: the plan does not pass its own check, and is not written: %s", err.text);
-  return EXIT_INTERNAL;
+  if (st) {
+    cli_error("a fault of this program: the plan does not pass its own check, and is not written: %s", err.text);
+    return EXIT_INTERNAL;
+  }
+  for (int claim = 1; claim <= THR_CLAIMS_ALL; claim *= 2)
+    if (dropped & claim)
+      cli_error("a fault of this program: what it proved of %s does not pass its own check, and is left out",
+                thr_claim_name(claim));
+  if (dropped) *code = EXIT_LIMIT;
+  return EXIT_OK;
 }
 
-/* From here on the plan is what this run leaves, with this exit code. Where it cannot be written, to->plan says where it is
- * instead. */
-static int write_plan(const arguments *a, thr_plan *p, places *to, int code)
+/* From here on the plan is what this run leaves, with this exit code, which is another if the plan lost a claim. Where it cannot
+ * be written, to->plan says where it is instead. */
+static int write_plan(const arguments *a, thr_plan *p, places *to, int *code)
 {
   thr_text text = {0};
   thr_frame_keep_hash(&p->frame);
   thr_plan_write(p, &text);
   int refused = find_places(a, &text, to);
-  if (!refused) refused = check_text(&text, to->plan, p);
+  if (!refused) refused = check_text(&text, to->plan, p, code);
   if (refused) {
     thr_text_destroy(&text);
     to->plan = NULL;
@@ -522,7 +526,7 @@ static int write_plan(const arguments *a, thr_plan *p, places *to, int code)
   }
   guard_writing();
   int written = cli_write_kept(&text, &to->plan);
-  guard_written(written ? written : code);
+  guard_written(written ? written : *code);
   return written;
 }
 
@@ -580,8 +584,8 @@ static int write_drawings(const arguments *a, const thr_plan *p, const places *t
   return code;
 }
 
-/* planned_code: of the plan. */
-static int write_outputs(const arguments *a, planned *x, int planned_code)
+/* *planned_code: of the plan; not 0 afterwards if a claim was left out. */
+static int write_outputs(const arguments *a, planned *x, int *planned_code)
 {
   thr_plan *p = &x->plan;
   places to = {0};
@@ -625,8 +629,9 @@ static int plan_frame(const arguments *a, thr_frame *framework)
     if (guard_deadline() > 0) best_found(NULL, x.plan.cord, x.plan.n_cords, x.plan.symmetry.present ? &x.plan.symmetry : NULL);
     best_begin(NULL, NULL);
     thr_frame_destroy(framework);
-    if (st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0)) code = write_outputs(a, &x, st ? EXIT_LIMIT : EXIT_OK);
-    if (code == EXIT_OK && st) code = cli_fail(&err);
+    int planned_code = st ? EXIT_LIMIT : EXIT_OK;
+    if (st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0)) code = write_outputs(a, &x, &planned_code);
+    if (code == EXIT_OK) code = st ? cli_fail(&err) : planned_code;
   }
   free(options.end_node);
   free(options.end_count);

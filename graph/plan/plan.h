@@ -237,6 +237,11 @@ void thr_plan_write(const thr_plan *plan, thr_text *out);
 thr_status thr_plan_read(thr_plan *plan, const char *path, thr_err *err) THR_MUST_CHECK;
 thr_status thr_plan_parse(thr_plan *plan, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
 
+/* Reads a plan as thr_plan_parse does, but passes over some of its claims, as if they were not there. claims: a sum of these. */
+enum { THR_CLAIM_TURNING = 1, THR_CLAIM_PULL = 2, THR_CLAIM_CORDS = 4, THR_CLAIM_LENGTH = 8, THR_CLAIMS_ALL = 15 };
+thr_status thr_plan_parse_without(thr_plan *plan, const char *text, size_t n, const char *name, int claims,
+                                  thr_err *err) THR_MUST_CHECK;
+
 /* Reads back what thr_plan_write wrote of the plan, and puts it in the plan's place: all is read as by thr_plan_parse, but the
  * framework is not built again. Every number and name of it in the text is compared with the plan's, which thr_draft_build
  * made; a difference is THR_EINPUT. On failure plan is empty. */

@@ -14,6 +14,7 @@ typedef struct {
   const char *name; /* of the file, for messages */
   thr_status code;  /* THR_EINPUT while the framework is read; a bad index in a cord or a proof is a violation */
   thr_err *err;
+  int without; /* claims that are passed over: a sum of THR_CLAIM_ .. */
 } thr_field_reader;
 
 /* All fail with field_reader->code, and leave *out for the caller not to use. */

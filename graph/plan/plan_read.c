@@ -353,20 +353,25 @@ static thr_status read_document(thr_field_reader *field_reader, const thr_json *
 }
 
 /* Takes over the document, and says of it whether it is a plan; known: of this framework, which becomes the plan's, or NULL. */
-static thr_status take_document(thr_json *doc, const char *name, thr_frame *known, thr_plan *plan, thr_err *err)
+static thr_status take_document(thr_json *doc, const char *name, thr_frame *known, int without, thr_plan *plan, thr_err *err)
 {
-  thr_status st = read_document(&(thr_field_reader){name, THR_EINPUT, err}, doc, known, plan);
+  thr_status st = read_document(&(thr_field_reader){name, THR_EINPUT, err, without}, doc, known, plan);
   thr_json_destroy(doc);
   if (st) thr_plan_destroy(plan);
   return st;
 }
 
-thr_status thr_plan_parse(thr_plan *plan, const char *text, size_t n, const char *name, thr_err *err)
+thr_status thr_plan_parse_without(thr_plan *plan, const char *text, size_t n, const char *name, int claims, thr_err *err)
 {
   thr_json *doc;
   *plan = (thr_plan){0};
   thr_status st = thr_json_parse(&doc, text, n, name, err);
-  return st ? st : take_document(doc, name, NULL, plan, err);
+  return st ? st : take_document(doc, name, NULL, claims, plan, err);
+}
+
+thr_status thr_plan_parse(thr_plan *plan, const char *text, size_t n, const char *name, thr_err *err)
+{
+  return thr_plan_parse_without(plan, text, n, name, 0, err);
 }
 
 thr_status thr_plan_parse_back(thr_plan *plan, const char *text, size_t n, const char *name, thr_err *err)
@@ -376,7 +381,7 @@ thr_status thr_plan_parse_back(thr_plan *plan, const char *text, size_t n, const
   plan->frame = (thr_frame){0};
   thr_plan_destroy(plan); /* first: a large document takes much memory */
   thr_status st = thr_json_parse(&doc, text, n, name, err);
-  if (!st) st = take_document(doc, name, &known, plan, err);
+  if (!st) st = take_document(doc, name, &known, 0, plan, err);
   thr_frame_destroy(&known);
   return st;
 }
@@ -390,5 +395,5 @@ thr_status thr_plan_read(thr_plan *plan, const char *path, thr_err *err)
   thr_status st = thr_text_read(&text, path, err);
   if (!st) st = thr_json_parse(&doc, text.data, text.length, name, err);
   thr_text_destroy(&text);
-  return st ? st : take_document(doc, name, NULL, plan, err);
+  return st ? st : take_document(doc, name, NULL, 0, plan, err);
 }

@@ -210,14 +210,17 @@ thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_
 {
   static const char *const of_length[] = {"length", "cords", "pull", NULL}, *const of_turning[] = {"length", "cords", "pull",
                                                                                                    "turning", NULL};
+  const int without = field_reader->without;
   const thr_json *all;
   thr_status st = thr_field_need(field_reader, doc, "proof", THR_JSON_OBJECT, &all);
   if (!st) st = thr_field_only(field_reader, all, "proof", thr_wants_turning(&plan->options) ? of_turning : of_length);
   const thr_json *length = thr_json_get(all, "length"), *turning = thr_json_get(all, "turning"),
                  *cords = thr_json_get(all, "cords"), *pull = thr_json_get(all, "pull");
-  if (!st && length) st = read_length_proof(field_reader, length, &plan->frame, &plan->proof);
-  if (!st && cords) st = read_cords_claim(field_reader, cords, &plan->frame, &plan->cords_claim, &plan->proof.walks);
-  if (!st && pull) st = read_pull_claim(field_reader, pull, &plan->frame, &plan->pull_claim);
-  if (!st && turning) st = read_turning_claim(field_reader, turning, &plan->frame, &plan->turning);
+  if (!st && length && !(without & THR_CLAIM_LENGTH)) st = read_length_proof(field_reader, length, &plan->frame, &plan->proof);
+  if (!st && cords && !(without & THR_CLAIM_CORDS))
+    st = read_cords_claim(field_reader, cords, &plan->frame, &plan->cords_claim, &plan->proof.walks);
+  if (!st && pull && !(without & THR_CLAIM_PULL)) st = read_pull_claim(field_reader, pull, &plan->frame, &plan->pull_claim);
+  if (!st && turning && !(without & THR_CLAIM_TURNING))
+    st = read_turning_claim(field_reader, turning, &plan->frame, &plan->turning);
   return st;
 }

@@ -16,6 +16,7 @@
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
 #include "planner/make_plan.h"
 
 static const char *const aims[] = {"length", "turning", "steps"}; /* of three plans */
@@ -260,6 +261,87 @@ START_TEST(time_is_shared_out)
 }
 END_TEST
 
+/* ---- proofs that do not hold ---- */
+
+/* A plan of an octahedron that is proved to be best. */
+static void make_proved(thr_plan *plan, const char *aims_of_plan)
+{
+  thr_frame frame = solid_make(OCTAHEDRON);
+  thr_request request = thr_request_default();
+  const thr_limits limits = {.deadline = thr_clock() + 20};
+  thr_err err = {0};
+  want(&request, aims_of_plan);
+  ck_assert_msg(thr_plan_make(&frame, &request, &limits, plan, NULL, &err) == THR_OK, "%s", err.text);
+  thr_frame_destroy(&frame);
+}
+
+/* The claims that thr_plan_confirm drops of the plan as it is; what is left passes the check, as it is written, too. */
+static int dropped_of(thr_plan *plan)
+{
+  thr_text text = {0};
+  thr_plan again;
+  thr_err err = {0};
+  int dropped = -1;
+  thr_plan_write(plan, &text);
+  ck_assert_msg(thr_plan_confirm(plan, &text, "plan", &dropped, &err) == THR_OK, "%s", err.text);
+  ck_assert_int_eq(thr_check_plan(plan, NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_parse(&again, text.data, text.length, "again", NULL), THR_OK);
+  ck_assert_int_eq(thr_check_plan(&again, NULL), THR_OK);
+  ck_assert(again.turning.present == plan->turning.present && again.proof.present == plan->proof.present);
+  thr_plan_destroy(&again);
+  thr_text_destroy(&text);
+  return dropped;
+}
+
+/* Of a wrong proof only its claim is dropped, whether the reader refuses it or the checker does. */
+START_TEST(what_does_not_hold_is_dropped_and_the_rest_is_kept)
+{
+  thr_plan plan;
+  make_proved(&plan, "turning");
+  ck_assert_int_eq(dropped_of(&plan), 0);
+  ck_assert(plan.turning.optimal && plan.proof.optimal);
+
+  /* A negative multiplier, which is not read. */
+  thr_turning_dual *dual = &plan.turning.tree.dual[0];
+  dual->rank = calloc(1, sizeof *dual->rank);
+  dual->rank[0] = (thr_turning_partition){calloc((size_t)plan.frame.n_edges, sizeof *dual->rank->block), -1};
+  dual->n_ranks = 1;
+  ck_assert_int_eq(dropped_of(&plan), THR_CLAIM_TURNING);
+  ck_assert(plan.proof.optimal && !plan.turning.present);
+
+  /* Multipliers that prove less than is claimed. */
+  thr_plan_destroy(&plan);
+  make_proved(&plan, "turning");
+  plan.turning.tree.dual[0].potential[0] -= INT64_C(1) << 40;
+  ck_assert_int_eq(dropped_of(&plan), THR_CLAIM_TURNING);
+
+  /* Both claims. */
+  thr_plan_destroy(&plan);
+  make_proved(&plan, "turning");
+  plan.turning.tree.dual[0].potential[0] -= INT64_C(1) << 40;
+  plan.proof.certificate[0].sum++;
+  ck_assert_int_eq(dropped_of(&plan), THR_CLAIM_TURNING + THR_CLAIM_LENGTH);
+  thr_plan_destroy(&plan);
+}
+END_TEST
+
+START_TEST(a_broken_plan_is_not_kept)
+{
+  thr_plan plan;
+  thr_text text = {0};
+  thr_err err = {0};
+  int dropped;
+  make_proved(&plan, "length");
+  plan.metrics.length *= 2;
+  thr_plan_write(&plan, &text);
+  ck_assert_int_eq(thr_plan_confirm(&plan, &text, "plan", &dropped, &err), THR_ESOLVER);
+  ck_assert_ptr_nonnull(strstr(err.text, "metrics.length"));
+  ck_assert_int_eq(plan.n_cords, 0);
+  thr_text_destroy(&text);
+  thr_plan_destroy(&plan);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("planner");
@@ -269,6 +351,8 @@ int main(void)
   add_case(s, "starts", 60, turning_begins_with_tours_and_the_shortest_cords, 0, 4);
   add_case(s, "data", 60, turning_of_data_begins_so, 0, 15);
   add_case(s, "heard", 60, some_cords_are_heard_of_early, 0, THR_N_OBJECTIVES);
+  add_case(s, "dropped", 60, what_does_not_hold_is_dropped_and_the_rest_is_kept, 0, 1);
+  add_case(s, "broken", 60, a_broken_plan_is_not_kept, 0, 1);
   add_case(s, "time", 10, time_is_shared_out, 0, 1);
   return run_suite(s);
 }

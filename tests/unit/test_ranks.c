@@ -5,6 +5,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/turning_ranks.h"
 #include "tests/support.h"
+#include "tortuosity/proof/branch.h"
 #include "tortuosity/proof/orbit_ranks.h"
 #include "tortuosity/proof/orbits.h"
 #include "tortuosity/proof/pass_matching.h"
@@ -294,6 +295,82 @@ START_TEST(orbits_prove_what_the_linear_programme_does)
 }
 END_TEST
 
+/* Wherever the clock stops the cutting planes, what they have proved so far is a proof that the checker takes: multipliers of
+ * rows that are not equations are not negative, however little. */
+START_TEST(stopped_at_any_round_the_proof_holds)
+{
+  enum { MOST_ROUNDS = 60 };
+  const double round = 1e-5; /* s of work that one question to the limits counts as */
+  const thr_limits none = {0};
+  thr_orbits orbits;
+  shell s;
+  shell_make(&s, 1);
+  ck_assert_int_eq(thr_orbits_init(&orbits, &s.c, all_motions, &none, NULL), THR_OK);
+  for (int rounds = 1; rounds <= MOST_ROUNDS; rounds++) {
+    double work = (rounds + 0.5) * round;
+    const thr_limits some = thr_limits_counted(&none, &work);
+    bool found;
+    int64_t bound;
+    thr_err err = {0};
+    thr_turning_dual_destroy(&s.dual);
+    ck_assert_int_eq(thr_orbit_ranks(&s.c, &orbits, s.x, &some, &s.dual, &found, NULL), THR_OK);
+    if (!found) continue;
+    ck_assert_msg(thr_turning_dual_bound(&s.c, &s.dual, NULL, NULL, &bound, &err) == THR_OK, "%d rounds: %s", rounds, err.text);
+    for (int i = 0; i < s.dual.n_ranks; i++)
+      ck_assert_int_ge(s.dual.rank[i].value, 0);
+  }
+  thr_orbits_destroy(&orbits);
+  shell_destroy(&s);
+}
+END_TEST
+
+/* Steps towards a target that is far off, or slopes that are nearly flat, lead to multipliers beyond any number that fits: they
+ * stay within what a proof may have, wherever the clock stops. */
+START_TEST(far_targets_leave_multipliers_that_hold)
+{
+  const thr_limits none = {0};
+  static const double target[] = {1e17, 1e20, 1e25, INFINITY};
+  shell s;
+  shell_make(&s, 1 + _i % 2);
+  for (int steps = 0; steps < 40; steps++) {
+    double work = (steps + 0.5) * 1e-5;
+    const thr_limits some = thr_limits_counted(&none, &work);
+    int64_t bound;
+    thr_err err = {0};
+    thr_turning_dual_destroy(&s.dual);
+    ck_assert_int_eq(thr_turning_dual_init(&s.dual, &s.c, NULL), THR_OK);
+    ck_assert_int_eq(thr_ranks_run(&s.c, s.x, &s.from, target[_i / 2], &some, &s.dual, NULL), THR_OK);
+    ck_assert_msg(thr_turning_dual_bound(&s.c, &s.dual, NULL, NULL, &bound, &err) == THR_OK, "%d steps: %s", steps, err.text);
+  }
+  shell_destroy(&s);
+}
+END_TEST
+
+/* Multipliers that the checker refuses end no search: the node keeps those that it had, or multipliers of 0. */
+START_TEST(a_search_drops_multipliers_that_do_not_hold)
+{
+  const thr_limits none = {0};
+  shell s;
+  thr_branch branch;
+  thr_turning_dual wrong;
+  shell_make(&s, 1);
+  for (int first = 0; first < 2; first++) {
+    ck_assert_int_eq(thr_branch_init(&branch, &s.c, 1, &none, NULL), THR_OK);
+    ck_assert_int_eq((first ? thr_branch_init_tree : thr_branch_begin)(&branch, NULL), THR_OK);
+    const double before = branch.tree.node[0].bound;
+    ck_assert_int_eq(thr_turning_dual_init(&wrong, &s.c, NULL), THR_OK);
+    wrong.rank = calloc(1, sizeof *wrong.rank);
+    wrong.rank[0] = (thr_turning_partition){calloc((size_t)s.frame.n_edges, sizeof *wrong.rank->block), -1};
+    wrong.n_ranks = 1;
+    ck_assert_int_eq(thr_branch_keep_dual(&branch, 0, wrong, NULL, NULL, NULL), THR_OK);
+    ck_assert_int_ge(branch.tree.node[0].proof, 0);
+    ck_assert_double_eq(branch.tree.node[0].bound, first ? 0 : before);
+    thr_branch_destroy(&branch);
+  }
+  shell_destroy(&s);
+}
+END_TEST
+
 START_TEST(orbits_without_memory_fail)
 {
   const thr_limits none = {0};
@@ -362,6 +439,9 @@ int main(void)
   ADD_TEST(s, 20, the_largest_numbers_fit);
   ADD_TEST(s, 60, a_sphere_is_proved_within_two_percent);
   ADD_TEST(s, 60, orbits_prove_what_the_linear_programme_does);
+  ADD_TEST(s, 60, stopped_at_any_round_the_proof_holds);
+  ADD_EXAMPLES(s, 60, far_targets_leave_multipliers_that_hold, 8);
+  ADD_TEST(s, 60, a_search_drops_multipliers_that_do_not_hold);
   ADD_TEST(s, 60, orbits_without_memory_fail);
   ADD_TEST(s, 60, several_cords_and_no_time);
   ADD_TEST(s, 60, a_run_without_memory_fails);

@@ -105,22 +105,39 @@ static int most_fractional(const thr_relax *relax)
 
 /* ---- nodes ---- */
 
+/* Keeps *dual, which is moved, for node i with what it proves there. */
+static thr_status keep_proved(thr_branch *branch, int i, thr_turning_dual *dual, int64_t bound, thr_err *err)
+{
+  thr_status st = thr_grow(&branch->dual, branch->n_duals, &branch->duals_capacity, sizeof *branch->dual, err);
+  if (st) return st;
+  branch->tree.node[i].bound = (double)bound;
+  branch->tree.node[i].proof = branch->n_duals;
+  branch->dual[branch->n_duals++] = *dual;
+  *dual = (thr_turning_dual){0};
+  return THR_OK;
+}
+
 thr_status thr_branch_keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low, const int *high, thr_err *err)
 {
-  int64_t bound;
   const double begun = thr_processor_clock();
-  thr_status st = thr_turning_dual_bound(branch->c, &dual, low, high, &bound, err);
-  branch->checking += thr_processor_clock() - begun;
-  thr_tree_node *node = &branch->tree.node[i];
-  if (!st && (node->proof < 0 || (double)bound > node->bound)) {
-    st = thr_grow(&branch->dual, branch->n_duals, &branch->duals_capacity, sizeof *branch->dual, err);
-    if (!st) {
-      node->bound = (double)bound;
-      node->proof = branch->n_duals;
-      branch->dual[branch->n_duals++] = dual;
-      return THR_OK;
-    }
+  const bool first = branch->tree.node[i].proof < 0;
+  thr_err refused = {0};
+  int64_t bound;
+  thr_status st = thr_turning_dual_bound(branch->c, &dual, low, high, &bound, &refused);
+
+  /* A solver's rounding may leave multipliers that the checker refuses: they are dropped, and a node that has no others keeps
+   * multipliers of 0, which always hold. */
+  if (st == THR_EVIOLATED) {
+    thr_turning_dual_destroy(&dual);
+    if (!first) return THR_OK;
+    if ((st = thr_turning_dual_init(&dual, branch->c, err))) return st;
+    st = thr_turning_dual_bound(branch->c, &dual, low, high, &bound, &refused);
   }
+  branch->checking += thr_processor_clock() - begun;
+  if (st)
+    st = thr_fail(err, st, "%s", refused.text);
+  else if (first || (double)bound > branch->tree.node[i].bound)
+    st = keep_proved(branch, i, &dual, bound, err);
   thr_turning_dual_destroy(&dual);
   return st;
 }

@@ -266,7 +266,7 @@ static thr_status write_dual(const programme *p, thr_turning_dual *dual, thr_err
   if (!(dual->rank = thr_calloc(1, sizeof *dual->rank)) || !(dual->rank->block = thr_calloc(m, sizeof *dual->rank->block)))
     return thr_nomem(err);
   dual->n_ranks = 1;
-  dual->rank->value = whole(p->best[p->rank]);
+  dual->rank->value = whole(fmax(0, p->best[p->rank])); /* a programme keeps to its limits but for its tolerance */
   memcpy(dual->rank->block, p->block, m * sizeof *p->block);
   return write_groups(p, dual, err);
 }

@@ -14,6 +14,7 @@
 
 enum { STEPS = 2000, PATIENCE = 20, ROWS = 8 };
 static const double first_step = 0.3, least_step = 1e-4, most_new = 0.2;
+static const double most_value = 0x1p54; /* of a multiplier: all of them stay within what a proof may have */
 
 /* Edges, and the turns that leave them. */
 typedef struct {
@@ -163,7 +164,7 @@ static void climb(ranks *s, double target, const thr_limits *limits)
     if (steep < 1e-12) break;
     for (int k = 0; k < s->n; k++) {
       double to = s->best[k] + part * (target - bound) / steep * s->uphill[k];
-      s->at[k] = k < s->m ? to : fmax(0, to);
+      s->at[k] = fmin(most_value, fmax(k < s->m ? -most_value : 0, to));
     }
     double now = bound_at(s, s->at), along = product(s->uphill, s->rise, s->n);
     take_mean(s, steep, along);
