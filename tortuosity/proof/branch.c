@@ -333,15 +333,16 @@ static thr_status solve_programme(void *user, bool *enough, thr_err *err)
   return st;
 }
 
-/* Annealing takes the place of the other ways to better plans where the gap is wide. */
-static bool is_annealed(const thr_branch *branch)
+/* Anneals the best plan, once, where the programme at the root and the first nodes of the tree left the gap wide: mostly they
+ * close it in a small part of the time that annealing takes. */
+static thr_status anneal_later(thr_branch *branch, thr_err *err)
 {
-  return branch->found && is_wide(branch) && thr_anneal_turns_serves(branch->c);
-}
-
-static thr_status anneal(thr_branch *branch, thr_err *err)
-{
+  enum { FIRST_NODES = 7 };
+  if (branch->annealed || branch->tree.n_solved < FIRST_NODES || !branch->found || !is_wide(branch) ||
+      thr_branch_proved(branch) || !thr_anneal_turns_serves(branch->c))
+    return THR_OK;
   const thr_limits some = thr_limits_part(branch->limits, 0.8);
+  branch->annealed = true;
   return thr_branch_anneal_turns(branch, &some, err);
 }
 
@@ -351,10 +352,6 @@ static thr_status solve_root(thr_branch *branch, const thr_limits *limits, bool 
   const bool single = !c->task->end_allowed && c->task->cords == 1 && !c->task->tube;
   *beside = single && branch->found && !thr_connect_later(c) && is_wide(branch);
   if (c->task->tube && !c->task->free_turns) return solve_tied_root(branch, 0, err);
-  if (*beside && is_annealed(branch)) {
-    thr_status st = anneal(branch, err);
-    return st || closed(branch, 0) ? st : thr_branch_solve_node(branch, 0, limits, err);
-  }
   if (!*beside) return thr_branch_solve_node(branch, 0, limits, err);
   return thr_cycles_beside(branch, tries_of_cycles(branch), solve_programme, &(root_search){branch, limits}, err);
 }
@@ -362,7 +359,6 @@ static thr_status solve_root(thr_branch *branch, const thr_limits *limits, bool 
 /* Plans near the best one, unless that was done, near the other one, and of random prices. */
 static thr_status improve_plans(thr_branch *branch, bool done, thr_err *err)
 {
-  if (!done && is_annealed(branch)) return anneal(branch, err);
   const int tries = tries_of_cycles(branch), root = 0;
   bool single = !branch->c->task->end_allowed && branch->c->task->cords == 1;
   thr_status st = done ? THR_OK : thr_cycles_improve(branch, tries, err);
@@ -440,6 +436,7 @@ static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err
   if (root && b->found && !turning_task->tube && !b->tree.stopped && !closed(b, i)) st = improve_plans(b, beside, err);
   if (!st && root && !early) st = count_ranks(b, err);
   if (!st && root && !closed(b, i)) st = find_symmetries(b, err);
+  if (!st && !root) st = anneal_later(b, err);
   b->tree.enough = enough(b);
   return st ? st : choose(b, 0, branch, err);
 }
@@ -451,6 +448,7 @@ static thr_status solve_all(void *user, int n, const int *node, thr_tree_branch 
   b->tree.stopped = thr_limits_stop(&search);
   thr_status st = b->tree.stopped ? THR_OK : thr_branch_solve_all(b, n, node, search.deadline, err);
   if (st || b->tree.stopped) return st;
+  st = anneal_later(b, err);
   report(b);
   b->tree.enough = enough(b);
   for (int k = 0; k < n && !st; k++)

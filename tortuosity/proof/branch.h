@@ -50,6 +50,7 @@ typedef struct thr_branch {
   double begun, begun_processor;   /* thr_clock() and thr_processor_clock() at thr_branch_init */
   double checking;                 /* s of the processor that the bounds of all multipliers took */
   bool matched;                    /* the best plan is the one of the first bound */
+  bool annealed;                   /* the best plan was, once */
   bool dense;                      /* so many turns that there is no programme of them */
   thr_orbits_motions *motions;     /* NULL = none are looked for */
   thr_orbits orbits;               /* from the root on */
