@@ -22,7 +22,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-static const double near = 5e-3; /* of the bound: not worth a longer search */
+static const double near = 1e-9; /* of the bound: rounding */
 
 /* Other cords, which are the caller's, take the place of the plan's. The walks that it has are about any cords. */
 static thr_status take_cords(thr_plan *plan, thr_cord *cord, thr_err *err)
