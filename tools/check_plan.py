@@ -7,6 +7,7 @@ One line per plan: what is verified and for which plans it holds, or the first v
 0 every claim holds, 1 a claim does not hold, 2 usage, 3 not a plan that can be read. Sums are exact (integers, fractions of
 doubles); only angles, distances and the tolerances that the page states are floating point. Section names are the page's.
 """
+import cmath
 import copy
 import heapq
 import itertools
@@ -2741,7 +2742,8 @@ class Standing:
 
     def __init__(self, p, e, cords, o):
         place = self.place = "evaluation.structure"
-        known(o, "clamped taut tilt azimuth let_down loads drawn stills answers", place)
+        known(o, "model clamped taut tilt azimuth let_down loads drawn stills answers", place)
+        self.model = member(o, "model", "integer", place, 1, 2, default=1)
         self.frame, self.physics, self.cords, self.scheduled = p.frame, e.physics, cords, bool(e.steps)
         self.paths = [[h >> 1 for h in cord.half] for cord in p.cords]
         self.clamped = member(o, "clamped", "truth", place)
@@ -2777,13 +2779,18 @@ class Standing:
         self.at = [tuple(metre * x for x in xyz) for xyz in f.xyz]
         area = self.width**2 - math.pi / 4 * bore**2
         volume, moment = [0.0] * f.n, [(0.0, 0.0, 0.0)] * f.n
-        self.face = []
+        self.face, self.level, self.play = [], (1.0, 0.0), 0.0
+        if self.model > 1:
+            self.play = max(0.0, (v["bore"] - v["cord_diameter"]) / 2000)
+            ways = (plus(self.at[b], self.at[a], -1) for a, b in f.edge)
+            slopes = ((x / math.hypot(x, y), y / math.hypot(x, y)) for x, y, z in ways if math.hypot(x, y) > 1e-9 * math.hypot(x, y, z))
+            self.level = next(slopes, self.level)
         for a, b in f.edge:
             way = plus(self.at[b], self.at[a], -1)
             length = math.dist(self.at[a], self.at[b])
             axis = tuple(x / length for x in way)
             level = math.hypot(axis[0], axis[1])
-            side = (-axis[1] / level, axis[0] / level, 0.0) if level > 1e-9 else (1.0, 0.0, 0.0)
+            side = (-axis[1] / level, axis[0] / level, 0.0) if level > 1e-9 else (*self.level, 0.0)
             self.face.append((tuple((x + y) / 2 for x, y in zip(self.at[a], self.at[b])), axis, side, cross(axis, side)))
             for node, sign in ((a, 1), (b, -1)):
                 arm, k = length / 2, len(f.at[node])
@@ -2890,8 +2897,9 @@ class Standing:
         bead = max(math.hypot(*x) for x, _ in moves)
         require(abs(bead - 1) <= 1e-9, f"{place}: the fastest bead has the speed {bead}, not 1")
         faces = [[(velocity(a, at), velocity(b, at)) for at in corners(middle, one, other)] for (a, b), (middle, _, one, other) in zip(f.edge, self.face)]
-        feet = [] if self.clamped else [[velocity(foot, at) for at in corners(plus(self.at[foot], (0, 0, -self.width / 2)), (1, 0, 0), (0, 1, 0))]
-                                        for foot in self.feet]
+        sides = 16 if self.model > 1 else 4
+        ring = [cmath.rect(self.width / 2 / math.cos(math.pi / sides), math.pi * (2 * i + 1) / sides) * complex(*self.level) for i in range(sides)]
+        feet = [] if self.clamped else [[velocity(foot, plus(self.at[foot], (z.real, z.imag, -self.width / 2))) for z in ring] for foot in self.feet]
         fastest = max([bead] + [math.hypot(*x) for face in faces for pair in face for x in pair] + [math.hypot(*x) for foot in feet for x in foot])
         require(fastest < math.inf, f"{place}: a bead turns too fast")
 
@@ -2913,6 +2921,7 @@ class Standing:
         load = [dot(force, velocity(node, self.at[node])) for node, force in self.loads] if of_load or asked == "loaded" else []
         resistance = [sign * press[i] * dot(axis, velocity(node, middle)) for i, ((a, b), (middle, axis, _, _)) in enumerate(zip(f.edge, self.face))
                       for node, sign in ((a, -1), (b, 1))]
+        resistance += [press[i] * self.play * math.hypot(*cross(axis, plus(moves[b][1], moves[a][1], -1))) for i, ((a, b), (_, axis, _, _)) in enumerate(zip(f.edge, self.face))]
         times = [1, proved, 1] if of_load else [1, 1, proved]
         sums = [x * math.fsum(terms) for x, terms in zip(times, (falling, load, resistance))]
         slip = 1e-14 * math.fsum(x * abs(y) for x, terms in zip(times, (falling, load, resistance)) for y in terms)

@@ -56,27 +56,45 @@ static footing find_footing(const thr_frame *frame)
   return g;
 }
 
+/* The corners of a regular polygon on the edge of each foot's disc, the first half a side from the level direction. */
 static void place_feet(thr_beads *beads, const thr_frame *frame, const footing *g)
 {
-  static const double side[4][2] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
   int n = 0;
   for (int v = 0; v < frame->n_nodes; v++) {
     if (!is_foot(frame, v, g->any_foot, g->lowest, g->tolerance)) continue;
-    for (int i = 0; i < 4; i++) {
-      beads->foot_point[n][i][0] = beads->centre[v][0] + side[i][0] * beads->width;
-      beads->foot_point[n][i][1] = beads->centre[v][1] + side[i][1] * beads->width;
+    for (int i = 0; i < THR_FOOT_POINTS; i++) {
+      const double angle = 2 * THR_PI * (i + 0.5) / THR_FOOT_POINTS, along = 0.5 * beads->width * cos(angle),
+                   across = 0.5 * beads->width * sin(angle);
+      beads->foot_point[n][i][0] = beads->centre[v][0] + along * beads->level[0] - across * beads->level[1];
+      beads->foot_point[n][i][1] = beads->centre[v][1] + along * beads->level[1] + across * beads->level[0];
       beads->foot_point[n][i][2] = beads->centre[v][2] - 0.5 * beads->width;
     }
     beads->foot[n++] = v;
   }
 }
 
+static const double VERTICAL = 1e-9; /* horizontal part of a unit vector that is vertical, at most */
+
+/* Finds the direction of the horizontal part of the first edge that is not vertical; x if all are. */
+static void find_level(thr_beads *beads, const thr_frame *frame)
+{
+  beads->level[0] = 1;
+  for (int e = 0; e < frame->n_edges; e++) {
+    const double *from = beads->centre[frame->edge[e][0]], *to = beads->centre[frame->edge[e][1]];
+    const double way[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]}, along = hypot(way[0], way[1]);
+    if (!(along > VERTICAL * sqrt(thr_dot(way, way)))) continue;
+    beads->level[0] = way[0] / along;
+    beads->level[1] = way[1] / along;
+    return;
+  }
+}
+
 /* Sides of the square section of an arm along axis. */
-static void section(const double axis[3], double side[2][3])
+static void section(const thr_beads *beads, const double axis[3], double side[2][3])
 {
   double level = hypot(axis[0], axis[1]);
-  side[0][0] = level > 1e-9 ? -axis[1] / level : 1;
-  side[0][1] = level > 1e-9 ? axis[0] / level : 0;
+  side[0][0] = level > VERTICAL ? -axis[1] / level : beads->level[0];
+  side[0][1] = level > VERTICAL ? axis[0] / level : beads->level[1];
   side[0][2] = 0;
   cross(axis, side[0], side[1]);
 }
@@ -96,7 +114,7 @@ static thr_status place_face(thr_beads *beads, const thr_frame *frame, int e, th
                     frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]]);
   for (int k = 0; k < 3; k++)
     beads->axis[e][k] /= length;
-  section(beads->axis[e], side);
+  section(beads, beads->axis[e], side);
   for (int i = 0; i < 4; i++)
     for (int k = 0; k < 3; k++)
       beads->corner[e][i][k] = beads->middle[e][k] + beads->width * (turn[i][0] * side[0][k] + turn[i][1] * side[1][k]);
@@ -136,6 +154,7 @@ static thr_status fill(thr_beads *beads, const thr_frame *frame, const thr_physi
     beads->centre[v][2] = unit * (frame->xyz[v][2] - g->ground) + 0.5 * beads->width;
   }
   beads->size = unit * thr_frame_diagonal(frame);
+  find_level(beads, frame);
   place_feet(beads, frame, g);
   for (int e = 0; e < frame->n_edges; e++) {
     thr_status s = place_face(beads, frame, e, err);
@@ -162,6 +181,7 @@ thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, th
   footing g = find_footing(frame);
   thr_beads beads = {
       .n_beads = frame->n_nodes, .n_faces = frame->n_edges, .width = 1e-3 * physics->bead_diameter, .bore = 1e-3 * physics->bore};
+  beads.play = fmax(0, 0.5e-3 * (physics->bore - physics->cord_diameter));
   for (int v = 0; v < frame->n_nodes; v++)
     beads.n_feet += is_foot(frame, v, g.any_foot, g.lowest, g.tolerance);
   s = allocate(&beads, err);

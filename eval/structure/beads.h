@@ -17,33 +17,38 @@
 
 enum { THR_USUAL_RAYS = 8, THR_MOST_RAYS = 48 }; /* of the pyramids that stand for friction cones */
 
+enum { THR_FOOT_POINTS = 16 }; /* corners of the polygon that stands for the disc of a foot */
+
 /* Units here are SI: m, kg, N. */
 typedef struct {
-  int n_beads, n_faces;       /* = nodes, edges of the framework */
-  double (*centre)[3];        /* [n_beads] node positions, m; z = 0 is the underside of the lowest foot */
-  double (*mass_centre)[3];   /* [n_beads] m */
-  double *mass;               /* [n_beads] kg */
-  double (*middle)[3];        /* [n_faces] centre of the interface, m */
-  double (*axis)[3];          /* [n_faces] unit, from bead edge[e][0] to edge[e][1] */
-  double (*corner)[4][3];     /* [n_faces] corners of the interface, m, in order round the axis */
-  double width;               /* m, of an arm */
-  double bore;                /* m */
-  int n_feet;                 /* supports: the framework's feet, or its lowest nodes if it has none */
-  int *foot;                  /* [n_feet] bead */
-  double (*foot_point)[4][3]; /* [n_feet] contact points with the ground, m: a square of side width, sides along x and y, half a
-                                 width below the foot's node: each foot has its own patch of level ground at its underside */
-  bool *fixed;                /* [n_beads] held in place: such beads need no equilibrium. All false until thr_beads_clamp */
-  int rays;                   /* of a friction pyramid; THR_USUAL_RAYS until it is set */
-  double down[3];             /* unit: where weight draws; (0, 0, -1) until thr_beads_tilt */
-  double (*load)[3];          /* [n_beads] N at the node, beside the weight; all 0 until it is filled in */
-  double size;                /* m: diagonal of the bounding box, for tolerances */
-  thr_scratch own;            /* the arrays */
+  int n_beads, n_faces;                     /* = nodes, edges of the framework */
+  double (*centre)[3];                      /* [n_beads] node positions, m; z = 0 is the underside of the lowest foot */
+  double (*mass_centre)[3];                 /* [n_beads] m */
+  double *mass;                             /* [n_beads] kg */
+  double (*middle)[3];                      /* [n_faces] centre of the interface, m */
+  double (*axis)[3];                        /* [n_faces] unit, from bead edge[e][0] to edge[e][1] */
+  double (*corner)[4][3];                   /* [n_faces] corners of the interface, m, in order round the axis */
+  double width;                             /* m, of an arm */
+  double bore;                              /* m */
+  double play;                              /* m: how far from the middle of a face a cord may go through it */
+  int n_feet;                               /* supports: the framework's feet, or its lowest nodes if it has none */
+  int *foot;                                /* [n_feet] bead */
+  double (*foot_point)[THR_FOOT_POINTS][3]; /* [n_feet] contact points with the ground, m, on the edge of a disc of diameter
+                                               width, half a width below the foot's node: each foot has its own patch of level
+                                               ground at its underside */
+  double level[3];   /* unit, horizontal: along the first edge that is not vertical, so that it turns with the drawing */
+  bool *fixed;       /* [n_beads] held in place: such beads need no equilibrium. All false until thr_beads_clamp */
+  int rays;          /* of a friction pyramid; THR_USUAL_RAYS until it is set */
+  double down[3];    /* unit: where weight draws; (0, 0, -1) until thr_beads_tilt */
+  double (*load)[3]; /* [n_beads] N at the node, beside the weight; all 0 until it is filled in */
+  double size;       /* m: diagonal of the bounding box, for tolerances */
+  thr_scratch own;   /* the arrays */
 } thr_beads;
 
-/* physics must be resolved. One side of every arm's square section is horizontal; a vertical arm's sides are along x and y. Faces
- * are in the middle of the straight line between the nodes, also where the framework gives its own lengths. Mass: bead_mass, or
- * density x (volume of the arms less their bores), the arms' overlap at the node taken off (the text in beads.c says how).
- * THR_EINPUT for sizes out of range. Release with thr_beads_destroy. O(n). */
+/* physics must be resolved. One side of every arm's square section is horizontal; a vertical arm's sides are along `level` and
+ * square to it. Faces are in the middle of the straight line between the nodes, also where the framework gives its own lengths.
+ * Mass: bead_mass, or density x (volume of the arms less their bores), the arms' overlap at the node taken off (the text in
+ * beads.c says how). THR_EINPUT for sizes out of range. Release with thr_beads_destroy. O(n). */
 thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, thr_beads *out, thr_err *err) THR_MUST_CHECK;
 void thr_beads_destroy(thr_beads *beads);
 

@@ -22,7 +22,7 @@ typedef struct {
   int n_columns, n_costs; /* so far; each contact's three columns stand for its rays */
   double *rhs, *cost, *value;
   int *start, *row, *kind;
-  double (*ray)[3]; /* of both kinds: between beads, on the ground */
+  double (*ray)[3]; /* of the kinds: between beads, on the ground, where a cord may be */
   thr_scratch own;  /* the arrays */
 } programme;
 
@@ -48,30 +48,40 @@ static void set_ray(const thr_beads *beads, int e, double mu, double ray[3])
   ray[2] = mu * sin(angle);
 }
 
-static thr_contact *add_contact(thr_blocks *s, int bead, int other, const double at[3], const double normal[3], double mu)
+/* along: unit, square to the normal. */
+static thr_contact *add_contact(thr_blocks *s, int bead, int other, const double at[3], const double normal[3],
+                                const double along[3], double mu)
 {
   thr_contact *c = &s->contact[s->n_contacts++];
-  double least[3] = {0}, tangent[2][3];
-  int k = 0;
-  for (int i = 1; i < 3; i++)
-    if (fabs(normal[i]) < fabs(normal[k])) k = i;
-  least[k] = 1;
-  thr_cross(normal, least, tangent[0]);
-  double norm = sqrt(thr_dot(tangent[0], tangent[0]));
-  for (int i = 0; i < 3; i++)
-    tangent[0][i] /= norm;
-  thr_cross(normal, tangent[0], tangent[1]);
   *c = (thr_contact){.bead = bead, .other = other};
   memcpy(c->at, at, sizeof c->at);
   memcpy(c->axis[0], normal, sizeof c->axis[0]);
-  memcpy(c->axis[1], tangent, sizeof tangent);
+  memcpy(c->axis[1], along, sizeof c->axis[1]);
+  thr_cross(normal, along, c->axis[2]);
   for (int e = 0; e < s->b->rays; e++) {
     double ray[3];
     set_ray(s->b, e, mu, ray);
     for (int i = 0; i < 3; i++)
-      c->ray[e][i] = ray[0] * normal[i] + ray[1] * tangent[0][i] + ray[2] * tangent[1][i];
+      c->ray[e][i] = ray[0] * c->axis[0][i] + ray[1] * c->axis[1][i] + ray[2] * c->axis[2][i];
   }
   return c;
+}
+
+/* Sides of the section of an arm at a face, unit. */
+static void set_side(const thr_beads *beads, int face, double side[2][3])
+{
+  for (int k = 0; k < 3; k++)
+    side[0][k] = (beads->corner[face][1][k] - beads->corner[face][0][k]) / beads->width;
+  thr_cross(beads->axis[face], side[0], side[1]);
+}
+
+/* A corner of the polygon of a foot, inside its disc or round it. */
+static void set_foot_point(const thr_blocks *s, int foot, int i, double at[3])
+{
+  const double *centre = s->b->centre[s->b->foot[foot]], *on_edge = s->b->foot_point[foot][i];
+  const double times = s->outside ? 1 / cos(THR_PI / THR_FOOT_POINTS) : 1;
+  for (int k = 0; k < 3; k++)
+    at[k] = k == 2 ? on_edge[k] : centre[k] + times * (on_edge[k] - centre[k]);
 }
 
 /* widen: factor on friction, to put the pyramids round the cones. */
@@ -79,15 +89,22 @@ static void set_contacts(thr_blocks *s, double widen)
 {
   const thr_beads *beads = s->b;
   const double up[3] = {0, 0, 1};
+  double side[2][3], at[3];
   s->n_contacts = 0;
   s->widen = widen;
-  for (int e = 0; e < beads->n_faces; e++)
-    for (int i = 0; i < THR_CORNERS && !thr_blocks_inside(s, e); i++)
-      add_contact(s, s->f->edge[e][1], s->f->edge[e][0], beads->corner[e][i], beads->axis[e], widen * s->physics->mu_bead)
-          ->press = fmin(s->press[e], s->most) / THR_CORNERS;
-  for (int k = 0; k < beads->n_feet; k++)
+  for (int e = 0; e < beads->n_faces; e++) {
+    if (thr_blocks_inside(s, e)) continue;
+    set_side(beads, e, side);
     for (int i = 0; i < THR_CORNERS; i++)
-      add_contact(s, beads->foot[k], -1, beads->foot_point[k][i], up, widen * s->physics->mu_ground);
+      add_contact(s, s->f->edge[e][1], s->f->edge[e][0], beads->corner[e][i], beads->axis[e], side[0],
+                  widen * s->physics->mu_bead)
+          ->press = fmin(s->press[e], s->most) / THR_CORNERS;
+  }
+  for (int k = 0; k < beads->n_feet; k++)
+    for (int i = 0; i < THR_FOOT_POINTS; i++) {
+      set_foot_point(s, k, i, at);
+      add_contact(s, beads->foot[k], -1, at, up, beads->level, widen * s->physics->mu_ground);
+    }
 }
 
 static void set_units(thr_blocks *s)
@@ -171,6 +188,13 @@ static void set_copies(thr_blocks *s, int *parent)
     if (thr_disjoint_join(parent, 0, c)) s->tie[s->n_ties][0] = 0, s->tie[s->n_ties++][1] = c;
 }
 
+/* Faces where it matters that a cord may go through the bore beside its middle. */
+static void set_plays(thr_blocks *s)
+{
+  for (int e = 0; e < s->b->n_faces && s->outside && s->b->play > 0; e++)
+    if (s->press[e] > 0 && !thr_blocks_inside(s, e)) s->play[s->n_plays++] = e;
+}
+
 void thr_blocks_destroy(thr_blocks *s)
 {
   thr_scratch_free(&s->own);
@@ -181,7 +205,8 @@ thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
   const thr_beads *beads = s->b;
   size_t n = (size_t)beads->n_beads;
   int *parent = thr_scratch_array(&s->own, n, sizeof *parent);
-  s->contact = thr_scratch_array(&s->own, (size_t)(beads->n_faces + beads->n_feet) * THR_CORNERS, sizeof *s->contact);
+  s->contact = thr_scratch_array(&s->own, (size_t)beads->n_faces * THR_CORNERS + (size_t)beads->n_feet * THR_FOOT_POINTS,
+                                 sizeof *s->contact);
   s->body = thr_scratch_array(&s->own, n, sizeof *s->body);
   s->origin = thr_scratch_array(&s->own, n, sizeof *s->origin);
   s->wrench = thr_scratch_array(&s->own, n, sizeof *s->wrench);
@@ -189,6 +214,7 @@ thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
   s->copy = thr_scratch_array(&s->own, n, sizeof *s->copy);
   s->row = thr_scratch_array(&s->own, n, sizeof *s->row);
   s->tie = thr_scratch_array(&s->own, n, sizeof *s->tie);
+  s->play = thr_scratch_array(&s->own, (size_t)beads->n_faces + 1, sizeof *s->play);
   if (thr_scratch_check(&s->own, err)) {
     thr_blocks_destroy(s);
     return THR_ENOMEM;
@@ -198,6 +224,7 @@ thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
   set_units(s);
   set_copies(s, parent);
   set_contacts(s, widen);
+  set_plays(s);
   return THR_OK;
 }
 
@@ -255,13 +282,44 @@ static void contact_columns(const thr_blocks *s, bool counted, programme *p)
       if (counted) entry(p, s->n_rows, k == 0 ? 1 : 0);
     }
   }
-  p->n_costs = 3 * s->n_contacts;
-  if (s->round) return;
   for (int e = 0; e < s->b->rays; e++) {
     set_ray(s->b, e, s->widen * s->physics->mu_bead, p->ray[e]);
     set_ray(s->b, e, s->widen * s->physics->mu_ground, p->ray[s->b->rays + e]);
+    set_ray(s->b, e, thr_blocks_widening(s->b), p->ray[2 * s->b->rays + e]);
   }
-  p->n_costs = s->n_contacts * s->b->rays;
+}
+
+static int count_cones(const thr_blocks *s)
+{
+  return s->n_contacts + s->n_plays;
+}
+
+/* A cone for every face that cords go through: its height is the pull, by an equation, and across it is the pull times where the
+ * cord is, in parts of the play. */
+static void play_columns(const thr_blocks *s, programme *p)
+{
+  const double unit = s->carries ? 1 / s->weight : s->pull / s->weight;
+  for (int i = 0; i < s->n_plays; i++) {
+    const int e = s->play[i];
+    double side[2][3], moment[3];
+    set_side(s->b, e, side);
+    p->kind[s->n_contacts + i] = 2;
+    for (int k = 0; k < 3; k++, p->n_columns++) {
+      column(p);
+      if (k > 0)
+        thr_cross(side[k - 1], s->b->axis[e], moment);
+      else
+        memset(moment, 0, sizeof moment);
+      for (int which = 0; which < 2; which++) {
+        const int row = s->row[s->body[s->f->edge[e][which]]];
+        const double arm = (which ? -1 : 1) * unit * s->b->play * fmin(s->press[e], s->most) / s->length;
+        for (int j = 0; j < 3 && row >= 0; j++)
+          entry(p, row + 3 + j, arm * moment[j]);
+      }
+      entry(p, s->n_rows + s->n_ties + i, k == 0 ? 1 : 0);
+    }
+    if (s->carries) p->rhs[s->n_rows + s->n_ties + i] = 1;
+  }
 }
 
 /* Copies of the unknown; the first one costs. */
@@ -276,6 +334,8 @@ static void pull_columns(const thr_blocks *s, programme *p, double cost)
         entry(p, s->row[v] + k, unit * s->wrench[v][k] / (k < 3 ? 1 : s->length));
     for (int t = 0; t < s->n_ties; t++)
       if (s->tie[t][0] == c || s->tie[t][1] == c) entry(p, s->n_rows + t, s->tie[t][0] == c ? 1 : -1);
+    for (int i = 0; i < s->n_plays && !s->carries; i++)
+      if (s->copy[s->body[s->f->edge[s->play[i]][0]]] == c) entry(p, s->n_rows + s->n_ties + i, -1);
   }
 }
 
@@ -313,17 +373,22 @@ static void carry_given(const thr_blocks *s, int body, double *rhs)
     rhs[s->row[body] + k] -= s->given[body][k] / (k < 3 ? s->weight : s->weight * s->length);
 }
 
+static int count_rows(const thr_blocks *s)
+{
+  return s->n_rows + s->n_ties + s->n_plays;
+}
+
 static thr_status programme_make(const thr_blocks *s, aim what, programme *p, thr_err *err)
 {
   const bool hands = what != EQUILIBRIUM;
-  size_t n = (size_t)s->n_bodies, contacts = (size_t)s->n_contacts, rays = (size_t)s->b->rays;
-  size_t others = n + (hands ? 2 * (size_t)s->n_rows : 0), columns = 3 * contacts + others;
-  size_t entries = 39 * contacts + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows;
+  size_t n = (size_t)s->n_bodies, cones = (size_t)count_cones(s), rays = (size_t)s->b->rays;
+  size_t others = n + (hands ? 2 * (size_t)s->n_rows : 0), columns = 3 * cones + others;
+  size_t entries = 39 * cones + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows + (size_t)s->n_plays;
   *p = (programme){0};
-  p->rhs = thr_scratch_array(&p->own, (size_t)s->n_rows + (size_t)s->n_ties, sizeof *p->rhs);
-  p->cost = thr_scratch_array(&p->own, rays * contacts + others, sizeof *p->cost);
-  p->kind = thr_scratch_array(&p->own, contacts, sizeof *p->kind);
-  p->ray = thr_scratch_array(&p->own, 2 * rays, sizeof *p->ray);
+  p->rhs = thr_scratch_array(&p->own, (size_t)count_rows(s), sizeof *p->rhs);
+  p->cost = thr_scratch_array(&p->own, rays * cones + others, sizeof *p->cost);
+  p->kind = thr_scratch_array(&p->own, cones, sizeof *p->kind);
+  p->ray = thr_scratch_array(&p->own, 3 * rays, sizeof *p->ray);
   p->start = thr_scratch_array(&p->own, columns + 1, sizeof *p->start);
   p->row = thr_scratch_array(&p->own, entries, sizeof *p->row);
   p->value = thr_scratch_array(&p->own, entries, sizeof *p->value);
@@ -337,6 +402,8 @@ static thr_status programme_make(const thr_blocks *s, aim what, programme *p, th
     carry_given(s, v, p->rhs);
   if (what == SELF_STRESS) p->rhs[s->n_rows] = s->n_contacts;
   contact_columns(s, what == SELF_STRESS, p);
+  play_columns(s, p);
+  p->n_costs = count_cones(s) * (s->round ? 3 : s->b->rays);
   pull_columns(s, p, hands ? 0 : s->carries ? -1 : 1); /* the least pull, the largest load */
   if (hands) hand_columns(s, p);
   return THR_OK;
@@ -351,14 +418,14 @@ void thr_blocks_solution_destroy(thr_blocks_solution *o)
 
 static thr_columns columns_of(const thr_blocks *s, const programme *p)
 {
-  return (thr_columns){s->n_rows + s->n_ties, p->n_columns, p->start, p->row, p->value};
+  return (thr_columns){count_rows(s), p->n_columns, p->start, p->row, p->value};
 }
 
 /* How far forces are outside their cones, at most, in weights. */
 static double outside(const thr_blocks *s, const double *x)
 {
   double most = 0;
-  for (int i = 0; i < s->n_contacts; i++, x += 3)
+  for (int i = 0; i < count_cones(s); i++, x += 3)
     most = fmax(most, hypot(x[1], x[2]) - x[0]);
   for (int c = 0; c < s->n_copies; c++)
     most = fmax(most, -x[c]);
@@ -369,7 +436,7 @@ static double outside(const thr_blocks *s, const double *x)
 static thr_status finish(const thr_blocks *s, const programme *p, thr_blocks_solution *o, thr_err *err)
 {
   const thr_columns a = columns_of(s, p);
-  const thr_rays rays = {s->n_contacts, s->b->rays, a.n_columns - 3 * s->n_contacts, p->kind, (const double(*)[3])p->ray};
+  const thr_rays rays = {count_cones(s), s->b->rays, a.n_columns - 3 * count_cones(s), p->kind, (const double(*)[3])p->ray};
   thr_scratch own = {0};
   double *left = thr_scratch_array(&own, (size_t)a.n_rows, sizeof *left);
   double *u = thr_scratch_array(&own, (size_t)a.n_columns, sizeof *u);
@@ -403,7 +470,9 @@ static void guess_forces(const thr_blocks *s, double *x)
   for (int i = 0; i < s->n_contacts; i++)
     x[3 * i] = s->contact[i].other < 0 ? (double)s->b->n_beads / on_ground : fmax(1, pull * s->contact[i].press / s->weight);
   for (int c = 0; c < s->n_copies; c++)
-    x[3 * s->n_contacts + c] = s->carries ? 1 : pull / s->pull;
+    x[3 * count_cones(s) + c] = s->carries ? 1 : pull / s->pull;
+  for (int i = s->n_contacts; i < count_cones(s); i++)
+    x[3 * i] = s->carries ? 1 : pull / s->pull;
 }
 
 /* So many weights in terms of what a solver takes for 1: the largest of the right sides. */
@@ -426,7 +495,7 @@ static thr_status solve_round(const thr_blocks *s, const programme *p, const thr
                                             s->merged ? 1e-9 : THR_BLOCKS_ROUGH, /* of merged ones no rounding is made up for */
                                         .met = relative(s, p, s->merged ? THR_BLOCKS_UNMET : THR_BLOCKS_MET),
                                         .start = found->x,
-                                        .n_cones = s->n_contacts};
+                                        .n_cones = count_cones(s)};
   return thr_cones_solve(&equations, limits, found, err);
 }
 
@@ -442,7 +511,7 @@ static thr_status solve_pyramids(const thr_blocks *s, const programme *p, const 
                                                       : 2 * THR_BLOCKS_ROUGH,
                                    .met = large ? relative(s, p, s->bound ? THR_BLOCKS_UNMET : THR_BLOCKS_MET) : 0,
                                    .warm = large ? s->warm : NULL,
-                                   .n_cones = s->n_contacts,
+                                   .n_cones = count_cones(s),
                                    .n_rays = s->b->rays,
                                    .kind = p->kind,
                                    .ray = (const double(*)[3])p->ray};
@@ -456,7 +525,7 @@ static thr_status solve(const thr_blocks *s, aim what, const thr_limits *limits,
   thr_status st = programme_make(s, what, &p, err);
   if (st) return st;
   out->x = thr_calloc((size_t)p.n_costs, sizeof *out->x);
-  out->dual = thr_calloc((size_t)s->n_rows + (size_t)s->n_ties, sizeof *out->dual);
+  out->dual = thr_calloc((size_t)count_rows(s), sizeof *out->dual);
   thr_interior found = {.x = out->x, .dual = out->dual};
   if (!out->x || !out->dual) st = thr_nomem(err);
   if (!st) st = (s->round ? solve_round : solve_pyramids)(s, &p, limits, &found, err);
@@ -480,5 +549,6 @@ thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits,
   alone.round = false;
   alone.n_copies = 0;
   alone.n_ties = 1;
+  alone.n_plays = 0;
   return solve(&alone, SELF_STRESS, limits, out, err);
 }

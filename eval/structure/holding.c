@@ -54,8 +54,8 @@ static void certify(const thr_blocks *s, answer *a)
   bool falls = given > THR_MECHANISM_DRIVE * (p.all + p.all_loads); /* less is rounding: it stands by itself */
   a->lower = !falls ? 0 : p.resistance > 0 ? given / p.resistance : INFINITY;
   if (s->carries) a->lower = p.load > THR_MECHANISM_DRIVE * p.all_loads ? fmax(0, (p.resistance - p.falling) / p.load) : INFINITY;
-  double apart = fabs(a->pull - a->lower);
-  a->gap = isfinite(apart) ? apart / (a->pull + 1e-3 * s->pull) : 1;
+  double apart = s->carries ? a->lower - a->pull : a->pull - a->lower; /* polygons round a disc make it less than nothing */
+  a->gap = isfinite(apart) ? fmax(0, apart) / (a->pull + 1e-3 * s->pull) : 1;
 }
 
 /* The least pull (if wanted) at which the solver found an equilibrium, and a mechanism with its bound. */
@@ -105,7 +105,8 @@ static void task_destroy(task *t)
   free(t->weld[1]);
 }
 
-static thr_blocks part(const task *t, double most, bool merged, double widen)
+/* outside: all that may be, for what is proved. */
+static thr_blocks part(const task *t, double most, bool merged, bool outside)
 {
   return (thr_blocks){.b = t->b,
                       .f = t->f,
@@ -115,7 +116,8 @@ static thr_blocks part(const task *t, double most, bool merged, double widen)
                       .carries = t->carries,
                       .most = most,
                       .merged = merged,
-                      .weld = t->weld[widen > 1],
+                      .outside = outside,
+                      .weld = t->weld[outside && !t->round],
                       .round = t->round};
 }
 
@@ -124,7 +126,7 @@ static thr_status find_welds(task *t, thr_err *err)
   thr_status st = THR_OK;
   for (int i = 0; i < 2 && !st; i++) {
     const double widen = i ? thr_blocks_widening(t->b) : 1;
-    const thr_blocks s = part(t, INFINITY, false, widen);
+    const thr_blocks s = part(t, INFINITY, false, i == 1);
     int *weld = thr_calloc((size_t)t->b->n_beads, sizeof *weld);
     st = weld ? thr_welds_find(&s, widen, t->limits, weld, err) : thr_nomem(err);
     t->weld[i] = weld;
@@ -143,10 +145,11 @@ static thr_warm *warm_at(task *t, double most, bool merged)
 }
 
 /* One programme: replaces the mechanism in a, if there was one. Merged, its pull is about a->pull. */
-static thr_status pull_of(task *t, double most, bool merged, double widen, answer *a, thr_err *err)
+static thr_status pull_of(task *t, double most, bool merged, bool outside, answer *a, thr_err *err)
 {
+  const double widen = outside && !t->round ? thr_blocks_widening(t->b) : 1;
   const double plenty = 3000; /* weights of a bead in what draws it: ten times what a dome of 2,000 beads needs */
-  thr_blocks s = part(t, most, merged, widen);
+  thr_blocks s = part(t, most, merged, outside);
   thr_status st = thr_blocks_make(&s, widen, err);
   if (st) return st;
   s.bound = widen > 1;
@@ -197,7 +200,7 @@ static thr_status check_feasible(const task *t, thr_err *err)
 {
   bool friction = t->physics->mu_bead > 0;
   const double widen = thr_blocks_widening(t->b);
-  thr_blocks s = part(t, friction ? 0 : INFINITY, friction, widen);
+  thr_blocks s = part(t, friction ? 0 : INFINITY, friction, true);
   s.round = false;
   thr_blocks_solution o = {0};
   double(*velocity)[6] = thr_calloc((size_t)t->b->n_beads, sizeof *velocity);
@@ -225,12 +228,11 @@ static thr_status check_feasible(const task *t, thr_err *err)
 /* At one cap; merged too if the bound does not close otherwise. */
 static thr_status lower_at(task *t, double most, answer *a, answer *best, double *best_most, thr_err *err)
 {
-  const double widen = t->round ? 1 : thr_blocks_widening(t->b);
-  thr_status st = pull_of(t, most, false, widen, a, err);
+  thr_status st = pull_of(t, most, false, true, a, err);
   if (st || closed(a, close_enough(t))) return st;
   keep_better(t, a, most, best, best_most);
   if (t->largest <= most || !(a->pull > 0) || !isfinite(a->pull)) return THR_OK;
-  st = pull_of(t, most, true, widen, a, err);
+  st = pull_of(t, most, true, true, a, err);
   if (!st && !closed(a, close_enough(t))) keep_better(t, a, most, best, best_most);
   return st;
 }
@@ -301,7 +303,7 @@ static thr_status upper_pull(task *t, double most, answer *a, thr_err *err)
     t->b = i < UNITS ? usual : &finer;
     t->unit = unit[i % UNITS];
     a->pull = 0;
-    st = pull_of(t, most, false, 1, a, err);
+    st = pull_of(t, most, false, false, a, err);
   }
   t->b = usual;
   return st;
@@ -316,10 +318,10 @@ static thr_status bounds(task *t, bool want_upper, answer *a, double *upper, thr
   *upper = 0;
   if (t->round) {
     thr_status st = lower_pull_in(t, &most, a, err);
-    if (st != THR_ESOLVER) {
-      *upper = a->pull;
-      return st;
-    }
+    if (!st && want_upper) st = pull_of(t, most, false, false, &inside_cones, err);
+    *upper = inside_cones.pull;
+    answer_destroy(&inside_cones);
+    if (st != THR_ESOLVER) return st;
     answer_destroy(a);
     t->round = false;
   }

@@ -153,13 +153,17 @@ thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, const thr
 
 double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], int face)
 {
-  double one[3], other[3], sum = 0;
+  const int *end = s->f->edge[face];
+  double one[3], other[3], turn[3], across[3], sum = 0;
   if (thr_blocks_inside(s, face)) return 0;
-  point_velocity(s, s->f->edge[face][1], velocity, s->b->middle[face], one);
-  point_velocity(s, s->f->edge[face][0], velocity, s->b->middle[face], other);
-  for (int k = 0; k < 3; k++)
+  point_velocity(s, end[1], velocity, s->b->middle[face], one);
+  point_velocity(s, end[0], velocity, s->b->middle[face], other);
+  for (int k = 0; k < 3; k++) {
     sum += s->b->axis[face][k] * (one[k] - other[k]);
-  return sum;
+    turn[k] = velocity[end[1]][3 + k] - velocity[end[0]][3 + k];
+  }
+  thr_cross(s->b->axis[face], turn, across);
+  return sum + s->b->play * sqrt(thr_dot(across, across));
 }
 
 thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6])

@@ -29,7 +29,7 @@ thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, const thr
 /* Least power of any contact force: a mechanism has none below 0. */
 double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6]);
 
-/* How fast the beads of a face part at its middle, where the cords press. */
+/* How fast the beads of a face part where the cord is that resists most: anywhere within its bore. */
 double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], int face);
 
 thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6]);

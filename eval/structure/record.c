@@ -77,6 +77,7 @@ thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_option
 {
   thr_standing *standing = &evaluation->standing;
   *standing = (thr_standing){.present = true,
+                             .model = THR_STANDING_MODEL,
                              .clamped = options->clamped,
                              .taut = options->taut,
                              .tilt = options->tilt,

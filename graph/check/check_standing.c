@@ -28,6 +28,8 @@ typedef struct {
   const thr_evaluation *e;
   const thr_standing *s;
   double unit, width, down[3];
+  double level[3]; /* direction of what stands upright or on the ground */
+  double play;     /* how far from the middle of a face a cord may go through it */
   double *mass, (*centre)[3], (*mass_centre)[3];
   bool *foot;
   double *press; /* [n_edges] of what is asked at the time */
@@ -55,6 +57,36 @@ static void place_nodes(bodies *b)
                            (high[2] - low[2]) * (high[2] - low[2]));
   for (int v = 0; v < frame->n_nodes; v++)
     b->foot[v] = any ? frame->foot[v] : b->centre[v][2] <= lowest + 1e-6 * size;
+}
+
+static bool is_vertical(const double axis[3])
+{
+  return hypot(axis[0], axis[1]) <= 1e-9;
+}
+
+/* Computes the unit vector along edge e. */
+static void axis_of(const bodies *b, int e, double axis[3])
+{
+  const int *end = b->plan->frame.edge[e];
+  for (int k = 0; k < 3; k++)
+    axis[k] = b->centre[end[1]][k] - b->centre[end[0]][k];
+  const double length = sqrt(thr_dot(axis, axis)), inverse = 1 / length;
+  for (int k = 0; k < 3; k++)
+    axis[k] *= inverse;
+}
+
+/* Finds the level direction: of the first edge that is not vertical; x in the first model. */
+static void find_level(bodies *b)
+{
+  double axis[3];
+  b->level[0] = 1;
+  for (int e = 0; e < b->plan->frame.n_edges && b->s->model > 1; e++) {
+    axis_of(b, e, axis);
+    if (is_vertical(axis)) continue;
+    b->level[0] = axis[0] / hypot(axis[0], axis[1]);
+    b->level[1] = axis[1] / hypot(axis[0], axis[1]);
+    return;
+  }
 }
 
 /* Adds one arm of node v, half an edge long: what it weighs, and where. */
@@ -109,6 +141,8 @@ static thr_status bodies_make(bodies *b, const thr_plan *plan, thr_err *err)
   b->down[1] = sin(s->tilt) * sin(s->azimuth);
   b->down[2] = -cos(s->tilt);
   place_nodes(b);
+  find_level(b);
+  if (s->model > 1) b->play = fmax(0, (b->e->physics.bore - b->e->physics.cord_diameter) / 2e3);
   weigh(b);
   return THR_OK;
 }
@@ -180,15 +214,10 @@ static bool opens(const double apart[3], const double normal[3], double mu, doub
 /* Unit vector along edge e, and two across it, the first one level. */
 static void axes_of(const bodies *b, int e, double axis[3], double side[2][3])
 {
-  const int *end = b->plan->frame.edge[e];
-  for (int k = 0; k < 3; k++)
-    axis[k] = b->centre[end[1]][k] - b->centre[end[0]][k];
-  const double length = sqrt(thr_dot(axis, axis)), inverse = 1 / length;
-  for (int k = 0; k < 3; k++)
-    axis[k] *= inverse;
+  axis_of(b, e, axis);
   const double level = hypot(axis[0], axis[1]);
-  side[0][0] = level > 1e-9 ? -axis[1] / level : 1;
-  side[0][1] = level > 1e-9 ? axis[0] / level : 0;
+  side[0][0] = is_vertical(axis) ? b->level[0] : -axis[1] / level;
+  side[0][1] = is_vertical(axis) ? b->level[1] : axis[0] / level;
   side[0][2] = 0;
   thr_cross(axis, side[0], side[1]);
 }
@@ -216,16 +245,20 @@ static void face_velocities(const bodies *b, const thr_answer *a, int e, double 
   }
 }
 
-/* Computes the velocities of the corners on which foot v stands. */
-static void foot_velocities(const bodies *b, const thr_answer *a, int v, double velocity[4][3])
+/* Computes the velocities of the corners on which foot v stands, and returns their number: those of a regular polygon round its
+ * disc, or, in the first model, of a square. If no corner closes, no point of the disc does. */
+enum { SIDES = 16 };
+static int foot_velocities(const bodies *b, const thr_answer *a, int v, double velocity[SIDES][3])
 {
-  static const double side[2][3] = {{1, 0, 0}, {0, 1, 0}};
-  const double below[3] = {b->centre[v][0], b->centre[v][1], b->centre[v][2] - b->width / 2};
-  double at[3];
-  for (int i = 0; i < 4; i++) {
-    corner_of(b, below, side, i, at);
+  const int sides = b->s->model > 1 ? SIDES : 4;
+  const double radius = b->width / 2 / cos(THR_PI / sides);
+  for (int i = 0; i < sides; i++) {
+    const double angle = THR_PI * (2 * i + 1) / sides, along = radius * cos(angle), across = radius * sin(angle);
+    const double at[3] = {b->centre[v][0] + along * b->level[0] - across * b->level[1],
+                          b->centre[v][1] + along * b->level[1] + across * b->level[0], b->centre[v][2] - b->width / 2};
     point_velocity(b, a, v, at, velocity[i]);
   }
+  return sides;
 }
 
 static double speed(const double velocity[3])
@@ -245,7 +278,7 @@ static double fastest_bead(const bodies *b, const thr_answer *a)
 /* Returns the speed of the fastest point of the mechanism: of all mass centres and all corners that touch something. */
 static double fastest_point(const bodies *b, const thr_answer *a)
 {
-  double fastest = fastest_bead(b, a), axis[3], face[2][4][3], foot[4][3];
+  double fastest = fastest_bead(b, a), axis[3], face[2][4][3], foot[SIDES][3];
   for (int e = 0; e < b->plan->frame.n_edges; e++) {
     face_velocities(b, a, e, axis, face);
     for (int i = 0; i < 8; i++)
@@ -254,8 +287,8 @@ static double fastest_point(const bodies *b, const thr_answer *a)
 
   for (int v = 0; v < b->plan->frame.n_nodes; v++) {
     if (!b->foot[v] || b->s->clamped) continue;
-    foot_velocities(b, a, v, foot);
-    for (int i = 0; i < 4; i++)
+    const int sides = foot_velocities(b, a, v, foot);
+    for (int i = 0; i < sides; i++)
       fastest = fmax(fastest, speed(foot[i]));
   }
   return fastest;
@@ -277,15 +310,15 @@ static bool face_opens(const bodies *b, const thr_answer *a, int e, double closi
 static bool foot_opens(const bodies *b, const thr_answer *a, int v, double closing)
 {
   static const double up[3] = {0, 0, 1};
-  double velocity[4][3];
+  double velocity[SIDES][3];
   if (b->s->clamped) {
     for (int k = 0; k < 6; k++)
       if (a->velocity[v][k] != 0) return false;
     return true;
   }
 
-  foot_velocities(b, a, v, velocity);
-  for (int i = 0; i < 4; i++)
+  const int sides = foot_velocities(b, a, v, velocity);
+  for (int i = 0; i < sides; i++)
     if (!opens(velocity[i], up, b->e->physics.mu_ground, closing)) return false;
   return true;
 }
@@ -301,18 +334,23 @@ static void add_power(power *p, double value)
   p->terms += fabs(value);
 }
 
+/* Adds what the cords resist: at the middle of each face, and as much more as they do where they may be. */
 static void cords_power(const bodies *b, const thr_answer *a, power *resistance)
 {
   for (int e = 0; e < b->plan->frame.n_edges; e++) {
     const int *end = b->plan->frame.edge[e];
-    double axis[3], side[2][3], middle[3], velocity[3];
-    axes_of(b, e, axis, side);
-    for (int k = 0; k < 3; k++)
+    double axis[3], middle[3], velocity[3], turn[3], across[3];
+    axis_of(b, e, axis);
+    for (int k = 0; k < 3; k++) {
       middle[k] = (b->centre[end[0]][k] + b->centre[end[1]][k]) / 2;
+      turn[k] = a->velocity[end[1]][3 + k] - a->velocity[end[0]][3 + k];
+    }
     for (int which = 0; which < 2; which++) {
       point_velocity(b, a, end[which], middle, velocity);
       add_power(resistance, (which ? 1 : -1) * b->press[e] * thr_dot(axis, velocity));
     }
+    thr_cross(axis, turn, across);
+    add_power(resistance, b->press[e] * b->play * sqrt(thr_dot(across, across)));
   }
 }
 

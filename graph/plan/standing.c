@@ -111,6 +111,7 @@ static void put_stills(thr_writer *writer, const thr_standing *standing)
 void thr_standing_write(const thr_standing *standing, thr_writer *writer, const char *key)
 {
   thr_write_object(writer, key);
+  if (standing->model > 1) thr_write_int(writer, "model", standing->model);
   thr_write_bool(writer, "clamped", standing->clamped);
   thr_write_bool(writer, "taut", standing->taut);
   thr_write_number(writer, "tilt", standing->tilt);
@@ -272,10 +273,15 @@ static thr_status read_lists(const reader *r, const thr_json *object, thr_standi
 
 static thr_status read_members(const reader *r, const thr_json *object, thr_standing *standing)
 {
-  static const char *const known[] = {"clamped", "taut",  "tilt",   "azimuth", "let_down",
-                                      "loads",   "drawn", "stills", "answers", NULL};
+  static const char *const known[] = {"model", "clamped", "taut",   "tilt",    "azimuth", "let_down",
+                                      "loads", "drawn",   "stills", "answers", NULL};
   const char *key = thr_json_unknown(object, known);
   if (key) return bad(r, key, -1, "this version does not know it and cannot check it");
+  const thr_json *model = thr_json_get(object, "model");
+  int64_t number = 1;
+  if (model && (!thr_json_int(model, &number) || number < 1 || number > THR_STANDING_MODEL))
+    return bad(r, "model", -1, "not 1 or 2");
+  standing->model = (int)number;
   if (thr_json_typeof(thr_json_get(object, "clamped")) != THR_JSON_BOOL) return bad(r, "clamped", -1, "expected true or false");
   if (thr_json_typeof(thr_json_get(object, "taut")) != THR_JSON_BOOL) return bad(r, "taut", -1, "expected true or false");
   standing->clamped = thr_json_true(thr_json_get(object, "clamped"));

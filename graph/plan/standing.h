@@ -51,9 +51,11 @@ typedef struct {
 } thr_posed;
 
 static const double THR_SEATED = 0.01;
+enum { THR_STANDING_MODEL = 2 };
 
 typedef struct {
   bool present;
+  int model;            /* of bodies and cords: THR_STANDING_MODEL, or 1: square feet, cords in the middle of their bores */
   bool clamped;         /* the feet are held; else they stand on the ground */
   bool taut;            /* turns are those of the tight cord, and each cord states its exponents */
   double tilt, azimuth; /* rad: of the ground, and where it goes down (from x towards y) */

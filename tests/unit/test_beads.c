@@ -196,11 +196,11 @@ START_TEST(feet_stand_on_their_own_ground)
   thr_beads b = beads_of(&f, &p);
   ck_assert(b.n_feet == 2 && b.foot[0] == 0 && b.foot[1] == 2);
   for (int i = 0; i < 2; i++)
-    for (int k = 0; k < 4; k++) { /* the lower foot's ground is z = 0, the other's 3 mm higher */
+    for (int k = 0; k < THR_FOOT_POINTS; k++) { /* the lower foot's ground is z = 0, the other's 3 mm higher */
       ck_assert_double_eq_tol(b.foot_point[i][k][2], 3e-3 * i, 1e-15);
-      ck_assert_double_eq_tol(fabs(b.foot_point[i][k][0] - 20e-3 * i), 1e-3, 1e-15);
-      ck_assert_double_eq_tol(fabs(b.foot_point[i][k][1]), 1e-3, 1e-15);
-      ck_assert_double_eq_tol(distance(b.foot_point[i][k], b.foot_point[i][(k + 1) % 4]), 2e-3, 1e-15);
+      ck_assert_double_eq_tol(hypot(b.foot_point[i][k][0] - 20e-3 * i, b.foot_point[i][k][1]), 1e-3, 1e-15);
+      ck_assert_double_eq_tol(distance(b.foot_point[i][k], b.foot_point[i][(k + 1) % THR_FOOT_POINTS]),
+                              2e-3 * sin(THR_PI / THR_FOOT_POINTS), 1e-15);
     }
   ck_assert_double_eq_tol(b.centre[0][2], 1e-3, 1e-15);
   const bool fixed[4] = {false, true, false, false};

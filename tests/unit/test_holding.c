@@ -30,7 +30,7 @@ static thr_physics physics_of(double width, double mu)
   return (thr_physics){.mu = 0.2,
                        .mu_bead = mu,
                        .mu_ground = 0.5,
-                       .cord_diameter = width / 20,
+                       .cord_diameter = width / 10, /* fills the bore */
                        .bore = width / 10,
                        .bead_diameter = width,
                        .density = 1,
@@ -153,6 +153,23 @@ START_TEST(cantilever_is_held_by_its_cord)
       ck_assert_double_eq_tol(h.lower, exact, 1e-6 * exact);
       ck_assert_double_eq_tol(h.upper, exact, 1e-6 * exact);
       ck_assert_int_eq(h.first_bead, n - 1); /* the tip is fastest */
+      thr_holding_destroy(&h);
+      model_destroy(&m);
+    }
+}
+END_TEST
+
+/* A cord that goes through its bores higher up, by their play, has the longer lever. */
+START_TEST(play_of_the_bore_lowers_what_is_proved)
+{
+  for (int part = 0; part < 4; part++)
+    for (int n = 2; n < 6; n++) {
+      model m = cantilever(n, 20, 8, 2, 0.3);
+      m.beads.play = part * 0.2e-3;
+      thr_holding h = hold(&m);
+      const double middle = overturning(n, 20, 8, 0.1), exact = middle * 4 / (4 + 0.2 * part);
+      ck_assert_double_eq_tol(h.lower, exact, 1e-6 * exact);
+      ck_assert_double_eq_tol(h.upper, middle, 1e-6 * middle);
       thr_holding_destroy(&h);
       model_destroy(&m);
     }
@@ -378,7 +395,7 @@ static void assert_proved(const model *m, const thr_holding *h)
       assert_opens(one, b->axis[e], m->physics.mu_bead);
     }
   for (int j = 0; j < b->n_feet; j++)
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < THR_FOOT_POINTS; i++) {
       double one[3];
       velocity_at(m, h, b->foot[j], b->foot_point[j][i], one);
       assert_opens(one, (const double[]){0, 0, 1}, m->physics.mu_ground);
@@ -432,18 +449,11 @@ static void push(plain *p, const model *m, int bead, const double force[3], cons
   }
 }
 
-/* Rays of a pyramid of eight edges whose first edge lies along the normal's product with its smallest axis. */
-static void add_point(plain *p, const model *m, int bead, int other, const double at[3], const double normal[3], double mu)
+/* Rays of a pyramid of eight edges, the first of which lies along u, square to the normal. */
+static void add_point(plain *p, const model *m, int bead, int other, const double at[3], const double normal[3],
+                      const double u[3], double mu)
 {
-  double axis[3] = {0}, u[3], v[3];
-  int least = 0;
-  for (int k = 1; k < 3; k++)
-    if (fabs(normal[k]) < fabs(normal[least])) least = k;
-  axis[least] = 1;
-  cross(normal, axis, u);
-  double norm = hypot(hypot(u[0], u[1]), u[2]);
-  for (int k = 0; k < 3; k++)
-    u[k] /= norm;
+  double v[3];
   cross(normal, u, v);
   for (int e = 0; e < 8; e++, p->n++) {
     double force[3];
@@ -466,18 +476,28 @@ static void node_wrench(const thr_beads *b, int bead, const double force[3], dou
 }
 
 /* All columns at once, the unknown in one: the least pull, INFINITY if there is none, or, with a load, how many times so much is
- * carried at that pull, -INFINITY if it does not stand, INFINITY if no multiple is too much. */
-static double by_simplex(const model *m, const double (*load)[3], double pull)
+ * carried at that pull, -INFINITY if it does not stand, INFINITY if no multiple is too much. Feet stand on polygons in their
+ * discs, or round them. */
+static double by_simplex(const model *m, bool round, const double (*load)[3], double pull)
 {
+  static const double up[3] = {0, 0, 1};
   const thr_beads *b = &m->beads;
+  const double times = round ? 1 / cos(THR_PI / THR_FOOT_POINTS) : 1;
   plain *p = calloc(1, sizeof *p);
   ck_assert(p != NULL && 6 * b->n_beads <= 128);
   for (int e = 0; e < b->n_faces; e++)
-    for (int i = 0; i < 4; i++)
-      add_point(p, m, m->frame.edge[e][1], m->frame.edge[e][0], b->corner[e][i], b->axis[e], m->physics.mu_bead);
+    for (int i = 0; i < 4; i++) {
+      double side[3];
+      for (int k = 0; k < 3; k++)
+        side[k] = (b->corner[e][1][k] - b->corner[e][0][k]) / b->width;
+      add_point(p, m, m->frame.edge[e][1], m->frame.edge[e][0], b->corner[e][i], b->axis[e], side, m->physics.mu_bead);
+    }
   for (int j = 0; j < b->n_feet; j++)
-    for (int i = 0; i < 4; i++)
-      add_point(p, m, b->foot[j], -1, b->foot_point[j][i], (const double[]){0, 0, 1}, m->physics.mu_ground);
+    for (int i = 0; i < THR_FOOT_POINTS; i++) {
+      const double *foot = b->centre[b->foot[j]], *on_edge = b->foot_point[j][i];
+      const double at[3] = {foot[0] + times * (on_edge[0] - foot[0]), foot[1] + times * (on_edge[1] - foot[1]), on_edge[2]};
+      add_point(p, m, b->foot[j], -1, at, up, b->level, m->physics.mu_ground);
+    }
   p->start[p->n + 1] = p->start[p->n];
   for (int v = 0; v < b->n_beads; v++) {
     double of_load[6] = {0};
@@ -531,10 +551,10 @@ START_TEST(loads_equal_a_plain_programme_by_simplex)
     for (int e = 0; e < m.frame.n_edges; e++)
       press[e] = pull * m.press[e];
     thr_status st = thr_holding_carry(&m.beads, &m.frame, &m.physics, press, (const double(*)[3])load, &no_limit, &carry, &err);
-    double carried = by_simplex(&m, (const double(*)[3])load, pull);
+    double carried = by_simplex(&m, false, (const double(*)[3])load, pull);
     m.physics.mu_bead /= cos(THR_PI / 8);
     m.physics.mu_ground /= cos(THR_PI / 8);
-    double beyond = by_simplex(&m, (const double(*)[3])load, pull);
+    double beyond = by_simplex(&m, true, (const double(*)[3])load, pull);
     if (isinf(beyond)) {
       ck_assert_int_eq(st, THR_ESOLVER);
     } else {
@@ -553,10 +573,10 @@ END_TEST
 
 static void assert_equals_simplex(model *m)
 {
-  double upper = by_simplex(m, NULL, 0), mu_bead = m->physics.mu_bead, mu_ground = m->physics.mu_ground;
+  double upper = by_simplex(m, false, NULL, 0), mu_bead = m->physics.mu_bead, mu_ground = m->physics.mu_ground;
   m->physics.mu_bead /= cos(THR_PI / 8);
   m->physics.mu_ground /= cos(THR_PI / 8);
-  double lower = by_simplex(m, NULL, 0);
+  double lower = by_simplex(m, true, NULL, 0);
   m->physics.mu_bead = mu_bead;
   m->physics.mu_ground = mu_ground;
   thr_holding h;
@@ -654,6 +674,40 @@ static model dome_part(const thr_plan *p, double side)
   return model_make(f, physics_of(7, 0.25), NULL, p->cord, p->n_cords);
 }
 
+/* Turns the drawing about the vertical. */
+static model turned_part(const thr_plan *p, double angle)
+{
+  thr_frame f;
+  ck_assert_int_eq(thr_frame_copy(&f, &p->frame, NULL), THR_OK);
+  for (int v = 0; v < f.n_nodes; v++) {
+    const double x = f.xyz[v][0], y = f.xyz[v][1];
+    f.xyz[v][0] = x * cos(angle) - y * sin(angle);
+    f.xyz[v][1] = x * sin(angle) + y * cos(angle);
+  }
+  return model_make(f, physics_of(7, 0.25), NULL, p->cord, p->n_cords);
+}
+
+START_TEST(turned_plans_pull_alike)
+{
+  thr_plan p;
+  thr_err err = {0};
+  ck_assert_msg(thr_plan_read(&p, "data/dome7-lines.json", &err) == THR_OK, "%s", err.text);
+  model m = turned_part(&p, 0);
+  thr_holding as_drawn = hold(&m);
+  for (double angle = 0.3; angle < 6; angle += 1.1) {
+    model turned = turned_part(&p, angle);
+    thr_holding h = hold(&turned);
+    ck_assert_double_eq_tol(h.lower, as_drawn.lower, 2e-6 * as_drawn.lower);
+    ck_assert_double_eq_tol(h.upper, as_drawn.upper, 2e-6 * as_drawn.upper);
+    thr_holding_destroy(&h);
+    model_destroy(&turned);
+  }
+  thr_holding_destroy(&as_drawn);
+  model_destroy(&m);
+  thr_plan_destroy(&p);
+}
+END_TEST
+
 START_TEST(mirrored_plans_pull_alike)
 {
   static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-stairs.json", "data/dome7-snake.json"};
@@ -692,6 +746,7 @@ int main(void)
 {
   Suite *s = suite_create("holding pull");
   ADD_TEST(s, 20, cantilever_is_held_by_its_cord);
+  ADD_TEST(s, 20, play_of_the_bore_lowers_what_is_proved);
   ADD_TEST(s, 20, each_face_holds_what_hangs_beyond_it);
   ADD_TEST(s, 20, cantilever_scales_as_in_the_thesis);
   ADD_TEST(s, 10, friction_carries_a_bead);
@@ -706,6 +761,7 @@ int main(void)
   ADD_EXAMPLES(s, 20, loads_equal_a_plain_programme_by_simplex, 40);
   ADD_EXAMPLES(s, 20, uneven_cords_decide_alike, 40);
   ADD_TEST(s, 10, twice_the_weight_needs_twice_the_pull);
+  ADD_TEST(s, 30, turned_plans_pull_alike);
   ADD_TEST(s, 30, mirrored_plans_pull_alike);
   ADD_TEST(s, 10, same_bits_again);
   return run_suite(s);
