@@ -286,11 +286,7 @@ thread_status thread_eval(thread_plan *plan, const char *method, double seconds,
   thr_library_lock();
   if (which == THR_N_METHODS) st = thr_fail(&why, THR_EINPUT, "there is no method %s", method);
   if (!st) st = thr_eval_plan(&p->frame, p->cord, p->n_cords, (thr_method)which, &options, &limits, &found, &why);
-  if (!st) {
-    thr_evaluation_destroy(&p->evaluation);
-    p->evaluation = found.record;
-    found.record = (thr_evaluation){0};
-  }
+  if (!st) (void)thr_plan_take_evaluation(p, &found.record);
   thr_eval_destroy(&found);
   thr_library_unlock();
   return thr_library_status(st, &why, err);

@@ -2221,12 +2221,13 @@ def check_turning(p):
 # ---- proof.pull ----
 
 
+def partings(before, old):
+    """Sums that are left to both ends of a cord, parted at every turn, which counts for neither; in plans of version 1 at every pass."""
+    return [(x, before[-1] - y) for x, y in zip(before, before if old or len(before) == 1 else before[1:])]
+
+
 def larger_part(turns, old):
-    """Of the parting where it is least: at a turn, which counts for neither side; in plans of version 1 at a pass."""
-    before = list(itertools.accumulate(turns, initial=0.0))
-    if old:
-        return min(max(x, before[-1] - x) for x in before)
-    return min((max(x, before[-1] - y) for x, y in zip(before, before[1:])), default=0.0)
+    return min(map(max, partings(list(itertools.accumulate(turns, initial=0.0)), old)))
 
 
 def check_pulls(p):
@@ -2698,6 +2699,11 @@ class Pulled:
         require(slack == min(self.tension), f"{self.place}.slackest: not the least tension")
         near(values["loss"], 1 - slack / force if force else 0, 1, self.place + ".loss")
         require(self.pull != "none" or not any(self.tension), f"{self.place}.tension: of a cord that is not pulled")
+        self.from_end = self.slackest
+        if self.pull == "both":
+            self.from_end = self.slackest + (not e.old_pull and len(self.tension) > 1)
+            require(self.from_end < len(self.tension), f"{self.place}.slackest: no turn behind it")
+            near(self.tension[self.from_end], slack, slack, f"{self.place}.tension[{self.from_end}]: behind the slackest pass")
         ways = {"none": [], "start": [self.tension[self.slackest::-1]], "end": [self.tension[self.slackest:]]}
         for way in ways["start"] + ways["end"] if self.pull == "both" else ways[self.pull]:
             require(all(a <= b * (1 + 1e-9) for a, b in zip(way, way[1:])), f"{self.place}: tension falls towards a pulled end")
@@ -2708,10 +2714,10 @@ class Pulled:
         for x in self.exponents_by_law(e):
             before.append(before[-1] + x)
         total, at = before[-1], before[self.slackest]
-        pull = {"start": lambda x: total - x, "end": lambda x: x, "both": lambda x: max(x, total - x)}[self.pull]
-        require(pull(at) <= min(map(pull, before)) + 1e-9 * (1 + total), f"{self.place}.slackest: another pass needs less pull")
+        ways = {"start": [total - x for x in before], "end": before, "both": list(map(max, partings(before, e.old_pull)))}[self.pull]
+        require(ways[self.slackest] <= min(ways) + 1e-9 * (1 + total), f"{self.place}.slackest: another pass needs less pull")
         for k, x in enumerate(before):
-            expected = held(e.physics["seating"], abs(x - at), e.physics)
+            expected = held(e.physics["seating"], at - x if k <= self.slackest else x - before[self.from_end], e.physics)
             require(self.tension[k] > 0 and abs(math.log(self.tension[k]) - math.log(expected)) <= 1e-9 * (1 + total),
                     f"{self.place}.tension[{k}]: not by the law")
 
@@ -2745,6 +2751,7 @@ class Standing:
         known(o, "model clamped taut tilt azimuth let_down loads drawn stills answers", place)
         self.model = member(o, "model", "integer", place, 1, 2, default=1)
         self.frame, self.physics, self.cords, self.scheduled = p.frame, e.physics, cords, bool(e.steps)
+        self.old_pull = p.options.old_pull
         self.paths = [[h >> 1 for h in cord.half] for cord in p.cords]
         self.clamped = member(o, "clamped", "truth", place)
         tilt, azimuth = member(o, "tilt", "number", place, 0), member(o, "azimuth", "number", place)
@@ -2841,9 +2848,9 @@ class Standing:
         pull, last = choice(o, "pull", self.place, ("start", "end", "both", "none")), len(cord.tension) - 1
         slackest = member(o, "slackest", "integer", self.place, 0, last)
         before = [0.0, *itertools.accumulate(cord.steps)]
-        reach = [max(x, before[-1] - x) for x in before]
+        reach = list(map(max, partings(before, self.old_pull)))
         fits = {"start": slackest == last, "end": slackest == 0, "none": slackest == 0,
-                "both": reach[slackest] <= min(reach) + 1e-9 * (1 + before[-1])}[pull]
+                "both": slackest < len(reach) and reach[slackest] <= min(reach) + 1e-9 * (1 + before[-1])}[pull]
         require(fits, f"{self.place}.drawn: the slackest pass is another")
         require(self.scheduled or pull == cord.pull, f"{self.place}.drawn: pulled otherwise")
         return before, pull, slackest
@@ -2856,8 +2863,9 @@ class Standing:
         if pull == "none":
             return [0.0] * len(before)
         if asked == "holding":
-            end = {"start": before[slackest], "end": before[-1] - before[slackest], "both": max(before[slackest], before[-1] - before[slackest])}[pull]
-            return [math.exp(abs(x - before[slackest]) - end) for x in before]
+            behind = slackest + (pull == "both" and not self.old_pull and len(before) > 1)
+            end = {"start": before[slackest], "end": before[-1] - before[slackest], "both": max(before[slackest], before[-1] - before[behind])}[pull]
+            return [math.exp((before[slackest] - x if k <= slackest else x - before[behind]) - end) for k, x in enumerate(before)]
         near = [min(600, x, before[-1] - x) for x in before]
         return [math.exp(x if asked == "any_state" else -x) for x in near]
 
@@ -2936,6 +2944,7 @@ class Evaluation:
     def __init__(self, p, o):
         place = "evaluation"
         known(o, "method law physics seed time_step iterations largest total seated scale cords schedule structure", place)
+        self.old_pull = p.options.old_pull
         self.method = choice(o, "method", place, ("capstan", "joint", "structure"))
         require(("law" in o) == (self.method == "capstan"), "evaluation.law: with method capstan, and only with it")
         self.law = choice(o, "law", place, ("capstan", "mitre"), default="capstan")
@@ -3022,6 +3031,10 @@ def terms(p):
                         (f"{o.distinct} different cords over every edge", o.distinct), (f"max_length {o.max_length}", o.max_length), ("balanced", o.balance), (f"max_pull {o.max_pull}", o.max_pull),
                         ("lengths of edges as stated", "lengths" in p.file["framework"])):
         words += [text] if given else []
+    evaluation = p.file.get("evaluation", {})
+    both = "structure" in evaluation or "schedule" not in evaluation and any(c["pull"] == "both" for c in evaluation.get("cords", []))
+    if o.old_pull and (o.max_pull is not None or both):
+        words += ["pulls at both ends as in version 1: both reach the pass in the middle, which is more than is needed"]
     return ", ".join(words)
 
 

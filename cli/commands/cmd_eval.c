@@ -413,9 +413,9 @@ int cmd_eval(int argc, char **argv)
   if (!code) code = pull_eval(&a.pull, a.path, &plan, (thr_method)a.pull.method, &eval);
   bool known = (code == EXIT_OK || code == EXIT_LIMIT) && any_known(&eval.record);
   if (known) { /* the plan takes the record over, so that one thing is written, drawn and printed */
-    thr_evaluation_destroy(&plan.evaluation);
-    plan.evaluation = eval.record;
-    eval.record = (thr_evaluation){0};
+    if (thr_plan_take_evaluation(&plan, &eval.record) && a.output)
+      cli_note(
+          "note: what the plan proves within its limit on the pull is by the definition of plans of version 1; it is left out");
     int written = write_outputs(&a, &plan, &eval, code == EXIT_LIMIT);
     if (written) code = written;
     if (plan.evaluation.method == THR_JOINT && code == EXIT_OK) /* on stderr: results do not depend on it */

@@ -132,6 +132,15 @@ static void standing_put(thr_text *text, const thr_plan *plan)
   if (standing->present) thr_text_append(text, "  not verified: that the equilibria which the limit analysis found exist\n");
 }
 
+/* Does a plan of version 1 say anything of pulls at both ends? */
+static bool is_of_older_pull(const thr_plan *plan)
+{
+  bool says = plan->options.max_pull > 0 || plan->evaluation.standing.present;
+  for (int i = 0; i < plan->evaluation.n_cords; i++)
+    says |= plan->evaluation.cord[i].pull == THR_PULL_BOTH && plan->evaluation.schedule.n == 0;
+  return says && plan->options.old_pull;
+}
+
 void terms_put(thr_text *text, const thr_plan *plan)
 {
   thr_text_append(text, "  terms: ");
@@ -147,6 +156,10 @@ void terms_put(thr_text *text, const thr_plan *plan)
   else if (measured(plan))
     thr_text_printf(text, "  not verified: the tensions, which method %s measured; what follows from them is\n",
                     thr_method_name(plan->evaluation.method));
+  if (is_of_older_pull(plan))
+    thr_text_append(
+        text,
+        "  pulls at both ends are those of plans of version 1, which ask both for the pass in the middle: more than is needed\n");
   standing_put(text, plan);
 }
 
@@ -160,4 +173,5 @@ void terms_put_json(thr_writer *writer, const thr_plan *plan)
     thr_write_bool(writer, "slack_verified", slack_proved(plan));
   }
   if (plan->evaluation.present) thr_write_bool(writer, "tensions_verified", !measured(plan));
+  if (is_of_older_pull(plan)) thr_write_int(writer, "pulls_of_version", 1);
 }

@@ -2,42 +2,29 @@
 #include "eval/cord/profile.h"
 #include "graph/angle.h"
 #include "graph/framework/units.h"
+#include "graph/plan/least_pull.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Which of passes i < k comes first whichever end of the cord is called its start? The one nearer to the middle; of two as near
- * the one of the lower edge, and if that is the same the one whose outer neighbours have it. */
-static bool comes_first(const thr_cord *cord, int i, int k)
+/* Returns the last pass that the start's pull reaches; *from_end becomes the first one that the end's pull reaches. Pulled at
+ * both ends they are the passes of the turn that neither slides over, else both are the far end. THR_ENOMEM. */
+static thr_status find_slackest(const thr_cord *cord, const double *exponent, thr_pull pull, int *slackest, int *from_end,
+                                thr_err *err)
 {
   const int last = cord->n_passes - 1;
-  if (i + k != last) return i + k > last;
-  for (; i >= 0; i--, k++)
-    if (cord->half[i] >> 1 != cord->half[k] >> 1) return cord->half[i] >> 1 < cord->half[k] >> 1;
-  return true; /* the same from either end */
-}
-
-/* The pass that the tension reaches last: the far end, or between two pulled ends the pass that costs its farther end least. */
-static int slackest_pass(const thr_cord *cord, const double *exponent, thr_pull pull)
-{
-  if (pull == THR_PULL_START) return cord->n_passes - 1;
-  if (pull == THR_PULL_END) return 0;
-  int slackest = 0;
-  double total = 0, before = 0, best = INFINITY;
-  for (int k = 0; k + 1 < cord->n_passes; k++)
-    total += exponent[k];
-  const double same = 1e-12 * (1 + total); /* sums from either end differ by rounding */
-  for (int k = 0; k < cord->n_passes; k++) {
-    double worse = fmax(before, total - before);
-    if (worse < best - same || (worse <= best + same && !comes_first(cord, slackest, k))) {
-      slackest = k;
-      best = fmin(best, worse);
-    }
-    if (k + 1 < cord->n_passes) before += exponent[k];
-  }
-  return slackest;
+  *slackest = *from_end = pull == THR_PULL_START ? last : 0;
+  if (pull != THR_PULL_BOTH) return THR_OK;
+  double *sum = thr_calloc((size_t)cord->n_passes, sizeof *sum);
+  if (!sum) return thr_nomem(err);
+  for (int k = 0; k < last; k++)
+    sum[k + 1] = sum[k] + exponent[k];
+  *slackest = thr_least_pull_of(sum, cord->half, cord->n_passes).turn;
+  *from_end = *slackest < last ? *slackest + 1 : last;
+  free(sum);
+  return THR_OK;
 }
 
 double thr_profile_wobble(const thr_frame *frame, const thr_physics *physics, const thr_cord *cord, int k, double mu)
@@ -61,20 +48,22 @@ thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const doub
                             const thr_friction *friction, thr_err *err)
 {
   const int n_passes = cord->n_passes;
+  int slackest, from_end;
+  thr_status st = find_slackest(cord, exponent, pull, &slackest, &from_end, err);
+  if (st) return st;
   double *tension = thr_calloc((size_t)n_passes, sizeof *tension);
   if (!tension) return thr_nomem(err);
   if (pull == THR_PULL_NONE) {
     leave_slack(out, n_passes, tension);
     return THR_OK;
   }
-  int slackest = slackest_pass(cord, exponent, pull);
-  double from = 0, to = 0; /* cost between the slackest pass and the pass at hand, towards the start and the end */
-  tension[slackest] = seating;
+  double from = 0, to = 0; /* cost between the passes that are reached last and the pass at hand, towards the start and the end */
+  tension[slackest] = tension[from_end] = seating;
   for (int i = slackest; i > 0; i--) {
     from += exponent[i - 1];
     tension[i - 1] = thr_friction_more(friction, seating, from);
   }
-  for (int i = slackest; i + 1 < n_passes; i++) {
+  for (int i = from_end; i + 1 < n_passes; i++) {
     to += exponent[i];
     tension[i + 1] = thr_friction_more(friction, seating, to);
   }

@@ -1,9 +1,11 @@
 /* Tension along a cord whose turns multiply it: every method that knows what each turn costs ends here.
  *
- * T(k + 1) = T(k) / c(k), c(k) >= 1 the factor of turn k; pulled at both ends the cord is slackest where the two sides meet. The
- * pull is the seating tension times the product of the factors on the way there.
+ * T(k + 1) = T(k) / c(k), c(k) >= 1 the factor of turn k. Pulled at both ends the cord is slackest on both sides of the turn that
+ * neither end slides over (graph/plan/least_pull.h). The pull is the seating tension times the product of the factors on the way
+ * there.
  *
- * Example: three turns of factors 2, 2 and 3, pulled at one end, 5 N at the far one: 5 * 12 = 60 N. */
+ * Example: three turns of factors 2, 2 and 3, pulled at one end, 5 N at the far one: 5 * 12 = 60 N; at both ends, the last turn
+ * is slid over by nobody: 20 and 5 N, or the middle one: 10 and 15 N, which is the least. */
 #ifndef THR_PROFILE_H
 #define THR_PROFILE_H
 
@@ -27,8 +29,9 @@ thr_status thr_profile_pressure(const thr_frame *frame, const thr_cord *cord, co
 /* exponent[n_passes - 1] >= 0: ln of the ratio of the tensions on both sides of the turn after pass k, or what takes its place
  * with another friction. Allocates out->tension such that the slackest pass holds seating, and fills n_passes, pull, force,
  * other_force, loss, work, slackest; leaves the other members. A cord that is not pulled has no tension. Pulled at one end the
- * tension falls at every turn towards the other; pulled at both, the slackest is the pass with exponents from both ends most
- * nearly equal. THR_EINPUT if an exponent total is past 700 (what a double can hold): names the cord, advises more cords. O(n).
+ * tension falls at every turn towards the other; pulled at both, the slackest is the last pass that the start's pull reaches, and
+ * the next one, from which the end's pull goes on, holds seating too. THR_EINPUT if an exponent total is past 700 (what a double
+ * can hold): names the cord, advises more cords. O(n).
  */
 thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const double *exponent, thr_pull pull, double seating,
                             const thr_friction *friction, thr_err *err) THR_MUST_CHECK;

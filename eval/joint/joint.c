@@ -270,12 +270,13 @@ static bool cord_measured(const table *t, const thr_frame *frame, const thr_cord
   return true;
 }
 
-/* An end's force hangs on the turns between it and the slackest pass; their errors may all have one sign. */
+/* An end's force hangs on the turns between it and the slackest pass; their errors may all have one sign. Where both ends are
+ * pulled, neither slides over the turn behind that. */
 static double error_from_slackest(const thr_eval_cord *cord, const double *error)
 {
   double side[2] = {0};
   for (int k = 0; k + 1 < cord->n_passes; k++)
-    side[k >= cord->slackest] += error[k];
+    if (cord->pull != THR_PULL_BOTH || k != cord->slackest) side[k >= cord->slackest] += error[k];
   return fmax(side[0], side[1]);
 }
 

@@ -4,6 +4,8 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/pulled.h"
+#include "graph/plan/request.h"
 #include "graph/plan/schedule.h"
 #include "graph/framework/units.h"
 #include "graph/status.h"
@@ -18,6 +20,7 @@ typedef struct {
   const thr_evaluation *e;
   const thr_eval_cord *c;
   const char *id;
+  int from_end; /* the first pass that the end's pull reaches */
 } cord_claim;
 
 static thr_status evaluated(const cord_claim *k, const char *name, double stated, double found, thr_err *err)
@@ -105,42 +108,53 @@ static double law_exponent(const cord_claim *k, int i)
   return thr_check_exponent(k->f, k->e, k->cord, i);
 }
 
-/* Does the slackest pass lie where the pull is least? from receives the exponents before it, total those of the whole cord. */
-static bool slackest_is_best(const cord_claim *k, double *from, double *total)
+int thr_check_from_end(const thr_request *request, thr_pull pull, int slackest, int n_passes)
+{
+  return pull == THR_PULL_BOTH && !request->old_pull && n_passes > 1 ? slackest + 1 : slackest;
+}
+
+bool thr_check_slackest(const thr_request *request, thr_pull pull, int slackest, const double *before, int n_passes)
+{
+  const int from_end = thr_check_from_end(request, pull, slackest, n_passes), apart = from_end - slackest;
+  const double total = before[n_passes - 1];
+  double best = INFINITY;
+  if (pull != THR_PULL_BOTH) return slackest == (pull == THR_PULL_START ? n_passes - 1 : 0);
+  if (from_end >= n_passes) return false;
+  for (int i = 0; i + apart < n_passes; i++)
+    best = fmin(best, fmax(before[i], total - before[i + apart]));
+  return fmax(before[slackest], total - before[from_end]) <= best + 1e-9 * (1 + total);
+}
+
+/* before[n_passes]: the exponents before every pass. */
+static thr_status check_tensions(const cord_claim *k, const thr_request *request, const double *before, thr_err *err)
 {
   const thr_eval_cord *eval_cord = k->c;
-  double before = 0, best = INFINITY;
-  *from = *total = 0;
-  for (int i = 0; i < eval_cord->n_passes; i++)
-    *total += law_exponent(k, i);
-  for (int i = 0; i < eval_cord->n_passes; i++) {
-    if (i == eval_cord->slackest) *from = before;
-    best = fmin(best, fmax(before, *total - before));
-    before += law_exponent(k, i);
+  const int n_passes = eval_cord->n_passes, slackest = eval_cord->slackest;
+  if (!thr_check_slackest(request, eval_cord->pull, slackest, before, n_passes))
+    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d is not where its tension is least", k->id, slackest + 1);
+  for (int i = 0; i < n_passes; i++) {
+    const double apart = i <= slackest ? before[slackest] - before[i] : before[i] - before[k->from_end];
+    const double expected = log(thr_check_tension(&k->e->physics, k->e->physics.seating, apart));
+    if (!thr_check_close(log(eval_cord->tension[i]), expected, 1 + before[n_passes - 1]))
+      return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d: stated %.12g N, but the %s law gives %.12g N", k->id,
+                      i + 1, eval_cord->tension[i], thr_law_name(k->e->law), exp(expected));
   }
-  if (eval_cord->pull == THR_PULL_START) return eval_cord->slackest == eval_cord->n_passes - 1;
-  if (eval_cord->pull == THR_PULL_END) return eval_cord->slackest == 0;
-  return fmax(*from, *total - *from) <= best + 1e-9 * (1 + *total);
+  return THR_OK;
 }
 
 /* Method capstan: the slackest pass holds the seating tension, and every other has what the law gives. */
-static thr_status check_law(const cord_claim *k, thr_err *err)
+static thr_status check_law(const cord_claim *k, const thr_request *request, thr_err *err)
 {
   const thr_eval_cord *eval_cord = k->c;
-  double from, total, before = 0, seating = k->e->physics.seating;
-  thr_status st = evaluated(k, "tension of the slackest pass", eval_cord->tension[eval_cord->slackest], seating, err);
-  if (st) return st;
-  if (!slackest_is_best(k, &from, &total))
-    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d is not where its tension is least", k->id,
-                    eval_cord->slackest + 1);
-  for (int i = 0; i < eval_cord->n_passes; i++) {
-    double expected = log(thr_check_tension(&k->e->physics, seating, fabs(before - from)));
-    if (!thr_check_close(log(eval_cord->tension[i]), expected, 1 + total))
-      return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d: stated %.12g N, but the %s law gives %.12g N", k->id,
-                      i + 1, eval_cord->tension[i], thr_law_name(k->e->law), exp(expected));
-    before += law_exponent(k, i);
-  }
-  return THR_OK;
+  thr_status st =
+      evaluated(k, "tension of the slackest pass", eval_cord->tension[eval_cord->slackest], k->e->physics.seating, err);
+  double *before = st ? NULL : thr_calloc((size_t)eval_cord->n_passes, sizeof *before);
+  if (st || !before) return st ? st : thr_nomem(err);
+  for (int i = 0; i + 1 < eval_cord->n_passes; i++)
+    before[i + 1] = before[i] + law_exponent(k, i);
+  st = check_tensions(k, request, before, err);
+  free(before);
+  return st;
 }
 
 /* After a schedule: the exponents are those of the law, and the tensions what the steps leave, worked out by the checker itself.
@@ -176,7 +190,8 @@ static thr_status check_cord_evaluation(const thr_plan *plan, int i, thr_err *er
   const thr_evaluation *evaluation = &plan->evaluation;
   const thr_cord *cord = &plan->cord[i];
   const thr_eval_cord *eval_cord = &evaluation->cord[i];
-  const cord_claim k = {&plan->frame, cord, evaluation, eval_cord, cord->id};
+  const int from_end = thr_check_from_end(&plan->options, eval_cord->pull, eval_cord->slackest, cord->n_passes);
+  const cord_claim k = {&plan->frame, cord, evaluation, eval_cord, cord->id, from_end};
   const bool tight = evaluation->method == THR_JOINT || evaluation->standing.taut;
   double turning = 0;
   for (int j = 0; j + 1 < cord->n_passes; j++)
@@ -194,7 +209,10 @@ static thr_status check_cord_evaluation(const thr_plan *plan, int i, thr_err *er
   thr_status st = check_forces(&k, err);
   if (eval_cord->pull == THR_PULL_NONE) return st ? st : check_slack(&k, err);
   if (!st) st = check_rise(&k, err);
-  if (!st && evaluation->method == THR_CAPSTAN) st = check_law(&k, err);
+  if (!st && evaluation->method != THR_CAPSTAN && from_end < cord->n_passes)
+    st = evaluated(&k, "tension behind the slackest pass", eval_cord->tension[from_end], eval_cord->tension[eval_cord->slackest],
+                   err);
+  if (!st && evaluation->method == THR_CAPSTAN) st = check_law(&k, &plan->options, err);
   return st;
 }
 

@@ -7,6 +7,7 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/prices.h"
+#include "graph/plan/pulled.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
@@ -18,6 +19,14 @@ bool thr_check_close(double a, double b, double whole);
 
 /* Turning angle by Kahan's formula on unit vectors, rad: another way than the one that made the plan. */
 double thr_check_angle(const thr_frame *frame, int in, int out);
+
+/* Returns the first pass that the end's pull reaches: pulled at both ends the one behind the slackest, unless the plan is of
+ * version 1, which parts cords at a pass; else the slackest. */
+int thr_check_from_end(const thr_request *request, thr_pull pull, int slackest, int n_passes);
+
+/* Is that pass the last one that the start's pull reaches, such that no other asks for less of the harder end? before[n_passes]:
+ * exponents before each pass. O(n_passes). */
+bool thr_check_slackest(const thr_request *request, thr_pull pull, int slackest, const double *before, int n_passes);
 
 /* Price of a turn, by that formula; of costs with a threshold by the one definition that there is. */
 double thr_check_price(const thr_frame *frame, thr_turn_cost cost, int in, int out);

@@ -41,6 +41,40 @@ thr_parting thr_least_pull(const double *sum, int first, int last)
   return thr_parting_larger(&before) < thr_parting_larger(&best) ? before : best;
 }
 
+/* Says which of the turns i < k comes first whichever end of the cord is called its start. */
+static bool comes_first(const int *half, int n_passes, int i, int k)
+{
+  const int last = n_passes - 2;
+  if (i + k != last) return i + k > last;
+  for (int before = i + 1, after = k; before >= 0; before--, after++)
+    if (half[before] >> 1 != half[after] >> 1) return half[before] >> 1 < half[after] >> 1;
+  return true; /* the cord is the same from either end */
+}
+
+thr_parting thr_least_pull_of(const double *sum, const int *half, int n_passes)
+{
+  const int last = n_passes - 1;
+  const double rounding = 1e-12 * (1 + sum[last] - sum[0]);
+  thr_parting best = thr_least_pull(sum, 0, last);
+  const double most = thr_parting_larger(&best) + rounding;
+
+  /* Among the turns whose larger sum is the least, finds the least smaller sum. */
+  double least = INFINITY;
+  for (int k = 0; k < last; k++) {
+    const thr_parting other = part_at(sum, 0, last, k);
+    if (thr_parting_larger(&other) <= most) least = fmin(least, fmin(other.start, other.end));
+  }
+
+  /* Among the turns that have both, finds the one that comes first. */
+  int first = -1;
+  for (int k = 0; k < last; k++) {
+    const thr_parting other = part_at(sum, 0, last, k);
+    if (thr_parting_larger(&other) > most || fmin(other.start, other.end) > least + rounding) continue;
+    if (first < 0 || !comes_first(half, n_passes, first, k)) first = k;
+  }
+  return first < 0 ? best : part_at(sum, 0, last, first);
+}
+
 thr_least_pull_walk thr_least_pull_begin(double whole)
 {
   return (thr_least_pull_walk){.whole = whole, .larger = whole};

@@ -28,6 +28,12 @@ double thr_parting_larger(const thr_parting *parting);
  * pass k, counted from any turn on; it never falls. O(log passes). */
 thr_parting thr_least_pull(const double *sum, int first, int last);
 
+/* Returns the best parting of a whole cord, half[n_passes], where there may be several: the one with
+ * the smaller smaller sum, of these the one nearest to the middle, and of two as near the one whose
+ * inner pass, or whose passes further out, have the lower edge. Sums count as equal within 1e-12. So
+ * it does not depend on which end is called the start. O(n_passes). */
+thr_parting thr_least_pull_of(const double *sum, const int *half, int n_passes);
+
 /* Computes the larger sum of the best parting where the sums are not at hand. Begun with the sum of
  * all turns, `thr_least_pull_next` takes one turn after the other, and returns false as soon as no
  * later turn can be better; `larger` is then the answer. O(1) each. */

@@ -156,6 +156,10 @@ typedef struct {
 } thr_plan;
 
 void thr_plan_destroy(thr_plan *plan);
+
+/* Gives the plan a new evaluation, which is emptied. A plan of version 1 becomes one of version 2; what it proves within max_pull
+ * by the older definition is left out then. Returns whether anything was. */
+bool thr_plan_take_evaluation(thr_plan *plan, thr_evaluation *evaluation);
 void thr_cords_destroy(thr_cord *cord, int n); /* cord[n] and their half arrays; NULL ok */
 thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err *err) THR_MUST_CHECK; /* NULL on failure */
 

@@ -61,18 +61,17 @@ thr_status thr_seating_fraction(const thr_frame *frame, const thr_cord *cord, th
 static void press_of(const thr_cord *cord, const thr_eval_cord *known, const thr_friction *friction, const double *pull,
                      double *press)
 {
-  const double *tension = known->tension;
   const int n = cord->n_passes;
   const bool start = known->pull == THR_PULL_START || known->pull == THR_PULL_BOTH;
   const bool end = known->pull == THR_PULL_END || known->pull == THR_PULL_BOTH;
   double total = 0, before = 0; /* exponents */
   for (int k = 0; k + 1 < n; k++)
-    total += fabs(thr_friction_exponent(friction, tension[k], tension[k + 1]));
+    total += known->exponent[k];
   for (int k = 0; k < n; k++) {
     const int e = cord->half[k] >> 1;
     press[e] += fmax(start ? thr_friction_less(friction, pull[e], before) : 0,
                      end ? thr_friction_less(friction, pull[e], fmax(0, total - before)) : 0);
-    if (k + 1 < n) before += fabs(thr_friction_exponent(friction, tension[k], tension[k + 1]));
+    if (k + 1 < n) before += known->exponent[k];
   }
 }
 

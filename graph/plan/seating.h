@@ -22,7 +22,7 @@ thr_status thr_seating_fraction(const thr_frame *frame, const thr_cord *cord, th
 
 /* pull[n], n = *n_gaps <= n_edges: for every gap that any cord passes the pull, N, equal at all pulled ends, that seats it;
  * ascending, INFINITY where no pull does. only: the cord that is pulled while the others are slack, or -1: all. Every cord known,
- * no schedule: turns are taken from the drawn-in tensions, whose neighbours differ by all that a turn holds. pull has room for
+ * with its exponents, and no schedule. pull has room for
  * n_edges. O(passes + gaps log gaps). THR_ENOMEM. */
 thr_status thr_seating_pulls(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, int only,
                              double *pull, int *n_gaps, thr_err *err) THR_MUST_CHECK;

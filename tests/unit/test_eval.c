@@ -87,7 +87,11 @@ static void assert_cord_sound(const thr_frame *f, const thr_cord *cord, const th
   if (r->method == THR_STRUCTURE) return;
   double decades = log(c->force / least), expected = r->physics.mu * c->taut_turning;
   if (c->pull == THR_PULL_BOTH) decades += log(c->other_force / least);
-  ck_assert_double_eq_tol(decades, expected, 1e-12 + (r->method == THR_JOINT ? 0.01 * expected + c->error : 0));
+  if (c->pull == THR_PULL_BOTH && c->n_passes > 1) /* neither end slides over the turn behind the slackest pass */
+    expected -= r->method == THR_JOINT ? c->exponent[c->slackest]
+                                       : r->physics.mu * thr_turn_angle(f, cord->half[c->slackest], cord->half[c->slackest + 1]);
+  ck_assert_double_eq_tol(decades, expected,
+                          1e-12 + (r->method == THR_JOINT ? 0.01 * r->physics.mu * c->taut_turning + c->error : 0));
 }
 
 START_TEST(records_are_sound_whichever_end_is_pulled)
@@ -339,7 +343,7 @@ START_TEST(overflow_names_the_cord)
   o.pull = THR_PULL_BOTH; /* half of it can be written down; the upper end of the band, 3, cannot */
   if (closed_form[_i] == THR_CAPSTAN) {
     e = eval(&p, THR_CAPSTAN, &o);
-    ck_assert_double_eq_tol(log(e.record.largest), 2 * acos(-1) * 80, 2);
+    ck_assert_double_eq_tol(log(e.record.largest), 2 * acos(-1) * 80, 3);
     ck_assert(e.band[1] == INFINITY);
     thr_eval_destroy(&e);
   }

@@ -200,8 +200,7 @@ static thr_plan evaluated_plan(bool scheduled)
   }
   ck_assert_msg(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_STRUCTURE, &options, &none, &eval, &err) == THR_OK, "%s",
                 err.text);
-  plan.evaluation = eval.record;
-  eval.record = (thr_evaluation){0};
+  (void)thr_plan_take_evaluation(&plan, &eval.record);
   thr_eval_destroy(&eval);
   thr_schedule_destroy(&schedule);
   free(load);
@@ -308,8 +307,7 @@ START_TEST(tight_turns_are_those_of_the_tight_path)
     ck_assert_double_eq_tol(eval.record.cord[i].taut_turning, sum, 1e-9);
     ck_assert_double_le(sum, eval.record.cord[i].turning);
   }
-  plan.evaluation = eval.record;
-  eval.record = (thr_evaluation){0};
+  (void)thr_plan_take_evaluation(&plan, &eval.record);
   thr_eval_destroy(&eval);
   ck_assert_msg(thr_check_plan(&plan, &err) == THR_OK, "%s", err.text);
   plan.evaluation.cord[1].exponent[2] += 1e-6;
