@@ -8,6 +8,7 @@
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/request.h"
 #include "graph/plan/standing.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
