@@ -278,44 +278,18 @@ static thr_status search_cords(adviser *x, kind *k, int cords, double part, thr_
 
 /* ---- closed cords opened ---- */
 
-/* The closed cord begins where it turned most, of the nodes where an end may be. False: there is none. */
-static bool open_cord(const thr_frame *frame, const thr_request *request, thr_cord *cord, int *scratch)
-{
-  int best = -1, n = cord->n_passes;
-  double most = -1;
-  for (int i = 0; i < n; i++) {
-    double angle = thr_turn_angle(frame, cord->half[(i + n - 1) % n], cord->half[i]);
-    if (angle <= most || !thr_plan_end_allowed(frame, request, thr_tail(frame, cord->half[i]))) continue;
-    most = angle;
-    best = i;
-  }
-  for (int i = 0; i < n && best >= 0; i++)
-    scratch[i] = cord->half[(best + i) % n];
-  if (best >= 0) memcpy(cord->half, scratch, (size_t)n * sizeof *scratch);
-  return best >= 0;
-}
-
 /* The plan with one closed cord is one with both ends at a node: it takes the place of the first if that turns more. */
 static thr_status take_closed(adviser *x, kind *k, const thr_plan *closed, thr_err *err)
 {
   const thr_request request = request_of(x, k, 1);
   thr_plan opened = {0};
-  bool can = closed->n_cords > 0;
-  thr_status st = thr_plan_request(&opened, x->frame, &request, err);
-  if (!st) st = thr_cords_copy(closed->cord, closed->n_cords, &opened.cord, err);
-  if (!st) opened.n_cords = closed->n_cords;
-  int *scratch = thr_calloc((size_t)closed->metrics.passes + 1, sizeof *scratch);
-  if (!scratch) st = thr_nomem(err);
-  for (int i = 0; i < opened.n_cords && !st && can; i++)
-    can = open_cord(x->frame, &request, &opened.cord[i], scratch);
-  if (!st && can) st = thr_plan_measure(&opened.frame, &opened.options, opened.cord, opened.n_cords, &opened.metrics, err);
-  if (!st && can && (k->first.n_cords == 0 || opened.metrics.max_turning < k->first.metrics.max_turning)) {
+  thr_status st = thr_cut_open(x->frame, &request, closed, &opened, err);
+  if (!st && opened.n_cords > 0 && (k->first.n_cords == 0 || opened.metrics.max_turning < k->first.metrics.max_turning)) {
     thr_plan before = k->first;
     k->first = opened;
     opened = before;
     st = set_row(x, k, &k->first, NULL, err);
   }
-  free(scratch);
   thr_plan_destroy(&opened);
   return st;
 }

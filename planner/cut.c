@@ -45,13 +45,23 @@ static thr_status cutter_init(cutter *x, const thr_plan *plan, const thr_request
   return THR_OK;
 }
 
-/* The last pass from first on, at most most, that the cord has not turned more than the limit before. O(log passes). */
-static int reach_of(const cutter *x, int first, int most, double limit)
+/* Is a part within all limits? Each of them holds for whatever is inside such a part as well. */
+static bool is_within(const cutter *x, int first, int last, const thr_parts_measures *limit)
 {
-  int low = first, high = most + 1;
+  if (x->before[last] - x->before[first] > limit->turning) return false;
+  if (x->length[last + 1] - x->length[first] > limit->longest) return false;
+  if (limit->pulled >= x->before[last] - x->before[first]) return true;
+  const thr_parting parting = thr_least_pull(x->before, first, last);
+  return thr_parting_larger(&parting) <= limit->pulled;
+}
+
+/* Returns the last pass with which a part from first on is within the limits, or first. O(log^2 passes). */
+static int reach_of(const cutter *x, int first, const thr_parts_measures *limit)
+{
+  int low = first, high = x->n;
   while (high - low > 1) {
-    int middle = low + (high - low) / 2;
-    if (x->before[middle] - x->before[first] <= limit)
+    const int middle = low + (high - low) / 2;
+    if (is_within(x, first, middle, limit))
       low = middle;
     else
       high = middle;
@@ -59,13 +69,13 @@ static int reach_of(const cutter *x, int first, int most, double limit)
   return low;
 }
 
-/* Parts that turn by at most the limit, each as long as can be: there are no fewer such parts. False: some part turns more. */
-static bool cut_within(cutter *x, double limit)
+/* Parts within the limits, each as long as can be: there are no fewer such parts. False: some part is not. */
+static bool cut_within(cutter *x, const thr_parts_measures *limit)
 {
   x->n_parts = 0;
   for (int first = 0; first < x->n;) {
-    int last = x->end[reach_of(x, first, x->n - 1, limit)];
-    if (last < first) return false;
+    const int last = x->end[reach_of(x, first, limit)];
+    if (last < first || !is_within(x, first, last, limit)) return false;
     x->last[x->n_parts++] = last;
     first = last + 1;
   }
@@ -99,15 +109,17 @@ static bool cut_once_more(cutter *x)
 static bool cut_evenly(cutter *x, int parts)
 {
   enum { HALVINGS = 60 };
-  double low = 0, high = x->before[x->n - 1];
+  thr_parts_measures limit = {.turning = x->before[x->n - 1], .pulled = INFINITY, .longest = INFINITY};
+  double low = 0, high = limit.turning;
   for (int i = 0; i < HALVINGS; i++) {
-    double middle = (low + high) / 2;
-    if (cut_within(x, middle) && x->n_parts <= parts)
-      high = middle;
+    limit.turning = (low + high) / 2;
+    if (cut_within(x, &limit) && x->n_parts <= parts)
+      high = limit.turning;
     else
-      low = middle;
+      low = limit.turning;
   }
-  bool done = cut_within(x, high) && x->n_parts <= parts;
+  limit.turning = high;
+  bool done = cut_within(x, &limit) && x->n_parts <= parts;
   while (done && x->n_parts < parts)
     done = cut_once_more(x);
   return done;
@@ -171,18 +183,100 @@ thr_parts_measures thr_parts_measure(const thr_parts *cuts)
   return m;
 }
 
+/* ---- the shortest cords, opened and cut ---- */
+
+/* The closed cord begins where it turned most, of the nodes where an end may be. False: there is none. */
+static bool open_cord(const thr_frame *frame, const thr_request *request, thr_cord *cord, int *scratch)
+{
+  int best = -1, n = cord->n_passes;
+  double most = -1;
+  for (int i = 0; i < n; i++) {
+    double angle = thr_turn_angle(frame, cord->half[(i + n - 1) % n], cord->half[i]);
+    if (angle <= most || !thr_plan_end_allowed(frame, request, thr_tail(frame, cord->half[i]))) continue;
+    most = angle;
+    best = i;
+  }
+  for (int i = 0; i < n && best >= 0; i++)
+    scratch[i] = cord->half[(best + i) % n];
+  if (best >= 0) memcpy(cord->half, scratch, (size_t)n * sizeof *scratch);
+  return best >= 0;
+}
+
+thr_status thr_cut_open(const thr_frame *frame, const thr_request *request, const thr_plan *closed, thr_plan *opened,
+                        thr_err *err)
+{
+  bool can = closed->n_cords > 0;
+  thr_status st = thr_plan_request(opened, frame, request, err);
+  if (!st) st = thr_cords_copy(closed->cord, closed->n_cords, &opened->cord, err);
+  if (!st) opened->n_cords = closed->n_cords;
+  int *scratch = thr_calloc((size_t)closed->metrics.passes + 1, sizeof *scratch);
+  if (!scratch && !st) st = thr_nomem(err);
+  for (int i = 0; i < opened->n_cords && !st && can; i++)
+    can = open_cord(frame, request, &opened->cord[i], scratch);
+  if (!st && can) st = thr_plan_measure(&opened->frame, &opened->options, opened->cord, opened->n_cords, &opened->metrics, err);
+  free(scratch);
+  if (st || !can) thr_plan_destroy(opened);
+  return st;
+}
+
+/* Cuts every cord into as few parts as keep to the limits, at least as many as asked for. False: more are needed than allowed. */
+static bool cut_few(thr_parts *cuts, const thr_request *options)
+{
+  const thr_parts_measures limit = {.turning = INFINITY,
+                                    .pulled = thr_request_most_pulled(options),
+                                    .longest = options->max_length > 0 ? options->max_length : INFINITY};
+  bool done = cuts->n > 0;
+  for (int i = 0; i < cuts->n && done; i++) {
+    cutter *x = &cuts->cord[i];
+    done = cut_within(x, &limit) && x->n_parts <= options->cords;
+    while (done && x->n_parts < options->cords_least)
+      done = cut_once_more(x);
+  }
+  return done;
+}
+
+static int count_parts(const thr_parts *cuts)
+{
+  int n = 0;
+  for (int i = 0; i < cuts->n; i++)
+    n += cuts->cord[i].n_parts;
+  return n;
+}
+
+/* Makes a plan of the parts that the cords of a plan are cut into. On failure seed is empty. */
+static thr_status plan_parts(const thr_parts *cuts, const thr_request *options, thr_plan *seed, thr_err *err)
+{
+  const thr_plan *plan = cuts->plan;
+  thr_status st = thr_plan_request(seed, &plan->frame, options, err);
+  if (!st && !(seed->cord = thr_calloc((size_t)count_parts(cuts), sizeof *seed->cord))) st = thr_nomem(err);
+  for (int i = 0; i < plan->n_cords && !st; i++)
+    st = add_parts(&cuts->cord[i], &plan->cord[i], seed, err);
+  if (!st) st = thr_plan_measure(&seed->frame, &seed->options, seed->cord, seed->n_cords, &seed->metrics, err);
+  if (st) thr_plan_destroy(seed);
+  return st;
+}
+
+thr_status thr_cut_few(const thr_frame *frame, const thr_request *options, const thr_plan *closed, thr_plan *seed, thr_err *err)
+{
+  const bool is_range = options->cords_least < options->cords, is_limited = options->max_pull > 0 || options->max_length > 0;
+  thr_plan opened = {0};
+  thr_parts cuts = {0};
+  *seed = (thr_plan){0};
+  if (options->ends == THR_ENDS_COUNTS) return THR_OK;
+  thr_status st = thr_cut_open(frame, options, closed, &opened, err);
+  if (!st && opened.n_cords > 0) st = thr_parts_open(&cuts, &opened, options, err);
+  const bool done = !st && (is_range && is_limited ? cut_few(&cuts, options) : thr_parts_into(&cuts, options->cords));
+  if (done) st = plan_parts(&cuts, options, seed, err);
+  thr_parts_destroy(&cuts);
+  thr_plan_destroy(&opened);
+  return st;
+}
+
 thr_status thr_cut_seed(const thr_plan *plan, const thr_request *options, thr_plan *seed, thr_err *err)
 {
   thr_parts cuts;
   thr_status st = thr_parts_open(&cuts, plan, options, err);
-  const bool done = !st && thr_parts_into(&cuts, options->cords);
-  if (done) st = thr_plan_request(seed, &plan->frame, options, err);
-  if (done && !st && !(seed->cord = thr_calloc((size_t)plan->n_cords * (size_t)options->cords, sizeof *seed->cord)))
-    st = thr_nomem(err);
-  for (int i = 0; i < plan->n_cords && !st && done; i++)
-    st = add_parts(&cuts.cord[i], &plan->cord[i], seed, err);
-  if (!st && done) st = thr_plan_measure(&seed->frame, &seed->options, seed->cord, seed->n_cords, &seed->metrics, err);
-  if (st) thr_plan_destroy(seed);
+  if (!st && thr_parts_into(&cuts, options->cords)) st = plan_parts(&cuts, options, seed, err);
   thr_parts_destroy(&cuts);
   return st;
 }

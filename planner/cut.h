@@ -29,6 +29,17 @@ typedef struct {
 } thr_parts_measures;
 thr_parts_measures thr_parts_measure(const thr_parts *cuts);
 
+/* Makes of one closed cord in every component a plan with cords that begin and end at one node where an end may be, of these nodes
+ * where they turn most. opened is an empty plan; it stays empty where a cord comes by no such node. O(passes). */
+thr_status thr_cut_open(const thr_frame *frame, const thr_request *request, const thr_plan *closed, thr_plan *opened,
+                        thr_err *err) THR_MUST_CHECK;
+
+/* Opens the closed cords, one in every component, and cuts them into options->cords parts each; with a range of numbers and a
+ * limit on pull or length into as few as keep to it, in every component by itself. Cut closed cords stay closed only as one part.
+ * seed is an empty plan without proofs; it stays empty where there are no such parts. */
+thr_status thr_cut_few(const thr_frame *frame, const thr_request *options, const thr_plan *closed, thr_plan *seed,
+                       thr_err *err) THR_MUST_CHECK;
+
 /* Both, and a plan of the parts for options->cords. seed is an empty plan; it stays empty where there are no such parts. */
 thr_status thr_cut_seed(const thr_plan *plan, const thr_request *options, thr_plan *seed, thr_err *err) THR_MUST_CHECK;
 

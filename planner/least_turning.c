@@ -352,6 +352,55 @@ static thr_status keep_length(const thr_frame *frame, const thr_request *options
   return st;
 }
 
+/* Is it too large for the search? */
+static bool is_too_large(const thr_frame *frame, const thr_request *options)
+{
+  return options->turning.tour == THR_TOUR_LEAST && options->cover > thr_least_most_passes / frame->n_edges;
+}
+
+/* Plans a framework that is too large for the search: the shortest closed cords are cut, or the shortest cords of that number and
+ * with those ends are taken if they serve the aims better. The length is proved, and nothing of the turning. */
+static thr_status plan_by_cutting(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
+                                  thr_err *err)
+{
+  const double slack = options->turning.length_slack;
+  thr_request length = *options;
+  thr_plan shortest = {0}, closed = {0};
+  thr_err why = {0}, unused = {0};
+  *plan = (thr_plan){0};
+
+  /* Plans the shortest cords as they are asked for. */
+  length.aims = thr_aims_shortest;
+  length.turning = thr_request_default().turning;
+  length.max_pull = length.max_length = 0;
+  thr_limits quiet = *limits;
+  quiet.found = NULL;
+  thr_status st = thr_planner_length(frame, &length, &quiet, &shortest, NULL, &why);
+  if (st && (st != THR_ELIMIT || shortest.n_cords == 0)) return thr_fail(err, st, "%s", why.text);
+  thr_limits_found(limits, shortest.cord, shortest.n_cords, NULL);
+
+  /* Cuts the shortest closed ones. */
+  length.ends = THR_ENDS_CLOSED;
+  length.cords = length.cords_least = 1;
+  const bool can_cut = options->joint == THR_JOINT_SOLID && options->ends != THR_ENDS_COUNTS && options->ends != THR_ENDS_CLOSED;
+  st = can_cut ? thr_planner_length(frame, &length, &quiet, &closed, NULL, &unused) : THR_OK;
+  st = st == THR_ENOMEM ? thr_nomem(err) : can_cut ? thr_cut_few(frame, options, &closed, plan, err) : THR_OK;
+  const bool within = slack < 0 || plan->metrics.length <= shortest.metrics.length * (1 + slack) * (1 + 1e-9);
+  if (!st && (plan->n_cords == 0 || !within || !thr_planner_is_better(options, plan, &shortest))) {
+    thr_plan_destroy(plan);
+    st = thr_plan_request(plan, frame, options, err);
+    if (!st) st = thr_cords_copy(shortest.cord, shortest.n_cords, &plan->cord, err);
+    if (!st) plan->n_cords = shortest.n_cords;
+    if (!st) st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  }
+  if (!st) st = thr_planner_prove_length(plan, &shortest, err);
+  if (!st) plan->proof.slack_open = !thr_plan_within_slack(options, plan->metrics.length, plan->proof.lower_bound);
+  if (st) thr_plan_destroy(plan);
+  thr_plan_destroy(&shortest);
+  thr_plan_destroy(&closed);
+  return st ? st : thr_fail(err, THR_ELIMIT, "nothing is proved of the turning of more than %d passes", thr_least_most_passes);
+}
+
 /* *missed: the search found no cords, which is no proof that there are none. */
 static thr_status plan_from(const thr_frame *frame, const thr_request *options, const thr_plan *seed, const thr_limits *limits,
                             thr_plan *plan, bool *missed, thr_err *err)
@@ -362,6 +411,8 @@ static thr_status plan_from(const thr_frame *frame, const thr_request *options, 
   thr_request any_pull = *options;
   any_pull.max_pull = 0;
   *plan = (thr_plan){0};
+  *missed = false;
+  if (is_too_large(frame, options)) return plan_by_cutting(frame, &any_pull, limits, plan, err);
   thr_status st = find_shortest(frame, options, limits, &shortest, &unproved);
   const bool may_be = !st || st == THR_ELIMIT;
   if (may_be) st = find_cords(frame, options, &shortest, seed, limits, &least, &unproved);
@@ -431,6 +482,7 @@ thr_status thr_planner_turning(const thr_frame *frame, const thr_request *option
     return thr_fail(err, THR_EINPUT,
                     "cord above the shortest is not limited together with a range of cords, their largest length or balance");
   if (thr_planner_is_mixed(options)) return thr_planner_mixed(frame, options, NULL, limits, plan, err);
+  if (is_too_large(frame, options)) return thr_tortuosity_plan(frame, options, limits, plan, err);
   if (options->turning.tour == THR_TOUR_LEAST) thr_planner_tell_first(frame, options, limits, report ? &report->shortest : NULL);
   if (thr_wants_largest(options) && options->cords > 1 && options->ends != THR_ENDS_COUNTS)
     st = thr_even_seed(frame, options, limits, &seed, err);

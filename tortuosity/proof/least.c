@@ -24,13 +24,14 @@ void thr_least_destroy(thr_least *least)
   *least = (thr_least){0};
 }
 
+const int thr_least_most_passes = 100000;
+
 thr_status thr_least_task(const thr_frame *frame, const thr_least_options *options, thr_least *out, thr_err *err)
 {
-  enum { MOST_PASSES = 100000 }; /* prices in units of 2^-THR_TURNING_BITS must add up in 64 bits */
   int cords = options->cords ? options->cords : 1;
-  if (options->cover > MOST_PASSES / frame->n_edges)
+  if (options->cover > thr_least_most_passes / frame->n_edges)
     return thr_fail(err, THR_EINPUT, "%d passes of %d edges are more than the %d that the search for the least turning takes",
-                    options->cover, frame->n_edges, MOST_PASSES);
+                    options->cover, frame->n_edges, thr_least_most_passes);
   if (options->ends != THR_ENDS_CLOSED) {
     thr_request plan = {.ends = options->ends, .end_node = (bool *)options->end_node, .end_count = (int *)options->end_count};
     if (!(out->end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *out->end_allowed))) return thr_nomem(err);

@@ -70,6 +70,9 @@ thr_status thr_least_turning(const thr_frame *frame, const thr_least_options *op
                              thr_err *err) THR_MUST_CHECK;
 void thr_least_destroy(thr_least *least);
 
+/* Passes that the search takes: prices in units of 2^-THR_TURNING_BITS must add up in 64 bits. */
+extern const int thr_least_most_passes;
+
 /* Steps that other makers of cords share: the task of the options, and cords with price, turning and length from a joined
  * multigraph. */
 thr_status thr_least_task(const thr_frame *frame, const thr_least_options *options, thr_least *out, thr_err *err) THR_MUST_CHECK;
