@@ -258,14 +258,15 @@ static thr_status plan_parts(const thr_parts *cuts, const thr_request *options, 
 
 thr_status thr_cut_few(const thr_frame *frame, const thr_request *options, const thr_plan *closed, thr_plan *seed, thr_err *err)
 {
-  const bool is_range = options->cords_least < options->cords, is_limited = options->max_pull > 0 || options->max_length > 0;
+  const bool is_range = options->cords_least<options->cords, is_limited = options->max_pull> 0 || options->max_length > 0;
   thr_plan opened = {0};
   thr_parts cuts = {0};
   *seed = (thr_plan){0};
-  if (options->ends == THR_ENDS_COUNTS) return THR_OK;
+  if (options->ends == THR_ENDS_COUNTS || options->joint == THR_JOINT_TUBE) return THR_OK;
   thr_status st = thr_cut_open(frame, options, closed, &opened, err);
   if (!st && opened.n_cords > 0) st = thr_parts_open(&cuts, &opened, options, err);
-  const bool done = !st && (is_range && is_limited ? cut_few(&cuts, options) : thr_parts_into(&cuts, options->cords));
+  bool done = !st && (is_range && is_limited ? cut_few(&cuts, options) : thr_parts_into(&cuts, options->cords));
+  if (options->ends == THR_ENDS_CLOSED && count_parts(&cuts) > cuts.n) done = false;
   if (done) st = plan_parts(&cuts, options, seed, err);
   thr_parts_destroy(&cuts);
   thr_plan_destroy(&opened);

@@ -29,8 +29,8 @@ typedef struct {
 } thr_parts_measures;
 thr_parts_measures thr_parts_measure(const thr_parts *cuts);
 
-/* Makes of one closed cord in every component a plan with cords that begin and end at one node where an end may be, of these nodes
- * where they turn most. opened is an empty plan; it stays empty where a cord comes by no such node. O(passes). */
+/* Makes of one closed cord in every component a plan with cords that begin and end at one node where an end may be, of these
+ * nodes where they turn most. opened is an empty plan; it stays empty where a cord comes by no such node. O(passes). */
 thr_status thr_cut_open(const thr_frame *frame, const thr_request *request, const thr_plan *closed, thr_plan *opened,
                         thr_err *err) THR_MUST_CHECK;
 

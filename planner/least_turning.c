@@ -352,8 +352,7 @@ static thr_status keep_length(const thr_frame *frame, const thr_request *options
   return st;
 }
 
-/* Is it too large for the search? */
-static bool is_too_large(const thr_frame *frame, const thr_request *options)
+bool thr_tortuosity_too_large(const thr_frame *frame, const thr_request *options)
 {
   return options->turning.tour == THR_TOUR_LEAST && options->cover > thr_least_most_passes / frame->n_edges;
 }
@@ -412,7 +411,7 @@ static thr_status plan_from(const thr_frame *frame, const thr_request *options, 
   any_pull.max_pull = 0;
   *plan = (thr_plan){0};
   *missed = false;
-  if (is_too_large(frame, options)) return plan_by_cutting(frame, &any_pull, limits, plan, err);
+  if (thr_tortuosity_too_large(frame, options)) return plan_by_cutting(frame, &any_pull, limits, plan, err);
   thr_status st = find_shortest(frame, options, limits, &shortest, &unproved);
   const bool may_be = !st || st == THR_ELIMIT;
   if (may_be) st = find_cords(frame, options, &shortest, seed, limits, &least, &unproved);
@@ -482,7 +481,7 @@ thr_status thr_planner_turning(const thr_frame *frame, const thr_request *option
     return thr_fail(err, THR_EINPUT,
                     "cord above the shortest is not limited together with a range of cords, their largest length or balance");
   if (thr_planner_is_mixed(options)) return thr_planner_mixed(frame, options, NULL, limits, plan, err);
-  if (is_too_large(frame, options)) return thr_tortuosity_plan(frame, options, limits, plan, err);
+  if (thr_tortuosity_too_large(frame, options)) return thr_tortuosity_plan(frame, options, limits, plan, err);
   if (options->turning.tour == THR_TOUR_LEAST) thr_planner_tell_first(frame, options, limits, report ? &report->shortest : NULL);
   if (thr_wants_largest(options) && options->cords > 1 && options->ends != THR_ENDS_COUNTS)
     st = thr_even_seed(frame, options, limits, &seed, err);

@@ -9,6 +9,9 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 
+/* Has the framework more passes than the search for the least turning takes? */
+bool thr_tortuosity_too_large(const thr_frame *frame, const thr_request *options);
+
 /* Makes a plan as options.turning says: extra passes, ends and pairings chosen together, or a classical tour to compare with
  * (which claims nothing about its turning). Among plans that turn equally little it takes a short one if it finds it. The plan
  * holds the proof of length (graph/plan/plan.h, thr_length_proof) as well; with a length slack the limit is that part above

@@ -25,6 +25,7 @@ typedef struct {
   const thr_limits *limits;
   thr_plan best;          /* cords that serve the aims best so far; none yet: n_cords is 0 */
   thr_turning_claim tree; /* whose bound is the highest so far */
+  int most;               /* cords of all components together, where a seed says how many are enough; 0 = any */
 } mixed;
 
 static void mixed_destroy(mixed *m)
@@ -46,6 +47,7 @@ static void offer(mixed *m, thr_plan *plan)
 {
   bool fits = m->o->max_length == 0 || thr_cords_longest(m->f, plan->cord, plan->n_cords) <= m->o->max_length * (1 + 1e-12);
   fits = fits && thr_cords_within_pull(m->f, m->o, plan->cord, plan->n_cords);
+  fits = fits && (m->most == 0 || plan->n_cords <= m->most);
   if (plan->n_cords == 0 || !fits || !thr_planner_is_better(m->o, plan, &m->best)) return;
   thr_plan_destroy(&m->best);
   m->best = *plan;
@@ -199,7 +201,7 @@ static thr_status take_seed(mixed *m, thr_plan *seed, thr_err *err)
 thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options, thr_plan *seed, const thr_limits *limits,
                              thr_plan *plan, thr_err *err)
 {
-  mixed m = {.f = frame, .o = options, .limits = limits};
+  mixed m = {.f = frame, .o = options, .limits = limits, .most = seed ? seed->n_cords : 0};
   thr_plan shortest = {0}, limited = {0};
   thr_err why = {0}, why_not = {0};
   *plan = (thr_plan){0};

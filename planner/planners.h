@@ -91,8 +91,8 @@ thr_status thr_planner_pull_length(thr_plan *plan, const thr_limits *limits, thr
 thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* Is more asked of the turning's plan than its search knows, and the planner that composes it then (planner/mixed.c). With a
- * limit on the pull it plans for every aim, options.cords cords; seed (NULL = none) is one of the plans to choose from, whose
- * cords and proof of turning may be taken. THR_EINFEASIBLE: none of them keeps to what is asked. */
+ * limit on the pull it plans for every aim, options.cords cords; seed (NULL = none) is one of the plans to choose from, none of
+ * which has more cords; its cords and proof of turning may be taken. THR_EINFEASIBLE: none of them keeps to what is asked. */
 bool thr_planner_is_mixed(const thr_request *options);
 thr_status thr_planner_mixed(const thr_frame *frame, const thr_request *options, thr_plan *seed, const thr_limits *limits,
                              thr_plan *plan, thr_err *err) THR_MUST_CHECK;

@@ -5,12 +5,14 @@
  * evenly, by single edges, and by the worth of walks; from above by cords of which the one that turns most turns little. */
 #include "graph/angle.h"
 #include "graph/check/check.h"
+#include "graph/framework/components.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
+#include "planner/cut.h"
 #include "planner/dispatch.h"
 #include "planner/least_turning.h"
 #include "planner/make_plan.h"
@@ -347,24 +349,172 @@ static thr_status find_fewest(fewest *x, const thr_limits *limits, thr_err *err)
   return st;
 }
 
+/* ---- cords that take no search ---- */
+
+/* Cuts the shortest closed cords: the first plan of every search. It stands by where numbers are not free. */
+static thr_status cut_first(fewest *x, thr_plan *by, thr_err *err)
+{
+  thr_limits share = thr_planner_share(x->f, x->o, x->limits, THR_STEP_FIRST);
+  thr_request closed = *x->o;
+  thr_plan whole = {0}, cut = {0};
+  thr_err why = {0};
+  int component;
+  *by = (thr_plan){0};
+  share.found = NULL;
+  closed.aims = thr_aims_shortest;
+  closed.turning = thr_request_default().turning;
+  closed.confirm = THR_CONFIRM_NEVER;
+  closed.ends = THR_ENDS_CLOSED;
+  closed.cords = closed.cords_least = 1;
+  closed.max_length = closed.max_pull = 0;
+  if (x->o->joint == THR_JOINT_TUBE || x->o->ends == THR_ENDS_COUNTS) return THR_OK;
+  thr_status st = thr_planner_length(x->f, &closed, &share, &whole, NULL, &why);
+  st = st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
+  if (!st && whole.n_cords > 0) st = thr_cut_few(x->f, x->o, &whole, &cut, err);
+  if (!st && keeps(x, &cut)) thr_limits_found(x->limits, cut.cord, cut.n_cords, NULL);
+  if (!st && keeps(x, &cut) && is_range(x->o)) {
+    take_found(x, &cut, thr_planner_most_cords(&cut, &component));
+    x->is_short = true;
+  } else if (!st && keeps(x, &cut)) {
+    *by = cut;
+    cut = (thr_plan){0};
+  }
+  thr_plan_destroy(&cut);
+  thr_plan_destroy(&whole);
+  return st;
+}
+
+/* ---- one component, or all together ---- */
+
+static thr_status find_together(fewest *x, const thr_limits *limits, thr_err *err)
+{
+  thr_plan by;
+  int component;
+  thr_status st = cut_first(x, &by, err);
+  if (!st && !thr_tortuosity_too_large(x->f, x->o)) st = find_fewest(x, limits, err);
+  if (!st && x->found.n_cords == 0 && by.n_cords > 0) take_found(x, &by, thr_planner_most_cords(&by, &component));
+  thr_plan_destroy(&by);
+  return st;
+}
+
+/* ---- several components ---- */
+
+/* Plans one component by itself, in its part of the time and of the work. */
+static thr_status find_component(const thr_components *components, int k, const thr_limits *limits, thr_plan *made, thr_err *err)
+{
+  const int *first = components->first_edge;
+  const double part = (double)(first[k + 1] - first[k]) / (first[components->n] - first[k]);
+  thr_limits share = thr_limits_part(limits, part);
+  thr_plan asked;
+  thr_err why = {0};
+  thr_status st = thr_component_take(components, k, &asked, err);
+  if (st) return st;
+  share.found = NULL; /* cords of a component are no plan */
+  asked.options.time_limit *= (double)(first[k + 1] - first[k]) / first[components->n];
+  st = thr_planner_pull(&asked.frame, &asked.options, &share, made, NULL, &why);
+  thr_plan_destroy(&asked);
+  return st && (st != THR_ELIMIT || made->n_cords == 0) ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
+
+/* Finds the numbers of cords component by component, as one needs more than another. What is proved of a number is about all
+ * components together: fewer than the component with most cords has are too few in some component. */
+static thr_status find_by_components(fewest *x, const thr_components *components, const thr_limits *limits, thr_err *why,
+                                     thr_err *err)
+{
+  double work = work_to_find * x->o->time_limit, for_walks = work_to_choose * x->o->time_limit;
+  thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
+  thr_plan *made = thr_calloc((size_t)components->n, sizeof *made), joined = {0};
+  int component;
+  thr_status st = made ? THR_OK : thr_nomem(err);
+  for (int k = 0; k < components->n && !st; k++)
+    st = find_component(components, k, &share, &made[k], why);
+  if (!st) st = thr_plan_request(&joined, x->f, x->o, err);
+  if (!st) st = thr_components_join(components, made, &joined, err);
+  if (!st) st = thr_plan_measure(&joined.frame, &joined.options, joined.cord, joined.n_cords, &joined.metrics, err);
+  if (!st && keeps(x, &joined)) take_found(x, &joined, thr_planner_most_cords(&joined, &component));
+  share = thr_limits_brief(&share, &work);
+  x->limits = &share;
+  if (!st && x->found.n_cords > 0) st = bound_all(x, err);
+  share = thr_dispatch_share(limits, THR_STEP_FEWEST);
+  share = thr_limits_brief(&share, &for_walks);
+  if (!st && x->found.n_cords > 0) st = exclude_by_walks(x, &x->found, err);
+  x->limits = limits;
+  for (int k = 0; made && k < components->n; k++)
+    thr_plan_destroy(&made[k]);
+  free(made);
+  thr_plan_destroy(&joined);
+  return st;
+}
+
+/* *why: of a component that has no cords within the pull. */
+static thr_status find_numbers(fewest *x, const thr_limits *limits, thr_err *why, thr_err *err)
+{
+  enum { MOST_COMPONENTS = 100 }; /* that are searched one by one: more are cut, each into as few cords as that takes */
+  thr_components components = {0};
+  thr_status st = thr_components_init(&components, x->f, x->o, err);
+  if (st) return st;
+  const bool apart = components.n > 1 && is_range(x->o) && !thr_tortuosity_too_large(x->f, x->o);
+  if (apart && components.n <= MOST_COMPONENTS)
+    st = find_by_components(x, &components, limits, why, err);
+  else
+    st = find_together(x, limits, err);
+  thr_components_destroy(&components);
+  return st;
+}
+
+/* ---- the planner ---- */
+
+/* Makes a plan of cords that no search can better: what is proved is their length alone. */
+static thr_status plan_cut(fewest *x, const thr_request *few, thr_plan *plan, thr_err *err)
+{
+  thr_request length = *few;
+  thr_plan shortest = {0};
+  thr_err why = {0};
+  length.aims = thr_aims_shortest;
+  length.turning = thr_request_default().turning;
+  length.max_pull = length.max_length = 0;
+  thr_limits quiet = *x->limits;
+  quiet.found = NULL;
+  thr_status st = thr_planner_length(x->f, &length, &quiet, &shortest, NULL, &why);
+  st = st == THR_ENOMEM ? thr_nomem(err) : thr_plan_request(plan, x->f, few, err);
+  if (!st) {
+    plan->cord = x->found.cord;
+    plan->n_cords = x->found.n_cords;
+    x->found.cord = NULL;
+    x->found.n_cords = 0;
+    st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  }
+  if (!st && shortest.n_cords > 0) st = thr_planner_prove_length(plan, &shortest, err);
+  thr_plan_destroy(&shortest);
+  return st ? st : thr_fail(err, THR_ELIMIT, "the shortest cords were cut: the framework is too large for a search");
+}
+
 thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
                             thr_report *report, thr_err *err)
 {
   fewest x = {.f = frame, .o = options, .limits = limits, .claim.excluded = options->cords_least - 1};
-  thr_err why = {0};
+  thr_err why = {0}, found = {0};
   thr_request few = *options;
   (void)report;
   *plan = (thr_plan){0};
   if (options->turning.length_slack >= 0)
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
-  thr_status st = find_fewest(&x, limits, err);
+  thr_status st = find_numbers(&x, limits, &why, &found);
+  if (why.code) { /* of a component: there is no plan */
+    fewest_destroy(&x);
+    return thr_fail(err, why.code, "%s", why.text);
+  }
+  if (found.code) thr_fail(err, found.code, "%s", found.text);
   double rest = work_to_serve * options->time_limit;
   const thr_limits last = thr_limits_brief(limits, &rest);
   x.limits = &last;
   if (x.found.n_cords > 0) few.cords = x.number;
   bool hopeless = is_range(options) ? x.found.n_cords == 0 : x.claim.excluded >= options->cords;
-  if (!st && !hopeless) st = thr_planner_mixed(frame, &few, &x.found, &last, plan, &why);
+  if (!st && x.found.n_cords > 0 && thr_tortuosity_too_large(frame, options))
+    st = plan_cut(&x, &few, plan, &why);
+  else if (!st && !hopeless)
+    st = thr_planner_mixed(frame, &few, &x.found, &last, plan, &why);
   if (plan->n_cords > 0 && st == THR_ELIMIT) {
     why = (thr_err){0};
     st = thr_planner_pull_length(plan, &last, &why);
