@@ -1,6 +1,7 @@
 /* Rows of advice: plans for more and more cords, each from the cords of the plan with one, cut evenly, or from symmetric cords.
  */
 #include "planner/advise.h"
+#include "graph/framework/components.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "planner/cut.h"
@@ -40,6 +41,7 @@ typedef struct {
   const thr_advise_options *options;
   thr_group group; /* of automorphisms; of order 0 if it is not known */
   int room;        /* for rows */
+  bool searches;   /* is the framework, of few components, small enough for searches? */
   thr_advice *out;
 } adviser;
 
@@ -143,6 +145,7 @@ static void measure_cuts(adviser *x, const kind *k, int cords, thr_advice_row *r
   const int ends = k->ends == THR_ENDS_ANY ? 2 * k->first.n_cords * cords : 0;
   *row = (thr_advice_row){.ends = k->ends,
                           .cords = cords,
+                          .all = cords * k->first.n_cords,
                           .length = whole->length,
                           .longest = m.longest,
                           .turning = m.turning,
@@ -241,7 +244,7 @@ static thr_status cut_large(adviser *x, kind *k, int cords, thr_err *err)
 /* A row without a search, if there are cords for one. */
 static thr_status cut_cords(adviser *x, kind *k, int cords, thr_err *err)
 {
-  if (x->frame->n_edges > MOST_SEARCHED) return cut_large(x, k, cords, err);
+  if (!x->searches) return cut_large(x, k, cords, err);
   const thr_request request = request_of(x, k, cords);
   thr_plan seed = {0};
   thr_status st = find_seed(x, k, &request, x->limits, &seed, err);
@@ -436,14 +439,14 @@ static thr_status cut_shortest(adviser *x, kind *k, int n_kinds, const thr_plan 
   return st;
 }
 
-thr_status thr_advise(const thr_frame *frame, const thr_request *request, const thr_advise_options *options,
-                      const thr_limits *limits, thr_advice *out, thr_err *err)
+/* Appends the rows of a framework of one component, or of all components alike. */
+static thr_status find_rows(const thr_frame *frame, const thr_request *request, const thr_advise_options *options, bool searches,
+                            const thr_limits *limits, thr_advice *out, thr_err *err)
 {
   adviser x = {.frame = frame, .request = thr_request_default(), .limits = limits, .options = options, .out = out};
   kind k[2] = {{.ends = THR_ENDS_ANY, .pull = INFINITY}};
   int n_kinds = 1;
   bool feet = false;
-  *out = (thr_advice){.hand = options->hand, .complete = true, .chosen = -1};
   for (int v = 0; v < frame->n_nodes; v++)
     feet |= frame->foot[v];
   if (feet) {
@@ -455,17 +458,141 @@ thr_status thr_advise(const thr_frame *frame, const thr_request *request, const 
   x.request.cover = request->cover;
   x.request.capacity = request->capacity;
   x.request.physics = request->physics;
-  thr_status st = thr_physics_resolve(&request->physics, frame, &out->physics, err);
-  if (!st && frame->n_edges > MOST_SEARCHED)
-    st = cut_shortest(&x, k, n_kinds, options->plan, err);
-  else if (!st)
-    st = search_all(&x, k, n_kinds, err);
+  x.searches = searches && frame->n_edges <= MOST_SEARCHED;
+  thr_status st = x.searches ? search_all(&x, k, n_kinds, err) : cut_shortest(&x, k, n_kinds, options->plan, err);
   if (!st && out->n == 0)
     st = thr_fail(err, stopped(&x) ? THR_ELIMIT : THR_EINFEASIBLE, "no threading with one cord or more was found");
-  if (!st) thr_advice_settle(out);
   for (int i = 0; i < n_kinds; i++)
     kind_destroy(&k[i]);
   thr_group_destroy(&x.group);
+  return st;
+}
+
+/* ---- several components ---- */
+
+/* Returns the row of the least pull with no more cords than that, and that of the fewest cords with no more pull; NULL: there is
+ * none. */
+static const thr_advice_row *least_pull_row(const thr_advice *of, thr_ends ends, int cords)
+{
+  const thr_advice_row *best = NULL;
+  for (int i = 0; i < of->n; i++) {
+    const thr_advice_row *row = &of->row[i];
+    if (row->ends != ends || row->cords > cords) continue;
+    if (!best || row->pull[THR_ADVICE_MU] < best->pull[THR_ADVICE_MU]) best = row;
+  }
+  return best;
+}
+
+static const thr_advice_row *fewest_cords_row(const thr_advice *of, thr_ends ends, double pull)
+{
+  const thr_advice_row *best = NULL;
+  for (int i = 0; i < of->n; i++) {
+    const thr_advice_row *row = &of->row[i];
+    if (row->ends != ends || row->pull[THR_ADVICE_MU] > pull * (1 + 1e-9)) continue;
+    if (!best || row->cords < best->cords) best = row;
+  }
+  return best;
+}
+
+/* Adds what a component's row costs to that of all. */
+static void add_to_row(thr_advice_row *sum, const thr_advice_row *row)
+{
+  sum->uneven |= sum->all > 0 && sum->cords != row->cords;
+  sum->cords = row->cords > sum->cords ? row->cords : sum->cords;
+  sum->all += row->all;
+  sum->length += row->length;
+  sum->longest = fmax(sum->longest, row->longest);
+  sum->turning = fmax(sum->turning, row->turning);
+  sum->bound = fmax(sum->bound, row->bound);
+  sum->searched &= row->searched;
+  sum->passes += row->passes;
+  sum->steps += row->steps;
+  for (int i = 0; i < THR_ADVICE_PULLS; i++)
+    sum->pull[i] = fmax(sum->pull[i], row->pull[i]);
+}
+
+/* Makes the row of at most so many cords in every component: each has as few as the pull of the one that is hardest allows.
+ * False: some component has no such cords. */
+static bool join_row(const thr_advice *part, int n, thr_ends ends, int cords, thr_advice_row *sum)
+{
+  double pull = 0;
+  *sum = (thr_advice_row){.ends = ends, .searched = true};
+  for (int k = 0; k < n; k++) {
+    const thr_advice_row *row = least_pull_row(&part[k], ends, cords);
+    if (!row) return false;
+    pull = fmax(pull, row->pull[THR_ADVICE_MU]);
+  }
+  for (int k = 0; k < n; k++)
+    add_to_row(sum, fewest_cords_row(&part[k], ends, pull));
+  sum->optimal = sum->turning <= sum->bound * (1 + 1e-9);
+  return true;
+}
+
+/* Joins the rows of all components: one for every number of cords that some component has a row of. */
+static thr_status join_rows(const thr_advice *part, int n, const thr_advise_options *options, thr_advice *out, thr_err *err)
+{
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_FEET, THR_ENDS_ANY};
+  bool *has = thr_calloc(THR_MOST_CORDS + 1, sizeof *has);
+  adviser x = {.options = options, .out = out};
+  thr_status st = has ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < 3 && !st; i++) {
+    memset(has, 0, (THR_MOST_CORDS + 1) * sizeof *has);
+    for (int k = 0; k < n; k++)
+      for (int j = 0; j < part[k].n; j++)
+        has[part[k].row[j].cords] |= part[k].row[j].ends == ends[i];
+    int last = 0;
+    for (int cords = 1; cords <= THR_MOST_CORDS && !st; cords++) {
+      thr_advice_row sum, *row;
+      if (!has[cords] || !join_row(part, n, ends[i], cords, &sum) || sum.cords == last) continue;
+      if ((st = new_row(&x, &row, err))) break;
+      *row = sum;
+      last = sum.cords;
+      if (options->row) options->row(options->user, row);
+    }
+  }
+  free(has);
+  return st;
+}
+
+/* Finds rows component by component, as one needs more cords than another. */
+static thr_status find_by_components(const thr_components *components, const thr_request *request,
+                                     const thr_advise_options *options, const thr_limits *limits, thr_advice *out, thr_err *err)
+{
+  enum { MOST_COMPONENTS = 20 }; /* that are searched */
+  const thr_advise_options quiet = {.hand = options->hand};
+  const int n = components->n, *first = components->first_edge;
+  thr_advice *part = thr_calloc((size_t)n, sizeof *part);
+  thr_status st = part ? THR_OK : thr_nomem(err);
+  for (int k = 0; k < n && !st; k++) {
+    const thr_limits share = thr_limits_part(limits, (double)(first[k + 1] - first[k]) / (first[n] - first[k]));
+    thr_plan asked;
+    if ((st = thr_component_take(components, k, &asked, err))) break;
+    part[k] = (thr_advice){.physics = out->physics, .hand = options->hand, .complete = true};
+    st = find_rows(&asked.frame, request, &quiet, n <= MOST_COMPONENTS, &share, &part[k], err);
+    out->base_length += part[k].base_length;
+    out->complete &= part[k].complete;
+    thr_plan_destroy(&asked);
+  }
+  if (!st) st = join_rows(part, n, options, out, err);
+  for (int k = 0; part && k < n; k++)
+    thr_advice_destroy(&part[k]);
+  free(part);
+  return st;
+}
+
+thr_status thr_advise(const thr_frame *frame, const thr_request *request, const thr_advise_options *options,
+                      const thr_limits *limits, thr_advice *out, thr_err *err)
+{
+  thr_components components = {0};
+  *out = (thr_advice){.hand = options->hand, .complete = true, .chosen = -1};
+  thr_status st = thr_physics_resolve(&request->physics, frame, &out->physics, err);
+  if (!st) st = thr_components_init(&components, frame, request, err);
+  if (!st && components.n == 1)
+    st = find_rows(frame, request, options, true, limits, out, err);
+  else if (!st)
+    st = find_by_components(&components, request, options, limits, out, err);
+  if (!st) thr_advice_settle(out);
+  thr_components_destroy(&components);
   if (st) thr_advice_destroy(out);
   return st;
 }

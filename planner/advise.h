@@ -29,7 +29,8 @@ typedef struct {
  * one buy nothing that cords with ends anywhere do not.) First the cord that turns least is cut evenly into every number of
  * cords, or symmetric cords are taken if they turn less; then every number has a search from there, the fewest within the hand
  * first, each with a part of the time that is left: where they end before it is over the same input gives the same rows.
- * Of more than 5,000 edges only the shortest closed cords are cut. THR_EINPUT: physics that do not fit.
+ * Of more than 5,000 edges only the shortest closed cords are cut. Of several components each has rows of its own; a row of all
+ * is of the most cords in a component, and every other one has as few as need no more pull. THR_EINPUT: physics that do not fit.
  * THR_ELIMIT, THR_EINFEASIBLE: no row has a plan. THR_OK also if the time was over before all searches had their turn (complete
  * says so), as long as there is a row. Release with thr_advice_destroy. */
 thr_status thr_advise(const thr_frame *frame, const thr_request *request, const thr_advise_options *options,

@@ -501,9 +501,13 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
   thr_status st = find_numbers(&x, limits, &why, &found);
-  if (why.code) { /* of a component: there is no plan */
+  if (why.code) { /* of a component: there is no plan, perhaps of another one not even without the limit */
+    thr_plan some;
+    thr_err none = {0};
+    const bool any = thr_planner_some_cords(frame, options, limits, &some, &none) != THR_EINFEASIBLE;
+    thr_plan_destroy(&some);
     fewest_destroy(&x);
-    return thr_fail(err, why.code, "%s", why.text);
+    return any ? thr_fail(err, why.code, "%s", why.text) : thr_fail(err, THR_EINFEASIBLE, "%s", none.text);
   }
   if (found.code) thr_fail(err, found.code, "%s", found.text);
   double rest = work_to_serve * options->time_limit;

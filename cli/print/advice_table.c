@@ -30,6 +30,12 @@ void advice_put_command(thr_text *text, const char *path, const char *options, c
 {
   thr_text_append(text, "thread plan ");
   advice_put_word(text, path);
+  if (row->uneven) { /* each component has a number of its own */
+    const double digits = pow(10, 3 - floor(log10(row->pull[THR_ADVICE_MU])));
+    thr_text_printf(text, "%s --max-pull %g --ends %s", options, ceil(row->pull[THR_ADVICE_MU] * digits) / digits,
+                    thr_ends_name((int)row->ends));
+    return;
+  }
   thr_text_printf(text, "%s --cords %d --ends %s --objective tortuosity --minimize max-turning", options, row->cords,
                   thr_ends_name((int)row->ends));
 }
@@ -39,7 +45,10 @@ void advice_put_cords(thr_text *text, const thr_advice_row *row)
   const char *closed = row->ends == THR_ENDS_CLOSED ? "closed " : "";
   const char *where = row->ends == THR_ENDS_CLOSED ? "" : row->ends == THR_ENDS_FEET ? " to the feet" : " with ends anywhere";
   thr_text_printf(text, "%d %s%s", row->cords, closed, cli_plural(row->cords, "cord", "cords"));
-  if (row->all > row->cords) thr_text_printf(text, " in every component, %d in all,", row->all);
+  if (row->uneven)
+    thr_text_printf(text, " at most in a component, %d in all,", row->all);
+  else if (row->all > row->cords)
+    thr_text_printf(text, " in every component, %d in all,", row->all);
   thr_text_append(text, where);
 }
 
@@ -139,6 +148,7 @@ static void put_row_json(thr_writer *writer, const thr_advice_row *row)
 {
   thr_write_object(writer, NULL);
   thr_write_int(writer, "cords", row->cords);
+  if (row->all > row->cords) thr_write_int(writer, "cords_in_all", row->all);
   thr_write_string(writer, "ends", thr_ends_name((int)row->ends));
   thr_write_number(writer, "length", row->length);
   thr_write_number(writer, "longest", row->longest);

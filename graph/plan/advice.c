@@ -112,14 +112,36 @@ static void drop_rows(thr_advice *advice)
     if (i == advice->chosen) chosen = kept;
     advice->row[kept++] = row;
   }
-  advice->left_out = advice->n - kept;
+  advice->left_out += advice->n - kept;
   advice->n = kept;
   advice->chosen = chosen;
+}
+
+/* More cords that are longer than fewer are no use to anybody, unless they are the first within the hand. */
+static void drop_longer(thr_advice *advice)
+{
+  int kept = 0;
+  double longest = INFINITY;
+  bool within = false;
+  for (int i = 0; i < advice->n; i++) {
+    const thr_advice_row row = advice->row[i];
+    const bool first = i == 0 || row.ends != advice->row[kept - 1].ends, fits = thr_advice_within(advice, &row);
+    if (first) longest = INFINITY;
+    if (first) within = false;
+    const bool useful = row.longest <= longest * (1 + 1e-9) || (fits && !within);
+    within |= fits;
+    if (!useful) continue;
+    longest = row.longest;
+    advice->row[kept++] = row;
+  }
+  advice->left_out += advice->n - kept;
+  advice->n = kept;
 }
 
 void thr_advice_settle(thr_advice *advice)
 {
   if (advice->n > 0) qsort(advice->row, (size_t)advice->n, sizeof *advice->row, by_ends_and_cords);
+  drop_longer(advice);
   for (int i = 0; i < advice->n; i++) {
     advice->row[i].frontier = true;
     for (int j = 0; j < advice->n; j++)

@@ -22,9 +22,11 @@ extern const double thr_hand_most, thr_hand_always; /* 50, 10 */
 
 enum { THR_ADVICE_LOW, THR_ADVICE_MU, THR_ADVICE_HIGH, THR_ADVICE_PULLS };
 
-/* A plan of `cords` cords in every component, whose cord that turns most turns as little as was found in time. */
+/* A plan of `cords` cords in every component, or with `uneven` in the one that has most, whose cord that turns most turns as
+ * little as was found in time. */
 typedef struct {
   int cords, all;                /* all: of all components together */
+  bool uneven;                   /* has a component fewer than another? */
   thr_ends ends;                 /* closed, any or feet */
   double length, longest;        /* units, of all cords and of the longest */
   double turning;                /* rad, of the cord that turns most */
@@ -68,7 +70,8 @@ void thr_advice_pulls(const thr_physics *physics, double reach, double pull[THR_
 /* Does a row stay within the hand even at mu_high? */
 bool thr_advice_within(const thr_advice *advice, const thr_advice_row *row);
 
-/* Sorts the rows, chooses, marks the frontier and drops what buys nothing. Chosen is the row with the fewest cords that stays
+/* Sorts the rows, chooses, marks the frontier and drops what buys nothing, and rows of more cords of which one is longer than the
+ * longest of fewer, unless none of fewer stays within the hand. Chosen is the row with the fewest cords that stays
  * within the hand at mu_high: of those with ends at the feet, if one of them does and needs no more than half as much cord again
  * as the fewest of all, else of all. A row buys nothing if another with no more cords, and ends of the same kind or at the feet,
  * has at most a twentieth more pull and no more cord. O(n^2). */
