@@ -423,8 +423,8 @@ static thr_status plan_from(const thr_frame *frame, const thr_request *options, 
   if (!st || *missed) {
     thr_err kept = {0};
     const thr_status made = keep_length(frame, &any_pull, limits, plan, &kept);
+    if (err && (made || plan->n_cords > 0)) *err = kept;
     if (made || plan->n_cords > 0) st = made;
-    if (made || plan->n_cords > 0) *err = kept;
   }
   if (!st) st = verdict(plan, &least, err);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);

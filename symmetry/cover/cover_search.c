@@ -181,7 +181,7 @@ static thr_status minimize(thr_cover_search *s, int number, thr_err *err)
   if (!st) st = thr_tree_run(&a.tree, &calls, err);
   if (!st && a.tree.stopped) st = THR_ELIMIT;
   if (!st && !s->found)
-    st = thr_fail(err, THR_EINFEASIBLE, "no threading with ends %s%s is symmetric under this group of order %d",
+    st = thr_fail(err, THR_EINFEASIBLE, "found no threading with ends %s%s that is symmetric under this group of order %d",
                   thr_ends_name(s->p->o->ends), s->p->o->tube ? " that ties every joint" : "", s->p->q->h->order);
   if (!st) s->bound[a.aim] = s->worth[a.aim];
   if (!st || st == THR_ELIMIT) {

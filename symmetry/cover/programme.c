@@ -79,7 +79,8 @@ static void fill_pairs(thr_programme *p)
     const thr_pair_type *type = &quotient->pair[y];
     int j = p->first_pair + y;
     bool u_turn = type->half[0] == type->half[1];
-    p->most[j] = u_turn && (p->o->tube || thr_programme_end_allowed(p, thr_tail(quotient->f, type->half[0]))) ? 0 : -1;
+    const bool ends = (p->o->most_ends == 0 || !p->open) && thr_programme_end_allowed(p, thr_tail(quotient->f, type->half[0]));
+    p->most[j] = u_turn && (p->o->tube || ends) ? 0 : -1; /* two ends do as well, unless they are few */
     p->join[j][0] = type->dart[0];
     p->join[j][1] = type->self ? quotient->n_darts : type->dart[1];
     p->cost[THR_AIM_PATHS][j] = type->self ? 0.5 : 0;

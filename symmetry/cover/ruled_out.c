@@ -101,7 +101,7 @@ static thr_status require(thr_programme *p, thr_err *err)
           (p->cover[quotient->copy[left].edge_orbit] + quotient->copy[left].passes - 1) / quotient->copy[left].passes;
     if (n == 0 || (n == 1 && p->least[left] > p->most[left]))
       return thr_fail(err, THR_EINFEASIBLE,
-                      "edge %d cannot be passed %d to %d times by cords that this group of order %d maps to cords",
+                      "found no way to pass edge %d %d to %d times by cords that this group of order %d maps to cords",
                       quotient->copy[c].edge, p->cover[quotient->copy[c].edge_orbit], p->capacity[quotient->copy[c].edge_orbit],
                       quotient->h->order);
   }

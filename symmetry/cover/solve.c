@@ -202,6 +202,22 @@ static thr_status check_fewest(const solver *s, const thr_quotient *quotient, th
                   quotient->h->order, fewest, s->o->cords);
 }
 
+/* Tells whether a cover that was not found is proved not to be: with tube joints, or where some component has no node for ends.
+ * Otherwise cords that turn back at nodes with several edges, which covers do not have, might still be symmetric. */
+static thr_status find_proved_infeasible(const solver *s, bool *proved, thr_err *err)
+{
+  const int n = s->f->n_nodes;
+  bool *can_end = thr_calloc((size_t)n, sizeof *can_end);
+  if (!can_end) return thr_nomem(err);
+  for (int v = 0; v < n; v++)
+    can_end[s->component[v]] |= s->how.ends == THR_ENDS_CLOSED || thr_plan_end_allowed(s->f, s->o, v);
+  *proved = s->how.tube;
+  for (int v = 0; v < n; v++)
+    *proved |= !can_end[s->component[v]];
+  free(can_end);
+  return THR_OK;
+}
+
 /* Goes on with the row's cover; the last time it becomes the row's threading. */
 static thr_status solve(const solver *s, int i, bool quick, const thr_limits *limits, thr_err *err)
 {
@@ -218,6 +234,9 @@ static thr_status solve(const solver *s, int i, bool quick, const thr_limits *li
   if (!st) st = check_fewest(s, &quotient, &row->why);
   if (!st) {
     st = thr_cover_improve(&quotient, &how, limits, &s->cover[i], &row->why);
+    bool proved = true;
+    if (st == THR_EINFEASIBLE && find_proved_infeasible(s, &proved, err)) st = THR_ENOMEM;
+    if (st == THR_EINFEASIBLE && !proved) st = row->why.code = THR_ELIMIT;
     if (!st || st == THR_ELIMIT) tell(&quotient, &how, &s->cover[i], limits);
     if (s->end > 0) last.deadline = fmin(s->end + LATEST, fmax(limits->deadline, thr_clock() + 2 * MOMENT));
     if (!quick && (!st || st == THR_ELIMIT)) {

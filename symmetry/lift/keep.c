@@ -221,9 +221,60 @@ static bool can_swap(const keeper *k, int y, int sign)
   return type->self ? ends[d[0]] > 0 : d[0] == d[1] ? ends[d[0]] > 1 : ends[d[0]] > 0 && ends[d[1]] > 0;
 }
 
+/* ---- more cords ---- */
+
+/* How an orbit of copies goes on at one of its dart types: its cord ends there, or turns back into its own image or a second
+ * orbit. */
+typedef enum { STOP, FOLD, BACK, N_WAYS } way;
+
+/* Returns the column of dart type d for a way, or -1 if there is none. */
+static int column_of(const keeper *k, int d, way w)
+{
+  const thr_programme *p = &k->p;
+  if (w == STOP) return p->most[p->first_end + d] != 0 ? p->first_end + d : -1;
+  for (int i = p->first[d]; i < p->first[d + 1]; i++) {
+    const thr_pair_type *type = &k->q->pair[p->incident[i]];
+    const bool back = type->half[0] == type->half[1] && type->dart[0] == d && (type->self || type->dart[1] == d);
+    if (back && type->self == (w == FOLD) && p->most[p->first_pair + p->incident[i]] != 0) return p->first_pair + p->incident[i];
+  }
+  return -1;
+}
+
+/* Tries one more orbit of cords over copies of type c alone, which go on in these ways at both ends: two orbits of copies where
+ * one turns back into the other. */
+static thr_status attempt_more(keeper *k, int c, way first, way second, thr_err *err)
+{
+  const thr_copy_type *type = &k->q->copy[c];
+  const way ways[2] = {first, second};
+  const int n = type->dart[1] < 0 ? 1 : 2, times = first == BACK || (n == 2 && second == BACK) ? 2 : 1;
+  int column[2];
+  if (k->p.most[c] >= 0 && k->base[c] + times > k->p.most[c]) return THR_OK;
+  for (int i = 0; i < n; i++)
+    if ((column[i] = column_of(k, type->dart[i], ways[i])) < 0) return THR_OK;
+  for (int i = 0; i < n; i++)
+    k->value[column[i]] += ways[i] == BACK ? 1 : times;
+  k->value[c] += times;
+  thr_status st = attempt(k, err);
+  k->value[c] -= times;
+  for (int i = 0; i < n; i++)
+    k->value[column[i]] -= ways[i] == BACK ? 1 : times;
+  return st;
+}
+
+/* Tries more cords where there are too few: each a pass of one edge, or there and back over it. */
+static thr_status attempt_additions(keeper *k, thr_err *err)
+{
+  thr_status st = THR_OK;
+  for (int c = 0; c < k->q->n_copies && k->x.few > 0; c++)
+    for (int w = 0; w < N_WAYS * N_WAYS && !st; w++)
+      if (k->q->copy[c].dart[1] >= 0 || w < N_WAYS) st = attempt_more(k, c, (way)(w % N_WAYS), (way)(w / N_WAYS), err);
+  return st;
+}
+
 static thr_status attempt_all(keeper *k, thr_err *err)
 {
-  thr_status st = thr_programme_attempt(&k->p, k->value, false, attempt, k, err);
+  thr_status st = attempt_additions(k, err);
+  if (!st) st = thr_programme_attempt(&k->p, k->value, false, attempt, k, err);
   for (int i = 0; i < 2 * k->q->n_pairs && !st; i++) {
     int sign = i % 2 ? -1 : 1;
     if (!can_swap(k, i / 2, sign)) continue;

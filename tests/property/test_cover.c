@@ -308,10 +308,10 @@ static void compare_cords(const example *t, const thr_frame *f, const thr_group 
   asked.aims = thr_aims_symmetric;
   asked.symmetry.counted = true;
   asked.cords = cords;
+  o.most_ends = 2 * cords;
   exhaustive_init(&x, f, g, h, &o);
   x.most_cords = cords;
   bool known = exhaustive_search(&x);
-  o.most_ends = 2 * cords;
   ck_assert_int_eq(thr_quotient_init(&q, f, g, h, 10000, NULL), THR_OK);
   thr_status st = known ? thr_cover_find(&q, &o, &limits, &c, NULL) : THR_ELIMIT;
   if (!st) st = thr_keep_cords(&q, &o, &asked, &limits, &c, &cord, &n_cords, &record, &kept, NULL);
