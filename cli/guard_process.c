@@ -8,6 +8,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -167,15 +168,28 @@ static void watch(guarded *g)
   receive(g);
 }
 
+/* Returns how many bytes the system gives a process (ulimit -v, -d), or INFINITY. */
+static double system_memory(void)
+{
+  const int kinds[] = {RLIMIT_AS, RLIMIT_DATA};
+  double least = INFINITY;
+  for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+    struct rlimit r;
+    if (getrlimit(kinds[i], &r) == 0 && r.rlim_cur != RLIM_INFINITY) least = fmin(least, (double)r.rlim_cur);
+  }
+  return least;
+}
+
 /* A library that dies where memory is short has come near the limit. */
 static guard_reason reason_of(const guarded *g, const guard_limits *l)
 {
   struct rusage used;
   bool killed = WIFSIGNALED(g->status);
   getrusage(RUSAGE_CHILDREN, &used);
-  bool full = l->memory > 0 && 1024. * (double)used.ru_maxrss > 0.7 * l->memory;
+  const double limit = fmin(l->memory > 0 ? l->memory : INFINITY, system_memory());
+  bool full = 1024. * (double)used.ru_maxrss > 0.7 * limit;
   if (killed && g->end->reason != GUARD_DONE) return g->end->reason; /* by this process */
-  if (g->out_of_memory || (killed && full)) return GUARD_MEMORY;
+  if (g->out_of_memory || ((killed || !g->by_itself) && full)) return GUARD_MEMORY;
   return killed || !g->by_itself ? GUARD_DIED : GUARD_DONE;
 }
 
@@ -189,7 +203,9 @@ static void judge(guarded *g, const guard_limits *l)
   case GUARD_TIME: snprintf(e->why, sizeof e->why, "not done in time"); break;
   case GUARD_INTERRUPTED: snprintf(e->why, sizeof e->why, "stopped"); break;
   case GUARD_MEMORY:
-    if (l->memory > 0)
+    if (system_memory() < (l->memory > 0 ? l->memory : INFINITY))
+      snprintf(e->why, sizeof e->why, "out of memory (the system's limit, ulimit -v, allows %.4g MB)", system_memory() / 1e6);
+    else if (l->memory > 0)
       snprintf(e->why, sizeof e->why, "out of memory (--memory allows %g MB)", l->memory / 1e6);
     else
       snprintf(e->why, sizeof e->why, "out of memory");

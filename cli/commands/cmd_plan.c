@@ -641,6 +641,23 @@ static int plan_frame(const arguments *a, thr_frame *framework)
   return code;
 }
 
+/* Draws a plan that a search left which did not end by itself, in a process of its own: what fits is drawn. */
+static int draw_kept(const arguments *a, const places *to)
+{
+  const guard_limits limits = {.memory = a->guard.memory};
+  guard_end end;
+  thr_plan plan;
+  thr_err err = {0};
+  if (guard_fork(&limits, &end)) {
+    guard_conclude(&end, "not all that was to be drawn fits");
+    return EXIT_LIMIT;
+  }
+  int code = thr_plan_read(&plan, to->plan, &err) ? cli_fail(&err) : EXIT_OK;
+  if (!code) code = drawings_write_all(&plan, to->folder, &a->drawings);
+  if (!code) cli_note("drawn in %s", to->folder);
+  return EXIT_LIMIT; /* of the search */
+}
+
 /* After the planning, in the parent if there is one: if it left no plan, but had some cords, they are the plan. */
 static int conclude(const arguments *a, guard_end *end)
 {
@@ -654,6 +671,7 @@ static int conclude(const arguments *a, guard_end *end)
   thr_text_destroy(&end->kept);
   if (code) return code;
   cli_error("%s%s%s holds the best plan so far, of which nothing is proved", end->why, *end->why ? ": " : "", to.plan);
+  if (to.folder && end->reason != GUARD_INTERRUPTED && strcmp(to.plan, "-") != 0) return draw_kept(a, &to);
   return EXIT_LIMIT;
 }
 
