@@ -6,6 +6,7 @@
 #include "planner/dispatch.h"
 #include "planner/order.h"
 #include "planner/planners.h"
+#include "planner/trim.h"
 #include "planner/uncross.h"
 #include "symmetry/group/automorphisms.h"
 
@@ -54,7 +55,13 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, con
   thr_planner_tell_at_once(frame, request, limits);
   thr_status st = thr_dispatch(request)(frame, request, limits, plan, &own, &why), finished = THR_OK;
   if (st == THR_EVIOLATED) st = THR_ESOLVER; /* a claim of the search's own */
-  if (plan->n_cords > 0) finished = thr_plan_uncross(plan, err);
+  bool trimmed = false;
+  if (plan->n_cords > 0) finished = thr_plan_trim(plan, &trimmed, err);
+  if (trimmed && !finished && st == THR_ELIMIT && request->max_pull == 0 && request->max_length == 0) {
+    why = (thr_err){0};
+    st = thr_planner_verdict(plan, &why);
+  }
+  if (plan->n_cords > 0 && !finished) finished = thr_plan_uncross(plan, err);
   if (plan->n_cords > 0 && !finished && is_to_be_judged(plan)) finished = judge(plan, &st, &why, err);
   if (plan->n_cords > 0 && !finished) finished = thr_plan_order(plan, err);
   if (plan->n_cords > 0 && !finished) finished = sign(plan, err);

@@ -1,0 +1,174 @@
+/* Leaves off passes at the ends of cords that other cords make already.
+ *
+ * An edge with n passes that needs c of them can do without n - c. Where it can do without none, its passes belong to the core of
+ * their cords. In front of a cord's core, and behind it, any number of passes may go as long as the cord ends where ends may be.
+ * Which go is a search by branch and bound over the cords' ends, longest piece first, so that the first leaf is a greedy choice;
+ * no choice leaves off more than what all edges can do without.
+ *
+ * Example: two cords round one ring, 1 2 3 4 and 3 4 5 6: either leaves off 3 4. */
+#include "planner/trim.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/request.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/scratch.h"
+#include "planner/planners.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_CHOICES = 100000, MOST_DEEP = 10000 /* ends that are looked at: the search is recursive */ };
+
+/* Ends 2 i and 2 i + 1 are the first and the last end of cord i. */
+typedef struct {
+  const thr_plan *plan;
+  int *spare;                   /* [n_edges] passes that an edge can do without now */
+  int *cut, *best;              /* [2 n_cords] passes left off at each end, now and in the best choice */
+  int *most;                    /* [2 n_cords] passes up to the core at most */
+  double *rest;                 /* [2 n_cords + 1] length that these ends and all later ones can leave off at most */
+  double removed, record, room; /* length left off now, in the best choice; that edges can still do without */
+  long choices;
+} trimming;
+
+/* Returns the k-th half-edge from an end, going inwards. */
+static int pass_from(const trimming *t, int end, int k)
+{
+  const thr_cord *cord = &t->plan->cord[end / 2];
+  return end % 2 ? cord->half[cord->n_passes - 1 - k] : cord->half[k];
+}
+
+/* Returns the node where a cord ends once k passes are left off at an end. */
+static int node_after(const trimming *t, int end, int k)
+{
+  const int half = pass_from(t, end, k);
+  return end % 2 ? thr_head(&t->plan->frame, half) : thr_tail(&t->plan->frame, half);
+}
+
+/* Chooses how much goes at this end and all later ones. */
+static void choose(trimming *t, int end)
+{
+  const thr_frame *frame = &t->plan->frame;
+  if (t->removed > t->record * (1 + 1e-12)) {
+    t->record = t->removed;
+    memcpy(t->best, t->cut, 2 * (size_t)t->plan->n_cords * sizeof *t->best);
+    memset(t->best + end, 0, (2 * (size_t)t->plan->n_cords - (size_t)end) * sizeof *t->best);
+  }
+  while (end < 2 * t->plan->n_cords && t->most[end] == 0)
+    end++;
+  if (end == 2 * t->plan->n_cords || t->choices++ > MOST_CHOICES) return;
+  if (t->removed + fmin(t->rest[end], t->room) <= t->record * (1 + 1e-12)) return;
+
+  /* Leaves off as much as the edges can do without; the cord keeps one pass. */
+  const int keep = t->plan->cord[end / 2].n_passes - 1 - (end % 2 ? t->cut[end - 1] : 0);
+  const double removed = t->removed, room = t->room;
+  int k = 0;
+  for (; k < t->most[end] && k < keep; k++) {
+    const int e = pass_from(t, end, k) >> 1;
+    if (t->spare[e] == 0) break;
+    t->spare[e]--;
+    t->removed += frame->length[e];
+    t->room -= frame->length[e];
+  }
+
+  /* Takes passes back one by one, and goes on wherever the cord may end. */
+  for (;; k--) {
+    if (k == 0) {
+      t->removed = removed;
+      t->room = room;
+    }
+    if (k == 0 || thr_plan_end_allowed(frame, &t->plan->options, node_after(t, end, k))) {
+      t->cut[end] = k;
+      choose(t, end + 1);
+    }
+    if (k == 0) break;
+    const int e = pass_from(t, end, k - 1) >> 1;
+    t->spare[e]++;
+    t->removed -= frame->length[e];
+    t->room += frame->length[e];
+  }
+  t->cut[end] = 0;
+}
+
+/* Counts what edges can do without, and what each end can leave off by that. */
+static void prepare(trimming *t)
+{
+  const thr_frame *frame = &t->plan->frame;
+  for (int i = 0; i < t->plan->n_cords; i++)
+    for (int k = 0; k < t->plan->cord[i].n_passes; k++)
+      t->spare[t->plan->cord[i].half[k] >> 1]++;
+  for (int e = 0; e < frame->n_edges; e++) {
+    t->spare[e] -= thr_plan_cover(frame, &t->plan->options, e);
+    if (t->spare[e] > 0) t->room += t->spare[e] * frame->length[e];
+  }
+  for (int end = 2 * t->plan->n_cords - 1, deep = 0; end >= 0; end--) {
+    double length = 0;
+    int k = 0;
+    for (; deep < MOST_DEEP && k + 1 < t->plan->cord[end / 2].n_passes && t->spare[pass_from(t, end, k) >> 1] > 0; k++)
+      length += frame->length[pass_from(t, end, k) >> 1];
+    t->most[end] = k;
+    deep += k > 0;
+    t->rest[end] = t->rest[end + 1] + length;
+  }
+}
+
+/* Shortens the cords as the best choice says. */
+static void cut_cords(thr_plan *plan, const int *cut)
+{
+  for (int i = 0; i < plan->n_cords; i++) {
+    thr_cord *cord = &plan->cord[i];
+    cord->n_passes -= cut[2 * i] + cut[2 * i + 1];
+    memmove(cord->half, cord->half + cut[2 * i], (size_t)cord->n_passes * sizeof *cord->half);
+    cord->closed = thr_cord_start(&plan->frame, cord) == thr_cord_end(&plan->frame, cord);
+  }
+}
+
+/* Proves of the shorter cords what was proved of the longer ones. */
+static thr_status prove(thr_plan *plan, thr_err *err)
+{
+  thr_plan before = {.proof = plan->proof, .turning = plan->turning};
+  plan->proof = (thr_length_proof){0};
+  plan->turning = (thr_turning_claim){0};
+  thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (!st && before.proof.present) {
+    const thr_walk_proof pulled = before.proof.pulled;
+    before.proof.pulled = (thr_walk_proof){0};
+    const double bound = before.proof.lower_bound;
+    st = thr_planner_prove_length(plan, &before, err);
+    plan->proof.pulled = pulled;
+    plan->proof.lower_bound = fmin(plan->metrics.length, fmax(plan->proof.lower_bound, bound));
+    plan->proof.optimal |= plan->metrics.length <= bound * (1 + 1e-9);
+    if (plan->proof.optimal) plan->proof.lower_bound = plan->metrics.length;
+    plan->proof.gap = (plan->metrics.length - plan->proof.lower_bound) / plan->metrics.length;
+    plan->proof.slack_open = !thr_plan_within_slack(&plan->options, plan->metrics.length, plan->proof.lower_bound);
+  }
+  if (!st) st = thr_planner_prove_turning(plan, &before.turning, err);
+  thr_plan_destroy(&before);
+  return st;
+}
+
+thr_status thr_plan_trim(thr_plan *plan, bool *trimmed, thr_err *err)
+{
+  const thr_request *request = &plan->options;
+  const bool free_ends = request->ends == THR_ENDS_ANY || request->ends == THR_ENDS_FEET || request->ends == THR_ENDS_NODES;
+  thr_scratch scratch = {0};
+  *trimmed = false;
+  if (!free_ends || plan->n_cords < 1 || plan->symmetry.present || request->joint == THR_JOINT_TUBE || request->distinct > 0 ||
+      plan->proof.optimal || request->turning.tour != THR_TOUR_LEAST)
+    return THR_OK;
+  const size_t ends = 2 * (size_t)plan->n_cords;
+  trimming t = {.plan = plan,
+                .spare = thr_scratch_array(&scratch, (size_t)plan->frame.n_edges, sizeof *t.spare),
+                .cut = thr_scratch_array(&scratch, ends, sizeof *t.cut),
+                .best = thr_scratch_array(&scratch, ends, sizeof *t.best),
+                .most = thr_scratch_array(&scratch, ends, sizeof *t.most),
+                .rest = thr_scratch_array(&scratch, ends + 1, sizeof *t.rest)};
+  thr_status st = thr_scratch_check(&scratch, err);
+  if (!st) {
+    prepare(&t);
+    choose(&t, 0);
+    *trimmed = t.record > 1e-12 * plan->metrics.length;
+  }
+  if (*trimmed) cut_cords(plan, t.best);
+  thr_scratch_free(&scratch);
+  return st || !*trimmed ? st : prove(plan, err);
+}
