@@ -23,6 +23,7 @@ void thr_eval_destroy(thr_eval *eval)
   thr_holding_destroy(&eval->equal);
   thr_holding_destroy(&eval->loosest);
   thr_holding_destroy(&eval->after);
+  thr_holding_destroy(&eval->stretch);
   thr_settle_destroy(&eval->settle);
   thr_erect_destroy(&eval->erect);
   thr_holding_destroy(&eval->loaded);

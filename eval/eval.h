@@ -72,6 +72,8 @@ typedef struct {
   thr_holding equal;    /* the same with equal pulls at all ends; up to 100 beads, all cords pulled at both ends */
   thr_holding loosest;  /* the force at all ends in any friction state, whatever was done to the cords before */
   thr_holding after;    /* after a schedule: by what its tensions may be multiplied; it stands if that may be 1 */
+  thr_holding stretch;  /* the same where cords are knotted at both ends, N m: what their tensions grow by, times their lengths */
+  double tightest;      /* N: the largest tension of a knotted cord at stretch.upper */
   double let_down;      /* N: to which all ends can then be let down while an equilibrium exists; NAN if that was not asked */
   thr_holding loaded;   /* pull of all ends at which the load is carried while the cords are drawn in */
   thr_load_point *carries; /* [n_carries] pulls of all ends, and what of the load they carry; owned */

@@ -2744,7 +2744,7 @@ def plus(a, b, times=1.0):
 class Standing:
     """The limit analysis: beads as rigid bodies (SI units), and what each stated mechanism proves."""
 
-    ASKED = ("holding", "equal", "any_state", "after", "loaded", "carried", "carried_after")
+    ASKED = ("holding", "equal", "any_state", "after", "loaded", "carried", "carried_after", "stretch")
 
     def __init__(self, p, e, cords, o):
         place = self.place = "evaluation.structure"
@@ -2758,6 +2758,11 @@ class Standing:
         require(tilt < math.pi / 2, f"{place}.tilt: a right angle or more")
         self.down = (math.sin(tilt) * math.cos(azimuth), math.sin(tilt) * math.sin(azimuth), -math.cos(tilt))
         require(all(cord.tension for cord in cords), f"{place}: not every cord is known")
+        done = {}
+        for step in e.steps or []:
+            if step["do"] != "grip":
+                done.update({(step["cord"], end): step["do"] for end in ("start", "end") if step["end"] in (end, "both")})
+        self.knotted = {edge for cord, path in zip(p.cords, self.paths) for edge in path if self.model > 1 and done.get((cord.id, "start")) == done.get((cord.id, "end")) == "knot"}
         self.bodies()
         self.loads = [self.load(x) for x in member(o, "loads", "list", place)] if "loads" in o else []
         require("loads" not in o or self.loads, f"{place}.loads: empty")
@@ -2858,7 +2863,7 @@ class Standing:
     def tensions(self, i, asked):
         """Of cord i at a pull of 1, or as the schedule leaves them."""
         before, pull, slackest = self.drawn[i]
-        if asked in ("after", "carried_after"):
+        if asked in ("after", "carried_after", "stretch"):
             return self.cords[i].tension
         if pull == "none":
             return [0.0] * len(before)
@@ -2881,7 +2886,8 @@ class Standing:
         asked = choice(o, "asked", place, self.ASKED)
         of_load = asked in ("carried", "carried_after")
         require(("pull" in o) == (asked == "carried"), f"{place}.pull: with carried, and only with it")
-        require(self.scheduled or asked not in ("after", "carried_after"), f"{place}: without a schedule")
+        require(self.scheduled or asked not in ("after", "carried_after", "stretch"), f"{place}: without a schedule")
+        require(self.model > 1 or asked != "stretch", f"{place}: stretch, of the first model")
         require(self.loads or not of_load and asked != "loaded", f"{place}: without a load")
         require(("proved" in o) == ("mechanism" in o), f"{place}: what is proved, and by what, come together")
         pull = member(o, "pull", "number", place, 0, default=1)
@@ -2930,14 +2936,19 @@ class Standing:
         resistance = [sign * press[i] * dot(axis, velocity(node, middle)) for i, ((a, b), (middle, axis, _, _)) in enumerate(zip(f.edge, self.face))
                       for node, sign in ((a, -1), (b, 1))]
         resistance += [press[i] * self.play * math.hypot(*cross(axis, plus(moves[b][1], moves[a][1], -1))) for i, ((a, b), (_, axis, _, _)) in enumerate(zip(f.edge, self.face))]
-        times = [1, proved, 1] if of_load else [1, 1, proved]
+        parting = [math.fsum((sum(s * dot(axis, velocity(node, middle)) for node, s in ((a, -1), (b, 1))), self.play * math.hypot(*cross(axis, plus(moves[b][1], moves[a][1], -1)))))
+                   for (a, b), (middle, axis, _, _) in zip(f.edge, self.face)]
+        if asked == "carried_after":
+            require(all(parting[e] <= 1e-13 * fastest for e in self.knotted), f"{place}: a face with knotted cord opens")
+        stretch = proved * max([0.0] + [parting[e] / math.dist(*(self.at[x] for x in f.edge[e])) for e in self.knotted]) if asked == "stretch" else 0.0
+        times = [1, proved, 1] if of_load else [1, 1, 1] if asked == "stretch" else [1, 1, proved]
         sums = [x * math.fsum(terms) for x, terms in zip(times, (falling, load, resistance))]
-        slip = 1e-14 * math.fsum(x * abs(y) for x, terms in zip(times, (falling, load, resistance)) for y in terms)
+        slip = 1e-14 * math.fsum(x * abs(y) for x, terms in zip(times, (falling, load, resistance)) for y in terms) + 1e-14 * stretch
         most = (0 if of_load else sum(self.weight)) + sum(math.hypot(*force) for _, force in self.loads if load)
         drive = math.fsum(load) if of_load else sums[0] + sums[1]
         require(drive > max(slip, 1e-7 * fastest * most), f"{place}: nothing drives the mechanism")
-        claimed = abs(sums[1] if of_load else sums[2])
-        require(sums[0] + sums[1] - sums[2] >= -slip - 1e-9 * claimed, f"{place}: the powers do not prove {proved}")
+        claimed = stretch if asked == "stretch" else abs(sums[1] if of_load else sums[2])
+        require(sums[0] + sums[1] - sums[2] - stretch >= -slip - 1e-9 * claimed, f"{place}: the powers do not prove {proved}")
 
 
 class Evaluation:

@@ -45,6 +45,9 @@ static void put_json_answers(thr_writer *writer, const thr_frame *frame, const t
                      "while the cord is being drawn in, with equal pulls at all ends");
   if (eval->loosest.present)
     put_json_holding(writer, frame, "any_state", &eval->loosest, "force at all ends, whatever was done to the cords before");
+  if (eval->stretch.present)
+    put_json_holding(writer, frame, "stretch", &eval->stretch,
+                     "N m by which the tension of knotted cord grows, times its length");
   if (!eval->after.present) return;
   put_json_holding(writer, frame, "after", &eval->after, "factor on the tensions that the schedule leaves");
   thr_write_number(writer, "let_down", eval->let_down);
@@ -68,12 +71,17 @@ static void put_json_play(thr_writer *writer, const thr_plan *plan)
 
 static void put_json_simulation(thr_writer *writer, const thr_frame *frame, const thr_settle *settle, bool after)
 {
-  static const char *const status[] = {"fell", "held", "not settled", "too large", "not settled", "not settled"},
-                           *const why[] = {NULL, NULL, "never came to rest", NULL, "crept", "late"};
-  const bool fell = settle->status == THR_SETTLE_FELL;
+  static const char *const status[] = {"fell", "held", "not settled", "too large", "fell", "fell"},
+                           *const why[] = {NULL,
+                                           NULL,
+                                           "never came to rest",
+                                           NULL,
+                                           "crept: where the limit analysis found an equilibrium, or not known to a twentieth",
+                                           "late: below where nothing holds"};
+  const bool fell = settle->fall > 0;
   thr_write_line(writer, 1);
   thr_write_object(writer, "simulation");
-  thr_write_string(writer, "status", status[settle->status]);
+  thr_write_string(writer, "status", settle->status == THR_SETTLE_LATE && !fell ? "stood" : status[settle->status]);
   if (why[settle->status]) thr_write_string(writer, "why", why[settle->status]);
   thr_write_string(writer, "state", after ? "ends let down after the schedule" : "while the cord is being drawn in");
   thr_write_number(writer, "falls_at", fell ? settle->fall : NAN);

@@ -231,10 +231,19 @@ static void put_joint(thr_text *text, const thr_plan *plan, const thr_eval *eval
 
 static void put_fall(thr_text *text, const thr_plan *plan, const thr_settle *settle, bool after)
 {
-  thr_text_printf(text,
-                  "simulation     falls %s %.4g N +- %.2g N; bead %s moves first; widest gap %.3g mm before, %.3g mm after\n",
-                  after ? "when all ends are let down to" : "at", settle->fall, settle->error,
-                  plan->frame.name[settle->first_bead], settle->gap_before, settle->gap_after);
+  thr_text_printf(
+      text,
+      "simulation     falls %s %.4g N (begins at %.4g N, is seen at %.4g N; what time step, iterations and seed add to "
+      "that is not in it); bead %s moves first; widest gap %.3g mm before, %.3g mm after\n",
+      after ? "when all ends are let down to" : "at", settle->fall, settle->fall + settle->error / 2,
+      settle->fall - settle->error / 2, plan->frame.name[settle->first_bead], settle->gap_before, settle->gap_after);
+  if (settle->status == THR_SETTLE_CREPT)
+    thr_text_append(
+        text, "               this contradicts the limit analysis, which found an equilibrium there, or is not known to a\n"
+              "               twentieth: beads creep in the simulation; a smaller --time-step or more --iterations may help\n");
+  if (settle->status == THR_SETTLE_LATE)
+    thr_text_append(text,
+                    "               this is below the pull under which nothing holds it (proved): its fall was seen late\n");
 }
 
 static void put_too_large(thr_text *text)
@@ -257,14 +266,11 @@ static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *s
                     "simulation     not settled: it never came to rest under the pull at its start. Nothing is known of the\n"
                     "               fall; a larger --start or more --iterations may help\n");
     break;
-  case THR_SETTLE_CREPT:
-    thr_text_append(text,
-                    "simulation     not settled: a bead crept at pulls at which an equilibrium exists. Nothing is known of the\n"
-                    "               fall; a smaller --time-step or more --iterations may help\n");
-    break;
   default:
-    thr_text_append(text,
-                    "simulation     not settled: it stood where nothing holds it (proved), its fall was too slow to be seen\n");
+    if (settle->fall > 0)
+      put_fall(text, plan, settle, after);
+    else
+      thr_text_append(text, "simulation     stood where nothing holds it (proved): its fall was too slow to be seen\n");
   }
 }
 
@@ -274,9 +280,9 @@ static void put_bounds(thr_text *text, const thr_holding *holding, const char *w
   if (holding->lower > 0)
     thr_text_printf(text, "below %.6g N %s nothing holds it (proved, residual %.1g)", holding->lower, when, holding->residual);
   else if (holding->upper == 0)
-    thr_text_append(text, "0 N: it stands by itself");
+    thr_text_append(text, "0 N: an equilibrium exists without any pull");
   else
-    thr_text_append(text, "it may stand by itself: not excluded, not shown");
+    thr_text_append(text, "it may need none: that an equilibrium exists without any pull is not excluded, not shown");
   if (holding->upper > 0 && isfinite(holding->upper)) thr_text_printf(text, "; at %.6g N an equilibrium exists", holding->upper);
   if (!isfinite(holding->upper)) thr_text_append(text, "; no equilibrium was found at any pull");
   thr_text_append(text, "\n");
@@ -297,18 +303,55 @@ static void put_holding(thr_text *text, const thr_eval *eval)
   }
 }
 
+/* N m of tension x length, as mm of cord if the stiffness is known. */
+static void put_longer(thr_text *text, const thr_evaluation *evaluation, double stretch)
+{
+  const double stiffness = evaluation->physics.stiffness;
+  thr_text_printf(text, stiffness > 0 ? "%.3g mm" : "%.3g N m / EA", stiffness > 0 ? 1e3 * stretch / stiffness : stretch);
+}
+
+/* What cords that are knotted at both ends have to stretch by, as pieces part, for an equilibrium. */
+static void put_stretch(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval, double strength)
+{
+  const thr_holding *stretch = &eval->stretch;
+  thr_text_append(text, "after it       ");
+  if (!isfinite(stretch->lower)) {
+    thr_text_append(text, "it falls, however tight the knotted cords get (proved)\n");
+    return;
+  }
+  if (stretch->upper == 0) {
+    thr_text_append(text, "an equilibrium exists with the tensions that it leaves\n");
+    return;
+  }
+  if (isfinite(stretch->upper)) {
+    thr_text_append(text, "an equilibrium exists once knotted cord has stretched by ");
+    put_longer(text, evaluation, stretch->upper);
+    thr_text_printf(text, ", up to %.3g N", eval->tightest);
+    if (strength > 0) thr_text_append(text, eval->tightest > strength ? ", which breaks it" : ", which it bears");
+  } else {
+    thr_text_append(text, "no equilibrium was found, however knotted cord stretches");
+  }
+  if (stretch->lower > 0) {
+    thr_text_append(text, "; by less than ");
+    put_longer(text, evaluation, stretch->lower);
+    thr_text_append(text, " none does (proved)");
+  }
+  thr_text_append(text, "\n");
+}
+
 /* Does it stand after the schedule? */
-static void put_after(thr_text *text, const thr_eval *eval)
+static void put_after(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval, double strength)
 {
   const thr_holding *after = &eval->after;
+  if (eval->stretch.present) put_stretch(text, evaluation, eval, strength);
   if (!after->present) return;
   thr_text_append(text, "after it       ");
   if (after->upper <= 1)
-    thr_text_printf(text, "it stands, and would with %.4g of the tensions", after->upper);
+    thr_text_printf(text, "an equilibrium exists, and would with %.4g of the tensions", after->upper);
   else if (after->lower > 1)
-    thr_text_printf(text, "it falls: %.4g times the tensions are needed (proved)", after->lower);
+    thr_text_printf(text, "these tensions are too small: %.4g times as much is needed (proved)", after->lower);
   else
-    thr_text_printf(text, "it may stand or fall: between %.4g and %.4g of the tensions", after->lower, after->upper);
+    thr_text_printf(text, "an equilibrium may exist or not: between %.4g and %.4g of the tensions", after->lower, after->upper);
   if (isfinite(eval->let_down)) thr_text_printf(text, "; with all ends let down to %.3g N, too", eval->let_down);
   thr_text_append(text, "\n");
 }
@@ -445,7 +488,7 @@ void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan, 
   if (evaluation->schedule.n > 0) {
     put_schedule(text, plan);
     put_left(text, plan);
-    put_after(text, eval);
+    put_after(text, evaluation, eval, view->strength);
   }
   if (evaluation->method == THR_JOINT) put_joint(text, plan, eval);
   if (evaluation->method == THR_STRUCTURE) put_structure(text, view, plan, eval);

@@ -12,7 +12,7 @@ static void put_one(thr_text *text, const thr_frame *frame, const thr_carry *car
     return;
   }
   if (carry->beyond > 0)
-    thr_text_printf(text, "%10.4g  %10.4g  ", carry->carried, carry->beyond);
+    thr_text_printf(text, isfinite(carry->beyond) ? "%10.4g  %10.4g  " : "%10.4g        none  ", carry->carried, carry->beyond);
   else
     thr_text_append(text, "it does not stand as it is  ");
   thr_text_append_clean(text, frame->name[carry->first_bead]);
@@ -41,7 +41,7 @@ void load_put(thr_text *text, const thr_frame *frame, const thr_eval *eval)
     thr_text_printf(text, "%10.4g  ", eval->carries[i].pull);
     put_one(text, frame, &eval->carries[i].carry);
   }
-  if (!eval->after.present) return;
+  if (!eval->after.present && !eval->stretch.present) return;
   thr_text_append(text, " afterwards ");
   put_one(text, frame, &eval->after_carries);
 }
@@ -71,7 +71,7 @@ void load_put_json(thr_writer *writer, const thr_frame *frame, const thr_eval *e
     thr_write_close(writer);
   }
   thr_write_close(writer);
-  if (eval->after.present) {
+  if (eval->after.present || eval->stretch.present) {
     thr_write_object(writer, "after");
     put_members(writer, frame, &eval->after_carries);
     thr_write_close(writer);

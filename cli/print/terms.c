@@ -116,6 +116,7 @@ static void standing_put(thr_text *text, const thr_plan *plan)
       [THR_ASKED_EQUAL] = "N at all ends, while the cords are drawn in, nothing holds it",
       [THR_ASKED_ANY_STATE] = "N at all ends, whatever was done to the cords before, nothing holds it",
       [THR_ASKED_AFTER] = "of the tensions that the schedule leaves nothing holds it",
+      [THR_ASKED_STRETCH] = "N m, by which the tension of knotted cord grows x its length, nothing holds it after the schedule",
       [THR_ASKED_LOADED] = "N at all ends, while the cords are drawn in, it does not carry the load"};
   const thr_standing *standing = &plan->evaluation.standing;
   for (int i = 0; i < standing->n_answers; i++) {

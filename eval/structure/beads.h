@@ -41,6 +41,8 @@ typedef struct {
   int rays;          /* of a friction pyramid; THR_USUAL_RAYS until it is set */
   double down[3];    /* unit: where weight draws; (0, 0, -1) until thr_beads_tilt */
   double (*load)[3]; /* [n_beads] N at the node, beside the weight; all 0 until it is filled in */
+  double *rising;    /* [n_faces] m: length of knotted cord at the face, whose tension grows as the face opens; all 0 until it is
+                        filled in */
   double size;       /* m: diagonal of the bounding box, for tolerances */
   thr_scratch own;   /* the arrays */
 } thr_beads;

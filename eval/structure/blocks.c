@@ -131,7 +131,8 @@ static void set_bodies(thr_blocks *s, int *parent)
   for (int v = 0; v < beads->n_beads; v++)
     parent[v] = s->weld ? s->weld[v] : v;
   for (int e = 0; e < beads->n_faces && s->merged; e++)
-    if (s->press[e] > s->most) thr_disjoint_join(parent, s->f->edge[e][0], s->f->edge[e][1]);
+    if (s->press[e] > s->most || (s->stretches && beads->rising[e] > 0))
+      thr_disjoint_join(parent, s->f->edge[e][0], s->f->edge[e][1]);
   for (int v = 0; v < beads->n_beads; v++) {
     int root = thr_disjoint_find(parent, v);
     if (root == v) memcpy(s->origin[s->n_bodies], beads->mass_centre[v], sizeof *s->origin);
@@ -158,7 +159,7 @@ static void add_force(const thr_blocks *s, double (*wrench)[6], int bead, const 
 /* The cords draw the two beads of a face together; the load acts on the nodes. */
 static void set_wrenches(thr_blocks *s)
 {
-  double(*of_cords)[6] = s->carries ? s->given : s->wrench, (*of_load)[6] = s->carries ? s->wrench : s->given;
+  double(*of_cords)[6] = s->carries || s->stretches ? s->given : s->wrench, (*of_load)[6] = s->carries ? s->wrench : s->given;
   for (int e = 0; e < s->b->n_faces; e++)
     for (int side = 0; side < 2 && !thr_blocks_inside(s, e); side++)
       add_force(s, of_cords, s->f->edge[e][side], s->b->axis[e], s->b->middle[e], (side ? -1 : 1) * fmin(s->press[e], s->most));
@@ -170,6 +171,9 @@ static void set_wrenches(thr_blocks *s)
  * forest. */
 static void set_copies(thr_blocks *s, int *parent)
 {
+  for (int e = 0; e < s->b->n_faces && s->stretches; e++)
+    if (s->b->rising[e] > 0 && !thr_blocks_inside(s, e)) s->rising[s->n_rising++] = e;
+  if (s->stretches) return;
   for (int v = 0; v < s->n_bodies; v++)
     s->copy[v] = -1;
   for (int e = 0; e < s->b->n_faces; e++) {
@@ -192,7 +196,7 @@ static void set_copies(thr_blocks *s, int *parent)
 static void set_plays(thr_blocks *s)
 {
   for (int e = 0; e < s->b->n_faces && s->outside && s->b->play > 0; e++)
-    if (s->press[e] > 0 && !thr_blocks_inside(s, e)) s->play[s->n_plays++] = e;
+    if ((s->press[e] > 0 || (s->stretches && s->b->rising[e] > 0)) && !thr_blocks_inside(s, e)) s->play[s->n_plays++] = e;
 }
 
 void thr_blocks_destroy(thr_blocks *s)
@@ -214,6 +218,7 @@ thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
   s->copy = thr_scratch_array(&s->own, n, sizeof *s->copy);
   s->row = thr_scratch_array(&s->own, n, sizeof *s->row);
   s->tie = thr_scratch_array(&s->own, n, sizeof *s->tie);
+  s->rising = thr_scratch_array(&s->own, (size_t)beads->n_faces + 1, sizeof *s->rising);
   s->play = thr_scratch_array(&s->own, (size_t)beads->n_faces + 1, sizeof *s->play);
   if (thr_scratch_check(&s->own, err)) {
     thr_blocks_destroy(s);
@@ -299,6 +304,7 @@ static int count_cones(const thr_blocks *s)
 static void play_columns(const thr_blocks *s, programme *p)
 {
   const double unit = s->carries ? 1 / s->weight : s->pull / s->weight;
+  const int first = s->n_rows + s->n_ties;
   for (int i = 0; i < s->n_plays; i++) {
     const int e = s->play[i];
     double side[2][3], moment[3];
@@ -312,13 +318,14 @@ static void play_columns(const thr_blocks *s, programme *p)
         memset(moment, 0, sizeof moment);
       for (int which = 0; which < 2; which++) {
         const int row = s->row[s->body[s->f->edge[e][which]]];
-        const double arm = (which ? -1 : 1) * unit * s->b->play * fmin(s->press[e], s->most) / s->length;
+        const double arm = (which ? -1 : 1) * unit * s->b->play * (s->stretches ? 1 : fmin(s->press[e], s->most)) / s->length;
         for (int j = 0; j < 3 && row >= 0; j++)
           entry(p, row + 3 + j, arm * moment[j]);
       }
-      entry(p, s->n_rows + s->n_ties + i, k == 0 ? 1 : 0);
+      entry(p, first + i, k == 0 ? 1 : 0);
     }
-    if (s->carries) p->rhs[s->n_rows + s->n_ties + i] = 1;
+    if (s->carries) p->rhs[first + i] = 1;
+    if (s->stretches) p->rhs[first + i] = fmin(s->press[e], s->most) / s->pull;
   }
 }
 
@@ -336,6 +343,29 @@ static void pull_columns(const thr_blocks *s, programme *p, double cost)
       if (s->tie[t][0] == c || s->tie[t][1] == c) entry(p, s->n_rows + t, s->tie[t][0] == c ? 1 : -1);
     for (int i = 0; i < s->n_plays && !s->carries; i++)
       if (s->copy[s->body[s->f->edge[s->play[i]][0]]] == c) entry(p, s->n_rows + s->n_ties + i, -1);
+  }
+}
+
+/* What the tension at a face may be more, at the cost of the cord's length there. */
+static void rising_columns(const thr_blocks *s, programme *p, double cost)
+{
+  const double unit = s->pull / s->weight;
+  for (int i = 0; i < s->n_rising; i++, p->n_columns++) {
+    const int e = s->rising[i];
+    column(p);
+    p->cost[p->n_costs++] = cost * s->b->rising[e] / s->length;
+    for (int which = 0; which < 2; which++) {
+      const int body = s->body[s->f->edge[e][which]];
+      double lever[3], moment[3];
+      if (s->row[body] < 0) continue;
+      for (int k = 0; k < 3; k++)
+        lever[k] = (s->b->middle[e][k] - s->origin[body][k]) / s->length;
+      thr_cross(lever, s->b->axis[e], moment);
+      for (int k = 0; k < 6; k++)
+        entry(p, s->row[body] + k, (which ? -unit : unit) * (k < 3 ? s->b->axis[e][k] : moment[k - 3]));
+    }
+    for (int j = 0; j < s->n_plays; j++)
+      if (s->play[j] == e) entry(p, s->n_rows + s->n_ties + j, -1);
   }
 }
 
@@ -382,8 +412,9 @@ static thr_status programme_make(const thr_blocks *s, aim what, programme *p, th
 {
   const bool hands = what != EQUILIBRIUM;
   size_t n = (size_t)s->n_bodies, cones = (size_t)count_cones(s), rays = (size_t)s->b->rays;
-  size_t others = n + (hands ? 2 * (size_t)s->n_rows : 0), columns = 3 * cones + others;
-  size_t entries = 39 * cones + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows + (size_t)s->n_plays;
+  size_t others = n + (size_t)s->n_rising + (hands ? 2 * (size_t)s->n_rows : 0), columns = 3 * cones + others;
+  size_t entries =
+      39 * cones + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows + (size_t)s->n_plays + 13 * (size_t)s->n_rising;
   *p = (programme){0};
   p->rhs = thr_scratch_array(&p->own, (size_t)count_rows(s), sizeof *p->rhs);
   p->cost = thr_scratch_array(&p->own, rays * cones + others, sizeof *p->cost);
@@ -405,6 +436,7 @@ static thr_status programme_make(const thr_blocks *s, aim what, programme *p, th
   play_columns(s, p);
   p->n_costs = count_cones(s) * (s->round ? 3 : s->b->rays);
   pull_columns(s, p, hands ? 0 : s->carries ? -1 : 1); /* the least pull, the largest load */
+  rising_columns(s, p, hands ? 0 : 1);
   if (hands) hand_columns(s, p);
   return THR_OK;
 }
@@ -549,6 +581,6 @@ thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits,
   alone.round = false;
   alone.n_copies = 0;
   alone.n_ties = 1;
-  alone.n_plays = 0;
+  alone.n_plays = alone.n_rising = 0;
   return solve(&alone, SELF_STRESS, limits, out, err);
 }

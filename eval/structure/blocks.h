@@ -45,13 +45,15 @@ typedef struct {
   double guess;                /* .. and N: a pull that is enough, not a thousand times too much */
   bool outside;                /* all that may be: cords anywhere within their bores, polygons round the discs of feet; else cords
                                   in the middle, and polygons inside */
+  bool stretches;              /* the unknown is how much more tension there is at the faces that b->rising tells, at a cost of so
+                                  much for each newton; the rest is given */
   bool carries;                /* the unknown is not the pull but what the load is multiplied by */
   double most;                 /* press above it is taken for it .. */
   bool merged;                 /* .. and the beads on either side for one body */
   const int *weld;             /* [n_beads] beads with equal numbers are one body (welds.h); NULL = none are */
   double weight, length, pull; /* N, m, N */
   double widen;                /* factor on friction */
-  int n_bodies, n_contacts, n_rows, n_copies, n_ties, n_plays;
+  int n_bodies, n_contacts, n_rows, n_copies, n_ties, n_plays, n_rising;
   thr_contact *contact;
   int *body;           /* [n_beads] */
   double (*origin)[3]; /* [n_bodies] where moments are taken about, m */
@@ -60,6 +62,7 @@ typedef struct {
   int *row;            /* [n_bodies] first of a body's six rows, -1 = held in place */
   int *copy;           /* [n_bodies] of the pull that acts on it */
   int (*tie)[2];       /* [n_ties] copies that are equal */
+  int *rising;         /* [n_rising] faces whose tension is unknown; n_copies is 0 then */
   int *play;           /* [n_plays] faces that cords go through, not only in the middle */
   thr_scratch own;     /* the arrays */
 } thr_blocks;
@@ -81,8 +84,8 @@ double thr_blocks_friction(const thr_blocks *s, const thr_contact *contact);
 /* Is the face within a body, or between two that are held? */
 bool thr_blocks_inside(const thr_blocks *s, int face);
 
-/* From s->b, f, physics, press, load, outside, carries, most, merged and weld; the rest is 0. widen: factor on friction. s is
- * freed on failure.
+/* From s->b, f, physics, press, load, outside, stretches, carries, most, merged and weld; the rest is 0. widen: factor on
+ * friction. s is freed on failure.
  */
 thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err) THR_MUST_CHECK;
 void thr_blocks_destroy(thr_blocks *s);

@@ -14,6 +14,8 @@
 #include "eval/structure/welds.h"
 #include "lp/solver/interior.h"
 
+#include "graph/disjoint.h"
+
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
@@ -35,12 +37,20 @@ typedef struct {
   double gap;   /* relative, between the two */
   double residual;
   double (*velocity)[6]; /* owned */
+  double *more;          /* [n_faces] N: of a stretch; owned */
 } answer;
 
 static void answer_destroy(answer *a)
 {
   free(a->velocity);
+  free(a->more);
   *a = (answer){0};
+}
+
+/* N, or N m: what the unknown is counted in. */
+static double unit_of(const thr_blocks *s)
+{
+  return s->pull * (s->stretches ? s->length : 1);
 }
 
 /* Weak duality, in our own sums: the pull at which the cords' resistance makes up for the weights, and for the load; or the load
@@ -54,8 +64,13 @@ static void certify(const thr_blocks *s, answer *a)
   bool falls = given > THR_MECHANISM_DRIVE * (p.all + p.all_loads); /* less is rounding: it stands by itself */
   a->lower = !falls ? 0 : p.resistance > 0 ? given / p.resistance : INFINITY;
   if (s->carries) a->lower = p.load > THR_MECHANISM_DRIVE * p.all_loads ? fmax(0, (p.resistance - p.falling) / p.load) : INFINITY;
+  if (s->stretches) {
+    const double grows = thr_mechanism_stretching(s, velocity), missing = p.falling - p.resistance;
+    falls = falls && missing > THR_MECHANISM_DRIVE * p.all;
+    a->lower = !falls ? 0 : grows > 0 ? missing / grows : INFINITY;
+  }
   double apart = s->carries ? a->lower - a->pull : a->pull - a->lower; /* polygons round a disc make it less than nothing */
-  a->gap = isfinite(apart) ? fmax(0, apart) / (a->pull + 1e-3 * s->pull) : 1;
+  a->gap = isfinite(apart) ? fmax(0, apart) / (a->pull + 1e-3 * unit_of(s)) : 1;
 }
 
 /* The least pull (if wanted) at which the solver found an equilibrium, and a mechanism with its bound. */
@@ -63,7 +78,8 @@ static thr_status solve_pull(const thr_blocks *s, const thr_limits *limits, answ
 {
   thr_blocks_solution o;
   a->velocity = thr_calloc((size_t)s->b->n_beads, sizeof *a->velocity);
-  if (!a->velocity) return thr_nomem(err);
+  if (!a->more) a->more = thr_calloc((size_t)s->b->n_faces, sizeof *a->more);
+  if (!a->velocity || !a->more) return thr_nomem(err);
   if (s->n_rows == 0) { /* all is held */
     certify(s, a);
     return THR_OK;
@@ -72,8 +88,11 @@ static thr_status solve_pull(const thr_blocks *s, const thr_limits *limits, answ
   if (!st) st = thr_mechanism_make(s, o.dual, limits, a->velocity, err);
   if (!st) {
     const double balanced = s->bound && s->n_bodies > THR_BLOCKS_LARGE ? 10 * THR_BLOCKS_UNMET : 1e-5;
-    if (!s->merged) a->pull = o.imbalance < balanced ? fmax(0, s->carries ? -o.objective : o.objective) * s->pull : INFINITY;
-    if (a->pull < 1e-9 * s->pull) a->pull = 0;
+    if (!s->merged) a->pull = o.imbalance < balanced ? fmax(0, s->carries ? -o.objective : o.objective) * unit_of(s) : INFINITY;
+    if (a->pull < 1e-9 * unit_of(s)) a->pull = 0;
+    const int unknown = (s->n_contacts + s->n_plays) * (s->round ? 3 : s->b->rays);
+    for (int i = 0; i < s->n_rising; i++)
+      a->more[s->rising[i]] = fmax(0, o.x[unknown + i]) * s->pull;
     certify(s, a);
   }
   thr_blocks_solution_destroy(&o);
@@ -88,7 +107,7 @@ typedef struct {
   const thr_physics *physics;
   const double *press;
   const double (*load)[3];
-  bool carries;
+  bool carries, stretches;
   bool round;  /* cones of friction, not pyramids: one programme tells both bounds */
   double unit; /* factor on what the unknown is counted in */
   const thr_limits *limits;
@@ -114,6 +133,7 @@ static thr_blocks part(const task *t, double most, bool merged, bool outside)
                       .press = t->press,
                       .load = t->load,
                       .carries = t->carries,
+                      .stretches = t->stretches,
                       .most = most,
                       .merged = merged,
                       .outside = outside,
@@ -131,6 +151,10 @@ static thr_status find_welds(task *t, thr_err *err)
     st = weld ? thr_welds_find(&s, widen, t->limits, weld, err) : thr_nomem(err);
     t->weld[i] = weld;
   }
+
+  /* However tight knotted cords get: their faces do not open. */
+  for (int e = 0; e < t->b->n_faces && t->carries && !st; e++)
+    if (t->b->rising[e] > 0) thr_disjoint_join(t->weld[1], t->f->edge[e][0], t->f->edge[e][1]);
   return st;
 }
 
@@ -153,7 +177,7 @@ static thr_status pull_of(task *t, double most, bool merged, bool outside, answe
   thr_status st = thr_blocks_make(&s, widen, err);
   if (st) return st;
   s.bound = widen > 1;
-  if (merged) s.pull = a->pull;
+  if (merged) s.pull = a->pull / (s.stretches ? s.length : 1);
   s.guess = a->pull > 0 && isfinite(a->pull) ? a->pull : plenty * s.pull;
   s.pull *= t->unit;
   s.warm = warm_at(t, most, merged);
@@ -182,6 +206,7 @@ static void keep_better(const task *t, answer *a, double most, answer *best, dou
   *best = *a;
   *best_most = most;
   a->velocity = NULL;
+  a->more = NULL;
 }
 
 /* Is this proof that no pull holds it: nothing closes, no cord is drawn out, the weights go down? */
@@ -190,7 +215,8 @@ static bool gives_way(const thr_blocks *s, const double (*velocity)[6])
   thr_powers p = thr_mechanism_balance(s, velocity);
   if (!(thr_mechanism_opening(s, velocity) >= -STILL) || !(p.falling + p.load > 1e-6 * p.most)) return false;
   for (int e = 0; e < s->b->n_faces; e++)
-    if (s->press[e] > 0 && thr_mechanism_parting(s, velocity, e) > 1e-6 * (p.falling + p.load) / p.most) return false;
+    if ((s->press[e] > 0 || s->b->rising[e] > 0) && thr_mechanism_parting(s, velocity, e) > 1e-6 * (p.falling + p.load) / p.most)
+      return false;
   return true;
 }
 
@@ -311,7 +337,7 @@ static thr_status upper_pull(task *t, double most, answer *a, thr_err *err)
 
 /* upper: at which there is an equilibrium within the cones. Where a programme with cones is not decided, one with pyramids inside
  * them tells it, if it is wanted. */
-static thr_status bounds(task *t, bool want_upper, answer *a, double *upper, thr_err *err)
+static thr_status bounds(task *t, bool want_upper, answer *a, double *upper, double *more, thr_err *err)
 {
   answer inside_cones = {0};
   double most;
@@ -328,16 +354,18 @@ static thr_status bounds(task *t, bool want_upper, answer *a, double *upper, thr
   thr_status st = lower_pull(t, &most, a, err);
   if (!st && want_upper) st = upper_pull(t, most, &inside_cones, err);
   *upper = inside_cones.pull;
+  if (more && inside_cones.more) memcpy(more, inside_cones.more, (size_t)t->b->n_faces * sizeof *more);
   answer_destroy(&inside_cones);
   return st;
 }
 
-static thr_status hold(task *t, bool want_upper, thr_holding *holding, thr_err *err)
+/* more[n_faces] receives what a stretch adds; NULL ok. */
+static thr_status hold(task *t, bool want_upper, thr_holding *holding, double *more, thr_err *err)
 {
   answer a = {0};
   double upper = 0;
   thr_status st = find_welds(t, err);
-  if (!st) st = bounds(t, want_upper, &a, &upper, err);
+  if (!st) st = bounds(t, want_upper, &a, &upper, more, err);
   if (!st) {
     assert(a.velocity);
     holding->present = true;
@@ -371,7 +399,7 @@ thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, cons
   task t = task_of(beads, frame, physics, press, limits);
   t.load = (const double(*)[3])beads->load;
   *out = (thr_holding){0};
-  return hold(&t, want_upper, out, err);
+  return hold(&t, want_upper, out, NULL, err);
 }
 
 thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
@@ -381,11 +409,23 @@ thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, con
   task t = task_of(beads, frame, physics, press, limits);
   t.load = load;
   t.carries = true;
+  for (int e = 0; e < beads->n_faces; e++)
+    t.round &= beads->rising[e] == 0;
   *out = (thr_carry){0};
-  thr_status st = hold(&t, true, &found, err);
+  thr_status st = hold(&t, true, &found, NULL, err);
   if (!st)
     *out = (thr_carry){.beyond = found.lower, .carried = found.upper, .first_bead = found.first_bead, .velocity = found.velocity};
   return st;
+}
+
+thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
+                               const thr_limits *limits, thr_holding *out, double *more, thr_err *err)
+{
+  task t = task_of(beads, frame, physics, press, limits);
+  t.stretches = true;
+  t.round = false;
+  *out = (thr_holding){0};
+  return hold(&t, true, out, more, err);
 }
 
 void thr_carry_destroy(thr_carry *carry)

@@ -48,9 +48,16 @@ typedef struct {
 } thr_carry;
 
 /* press: thr_holding_press of tensions in N. load: N, [n_beads], acts at the nodes, beside the weights; beads->load is left out.
+ * Where beads->rising tells of knotted cord, what is too much is so whatever its tension grows to.
  * THR_ESOLVER if it is not decided: among others where no multiple is too much (a foot pushed into the ground). */
 thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                              const double (*load)[3], const thr_limits *limits, thr_carry *out, thr_err *err) THR_MUST_CHECK;
+/* press: thr_holding_press of tensions in N, which are the least that the cords have. Where beads->rising tells of knotted cord,
+ * tension grows as it stretches: lower and upper are N m, the sum of what it has grown by, times that length, that is needed;
+ * beads->load is left out. more[n_faces] receives what it has grown by at upper, N. THR_EINFEASIBLE if it falls however tight
+ * these cords get. */
+thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
+                               const thr_limits *limits, thr_holding *out, double *more, thr_err *err) THR_MUST_CHECK;
 void thr_holding_destroy(thr_holding *holding);
 void thr_carry_destroy(thr_carry *carry);
 

@@ -166,6 +166,14 @@ double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], i
   return sum + s->b->play * sqrt(thr_dot(across, across));
 }
 
+double thr_mechanism_stretching(const thr_blocks *s, const double (*velocity)[6])
+{
+  double most = 0;
+  for (int e = 0; e < s->b->n_faces; e++)
+    if (s->b->rising[e] > 0) most = fmax(most, thr_mechanism_parting(s, velocity, e) / s->b->rising[e]);
+  return most;
+}
+
 thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6])
 {
   thr_powers p = {0};

@@ -32,6 +32,9 @@ double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6]);
 /* How fast the beads of a face part where the cord is that resists most: anywhere within its bore. */
 double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], int face);
 
+/* The most that a face with knotted cord parts by, as above, for each metre of that cord, 1/s. */
+double thr_mechanism_stretching(const thr_blocks *s, const double (*velocity)[6]);
+
 thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6]);
 
 /* The lowest bead among the fastest; -1 if none moves. */

@@ -103,6 +103,7 @@ thr_status thr_structure_record(int n_beads, const thr_eval_options *options, th
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_EQUAL, &out->equal, err);
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_ANY_STATE, &out->loosest, err);
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_AFTER, &out->after, err);
+  if (!st) st = add_holding(standing, n_beads, THR_ASKED_STRETCH, &out->stretch, err);
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_LOADED, &out->loaded, err);
   for (int i = 0; i < out->n_carries && !st; i++)
     st = add_carry(standing, n_beads, THR_ASKED_CARRIED, out->carries[i].pull, &out->carries[i].carry, err);

@@ -125,6 +125,7 @@ static thr_status run(thr_simulated *m, const thr_settle_options *options, doubl
   out->effort = 1;
   for (int i = 0; s == THR_OK && i < ATTEMPTS && !counts(out); i++) {
     if (i > 0) out->effort *= MORE;
+    out->fall = out->error = 0;
     s = attempt(m, options, start, out, err);
     if (s == THR_OK) thr_settle_judge(out, options->least, options->equilibrium);
   }
@@ -152,7 +153,6 @@ void thr_settle_judge(thr_settle *s, double least, double equilibrium)
     s->status = THR_SETTLE_CREPT;
   else if (s->fall < (1 - ACCURACY) * least)
     s->status = THR_SETTLE_LATE;
-  if (s->status != THR_SETTLE_FELL) s->fall = s->error = 0;
 }
 
 static double start_of(const thr_settle_options *options)

@@ -36,7 +36,8 @@ typedef enum {
 typedef struct {
   bool present;
   int status;                   /* thr_settle_status */
-  double fall, error;           /* N: pull at which it began to fall, +-; 0 unless it FELL */
+  double fall, error;           /* N: it began to fall, and that was seen, at fall + error / 2 and fall - error / 2; 0 if it did
+                                   not, CREPT or LATE though it may be */
   int first_bead;               /* that moved; -1 if none */
   double gap_before, gap_after; /* mm, widest gap between two adjacent faces, settled and at the end */
   double drift;                 /* mm, largest movement while settling */
@@ -51,7 +52,7 @@ int thr_settle_largest(bool large);
 
 /* A fall counts if it is known to a twentieth and not more than a twentieth above a pull at which an equilibrium exists (CREPT
  * otherwise) or below the one below which none does (LATE). Without a proof (least 0) it need not be known so well. What does not
- * count has no fall. */
+ * count is told all the same. */
 void thr_settle_judge(thr_settle *settle, double least, double equilibrium);
 
 /* A cord's pass has tension x pull, but not more than most: [n_cords][n_passes] N each; most NULL: no such limit, cords are drawn

@@ -9,6 +9,7 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
+#include "graph/plan/schedule.h"
 #include "graph/plan/standing.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
@@ -33,8 +34,9 @@ typedef struct {
   double play;     /* how far from the middle of a face a cord may go through it */
   double *mass, (*centre)[3], (*mass_centre)[3];
   bool *foot;
-  double *press; /* [n_edges] of what is asked at the time */
-  double *at;    /* [longest cord] exponents before each pass */
+  double *knotted; /* [n_edges] m: length of the edge, of those that a cord passes which is knotted at both ends; else 0 */
+  double *press;   /* [n_edges] of what is asked at the time */
+  double *at;      /* [longest cord] exponents before each pass */
   thr_scratch own;
 } bodies;
 
@@ -90,6 +92,19 @@ static void find_level(bodies *b)
   }
 }
 
+static void find_knotted(bodies *b)
+{
+  const thr_plan *plan = b->plan;
+  for (int i = 0; i < plan->n_cords && b->s->model > 1; i++)
+    for (int k = 0; k < plan->cord[i].n_passes && thr_schedule_knotted(&b->e->schedule, i); k++) {
+      const int *end = plan->frame.edge[plan->cord[i].half[k] >> 1];
+      double way[3];
+      for (int j = 0; j < 3; j++)
+        way[j] = b->centre[end[1]][j] - b->centre[end[0]][j];
+      b->knotted[plan->cord[i].half[k] >> 1] = sqrt(thr_dot(way, way));
+    }
+}
+
 /* Adds one arm of node v, half an edge long: what it weighs, and where. */
 static void add_arm(bodies *b, int v, int other, int degree)
 {
@@ -131,6 +146,7 @@ static thr_status bodies_make(bodies *b, const thr_plan *plan, thr_err *err)
   b->centre = thr_scratch_array(&b->own, n, sizeof *b->centre);
   b->mass_centre = thr_scratch_array(&b->own, n, sizeof *b->mass_centre);
   b->foot = thr_scratch_array(&b->own, n, sizeof *b->foot);
+  b->knotted = thr_scratch_array(&b->own, (size_t)plan->frame.n_edges + 1, sizeof *b->knotted);
   b->press = thr_scratch_array(&b->own, (size_t)plan->frame.n_edges + 1, sizeof *b->press);
   b->at = thr_scratch_array(&b->own, (size_t)longest, sizeof *b->at);
   thr_status st = thr_scratch_check(&b->own, err);
@@ -142,6 +158,7 @@ static thr_status bodies_make(bodies *b, const thr_plan *plan, thr_err *err)
   b->down[1] = sin(s->tilt) * sin(s->azimuth);
   b->down[2] = -cos(s->tilt);
   place_nodes(b);
+  find_knotted(b);
   find_level(b);
   if (s->model > 1) b->play = fmax(0, (b->e->physics.bore - b->e->physics.cord_diameter) / 2e3);
   weigh(b);
@@ -172,7 +189,8 @@ static double tension_of(const bodies *b, const thr_drawn *drawn, thr_asked aske
   const double hard = drawn->pull == THR_PULL_START ? slackest
                       : drawn->pull == THR_PULL_END ? total - slackest
                                                     : fmax(slackest, total - from_end);
-  if (asked == THR_ASKED_AFTER || asked == THR_ASKED_CARRIED_AFTER) return b->e->cord[i].tension[k];
+  if (asked == THR_ASKED_AFTER || asked == THR_ASKED_CARRIED_AFTER || asked == THR_ASKED_STRETCH)
+    return b->e->cord[i].tension[k];
   if (drawn->pull == THR_PULL_NONE) return 0;
   if (asked == THR_ASKED_HOLDING) return exp((k <= drawn->slackest ? slackest - b->at[k] : b->at[k] - from_end) - hard);
   return exp(asked == THR_ASKED_ANY_STATE ? near : -near);
@@ -337,24 +355,47 @@ static void add_power(power *p, double value)
   p->terms += fabs(value);
 }
 
-/* Adds what the cords resist: at the middle of each face, and as much more as they do where they may be. */
-static void cords_power(const bodies *b, const thr_answer *a, power *resistance)
+/* Adds `press` times how fast the beads of edge e part: at the middle of their face, and as much more where the cord may be. */
+static void parting_power(const bodies *b, const thr_answer *a, int e, double press, power *resistance)
 {
-  for (int e = 0; e < b->plan->frame.n_edges; e++) {
-    const int *end = b->plan->frame.edge[e];
-    double axis[3], middle[3], velocity[3], turn[3], across[3];
-    axis_of(b, e, axis);
-    for (int k = 0; k < 3; k++) {
-      middle[k] = (b->centre[end[0]][k] + b->centre[end[1]][k]) / 2;
-      turn[k] = a->velocity[end[1]][3 + k] - a->velocity[end[0]][3 + k];
-    }
-    for (int which = 0; which < 2; which++) {
-      point_velocity(b, a, end[which], middle, velocity);
-      add_power(resistance, (which ? 1 : -1) * b->press[e] * thr_dot(axis, velocity));
-    }
-    thr_cross(axis, turn, across);
-    add_power(resistance, b->press[e] * b->play * sqrt(thr_dot(across, across)));
+  const int *end = b->plan->frame.edge[e];
+  double axis[3], middle[3], velocity[3], turn[3], across[3];
+  axis_of(b, e, axis);
+  for (int k = 0; k < 3; k++) {
+    middle[k] = (b->centre[end[0]][k] + b->centre[end[1]][k]) / 2;
+    turn[k] = a->velocity[end[1]][3 + k] - a->velocity[end[0]][3 + k];
   }
+  for (int which = 0; which < 2; which++) {
+    point_velocity(b, a, end[which], middle, velocity);
+    add_power(resistance, (which ? 1 : -1) * press * thr_dot(axis, velocity));
+  }
+  thr_cross(axis, turn, across);
+  add_power(resistance, press * b->play * sqrt(thr_dot(across, across)));
+}
+
+/* Returns the most that a face with knotted cord parts by for each metre of the cord, 1/s. Its tension can only grow there as it
+ * stretches, so that a newton metre of stretch resists so much at most. */
+static double stretching(const bodies *b, const thr_answer *a)
+{
+  double most = 0;
+  for (int e = 0; e < b->plan->frame.n_edges; e++) {
+    power parting = {0};
+    if (b->knotted[e] > 0) parting_power(b, a, e, 1, &parting);
+    if (b->knotted[e] > 0) most = fmax(most, parting.sum / b->knotted[e]);
+  }
+  return most;
+}
+
+/* Returns whether no face with knotted cord opens, whose tension may be any then. */
+static bool knots_rest(const bodies *b, const thr_answer *a, double closing)
+{
+  bool rest = true;
+  for (int e = 0; e < b->plan->frame.n_edges; e++) {
+    power parting = {0};
+    if (b->knotted[e] > 0) parting_power(b, a, e, 1, &parting);
+    rest &= parting.sum <= closing;
+  }
+  return rest;
 }
 
 static void loads_power(const bodies *b, const thr_answer *a, power *load)
@@ -389,13 +430,17 @@ static bool proves(bodies *b, const thr_answer *a, double fastest)
       add_power(&falling, b->mass[v] * b->e->physics.gravity * b->down[k] * a->velocity[v][k]);
   if (of_load || a->asked == THR_ASKED_LOADED) loads_power(b, a, &load);
   press(b, a);
-  cords_power(b, a, &resistance);
+  for (int e = 0; e < b->plan->frame.n_edges; e++)
+    parting_power(b, a, e, b->press[e], &resistance);
+  const bool of_stretch = a->asked == THR_ASKED_STRETCH;
+  if (a->asked == THR_ASKED_CARRIED_AFTER && !knots_rest(b, a, STILL * fastest)) return false;
 
-  const double pull = of_load ? 1 : a->proved, times = of_load ? a->proved : 1;
-  const double slip = ROUNDING * (falling.terms + times * load.terms + pull * resistance.terms);
-  const double over = falling.sum + times * load.sum - pull * resistance.sum;
+  const double grown = of_stretch ? a->proved * stretching(b, a) : 0;
+  const double pull = of_load || of_stretch ? 1 : a->proved, times = of_load ? a->proved : 1;
+  const double slip = ROUNDING * (falling.terms + times * load.terms + pull * resistance.terms + grown);
+  const double over = falling.sum + times * load.sum - pull * resistance.sum - grown;
   const double drive = of_load ? load.sum : falling.sum + load.sum;
-  const double claimed = fabs(of_load ? times * load.sum : pull * resistance.sum);
+  const double claimed = fabs(of_load ? times * load.sum : of_stretch ? grown : pull * resistance.sum);
   return drive > fmax(slip, DRIVE * most_drive(b, a, fastest)) && over >= -slip - 1e-9 * claimed;
 }
 
@@ -434,8 +479,10 @@ static thr_status check_answer(bodies *b, int i, thr_err *err)
 /* What must hold of the answers without any mechanism. */
 static const char *misfit(const thr_standing *s, const thr_answer *a, bool scheduled)
 {
-  const bool of_load = thr_asked_of_load(a->asked), after = a->asked == THR_ASKED_AFTER || a->asked == THR_ASKED_CARRIED_AFTER;
+  const bool of_load = thr_asked_of_load(a->asked),
+             after = a->asked == THR_ASKED_AFTER || a->asked == THR_ASKED_CARRIED_AFTER || a->asked == THR_ASKED_STRETCH;
   if (after && !scheduled) return "it comes with a schedule";
+  if (a->asked == THR_ASKED_STRETCH && s->model < 2) return "it comes with model 2";
   if ((of_load || a->asked == THR_ASKED_LOADED) && s->n_loads == 0) return "it comes with loads";
   if (of_load ? a->found > a->proved * (1 + 1e-6) : a->found < a->proved * (1 - 1e-6))
     return "an equilibrium, where there is proved to be none";

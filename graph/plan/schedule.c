@@ -46,6 +46,18 @@ int thr_schedule_grips(const thr_schedule *schedule, int i)
   return n;
 }
 
+bool thr_schedule_knotted(const thr_schedule *schedule, int i)
+{
+  bool start = false, end = false;
+  for (int k = 0; k < schedule->n; k++) {
+    const thr_schedule_step *step = &schedule->step[k];
+    if (step->cord != i || step->deed == THR_DEED_GRIP) continue;
+    if (step->end != THR_PULL_END) start = step->deed == THR_DEED_KNOT;
+    if (step->end != THR_PULL_START) end = step->deed == THR_DEED_KNOT;
+  }
+  return start && end;
+}
+
 int thr_schedule_pulls(const thr_schedule *schedule)
 {
   int n = 0;

@@ -26,6 +26,9 @@ double thr_schedule_hardest(const thr_schedule *schedule, int i);
 int thr_schedule_grips(const thr_schedule *schedule, int i); /* of cord i, or of all (i < 0) */
 int thr_schedule_pulls(const thr_schedule *schedule);        /* grips too; both ends at once are one */
 
+/* Returns whether both ends of cord i are knotted at last: nothing that is done to either end comes after its knot. */
+bool thr_schedule_knotted(const thr_schedule *schedule, int i);
+
 /* Text as above: "CORD: pull|release END N", "CORD: grip PASS N [from END]", "CORD: knot END [MM]"; END is start, end or both;
  * CORD an id of the plan's, or "all"; PASS counts from 1 as in steps.txt, or is the names of the two nodes of an edge that the
  * cord passes once. Steps end with a line or a semicolon; # begins a comment. THR_EINPUT with name and line: what is wrong, and

@@ -19,6 +19,7 @@ typedef enum {
   THR_ASKED_LOADED,        /* pull at all ends while the cords are drawn in, with the load */
   THR_ASKED_CARRIED,       /* multiple of the load at a given pull of all ends while the cords are drawn in */
   THR_ASKED_CARRIED_AFTER, /* multiple of the load with the tensions that the schedule leaves */
+  THR_ASKED_STRETCH,       /* N m by which knotted cords have to stretch beyond the tensions that the schedule leaves */
   THR_N_ASKED
 } thr_asked;
 

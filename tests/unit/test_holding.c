@@ -176,6 +176,33 @@ START_TEST(play_of_the_bore_lowers_what_is_proved)
 }
 END_TEST
 
+/* Every face of a knotted cantilever needs what holds up the beads beyond it; what its cord lacks it has to gain by stretching.
+ */
+START_TEST(knotted_cords_stretch_by_what_they_lack)
+{
+  for (int n = 2; n < 7; n++)
+    for (double tension = 0.5; tension < 60; tension *= 3) {
+      model m = cantilever(n, 20, 8, 2, 0.3);
+      double exact = 0, more[8] = {0};
+      for (int e = 0; e < n - 1; e++) {
+        exact += 0.02 * fmax(0, overturning(n - e, 20, 8, 0.1) - tension);
+        m.press[e] = tension;
+        m.beads.rising[e] = 0.02;
+      }
+      thr_holding h;
+      thr_err err = {0};
+      thr_status st = thr_holding_stretch(&m.beads, &m.frame, &m.physics, m.press, &no_limit, &h, more, &err);
+      ck_assert_msg(st == THR_OK, "%s", err.text);
+      ck_assert_double_eq_tol(h.lower, exact, 1e-6 * exact + 1e-9);
+      ck_assert_double_eq_tol(h.upper, exact, 1e-6 * exact + 1e-9);
+      for (int e = 0; e < n - 1; e++)
+        ck_assert_double_eq_tol(more[e], fmax(0, overturning(n - e, 20, 8, 0.1) - tension), 1e-4 * (1 + more[e]));
+      thr_holding_destroy(&h);
+      model_destroy(&m);
+    }
+}
+END_TEST
+
 /* Tensions that span up to 16 powers of ten: at every face the cord must hold up what hangs beyond it. */
 START_TEST(each_face_holds_what_hangs_beyond_it)
 {
@@ -746,6 +773,7 @@ int main(void)
 {
   Suite *s = suite_create("holding pull");
   ADD_TEST(s, 20, cantilever_is_held_by_its_cord);
+  ADD_TEST(s, 20, knotted_cords_stretch_by_what_they_lack);
   ADD_TEST(s, 20, play_of_the_bore_lowers_what_is_proved);
   ADD_TEST(s, 20, each_face_holds_what_hangs_beyond_it);
   ADD_TEST(s, 20, cantilever_scales_as_in_the_thesis);
