@@ -87,7 +87,7 @@ char *thr_strdup(const char *s)
 double thr_percent_above(double value, double bound)
 {
   double percent = fmax(0, 100 * (value / bound - 1)), unit = percent < 10 ? 0.01 : percent < 100 ? 0.1 : 1;
-  return unit * ceil(percent / unit - 1e-9);
+  return unit * fmax(0, ceil(percent / unit - 1e-9)) + 0.0; /* never -0 */
 }
 
 thr_status thr_not_proved(thr_err *err, const char *what, double value, double bound)

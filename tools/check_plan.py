@@ -3,7 +3,7 @@
 
     tools/check_plan.py [-q] PLAN..        - is standard input
 
-One line per plan: what is verified and for which plans it holds, or the first violation. Exit code, the worst of all plans:
+What is verified of each plan and for which plans it holds, in the words of `thread check`, or the first violation. Exit code, the worst of all plans:
 0 every claim holds, 1 a claim does not hold, 2 usage, 3 not a plan that can be read. Sums are exact (integers, fractions of
 doubles); only angles, distances and the tolerances that the page states are floating point. Section names are the page's.
 """
@@ -114,10 +114,6 @@ def known(holder, names, place):
 INT64 = 2**63 - 1
 
 
-def count(n, what):
-    return f"{n} {what}" if n == 1 else f"{n} {what}{'es' if what.endswith('s') else 's'}"
-
-
 def clean(text):
     """Foreign text, for one line of a terminal."""
     return "".join(c if c.isprintable() else " " for c in text)
@@ -130,6 +126,7 @@ UNITS = {"um": 0.001, "micron": 0.001, "microns": 0.001, "mm": 1, "cm": 10, "dm"
          "inches": 25.4, "ft": 304.8, "foot": 304.8, "feet": 304.8, "yd": 914.4, "yard": 914.4, "yards": 914.4, "unit": None, "units": None}
 for prefix, size in (("", 1000), ("micro", 0.001), ("milli", 1), ("centi", 10), ("deci", 100), ("kilo", 1e6)):
     UNITS.update({prefix + metre: size for metre in ("meter", "meters", "metre", "metres")})
+SHORT = {0.001: "um", 1: "mm", 10: "cm", 100: "dm", 1000: "m", 1e6: "km", 25.4: "in", 304.8: "ft", 914.4: "yd", None: "unit"}
 CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufffe\uffff]")
 
 
@@ -140,6 +137,7 @@ class Frame:
         place = "framework"
         self.units = member(o, "units", "text", place, default="mm")
         require(self.units.isascii() and self.units.lower() in UNITS, "framework.units: no unit of length")
+        self.unit = SHORT[UNITS[self.units.lower()]]
         nodes = member(o, "nodes", "list", place)
         edges = member(o, "edges", "list", place)
         require(nodes and edges, "framework: no nodes or no edges")
@@ -161,6 +159,7 @@ class Frame:
         names = member(o, "names", "list", place, default=None)
         require(names is None or len(names) == self.n and all(type(x) is str for x in names), "framework.names: not a name per node")
         require(names is None or len({CONTROL.sub(" ", x) for x in names}) == self.n, "framework.names: two nodes of one name")
+        self.names = names or [str(v) for v in range(self.n)]
         self.feet = set(integers(o["feet"] if type(o.get("feet")) is list else [], "framework.feet", 0, self.n - 1))
         require(member(o, "hash", "text", place) == self.hash(), f"framework.hash: the framework's is {self.hash()}")
         self.components()
@@ -170,6 +169,7 @@ class Frame:
 
     def read_edges(self, o):
         given = member(o, "lengths", "list", "framework", default=None)
+        self.own_lengths = given is not None
         if given is None:
             self.length = []
             for a, b in self.edge:
@@ -360,7 +360,7 @@ class Options:
             member(t, "nodes", "integer", p, 1, 2**31 - 1, default=1)
             self.cost = choice(t, "cost", p, ("angle", "sine", "step", "uturn"))
             self.slack = None if t.get("length_slack", 0) is None else member(t, "length_slack", "number", p, 0)
-            choice(t, "minimize", p, ("turning", "max-turning"))
+            self.minimize = choice(t, "minimize", p, ("turning", "max-turning"))
             self.tour = choice(t, "tour", p, ("least", "fleury", "hierholzer"))
             choice(t, "pairings", p, ("keep", "ignore"))
 
@@ -372,6 +372,7 @@ class Options:
             self.counted = member(s, "counted", "truth", p, default=False)
             self.least = self.least if self.counted else 1
             known(s, "group geometric counted prefer", p)
+            self.group = s.get("group")
             if s.get("group", 0) is not None:
                 require(1 <= len(member(s, "group", "text", p).encode()) <= 15, "options.symmetry.group: not 1 to 15 bytes")
             if s.get("geometric", "") is not None:
@@ -569,7 +570,7 @@ def arms_around(f, v):
 def check_crossings(p):
     """Pairs of channels of a node with four different arms that lie alternately around it."""
     if p.options.crossings == "allow":
-        return []
+        return
     channels, crossings = [[] for _ in range(p.frame.n)], 0
     for cord in p.cords:
         for a, b in cord.turns(p.closing):
@@ -581,13 +582,12 @@ def check_crossings(p):
             crossings += sum(len({a, b, c, d}) == 4 and (a < c < b) != (a < d < b) for c, d in chords[:i])
     require(member(p.file["metrics"], "crossings", "integer", "metrics") == crossings, f"metrics.crossings: not {crossings}")
     require(p.options.crossings == "price" or not crossings, "options.crossings: forbidden, and there are some")
-    return [f"{crossings} crossings of channels"]
 
 
 def check_distinct(p):
     """How many edges are passed by enough different cords; without all of them nothing is optimal."""
     if not p.options.distinct:
-        return []
+        return
     cords = [set() for _ in range(p.frame.m)]
     for i, cord in enumerate(p.cords):
         for h in cord.half:
@@ -597,7 +597,6 @@ def check_distinct(p):
     for claim in [x for x in p.proof.values() if type(x) is dict]:
         for part in [claim] + [x for x in claim.values() if type(x) is dict]:
             require(p.met == p.frame.m or part.get("status") != "optimal", "proof: optimal, but some edges have too few different cords")
-    return [f"{p.met} of {p.frame.m} edges passed by {p.options.distinct} different cords"]
 
 
 def bridge_needs(p):
@@ -843,14 +842,13 @@ def check_claim(claim, own, optimal, bound, more, place, gap=True):
     if gap:
         value = (own - stated) / own if own else 0
         require(abs(Fraction(member(claim, "gap", "number", place, 0)) - value) <= TOLERANCE, f"{place}.gap: not {float(value)}")
-    return status
 
 
 def check_length(p):
-    """The claim about length, if there is one: what it proves of each component, and how it reads."""
+    """The claim about length, if there is one."""
     claim = member(p.proof, "length", "object", "proof", default=None)
     if claim is None:
-        return ["no proof of length"]
+        return
     place = "proof.length"
     known(claim, "status lower_bound slack gap method certificate proof walks", place)
     if p.options.tube:
@@ -875,7 +873,7 @@ def check_length(p):
             optimal = all(c.optimal or x >= c.own * (1 - TOLERANCE) for c, x in zip(p.certificate, few))
             least = [max(x, y) for x, y in zip(least, few)]
         bound = sum(least)
-    status = check_claim(claim, p.length, optimal, bound, 0, place)
+    check_claim(claim, p.length, optimal, bound, 0, place)
     p.least = p.length if optimal else bound
     p.least_stated = min(p.least, Fraction(claim["lower_bound"]))
     slack = p.options.slack if p.options.objective == "tortuosity" else None
@@ -884,7 +882,6 @@ def check_length(p):
     elif slack is not None:
         longest = (1 + Fraction(slack)) * (1 + 2 * TOLERANCE) * p.least
         require(p.length <= longest, f"{place}: the cords are longer than {float(longest)}, the slack above what is proved")
-    return [f"length {status}" if status == "optimal" else f"length at least {claim['lower_bound']:.15g}"]
 
 
 # ---- proofs of turning ----
@@ -1796,7 +1793,7 @@ def fewest_tied(p, j, limit):
 def check_cords_claim(p):
     claim = member(p.proof, "cords", "object", "proof", default=None)
     if claim is None:
-        return []
+        return
     o, place = p.options, "proof.cords"
     known(claim, "longest fewest walks sets", place)
     require("length" in p.proof, f"{place}: without a proof of length")
@@ -1831,7 +1828,7 @@ def check_cords_claim(p):
     if unit:
         bound = max(bound, unit * math.ceil(bound / unit * (1 - 2 * TOLERANCE)))
     optimal = own - bound <= TOLERANCE * own
-    words = ["longest cord " + check_claim(stated, own, optimal, bound, 0, place + ".longest", gap=False)]
+    check_claim(stated, own, optimal, bound, 0, place + ".longest", gap=False)
     if "fewest" in claim:
         require(o.max_length is not None and o.least < o.cords, f"{place}.fewest: without max_length and a range of cords")
         stated, place = member(claim, "fewest", "object", place), place + ".fewest"
@@ -1840,8 +1837,6 @@ def check_cords_claim(p):
         require(number <= fewest <= len(p.cords), f"{place}.lower_bound: stated {number}, but {fewest} is proved")
         status = choice(stated, "status", place, ("optimal", "bound"))
         require(status == "bound" or number == len(p.cords), f"{place}.status: not optimal")
-        words.append(f"fewest cords {number}")
-    return words
 
 
 # ---- proof.turning ----
@@ -2172,7 +2167,7 @@ def largest_bound(p, model, number, place):
 def check_turning(p):
     claim = member(p.proof, "turning", "object", "proof", default=None)
     if claim is None:
-        return []
+        return
     f, o, place = p.frame, p.options, "proof.turning"
     require(o.tour == "least", f"{place}: only with objective tortuosity and tour least")
     known(claim, "status price lower_bound gap pairing_bound largest most_passes length_limit method proof", place)
@@ -2203,7 +2198,7 @@ def check_turning(p):
     optimal = price - bound <= rounding
     scale = 1 + price
     p.close(member(claim, "price", "number", place), price, scale, place + ".price")
-    status = check_claim(claim, Fraction(price), optimal, bound, 1, place)
+    check_claim(claim, Fraction(price), optimal, bound, 1, place)
     pairing = pairing_bound(p)
     require(member(claim, "pairing_bound", "number", place, 0) <= pairing + 1e-9 * (1 + pairing), f"{place}.pairing_bound: not {pairing}")
     known(largest, "status price lower_bound", place + ".largest")
@@ -2213,9 +2208,7 @@ def check_turning(p):
     share = max((Fraction(price) if optimal else bound) / number, few_largest, largest_bound(p, model, each, place + ".proof"))
     require(share - max(prices) <= rounding, f"{place}: some cord is proved to turn by {float(share)}, more than any does")
     attained = max(prices) - share <= rounding
-    word = check_claim(largest, Fraction(max(prices)), attained, share, 1, place + ".largest", gap=False)
-    return [f"turning {status}", f"largest turning {word}", f"at most {most} passes over any edge"] + (
-        [f"at most {limit} {f.units} of cord"] if limit is not None else [])
+    check_claim(largest, Fraction(max(prices)), attained, share, 1, place + ".largest", gap=False)
 
 
 # ---- proof.pull ----
@@ -2266,7 +2259,7 @@ def check_pull(p):
     check_pulls(p)
     claim = member(p.proof, "pull", "object", "proof", default=None)
     if claim is None:
-        return []
+        return
     o, place = p.options, "proof.pull"
     known(claim, "status lower_bound excluded most_passes proof walks", place)
     require(o.max_pull is not None, f"{place}: without a limit on the pull")
@@ -2287,7 +2280,6 @@ def check_pull(p):
     require(number <= fewest and number <= len(p.cords), f"{place}.lower_bound: stated {number}, but {fewest} is proved")
     status = choice(claim, "status", place, ("optimal", "bound"))
     require(status == "bound" or number == len(p.cords), f"{place}.status: not optimal")
-    return [f"fewest cords for the pull {number}"]
 
 
 # ---- symmetry ----
@@ -2486,7 +2478,7 @@ def check_automorphism(p, g, name):
 def check_symmetry(p):
     require(("symmetry" in p.file) == (p.options.objective == "symmetry"), "symmetry: with that objective, and only with it")
     if "symmetry" not in p.file:
-        return []
+        return
     s, place, n = member(p.file, "symmetry", "object", ""), "symmetry", p.frame.n
     require(p.options.ends != "counts", "symmetry: not with ends `counts`")
     known(s, "order name generators images cords steps unique_paths", place)
@@ -2502,7 +2494,6 @@ def check_symmetry(p):
     require(images and images[0] == tuple(range(n)), "symmetry.images: the first is not the identity")
     require(all(g in group for g in images), "symmetry.images: an image is not in the group")
     check_copies(p, s, [list(g) for g in generators], [list(g) for g in images], group)
-    return [f"group {name or 'of the graph'} of order {order}", count(s["unique_paths"], "unique path"), f"{s['steps']:g} learned steps"]
 
 
 def check_copies(p, s, generators, images, group):
@@ -2754,7 +2745,7 @@ class Standing:
         self.old_pull = p.options.old_pull
         self.paths = [[h >> 1 for h in cord.half] for cord in p.cords]
         self.clamped = member(o, "clamped", "truth", place)
-        tilt, azimuth = member(o, "tilt", "number", place, 0), member(o, "azimuth", "number", place)
+        self.tilt, self.azimuth = tilt, azimuth = member(o, "tilt", "number", place, 0), member(o, "azimuth", "number", place)
         require(tilt < math.pi / 2, f"{place}.tilt: a right angle or more")
         self.down = (math.sin(tilt) * math.cos(azimuth), math.sin(tilt) * math.sin(azimuth), -math.cos(tilt))
         require(all(cord.tension for cord in cords), f"{place}: not every cord is known")
@@ -2776,8 +2767,8 @@ class Standing:
         self.drawn = [self.draw(x, cord) for x, cord in zip(drawn, cords)]
         answers = member(o, "answers", "list", place)
         require(answers, f"{place}.answers: empty")
-        found = [self.answer(x) for x in answers]
-        self.proved = sum(proved is not None for _, proved in found)
+        self.found = [self.answer(x) for x in answers]
+        found = [(asked, proved) for asked, _, proved in self.found]
         if not self.scheduled:
             self.check_tensions(next((x for asked, x in found[::-1] if asked == "holding"), None) or 0.0)
         if "let_down" in o:
@@ -2880,7 +2871,7 @@ class Standing:
                 near(stated, pull * x, pull * x * (1 + self.drawn[i][0][-1]), f"{cord.place}.tension[{k}]")
 
     def answer(self, o):
-        """What was asked, and what is proved: None if nothing is."""
+        """What was asked, at which pull, and what is proved: None if nothing is."""
         place = self.place + ".answers"
         known(o, "asked pull found proved mechanism", place)
         asked = choice(o, "asked", place, self.ASKED)
@@ -2893,12 +2884,12 @@ class Standing:
         pull = member(o, "pull", "number", place, 0, default=1)
         found = member(o, "found", "number", place, 0, default=None)
         if "proved" not in o:
-            return asked, None
+            return asked, pull, None
         proved = member(o, "proved", "number", place, 0)
         if found is not None:
             require(found <= proved * (1 + 1e-6) if of_load else found >= proved * (1 - 1e-6), f"{place}.found: an equilibrium where there is none")
         self.check_mechanism(asked, of_load, pull, proved, member(o, "mechanism", "list", place))
-        return asked, proved
+        return asked, pull, proved
 
     def check_mechanism(self, asked, of_load, pull, proved, numbers):
         f, v, place = self.frame, self.physics, f"{self.place}: {asked}"
@@ -3020,46 +3011,179 @@ class Evaluation:
 
 
 def check_evaluation(p):
-    if "evaluation" not in p.file:
-        return []
-    e = Evaluation(p, member(p.file, "evaluation", "object", ""))
-    if e.method == "capstan":
-        return [f"evaluation: tensions follow the law {e.law}, which friction of true beads need not"]
-    if e.standing:
-        return [f"evaluation (structure): {count(e.standing.proved, 'answer')} of the limit analysis proved by mechanisms"]
-    return [f"evaluation ({e.method}): consistent; the tensions themselves are not verified"]
+    p.evaluation = Evaluation(p, member(p.file, "evaluation", "object", "")) if "evaluation" in p.file else None
 
 
-# ---- the whole plan ----
+# ---- what is said of a plan that holds: word for word what `thread check` says ----
+
+
+def some(n, one, many=None):
+    return f"{n} {one if n == 1 else many or one + 's'}"
+
+
+def proof_words(claim, value, less, least):
+    """What is proved of a value that should be small: of a claim with `status` and `lower_bound`."""
+    if claim["status"] == "optimal":
+        return f"proved: {less}"
+    if not claim["lower_bound"] > 0:
+        return f"how near that is to the {least} is not known"
+    above = max(0.0, 100 * (value / claim["lower_bound"] - 1))
+    unit = 0.01 if above < 10 else 0.1 if above < 100 else 1
+    return f"at most {'%.6g' % (unit * max(0, math.ceil(above / unit - 1e-9)))} % above the {least} (proved)"
+
+
+def length_words(p):
+    o, claim = p.options, p.proof.get("length")
+    if claim is None:
+        return "nothing is claimed"
+    few_first = o.max_length is not None and o.counted and o.least < o.cords
+    least = "shortest possible with so many cords" if few_first else "shortest possible"
+    if o.objective == "symmetry":
+        least = "shortest cords without symmetry"
+    return proof_words(claim, p.file["metrics"]["length"], "with so many cords nothing shorter exists" if few_first else "nothing shorter exists", least)
+
+
+def fewest_words(p, number, within):
+    """A bound that is no more than the number of cords asked for was not proved, but asked for."""
+    pieces, least = len(p.frame.pieces), p.options.least
+    if number <= 1 or least > 1 and number <= least * pieces or p.options.ends == "counts":
+        return ""
+    asked = f"from {least} cords{' in each component' if pieces > 1 else ''} on, " if least > 1 else ""
+    return f"; proved: {asked}fewer than {number}{'' if least > 1 else ' cords'} are impossible{within}"
+
+
+def cords_words(p):
+    claim, pull, words = p.proof.get("cords"), p.proof.get("pull"), ""
+    if claim and p.options.balance:
+        longest = claim["longest"]
+        words += f"; longest cord {'%.7g' % longest['length']} {p.frame.unit}: " + proof_words(longest, longest["length"], "it can be no shorter", "shortest possible")
+    if claim and "fewest" in claim:
+        words += fewest_words(p, claim["fewest"]["lower_bound"], "")
+    if pull:
+        words += fewest_words(p, pull["lower_bound"], " within that pull")
+    return words + ("; every joint tied" if p.options.tube else "")
+
+
+def turning_words(p):
+    o, claim = p.options, p.proof.get("turning")
+    if o.objective != "tortuosity":
+        return ""
+    words = f"; turning {math.degrees(p.file['metrics']['turning']):.1f} deg: "
+    if claim is None:
+        return words + "nothing is claimed"
+    angles, largest = o.cost == "angle", claim["largest"]
+    if not angles:
+        words += f"price {'%.9g' % claim['price']} ({o.cost}), "
+    words += proof_words(claim, claim["price"], "nothing turns less" if angles else "nothing has a lower price", "least possible")
+    if len(p.cords) == 1 and o.minimize != "max-turning":
+        return words
+    words += f"; the cord that turns most, {math.degrees(largest['price']):.1f} deg: " if angles else f"; the dearest cord, {'%.6g' % largest['price']}: "
+    return words + proof_words(largest, largest["price"], "it cannot turn less" if angles else "it cannot cost less", "least possible")
+
+
+def symmetry_words(p):
+    s = p.file.get("symmetry")
+    name = s and (s["name"] and s["name"] + " ")
+    return f"; group {name}of order {s['order']}, {some(s['unique_paths'], 'unique path')}, {'%g' % s['steps']} learned steps" if s else ""
 
 
 def terms(p):
-    """For which plans the claims hold, in words."""
-    o = p.options
-    cords = count(o.cords, "cord") if o.least == o.cords else f"{o.least} to {o.cords} cords"
-    words = [f"{o.objective}, {'tube' if o.tube else 'solid'} joints, ends {o.ends}, cover {o.cover}, {cords} in each component"]
-    for text, given in ((f"capacity {o.capacity}", o.capacity), ("covers of edges", p.frame.cover), ("capacities of edges", p.frame.capacity),
-                        (f"{o.distinct} different cords over every edge", o.distinct), (f"max_length {o.max_length}", o.max_length), ("balanced", o.balance), (f"max_pull {o.max_pull}", o.max_pull),
-                        ("lengths of edges as stated", "lengths" in p.file["framework"])):
-        words += [text] if given else []
-    evaluation = p.file.get("evaluation", {})
-    both = "structure" in evaluation or "schedule" not in evaluation and any(c["pull"] == "both" for c in evaluation.get("cords", []))
-    if o.old_pull and (o.max_pull is not None or both):
-        words += ["pulls at both ends as in version 1: both reach the pass in the middle, which is more than is needed"]
-    return ", ".join(words)
+    """For which plans the claims hold."""
+    o, f, claims, n = p.options, p.frame, p.proof, len(p.options.allowed)
+    words = {"closed": "closed cords", "any": "cord ends at any node", "feet": f"cord ends at the {some(n, 'foot', 'feet')}",
+             "nodes": f"cord ends at {n} given {'node' if n == 1 else 'nodes'}",
+             "counts": f"given numbers of cord ends at {some(n, 'node')}"}[o.ends]
+    words += f"; {some(o.cover, 'pass', 'passes')} of every edge or more" + (", as the framework says" if f.cover else "")
+    words += f", by {o.distinct} different cords" if o.distinct else ""
+    words += f", at most {o.capacity}" if o.capacity else ""
+    words += (" or what the framework allows" if o.capacity else ", at most what the framework allows") if f.capacity else ""
+    if o.ends == "counts":
+        words += f"; {some(len(p.cords), 'cord')}"
+    else:
+        words += f"; {o.least} to {o.cords} cords" if o.least < o.cords else f"; {some(o.cords, 'cord')}"
+        words += f" in each of {len(f.pieces)} components" if len(f.pieces) > 1 else ""
+    words += f", none longer than {'%.12g' % o.max_length} {f.unit}" if o.max_length is not None else ""
+    words += f", none that needs more than {'%.6g' % o.max_pull} times the seating tension at mu = {'%g' % o.mu}{', as version 1 counts it' if o.old_pull else ''}" if o.max_pull is not None else ""
+    words += "; tube joints" if o.tube else "; solid joints"
+    words += "; lengths of edges as given, not from their nodes" if f.own_lengths else ""
+    bounded = "; for the %s: at most %d passes of an edge, back only at nodes with one edge"
+    words += bounded % ("fewest cords", claims["pull"]["most_passes"]) if "proof" in claims.get("pull", {}) else ""
+    if "turning" in claims:
+        limit = claims["turning"].get("length_limit")
+        words += bounded % ("turning", claims["turning"]["most_passes"])
+        words += f", at most {limit:.6f} {f.unit}" if limit is not None else ""
+    return words
+
+
+def structure_terms(p, standing):
+    """All that the answers of the limit analysis depend on."""
+    v, g = standing.physics, lambda x: "%.6g" % (x + 0.0)
+    words = f"beads of {g(v['bead_mass'])} g" if v["bead_mass"] > 0 else f"beads of {g(v['density'])} g/cm3"
+    words += f", {g(v['bead_diameter'])} mm wide, bores of {g(v['bore'])} mm; friction {g(v['mu_bead'])} of beads, {g(v['mu_ground'])} of the ground, {g(v['mu'])} of cords"
+    words += f" and {g(v['wobble'])} rad/m of wobble" if v["wobble"] > 0 else ""
+    words += "; turns of the tight cords" if p.evaluation.taut else "; turns in the middles of the beads"
+    words += "; feet are held" if standing.clamped else "; feet stand"
+    words += f" on ground that leans by {g(math.degrees(standing.tilt))} degrees towards {g(math.degrees(standing.azimuth))}" if standing.tilt > 0 else ""
+    words += f"; gravity {g(v['gravity'])} m/s2"
+    ways = (("both", "pulled at both ends"), ("start", "pulled at the start"), ("end", "pulled at the end"), ("none", "slack"))
+    drawn = [(sum(pull == way for _, pull, _ in standing.drawn), text) for way, text in ways]
+    words += "; " + ", ".join(f"{some(n, 'cord')} {text}" for n, text in drawn if n)
+    words += f"; a schedule of {some(len(p.evaluation.steps), 'step')}" if p.evaluation.steps else ""
+    loads = [f"({', '.join(map(g, force))}) N at {CONTROL.sub(' ', p.frame.names[node])}" for node, force in standing.loads]
+    words += "; load " + ", ".join(loads[:8]) if loads else ""
+    return words + (f" and {len(loads) - 8} more" if len(loads) > 8 else "")
+
+
+BELOW = {"holding": "N at the harder ends, while the cords are drawn in, nothing holds it", "equal": "N at all ends, while the cords are drawn in, nothing holds it",
+         "any_state": "N at all ends, whatever was done to the cords before, nothing holds it", "after": "of the tensions that the schedule leaves nothing holds it",
+         "loaded": "N at all ends, while the cords are drawn in, it does not carry the load"}
+
+
+def structure_lines(p, standing):
+    lines = [f"terms of the structure: {structure_terms(p, standing)}"]
+    for asked, pull, proved in standing.found:
+        if proved is None:
+            continue
+        if asked in BELOW:
+            lines.append(f"below {'%.6g' % proved} {BELOW[asked]}: verified")
+        elif asked == "carried":
+            lines.append(f"{'%.6g' % pull} N at all ends carry no more than {'%.4g' % proved} times the load: verified")
+        else:
+            lines.append(f"after the schedule it carries no more than {'%.4g' % proved} times the load: verified")
+    return lines + ["not verified: that the equilibria which the limit analysis found exist"]
+
+
+def said(p):
+    """The lines about a plan that holds."""
+    o, e, metrics = p.options, p.evaluation, p.file["metrics"]
+    lines = [f"holds: {some(len(p.cords), 'cord')}, {metrics['passes']} passes, every edge covered, {'%.7g' % metrics['length']} {p.frame.unit}: "
+             f"{length_words(p)}{cords_words(p)}{turning_words(p)}{symmetry_words(p)}", f"terms: {terms(p)}"]
+    if o.objective == "tortuosity" and o.slack is not None:
+        proved = "length" in p.proof and "slack" not in p.proof["length"]
+        lines.append(f"cord at most {'%g' % (100 * o.slack + 0.0)} % above the least length: {'verified' if proved else 'not verified'}")
+    if o.objective == "symmetry" and (o.group or "")[:1].isdigit():
+        lines.append(f"not verified: that the group is row {o.group} of a table of symmetries")
+    if e and e.method != "capstan" and (not e.standing or e.taut):
+        lines.append("not verified: the turns of the tight cords; what follows from them is" if e.taut else
+                     f"not verified: the tensions, which method {e.method} measured; what follows from them is")
+    return lines + (structure_lines(p, e.standing) if e and e.standing else [])
 
 
 def check(data):
-    """What is verified of a plan, one line; Violation or Unreadable."""
+    """Lines that say what is verified of a plan; Violation or Unreadable."""
     p = Plan(parse(data))
     check_cords(p)
     check_metrics(p)
-    found = check_distinct(p) + check_crossings(p) + check_symmetry(p)
+    check_distinct(p)
+    check_crossings(p)
+    check_symmetry(p)
     for part in parts(p):
-        proved = check_length(part) + check_cords_claim(part) + check_pull(part) + check_turning(part)
-    found += proved + check_evaluation(p)
-    return (f"{count(len(p.cords), 'cord')}, {count(sum(p.passes), 'pass')}, length {float(p.length):.6f} {p.frame.units}; "
-            f"{'; '.join(found)} [{terms(p)}]")
+        check_length(part)
+        check_cords_claim(part)
+        check_pull(part)
+        check_turning(part)
+    check_evaluation(p)
+    return said(p)
 
 
 def main(arguments):
@@ -3076,9 +3200,10 @@ def main(arguments):
             else:
                 with open(name, "rb") as file:
                     data = file.read()
-            line = check(data)
+            lines = check(data)
             if not quiet:
-                print(clean(f"{name}: {line}"))
+                print(clean(f"{name}: {lines[0]}"))
+                print("".join(f"  {line}\n" for line in lines[1:]), end="")
         except Violation as error:
             print(clean(f"{name}: {error}"), file=sys.stderr)
             worst = max(worst, 1)

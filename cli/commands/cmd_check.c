@@ -72,9 +72,8 @@ static void put_cords(thr_text *text, const thr_plan *plan)
     plain_put_proof(text, claim->longest_optimal, claim->longest, claim->longest_bound, "it can be no shorter",
                     "shortest possible");
   }
-  if (claim->present && claim->fewest > 1) thr_text_printf(text, "; proved: fewer than %d cords are impossible", claim->fewest);
-  if (plan->pull_claim.present && plan->pull_claim.fewest > 1)
-    thr_text_printf(text, "; proved: fewer than %d cords are impossible within that pull", plan->pull_claim.fewest);
+  if (claim->present) plain_put_fewest(text, plan, claim->fewest, " cords", "");
+  if (plan->pull_claim.present) plain_put_fewest(text, plan, plan->pull_claim.fewest, " cords", " within that pull");
   if (plan->options.joint == THR_JOINT_TUBE) thr_text_append(text, "; every joint tied");
 }
 

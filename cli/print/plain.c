@@ -52,10 +52,25 @@ void plain_put_proof(thr_text *text, bool optimal, double value, double bound, c
 void plain_put_length_proof(thr_text *text, const thr_plan *plan)
 {
   const thr_length_proof *proof = &plan->proof;
-  bool counted = plan->cords_claim.fewest > 0; /* the fewest come first, and then the least length */
+  const char *least = "shortest possible";
+  const bool few_first = thr_plan_fewest_first(&plan->options);
+  if (few_first) least = "shortest possible with so many cords";
+  if (plan->symmetry.present) least = "shortest cords without symmetry";
   plain_put_proof(text, proof->optimal, plan->metrics.length, proof->lower_bound,
-                  counted ? "with so many cords nothing shorter exists" : "nothing shorter exists",
-                  plan->symmetry.present ? "shortest cords without symmetry" : "shortest possible");
+                  few_first ? "with so many cords nothing shorter exists" : "nothing shorter exists", least);
+}
+
+bool plain_put_fewest(thr_text *text, const thr_plan *plan, int fewest, const char *cords, const char *within)
+{
+  /* A bound that is no more than the number of cords asked for was not proved, but asked for. */
+  const int n_components = thr_plan_components(plan), least = thr_plan_cords_least(&plan->options);
+  const int asked = plan->options.ends == THR_ENDS_COUNTS ? plan->n_cords : least * n_components;
+  if (fewest <= 1 || (least > 1 && fewest <= asked) || plan->options.ends == THR_ENDS_COUNTS) return false;
+
+  thr_text_append(text, "; proved: ");
+  if (least > 1) thr_text_printf(text, "from %d cords%s on, ", least, n_components > 1 ? " in each component" : "");
+  thr_text_printf(text, "fewer than %d%s are impossible%s", fewest, least > 1 ? "" : cords, within);
+  return true;
 }
 
 void plain_put_hand(thr_text *text, double newton)

@@ -19,8 +19,14 @@ const char *plain_force(double newton, char out[64]);
  * that is to the shortest possible is not known". */
 void plain_put_proof(thr_text *text, bool optimal, double value, double bound, const char *less, const char *least);
 
-/* The same of a plan's length; of a symmetric one what its symmetry may cost, as the bound is one of any cords. */
+/* The same of a plan's length, with so many cords where the options ask for few cords before little length; of a symmetric one
+ * what its symmetry may cost, as the bound is one of any cords. */
 void plain_put_length_proof(thr_text *text, const thr_plan *plan);
+
+/* Appends "; proved: fewer than 3 cords are impossible within that pull" for cords " cords" and within " within that pull". Where
+ * several cords were asked for, smaller numbers are not what is proved: "; proved: from 4 cords on, fewer than 6 are impossible".
+ * Returns false, and appends nothing, if the bound says no more than what was asked for. */
+bool plain_put_fewest(thr_text *text, const thr_plan *plan, int fewest, const char *cords, const char *within);
 
 /* Whether a hand can pull that much: "too hard for a hand, which manages about 50 N (5.1 kg)"; "within the 10 N (1 kg) that a
  * hand manages time after time". */

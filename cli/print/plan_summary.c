@@ -71,14 +71,6 @@ static void put_cords(thr_text *text, const thr_plan *plan, const double *pull)
 
 /* ---- text ---- */
 
-static int pieces_of(const thr_plan *plan)
-{
-  int last = 0;
-  for (int i = 0; i < plan->n_cords; i++)
-    if (plan->cord[i].component > last) last = plan->cord[i].component;
-  return last + 1;
-}
-
 /* How many cords were asked for. */
 static void put_number(thr_text *text, const thr_plan *plan, int components)
 {
@@ -104,7 +96,7 @@ static void put_number(thr_text *text, const thr_plan *plan, int components)
 static void put_head(thr_text *text, const thr_plan *plan)
 {
   const thr_request *options = &plan->options;
-  int components = pieces_of(plan);
+  int components = thr_plan_components(plan);
   bool tubes = options->joint == THR_JOINT_TUBE;
   if (tubes)
     thr_text_printf(text, "%d %s, %d joints", plan->frame.n_edges, cli_plural(plan->frame.n_edges, "tube", "tubes"),
@@ -123,12 +115,14 @@ static void put_head(thr_text *text, const thr_plan *plan)
 }
 
 /* Whether fewer cords would do. */
-static void put_fewest(thr_text *text, int cords, int fewest, bool optimal, const char *within)
+static void put_fewest(thr_text *text, const thr_plan *plan, int fewest, bool optimal, const char *within)
 {
-  thr_text_printf(text, "cords    %d", cords);
-  if (fewest > 1)
-    thr_text_printf(text, "; proved: fewer than %d are impossible%s", fewest, within);
-  else if (!optimal && cords > 1)
+  thr_text_printf(text, "cords    %d", plan->n_cords);
+  if (plain_put_fewest(text, plan, fewest, "", within))
+    ;
+  else if (optimal && thr_plan_cords_least(&plan->options) > 1)
+    thr_text_append(text, "; as few as were asked for");
+  else if (!optimal && plan->n_cords > 1)
     thr_text_append(text, "; whether fewer would do is not known");
   thr_text_append(text, "\n");
 }
@@ -148,7 +142,7 @@ static void put_claim(thr_text *text, const thr_plan *plan, thr_cords_word word)
   thr_text_append(text, "\n");
   if (!claim->longest_optimal && thr_wants_balance(&plan->options) && word.longest_least)
     thr_text_append(text, "         the search ruled out every shorter one (not verified)\n");
-  if (claim->fewest > 0) put_fewest(text, plan->n_cords, claim->fewest, claim->fewest_optimal, "");
+  if (claim->fewest > 0) put_fewest(text, plan, claim->fewest, claim->fewest_optimal, "");
 }
 
 /* What hand and cord feel, and whether fewer cords would do with it. */
@@ -161,7 +155,7 @@ static void put_pull_limit(thr_text *text, const thr_plan *plan, double largest)
   if (options->max_pull <= 0) return;
   thr_text_printf(text, "hand     %s at most at the end of a cord; %.6g N are allowed\n", plain_force(largest * seating, force),
                   options->max_pull * seating);
-  if (claim->present) put_fewest(text, plan->n_cords, claim->fewest, claim->optimal, " within that pull");
+  if (claim->present) put_fewest(text, plan, claim->fewest, claim->optimal, " within that pull");
 }
 
 /* What the checker has verified, and whether GLPK's exact simplex finds the same minimum on these cuts: for those who ask. */

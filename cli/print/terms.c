@@ -1,19 +1,12 @@
 #include "cli/print/terms.h"
 #include "cli/cli.h"
+#include "graph/angle.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/request.h"
 #include "graph/plan/standing.h"
 
 #include <ctype.h>
 #include <string.h>
-
-static int components_of(const thr_plan *plan)
-{
-  int last = 0;
-  for (int i = 0; i < plan->n_cords; i++)
-    if (plan->cord[i].component > last) last = plan->cord[i].component;
-  return last + 1;
-}
 
 /* Nodes where cords may end. */
 static int end_nodes(const thr_plan *plan)
@@ -50,7 +43,7 @@ static void put_passes(thr_text *text, const thr_plan *plan)
 static void put_number(thr_text *text, const thr_plan *plan)
 {
   const thr_request *options = &plan->options;
-  int components = components_of(plan), least = thr_plan_cords_least(options);
+  int components = thr_plan_components(plan), least = thr_plan_cords_least(options);
   if (options->ends == THR_ENDS_COUNTS)
     thr_text_printf(text, "; %d %s", plan->n_cords, cli_plural(plan->n_cords, "cord", "cords"));
   else if (least < options->cords)
@@ -60,8 +53,8 @@ static void put_number(thr_text *text, const thr_plan *plan)
   if (components > 1 && options->ends != THR_ENDS_COUNTS) thr_text_printf(text, " in each of %d components", components);
   if (options->max_length > 0) thr_text_printf(text, ", none longer than %.12g %s", options->max_length, plan->frame.units);
   if (options->max_pull > 0)
-    thr_text_printf(text, ", none that needs more than %.6g times the seating tension at mu = %g", options->max_pull,
-                    options->physics.mu);
+    thr_text_printf(text, ", none that needs more than %.6g times the seating tension at mu = %g%s", options->max_pull,
+                    options->physics.mu, options->old_pull ? ", as version 1 counts it" : "");
 }
 
 /* Of what turning and fewest cords are proved. */
@@ -108,6 +101,63 @@ static bool row_asked(const thr_plan *plan)
   return thr_wants_symmetry(&plan->options) && isdigit((unsigned char)plan->options.symmetry.group[0]);
 }
 
+/* How the cords are drawn in: "2 cords pulled at both ends, 1 slack". */
+static void put_drawn(thr_text *text, const thr_standing *standing)
+{
+  static const struct {
+    thr_pull pull;
+    const char *words;
+  } way[] = {{THR_PULL_BOTH, "pulled at both ends"},
+             {THR_PULL_START, "pulled at the start"},
+             {THR_PULL_END, "pulled at the end"},
+             {THR_PULL_NONE, "slack"}};
+  const char *between = "; ";
+  for (size_t i = 0; i < sizeof way / sizeof *way; i++) {
+    int n = 0;
+    for (int k = 0; k < standing->n_cords; k++)
+      n += standing->drawn[k].pull == (int)way[i].pull;
+    if (n == 0) continue;
+    thr_text_printf(text, "%s%d %s %s", between, n, cli_plural(n, "cord", "cords"), way[i].words);
+    between = ", ";
+  }
+}
+
+static void put_force(thr_text *text, const thr_load *load, const thr_plan *plan)
+{
+  thr_text_printf(text, "(%.6g, %.6g, %.6g) N at ", load->force[0] + 0.0, load->force[1] + 0.0, load->force[2] + 0.0);
+  thr_text_append_clean(text, plan->frame.name[load->node]);
+}
+
+/* All that the answers of the limit analysis depend on. */
+static void put_structure(thr_text *text, const thr_plan *plan)
+{
+  enum { MOST_LOADS = 8 };
+  const thr_standing *standing = &plan->evaluation.standing;
+  const thr_physics *physics = &plan->evaluation.physics;
+  const int steps = plan->evaluation.schedule.n;
+  if (physics->bead_mass > 0)
+    thr_text_printf(text, "beads of %.6g g", physics->bead_mass);
+  else
+    thr_text_printf(text, "beads of %.6g g/cm3", physics->density);
+  thr_text_printf(text, ", %.6g mm wide, bores of %.6g mm; friction %.6g of beads, %.6g of the ground, %.6g of cords",
+                  physics->bead_diameter, physics->bore, physics->mu_bead, physics->mu_ground, physics->mu);
+  if (physics->wobble > 0) thr_text_printf(text, " and %.6g rad/m of wobble", physics->wobble);
+  thr_text_append(text, standing->taut ? "; turns of the tight cords" : "; turns in the middles of the beads");
+  thr_text_append(text, standing->clamped ? "; feet are held" : "; feet stand");
+  if (standing->tilt > 0)
+    thr_text_printf(text, " on ground that leans by %.6g degrees towards %.6g", thr_degrees(standing->tilt),
+                    thr_degrees(standing->azimuth) + 0.0);
+  thr_text_printf(text, "; gravity %.6g m/s2", physics->gravity + 0.0);
+  put_drawn(text, standing);
+  if (steps > 0) thr_text_printf(text, "; a schedule of %d %s", steps, cli_plural(steps, "step", "steps"));
+
+  for (int i = 0; i < standing->n_loads && i < MOST_LOADS; i++) {
+    thr_text_append(text, i ? ", " : "; load ");
+    put_force(text, &standing->load[i], plan);
+  }
+  if (standing->n_loads > MOST_LOADS) thr_text_printf(text, " and %d more", standing->n_loads - MOST_LOADS);
+}
+
 /* "below 4.14 N at the harder ends, .. nothing holds it: verified", a line for each answer of the limit analysis. */
 static void standing_put(thr_text *text, const thr_plan *plan)
 {
@@ -119,6 +169,10 @@ static void standing_put(thr_text *text, const thr_plan *plan)
       [THR_ASKED_STRETCH] = "N m, by which the tension of knotted cord grows x its length, nothing holds it after the schedule",
       [THR_ASKED_LOADED] = "N at all ends, while the cords are drawn in, it does not carry the load"};
   const thr_standing *standing = &plan->evaluation.standing;
+  if (!standing->present) return;
+  thr_text_append(text, "  terms of the structure: ");
+  put_structure(text, plan);
+  thr_text_append(text, "\n");
   for (int i = 0; i < standing->n_answers; i++) {
     const thr_answer *answer = &standing->answer[i];
     if (answer->n_beads == 0) continue;
@@ -130,7 +184,7 @@ static void standing_put(thr_text *text, const thr_plan *plan)
     else
       thr_text_printf(text, "  after the schedule it carries no more than %.4g times the load: verified\n", answer->proved);
   }
-  if (standing->present) thr_text_append(text, "  not verified: that the equilibria which the limit analysis found exist\n");
+  thr_text_append(text, "  not verified: that the equilibria which the limit analysis found exist\n");
 }
 
 /* Does a plan of version 1 say anything of pulls at both ends? */
@@ -148,7 +202,7 @@ void terms_put(thr_text *text, const thr_plan *plan)
   put_plans(text, plan);
   thr_text_append(text, "\n");
   if (slack_asked(plan))
-    thr_text_printf(text, "  cord at most %g %% above the least length: %s\n", 100 * plan->options.turning.length_slack,
+    thr_text_printf(text, "  cord at most %g %% above the least length: %s\n", 100 * plan->options.turning.length_slack + 0.0,
                     slack_proved(plan) ? "verified" : "not verified");
   if (row_asked(plan))
     thr_text_printf(text, "  not verified: that the group is row %s of a table of symmetries\n", plan->options.symmetry.group);
@@ -169,6 +223,11 @@ void terms_put_json(thr_writer *writer, const thr_plan *plan)
   thr_text words = {0};
   put_plans(&words, plan);
   thr_write_words(writer, "terms", &words);
+  if (plan->evaluation.standing.present) {
+    thr_text structure = {0};
+    put_structure(&structure, plan);
+    thr_write_words(writer, "structure_terms", &structure);
+  }
   if (slack_asked(plan)) {
     thr_write_printf(writer, "length_slack", "%.12g", plan->options.turning.length_slack);
     thr_write_bool(writer, "slack_verified", slack_proved(plan));

@@ -295,7 +295,7 @@ static thr_status judge(const workspace *k, const thr_certificate *certificate, 
   if (join != certificate->join)
     return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the extra passes do not weigh the stated %" PRId64,
                     certificate->component, certificate->join);
-  int cords = thr_check_fewest_first(k->o) ? k->w->cords[certificate->component] : k->o->cords;
+  int cords = thr_plan_fewest_first(k->o) ? k->w->cords[certificate->component] : k->o->cords;
   int64_t ends = thr_check_ends_free(k->o) ? 2 * (int64_t)cords : 0;
   if (least_weight(certificate, places, ends) > join)
     return thr_fail(err, THR_EVIOLATED,

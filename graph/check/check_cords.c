@@ -201,7 +201,7 @@ static double least_length(const thr_request *options, const part *p, int cords,
   double own = check_verdict->optimal ? p->length : p->base + check_verdict->extra;
   if (!thr_check_ends_free(options)) return own;
   double length = p->base + thr_check_extra(certificate, check_verdict, 2 * (int64_t)cords);
-  return thr_check_fewest_first(options) && cords > p->cords ? length : fmax(own, length);
+  return thr_plan_fewest_first(options) && cords > p->cords ? length : fmax(own, length);
 }
 
 /* Is this more cord than so many of the greatest length? */

@@ -45,7 +45,7 @@ thr_status thr_check_sum_verdicts(const thr_frame *frame, const thr_request *opt
   if (!st) take_verdicts(frame, options, check_walked, verdict, least, own);
   if (!st && !*optimal && each > 0)
     st = thr_few_edges_lengths(frame, options, check_walked->component, n,
-                               thr_check_fewest_first(options) ? check_walked->cords : NULL, each, few, err);
+                               thr_plan_fewest_first(options) ? check_walked->cords : NULL, each, few, err);
   if (!st && pulled && pulled->unit && each > 0) st = thr_check_pulled_length(frame, options, check_walked, pulled, few, err);
   *optimal = true;
   for (int k = 0; k < n && !st; k++) {

@@ -54,9 +54,6 @@ thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, c
 /* As many cords in every component as the options say; where they were not asked for, in the one that has most. */
 thr_status thr_check_cord_count(const thr_check_walked *check_walked, const thr_request *options, thr_err *err) THR_MUST_CHECK;
 
-/* Are few cords asked for before little length? Then length is compared with that of as many cords as a plan has. */
-bool thr_check_fewest_first(const thr_request *options);
-
 /* Cord ends at allowed nodes, their number at each being free? */
 static inline bool thr_check_ends_free(const thr_request *options)
 {
@@ -69,7 +66,7 @@ static inline bool thr_check_ends_free(const thr_request *options)
 /* What a certificate proves about its component. Lengths round to weights, and what is rounded up is taken off every bound: for
  * as many extra passes of each edge as a shortest plan with these options may have, not those of this plan. */
 typedef struct {
-  bool optimal;          /* the passes are the shortest for at most options.cords cords (thr_check_fewest_first: as many) */
+  bool optimal;          /* the passes are the shortest for at most options.cords cords (thr_plan_fewest_first: as many) */
   double extra;          /* no such cords have less extra cord, in units */
   double rounding;       /* what it adds at most, in units */
   double rounding_above; /* the same beyond THR_CHECK_ROUNDING of each edge's weight */

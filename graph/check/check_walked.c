@@ -142,11 +142,6 @@ thr_status thr_check_walked_init(thr_check_walked *check_walked, const thr_frame
   return st;
 }
 
-bool thr_check_fewest_first(const thr_request *options)
-{
-  return options->max_length > 0 && thr_plan_counted(options) && options->cords_least < options->cords;
-}
-
 static void count_cords(thr_check_walked *check_walked, const thr_cord *cord, int n_cords)
 {
   for (int k = 0; k < check_walked->n_components; k++)

@@ -182,6 +182,14 @@ int thr_cords_passes(const thr_cord *cord, int n)
   return passes;
 }
 
+int thr_plan_components(const thr_plan *plan)
+{
+  int last = 0;
+  for (int i = 0; i < plan->n_cords; i++)
+    if (plan->cord[i].component > last) last = plan->cord[i].component;
+  return last + 1;
+}
+
 double thr_cords_longest(const thr_frame *frame, const thr_cord *cord, int n)
 {
   double longest = 0;

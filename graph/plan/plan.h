@@ -177,7 +177,8 @@ double thr_plan_unit(const thr_frame *framework);
 int thr_cord_start(const thr_frame *framework, const thr_cord *c);
 int thr_cord_end(const thr_frame *framework, const thr_cord *c);
 double thr_cord_length(const thr_frame *framework, const thr_cord *c);
-int thr_cords_passes(const thr_cord *cord, int n);                                 /* of all together */
+int thr_cords_passes(const thr_cord *cord, int n); /* of all together */
+int thr_plan_components(const thr_plan *plan);     /* number of components, from the cords: each has one */
 double thr_cords_longest(const thr_frame *framework, const thr_cord *cord, int n); /* length of the longest; 0 of none */
 
 /* Turning angle in rad between arriving over half-edge in and leaving over half-edge out (head(in) = tail(out)):

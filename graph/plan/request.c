@@ -336,6 +336,11 @@ int thr_plan_cords_least(const thr_request *options)
   return thr_plan_counted(options) ? options->cords_least : 1;
 }
 
+bool thr_plan_fewest_first(const thr_request *options)
+{
+  return options->max_length > 0 && thr_plan_counted(options) && options->cords_least < options->cords;
+}
+
 double thr_request_most_pulled(const thr_request *options)
 {
   bool limited = options->max_pull > 0 && options->physics.mu > 0;

@@ -185,6 +185,10 @@ bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, in
 /* Is the number of cords asked for? Of a symmetric plan it may be what it came to. */
 bool thr_plan_counted(const thr_request *options);
 
+/* Returns whether few cords are asked for before little length. Then length is compared with that of as many cords as a plan has.
+ */
+bool thr_plan_fewest_first(const thr_request *options);
+
 /* Cords that every component has at least. Where they are not asked for, options.cords is the most in any, and the others may
  * have fewer: 1. */
 int thr_plan_cords_least(const thr_request *options);

@@ -3,7 +3,7 @@
 
     tests/second/compare.py THREAD [--mutants N] [--seed N] [--all] [--keep DIR] [PLAN..]
 
-Plans: those named, the readers' seeds, and what THREAD makes of the frames and options in plans.txt (every pair with --all, else
+Of plans that hold they must say the same, line by line. Plans: those named, the readers' seeds, and what THREAD makes of the frames and options in plans.txt (every pair with --all, else
 a share of them). Closes with "N passed, N failed". Plans about which the two differ are left in DIR.
 """
 import argparse
@@ -35,7 +35,7 @@ CHECKER = second_checker()
 
 
 def python_says(path):
-    """("ok" or "no", line)"""
+    """("ok", lines) or ("no", violation)"""
     with open(path, "rb") as file:
         data = file.read()
     try:
@@ -53,6 +53,13 @@ def thread_says(thread, paths):
     for line in run.stdout.splitlines():
         row = json.loads(line)
         said[row["plan"]] = ("ok" if row["ok"] else "no", row.get("violation") or row.get("error") or "")
+    good = [path for path in paths if said.get(path, "no")[0] == "ok"]
+    words = subprocess.run([thread, "check", *good], capture_output=True, text=True, check=False, timeout=600).stdout.splitlines() if good else []
+    for path in good:  # "PATH: holds: ..", and lines that are indented
+        words[0] = words[0].removeprefix(f"{path}: ")
+        n = next((i for i, line in enumerate(words[1:], 1) if not line.startswith("  ")), len(words))
+        said[path] = ("ok", [line.strip() for line in words[:n]])
+        words = words[n:]
     return [said.get(path, ("fault", f"exit code {run.returncode}: {run.stderr[-200:]}")) for path in paths]
 
 
@@ -90,7 +97,7 @@ class Comparison:
             two = python_says(path)
             self.count += 1
             self.accepted += two[0] == "ok"
-            if one[0] != two[0] or "fault" in (one[0], two[0]):
+            if one[0] != two[0] or "fault" in (one[0], two[0]) or one[0] == "ok" and one != two:
                 self.differ(path, one, two)
         self.waiting = []
 
