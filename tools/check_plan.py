@@ -3119,10 +3119,11 @@ def structure_terms(p, standing):
     """All that the answers of the limit analysis depend on."""
     v, g = standing.physics, lambda x: "%.6g" % (x + 0.0)
     words = f"beads of {g(v['bead_mass'])} g" if v["bead_mass"] > 0 else f"beads of {g(v['density'])} g/cm3"
-    words += f", {g(v['bead_diameter'])} mm wide, bores of {g(v['bore'])} mm; friction {g(v['mu_bead'])} of beads, {g(v['mu_ground'])} of the ground, {g(v['mu'])} of cords"
+    words += f", {g(v['bead_diameter'])} mm wide, cords " + (f"of {g(v['cord_diameter'])} mm anywhere in" if standing.model > 1 else "in the middle of")
+    words += f" bores of {g(v['bore'])} mm; friction {g(v['mu_bead'])} of beads, {g(v['mu_ground'])} of the ground, {g(v['mu'])} of cords"
     words += f" and {g(v['wobble'])} rad/m of wobble" if v["wobble"] > 0 else ""
     words += "; turns of the tight cords" if p.evaluation.taut else "; turns in the middles of the beads"
-    words += "; feet are held" if standing.clamped else "; feet stand"
+    words += "; feet are held" if standing.clamped else "; feet stand on discs" if standing.model > 1 else "; feet stand on squares"
     words += f" on ground that leans by {g(math.degrees(standing.tilt))} degrees towards {g(math.degrees(standing.azimuth))}" if standing.tilt > 0 else ""
     words += f"; gravity {g(v['gravity'])} m/s2"
     ways = (("both", "pulled at both ends"), ("start", "pulled at the start"), ("end", "pulled at the end"), ("none", "slack"))

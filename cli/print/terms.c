@@ -139,11 +139,18 @@ static void put_structure(thr_text *text, const thr_plan *plan)
     thr_text_printf(text, "beads of %.6g g", physics->bead_mass);
   else
     thr_text_printf(text, "beads of %.6g g/cm3", physics->density);
-  thr_text_printf(text, ", %.6g mm wide, bores of %.6g mm; friction %.6g of beads, %.6g of the ground, %.6g of cords",
-                  physics->bead_diameter, physics->bore, physics->mu_bead, physics->mu_ground, physics->mu);
+  thr_text_printf(text, ", %.6g mm wide, ", physics->bead_diameter);
+  if (standing->model > 1)
+    thr_text_printf(text, "cords of %.6g mm anywhere in bores of %.6g mm", physics->cord_diameter, physics->bore);
+  else
+    thr_text_printf(text, "cords in the middle of bores of %.6g mm", physics->bore);
+  thr_text_printf(text, "; friction %.6g of beads, %.6g of the ground, %.6g of cords", physics->mu_bead, physics->mu_ground,
+                  physics->mu);
   if (physics->wobble > 0) thr_text_printf(text, " and %.6g rad/m of wobble", physics->wobble);
   thr_text_append(text, standing->taut ? "; turns of the tight cords" : "; turns in the middles of the beads");
-  thr_text_append(text, standing->clamped ? "; feet are held" : "; feet stand");
+  thr_text_append(text, standing->clamped     ? "; feet are held"
+                        : standing->model > 1 ? "; feet stand on discs"
+                                              : "; feet stand on squares");
   if (standing->tilt > 0)
     thr_text_printf(text, " on ground that leans by %.6g degrees towards %.6g", thr_degrees(standing->tilt),
                     thr_degrees(standing->azimuth) + 0.0);
