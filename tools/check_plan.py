@@ -2960,7 +2960,7 @@ class Evaluation:
         require("schedule" not in o or self.steps, "evaluation.schedule: empty")
         require("structure" not in o or self.method == "structure", "evaluation.structure: of another method")
         self.taut = "structure" in o and member(member(o, "structure", "object", place), "taut", "truth", "evaluation.structure")
-        cords = [Pulled(p, self, row, i) for i, row in enumerate(rows)]
+        self.cords = cords = [Pulled(p, self, row, i) for i, row in enumerate(rows)]
         largest, total = max(c.force for c in cords), math.fsum(c.force + c.other for c in cords)
         near(member(o, "largest", "number", place), largest, largest, "evaluation.largest")
         near(member(o, "total", "number", place), total, total, "evaluation.total")
@@ -3103,7 +3103,7 @@ def terms(p):
         words += f"; {o.least} to {o.cords} cords" if o.least < o.cords else f"; {some(o.cords, 'cord')}"
         words += f" in each of {len(f.pieces)} components" if len(f.pieces) > 1 else ""
     words += f", none longer than {'%.12g' % o.max_length} {f.unit}" if o.max_length is not None else ""
-    words += f", none that needs more than {'%.6g' % o.max_pull} times the seating tension at mu = {'%g' % o.mu}{', as version 1 counts it' if o.old_pull else ''}" if o.max_pull is not None else ""
+    words += f", none that needs more than {'%.6g' % o.max_pull} times the seating tension at mu = {'%g' % o.mu}" if o.max_pull is not None else ""
     words += "; tube joints" if o.tube else "; solid joints"
     words += "; lengths of edges as given, not from their nodes" if f.own_lengths else ""
     bounded = "; for the %s: at most %d passes of an edge, back only at nodes with one edge"
@@ -3167,6 +3167,8 @@ def said(p):
     if e and e.method != "capstan" and (not e.standing or e.taut):
         lines.append("not verified: the turns of the tight cords; what follows from them is" if e.taut else
                      f"not verified: the tensions, which method {e.method} measured; what follows from them is")
+    if o.old_pull and (o.max_pull is not None or e and (e.standing or not e.steps and any(cord.pull == "both" for cord in e.cords))):
+        lines.append("pulls at both ends are those of plans of version 1, which ask both for the pass in the middle: more than is needed")
     return lines + (structure_lines(p, e.standing) if e and e.standing else [])
 
 

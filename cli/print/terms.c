@@ -53,8 +53,8 @@ static void put_number(thr_text *text, const thr_plan *plan)
   if (components > 1 && options->ends != THR_ENDS_COUNTS) thr_text_printf(text, " in each of %d components", components);
   if (options->max_length > 0) thr_text_printf(text, ", none longer than %.12g %s", options->max_length, plan->frame.units);
   if (options->max_pull > 0)
-    thr_text_printf(text, ", none that needs more than %.6g times the seating tension at mu = %g%s", options->max_pull,
-                    options->physics.mu, options->old_pull ? ", as version 1 counts it" : "");
+    thr_text_printf(text, ", none that needs more than %.6g times the seating tension at mu = %g", options->max_pull,
+                    options->physics.mu);
 }
 
 /* Of what turning and fewest cords are proved. */
