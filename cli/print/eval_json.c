@@ -143,6 +143,13 @@ void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, b
   thr_write_number(&writer, "error", eval->error);
   thr_write_int(&writer, "refused", eval->refused);
   if (plan->evaluation.method == THR_JOINT) put_json_joints(&writer, eval);
+  if (eval->holding.present) {
+    thr_write_line(&writer, 1);
+    thr_write_array(&writer, "band_beads");
+    thr_write_number(&writer, NULL, eval->band_beads[0]);
+    thr_write_number(&writer, NULL, eval->band_beads[1]);
+    thr_write_close(&writer);
+  }
   if (eval->holding.present) put_json_answers(&writer, &plan->frame, eval);
   if (eval->holding.present) put_json_play(&writer, plan);
   if (eval->n_carries) load_put_json(&writer, &plan->frame, eval);

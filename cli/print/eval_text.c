@@ -339,6 +339,20 @@ static void put_stretch(thr_text *text, const thr_evaluation *evaluation, const 
   thr_text_append(text, "\n");
 }
 
+/* The bound over the frictions of beads and ground, which are estimates; what is proved is proved at those that are said. */
+static void put_bead_band(thr_text *text, const thr_evaluation *evaluation, const double band[2])
+{
+  const thr_physics *physics = &evaluation->physics;
+  if (isnan(band[0]) && isnan(band[1])) return;
+  const double low = physics->mu_low / physics->mu, high = physics->mu_high / physics->mu;
+  thr_text_printf(text, "other beads    with bead on bead %.3g, foot on ground %.3g:", low * physics->mu_bead,
+                  low * physics->mu_ground);
+  put_band_end(text, evaluation, band[0], true);
+  thr_text_printf(text, "; with %.3g, %.3g:", high * physics->mu_bead, high * physics->mu_ground);
+  put_band_end(text, evaluation, band[1], true);
+  thr_text_append(text, " (each proved at its own frictions only)\n");
+}
+
 /* Does it stand after the schedule? */
 static void put_after(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval, double strength)
 {
@@ -380,6 +394,7 @@ static void put_structure(thr_text *text, const eval_view *view, const thr_plan 
   const thr_holding *holding = &eval->holding;
   if (!holding->present) return;
   put_holding(text, eval);
+  put_bead_band(text, &plan->evaluation, eval->band_beads);
   if (holding->first_bead >= 0)
     thr_text_printf(text, "just below     bead %s moves fastest (collapse mechanism)\n", plan->frame.name[holding->first_bead]);
   if (view->loaded) load_put(text, &plan->frame, eval);

@@ -536,8 +536,24 @@ static thr_status band_end(const thr_frame *frame, const thr_cord *cord, const t
   return st;
 }
 
+/* Below which pull nothing holds at so many times the frictions of beads and ground. */
+static thr_status hold_beads(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double times,
+                             const thr_limits *limits, const thr_evaluation *evaluation, const double *const *tension,
+                             double *out, thr_err *err)
+{
+  thr_err why = {0};
+  thr_holding holding = {0};
+  thr_evaluation other = *evaluation;
+  other.physics.mu_bead *= times;
+  other.physics.mu_ground *= times;
+  const thr_status st = hold(frame, cord, beads, false, limits, &other, tension, &holding, &why);
+  *out = st == THR_OK ? holding.lower : st == THR_EINFEASIBLE ? INFINITY : NAN;
+  thr_holding_destroy(&holding);
+  return st == THR_OK || st == THR_EINFEASIBLE || st == THR_ESOLVER ? THR_OK : thr_fail(err, st, "%s", why.text);
+}
+
 /* What is asked of the cords as they are drawn in, each by itself. */
-typedef enum { PULL, EQUAL_PULLS, ANY_STATE, BAND_LOW, BAND_HIGH, N_QUESTIONS } question;
+typedef enum { PULL, EQUAL_PULLS, ANY_STATE, BAND_LOW, BAND_HIGH, BEADS_LOW, BEADS_HIGH, N_QUESTIONS } question;
 
 typedef struct {
   const thr_frame *frame;
@@ -558,6 +574,12 @@ static thr_status answer(void *user, int job, const thr_limits *limits, thr_err 
   case EQUAL_PULLS: return hold_state(q->frame, q->cord, q->beads, DRAWN_IN, 1, limits, record, &q->out->equal, err);
   case ANY_STATE: return hold_state(q->frame, q->cord, q->beads, KEPT, 1, limits, record, &q->out->loosest, err);
   case BAND_LOW: return band_end(q->frame, q->cord, q->beads, record->physics.mu_low, limits, record, &q->out->band[0], err);
+  case BEADS_LOW:
+    return hold_beads(q->frame, q->cord, q->beads, record->physics.mu_low / record->physics.mu, limits, record, q->tension,
+                      &q->out->band_beads[0], err);
+  case BEADS_HIGH:
+    return hold_beads(q->frame, q->cord, q->beads, record->physics.mu_high / record->physics.mu, limits, record, q->tension,
+                      &q->out->band_beads[1], err);
   default: return band_end(q->frame, q->cord, q->beads, record->physics.mu_high, limits, record, &q->out->band[1], err);
   }
 }
@@ -613,6 +635,7 @@ static void ask(questions *q)
   if (small && all_both(&q->out->record)) q->asked[q->n++] = EQUAL_PULLS;
   q->asked[q->n++] = ANY_STATE;
   if (small) q->asked[q->n++] = BAND_LOW, q->asked[q->n++] = BAND_HIGH;
+  if (small && q->out->record.physics.mu > 0) q->asked[q->n++] = BEADS_LOW, q->asked[q->n++] = BEADS_HIGH;
 }
 
 static simulation simulation_of(const questions *q, thr_settle_options how)
