@@ -66,6 +66,11 @@ thr_limits thr_limits_brief(const thr_limits *limits, double *work)
   return few;
 }
 
+bool thr_limits_near(const thr_limits *limits, double value, double bound)
+{
+  return value <= bound * (1 + fmax(1e-9, limits->gap));
+}
+
 bool thr_limits_stop(const thr_limits *limits)
 {
   const double between = 1e-5; /* s */

@@ -19,6 +19,8 @@ typedef struct {
    * at the same place on any machine, whatever else that does. Work is over when work_kept of it is left. One thread at a time.
    */
   double *work, work_kept;
+  bool usual; /* nobody has said how long it may take: it is the usual effort that ends the search */
+  double gap; /* as a part of the bound: what is to be least may be so much above it for a search to end; 0: to the proof */
   bool brief; /* so little work is counted that cords are not annealed */
   /* called now and then with what is being done and the best value and proven bound so far (same unit) */
   void (*progress)(void *user, const char *what, double best, double bound);
@@ -40,6 +42,9 @@ bool thr_limits_stop(const thr_limits *limits);
 
 /* Seconds by the clock that are left, at most `most` and at least 0. */
 double thr_limits_left(const thr_limits *limits, double most);
+
+/* Is a value near enough to its bound? But for rounding. */
+bool thr_limits_near(const thr_limits *limits, double value, double bound);
 
 /* Work is counted that takes about so many seconds, beyond what thr_limits_stop counts. Without limits->work: nothing. */
 void thr_limits_spend(const thr_limits *limits, double seconds);

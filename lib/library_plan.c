@@ -165,6 +165,7 @@ static thr_status make(const thread_plan_options *o, const thr_frame *frame, thr
   double seconds = st ? 0 : o->seconds < 0 ? wishes.time_limit : o->seconds;
   double work = thr_dispatch_work(&wishes);
   const bool unsaid = !st && o->seconds < 0 && seconds > 0;
+  limits.usual = unsaid;
   if (unsaid) seconds *= thr_dispatch_patience(&wishes);
   if (unsaid && work > 0) limits = thr_limits_counted(&limits, &work);
   if (seconds > 0) limits.deadline = thr_clock() + seconds;

@@ -71,9 +71,9 @@ double thr_dispatch_usual_seconds(const thr_request *options)
 
 double thr_dispatch_work(const thr_request *options)
 {
-  const double second = .5; /* of work that takes about a second */
+  const double usual = 1; /* of work that takes some two to three seconds */
   const bool several = thr_dispatch(options) == thr_planner_turning && thr_wants_largest(options) && options->cords > 1;
-  return several && options->joint == THR_JOINT_SOLID ? second * options->time_limit : 0;
+  return several && options->joint == THR_JOINT_SOLID ? usual : 0;
 }
 
 double thr_dispatch_patience(const thr_request *options)

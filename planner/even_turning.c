@@ -59,9 +59,10 @@ static thr_status seed_fits(const thr_frame *frame, const thr_least *least, cons
 }
 
 /* Nothing is left to look for. */
-static bool is_done(const thr_frame *frame, const thr_least *least, const thr_max_turning *found, double enough)
+static bool is_done(const thr_frame *frame, const thr_least *least, const thr_max_turning *found, double enough,
+                    const thr_limits *limits)
 {
-  if (found->largest <= found->bound * (1 + 1e-9)) return true;
+  if (thr_limits_near(limits, found->largest, found->bound)) return true;
   return enough > 0 && thr_cords_pulled_turning(frame, least->cord, least->n_cords) <= enough;
 }
 
@@ -79,7 +80,7 @@ static thr_status exchange(const thr_frame *frame, const thr_plan *seed, double 
     st = thr_cords_copy(seed->cord, seed->n_cords, &from.cord, err);
     if (!st) st = thr_max_turning_improve(frame, enough, &share, &from, &other, err);
   }
-  if (!st && !(fits && is_done(frame, &from, &other, enough)))
+  if (!st && !(fits && is_done(frame, &from, &other, enough, limits)))
     st = thr_max_turning_improve(frame, enough, limits, least, &own, err);
   if (!st && other.largest < own.largest) {
     thr_cord *cord = least->cord;
@@ -97,7 +98,7 @@ thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, double
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_EXCHANGES);
   thr_max_turning found;
   thr_status st = exchange(frame, seed, enough, &share, least, &found, err);
-  return st || is_done(frame, least, &found, enough)
+  return st || is_done(frame, least, &found, enough, limits)
              ? st
              : thr_max_turning_walks(frame, enough, thr_planner_near_motions, limits, least, &found, err);
 }

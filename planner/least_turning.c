@@ -49,7 +49,9 @@ static thr_status shorten(const thr_frame *frame, const thr_least_options *lo, c
   if (!lo->tube) with_length.most_nodes = 0;
   with_length.price_per_length = small * frame->n_edges / thr_frame_total_length(frame);
   thr_err unused = {0};
-  thr_status st = thr_least_turning(frame, &with_length, limits, &other, &unused);
+  thr_limits exact = *limits;
+  exact.gap = 0;
+  thr_status st = thr_least_turning(frame, &with_length, &exact, &other, &unused);
   if (st == THR_ENOMEM) return thr_fail(err, st, "%s", unused.text);
   if (st && st != THR_ELIMIT) return THR_OK; /* what is proved stands without it */
   double price = other.price - with_length.price_per_length * (other.length - thr_turning_base_length(frame, lo->cover));

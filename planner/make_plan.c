@@ -46,14 +46,23 @@ static thr_status judge(thr_plan *plan, thr_status *st, thr_err *why, thr_err *e
   return failed;
 }
 
+/* How near to its bound a plan ends a search: small frameworks go on to the proof, unless a gap was asked for. */
+static double gap_of_search(const thr_frame *frame, const thr_request *request)
+{
+  enum { SMALL = 40 }; /* edges */
+  return request->gap < 0 && frame->n_edges <= SMALL ? 0 : thr_request_gap(request);
+}
+
 thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, const thr_limits *limits, thr_plan *plan,
                          thr_report *report, thr_err *err)
 {
   thr_report own = {0};
   thr_err why = {0};
   *plan = (thr_plan){0};
+  thr_limits within = *limits;
+  within.gap = gap_of_search(frame, request);
   thr_planner_tell_at_once(frame, request, limits);
-  thr_status st = thr_dispatch(request)(frame, request, limits, plan, &own, &why), finished = THR_OK;
+  thr_status st = thr_dispatch(request)(frame, request, &within, plan, &own, &why), finished = THR_OK;
   if (st == THR_EVIOLATED) st = THR_ESOLVER; /* a claim of the search's own */
   bool trimmed = false;
   if (plan->n_cords > 0) finished = thr_plan_trim(plan, &trimmed, err);
@@ -65,6 +74,7 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, con
   if (plan->n_cords > 0 && !finished && is_to_be_judged(plan)) finished = judge(plan, &st, &why, err);
   if (plan->n_cords > 0 && !finished) finished = thr_plan_order(plan, err);
   if (plan->n_cords > 0 && !finished) finished = sign(plan, err);
+  if (st == THR_ELIMIT && !finished && thr_planner_is_enough(plan, limits)) st = THR_OK;
   if (finished)
     thr_plan_destroy(plan);
   else if (st)

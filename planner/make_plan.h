@@ -28,9 +28,11 @@ void thr_report_destroy(thr_report *report);
 
 /* Plans what is requested within the limits, which are all that bounds the time: request->time_limit is only recorded. The plan's
  * claims are what graph/check/check.c says of its proofs. limits->found hears of cords as soon as there are some. report: NULL =
- * not wanted. THR_OK: what was to be least is proved to be. THR_ELIMIT: the plan is valid and holds its bounds, or it is
- * empty because no cords were found in time. THR_EINFEASIBLE: there is no plan, or none was found (said). THR_EINPUT: wishes that
- * do not go together (said). Otherwise the plan is empty; the report must be released in any case. */
+ * not wanted. THR_OK: what was to be least is proved to be, or as near to its bound as was asked (thr_request_gap); where
+ * neither that nor a time was asked for (limits->usual) any plan but one for the least length will do. THR_ELIMIT: the plan is
+ * valid and holds its bounds, or it is empty because no cords were found in time. THR_EINFEASIBLE: there is no plan, or none was
+ * found (said). THR_EINPUT: wishes that do not go together (said). Otherwise the plan is empty; the report must be released in
+ * any case. */
 thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, const thr_limits *limits, thr_plan *plan,
                          thr_report *report, thr_err *err) THR_MUST_CHECK;
 

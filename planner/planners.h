@@ -90,6 +90,10 @@ thr_status thr_planner_pull_length(thr_plan *plan, const thr_limits *limits, thr
 /* Is what was asked to be least proved to be, by the plan's claims? Else THR_ELIMIT, and how far it may be off. */
 thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
+/* Does a plan that is not proved to be best keep to all that was asked, and is it as near to its bound as was asked? If neither a
+ * gap nor a time was (limits->usual), any bound will do, but of plans for the least length. */
+bool thr_planner_is_enough(const thr_plan *plan, const thr_limits *limits);
+
 /* Is more asked of the turning's plan than its search knows, and the planner that composes it then (planner/mixed.c). With a
  * limit on the pull it plans for every aim, options.cords cords; seed (NULL = none) is one of the plans to choose from, none of
  * which has more cords; its cords and proof of turning may be taken. THR_EINFEASIBLE: none of them keeps to what is asked. */

@@ -88,6 +88,41 @@ thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err)
                  : thr_not_proved(err, "the turning", claim->price, claim->lower_bound);
 }
 
+/* ---- what is enough ---- */
+
+/* Are there no cords that break what was asked of every plan? */
+static bool keeps_to_limits(const thr_plan *plan)
+{
+  const thr_request *request = &plan->options;
+  const double longest = thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
+  return !(plan->proof.present && plan->proof.slack_open && request->turning.length_slack >= 0) &&
+         (request->distinct == 0 || plan->metrics.distinct == plan->frame.n_edges) &&
+         (request->max_length == 0 || longest <= request->max_length * (1 + 1e-9)) &&
+         (request->max_pull == 0 || thr_cords_within_pull(&plan->frame, request, plan->cord, plan->n_cords)) &&
+         (request->crossings != THR_CROSSINGS_FORBID || plan->metrics.crossings == 0);
+}
+
+/* With a limit on the pull or the length few cords are asked for first. */
+static bool has_few_cords(const thr_plan *plan, double gap)
+{
+  const thr_request *request = &plan->options;
+  const thr_pull_claim *pull = &plan->pull_claim;
+  const bool few = request->cords_least < request->cords;
+  const int least = pull->present ? pull->fewest : plan->cords_claim.fewest;
+  if (!few || (request->max_pull == 0 && request->max_length == 0)) return true;
+  return (pull->present && pull->optimal) || (plan->cords_claim.present && plan->cords_claim.fewest_optimal) ||
+         plan->n_cords <= least * (1 + gap);
+}
+
+bool thr_planner_is_enough(const thr_plan *plan, const thr_limits *limits)
+{
+  const thr_request *request = &plan->options;
+  const double gap = thr_request_gap(request) + 1e-12;
+  if (plan->n_cords == 0 || !keeps_to_limits(plan)) return false;
+  if (request->gap < 0 && limits->usual && (!thr_wants_length(request) || request->max_pull > 0)) return true;
+  return thr_plan_gap(plan) <= gap && has_few_cords(plan, gap);
+}
+
 /* ---- as it was written ---- */
 
 const char *thr_claim_name(int claim)

@@ -287,7 +287,7 @@ class Options:
     def __init__(self, o, f):
         p = "options"
         known(o, "objective joint cover capacity distinct cords max_length max_pull balance ends end_nodes end_counts needles order crossings engine confirm turning symmetry"
-              " time_limit physics", p)
+              " time_limit gap physics", p)
         self.objective = choice(o, "objective", p, ("length", "tortuosity", "symmetry"))
         self.tube = choice(o, "joint", p, ("solid", "tube")) == "tube"
         self.cover = member(o, "cover", "integer", p, 1, 100)
@@ -296,6 +296,7 @@ class Options:
         self.max_length = member(o, "max_length", "number", p, 5e-324, default=None)
         self.max_pull = member(o, "max_pull", "number", p, 1, default=None)
         member(o, "time_limit", "number", p)
+        member(o, "gap", "number", p, 0, 100, default=None)
         member(o, "needles", "integer", p, 1, 2, default=0)
         choice(o, "order", p, ("hand", "planned", "starts"), default="planned")
         self.crossings = choice(o, "crossings", p, ("allow", "forbid", "price"), default="allow")

@@ -48,14 +48,17 @@ static const char help_requests[] =
     "                       more turns in any case. Cords that cross each other exchange their ends, closed ones are\n"
     "                       joined and cut elsewhere, if what is asked of single cords allows it (--balance, --max-length,\n"
     "                       --distinct). Not with tube joints or copies\n"
+    "      --gap PERCENT    enough is a plan that is proved to be at most so much above the least possible, 0 = the least\n"
+    "                       itself (default: 0 for length, else 1). A search ends there\n"
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
     "                       an S that is given; else each search has its 20 s. Drawings are made whole, and take their time.\n"
     "                       Without S --max-pull, and several cords by their largest turning, count their work\n"
-    "                       instead: the same plan on every machine, later on a busy one\n" GUARD_MEMORY_HELP "\n";
-static const char help_rest[] = TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
-                                             "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
-                                             "\nFramework:\n" CLI_FRAME_HELP;
+    "                       instead, some three seconds: the same plan on every machine, later on a busy one\n";
+static const char help_rest[] =
+    GUARD_MEMORY_HELP "\n" TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
+                      "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
+                      "\nFramework:\n" CLI_FRAME_HELP;
 static const char help_output[] =
     "\nOutput:\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
@@ -68,8 +71,9 @@ static const char help_output[] =
     "      --progress       a line of JSON on stderr each time the plan or its bound is better\n"
     "      --compare-objectives   pull of this plan beside those for the other objectives, joints simulated\n" PULL_RUN_HELP
     "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
-    "Exit codes: 0 proved (or a classical tour), 2 usage, 3 bad input, 4 infeasible or none found, 5 not proved (plan\n"
-    "written), 70 internal. What is said of cord and beads is stored in the plan; thread eval begins with it.\n";
+    "Exit codes: 0 as asked: the shortest, or within the gap; of other aims without --gap and --time-limit within any gap,\n"
+    "which is said; 2 usage, 3 bad input, 4 infeasible or none found, 5 not as asked (plan written), 70 internal.\n"
+    "What is said of cord and beads is stored in the plan; thread eval begins with it.\n";
 
 /* One text: as one literal it would be longer than C promises to take. */
 static const char *help(void)
@@ -86,7 +90,8 @@ enum {
   OPTION_JSON,
   OPTION_ORDER,
   OPTION_PROGRESS,
-  OPTION_CROSSINGS
+  OPTION_CROSSINGS,
+  OPTION_GAP
 };
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
@@ -106,6 +111,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"order", required_argument, NULL, OPTION_ORDER},
                                       {"progress", no_argument, NULL, OPTION_PROGRESS},
                                       {"crossings", required_argument, NULL, OPTION_CROSSINGS},
+                                      {"gap", required_argument, NULL, OPTION_GAP},
                                       {NULL, 0, NULL, 0}};
 
 /* ---- options ---- */
@@ -124,6 +130,7 @@ typedef struct {
   bool json, compare, force;
   int order;     /* of the work: thr_order */
   int crossings; /* thr_crossings */
+  double gap;    /* %; < 0: not said */
 } arguments;
 
 /* -1 if it goes with what else is asked for. */
@@ -149,7 +156,8 @@ static int parse(int argc, char **argv, arguments *a)
                    .cords = cords_args_default(),
                    .guard = guard_limits_default(),
                    .drawings = {.quick = true},
-                   .order = THR_ORDER_STARTS};
+                   .order = THR_ORDER_STARTS,
+                   .gap = -1};
   pull_args_init(&a->pull, THR_JOINT);
   while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(),
                                  &done)) != -1) {
@@ -170,6 +178,7 @@ static int parse(int argc, char **argv, arguments *a)
     case OPTION_CROSSINGS:
       ok = cli_choose("plan", "--crossings", optarg, thr_crossings_name, THR_N_CROSSINGS, &a->crossings);
       break;
+    case OPTION_GAP: ok = cli_double("plan", "--gap", optarg, 0, 100, &a->gap); break;
     case 'o': a->output = optarg; break;
     }
     if (!ok) return EXIT_USAGE;
@@ -199,6 +208,7 @@ static void ask(const arguments *a, thr_objective objective, thr_request *option
   options->joint = a->cords.joint;
   options->order = (thr_order)a->order;
   options->crossings = (thr_crossings)a->crossings;
+  options->gap = a->gap;
   if (options->order != THR_ORDER_PLANNED) options->needles = a->drawings.needles;
   if (cords_args_limits_pull(&a->cords) && options->max_pull == 0) options->max_pull = 1; /* until it is known how much */
   options->time_limit = a->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : a->guard.seconds;
@@ -271,7 +281,8 @@ static int put_refused(thr_writer *writer, const arguments *a, thr_objective obj
 static thr_limits limits_for(const arguments *a, const thr_request *options, double seconds, double *work)
 {
   const bool unsaid = a->guard.seconds < 0;
-  const thr_limits limits = cli_limits((unsaid ? thr_dispatch_patience(options) : 1) * seconds);
+  thr_limits limits = cli_limits((unsaid ? thr_dispatch_patience(options) : 1) * seconds);
+  limits.usual = unsaid;
   *work = thr_dispatch_work(options);
   return unsaid && *work > 0 ? thr_limits_counted(&limits, work) : limits;
 }

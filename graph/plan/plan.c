@@ -366,3 +366,25 @@ thr_status thr_plan_measure(const thr_frame *frame, const thr_request *options, 
   free(met);
   return THR_OK;
 }
+
+/* What may be missing to a bound. */
+static double gap_of(bool present, bool optimal, double value, double bound)
+{
+  if (!present) return INFINITY;
+  return optimal || value <= bound ? 0 : bound > 0 ? value / bound - 1 : INFINITY;
+}
+
+double thr_plan_gap(const thr_plan *plan)
+{
+  const thr_cords_claim *cords = &plan->cords_claim;
+  const thr_turning_claim *turning = &plan->turning;
+  const thr_length_proof *length = &plan->proof;
+  if (thr_wants_symmetry(&plan->options)) return INFINITY;
+  if (thr_wants_balance(&plan->options))
+    return gap_of(cords->present, cords->longest_optimal, cords->longest, cords->longest_bound);
+  if (thr_wants_length(&plan->options))
+    return gap_of(length->present, length->optimal, plan->metrics.length, length->lower_bound);
+  if (thr_wants_largest(&plan->options))
+    return gap_of(turning->present, turning->largest_optimal, turning->largest, turning->largest_bound);
+  return gap_of(turning->present, turning->optimal, turning->price, turning->lower_bound);
+}

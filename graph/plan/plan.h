@@ -236,6 +236,10 @@ void thr_cords_only(const thr_frame *framework, const thr_cord *cord, int n, int
 thr_status thr_plan_measure(const thr_frame *framework, const thr_request *wishes, const thr_cord *cord, int n_cords,
                             thr_metrics *m, thr_err *err) THR_MUST_CHECK;
 
+/* By how much what the plan was to have least of first (the longest cord, length, turning) may be above the least possible, as a
+ * part of that: 0 = it is proved to be least; INFINITY: nothing is proved of it, as of symmetric plans. */
+double thr_plan_gap(const thr_plan *plan);
+
 /* JSON of a plan; and back. Errors are "name: place: what": THR_EINPUT for what is not a plan at all, THR_EVIOLATED for
  * cords, metrics and proofs that contradict the framework (a pass whose edge does not join its two nodes). */
 void thr_plan_write(const thr_plan *plan, thr_text *out);

@@ -78,7 +78,7 @@ static thr_status read_objective(const thr_field_reader *field_reader, const thr
   static const char *const own[THR_N_OBJECTIVES] = {"confirm", "turning", "symmetry"};
   const char *known[] = {"objective", "joint",   "cover", "capacity",  "distinct",   "cords",      "max_length",
                          "max_pull",  "balance", "ends",  "end_nodes", "end_counts", "time_limit", "physics",
-                         "engine",    "needles", "order", "crossings", NULL,         NULL};
+                         "engine",    "needles", "order", "crossings", "gap",        NULL,         NULL};
   int objective, joint;
   thr_status st = thr_field_name(field_reader, value, "options", "objective", THR_N_OBJECTIVES, thr_objective_name, &objective);
   if (st) return st;
@@ -141,6 +141,9 @@ static thr_status read_means(const thr_field_reader *field_reader, const thr_jso
 {
   int engine = THR_ENGINE_AUTO, confirm = THR_CONFIRM_AUTO, order = THR_ORDER_PLANNED, crossings = THR_CROSSINGS_ALLOW;
   thr_status st = thr_field_double(field_reader, value, "time_limit", &options->time_limit);
+  options->gap = -1;
+  if (!st && thr_json_get(value, "gap")) st = thr_field_amount(field_reader, value, "gap", &options->gap);
+  if (!st && options->gap > 100) st = thr_field_bad(field_reader, "options.gap", "more than 100");
   if (!st && thr_json_get(value, "needles")) st = thr_field_int(field_reader, value, "needles", 1, 2, &options->needles);
   if (!st && thr_json_get(value, "order"))
     st = thr_field_name(field_reader, value, "options", "order", THR_N_ORDERS, thr_order_name, &order);

@@ -196,6 +196,7 @@ static void put_options(thr_writer *writer, const thr_plan *plan)
   if (thr_wants_length(options) && options->confirm != THR_CONFIRM_AUTO)
     thr_write_string(writer, "confirm", thr_confirm_name(options->confirm));
   thr_write_number(writer, "time_limit", options->time_limit);
+  if (options->gap >= 0) thr_write_number(writer, "gap", options->gap);
   thr_write_line(writer, 2);
   thr_physics_write(&options->physics, writer, "physics");
   thr_write_close(writer);

@@ -17,6 +17,7 @@ thr_request thr_request_default(void)
                        .turning = {.length_slack = -1},
                        .symmetry = {.geometric = -1},
                        .ends = THR_ENDS_CLOSED,
+                       .gap = -1,
                        .order = THR_ORDER_STARTS,
                        .physics = thr_physics_default()};
 }
@@ -319,6 +320,12 @@ const char *thr_confirm_name(int c)
 }
 
 /* ---- options and framework together ---- */
+
+double thr_request_gap(const thr_request *options)
+{
+  const double usual = 0.01;
+  return options->gap >= 0 ? options->gap / 100 : thr_wants_length(options) ? 0 : usual;
+}
 
 bool thr_plan_within_slack(const thr_request *options, double length, double least)
 {

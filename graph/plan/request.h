@@ -118,6 +118,7 @@ typedef struct {
                           2 * cords; owned, else NULL */
   thr_physics physics; /* of cord and beads, as asked: what eval starts from */
   double time_limit;   /* s, 0 = none */
+  double gap;          /* %, 0 to 100: a search may end when plan and bound are so near; < 0: not said (thr_request_gap) */
   thr_crossings crossings; /* solid joints; not of symmetric plans, classical tours or with max_pull */
   thr_order order;         /* of the work */
   int needles;             /* that cords are threaded with then: 1, 2, or 0: as is usual (thr_cord_folded) */
@@ -175,6 +176,10 @@ const char *thr_crossings_name(int c);      /* "allow", "price", "forbid" */
 const char *thr_order_name(int o);          /* "planned", "starts", "hand" */
 const char *thr_engine_name(int e);         /* "auto", "lp", "matching" */
 const char *thr_confirm_name(int c);        /* "auto", "always", "never" */
+
+/* How near plan and bound may be for a search to end, as a part of the bound: what was asked for, else 0 of a short plan and a
+ * hundredth of others. */
+double thr_request_gap(const thr_request *options);
 
 /* Is the cord within the asked part above the least length (options.turning.length_slack), by this lower bound on that? True
  * where none was asked for. */

@@ -67,6 +67,8 @@ static bool run_job(void *user, int fd)
                              .work = t->limits->work ? &work : NULL,
                              .work_kept = t->limits->work_kept,
                              .brief = t->limits->brief,
+                             .usual = t->limits->usual,
+                             .gap = t->limits->gap,
                              .progress = t->limits->progress ? post_progress : NULL,
                              .advance = t->limits->advance ? post_advance : NULL,
                              .user = &to};

@@ -388,8 +388,8 @@ static bool goes_beside(const search *x)
 /* Of the plan's cords, until they are as near to the bound as is worth it. */
 static thr_anneal_task annealing(const search *x, int first, int rounds)
 {
-  enum { MOST_STEPS = 10000000, STEPS = 33333 }; /* STEPS: for a pass */
-  const double near = 3e-3;                      /* of the bound: less is not worth longer cords */
+  enum { MOST_STEPS = 10000000, STEPS = 33333 };  /* STEPS: for a pass */
+  const double near = fmax(1e-9, x->limits->gap); /* of the bound */
   return (thr_anneal_task){.measure = THR_WALK_TURNING,
                            .steps = (int)fmin(MOST_STEPS, (double)STEPS * x->best.g.n_darts),
                            .first = first,

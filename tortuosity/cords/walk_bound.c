@@ -51,7 +51,8 @@ static thr_status bisect(thr_walk_programme *p, double largest, bool remembers, 
   thr_status st = THR_OK;
   int most = remembers ? 1 + low / 500 : high / 2; /* units of a step; with a memory few at first and more with each success */
   if (high > p->most_units) high = p->most_units;
-  while (high - low > 1 && thr_walk_programme_price(p, high - low) > near * largest && !st && !thr_limits_stop(p->limits)) {
+  while (high - low > 1 && thr_walk_programme_price(p, high - low) > near * largest && !st &&
+         !thr_limits_near(p->limits, largest, *bound) && !thr_limits_stop(p->limits)) {
     const int step = (high - low) / part, middle = low + (step < most ? step : most);
     bool grown = remembers;
     for (int i = 0; i < MOST_GROWTHS && !st && (grown || i == 0) && !thr_limits_stop(p->limits); i++)
@@ -185,7 +186,7 @@ static thr_status look_for_cords(thr_walk_programme *p, const thr_cord *cord, in
 static thr_status look_near(thr_walk_programme *p, const thr_cord *cord, int n_cords, double bound, thr_cord **better,
                             thr_err *err)
 {
-  const double near = 5e-3; /* of the bound: not worth a longer search */
+  const double near = fmax(1e-9, p->limits->gap); /* of the bound */
   const thr_walk_measure measure = p->steps.measure;
   const thr_cord *known = *better ? *better : cord;
   const double largest = thr_walk_price(p->c, measure, &known[thr_walk_dearest(p->c, measure, known, n_cords)]);
@@ -232,7 +233,9 @@ static thr_status search(thr_walk_programme *p, const thr_walk_ask *ask, double 
   thr_status st =
       ask->enough > 0 ? try_limit(p, ask->enough, made, bound, &open, err) : bisect(p, largest, false, made, bound, &open, err);
   if (!st && ask->enough <= 0) st = bisect(p, largest, true, made, bound, &open, err);
-  const bool wanted = (ask->enough <= 0 || *bound <= ask->enough) && !task->tube && !task->end_count && has_own_prices(p);
+  const bool near = thr_limits_near(limits, largest, *bound);
+  const bool wanted =
+      !near && (ask->enough <= 0 || *bound <= ask->enough) && !task->tube && !task->end_count && has_own_prices(p);
   if (!brief) share = thr_limits_part(limits, for_cords);
   if (!st && wanted) st = look_for_cords(p, cord, n_cords, *bound, open, better, err);
   if (!brief) share = thr_limits_part(limits, for_near);

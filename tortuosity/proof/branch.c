@@ -150,10 +150,17 @@ static thr_status certify(thr_branch *branch, int i, thr_err *err)
   return st ? st : thr_branch_keep_dual(branch, i, dual, branch->tree.here.low, branch->tree.here.high, err);
 }
 
-/* A node of this bound is closed. */
-static double enough(const thr_branch *branch)
+/* A node of this bound is proved. */
+static double optimum(const thr_branch *branch)
 {
   return branch->found ? (double)(branch->best_price - thr_branch_tolerance(branch)) : INFINITY;
+}
+
+/* A node of this bound is closed: the best plan is near enough to it. */
+static double enough(const thr_branch *branch)
+{
+  const double gap = branch->c->task->free_turns ? 0 : branch->limits->gap;
+  return branch->found ? fmin(optimum(branch), (double)branch->best_price / (1 + gap)) : INFINITY;
 }
 
 static bool closed(const thr_branch *branch, int i)
@@ -242,8 +249,7 @@ static thr_status look(void *user, thr_err *err)
   branch->rounds++;
   search->whole = solved && branch->relax.artificial < integral && most_fractional(&branch->relax) < 0;
   thr_status st = search->whole ? thr_branch_try_whole(branch, err) : solved ? thr_branch_try_rounded(branch, err) : THR_OK;
-  double target = ldexp((double)(branch->best_price - thr_branch_tolerance(branch)), -THR_TURNING_BITS);
-  search->enough = search->objective >= target;
+  search->enough = search->objective >= ldexp(enough(branch), -THR_TURNING_BITS);
   return st;
 }
 
@@ -414,7 +420,7 @@ static thr_status find_symmetries(thr_branch *branch, thr_err *err)
 static thr_status count_ranks(thr_branch *branch, thr_err *err)
 {
   const thr_limits search = limits_of_search(branch);
-  if (!branch->found || !is_weak(branch)) return THR_OK;
+  if (!branch->found || closed(branch, 0) || !is_weak(branch)) return THR_OK;
   thr_status st = find_symmetries(branch, err);
   return st ? st : thr_branch_ranks(branch, &search, err);
 }
@@ -494,7 +500,7 @@ thr_status thr_branch_run(thr_branch *branch, thr_err *err)
  * leaves may be left out where the bound hardly rises. */
 static double worth_proving(const thr_branch *branch)
 {
-  double target = enough(branch), least = target;
+  double target = optimum(branch), least = target;
   for (int i = 0; i < branch->tree.n_nodes; i++)
     if (!branch->tree.node[i].child[0]) least = fmin(least, branch->tree.node[i].bound);
   return least - (branch->found ? (target - least) / 1000 : 0);

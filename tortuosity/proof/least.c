@@ -313,7 +313,9 @@ static thr_status search_from_shortest(const thr_frame *frame, const thr_least_o
   again.length_slack = -1;
   again.cost = THR_TURN_ANGLE;
   again.price_per_length = dear_length(frame, options->cover);
-  thr_status st = search(frame, &again, limits, &shortest, &found);
+  thr_limits exact = *limits;
+  exact.gap = 0;
+  thr_status st = search(frame, &again, &exact, &shortest, &found);
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", found.text);
   again = *options;
   again.start = shortest.cord;
