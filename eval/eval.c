@@ -97,7 +97,7 @@ static thr_status follow_schedule(const thr_frame *frame, const thr_cord *cord, 
   if (options->hand > 0) st = thr_history_grips(cord, options->hand, evaluation, &evaluation->schedule, err);
   for (int k = 0; options->schedule && k < options->schedule->n && !st; k++)
     st = thr_schedule_add(&evaluation->schedule, &options->schedule->step[k], err);
-  return st || evaluation->schedule.n == 0 ? st : thr_history_follow(frame, cord, &evaluation->schedule, evaluation, err);
+  return st || evaluation->schedule.n == 0 ? st : thr_history_follow(frame, cord, evaluation, err);
 }
 
 static thr_status sum_up(const thr_frame *frame, const thr_cord *cord, thr_eval *eval, thr_err *err)

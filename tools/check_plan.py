@@ -2545,14 +2545,6 @@ def colour(tension, low, high):
     return [a + (max(at, 0) - i) * (b - a) for a, b in zip(RAMP[i], RAMP[i + 1])]
 
 
-def from_pass(turns, at):
-    """Exponents between pass `at` and every other."""
-    sums = [0.0]
-    for x in turns:
-        sums.append(sums[-1] + x)
-    return [abs(x - sums[at]) for x in sums]
-
-
 def held(tension, exponent, physics):
     """What turns with that exponent hold against a tension, on its tight side (on its slack side if negative): with mu_power n the
     tension to the power 1 - n grows by (1 - n) x exponent x mu_tension to the same power."""
@@ -2565,45 +2557,116 @@ def held(tension, exponent, physics):
     return tension * math.exp(math.log1p(grown) / m) if grown > -1 else 0.0
 
 
-def let_down(tension, turns, end, force, physics):
-    new = list(tension)
-    for at in {"start": (0,), "end": (-1,), "both": (0, -1)}[end]:
-        new = [min(x, held(force, between, physics)) for x, between in zip(new, from_pass(turns, at))]
-    return new
+class Rope:
+    """One cord while its schedule is followed: docs/plan-format.md, "A step of a schedule". largest: for tension_most."""
 
+    def __init__(self, turns, metres, physics, largest):
+        self.turns, self.metres, self.physics, self.largest = turns, metres, physics, largest
+        self.tension, self.free, self.kept = [0.0] * len(metres), {"start", "end"}, None
+        self.sums = [0.0]
+        for x in turns:
+            self.sums.append(self.sums[-1] + x)
 
-def raised(tension, turns, at, force, physics):
-    return [max(x, held(force, -between, physics)) for x, between in zip(tension, from_pass(turns, at))]
+    def raise_from(self, at, force, low, high):
+        for k in range(low, high + 1):
+            self.tension[k] = max(self.tension[k], held(force, -abs(self.sums[k] - self.sums[at]), self.physics))
 
+    def lowered(self, end, force):
+        new = self.tension
+        for at in {"start": (0,), "end": (-1,), "both": (0, -1)}[end]:
+            new = [min(x, held(force, abs(s - self.sums[at]), self.physics)) for x, s in zip(new, self.sums)]
+        return new
 
-def after_step(tension, turns, s, metres, physics):
-    """A pull raises what slides towards it, letting down lowers what the turns do not hold."""
-    at = s["pass"]
-    if s["do"] == "release":
-        return let_down(tension, turns, s["end"], s["force"], physics)
-    if s["do"] == "knot":
-        return slip(tension, turns, s, metres, physics) if s["slip"] else tension
-    if s["do"] == "pull":
-        for k in {"start": (0,), "end": (-1,), "both": (0, -1)}[s["end"]]:
-            tension = raised(tension, turns, k, s["force"], physics)
-        return tension
-    require(at < len(tension), "evaluation.schedule: a grip beyond the cord")
-    low, high = at if s["end"] == "end" else 0, at if s["end"] == "start" else len(tension) - 1
-    return [x if low <= k <= high else old for k, (x, old) in enumerate(zip(raised(tension, turns, at, s["force"], physics), tension))]
+    def do(self, s):
+        last, ends = len(self.tension) - 1, {"start", "end"} if s["end"] == "both" else {s["end"]}
+        if s["do"] == "pull":
+            self.free, self.kept = set(), None
+            for end in ends:
+                self.raise_from(0 if end == "start" else last, s["force"], 0, last)
+            self.settle()
+        elif s["do"] == "grip":
+            at, sides = s["pass"], ends - self.free
+            require(at <= last, "evaluation.schedule: a grip beyond the cord")
+            if sides:
+                self.raise_from(at, s["force"], 0 if "start" in sides else at, last if "end" in sides else at)
+            self.kept = None if len(sides) != 1 else at if "start" in sides else at - 1
+            self.settle()
+        else:
+            if s["do"] == "release" or s["slip"]:
+                self.rest()
+                self.tension = self.lowered(s["end"], s["force"]) if s["do"] == "release" else self.slipped(s)
+            self.free -= ends
 
+    def rest(self):
+        self.kept = None
+        self.settle()
 
-def slip(tension, turns, s, metres, physics):
-    """Until the cord is shorter by the slip: sum of (tension lost) x length / EA."""
-    stiffness = physics["stiffness"]
-    require(stiffness > 0, "evaluation.schedule: a knot slips, but the stiffness is not known")
-    shorter = lambda new: math.fsum((a - b) * m for a, b, m in zip(tension, new, metres)) / stiffness * 1000
-    low, high = 0.0, max(tension[0], tension[-1])
-    if shorter(let_down(tension, turns, s["end"], 0.0, physics)) <= s["slip"]:
-        return let_down(tension, turns, s["end"], 0.0, physics)
-    for _ in range(200):
-        middle = (low + high) / 2
-        low, high = (middle, high) if shorter(let_down(tension, turns, s["end"], middle, physics)) > s["slip"] else (low, middle)
-    return let_down(tension, turns, s["end"], high, physics)
+    def slipped(self, s):
+        """Until the cord is shorter by the slip: sum of (tension lost) x length / EA."""
+        stiffness = self.physics["stiffness"]
+        require(stiffness > 0, "evaluation.schedule: a knot slips, but the stiffness is not known")
+        shorter = lambda new: math.fsum((a - b) * m for a, b, m in zip(self.tension, new, self.metres)) / stiffness * 1000
+        low, high = 0.0, max(self.tension[0], self.tension[-1])
+        if shorter(self.lowered(s["end"], 0.0)) <= s["slip"]:
+            return self.lowered(s["end"], 0.0)
+        for _ in range(200):
+            middle = (low + high) / 2
+            low, high = (middle, high) if shorter(self.lowered(s["end"], middle)) > s["slip"] else (low, middle)
+        return self.lowered(s["end"], high)
+
+    def fails(self, k):
+        """1 if the pass before turn k is tighter than the turn holds, -1 if the one behind it is, else 0."""
+        if k == self.kept:
+            return 0
+        a, b = self.tension[k], self.tension[k + 1]
+        if a <= b:
+            return -(b > held(a, self.turns[k], self.physics) * (1 + 1e-12))
+        return int(a > held(b, self.turns[k], self.physics) * (1 + 1e-12))
+
+    def settle(self):
+        t, n = self.tension, len(self.tension)
+        if self.physics["stiffness"] > 0:
+            for k in range(n - 1):
+                if self.fails(k):
+                    self.slip_over(k, self.fails(k) > 0)
+        else:
+            take, sign = (max, -1) if self.largest else (min, 1)
+            for k in range(n - 1):
+                if k != self.kept:
+                    t[k + 1] = take(t[k + 1], held(t[k], sign * self.turns[k], self.physics))
+            for k in range(n - 2, -1, -1):
+                if k != self.kept:
+                    t[k] = take(t[k], held(t[k + 1], sign * self.turns[k], self.physics))
+        for end, way in (("start", range(n)), ("end", range(n - 1, -1, -1))):
+            most = 0.0
+            for k in way if end in self.free else ():
+                turn = k if end == "start" else k - 1
+                t[k] = min(t[k], most)
+                if turn == self.kept or not 0 <= turn < n - 1:
+                    break
+                most = held(most, self.turns[turn], self.physics)
+
+    def slip_over(self, k, falls):
+        """Passes a .. b come to differ by all that the turns between hold, their stretch kept, as few as hold against those beside."""
+        t, a, b = self.tension, k, k + 1
+        while True:
+            tight = self.sums[a if falls else b]
+            shares = lambda force: [held(force, -abs(s - tight), self.physics) for s in self.sums[a:b + 1]]
+            stretch = lambda row: math.fsum(x * m for x, m in zip(row, self.metres[a:]))
+            want, low, high = stretch(t[a:b + 1]), 0.0, max(t[a:b + 1])
+            if self.physics["mu_power"] in (0, 1):
+                low = high = want / stretch(shares(1.0))
+            for _ in range(200 if low < high else 0):
+                middle = (low + high) / 2
+                low, high = (middle, high) if stretch(shares(middle)) < want else (low, middle)
+            row = shares(high)
+            more = lambda x, y, turn: x > held(y, self.turns[turn], self.physics) * (1 + 1e-12)
+            wider_a = a > 0 and a - 1 != self.kept and (more(t[a - 1], row[0], a - 1) if falls else more(row[0], t[a - 1], a - 1))
+            wider_b = b < len(t) - 1 and b != self.kept and (more(row[-1], t[b + 1], b) if falls else more(t[b + 1], row[-1], b))
+            if not (wider_a or wider_b):
+                t[a:b + 1] = row
+                return
+            a, b = a - wider_a, b + wider_b
 
 
 class Pulled:
@@ -2612,7 +2675,7 @@ class Pulled:
     def __init__(self, p, e, o, i):
         self.place, cord = f"evaluation.cords[{i}]", p.cords[i]
         require(type(o) is dict, f"{self.place}: not an object")
-        known(o, "id known pull turning taut_turning force other_force loss work error slackest refused tension colours exponents", self.place)
+        known(o, "id known pull turning taut_turning force other_force loss work error slackest refused tension tension_most colours exponents", self.place)
         require(member(o, "id", "text", self.place) == cord.id, f"{self.place}.id: not {cord.id}")
         self.pull = choice(o, "pull", self.place, ("start", "end", "both", "none"))
         self.force = self.other = 0
@@ -2635,6 +2698,7 @@ class Pulled:
         if e.taut:
             total = e.physics["mu"] * (values["taut_turning"] - math.fsum(self.angles)) + math.fsum(self.exponents_by_law(e))
             near(math.fsum(self.steps), total, 1 + e.physics["mu"] * math.fsum(self.angles), f"{self.place}.exponents: their sum")
+        require(bool(e.steps) or "tension_most" not in o, f"{self.place}.tension_most: without a schedule")
         if e.steps:
             self.check_schedule(e, o, values, [s for s in e.steps if s["cord"] == cord.id])
             return
@@ -2664,15 +2728,24 @@ class Pulled:
         """The tensions that the steps leave, each the least or the largest state that the turns allow, turn after turn."""
         turns = self.steps
         near(values["turning"], math.fsum(self.angles), 1 + values["turning"], self.place + ".turning")
-        require(self.pull == "both", f"{self.place}.pull: after a schedule")
-        left = [0.0] * len(self.tension)
-        for s in steps:
-            left = after_step(left, turns, s, self.metres, e.physics)
-        require(max(left) > 0, f"{self.place}: the schedule leaves no tension")
-        for k, (stated, x) in enumerate(zip(self.tension, left)):
-            near(stated, x, max(x, 1e-6 * max(left)), f"{self.place}.tension[{k}]")
+        slack = [s["do"] for s in steps] == ["none"]
+        require(steps and (slack or all(s["do"] != "none" for s in steps)), f"{self.place}: none is the only step of a cord, and each cord has a step")
+        require(self.pull == ("none" if slack else "both"), f"{self.place}.pull: after a schedule")
+        require(not slack or not any(self.tension) and "tension_most" not in o, f"{self.place}: the schedule leaves it slack")
+        most = self.tension
+        if "tension_most" in o:
+            most = [member({"x": x}, "x", "number", self.place, 0) for x in member(o, "tension_most", "list", self.place)]
+            require(len(most) == len(self.tension), f"{self.place}.tension_most: not one per pass")
+        for key, stated, largest in (("tension", self.tension, False), ("tension_most", most, True)):
+            rope = Rope(turns, self.metres, e.physics, largest)
+            for s in steps if not slack else ():
+                rope.do(s)
+            rope.rest()
+            for k, (x, y) in enumerate(zip(stated, rope.tension)):
+                near(x, y, max(y, 1e-6 * max(rope.tension)), f"{self.place}.{key}[{k}]")
         hardest = max([s["force"] for s in steps if s["do"] in ("pull", "grip")], default=0)
-        for key, value in (("force", hardest), ("other_force", 0), ("work", hardest), ("loss", 1 - self.tension[self.slackest] / hardest)):
+        loss = 1 - self.tension[self.slackest] / hardest if hardest else 0
+        for key, value in (("force", hardest), ("other_force", 0), ("work", hardest), ("loss", loss)):
             near(values[key], value, max(value, 1), f"{self.place}.{key}")
         require(self.tension[self.slackest] == min(self.tension), f"{self.place}.slackest: not the least tension")
         require(e.method == "joint" or e.taut or values["taut_turning"] == values["turning"], f"{self.place}.taut_turning: not the turning")
@@ -2990,10 +3063,12 @@ class Evaluation:
     def step(self, p, o):
         place = "evaluation.schedule"
         known(o, "cord do end pass force slip", place)
-        do, end = choice(o, "do", place, ("pull", "grip", "release", "knot")), choice(o, "end", place, ("start", "end", "both"))
+        do = choice(o, "do", place, ("pull", "grip", "release", "knot", "none"))
+        require(("end" in o) == (do != "none"), f"{place}: end: not for {do}")
+        end = choice(o, "end", place, ("start", "end", "both")) if do != "none" else "both"
         cord = member(o, "cord", "text", place)
         require(cord in [c.id for c in p.cords], f"{place}: no such cord")
-        require(("pass" in o) == (do == "grip") and ("force" in o) == (do != "knot") and ("slip" in o) == (do == "knot"), f"{place}: not for {do}")
+        require(("pass" in o) == (do == "grip") and ("force" in o) == (do not in ("knot", "none")) and ("slip" in o) == (do == "knot"), f"{place}: not for {do}")
         return {"cord": cord, "do": do, "end": end, "pass": member(o, "pass", "integer", place, 0, default=0),
                 "force": member(o, "force", "number", place, 0, default=0), "slip": member(o, "slip", "number", place, 0, default=0)}
 

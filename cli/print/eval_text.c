@@ -175,7 +175,7 @@ static void put_grips(thr_text *text, const thr_plan *plan)
     thr_text_printf(text, "with %d %s on the way no pull is above %s (--hand %g), and more cords need less (thread advise)\n",
                     grips, cli_plural(grips, "grip", "grips"), plain_force(thr_hand_most, force), thr_hand_most);
   else if (st == THR_EINPUT)
-    thr_text_append(text, "one turn alone takes more than a hand: more cords, or a smoother cord, need less (thread advise)\n");
+    thr_text_append(text, "the seating tension alone is more than a hand: no grips help\n");
   else
     text->failed = true;
   thr_schedule_destroy(&schedule);
@@ -416,11 +416,16 @@ static void put_tension(thr_text *text, const thr_plan *plan, const thr_evaluati
   for (int i = 0; i < plan->n_cords; i++) {
     const thr_cord *cord = &plan->cord[i];
     if (!evaluation->cord[i].known) continue;
-    thr_text_printf(text, "\n%-5s %6s  %-12s %-12s %12s\n", "cord", "pass", "from", "to", "tension (N)");
-    for (int k = 0; k < cord->n_passes; k++)
-      thr_text_printf(text, "%-5s %6d  %-12s %-12s %12.6g\n", cord->id, k + 1,
+    const double *most = evaluation->cord[i].most;
+    thr_text_printf(text, "\n%-5s %6s  %-12s %-12s %12s%s\n", "cord", "pass", "from", "to", "tension (N)",
+                    most ? "      at most" : "");
+    for (int k = 0; k < cord->n_passes; k++) {
+      thr_text_printf(text, "%-5s %6d  %-12s %-12s %12.6g", cord->id, k + 1,
                       plan->frame.name[thr_tail(&plan->frame, cord->half[k])],
                       plan->frame.name[thr_head(&plan->frame, cord->half[k])], evaluation->cord[i].tension[k]);
+      if (most) put_cell(text, 12, 6, most[k], true);
+      thr_text_append(text, "\n");
+    }
   }
 }
 
@@ -438,7 +443,24 @@ static void put_schedule(thr_text *text, const thr_plan *plan)
   for (int k = 0; k < schedule->n; k++) {
     thr_text_append(text, "  ");
     thr_schedule_put_step(plan, &schedule->step[k], text);
+    if (schedule->step[k].remark) thr_text_printf(text, "   # %s", schedule->step[k].remark);
     thr_text_append(text, "\n");
+  }
+}
+
+/* Says which cords were pulled or gripped in vain. */
+static void put_slack(thr_text *text, const thr_plan *plan)
+{
+  for (int i = 0; i < plan->n_cords; i++) {
+    const thr_eval_cord *cord = &plan->evaluation.cord[i];
+    double most = 0;
+    for (int k = 0; cord->known && k < cord->n_passes; k++)
+      most = fmax(most, cord->tension[k]);
+    if (cord->known && cord->pull != THR_PULL_NONE && most == 0)
+      thr_text_printf(text,
+                      "               cord %s has none, as an end is free or was let down to 0 N; knot or pull it, or let it\n"
+                      "               down to more\n",
+                      plan->cord[i].id);
   }
 }
 
@@ -446,14 +468,24 @@ static void put_schedule(thr_text *text, const thr_plan *plan)
 static void put_left(thr_text *text, const thr_plan *plan)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
-  double least = INFINITY, most = 0;
-  for (int i = 0; i < evaluation->n_cords; i++)
-    for (int k = 0; evaluation->cord[i].known && k < evaluation->cord[i].n_passes; k++) {
-      least = fmin(least, evaluation->cord[i].tension[k]);
-      most = fmax(most, evaluation->cord[i].tension[k]);
+  double least = INFINITY, most = 0, open = 0;
+  for (int i = 0; i < evaluation->n_cords; i++) {
+    const thr_eval_cord *cord = &evaluation->cord[i];
+    for (int k = 0; cord->known && k < cord->n_passes; k++) {
+      least = fmin(least, cord->tension[k]);
+      most = fmax(most, cord->tension[k]);
+      if (cord->most) open = fmax(open, cord->most[k]);
     }
+  }
   thr_text_printf(text, "afterwards     %.4g to %.4g N in the passes; %s\n", least, most,
                   least >= evaluation->physics.seating * (1 - 1e-9) ? "every one is seated" : "not every one is seated");
+  if (open > 0)
+    thr_text_printf(
+        text,
+        "               at least: where a grip was let go, single passes may keep more, up to %.4g N (--tension); which,\n"
+        "               the stretch of the cord decides (--stiffness)\n",
+        open);
+  put_slack(text, plan);
 }
 
 /* Does a face bear what the cords press it with? */

@@ -36,6 +36,10 @@ void thr_tighten_step(const thr_plan *plan, const thr_guide *guide, const thr_sc
       [THR_DEED_PULL] = ": pull ", [THR_DEED_RELEASE] = ": let down ", [THR_DEED_KNOT] = ": tie "};
   char force[32];
   thr_text_printf(words, "Cord %s", plan->cord[step->cord].id);
+  if (step->deed == THR_DEED_NONE) {
+    thr_text_append(words, ": leave it slack.");
+    return;
+  }
   if (step->deed == THR_DEED_GRIP) {
     put_grip(plan, guide, step, words);
     return;

@@ -157,13 +157,25 @@ static thr_status check_law(const cord_claim *k, const thr_request *request, thr
   return st;
 }
 
+/* A cord that is not pulled is slack all along. */
+static thr_status check_slack(const cord_claim *k, thr_err *err)
+{
+  for (int i = 0; i < k->c->n_passes; i++)
+    if (k->c->tension[i] != 0)
+      return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d has tension, but the cord is not pulled", k->id, i + 1);
+  return THR_OK;
+}
+
 /* After a schedule: the exponents are those of the law, and the tensions what the steps leave, worked out by the checker itself.
  */
 static thr_status check_scheduled(const cord_claim *k, int i, thr_err *err)
 {
   const thr_eval_cord *eval_cord = k->c;
   const double hardest = thr_schedule_hardest(&k->e->schedule, i);
-  if (eval_cord->pull != THR_PULL_BOTH)
+  const bool slack = thr_schedule_slack(&k->e->schedule, i);
+  if (slack && (eval_cord->pull != THR_PULL_NONE || eval_cord->most))
+    return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: the schedule leaves it slack", k->id);
+  if (!slack && eval_cord->pull != THR_PULL_BOTH)
     return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pull: after a schedule it says both", k->id);
   thr_status st = evaluated(k, "force", eval_cord->force, hardest, err);
   if (!st) st = evaluated(k, "other_force", eval_cord->other_force, 0, err);
@@ -173,16 +185,8 @@ static thr_status check_scheduled(const cord_claim *k, int i, thr_err *err)
     if (!thr_check_close(eval_cord->exponent[j], law_exponent(k, j), 1))
       st = thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: exponents[%d]: stated %.12g, but the %s law gives %.12g", k->id,
                     j, eval_cord->exponent[j], thr_law_name(k->e->law), law_exponent(k, j));
-  return st ? st : thr_check_schedule(k->f, k->cord, &k->e->schedule, i, &k->e->physics, eval_cord, err);
-}
-
-/* A cord that is not pulled is slack all along. */
-static thr_status check_slack(const cord_claim *k, thr_err *err)
-{
-  for (int i = 0; i < k->c->n_passes; i++)
-    if (k->c->tension[i] != 0)
-      return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d has tension, but the cord is not pulled", k->id, i + 1);
-  return THR_OK;
+  if (st || slack) return st ? st : check_slack(k, err);
+  return thr_check_schedule(k->f, k->cord, &k->e->schedule, i, &k->e->physics, eval_cord, err);
 }
 
 static thr_status check_cord_evaluation(const thr_plan *plan, int i, thr_err *err)

@@ -37,6 +37,7 @@ void thr_evaluation_destroy(thr_evaluation *evaluation)
   for (int i = 0; i < evaluation->n_cords; i++) {
     free(evaluation->cord[i].tension);
     free(evaluation->cord[i].turn);
+    free(evaluation->cord[i].most);
     free(evaluation->cord[i].exponent);
   }
   thr_schedule_destroy(&evaluation->schedule);
@@ -83,13 +84,19 @@ void thr_tension_colour(const double range[2], double tension, char hex[8])
 
 /* ---- writing ---- */
 
-static void put_tension(thr_writer *writer, const thr_eval_cord *cord, const double range[2])
+static void put_numbers(thr_writer *writer, const char *key, const double *number, int n)
 {
   thr_write_line(writer, 5);
-  thr_write_row(writer, "tension");
-  for (int k = 0; k < cord->n_passes; k++)
-    thr_write_number(writer, NULL, cord->tension[k]);
+  thr_write_row(writer, key);
+  for (int k = 0; k < n; k++)
+    thr_write_number(writer, NULL, number[k]);
   thr_write_close(writer);
+}
+
+static void put_tension(thr_writer *writer, const thr_eval_cord *cord, const double range[2])
+{
+  put_numbers(writer, "tension", cord->tension, cord->n_passes);
+  if (cord->most) put_numbers(writer, "tension_most", cord->most, cord->n_passes);
   thr_write_line(writer, 5);
   thr_write_row(writer, "colours");
   for (int k = 0; k < cord->n_passes; k++) {
@@ -97,15 +104,6 @@ static void put_tension(thr_writer *writer, const thr_eval_cord *cord, const dou
     thr_tension_colour(range, cord->tension[k], hex);
     thr_write_string(writer, NULL, hex);
   }
-  thr_write_close(writer);
-}
-
-static void put_exponents(thr_writer *writer, const thr_eval_cord *cord)
-{
-  thr_write_line(writer, 5);
-  thr_write_row(writer, "exponents");
-  for (int k = 0; k + 1 < cord->n_passes; k++)
-    thr_write_number(writer, NULL, cord->exponent[k]);
   thr_write_close(writer);
 }
 
@@ -129,7 +127,7 @@ static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const
     thr_write_number(writer, "error", cord->error);
     thr_write_int(writer, "slackest", cord->slackest);
     thr_write_int(writer, "refused", cord->refused);
-    if (exponents) put_exponents(writer, cord);
+    if (exponents) put_numbers(writer, "exponents", cord->exponent, cord->n_passes - 1);
     put_tension(writer, cord, range);
   }
   thr_write_close(writer);
@@ -237,23 +235,24 @@ static thr_status read_tension(const reader *r, const thr_json *object, thr_eval
   return THR_OK;
 }
 
-static thr_status read_exponents(const reader *r, const thr_json *object, thr_eval_cord *cord)
+/* Reads a list of n numbers from 0 on into *number; NULL if the member is not there. */
+static thr_status read_numbers(const reader *r, const thr_json *object, const char *key, int n, double **number)
 {
-  const thr_json *list = thr_json_get(object, "exponents");
+  const thr_json *list = thr_json_get(object, key);
   if (!list) return THR_OK;
-  const int n = cord->n_passes - 1;
-  if (thr_json_typeof(list) != THR_JSON_ARRAY || thr_json_size(list) != n) return bad(r, "exponents", "not one per turn");
-  if (!(cord->exponent = thr_calloc((size_t)n + 1, sizeof *cord->exponent))) return thr_nomem(r->err);
+  if (thr_json_typeof(list) != THR_JSON_ARRAY || thr_json_size(list) != n) return bad(r, key, "not one per pass or turn");
+  if (!(*number = thr_calloc((size_t)n + 1, sizeof **number))) return thr_nomem(r->err);
   for (int k = 0; k < n; k++)
-    if (!thr_json_number(thr_json_at(list, k), &cord->exponent[k]) || !(cord->exponent[k] >= 0))
-      return thr_fail(r->err, THR_EVIOLATED, "%s.exponents[%d]: not a number from 0 on", r->place, k);
+    if (!thr_json_number(thr_json_at(list, k), &(*number)[k]) || !((*number)[k] >= 0))
+      return thr_fail(r->err, THR_EVIOLATED, "%s.%s[%d]: not a number from 0 on", r->place, key, k);
   return THR_OK;
 }
 
 static thr_status read_cord(const reader *r, const thr_json *object, int i, thr_eval_cord *cord)
 {
-  static const char *const all[] = {"id",   "known", "pull",     "turning", "taut_turning", "force",   "other_force", "loss",
-                                    "work", "error", "slackest", "refused", "tension",      "colours", "exponents",   NULL};
+  static const char *const all[] = {"id",      "known",     "pull",  "turning",  "taut_turning", "force",   "other_force",
+                                    "loss",    "work",      "error", "slackest", "refused",      "tension", "tension_most",
+                                    "colours", "exponents", NULL};
   static const char *const unknown[] = {"id", "known", "pull", NULL};
   char name[12];
   thr_cord_id(i, name);
@@ -279,7 +278,8 @@ static thr_status read_cord(const reader *r, const thr_json *object, int i, thr_
   for (size_t k = 0; k < sizeof number / sizeof *number && !st; k++)
     st = get_double(r, object, number[k].key, number[k].to);
   if (!st) st = read_tension(r, object, cord);
-  if (!st) st = read_exponents(r, object, cord);
+  if (!st) st = read_numbers(r, object, "exponents", cord->n_passes - 1, &cord->exponent);
+  if (!st) st = read_numbers(r, object, "tension_most", cord->n_passes, &cord->most);
   if (!st) st = get_int(r, object, "slackest", cord->n_passes - 1, &slackest);
   if (!st) st = get_int(r, object, "refused", cord->n_passes - 1, &refused);
   cord->slackest = (int)slackest;
@@ -346,6 +346,8 @@ static thr_status read_schedule(const reader *r, const thr_json *object, thr_eva
   for (int i = 0; i < evaluation->n_cords && !st; i++)
     if (evaluation->cord[i].known && thr_evaluation_exponents(evaluation) != (evaluation->cord[i].exponent != NULL))
       st = bad(r, "cords", "exponents come with a schedule, or with turns of the tight cord, of all cords that are known");
+  for (int i = 0; i < evaluation->n_cords && !st && !list; i++)
+    if (evaluation->cord[i].most) st = bad(r, "cords", "tension_most comes with a schedule");
   return st;
 }
 

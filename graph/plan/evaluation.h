@@ -18,14 +18,15 @@ typedef enum {
 } thr_law;
 
 /* One thing that is done to a cord (graph/plan/schedule.h). */
-typedef enum { THR_DEED_PULL, THR_DEED_GRIP, THR_DEED_RELEASE, THR_DEED_KNOT, THR_N_DEEDS } thr_deed;
+typedef enum { THR_DEED_PULL, THR_DEED_GRIP, THR_DEED_RELEASE, THR_DEED_KNOT, THR_DEED_NONE, THR_N_DEEDS } thr_deed;
 typedef struct {
   thr_deed deed;
   int cord;
-  thr_pull end; /* of pull, release and knot: which end(s). Of a grip: from which side(s) the cord is drawn. Never none */
-  int pass;     /* of a grip, counted from 0 */
-  double force; /* N; of a knot 0 */
-  double slip;  /* of a knot, mm of cord that it gives back; else 0 */
+  thr_pull end;       /* of pull, release and knot: which end(s). Of a grip: from which side(s) the cord is drawn. Never none */
+  int pass;           /* of a grip, counted from 0 */
+  double force;       /* N; of a knot 0 */
+  double slip;        /* of a knot, mm of cord that it gives back; else 0 */
+  const char *remark; /* what its giver may not have meant, or NULL; not in plans */
 } thr_schedule_step;
 typedef struct {
   int n, room;
@@ -45,7 +46,8 @@ typedef struct {
   double error;        /* the force is right within a factor exp(+-error) but for what refused turns add; 0 for closed forms */
   int slackest;        /* pass with the least tension, counted from 0 */
   int refused;         /* turns not measured (too sharp, out of range, unsteady): the closed form stands in for them */
-  double *tension;     /* [n_passes] N; owned */
+  double *tension;     /* [n_passes] N; after a schedule the least that may be in them; owned */
+  double *most;        /* [n_passes] N that may be in them where a schedule leaves that open, or NULL; owned */
   double *turn; /* [n_passes - 1] rad: of the tight cord, where method structure counts those; else NULL; owned, not in plans */
   double *exponent; /* [n_passes - 1] ln of the ratio of the tensions that a turn holds apart, or NULL; in the plan only with
                        a schedule or turns of the tight cord (thr_standing); owned */

@@ -18,7 +18,8 @@ static double moved(const thr_friction *friction, double tension, double exponen
 
 double thr_friction_more(const thr_friction *friction, double tension, double exponent)
 {
-  return friction->power == 1 ? tension * exp(exponent) : moved(friction, tension, exponent);
+  if (friction->power == 1) return tension > 0 ? tension * exp(exponent) : 0; /* exp(..) may be past all numbers */
+  return moved(friction, tension, exponent);
 }
 
 double thr_friction_less(const thr_friction *friction, double tension, double exponent)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const deed_name[THR_N_DEEDS] = {"pull", "grip", "release", "knot"};
+static const char *const deed_name[THR_N_DEEDS] = {"pull", "grip", "release", "knot", "none"};
 
 const char *thr_deed_name(int deed)
 {
@@ -36,6 +36,22 @@ double thr_schedule_hardest(const thr_schedule *schedule, int i)
     if (pulls && (i < 0 || step->cord == i)) hardest = fmax(hardest, step->force);
   }
   return hardest;
+}
+
+int thr_schedule_steps(const thr_schedule *schedule, int i)
+{
+  int n = 0;
+  for (int k = 0; k < schedule->n; k++)
+    n += schedule->step[k].cord == i;
+  return n;
+}
+
+bool thr_schedule_slack(const thr_schedule *schedule, int i)
+{
+  bool slack = false;
+  for (int k = 0; k < schedule->n; k++)
+    slack |= schedule->step[k].cord == i && schedule->step[k].deed == THR_DEED_NONE;
+  return slack;
 }
 
 int thr_schedule_grips(const thr_schedule *schedule, int i)
@@ -68,6 +84,11 @@ int thr_schedule_pulls(const thr_schedule *schedule)
 
 /* ---- plan.json ---- */
 
+static bool has_force(thr_deed deed)
+{
+  return deed != THR_DEED_KNOT && deed != THR_DEED_NONE;
+}
+
 void thr_schedule_write(const thr_schedule *schedule, thr_writer *writer, const char *key)
 {
   thr_write_array(writer, key);
@@ -79,9 +100,9 @@ void thr_schedule_write(const thr_schedule *schedule, thr_writer *writer, const 
     thr_write_object(writer, NULL);
     thr_write_string(writer, "cord", id);
     thr_write_string(writer, "do", thr_deed_name(step->deed));
-    thr_write_string(writer, "end", thr_pull_name(step->end));
+    if (step->deed != THR_DEED_NONE) thr_write_string(writer, "end", thr_pull_name(step->end));
     if (step->deed == THR_DEED_GRIP) thr_write_int(writer, "pass", step->pass);
-    if (step->deed != THR_DEED_KNOT) thr_write_number(writer, "force", step->force);
+    if (has_force(step->deed)) thr_write_number(writer, "force", step->force);
     if (step->deed == THR_DEED_KNOT) thr_write_number(writer, "slip", step->slip);
     thr_write_close(writer);
   }
@@ -130,13 +151,13 @@ static const char *read_step(const thr_json *object, int n_cords, thr_schedule_s
   if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
   *step = (thr_schedule_step){.cord = cord_of(thr_json_string(thr_json_get(object, "cord")), n_cords)};
   if (step->cord < 0) return "cord: there is no such cord";
-  if (deed < 0) return "do: expected pull, grip, release or knot";
-  if (end < 0) return "end: expected start, end or both";
+  if (deed < 0) return "do: expected pull, grip, release, knot or none";
+  if (deed == THR_DEED_NONE ? thr_json_get(object, "end") != NULL : end < 0) return "end: expected start, end or both";
   step->deed = (thr_deed)deed;
-  step->end = (thr_pull)end;
+  step->end = deed == THR_DEED_NONE ? THR_PULL_BOTH : (thr_pull)end;
   if (!number_if(object, "pass", deed == THR_DEED_GRIP, &pass) || pass != floor(pass) || pass > 1e9)
     return "pass: not that of a grip";
-  if (!number_if(object, "force", deed != THR_DEED_KNOT, &step->force)) return "force: not a number of newtons for this";
+  if (!number_if(object, "force", has_force((thr_deed)deed), &step->force)) return "force: not a number of newtons for this";
   if (!number_if(object, "slip", deed == THR_DEED_KNOT, &step->slip)) return "slip: not a length for this";
   step->pass = (int)pass;
   return NULL;
@@ -153,6 +174,9 @@ thr_status thr_schedule_from_json(thr_schedule *schedule, const thr_json *array,
     const char *wrong = read_step(thr_json_at(array, k), n_cords, &step);
     st = wrong ? thr_fail(err, THR_EVIOLATED, "%s[%d]: %s", place, k, wrong) : thr_schedule_add(schedule, &step, err);
   }
+  for (int i = 0; i < n_cords && !st; i++)
+    if (thr_schedule_slack(schedule, i) && thr_schedule_steps(schedule, i) > 1)
+      st = thr_fail(err, THR_EVIOLATED, "%s: none is the only step of a cord", place);
   if (st) thr_schedule_destroy(schedule);
   return st;
 }

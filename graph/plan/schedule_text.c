@@ -91,6 +91,8 @@ static thr_status read_grip(reader *r, const thr_cord *cord, thr_schedule_step *
 static thr_status read_deed(reader *r, const thr_cord *cord, thr_schedule_step *step)
 {
   if (step->deed == THR_DEED_GRIP) return read_grip(r, cord, step);
+  step->end = THR_PULL_BOTH;
+  if (step->deed == THR_DEED_NONE) return THR_OK;
   thr_status st = read_end(r, thr_span_word(&r->rest), &step->end);
   if (st) return st;
   if (step->deed != THR_DEED_KNOT) return read_amount(r, thr_span_word(&r->rest), "a force in newton", &step->force);
@@ -117,7 +119,7 @@ static thr_status read_step(reader *r, thr_span text, thr_schedule *schedule)
   int deed = 0, found = 0;
   while (deed < THR_N_DEEDS && !thr_span_is(verb, thr_deed_name(deed)))
     deed++;
-  if (deed == THR_N_DEEDS) return expected(r, verb, "pull, grip, release or knot");
+  if (deed == THR_N_DEEDS) return expected(r, verb, "pull, grip, release, knot or none");
   thr_status st = THR_OK;
   for (int i = 0; i < r->plan->n_cords && !st; i++) {
     if (!thr_span_is(who, "all") && !thr_span_is(who, r->plan->cord[i].id)) continue;
@@ -157,6 +159,9 @@ thr_status thr_schedule_parse(thr_schedule *schedule, const thr_plan *plan, cons
   thr_status st = thr_scan_start(&scan, text, n, name, err);
   while (!st && thr_scan_line(&scan, &line))
     st = read_line(&r, line, schedule);
+  for (int i = 0; i < plan->n_cords && !st; i++)
+    if (thr_schedule_slack(schedule, i) && thr_schedule_steps(schedule, i) > 1)
+      st = thr_fail(err, THR_EINPUT, "%s: cord %s: none is a cord's only step: it stays slack", name, plan->cord[i].id);
   if (!st && schedule->n == 0)
     st = thr_fail(err, THR_EINPUT, "%s: no step in it; expected for instance \"A: pull both 20\"", name);
   return st;
@@ -168,7 +173,9 @@ void thr_schedule_put_step(const thr_plan *plan, const thr_schedule_step *step, 
 {
   const thr_cord *cord = &plan->cord[step->cord];
   const thr_frame *frame = &plan->frame;
-  thr_text_printf(text, "%s: %s ", cord->id, thr_deed_name(step->deed));
+  thr_text_printf(text, "%s: %s", cord->id, thr_deed_name(step->deed));
+  if (step->deed == THR_DEED_NONE) return;
+  thr_text_append(text, " ");
   if (step->deed == THR_DEED_GRIP) {
     thr_text_printf(text, "%d %.4g", step->pass + 1, step->force);
     if (step->end != THR_PULL_BOTH) thr_text_printf(text, " from %s", thr_pull_name(step->end));

@@ -60,7 +60,9 @@ static double part_after(const thr_frame *f, const thr_plan *p, thr_pull end, in
   thr_schedule schedule = {0};
   for (int i = 0; i < p->n_cords; i++) {
     const double with = only < 0 || i == only ? force : 1e-9; /* a schedule leaves no cord slack */
-    ck_assert_int_eq(thr_schedule_add(&schedule, &(thr_schedule_step){THR_DEED_PULL, i, end, 0, with, 0}, NULL), THR_OK);
+    ck_assert_int_eq(
+        thr_schedule_add(&schedule, &(thr_schedule_step){.deed = THR_DEED_PULL, .cord = i, .end = end, .force = with}, NULL),
+        THR_OK);
   }
   thr_evaluation e = evaluated(f, p, THR_PULL_BOTH, &schedule);
   const double part = e.seated;
