@@ -60,7 +60,8 @@ static void write_axes(const picture *p, thr_text *text)
     taken = x + half;
   }
   thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fv%.2fh%.2f\"/>\n", p->x, p->y, p->height, p->width);
-  thr_svg_text(text, p->x + p->width / 2, p->y + p->height + 5.5 + TEXT_SIZE, TEXT_SIZE, " class=\"middle\"", "pull at all ends");
+  thr_svg_text(text, p->x + p->width / 2, p->y + p->height + 5.5 + TEXT_SIZE, TEXT_SIZE, " class=\"middle\"",
+               "pull at all ends (log scale)");
 }
 
 /* From what is carried to what is too much. */

@@ -70,6 +70,7 @@ void thr_pull_grid(const thr_pull_axis *axis, thr_text *text)
     decade_words(power, words);
     thr_svg_text(text, axis->x - 1.6, y + 0.36 * SMALL, SMALL, " class=\"end\"", words);
   }
+  thr_svg_text(text, axis->x - 1.6, axis->y - 0.9 * SMALL, SMALL, " class=\"end\"", "log scale");
 }
 
 void thr_pull_within(const thr_pull_axis *axis, double hand, thr_text *text)

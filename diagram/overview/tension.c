@@ -388,7 +388,7 @@ static double write_one_panel(plot *s, double y, thr_text *text)
   s->y = y + TEXT_SIZE;
   s->width = WIDTH - LEFT - LABELS;
   s->height = PANEL_HEIGHT;
-  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "", s->logarithmic ? "tension, N (logarithmic)" : "tension, N");
+  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "", s->logarithmic ? "tension, N (log scale)" : "tension, N");
   write_panel(s, true, true, text);
   for (int i = 0; i < s->n_shown; i++)
     write_fan(s, s->shown[i], text);
@@ -405,7 +405,7 @@ static double write_small_panels(plot *s, double y, thr_text *text)
   double gap = 5;
   s->width = (WIDTH - LEFT - (COLUMNS - 1) * gap) / COLUMNS;
   s->height = SMALL_HEIGHT;
-  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "", s->logarithmic ? "tension, N (logarithmic)" : "tension, N");
+  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "", s->logarithmic ? "tension, N (log scale)" : "tension, N");
   y += 3;
   for (int i = 0; i < s->n_shown; i++) {
     char label[96];
