@@ -1,5 +1,6 @@
 /* The capstan law, the other way round. */
 #include "eval/cord/calibrate.h"
+#include "graph/angle.h"
 
 #include <math.h>
 
@@ -25,5 +26,20 @@ thr_status thr_calibrate(const thr_weighing *weighing, int n, double angle, doub
     out->high = fmax(out->high, fmax(in, slip) + open);
   }
   out->low = fmax(out->low, 0);
+  return THR_OK;
+}
+
+thr_status thr_calibrate_tilt(const double *angle, int n, double error, thr_friction *out, thr_err *err)
+{
+  const double steepest = 80 * THR_PI / 180;
+  *out = (thr_friction){0, INFINITY, 0};
+  for (int i = 0; i < n; i++) {
+    if (!(angle[i] > 0 && angle[i] <= steepest))
+      return thr_fail(err, THR_EINPUT, "slide %d: %g degrees; a board on which a piece slides is tilted by 0 to 80 degrees",
+                      i + 1, thr_degrees(angle[i]));
+    out->mu += tan(angle[i]) / n;
+    out->low = fmin(out->low, tan(fmax(0, angle[i] - error)));
+    out->high = fmax(out->high, tan(angle[i] + error));
+  }
   return THR_OK;
 }

@@ -49,6 +49,28 @@ START_TEST(nonsense_is_refused)
 }
 END_TEST
 
+/* A board that is tilted by atan(mu) lets a piece slide; the band has every slide and a degree. */
+START_TEST(a_tilted_board_tells_friction)
+{
+  const double mu = 0.1 + 0.15 * _i, angle[] = {atan(mu), atan(mu), atan(2 * mu)}, degree = THR_PI / 180;
+  thr_friction found;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_calibrate_tilt(angle, 2, 0, &found, &err), THR_OK);
+  ck_assert_double_eq_tol(found.mu, mu, 1e-12);
+  ck_assert_double_eq_tol(found.low, mu, 1e-12);
+  ck_assert_double_eq_tol(found.high, mu, 1e-12);
+  ck_assert_int_eq(thr_calibrate_tilt(angle, 3, degree, &found, &err), THR_OK);
+  ck_assert_double_eq_tol(found.mu, 4 * mu / 3, 1e-12);
+  ck_assert_double_eq_tol(found.low, tan(atan(mu) - degree), 1e-12);
+  ck_assert_double_eq_tol(found.high, tan(atan(2 * mu) + degree), 1e-12);
+  const double bad[] = {0, -0.1, 1.5, NAN};
+  for (int i = 0; i < 4; i++) {
+    ck_assert_int_eq(thr_calibrate_tilt(&bad[i], 1, 0, &found, &err), THR_EINPUT);
+    assert_one_line(&err, "slide 1");
+  }
+}
+END_TEST
+
 /* Every edge of a triangle is that of one other, the other way round, and what is inside is arms less bore. */
 START_TEST(mesh_is_closed)
 {
@@ -90,6 +112,7 @@ int main(void)
   ADD_EXAMPLES(s, 10, capstan_law_is_undone, 6);
   ADD_TEST(s, 10, a_wrong_weight_shows_in_the_band);
   ADD_TEST(s, 10, nonsense_is_refused);
+  ADD_LOOP(s, 10, a_tilted_board_tells_friction, 0, 6);
   ADD_EXAMPLES(s, 10, mesh_is_closed, 5);
   return run_suite(s);
 }
