@@ -6,6 +6,7 @@
 #include "diagram/overview/load_chart.h"
 #include "diagram/overview/still.h"
 #include "diagram/overview/tension.h"
+#include "eval/cord/knots.h"
 #include "eval/eval.h"
 #include "eval/structure/erect.h"
 #include "eval/structure/settle.h"
@@ -20,6 +21,7 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,16 +44,19 @@ static const char help_rest[] =
     "      --hand N         the fewest grips with which no pull is above N newtons (one: 50, two: 100): where, how hard\n"
     "      --schedule TEXT  what is done to the cords, in order, and the tension that it leaves; or a file "
     "of that:\n"
-    "                       \"A: pull both 40; A: release end 5; B: grip 37 20 from start; all: knot both "
-    "0.5\"\n"
-    "                       (newtons; passes as in steps.txt, or two nodes; a knot may slip by mm: "
-    "--stiffness)\n" LOAD_HELP CALIBRATE_HELP "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
+    "                       \"A: pull both 40; A: release end 5; A: knot both 0.5; B: knot start; C: none;\n"
+    "                       B: grip 37 20 from start; B: pull end 9\" (newtons; passes as in steps.txt, or two nodes;\n"
+    "                       a knot may slip by mm: --stiffness, which grips that are let go ask for, too)\n" LOAD_HELP
+        CALIBRATE_HELP "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
     "      --plot FILE      write a plot of the tension along each cord, as SVG: with a fan over the band of "
     "mu,\n"
     "                       and with lines at what a hand manages and at --cord-strength; with --load: what is "
     "carried\n"
     "                       against pull, and which piece moves first\n"
-    "      --cord-strength N   newtons that the cord bears: says whether the pull would break it\n"
+    "      --cord-strength N   newtons that the straight cord bears: says whether the pull would break it, at its\n"
+    "                       knots or over the edges of bores, which leave half of that\n"
+    "      --knot NAME      that knot: overhand (the default, leaves 45 %), reef 45, figure-eight 48, bowline 60,\n"
+    "                       anchor 70, clove-hitch 75, two-half-hitches 75, eye-splice 95\n"
     "      --still FILE     structure: write a picture of the beads before and after the fall, as SVG\n"
     "      --stills FILE    structure: how it comes up from slack as the cords are drawn in, in stills, as SVG, and the\n"
     "                       counterweight that takes (--pull A=both,B=none: by one cord alone); -o keeps their poses\n"
@@ -80,6 +85,7 @@ enum {
   OPTION_STILL,
   OPTION_STILLS,
   OPTION_STRENGTH,
+  OPTION_KNOT,
   OPTION_SCHEDULE,
   OPTION_HAND,
   OPTION_CALIBRATE
@@ -94,6 +100,7 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"still", required_argument, NULL, OPTION_STILL},
                                       {"stills", required_argument, NULL, OPTION_STILLS},
                                       {"cord-strength", required_argument, NULL, OPTION_STRENGTH},
+                                      {"knot", required_argument, NULL, OPTION_KNOT},
                                       {"schedule", required_argument, NULL, OPTION_SCHEDULE},
                                       {"hand", required_argument, NULL, OPTION_HAND},
                                       {"calibrate", required_argument, NULL, OPTION_CALIBRATE},
@@ -107,6 +114,7 @@ typedef struct {
   const char *path, *output, *plot, *still, *stills;
   const char *schedule, *calibrate; /* as given; NULL: none */
   double strength;                  /* N, of the cord; 0 = not said */
+  int knot;                         /* of thr_knots */
 } arguments;
 
 /* Needs no plan, and nothing of cord and beads but the bore. */
@@ -142,6 +150,9 @@ static int parse(int argc, char **argv, arguments *a)
       break;
     case OPTION_STRENGTH:
       if (!cli_double("eval", "--cord-strength", optarg, 1e-6, 1e9, &a->strength)) return EXIT_USAGE;
+      break;
+    case OPTION_KNOT:
+      if (!cli_choose("eval", "--knot", optarg, thr_knot_name, thr_n_knots, &a->knot)) return EXIT_USAGE;
       break;
     case OPTION_SCHEDULE: a->schedule = optarg; break;
     case OPTION_CALIBRATE: a->calibrate = optarg; break;
@@ -372,12 +383,12 @@ static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eva
   if (!code && a->plot && eval->n_carries > 0)
     code = write_load_plot(plan, eval, a->load.load, a->plot);
   else if (!code && a->plot)
-    code = write_plot(plan, a->strength, a->plot);
+    code = write_plot(plan, a->strength * fmin(thr_knots[a->knot].left, thr_bend_left), a->plot);
   if (!code && a->still) code = write_still(plan, &eval->settle, stopped, a->still);
   if (!code && a->stills) code = write_stills(plan, &eval->erect, stopped, a->stills);
   const char *const out[] = {a->output, a->plot, a->still, a->stills};
-  const eval_view view = {a->pull.pull, a->strength, a->tension, a->load.load != NULL, a->pull.options.dynamics && !a->load.load,
-                          stopped};
+  const eval_view view = {
+      a->pull.pull, a->strength, a->knot, a->tension, a->load.load != NULL, a->pull.options.dynamics && !a->load.load, stopped};
   for (int i = 0; i < 4; i++)
     if (out[i] && strcmp(out[i], "-") == 0) return code;
   if (a->pull.json)

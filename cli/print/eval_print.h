@@ -11,6 +11,7 @@
 typedef struct {
   const char *pulled; /* which ends, as given */
   double strength;    /* N, of the cord; 0 = not said */
+  int knot;           /* at its ends, of thr_knots */
   bool tension;       /* every pass */
   bool loaded;        /* a load hangs on it */
   bool simulated;     /* the structure in simulation was asked for, too */

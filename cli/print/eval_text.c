@@ -7,6 +7,7 @@
 #include "cli/print/seated.h"
 #include "cli/pull.h"
 #include "eval/cord/history.h"
+#include "eval/cord/knots.h"
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
 #include "eval/joint/drag.h"
@@ -152,15 +153,25 @@ static void put_band(thr_text *text, const thr_evaluation *evaluation, const dou
   thr_text_append(text, "\n");
 }
 
-/* Can hand and cord do it? */
-static void put_hand(thr_text *text, double newton, double strength)
+/* Can a hand do it? */
+static void put_hand(thr_text *text, double newton)
 {
   char force[64];
   thr_text_printf(text, "%s is ", plain_force(newton, force));
   plain_put_hand(text, newton);
   thr_text_append(text, "\n");
-  if (strength > 0)
-    thr_text_printf(text, "a cord that bears %s %s\n", plain_force(strength, force), newton > strength ? "breaks" : "holds");
+}
+
+/* Says whether the cord bears the largest pull where it is weakest: at its knots, and over the edges of bores. */
+static void put_strength(thr_text *text, double newton, double strength, const thr_knot *knot)
+{
+  char force[64];
+  const double left = fmin(knot->left, thr_bend_left);
+  thr_text_printf(text, "a cord that bears %s %s: the knot (%s) leaves %.3g N, %.0f %% (Plymouth Cordage 1946; --knot), ",
+                  plain_force(strength, force), newton > strength * left ? "breaks" : "holds", knot->name, strength * knot->left,
+                  100 * knot->left);
+  thr_text_printf(text, "edges of bores %.3g N, %.0f %% (as round a pin as thick as it)\n", strength * thr_bend_left,
+                  100 * thr_bend_left);
 }
 
 /* What is beyond a hand at once, grips on the way draw in, unless one turn alone is too much; more cords need less. */
@@ -181,7 +192,7 @@ static void put_grips(thr_text *text, const thr_plan *plan)
   thr_schedule_destroy(&schedule);
 }
 
-static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval, double strength)
+static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval, const eval_view *view)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
   thr_text_printf(text, "\nlargest pull %.*g N, all pulls together %.*g N", digits(evaluation->method), evaluation->largest,
@@ -192,7 +203,9 @@ static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval,
     thr_text_printf(text, ", error of each at most %.2f %%", pull_percent(eval->error));
   thr_text_append(text, "\n");
   if (evaluation->schedule.n == 0) put_band(text, evaluation, eval->band);
-  if (eval->complete && evaluation->method != THR_STRUCTURE) put_hand(text, evaluation->largest, strength);
+  if (eval->complete && evaluation->method != THR_STRUCTURE) put_hand(text, evaluation->largest);
+  if (eval->complete && evaluation->method != THR_STRUCTURE && view->strength > 0)
+    put_strength(text, evaluation->largest, view->strength, &thr_knots[view->knot]);
   if (eval->complete && evaluation->method != THR_STRUCTURE) put_grips(text, plan);
   if (!eval->complete) {
     thr_text_append(text, "stopped; not known: ");
@@ -528,7 +541,7 @@ void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan, 
   const thr_evaluation *evaluation = &plan->evaluation;
   put_heading(text, evaluation, eval->refused > 0, evaluation->schedule.n > 0 ? "by the schedule below" : view->pulled);
   put_cords(text, plan, evaluation);
-  put_sums(text, plan, eval, view->strength);
+  put_sums(text, plan, eval, view);
   seated_put(text, plan);
   put_pressure(text, plan);
   if (evaluation->method == THR_STRUCTURE) put_play(text, plan);

@@ -1,0 +1,12 @@
+/* The table of knots. */
+#include "eval/cord/knots.h"
+
+const thr_knot thr_knots[] = {{"overhand", 0.45}, {"reef", 0.45},        {"figure-eight", 0.48},     {"bowline", 0.6},
+                              {"anchor", 0.7},    {"clove-hitch", 0.75}, {"two-half-hitches", 0.75}, {"eye-splice", 0.95}};
+const int thr_n_knots = sizeof thr_knots / sizeof *thr_knots;
+const double thr_bend_left = 0.5;
+
+const char *thr_knot_name(int i)
+{
+  return thr_knots[i].name;
+}
