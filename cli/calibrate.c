@@ -80,8 +80,12 @@ static thr_status put_found(const bench *b, thr_text *file, thr_text *said, thr_
   thr_writer writer = {.out = file};
   char note[160];
   thr_status st = THR_OK;
-  snprintf(note, sizeof note, "found at the bench: %d %s over 90 degrees, %d slides of bead on bead, %d on the ground",
-           b->n_weighings, cli_plural(b->n_weighings, "weighing", "weighings"), b->n_tilts[0], b->n_tilts[1]);
+  if (b->n_weighings > 0)
+    snprintf(note, sizeof note, "weighed at the bench, %d %s over 90 degrees", b->n_weighings,
+             cli_plural(b->n_weighings, "weighing", "weighings"));
+  else
+    snprintf(note, sizeof note, "slid on a tilted board at the bench, %d %s", b->n_tilts[0] + b->n_tilts[1],
+             cli_plural(b->n_tilts[0] + b->n_tilts[1], "slide", "slides"));
   thr_write_object(&writer, NULL);
   thr_write_string(&writer, "note", note);
   if (b->n_weighings > 0) {

@@ -1,5 +1,6 @@
 /* Options about cords: how many, how long, where they end, and what fits through a bead. */
 #include "cli/args/cords_args.h"
+#include "eval/cord/knots.h"
 #include "graph/framework/bore.h"
 #include "graph/plan/physics.h"
 #include "graph/status.h"
@@ -303,11 +304,13 @@ static int apply_pull(const cords_args *a, thr_request *options)
 {
   const double seating = options->physics.seating;
   const char *option = pull_limit(a);
-  double newtons = a->max_pull > 0 ? a->max_pull * (a->pull_is_factor ? seating : 1) : a->hand > 0 ? a->hand : a->strength;
+  const double left = thr_strength_left(0), bears = a->strength * left;
+  double newtons = a->max_pull > 0 ? a->max_pull * (a->pull_is_factor ? seating : 1) : a->hand > 0 ? a->hand : bears;
   if (!option) return EXIT_OK;
-  if (a->strength > 0 && newtons > a->strength) {
-    cli_error("%s: a pull of %.6g N would break a cord of --cord-strength %.6g; --max-pull %.6g keeps to it", option, newtons,
-              a->strength, a->strength);
+  if (a->strength > 0 && newtons > bears) {
+    cli_error("%s: a pull of %.6g N would break a cord of --cord-strength %.6g, of which an %s knot leaves %.0f %%; --max-pull "
+              "%.6g keeps to it",
+              option, newtons, a->strength, thr_knot_name(0), 100 * left, bears);
     return EXIT_INFEASIBLE;
   }
   options->max_pull = newtons / seating;

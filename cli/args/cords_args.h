@@ -41,7 +41,7 @@ enum {
   "      --max-length L   no cord longer than L units, as few as it takes\n"                                                     \
   "      --max-pull F     no cord needs more at its ends, both pulled: F newtons, or 20x the seating tension; few cords\n"       \
   "      --hand one|two|N   the same: 50 newtons (one hand), 100 (two) or N\n"                                                   \
-  "      --cord-strength N   refuse cords that need more than N newtons\n"                                                       \
+  "      --cord-strength N   refuse cords that would break: N newtons, of which an overhand knot leaves 45 %\n"                  \
   "      --balance        make the longest cord short\n"                                                                         \
   "      --cover N        at least N passes over every interface (default: 1)\n"                                                 \
   "      --capacity N     at most N; --bore and --cord-diameter together: as many as fit\n"                                      \

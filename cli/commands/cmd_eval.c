@@ -21,7 +21,6 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -383,7 +382,7 @@ static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eva
   if (!code && a->plot && eval->n_carries > 0)
     code = write_load_plot(plan, eval, a->load.load, a->plot);
   else if (!code && a->plot)
-    code = write_plot(plan, a->strength * fmin(thr_knots[a->knot].left, thr_bend_left), a->plot);
+    code = write_plot(plan, a->strength * thr_strength_left(a->knot), a->plot);
   if (!code && a->still) code = write_still(plan, &eval->settle, stopped, a->still);
   if (!code && a->stills) code = write_stills(plan, &eval->erect, stopped, a->stills);
   const char *const out[] = {a->output, a->plot, a->still, a->stills};

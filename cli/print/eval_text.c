@@ -163,13 +163,13 @@ static void put_hand(thr_text *text, double newton)
 }
 
 /* Says whether the cord bears the largest pull where it is weakest: at its knots, and over the edges of bores. */
-static void put_strength(thr_text *text, double newton, double strength, const thr_knot *knot)
+static void put_strength(thr_text *text, double newton, double strength, int knot)
 {
   char force[64];
-  const double left = fmin(knot->left, thr_bend_left);
+  const double left = thr_knots[knot].left;
   thr_text_printf(text, "a cord that bears %s %s: the knot (%s) leaves %.3g N, %.0f %% (Plymouth Cordage 1946; --knot), ",
-                  plain_force(strength, force), newton > strength * left ? "breaks" : "holds", knot->name, strength * knot->left,
-                  100 * knot->left);
+                  plain_force(strength, force), newton > strength * thr_strength_left(knot) ? "breaks" : "holds",
+                  thr_knots[knot].name, strength * left, 100 * left);
   thr_text_printf(text, "edges of bores %.3g N, %.0f %% (as round a pin as thick as it)\n", strength * thr_bend_left,
                   100 * thr_bend_left);
 }
@@ -205,7 +205,7 @@ static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval,
   if (evaluation->schedule.n == 0) put_band(text, evaluation, eval->band);
   if (eval->complete && evaluation->method != THR_STRUCTURE) put_hand(text, evaluation->largest);
   if (eval->complete && evaluation->method != THR_STRUCTURE && view->strength > 0)
-    put_strength(text, evaluation->largest, view->strength, &thr_knots[view->knot]);
+    put_strength(text, evaluation->largest, view->strength, view->knot);
   if (eval->complete && evaluation->method != THR_STRUCTURE) put_grips(text, plan);
   if (!eval->complete) {
     thr_text_append(text, "stopped; not known: ");

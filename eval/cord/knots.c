@@ -1,6 +1,8 @@
 /* The table of knots. */
 #include "eval/cord/knots.h"
 
+#include <math.h>
+
 const thr_knot thr_knots[] = {{"overhand", 0.45}, {"reef", 0.45},        {"figure-eight", 0.48},     {"bowline", 0.6},
                               {"anchor", 0.7},    {"clove-hitch", 0.75}, {"two-half-hitches", 0.75}, {"eye-splice", 0.95}};
 const int thr_n_knots = sizeof thr_knots / sizeof *thr_knots;
@@ -9,4 +11,9 @@ const double thr_bend_left = 0.5;
 const char *thr_knot_name(int i)
 {
   return thr_knots[i].name;
+}
+
+double thr_strength_left(int knot)
+{
+  return fmin(thr_knots[knot].left, thr_bend_left);
 }

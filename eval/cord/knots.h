@@ -19,4 +19,7 @@ extern const double thr_bend_left;
 
 const char *thr_knot_name(int i);
 
+/* Returns the part of its strength that is left to a cord with this knot, which runs over edges of bores. */
+double thr_strength_left(int knot);
+
 #endif
