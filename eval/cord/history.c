@@ -341,6 +341,14 @@ static void leave_slack(thr_eval_cord *out)
   out->slackest = 0;
 }
 
+/* A factor on tensions is no question where there are none. */
+static thr_status some_tension(const thr_evaluation *evaluation, thr_err *err)
+{
+  double range[2];
+  if (!thr_evaluation_range(evaluation, range) || range[1] > 0) return THR_OK;
+  return thr_fail(err, THR_EINPUT, "schedule: it leaves all cords without tension; knot or pull their ends before grips");
+}
+
 thr_status thr_history_follow(const thr_frame *frame, const thr_cord *cord, thr_evaluation *evaluation, thr_err *err)
 {
   const double stiffness = evaluation->physics.stiffness;
@@ -362,7 +370,7 @@ thr_status thr_history_follow(const thr_frame *frame, const thr_cord *cord, thr_
       st = follow(frame, &cord[i], schedule, i, &evaluation->physics, &evaluation->cord[i], err);
   }
   if (!st) thr_evaluation_sum(evaluation);
-  return st;
+  return st || evaluation->method != THR_STRUCTURE ? st : some_tension(evaluation, err);
 }
 
 /* ---- grips ---- */

@@ -25,7 +25,7 @@
 /* Replaces the tensions of every known cord by those that evaluation->schedule leaves in it, beginning with none, and the numbers
  * that follow from them: force is the largest that the cord was pulled with, other_force 0. The cords have their exponents. A
  * step that its giver may not have meant gets a remark. THR_EINPUT: a knot slips and the stiffness is not known (--stiffness), or
- * the schedule says nothing of a cord. O(steps passes). */
+ * the schedule says nothing of a cord, or, for method structure, it leaves no tension at all. O(steps passes). */
 thr_status thr_history_follow(const thr_frame *frame, const thr_cord *cord, thr_evaluation *evaluation,
                               thr_err *err) THR_MUST_CHECK;
 
