@@ -2,6 +2,7 @@
 #ifndef THR_CUT_H
 #define THR_CUT_H
 
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
