@@ -85,6 +85,7 @@ def member(holder, key, kind, place, low=None, high=None, default=...):
     name = f"{place}.{key}" if place else key
     require(key in holder, f"{name}: missing")
     value = holder[key]
+    value = 0 if kind == "integer" and type(value) is float and value == 0 else value  # -0.0
     good = type(value) in (int, float) if kind == "number" else type(value) is KINDS[kind]
     require(good, f"{name}: not of type {kind}")
     value = float(value) if kind == "number" else value
@@ -100,6 +101,7 @@ def choice(holder, key, place, words, default=...):
 
 
 def integers(value, place, low, high, n=None):
+    value = [0 if type(x) is float and x == 0 else x for x in value] if type(value) is list else value  # -0.0
     require(type(value) is list and all(type(x) is int for x in value), f"{place}: not a list of integers")
     require(n is None or len(value) == n, f"{place}: {len(value)} values, expected {n}")
     require(all(low <= x <= high for x in value), f"{place}: a value is not within {low} to {high}")
@@ -739,7 +741,7 @@ class Certificate:
         known(o, "component scale denominator end_price join sum place_prices cuts", place)
         require(member(o, "component", "integer", place) == c, f"{place}.component: not {c}")
         self.scale = Fraction(member(o, "scale", "number", place, 5e-324))
-        self.unit = member(o, "denominator", "integer", place, 1)
+        self.unit = member(o, "denominator", "integer", place, 1, 2**40)
         self.end_price = member(o, "end_price", "integer", place, 0)
         require(self.end_price == 0 or opt.ends not in ("closed", "counts"), f"{place}.end_price: not 0")
         piece, edges = f.pieces[c], f.edges_of(c)
@@ -3249,7 +3251,16 @@ def said(p):
 
 
 def check(data):
-    """Lines that say what is verified of a plan; Violation or Unreadable."""
+    """Lines that say what is verified of a plan; Violation or Unreadable. What is of a type, or so large, that it cannot be computed
+    with is a violation, too."""
+    try:
+        return verify(data)
+    except (TypeError, AttributeError, KeyError, IndexError, ValueError, ArithmeticError, RecursionError) as error:
+        raise Violation(f"a member of a wrong type or size: {error}") from None
+
+
+def verify(data):
+    """The same, with Python's own exceptions."""
     p = Plan(parse(data))
     check_cords(p)
     check_metrics(p)

@@ -11,7 +11,10 @@ static void put_one(thr_text *text, const thr_frame *frame, const thr_carry *car
     thr_text_append(text, "not decided: more than cords can tell, or than the solver's numbers can\n");
     return;
   }
-  if (carry->beyond > 0)
+  if (carry->beyond > 0 && !isfinite(carry->carried)) {
+    thr_text_printf(text, "%10s  ", "none found");
+    thr_text_printf(text, isfinite(carry->beyond) ? "%10.4g  " : "      none  ", carry->beyond);
+  } else if (carry->beyond > 0)
     thr_text_printf(text, isfinite(carry->beyond) ? "%10.4g  %10.4g  " : "%10.4g        none  ", carry->carried, carry->beyond);
   else
     thr_text_append(text, "it does not stand as it is  ");

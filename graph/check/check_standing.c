@@ -189,8 +189,7 @@ static double tension_of(const bodies *b, const thr_drawn *drawn, thr_asked aske
   const double hard = drawn->pull == THR_PULL_START ? slackest
                       : drawn->pull == THR_PULL_END ? total - slackest
                                                     : fmax(slackest, total - from_end);
-  if (asked == THR_ASKED_AFTER || asked == THR_ASKED_CARRIED_AFTER || asked == THR_ASKED_STRETCH)
-    return b->e->cord[i].tension[k];
+  if (asked == THR_ASKED_AFTER || asked == THR_ASKED_CARRIED_AFTER || asked == THR_ASKED_STRETCH) return b->e->cord[i].tension[k];
   if (drawn->pull == THR_PULL_NONE) return 0;
   if (asked == THR_ASKED_HOLDING) return exp((k <= drawn->slackest ? slackest - b->at[k] : b->at[k] - from_end) - hard);
   return exp(asked == THR_ASKED_ANY_STATE ? near : -near);
@@ -484,6 +483,7 @@ static const char *misfit(const thr_standing *s, const thr_answer *a, bool sched
   if (after && !scheduled) return "it comes with a schedule";
   if (a->asked == THR_ASKED_STRETCH && s->model < 2) return "it comes with model 2";
   if ((of_load || a->asked == THR_ASKED_LOADED) && s->n_loads == 0) return "it comes with loads";
+  if (!isfinite(a->found)) return NULL; /* none was found */
   if (of_load ? a->found > a->proved * (1 + 1e-6) : a->found < a->proved * (1 - 1e-6))
     return "an equilibrium, where there is proved to be none";
   return NULL;
