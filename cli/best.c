@@ -38,6 +38,7 @@ static double value_of(const thr_plan *plan)
 {
   if (thr_wants_symmetry(&plan->options)) return plan->symmetry.steps;
   if (thr_wants_balance(&plan->options)) return thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
+  if (thr_wants_pull(&plan->options)) return thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords);
   if (thr_wants_turning(&plan->options))
     return thr_wants_largest(&plan->options) ? plan->metrics.max_turning : plan->metrics.turning;
   return plan->metrics.length;

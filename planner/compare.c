@@ -9,6 +9,7 @@
 static double value_of(const thr_request *options, thr_aim aim, const thr_plan *plan)
 {
   double sum = 0, most = 0;
+  if (aim == THR_AIM_PULL) return thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords);
   if (aim == THR_AIM_LONGEST) return thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
   for (int i = 0; i < plan->n_cords; i++) {
     const thr_cord *cord = &plan->cord[i];

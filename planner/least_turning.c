@@ -240,6 +240,7 @@ static thr_status find_cords(const thr_frame *frame, const thr_request *options,
   thr_status st = find_from_shortest(frame, options, s, &first, least, err);
   if (st && st != THR_ELIMIT) return st;
   st = thr_even_turning(frame, seed, enough, limits, least, err);
+  if (!st && thr_wants_pull(options)) st = thr_max_turning_pull(frame, limits, least, err);
   if (st) thr_least_destroy(least);
   return st;
 }
@@ -295,7 +296,7 @@ static thr_status verdict(const thr_plan *plan, const thr_least *least, thr_err 
                     100 * (plan->metrics.length / plan->proof.lower_bound - 1));
   if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
   if (thr_wants_largest(&plan->options) && !claim->largest_optimal)
-    return thr_not_proved(err, "the largest turning of a cord", claim->largest, claim->largest_bound);
+    return thr_not_proved(err, thr_largest_name(&plan->options), claim->largest, claim->largest_bound);
   if (thr_wants_largest(&plan->options) || claim->optimal) return THR_OK;
   char what[160];
   snprintf(what, sizeof what, "%s: the turning", why_open(least));

@@ -95,7 +95,7 @@ static thr_status try_number(mixed *m, int n, double slack, const thr_limits *sh
   thr_limits quiet = *share;
   quiet.found = NULL; /* its cords may be too long */
   bool largest = thr_wants_largest(m->o) || !thr_wants_turning(m->o);
-  options.aims = (thr_aims){1, {largest ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};
+  options.aims = (thr_aims){1, {thr_wants_pull(m->o) ? THR_AIM_PULL : largest ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};
   options.max_length = options.max_pull = 0;
   options.turning.length_slack = slack;
   if (options.ends != THR_ENDS_COUNTS) options.cords = options.cords_least = n;

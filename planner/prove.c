@@ -84,7 +84,7 @@ thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err)
   if (thr_wants_length(&plan->options)) return thr_not_proved(err, "the length", plan->metrics.length, length->lower_bound);
   if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
   if (largest ? claim->largest_optimal : claim->optimal) return THR_OK;
-  return largest ? thr_not_proved(err, "the largest turning of a cord", claim->largest, claim->largest_bound)
+  return largest ? thr_not_proved(err, thr_largest_name(&plan->options), claim->largest, claim->largest_bound)
                  : thr_not_proved(err, "the turning", claim->price, claim->lower_bound);
 }
 

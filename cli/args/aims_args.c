@@ -40,6 +40,7 @@ int aims_args_settle(aims_args *a, turning_args *turning, symmetry_args *symmetr
   if (thr_aims_parse(a->aims, &options, &err)) return cli_usage("plan", "--aims %s: %s", a->aims, err.text);
   a->objective = thr_aims_objective(&options);
   turning->largest = thr_wants_largest(&options);
+  turning->pull = thr_wants_pull(&options);
   turning->minimize = true;
   turning->options.cost = options.turning.cost;
   turning->options.length_slack = options.turning.length_slack;
@@ -66,7 +67,8 @@ void aims_args_apply(const aims_args *a, const turning_args *turning, const symm
   options->symmetry = own && thr_wants_symmetry(options) ? symmetry->options : usual.symmetry;
   if (thr_wants_symmetry(options)) options->symmetry.counted = cords->most > 0 || cords_args_few(cords);
   if (own && thr_wants_symmetry(options)) memcpy(options->aims.aim, symmetry->prefer, sizeof symmetry->prefer);
-  if (own && thr_wants_turning(options) && wants_largest(turning, cords)) options->aims.aim[0] = THR_AIM_MAX_TURNING;
+  if (own && thr_wants_turning(options) && wants_largest(turning, cords))
+    options->aims.aim[0] = turning->pull ? THR_AIM_PULL : THR_AIM_MAX_TURNING;
   if (own && cords->balance) {
     memmove(&options->aims.aim[1], options->aims.aim, (size_t)options->aims.n++ * sizeof *options->aims.aim);
     options->aims.aim[0] = THR_AIM_LONGEST;

@@ -13,9 +13,10 @@ enum { OPTION_AIMS = OPTION_CORDS_FREE, OPTION_OBJECTIVE, OPTION_AIMS_FREE };
     "objective", required_argument, NULL, OPTION_OBJECTIVE                                                                       \
   }
 #define AIMS_HELP                                                                                                                \
-  "      --aims LIST      what to minimize, first, second, ..: length; longest (cord), length; turning or max-turning (of the\n" \
-  "                       cord that turns most), as turning:sine with another price of turns, after length+5%: at most so\n"     \
-  "                       much above the least; or of symmetric plans overlap, steps, paths, turning (default: length)\n"        \
+  "      --aims LIST      what to minimize, first, second, ..: length; longest (cord), length; turning, max-turning (of the\n"   \
+  "                       cord that turns most) or pull (as --minimize), as turning:sine with another price of turns, after\n"   \
+  "                       length+5%: at most so much above the least; or of symmetric plans overlap, steps, paths, turning\n"    \
+  "                       (default: length)\n"                                                                                   \
   "      --objective length|tortuosity|symmetry   the same: length, turning, or overlap,steps,paths,turning; so do --balance\n"  \
   "                       (longest first), --minimize, --turn-cost, --length-slack and --prefer\n"
 

@@ -37,8 +37,9 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
     a->spelled = name = "--length-slack";
     break;
   case OPTION_TURNING_MINIMIZE:
-    *ok = cli_choose("plan", "--minimize", value, thr_minimize_name, 2, &i);
-    a->largest = i == 1;
+    *ok = cli_choose("plan", "--minimize", value, thr_minimize_name, THR_N_MINIMIZE, &i);
+    a->largest = *ok && i > 0;
+    a->pull = *ok && thr_minimize_aim(i) == THR_AIM_PULL;
     a->minimize = true;
     a->spelled = name = "--minimize";
     break;
@@ -89,12 +90,15 @@ int turning_args_check(const turning_args *a, const thr_request *wanted)
   if (a->plot && !*a->plot) return cli_usage("plan", "an empty name is no place to write to");
   if (a->plot && strcmp(a->plot, "-") == 0) return cli_usage("plan", "--plot -: the summary has stdout; name a file");
   if (a->plot && !a->frontier) return cli_usage("plan", "--plot draws the frontier: it needs --frontier");
+  if (a->pull && options->cost != THR_TURN_ANGLE)
+    return cli_usage("plan", "--minimize pull is of angles: no --turn-cost %s", thr_turn_cost_name((int)options->cost));
   if (options->tour == THR_TOUR_LEAST)
     return a->pairings ? cli_usage("plan", "--pairings is for --tour fleury and --tour hierholzer") : -1;
   const char *tour = thr_tour_name(options->tour);
   if (options->nodes > 0) return cli_usage("plan", "--tour %s searches nothing: no --nodes", tour);
   if (options->length_slack > 0) return cli_usage("plan", "--tour %s takes the shortest passes: no --length-slack but 0", tour);
-  if (a->largest) return cli_usage("plan", "--tour %s minimizes nothing: no --minimize max-turning", tour);
+  if (a->largest)
+    return cli_usage("plan", "--tour %s minimizes nothing: no --minimize %s", tour, a->pull ? "pull" : "max-turning");
   if (a->frontier) return cli_usage("plan", "--tour %s minimizes nothing: no --frontier", tour);
   return -1;
 }

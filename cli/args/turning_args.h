@@ -29,7 +29,8 @@ enum {
 #define TURNING_HELP                                                                                                             \
   "Least turning (with --objective tortuosity):\n"                                                                               \
   "      --length-slack P%   at most P % more cord than the shortest; 0 = the least turning among the shortest (default: any)\n" \
-  "      --minimize turning|max-turning   of all cords together, or of the cord that turns most (default with several)\n"        \
+  "      --minimize turning|max-turning|pull   of all cords together, of the cord that turns most (default with several), or\n"  \
+  "                       what the hand feels: what an end of the cord that is hardest to pull at both ends has to overcome\n"   \
   "      --turn-cost " THR_TURN_COSTS "   price of a turn: its angle (default), the sine of half of it, or 1 from 90\n"          \
   "                       degrees on, or for a U-turn\n"                                                                         \
   "      --tour least|fleury|hierholzer   the least turning (default), or a classical tour through the shortest passes\n"        \
@@ -44,7 +45,8 @@ enum {
 typedef struct {
   thr_turning_options options;
   bool minimize;       /* --minimize, or --aims, says which: */
-  bool largest;        /* max-turning */
+  bool largest;        /* max-turning or pull: */
+  bool pull;           /* the latter */
   int frontier;        /* points, 0 = none */
   bool compare;        /* --compare-shortest */
   const char *plot;    /* where the picture of the frontier goes; NULL = nowhere */

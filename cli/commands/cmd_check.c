@@ -49,10 +49,17 @@ static void put_turning(thr_text *text, const thr_plan *plan)
   plain_put_proof(text, claim->optimal, claim->price, claim->lower_bound,
                   angles ? "nothing turns less" : "nothing has a lower price", "least possible");
   if (plan->n_cords == 1 && !thr_wants_largest(&plan->options)) return;
-  thr_text_printf(text, angles ? "; the cord that turns most, %.1f deg: " : "; the dearest cord, %.6g: ",
+  const bool pull = thr_wants_pull(&plan->options);
+  thr_text_printf(text,
+                  pull     ? "; the cord that is hardest to pull, %.1f deg before an end: "
+                  : angles ? "; the cord that turns most, %.1f deg: "
+                           : "; the dearest cord, %.6g: ",
                   angles ? thr_degrees(claim->largest) : claim->largest);
   plain_put_proof(text, claim->largest_optimal, claim->largest, claim->largest_bound,
-                  angles ? "it cannot turn less" : "it cannot cost less", "least possible");
+                  pull     ? "it cannot be less"
+                  : angles ? "it cannot turn less"
+                           : "it cannot cost less",
+                  "least possible");
 }
 
 static void put_symmetry(thr_text *text, const thr_plan *plan)

@@ -36,7 +36,7 @@ void advice_put_command(thr_text *text, const char *path, const char *options, c
                     thr_ends_name((int)row->ends));
     return;
   }
-  thr_text_printf(text, "%s --cords %d --ends %s --objective tortuosity --minimize max-turning", options, row->cords,
+  thr_text_printf(text, "%s --cords %d --ends %s --objective tortuosity --minimize pull", options, row->cords,
                   thr_ends_name((int)row->ends));
 }
 

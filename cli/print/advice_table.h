@@ -16,7 +16,7 @@ void advice_put_row(thr_text *text, const thr_advice_row *row, double base_lengt
 void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *advice, const char *command);
 void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice, const char *command);
 
-/* "thread plan PATH --cords 4 --ends feet --objective tortuosity --minimize max-turning", with the options that FRAME was read
+/* "thread plan PATH --cords 4 --ends feet --objective tortuosity --minimize pull", with the options that FRAME was read
  * with (each with a blank before it), for a shell. */
 void advice_put_command(thr_text *text, const char *path, const char *options, const thr_advice_row *row);
 

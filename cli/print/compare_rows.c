@@ -3,6 +3,7 @@
 #include "cli/print/turning_summary.h"
 #include "graph/plan/advice.h"
 #include "graph/angle.h"
+#include "graph/plan/request.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -72,7 +73,7 @@ static double pairing_bound(const compare_entry *e)
 }
 static double largest_bound(const compare_entry *e)
 {
-  return angle_claim(e) ? thr_degrees(angle_claim(e)->largest_bound) : NAN;
+  return angle_claim(e) && !thr_wants_pull(&e->plan.options) ? thr_degrees(angle_claim(e)->largest_bound) : NAN;
 }
 static double capstan(const compare_entry *e)
 {

@@ -129,6 +129,10 @@ static figures figures_of_bound(const thr_plan *plan, const thr_rivals *rivals)
   b.value[PRICE] = claim->lower_bound;
   if (!in_angles(plan)) return b;
   b.value[TURNING] = claim->lower_bound;
+  if (thr_wants_pull(&plan->options)) {
+    b.value[PULL] = turning_capstan(plan->options.physics.mu, claim->largest_bound);
+    return b;
+  }
   b.value[LARGEST] = claim->largest_bound;
   b.value[CAPSTAN] = turning_capstan(plan->options.physics.mu, claim->largest_bound);
   return b;
@@ -187,9 +191,14 @@ static void put_largest(thr_text *text, const thr_plan *plan)
   const thr_turning_claim *claim = &plan->turning;
   thr_text_append(text, "largest  ");
   put_price(text, plan, claim->largest);
-  thr_text_append(text, ", the cord that turns most; ");
+  const bool pull = thr_wants_pull(&plan->options);
+  thr_text_append(text,
+                  pull ? ", what an end of the cord that is hardest to pull has to overcome; " : ", the cord that turns most; ");
   plain_put_proof(text, claim->largest_optimal, claim->largest, claim->largest_bound,
-                  in_angles(plan) ? "it cannot turn less" : "it cannot cost less", "least possible");
+                  pull              ? "it cannot be less"
+                  : in_angles(plan) ? "it cannot turn less"
+                                    : "it cannot cost less",
+                  "least possible");
   thr_text_append(text, "\n");
 }
 
@@ -381,7 +390,8 @@ static void put_claim_json(thr_writer *writer, const thr_plan *plan, const thr_t
   thr_write_number(writer, "turning_gap", own->present ? own->gap : bound ? 1 - bound->lower_bound / price : NAN);
   thr_write_string(writer, "turning_status", proof_status(own->present, own->optimal));
   thr_write_number(writer, "pairing_bound", own->present ? own->pairing_bound : NAN);
-  thr_write_number(writer, "max_turning_bound", bound && in_angles(plan) ? bound->largest_bound : NAN);
+  const bool of_turning = bound && in_angles(plan) && !thr_wants_pull(&plan->options);
+  thr_write_number(writer, "max_turning_bound", of_turning ? bound->largest_bound : NAN);
   thr_write_number(writer, "max_price_bound", bound ? bound->largest_bound : NAN);
   thr_write_string(writer, "max_turning_status", proof_status(own->present, own->largest_optimal));
 }

@@ -5,6 +5,7 @@
 #include "graph/check/few_edges.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/least_pull.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
@@ -218,8 +219,45 @@ static thr_status price_cord(const walked *w, const thr_cord *c, double *price, 
   return THR_OK;
 }
 
-/* Adds to *found, which is zeros, what follows from the cords; and they must be of the kind that the proof is about. */
-static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err *err)
+/* Turning that the harder of two pulled ends has to overcome, rad (least pull: docs/plan-format.md). */
+static double pulled_turning(const thr_frame *frame, const thr_cord *cord)
+{
+  double whole = 0;
+  for (int k = 1; k < cord->n_passes; k++)
+    whole += thr_check_angle(frame, cord->half[k - 1], cord->half[k]);
+  thr_least_pull_walk walk = thr_least_pull_begin(whole);
+  for (int k = 1; k < cord->n_passes; k++)
+    if (!thr_least_pull_next(&walk, thr_check_angle(frame, cord->half[k - 1], cord->half[k]))) break;
+  return walk.larger;
+}
+
+/* The sharpest turn that cords of this kind may have, rad: back at a node with one edge, if joints are solid. O(sum of
+ * degrees^2). */
+static double sharpest_turn(const walked *w)
+{
+  const thr_frame *frame = w->f;
+  double most = 0;
+  for (int v = 0; v < frame->n_nodes; v++) {
+    const int n = thr_degree(frame, v), *half = &frame->half[frame->first[v]];
+    if (n == 1 && w->o->joint != THR_JOINT_TUBE) return THR_PI;
+    for (int i = 0; i < n; i++)
+      for (int k = i + 1; k < n; k++)
+        most = fmax(most, thr_check_angle(frame, half[i] ^ 1, half[k]));
+  }
+  return fmin(THR_PI, most + 1e-9);
+}
+
+/* Some cord turns by so much; so the pull at one of its ends has to overcome half of that, less the turn that neither end slides
+ * over, and less that at the ends of a closed cord. */
+static double pull_bound(const walked *w, double turning)
+{
+  const double closing = w->o->ends == THR_ENDS_CLOSED ? THR_PI : 0;
+  return fmax(0, (turning - closing - sharpest_turn(w)) / 2);
+}
+
+/* Adds to *found, which is zeros, what follows from the cords; and they must be of the kind that the proof is about. *dearest:
+ * the largest price of a cord's turns, which found->largest is, too, where no pull is minimized. */
+static thr_status judge_cords(const walked *w, thr_turning_claim *found, double *dearest, thr_err *err)
 {
   const thr_frame *frame = w->f;
   double length = 0;
@@ -228,7 +266,8 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, thr_err
     thr_status st = price_cord(w, &w->cord[i], &price, err);
     if (st) return st;
     found->price += price;
-    found->largest = fmax(found->largest, price);
+    *dearest = fmax(*dearest, price);
+    found->largest = fmax(found->largest, thr_wants_pull(w->o) ? pulled_turning(frame, &w->cord[i]) : price);
   }
   for (int e = 0; e < frame->n_edges; e++) {
     length += w->passes[e] * frame->length[e];
@@ -286,7 +325,8 @@ thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request 
   return THR_OK;
 }
 
-static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err)
+static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, double dearest, thr_turning_claim *found,
+                             thr_err *err)
 {
   double bound, forced, passes = 0, length = 0;
   const int cords = w->o->ends == THR_ENDS_COUNTS ? w->cords_most : w->o->cords;
@@ -309,7 +349,7 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
   thr_turning_columns columns;
   thr_status st = thr_turning_columns_init(&columns, w->f, &task, err);
   if (st) return st;
-  st = thr_check_tree(&columns, w->o, cords, &claim->tree, found->largest + 1e-3, &bound, &forced, err);
+  st = thr_check_tree(&columns, w->o, cords, &claim->tree, dearest + 1e-3, &bound, &forced, err);
   thr_turning_columns_destroy(&columns);
   if (st) return st;
   if (w->o->ends == THR_ENDS_CLOSED) bound = fmax(bound, thr_turn_closed(w->o->turning.cost) * w->cords_least);
@@ -322,6 +362,7 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, th
   found->lower_bound = found->optimal ? found->price : bound;
   found->gap = found->optimal ? 0 : (found->price - bound) / found->price;
   found->largest_bound = fmax(found->lower_bound / w->cords_most, forced);
+  if (thr_wants_pull(w->o)) found->largest_bound = pull_bound(w, found->largest_bound);
   if (found->largest_bound > found->largest + tolerance)
     return thr_fail(err, THR_EVIOLATED,
                     "proof.turning: some cord is proved to turn by %.12g, which is more than any of this plan, %.12g",
@@ -341,8 +382,9 @@ thr_status thr_check_turning(const thr_frame *frame, const thr_request *options,
     return thr_fail(err, THR_EVIOLATED, "proof.turning.most_passes: %d; a proof is about plans with up to %d passes over an edge",
                     claim->most_passes, least_most);
   thr_status st = walked_init(&w, frame, options, cord, n_cords, err);
-  if (!st) st = judge_cords(&w, found, err);
-  if (!st) st = judge_tree(&w, claim, found, err);
+  double dearest = 0;
+  if (!st) st = judge_cords(&w, found, &dearest, err);
+  if (!st) st = judge_tree(&w, claim, dearest, found, err);
   walked_destroy(&w);
   return st;
 }

@@ -21,13 +21,15 @@ static thr_status read_turning_options(const thr_field_reader *field_reader, con
   if (!st) st = thr_field_only(field_reader, value, "options.turning", known);
   if (!st) st = thr_field_name(field_reader, value, "options.turning", "cost", THR_N_TURN_COSTS, thr_turn_cost_name, &cost);
   if (!st) st = thr_field_or_null(field_reader, value, "length_slack", &options->length_slack);
-  if (!st) st = thr_field_name(field_reader, value, "options.turning", "minimize", 2, thr_minimize_name, &aim);
+  if (!st) st = thr_field_name(field_reader, value, "options.turning", "minimize", THR_N_MINIMIZE, thr_minimize_name, &aim);
   if (!st) st = thr_field_name(field_reader, value, "options.turning", "tour", THR_N_TOURS, thr_tour_name, &tour);
   if (!st) st = thr_field_name(field_reader, value, "options.turning", "pairings", 2, thr_pairings_name, &pairings);
   if (!st && thr_json_get(value, "nodes")) st = thr_field_int(field_reader, value, "nodes", 1, INT32_MAX, &options->nodes);
   if (st) return st;
   options->cost = (thr_turn_cost)cost;
-  out->aims = (thr_aims){1, {aim == 1 ? THR_AIM_MAX_TURNING : THR_AIM_TURNING}};
+  out->aims = (thr_aims){1, {thr_minimize_aim(aim)}};
+  if (thr_wants_pull(out) && options->cost != THR_TURN_ANGLE)
+    return thr_field_bad(field_reader, "options.turning.cost", "a pull is of angles");
   options->tour = (thr_tour)tour;
   options->ignore_pairings = pairings == 1;
   return THR_OK;

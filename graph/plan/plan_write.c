@@ -118,7 +118,7 @@ static void put_turning_options(thr_writer *writer, const thr_request *asked)
   thr_write_object(writer, "turning");
   thr_write_string(writer, "cost", thr_turn_cost_name(options->cost));
   put_or_null(writer, "length_slack", options->length_slack);
-  thr_write_string(writer, "minimize", thr_minimize_name(thr_wants_largest(asked)));
+  thr_write_string(writer, "minimize", thr_minimize_name(thr_wants_largest(asked) + thr_wants_pull(asked)));
   thr_write_string(writer, "tour", thr_tour_name(options->tour));
   thr_write_string(writer, "pairings", thr_pairings_name(options->ignore_pairings));
   if (options->nodes > 0) thr_write_int(writer, "nodes", options->nodes);

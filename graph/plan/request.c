@@ -43,7 +43,7 @@ bool thr_aims_have(const thr_request *options, thr_aim aim)
 thr_objective thr_aims_objective(const thr_request *options)
 {
   if (thr_aims_have(options, THR_AIM_STEPS) || thr_aims_have(options, THR_AIM_PATHS)) return THR_SYMMETRY;
-  return thr_aims_have(options, THR_AIM_TURNING) || thr_aims_have(options, THR_AIM_MAX_TURNING) ? THR_TORTUOSITY : THR_LENGTH;
+  return thr_aims_have(options, THR_AIM_TURNING) || thr_wants_largest(options) ? THR_TORTUOSITY : THR_LENGTH;
 }
 
 bool thr_wants_length(const thr_request *options)
@@ -68,7 +68,12 @@ bool thr_wants_balance(const thr_request *options)
 
 bool thr_wants_largest(const thr_request *options)
 {
-  return thr_aims_have(options, THR_AIM_MAX_TURNING);
+  return thr_aims_have(options, THR_AIM_MAX_TURNING) || thr_wants_pull(options);
+}
+
+bool thr_wants_pull(const thr_request *options)
+{
+  return thr_aims_have(options, THR_AIM_PULL);
 }
 
 int thr_request_most_passes(const thr_frame *frame, const thr_request *options)
@@ -128,8 +133,8 @@ static thr_status read_aim(char *word, list *l, thr_err *err)
   while (aim < THR_ALL_AIMS && strcmp(word, thr_aim_name(aim)) != 0)
     aim++;
   if (aim == THR_ALL_AIMS)
-    return thr_fail(err, THR_EINPUT, "\"%s\" is no aim; there are length, longest, turning, max-turning, overlap, steps, paths",
-                    word);
+    return thr_fail(err, THR_EINPUT,
+                    "\"%s\" is no aim; there are length, longest, turning, max-turning, pull, overlap, steps, paths", word);
   if (l->named[aim]) return thr_fail(err, THR_EINPUT, "%s is there twice", word);
   l->named[aim] = true;
   l->aims.aim[l->aims.n++] = (thr_aim)aim;
@@ -180,9 +185,9 @@ static void rename_aim(list *l, thr_aim from, thr_aim to)
 
 static thr_status settle_symmetric(list *l, thr_request *options, thr_err *err)
 {
-  if (l->named[THR_AIM_MAX_TURNING])
-    return thr_fail(err, THR_EINPUT,
-                    "symmetric plans, which steps and paths ask for, do not know max-turning: copies turn alike");
+  if (l->named[THR_AIM_MAX_TURNING] || l->named[THR_AIM_PULL])
+    return thr_fail(err, THR_EINPUT, "symmetric plans, which steps and paths ask for, do not know %s: copies turn alike",
+                    thr_aim_name(l->named[THR_AIM_PULL] ? THR_AIM_PULL : THR_AIM_MAX_TURNING));
   if (l->named[THR_AIM_LONGEST] && l->aims.aim[0] != THR_AIM_LONGEST)
     return thr_fail(err, THR_EINPUT, "longest comes before the other aims of a symmetric plan");
   if (l->priced) return thr_fail(err, THR_EINPUT, "of symmetric plans the turning is that of its angles: no cost of turns");
@@ -197,11 +202,11 @@ static thr_status settle_symmetric(list *l, thr_request *options, thr_err *err)
 /* Length before turning is a limit on it; the longest cord is made short first. */
 static thr_status settle_turning(list *l, thr_err *err)
 {
-  if (l->named[THR_AIM_TURNING] && l->named[THR_AIM_MAX_TURNING])
-    return thr_fail(err, THR_EINPUT, "turning or max-turning, not both");
+  if (l->named[THR_AIM_TURNING] + l->named[THR_AIM_MAX_TURNING] + l->named[THR_AIM_PULL] > 1)
+    return thr_fail(err, THR_EINPUT, "one of turning, max-turning and pull, not both");
   thr_aim last = l->aims.aim[l->aims.n - 1];
   if (last == THR_AIM_LENGTH || last == THR_AIM_LONGEST)
-    return thr_fail(err, THR_EINPUT, "%s comes before turning and max-turning", thr_aim_name(last));
+    return thr_fail(err, THR_EINPUT, "%s comes before turning, max-turning and pull", thr_aim_name(last));
   if (take_out(&l->aims, THR_AIM_LENGTH) && l->slack < 0) l->slack = 0;
   return THR_OK;
 }
@@ -217,11 +222,12 @@ static thr_status settle_length(list *l, thr_err *err)
 static thr_status settle(list *l, thr_request *options, thr_err *err)
 {
   bool symmetric = l->named[THR_AIM_STEPS] || l->named[THR_AIM_PATHS];
-  bool turning = !symmetric && (l->named[THR_AIM_TURNING] || l->named[THR_AIM_MAX_TURNING]);
+  bool turning = !symmetric && (l->named[THR_AIM_TURNING] || l->named[THR_AIM_MAX_TURNING] || l->named[THR_AIM_PULL]);
   if (l->named[THR_AIM_LENGTH] && l->named[THR_AIM_OVERLAP])
     return thr_fail(err, THR_EINPUT, "length and overlap are the same aim");
   if (l->limited && !turning)
-    return thr_fail(err, THR_EINPUT, "length+%g%%: cord beyond the least length is for turning or max-turning", 100 * l->slack);
+    return thr_fail(err, THR_EINPUT, "length+%g%%: cord beyond the least length is for turning, max-turning or pull",
+                    100 * l->slack);
   if (symmetric) return settle_symmetric(l, options, err);
   rename_aim(l, THR_AIM_OVERLAP, THR_AIM_LENGTH);
   return turning ? settle_turning(l, err) : settle_length(l, err);
@@ -270,13 +276,24 @@ const char *thr_tour_name(int t)
 
 const char *thr_aim_name(int a)
 {
-  static const char *const name[] = {"overlap", "steps", "paths", "turning", "length", "longest", "max-turning"};
+  static const char *const name[] = {"overlap", "steps", "paths", "turning", "length", "longest", "max-turning", "pull"};
   return name[a];
 }
 
-const char *thr_minimize_name(int largest)
+thr_aim thr_minimize_aim(int i)
 {
-  return thr_aim_name(largest ? THR_AIM_MAX_TURNING : THR_AIM_TURNING);
+  static const thr_aim aim[THR_N_MINIMIZE] = {THR_AIM_TURNING, THR_AIM_MAX_TURNING, THR_AIM_PULL};
+  return aim[i];
+}
+
+const char *thr_minimize_name(int i)
+{
+  return thr_aim_name(thr_minimize_aim(i));
+}
+
+const char *thr_largest_name(const thr_request *options)
+{
+  return thr_wants_pull(options) ? "the largest turning before an end that is pulled" : "the largest turning of a cord";
 }
 
 const char *thr_pairings_name(int ignore)

@@ -34,6 +34,7 @@ typedef enum {
   THR_AIM_LENGTH = THR_N_AIMS, /* of all cords [length] */
   THR_AIM_LONGEST,             /* length of the longest cord [longest] */
   THR_AIM_MAX_TURNING,         /* of the cord that turns most [max-turning] */
+  THR_AIM_PULL, /* what an end of the cord that is hardest to pull has to overcome (thr_cord_pulled_turning) [pull] */
   THR_ALL_AIMS
 } thr_aim;
 
@@ -142,7 +143,8 @@ bool thr_wants_length(const thr_request *options);   /* a short plan, and neithe
 bool thr_wants_turning(const thr_request *options);  /* one that turns little */
 bool thr_wants_symmetry(const thr_request *options); /* a symmetric one */
 bool thr_wants_balance(const thr_request *options);  /* a short longest cord */
-bool thr_wants_largest(const thr_request *options);  /* that the cord that turns most turns little */
+bool thr_wants_largest(const thr_request *options);  /* that the cord that turns most turns little, or is pulled easily */
+bool thr_wants_pull(const thr_request *options);     /* the latter */
 
 /* Passes over any edge up to which several cords are looked for: thr_turning_most_passes, and where cords end at some nodes only
  * at least 2 * cords, for all of them pass the few edges that lead there. Example: an arch on two feet with one edge at each;
@@ -168,14 +170,18 @@ void thr_aims_write(const thr_request *options, thr_text *out);
 const char *thr_objective_name(int o);
 const char *thr_tour_name(int t);
 const char *thr_aim_name(int a);
-const char *thr_minimize_name(int largest); /* "turning", "max-turning" */
-const char *thr_pairings_name(int ignore);  /* "keep", "ignore" */
-const char *thr_ends_name(int e);           /* "closed", "any", "feet", "nodes", "counts" */
-const char *thr_joint_name(int j);          /* "solid", "tube" */
-const char *thr_crossings_name(int c);      /* "allow", "price", "forbid" */
-const char *thr_order_name(int o);          /* "planned", "starts", "hand" */
-const char *thr_engine_name(int e);         /* "auto", "lp", "matching" */
-const char *thr_confirm_name(int c);        /* "auto", "always", "never" */
+const char *thr_minimize_name(int i); /* of thr_minimize_aim: "turning", "max-turning", "pull" */
+thr_aim thr_minimize_aim(int i);      /* i < THR_N_MINIMIZE */
+const char *thr_largest_name(
+    const thr_request *options); /* "the largest turning of a cord", or with pull what an end overcomes */
+enum { THR_N_MINIMIZE = 3 };
+const char *thr_pairings_name(int ignore); /* "keep", "ignore" */
+const char *thr_ends_name(int e);          /* "closed", "any", "feet", "nodes", "counts" */
+const char *thr_joint_name(int j);         /* "solid", "tube" */
+const char *thr_crossings_name(int c);     /* "allow", "price", "forbid" */
+const char *thr_order_name(int o);         /* "planned", "starts", "hand" */
+const char *thr_engine_name(int e);        /* "auto", "lp", "matching" */
+const char *thr_confirm_name(int c);       /* "auto", "always", "never" */
 
 /* How near plan and bound may be for a search to end, as a part of the bound: what was asked for, else 0 of a short plan and a
  * hundredth of others. */

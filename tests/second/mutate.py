@@ -3,7 +3,7 @@ import copy
 
 WORDS = {
     "status": ["optimal", "bound"], "objective": ["length", "tortuosity", "symmetry"], "joint": ["solid", "tube"],
-    "ends": ["closed", "any", "feet", "nodes", "counts"], "cost": ["angle", "sine", "step", "uturn"], "minimize": ["turning", "max-turning"],
+    "ends": ["closed", "any", "feet", "nodes", "counts"], "cost": ["angle", "sine", "step", "uturn"], "minimize": ["turning", "max-turning", "pull"],
     "tour": ["least", "fleury", "hierholzer"], "pairings": ["keep", "ignore"], "slack": ["open", "x"], "units": ["mm", "Inches", "metre", "unit", "feets", "mm "], "method": ["capstan", "joint", "structure"], "law": ["capstan", "mitre"], "pull": ["start", "end", "both"],
     "name": ["", "C1", "C2", "Cs", "Ci", "C2v", "D2", "C4", "D2d", "C4v", "C3v", "D4", "D2h", "S4", "Td", "O", "Th", "D3h", "D3d"],
 }

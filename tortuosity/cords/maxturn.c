@@ -1,6 +1,7 @@
 /* Cords evened out from several starts. */
 #include "tortuosity/cords/maxturn.h"
 #include "graph/angle.h"
+#include "graph/plan/least_pull.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
@@ -507,6 +508,120 @@ thr_status thr_max_turning_walks(const thr_frame *frame, double enough, thr_orbi
                                  thr_least *plan, thr_max_turning *out, thr_err *err)
 {
   return improve(use_walks, frame, enough, motions, limits, plan, out, err);
+}
+
+/* ---- the cord that is hardest to pull ---- */
+
+/* Computes what the harder of two pulled ends of cord k has to overcome, rad. A closed cord begins where it turns sharpest, as
+ * thr_join_cords has it. */
+static double pulled_turning(const thr_threading *t, int k)
+{
+  const thr_place *place = t->place + t->first[k];
+  const int n = t->first[k + 1] - t->first[k], closed = thr_threading_closed(t, k);
+  int start = 0;
+  double whole = 0;
+  for (int i = 0; i < n; i++) {
+    whole += place[i].price;
+    if (closed && place[i].price > place[start].price) start = i;
+  }
+  if (closed) whole -= place[start].price;
+  thr_least_pull_walk walk = thr_least_pull_begin(whole);
+  for (int i = closed; i < n; i++)
+    if (!thr_least_pull_next(&walk, place[closed ? (start + i) % n : i].price)) break;
+  return walk.larger;
+}
+
+/* The largest pulled turning of a cord, and a smooth measure of all of them, of which that makes up most. */
+typedef struct {
+  double largest, norm;
+} hardness;
+
+static hardness measure_pulls(const thr_threading *t)
+{
+  hardness h = {0, 0};
+  for (int k = 0; k < t->n_cords; k++) {
+    const double pulled = pulled_turning(t, k), two = pulled * pulled, four = two * two;
+    h.largest = fmax(h.largest, pulled);
+    h.norm += four * four;
+  }
+  h.norm = pow(h.norm, 1.0 / 8);
+  return h;
+}
+
+static bool is_easier(hardness a, hardness b)
+{
+  const double rounding = 1e-12;
+  if (fabs(a.largest - b.largest) > rounding * b.largest) return a.largest < b.largest;
+  return a.norm < b.norm * (1 - rounding);
+}
+
+/* Changes pairs at random, so many times, and leaves the best that it came by. best: [n_darts] scratch. */
+static void anneal_pulls(thr_evener *evener, int steps, int *best)
+{
+  static const double hot = 0.3, cold = 0.01; /* rad */
+  thr_threading *t = evener->t;
+  const size_t bytes = (size_t)t->g->n_darts * sizeof *best;
+  hardness now = measure_pulls(t), least = now;
+  memcpy(best, t->mate, bytes);
+  for (int i = 0; i < steps && t->n_places > 1; i++) {
+    thr_broken old;
+    if (i % 64 == 0 && thr_limits_stop(evener->limits)) break;
+    const double heat = hot * pow(cold / hot, (double)i / steps);
+    thr_evener_propose(evener, thr_random_below(&evener->state, t->n_places), &old);
+    if (old.n == 0) continue;
+    const bool cords = thr_evener_follow(evener);
+    const hardness next = cords ? measure_pulls(t) : now;
+    if (cords && (next.norm <= now.norm || thr_random_unit(&evener->state) < exp((now.norm - next.norm) / heat))) {
+      now = next;
+      if (!is_easier(now, least)) continue;
+      least = now;
+      memcpy(best, t->mate, bytes);
+    } else {
+      thr_threading_take_back(t, &old);
+      thr_evener_follow(evener);
+    }
+  }
+  memcpy(t->mate, best, bytes);
+  thr_evener_follow(evener);
+}
+
+/* A few runs from the plan's cords, each from the best so far. */
+static thr_status ease_pulls(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
+{
+  enum { RUNS = 4, MOST_STEPS = 40000 };
+  static const double work = 8e6; /* darts looked at in a run */
+  const int steps = (int)fmin(MOST_STEPS, work / x->best.g.n_darts);
+  thr_threading threading;
+  thr_join j;
+  thr_status st = copy_best(x, &j, err);
+  if (st) return st;
+  thr_evener evener = {&threading, x->limits, thr_join_count(&j), x->scale, 1};
+  int *best = thr_calloc((size_t)j.g.n_darts, sizeof *best);
+  st = thr_join_threading(&j, &threading, err);
+  if (!st && !best) st = thr_nomem(err);
+  if (!st && thr_evener_follow(&evener)) {
+    const hardness before = measure_pulls(&threading);
+    for (int run = 0; run < RUNS; run++)
+      anneal_pulls(&evener, steps, best);
+    if (is_easier(measure_pulls(&threading), before)) {
+      thr_join_destroy(&x->best);
+      x->best = j;
+      j = (thr_join){0};
+    }
+  }
+  thr_threading_destroy(&threading);
+  thr_join_destroy(&j);
+  free(best);
+  return st ? st : keep_best(x, frame, plan, err);
+}
+
+thr_status thr_max_turning_pull(const thr_frame *frame, const thr_limits *limits, thr_least *plan, thr_err *err)
+{
+  thr_max_turning out = {0};
+  thr_limits quiet = *limits; /* counted by itself: what was searched before may have used up time and work */
+  quiet.deadline = 0;
+  quiet.work = NULL;
+  return improve(ease_pulls, frame, 0, NULL, &quiet, plan, &out, err);
 }
 
 /* Cords from the table that turn least together. */

@@ -36,6 +36,11 @@ thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const 
 thr_status thr_max_turning_walks(const thr_frame *frame, double enough, thr_orbits_motions *motions, const thr_limits *limits,
                                  thr_least *plan, thr_max_turning *out, thr_err *err) THR_MUST_CHECK;
 
+/* Lowers what an end of the cord that is hardest to pull has to overcome (thr_cord_pulled_turning; closed cords begin where they
+ * turn sharpest), by simulated annealing of exchanges that keep the passes; a counted number, whatever the limits but for an
+ * interruption. The plan's cords stay where none are better. O(passes) a step. */
+thr_status thr_max_turning_pull(const thr_frame *frame, const thr_limits *limits, thr_least *plan, thr_err *err) THR_MUST_CHECK;
+
 /* Cords of small components that turn least together, where the plan's turn more: exactly, as thr_max_turning_improve does it. */
 thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits, thr_least *plan,
                                    thr_err *err) THR_MUST_CHECK;
