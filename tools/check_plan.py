@@ -3167,8 +3167,11 @@ def turning_words(p):
     if not angles:
         words += f"price {'%.9g' % claim['price']} ({o.cost}), "
     words += proof_words(claim, claim["price"], "nothing turns less" if angles else "nothing has a lower price", "least possible")
-    if len(p.cords) == 1 and o.minimize != "max-turning":
+    if len(p.cords) == 1 and o.minimize == "turning":
         return words
+    if o.pull:
+        words += f"; the cord that is hardest to pull, {math.degrees(largest['price']):.1f} deg before an end: "
+        return words + proof_words(largest, largest["price"], "it cannot be less", "least possible")
     words += f"; the cord that turns most, {math.degrees(largest['price']):.1f} deg: " if angles else f"; the dearest cord, {'%.6g' % largest['price']}: "
     return words + proof_words(largest, largest["price"], "it cannot turn less" if angles else "it cannot cost less", "least possible")
 
