@@ -6,7 +6,6 @@
 #include "planner/dispatch.h"
 #include "planner/order.h"
 #include "planner/planners.h"
-#include "planner/trim.h"
 #include "planner/uncross.h"
 #include "symmetry/group/automorphisms.h"
 

@@ -75,7 +75,7 @@ typedef struct {
 
 /* Of cord c, whose first k passes are upto[k] long, at one node: is there a better one? */
 static void try_node(const thr_recut *recut, const thr_channel *channel, int n, int c, const double *upto, double whole,
-                     cut *best)
+                     bool back, cut *best)
 {
   for (int j = 0; j < n; j++)
     for (int i = 0; i < j; i++) {
@@ -84,7 +84,7 @@ static void try_node(const thr_recut *recut, const thr_channel *channel, int n, 
       double part = upto[b->pass + 1] - upto[a->pass + 1], longer = fmax(part, whole - part);
       if (best->cord >= 0 && longer >= best->longer) continue;
       thr_channel one = {.in = a->in, .out = b->out}, other = {.in = b->in, .out = a->out};
-      bool free_of = one.in != one.out && other.in != other.out && !thr_channels_cross(recut->rank, &one, &other);
+      bool free_of = (back || (one.in != one.out && other.in != other.out)) && !thr_channels_cross(recut->rank, &one, &other);
       for (int k = 0; k < n && free_of; k++)
         free_of = k == i || k == j ||
                   (!thr_channels_cross(recut->rank, &one, &channel[k]) && !thr_channels_cross(recut->rank, &other, &channel[k]));
@@ -92,8 +92,8 @@ static void try_node(const thr_recut *recut, const thr_channel *channel, int n, 
     }
 }
 
-static thr_status find_cut(const thr_recut *recut, const thr_plan *plan, const thr_channels *channels, int c, cut *best,
-                           thr_err *err)
+static thr_status find_cut(const thr_recut *recut, const thr_plan *plan, const thr_channels *channels, int c, bool back,
+                           cut *best, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   const thr_cord *cord = &plan->cord[c];
@@ -104,7 +104,7 @@ static thr_status find_cut(const thr_recut *recut, const thr_plan *plan, const t
   for (int v = 0; v < frame->n_nodes; v++)
     if (recut->component[v] == component_of(recut, plan, c))
       try_node(recut, channels->channel + channels->first[v], channels->first[v + 1] - channels->first[v], c, upto,
-               upto[cord->n_passes], best);
+               upto[cord->n_passes], back, best);
   free(upto);
   return THR_OK;
 }
@@ -138,7 +138,7 @@ static int longest_left(const thr_recut *recut, const thr_plan *plan, int compon
   return longest;
 }
 
-static thr_status cut_one(const thr_recut *recut, thr_plan *plan, int component, bool *done, thr_err *err)
+static thr_status cut_one(const thr_recut *recut, thr_plan *plan, int component, bool back, bool *done, thr_err *err)
 {
   cut best = {.cord = -1};
   thr_channels channels;
@@ -146,7 +146,7 @@ static thr_status cut_one(const thr_recut *recut, thr_plan *plan, int component,
   if (!seen) return thr_nomem(err);
   thr_status st = thr_channels_make(&channels, plan, err);
   for (int c; !st && best.cord < 0 && (c = longest_left(recut, plan, component, seen)) >= 0; seen[c] = true)
-    st = find_cut(recut, plan, &channels, c, &best, err);
+    st = find_cut(recut, plan, &channels, c, back, &best, err);
   thr_channels_destroy(&channels);
   free(seen);
   *done = best.cord >= 0;
@@ -161,8 +161,11 @@ thr_status thr_recut_cords(const thr_recut *recut, thr_plan *plan, thr_err *err)
     int missing = recut->cords[k];
     for (int c = 0; c < plan->n_cords; c++)
       missing -= component_of(recut, plan, c) == k;
-    for (bool done = true; missing > 0 && done && !st; missing--)
-      st = cut_one(recut, plan, k, &done, err);
+
+    /* Cuts that turn back into an edge come last: they cross nothing, and only plans without crossings need them. */
+    for (int back = 0; back <= (plan->options.crossings == THR_CROSSINGS_FORBID); back++)
+      for (bool done = true; missing > 0 && done && !st; missing -= done)
+        st = cut_one(recut, plan, k, back, &done, err);
   }
   for (int c = 0; c < plan->n_cords; c++)
     thr_cord_id(c, plan->cord[c].id);

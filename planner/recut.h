@@ -28,10 +28,10 @@ thr_status thr_recut_count(thr_recut *recut, const thr_plan *plan, thr_err *err)
 void thr_recut_destroy(thr_recut *recut);
 
 /* Cuts closed cords in two until every component has as many as were counted, or no cut is left: where a cord visits a node twice
- * and its two channels can be led otherwise such that they cross no other, and turn back into no edge. The longest cord of a
- * component comes first, where it falls into the most even parts. Drawn on a plane two such channels run side by side in opposite
- * directions, so that every one of these leads a cord otherwise that falls in two. plan->cord has room for as many cords as were
- * counted. O(cuts x pairs of channels of a node). */
+ * and its two channels can be led otherwise such that they cross no other, and turn back into no edge (into one where no crossing
+ * is allowed and nothing else is left). The longest cord of a component comes first, where it falls into the most even parts.
+ * Drawn on a plane two such channels run side by side in opposite directions, so that every one of these leads a cord otherwise
+ * that falls in two. plan->cord has room for as many cords as were counted. O(cuts x pairs of channels of a node). */
 thr_status thr_recut_cords(const thr_recut *recut, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 #endif
