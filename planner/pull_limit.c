@@ -1,8 +1,9 @@
 /* Plans within a limit on the pull: as few cords as that takes, then the aims with so many.
  *
- * With both ends pulled a cord needs at least exp(mu x turning / 2) times the seating tension, so a limit on the pull is one on
- * the turning of the cord that turns most. How many cords it takes is bounded from below by the turning of all of them shared out
- * evenly, by single edges, and by the worth of walks; from above by cords of which the one that turns most turns little. */
+ * With both ends pulled a limit on the pull is one on the turns on either side of a cord's cut turn (docs/plan-format.md,
+ * "Threadings within a pull"). How many cords it takes is bounded from below by the turning of all of them shared out evenly, by
+ * single edges, by all sets of cords through few edges, and by the worth of walks; from above by cords of which the one that
+ * turns most turns little, and by cords of the programme over walks. */
 #include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
@@ -52,28 +53,45 @@ static bool is_range(const thr_request *options)
 
 /* ---- too few ---- */
 
-/* Takes the tree of a plan if it proves that n cords in every component are too few. What walks are worth may be of another
- * number of cords only: then the rest of the tree may do. */
+/* Takes the tree of a plan if it proves that n cords in every component are too few. What walks are worth is about the turning of
+ * whole cords, and left out. Of what a cut turn may count for, what proves it is found by trying. */
 static thr_status rule_out(fewest *x, int n, thr_turning_claim *made, thr_err *err)
 {
+  static const double cuts[] = {0.5, 0.25, 0.375, 0.625, 0.75, 1}; /* of 180 degrees */
   bool too_few = false;
-  thr_err why = {0};
+  thr_status st = THR_OK;
   if (!made->present || n <= x->claim.excluded) return THR_OK;
-  thr_status st = thr_check_too_few(x->f, x->o, n, made->most_passes, &made->tree, &too_few, &why);
-  if (st == THR_EVIOLATED && made->tree.walks.unit) {
-    thr_walk_proof_destroy(&made->tree.walks);
-    st = thr_check_too_few(x->f, x->o, n, made->most_passes, &made->tree, &too_few, &why);
+  thr_walk_proof_destroy(&made->tree.walks);
+  thr_pull_claim claim = {.excluded = n, .most_passes = THR_PULL_PASSES, .tree = made->tree};
+  for (size_t i = 0; i < sizeof cuts / sizeof *cuts && !st && !too_few; i++) {
+    thr_err why = {0};
+    claim.cut = (int64_t)ldexp(cuts[i] * THR_PI, THR_TURNING_BITS);
+    st = thr_check_too_few(x->f, x->o, n, &claim, &too_few, &why);
+    if (st == THR_EVIOLATED) return THR_OK; /* rows of one number of closed cords only */
+    if (st) thr_fail(err, st, "%s", why.text);
   }
-  if (st == THR_EVIOLATED) return THR_OK; /* rows of one number of closed cords only */
-  if (st || !too_few) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  if (st || !too_few) return st;
   thr_turning_proof_destroy(&x->claim.tree);
   thr_walk_proof_destroy(&x->claim.walks);
-  x->claim.tree = made->tree;
-  x->claim.excluded = n;
-  x->claim.most_passes = made->most_passes;
+  x->claim = claim;
   made->tree = (thr_turning_proof){0};
   made->present = false;
   return THR_OK;
+}
+
+/* Single edges, and all sets of cords through few edges, need no proof. */
+static thr_status rule_out_few(fewest *x, thr_err *err)
+{
+  const thr_pull_claim none = {0};
+  bool too_few = true;
+  thr_status st = thr_check_too_few(x->f, x->o, x->o->cords, &none, &too_few, err);
+  if (!st && too_few) x->claim.excluded = x->o->cords;
+  while (!st && x->claim.excluded < x->o->cords) {
+    st = thr_check_too_few(x->f, x->o, x->claim.excluded + 1, &none, &too_few, err);
+    if (st || !too_few) break;
+    x->claim.excluded++;
+  }
+  return st;
 }
 
 /* ---- plans of one number ---- */
@@ -316,6 +334,7 @@ static thr_status claim_number(fewest *x, thr_plan *plan, thr_err *err)
   for (int i = 0; i < plan->n_cords; i++)
     if (plan->cord[i].component >= n) n = plan->cord[i].component + 1;
   if (!is_range(x->o)) return THR_OK;
+  if (x->claim.excluded < x->o->cords_least) x->claim.excluded = 0; /* nobody asked for so few */
   x->claim.fewest = x->o->cords_least * n;
   if (thr_pull_excludes(&x->claim)) x->claim.fewest += x->claim.excluded + 1 - x->o->cords_least;
   x->claim.present = true;
@@ -336,7 +355,8 @@ static thr_status find_fewest(fewest *x, const thr_limits *limits, thr_err *err)
   bool fits;
   share = thr_limits_brief(&share, &work);
   x->limits = &share;
-  thr_status st = is_range(x->o) ? bound_all(x, err) : try_number(x, x->o->cords, THR_STEP_FEW_TRY, &fits, err);
+  thr_status st = rule_out_few(x, err);
+  if (!st) st = is_range(x->o) ? bound_all(x, err) : try_number(x, x->o->cords, THR_STEP_FEW_TRY, &fits, err);
   if (!st) st = try_short(x, err);
   if (!st && is_range(x->o)) st = search_numbers(x, err);
   if (!st && (is_range(x->o) || (x->found.n_cords == 0 && x->claim.excluded < x->o->cords))) {
@@ -434,6 +454,7 @@ static thr_status find_by_components(fewest *x, const thr_components *components
   if (!st && keeps(x, &joined)) take_found(x, &joined, thr_planner_most_cords(&joined, &component));
   share = thr_limits_brief(&share, &work);
   x->limits = &share;
+  if (!st && x->found.n_cords > 0) st = rule_out_few(x, err);
   if (!st && x->found.n_cords > 0) st = bound_all(x, err);
   share = thr_dispatch_share(limits, THR_STEP_FEWEST);
   share = thr_limits_brief(&share, &for_walks);

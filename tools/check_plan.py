@@ -895,8 +895,11 @@ def check_length(p):
 class Model:
     """Columns of the turns, extra passes, ends and U-turns of plans, and the least price that multipliers prove."""
 
-    def __init__(self, p, cords, most_passes, free):
+    def __init__(self, p, cords, most_passes, free, cut=None):
+        """cut: what a turn counts for at most; solid cords turn back at every node then, and connections are never counted exactly."""
         f, o = self.f, self.o = p.frame, p.options
+        self.cut = cut
+        weigh = lambda a, b: 0 if free else min(math.floor(Fraction(o.price(f, a, b)) * UNIT), math.inf if cut is None else cut)
         self.tied, self.need = o.tube, o.need
         self.cords = cords  # closed cords of a component at most
         self.most = [max(o.need[e], min(most_passes, o.most[e] or most_passes)) for e in range(f.m)]
@@ -909,14 +912,13 @@ class Model:
         for v in range(f.n):
             for i, a in enumerate(f.at[v]):
                 for b in f.at[v][i + 1:]:
-                    self.weight[a, b] = 0 if free else math.floor(Fraction(o.price(f, a, b)) * UNIT)
+                    self.weight[a, b] = weigh(a, b)
                     self.high[a, b] = min(self.most[a >> 1], self.most[b >> 1])
                 if v in o.allowed:
                     self.weight[a, -1] = 0
                     self.high[a, -1] = min(self.most[a >> 1], self.supply[self.group[v]][1])
-            if len(f.at[v]) == 1 and not self.tied:
-                a = f.at[v][0]
-                self.weight[a, a] = 0 if free else math.floor(Fraction(o.price(f, a, a)) * UNIT)
+            for a in f.at[v] if (len(f.at[v]) == 1 or cut is not None) and not self.tied else []:
+                self.weight[a, a] = weigh(a, a)
                 self.high[a, a] = self.most[a >> 1] // 2
         self.rate = Fraction(0)
         if free:
@@ -992,7 +994,7 @@ class Model:
 
     def ranked(self, v):
         """Are connections at the node counted exactly?"""
-        return 2 <= len(self.f.at[v]) <= 8
+        return 2 <= len(self.f.at[v]) <= 8 and self.cut is None
 
     def ranked_node(self, v, ranks, cost):
         """Least price of turns at the node, with one at every half-edge at least, less what the connections gain. Turns of a price
@@ -1256,7 +1258,7 @@ class Tied:
 
 # ---- components of few edges ----
 
-FEW_EDGES, FEW_SUMMED, FEW_SETS, FEW_SHARED = 18, 12, 2**18, 400000
+FEW_EDGES, FEW_SUMMED, FEW_SETS, FEW_SHARED, PULL_SETS = 18, 12, 2**18, 400000, 2**16
 ONE, LEAST = {}, {}  # tables that were made before, and what they came to
 
 
@@ -1919,8 +1921,8 @@ class Walks:
     def node_of(self, place):
         return self.f.tail(place ^ 1) if self.turning else place
 
-    def forced(self):
-        """The most that the turns over a single edge come to, from end to end."""
+    def forced(self, pulled=False):
+        """The most that the turns over a single edge come to, from end to end; pulled: up to the edge from one end."""
         least = {d: 0 for d in range(2 * self.f.m) if self.f.tail(d ^ 1) in self.open}
         queue, done = [(0, d) for d in least], set()
         heapq.heapify(queue)
@@ -1934,6 +1936,8 @@ class Walks:
                 if here is not None and here < least.get(h ^ 1, math.inf):
                     least[h ^ 1] = here
                     heapq.heappush(queue, (here, h ^ 1))
+        if pulled:
+            return max([min(least.get(h, math.inf) for h in (2 * e, 2 * e + 1)) for e in range(self.f.m) if {2 * e, 2 * e + 1} & least.keys()], default=0)
         return max([least[2 * e] + least[2 * e + 1] for e in range(self.f.m) if 2 * e in least and 2 * e + 1 in least], default=0)
 
     def read(self, o, place):
@@ -2095,10 +2099,11 @@ class Walks:
 
 
 class PulledWalks(Walks):
-    """Walks with a pass before and after which they turn by no more than a pull overcomes, less their lengths."""
+    """Walks with a turn before and after which they turn by no more than a pull overcomes, less their lengths. (Version 1: a pass.)"""
 
     def __init__(self, p):
         f = p.frame
+        self.old = p.options.old_pull
         super().__init__(p, {(h, k): math.floor(f.angle(h, k) * UNIT) for h in range(2 * f.m) for k in f.at[f.tail(h)] if h <= k})
         o = p.options
         require(o.max_pull is not None and o.mu > 0, "proof.length.walks: there is no limit on the pull")
@@ -2138,6 +2143,9 @@ class PulledWalks(Walks):
             more = (lambda v: 0) if self.closed else (lambda v: self.node[v])
             ends = {x: more(self.node_of(x[0])) for x in order if self.node_of(x[0]) in home}
             after = self.most(order, steps, ends, longest)[self.units]
+            if not self.old:  # over the cut turn, or to an end without one
+                over = {x: max((after[to] + y for to, _, y in steps[x] if to in after), default=-math.inf) for x in order}
+                after = {x: max(y, ends.get(x, -math.inf)) for x, y in over.items() if x in ends or y > -math.inf}
             before = self.most(order, steps, after, longest)[self.units]
             firsts = [(d, (d, self.then(frozenset(), d, d))) for d in places if f.tail(d) in home]
             best = max([best] + [before[x] + self.passing(d) + more(f.tail(d)) for d, x in firsts if x in before])
@@ -2248,27 +2256,100 @@ def check_pulls(p):
         require(o.mu * part <= math.log(o.max_pull) + 1e-9 * (1 + math.log(o.max_pull)), f"cord {cord.id}: needs more than options.max_pull")
 
 
+def few_within(p, o, cords, allowed):
+    """Do so many cords, whose turns on either side of a cut turn come to so much at most, pass all edges of every component? True where
+    that is not known, too."""
+    f, looked = p.frame, 0
+    for c in range(len(f.pieces)):
+        edges = f.edges_of(c)
+        if len(edges) > FEW_SUMMED or not edges:
+            continue
+        looked += (1 << len(edges)) * (len(f.pieces[c]) if o.ends == "closed" else 1)
+        if looked > PULL_SETS:
+            return True
+        number = sum(o.count.get(v, 0) for v in f.pieces[c]) // 2 if o.ends == "counts" else cords
+        some = set()  # of edges that a cord passes
+        for homes in [{v} for v in f.pieces[c]] if o.ends == "closed" else [set(o.allowed) & set(f.pieces[c])]:
+            reached = {}
+            for (mask, h), turned in sides(f, o.tube, edges, homes, allowed).items():
+                reached.setdefault(f.tail(h ^ 1), set()).add(mask)
+            for masks in map(largest, reached.values()):
+                some.update(a | b for a in masks for b in masks)
+        everything, unions = (1 << len(edges)) - 1, {0}
+        some = largest(some)
+        for _ in range(min(number, len(edges))):
+            unions = largest({a | b for a in unions for b in some}.union(unions))
+        if everything not in unions:
+            return False
+    return True
+
+
+def largest(masks):
+    """The sets that are in no other."""
+    found = []
+    for mask in sorted(masks, key=lambda x: -x.bit_count() if hasattr(x, "bit_count") else -bin(x).count("1")):
+        if not any(mask & ~x == 0 for x in found):
+            found.append(mask)
+    return found
+
+
+def sides(f, tube, edges, homes, allowed):
+    """Least turning of the walks from some nodes that pass just a set of edges, and last a half-edge: not more than allowed."""
+    index = {e: i for i, e in enumerate(edges)}
+    best, queue = {}, [(0.0, 1 << index[h >> 1], h) for v in homes for h in f.at[v]]
+    onward = {h: [(g, f.angle(h ^ 1, g)) for g in f.at[f.tail(h ^ 1)] if g != h ^ 1 or not tube] for e in edges for h in (2 * e, 2 * e + 1)}
+    heapq.heapify(queue)
+    while queue:
+        turned, mask, h = heapq.heappop(queue)
+        if (mask, h) in best:
+            continue
+        best[mask, h] = turned
+        for g, angle in onward[h]:
+            there = mask | 1 << index[g >> 1], g
+            if turned + angle <= allowed and there not in best:
+                heapq.heappush(queue, (turned + angle, *there))
+    return best
+
+
 def too_few(p, claim, place):
     """Some cord turns too much if there are so few in every component."""
     o, f = copy.copy(p.options), p.frame
     cords = member(claim, "excluded", "integer", place, 1, 1000)
-    most = member(claim, "most_passes", "integer", place, 4 * max(o.need) + 4, 10**6)
     o.least, o.cords, o.cost = min(o.least, cords), cords, "angle"
+    require(o.mu > 0, f"{place}: without friction")
     other = copy.copy(p)
     other.options = o
-    model = Model(other, cords, most, False)
-    model.read(member(claim, "proof", "object", place), place + ".proof")
-    all_turns = model.bound(place + ".proof")
-    require(all_turns is not None, f"{place}.proof: proves that there is no plan")
-    all_turns = max(Fraction(0), Fraction(all_turns) / UNIT)
-    free = 0 if o.old_pull else math.pi  # at most, of the turn that neither end slides over
-    needed = 2 * math.log(o.max_pull) / o.mu + free + (math.pi if p.closing else 0) if o.mu > 0 else 0
-    bound = max(all_turns / (cords * len(f.pieces)), largest_bound(other, model, cords, place + ".proof"),
-                few_edges_bounds(other, True, needed * (1 + 1e-7) + 1e-7)[1])
-    if p.closing:  # Fenchel 1929; the last turn of a closed cord is at its ends
-        bound = max(bound, Fraction(2 * math.pi)) - Fraction(math.pi)
-    limit = math.log(o.max_pull)
-    require((bound - Fraction(free)) * Fraction(o.mu) / 2 > limit + 2 * TOLERANCE * (1 + Fraction(limit)), f"{place}: {cords} cords are not proved to be too few")
+    ends = 2 if p.closing else 1  # turns that are passed by nobody
+    limit = Fraction(math.log(o.max_pull))
+    allowed = (limit + 2 * TOLERANCE * (1 + limit)) / Fraction(o.mu)
+    bound = Fraction(0)  # on a side of a cut turn
+    if not o.old_pull:
+        walks = Walks(other, {(h, k): math.floor(f.angle(h, k) * UNIT) for h in range(2 * f.m) for k in f.at[f.tail(h)]
+                              if h <= k and (h < k or not o.tube)})
+        bound = Fraction(walks.forced(True), UNIT)
+    if "proof" in claim:
+        most = member(claim, "most_passes", "integer", place, 4 * max(o.need) + 4 if o.old_pull else 10**6, 10**6)
+        require(("cut" in claim) != o.old_pull, f"{place}.cut: with version 2, and only then")
+        cut = member(claim, "cut", "integer", place, 1, math.floor(math.pi * UNIT), default=None)
+        model = Model(other, cords, most, False, cut)
+        model.read(member(claim, "proof", "object", place), place + ".proof")
+        all_turns = model.bound(place + ".proof")
+        require(all_turns is not None, f"{place}.proof: proves that there is no plan")
+        each = max(Fraction(0), Fraction(all_turns) / UNIT) / (cords * len(f.pieces))
+        if o.old_pull:
+            needed = 2 * math.log(o.max_pull) / o.mu + (math.pi if p.closing else 0)
+            each = max(each, largest_bound(other, model, cords, place + ".proof"), few_edges_bounds(other, True, needed * (1 + 1e-7) + 1e-7)[1])
+            if p.closing:  # Fenchel 1929; the last turn of a closed cord is at its ends
+                each = max(each, Fraction(2 * math.pi)) - Fraction(math.pi)
+            bound = each / 2
+        else:
+            require(model.walks is None, f"{place}.proof.walks: not within a pull")
+            for c, least in enumerate(model.bound_of):
+                counted = sum(o.count.get(v, 0) for v in f.pieces[c]) // 2 if o.ends == "counts" else cords
+                each = max(each, Fraction(least) / UNIT / (counted or cords))
+            bound = max(bound, (each - ends * Fraction(cut, UNIT)) / 2)
+    fits = bound <= allowed and (o.old_pull or few_within(p, o, cords, float(allowed)))
+    require(not fits, f"{place}: {cords} cords are not proved to be too few")
     return cords
 
 
@@ -2278,12 +2359,13 @@ def check_pull(p):
     if claim is None:
         return
     o, place = p.options, "proof.pull"
-    known(claim, "status lower_bound excluded most_passes proof walks", place)
+    known(claim, "status lower_bound excluded most_passes cut proof walks", place)
     require(o.max_pull is not None, f"{place}: without a limit on the pull")
-    require(("proof" in claim) == ("most_passes" in claim), f"{place}: a part of the proof is missing")
-    require(("proof" in claim) + ("walks" in claim) == ("excluded" in claim), f"{place}: not one proof of what is excluded")
+    require(("proof" in claim) == ("most_passes" in claim) >= ("cut" in claim), f"{place}: a part of the proof is missing")
+    proofs = ("proof" in claim) + ("walks" in claim)
+    require(proofs <= ("excluded" in claim) and (proofs or not (o.old_pull and "excluded" in claim)), f"{place}: not one proof of what is excluded")
     fewest = len(p.cords) if o.ends == "counts" else o.least * len(p.frame.pieces)
-    if "proof" in claim:
+    if "excluded" in claim and "walks" not in claim:
         fewest += max(0, too_few(p, claim, place) + 1 - o.least)
     if "walks" in claim:
         cords = member(claim, "excluded", "integer", place, 1, 1000)
@@ -3201,11 +3283,12 @@ def terms(p):
     words += f", none that needs more than {'%.6g' % o.max_pull} times the seating tension at mu = {'%g' % o.mu}" if o.max_pull is not None else ""
     words += "; tube joints" if o.tube else "; solid joints"
     words += "; lengths of edges as given, not from their nodes" if f.own_lengths else ""
-    bounded = "; for the %s: at most %d passes of an edge, back only at nodes with one edge"
-    words += bounded % ("fewest cords", claims["pull"]["most_passes"]) if "proof" in claims.get("pull", {}) else ""
+    bounded, back = "; for the %s: at most %d passes of an edge", ", back only at nodes with one edge"
+    if "proof" in claims.get("pull", {}):
+        words += bounded % ("fewest cords", claims["pull"]["most_passes"]) + (back if p.options.old_pull else "")
     if "turning" in claims:
         limit = claims["turning"].get("length_limit")
-        words += bounded % ("turning", claims["turning"]["most_passes"])
+        words += bounded % ("turning", claims["turning"]["most_passes"]) + back
         words += f", at most {limit:.6f} {f.unit}" if limit is not None else ""
     return words
 

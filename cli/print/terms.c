@@ -61,8 +61,8 @@ static void put_number(thr_text *text, const thr_plan *plan)
 static void put_kind(thr_text *text, const thr_plan *plan)
 {
   if (plan->pull_claim.tree.n_nodes > 0)
-    thr_text_printf(text, "; for the fewest cords: at most %d passes of an edge, back only at nodes with one edge",
-                    plan->pull_claim.most_passes);
+    thr_text_printf(text, "; for the fewest cords: at most %d passes of an edge%s", plan->pull_claim.most_passes,
+                    plan->options.old_pull ? ", back only at nodes with one edge" : "");
   if (!plan->turning.present) return;
   thr_text_printf(text, "; for the turning: at most %d passes of an edge, back only at nodes with one edge",
                   plan->turning.most_passes);

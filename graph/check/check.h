@@ -50,12 +50,12 @@ thr_status thr_check_turning(const thr_frame *frame, const thr_request *options,
                              const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err) THR_MUST_CHECK;
 
 /* Are so many cords in every component, or fewer (but not fewer than options.cords_least), too few for options.max_pull? They are
- * if one of them turns by more than thr_request_most_turning: by single edges, by the turning of all cords that tree proves
- * shared out evenly, by the worth of walks that it holds, or in components of few edges by all sets of them. Of plans with at
- * most most_passes over any edge and U-turns only at nodes with one edge. THR_EVIOLATED: the tree proves nothing. As
- * thr_check_turning. */
-thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options, int cords, int most_passes,
-                             const thr_turning_proof *tree, bool *too_few, thr_err *err) THR_MUST_CHECK;
+ * if one of them turns by more than thr_request_most_pulled on one side of its cut turn: by single edges, by what the claim's
+ * tree (there may be none) proves of all turns, shared out evenly, or in components of few edges by all sets of cords. It is
+ * about threadings within a pull as docs/plan-format.md has them, of at most most_passes over any edge. Reads tree, cut and
+ * most_passes of the claim. THR_EVIOLATED: the tree proves nothing. As thr_check_turning. */
+thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options, int cords, const thr_pull_claim *claim,
+                             bool *too_few, thr_err *err) THR_MUST_CHECK;
 
 /* The same for passes[n_edges] that no cords run through yet, *lower_bound then being one on their length. THR_EVIOLATED also
  * where cords cannot run so: too few passes of an edge, an odd number at a node where no cord can end. */

@@ -128,6 +128,10 @@ thr_status thr_check_turning_claim(const thr_plan *plan, double least_length, th
 thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request *options, int cords,
                           const thr_turning_proof *tree, double limit, double *all, double *largest, thr_err *err) THR_MUST_CHECK;
 
+/* Of that what a tree proves of all cords together, and of each component alone, and walks with it. */
+thr_status thr_check_shares(const thr_turning_columns *columns, int cords, const thr_turning_proof *tree, double *all,
+                            double *largest, thr_err *err) THR_MUST_CHECK;
+
 /* No cord needs more pull than the options allow. */
 thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                            thr_err *err) THR_MUST_CHECK;

@@ -2,6 +2,7 @@
 #include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
+#include "graph/check/few_edges.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
@@ -82,70 +83,116 @@ thr_status thr_check_pulled_length(const thr_frame *frame, const thr_request *op
 
 /* ---- too few cords ---- */
 
-/* No plan of the task is without a cord that turns by *bound, rad. fewer: the task as a request. */
-static thr_status largest_bound(const thr_turning_columns *columns, const thr_request *fewer, const thr_turning_proof *tree,
-                                double *bound, thr_err *err)
+static thr_turning_task task_of(const thr_frame *frame, const thr_request *options, int cords, const thr_pull_claim *claim,
+                                bool *end_allowed)
+{
+  const int least = thr_plan_cords_least(options);
+  for (int v = 0; v < frame->n_nodes; v++)
+    end_allowed[v] = thr_plan_end_allowed(frame, options, v);
+  return (thr_turning_task){.cover = options->cover,
+                            .capacity = options->capacity,
+                            .tube = options->joint == THR_JOINT_TUBE,
+                            .most_passes = claim->tree.n_nodes > 0 ? claim->most_passes : THR_PULL_PASSES,
+                            .cords = cords,
+                            .cords_least = least < cords ? least : cords,
+                            .end_allowed = options->ends == THR_ENDS_CLOSED ? NULL : end_allowed,
+                            .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
+                            .extra_limit = -1,
+                            .cut = options->old_pull ? 0 : claim->cut};
+}
+
+/* Raises *side to what the tree proves of the turns on one side of some cord's cut turn, rad. Where no turn weighs more than
+ * task->cut, all turns of a cord weigh at most what its two sides do and a cut turn, with closed cords also the turn at its ends.
+ */
+static thr_status bound_by_tree(const thr_turning_columns *columns, const thr_turning_proof *tree, double *side, thr_err *err)
+{
+  const thr_turning_task *task = columns->task;
+  double each = 0, all = 0;
+  thr_status st = thr_check_shares(columns, task->cords, tree, &all, &each, err);
+  const double passed_by_nobody = (task->end_allowed ? 1 : 2) * ldexp((double)task->cut, -THR_TURNING_BITS) * (1 + 1e-15);
+  each = fmax(each, all / ((double)task->cords * columns->n_components));
+  *side = fmax(*side, (each - passed_by_nobody) / 2);
+  return st;
+}
+
+/* Raises *side to half of what some cord turns, all its turns but that at a closed cord's ends being passed: plans of version 1.
+ */
+static thr_status bound_whole(const thr_turning_columns *columns, const thr_request *fewer, const thr_turning_proof *tree,
+                              double *side, thr_err *err)
 {
   const thr_turning_task *task = columns->task;
   const double last = task->end_allowed ? 0 : THR_PI; /* of a closed cord: that turn is at its ends */
-  double all = 0;
-  thr_status st =
-      thr_check_tree(columns, fewer, task->cords, tree, thr_request_most_turning(fewer) + last + 1e-3, &all, bound, err);
-  if (st) return st;
-  *bound = fmax(*bound, all / ((double)task->cords * columns->n_components));
-  if (!task->end_allowed) *bound = fmax(*bound, thr_turn_closed(task->cost)) - last;
-  return THR_OK;
+  const double limit = 2 * thr_request_most_pulled(fewer) + last + 1e-3;
+  double all = 0, bound = 0;
+  thr_status st = thr_check_tree(columns, fewer, task->cords, tree, limit, &all, &bound, err);
+  bound = fmax(bound, all / ((double)task->cords * columns->n_components));
+  if (!task->end_allowed) bound = fmax(bound, thr_turn_closed(task->cost)) - last;
+  *side = fmax(*side, bound / 2);
+  return st;
 }
 
-thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options, int cords, int most_passes,
-                             const thr_turning_proof *tree, bool *too_few, thr_err *err)
+/* What is known of any cords over single edges. */
+static thr_status bound_by_edges(const thr_frame *frame, const thr_turning_task *task, double *side, thr_err *err)
 {
-  const double most = log(options->max_pull);
-  const bool closed = options->ends == THR_ENDS_CLOSED, counts = options->ends == THR_ENDS_COUNTS;
-  const int least = thr_plan_cords_least(options);
+  thr_turning_task uncut = *task;
   thr_turning_columns columns;
-  double bound = 0;
+  uncut.cut = 0;
+  thr_status st = thr_turning_columns_init(&columns, frame, &uncut, err);
+  if (!st) st = thr_walk_forced(&columns, true, side, err);
+  thr_turning_columns_destroy(&columns);
+  return st;
+}
+
+static thr_status find_side(const thr_frame *frame, const thr_request *options, const thr_turning_task *task,
+                            const thr_turning_proof *tree, double *side, thr_err *err)
+{
+  thr_turning_columns columns = {0};
   thr_request fewer = *options; /* whose lists are borrowed */
-  bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
+  fewer.cords_least = task->cords_least;
+  fewer.cords = task->cords;
+  fewer.turning.cost = task->cost;
+  thr_status st = options->old_pull ? THR_OK : bound_by_edges(frame, task, side, err);
+  if (st || tree->n_nodes == 0) return st;
+  st = thr_turning_columns_init(&columns, frame, task, err);
+  if (!st) st = options->old_pull ? bound_whole(&columns, &fewer, tree, side, err) : bound_by_tree(&columns, tree, side, err);
+  thr_turning_columns_destroy(&columns);
+  return st;
+}
+
+thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options, int cords, const thr_pull_claim *claim,
+                             bool *too_few, thr_err *err)
+{
+  const double most = log(options->max_pull), mu = options->physics.mu;
+  const double allowed = (most + 2 * rounding * (1 + most)) / mu; /* twice that which cords are allowed */
+  double side = 0;
+  bool fit = true;
   *too_few = false;
+  if (mu <= 0) return THR_OK;
+  bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   if (!end_allowed) return thr_nomem(err);
-  for (int v = 0; v < frame->n_nodes; v++)
-    end_allowed[v] = thr_plan_end_allowed(frame, options, v);
-  const thr_turning_task task = {.cover = options->cover,
-                                 .capacity = options->capacity,
-                                 .tube = options->joint == THR_JOINT_TUBE,
-                                 .most_passes = most_passes,
-                                 .cords = cords,
-                                 .cords_least = least < cords ? least : cords,
-                                 .end_allowed = closed ? NULL : end_allowed,
-                                 .end_count = counts ? options->end_count : NULL,
-                                 .extra_limit = -1};
-  fewer.cords_least = task.cords_least;
-  fewer.cords = cords;
-  fewer.turning.cost = task.cost;
-  thr_status st = thr_turning_columns_init(&columns, frame, &task, err);
-  if (!st) {
-    st = largest_bound(&columns, &fewer, tree, &bound, err);
-    thr_turning_columns_destroy(&columns);
-  }
+  const thr_turning_task task = task_of(frame, options, cords, claim, end_allowed);
+  thr_status st = find_side(frame, options, &task, &claim->tree, &side, err);
+  if (!st && side <= allowed && !options->old_pull) st = thr_few_edges_within(frame, options, cords, allowed, &fit, err);
   free(end_allowed);
-  const double part = (options->old_pull ? bound : bound - THR_PI) / 2;              /* neither end slides over one turn */
-  if (!st) *too_few = options->physics.mu * part > most + 2 * rounding * (1 + most); /* twice that which cords are allowed */
+  *too_few = !st && (side > allowed || !fit);
   return st;
 }
 
 /* ---- the claim ---- */
 
-static thr_status check_tree(const thr_plan *plan, thr_err *err)
+/* The tree, single edges, and all sets of cords through few edges. */
+static thr_status check_too_few(const thr_plan *plan, thr_err *err)
 {
   const thr_pull_claim *claim = &plan->pull_claim;
-  int least_most = thr_turning_most_passes(&plan->frame, plan->options.cover);
+  const bool old = plan->options.old_pull;
+  const int least_most = old ? thr_turning_most_passes(&plan->frame, plan->options.cover) : THR_PULL_PASSES;
   bool too_few;
-  if (claim->most_passes < least_most)
+  if (claim->tree.n_nodes > 0 && claim->most_passes < least_most)
     return thr_fail(err, THR_EVIOLATED, "proof.pull.most_passes: %d; a proof is about plans with up to %d passes over an edge",
                     claim->most_passes, least_most);
-  thr_status st =
-      thr_check_too_few(&plan->frame, &plan->options, claim->excluded, claim->most_passes, &claim->tree, &too_few, err);
+  if (claim->tree.n_nodes > 0 && (claim->cut > 0) == old)
+    return thr_fail(err, THR_EVIOLATED, "proof.pull.cut: %s", old ? "plans of version 1 have none" : "missing");
+  thr_status st = thr_check_too_few(&plan->frame, &plan->options, claim->excluded, claim, &too_few, err);
   if (st || too_few) return st;
   return thr_fail(err, THR_EVIOLATED, "proof.pull: it is not proved that %d cords in every component are too few for the pull",
                   claim->excluded);
@@ -171,8 +218,11 @@ thr_status thr_check_pull_claim(const thr_plan *plan, const thr_check_walked *ch
   int least = thr_plan_cords_least(options),
       fewest = options->ends == THR_ENDS_COUNTS ? plan->n_cords : least * check_walked->n_components;
   if (options->max_pull <= 0) return thr_fail(err, THR_EVIOLATED, "proof.pull: the options set no limit on the pull");
-  thr_status st = claim->tree.n_nodes > 0 ? check_tree(plan, err) : THR_OK;
-  if (!st && claim->walks.unit > 0) st = check_walks(plan, check_walked, err);
+  thr_status st = THR_OK;
+  if (claim->walks.unit > 0)
+    st = check_walks(plan, check_walked, err);
+  else if (thr_pull_excludes(claim))
+    st = check_too_few(plan, err);
   if (st) return st;
   /* some component has one more, the others may have the least */
   if (thr_pull_excludes(claim) && claim->excluded >= least) fewest += claim->excluded + 1 - least;

@@ -297,8 +297,8 @@ static int cords_of(const thr_turning_columns *columns, int k, int cords)
 }
 
 /* *largest: raised to what the tree proves of each component alone, shared out among its cords, and what walks do with that. */
-static thr_status check_components(const thr_turning_columns *columns, int cords, const thr_turning_proof *tree, double *all,
-                                   double *largest, thr_err *err)
+thr_status thr_check_shares(const thr_turning_columns *columns, int cords, const thr_turning_proof *tree, double *all,
+                            double *largest, thr_err *err)
 {
   double worth = 0, *bound_of = thr_calloc((size_t)columns->n_components, sizeof *bound_of);
   if (!bound_of) return thr_nomem(err);
@@ -316,8 +316,8 @@ thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request 
                           const thr_turning_proof *tree, double limit, double *all, double *largest, thr_err *err)
 {
   double few_sum, few_largest;
-  thr_status st = thr_walk_forced(columns, largest, err);
-  if (!st) st = check_components(columns, cords, tree, all, largest, err);
+  thr_status st = thr_walk_forced(columns, false, largest, err);
+  if (!st) st = thr_check_shares(columns, cords, tree, all, largest, err);
   if (!st) st = thr_few_edges_bounds(columns->f, options, limit, &few_sum, &few_largest, err);
   if (st) return st;
   *all = fmax(*all, few_sum);

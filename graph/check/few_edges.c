@@ -25,6 +25,7 @@ typedef struct {
   const thr_frame *f;
   const thr_request *o;
   bool turning;
+  bool back_anywhere; /* by turning: also at nodes with other edges */
   double limit;
   int n, edge[THR_FEW_EDGES];
   int first[STATES + 1]; /* steps of state s: step[first[s]] .. step[first[s + 1] - 1] */
@@ -44,7 +45,7 @@ static double step_cost(const search *x, int from, int to)
   int a = half_of(x, from), b = half_of(x, to), v = thr_tail(x->f, b);
   bool back = b == (a ^ 1), tube = x->o->joint == THR_JOINT_TUBE;
   if (thr_head(x->f, a) != v) return INFINITY;
-  if (back && (tube || (x->turning && thr_degree(x->f, v) > 1))) return INFINITY;
+  if (back && (tube || (x->turning && !x->back_anywhere && thr_degree(x->f, v) > 1))) return INFINITY;
   return x->turning ? thr_check_price(x->f, x->o->turning.cost, a, b) : x->f->length[x->edge[to >> 1]];
 }
 
@@ -399,6 +400,118 @@ thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *optio
     thr_few_edges_destroy(&few);
   }
   if (!all) *sum = 0;
+  thr_scratch_free(&own);
+  return st;
+}
+
+/* ---- within a pull ---- */
+
+/* What the sides of cords from one end, or from any, pass. */
+typedef struct {
+  search x;
+  const int *component;
+  int number;
+  int64_t *side, *pairs; /* [2^n] sets that sides to one node pass; pairs of them with this union */
+  thr_few_edges cords;   /* one[S] is 0 where a cord within the pull passes S, else INFINITY */
+} pulled;
+
+static void begin_sides(pulled *p, int home)
+{
+  forget(&p->x, 0);
+  for (int s = 0; s < 2 * p->x.n; s++) {
+    const int v = thr_tail(p->x.f, half_of(&p->x, s));
+    if (home < 0 ? thr_plan_end_allowed(p->x.f, p->x.o, v) : v == home) costs_at(&p->x, 1u << (s >> 1))[s] = 0;
+  }
+  for (unsigned set = 1; set < 1u << p->x.n; set++)
+    settle(&p->x, set, 0);
+}
+
+/* Notes the unions of two sets that sides to node v pass. */
+static void join_sides(pulled *p, int v)
+{
+  const unsigned sets = 1u << p->x.n;
+  for (unsigned set = 0; set < sets; set++) {
+    p->side[set] = 0;
+    for (int s = 0; s < 2 * p->x.n; s++)
+      if (thr_head(p->x.f, half_of(&p->x, s)) == v && costs_at(&p->x, set)[s] <= p->x.limit) p->side[set] = 1;
+  }
+  memcpy(p->pairs, p->side, sets * sizeof *p->pairs);
+  add_parts(p->pairs, p->x.n, 1);
+  for (unsigned set = 0; set < sets; set++)
+    p->pairs[set] *= p->pairs[set];
+  add_parts(p->pairs, p->x.n, -1);
+  for (unsigned set = 0; set < sets; set++)
+    if (p->pairs[set] > 0) p->cords.one[set] = 0;
+}
+
+static void join_all(pulled *p, int home)
+{
+  begin_sides(p, home);
+  for (int v = 0; v < p->x.f->n_nodes; v++)
+    if (p->component[v] == p->number) join_sides(p, v);
+}
+
+static thr_status pulled_init(pulled *p, thr_err *err)
+{
+  const size_t sets = (size_t)1 << p->x.n;
+  p->cords.n = p->x.n;
+  p->cords.one = thr_calloc(sets, sizeof *p->cords.one);
+  p->side = thr_calloc(sets, sizeof *p->side);
+  p->pairs = thr_calloc(sets, sizeof *p->pairs);
+  p->x.cost = thr_calloc(sets * 2 * (size_t)p->x.n, sizeof *p->x.cost);
+  if (!p->cords.one || !p->side || !p->pairs || !p->x.cost) return thr_nomem(err);
+  for (size_t set = 0; set < sets; set++)
+    p->cords.one[set] = INFINITY;
+  list_steps(&p->x);
+  return THR_OK;
+}
+
+static void pulled_destroy(pulled *p)
+{
+  free(p->side);
+  free(p->pairs);
+  free(p->x.cost);
+  thr_few_edges_destroy(&p->cords);
+}
+
+static thr_status component_within(pulled *p, int cords, bool *fit, thr_err *err)
+{
+  double dearest = 0;
+  thr_status st = pulled_init(p, err);
+  for (int v = 0; v < p->x.f->n_nodes && !st && p->x.o->ends == THR_ENDS_CLOSED; v++)
+    if (p->component[v] == p->number) join_all(p, v);
+  if (!st && p->x.o->ends != THR_ENDS_CLOSED) join_all(p, -1);
+  if (!st) take_supersets(&p->cords);
+  if (!st) st = thr_few_edges_dearest(&p->cords, cords, &dearest, err);
+  *fit = dearest < INFINITY;
+  pulled_destroy(p);
+  return st;
+}
+
+thr_status thr_few_edges_within(const thr_frame *frame, const thr_request *options, int cords, double allowed, bool *fit,
+                                thr_err *err)
+{
+  thr_scratch own = {0};
+  int n, least, most, *component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component);
+  double sets = 0;
+  thr_request by_angle = *options;
+  by_angle.turning.cost = THR_TURN_ANGLE;
+  *fit = true;
+  thr_status st = thr_scratch_check(&own, err);
+  if (!st) st = thr_frame_components(frame, component, &n, err);
+  for (int c = 0; !st && *fit && c < n; c++) {
+    pulled p = {.x = {.f = frame, .o = &by_angle, .turning = true, .back_anywhere = true, .limit = allowed},
+                .component = component,
+                .number = c};
+    int nodes = 0;
+    p.x.n = count_edges(frame, component, c, p.x.edge);
+    for (int v = 0; v < frame->n_nodes; v++)
+      nodes += component[v] == c;
+    if (p.x.n == 0 || p.x.n > THR_FEW_SUMMED) continue;
+    sets += ldexp(options->ends == THR_ENDS_CLOSED ? nodes : 1, p.x.n);
+    thr_few_edges_cords(frame, options, component, c, &least, &most);
+    if (sets <= THR_PULL_SETS) st = component_within(&p, options->ends == THR_ENDS_COUNTS ? most : cords, fit, err);
+  }
   thr_scratch_free(&own);
   return st;
 }

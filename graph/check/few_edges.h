@@ -20,8 +20,9 @@
 
 enum {
   THR_FEW_EDGES = 18,
-  THR_FEW_SUMMED = 12,   /* of which the least in all is known, too */
-  THR_FEW_SETS = 1 << 18 /* of all components together */
+  THR_FEW_SUMMED = 12,    /* of which the least in all is known, too */
+  THR_FEW_SETS = 1 << 18, /* of all components together */
+  THR_PULL_SETS = 1 << 16 /* the same within a pull; with closed cords for each node of the component */
 };
 
 typedef struct {
@@ -81,6 +82,15 @@ thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *opti
  * are too many edges; *dearest: of the dearest cord in any component of few edges, INFINITY above limit. Components that may have
  * one cord only, and those for which the sets of the ones before leave no room (THR_FEW_SETS), count as large. */
 thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *options, double limit, double *sum, double *dearest,
+                                thr_err *err) THR_MUST_CHECK;
+
+/* Do so many cords, each within a pull that overcomes turns of `allowed` rad on either side of a cut turn, pass all edges of
+ * every component? (docs/plan-format.md, "Threadings within a pull".) *fit is true where that is not known: of components with
+ * more than THR_FEW_SUMMED edges, and as soon as there are more than THR_PULL_SETS sets to look at. options.turning.cost is not
+ * looked at. A side of a cord is a walk from where it may end (closed: from some node, both sides the same) to the node of the
+ * cut turn. Sets that sides from one end to one node pass are found from set to set as above; the cord's are the unions of two of
+ * them. */
+thr_status thr_few_edges_within(const thr_frame *frame, const thr_request *options, int cords, double allowed, bool *fit,
                                 thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -372,7 +372,7 @@ static thr_status leaf_allocate(thr_turning_leaf *k, thr_err *err)
 thr_status thr_turning_leaf_init(thr_turning_leaf *k, const thr_turning_columns *turning_columns, const thr_turning_dual *dual,
                                  thr_err *err)
 {
-  *k = (thr_turning_leaf){.c = turning_columns, .d = dual, .ranked = dual->n_ranks > 0};
+  *k = (thr_turning_leaf){.c = turning_columns, .d = dual, .ranked = dual->n_ranks > 0 && turning_columns->task->cut == 0};
   thr_status st = leaf_allocate(k, err);
   if (!st) st = check_sizes(turning_columns, dual, err);
   if (!st) take_potentials(k);

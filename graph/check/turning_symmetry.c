@@ -14,7 +14,7 @@ static int image_of(const int *image, int half)
   return image[half >> 1] ^ (half & 1);
 }
 
-/* The U-turn at a half-edge; these are in the order of their nodes. */
+/* The U-turn at a half-edge; these are in the order of their nodes, and of the half-edges there. */
 static int back_at(const thr_turning_columns *c, int half)
 {
   int low = c->first_back, high = c->n_columns - 1, v = thr_tail(c->f, half);
@@ -25,7 +25,7 @@ static int back_at(const thr_turning_columns *c, int half)
     else
       high = middle;
   }
-  return low;
+  return low + c->position[half];
 }
 
 int thr_turning_image(const thr_turning_columns *turning_columns, const int *image, int column)

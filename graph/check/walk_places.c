@@ -188,6 +188,7 @@ thr_status thr_walk_steps_remember(thr_walk_steps *steps, const thr_walk_memory 
     made.step = thr_scratch_array(&steps->own, (size_t)m.n_steps, sizeof *made.step);
     made.move = thr_scratch_array(&steps->own, (size_t)m.n_steps, sizeof *made.move);
     made.end = thr_scratch_array(&steps->own, places, sizeof *made.end);
+    made.cut = thr_scratch_array(&steps->own, places, sizeof *made.cut);
     made.active = thr_scratch_array(&steps->own, places, sizeof *made.active);
     made.own = steps->own;
     st = thr_scratch_check(&steps->own, err);

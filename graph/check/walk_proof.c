@@ -216,6 +216,7 @@ static thr_status allocate(thr_walk_steps *steps, making *m, thr_scratch *own, t
   steps->move = thr_scratch_array(&steps->own, squares, sizeof *steps->move);
   steps->begin = thr_scratch_array(&steps->own, places, sizeof *steps->begin);
   steps->end = thr_scratch_array(&steps->own, places, sizeof *steps->end);
+  steps->cut = thr_scratch_array(&steps->own, places, sizeof *steps->cut);
   steps->active = thr_scratch_array(&steps->own, places, sizeof *steps->active);
   steps->from = thr_scratch_array(&steps->own, n + 1, sizeof *steps->from);
   m->back = thr_scratch_array(own, m2, sizeof *m->back);
@@ -456,21 +457,33 @@ size_t thr_walk_tables(thr_walk_measure measure)
   return measure == THR_WALK_PULL ? 2 : 1;
 }
 
+/* Fills steps->cut from the last level of the table of what comes after the cut turn: that turn may be any, and has no units.
+ * Plans of version 1 are cut at a pass. */
+static void fill_cuts(thr_walk_steps *steps, const int64_t *after, int levels)
+{
+  for (int i = 0; i < steps->n; i++) {
+    int64_t most = steps->cut_at_pass ? after[(size_t)i * (size_t)levels] : steps->end[i];
+    for (int k = steps->first[i]; k < steps->first[i + 1] && !steps->cut_at_pass; k++) {
+      const int64_t on = after[(size_t)steps->move[k].to * (size_t)levels];
+      if (!thr_walk_is_none(on) && on + steps->move[k].worth > most) most = on + steps->move[k].worth;
+    }
+    steps->cut[i] = most;
+  }
+}
+
 THR_WIDE void thr_walk_run(thr_walk_steps *steps, int run, int units, int levels, int64_t *value)
 {
-  const bool chosen = steps->closed && steps->n_homes == 0;
+  const bool chosen = steps->closed && steps->n_homes == 0, pulled = steps->measure == THR_WALK_PULL;
   const int n = chosen ? choose_places(steps, run, levels, value) : steps->n, width = width_of(steps);
   if (steps->closed) set_ends(steps, run, 0);
-  const int64_t *after = NULL; /* the last level after the slackest pass */
-  for (int part = steps->measure == THR_WALK_PULL ? 1 : 0; part >= 0; part--) {
+  for (int part = pulled ? 1 : 0; part >= 0; part--) {
     int64_t *table = value + (size_t)part * (size_t)levels * (size_t)steps->n;
     for (int r = 0, level = 0; r <= units; r += width, level = level + width < levels ? level + width : 0)
       for (int k = 0; k < n; k++) {
         const int i = chosen ? steps->active[k] : k;
-        const int64_t end = after ? after[(size_t)i * (size_t)levels] : steps->end[i];
-        from_place(steps, end, i, r, level, levels, width, table);
+        from_place(steps, pulled && part == 0 ? steps->cut[i] : steps->end[i], i, r, level, levels, width, table);
       }
-    after = table + units % levels;
+    if (part > 0) fill_cuts(steps, table + units % levels, levels);
   }
   if (steps->closed) set_ends(steps, run, none);
 }
@@ -622,6 +635,7 @@ thr_status thr_walk_pull_check(const thr_turning_columns *columns, const thr_req
   if (st) return st;
   if (proof->all != 0 || proof->units < thr_walk_pull_units(options, proof->unit))
     st = thr_fail(err, THR_EVIOLATED, "walks: %d units leave out cords that are within the pull", proof->units);
+  steps.cut_at_pass = options->old_pull;
   if (!st) st = thr_walk_steps_remember(&steps, proof->memory, proof->n_memories, err);
   if (!st) st = thr_walk_steps_price(&steps, proof, err);
   if (!st) st = best_of(&steps, proof, &best, err);
@@ -657,7 +671,15 @@ static void least_to_end(const thr_turning_columns *columns, const int64_t *back
   }
 }
 
-thr_status thr_walk_forced(const thr_turning_columns *columns, double *bound, thr_err *err)
+/* What least says of the cords over edge e. */
+static int64_t forced_by(const int64_t *least, int e, bool pulled)
+{
+  const int64_t a = least[2 * e], b = least[2 * e + 1], none_yet = INT64_MAX / 8; /* no end is reached */
+  if (pulled) return a < b ? a : b;
+  return a < none_yet && b < none_yet ? a + b : 0;
+}
+
+thr_status thr_walk_forced(const thr_turning_columns *columns, bool pulled, double *bound, thr_err *err)
 {
   const thr_frame *frame = columns->f;
   size_t m2 = 2 * (size_t)frame->n_edges, most = 0;
@@ -673,11 +695,12 @@ thr_status thr_walk_forced(const thr_turning_columns *columns, double *bound, th
   thr_walk_step *some = thr_scratch_array(&own, most, sizeof *some);
   thr_status st = thr_scratch_check(&own, err);
   if (!st) {
-    fill_backs(columns, false, back);
+    fill_backs(columns, pulled && !columns->task->tube, back);
     least_to_end(columns, back, some, least, queue, waits);
-    for (int e = 0; e < frame->n_edges; e++)
-      if (least[2 * e] < INT64_MAX / 8 && least[2 * e + 1] < INT64_MAX / 8 && least[2 * e] + least[2 * e + 1] > largest)
-        largest = least[2 * e] + least[2 * e + 1];
+    for (int e = 0; e < frame->n_edges; e++) {
+      const int64_t here = forced_by(least, e, pulled);
+      if (here > largest && here < INT64_MAX / 8) largest = here;
+    }
     *bound = ldexp((double)largest, -THR_TURNING_BITS) * (1 - 1e-15);
   }
   thr_scratch_free(&own);

@@ -50,7 +50,7 @@ thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err 
 
 bool thr_pull_excludes(const thr_pull_claim *claim)
 {
-  return claim->tree.n_nodes > 0 || claim->walks.unit > 0;
+  return claim->excluded > 0;
 }
 
 void thr_plan_destroy(thr_plan *plan)

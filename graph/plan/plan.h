@@ -74,17 +74,21 @@ typedef struct {
   bool fewest_optimal;  /* this one has no more */
 } thr_cords_claim;
 
-/* What is proved about how few cords options.max_pull takes: of plans with the same options but fewer cords, U-turns at nodes
- * with one edge only and at most most_passes over any edge. */
+/* What is proved about how few cords options.max_pull takes: of threadings within a pull (docs/plan-format.md) with the same
+ * options but fewer cords, by a tree only of those with at most most_passes over any edge. (In version 1 also: U-turns at nodes
+ * with one edge only.) */
 typedef struct {
   bool present;
   bool optimal; /* proved: this plan has no more */
   int fewest;   /* no such plan has fewer cords in all */
   int excluded; /* at most so many in every component are too few: one would turn too much; below options.cords_least: none */
   int most_passes;
-  thr_turning_proof tree; /* of so many cords at most; empty where nothing is excluded, or walks prove it */
+  int64_t cut;            /* no turn counts for more in the tree, 2^-THR_TURNING_BITS; 0: no tree, or of version 1 */
+  thr_turning_proof tree; /* of so many cords at most; empty where nothing is excluded, or walks or few edges prove it */
   thr_walk_proof walks;   /* of any plans (graph/plan/walk_proof.h); unit 0: none */
 } thr_pull_claim;
+
+enum { THR_PULL_PASSES = 1000000 }; /* most_passes of a tree at least: cords are many, and a pull does not limit passes */
 
 /* Is a number of cords excluded? */
 bool thr_pull_excludes(const thr_pull_claim *claim);

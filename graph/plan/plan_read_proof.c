@@ -1,5 +1,6 @@
 /* plan.json, read: proofs. */
 #include "graph/framework/frame.h"
+#include "graph/angle.h"
 #include "graph/io/json.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/plan_fields.h"
@@ -7,6 +8,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -181,25 +183,34 @@ static thr_status read_cords_claim(const thr_field_reader *field_reader, const t
   return st ? st : thr_field_int(field_reader, fewest, "lower_bound", 1, INT32_MAX, &claim->fewest);
 }
 
+static thr_status read_free_turn(const thr_field_reader *field_reader, const thr_json *value, int64_t *cut)
+{
+  const int64_t most = (int64_t)floor(ldexp(THR_PI, THR_TURNING_BITS));
+  const thr_json *stated = thr_json_get(value, "cut");
+  if (stated && (!thr_json_int(stated, cut) || *cut < 1 || *cut > most))
+    return thr_field_bad(field_reader, "proof.pull.cut", "not a turn of at most 180 degrees in units of 2^-44");
+  return THR_OK;
+}
+
 static thr_status read_pull_claim(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
                                   thr_pull_claim *claim)
 {
-  static const char *const by_tree[] = {"status", "lower_bound", "excluded", "most_passes", "proof", NULL}, *const by_walks[] = {
-                                                                                                                "status",
-                                                                                                                "lower_bound",
-                                                                                                                "excluded",
-                                                                                                                "walks", NULL};
+  static const char *const by_tree[] = {"status", "lower_bound", "excluded", "most_passes", "cut", "proof", NULL};
+  static const char *const by_walks[] = {"status", "lower_bound", "excluded", "walks", NULL};
+  static const char *const by_edges[] = {"status", "lower_bound", "excluded", NULL};
   const thr_json *proof = thr_json_get(value, "proof"), *walks = thr_json_get(value, "walks");
   char place[256];
-  thr_status st = thr_field_only(field_reader, value, "proof.pull", walks ? by_walks : by_tree);
+  thr_status st = thr_field_only(field_reader, value, "proof.pull", walks ? by_walks : proof ? by_tree : by_edges);
   if (!st) st = get_status(field_reader, value, "proof.pull", &claim->optimal);
   if (!st) st = thr_field_int(field_reader, value, "lower_bound", 1, INT32_MAX, &claim->fewest);
   if (!st) claim->present = true;
-  if (st || (!proof && !walks)) return st;
+  if (st || (!proof && !walks && !thr_json_get(value, "excluded"))) return st;
   st = thr_field_int(field_reader, value, "excluded", 1, THR_MOST_CORDS, &claim->excluded);
   snprintf(place, sizeof place, "%.200s: proof.pull.walks", field_reader->name);
   if (st || walks) return st ? st : thr_walk_proof_from_json(&claim->walks, frame, NULL, walks, place, field_reader->err);
-  if (!st) st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
+  if (!proof) return THR_OK;
+  st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
+  if (!st) st = read_free_turn(field_reader, value, &claim->cut);
   if (st) return st;
   snprintf(place, sizeof place, "%.200s: proof.pull.proof", field_reader->name);
   return thr_turning_proof_from_json(&claim->tree, frame, proof, place, field_reader->err);

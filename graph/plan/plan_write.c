@@ -412,6 +412,7 @@ static void put_pull_claim(thr_writer *writer, const thr_plan *plan)
   thr_walk_proof_write(&claim->walks, &plan->frame, NULL, writer);
   if (claim->tree.n_nodes > 0) {
     thr_write_int(writer, "most_passes", claim->most_passes);
+    if (claim->cut > 0) thr_write_int(writer, "cut", claim->cut);
     thr_write_line(writer, 2);
     thr_turning_proof_write(&claim->tree, &plan->frame, writer, "proof");
   }

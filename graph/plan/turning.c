@@ -159,9 +159,16 @@ int thr_turning_most(const thr_turning_columns *turning_columns, int column)
 
 static void set_column(thr_turning_columns *turning_columns, int column, int a, int b, double price)
 {
+  const int64_t weight = weight_of(price), cut = turning_columns->task->cut;
   turning_columns->half[column][0] = a;
   turning_columns->half[column][1] = b;
-  turning_columns->weight[column] = weight_of(price);
+  turning_columns->weight[column] = cut > 0 && weight > cut ? cut : weight;
+}
+
+/* Has the model U-turns at a node of so many edges? */
+static bool turns_back(const thr_turning_task *task, int degree)
+{
+  return !task->tube && (degree == 1 || task->cut > 0);
 }
 
 /* The turns of node v, priced as thr_turn_price does it. out: [degree] scratch. */
@@ -202,7 +209,7 @@ static thr_status fill_columns(thr_turning_columns *turning_columns, thr_err *er
         turning_columns->end_column[a] = end;
         set_column(turning_columns, end++, a, -1, 0);
       }
-      if (thr_degree(frame, v) == 1 && !turning_task->tube)
+      if (turns_back(turning_task, thr_degree(frame, v)))
         set_column(turning_columns, back++, a, a, thr_turn_cost_of(turning_task->cost, THR_PI));
     }
   }
@@ -250,7 +257,7 @@ static thr_status count_columns(thr_turning_columns *turning_columns, thr_err *e
       return thr_fail(err, THR_EINPUT, "more than %d possible turns at the nodes; node %s alone has %d edges", INT_MAX / 8,
                       frame->name[v], d);
     ends += turning_columns->task->end_allowed && turning_columns->task->end_allowed[v] ? d : 0;
-    backs += d == 1 && !turning_columns->task->tube;
+    backs += turns_back(turning_columns->task, d) ? d : 0;
     for (int i = 0; i < d; i++)
       turning_columns->position[frame->half[frame->first[v] + i]] = i;
   }

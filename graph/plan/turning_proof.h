@@ -67,6 +67,7 @@ typedef struct {
   const int *end_count;    /* [n_nodes] borrowed; exactly so many ends at every node, end_allowed where not 0; NULL = not said */
   bool tube;               /* tube joints: the turns tie the edges at every node (graph/plan/junction.h), none goes back */
   bool free_turns;         /* turns cost nothing: price_per_length alone counts */
+  int64_t cut;             /* > 0: no turn weighs more, and solid cords turn back at every node (graph/check/check_pull.c) */
   thr_turn_cost cost;
   double price_per_length; /* of extra cord, in the turns' price per unit of length, >= 0 */
   double extra_limit;      /* of all extra cord, in units of length; < 0 = none */

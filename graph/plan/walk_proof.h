@@ -25,12 +25,12 @@
  * Length takes the place of turning for the longest cord. Then a walk may turn back anywhere, at no cost: its places are nodes;
  * where turning counts they are half-edges, and walks turn back only at nodes with one edge.
  *
- * With a limit on the pull the same recursion bounds the length of all cords together. The walks are those that have a pass with
- * turns of at most L = log(pull) / mu before it, and after it: those after it are one recursion, and those before it another,
- * whose walks end with the best that comes after. They turn back into an edge at 180 degrees, too; a closed one begins at any
- * node, and its last turn, which is at its ends, is free. Prices are lengths, and a walk is worth the prices that it passes less
- * its own length: at most B >= 0. The cords' lengths are at least what they are worth in prices less B each, so K cords are
- * together at least as long as
+ * With a limit on the pull the same recursion bounds the length of all cords together. The walks are those that have a turn, the
+ * cut turn, with turns of at most L = log(pull) / mu in all before it, and after it (docs/plan-format.md, "Threadings within a
+ * pull"): what comes after it is one recursion, and what comes before it another, whose walks end with the best that comes after,
+ * over a turn without units. They turn back into an edge at 180 degrees, too; a closed one begins at any node, and its last turn,
+ * which is at its ends, is free. Prices are lengths, and a walk is worth the prices that it passes less its own length: at most B
+ * >= 0. The cords' lengths are at least what they are worth in prices less B each, so K cords are together at least as long as
  *
  *   the prices of what every plan has, as above, less K B.
  *
@@ -78,21 +78,23 @@ typedef struct {
   thr_walk_measure measure;
   int component, exponent;
   bool closed;
-  thr_scratch own; /* the arrays */
-  int n;           /* places */
-  int n_spots;     /* without what is remembered at them */
-  int *spot;       /* [n] of each place */
-  int *copy;       /* [n_spots + 1] the places of a spot: copy[k] .. copy[k + 1] - 1, ahead the one where nothing is remembered */
-  int *place;      /* spots [2 * n_edges] of half-edges, or [n_nodes]; -1: of another component */
-  int *group;      /* [n] a closed walk begins at one of its places of the lowest group: edges, or nodes; with a pull the node
-                      that is reached, where it may begin in any case */
-  int *first;      /* [n + 1] steps from place i: step[first[i]] .. step[first[i + 1] - 1] */
+  bool cut_at_pass; /* with a pull: as plans of version 1 understand it; set before thr_walk_run */
+  thr_scratch own;  /* the arrays */
+  int n;            /* places */
+  int n_spots;      /* without what is remembered at them */
+  int *spot;        /* [n] of each place */
+  int *copy;  /* [n_spots + 1] the places of a spot: copy[k] .. copy[k + 1] - 1, ahead the one where nothing is remembered */
+  int *place; /* spots [2 * n_edges] of half-edges, or [n_nodes]; -1: of another component */
+  int *group; /* [n] a closed walk begins at one of its places of the lowest group: edges, or nodes; with a pull the node
+                 that is reached, where it may begin in any case */
+  int *first; /* [n + 1] steps from place i: step[first[i]] .. step[first[i + 1] - 1] */
   thr_walk_step *step;
   thr_walk_move *move;  /* the same, with prices */
   int n_begins;         /* open: first passes of walks; closed: places that they begin at */
   thr_walk_step *begin; /* [n_begins] open: the passes; closed: to is the place, lowest groups first */
   int most_units;       /* of a step */
   int64_t *end;         /* [n] worth of a cord end there; < 0: none may be there */
+  int64_t *cut;         /* [n] with a pull: the most from there on, over the cut turn, after thr_walk_run */
   int *active;          /* [n] closed: the places of no lower group than where the walks begin */
   int n_homes, *from;   /* closed, with a pull: nodes where walks begin; of node k: begin[from[k]] .. begin[from[k + 1] - 1] */
 } thr_walk_steps;
@@ -131,7 +133,7 @@ bool thr_walk_is_none(int64_t worth);
 /* Recursions that walks take: 1 for open ones. They come in order, from 0 on. */
 int thr_walk_runs(const thr_walk_steps *steps);
 
-/* Tables that a recursion fills: with a pull one before the slackest pass and one after it. */
+/* Tables that a recursion fills: with a pull one before the cut turn and one after it. */
 size_t thr_walk_tables(thr_walk_measure measure);
 
 /* Where a table has the value of place i with r units left: the levels of a place follow each other, as a step looks at nearly
@@ -180,7 +182,7 @@ thr_status thr_walk_proof_check(const thr_turning_columns *columns, thr_walk_mea
 /* What the length within a limit on the pull is asked among, as thr_walk_length_task. */
 thr_turning_task thr_walk_pull_task(const thr_frame *frame, const thr_request *options, bool *end_allowed);
 
-/* Units of turning that no cord within the pull has more of on either side of some pass. */
+/* Units of turning that no cord within the pull has more of on either side of its cut turn. */
 int thr_walk_pull_units(const thr_request *options, int64_t unit);
 
 /* The length of all cords of the component, at most so many, that prices prove, of which a walk is worth best at most. */
@@ -192,8 +194,9 @@ thr_status thr_walk_pull_check(const thr_turning_columns *columns, const thr_req
                                int cords, double *bound, thr_err *err) THR_MUST_CHECK;
 
 /* What a single edge forces: some cord passes it, and from there has to reach an end on both sides. *bound: the largest over the
- * edges of the least price of the turns of such a cord; 0 for closed cords. O(edges * rounds), shortest paths by Bellman and
- * Ford. */
-thr_status thr_walk_forced(const thr_turning_columns *columns, double *bound, thr_err *err) THR_MUST_CHECK;
+ * edges of the least price of the turns of such a cord; 0 for closed cords. pulled: of its turns up to the edge from one end
+ * only, the other end being past the cut turn; solid cords turn back anywhere then. O(edges * rounds), shortest paths by Bellman
+ * and Ford. */
+thr_status thr_walk_forced(const thr_turning_columns *columns, bool pulled, double *bound, thr_err *err) THR_MUST_CHECK;
 
 #endif

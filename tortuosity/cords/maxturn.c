@@ -485,7 +485,7 @@ static thr_status improve(way *by, const thr_frame *frame, double enough, thr_or
   search x = {0};
   double forced = 0;
   thr_status st = thr_turning_columns_init(&turning_columns, frame, &plan->task, err);
-  if (!st) st = thr_walk_forced(&turning_columns, &forced, err);
+  if (!st) st = thr_walk_forced(&turning_columns, false, &forced, err);
   out->bound = fmax(out->bound, forced);
   if (!st) st = search_init(&x, &turning_columns, limits, plan, largest_price(frame, plan), out->bound, err);
   x.enough = enough;

@@ -273,26 +273,26 @@ static int64_t worth_of(const thr_walk_programme *p, const thr_walk_step *first)
   return thr_walk_worth(first, p->units, thr_walk_levels(p->units), p->value);
 }
 
-/* Of the recursion; last: after the slackest pass, if a pull counts. */
+/* Of the recursion; last: after the cut turn, if a pull counts. */
 static const int64_t *table_of(const thr_walk_programme *p, bool last)
 {
   const size_t entries = (size_t)thr_walk_levels(p->units) * (size_t)p->steps.n;
   return p->value + (last && p->steps.measure == THR_WALK_PULL ? entries : 0);
 }
 
-/* What a walk of a recursion is worth from place i on that goes no further there; last: after the slackest pass, if a pull
- * counts. */
+/* What a walk of a recursion is worth from place i on that goes no further there, or not before its cut turn; last: after that
+ * turn, if a pull counts. */
 static int64_t end_worth(const thr_walk_programme *p, int run, int i, bool last)
 {
   const thr_walk_steps *steps = &p->steps;
-  if (!last) return table_of(p, true)[thr_walk_entry(i, p->units, thr_walk_levels(p->units))];
+  if (!last) return steps->cut[i];
   if (!steps->closed) return steps->end[i];
   bool home = steps->n_homes > 0 ? steps->group[i] == thr_tail(p->c->f, steps->begin[steps->from[run]].half)
                                  : steps->spot[i] == steps->spot[steps->begin[run].to];
   return home ? 0 : INT64_MIN;
 }
 
-/* The step that the best walk takes from place i with so many units left; NULL: it ends there, or may turn as much again. */
+/* The step that the best walk takes from place i with so many units left; NULL: it ends there, or its cut turn is there. */
 static const thr_walk_step *best_step(const thr_walk_programme *p, int run, int i, int units, bool last)
 {
   const thr_walk_steps *steps = &p->steps;
@@ -307,6 +307,21 @@ static const thr_walk_step *best_step(const thr_walk_programme *p, int run, int 
     if (thr_walk_is_none(on) || on + step->worth <= most) continue;
     most = on + step->worth;
     best = step;
+  }
+  return best;
+}
+
+/* The step of the best walk over its cut turn at place i; NULL: it ends there. */
+static const thr_walk_step *cut_step(const thr_walk_programme *p, int run, int i)
+{
+  const thr_walk_steps *steps = &p->steps;
+  const thr_walk_step *best = NULL;
+  int64_t most = end_worth(p, run, i, true);
+  for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
+    const int64_t on = table_of(p, true)[thr_walk_entry(steps->step[k].to, p->units, thr_walk_levels(p->units))];
+    if (thr_walk_is_none(on) || on + steps->step[k].worth <= most) continue;
+    most = on + steps->step[k].worth;
+    best = &steps->step[k];
   }
   return best;
 }
@@ -357,13 +372,6 @@ thr_row thr_walk_programme_row(const thr_walk_programme *p, thr_pool *pool, cons
   return row;
 }
 
-/* Cords that are looked for turn back only at nodes with one edge: does a closed walk elsewhere? */
-static bool closes_back(const thr_walk_programme *p, int n)
-{
-  const int first = p->half[0];
-  return p->per_cord > 0 && p->steps.closed && p->half[n - 1] == (first ^ 1) && thr_degree(p->c->f, thr_tail(p->c->f, first)) > 1;
-}
-
 typedef struct {
   int n, units;  /* passes, in p->half */
   double weight; /* of its turns, or its length */
@@ -384,8 +392,8 @@ static traced trace_walk(thr_walk_programme *p, int run, const thr_walk_step *st
     step = best_step(p, run, i, left, last);
     if (step || last) continue;
     last = true;
-    left = p->units;
-    step = best_step(p, run, i, left, last);
+    step = cut_step(p, run, i);
+    left = p->units + (step ? step->units : 0);
   }
   return walk;
 }
@@ -467,7 +475,7 @@ static thr_status price_run(thr_walk_programme *p, int run, int64_t *most, int *
   memset(p->passed, 0, (size_t)p->c->f->n_edges * sizeof *p->passed);
   for (int i = 0, taken = 0; i < n && taken < MOST_WALKS && !st && p->start[i].worth > 0; i++) {
     const traced walk = trace_walk(p, run, p->start[i].first);
-    if (closes_back(p, walk.n) || is_like_others(p, walk.n)) continue;
+    if (is_like_others(p, walk.n)) continue;
     st = thr_pool_offer(&p->search.pool, row_of(p, &walk), p->x, 1e-6, added, err);
     taken++;
   }
@@ -515,8 +523,7 @@ void thr_walk_programme_round_up(thr_walk_programme *p, double per_cord)
     const int i = steps->place[d];
     for (int k = i < 0 ? 0 : steps->first[i]; i >= 0 && k < steps->first[i + 1]; k++) {
       thr_walk_step *step = &steps->step[k];
-      const bool back = step->half == (d ^ 1) && thr_degree(p->c->f, thr_head(p->c->f, d)) > 1;
-      step->units = back ? INT_MAX : (int)ceil((double)step->weight / (double)p->unit * (1 - rounding));
+      step->units = (int)ceil((double)step->weight / (double)p->unit * (1 - rounding));
     }
   }
   p->per_cord = per_cord;

@@ -101,8 +101,8 @@ thr_status thr_walk_programme_look(thr_walk_programme *programme, const double *
 /* The same at prices between the last optimum, x, and the best so far; where these find none, at x. */
 thr_status thr_walk_programme_find(thr_walk_programme *programme, int *added, thr_err *err) THR_MUST_CHECK;
 
-/* With a pull: from now on walks are only those that certainly keep to it and turn back only at nodes with one edge, as many as
- * one likes at that price each, in lengths of the longest edge. */
+/* With a pull: from now on walks are only those that certainly keep to it, as many as one likes at that price each, in lengths of
+ * the longest edge. */
 void thr_walk_programme_round_up(thr_walk_programme *programme, double per_cord);
 
 /* The best prices so far become the trial. */
