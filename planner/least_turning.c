@@ -472,6 +472,32 @@ static thr_status cut_seed(const thr_frame *frame, const thr_request *options, c
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
+/* Bounds of one question are shared: what the certificates of the plan for the least length prove of so many cords, if it is more
+ * than those of the shortest passes do. They are moved. */
+static thr_status share_bound(thr_plan *plan, thr_plan *shortest, thr_err *err)
+{
+  thr_length_proof *from = &shortest->proof;
+  const thr_request *options = &plan->options;
+  if (plan->n_cords == 0 || shortest->n_cords == 0 || !from->certificate || options->joint != THR_JOINT_SOLID ||
+      options->turning.length_slack >= 0 || from->lower_bound <= plan->proof.lower_bound * (1 + 1e-9))
+    return THR_OK;
+  thr_shortest passes = {.n_certificates = from->n_certificates, .certificate = from->certificate};
+  thr_plan other = {0};
+  passes.confirmed.confirmed = from->confirmed;
+  passes.confirmed.skipped = from->unconfirmed;
+  from->certificate = NULL;
+  from->n_certificates = 0;
+  thr_status st = thr_postman_prove(&plan->frame, options, plan->cord, plan->n_cords, &passes, &other.proof, err);
+  if (!st && other.proof.lower_bound > plan->proof.lower_bound) {
+    const thr_length_proof weaker = plan->proof;
+    plan->proof = other.proof;
+    other.proof = weaker;
+  }
+  thr_shortest_destroy(&passes);
+  thr_plan_destroy(&other);
+  return st;
+}
+
 /* Symmetric cords turn alike: where they are as many as asked for, the one that turns most may be at its bound at once. They keep
  * to no given numbers of ends. */
 thr_status thr_planner_turning(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
@@ -495,6 +521,14 @@ thr_status thr_planner_turning(const thr_frame *frame, const thr_request *option
   thr_err why = {0};
   if (!st) st = plan_from(frame, options, seed.n_cords ? &seed : NULL, limits, plan, &missed, &why);
   if (why.code) st = thr_fail(err, missed ? THR_ELIMIT : st, "%s", why.text);
+  if (report && (!st || st == THR_ELIMIT)) {
+    thr_err failed = {0};
+    const thr_status shared = share_bound(plan, &report->shortest, &failed);
+    if (shared == THR_ENOMEM) {
+      thr_plan_destroy(plan);
+      st = thr_nomem(err);
+    }
+  }
   thr_plan_destroy(&seed);
   return st;
 }

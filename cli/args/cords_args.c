@@ -158,7 +158,8 @@ int cords_args_check(const cords_args *a, const turning_args *turning, const thr
   if (refused) return cli_usage("plan", "%s: not with --objective %s", refused, thr_objective_name(thr_aims_objective(wanted)));
   if (a->confirm == THR_CONFIRM_ALWAYS && (!thr_wants_length(wanted) || a->joint == THR_JOINT_TUBE))
     return cli_usage("plan", "--confirm always: of shortest passes only, with --objective length and --joint solid");
-  if (a->balance && a->most < 2 && !cords_args_limits_pull(a))
+  const bool counted = strchr(a->ends, ':'); /* ends by number say how many cords there are */
+  if (a->balance && a->most < 2 && !counted && !cords_args_limits_pull(a))
     return cli_usage("plan", "--balance needs several --cords, or --max-pull");
   if (a->balance && (a->max_length > 0 || a->automatic))
     return cli_usage("plan", "--balance makes the longest cord as short as can be: no --%s with it",
