@@ -175,6 +175,11 @@ static bool is_wide(const thr_branch *branch)
   return branch->tree.node[0].bound < (1 - wide) * (double)branch->best_price;
 }
 
+bool thr_branch_is_least(const thr_branch *branch)
+{
+  return branch->found && branch->tree.n_nodes > 0 && branch->tree.node[0].bound >= optimum(branch);
+}
+
 bool thr_branch_proved(const thr_branch *branch)
 {
   return branch->found && branch->tree.n_nodes > 0 && closed(branch, 0);

@@ -118,7 +118,8 @@ thr_status thr_branch_ranks(thr_branch *branch, const thr_limits *limits, thr_er
 thr_status thr_branch_keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low, const int *high,
                                 thr_err *err) THR_MUST_CHECK;
 
-/* Is the best plan found proved to be one? */
+/* Is the best plan found proved to be one, whatever gap is enough? And is it as near to the root's bound as is enough? */
+bool thr_branch_is_least(const thr_branch *branch);
 bool thr_branch_proved(const thr_branch *branch);
 
 /* Until the tree is closed, or stopped. */

@@ -150,7 +150,7 @@ static thr_status other_plans(thr_branch *branch, const thr_least_options *optio
 static thr_status first_plans(thr_branch *branch, const thr_least_options *options, const thr_least_start *start, int *passes,
                               int *ends, thr_err *err)
 {
-  if (thr_branch_proved(branch)) return THR_OK;
+  if (thr_branch_is_least(branch)) return THR_OK;
   if (branch->found) thr_branch_swap(branch, &branch->other);
   thr_status st = other_plans(branch, options, start, passes, ends, err);
   if (branch->other.found && branch->other.price <= branch->best_price) thr_branch_swap(branch, &branch->other);
