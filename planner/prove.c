@@ -1,6 +1,7 @@
 /* Proofs of one plan for the cords of another, and what is kept of a plan of which not every proof holds. */
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
+#include "graph/limits.h"
 #include "graph/plan/junction.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
@@ -119,7 +120,8 @@ bool thr_planner_is_enough(const thr_plan *plan, const thr_limits *limits)
   const thr_request *request = &plan->options;
   const double gap = thr_request_gap(request) + 1e-12;
   if (plan->n_cords == 0 || !keeps_to_limits(plan)) return false;
-  if (request->gap < 0 && limits->usual && (!thr_wants_length(request) || request->max_pull > 0)) return true;
+  const bool is_proved = thr_wants_symmetry(request) || thr_plan_gap(plan) < INFINITY;
+  if (request->gap < 0 && limits->usual && is_proved && (!thr_wants_length(request) || request->max_pull > 0)) return true;
   return thr_plan_gap(plan) <= gap && has_few_cords(plan, gap);
 }
 
