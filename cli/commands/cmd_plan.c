@@ -47,18 +47,18 @@ static const char help_requests[] =
     "                       otherwise at equal length, by more turns (with an aim of turning: at equal turning); none, by\n"
     "                       more turns in any case. Cords that cross each other exchange their ends, closed ones are\n"
     "                       joined and cut elsewhere, if what is asked of single cords allows it (--balance, --max-length,\n"
-    "                       --distinct). Not with tube joints or copies\n"
+    "                       --distinct). Not with tube joints or copies\n";
+static const char help_rest[] =
     "      --gap PERCENT    enough is a plan that is proved to be at most so much above the least possible, 0 = the least\n"
     "                       itself (default: 0 for length, else 1). A search ends there\n"
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
     "                       an S that is given; else each search has its 20 s. Drawings are made whole, and take their time.\n"
     "                       Without S --max-pull, and several cords by their largest turning, count their work\n"
-    "                       instead, some three seconds: the same plan on every machine, later on a busy one\n";
-static const char help_rest[] =
-    GUARD_MEMORY_HELP "\n" TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
-                      "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
-                      "\nFramework:\n" CLI_FRAME_HELP;
+    "                       instead, some three seconds: the same plan on every machine, later on a busy one\n" GUARD_MEMORY_HELP
+    "\n" TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
+    "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
+    "\nFramework:\n" CLI_FRAME_HELP;
 static const char help_output[] =
     "\nOutput:\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"

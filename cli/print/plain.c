@@ -1,5 +1,6 @@
 #include "cli/print/plain.h"
 #include "graph/plan/advice.h"
+#include "graph/plan/request.h"
 #include "graph/status.h"
 
 #include <math.h>

@@ -2,6 +2,8 @@
 #include "cli/cli.h"
 #include "graph/angle.h"
 #include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/pulled.h"
 #include "graph/plan/request.h"
 #include "graph/plan/standing.h"
 
