@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const asked_name[] = {"holding", "equal", "any_state", "after", "loaded", "carried", "carried_after", "stretch"};
+static const char *const asked_name[] = {"holding", "equal",   "any_state",     "after",
+                                         "loaded",  "carried", "carried_after", "stretch"};
 
 const char *thr_asked_name(int asked)
 {

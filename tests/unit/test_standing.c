@@ -219,7 +219,7 @@ START_TEST(every_answer_is_believed_and_no_better_one)
     if (a->n_beads == 0) continue;
     const double was = a->proved, better = thr_asked_of_load(a->asked) ? 1 - 1e-6 : 1 + 1e-6;
     proved++;
-    a->found = INFINITY; /* none was found */
+    a->found = INFINITY;      /* none was found */
     a->proved = was / better; /* less is claimed: but for the first, whose tensions follow from it */
     if (a->asked != THR_ASKED_HOLDING) ck_assert_msg(thr_check_plan(&plan, &err) == THR_OK, "%s", err.text);
     a->proved = was * better;
