@@ -13,8 +13,9 @@
 
 typedef enum { INPUT, OUTPUT, OUTPUT_FOLDER } file_kind;
 
+/* Names are copies: tables of options end with the function that parses them. */
 typedef struct {
-  const char *option, *path; /* option: NULL = an operand */
+  char *option, *path; /* option: NULL = an operand; both owned */
   file_kind kind;
 } file;
 
@@ -36,21 +37,35 @@ static file_kind kind_of(const char *option)
   return option && strcmp(option, "draw") == 0 ? OUTPUT_FOLDER : INPUT;
 }
 
+static void forget(file *f)
+{
+  free(f->option);
+  free(f->path);
+  *f = (file){0};
+}
+
 void files_heard(const char *option, const char *value)
 {
   const file_kind kind = kind_of(option);
   if (!value || !*value) return;
 
-  /* Of an output that is named again only the last name counts. */
-  for (int i = 0; i < all.n && kind != INPUT; i++)
-    if (all.file[i].option && strcmp(all.file[i].option, option) == 0) {
-      all.file[i].path = value;
-      return;
-    }
   file *longer = thr_realloc(all.file, (size_t)all.n + 1, sizeof *longer);
   if (!longer) return; /* whatever comes next says so */
   all.file = longer;
-  all.file[all.n++] = (file){option, value, kind};
+  file heard = {option ? thr_strdup(option) : NULL, thr_strdup(value), kind};
+  if ((option && !heard.option) || !heard.path) {
+    forget(&heard);
+    return;
+  }
+
+  /* Of an output that is named again only the last name counts. */
+  for (int i = 0; i < all.n && kind != INPUT; i++)
+    if (all.file[i].option && strcmp(all.file[i].option, option) == 0) {
+      forget(&all.file[i]);
+      all.file[i] = heard;
+      return;
+    }
+  all.file[all.n++] = heard;
 }
 
 /* ---- comparing ---- */
@@ -168,7 +183,10 @@ int files_settle(const char *command)
   if (strcmp(command, "make") == 0) {
     int kept = 0;
     for (int i = 0; i < all.n; i++)
-      if (all.file[i].kind != INPUT) all.file[kept++] = all.file[i];
+      if (all.file[i].kind != INPUT)
+        all.file[kept++] = all.file[i];
+      else
+        forget(&all.file[i]);
     all.n = kept;
   }
   for (int i = 0; i < all.n && !code; i++)
@@ -180,9 +198,7 @@ int files_settle(const char *command)
 
 int files_also_read(const char *path)
 {
-  char *own = thr_strdup(path); /* for as long as the program runs */
-  if (!own) return cli_fail(&(thr_err){THR_ENOMEM, "out of memory"});
-  files_heard(NULL, own);
+  files_heard(NULL, path);
   int code = EXIT_OK;
   for (int i = 0; i < all.n && !code; i++)
     if (all.file[i].kind == OUTPUT) code = files_claim(all.command, all.file[i].option, all.file[i].path);
@@ -222,6 +238,8 @@ void files_tidy(void)
     (void)thr_os_remove_folder(all.made[--all.n_made]); /* refused where something is in it */
     free(all.made[all.n_made]);
   }
+  for (int i = 0; i < all.n; i++)
+    forget(&all.file[i]);
   free(all.made);
   free(all.file);
   all.made = NULL;

@@ -23,7 +23,7 @@
 #include <unistd.h>
 
 static const double cpu_limit = 3;    /* s, with --time-limit 2 */
-static const double draw_limit = 60;  /* the same with drawings, which are made whole */
+static const double draw_limit = 200; /* the same with drawings, which are made whole */
 static const double plan_by = 1.2;    /* CPU s, with --time-limit 2: there is some plan after that, where others leave it .. */
 static const double time_used = 1.5;  /* s: .. if it was the time that ended the search, not the size of the problem */
 static const double after_signal = 1; /* s */
@@ -169,10 +169,10 @@ static const char *check(const char *plan, result *r)
 }
 
 /* Of a run that may leave a plan: what is wrong, or NULL. */
-static const char *judge(const result *r, const char *plan, bool interrupted)
+static const char *judge(const result *r, const char *plan, bool interrupted, double limit)
 {
   static char text[200];
-  const double cpu = interrupted ? r->cpu - r->cpu_at_signal : r->cpu, most = interrupted ? after_signal : cpu_limit;
+  const double cpu = interrupted ? r->cpu - r->cpu_at_signal : r->cpu, most = interrupted ? after_signal : limit;
   const double used = fmin(cpu, interrupted ? cpu : r->wall); /* where cores are free, several work at once */
   bool written = plan && is_there(plan);
   if (used > most) {
@@ -237,7 +237,7 @@ static void try_plan(const char *name, char *const argv[], const char *plan, int
   result r, checked;
   unlink(plan);
   r = run(argv, signal, delay, signal ? after_signal : cpu_limit);
-  const char *what = judge(&r, plan, r.sent);
+  const char *what = judge(&r, plan, r.sent, cpu_limit);
   if (!what && is_there(plan) && (what = check(plan, &checked))) r = checked;
   report(name, what, &r);
 }
@@ -310,7 +310,7 @@ static void try_words(const char *name, const char *const word[], double limit)
     argv[n++] = (char *)(size_t)word[i];
   argv[n] = NULL;
   result r = run(argv, 0, 0, limit);
-  report(name, judge(&r, NULL, false), &r);
+  report(name, judge(&r, NULL, false, limit), &r);
 }
 
 /* What is made of a plan, and the table of groups. */
@@ -359,7 +359,7 @@ static void little_memory(bool full)
                                   "2",     "--memory", "60MB", "--objective", "tortuosity", "--joint", tube ? "tube" : "solid",
                                   NULL};
       result r = run((char *const *)(size_t)word, 0, 0, cpu_limit), checked;
-      const char *what = judge(&r, plan, false);
+      const char *what = judge(&r, plan, false, cpu_limit);
       if (!what && r.memory > 60000000 / 1024 + BESIDE) what = "more than 60 MB";
       if (!what && is_there(plan) && (what = check(plan, &checked))) r = checked;
       report(name, what, &r);
