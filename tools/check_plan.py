@@ -880,7 +880,7 @@ def check_length(p):
         bound = sum(least)
     check_claim(claim, p.length, optimal, bound, 0, place)
     p.least = p.length if optimal else bound
-    p.least_stated = min(p.least, Fraction(claim["lower_bound"]))
+    p.least_stated = min(p.least, Fraction(claim["lower_bound"])) if p.options.old_pull else p.least
     slack = p.options.slack if p.options.objective == "tortuosity" else None
     if "slack" in claim:
         choice(claim, "slack", place, ("open",))

@@ -433,7 +433,9 @@ static thr_status check_limit(const thr_plan *plan, double least_length, thr_err
   if (limit < 0) return THR_OK; /* more than asked for */
   if (!plan->proof.present)
     return thr_fail(err, THR_EVIOLATED, "proof.turning.length_limit: nothing says what the least length is (no proof.length)");
-  const double needed = (1 + slack) * fmin(least_length, plan->proof.lower_bound);
+  /* Version 1 knew no bounds of few edges with a slack: there what the plan states is enough. */
+  const double least = plan->options.old_pull ? fmin(least_length, plan->proof.lower_bound) : least_length;
+  const double needed = (1 + slack) * least;
   if (limit >= needed * (1 - 5e-12)) return THR_OK; /* the proof allows 1e-11 more: thr_turning_extra_limit */
   return thr_fail(err, THR_EVIOLATED, "proof.turning.length_limit: %.12g shuts out plans of up to %.12g, which the options allow",
                   limit, needed);

@@ -230,6 +230,12 @@ static void compare(const thr_frame *f, const thr_request *o, int most_extra, ta
   }
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
   assert_plan_sound(&p);
+  if (!p.turning.present) { /* the shortest cords, of whose turning nothing is claimed */
+    ck_assert_int_eq(st, THR_ELIMIT);
+    ck_assert(o->turning.length_slack >= 0);
+    thr_plan_destroy(&p);
+    return;
+  }
   double value = largest ? p.turning.largest : p.turning.price, bound = largest ? p.turning.largest_bound : p.turning.lower_bound;
   double limit = p.turning.length_limit < 0 ? (double)INFINITY : p.turning.length_limit;
   double least = least_by_enumeration(f, o, largest, most_extra, limit, value + 1e-3);

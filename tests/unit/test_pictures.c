@@ -103,7 +103,7 @@ START_TEST(steps_are_as_high_as_the_logarithm)
       ck_assert_double_eq_tol(y[11] - y[k], mm_per_log * log(r->tension[k] / r->tension[11]), 0.011);
   }
   ck_assert_ptr_nonnull(strstr(svg.data, ">1000<"));
-  ck_assert_ptr_nonnull(strstr(svg.data, "logarithmic"));
+  ck_assert_ptr_nonnull(strstr(svg.data, "log scale"));
   thr_text_destroy(&svg);
   thr_plan_destroy(&p);
 }
@@ -181,7 +181,7 @@ START_TEST(small_ratios_are_drawn_from_zero)
       sscanf(box, "<rect class=\"axis\" x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &x, &top, &width, &height), 4);
   for (int k = 0; k < 5; k++)
     ck_assert_double_eq_tol((top + height - y[k]) / (top + height - y[4]), p.evaluation.cord[0].tension[k], 0.02);
-  ck_assert_ptr_null(strstr(svg.data, "logarithmic"));
+  ck_assert_ptr_null(strstr(svg.data, "log scale"));
   thr_text_destroy(&svg);
   thr_plan_destroy(&p);
 }

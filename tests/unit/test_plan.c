@@ -206,7 +206,7 @@ START_TEST(nonsense_is_refused_with_its_place)
     const char *word;
   } wrong[] = {
       {"", "thread-plan", "other", THR_EINPUT, "format"},
-      {"", "\"version\": 1", "\"version\": 2", THR_EINPUT, "version"},
+      {"", "\"version\": 2", "\"version\": 3", THR_EINPUT, "version"},
       {"framework", "\"nodes\"", "\"knots\"", THR_EINPUT, "nodes"},
       {"framework", "[0,0,0]", "[0,0]", THR_EINPUT, "nodes[0]"},
       {"framework", "[1,0,0]", "[0,0,0]", THR_EINPUT, "framework"},
