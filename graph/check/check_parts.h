@@ -100,8 +100,7 @@ thr_status thr_check_judge(const thr_frame *frame, const thr_request *options, c
                            const thr_certificate *certificate, int n, thr_check_verdict **verdict, thr_err *err) THR_MUST_CHECK;
 
 /* What the verdicts prove of passes with this length; and, of cords (each > 0: so many different ones over every edge), what all
- * sets of few edges do, and prices of walks within a pull (NULL: none). Not where the length is limited to a part above the
- * least, which is then that of the certificates. */
+ * sets of few edges do, and prices of walks within a pull (NULL: none). */
 thr_status thr_check_sum_verdicts(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
                                   int each, const thr_check_verdict *verdict, const thr_walk_proof *pulled, double length,
                                   bool *optimal, double *lower_bound, thr_err *err) THR_MUST_CHECK;
