@@ -23,7 +23,7 @@
 #include <unistd.h>
 
 static const double cpu_limit = 3;    /* s, with --time-limit 2 */
-static const double draw_limit = 200; /* the same with drawings, which are made whole */
+static const double draw_limit = 60;  /* the same with drawings, which are made whole, or until 200 MB are full */
 static const double plan_by = 1.2;    /* CPU s, with --time-limit 2: there is some plan after that, where others leave it .. */
 static const double time_used = 1.5;  /* s: .. if it was the time that ended the search, not the size of the problem */
 static const double after_signal = 1; /* s */
@@ -324,7 +324,9 @@ static void other_commands(bool full)
     snprintf(frame, sizeof frame, "%s/%s.obj", folder, watchdog_frame_name(f));
     unlink(plan);
     snprintf(name, sizeof name, "plan-draw %s", watchdog_frame_name(f));
-    try_words(name, (const char *[]){"plan", frame, "-o", plan, "--draw", drawn, "-q", "--time-limit", "2", NULL}, draw_limit);
+    try_words(name,
+              (const char *[]){"plan", frame, "-o", plan, "--draw", drawn, "-q", "--time-limit", "2", "--memory", "200MB", NULL},
+              draw_limit);
     snprintf(name, sizeof name, "draw %s", watchdog_frame_name(f));
     if (is_there(plan))
       try_words(name, (const char *[]){"draw", plan, "-T", "all", "-o", drawn, "--time-limit", "2", NULL}, cpu_limit);
