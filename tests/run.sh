@@ -128,15 +128,20 @@ builds='release asan' tree='layers layers-self-test format bench/smallest librar
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
-rest) builds=asan SHARE_ASAN=3 tree='' programs='' whole='release/watchdog release/memory' FUZZ_RUNS=150000 ;;
+rest) builds=asan SHARE_ASAN=3 tree='' programs='' whole=release/memory MEMORY_SAMPLES=20 FUZZ_RUNS=100000 ;;
 all) SHARE_ASAN=1 whole='release/watchdog release/memory exchange web static windows' MUTANTS=2000 FUZZ_RUNS=1000000 ;;
 fuzz) builds='' tree='' programs='' FUZZ_RUNS=0 ;;
 *) echo "tests/run.sh: $tier is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
 esac
 
-list() { # every job of the tier; of a build, the longest first
+list() { # every job of the tier; of a build, the longest first; of the rest those that `make test` runs a part of
   local build case
   printf '%s\n' $tree $whole $programs
+  if [ "$tier" = rest ]; then
+    grep -lE 'share_of|ADD_EXAMPLES|ADD_LARGE' tests/unit/*.c tests/property/*.c | sed 's#^tests/#asan/#; s#\.c$##'
+    "$MAKE" -s list-fuzz
+    return
+  fi
   for build in $builds; do
     "$MAKE" -s list-tests | sed "s#^#$build/#"
     for case in tests/golden/*.case; do
