@@ -71,7 +71,7 @@ double thr_dispatch_usual_seconds(const thr_request *options)
 
 double thr_dispatch_work(const thr_request *options)
 {
-  const double usual = 1; /* of work that takes some two to three seconds */
+  const double usual = options->gap < 0 ? 1 : 10; /* some two to three seconds; more for who asks how near it has to be */
   const bool several = thr_dispatch(options) == thr_planner_turning && thr_wants_largest(options) && options->cords > 1;
   return several && options->joint == THR_JOINT_SOLID ? usual : 0;
 }
