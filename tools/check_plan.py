@@ -1,19 +1,23 @@
 #!/usr/bin/env python3
 """Verifies plans of `thread` without any of its code: written from docs/plan-format.md, with Python's standard library only.
 
-    tools/check_plan.py [-q] PLAN..        - is standard input
+    tools/check_plan.py [-q] [--time-limit S] PLAN..        - is standard input; S seconds at most for each plan (8 for each 20 MB; 0: any time)
 
 What is verified of each plan and for which plans it holds, in the words of `thread check`, or the first violation. Exit code, the worst of all plans:
-0 every claim holds, 1 a claim does not hold, 2 usage, 3 not a plan that can be read. Sums are exact (integers, fractions of
+0 every claim holds, 1 a claim does not hold, 2 usage, 3 not a plan that can be read, 5 not judged in the time or in 2 GB. Sums are exact (integers, fractions of
 doubles); only angles, distances and the tolerances that the page states are floating point. Section names are the page's.
 """
 import cmath
 import copy
+import functools
+import gc
 import heapq
 import itertools
 import json
 import math
 import re
+import resource
+import signal
 import struct
 import sys
 from fractions import Fraction
@@ -28,6 +32,28 @@ class Violation(Exception):
 
 class Unreadable(Exception):
     """No plan, or of another version."""
+
+
+class NotChecked(Exception):
+    """Judging the plan takes too long, or too much memory. That is a failure."""
+
+
+MOST_STEPS = 3e7  # of the recursions for prices of walks, in that time
+bounded = False  # is there a limit on the time, unless the caller stated one?
+SECONDS, BYTES, MEMORY = 8, 20e6, 2 * 10**9  # for a plan of so many bytes or less, in proportion for larger ones; memory for any
+
+
+def bound_work(seconds, size):
+    """From here on there are so many seconds, by default for a plan of this size; 0: any time."""
+    global bounded
+    bounded = seconds is None
+    seconds = SECONDS * max(1, size / BYTES) if seconds is None else seconds
+
+    def give_up(*_):
+        raise NotChecked(f"not done in {seconds:g} s (--time-limit allows more)")
+
+    signal.signal(signal.SIGALRM, give_up)
+    signal.setitimer(signal.ITIMER_REAL, seconds)
 
 
 def require(holds, text):
@@ -67,8 +93,9 @@ def parse(data):
         return value if -(2**63) <= value < 2**63 else refuse(f"{text} is out of range")
 
     try:
-        value = json.loads(data.decode("utf-8-sig"), parse_constant=refuse, parse_float=real, parse_int=whole, object_pairs_hook=pairs)
-        if any(b"\0" in text.encode("utf-8") for text in texts(value)):  # encode refuses half characters
+        long = re.search(rb"[0-9]{19}", data)  # else no integer is out of range
+        value = json.loads(data.decode("utf-8-sig"), parse_constant=refuse, parse_float=real, parse_int=whole if long else None, object_pairs_hook=pairs)
+        if b"\\" in data and any(b"\0" in text.encode("utf-8") for text in texts(value)):  # encode refuses half characters
             refuse("a text with a character 0")
         return value
     except (ValueError, RecursionError) as error:
@@ -80,18 +107,21 @@ KINDS = {"text": str, "integer": int, "truth": bool, "list": list, "object": dic
 
 def member(holder, key, kind, place, low=None, high=None, default=...):
     """holder[key], of the kind (`number`: integer or real, as a float) and in [low, high]; default if it may be missing."""
-    if key not in holder and default is not ...:
-        return default
-    name = f"{place}.{key}" if place else key
-    require(key in holder, f"{name}: missing")
+    if key not in holder:
+        if default is not ...:
+            return default
+        raise Violation(f"{place}.{key}: missing" if place else f"{key}: missing")
     value = holder[key]
-    value = 0 if kind == "integer" and type(value) is float and value == 0 else value  # -0.0
+    if kind == "integer" and type(value) is float and value == 0:  # -0.0
+        value = 0
     good = type(value) in (int, float) if kind == "number" else type(value) is KINDS[kind]
+    value = float(value) if good and kind == "number" else value
+    if good and (low is None or value >= low) and (high is None or value <= high):
+        return value
+    name = f"{place}.{key}" if place else key
     require(good, f"{name}: not of type {kind}")
-    value = float(value) if kind == "number" else value
     require(low is None or value >= low, f"{name}: {value} is below {low}")
-    require(high is None or value <= high, f"{name}: {value} is above {high}")
-    return value
+    raise Violation(f"{name}: {value} is above {high}")
 
 
 def choice(holder, key, place, words, default=...):
@@ -108,9 +138,15 @@ def integers(value, place, low, high, n=None):
     return value
 
 
+@functools.lru_cache(maxsize=None)
+def words_of(names):
+    return frozenset(names.split())
+
+
 def known(holder, names, place):
     for key in holder:
-        require(key in names.split(), f"{place}.{key}: not known, and cannot be checked")
+        if key not in words_of(names):
+            raise Violation(f"{place}.{key}: not known, and cannot be checked")
 
 
 INT64 = 2**63 - 1
@@ -1190,33 +1226,54 @@ class Model:
         for i, dual in enumerate(self.duals):
             cost, gain, taken = self.apply(dual, f"{place}.multipliers[{i}]")
             applied.append((cost, self.widest(cost, gain, taken)))
-        best, stack = None, [(0, {})]
+        best, stack = None, [(0, 0, ())]
+        box, log, moved = {}, [], len(applied) <= len(self.weight)  # limits of the columns; what they were; are values kept up to date?
+        values = [list(widest) for _, widest in applied] if moved else []
+
+        def set_limits(c, limits):
+            low, high = limits or (0, self.high[c])
+            least, most = box.get(c, (0, self.high[c]))
+            for (cost, _), value in zip(applied, values):
+                more = min(cost[c] * low, cost[c] * high) - min(cost[c] * least, cost[c] * most)
+                value[self.component(c[0])] += more
+                value[-1] += more
+            if limits:
+                box[c] = limits
+            else:
+                del box[c]
+
         while stack:
-            i, box = stack.pop()
+            i, changes, narrower = stack.pop()
+            while len(log) > changes:
+                set_limits(*log.pop())
+            for c, low, high in narrower:
+                least, most = box.get(c, (0, self.high[c]))
+                log.append((c, box.get(c)))
+                set_limits(c, (max(low, least), min(high, most)))
             node = self.tree[i]
             if "multipliers" in node:
-                cost, widest = applied[node["multipliers"]]
-                value = list(widest)
-                for c, (low, high) in box.items():
-                    more = min(cost[c] * low, cost[c] * high) - min(0, cost[c] * self.high[c])
-                    value[self.component(c[0])] += more
-                    value[-1] += more
-                best = value if best is None else list(map(min, best, value))
+                k = node["multipliers"]
+                if moved:
+                    value = values[k]
+                else:
+                    cost, value = applied[k][0], list(applied[k][1])
+                    for c, (low, high) in box.items():
+                        more = min(cost[c] * low, cost[c] * high) - min(0, cost[c] * self.high[c])
+                        value[self.component(c[0])] += more
+                        value[-1] += more
+                best = list(value) if best is None else list(map(min, best, value))
                 continue
             c = self.column(node["a"], node["b"])
-            low, high = box.get(c, (0, self.high[c]))
             orbit = [self.symmetries[k] for k in node.get("orbit", [])]
             for image in orbit:
                 kept = all(box.get(image[d], (0, self.high[d])) == limits for d, limits in box.items())
                 require(kept, f"{place}.tree[{i}].orbit: a symmetry does not keep what was decided before")
-            below = dict(box)
-            for d in {c, *(image[c] for image in orbit)}:
-                least, most = box.get(d, (0, self.high[d]))
-                below[d] = least, min(most, node["value"])
-            if all(least <= most for least, most in below.values()):
-                stack.append((node["low"], below))
+            low, high = box.get(c, (0, self.high[c]))
+            below = [(d, 0, node["value"]) for d in {c, *(image[c] for image in orbit)}]
+            if all(box.get(d, (0, 0))[0] <= most for d, _, most in below):
+                stack.append((node["low"], len(log), below))
             if max(low, node["value"] + 1) <= high:
-                stack.append((node["high"], {**box, c: (max(low, node["value"] + 1), high)}))
+                stack.append((node["high"], len(log), [(c, node["value"] + 1, high)]))
         if best is None:
             return None
         self.bound_of = [max(0, x) for x in best[:-1]]
@@ -2043,6 +2100,13 @@ class Walks:
                 rows[r - longest] = None
         return rows
 
+    @staticmethod
+    def bound_work(work, values, place):
+        """The page's limits, and what is done here in the time, which is known beforehand."""
+        require(work <= 5e8 and values <= 2**26, f"{place}.units: too many")
+        if bounded and work > MOST_STEPS:
+            raise NotChecked(f"{place} takes {work:.3g} steps (--time-limit allows more)")
+
     def best(self, firsts, rows):
         values = [(rows[self.units - u].get(to), y) for to, u, y in firsts if u <= self.units]
         return max([x + y for x, y in values if x is not None], default=0)
@@ -2068,7 +2132,7 @@ class Walks:
         }
         longest = min(self.units, max((u for row in steps.values() for _, u, _ in row), default=0)) + 1
         work = self.units * sum(map(len, steps.values())) * (len(homes) if self.closed else 1)
-        require(work <= 4e9 and longest * len(order) <= 1e9, f"{place}.units: too many")
+        self.bound_work(work, longest * len(order), place)
         most = 0
         if self.closed:  # those that begin at the lowest of their edges, or nodes
             group = (lambda x: x >> 1) if self.turning else (lambda x: x)
@@ -2138,7 +2202,7 @@ class PulledWalks(Walks):
         }
         longest = min(self.units, max((u for row in steps.values() for _, u, _ in row), default=0)) + 1
         homes = [[v] for v in f.pieces[self.component]] if self.closed else [self.open & set(f.pieces[self.component])]
-        require(2 * self.units * sum(map(len, steps.values())) * len(homes) <= 8e9, f"{place}.units: too many")
+        self.bound_work(self.units * sum(map(len, steps.values())) * len(homes), longest * len(order), place)
         for home in map(set, homes):
             more = (lambda v: 0) if self.closed else (lambda v: self.node[v])
             ends = {x: more(self.node_of(x[0])) for x in order if self.node_of(x[0]) in home}
@@ -3377,30 +3441,60 @@ def verify(data):
 
 
 def main(arguments):
-    quiet = "-q" in arguments
-    names = [x for x in arguments if x != "-q"]
-    if not names or any(x.startswith("-") and x != "-" for x in names):
+    quiet, seconds, names = False, None, []
+    rest = iter(arguments)
+    for x in rest:
+        if x == "-q":
+            quiet = True
+        elif x == "--time-limit":
+            seconds = next(rest, "")
+        elif x.startswith("-") and x != "-":
+            names = []
+            break
+        else:
+            names.append(x)
+    try:
+        seconds = None if seconds is None else max(0.0, float(seconds))
+    except ValueError:
+        names = []
+    if not names:
         sys.stderr.write(__doc__)
         return 2
+    gc.disable()  # what is left over is small
+    resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, resource.getrlimit(resource.RLIMIT_DATA)[1]))
     worst = 0
     for name in names:
+        code, words = judge(name, seconds)
+        if code:
+            print(clean(f"{name}: {words}"), file=sys.stderr)
+        elif not quiet:
+            print(clean(f"{name}: {words[0]}"))
+            print("".join(f"  {line}\n" for line in words[1:]), end="")
+        worst = max(worst, code)
+    return worst
+
+
+def judge(name, seconds):
+    """Exit code of a plan, and the lines about it or why it fails."""
+    try:
         try:
             if name == "-":
                 data = sys.stdin.buffer.read()
             else:
                 with open(name, "rb") as file:
                     data = file.read()
-            lines = check(data)
-            if not quiet:
-                print(clean(f"{name}: {lines[0]}"))
-                print("".join(f"  {line}\n" for line in lines[1:]), end="")
-        except Violation as error:
-            print(clean(f"{name}: {error}"), file=sys.stderr)
-            worst = max(worst, 1)
-        except (Unreadable, OSError) as error:
-            print(clean(f"{name}: {getattr(error, 'strerror', None) or error}"), file=sys.stderr)
-            worst = max(worst, 3)
-    return worst
+            bound_work(seconds, len(data))
+            return 0, check(data)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+    except Violation as error:
+        return 1, str(error)
+    except (Unreadable, OSError) as error:
+        return 3, str(getattr(error, "strerror", None) or error)
+    except NotChecked as error:
+        return 5, f"not checked: {error}"
+    except MemoryError:
+        return 5, f"not checked: needs more than {MEMORY / 1e6:g} MB"
 
 
 if __name__ == "__main__":

@@ -14,7 +14,9 @@
 #include "graph/text.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char help[] =
@@ -23,7 +25,8 @@ static const char help[] =
     "  thread check plan.json\n"
     "  thread plan dome.obj -o - | thread check -\n\n"
     "Options:\n"
-    "      --json           one JSON line per plan\n" GUARD_HELP
+    "      --json           one JSON line per plan\n"
+    "      --time-limit S   give up after S seconds, 0 = never (default: 7 for each plan of up to 20 MB)\n" GUARD_MEMORY_HELP
     "  -q, --quiet          print nothing for plans that hold       -v, --verbose  what proofs are made of, crossings\n"
     "  -h, --help\n\n"
     "Exit codes: 0 all plans hold, 1 a violation (printed with its place), 2 usage, 3 not a plan,\n"
@@ -186,42 +189,91 @@ static void put_json(thr_text *text, const char *path, const thr_plan *plan, con
   thr_text_append(text, "\n");
 }
 
-static int check_one(const char *path, bool json)
+/* Seconds that a plan may take if nobody said: those of docs/plan-format.md for each 20 MB, and not less. */
+static double seconds_for(double bytes)
 {
-  thr_plan plan;
+  return fmax(1, bytes / 20e6) * 7;
+}
+
+/* Bytes of a file, or -1: a stream. */
+static double file_size(const char *path)
+{
+  FILE *file = strcmp(path, "-") == 0 ? NULL : fopen(path, "rb");
+  const double size = file && fseek(file, 0, SEEK_END) == 0 ? (double)ftell(file) : -1;
+  if (file) fclose(file);
+  return size;
+}
+
+/* Tells the process that waits that plan number i is next, and what time it has. Of a stream its size is not known: reading it
+ * may take any time. */
+static void announce(const char *path, int i)
+{
+  thr_text number = {0};
+  const double bytes = file_size(path);
+  thr_text_printf(&number, "%d", i);
+  guard_keep(&number);
+  guard_allow(bytes < 0 ? 0 : seconds_for(bytes));
+  thr_text_destroy(&number);
+}
+
+static int put_one(const char *name, bool json, const thr_plan *plan, const thr_err *err, int code)
+{
   thr_text text = {0};
-  thr_err err = {0}, found = {0};
-  const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
-  thr_status st = thr_plan_read(&plan, path, &err);
-  if (!st && (st = thr_check_plan(&plan, &found))) thr_fail(&err, st, "%s: %s", name, found.text);
-  int code = st == THR_OK ? EXIT_OK : EXIT_VIOLATION;
-  if (st && st != THR_EVIOLATED) code = cli_fail(&err);
   if (json)
-    put_json(&text, name, &plan, &err);
+    put_json(&text, name, plan, err);
   else if (code > EXIT_VIOLATION)
     ; /* said already */
-  else if (st)
-    cli_error("%s", err.text);
+  else if (code)
+    cli_error("%s", err->text);
   else if (!cli_quiet)
-    put_verdict(&text, name, &plan);
-  thr_plan_destroy(&plan);
+    put_verdict(&text, name, plan);
   int written = cli_write(&text, "-");
   return code ? code : written;
 }
 
-static int check_all(char **path, int n, bool json)
+static const char *name_of(const char *path)
+{
+  return strcmp(path, "-") == 0 ? "stdin" : path;
+}
+
+static int check_one(const char *path, bool json, bool timed)
+{
+  thr_plan plan;
+  thr_err err = {0}, found = {0};
+  thr_status st = thr_plan_read(&plan, path, &err);
+  if (timed && !st && guard_deadline() == 0) guard_allow(seconds_for(200. * plan.frame.n_edges));
+  if (!st && (st = thr_check_plan(&plan, &found))) thr_fail(&err, st, "%s: %s", name_of(path), found.text);
+  int code = st == THR_OK ? EXIT_OK : EXIT_VIOLATION;
+  if (st && st != THR_EVIOLATED) code = cli_fail(&err);
+  code = put_one(name_of(path), json, &plan, &err, code);
+  thr_plan_destroy(&plan);
+  return code;
+}
+
+static int check_all(char **path, int n, bool json, bool timed)
 {
   int code = EXIT_OK;
   for (int i = 0; i < n; i++) {
-    int one = check_one(path[i], json);
+    if (timed) announce(path[i], i);
+    int one = check_one(path[i], json, timed);
     if (one > code) code = one;
   }
   return code;
 }
 
+/* A plan that was not judged, which is a failure. */
+static int put_unjudged(const char *name, bool json, const guard_end *end)
+{
+  thr_err err = {0};
+  const char *more = end->reason == GUARD_TIME ? " (--time-limit allows more)" : "";
+  thr_fail(&err, THR_ELIMIT, "%s: not checked: %s%s", name, end->why, more);
+  cli_error("%s", err.text);
+  return put_one(name, json, NULL, &err, end->reason == GUARD_DIED ? EXIT_INTERNAL : EXIT_LIMIT);
+}
+
 int cmd_check(int argc, char **argv)
 {
-  int done, o;
+  int done, o, code = EXIT_OK;
   bool json = false, ok = true;
   guard_limits guard = guard_limits_default();
   guard_end end;
@@ -231,6 +283,18 @@ int cmd_check(int argc, char **argv)
   }
   if (done >= 0) return done;
   if (optind == argc) return cli_usage("check", "which plan?");
-  if (guard_fork(&guard, &end)) return guard_conclude(&end, "not verified");
-  return check_all(argv + optind, argc - optind, json);
+
+  /* What cannot be judged in its time leaves the plans behind it to another process. */
+  for (char **path = argv + optind, **last = argv + argc; path < last;) {
+    if (!guard_fork(&guard, &end)) return check_all(path, (int)(last - path), json, guard.seconds < 0);
+    if (end.reason == GUARD_DONE || end.reason == GUARD_INTERRUPTED || end.kept.length == 0) {
+      const int one = guard_conclude(&end, "not verified");
+      return one > code ? one : code;
+    }
+    path += atoi(end.kept.data);
+    const int one = put_unjudged(name_of(*path++), json, &end);
+    if (one > code) code = one;
+    thr_text_destroy(&end.kept);
+  }
+  return code;
 }

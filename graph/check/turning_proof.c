@@ -112,36 +112,59 @@ static thr_status link_tree(const thr_turning_columns *turning_columns, const th
   return THR_OK;
 }
 
-/* The boxes of the nodes: [n_columns] each, as thr_wide as can be between two nodes. */
+/* A column's limits before a branching narrowed them. */
+typedef struct {
+  int column, low, high;
+} was;
+
+/* A node that waits to be visited, and how many entries of the log stand above it. */
+typedef struct {
+  int node, changes;
+} waiting;
+
+/* The box of the node that is visited, and what the multipliers of a leaf come to in it. Both follow the tree from node to node:
+ * a branching narrows some columns, and going back up the log undoes it. So a visit takes as long as what it changes, however
+ * deep the node lies. */
 typedef struct {
   const thr_turning_columns *c;
   const thr_turning_proof *p;
-  thr_scratch own;      /* the arrays */
-  int *parent, *column; /* [n_nodes] */
-  int *low, *high;
-  int *narrowed, n_narrowed; /* columns that are decided above the node */
-  bool *listed;
+  thr_scratch own;           /* the arrays */
+  int *parent, *column;      /* [n_nodes] */
+  int *marked;               /* [n_nodes] the last multipliers that a leaf at or below the node has; -1: none yet */
+  waiting *stack;            /* [n_nodes] */
+  int *low, *high, *changed; /* [n_columns] the box; how many entries of the log are about a column */
+  int *narrowed, n_narrowed; /* columns that the log is about */
+  was *log;
+  int n_changes, n_empty;    /* entries of the log; columns without a value */
+  const thr_turning_leaf *k; /* multipliers, or NULL */
   /* [n_components + 1] values of the cords of a component, and of all */
-  thr_wide *widest, *here; /* of a leaf's multipliers without and with the branches above it */
-  int64_t *least;          /* of all leaves so far */
+  thr_wide *here; /* of k in the box */
+  int64_t *least; /* of all leaves so far */
 } boxes;
 
 static thr_status boxes_init(boxes *x, thr_err *err)
 {
-  size_t nodes = (size_t)x->p->n_nodes, columns = x->p->n_nodes > 1 ? (size_t)x->c->n_columns : 0;
+  const size_t nodes = (size_t)x->p->n_nodes, columns = x->p->n_nodes > 1 ? (size_t)x->c->n_columns : 0;
+  size_t changes = nodes;
+  for (size_t i = 0; i < nodes; i++)
+    changes += (size_t)x->p->node[i].n_orbit;
   x->parent = thr_scratch_array(&x->own, nodes, sizeof *x->parent);
   x->column = thr_scratch_array(&x->own, nodes, sizeof *x->column);
+  x->marked = thr_scratch_array(&x->own, nodes, sizeof *x->marked);
+  x->stack = thr_scratch_array(&x->own, nodes, sizeof *x->stack);
   x->low = thr_scratch_array(&x->own, columns, sizeof *x->low);
   x->high = thr_scratch_array(&x->own, columns, sizeof *x->high);
+  x->changed = thr_scratch_array(&x->own, columns, sizeof *x->changed);
   x->narrowed = thr_scratch_array(&x->own, columns, sizeof *x->narrowed);
-  x->listed = thr_scratch_array(&x->own, columns, sizeof *x->listed);
-  x->widest = thr_scratch_array(&x->own, (size_t)x->c->n_components + 1, sizeof *x->widest);
+  x->log = thr_scratch_array(&x->own, changes, sizeof *x->log);
   x->here = thr_scratch_array(&x->own, (size_t)x->c->n_components + 1, sizeof *x->here);
   x->least = thr_scratch_array(&x->own, (size_t)x->c->n_components + 1, sizeof *x->least);
   thr_status st = thr_scratch_check(&x->own, err);
   if (st) return st;
   for (size_t j = 0; j < columns; j++)
     x->high[j] = thr_turning_most(x->c, (int)j);
+  for (size_t i = 0; i < nodes; i++)
+    x->marked[i] = -1;
   for (int i = 0; i <= x->c->n_components; i++)
     x->least[i] = INT64_MAX;
   return link_tree(x->c, x->p, x->parent, x->column, err);
@@ -153,107 +176,132 @@ static const int *symmetry_of(const boxes *x, const thr_turning_node *node, int 
   return x->p->symmetry + (size_t)node->orbit[k] * (size_t)x->c->f->n_edges;
 }
 
+/* Sets the limits of a column, and what the multipliers come to with them. */
+static void set_limits(boxes *x, int j, int low, int high)
+{
+  x->n_empty += (low > high) - (x->low[j] > x->high[j]);
+  if (x->k && x->low[j] <= x->high[j] && low <= high) {
+    const thr_wide adds = thr_turning_leaf_adds(x->k, j, low, high) - thr_turning_leaf_adds(x->k, j, x->low[j], x->high[j]);
+    x->here[thr_turning_leaf_component(x->k, x->c->half[j][0])] += adds;
+    x->here[x->c->n_components] += adds;
+  }
+  x->low[j] = low;
+  x->high[j] = high;
+}
+
+/* Narrows the limits of a column to low .. high. */
 static void narrow_column(boxes *x, int j, int low, int high)
 {
-  if (!x->listed[j]) x->narrowed[x->n_narrowed++] = j;
-  x->listed[j] = true;
-  if (low > x->low[j]) x->low[j] = low;
-  if (high < x->high[j]) x->high[j] = high;
+  if (low < x->low[j]) low = x->low[j];
+  if (high > x->high[j]) high = x->high[j];
+  if (low == x->low[j] && high == x->high[j]) return;
+  x->log[x->n_changes++] = (was){.column = j, .low = x->low[j], .high = x->high[j]};
+  if (x->changed[j]++ == 0) x->narrowed[x->n_narrowed++] = j;
+  set_limits(x, j, low, high);
 }
 
-/* Narrows the box by the branches above node i. */
+/* Narrows the box of the parent of node i to that of node i. */
 static void narrow(boxes *x, int i)
 {
-  for (int above = x->parent[i]; above >= 0; i = above, above = x->parent[i]) {
-    const thr_turning_node *node = &x->p->node[above];
-    int j = x->column[above];
-    if (node->low != i) {
-      narrow_column(x, j, node->value < INT_MAX ? node->value + 1 : INT_MAX, INT_MAX);
-      continue;
-    }
-    narrow_column(x, j, 0, node->value);
-    for (int k = 0; k < node->n_orbit; k++)
-      narrow_column(x, thr_turning_image(x->c, symmetry_of(x, node, k), j), 0, node->value);
+  const int above = x->parent[i];
+  if (above < 0) return;
+  const thr_turning_node *node = &x->p->node[above];
+  const int j = x->column[above];
+  if (node->low != i) {
+    narrow_column(x, j, node->value < INT_MAX ? node->value + 1 : INT_MAX, INT_MAX);
+    return;
   }
+  narrow_column(x, j, 0, node->value);
+  for (int k = 0; k < node->n_orbit; k++)
+    narrow_column(x, thr_turning_image(x->c, symmetry_of(x, node, k), j), 0, node->value);
 }
 
-static void widen(boxes *x)
+/* Goes back to the box that had so many changes. */
+static void widen(boxes *x, int changes)
 {
-  for (int i = 0; i < x->n_narrowed; i++) {
-    int j = x->narrowed[i];
-    x->low[j] = 0;
-    x->high[j] = thr_turning_most(x->c, j);
-    x->listed[j] = false;
-  }
-  x->n_narrowed = 0;
-}
-
-/* x->widest of a leaf. In one component alone, sets of several only take off prices, and the limit on all extra length holds for
- * that of the component. */
-static void find_widest(boxes *x, const thr_turning_leaf *k)
-{
-  const int n = x->c->n_components;
-  x->widest[n] = k->constant[n] - k->limit;
-  for (int i = 0; i < n; i++) {
-    x->widest[i] = k->constant[i] - k->limit;
-    x->widest[n] += k->constant[i];
-  }
-  for (int j = 0; j < x->c->n_columns; j++) {
-    thr_wide adds = thr_turning_leaf_adds(k, j, 0, thr_turning_most(x->c, j));
-    x->widest[thr_turning_leaf_component(k, x->c->half[j][0])] += adds;
-    x->widest[n] += adds;
+  while (x->n_changes > changes) {
+    const was *before = &x->log[--x->n_changes];
+    if (--x->changed[before->column] == 0) x->n_narrowed--;
+    set_limits(x, before->column, before->low, before->high);
   }
 }
 
-/* x->here, in the narrow box. Returns whether nothing is in it. */
-static bool correct(boxes *x, const thr_turning_leaf *k)
-{
-  const int n = x->c->n_components;
-  bool empty = false;
-  memcpy(x->here, x->widest, ((size_t)n + 1) * sizeof *x->here);
-  for (int i = 0; i < x->n_narrowed; i++) {
-    int j = x->narrowed[i];
-    empty |= x->low[j] > x->high[j];
-    thr_wide adds =
-        thr_turning_leaf_adds(k, j, x->low[j], x->high[j]) - thr_turning_leaf_adds(k, j, 0, thr_turning_most(x->c, j));
-    x->here[thr_turning_leaf_component(k, x->c->half[j][0])] += adds;
-    x->here[n] += adds;
-  }
-  return empty;
-}
-
-/* Does the symmetry keep the narrow box? */
+/* Does the symmetry keep the box? */
 static bool keeps_box(const boxes *x, const int *image)
 {
   for (int i = 0; i < x->n_narrowed; i++) {
-    int j = x->narrowed[i], k = thr_turning_image(x->c, image, j);
+    const int j = x->narrowed[i], k = thr_turning_image(x->c, image, j);
     if (x->low[k] != x->low[j] || x->high[k] != x->high[j]) return false;
   }
   return true;
 }
 
-/* An orbit is decided at once where all its symmetries are there, and keep the box. */
-static thr_status check_orbits(boxes *x, thr_err *err)
+/* Orbits of inner nodes only, of symmetries that there are. */
+static thr_status check_orbits(const thr_turning_proof *proof, thr_err *err)
 {
-  for (int i = 0; i < x->p->n_nodes; i++) {
-    const thr_turning_node *node = &x->p->node[i];
+  for (int i = 0; i < proof->n_nodes; i++) {
+    const thr_turning_node *node = &proof->node[i];
     if (node->n_orbit == 0) continue;
     if (!node->low) return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: an orbit, but nothing is decided", i);
     for (int k = 0; k < node->n_orbit; k++)
-      if (node->orbit[k] < 0 || node->orbit[k] >= x->p->n_symmetries)
+      if (node->orbit[k] < 0 || node->orbit[k] >= proof->n_symmetries)
         return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: no symmetry %d", i, node->orbit[k]);
   }
-  for (int i = 0; i < x->p->n_nodes; i++) {
-    const thr_turning_node *node = &x->p->node[i];
-    bool kept = true;
-    if (node->n_orbit == 0) continue;
-    narrow(x, i);
-    for (int k = 0; k < node->n_orbit && kept; k++)
-      kept = keeps_box(x, symmetry_of(x, node, k));
-    widen(x);
-    if (!kept) return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: a symmetry does not keep what was decided before", i);
+  return THR_OK;
+}
+
+/* Values of a leaf's multipliers with columns in their widest limits. In one component alone, sets of several only take off
+ * prices, and the limit on all extra length holds for that of the component. */
+static void find_widest(boxes *x, const thr_turning_leaf *k)
+{
+  const int n = x->c->n_components;
+  x->here[n] = k->constant[n] - k->limit;
+  for (int i = 0; i < n; i++) {
+    x->here[i] = k->constant[i] - k->limit;
+    x->here[n] += k->constant[i];
+  }
+  for (int j = 0; j < x->c->n_columns; j++) {
+    thr_wide adds = thr_turning_leaf_adds(k, j, 0, thr_turning_most(x->c, j));
+    x->here[thr_turning_leaf_component(k, x->c->half[j][0])] += adds;
+    x->here[n] += adds;
+  }
+}
+
+/* Visits a node whose box is there: of multipliers, takes the least values at their leaves; without, checks that its orbit keeps
+ * the box. */
+static thr_status visit(boxes *x, int i, thr_err *err)
+{
+  const thr_turning_node *node = &x->p->node[i];
+  for (int k = 0; k < node->n_orbit && !x->k; k++)
+    if (!keeps_box(x, symmetry_of(x, node, k)))
+      return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: a symmetry does not keep what was decided before", i);
+  for (int j = 0; j <= x->c->n_components && x->k && !node->low; j++) {
+    const int64_t here = thr_turning_in_64_bits(x->here[j]);
+    if (here < x->least[j]) x->least[j] = here;
   }
   return THR_OK;
+}
+
+/* Visits all nodes that are marked so, -1: all, and whose box is not empty, from the root on. */
+static thr_status visit_all(boxes *x, int mark, thr_err *err)
+{
+  int n = 0;
+  thr_status st = THR_OK;
+  if (mark < 0 || x->marked[0] == mark) x->stack[n++] = (waiting){0};
+  while (n > 0 && !st) {
+    const waiting next = x->stack[--n];
+    const thr_turning_node *node = &x->p->node[next.node];
+    widen(x, next.changes);
+    narrow(x, next.node);
+    if (x->n_empty > 0) continue;
+    st = visit(x, next.node, err);
+    for (int k = 0; k < 2 && node->low; k++) {
+      const int child = k ? node->low : node->high;
+      if (mark < 0 || x->marked[child] == mark) x->stack[n++] = (waiting){.node = child, .changes = x->n_changes};
+    }
+  }
+  widen(x, 0);
+  return st;
 }
 
 static thr_status check_symmetries(const thr_turning_columns *turning_columns, const thr_turning_proof *proof, thr_err *err)
@@ -290,22 +338,19 @@ static void sort_leaves(const thr_turning_proof *proof, int *first, int *number)
     if (!proof->node[i].low) number[first[proof->node[i].dual + 1]++] = i;
 }
 
-/* Least values over the boxes of n leaves that have the multipliers dual. O(columns + what dual lists, each member as often as
- * there are turns at it, + leaves * (depth + components)). */
-static thr_status least_of_leaves(boxes *x, const thr_turning_dual *dual, const int *node, int n, thr_err *err)
+/* Least values over the boxes of n leaves that have the multipliers number d. O(columns + what they list, each member as often as
+ * there are turns at it, + nodes above the leaves + leaves * components). */
+static thr_status least_of_leaves(boxes *x, int d, const int *node, int n, thr_err *err)
 {
   thr_turning_leaf k;
-  thr_status st = thr_turning_leaf_init(&k, x->c, dual, err);
+  thr_status st = thr_turning_leaf_init(&k, x->c, &x->p->dual[d], err);
   if (!st) find_widest(x, &k);
-  for (int i = 0; i < n && !st; i++) {
-    narrow(x, node[i]);
-    bool empty = correct(x, &k);
-    widen(x);
-    for (int j = 0; j <= x->c->n_components && !empty; j++) {
-      int64_t here = thr_turning_in_64_bits(x->here[j]);
-      if (here < x->least[j]) x->least[j] = here;
-    }
-  }
+  for (int i = 0; i < n; i++)
+    for (int above = node[i]; above >= 0 && x->marked[above] != d; above = x->parent[above])
+      x->marked[above] = d;
+  x->k = &k;
+  if (!st) st = visit_all(x, d, err);
+  x->k = NULL;
   thr_scratch_free(&k.own);
   return st;
 }
@@ -336,10 +381,11 @@ static thr_status check_tree(const thr_turning_columns *turning_columns, const t
   int *leaves = thr_scratch_array(&x.own, (size_t)proof->n_nodes, sizeof *leaves);
   thr_status st = thr_scratch_check(&x.own, err);
   if (!st) st = boxes_init(&x, err);
-  if (!st) st = check_orbits(&x, err);
+  if (!st) st = check_orbits(proof, err);
+  if (!st && proof->n_symmetries > 0) st = visit_all(&x, -1, err);
   if (!st) sort_leaves(proof, first, leaves);
   for (int d = 0; d < proof->n_duals && !st; d++)
-    if (first[d + 1] > first[d]) st = least_of_leaves(&x, &proof->dual[d], leaves + first[d], first[d + 1] - first[d], err);
+    if (first[d + 1] > first[d]) st = least_of_leaves(&x, d, leaves + first[d], first[d + 1] - first[d], err);
   if (!st && x.least[n] > 0) *bound = ldexp((double)x.least[n], -THR_TURNING_BITS);
   for (int i = 0; i < n && !st && bound_of; i++)
     bound_of[i] = fmax(0, ldexp((double)x.least[i], -THR_TURNING_BITS));

@@ -572,10 +572,10 @@ int thr_walk_component(const thr_turning_columns *columns, const thr_walk_proof 
 /* The most that a walk is worth. */
 static thr_status best_of(thr_walk_steps *steps, const thr_walk_proof *proof, int64_t *best, thr_err *err)
 {
-  const double most_work = 4e9; /* steps of the recursion; makers keep to a tenth of it */
+  const double most_work = 5e8, most_values = 1 << 26; /* steps of the recursion, and of its table; makers keep below both */
   const int levels = thr_walk_few_levels(steps, proof->units);
   double work = (double)proof->units * steps->first[steps->n] * thr_walk_runs(steps);
-  if (work > most_work || (double)levels * steps->n > 1e9)
+  if (work > most_work || (double)levels * steps->n > most_values)
     return thr_fail(err, THR_EVIOLATED, "walks: %d units are more than can be checked", proof->units);
   int64_t *value = thr_calloc((size_t)levels * (size_t)steps->n * thr_walk_tables(steps->measure), sizeof *value);
   if (!value) return thr_nomem(err);
