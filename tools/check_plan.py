@@ -113,9 +113,9 @@ def member(holder, key, kind, place, low=None, high=None, default=...):
         raise Violation(f"{place}.{key}: missing" if place else f"{key}: missing")
     value = holder[key]
     if kind == "integer" and type(value) is float and value == 0:  # -0.0
-        value = 0
+        value = holder[key] = 0
     good = type(value) in (int, float) if kind == "number" else type(value) is KINDS[kind]
-    value = float(value) if good and kind == "number" else value
+    value = float(value) + 0.0 if good and kind == "number" else value  # -0.0 is 0
     if good and (low is None or value >= low) and (high is None or value <= high):
         return value
     name = f"{place}.{key}" if place else key
@@ -131,7 +131,8 @@ def choice(holder, key, place, words, default=...):
 
 
 def integers(value, place, low, high, n=None):
-    value = [0 if type(x) is float and x == 0 else x for x in value] if type(value) is list else value  # -0.0
+    if type(value) is list and 0.0 in value:  # and perhaps -0.0
+        value[:] = [0 if type(x) is float and x == 0 else x for x in value]
     require(type(value) is list and all(type(x) is int for x in value), f"{place}: not a list of integers")
     require(n is None or len(value) == n, f"{place}: {len(value)} values, expected {n}")
     require(all(low <= x <= high for x in value), f"{place}: a value is not within {low} to {high}")
@@ -198,7 +199,7 @@ class Frame:
         require(names is None or len(names) == self.n and all(type(x) is str for x in names), "framework.names: not a name per node")
         require(names is None or len({CONTROL.sub(" ", x) for x in names}) == self.n, "framework.names: two nodes of one name")
         self.names = names or [str(v) for v in range(self.n)]
-        self.feet = set(integers(o["feet"] if type(o.get("feet")) is list else [], "framework.feet", 0, self.n - 1))
+        self.feet = set(integers(member(o, "feet", "list", place, default=[]), "framework.feet", 0, self.n - 1))
         require(member(o, "hash", "text", place) == self.hash(), f"framework.hash: the framework's is {self.hash()}")
         self.components()
 
@@ -788,7 +789,7 @@ class Certificate:
         self.weight = {}
         for e in edges:
             product = f.length[e] * float(self.scale)
-            require(product < 2**62, f"{place}.scale: too large")
+            require(product < 1e18, f"{place}.scale: too large")
             self.weight[e] = round(product)
         join = sum(self.weight[e] * p.extra[e] for e in edges)
         require(member(o, "join", "integer", place) == join, f"{place}.join: not {join}")
@@ -1154,6 +1155,9 @@ class Model:
                 require(values, f"{name}: empty")
                 if key == "junctions":
                     member(row, "node", "integer", name, 0, f.n - 1)
+        require(dual["length"] <= 2**58 and all(abs(y) <= 2**58 for y in dual["potentials"] + dual["ends"]), f"{place}: a multiplier is too large")
+        sums = {key: sum(row["value"] for row in dual[key]) for key in ("odd_sets", "groups", "partitions", "junctions", "ranks")}
+        require(sums.pop("ranks") <= 2**58 and sum(sums.values()) <= 2**61, f"{place}: multipliers add up to too much")
         return dual
 
     def read(self, o, place):
@@ -1346,6 +1350,7 @@ class FewEdges:
         for i, e in enumerate(edges if closed else [None]):
             starts = [2 * e] if closed else [h for h in halves if f.tail(h) in o.allowed]
             cost = [None] * (1 << self.n)
+            closing = {h: y for h in halves for g, y in steps[h] if closed and g == 2 * e}
             for h in starts:
                 at = 1 << index[h >> 1]
                 cost[at] = cost[at] or {}
@@ -1355,7 +1360,7 @@ class FewEdges:
                     self.settle(mask, cost, steps, index, i if closed else 0)
                     for h, x in cost[mask].items():
                         if closed:
-                            x += next((y for g, y in steps[h] if g == 2 * e), math.inf) - first[2 * e]
+                            x += closing.get(h, math.inf) - first[2 * e]
                         elif f.tail(h ^ 1) not in o.allowed:
                             continue
                         if x <= self.enough:
@@ -1831,12 +1836,12 @@ def fewest_cords(p):
     for c, (table, j, _) in enumerate(few_edges(p, False, float(limit))):
         base = sum(p.frame.exact[e] * o.need[e] for e in p.frame.edges_of(c))
         while j < p.per_piece[c]:
-            least = base if o.tube else p.certificate[c].least(2 * j)
+            least = base if o.tube or "length" not in p.proof else p.certificate[c].least(2 * j)
             if least <= j * limit and (table is None or (table.fit(j, limit) if each == 1 else table.different_fit(each, j, float(limit)))):
                 break
             j += 1
         total += j
-    return fewest_tied(p, total, limit) if o.tube else total
+    return fewest_tied(p, total, limit) if o.tube and "length" in p.proof else total
 
 
 def fewest_tied(p, j, limit):
@@ -1860,15 +1865,16 @@ def check_cords_claim(p):
         return
     o, place = p.options, "proof.cords"
     known(claim, "longest fewest walks sets", place)
-    require("length" in p.proof, f"{place}: without a proof of length")
     stated = member(claim, "longest", "object", place)
     known(stated, "status length lower_bound", place + ".longest")
     own = max(p.lengths)
     p.close(member(stated, "length", "number", place + ".longest"), own, own, place + ".longest.length")
     cords = [o.cords if o.ends != "counts" else p.per_piece[c] for c in range(len(p.frame.pieces))]
-    if o.tube:
+    if o.tube or "length" not in p.proof:
         least = [sum(p.frame.exact[e] * o.need[e] for e in p.frame.edges_of(c)) for c in range(len(p.frame.pieces))]
-        bound = p.tied.least / (len(p.cords) if o.ends == "counts" else o.cords * len(p.frame.pieces))
+        bound = max(x / k for x, k in zip(least, cords))
+        if "length" in p.proof:
+            bound = max(bound, p.tied.least / (len(p.cords) if o.ends == "counts" else o.cords * len(p.frame.pieces)))
     else:
         rows = [(c, p.compared(i) < o.cords and o.ends not in ("closed", "counts")) for i, c in enumerate(p.certificate)]
         least = [c.own if c.optimal and not fewer else c.least(2 * o.cords) for c, fewer in rows]
@@ -1881,7 +1887,7 @@ def check_cords_claim(p):
     claimed = member(stated, "lower_bound", "number", place + ".longest")
     bound = max(bound, forced_detour(p, claimed))
     bound = max(bound, few_edges_longest(p, claimed))
-    if bound < claimed and not o.tube:
+    if bound < claimed and not o.tube and "length" in p.proof:
         bound = max([bound] + [ways_in(p, c) for c in range(len(p.frame.pieces))])
     require(claim.get("sets", True) is True, f"{place}.sets: not true")
     of_one = len(p.frame.pieces) == 1 and p.frame.m <= SHORT_EDGES and not o.tube and o.ends != "counts"
@@ -2022,7 +2028,9 @@ class Walks:
         places = [x for x in self.after if f.component[self.node_of(x)] == c]
         largest = max(self.passing(h) + self.node[f.tail(h ^ 1)] for h in range(2 * f.m))
         require((largest + self.worth(4 * UNIT)) * (self.units + 2) * (len(places) + 1) < 2**61, f"{place}: prices too large")
-        return self.sort(places, place)
+        order = next((x for x in (self.sort(places, units) for units in (512, 64, 8, 1)) if x), None)
+        require(order, f"{place}.unit: steps below one unit go round in a circle")
+        return order
 
     def remember(self, places, starts, place):
         """Where walks remember: self.remembered[x] are the edges that they remember at place x. Returns the sets of edges that a
@@ -2055,8 +2063,8 @@ class Walks:
     def needed_at(self, v):
         return sum(self.need[h >> 1] for h in self.f.at[v])
 
-    def sort(self, places, place):
-        """Places after those that they step to without a unit."""
+    def sort(self, places, units):
+        """Places after those that they step to in fewer units; None: such steps go round in a circle."""
         order, state = [], {}
         for root in places:
             stack = [(root, False)]
@@ -2068,8 +2076,9 @@ class Walks:
                 elif d not in state:
                     state[d] = 1
                     stack.append((d, True))
-                    after = [to for to, _, w, _ in self.after[d] if w < self.unit]
-                    require(all(state.get(to) != 1 for to in after), f"{place}.unit: steps below one unit go round in a circle")
+                    after = [to for to, _, w, _ in self.after[d] if w < self.unit * units]
+                    if any(state.get(to) == 1 for to in after):
+                        return None
                     stack.extend((to, False) for to in after)
         return order
 
@@ -2083,22 +2092,29 @@ class Walks:
         return -(-self.all * weight // UNIT)
 
     def most(self, order, steps, ends, longest):
-        """The values of the places: the most that walks with so many units left are worth from there; last the rows back to units."""
-        rows = []
-        for r in range(self.units + 1):
-            row = {}
-            for x in order:
-                best = ends.get(x)
-                for to, u, y in steps[x]:
-                    here = (row if u == 0 else rows[r - u]).get(to) if u <= r else None
-                    if here is not None and (best is None or here + y > best):
-                        best = here + y
-                if best is not None:
-                    row[x] = best
-            rows.append(row)
-            if r >= longest:
-                rows[r - longest] = None
-        return rows
+        """A function of a place and of units: the most that walks with so many left are worth from there, or None. Units that are near
+        `units` are known last. So many are found at once as steps back in the order have at least."""
+        number, nothing = {x: i for i, x in enumerate(order)}, -(2**80)  # worths are below 2^62
+        moves = [[(number[to], u, y) for to, u, y in steps[x] if u <= self.units and to in number] for x in order]
+        width = min([u for i, row in enumerate(moves) for to, u, _ in row if to >= i] + [1024])
+        values, lowest = [[nothing] * longest for _ in order], -longest  # of each place, from so many units on
+        for r in range(0, self.units + 1, width):
+            n = min(width, self.units + 1 - r)
+            for i, (x, row) in enumerate(zip(order, moves)):
+                more = [[v + y for v in values[to][r - u - lowest : r - u - lowest + n]] for to, u, y in row]
+                more.append([ends.get(x, nothing)] * n)
+                values[i] += map(max, *more) if len(more) > 1 else more[0]
+            spare = r + n - lowest - longest
+            if spare > 2 * longest + 4096:
+                lowest += spare
+                for row in values:
+                    del row[:spare]
+
+        def value(x, r):
+            found = values[number[x]][r - lowest] if x in number else nothing
+            return found if found > nothing / 2 else None
+
+        return value
 
     @staticmethod
     def bound_work(work, values, place):
@@ -2107,8 +2123,13 @@ class Walks:
         if bounded and work > MOST_STEPS:
             raise NotChecked(f"{place} takes {work:.3g} steps (--time-limit allows more)")
 
+    def all_worth(self, order, steps, ends, longest):
+        """Of the walks with all units left, from each place that has any."""
+        rows = self.most(order, steps, ends, longest)
+        return {x: rows(x, self.units) for x in order if rows(x, self.units) is not None}
+
     def best(self, firsts, rows):
-        values = [(rows[self.units - u].get(to), y) for to, u, y in firsts if u <= self.units]
+        values = [(rows(to, self.units - u), y) for to, u, y in firsts if u <= self.units]
         return max([x + y for x, y in values if x is not None], default=0)
 
     def bound(self, cords, least, place):
@@ -2206,11 +2227,11 @@ class PulledWalks(Walks):
         for home in map(set, homes):
             more = (lambda v: 0) if self.closed else (lambda v: self.node[v])
             ends = {x: more(self.node_of(x[0])) for x in order if self.node_of(x[0]) in home}
-            after = self.most(order, steps, ends, longest)[self.units]
+            after = self.all_worth(order, steps, ends, longest)
             if not self.old:  # over the cut turn, or to an end without one
                 over = {x: max((after[to] + y for to, _, y in steps[x] if to in after), default=-math.inf) for x in order}
                 after = {x: max(y, ends.get(x, -math.inf)) for x, y in over.items() if x in ends or y > -math.inf}
-            before = self.most(order, steps, after, longest)[self.units]
+            before = self.all_worth(order, steps, after, longest)
             firsts = [(d, (d, self.then(frozenset(), d, d))) for d in places if f.tail(d) in home]
             best = max([best] + [before[x] + self.passing(d) + more(f.tail(d)) for d, x in firsts if x in before])
         needed = sum(y * self.need[e] for e, y in enumerate(self.edge))

@@ -266,7 +266,7 @@ static thr_status set_from_json(thr_physics *physics, const thr_json *object, th
     char range[96];
     if (!v) continue;
     describe_range(field, range, sizeof range);
-    st = thr_json_number(v, &value) ? thr_physics_set(physics, field, value, err)
+    st = thr_json_number(v, &value) ? thr_physics_set(physics, field, value + 0.0, err) /* -0.0 is 0 */
                                     : thr_fail(err, THR_EINPUT, "%s: not a finite number; %s", field->key, range);
   }
   return st;

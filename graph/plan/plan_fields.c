@@ -22,8 +22,9 @@ thr_status thr_field_need(const thr_field_reader *field_reader, const thr_json *
 
 thr_status thr_field_double(const thr_field_reader *field_reader, const thr_json *object, const char *key, double *out)
 {
-  if (thr_json_number(thr_json_get(object, key), out)) return THR_OK;
-  return thr_field_bad(field_reader, key, "missing or not a finite number");
+  if (!thr_json_number(thr_json_get(object, key), out)) return thr_field_bad(field_reader, key, "missing or not a finite number");
+  *out += 0.0; /* -0.0 is 0 */
+  return THR_OK;
 }
 
 /* A bound, a price or a part: never negative. */

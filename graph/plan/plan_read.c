@@ -36,6 +36,7 @@ static thr_status read_nodes(const thr_field_reader *field_reader, const thr_jso
   }
   assert(draft->node);
   const thr_json *feet = thr_json_get(object, "feet");
+  if (feet && thr_json_typeof(feet) != THR_JSON_ARRAY) return thr_field_bad(field_reader, "framework.feet", "not a list");
   for (int i = 0, v = 0; i < thr_json_size(feet); i++) {
     if ((st = thr_field_index(field_reader, feet, i, n, "framework.feet", &v))) return st;
     draft->node[v].foot = true;
@@ -339,6 +340,7 @@ static thr_status read_document(thr_field_reader *field_reader, const thr_json *
   if (version > 2)
     return thr_field_bad(field_reader, "version", "written by a newer version of thread; this one reads versions 1 and 2");
   const char *generator = thr_json_string(thr_json_get(doc, "generator"));
+  if (!generator && thr_json_get(doc, "generator")) return thr_field_bad(field_reader, "generator", "not text");
   if (!(plan->generator = thr_strdup(generator ? generator : ""))) return thr_nomem(field_reader->err);
   thr_text_clean(plan->generator);
   if ((st = read_frame(field_reader, doc, known, &plan->frame))) return st;

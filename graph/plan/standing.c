@@ -290,6 +290,7 @@ static thr_status read_members(const reader *r, const thr_json *object, thr_stan
   if (!amount(object, "tilt", true, &standing->tilt) || !(standing->tilt < THR_PI / 2))
     return bad(r, "tilt", -1, "not an angle from 0 to a right one");
   if (!thr_json_number(thr_json_get(object, "azimuth"), &standing->azimuth)) return bad(r, "azimuth", -1, "not a finite number");
+  standing->azimuth += 0.0; /* -0.0 is 0 */
   if (!amount(object, "let_down", false, &standing->let_down)) return bad(r, "let_down", -1, "not a number from 0 on");
   thr_status st = read_stills(r, thr_json_get(object, "stills"), standing);
   return st ? st : read_lists(r, object, standing);

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Judges plans and mutants of them by `thread check` and by tools/check_plan.py, which must agree.
 
-    tests/second/compare.py THREAD [--mutants N] [--seed N] [--all] [--keep DIR] [PLAN..]
+    tests/second/compare.py THREAD [--mutants N] [--single N] [--seed N] [--all] [--keep DIR] [PLAN..]
 
 Of plans that hold they must say the same, line by line. Plans: those named, the readers' seeds, and what THREAD makes of the frames and options in plans.txt (every pair with --all, else
-a share of them). Closes with "N passed, N failed". Plans about which the two differ are left in DIR.
+a share of them). Mutants have several changes at random. Single changes go through every plan: a member left out, a number that is 0, -0.0, 1e-13 and 1e13 times itself, a value of another type; N of all
+of them, or with --all each. Closes with "N passed, N failed". Plans about which the two differ are left in DIR.
 """
 import argparse
 import glob
@@ -12,6 +13,7 @@ import importlib.util
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import sys
@@ -22,6 +24,7 @@ import mutate
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 BATCH = 200
+MINUS_ZERO = re.compile(r"(?<![\w.])-0(?![\d.])")  # which nobody writes
 
 
 def second_checker():
@@ -47,20 +50,20 @@ def python_says(path):
 
 
 def thread_says(thread, paths):
-    """The same for many plans, in their order."""
-    run = subprocess.run([thread, "check", "--json", *paths], capture_output=True, text=True, check=False, timeout=600)
-    said = {}
-    for line in run.stdout.splitlines():
-        row = json.loads(line)
-        said[row["plan"]] = ("ok" if row["ok"] else "no", row.get("violation") or row.get("error") or "")
-    good = [path for path in paths if said.get(path, "no")[0] == "ok"]
-    words = subprocess.run([thread, "check", *good], capture_output=True, text=True, check=False, timeout=600).stdout.splitlines() if good else []
-    for path in good:  # "PATH: holds: ..", and lines that are indented
-        words[0] = words[0].removeprefix(f"{path}: ")
-        n = next((i for i, line in enumerate(words[1:], 1) if not line.startswith("  ")), len(words))
-        said[path] = ("ok", [line.strip() for line in words[:n]])
-        words = words[n:]
-    return [said.get(path, ("fault", f"exit code {run.returncode}: {run.stderr[-200:]}")) for path in paths]
+    """The same for many plans, in their order, by one process. What holds is on stdout: "PATH: holds: ..", and lines that are indented."""
+    run = subprocess.run([thread, "check", "--time-limit", "0", *paths], capture_output=True, text=True, check=False, timeout=600)
+    words, refused, said = run.stdout.splitlines(), run.stderr.splitlines(), []
+    for path in paths:
+        if words and words[0].startswith(f"{path}: "):
+            words[0] = words[0].removeprefix(f"{path}: ")
+            n = next((i for i, line in enumerate(words[1:], 1) if not line.startswith("  ")), len(words))
+            said.append(("ok", [line.strip() for line in words[:n]]))
+            words = words[n:]
+        elif refused and refused[0].startswith(f"thread: {path}:"):
+            said.append(("no", refused.pop(0)))
+        else:
+            said.append(("fault", f"exit code {run.returncode}: {run.stderr[-200:]}"))
+    return said
 
 
 def frame_hash(plan):
@@ -82,6 +85,11 @@ def read_small(path):
         return None
 
 
+def is_heavy(plan):
+    """Does judging it take the second checker long? Prices of walks do, and several cords through 13 to 18 edges."""
+    return '"walks"' in json.dumps(plan["proof"]) or plan["options"].get("cords") != 1 and 12 < len(plan["framework"]["edges"]) <= 18
+
+
 class Comparison:
     def __init__(self, thread, keep):
         self.thread, self.keep = thread, keep
@@ -97,7 +105,8 @@ class Comparison:
             two = python_says(path)
             self.count += 1
             self.accepted += two[0] == "ok"
-            if one[0] != two[0] or "fault" in (one[0], two[0]) or one[0] == "ok" and one != two:
+            minus_zero = two[0] == "ok" and any(MINUS_ZERO.search(line) for line in two[1])
+            if one[0] != two[0] or "fault" in (one[0], two[0]) or one[0] == "ok" and one != two or minus_zero:
                 self.differ(path, one, two)
         self.waiting = []
 
@@ -121,21 +130,21 @@ def requests(everything, seed):
                 (frames if kind == "frame" else options).append(rest.strip())
     pairs = [(f, o) for f in frames for o in options]
     if not everything:
-        chosen = random.Random(seed).sample(pairs, 80)
+        chosen = random.Random(seed).sample(pairs, 60)
         pairs = [p for p in pairs if p in chosen]
     return pairs
 
 
 def make_plans(thread, folder, everything, seed):
-    made = []
+    made, sources = [], {}
     for i, (frame, options) in enumerate(requests(everything, seed)):
-        source = os.path.join(folder, "frame.json")
-        if frame.startswith("make "):
-            subprocess.run([thread, *frame.split(), "-o", source], check=True)
-        else:
-            source = os.path.join(ROOT, frame)
+        if frame not in sources:
+            sources[frame] = os.path.join(folder, f"frame-{len(sources)}.json") if frame.startswith("make ") else os.path.join(ROOT, frame)
+            if frame.startswith("make "):
+                subprocess.run([thread, *frame.split(), "-o", sources[frame]], check=True)
+        source = sources[frame]
         target = os.path.join(folder, f"plan-{i}.json")
-        run = subprocess.run([thread, "plan", source, "-q", "--time-limit", "5", "-o", target, *options.split()], capture_output=True, text=True, check=False,
+        run = subprocess.run([thread, "plan", source, "-q", "--time-limit", "2", "-o", target, *options.split()], capture_output=True, text=True, check=False,
                              timeout=300)
         if run.returncode not in (0, 4, 5):
             print(f"thread plan {frame} {options}: exit code {run.returncode}: {run.stderr.strip()}")
@@ -144,11 +153,25 @@ def make_plans(thread, folder, everything, seed):
     return made
 
 
+def compare_changed(arguments, folder, plans, what):
+    """Writes plans and compares what is said of them."""
+    comparison = Comparison(arguments.thread, arguments.keep)
+    for i, plan in enumerate(plans):
+        path = os.path.join(folder, f"changed-{i % BATCH}.json")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump(plan, file)
+        comparison.add(path)
+    comparison.flush()
+    print(f"{comparison.count} {what}, {comparison.accepted} of them accepted, {len(comparison.differences)} differences")
+    return comparison
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("thread")
     parser.add_argument("plans", nargs="*")
-    parser.add_argument("--mutants", type=int, default=8000)
+    parser.add_argument("--mutants", type=int, default=3000)
+    parser.add_argument("--single", type=int, default=1500)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--all", action="store_true")
     parser.add_argument("--keep")
@@ -162,18 +185,16 @@ def main():
         whole.flush()
         print(f"{whole.count} plans, {whole.accepted} of them accepted, {len(whole.differences)} differences")
         small = [plan for plan in map(read_small, plans) if plan]
-        changed = Comparison(a.thread, a.keep)
         chance = random.Random(a.seed)
-        for i in range(a.mutants):
-            plan = mutate.mutant(chance, chance.choice(small), frame_hash)
-            path = os.path.join(folder, f"mutant-{i % BATCH}.json")
-            with open(path, "w", encoding="utf-8") as file:
-                json.dump(plan, file)
-            changed.add(path)
-        changed.flush()
-        print(f"{changed.count} mutants, {changed.accepted} of them accepted, {len(changed.differences)} differences")
-    failed = len(whole.differences) + len(changed.differences)
-    print(f"{whole.count + changed.count - failed} passed, {failed} failed")
+        weights = [0.05 if is_heavy(plan) else 1 for plan in small]
+        mutants = (mutate.mutant(chance, plan, frame_hash) for plan in chance.choices(small, weights, k=a.mutants))
+        changed = compare_changed(a, folder, mutants, "mutants")
+        every = [(plan, *change) for plan, weight in zip(small, weights) if a.all or weight == 1 for change in mutate.single_changes(plan)]
+        chosen = every if a.all else chance.sample(every, min(len(every), a.single))
+        single = compare_changed(a, folder, (mutate.changed_once(plan, path, way, frame_hash) for plan, path, way in chosen), f"of {len(every)} single changes")
+        runs = [whole, changed, single]
+    failed = sum(len(run.differences) for run in runs)
+    print(f"{sum(run.count for run in runs) - failed} passed, {failed} failed")
     return failed > 0
 
 

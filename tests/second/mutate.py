@@ -199,6 +199,48 @@ def repair(random, plan, frame_hash):
         frame_hash(plan)
 
 
+TYPES = (None, True, 1, 0.5, "x", [], [1], {}, {"x": 1})  # a value of each type, and lists and objects that hold something
+
+
+def single_changes(plan):
+    """(path, way) of every change of one value: leave it out, another number, another type. Of the elements of a list, which are alike,
+    the first two and the last."""
+    waiting = [((), plan)]
+    while waiting:
+        path, value = waiting.pop()
+        if path:
+            yield path, "left out"
+            yield from ((path, i) for i, other in enumerate(TYPES) if type(other) is not type(value) or type(value) in (list, dict))
+            if type(value) in (int, float):
+                yield from ((path, way) for way in ("0", "-0.0", "1e-13", "1e13"))
+        if type(value) is dict:
+            waiting += [((*path, key), child) for key, child in value.items()]
+        elif type(value) is list:
+            waiting += [((*path, i), value[i]) for i in sorted({0, 1, len(value) - 1}) if i < len(value) and value]
+
+
+def changed_once(plan, path, way, frame_hash):
+    """A copy with one change."""
+    plan = copy.deepcopy(plan)
+    holder = plan
+    for key in path[:-1]:
+        holder = holder[key]
+    key, value = path[-1], holder[path[-1]]
+    if way == "left out":
+        del holder[key]
+    elif type(way) is int:
+        holder[key] = copy.deepcopy(TYPES[way])
+    else:
+        other = float(way) if way in ("0", "-0.0") else value * float(way)
+        holder[key] = int(other) if type(value) is int and way != "-0.0" and other == int(other) else other
+    if path != ("framework", "hash"):
+        try:
+            frame_hash(plan)
+        except (KeyError, TypeError, IndexError, AttributeError, ValueError, ArithmeticError):
+            pass  # no framework any more
+    return plan
+
+
 def mutant(random, plan, frame_hash):
     """A changed copy. frame_hash(plan) states the framework's hash."""
     plan = copy.deepcopy(plan)
