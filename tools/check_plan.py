@@ -3378,6 +3378,15 @@ def terms(p):
     return words
 
 
+def step_words(s):
+    """A step of a schedule."""
+    if s["do"] == "none":
+        return f"{s['cord']} none"
+    grip = f" {s['pass'] + 1} {'%.6g' % s['force']} from" if s["do"] == "grip" else ""
+    number = s["force"] if s["do"] in ("pull", "release") else s["slip"] or None if s["do"] == "knot" else None
+    return f"{s['cord']} {s['do']}{grip} {s['end']}" + ("" if number is None else " %.6g" % number)
+
+
 def structure_terms(p, standing):
     """All that the answers of the limit analysis depend on."""
     v, g = standing.physics, lambda x: "%.6g" % (x + 0.0)
@@ -3392,7 +3401,9 @@ def structure_terms(p, standing):
     ways = (("both", "pulled at both ends"), ("start", "pulled at the start"), ("end", "pulled at the end"), ("none", "slack"))
     drawn = [(sum(pull == way for _, pull, _ in standing.drawn), text) for way, text in ways]
     words += "; " + ", ".join(f"{some(n, 'cord')} {text}" for n, text in drawn if n)
-    words += f"; a schedule of {some(len(p.evaluation.steps), 'step')}" if p.evaluation.steps else ""
+    steps = [step_words(s) for s in p.evaluation.steps]
+    words += "; schedule " + ", ".join(steps[:24]) if steps else ""
+    words += f" and {len(steps) - 24} more" if len(steps) > 24 else ""
     loads = [f"({', '.join(map(g, force))}) N at {CONTROL.sub(' ', p.frame.names[node])}" for node, force in standing.loads]
     words += "; load " + ", ".join(loads[:8]) if loads else ""
     return words + (f" and {len(loads) - 8} more" if len(loads) > 8 else "")
@@ -3400,7 +3411,8 @@ def structure_terms(p, standing):
 
 BELOW = {"holding": "N at the harder ends, while the cords are drawn in, nothing holds it", "equal": "N at all ends, while the cords are drawn in, nothing holds it",
          "any_state": "N at all ends, whatever was done to the cords before, nothing holds it", "after": "of the tensions that the schedule leaves nothing holds it",
-         "loaded": "N at all ends, while the cords are drawn in, it does not carry the load"}
+         "loaded": "N at all ends, while the cords are drawn in, it does not carry the load",
+         "stretch": "N m, by which the tension of knotted cord grows x its length, nothing holds it after the schedule"}
 
 
 def structure_lines(p, standing):

@@ -5,6 +5,7 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/pulled.h"
 #include "graph/plan/request.h"
+#include "graph/plan/schedule.h"
 #include "graph/plan/standing.h"
 
 #include <ctype.h>
@@ -130,13 +131,23 @@ static void put_force(thr_text *text, const thr_load *load, const thr_plan *plan
   thr_text_append_clean(text, plan->frame.name[load->node]);
 }
 
+/* A step of a schedule, in the words of --schedule. */
+static void put_step(thr_text *text, const thr_plan *plan, const thr_schedule_step *step)
+{
+  thr_text_printf(text, "%s %s", plan->cord[step->cord].id, thr_deed_name(step->deed));
+  if (step->deed == THR_DEED_GRIP) thr_text_printf(text, " %d %.6g from", step->pass + 1, step->force + 0.0);
+  if (step->deed != THR_DEED_NONE) thr_text_printf(text, " %s", thr_pull_name(step->end));
+  if (step->deed == THR_DEED_PULL || step->deed == THR_DEED_RELEASE) thr_text_printf(text, " %.6g", step->force + 0.0);
+  if (step->deed == THR_DEED_KNOT && step->slip > 0) thr_text_printf(text, " %.6g", step->slip);
+}
+
 /* All that the answers of the limit analysis depend on. */
 static void put_structure(thr_text *text, const thr_plan *plan)
 {
-  enum { MOST_LOADS = 8 };
+  enum { MOST_LOADS = 8, MOST_STEPS = 24 };
+  const thr_schedule *schedule = &plan->evaluation.schedule;
   const thr_standing *standing = &plan->evaluation.standing;
   const thr_physics *physics = &plan->evaluation.physics;
-  const int steps = plan->evaluation.schedule.n;
   if (physics->bead_mass > 0)
     thr_text_printf(text, "beads of %.6g g", physics->bead_mass);
   else
@@ -158,8 +169,12 @@ static void put_structure(thr_text *text, const thr_plan *plan)
                     thr_degrees(standing->azimuth) + 0.0);
   thr_text_printf(text, "; gravity %.6g m/s2", physics->gravity + 0.0);
   put_drawn(text, standing);
-  if (steps > 0) thr_text_printf(text, "; a schedule of %d %s", steps, cli_plural(steps, "step", "steps"));
 
+  for (int i = 0; i < schedule->n && i < MOST_STEPS; i++) {
+    thr_text_append(text, i ? ", " : "; schedule ");
+    put_step(text, plan, &schedule->step[i]);
+  }
+  if (schedule->n > MOST_STEPS) thr_text_printf(text, " and %d more", schedule->n - MOST_STEPS);
   for (int i = 0; i < standing->n_loads && i < MOST_LOADS; i++) {
     thr_text_append(text, i ? ", " : "; load ");
     put_force(text, &standing->load[i], plan);

@@ -146,7 +146,9 @@ static bool amount(const thr_json *object, const char *key, bool needed, double 
 {
   const thr_json *member = thr_json_get(object, key);
   if (!member) return !needed;
-  return thr_json_number(member, value) && *value >= 0;
+  if (!thr_json_number(member, value)) return false;
+  *value += 0.0; /* -0.0 is 0 */
+  return *value >= 0;
 }
 
 static const char *read_mechanism(const thr_json *list, thr_answer *answer)
