@@ -95,4 +95,14 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
                          const thr_eval_options *options, const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
 void thr_eval_destroy(thr_eval *eval);
 
+/* Beyond so many pieces the limit analysis takes longer than half a second. */
+enum { THR_HOLDS_LARGEST = 500 };
+
+/* Computes the factor below which no multiple of an evaluation's tensions holds the pieces together while the cords are drawn in
+ * (one programme of the limit analysis, proved at the frictions of the evaluation). *times receives 0 if the pieces may need no
+ * pull, INFINITY if no multiple holds them, NAN if that is not decided, the pieces have no shape in mm or are more than
+ * THR_HOLDS_LARGEST. Every cord is known. */
+thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation,
+                               const thr_limits *limits, double *times, thr_err *err) THR_MUST_CHECK;
+
 #endif

@@ -1,6 +1,7 @@
 /* thread eval as JSON. */
 #include "cli/print/eval_print.h"
 #include "cli/print/load_words.h"
+#include "cli/print/seated.h"
 #include "eval/eval.h"
 #include "eval/structure/holding.h"
 #include "eval/structure/erect.h"
@@ -142,6 +143,7 @@ void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, b
   thr_write_close(&writer);
   thr_write_number(&writer, "error", eval->error);
   thr_write_int(&writer, "refused", eval->refused);
+  if (eval->complete) seated_put_holding_json(&writer, plan, &plan->evaluation);
   if (plan->evaluation.method == THR_JOINT) put_json_joints(&writer, eval);
   if (eval->holding.present) {
     thr_write_line(&writer, 1);

@@ -543,6 +543,7 @@ void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan, 
   put_cords(text, plan, evaluation);
   put_sums(text, plan, eval, view);
   seated_put(text, plan);
+  if (eval->complete) seated_put_holding(text, "", plan, evaluation);
   put_pressure(text, plan);
   if (evaluation->method == THR_STRUCTURE) put_play(text, plan);
   if (evaluation->schedule.n > 0) {

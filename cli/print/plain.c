@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const double standard_gravity = 9.80665; /* m/s2 */
 
@@ -34,6 +35,20 @@ const char *plain_force(double newton, char out[64])
     snprintf(out, 64, "%s N (%.2g kg)", force, kilograms);
   else
     snprintf(out, 64, "%s N (%s kg)", force, plain_newtons(kilograms, weight));
+  return out;
+}
+
+const char *plain_both(double smaller, double larger, char out[64])
+{
+  const int decimals = larger >= 99.95 ? 0 : larger >= 9.995 ? 1 : 2;
+  char one[24], other[24];
+  plain_newtons(smaller, one);
+  plain_newtons(larger, other);
+  if (!(smaller < larger) || larger >= 1e5 || strcmp(one, other) == 0) return plain_force(larger, out);
+  if (larger >= 1)
+    snprintf(out, 64, "%.*f and %.*f N", decimals, smaller, decimals, larger);
+  else
+    snprintf(out, 64, "%s and %s N", one, other);
   return out;
 }
 

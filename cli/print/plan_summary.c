@@ -1,6 +1,7 @@
 /* The summary of `thread plan`, as text and as JSON. */
 #include "cli/print/plan_summary.h"
 #include "cli/print/plain.h"
+#include "cli/print/seated.h"
 #include "cli/print/symmetry_table.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
@@ -40,23 +41,26 @@ static cord_turns turns_of(const thr_plan *plan, const thr_cord *cord)
   return x;
 }
 
-/* pull: times the seating tension. */
-static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord, double pull)
+/* pull: times the seating tension, N at the harder end. seated: the cord's evaluation in N, NULL if there is none; it knows what
+ * the other end takes, which is said where that is less. */
+static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord, double pull, const thr_eval_cord *seated)
 {
   const cord_turns x = turns_of(plan, cord);
   const char *from = plan->frame.name[thr_cord_start(&plan->frame, cord)],
              *to = plan->frame.name[thr_cord_end(&plan->frame, cord)];
   char factor[24], force[64];
+  const double newton = pull * plan->options.physics.seating;
+  plain_both(seated ? fmin(seated->force, seated->other_force) : newton, newton, force);
   thr_text_printf(text, "%-5s %7d %14.3f %6.0f deg ", cord->id, cord->n_passes, thr_cord_length(&plan->frame, cord),
                   thr_degrees(x.turning));
   if (turns_least(plan)) thr_text_printf(text, "%6.0f deg ", thr_degrees(x.sharpest));
   thr_text_printf(text, "%8d ", x.u_turns);
   if (cli_verbose) thr_text_printf(text, "%12s ", turning_factor(turning_capstan(plan->options.physics.mu, x.turning), factor));
-  thr_text_printf(text, "%18s", plain_force(pull * plan->options.physics.seating, force));
+  thr_text_printf(text, "%18s", force);
   thr_text_printf(text, cord->closed ? "  both at %s\n" : "  %s and %s\n", from, to);
 }
 
-static void put_cords(thr_text *text, const thr_plan *plan, const double *pull)
+static void put_cords(thr_text *text, const thr_plan *plan, const double *pull, const thr_eval *seated)
 {
   enum { MOST = 12 };
   thr_text_printf(text, "%-5s %7s %14s %10s ", "cord", "passes", "length", "turning");
@@ -65,7 +69,7 @@ static void put_cords(thr_text *text, const thr_plan *plan, const double *pull)
   if (cli_verbose) thr_text_printf(text, "%12s ", "capstan");
   thr_text_printf(text, "%18s  %s\n", "pull", "ends");
   for (int i = 0; i < plan->n_cords && i < MOST; i++)
-    put_cord(text, plan, &plan->cord[i], pull[i]);
+    put_cord(text, plan, &plan->cord[i], pull[i], seated ? &seated->record.cord[i] : NULL);
   if (plan->n_cords > MOST) thr_text_printf(text, "..    and %d more\n", plan->n_cords - MOST);
 }
 
@@ -277,13 +281,14 @@ static void put_distinct(thr_text *text, const thr_plan *plan)
   if (asked > 0) thr_text_printf(text, "distinct %d of %d edges are passed by %d different cords\n", met, n, asked);
 }
 
-static void put_text(thr_text *text, const thr_plan *plan, const double *pull, double largest, const thr_rivals *rivals,
-                     thr_cords_word word)
+/* seated: what the pulls do, NULL if they are more than a number holds. */
+static void put_text(thr_text *text, const thr_plan *plan, const double *pull, double largest, const thr_eval *seated,
+                     const thr_rivals *rivals, thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
   const thr_physics *physics = &plan->options.physics;
   put_head(text, plan);
-  put_cords(text, plan, pull);
+  put_cords(text, plan, pull, seated);
   if (plan->symmetry.present) symmetry_put_paths(text, plan);
   thr_text_printf(text, "\nlength   %.7g %s = %.7g for ", metrics->length, plan->frame.units, metrics->base_length);
   if (plan->frame.cover)
@@ -300,6 +305,7 @@ static void put_text(thr_text *text, const thr_plan *plan, const double *pull, d
   if (cli_verbose) thr_text_append(text, "capstan  exp(mu x turning): the factor from one end of a cord to the other\n");
   thr_text_printf(text, "pull     at both ends of every cord, so that %g N is left where it is slackest (friction mu = %g)\n",
                   physics->seating, physics->mu);
+  if (seated) seated_put_holding(text, "hold     ", plan, &seated->record);
   if (rivals) turning_put_table(text, plan, rivals);
   if (rivals) turning_put_frontier(text, plan, rivals);
 }
@@ -315,7 +321,10 @@ static double *pulls_of(thr_text *text, const thr_plan *plan, double *largest)
 void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals, thr_cords_word word)
 {
   double largest, *pull = pulls_of(text, plan, &largest);
-  if (pull) put_text(text, plan, pull, largest, rivals, word);
+  thr_eval seated;
+  const bool known = turning_seat(plan, plan->options.physics.seating, &seated);
+  if (pull) put_text(text, plan, pull, largest, known ? &seated : NULL, rivals, word);
+  thr_eval_destroy(&seated);
   free(pull);
 }
 
@@ -374,6 +383,20 @@ static void put_cut_json(thr_writer *writer, const thr_plan *plan)
   free(only);
 }
 
+/* What the other end of the hardest cord takes, and what holding does where it is more. */
+static void put_seated_json(thr_writer *writer, const thr_plan *plan)
+{
+  thr_eval seated;
+  if (turning_seat(plan, plan->options.physics.seating, &seated)) {
+    const thr_eval_cord *hardest = &seated.record.cord[0];
+    for (int i = 1; i < plan->n_cords; i++)
+      if (seated.record.cord[i].force > hardest->force) hardest = &seated.record.cord[i];
+    thr_write_number(writer, "other_pull", hardest->other_force);
+    seated_put_holding_json(writer, plan, &seated.record);
+  }
+  thr_eval_destroy(&seated);
+}
+
 void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals, thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
@@ -394,6 +417,7 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
   double factor = turning_pull(plan, NULL);
   thr_write_number(writer, "pull_factor", factor);
   thr_write_number(writer, "pull", factor * plan->options.physics.seating);
+  put_seated_json(writer, plan);
   if (plan->options.max_pull > 0) thr_write_number(writer, "max_pull", plan->options.max_pull);
   if (plan->pull_claim.present) {
     thr_write_int(writer, "fewest_cords_for_pull", plan->pull_claim.fewest);

@@ -1,6 +1,9 @@
 /* The gaps that are seated, in words. */
 #include "cli/print/seated.h"
 
+#include "cli/print/plain.h"
+#include "eval/eval.h"
+#include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/seating.h"
 #include "graph/status.h"
@@ -8,6 +11,7 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MOST_ALONE = 8 }; /* cords, a line each */
 
@@ -59,4 +63,63 @@ void seated_put(thr_text *text, const thr_plan *plan)
   if (!st && pulled > 1 && pulled <= MOST_ALONE) st = put_alone(text, plan, pull);
   if (st) text->failed = true;
   free(pull);
+}
+
+static bool has_feet(const thr_frame *frame)
+{
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (frame->foot[v]) return true;
+  return false;
+}
+
+/* Returns the factor on the pulls from which on the pieces may hold; NAN if there is nothing to say: what falls over on its
+ * lowest pieces, without feet, was perhaps not meant to stand there. */
+static double holds_from(thr_text *text, const thr_plan *plan, const thr_evaluation *evaluation)
+{
+  const thr_limits none = {0};
+  double times = NAN;
+  if (plan->options.joint == THR_JOINT_TUBE || evaluation->method == THR_STRUCTURE || evaluation->schedule.n > 0) return NAN;
+  for (int i = 0; i < evaluation->n_cords; i++)
+    if (!evaluation->cord[i].known) return NAN;
+  if (thr_eval_holds_from(&plan->frame, plan->cord, evaluation, &none, &times, NULL)) text->failed = true;
+  return isinf(times) && !has_feet(&plan->frame) ? NAN : times;
+}
+
+void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan, const thr_evaluation *evaluation)
+{
+  const double times = holds_from(text, plan, evaluation), largest = evaluation->largest;
+  const thr_physics *physics = &evaluation->physics;
+  double least = INFINITY;
+  char from[24], to[24], needed[64];
+  if (plan->frame.n_nodes > THR_HOLDS_LARGEST && plan->options.joint != THR_JOINT_TUBE) {
+    thr_text_printf(text, "%swhat holding takes is not computed for more than %d pieces: thread eval --method structure\n", label,
+                    THR_HOLDS_LARGEST);
+    return;
+  }
+  if (!(times > 1)) return;
+
+  /* The pulls that seat the cords, as one number if they are one. */
+  for (int i = 0; i < evaluation->n_cords; i++)
+    if (evaluation->cord[i].pull != THR_PULL_NONE) least = fmin(least, evaluation->cord[i].force);
+  plain_newtons(least, from);
+  plain_newtons(largest, to);
+  thr_text_printf(text, "%sseated by %s%s%s N, but while the cords are drawn in %s hold ", label, from,
+                  strcmp(from, to) ? " to " : "", strcmp(from, to) ? to : "",
+                  has_feet(&plan->frame) ? "the pieces" : "the pieces, on the lowest of them,");
+  if (!isfinite(times))
+    thr_text_append(text, "at no pull");
+  else if (strcmp(from, to) == 0)
+    thr_text_printf(text, "only from %s", plain_force(times * largest, needed));
+  else
+    thr_text_printf(text, "only from %.3g times that, %s at the hardest", times, plain_force(times * largest, needed));
+  thr_text_printf(text, " (proved at frictions of %g bead on bead, %g on the ground, %g of the cord)%s\n", physics->mu_bead,
+                  physics->mu_ground, physics->mu,
+                  isfinite(times) ? ": pull that much" : ": thread eval --method structure says which give way");
+}
+
+void seated_put_holding_json(thr_writer *writer, const thr_plan *plan, const thr_evaluation *evaluation)
+{
+  const double times = holds_from(writer->out, plan, evaluation);
+  if (isnan(times)) return;
+  thr_write_number(writer, "holds_from", times * evaluation->largest);
 }

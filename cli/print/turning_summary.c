@@ -48,14 +48,19 @@ double turning_capstan(double mu, double turning)
   return factor > 1e300 ? INFINITY : factor;
 }
 
-double turning_pull(const thr_plan *plan, double *cord)
+bool turning_seat(const thr_plan *plan, double seating, thr_eval *eval)
 {
-  thr_eval eval;
   const thr_limits none = {0};
   thr_eval_options options = thr_eval_options_default();
   options.physics = plan->options.physics;
-  options.physics.seating = 1;
-  bool known = thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, &none, &eval, NULL) == THR_OK;
+  options.physics.seating = seating;
+  return thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, &none, eval, NULL) == THR_OK;
+}
+
+double turning_pull(const thr_plan *plan, double *cord)
+{
+  thr_eval eval;
+  bool known = turning_seat(plan, 1, &eval);
   double largest = known ? eval.record.largest : NAN;
   for (int i = 0; i < plan->n_cords; i++) {
     double pull = known ? eval.record.cord[i].force : NAN;

@@ -3,6 +3,7 @@
 #define THR_CLI_TURNING_SUMMARY_H
 
 #include "cli/cli.h"
+#include "eval/eval.h"
 #include "graph/io/writer.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
@@ -13,6 +14,10 @@ static const double turning_right_angle = 1.57079632679489661923;
 
 /* Factor on the tension over that much turning (rad): exp(mu * turning), INFINITY beyond 1e300. */
 double turning_capstan(double mu, double turning);
+
+/* Evaluates a plan by the closed form, pulled at both ends until so many N are left where it is slackest. Returns false if the
+ * pulls are more than a number holds. Release with thr_eval_destroy. */
+bool turning_seat(const thr_plan *plan, double seating, thr_eval *eval);
 
 /* Largest pull of a plan by the closed form, times the tension at the slackest point: INFINITY beyond 1e300, NAN if not known.
  * cord (NULL or [n_cords]) receives that of each. */

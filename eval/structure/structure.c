@@ -713,3 +713,30 @@ thr_status thr_structure_method(const thr_frame *frame, const thr_cord *cord, co
   free(tension);
   return st;
 }
+
+thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation,
+                               const thr_limits *limits, double *times, thr_err *err)
+{
+  const thr_eval_options usual = thr_eval_options_default();
+  thr_err why = {0};
+  thr_beads beads = {0};
+  thr_holding holding = {0};
+  *times = NAN;
+  if (frame->n_nodes > THR_HOLDS_LARGEST) return THR_OK;
+  thr_status st = make_beads(frame, &evaluation->physics, &usual, &beads, &why);
+  double *press = st ? NULL : thr_calloc((size_t)beads.n_faces + 1, sizeof *press);
+  if (!st && !press) st = thr_nomem(&why);
+
+  /* What the cords press the faces with as they are; the unknown is the multiple of it. */
+  for (int i = 0; i < evaluation->n_cords && !st; i++)
+    if (evaluation->cord[i].pull != THR_PULL_NONE)
+      thr_holding_press(&cord[i], 1, &(const double *){evaluation->cord[i].tension}, press);
+  if (!st) st = thr_holding_pull(&beads, frame, &evaluation->physics, press, false, limits, &holding, &why);
+  if (!st) *times = holding.lower;
+  if (st == THR_EINFEASIBLE) *times = INFINITY;
+
+  free(press);
+  thr_holding_destroy(&holding);
+  thr_beads_destroy(&beads);
+  return st == THR_ENOMEM || st == THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK;
+}
