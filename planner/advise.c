@@ -155,12 +155,12 @@ static void measure_cuts(adviser *x, const kind *k, int cords, thr_advice_row *r
 }
 
 /* Looks what the row buys, and tells it. */
-static void settle_row(adviser *x, kind *k, bool added, thr_advice_row *row)
+static void settle_row(adviser *x, kind *k, bool added, thr_advice_row *row, const thr_plan *plan)
 {
   row->optimal = row->turning <= row->bound * (1 + 1e-9);
   if (added) k->idle = row->pull[THR_ADVICE_MU] * little < k->pull ? 0 : k->idle + 1;
   k->pull = fmin(k->pull, row->pull[THR_ADVICE_MU]);
-  if (x->options->row) x->options->row(x->options->user, row);
+  if (x->options->row) x->options->row(x->options->user, row, plan);
 }
 
 /* A row for the cords of plan, or in the place of a row whose cord that turns most turns more. claim: NULL = they were not
@@ -171,10 +171,11 @@ static thr_status set_row(adviser *x, kind *k, const thr_plan *plan, const thr_t
   bool added = !row;
   thr_status st = added ? new_row(x, &row, err) : THR_OK;
   if (st) return st;
-  if (plan->metrics.max_turning < row->turning) measure_row(x, k, plan, row);
+  const bool better = plan->metrics.max_turning < row->turning;
+  if (better) measure_row(x, k, plan, row);
   if (claim && claim->present) row->bound = fmax(row->bound, claim->largest_bound);
   row->searched |= claim != NULL;
-  settle_row(x, k, added, row);
+  settle_row(x, k, added, row, better ? plan : NULL);
   return THR_OK;
 }
 
@@ -237,7 +238,7 @@ static thr_status cut_large(adviser *x, kind *k, int cords, thr_err *err)
   if (st || find_row(x, k, cords) || !thr_parts_into(&k->cuts, cords)) return st;
   if ((st = new_row(x, &row, err))) return st;
   measure_cuts(x, k, cords, row);
-  settle_row(x, k, true, row);
+  settle_row(x, k, true, row, NULL);
   return THR_OK;
 }
 
@@ -547,7 +548,7 @@ static thr_status join_rows(const thr_advice *part, int n, const thr_advise_opti
       if ((st = new_row(&x, &row, err))) break;
       *row = sum;
       last = sum.cords;
-      if (options->row) options->row(options->user, row);
+      if (options->row) options->row(options->user, row, NULL);
     }
   }
   free(has);

@@ -18,8 +18,9 @@
 typedef struct {
   double hand;          /* N: what the pull is to stay within */
   const thr_plan *plan; /* NULL; or the shortest closed cords, for a framework that is too large for searches. Borrowed */
-  /* hears of every row as soon as it is there or better, before any is dropped; NULL = nobody */
-  void (*row)(void *user, const thr_advice_row *row);
+  /* Hears of every row as soon as it is there or better, before any is dropped; NULL = nobody. plan: whose cords the row
+   * measures, NULL if the row measures those that it did before, or its cords were never laid out. Borrowed. */
+  void (*row)(void *user, const thr_advice_row *row, const thr_plan *plan);
   void *user;
 } thr_advise_options;
 

@@ -10,12 +10,14 @@
 #include "graph/limits.h"
 #include "graph/plan/advice.h"
 #include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "graph/text.h"
 #include "planner/advise.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -109,18 +111,66 @@ static int parse(int argc, char **argv, arguments *a)
 
 /* ---- rows as they are found ---- */
 
-/* On a terminal: the lines that the finished table takes the place of. */
+/* The cords that a row measures. */
+typedef struct {
+  thr_ends ends;
+  int cords, n;
+  thr_cord *cord; /* [n] owned */
+} laid;
+
 typedef struct {
   const thr_frame *frame;
   const thr_physics *physics;
   double base_length;
-  int lines;
+  bool shown; /* on a terminal: rows are printed as they are found .. */
+  int lines;  /* .. so many lines, which the finished table takes the place of */
+  laid *kept; /* [n_kept] owned */
+  int n_kept;
 } live;
 
-static void show_row(void *user, const thr_advice_row *row)
+/* Keeps a copy of the cords of a plan, as those of a row. Without memory for it there is nothing to say of these cords. */
+static void keep_cords(live *l, const thr_advice_row *row, const thr_plan *plan)
+{
+  int i = 0;
+  while (i < l->n_kept && (l->kept[i].ends != row->ends || l->kept[i].cords != row->cords))
+    i++;
+  if (i == l->n_kept) {
+    laid *more = thr_realloc(l->kept, (size_t)i + 1, sizeof *more);
+    if (!more) return;
+    l->kept = more;
+    l->kept[l->n_kept++] = (laid){.ends = row->ends, .cords = row->cords};
+  }
+  thr_cords_destroy(l->kept[i].cord, l->kept[i].n);
+  const thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &l->kept[i].cord, NULL);
+  l->kept[i].n = st ? 0 : plan->n_cords;
+}
+
+static void forget_cords(live *l)
+{
+  for (int i = 0; i < l->n_kept; i++)
+    thr_cords_destroy(l->kept[i].cord, l->kept[i].n);
+  free(l->kept);
+}
+
+/* Lays out a plan with the recommended cords, all of it borrowed; false if they are not kept. */
+static bool chosen_plan(const live *l, const thr_request *request, const thr_advice *advice, thr_plan *plan)
+{
+  for (int i = 0; i < l->n_kept && advice->chosen >= 0; i++) {
+    const thr_advice_row *row = &advice->row[advice->chosen];
+    const laid *kept = &l->kept[i];
+    if (kept->ends != row->ends || kept->cords != row->cords || kept->n == 0) continue;
+    *plan = (thr_plan){.frame = *l->frame, .cord = kept->cord, .n_cords = kept->n, .options = *request};
+    return true;
+  }
+  return false;
+}
+
+static void show_row(void *user, const thr_advice_row *row, const thr_plan *plan)
 {
   live *l = user;
   thr_text text = {0};
+  if (plan) keep_cords(l, row, plan);
+  if (!l->shown) return;
   if (l->lines == 0) {
     advice_put_head(&text, l->frame, l->physics);
     l->lines = 4;
@@ -148,20 +198,23 @@ static thr_status draw(const arguments *a, const thr_frame *frame, const thr_adv
 }
 
 /* To stdout where the picture has the file. */
-static int write_json(const arguments *a, const thr_frame *frame, const thr_advice *advice, const char *command)
+static int write_json(const arguments *a, const thr_frame *frame, const thr_advice *advice, const char *command,
+                      const thr_plan *chosen)
 {
   thr_text text = {0};
-  advice_put_json(&(thr_writer){.out = &text}, frame, advice, command);
+  advice_put_json(&(thr_writer){.out = &text}, frame, advice, command, chosen);
   thr_text_append(&text, "\n");
   return cli_write(&text, a->type == TYPE_SVG ? "-" : a->output);
 }
 
-static int write_advice(const arguments *a, const thr_frame *frame, const thr_advice *advice)
+static int write_advice(const arguments *a, const thr_frame *frame, const thr_advice *advice, const live *l)
 {
   thr_text text = {0}, options = {0}, command = {0};
   thr_err err = {0};
   thr_status st = THR_OK;
   int code = EXIT_OK;
+  thr_plan chosen;
+  const bool laid_out = chosen_plan(l, &a->request, advice, &chosen);
   advice_command_options(&a->frame, &a->physics, &options);
   if (advice->chosen >= 0) advice_put_command(&command, a->path, options.data ? options.data : "", &advice->row[advice->chosen]);
   const char *words = command.data ? command.data : "";
@@ -171,7 +224,8 @@ static int write_advice(const arguments *a, const thr_frame *frame, const thr_ad
     st = draw(a, frame, advice, words, &text, &err);
   else if (!a->json)
     advice_put_table(&text, frame, advice, words);
-  if (!st && a->json) code = write_json(a, frame, advice, words);
+  if (!st && !a->json && a->type != TYPE_SVG && laid_out) advice_put_ends(&text, &chosen);
+  if (!st && a->json) code = write_json(a, frame, advice, words, laid_out ? &chosen : NULL);
   if (!code && (st || !a->json || a->type == TYPE_SVG)) code = cli_write_drawn(st, &text, a->output, &err);
   thr_text_destroy(&text);
   thr_text_destroy(&options);
@@ -188,14 +242,15 @@ static int advise(arguments *a, const thr_frame *frame)
   if (code) return code;
   if (thr_physics_resolve(&a->request.physics, frame, &resolved, &err)) return cli_fail(&err);
   live l = {.frame = frame, .physics = &resolved, .base_length = a->request.cover * thr_frame_total_length(frame)};
-  bool shown = a->type == TYPE_TEXT && !a->json && !cli_quiet && strcmp(a->output, "-") == 0 && cli_is_terminal(STDOUT_FILENO);
-  const thr_advise_options options = {.hand = a->hand, .row = shown ? show_row : NULL, .user = &l};
+  l.shown = a->type == TYPE_TEXT && !a->json && !cli_quiet && strcmp(a->output, "-") == 0 && cli_is_terminal(STDOUT_FILENO);
+  const thr_advise_options options = {.hand = a->hand, .row = show_row, .user = &l};
   double work = 0;
   thr_limits limits = advice_limits(a->guard.seconds, &work);
   thr_status st = thr_advise(frame, &a->request, &options, &limits, &advice, &err);
   wipe_rows(&l);
+  if (!st) code = write_advice(a, frame, &advice, &l);
+  forget_cords(&l);
   if (st) return cli_fail(&err);
-  code = write_advice(a, frame, &advice);
   if (!advice.complete) cli_note("note: the time was over before all numbers of cords were tried; --time-limit gives more");
   if (!code && advice.chosen < 0) code = EXIT_INFEASIBLE;
   thr_advice_destroy(&advice);

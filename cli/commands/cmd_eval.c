@@ -294,7 +294,9 @@ static thr_status draw_still(const thr_plan *plan, const thr_settle *settle, thr
   const char *note =
       settle->status == THR_SETTLE_FELL   ? "Before: under the pull at the start. After: the pull let off until it fell."
       : settle->status == THR_SETTLE_HELD ? "It stands until the pull is gone."
-                                          : "Not settled: when it falls is not known, and what is seen here creeps.";
+      : settle->fall > 0
+          ? "Before: under the pull at the start. After: it fell outside the pulls that the limit analysis leaves open."
+          : "No fall was seen, though nothing holds it there (proved): what is seen here was too slow.";
   const thr_still still = {.title = "The structure in simulation",
                            .note = note,
                            .width = plan->evaluation.physics.bead_diameter / mm,

@@ -2,8 +2,13 @@
 #include "cli/print/advice_table.h"
 #include "cli/cli.h"
 #include "cli/print/plain.h"
+#include "cli/print/seated.h"
+#include "cli/print/turning_summary.h"
+#include "eval/eval.h"
 #include "graph/angle.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
+#include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 
 #include <math.h>
@@ -124,6 +129,28 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
   put_choice(text, advice, command);
 }
 
+void advice_put_ends(thr_text *text, const thr_plan *plan)
+{
+  thr_eval eval;
+  if (!turning_seat(plan, plan->options.physics.seating, &eval)) {
+    thr_eval_destroy(&eval);
+    return;
+  }
+
+  /* The two ends of the cord that is hardest to pull. */
+  const thr_eval_cord *hardest = &eval.record.cord[0];
+  char smaller[24], larger[24], both[64];
+  for (int i = 1; i < eval.record.n_cords; i++)
+    if (eval.record.cord[i].force > hardest->force) hardest = &eval.record.cord[i];
+  plain_newtons(hardest->other_force, smaller);
+  plain_newtons(hardest->force, larger);
+  if (strcmp(smaller, larger) != 0)
+    thr_text_printf(text, "  its ends take %s as found here\n", plain_both(hardest->other_force, hardest->force, both));
+
+  seated_put_holding(text, "  ", plan, &eval.record);
+  thr_eval_destroy(&eval);
+}
+
 /* ---- one line ---- */
 
 void advice_put_line(thr_text *text, const thr_advice_row *row, double length, const char *command)
@@ -164,7 +191,8 @@ static void put_row_json(thr_writer *writer, const thr_advice_row *row)
   thr_write_close(writer);
 }
 
-void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice, const char *command)
+void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice, const char *command,
+                     const thr_plan *chosen)
 {
   thr_write_object(writer, NULL);
   thr_write_hash(writer, "framework", thr_frame_hash(frame));
@@ -190,5 +218,6 @@ void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advic
     thr_write_int(writer, "recommended", advice->chosen);
     thr_write_string(writer, "command", command);
   }
+  if (chosen) turning_put_ends_json(writer, chosen);
   thr_write_close(writer);
 }

@@ -5,6 +5,7 @@
 #include "graph/framework/frame.h"
 #include "graph/io/writer.h"
 #include "graph/plan/advice.h"
+#include "graph/plan/plan.h"
 #include "graph/plan/physics.h"
 #include "graph/text.h"
 
@@ -12,9 +13,15 @@
 void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *physics);
 void advice_put_row(thr_text *text, const thr_advice_row *row, double base_length, const char *mark);
 
+/* What the recommended cords, of a plan that needs no proof, take at both ends if those differ, and what holding the pieces needs
+ * where it is more: a line each. */
+void advice_put_ends(thr_text *text, const thr_plan *plan);
+
 /* All rows and, below, the recommended one with its command. */
 void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *advice, const char *command);
-void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice, const char *command);
+/* chosen: a plan with the recommended cords, or NULL. */
+void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice, const char *command,
+                     const thr_plan *chosen);
 
 /* "thread plan PATH --cords 4 --ends feet --objective tortuosity --minimize pull", with the options that FRAME was read
  * with (each with a blank before it), for a shell. */

@@ -3,7 +3,9 @@
 #include "cli/print/plain.h"
 #include "cli/print/seated.h"
 #include "cli/print/symmetry_table.h"
+#include "eval/eval.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
@@ -383,20 +385,6 @@ static void put_cut_json(thr_writer *writer, const thr_plan *plan)
   free(only);
 }
 
-/* What the other end of the hardest cord takes, and what holding does where it is more. */
-static void put_seated_json(thr_writer *writer, const thr_plan *plan)
-{
-  thr_eval seated;
-  if (turning_seat(plan, plan->options.physics.seating, &seated)) {
-    const thr_eval_cord *hardest = &seated.record.cord[0];
-    for (int i = 1; i < plan->n_cords; i++)
-      if (seated.record.cord[i].force > hardest->force) hardest = &seated.record.cord[i];
-    thr_write_number(writer, "other_pull", hardest->other_force);
-    seated_put_holding_json(writer, plan, &seated.record);
-  }
-  thr_eval_destroy(&seated);
-}
-
 void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals, thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
@@ -417,7 +405,7 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
   double factor = turning_pull(plan, NULL);
   thr_write_number(writer, "pull_factor", factor);
   thr_write_number(writer, "pull", factor * plan->options.physics.seating);
-  put_seated_json(writer, plan);
+  turning_put_ends_json(writer, plan);
   if (plan->options.max_pull > 0) thr_write_number(writer, "max_pull", plan->options.max_pull);
   if (plan->pull_claim.present) {
     thr_write_int(writer, "fewest_cords_for_pull", plan->pull_claim.fewest);

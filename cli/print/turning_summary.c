@@ -1,9 +1,11 @@
 /* The table "each against", what is proved of the turning, and the frontier. */
 #include "cli/print/turning_summary.h"
 #include "cli/print/plain.h"
+#include "cli/print/seated.h"
 #include "eval/eval.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "planner/least_turning.h"
@@ -55,6 +57,19 @@ bool turning_seat(const thr_plan *plan, double seating, thr_eval *eval)
   options.physics = plan->options.physics;
   options.physics.seating = seating;
   return thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, &none, eval, NULL) == THR_OK;
+}
+
+void turning_put_ends_json(thr_writer *writer, const thr_plan *plan)
+{
+  thr_eval seated;
+  if (turning_seat(plan, plan->options.physics.seating, &seated)) {
+    const thr_eval_cord *hardest = &seated.record.cord[0];
+    for (int i = 1; i < plan->n_cords; i++)
+      if (seated.record.cord[i].force > hardest->force) hardest = &seated.record.cord[i];
+    thr_write_number(writer, "other_pull", hardest->other_force);
+    seated_put_holding_json(writer, plan, &seated.record);
+  }
+  thr_eval_destroy(&seated);
 }
 
 double turning_pull(const thr_plan *plan, double *cord)

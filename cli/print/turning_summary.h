@@ -19,6 +19,9 @@ double turning_capstan(double mu, double turning);
  * pulls are more than a number holds. Release with thr_eval_destroy. */
 bool turning_seat(const thr_plan *plan, double seating, thr_eval *eval);
 
+/* Appends what the other end of the hardest cord takes, "other_pull", and what holding does, "holds_from" (seated.h). */
+void turning_put_ends_json(thr_writer *writer, const thr_plan *plan);
+
 /* Largest pull of a plan by the closed form, times the tension at the slackest point: INFINITY beyond 1e300, NAN if not known.
  * cord (NULL or [n_cords]) receives that of each. */
 double turning_pull(const thr_plan *plan, double *cord);
