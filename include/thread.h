@@ -101,6 +101,7 @@ typedef struct {
   int threads;         /* change no result but of a search that time ends */
   int (*progress)(void *user, const char *what, double best, double bound); /* from any thread; not 0 = stop; NULL = nobody */
   void *user;
+  double gap; /* %, 0 to 100: the search ends when the plan is so near to its bound, which is THREAD_OK; < 0 = as thread plan */
 } thread_plan_options;
 THREAD_API void thread_plan_options_init(thread_plan_options *options, size_t size);
 

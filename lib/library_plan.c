@@ -25,7 +25,8 @@
 
 void thread_plan_options_init(thread_plan_options *options, size_t size)
 {
-  const thread_plan_options usual = {.size = size, .cords_least = 1, .cords = 1, .cover = 1, .seconds = -1, .threads = 1};
+  const thread_plan_options usual = {
+      .size = size, .cords_least = 1, .cords = 1, .cover = 1, .seconds = -1, .threads = 1, .gap = -1};
   memset(options, 0, size);
   memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
 }
@@ -161,6 +162,8 @@ static thr_status make(const thread_plan_options *o, const thr_frame *frame, thr
   listener l = {.options = o};
   thr_limits limits = {.threads = o->threads, .interrupted = &l.stop, .user = &l, .progress = o->progress ? tell : NULL};
   thr_status st = read_wishes(o, frame, &wishes, err);
+  if (!st && !(o->gap <= 100)) st = thr_fail(err, THR_EINPUT, "gap: neither below 0 nor from 0 to 100 percent");
+  if (!st && o->gap >= 0) wishes.gap = o->gap; /* also beside a request, which has one of its own perhaps */
   if (!st && !o->request) wishes.time_limit = o->seconds < 0 ? thr_dispatch_usual_seconds(&wishes) : o->seconds;
   double seconds = st ? 0 : o->seconds < 0 ? wishes.time_limit : o->seconds;
   double work = thr_dispatch_work(&wishes);

@@ -42,7 +42,8 @@ class PlanOptions(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("aims", c_char_p), ("request", c_char_p), ("cords_least", c_int), ("cords", c_int),
                 ("cover", c_int), ("capacity", c_int), ("distinct", c_int), ("max_length", c_double), ("max_pull", c_double),
                 ("tube", c_int), ("ends", c_int), ("n_end_nodes", c_int), ("end_node", POINTER(c_int)), ("physics", c_char_p),
-                ("seconds", c_double), ("threads", c_int), ("progress", _Progress), ("user", c_void_p)]
+                ("seconds", c_double), ("threads", c_int), ("progress", _Progress), ("user", c_void_p),
+                ("gap", c_double)]
 
 
 class Summary(ctypes.Structure):
