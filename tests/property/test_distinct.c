@@ -577,17 +577,17 @@ int main(void)
 {
   Suite *s = suite_create("different cords");
   ADD_TEST(s, 120, plans_are_the_truth);
-  ADD_LOOP(s, 60, trees_are_proved, 0, 12);
-  ADD_LOOP(s, 60, bridges_need_what_is_said, 0, 20);
-  ADD_LOOP(s, 60, nothing_is_proved_above_the_truth, 0, 10);
+  ADD_EXAMPLES(s, 60, trees_are_proved, 12);
+  ADD_EXAMPLES(s, 60, bridges_need_what_is_said, 20);
+  ADD_EXAMPLES(s, 60, nothing_is_proved_above_the_truth, 10);
   ADD_TEST(s, 200, even_cords_are_the_truth);
   ADD_TEST(s, 60, longer_cords_are_not_the_truth);
   ADD_TEST(s, 120, short_cords_are_few);
-  ADD_LOOP(s, 120, other_wishes_are_kept, 0, 4);
-  ADD_LOOP(s, 120, solids_need_no_more_cord, 0, 3);
+  ADD_EXAMPLES(s, 120, other_wishes_are_kept, 4);
+  ADD_EXAMPLES(s, 120, solids_need_no_more_cord, 3);
   ADD_TEST(s, 20, false_claims_are_refused);
   ADD_TEST(s, 20, the_least_needs_all_edges);
   ADD_TEST(s, 120, no_forged_claim_of_different_cords_is_accepted);
-  ADD_LOOP(s, 60, alike_cords_have_the_proof_of_one, 0, 6);
+  ADD_EXAMPLES(s, 60, alike_cords_have_the_proof_of_one, 6);
   return run_suite(s);
 }

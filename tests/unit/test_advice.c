@@ -316,12 +316,12 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("advice");
-  ADD_LOOP(s, 10, pulls_are_those_of_the_closed_form, 0, 100);
+  ADD_EXAMPLES(s, 10, pulls_are_those_of_the_closed_form, 100);
   ADD_EXAMPLES(s, 20, cords_are_cut_as_evenly_as_can_be, 400);
   ADD_TEST(s, 5, the_fewest_at_the_feet_are_chosen);
   ADD_TEST(s, 30, known_frameworks);
   ADD_TEST(s, 30, large_frameworks_are_cut);
   ADD_EXAMPLES(s, 60, advice_for_random_frameworks, 40);
-  ADD_LOOP(s, 20, pictures_are_well_formed_and_texts_lie_apart, 0, 40);
+  ADD_EXAMPLES(s, 20, pictures_are_well_formed_and_texts_lie_apart, 40);
   return run_suite(s);
 }

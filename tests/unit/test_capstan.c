@@ -424,7 +424,7 @@ int main(void)
   ADD_TEST(s, 10, straight_cord_loses_nothing);
   ADD_TEST(s, 10, no_friction_is_no_loss);
   ADD_TEST(s, 10, ring_pulled_at_both_ends_is_symmetric);
-  ADD_LOOP(s, 10, both_ends_choose_the_best_parting, 0, 80);
+  ADD_EXAMPLES(s, 10, both_ends_choose_the_best_parting, 80);
   ADD_TEST(s, 10, cords_add_up);
   ADD_TEST(s, 10, mitre_law_takes_off_a_share_per_bead);
   ADD_TEST(s, 10, mitre_law_refuses_a_turn_that_it_cannot_describe);

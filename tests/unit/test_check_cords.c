@@ -456,8 +456,8 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("several cords in the checker");
-  ADD_LOOP(s, 20, the_longest_cord_has_its_detour, 0, 90);
-  ADD_LOOP(s, 20, the_longest_closed_cord_has_its_detour, 0, 200);
+  ADD_EXAMPLES(s, 20, the_longest_cord_has_its_detour, 90);
+  ADD_EXAMPLES(s, 20, the_longest_closed_cord_has_its_detour, 200);
   ADD_TEST(s, 10, the_worst_edge_may_be_the_last);
   ADD_TEST(s, 10, bounds_are_whole_numbers_of_the_unit);
   ADD_TEST(s, 10, cords_have_whole_numbers_of_the_unit);

@@ -395,7 +395,7 @@ int main(void)
 {
   Suite *s = suite_create("cuts in the checker");
   ADD_LOOP(s, 10, edges_at_their_price, 0, 10);
-  ADD_LOOP(s, 10, cuts_add_up_over_edges, 0, 60);
+  ADD_EXAMPLES(s, 10, cuts_add_up_over_edges, 60);
   ADD_TEST(s, 10, cuts_add_up_at_prices);
   ADD_TEST(s, 10, nodes_of_cuts_ascend);
   ADD_TEST(s, 10, end_prices_hold_in_every_component);

@@ -270,7 +270,7 @@ int main(void)
 {
   Suite *s = suite_create("rounding in the checker");
   ADD_TEST(s, 20, rounding_is_charged_for_every_cord);
-  ADD_LOOP(s, 20, rounding_never_adds_to_a_bound, 0, 200);
+  ADD_EXAMPLES(s, 20, rounding_never_adds_to_a_bound, 200);
   ADD_TEST(s, 10, rounding_is_charged_once_without_prices);
   ADD_TEST(s, 10, rounding_is_charged_for_twice_the_cords_less_the_cover);
   ADD_TEST(s, 10, one_cord_is_charged_for_one_pass);

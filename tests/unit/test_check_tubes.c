@@ -491,7 +491,7 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("tube joints in the checker");
-  ADD_LOOP(s, 10, nodes_are_tied_by_turns, 0, 60);
+  ADD_EXAMPLES(s, 10, nodes_are_tied_by_turns, 60);
   ADD_TEST(s, 10, prices_of_tied_length_are_moderate);
   ADD_TEST(s, 10, optimal_tied_lengths_are_within_a_billionth);
   ADD_TEST(s, 10, tied_lengths_are_proved_but_for_rounding);

@@ -196,8 +196,8 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("compare chart");
-  ADD_LOOP(s, 10, what_is_drawn_is_to_scale, 0, 40);
-  ADD_LOOP(s, 10, texts_lie_apart_and_on_the_sheet, 0, 42);
-  ADD_LOOP(s, 10, the_frontier_is_what_nobody_beats, 0, 300);
+  ADD_EXAMPLES(s, 10, what_is_drawn_is_to_scale, 40);
+  ADD_EXAMPLES(s, 10, texts_lie_apart_and_on_the_sheet, 42);
+  ADD_EXAMPLES(s, 10, the_frontier_is_what_nobody_beats, 300);
   return run_suite(s);
 }

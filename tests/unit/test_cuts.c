@@ -194,9 +194,9 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("forests of cuts");
-  ADD_LOOP(s, 10, nesting_keeps_every_set, 0, 200);
-  ADD_LOOP(s, 10, sets_avoid_the_last_node, 0, 200);
-  ADD_LOOP(s, 10, dropped_sets_leave_the_others, 0, 200);
+  ADD_EXAMPLES(s, 10, nesting_keeps_every_set, 200);
+  ADD_EXAMPLES(s, 10, sets_avoid_the_last_node, 200);
+  ADD_EXAMPLES(s, 10, dropped_sets_leave_the_others, 200);
   ADD_TEST(s, 10, every_allocation_fails_once);
   return run_suite(s);
 }

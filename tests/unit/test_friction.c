@@ -259,11 +259,11 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("friction");
-  ADD_LOOP(s, 10, turns_obey_the_differential_equation, 0, 100);
+  ADD_EXAMPLES(s, 10, turns_obey_the_differential_equation, 100);
   ADD_LOOP(s, 10, the_capstan_law_is_its_end, 0, 2);
   ADD_TEST(s, 10, what_is_slack_enough_holds_by_itself);
-  ADD_LOOP(s, 10, a_pull_is_what_every_turn_asks_for, 0, 60);
-  ADD_LOOP(s, 10, schedules_leave_what_the_turns_allow, 0, 100);
+  ADD_EXAMPLES(s, 10, a_pull_is_what_every_turn_asks_for, 60);
+  ADD_EXAMPLES(s, 10, schedules_leave_what_the_turns_allow, 100);
   ADD_LOOP(s, 20, grips_are_as_few_as_any, 0, 30);
   ADD_LOOP(s, 10, gaps_are_seated_by_what_reaches_them, 0, 20);
   return run_suite(s);

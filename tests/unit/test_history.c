@@ -513,11 +513,11 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("history");
-  ADD_LOOP(s, 10, any_schedule_leaves_what_the_turns_allow, 0, 200);
+  ADD_EXAMPLES(s, 10, any_schedule_leaves_what_the_turns_allow, 200);
   ADD_TEST(s, 10, a_grip_that_is_let_go_slips);
   ADD_LOOP(s, 10, free_ends_keep_nothing, 0, 6);
-  ADD_LOOP(s, 10, a_knot_gives_back_its_slip, 0, 60);
-  ADD_LOOP(s, 20, grips_are_as_few_as_any_set_of_them, 0, 100);
+  ADD_EXAMPLES(s, 10, a_knot_gives_back_its_slip, 60);
+  ADD_EXAMPLES(s, 20, grips_are_as_few_as_any_set_of_them, 100);
   ADD_TEST(s, 10, wobble_turns_with_the_length);
   ADD_TEST(s, 10, text_becomes_steps);
   ADD_TEST(s, 10, what_is_no_step_is_refused_by_name);

@@ -485,12 +485,12 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("rows, rounds and tree");
-  ADD_LOOP(s, 20, the_tree_finds_the_least_of_all_points, 0, 200);
-  ADD_LOOP(s, 20, a_stopped_tree_knows_a_bound, 0, 50);
-  ADD_LOOP(s, 20, columns_that_are_alike_are_decided_at_once, 0, 200);
+  ADD_EXAMPLES(s, 20, the_tree_finds_the_least_of_all_points, 200);
+  ADD_EXAMPLES(s, 20, a_stopped_tree_knows_a_bound, 50);
+  ADD_EXAMPLES(s, 20, columns_that_are_alike_are_decided_at_once, 200);
   ADD_TEST(s, 5, of_equal_bounds_the_deepest_the_youngest_the_preferred);
-  ADD_LOOP(s, 20, rows_found_on_the_way_lead_to_the_same_price, 0, 200);
-  ADD_LOOP(s, 20, rounds_end_where_they_are_told_to, 0, 50);
+  ADD_EXAMPLES(s, 20, rows_found_on_the_way_lead_to_the_same_price, 200);
+  ADD_EXAMPLES(s, 20, rounds_end_where_they_are_told_to, 50);
   ADD_TEST(s, 5, the_most_undecided_column);
   ADD_TEST(s, 5, a_row_is_known_until_it_is_dropped);
   ADD_TEST(s, 5, a_pool_of_thousands_knows_them_all);

@@ -70,8 +70,8 @@ int main(void)
 {
   Suite *s = suite_create("plain");
   ADD_TEST(s, 10, forces_have_their_weight);
-  ADD_LOOP(s, 10, forces_read_back, 0, 200);
-  ADD_LOOP(s, 10, proofs_round_up, 0, 200);
+  ADD_EXAMPLES(s, 10, forces_read_back, 200);
+  ADD_EXAMPLES(s, 10, proofs_round_up, 200);
   ADD_TEST(s, 10, what_is_not_known_is_not_promised);
   return run_suite(s);
 }

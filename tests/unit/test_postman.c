@@ -442,6 +442,6 @@ int main(void)
   ADD_TEST(s, 10, stopped_before_any_proof_with_many_components);
   ADD_TEST(s, 60, ends_anywhere_in_a_large_framework);
   ADD_TEST(s, 60, confirmation_as_asked);
-  ADD_LOOP(s, 10, joins_match_all_subsets, 0, 300);
+  ADD_EXAMPLES(s, 10, joins_match_all_subsets, 300);
   return run_suite(s);
 }
