@@ -402,6 +402,43 @@ thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, cons
   return hold(&t, want_upper, out, NULL, err);
 }
 
+/* Where no multiple of the load has an equilibrium the programme for the largest one has no solution. Decides that case by the
+ * mechanism in which the structure gives way without the load: if the load drives it too, no multiple is carried. Leaves
+ * *carry, and *st, where that does not tell it either. */
+static thr_status carry_nothing(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
+                                const double (*load)[3], const thr_limits *limits, thr_carry *carry, thr_status st, thr_err *err)
+{
+  thr_holding found = {0};
+  thr_err why = {0};
+  task t = task_of(beads, frame, physics, press, limits);
+  const thr_status held = hold(&t, false, &found, NULL, &why);
+  if (held == THR_ENOMEM || held == THR_ELIMIT) return thr_fail(err, held, "%s", why.text);
+  if (held || found.lower <= 1) {
+    thr_holding_destroy(&found);
+    return st;
+  }
+
+  /* The cords as they are resist it less than the weights drive it; does the load drive it? */
+  thr_blocks s = part(&t, INFINITY, false, true);
+  s.load = load;
+  s.carries = true;
+  s.weld = NULL;
+  const thr_status made = thr_blocks_make(&s, 1, err);
+  if (made) {
+    thr_holding_destroy(&found);
+    return made;
+  }
+  answer a = {.velocity = found.velocity};
+  certify(&s, &a);
+  thr_blocks_destroy(&s);
+  if (a.lower == 0) {
+    *carry = (thr_carry){.first_bead = found.first_bead, .velocity = found.velocity};
+    return THR_OK;
+  }
+  thr_holding_destroy(&found);
+  return st;
+}
+
 thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                              const double (*load)[3], const thr_limits *limits, thr_carry *out, thr_err *err)
 {
@@ -415,7 +452,9 @@ thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, con
   thr_status st = hold(&t, true, &found, NULL, err);
   if (!st)
     *out = (thr_carry){.beyond = found.lower, .carried = found.upper, .first_bead = found.first_bead, .velocity = found.velocity};
-  return st;
+  for (int e = 0; e < beads->n_faces; e++)
+    if (beads->rising[e] > 0) return st;
+  return st == THR_ESOLVER ? carry_nothing(beads, frame, physics, press, load, limits, out, st, err) : st;
 }
 
 thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
