@@ -189,7 +189,8 @@ static thr_status few_short(const thr_frame *frame, const thr_request *options, 
   const int before = plan->n_cords;
   double longest = 0;
   if (st != THR_ELIMIT || options->max_length == 0 || options->max_pull > 0 || thr_wants_balance(options) ||
-      options->ends == THR_ENDS_COUNTS || frame->n_edges > MOST_EDGES)
+      options->ends == THR_ENDS_COUNTS || frame->n_edges > MOST_EDGES ||
+      (plan->cords_claim.present && plan->cords_claim.fewest_optimal))
     return st;
   thr_status found = count_components(frame, &n, &why);
   if (!found && n == 1) found = thr_planner_short_few(frame, options, limits, plan, &longest, &why);

@@ -330,13 +330,11 @@ static thr_status not_found(const fewest *x, const thr_err *why, thr_err *err)
 /* What is proved of the number; said only where it was free. */
 static thr_status claim_number(fewest *x, thr_plan *plan, thr_err *err)
 {
-  int n = 0;
-  for (int i = 0; i < plan->n_cords; i++)
-    if (plan->cord[i].component >= n) n = plan->cord[i].component + 1;
   if (!is_range(x->o)) return THR_OK;
   if (x->claim.excluded < x->o->cords_least) x->claim.excluded = 0; /* nobody asked for so few */
-  x->claim.fewest = x->o->cords_least * n;
-  if (thr_pull_excludes(&x->claim)) x->claim.fewest += x->claim.excluded + 1 - x->o->cords_least;
+  const int excluded = thr_pull_excludes(&x->claim) ? x->claim.excluded : 0;
+  thr_status st = thr_check_fewest_pulled(x->f, x->o, plan->cord, plan->n_cords, excluded, &x->claim.fewest, err);
+  if (st) return st;
   x->claim.present = true;
   x->claim.optimal = x->claim.fewest == plan->n_cords;
   plan->pull_claim = x->claim;

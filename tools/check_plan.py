@@ -2341,18 +2341,17 @@ def check_pulls(p):
         require(o.mu * part <= math.log(o.max_pull) + 1e-9 * (1 + math.log(o.max_pull)), f"cord {cord.id}: needs more than options.max_pull")
 
 
-def few_within(p, o, cords, allowed):
-    """Do so many cords, whose turns on either side of a cut turn come to so much at most, pass all edges of every component? True where
-    that is not known, too."""
-    f, looked = p.frame, 0
+def few_within(p, o, allowed, least, enough):
+    """Per component the number of cords, from the least on and up to enough, that pass all its edges, if turns on either side of a cut
+    turn come to so much at most. The least where that is not known."""
+    f, looked, found = p.frame, 0, list(least)
     for c in range(len(f.pieces)):
         edges = f.edges_of(c)
         if len(edges) > FEW_SUMMED or not edges:
             continue
         looked += (1 << len(edges)) * (len(f.pieces[c]) if o.ends == "closed" else 1)
         if looked > PULL_SETS:
-            return True
-        number = sum(o.count.get(v, 0) for v in f.pieces[c]) // 2 if o.ends == "counts" else cords
+            break
         some = set()  # of edges that a cord passes
         for homes in [{v} for v in f.pieces[c]] if o.ends == "closed" else [set(o.allowed) & set(f.pieces[c])]:
             reached = {}
@@ -2360,13 +2359,14 @@ def few_within(p, o, cords, allowed):
                 reached.setdefault(f.tail(h ^ 1), set()).add(mask)
             for masks in map(largest, reached.values()):
                 some.update(a | b for a in masks for b in masks)
-        everything, unions = (1 << len(edges)) - 1, {0}
+        everything, unions, number = (1 << len(edges)) - 1, {0}, 0
         some = largest(some)
-        for _ in range(min(number, len(edges))):
-            unions = largest({a | b for a in unions for b in some}.union(unions))
-        if everything not in unions:
-            return False
-    return True
+        while number < enough[c] and (number < found[c] or everything not in unions):
+            more = set(largest({a | b for a in unions for b in some}.union(unions)))
+            number = enough[c] if more == unions and everything not in more else number + 1  # no number passes more
+            unions = more
+        found[c] = max(found[c], number)
+    return found
 
 
 def largest(masks):
@@ -2433,7 +2433,8 @@ def too_few(p, claim, place):
                 counted = sum(o.count.get(v, 0) for v in f.pieces[c]) // 2 if o.ends == "counts" else cords
                 each = max(each, Fraction(least) / UNIT / (counted or cords))
             bound = max(bound, (each - ends * Fraction(cut, UNIT)) / 2)
-    fits = bound <= allowed and (o.old_pull or few_within(p, o, cords, float(allowed)))
+    least = [sum(o.count.get(v, 0) for v in piece) // 2 if o.ends == "counts" else cords for piece in f.pieces]
+    fits = bound <= allowed and (o.old_pull or few_within(p, o, float(allowed), least, [x + 1 for x in least]) == least)
     require(not fits, f"{place}: {cords} cords are not proved to be too few")
     return cords
 
@@ -2449,9 +2450,9 @@ def check_pull(p):
     require(("proof" in claim) == ("most_passes" in claim) >= ("cut" in claim), f"{place}: a part of the proof is missing")
     proofs = ("proof" in claim) + ("walks" in claim)
     require(proofs <= ("excluded" in claim) and (proofs or not (o.old_pull and "excluded" in claim)), f"{place}: not one proof of what is excluded")
-    fewest = len(p.cords) if o.ends == "counts" else o.least * len(p.frame.pieces)
+    cords = 0
     if "excluded" in claim and "walks" not in claim:
-        fewest += max(0, too_few(p, claim, place) + 1 - o.least)
+        cords = too_few(p, claim, place)
     if "walks" in claim:
         cords = member(claim, "excluded", "integer", place, 1, 1000)
         walks = PulledWalks(p)
@@ -2459,7 +2460,13 @@ def check_pull(p):
         require(walks.bits_of_length == 0, f"{place}.walks.bits: not 0")
         most = o.cords if o.ends != "counts" else p.per_piece[walks.component]
         require(walks.length(min(cords, most), place + ".walks") > 0, f"{place}: {cords} cords are not proved to be too few")
-        fewest += max(0, cords + 1 - o.least)
+    fewest = len(p.cords)
+    if o.ends != "counts":
+        least = [o.least] * len(p.frame.pieces)
+        if o.mu > 0 and not o.old_pull:
+            limit = Fraction(math.log(o.max_pull))
+            least = few_within(p, o, float((limit + 2 * TOLERANCE * (1 + limit)) / Fraction(o.mu)), least, p.per_piece)
+        fewest = sum(least) + max(0, cords + 1 - max(least))
     number = member(claim, "lower_bound", "integer", place, 1)
     require(number <= fewest and number <= len(p.cords), f"{place}.lower_bound: stated {number}, but {fewest} is proved")
     status = choice(claim, "status", place, ("optimal", "bound"))
@@ -3493,6 +3500,7 @@ def main(arguments):
     if not names:
         sys.stderr.write(__doc__)
         return 2
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     gc.disable()  # what is left over is small
     resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, resource.getrlimit(resource.RLIMIT_DATA)[1]))
     worst = 0

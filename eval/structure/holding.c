@@ -15,6 +15,7 @@
 #include "lp/solver/interior.h"
 
 #include "graph/disjoint.h"
+#include "graph/vector.h"
 
 #include <assert.h>
 #include <math.h>
@@ -114,7 +115,9 @@ typedef struct {
   double least, largest; /* press of any face that is pressed */
   thr_warm warm;         /* where the programme of a large structure may start: near the optimum of one that differs little .. */
   double span;           /* .. its tensions, too */
-  int *weld[2];          /* [n_beads] what held feet wedge, with cones' pyramids inside them, and round them (welds.h); owned */
+  bool wants_way;        /* keep the mechanism by which no pull holds it, as `way`, which whoever wants it owns */
+  double (*way)[6];
+  int *weld[2]; /* [n_beads] what held feet wedge, with cones' pyramids inside them, and round them (welds.h); owned */
 } task;
 
 static void task_destroy(task *t)
@@ -222,7 +225,7 @@ static bool gives_way(const thr_blocks *s, const double (*velocity)[6])
 
 /* THR_EINFEASIBLE with a proof that no pull holds the structure. However little the cords press a face with friction, a large
  * pull makes its beads one: what then gives way, without cords, gives way at any pull, and nothing else does. */
-static thr_status check_feasible(const task *t, thr_err *err)
+static thr_status check_feasible(task *t, thr_err *err)
 {
   bool friction = t->physics->mu_bead > 0;
   const double widen = thr_blocks_widening(t->b);
@@ -244,6 +247,11 @@ static thr_status check_feasible(const task *t, thr_err *err)
                   "no pull holds the structure: the bead at node %s gives way however hard the cords are pulled; more friction "
                   "(mu_bead, mu_ground), other feet or a cord that presses this bead against its neighbours may help",
                   v < 0 ? "?" : t->f->name[v]);
+    if (t->wants_way) {
+      free(t->way);
+      t->way = velocity;
+      velocity = NULL;
+    }
   }
   thr_blocks_solution_destroy(&o);
   thr_blocks_destroy(&s);
@@ -402,6 +410,114 @@ thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, cons
   return hold(&t, want_upper, out, NULL, err);
 }
 
+/* A mechanism in which the structure gives way under some multiple of the load, with the cords as they are: it does under all
+ * multiples for which excess + multiple x load is more than 0. */
+typedef struct {
+  double (*velocity)[6]; /* owned */
+  double excess, load;   /* W: of the weights less what the cords resist; of the load once */
+} yielding;
+
+static void weigh_powers(const thr_blocks *s, yielding *y)
+{
+  const thr_powers p = thr_mechanism_balance(s, (const double(*)[6])y->velocity);
+  y->excess = p.falling - p.resistance;
+  y->load = p.load;
+}
+
+/* Finds one at a multiple of the load. THR_ESOLVER if there is none, or none was found. */
+static thr_status yield_at(const thr_blocks *s, double multiple, const thr_limits *limits, yielding *out, thr_err *err)
+{
+  const size_t n = (size_t)s->b->n_beads;
+  thr_holding found = {0};
+  double(*load)[3] = thr_calloc(n, sizeof *load);
+  if (!load) return thr_nomem(err);
+  for (size_t v = 0; v < n; v++)
+    for (int k = 0; k < 3; k++)
+      load[v][k] = multiple * s->load[v][k];
+  task t = task_of(s->b, s->f, s->physics, s->press, limits);
+  t.load = (const double(*)[3])load;
+  t.wants_way = true;
+  thr_status st = hold(&t, false, &found, NULL, err);
+  free(load);
+  if (st == THR_EINFEASIBLE || (!st && found.lower > 1)) {
+    out->velocity = st ? t.way : found.velocity;
+    weigh_powers(s, out);
+    return THR_OK;
+  }
+  free(t.way);
+  thr_holding_destroy(&found);
+  return st == THR_ENOMEM || st == THR_ELIMIT ? st : THR_ESOLVER;
+}
+
+/* Adds a part of `high`, which the load drives, to `low`: as mechanisms form a cone, and what the cords resist is
+ * convex, the sum is a mechanism whose excess is at least the sum of both. */
+static void combine(const thr_blocks *s, yielding *low, const yielding *high, double part)
+{
+  double fastest = 0;
+  for (int v = 0; v < s->b->n_beads; v++) {
+    for (int k = 0; k < 6; k++)
+      low->velocity[v][k] += part * high->velocity[v][k];
+    fastest = fmax(fastest, sqrt(thr_dot(low->velocity[v], low->velocity[v])));
+  }
+  for (int v = 0; v < s->b->n_beads && fastest > 0; v++)
+    for (int k = 0; k < 6; k++)
+      low->velocity[v][k] /= fastest;
+  weigh_powers(s, low);
+}
+
+/* Where no multiple of the load has an equilibrium the programme for the largest one has no solution. Decides that case by
+ * mechanisms: one that gives way without the load and that the load holds back excludes the multiples up to some `enough`; the
+ * one at `enough` excludes more of them, or all that are larger, and then both together exclude all. *st stays where that does
+ * not tell it. */
+static thr_status carry_nothing(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
+                                const double (*load)[3], const thr_limits *limits, thr_carry *carry, thr_err *err)
+{
+  enum { TRIES = 12 };
+  task t = task_of(beads, frame, physics, press, limits);
+  thr_blocks s = part(&t, INFINITY, false, true);
+  s.load = load;
+  s.carries = true;
+  thr_err why = {0};
+  yielding low = {0}, high = {0};
+  thr_status st = thr_blocks_make(&s, 1, err);
+  if (st) return st;
+  st = yield_at(&s, 0, limits, &low, &why);
+
+  /* A load that hardly acts on what gives way, by rounding or by symmetry: some of what it does move where it is large. */
+  const thr_powers at_rest = st ? (thr_powers){0} : thr_mechanism_balance(&s, (const double(*)[6])low.velocity);
+  if (!st && fabs(low.load) < 1e-6 * at_rest.all_loads) {
+    st = yield_at(&s, 100 * at_rest.all / at_rest.all_loads, limits, &high, &why);
+    if (!st && high.load > 0) combine(&s, &low, &high, high.excess < 0 ? 0.5 * low.excess / -high.excess : 1);
+    free(high.velocity);
+    high.velocity = NULL;
+  }
+
+  for (int i = 0; i < TRIES && !st && low.load < 0; i++) {
+    const double enough = low.excess / -low.load;
+    st = yield_at(&s, enough * (1 + 1e-6), limits, &high, &why);
+    if (!st && high.load > 0) combine(&s, &low, &high, 1.02 * -low.load / high.load);
+    if (!st && high.load <= 0) {
+      free(low.velocity);
+      low = high;
+      high.velocity = NULL;
+    }
+    free(high.velocity);
+    high.velocity = NULL;
+  }
+
+  /* What is kept is judged as every other bound is. */
+  answer a = {.velocity = low.velocity, .lower = INFINITY};
+  if (!st) certify(&s, &a);
+  if (!st && a.lower == 0 && a.residual < STILL) {
+    *carry = (thr_carry){.first_bead = thr_mechanism_fastest(beads, (const double(*)[6])low.velocity), .velocity = low.velocity};
+  } else {
+    free(low.velocity);
+    if (!st) st = THR_ESOLVER;
+  }
+  thr_blocks_destroy(&s);
+  return st == THR_ESOLVER || !st ? st : thr_fail(err, st, "%s", why.text);
+}
+
 thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                              const double (*load)[3], const thr_limits *limits, thr_carry *out, thr_err *err)
 {
@@ -415,7 +531,9 @@ thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, con
   thr_status st = hold(&t, true, &found, NULL, err);
   if (!st)
     *out = (thr_carry){.beyond = found.lower, .carried = found.upper, .first_bead = found.first_bead, .velocity = found.velocity};
-  return st;
+  for (int e = 0; e < beads->n_faces; e++)
+    if (beads->rising[e] > 0) return st;
+  return st == THR_ESOLVER ? carry_nothing(beads, frame, physics, press, load, limits, out, err) : st;
 }
 
 thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,

@@ -57,6 +57,12 @@ thr_status thr_check_turning(const thr_frame *frame, const thr_request *options,
 thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options, int cords, const thr_pull_claim *claim,
                              bool *too_few, thr_err *err) THR_MUST_CHECK;
 
+/* *fewest: cords that options.max_pull takes in all components together: in some one more than are excluded, in the others the
+ * least number asked for, or if that is more what all sets of cords through few edges show. Not more than there are in any
+ * component. */
+thr_status thr_check_fewest_pulled(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
+                                   int excluded, int *fewest, thr_err *err) THR_MUST_CHECK;
+
 /* The same for passes[n_edges] that no cords run through yet, *lower_bound then being one on their length. THR_EVIOLATED also
  * where cords cannot run so: too few passes of an edge, an odd number at a node where no cord can end. */
 thr_status thr_check_length_of_passes(const thr_frame *frame, const thr_request *options, const int *passes,

@@ -8,6 +8,7 @@
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
+#include "graph/scratch.h"
 #include "graph/status.h"
 
 #include <math.h>
@@ -159,22 +160,73 @@ static thr_status find_side(const thr_frame *frame, const thr_request *options, 
   return st;
 }
 
+/* The turning, rad, that is allowed on either side of a cut turn: with twice the rounding that cords are allowed. */
+static double most_turned(const thr_request *options)
+{
+  const double most = log(options->max_pull);
+  return (most + 2 * rounding * (1 + most)) / options->physics.mu;
+}
+
+/* Are so many cords too few for some component of few edges? */
+static thr_status few_too_few(const thr_frame *frame, const thr_request *options, int cords, bool *too_few, thr_err *err)
+{
+  thr_scratch own = {0};
+  const size_t n = (size_t)frame->n_nodes; /* no more components than that */
+  int *component = thr_scratch_array(&own, n, sizeof *component), *enough = thr_scratch_array(&own, n, sizeof *enough);
+  int *fewest = thr_scratch_array(&own, n, sizeof *fewest), components = 0, least, most;
+  thr_status st = thr_scratch_check(&own, err);
+  if (!st) st = thr_frame_components(frame, component, &components, err);
+  for (int c = 0; c < components && !st; c++) {
+    thr_few_edges_cords(frame, options, component, c, &least, &most);
+    fewest[c] = options->ends == THR_ENDS_COUNTS ? most : cords;
+    enough[c] = fewest[c] + 1;
+  }
+  if (!st) st = thr_few_edges_within(frame, options, most_turned(options), enough, fewest, err);
+  for (int c = 0; c < components && !st; c++)
+    *too_few |= fewest[c] == enough[c];
+  thr_scratch_free(&own);
+  return st;
+}
+
 thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options, int cords, const thr_pull_claim *claim,
                              bool *too_few, thr_err *err)
 {
-  const double most = log(options->max_pull), mu = options->physics.mu;
-  const double allowed = (most + 2 * rounding * (1 + most)) / mu; /* twice that which cords are allowed */
   double side = 0;
-  bool fit = true;
   *too_few = false;
-  if (mu <= 0) return THR_OK;
+  if (options->physics.mu <= 0) return THR_OK;
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   if (!end_allowed) return thr_nomem(err);
   const thr_turning_task task = task_of(frame, options, cords, claim, end_allowed);
   thr_status st = find_side(frame, options, &task, &claim->tree, &side, err);
-  if (!st && side <= allowed && !options->old_pull) st = thr_few_edges_within(frame, options, cords, allowed, &fit, err);
   free(end_allowed);
-  *too_few = !st && (side > allowed || !fit);
+  *too_few = !st && side > most_turned(options);
+  if (!st && !*too_few && !options->old_pull) st = few_too_few(frame, options, cords, too_few, err);
+  return st;
+}
+
+thr_status thr_check_fewest_pulled(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
+                                   int excluded, int *fewest, thr_err *err)
+{
+  thr_scratch own = {0};
+  const int least = thr_plan_cords_least(options);
+  int *enough = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *enough), largest = least, components = 0;
+  int *number = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *number);
+  thr_status st = thr_scratch_check(&own, err);
+  for (int i = 0; i < n_cords && !st; i++) {
+    enough[cord[i].component]++;
+    components = cord[i].component < components ? components : cord[i].component + 1;
+  }
+  for (int c = 0; c < components && !st; c++)
+    number[c] = least;
+  if (!st && options->physics.mu > 0 && !options->old_pull)
+    st = thr_few_edges_within(frame, options, most_turned(options), enough, number, err);
+  *fewest = 0;
+  for (int c = 0; c < components && !st; c++) {
+    *fewest += number[c];
+    largest = number[c] > largest ? number[c] : largest;
+  }
+  if (excluded >= largest) *fewest += excluded + 1 - largest;
+  thr_scratch_free(&own);
   return st;
 }
 
@@ -215,8 +267,7 @@ thr_status thr_check_pull_claim(const thr_plan *plan, const thr_check_walked *ch
 {
   const thr_pull_claim *claim = &plan->pull_claim;
   const thr_request *options = &plan->options;
-  int least = thr_plan_cords_least(options),
-      fewest = options->ends == THR_ENDS_COUNTS ? plan->n_cords : least * check_walked->n_components;
+  int fewest = plan->n_cords;
   if (options->max_pull <= 0) return thr_fail(err, THR_EVIOLATED, "proof.pull: the options set no limit on the pull");
   thr_status st = THR_OK;
   if (claim->walks.unit > 0)
@@ -224,8 +275,9 @@ thr_status thr_check_pull_claim(const thr_plan *plan, const thr_check_walked *ch
   else if (thr_pull_excludes(claim))
     st = check_too_few(plan, err);
   if (st) return st;
-  /* some component has one more, the others may have the least */
-  if (thr_pull_excludes(claim) && claim->excluded >= least) fewest += claim->excluded + 1 - least;
+  if (options->ends != THR_ENDS_COUNTS)
+    st = thr_check_fewest_pulled(&plan->frame, options, plan->cord, plan->n_cords, claim->excluded, &fewest, err);
+  if (st) return st;
   if (claim->fewest > fewest)
     return thr_fail(err, THR_EVIOLATED, "proof.pull.lower_bound: stated %d, but only %d is proved", claim->fewest, fewest);
   if (claim->fewest > plan->n_cords)

@@ -474,32 +474,35 @@ static void pulled_destroy(pulled *p)
   thr_few_edges_destroy(&p->cords);
 }
 
-static thr_status component_within(pulled *p, int cords, bool *fit, thr_err *err)
+/* Raises *fewest to the number of cords that pass all edges of the component, or to enough. */
+static thr_status component_within(pulled *p, int enough, int *fewest, thr_err *err)
 {
-  double dearest = 0;
+  double dearest = INFINITY;
   thr_status st = pulled_init(p, err);
   for (int v = 0; v < p->x.f->n_nodes && !st && p->x.o->ends == THR_ENDS_CLOSED; v++)
     if (p->component[v] == p->number) join_all(p, v);
   if (!st && p->x.o->ends != THR_ENDS_CLOSED) join_all(p, -1);
   if (!st) take_supersets(&p->cords);
-  if (!st) st = thr_few_edges_dearest(&p->cords, cords, &dearest, err);
-  *fit = dearest < INFINITY;
+  while (!st && *fewest < enough) {
+    st = thr_few_edges_dearest(&p->cords, *fewest, &dearest, err);
+    if (st || dearest < INFINITY) break;
+    ++*fewest;
+  }
   pulled_destroy(p);
   return st;
 }
 
-thr_status thr_few_edges_within(const thr_frame *frame, const thr_request *options, int cords, double allowed, bool *fit,
-                                thr_err *err)
+thr_status thr_few_edges_within(const thr_frame *frame, const thr_request *options, double allowed, const int *enough,
+                                int *fewest, thr_err *err)
 {
   thr_scratch own = {0};
-  int n, least, most, *component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component);
+  int n, *component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component);
   double sets = 0;
   thr_request by_angle = *options;
   by_angle.turning.cost = THR_TURN_ANGLE;
-  *fit = true;
   thr_status st = thr_scratch_check(&own, err);
   if (!st) st = thr_frame_components(frame, component, &n, err);
-  for (int c = 0; !st && *fit && c < n; c++) {
+  for (int c = 0; !st && c < n; c++) {
     pulled p = {.x = {.f = frame, .o = &by_angle, .turning = true, .back_anywhere = true, .limit = allowed},
                 .component = component,
                 .number = c};
@@ -509,8 +512,7 @@ thr_status thr_few_edges_within(const thr_frame *frame, const thr_request *optio
       nodes += component[v] == c;
     if (p.x.n == 0 || p.x.n > THR_FEW_SUMMED) continue;
     sets += ldexp(options->ends == THR_ENDS_CLOSED ? nodes : 1, p.x.n);
-    thr_few_edges_cords(frame, options, component, c, &least, &most);
-    if (sets <= THR_PULL_SETS) st = component_within(&p, options->ends == THR_ENDS_COUNTS ? most : cords, fit, err);
+    if (sets <= THR_PULL_SETS) st = component_within(&p, enough[c], &fewest[c], err);
   }
   thr_scratch_free(&own);
   return st;

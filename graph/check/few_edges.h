@@ -84,13 +84,13 @@ thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *opti
 thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *options, double limit, double *sum, double *dearest,
                                 thr_err *err) THR_MUST_CHECK;
 
-/* Do so many cords, each within a pull that overcomes turns of `allowed` rad on either side of a cut turn, pass all edges of
- * every component? (docs/plan-format.md, "Threadings within a pull".) *fit is true where that is not known: of components with
- * more than THR_FEW_SUMMED edges, and as soon as there are more than THR_PULL_SETS sets to look at. options.turning.cost is not
- * looked at. A side of a cord is a walk from where it may end (closed: from some node, both sides the same) to the node of the
- * cut turn. Sets that sides from one end to one node pass are found from set to set as above; the cord's are the unions of two of
- * them. */
-thr_status thr_few_edges_within(const thr_frame *frame, const thr_request *options, int cords, double allowed, bool *fit,
-                                thr_err *err) THR_MUST_CHECK;
+/* Raises fewest[c] for every component c, as long as it is below enough[c] and so many cords, each within a pull that overcomes
+ * turns of `allowed` rad on either side of a cut turn, do not pass all edges of the component (docs/plan-format.md, "Threadings
+ * within a pull"). Left as it was where that is not known: of components with more than THR_FEW_SUMMED edges, and as soon as
+ * there are more than THR_PULL_SETS sets to look at. options.turning.cost is not looked at. A side of a cord is a walk from where
+ * it may end (closed: from some node, both sides the same) to the node of the cut turn. Sets that sides from one end to one node
+ * pass are found from set to set as above; the cord's are the unions of two of them. */
+thr_status thr_few_edges_within(const thr_frame *frame, const thr_request *options, double allowed, const int *enough,
+                                int *fewest, thr_err *err) THR_MUST_CHECK;
 
 #endif

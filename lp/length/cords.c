@@ -320,7 +320,9 @@ thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_er
                     100 * (claim->longest - claim->longest_bound) / claim->longest);
   if (!thr_wants_balance(options) && options->max_length > 0 && claim->fewest && !claim->fewest_optimal)
     return thr_fail(err, THR_ELIMIT, "%s%sat least %d cords are needed; these are %d", why, colon, claim->fewest, plan->n_cords);
-  if (thr_wants_balance(options) || (options->max_length > 0 && claim->fewest) || plan->proof.optimal) return THR_OK;
+
+  /* As few cords as a limit on the length takes are to be the shortest ones of that number, too. */
+  if (thr_wants_balance(options) || plan->proof.optimal) return THR_OK;
   return thr_fail(err, THR_ELIMIT, "%s%sthe cords are proved to be within %.3g %% of the shortest", why, colon,
                   100 * plan->proof.gap);
 }

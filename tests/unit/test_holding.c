@@ -598,6 +598,39 @@ START_TEST(loads_equal_a_plain_programme_by_simplex)
 }
 END_TEST
 
+/* At half the pull that holds it without the load, a load is carried in part if it helps, else not at all: what is said to be
+ * carried by no part has no equilibrium by simplex. */
+START_TEST(loads_below_the_holding_pull_are_decided_as_by_simplex)
+{
+  model m = random_model((uint64_t)_i + 1, 8);
+  rng r = rng_make((uint64_t)_i + 900);
+  thr_holding h = {0};
+  double load[64][3] = {{0}};
+  if (thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, false, &no_limit, &h, NULL) == THR_OK && h.lower > 0) {
+    thr_carry carry = {0};
+    thr_err err = {0};
+    double *press = calloc((size_t)m.frame.n_edges, sizeof *press);
+    random_load(&m, &r, load);
+    for (int e = 0; e < m.frame.n_edges; e++)
+      press[e] = 0.5 * h.lower * m.press[e];
+    thr_status st = thr_holding_carry(&m.beads, &m.frame, &m.physics, press, (const double(*)[3])load, &no_limit, &carry, &err);
+    m.physics.mu_bead /= cos(THR_PI / 8);
+    m.physics.mu_ground /= cos(THR_PI / 8);
+    const double beyond = by_simplex(&m, true, (const double(*)[3])load, 0.5 * h.lower);
+    if (st == THR_OK && carry.beyond == 0)
+      ck_assert_msg(beyond == -INFINITY || fabs(beyond) < 1e-6, "carried %g times", beyond);
+    else if (st == THR_OK)
+      ck_assert_double_eq_tol(carry.beyond, beyond, 2e-6 * beyond + 1e-7);
+    else
+      ck_assert_msg(st == THR_ESOLVER && isinf(beyond) && beyond > 0, "not decided, where %g times are carried", beyond);
+    thr_carry_destroy(&carry);
+    free(press);
+  }
+  thr_holding_destroy(&h);
+  model_destroy(&m);
+}
+END_TEST
+
 static void assert_equals_simplex(model *m)
 {
   double upper = by_simplex(m, false, NULL, 0), mu_bead = m->physics.mu_bead, mu_ground = m->physics.mu_ground;
@@ -787,6 +820,7 @@ int main(void)
   ADD_EXAMPLES(s, 20, many_held_beads_equal_a_plain_programme_by_simplex, 100);
   ADD_TEST(s, 10, a_row_between_held_ends_needs_no_pull);
   ADD_EXAMPLES(s, 20, loads_equal_a_plain_programme_by_simplex, 40);
+  ADD_EXAMPLES(s, 20, loads_below_the_holding_pull_are_decided_as_by_simplex, 40);
   ADD_EXAMPLES(s, 20, uneven_cords_decide_alike, 40);
   ADD_TEST(s, 10, twice_the_weight_needs_twice_the_pull);
   ADD_TEST(s, 30, turned_plans_pull_alike);
