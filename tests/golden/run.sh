@@ -57,7 +57,7 @@ written() { # FILE MARK
 
 run_case() { # compares $work/expected with what $command does; appends the case to $work/new
   printf '%s\n' "${command//\{TMP\}/$tmp}" >"$work/command"
-  timeout 120 sh "$work/command" >"$work/out" 2>"$work/err" </dev/null
+  timeout 300 sh "$work/command" >"$work/out" 2>"$work/err" </dev/null
   local code=$?
   { written "$work/out" ''; written "$work/err" '! '; echo "? $code"; } >"$work/actual"
   grep -q '^? ' "$work/expected" || echo '? 0' >>"$work/expected"
