@@ -211,7 +211,7 @@ static bool find_disagreement(const ranking *r, int count, int which[2], int pai
 
 static bool tells_apart(const ranking *r)
 {
-  return r->n_ranked > 1 && r->rank[r->order[r->n_ranked - 1]] > 1;
+  return r->n_ranked > 1 && r->rank[r->order[r->n_ranked - 1]] > 1; /* the largest rank comes last */
 }
 
 static bool same_order(const ranking *a, const ranking *b)
@@ -233,9 +233,9 @@ static void put_orders(const ranking *r, int count, const char *const *name, thr
     if (said) continue;
     for (int k = 0; k < r[i].n_ranked; k++)
       thr_text_printf(text, "%s%s",
-                      k == 0                                                     ? "  "
-                      : r[i].rank[r[i].order[k]] == r[i].rank[r[i].order[k - 1]] ? " = "
-                                                                                 : ", ",
+                      k == 0                                                    ? "  "
+                      : ranking_is_tie(&r[i], r[i].order[k - 1], r[i].order[k]) ? " = "
+                                                                                : ", ",
                       name[r[i].order[k]]);
     for (int k = i; k < count; k++)
       if (same_order(&r[k], &r[i])) thr_text_printf(text, "%s%s", k == i ? "  by " : ", ", r[k].key);

@@ -33,20 +33,6 @@ void ranking_destroy(ranking *r)
   *r = (ranking){0};
 }
 
-/* A rank ends where every interval so far lies below every interval to come. */
-static void join_ties(ranking *r)
-{
-  double above = INFINITY; /* the lowest end of the intervals to come */
-  for (int k = r->n_ranked - 1; k > 0; k--) {
-    above = fmin(above, r->low[r->order[k]]);
-    r->rank[r->order[k]] = 1;
-    for (int i = 0; i < k; i++)
-      if (r->high[r->order[i]] >= above) r->rank[r->order[k]] = 0; /* a tie */
-  }
-  for (int k = 0; k < r->n_ranked; k++)
-    r->rank[r->order[k]] = k == 0 || r->rank[r->order[k]] ? k + 1 : r->rank[r->order[k - 1]];
-}
-
 /* Values that differ in their last digits only stay in the order of the plans. */
 static bool is_less(double a, double b)
 {
@@ -54,18 +40,31 @@ static bool is_less(double a, double b)
   return a + alike * fabs(a) < b;
 }
 
+static bool comes_before(const ranking *r, int i, int k)
+{
+  return r->rank[i] < r->rank[k] || (r->rank[i] == r->rank[k] && is_less(r->value[i], r->value[k]));
+}
+
 void ranking_make(ranking *r)
 {
   r->n_ranked = 0;
   for (int i = 0; i < r->n; i++) {
-    r->rank[i] = 0;
-    if (isnan(r->value[i])) continue;
+    r->rank[i] = !isnan(r->value[i]);
+    for (int k = 0; r->rank[i] && k < r->n; k++)
+      r->rank[i] += !isnan(r->value[k]) && r->high[k] < r->low[i];
+  }
+  for (int i = 0; i < r->n; i++) {
+    if (!r->rank[i]) continue;
     int k = r->n_ranked++;
-    for (; k > 0 && is_less(r->value[i], r->value[r->order[k - 1]]); k--)
+    for (; k > 0 && comes_before(r, i, r->order[k - 1]); k--)
       r->order[k] = r->order[k - 1];
     r->order[k] = i;
   }
-  join_ties(r);
+}
+
+bool ranking_is_tie(const ranking *r, int i, int k)
+{
+  return r->rank[i] && r->rank[k] && r->low[i] <= r->high[k] && r->low[k] <= r->high[i];
 }
 
 /* What plan i has, as people count it. */
@@ -101,6 +100,29 @@ static void put_value(const ranking *r, int i, thr_text *text)
   put_interval(r, i, text);
 }
 
+/* With whom of those before it the plan in place k ties, named where it is not just the one before. */
+static void put_ties(const ranking *r, int k, const char *const *name, thr_text *text)
+{
+  int ties = 0;
+  for (int j = 0; j < k; j++)
+    ties += ranking_is_tie(r, r->order[j], r->order[k]);
+  if (ties == 0)
+    thr_text_append(text, r->most ? "  less, beyond the error" : "  more, beyond the error");
+  else if (ties == 1 && ranking_is_tie(r, r->order[k - 1], r->order[k]))
+    thr_text_append(text, "  tie, within the error");
+  else if (ties == k)
+    thr_text_append(text, "  tie with all before, within the error");
+  else {
+    const char *with = "  tie with ";
+    for (int j = 0; j < k; j++) {
+      if (!ranking_is_tie(r, r->order[j], r->order[k])) continue;
+      thr_text_printf(text, "%s%s", with, name[r->order[j]]);
+      with = ", ";
+    }
+    thr_text_append(text, ", within the error");
+  }
+}
+
 void ranking_put_text(const ranking *r, const char *const *name, thr_text *text)
 {
   int widest = 0;
@@ -111,10 +133,7 @@ void ranking_put_text(const ranking *r, const char *const *name, thr_text *text)
     int i = r->order[k];
     thr_text_printf(text, "  %d. %-*s ", r->rank[i], widest, name[i]);
     put_value(r, i, text);
-    if (k > 0)
-      thr_text_append(text, r->rank[i] == r->rank[r->order[k - 1]] ? "  tie, within the error"
-                            : r->most                              ? "  less, beyond the error"
-                                                                   : "  more, beyond the error");
+    if (k > 0) put_ties(r, k, name, text);
     thr_text_append(text, "\n");
   }
   for (int i = 0; i < r->n; i++)

@@ -6,8 +6,9 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* Least first, or most. Plans whose intervals overlap, or are joined by others that do, are a tie and share a rank: between plans
- * of different rank no interval reaches across. Filled by ranking_make from value, low and high. */
+/* Least first, or most. The rank of a plan is 1 and one more for every plan that is surely less: whose interval ends before its
+ * own begins. Two plans tie where their intervals overlap; a third between them changes nothing. Filled by ranking_make from
+ * value, low and high; plans of one rank stand in the order of their values. */
 typedef struct {
   const char *title;          /* "simulated seating pull" */
   const char *key;            /* in JSON: "joint" */
@@ -27,7 +28,10 @@ thr_status ranking_init(ranking *r, int n, thr_err *err) THR_MUST_CHECK;
 void ranking_destroy(ranking *r);
 void ranking_make(ranking *r);
 
-/* "1. lines.json  12.3 N (+-0.4 %)" .. and whether each is more than those before. */
+/* Do the intervals of plans i and k overlap? */
+bool ranking_is_tie(const ranking *r, int i, int k);
+
+/* "1. lines.json  12.3 N (+-0.4 %)" .. and whether each is more than those before, or with which of them it ties. */
 void ranking_put_text(const ranking *r, const char *const *name, thr_text *text);
 void ranking_put_json(const ranking *r, const char *const *name, thr_writer *writer);
 

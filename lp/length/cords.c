@@ -310,21 +310,26 @@ static thr_status make(thr_decomposition *x, growing *g, thr_err *err)
   return share_out(x, choose_number(x), g->best->certificate, thr_wants_balance(x->o), 0, err);
 }
 
+static thr_status fail_above(thr_err *err, const char *what, double value, double bound, const char *why, const char *colon)
+{
+  if (!(bound > 0)) return thr_fail(err, THR_ELIMIT, "%s%snothing is proved of how short they can be", why, colon);
+  return thr_fail(err, THR_ELIMIT, "%s%s%s at most %.3g %% above the shortest possible (proved)", why, colon, what,
+                  100 * (value - bound) / bound);
+}
+
 thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_err *err)
 {
   const thr_request *options = &plan->options;
   const thr_cords_claim *claim = &plan->cords_claim;
   const char *why = unproved->code ? unproved->text : "", *colon = unproved->code ? ": " : "";
   if (thr_wants_balance(options) && !claim->longest_optimal)
-    return thr_fail(err, THR_ELIMIT, "%s%sthe longest cord is proved to be within %.3g %% of the shortest possible", why, colon,
-                    100 * (claim->longest - claim->longest_bound) / claim->longest);
+    return fail_above(err, "the longest cord is", claim->longest, claim->longest_bound, why, colon);
   if (!thr_wants_balance(options) && options->max_length > 0 && claim->fewest && !claim->fewest_optimal)
     return thr_fail(err, THR_ELIMIT, "%s%sat least %d cords are needed; these are %d", why, colon, claim->fewest, plan->n_cords);
 
   /* As few cords as a limit on the length takes are to be the shortest ones of that number, too. */
   if (thr_wants_balance(options) || plan->proof.optimal) return THR_OK;
-  return thr_fail(err, THR_ELIMIT, "%s%sthe cords are proved to be within %.3g %% of the shortest", why, colon,
-                  100 * plan->proof.gap);
+  return fail_above(err, "the cords are", plan->metrics.length, plan->proof.lower_bound, why, colon);
 }
 
 static thr_status judge_length(thr_plan *plan, thr_err *err)
