@@ -2269,6 +2269,28 @@ def sharpest_turn(f, o):
     return min(math.pi, max((f.angle(a, b) for halves in f.at for a in halves for b in halves if a < b), default=0) + 1e-9)
 
 
+def common_angle(f, most):
+    """The largest of pi, pi / 2 .. pi / 180 of which every turn is a multiple, within 9e-10 / most; None if there is none."""
+    parts, tolerance, seen = list(range(1, 181)), 9e-10 / most, set()
+    for halves in f.at:
+        for a, b in itertools.combinations(halves, 2):
+            angle = f.angle(a, b)
+            if angle in seen:
+                continue
+            seen.add(angle)
+            parts = [k for k in parts if abs(angle * k / math.pi - round(angle * k / math.pi)) * math.pi / k <= tolerance]
+            if not parts:
+                return None
+    return math.pi / parts[0]
+
+
+def round_up(angle, edges, bound):
+    rounding = 0.95e-9 * edges
+    if angle is None or bound <= rounding:
+        return bound
+    return max(bound, Fraction(math.ceil((float(bound) - rounding) / angle) * angle - rounding))
+
+
 def check_turning(p):
     claim = member(p.proof, "turning", "object", "proof", default=None)
     if claim is None:
@@ -2301,6 +2323,8 @@ def check_turning(p):
     bound = max(bound, few)
     if p.closing and o.cost in ("angle", "sine"):  # Fenchel 1929; sin(x / 2) >= x / pi
         bound = max(bound, Fraction(2 * math.pi if o.cost == "angle" else 2) * o.least * len(f.pieces))
+    whole = common_angle(f, most) if o.cost == "angle" else None
+    bound = round_up(whole, f.m, bound)
     rounding = 2 * TOLERANCE * Fraction(math.pi if o.cost == "angle" else 1) * sum(min(x, 2 * n) for x, n in zip(p.passes, o.need))
     optimal = price - bound <= rounding
     scale = 1 + price
@@ -2314,8 +2338,9 @@ def check_turning(p):
     number = len(p.cords) if o.ends == "counts" else o.cords * len(f.pieces)
     each = len(p.cords) if o.ends == "counts" else o.cords
     share = max((Fraction(price) if optimal else bound) / number, few_largest, largest_bound(p, model, each, place + ".proof"))
+    share = round_up(whole, f.m, share)
     if o.pull:
-        share = max(Fraction(0), (share - Fraction(free)) / 2)
+        share = round_up(whole, f.m, max(Fraction(0), (share - Fraction(free)) / 2))
     require(share - dearest <= rounding, f"{place}: some cord is proved to turn by {float(share)}, more than any does")
     attained = dearest - share <= rounding
     check_claim(largest, Fraction(dearest), attained, share, 1, place + ".largest", gap=False)

@@ -255,6 +255,61 @@ static double pull_bound(const walked *w, double turning)
   return fmax(0, (turning - closing - sharpest_turn(w)) / 2);
 }
 
+/* ---- turns that are all multiples of one angle ---- */
+
+enum { MOST_PARTS = 180, SEEN = 16 };
+
+/* The parts of pi that are left, and the angles that were last compared with them, in a circle. */
+typedef struct {
+  bool in[MOST_PARTS + 1];
+  double seen[SEEN];
+  int n_seen;
+} parts;
+
+/* Leaves in[k] only where the angle is a multiple of pi / k, and returns whether any is left. */
+static bool keep_parts(parts *p, double angle, double tolerance)
+{
+  bool any = false;
+  for (int i = 0; i < SEEN && i < p->n_seen; i++)
+    if (p->seen[i] == angle) return true;
+  p->seen[p->n_seen++ % SEEN] = angle;
+  for (int k = 1; k <= MOST_PARTS; k++) {
+    const double times = angle * k / THR_PI;
+    p->in[k] = p->in[k] && fabs(times - round(times)) * THR_PI / k <= tolerance;
+    any |= p->in[k];
+  }
+  return any;
+}
+
+/* The largest part of pi, at least pi / 180, of which every turn at a node is a multiple, within 9e-10 over most_passes; 0 if
+ * there is none. O(sum of degrees^2). */
+static double common_angle(const thr_frame *frame, int most_passes)
+{
+  const double tolerance = 9e-10 / most_passes;
+  parts left = {.n_seen = 0};
+  int k = 1;
+  for (int i = 1; i <= MOST_PARTS; i++)
+    left.in[i] = true;
+  for (int v = 0; v < frame->n_nodes; v++) {
+    const int n = thr_degree(frame, v), *half = &frame->half[frame->first[v]];
+    for (int i = 0; i < n; i++)
+      for (int j = i + 1; j < n; j++)
+        if (!keep_parts(&left, thr_check_angle(frame, half[i] ^ 1, half[j]), tolerance)) return 0;
+  }
+  while (!left.in[k])
+    k++;
+  return THR_PI / k;
+}
+
+/* A bound on sums of turns, no more of them than most_passes of every edge: a multiple of the angle where that is one, but for
+ * 1e-9 an edge. */
+static double round_up(const walked *w, double angle, double bound)
+{
+  const double rounding = 1e-9 * w->f->n_edges;
+  if (angle == 0 || bound <= rounding) return bound;
+  return fmax(bound, ceil((bound - rounding) / angle) * angle - rounding);
+}
+
 /* Adds to *found, which is zeros, what follows from the cords; and they must be of the kind that the proof is about. *dearest:
  * the largest price of a cord's turns, which found->largest is, too, where no pull is minimized. */
 static thr_status judge_cords(const walked *w, thr_turning_claim *found, double *dearest, thr_err *err)
@@ -353,6 +408,8 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, do
   thr_turning_columns_destroy(&columns);
   if (st) return st;
   if (w->o->ends == THR_ENDS_CLOSED) bound = fmax(bound, thr_turn_closed(w->o->turning.cost) * w->cords_least);
+  const double angle = w->o->turning.cost == THR_TURN_ANGLE ? common_angle(w->f, claim->most_passes) : 0;
+  bound = round_up(w, angle, bound);
   /* prices are sums of so many roundings: equal within 1e-9 of a U-turn for each pass, of an edge at most twice those it needs */
   double tolerance = 2e-9 * passes * thr_turn_cost_of(w->o->turning.cost, THR_PI);
   if (bound > found->price + tolerance)
@@ -361,8 +418,8 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, do
   found->optimal = bound >= found->price - tolerance;
   found->lower_bound = found->optimal ? found->price : bound;
   found->gap = found->optimal ? 0 : (found->price - bound) / found->price;
-  found->largest_bound = fmax(found->lower_bound / w->cords_most, forced);
-  if (thr_wants_pull(w->o)) found->largest_bound = pull_bound(w, found->largest_bound);
+  found->largest_bound = round_up(w, angle, fmax(found->lower_bound / w->cords_most, forced));
+  if (thr_wants_pull(w->o)) found->largest_bound = round_up(w, angle, pull_bound(w, found->largest_bound));
   if (found->largest_bound > found->largest + tolerance)
     return thr_fail(err, THR_EVIOLATED,
                     "proof.turning: some cord is proved to turn by %.12g, which is more than any of this plan, %.12g",
