@@ -284,6 +284,49 @@ START_TEST(cords_are_least)
 }
 END_TEST
 
+/* A tree of n nodes on the points of a lattice, each a step from another; neighbours are joined now and then, too. */
+static thr_frame lattice_frame(rng *r, int n)
+{
+  double xyz[MOST_NODES][3] = {{0}};
+  int edge[MOST_EDGES][2], feet[2] = {rng_below(r, n), -1}, m = 0;
+  for (int v = 1; v < n;) {
+    const int from = rng_below(r, v), axis = rng_below(r, 3);
+    bool free_place = true;
+    memcpy(xyz[v], xyz[from], sizeof xyz[v]);
+    xyz[v][axis] += rng_below(r, 2) ? 10 : -10;
+    for (int u = 0; u < v; u++)
+      free_place = free_place && memcmp(xyz[u], xyz[v], sizeof xyz[v]) != 0;
+    if (!free_place) continue;
+    edge[m][0] = from;
+    edge[m++][1] = v;
+    for (int u = 0; u < v; u++) {
+      const double apart = fabs(xyz[u][0] - xyz[v][0]) + fabs(xyz[u][1] - xyz[v][1]) + fabs(xyz[u][2] - xyz[v][2]);
+      if (u == from || apart > 10 || rng_below(r, 2)) continue;
+      edge[m][0] = u;
+      edge[m++][1] = v;
+    }
+    v++;
+  }
+  return frame_make(n, (const double(*)[3])xyz, m, (const int(*)[2])edge, NULL, feet);
+}
+
+/* Where all turns are right angles bounds are rounded up to them, and never above the truth. */
+START_TEST(right_angles_are_counted)
+{
+  static const thr_ends kind[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
+  rng r = rng_make((uint64_t)_i + 300);
+  tally t = {0};
+  for (int k = 0; k < 24; k++) {
+    thr_frame f = lattice_frame(&r, rng_between(&r, 3, 5));
+    thr_request o = request(&r, THR_JOINT_SOLID, kind[_i % 3], 1 + k % 3, k % 4 > 0);
+    if (f.n_edges <= 5) compare(&f, &o, 2, &t);
+    thr_frame_destroy(&f);
+  }
+  ck_assert_int_gt(t.found, 4);
+  ck_assert_int_gt(2 * t.optimal, t.found);
+}
+END_TEST
+
 /* Two pieces with other numbers of cord ends at their nodes. */
 START_TEST(given_ends_in_every_piece)
 {
@@ -420,6 +463,7 @@ int main(void)
 {
   Suite *s = suite_create("cords that turn evenly");
   ADD_EXAMPLES(s, 120, cords_are_least, 12);
+  ADD_EXAMPLES(s, 120, right_angles_are_counted, 3);
   ADD_EXAMPLES(s, 60, given_ends_in_every_piece, 24);
   ADD_EXAMPLES(s, 120, domes_are_tied_and_evened_out, 7);
   ADD_EXAMPLES(s, 20, false_claims_are_refused, 2);
