@@ -309,16 +309,16 @@ START_TEST(what_does_not_hold_is_dropped_and_the_rest_is_kept)
   ck_assert_int_eq(dropped_of(&plan), THR_CLAIM_TURNING);
   ck_assert(plan.proof.optimal && !plan.turning.present);
 
-  /* Multipliers that prove less than is claimed. */
+  /* Multipliers that prove less than is claimed, by more than the angle that all turns are multiples of. */
   thr_plan_destroy(&plan);
   make_proved(&plan, "turning");
-  plan.turning.tree.dual[0].potential[0] -= INT64_C(1) << 40;
+  plan.turning.tree.dual[0].potential[0] -= INT64_C(1) << 46;
   ck_assert_int_eq(dropped_of(&plan), THR_CLAIM_TURNING);
 
   /* Both claims. */
   thr_plan_destroy(&plan);
   make_proved(&plan, "turning");
-  plan.turning.tree.dual[0].potential[0] -= INT64_C(1) << 40;
+  plan.turning.tree.dual[0].potential[0] -= INT64_C(1) << 46;
   plan.proof.certificate[0].sum++;
   ck_assert_int_eq(dropped_of(&plan), THR_CLAIM_TURNING + THR_CLAIM_LENGTH);
   thr_plan_destroy(&plan);
