@@ -130,7 +130,7 @@ builds='release asan' tree='layers layers-self-test format bench/smallest librar
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
-rest) builds=asan SHARE_ASAN=5 tree='' programs='' whole=release/memory MEMORY_SAMPLES=20 FUZZ_RUNS=100000 ;;
+rest) builds=asan SHARE_ASAN=5 tree='' programs='' whole=release/memory MEMORY_SAMPLES=12 FUZZ_RUNS=100000 ;;
 all) SHARE_ASAN=1 slow=asan/figures.case whole='release/watchdog release/memory exchange web static windows' MUTANTS=2000 FUZZ_RUNS=1000000 ;;
 fuzz) builds='' tree='' programs='' FUZZ_RUNS=0 ;;
 *) echo "tests/run.sh: $tier is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
@@ -140,7 +140,7 @@ list() { # every job of the tier; of a build, the longest first; of the rest tho
   local build case
   printf '%s\n' $tree $whole $programs
   if [ "$tier" = rest ]; then
-    grep -lE 'share_of|ADD_EXAMPLES|ADD_LARGE' tests/unit/*.c tests/property/*.c | sed 's#^tests/#asan/#; s#\.c$##'
+    grep -lE 'share_of|ADD_EXAMPLES|ADD_LARGE' tests/property/*.c | sed 's#^tests/#asan/#; s#\.c$##'
     "$MAKE" -s list-fuzz
     return
   fi
