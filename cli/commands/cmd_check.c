@@ -18,6 +18,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const char help[] =
     "thread check PLAN.. [--json]: verify coverage, ends, metrics and the proof of optimality; no solver is used\n\n"
@@ -198,10 +199,8 @@ static double seconds_for(double bytes)
 /* Bytes of a file, or -1: a stream. */
 static double file_size(const char *path)
 {
-  FILE *file = strcmp(path, "-") == 0 ? NULL : fopen(path, "rb");
-  const double size = file && fseek(file, 0, SEEK_END) == 0 ? (double)ftell(file) : -1;
-  if (file) fclose(file);
-  return size;
+  struct stat about;
+  return strcmp(path, "-") != 0 && stat(path, &about) == 0 && S_ISREG(about.st_mode) ? (double)about.st_size : -1;
 }
 
 /* Tells the process that waits that plan number i is next, and what time it has. Of a stream its size is not known: reading it
