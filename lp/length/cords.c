@@ -314,7 +314,7 @@ static thr_status fail_above(thr_err *err, const char *what, double value, doubl
 {
   if (!(bound > 0)) return thr_fail(err, THR_ELIMIT, "%s%snothing is proved of how short they can be", why, colon);
   return thr_fail(err, THR_ELIMIT, "%s%s%s at most %.3g %% above the shortest possible (proved)", why, colon, what,
-                  100 * (value - bound) / bound);
+                  thr_percent_above(value, bound));
 }
 
 thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_err *err)
