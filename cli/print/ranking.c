@@ -40,6 +40,11 @@ static bool is_less(double a, double b)
   return a + alike * fabs(a) < b;
 }
 
+static bool surely_less(const ranking *r, int i, int k)
+{
+  return !isnan(r->value[i]) && !isnan(r->value[k]) && r->high[i] < r->low[k];
+}
+
 static bool comes_before(const ranking *r, int i, int k)
 {
   return r->rank[i] < r->rank[k] || (r->rank[i] == r->rank[k] && is_less(r->value[i], r->value[k]));
@@ -51,7 +56,7 @@ void ranking_make(ranking *r)
   for (int i = 0; i < r->n; i++) {
     r->rank[i] = !isnan(r->value[i]);
     for (int k = 0; r->rank[i] && k < r->n; k++)
-      r->rank[i] += !isnan(r->value[k]) && r->high[k] < r->low[i];
+      r->rank[i] += surely_less(r, k, i);
   }
   for (int i = 0; i < r->n; i++) {
     if (!r->rank[i]) continue;
@@ -158,11 +163,6 @@ void ranking_put_json(const ranking *r, const char *const *name, thr_writer *wri
   }
   thr_write_close(writer);
   thr_write_close(writer);
-}
-
-static bool surely_less(const ranking *r, int i, int k)
-{
-  return r->rank[i] && r->rank[k] && r->high[i] < r->low[k];
 }
 
 bool ranking_disagree(const ranking *a, const ranking *b, int pair[2])
