@@ -33,13 +33,14 @@ typedef struct {
   const double *load_pull;      /* N: at which pulls of all ends it is asked what may be carried .. */
   int n_load_pulls;             /* .. so many; 0 = some; borrowed */
   double tilt, azimuth;         /* rad, method structure: of the ground, and where it goes down (from x towards y) */
-  int rays;      /* method structure: of the friction pyramids, 0 = THR_USUAL_RAYS; more bring both bounds closer */
-  bool taut;     /* method structure: turns are those of the tight cord in its bores, as of method joint; else of their middles */
-  bool clamped;  /* method structure: feet are held in place; else they stand on the ground */
-  double hand;   /* N, methods capstan and joint: 0, or the largest pull of a schedule with the fewest grips, which is made */
-  bool dynamics; /* method structure: confirm by Bullet (true) or limit analysis only */
-  bool large;    /* .. also where that takes many minutes: up to thr_settle_largest(true) beads */
-  bool erect;    /* method structure, with dynamics: simulate how it comes up from slack */
+  int rays;     /* method structure: of the friction pyramids, 0 = THR_USUAL_RAYS; more bring both bounds closer */
+  bool taut;    /* method structure: turns are those of the tight cord in its bores, as of method joint; else of their middles */
+  bool clamped; /* method structure: feet are held in place; else they stand on the ground */
+  double strength; /* N, method structure: that a knotted cord bears; 0 = not known */
+  double hand;     /* N, methods capstan and joint: 0, or the largest pull of a schedule with the fewest grips, which is made */
+  bool dynamics;   /* method structure: confirm by Bullet (true) or limit analysis only */
+  bool large;      /* .. also where that takes many minutes: up to thr_settle_largest(true) beads */
+  bool erect;      /* method structure, with dynamics: simulate how it comes up from slack */
 } thr_eval_options;
 
 thr_eval_options thr_eval_options_default(void);
@@ -74,7 +75,8 @@ typedef struct {
   thr_holding equal;    /* the same with equal pulls at all ends; up to 100 beads, all cords pulled at both ends */
   thr_holding loosest;  /* the force at all ends in any friction state, whatever was done to the cords before */
   thr_holding after;    /* after a schedule: by what its tensions may be multiplied; it stands if that may be 1 */
-  thr_holding stretch;  /* the same where cords are knotted at both ends, N m: what their tensions grow by, times their lengths */
+  thr_holding stretch;  /* the same where cords are knotted at both ends, N m: what their tensions grow by, times their lengths;
+                           INFINITY: it falls however tight they get, within options.strength where velocity proves it */
   double tightest;      /* N: the largest tension of a knotted cord at stretch.upper */
   double let_down;      /* N: to which all ends can then be let down while an equilibrium exists; NAN if that was not asked */
   thr_holding loaded;   /* pull of all ends at which the load is carried while the cords are drawn in */

@@ -3024,13 +3024,15 @@ def plus(a, b, times=1.0):
 class Standing:
     """The limit analysis: beads as rigid bodies (SI units), and what each stated mechanism proves."""
 
-    ASKED = ("holding", "equal", "any_state", "after", "loaded", "carried", "carried_after", "stretch")
+    ASKED = ("holding", "equal", "any_state", "after", "loaded", "carried", "carried_after", "stretch", "tightest")
+    AFTER = ("after", "carried_after", "stretch", "tightest")
 
     def __init__(self, p, e, cords, o):
         place = self.place = "evaluation.structure"
-        known(o, "model clamped taut tilt azimuth let_down loads drawn stills answers", place)
+        known(o, "model clamped taut tilt azimuth strength let_down loads drawn stills answers", place)
         self.model = member(o, "model", "integer", place, 1, 2, default=1)
         self.frame, self.physics, self.cords, self.scheduled = p.frame, e.physics, cords, bool(e.steps)
+        self.strength = member(o, "strength", "number", place, 0, default=0) or math.inf
         self.old_pull = p.options.old_pull
         self.paths = [[h >> 1 for h in cord.half] for cord in p.cords]
         self.clamped = member(o, "clamped", "truth", place)
@@ -3042,7 +3044,8 @@ class Standing:
         for step in e.steps or []:
             if step["do"] != "grip":
                 done.update({(step["cord"], end): step["do"] for end in ("start", "end") if step["end"] in (end, "both")})
-        self.knotted = {edge for cord, path in zip(p.cords, self.paths) for edge in path if self.model > 1 and done.get((cord.id, "start")) == done.get((cord.id, "end")) == "knot"}
+        self.tied = [i for i, cord in enumerate(p.cords) if self.model > 1 and done.get((cord.id, "start")) == done.get((cord.id, "end")) == "knot"]
+        self.knotted = {edge for i in self.tied for edge in self.paths[i]}
         self.bodies()
         self.loads = [self.load(x) for x in member(o, "loads", "list", place)] if "loads" in o else []
         require("loads" not in o or self.loads, f"{place}.loads: empty")
@@ -3143,7 +3146,7 @@ class Standing:
     def tensions(self, i, asked):
         """Of cord i at a pull of 1, or as the schedule leaves them."""
         before, pull, slackest = self.drawn[i]
-        if asked in ("after", "carried_after", "stretch"):
+        if asked in self.AFTER:
             return self.cords[i].tension
         if pull == "none":
             return [0.0] * len(before)
@@ -3162,12 +3165,14 @@ class Standing:
     def answer(self, o):
         """What was asked, at which pull, and what is proved: None if nothing is."""
         place = self.place + ".answers"
-        known(o, "asked pull found proved mechanism", place)
+        known(o, "asked pull found resists proved mechanism", place)
         asked = choice(o, "asked", place, self.ASKED)
         of_load = asked in ("carried", "carried_after")
         require(("pull" in o) == (asked == "carried"), f"{place}.pull: with carried, and only with it")
-        require(self.scheduled or asked not in ("after", "carried_after", "stretch"), f"{place}: without a schedule")
-        require(self.model > 1 or asked != "stretch", f"{place}: stretch, of the first model")
+        require(self.scheduled or asked not in self.AFTER, f"{place}: without a schedule")
+        require(self.model > 1 or asked not in ("stretch", "tightest"), f"{place}: {asked}, of the first model")
+        require("resists" not in o or asked == "stretch" and "proved" in o, f"{place}.resists: only with a stretch that is proved")
+        resists = member(o, "resists", "number", place, 0, default=None)
         require(self.loads or not of_load and asked != "loaded", f"{place}: without a load")
         require(("proved" in o) == ("mechanism" in o), f"{place}: what is proved, and by what, come together")
         pull = member(o, "pull", "number", place, 0, default=1)
@@ -3177,10 +3182,36 @@ class Standing:
         proved = member(o, "proved", "number", place, 0)
         if found is not None:
             require(found <= proved * (1 + 1e-6) if of_load else found >= proved * (1 - 1e-6), f"{place}.found: an equilibrium where there is none")
-        self.check_mechanism(asked, of_load, pull, proved, member(o, "mechanism", "list", place))
+        self.check_mechanism(asked, of_load, pull, proved, resists, member(o, "mechanism", "list", place))
         return asked, pull, proved
 
-    def check_mechanism(self, asked, of_load, pull, proved, numbers):
+    def tightening(self, parting, strength, stretch, resists):
+        """The most that knotted cords resist beyond the tensions that the schedule leaves: along every cord the best for each tension of
+        its last pass so far, a concave function by its corners."""
+        sums = []
+        for i in self.tied:
+            corners, before = None, self.drawn[i][0]
+            for k, (edge, least) in enumerate(zip(self.paths[i], self.cords[i].tension)):
+                length = math.dist(*(self.at[x] for x in self.frame.edge[edge]))
+                high, gain = max(least, min(strength, least + stretch / length)), parting[edge] - resists * length
+                if corners is None:
+                    corners = [(least, 0.0), (high, 0.0)]
+                else:
+                    factor, best = math.exp(before[k] - before[k - 1]), max(range(len(corners)), key=lambda j: corners[j][1])
+                    corners = [(t / factor, x) for t, x in corners[:best + 1]] + [(t * factor, x) for t, x in corners[best:]]
+                    low, high = (min(max(t, corners[0][0]), corners[-1][0]) for t in (least, high))
+                    inner = [c for c in corners if low < c[0] < high]
+                    ends = []
+                    for t in (low, high):
+                        j = next(j for j, c in enumerate(corners) if c[0] >= t)
+                        (t0, x0), (t1, x1) = corners[max(j - 1, 0)], corners[j]
+                        ends.append((t, x1 if t1 <= t or t1 <= t0 else x0 + (x1 - x0) * (t - t0) / (t1 - t0)))
+                    corners = [ends[0], *inner, ends[1]]
+                corners = [(t, x + gain * (t - least)) for t, x in corners]
+            sums.append(max(x for _, x in corners))
+        return math.fsum(sums)
+
+    def check_mechanism(self, asked, of_load, pull, proved, resists, numbers):
         f, v, place = self.frame, self.physics, f"{self.place}: {asked}"
         require(len(numbers) == 6 * f.n, f"{place}: not six numbers for every node")
         numbers = [float(member({"x": x}, "x", "number", place)) for x in numbers]
@@ -3218,16 +3249,22 @@ class Standing:
         resistance += [press[i] * self.play * math.hypot(*cross(axis, plus(moves[b][1], moves[a][1], -1))) for i, ((a, b), (_, axis, _, _)) in enumerate(zip(f.edge, self.face))]
         parting = [math.fsum((sum(s * dot(axis, velocity(node, middle)) for node, s in ((a, -1), (b, 1))), self.play * math.hypot(*cross(axis, plus(moves[b][1], moves[a][1], -1)))))
                    for (a, b), (middle, axis, _, _) in zip(f.edge, self.face)]
-        if asked == "carried_after":
+        after, stretch = asked in self.AFTER and asked != "after", 0.0
+        if asked == "carried_after" and self.strength == math.inf:
             require(all(parting[e] <= 1e-13 * fastest for e in self.knotted), f"{place}: a face with knotted cord opens")
-        stretch = proved * max([0.0] + [parting[e] / math.dist(*(self.at[x] for x in f.edge[e])) for e in self.knotted]) if asked == "stretch" else 0.0
-        times = [1, proved, 1] if of_load else [1, 1, 1] if asked == "stretch" else [1, 1, proved]
+        elif asked == "stretch":
+            if resists is None:
+                resists = max([0.0] + [parting[e] / math.dist(*(self.at[x] for x in f.edge[e])) for e in self.knotted])
+            stretch = proved * resists + self.tightening(parting, self.strength, proved, resists)
+        elif after:
+            stretch = self.tightening(parting, proved if asked == "tightest" else self.strength, math.inf, 0.0)
+        times = [1, proved, 1] if of_load else [1, 1, 1] if after else [1, 1, proved]
         sums = [x * math.fsum(terms) for x, terms in zip(times, (falling, load, resistance))]
         slip = 1e-14 * math.fsum(x * abs(y) for x, terms in zip(times, (falling, load, resistance)) for y in terms) + 1e-14 * stretch
         most = (0 if of_load else sum(self.weight)) + sum(math.hypot(*force) for _, force in self.loads if load)
         drive = math.fsum(load) if of_load else sums[0] + sums[1]
         require(drive > max(slip, 1e-7 * fastest * most), f"{place}: nothing drives the mechanism")
-        claimed = stretch if asked == "stretch" else abs(sums[1] if of_load else sums[2])
+        claimed = abs(sums[1]) if of_load else stretch if after else abs(sums[2])
         require(sums[0] + sums[1] - sums[2] - stretch >= -slip - 1e-9 * claimed, f"{place}: the powers do not prove {proved}")
 
 
@@ -3436,6 +3473,7 @@ def structure_terms(p, standing):
     steps = [step_words(s) for s in p.evaluation.steps]
     words += "; schedule " + ", ".join(steps[:24]) if steps else ""
     words += f" and {len(steps) - 24} more" if len(steps) > 24 else ""
+    words += f"; knotted cords bear {g(standing.strength)} N" if standing.strength < math.inf else ""
     loads = [f"({', '.join(map(g, force))}) N at {CONTROL.sub(' ', p.frame.names[node])}" for node, force in standing.loads]
     words += "; load " + ", ".join(loads[:8]) if loads else ""
     return words + (f" and {len(loads) - 8} more" if len(loads) > 8 else "")
@@ -3444,7 +3482,8 @@ def structure_terms(p, standing):
 BELOW = {"holding": "N at the harder ends, while the cords are drawn in, nothing holds it", "equal": "N at all ends, while the cords are drawn in, nothing holds it",
          "any_state": "N at all ends, whatever was done to the cords before, nothing holds it", "after": "of the tensions that the schedule leaves nothing holds it",
          "loaded": "N at all ends, while the cords are drawn in, it does not carry the load",
-         "stretch": "N m, by which the tension of knotted cord grows x its length, nothing holds it after the schedule"}
+         "stretch": "N m, by which the tension of knotted cord grows x its length, nothing holds it after the schedule",
+         "tightest": "N in every pass of knotted cord nothing holds it after the schedule"}
 
 
 def structure_lines(p, standing):

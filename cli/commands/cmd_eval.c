@@ -53,7 +53,8 @@ static const char help_rest[] =
     "carried\n"
     "                       against pull, and which piece moves first\n"
     "      --cord-strength N   newtons that the straight cord bears: says whether the pull would break it, at its\n"
-    "                       knots or over the edges of bores, which leave half of that\n"
+    "                       knots or over the edges of bores, which leave half of that; structure: knotted cords get\n"
+    "                       no tighter\n"
     "      --knot NAME      that knot: overhand (the default, leaves 45 %), reef 45, figure-eight 48, bowline 60,\n"
     "                       anchor 70, clove-hitch 75, two-half-hitches 75, eye-splice 95\n"
     "      --still FILE     structure: write a picture of the beads before and after the fall, as SVG\n"
@@ -422,6 +423,7 @@ int cmd_eval(int argc, char **argv)
   code = pull_read_schedule(a.schedule, &plan, &schedule);
   if (!code) code = load_apply(&a.load, &plan.frame, &a.pull.options, &load);
   if (schedule.n > 0) a.pull.options.schedule = &schedule;
+  a.pull.options.strength = a.strength * thr_strength_left(a.knot);
   if (!code) code = pull_eval(&a.pull, a.path, &plan, (thr_method)a.pull.method, &eval);
   bool known = (code == EXIT_OK || code == EXIT_LIMIT) && any_known(&eval.record);
   if (known) { /* the plan takes the record over, so that one thing is written, drawn and printed */

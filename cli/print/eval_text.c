@@ -204,7 +204,7 @@ static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval,
   thr_text_append(text, "\n");
   if (evaluation->schedule.n == 0) put_band(text, evaluation, eval->band);
   if (eval->complete && evaluation->method != THR_STRUCTURE) put_hand(text, evaluation->largest);
-  if (eval->complete && evaluation->method != THR_STRUCTURE && view->strength > 0)
+  if (eval->complete && (evaluation->method != THR_STRUCTURE || evaluation->schedule.n > 0) && view->strength > 0)
     put_strength(text, evaluation->largest, view->strength, view->knot);
   if (eval->complete && evaluation->method != THR_STRUCTURE) put_grips(text, plan);
   if (!eval->complete) {
@@ -324,10 +324,15 @@ static void put_longer(thr_text *text, const thr_evaluation *evaluation, double 
 }
 
 /* What cords that are knotted at both ends have to stretch by, as pieces part, for an equilibrium. */
-static void put_stretch(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval, double strength)
+static void put_stretch(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval)
 {
   const thr_holding *stretch = &eval->stretch;
+  const double strength = evaluation->standing.strength;
   thr_text_append(text, "after it       ");
+  if (!isfinite(stretch->lower) && stretch->velocity) {
+    thr_text_printf(text, "it falls: no tensions up to %.3g N, which the cord bears at its knots, hold it (proved)\n", strength);
+    return;
+  }
   if (!isfinite(stretch->lower)) {
     thr_text_append(text, "it falls, however tight the knotted cords get (proved)\n");
     return;
@@ -339,8 +344,9 @@ static void put_stretch(thr_text *text, const thr_evaluation *evaluation, const 
   if (isfinite(stretch->upper)) {
     thr_text_append(text, "an equilibrium exists once knotted cord has stretched by ");
     put_longer(text, evaluation, stretch->upper);
-    thr_text_printf(text, ", up to %.3g N", eval->tightest);
-    if (strength > 0) thr_text_append(text, eval->tightest > strength ? ", which breaks it" : ", which it bears");
+    thr_text_printf(text, ", up to %.3g N%s", eval->tightest, strength > 0 ? ", which it bears" : "");
+  } else if (strength > 0) {
+    thr_text_printf(text, "no equilibrium was found with the %.3g N that the cord bears at its knots", strength);
   } else {
     thr_text_append(text, "no equilibrium was found, however knotted cord stretches");
   }
@@ -367,10 +373,10 @@ static void put_bead_band(thr_text *text, const thr_evaluation *evaluation, cons
 }
 
 /* Does it stand after the schedule? */
-static void put_after(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval, double strength)
+static void put_after(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval)
 {
   const thr_holding *after = &eval->after;
-  if (eval->stretch.present) put_stretch(text, evaluation, eval, strength);
+  if (eval->stretch.present) put_stretch(text, evaluation, eval);
   if (!after->present) return;
   thr_text_append(text, "after it       ");
   if (after->upper <= 1)
@@ -549,7 +555,7 @@ void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan, 
   if (evaluation->schedule.n > 0) {
     put_schedule(text, plan);
     put_left(text, plan);
-    put_after(text, evaluation, eval, view->strength);
+    put_after(text, evaluation, eval);
   }
   if (evaluation->method == THR_JOINT) put_joint(text, plan, eval);
   if (evaluation->method == THR_STRUCTURE) put_structure(text, view, plan, eval);

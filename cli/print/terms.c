@@ -175,6 +175,7 @@ static void put_structure(thr_text *text, const thr_plan *plan)
     put_step(text, plan, &schedule->step[i]);
   }
   if (schedule->n > MOST_STEPS) thr_text_printf(text, " and %d more", schedule->n - MOST_STEPS);
+  if (standing->strength > 0) thr_text_printf(text, "; knotted cords bear %.6g N", standing->strength);
   for (int i = 0; i < standing->n_loads && i < MOST_LOADS; i++) {
     thr_text_append(text, i ? ", " : "; load ");
     put_force(text, &standing->load[i], plan);
@@ -191,6 +192,7 @@ static void standing_put(thr_text *text, const thr_plan *plan)
       [THR_ASKED_ANY_STATE] = "N at all ends, whatever was done to the cords before, nothing holds it",
       [THR_ASKED_AFTER] = "of the tensions that the schedule leaves nothing holds it",
       [THR_ASKED_STRETCH] = "N m, by which the tension of knotted cord grows x its length, nothing holds it after the schedule",
+      [THR_ASKED_TIGHTEST] = "N in every pass of knotted cord nothing holds it after the schedule",
       [THR_ASKED_LOADED] = "N at all ends, while the cords are drawn in, it does not carry the load"};
   const thr_standing *standing = &plan->evaluation.standing;
   if (!standing->present) return;

@@ -25,7 +25,6 @@ static thr_status allocate(thr_beads *beads, thr_err *err)
   beads->down[2] = -1;
   beads->rays = THR_USUAL_RAYS;
   beads->middle = thr_scratch_array(&beads->own, m, sizeof *beads->middle);
-  beads->rising = thr_scratch_array(&beads->own, m, sizeof *beads->rising);
   beads->axis = thr_scratch_array(&beads->own, m, sizeof *beads->axis);
   beads->corner = thr_scratch_array(&beads->own, m, sizeof *beads->corner);
   beads->foot = thr_scratch_array(&beads->own, feet, sizeof *beads->foot);

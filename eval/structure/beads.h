@@ -17,6 +17,13 @@
 
 enum { THR_USUAL_RAYS = 8, THR_MOST_RAYS = 48 }; /* of the pyramids that stand for friction cones */
 
+/* A pass of a knotted cord, whose tension grows where its face opens. */
+typedef struct {
+  int face;
+  double least, length; /* N: its tension as long as nothing has opened; m, of cord */
+  double exponent;      /* of the turn behind it; below 0: the cord ends there */
+} thr_rise;
+
 enum { THR_FOOT_POINTS = 16 }; /* corners of the polygon that stands for the disc of a foot */
 
 /* Units here are SI: m, kg, N. */
@@ -41,8 +48,9 @@ typedef struct {
   int rays;          /* of a friction pyramid; THR_USUAL_RAYS until it is set */
   double down[3];    /* unit: where weight draws; (0, 0, -1) until thr_beads_tilt */
   double (*load)[3]; /* [n_beads] N at the node, beside the weight; all 0 until it is filled in */
-  double *rising;    /* [n_faces] m: length of knotted cord at the face, whose tension grows as the face opens; all 0 until it is
-                        filled in */
+  int n_rises;       /* passes of knotted cords, cord by cord; 0 until they are filled in, as the next two .. */
+  thr_rise *rise;    /* [n_rises] borrowed */
+  double strength;   /* N: what a knotted cord bears; 0 = not known: any tension */
   double size;       /* m: diagonal of the bounding box, for tolerances */
   thr_scratch own;   /* the arrays */
 } thr_beads;

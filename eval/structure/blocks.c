@@ -26,6 +26,11 @@ typedef struct {
   thr_scratch own;  /* the arrays */
 } programme;
 
+bool thr_blocks_tightens(const thr_blocks *s)
+{
+  return s->b->n_rises > 0 && (s->stretches || (s->carries && s->b->strength > 0));
+}
+
 double thr_blocks_widening(const thr_beads *beads)
 {
   return 1 / cos(THR_PI / beads->rays);
@@ -131,8 +136,9 @@ static void set_bodies(thr_blocks *s, int *parent)
   for (int v = 0; v < beads->n_beads; v++)
     parent[v] = s->weld ? s->weld[v] : v;
   for (int e = 0; e < beads->n_faces && s->merged; e++)
-    if (s->press[e] > s->most || (s->stretches && beads->rising[e] > 0))
-      thr_disjoint_join(parent, s->f->edge[e][0], s->f->edge[e][1]);
+    if (s->press[e] > s->most) thr_disjoint_join(parent, s->f->edge[e][0], s->f->edge[e][1]);
+  for (int i = 0; i < beads->n_rises && s->merged && s->stretches; i++)
+    thr_disjoint_join(parent, s->f->edge[beads->rise[i].face][0], s->f->edge[beads->rise[i].face][1]);
   for (int v = 0; v < beads->n_beads; v++) {
     int root = thr_disjoint_find(parent, v);
     if (root == v) memcpy(s->origin[s->n_bodies], beads->mass_centre[v], sizeof *s->origin);
@@ -171,8 +177,7 @@ static void set_wrenches(thr_blocks *s)
  * forest. */
 static void set_copies(thr_blocks *s, int *parent)
 {
-  for (int e = 0; e < s->b->n_faces && s->stretches; e++)
-    if (s->b->rising[e] > 0 && !thr_blocks_inside(s, e)) s->rising[s->n_rising++] = e;
+  s->n_rises = thr_blocks_tightens(s) && !s->merged ? s->b->n_rises : 0;
   if (s->stretches) return;
   for (int v = 0; v < s->n_bodies; v++)
     s->copy[v] = -1;
@@ -195,8 +200,15 @@ static void set_copies(thr_blocks *s, int *parent)
 /* Faces where it matters that a cord may go through the bore beside its middle. */
 static void set_plays(thr_blocks *s)
 {
-  for (int e = 0; e < s->b->n_faces && s->outside && s->b->play > 0; e++)
-    if ((s->press[e] > 0 || (s->stretches && s->b->rising[e] > 0)) && !thr_blocks_inside(s, e)) s->play[s->n_plays++] = e;
+  for (int i = 0; i < s->n_rises; i++)
+    s->play_of[s->b->rise[i].face] = 1;
+  for (int e = 0; e < s->b->n_faces; e++) {
+    const bool passed = s->press[e] > 0 || s->play_of[e] > 0;
+    s->play_of[e] = -1;
+    if (!s->outside || !(s->b->play > 0) || !passed || thr_blocks_inside(s, e)) continue;
+    s->play_of[e] = s->n_plays;
+    s->play[s->n_plays++] = e;
+  }
 }
 
 void thr_blocks_destroy(thr_blocks *s)
@@ -218,7 +230,7 @@ thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
   s->copy = thr_scratch_array(&s->own, n, sizeof *s->copy);
   s->row = thr_scratch_array(&s->own, n, sizeof *s->row);
   s->tie = thr_scratch_array(&s->own, n, sizeof *s->tie);
-  s->rising = thr_scratch_array(&s->own, (size_t)beads->n_faces + 1, sizeof *s->rising);
+  s->play_of = thr_scratch_array(&s->own, (size_t)beads->n_faces + 1, sizeof *s->play_of);
   s->play = thr_scratch_array(&s->own, (size_t)beads->n_faces + 1, sizeof *s->play);
   if (thr_scratch_check(&s->own, err)) {
     thr_blocks_destroy(s);
@@ -299,11 +311,18 @@ static int count_cones(const thr_blocks *s)
   return s->n_contacts + s->n_plays;
 }
 
+/* N: what the tensions are counted in by which cords tighten. */
+static double tension_unit(const thr_blocks *s)
+{
+  return s->carries ? s->weight : s->pull;
+}
+
 /* A cone for every face that cords go through: its height is the pull, by an equation, and across it is the pull times where the
- * cord is, in parts of the play. */
+ * cord is, in parts of the play. Where cords tighten its height is their tension. */
 static void play_columns(const thr_blocks *s, programme *p)
 {
-  const double unit = s->carries ? 1 / s->weight : s->pull / s->weight;
+  const bool tightens = thr_blocks_tightens(s);
+  const double unit = tightens ? tension_unit(s) / s->weight : s->carries ? 1 / s->weight : s->pull / s->weight;
   const int first = s->n_rows + s->n_ties;
   for (int i = 0; i < s->n_plays; i++) {
     const int e = s->play[i];
@@ -318,14 +337,14 @@ static void play_columns(const thr_blocks *s, programme *p)
         memset(moment, 0, sizeof moment);
       for (int which = 0; which < 2; which++) {
         const int row = s->row[s->body[s->f->edge[e][which]]];
-        const double arm = (which ? -1 : 1) * unit * s->b->play * (s->stretches ? 1 : fmin(s->press[e], s->most)) / s->length;
+        const double arm = (which ? -1 : 1) * unit * s->b->play * (tightens ? 1 : fmin(s->press[e], s->most)) / s->length;
         for (int j = 0; j < 3 && row >= 0; j++)
           entry(p, row + 3 + j, arm * moment[j]);
       }
       entry(p, first + i, k == 0 ? 1 : 0);
     }
     if (s->carries) p->rhs[first + i] = 1;
-    if (s->stretches) p->rhs[first + i] = fmin(s->press[e], s->most) / s->pull;
+    if (tightens) p->rhs[first + i] = fmin(s->press[e], s->most) / tension_unit(s);
   }
 }
 
@@ -346,26 +365,77 @@ static void pull_columns(const thr_blocks *s, programme *p, double cost)
   }
 }
 
-/* What the tension at a face may be more, at the cost of the cord's length there. */
-static void rising_columns(const thr_blocks *s, programme *p, double cost)
+/* Two rows for every pass whose tension is unknown, of the turn behind it: neither of the tensions on its two sides is more than
+ * `holds` times the other. A third one says what the cord bears, if that is known. */
+static int rows_of_a_rise(const thr_blocks *s)
 {
-  const double unit = s->pull / s->weight;
-  for (int i = 0; i < s->n_rising; i++, p->n_columns++) {
-    const int e = s->rising[i];
+  return s->b->strength > 0 ? 3 : 2;
+}
+
+int thr_blocks_columns_of_a_rise(const thr_blocks *s)
+{
+  return 1 + rows_of_a_rise(s);
+}
+
+static int first_row_of_a_rise(const thr_blocks *s, int i)
+{
+  return s->n_rows + s->n_ties + s->n_plays + i * rows_of_a_rise(s);
+}
+
+/* One more newton in a pass draws the two beads of its face together. */
+static void rise_entries(const thr_blocks *s, programme *p, int e)
+{
+  const double unit = tension_unit(s) / s->weight;
+  for (int which = 0; which < 2 && !thr_blocks_inside(s, e); which++) {
+    const int body = s->body[s->f->edge[e][which]];
+    double lever[3], moment[3];
+    if (s->row[body] < 0) continue;
+    for (int k = 0; k < 3; k++)
+      lever[k] = (s->b->middle[e][k] - s->origin[body][k]) / s->length;
+    thr_cross(lever, s->b->axis[e], moment);
+    for (int k = 0; k < 6; k++)
+      entry(p, s->row[body] + k, (which ? -unit : unit) * (k < 3 ? s->b->axis[e][k] : moment[k - 3]));
+  }
+  if (s->play_of[e] >= 0) entry(p, s->n_rows + s->n_ties + s->play_of[e], -1);
+}
+
+/* Does the cord go straight on behind a pass? The tensions on both sides are equal then, which is one equation. */
+static bool goes_straight(const thr_rise *rise)
+{
+  return rise->exponent >= 0 && rise->exponent < 1e-9;
+}
+
+/* By how much more than the least the tension of each pass may be, at the cost of the cord's length there, and what is left at
+ * each turn and below the strength. Where no turn is both count for what is left, so that there is an interior. */
+static void rise_columns(const thr_blocks *s, programme *p, double cost)
+{
+  const thr_rise *rise = s->b->rise;
+  const double unit = tension_unit(s);
+  for (int i = 0; i < s->n_rises; i++) {
+    const int row = first_row_of_a_rise(s, i), rows = rows_of_a_rise(s);
+    const bool goes_on = rise[i].exponent >= 0, went_on = i > 0 && rise[i - 1].exponent >= 0;
+    const bool turns = goes_on && !goes_straight(&rise[i]), turned = went_on && !goes_straight(&rise[i - 1]);
+    const double holds = turns ? exp(rise[i].exponent) : 1, held = turned ? exp(rise[i - 1].exponent) : 1;
+
     column(p);
-    p->cost[p->n_costs++] = cost * s->b->rising[e] / s->length;
-    for (int which = 0; which < 2; which++) {
-      const int body = s->body[s->f->edge[e][which]];
-      double lever[3], moment[3];
-      if (s->row[body] < 0) continue;
-      for (int k = 0; k < 3; k++)
-        lever[k] = (s->b->middle[e][k] - s->origin[body][k]) / s->length;
-      thr_cross(lever, s->b->axis[e], moment);
-      for (int k = 0; k < 6; k++)
-        entry(p, s->row[body] + k, (which ? -unit : unit) * (k < 3 ? s->b->axis[e][k] : moment[k - 3]));
+    p->cost[p->n_costs++] = cost * rise[i].length / s->length;
+    rise_entries(s, p, rise[i].face);
+    if (went_on) entry(p, row - rows, -1);
+    if (turned) entry(p, row - rows + 1, 1 / held);
+    if (goes_on) entry(p, row, 1 / holds);
+    if (turns) entry(p, row + 1, -1);
+    if (rows > 2) entry(p, row + 2, 1);
+    p->n_columns++;
+
+    p->rhs[row] = goes_on ? (rise[i + 1].least - rise[i].least / holds) / unit : 1;
+    p->rhs[row + 1] = turns ? (rise[i].least - rise[i + 1].least / holds) / unit : goes_on ? 2 : 1;
+    if (turns) p->rhs[row] = fmax(0, p->rhs[row]), p->rhs[row + 1] = fmax(0, p->rhs[row + 1]);
+    if (rows > 2) p->rhs[row + 2] = fmax(1e-6 * s->b->strength, s->b->strength - rise[i].least) / unit;
+    for (int k = 0; k < rows; k++, p->n_columns++) {
+      column(p);
+      p->cost[p->n_costs++] = 0;
+      entry(p, k == 0 && goes_on && !turns ? row + 1 : row + k, 1);
     }
-    for (int j = 0; j < s->n_plays; j++)
-      if (s->play[j] == e) entry(p, s->n_rows + s->n_ties + j, -1);
   }
 }
 
@@ -405,16 +475,16 @@ static void carry_given(const thr_blocks *s, int body, double *rhs)
 
 static int count_rows(const thr_blocks *s)
 {
-  return s->n_rows + s->n_ties + s->n_plays;
+  return s->n_rows + s->n_ties + s->n_plays + s->n_rises * rows_of_a_rise(s);
 }
 
 static thr_status programme_make(const thr_blocks *s, aim what, programme *p, thr_err *err)
 {
   const bool hands = what != EQUILIBRIUM;
   size_t n = (size_t)s->n_bodies, cones = (size_t)count_cones(s), rays = (size_t)s->b->rays;
-  size_t others = n + (size_t)s->n_rising + (hands ? 2 * (size_t)s->n_rows : 0), columns = 3 * cones + others;
+  size_t others = n + 4 * (size_t)s->n_rises + (hands ? 2 * (size_t)s->n_rows : 0), columns = 3 * cones + others;
   size_t entries =
-      39 * cones + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows + (size_t)s->n_plays + 13 * (size_t)s->n_rising;
+      39 * cones + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows + (size_t)s->n_plays + 21 * (size_t)s->n_rises;
   *p = (programme){0};
   p->rhs = thr_scratch_array(&p->own, (size_t)count_rows(s), sizeof *p->rhs);
   p->cost = thr_scratch_array(&p->own, rays * cones + others, sizeof *p->cost);
@@ -436,7 +506,7 @@ static thr_status programme_make(const thr_blocks *s, aim what, programme *p, th
   play_columns(s, p);
   p->n_costs = count_cones(s) * (s->round ? 3 : s->b->rays);
   pull_columns(s, p, hands ? 0 : s->carries ? -1 : 1); /* the least pull, the largest load */
-  rising_columns(s, p, hands ? 0 : 1);
+  rise_columns(s, p, hands || s->carries ? 0 : 1);
   if (hands) hand_columns(s, p);
   return THR_OK;
 }
@@ -581,6 +651,6 @@ thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits,
   alone.round = false;
   alone.n_copies = 0;
   alone.n_ties = 1;
-  alone.n_plays = alone.n_rising = 0;
+  alone.n_plays = alone.n_rises = 0;
   return solve(&alone, SELF_STRESS, limits, out, err);
 }

@@ -45,15 +45,16 @@ typedef struct {
   double guess;                /* .. and N: a pull that is enough, not a thousand times too much */
   bool outside;                /* all that may be: cords anywhere within their bores, polygons round the discs of feet; else cords
                                   in the middle, and polygons inside */
-  bool stretches;              /* the unknown is how much more tension there is at the faces that b->rising tells, at a cost of so
-                                  much for each newton; the rest is given */
+  bool stretches;              /* the unknown is how much more tension than the least there is in the passes that b->rise tells,
+                                  each newton at the cost of their lengths; the rest is given */
   bool carries;                /* the unknown is not the pull but what the load is multiplied by */
   double most;                 /* press above it is taken for it .. */
   bool merged;                 /* .. and the beads on either side for one body */
   const int *weld;             /* [n_beads] beads with equal numbers are one body (welds.h); NULL = none are */
   double weight, length, pull; /* N, m, N */
   double widen;                /* factor on friction */
-  int n_bodies, n_contacts, n_rows, n_copies, n_ties, n_plays, n_rising;
+  int n_bodies, n_contacts, n_rows, n_copies, n_ties, n_plays;
+  int n_rises; /* passes whose tension is unknown: all of b->rise, or none. When stretched n_copies is 0 */
   thr_contact *contact;
   int *body;           /* [n_beads] */
   double (*origin)[3]; /* [n_bodies] where moments are taken about, m */
@@ -62,8 +63,8 @@ typedef struct {
   int *row;            /* [n_bodies] first of a body's six rows, -1 = held in place */
   int *copy;           /* [n_bodies] of the pull that acts on it */
   int (*tie)[2];       /* [n_ties] copies that are equal */
-  int *rising;         /* [n_rising] faces whose tension is unknown; n_copies is 0 then */
   int *play;           /* [n_plays] faces that cords go through, not only in the middle */
+  int *play_of;        /* [n_faces] which of these a face is, -1 = none */
   thr_scratch own;     /* the arrays */
 } thr_blocks;
 
@@ -81,12 +82,17 @@ double thr_blocks_widening(const thr_beads *beads);
 /* Friction of a contact, widened. */
 double thr_blocks_friction(const thr_blocks *s, const thr_contact *contact);
 
+/* Do knotted cords tighten, within what they bear? */
+bool thr_blocks_tightens(const thr_blocks *s);
+
+/* Columns that the programme has for each of these passes, the first one what its tension has grown by. */
+int thr_blocks_columns_of_a_rise(const thr_blocks *s);
+
 /* Is the face within a body, or between two that are held? */
 bool thr_blocks_inside(const thr_blocks *s, int face);
 
 /* From s->b, f, physics, press, load, outside, stretches, carries, most, merged and weld; the rest is 0. widen: factor on
- * friction. s is freed on failure.
- */
+ * friction. s is freed on failure. */
 thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err) THR_MUST_CHECK;
 void thr_blocks_destroy(thr_blocks *s);
 

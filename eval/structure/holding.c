@@ -15,6 +15,8 @@
 #include "lp/solver/interior.h"
 
 #include "graph/disjoint.h"
+#include "graph/plan/knotted.h"
+#include "graph/scratch.h"
 #include "graph/vector.h"
 
 #include <assert.h>
@@ -38,7 +40,8 @@ typedef struct {
   double gap;   /* relative, between the two */
   double residual;
   double (*velocity)[6]; /* owned */
-  double *more;          /* [n_faces] N: of a stretch; owned */
+  double *more;          /* [n_rises] N: of knotted cords; owned */
+  double resists;        /* of a stretch */
 } answer;
 
 static void answer_destroy(answer *a)
@@ -54,24 +57,78 @@ static double unit_of(const thr_blocks *s)
   return s->pull * (s->stretches ? s->length : 1);
 }
 
+/* What knotted cords do in a mechanism. */
+typedef struct {
+  double *apart, most; /* thr_mechanism_stretching */
+  thr_knotted_pass *pass;
+  double (*point)[2];
+  thr_scratch own; /* the arrays */
+} knotted;
+
+static thr_status knotted_make(const thr_blocks *s, const double (*velocity)[6], knotted *k, thr_err *err)
+{
+  const size_t n = (size_t)s->b->n_rises;
+  *k = (knotted){0};
+  k->apart = thr_scratch_array(&k->own, n + 1, sizeof *k->apart);
+  k->pass = thr_scratch_array(&k->own, n + 1, sizeof *k->pass);
+  k->point = thr_scratch_array(&k->own, n + 2, sizeof *k->point);
+  const thr_status st = thr_scratch_check(&k->own, err);
+  if (st)
+    thr_scratch_free(&k->own);
+  else
+    k->most = thr_mechanism_stretching(s, velocity, k->apart);
+  return st;
+}
+
+/* The stretch below which cords cannot resist the power `missing`: any price of a newton metre tells one, and the best price is
+ * found by golden sections, as the bound has a single maximum over its logarithm. At most `enough`, which bounds how far cords
+ * tighten: somewhat more than what the programme finds, whose polygons round the bores are a little wide. *resists: that price.
+ */
+static double least_stretch(const thr_blocks *s, const knotted *k, double missing, double enough, double *resists)
+{
+  enum { SECTIONS = 60 };
+  const double part = 0.6180339887498949;
+  double best = missing / k->most, low = -12, high = 0;
+  *resists = k->most;
+  for (int i = 0; i < SECTIONS && isfinite(enough); i++) {
+    double found[2];
+    for (int j = 0; j < 2; j++) {
+      const double price = k->most * exp(j ? low + part * (high - low) : high - part * (high - low));
+      found[j] = (missing - thr_mechanism_tightening(s->b, k->apart, price, enough, k->pass, k->point)) / price;
+      if (found[j] > best) best = found[j], *resists = price;
+    }
+    if (found[0] > found[1])
+      high = low + part * (high - low);
+    else
+      low = high - part * (high - low);
+  }
+  return fmin(best, enough);
+}
+
 /* Weak duality, in our own sums: the pull at which the cords' resistance makes up for the weights, and for the load; or the load
  * at which both make up for the cords. */
-static void certify(const thr_blocks *s, answer *a)
+static thr_status certify(const thr_blocks *s, answer *a, thr_err *err)
 {
   const double(*velocity)[6] = (const double(*)[6])a->velocity;
   thr_powers p = thr_mechanism_balance(s, velocity);
   const double given = p.falling + p.load;
+  knotted k;
+  const thr_status st = knotted_make(s, velocity, &k, err);
+  if (st) return st;
+  if (s->carries && thr_blocks_tightens(s)) p.resistance += thr_mechanism_tightening(s->b, k.apart, 0, INFINITY, k.pass, k.point);
   a->residual = fmax(0, -thr_mechanism_opening(s, velocity));
   bool falls = given > THR_MECHANISM_DRIVE * (p.all + p.all_loads); /* less is rounding: it stands by itself */
   a->lower = !falls ? 0 : p.resistance > 0 ? given / p.resistance : INFINITY;
   if (s->carries) a->lower = p.load > THR_MECHANISM_DRIVE * p.all_loads ? fmax(0, (p.resistance - p.falling) / p.load) : INFINITY;
   if (s->stretches) {
-    const double grows = thr_mechanism_stretching(s, velocity), missing = p.falling - p.resistance;
+    const double missing = p.falling - p.resistance;
     falls = falls && missing > THR_MECHANISM_DRIVE * p.all;
-    a->lower = !falls ? 0 : grows > 0 ? missing / grows : INFINITY;
+    a->lower = !falls ? 0 : k.most > 0 ? least_stretch(s, &k, missing, 1.2 * a->pull, &a->resists) : INFINITY;
   }
   double apart = s->carries ? a->lower - a->pull : a->pull - a->lower; /* polygons round a disc make it less than nothing */
   a->gap = isfinite(apart) ? fmax(0, apart) / (a->pull + 1e-3 * unit_of(s)) : 1;
+  thr_scratch_free(&k.own);
+  return THR_OK;
 }
 
 /* The least pull (if wanted) at which the solver found an equilibrium, and a mechanism with its bound. */
@@ -79,22 +136,20 @@ static thr_status solve_pull(const thr_blocks *s, const thr_limits *limits, answ
 {
   thr_blocks_solution o;
   a->velocity = thr_calloc((size_t)s->b->n_beads, sizeof *a->velocity);
-  if (!a->more) a->more = thr_calloc((size_t)s->b->n_faces, sizeof *a->more);
+  if (!a->more) a->more = thr_calloc((size_t)s->b->n_rises + 1, sizeof *a->more);
   if (!a->velocity || !a->more) return thr_nomem(err);
-  if (s->n_rows == 0) { /* all is held */
-    certify(s, a);
-    return THR_OK;
-  }
+  if (s->n_rows == 0) return certify(s, a, err); /* all is held */
   thr_status st = thr_blocks_solve(s, false, limits, &o, err);
   if (!st) st = thr_mechanism_make(s, o.dual, limits, a->velocity, err);
   if (!st) {
     const double balanced = s->bound && s->n_bodies > THR_BLOCKS_LARGE ? 10 * THR_BLOCKS_UNMET : 1e-5;
     if (!s->merged) a->pull = o.imbalance < balanced ? fmax(0, s->carries ? -o.objective : o.objective) * unit_of(s) : INFINITY;
     if (a->pull < 1e-9 * unit_of(s)) a->pull = 0;
-    const int unknown = (s->n_contacts + s->n_plays) * (s->round ? 3 : s->b->rays);
-    for (int i = 0; i < s->n_rising; i++)
-      a->more[s->rising[i]] = fmax(0, o.x[unknown + i]) * s->pull;
-    certify(s, a);
+    const int unknown = (s->n_contacts + s->n_plays) * (s->round ? 3 : s->b->rays) + s->n_copies;
+    const int columns = thr_blocks_columns_of_a_rise(s);
+    for (int i = 0; i < s->n_rises; i++)
+      a->more[i] = fmax(0, o.x[unknown + i * columns]) * (s->carries ? s->weight : s->pull);
+    st = certify(s, a, err);
   }
   thr_blocks_solution_destroy(&o);
   if (st) answer_destroy(a);
@@ -125,6 +180,7 @@ static void task_destroy(task *t)
   thr_warm_destroy(&t->warm);
   free(t->weld[0]);
   free(t->weld[1]);
+  t->weld[0] = t->weld[1] = NULL;
 }
 
 /* outside: all that may be, for what is proved. */
@@ -156,8 +212,8 @@ static thr_status find_welds(task *t, thr_err *err)
   }
 
   /* However tight knotted cords get: their faces do not open. */
-  for (int e = 0; e < t->b->n_faces && t->carries && !st; e++)
-    if (t->b->rising[e] > 0) thr_disjoint_join(t->weld[1], t->f->edge[e][0], t->f->edge[e][1]);
+  for (int i = 0; i < t->b->n_rises && t->carries && !(t->b->strength > 0) && !st; i++)
+    thr_disjoint_join(t->weld[1], t->f->edge[t->b->rise[i].face][0], t->f->edge[t->b->rise[i].face][1]);
   return st;
 }
 
@@ -217,10 +273,51 @@ static bool gives_way(const thr_blocks *s, const double (*velocity)[6])
 {
   thr_powers p = thr_mechanism_balance(s, velocity);
   if (!(thr_mechanism_opening(s, velocity) >= -STILL) || !(p.falling + p.load > 1e-6 * p.most)) return false;
+  const double still = 1e-6 * (p.falling + p.load) / p.most;
+  bool still_all = true;
   for (int e = 0; e < s->b->n_faces; e++)
-    if ((s->press[e] > 0 || s->b->rising[e] > 0) && thr_mechanism_parting(s, velocity, e) > 1e-6 * (p.falling + p.load) / p.most)
-      return false;
-  return true;
+    still_all &= !(s->press[e] > 0) || thr_mechanism_parting(s, velocity, e) <= still;
+  for (int i = 0; i < s->b->n_rises; i++)
+    still_all &= thr_mechanism_parting(s, velocity, s->b->rise[i].face) <= still;
+  return still_all;
+}
+
+/* Is this proof that no tensions within their strength let knotted cords hold it? */
+static thr_status breaks(const thr_blocks *s, const double (*velocity)[6], bool *proved, thr_err *err)
+{
+  const thr_powers p = thr_mechanism_balance(s, velocity);
+  knotted k;
+  thr_status st = knotted_make(s, velocity, &k, err);
+  if (st) return st;
+  const double more = thr_mechanism_tightening(s->b, k.apart, 0, INFINITY, k.pass, k.point);
+  *proved = thr_mechanism_opening(s, velocity) >= -STILL && p.falling - p.resistance - more > THR_MECHANISM_DRIVE * p.all;
+  thr_scratch_free(&k.own);
+  return THR_OK;
+}
+
+/* THR_EINFEASIBLE with t->way as the proof if knotted cords cannot hold the structure within their strength: hands have to help.
+ */
+static thr_status check_strength(task *t, thr_err *err)
+{
+  thr_blocks_solution o = {0};
+  thr_blocks s = part(t, INFINITY, false, true);
+  double(*velocity)[6] = thr_calloc((size_t)t->b->n_beads, sizeof *velocity);
+  bool proved = false;
+  if (!velocity) return thr_nomem(err);
+  thr_status st = thr_blocks_make(&s, thr_blocks_widening(t->b), err);
+  if (!st && s.n_rows > 0) st = thr_blocks_solve(&s, true, t->limits, &o, err);
+  if (!st && s.n_rows > 0) st = thr_mechanism_make(&s, o.dual, t->limits, velocity, err);
+  if (!st) st = breaks(&s, (const double(*)[6])velocity, &proved, err);
+  if (proved) {
+    st = thr_fail(err, THR_EINFEASIBLE, "knotted cords break before they hold the structure");
+    free(t->way);
+    t->way = velocity;
+    velocity = NULL;
+  }
+  thr_blocks_solution_destroy(&o);
+  thr_blocks_destroy(&s);
+  free(velocity);
+  return st;
 }
 
 /* THR_EINFEASIBLE with a proof that no pull holds the structure. However little the cords press a face with friction, a large
@@ -282,6 +379,7 @@ static thr_status lower_pull_in(task *t, double *most, answer *a, thr_err *err)
     st = lower_at(t, *most, a, &best, &best_most, err);
     if (st || (a->velocity && closed(a, close_enough(t)))) goto done;
     if (i == 0 && !best.velocity && !t->carries && (st = check_feasible(t, err))) goto done;
+    if (i == 0 && !best.velocity && t->stretches && t->b->strength > 0 && (st = check_strength(t, err))) goto done;
     if (t->largest <= *most || (t->round && !isfinite(a->pull))) break; /* a greater span is no easier for cones */
   }
   if (best.velocity) {
@@ -362,12 +460,12 @@ static thr_status bounds(task *t, bool want_upper, answer *a, double *upper, dou
   thr_status st = lower_pull(t, &most, a, err);
   if (!st && want_upper) st = upper_pull(t, most, &inside_cones, err);
   *upper = inside_cones.pull;
-  if (more && inside_cones.more) memcpy(more, inside_cones.more, (size_t)t->b->n_faces * sizeof *more);
+  if (more && inside_cones.more) memcpy(more, inside_cones.more, (size_t)t->b->n_rises * sizeof *more);
   answer_destroy(&inside_cones);
   return st;
 }
 
-/* more[n_faces] receives what a stretch adds; NULL ok. */
+/* more[n_rises] receives what a stretch adds; NULL ok. */
 static thr_status hold(task *t, bool want_upper, thr_holding *holding, double *more, thr_err *err)
 {
   answer a = {0};
@@ -382,6 +480,7 @@ static thr_status hold(task *t, bool want_upper, thr_holding *holding, double *m
     holding->residual = a.residual;
     holding->first_bead = a.lower > 0 || t->carries ? thr_mechanism_fastest(t->b, (const double(*)[6])a.velocity) : -1;
     holding->velocity = a.velocity;
+    holding->resists = a.resists;
     a.velocity = NULL;
   }
   answer_destroy(&a);
@@ -507,7 +606,7 @@ static thr_status carry_nothing(const thr_beads *beads, const thr_frame *frame, 
 
   /* What is kept is judged as every other bound is. */
   answer a = {.velocity = low.velocity, .lower = INFINITY};
-  if (!st) certify(&s, &a);
+  if (!st) st = certify(&s, &a, &why);
   if (!st && a.lower == 0 && a.residual < STILL) {
     *carry = (thr_carry){.first_bead = thr_mechanism_fastest(beads, (const double(*)[6])low.velocity), .velocity = low.velocity};
   } else {
@@ -525,15 +624,12 @@ thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, con
   task t = task_of(beads, frame, physics, press, limits);
   t.load = load;
   t.carries = true;
-  for (int e = 0; e < beads->n_faces; e++)
-    t.round &= beads->rising[e] == 0;
+  t.round &= beads->n_rises == 0;
   *out = (thr_carry){0};
   thr_status st = hold(&t, true, &found, NULL, err);
   if (!st)
     *out = (thr_carry){.beyond = found.lower, .carried = found.upper, .first_bead = found.first_bead, .velocity = found.velocity};
-  for (int e = 0; e < beads->n_faces; e++)
-    if (beads->rising[e] > 0) return st;
-  return st == THR_ESOLVER ? carry_nothing(beads, frame, physics, press, load, limits, out, err) : st;
+  return st == THR_ESOLVER && beads->n_rises == 0 ? carry_nothing(beads, frame, physics, press, load, limits, out, err) : st;
 }
 
 thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
@@ -542,8 +638,21 @@ thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame, c
   task t = task_of(beads, frame, physics, press, limits);
   t.stretches = true;
   t.round = false;
+  t.wants_way = true;
   *out = (thr_holding){0};
-  return hold(&t, true, out, more, err);
+  thr_status st = hold(&t, true, out, more, err);
+  if (st == THR_EINFEASIBLE && t.way && beads->strength > 0) { /* does it prove as much of the strength? */
+    thr_blocks s = part(&t, INFINITY, false, true);
+    bool proved = false;
+    thr_err why = {0};
+    thr_status again = thr_blocks_make(&s, thr_blocks_widening(beads), &why);
+    if (!again) again = breaks(&s, (const double(*)[6])t.way, &proved, &why);
+    thr_blocks_destroy(&s);
+    if (again) st = thr_fail(err, again, "%s", why.text);
+    if (proved) out->velocity = t.way, t.way = NULL;
+  }
+  free(t.way);
+  return st;
 }
 
 void thr_carry_destroy(thr_carry *carry)

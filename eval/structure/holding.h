@@ -29,6 +29,7 @@ typedef struct {
       residual; /* fastest closing of a contact in the mechanism, whose fastest bead moves with 1: how exactly lower is proved */
   double (*velocity)[6]; /* [n_beads] collapse mechanism: translation of the mass centre, rotation (1/m), scaled to a largest
                             translation of 1; owned */
+  double resists;        /* 1/m: of a stretch, what each newton metre resists of that */
 } thr_holding;
 
 /* Adds to press[n_faces] what the cords press each face with at a pull of 1; tension[i] is cord i's tension per pass. */
@@ -48,14 +49,16 @@ typedef struct {
 } thr_carry;
 
 /* press: thr_holding_press of tensions in N. load: N, [n_beads], acts at the nodes, beside the weights; beads->load is left out.
- * Where beads->rising tells of knotted cord, what is too much is so whatever its tension grows to.
+ * Where beads->rise tells of knotted cord, what is too much is so whatever its tension grows to, and with beads->strength within
+ * that; carried is what the tensions do that cords have then, else the least ones.
  * THR_ESOLVER if it is not decided: among others where no multiple is too much (a foot pushed into the ground). */
 thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                              const double (*load)[3], const thr_limits *limits, thr_carry *out, thr_err *err) THR_MUST_CHECK;
-/* press: thr_holding_press of tensions in N, which are the least that the cords have. Where beads->rising tells of knotted cord,
- * tension grows as it stretches: lower and upper are N m, the sum of what it has grown by, times that length, that is needed;
- * beads->load is left out. more[n_faces] receives what it has grown by at upper, N. THR_EINFEASIBLE if it falls however tight
- * these cords get. */
+/* press: thr_holding_press of tensions in N, which are the least that the cords have. Where beads->rise tells of knotted cord,
+ * tension grows as it stretches, as friction lets it: lower and upper are N m, the sum of what its passes have grown by, times
+ * their lengths, that is needed; beads->load is left out. more[n_rises] receives what they have grown by at upper, N.
+ * THR_EINFEASIBLE if it falls however tight these cords get, within beads->strength if it is known: out->velocity proves the
+ * latter then, or is NULL. */
 thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
                                const thr_limits *limits, thr_holding *out, double *more, thr_err *err) THR_MUST_CHECK;
 void thr_holding_destroy(thr_holding *holding);

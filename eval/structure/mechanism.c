@@ -166,12 +166,30 @@ double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], i
   return sum + s->b->play * sqrt(thr_dot(across, across));
 }
 
-double thr_mechanism_stretching(const thr_blocks *s, const double (*velocity)[6])
+double thr_mechanism_stretching(const thr_blocks *s, const double (*velocity)[6], double *apart)
 {
   double most = 0;
-  for (int e = 0; e < s->b->n_faces; e++)
-    if (s->b->rising[e] > 0) most = fmax(most, thr_mechanism_parting(s, velocity, e) / s->b->rising[e]);
+  for (int i = 0; i < s->b->n_rises; i++) {
+    apart[i] = thr_mechanism_parting(s, velocity, s->b->rise[i].face);
+    most = fmax(most, apart[i] / s->b->rise[i].length);
+  }
   return most;
+}
+
+double thr_mechanism_tightening(const thr_beads *beads, const double *apart, double resists, double stretch,
+                                thr_knotted_pass *pass, double (*point)[2])
+{
+  double sum = 0;
+  for (int i = 0, first = 0; i < beads->n_rises; i++) {
+    const thr_rise *rise = &beads->rise[i];
+    pass[i] = (thr_knotted_pass){rise->least,
+                                 fmin(beads->strength > 0 ? beads->strength : INFINITY, rise->least + stretch / rise->length),
+                                 apart[i] - resists * rise->length, rise->exponent};
+    if (rise->exponent >= 0) continue;
+    sum += thr_knotted_most(pass + first, i + 1 - first, point);
+    first = i + 1;
+  }
+  return sum;
 }
 
 thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6])

@@ -9,6 +9,7 @@
 #include "eval/structure/beads.h"
 #include "eval/structure/blocks.h"
 #include "graph/limits.h"
+#include "graph/plan/knotted.h"
 #include "graph/status.h"
 
 /* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull, W/N, by their true tensions; the
@@ -32,8 +33,15 @@ double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6]);
 /* How fast the beads of a face part where the cord is that resists most: anywhere within its bore. */
 double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], int face);
 
-/* The most that a face with knotted cord parts by, as above, for each metre of that cord, 1/s. */
-double thr_mechanism_stretching(const thr_blocks *s, const double (*velocity)[6]);
+/* Computes how fast the faces of s->b->rise part, as above, into apart[n_rises]. Returns the most for each metre of the cord
+ * there, or 0: the most that a newton metre of stretch resists, 1/m. */
+double thr_mechanism_stretching(const thr_blocks *s, const double (*velocity)[6], double *apart);
+
+/* Computes what knotted cords can resist beyond their least tensions (graph/plan/knotted.h), W, within their strength and while
+ * they have stretched by no more than `stretch`, N m (INFINITY: any), of which each newton metre takes off `resists`.
+ * apart[n_rises] as above; pass[n_rises] and point[n_rises + 2] are scratch. */
+double thr_mechanism_tightening(const thr_beads *beads, const double *apart, double resists, double stretch,
+                                thr_knotted_pass *pass, double (*point)[2]);
 
 thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6]);
 

@@ -33,15 +33,29 @@ static thr_status add(thr_standing *standing, int n_beads, const thr_answer *ans
 static thr_status add_holding(thr_standing *standing, int n_beads, thr_asked asked, const thr_holding *holding, thr_err *err)
 {
   if (!holding->present || !isfinite(holding->lower)) return THR_OK;
-  return add(standing, n_beads, &(thr_answer){.asked = asked, .proved = holding->lower, .found = holding->upper},
+  return add(standing, n_beads,
+             &(thr_answer){.asked = asked,
+                           .proved = holding->lower,
+                           .found = holding->upper,
+                           .resists = asked == THR_ASKED_STRETCH ? holding->resists : -1},
              (const double(*)[6])holding->velocity, err);
+}
+
+/* Where knotted cords break before they hold it, the tension that is not enough is what they bear. */
+static thr_status add_tightest(thr_standing *standing, int n_beads, const thr_holding *stretch, thr_err *err)
+{
+  if (!stretch->present || isfinite(stretch->lower) || !stretch->velocity) return THR_OK;
+  return add(standing, n_beads,
+             &(thr_answer){.asked = THR_ASKED_TIGHTEST, .proved = standing->strength, .found = INFINITY, .resists = -1},
+             (const double(*)[6])stretch->velocity, err);
 }
 
 static thr_status add_carry(thr_standing *standing, int n_beads, thr_asked asked, double pull, const thr_carry *carry,
                             thr_err *err)
 {
   if (carry->first_bead < 0) return THR_OK;
-  return add(standing, n_beads, &(thr_answer){.asked = asked, .pull = pull, .proved = carry->beyond, .found = carry->carried},
+  return add(standing, n_beads,
+             &(thr_answer){.asked = asked, .pull = pull, .proved = carry->beyond, .found = carry->carried, .resists = -1},
              (const double(*)[6])carry->velocity, err);
 }
 
@@ -95,6 +109,7 @@ thr_status thr_structure_record(int n_beads, const thr_eval_options *options, th
 {
   thr_standing *standing = &out->record.standing;
   standing->let_down = out->let_down;
+  standing->strength = out->stretch.present ? options->strength : 0;
   standing->answer = thr_calloc((size_t)(NAMED + out->n_carries), sizeof *standing->answer);
   if (!standing->answer) return thr_nomem(err);
   thr_status st = add_loads(standing, n_beads, options->load, err);
@@ -104,6 +119,7 @@ thr_status thr_structure_record(int n_beads, const thr_eval_options *options, th
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_ANY_STATE, &out->loosest, err);
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_AFTER, &out->after, err);
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_STRETCH, &out->stretch, err);
+  if (!st) st = add_tightest(standing, n_beads, &out->stretch, err);
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_LOADED, &out->loaded, err);
   for (int i = 0; i < out->n_carries && !st; i++)
     st = add_carry(standing, n_beads, THR_ASKED_CARRIED, out->carries[i].pull, &out->carries[i].carry, err);

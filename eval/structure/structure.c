@@ -382,48 +382,48 @@ static thr_status settle_let_down(const thr_frame *frame, const thr_cord *cord, 
   return st;
 }
 
-/* Marks the faces of cords that are knotted at both ends; returns whether there are any. */
-static bool set_rising(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, thr_beads *beads)
+/* Lists the passes of cords that are knotted at both ends, into own. */
+static thr_status set_rises(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, double strength,
+                            thr_scratch *own, thr_beads *beads, thr_err *err)
 {
-  bool any = false;
-  for (int i = 0; i < evaluation->n_cords; i++) {
+  size_t n = 1;
+  for (int i = 0; i < evaluation->n_cords; i++)
+    n += (size_t)cord[i].n_passes;
+  beads->rise = thr_scratch_array(own, n, sizeof *beads->rise);
+  beads->strength = strength;
+  const thr_status st = thr_scratch_check(own, err);
+  for (int i = 0; i < evaluation->n_cords && !st; i++) {
     if (!thr_schedule_knotted(&evaluation->schedule, i)) continue;
-    any = true;
     for (int k = 0; k < cord[i].n_passes; k++) {
       const int e = cord[i].half[k] >> 1;
       const double *from = beads->centre[frame->edge[e][0]], *to = beads->centre[frame->edge[e][1]];
-      beads->rising[e] = sqrt(pow(to[0] - from[0], 2) + pow(to[1] - from[1], 2) + pow(to[2] - from[2], 2));
+      beads->rise[beads->n_rises++] =
+          (thr_rise){.face = e,
+                     .least = evaluation->cord[i].tension[k],
+                     .length = sqrt(pow(to[0] - from[0], 2) + pow(to[1] - from[1], 2) + pow(to[2] - from[2], 2)),
+                     .exponent = k + 1 < cord[i].n_passes ? evaluation->cord[i].exponent[k] : -1};
     }
   }
-  return any;
+  return st;
 }
 
-/* Raises the tension of the tightest pass of knotted cord at every face by more[face], and of all others as friction then
- * demands; returns the sum of what they grew by, times their lengths, N m. *tightest: the largest tension then. */
-static double raise_tensions(const thr_cord *cord, const thr_evaluation *evaluation, const thr_beads *beads, const double *more,
-                             double *tightest, double *raised)
+/* Raises tensions by more[n_rises], and as much further as friction demands where rounding left it short; returns the sum of what
+ * they grew by, times their lengths, N m. *tightest: the largest tension then. */
+static double raise_tensions(const thr_beads *beads, const double *more, double *tightest, double *raised)
 {
+  const thr_rise *rise = beads->rise;
+  const int n = beads->n_rises;
   double sum = 0;
   *tightest = 0;
-  for (int i = 0; i < evaluation->n_cords; i++) {
-    const thr_eval_cord *eval_cord = &evaluation->cord[i];
-    const int n = cord[i].n_passes;
-    if (!thr_schedule_knotted(&evaluation->schedule, i)) continue;
-    for (int k = 0; k < n; k++) {
-      bool is_tightest = true; /* of this cord's passes of the face; each cord that passes it is raised */
-      for (int j = 0; j < n; j++)
-        is_tightest &= cord[i].half[j] >> 1 != cord[i].half[k] >> 1 || eval_cord->tension[j] < eval_cord->tension[k] ||
-                       (eval_cord->tension[j] == eval_cord->tension[k] && j >= k);
-      raised[k] = eval_cord->tension[k] + (is_tightest ? more[cord[i].half[k] >> 1] : 0);
-    }
-    for (int k = 1; k < n; k++)
-      raised[k] = fmax(raised[k], raised[k - 1] * exp(-eval_cord->exponent[k - 1]));
-    for (int k = n - 2; k >= 0; k--)
-      raised[k] = fmax(raised[k], raised[k + 1] * exp(-eval_cord->exponent[k]));
-    for (int k = 0; k < n; k++) {
-      sum += (raised[k] - eval_cord->tension[k]) * beads->rising[cord[i].half[k] >> 1];
-      *tightest = fmax(*tightest, raised[k]);
-    }
+  for (int i = 0; i < n; i++)
+    raised[i] = rise[i].least + more[i];
+  for (int i = 1; i < n; i++)
+    if (rise[i - 1].exponent >= 0) raised[i] = fmax(raised[i], raised[i - 1] * exp(-rise[i - 1].exponent));
+  for (int i = n - 2; i >= 0; i--)
+    if (rise[i].exponent >= 0) raised[i] = fmax(raised[i], raised[i + 1] * exp(-rise[i].exponent));
+  for (int i = 0; i < n; i++) {
+    sum += (raised[i] - rise[i].least) * rise[i].length;
+    *tightest = fmax(*tightest, raised[i]);
   }
   return sum;
 }
@@ -436,17 +436,20 @@ static thr_status stretch(const thr_frame *frame, const thr_cord *cord, const th
   thr_scratch own = {0};
   thr_err why = {0};
   double *press = thr_scratch_array(&own, (size_t)beads->n_faces + 1, sizeof *press);
-  double *more = thr_scratch_array(&own, (size_t)beads->n_faces + 1, sizeof *more);
-  double *raised = thr_scratch_array(&own, (size_t)pass_count(evaluation), sizeof *raised);
+  double *more = thr_scratch_array(&own, (size_t)beads->n_rises + 1, sizeof *more);
+  double *raised = thr_scratch_array(&own, (size_t)beads->n_rises + 1, sizeof *raised);
   thr_status st = thr_scratch_check(&own, err);
   if (st) return st;
   for (int i = 0; i < evaluation->n_cords; i++)
     thr_holding_press(&cord[i], 1, &(const double *){evaluation->cord[i].tension}, press);
   st = thr_holding_stretch(beads, frame, &evaluation->physics, press, limits, &out->stretch, more, &why);
   if (!st && isfinite(out->stretch.upper))
-    out->stretch.upper = fmax(out->stretch.lower, raise_tensions(cord, evaluation, beads, more, &out->tightest, raised));
-  if (st == THR_EINFEASIBLE)
-    out->stretch = (thr_holding){.present = true, .lower = INFINITY, .upper = INFINITY, .first_bead = -1};
+    out->stretch.upper = fmax(out->stretch.lower, raise_tensions(beads, more, &out->tightest, raised));
+  if (st == THR_EINFEASIBLE) {
+    out->stretch.present = true;
+    out->stretch.lower = out->stretch.upper = INFINITY;
+    out->stretch.first_bead = -1;
+  }
   thr_scratch_free(&own);
   return st && st != THR_EINFEASIBLE ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
@@ -456,9 +459,11 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, con
 {
   const thr_evaluation *evaluation = &out->record;
   thr_beads beads = {0};
+  thr_scratch own = {0};
   thr_err why = {0};
   thr_status st = make_beads(frame, &evaluation->physics, options, &beads, err);
-  const bool knotted = !st && set_rising(frame, cord, evaluation, &beads);
+  if (!st) st = set_rises(frame, cord, evaluation, options->strength, &own, &beads, err);
+  const bool knotted = beads.n_rises > 0;
   if (knotted) st = stretch(frame, cord, &beads, limits, out, err);
   if (!st && !knotted) {
     st = hold_state(frame, cord, &beads, LET_DOWN, INFINITY, limits, evaluation, &out->after, &why);
@@ -476,13 +481,15 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, con
   }
   if (!st && options->load)
     st = carry_state(frame, cord, &beads, LET_DOWN, INFINITY, options->load, limits, evaluation, &out->after_carries, err);
-  if (!st && options->load && knotted && out->after_carries.first_bead < 0) { /* no load is too much, however tight they get */
-    memset(beads.rising, 0, (size_t)beads.n_faces * sizeof *beads.rising);
+  if (!st && options->load && knotted && !(options->strength > 0) &&
+      out->after_carries.first_bead < 0) { /* no load is too much, however tight they get */
+    beads.n_rises = 0;
     st = carry_state(frame, cord, &beads, LET_DOWN, INFINITY, options->load, limits, evaluation, &out->after_carries, err);
     free(out->after_carries.velocity);
     out->after_carries.velocity = NULL;
     out->after_carries.beyond = INFINITY;
   }
+  thr_scratch_free(&own);
   thr_beads_destroy(&beads);
   return st;
 }

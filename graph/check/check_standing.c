@@ -11,6 +11,7 @@
 #include "graph/plan/request.h"
 #include "graph/plan/schedule.h"
 #include "graph/plan/standing.h"
+#include "graph/plan/knotted.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
 #include "graph/vector.h"
@@ -34,9 +35,11 @@ typedef struct {
   double play;     /* how far from the middle of a face a cord may go through it */
   double *mass, (*centre)[3], (*mass_centre)[3];
   bool *foot;
-  double *knotted; /* [n_edges] m: length of the edge, of those that a cord passes which is knotted at both ends; else 0 */
-  double *press;   /* [n_edges] of what is asked at the time */
-  double *at;      /* [longest cord] exponents before each pass */
+  double *knotted;        /* [n_edges] m: length of the edge, of those that a cord passes which is knotted at both ends; else 0 */
+  double *press;          /* [n_edges] of what is asked at the time */
+  double *at;             /* [longest cord] exponents before each pass */
+  thr_knotted_pass *pass; /* [longest cord] */
+  double (*point)[2];     /* [longest cord + 2] */
   thr_scratch own;
 } bodies;
 
@@ -149,6 +152,8 @@ static thr_status bodies_make(bodies *b, const thr_plan *plan, thr_err *err)
   b->knotted = thr_scratch_array(&b->own, (size_t)plan->frame.n_edges + 1, sizeof *b->knotted);
   b->press = thr_scratch_array(&b->own, (size_t)plan->frame.n_edges + 1, sizeof *b->press);
   b->at = thr_scratch_array(&b->own, (size_t)longest, sizeof *b->at);
+  b->pass = thr_scratch_array(&b->own, (size_t)longest, sizeof *b->pass);
+  b->point = thr_scratch_array(&b->own, (size_t)longest + 2, sizeof *b->point);
   thr_status st = thr_scratch_check(&b->own, err);
   if (!st && thr_units_in_mm(plan->frame.units, &mm, NULL))
     st = thr_fail(err, THR_EVIOLATED, "evaluation.structure: beads, but nobody knows how long a unit is");
@@ -189,7 +194,7 @@ static double tension_of(const bodies *b, const thr_drawn *drawn, thr_asked aske
   const double hard = drawn->pull == THR_PULL_START ? slackest
                       : drawn->pull == THR_PULL_END ? total - slackest
                                                     : fmax(slackest, total - from_end);
-  if (asked == THR_ASKED_AFTER || asked == THR_ASKED_CARRIED_AFTER || asked == THR_ASKED_STRETCH) return b->e->cord[i].tension[k];
+  if (thr_asked_after(asked)) return b->e->cord[i].tension[k];
   if (drawn->pull == THR_PULL_NONE) return 0;
   if (asked == THR_ASKED_HOLDING) return exp((k <= drawn->slackest ? slackest - b->at[k] : b->at[k] - from_end) - hard);
   return exp(asked == THR_ASKED_ANY_STATE ? near : -near);
@@ -397,6 +402,30 @@ static bool knots_rest(const bodies *b, const thr_answer *a, double closing)
   return rest;
 }
 
+/* Returns what knotted cords can resist beyond the tensions that the schedule leaves (graph/plan/knotted.h), W: with no more than
+ * `strength`, N, and while they have stretched by no more than `stretch`, N m, of which each newton metre takes off `resists`. */
+static double tightening(bodies *b, const thr_answer *a, double strength, double stretch, double resists)
+{
+  double sum = 0;
+  for (int i = 0; i < b->plan->n_cords; i++) {
+    const thr_cord *cord = &b->plan->cord[i];
+    if (b->s->model < 2 || !thr_schedule_knotted(&b->e->schedule, i)) continue;
+    (void)exponents(b, i);
+    for (int k = 0; k < cord->n_passes; k++) {
+      const int e = cord->half[k] >> 1;
+      const double least = b->e->cord[i].tension[k], length = b->knotted[e];
+      power parting = {0};
+      parting_power(b, a, e, 1, &parting);
+      b->pass[k] = (thr_knotted_pass){.least = least,
+                                      .most = fmin(strength, least + stretch / length),
+                                      .gain = parting.sum - resists * length,
+                                      .exponent = k + 1 < cord->n_passes ? b->at[k + 1] - b->at[k] : 0};
+    }
+    sum += thr_knotted_most(b->pass, cord->n_passes, b->point);
+  }
+  return sum;
+}
+
 static void loads_power(const bodies *b, const thr_answer *a, power *load)
 {
   for (int i = 0; i < b->s->n_loads; i++) {
@@ -431,15 +460,23 @@ static bool proves(bodies *b, const thr_answer *a, double fastest)
   press(b, a);
   for (int e = 0; e < b->plan->frame.n_edges; e++)
     parting_power(b, a, e, b->press[e], &resistance);
-  const bool of_stretch = a->asked == THR_ASKED_STRETCH;
-  if (a->asked == THR_ASKED_CARRIED_AFTER && !knots_rest(b, a, STILL * fastest)) return false;
+  const bool of_stretch = a->asked == THR_ASKED_STRETCH, after = thr_asked_after(a->asked) && a->asked != THR_ASKED_AFTER;
+  const double strength = b->s->strength > 0 ? b->s->strength : INFINITY;
+  const bool rests = a->asked == THR_ASKED_CARRIED_AFTER && !isfinite(strength);
+  if (rests && !knots_rest(b, a, STILL * fastest)) return false;
 
-  const double grown = of_stretch ? a->proved * stretching(b, a) : 0;
-  const double pull = of_load || of_stretch ? 1 : a->proved, times = of_load ? a->proved : 1;
+  double grown = 0;
+  if (of_stretch) {
+    const double resists = a->resists >= 0 ? a->resists : stretching(b, a);
+    grown = a->proved * resists + tightening(b, a, strength, a->proved, resists);
+  } else if (after && !rests) {
+    grown = tightening(b, a, a->asked == THR_ASKED_TIGHTEST ? a->proved : strength, INFINITY, 0);
+  }
+  const double pull = of_load || after ? 1 : a->proved, times = of_load ? a->proved : 1;
   const double slip = ROUNDING * (falling.terms + times * load.terms + pull * resistance.terms + grown);
   const double over = falling.sum + times * load.sum - pull * resistance.sum - grown;
   const double drive = of_load ? load.sum : falling.sum + load.sum;
-  const double claimed = fabs(of_load ? times * load.sum : of_stretch ? grown : pull * resistance.sum);
+  const double claimed = fabs(of_load ? times * load.sum : after ? grown : pull * resistance.sum);
   return drive > fmax(slip, DRIVE * most_drive(b, a, fastest)) && over >= -slip - 1e-9 * claimed;
 }
 
@@ -478,10 +515,9 @@ static thr_status check_answer(bodies *b, int i, thr_err *err)
 /* What must hold of the answers without any mechanism. */
 static const char *misfit(const thr_standing *s, const thr_answer *a, bool scheduled)
 {
-  const bool of_load = thr_asked_of_load(a->asked),
-             after = a->asked == THR_ASKED_AFTER || a->asked == THR_ASKED_CARRIED_AFTER || a->asked == THR_ASKED_STRETCH;
-  if (after && !scheduled) return "it comes with a schedule";
-  if (a->asked == THR_ASKED_STRETCH && s->model < 2) return "it comes with model 2";
+  const bool of_load = thr_asked_of_load(a->asked);
+  if (thr_asked_after(a->asked) && !scheduled) return "it comes with a schedule";
+  if ((a->asked == THR_ASKED_STRETCH || a->asked == THR_ASKED_TIGHTEST) && s->model < 2) return "it comes with model 2";
   if ((of_load || a->asked == THR_ASKED_LOADED) && s->n_loads == 0) return "it comes with loads";
   if (!isfinite(a->found)) return NULL; /* none was found */
   if (of_load ? a->found > a->proved * (1 + 1e-6) : a->found < a->proved * (1 - 1e-6))

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const asked_name[] = {"holding", "equal",   "any_state",     "after",
-                                         "loaded",  "carried", "carried_after", "stretch"};
+static const char *const asked_name[] = {"holding", "equal",         "any_state", "after",   "loaded",
+                                         "carried", "carried_after", "stretch",   "tightest"};
 
 const char *thr_asked_name(int asked)
 {
@@ -21,6 +21,12 @@ const char *thr_asked_name(int asked)
 bool thr_asked_of_load(thr_asked asked)
 {
   return asked == THR_ASKED_CARRIED || asked == THR_ASKED_CARRIED_AFTER;
+}
+
+bool thr_asked_after(thr_asked asked)
+{
+  return asked == THR_ASKED_AFTER || asked == THR_ASKED_CARRIED_AFTER || asked == THR_ASKED_STRETCH ||
+         asked == THR_ASKED_TIGHTEST;
 }
 
 void thr_standing_destroy(thr_standing *standing)
@@ -45,6 +51,7 @@ static void put_answer(thr_writer *writer, const thr_answer *answer)
   thr_write_string(writer, "asked", thr_asked_name(answer->asked));
   if (answer->asked == THR_ASKED_CARRIED) thr_write_number(writer, "pull", answer->pull);
   if (isfinite(answer->found)) thr_write_number(writer, "found", answer->found);
+  if (answer->n_beads > 0 && answer->resists >= 0) thr_write_number(writer, "resists", answer->resists);
   if (answer->n_beads > 0) {
     thr_write_number(writer, "proved", answer->proved);
     thr_write_row(writer, "mechanism");
@@ -117,6 +124,7 @@ void thr_standing_write(const thr_standing *standing, thr_writer *writer, const 
   thr_write_bool(writer, "taut", standing->taut);
   thr_write_number(writer, "tilt", standing->tilt);
   thr_write_number(writer, "azimuth", standing->azimuth);
+  if (standing->strength > 0) thr_write_number(writer, "strength", standing->strength);
   if (isfinite(standing->let_down)) thr_write_number(writer, "let_down", standing->let_down);
   if (standing->n_loads > 0) put_loads(writer, standing);
   put_drawn(writer, standing);
@@ -163,16 +171,19 @@ static const char *read_mechanism(const thr_json *list, thr_answer *answer)
 /* What is wrong; "": no memory. */
 static const char *read_answer(const thr_json *object, thr_answer *answer)
 {
-  static const char *const known[] = {"asked", "pull", "found", "proved", "mechanism", NULL};
+  static const char *const known[] = {"asked", "pull", "found", "resists", "proved", "mechanism", NULL};
   const thr_json *proved = thr_json_get(object, "proved"), *mechanism = thr_json_get(object, "mechanism");
   const int asked = word_of(thr_json_get(object, "asked"), asked_name, THR_N_ASKED);
   if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
   if (asked < 0) return "asked: an unknown word";
-  *answer = (thr_answer){.asked = (thr_asked)asked, .found = INFINITY};
+  *answer = (thr_answer){.asked = (thr_asked)asked, .found = INFINITY, .resists = -1};
   if (thr_asked_of_load(answer->asked) && !proved) answer->proved = INFINITY;
   if ((asked == THR_ASKED_CARRIED) != (thr_json_get(object, "pull") != NULL)) return "pull: with carried, and only with it";
   if (!amount(object, "pull", false, &answer->pull)) return "pull: not a number from 0 on";
   if (!amount(object, "found", false, &answer->found)) return "found: not a number from 0 on";
+  if (thr_json_get(object, "resists") && (asked != THR_ASKED_STRETCH || !proved))
+    return "resists: only with a stretch that is proved";
+  if (!amount(object, "resists", false, &answer->resists)) return "resists: not a number from 0 on";
   if (!amount(object, "proved", false, &answer->proved)) return "proved: not a number from 0 on";
   if ((proved != NULL) != (mechanism != NULL)) return "mechanism: with what it proves, and only with it";
   return mechanism ? read_mechanism(mechanism, answer) : NULL;
@@ -276,8 +287,8 @@ static thr_status read_lists(const reader *r, const thr_json *object, thr_standi
 
 static thr_status read_members(const reader *r, const thr_json *object, thr_standing *standing)
 {
-  static const char *const known[] = {"model", "clamped", "taut",   "tilt",    "azimuth", "let_down",
-                                      "loads", "drawn",   "stills", "answers", NULL};
+  static const char *const known[] = {"model",    "clamped", "taut",  "tilt",   "azimuth", "strength",
+                                      "let_down", "loads",   "drawn", "stills", "answers", NULL};
   const char *key = thr_json_unknown(object, known);
   if (key) return bad(r, key, -1, "this version does not know it and cannot check it");
   const thr_json *model = thr_json_get(object, "model");
@@ -293,6 +304,7 @@ static thr_status read_members(const reader *r, const thr_json *object, thr_stan
     return bad(r, "tilt", -1, "not an angle from 0 to a right one");
   if (!thr_json_number(thr_json_get(object, "azimuth"), &standing->azimuth)) return bad(r, "azimuth", -1, "not a finite number");
   standing->azimuth += 0.0; /* -0.0 is 0 */
+  if (!amount(object, "strength", false, &standing->strength)) return bad(r, "strength", -1, "not a number from 0 on");
   if (!amount(object, "let_down", false, &standing->let_down)) return bad(r, "let_down", -1, "not a number from 0 on");
   thr_status st = read_stills(r, thr_json_get(object, "stills"), standing);
   return st ? st : read_lists(r, object, standing);

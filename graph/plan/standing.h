@@ -20,15 +20,17 @@ typedef enum {
   THR_ASKED_CARRIED,       /* multiple of the load at a given pull of all ends while the cords are drawn in */
   THR_ASKED_CARRIED_AFTER, /* multiple of the load with the tensions that the schedule leaves */
   THR_ASKED_STRETCH,       /* N m by which knotted cords have to stretch beyond the tensions that the schedule leaves */
+  THR_ASKED_TIGHTEST,      /* N that some pass of a knotted cord has to have after the schedule */
   THR_N_ASKED
 } thr_asked;
 
 typedef struct {
   thr_asked asked;
-  double pull;   /* N at all ends, of CARRIED; else 0 */
-  double proved; /* below it, or above it if a load is asked for, there is no equilibrium; 0, or INFINITY: nothing is proved */
-  double found;  /* at it the solver found an equilibrium; INFINITY: it found none */
-  int n_beads;   /* that move in the mechanism, all of the framework; 0 if nothing is proved */
+  double pull;    /* N at all ends, of CARRIED; else 0 */
+  double proved;  /* below it, or above it if a load is asked for, there is no equilibrium; 0, or INFINITY: nothing is proved */
+  double found;   /* at it the solver found an equilibrium; INFINITY: it found none */
+  double resists; /* 1/m, of STRETCH: the price of a newton metre by which it is proved; -1: the most that any face parts by */
+  int n_beads;    /* that move in the mechanism, all of the framework; 0 if nothing is proved */
   double (*velocity)[6]; /* [n_beads] that proves it: translation of the mass centre, rotation (1/m); owned */
 } thr_answer;
 
@@ -60,6 +62,7 @@ typedef struct {
   bool clamped;         /* the feet are held; else they stand on the ground */
   bool taut;            /* turns are those of the tight cord, and each cord states its exponents */
   double tilt, azimuth; /* rad: of the ground, and where it goes down (from x towards y) */
+  double strength;      /* N: no pass of a knotted cord bears more; 0: any tension */
   double let_down;      /* N: to which all ends can be let down after the schedule; NAN: was not asked */
   int n_loads, n_cords, n_stills, n_answers;
   thr_load *load;     /* [n_loads] owned */
@@ -70,6 +73,7 @@ typedef struct {
 
 const char *thr_asked_name(int asked);   /* "holding", "equal", .. as in plan.json */
 bool thr_asked_of_load(thr_asked asked); /* is a multiple of the load what is unknown? */
+bool thr_asked_after(thr_asked asked);   /* is it about the tensions that a schedule leaves? */
 
 void thr_standing_destroy(thr_standing *standing);
 
