@@ -443,7 +443,7 @@ static thr_status stretch(const thr_frame *frame, const thr_cord *cord, const th
   for (int i = 0; i < evaluation->n_cords; i++)
     thr_holding_press(&cord[i], 1, &(const double *){evaluation->cord[i].tension}, press);
   st = thr_holding_stretch(beads, frame, &evaluation->physics, press, limits, &out->stretch, more, &why);
-  if (!st && isfinite(out->stretch.upper))
+  if (!st && out->stretch.upper > 0 && isfinite(out->stretch.upper))
     out->stretch.upper = fmax(out->stretch.lower, raise_tensions(beads, more, &out->tightest, raised));
   if (st == THR_EINFEASIBLE) {
     out->stretch.present = true;
