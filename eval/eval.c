@@ -134,7 +134,7 @@ thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cor
   static thr_status (*const run[THR_N_METHODS])(const thr_frame *, const thr_cord *, const thr_eval_options *, const thr_limits *,
                                                 thr_eval *, thr_err *) = {
       [THR_CAPSTAN] = thr_capstan_method, [THR_JOINT] = thr_joint_method, [THR_STRUCTURE] = thr_structure_method};
-  thr_eval eval = {.band_beads = {NAN, NAN}, .interpolation = NAN, .let_down = NAN, .after_carries = {.first_bead = -1}};
+  thr_eval eval = {.interpolation = NAN, .let_down = NAN, .after_carries = {.first_bead = -1}};
   *out = (thr_eval){0};
   thr_status st = prepare(frame, cord, n_cords, method, options, &eval.record, err);
   if (!st) st = run[method](frame, cord, options, limits, &eval, err);

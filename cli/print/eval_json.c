@@ -24,8 +24,17 @@ static void put_bead(thr_writer *writer, const char *key, const thr_frame *frame
     thr_write_null(writer, key);
 }
 
+/* What is proved at both ends of the band of the frictions of beads and ground. */
+static void put_json_band(thr_writer *writer, const double band[2])
+{
+  thr_write_array(writer, "band_beads");
+  thr_write_number(writer, NULL, band[0]);
+  thr_write_number(writer, NULL, band[1]);
+  thr_write_close(writer);
+}
+
 static void put_json_holding(thr_writer *writer, const thr_frame *frame, const char *key, const thr_holding *holding,
-                             const char *when)
+                             const double band[2], const char *when)
 {
   thr_write_line(writer, 1);
   thr_write_object(writer, key);
@@ -33,6 +42,7 @@ static void put_json_holding(thr_writer *writer, const thr_frame *frame, const c
   thr_write_number(writer, "upper", holding->upper);
   thr_write_number(writer, "residual", holding->residual);
   put_bead(writer, "first_bead", frame, holding->first_bead);
+  put_json_band(writer, band);
   thr_write_string(writer, "holds", when);
   thr_write_close(writer);
 }
@@ -40,17 +50,20 @@ static void put_json_holding(thr_writer *writer, const thr_frame *frame, const c
 /* The three answers of the limit analysis. */
 static void put_json_answers(thr_writer *writer, const thr_frame *frame, const thr_eval *eval)
 {
-  put_json_holding(writer, frame, "holding", &eval->holding, "while the cord is being drawn in");
+  const double(*band)[2] = eval->band_beads;
+  put_json_holding(writer, frame, "holding", &eval->holding, band[THR_ASKED_HOLDING], "while the cord is being drawn in");
   if (eval->equal.present)
-    put_json_holding(writer, frame, "equal_pulls", &eval->equal,
+    put_json_holding(writer, frame, "equal_pulls", &eval->equal, band[THR_ASKED_EQUAL],
                      "while the cord is being drawn in, with equal pulls at all ends");
   if (eval->loosest.present)
-    put_json_holding(writer, frame, "any_state", &eval->loosest, "force at all ends, whatever was done to the cords before");
+    put_json_holding(writer, frame, "any_state", &eval->loosest, band[THR_ASKED_ANY_STATE],
+                     "force at all ends, whatever was done to the cords before");
   if (eval->stretch.present)
-    put_json_holding(writer, frame, "stretch", &eval->stretch,
+    put_json_holding(writer, frame, "stretch", &eval->stretch, band[THR_ASKED_STRETCH],
                      "N m by which the tension of knotted cord grows, times its length");
   if (!eval->after.present) return;
-  put_json_holding(writer, frame, "after", &eval->after, "factor on the tensions that the schedule leaves");
+  put_json_holding(writer, frame, "after", &eval->after, band[THR_ASKED_AFTER],
+                   "factor on the tensions that the schedule leaves");
   thr_write_number(writer, "let_down", eval->let_down);
 }
 
@@ -147,10 +160,7 @@ void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, b
   if (plan->evaluation.method == THR_JOINT) put_json_joints(&writer, eval);
   if (eval->holding.present) {
     thr_write_line(&writer, 1);
-    thr_write_array(&writer, "band_beads");
-    thr_write_number(&writer, NULL, eval->band_beads[0]);
-    thr_write_number(&writer, NULL, eval->band_beads[1]);
-    thr_write_close(&writer);
+    put_json_band(&writer, eval->band_beads[THR_ASKED_HOLDING]);
   }
   if (eval->holding.present) put_json_answers(&writer, &plan->frame, eval);
   if (eval->holding.present) put_json_play(&writer, plan);

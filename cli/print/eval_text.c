@@ -358,25 +358,58 @@ static void put_stretch(thr_text *text, const thr_evaluation *evaluation, const 
   thr_text_append(text, "\n");
 }
 
-/* The bound over the frictions of beads and ground, which are estimates; what is proved is proved at those that are said. */
-static void put_bead_band(thr_text *text, const thr_evaluation *evaluation, const double band[2])
+/* What is proved over the frictions of beads and ground, which are estimates, at each end of their band. */
+static void put_bead_band(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval)
 {
+  static const struct {
+    thr_asked asked;
+    const char *words;
+  } named[] = {{THR_ASKED_EQUAL, "equal pulls"}, {THR_ASKED_ANY_STATE, "any state"}};
+  const thr_physics *physics = &evaluation->physics;
+  const double(*band)[2] = eval->band_beads;
+  if (isnan(band[THR_ASKED_HOLDING][0]) && isnan(band[THR_ASKED_HOLDING][1])) return;
+  for (int end = 0; end < 2; end++) {
+    const double times = (end ? physics->mu_high : physics->mu_low) / physics->mu;
+    thr_text_printf(text, end ? "; with %.3g, %.3g:" : "other beads    with bead on bead %.3g, foot on ground %.3g:",
+                    times * physics->mu_bead, times * physics->mu_ground);
+    put_band_end(text, evaluation, band[THR_ASKED_HOLDING][end], true);
+    for (size_t i = 0; i < sizeof named / sizeof *named && eval->holding.lower > 0; i++) {
+      if (isnan(band[named[i].asked][end])) continue;
+      thr_text_printf(text, ", %s", named[i].words);
+      put_band_end(text, evaluation, band[named[i].asked][end], true);
+    }
+  }
+  thr_text_append(text, " (each proved at its own frictions only)\n");
+}
+
+/* The same of what is proved after a schedule. */
+static void put_after_band(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval)
+{
+  const bool stretch = eval->stretch.present;
+  const double *band = eval->band_beads[stretch ? THR_ASKED_STRETCH : THR_ASKED_AFTER];
   const thr_physics *physics = &evaluation->physics;
   if (isnan(band[0]) && isnan(band[1])) return;
-  const double low = physics->mu_low / physics->mu, high = physics->mu_high / physics->mu;
-  thr_text_printf(text, "other beads    with bead on bead %.3g, foot on ground %.3g:", low * physics->mu_bead,
-                  low * physics->mu_ground);
-  put_band_end(text, evaluation, band[0], true);
-  thr_text_printf(text, "; with %.3g, %.3g:", high * physics->mu_bead, high * physics->mu_ground);
-  put_band_end(text, evaluation, band[1], true);
-  thr_text_append(text, " (each proved at its own frictions only)\n");
+  for (int end = 0; end < 2; end++) {
+    const double times = (end ? physics->mu_high : physics->mu_low) / physics->mu;
+    thr_text_printf(text, end ? "; with %.3g, %.3g: " : "               with bead on bead %.3g, foot on ground %.3g: ",
+                    times * physics->mu_bead, times * physics->mu_ground);
+    if (isnan(band[end]))
+      thr_text_append(text, "not decided");
+    else if (!isfinite(band[end]))
+      thr_text_append(text, "it falls");
+    else if (stretch)
+      put_longer(text, evaluation, band[end]);
+    else
+      thr_text_printf(text, "%.4g of the tensions", band[end]);
+  }
+  thr_text_append(text, " are needed (each proved at its own frictions only)\n");
 }
 
 /* Does it stand after the schedule? */
 static void put_after(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval)
 {
   const thr_holding *after = &eval->after;
-  if (eval->stretch.present) put_stretch(text, evaluation, eval);
+  if (eval->stretch.present) put_stretch(text, evaluation, eval), put_after_band(text, evaluation, eval);
   if (!after->present) return;
   thr_text_append(text, "after it       ");
   if (after->upper <= 1)
@@ -387,6 +420,7 @@ static void put_after(thr_text *text, const thr_evaluation *evaluation, const th
     thr_text_printf(text, "an equilibrium may exist or not: between %.4g and %.4g of the tensions", after->lower, after->upper);
   if (isfinite(eval->let_down)) thr_text_printf(text, "; with all ends let down to %.3g N, too", eval->let_down);
   thr_text_append(text, "\n");
+  put_after_band(text, evaluation, eval);
 }
 
 void erect_put(thr_text *text, const thr_erect *erect)
@@ -413,10 +447,10 @@ static void put_structure(thr_text *text, const eval_view *view, const thr_plan 
   const thr_holding *holding = &eval->holding;
   if (!holding->present) return;
   put_holding(text, eval);
-  put_bead_band(text, &plan->evaluation, eval->band_beads);
+  put_bead_band(text, &plan->evaluation, eval);
   if (holding->first_bead >= 0)
     thr_text_printf(text, "just below     bead %s moves fastest (collapse mechanism)\n", plan->frame.name[holding->first_bead]);
-  if (view->loaded) load_put(text, &plan->frame, eval);
+  if (view->loaded) load_put(text, plan, eval);
   if (!view->simulated) return;
   if (eval->settle.present)
     put_settle(text, plan, &eval->settle, eval->after.present);

@@ -2,10 +2,25 @@
 #include "cli/print/load_words.h"
 #include "eval/structure/holding.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/standing.h"
 
 #include <math.h>
+#include <stdio.h>
 
-static void put_one(thr_text *text, const thr_frame *frame, const thr_carry *carry)
+/* What is too much at the ends of the band of the frictions of beads and ground; nothing where that was not asked. */
+static void put_band(thr_text *text, const double band[2], bool banded)
+{
+  for (int end = 0; end < 2 && banded; end++)
+    if (isnan(band[end]))
+      thr_text_append(text, "         -  ");
+    else if (isfinite(band[end]))
+      thr_text_printf(text, "%10.4g  ", band[end]);
+    else
+      thr_text_append(text, "      none  ");
+}
+
+static void put_one(thr_text *text, const thr_frame *frame, const thr_carry *carry, const double band[2], bool banded)
 {
   if (carry->first_bead < 0) {
     thr_text_append(text, "not decided: more than cords can tell, or than the solver's numbers can\n");
@@ -17,39 +32,67 @@ static void put_one(thr_text *text, const thr_frame *frame, const thr_carry *car
   } else if (carry->beyond > 0)
     thr_text_printf(text, isfinite(carry->beyond) ? "%10.4g  %10.4g  " : "%10.4g        none  ", carry->carried, carry->beyond);
   else
-    thr_text_append(text, "it does not stand as it is  ");
+    thr_text_append(text, "does not stand as it is ");
+  put_band(text, band, banded);
   thr_text_append_clean(text, frame->name[carry->first_bead]);
   thr_text_append(text, "\n");
 }
 
-/* The pull that carries all of it. */
-static void put_needed(thr_text *text, const thr_holding *loaded)
+/* The pull that carries all of it, and with other frictions. */
+static void put_needed(thr_text *text, const thr_physics *physics, const thr_holding *loaded, const double band[2])
 {
   thr_text_append(text, "\nload           ");
   if (isfinite(loaded->upper))
-    thr_text_printf(text, "all of it is carried with %.4g N at all ends; less than %.4g N is too little (proved)\n",
-                    loaded->upper, loaded->lower);
+    thr_text_printf(text, "all of it is carried with %.4g N at all ends; less than %.4g N is too little (proved)", loaded->upper,
+                    loaded->lower);
   else if (!isfinite(loaded->lower))
-    thr_text_append(text, "no pull carries all of it: something gives way however hard the cords are pulled (proved)\n");
+    thr_text_append(text, "no pull carries all of it: something gives way however hard the cords are pulled (proved)");
   else
-    thr_text_append(text, "whether any pull carries all of it is not decided\n");
+    thr_text_append(text, "whether any pull carries all of it is not decided");
+  for (int end = 0; end < 2 && !isnan(band[0]) && !isnan(band[1]); end++) {
+    const double times = (end ? physics->mu_high : physics->mu_low) / physics->mu;
+    thr_text_printf(text, end ? "; %.3g, %.3g: " : "; with bead on bead %.3g, foot on ground %.3g: ", times * physics->mu_bead,
+                    times * physics->mu_ground);
+    thr_text_printf(text, isfinite(band[end]) ? "%.4g N" : "no pull does", band[end]);
+  }
+  thr_text_append(text, "\n");
 }
 
-void load_put(thr_text *text, const thr_frame *frame, const thr_eval *eval)
+void load_put(thr_text *text, const thr_plan *plan, const thr_eval *eval)
 {
-  put_needed(text, &eval->loaded);
-  thr_text_append(text, "with equal pulls at all ends, while the cords are drawn in, so many times the load:\n"
-                        "  pull (N)     carried    too much  moves first\n");
+  const thr_frame *frame = &plan->frame;
+  const thr_physics *physics = &plan->evaluation.physics;
+  bool banded = false;
+  for (int i = 0; i < eval->n_carries; i++)
+    banded |= !isnan(eval->carries[i].band_beads[0]) || !isnan(eval->carries[i].band_beads[1]);
+  put_needed(text, physics, &eval->loaded, eval->band_beads[THR_ASKED_LOADED]);
+  thr_text_printf(text, "with equal pulls at all ends, while the cords are drawn in, so many times the load%s:\n",
+                  banded ? "; at: what is too much with such friction of bead on bead, and of the ground in proportion" : "");
+  thr_text_append(text, "  pull (N)     carried    too much  ");
+  for (int end = 0; end < 2 && banded; end++) {
+    char cell[40];
+    snprintf(cell, sizeof cell, "at %.3g", physics->mu_bead * (end ? physics->mu_high : physics->mu_low) / physics->mu);
+    thr_text_printf(text, "%10s  ", cell);
+  }
+  thr_text_append(text, "moves first\n");
   for (int i = 0; i < eval->n_carries; i++) {
     thr_text_printf(text, "%10.4g  ", eval->carries[i].pull);
-    put_one(text, frame, &eval->carries[i].carry);
+    put_one(text, frame, &eval->carries[i].carry, eval->carries[i].band_beads, banded);
   }
   if (!eval->after.present && !eval->stretch.present) return;
   thr_text_append(text, " afterwards ");
-  put_one(text, frame, &eval->after_carries);
+  put_one(text, frame, &eval->after_carries, eval->band_beads[THR_ASKED_CARRIED_AFTER], banded);
 }
 
-static void put_members(thr_writer *writer, const thr_frame *frame, const thr_carry *carry)
+static void put_band_json(thr_writer *writer, const double band[2])
+{
+  thr_write_array(writer, "band_beads");
+  thr_write_number(writer, NULL, band[0]);
+  thr_write_number(writer, NULL, band[1]);
+  thr_write_close(writer);
+}
+
+static void put_members(thr_writer *writer, const thr_frame *frame, const thr_carry *carry, const double band[2])
 {
   const bool decided = carry->first_bead >= 0;
   thr_write_number(writer, "carried", decided ? carry->carried : NAN);
@@ -58,6 +101,7 @@ static void put_members(thr_writer *writer, const thr_frame *frame, const thr_ca
     thr_write_string(writer, "first_bead", frame->name[carry->first_bead]);
   else
     thr_write_null(writer, "first_bead");
+  put_band_json(writer, band);
 }
 
 void load_put_json(thr_writer *writer, const thr_frame *frame, const thr_eval *eval)
@@ -66,17 +110,18 @@ void load_put_json(thr_writer *writer, const thr_frame *frame, const thr_eval *e
   thr_write_object(writer, "load");
   thr_write_number(writer, "needs", eval->loaded.upper);
   thr_write_number(writer, "needs_at_least", eval->loaded.lower);
+  put_band_json(writer, eval->band_beads[THR_ASKED_LOADED]);
   thr_write_array(writer, "pulls");
   for (int i = 0; i < eval->n_carries; i++) {
     thr_write_object(writer, NULL);
     thr_write_number(writer, "pull", eval->carries[i].pull);
-    put_members(writer, frame, &eval->carries[i].carry);
+    put_members(writer, frame, &eval->carries[i].carry, eval->carries[i].band_beads);
     thr_write_close(writer);
   }
   thr_write_close(writer);
   if (eval->after.present || eval->stretch.present) {
     thr_write_object(writer, "after");
-    put_members(writer, frame, &eval->after_carries);
+    put_members(writer, frame, &eval->after_carries, eval->band_beads[THR_ASKED_CARRIED_AFTER]);
     thr_write_close(writer);
   }
   thr_write_close(writer);

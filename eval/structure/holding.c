@@ -618,7 +618,7 @@ static thr_status carry_nothing(const thr_beads *beads, const thr_frame *frame, 
 }
 
 thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                             const double (*load)[3], const thr_limits *limits, thr_carry *out, thr_err *err)
+                             const double (*load)[3], bool want_carried, const thr_limits *limits, thr_carry *out, thr_err *err)
 {
   thr_holding found = {0};
   task t = task_of(beads, frame, physics, press, limits);
@@ -626,7 +626,7 @@ thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, con
   t.carries = true;
   t.round &= beads->n_rises == 0;
   *out = (thr_carry){0};
-  thr_status st = hold(&t, true, &found, NULL, err);
+  thr_status st = hold(&t, want_carried, &found, NULL, err);
   if (!st)
     *out = (thr_carry){.beyond = found.lower, .carried = found.upper, .first_bead = found.first_bead, .velocity = found.velocity};
   return st == THR_ESOLVER && beads->n_rises == 0 ? carry_nothing(beads, frame, physics, press, load, limits, out, err) : st;

@@ -50,10 +50,11 @@ typedef struct {
 
 /* press: thr_holding_press of tensions in N. load: N, [n_beads], acts at the nodes, beside the weights; beads->load is left out.
  * Where beads->rise tells of knotted cord, what is too much is so whatever its tension grows to, and with beads->strength within
- * that; carried is what the tensions do that cords have then, else the least ones.
+ * that; carried (0 unless it is wanted) is what the tensions do that cords have then, else the least ones.
  * THR_ESOLVER if it is not decided: among others where no multiple is too much (a foot pushed into the ground). */
 thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                             const double (*load)[3], const thr_limits *limits, thr_carry *out, thr_err *err) THR_MUST_CHECK;
+                             const double (*load)[3], bool want_carried, const thr_limits *limits, thr_carry *out,
+                             thr_err *err) THR_MUST_CHECK;
 /* press: thr_holding_press of tensions in N, which are the least that the cords have. Where beads->rise tells of knotted cord,
  * tension grows as it stretches, as friction lets it: lower and upper are N m, the sum of what its passes have grown by, times
  * their lengths, that is needed; beads->load is left out. more[n_rises] receives what they have grown by at upper, N.

@@ -230,27 +230,78 @@ static thr_status press_of(const thr_cord *cord, const thr_evaluation *evaluatio
 /* What the tensions of such cords may be multiplied by. Of all friction states with so much at the ends those that keep most
  * press most, and to press more never harms: an equilibrium with some tensions taken smaller is one. */
 static thr_status hold_state(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, state which, double force,
-                             const thr_limits *limits, const thr_evaluation *evaluation, thr_holding *out, thr_err *err)
+                             bool want_upper, const thr_limits *limits, const thr_evaluation *evaluation, thr_holding *out,
+                             thr_err *err)
 {
   double *press = thr_calloc((size_t)beads->n_faces, sizeof *press);
   thr_status st = press ? press_of(cord, evaluation, which, force, press, err) : thr_nomem(err);
-  if (!st) st = thr_holding_pull(beads, frame, &evaluation->physics, press, true, limits, out, err);
+  if (!st) st = thr_holding_pull(beads, frame, &evaluation->physics, press, want_upper, limits, out, err);
   free(press);
   return st;
 }
 
 /* What of the load such cords carry; first_bead -1 where that is not decided. */
 static thr_status carry_state(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, state which, double force,
-                              const double (*load)[3], const thr_limits *limits, const thr_evaluation *evaluation, thr_carry *out,
-                              thr_err *err)
+                              const double (*load)[3], bool want_carried, const thr_limits *limits,
+                              const thr_evaluation *evaluation, thr_carry *out, thr_err *err)
 {
   thr_err why = {0};
   double *press = thr_calloc((size_t)beads->n_faces, sizeof *press);
   thr_status st = press ? press_of(cord, evaluation, which, force, press, &why) : thr_nomem(&why);
-  if (!st) st = thr_holding_carry(beads, frame, &evaluation->physics, press, load, limits, out, &why);
+  if (!st) st = thr_holding_carry(beads, frame, &evaluation->physics, press, load, want_carried, limits, out, &why);
   free(press);
   if (st) *out = (thr_carry){.first_bead = -1};
   return st == THR_OK || st == THR_ESOLVER ? THR_OK : thr_fail(err, st, "%s", why.text);
+}
+
+/* ---- the frictions of beads and ground, which are estimates ---- */
+
+/* Is it worth to ask again at both ends of their band? */
+static bool has_bands(const thr_evaluation *record, const thr_beads *beads)
+{
+  return beads->n_beads <= BAND_LARGEST && record->physics.mu > 0;
+}
+
+/* The record, borrowed, with the frictions at an end of their band: as that of the cords, in proportion. */
+static thr_evaluation at_end(const thr_evaluation *record, int end)
+{
+  thr_evaluation other = *record;
+  const double times = (end ? record->physics.mu_high : record->physics.mu_low) / record->physics.mu;
+  other.physics.mu_bead *= times;
+  other.physics.mu_ground *= times;
+  return other;
+}
+
+/* What is proved, INFINITY where nothing holds it, NAN where that is not decided. Takes what was found. */
+static thr_status take_bound(thr_status st, thr_holding *found, const thr_err *why, double *bound, thr_err *err)
+{
+  *bound = st == THR_OK ? found->lower : st == THR_EINFEASIBLE ? INFINITY : NAN;
+  thr_holding_destroy(found);
+  return st == THR_OK || st == THR_EINFEASIBLE || st == THR_ESOLVER ? THR_OK : thr_fail(err, st, "%s", why->text);
+}
+
+/* The bound of hold_state at an end of the band. */
+static thr_status bound_state(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, state which, double force,
+                              int end, const thr_limits *limits, const thr_evaluation *record, double *bound, thr_err *err)
+{
+  const thr_evaluation other = at_end(record, end);
+  thr_holding found = {0};
+  thr_err why = {0};
+  const thr_status st = hold_state(frame, cord, beads, which, force, false, limits, &other, &found, &why);
+  return take_bound(st, &found, &why, bound, err);
+}
+
+/* What of the load is too much for carry_state at an end of the band, in the same words. */
+static thr_status bound_carried(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, state which, double force,
+                                const double (*load)[3], int end, const thr_limits *limits, const thr_evaluation *record,
+                                double *bound, thr_err *err)
+{
+  const thr_evaluation other = at_end(record, end);
+  thr_carry found = {0};
+  const thr_status st = carry_state(frame, cord, beads, which, force, load, false, limits, &other, &found, err);
+  *bound = !st && found.first_bead >= 0 ? found.beyond : NAN;
+  thr_carry_destroy(&found);
+  return st;
 }
 
 typedef struct {
@@ -270,7 +321,12 @@ static thr_status carry_all(const loading *l, const thr_limits *limits, thr_err 
   loaded.load = thr_calloc(n, sizeof *loaded.load);
   if (!loaded.load) return thr_nomem(err);
   memcpy(loaded.load, l->load, n * sizeof *loaded.load);
-  thr_status st = hold_state(l->frame, l->cord, &loaded, DRAWN_IN, 1, limits, &l->out->record, &l->out->loaded, &why);
+  thr_status st = hold_state(l->frame, l->cord, &loaded, DRAWN_IN, 1, true, limits, &l->out->record, &l->out->loaded, &why);
+  for (int end = 0; end < 2 && has_bands(&l->out->record, &loaded) && (st == THR_OK || st == THR_EINFEASIBLE); end++) {
+    const thr_status more = bound_state(l->frame, l->cord, &loaded, DRAWN_IN, 1, end, limits, &l->out->record,
+                                        &l->out->band_beads[THR_ASKED_LOADED][end], &why);
+    if (more) st = more;
+  }
   free(loaded.load);
   if (st == THR_EINFEASIBLE || st == THR_ESOLVER)
     l->out->loaded =
@@ -284,7 +340,12 @@ static thr_status carry_one(void *user, int job, const thr_limits *limits, thr_e
   const loading *l = user;
   if (job == 0) return carry_all(l, limits, err);
   thr_load_point *point = &l->out->carries[job - 1];
-  return carry_state(l->frame, l->cord, l->beads, DRAWN_IN, point->pull, l->load, limits, &l->out->record, &point->carry, err);
+  thr_status st =
+      carry_state(l->frame, l->cord, l->beads, DRAWN_IN, point->pull, l->load, true, limits, &l->out->record, &point->carry, err);
+  for (int end = 0; end < 2 && has_bands(&l->out->record, l->beads) && !st; end++)
+    st = bound_carried(l->frame, l->cord, l->beads, DRAWN_IN, point->pull, l->load, end, limits, &l->out->record,
+                       &point->band_beads[end], err);
+  return st;
 }
 
 /* The load against the pull. */
@@ -298,7 +359,7 @@ static thr_status carry_at_pulls(const thr_frame *frame, const thr_cord *cord, c
   if (!(out->carries = thr_calloc((size_t)n, sizeof *out->carries))) return thr_nomem(err);
   out->n_carries = n;
   for (int i = 0; i < n; i++)
-    out->carries[i] = (thr_load_point){.pull = pull[i], .carry = {.first_bead = -1}};
+    out->carries[i] = (thr_load_point){.pull = pull[i], .carry = {.first_bead = -1}, .band_beads = {NAN, NAN}};
   loading l = {frame, cord, beads, options->load, out};
   return thr_threads_run(n + 1, carry_one, &l, limits, err);
 }
@@ -325,7 +386,7 @@ static thr_status stands_at(const thr_frame *frame, const thr_cord *cord, const 
 {
   thr_holding holding = {0};
   thr_err why = {0};
-  thr_status st = hold_state(frame, cord, beads, LET_DOWN, force, limits, evaluation, &holding, &why);
+  thr_status st = hold_state(frame, cord, beads, LET_DOWN, force, true, limits, evaluation, &holding, &why);
   *stands = st == THR_OK && holding.upper <= 1;
   *falls = st == THR_EINFEASIBLE || (st == THR_OK && holding.lower > 1);
   thr_holding_destroy(&holding);
@@ -428,6 +489,13 @@ static double raise_tensions(const thr_beads *beads, const double *more, double 
   return sum;
 }
 
+/* What cannot be decided is no failure of the rest: nothing is proved then, and no equilibrium found. */
+static thr_status undecided(thr_status st, const thr_err *why, thr_holding *out, thr_err *err)
+{
+  if (st == THR_ESOLVER) *out = (thr_holding){.present = true, .upper = INFINITY, .first_bead = -1};
+  return st == THR_OK || st == THR_EINFEASIBLE || st == THR_ESOLVER ? THR_OK : thr_fail(err, st, "%s", why->text);
+}
+
 /* What knotted cords have to stretch by. */
 static thr_status stretch(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, const thr_limits *limits,
                           thr_eval *out, thr_err *err)
@@ -450,8 +518,15 @@ static thr_status stretch(const thr_frame *frame, const thr_cord *cord, const th
     out->stretch.lower = out->stretch.upper = INFINITY;
     out->stretch.first_bead = -1;
   }
+  st = undecided(st, &why, &out->stretch, err);
+  for (int end = 0; end < 2 && has_bands(evaluation, beads) && !st; end++) {
+    const thr_evaluation other = at_end(evaluation, end);
+    thr_holding found = {0};
+    st = thr_holding_stretch(beads, frame, &other.physics, press, limits, &found, more, &why);
+    st = take_bound(st, &found, &why, &out->band_beads[THR_ASKED_STRETCH][end], err);
+  }
   thr_scratch_free(&own);
-  return st && st != THR_EINFEASIBLE ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  return st;
 }
 
 thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
@@ -466,10 +541,13 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, con
   const bool knotted = beads.n_rises > 0;
   if (knotted) st = stretch(frame, cord, &beads, limits, out, err);
   if (!st && !knotted) {
-    st = hold_state(frame, cord, &beads, LET_DOWN, INFINITY, limits, evaluation, &out->after, &why);
+    st = hold_state(frame, cord, &beads, LET_DOWN, INFINITY, true, limits, evaluation, &out->after, &why);
     if (st == THR_EINFEASIBLE)
       out->after = (thr_holding){.present = true, .lower = INFINITY, .upper = INFINITY, .first_bead = -1};
-    st = st && st != THR_EINFEASIBLE ? thr_fail(err, st, "%s", why.text) : THR_OK;
+    st = undecided(st, &why, &out->after, err);
+    for (int end = 0; end < 2 && has_bands(evaluation, &beads) && !st; end++)
+      st = bound_state(frame, cord, &beads, LET_DOWN, INFINITY, end, limits, evaluation, &out->band_beads[THR_ASKED_AFTER][end],
+                       err);
   }
   if (!st && !knotted && out->after.upper <= 1 && beads.n_beads <= BAND_LARGEST) {
     st = let_down(frame, cord, &beads, limits, evaluation, false, &out->let_down, err);
@@ -480,15 +558,19 @@ thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, con
     }
   }
   if (!st && options->load)
-    st = carry_state(frame, cord, &beads, LET_DOWN, INFINITY, options->load, limits, evaluation, &out->after_carries, err);
+    st = carry_state(frame, cord, &beads, LET_DOWN, INFINITY, options->load, true, limits, evaluation, &out->after_carries, err);
   if (!st && options->load && knotted && !(options->strength > 0) &&
       out->after_carries.first_bead < 0) { /* no load is too much, however tight they get */
     beads.n_rises = 0;
-    st = carry_state(frame, cord, &beads, LET_DOWN, INFINITY, options->load, limits, evaluation, &out->after_carries, err);
+    st = carry_state(frame, cord, &beads, LET_DOWN, INFINITY, options->load, true, limits, evaluation, &out->after_carries, err);
     free(out->after_carries.velocity);
     out->after_carries.velocity = NULL;
     out->after_carries.beyond = INFINITY;
   }
+  for (int end = 0; end < 2 && options->load && isfinite(out->after_carries.beyond) && has_bands(evaluation, &beads) && !st;
+       end++)
+    st = bound_carried(frame, cord, &beads, LET_DOWN, INFINITY, options->load, end, limits, evaluation,
+                       &out->band_beads[THR_ASKED_CARRIED_AFTER][end], err);
   thr_scratch_free(&own);
   thr_beads_destroy(&beads);
   return st;
@@ -543,24 +625,30 @@ static thr_status band_end(const thr_frame *frame, const thr_cord *cord, const t
   return st;
 }
 
-/* Below which pull nothing holds at so many times the frictions of beads and ground. */
-static thr_status hold_beads(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double times,
-                             const thr_limits *limits, const thr_evaluation *evaluation, const double *const *tension,
-                             double *out, thr_err *err)
+/* Below which pull nothing holds at an end of the band of the frictions of beads and ground. */
+static thr_status hold_beads(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, int end,
+                             const thr_limits *limits, const thr_evaluation *record, const double *const *tension, double *bound,
+                             thr_err *err)
 {
   thr_err why = {0};
-  thr_holding holding = {0};
-  thr_evaluation other = *evaluation;
-  other.physics.mu_bead *= times;
-  other.physics.mu_ground *= times;
-  const thr_status st = hold(frame, cord, beads, false, limits, &other, tension, &holding, &why);
-  *out = st == THR_OK ? holding.lower : st == THR_EINFEASIBLE ? INFINITY : NAN;
-  thr_holding_destroy(&holding);
-  return st == THR_OK || st == THR_EINFEASIBLE || st == THR_ESOLVER ? THR_OK : thr_fail(err, st, "%s", why.text);
+  thr_holding found = {0};
+  const thr_evaluation other = at_end(record, end);
+  const thr_status st = hold(frame, cord, beads, false, limits, &other, tension, &found, &why);
+  return take_bound(st, &found, &why, bound, err);
 }
 
 /* What is asked of the cords as they are drawn in, each by itself. */
-typedef enum { PULL, EQUAL_PULLS, ANY_STATE, BAND_LOW, BAND_HIGH, BEADS_LOW, BEADS_HIGH, N_QUESTIONS } question;
+typedef enum {
+  PULL,
+  EQUAL_PULLS,
+  ANY_STATE,
+  BAND_LOW,
+  BAND_HIGH,
+  PULL_BEADS, /* at the lower end, and one further at the upper one */
+  EQUAL_BEADS = PULL_BEADS + 2,
+  ANY_BEADS = EQUAL_BEADS + 2,
+  N_QUESTIONS = ANY_BEADS + 2
+} question;
 
 typedef struct {
   const thr_frame *frame;
@@ -576,17 +664,22 @@ static thr_status answer(void *user, int job, const thr_limits *limits, thr_err 
 {
   const questions *q = user;
   const thr_evaluation *record = &q->out->record;
-  switch (q->asked[q->n_answered + job]) {
+  const int asked = (int)q->asked[q->n_answered + job], end = (asked - PULL_BEADS) % 2;
+  double(*band)[2] = q->out->band_beads;
+  switch (asked) {
   case PULL: return hold(q->frame, q->cord, q->beads, true, limits, record, q->tension, &q->out->holding, err);
-  case EQUAL_PULLS: return hold_state(q->frame, q->cord, q->beads, DRAWN_IN, 1, limits, record, &q->out->equal, err);
-  case ANY_STATE: return hold_state(q->frame, q->cord, q->beads, KEPT, 1, limits, record, &q->out->loosest, err);
+  case EQUAL_PULLS: return hold_state(q->frame, q->cord, q->beads, DRAWN_IN, 1, true, limits, record, &q->out->equal, err);
+  case ANY_STATE: return hold_state(q->frame, q->cord, q->beads, KEPT, 1, true, limits, record, &q->out->loosest, err);
   case BAND_LOW: return band_end(q->frame, q->cord, q->beads, record->physics.mu_low, limits, record, &q->out->band[0], err);
-  case BEADS_LOW:
-    return hold_beads(q->frame, q->cord, q->beads, record->physics.mu_low / record->physics.mu, limits, record, q->tension,
-                      &q->out->band_beads[0], err);
-  case BEADS_HIGH:
-    return hold_beads(q->frame, q->cord, q->beads, record->physics.mu_high / record->physics.mu, limits, record, q->tension,
-                      &q->out->band_beads[1], err);
+  case PULL_BEADS:
+  case PULL_BEADS + 1:
+    return hold_beads(q->frame, q->cord, q->beads, end, limits, record, q->tension, &band[THR_ASKED_HOLDING][end], err);
+  case EQUAL_BEADS:
+  case EQUAL_BEADS + 1:
+    return bound_state(q->frame, q->cord, q->beads, DRAWN_IN, 1, end, limits, record, &band[THR_ASKED_EQUAL][end], err);
+  case ANY_BEADS:
+  case ANY_BEADS + 1:
+    return bound_state(q->frame, q->cord, q->beads, KEPT, 1, end, limits, record, &band[THR_ASKED_ANY_STATE][end], err);
   default: return band_end(q->frame, q->cord, q->beads, record->physics.mu_high, limits, record, &q->out->band[1], err);
   }
 }
@@ -637,12 +730,13 @@ static thr_status answer_up_to(questions *q, int n, const thr_limits *limits, th
 /* As far as its size allows, most wanted first. */
 static void ask(questions *q)
 {
-  const bool small = q->beads->n_beads <= BAND_LARGEST;
+  const bool small = q->beads->n_beads <= BAND_LARGEST, equal = small && all_both(&q->out->record);
   q->asked[q->n++] = PULL;
-  if (small && all_both(&q->out->record)) q->asked[q->n++] = EQUAL_PULLS;
+  if (equal) q->asked[q->n++] = EQUAL_PULLS;
   q->asked[q->n++] = ANY_STATE;
   if (small) q->asked[q->n++] = BAND_LOW, q->asked[q->n++] = BAND_HIGH;
-  if (small && q->out->record.physics.mu > 0) q->asked[q->n++] = BEADS_LOW, q->asked[q->n++] = BEADS_HIGH;
+  for (int asked = PULL_BEADS; asked < N_QUESTIONS && has_bands(&q->out->record, q->beads); asked++)
+    if (equal || asked < EQUAL_BEADS || asked >= ANY_BEADS) q->asked[q->n++] = (question)asked;
 }
 
 static simulation simulation_of(const questions *q, thr_settle_options how)
@@ -680,6 +774,8 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_be
   const bool simulated = beads->n_beads <= thr_settle_largest(options->large) && !options->load && options->dynamics;
   questions q = {.frame = frame, .cord = cord, .beads = beads, .tension = tension, .out = out};
   out->band[0] = out->band[1] = NAN;
+  for (int i = 0; i < THR_N_ASKED; i++)
+    out->band_beads[i][0] = out->band_beads[i][1] = NAN;
   thr_status st = profiles(frame, cord, evaluation->physics.mu, evaluation, tension, err);
   ask(&q);
   if (!st) st = answer_up_to(&q, simulated ? 1 : q.n, limits, err);

@@ -203,7 +203,8 @@ START_TEST(knotted_cords_stretch_by_what_they_lack)
         thr_err err = {0};
         thr_status st = thr_holding_stretch(&m.beads, &m.frame, &m.physics, m.press, &no_limit, &h, more, &err);
         if (m.beads.strength > 0 && m.beads.strength < most && tension < m.beads.strength) {
-          ck_assert_msg(st == THR_EINFEASIBLE, "%d %g %d: %s (strength %g most %g)", n, tension, i, err.text, m.beads.strength, most);
+          ck_assert_msg(st == THR_EINFEASIBLE, "%d %g %d: %s (strength %g most %g)", n, tension, i, err.text, m.beads.strength,
+                        most);
           ck_assert(h.velocity != NULL);
         } else {
           ck_assert_msg(st == THR_OK, "%s", err.text);
@@ -592,7 +593,8 @@ START_TEST(loads_equal_a_plain_programme_by_simplex)
     double *press = calloc((size_t)m.frame.n_edges, sizeof *press);
     for (int e = 0; e < m.frame.n_edges; e++)
       press[e] = pull * m.press[e];
-    thr_status st = thr_holding_carry(&m.beads, &m.frame, &m.physics, press, (const double(*)[3])load, &no_limit, &carry, &err);
+    thr_status st =
+        thr_holding_carry(&m.beads, &m.frame, &m.physics, press, (const double(*)[3])load, true, &no_limit, &carry, &err);
     double carried = by_simplex(&m, false, (const double(*)[3])load, pull);
     m.physics.mu_bead /= cos(THR_PI / 8);
     m.physics.mu_ground /= cos(THR_PI / 8);
@@ -628,7 +630,8 @@ START_TEST(loads_below_the_holding_pull_are_decided_as_by_simplex)
     random_load(&m, &r, load);
     for (int e = 0; e < m.frame.n_edges; e++)
       press[e] = 0.5 * h.lower * m.press[e];
-    thr_status st = thr_holding_carry(&m.beads, &m.frame, &m.physics, press, (const double(*)[3])load, &no_limit, &carry, &err);
+    thr_status st =
+        thr_holding_carry(&m.beads, &m.frame, &m.physics, press, (const double(*)[3])load, true, &no_limit, &carry, &err);
     m.physics.mu_bead /= cos(THR_PI / 8);
     m.physics.mu_ground /= cos(THR_PI / 8);
     const double beyond = by_simplex(&m, true, (const double(*)[3])load, 0.5 * h.lower);
