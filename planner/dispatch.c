@@ -13,6 +13,9 @@ static const struct {
 
 static const double hard_seconds = 20; /* of any objective: tied cords, or few cords of little pull, are an integer programme */
 
+/* Of cords within a pull unless it is asked how near they have to be: its planner counts its work by the seconds it is given. */
+static const double brief_seconds = 2;
+
 /* Of the time that is left when a step begins. */
 static const double part[THR_N_STEPS] = {
     [THR_STEP_FIRST] = 0.2,           [THR_STEP_TIED] = 0.5,
@@ -65,8 +68,9 @@ thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step)
 
 double thr_dispatch_usual_seconds(const thr_request *options)
 {
-  bool hard = options->joint == THR_JOINT_TUBE || options->max_pull > 0;
-  return hard ? hard_seconds : objectives[row_of(options)].seconds;
+  if (options->joint == THR_JOINT_TUBE) return hard_seconds;
+  if (options->max_pull > 0) return options->gap < 0 ? brief_seconds : hard_seconds;
+  return objectives[row_of(options)].seconds;
 }
 
 double thr_dispatch_work(const thr_request *options)
@@ -78,8 +82,9 @@ double thr_dispatch_work(const thr_request *options)
 
 double thr_dispatch_patience(const thr_request *options)
 {
-  const double busy = 10;
-  return thr_dispatch(options) == thr_planner_pull || thr_dispatch_work(options) > 0 ? busy : 1;
+  const double busy = 10, where_none_is_found = 5;
+  if (thr_dispatch(options) == thr_planner_pull) return where_none_is_found * busy;
+  return thr_dispatch_work(options) > 0 ? busy : 1;
 }
 
 double thr_dispatch_search_seconds(double seconds, bool compared)

@@ -27,6 +27,9 @@
  * of that second up to twice as long. */
 static const double work_to_find = 1.2, work_to_choose = 1.2, work_to_anneal = 0.5, work_to_serve = 0.4;
 
+/* How many times as much work is done once more where the usual work found no cords, and they were not proved too few. */
+static const double where_none_is_found = 10;
+
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
@@ -520,6 +523,13 @@ thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, 
     return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
   thr_status st = find_numbers(&x, limits, &why, &found);
+  thr_request patient = *options;
+  patient.time_limit *= where_none_is_found;
+  if (!st && !why.code && !found.code && limits->usual && x.found.n_cords == 0 && x.claim.excluded < options->cords) {
+    x.o = &patient;
+    st = find_numbers(&x, limits, &why, &found);
+    x.o = options;
+  }
   if (why.code) { /* of a component: there is no plan, perhaps of another one not even without the limit */
     thr_plan some;
     thr_err none = {0};
