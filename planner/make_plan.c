@@ -26,9 +26,11 @@ static thr_status sign(thr_plan *plan, thr_err *err)
   return (plan->generator = thr_strdup(versions)) ? THR_OK : thr_nomem(err);
 }
 
-/* Where no crossing is allowed cords may turn more, or be less even, than what the planner judged. */
+/* Where no crossing is allowed cords may turn more, or be less even, than what the planner judged; ordered for the hand they may
+ * be easier to pull. */
 static bool is_to_be_judged(const thr_plan *plan)
 {
+  if (plan->turning.present && thr_wants_pull(&plan->options)) return true;
   return plan->options.crossings == THR_CROSSINGS_FORBID &&
          (plan->turning.present || (plan->cords_claim.present && thr_wants_balance(&plan->options)));
 }
@@ -40,9 +42,10 @@ static thr_status judge(thr_plan *plan, thr_status *st, thr_err *why, thr_err *e
   plan->turning = (thr_turning_claim){0};
   thr_status failed = thr_planner_prove_turning(plan, &claim, err);
   thr_turning_proof_destroy(&claim.tree);
+  if (failed || (*st == THR_ELIMIT && (plan->options.max_pull > 0 || plan->options.max_length > 0))) return failed;
   *why = (thr_err){0};
-  if (!failed) *st = thr_planner_verdict(plan, why);
-  return failed;
+  *st = thr_planner_verdict(plan, why);
+  return THR_OK;
 }
 
 /* How near to its bound a plan ends a search: small frameworks go on to the proof, unless a gap was asked for. */
@@ -70,8 +73,8 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, con
     st = thr_planner_verdict(plan, &why);
   }
   if (plan->n_cords > 0 && !finished) finished = thr_plan_uncross(plan, err);
-  if (plan->n_cords > 0 && !finished && is_to_be_judged(plan)) finished = judge(plan, &st, &why, err);
   if (plan->n_cords > 0 && !finished) finished = thr_plan_order(plan, err);
+  if (plan->n_cords > 0 && !finished && is_to_be_judged(plan)) finished = judge(plan, &st, &why, err);
   if (plan->n_cords > 0 && !finished) finished = sign(plan, err);
   if (st == THR_ELIMIT && !finished && thr_planner_is_enough(plan, limits)) st = THR_OK;
   if (finished)

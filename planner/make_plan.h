@@ -41,7 +41,8 @@ const char *thr_claim_name(int claim);
 
 /* Reads back the text of a plan that was just written, which takes the plan's place, and checks the whole of it, as `thread
  * check` does. Of claims that do not hold as few as may be are dropped; *dropped receives their sum, 0: all hold. Then the text
- * is written anew. name: of the file, for messages. THR_ESOLVER: the plan is broken without any claim, too; it is then empty. */
+ * is written anew, and err says what the check said first. name: of the file, for messages. THR_ESOLVER: the plan is broken
+ * without any claim, too; it is then empty. */
 thr_status thr_plan_confirm(thr_plan *plan, thr_text *text, const char *name, int *dropped, thr_err *err) THR_MUST_CHECK;
 
 #endif

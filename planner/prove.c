@@ -175,6 +175,7 @@ thr_status thr_plan_confirm(thr_plan *plan, thr_text *text, const char *name, in
   plan->proof.confirmed = confirmed;
   plan->proof.unconfirmed = unconfirmed;
   if (*dropped == 0) return THR_OK;
+  *err = why;
   thr_text_destroy(text);
   thr_plan_write(plan, text);
   return text->failed ? thr_nomem(err) : THR_OK;

@@ -515,8 +515,8 @@ static int check_text(thr_text *text, const char *path, thr_plan *plan, int *cod
   }
   for (int claim = 1; claim <= THR_CLAIMS_ALL; claim *= 2)
     if (dropped & claim)
-      cli_error("a fault of this program: what it proved of %s does not pass its own check, and is left out",
-                thr_claim_name(claim));
+      cli_error("a fault of this program: what it proved of %s does not pass its own check, and is left out: %s",
+                thr_claim_name(claim), err.text);
   if (dropped) *code = EXIT_LIMIT;
   return EXIT_OK;
 }
