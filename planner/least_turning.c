@@ -239,7 +239,9 @@ static thr_status find_cords(const thr_frame *frame, const thr_request *options,
   const thr_limits first = thr_dispatch_share(limits, THR_STEP_LEAST);
   thr_status st = find_from_shortest(frame, options, s, &first, least, err);
   if (st && st != THR_ELIMIT) return st;
-  st = thr_even_turning(frame, seed, enough, limits, least, err);
+  const bool leaves_time = thr_wants_pull(options) && !limits->work; /* for what is to be proved of the pull */
+  const thr_limits share = leaves_time ? thr_limits_part(limits, 0.8) : *limits;
+  st = thr_even_turning(frame, seed, enough, &share, least, err);
   if (!st && thr_wants_pull(options)) st = thr_max_turning_pull(frame, limits, least, err);
   if (st) thr_least_destroy(least);
   return st;
@@ -254,14 +256,15 @@ static thr_status judge(const thr_frame *frame, const thr_request *options, cons
   thr_turning_claim claim = {.most_passes = least->task.most_passes, .length_limit = least->length_limit, .tree = least->proof};
   thr_err text = {0};
   least->proof = (thr_turning_proof){0};
+  if (thr_wants_pull(options)) thr_walk_proof_destroy(&claim.tree.walks); /* of the cord that turns most */
   thr_status st = thr_check_turning(frame, options, cord, n_cords, &claim, found, &text);
   found->tree = claim.tree;
   return thr_check_own(st, &text, err);
 }
 
 /* Takes cords and proof of least, and the certificates or the proof of s. */
-static thr_status assemble(const thr_frame *frame, const thr_request *options, thr_least *least, shortest_plan *s, thr_plan *plan,
-                           thr_err *err)
+static thr_status assemble(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_least *least,
+                           shortest_plan *s, thr_plan *plan, thr_err *err)
 {
   thr_status st = thr_plan_request(plan, frame, options, err);
   if (st) return st;
@@ -275,8 +278,9 @@ static thr_status assemble(const thr_frame *frame, const thr_request *options, t
     st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &s->solid, &plan->proof, err);
   plan->proof.slack_open = !thr_plan_within_slack(options, plan->metrics.length, plan->proof.lower_bound);
   least->length_limit = thr_planner_length_limit(plan, least->length_limit);
-  if (!st && options->turning.tour == THR_TOUR_LEAST)
-    st = judge(&plan->frame, &plan->options, plan->cord, plan->n_cords, least, &plan->turning, err);
+  if (st || options->turning.tour != THR_TOUR_LEAST) return st;
+  st = judge(&plan->frame, &plan->options, plan->cord, plan->n_cords, least, &plan->turning, err);
+  if (!st) st = thr_planner_pull_least(&plan->frame, &plan->options, plan->cord, plan->n_cords, limits, &plan->turning, err);
   return st;
 }
 
@@ -422,7 +426,7 @@ static thr_status plan_from(const thr_frame *frame, const thr_request *options, 
   if (st && st != THR_ELIMIT)
     st = thr_fail(err, st, "%s", unproved.text);
   else
-    st = assemble(frame, &any_pull, &least, &shortest, plan, err);
+    st = assemble(frame, &any_pull, limits, &least, &shortest, plan, err);
   if (!st || *missed) {
     thr_err kept = {0};
     const thr_status made = keep_length(frame, &any_pull, limits, plan, &kept);

@@ -939,6 +939,7 @@ class Model:
         weigh = lambda a, b: 0 if free else min(math.floor(Fraction(o.price(f, a, b)) * UNIT), math.inf if cut is None else cut)
         self.tied, self.need = o.tube, o.need
         self.cords = cords  # closed cords of a component at most
+        self.most_passes = most_passes
         self.most = [max(o.need[e], min(most_passes, o.most[e] or most_passes)) for e in range(f.m)]
         if o.ends == "counts":
             self.group, self.supply = list(range(f.n)), [(o.count.get(v, 0),) * 2 for v in range(f.n)]
@@ -2184,13 +2185,17 @@ class Walks:
 
 
 class PulledWalks(Walks):
-    """Walks with a turn before and after which they turn by no more than a pull overcomes, less their lengths. (Version 1: a pass.)"""
+    """Walks with a turn before and after which they turn by no more than a pull overcomes, less their lengths. (Version 1: a pass.)
+    any_pull: by no more than their prices say."""
 
-    def __init__(self, p):
+    def __init__(self, p, any_pull=False):
         f = p.frame
         self.old = p.options.old_pull
         super().__init__(p, {(h, k): math.floor(f.angle(h, k) * UNIT) for h in range(2 * f.m) for k in f.at[f.tail(h)] if h <= k})
         o = p.options
+        self.turning_allowed = -1
+        if any_pull:
+            return
         require(o.max_pull is not None and o.mu > 0, "proof.length.walks: there is no limit on the pull")
         limit = math.log(o.max_pull)
         self.turning_allowed = math.floor(math.ldexp((limit + 2e-9 * (1 + limit)) / o.mu, 44))
@@ -2262,11 +2267,48 @@ def largest_bound(p, model, number, place):
     return bound
 
 
-def sharpest_turn(f, o):
-    """Of cords that turn back at nodes with one edge only, with solid joints."""
-    if not o.tube and any(len(halves) == 1 for halves in f.at):
-        return math.pi
-    return min(math.pi, max((f.angle(a, b) for halves in f.at for a in halves for b in halves if a < b), default=0) + 1e-9)
+def all_half_turns(f, tube):
+    """Weights of the turns from half-edges of one node to others, and but for tubes back into them."""
+    return {(h, k): math.floor(f.angle(h, k) * UNIT) for h in range(2 * f.m) for k in f.at[f.tail(h)] if h <= k and (h < k or not tube)}
+
+
+def least_pull(p, model, largest, place):
+    """Of the turning on a side of some cord's cut turn, whatever the pull. largest: what is claimed of it."""
+    f, o = p.frame, p.options
+    walks = Walks(p, all_half_turns(f, o.tube))
+    bound = Fraction(walks.forced(True), UNIT)
+    cut = member(largest, "cut", "integer", place + ".largest", 1, math.floor(math.pi * UNIT), default=None)
+    if cut is not None:
+        other = Model(p, o.cords, model.most_passes, False, cut)
+        other.limit = model.limit
+        other.read({k: v for k, v in p.proof["turning"]["proof"].items() if k != "walks"}, place + ".proof")
+        all_turns = other.bound(place + ".proof")
+        require(all_turns is not None, f"{place}.proof: proves that there is no plan")
+        bound = max(bound, (each_turns(p, other, o.cords, all_turns) - (2 if p.closing else 1) * Fraction(cut, UNIT)) / 2)
+    if model.walks is not None:
+        require(not o.tube, f"{place}.proof.walks: with tube joints none are within a pull")
+        walks = PulledWalks(p, True)
+        walks.read(model.walks, place + ".proof.walks")
+        require(walks.bits_of_length == 0, f"{place}.proof.walks.bits: not 0")
+        count = o.cords if o.ends != "counts" else p.per_piece[walks.component]
+        require(walks.length(count, place + ".proof.walks") > 0, f"{place}.proof.walks: their prices prove nothing")
+        bound = max(bound, Fraction(walks.unit) * (walks.units + 1) / UNIT)
+    stated = member(largest, "lower_bound", "number", place + ".largest", 0)
+    stated -= 5e-10 * (1 + stated)
+    least = [sum(o.count.get(v, 0) for v in piece) // 2 if o.ends == "counts" else o.cords for piece in f.pieces]
+    if stated > bound and few_within(p, o, stated, least, [x + 1 for x in least]) != least:
+        bound = Fraction(stated)
+    return bound
+
+
+def each_turns(p, model, cords, all_turns):
+    """What some cord turns at least."""
+    f, o = p.frame, p.options
+    each = max(Fraction(0), Fraction(all_turns) / UNIT) / (cords * len(f.pieces))
+    for c, least in enumerate(model.bound_of):
+        counted = sum(o.count.get(v, 0) for v in f.pieces[c]) // 2 if o.ends == "counts" else cords
+        each = max(each, Fraction(least) / UNIT / (counted or cords))
+    return each
 
 
 def common_angle(f, most):
@@ -2317,9 +2359,7 @@ def check_turning(p):
     require(bound is not None, f"{place}.proof: proves that there is no plan")
     bound = max(Fraction(0), Fraction(bound) / UNIT)
     largest = member(claim, "largest", "object", place)
-    stated = member(largest, "lower_bound", "number", place + ".largest", 0)
-    free = sharpest_turn(f, o) + (math.pi if p.closing else 0) if o.pull else 0  # that a cord may turn by where no end slides over it
-    few, few_largest = few_edges_bounds(p, True, 2 * stated + free if o.pull else stated)
+    few, few_largest = few_edges_bounds(p, True, member(largest, "lower_bound", "number", place + ".largest", 0))
     bound = max(bound, few)
     if p.closing and o.cost in ("angle", "sine"):  # Fenchel 1929; sin(x / 2) >= x / pi
         bound = max(bound, Fraction(2 * math.pi if o.cost == "angle" else 2) * o.least * len(f.pieces))
@@ -2332,15 +2372,16 @@ def check_turning(p):
     check_claim(claim, Fraction(price), optimal, bound, 1, place)
     pairing = pairing_bound(p)
     require(member(claim, "pairing_bound", "number", place, 0) <= pairing + 1e-9 * (1 + pairing), f"{place}.pairing_bound: not {pairing}")
-    known(largest, "status price lower_bound", place + ".largest")
+    known(largest, "status price lower_bound" + (" cut" if o.pull else ""), place + ".largest")
     dearest = max(larger_part([f.angle(a, b) for a, b in cord.turns(False)], False) for cord in p.cords) if o.pull else max(prices)
     p.close(member(largest, "price", "number", place + ".largest"), dearest, scale, place + ".largest.price")
     number = len(p.cords) if o.ends == "counts" else o.cords * len(f.pieces)
     each = len(p.cords) if o.ends == "counts" else o.cords
-    share = max((Fraction(price) if optimal else bound) / number, few_largest, largest_bound(p, model, each, place + ".proof"))
-    share = round_up(whole, f.m, share)
     if o.pull:
-        share = round_up(whole, f.m, max(Fraction(0), (share - Fraction(free)) / 2))
+        share = least_pull(p, model, largest, place)
+    else:
+        share = max((Fraction(price) if optimal else bound) / number, few_largest, largest_bound(p, model, each, place + ".proof"))
+    share = round_up(whole, f.m, share)
     require(share - dearest <= rounding, f"{place}: some cord is proved to turn by {float(share)}, more than any does")
     attained = dearest - share <= rounding
     check_claim(largest, Fraction(dearest), attained, share, 1, place + ".largest", gap=False)
@@ -2434,8 +2475,7 @@ def too_few(p, claim, place):
     allowed = (limit + 2 * TOLERANCE * (1 + limit)) / Fraction(o.mu)
     bound = Fraction(0)  # on a side of a cut turn
     if not o.old_pull:
-        walks = Walks(other, {(h, k): math.floor(f.angle(h, k) * UNIT) for h in range(2 * f.m) for k in f.at[f.tail(h)]
-                              if h <= k and (h < k or not o.tube)})
+        walks = Walks(other, all_half_turns(f, o.tube))
         bound = Fraction(walks.forced(True), UNIT)
     if "proof" in claim:
         most = member(claim, "most_passes", "integer", place, 4 * max(o.need) + 4 if o.old_pull else 10**6, 10**6)
@@ -2454,9 +2494,7 @@ def too_few(p, claim, place):
             bound = each / 2
         else:
             require(model.walks is None, f"{place}.proof.walks: not within a pull")
-            for c, least in enumerate(model.bound_of):
-                counted = sum(o.count.get(v, 0) for v in f.pieces[c]) // 2 if o.ends == "counts" else cords
-                each = max(each, Fraction(least) / UNIT / (counted or cords))
+            each = each_turns(other, model, cords, all_turns)
             bound = max(bound, (each - ends * Fraction(cut, UNIT)) / 2)
     least = [sum(o.count.get(v, 0) for v in piece) // 2 if o.ends == "counts" else cords for piece in f.pieces]
     fits = bound <= allowed and (o.old_pull or few_within(p, o, float(allowed), least, [x + 1 for x in least]) == least)
@@ -3442,7 +3480,7 @@ def terms(p):
         words += bounded % ("fewest cords", claims["pull"]["most_passes"]) + (back if p.options.old_pull else "")
     if "turning" in claims:
         limit = claims["turning"].get("length_limit")
-        words += bounded % ("turning", claims["turning"]["most_passes"]) + back
+        words += bounded % ("turning", claims["turning"]["most_passes"]) + back + (" (for the pull anywhere)" if o.pull else "")
         words += f", at most {limit:.6f} {f.unit}" if limit is not None else ""
     return words
 

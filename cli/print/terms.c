@@ -67,8 +67,8 @@ static void put_kind(thr_text *text, const thr_plan *plan)
     thr_text_printf(text, "; for the fewest cords: at most %d passes of an edge%s", plan->pull_claim.most_passes,
                     plan->options.old_pull ? ", back only at nodes with one edge" : "");
   if (!plan->turning.present) return;
-  thr_text_printf(text, "; for the turning: at most %d passes of an edge, back only at nodes with one edge",
-                  plan->turning.most_passes);
+  thr_text_printf(text, "; for the turning: at most %d passes of an edge, back only at nodes with one edge%s",
+                  plan->turning.most_passes, thr_wants_pull(&plan->options) ? " (for the pull anywhere)" : "");
   if (plan->turning.length_limit >= 0) thr_text_printf(text, ", at most %.6f %s", plan->turning.length_limit, plan->frame.units);
 }
 

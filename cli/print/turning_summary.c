@@ -202,7 +202,8 @@ static void put_restriction(thr_text *text, const thr_plan *plan)
   thr_text_printf(text, "         among threadings with at most %d %s over an edge", claim->most_passes,
                   cli_plural(claim->most_passes, "pass", "passes"));
   if (claim->length_limit >= 0) thr_text_printf(text, ", cord up to %.7g %s", claim->length_limit, plan->frame.units);
-  thr_text_append(text, " and U-turns only at beads with one interface\n");
+  thr_text_printf(text, " and U-turns only at beads with one interface%s\n",
+                  thr_wants_pull(&plan->options) ? " (of the pull: anywhere)" : "");
   put_shortest(text, plan);
 }
 

@@ -167,8 +167,10 @@ static double most_turned(const thr_request *options)
   return (most + 2 * rounding * (1 + most)) / options->physics.mu;
 }
 
-/* Are so many cords too few for some component of few edges? */
-static thr_status few_too_few(const thr_frame *frame, const thr_request *options, int cords, bool *too_few, thr_err *err)
+/* Are so many cords too few for some component of few edges, if turns on either side of a cut turn come to `allowed` rad at most?
+ */
+static thr_status few_too_few(const thr_frame *frame, const thr_request *options, int cords, double allowed, bool *too_few,
+                              thr_err *err)
 {
   thr_scratch own = {0};
   const size_t n = (size_t)frame->n_nodes; /* no more components than that */
@@ -181,7 +183,7 @@ static thr_status few_too_few(const thr_frame *frame, const thr_request *options
     fewest[c] = options->ends == THR_ENDS_COUNTS ? most : cords;
     enough[c] = fewest[c] + 1;
   }
-  if (!st) st = thr_few_edges_within(frame, options, most_turned(options), enough, fewest, err);
+  if (!st) st = thr_few_edges_within(frame, options, allowed, enough, fewest, err);
   for (int c = 0; c < components && !st; c++)
     *too_few |= fewest[c] == enough[c];
   thr_scratch_free(&own);
@@ -200,7 +202,44 @@ thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options,
   thr_status st = find_side(frame, options, &task, &claim->tree, &side, err);
   free(end_allowed);
   *too_few = !st && side > most_turned(options);
-  if (!st && !*too_few && !options->old_pull) st = few_too_few(frame, options, cords, too_few, err);
+  if (!st && !*too_few && !options->old_pull) st = few_too_few(frame, options, cords, most_turned(options), too_few, err);
+  return st;
+}
+
+thr_status thr_check_pulled_least(const thr_frame *frame, const thr_request *options, const thr_turning_task *task,
+                                  const thr_turning_claim *claim, double *side, thr_err *err)
+{
+  thr_turning_proof tree = claim->tree;
+  thr_turning_task cut = *task;
+  thr_turning_columns columns;
+  double walks = 0;
+  tree.walks = (thr_walk_proof){0};
+  cut.cut = claim->cut;
+
+  /* Reads the tree where turns count for no more than the cut, and takes what single edges force. */
+  thr_status st = bound_by_edges(frame, task, side, err);
+  if (!st && claim->cut > 0) {
+    st = thr_turning_columns_init(&columns, frame, &cut, err);
+    if (!st) st = bound_by_tree(&columns, &tree, side, err);
+    thr_turning_columns_destroy(&columns);
+  }
+
+  /* Prices of walks. */
+  if (!st && claim->tree.walks.unit > 0) {
+    if (task->tube) return thr_fail(err, THR_EVIOLATED, "walks: with tube joints none are within a pull");
+    st = thr_turning_columns_init(&columns, frame, task, err);
+    const int component = st ? 0 : thr_walk_component(&columns, &claim->tree.walks);
+    if (!st)
+      st = thr_walk_pull_least(&columns, &claim->tree.walks, thr_check_cords_of(&columns, component, task->cords), &walks, err);
+    *side = fmax(*side, walks);
+    thr_turning_columns_destroy(&columns);
+  }
+
+  /* All sets of cords through few edges decide whether what is claimed is so. */
+  bool too_few = false;
+  const double stated = claim->largest_bound - 5e-10 * (1 + claim->largest_bound);
+  if (!st && stated > *side) st = few_too_few(frame, options, options->cords, stated, &too_few, err);
+  if (too_few) *side = stated;
   return st;
 }
 

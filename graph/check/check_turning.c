@@ -231,30 +231,6 @@ static double pulled_turning(const thr_frame *frame, const thr_cord *cord)
   return walk.larger;
 }
 
-/* The sharpest turn that cords of this kind may have, rad: back at a node with one edge, if joints are solid. O(sum of
- * degrees^2). */
-static double sharpest_turn(const walked *w)
-{
-  const thr_frame *frame = w->f;
-  double most = 0;
-  for (int v = 0; v < frame->n_nodes; v++) {
-    const int n = thr_degree(frame, v), *half = &frame->half[frame->first[v]];
-    if (n == 1 && w->o->joint != THR_JOINT_TUBE) return THR_PI;
-    for (int i = 0; i < n; i++)
-      for (int k = i + 1; k < n; k++)
-        most = fmax(most, thr_check_angle(frame, half[i] ^ 1, half[k]));
-  }
-  return fmin(THR_PI, most + 1e-9);
-}
-
-/* Some cord turns by so much; so the pull at one of its ends has to overcome half of that, less the turn that neither end slides
- * over, and less that at the ends of a closed cord. */
-static double pull_bound(const walked *w, double turning)
-{
-  const double closing = w->o->ends == THR_ENDS_CLOSED ? THR_PI : 0;
-  return fmax(0, (turning - closing - sharpest_turn(w)) / 2);
-}
-
 /* ---- turns that are all multiples of one angle ---- */
 
 enum { MOST_PARTS = 180, SEEN = 16 };
@@ -342,8 +318,7 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, double 
 
 /* ---- the claim ---- */
 
-/* Cords that component k has at most, where all have so many at most: given ends tell. */
-static int cords_of(const thr_turning_columns *columns, int k, int cords)
+int thr_check_cords_of(const thr_turning_columns *columns, int k, int cords)
 {
   int ends = 0;
   for (int v = 0; v < columns->f->n_nodes && columns->task->end_count; v++)
@@ -362,7 +337,7 @@ thr_status thr_check_shares(const thr_turning_columns *columns, int cords, const
     st = thr_walk_proof_check(columns, THR_WALK_TURNING, &tree->walks, cords, bound_of[thr_walk_component(columns, &tree->walks)],
                               &worth, err);
   for (int k = 0; k < columns->n_components && !st; k++)
-    *largest = fmax(*largest, fmax(worth, bound_of[k] / cords_of(columns, k, cords)));
+    *largest = fmax(*largest, fmax(worth, bound_of[k] / thr_check_cords_of(columns, k, cords)));
   free(bound_of);
   return st;
 }
@@ -383,7 +358,9 @@ thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request 
 static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, double dearest, thr_turning_claim *found,
                              thr_err *err)
 {
-  double bound, forced, passes = 0, length = 0;
+  double bound, forced, side = 0, passes = 0, length = 0;
+  const bool pull = thr_wants_pull(w->o);
+  thr_turning_proof tree = claim->tree;
   const int cords = w->o->ends == THR_ENDS_COUNTS ? w->cords_most : w->o->cords;
   for (int e = 0; e < w->f->n_edges; e++) {
     passes += fmin(w->passes[e], 2 * thr_plan_cover(w->f, w->o, e));
@@ -404,8 +381,10 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, do
   thr_turning_columns columns;
   thr_status st = thr_turning_columns_init(&columns, w->f, &task, err);
   if (st) return st;
-  st = thr_check_tree(&columns, w->o, cords, &claim->tree, dearest + 1e-3, &bound, &forced, err);
+  if (pull) tree.walks = (thr_walk_proof){0};
+  st = thr_check_tree(&columns, w->o, cords, &tree, dearest + 1e-3, &bound, &forced, err);
   thr_turning_columns_destroy(&columns);
+  if (!st && pull) st = thr_check_pulled_least(w->f, w->o, &task, claim, &side, err);
   if (st) return st;
   if (w->o->ends == THR_ENDS_CLOSED) bound = fmax(bound, thr_turn_closed(w->o->turning.cost) * w->cords_least);
   const double angle = w->o->turning.cost == THR_TURN_ANGLE ? common_angle(w->f, claim->most_passes) : 0;
@@ -418,8 +397,7 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, do
   found->optimal = bound >= found->price - tolerance;
   found->lower_bound = found->optimal ? found->price : bound;
   found->gap = found->optimal ? 0 : (found->price - bound) / found->price;
-  found->largest_bound = round_up(w, angle, fmax(found->lower_bound / w->cords_most, forced));
-  if (thr_wants_pull(w->o)) found->largest_bound = round_up(w, angle, pull_bound(w, found->largest_bound));
+  found->largest_bound = round_up(w, angle, pull ? side : fmax(found->lower_bound / w->cords_most, forced));
   if (found->largest_bound > found->largest + tolerance)
     return thr_fail(err, THR_EVIOLATED,
                     "proof.turning: some cord is proved to turn by %.12g, which is more than any of this plan, %.12g",
@@ -433,11 +411,16 @@ thr_status thr_check_turning(const thr_frame *frame, const thr_request *options,
                              const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err)
 {
   walked w;
-  *found = (thr_turning_claim){.present = true, .most_passes = claim->most_passes, .length_limit = claim->length_limit};
+  *found = (thr_turning_claim){
+      .present = true, .most_passes = claim->most_passes, .length_limit = claim->length_limit, .cut = claim->cut};
   int least_most = thr_turning_most_passes(frame, options->cover);
   if (claim->most_passes < least_most)
     return thr_fail(err, THR_EVIOLATED, "proof.turning.most_passes: %d; a proof is about plans with up to %d passes over an edge",
                     claim->most_passes, least_most);
+  if (claim->tree.walks.unit > 0 && claim->tree.walks.pulled != thr_wants_pull(options))
+    return thr_fail(err, THR_EVIOLATED, "proof.turning.proof.walks: with minimize pull they are within a pull, else not");
+  if (claim->cut > 0 && !thr_wants_pull(options))
+    return thr_fail(err, THR_EVIOLATED, "proof.turning.largest.cut: with minimize pull only");
   thr_status st = walked_init(&w, frame, options, cord, n_cords, err);
   double dearest = 0;
   if (!st) st = judge_cords(&w, found, &dearest, err);

@@ -623,24 +623,46 @@ double thr_walk_pull_bound(const thr_walk_steps *steps, const thr_walk_proof *pr
   return sum <= 0 ? 0 : ldexp((double)sum * (1 - 1e-15), -length_exponent(steps, proof));
 }
 
-thr_status thr_walk_pull_check(const thr_turning_columns *columns, const thr_request *options, const thr_walk_proof *proof,
-                               int cords, double *bound, thr_err *err)
+/* *length: of at most so many cords of the proof's component together that have no more units than the proof says on either side
+ * of their cut turn. */
+static thr_status length_within(const thr_turning_columns *columns, const thr_walk_proof *proof, bool cut_at_pass, int cords,
+                                double *length, thr_err *err)
 {
   thr_walk_steps steps;
   int64_t best = 0;
-  *bound = 0;
-  if (options->max_pull <= 0 || options->physics.mu <= 0)
-    return thr_fail(err, THR_EVIOLATED, "walks: there is no limit on the pull");
+  *length = 0;
   thr_status st = thr_walk_steps_init(&steps, columns, THR_WALK_PULL, thr_walk_component(columns, proof), proof->unit, err);
   if (st) return st;
-  if (proof->all != 0 || proof->units < thr_walk_pull_units(options, proof->unit))
-    st = thr_fail(err, THR_EVIOLATED, "walks: %d units leave out cords that are within the pull", proof->units);
-  steps.cut_at_pass = options->old_pull;
+  steps.cut_at_pass = cut_at_pass;
+  if (proof->all != 0) st = thr_fail(err, THR_EVIOLATED, "walks: a price of all turns within a pull");
   if (!st) st = thr_walk_steps_remember(&steps, proof->memory, proof->n_memories, err);
   if (!st) st = thr_walk_steps_price(&steps, proof, err);
   if (!st) st = best_of(&steps, proof, &best, err);
-  if (!st) *bound = thr_walk_pull_bound(&steps, proof, cords, best);
+  if (!st) *length = thr_walk_pull_bound(&steps, proof, cords, best);
   thr_walk_steps_destroy(&steps);
+  return st;
+}
+
+thr_status thr_walk_pull_check(const thr_turning_columns *columns, const thr_request *options, const thr_walk_proof *proof,
+                               int cords, double *bound, thr_err *err)
+{
+  *bound = 0;
+  if (options->max_pull <= 0 || options->physics.mu <= 0)
+    return thr_fail(err, THR_EVIOLATED, "walks: there is no limit on the pull");
+  if (proof->unit <= 0 || proof->units < thr_walk_pull_units(options, proof->unit))
+    return thr_fail(err, THR_EVIOLATED, "walks: %d units leave out cords that are within the pull", proof->units);
+  return length_within(columns, proof, options->old_pull, cords, bound, err);
+}
+
+thr_status thr_walk_pull_least(const thr_turning_columns *columns, const thr_walk_proof *proof, int cords, double *bound,
+                               thr_err *err)
+{
+  double length = 0;
+  *bound = 0;
+  if (!proof->pulled || proof->bits != 0) return thr_fail(err, THR_EVIOLATED, "walks: they are not within a pull");
+  thr_status st = length_within(columns, proof, false, cords, &length, err);
+  if (!st && length <= 0) st = thr_fail(err, THR_EVIOLATED, "walks: their prices prove nothing");
+  if (!st) *bound = ldexp((double)proof->unit * ((double)proof->units + 1), -THR_TURNING_BITS) * (1 - 1e-15);
   return st;
 }
 

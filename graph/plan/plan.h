@@ -102,9 +102,10 @@ typedef struct {
   double lower_bound;   /* what the tree proves */
   double gap;           /* (price - lower_bound) / price, 0 if price is 0 */
   double pairing_bound; /* sum over the nodes of the cheapest pairing of the passes and ends there, each node on its own */
-  double largest;       /* price of the cord that turns most */
-  double largest_bound; /* no plan of the same kind has less: lower_bound shared out evenly */
+  double largest;       /* price of the cord that turns most, or with THR_AIM_PULL the largest pulled turning, rad */
+  double largest_bound; /* no plan of the same kind has less; with THR_AIM_PULL no threading whose cords turn back anywhere */
   bool largest_optimal;
+  int64_t cut; /* with THR_AIM_PULL: no turn counts for more where the tree is read for that, 2^-THR_TURNING_BITS; 0: it is not */
   int most_passes;
   double length_limit; /* in units; < 0 = none */
   thr_turning_proof tree;

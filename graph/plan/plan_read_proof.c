@@ -123,16 +123,26 @@ static thr_status read_length_proof(const thr_field_reader *field_reader, const 
   return thr_walk_proof_from_json(&proof->pulled, frame, NULL, thr_json_get(value, "walks"), place, field_reader->err);
 }
 
+/* Reads what a turn counts for at most, which may be left out. place: of the object, for messages. */
+static thr_status read_free_turn(const thr_field_reader *field_reader, const thr_json *value, const char *place, int64_t *cut)
+{
+  const int64_t most = (int64_t)floor(ldexp(THR_PI, THR_TURNING_BITS));
+  const thr_json *stated = thr_json_get(value, "cut");
+  if (stated && (!thr_json_int(stated, cut) || *cut < 1 || *cut > most))
+    return thr_field_bad(field_reader, place, "not a turn of at most 180 degrees in units of 2^-44");
+  return THR_OK;
+}
+
 static thr_status read_largest(const thr_field_reader *field_reader, const thr_json *object, thr_turning_claim *claim)
 {
-  static const char *const known[] = {"status", "price", "lower_bound", NULL};
+  static const char *const known[] = {"status", "price", "lower_bound", "cut", NULL};
   const thr_json *value;
   thr_status st = thr_field_need(field_reader, object, "largest", THR_JSON_OBJECT, &value);
   if (!st) st = thr_field_only(field_reader, value, "proof.turning.largest", known);
   if (!st) st = get_status(field_reader, value, "proof.turning.largest", &claim->largest_optimal);
   if (!st) st = thr_field_amount(field_reader, value, "price", &claim->largest);
   if (!st) st = thr_field_amount(field_reader, value, "lower_bound", &claim->largest_bound);
-  return st;
+  return st ? st : read_free_turn(field_reader, value, "proof.turning.largest.cut", &claim->cut);
 }
 
 static thr_status read_turning_claim(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
@@ -183,15 +193,6 @@ static thr_status read_cords_claim(const thr_field_reader *field_reader, const t
   return st ? st : thr_field_int(field_reader, fewest, "lower_bound", 1, INT32_MAX, &claim->fewest);
 }
 
-static thr_status read_free_turn(const thr_field_reader *field_reader, const thr_json *value, int64_t *cut)
-{
-  const int64_t most = (int64_t)floor(ldexp(THR_PI, THR_TURNING_BITS));
-  const thr_json *stated = thr_json_get(value, "cut");
-  if (stated && (!thr_json_int(stated, cut) || *cut < 1 || *cut > most))
-    return thr_field_bad(field_reader, "proof.pull.cut", "not a turn of at most 180 degrees in units of 2^-44");
-  return THR_OK;
-}
-
 static thr_status read_pull_claim(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
                                   thr_pull_claim *claim)
 {
@@ -210,7 +211,7 @@ static thr_status read_pull_claim(const thr_field_reader *field_reader, const th
   if (st || walks) return st ? st : thr_walk_proof_from_json(&claim->walks, frame, NULL, walks, place, field_reader->err);
   if (!proof) return THR_OK;
   st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
-  if (!st) st = read_free_turn(field_reader, value, &claim->cut);
+  if (!st) st = read_free_turn(field_reader, value, "proof.pull.cut", &claim->cut);
   if (st) return st;
   snprintf(place, sizeof place, "%.200s: proof.pull.proof", field_reader->name);
   return thr_turning_proof_from_json(&claim->tree, frame, proof, place, field_reader->err);

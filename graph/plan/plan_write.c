@@ -370,6 +370,7 @@ static void put_turning_proof(thr_writer *writer, const thr_plan *plan)
   thr_write_string(writer, "status", status_name(claim->largest_optimal));
   thr_write_number(writer, "price", claim->largest);
   thr_write_number(writer, "lower_bound", claim->largest_bound);
+  if (claim->cut > 0) thr_write_int(writer, "cut", claim->cut);
   thr_write_close(writer);
   thr_write_line(writer, 2);
   thr_write_int(writer, "most_passes", claim->most_passes);

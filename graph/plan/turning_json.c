@@ -161,7 +161,7 @@ void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *fr
   }
   thr_write_close(writer);
   put_symmetries(writer, proof, frame);
-  thr_walk_proof_write(&proof->walks, frame, "turning", writer);
+  thr_walk_proof_write(&proof->walks, frame, proof->walks.pulled ? NULL : "turning", writer);
   thr_write_close(writer);
 }
 
@@ -415,7 +415,7 @@ thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *fram
   const char *known[] = {"unit", "units", all ? all : "bits", "edges", "nodes", remembers ? "memory" : NULL, NULL};
   const reader r = {.place = place, .f = frame, .err = err};
   int64_t units = 0, bits = 0;
-  *walks = (thr_walk_proof){0};
+  *walks = (thr_walk_proof){.pulled = value && !all};
   if (!value) return THR_OK;
   thr_status st = only_members(&r, value, known);
   if (!st) st = get_int(&r, thr_json_get(value, "unit"), "unit", 1, INT64_MAX, &walks->unit);
@@ -437,7 +437,8 @@ thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame
   static const char *const optional[] = {"symmetries", "walks"};
   const char *known[5] = {"tree", "multipliers"};
   reader r = {.place = place, .f = frame, .err = err};
-  const thr_json *tree, *duals;
+  const thr_json *tree, *duals, *walks = thr_json_get(value, "walks");
+  const char *all = walks && thr_json_get(walks, "bits") ? NULL : "turning";
   *proof = (thr_turning_proof){0};
   for (int i = 0, n = 2; i < 2; i++)
     if (thr_json_get(value, optional[i])) known[n++] = optional[i];
@@ -459,7 +460,7 @@ thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame
     st = read_node(&r, thr_json_at(tree, i), &proof->node[i]);
   for (int i = 0; i < n_duals && !st; i++)
     st = read_dual(&r, thr_json_at(duals, i), &proof->dual[i]);
-  if (!st) st = thr_walk_proof_from_json(&proof->walks, frame, "turning", thr_json_get(value, "walks"), place, err);
+  if (!st) st = thr_walk_proof_from_json(&proof->walks, frame, all, walks, place, err);
   if (st) thr_turning_proof_destroy(proof);
   return st;
 }

@@ -205,6 +205,7 @@ typedef struct {
   int n_memories;
   thr_walk_memory *memory; /* [n_memories] edges ascending; owned */
   bool sets;               /* of lengths: all sets were tried */
+  bool pulled;             /* prices of walks within a pull: with bits, and without all */
 } thr_walk_proof;
 
 typedef struct {
@@ -212,7 +213,7 @@ typedef struct {
   thr_turning_node *node; /* owned; node[0] is the root */
   int *symmetry;          /* [n_symmetries * n_edges] images of the half-edges 2e (graph/plan/turning_symmetry.h); owned */
   thr_turning_dual *dual; /* owned; ends [n_ends] */
-  thr_walk_proof walks;   /* of the cord that turns most, if there is one */
+  thr_walk_proof walks;   /* of the cord that turns most, or of the one that is hardest to pull, if there is one */
 } thr_turning_proof;
 
 void thr_walk_proof_destroy(thr_walk_proof *proof);

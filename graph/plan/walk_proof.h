@@ -193,6 +193,11 @@ double thr_walk_pull_bound(const thr_walk_steps *steps, const thr_walk_proof *pr
 thr_status thr_walk_pull_check(const thr_turning_columns *columns, const thr_request *options, const thr_walk_proof *proof,
                                int cords, double *bound, thr_err *err) THR_MUST_CHECK;
 
+/* *bound, rad: with at most so many cords in the proof's component, whatever the pull, some cord has as much turning on a side of
+ * its cut turn. Nothing in the proof is trusted; THR_EVIOLATED says why it proves nothing. */
+thr_status thr_walk_pull_least(const thr_turning_columns *columns, const thr_walk_proof *proof, int cords, double *bound,
+                               thr_err *err) THR_MUST_CHECK;
+
 /* What a single edge forces: some cord passes it, and from there has to reach an end on both sides. *bound: the largest over the
  * edges of the least price of the turns of such a cord; 0 for closed cords. pulled: of its turns up to the edge from one end
  * only, the other end being past the cut turn; solid cords turn back anywhere then. O(edges * rounds), shortest paths by Bellman

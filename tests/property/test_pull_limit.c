@@ -228,6 +228,59 @@ START_TEST(plans_keep_to_the_pull_and_claim_what_is_true)
 }
 END_TEST
 
+/* ---- the least pull ---- */
+
+/* An instance whose largest pull is to be least, of some number of cords. */
+static bool instance_least(rng *r, instance *x)
+{
+  const bool small = instance_make(r, x);
+  want(&x->o, "pull");
+  x->o.max_pull = 0;
+  x->o.cords = x->o.cords_least = rng_between(r, 1, 4);
+  return small;
+}
+
+/* Are there so many cords of which none has more turning on a side of its cut turn? */
+static bool is_possible(const instance *x, double turning)
+{
+  thr_request o = x->o;
+  o.max_pull = exp(fmax(0, turning) * o.physics.mu);
+  return fewest_possible(x, &o) <= x->o.cords;
+}
+
+/* What is proved of the largest pull holds for all cords that turn back anywhere, and the plan is one of them. */
+START_TEST(the_least_pull_is_bounded)
+{
+  rng r = rng_make((uint64_t)_i + 9000);
+  instance x;
+  thr_plan p;
+  thr_err err = {0};
+  if (instance_least(&r, &x)) {
+    thr_status st = thr_plan_make(&x.frame, &x.o, &(thr_limits){.usual = true}, &p, NULL, &err);
+    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_EINFEASIBLE, "%s", err.text);
+    if (p.n_cords > 0 && p.turning.present) {
+      const double bound = p.turning.largest_bound, found = p.turning.largest;
+      double largest = 1;
+      assert_plan_sound(&p);
+      for (int i = 0; i < p.n_cords; i++)
+        largest = fmax(largest, pull_of(&x.frame, &p.cord[i], x.o.physics.mu));
+      ck_assert_double_eq_tol(largest, exp(x.o.physics.mu * found), 1e-9 * largest);
+      ck_assert_double_le(bound, found + 1e-9);
+      ck_assert(is_possible(&x, found));
+      ck_assert(bound <= 1e-6 || !is_possible(&x, bound * (1 - 1e-7) - 1e-7));
+      ck_assert(!p.turning.largest_optimal || fabs(bound - found) <= 1e-9 * (1 + found));
+      ck_assert(st != THR_OK || p.turning.largest_optimal || bound > 0 || found > 0);
+
+      /* Of few edges all is known but for how near the bisection comes. */
+      const double near = found * 1e-3 + 1e-3;
+      ck_assert(p.turning.largest_optimal || is_possible(&x, bound + near));
+    }
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&x.frame);
+}
+END_TEST
+
 /* ---- forged claims ---- */
 
 /* A price, the unit, the number of units or of bits. */
@@ -318,10 +371,44 @@ START_TEST(no_forged_claim_is_verified)
 }
 END_TEST
 
+/* The same of the least pull. */
+START_TEST(no_forged_least_pull_is_verified)
+{
+  rng r = rng_make((uint64_t)_i + 12000);
+  instance x;
+  thr_plan p;
+  int64_t price[EDGES + NODES];
+  if (instance_least(&r, &x)) {
+    thr_status st = thr_plan_make(&x.frame, &x.o, &(thr_limits){.usual = true}, &p, NULL, NULL);
+    ck_assert(st == THR_OK || st == THR_ELIMIT || st == THR_EINFEASIBLE);
+    save(&p.turning.tree.walks, &x.frame, price);
+    for (int i = 0; i < 100 && p.turning.present; i++) {
+      const thr_turning_claim claim = p.turning;
+      p.proof.present = p.cords_claim.present = false;
+      p.turning.largest_bound += rng_unit(&r) * (p.turning.largest - p.turning.largest_bound);
+      for (int k = rng_between(&r, 0, 2); k > 0; k--)
+        switch (rng_below(&r, 3)) {
+        case 0: p.turning.cut = (int64_t)ldexp(rng_unit(&r) * 3, THR_TURNING_BITS); break;
+        case 1: forge_walks(&r, &p, &p.turning.tree.walks); break;
+        default: p.turning.largest_optimal = rng_below(&r, 2);
+        }
+      const double bound = p.turning.largest_bound;
+      if (thr_check_plan(&p, NULL) == THR_OK) ck_assert(bound <= 1e-6 || !is_possible(&x, bound * (1 - 1e-7) - 1e-7));
+      restore(&p.turning.tree.walks, &claim.tree.walks, &x.frame, price);
+      p.turning = claim;
+    }
+    thr_plan_destroy(&p);
+  }
+  thr_frame_destroy(&x.frame);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("pull limit");
   ADD_EXAMPLES(s, 60, plans_keep_to_the_pull_and_claim_what_is_true, 300);
+  ADD_EXAMPLES(s, 60, the_least_pull_is_bounded, 300);
   ADD_EXAMPLES(s, 40, no_forged_claim_is_verified, 150);
+  ADD_EXAMPLES(s, 40, no_forged_least_pull_is_verified, 100);
   return run_suite(s);
 }

@@ -234,8 +234,8 @@ static thr_status search(thr_walk_programme *p, const thr_walk_ask *ask, double 
       ask->enough > 0 ? try_limit(p, ask->enough, made, bound, &open, err) : bisect(p, largest, false, made, bound, &open, err);
   if (!st && ask->enough <= 0) st = bisect(p, largest, true, made, bound, &open, err);
   const bool near = thr_limits_near(limits, largest, *bound);
-  const bool wanted =
-      !near && (ask->enough <= 0 || *bound <= ask->enough) && !task->tube && !task->end_count && has_own_prices(p);
+  const bool wanted = !near && ask->measure != THR_WALK_PULL && (ask->enough <= 0 || *bound <= ask->enough) && !task->tube &&
+                      !task->end_count && has_own_prices(p);
   if (!brief) share = thr_limits_part(limits, for_cords);
   if (!st && wanted) st = look_for_cords(p, cord, n_cords, *bound, open, better, err);
   if (!brief) share = thr_limits_part(limits, for_near);

@@ -21,7 +21,8 @@ typedef struct {
   thr_orbits_motions *motions; /* near ones will do; NULL: none */
 } thr_walk_ask;
 
-/* Raises *bound, on the turning of the cord that turns most or the length of the longest, as far as the highest limit below which
+/* Raises *bound, on the turning of the cord that turns most, the pulled turning of the one that is hardest to pull, of which no
+ * better cords are looked for, or the length of the longest, as far as the highest limit below which
  * the walks are too few: by bisection, in the component of that cord. proof receives the prices, if there are any; what it held
  * is released. *better, NULL at first, receives n_cords cords of which the dearest costs less, if the columns make some; the
  * caller's. Nothing is done for one cord in each component, or where places and units are more than the recursion takes in a

@@ -49,7 +49,7 @@ thr_status thr_walk_take_proof(thr_walk_programme *p, thr_walk_proof *proof, thr
   *proof = p->trial;
   proof->memory = memory;
   proof->n_memories = p->n_memories;
-  p->trial = (thr_walk_proof){.unit = proof->unit, .bits = proof->bits};
+  p->trial = (thr_walk_proof){.unit = proof->unit, .bits = proof->bits, .pulled = proof->pulled};
   p->trial.edge = thr_calloc((size_t)p->c->f->n_edges, sizeof *p->trial.edge);
   p->trial.node = thr_calloc((size_t)p->c->f->n_nodes, sizeof *p->trial.node);
   return p->trial.edge && p->trial.node ? THR_OK : thr_nomem(err);

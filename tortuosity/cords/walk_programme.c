@@ -51,6 +51,7 @@ static int priced_passes(const thr_turning_columns *columns, thr_walk_measure me
 double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord)
 {
   double price = 0;
+  if (measure == THR_WALK_PULL) return thr_cord_pulled_turning(columns->f, cord);
   for (int k = -1; k < priced_passes(columns, measure, cord); k++)
     price += pass_price(columns, measure, cord, k);
   return price;
@@ -178,6 +179,7 @@ static thr_status init(thr_walk_programme *p, const thr_turning_columns *columns
   if (st) return st == THR_EVIOLATED ? THR_ELIMIT : st;
   if ((st = allocate(p, err))) return st;
   p->trial.unit = p->unit;
+  p->trial.pulled = measure == THR_WALK_PULL;
   number_variables(p, NULL, NULL);
   return thr_pool_init(&p->walks, p->n_variables, err);
 }
@@ -373,7 +375,7 @@ thr_row thr_walk_programme_row(const thr_walk_programme *p, thr_pool *pool, cons
 }
 
 typedef struct {
-  int n, units;  /* passes, in p->half */
+  int n, units;  /* passes, in p->half; with a pull units are those of the larger side of the cut turn */
   double weight; /* of its turns, or its length */
 } traced;
 
@@ -386,8 +388,8 @@ static traced trace_walk(thr_walk_programme *p, int run, const thr_walk_step *st
   while (step) {
     const int i = step->to;
     p->half[walk.n++] = step->half;
-    walk.units += step->units;
     left -= step->units;
+    if (p->units - left > walk.units) walk.units = p->units - left;
     walk.weight += (double)step->weight;
     step = best_step(p, run, i, left, last);
     if (step || last) continue;
@@ -402,7 +404,7 @@ static traced trace_walk(thr_walk_programme *p, int run, const thr_walk_step *st
 static thr_row row_of(thr_walk_programme *p, const traced *walk)
 {
   thr_row row = thr_walk_programme_row(p, &p->search.pool, p->half, walk->n);
-  if (p->steps.measure != THR_WALK_PULL) row.index = walk->units;
+  row.index = walk->units;
   if (p->least > 0) thr_pool_put(&p->search.pool, p->n_variables - 1, -ldexp(walk->weight, -p->steps.exponent) / p->least);
   return row;
 }

@@ -114,7 +114,7 @@ thr_row thr_walk_programme_row(const thr_walk_programme *programme, thr_pool *po
 /* Keeps the walks for the next limit. */
 thr_status thr_walk_programme_end(thr_walk_programme *programme, thr_err *err) THR_MUST_CHECK;
 
-/* Price of the turns of a cord, or its length; which one has most. */
+/* Price of the turns of a cord, its pulled turning, or its length; which one has most. */
 double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord);
 int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords);
 
