@@ -55,10 +55,11 @@ typedef struct {
 /* What a method measured beside the record. */
 typedef struct {
   thr_evaluation record;
-  double error;   /* largest cord error (thr_eval_cord); with refused turns that of the other turns only: at least that */
-  double band[2]; /* largest force of the known cords at mu_low and mu_high by the closed form over taut_turning: never a
-                     simulation. Method structure: by limit analysis, INFINITY if nothing holds, NAN above 100 beads, if stopped
-                     or        not decided */
+  double error;       /* largest cord error (thr_eval_cord); with refused turns that of the other turns only: at least that */
+  double band[2];     /* largest force of the known cords at mu_low and mu_high by the closed form over taut_turning: never a
+                         simulation. Method structure: by limit analysis, INFINITY if nothing holds, NAN above 100 beads, if stopped
+                         or        not decided */
+  double band_any[2]; /* the same of the force in any state, method structure only */
   double band_beads[THR_N_ASKED][2]; /* method structure: what is proved of each (of carried: below) with mu_bead and mu_ground
                             multiplied by mu_low / mu and mu_high / mu, as band */
   int refused;           /* turns of the known cords that took the closed form, each for the first reason that holds of it: */

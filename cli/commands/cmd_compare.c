@@ -15,6 +15,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/schedule.h"
+#include "graph/plan/standing.h"
 #include "graph/process/workers.h"
 #include "graph/status.h"
 #include "graph/text.h"
@@ -99,6 +100,30 @@ static void rank_carry(ranking *r, const thr_carry *carry, int i)
   r->low[i] = -carry->beyond;
 }
 
+/* The values of plan i at both ends of a band of friction. */
+static void rank_band(ranking *r, int band, const double value[2], int i)
+{
+  for (int end = 0; end < 2; end++)
+    r->end[2 * band + end][i] = r->most ? -value[end] : value[end];
+}
+
+/* Fills what the frictions do to the value of plan i, as far as it is known. */
+static void rank_bands(ranking *r, int by, const entry *e, int i)
+{
+  static const thr_asked of[N_RANKINGS] = {
+      [HOLDING] = THR_ASKED_HOLDING, [STANDING] = THR_ASKED_ANY_STATE, [AFTER] = THR_ASKED_AFTER,
+      [LOADED] = THR_ASKED_LOADED,   [CARRIED] = THR_ASKED_CARRIED,    [CARRIED_AFTER] = THR_ASKED_CARRIED_AFTER};
+  const thr_eval *structure = &e->eval[THR_STRUCTURE];
+  if (by == CAPSTAN || by == JOINT) {
+    if (!isnan(r->value[i])) rank_band(r, 0, e->eval[by == CAPSTAN ? THR_CAPSTAN : THR_JOINT].band, i);
+  } else if (by == CARRIED) {
+    if (structure->n_carries) rank_band(r, 1, structure->carries[0].band_beads, i);
+  } else if (by != SIMULATION && structure->record.present) {
+    rank_band(r, 1, structure->band_beads[of[by]], i);
+    if (by == HOLDING || by == STANDING) rank_band(r, 0, by == HOLDING ? structure->band : structure->band_any, i);
+  }
+}
+
 /* Fills value and interval of plan i; leaves it unknown if it is. */
 static void rank_plan(ranking *r, int by, const entry *e, int i)
 {
@@ -157,14 +182,15 @@ static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranki
 {
   static const ranking kind[N_RANKINGS] = {
       [CAPSTAN] = {.title = "seating pull, closed form", .key = "capstan", .unit = " N"},
-      [JOINT] = {.title = "seating pull, joints measured in simulation",
+      [JOINT] = {.title = "seating pull, joints measured in simulation (+-: their scatter, drift and interpolation; mu as given)",
                  .key = "joint",
                  .unit = " N",
                  .error = true,
                  .open = "some turns by closed form, their error is not known"},
-      [HOLDING] = {.title = "holding pull while drawn in (below the first force nothing holds it, at the second it can stand)",
-                   .key = "holding",
-                   .unit = " N"},
+      [HOLDING] =
+          {.title = "holding pull while drawn in (below the first force nothing holds it, at the second an equilibrium exists)",
+           .key = "holding",
+           .unit = " N"},
       [STANDING] = {.title = "force at all ends once the cords are in, in any state that friction keeps (the same two forces)",
                     .key = "any_state",
                     .unit = " N"},
@@ -174,17 +200,22 @@ static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranki
       [LOADED] = {.title = "pull at all ends that carries the load while the cords are drawn in (the same two forces)",
                   .key = "loaded",
                   .unit = " N"},
-      [CARRIED] = {.title =
-                       "load carried at the pull that was given, while the cords are drawn in (at the first it can stand, above "
-                       "the second nothing holds it)",
-                   .key = "carried",
-                   .unit = " x",
-                   .most = true},
+      [CARRIED] =
+          {.title =
+               "load carried at the pull that was given, while the cords are drawn in (at the first an equilibrium exists, above "
+               "the second nothing holds it)",
+           .key = "carried",
+           .unit = " x",
+           .most = true},
       [CARRIED_AFTER] = {.title = "load carried after the schedule (the same two)",
                          .key = "carried_after",
                          .unit = " x",
                          .most = true},
-      [SIMULATION] = {.title = "pull at which the structure falls in simulation", .key = "simulation", .unit = " N"}};
+      [SIMULATION] = {
+          .title = "pull at which the structure falls in simulation (from where it is seen to where it begins, with both time "
+                   "steps; nothing else is in it)",
+          .key = "simulation",
+          .unit = " N"}};
   bool all = a->method == PULL_ALL_METHODS;
   *count = 0;
   for (int by = 0; by < N_RANKINGS; by++) {
@@ -194,7 +225,7 @@ static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranki
     thr_status st = ranking_init(&r[*count], n, err);
     if (st) return st;
     for (int i = 0; i < n; i++)
-      rank_plan(&r[*count], by, &e[i], i);
+      rank_plan(&r[*count], by, &e[i], i), rank_bands(&r[*count], by, &e[i], i);
     ranking_make(&r[(*count)++]);
   }
   return THR_OK;
@@ -207,11 +238,6 @@ static bool find_disagreement(const ranking *r, int count, int which[2], int pai
     for (which[1] = which[0] + 1; which[1] < count; which[1]++)
       if (ranking_disagree(&r[which[0]], &r[which[1]], pair)) return true;
   return false;
-}
-
-static bool tells_apart(const ranking *r)
-{
-  return r->n_ranked > 1 && r->rank[r->order[r->n_ranked - 1]] > 1; /* the largest rank comes last */
 }
 
 static bool same_order(const ranking *a, const ranking *b)
@@ -227,7 +253,7 @@ static void put_orders(const ranking *r, int count, const char *const *name, thr
 {
   thr_text_append(text, "the rankings disagree:\n");
   for (int i = 0; i < count; i++) {
-    bool said = !tells_apart(&r[i]);
+    bool said = !ranking_tells_apart(&r[i]);
     for (int k = 0; k < i; k++)
       said |= same_order(&r[k], &r[i]);
     if (said) continue;
@@ -249,7 +275,7 @@ static void put_agreement(const ranking *r, int count, const char *const *name, 
   bool let_go = false;
   int orders = 0; /* that tell any plans apart */
   for (int i = 0; i < count; i++) {
-    const bool apart = tells_apart(&r[i]);
+    const bool apart = ranking_tells_apart(&r[i]);
     orders += apart;
     let_go |= apart && (strcmp(r[i].key, "any_state") == 0 || strstr(r[i].key, "after"));
   }
@@ -302,6 +328,23 @@ static bool same_physics(const thr_physics *a, const thr_physics *b)
   return true;
 }
 
+/* Words for the ends of the bands of friction. */
+static void name_ends(const thr_physics *physics, bool same, char at[RANKING_ENDS][40])
+{
+  const double mu[2] = {physics->mu_low, physics->mu_high};
+  for (int end = 0; end < 2; end++) {
+    const char *const which = end ? "upper" : "lower";
+    if (same)
+      snprintf(at[end], sizeof at[end], "mu %.3g", mu[end]);
+    else
+      snprintf(at[end], sizeof at[end], "the %s end of mu", which);
+    if (same && physics->mu > 0)
+      snprintf(at[2 + end], sizeof at[2 + end], "mu_bead %.3g", physics->mu_bead * mu[end] / physics->mu);
+    else
+      snprintf(at[2 + end], sizeof at[2 + end], "the %s end of mu_bead", which);
+  }
+}
+
 static void put_text(thr_text *text, const pull_args *a, const entry *e, int n, const ranking *r, int count,
                      const char *const *name)
 {
@@ -324,8 +367,12 @@ static void put_text(thr_text *text, const pull_args *a, const entry *e, int n, 
   if (n < 2) return;
   thr_text_append(text, "frontier: no other plan is as good in cord, number of cords and pull, and better in one of them\n");
   thr_text_append(text, "\n");
-  for (int k = 0; k < count; k++)
+  char at[RANKING_ENDS][40];
+  name_ends(first, same, at);
+  for (int k = 0; k < count; k++) {
     ranking_put_text(&r[k], name, text);
+    ranking_put_bands(&r[k], name, at, text);
+  }
   put_agreement(r, count, name, text);
 }
 
@@ -549,11 +596,17 @@ static thr_status run_simulations(const pull_args *a, entry *e, const int *plan,
       found && finished ? thr_workers_run(&work, a->options.processes, &limits, found, finished, err) : thr_nomem(err);
   for (int i = 0; i < 2 * n && found && finished; i++) {
     entry *of = &e[plan[i / 2]];
-    if (finished[i] && found[i].status == THR_SETTLE_FELL) {
+    if (!finished[i]) continue;
+    if (found[i].fall > 0) {
       of->fall[i & 1] = found[i].fall;
       of->fall_error[i & 1] = found[i].error;
-    } else if (finished[i] && !(i & 1 && isnan(of->fall[0]))) {
-      cli_note("note: the simulation of %s has not settled; `thread eval --method structure` says more", of->path);
+    }
+    if (found[i].status != THR_SETTLE_FELL && !(i & 1 && of->contradicted)) {
+      of->contradicted = true;
+      cli_note("note: %s: the simulation %s; `thread eval --method structure` says more", of->path,
+               found[i].status == THR_SETTLE_NEVER_SETTLED ? "never came to rest under the pull at its start"
+               : found[i].fall > 0 ? "falls where the limit analysis says otherwise, or at a pull not well known"
+                                   : "did not fall");
     }
   }
   free(found);

@@ -12,7 +12,9 @@ typedef struct {
   const char *path;
   thr_plan plan;
   thr_eval eval[THR_N_METHODS];  /* record.present only where the method ran and did not fail */
-  double fall[2], fall_error[2]; /* N, in simulation at the settings given and with half the time step; NAN = not settled */
+  double fall[2], fall_error[2]; /* N, in simulation at the settings given and with half the time step; NAN = did not fall, or
+                                    never came to rest */
+  bool contradicted;             /* that is said of the plan */
 } compare_entry;
 
 typedef struct {

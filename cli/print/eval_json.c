@@ -24,10 +24,10 @@ static void put_bead(thr_writer *writer, const char *key, const thr_frame *frame
     thr_write_null(writer, key);
 }
 
-/* What is proved at both ends of the band of the frictions of beads and ground. */
-static void put_json_band(thr_writer *writer, const double band[2])
+/* What is known at both ends of a band of friction. */
+static void put_json_band(thr_writer *writer, const char *key, const double band[2])
 {
-  thr_write_array(writer, "band_beads");
+  thr_write_array(writer, key);
   thr_write_number(writer, NULL, band[0]);
   thr_write_number(writer, NULL, band[1]);
   thr_write_close(writer);
@@ -42,7 +42,7 @@ static void put_json_holding(thr_writer *writer, const thr_frame *frame, const c
   thr_write_number(writer, "upper", holding->upper);
   thr_write_number(writer, "residual", holding->residual);
   put_bead(writer, "first_bead", frame, holding->first_bead);
-  put_json_band(writer, band);
+  put_json_band(writer, "band_beads", band);
   thr_write_string(writer, "holds", when);
   thr_write_close(writer);
 }
@@ -150,17 +150,15 @@ void eval_put_json(thr_text *text, const thr_plan *plan, const thr_eval *eval, b
   thr_write_bool(&writer, "complete", eval->complete && !stopped);
   thr_evaluation_write(&plan->evaluation, &writer, "evaluation");
   thr_write_line(&writer, 1);
-  thr_write_array(&writer, "band");
-  thr_write_number(&writer, NULL, eval->band[0]);
-  thr_write_number(&writer, NULL, eval->band[1]);
-  thr_write_close(&writer);
+  put_json_band(&writer, "band", eval->band);
   thr_write_number(&writer, "error", eval->error);
   thr_write_int(&writer, "refused", eval->refused);
   if (eval->complete) seated_put_holding_json(&writer, plan, &plan->evaluation);
   if (plan->evaluation.method == THR_JOINT) put_json_joints(&writer, eval);
   if (eval->holding.present) {
     thr_write_line(&writer, 1);
-    put_json_band(&writer, eval->band_beads[THR_ASKED_HOLDING]);
+    put_json_band(&writer, "band_any_state", eval->band_any);
+    put_json_band(&writer, "band_beads", eval->band_beads[THR_ASKED_HOLDING]);
   }
   if (eval->holding.present) put_json_answers(&writer, &plan->frame, eval);
   if (eval->holding.present) put_json_play(&writer, plan);

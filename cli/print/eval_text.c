@@ -22,6 +22,7 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/play.h"
 #include "graph/plan/schedule.h"
+#include "graph/plan/standing.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
@@ -137,8 +138,9 @@ static void put_band_end(thr_text *text, const thr_evaluation *evaluation, doubl
 }
 
 /* The largest pull over the band of mu; an end of it may be past what a number can hold, or hold nothing at any pull. */
-static void put_band(thr_text *text, const thr_evaluation *evaluation, const double band[2])
+static void put_band(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval)
 {
+  const double *const band = eval->band, *const any = eval->band_any;
   const thr_physics *physics = &evaluation->physics;
   if (physics->mu_low == physics->mu_high) return;
   thr_text_printf(text, "between mu %g and %g (%s):", physics->mu_low, physics->mu_high,
@@ -150,6 +152,12 @@ static void put_band(thr_text *text, const thr_evaluation *evaluation, const dou
   put_band_end(text, evaluation, band[0], !isfinite(band[1]));
   thr_text_append(text, " ..");
   put_band_end(text, evaluation, band[1], true);
+  if (eval->loosest.present && !isnan(any[0]) && !isnan(any[1]) && eval->holding.lower > 0) {
+    thr_text_append(text, "; in any state");
+    put_band_end(text, evaluation, any[0], !isfinite(any[1]));
+    thr_text_append(text, " ..");
+    put_band_end(text, evaluation, any[1], true);
+  }
   thr_text_append(text, "\n");
 }
 
@@ -202,7 +210,7 @@ static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval,
   else if (eval->error > 0)
     thr_text_printf(text, ", error of each at most %.2f %%", pull_percent(eval->error));
   thr_text_append(text, "\n");
-  if (evaluation->schedule.n == 0) put_band(text, evaluation, eval->band);
+  if (evaluation->schedule.n == 0) put_band(text, evaluation, eval);
   if (eval->complete && evaluation->method != THR_STRUCTURE) put_hand(text, evaluation->largest);
   if (eval->complete && (evaluation->method != THR_STRUCTURE || evaluation->schedule.n > 0) && view->strength > 0)
     put_strength(text, evaluation->largest, view->strength, view->knot);

@@ -5,21 +5,29 @@
 #include <stdlib.h>
 #include <string.h>
 
+const char *const ranking_bands[RANKING_BANDS] = {"band", "band_beads"};
+
 thr_status ranking_init(ranking *r, int n, thr_err *err)
 {
   size_t count = (size_t)n;
   r->value = thr_calloc(count, sizeof *r->value);
   r->low = thr_calloc(count, sizeof *r->low);
   r->high = thr_calloc(count, sizeof *r->high);
+  bool there = true;
+  for (int k = 0; k < RANKING_ENDS; k++)
+    there &= (r->end[k] = thr_calloc(count, sizeof *r->end[k])) != NULL;
   r->order = thr_calloc(count, sizeof *r->order);
   r->rank = thr_calloc(count, sizeof *r->rank);
-  if (!r->value || !r->low || !r->high || !r->order || !r->rank) {
+  if (!there || !r->value || !r->low || !r->high || !r->order || !r->rank) {
     ranking_destroy(r);
     return thr_nomem(err);
   }
   r->n = n;
   for (int i = 0; i < n; i++)
     r->value[i] = NAN;
+  for (int k = 0; k < RANKING_ENDS; k++)
+    for (int i = 0; i < n; i++)
+      r->end[k][i] = NAN;
   return THR_OK;
 }
 
@@ -28,9 +36,17 @@ void ranking_destroy(ranking *r)
   free(r->value);
   free(r->low);
   free(r->high);
+  for (int k = 0; k < RANKING_ENDS; k++)
+    free(r->end[k]);
   free(r->order);
   free(r->rank);
   *r = (ranking){0};
+}
+
+bool ranking_tells_apart(const ranking *r)
+{
+  /* The largest rank comes last. */
+  return r->n_ranked > 1 && r->rank[r->order[r->n_ranked - 1]] > 1;
 }
 
 /* Values that differ in their last digits only stay in the order of the plans. */
@@ -145,6 +161,49 @@ void ranking_put_text(const ranking *r, const char *const *name, thr_text *text)
     if (!r->rank[i]) thr_text_printf(text, "  -  %-*s not known\n", widest, name[i]);
 }
 
+/* Do two plans, of which i is surely less, change places at an end of a band? */
+static bool swaps(const ranking *r, int end, int i, int k)
+{
+  return surely_less(r, i, k) && is_less(r->end[end][k], r->end[end][i]);
+}
+
+/* Is the order of any two plans known at both ends of a band? */
+static bool is_banded(const ranking *r, int band)
+{
+  int known = 0;
+  for (int i = 0; i < r->n; i++)
+    known += r->rank[i] && !isnan(r->end[2 * band][i]) && !isnan(r->end[2 * band + 1][i]);
+  return known > 1;
+}
+
+/* Counts plans that change places at either end of a band. */
+static int count_swaps(const ranking *r, int band)
+{
+  int n = 0;
+  for (int end = 2 * band; end < 2 * band + 2; end++)
+    for (int i = 0; i < r->n; i++)
+      for (int k = 0; k < r->n; k++)
+        n += swaps(r, end, i, k);
+  return n;
+}
+
+void ranking_put_bands(const ranking *r, const char *const *name, char at[RANKING_ENDS][40], thr_text *text)
+{
+  enum { MOST = 3 };
+  if (!ranking_tells_apart(r)) return;
+  for (int band = 0; band < RANKING_BANDS; band++) {
+    const int all = is_banded(r, band) ? count_swaps(r, band) : -1;
+    int said = 0;
+    if (all == 0) thr_text_printf(text, "     the same order at %s and at %s\n", at[2 * band], at[2 * band + 1]);
+    for (int end = 2 * band; end < 2 * band + 2 && all > 0; end++)
+      for (int i = 0; i < r->n; i++)
+        for (int k = 0; k < r->n; k++)
+          if (swaps(r, end, i, k) && said++ < MOST)
+            thr_text_printf(text, "     at %s: %s before %s\n", at[end], name[k], name[i]);
+    if (said > MOST) thr_text_printf(text, "     and %d more change places\n", said - MOST);
+  }
+}
+
 void ranking_put_json(const ranking *r, const char *const *name, thr_writer *writer)
 {
   thr_write_object(writer, NULL);
@@ -159,9 +218,18 @@ void ranking_put_json(const ranking *r, const char *const *name, thr_writer *wri
     thr_write_number(writer, "low", count_of(r, i).low);
     thr_write_number(writer, "high", count_of(r, i).high);
     thr_write_int(writer, "rank", r->rank[i]);
+    for (int band = 0; band < RANKING_BANDS; band++) {
+      if (!is_banded(r, band)) continue;
+      thr_write_array(writer, ranking_bands[band]);
+      for (int end = 2 * band; end < 2 * band + 2; end++)
+        thr_write_number(writer, NULL, r->most ? -r->end[end][i] : r->end[end][i]);
+      thr_write_close(writer);
+    }
     thr_write_close(writer);
   }
   thr_write_close(writer);
+  for (int band = 0; band < RANKING_BANDS; band++)
+    if (is_banded(r, band)) thr_write_bool(writer, band ? "same_over_band_beads" : "same_over_band", count_swaps(r, band) == 0);
   thr_write_close(writer);
 }
 

@@ -591,24 +591,26 @@ static thr_status hold(const thr_frame *frame, const thr_cord *cord, const thr_b
   return st;
 }
 
-/* Below which pull nothing holds at another friction of the cords; unknown where tensions span more than numbers can hold, or
- * than the solver can. */
+/* Below which pull, and force in any state, nothing holds at another friction of the cords; unknown where tensions span more than
+ * numbers can hold, or than the solver can. */
 static thr_status hold_at(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double mu,
-                          const thr_limits *limits, thr_evaluation *evaluation, const double **tension, double *out, thr_err *err)
+                          const thr_limits *limits, thr_evaluation *evaluation, const double **tension, double *pull,
+                          double *any_state, thr_err *err)
 {
   thr_err why = {0};
-  thr_holding holding = {0};
+  thr_holding drawn_in = {0}, kept = {0};
   thr_status st = profiles(frame, cord, mu, evaluation, tension, &why);
-  if (!st) st = hold(frame, cord, beads, false, limits, evaluation, tension, &holding, &why);
-  *out = st == THR_OK ? holding.lower : st == THR_EINFEASIBLE ? INFINITY : NAN;
-  thr_holding_destroy(&holding);
-  if (st == THR_OK || st == THR_EINFEASIBLE || st == THR_EINPUT || st == THR_ESOLVER) return THR_OK;
-  return thr_fail(err, st, "%s", why.text);
+  if (st == THR_EINPUT) return THR_OK;
+  if (!st) st = hold(frame, cord, beads, false, limits, evaluation, tension, &drawn_in, &why);
+  st = take_bound(st, &drawn_in, &why, pull, err);
+  if (!st) st = hold_state(frame, cord, beads, KEPT, 1, false, limits, evaluation, &kept, &why);
+  return take_bound(st, &kept, &why, any_state, err);
 }
 
 /* One end of the band of mu, on a copy of the record's cords. */
 static thr_status band_end(const thr_frame *frame, const thr_cord *cord, const thr_beads *beads, double mu,
-                           const thr_limits *limits, const thr_evaluation *evaluation, double *out, thr_err *err)
+                           const thr_limits *limits, const thr_evaluation *evaluation, double *pull, double *any_state,
+                           thr_err *err)
 {
   thr_evaluation copy = *evaluation;
   const double **tension = thr_calloc((size_t)evaluation->n_cords, sizeof *tension);
@@ -617,7 +619,7 @@ static thr_status band_end(const thr_frame *frame, const thr_cord *cord, const t
   for (int i = 0; i < evaluation->n_cords && !st; i++)
     copy.cord[i] = (thr_eval_cord){
         .pull = evaluation->cord[i].pull, .n_passes = evaluation->cord[i].n_passes, .turn = evaluation->cord[i].turn};
-  if (!st) st = hold_at(frame, cord, beads, mu, limits, &copy, tension, out, err);
+  if (!st) st = hold_at(frame, cord, beads, mu, limits, &copy, tension, pull, any_state, err);
   free(tension);
   for (int i = 0; i < evaluation->n_cords && copy.cord; i++)
     copy.cord[i].turn = NULL; /* the record's */
@@ -670,7 +672,9 @@ static thr_status answer(void *user, int job, const thr_limits *limits, thr_err 
   case PULL: return hold(q->frame, q->cord, q->beads, true, limits, record, q->tension, &q->out->holding, err);
   case EQUAL_PULLS: return hold_state(q->frame, q->cord, q->beads, DRAWN_IN, 1, true, limits, record, &q->out->equal, err);
   case ANY_STATE: return hold_state(q->frame, q->cord, q->beads, KEPT, 1, true, limits, record, &q->out->loosest, err);
-  case BAND_LOW: return band_end(q->frame, q->cord, q->beads, record->physics.mu_low, limits, record, &q->out->band[0], err);
+  case BAND_LOW:
+    return band_end(q->frame, q->cord, q->beads, record->physics.mu_low, limits, record, &q->out->band[0], &q->out->band_any[0],
+                    err);
   case PULL_BEADS:
   case PULL_BEADS + 1:
     return hold_beads(q->frame, q->cord, q->beads, end, limits, record, q->tension, &band[THR_ASKED_HOLDING][end], err);
@@ -680,7 +684,9 @@ static thr_status answer(void *user, int job, const thr_limits *limits, thr_err 
   case ANY_BEADS:
   case ANY_BEADS + 1:
     return bound_state(q->frame, q->cord, q->beads, KEPT, 1, end, limits, record, &band[THR_ASKED_ANY_STATE][end], err);
-  default: return band_end(q->frame, q->cord, q->beads, record->physics.mu_high, limits, record, &q->out->band[1], err);
+  default:
+    return band_end(q->frame, q->cord, q->beads, record->physics.mu_high, limits, record, &q->out->band[1], &q->out->band_any[1],
+                    err);
   }
 }
 
@@ -773,7 +779,7 @@ static thr_status run(const thr_frame *frame, const thr_cord *cord, const thr_be
   thr_evaluation *evaluation = &out->record;
   const bool simulated = beads->n_beads <= thr_settle_largest(options->large) && !options->load && options->dynamics;
   questions q = {.frame = frame, .cord = cord, .beads = beads, .tension = tension, .out = out};
-  out->band[0] = out->band[1] = NAN;
+  out->band[0] = out->band[1] = out->band_any[0] = out->band_any[1] = NAN;
   for (int i = 0; i < THR_N_ASKED; i++)
     out->band_beads[i][0] = out->band_beads[i][1] = NAN;
   thr_status st = profiles(frame, cord, evaluation->physics.mu, evaluation, tension, err);

@@ -107,6 +107,36 @@ START_TEST(only_sure_orders_contradict)
 END_TEST
 
 /* Of loads the most comes first, with its interval the right way round; and where there is proved to be none, it is last. */
+/* Plans that are surely apart and change places at an end of a band are told; ties may do what they like. */
+START_TEST(orders_over_a_band)
+{
+  const double interval[4][3] = {{1, 1, 1}, {2, 2, 2}, {1.5, 2.5, 3.5}, {9, 9, 9}};
+  const double low[4] = {1, 3, 2.5, 9}, high[4] = {5, 4, 4.5, 8};
+  const char *const name[4] = {"a", "b", "c", "d"};
+  char at[RANKING_ENDS][40] = {"p", "q", "r", "s"};
+  for (int most = 0; most < 2; most++) {
+    thr_text t = {0};
+    thr_writer w = {.out = &t};
+    ranking r = ranking_of(4, interval);
+    r.most = most;
+    for (int i = 0; i < 4; i++) {
+      r.end[0][i] = low[i];
+      r.end[1][i] = high[i];
+      r.end[2][i] = r.end[3][i] = i == 1 ? NAN : low[i];
+    }
+    ranking_put_bands(&r, name, at, &t);
+    ck_assert_str_eq(t.data, "     at q: b before a\n     at q: c before a\n     the same order at r and at s\n");
+    thr_text_destroy(&t);
+    ranking_put_json(&r, name, &w);
+    ck_assert_ptr_nonnull(strstr(t.data, most ? "\"band\": [-1, -5]" : "\"band\": [1, 5]"));
+    ck_assert_ptr_nonnull(strstr(t.data, "\"same_over_band\": false"));
+    ck_assert_ptr_nonnull(strstr(t.data, "\"same_over_band_beads\": true"));
+    thr_text_destroy(&t);
+    ranking_destroy(&r);
+  }
+}
+END_TEST
+
 START_TEST(the_most_first)
 {
   const double most[2][3] = {{-4, -3, -3}, {-9, -8, -8}}, need[2][3] = {{INFINITY, INFINITY, INFINITY}, {1, 1, 2}};
@@ -128,6 +158,7 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("ranking");
+  ADD_TEST(s, 10, orders_over_a_band);
   ADD_TEST(s, 10, a_wide_interval_ties_with_all_it_reaches);
   ADD_TEST(s, 10, open_ends_and_unknown_plans);
   ADD_TEST(s, 10, ranks_count_what_is_surely_less);
