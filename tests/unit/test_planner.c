@@ -242,7 +242,10 @@ START_TEST(time_is_shared_out)
   ck_assert_double_eq(thr_dispatch_work(&o), 0);
   o = thr_request_default();
   o.aims = thr_aims_straightest;
-  ck_assert(thr_dispatch_work(&o) == 0 && thr_dispatch_patience(&o) == 1); /* one cord: the time counts */
+  ck_assert(thr_dispatch_work(&o) > 0 && thr_dispatch_patience(&o) > 1);
+  o.gap = 0.01;
+  ck_assert(thr_dispatch_work(&o) == 0 && thr_dispatch_patience(&o) == 1); /* who asks for a gap waits for it */
+  o.gap = -1;
   o.aims = (thr_aims){1, {THR_AIM_MAX_TURNING}};
   o.cords = o.cords_least = 4;
   o.time_limit = 20;
