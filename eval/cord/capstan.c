@@ -54,7 +54,7 @@ static thr_status raise_to_force_at(const thr_frame *frame, const thr_cord *cord
 }
 
 static thr_status eval_cord(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, thr_eval_cord *out,
-                            double band[2], thr_err *err)
+                            bool gripped, double band[2], thr_err *err)
 {
   const thr_friction friction = thr_friction_of(&evaluation->physics);
   const thr_physics *physics = &evaluation->physics;
@@ -67,7 +67,7 @@ static thr_status eval_cord(const thr_frame *frame, const thr_cord *cord, const 
   for (int k = 0; k + 1 < cord->n_passes && !st; k++)
     turning += angle[k] = thr_turn_angle(frame, cord->half[k], cord->half[k + 1]);
   if (!st) st = fill_exponents(frame, cord, angle, evaluation, physics->mu, out->exponent, err);
-  if (!st) st = thr_profile_cord(out, cord, out->exponent, out->pull, physics->seating, &friction, err);
+  if (!st) st = thr_profile_before(out, cord, out->exponent, physics->seating, &friction, gripped, err);
   if (!st) st = raise_to_force_at(frame, cord, angle, evaluation, out->pull, physics->mu_low, other, &band[0], err);
   if (!st) st = raise_to_force_at(frame, cord, angle, evaluation, out->pull, physics->mu_high, other, &band[1], err);
   out->turning = out->taut_turning = turning;
@@ -79,12 +79,12 @@ static thr_status eval_cord(const thr_frame *frame, const thr_cord *cord, const 
 thr_status thr_capstan_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
                               const thr_limits *limits, thr_eval *out, thr_err *err)
 {
-  (void)options;
+  const bool gripped = options->hand > 0;
   thr_evaluation *evaluation = &out->record;
   for (int i = 0; i < evaluation->n_cords; i++) {
     if (thr_limits_stop(limits))
       return thr_fail(err, THR_ELIMIT, "stopped after %d of %d cords were evaluated", i, evaluation->n_cords);
-    thr_status st = eval_cord(frame, &cord[i], evaluation, &evaluation->cord[i], out->band, err);
+    thr_status st = eval_cord(frame, &cord[i], evaluation, &evaluation->cord[i], gripped, out->band, err);
     if (st) return st;
   }
   return THR_OK;

@@ -72,7 +72,7 @@ thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const doub
     free(tension);
     return thr_fail(err, THR_EINPUT,
                     "cord %s: the pull would be e^%.0f times the seating tension of %g N, past what a number can hold (e^700); "
-                    "use a smaller mu, or a plan with more cords",
+                    "use a smaller mu, a plan with more cords, or --hand",
                     cord->id, fmax(from, to), seating);
   }
   out->n_passes = n_passes;
@@ -84,6 +84,19 @@ thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const doub
   out->slackest = slackest;
   out->tension = tension;
   return THR_OK;
+}
+
+thr_status thr_profile_before(thr_eval_cord *out, const thr_cord *cord, const double *exponent, double seating,
+                              const thr_friction *friction, bool gripped, thr_err *err)
+{
+  const thr_pull pull = out->pull;
+  thr_err why = {0};
+  thr_status st = thr_profile_cord(out, cord, exponent, pull, seating, friction, &why);
+  if (st == THR_EINPUT && gripped) {
+    st = thr_profile_cord(out, cord, exponent, THR_PULL_NONE, seating, friction, &why);
+    out->pull = pull;
+  }
+  return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
 thr_status thr_profile_pressure(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, double *pressure,

@@ -36,4 +36,9 @@ thr_status thr_profile_pressure(const thr_frame *frame, const thr_cord *cord, co
 thr_status thr_profile_cord(thr_eval_cord *out, const thr_cord *cord, const double *exponent, thr_pull pull, double seating,
                             const thr_friction *friction, thr_err *err) THR_MUST_CHECK;
 
+/* The same for out->pull. Where grips on the way follow, which begin without tension, a cord whose pull at once is past what a
+ * double can hold is no error: its tensions are 0. */
+thr_status thr_profile_before(thr_eval_cord *out, const thr_cord *cord, const double *exponent, double seating,
+                              const thr_friction *friction, bool gripped, thr_err *err) THR_MUST_CHECK;
+
 #endif

@@ -282,7 +282,7 @@ static double error_from_slackest(const thr_eval_cord *cord, const double *error
 
 /* Leaves the cord's record as it is if some joint of it is not known. Adds its refused turns to out, its others to *measured. */
 static thr_status fill_cord(thr_eval *out, thr_eval_cord *eval_cord, const thr_frame *frame, const thr_cord *cord, const table *t,
-                            const double *taut, int *measured, thr_err *err)
+                            const double *taut, bool gripped, int *measured, thr_err *err)
 {
   int count[SHARP + 1] = {0};
   if (!cord_measured(t, frame, cord, taut)) return THR_OK;
@@ -298,8 +298,7 @@ static thr_status fill_cord(thr_eval *out, thr_eval_cord *eval_cord, const thr_f
     eval_cord->taut_turning += taut[k];
   }
   if (!st)
-    st = thr_profile_cord(eval_cord, cord, exponent, eval_cord->pull, out->record.physics.seating, &(thr_friction){.power = 1},
-                          err);
+    st = thr_profile_before(eval_cord, cord, exponent, out->record.physics.seating, &(thr_friction){.power = 1}, gripped, err);
   if (!st) eval_cord->error = error_from_slackest(eval_cord, error);
   eval_cord->known = !st;
   eval_cord->refused = count[SHARP] + count[OUTSIDE] + count[UNSETTLED];
@@ -357,7 +356,7 @@ static thr_status compose(const thr_frame *frame, const thr_cord *cord, const th
   table_finish(w, out);
   for (int i = 0; i < out->record.n_cords && !st; i++) {
     thr_eval_cord *eval_cord = &out->record.cord[i];
-    st = fill_cord(out, eval_cord, frame, &cord[i], w->table, taut[i], &measured, err);
+    st = fill_cord(out, eval_cord, frame, &cord[i], w->table, taut[i], options->hand > 0, &measured, err);
     if (st || !eval_cord->known) continue;
     st = raise_to_closed_form(frame, &cord[i], physics, eval_cord->pull, taut[i], physics->mu_low, &out->band[0], err);
     if (!st) st = raise_to_closed_form(frame, &cord[i], physics, eval_cord->pull, taut[i], physics->mu_high, &out->band[1], err);
