@@ -54,8 +54,9 @@ static const char help_rest[] =
     "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
     "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
     "                       an S that is given; else each search has its 20 s. Drawings are made whole, and take their time.\n"
-    "                       Without S --max-pull, and several cords by their largest turning, count their work\n"
-    "                       instead, some three seconds: the same plan on every machine, later on a busy one\n" GUARD_MEMORY_HELP
+    "                       Without S --max-pull, one cord that turns least, and several by their largest turning,\n"
+    "                       count their work instead, some three seconds, ten times as much for --max-pull where that\n"
+    "                       finds no cords: the same plan on every machine, later on a busy one\n" GUARD_MEMORY_HELP
     "\n" TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
     "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
     "\nFramework:\n" CLI_FRAME_HELP;
