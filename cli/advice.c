@@ -81,6 +81,7 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
   thr_text_append(text, ":\n");
   thr_limits limits = advice_limits(-1, &work); /* as of the table, so that it recommends the same */
   if (thr_advise(&plan->frame, &plan->options, &options, &limits, &advice, NULL)) advice.chosen = -1;
+  cli_progress_end();
   if (advice.chosen >= 0)
     put_line(&advice, plan, path, a, physics, text);
   else

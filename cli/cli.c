@@ -60,10 +60,19 @@ static void say(const char *format, va_list args, const char *after)
   fprintf(stderr, "thread: %s%s\n", line, after);
 }
 
+static bool progress_shown;
+
+static void wipe_progress(void)
+{
+  if (progress_shown) fputs("\r\033[K", stderr);
+  progress_shown = false;
+}
+
 void cli_note(const char *format, ...)
 {
   if (cli_quiet) return;
   va_list args;
+  wipe_progress();
   va_start(args, format);
   say(format, args, "");
   va_end(args);
@@ -512,7 +521,64 @@ int cli_write_drawn(thr_status st, thr_text *text, const char *path, const thr_e
 /* ---- long computations ---- */
 
 static volatile sig_atomic_t interrupted;
-static bool progress_shown;
+/* The line on the terminal: what it says, when it was written, and since when there is something to wait for, by thr_clock().
+ * began is 0 where nobody waits. */
+static struct {
+  char says[112];
+  double written, began;
+} waiting;
+
+/* Writes the line once more, with the seconds that have passed, if nothing was written for some time. It may come at any moment,
+ * so that it does nothing which a signal handler may not. */
+static void keep_alive(int signal)
+{
+  const double patience = 0.9; /* s */
+  const double now = thr_clock();
+  const int seconds = (int)(now - waiting.began), error = errno;
+  char digits[12], line[160];
+  int n = 0, length = 0;
+  (void)signal;
+  if (waiting.began == 0 || now - waiting.written < patience) return;
+  waiting.written = now;
+  progress_shown = true;
+
+  for (const char *from = "\r\033[K"; *from; from++)
+    line[length++] = *from;
+  for (const char *from = waiting.says; *from; from++)
+    line[length++] = *from;
+  line[length++] = ',';
+  line[length++] = ' ';
+  for (int left = seconds; n == 0 || left > 0; left /= 10)
+    digits[n++] = (char)('0' + left % 10);
+  while (n > 0)
+    line[length++] = digits[--n];
+  line[length++] = ' ';
+  line[length++] = 's';
+  if (write(STDERR_FILENO, line, (size_t)length) < 0) waiting.began = 0;
+  errno = error;
+}
+
+/* Begins to wait, if nobody does yet. */
+static void begin_waiting(void)
+{
+  if (waiting.began > 0) return;
+  snprintf(waiting.says, sizeof waiting.says, "thread: working");
+  waiting.written = waiting.began = thr_clock();
+  thr_os_tick(1, keep_alive);
+}
+
+static void end_waiting(void)
+{
+  if (waiting.began > 0) thr_os_tick(0, NULL);
+  waiting.began = 0;
+}
+
+static void put_line(void)
+{
+  waiting.written = thr_clock();
+  fprintf(stderr, "\r\033[K%s", waiting.says);
+  fflush(stderr);
+}
 
 /* Asked twice: do not wait for the result. `timeout` sends its signal to the process and to its group: that is once. */
 static void on_interrupt(int signal)
@@ -555,9 +621,9 @@ static double progress_gap(double best, double bound)
 static void show_progress(void *user, const char *what, double best, double bound)
 {
   if (!is_time_to_show(user)) return;
-  fprintf(stderr, "\r\033[Kthread: %s%s within %.3g %% of the least", what, is_turning(what) ? "" : ": extra cord",
-          progress_gap(best, bound));
-  fflush(stderr);
+  snprintf(waiting.says, sizeof waiting.says, "thread: %.40s%s within %.3g %% of the least", what,
+           is_turning(what) ? "" : ": extra cord", progress_gap(best, bound));
+  put_line();
 }
 
 /* The time left is what the part that is done took, for the rest. */
@@ -583,8 +649,8 @@ static void show_advance(void *user, const char *what, double done)
     else
       snprintf(left, sizeof left, ", %.0f min left", ceil(seconds / 60));
   }
-  fprintf(stderr, "\r\033[Kthread: %.40s [%s] %.0f %%%s", what, bar, floor(100 * done), left);
-  fflush(stderr);
+  snprintf(waiting.says, sizeof waiting.says, "thread: %.40s [%s] %.0f %%%s", what, bar, floor(100 * done), left);
+  put_line();
 }
 
 static void log_progress(void *user, const char *what, double best, double bound)
@@ -632,7 +698,10 @@ thr_limits cli_limits(double seconds)
     limits.progress = log_progress;
   else if (!cli_quiet && cli_is_terminal(STDERR_FILENO))
     limits.progress = show_progress;
-  if (!cli_quiet && cli_is_terminal(STDERR_FILENO)) limits.advance = show_advance;
+  if (!cli_quiet && cli_is_terminal(STDERR_FILENO)) {
+    limits.advance = show_advance;
+    if (!progress_wanted()) begin_waiting();
+  }
   if (progress_wanted()) progress_listen(&limits);
   return limits;
 }
@@ -644,8 +713,8 @@ void cli_wipe_line(void)
 
 void cli_progress_end(void)
 {
-  if (progress_shown) fputs("\r\033[K", stderr);
-  progress_shown = false;
+  end_waiting();
+  wipe_progress();
 }
 
 /* ---- tables ---- */

@@ -191,8 +191,10 @@ void cli_heed_signals(void);
 
 /* Limits with a deadline (0 = none), Ctrl-C and, on a terminal, a progress line on stderr with the time left. */
 thr_limits cli_limits(double seconds);
-void cli_progress_end(void); /* wipes the progress line */
-void cli_wipe_line(void);    /* the same for one that another process has left */
+
+/* Wipes the progress line, which from now on is not kept up: from cli_limits on it tells every second that work goes on. */
+void cli_progress_end(void);
+void cli_wipe_line(void); /* the same for one that another process has left */
 
 /* Is it a terminal that understands more than lines? Not with TERM=dumb. There are no colours (NO_COLOR). */
 bool cli_is_terminal(int file);

@@ -313,6 +313,15 @@ void thr_os_heed_stop(void (*on_stop)(int signal))
   if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(SIGHUP, &hangup, NULL);
 }
 
+void thr_os_tick(int seconds, void (*on_tick)(int signal))
+{
+  struct sigaction act = {.sa_handler = seconds > 0 ? on_tick : SIG_IGN, .sa_flags = SA_RESTART};
+  const struct itimerval every = {{seconds, 0}, {seconds, 0}};
+  if (seconds > 0) sigaction(SIGALRM, &act, NULL);
+  setitimer(ITIMER_REAL, &every, NULL);
+  if (seconds == 0) sigaction(SIGALRM, &act, NULL);
+}
+
 int thr_os_processors(void)
 {
   long n = sysconf(_SC_NPROCESSORS_ONLN);

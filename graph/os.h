@@ -47,6 +47,10 @@ void thr_os_cache_folder(char *path, size_t size);
 enum { THR_OS_HANGUP = 1 }; /* what on_stop hears then */
 void thr_os_heed_stop(void (*on_stop)(int signal));
 
+/* Calls on_tick every so many seconds from now on, in the midst of whatever is computed: it may do no more than a signal handler.
+ * 0 s: no more. Nothing is called where the system has no such clock. */
+void thr_os_tick(int seconds, void (*on_tick)(int signal));
+
 int thr_os_processors(void);
 
 /* Processor time, user and system, s, of this process and of its children that have ended. */

@@ -171,6 +171,7 @@ static void show_row(void *user, const thr_advice_row *row, const thr_plan *plan
   thr_text text = {0};
   if (plan) keep_cords(l, row, plan);
   if (!l->shown) return;
+  cli_wipe_line();
   if (l->lines == 0) {
     advice_put_head(&text, l->frame, l->physics);
     l->lines = 4;
@@ -247,6 +248,7 @@ static int advise(arguments *a, const thr_frame *frame)
   double work = 0;
   thr_limits limits = advice_limits(a->guard.seconds, &work);
   thr_status st = thr_advise(frame, &a->request, &options, &limits, &advice, &err);
+  cli_progress_end();
   wipe_rows(&l);
   if (!st) code = write_advice(a, frame, &advice, &l);
   forget_cords(&l);

@@ -254,6 +254,12 @@ void thr_os_heed_stop(void (*on_stop)(int signal))
   if (first) SetConsoleCtrlHandler(on_console, TRUE);
 }
 
+void thr_os_tick(int seconds, void (*on_tick)(int signal))
+{
+  (void)seconds;
+  (void)on_tick;
+}
+
 int thr_os_processors(void)
 {
   SYSTEM_INFO info;
