@@ -377,10 +377,11 @@ static int write_still(const thr_plan *plan, const thr_settle *settle, bool stop
 static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eval *eval, bool stopped)
 {
   thr_text text = {0};
+  const char *to = a->output;
   int code = EXIT_OK;
-  if (a->output) {
+  if (to) {
     thr_plan_write(plan, &text);
-    code = cli_write(&text, a->output);
+    code = cli_write_kept(&text, &to);
   }
   if (!code && a->plot && eval->n_carries > 0)
     code = write_load_plot(plan, eval, a->load.load, a->plot);
@@ -388,7 +389,7 @@ static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eva
     code = write_plot(plan, a->strength * thr_strength_left(a->knot), a->plot);
   if (!code && a->still) code = write_still(plan, &eval->settle, stopped, a->still);
   if (!code && a->stills) code = write_stills(plan, &eval->erect, stopped, a->stills);
-  const char *const out[] = {a->output, a->plot, a->still, a->stills};
+  const char *const out[] = {to, a->plot, a->still, a->stills};
   const eval_view view = {
       a->pull.pull, a->strength, a->knot, a->tension, a->load.load != NULL, a->pull.options.dynamics && !a->load.load, stopped};
   for (int i = 0; i < 4; i++)
