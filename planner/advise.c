@@ -122,9 +122,18 @@ static thr_status new_row(adviser *x, thr_advice_row **row, thr_err *err)
   return THR_OK;
 }
 
+/* Sets what the ends of the cord that is hardest to pull take. reach, other: rad that they have to overcome. */
+static void set_pulls(const adviser *x, double reach, double other, thr_advice_row *row)
+{
+  double pull[THR_ADVICE_PULLS];
+  thr_advice_pulls(&x->out->physics, other, pull);
+  row->other = pull[THR_ADVICE_MU];
+  thr_advice_pulls(&x->out->physics, reach, row->pull);
+}
+
 static void measure_row(adviser *x, const kind *k, const thr_plan *plan, thr_advice_row *row)
 {
-  double reach = thr_cords_pulled_turning(x->frame, plan->cord, plan->n_cords);
+  double other, reach = thr_cords_pulled_turnings(x->frame, plan->cord, plan->n_cords, &other);
   row->ends = k->ends;
   row->cords = plan->options.cords;
   row->all = plan->n_cords;
@@ -133,7 +142,7 @@ static void measure_row(adviser *x, const kind *k, const thr_plan *plan, thr_adv
   row->turning = plan->metrics.max_turning;
   row->passes = plan->metrics.passes;
   row->steps = learned(x, plan);
-  thr_advice_pulls(&x->out->physics, reach, row->pull);
+  set_pulls(x, reach, other, row);
   x->out->base_length = plan->metrics.base_length;
 }
 
@@ -151,7 +160,7 @@ static void measure_cuts(adviser *x, const kind *k, int cords, thr_advice_row *r
                           .turning = m.turning,
                           .passes = whole->passes,
                           .steps = whole->passes + ends};
-  thr_advice_pulls(&x->out->physics, m.pulled, row->pull);
+  set_pulls(x, m.pulled, m.other, row);
 }
 
 /* Looks what the row buys, and tells it. */
@@ -508,6 +517,7 @@ static void add_to_row(thr_advice_row *sum, const thr_advice_row *row)
   sum->searched &= row->searched;
   sum->passes += row->passes;
   sum->steps += row->steps;
+  if (row->pull[THR_ADVICE_MU] > sum->pull[THR_ADVICE_MU]) sum->other = row->other;
   for (int i = 0; i < THR_ADVICE_PULLS; i++)
     sum->pull[i] = fmax(sum->pull[i], row->pull[i]);
 }

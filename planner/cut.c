@@ -176,6 +176,7 @@ thr_parts_measures thr_parts_measure(const thr_parts *cuts)
       const int last = x->last[i];
       m.turning = fmax(m.turning, x->before[last] - x->before[first]);
       const thr_parting parting = thr_least_pull(x->before, first, last);
+      if (thr_parting_larger(&parting) > m.pulled) m.other = thr_least_pull_other(x->before, first, last);
       m.pulled = fmax(m.pulled, thr_parting_larger(&parting));
       m.longest = fmax(m.longest, x->length[last + 1] - x->length[first]);
     }

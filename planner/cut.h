@@ -24,9 +24,9 @@ void thr_parts_destroy(thr_parts *cuts);
 bool thr_parts_into(thr_parts *cuts, int parts);
 
 /* Of the parts: what the one turns that turns most, what an end of one of them has to overcome at most when both its ends are
- * pulled (thr_cord_pulled_turning), rad, and the length of the longest. O(parts log passes). */
+ * pulled (thr_cord_pulled_turning), and its other end, rad, and the length of the longest. O(passes). */
 typedef struct {
-  double turning, pulled, longest;
+  double turning, pulled, other, longest;
 } thr_parts_measures;
 thr_parts_measures thr_parts_measure(const thr_parts *cuts);
 

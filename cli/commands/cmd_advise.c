@@ -225,7 +225,7 @@ static int write_advice(const arguments *a, const thr_frame *frame, const thr_ad
     st = draw(a, frame, advice, words, &text, &err);
   else if (!a->json)
     advice_put_table(&text, frame, advice, words);
-  if (!st && !a->json && a->type != TYPE_SVG && laid_out) advice_put_ends(&text, &chosen);
+  if (!st && !a->json && a->type != TYPE_SVG && laid_out) advice_put_holding(&text, &chosen);
   if (!st && a->json) code = write_json(a, frame, advice, words, laid_out ? &chosen : NULL);
   if (!code && (st || !a->json || a->type == TYPE_SVG)) code = cli_write_drawn(st, &text, a->output, &err);
   thr_text_destroy(&text);

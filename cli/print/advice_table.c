@@ -67,23 +67,23 @@ void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *
                   frame->n_nodes, frame->n_edges, cli_plural(frame->n_edges, "interface", "interfaces"), physics->seating);
   thr_text_printf(text, "friction mu = %g, or anything in its band from %g to %g\n\n", physics->mu, physics->mu_low,
                   physics->mu_high);
-  thr_text_printf(text, "   cords  %-11s %14s %8s %10s %12s %9s %19s %6s  %s\n", "ends", units, "overlap", "longest",
+  thr_text_printf(text, "   cords  %-11s %14s %8s %10s %12s %13s %19s %6s  %s\n", "ends", units, "overlap", "longest",
                   "most turning", "pull, N", "in the band of mu", "steps", "proved");
 }
 
 void advice_put_row(thr_text *text, const thr_advice_row *row, double base_length, const char *mark)
 {
   const double over = 100 * (row->length / base_length - 1);
-  char low[24], pull[24], high[24], band[56], proof[40] = "-";
+  char low[24], pull[64], high[24], band[56], proof[40] = "-";
   snprintf(band, sizeof band, "%s .. %s", plain_newtons(row->pull[THR_ADVICE_LOW], low),
            plain_newtons(row->pull[THR_ADVICE_HIGH], high));
   if (row->optimal)
     snprintf(proof, sizeof proof, "it cannot turn less");
   else if (row->bound > 0)
     snprintf(proof, sizeof proof, "turning of at least %.0f deg", floor(thr_degrees(row->bound)));
-  thr_text_printf(text, "%-3s%5d  %-11s %14.3f %6.1f %% %10.4g %8.0f deg %9s %19s %6d  %s\n", mark, row->cords,
+  thr_text_printf(text, "%-3s%5d  %-11s %14.3f %6.1f %% %10.4g %8.0f deg %13s %19s %6d  %s\n", mark, row->cords,
                   thr_advice_ends(row->ends), row->length, over < 0.05 ? 0 : over, row->longest, thr_degrees(row->turning),
-                  plain_newtons(row->pull[THR_ADVICE_MU], pull), band, row->steps, proof);
+                  plain_two(row->other, row->pull[THR_ADVICE_MU], pull), band, row->steps, proof);
 }
 
 /* What a hand manages, as far as it is one of the numbers with a source. */
@@ -107,7 +107,7 @@ static void put_choice(thr_text *text, const thr_advice *advice, const char *com
   thr_text_append(text, "> ");
   advice_put_cords(text, row);
   thr_text_printf(text, ": %s, or %s to %s N in the band. The fewest found that stay within %s%s even at mu = %g\n  ",
-                  plain_force(row->pull[THR_ADVICE_MU], pull), plain_newtons(row->pull[THR_ADVICE_LOW], low),
+                  plain_both(row->other, row->pull[THR_ADVICE_MU], pull), plain_newtons(row->pull[THR_ADVICE_LOW], low),
                   plain_newtons(row->pull[THR_ADVICE_HIGH], high), hand, hand_words(advice->hand), advice->physics.mu_high);
   thr_text_append_clean(text, command);
   thr_text_append(text, "\n");
@@ -129,24 +129,13 @@ void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *
   put_choice(text, advice, command);
 }
 
-void advice_put_ends(thr_text *text, const thr_plan *plan)
+void advice_put_holding(thr_text *text, const thr_plan *plan)
 {
   thr_eval eval;
   if (!turning_seat(plan, plan->options.physics.seating, &eval)) {
     thr_eval_destroy(&eval);
     return;
   }
-
-  /* The two ends of the cord that is hardest to pull. */
-  const thr_eval_cord *hardest = &eval.record.cord[0];
-  char smaller[24], larger[24], both[64];
-  for (int i = 1; i < eval.record.n_cords; i++)
-    if (eval.record.cord[i].force > hardest->force) hardest = &eval.record.cord[i];
-  plain_newtons(hardest->other_force, smaller);
-  plain_newtons(hardest->force, larger);
-  if (strcmp(smaller, larger) != 0)
-    thr_text_printf(text, "  its ends take %s as found here\n", plain_both(hardest->other_force, hardest->force, both));
-
   seated_put_holding(text, "  ", plan, &eval.record);
   thr_eval_destroy(&eval);
 }
@@ -159,7 +148,8 @@ void advice_put_line(thr_text *text, const thr_advice_row *row, double length, c
   double more = 100 * (row->length / length - 1);
   thr_text_append(text, "         ");
   advice_put_cords(text, row);
-  thr_text_printf(text, " %s about %s", cli_plural(row->cords, "needs", "need"), plain_force(row->pull[THR_ADVICE_MU], pull));
+  thr_text_printf(text, " %s about %s", cli_plural(row->cords, "needs", "need"),
+                  plain_both(row->other, row->pull[THR_ADVICE_MU], pull));
   if (fabs(more) < 0.05)
     thr_text_append(text, " with as much cord");
   else
@@ -183,6 +173,7 @@ static void put_row_json(thr_writer *writer, const thr_advice_row *row)
   thr_write_number(writer, "max_turning_bound", row->bound > 0 ? row->bound : NAN);
   thr_write_string(writer, "max_turning_status", row->optimal ? "optimal" : row->bound > 0 ? "bound" : "unknown");
   thr_write_number(writer, "pull", row->pull[THR_ADVICE_MU]);
+  thr_write_number(writer, "other_pull", row->other);
   thr_write_number(writer, "pull_low", row->pull[THR_ADVICE_LOW]);
   thr_write_number(writer, "pull_high", row->pull[THR_ADVICE_HIGH]);
   thr_write_int(writer, "passes", row->passes);

@@ -13,9 +13,9 @@
 void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *physics);
 void advice_put_row(thr_text *text, const thr_advice_row *row, double base_length, const char *mark);
 
-/* What the recommended cords, of a plan that needs no proof, take at both ends if those differ, and what holding the pieces needs
- * where it is more: a line each. */
-void advice_put_ends(thr_text *text, const thr_plan *plan);
+/* What holding the pieces of the recommended plan, which needs no proof, takes where it is more than what seats its cords: a line.
+ */
+void advice_put_holding(thr_text *text, const thr_plan *plan);
 
 /* All rows and, below, the recommended one with its command. */
 void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *advice, const char *command);

@@ -109,6 +109,21 @@ static double closed_largest(const compare_entry *e)
 {
   return compare_largest(e, THR_CAPSTAN);
 }
+/* At the other end of the cord that is hardest to pull, where both ends are pulled. */
+static double other_of(const compare_entry *e, thr_method method)
+{
+  if (!is_known(e, method)) return NAN;
+  const thr_eval_cord *hardest = thr_evaluation_hardest(&e->eval[method].record);
+  return hardest->other_force > 0 ? hardest->other_force : NAN;
+}
+static double closed_other(const compare_entry *e)
+{
+  return other_of(e, THR_CAPSTAN);
+}
+static double joint_other(const compare_entry *e)
+{
+  return other_of(e, THR_JOINT);
+}
 static double closed_total(const compare_entry *e)
 {
   return total_of(e, THR_CAPSTAN);
@@ -171,9 +186,11 @@ const compare_row compare_rows[] = {
     {"turns over 90 deg", "turns_over_90", turns_over_90, true, -1, THR_CAPSTAN, false, false},
     {"U-turns", "u_turns", u_turns, true, -1, THR_CAPSTAN, false, false},
     {"largest pull, closed form, N", "largest_pull", closed_largest, true, -6, THR_CAPSTAN, false, false},
+    {"the other end of that cord, N", "other_pull", closed_other, false, -6, THR_CAPSTAN, true, false},
     {"all pulls together, N", "total_pull", closed_total, true, -6, THR_CAPSTAN, false, false},
     {"turning of the tight cords, deg", "taut_turning_deg", taut_turning, true, 1, THR_JOINT, false, false},
     {"largest pull, simulated, N", "joint_pull", joint_largest, true, -4, THR_JOINT, false, false},
+    {"the other end of that cord, N", "joint_other_pull", joint_other, false, -4, THR_JOINT, true, false},
     {"its error where measured, +- %", "joint_error_percent", joint_error, false, -3, THR_JOINT, false, false},
     {"turns by closed form", "joint_refused", joint_refused, false, -1, THR_JOINT, false, false},
     {"all pulls together, simulated, N", "joint_total", joint_total, true, -4, THR_JOINT, false, false},

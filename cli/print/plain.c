@@ -38,17 +38,35 @@ const char *plain_force(double newton, char out[64])
   return out;
 }
 
-const char *plain_both(double smaller, double larger, char out[64])
+/* Do the pulls at two ends read alike? */
+static bool is_one(double smaller, double larger)
+{
+  char one[24], other[24];
+  plain_newtons(smaller, one);
+  plain_newtons(larger, other);
+  return !(smaller < larger) || larger >= 1e5 || strcmp(one, other) == 0;
+}
+
+const char *plain_two(double smaller, double larger, char out[64])
 {
   const int decimals = larger >= 99.95 ? 0 : larger >= 9.995 ? 1 : 2;
   char one[24], other[24];
   plain_newtons(smaller, one);
   plain_newtons(larger, other);
-  if (!(smaller < larger) || larger >= 1e5 || strcmp(one, other) == 0) return plain_force(larger, out);
-  if (larger >= 1)
-    snprintf(out, 64, "%.*f and %.*f N", decimals, smaller, decimals, larger);
+  if (is_one(smaller, larger))
+    snprintf(out, 64, "%s", other);
+  else if (larger >= 1)
+    snprintf(out, 64, "%.*f and %.*f", decimals, smaller, decimals, larger);
   else
-    snprintf(out, 64, "%s and %s N", one, other);
+    snprintf(out, 64, "%s and %s", one, other);
+  return out;
+}
+
+const char *plain_both(double smaller, double larger, char out[64])
+{
+  char two[64];
+  if (is_one(smaller, larger)) return plain_force(larger, out);
+  snprintf(out, 64, "%.60s N", plain_two(smaller, larger, two));
   return out;
 }
 

@@ -17,6 +17,9 @@ const char *plain_force(double newton, char out[64]);
 /* "7.70 and 8.94 N": at the two ends of a cord; of two that read alike "8.94 N (0.91 kg)". */
 const char *plain_both(double smaller, double larger, char out[64]);
 
+/* The same without unit or weight: "7.70 and 8.94", "8.94". */
+const char *plain_two(double smaller, double larger, char out[64]);
+
 /* What is proved of a value that should be small. optimal: "proved: nothing shorter exists" for `less` "nothing shorter exists";
  * else "at most 3.1 % above the shortest possible (proved)", rounded up, for `least` "shortest possible". bound <= 0: "how near
  * that is to the shortest possible is not known". */

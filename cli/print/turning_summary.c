@@ -63,10 +63,7 @@ void turning_put_ends_json(thr_writer *writer, const thr_plan *plan)
 {
   thr_eval seated;
   if (turning_seat(plan, plan->options.physics.seating, &seated)) {
-    const thr_eval_cord *hardest = &seated.record.cord[0];
-    for (int i = 1; i < plan->n_cords; i++)
-      if (seated.record.cord[i].force > hardest->force) hardest = &seated.record.cord[i];
-    thr_write_number(writer, "other_pull", hardest->other_force);
+    thr_write_number(writer, "other_pull", thr_evaluation_hardest(&seated.record)->other_force);
     seated_put_holding_json(writer, plan, &seated.record);
   }
   thr_eval_destroy(&seated);

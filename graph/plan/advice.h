@@ -34,6 +34,7 @@ typedef struct {
   bool optimal;                  /* proved: turning is the least */
   bool searched;                 /* false: the cords are those of another plan, cut evenly, or symmetric ones */
   double pull[THR_ADVICE_PULLS]; /* N at the hardest end, at mu_low, mu and mu_high; INFINITY beyond 1e300 */
+  double other;                  /* N at the other end of that cord, at mu */
   int passes;                    /* of all cords */
   int steps;                     /* learned: passes of those cords that no automorphism maps onto an earlier one, and with
                                     THR_ENDS_ANY their ends */

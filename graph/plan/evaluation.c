@@ -23,6 +23,14 @@ const char *thr_law_name(int l)
   return law_name[l];
 }
 
+const thr_eval_cord *thr_evaluation_hardest(const thr_evaluation *evaluation)
+{
+  const thr_eval_cord *hardest = &evaluation->cord[0];
+  for (int i = 1; i < evaluation->n_cords; i++)
+    if (evaluation->cord[i].force > hardest->force) hardest = &evaluation->cord[i];
+  return hardest;
+}
+
 void thr_evaluation_sum(thr_evaluation *evaluation)
 {
   evaluation->largest = evaluation->total = 0;

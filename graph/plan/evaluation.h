@@ -73,6 +73,9 @@ typedef struct {
 const char *thr_method_name(int m); /* "capstan", "joint", "structure" */
 const char *thr_law_name(int l);    /* "capstan", "mitre" */
 
+/* Returns the cord that needs the largest force at an end, the first of several; there is at least one. */
+const thr_eval_cord *thr_evaluation_hardest(const thr_evaluation *evaluation);
+
 /* Largest and total from the cords; those that are not known count as 0. */
 void thr_evaluation_sum(thr_evaluation *evaluation);
 void thr_evaluation_destroy(thr_evaluation *evaluation);

@@ -41,6 +41,23 @@ thr_parting thr_least_pull(const double *sum, int first, int last)
   return thr_parting_larger(&before) < thr_parting_larger(&best) ? before : best;
 }
 
+static double rounding_of(const double *sum, int first, int last)
+{
+  return 1e-12 * (1 + sum[last] - sum[first]);
+}
+
+double thr_least_pull_other(const double *sum, int first, int last)
+{
+  const thr_parting best = thr_least_pull(sum, first, last);
+  const double most = thr_parting_larger(&best) + rounding_of(sum, first, last);
+  double least = fmin(best.start, best.end);
+  for (int k = first; k < last; k++) {
+    const thr_parting other = part_at(sum, first, last, k);
+    if (thr_parting_larger(&other) <= most) least = fmin(least, fmin(other.start, other.end));
+  }
+  return least;
+}
+
 /* Says which of the turns i < k comes first whichever end of the cord is called its start. */
 static bool comes_first(const int *half, int n_passes, int i, int k)
 {
@@ -54,16 +71,9 @@ static bool comes_first(const int *half, int n_passes, int i, int k)
 thr_parting thr_least_pull_of(const double *sum, const int *half, int n_passes)
 {
   const int last = n_passes - 1;
-  const double rounding = 1e-12 * (1 + sum[last] - sum[0]);
+  const double rounding = rounding_of(sum, 0, last), least = thr_least_pull_other(sum, 0, last);
   thr_parting best = thr_least_pull(sum, 0, last);
   const double most = thr_parting_larger(&best) + rounding;
-
-  /* Among the turns whose larger sum is the least, finds the least smaller sum. */
-  double least = INFINITY;
-  for (int k = 0; k < last; k++) {
-    const thr_parting other = part_at(sum, 0, last, k);
-    if (thr_parting_larger(&other) <= most) least = fmin(least, fmin(other.start, other.end));
-  }
 
   /* Among the turns that have both, finds the one that comes first. */
   int first = -1;

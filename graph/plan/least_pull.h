@@ -28,6 +28,9 @@ double thr_parting_larger(const thr_parting *parting);
  * pass k, counted from any turn on; it never falls. O(log passes). */
 thr_parting thr_least_pull(const double *sum, int first, int last);
 
+/* Returns the smaller sum of the best parting of passes first .. last, the least where there are several. O(passes). */
+double thr_least_pull_other(const double *sum, int first, int last);
+
 /* Returns the best parting of a whole cord, half[n_passes], where there may be several: the one with
  * the smaller smaller sum, of these the one nearest to the middle, and of two as near the one whose
  * inner pass, or whose passes further out, have the lower edge. Sums count as equal within 1e-12. So

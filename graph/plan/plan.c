@@ -291,6 +291,35 @@ double thr_cords_pulled_turning(const thr_frame *frame, const thr_cord *cord, in
   return most;
 }
 
+/* The smaller part of a cord's turning where it is parted for the least larger one, most. */
+static double smaller_part(const thr_frame *frame, const thr_cord *cord, double most)
+{
+  const double whole = thr_cord_turning(frame, cord, false), rounding = 1e-12 * (1 + whole);
+  double before = 0, least = INFINITY;
+  if (cord->n_passes < 2) return 0;
+  thr_turns turns = thr_turns_begin(frame, cord->half[0]);
+  for (int k = 1; k < cord->n_passes; k++) {
+    const double turn = thr_turns_next(&turns, cord->half[k]), after = whole - before - turn;
+    if (fmax(before, after) <= most + rounding) least = fmin(least, fmin(before, after));
+    before += turn;
+  }
+  return fmax(0, least);
+}
+
+double thr_cords_pulled_turnings(const thr_frame *frame, const thr_cord *cord, int n, double *other)
+{
+  double most = -1;
+  int hardest = 0;
+  *other = 0;
+  for (int i = 0; i < n; i++) {
+    const double here = thr_cord_pulled_turning(frame, &cord[i]);
+    if (here > most) hardest = i;
+    most = fmax(most, here);
+  }
+  if (n > 0) *other = smaller_part(frame, &cord[hardest], most);
+  return fmax(0, most);
+}
+
 bool thr_cords_within_pull(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n)
 {
   const double rounding = 1e-10; /* a tenth of the checker's */

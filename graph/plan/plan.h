@@ -232,6 +232,9 @@ double thr_cord_price(const thr_frame *framework, const thr_request *wishes, con
 double thr_cord_pulled_turning(const thr_frame *framework, const thr_cord *cord);
 double thr_cords_pulled_turning(const thr_frame *framework, const thr_cord *cord, int n);
 
+/* The same of several cords; *other: what the other end of that cord, the first of several, has to overcome then. */
+double thr_cords_pulled_turnings(const thr_frame *framework, const thr_cord *cord, int n, double *other);
+
 /* Do all cords need no more than options.max_pull? */
 bool thr_cords_within_pull(const thr_frame *framework, const thr_request *wishes, const thr_cord *cord, int n);
 

@@ -196,6 +196,26 @@ static double pull_of(const thr_frame *f, const thr_cord *cord, double mu)
   return least;
 }
 
+/* The smaller pull of the cord that needs the largest, by trying every turn. */
+static double other_pull(const thr_plan *p, double mu)
+{
+  double most = 0, other = 1;
+  for (int i = 0; i < p->n_cords; i++) {
+    const thr_cord *cord = &p->cord[i];
+    const double larger = pull_of(&p->frame, cord, mu);
+    if (larger <= most * (1 + 1e-12)) continue;
+    most = larger;
+    other = cord->n_passes > 1 ? INFINITY : 1;
+    for (int free = 0; free + 1 < cord->n_passes; free++) {
+      double pull[2] = {1, 1};
+      for (int k = 0; k + 1 < cord->n_passes; k++)
+        if (k != free) pull[k > free] *= exp(mu * thr_turn_angle(&p->frame, cord->half[k], cord->half[k + 1]));
+      if (fmax(pull[0], pull[1]) <= larger * (1 + 1e-12)) other = fmin(other, fmin(pull[0], pull[1]));
+    }
+  }
+  return other;
+}
+
 START_TEST(plans_keep_to_the_pull_and_claim_what_is_true)
 {
   rng r = rng_make((uint64_t)_i + 1);
@@ -265,6 +285,9 @@ START_TEST(the_least_pull_is_bounded)
       for (int i = 0; i < p.n_cords; i++)
         largest = fmax(largest, pull_of(&x.frame, &p.cord[i], x.o.physics.mu));
       ck_assert_double_eq_tol(largest, exp(x.o.physics.mu * found), 1e-9 * largest);
+      double other = 0;
+      ck_assert_double_eq_tol(thr_cords_pulled_turnings(&x.frame, p.cord, p.n_cords, &other), found, 1e-9 * (1 + found));
+      ck_assert_double_eq_tol(exp(x.o.physics.mu * other), other_pull(&p, x.o.physics.mu), 1e-9 * largest);
       ck_assert_double_le(bound, found + 1e-9);
       ck_assert(is_possible(&x, found));
       ck_assert(bound <= 1e-6 || !is_possible(&x, bound * (1 - 1e-7) - 1e-7));
