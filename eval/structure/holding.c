@@ -252,15 +252,16 @@ static double close_enough(const task *t)
   return t->b->n_beads > THR_BLOCKS_LARGE ? 2 * THR_BLOCKS_ROUGH : CLOSE;
 }
 
-static bool closed(const answer *a, double within)
+/* Where nothing is proved, as no pull is needed, no mechanism has to hold: the multipliers are all about 0 then. */
+static bool closed(const task *t, const answer *a, double within)
 {
-  return a->gap < within && a->residual < STILL;
+  return a->gap < within && (a->residual < STILL || (!t->carries && a->lower == 0));
 }
 
 /* Moves a to best if it is near and its bound the better one: the higher pull, the lower load. */
 static void keep_better(const task *t, answer *a, double most, answer *best, double *best_most)
 {
-  if (!closed(a, NEAR) || (best->velocity && (t->carries ? a->lower >= best->lower : a->lower <= best->lower))) return;
+  if (!closed(t, a, NEAR) || (best->velocity && (t->carries ? a->lower >= best->lower : a->lower <= best->lower))) return;
   answer_destroy(best);
   *best = *a;
   *best_most = most;
@@ -360,11 +361,11 @@ static thr_status check_feasible(task *t, thr_err *err)
 static thr_status lower_at(task *t, double most, answer *a, answer *best, double *best_most, thr_err *err)
 {
   thr_status st = pull_of(t, most, false, true, a, err);
-  if (st || closed(a, close_enough(t))) return st;
+  if (st || closed(t, a, close_enough(t))) return st;
   keep_better(t, a, most, best, best_most);
   if (t->largest <= most || !(a->pull > 0) || !isfinite(a->pull)) return THR_OK;
   st = pull_of(t, most, true, true, a, err);
-  if (!st && !closed(a, close_enough(t))) keep_better(t, a, most, best, best_most);
+  if (!st && !closed(t, a, close_enough(t))) keep_better(t, a, most, best, best_most);
   return st;
 }
 
@@ -377,7 +378,7 @@ static thr_status lower_pull_in(task *t, double *most, answer *a, thr_err *err)
   for (int i = 0; i < CAPS; i++) {
     *most = t->least * cap[i];
     st = lower_at(t, *most, a, &best, &best_most, err);
-    if (st || (a->velocity && closed(a, close_enough(t)))) goto done;
+    if (st || (a->velocity && closed(t, a, close_enough(t)))) goto done;
     if (i == 0 && !best.velocity && !t->carries && (st = check_feasible(t, err))) goto done;
     if (i == 0 && !best.velocity && t->stretches && t->b->strength > 0 && (st = check_strength(t, err))) goto done;
     if (t->largest <= *most || (t->round && !isfinite(a->pull))) break; /* a greater span is no easier for cones */
