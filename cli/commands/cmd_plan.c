@@ -627,6 +627,22 @@ static thr_status make_plan(const arguments *a, const thr_frame *framework, cons
   return st;
 }
 
+/* Says why there is no plan: in one line, and with --json as an object, too. Returns the exit code. */
+static int refuse(const arguments *a, const thr_err *err)
+{
+  thr_text text = {0};
+  thr_writer writer = {.out = &text};
+  const int code = cli_fail(err);
+  if (!a->json || err->code == THR_ENOMEM) return code;
+  thr_write_object(&writer, NULL);
+  thr_write_string(&writer, "error", err->text);
+  thr_write_int(&writer, "exit_code", code);
+  thr_write_close(&writer);
+  thr_text_append(&text, "\n");
+  const int written = cli_write(&text, "-");
+  return written ? written : code;
+}
+
 /* Releases the framework, of which the plan has its own. */
 static int plan_frame(const arguments *a, thr_frame *framework)
 {
@@ -642,8 +658,9 @@ static int plan_frame(const arguments *a, thr_frame *framework)
     best_begin(NULL, NULL);
     thr_frame_destroy(framework);
     int planned_code = st ? EXIT_LIMIT : EXIT_OK;
-    if (st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0)) code = write_outputs(a, &x, &planned_code);
-    if (code == EXIT_OK) code = st ? cli_fail(&err) : planned_code;
+    const bool is_plan = st == THR_OK || (st == THR_ELIMIT && x.plan.n_cords > 0);
+    if (is_plan) code = write_outputs(a, &x, &planned_code);
+    if (code == EXIT_OK) code = !is_plan ? refuse(a, &err) : st ? cli_fail(&err) : planned_code;
   }
   free(options.end_node);
   free(options.end_count);
