@@ -16,6 +16,7 @@ overlap, then steps, then paths; with --balance the longest cord; with --max-len
 """
 import argparse
 import concurrent.futures
+import functools
 import itertools
 import json
 import os
@@ -66,10 +67,17 @@ def value_of(plan, case):
     return value, part.get("lower_bound"), part.get("status", "none")
 
 
+@functools.cache
+def to_the_proof(program):
+    """Options with which a search goes on to the proof: older programs know no --gap, and do so anyway."""
+    said = subprocess.run([program, "plan", "--help"], stdout=subprocess.PIPE, check=True).stdout
+    return ["--gap", "0"] if b"--gap" in said else []
+
+
 def run(program, frame, options, limit, case, checker):
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "plan.json")
-        command = [program, "plan", frame, *options, "--time-limit", str(limit), "-q", "-o", path]
+        command = [program, "plan", frame, *options, *to_the_proof(program), "--time-limit", str(limit), "-q", "-o", path]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         said = process.stderr.read().decode(errors="replace").strip()
         _, status, usage = os.wait4(process.pid, 0)

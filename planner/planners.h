@@ -87,6 +87,9 @@ thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *o
  * (tortuosity/cords/walk_pull.h). Solid joints. */
 thr_status thr_planner_pull_length(thr_plan *plan, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
+/* Sets what the proof of a plan's length proves of its cords as they are. Solid joints. */
+thr_status thr_planner_judge_length(thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+
 /* With THR_AIM_PULL, raises what a claim, judged by the checker, proves of the cord that is hardest to pull, as far as its tree,
  * walks and few edges do. Else nothing. */
 thr_status thr_planner_pull_least(const thr_frame *frame, const thr_request *request, const thr_cord *cord, int n_cords,

@@ -26,8 +26,7 @@ static thr_status largest_component(const thr_plan *plan, const thr_turning_colu
   return THR_OK;
 }
 
-/* What is proved of the plan's length now. */
-static thr_status judge(thr_plan *plan, thr_err *err)
+thr_status thr_planner_judge_length(thr_plan *plan, thr_err *err)
 {
   thr_length_proof *proof = &plan->proof;
   thr_err found = {0};
@@ -53,7 +52,7 @@ thr_status thr_planner_pull_length(thr_plan *plan, const thr_limits *limits, thr
   if (!st) st = largest_component(plan, &columns, &component, err);
   if (!st)
     st = thr_walk_pull_length(&columns, options, plan->cord, plan->n_cords, component, limits, &plan->proof.pulled, &bound, err);
-  if (!st && bound > 0) st = judge(plan, err);
+  if (!st && bound > 0) st = thr_planner_judge_length(plan, err);
   if (!st && plan->proof.lower_bound <= before) thr_walk_proof_destroy(&plan->proof.pulled);
   thr_turning_columns_destroy(&columns);
   free(end_allowed);

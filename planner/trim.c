@@ -133,13 +133,9 @@ static thr_status prove(thr_plan *plan, thr_err *err)
   if (!st && before.proof.present) {
     const thr_walk_proof pulled = before.proof.pulled;
     before.proof.pulled = (thr_walk_proof){0};
-    const double bound = before.proof.lower_bound;
     st = thr_planner_prove_length(plan, &before, err);
     plan->proof.pulled = pulled;
-    plan->proof.lower_bound = fmin(plan->metrics.length, fmax(plan->proof.lower_bound, bound));
-    plan->proof.optimal |= plan->metrics.length <= bound * (1 + 1e-9);
-    if (plan->proof.optimal) plan->proof.lower_bound = plan->metrics.length;
-    plan->proof.gap = (plan->metrics.length - plan->proof.lower_bound) / plan->metrics.length;
+    if (!st && pulled.unit) st = thr_planner_judge_length(plan, err);
     plan->proof.slack_open = !thr_plan_within_slack(&plan->options, plan->metrics.length, plan->proof.lower_bound);
   }
   if (!st) st = thr_planner_prove_turning(plan, &before.turning, err);
