@@ -13,8 +13,8 @@
 void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *physics);
 void advice_put_row(thr_text *text, const thr_advice_row *row, double base_length, const char *mark);
 
-/* What holding the pieces of the recommended plan, which needs no proof, takes where it is more than what seats its cords: a line.
- */
+/* Appends a line that says what holding the pieces of the recommended plan takes, where that is more than what seats its cords.
+ * The plan needs no proof. */
 void advice_put_holding(thr_text *text, const thr_plan *plan);
 
 /* All rows and, below, the recommended one with its command. */
