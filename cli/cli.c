@@ -62,7 +62,7 @@ static void say(const char *format, va_list args, const char *after)
 
 static bool progress_shown;
 
-static void wipe_progress(void)
+void cli_progress_wipe(void)
 {
   if (progress_shown) fputs("\r\033[K", stderr);
   progress_shown = false;
@@ -72,7 +72,7 @@ void cli_note(const char *format, ...)
 {
   if (cli_quiet) return;
   va_list args;
-  wipe_progress();
+  cli_progress_wipe();
   va_start(args, format);
   say(format, args, "");
   va_end(args);
@@ -714,7 +714,7 @@ void cli_wipe_line(void)
 void cli_progress_end(void)
 {
   end_waiting();
-  wipe_progress();
+  cli_progress_wipe();
 }
 
 /* ---- tables ---- */

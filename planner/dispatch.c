@@ -18,7 +18,7 @@ static const double hard_seconds = 20; /* of any objective: tied cords, or few c
 static const double work_of_one_cord = 10, work_of_several_cords = 1, work_of_tubes = 3, work_if_asked = 10;
 
 /* Of cords within a pull unless it is asked how near they have to be: its planner counts its work by the seconds it is given. */
-static const double brief_seconds = 2;
+static const double brief_seconds = 3;
 
 /* Of the time that is left when a step begins. */
 static const double part[THR_N_STEPS] = {

@@ -25,7 +25,7 @@
 /* Counted work (graph/limits.h) for a second that the user allows, so that the plan does not depend on the machine: to find how
  * many cords it takes, by search, by walks and by annealing fewer, and then cords that serve the aims. Together they take a tenth
  * of that second up to twice as long. */
-static const double work_to_find = 1.2, work_to_choose = 1.2, work_to_anneal = 0.5, work_to_serve = 0.4;
+static const double work_to_find = 1.2, work_to_choose = 1.2, work_to_anneal = 0.5, work_to_serve = 0.6;
 
 /* How many times as much work is done once more where the usual work found no cords, and they were not proved too few. */
 static const double where_none_is_found = 10;

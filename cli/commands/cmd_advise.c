@@ -171,7 +171,7 @@ static void show_row(void *user, const thr_advice_row *row, const thr_plan *plan
   thr_text text = {0};
   if (plan) keep_cords(l, row, plan);
   if (!l->shown) return;
-  cli_wipe_line();
+  cli_progress_wipe();
   if (l->lines == 0) {
     advice_put_head(&text, l->frame, l->physics);
     l->lines = 4;
