@@ -195,7 +195,7 @@ thr_limits cli_limits(double seconds);
 /* Wipes the progress line, which from now on is not kept up: from cli_limits on it tells every second that work goes on. */
 void cli_progress_end(void);
 void cli_progress_wipe(void); /* wipes it for what is printed now */
-void cli_wipe_line(void); /* the same for one that another process has left */
+void cli_wipe_line(void);     /* the same for one that another process has left */
 
 /* Is it a terminal that understands more than lines? Not with TERM=dumb. There are no colours (NO_COLOR). */
 bool cli_is_terminal(int file);

@@ -87,6 +87,9 @@ thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *o
  * (tortuosity/cords/walk_pull.h). Solid joints. */
 thr_status thr_planner_pull_length(thr_plan *plan, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
+/* Measures cords that are others than the plan's claims of length and turning are about, and proves of them what holds. */
+thr_status thr_planner_prove_again(thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+
 /* Sets what the proof of a plan's length proves of its cords as they are. Solid joints. */
 thr_status thr_planner_judge_length(thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 

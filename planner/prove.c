@@ -74,6 +74,25 @@ thr_status thr_planner_prove_turning(thr_plan *plan, thr_turning_claim *claim, t
   return THR_OK;
 }
 
+thr_status thr_planner_prove_again(thr_plan *plan, thr_err *err)
+{
+  thr_plan before = {.proof = plan->proof, .turning = plan->turning};
+  plan->proof = (thr_length_proof){0};
+  plan->turning = (thr_turning_claim){0};
+  thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (!st && before.proof.present) {
+    const thr_walk_proof pulled = before.proof.pulled;
+    before.proof.pulled = (thr_walk_proof){0};
+    st = thr_planner_prove_length(plan, &before, err);
+    plan->proof.pulled = pulled;
+    if (!st && pulled.unit) st = thr_planner_judge_length(plan, err);
+    plan->proof.slack_open = !thr_plan_within_slack(&plan->options, plan->metrics.length, plan->proof.lower_bound);
+  }
+  if (!st) st = thr_planner_prove_turning(plan, &before.turning, err);
+  thr_plan_destroy(&before);
+  return st;
+}
+
 thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err)
 {
   const thr_turning_claim *claim = &plan->turning;

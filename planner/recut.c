@@ -153,6 +153,42 @@ static thr_status cut_one(const thr_recut *recut, thr_plan *plan, int component,
   return !st && *done ? make_cut(plan, &best, err) : st;
 }
 
+/* Adds a closed cord over the shortest edge of the component that has room for two passes more, to and fro: its channels turn
+ * back, and cross nothing. passes[n_edges] by all cords. */
+static thr_status add_loop(const thr_recut *recut, thr_plan *plan, int component, int *passes, bool *done, thr_err *err)
+{
+  const thr_frame *frame = &plan->frame;
+  int best = -1;
+  for (int e = 0; e < frame->n_edges; e++) {
+    if (recut->component[thr_tail(frame, 2 * e)] != component) continue;
+    if (thr_plan_capacity(frame, &plan->options, e) - passes[e] < 2) continue;
+    if (best < 0 || frame->length[e] < frame->length[best]) best = e;
+  }
+  *done = best >= 0;
+  if (!*done) return THR_OK;
+
+  int *half = thr_calloc(2, sizeof *half);
+  if (!half) return thr_nomem(err);
+  half[0] = 2 * best;
+  half[1] = 2 * best + 1;
+  plan->cord[plan->n_cords++] = (thr_cord){.half = half, .n_passes = 2, .closed = true};
+  passes[best] += 2;
+  return THR_OK;
+}
+
+static thr_status add_loops(const thr_recut *recut, thr_plan *plan, int component, int missing, thr_err *err)
+{
+  int *passes = thr_calloc((size_t)plan->frame.n_edges, sizeof *passes);
+  thr_status st = passes ? THR_OK : thr_nomem(err);
+  for (int c = 0; c < plan->n_cords && !st; c++)
+    for (int k = 0; k < plan->cord[c].n_passes; k++)
+      passes[plan->cord[c].half[k] >> 1]++;
+  for (bool done = true; missing > 0 && done && !st; missing -= done)
+    st = add_loop(recut, plan, component, passes, &done, err);
+  free(passes);
+  return st;
+}
+
 thr_status thr_recut_cords(const thr_recut *recut, thr_plan *plan, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -166,6 +202,7 @@ thr_status thr_recut_cords(const thr_recut *recut, thr_plan *plan, thr_err *err)
     for (int back = 0; back <= (plan->options.crossings == THR_CROSSINGS_FORBID); back++)
       for (bool done = true; missing > 0 && done && !st; missing -= done)
         st = cut_one(recut, plan, k, back, &done, err);
+    if (!st && missing > 0 && plan->options.crossings == THR_CROSSINGS_FORBID) st = add_loops(recut, plan, k, missing, err);
   }
   for (int c = 0; c < plan->n_cords; c++)
     thr_cord_id(c, plan->cord[c].id);

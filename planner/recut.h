@@ -31,7 +31,9 @@ void thr_recut_destroy(thr_recut *recut);
  * and its two channels can be led otherwise such that they cross no other, and turn back into no edge (into one where no crossing
  * is allowed and nothing else is left). The longest cord of a component comes first, where it falls into the most even parts.
  * Drawn on a plane two such channels run side by side in opposite directions, so that every one of these leads a cord otherwise
- * that falls in two. plan->cord has room for as many cords as were counted. O(cuts x pairs of channels of a node). */
+ * that falls in two. Cords that are missing then, where no crossing is allowed, go to and fro over an edge that needs no more
+ * passes: the cords are longer by them. plan->cord has room for as many cords as were counted. O(cuts x pairs of channels of a
+ * node). */
 thr_status thr_recut_cords(const thr_recut *recut, thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -123,26 +123,6 @@ static void cut_cords(thr_plan *plan, const int *cut)
   }
 }
 
-/* Proves of the shorter cords what was proved of the longer ones. */
-static thr_status prove(thr_plan *plan, thr_err *err)
-{
-  thr_plan before = {.proof = plan->proof, .turning = plan->turning};
-  plan->proof = (thr_length_proof){0};
-  plan->turning = (thr_turning_claim){0};
-  thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
-  if (!st && before.proof.present) {
-    const thr_walk_proof pulled = before.proof.pulled;
-    before.proof.pulled = (thr_walk_proof){0};
-    st = thr_planner_prove_length(plan, &before, err);
-    plan->proof.pulled = pulled;
-    if (!st && pulled.unit) st = thr_planner_judge_length(plan, err);
-    plan->proof.slack_open = !thr_plan_within_slack(&plan->options, plan->metrics.length, plan->proof.lower_bound);
-  }
-  if (!st) st = thr_planner_prove_turning(plan, &before.turning, err);
-  thr_plan_destroy(&before);
-  return st;
-}
-
 thr_status thr_plan_trim(thr_plan *plan, bool *trimmed, thr_err *err)
 {
   const thr_request *request = &plan->options;
@@ -167,5 +147,5 @@ thr_status thr_plan_trim(thr_plan *plan, bool *trimmed, thr_err *err)
   }
   if (*trimmed) cut_cords(plan, t.best);
   thr_scratch_free(&scratch);
-  return st || !*trimmed ? st : prove(plan, err);
+  return st || !*trimmed ? st : thr_planner_prove_again(plan, err);
 }

@@ -3,6 +3,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/channels.h"
 #include "graph/plan/request.h"
+#include "planner/planners.h"
 #include "planner/recut.h"
 
 #include <limits.h>
@@ -192,10 +193,20 @@ static thr_status uncross_cords(thr_plan *plan, bool between, thr_err *err)
 
 /* ---- what is asked of single cords ---- */
 
-/* Metrics of the cords as they are now: the same passes, so that their length is the same to the last bit. */
-static thr_status measure(thr_plan *plan, thr_err *err)
+static int count_passes(const thr_plan *plan)
+{
+  int n = 0;
+  for (int i = 0; i < plan->n_cords; i++)
+    n += plan->cord[i].n_passes;
+  return n;
+}
+
+/* Metrics of the cords as they are now: of the same passes, unless there are more, so that their length is the same to the last
+ * bit. */
+static thr_status measure(thr_plan *plan, int passes, thr_err *err)
 {
   const double length = plan->metrics.length;
+  if (count_passes(plan) != passes) return thr_planner_prove_again(plan, err);
   thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
   plan->metrics.length = length;
   return st;
@@ -215,16 +226,16 @@ static bool serves(const thr_plan *plan, int n_cords, int distinct, double longe
 /* Each cord by itself, and those of different cords too if what is asked of single cords is kept. */
 static thr_status uncross(thr_plan *plan, thr_err *err)
 {
-  const int n = plan->n_cords, distinct = plan->metrics.distinct;
+  const int n = plan->n_cords, distinct = plan->metrics.distinct, passes = count_passes(plan);
   const double longest = thr_cords_longest(&plan->frame, plan->cord, n);
   thr_cord *before = NULL;
   if (n == 1 || !may_exchange(&plan->options)) {
     thr_status st = uncross_cords(plan, false, err);
-    return st ? st : measure(plan, err);
+    return st ? st : measure(plan, passes, err);
   }
   thr_status st = thr_cords_copy(plan->cord, n, &before, err);
   if (!st) st = uncross_cords(plan, true, err);
-  if (!st) st = measure(plan, err);
+  if (!st) st = measure(plan, passes, err);
   if (st || serves(plan, n, distinct, longest)) {
     thr_cords_destroy(before, n);
     return st;
@@ -233,7 +244,7 @@ static thr_status uncross(thr_plan *plan, thr_err *err)
   plan->cord = before;
   plan->n_cords = n;
   st = uncross_cords(plan, false, err);
-  return st ? st : measure(plan, err);
+  return st ? st : measure(plan, passes, err);
 }
 
 /* How many cross, and in how many pieces. */
