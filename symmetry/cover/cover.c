@@ -304,13 +304,13 @@ static thr_status search_whole(thr_cover_search *s, thr_err *err)
 static thr_status begin(thr_cover_search *s, const thr_cover *known, thr_err *err)
 {
   const thr_quotient *quotient = s->p->q;
-  memcpy(s->bound, known->bound, sizeof s->bound);
-  thr_status st = s->bound[THR_AIM_PATHS] > 0 ? THR_OK : bound_first(s, err);
-  if (st) return st;
+  thr_status st = THR_OK;
   if (!known->copies) {
-    st = start(s, err);
+    st = bound_first(s, err);
+    if (!st) st = start(s, err);
     return !st && s->found ? bound_ties(s, err) : st;
   }
+  memcpy(s->bound, known->bound, sizeof s->bound);
   memcpy(s->other, known->copies, (size_t)quotient->n_copies * sizeof *s->other);
   if (quotient->n_pairs > 0) memcpy(s->other + s->p->first_pair, known->pairs, (size_t)quotient->n_pairs * sizeof *s->other);
   memcpy(s->other + s->p->first_end, known->ends, (size_t)quotient->n_darts * sizeof *s->other);
@@ -344,40 +344,6 @@ static thr_status search_all(thr_cover_search *s, const thr_cover *known, thr_co
   return stopped(s, "prove that no symmetric cover is better", err);
 }
 
-static bool turns_back(const thr_quotient *quotient, int pair)
-{
-  const int *half = quotient->pair[pair].half;
-  return half[0] == half[1] && thr_degree(quotient->f, thr_tail(quotient->f, half[0])) > 1;
-}
-
-/* Tells whether cords may turn back at nodes with several edges. */
-static bool may_turn_back(const thr_programme *p)
-{
-  for (int y = 0; y < p->q->n_pairs; y++)
-    if (turns_back(p->q, y) && p->most[p->first_pair + y] != 0) return true;
-  return false;
-}
-
-/* Looks for a cover whose cords turn back at nodes with one edge only, in half of the time: that is found sooner, and mostly as
- * good. It takes the place of a worse one; bounds stay, for its own are of such covers only. */
-static thr_status look_ahead(const thr_programme *p, const thr_limits *limits, thr_cover *known, thr_err *err)
-{
-  thr_cover found = {0};
-  thr_cover_options ahead = *p->o;
-  const thr_limits half = thr_limits_part(limits, 0.5);
-  ahead.ahead = true;
-  const thr_status st = thr_cover_improve(p->q, &ahead, &half, &found, &(thr_err){0});
-  if (found.copies && (!known->copies || thr_programme_compare(p, found.value, known->value) < 0)) {
-    memcpy(found.bound, known->bound, sizeof found.bound);
-    thr_cover_destroy(known);
-    *known = found;
-    known->optimal = false;
-    found = (thr_cover){0};
-  }
-  thr_cover_destroy(&found);
-  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
-}
-
 thr_status thr_cover_improve(const thr_quotient *quotient, const thr_cover_options *options, const thr_limits *limits,
                              thr_cover *known, thr_err *err)
 {
@@ -389,7 +355,6 @@ thr_status thr_cover_improve(const thr_quotient *quotient, const thr_cover_optio
   if (first.deadline > 0) first.deadline = fmax(first.deadline, options->start_by);
   p.limits = &first;
   if (!st) st = check_ends(&p, err);
-  if (!st && !options->ahead && (!known->copies || !options->quick) && may_turn_back(&p)) st = look_ahead(&p, limits, known, err);
   if (!st && options->tube) st = thr_programme_tie(&p, err);
   if (!st) st = thr_cover_search_init(&s, &p, limits, err);
   if (!st) st = search_all(&s, known, &cover, err);

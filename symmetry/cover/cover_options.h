@@ -17,7 +17,6 @@ typedef struct {
   bool tube;                  /* tube joints: the turns tie the edges at every node (graph/plan/junction.h), none goes back */
   double start_by;            /* thr_clock() until when a first cover is looked for, even after the limits' deadline */
   bool quick;                 /* overlap and steps only, as far as they come before turning: the rest is as it comes */
-  bool ahead;                 /* cords turn back at nodes with one edge only: what a search begins with */
   int most_closed;            /* of the cords: closed ones are as many as can be, up to so many in a component; 0: as few */
 } thr_cover_options;
 
