@@ -74,9 +74,10 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, con
   }
   const double before = plan->metrics.length; /* cords that cross nothing may be longer */
   if (plan->n_cords > 0 && !finished) finished = thr_plan_uncross(plan, err);
+  const bool longer = plan->n_cords > 0 && plan->metrics.length > before;
+  if (longer && !finished) finished = thr_planner_prove_again(plan, err);
   if (plan->n_cords > 0 && !finished) finished = thr_plan_order(plan, err);
-  if (plan->n_cords > 0 && !finished && (plan->metrics.length > before || is_to_be_judged(plan)))
-    finished = judge(plan, &st, &why, err);
+  if (plan->n_cords > 0 && !finished && (longer || is_to_be_judged(plan))) finished = judge(plan, &st, &why, err);
   if (plan->n_cords > 0 && !finished) finished = sign(plan, err);
   if (st == THR_ELIMIT && !finished && thr_planner_is_enough(plan, limits)) st = THR_OK;
   if (finished)

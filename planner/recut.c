@@ -1,6 +1,7 @@
 #include "planner/recut.h"
 
 #include "graph/framework/frame.h"
+#include "graph/plan/request.h"
 #include "graph/vector.h"
 
 #include <math.h>

@@ -3,7 +3,6 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/channels.h"
 #include "graph/plan/request.h"
-#include "planner/planners.h"
 #include "planner/recut.h"
 
 #include <limits.h>
@@ -206,9 +205,8 @@ static int count_passes(const thr_plan *plan)
 static thr_status measure(thr_plan *plan, int passes, thr_err *err)
 {
   const double length = plan->metrics.length;
-  if (count_passes(plan) != passes) return thr_planner_prove_again(plan, err);
   thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
-  plan->metrics.length = length;
+  if (count_passes(plan) == passes) plan->metrics.length = length;
   return st;
 }
 
