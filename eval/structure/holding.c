@@ -296,26 +296,39 @@ static thr_status breaks(const thr_blocks *s, const double (*velocity)[6], bool 
   return THR_OK;
 }
 
+/* Finds the mechanism that the programme of some blocks, which are made here, prices; no bead moves where there are no rows. */
+static thr_status find_mechanism(const task *t, thr_blocks *s, double (*velocity)[6], thr_err *err)
+{
+  thr_blocks_solution o = {0};
+  thr_status st = thr_blocks_make(s, thr_blocks_widening(t->b), err);
+  if (!st && s->n_rows > 0) st = thr_blocks_solve(s, true, t->limits, &o, err);
+  if (!st && s->n_rows > 0) st = thr_mechanism_make(s, o.dual, t->limits, velocity, err);
+  thr_blocks_solution_destroy(&o);
+  return st;
+}
+
+/* Keeps the movement as the one that the task is to show. */
+static void take_way(task *t, double (**velocity)[6])
+{
+  free(t->way);
+  t->way = *velocity;
+  *velocity = NULL;
+}
+
 /* THR_EINFEASIBLE with t->way as the proof if knotted cords cannot hold the structure within their strength: hands have to help.
  */
 static thr_status check_strength(task *t, thr_err *err)
 {
-  thr_blocks_solution o = {0};
   thr_blocks s = part(t, INFINITY, false, true);
   double(*velocity)[6] = thr_calloc((size_t)t->b->n_beads, sizeof *velocity);
   bool proved = false;
   if (!velocity) return thr_nomem(err);
-  thr_status st = thr_blocks_make(&s, thr_blocks_widening(t->b), err);
-  if (!st && s.n_rows > 0) st = thr_blocks_solve(&s, true, t->limits, &o, err);
-  if (!st && s.n_rows > 0) st = thr_mechanism_make(&s, o.dual, t->limits, velocity, err);
+  thr_status st = find_mechanism(t, &s, velocity, err);
   if (!st) st = breaks(&s, (const double(*)[6])velocity, &proved, err);
   if (proved) {
     st = thr_fail(err, THR_EINFEASIBLE, "knotted cords break before they hold the structure");
-    free(t->way);
-    t->way = velocity;
-    velocity = NULL;
+    take_way(t, &velocity);
   }
-  thr_blocks_solution_destroy(&o);
   thr_blocks_destroy(&s);
   free(velocity);
   return st;
@@ -326,32 +339,19 @@ static thr_status check_strength(task *t, thr_err *err)
 static thr_status check_feasible(task *t, thr_err *err)
 {
   bool friction = t->physics->mu_bead > 0;
-  const double widen = thr_blocks_widening(t->b);
   thr_blocks s = part(t, friction ? 0 : INFINITY, friction, true);
   s.round = false;
-  thr_blocks_solution o = {0};
   double(*velocity)[6] = thr_calloc((size_t)t->b->n_beads, sizeof *velocity);
   if (!velocity) return thr_nomem(err);
-  thr_status st = thr_blocks_make(&s, widen, err);
-  if (st) {
-    free(velocity);
-    return st;
-  }
-  if (s.n_rows > 0) st = thr_blocks_solve(&s, true, t->limits, &o, err);
-  if (!st && s.n_rows > 0) st = thr_mechanism_make(&s, o.dual, t->limits, velocity, err);
+  thr_status st = find_mechanism(t, &s, velocity, err);
   if (!st && gives_way(&s, (const double(*)[6])velocity)) {
     int v = thr_mechanism_fastest(t->b, (const double(*)[6])velocity);
     st = thr_fail(err, THR_EINFEASIBLE,
                   "no pull holds the structure: the bead at node %s gives way however hard the cords are pulled; more friction "
                   "(mu_bead, mu_ground), other feet or a cord that presses this bead against its neighbours may help",
                   v < 0 ? "?" : t->f->name[v]);
-    if (t->wants_way) {
-      free(t->way);
-      t->way = velocity;
-      velocity = NULL;
-    }
+    if (t->wants_way) take_way(t, &velocity);
   }
-  thr_blocks_solution_destroy(&o);
   thr_blocks_destroy(&s);
   free(velocity);
   return st;
