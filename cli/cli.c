@@ -521,6 +521,7 @@ int cli_write_drawn(thr_status st, thr_text *text, const char *path, const thr_e
 /* ---- long computations ---- */
 
 static volatile sig_atomic_t interrupted;
+
 /* The line on the terminal: what it says, when it was written, and since when there is something to wait for, by thr_clock().
  * began is 0 where nobody waits. */
 static struct {

@@ -224,8 +224,10 @@ static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranki
     r[*count] = kind[by];
     thr_status st = ranking_init(&r[*count], n, err);
     if (st) return st;
-    for (int i = 0; i < n; i++)
-      rank_plan(&r[*count], by, &e[i], i), rank_bands(&r[*count], by, &e[i], i);
+    for (int i = 0; i < n; i++) {
+      rank_plan(&r[*count], by, &e[i], i);
+      rank_bands(&r[*count], by, &e[i], i);
+    }
     ranking_make(&r[(*count)++]);
   }
   return THR_OK;
