@@ -525,7 +525,7 @@ static volatile sig_atomic_t interrupted;
 /* The line on the terminal: what it says, when it was written, and since when there is something to wait for, by thr_clock().
  * began is 0 where nobody waits. */
 static struct {
-  char says[112];
+  char says[144];
   double written, began;
 } waiting;
 
@@ -536,7 +536,7 @@ static void keep_alive(int signal)
   const double patience = 0.9; /* s */
   const double now = thr_clock();
   const int seconds = (int)(now - waiting.began), error = errno;
-  char digits[12], line[160];
+  char digits[12], line[192];
   int n = 0, length = 0;
   (void)signal;
   if (waiting.began == 0 || now - waiting.written < patience) return;
@@ -650,7 +650,7 @@ static void show_advance(void *user, const char *what, double done)
     else
       snprintf(left, sizeof left, ", %.0f min left", ceil(seconds / 60));
   }
-  snprintf(waiting.says, sizeof waiting.says, "thread: %.40s [%s] %.0f %%%s", what, bar, floor(100 * done), left);
+  snprintf(waiting.says, sizeof waiting.says, "thread: %.40s [%s] %d %%%s", what, bar, (int)(100 * done), left);
   put_line();
 }
 
