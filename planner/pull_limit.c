@@ -44,8 +44,7 @@ typedef struct {
 
 static void fewest_destroy(fewest *x)
 {
-  thr_turning_proof_destroy(&x->claim.tree);
-  thr_walk_proof_destroy(&x->claim.walks);
+  thr_pull_claim_destroy(&x->claim);
   thr_plan_destroy(&x->found);
 }
 
@@ -330,19 +329,39 @@ static thr_status not_found(const fewest *x, const thr_err *why, thr_err *err)
                   more);
 }
 
+/* Counts the cords of every component, cords[n_nodes]. *n: how many have some. */
+static void count_cords(const thr_plan *plan, int *cords, int *n)
+{
+  *n = 0;
+  for (int i = 0; i < plan->n_cords; i++) {
+    const int k = plan->cord[i].component;
+    cords[k]++;
+    if (k >= *n) *n = k + 1;
+  }
+}
+
 /* What is proved of the number; said only where it was free. */
 static thr_status claim_number(fewest *x, thr_plan *plan, thr_err *err)
 {
+  thr_pull_claim *claim = &x->claim;
   if (!is_range(x->o)) return THR_OK;
-  if (x->claim.excluded < x->o->cords_least) x->claim.excluded = 0; /* nobody asked for so few */
-  const int excluded = thr_pull_excludes(&x->claim) ? x->claim.excluded : 0;
-  thr_status st = thr_check_fewest_pulled(x->f, x->o, plan->cord, plan->n_cords, excluded, &x->claim.fewest, err);
+  if (claim->excluded < x->o->cords_least) claim->excluded = 0; /* nobody asked for so few */
+  int components, *cords = thr_calloc((size_t)x->f->n_nodes, sizeof *cords);
+  if (!cords) return thr_nomem(err);
+  count_cords(plan, cords, &components);
+  claim->fewest = 0;
+  thr_status st =
+      claim->n_parts > 0 ? THR_OK : thr_check_fewest_pulled(x->f, x->o, cords, components, claim->excluded, &claim->fewest, err);
+  for (int k = 0; k < claim->n_parts; k++) {
+    claim->fewest += claim->part[k].fewest;
+    claim->part[k].optimal = claim->part[k].fewest == cords[k];
+  }
+  free(cords);
   if (st) return st;
-  x->claim.present = true;
-  x->claim.optimal = x->claim.fewest == plan->n_cords;
-  plan->pull_claim = x->claim;
-  x->claim.tree = (thr_turning_proof){0};
-  x->claim.walks = (thr_walk_proof){0};
+  claim->present = true;
+  claim->optimal = claim->fewest == plan->n_cords;
+  plan->pull_claim = *claim;
+  *claim = (thr_pull_claim){0};
   if (plan->pull_claim.optimal) return THR_OK;
   return thr_fail(err, THR_ELIMIT, "%d cords keep to the pull; it is proved only that fewer than %d cannot", plan->n_cords,
                   plan->pull_claim.fewest);
@@ -437,13 +456,25 @@ static thr_status find_component(const thr_components *components, int k, const 
   return st && (st != THR_ELIMIT || made->n_cords == 0) ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
-/* Finds the numbers of cords component by component, as one needs more than another. What is proved of a number is about all
- * components together: fewer than the component with most cords has are too few in some component. */
+/* Takes what is proved of every component alone. */
+static thr_status take_parts(fewest *x, const thr_components *components, thr_plan *made, thr_err *err)
+{
+  if (!(x->claim.part = thr_calloc((size_t)components->n, sizeof *x->claim.part))) return thr_nomem(err);
+  x->claim.n_parts = components->n;
+  for (int k = 0; k < components->n; k++) {
+    x->claim.part[k] = made[k].pull_claim;
+    x->claim.part[k].n_nodes = made[k].frame.n_nodes;
+    x->claim.part[k].n_edges = made[k].frame.n_edges;
+    made[k].pull_claim = (thr_pull_claim){0};
+  }
+  return THR_OK;
+}
+
+/* Finds the numbers of cords component by component, as one needs more than another. */
 static thr_status find_by_components(fewest *x, const thr_components *components, const thr_limits *limits, thr_err *why,
                                      thr_err *err)
 {
-  double work = work_to_find * x->o->time_limit, for_walks = work_to_choose * x->o->time_limit;
-  thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
+  const thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
   thr_plan *made = thr_calloc((size_t)components->n, sizeof *made), joined = {0};
   int component;
   thr_status st = made ? THR_OK : thr_nomem(err);
@@ -453,14 +484,7 @@ static thr_status find_by_components(fewest *x, const thr_components *components
   if (!st) st = thr_components_join(components, made, &joined, err);
   if (!st) st = thr_plan_measure(&joined.frame, &joined.options, joined.cord, joined.n_cords, &joined.metrics, err);
   if (!st && keeps(x, &joined)) take_found(x, &joined, thr_planner_most_cords(&joined, &component));
-  share = thr_limits_brief(&share, &work);
-  x->limits = &share;
-  if (!st && x->found.n_cords > 0) st = rule_out_few(x, err);
-  if (!st && x->found.n_cords > 0) st = bound_all(x, err);
-  share = thr_dispatch_share(limits, THR_STEP_FEWEST);
-  share = thr_limits_brief(&share, &for_walks);
-  if (!st && x->found.n_cords > 0) st = exclude_by_walks(x, &x->found, err);
-  x->limits = limits;
+  if (!st && x->found.n_cords > 0) st = take_parts(x, components, made, err);
   for (int k = 0; made && k < components->n; k++)
     thr_plan_destroy(&made[k]);
   free(made);
@@ -471,12 +495,11 @@ static thr_status find_by_components(fewest *x, const thr_components *components
 /* *why: of a component that has no cords within the pull. */
 static thr_status find_numbers(fewest *x, const thr_limits *limits, thr_err *why, thr_err *err)
 {
-  enum { MOST_COMPONENTS = 100 }; /* that are searched one by one: more are cut, each into as few cords as that takes */
   thr_components components = {0};
   thr_status st = thr_components_init(&components, x->f, x->o, err);
   if (st) return st;
   const bool apart = components.n > 1 && is_range(x->o) && !thr_tortuosity_too_large(x->f, x->o);
-  if (apart && components.n <= MOST_COMPONENTS)
+  if (apart && components.n <= THR_MOST_PULL_PARTS) /* more are cut, each into as few cords as that takes */
     st = find_by_components(x, &components, limits, why, err);
   else
     st = find_together(x, limits, err);

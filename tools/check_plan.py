@@ -2502,14 +2502,56 @@ def too_few(p, claim, place):
     return cords
 
 
+def alone(p, c):
+    """Component c as a framework of its own, with what is asked of it and as many cords as it has."""
+    f, part = p.frame, copy.copy(p)
+    g, o = part.frame, part.options = copy.copy(f), copy.copy(p.options)
+    edges, number = f.edges_of(c), {v: i for i, v in enumerate(f.pieces[c])}
+    g.n, g.m, g.pieces, g.component = len(number), len(edges), [list(range(len(number)))], [0] * len(number)
+    g.xyz, g.edge = [f.xyz[v] for v in f.pieces[c]], [tuple(number[v] for v in f.edge[e]) for e in edges]
+    g.at = [[] for _ in number]
+    for h in range(2 * g.m):
+        g.at[g.tail(h)].append(h)
+    for holder, names in (g, "length exact cover capacity"), (o, "need most"), (part, "passes extra"):
+        for name in names.split():
+            values = getattr(holder, name)
+            setattr(holder, name, values and [values[e] for e in edges])
+    g.feet = {number[v] for v in f.feet if v in number}
+    o.allowed = o.allowed and {number[v] for v in o.allowed if v in number}
+    o.count = {number[v]: n for v, n in o.count.items() if v in number}
+    part.per_piece = [p.per_piece[c]]
+    return part
+
+
 def check_pull(p):
     check_pulls(p)
     claim = member(p.proof, "pull", "object", "proof", default=None)
     if claim is None:
         return
     o, place = p.options, "proof.pull"
-    known(claim, "status lower_bound excluded most_passes cut proof walks", place)
     require(o.max_pull is not None, f"{place}: without a limit on the pull")
+    if "parts" not in claim:
+        check_fewest(p, claim, place)
+        return
+    known(claim, "status lower_bound parts", place)
+    claims = member(claim, "parts", "list", place)
+    require(len(claims) == len(p.frame.pieces) <= 100 and not o.old_pull, f"{place}.parts: not one for each of at most 100 components")
+    for c, part in enumerate(claims):
+        require(type(part) is dict, f"{place}.parts[{c}]: not an object")
+        check_fewest(alone(p, c), part, f"{place}.parts[{c}]")
+    judge_fewest(claim, sum(part["lower_bound"] for part in claims), len(p.cords), place)
+
+
+def judge_fewest(claim, proved, cords, place):
+    number = member(claim, "lower_bound", "integer", place, 1)
+    require(number <= proved and number <= cords, f"{place}.lower_bound: stated {number}, but {proved} is proved")
+    status = choice(claim, "status", place, ("optimal", "bound"))
+    require(status == "bound" or number == cords, f"{place}.status: not optimal")
+
+
+def check_fewest(p, claim, place):
+    o = p.options
+    known(claim, "status lower_bound excluded most_passes cut proof walks", place)
     require(("proof" in claim) == ("most_passes" in claim) >= ("cut" in claim), f"{place}: a part of the proof is missing")
     proofs = ("proof" in claim) + ("walks" in claim)
     require(proofs <= ("excluded" in claim) and (proofs or not (o.old_pull and "excluded" in claim)), f"{place}: not one proof of what is excluded")
@@ -2523,17 +2565,14 @@ def check_pull(p):
         require(walks.bits_of_length == 0, f"{place}.walks.bits: not 0")
         most = o.cords if o.ends != "counts" else p.per_piece[walks.component]
         require(walks.length(min(cords, most), place + ".walks") > 0, f"{place}: {cords} cords are not proved to be too few")
-    fewest = len(p.cords)
+    fewest = sum(p.per_piece)
     if o.ends != "counts":
         least = [o.least] * len(p.frame.pieces)
         if o.mu > 0 and not o.old_pull:
             limit = Fraction(math.log(o.max_pull))
             least = few_within(p, o, float((limit + 2 * TOLERANCE * (1 + limit)) / Fraction(o.mu)), least, p.per_piece)
         fewest = sum(least) + max(0, cords + 1 - max(least))
-    number = member(claim, "lower_bound", "integer", place, 1)
-    require(number <= fewest and number <= len(p.cords), f"{place}.lower_bound: stated {number}, but {fewest} is proved")
-    status = choice(claim, "status", place, ("optimal", "bound"))
-    require(status == "bound" or number == len(p.cords), f"{place}.status: not optimal")
+    judge_fewest(claim, fewest, sum(p.per_piece), place)
 
 
 # ---- symmetry ----
@@ -3476,8 +3515,10 @@ def terms(p):
     words += "; tube joints" if o.tube else "; solid joints"
     words += "; lengths of edges as given, not from their nodes" if f.own_lengths else ""
     bounded, back = "; for the %s: at most %d passes of an edge", ", back only at nodes with one edge"
-    if "proof" in claims.get("pull", {}):
-        words += bounded % ("fewest cords", claims["pull"]["most_passes"]) + (back if p.options.old_pull else "")
+    pull = claims.get("pull", {})
+    most = [part["most_passes"] for part in [pull] + pull.get("parts", []) if "proof" in part]
+    if most:
+        words += bounded % ("fewest cords", min(most)) + (back if p.options.old_pull else "")
     if "turning" in claims:
         limit = claims["turning"].get("length_limit")
         words += bounded % ("turning", claims["turning"]["most_passes"]) + back + (" (for the pull anywhere)" if o.pull else "")

@@ -60,11 +60,23 @@ static void put_number(thr_text *text, const thr_plan *plan)
                     options->physics.mu);
 }
 
+/* The least that any tree of a claim, or of one of its parts, is about; 0: there is none. */
+static int most_passes(const thr_pull_claim *claim)
+{
+  int most = claim->tree.n_nodes > 0 ? claim->most_passes : 0;
+  for (int k = 0; k < claim->n_parts; k++) {
+    const int of_part = most_passes(&claim->part[k]);
+    if (of_part > 0 && (most == 0 || of_part < most)) most = of_part;
+  }
+  return most;
+}
+
 /* Of what turning and fewest cords are proved. */
 static void put_kind(thr_text *text, const thr_plan *plan)
 {
-  if (plan->pull_claim.tree.n_nodes > 0)
-    thr_text_printf(text, "; for the fewest cords: at most %d passes of an edge%s", plan->pull_claim.most_passes,
+  const int most = most_passes(&plan->pull_claim);
+  if (most > 0)
+    thr_text_printf(text, "; for the fewest cords: at most %d passes of an edge%s", most,
                     plan->options.old_pull ? ", back only at nodes with one edge" : "");
   if (!plan->turning.present) return;
   thr_text_printf(text, "; for the turning: at most %d passes of an edge, back only at nodes with one edge%s",

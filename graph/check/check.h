@@ -59,8 +59,8 @@ thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options,
 
 /* *fewest: cords that options.max_pull takes in all components together: in some one more than are excluded, in the others the
  * least number asked for, or if that is more what all sets of cords through few edges show. Not more than there are in any
- * component. */
-thr_status thr_check_fewest_pulled(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
+ * component, cords[components]. */
+thr_status thr_check_fewest_pulled(const thr_frame *frame, const thr_request *options, const int *cords, int components,
                                    int excluded, int *fewest, thr_err *err) THR_MUST_CHECK;
 
 /* The same for passes[n_edges] that no cords run through yet, *lower_bound then being one on their length. THR_EVIOLATED also

@@ -3,6 +3,7 @@
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
 #include "graph/check/few_edges.h"
+#include "graph/framework/components.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
@@ -243,22 +244,17 @@ thr_status thr_check_pulled_least(const thr_frame *frame, const thr_request *opt
   return st;
 }
 
-thr_status thr_check_fewest_pulled(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
+thr_status thr_check_fewest_pulled(const thr_frame *frame, const thr_request *options, const int *cords, int components,
                                    int excluded, int *fewest, thr_err *err)
 {
   thr_scratch own = {0};
   const int least = thr_plan_cords_least(options);
-  int *enough = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *enough), largest = least, components = 0;
-  int *number = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *number);
+  int *number = thr_scratch_array(&own, (size_t)components, sizeof *number), largest = least;
   thr_status st = thr_scratch_check(&own, err);
-  for (int i = 0; i < n_cords && !st; i++) {
-    enough[cord[i].component]++;
-    components = cord[i].component < components ? components : cord[i].component + 1;
-  }
   for (int c = 0; c < components && !st; c++)
     number[c] = least;
   if (!st && options->physics.mu > 0 && !options->old_pull)
-    st = thr_few_edges_within(frame, options, most_turned(options), enough, number, err);
+    st = thr_few_edges_within(frame, options, most_turned(options), cords, number, err);
   *fewest = 0;
   for (int c = 0; c < components && !st; c++) {
     *fewest += number[c];
@@ -302,20 +298,64 @@ static thr_status check_walks(const thr_plan *plan, const thr_check_walked *chec
                   claim->excluded);
 }
 
-thr_status thr_check_pull_claim(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err)
+/* *fewest: what the claim proves, but for its parts. */
+static thr_status check_fewest(const thr_plan *plan, const thr_check_walked *check_walked, int *fewest, thr_err *err)
 {
   const thr_pull_claim *claim = &plan->pull_claim;
-  const thr_request *options = &plan->options;
-  int fewest = plan->n_cords;
-  if (options->max_pull <= 0) return thr_fail(err, THR_EVIOLATED, "proof.pull: the options set no limit on the pull");
   thr_status st = THR_OK;
   if (claim->walks.unit > 0)
     st = check_walks(plan, check_walked, err);
   else if (thr_pull_excludes(claim))
     st = check_too_few(plan, err);
+  if (st || plan->options.ends == THR_ENDS_COUNTS) return st;
+  return thr_check_fewest_pulled(&plan->frame, &plan->options, check_walked->cords, check_walked->n_components, claim->excluded,
+                                 fewest, err);
+}
+
+/* Component k alone, with as many cords as it has. */
+static thr_status check_part(const thr_components *components, int k, const thr_pull_claim *part, int cords, thr_err *err)
+{
+  thr_check_walked walked = {0};
+  thr_plan alone;
+  thr_err why = {0};
+  thr_status st = thr_component_take(components, k, &alone, err);
   if (st) return st;
-  if (options->ends != THR_ENDS_COUNTS)
-    st = thr_check_fewest_pulled(&plan->frame, options, plan->cord, plan->n_cords, claim->excluded, &fewest, err);
+  st = thr_check_walked_init(&walked, &alone.frame, &alone.options, err);
+  if (!st) {
+    walked.cords[0] = alone.n_cords = cords; /* whose number alone is read */
+    alone.pull_claim = *part;
+    st = thr_check_pull_claim(&alone, &walked, &why);
+    if (st) thr_fail(err, st, "component %d: %s", k, why.text);
+    alone.pull_claim = (thr_pull_claim){0};
+    alone.n_cords = 0;
+  }
+  thr_check_walked_destroy(&walked);
+  thr_plan_destroy(&alone);
+  return st;
+}
+
+/* *fewest: what is proved of all components, each alone. */
+static thr_status check_parts(const thr_plan *plan, const thr_check_walked *check_walked, int *fewest, thr_err *err)
+{
+  const thr_pull_claim *claim = &plan->pull_claim;
+  thr_components components;
+  thr_status st = thr_components_init(&components, &plan->frame, &plan->options, err);
+  *fewest = 0;
+  for (int k = 0; k < claim->n_parts && !st; k++) {
+    st = check_part(&components, k, &claim->part[k], check_walked->cords[k], err);
+    *fewest += claim->part[k].fewest;
+  }
+  thr_components_destroy(&components);
+  return st;
+}
+
+thr_status thr_check_pull_claim(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err)
+{
+  const thr_pull_claim *claim = &plan->pull_claim;
+  int fewest = plan->n_cords;
+  if (plan->options.max_pull <= 0) return thr_fail(err, THR_EVIOLATED, "proof.pull: the options set no limit on the pull");
+  thr_status st =
+      claim->n_parts > 0 ? check_parts(plan, check_walked, &fewest, err) : check_fewest(plan, check_walked, &fewest, err);
   if (st) return st;
   if (claim->fewest > fewest)
     return thr_fail(err, THR_EVIOLATED, "proof.pull.lower_bound: stated %d, but only %d is proved", claim->fewest, fewest);

@@ -48,6 +48,18 @@ thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err 
   return thr_nomem(err);
 }
 
+void thr_pull_claim_destroy(thr_pull_claim *claim)
+{
+  for (int i = 0; i < claim->n_parts; i++) {
+    thr_turning_proof_destroy(&claim->part[i].tree);
+    thr_walk_proof_destroy(&claim->part[i].walks);
+  }
+  free(claim->part);
+  thr_turning_proof_destroy(&claim->tree);
+  thr_walk_proof_destroy(&claim->walks);
+  *claim = (thr_pull_claim){0};
+}
+
 bool thr_pull_excludes(const thr_pull_claim *claim)
 {
   return claim->excluded > 0;
@@ -62,9 +74,8 @@ void thr_plan_destroy(thr_plan *plan)
   thr_turning_proof_destroy(&plan->proof.tied);
   thr_walk_proof_destroy(&plan->proof.walks);
   thr_walk_proof_destroy(&plan->proof.pulled);
-  thr_walk_proof_destroy(&plan->pull_claim.walks);
   thr_turning_proof_destroy(&plan->turning.tree);
-  thr_turning_proof_destroy(&plan->pull_claim.tree);
+  thr_pull_claim_destroy(&plan->pull_claim);
   thr_symmetry_record_destroy(&plan->symmetry);
   thr_evaluation_destroy(&plan->evaluation);
   free(plan->options.end_node);

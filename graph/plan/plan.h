@@ -77,7 +77,7 @@ typedef struct {
 /* What is proved about how few cords options.max_pull takes: of threadings within a pull (docs/plan-format.md) with the same
  * options but fewer cords, by a tree only of those with at most most_passes over any edge. (In version 1 also: U-turns at nodes
  * with one edge only.) */
-typedef struct {
+typedef struct thr_pull_claim {
   bool present;
   bool optimal; /* proved: this plan has no more */
   int fewest;   /* no such plan has fewer cords in all */
@@ -86,7 +86,15 @@ typedef struct {
   int64_t cut;            /* no turn counts for more in the tree, 2^-THR_TURNING_BITS; 0: no tree, or of version 1 */
   thr_turning_proof tree; /* of so many cords at most; empty where nothing is excluded, or walks or few edges prove it */
   thr_walk_proof walks;   /* of any plans (graph/plan/walk_proof.h); unit 0: none */
+
+  /* What is proved of every component alone, as a framework of its own, instead of all that is above. */
+  int n_parts, n_nodes, n_edges; /* 0, or as many as there are components; and of a part, what its component has */
+  struct thr_pull_claim *part;   /* [n_parts], owned; they have no parts */
 } thr_pull_claim;
+
+enum { THR_MOST_PULL_PARTS = 100 };
+
+void thr_pull_claim_destroy(thr_pull_claim *claim);
 
 enum { THR_PULL_PASSES = 1000000 }; /* most_passes of a tree at least: cords are many, and a pull does not limit passes */
 

@@ -1,4 +1,5 @@
 /* plan.json, read: proofs. */
+#include "graph/framework/components.h"
 #include "graph/framework/frame.h"
 #include "graph/angle.h"
 #include "graph/io/json.h"
@@ -193,28 +194,72 @@ static thr_status read_cords_claim(const thr_field_reader *field_reader, const t
   return st ? st : thr_field_int(field_reader, fewest, "lower_bound", 1, INT32_MAX, &claim->fewest);
 }
 
-static thr_status read_pull_claim(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
-                                  thr_pull_claim *claim)
+static thr_status read_pull_claim(const thr_field_reader *field_reader, const thr_json *value, const char *name,
+                                  const thr_frame *frame, thr_pull_claim *claim)
 {
   static const char *const by_tree[] = {"status", "lower_bound", "excluded", "most_passes", "cut", "proof", NULL};
   static const char *const by_walks[] = {"status", "lower_bound", "excluded", "walks", NULL};
   static const char *const by_edges[] = {"status", "lower_bound", "excluded", NULL};
   const thr_json *proof = thr_json_get(value, "proof"), *walks = thr_json_get(value, "walks");
-  char place[256];
-  thr_status st = thr_field_only(field_reader, value, "proof.pull", walks ? by_walks : proof ? by_tree : by_edges);
-  if (!st) st = get_status(field_reader, value, "proof.pull", &claim->optimal);
+  char place[256], cut[64];
+  thr_status st = thr_field_only(field_reader, value, name, walks ? by_walks : proof ? by_tree : by_edges);
+  if (!st) st = get_status(field_reader, value, name, &claim->optimal);
   if (!st) st = thr_field_int(field_reader, value, "lower_bound", 1, INT32_MAX, &claim->fewest);
   if (!st) claim->present = true;
   if (st || (!proof && !walks && !thr_json_get(value, "excluded"))) return st;
   st = thr_field_int(field_reader, value, "excluded", 1, THR_MOST_CORDS, &claim->excluded);
-  snprintf(place, sizeof place, "%.200s: proof.pull.walks", field_reader->name);
+  snprintf(place, sizeof place, "%.200s: %.32s.walks", field_reader->name, name);
   if (st || walks) return st ? st : thr_walk_proof_from_json(&claim->walks, frame, NULL, walks, place, field_reader->err);
   if (!proof) return THR_OK;
   st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
-  if (!st) st = read_free_turn(field_reader, value, "proof.pull.cut", &claim->cut);
+  snprintf(cut, sizeof cut, "%.32s.cut", name);
+  if (!st) st = read_free_turn(field_reader, value, cut, &claim->cut);
   if (st) return st;
-  snprintf(place, sizeof place, "%.200s: proof.pull.proof", field_reader->name);
+  snprintf(place, sizeof place, "%.200s: %.32s.proof", field_reader->name, name);
   return thr_turning_proof_from_json(&claim->tree, frame, proof, place, field_reader->err);
+}
+
+/* Of every component, in order. */
+static thr_status read_pull_parts(const thr_field_reader *field_reader, const thr_json *list, const thr_plan *plan,
+                                  thr_pull_claim *claim)
+{
+  thr_components components;
+  thr_status st = thr_components_init(&components, &plan->frame, &plan->options, field_reader->err);
+  const int n = st ? 0 : components.n;
+  if (!st && (plan->options.old_pull || n > THR_MOST_PULL_PARTS || thr_json_size(list) != n))
+    st = thr_field_bad(field_reader, "proof.pull.parts", "one for each of at most 100 components, with version 2");
+  if (!st && !(claim->part = thr_calloc((size_t)n, sizeof *claim->part))) st = thr_nomem(field_reader->err);
+  for (int k = 0; k < n && !st; k++) {
+    char name[64];
+    const thr_json *part = thr_json_at(list, k);
+    thr_plan alone;
+    snprintf(name, sizeof name, "proof.pull.parts[%d]", k);
+    if (thr_json_typeof(part) != THR_JSON_OBJECT) st = thr_field_bad(field_reader, name, "an object");
+    if (!st) st = thr_component_take(&components, k, &alone, field_reader->err);
+    if (st) break;
+    claim->n_parts = k + 1;
+    claim->part[k].n_nodes = alone.frame.n_nodes;
+    claim->part[k].n_edges = alone.frame.n_edges;
+    st = read_pull_claim(field_reader, part, name, &alone.frame, &claim->part[k]);
+    thr_plan_destroy(&alone);
+  }
+  thr_components_destroy(&components);
+  return st;
+}
+
+/* Of the whole, or of its components. */
+static thr_status read_whole_pull_claim(const thr_field_reader *field_reader, const thr_json *value, thr_plan *plan)
+{
+  static const char *const by_parts[] = {"status", "lower_bound", "parts", NULL};
+  thr_pull_claim *claim = &plan->pull_claim;
+  const thr_json *parts;
+  if (!thr_json_get(value, "parts")) return read_pull_claim(field_reader, value, "proof.pull", &plan->frame, claim);
+  thr_status st = thr_field_only(field_reader, value, "proof.pull", by_parts);
+  if (!st) st = get_status(field_reader, value, "proof.pull", &claim->optimal);
+  if (!st) st = thr_field_int(field_reader, value, "lower_bound", 1, INT32_MAX, &claim->fewest);
+  if (!st) st = thr_field_need(field_reader, value, "parts", THR_JSON_ARRAY, &parts);
+  if (!st) claim->present = true;
+  return st ? st : read_pull_parts(field_reader, parts, plan, claim);
 }
 
 /* A proof says that nothing with the plan's options is better: one of turning goes with the objective that asks for it. */
@@ -231,7 +276,7 @@ thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_
   if (!st && length && !(without & THR_CLAIM_LENGTH)) st = read_length_proof(field_reader, length, &plan->frame, &plan->proof);
   if (!st && cords && !(without & THR_CLAIM_CORDS))
     st = read_cords_claim(field_reader, cords, &plan->frame, &plan->cords_claim, &plan->proof.walks);
-  if (!st && pull && !(without & THR_CLAIM_PULL)) st = read_pull_claim(field_reader, pull, &plan->frame, &plan->pull_claim);
+  if (!st && pull && !(without & THR_CLAIM_PULL)) st = read_whole_pull_claim(field_reader, pull, plan);
   if (!st && turning && !(without & THR_CLAIM_TURNING))
     st = read_turning_claim(field_reader, turning, &plan->frame, &plan->turning);
   return st;

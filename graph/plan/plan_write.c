@@ -402,21 +402,26 @@ static void put_cords_claim(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
-static void put_pull_claim(thr_writer *writer, const thr_plan *plan)
+static void put_pull_claim(thr_writer *writer, const char *name, const thr_pull_claim *claim, const thr_frame *frame)
 {
-  const thr_pull_claim *claim = &plan->pull_claim;
   thr_write_line(writer, 2);
-  thr_write_object(writer, "pull");
+  thr_write_object(writer, name);
   thr_write_string(writer, "status", status_name(claim->optimal));
   thr_write_int(writer, "lower_bound", claim->fewest);
   if (thr_pull_excludes(claim)) thr_write_int(writer, "excluded", claim->excluded);
-  thr_walk_proof_write(&claim->walks, &plan->frame, NULL, writer);
+  thr_walk_proof_write(&claim->walks, frame, NULL, writer);
   if (claim->tree.n_nodes > 0) {
     thr_write_int(writer, "most_passes", claim->most_passes);
     if (claim->cut > 0) thr_write_int(writer, "cut", claim->cut);
     thr_write_line(writer, 2);
-    thr_turning_proof_write(&claim->tree, &plan->frame, writer, "proof");
+    thr_turning_proof_write(&claim->tree, frame, writer, "proof");
   }
+  if (claim->n_parts > 0) thr_write_array(writer, "parts");
+  for (int i = 0; i < claim->n_parts; i++) {
+    const thr_frame sizes = {.n_nodes = claim->part[i].n_nodes, .n_edges = claim->part[i].n_edges};
+    put_pull_claim(writer, NULL, &claim->part[i], &sizes);
+  }
+  if (claim->n_parts > 0) thr_write_close(writer);
   thr_write_close(writer);
 }
 
@@ -427,7 +432,7 @@ static void put_proofs(thr_writer *writer, const thr_plan *plan)
   if (plan->proof.present) put_length_proof(writer, plan);
   if (plan->proof.present && plan->cords_claim.present) thr_write_line(writer, 2);
   if (plan->cords_claim.present) put_cords_claim(writer, plan);
-  if (plan->pull_claim.present) put_pull_claim(writer, plan);
+  if (plan->pull_claim.present) put_pull_claim(writer, "pull", &plan->pull_claim, &plan->frame);
   bool before = plan->proof.present || plan->cords_claim.present || plan->pull_claim.present;
   if (before && plan->turning.present) thr_write_line(writer, 2);
   if (plan->turning.present) put_turning_proof(writer, plan);

@@ -426,9 +426,92 @@ START_TEST(no_forged_least_pull_is_verified)
 }
 END_TEST
 
+/* ---- several components ---- */
+
+/* Two instances of one request as a framework of two components, some of whose nodes may have ends. */
+static bool instances_make(rng *r, instance both[2], thr_frame *frame, bool *end_node, thr_request *o)
+{
+  const bool small[2] = {instance_make(r, &both[0]), instance_make(r, &both[1])};
+  *frame = side_by_side(&both[0].frame, &both[1].frame);
+  *o = both[0].o;
+  for (int i = 0, v = 0; i < 2; i++)
+    for (int k = 0; k < both[i].frame.n_nodes; k++)
+      end_node[v++] = both[i].end_node[k];
+  if (o->ends == THR_ENDS_NODES) o->end_node = end_node;
+  return small[0] && small[1];
+}
+
+/* The fewest cords of both, each as many as it takes; more than so many: there are none. */
+static int fewest_of_both(instance both[2], const thr_request *o)
+{
+  int sum = 0;
+  for (int i = 0; i < 2; i++) {
+    thr_request own = *o;
+    if (o->end_node) own.end_node = both[i].end_node;
+    const int fewest = fewest_possible(&both[i], &own);
+    sum += fewest > o->cords_least ? fewest : o->cords_least;
+  }
+  return sum;
+}
+
+/* Changes to what is claimed of the components. */
+static void forge_parts(rng *r, thr_pull_claim *claim)
+{
+  thr_pull_claim *own = &claim->part[rng_below(r, claim->n_parts)];
+  switch (rng_below(r, 5)) {
+  case 0: own->fewest += rng_between(r, -1, 1); break;
+  case 1: own->excluded = rng_between(r, 0, MOST); break;
+  case 2: own->optimal = rng_below(r, 2); break;
+  case 3: claim->fewest += rng_between(r, -1, 1); break;
+  default: claim->fewest++; own->fewest++;
+  }
+}
+
+START_TEST(every_component_has_as_few_as_it_takes)
+{
+  rng r = rng_make((uint64_t)_i + 20000);
+  instance both[2];
+  thr_frame frame;
+  thr_request o;
+  thr_plan p;
+  thr_err err = {0};
+  bool end_node[2 * NODES];
+  if (instances_make(&r, both, &frame, end_node, &o)) {
+    const int fewest = fewest_of_both(both, &o);
+    thr_status st = thr_plan_make(&frame, &o, &(thr_limits){0}, &p, NULL, &err);
+    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_EINFEASIBLE, "%s", err.text);
+    ck_assert(st != THR_EINFEASIBLE || fewest > MOST);
+    if (p.n_cords > 0) {
+      assert_plan_sound(&p);
+      ck_assert_int_le(p.pull_claim.fewest, fewest);
+      ck_assert_int_ge(p.n_cords, fewest);
+      ck_assert_int_eq(p.pull_claim.n_parts, 2);
+    }
+    for (int i = 0; i < 40 && p.n_cords > 0; i++) {
+      const thr_pull_claim kept[2] = {p.pull_claim.part[0], p.pull_claim.part[1]}, claim = p.pull_claim;
+      p.turning.present = p.cords_claim.present = p.proof.present = false;
+      for (int k = rng_between(&r, 1, 3); k > 0; k--)
+        forge_parts(&r, &p.pull_claim);
+      if (thr_check_plan(&p, NULL) == THR_OK) {
+        ck_assert_int_le(p.pull_claim.fewest, fewest);
+        ck_assert(!p.pull_claim.optimal || p.pull_claim.fewest == p.n_cords);
+      }
+      p.pull_claim = claim;
+      p.pull_claim.part[0] = kept[0];
+      p.pull_claim.part[1] = kept[1];
+    }
+    thr_plan_destroy(&p);
+  }
+  for (int i = 0; i < 2; i++)
+    thr_frame_destroy(&both[i].frame);
+  thr_frame_destroy(&frame);
+}
+END_TEST
+
 int main(void)
 {
   Suite *s = suite_create("pull limit");
+  ADD_EXAMPLES(s, 40, every_component_has_as_few_as_it_takes, 30);
   ADD_EXAMPLES(s, 60, plans_keep_to_the_pull_and_claim_what_is_true, 300);
   ADD_EXAMPLES(s, 60, the_least_pull_is_bounded, 300);
   ADD_EXAMPLES(s, 40, no_forged_claim_is_verified, 150);
