@@ -10,11 +10,16 @@
 
 long judged_most_states = 8000;
 
+enum { MOST_APART = 600 }; /* states, where each cord has a limit of its own */
+
 judged_piece judged_piece_find(const judged *j, int k, walks_back back, walks_weights weights, double limit, int most)
 {
   judged_piece found = {.known = false};
   walks_piece w;
-  if (!walks_piece_init(&w, &j->c.f, &j->c.o, k, back, j->c.o.turning.cost, INFINITY, judged_most_states)) return found;
+  const bool apart = weights.length > 0 && limit < 0 && j->c.o.max_length > 0;
+  if (apart) weights.longest = j->c.o.max_length * (1 + 1e-9);
+  const long most_states = apart && judged_most_states > MOST_APART ? MOST_APART : judged_most_states;
+  if (!walks_piece_init(&w, &j->c.f, &j->c.o, k, back, j->c.o.turning.cost, INFINITY, most_states)) return found;
   double *in = calloc((size_t)w.n_states, sizeof *in), *out = calloc((size_t)w.n_states, sizeof *out);
   ck_assert(in != NULL && out != NULL);
   walks_begin(&w, in);
@@ -34,7 +39,7 @@ judged_piece judged_piece_find(const judged *j, int k, walks_back back, walks_we
 }
 
 const double judged_rounding = 1e-13; /* of a cord's length */
-const walks_weights judged_by_length = {1, 0}, judged_by_turn = {0, 1};
+const walks_weights judged_by_length = {.length = 1}, judged_by_turn = {.turn = 1};
 
 /* Cords of piece k, least and most, as the options say for this objective; with ends counted all of them are used. */
 static void cords_of(const judged *j, int k, int *least, int *most)

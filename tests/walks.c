@@ -406,8 +406,33 @@ void walks_begin(const walks_piece *w, double *cost)
     cost[s] = s == 0 ? 0 : INFINITY;
 }
 
+/* From each state that there is by itself, so that what the cord costs is known. */
+static void one_more_of_each(const walks_piece *w, walks_weights weights, const double *in, double *out)
+{
+  const double longest = weights.longest;
+  double *from = calloc((size_t)w->n_states, sizeof *from), *to = calloc((size_t)w->n_states, sizeof *to);
+  ck_assert(from && to);
+  weights.longest = 0;
+  for (long t = 0; t < w->n_states; t++)
+    out[t] = INFINITY;
+  for (long s = 0; s < w->n_states; s++) {
+    if (in[s] == INFINITY) continue;
+    for (long t = 0; t < w->n_states; t++)
+      from[t] = t == s ? 0 : INFINITY;
+    walks_one_more(w, weights, -1, from, to);
+    for (long t = 0; t < w->n_states; t++)
+      if (to[t] <= longest) out[t] = fmin(out[t], in[s] + to[t]);
+  }
+  free(from);
+  free(to);
+}
+
 void walks_one_more(const walks_piece *w, walks_weights weights, double limit, const double *in, double *out)
 {
+  if (weights.longest > 0 && limit < 0) {
+    one_more_of_each(w, weights, in, out);
+    return;
+  }
   walker x = {.w = w, .weights = weights, .limit = limit, .first = -1, .out = out};
   x.at = malloc((size_t)w->n_states * 2 * (size_t)w->n_edges * sizeof *x.at);
   ck_assert_ptr_nonnull(x.at);

@@ -41,6 +41,7 @@ bool walks_piece_init(walks_piece *w, const thr_frame *f, const thr_request *o, 
 /* What is minimized: w_length * length + w_turn * price of turns. */
 typedef struct {
   double length, turn;
+  double longest; /* 0, or none of the cords costs more, each taken by itself: as many searches as there are states */
 } walks_weights;
 
 /* cost[n_states]: of no cord at all. */

@@ -1373,6 +1373,9 @@ class FewEdges:
                     one[mask] = min(one[mask], one[mask | 1 << i])
         return one
 
+    def keep_to(self, limit):
+        self.key, self.one = (self.key, limit), [x if x <= limit else math.inf for x in self.one]
+
     def settle(self, mask, cost, steps, index, lowest):
         here = cost[mask]
         queue = [(x, h) for h, x in here.items()]
@@ -1764,6 +1767,8 @@ def few_edges_lengths(p):
         small = high > 1 and len(edges) <= FEW_SUMMED and 1 << len(edges) <= sets
         sets -= (1 << len(edges)) if small else 0
         table = FewEdges(p, edges, False, math.inf) if small else None
+        if table and o.max_length is not None:
+            table.keep_to(o.max_length * (1 + 2 * TOLERANCE))
         each = p.different()
         least = (table.different(each, low, high) or table.least(low, high, False)) if small else 0
         found.append(Fraction(min(least, sys.float_info.max)))

@@ -353,6 +353,14 @@ static thr_status count_all_edges(const thr_frame *frame, const int *component, 
   return THR_OK;
 }
 
+/* Forgets the cords that are too long for what is asked. */
+static void keep_to_length(thr_few_edges *few, const thr_request *options)
+{
+  const double longest = options->max_length > 0 ? options->max_length * (1 + 2e-9) : INFINITY;
+  for (unsigned set = 0; few->n > 0 && set < 1u << few->n; set++)
+    if (few->one[set] > longest) few->one[set] = INFINITY;
+}
+
 thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *options, const int *component, int n_components,
                                  const int *cords, int each, double *least, thr_err *err)
 {
@@ -367,6 +375,7 @@ thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *opti
     if (cords) to = cords[c];
     if (to > 1) st = thr_few_edges_init(&few, frame, options, component, c, false, INFINITY, sets, err);
     if (few.n > 0) sets -= 1 << few.n;
+    if (!st) keep_to_length(&few, options);
     if (!st && few.n > 0 && each > 1) st = thr_few_edges_different(&few, each, from, to, &least[c], err);
     if (!st && few.n > 0 && least[c] == 0) st = thr_few_edges_sum(&few, from, to, &least[c], err);
     thr_few_edges_destroy(&few);

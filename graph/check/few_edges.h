@@ -74,7 +74,7 @@ thr_status thr_few_edges_different_dearest(const thr_few_edges *few, int each, i
 
 /* Least length of all cords of each component together, least[components]; 0 of those that may have one cord only, have more than
  * THR_FEW_SUMMED edges, or come when the sets are used up. cords[components]: at most as many as these, NULL: as the options
- * allow. each: different cords over every edge, at least. */
+ * allow, none longer than they do. each: different cords over every edge, at least. */
 thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *options, const int *component, int n_components,
                                  const int *cords, int each, double *least, thr_err *err) THR_MUST_CHECK;
 

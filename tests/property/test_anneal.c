@@ -139,7 +139,7 @@ static bool may_cost(const asked *a, const walks_piece *w, double limit)
 {
   double *cost = calloc((size_t)w->n_states, sizeof *cost), *next = calloc((size_t)w->n_states, sizeof *next);
   ck_assert(cost && next);
-  const walks_weights weights = a->measure == THR_WALK_LENGTH ? (walks_weights){1, 0} : (walks_weights){0, 1};
+  const walks_weights weights = a->measure == THR_WALK_LENGTH ? (walks_weights){.length = 1} : (walks_weights){.turn = 1};
   walks_begin(w, cost);
   for (int i = 0; i < a->plan.n_cords; i++) {
     walks_one_more(w, weights, limit, cost, next);

@@ -174,7 +174,7 @@ static double least(const asked *a)
   double *none = calloc((size_t)w.n_states, sizeof *none), *one = calloc((size_t)w.n_states, sizeof *one);
   ck_assert(none && one);
   walks_begin(&w, none);
-  walks_one_more(&w, (walks_weights){0, 1}, -1, none, one);
+  walks_one_more(&w, (walks_weights){.turn = 1}, -1, none, one);
   const double price = walks_least(&w, one);
   free(none);
   free(one);
