@@ -23,7 +23,9 @@ typedef struct {
   owner_kind owner;
   int line;
   thr_said said;
-  bool open, has_z; /* a node or an edge is open */
+  thr_said given[3]; /* by owner: what the defaults of the keys say of each node and each edge */
+  bool of[3];        /* by owner: whether the key that is open gives such attributes */
+  bool open, has_z;  /* a node or an edge is open */
 } graphml;
 
 /* What the attribute with this id is called: itself if no key says. */
@@ -39,6 +41,11 @@ static const char *key_name(const graphml *g, const char *id)
 
 static void add_key(graphml *g)
 {
+  static const char *const owner[] = {"graph", "node", "edge"};
+  const bool said = thr_xml_attribute(&g->xml, "for", &g->value) && g->value.data;
+  for (int i = GRAPH; i <= EDGE; i++)
+    g->of[i] = !said || strcmp(g->value.data, "all") == 0 || strcmp(g->value.data, owner[i]) == 0;
+  g->to.length = 0;
   if (!thr_xml_attribute(&g->xml, "id", &g->from)) return;
   if (!thr_xml_attribute(&g->xml, "attr.name", &g->to)) return;
   thr_text_append_bytes(&g->keys, g->from.data, g->from.length);
@@ -53,22 +60,44 @@ static void begin_data(graphml *g)
   if (thr_xml_attribute(&g->xml, "key", &g->value)) thr_text_append(&g->key, key_name(g, g->value.data ? g->value.data : ""));
 }
 
-static thr_status take_data(graphml *g)
+/* The name of the key that was opened last is still in to. */
+static void begin_default(graphml *g)
+{
+  g->key.length = 0;
+  thr_text_append_bytes(&g->key, g->to.data ? g->to.data : "", g->to.length);
+}
+
+/* Takes the text before the tag as the value of the open key: of the graph, or into what is said of a node or an edge. */
+static thr_status take_value(graphml *g, owner_kind owner, thr_said *said)
 {
   const char *what = NULL;
   thr_err why = {0};
   g->value.length = 0;
-  thr_xml_plain(thr_span_trim(g->xml.text), &g->value);
+  thr_span text = g->xml.text;
+  while (text.n && (unsigned char)text.s[0] <= ' ')
+    text = (thr_span){text.s + 1, text.n - 1};
+  while (text.n && (unsigned char)text.s[text.n - 1] <= ' ')
+    text.n--;
+  thr_xml_plain(text, &g->value);
   if (g->value.failed) return thr_nomem(g->err);
   const thr_span key = {g->key.data, g->key.length};
-  g->key.length = 0;
-  if (g->owner == GRAPH) {
+  if (owner == GRAPH) {
     if (!thr_span_is(key, "units")) return THR_OK;
     return thr_draft_set_units(g->draft, g->value.data, &why) ? thr_scan_fail(&g->xml.scan, g->err, "%s", why.text) : THR_OK;
   }
-  thr_said_take(&g->said, key, thr_span_of(g->value.data), &what);
+  thr_said_take(said, key, thr_span_of(g->value.data), &what);
   if (!what) return THR_OK;
   return thr_scan_fail(&g->xml.scan, g->err, "%.*s '%.40s' is %s", thr_span_width(key), key.s, g->value.data, what);
+}
+
+/* Ends what holds a value: data of the graph, a node or an edge, or the default of a key. */
+static thr_status end_value(graphml *g, bool data)
+{
+  thr_status st = data ? take_value(g, g->owner, &g->said) : THR_OK;
+  for (int owner = GRAPH; owner <= EDGE && !data && !st; owner++)
+    if (g->of[owner]) st = take_value(g, (owner_kind)owner, &g->given[owner]);
+  g->key.length = 0;
+  return st;
 }
 
 static thr_status begin_owner(graphml *g, owner_kind owner)
@@ -77,7 +106,7 @@ static thr_status begin_owner(graphml *g, owner_kind owner)
   g->open = true;
   g->owner = owner;
   g->line = g->xml.scan.line;
-  g->said = (thr_said){0};
+  g->said = g->given[owner];
   if (owner == NODE && !thr_xml_attribute(&g->xml, "id", &g->name))
     return thr_scan_fail(&g->xml.scan, g->err, "a node without an id");
   if (owner == EDGE && (!thr_xml_attribute(&g->xml, "source", &g->from) || !thr_xml_attribute(&g->xml, "target", &g->to)))
@@ -101,13 +130,15 @@ static thr_status take_tag(graphml *g)
   const thr_span tag = g->xml.name;
   const bool begins = g->xml.kind != THR_XML_CLOSE, ends = g->xml.kind != THR_XML_OPEN;
   const bool node = thr_span_is(tag, "node"), edge = thr_span_is(tag, "edge");
+  const bool data = thr_span_is(tag, "data"), value = data || thr_span_is(tag, "default");
   thr_status st = THR_OK;
   if (begins && thr_span_is(tag, "key")) add_key(g);
   if (begins && thr_span_is(tag, "hyperedge"))
     return thr_scan_fail(&g->xml.scan, g->err, "hyperedges join more than two nodes and are not read");
   if (begins && (node || edge)) st = begin_owner(g, node ? NODE : EDGE);
-  if (!st && g->xml.kind == THR_XML_OPEN && thr_span_is(tag, "data")) begin_data(g);
-  if (!st && g->xml.kind == THR_XML_CLOSE && thr_span_is(tag, "data") && g->key.length) st = take_data(g);
+  if (!st && g->xml.kind == THR_XML_OPEN && data) begin_data(g);
+  if (!st && g->xml.kind == THR_XML_OPEN && value && !data) begin_default(g);
+  if (!st && g->xml.kind == THR_XML_CLOSE && value && g->key.length) st = end_value(g, data);
   if (g->keys.failed || g->key.failed) return thr_nomem(g->err);
   if (!st && ends && (node || edge) && g->open) st = end_owner(g);
   return st;

@@ -58,8 +58,10 @@ static void take_number(thr_span value, double *x, bool *has, const char **what)
   if (!*has) *what = "not a finite number";
 }
 
-static void take_count(thr_span value, int *count, const char **what)
+static void take_count(thr_span value, bool nothing, int *count, const char **what)
 {
+  *count = 0;
+  if (nothing) return;
   if (!thr_span_int(value, count) || *count < 1 || *count > 100) *what = "not a whole number from 1 to 100";
 }
 
@@ -75,12 +77,15 @@ void thr_said_take(thr_said *said, thr_span key, thr_span value, const char **wh
   for (size_t i = 0; i < sizeof foot / sizeof *foot; i++)
     if (thr_span_is(key, foot[i]))
       said->foot = thr_span_is(value, "true") || (thr_span_number(value, false, &number) && number != 0);
+  /* igraph writes NaN where an edge does not have what others have. */
+  const bool nothing = value.n == 0 || thr_span_is(value, "nan");
   if (thr_span_is(key, "length")) {
-    take_number(value, &said->length, &unused, what);
-    if (unused && !(said->length > 0)) *what = "not a positive number";
+    said->length = 0;
+    if (!nothing) take_number(value, &said->length, &unused, what);
+    if (!nothing && unused && !(said->length > 0)) *what = "not a positive number";
   }
-  if (thr_span_is(key, "cover")) take_count(value, &said->cover, what);
-  if (thr_span_is(key, "capacity")) take_count(value, &said->capacity, what);
+  if (thr_span_is(key, "cover")) take_count(value, nothing, &said->cover, what);
+  if (thr_span_is(key, "capacity")) take_count(value, nothing, &said->capacity, what);
 }
 
 thr_status thr_said_node(const thr_said *said, thr_draft *draft, const char *node, bool *has_z, const thr_scan *scan,

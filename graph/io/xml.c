@@ -4,6 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* What begins with < and is no tag, and whether its inside is text. */
+static const struct {
+  const char *begin, *end;
+  bool text;
+} passed[] = {{"!--", "-->", false}, {"?", "?>", false}, {"![CDATA[", "]]>", true}, {"!", ">", false}};
+
 thr_status thr_xml_start(thr_xml *xml, const char *text, size_t n, const char *name, thr_err *err)
 {
   *xml = (thr_xml){0};
@@ -72,11 +78,8 @@ static thr_status read_tag(thr_xml *xml, thr_err *err)
 
 thr_status thr_xml_next(thr_xml *xml, thr_err *err)
 {
-  static const struct {
-    const char *begin, *end;
-  } passed[] = {{"!--", "-->"}, {"?", "?>"}, {"![CDATA[", "]]>"}, {"!", ">"}};
+  const char *from = xml->scan.at;
   for (;;) {
-    const char *from = xml->scan.at;
     if (!pass(xml, "<")) {
       xml->kind = THR_XML_END;
       return THR_OK;
@@ -131,11 +134,29 @@ static size_t append_entity(thr_span t, thr_text *out)
   return first + n + 1;
 }
 
+/* Takes what stands in a text and is no tag: CDATA as they are written, comments and instructions not at all. Returns how many
+ * bytes that has; 0 if it is none. */
+static size_t append_section(thr_span t, thr_text *out)
+{
+  for (size_t i = 0; i < sizeof passed / sizeof *passed; i++) {
+    const size_t begin = 1 + strlen(passed[i].begin), end = strlen(passed[i].end);
+    if (t.n < begin + end || !thr_span_starts((thr_span){t.s + 1, t.n - 1}, passed[i].begin)) continue;
+    size_t n = begin;
+    while (n + end <= t.n && memcmp(t.s + n, passed[i].end, end) != 0)
+      n++;
+    if (n + end > t.n) return 0;
+    if (passed[i].text) thr_text_append_bytes(out, t.s + begin, n - begin);
+    return n + end;
+  }
+  return 0;
+}
+
 void thr_xml_plain(thr_span text, thr_text *out)
 {
   thr_text_append(out, "");
   for (size_t i = 0; i < text.n;) {
-    const size_t taken = text.s[i] == '&' ? append_entity((thr_span){text.s + i, text.n - i}, out) : 0;
+    const thr_span rest = {text.s + i, text.n - i};
+    const size_t taken = text.s[i] == '&' ? append_entity(rest, out) : text.s[i] == '<' ? append_section(rest, out) : 0;
     if (!taken) thr_text_byte(out, text.s[i]);
     i += taken ? taken : 1;
   }

@@ -14,7 +14,7 @@ typedef struct {
   thr_xml_kind kind;
   thr_span name;       /* of the tag, without what stands before a colon */
   thr_span attributes; /* as they are written */
-  thr_span text;       /* before the tag, as it is written */
+  thr_span text;       /* before the tag and after the last one, as it is written */
 } thr_xml;
 
 thr_status thr_xml_start(thr_xml *xml, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
@@ -23,7 +23,7 @@ thr_status thr_xml_next(thr_xml *xml, thr_err *err) THR_MUST_CHECK;
 /* The value of an attribute of the tag into out, instead of what it held; false if there is none. */
 bool thr_xml_attribute(const thr_xml *xml, const char *name, thr_text *out);
 
-/* Appends text with its entities resolved. */
+/* Appends text with its entities and CDATA resolved and without its comments. */
 void thr_xml_plain(thr_span text, thr_text *out);
 
 #endif

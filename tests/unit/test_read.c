@@ -109,6 +109,45 @@ START_TEST(passes_of_edges)
 }
 END_TEST
 
+/* ---- GraphML ---- */
+
+/* Three nodes; by hand: b and c take z = 30 and the foot of their keys, all edges take cover 2, one is 25 long by default, the
+ * other says 22. */
+START_TEST(graphml_defaults)
+{
+  static const char text[] =
+      "<graphml><key id='d0' for='node' attr.name='x'/><key id='d1' for='node' attr.name='y'><default>0</default></key>"
+      "<key id='d2' for='node' attr.name='z'><default>\n 30 </default></key>"
+      "<key id='d3' for='node' attr.name='is_support'><default>true</default></key>"
+      "<key id='d4' for='edge' attr.name='length'><default>25</default></key>"
+      "<key id='d5' for='all' attr.name='cover'><default>2</default></key><graph>"
+      "<node id='a'><data key='d0'>0</data><data key='d2'>0</data><data key='d3'>false</data></node>"
+      "<node id='b'><data key='d0'>20</data></node><node id='c'><data key='d0'>40</data></node>"
+      "<edge source='a' target='b'/><edge source='b' target='c'><data key='d4'>22</data></edge></graph></graphml>";
+  thr_read_report r;
+  const thr_format *graphml = thr_format_named("graphml");
+  check_text(text, graphml, 3, 2, 47, "b c");
+  check_passes(text, graphml, "2/-1 2/-1");
+  thr_frame f = read_text(text, graphml, &r);
+  ck_assert_double_eq(f.xyz[0][2] + f.xyz[1][2] + f.xyz[2][2], 60);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
+/* CDATA are text, comments are none, and NaN, which igraph writes for an edge without a value, is no length. */
+START_TEST(graphml_sections)
+{
+  check_text("<graphml><graph><node id='a'><data key='x'><![CDATA[0]]></data><data key='y'>0</data></node>"
+             "<node id='b'><data key='x'>3<!-- 0 -->0</data><data key='y'>\n4<![CDATA[0]]>\n</data></node>"
+             "<node id='&lt;c'><data key='x'>30</data><data key='y'>50</data></node>"
+             "<edge source='a' target='b'><data key='length'>NaN</data><data key='cover'></data></edge>"
+             "<edge source='b' target='&lt;c'><data key='length'>25</data></edge></graph></graphml>",
+             thr_format_named("graphml"), 3, 2, 75, "");
+  check_error("<graphml><graph><node id='a'><data key='x'>NaN</data></node></graph></graphml>", thr_format_named("graphml"),
+              "f:1: x 'NaN' is not a finite number");
+}
+END_TEST
+
 /* ---- CSV ---- */
 
 START_TEST(csv_shapes)
@@ -784,6 +823,8 @@ END_TEST
 static void add_tests(TCase *t)
 {
   tcase_add_test(t, passes_of_edges);
+  tcase_add_test(t, graphml_defaults);
+  tcase_add_test(t, graphml_sections);
   tcase_add_test(t, csv_shapes);
   tcase_add_loop_test(t, numbers_are_what_strtod_takes_them_for, 0, 5);
   tcase_add_test(t, csv_first_edge_is_not_taken_for_a_header);
