@@ -75,9 +75,10 @@ static bool fits(thr_plan *plan)
 
 static bool is_wanted(thr_plan *plan)
 {
+  bool others;
   if (!fits(plan) || thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, NULL))
     return false;
-  if (thr_plan_uncross(plan, NULL)) return false;
+  if (thr_plan_uncross(plan, &others, NULL)) return false;
   if (plan->options.distinct > 0 && plan->metrics.distinct < plan->frame.n_edges) return false;
   return value_of(plan) < best.value * (1 - 1e-9) && thr_check_plan(plan, NULL) == THR_OK;
 }

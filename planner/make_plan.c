@@ -72,12 +72,12 @@ thr_status thr_plan_make(const thr_frame *frame, const thr_request *request, con
     why = (thr_err){0};
     st = thr_planner_verdict(plan, &why);
   }
-  const double before = plan->metrics.length; /* cords that cross nothing may be longer */
-  if (plan->n_cords > 0 && !finished) finished = thr_plan_uncross(plan, err);
-  const bool longer = plan->n_cords > 0 && plan->metrics.length > before;
-  if (longer && !finished) finished = thr_planner_prove_again(plan, err);
+  bool others = false; /* cords that cross nothing may have other passes */
+  if (plan->n_cords > 0 && !finished) finished = thr_plan_uncross(plan, &others, err);
+  if (others) own.word.passes_least = false;
+  if (others && !finished) finished = thr_planner_prove_again(plan, err);
   if (plan->n_cords > 0 && !finished) finished = thr_plan_order(plan, err);
-  if (plan->n_cords > 0 && !finished && (longer || is_to_be_judged(plan))) finished = judge(plan, &st, &why, err);
+  if (plan->n_cords > 0 && !finished && (others || is_to_be_judged(plan))) finished = judge(plan, &st, &why, err);
   if (plan->n_cords > 0 && !finished) finished = sign(plan, err);
   if (st == THR_ELIMIT && !finished && thr_planner_is_enough(plan, limits)) st = THR_OK;
   if (finished)

@@ -3,6 +3,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/channels.h"
 #include "graph/plan/request.h"
+#include "planner/channel_search.h"
 #include "planner/recut.h"
 
 #include <limits.h>
@@ -192,22 +193,9 @@ static thr_status uncross_cords(thr_plan *plan, bool between, thr_err *err)
 
 /* ---- what is asked of single cords ---- */
 
-static int count_passes(const thr_plan *plan)
+static thr_status measure(thr_plan *plan, thr_err *err)
 {
-  int n = 0;
-  for (int i = 0; i < plan->n_cords; i++)
-    n += plan->cord[i].n_passes;
-  return n;
-}
-
-/* Metrics of the cords as they are now: of the same passes, unless there are more, so that their length is the same to the last
- * bit. */
-static thr_status measure(thr_plan *plan, int passes, thr_err *err)
-{
-  const double length = plan->metrics.length;
-  thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
-  if (count_passes(plan) == passes) plan->metrics.length = length;
-  return st;
+  return thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
 }
 
 /* As many cords as before, over every edge as many different ones, and none longer than may be; even ones stay as even, unless
@@ -224,16 +212,16 @@ static bool serves(const thr_plan *plan, int n_cords, int distinct, double longe
 /* Each cord by itself, and those of different cords too if what is asked of single cords is kept. */
 static thr_status uncross(thr_plan *plan, thr_err *err)
 {
-  const int n = plan->n_cords, distinct = plan->metrics.distinct, passes = count_passes(plan);
+  const int n = plan->n_cords, distinct = plan->metrics.distinct;
   const double longest = thr_cords_longest(&plan->frame, plan->cord, n);
   thr_cord *before = NULL;
   if (n == 1 || !may_exchange(&plan->options)) {
     thr_status st = uncross_cords(plan, false, err);
-    return st ? st : measure(plan, passes, err);
+    return st ? st : measure(plan, err);
   }
   thr_status st = thr_cords_copy(plan->cord, n, &before, err);
   if (!st) st = uncross_cords(plan, true, err);
-  if (!st) st = measure(plan, passes, err);
+  if (!st) st = measure(plan, err);
   if (st || serves(plan, n, distinct, longest)) {
     thr_cords_destroy(before, n);
     return st;
@@ -242,7 +230,7 @@ static thr_status uncross(thr_plan *plan, thr_err *err)
   plan->cord = before;
   plan->n_cords = n;
   st = uncross_cords(plan, false, err);
-  return st ? st : measure(plan, passes, err);
+  return st ? st : measure(plan, err);
 }
 
 /* How many cross, and in how many pieces. */
@@ -283,12 +271,50 @@ static void claim_longest(thr_plan *plan)
   claim->longest_optimal = claim->longest <= claim->longest_bound * (1 + 1e-9);
 }
 
-thr_status thr_plan_uncross(thr_plan *plan, thr_err *err)
+/* Where exchanges left crossings, or made the cords longer, searches for others (planner/channel_search.h). */
+static thr_status search_again(thr_plan *plan, const thr_cord *before, int n_before, thr_err *err)
+{
+  bool changed = false;
+  if (plan->options.crossings != THR_CROSSINGS_FORBID || plan->options.distinct > 0) return THR_OK;
+  thr_status st = thr_channel_search(plan, before, n_before, &changed, err);
+  return !st && changed ? measure(plan, err) : st;
+}
+
+/* *others: the cords pass some edge more or less often than before. */
+static thr_status compare_passes(const thr_plan *plan, const thr_cord *before, int n_before, bool *others, thr_err *err)
+{
+  int *more = thr_calloc((size_t)plan->frame.n_edges, sizeof *more);
+  if (!more) return thr_nomem(err);
+  for (int c = 0; c < plan->n_cords; c++)
+    for (int k = 0; k < plan->cord[c].n_passes; k++)
+      more[plan->cord[c].half[k] >> 1]++;
+  for (int c = 0; c < n_before; c++)
+    for (int k = 0; k < before[c].n_passes; k++)
+      more[before[c].half[k] >> 1]--;
+  *others = false;
+  for (int e = 0; e < plan->frame.n_edges; e++)
+    *others |= more[e] != 0;
+  free(more);
+  return THR_OK;
+}
+
+thr_status thr_plan_uncross(thr_plan *plan, bool *others, thr_err *err)
 {
   int crossed = 0;
+  const int n_before = plan->n_cords;
+  const double length = plan->metrics.length;
+  thr_cord *before = NULL;
+  *others = false;
   if (plan->options.crossings == THR_CROSSINGS_ALLOW || plan->n_cords == 0) return THR_OK;
-  thr_status st = uncross(plan, err);
+  thr_status st = thr_cords_copy(plan->cord, n_before, &before, err);
+  if (!st) st = uncross(plan, err);
+  if (!st) st = search_again(plan, before, n_before, err);
+  if (!st) st = compare_passes(plan, before, n_before, others, err);
+  if (before) thr_cords_destroy(before, n_before);
+  if (st) return st;
+
+  if (!*others) plan->metrics.length = length; /* to the last bit */
   claim_longest(plan);
-  if (!st) st = count(plan, &crossed, err);
+  st = count(plan, &crossed, err);
   return st ? st : refuse(plan, crossed, err);
 }

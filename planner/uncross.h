@@ -15,10 +15,12 @@
  * is allowed, as long as that keeps to max_length and distinct, and to balance where crossings only have their price. Of several
  * pairs those of one cord come first, and of these that which takes least turning; in plans for little turning only where the
  * turning stays the same, unless no crossing is allowed: the claim of the turning is then to be made anew. Metrics are measured
- * again, and the claim of the longest cord is about the cords as they are now. options.crossings says whether it is asked for.
- * Passes of cords are owned, and others may take their place, as may plan->cord. THR_ELIMIT: none are allowed and some are left
- * (said how many), which does not prove that there is no such plan. O(crossings x passes). */
-thr_status thr_plan_uncross(thr_plan *plan, thr_err *err) THR_MUST_CHECK;
+ * again, and the claim of the longest cord is about the cords as they are now. Where that leaves crossings that are forbidden, or
+ * cords that are longer, other cords are searched for (planner/channel_search.h). *others: edges have other numbers of passes
+ * now, and what is proved is to be proved again. options.crossings says whether it is asked for. Passes of cords are owned, and
+ * others may take their place, as may plan->cord. THR_ELIMIT: none are allowed and some are left (said how many), which does not
+ * prove that there is no such plan. O(crossings x passes). */
+thr_status thr_plan_uncross(thr_plan *plan, bool *others, thr_err *err) THR_MUST_CHECK;
 
 /* metrics.crossings, if the request asks for anything but any number of them. O(n log n). */
 thr_status thr_plan_count_crossings(thr_plan *plan, thr_err *err) THR_MUST_CHECK;
