@@ -45,10 +45,25 @@ typedef struct {
   int n_properties, properties_capacity;
   const element *now; /* the element being read, and which of its items, from 0 */
   double item;
+  thr_span row; /* ascii: the line on which that item begins, if nothing stands before it */
+  /* ascii: the first item that ends before its row does, which is no fault of a stream without rows */
+  const element *short_of; /* NULL: there is none */
+  double short_item;
+  int short_line, row_values, item_values;
 } ply;
+
+/* Says that a row has more values than the header declares, which is why the numbers after it make no sense. */
+static thr_status fail_at_long_row(ply *p)
+{
+  p->scan.line = p->short_line;
+  return thr_scan_fail(&p->scan, p->err,
+                       "%s %.0f: the row has %d values, the header declares %d; correct the header or export again",
+                       p->short_of->name, p->short_item, p->row_values, p->item_values);
+}
 
 static thr_status fail(ply *p, const char *what)
 {
+  if (p->short_of) return fail_at_long_row(p);
   if (p->encoding == ASCII) return thr_scan_fail(&p->scan, p->err, "%s %.0f: %s", p->now->name, p->item, what);
   return thr_fail(p->err, THR_EINPUT, "%s: %s %.0f: %s", p->scan.name, p->now->name, p->item, what);
 }
@@ -207,13 +222,24 @@ static thr_status read_header(ply *p)
 
 /* ---- numbers ---- */
 
+/* Is the word one that programs write for a number that is not finite: nan, -inf, 1.#QNAN? */
+static bool is_not_finite(thr_span word)
+{
+  static const char *const known[] = {"nan", "inf", "infinity", "nan(ind)", "nan(snan)", "1.#qnan", "1.#inf", "1.#ind"};
+  if (word.n && (word.s[0] == '-' || word.s[0] == '+')) word = (thr_span){word.s + 1, word.n - 1};
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+    if (thr_span_is(word, known[i])) return true;
+  return false;
+}
+
 static thr_status next_text_number(ply *p, double *x)
 {
   thr_span word;
   while (!(word = thr_span_word(&p->line)).n)
     if (!thr_scan_line(&p->scan, &p->line)) return fail(p, "the file ends here; it is not whole");
-  if (thr_span_number(word, false, x)) return THR_OK;
-  return fail(p, "not a finite number");
+  *x = NAN;
+  if (thr_span_number(word, false, x) || is_not_finite(word)) return THR_OK;
+  return fail(p, "not a number");
 }
 
 /* The bytes of a number of this machine's order as a double. */
@@ -262,12 +288,14 @@ static thr_status next_binary_number(ply *p, number_type type, double *x)
     b[i] = (unsigned char)p->scan.at[turn ? n - 1 - i : i];
   p->scan.at += n;
   *x = number_of(b, type);
-  return isfinite(*x) ? THR_OK : fail(p, "a number that is not finite");
+  return THR_OK;
 }
 
-static thr_status next_number(ply *p, number_type type, double *x)
+/* Reads a number, which may be NaN or infinite where nobody uses it. */
+static thr_status next_number(ply *p, number_type type, bool used, double *x)
 {
-  return p->encoding == ASCII ? next_text_number(p, x) : next_binary_number(p, type, x);
+  thr_status st = p->encoding == ASCII ? next_text_number(p, x) : next_binary_number(p, type, x);
+  return st || !used || isfinite(*x) ? st : fail(p, "not a finite number");
 }
 
 /* ---- items ---- */
@@ -281,10 +309,10 @@ static thr_status corner(ply *p, double x)
 static thr_status read_list(ply *p, const property *q)
 {
   double n, x;
-  thr_status st = next_number(p, q->count, &n);
+  thr_status st = next_number(p, q->count, true, &n);
   if (!st && (n < 0 || n != floor(n))) return fail(p, "the length of a list must be a whole number from 0");
   for (double i = 0; !st && i < n; i++) {
-    st = next_number(p, q->type, &x);
+    st = next_number(p, q->type, q->role == CORNERS, &x);
     if (!st && q->role == CORNERS) st = corner(p, x);
   }
   return st;
@@ -301,7 +329,7 @@ static thr_status read_item(ply *p)
       st = read_list(p, q);
       continue;
     }
-    st = next_number(p, q->type, &x);
+    st = next_number(p, q->type, q->role != IGNORED, &x);
     if (!st) value[q->role] = x;
   }
   if (!st && p->now->kind == VERTEX) {
@@ -313,16 +341,72 @@ static thr_status read_item(ply *p)
   return st ? st : thr_faces_close(&p->faces, p->err);
 }
 
+static int count_words(thr_span line)
+{
+  int n = 0;
+  while (thr_span_word(&line).n)
+    n++;
+  return n;
+}
+
+/* Moves to the next line that is not blank, if the current one is used up. */
+static void begin_row(ply *p)
+{
+  p->row = (thr_span){0};
+  if (p->encoding != ASCII || thr_span_trim(p->line).n) return;
+  while (!thr_span_trim(p->line).n && thr_scan_line(&p->scan, &p->line)) {
+  }
+  p->row = p->line;
+}
+
+/* Remembers the first item that leaves values of its row over. */
+static void end_row(ply *p)
+{
+  if (p->short_of || !p->row.n || !thr_span_trim(p->line).n || p->line.s + p->line.n != p->row.s + p->row.n) return;
+  p->short_of = p->now;
+  p->short_item = p->item;
+  p->short_line = p->scan.line;
+  p->row_values = count_words(p->row);
+  p->item_values = p->row_values - count_words(p->line);
+}
+
+/* Refuses a file in which anything but blanks is left after the items that its header declares: then the rows have more values
+ * than the header says, and every item after the first may be wrong. */
+static thr_status check_end(ply *p)
+{
+  if (p->encoding == ASCII) {
+    begin_row(p);
+    if (!thr_span_trim(p->line).n) return THR_OK;
+    if (p->short_of) return fail_at_long_row(p);
+    return thr_scan_fail(&p->scan, p->err, "this is left after all that the header declares; correct the header or export again");
+  }
+  const size_t left = (size_t)(p->scan.end - p->scan.at);
+  size_t blanks = 0;
+  while (blanks < left && strchr(" \t\r\n", p->scan.at[blanks]) && p->scan.at[blanks])
+    blanks++;
+  if (blanks == left) return THR_OK;
+  char rows[160] = "";
+  for (int i = 0, at = 0; i < p->n_elements && at < (int)sizeof rows; i++)
+    at += snprintf(rows + at, sizeof rows - (size_t)at, "%s%.0f %s with %d", i ? ", " : "", p->element[i].n, p->element[i].name,
+                   p->element[i].last - p->element[i].first);
+  return thr_fail(p->err, THR_EINPUT,
+                  "%s: %zu bytes are left after the values that the header declares (%s); correct the header or export again",
+                  p->scan.name, left, rows);
+}
+
 static thr_status read_items(ply *p)
 {
   thr_status st = THR_OK;
   for (int i = 0; i < p->n_elements && !st; i++) {
     p->now = &p->element[i];
     if (p->now->first == p->now->last) continue; /* nothing is written of these */
-    for (p->item = 0; p->item < p->now->n && !st; p->item++)
+    for (p->item = 0; p->item < p->now->n && !st; p->item++) {
+      begin_row(p);
       st = read_item(p);
+      if (!st) end_row(p);
+    }
   }
-  return st;
+  return st ? st : check_end(p);
 }
 
 static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)

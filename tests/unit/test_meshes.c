@@ -269,6 +269,15 @@ START_TEST(errors_of_gltf_say_where)
 }
 END_TEST
 
+static void check_accepted(const char *text, const char *name)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_err err = {0};
+  ck_assert_msg(thr_draft_parse(&d, &r, text, strlen(text), name, NULL, &err) == THR_OK, "%s", err.text);
+  thr_draft_destroy(&d);
+}
+
 START_TEST(errors_say_where)
 {
   check_refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n", "a.ply",
@@ -286,6 +295,26 @@ START_TEST(errors_say_where)
   check_refused(
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
       "a.ply", "a.ply: no edges and no faces, only 1 points; export the lines or the mesh");
+  /* what the header does not declare: at the end of rows, of the file, of bytes; a stream without rows is whole */
+#define HEAD(encoding)                                                                                                           \
+  "ply\nformat " encoding " 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float "        \
+                          "quality\n"
+#define EDGE "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n"
+  check_refused(HEAD("ascii") EDGE "0 0 0 nan 7\n1 0 0 -inf 7\n0 1\n", "a.ply",
+                "a.ply:12: vertex 0: the row has 5 values, the header declares 4; correct the header or export again");
+  check_refused(HEAD("ascii") EDGE "0 0 0 1\n1 0 0 1\n\n0 1 255 255\n", "a.ply",
+                "a.ply:15: edge 0: the row has 4 values, the header declares 2; correct the header or export again");
+  check_refused(HEAD("ascii") EDGE "0 0 0 1\n1 0 0 1\n0\n1\n\n2\n", "a.ply",
+                "a.ply:17: this is left after all that the header declares; correct the header or export again");
+  check_refused(HEAD("ascii") "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+                              "0 0 0 1\n1 0 0 1\n2 0 1 200 10 10\n2 1 0 200 10 10\n",
+                "a.ply", "a.ply:13: face 0: the row has 6 values, the header declares 3; correct the header or export again");
+  check_refused(HEAD("binary_little_endian") EDGE "aaaabbbbccccddddeeeeffffgggghhhhiiiijjjj..", "a.ply",
+                "a.ply: 2 bytes are left after the values that the header declares (2 vertex with 4, 1 edge with 2); correct the "
+                "header or export again");
+  check_accepted(HEAD("ascii") EDGE "\n0 0 0\nnan 20 0\n0 1.#QNAN 0\n\n1\n\n", "a.ply");
+#undef HEAD
+#undef EDGE
   check_refused("OFF BINARY\n", "a.off", "a.off:1: binary OFF is not read; export it as text, or as PLY");
   check_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 x\n", "a.off",
                 "a.off:6: 'x' is not a number of vertices, faces or corners");
