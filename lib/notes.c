@@ -35,6 +35,7 @@ static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_rep
     thr_text_append(out, "made by Blender, which writes y upwards: turned so that y points up (--up z leaves it as it is)\n");
   if (report->lies)
     thr_text_append(out, "z is taken to point up, and only a line of nodes is lowest; if y points up in this file: --up y\n");
+  put_count(out, report->empty_z, "z is", "z are", "empty where others are not: taken as 0");
   if (report->no_z) thr_text_append(out, "no node has a z: the framework is taken to be flat, z = 0\n");
   for (int e = 0; e < frame->n_edges; e++) {
     n_short += frame->length[e] < SHORT;

@@ -1,6 +1,7 @@
 /* CSV: tables of nodes and edges, or one edge per line as six coordinates (docs/formats.md, "CSV"). */
 #include "graph/framework/frame.h"
 #include "graph/io/formats.h"
+#include "graph/io/headers.h"
 #include "graph/io/read.h"
 #include "graph/io/scan.h"
 #include "graph/status.h"
@@ -33,7 +34,8 @@ typedef struct {
   thr_draft *d;
   thr_read_report *report;
   thr_err *err;
-  bool has_z; /* some node has a z */
+  bool has_z;  /* some node has a z */
+  int empty_z; /* coordinates z that are left empty */
   int n_fields;
   thr_span field[MAX_FIELDS];
 } csv;
@@ -101,6 +103,10 @@ static thr_status next_row(csv *t, bool *more)
   while ((*more = thr_scan_line(&t->scan, &line))) {
     line = thr_span_trim(line);
     if (line.n == 0 || line.s[0] == '#') continue;
+    if (!t->separator && line.n == 5 && thr_span_starts(line, "sep=")) { /* as Excel says it */
+      t->separator = line.s[4];
+      continue;
+    }
     if (!t->separator) t->separator = find_separator(line);
     t->n_fields = 0;
     for (int i = 0; line.n && i < MAX_FIELDS; i++) {
@@ -111,80 +117,6 @@ static thr_status next_row(csv *t, bool *more)
     if (t->n_fields) return THR_OK;
   }
   return THR_OK;
-}
-
-/* ---- headers ---- */
-
-static int column(const csv *t, const char *const *names)
-{
-  for (; *names; names++)
-    for (int i = 0; i < t->n_fields; i++)
-      if (thr_span_is(t->field[i], *names)) return i;
-  return -1;
-}
-
-#define COLUMN(t, ...) column(t, (const char *const[]){__VA_ARGS__, NULL})
-
-static columns no_columns(const csv *t, row_kind kind, bool header)
-{
-  return (columns){kind, header, t->n_fields, -1, {-1, -1, -1, -1, -1, -1}, -1, {0, 1}, -1, -1, -1};
-}
-
-/* What a header may say of edges beside their ends. */
-static void find_edge_columns(const csv *t, columns *c)
-{
-  c->length = COLUMN(t, "length");
-  c->cover = COLUMN(t, "cover");
-  c->capacity = COLUMN(t, "capacity");
-}
-
-/* Is this row a header that names coordinates? Then it says where they are. */
-static bool coordinate_header(csv *t)
-{
-  columns c = no_columns(t, LINE_ROWS, true);
-  const char *const six[] = {"x1", "y1", "z1", "x2", "y2", "z2"};
-  for (int i = 0; i < 6; i++)
-    c.xyz[i] = COLUMN(t, six[i]);
-  find_edge_columns(t, &c);
-  if (c.xyz[0] < 0 || c.xyz[1] < 0 || c.xyz[3] < 0 || c.xyz[4] < 0) {
-    c = no_columns(t, NODE_ROWS, true);
-    c.xyz[0] = COLUMN(t, "x");
-    c.xyz[1] = COLUMN(t, "y");
-    c.xyz[2] = COLUMN(t, "z");
-    if (c.xyz[0] < 0 || c.xyz[1] < 0) return false;
-    c.id = c.xyz[0] && c.xyz[1] && c.xyz[2] ? 0 : -1;
-    c.foot = COLUMN(t, "is_support", "is_grounded", "foot", "feet");
-    if (c.foot == 0) c.id = -1;
-  }
-  t->c = c;
-  return true;
-}
-
-static void edge_header(csv *t)
-{
-  static const char *const pair[][2] = {{"a", "b"},           {"u", "v"},          {"i", "j"},   {"source", "target"},
-                                        {"from", "to"},       {"start", "end"},    {"n1", "n2"}, {"node1", "node2"},
-                                        {"node_1", "node_2"}, {"node_a", "node_b"}};
-  t->c = no_columns(t, EDGE_ROWS, true);
-  for (size_t i = 0; i < sizeof pair / sizeof *pair; i++) {
-    int a = COLUMN(t, pair[i][0]), b = COLUMN(t, pair[i][1]);
-    if (a < 0 || b < 0) continue;
-    t->c.ends[0] = a;
-    t->c.ends[1] = b;
-    break;
-  }
-  find_edge_columns(t, &t->c);
-  int *const named[] = {&t->c.length, &t->c.cover, &t->c.capacity};
-  for (int i = 0; i < 3; i++)
-    if (*named[i] == t->c.ends[0] || *named[i] == t->c.ends[1]) *named[i] = -1;
-}
-
-static bool all_words(const csv *t)
-{
-  double x;
-  for (int i = 0; i < t->n_fields; i++)
-    if (number_at(t, i, &x)) return false;
-  return true;
 }
 
 /* ---- names ---- */
@@ -223,6 +155,201 @@ static thr_status node_in(csv *t, thr_span field, int *node)
   return st;
 }
 
+/* ---- headers ---- */
+
+static int column(const csv *t, const char *const *names)
+{
+  for (; *names; names++)
+    for (int i = 0; i < t->n_fields; i++)
+      if (thr_span_is(t->field[i], *names)) return i;
+  return -1;
+}
+
+#define COLUMN(t, ...) column(t, (const char *const[]){__VA_ARGS__, NULL})
+
+static columns no_columns(const csv *t, row_kind kind, bool header)
+{
+  return (columns){kind, header, t->n_fields, -1, {-1, -1, -1, -1, -1, -1}, -1, {0, 1}, -1, -1, -1};
+}
+
+/* What a header may say of edges beside their ends. */
+static void find_edge_columns(const csv *t, columns *c)
+{
+  c->length = COLUMN(t, "length");
+  c->cover = COLUMN(t, "cover");
+  c->capacity = COLUMN(t, "capacity");
+}
+
+/* Fills header[n_fields] with what the row says of its columns. False if it is none, because two fields are numbers. */
+static bool read_headers(const csv *t, thr_header *header)
+{
+  double x;
+  int numbers = 0;
+  for (int i = 0; i < t->n_fields && numbers < 2; i++)
+    numbers += number_at(t, i, &x);
+  for (int i = 0; i < t->n_fields && numbers < 2; i++)
+    header[i] = thr_header_of(t->field[i]);
+  return numbers < 2;
+}
+
+/* Finds the columns of both ends of a line: x1, y1, z1, x2, y2, z2 or the same with another pair of words. */
+static bool find_line_columns(const csv *t, const thr_header *header, columns *c)
+{
+  const char *word[2];
+  for (int pair = 0; thr_header_pair(pair, word); pair++) {
+    *c = no_columns(t, LINE_ROWS, true);
+    for (int i = t->n_fields - 1; i >= 0; i--)
+      for (int end = 0; end < 2; end++) {
+        const int axis = thr_header_end_axis(&header[i], word[end]);
+        if (axis >= 0) c->xyz[3 * end + axis] = i;
+      }
+    if (c->xyz[0] >= 0 && c->xyz[1] >= 0 && c->xyz[3] >= 0 && c->xyz[4] >= 0) return true;
+  }
+  return false;
+}
+
+/* Finds the columns of nodes: x, y, z, the feet and the name, which is the first column that means one or else the first. */
+static bool find_node_columns(const csv *t, const thr_header *header, columns *c)
+{
+  *c = no_columns(t, NODE_ROWS, true);
+  for (int i = t->n_fields - 1; i >= 0; i--) {
+    const int axis = thr_header_axis(&header[i]);
+    if (axis >= 0) c->xyz[axis] = i;
+    if (thr_header_feet(&header[i])) c->foot = i;
+    if (thr_header_names_nodes(&header[i])) c->id = i;
+  }
+  if (c->id < 0 && c->xyz[0] && c->xyz[1] && c->xyz[2] && c->foot) c->id = 0;
+  return c->xyz[0] >= 0 && c->xyz[1] >= 0;
+}
+
+/* Takes the unit that the headers of coordinates and lengths name. */
+static thr_status take_units(csv *t, const thr_header *header)
+{
+  for (int i = 0; i < t->n_fields; i++) {
+    bool used = i == t->c.length;
+    for (int k = 0; k < 6 && !used; k++)
+      used = t->c.kind != EDGE_ROWS && i == t->c.xyz[k];
+    if (!used || !header[i].unit[0]) continue;
+    if (t->d->units[0] && strcmp(t->d->units, header[i].unit) != 0)
+      return thr_scan_fail(&t->scan, t->err, "columns in %s and in %s; give all of them in one unit", t->d->units,
+                           header[i].unit);
+    thr_status st = thr_draft_set_units(t->d, header[i].unit, t->err);
+    if (st) return st;
+  }
+  return THR_OK;
+}
+
+/* Whether a node read so far has this name. O(nodes): before edges begin, while there is no list by name. */
+static bool is_node(const csv *t, thr_span name)
+{
+  bool found = false;
+  for (int v = 0; v < t->d->n_nodes && !found; v++) {
+    const char *own = thr_draft_name(t->d, v);
+    found = own && strlen(own) == name.n && memcmp(own, name.s, name.n) == 0;
+  }
+  return found;
+}
+
+/* Is this row a header that names coordinates? Then it says where they are. */
+static thr_status coordinate_header(csv *t, bool *is)
+{
+  thr_header header[MAX_FIELDS];
+  columns c;
+  *is = read_headers(t, header) && (find_line_columns(t, header, &c) || find_node_columns(t, header, &c));
+  if (*is && t->c.kind == NODE_ROWS && t->n_fields == 2) *is = !is_node(t, t->field[0]) || !is_node(t, t->field[1]);
+  if (!*is) return THR_OK;
+  if (c.kind == LINE_ROWS) find_edge_columns(t, &c);
+  t->c = c;
+  return take_units(t, header);
+}
+
+/* Marks the columns whose values all name nodes, in the rows that are left and, if there is no header, in this one. *counts is
+ * set to whether the first column counts the rows, from 0 or 1. */
+static thr_status find_naming_columns(const csv *t, bool *names, bool *counts)
+{
+  csv ahead = *t;
+  bool more = true;
+  int number, row = 0, first = 0, node;
+  thr_status st = THR_OK;
+  ahead.scratch = (thr_text){0};
+  for (int i = 0; i < MAX_FIELDS; i++)
+    names[i] = i < t->n_fields;
+  *counts = true;
+  if (t->c.header) st = next_row(&ahead, &more);
+  for (; more && !st; row++) {
+    for (int i = 0; i < t->n_fields && !st; i++) {
+      if (!names[i]) continue;
+      st = node_in(&ahead, field_at(&ahead, i), &node);
+      names[i] = !st && node >= 0;
+    }
+    *counts = *counts && thr_span_int(plain_name(ahead.field[0]), &number) &&
+              (row == 0 ? number == 0 || number == 1 : number == first + row);
+    if (row == 0) first = number;
+    if (!st) st = next_row(&ahead, &more);
+  }
+  *counts = *counts && row > 1;
+  thr_text_destroy(&ahead.scratch);
+  return st;
+}
+
+/* Sets the two columns of the ends by their values, where the headers do not say them: those two that always name nodes. A
+ * third one that does is the number of the bar if its header says so or, the first one, if it counts the rows. */
+static thr_status find_ends_by_values(csv *t, const thr_header *header)
+{
+  bool names[MAX_FIELDS], counts;
+  int n = 0;
+  thr_status st = find_naming_columns(t, names, &counts);
+  for (int i = 0; i < t->n_fields; i++)
+    n += names[i];
+  for (int i = 0; i < t->n_fields && n > 2; i++)
+    if (names[i] && (header ? thr_header_names_bars(&header[i]) : i == 0 && counts)) {
+      names[i] = false;
+      n--;
+    }
+  if (!st && n > 2)
+    return thr_scan_fail(&t->scan, t->err, "%d columns name nodes; put a header with a and b over the two ends of an edge", n);
+  for (int i = 0, end = 0; i < t->n_fields && n == 2; i++)
+    if (names[i]) t->c.ends[end++] = i;
+  return st;
+}
+
+/* Learns from the header of edges which columns their ends stand in: those of a pair of words, of several pairs the first one
+ * whose values all name nodes; else by the values. */
+static thr_status edge_header(csv *t)
+{
+  thr_header header[MAX_FIELDS];
+  bool names[MAX_FIELDS] = {false}, counts, found = false;
+  const char *word[2];
+  thr_status st = THR_OK;
+  t->c = no_columns(t, EDGE_ROWS, true);
+  for (int i = 0; i < t->n_fields; i++)
+    header[i] = thr_header_of(t->field[i]);
+  if (t->n_fields > 2 && t->d->n_nodes) st = find_naming_columns(t, names, &counts);
+  for (int pair = 0; thr_header_pair(pair, word); pair++)
+    for (int a = 0; a < t->n_fields; a++)
+      for (int b = 0; b < t->n_fields; b++) {
+        if (a == b || (found && !(names[a] && names[b])) || !thr_header_ends(&header[a], &header[b], word)) continue;
+        if (found && names[t->c.ends[0]] && names[t->c.ends[1]]) continue;
+        t->c.ends[0] = a;
+        t->c.ends[1] = b;
+        found = true;
+      }
+  if (!st && !found && t->n_fields > 2 && t->d->n_nodes) st = find_ends_by_values(t, header);
+  find_edge_columns(t, &t->c);
+  int *const named[] = {&t->c.length, &t->c.cover, &t->c.capacity};
+  for (int i = 0; i < 3; i++)
+    if (*named[i] == t->c.ends[0] || *named[i] == t->c.ends[1]) *named[i] = -1;
+  return st ? st : take_units(t, header);
+}
+
+static bool all_words(const csv *t)
+{
+  double x;
+  for (int i = 0; i < t->n_fields; i++)
+    if (number_at(t, i, &x)) return false;
+  return true;
+}
+
 /* ---- rows ---- */
 
 static thr_status read_coordinates(csv *t, const int *at, double xyz[3])
@@ -230,7 +357,10 @@ static thr_status read_coordinates(csv *t, const int *at, double xyz[3])
   for (int i = 0; i < 3; i++) {
     thr_span f = field_at(t, at[i]);
     xyz[i] = 0;
-    if (i == 2 && f.n == 0) continue; /* flat frameworks have no z */
+    if (i == 2 && f.n == 0) { /* flat frameworks have no z */
+      t->empty_z++;
+      continue;
+    }
     t->has_z |= i == 2;
     if (f.n == 0) return thr_scan_fail(&t->scan, t->err, "no %c coordinate in column %d; give a number", 'x' + i, at[i] + 1);
     if (!number_at(t, at[i], &xyz[i]))
@@ -243,14 +373,7 @@ static thr_status read_coordinates(csv *t, const int *at, double xyz[3])
 static thr_status read_foot(const csv *t, bool *foot)
 {
   thr_span f = field_at(t, t->c.foot);
-  double x;
-  *foot = false;
-  if (f.n == 0 || thr_span_is(f, "false") || thr_span_is(f, "no")) return THR_OK;
-  if (number_at(t, t->c.foot, &x))
-    *foot = x != 0;
-  else if (thr_span_is(f, "true") || thr_span_is(f, "yes") || thr_span_is(f, "x"))
-    *foot = true;
-  else
+  if (!thr_span_truth(f, foot))
     return thr_scan_fail(&t->scan, t->err, "'%.*s' in column %d does not say whether this is a foot; use 1 or 0",
                          thr_span_width(f), f.s, t->c.foot + 1);
   return THR_OK;
@@ -346,7 +469,10 @@ static thr_status begin_edges(csv *t)
 static thr_status guess_columns(csv *t)
 {
   int n = t->n_fields;
-  if (t->expected == EDGE_TABLE ? n >= 2 : t->expected == ANY_TABLE && n == 2) return begin_edges(t);
+  if (t->expected == EDGE_TABLE ? n >= 2 : t->expected == ANY_TABLE && n == 2) {
+    thr_status st = begin_edges(t);
+    return st || n == 2 ? st : find_ends_by_values(t, NULL);
+  }
   if (t->expected == ANY_TABLE && n == 6) {
     t->c = no_columns(t, LINE_ROWS, false);
     for (int i = 0; i < 6; i++)
@@ -371,8 +497,11 @@ static thr_status learn(csv *t, bool *used)
   bool nodes_open = t->c.kind == NODE_ROWS, fresh = t->c.kind == NO_ROWS;
   *used = false;
   if (t->c.kind == EDGE_ROWS) return THR_OK;
-  if (t->expected != EDGE_TABLE && (fresh || nodes_open) && coordinate_header(t)) {
-    *used = true;
+  if (t->expected != EDGE_TABLE && (fresh || nodes_open)) {
+    thr_status st = coordinate_header(t, used);
+    if (st) return st;
+  }
+  if (*used) {
     if (t->c.kind == NODE_ROWS || (t->expected == ANY_TABLE && fresh)) return THR_OK;
     return thr_scan_fail(&t->scan, t->err, "columns x1 to z2 make a table of their own; take them out of the table of nodes");
   }
@@ -385,8 +514,7 @@ static thr_status learn(csv *t, bool *used)
     if (!st) st = node_in(t, t->field[1], &b);
     if (st) return st;
     *used = a < 0 && b < 0;
-    if (*used) edge_header(t);
-    return THR_OK;
+    return *used ? edge_header(t) : THR_OK;
   }
   if (fresh) return guess_columns(t);
   if (nodes_open && t->expected == ANY_TABLE && t->n_fields == 2 && t->c.width > 2) return begin_edges(t);
@@ -453,6 +581,7 @@ thr_status thr_csv_scan(thr_draft *draft, thr_read_report *report, const char *t
   csv t = {.expected = ANY_TABLE, .d = draft, .report = report, .err = err};
   thr_status st = read_table(&t, text, n, name, content);
   report->no_z = !t.has_z;
+  report->empty_z = t.has_z ? t.empty_z : 0;
   thr_names_destroy(&t.names);
   thr_text_destroy(&t.scratch);
   if (st) thr_draft_destroy(draft);
@@ -479,6 +608,7 @@ thr_status thr_csv_parse_pair(thr_draft *draft, thr_read_report *report, const t
   csv e = {.expected = EDGE_TABLE, .d = draft, .report = report, .err = err};
   thr_status st = read_table(&n, nodes->data, nodes->length, nodes_name, &content);
   report->no_z = !n.has_z;
+  report->empty_z = n.has_z ? n.empty_z : 0;
   if (!st && draft->n_nodes == 0) st = thr_fail(err, THR_EINPUT, "%s: no row with a node's coordinates", nodes_name);
   if (!st) st = thr_names_build(&e.names, draft, nodes_name, err);
   if (!st) st = read_table(&e, edges->data, edges->length, edges_name, &content);

@@ -144,6 +144,24 @@ bool thr_span_number(thr_span t, bool decimal_comma, double *x)
   return true;
 }
 
+bool thr_span_truth(thr_span t, bool *yes)
+{
+  static const char *const affirmative[] = {"true", "yes", "x",         "t",         "y",    "wahr",      "ja",   "vrai",
+                                            "oui",  "si",  "s\xc3\xac", "s\xc3\xad", "vero", "verdadero", "fixed"},
+                           *const negative[] = {"", "false", "no", "f", "n", "falsch", "nein", "faux", "non", "falso", "free"};
+  double number;
+  *yes = false;
+  if (thr_span_number(t, true, &number)) {
+    *yes = number != 0;
+    return true;
+  }
+  for (size_t i = 0; i < sizeof affirmative / sizeof *affirmative && !*yes; i++)
+    *yes = thr_span_is(t, affirmative[i]);
+  for (size_t i = 0; i < sizeof negative / sizeof *negative && !*yes; i++)
+    if (thr_span_is(t, negative[i])) return true;
+  return *yes;
+}
+
 bool thr_span_int(thr_span t, int *x)
 {
   bool negative = t.n && t.s[0] == '-';

@@ -37,6 +37,9 @@ int thr_span_width(thr_span t);                      /* for "%.*s" in messages: 
 
 /* A decimal number that is finite; -0 becomes 0 (writers do not tell them apart). decimal_comma: "1,5" is 1.5. */
 bool thr_span_number(thr_span t, bool decimal_comma, double *x);
+/* Whether a text says yes, in the words for it of a few languages or as a number; nothing at all is no. False if it says neither.
+ */
+bool thr_span_truth(thr_span t, bool *yes);
 /* A decimal integer; beyond int it saturates. */
 bool thr_span_int(thr_span t, int *x);
 

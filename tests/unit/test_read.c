@@ -177,6 +177,64 @@ START_TEST(csv_first_edge_is_not_taken_for_a_header)
 }
 END_TEST
 
+/* Two edges over three nodes in as many words: which columns are meant, by hand. What counts the bars is no end. */
+START_TEST(csv_columns_by_their_words)
+{
+  static const char *const node_header[] = {"id,x,y,z",
+                                            "Knoten,X [mm],Y [mm],Z [mm]",
+                                            "node_id,x (mm),y (mm),z (mm)",
+                                            "noeud,x_mm,y_mm,z_mm",
+                                            "Punkt,X-Koordinate,Y-Koordinate,Z-Koordinate",
+                                            "n\xc5\x93ud,coordonn\xc3\xa9"
+                                            "e x,coordonn\xc3\xa9"
+                                            "e y,coordonn\xc3\xa9"
+                                            "e z",
+                                            "nudo,CoordX,CoordY,CoordZ",
+                                            "what,x,y,z"};
+  static const char *const edge_header[] = {"Frame,JointI,JointJ",
+                                            "Stab,Anfang,Ende",
+                                            "member,start,end",
+                                            "bar,node_i,node_j",
+                                            "element,start node,end node",
+                                            "Nr.,Knoten A,Knoten B",
+                                            "barre,d\xc3\xa9"
+                                            "but,fin",
+                                            "id,from,to",
+                                            "asta,nodo iniziale,nodo finale",
+                                            "barra,nudo inicial,nudo final",
+                                            "stab,Anfangsknoten,Endknoten",
+                                            "edge,n1,n2",
+                                            "nr,I-End,J-End",
+                                            "element,left,right"};
+  const thr_format *csv = thr_format_named("csv");
+  char text[300];
+  for (size_t i = 0; i < sizeof node_header / sizeof *node_header; i++)
+    for (size_t k = 0; k < sizeof edge_header / sizeof *edge_header; k++) {
+      snprintf(text, sizeof text, "%s\n1,0,0,0\n2,3,0,4\n3,3,7,4\n%s\n1,1,2\n2,3,2\n", node_header[i], edge_header[k]);
+      check_text(text, csv, 3, 2, 12, "");
+    }
+  check_text("x,y,z,id,fixed\n0,0,0,3,oui\n3,0,4,1,\n3,7,4,2,nein\na,b\n3,1\n1,2\n", csv, 3, 2, 12, "3");
+  check_text("Anfang X;Anfang Y;Anfang Z;Ende X;Ende Y;Ende Z\n0;0;0;3,5;0;0\n", csv, 2, 1, 3.5, "");
+  check_text("sep=;\nx_i;y_i;x_j;y_j\n0;0;3,5;0\n", csv, 2, 1, 3.5, "");
+  check_text("id,x,y\npx,0,0\npy,3,4\npx,py\n", csv, 2, 1, 5, ""); /* no header */
+}
+END_TEST
+
+START_TEST(csv_units_and_empty_z)
+{
+  const thr_format *csv = thr_format_named("csv");
+  thr_read_report r;
+  thr_frame f = read_text("x1 [cm],y1 [cm],z1,x2,y2,z2\n0,0,10,20,0,10\n20,0,10,20,20,\n", csv, &r);
+  ck_assert_str_eq(f.units, "cm");
+  ck_assert_int_eq(r.empty_z, 1);
+  thr_frame_destroy(&f);
+  f = read_text("id,x,y,z\n1,0,0\n2,1,0\na,b\n1,2\n", csv, &r);
+  ck_assert(r.no_z && r.empty_z == 0);
+  thr_frame_destroy(&f);
+  check_error("x [mm],y [m]\n0,0\n", csv, "f:1: columns in mm and in m; give all of them in one unit");
+}
+END_TEST
+
 START_TEST(csv_errors)
 {
   const thr_format *csv = thr_format_named("csv");
@@ -242,6 +300,18 @@ START_TEST(csv_pairs)
   ck_assert(d.node[0].foot && !d.node[1].foot);
   ck_assert_double_eq(d.edge[0].length, 0.5);
   thr_draft_destroy(&d);
+
+  /* three columns: the first one counts the bars, or it is not known which two are meant */
+  const char *square = "1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n";
+  ck_assert_int_eq(parse_pair(square, "1,2,4\n2,3,2\n", &d, &err), THR_OK);
+  ck_assert(d.n_edges == 2 && d.edge[0].a == 1 && d.edge[0].b == 3 && d.edge[1].a == 2 && d.edge[1].b == 1);
+  thr_draft_destroy(&d);
+  ck_assert_int_eq(parse_pair(square, "1,2,x\n2,3,1\n", &d, &err), THR_OK);
+  ck_assert(d.n_edges == 2 && d.edge[0].a == 0 && d.edge[0].b == 1);
+  thr_draft_destroy(&d);
+  ck_assert_int_eq(parse_pair(square, "2,3,1\n4,1,2\n", &d, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "edges:1: 3 columns name nodes; put a header with a and b over the two ends of an edge");
+  err = (thr_err){0};
 
   ck_assert_int_eq(parse_pair("id,x,y,z\n1,0,0,0\n", "a,b\n1,2\n", &d, &err), THR_EINPUT);
   ck_assert_str_eq(err.text, "edges:2: there is no node '2'; the nodes are called '1' to '1'");
@@ -829,6 +899,8 @@ static void add_tests(TCase *t)
   tcase_add_loop_test(t, numbers_are_what_strtod_takes_them_for, 0, 5);
   tcase_add_test(t, csv_first_edge_is_not_taken_for_a_header);
   tcase_add_test(t, csv_errors);
+  tcase_add_test(t, csv_columns_by_their_words);
+  tcase_add_test(t, csv_units_and_empty_z);
   tcase_add_test(t, csv_nul_byte);
   tcase_add_test(t, csv_pairs);
   tcase_add_test(t, obj_records);
