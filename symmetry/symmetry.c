@@ -188,22 +188,6 @@ static thr_status use_plan(const thr_plan *plan, const thr_request *options, thr
 
 /* ---- together ---- */
 
-/* Solid cords that end at feet or given nodes, and are counted, may also turn back at nodes with several edges, which no cover
- * does: of rows that overlap more than cords without symmetry have to, only what those prove is kept. */
-static void leave_turns_back_open(const thr_request *options, thr_symmetries *symmetries)
-{
-  const bool ends_given = options->ends == THR_ENDS_FEET || options->ends == THR_ENDS_NODES;
-  if (options->joint != THR_JOINT_SOLID || !options->symmetry.counted || !ends_given || !(symmetries->shortest > 0)) return;
-  for (int i = 0; i < symmetries->n; i++) {
-    thr_symmetry_row *row = &symmetries->row[i];
-    const double least = symmetries->shortest_optimal ? fmax(0, symmetries->shortest - row->metrics.base_length) : 0;
-    if (row->why.code || row->n_cords == 0 || row->value[THR_AIM_OVERLAP] <= least + 1e-9 * symmetries->shortest) continue;
-    for (int a = 0; a < THR_N_AIMS; a++)
-      row->bound[a] = a == THR_AIM_OVERLAP ? least : 0;
-    thr_fail(&row->why, THR_ELIMIT, "cords that turn back at nodes with several edges are not looked for");
-  }
-}
-
 /* What a symmetric threading cannot be asked for. */
 static thr_status check_request(const thr_request *options, thr_err *err)
 {
@@ -232,7 +216,6 @@ thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *o
   for (int i = 0; i < out->n && !st; i++)
     out->row[i].pulled = thr_cords_pulled_turning(frame, out->row[i].cord, out->row[i].n_cords);
   if (!st) {
-    leave_turns_back_open(options, out);
     choose(out);
     st = verdict(out, options->symmetry.group, err);
   }

@@ -261,9 +261,7 @@ static void choose_partners(exhaustive *x, double overlap, double steps)
   for (int b = end ? -2 : 0; b < 2 * x->n_copies; b++) {
     if (b == -1 || b == a) continue;
     if (b >= 0 && (x->partner[b] != -1 || x->node[b] != v)) continue;
-    if (b >= 0 && (x->half[b] == x->half[a]) !=
-                      (thr_degree(f, v) == 1 && (!end || (x->o->most_ends > 0 && x->o->ends == THR_ENDS_FEET)) && !x->o->tube))
-      continue;
+    if (b >= 0 && x->half[b] == x->half[a] && x->o->tube) continue;
     if (pair_all(x, a, b)) choose_partners(x, overlap, steps);
     memcpy(x->partner, before, bytes);
   }

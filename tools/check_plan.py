@@ -2615,6 +2615,11 @@ class Paths:
             return "o" + min(least_rotation(text), least_rotation(text[::-1]))
         return "-" + min(text, text[::-1])
 
+    def maps(self, i, group):
+        """How many elements of the group map cord i to itself, those that move its nodes alike counting once."""
+        own, images = self.form(i, {}), {self.text[i].translate(image): image for image in group}
+        return sum(self.form(i, image) == own for image in images.values())
+
     def ways(self, i, group):
         """In how many ways (direction and start) cord i is its own image under an element of the group."""
         text, found = self.text[i], set()
@@ -2779,7 +2784,7 @@ def check_symmetry(p):
         return
     s, place, n = member(p.file, "symmetry", "object", ""), "symmetry", p.frame.n
     require(p.options.ends != "counts", "symmetry: not with ends `counts`")
-    known(s, "order name generators images cords steps unique_paths", place)
+    known(s, "order name generators images cords steps retraced unique_paths", place)
     order = member(s, "order", "integer", place, 1, 1024)
     generators = [integers(g, f"symmetry.generators[{i}]", 0, n - 1, n) for i, g in enumerate(member(s, "generators", "list", place))]
     for i, g in enumerate(generators):
@@ -2821,7 +2826,9 @@ def check_copies(p, s, generators, images, group):
     require(member(s, "unique_paths", "integer", "symmetry") == len(unique), f"symmetry.unique_paths: not {len(unique)}")
     tables = [table(g) for g in group]
     ends = [2 if p.options.ends == "any" and not r else 0 for r in paths.round]  # each a step, for it may be anywhere
-    steps = sum(Fraction(len(p.cords[i].half) + ends[i], paths.ways(i, tables)) for i in unique)
+    retraced = member(s, "retraced", "truth", "symmetry", default=False)  # else, as in older plans, by ways to read
+    count = paths.maps if retraced else paths.ways
+    steps = sum(Fraction(len(p.cords[i].half) + ends[i], count(i, tables)) for i in unique)
     p.close(member(s, "steps", "number", "symmetry"), steps, steps, "symmetry.steps")
 
 

@@ -221,8 +221,8 @@ static const int *element(const thr_check_elements *check_elements, int i)
   return check_elements->image + (size_t)i * (size_t)check_elements->n;
 }
 
-/* Passes of unique path u and, where they may be anywhere, ends, over the number of ways in which the group maps it to itself: as
- * many elements as fix all its nodes do so in the same way. No other unique path may be an image. */
+/* Passes of unique path u and, where they may be anywhere, ends, over the number of elements that map it to itself; as many as
+ * fix all its nodes do so alike. Older plans count the ways of each. No other unique path may be an image. */
 static thr_status add_steps(paths *s, const thr_check_elements *check_elements, int u, double *steps, thr_err *err)
 {
   const thr_symmetry_record *record = &s->p->symmetry;
@@ -246,7 +246,8 @@ static thr_status add_steps(paths *s, const thr_check_elements *check_elements, 
                         s->p->cord[record->unique[s->sorted[low].cord]].id);
   }
   const int ends = s->p->options.ends == THR_ENDS_ANY && !s->cord[u].closed ? 2 : 0;
-  *steps += (double)(s->p->cord[u].n_passes + ends) * fixed / mapped / ways_to_read(s, &s->cord[u]);
+  const int ways = record->retraced ? 1 : ways_to_read(s, &s->cord[u]);
+  *steps += (double)(s->p->cord[u].n_passes + ends) * fixed / mapped / ways;
   return THR_OK;
 }
 

@@ -133,8 +133,10 @@ typedef struct thr_symmetry_record {
   int *element;     /* [n_cords] image that maps that one to this, perhaps reversed, and a closed one perhaps from another start
                        (not where its ends matter: THR_ENDS_FEET and _NODES, with tube joints also _ANY); owned */
   double steps;     /* learned: passes of each unique path and, with THR_ENDS_ANY, ends (of one that runs round none), over the
-                       number of ways (from another start, reversed) in which it is its own image under the group */
+                       number of elements of the group that map it to itself, those that do so alike counting once */
   int unique_paths; /* number of different values of unique */
+  bool retraced; /* are steps counted so? Else, as in older plans, by the ways (from another start, reversed) in which a path is
+                    its own image: the same but for paths that read the same backward, or from another start */
 } thr_symmetry_record;
 
 void thr_symmetry_record_destroy(thr_symmetry_record *record);

@@ -256,7 +256,8 @@ static thr_status read_copies(const thr_field_reader *field_reader, const thr_js
 static thr_status read_symmetry(const thr_field_reader *field_reader, const thr_json *doc, const thr_plan *plan,
                                 thr_symmetry_record *record)
 {
-  static const char *const known[] = {"order", "name", "generators", "images", "cords", "steps", "unique_paths", NULL};
+  static const char *const known[] = {"order", "name",     "generators",   "images", "cords",
+                                      "steps", "retraced", "unique_paths", NULL};
   const thr_json *value = thr_json_get(doc, "symmetry"), *name;
   if (!thr_wants_symmetry(&plan->options))
     return value ? thr_field_bad(field_reader, "symmetry", "only plans with this objective have it") : THR_OK;
@@ -274,6 +275,10 @@ static thr_status read_symmetry(const thr_field_reader *field_reader, const thr_
   if (!st) st = read_images(field_reader, value, "images", plan->frame.n_nodes, &record->image, &record->n_images);
   if (!st) st = read_copies(field_reader, value, plan, record);
   if (!st) st = thr_field_double(field_reader, value, "steps", &record->steps);
+  const thr_json *retraced = thr_json_get(value, "retraced");
+  if (!st && retraced && thr_json_typeof(retraced) != THR_JSON_BOOL)
+    return thr_field_bad(field_reader, "symmetry.retraced", "not true or false");
+  record->retraced = retraced && thr_json_true(retraced);
   if (!st) st = thr_field_int(field_reader, value, "unique_paths", 1, plan->n_cords, &record->unique_paths);
   return st;
 }

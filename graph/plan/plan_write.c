@@ -267,6 +267,7 @@ static void put_symmetry(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
   thr_write_line(writer, 2);
   thr_write_number(writer, "steps", record->steps);
+  if (record->retraced) thr_write_bool(writer, "retraced", true);
   thr_write_int(writer, "unique_paths", record->unique_paths);
   thr_write_close(writer);
 }

@@ -12,10 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What cords can do in a component: never run alike; only go along it, and perhaps back (one edge; a path that closed cords pass
- * there and back), which is learned once; or anything. */
-typedef enum { PLAIN, ALONG, REPEATS } manner;
-
 /* False of an aim and itself. */
 static bool comes_before(const thr_cover_options *options, thr_aim a, thr_aim b)
 {
@@ -26,40 +22,36 @@ static bool comes_before(const thr_cover_options *options, thr_aim a, thr_aim b)
 }
 
 /* Does a plan count less of an aim before this one than the programme does? Then it may have this at the price of that. */
-static bool loosened(const thr_programme *p, thr_aim aim, bool repeats)
+static bool loosened(const thr_programme *p, thr_aim aim, bool repeats, bool retraces)
 {
   bool turning = p->o->ends == THR_ENDS_ANY && !p->open;
-  return (repeats && (comes_before(p->o, THR_AIM_STEPS, aim) || comes_before(p->o, THR_AIM_PATHS, aim))) ||
-         (turning && comes_before(p->o, THR_AIM_TURNING, aim));
+  return ((repeats || retraces) && comes_before(p->o, THR_AIM_STEPS, aim)) ||
+         (repeats && comes_before(p->o, THR_AIM_PATHS, aim)) || (turning && comes_before(p->o, THR_AIM_TURNING, aim));
 }
 
-/* Sets manner[component], for each component of the framework. scratch: [n_nodes] zeros. */
-static void find_manners(const thr_programme *p, const int *component, int count, int *scratch, manner *m)
+/* Tells whether a threading that is no worse than the cover in the aims before turning may pass the edges of an orbit twice. */
+static bool may_pass_twice(const thr_programme *p, const thr_cover *cover, int orbit)
+{
+  const double length = p->q->orbit_length[orbit];
+  if (p->cover[orbit] > 1 || !comes_before(p->o, THR_AIM_OVERLAP, THR_AIM_TURNING)) return true;
+  return length <= cover->value[THR_AIM_OVERLAP] + thr_programme_tolerance(p, THR_AIM_OVERLAP);
+}
+
+/* Sets repeats[component], for each component of the framework, where cords may run alike, and returns whether there is one. */
+static bool find_repeats(const thr_programme *p, const int *component, bool *repeats)
 {
   const thr_frame *frame = p->q->f;
-  int *nodes = scratch, least = p->o->ends == THR_ENDS_CLOSED ? 2 : 1; /* an end, or two nodes to turn back at */
-  for (int v = 0; v < frame->n_nodes; v++)
-    nodes[component[v]]++;
-  for (int k = 0; k < count; k++)
-    m[k] = nodes[k] == 2 ? ALONG : PLAIN;
-  memset(scratch, 0, (size_t)count * sizeof *scratch);
-  for (int v = 0; v < frame->n_nodes; v++)
-    if (thr_degree(frame, v) == 1 && !thr_programme_end_allowed(p, v) && ++scratch[component[v]] >= least &&
-        m[component[v]] == PLAIN)
-      m[component[v]] = REPEATS;
-  for (int k = 0; k < count; k++)
-    if (m[k] == REPEATS && p->o->ends == THR_ENDS_CLOSED) m[k] = ALONG;
-  for (int v = 0; v < frame->n_nodes; v++)
-    if (thr_degree(frame, v) > 2 && m[component[v]] == ALONG) m[component[v]] = REPEATS;
+  bool any = false;
   for (int e = 0; e < frame->n_edges; e++)
-    if (p->cover[p->q->edge_orbit[e]] > 1) m[component[frame->edge[e][0]]] = REPEATS;
+    if (p->cover[p->q->edge_orbit[e]] > 1) any = repeats[component[frame->edge[e][0]]] = true;
+  return any;
 }
 
 /* ---- learned steps ---- */
 
-/* Of edge orbits in components that are not plain: what any threading has to learn, each orbit once or, if an element turns its
- * edges round, by half, with the ends of a cord that has but this edge; and what the cover has there. */
-static void count_steps(const thr_programme *p, const thr_cover *cover, const int *component, const manner *m, bool plain,
+/* Computes what any threading has to learn of the edge orbits in components where cords may repeat (all: in all components), each
+ * orbit once or, if an element turns its edges round, by half; and what the cover has there. */
+static void count_steps(const thr_programme *p, const thr_cover *cover, const int *component, const bool *repeats, bool all,
                         double *fewest, double *has)
 {
   const thr_quotient *quotient = p->q;
@@ -68,18 +60,16 @@ static void count_steps(const thr_programme *p, const thr_cover *cover, const in
   for (int e = 0, orbit = 0; e < frame->n_edges; e++) {
     if (quotient->edge_orbit[e] != orbit) continue; /* orbits are numbered as their first edges come */
     orbit++;
-    if (!plain && m[component[frame->edge[e][0]]] == PLAIN) continue;
+    if (!all && !repeats[component[frame->edge[e][0]]]) continue;
     bool reversed = false;
     for (int i = 0; i < quotient->h->order && !reversed; i++)
       reversed = quotient->half_image[2 * ((size_t)i * (size_t)frame->n_edges + (size_t)e)] == 2 * e + 1;
-    const bool alone = m[component[frame->edge[e][0]]] == ALONG;
-    *fewest += (reversed ? 0.5 : 1) * (1 + (alone ? 2 * thr_cover_steps_of_end(p->o) : 0));
+    *fewest += reversed ? 0.5 : 1;
   }
   for (int k = 0; k < quotient->n_copies; k++)
-    if (plain || m[component[frame->edge[quotient->copy[k].edge][0]]] != PLAIN)
-      *has += cover->copies[k] * p->cost[THR_AIM_STEPS][k];
+    if (all || repeats[component[frame->edge[quotient->copy[k].edge][0]]]) *has += cover->copies[k] * p->cost[THR_AIM_STEPS][k];
   for (int d = 0; d < quotient->n_darts; d++)
-    if (plain || m[component[frame->edge[quotient->dart[d].half >> 1][0]]] != PLAIN)
+    if (all || repeats[component[frame->edge[quotient->dart[d].half >> 1][0]]])
       *has += cover->ends[d] * p->cost[THR_AIM_STEPS][p->first_end + d];
 }
 
@@ -95,13 +85,13 @@ static bool steps_proved(const thr_programme *p, const thr_cover *cover)
   return proved;
 }
 
-static double bound_steps(const thr_programme *p, const thr_cover *cover, const int *component, const manner *m, bool repeats)
+static double bound_steps(const thr_programme *p, const thr_cover *cover, const int *component, const bool *repeats, bool any)
 {
   double all, fewest, has, known;
-  count_steps(p, cover, component, m, true, &all, &known);
-  count_steps(p, cover, component, m, false, &fewest, &has);
-  if (loosened(p, THR_AIM_STEPS, repeats) || (repeats && !steps_proved(p, cover))) return all;
-  return fmax(all, (repeats ? cover->value : cover->bound)[THR_AIM_STEPS] - has + fewest);
+  count_steps(p, cover, component, repeats, true, &all, &known);
+  count_steps(p, cover, component, repeats, false, &fewest, &has);
+  if (loosened(p, THR_AIM_STEPS, any, false) || (any && !steps_proved(p, cover))) return all;
+  return fmax(all, (any ? cover->value : cover->bound)[THR_AIM_STEPS] - has + fewest);
 }
 
 /* ---- turning ---- */
@@ -110,7 +100,7 @@ static double bound_steps(const thr_programme *p, const thr_cover *cover, const 
  * turns of an orbit, those with two folds no more than half of them, or than the turns of a fold. Unless steps count before
  * turning, what ends at all images of a turn of cords without folds would save is in the programme's bound, for they make no
  * path more: then only what turns more in a warped framework than its images is left out. */
-static double most_left_out(const thr_programme *p)
+static double most_left_out(const thr_programme *p, const thr_cover *cover)
 {
   const bool ends_count = comes_before(p->o, THR_AIM_STEPS, THR_AIM_TURNING);
   const thr_quotient *quotient = p->q;
@@ -121,7 +111,9 @@ static double most_left_out(const thr_programme *p)
   for (int y = 0; y < quotient->n_pairs; y++) {
     const thr_pair_type *type = &quotient->pair[y];
     double sharpest = 0;
+    const bool back = type->half[0] == type->half[1];
     if (p->most[p->first_pair + y] == 0) continue;
+    if (back && !may_pass_twice(p, cover, quotient->edge_orbit[type->half[0] >> 1])) continue;
     folds = folds || type->self;
     for (int i = 0; i < quotient->h->order; i++) {
       const int *to = &quotient->half_image[(size_t)i * 2 * (size_t)quotient->f->n_edges];
@@ -161,58 +153,56 @@ static double most_closed(const thr_programme *p, const thr_cover *cover, bool p
   return fmax(0, fmin(copies, cover->value[THR_AIM_PATHS] - ceil(ends / 2)));
 }
 
-static thr_status bound_turning(const thr_programme *p, const thr_cover *cover, bool repeats, double *bound, thr_err *err)
+static thr_status bound_turning(const thr_programme *p, const thr_cover *cover, bool repeats, bool retraces, double *bound,
+                                thr_err *err)
 {
   double any[THR_N_AIMS];
   bool paths = comes_before(p->o, THR_AIM_PATHS, THR_AIM_TURNING);
   *bound = cover->bound[THR_AIM_TURNING];
-  if (loosened(p, THR_AIM_TURNING, repeats)) { /* threadings with more of them in the programme count, too */
+  if (loosened(p, THR_AIM_TURNING, repeats, retraces)) { /* threadings with more of them in the programme count, too */
     memcpy(any, cover->value, sizeof any);
     any[THR_AIM_PATHS] = 1e30;
     thr_status st = thr_turning_quick_bound(p, any, bound, err);
     if (st) return st;
   }
   if (p->o->ends == THR_ENDS_ANY && !p->open)
-    *bound = fmax(0, *bound - most_closed(p, cover, paths && !repeats) * most_left_out(p));
+    *bound = fmax(0, *bound - most_closed(p, cover, paths && !repeats && !retraces) * most_left_out(p, cover));
   return THR_OK;
 }
 
 /* ---- all ---- */
 
-static thr_status make(const thr_programme *p, const thr_cover *cover, const int *component, int count, manner *m, int *scratch,
-                       thr_claims *out, thr_err *err)
+static thr_status make(const thr_programme *p, const thr_cover *cover, const int *component, bool *repeats, thr_claims *out,
+                       thr_err *err)
 {
-  find_manners(p, component, count, scratch, m);
   memcpy(out->least, cover->bound, sizeof out->least);
-  for (int k = 0; k < count; k++)
-    out->repeats = out->repeats || m[k] == REPEATS;
-  out->least[THR_AIM_STEPS] = bound_steps(p, cover, component, m, out->repeats);
-  thr_status st = bound_turning(p, cover, out->repeats, &out->least[THR_AIM_TURNING], err);
-  if (!st && loosened(p, THR_AIM_OVERLAP, out->repeats)) {
+  out->repeats = find_repeats(p, component, repeats);
+  out->least[THR_AIM_STEPS] = bound_steps(p, cover, component, repeats, out->repeats);
+  thr_status st = bound_turning(p, cover, out->repeats, out->retraces, &out->least[THR_AIM_TURNING], err);
+  if (!st && loosened(p, THR_AIM_OVERLAP, out->repeats, out->retraces)) {
     out->least[THR_AIM_OVERLAP] = 0;
     st = thr_bounds_overlap(p, &(thr_limits){0}, &out->least[THR_AIM_OVERLAP], err);
   }
-  if (!st && (out->repeats || loosened(p, THR_AIM_PATHS, false))) {
+  if (!st && (out->repeats || loosened(p, THR_AIM_PATHS, false, out->retraces))) {
     out->least[THR_AIM_PATHS] = 0;
     st = thr_bounds_paths(p, &out->least[THR_AIM_PATHS], err);
   }
   return st;
 }
 
-thr_status thr_claims_make(const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *cover,
+thr_status thr_claims_make(const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *cover, double steps,
                            thr_claims *out, thr_err *err)
 {
   size_t n = (size_t)quotient->f->n_nodes;
-  int count = 0, *component = thr_calloc(n, sizeof *component), *scratch = thr_calloc(n, sizeof *scratch);
-  manner *m = thr_calloc(n, sizeof *m);
+  int count = 0, *component = thr_calloc(n, sizeof *component);
+  bool *repeats = thr_calloc(n, sizeof *repeats);
   thr_programme p = {0};
-  *out = (thr_claims){0};
-  thr_status st = component && scratch && m ? thr_frame_components(quotient->f, component, &count, err) : thr_nomem(err);
+  *out = (thr_claims){.retraces = steps > cover->value[THR_AIM_STEPS] + 1e-6};
+  thr_status st = component && repeats ? thr_frame_components(quotient->f, component, &count, err) : thr_nomem(err);
   if (!st) st = thr_programme_init(&p, quotient, options, err);
-  if (!st) st = make(&p, cover, component, count, m, scratch, out, err);
+  if (!st) st = make(&p, cover, component, repeats, out, err);
   thr_programme_destroy(&p);
   free(component);
-  free(scratch);
-  free(m);
+  free(repeats);
   return st;
 }

@@ -89,6 +89,7 @@ static void contract_pairs(thr_contraction *contraction, int *made)
     *type = quotient->pair[y];
     for (int i = 0; i < 2; i++)
       type->dart[i] = contraction->becomes[contraction->keep[root] ? type->dart[i] : root];
+    if (!contraction->keep[root]) type->half[1] = -1; /* it stands for several */
   }
 }
 

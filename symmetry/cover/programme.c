@@ -55,12 +55,24 @@ static thr_status find_passes(thr_programme *p, thr_err *err)
   return THR_OK;
 }
 
+/* Returns how many types fold a trail, at an edge or at a node: where every cord is open each of their trails needs an end. */
+static int count_folds(const thr_quotient *quotient)
+{
+  int folds = 0;
+  for (int c = 0; c < quotient->n_copies; c++)
+    folds += quotient->copy[c].fold;
+  for (int y = 0; y < quotient->n_pairs; y++)
+    folds += quotient->pair[y].self;
+  return folds;
+}
+
 static void fill_copies(thr_programme *p)
 {
   const thr_quotient *quotient = p->q;
+  const int folds = p->open ? count_folds(quotient) : 0;
   for (int c = 0; c < quotient->n_copies; c++) {
     const thr_copy_type *type = &quotient->copy[c];
-    int most = 2 * p->cover[type->edge_orbit] + 2, fit = p->capacity[type->edge_orbit] / type->passes;
+    int most = 2 * p->cover[type->edge_orbit] + 2 + folds, fit = p->capacity[type->edge_orbit] / type->passes;
     for (int i = 0; i < 2 && p->o->tube; i++) /* one less than its tubes: so many kinds of turns can tie a node */
       most += 2 * (thr_degree(quotient->f, quotient->f->edge[type->edge][i]) - 1);
     p->most[c] = fit < most ? fit : most;
@@ -78,9 +90,7 @@ static void fill_pairs(thr_programme *p)
   for (int y = 0; y < quotient->n_pairs; y++) {
     const thr_pair_type *type = &quotient->pair[y];
     int j = p->first_pair + y;
-    bool u_turn = type->half[0] == type->half[1];
-    const bool ends = (p->o->most_ends == 0 || !p->open) && thr_programme_end_allowed(p, thr_tail(quotient->f, type->half[0]));
-    p->most[j] = u_turn && (p->o->tube || ends) ? 0 : -1; /* two ends do as well, unless they are few */
+    p->most[j] = p->o->tube && type->half[0] == type->half[1] ? 0 : -1;
     p->join[j][0] = type->dart[0];
     p->join[j][1] = type->self ? quotient->n_darts : type->dart[1];
     p->cost[THR_AIM_PATHS][j] = type->self ? 0.5 : 0;

@@ -48,6 +48,85 @@ static thr_status rule_out_exchanged(thr_programme *p, thr_err *err)
   return st;
 }
 
+/* ---- turns back ---- */
+
+/* Tells whether darts of type d can turn into others of type d over another half-edge. */
+static bool turns_into_own_image(const thr_programme *p, int d)
+{
+  for (int k = p->first[d]; k < p->first[d + 1]; k++) {
+    const thr_pair_type *type = &p->q->pair[p->incident[k]];
+    if (!type->self && type->dart[0] == type->dart[1] && type->half[0] != type->half[1]) return true;
+  }
+  return false;
+}
+
+/* Returns how many orbits of darts that those of type d can turn into every cover has, at least, over one orbit of other edges.
+ * partner: [n_darts] scratch, false. */
+static int count_partners(const thr_programme *p, int d, bool *partner)
+{
+  const thr_quotient *quotient = p->q;
+  const int own = quotient->edge_orbit[quotient->dart[d].half >> 1];
+  int most = 0;
+  for (int k = p->first[d]; k < p->first[d + 1]; k++)
+    for (int i = 0; i < 2; i++)
+      partner[quotient->pair[p->incident[k]].dart[i]] = true;
+  for (int c = 0, end; c < quotient->n_copies; c = end) {
+    const int orbit = quotient->copy[c].edge_orbit;
+    bool all = orbit != own;
+    int passes = 1;
+    for (end = c; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[c].edge; end++) {
+      const thr_copy_type *type = &quotient->copy[end];
+      if (p->most[end] == 0) continue;
+      all = all && (partner[type->dart[0]] || (type->dart[1] >= 0 && partner[type->dart[1]]));
+      if (type->passes > passes) passes = type->passes;
+    }
+    const int orbits = (p->cover[orbit] + passes - 1) / passes;
+    if (all && orbits > most) most = orbits;
+  }
+  for (int k = p->first[d]; k < p->first[d + 1]; k++)
+    for (int i = 0; i < 2; i++)
+      partner[quotient->pair[p->incident[k]].dart[i]] = false;
+  return most;
+}
+
+/* Returns the passes of an orbit of the copies that have a dart of type d: the fewest. */
+static int fewest_passes(const thr_programme *p, int d)
+{
+  int fewest = 0;
+  for (int c = 0; c < p->q->n_copies; c++) {
+    const thr_copy_type *type = &p->q->copy[c];
+    if ((type->dart[0] == d || type->dart[1] == d) && (fewest == 0 || type->passes < fewest)) fewest = type->passes;
+  }
+  return fewest;
+}
+
+/* Rules out turns of two orbits of darts back into each other's edge, which no best cover needs where other darts at the node are
+ * for certain that they can turn into. For with two orbits d, d' of a type that turn back into each other
+ *   - and a turn of x and y, or an end of x, d turns into x and d' into y, or ends: this turns no more (the angles are a metric);
+ *   - and an x that turns into its own image, d' can do so, too, and d turn into x;
+ *   - else all x turn into darts of the type of d, which are two more then: the copies of d and d' are left out, and what they
+ *     turn into at their other ends turns into one another. The edge keeps as many passes as the x are.
+ * Where a type can turn into its own image over another half-edge, that turn does as well as the one back. */
+static thr_status rule_out_turns_back(thr_programme *p, thr_err *err)
+{
+  const thr_quotient *quotient = p->q;
+  bool *partner = thr_calloc((size_t)quotient->n_darts, sizeof *partner);
+  if (!partner) return thr_nomem(err);
+  for (int y = 0; y < quotient->n_pairs; y++) {
+    const thr_pair_type *type = &quotient->pair[y];
+    const int d = type->dart[0];
+    if (type->self || type->half[0] != type->half[1]) continue;
+    const int needed = p->cover[quotient->edge_orbit[quotient->dart[d].half >> 1]];
+    const int partners = count_partners(p, d, partner);
+    if (turns_into_own_image(p, d) || (partners > 0 && (long)partners * fewest_passes(p, d) >= needed))
+      p->most[p->first_pair + y] = 0;
+  }
+  free(partner);
+  return THR_OK;
+}
+
+/* ---- what gets stuck ---- */
+
 /* Can an orbit of this dart type neither turn nor end? live[d]: has the dart type copies that can? */
 static bool is_stuck(const thr_programme *p, const bool *live, int d)
 {
@@ -108,21 +187,35 @@ static thr_status require(thr_programme *p, thr_err *err)
   return THR_OK;
 }
 
-/* With tube joints a cord cannot turn back at a node with one tube. */
-static thr_status check_leaves(const thr_programme *p, thr_err *err)
+/* With tube joints a cord cannot turn back at a node with one tube, and d tubes are tied by d - 1 turns, each of two passes;
+ * where every cord is open, there are ends as well. */
+static thr_status check_tubes(const thr_programme *p, thr_err *err)
 {
   const thr_frame *frame = p->q->f;
-  for (int v = 0; v < frame->n_nodes && p->o->tube; v++)
+  long left = 0;
+  for (int v = 0; v < frame->n_nodes && p->o->tube; v++) {
+    long room = 0;
+    for (int k = frame->first[v]; k < frame->first[v + 1]; k++)
+      room += p->capacity[p->q->edge_orbit[frame->half[k] >> 1]];
     if (thr_degree(frame, v) == 1 && !thr_programme_end_allowed(p, v))
       return thr_fail(err, THR_EINFEASIBLE,
                       "node %s has one edge and no cord may end there: it would turn back, which ties nothing", frame->name[v]);
+    if (room < 2L * (thr_degree(frame, v) - 1))
+      return thr_fail(err, THR_EINFEASIBLE, "node %s: its edges have room for %ld passes, but tying them together takes %d",
+                      frame->name[v], room, 2 * (thr_degree(frame, v) - 1));
+    left += room - 2L * (thr_degree(frame, v) - 1);
+  }
+  if (p->o->tube && p->open && left < 2)
+    return thr_fail(err, THR_EINFEASIBLE,
+                    "the passes that fit are just enough to tie all nodes: none is left for the ends of a cord");
   return THR_OK;
 }
 
 thr_status thr_programme_rule_out(thr_programme *p, thr_err *err)
 {
-  thr_status st = check_leaves(p, err);
+  thr_status st = check_tubes(p, err);
   if (!st) st = rule_out_exchanged(p, err);
+  if (!st && !p->o->tube) st = rule_out_turns_back(p, err);
   if (!st) st = rule_out_stuck(p, err);
   return st ? st : require(p, err);
 }

@@ -5,6 +5,7 @@
 #include "symmetry/cover/claims.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/cover/cover_options.h"
+#include "symmetry/cover/programme.h"
 #include "symmetry/group/group.h"
 #include "symmetry/group/quotient.h"
 #include "symmetry/lift/keep.h"
@@ -30,7 +31,8 @@ typedef struct {
   thr_cover_options how;
   int *edge_cover, *edge_capacity; /* [n_edges] */
   int *component;                  /* [n_nodes] */
-  double base, passes;             /* cord that the edges need, units, and passes */
+  double base;                     /* cord that the edges need, units */
+  bool repeats;                    /* do edges need several passes, so that cords may run alike? */
   bool only_choice;                /* rows that will not be chosen in any case need no threading */
   double end;                      /* thr_clock() at which all must be done; 0 = any time */
   thr_cover *cover;                /* [t->n] so far */
@@ -70,7 +72,7 @@ static thr_status solver_init(solver *s, const thr_frame *frame, const thr_reque
     s->edge_cover[e] = thr_plan_cover(frame, options, e);
     s->edge_capacity[e] = thr_plan_capacity(frame, options, e);
     s->base += s->edge_cover[e] * frame->length[e];
-    s->passes += s->edge_cover[e];
+    s->repeats = s->repeats || s->edge_cover[e] > 1;
   }
   const long most_ends = 2L * options->cords * n;
   if (options->symmetry.counted && options->ends != THR_ENDS_CLOSED && most_ends <= INT_MAX) s->how.most_ends = (int)most_ends;
@@ -97,13 +99,13 @@ static thr_status count_copies(thr_symmetry_row *row, thr_err *err)
   return THR_OK;
 }
 
-/* What the plan has, and what is proved of that. */
+/* Sets what the plan has, and what is proved of that. */
 static thr_status restate(const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *c,
                           thr_symmetry_row *row, thr_err *err)
 {
   thr_claims claims;
   bool weaker = false;
-  thr_status st = thr_claims_make(quotient, options, c, &claims, err);
+  thr_status st = thr_claims_make(quotient, options, c, row->record.steps, &claims, err);
   if (st) return st;
   row->value[THR_AIM_STEPS] = row->record.steps;
   row->value[THR_AIM_PATHS] = row->record.unique_paths;
@@ -115,8 +117,9 @@ static thr_status restate(const thr_quotient *quotient, const thr_cover_options 
   }
   if (!weaker || !c->optimal) return THR_OK;
   return thr_fail(err, THR_ELIMIT, "%s",
-                  claims.repeats ? "cords may run alike, which the search tells apart and a plan does not"
-                                 : "a plan does not count the turn where a closed cord comes out, the search does");
+                  claims.retraces ? "a cord that turns back over an edge in a mirror is learned both ways, in the search but once"
+                  : claims.repeats ? "cords may run alike, which the search tells apart and a plan does not"
+                                   : "a plan does not count the turn where a closed cord comes out, the search does");
 }
 
 /* Takes the cords of a row away that do not keep to what is asked of them: its value and bounds stay. */
@@ -202,20 +205,24 @@ static thr_status check_fewest(const solver *s, const thr_quotient *quotient, th
                   quotient->h->order, fewest, s->o->cords);
 }
 
-/* Tells whether a cover that was not found is proved not to be: with tube joints, or where some component has no node for ends.
- * Otherwise cords that turn back at nodes with several edges, which covers do not have, might still be symmetric. */
-static thr_status find_proved_infeasible(const solver *s, bool *proved, thr_err *err)
+/* Tells whether a cover that was not found is proved not to be: some component has no node for ends; or, with tube joints, an
+ * edge has no copies that can go on at both ends and fit (symmetry/cover/ruled_out.c). Elsewhere the search, which knows no more
+ * than so many copies and calculates in floating point, has only found none. */
+static thr_status find_proved_infeasible(const solver *s, const thr_quotient *quotient, bool *proved, thr_err *err)
 {
   const int n = s->f->n_nodes;
+  thr_programme p;
   bool *can_end = thr_calloc((size_t)n, sizeof *can_end);
   if (!can_end) return thr_nomem(err);
+  const thr_status st = thr_programme_init(&p, quotient, &s->how, &(thr_err){0});
+  if (!st) thr_programme_destroy(&p);
+  *proved = st == THR_EINFEASIBLE && s->how.tube;
   for (int v = 0; v < n; v++)
     can_end[s->component[v]] |= s->how.ends == THR_ENDS_CLOSED || thr_plan_end_allowed(s->f, s->o, v);
-  *proved = s->how.tube;
   for (int v = 0; v < n; v++)
     *proved |= !can_end[s->component[v]];
   free(can_end);
-  return THR_OK;
+  return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
 /* Goes on with the row's cover; the last time it becomes the row's threading. */
@@ -235,7 +242,7 @@ static thr_status solve(const solver *s, int i, bool quick, const thr_limits *li
   if (!st) {
     st = thr_cover_improve(&quotient, &how, limits, &s->cover[i], &row->why);
     bool proved = true;
-    if (st == THR_EINFEASIBLE && find_proved_infeasible(s, &proved, err)) st = THR_ENOMEM;
+    if (st == THR_EINFEASIBLE && find_proved_infeasible(s, &quotient, &proved, err)) st = THR_ENOMEM;
     if (st == THR_EINFEASIBLE && !proved) st = row->why.code = THR_ELIMIT;
     if (!st || st == THR_ELIMIT) tell(&quotient, &how, &s->cover[i], limits);
     if (s->end > 0) last.deadline = fmin(s->end + LATEST, fmax(limits->deadline, thr_clock() + 2 * MOMENT));
@@ -272,6 +279,9 @@ thr_status thr_symmetry_shortest_tied(const thr_frame *frame, const thr_request 
   if (!st) st = thr_quotient_make(&quotient, frame, &group, &alone, MOST_TYPES, limits, &why);
   if (!st) st = thr_cover_find(&quotient, &s.how, limits, &c, &why);
   if (!st || st == THR_ELIMIT) tell(&quotient, &s.how, &c, limits);
+  bool proved = true;
+  if (st == THR_EINFEASIBLE && find_proved_infeasible(&s, &quotient, &proved, err)) st = THR_ENOMEM;
+  if (st == THR_EINFEASIBLE && !proved) st = THR_ELIMIT; /* with an empty cover */
   *optimal = false;
   *length = s.base;
   if (!st || st == THR_ELIMIT) {
@@ -310,7 +320,7 @@ static standing standing_of(const solver *s, int i)
 {
   const thr_symmetry_row *row = &s->t->row[i];
   const thr_cover *c = &s->cover[i];
-  const double steps = s->passes / row->order; /* a learned step has at most as many copies as the group has elements */
+  const double steps = s->f->n_edges / (double)row->order; /* a learned step has at most as many images as the group elements */
   if (row->n_cords > 0)
     return (standing){true,
                       true,
@@ -325,7 +335,7 @@ static standing standing_of(const solver *s, int i)
                     c->value[THR_AIM_OVERLAP],
                     c->value[THR_AIM_STEPS],
                     fmax(0, c->bound[THR_AIM_OVERLAP]),
-                    fmax(steps, c->bound[THR_AIM_STEPS])};
+                    s->repeats ? steps : fmax(steps, c->bound[THR_AIM_STEPS])};
 }
 
 /* Overlap up to which the default choice is by learned steps. */

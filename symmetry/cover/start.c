@@ -219,7 +219,7 @@ static int terminal_of(const thr_contraction *contraction, int d)
   int cell = contraction->becomes[d];
   if (whole->most[whole->first_end + d] != 0) return p->first_end + cell;
   for (int k = whole->first[d]; k < whole->first[d + 1] && !whole->open; k++) {
-    if (!whole->q->pair[whole->incident[k]].self) continue;
+    if (!whole->q->pair[whole->incident[k]].self || whole->most[whole->first_pair + whole->incident[k]] == 0) continue;
     for (int i = p->first[cell]; i < p->first[cell + 1]; i++)
       if (p->q->pair[p->incident[i]].self) return p->first_pair + p->incident[i];
   }

@@ -447,7 +447,7 @@ static thr_status add_pairs(build *b, int d, thr_err *err)
   }
   for (int k = frame->first[v]; k < frame->first[v + 1] && !st; k++) {
     int half = frame->half[k];
-    bool fixed = (half == a) == (thr_degree(frame, v) == 1) && lowest_by_normal(b, half) == half;
+    bool fixed = lowest_by_normal(b, half) == half;
     for (int i = 0; i < subgroup->order && fixed; i++)
       fixed = image(quotient, b->position[subgroup->element[i]], half) == half;
     if (!fixed) continue;

@@ -6,8 +6,8 @@
  * itself. It adds [H_e : K] passes to e. If an element of K turns e round, the copy is a fold: its trail is mapped to its
  * reverse. dart type (h, S)  an orbit of darts over half-edge h with stabilizer S <= H_h. A copy type without fold has two dart
  * orbits, of types (h, K) and (h ^ 1, K); with a fold one, of type (h, S) with S = the elements of K that do not turn e round.
- *   pair type         an orbit of turns at a node: darts a, b with equal stabilizers over different half-edges of one node (over
- * one half-edge only at nodes with one edge). If some g in H_v maps a to b, a pair within one dart orbit (a "self" pair) needs
+ *   pair type         an orbit of turns at a node: darts a, b with equal stabilizers over half-edges of one node; over one
+ * half-edge the cord turns back into its edge. If some g in H_v maps a to b, a pair within one dart orbit (a "self" pair) needs
  * such a g that also maps b to a; it folds the trail at the node. Two different dart orbits of one type can be paired in any
  * case. The stabilizer of a dart is that of all its trail (the layer): a trail over an edge in a mirror, passed by one fixed
  * copy, stays in the mirror. In the quotient a trail's orbit is a path between two terminals (cord end or fold) or a circle. */

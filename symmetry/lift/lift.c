@@ -82,13 +82,17 @@ static int most_left(const lifting *x)
   return best;
 }
 
-/* Column that ends one of the trails of type d: cord end or self pair; -1 = none. */
+/* Returns the column that ends one of the trails of type d, a cord end or the cheapest self pair, or -1 if there is none. */
 static int terminal_of(const thr_programme *p, int d, bool self)
 {
+  const double *cost = p->cost[THR_AIM_TURNING];
+  int best = -1;
   if (!self) return p->most[p->first_end + d] != 0 ? p->first_end + d : -1;
-  for (int k = p->first[d]; k < p->first[d + 1]; k++)
-    if (p->q->pair[p->incident[k]].self) return p->first_pair + p->incident[k];
-  return -1;
+  for (int k = p->first[d]; k < p->first[d + 1]; k++) {
+    const int j = p->first_pair + p->incident[k];
+    if (p->q->pair[p->incident[k]].self && p->most[j] != 0 && (best < 0 || cost[j] < cost[best])) best = j;
+  }
+  return best;
 }
 
 /* So many ends or self pairs, always where most is left. */

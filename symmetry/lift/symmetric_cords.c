@@ -51,8 +51,8 @@ static bool matches(const tracer *t, const traced *a, int x, const traced *b, in
   return true;
 }
 
-/* In how many ways x maps cord a to b as a path in the framework: forward or reversed, one that runs round from any start. Stops
- * counting at `enough`. */
+/* Returns in how many ways x maps cord a to b as a path in the framework: forward or reversed, one that runs round from any
+ * start. Stops counting at `enough`. */
 static int ways(const tracer *t, const traced *a, int x, const traced *b, int enough)
 {
   int n = a->n_passes, found = 0;
@@ -79,14 +79,14 @@ static bool fixes(const tracer *t, const traced *a, int x)
   return true;
 }
 
-/* What has to be learned of a unique path: its passes and, unless it runs round, the steps of its two ends, over the number of
- * ways in which H maps it to itself. Elements that fix all its nodes do so in the same ways. */
+/* Returns what has to be learned of a unique path: its passes and, unless it runs round, the steps of its two ends, over the
+ * number of elements of H that map it to itself. Those that fix all its nodes do so alike. */
 static double steps_of(const tracer *t, const traced *a)
 {
   const thr_subgroup *subgroup = t->s.q->h;
   int mapped = 0, fixed = 0;
   for (int i = 0; i < subgroup->order; i++) {
-    mapped += ways(t, a, subgroup->element[i], a, 2 * a->n_passes);
+    mapped += ways(t, a, subgroup->element[i], a, 1) > 0;
     fixed += fixes(t, a, subgroup->element[i]);
   }
   return (double)(a->n_passes + (a->round ? 0 : 2 * t->end_steps)) * fixed / mapped;
@@ -324,8 +324,11 @@ static thr_status make_record(const tracer *t, const int *place, thr_symmetry_re
     record->unique[place[i]] = place[t->unique[t->cord[i].of]];
     record->element[place[i]] = number[t->cord[i].element];
   }
-  for (int u = 0; u < t->n_unique && !st; u++)
-    record->steps += steps_of(t, &t->cord[t->unique[u]]);
+  for (int u = 0; u < t->n_unique && !st; u++) {
+    const traced *path = &t->cord[t->unique[u]];
+    record->steps += steps_of(t, path);
+    record->retraced = record->retraced || ways(t, path, 0, path, 2) > 1;
+  }
   record->unique_paths = t->n_unique;
   record->present = true;
   free(number);

@@ -94,7 +94,7 @@ static void compare_orders(const thr_quotient *q, thr_ends ends, int cover)
   for (int i = 0; i < ORDERS; i++) {
     thr_claims claims;
     memcpy(o.prefer, orders[i], sizeof o.prefer);
-    ck_assert_int_eq(thr_claims_make(q, &o, &c[i], &claims, NULL), THR_OK);
+    ck_assert_int_eq(thr_claims_make(q, &o, &c[i], has[i][THR_AIM_STEPS], &claims, NULL), THR_OK);
     for (int k = 0; k < n; k++)
       assert_above(&o, &claims, has[i], has[k]);
   }

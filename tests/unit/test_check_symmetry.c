@@ -454,7 +454,8 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
                       cord_of(&two, 1, walk, n, 4, rng_below(&r, n), rng_below(&r, 2))};
   thr_plan p = plan_with(two, THR_ENDS_CLOSED, 2, cord);
   int unique[2] = {0, 0}, element[2] = {0, 1};
-  p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, same, unique, element, (double)n / count_readings(walk, n), 1};
+  p.symmetry =
+      (thr_symmetry_record){true, 2, "", 1, exchange, 2, same, unique, element, (double)n / count_readings(walk, n), 1, false};
   assert_symmetry(&p, NULL);
   p.symmetry.steps *= 1 + 2e-9;
   ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
@@ -507,7 +508,7 @@ START_TEST(walks_are_learned_whole)
       int n = length[k], readings = count_readings(walk[k], n);
       thr_cord cord = cord_of(&f, 0, walk[k], n, 0, start / 2, start % 2);
       thr_plan p = plan_with(f, THR_ENDS_CLOSED, 1, &cord);
-      p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, &zero, &zero, (double)n / readings, 1};
+      p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, &zero, &zero, (double)n / readings, 1, false};
       assert_symmetry(&p, NULL);
       free(cord.half);
     }
@@ -523,7 +524,7 @@ START_TEST(copies_are_as_long)
   for (int k = 0; k < 2; k++) {
     thr_cord cord[2] = {{.id = "A", .n_passes = 1 + k, .half = half}, {.id = "B", .n_passes = 2 - k, .half = half}};
     thr_plan p = plan_with(f, THR_ENDS_ANY, 2, cord);
-    p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1 + k, 1};
+    p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1 + k, 1, false};
     assert_symmetry(&p, "cord B is not image 0 of cord A");
   }
   thr_frame_destroy(&f);
@@ -540,7 +541,7 @@ START_TEST(copies_come_to_the_same_nodes)
     int half[2] = {0, 2}, same[3] = {0, 1, 2}, unique[2] = {0, 0}, which[2] = {0, 0};
     thr_cord cord[2] = {{.id = "A", .n_passes = 1, .half = half}, {.id = "B", .n_passes = 1, .half = half + 1}};
     thr_plan p = plan_with(f, THR_ENDS_ANY, 2, cord);
-    p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1, 1};
+    p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1, 1, false};
     assert_symmetry(&p, "cord B is not image 0 of cord A");
     thr_frame_destroy(&f);
   }
@@ -564,7 +565,7 @@ START_TEST(what_is_kept_is_learned_whole)
     for (int v = 0; v < 4; v++)
       f.foot[v] = false;
     thr_plan p = plan_with(f, THR_ENDS_ANY, 3, cord);
-    p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, image, unique, which, 6, 2};
+    p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, image, unique, which, 6, 2, false};
     assert_symmetry(&p, NULL);
     thr_frame_destroy(&f);
   }
@@ -581,7 +582,7 @@ START_TEST(a_unique_path_is_its_own_image_0)
   thr_cord cord = cord_of(&f, 0, walk, 3, 0, 0, false);
   for (int which = 0; which < 2; which++) {
     thr_plan p = plan_with(f, THR_ENDS_CLOSED, 1, &cord);
-    p.symmetry = (thr_symmetry_record){true, 3, "", 1, next, 2, image, &zero, &which, 1, 1};
+    p.symmetry = (thr_symmetry_record){true, 3, "", 1, next, 2, image, &zero, &which, 1, 1, false};
     thr_err err = {0};
     ck_assert_msg(thr_check_symmetry(&p, &err) == (which ? THR_EVIOLATED : THR_OK), "%s", err.text);
     if (which) assert_one_line(&err, "its own image 0");
@@ -605,7 +606,7 @@ START_TEST(cords_are_permuted)
     int half[2] = {k ? 5 : 1, k ? 6 : 2};
     thr_cord cord = {.id = "A", .n_passes = 2, .half = half};
     thr_plan p = plan_with(f, THR_ENDS_ANY, 1, &cord);
-    p.symmetry = (thr_symmetry_record){true, 2, "", 1, half_turn, 1, same, &zero, &zero, 2, 1};
+    p.symmetry = (thr_symmetry_record){true, 2, "", 1, half_turn, 1, same, &zero, &zero, 2, 1, false};
     assert_symmetry(&p, "symmetry.generators[0]: takes");
   }
   thr_frame_destroy(&f);
@@ -734,15 +735,19 @@ START_TEST(every_edge_goes_to_an_edge)
 END_TEST
 
 /* Out from a foot and back to it: it reads the same backward, but does not run round. */
-START_TEST(a_cord_there_and_back_is_learned_once)
+START_TEST(a_cord_there_and_back_is_learned_both_ways_or_once)
 {
   thr_frame f = path_make(3);
   int half[4] = {0, 2, 3, 1}, same[3] = {0, 1, 2}, zero = 0;
   thr_cord cord = {.id = "A", .closed = true, .n_passes = 4, .half = half};
   thr_plan p = plan_with(f, THR_ENDS_FEET, 1, &cord);
-  p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, &zero, &zero, 2, 1};
+  p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, &zero, &zero, 2, 1, false};
   assert_symmetry(&p, NULL);
   p.symmetry.steps = 4;
+  ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
+  p.symmetry.retraced = true; /* both ways are learned */
+  assert_symmetry(&p, NULL);
+  p.symmetry.steps = 2;
   ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
   thr_frame_destroy(&f);
 }
@@ -770,6 +775,6 @@ int main(void)
   ADD_TEST(s, 10, no_two_nodes_go_to_one);
   ADD_TEST(s, 10, every_edge_goes_to_an_edge);
   ADD_TEST(s, 10, an_open_cord_is_no_copy_of_a_closed_one);
-  ADD_TEST(s, 10, a_cord_there_and_back_is_learned_once);
+  ADD_TEST(s, 10, a_cord_there_and_back_is_learned_both_ways_or_once);
   return run_suite(s);
 }

@@ -71,7 +71,8 @@ static thr_plan plan_known(const known *k)
                              calloc(MOST_CORDS, sizeof(int)),
                              calloc(MOST_CORDS, sizeof(int)),
                              k->steps,
-                             k->unique_paths};
+                             k->unique_paths,
+                             false};
   p.cord = calloc(MOST_CORDS, sizeof *p.cord);
   p.generator = thr_strdup("by hand");
   ck_assert(r->generator && r->image && r->unique && r->element && p.cord && p.generator);
