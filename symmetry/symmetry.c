@@ -161,6 +161,18 @@ static thr_status take_plan(const thr_plan *plan, thr_symmetry_row *row, thr_err
   return THR_OK;
 }
 
+/* Tells whether one threading serves the aims better than another of the same group: the longest cord if it is one of them, then
+ * the others in their order. */
+static bool serves_better(const thr_request *options, const thr_symmetry_row *a, const thr_symmetry_row *b)
+{
+  thr_aim order[THR_N_AIMS];
+  int by = compare(a->longest, b->longest);
+  thr_aims_order(options, order);
+  for (int k = 0; k < THR_N_AIMS && !by; k++)
+    by = compare(a->value[order[k]], b->value[order[k]]);
+  return by < 0;
+}
+
 /* Cords without symmetry that keep to what is asked are a threading under the identity, where the search has none or a worse one.
  */
 static thr_status use_plan(const thr_plan *plan, const thr_request *options, thr_symmetries *symmetries, thr_err *err)
@@ -174,7 +186,7 @@ static thr_status use_plan(const thr_plan *plan, const thr_request *options, thr
     other.record = (thr_symmetry_record){0};
     thr_status st = take_plan(plan, &other, err);
     if (thr_wants_balance(options)) other.longest = thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
-    const bool kept = st || (row->n_cords > 0 && is_within(symmetries, row) && !is_better(&other, row, true));
+    const bool kept = st || (row->n_cords > 0 && !serves_better(options, &other, row));
     if (!kept)
       thr_fail(&other.why, THR_ELIMIT, "these are the cords of least length, which need not be the best under this group");
     thr_symmetry_row *dropped = kept ? &other : row;

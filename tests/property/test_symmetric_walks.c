@@ -8,6 +8,8 @@
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "planner/make_plan.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/cover/cover_options.h"
 #include "symmetry/group/group.h"
 #include "symmetry/symmetry.h"
 
@@ -16,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { NODES = 6, EDGES = 7, LONGEST = 8, CORDS = 3, GROUP = 48, WALKS = 30000, FRAMES = 24 };
+enum { NODES = 6, EDGES = 7, LONGEST = 8, CORDS = 3, GROUP = 48, WALKS = 30000, FRAMES = 12 };
 
 /* An orbit of walks: passes that it adds to each edge of every orbit of edges. */
 typedef struct {
@@ -348,7 +350,7 @@ static void check_table(const thr_frame *f, const thr_request *o, int number, in
   for (int i = 0; i < all.n; i++) {
     oracle x;
     char what[200];
-    double best[THR_N_AIMS];
+    double best[THR_N_AIMS] = {0};
     if (all.row[i].order > GROUP) continue;
     oracle_init(&x, f, o, &all.group[all.row[i].group].all, &all.row[i].elements);
     fill(&x, number > 0);
@@ -361,6 +363,49 @@ static void check_table(const thr_frame *f, const thr_request *o, int number, in
   }
   thr_symmetries_destroy(&all);
   thr_symmetries_destroy(&choice);
+}
+
+/* With the identity alone the plan serves the aims, in their order, no worse than the cords of least length do; and what is said
+ * of it leaves room for all walks. */
+static void check_identity(const thr_frame *f, thr_request o, int number, int frame, tally *n)
+{
+  const thr_limits limits = {.deadline = thr_clock() + 20};
+  thr_request shortest = o;
+  thr_plan plan, other;
+  thr_report report = {0};
+  int place, identity = 0;
+  want(&shortest, "length");
+  snprintf(o.symmetry.group, sizeof o.symmetry.group, "C1");
+  thr_status st = thr_plan_make(f, &o, &limits, &plan, &report, NULL);
+  ck_assert(st == THR_OK || st == THR_ELIMIT || st == THR_EINFEASIBLE);
+  st = thr_plan_make(f, &shortest, &limits, &other, NULL, NULL);
+  if (plan.n_cords > 0 && other.n_cords > 0) {
+    const thr_cover_options how = {.ends = o.ends};
+    const thr_symmetries *t = &report.symmetries;
+    oracle x;
+    char what[200];
+    double best[THR_N_AIMS] = {0};
+    thr_symmetry_record record;
+    ck_assert_int_eq(thr_cords_alone(f, &how, other.cord, other.n_cords, &record, NULL), THR_OK);
+    const double has[] = {plan.metrics.overlap, plan.symmetry.steps, plan.symmetry.unique_paths, plan.metrics.turning};
+    const double least[] = {other.metrics.overlap, record.steps, record.unique_paths, other.metrics.turning};
+    ck_assert_int_eq(t->chosen, t->n - 1);
+    describe(what, &o, t, t->chosen, frame);
+    oracle_init(&x, f, &o, &t->group[t->row[t->chosen].group].all, &(thr_subgroup){1, &identity});
+    fill(&x, true);
+    const double *found = best_of(&x, number);
+    if (found) memcpy(best, found, sizeof best);
+    best[THR_AIM_OVERLAP] -= x.base;
+    check_row(&x, &t->row[t->chosen], found ? best : NULL, what, n);
+    ck_assert_msg(compare(&x, least, has, &place) >= 0, "%s: %s %g, but the shortest cords have %g", what,
+                  thr_aim_name(x.prefer[place]), has[x.prefer[place]], least[x.prefer[place]]);
+    ck_assert_msg(compare(&x, has, t->row[t->chosen].value, &place) == 0, "%s: the plan is not what its row says", what);
+    oracle_destroy(&x);
+    thr_symmetry_record_destroy(&record);
+  }
+  thr_plan_destroy(&plan);
+  thr_plan_destroy(&other);
+  thr_report_destroy(&report);
 }
 
 START_TEST(rows_leave_room_for_all_walks)
@@ -381,6 +426,7 @@ START_TEST(rows_leave_room_for_all_walks)
       o.symmetry.counted = number > 0;
       o.cords = o.cords_least = number > 0 ? number : 1;
       check_table(&f, &o, number, _i, &n);
+      if (number > 0) check_identity(&f, o, number, _i, &n);
     }
   }
   if (getenv("THREAD_WALKS_FRAMES"))
