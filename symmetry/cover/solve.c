@@ -320,7 +320,8 @@ static standing standing_of(const solver *s, int i)
 {
   const thr_symmetry_row *row = &s->t->row[i];
   const thr_cover *c = &s->cover[i];
-  const double steps = s->f->n_edges / (double)row->order; /* a learned step has at most as many images as the group elements */
+  const double steps = s->f->n_edges / (double)row->order;  /* a learned step has at most as many images as the group elements */
+  const bool is_loose = s->repeats || thr_keep_asked(s->o); /* cords as asked for may overlap more, and have fewer steps then */
   if (row->n_cords > 0)
     return (standing){true,
                       true,
@@ -335,7 +336,7 @@ static standing standing_of(const solver *s, int i)
                     c->value[THR_AIM_OVERLAP],
                     c->value[THR_AIM_STEPS],
                     fmax(0, c->bound[THR_AIM_OVERLAP]),
-                    s->repeats ? steps : fmax(steps, c->bound[THR_AIM_STEPS])};
+                    is_loose ? steps : fmax(steps, c->bound[THR_AIM_STEPS])};
 }
 
 /* Overlap up to which the default choice is by learned steps. */

@@ -438,8 +438,12 @@ END_TEST
 
 int main(void)
 {
-  const char *more = getenv("THREAD_WALKS_FRAMES");
+  const char *frames = getenv("THREAD_WALKS_FRAMES"); /* "0 2000": the first and the end */
+  int first, end;
   Suite *s = suite_create("symmetric walks");
-  ADD_EXAMPLES(s, 240, rows_leave_room_for_all_walks, more ? atoi(more) : FRAMES);
+  if (frames && sscanf(frames, "%d %d", &first, &end) == 2)
+    add_case(s, "walks", 240, rows_leave_room_for_all_walks, first, end);
+  else
+    ADD_EXAMPLES(s, 240, rows_leave_room_for_all_walks, FRAMES);
   return run_suite(s);
 }
