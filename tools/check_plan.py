@@ -2604,9 +2604,10 @@ def least_rotation(text):
 class Paths:
     """Cords as strings of nodes, for comparing them; turning ones run round: any start, either way."""
 
-    def __init__(self, p):
+    def __init__(self, p, retraced):
         free = p.closing or p.options.ends == "any" and not p.options.tube
-        self.round = [free and cord.closed and (p.closing or cord.half[0] >> 1 != cord.half[-1] >> 1) for cord in p.cords]
+        always = p.closing or retraced
+        self.round = [free and cord.closed and (always or cord.half[0] >> 1 != cord.half[-1] >> 1) for cord in p.cords]
         self.text = ["".join(map(chr, cord.nodes[:-1] if r else cord.nodes)) for cord, r in zip(p.cords, self.round)]
 
     def form(self, i, image):
@@ -2800,7 +2801,8 @@ def check_symmetry(p):
 
 
 def check_copies(p, s, generators, images, group):
-    paths, identity, n = Paths(p), {}, len(p.cords)
+    retraced = member(s, "retraced", "truth", "symmetry", default=False)  # else as in older plans
+    paths, identity, n = Paths(p, retraced), {}, len(p.cords)
     forms = [paths.form(i, identity) for i in range(n)]
     table = lambda g: dict(enumerate(g))
     for g in generators:
@@ -2826,7 +2828,6 @@ def check_copies(p, s, generators, images, group):
     require(member(s, "unique_paths", "integer", "symmetry") == len(unique), f"symmetry.unique_paths: not {len(unique)}")
     tables = [table(g) for g in group]
     ends = [2 if p.options.ends == "any" and not r else 0 for r in paths.round]  # each a step, for it may be anywhere
-    retraced = member(s, "retraced", "truth", "symmetry", default=False)  # else, as in older plans, by ways to read
     count = paths.maps if retraced else paths.ways
     steps = sum(Fraction(len(p.cords[i].half) + ends[i], count(i, tables)) for i in unique)
     p.close(member(s, "steps", "number", "symmetry"), steps, steps, "symmetry.steps")

@@ -95,7 +95,7 @@ static thr_status paths_init(paths *s, const thr_plan *plan, thr_err *err)
 {
   size_t n = (size_t)plan->n_cords, all = 0, longest = 0;
   for (int i = 0; i < plan->n_cords; i++) {
-    size_t nodes = (size_t)plan->cord[i].n_passes + !thr_cord_runs_round(&plan->options, &plan->cord[i]);
+    size_t nodes = (size_t)plan->cord[i].n_passes + !thr_cord_runs_round(plan, &plan->cord[i]);
     all += nodes;
     if (nodes > longest) longest = nodes;
   }
@@ -117,7 +117,7 @@ static void fill_paths(paths *s)
   const thr_plan *plan = s->p;
   for (int i = 0, next = 0; i < plan->n_cords; i++) {
     const thr_cord *c = &plan->cord[i];
-    bool closed = thr_cord_runs_round(&plan->options, c);
+    bool closed = thr_cord_runs_round(plan, c);
     int n = c->n_passes + !closed, *run = s->run + next;
     for (int k = 0; k < n; k++)
       run[k] = k < c->n_passes ? thr_tail(&plan->frame, c->half[k]) : thr_cord_end(&plan->frame, c);

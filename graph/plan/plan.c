@@ -248,11 +248,12 @@ int thr_cord_turns(const thr_request *options, const thr_cord *cord)
   return options->ends == THR_ENDS_CLOSED ? cord->n_passes : cord->n_passes - 1;
 }
 
-bool thr_cord_runs_round(const thr_request *options, const thr_cord *cord)
+bool thr_cord_runs_round(const thr_plan *plan, const thr_cord *cord)
 {
+  const thr_request *options = &plan->options;
   if (!cord->closed || options->ends == THR_ENDS_CLOSED) return cord->closed;
   return options->ends == THR_ENDS_ANY && options->joint == THR_JOINT_SOLID &&
-         cord->half[0] >> 1 != cord->half[cord->n_passes - 1] >> 1;
+         (plan->symmetry.retraced || cord->half[0] >> 1 != cord->half[cord->n_passes - 1] >> 1);
 }
 
 bool thr_turn_over(double turn, double angle)

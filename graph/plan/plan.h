@@ -136,7 +136,8 @@ typedef struct thr_symmetry_record {
                        number of elements of the group that map it to itself, those that do so alike counting once */
   int unique_paths; /* number of different values of unique */
   bool retraced; /* are steps counted so? Else, as in older plans, by the ways (from another start, reversed) in which a path is
-                    its own image: the same but for paths that read the same backward, or from another start */
+                    its own image: the same but for paths that read the same backward, or from another start; and it matters
+                    where a closed path starts whose first and last pass are over one edge (thr_cord_runs_round) */
 } thr_symmetry_record;
 
 void thr_symmetry_record_destroy(thr_symmetry_record *record);
@@ -217,9 +218,9 @@ double thr_cord_turning(const thr_frame *framework, const thr_cord *c, bool with
  * pass k to pass k + 1 (or 0). */
 int thr_cord_turns(const thr_request *wishes, const thr_cord *c);
 
-/* Does it not matter where the cord starts? Of a closed one, where its ends may be anywhere and tie nothing; but with ends of any
- * kind not if it would turn back there. */
-bool thr_cord_runs_round(const thr_request *wishes, const thr_cord *c);
+/* Tells whether it does not matter where the cord starts: of a closed one, where its ends may be anywhere and tie nothing. Unless
+ * symmetry.retraced says otherwise, as in older plans, it matters with ends of any kind where the cord would turn back. */
+bool thr_cord_runs_round(const thr_plan *plan, const thr_cord *c);
 
 /* Is a turn sharper than angle (both in rad), by more than 1e-9? */
 bool thr_turn_over(double turn, double angle);

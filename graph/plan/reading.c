@@ -31,7 +31,7 @@ static int count_runs(const reader *r, const thr_cord *c, int n, bool *on)
   int runs = n;
   *on = false;
   for (int k = 1; k <= n; k++) {
-    if (k == c->n_passes && !thr_cord_runs_round(&r->p->options, c)) break;
+    if (k == c->n_passes && !thr_cord_runs_round(r->p, c)) break;
     const bool straight = thr_turn_angle(&r->p->frame, c->half[k - 1], c->half[k % c->n_passes]) < THR_STRAIGHT;
     runs -= straight && k < n;
     *on = straight && k == n;
@@ -78,7 +78,7 @@ static int node_at(const reader *r, const thr_cord *c, int k)
 static bool runs_as(const reader *r, const thr_cord *a, const int *image, const thr_cord *b, shift s)
 {
   const int n = a->n_passes;
-  const bool round = thr_cord_runs_round(&r->p->options, a);
+  const bool round = thr_cord_runs_round(r->p, a);
   for (int k = 0; k < n + !round; k++) {
     const int v = node_at(r, a, k), at = s.back ? s.at - k : s.at + k;
     if (node_at(r, b, round ? ((at % n) + n) % n : at) != (image ? image[v] : v)) return false;
@@ -90,7 +90,7 @@ static bool runs_as(const reader *r, const thr_cord *a, const int *image, const 
 static bool way(const reader *r, const thr_cord *a, int i, shift *s)
 {
   const int n = a->n_passes;
-  const bool round = thr_cord_runs_round(&r->p->options, a);
+  const bool round = thr_cord_runs_round(r->p, a);
   *s = (shift){round ? i / 2 : i % 2 ? n : 0, i % 2};
   return i < 2 * (round ? n : 1);
 }
@@ -134,7 +134,7 @@ static self_maps find_self_maps(const reader *r, int u)
 {
   const thr_symmetry_record *record = &r->p->symmetry;
   const thr_cord *cord = r->p->cord;
-  const bool round = thr_cord_runs_round(&r->p->options, &cord[u]);
+  const bool round = thr_cord_runs_round(r->p, &cord[u]);
   self_maps maps = {cord[u].n_passes, -1};
   shift s;
   if (!round) maps.period = 2 * maps.period + 1; /* no shift but 0 is a map */
@@ -154,7 +154,7 @@ static self_maps find_self_maps(const reader *r, int u)
 static int count_part(const reader *r, const thr_cord *c, const self_maps *maps)
 {
   const int n = c->n_passes;
-  const bool round = thr_cord_runs_round(&r->p->options, c);
+  const bool round = thr_cord_runs_round(r->p, c);
   int runs = maps->axis >= 0;
   for (int t = 0; t < 2 * n; t++) { /* the turn at place t */
     const bool within = maps->axis < 0 ? t < maps->period
@@ -173,7 +173,7 @@ typedef enum { WHOLE, REPEATED, MAPPED } manner;
 static int count_instructions(const reader *r, int i, manner *how)
 {
   const thr_cord *c = &r->p->cord[i];
-  const bool open = r->p->options.ends == THR_ENDS_ANY && !thr_cord_runs_round(&r->p->options, c);
+  const bool open = r->p->options.ends == THR_ENDS_ANY && !thr_cord_runs_round(r->p, c);
   bool on;
   const int all = count_runs(r, c, c->n_passes, &on), whole = all - (on && all > 1), period = period_of(r, c);
   const int once = period < c->n_passes ? count_runs(r, c, period, &on) + 1 : whole;
@@ -191,8 +191,8 @@ static int count_instructions(const reader *r, int i, manner *how)
 static bool is_moved(const reader *r, const thr_cord *a, const thr_cord *b)
 {
   const int n = a->n_passes;
-  const bool round = thr_cord_runs_round(&r->p->options, a);
-  if (b->n_passes != n || round != thr_cord_runs_round(&r->p->options, b)) return false;
+  const bool round = thr_cord_runs_round(r->p, a);
+  if (b->n_passes != n || round != thr_cord_runs_round(r->p, b)) return false;
   for (int start = 0; start < (round ? n : 1); start++)
     for (int back = 0; back < 2; back++) {
       const int first = back && !round ? n : start;

@@ -116,13 +116,6 @@ static void start_sharpest(tracer *t, int n)
     t->walk[i] = t->scratch[(best + i) % n];
 }
 
-/* Does it not matter where the cord starts? Not where ends may be anywhere and it leaves its first node over the edge over which
- * it comes back: it would turn back there. */
-static bool runs_round(const tracer *t, const traced *c)
-{
-  return c->closed && !t->open && (t->end_steps == 0 || c->half[0] >> 1 != c->half[c->n_passes - 1] >> 1);
-}
-
 /* Appends the image under x of the walk of n darts. */
 static thr_status add_cord(tracer *t, const int *walk, int n, int x, thr_err *err)
 {
@@ -136,7 +129,7 @@ static thr_status add_cord(tracer *t, const int *walk, int n, int x, thr_err *er
     c.half[i] = thr_strands_half(&t->s, d);
   }
   c.closed = thr_tail(t->f, c.half[0]) == thr_head(t->f, c.half[n - 1]);
-  c.round = runs_round(t, &c);
+  c.round = c.closed && !t->open;
   c.component = t->component[thr_tail(t->f, c.half[0])];
   t->cord[t->n_cords++] = c;
   return THR_OK;
@@ -179,7 +172,7 @@ static thr_status add_given(tracer *t, const thr_cord *cord, thr_err *err)
   if (!c.half) return thr_nomem(err);
   memcpy(c.half, cord->half, (size_t)cord->n_passes * sizeof *c.half);
   c.closed = cord->closed;
-  c.round = runs_round(t, &c);
+  c.round = c.closed && !t->open;
   t->cord[t->n_cords++] = c;
   return classify_last(t, err);
 }
@@ -326,8 +319,9 @@ static thr_status make_record(const tracer *t, const int *place, thr_symmetry_re
   }
   for (int u = 0; u < t->n_unique && !st; u++) {
     const traced *path = &t->cord[t->unique[u]];
+    const bool turns_back = path->round && path->half[0] >> 1 == path->half[path->n_passes - 1] >> 1;
     record->steps += steps_of(t, path);
-    record->retraced = record->retraced || ways(t, path, 0, path, 2) > 1;
+    record->retraced = record->retraced || (turns_back && t->end_steps > 0) || ways(t, path, 0, path, 2) > 1;
   }
   record->unique_paths = t->n_unique;
   record->present = true;

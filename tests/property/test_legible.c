@@ -95,7 +95,7 @@ static double steps_of(const exhaustive *x, int path, int n)
       fixes = fixes && x->image[g][c->half[k]] == c->half[k];
     fixing += fixes;
   }
-  const int ends = x->o->ends == THR_ENDS_ANY && !thr_cord_runs_round(x->o, c) ? 2 : 0;
+  const int ends = x->o->ends == THR_ENDS_ANY && !c->closed ? 2 : 0;
   return (double)(c->n_passes + ends) * fixing * copies / x->row->order;
 }
 
@@ -108,7 +108,7 @@ static void weigh(exhaustive *x)
   x->leaves++;
   if (n != x->row->n_cords) return;
   for (int i = 0; i < n; i++) {
-    if (thr_cord_runs_round(x->o, &x->cord[i])) start_sharpest(x, &x->cord[i]);
+    if (x->cord[i].closed) start_sharpest(x, &x->cord[i]);
     turning += thr_cord_turning(x->f, &x->cord[i], x->o->ends == THR_ENDS_CLOSED);
   }
   find_copies(x, n, on);

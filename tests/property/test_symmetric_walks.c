@@ -117,10 +117,7 @@ static void add_walk(oracle *x, const int *walk, int passes)
 {
   item made = {{0}, 0, {0, 0, 1, 0}};
   int place;
-  const bool free = x->o->ends == THR_ENDS_CLOSED ||
-                    (x->o->ends == THR_ENDS_ANY && thr_frame_edge_between(x->f, walk[0], walk[1]) !=
-                                                       thr_frame_edge_between(x->f, walk[passes - 1], walk[passes]));
-  const bool round = free && walk[0] == walk[passes];
+  const bool round = x->o->ends != THR_ENDS_FEET && walk[0] == walk[passes];
   const int elements = count_maps(x, walk, round ? passes : passes + 1, round);
   made.cords = x->order / elements;
   for (int i = 0; i < passes; i++)
