@@ -55,24 +55,12 @@ static thr_status find_passes(thr_programme *p, thr_err *err)
   return THR_OK;
 }
 
-/* Returns how many types fold a trail, at an edge or at a node: where every cord is open each of their trails needs an end. */
-static int count_folds(const thr_quotient *quotient)
-{
-  int folds = 0;
-  for (int c = 0; c < quotient->n_copies; c++)
-    folds += quotient->copy[c].fold;
-  for (int y = 0; y < quotient->n_pairs; y++)
-    folds += quotient->pair[y].self;
-  return folds;
-}
-
 static void fill_copies(thr_programme *p)
 {
   const thr_quotient *quotient = p->q;
-  const int folds = p->open ? count_folds(quotient) : 0;
   for (int c = 0; c < quotient->n_copies; c++) {
     const thr_copy_type *type = &quotient->copy[c];
-    int most = 2 * p->cover[type->edge_orbit] + 2 + folds, fit = p->capacity[type->edge_orbit] / type->passes;
+    int most = 2 * p->cover[type->edge_orbit] + 2, fit = p->capacity[type->edge_orbit] / type->passes;
     for (int i = 0; i < 2 && p->o->tube; i++) /* one less than its tubes: so many kinds of turns can tie a node */
       most += 2 * (thr_degree(quotient->f, quotient->f->edge[type->edge][i]) - 1);
     p->most[c] = fit < most ? fit : most;
@@ -181,6 +169,8 @@ thr_status thr_programme_init(thr_programme *p, const thr_quotient *quotient, co
     list_pairs(p);
     st = thr_programme_rule_out(p, err);
   }
+  for (int j = p->first_pair; j < p->first_end && !st; j++) /* turns that no cover has are of no weight in units and scales */
+    if (p->most[j] == 0) p->cost[THR_AIM_TURNING][j] = 0;
   if (st) {
     thr_programme_destroy(p);
     return st;

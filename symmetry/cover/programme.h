@@ -44,9 +44,9 @@ void thr_programme_destroy(thr_programme *p);
 thr_status thr_programme_tie(thr_programme *p, thr_err *err) THR_MUST_CHECK;
 
 /* In symmetry/cover/ruled_out.c, the last step of thr_programme_init: most[] = 0 for copies that come to where they can neither
- * turn nor end, and for those exchanged by elements that move no node of their component, without which no cover has more
- * overlap; least[] for copy types that are alone in their edge orbit then. THR_EINFEASIBLE: an edge has no copy type left that
- * fits its capacity. O(types * longest chain + order * nodes). */
+ * turn nor end, for those exchanged by elements that move no node of their component, without which no cover has more overlap,
+ * and for copies and turns back that others serve as well as; least[] for copy types that are alone in their edge orbit then.
+ * THR_EINFEASIBLE: an edge has no copy type left that fits its capacity. O(types * longest chain + order * nodes). */
 thr_status thr_programme_rule_out(thr_programme *p, thr_err *err) THR_MUST_CHECK;
 
 bool thr_programme_end_allowed(const thr_programme *p, int node);
