@@ -119,7 +119,7 @@ static thr_status make_cut(thr_plan *plan, const cut *x, thr_err *err)
   memcpy(half, cord->half + x->from, (size_t)n * sizeof *half);
   memmove(cord->half + x->from, cord->half + x->to, (size_t)(cord->n_passes - x->to) * sizeof *half);
   cord->n_passes -= n;
-  *part = (thr_cord){.half = half, .n_passes = n, .closed = true};
+  *part = (thr_cord){.half = half, .n_passes = n, .closed = true, .component = cord->component};
   plan->n_cords++;
   return THR_OK;
 }
@@ -172,7 +172,7 @@ static thr_status add_loop(const thr_recut *recut, thr_plan *plan, int component
   if (!half) return thr_nomem(err);
   half[0] = 2 * best;
   half[1] = 2 * best + 1;
-  plan->cord[plan->n_cords++] = (thr_cord){.half = half, .n_passes = 2, .closed = true};
+  plan->cord[plan->n_cords++] = (thr_cord){.half = half, .n_passes = 2, .closed = true, .component = component};
   passes[best] += 2;
   return THR_OK;
 }
