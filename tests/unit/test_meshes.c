@@ -298,7 +298,7 @@ START_TEST(errors_say_where)
   /* what the header does not declare: at the end of rows, of the file, of bytes; a stream without rows is whole */
 #define HEAD(encoding)                                                                                                           \
   "ply\nformat " encoding " 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float "        \
-                          "quality\n"
+  "quality\n"
 #define EDGE "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n"
   check_refused(HEAD("ascii") EDGE "0 0 0 nan 7\n1 0 0 -inf 7\n0 1\n", "a.ply",
                 "a.ply:12: vertex 0: the row has 5 values, the header declares 4; correct the header or export again");
