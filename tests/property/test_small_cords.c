@@ -70,7 +70,7 @@ static void example_destroy(example *x)
 /* Least cost of 1 .. most cords, limit as in walks_one_more. */
 static void all_least(const example *x, int most, double limit, double *least)
 {
-  const walks_weights by = {!x->turning, x->turning};
+  const walks_weights by = {.length = !x->turning, .turn = x->turning};
   double *in = calloc((size_t)x->w.n_states, sizeof *in), *out = calloc((size_t)x->w.n_states, sizeof *out);
   ck_assert(in != NULL && out != NULL);
   walks_begin(&x->w, in);
