@@ -397,22 +397,18 @@ thr_status thr_channel_search(thr_plan *plan, const thr_cord *before, int n_befo
   const thr_frame *frame = &plan->frame;
   const size_t n = 2 * (size_t)frame->n_edges;
   int *component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component), n_components = 0;
-  int *around = thr_scratch_array(&own, n, sizeof *around), *rank = thr_scratch_array(&own, n, sizeof *rank);
   measured was = {.passes = thr_scratch_array(&own, n, sizeof *was.passes)};
   measured is = {.passes = thr_scratch_array(&own, n, sizeof *is.passes)};
   thr_status st = thr_scratch_check(&own, err);
   *changed = false;
   if (!st) st = thr_frame_components(frame, component, &n_components, err);
-  if (!st) st = thr_channels_around(frame, around, err);
-  for (size_t i = 0; i < n && !st; i++)
-    rank[around[i]] = (int)i;
   if (!st) st = thr_channels_make(&channels, plan, err);
   for (int k = 0; k < n_components && !st; k++) {
     measure(plan, component, k, before, n_before, &was);
     measure(plan, component, k, plan->cord, plan->n_cords, &is);
     const bool crosses = has_crossing(&channels, component, frame->n_nodes, k), longer = is.length > was.length * (1 + 1e-12);
     if (is.n_cords != was.n_cords || !(crosses || longer)) continue;
-    st = search_component(plan, component, k, rank, &was, &is, crosses, changed, err);
+    st = search_component(plan, component, k, channels.rank, &was, &is, crosses, changed, err);
   }
   thr_channels_destroy(&channels);
   thr_scratch_free(&own);

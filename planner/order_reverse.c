@@ -36,8 +36,7 @@ typedef struct {
   int *chain;            /* [n + 1] scratch; owned */
   int *arm;              /* [2 n_edges] its number among those of its node; owned */
   size_t *row;           /* [n_nodes + 1] where the node's turns begin; owned */
-  int *rank;             /* [2 n_edges] of half-edges around their nodes (thr_channels_cross); NULL = channels may cross; owned */
-  thr_channels channels; /* of all cords: those of others count; owned */
+  thr_channels channels; /* of all cords: those of others count; empty = channels may cross; owned */
   int number;            /* of the cord */
   double *angle;         /* [row[n_nodes]] from arm to arm, rad; < 0 = not asked for yet; owned */
   uint64_t state;        /* of the random numbers */
@@ -292,11 +291,11 @@ static int crossings_in(const annealer *x, int v)
     if (one.in < 0 || one.out < 0) continue;
     for (int i = k + 1; i < count_visits(x); i++) {
       thr_channel other = channel_at(x, i);
-      n += x->piece[i] == v && other.in >= 0 && other.out >= 0 && thr_channels_cross(x->rank, &one, &other);
+      n += x->piece[i] == v && other.in >= 0 && other.out >= 0 && thr_channels_cross(x->channels.rank, &one, &other);
     }
     for (int i = x->channels.first[v]; i < x->channels.first[v + 1]; i++) {
       const thr_channel *other = &x->channels.channel[i];
-      n += other->cord != x->number && other->in >= 0 && other->out >= 0 && thr_channels_cross(x->rank, &one, other);
+      n += other->cord != x->number && other->in >= 0 && other->out >= 0 && thr_channels_cross(x->channels.rank, &one, other);
     }
   }
   return n;
@@ -305,22 +304,13 @@ static int crossings_in(const annealer *x, int v)
 /* Those in the nodes v and w whose channels a change changes; none for a cord that is only begun elsewhere. */
 static int crossings_of(const annealer *x, const change *c, int v, int w)
 {
-  if (!x->rank || c->kind == BEGIN) return 0;
+  if (!x->channels.rank || c->kind == BEGIN) return 0;
   return crossings_in(x, v) + (w == v ? 0 : crossings_in(x, w));
 }
 
 static bool has_channels(annealer *x, const thr_plan *plan)
 {
-  size_t n = 2 * (size_t)x->frame->n_edges;
-  if (plan->options.crossings == THR_CROSSINGS_ALLOW) return true;
-  int *around = thr_calloc(n, sizeof *around);
-  x->rank = thr_calloc(n, sizeof *x->rank);
-  bool all = around && x->rank && thr_channels_around(x->frame, around, NULL) == THR_OK &&
-             thr_channels_make(&x->channels, plan, NULL) == THR_OK;
-  for (size_t i = 0; i < n && all; i++)
-    x->rank[around[i]] = (int)i;
-  free(around);
-  return all;
+  return plan->options.crossings == THR_CROSSINGS_ALLOW || thr_channels_make(&x->channels, plan, NULL) == THR_OK;
 }
 
 /* ---- annealing ---- */
@@ -387,7 +377,6 @@ thr_status thr_order_reverse(const thr_plan *plan, int c, thr_turning_room room,
   free(x.arm);
   free(x.row);
   free(x.angle);
-  free(x.rank);
   thr_channels_destroy(&x.channels);
   return all ? THR_OK : thr_nomem(err);
 }

@@ -13,7 +13,6 @@
 
 typedef struct {
   thr_plan *plan;
-  const int *rank;
   const thr_channels *channels; /* of the plan as it was: they say in which nodes some cross */
   bool exactly;                 /* the turning must stay the same */
   bool between;                 /* cords may exchange their ends; closed ones are joined */
@@ -130,7 +129,8 @@ static thr_status uncross_pair(uncrossing *x, bool *changed, thr_err *err)
   list_channels(x);
   for (int j = 0; j < x->n; j++)
     for (int i = 0; i < j; i++)
-      if (thr_channels_cross(x->rank, &x->channel[i], &x->channel[j])) try_ways(x, &x->channel[i], &x->channel[j], &best);
+      if (thr_channels_cross(x->channels->rank, &x->channel[i], &x->channel[j]))
+        try_ways(x, &x->channel[i], &x->channel[j], &best);
   *changed = best.longer < INT_MAX;
   return *changed ? make(x->plan, &best, err) : THR_OK;
 }
@@ -164,30 +164,23 @@ static bool may_exchange(const thr_request *o)
 static thr_status uncross_cords(thr_plan *plan, bool between, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
-  size_t n = 2 * (size_t)frame->n_edges, most = 0;
+  size_t most = 0;
   thr_channels channels = {0};
-  int *around = thr_calloc(n, sizeof *around), *rank = thr_calloc(n, sizeof *rank);
-  thr_status st = around && rank ? thr_channels_around(frame, around, err) : thr_nomem(err);
-  for (int i = 0; i < (int)n && !st; i++)
-    rank[around[i]] = i;
-  if (!st) st = thr_channels_make(&channels, plan, err);
+  thr_status st = thr_channels_make(&channels, plan, err);
   for (int v = 0; v < frame->n_nodes && !st; v++)
     if ((size_t)(channels.first[v + 1] - channels.first[v]) > most) most = (size_t)(channels.first[v + 1] - channels.first[v]);
   uncrossing x = {.plan = plan,
-                  .rank = rank,
                   .channels = &channels,
                   .exactly = thr_wants_turning(&plan->options) && plan->options.crossings != THR_CROSSINGS_FORBID,
                   .between = between,
                   .channel = thr_calloc(most, sizeof *x.channel)};
-  thr_recut recut = {.rank = rank};
+  thr_recut recut = {.rank = channels.rank};
   if (!st) st = x.channel ? thr_recut_count(&recut, plan, err) : thr_nomem(err);
   if (!st) st = uncross_nodes(&x, err);
   if (!st) st = thr_recut_cords(&recut, plan, err);
   thr_recut_destroy(&recut);
   free(x.channel);
   thr_channels_destroy(&channels);
-  free(around);
-  free(rank);
   return st;
 }
 

@@ -169,8 +169,8 @@ thr_status thr_channels_make(thr_channels *channels, const thr_plan *plan, thr_e
   channels->first = thr_calloc((size_t)n + 2, sizeof *channels->first);
   channels->channel = thr_calloc((size_t)total, sizeof *channels->channel);
   int *around = thr_calloc(2 * (size_t)frame->n_edges, sizeof *around);
-  int *rank = thr_calloc(2 * (size_t)frame->n_edges, sizeof *rank);
-  thr_status st = channels->first && channels->channel && around && rank ? THR_OK : thr_nomem(err);
+  channels->rank = thr_calloc(2 * (size_t)frame->n_edges, sizeof *channels->rank);
+  thr_status st = channels->first && channels->channel && around && channels->rank ? THR_OK : thr_nomem(err);
   if (!st) st = thr_channels_around(frame, around, err);
   if (st) goto done;
   each_channel(plan, count_channel, channels);
@@ -178,18 +178,18 @@ thr_status thr_channels_make(thr_channels *channels, const thr_plan *plan, thr_e
     channels->first[v + 2] += channels->first[v + 1];
   each_channel(plan, add_channel, channels);
   for (int i = 0; i < 2 * frame->n_edges; i++)
-    rank[around[i]] = i;
+    channels->rank[around[i]] = i;
   for (int v = 0; v < n; v++)
-    find_crossings(channels, v, rank);
+    find_crossings(channels, v, channels->rank);
 done:
   free(around);
-  free(rank);
   if (st) thr_channels_destroy(channels);
   return st;
 }
 
 void thr_channels_destroy(thr_channels *channels)
 {
+  free(channels->rank);
   free(channels->first);
   free(channels->channel);
   *channels = (thr_channels){0};

@@ -16,6 +16,7 @@ typedef struct {
 
 /* {0} is valid and empty. Arrays are owned. */
 typedef struct {
+  int *rank;            /* [2 * n_edges] places of half-edges in `around` (thr_channels_around) */
   int *first;           /* [n_nodes + 1] */
   thr_channel *channel; /* those of node v: channel[first[v] .. first[v + 1] - 1], by cord and pass */
   int64_t crossings;    /* pairs of channels that cross, of all nodes */
@@ -34,7 +35,7 @@ void thr_channels_destroy(thr_channels *channels);
  * rotation is that of no side. Arms in one line stand by ascending number. O(n log n). */
 thr_status thr_channels_around(const thr_frame *frame, int *around, thr_err *err) THR_MUST_CHECK;
 
-/* Do two channels of a node cross? rank[2 * n_edges]: places of half-edges in `around`. */
+/* Do two channels of a node cross? rank: as in thr_channels. */
 bool thr_channels_cross(const int *rank, const thr_channel *a, const thr_channel *b);
 
 #endif
