@@ -50,10 +50,8 @@ thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err 
 
 void thr_pull_claim_destroy(thr_pull_claim *claim)
 {
-  for (int i = 0; i < claim->n_parts; i++) {
-    thr_turning_proof_destroy(&claim->part[i].tree);
-    thr_walk_proof_destroy(&claim->part[i].walks);
-  }
+  for (int i = 0; i < claim->n_parts; i++)
+    thr_pull_claim_destroy(&claim->part[i]);
   free(claim->part);
   thr_turning_proof_destroy(&claim->tree);
   thr_walk_proof_destroy(&claim->walks);

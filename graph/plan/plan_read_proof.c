@@ -194,6 +194,17 @@ static thr_status read_cords_claim(const thr_field_reader *field_reader, const t
   return st ? st : thr_field_int(field_reader, fewest, "lower_bound", 1, INT32_MAX, &claim->fewest);
 }
 
+/* Reads what every claim of the number of cords has, of the whole or of a part. */
+static thr_status read_fewest(const thr_field_reader *field_reader, const thr_json *value, const char *name,
+                              const char *const *known, thr_pull_claim *claim)
+{
+  thr_status st = thr_field_only(field_reader, value, name, known);
+  if (!st) st = get_status(field_reader, value, name, &claim->optimal);
+  if (!st) st = thr_field_int(field_reader, value, "lower_bound", 1, INT32_MAX, &claim->fewest);
+  claim->present = !st;
+  return st;
+}
+
 static thr_status read_pull_claim(const thr_field_reader *field_reader, const thr_json *value, const char *name,
                                   const thr_frame *frame, thr_pull_claim *claim)
 {
@@ -202,10 +213,7 @@ static thr_status read_pull_claim(const thr_field_reader *field_reader, const th
   static const char *const by_edges[] = {"status", "lower_bound", "excluded", NULL};
   const thr_json *proof = thr_json_get(value, "proof"), *walks = thr_json_get(value, "walks");
   char place[256], cut[64];
-  thr_status st = thr_field_only(field_reader, value, name, walks ? by_walks : proof ? by_tree : by_edges);
-  if (!st) st = get_status(field_reader, value, name, &claim->optimal);
-  if (!st) st = thr_field_int(field_reader, value, "lower_bound", 1, INT32_MAX, &claim->fewest);
-  if (!st) claim->present = true;
+  thr_status st = read_fewest(field_reader, value, name, walks ? by_walks : proof ? by_tree : by_edges, claim);
   if (st || (!proof && !walks && !thr_json_get(value, "excluded"))) return st;
   st = thr_field_int(field_reader, value, "excluded", 1, THR_MOST_CORDS, &claim->excluded);
   snprintf(place, sizeof place, "%.200s: %.32s.walks", field_reader->name, name);
@@ -254,11 +262,8 @@ static thr_status read_whole_pull_claim(const thr_field_reader *field_reader, co
   thr_pull_claim *claim = &plan->pull_claim;
   const thr_json *parts;
   if (!thr_json_get(value, "parts")) return read_pull_claim(field_reader, value, "proof.pull", &plan->frame, claim);
-  thr_status st = thr_field_only(field_reader, value, "proof.pull", by_parts);
-  if (!st) st = get_status(field_reader, value, "proof.pull", &claim->optimal);
-  if (!st) st = thr_field_int(field_reader, value, "lower_bound", 1, INT32_MAX, &claim->fewest);
+  thr_status st = read_fewest(field_reader, value, "proof.pull", by_parts, claim);
   if (!st) st = thr_field_need(field_reader, value, "parts", THR_JSON_ARRAY, &parts);
-  if (!st) claim->present = true;
   return st ? st : read_pull_parts(field_reader, parts, plan, claim);
 }
 
