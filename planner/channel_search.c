@@ -313,8 +313,7 @@ static void measure(const thr_plan *plan, const int *component, int k, const thr
     m->n_cords++;
     m->longest = fmax(m->longest, thr_cord_length(frame, &cord[c]));
     m->turning = turning_of(plan, &cord[c], m->turning);
-    for (int i = 0; i < cord[c].n_passes; i++)
-      m->passes[cord[c].half[i] >> 1]++;
+    thr_cords_add_passes(&cord[c], 1, 1, m->passes);
   }
   for (int e = 0; e < frame->n_edges; e++)
     m->length += m->passes[e] * frame->length[e];

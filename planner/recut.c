@@ -181,9 +181,7 @@ static thr_status add_loops(const thr_recut *recut, thr_plan *plan, int componen
 {
   int *passes = thr_calloc((size_t)plan->frame.n_edges, sizeof *passes);
   thr_status st = passes ? THR_OK : thr_nomem(err);
-  for (int c = 0; c < plan->n_cords && !st; c++)
-    for (int k = 0; k < plan->cord[c].n_passes; k++)
-      passes[plan->cord[c].half[k] >> 1]++;
+  if (!st) thr_cords_add_passes(plan->cord, plan->n_cords, 1, passes);
   for (bool done = true; missing > 0 && done && !st; missing -= done)
     st = add_loop(recut, plan, component, passes, &done, err);
   free(passes);

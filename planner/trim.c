@@ -94,9 +94,7 @@ static void choose(trimming *t, int end)
 static void prepare(trimming *t)
 {
   const thr_frame *frame = &t->plan->frame;
-  for (int i = 0; i < t->plan->n_cords; i++)
-    for (int k = 0; k < t->plan->cord[i].n_passes; k++)
-      t->spare[t->plan->cord[i].half[k] >> 1]++;
+  thr_cords_add_passes(t->plan->cord, t->plan->n_cords, 1, t->spare);
   for (int e = 0; e < frame->n_edges; e++) {
     t->spare[e] -= thr_plan_cover(frame, &t->plan->options, e);
     if (t->spare[e] > 0) t->room += t->spare[e] * frame->length[e];

@@ -202,25 +202,25 @@ static bool serves(const thr_plan *plan, int n_cords, int distinct, double longe
          thr_cords_longest(&plan->frame, plan->cord, plan->n_cords) <= limit * (1 + 1e-12);
 }
 
-/* Each cord by itself, and those of different cords too if what is asked of single cords is kept. */
-static thr_status uncross(thr_plan *plan, thr_err *err)
+/* Each cord by itself, and those of different cords too if what is asked of single cords is kept. before[n]: a copy of the cords.
+ */
+static thr_status uncross(thr_plan *plan, const thr_cord *before, int n, thr_err *err)
 {
-  const int n = plan->n_cords, distinct = plan->metrics.distinct;
+  const int distinct = plan->metrics.distinct;
   const double longest = thr_cords_longest(&plan->frame, plan->cord, n);
-  thr_cord *before = NULL;
+  thr_cord *again;
   if (n == 1 || !may_exchange(&plan->options)) {
     thr_status st = uncross_cords(plan, false, err);
     return st ? st : measure(plan, err);
   }
-  thr_status st = thr_cords_copy(plan->cord, n, &before, err);
-  if (!st) st = uncross_cords(plan, true, err);
+  thr_status st = uncross_cords(plan, true, err);
   if (!st) st = measure(plan, err);
-  if (st || serves(plan, n, distinct, longest)) {
-    thr_cords_destroy(before, n);
-    return st;
-  }
+  if (st || serves(plan, n, distinct, longest)) return st;
+
+  st = thr_cords_copy(before, n, &again, err);
+  if (st) return st;
   thr_cords_destroy(plan->cord, plan->n_cords);
-  plan->cord = before;
+  plan->cord = again;
   plan->n_cords = n;
   st = uncross_cords(plan, false, err);
   return st ? st : measure(plan, err);
@@ -278,12 +278,8 @@ static thr_status compare_passes(const thr_plan *plan, const thr_cord *before, i
 {
   int *more = thr_calloc((size_t)plan->frame.n_edges, sizeof *more);
   if (!more) return thr_nomem(err);
-  for (int c = 0; c < plan->n_cords; c++)
-    for (int k = 0; k < plan->cord[c].n_passes; k++)
-      more[plan->cord[c].half[k] >> 1]++;
-  for (int c = 0; c < n_before; c++)
-    for (int k = 0; k < before[c].n_passes; k++)
-      more[before[c].half[k] >> 1]--;
+  thr_cords_add_passes(plan->cord, plan->n_cords, 1, more);
+  thr_cords_add_passes(before, n_before, -1, more);
   *others = false;
   for (int e = 0; e < plan->frame.n_edges; e++)
     *others |= more[e] != 0;
@@ -300,10 +296,10 @@ thr_status thr_plan_uncross(thr_plan *plan, bool *others, thr_err *err)
   *others = false;
   if (plan->options.crossings == THR_CROSSINGS_ALLOW || plan->n_cords == 0) return THR_OK;
   thr_status st = thr_cords_copy(plan->cord, n_before, &before, err);
-  if (!st) st = uncross(plan, err);
+  if (!st) st = uncross(plan, before, n_before, err);
   if (!st) st = search_again(plan, before, n_before, err);
   if (!st) st = compare_passes(plan, before, n_before, others, err);
-  if (before) thr_cords_destroy(before, n_before);
+  thr_cords_destroy(before, n_before);
   if (st) return st;
 
   if (!*others) plan->metrics.length = length; /* to the last bit */

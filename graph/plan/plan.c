@@ -48,6 +48,13 @@ thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err 
   return thr_nomem(err);
 }
 
+void thr_cords_add_passes(const thr_cord *cord, int n, int by, int *passes)
+{
+  for (int c = 0; c < n; c++)
+    for (int k = 0; k < cord[c].n_passes; k++)
+      passes[cord[c].half[k] >> 1] += by;
+}
+
 void thr_pull_claim_destroy(thr_pull_claim *claim)
 {
   for (int i = 0; i < claim->n_parts; i++)

@@ -179,6 +179,9 @@ bool thr_plan_take_evaluation(thr_plan *plan, thr_evaluation *evaluation);
 void thr_cords_destroy(thr_cord *cord, int n); /* cord[n] and their half arrays; NULL ok */
 thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err *err) THR_MUST_CHECK; /* NULL on failure */
 
+/* Adds to passes[n_edges] how often the cords pass each edge, times by. O(passes). */
+void thr_cords_add_passes(const thr_cord *cord, int n, int by, int *passes);
+
 /* Copies framework and options into an empty plan. */
 thr_status thr_plan_request(thr_plan *plan, const thr_frame *framework, const thr_request *wishes, thr_err *err) THR_MUST_CHECK;
 void thr_cord_id(int i, char id[12]); /* 0 -> "A", 25 -> "Z", 26 -> "AA" */
