@@ -25,8 +25,8 @@ enum { OPEN = -1, END = -2 }; /* of a pass's end: nothing is chosen yet, a cord 
 
 typedef struct {
   const thr_plan *plan;
-  const int *rank; /* of half-edges around their nodes */
-  int n_edges, *edge;
+  const int *rank;                    /* of half-edges around their nodes */
+  int n_edges, *edge, n_nodes, *node; /* of the component, ascending */
   int n_cords;
   int64_t steps, limit; /* channels tried, and where this join's search ends */
 
@@ -185,7 +185,6 @@ static bool lead_on(search *s, int k)
 /* Is there a way to lead the cords over so many passes of each edge? */
 static bool try_join(search *s, const unsigned char *passes)
 {
-  const thr_frame *frame = &s->plan->frame;
   int n = 0, placed = 0;
   for (int i = 0; i < s->n_edges; i++)
     for (int k = 0; k < passes[i]; k++, n += 2) {
@@ -193,14 +192,15 @@ static bool try_join(search *s, const unsigned char *passes)
       s->arm[n + 1] = 2 * s->edge[i] + 1;
     }
   s->n_ends = n;
-  for (int v = 0; v < frame->n_nodes; v++)
+  for (int i = 0; i < s->n_nodes; i++) {
+    s->node_ends[s->node[i]] = 0;
     for (int x = 0; x < n; x++)
-      if (node_of(s, x) == v) s->order[placed++] = x;
+      if (node_of(s, x) == s->node[i]) s->order[placed++] = x;
+  }
   for (int x = 0; x < n; x++) {
     s->mate[x] = OPEN;
     s->far[x] = x ^ 1;
   }
-  memset(s->node_ends, 0, (size_t)frame->n_nodes * sizeof *s->node_ends);
   s->n_closed = s->n_single = 0;
   s->limit = s->steps + most_steps_of_join < most_steps ? s->steps + most_steps_of_join : most_steps;
   return lead_on(s, 0);
@@ -366,10 +366,13 @@ static thr_status search_component(thr_plan *plan, const int *component, int k, 
   s.order = thr_scratch_array(&own, 2 * (size_t)n_passes, sizeof *s.order);
   s.mate = thr_scratch_array(&own, 2 * (size_t)n_passes, sizeof *s.mate);
   s.far = thr_scratch_array(&own, 2 * (size_t)n_passes, sizeof *s.far);
+  s.node = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *s.node);
   s.node_ends = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *s.node_ends);
   s.cord = thr_scratch_array(&own, (size_t)s.n_cords, sizeof *s.cord);
   st = thr_scratch_check(&own, err);
   if (st) goto done;
+  for (int v = 0; v < frame->n_nodes; v++)
+    if (component[v] == k) s.node[s.n_nodes++] = v;
   bool found = try_join(&s, first.passes);
   if (!found && !s.status) st = try_joins(&s, limit, most, &found, err);
   if (s.status) st = thr_nomem(err);
@@ -394,7 +397,7 @@ thr_status thr_channel_search(thr_plan *plan, const thr_cord *before, int n_befo
   thr_scratch own = {0};
   thr_channels channels = {0};
   const thr_frame *frame = &plan->frame;
-  const size_t n = 2 * (size_t)frame->n_edges;
+  const size_t n = (size_t)frame->n_edges;
   int *component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component), n_components = 0;
   measured was = {.passes = thr_scratch_array(&own, n, sizeof *was.passes)};
   measured is = {.passes = thr_scratch_array(&own, n, sizeof *is.passes)};

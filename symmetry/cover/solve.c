@@ -211,12 +211,15 @@ static thr_status check_fewest(const solver *s, const thr_quotient *quotient, th
 static thr_status find_proved_infeasible(const solver *s, const thr_quotient *quotient, bool *proved, thr_err *err)
 {
   const int n = s->f->n_nodes;
-  thr_programme p;
+  thr_status st = THR_OK;
   bool *can_end = thr_calloc((size_t)n, sizeof *can_end);
   if (!can_end) return thr_nomem(err);
-  const thr_status st = thr_programme_init(&p, quotient, &s->how, &(thr_err){0});
-  if (!st) thr_programme_destroy(&p);
-  *proved = st == THR_EINFEASIBLE && s->how.tube;
+  if (s->how.tube) {
+    thr_programme p;
+    st = thr_programme_init(&p, quotient, &s->how, &(thr_err){0});
+    if (!st) thr_programme_destroy(&p);
+  }
+  *proved = st == THR_EINFEASIBLE;
   for (int v = 0; v < n; v++)
     can_end[s->component[v]] |= s->how.ends == THR_ENDS_CLOSED || thr_plan_end_allowed(s->f, s->o, v);
   for (int v = 0; v < n; v++)
