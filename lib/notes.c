@@ -16,6 +16,9 @@ static void put_report(thr_text *out, const thr_read_report *report)
   if (report->skipped_records)
     thr_text_printf(out, "%d %s not used (the first is %s)\n", report->skipped_records,
                     report->skipped_records == 1 ? "record" : "records", report->skipped_kind);
+  if (report->missing_blocks)
+    thr_text_printf(out, "%d %s of blocks that are not in the file left out (the first is %s)\n", report->missing_blocks,
+                    report->missing_blocks == 1 ? "insertion" : "insertions", report->missing_block);
   put_count(out, report->split_edges, "edge", "edges", "cut where a node lies on it");
   if (report->unused[0]) thr_text_printf(out, "columns that are not used: %s\n", report->unused);
   const int left = report->frameworks - report->frameworks_read;

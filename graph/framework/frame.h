@@ -82,18 +82,20 @@ void thr_draft_destroy(thr_draft *draft);
 typedef struct {
   double weld_tolerance; /* in units */
   int nodes_read, edges_read;
-  int welded_nodes;      /* merged into an earlier node */
-  int duplicate_edges;   /* dropped */
-  int zero_length_edges; /* dropped: both ends weld to one node */
-  int isolated_nodes;    /* dropped: no edge */
-  int skipped_records;   /* records of the file that the reader knows but does not use (set by the reader) */
-  char skipped_kind[32]; /* the first such record's keyword */
-  bool turned;           /* y was taken to point up, because the file's maker is known to write that */
-  bool lies;             /* z was taken to point up, but it may be y: the structure seems to lie on its side */
-  bool no_units;         /* nobody said what one unit is */
-  bool no_z;             /* no node has a z: the framework is flat */
-  int empty_z;           /* coordinates z left empty where others are not: taken as 0 */
-  int frameworks;        /* that the file holds, and how many were read as one; 0 = the format holds one only */
+  int welded_nodes;       /* merged into an earlier node */
+  int duplicate_edges;    /* dropped */
+  int zero_length_edges;  /* dropped: both ends weld to one node */
+  int isolated_nodes;     /* dropped: no edge */
+  int skipped_records;    /* records of the file that the reader knows but does not use (set by the reader) */
+  char skipped_kind[32];  /* the first such record's keyword */
+  int missing_blocks;     /* insertions of blocks that the file does not hold, left out */
+  char missing_block[32]; /* the first one's name */
+  bool turned;            /* y was taken to point up, because the file's maker is known to write that */
+  bool lies;              /* z was taken to point up, but it may be y: the structure seems to lie on its side */
+  bool no_units;          /* nobody said what one unit is */
+  bool no_z;              /* no node has a z: the framework is flat */
+  int empty_z;            /* coordinates z left empty where others are not: taken as 0 */
+  int frameworks;         /* that the file holds, and how many were read as one; 0 = the format holds one only */
   int frameworks_read;
   int split_edges;  /* cut where a node lies on them */
   char unused[120]; /* columns of a table that mean nothing, with commas */

@@ -13,10 +13,12 @@
 #include "graph/io/scan.h"
 #include "graph/io/sites.h"
 #include "graph/status.h"
+#include "graph/text.h"
 #include "graph/vector.h"
 
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,9 +49,10 @@ typedef struct {
 } shape;
 
 typedef struct {
-  thr_span name;
+  thr_span name; /* empty: a section ENTITIES, whose shapes are the model's */
   double base[3];
   int first, last; /* shapes */
+  bool external;   /* it stands for another file */
 } block;
 
 typedef struct {
@@ -130,6 +133,13 @@ static thr_status fail(dxf *d, const char *what)
 {
   d->scan.line = d->type_line;
   return thr_scan_fail(&d->scan, d->err, "this %.*s %s", thr_span_width(d->type), d->type.s, what);
+}
+
+/* Counts the entity as one that is not used. */
+static thr_status leave_out(dxf *d)
+{
+  thr_report_skip(d->report, d->type);
+  return THR_OK;
 }
 
 /* The first pair with the code, NULL if there is none. */
@@ -262,14 +272,26 @@ static double arc_length(const double a[3], const double b[3], double bulge)
   return bulge == 0 || half <= 0 ? 0 : distance(a, b) * angle / (2 * half);
 }
 
-/* d->vertex as segments. */
+/* Adds an arc as two edges that meet in its middle. */
+static thr_status add_halves(dxf *d, const placing *p, const double a[3], const double b[3], double bulge)
+{
+  /* The middle lies beside that of the chord, to its right where the bulge is positive. */
+  const double middle[3] = {(a[0] + b[0] + bulge * (b[1] - a[1])) / 2, (a[1] + b[1] - bulge * (b[0] - a[0])) / 2, a[2]};
+  const double half = arc_length(a, b, bulge) / 2;
+  thr_status st = add_segment(d, p, a, middle, half);
+  return st ? st : add_segment(d, p, middle, b, half);
+}
+
+/* Adds d->vertex as segments. Two arcs between the same two vertices, like those of a circle, would be one edge: both get a node
+ * in their middle. */
 static thr_status add_polyline(dxf *d, const placing *p, bool closed)
 {
   thr_status st = THR_OK;
-  int n = d->n_vertices;
-  for (int i = 0; i < (closed && n > 2 ? n : n - 1) && !st; i++) {
-    int j = (i + 1) % n;
-    st = add_segment(d, p, d->vertex[i], d->vertex[j], arc_length(d->vertex[i], d->vertex[j], d->bulge[i]));
+  const int n = d->n_vertices;
+  const bool lens = closed && n == 2 && (d->bulge[0] != 0 || d->bulge[1] != 0);
+  for (int i = 0; i < (closed && (n > 2 || lens) ? n : n - 1) && !st; i++) {
+    const double *a = d->vertex[i], *b = d->vertex[(i + 1) % n], bulge = d->bulge[i];
+    st = lens && bulge != 0 ? add_halves(d, p, a, b, bulge) : add_segment(d, p, a, b, arc_length(a, b, bulge));
   }
   return st;
 }
@@ -412,8 +434,7 @@ static thr_status use_spline(dxf *d, const thr_spline *s, int n_knots, int n_wei
       st = add_segment(d, &unmoved, s->control[i], s->control[i + 1], 0);
     return st;
   }
-  if (n_knots != s->n + s->degree + 1 || (n_weights && n_weights != s->n) || !thr_spline_is_sound(s))
-    return fail(d, "has knots, weights and control points that do not fit together");
+  if (n_knots != s->n + s->degree + 1 || (n_weights && n_weights != s->n) || !thr_spline_is_sound(s)) return leave_out(d);
   double a[3], b[3];
   thr_spline_point(s, s->knot[s->degree], a);
   thr_spline_point(s, s->knot[s->n], b);
@@ -428,9 +449,10 @@ static thr_status read_spline(dxf *d)
   thr_status st = whole(d, 71, &degree);
   for (int i = 0; i < 5 && !st; i++)
     st = values_of(d, code[i], &value[i], &n[i]);
-  if (!st && (n[0] < 2 || n[1] != n[0] || (n[2] && n[2] != n[0]))) st = fail(d, "has no control points with x, y and z");
-  if (!st && !(control = thr_calloc((size_t)n[0], sizeof *control))) st = thr_nomem(d->err);
-  if (!st) {
+  const bool controlled = n[0] >= 2 && n[1] == n[0] && (!n[2] || n[2] == n[0]);
+  if (!st && !controlled) st = leave_out(d); /* it may have points to go through only */
+  if (!st && controlled && !(control = thr_calloc((size_t)n[0], sizeof *control))) st = thr_nomem(d->err);
+  if (!st && controlled) {
     for (int i = 0; i < n[0]; i++)
       for (int k = 0; k < 3; k++)
         control[i][k] = n[k] ? value[k][i] : 0;
@@ -445,8 +467,8 @@ static thr_status read_spline(dxf *d)
 
 /* ---- POLYLINE: its vertices are entities of their own ---- */
 
-enum { CLOSED = 1, SPACE = 8, MESH = 16, CLOSED_N = 32, POLYFACE = 64 }; /* code 70 of a POLYLINE */
-enum { FRAME_POINT = 16, FACE_RECORD = 128, FACE_PLACE = 64 };           /* of a VERTEX */
+enum { CLOSED = 1, SPLINE_FIT = 4, SPACE = 8, MESH = 16, CLOSED_N = 32, POLYFACE = 64 }; /* code 70 of a POLYLINE */
+enum { FRAME_POINT = 16, FACE_RECORD = 128, FACE_PLACE = 64 };                           /* of a VERTEX */
 
 /* A face record of a polyface mesh: numbers of vertices from 1, negative where the side after it is hidden. */
 static thr_status read_face_record(dxf *d)
@@ -496,12 +518,17 @@ static thr_status read_polyline(dxf *d)
   placing own;
   int flags, m, n;
   double elevation;
+  const pair *height = find(d, 30) ? find(d, 30) : find(d, 38);
   const bool skipped = is_skipped(d);
   const int first_shape = d->n_shapes;
   thr_status st = whole(d, 70, &flags);
-  if (!st) st = whole(d, 71, &m);
-  if (!st) st = whole(d, 72, &n);
-  if (!st) st = number(d, 30, 0, &elevation);
+
+  /* The vertices of a smoothed mesh that are not control points are a mesh of its own density. */
+  const bool smooth = !st && (flags & (MESH | SPLINE_FIT)) == (MESH | SPLINE_FIT);
+  if (!st) st = whole(d, smooth ? 73 : 71, &m);
+  if (!st) st = whole(d, smooth ? 74 : 72, &n);
+  elevation = 0;
+  if (!st && height) st = number_of(d, height, &elevation);
   if (!st) st = own_coordinates(d, &own);
   d->n_vertices = 0;
   while (!st && thr_span_is(d->next.value, "VERTEX")) {
@@ -509,6 +536,10 @@ static thr_status read_polyline(dxf *d)
     if (!st) st = read_vertex(d, flags);
   }
   if (!st && thr_span_is(d->next.value, "SEQEND")) st = take_entity(d);
+
+  /* All vertices of a 2-D polyline have its elevation. Where that is 0 those that say a height of their own keep it. */
+  for (int i = 0; i < d->n_vertices && elevation != 0 && !(flags & (SPACE | MESH | POLYFACE)); i++)
+    d->vertex[i][2] = elevation;
   if (!st && flags & MESH)
     st = add_mesh(d, m, n, flags & CLOSED, flags & CLOSED_N);
   else if (!st && !(flags & POLYFACE))
@@ -587,8 +618,7 @@ static thr_status read_entity(dxf *d)
   if (is_skipped(d)) return THR_OK;
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
     if (thr_span_is(d->type, known[i].type)) return known[i].read(d);
-  if (!thr_span_is(d->type, "ATTRIB") && !thr_span_is(d->type, "SEQEND")) thr_report_skip(d->report, d->type);
-  return THR_OK;
+  return thr_span_is(d->type, "ATTRIB") || thr_span_is(d->type, "SEQEND") ? THR_OK : leave_out(d);
 }
 
 /* Entities up to the pair 0 that ends them. */
@@ -604,9 +634,13 @@ static thr_status read_block(dxf *d)
 {
   thr_status st = take_entity(d);
   const pair *name = find(d, 2);
-  block b = {name ? name->value : (thr_span){0}, {0}, d->n_shapes, 0};
+  int flags = 0;
+  block b = {.name = name ? name->value : (thr_span){0}, .first = d->n_shapes};
+  if (!st) st = whole(d, 70, &flags);
   if (!st) st = point_of(d, 10, b.base);
+  b.external = flags & (4 | 8); /* an external reference, or an overlay */
   if (!st) st = read_entities(d, "ENDBLK");
+  if (b.name.n == 0) d->n_shapes = b.first; /* nothing can insert it */
   b.last = d->n_shapes;
   if (!st) st = thr_grow(&d->block, d->n_blocks, &d->blocks_capacity, sizeof *d->block, d->err);
   if (!st) d->block[d->n_blocks++] = b;
@@ -633,8 +667,18 @@ static thr_status read_header(dxf *d)
   return thr_dxf_unit(unit) ? thr_draft_set_units(d->draft, thr_dxf_unit(unit), d->err) : THR_OK;
 }
 
-/* *model receives the shapes of the section ENTITIES. */
-static thr_status read_sections(dxf *d, block *model)
+/* Reads a section ENTITIES as a block without a name. A file may have several of them. */
+static thr_status read_model(dxf *d)
+{
+  block model = {.first = d->n_shapes};
+  thr_status st = read_entities(d, "ENDSEC");
+  model.last = d->n_shapes;
+  if (!st) st = thr_grow(&d->block, d->n_blocks, &d->blocks_capacity, sizeof *d->block, d->err);
+  if (!st) d->block[d->n_blocks++] = model;
+  return st;
+}
+
+static thr_status read_sections(dxf *d)
 {
   thr_status st = look(d);
   while (!st && !d->ended && !thr_span_is(d->next.value, "EOF")) {
@@ -644,22 +688,58 @@ static thr_status read_sections(dxf *d, block *model)
     const thr_span name = said->value;
     if (thr_span_is(name, "HEADER")) st = read_header(d);
     if (!st && thr_span_is(name, "BLOCKS")) st = read_blocks(d);
-    if (!st && thr_span_is(name, "ENTITIES")) {
-      model->first = d->n_shapes;
-      st = read_entities(d, "ENDSEC");
-      model->last = d->n_shapes;
-    }
+    if (!st && thr_span_is(name, "ENTITIES")) st = read_model(d);
   }
   return st;
 }
 
 /* ---- placing ---- */
 
-static const block *find_block(const dxf *d, thr_span name)
+/* Counts an insertion of a block that the file does not hold. */
+static void miss_block(dxf *d, thr_span name)
 {
-  for (int i = 0; i < d->n_blocks; i++)
-    if (name.n > 0 && d->block[i].name.n == name.n && memcmp(d->block[i].name.s, name.s, name.n) == 0) return &d->block[i];
-  return NULL;
+  thr_read_report *r = d->report;
+  if (r->missing_blocks++) return;
+  snprintf(r->missing_block, sizeof r->missing_block, "%.*s", name.n < 31 ? (int)name.n : 31, name.s);
+  thr_text_clean(r->missing_block);
+}
+
+/* Returns c, or the small letter of a capital one: of ASCII, and after the byte C3 of UTF-8 of Latin-1. */
+static unsigned char small(unsigned char before, unsigned char c)
+{
+  const bool capital = (c >= 'A' && c <= 'Z') || (before == 0xc3 && c >= 0x80 && c <= 0x9e && c != 0x97);
+  return capital ? c + 32 : c;
+}
+
+/* Are two names of a table of the drawing the same? Their letter case does not matter. */
+static bool same_name(thr_span a, thr_span b)
+{
+  bool same = a.n == b.n;
+  for (size_t i = 0; i < a.n && same; i++) {
+    const unsigned char before = i ? (unsigned char)a.s[i - 1] : 0;
+    same = small(before, (unsigned char)a.s[i]) == small(before, (unsigned char)b.s[i]);
+  }
+  return same;
+}
+
+/* Finds the block of a name in the same letter case, else in any. *found is NULL if there is none; THR_EINPUT if there are two
+ * that are not empty. */
+static thr_status find_block(const dxf *d, thr_span name, const block **found)
+{
+  bool exact = false, twice = false;
+  *found = NULL;
+  for (const block *b = d->block; b < d->block + d->n_blocks; b++) {
+    if (name.n == 0 || !same_name(b->name, name)) continue;
+    const bool same = memcmp(b->name.s, name.s, name.n) == 0, better = !*found || (*found)->first == (*found)->last;
+    if (exact && !same) continue;
+    twice = same == exact && !better && b->first < b->last;
+    if (same > exact || better) *found = b;
+    exact |= same;
+    if (twice) break;
+  }
+  if (!twice) return THR_OK;
+  return thr_fail(d->err, THR_EINPUT, "%s: two blocks are called '%.*s', and it is inserted; rename one of them", d->scan.name,
+                  thr_span_width(name), name.s);
 }
 
 /* A run of points; a curve is stretched as its chord is. */
@@ -698,10 +778,13 @@ static thr_status place_shapes(dxf *d, int first, int last, const placing *p, in
       continue;
     }
     const insertion *in = &d->inserted[s->first];
-    const block *b = find_block(d, in->block);
-    if (!b)
-      return thr_fail(d->err, THR_EINPUT, "%s: the block '%.*s' is inserted and not there", d->scan.name,
-                      thr_span_width(in->block), in->block.s);
+    const block *b;
+    st = find_block(d, in->block, &b);
+    if (st) return st;
+    if (!b || (b->external && b->first == b->last)) {
+      miss_block(d, in->block);
+      continue;
+    }
     if (depth == MOST_NESTED || ++d->n_placed > MOST_INSERTED)
       return thr_fail(d->err, THR_EINPUT, "%s: blocks are nested more than %d deep, or inserted more than %d times", d->scan.name,
                       MOST_NESTED, MOST_INSERTED);
@@ -715,12 +798,21 @@ static thr_status place_shapes(dxf *d, int first, int last, const placing *p, in
   return st;
 }
 
+static thr_status place_model(dxf *d)
+{
+  thr_status st = THR_OK;
+  for (int i = 0; i < d->n_blocks && !st; i++)
+    if (d->block[i].name.n == 0) st = place_shapes(d, d->block[i].first, d->block[i].last, &unmoved, d->ground, 0);
+  return st;
+}
+
 /* The runs of two as edges, the rings as sides of faces. */
 static thr_status fill_draft(dxf *d)
 {
   if (d->faces.n == 0)
-    return thr_fail(d->err, THR_EINPUT, "%s: no lines, polylines, faces or curves in its model%s%s", d->scan.name,
-                    d->report->skipped_records ? ", but others: " : "", d->report->skipped_kind);
+    return thr_fail(d->err, THR_EINPUT, "%s: no lines, polylines, faces or curves in its model%s%s%s%s", d->scan.name,
+                    d->report->skipped_records ? ", but others: " : "", d->report->skipped_kind,
+                    d->report->missing_blocks ? "; a block that is not in the file: " : "", d->report->missing_block);
   thr_faces rings = {0};
   int *node = thr_calloc((size_t)d->sites.n, sizeof *node);
   thr_status st = node ? thr_sites_finish(&d->sites, node, d->draft, d->err) : thr_nomem(d->err);
@@ -739,13 +831,14 @@ static thr_status fill_draft(dxf *d)
 }
 
 /* Layer 0 comes last: what stands on it is counted only where it is placed. */
-static thr_status choose_layers(dxf *d, const block *model)
+static thr_status choose_layers(dxf *d)
 {
   bool grounded = false;
   thr_status st = THR_OK;
   d->ground = -1;
-  for (int i = model->first; i < model->last; i++)
-    grounded |= d->shape[i].layer < 0;
+  for (const block *b = d->block; b < d->block + d->n_blocks; b++)
+    for (int i = b->first; i < b->last && b->name.n == 0; i++)
+      grounded |= d->shape[i].layer < 0;
   if (grounded && d->parts.asked) st = thr_parts_find(&d->parts, thr_span_of("0"), &d->ground, d->err);
   return st ? st : thr_parts_choose(&d->parts, d->scan.name, "layer", "layers", d->err);
 }
@@ -767,14 +860,13 @@ static void destroy(dxf *d)
 static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
 {
   dxf d = {.draft = draft, .report = report, .err = err, .parts = {.asked = draft->pick}};
-  block model = {0};
   thr_status st = THR_OK;
   if (n >= sizeof binary - 1 && memcmp(text, binary, sizeof binary - 1) == 0)
     st = thr_fail(err, THR_EINPUT, "%s: binary DXF is not read; export it as text", name);
   if (!st) st = thr_scan_start(&d.scan, text, n, name, err);
-  if (!st) st = read_sections(&d, &model);
-  if (!st) st = choose_layers(&d, &model);
-  if (!st) st = place_shapes(&d, model.first, model.last, &unmoved, d.ground, 0);
+  if (!st) st = read_sections(&d);
+  if (!st) st = choose_layers(&d);
+  if (!st) st = place_model(&d);
   if (!st) st = fill_draft(&d);
   thr_parts_finish(&d.parts, report);
   destroy(&d);

@@ -38,7 +38,7 @@ while IFS= read -r row; do
   [ "$(count "$scratch/nameless")" = "$got" ] || { echo "$file: read otherwise without its name" && fine=; }
   for type in json obj csv ply dxf graphml; do
     "$thread" convert -q "$folder/$file" -o "$scratch/again.$type"
-    case $file$type in ezdxf-all.dxf[^jgc]*) continue ;; esac # curves, whose lengths these do not keep
+    case $file$type in ezdxf-all.dxf[^jgc]* | dxf-two-vertex-circle.dxf[^jgc]*) continue ;; esac # curves, whose lengths these do not keep
     [ "$(count "$scratch/again.$type")" = "$got" ] || { echo "$file: not the same as $type" && fine=; }
   done
   [ -z "$fine" ] || right=$((right + 1))

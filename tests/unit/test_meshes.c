@@ -445,14 +445,54 @@ END_TEST
 
 #define DXF(entities) "0\nSECTION\n2\nENTITIES\n" entities "0\nENDSEC\n0\nEOF\n"
 
+#define ROD(name, length) "0\nBLOCK\n2\n" name "\n0\nLINE\n11\n" length "\n0\nENDBLK\n"
+
+static double length_of(const char *text)
+{
+  thr_read_report r;
+  const thr_read_options options = thr_read_options_default();
+  thr_frame f = read_file(text, "a.dxf", &options, &r);
+  const double length = thr_frame_total_length(&f);
+  thr_frame_destroy(&f);
+  return length;
+}
+
+/* Lengths by hand. */
+START_TEST(drawings_of_many_makers)
+{
+  /* A polyline of two vertices at a height of 7 (code 30, or 38), and a line from there to the ground. */
+#define RAISED(code)                                                                                                             \
+  DXF("0\nPOLYLINE\n" code "\n7\n70\n0\n0\nVERTEX\n0\nVERTEX\n10\n3\n0\nSEQEND\n0\nLINE\n11\n0\n30\n7\n31\n0\n")
+  ck_assert_double_eq_tol(length_of(RAISED("30")), 10, 1e-12);
+  ck_assert_double_eq_tol(length_of(RAISED("38")), 10, 1e-12);
+
+  /* Names of blocks in another letter case; where two differ in nothing else the one in the same case is meant. */
+#define RODS "0\nSECTION\n2\nBLOCKS\n" ROD("ROD\xc3\x84", "3") ROD("ab", "5") ROD("AB", "7") "0\nENDSEC\n"
+  ck_assert_double_eq_tol(length_of(RODS DXF("0\nINSERT\n2\nRod\xc3\xa4\n")), 3, 1e-12);
+  ck_assert_double_eq_tol(length_of(RODS DXF("0\nINSERT\n2\nab\n")), 5, 1e-12);
+  ck_assert_double_eq_tol(length_of(RODS DXF("0\nINSERT\n2\nAB\n")), 7, 1e-12);
+
+  /* A smoothed mesh: 2 x 2 control points, and 2 x 3 points of its own density, 1 apart: 7 sides. */
+#define CONTROL "0\nVERTEX\n70\n80\n10\n99\n"
+#define FITTED(x, y) "0\nVERTEX\n70\n72\n10\n" x "\n20\n" y "\n"
+  ck_assert_double_eq_tol(
+      length_of(DXF("0\nPOLYLINE\n70\n20\n71\n2\n72\n2\n73\n2\n74\n3\n75\n5\n" CONTROL CONTROL CONTROL CONTROL FITTED("0", "0")
+                        FITTED("1", "0") FITTED("2", "0") FITTED("0", "1") FITTED("1", "1") FITTED("2", "1") "0\nSEQEND\n")),
+      7, 1e-12);
+}
+END_TEST
+
 START_TEST(drawings_that_are_wrong)
 {
   check_refused(DXF("0\nLINE\n10\nx\n"), "a.dxf", "a.dxf:6: this LINE has a value that is not a finite number");
-  check_refused(DXF("0\nINSERT\n2\nnobody\n"), "a.dxf", "a.dxf: the block 'nobody' is inserted and not there");
+  check_refused(DXF("0\nINSERT\n2\nnobody\n"), "a.dxf",
+                "a.dxf: no lines, polylines, faces or curves in its model; a block that is not in the file: nobody");
   check_refused(DXF("0\nTEXT\n1\nhello\n"), "a.dxf",
                 "a.dxf: no lines, polylines, faces or curves in its model, but others: TEXT");
   check_refused(DXF("0\nSPLINE\n71\n3\n10\n0\n20\n0\n10\n1\n20\n0\n"), "a.dxf",
-                "a.dxf:6: this SPLINE has knots, weights and control points that do not fit together");
+                "a.dxf: no lines, polylines, faces or curves in its model, but others: SPLINE");
+  check_refused("0\nSECTION\n2\nBLOCKS\n" ROD("ROD", "1") ROD("Rod", "2") "0\nENDSEC\n" DXF("0\nINSERT\n2\nrod\n"), "a.dxf",
+                "a.dxf: two blocks are called 'rod', and it is inserted; rename one of them");
   check_refused("0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\na\n0\nINSERT\n2\na\n0\nENDBLK\n0\nENDSEC\n" DXF("0\nINSERT\n2\na\n"),
                 "a.dxf", "a.dxf: blocks are nested more than 16 deep, or inserted more than 1000000 times");
   check_refused("0\nSECTION\n2\n", "a.dxf", "a.dxf:3: the file ends in the middle of a pair");
@@ -498,6 +538,7 @@ int main(void)
   ADD_TEST(s, 4, foreign_formats_are_called_by_name);
   ADD_TEST(s, 4, which_way_is_up);
   ADD_TEST(s, 4, drawing);
+  ADD_TEST(s, 4, drawings_of_many_makers);
   ADD_TEST(s, 4, drawings_that_are_wrong);
   ADD_LOOP(s, 4, ply_round_trip, 0, 3);
   ADD_TEST(s, 4, every_allocation_may_fail);
