@@ -23,7 +23,7 @@ struct thr_json {
 };
 
 enum { TAG_WORD = 0xfff9, TAG_INT, TAG_LONG, TAG_TEXT, TAG_ARRAY, TAG_OBJECT }; /* LONG: its block is an int64_t */
-enum { WORD_NULL, WORD_FALSE, WORD_TRUE };
+enum { WORD_NULL, WORD_FALSE, WORD_TRUE, WORD_NAN };
 enum { MANY = 15, FEW_MEMBERS = 8, DEEPEST = 2048 };
 
 static const int64_t INT_LIMIT = (int64_t)1 << 47; /* of what fits into a slot */
@@ -66,7 +66,8 @@ thr_json_type thr_json_typeof(const thr_json *value)
 {
   if (!value) return THR_JSON_NULL;
   switch (tag_of(value)) {
-  case TAG_WORD: return payload_of(value) == WORD_NULL ? THR_JSON_NULL : THR_JSON_BOOL;
+  case TAG_WORD:
+    return payload_of(value) == WORD_NULL ? THR_JSON_NULL : payload_of(value) == WORD_NAN ? THR_JSON_NAN : THR_JSON_BOOL;
   case TAG_TEXT: return THR_JSON_STRING;
   case TAG_ARRAY: return THR_JSON_ARRAY;
   case TAG_OBJECT: return THR_JSON_OBJECT;
@@ -237,6 +238,7 @@ typedef struct {
   slots done; /* the document: slot 0 is its root */
   slots open; /* values of lists and objects that are not closed; what is pointing there says the slot in done itself */
   int depth;
+  bool python; /* NaN and Infinity are values */
 } parser;
 
 static thr_status reserve(slots *list, size_t more, thr_err *err)
@@ -650,8 +652,14 @@ static thr_status parse_value(parser *p, uint64_t *bits)
   case 'n': *bits = tagged(TAG_WORD, WORD_NULL); return take_word(p, "null") ? THR_OK : expected(p, "a value");
   case 'f': *bits = tagged(TAG_WORD, WORD_FALSE); return take_word(p, "false") ? THR_OK : expected(p, "a value");
   case 't': *bits = tagged(TAG_WORD, WORD_TRUE); return take_word(p, "true") ? THR_OK : expected(p, "a value");
-  default: return *p->at == '-' || is_digit(p, p->at) ? take_number(p, bits) : expected(p, "a value");
+  default: break;
   }
+  const char *begin = p->at;
+  if (take_word(p, "NaN") || take_word(p, "Infinity") || take_word(p, "-Infinity")) {
+    *bits = tagged(TAG_WORD, WORD_NAN);
+    return p->python ? THR_OK : fail_at(p, begin, "Python wrote NaN or Infinity; write null");
+  }
+  return *p->at == '-' || is_digit(p, p->at) ? take_number(p, bits) : expected(p, "a value");
 }
 
 static thr_status parse_document(parser *p)
@@ -670,16 +678,26 @@ static thr_status parse_document(parser *p)
   return THR_OK;
 }
 
-thr_status thr_json_parse(thr_json **doc, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_json **doc, const char *text, size_t n, const char *name, bool python, thr_err *err)
 {
   bool marked = n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0; /* byte-order mark, as Windows editors leave it */
   const char *begin = n == 0 ? "" : marked ? text + 3 : text;
-  parser p = {.text = begin, .at = begin, .end = n == 0 ? begin : text + n, .name = name, .err = err};
+  parser p = {.text = begin, .at = begin, .end = n == 0 ? begin : text + n, .name = name, .python = python, .err = err};
   thr_status st = parse_document(&p);
   free(p.open.slot);
   if (st) free(p.done.slot);
   *doc = st ? NULL : p.done.slot;
   return st;
+}
+
+thr_status thr_json_parse(thr_json **doc, const char *text, size_t n, const char *name, thr_err *err)
+{
+  return parse(doc, text, n, name, false, err);
+}
+
+thr_status thr_json_parse_python(thr_json **doc, const char *text, size_t n, const char *name, thr_err *err)
+{
+  return parse(doc, text, n, name, true, err);
 }
 
 void thr_json_destroy(thr_json *doc)

@@ -11,9 +11,19 @@ typedef struct thr_json thr_json; /* a parsed value; borrowed from its document,
  * trailing text, depth over 2048, \u0000 and numbers that no int64_t or double holds are errors with "name:line:column: what".
  * *doc must be released with thr_json_destroy (NULL ok). O(n), and O(k log k) in the members of an object. */
 thr_status thr_json_parse(thr_json **doc, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
+/* The same of what Python's json module writes: NaN, Infinity and -Infinity are values that are no numbers. */
+thr_status thr_json_parse_python(thr_json **doc, const char *text, size_t n, const char *name, thr_err *err) THR_MUST_CHECK;
 void thr_json_destroy(thr_json *doc);
 
-typedef enum { THR_JSON_NULL, THR_JSON_BOOL, THR_JSON_NUMBER, THR_JSON_STRING, THR_JSON_ARRAY, THR_JSON_OBJECT } thr_json_type;
+typedef enum {
+  THR_JSON_NULL,
+  THR_JSON_BOOL,
+  THR_JSON_NUMBER,
+  THR_JSON_STRING,
+  THR_JSON_ARRAY,
+  THR_JSON_OBJECT,
+  THR_JSON_NAN
+} thr_json_type;
 
 /* All accessors take NULL as "absent" and answer THR_JSON_NULL, 0, NULL or false for it. */
 thr_json_type thr_json_typeof(const thr_json *value);

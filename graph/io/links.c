@@ -70,15 +70,14 @@ void thr_said_take(thr_said *said, thr_span key, thr_span value, const char **wh
   static const char *const axis[] = {"x", "y", "z"}, *const foot[] = {"is_support", "is_grounded", "is_anchor", "is_fixed",
                                                                       "foot"};
   bool unused;
-  double number;
   value = thr_span_trim(value);
   for (int i = 0; i < 3; i++)
     if (thr_span_is(key, axis[i])) take_number(value, &said->xyz[i], &said->has[i], what);
-  for (size_t i = 0; i < sizeof foot / sizeof *foot; i++)
-    if (thr_span_is(key, foot[i]))
-      said->foot = thr_span_is(value, "true") || (thr_span_number(value, false, &number) && number != 0);
   /* igraph writes NaN where an edge does not have what others have. */
   const bool nothing = value.n == 0 || thr_span_is(value, "nan");
+  for (size_t i = 0; i < sizeof foot / sizeof *foot; i++)
+    if (thr_span_is(key, foot[i]) && !thr_span_truth(nothing ? thr_span_of("") : value, &said->foot))
+      *what = "neither true nor false";
   if (thr_span_is(key, "length")) {
     said->length = 0;
     if (!nothing) take_number(value, &said->length, &unused, what);

@@ -186,7 +186,7 @@ static thr_status parse(thr_draft *draft, thr_read_report *read_report, const ch
                         thr_err *err)
 {
   thr_json *doc;
-  thr_status st = thr_json_parse(&doc, text, n, name, err);
+  thr_status st = thr_json_parse_python(&doc, text, n, name, err);
   if (st) return st;
   thr_json_reader reading = {.file = name, .d = draft, .report = read_report, .err = err, .parts = {.asked = draft->pick}};
   st = read_document(&reading, doc);

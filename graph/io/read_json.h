@@ -30,6 +30,7 @@ typedef struct {
   thr_faces faces;
   thr_text scratch; /* for one name at a time */
   bool has_z;       /* some point has a z of its own */
+  bool by_place;    /* links name nodes by their places in the list */
   uint64_t *place;  /* [n_found] of the frameworks of the document, where each stands but for numbers (place_of); owned */
   int n_found, found_capacity;
   thr_parts parts; /* the frameworks */
@@ -94,7 +95,8 @@ thr_status thr_json_read_plan(thr_json_reader *r, const thr_json_where *at, cons
 bool thr_json_parse_key(const char *key, int64_t *number);
 
 /* Whether a node stands on the ground, by any of the names that there are for it. */
-bool thr_json_is_support(const thr_json *node, const thr_json *defaults);
+thr_status thr_json_support(thr_json_reader *r, const thr_json_where *at, const thr_json *node, const thr_json *defaults,
+                            bool *foot) THR_MUST_CHECK;
 
 /* Of a COMPAS Line the object with its start and end, of a Polyline the list of its points; NULL if it is neither. */
 const thr_json *thr_json_points_of_line(const thr_json *v, const char **key);

@@ -32,14 +32,46 @@ bool thr_json_parse_key(const char *key, int64_t *number)
   return true;
 }
 
-bool thr_json_is_support(const thr_json *node, const thr_json *defaults)
+/* Sets *foot if a value says yes; a list does if one of its values does, which are directions that are held. */
+static thr_status take_truth(thr_json_reader *r, const thr_json_where *at, const thr_json *v, bool *foot)
 {
-  static const char *const said[] = {"is_support", "is_anchor", "is_fixed", "is_grounded"};
-  for (size_t i = 0; i < sizeof said / sizeof *said; i++) {
-    const thr_json *own = thr_json_get(node, said[i]);
-    if (thr_json_true(own ? own : thr_json_get(defaults, said[i]))) return true;
+  thr_status st = THR_OK;
+  bool yes = thr_json_true(v);
+  for (int i = 0; thr_json_is_array(v) && i < thr_json_size(v) && !st && !yes; i++) {
+    thr_json_where here = {at, NULL, i};
+    st = take_truth(r, &here, thr_json_at(v, i), &yes);
   }
-  return false;
+  if (thr_json_string(v) && !thr_span_truth(thr_span_trim(thr_span_of(thr_json_string(v))), &yes))
+    st = thr_json_bad(r, at, "does not say whether this is a foot; use true or false");
+  *foot |= yes;
+  return st;
+}
+
+/* Sets *held to whether a support holds its node in any direction: it does if it does not list them. */
+static thr_status take_directions(thr_json_reader *r, const thr_json_where *at, const thr_json *support, bool *held)
+{
+  const char *key;
+  const thr_json *directions = THR_JSON_MEMBER(support, &key, "condition", "fixities");
+  thr_json_where here = {at, key, 0};
+  *held = !thr_json_is_array(directions);
+  return take_truth(r, &here, directions, held);
+}
+
+thr_status thr_json_support(thr_json_reader *r, const thr_json_where *at, const thr_json *node, const thr_json *defaults,
+                            bool *foot)
+{
+  static const char *const said[] = {"is_support", "is_anchor", "is_fixed", "is_grounded", "foot"};
+  thr_status st = THR_OK;
+  bool held = true;
+  *foot = false;
+  for (size_t i = 0; i < sizeof said / sizeof *said && !st; i++) {
+    thr_json_where here = {at, said[i], 0};
+    const thr_json *own = thr_json_get(node, said[i]);
+    st = take_truth(r, &here, own ? own : thr_json_get(defaults, said[i]), foot);
+  }
+  if (!st && *foot) st = take_directions(r, at, node, &held);
+  *foot = *foot && held;
+  return st;
 }
 
 /* Lists an object's members; keys that are all integers come in numeric order, so that node i is key i. */
@@ -68,10 +100,12 @@ static thr_status read_compas_nodes(thr_json_reader *r, const thr_json_where *li
   for (int i = 0; i < thr_json_size(nodes) && !st; i++) {
     thr_json_where here = {list, k[i].key, 0};
     double xyz[3];
+    bool foot;
     const char *name;
     st = thr_json_point(r, &here, k[i].value, defaults, xyz);
+    if (!st) st = thr_json_support(r, &here, k[i].value, defaults, &foot);
     if (!st) st = thr_json_key_name(r, &here, k[i].key, &name);
-    if (!st) st = thr_draft_add_node(r->d, xyz, name, thr_json_is_support(k[i].value, defaults), r->err);
+    if (!st) st = thr_draft_add_node(r->d, xyz, name, foot, r->err);
   }
   free(k);
   return st;
@@ -211,7 +245,9 @@ static thr_status read_assembly_nodes(thr_json_reader *r, const thr_json_where *
     const thr_json *node = thr_json_at(nodes, i);
     const char *id_key, *name;
     double xyz[3];
+    bool foot;
     thr_status st = thr_json_point(r, &point, thr_json_get(node, "point"), NULL, xyz);
+    if (!st) st = thr_json_support(r, &here, node, NULL, &foot);
     if (st) return st;
     const thr_json *id = THR_JSON_MEMBER(node, &id_key, "node_id", "node_ind");
     thr_json_where id_here = {&here, id_key, 0};
@@ -219,7 +255,7 @@ static thr_status read_assembly_nodes(thr_json_reader *r, const thr_json_where *
     snprintf(number, sizeof number, "%d", i);
     name = number;
     if (id) st = thr_json_name_of(r, &id_here, id, &name);
-    if (!st) st = thr_draft_add_node(r->d, xyz, name, thr_json_is_support(node, NULL), r->err);
+    if (!st) st = thr_draft_add_node(r->d, xyz, name, foot, r->err);
     if (st) return st;
   }
   return thr_names_build(&r->names, r->d, r->file, r->err);
@@ -257,8 +293,10 @@ thr_status thr_json_read_assembly(thr_json_reader *r, const thr_json_where *at, 
   for (int i = 0; i < thr_json_size(supports) && !st; i++) {
     thr_json_where here = {&support_list, NULL, i}, id = {&here, "node_ind", 0};
     int v = 0;
+    bool held;
     st = thr_json_reference(r, &id, thr_json_get(thr_json_at(supports, i), "node_ind"), &v);
-    if (!st) r->d->node[v].foot = true;
+    if (!st) st = take_directions(r, &here, thr_json_at(supports, i), &held);
+    if (!st) r->d->node[v].foot |= held;
   }
   return st;
 }

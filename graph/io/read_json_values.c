@@ -55,7 +55,9 @@ const thr_json *thr_json_member(const thr_json *object, const char *const *keys,
 static thr_status read_number(thr_json_reader *r, const thr_json_where *at, const thr_json *v, double *x)
 {
   if (!v) return thr_json_bad(r, at, "missing; give a number");
-  if (!thr_json_number(v, x)) return thr_json_bad(r, at, "not a number; give a decimal number");
+  if (thr_json_typeof(v) == THR_JSON_NAN) return thr_json_bad(r, at, "Python wrote NaN or Infinity; give a number or null");
+  const bool text = thr_json_string(v) && thr_span_number(thr_span_trim(thr_span_of(thr_json_string(v))), false, x);
+  if (!text && !thr_json_number(v, x)) return thr_json_bad(r, at, "not a number; give a decimal number");
   if (*x == 0) *x = 0; /* -0 and 0 are written alike */
   return THR_OK;
 }
@@ -94,27 +96,37 @@ thr_status thr_json_length(thr_json_reader *r, const thr_json_where *at, const t
                            : thr_json_bad(r, at, "a length that is not positive; leave it out for the distance of the two nodes");
 }
 
-static thr_status count_of(const thr_json *v, const char *what, int *count, thr_err *err)
+/* A number of passes; text: as text, too. */
+static thr_status count_of(const thr_json *v, const char *what, bool text, int *count, thr_err *err)
 {
   int64_t wide = 0;
+  *count = 0;
+  if (text && thr_json_string(v) && thr_span_int(thr_span_trim(thr_span_of(thr_json_string(v))), count) && *count >= 0 &&
+      *count <= 100)
+    return THR_OK;
   if (thr_json_typeof(v) != THR_JSON_NULL && (!thr_json_int(v, &wide) || wide < 0 || wide > 100))
     return thr_fail(err, THR_EINPUT, "a %s that is not a whole number up to 100", what);
   *count = (int)wide;
   return THR_OK;
 }
 
-thr_status thr_json_edge_passes(thr_draft *draft, const thr_json *cover, const thr_json *capacity, thr_err *err)
+static thr_status take_passes(thr_draft *draft, const thr_json *cover, const thr_json *capacity, bool text, thr_err *err)
 {
   int least = 0, most = 0;
-  thr_status st = count_of(cover, "cover", &least, err);
-  if (!st) st = count_of(capacity, "capacity", &most, err);
+  thr_status st = count_of(cover, "cover", text, &least, err);
+  if (!st) st = count_of(capacity, "capacity", text, &most, err);
   return st ? st : thr_draft_edge_passes(draft, least, most, err);
+}
+
+thr_status thr_json_edge_passes(thr_draft *draft, const thr_json *cover, const thr_json *capacity, thr_err *err)
+{
+  return take_passes(draft, cover, capacity, false, err);
 }
 
 thr_status thr_json_passes(thr_json_reader *r, const thr_json_where *at, const thr_json *cover, const thr_json *capacity)
 {
   thr_err why = {0};
-  thr_status st = thr_json_edge_passes(r->d, cover, capacity, &why);
+  thr_status st = take_passes(r->d, cover, capacity, true, &why);
   return st ? thr_json_bad(r, at, why.text) : THR_OK;
 }
 

@@ -41,6 +41,7 @@ static void put(const thr_json *value)
   case THR_JSON_NUMBER:
     if (thr_json_number(value, &number)) printf("%a", number);
     break;
+  case THR_JSON_NAN: break; /* not in what thr_json_parse reads */
   case THR_JSON_STRING: put_text(thr_json_string(value)); break;
   case THR_JSON_ARRAY:
     putchar('[');

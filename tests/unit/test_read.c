@@ -461,6 +461,63 @@ START_TEST(json_takes_a_list_whole_and_else_the_first)
 }
 END_TEST
 
+/* Ways in which other programs write what ours write otherwise; all by hand. */
+START_TEST(json_of_other_programs)
+{
+  const thr_format *json = thr_format_named("json");
+#define NODES "\"nodes\":[{\"id\":%s,\"x\":0,\"y\":0},{\"id\":%s,\"x\":3,\"y\":4},{\"id\":%s,\"x\":9,\"y\":12}]"
+#define LINKS "\"links\":[{\"source\":%s,\"target\":%s}]"
+  static const struct {
+    const char *id[3], *end[2], *before;
+    double length;                                              /* of the link, 0: not clear */
+  } link[] = {{{"\"a\"", "\"b\"", "\"c\""}, {"0", "1"}, "", 5}, /* networkx before 2.0: by place */
+              {{"5", "7", "9"}, {"1", "2"}, "", 10},
+              {{"5", "7", "9"}, {"5", "9"}, "", 15},
+              {{"0", "1", "2"}, {"0", "2"}, "", 15},
+              {{"2", "1", "0"}, {"2", "1"}, "", 5},               /* by id, as since networkx 2.0 */
+              {{"2", "1", "0"}, {"2", "1"}, "\"graph\":[],", 10}, /* networkx 1.9 */
+              {{"\"2\"", "\"1\"", "\"0\""}, {"2", "1"}, "", 0},   /* text and numbers */
+              {{"\"2\"", "\"1\"", "\"0\""}, {"\"2\"", "\"1\""}, "", 5}};
+  char text[400];
+  for (size_t i = 0; i < sizeof link / sizeof *link; i++) {
+    snprintf(text, sizeof text, "{%s" NODES "," LINKS "}", link[i].before, link[i].id[0], link[i].id[1], link[i].id[2],
+             link[i].end[0], link[i].end[1]);
+    if (link[i].length > 0)
+      check_text(text, json, 2, 1, link[i].length, "");
+    else
+      check_error(text, json, "f: links: numbers that may be ids or places of nodes; write them as text, as the ids are");
+  }
+
+  /* words and numbers for yes, in every format */
+  static const char *const yes[] = {"true", "\"true\"", "1", "\"1\"", "\"yes\"", "\"True\"", "\" x \"", "[0,1,0]", "\"ja\""},
+                           *const no[] = {"false", "\"false\"", "0", "\"0\"", "\"no\"", "\"\"", "null", "[0,0,0]", "NaN"};
+  for (size_t i = 0; i < sizeof yes / sizeof *yes; i++) {
+    snprintf(text, sizeof text,
+             "{\"nodes\":[{\"id\":1,\"x\":0,\"y\":0,\"is_support\":%s},{\"id\":2,\"x\":3,\"y\":4,\"foot\":%s}],"
+             "\"links\":[{\"source\":1,\"target\":2}]}",
+             yes[i], no[i]);
+    check_text(text, json, 2, 1, 5, "1");
+  }
+  check_error("{\"nodes\":[{\"id\":1,\"x\":0,\"y\":0,\"is_fixed\":\"pin\"}],\"links\":[]}", json,
+              "f: nodes[0].is_fixed: does not say whether this is a foot; use true or false");
+  check_error("<graphml><graph><node id='a'><data key='foot'>pin</data></node></graph></graphml>", thr_format_named("graphml"),
+              "f:1: foot 'pin' is neither true nor false");
+  check_text("{\"nodes\":[{\"point\":[0,0,0]},{\"point\":[3,4,0]},{\"point\":[3,4,1]}],\"elements\":[{\"end_node_inds\":[0,1]},"
+             "{\"end_node_inds\":[1,2]}],\"supports\":[{\"node_ind\":0,\"condition\":[0,0,0,0,0,0]},{\"node_ind\":1},"
+             "{\"node_ind\":2,\"condition\":[0,0,1,0,0,0]}]}",
+             json, 3, 2, 6, "1 2");
+
+  /* numbers as text, and what Python writes where nobody reads it */
+  check_text("{\"nodes\":[{\"id\":1,\"x\":\"0\",\"y\":\" 0 \",\"q\":NaN},{\"id\":2,\"x\":\"3\",\"y\":\"4e0\"}],"
+             "\"links\":[{\"source\":1,\"target\":2,\"length\":\"5.5\",\"f\":-Infinity}]}",
+             json, 2, 1, 5.5, "");
+  check_passes("{\"nodes\":[[\"0\",0],[3,4]],\"edges\":[[0,1]],\"covers\":[\"2\"],\"capacities\":[\"3\"]}", json, "2/3");
+  check_error("{\"nodes\":[[0,NaN],[3,4]],\"edges\":[[0,1]]}", json,
+              "f: nodes[0][1]: Python wrote NaN or Infinity; give a number or null");
+  check_error("{\"nodes\":[[0,NaNs],[3,4]],\"edges\":[[0,1]]}", json, "f:1:17: not valid JSON: ']' expected near 's'");
+}
+END_TEST
+
 START_TEST(json_errors)
 {
   const thr_format *json = thr_format_named("json");
@@ -910,6 +967,7 @@ static void add_tests(TCase *t)
   tcase_add_test(t, json_dialects);
   tcase_add_test(t, json_units_and_grounded_nodes);
   tcase_add_test(t, json_takes_a_list_whole_and_else_the_first);
+  tcase_add_test(t, json_of_other_programs);
   tcase_add_test(t, json_errors);
   tcase_add_test(t, json_syntax_and_depth);
   tcase_add_test(t, formats_by_name_and_content);
