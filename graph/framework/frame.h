@@ -54,6 +54,7 @@ typedef struct {
   } * edge;
   thr_text names;   /* each with its NUL */
   char units[16];   /* "" = not said */
+  char other[16];   /* another unit that the file's comments name as well; "" = none */
   bool y_up;        /* the file's maker is known to write y upwards */
   bool up_is_y;     /* the format says that y points up */
   const char *pick; /* asked of the readers of files that hold several frameworks: the name or the number of one of them, from 1;

@@ -1,6 +1,8 @@
 /* Units of length. */
 #include "graph/framework/units.h"
 
+#include <ctype.h>
+#include <string.h>
 #include <strings.h>
 
 #define KNOWN "um, mm, cm, dm, m, km, in, ft or yd"
@@ -18,7 +20,7 @@ static const struct {
              {{"dm", "decimeter", "decimeters", "decimetre", "decimetres"}, 100},
              {{"km", "kilometer", "kilometers", "kilometre", "kilometres"}, 1e6},
              {{"yd", "yard", "yards"}, 914.4},
-             {{"unit", "units"}, 0}};
+             {{"unit", "units", "unitless", "unknown", "none"}, 0}};
 
 enum { N_UNITS = sizeof units / sizeof *units, MOST_NAMES = sizeof units[0].name / sizeof *units[0].name };
 
@@ -50,4 +52,86 @@ thr_status thr_units_in_mm(const char *word, double *mm, thr_err *err)
   *mm = i < 0 ? 0 : units[i].mm;
   if (*mm > 0) return THR_OK;
   return thr_fail(err, THR_EINPUT, "units: how long is one \"%.40s\"? Expected " KNOWN "; set them with --units", word);
+}
+
+/* ---- comments ---- */
+
+/* A word of a comment, copied, and whether what stands before it sets it off: a colon, an equals sign or a bracket. */
+typedef struct {
+  char text[24];
+  const char *at;
+  bool set_off, rate; /* rate: a stroke or a power stands before it, as in mm/s */
+} comment_word;
+
+enum { MOST_WORDS = 24 };
+
+/* Takes the next word of the text off; false if there is none. A word that is longer than any unit's name is cut. */
+static bool next_word(const char **at, const char *end, comment_word *word)
+{
+  *word = (comment_word){0};
+  const char *c = *at;
+  for (; c < end && !isalnum((unsigned char)*c) && (unsigned char)*c < 0x80; c++) {
+    word->set_off |= *c && strchr(":=[(", *c);
+    word->rate |= *c == '/' || *c == '^';
+  }
+  word->at = c;
+  size_t n = 0;
+  for (; c < end && (isalnum((unsigned char)*c) || (unsigned char)*c >= 0x80 || (*c && strchr("._-", *c))); c++)
+    if (n + 1 < sizeof word->text) word->text[n++] = *c;
+  while (n > 1 && word->text[n - 1] == '.')
+    n--;
+  word->text[n] = '\0';
+  *at = c;
+  return n > 0;
+}
+
+static bool is_among(const char *word, const char *const *list)
+{
+  for (; *list; list++)
+    if (strcasecmp(word, *list) == 0) return true;
+  return false;
+}
+
+static bool is_unit_word(const comment_word *word)
+{
+  return is_among(word->text, (const char *const[]){"unit", "units", NULL});
+}
+
+/* Returns the unit at word i of n, NULL if that is none or only part of a rate (mm/s, mm per pixel). */
+static const char *unit_at(const comment_word *word, int i, int n)
+{
+  if (i >= n || (i + 1 < n && (word[i + 1].rate || strcasecmp(word[i + 1].text, "per") == 0))) return NULL;
+  return is_unit_word(&word[i]) && !word[i].set_off ? NULL : thr_units_name(word[i].text);
+}
+
+/* Returns the unit that the words after "units", which is word i, or those before it name; NULL if there is none. "in" is an inch
+ * only where it is set off and no unit follows it. */
+static const char *unit_beside(const comment_word *word, int i, int n)
+{
+  static const char *const between[] = {"is", "are", "in", "of", "length", "measurement", "used", "1", "1.0", NULL};
+  const char *inch = NULL;
+  int k = i + 1;
+  for (; k < n && is_among(word[k].text, between); k++)
+    if (word[k].set_off && strcasecmp(word[k].text, "in") == 0) inch = unit_at(word, k, n);
+  if (unit_at(word, k, n)) return unit_at(word, k, n);
+  if (inch) return inch;
+  if (i >= 2 && strcasecmp(word[i - 1].text, "as") == 0) return unit_at(word, i - 2, n);
+  return i >= 1 && strcasecmp(word[i - 1].text, "in") != 0 ? unit_at(word, i - 1, n) : NULL;
+}
+
+void thr_units_in_comment(const char *text, size_t n, const char **name, const char **wrong)
+{
+  comment_word word[MOST_WORDS];
+  const char *at = text;
+  int n_words = 0;
+  *name = *wrong = NULL;
+  while (n_words < MOST_WORDS && next_word(&at, text + n, &word[n_words]))
+    n_words++;
+
+  for (int i = 0; i < n_words; i++) {
+    if (!is_unit_word(&word[i])) continue;
+    if ((*name = unit_beside(word, i, n_words))) return;
+    const bool first = i == 0 || (i == 1 && strcasecmp(word[0].text, "file") == 0);
+    if (first && i + 1 < n_words && word[i + 1].set_off) *wrong = word[i + 1].at;
+  }
 }

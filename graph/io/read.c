@@ -103,7 +103,11 @@ static thr_status build(const thr_read_options *options, const char *name, thr_d
   thr_err why = {0};
   thr_status st = THR_OK;
   report->no_units = !options->units && !draft->units[0];
-  if (options->units) st = thr_draft_set_units(draft, options->units, &why);
+  if (options->units)
+    st = thr_draft_set_units(draft, options->units, &why);
+  else if (draft->other[0])
+    st = thr_fail(&why, THR_EINPUT, "comments name two units of length, %s and %s; say which with --units", draft->other,
+                  draft->units);
   if (!st) st = thr_draft_stand(draft, options->up, options->scale, report, &why);
   if (!st) st = thr_draft_build(draft, options->weld, frame, report, &why);
   if (!st && options->split) st = thr_frame_split(frame, &report->split_edges, report, &why);

@@ -223,23 +223,17 @@ static void read_curve_type(obj *o, thr_span rest)
   }
 }
 
-/* Our writer's comments "# feet: 1 5 9", "# units: mm" and "# up: y"; other people's comments are left alone. */
+/* Reads our writer's comments "# feet: 1 5 9" and "# up: y", what programs say of units (thr_units_in_comment) and what Blender
+ * calls itself; other people's comments are left alone. */
 static thr_status read_comment(obj *o, thr_span line)
 {
   thr_span word;
-  if (thr_span_starts(line, "# Blender ")) o->d->y_up = true; /* what its exporters write unless told otherwise */
-  if (thr_span_starts(line, "# up: y")) o->d->up_is_y = true;
-  if (thr_span_starts(line, "# units: ")) {
-    line = thr_span_trim((thr_span){line.s + 9, line.n - 9});
-    char units[sizeof o->d->units];
-    thr_err why = {0};
-    snprintf(units, sizeof units, "%.*s", line.n < sizeof units ? (int)line.n : (int)sizeof units - 1, line.s);
-    if (line.n < sizeof units && !thr_draft_set_units(o->d, units, &why)) return THR_OK;
-    return thr_scan_fail(&o->scan, o->err, "this comment's '%.*s' is no unit of length; correct or delete the comment",
-                         thr_span_width(line), line.s);
-  }
-  if (!thr_span_starts(line, "# feet: ")) return THR_OK;
-  line = (thr_span){line.s + 8, line.n - 8};
+  while (line.n && (line.s[0] == '#' || line.s[0] == ' ' || line.s[0] == '\t'))
+    line = (thr_span){line.s + 1, line.n - 1};
+  if (thr_span_starts(line, "Blender ")) o->d->y_up = true; /* what its exporters write unless told otherwise */
+  if (thr_span_starts(line, "up: y")) o->d->up_is_y = true;
+  if (!thr_span_starts(line, "feet: ")) return thr_scan_units(&o->scan, line, o->d, o->err);
+  line = (thr_span){line.s + 6, line.n - 6};
   for (int vertex; next_word(&line, &word) && thr_span_int(word, &vertex);) {
     thr_status st = thr_grow(&o->foot, o->n_feet, &o->feet_capacity, sizeof *o->foot, o->err);
     if (st) return st;

@@ -6,6 +6,7 @@
 #include "graph/status.h"
 
 #include <limits.h>
+#include <string.h>
 
 typedef struct {
   thr_scan scan;
@@ -13,20 +14,34 @@ typedef struct {
   thr_draft *draft;
   thr_err *err;
   thr_faces faces;
+  thr_status status; /* of the comments */
 } off;
 
-/* The next word of the text; comments run from # to the end of a line. n is 0 at the end of the text. */
+/* Moves to the next line. What its comment, which runs from # to its end, says of units is taken, the comment left out. False at
+ * the end of the text and where a comment is wrong, which is in o->status then. */
+static bool next_line(off *o)
+{
+  if (!thr_scan_line(&o->scan, &o->line)) return false;
+  const char *sign = memchr(o->line.s, '#', o->line.n);
+  if (!sign) return true;
+  const thr_span comment = {sign + 1, (size_t)(o->line.s + o->line.n - sign) - 1};
+  o->line.n = (size_t)(sign - o->line.s);
+  o->status = thr_scan_units(&o->scan, comment, o->draft, o->err);
+  return !o->status;
+}
+
+/* The next word of the text. n is 0 at its end. */
 static thr_span next_word(off *o)
 {
-  for (;;) {
-    thr_span word = thr_span_word(&o->line);
-    if (word.n && word.s[0] != '#') return word;
-    if (!thr_scan_line(&o->scan, &o->line)) return (thr_span){0};
+  thr_span word;
+  while (!(word = thr_span_word(&o->line)).n && next_line(o)) {
   }
+  return word;
 }
 
 static thr_status not_whole(off *o)
 {
+  if (o->status) return o->status;
   return thr_scan_fail(&o->scan, o->err, "the file ends here; it is not whole");
 }
 
@@ -82,6 +97,7 @@ static thr_status read_all(off *o)
 {
   int n_vertices = 0, n_faces = 0, unused;
   thr_span word = next_word(o);
+  if (o->status) return o->status;
   if (!is_header(word)) return thr_scan_fail(&o->scan, o->err, "an OFF file in three dimensions begins with OFF, COFF or NOFF");
   if (thr_span_is(thr_span_trim(o->line), "BINARY"))
     return thr_scan_fail(&o->scan, o->err, "binary OFF is not read; export it as text, or as PLY");

@@ -153,18 +153,6 @@ static thr_status read_format(ply *p, thr_span rest)
                        thr_span_width(word), word.s);
 }
 
-/* Our writer's comment "units: mm"; other people's comments are left alone. */
-static thr_status read_comment(ply *p, thr_span rest)
-{
-  char units[sizeof p->draft->units];
-  thr_span word = thr_span_word(&rest), unit = thr_span_word(&rest);
-  if (!thr_span_is(word, "units:") || unit.n >= sizeof units) return THR_OK;
-  snprintf(units, sizeof units, "%.*s", (int)unit.n, unit.s);
-  thr_err why = {0};
-  if (!thr_draft_set_units(p->draft, units, &why)) return THR_OK;
-  return thr_scan_fail(&p->scan, p->err, "this comment's '%s' is no unit of length; correct or delete the comment", units);
-}
-
 /* Has the element a property for each role from first to last? */
 static bool has_roles(const ply *p, const element *e, role first, role last)
 {
@@ -209,8 +197,8 @@ static thr_status read_header(ply *p)
       st = read_element(p, line);
     } else if (thr_span_is(word, "property")) {
       st = read_property(p, line);
-    } else if (thr_span_is(word, "comment")) {
-      st = read_comment(p, line);
+    } else if (thr_span_is(word, "comment") || thr_span_is(word, "obj_info")) {
+      st = thr_scan_units(&p->scan, line, p->draft, p->err);
     } else if (thr_span_is(word, "end_header") && has_format) {
       return check_header(p);
     }

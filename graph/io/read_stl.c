@@ -37,9 +37,10 @@ static bool is_binary(const char *text, size_t n)
   return n >= HEAD && n == HEAD + (size_t)TRIANGLE * little32(text + HEAD - 4);
 }
 
-static thr_status read_binary(thr_sites *c, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status read_binary(thr_sites *c, thr_draft *draft, const char *text, size_t n, const char *name, thr_err *err)
 {
-  thr_status st = THR_OK;
+  const thr_scan head = {name, text, text + n, 1, 1};
+  thr_status st = thr_scan_units(&head, (thr_span){text, HEAD - 4}, draft, err);
   for (const char *t = text + HEAD; t < text + n && !st; t += TRIANGLE)
     for (int i = 0; i < 3 && !st; i++) {
       double xyz[3];
@@ -77,7 +78,8 @@ static thr_status name_parts(thr_parts *parts, const char *text, size_t n, const
   return st ? st : thr_parts_choose(parts, name, "solid", "solids", err);
 }
 
-static thr_status read_text(thr_sites *c, thr_parts *parts, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status read_text(thr_sites *c, thr_draft *draft, thr_parts *parts, const char *text, size_t n, const char *name,
+                            thr_err *err)
 {
   thr_scan scan;
   thr_span line;
@@ -87,8 +89,9 @@ static thr_status read_text(thr_sites *c, thr_parts *parts, const char *text, si
   while (!st && thr_scan_line(&scan, &line)) {
     thr_span word = thr_span_word(&line);
     part += thr_span_is(word, "solid");
+    if (thr_span_is(word, "solid")) st = thr_scan_units(&scan, line, draft, err);
     if (!thr_parts_has(parts, part)) continue;
-    if (thr_span_is(word, "vertex")) st = read_vertex(&scan, c, line, err);
+    if (!st && thr_span_is(word, "vertex")) st = read_vertex(&scan, c, line, err);
     if (!st && thr_span_is(word, "endfacet") && c->n % 3) st = thr_scan_fail(&scan, err, "a facet needs three vertices");
   }
   return st;
@@ -118,7 +121,8 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
 {
   thr_sites c = {0};
   thr_parts solids = {.asked = draft->pick};
-  thr_status st = is_binary(text, n) ? read_binary(&c, text, n, name, err) : read_text(&c, &solids, text, n, name, err);
+  thr_status st =
+      is_binary(text, n) ? read_binary(&c, draft, text, n, name, err) : read_text(&c, draft, &solids, text, n, name, err);
   if (!st) st = fill_draft(&c, draft, name, err);
   thr_parts_finish(&solids, report);
   thr_sites_destroy(&c);

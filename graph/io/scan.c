@@ -1,5 +1,6 @@
 /* Lines, words and numbers of text formats; node names. */
 #include "graph/io/scan.h"
+#include "graph/framework/units.h"
 #include "graph/number.h"
 
 #include <limits.h>
@@ -235,4 +236,19 @@ void thr_report_skip(thr_read_report *report, thr_span keyword)
   if (report->skipped_records++) return;
   snprintf(report->skipped_kind, sizeof report->skipped_kind, "%.*s", keyword.n < 31 ? (int)keyword.n : 31, keyword.s);
   thr_text_clean(report->skipped_kind);
+}
+
+thr_status thr_scan_units(const thr_scan *scan, thr_span comment, thr_draft *draft, thr_err *err)
+{
+  const char *name, *wrong;
+  thr_units_in_comment(comment.s, comment.n, &name, &wrong);
+  if (!name && wrong) {
+    const thr_span word = thr_span_trim((thr_span){wrong, (size_t)(comment.s + comment.n - wrong)});
+    return thr_scan_fail(scan, err, "this comment's '%.*s' is no unit of length; correct or delete the comment",
+                         thr_span_width(word), word.s);
+  }
+  if (!name) return THR_OK;
+  if (draft->units[0] && strcmp(draft->units, name) != 0) snprintf(draft->other, sizeof draft->other, "%s", draft->units);
+  snprintf(draft->units, sizeof draft->units, "%s", name);
+  return THR_OK;
 }

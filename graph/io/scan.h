@@ -60,6 +60,10 @@ void thr_names_destroy(thr_names *names);
 /* Counts a record that is known or harmless but not used. */
 void thr_report_skip(thr_read_report *report, thr_span keyword);
 
+/* Takes the unit of length that a comment names, if it names one (thr_units_in_comment); the comment is without the sign that
+ * begins it. THR_EINPUT if it says "units:" before something else than a unit. */
+thr_status thr_scan_units(const thr_scan *scan, thr_span comment, thr_draft *draft, thr_err *err) THR_MUST_CHECK;
+
 /* CSV with word of what the table lacks, so that the other half of a pair can be looked for. */
 typedef enum { THR_CSV_WHOLE, THR_CSV_NODES_ONLY, THR_CSV_EDGES_ONLY } thr_csv_content;
 thr_status thr_csv_scan(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name,

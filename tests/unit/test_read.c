@@ -829,6 +829,66 @@ START_TEST(comments_name_units_or_are_refused)
 }
 END_TEST
 
+/* What SketchUp, Maya and people write, before and behind the word "units"; what only looks like it. NULL: no unit. */
+START_TEST(comments_name_units_in_many_ways)
+{
+  static const char *const said[][2] = {{"# File units = inches", "in"},
+                                        {"# This file uses centimeters as units for non-parametric coordinates.", "cm"},
+                                        {"#units: mm", "mm"},
+                                        {"##  Units: in", "in"},
+                                        {"# Units [cm]", "cm"},
+                                        {"# units (Metres).", "m"},
+                                        {"# All units are in millimeters", "mm"},
+                                        {"# units: in millimeters", "mm"},
+                                        {"# 1 unit = 1 m", "m"},
+                                        {"# length unit=ft, up z", "ft"},
+                                        {"# unit of length: Microns", "um"},
+                                        {"# exported in millimeter units", "mm"},
+                                        {"# units: unit", "unit"},
+                                        {"# Units: None", "unit"},
+                                        {"# units:", NULL},
+                                        {"# units in the file are checked", NULL},
+                                        {"# 12 units in 3 m", NULL},
+                                        {"# 1 unit = 2 m", NULL},
+                                        {"# time units: s", NULL},
+                                        {"# speed units = m/s", NULL},
+                                        {"# density in units of m^-3", NULL},
+                                        {"# 3 in a row, 5 m long", NULL},
+                                        {"# unit", NULL}};
+  static const char *const place[] = {"%s\nv 0 0 0\nv 1 0 0\nl 1 2\n", "OFF %s\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"};
+  for (size_t i = 0; i < sizeof said / sizeof *said; i++)
+    for (int kind = 0; kind < 2; kind++) {
+      char text[200];
+      thr_read_report r;
+      snprintf(text, sizeof text, place[kind], said[i][0]);
+      thr_frame f = read_text(text, thr_format_named(kind ? "off" : "obj"), &r);
+      ck_assert_msg(strcmp(f.units, said[i][1] ? said[i][1] : "mm") == 0, "%s: %s", said[i][0], f.units);
+      thr_frame_destroy(&f);
+    }
+  check_error("# File unit = 3 parsecs\nv 0 0 0\nv 1 0 0\nl 1 2\n", thr_format_named("obj"),
+              "f:1: this comment's '3 parsecs' is no unit of length; correct or delete the comment");
+  check_error("OFF\n3 1 0\n# units: mm/s\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", thr_format_named("off"),
+              "f:3: this comment's 'mm/s' is no unit of length; correct or delete the comment");
+}
+END_TEST
+
+/* Two comments that name two units are refused until the user names one. */
+START_TEST(units_that_contradict_are_refused)
+{
+  static const char text[] = "#units: mm\n# units: mm\n# Units: in\nv 0 0 0\nv 20 0 0\nl 1 2\n";
+  thr_read_options options = thr_read_options_default();
+  thr_read_report r;
+  thr_frame f;
+  thr_err err = {0};
+  ck_assert_int_eq(thr_frame_parse(&f, &r, text, strlen(text), "f.obj", &options, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "f.obj: comments name two units of length, mm and in; say which with --units");
+  options.units = "inches";
+  ck_assert_int_eq(thr_frame_parse(&f, &r, text, strlen(text), "f.obj", &options, &err), THR_OK);
+  ck_assert_str_eq(f.units, "in");
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 /* A right-to-left override and a line separator in a name, an edge that names it as it is written and one as it is kept. */
 START_TEST(names_are_cleaned_where_they_are_read)
 {
@@ -980,6 +1040,8 @@ static void add_tests(TCase *t)
   tcase_add_test(t, long_inputs);
   tcase_add_test(t, units_are_units);
   tcase_add_test(t, comments_name_units_or_are_refused);
+  tcase_add_test(t, comments_name_units_in_many_ways);
+  tcase_add_test(t, units_that_contradict_are_refused);
   tcase_add_test(t, names_are_cleaned_where_they_are_read);
   tcase_add_test(t, two_nodes_of_one_name_are_refused);
   tcase_add_test(t, an_apostrophe_is_no_part_of_a_name);
