@@ -6,11 +6,11 @@
 #include <string.h>
 
 extern const thr_format thr_json_format, thr_obj_format, thr_csv_format, thr_ply_format, thr_off_format, thr_stl_format,
-    thr_dxf_format, thr_graphml_format, thr_gml_format, thr_pajek_format, thr_gltf_format;
+    thr_dxf_format, thr_graphml_format, thr_gltf_format;
 
-static const thr_format *const formats[] = {&thr_json_format, &thr_obj_format,   &thr_csv_format,  &thr_ply_format,
-                                            &thr_off_format,  &thr_stl_format,   &thr_dxf_format,  &thr_graphml_format,
-                                            &thr_gml_format,  &thr_pajek_format, &thr_gltf_format, NULL};
+static const thr_format *const formats[] = {
+    &thr_json_format, &thr_obj_format, &thr_csv_format,     &thr_ply_format,  &thr_off_format,
+    &thr_stl_format,  &thr_dxf_format, &thr_graphml_format, &thr_gltf_format, NULL};
 
 const thr_format *thr_format_named(const char *name)
 {
@@ -45,7 +45,7 @@ typedef enum { MODEL, GRAPH, TABLE, PACKED, PICTURE, TEXT } foreign_kind;
 
 static const char *const advice[] = {
     [MODEL] = "which is not read; export the lines or the mesh as OBJ, PLY, DXF, glTF or JSON",
-    [GRAPH] = "which is not read; save the graph as GraphML, GML or node-link JSON, each node with x, y and z",
+    [GRAPH] = THR_GRAPH_ADVICE,
     [TABLE] = "which is not read; save the sheet as CSV",
     [PACKED] = "which is not read; unpack it, or save a spreadsheet as CSV",
     [PICTURE] = "which is no framework; export the model that it shows as OBJ, DXF or JSON",
@@ -77,6 +77,10 @@ static const foreign foreign_files[] = {{"dwg", "a DWG drawing", MODEL},
                                         {"wrl", "a VRML scene", MODEL},
                                         {"x3d", "an X3D scene", MODEL},
                                         {"gexf", "GEXF", GRAPH},
+                                        {"gml", "GML", GRAPH},
+                                        {"net", "a Pajek network", GRAPH},
+                                        {"paj", "a Pajek network", GRAPH},
+                                        {"cyjs", "Cytoscape's JSON", GRAPH},
                                         {"dot", "a Graphviz graph", GRAPH},
                                         {"gv", "a Graphviz graph", GRAPH},
                                         {"xlsx", "a spreadsheet", TABLE},
@@ -96,6 +100,15 @@ static const foreign foreign_files[] = {{"dwg", "a DWG drawing", MODEL},
 static const foreign foreign_texts[] = {{"<svg", "an SVG picture", PICTURE},
                                         {"<?xml", "XML", MODEL},
                                         {"<gexf", "GEXF", GRAPH},
+                                        {"graph [", "GML", GRAPH},
+                                        {"graph[", "GML", GRAPH},
+                                        {"graph\n", "GML", GRAPH},
+                                        {"graph\r", "GML", GRAPH},
+                                        {"Creator ", "GML", GRAPH},
+                                        {"*Vertices", "a Pajek network", GRAPH},
+                                        {"*vertices", "a Pajek network", GRAPH},
+                                        {"*Network", "a Pajek network", GRAPH},
+                                        {"*network", "a Pajek network", GRAPH},
                                         {"<COLLADA", "a Collada model", MODEL},
                                         {"<X3D", "an X3D scene", MODEL},
                                         {"<VTKFile", "a VTK file", MODEL},

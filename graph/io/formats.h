@@ -21,6 +21,9 @@ struct thr_format {
   bool (*is)(const char *text, size_t n);           /* is the whole text one of this format? NULL: it is not told by that */
 };
 
+/* What helps where a graph is in a format that is not read. */
+#define THR_GRAPH_ADVICE "which is not read; write GraphML or node-link JSON with networkx or igraph, each node with x, y and z"
+
 /* By the file's name: NULL if that says nothing; THR_EINPUT if it says a format that is not read. */
 thr_status thr_format_by_name(const char *name, const thr_format **format, thr_err *err) THR_MUST_CHECK;
 

@@ -1,4 +1,4 @@
-/* JSON frameworks: our own, COMPAS 1.x and 2.x, assembly_instances, conmech, networkx node-link and adjacency, Cytoscape, sigma
+/* JSON frameworks: our own, COMPAS 1.x and 2.x, assembly_instances, conmech, networkx node-link and adjacency
  * (docs/formats.md). The kind is told by its members. A document may hold several, however deep: those that stand where the
  * first one stands, but for numbers in lists, are read as one. */
 #include "graph/io/read_json.h"
@@ -16,6 +16,14 @@ static bool ends_in(const char *text, const char *end)
 {
   const size_t n = strlen(text), m = strlen(end);
   return n >= m && strcmp(text + n - m, end) == 0;
+}
+
+/* Refuses the kinds of graphs that are told but not read. */
+static thr_status refuse_graph(thr_json_reader *r, const thr_json_where *at, const thr_json *v)
+{
+  (void)at;
+  return thr_fail(r->err, THR_EINPUT, "%s: this is %s JSON, " THR_GRAPH_ADVICE, r->file,
+                  thr_json_get(v, "elements") ? "Cytoscape's" : "sigma's");
 }
 
 /* A bare list of points is taken for a line only where lines are expected. */
@@ -62,11 +70,12 @@ static read_function *recognise(const thr_json_where *at, const thr_json *v)
   if (thr_json_is_array(nodes) && thr_json_is_array(elements)) return thr_json_read_assembly;
   if (thr_json_is_array(nodes) && thr_json_is_array(links) && thr_json_is_array(thr_json_at(nodes, 0))) return thr_json_read_own;
   if (thr_json_is_array(thr_json_get(v, "nodes")) && thr_json_is_object(thr_json_at(nodes, 0))) {
+    if (thr_json_is_object(thr_json_get(thr_json_at(nodes, 0), "attributes"))) return refuse_graph;
     if (thr_json_is_array(links)) return thr_json_read_node_link;
     if (thr_json_is_array(thr_json_get(v, "adjacency"))) return thr_json_read_adjacency;
   }
   if (thr_json_is_array(thr_json_get(elements, "nodes")) || thr_json_is_object(thr_json_get(thr_json_at(elements, 0), "data")))
-    return thr_json_read_cytoscape;
+    return refuse_graph;
 
   const thr_json *keyed_nodes = THR_JSON_MEMBER(v, &key, "node", "vertex");
   if (thr_json_is_object(keyed_nodes) && THR_JSON_MEMBER(v, &key, "edge", "face", "adjacency", "halfedge"))

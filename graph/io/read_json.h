@@ -105,15 +105,9 @@ thr_status thr_json_read_compas(thr_json_reader *r, const thr_json_where *at, co
 thr_status thr_json_read_lines(thr_json_reader *r, const thr_json_where *at, const thr_json *list) THR_MUST_CHECK;
 thr_status thr_json_read_assembly(thr_json_reader *r, const thr_json_where *at, const thr_json *object) THR_MUST_CHECK;
 
-/* ---- networkx, Cytoscape, sigma: read_json_graphs.c ---- */
-
-/* First of an item's members that says something, in what is said of it or beside that. */
-const thr_json *thr_json_said(const thr_json *item, const char *const *keys, const char **which);
+/* ---- networkx: read_json_graphs.c ---- */
 
 thr_status thr_json_read_node_link(thr_json_reader *r, const thr_json_where *at, const thr_json *object) THR_MUST_CHECK;
-
-/* Cytoscape: {"elements": {"nodes": .., "edges": ..}}, or one list of both in which links name a source. */
-thr_status thr_json_read_cytoscape(thr_json_reader *r, const thr_json_where *at, const thr_json *object) THR_MUST_CHECK;
 
 /* networkx adjacency data: for each node the list of its neighbours. An edge that both ends list counts once. */
 thr_status thr_json_read_adjacency(thr_json_reader *r, const thr_json_where *at, const thr_json *object) THR_MUST_CHECK;

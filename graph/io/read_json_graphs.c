@@ -1,4 +1,4 @@
-/* networkx node-link and adjacency, Cytoscape, sigma: lists of nodes and of links. */
+/* networkx node-link and adjacency: lists of nodes and of links. */
 #include "graph/io/read_json.h"
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
@@ -7,22 +7,6 @@
 
 #include <stdio.h>
 #include <string.h>
-
-/* What is said of a node or a link: in its member data (Cytoscape) or attributes (graphology, sigma), or beside its name. */
-static const thr_json *said_of(const thr_json *item)
-{
-  const char *key;
-  const thr_json *said = THR_JSON_MEMBER(item, &key, "data", "attributes");
-  return thr_json_is_object(said) ? said : item;
-}
-
-const thr_json *thr_json_said(const thr_json *item, const char *const *keys, const char **which)
-{
-  const thr_json *v = thr_json_member(said_of(item), keys, which);
-  return v ? v : thr_json_member(item, keys, which);
-}
-
-#define SAID(item, which, ...) thr_json_said(item, (const char *const[]){__VA_ARGS__, NULL}, which)
 
 /* The node that a link names. */
 static thr_status find_end(thr_json_reader *r, const thr_json_where *at, const thr_json *v, int *node)
@@ -35,12 +19,11 @@ static thr_status find_end(thr_json_reader *r, const thr_json_where *at, const t
 static thr_status choose_reading(thr_json_reader *r, const thr_json_where *at, const thr_json *object, const thr_json *links)
 {
   const thr_json *nodes = thr_json_get(object, "nodes");
-  const char *key;
   bool places = true, names = true, alike = true, text = true;
   for (int i = 0; i < thr_json_size(nodes); i++)
-    text &= thr_json_string(SAID(thr_json_at(nodes, i), &key, "id", "key")) != NULL;
+    text &= thr_json_string(thr_json_get(thr_json_at(nodes, i), "id")) != NULL;
   for (int i = 0; i < 2 * thr_json_size(links) && places; i++) {
-    const thr_json *link = thr_json_at(links, i / 2), *end = i % 2 ? SAID(link, &key, "target") : SAID(link, &key, "source");
+    const thr_json *link = thr_json_at(links, i / 2), *end = thr_json_get(link, i % 2 ? "target" : "source");
     char number[24];
     int64_t place;
     places = thr_json_int(end, &place) && place >= 0 && place < r->d->n_nodes;
@@ -58,24 +41,24 @@ static thr_status choose_reading(thr_json_reader *r, const thr_json_where *at, c
 
 static thr_status read_link(thr_json_reader *r, const thr_json_where *at, const thr_json *link)
 {
-  const char *key;
   thr_json_where source = {at, "source", 0}, target = {at, "target", 0}, length_here = {at, "length", 0};
   int a = 0, b = 0;
   double length;
-  thr_status st = find_end(r, &source, SAID(link, &key, "source"), &a);
-  if (!st) st = find_end(r, &target, SAID(link, &key, "target"), &b);
-  if (!st) st = thr_json_length(r, &length_here, SAID(link, &key, "length"), &length);
+  thr_status st = find_end(r, &source, thr_json_get(link, "source"), &a);
+  if (!st) st = find_end(r, &target, thr_json_get(link, "target"), &b);
+  if (!st) st = thr_json_length(r, &length_here, thr_json_get(link, "length"), &length);
   if (!st) st = thr_draft_add_edge(r->d, a, b, length, r->err);
-  return st ? st : thr_json_passes(r, at, SAID(link, &key, "cover"), SAID(link, &key, "capacity"));
+  return st ? st : thr_json_passes(r, at, thr_json_get(link, "cover"), thr_json_get(link, "capacity"));
 }
 
-/* A node's place: pos, else x and y, else position (where Cytoscape has drawn it). */
+/* A node's place: pos, else x and y, else position. */
 static thr_status read_graph_node(thr_json_reader *r, const thr_json_where *at, const thr_json *node, int i)
 {
   const char *key, *x_key, *id_key;
-  const thr_json *pos = SAID(node, &key, "pos"), *x = SAID(node, &x_key, "x", "X"), *id = SAID(node, &id_key, "id", "key");
-  if (!pos && !x) pos = SAID(node, &key, "position");
-  if (!pos) pos = thr_json_get(said_of(node), x_key) ? said_of(node) : node;
+  const thr_json *pos = THR_JSON_MEMBER(node, &key, "pos"), *x = THR_JSON_MEMBER(node, &x_key, "x", "X"),
+                 *id = THR_JSON_MEMBER(node, &id_key, "id");
+  if (!pos && !x) pos = THR_JSON_MEMBER(node, &key, "position");
+  if (!pos) pos = node;
   thr_json_where pos_here = {at, key, 0}, id_here = {at, id_key, 0};
   double xyz[3];
   char number[16];
@@ -83,7 +66,7 @@ static thr_status read_graph_node(thr_json_reader *r, const thr_json_where *at, 
   const char *name = number;
   bool foot;
   thr_status st = thr_json_point(r, x || strcmp(key, "pos") == 0 ? at : &pos_here, pos, NULL, xyz);
-  if (!st) st = thr_json_support(r, at, said_of(node), node, &foot);
+  if (!st) st = thr_json_support(r, at, node, node, &foot);
   if (!st && id) st = thr_json_name_of(r, &id_here, id, &name);
   return st ? st : thr_draft_add_node(r->d, xyz, name, foot, r->err);
 }
@@ -110,25 +93,6 @@ thr_status thr_json_read_node_link(thr_json_reader *r, const thr_json_where *at,
     st = read_link(r, &here, thr_json_at(links, i));
   }
   r->by_place = false;
-  return st;
-}
-
-thr_status thr_json_read_cytoscape(thr_json_reader *r, const thr_json_where *at, const thr_json *object)
-{
-  const thr_json *elements = thr_json_get(object, "elements");
-  const char *key;
-  thr_json_where here = {at, "elements", 0};
-  thr_status st = THR_OK;
-  if (thr_json_is_object(elements)) return thr_json_read_node_link(r, &here, elements);
-  for (int i = 0; i < thr_json_size(elements) && !st; i++) {
-    thr_json_where item = {&here, NULL, i};
-    if (!SAID(thr_json_at(elements, i), &key, "source")) st = read_graph_node(r, &item, thr_json_at(elements, i), r->d->n_nodes);
-  }
-  if (!st) st = thr_names_build(&r->names, r->d, r->file, r->err);
-  for (int i = 0; i < thr_json_size(elements) && !st; i++) {
-    thr_json_where item = {&here, NULL, i};
-    if (SAID(thr_json_at(elements, i), &key, "source")) st = read_link(r, &item, thr_json_at(elements, i));
-  }
   return st;
 }
 

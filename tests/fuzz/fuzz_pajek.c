@@ -1,9 +1,0 @@
-/* Fuzzes the Pajek reader. */
-#include "fuzz.h"
-#include "graph/io/read.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
-{
-  fuzz_one(data, size, thr_format_named("pajek"));
-  return 0;
-}
