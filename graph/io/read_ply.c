@@ -1,5 +1,6 @@
 /* PLY, the Stanford polygon format: ascii and both binary orders, elements and properties in any order. Vertices have x, y and z,
- * edges vertex1 and vertex2, faces vertex_indices (or vertex_index). G. Turk, "The PLY Polygon File Format", 1994. */
+ * edges vertex1 and vertex2, faces, polylines and strips of triangles vertex_indices. G. Turk, "The PLY Polygon File Format",
+ * 1994. */
 #include "graph/framework/frame.h"
 #include "graph/io/faces.h"
 #include "graph/io/formats.h"
@@ -13,10 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum { INT8, UINT8, INT16, UINT16, INT32, UINT32, FLOAT32, FLOAT64, N_TYPES } number_type;
+typedef enum { INT8, UINT8, INT16, UINT16, INT32, UINT32, INT64, UINT64, FLOAT32, FLOAT64, N_TYPES } number_type;
 typedef enum { IGNORED, X, Y, Z, VERTEX_1, VERTEX_2, CORNERS } role;
 typedef enum { ASCII, LITTLE, BIG } encoding;
-typedef enum { OTHER, VERTEX, EDGE, FACE } element_kind;
+typedef enum { OTHER, VERTEX, EDGE, FACE, LINE, STRIP } element_kind;
 
 typedef struct {
   bool list;
@@ -73,9 +74,9 @@ static thr_status fail(ply *p, const char *what)
 /* N_TYPES if the word is none. */
 static number_type type_named(thr_span word)
 {
-  static const char *const names[N_TYPES][2] = {{"char", "int8"},     {"uchar", "uint8"},   {"short", "int16"},
-                                                {"ushort", "uint16"}, {"int", "int32"},     {"uint", "uint32"},
-                                                {"float", "float32"}, {"double", "float64"}};
+  static const char *const names[N_TYPES][2] = {
+      {"char", "int8"},   {"uchar", "uint8"}, {"short", "int16"},  {"ushort", "uint16"}, {"int", "int32"},
+      {"uint", "uint32"}, {"long", "int64"},  {"ulong", "uint64"}, {"float", "float32"}, {"double", "float64"}};
   number_type t = INT8;
   while (t < N_TYPES && !thr_span_is(word, names[t][0]) && !thr_span_is(word, names[t][1]))
     t++;
@@ -94,11 +95,30 @@ static role role_of(element_kind kind, bool list, thr_span name)
                {VERTEX, false, "z", Z},
                {EDGE, false, "vertex1", VERTEX_1},
                {EDGE, false, "vertex2", VERTEX_2},
-               {FACE, true, "vertex_indices", CORNERS},
-               {FACE, true, "vertex_index", CORNERS}};
+               {EDGE, false, "vertex_1", VERTEX_1},
+               {EDGE, false, "vertex_2", VERTEX_2},
+               {EDGE, false, "v1", VERTEX_1},
+               {EDGE, false, "v2", VERTEX_2},
+               {EDGE, false, "start", VERTEX_1},
+               {EDGE, false, "end", VERTEX_2}};
+  static const char *const corners[] = {"vertex_indices", "vertex_index", "vertex_ids", "vertices", "indices"};
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
     if (known[i].kind == kind && known[i].list == list && thr_span_is(name, known[i].name)) return known[i].role;
+  for (size_t i = 0; i < sizeof corners / sizeof *corners && list && kind >= EDGE; i++)
+    if (thr_span_is(name, corners[i])) return CORNERS;
   return IGNORED;
+}
+
+static element_kind kind_named(thr_span word)
+{
+  static const struct {
+    const char *name;
+    element_kind kind;
+  } known[] = {{"vertex", VERTEX}, {"edge", EDGE},      {"face", FACE},      {"polyline", LINE},
+               {"line", LINE},     {"tristrip", STRIP}, {"tristrips", STRIP}};
+  for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+    if (thr_span_is(word, known[i].name)) return known[i].kind;
+  return OTHER;
 }
 
 static thr_status read_element(ply *p, thr_span rest)
@@ -108,7 +128,7 @@ static thr_status read_element(ply *p, thr_span rest)
   if (!name.n || !thr_span_number(count, false, &e.n) || e.n < 0 || e.n != floor(e.n))
     return thr_scan_fail(&p->scan, p->err, "an element needs a name and how many there are");
   if (e.n > INT_MAX) return thr_scan_fail(&p->scan, p->err, "more than %d are not read", INT_MAX);
-  e.kind = thr_span_is(name, "vertex") ? VERTEX : thr_span_is(name, "edge") ? EDGE : thr_span_is(name, "face") ? FACE : OTHER;
+  e.kind = kind_named(name);
   snprintf(e.name, sizeof e.name, "%.*s", name.n < 20 ? (int)name.n : 20, name.s);
   thr_text_clean(e.name);
   if (e.kind == OTHER && e.n > 0) thr_report_skip(p->report, name);
@@ -167,17 +187,14 @@ static bool has_roles(const ply *p, const element *e, role first, role last)
 
 static thr_status check_header(ply *p)
 {
-  static const struct {
-    role first, last;
-    const char *missing;
-  } needs[] = {[OTHER] = {CORNERS, IGNORED, ""},
-               [VERTEX] = {X, Z, "vertices need the properties x, y and z"},
-               [EDGE] = {VERTEX_1, VERTEX_2, "edges need the properties vertex1 and vertex2"},
-               [FACE] = {CORNERS, CORNERS, "faces need the property list vertex_indices"}};
   for (int i = 0; i < p->n_elements; i++) {
     const element *e = &p->element[i];
-    if (e->n > 0 && !has_roles(p, e, needs[e->kind].first, needs[e->kind].last))
-      return thr_fail(p->err, THR_EINPUT, "%s: %s; export it again with them", p->scan.name, needs[e->kind].missing);
+    const char *missing = NULL;
+    if (e->kind == VERTEX && !has_roles(p, e, X, Z)) missing = "vertices need the properties x, y and z";
+    if (e->kind == EDGE && !has_roles(p, e, VERTEX_1, VERTEX_2) && !has_roles(p, e, CORNERS, CORNERS))
+      missing = "edges need the properties vertex1 and vertex2";
+    if (e->kind > EDGE && !has_roles(p, e, CORNERS, CORNERS)) missing = "faces and lines need the property list vertex_indices";
+    if (e->n > 0 && missing) return thr_fail(p->err, THR_EINPUT, "%s: %s; export it again with them", p->scan.name, missing);
   }
   return THR_OK;
 }
@@ -241,6 +258,7 @@ static double number_of(const unsigned char *b, number_type type)
     int32_t i32;
     uint16_t u16;
     uint32_t u32;
+    int64_t i64;
     float f;
     double d;
   } u = {0};
@@ -252,6 +270,8 @@ static double number_of(const unsigned char *b, number_type type)
   case UINT16: return u.u16;
   case INT32: return u.i32;
   case UINT32: return u.u32;
+  case INT64: return (double)u.i64;
+  case UINT64: return (double)u.bits;
   case FLOAT32: return u.f;
   default: return u.d;
   }
@@ -267,7 +287,7 @@ static bool this_machine_is_big(void)
 
 static thr_status next_binary_number(ply *p, number_type type, double *x)
 {
-  static const unsigned char size[N_TYPES] = {1, 1, 2, 2, 4, 4, 4, 8};
+  static const unsigned char size[N_TYPES] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
   unsigned char b[8] = {0};
   size_t n = size[type];
   if ((size_t)(p->scan.end - p->scan.at) < n) return fail(p, "the file ends here; it is not whole");
@@ -288,20 +308,35 @@ static thr_status next_number(ply *p, number_type type, bool used, double *x)
 
 /* ---- items ---- */
 
-static thr_status corner(ply *p, double x)
+/* Adds a corner to a face; to a polyline the edge from the corner before it, to a strip of triangles the triangle with the two
+ * before it. run holds the last two corners of n since the list began or since the last -1, which begins a strip anew. */
+static thr_status corner(ply *p, double x, int run[2], int *n)
 {
+  if (x == -1 && p->now->kind == STRIP) {
+    *n = 0;
+    return THR_OK;
+  }
   if (x != floor(x) || x < 0 || x > INT_MAX) return fail(p, "a vertex number must be a whole number from 0");
-  return thr_faces_corner(&p->faces, (int)x, p->err);
+  if (p->now->kind == FACE) return thr_faces_corner(&p->faces, (int)x, p->err);
+  const int k = p->now->kind == STRIP ? 2 : 1;
+  thr_status st = THR_OK;
+  if (*n >= k) {
+    const int corners[3] = {run[(*n - k) % 2], run[(*n - 1) % 2], (int)x};
+    st = k == 2 ? thr_faces_add(&p->faces, corners, 3, p->err) : thr_faces_add(&p->faces, corners + 1, 2, p->err);
+  }
+  run[(*n)++ % 2] = (int)x;
+  return st;
 }
 
 static thr_status read_list(ply *p, const property *q)
 {
   double n, x;
+  int run[2], n_run = 0;
   thr_status st = next_number(p, q->count, true, &n);
   if (!st && (n < 0 || n != floor(n))) return fail(p, "the length of a list must be a whole number from 0");
   for (double i = 0; !st && i < n; i++) {
     st = next_number(p, q->type, q->role == CORNERS, &x);
-    if (!st && q->role == CORNERS) st = corner(p, x);
+    if (!st && q->role == CORNERS) st = corner(p, x, run, &n_run);
   }
   return st;
 }
@@ -324,8 +359,9 @@ static thr_status read_item(ply *p)
     const double xyz[3] = {value[X] + 0., value[Y] + 0., value[Z] + 0.};
     st = thr_draft_add_node(p->draft, xyz, NULL, false, p->err);
   }
-  if (!st && p->now->kind == EDGE) st = corner(p, value[VERTEX_1]);
-  if (!st && p->now->kind == EDGE) st = corner(p, value[VERTEX_2]);
+  int run[2], n_run = 0;
+  if (!st && p->now->kind == EDGE && has_roles(p, p->now, VERTEX_1, VERTEX_2)) st = corner(p, value[VERTEX_1], run, &n_run);
+  if (!st && n_run) st = corner(p, value[VERTEX_2], run, &n_run);
   return st ? st : thr_faces_close(&p->faces, p->err);
 }
 

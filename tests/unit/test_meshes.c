@@ -174,6 +174,54 @@ START_TEST(cubes)
 }
 END_TEST
 
+/* A square of four nodes by what the elements are called and how they name nodes. Two triangles have five sides, as have the
+ * strip 0 1 2 3 and, begun anew, the strips 0 1 2 and 2 3 0; an open polyline has three. */
+START_TEST(ply_has_many_words_for_edges)
+{
+  static const struct {
+    const char *element, *rows;
+    int n_edges;
+  } square[] = {{"edge 3\nproperty int vertex_1\nproperty int vertex_2", "0 1\n1 2\n2 3\n", 3},
+                {"edge 3\nproperty uint v1\nproperty float weight\nproperty uint v2", "0 9 1\n1 9 2\n2 9 3\n", 3},
+                {"edge 2\nproperty list uchar int vertex_indices", "2 0 1 3 1 2 3", 3},
+                {"polyline 1\nproperty list int int vertex_indices", "4 0 1 2 3", 3},
+                {"line 2\nproperty list uchar long vertex_index", "3 3 2 1\n2 1 0\n", 3},
+                {"face 2\nproperty list uint8 int64 vertex_indices", "3 0 1 2\n3 0 2 3\n", 5},
+                {"tristrips 1\nproperty list int int vertex_indices", "4 0 1 3 2", 5},
+                {"tristrips 1\nproperty list int int vertex_indices", "7 0 1 2 -1 2 3 0", 5}};
+  for (size_t i = 0; i < sizeof square / sizeof *square; i++) {
+    thr_text t = {0};
+    thr_read_report r;
+    thr_text_printf(&t,
+                    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement %s\n"
+                    "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n%s",
+                    square[i].element, square[i].rows);
+    thr_frame f = read_as(&t, "stdin", 0, &r);
+    ck_assert_msg(f.n_edges == square[i].n_edges && f.n_nodes == 4, "%s: %d", square[i].element, f.n_edges);
+    ck_assert_double_eq_tol(thr_frame_total_length(&f), square[i].n_edges == 3 ? 3 : 4 + sqrt(2), 1e-12);
+    thr_frame_destroy(&f);
+    thr_text_destroy(&t);
+  }
+  /* eight bytes a number, in either order */
+  for (int big = 0; big < 2; big++) {
+    thr_text t = {0};
+    thr_read_report r;
+    thr_text_printf(&t,
+                    "ply\nformat binary_%s_endian 1.0\nelement vertex 3\nproperty int64 x\nproperty long y\nproperty uint64 z\n"
+                    "element edge 2\nproperty uint64 vertex1\nproperty ulong vertex2\nend_header\n",
+                    big ? "big" : "little");
+    static const int number[13] = {0, 0, 0, -3, 4, 0, -3, 4, 2, 0, 1, 1, 2};
+    for (int i = 0; i < 13; i++)
+      for (int k = 0; k < 8; k++)
+        thr_text_byte(&t, (char)((int64_t)number[i] >> 8 * (big ? 7 - k : k) & 255));
+    thr_frame f = read_as(&t, "stdin", 0, &r);
+    ck_assert_double_eq_tol(thr_frame_total_length(&f), 5 + 2, 1e-12);
+    thr_frame_destroy(&f);
+    thr_text_destroy(&t);
+  }
+}
+END_TEST
+
 START_TEST(ply_tells_units_and_what_it_skips)
 {
   thr_text t = {0};
@@ -525,6 +573,7 @@ int main(void)
   Suite *s = suite_create("meshes");
   ADD_LOOP(s, 4, cubes, 0, 2);
   ADD_TEST(s, 4, ply_tells_units_and_what_it_skips);
+  ADD_TEST(s, 4, ply_has_many_words_for_edges);
   ADD_LOOP(s, 4, what_is_cut_is_refused, 0, 5);
   ADD_TEST(s, 4, errors_of_graphs_say_where);
   ADD_TEST(s, 4, errors_of_gltf_say_where);
