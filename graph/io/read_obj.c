@@ -24,6 +24,7 @@ typedef struct {
     int vertex, line;
   } * foot; /* as the comment lists them: vertices may come after it; owned */
   int n_feet, feet_capacity;
+  int n_before;                   /* vertices before the record at hand, which references from the end count from */
   thr_parts parts;                /* objects, or groups where there are none */
   const char *part_keyword;       /* "o" or "g" */
   int part;                       /* the one at hand; -1 before the first */
@@ -38,7 +39,7 @@ typedef struct {
 
 /* ---- words ---- */
 
-/* Takes the next word off the line. A backslash at a line's end is a blank, a word that starts with # ends the line. */
+/* Takes the next word off the line. A backslash at a line's end is a blank; a # ends the line, even inside a word. */
 static bool next_word(thr_span *rest, thr_span *word)
 {
   const char *c = rest->s, *end = rest->s + rest->n;
@@ -46,12 +47,12 @@ static bool next_word(thr_span *rest, thr_span *word)
          (*c == ' ' || *c == '\t' || *c == '\r' || *c == '\n' || (*c == '\\' && (c + 1 == end || c[1] == '\n' || c[1] == '\r'))))
     c++;
   const char *start = c;
-  while (c < end && *c != ' ' && *c != '\t' && *c != '\r' && *c != '\n' &&
+  while (c < end && *c != ' ' && *c != '\t' && *c != '\r' && *c != '\n' && *c != '#' &&
          !(*c == '\\' && (c + 1 == end || c[1] == '\n' || c[1] == '\r')))
     c++;
   *word = (thr_span){start, (size_t)(c - start)};
   *rest = (thr_span){c, (size_t)(end - c)};
-  return word->n && *start != '#';
+  return word->n > 0;
 }
 
 static bool is_one_of(thr_span word, const char *const *list)
@@ -69,7 +70,7 @@ static thr_status read_vertex(obj *o, thr_span rest)
   thr_span word;
   for (int i = 0; i < 3; i++) {
     if (!next_word(&rest, &word)) return thr_scan_fail(&o->scan, o->err, "v has %d numbers; it needs x, y and z", i);
-    if (!thr_span_number(word, false, &xyz[i]))
+    if (!thr_span_real(word, &xyz[i]))
       return thr_scan_fail(&o->scan, o->err, "'%.*s' is not a finite number; give %c as a decimal number", thr_span_width(word),
                            word.s, 'x' + i);
   }
@@ -82,17 +83,19 @@ static thr_status read_vertex(obj *o, thr_span rest)
 static thr_status read_reference(obj *o, thr_span word, int *node)
 {
   const char *slash = memchr(word.s, '/', word.n);
-  int number, n = o->d->n_nodes;
+  int number;
+  const int n = o->d->n_nodes;
   if (!thr_span_int((thr_span){word.s, slash ? (size_t)(slash - word.s) : word.n}, &number))
     return thr_scan_fail(&o->scan, o->err, "'%.*s' is not a vertex number", thr_span_width(word), word.s);
-  *node = number < 0 ? n + number : number - 1;
+  *node = number < 0 ? o->n_before + number : number - 1;
   if (number != 0 && *node >= 0 && *node < n) return THR_OK;
-  return thr_scan_fail(&o->scan, o->err, "vertex %.*s does not exist; %d are defined so far, and the first is 1",
-                       thr_span_width(word), word.s, n);
+  return thr_scan_fail(&o->scan, o->err, "vertex %.*s does not exist; there are %d, and the first is 1", thr_span_width(word),
+                       word.s, n);
 }
 
-/* Reads references up to the end of the record into o->corner. */
-static thr_status read_corners(obj *o, thr_span rest, int *n)
+/* Reads references up to the end of the record into o->corner. Of fewer than two nothing can be made: *n is 0 then, and the
+ * record is counted as not used. */
+static thr_status read_corners(obj *o, thr_span keyword, thr_span rest, int *n)
 {
   thr_span word;
   thr_status st = THR_OK;
@@ -102,24 +105,26 @@ static thr_status read_corners(obj *o, thr_span rest, int *n)
     if (!st) st = read_reference(o, word, &o->corner[*n]);
     ++*n;
   }
-  if (!st && *n < 2)
-    st = thr_scan_fail(&o->scan, o->err, "a line, curve or face needs at least two vertices, this one has %d", *n);
+  if (!st && *n < 2) {
+    thr_report_skip(o->report, keyword);
+    *n = 0;
+  }
   return st;
 }
 
-static thr_status read_polyline(obj *o, thr_span rest)
+static thr_status read_polyline(obj *o, thr_span keyword, thr_span rest)
 {
   int n;
-  thr_status st = read_corners(o, rest, &n);
+  thr_status st = read_corners(o, keyword, rest, &n);
   for (int i = 1; !st && i < n; i++)
     st = thr_draft_add_edge(o->d, o->corner[i - 1], o->corner[i], 0, o->err);
   return st;
 }
 
-static thr_status read_face(obj *o, thr_span rest)
+static thr_status read_face(obj *o, thr_span keyword, thr_span rest)
 {
   int n;
-  thr_status st = read_corners(o, rest, &n);
+  thr_status st = read_corners(o, keyword, rest, &n);
   return st ? st : thr_faces_add(&o->faces, o->corner, n, o->err);
 }
 
@@ -182,18 +187,18 @@ static thr_status read_curve(obj *o, thr_span keyword, thr_span rest)
     if (!next_word(&rest, &word)) return thr_scan_fail(&o->scan, o->err, "curv has no start and end parameter");
     numbers &= thr_span_number(word, false, i ? &o->to : &o->from);
   }
-  if (st || (o->degree == 1 && (o->bspline || o->bezier))) return st ? st : read_polyline(o, rest);
+  if (st || (o->degree == 1 && (o->bspline || o->bezier))) return st ? st : read_polyline(o, keyword, rest);
   if (!numbers || o->rational || !(o->bspline || o->bezier)) {
     thr_report_skip(o->report, keyword);
     return THR_OK;
   }
-  st = read_corners(o, rest, &o->n_curve);
+  st = read_corners(o, keyword, rest, &o->n_curve);
   for (int i = 0; i < o->n_curve && !st; i++) {
     st = thr_grow(&o->curve, i, &o->curve_capacity, sizeof *o->curve, o->err);
     if (!st) o->curve[i] = o->corner[i];
   }
   o->n_knots = 0;
-  if (!st) o->open = keyword;
+  if (!st && o->n_curve) o->open = keyword;
   return st;
 }
 
@@ -260,19 +265,25 @@ static thr_status name_parts(obj *o, const char *text, size_t n, const char *fil
   return st ? st : thr_parts_choose(&o->parts, file, "object or group", "objects and no groups", o->err);
 }
 
+/* Reads a line if it is a vertex. */
+static thr_status read_vertex_line(obj *o, thr_span line)
+{
+  thr_span keyword;
+  return next_word(&line, &keyword) && thr_span_is(keyword, "v") ? read_vertex(o, line) : THR_OK;
+}
+
 static thr_status read_record(obj *o, thr_span line)
 {
-  static const char *const harmless[] = {"vn",     "vt",     "vp",     "g",      "o",    "s",   "p",
-                                         "usemtl", "mtllib", "usemap", "maplib", "parm", "end", NULL};
+  static const char *const harmless[] = {"v", "vn", "vt", "vp", "g", "o", "s", "p", "usemtl", "mtllib", "usemap", "maplib", NULL};
   thr_span keyword, word;
   int degree;
   if (line.n && line.s[0] == '#') return read_comment(o, line);
   if (!next_word(&line, &keyword)) return THR_OK;
-  if (thr_span_is(keyword, "v")) return read_vertex(o, line);
+  if (thr_span_is(keyword, "v")) o->n_before++;
   if (o->part_keyword && thr_span_is(keyword, o->part_keyword)) o->part++;
   if (!thr_parts_has(&o->parts, o->part)) return THR_OK;
-  if (thr_span_is(keyword, "l")) return read_polyline(o, line);
-  if (thr_span_is(keyword, "f")) return read_face(o, line);
+  if (thr_span_is(keyword, "l")) return read_polyline(o, keyword, line);
+  if (thr_span_is(keyword, "f")) return read_face(o, keyword, line);
   if (thr_span_is(keyword, "curv")) return read_curve(o, keyword, line);
   if (thr_span_is(keyword, "cstype"))
     read_curve_type(o, line);
@@ -300,19 +311,27 @@ static thr_status mark_feet(obj *o)
   return THR_OK;
 }
 
+/* Gives every line to the function, together with those that a backslash at its end, outside a comment, joins to it. */
+static thr_status read_lines(obj *o, const char *text, size_t n, const char *name, thr_status (*read)(obj *o, thr_span line))
+{
+  thr_span line;
+  thr_status st = thr_scan_start(&o->scan, text, n, name, o->err);
+  while (!st && thr_scan_line(&o->scan, &line)) {
+    line = thr_span_trim(line);
+    while (line.n && line.s[line.n - 1] == '\\' && !memchr(line.s, '#', line.n) && thr_scan_extend(&o->scan, &line)) {
+    }
+    st = read(o, line);
+  }
+  return st;
+}
+
 static thr_status parse(thr_draft *draft, thr_read_report *read_report, const char *text, size_t n, const char *name,
                         thr_err *err)
 {
   obj o = {.d = draft, .report = read_report, .err = err, .parts = {.asked = draft->pick}, .part = -1};
-  thr_span line;
   thr_status st = name_parts(&o, text, n, name);
-  if (!st) st = thr_scan_start(&o.scan, text, n, name, err);
-  while (!st && thr_scan_line(&o.scan, &line)) {
-    line = thr_span_trim(line);
-    while (line.n && line.s[0] != '#' && line.s[line.n - 1] == '\\' && thr_scan_extend(&o.scan, &line)) {
-    }
-    st = read_record(&o, line);
-  }
+  if (!st) st = read_lines(&o, text, n, name, read_vertex_line); /* all of them first: records may name later ones */
+  if (!st) st = read_lines(&o, text, n, name, read_record);
   if (!st) st = finish_curve(&o);
   if (!st) st = thr_faces_finish(&o.faces, draft, name, err);
   if (!st) st = mark_feet(&o);

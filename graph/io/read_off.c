@@ -49,7 +49,7 @@ static thr_status next_number(off *o, double *x)
 {
   thr_span word = next_word(o);
   if (!word.n) return not_whole(o);
-  if (thr_span_number(word, false, x)) return THR_OK;
+  if (thr_span_real(word, x)) return THR_OK;
   return thr_scan_fail(&o->scan, o->err, "'%.*s' is not a finite number", thr_span_width(word), word.s);
 }
 

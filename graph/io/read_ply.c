@@ -243,7 +243,7 @@ static thr_status next_text_number(ply *p, double *x)
   while (!(word = thr_span_word(&p->line)).n)
     if (!thr_scan_line(&p->scan, &p->line)) return fail(p, "the file ends here; it is not whole");
   *x = NAN;
-  if (thr_span_number(word, false, x) || is_not_finite(word)) return THR_OK;
+  if (thr_span_real(word, x) || is_not_finite(word)) return THR_OK;
   return fail(p, "not a number");
 }
 

@@ -61,7 +61,7 @@ static thr_status read_vertex(const thr_scan *scan, thr_sites *c, thr_span rest,
   double xyz[3];
   for (int i = 0; i < 3; i++) {
     thr_span word = thr_span_word(&rest);
-    if (!thr_span_number(word, false, &xyz[i]))
+    if (!thr_span_real(word, &xyz[i]))
       return thr_scan_fail(scan, err, "a vertex needs x, y and z; '%.*s' is not a finite number", thr_span_width(word), word.s);
   }
   return thr_sites_add(c, xyz, err);

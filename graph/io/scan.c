@@ -163,6 +163,16 @@ bool thr_span_truth(thr_span t, bool *yes)
   return *yes;
 }
 
+bool thr_span_real(thr_span t, double *x)
+{
+  char copy[64];
+  if (thr_span_number(t, false, x)) return true;
+  if (t.n >= sizeof copy) return false;
+  for (size_t i = 0; i < t.n; i++)
+    copy[i] = t.s[i] == 'D' || t.s[i] == 'd' ? 'e' : t.s[i];
+  return thr_span_number((thr_span){copy, t.n}, false, x);
+}
+
 bool thr_span_int(thr_span t, int *x)
 {
   bool negative = t.n && t.s[0] == '-';

@@ -40,6 +40,8 @@ bool thr_span_number(thr_span t, bool decimal_comma, double *x);
 /* Whether a text says yes, in the words for it of a few languages or as a number; nothing at all is no. False if it says neither.
  */
 bool thr_span_truth(thr_span t, bool *yes);
+/* The same with a point, also as Fortran writes it: 1.5D+00. */
+bool thr_span_real(thr_span t, double *x);
 /* A decimal integer; beyond int it saturates. */
 bool thr_span_int(thr_span t, int *x);
 

@@ -340,6 +340,10 @@ START_TEST(obj_records)
   check_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nl -1 \\\n -3 \\\r\n2\n", obj, 3, 2, SQRT2 + 1, "");
   check_text("v 0 0 0\nv 1 0 0\nl 1 2 # and no more 7\n# feet: 2 1 of them\n", obj, 2, 1, 1, "1 2");
   check_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 1 1 1\nf 1 2 3\nf 2 3 4\n", obj, 4, 5, 3 + 2 * SQRT2, "");
+  /* vertices after their use, of which -1 is the last before the record; records of one vertex; comments without a blank */
+  check_text("f 1 2 3\nl 3 4\nv 0 0 0\nv 1 0 0\nf -2 -1 3\nv 1 1 0\nv 1 1 7\n", obj, 4, 4, 2 + SQRT2 + 7, "");
+  check_text("v 0 0 0#a\nv 1 0 0 # b\\\nv 1 1 0\nl 1 2#x\nl 3\nf 2\nl\nl 2 3 #3\n", obj, 3, 2, 2, "");
+  check_text("v 0.0D+00 1d0 -2.5D-01\nv 0 1 1.5E0\nl 1 2\n", obj, 2, 1, 1.75, "");
   check_text("# feet: see drawing\n# C:\\\nv 0 0 0\nv 1 0 0\nf 1 2\n", obj, 2, 1, 1, "");
 }
 END_TEST
@@ -373,12 +377,13 @@ START_TEST(obj_errors)
   check_error("v 0 0 0\nv 1 1 1\n", obj, "f: no l, f or curv record; export lines or polylines");
   check_error("v 0 0\n", obj, "f:1: v has 2 numbers; it needs x, y and z");
   check_error("v 0 inf 0\n", obj, "f:1: 'inf' is not a finite number; give y as a decimal number");
-  check_error("v 0 0 0\nl 1 2\n", obj, "f:2: vertex 2 does not exist; 1 are defined so far, and the first is 1");
-  check_error("v 0 0 0\nl 1 0\n", obj, "f:2: vertex 0 does not exist; 1 are defined so far, and the first is 1");
+  check_error("v 0 0 0\nl 1 2\n", obj, "f:2: vertex 2 does not exist; there are 1, and the first is 1");
+  check_error("v 0 0 0\nl 1 0\n", obj, "f:2: vertex 0 does not exist; there are 1, and the first is 1");
   check_error("v 0 0 0\n\nl 1 \\\n -99999999999999999999\n", obj,
-              "f:3: vertex -99999999999999999999 does not exist; 1 are defined so far, and the first is 1");
+              "f:3: vertex -99999999999999999999 does not exist; there are 1, and the first is 1");
   check_error("v 0 0 0\nl 1 a\n", obj, "f:2: 'a' is not a vertex number");
-  check_error("v 0 0 0\nl 1\n", obj, "f:2: a line, curve or face needs at least two vertices, this one has 1");
+  check_error("v 0 0 0\nl 1\n", obj, "f: no l, f or curv record; export lines or polylines, not l");
+  check_error("v 0 0 0\nl -1 -2\nv 1 0 0\n", obj, "f:2: vertex -2 does not exist; there are 2, and the first is 1");
   check_error("# feet: 9\nv 0 0 0\nv 1 0 0\nl 1 2\n", obj, "f:1: foot 9 does not exist; the vertices are 1 to 2");
   check_error("cstype bspline\ndeg 1\ncurv 0\n", obj, "f:3: curv has no start and end parameter");
 }
