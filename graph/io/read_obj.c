@@ -318,7 +318,9 @@ static thr_status read_lines(obj *o, const char *text, size_t n, const char *nam
   thr_status st = thr_scan_start(&o->scan, text, n, name, o->err);
   while (!st && thr_scan_line(&o->scan, &line)) {
     line = thr_span_trim(line);
-    while (line.n && line.s[line.n - 1] == '\\' && !memchr(line.s, '#', line.n) && thr_scan_extend(&o->scan, &line)) {
+    for (size_t seen = 0; line.n && line.s[line.n - 1] == '\\' && !memchr(line.s + seen, '#', line.n - seen);) {
+      seen = line.n;
+      if (!thr_scan_extend(&o->scan, &line)) break;
     }
     st = read(o, line);
   }
