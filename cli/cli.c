@@ -249,6 +249,11 @@ cli_frame_args cli_frame_args_default(void)
   return (cli_frame_args){thr_read_options_default(), NULL};
 }
 
+static const char *parallel_name(int choice)
+{
+  return choice ? "keep" : "shortest";
+}
+
 bool cli_frame_option(cli_frame_args *a, const char *command, int option, const char *value, bool *ok)
 {
   *ok = true;
@@ -272,6 +277,12 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
     a->read.flat *= THR_PI / 180;
     return true;
   case OPTION_PICK: a->read.pick = value; return true;
+  case OPTION_PARALLEL: {
+    int choice;
+    *ok = cli_choose(command, "--parallel", value, parallel_name, 2, &choice);
+    if (*ok) a->read.parallel = choice == 1;
+    return true;
+  }
   case OPTION_SPLIT: a->read.split = true; return true;
   case OPTION_FEET: a->feet = value; return true;
   case OPTION_WELD: *ok = cli_double(command, "--weld", value, 0, 1e300, &a->read.weld); return true;

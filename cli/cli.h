@@ -104,6 +104,7 @@ typedef struct {
       {"units", required_argument, NULL, OPTION_UNITS}, {"up", required_argument, NULL, OPTION_UP},                              \
       {"scale", required_argument, NULL, OPTION_SCALE}, {"flat", required_argument, NULL, OPTION_FLAT},                          \
       {"pick", required_argument, NULL, OPTION_PICK}, {"split", no_argument, NULL, OPTION_SPLIT},                                \
+      {"parallel", required_argument, NULL, OPTION_PARALLEL},                                                                    \
   {                                                                                                                              \
     "feet", required_argument, NULL, OPTION_FEET                                                                                 \
   }
@@ -116,6 +117,7 @@ enum {
   OPTION_FLAT,
   OPTION_PICK,
   OPTION_SPLIT,
+  OPTION_PARALLEL,
   OPTION_FEET,
   OPTION_FREE
 };
@@ -127,6 +129,7 @@ enum {
   "      --scale S        coordinates times S: 1000 for a file in metres whose dome is built in mm\n"                            \
   "      --up y|z         which coordinate points up (default: z, but y in OBJ files by Blender)\n"                              \
   "      --flat DEG       meshes: no edge between triangles that meet at less than DEG degrees\n"                                \
+  "      --parallel keep|shortest  of edges between the same nodes: all, parted by a node each, or the shortest (default)\n"     \
   "      --split          cut an edge where a node lies on it\n"                                                                 \
   "      --pick NAME|N    of a file of several frameworks, objects, groups or layers: this one, or the Nth (default: all)\n"
 

@@ -2,6 +2,8 @@
 
 #include "graph/framework/near.h"
 
+#include <math.h>
+
 static void put_count(thr_text *out, int n, const char *one, const char *many, const char *what)
 {
   if (n) thr_text_printf(out, "%d %s %s\n", n, n == 1 ? one : many, what);
@@ -12,6 +14,9 @@ static void put_report(thr_text *out, const thr_read_report *report)
   put_count(out, report->welded_nodes, "node", "nodes", "merged into another within the weld tolerance");
   put_count(out, report->zero_length_edges, "edge of zero length", "edges of zero length", "dropped");
   put_count(out, report->duplicate_edges, "edge that was there already", "edges that were there already", "dropped");
+  if (report->parallel_edges)
+    thr_text_printf(out, "%d of these %s longer than the one that is kept (%s); --parallel keep keeps all\n",
+                    report->parallel_edges, report->parallel_edges == 1 ? "is" : "are", report->parallel);
   put_count(out, report->isolated_nodes, "node without an edge", "nodes without an edge", "dropped");
   if (report->skipped_records)
     thr_text_printf(out, "%d %s not used (the first is %s)\n", report->skipped_records,
@@ -27,6 +32,34 @@ static void put_report(thr_text *out, const thr_read_report *report)
   if (left)
     thr_text_printf(out, "%d more %s of the file %s not read; --pick reads another by its name or number\n", left,
                     left == 1 ? "part" : "parts", left == 1 ? "is" : "are");
+}
+
+/* Lengths of edges that no cord can have, or that are hardly in the unit of the coordinates. */
+static void put_lengths(thr_text *out, const thr_frame *frame)
+{
+  enum { FAR = 10 }; /* times as long as the straight line: all edges of a framework are no such curves */
+  int n_short = 0, worst = 0;
+  double least = INFINITY;
+  for (int e = 0; e < frame->n_edges && frame->own_lengths; e++) {
+    const double *a = frame->xyz[frame->edge[e][0]], *b = frame->xyz[frame->edge[e][1]];
+    const double straight = sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+    const double ratio = frame->length[e] / straight;
+    n_short += ratio < 1 - 1e-3;
+    if (!(ratio < least)) continue;
+    least = ratio;
+    worst = e;
+  }
+  if (n_short)
+    thr_text_printf(out,
+                    "%d %s shorter than the straight line, which no cord can be (%s to %s: %.3g of it); are "
+                    "lengths in the unit of the coordinates?\n",
+                    n_short, n_short == 1 ? "edge is" : "edges are", frame->name[frame->edge[worst][0]],
+                    frame->name[frame->edge[worst][1]], least);
+  else if (frame->own_lengths && least > FAR)
+    thr_text_printf(out,
+                    "all edges are more than %d times as long as their nodes are apart; are lengths in the unit of the "
+                    "coordinates?\n",
+                    FAR);
 }
 
 /* What a file leaves unsaid and is worth a look. */
@@ -93,6 +126,7 @@ thr_status thr_read_notes(const thr_frame *frame, const thr_read_report *report,
 {
   put_report(out, report);
   put_unsaid(out, frame, report);
+  put_lengths(out, frame);
   thr_status st = put_near(out, frame, err);
   return !st && out->failed ? thr_nomem(err) : st;
 }

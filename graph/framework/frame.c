@@ -228,7 +228,87 @@ static thr_status default_tolerance(const thr_draft *draft, double *tolerance, t
 
 /* ---- from draft to framework ---- */
 
-/* keep[e] = 1 for the edges that survive: not of zero length, the first of equal pairs. */
+typedef struct {
+  int low, high, edge;
+  double length;
+} joining; /* of two welded nodes */
+
+static int by_ends(const void *pa, const void *pb)
+{
+  const joining *a = pa, *b = pb;
+  if (a->low != b->low) return a->low < b->low ? -1 : 1;
+  if (a->high != b->high) return a->high < b->high ? -1 : 1;
+  if (a->length != b->length) return a->length < b->length ? -1 : 1;
+  return (a->edge > b->edge) - (a->edge < b->edge);
+}
+
+/* Lists the edges that are no loops by their ends, then by length. The caller frees *list. */
+static thr_status list_by_ends(const thr_draft *draft, const int *parent, joining **list, int *n, thr_err *err)
+{
+  *n = 0;
+  *list = thr_calloc((size_t)draft->n_edges, sizeof **list);
+  if (!*list) return thr_nomem(err);
+  for (int e = 0; e < draft->n_edges; e++) {
+    const int a = parent[draft->edge[e].a], b = parent[draft->edge[e].b];
+    const double given = draft->edge[e].length;
+    if (a == b) continue;
+    const double length = given != 0 ? given : distance(draft->node[a].xyz, draft->node[b].xyz);
+    (*list)[(*n)++] = (joining){a < b ? a : b, a < b ? b : a, e, length};
+  }
+  qsort(*list, (size_t)*n, sizeof **list, by_ends);
+  return THR_OK;
+}
+
+/* How many edges of the list, from i on, join the same two nodes. */
+static int size_of_group(const joining *list, int n, int i)
+{
+  int end = i + 1;
+  while (end < n && list[end].low == list[i].low && list[end].high == list[i].high)
+    end++;
+  return end - i;
+}
+
+/* Is edge i of a list of parallel ones longer than the one before it, but for rounding? */
+static bool is_longer(const joining *list, int i)
+{
+  return list[i].length > list[i - 1].length * (1 + 1e-6);
+}
+
+static void append_node(char *text, size_t size, const thr_draft *draft, int v)
+{
+  const size_t n = strlen(text);
+  const char *name = thr_draft_name(draft, v);
+  if (name)
+    snprintf(text + n, size - n, "%.20s", name);
+  else
+    snprintf(text + n, size - n, "%d", v);
+}
+
+/* Of each group of edges between the same nodes the shortest is kept instead of the first; the report tells of the others that
+ * have another length. */
+static thr_status keep_shortest(const thr_draft *draft, const int *parent, bool *keep, thr_read_report *report, thr_err *err)
+{
+  joining *list;
+  int n;
+  thr_status st = list_by_ends(draft, parent, &list, &n, err);
+  for (int i = 0, size; i < n && !st; i += size) {
+    size = size_of_group(list, n, i);
+    for (int k = i; k < i + size; k++) {
+      char *text = report->parallel;
+      keep[list[k].edge] = k == i;
+      if (k == i || !is_longer(list, k)) continue;
+      if (report->parallel_edges++) snprintf(text + strlen(text), sizeof report->parallel - strlen(text), "; ");
+      append_node(text, sizeof report->parallel, draft, list[k].low);
+      snprintf(text + strlen(text), sizeof report->parallel - strlen(text), " to ");
+      append_node(text, sizeof report->parallel, draft, list[k].high);
+      snprintf(text + strlen(text), sizeof report->parallel - strlen(text), ": %.6g beside %.6g", list[k].length, list[i].length);
+    }
+  }
+  free(list);
+  return st;
+}
+
+/* keep[e] = 1 for the edges that survive: not of zero length, the shortest of those that join the same nodes. */
 static thr_status choose_edges(const thr_draft *draft, const int *parent, bool *keep, thr_read_report *report, thr_err *err)
 {
   int *next = thr_calloc((size_t)draft->n_edges, sizeof *next); /* of the edges with one lower end, by number */
@@ -252,6 +332,58 @@ static thr_status choose_edges(const thr_draft *draft, const int *parent, bool *
   free(next);
   free(first);
   free(seen);
+  return st || !report->duplicate_edges ? st : keep_shortest(draft, parent, keep, report, err);
+}
+
+/* Puts a node on the straight line of an edge, at a share of its length, and makes two edges of it. */
+static thr_status part_edge(thr_draft *draft, int e, double share, int number, thr_err *err)
+{
+  const struct thr_draft_edge edge = draft->edge[e];
+  const struct thr_draft_node *a = &draft->node[edge.a], *b = &draft->node[edge.b];
+  double xyz[3];
+  char name[80] = "";
+  for (int i = 0; i < 3; i++)
+    xyz[i] = (1 - share) * a->xyz[i] + share * b->xyz[i];
+  const double length = edge.length != 0 ? edge.length : distance(a->xyz, b->xyz);
+  append_node(name, sizeof name, draft, edge.a);
+  snprintf(name + strlen(name), sizeof name - strlen(name), "~");
+  append_node(name, sizeof name, draft, edge.b);
+  snprintf(name + strlen(name), sizeof name - strlen(name), "~%d", number);
+  thr_status st = thr_draft_add_node(draft, xyz, name, false, err);
+  if (!st) st = thr_draft_add_edge(draft, draft->n_nodes - 1, edge.b, (1 - share) * length, err);
+  if (st) return st;
+  draft->edge[draft->n_edges - 1].cover = edge.cover;
+  draft->edge[draft->n_edges - 1].capacity = edge.capacity;
+  draft->edge[e].b = draft->n_nodes - 1;
+  draft->edge[e].length = share * length;
+  return THR_OK;
+}
+
+thr_status thr_draft_keep_parallel(thr_draft *draft, double tolerance, thr_err *err)
+{
+  joining *list = NULL;
+  int n = 0, *parent = NULL;
+  if (draft->n_edges == 0) return THR_OK; /* an error of who builds it */
+  thr_status st = tolerance < 0 ? default_tolerance(draft, &tolerance, err) : THR_OK;
+  if (!st) st = (parent = thr_calloc((size_t)draft->n_nodes, sizeof *parent)) ? THR_OK : thr_nomem(err);
+  if (!st) st = weld(draft, tolerance, parent, err);
+  if (!st) st = list_by_ends(draft, parent, &list, &n, err);
+  for (int i = 0, size; i < n && !st; i += size) {
+    size = size_of_group(list, n, i);
+    int longer = 0, parted = 0;
+    for (int k = i + 1; k < i + size; k++)
+      longer += is_longer(list, k);
+    for (int k = i + 1; k < i + size && !st; k++) {
+      struct thr_draft_edge *edge = &draft->edge[list[k].edge];
+      const double share = (double)(parted + 1) / (longer + 1);
+      if (is_longer(list, k))
+        st = part_edge(draft, list[k].edge, parent[edge->a] == list[k].low ? share : 1 - share, ++parted, err);
+      else if (parted) /* as long as the one before it, whose first half it repeats */
+        *edge = draft->edge[list[k - 1].edge];
+    }
+  }
+  free(list);
+  free(parent);
   return st;
 }
 

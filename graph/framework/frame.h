@@ -85,6 +85,8 @@ typedef struct {
   int nodes_read, edges_read;
   int welded_nodes;       /* merged into an earlier node */
   int duplicate_edges;    /* dropped */
+  int parallel_edges;     /* of these, those that have another length than the one that is kept */
+  char parallel[160];     /* the first of these, with the lengths */
   int zero_length_edges;  /* dropped: both ends weld to one node */
   int isolated_nodes;     /* dropped: no edge */
   int skipped_records;    /* records of the file that the reader knows but does not use (set by the reader) */
@@ -104,12 +106,16 @@ typedef struct {
 
 /* Welds nodes closer than tolerance (< 0: 1e-6 of the bounding box's diagonal, at most a thousandth of the median edge), drops
  * zero-length and duplicate edges and isolated nodes, and fills frame and report (nodes_read .. isolated_nodes). The lowest file
- * index of a welded group gives coordinates and name; any member's foot makes it a foot. Of edges that fall together the first
- * one counts. Nodes and edges keep file order.
+ * index of a welded group gives coordinates and name; any member's foot makes it a foot. Of edges that fall together the shortest
+ * one counts, of those of one length the first. Nodes and edges keep file order.
  * THR_EINPUT if no edge is left, a length is out of range, or two nodes that are left have one name. The draft is unchanged. O(n
  * log n) as long as few nodes lie within the tolerance of each other along one fixed skew direction; quadratic in those. */
 thr_status thr_draft_build(const thr_draft *draft, double tolerance, thr_frame *frame, thr_read_report *report,
                            thr_err *err) THR_MUST_CHECK;
+
+/* Parts the edges that thr_draft_build would drop although they have a length of their own, by a node for each on the straight
+ * line between its ends: in the middle, where there is one. */
+thr_status thr_draft_keep_parallel(thr_draft *draft, double tolerance, thr_err *err) THR_MUST_CHECK;
 
 /* Would thr_draft_build make this framework again, which it made, of the draft with tolerance 0: the same nodes and edges in the
  * same order, with equal numbers and names? O(n). */

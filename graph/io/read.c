@@ -109,6 +109,7 @@ static thr_status build(const thr_read_options *options, const char *name, thr_d
     st = thr_fail(&why, THR_EINPUT, "comments name two units of length, %s and %s; say which with --units", draft->other,
                   draft->units);
   if (!st) st = thr_draft_stand(draft, options->up, options->scale, report, &why);
+  if (!st && options->parallel) st = thr_draft_keep_parallel(draft, options->weld, &why);
   if (!st) st = thr_draft_build(draft, options->weld, frame, report, &why);
   if (!st && options->split) st = thr_frame_split(frame, &report->split_edges, report, &why);
   if (!st) return THR_OK;

@@ -188,6 +188,56 @@ START_TEST(two_nodes_of_one_name_are_found)
 }
 END_TEST
 
+/* Random multigraphs. Oracle: for all pairs of nodes the different lengths between them; the shortest is kept, or all, where each
+ * longer one is two edges and one more node. */
+START_TEST(of_parallel_edges_the_shortest_or_all_are_kept)
+{
+  enum { N = 5, M = 20, LENGTHS = 4 };
+  rng r = rng_make((uint64_t)_i);
+  thr_draft d = {0};
+  thr_read_report report = {0};
+  bool there[N][N][LENGTHS] = {{{false}}};
+  double least = 0, all = 0;
+  int pairs = 0, longer = 0, dropped = 0;
+  for (int v = 0; v < N; v++)
+    node(&d, v, v * v, v * v * v);
+  for (int e = 0; e < M; e++) {
+    const int a = rng_below(&r, N), b = rng_below(&r, N), k = rng_below(&r, LENGTHS);
+    if (a == b) continue;
+    dropped++;
+    there[a < b ? a : b][a < b ? b : a][k] = true;
+    ck_assert_int_eq(thr_draft_add_edge(&d, a, b, 1000 + 10 * k, NULL), THR_OK);
+  }
+  for (int a = 0; a < N; a++)
+    for (int b = a; b < N; b++)
+      for (int k = 0, first = 1; k < LENGTHS; k++) {
+        if (!there[a][b][k]) continue;
+        all += 1000 + 10 * k;
+        least += first ? 1000 + 10 * k : 0;
+        pairs += first;
+        longer += !first;
+        first = 0;
+      }
+  thr_frame f;
+  ck_assert_int_eq(thr_draft_build(&d, 0, &f, &report, NULL), THR_OK);
+  const int nodes = f.n_nodes;
+  ck_assert_int_eq(f.n_edges, pairs);
+  ck_assert_double_eq_tol(thr_frame_total_length(&f), least, 1e-6);
+  ck_assert_int_eq(report.duplicate_edges, dropped - pairs);
+  ck_assert_int_eq(report.parallel_edges, longer);
+  ck_assert((strstr(report.parallel, " beside 10") != NULL) == (longer > 0));
+  thr_frame_destroy(&f);
+  report = (thr_read_report){0};
+  ck_assert_int_eq(thr_draft_keep_parallel(&d, 0, NULL), THR_OK);
+  f = build(&d, 0, &report);
+  ck_assert_int_eq(f.n_nodes, nodes + longer);
+  ck_assert_int_eq(f.n_edges, pairs + 2 * longer);
+  ck_assert_double_eq_tol(thr_frame_total_length(&f), all, 1e-6);
+  ck_assert_int_eq(report.parallel_edges, 0);
+  thr_frame_destroy(&f);
+}
+END_TEST
+
 START_TEST(keeps_own_lengths)
 {
   thr_draft d = {0};
@@ -406,6 +456,7 @@ int main(void)
   tcase_add_test(t, zero_tolerance_welds_equal_points_only);
   tcase_add_loop_test(t, welds_what_all_pairs_weld, 0, 24);
   tcase_add_test(t, two_nodes_of_one_name_are_found);
+  tcase_add_loop_test(t, of_parallel_edges_the_shortest_or_all_are_kept, 0, 40);
   tcase_add_test(t, keeps_own_lengths);
   tcase_add_test(t, refuses_bad_drafts);
   tcase_add_test(t, half_edges_leave_and_arrive);
