@@ -12,6 +12,7 @@ typedef struct {
   thr_scan scan;
   thr_span line; /* what is left of the current line */
   thr_draft *draft;
+  thr_read_report *report;
   thr_err *err;
   thr_faces faces;
   thr_status status; /* of the comments */
@@ -90,31 +91,55 @@ static thr_status read_face(off *o)
     if (!st) st = thr_faces_corner(&o->faces, corner, o->err);
   }
   o->line.n = 0; /* a colour follows on the line */
+  if (!st && n < 2) thr_report_skip(o->report, thr_span_of("a face of one corner"));
   return st ? st : thr_faces_close(&o->faces, o->err);
+}
+
+/* Passes over the number of edges, which nobody counts and some programs do not write: then the line ends after the number of
+ * faces, and the next one is no number alone. */
+static thr_status skip_edge_count(off *o)
+{
+  int unused;
+  if (thr_span_trim(o->line).n) return next_count(o, &unused);
+  while (!thr_span_trim(o->line).n && next_line(o)) {
+  }
+  thr_span rest = o->line;
+  thr_span_word(&rest);
+  return thr_span_trim(rest).n ? THR_OK : next_count(o, &unused);
+}
+
+/* Reads the numbers of vertices and faces, before which the word OFF may be missing. */
+static thr_status read_counts(off *o, int *n_vertices, int *n_faces)
+{
+  thr_span word = next_word(o);
+  if (o->status) return o->status;
+  const bool headless = thr_span_int(word, n_vertices);
+  if (!headless && !is_header(word))
+    return thr_scan_fail(&o->scan, o->err, "an OFF file in three dimensions begins with OFF, COFF or NOFF");
+  if (thr_span_is(thr_span_trim(o->line), "BINARY"))
+    return thr_scan_fail(&o->scan, o->err, "binary OFF is not read; export it as text, or as PLY");
+  if (headless) o->line = (thr_span){word.s, (size_t)(o->line.s + o->line.n - word.s)};
+  thr_status st = next_count(o, n_vertices);
+  if (!st) st = next_count(o, n_faces);
+  return st ? st : skip_edge_count(o);
 }
 
 static thr_status read_all(off *o)
 {
-  int n_vertices = 0, n_faces = 0, unused;
-  thr_span word = next_word(o);
-  if (o->status) return o->status;
-  if (!is_header(word)) return thr_scan_fail(&o->scan, o->err, "an OFF file in three dimensions begins with OFF, COFF or NOFF");
-  if (thr_span_is(thr_span_trim(o->line), "BINARY"))
-    return thr_scan_fail(&o->scan, o->err, "binary OFF is not read; export it as text, or as PLY");
-  thr_status st = next_count(o, &n_vertices);
-  if (!st) st = next_count(o, &n_faces);
-  if (!st) st = next_count(o, &unused); /* edges: nobody counts them */
+  int n_vertices = 0, n_faces = 0;
+  thr_status st = read_counts(o, &n_vertices, &n_faces);
   for (int v = 0; v < n_vertices && !st; v++)
     st = read_vertex(o);
   for (int f = 0; f < n_faces && !st; f++)
     st = read_face(o);
-  return st;
+  if (st || !next_word(o).n) return st ? st : o->status;
+  return thr_scan_fail(&o->scan, o->err, "this is left after %d vertices and %d faces; correct these numbers or export again",
+                       n_vertices, n_faces);
 }
 
 static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
 {
-  (void)report; /* nothing of such a file is skipped */
-  off o = {.draft = draft, .err = err};
+  off o = {.draft = draft, .report = report, .err = err};
   thr_status st = thr_scan_start(&o.scan, text, n, name, err);
   if (!st) st = read_all(&o);
   if (!st) st = thr_faces_finish(&o.faces, draft, name, err);

@@ -174,6 +174,27 @@ START_TEST(cubes)
 }
 END_TEST
 
+/* The word OFF or the number of edges may be missing, or all numbers stand in lines of their own; faces of one corner are points.
+ */
+START_TEST(off_begins_in_many_ways)
+{
+  static const char *const head[] = {"OFF\n4 3 5\n", "4 3 5\n",        "OFF\n4 3\n",   "# a\n\n4 3 # b\n\n",
+                                     "OFF 4 3 0\n",  "OFF\n4\n3\n5\n", "OFF\n4 3\n5\n"};
+  for (size_t i = 0; i < sizeof head / sizeof *head; i++) {
+    thr_text t = {0};
+    thr_read_report r;
+    thr_text_append(&t, head[i]);
+    thr_text_append(&t, "0 0 0\n20 0 0 255 0 0\n20 20 0 # c\n0 20 5\n3 0 1 2\n3 0 2 3 9 9 9\n1 3\n\n");
+    thr_frame f = read_as(&t, "a.off", 0, &r);
+    ck_assert_msg(f.n_nodes == 4 && f.n_edges == 5, "%s", head[i]);
+    ck_assert_double_eq_tol(thr_frame_total_length(&f), 20 + 20 + 20 * sqrt(2) + 2 * sqrt(425), 1e-9);
+    ck_assert_int_eq(r.skipped_records, 1);
+    thr_frame_destroy(&f);
+    thr_text_destroy(&t);
+  }
+}
+END_TEST
+
 /* A square of four nodes by what the elements are called and how they name nodes. Two triangles have five sides, as have the
  * strip 0 1 2 3 and, begun anew, the strips 0 1 2 and 2 3 0; an open polyline has three. */
 START_TEST(ply_has_many_words_for_edges)
@@ -356,6 +377,9 @@ START_TEST(errors_say_where)
   check_accepted(HEAD("ascii") EDGE "\n0 0 0\nnan 20 0\n0 1.#QNAN 0\n\n1\n\n", "a.ply");
 #undef HEAD
 #undef EDGE
+  check_refused("OFF\n3 1\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n3 2 1 0\n", "a.off",
+                "a.off:7: this is left after 3 vertices and 1 faces; correct these numbers or export again");
+  check_refused("three\n", "a.off", "a.off:1: an OFF file in three dimensions begins with OFF, COFF or NOFF");
   check_refused("OFF BINARY\n", "a.off", "a.off:1: binary OFF is not read; export it as text, or as PLY");
   check_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 x\n", "a.off",
                 "a.off:6: 'x' is not a number of vertices, faces or corners");
@@ -574,6 +598,7 @@ int main(void)
   ADD_LOOP(s, 4, cubes, 0, 2);
   ADD_TEST(s, 4, ply_tells_units_and_what_it_skips);
   ADD_TEST(s, 4, ply_has_many_words_for_edges);
+  ADD_TEST(s, 4, off_begins_in_many_ways);
   ADD_LOOP(s, 4, what_is_cut_is_refused, 0, 5);
   ADD_TEST(s, 4, errors_of_graphs_say_where);
   ADD_TEST(s, 4, errors_of_gltf_say_where);
