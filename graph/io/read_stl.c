@@ -54,6 +54,17 @@ static thr_status read_binary(thr_sites *c, thr_draft *draft, const char *text, 
   return st;
 }
 
+/* Says of a binary file, which is not as long as it announces, how many triangles fit into it. */
+static thr_status fail_length(const char *text, size_t n, const char *name, thr_err *err)
+{
+  if (n < HEAD) return thr_fail(err, THR_EINPUT, "%s: a binary STL of %zu bytes is not whole; its head alone has 84", name, n);
+  const size_t fit = (n - HEAD) / TRIANGLE, left = (n - HEAD) % TRIANGLE;
+  return thr_fail(
+      err, THR_EINPUT,
+      "%s: this binary STL announces %u triangles; %zu fit into its %zu bytes, and %zu bytes are left; export it again", name,
+      (unsigned)little32(text + HEAD - 4), fit, n, left);
+}
+
 /* ---- text ---- */
 
 static thr_status read_vertex(const thr_scan *scan, thr_sites *c, thr_span rest, thr_err *err)
@@ -83,7 +94,7 @@ static thr_status read_text(thr_sites *c, thr_draft *draft, thr_parts *parts, co
 {
   thr_scan scan;
   thr_span line;
-  int part = -1;
+  int part = -1, facet = 0; /* facet: where it begins in c */
   thr_status st = name_parts(parts, text, n, name, err);
   if (!st) st = thr_scan_start(&scan, text, n, name, err);
   while (!st && thr_scan_line(&scan, &line)) {
@@ -92,8 +103,11 @@ static thr_status read_text(thr_sites *c, thr_draft *draft, thr_parts *parts, co
     if (thr_span_is(word, "solid")) st = thr_scan_units(&scan, line, draft, err);
     if (!thr_parts_has(parts, part)) continue;
     if (!st && thr_span_is(word, "vertex")) st = read_vertex(&scan, c, line, err);
-    if (!st && thr_span_is(word, "endfacet") && c->n % 3) st = thr_scan_fail(&scan, err, "a facet needs three vertices");
+    if (thr_span_is(word, "facet")) facet = c->n;
+    if (!st && thr_span_is(word, "endfacet") && c->n - facet != 3)
+      st = thr_scan_fail(&scan, err, "a facet needs three vertices, this one has %d; export triangles", c->n - facet);
   }
+  if (!st && c->n % 3) st = thr_scan_fail(&scan, err, "the file ends inside a facet; it is not whole");
   return st;
 }
 
@@ -121,8 +135,13 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
 {
   thr_sites c = {0};
   thr_parts solids = {.asked = draft->pick};
-  thr_status st =
-      is_binary(text, n) ? read_binary(&c, draft, text, n, name, err) : read_text(&c, draft, &solids, text, n, name, err);
+  thr_status st = THR_OK;
+  if (is_binary(text, n))
+    st = read_binary(&c, draft, text, n, name, err);
+  else if (n && memchr(text, '\0', n))
+    st = fail_length(text, n, name, err);
+  else
+    st = read_text(&c, draft, &solids, text, n, name, err);
   if (!st) st = fill_draft(&c, draft, name, err);
   thr_parts_finish(&solids, report);
   thr_sites_destroy(&c);

@@ -174,6 +174,35 @@ START_TEST(cubes)
 }
 END_TEST
 
+/* A binary STL whose length is not what its count says tells both numbers, be it cut, longer or miscounted. */
+START_TEST(binary_stl_of_another_length_says_how_many_fit)
+{
+  static const struct {
+    int announced, bytes;
+    const char *name, *message;
+  } bad[] = {
+      {12, 84 + 12 * 50 + 7, "a.stl", "12 triangles; 12 fit into its 691 bytes, and 7 bytes are left"},
+      {12, 84 + 11 * 50 + 49, "a.stl", "12 triangles; 11 fit into its 683 bytes, and 49 bytes are left"},
+      {-1, 84 + 2 * 50, "a.stl", "4294967295 triangles; 2 fit into its 184 bytes, and 0 bytes are left"},
+      {0, 84 + 50, "stdin", "0 triangles; 1 fit into its 134 bytes, and 0 bytes are left"},
+  };
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    thr_text t = {0};
+    thr_draft d = {0};
+    thr_read_report r = {0};
+    thr_err err = {0};
+    char message[200];
+    thr_text_append(&t, "solid of nothing");
+    while (t.length < (size_t)bad[i].bytes)
+      thr_text_byte(&t, t.length >= 80 && t.length < 84 ? (char)((unsigned)bad[i].announced >> 8 * (t.length - 80)) : '\0');
+    ck_assert_int_eq(thr_draft_parse(&d, &r, t.data, t.length, bad[i].name, NULL, &err), THR_EINPUT);
+    snprintf(message, sizeof message, "%s: this binary STL announces %s; export it again", bad[i].name, bad[i].message);
+    ck_assert_str_eq(err.text, message);
+    thr_text_destroy(&t);
+  }
+}
+END_TEST
+
 /* The word OFF or the number of edges may be missing, or all numbers stand in lines of their own; faces of one corner are points.
  */
 START_TEST(off_begins_in_many_ways)
@@ -383,7 +412,10 @@ START_TEST(errors_say_where)
   check_refused("OFF BINARY\n", "a.off", "a.off:1: binary OFF is not read; export it as text, or as PLY");
   check_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 x\n", "a.off",
                 "a.off:6: 'x' is not a number of vertices, faces or corners");
-  check_refused("solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\n", "a.stl", "a.stl:5: a facet needs three vertices");
+  check_refused("solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\n", "a.stl",
+                "a.stl:5: a facet needs three vertices, this one has 2; export triangles");
+  check_refused("solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendfacet\nfacet\nvertex 0 0 0\n", "a.stl",
+                "a.stl:8: the file ends inside a facet; it is not whole");
   check_refused("solid a\nendsolid a\n", "a.stl", "a.stl: no triangles; this is an empty STL file, or none");
 }
 END_TEST
@@ -599,6 +631,7 @@ int main(void)
   ADD_TEST(s, 4, ply_tells_units_and_what_it_skips);
   ADD_TEST(s, 4, ply_has_many_words_for_edges);
   ADD_TEST(s, 4, off_begins_in_many_ways);
+  ADD_TEST(s, 4, binary_stl_of_another_length_says_how_many_fit);
   ADD_LOOP(s, 4, what_is_cut_is_refused, 0, 5);
   ADD_TEST(s, 4, errors_of_graphs_say_where);
   ADD_TEST(s, 4, errors_of_gltf_say_where);
