@@ -32,6 +32,10 @@ void advice_command_options(const cli_frame_args *a, const cli_physics *physics,
   if (a->read.up != THR_UP_AUTO) put_option(text, "up", thr_up_name(a->read.up));
   if (a->read.scale != 1) put_number(text, "scale", a->read.scale);
   if (a->read.flat > 0) put_number(text, "flat", thr_degrees(a->read.flat));
+  if (a->read.pick) put_option(text, "pick", a->read.pick);
+  if (a->read.all_layers) put_option(text, "layers", "all");
+  if (a->read.parallel) put_option(text, "parallel", "keep");
+  if (a->read.split) thr_text_append(text, " --split");
   for (int i = 0; i < physics->n; i++) {
     char name[24];
     cli_physics_spell(physics, i, name);

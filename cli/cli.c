@@ -254,6 +254,11 @@ static const char *parallel_name(int choice)
   return choice ? "keep" : "shortest";
 }
 
+static const char *layers_name(int layers)
+{
+  return layers == 0 ? "all" : "shown";
+}
+
 bool cli_frame_option(cli_frame_args *a, const char *command, int option, const char *value, bool *ok)
 {
   *ok = true;
@@ -281,6 +286,12 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
     int choice;
     *ok = cli_choose(command, "--parallel", value, parallel_name, 2, &choice);
     if (*ok) a->read.parallel = choice == 1;
+    return true;
+  }
+  case OPTION_LAYERS: {
+    int layers;
+    *ok = cli_choose(command, "--layers", value, layers_name, 2, &layers);
+    a->read.all_layers = *ok && layers == 0;
     return true;
   }
   case OPTION_SPLIT: a->read.split = true; return true;

@@ -103,8 +103,8 @@ typedef struct {
   {"edges", required_argument, NULL, OPTION_EDGES}, {"weld", required_argument, NULL, OPTION_WELD},                              \
       {"units", required_argument, NULL, OPTION_UNITS}, {"up", required_argument, NULL, OPTION_UP},                              \
       {"scale", required_argument, NULL, OPTION_SCALE}, {"flat", required_argument, NULL, OPTION_FLAT},                          \
-      {"pick", required_argument, NULL, OPTION_PICK}, {"split", no_argument, NULL, OPTION_SPLIT},                                \
-      {"parallel", required_argument, NULL, OPTION_PARALLEL},                                                                    \
+      {"pick", required_argument, NULL, OPTION_PICK}, {"layers", required_argument, NULL, OPTION_LAYERS},                        \
+      {"split", no_argument, NULL, OPTION_SPLIT}, {"parallel", required_argument, NULL, OPTION_PARALLEL},                        \
   {                                                                                                                              \
     "feet", required_argument, NULL, OPTION_FEET                                                                                 \
   }
@@ -116,6 +116,7 @@ enum {
   OPTION_SCALE,
   OPTION_FLAT,
   OPTION_PICK,
+  OPTION_LAYERS,
   OPTION_SPLIT,
   OPTION_PARALLEL,
   OPTION_FEET,
@@ -131,7 +132,8 @@ enum {
   "      --flat DEG       meshes: no edge between triangles that meet at less than DEG degrees\n"                                \
   "      --parallel keep|shortest  of edges between the same nodes: all, parted by a node each, or the shortest (default)\n"     \
   "      --split          cut an edge where a node lies on it\n"                                                                 \
-  "      --pick NAME|N    of a file of several frameworks, objects, groups or layers: this one, or the Nth (default: all)\n"
+  "      --pick NAME|N    of a file of several frameworks, objects, groups or layers: this one, or the Nth (default: all)\n"     \
+  "      --layers all|shown  DXF: with the layers that are off or frozen, or without (default)\n"
 
 cli_frame_args cli_frame_args_default(void);
 /* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */

@@ -49,6 +49,7 @@ typedef struct {
   char split;        /* 1: an edge is cut where a node lies on it */
   int pick;          /* which framework of a file that holds several, from 1; 0 = all */
   const char *part;  /* the same by its name, or by that of an object, group or layer; NULL = as pick says */
+  char all_layers;   /* 1: what a drawing has on layers that are off or frozen is read, too */
 } thread_read_options;
 THREAD_API void thread_read_options_init(thread_read_options *options, size_t size);
 

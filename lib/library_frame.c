@@ -32,6 +32,7 @@ static thr_status read_options(const thread_read_options *theirs, thr_read_optio
   if (o.pick < 0) return thr_fail(err, THR_EINPUT, "pick %d: below 0", o.pick);
   out->edges_path = o.edges;
   out->split = o.split != 0;
+  out->all_layers = o.all_layers != 0;
   snprintf(number, 12, "%d", o.pick);
   out->pick = o.part ? o.part : o.pick ? number : NULL;
   out->units = o.units;

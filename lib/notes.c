@@ -21,6 +21,11 @@ static void put_report(thr_text *out, const thr_read_report *report)
   if (report->skipped_records)
     thr_text_printf(out, "%d %s not used (the first is %s)\n", report->skipped_records,
                     report->skipped_records == 1 ? "record" : "records", report->skipped_kind);
+  if (report->hidden_edges)
+    thr_text_printf(out, "%d %s on %d hidden %s %s left out: --layers all\n", report->hidden_edges,
+                    report->hidden_edges == 1 ? "edge" : "edges", report->hidden_layers,
+                    report->hidden_layers == 1 ? "layer" : "layers", report->hidden_edges == 1 ? "is" : "are");
+  put_count(out, report->unseen_records, "record", "records", "on paper or marked invisible left out");
   if (report->missing_blocks)
     thr_text_printf(out, "%d %s of blocks that are not in the file left out (the first is %s)\n", report->missing_blocks,
                     report->missing_blocks == 1 ? "insertion" : "insertions", report->missing_block);

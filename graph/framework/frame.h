@@ -59,6 +59,7 @@ typedef struct {
   bool up_is_y;     /* the format says that y points up */
   const char *pick; /* asked of the readers of files that hold several frameworks: the name or the number of one of them, from 1;
                        NULL = all of a list; borrowed */
+  bool all_layers;  /* asked of the readers of drawings: what is on hidden layers is read, too */
   double flat;      /* asked of the readers of meshes, rad: triangles that meet at less have no edge between them; 0 = all have */
 } thr_draft;
 
@@ -83,14 +84,17 @@ void thr_draft_destroy(thr_draft *draft);
 typedef struct {
   double weld_tolerance; /* in units */
   int nodes_read, edges_read;
-  int welded_nodes;       /* merged into an earlier node */
-  int duplicate_edges;    /* dropped */
-  int parallel_edges;     /* of these, those that have another length than the one that is kept */
-  char parallel[160];     /* the first of these, with the lengths */
-  int zero_length_edges;  /* dropped: both ends weld to one node */
-  int isolated_nodes;     /* dropped: no edge */
-  int skipped_records;    /* records of the file that the reader knows but does not use (set by the reader) */
-  char skipped_kind[32];  /* the first such record's keyword */
+  int welded_nodes;      /* merged into an earlier node */
+  int duplicate_edges;   /* dropped */
+  int parallel_edges;    /* of these, those that have another length than the one that is kept */
+  char parallel[160];    /* the first of these, with the lengths */
+  int zero_length_edges; /* dropped: both ends weld to one node */
+  int isolated_nodes;    /* dropped: no edge */
+  int skipped_records;   /* records of the file that the reader knows but does not use (set by the reader) */
+  char skipped_kind[32]; /* the first such record's keyword */
+  int hidden_edges;      /* of layers that are off or frozen, left out, and of how many layers */
+  int hidden_layers;
+  int unseen_records;     /* records that are marked invisible, or on paper, left out */
   int missing_blocks;     /* insertions of blocks that the file does not hold, left out */
   char missing_block[32]; /* the first one's name */
   bool turned;            /* y was taken to point up, because the file's maker is known to write that */

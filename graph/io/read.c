@@ -127,7 +127,7 @@ static thr_status check_pick(const thr_read_options *options, const thr_read_rep
 thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char *text, size_t n, const char *name,
                            const thr_read_options *options, thr_err *err)
 {
-  thr_draft draft = {.flat = options->flat, .pick = options->pick};
+  thr_draft draft = {.flat = options->flat, .pick = options->pick, .all_layers = options->all_layers};
   *frame = (thr_frame){0};
   thr_status st = thr_draft_parse(&draft, report, text, n, name, NULL, err);
   if (!st) st = check_pick(options, report, name, err);
@@ -143,7 +143,7 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
                           char *pair_path, size_t pair_size, thr_err *err)
 {
   thr_text text = {0};
-  thr_draft draft = {.flat = options->flat, .pick = options->pick};
+  thr_draft draft = {.flat = options->flat, .pick = options->pick, .all_layers = options->all_layers};
   const thr_format *format = NULL;
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
   *frame = (thr_frame){0};

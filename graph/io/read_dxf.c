@@ -40,12 +40,15 @@ typedef struct {
 
 typedef enum { PATH, RING, INSERT } shape_kind;
 
+/* Layer 0 is in a block that of the INSERT. */
+enum { ON_ZERO = -1, SHOWN = INT_MAX };
+
 /* A run of points: open, or a face; or a block inserted. */
 typedef struct {
   shape_kind kind;
   int first, last;     /* PATH, RING: points; INSERT: which of inserted */
   double curve_length; /* PATH of two points: how long the curve between them is, 0 = straight */
-  int layer;           /* -1 = layer 0, which in a block is that of the INSERT */
+  int layer;           /* number of the part, or without --pick of the hidden layer, or SHOWN; ON_ZERO */
 } shape;
 
 typedef struct {
@@ -59,6 +62,14 @@ typedef struct {
   thr_span block;
   placing place;
 } insertion;
+
+/* A layer that is not shown. What is inserted on one that is frozen is hidden as a whole, on one that is off only what would take
+ * its layer from the insertion. */
+typedef struct {
+  thr_span name;
+  bool frozen;
+  int n_edges; /* on it, left out */
+} hidden_layer;
 
 typedef struct {
   thr_scan scan;
@@ -88,9 +99,13 @@ typedef struct {
   thr_faces faces; /* runs of sites; lengths of those of two are in length */
   double *length;  /* of each run, 0 = straight */
   int n_placed;    /* insertions */
+  int n_visited;   /* shapes, as often as they are placed or left out */
   thr_parts parts; /* layers */
-  int ground;      /* layer 0; -1 = there is nothing on it, outside of blocks */
-  int layer;       /* of the entity being read, as in shape */
+  hidden_layer *hidden;
+  int n_hidden, hidden_capacity;
+  thr_span layer_name; /* of the entity read last, whose number is layer */
+  int ground;          /* the number of layer 0 outside of blocks */
+  int layer;           /* of the entity being read, as in shape */
   int length_capacity;
 } dxf;
 
@@ -178,11 +193,31 @@ static thr_status point_of(dxf *d, int code, double xyz[3])
   return st;
 }
 
+/* Returns c, or the small letter of a capital one: of ASCII, and after the byte C3 of UTF-8 of Latin-1. */
+static unsigned char small(unsigned char before, unsigned char c)
+{
+  const bool capital = (c >= 'A' && c <= 'Z') || (before == 0xc3 && c >= 0x80 && c <= 0x9e && c != 0x97);
+  return capital ? c + 32 : c;
+}
+
+/* Are two names of a table of the drawing the same? Their letter case does not matter. */
+static bool same_name(thr_span a, thr_span b)
+{
+  bool same = a.n == b.n;
+  for (size_t i = 0; i < a.n && same; i++) {
+    const unsigned char before = i ? (unsigned char)a.s[i - 1] : 0;
+    same = small(before, (unsigned char)a.s[i]) == small(before, (unsigned char)b.s[i]);
+  }
+  return same;
+}
+
 /* On paper instead of in the model, or hidden. */
 static bool is_skipped(const dxf *d)
 {
   const pair *paper = find(d, 67), *hidden = find(d, 60);
-  return (paper && thr_span_is(paper->value, "1")) || (hidden && thr_span_is(hidden->value, "1"));
+  const bool skipped = (paper && thr_span_is(paper->value, "1")) || (hidden && thr_span_is(hidden->value, "1"));
+  d->report->unseen_records += skipped;
+  return skipped;
 }
 
 /* ---- coordinates ---- */
@@ -595,13 +630,49 @@ static thr_status read_insert(dxf *d)
   return st;
 }
 
-/* The layer of the entity that was taken: code 8. */
+/* Returns the number of the hidden layer of a name, or SHOWN. */
+static int find_hidden(const dxf *d, thr_span name)
+{
+  for (int i = 0; i < d->n_hidden; i++)
+    if (same_name(d->hidden[i].name, name)) return i;
+  return SHOWN;
+}
+
+/* Finds the layer of the entity that was taken: code 8. */
 static thr_status find_layer(dxf *d)
 {
   const pair *named = find(d, 8);
-  d->layer = -1;
-  if (!named || thr_span_is(named->value, "0")) return THR_OK;
-  return thr_parts_find(&d->parts, named->value, &d->layer, d->err);
+  const thr_span name = named ? named->value : thr_span_of("0"), last = d->layer_name;
+  if (name.n == last.n && memcmp(name.s, last.s, name.n) == 0) return THR_OK;
+  d->layer_name = name;
+  d->layer = ON_ZERO;
+  if (thr_span_is(name, "0")) return THR_OK;
+  if (d->parts.asked) return thr_parts_find(&d->parts, name, &d->layer, d->err);
+  d->layer = find_hidden(d, name);
+  return THR_OK;
+}
+
+/* Keeps the layer of a table if it is hidden: off, which a negative colour says, or frozen. */
+static thr_status read_layer(dxf *d)
+{
+  const pair *name = find(d, 2);
+  int flags, colour;
+  thr_status st = whole(d, 70, &flags);
+  if (!st) st = whole(d, 62, &colour);
+  if (st || !name || !((flags & 1) || colour < 0) || d->draft->all_layers || d->parts.asked) return st;
+  st = thr_grow(&d->hidden, d->n_hidden, &d->hidden_capacity, sizeof *d->hidden, d->err);
+  if (!st) d->hidden[d->n_hidden++] = (hidden_layer){name->value, flags & 1, 0};
+  return st;
+}
+
+static thr_status read_tables(dxf *d)
+{
+  thr_status st = THR_OK;
+  while (!st && !d->ended && !thr_span_is(d->next.value, "ENDSEC")) {
+    st = take_entity(d);
+    if (!st && thr_span_is(d->type, "LAYER")) st = read_layer(d);
+  }
+  return st;
 }
 
 static thr_status read_entity(dxf *d)
@@ -612,7 +683,7 @@ static thr_status read_entity(dxf *d)
   } known[] = {{"LINE", read_line}, {"LWPOLYLINE", read_lwpolyline}, {"3DFACE", read_face},  {"SPLINE", read_spline},
                {"ARC", read_arc},   {"ELLIPSE", read_ellipse},       {"INSERT", read_insert}};
   thr_status st = take_entity(d);
-  if (!st && d->parts.asked) st = find_layer(d);
+  if (!st) st = find_layer(d);
   if (st) return st;
   if (thr_span_is(d->type, "POLYLINE")) return read_polyline(d);
   if (is_skipped(d)) return THR_OK;
@@ -687,6 +758,7 @@ static thr_status read_sections(dxf *d)
     if (st || !said) continue;
     const thr_span name = said->value;
     if (thr_span_is(name, "HEADER")) st = read_header(d);
+    if (!st && thr_span_is(name, "TABLES")) st = read_tables(d);
     if (!st && thr_span_is(name, "BLOCKS")) st = read_blocks(d);
     if (!st && thr_span_is(name, "ENTITIES")) st = read_model(d);
   }
@@ -702,24 +774,6 @@ static void miss_block(dxf *d, thr_span name)
   if (r->missing_blocks++) return;
   snprintf(r->missing_block, sizeof r->missing_block, "%.*s", name.n < 31 ? (int)name.n : 31, name.s);
   thr_text_clean(r->missing_block);
-}
-
-/* Returns c, or the small letter of a capital one: of ASCII, and after the byte C3 of UTF-8 of Latin-1. */
-static unsigned char small(unsigned char before, unsigned char c)
-{
-  const bool capital = (c >= 'A' && c <= 'Z') || (before == 0xc3 && c >= 0x80 && c <= 0x9e && c != 0x97);
-  return capital ? c + 32 : c;
-}
-
-/* Are two names of a table of the drawing the same? Their letter case does not matter. */
-static bool same_name(thr_span a, thr_span b)
-{
-  bool same = a.n == b.n;
-  for (size_t i = 0; i < a.n && same; i++) {
-    const unsigned char before = i ? (unsigned char)a.s[i - 1] : 0;
-    same = small(before, (unsigned char)a.s[i]) == small(before, (unsigned char)b.s[i]);
-  }
-  return same;
 }
 
 /* Finds the block of a name in the same letter case, else in any. *found is NULL if there is none; THR_EINPUT if there are two
@@ -767,14 +821,20 @@ static thr_status place_run(dxf *d, const shape *s, const placing *p)
   return thr_faces_close(&d->faces, d->err);
 }
 
-static thr_status place_shapes(dxf *d, int first, int last, const placing *p, int layer, int depth)
+/* Places shapes. layer: that of those on layer 0; frozen: the layer that hides them all, or SHOWN. */
+static thr_status place_shapes(dxf *d, int first, int last, const placing *p, int layer, int frozen, int depth)
 {
   thr_status st = THR_OK;
   for (int i = first; i < last && !st; i++) {
     const shape *s = &d->shape[i];
-    const int own = s->layer >= 0 ? s->layer : layer;
+    const int own = s->layer >= 0 ? s->layer : layer, hiding = frozen < d->n_hidden ? frozen : own;
+    if (++d->n_visited > MOST_PLACED)
+      return thr_fail(d->err, THR_EINPUT, "%s: more than %d entities with all inserted blocks", d->scan.name, MOST_PLACED);
     if (s->kind != INSERT) {
-      if (thr_parts_has(&d->parts, own)) st = place_run(d, s, p);
+      if (hiding >= 0 && hiding < d->n_hidden)
+        d->hidden[hiding].n_edges += s->kind == RING ? s->last - s->first : 1;
+      else if (thr_parts_has(&d->parts, own))
+        st = place_run(d, s, p);
       continue;
     }
     const insertion *in = &d->inserted[s->first];
@@ -793,7 +853,8 @@ static thr_status place_shapes(dxf *d, int first, int last, const placing *p, in
       base.t[k] = -b->base[k];
     placing q = after(&in->place, &base);
     q = after(p, &q);
-    st = place_shapes(d, b->first, b->last, &q, own, depth + 1);
+    const bool freezes = hiding >= 0 && hiding < d->n_hidden && d->hidden[hiding].frozen;
+    st = place_shapes(d, b->first, b->last, &q, own, freezes ? hiding : SHOWN, depth + 1);
   }
   return st;
 }
@@ -802,13 +863,19 @@ static thr_status place_model(dxf *d)
 {
   thr_status st = THR_OK;
   for (int i = 0; i < d->n_blocks && !st; i++)
-    if (d->block[i].name.n == 0) st = place_shapes(d, d->block[i].first, d->block[i].last, &unmoved, d->ground, 0);
+    if (d->block[i].name.n == 0) st = place_shapes(d, d->block[i].first, d->block[i].last, &unmoved, d->ground, SHOWN, 0);
+  for (const hidden_layer *h = d->hidden; h < d->hidden + d->n_hidden; h++) {
+    d->report->hidden_edges += h->n_edges;
+    d->report->hidden_layers += h->n_edges > 0;
+  }
   return st;
 }
 
 /* The runs of two as edges, the rings as sides of faces. */
 static thr_status fill_draft(dxf *d)
 {
+  if (d->faces.n == 0 && d->report->hidden_edges)
+    return thr_fail(d->err, THR_EINPUT, "%s: all its edges are on hidden layers; --layers all reads them", d->scan.name);
   if (d->faces.n == 0)
     return thr_fail(d->err, THR_EINPUT, "%s: no lines, polylines, faces or curves in its model%s%s%s%s", d->scan.name,
                     d->report->skipped_records ? ", but others: " : "", d->report->skipped_kind,
@@ -835,7 +902,7 @@ static thr_status choose_layers(dxf *d)
 {
   bool grounded = false;
   thr_status st = THR_OK;
-  d->ground = -1;
+  d->ground = d->parts.asked ? -1 : find_hidden(d, thr_span_of("0"));
   for (const block *b = d->block; b < d->block + d->n_blocks; b++)
     for (int i = b->first; i < b->last && b->name.n == 0; i++)
       grounded |= d->shape[i].layer < 0;
@@ -850,6 +917,7 @@ static void destroy(dxf *d)
   free(d->shape);
   free(d->block);
   free(d->inserted);
+  free(d->hidden);
   free(d->vertex);
   free(d->bulge);
   free(d->length);

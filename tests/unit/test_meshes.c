@@ -580,6 +580,51 @@ START_TEST(drawings_of_many_makers)
 }
 END_TEST
 
+/* Lines of 1, 2, 4, .. on layers that are shown, off and frozen, in the model and in blocks, so that the length says which were
+ * read. As AutoCAD shows them: what is inserted on a frozen layer is hidden whole; on one that is off only its layer 0 is. */
+START_TEST(hidden_layers_of_drawings)
+{
+#define LAYER(name, flags, colour) "0\nLAYER\n2\n" name "\n70\n" flags "\n62\n" colour "\n"
+#define LAYERS                                                                                                                   \
+  "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n" LAYER("On", "4", "7") LAYER("Off", "0", "-7")                                    \
+      LAYER("Cold", "65", "7") "0\nENDTAB\n0\nENDSEC\n"
+#define LINE(layer, x, length) "0\nLINE\n8\n" layer "\n10\n" x "\n11\n" x "\n21\n" length "\n"
+#define ON(layer) DXF("0\nINSERT\n8\n" layer "\n2\nB\n" LINE("OFF", "10", "64") LINE("cold", "11", "128") LINE("0", "12", "256"))
+#define BLOCK                                                                                                                    \
+  "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nB\n" LINE("0", "1", "1") LINE("On", "2", "2") LINE("Off", "3", "4")                       \
+      LINE("Cold", "4", "8") "0\nENDBLK\n0\nENDSEC\n"
+  static const struct {
+    const char *text;
+    double shown;
+    int n_hidden, n_layers;
+  } drawings[] = {{LAYERS BLOCK ON("On"), 256 + 1 + 2, 4, 2},
+                  {LAYERS BLOCK ON("off"), 256 + 2, 5, 2},
+                  {LAYERS BLOCK ON("COLD"), 256, 6, 2},
+                  {BLOCK ON("Off"), 256 + 192 + 15, 0, 0}};
+  for (size_t i = 0; i < sizeof drawings / sizeof *drawings; i++) {
+    thr_read_report r;
+    thr_read_options options = thr_read_options_default();
+    thr_frame f = read_file(drawings[i].text, "a.dxf", &options, &r);
+    ck_assert_double_eq(thr_frame_total_length(&f), drawings[i].shown);
+    ck_assert_int_eq(r.hidden_edges, drawings[i].n_hidden);
+    ck_assert_int_eq(r.hidden_layers, drawings[i].n_layers);
+    thr_frame_destroy(&f);
+    options.all_layers = true;
+    f = read_file(drawings[i].text, "a.dxf", &options, &r);
+    ck_assert_double_eq(thr_frame_total_length(&f), 256 + 192 + 15);
+    ck_assert_int_eq(r.hidden_edges, 0);
+    thr_frame_destroy(&f);
+    options = (thr_read_options){.weld = -1, .scale = 1, .pick = "Cold"};
+    if (i == 2) {
+      f = read_file(drawings[i].text, "a.dxf", &options, &r); /* what is picked by its name is read, hidden or not */
+      ck_assert_double_eq(thr_frame_total_length(&f), 8);
+      thr_frame_destroy(&f);
+    }
+  }
+  check_refused(LAYERS DXF(LINE("Off", "0", "1")), "a.dxf", "a.dxf: all its edges are on hidden layers; --layers all reads them");
+}
+END_TEST
+
 START_TEST(drawings_that_are_wrong)
 {
   check_refused(DXF("0\nLINE\n10\nx\n"), "a.dxf", "a.dxf:6: this LINE has a value that is not a finite number");
@@ -640,6 +685,7 @@ int main(void)
   ADD_TEST(s, 4, which_way_is_up);
   ADD_TEST(s, 4, drawing);
   ADD_TEST(s, 4, drawings_of_many_makers);
+  ADD_TEST(s, 4, hidden_layers_of_drawings);
   ADD_TEST(s, 4, drawings_that_are_wrong);
   ADD_LOOP(s, 4, ply_round_trip, 0, 3);
   ADD_TEST(s, 4, every_allocation_may_fail);
