@@ -13,15 +13,15 @@
 
 enum { MAX_FIELDS = 64 }; /* columns after these are not looked at */
 
-typedef enum { ANY_TABLE, NODE_TABLE, EDGE_TABLE } table_kind; /* what the caller knows of the text */
-typedef enum { NO_ROWS, NODE_ROWS, EDGE_ROWS, LINE_ROWS } row_kind;
+typedef enum { ANY_TABLE, NODE_TABLE, EDGE_TABLE } table_kind;                 /* what the caller knows of the text */
+typedef enum { NO_ROWS, NODE_ROWS, EDGE_ROWS, LINE_ROWS, TEXT_ROWS } row_kind; /* TEXT: lines as WKT */
 
 /* Where things stand in a row; -1 = nowhere. */
 typedef struct {
   row_kind kind;
   bool header;
   int width; /* fields in the row that this was learnt from */
-  int id, xyz[6], foot, ends[2], length, cover, capacity;
+  int id, xyz[6], foot, ends[2], length, cover, capacity, text;
 } columns;
 
 typedef struct {
@@ -45,15 +45,56 @@ static thr_span field_at(const csv *t, int i)
   return i >= 0 && i < t->n_fields ? t->field[i] : (thr_span){"", 0};
 }
 
+/* A comma in quotes is decimal, too, unless it may part thousands. Grasshopper's panel puts braces round three numbers. */
 static bool number_at(const csv *t, int i, double *x)
 {
-  return thr_span_number(field_at(t, i), t->separator == ';' || t->separator == '\t', x);
+  thr_span f = field_at(t, i);
+  bool decimal_comma = t->separator == ';' || t->separator == '\t';
+  for (size_t k = f.n; k-- > 0;)
+    if (f.s[k] == '{') f = thr_span_trim((thr_span){f.s + k + 1, f.n - k - 1});
+  if (f.n && f.s[f.n - 1] == '}') f = thr_span_trim((thr_span){f.s, f.n - 1});
+  const char *comma = f.n ? memchr(f.s, ',', f.n) : NULL;
+  if (comma && t->separator == ',') decimal_comma = f.s + f.n - comma != 4;
+  return thr_span_number(f, decimal_comma, x);
 }
 
 /* ---- from line to fields ---- */
 
+/* What kind of geometry a well-known text is, NULL if none: *rest receives its lists of points, *measured whether a third number
+ * is a measure and no z. */
+static const char *wkt_of(thr_span text, thr_span *rest, bool *measured)
+{
+  static const char *const kind[] = {"LINESTRING", "MULTILINESTRING", "POLYGON", "MULTIPOLYGON", "POINT", "MULTIPOINT"};
+  const char *after = text.n && thr_span_starts(text, "SRID=") ? memchr(text.s, ';', text.n) : NULL;
+  if (after) text = (thr_span){after + 1, text.n - (size_t)(after + 1 - text.s)};
+  for (size_t i = 0; i < sizeof kind / sizeof *kind; i++) {
+    const size_t n = strlen(kind[i]);
+    if (text.n < n || !thr_span_is((thr_span){text.s, n}, kind[i])) continue;
+    *rest = thr_span_trim((thr_span){text.s + n, text.n - n});
+    size_t word = 0;
+    while (word < rest->n && rest->s[word] != '(' && rest->s[word] != ' ')
+      word++;
+    const thr_span said = {rest->s, word};
+    *rest = thr_span_trim((thr_span){rest->s + word, rest->n - word});
+    *measured = thr_span_is(said, "M");
+    if (thr_span_is(said, "EMPTY")) return kind[i];
+    const bool known = word == 0 || *measured || thr_span_is(said, "Z") || thr_span_is(said, "ZM");
+    return known && rest->n && (rest->s[0] == '(' || thr_span_is(*rest, "EMPTY")) ? kind[i] : NULL;
+  }
+  return NULL;
+}
+
+static bool is_line_text(thr_span text)
+{
+  thr_span rest;
+  bool measured;
+  const char *kind = wkt_of(text, &rest, &measured);
+  return kind && strstr(kind, "LINE");
+}
+
 static char find_separator(thr_span line)
 {
+  if (is_line_text(line)) return ' '; /* see next_row */
   for (const char *wanted = ";\t,"; *wanted; wanted++) {
     bool quoted = false;
     for (size_t i = 0; i < line.n; i++) {
@@ -99,7 +140,8 @@ static thr_status take_field(csv *t, thr_span *rest, thr_span *field)
  * rows). *more is false at the end of the text. */
 static thr_status next_row(csv *t, bool *more)
 {
-  thr_span line;
+  thr_span line, rest;
+  bool measured;
   while ((*more = thr_scan_line(&t->scan, &line))) {
     line = thr_span_trim(line);
     if (line.n == 0 || line.s[0] == '#') continue;
@@ -109,6 +151,10 @@ static thr_status next_row(csv *t, bool *more)
     }
     if (!t->separator) t->separator = find_separator(line);
     t->n_fields = 0;
+    if (t->separator == ' ' && wkt_of(line, &rest, &measured)) { /* the line is one field */
+      t->field[t->n_fields++] = line;
+      return THR_OK;
+    }
     for (int i = 0; line.n && i < MAX_FIELDS; i++) {
       thr_status st = take_field(t, &line, &t->field[i]);
       if (st) return st;
@@ -169,7 +215,7 @@ static int column(const csv *t, const char *const *names)
 
 static columns no_columns(const csv *t, row_kind kind, bool header)
 {
-  return (columns){kind, header, t->n_fields, -1, {-1, -1, -1, -1, -1, -1}, -1, {0, 1}, -1, -1, -1};
+  return (columns){kind, header, t->n_fields, -1, {-1, -1, -1, -1, -1, -1}, -1, {0, 1}, -1, -1, -1, -1};
 }
 
 /* What a header may say of edges beside their ends. */
@@ -222,6 +268,15 @@ static bool find_node_columns(const csv *t, const thr_header *header, columns *c
   return c->xyz[0] >= 0 && c->xyz[1] >= 0;
 }
 
+/* Finds the column of lines as well-known text. */
+static bool find_text_column(const csv *t, const thr_header *header, columns *c)
+{
+  *c = no_columns(t, TEXT_ROWS, true);
+  for (int i = t->n_fields - 1; i >= 0; i--)
+    if (thr_header_lines(&header[i])) c->text = i;
+  return c->text >= 0;
+}
+
 /* Takes the unit that the headers of coordinates and lengths name. */
 static thr_status take_units(csv *t, const thr_header *header)
 {
@@ -255,7 +310,8 @@ static thr_status coordinate_header(csv *t, bool *is)
 {
   thr_header header[MAX_FIELDS];
   columns c;
-  *is = read_headers(t, header) && (find_line_columns(t, header, &c) || find_node_columns(t, header, &c));
+  *is = read_headers(t, header) && (find_line_columns(t, header, &c) || find_node_columns(t, header, &c) ||
+                                    (t->c.kind == NO_ROWS && find_text_column(t, header, &c)));
   if (*is && t->c.kind == NODE_ROWS && t->n_fields == 2) *is = !is_node(t, t->field[0]) || !is_node(t, t->field[1]);
   if (!*is) return THR_OK;
   if (c.kind == LINE_ROWS) find_edge_columns(t, &c);
@@ -457,6 +513,56 @@ static thr_status add_line(csv *t)
   return st ? st : finish_edge(t, t->d->n_nodes - 2, t->d->n_nodes - 1);
 }
 
+/* Ends a point of a well-known text, and the edge to it from the point before, if there is one. */
+static thr_status end_point(csv *t, const double *number, int n, bool measured, int *before)
+{
+  const double xyz[3] = {number[0], number[1], n > 2 && !measured ? number[2] : 0};
+  t->has_z |= n > 2 && !measured;
+  thr_status st = n < 2 ? thr_scan_fail(&t->scan, t->err, "a point of one number; give x and y or x, y and z") : THR_OK;
+  if (!st) st = thr_draft_add_node(t->d, xyz, NULL, false, t->err);
+  if (!st && *before >= 0) st = thr_draft_add_edge(t->d, *before, t->d->n_nodes - 1, 0, t->err);
+  *before = t->d->n_nodes - 1;
+  return st;
+}
+
+/* Adds the lines of a well-known text, "LINESTRING Z (0 0 0, 20 0 0)": lists of points in brackets. */
+static thr_status add_text(csv *t)
+{
+  const thr_span whole = field_at(t, t->c.text);
+  thr_span text = {"", 0};
+  double number[4];
+  int n_numbers = 0, depth = 0, before = -1;
+  bool measured;
+  if (whole.n == 0) return THR_OK;
+  const char *kind = wkt_of(whole, &text, &measured);
+  if (!kind)
+    return thr_scan_fail(&t->scan, t->err, "'%.*s' in column %d is no line; write LINESTRING Z (0 0 0, 20 0 0), in quotes",
+                         thr_span_width(whole), whole.s, t->c.text + 1);
+  if (strstr(kind, "POINT")) thr_report_skip(t->report, thr_span_of(kind));
+  if (strstr(kind, "POINT") || (text.n && text.s[0] != '(')) return THR_OK; /* EMPTY */
+
+  for (size_t i = 0, n; i < text.n; i += n) {
+    for (n = 0; i + n < text.n && !strchr("(), 	", text.s[i + n]);)
+      n++;
+    thr_status st = THR_OK;
+    if (n == 0 && text.s[i] == '(') {
+      depth++;
+    } else if (n == 0 && text.s[i] != ' ' && text.s[i] != '	') {
+      if (n_numbers) st = end_point(t, number, n_numbers, measured, &before);
+      if (text.s[i] == ')') before = -1;
+      depth -= text.s[i] == ')';
+      n_numbers = 0;
+    } else if (n && (depth < 1 || n_numbers == 4 || !thr_span_number((thr_span){text.s + i, n}, false, &number[n_numbers++]))) {
+      depth = -1;
+    }
+    if (st) return st;
+    if (depth < 0) break;
+    n += n == 0;
+  }
+  return depth == 0 ? THR_OK
+                    : thr_scan_fail(&t->scan, t->err, "'%.*s' is not lists of points in brackets", thr_span_width(text), text.s);
+}
+
 /* ---- what kind of row ---- */
 
 static thr_status begin_edges(csv *t)
@@ -473,6 +579,12 @@ static thr_status guess_columns(csv *t)
     thr_status st = begin_edges(t);
     return st || n == 2 ? st : find_ends_by_values(t, NULL);
   }
+  for (int i = 0; i < n && t->expected == ANY_TABLE; i++)
+    if (is_line_text(t->field[i])) {
+      t->c = no_columns(t, TEXT_ROWS, false);
+      t->c.text = i;
+      return THR_OK;
+    }
   if (t->expected == ANY_TABLE && n == 6) {
     t->c = no_columns(t, LINE_ROWS, false);
     for (int i = 0; i < 6; i++)
@@ -526,7 +638,7 @@ static void note_unused(csv *t)
 {
   const columns *c = &t->c;
   for (int i = 0; i < t->n_fields; i++) {
-    bool used = i == c->id || i == c->foot || i == c->length || i == c->cover || i == c->capacity;
+    bool used = i == c->id || i == c->foot || i == c->length || i == c->cover || i == c->capacity || i == c->text;
     for (int k = 0; k < 6; k++)
       used |= c->kind != EDGE_ROWS && i == c->xyz[k];
     for (int k = 0; k < 2; k++)
@@ -550,6 +662,7 @@ static thr_status add_row(csv *t)
   switch (t->c.kind) {
   case NODE_ROWS: return add_node(t);
   case EDGE_ROWS: return add_edge(t);
+  case TEXT_ROWS: return add_text(t);
   default: return add_line(t);
   }
 }

@@ -26,16 +26,22 @@ static thr_status refuse_graph(thr_json_reader *r, const thr_json_where *at, con
                   thr_json_get(v, "elements") ? "Cytoscape's" : "sigma's");
 }
 
-/* A bare list of points is taken for a line only where lines are expected. */
+/* Coordinates, as a list or as members. */
+static bool is_point(const thr_json *v)
+{
+  const char *key;
+  double x;
+  return thr_json_number(thr_json_at(v, 0), &x) || THR_JSON_MEMBER(v, &key, "x", "X");
+}
+
+/* A bare list of points is taken for a line only where lines are expected, and so is what only has a start and an end. */
 static bool is_line(const thr_json *v, bool expected)
 {
-  const char *key, *type = thr_json_string(thr_json_get(v, "dtype"));
-  double x;
-  if (type ? !ends_in(type, "Line") && !ends_in(type, "/Polyline") : !expected) return false;
-  const thr_json *points = thr_json_points_of_line(v, &key);
-  return thr_json_is_object(points) ||
-         (thr_json_size(points) >= 2 && thr_json_number(thr_json_at(thr_json_at(points, 0), 0), &x)) ||
-         (thr_json_is_object(v) && thr_json_is_object(thr_json_at(points, 0)));
+  const char *const *end, *type = thr_json_string(thr_json_get(v, "dtype"));
+  const thr_json *points = thr_json_points_of_line(v, &end);
+  const bool rhino = thr_json_is_object(points) && is_point(thr_json_get(points, "From")) && is_point(thr_json_get(points, "To"));
+  if (type ? !ends_in(type, "Line") && !ends_in(type, "/Polyline") : !expected && !rhino) return false;
+  return thr_json_is_object(points) || (thr_json_size(points) >= 2 && is_point(thr_json_at(points, 0)));
 }
 
 /* Lines are expected at the top of a document and in a member called lines; elsewhere only objects that say what they are count.
@@ -57,6 +63,7 @@ static read_function *recognise(const thr_json_where *at, const thr_json *v)
 {
   if (thr_json_is_array(v)) return is_line_list(at, v) ? thr_json_read_lines : NULL;
   if (!thr_json_is_object(v)) return NULL;
+  if (thr_json_is_geometry(v)) return thr_json_read_geometry;
   const char *format = thr_json_string(thr_json_get(v, "format"));
   if (format && strcmp(format, "thread-plan") == 0) return thr_json_read_plan;
   if (format && strcmp(format, "thread-frame") == 0) return thr_json_read_own;

@@ -98,8 +98,13 @@ bool thr_json_parse_key(const char *key, int64_t *number);
 thr_status thr_json_support(thr_json_reader *r, const thr_json_where *at, const thr_json *node, const thr_json *defaults,
                             bool *foot) THR_MUST_CHECK;
 
-/* Of a COMPAS Line the object with its start and end, of a Polyline the list of its points; NULL if it is neither. */
-const thr_json *thr_json_points_of_line(const thr_json *v, const char **key);
+/* Of a line of COMPAS or Rhino the object with its ends, called *end[2], of a Polyline the list of its points; NULL if it is
+ * neither. */
+const thr_json *thr_json_points_of_line(const thr_json *v, const char *const **end);
+
+/* GeoJSON's lines and polygons; points are skipped and counted. */
+bool thr_json_is_geometry(const thr_json *v);
+thr_status thr_json_read_geometry(thr_json_reader *r, const thr_json_where *at, const thr_json *object) THR_MUST_CHECK;
 
 thr_status thr_json_read_compas(thr_json_reader *r, const thr_json_where *at, const thr_json *object) THR_MUST_CHECK;
 thr_status thr_json_read_lines(thr_json_reader *r, const thr_json_where *at, const thr_json *list) THR_MUST_CHECK;

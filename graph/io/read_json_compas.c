@@ -188,23 +188,28 @@ thr_status thr_json_read_compas(thr_json_reader *r, const thr_json_where *at, co
 
 /* ---- lines: [[[x, y, z], [x, y, z]], ..] or COMPAS Line and Polyline objects, in a list or an object ---- */
 
-const thr_json *thr_json_points_of_line(const thr_json *v, const char **key)
+const thr_json *thr_json_points_of_line(const thr_json *v, const char *const **end)
 {
+  static const char *const ends[][2] = {{"start", "end"}, {"From", "To"}, {"from", "to"}}; /* COMPAS; Rhino */
   const char *which;
-  *key = NULL;
+  *end = ends[0];
   if (thr_json_is_array(v)) return v;
   const thr_json *data = THR_JSON_MEMBER(v, &which, "data", "value");
   if (!data) data = v;
-  *key = "points";
   const thr_json *points = thr_json_get(data, "points");
-  return points ? points : thr_json_get(data, "start") && thr_json_get(data, "end") ? data : NULL;
+  if (points) return points;
+  for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+    if (!thr_json_get(data, ends[i][0]) || !thr_json_get(data, ends[i][1])) continue;
+    *end = ends[i];
+    return data;
+  }
+  return NULL;
 }
 
 static thr_status read_line(thr_json_reader *r, const thr_json_where *at, const thr_json *v)
 {
-  static const char *const end[] = {"start", "end"};
-  const char *key;
-  const thr_json *points = thr_json_points_of_line(v, &key);
+  const char *const *end;
+  const thr_json *points = thr_json_points_of_line(v, &end);
   bool two = thr_json_is_object(points);
   int n = two ? 2 : thr_json_size(points);
   if (n < 2) return thr_json_bad(r, at, "not a line; give at least two points");
@@ -234,6 +239,46 @@ thr_status thr_json_read_lines(thr_json_reader *r, const thr_json_where *at, con
     st = read_line(r, &here, line);
   }
   return st;
+}
+
+/* ---- GeoJSON: RFC 7946, its coordinates taken as they are ---- */
+
+/* How deep lists of points lie in the coordinates of a geometry; 0 for points, which are no lines; -1 for anything else. */
+static int depth_of_geometry(const thr_json *v)
+{
+  static const struct {
+    const char *type;
+    int depth;
+  } known[] = {{"LineString", 1}, {"MultiLineString", 2}, {"Polygon", 2}, {"MultiPolygon", 3}, {"Point", 0}, {"MultiPoint", 0}};
+  const char *type = thr_json_string(thr_json_get(v, "type"));
+  for (size_t i = 0; type && thr_json_is_array(thr_json_get(v, "coordinates")) && i < sizeof known / sizeof *known; i++)
+    if (strcmp(type, known[i].type) == 0) return known[i].depth;
+  return -1;
+}
+
+bool thr_json_is_geometry(const thr_json *v)
+{
+  return depth_of_geometry(v) >= 0;
+}
+
+static thr_status read_nested_lines(thr_json_reader *r, const thr_json_where *at, const thr_json *v, int depth)
+{
+  if (depth == 1) return read_line(r, at, v);
+  thr_status st = thr_json_is_array(v) ? THR_OK : thr_json_bad(r, at, "not a list of lines");
+  for (int i = 0; i < thr_json_size(v) && !st; i++) {
+    thr_json_where here = {at, NULL, i};
+    st = read_nested_lines(r, &here, thr_json_at(v, i), depth - 1);
+  }
+  return st;
+}
+
+thr_status thr_json_read_geometry(thr_json_reader *r, const thr_json_where *at, const thr_json *object)
+{
+  thr_json_where here = {at, "coordinates", 0};
+  const int depth = depth_of_geometry(object);
+  if (depth > 0) return read_nested_lines(r, &here, thr_json_get(object, "coordinates"), depth);
+  thr_report_skip(r->report, thr_span_of(thr_json_string(thr_json_get(object, "type"))));
+  return THR_OK;
 }
 
 /* ---- assembly_instances (node_list) and conmech (nodes) ---- */

@@ -220,6 +220,35 @@ START_TEST(csv_columns_by_their_words)
 }
 END_TEST
 
+/* Lines as geographic systems write them, points as Grasshopper's panel prints them, decimal commas in quotes; by hand. */
+START_TEST(csv_of_other_programs)
+{
+  const thr_format *csv = thr_format_named("csv");
+  thr_read_report r;
+  check_text("id;wkt\n1;\"LINESTRING Z (0 0 0, 3 0 4)\"\n2;\"LINESTRING Z (3 0 4, 3 7 4)\"\n", csv, 3, 2, 12, "");
+  check_text("LINESTRING (0 0, 3 4)\nMULTILINESTRING ((3 4, 3 0),(3 0, 0 0))\n", csv, 3, 3, 12, "");
+  check_text("the_geom,q\n\"SRID=3;LineStringZM(0 0 0 9, 3 0 4 9)\",1\n\"POLYGON ((0 0, 3 0, 0 4, 0 0))\",2\n", csv, 4, 4, 17,
+             "");
+  check_text("{0.0, 0.0, 0.0}\n{3.0, 0.0, 4.0}\n0,1\n", csv, 2, 1, 5, "");
+  check_text("{0, 0, 0}, {3, 0, 4}\n", csv, 2, 1, 5, "");
+  check_text("x1,y1,x2,y2\n\"0,0\",0,\"3,5\",0\n", csv, 2, 1, 3.5, "");
+  check_error("x1,y1,x2,y2\n\"0,0\",0,\"3,500\",0\n", csv, /* 3.5 or 3500 */
+              "f:2: '3,500' in column 3 is not a finite number; give x as a decimal number");
+  thr_frame f = read_text("wkt\nLINESTRING M (0 0 7, 3 4 8)\nPOINT (0 0)\nLINESTRING EMPTY\n", csv, &r);
+  ck_assert(f.n_edges == 1 && r.no_z && r.skipped_records == 1);
+  thr_frame_destroy(&f);
+  static const char *const bad[] = {"(0 0, 3 x)", "(0 0, 3 4", "(0 0, 3 4))", "(0 0, 1 2 3 4 5)"};
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    char text[80], message[120];
+    snprintf(text, sizeof text, "LINESTRING %s\n", bad[i]);
+    snprintf(message, sizeof message, "f:1: '%s' is not lists of points in brackets", bad[i]);
+    check_error(text, csv, message);
+  }
+  check_error("wkt\nLINESTRING (0 0, 3)\n", csv, "f:2: a point of one number; give x and y or x, y and z");
+  check_error("wkt;q\nno;1\n", csv, "f:2: 'no' in column 1 is no line; write LINESTRING Z (0 0 0, 20 0 0), in quotes");
+}
+END_TEST
+
 START_TEST(csv_units_and_empty_z)
 {
   const thr_format *csv = thr_format_named("csv");
@@ -511,6 +540,21 @@ START_TEST(json_of_other_programs)
              "{\"end_node_inds\":[1,2]}],\"supports\":[{\"node_ind\":0,\"condition\":[0,0,0,0,0,0]},{\"node_ind\":1},"
              "{\"node_ind\":2,\"condition\":[0,0,1,0,0,0]}]}",
              json, 3, 2, 6, "1 2");
+
+  /* lines of Rhino and of GeoJSON, polylines of points with members */
+  check_text("[{\"From\":{\"X\":0,\"Y\":0,\"Z\":0},\"To\":{\"X\":3,\"Y\":0,\"Z\":4},\"Length\":9},"
+             "{\"From\":{\"X\":3,\"Y\":0,\"Z\":4},\"To\":{\"X\":3,\"Y\":7,\"Z\":4}}]",
+             json, 3, 2, 12, "");
+  check_text("{\"q\":{\"bars\":[{\"From\":[0,0],\"To\":[3,4]}]}}", json, 2, 1, 5, "");
+  check_text("{\"lines\":[[{\"x\":0,\"y\":0},{\"x\":3,\"y\":4}]]}", json, 2, 1, 5, "");
+  thr_read_report r;
+  thr_frame f =
+      read_text("{\"type\":\"FeatureCollection\",\"features\":[{\"geometry\":{\"type\":\"Point\",\"coordinates\":[1,2]}},"
+                "{\"geometry\":{\"type\":\"MultiLineString\",\"coordinates\":[[[0,0],[3,4]],[[3,4],[3,0,1]]]}},"
+                "{\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[0,0],[0,4],[3,4],[0,0]]]}}]}",
+                json, &r);
+  ck_assert(f.n_nodes == 4 && f.n_edges == 4 && r.skipped_records == 1);
+  thr_frame_destroy(&f);
 
   /* numbers as text, and what Python writes where nobody reads it */
   check_text("{\"nodes\":[{\"id\":1,\"x\":\"0\",\"y\":\" 0 \",\"q\":NaN},{\"id\":2,\"x\":\"3\",\"y\":\"4e0\"}],"
@@ -1022,6 +1066,7 @@ static void add_tests(TCase *t)
   tcase_add_test(t, csv_first_edge_is_not_taken_for_a_header);
   tcase_add_test(t, csv_errors);
   tcase_add_test(t, csv_columns_by_their_words);
+  tcase_add_test(t, csv_of_other_programs);
   tcase_add_test(t, csv_units_and_empty_z);
   tcase_add_test(t, csv_nul_byte);
   tcase_add_test(t, csv_pairs);
