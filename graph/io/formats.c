@@ -5,12 +5,20 @@
 
 #include <string.h>
 
-extern const thr_format thr_json_format, thr_obj_format, thr_csv_format, thr_ply_format, thr_off_format, thr_stl_format,
-    thr_dxf_format, thr_graphml_format, thr_gltf_format;
+extern const thr_format thr_json_format, thr_obj_format, thr_csv_format, thr_ply_format, thr_off_format, thr_vef_format,
+    thr_stl_format, thr_dxf_format, thr_graphml_format, thr_gltf_format;
 
-static const thr_format *const formats[] = {
-    &thr_json_format, &thr_obj_format, &thr_csv_format,     &thr_ply_format,  &thr_off_format,
-    &thr_stl_format,  &thr_dxf_format, &thr_graphml_format, &thr_gltf_format, NULL};
+static const thr_format *const formats[] = {&thr_json_format,
+                                            &thr_obj_format,
+                                            &thr_csv_format,
+                                            &thr_ply_format,
+                                            &thr_off_format,
+                                            &thr_vef_format,
+                                            &thr_stl_format,
+                                            &thr_dxf_format,
+                                            &thr_graphml_format,
+                                            &thr_gltf_format,
+                                            NULL};
 
 const thr_format *thr_format_named(const char *name)
 {

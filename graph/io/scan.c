@@ -262,3 +262,38 @@ thr_status thr_scan_units(const thr_scan *scan, thr_span comment, thr_draft *dra
   snprintf(draft->units, sizeof draft->units, "%s", name);
   return THR_OK;
 }
+
+/* ---- words of a whole text ---- */
+
+bool thr_words_line(thr_words *words)
+{
+  if (words->status || !thr_scan_line(&words->scan, &words->line)) return false;
+  const char *sign = memchr(words->line.s, '#', words->line.n);
+  if (!sign) return true;
+  const thr_span comment = {sign + 1, (size_t)(words->line.s + words->line.n - sign) - 1};
+  words->line.n = (size_t)(sign - words->line.s);
+  words->status = thr_scan_units(&words->scan, comment, words->draft, words->err);
+  return !words->status;
+}
+
+thr_span thr_words_next(thr_words *words)
+{
+  thr_span word;
+  while (!(word = thr_span_word(&words->line)).n && thr_words_line(words)) {
+  }
+  return word;
+}
+
+thr_status thr_words_fail(const thr_words *words, const char *what)
+{
+  return words->status ? words->status : thr_scan_fail(&words->scan, words->err, "%s", what);
+}
+
+thr_status thr_words_count(thr_words *words, int *n)
+{
+  thr_span word = thr_words_next(words);
+  if (!word.n) return thr_words_fail(words, "the file ends here; it is not whole");
+  if (thr_span_int(word, n) && *n >= 0 && *n < INT_MAX) return THR_OK;
+  return thr_scan_fail(&words->scan, words->err, "'%.*s' is not a number of vertices, faces or corners", thr_span_width(word),
+                       word.s);
+}

@@ -66,6 +66,25 @@ void thr_report_skip(thr_read_report *report, thr_span keyword);
  * begins it. THR_EINPUT if it says "units:" before something else than a unit. */
 thr_status thr_scan_units(const thr_scan *scan, thr_span comment, thr_draft *draft, thr_err *err) THR_MUST_CHECK;
 
+/* The words of a text whose lines say little. A comment, from # to the end of its line, is left out, what it says of units taken.
+ * Begin with draft and err, then thr_scan_start on scan. */
+typedef struct {
+  thr_scan scan;
+  thr_span line; /* what is left of the current line */
+  thr_draft *draft;
+  thr_err *err;
+  thr_status status; /* of the comments */
+} thr_words;
+
+/* Moves to the next line; false at the end of the text and where a comment is wrong, which is in status then. */
+bool thr_words_line(thr_words *words);
+/* The next word; n is 0 where thr_words_line is false. */
+thr_span thr_words_next(thr_words *words);
+/* status, or THR_EINPUT with the line and what is wrong. */
+thr_status thr_words_fail(const thr_words *words, const char *what);
+/* The next word as a number of things or of a thing, from 0. */
+thr_status thr_words_count(thr_words *words, int *n) THR_MUST_CHECK;
+
 /* CSV with word of what the table lacks, so that the other half of a pair can be looked for. */
 typedef enum { THR_CSV_WHOLE, THR_CSV_NODES_ONLY, THR_CSV_EDGES_ONLY } thr_csv_content;
 thr_status thr_csv_scan(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name,

@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-ENDINGS = {"csv": ("csv", "tsv"), "obj": ("obj",), "json": ("json",), "ply": ("ply",), "off": ("off",), "stl": ("stl",), "dxf": ("dxf",),
+ENDINGS = {"csv": ("csv", "tsv"), "obj": ("obj",), "json": ("json",), "ply": ("ply",), "off": ("off",), "vef": ("vef",), "stl": ("stl",), "dxf": ("dxf",),
            "gltf": ("gltf", "glb"), "graphml": ("graphml",)}
 NUMBERS = [b"0", b"-1", b"1", b"2147483648", b"-2147483649", b"99999999999999999999", b"1e999", b"-1e308", b"1e-320", b"nan", b"inf", b"0x10",
            b"1,5", b"", b"1.2.3"]

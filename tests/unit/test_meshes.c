@@ -174,6 +174,95 @@ START_TEST(cubes)
 }
 END_TEST
 
+static void check_refused(const char *text, const char *name, const char *message)
+{
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_err err = {0};
+  ck_assert_int_eq(thr_draft_parse(&d, &r, text, strlen(text), name, NULL, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, message);
+  thr_draft_destroy(&d);
+}
+
+/* An icosahedron of side 2 has the corners (0, +-1, +-phi) and those that turn into each other: 30 edges, of which all others are
+ * at least 2 phi long. Scaled by phi/2 and moved it has sides of phi. */
+START_TEST(vef_reads_the_golden_icosahedron)
+{
+  static const char *const head[] = {"vZome VEF 6 field golden\n",
+                                     "vZome VEF 10 field golden\nscale (1/2,0)\noffset 7 (1,1) (0,1) 5/2\n",
+                                     "vZome VEF 8 scale vector 9 (1/2,0) (1/2,0) (1/2,0)\n", ""};
+  static const char *const term[] = {"(0,-1)", "(0,1)"}, *const long_term[] = {"(-1,0)", "(1,0)"};
+  const double phi = (1 + sqrt(5)) / 2;
+  for (int i = 0; i < 4; i++) {
+    thr_text t = {0};
+    thr_read_report r;
+    double at[12][3] = {{0}};
+    thr_text_printf(&t, "%s\n12\n", head[i]);
+    for (int k = 0; k < 12; k++) {
+      const char *x[3] = {"0", "0", "0"};
+      at[k][(k / 4 + 1) % 3] = k % 2 ? 1 : -1;
+      at[k][(k / 4 + 2) % 3] = k % 4 > 1 ? phi : -phi;
+      x[(k / 4 + 1) % 3] = term[k % 2];
+      x[(k / 4 + 2) % 3] = long_term[k % 4 > 1];
+      thr_text_printf(&t, "%s %s %s %s %s\n", i < 3 ? "(0,0)" : "", x[0], x[1], x[2], i < 3 ? "" : "(0,0)");
+    }
+    thr_text_append(&t, "\n30\n");
+    for (int a = 0; a < 12; a++)
+      for (int b = 0; b < a; b++)
+        if (hypot(hypot(at[a][0] - at[b][0], at[a][1] - at[b][1]), at[a][2] - at[b][2]) < 2.1)
+          thr_text_printf(&t, "%d %d\n", a, b);
+    thr_text_append(&t, "\n1\n3 2 9 4\n\n0\n\ntip 4\n");
+    thr_frame f = read_as(&t, i < 3 ? "stdin" : "a.vef", 0, &r);
+    ck_assert_int_eq(f.n_nodes, 12);
+    ck_assert_int_ge(f.n_edges, 30);
+    for (int e = 0; e < 30; e++)
+      ck_assert_double_eq_tol(f.length[e], i == 1 || i == 2 ? phi : 2, 1e-12);
+    ck_assert_int_eq(r.skipped_records, i == 1 ? 12 : 0); /* moved in the fourth dimension */
+    if (i == 1) ck_assert_double_eq_tol(f.xyz[0][0], phi + 1, 1e-12);
+    thr_frame_destroy(&f);
+    thr_text_destroy(&t);
+  }
+}
+END_TEST
+
+/* One strut from the origin, of a length in closed form: the other fields, fractions, points in space and faces alone. */
+START_TEST(vef_reads_other_fields)
+{
+  static const struct {
+    const char *text;
+    int n_edges;
+    double length;
+  } good[] = {
+      {"vZome VEF 6 field rootTwo 2 0 0 0 0 0 (1,1) 0 0 1 0 1", 1, 2.414213562373095},
+      {"vZome VEF 6 field rootThree 2 0 0 0 0 0 0 (-1/2,3/2) 0 1 0 1", 1, 0.6339745962155614},
+      {"vZome VEF 7 field rational actual scale 10 2 0 0 0 0 0 0.3 2/5 0 1 0 1", 1, 5},
+      {"vZome VEF 9 field heptagon dimension 3 2 0 0 0 (1,-1,2) 0 0 1 0 1", 1, 2.4450418679126287},
+      {"vZome VEF 3 2 0 0 0 0 0 0 (0,3) 9 1 0 1", 1, 3},
+      {"4 # points\n0 0 0 # first\n20 0 0\n20 20 0\n0 20 5\n\n0\n\n1 # face\n4 0 1 2 3", 4, 20 + 20 + 2 * 20.615528128088304}};
+  for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+    thr_text t = {0};
+    thr_read_report r;
+    thr_text_append(&t, good[i].text);
+    thr_frame f = read_as(&t, "a.vef", 0, &r);
+    ck_assert_int_eq(f.n_edges, good[i].n_edges);
+    ck_assert_double_eq_tol(thr_frame_total_length(&f), good[i].length, 1e-12);
+    thr_frame_destroy(&f);
+    thr_text_destroy(&t);
+  }
+  check_refused(
+      "vZome VEF 6 field snubDodec\n", "a.vef",
+      "a.vef:1: the field 'snubDodec' is not read; golden, rootTwo, rootThree, heptagon and rational are: export as OBJ or STL");
+  check_refused("vZome VEF 6 field golden\n2\n0 0 0 0\n0 (1,2,3) 0 0\n", "a.vef",
+                "a.vef:4: '(1,2,3)' is no number of the field golden");
+  check_refused("vZome VEF 6 field golden\n2\n0 0 0 0\n0 1/0 0 0\n", "a.vef", "a.vef:4: '1/0' is no number of the field golden");
+  check_refused("vZome VEF 6 field golden\n2\n0 0 0 0\n0 1\n", "a.vef", "a.vef:4: the file ends here; it is not whole");
+  check_refused("vZome VEF 9 dimension 6\n", "a.vef", "a.vef:1: points of three or four coordinates are read");
+  check_refused("vZome VEF 6 1\n0 0 0 0\n1\n0 1\n", "a.vef",
+                "a.vef: a face or edge names vertex 1; there are 1, and the first is 0");
+  check_refused("vZome VEF 6 1\n0 0 0 0\n", "a.vef", "a.vef: no edges and no faces, only 1 points; export the struts or panels");
+}
+END_TEST
+
 /* A binary STL whose length is not what its count says tells both numbers, be it cut, longer or miscounted. */
 START_TEST(binary_stl_of_another_length_says_how_many_fit)
 {
@@ -312,16 +401,6 @@ START_TEST(what_is_cut_is_refused)
   thr_text_destroy(&t);
 }
 END_TEST
-
-static void check_refused(const char *text, const char *name, const char *message)
-{
-  thr_draft d = {0};
-  thr_read_report r = {0};
-  thr_err err = {0};
-  ck_assert_int_eq(thr_draft_parse(&d, &r, text, strlen(text), name, NULL, &err), THR_EINPUT);
-  ck_assert_str_eq(err.text, message);
-  thr_draft_destroy(&d);
-}
 
 START_TEST(errors_of_graphs_say_where)
 {
@@ -676,6 +755,8 @@ int main(void)
   ADD_TEST(s, 4, ply_tells_units_and_what_it_skips);
   ADD_TEST(s, 4, ply_has_many_words_for_edges);
   ADD_TEST(s, 4, off_begins_in_many_ways);
+  ADD_TEST(s, 4, vef_reads_the_golden_icosahedron);
+  ADD_TEST(s, 4, vef_reads_other_fields);
   ADD_TEST(s, 4, binary_stl_of_another_length_says_how_many_fit);
   ADD_LOOP(s, 4, what_is_cut_is_refused, 0, 5);
   ADD_TEST(s, 4, errors_of_graphs_say_where);

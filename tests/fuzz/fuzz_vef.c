@@ -1,0 +1,9 @@
+/* Fuzzes the VEF reader. */
+#include "fuzz.h"
+#include "graph/io/read.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+  fuzz_one(data, size, thr_format_named("vef"));
+  return 0;
+}
