@@ -43,11 +43,24 @@ typedef enum { PATH, RING, INSERT } shape_kind;
 /* Layer 0 is in a block that of the INSERT. */
 enum { ON_ZERO = -1, SHOWN = INT_MAX };
 
+typedef struct {
+  double center[3], major[3], minor[3];
+} ellipse;
+
+/* A curve in the coordinates of its block: a part of an ellipse, or a spline, whose arrays are owned. */
+typedef struct {
+  ellipse arc;
+  double from, to; /* of arc */
+  int degree, n;   /* of a spline; n = 0: it is an arc */
+  double (*control)[3], *weight, *knot;
+} curve;
+
 /* A run of points: open, or a face; or a block inserted. */
 typedef struct {
   shape_kind kind;
   int first, last;     /* PATH, RING: points; INSERT: which of inserted */
   double curve_length; /* PATH of two points: how long the curve between them is, 0 = straight */
+  int curve;           /* the curve, if curve_length is not 0 */
   int layer;           /* number of the part, or without --pick of the hidden layer, or SHOWN; ON_ZERO */
 } shape;
 
@@ -88,6 +101,8 @@ typedef struct {
   int n_shapes, shapes_capacity;
   block *block;
   int n_blocks, blocks_capacity;
+  curve *curve;
+  int n_curves, curves_capacity;
   insertion *inserted;
   int n_inserted, inserted_capacity;
   /* of the POLYLINE being read */
@@ -222,12 +237,32 @@ static bool is_skipped(const dxf *d)
 
 /* ---- coordinates ---- */
 
-static void apply(const placing *p, const double in[3], double out[3])
+static void turn(const placing *p, const double in[3], double out[3])
 {
   double r[3];
   for (int i = 0; i < 3; i++)
-    r[i] = thr_dot(p->m[i], in) + p->t[i];
+    r[i] = thr_dot(p->m[i], in);
   memcpy(out, r, sizeof r);
+}
+
+static void apply(const placing *p, const double in[3], double out[3])
+{
+  turn(p, in, out);
+  for (int i = 0; i < 3; i++)
+    out[i] += p->t[i];
+}
+
+/* Returns by what factor the placing stretches all directions, mirrored or not; 0 if not all alike. */
+static double even_scale(const placing *p)
+{
+  double dot[3][3];
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      dot[i][j] = p->m[0][i] * p->m[0][j] + p->m[1][i] * p->m[1][j] + p->m[2][i] * p->m[2][j];
+  for (int i = 0; i < 3; i++)
+    for (int j = 0; j < 3; j++)
+      if (!(fabs(dot[i][j] - (i == j ? dot[0][0] : 0)) <= 1e-12 * dot[0][0])) return 0;
+  return sqrt(dot[0][0]);
 }
 
 /* First b, then a. */
@@ -282,7 +317,7 @@ static thr_status add_point(dxf *d, const placing *p, const double xyz[3])
 static thr_status add_shape(dxf *d, shape_kind kind, int first, int last, double curve_length)
 {
   thr_status st = thr_grow(&d->shape, d->n_shapes, &d->shapes_capacity, sizeof *d->shape, d->err);
-  if (!st) d->shape[d->n_shapes++] = (shape){kind, first, last, curve_length, d->layer};
+  if (!st) d->shape[d->n_shapes++] = (shape){kind, first, last, curve_length, d->n_curves - 1, d->layer};
   return st;
 }
 
@@ -300,21 +335,78 @@ static double distance(const double a[3], const double b[3])
   return sqrt(thr_dot(v, v));
 }
 
-/* An arc over a chord whose bulge is the tangent of a quarter of its angle; 0 = straight. */
-static double arc_length(const double a[3], const double b[3], double bulge)
+/* ---- curves ---- */
+
+static void ellipse_point(const void *arc, double t, double xyz[3])
 {
-  const double angle = 4 * atan(fabs(bulge)), half = sin(angle / 2);
-  return bulge == 0 || half <= 0 ? 0 : distance(a, b) * angle / (2 * half);
+  const ellipse *e = arc;
+  for (int k = 0; k < 3; k++)
+    xyz[k] = e->center[k] + cos(t) * e->major[k] + sin(t) * e->minor[k];
 }
 
-/* Adds an arc as two edges that meet in its middle. */
-static thr_status add_halves(dxf *d, const placing *p, const double a[3], const double b[3], double bulge)
+/* Computes the length of an arc of a circle, or sums by quarters, between which a thin ellipse turns sharply. */
+static double ellipse_length(const ellipse *e, double from, double to)
 {
-  /* The middle lies beside that of the chord, to its right where the bulge is positive. */
-  const double middle[3] = {(a[0] + b[0] + bulge * (b[1] - a[1])) / 2, (a[1] + b[1] - bulge * (b[0] - a[0])) / 2, a[2]};
-  const double half = arc_length(a, b, bulge) / 2;
-  thr_status st = add_segment(d, p, a, middle, half);
-  return st ? st : add_segment(d, p, middle, b, half);
+  double length = 0;
+  const double square = thr_dot(e->major, e->major);
+  if (thr_dot(e->major, e->minor) == 0 && thr_dot(e->minor, e->minor) == square) return sqrt(square) * (to - from);
+  const int n = (int)ceil((to - from) / (THR_PI / 2) - 1e-9);
+  for (int i = 0; i < n; i++)
+    length += thr_curve_length(ellipse_point, e, from + (to - from) * i / n, from + (to - from) * (i + 1) / n);
+  return length;
+}
+
+static void free_curve(curve *c)
+{
+  free(c->control);
+  free(c->weight);
+  free(c->knot);
+}
+
+static thr_spline spline_of(const curve *c)
+{
+  return (thr_spline){c->degree, c->n, (const double(*)[3])c->control, c->weight, c->knot};
+}
+
+/* Takes the curve over and adds the segment that it leads along. */
+static thr_status add_curve(dxf *d, const placing *p, const double a[3], const double b[3], curve *c, double length)
+{
+  thr_status st = thr_grow(&d->curve, d->n_curves, &d->curves_capacity, sizeof *d->curve, d->err);
+  if (st) {
+    free_curve(c);
+    return st;
+  }
+  d->curve[d->n_curves++] = *c;
+  return add_segment(d, p, a, b, length);
+}
+
+/* Adds a part of an ellipse that lies in the coordinates p as one edge. */
+static thr_status add_arc(dxf *d, const placing *p, const ellipse *e, double from, double to, double length)
+{
+  double a[3], b[3];
+  curve c = {.from = from, .to = to};
+  ellipse_point(e, from, a);
+  ellipse_point(e, to, b);
+  turn(p, e->major, c.arc.major);
+  turn(p, e->minor, c.arc.minor);
+  return add_curve(d, p, a, b, &c, length);
+}
+
+/* Adds a segment of a polyline. Its bulge is the tangent of a quarter of its arc's angle, 0 = straight. halved: the arc becomes
+ * two edges that meet in its middle. */
+static thr_status add_bulge(dxf *d, const placing *p, const double a[3], const double b[3], double bulge, bool halved)
+{
+  const double angle = 4 * atan(fabs(bulge)), half = sin(angle / 2), way = bulge < 0 ? -1 : 1;
+  if (bulge == 0 || half <= 0) return add_segment(d, p, a, b, 0);
+
+  /* The centre is to the left of the chord where the bulge is between 0 and 1. */
+  const double aside = (1 - bulge * bulge) / (4 * bulge), length = distance(a, b) * angle / (2 * half);
+  const double center[3] = {(a[0] + b[0]) / 2 - aside * (b[1] - a[1]), (a[1] + b[1]) / 2 + aside * (b[0] - a[0]), a[2]};
+  const double r[2] = {a[0] - center[0], a[1] - center[1]};
+  const ellipse e = {{center[0], center[1], center[2]}, {r[0], r[1], 0}, {-way * r[1], way * r[0], 0}};
+  if (!halved) return add_arc(d, p, &e, 0, angle, length);
+  thr_status st = add_arc(d, p, &e, 0, angle / 2, length / 2);
+  return st ? st : add_arc(d, p, &e, angle / 2, angle, length / 2);
 }
 
 /* Adds d->vertex as segments. Two arcs between the same two vertices, like those of a circle, would be one edge: both get a node
@@ -326,7 +418,7 @@ static thr_status add_polyline(dxf *d, const placing *p, bool closed)
   const bool lens = closed && n == 2 && (d->bulge[0] != 0 || d->bulge[1] != 0);
   for (int i = 0; i < (closed && (n > 2 || lens) ? n : n - 1) && !st; i++) {
     const double *a = d->vertex[i], *b = d->vertex[(i + 1) % n], bulge = d->bulge[i];
-    st = lens && bulge != 0 ? add_halves(d, p, a, b, bulge) : add_segment(d, p, a, b, arc_length(a, b, bulge));
+    st = add_bulge(d, p, a, b, bulge, lens);
   }
   return st;
 }
@@ -392,26 +484,12 @@ static thr_status read_face(dxf *d)
   return st;
 }
 
-typedef struct {
-  double center[3], major[3], minor[3];
-} ellipse;
-
-static void ellipse_point(const void *curve, double t, double xyz[3])
+/* Adds a part of an ellipse, at most all of it. */
+static thr_status add_ellipse(dxf *d, const placing *p, const ellipse *e, double from, double to)
 {
-  const ellipse *e = curve;
-  for (int k = 0; k < 3; k++)
-    xyz[k] = e->center[k] + cos(t) * e->major[k] + sin(t) * e->minor[k];
-}
-
-/* A part of an ellipse as one edge from its beginning to its end. */
-static thr_status add_arc(dxf *d, const placing *p, const ellipse *e, double from, double to)
-{
-  double a[3], b[3];
-  while (to <= from)
-    to += 2 * THR_PI;
-  ellipse_point(e, from, a);
-  ellipse_point(e, to, b);
-  return add_segment(d, p, a, b, thr_curve_length(ellipse_point, e, from, to));
+  const double turns = (to - from) / (2 * THR_PI);
+  if (!(turns > 0 && turns <= 1)) to = from + 2 * THR_PI * (turns - ceil(turns) + 1);
+  return add_arc(d, p, e, from, to, ellipse_length(e, from, to));
 }
 
 static thr_status read_arc(dxf *d)
@@ -427,7 +505,7 @@ static thr_status read_arc(dxf *d)
   if (st) return st;
   if (fabs(from) > 1e6 || fabs(to) > 1e6) return fail(d, "has angles of more than a million degrees");
   e.major[0] = e.minor[1] = radius;
-  return add_arc(d, &own, &e, from * THR_PI / 180, to * THR_PI / 180);
+  return add_ellipse(d, &own, &e, from * THR_PI / 180, to * THR_PI / 180);
 }
 
 static thr_status read_ellipse(dxf *d)
@@ -446,7 +524,7 @@ static thr_status read_ellipse(dxf *d)
   thr_cross(z, e.major, e.minor);
   for (int k = 0; k < 3; k++)
     e.minor[k] *= ratio;
-  return add_arc(d, &unmoved, &e, from, to);
+  return add_ellipse(d, &unmoved, &e, from, to);
 }
 
 /* All values with the code, into an array that the caller frees. */
@@ -460,42 +538,53 @@ static thr_status values_of(dxf *d, int code, double **out, int *n)
   return st;
 }
 
-/* Degree 1: a polyline through its control points. Higher: one edge from beginning to end, as long as the curve. */
-static thr_status use_spline(dxf *d, const thr_spline *s, int n_knots, int n_weights)
+/* Degree 1: a polyline through its control points. Higher: one edge from beginning to end, as long as the curve, which is taken
+ * over and left without its arrays. */
+static thr_status use_spline(dxf *d, curve *c, int n_knots, int n_weights)
 {
-  if (s->degree == 1) {
+  const thr_spline s = spline_of(c);
+  if (c->degree == 1) {
     thr_status st = THR_OK;
-    for (int i = 0; i + 1 < s->n && !st; i++)
-      st = add_segment(d, &unmoved, s->control[i], s->control[i + 1], 0);
+    for (int i = 0; i + 1 < c->n && !st; i++)
+      st = add_segment(d, &unmoved, c->control[i], c->control[i + 1], 0);
     return st;
   }
-  if (n_knots != s->n + s->degree + 1 || (n_weights && n_weights != s->n) || !thr_spline_is_sound(s)) return leave_out(d);
+  if (n_knots != c->n + c->degree + 1 || (n_weights && n_weights != c->n) || !thr_spline_is_sound(&s)) return leave_out(d);
   double a[3], b[3];
-  thr_spline_point(s, s->knot[s->degree], a);
-  thr_spline_point(s, s->knot[s->n], b);
-  return add_segment(d, &unmoved, a, b, thr_spline_length(s));
+  thr_spline_point(&s, s.knot[s.degree], a);
+  thr_spline_point(&s, s.knot[s.n], b);
+  curve taken = *c;
+  *c = (curve){0};
+  return add_curve(d, &unmoved, a, b, &taken, thr_spline_length(&s));
 }
 
 static thr_status read_spline(dxf *d)
 {
-  double *value[5] = {0}, (*control)[3] = NULL; /* x, y, z, knots, weights */
-  static const int code[5] = {10, 20, 30, 40, 41};
-  int n[5] = {0}, degree;
-  thr_status st = whole(d, 71, &degree);
-  for (int i = 0; i < 5 && !st; i++)
+  double *value[3] = {0}; /* x, y, z */
+  static const int code[3] = {10, 20, 30};
+  curve c = {0};
+  int n[3] = {0}, n_knots = 0, n_weights = 0;
+  thr_status st = whole(d, 71, &c.degree);
+  for (int i = 0; i < 3 && !st; i++)
     st = values_of(d, code[i], &value[i], &n[i]);
+  if (!st) st = values_of(d, 40, &c.knot, &n_knots);
+  if (!st) st = values_of(d, 41, &c.weight, &n_weights);
   const bool controlled = n[0] >= 2 && n[1] == n[0] && (!n[2] || n[2] == n[0]);
   if (!st && !controlled) st = leave_out(d); /* it may have points to go through only */
-  if (!st && controlled && !(control = thr_calloc((size_t)n[0], sizeof *control))) st = thr_nomem(d->err);
+  if (!st && controlled && !(c.control = thr_calloc((size_t)n[0], sizeof *c.control))) st = thr_nomem(d->err);
   if (!st && controlled) {
     for (int i = 0; i < n[0]; i++)
       for (int k = 0; k < 3; k++)
-        control[i][k] = n[k] ? value[k][i] : 0;
-    const thr_spline s = {degree, n[0], (const double(*)[3])control, n[4] ? value[4] : NULL, value[3]};
-    st = use_spline(d, &s, n[3], n[4]);
+        c.control[i][k] = n[k] ? value[k][i] : 0;
+    if (!n_weights) {
+      free(c.weight);
+      c.weight = NULL;
+    }
+    c.n = n[0];
+    st = use_spline(d, &c, n_knots, n_weights);
   }
-  free(control);
-  for (int i = 0; i < 5; i++)
+  free_curve(&c);
+  for (int i = 0; i < 3; i++)
     free(value[i]);
   return st;
 }
@@ -796,7 +885,31 @@ static thr_status find_block(const dxf *d, thr_span name, const block **found)
                   thr_span_width(name), name.s);
 }
 
-/* A run of points; a curve is stretched as its chord is. */
+/* Computes how long a curve is where it is placed: an ellipse stays one, a spline moves with its control points. */
+static thr_status placed_length(dxf *d, const shape *s, const placing *p, double *length)
+{
+  const double scale = even_scale(p);
+  const curve *c = &d->curve[s->curve];
+  *length = s->curve_length * scale;
+  if (scale > 0) return THR_OK;
+  if (c->n == 0) {
+    ellipse e = {0};
+    turn(p, c->arc.major, e.major);
+    turn(p, c->arc.minor, e.minor);
+    *length = ellipse_length(&e, c->from, c->to);
+    return THR_OK;
+  }
+  curve moved = *c;
+  if (!(moved.control = thr_calloc((size_t)c->n, sizeof *moved.control))) return thr_nomem(d->err);
+  for (int i = 0; i < c->n; i++)
+    turn(p, c->control[i], moved.control[i]);
+  const thr_spline spline = spline_of(&moved);
+  *length = thr_spline_length(&spline);
+  free(moved.control);
+  return THR_OK;
+}
+
+/* Places a run of points. */
 static thr_status place_run(dxf *d, const shape *s, const placing *p)
 {
   double at[3];
@@ -813,11 +926,10 @@ static thr_status place_run(dxf *d, const shape *s, const placing *p)
   if (!st) st = thr_grow(&d->length, d->faces.n, &d->length_capacity, sizeof *d->length, d->err);
   if (st) return st;
   d->length[d->faces.n] = 0;
-  if (s->curve_length > 0) {
-    const double chord = distance(d->point[s->first], d->point[s->last - 1]);
-    const double *end = d->sites.xyz[d->sites.n - 1];
-    if (chord > 0) d->length[d->faces.n] = s->curve_length * distance(end - 3, end) / chord;
-  }
+  if (s->curve_length > 0) st = placed_length(d, s, p, &d->length[d->faces.n]);
+  if (st) return st;
+  if (!isfinite(d->length[d->faces.n]))
+    return thr_fail(d->err, THR_EINPUT, "%s: an inserted block leaves the range of numbers", d->scan.name);
   return thr_faces_close(&d->faces, d->err);
 }
 
@@ -916,6 +1028,9 @@ static void destroy(dxf *d)
   free(d->point);
   free(d->shape);
   free(d->block);
+  for (int i = 0; i < d->n_curves; i++)
+    free_curve(&d->curve[i]);
+  free(d->curve);
   free(d->inserted);
   free(d->hidden);
   free(d->vertex);

@@ -659,6 +659,59 @@ START_TEST(drawings_of_many_makers)
 }
 END_TEST
 
+/* The perimeter of an ellipse with half axes a >= b by the arithmetic-geometric mean (Gauss). */
+static double perimeter(double a, double b)
+{
+  double sum = a * a, power = 0.5;
+  for (int n = 0; n < 12; n++, power *= 2) {
+    const double c = sqrt(fabs(a * a - b * b)), mean = (a + b) / 2;
+    sum -= power * c * c;
+    b = sqrt(a * b);
+    a = mean;
+  }
+  return 2 * THR_PI * sum / a;
+}
+
+#define DRAWN(block, insert) "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nB\n" block "0\nENDBLK\n0\nENDSEC\n" DXF(insert)
+#define HALF "0\nARC\n40\n10\n50\n0\n51\n180\n"
+#define HALF_BULGE "0\nLWPOLYLINE\n10\n10\n20\n0\n42\n1\n10\n-10\n20\n0\n"
+#define CIRCLE "0\nLWPOLYLINE\n70\n1\n10\n10\n20\n0\n42\n1\n10\n-10\n20\n0\n42\n1\n"
+#define CUBIC(y)                                                                                                                 \
+  "0\nSPLINE\n71\n3\n40\n0\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n40\n1\n10\n0\n20\n0\n10\n1\n20\n" y "\n10\n4\n20\n" y      \
+  "\n10\n9\n20\n0\n"
+#define INSERTED(how) "0\nINSERT\n2\nB\n" how
+
+/* Curves of blocks that are scaled unevenly, mirrored, and turned in between. */
+START_TEST(curves_in_blocks)
+{
+  const double half = perimeter(30, 10) / 2;
+  ck_assert_double_eq_tol(half, 66.8245, 1e-4);
+  ck_assert_double_eq_tol(perimeter(10, 10), 20 * THR_PI, 1e-12);
+  ck_assert_double_eq_tol(length_of(DRAWN(HALF, INSERTED("41\n1\n42\n3\n"))), half, 1e-7);
+  ck_assert_double_eq_tol(length_of(DRAWN(HALF_BULGE, INSERTED("41\n1\n42\n3\n"))), half, 1e-7);
+  ck_assert_double_eq_tol(length_of(DRAWN(HALF, INSERTED("41\n-1\n42\n3\n43\n2\n50\n33\n"))), half, 1e-7);
+  ck_assert_double_eq_tol(length_of(DRAWN(CIRCLE, INSERTED("41\n3\n42\n-1\n"))), 2 * half, 1e-7);
+  ck_assert_double_eq_tol(length_of(DRAWN(HALF, INSERTED("41\n-2\n42\n2\n43\n2\n"))), 20 * THR_PI, 1e-9);
+  ck_assert_double_eq_tol(length_of(DRAWN("0\nELLIPSE\n11\n10\n40\n0.001\n41\n0\n42\n3.14159265358979\n", INSERTED("42\n5\n"))),
+                          perimeter(10, 0.05) / 2, 1e-4);
+  ck_assert_double_eq_tol(length_of(DRAWN(CUBIC("2"), INSERTED("42\n3\n"))), length_of(DXF(CUBIC("6"))), 1e-9);
+
+  /* A block turned by 30 degrees in one that is drawn out, against 100,000 chords. */
+  double chords = 0;
+  const double c = cos(THR_PI / 6), s = sin(THR_PI / 6);
+  for (int i = 0; i <= 100000; i++) {
+    static double x, y;
+    const double t = THR_PI * i / 100000, u = 10 * cos(t), v = 10 * sin(t), newx = 4 * (c * u - s * v), newy = s * u + c * v;
+    chords += i ? hypot(newx - x, newy - y) : 0;
+    x = newx;
+    y = newy;
+  }
+  ck_assert_double_eq_tol(length_of("0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nA\n" HALF "0\nENDBLK\n0\nBLOCK\n2\nB\n"
+                                    "0\nINSERT\n2\nA\n50\n30\n0\nENDBLK\n0\nENDSEC\n" DXF(INSERTED("41\n4\n"))),
+                          chords, 1e-6);
+}
+END_TEST
+
 /* Lines of 1, 2, 4, .. on layers that are shown, off and frozen, in the model and in blocks, so that the length says which were
  * read. As AutoCAD shows them: what is inserted on a frozen layer is hidden whole; on one that is off only its layer 0 is. */
 START_TEST(hidden_layers_of_drawings)
@@ -766,6 +819,7 @@ int main(void)
   ADD_TEST(s, 4, which_way_is_up);
   ADD_TEST(s, 4, drawing);
   ADD_TEST(s, 4, drawings_of_many_makers);
+  ADD_TEST(s, 4, curves_in_blocks);
   ADD_TEST(s, 4, hidden_layers_of_drawings);
   ADD_TEST(s, 4, drawings_that_are_wrong);
   ADD_LOOP(s, 4, ply_round_trip, 0, 3);
