@@ -162,10 +162,17 @@ def clean(text):
 
 # millimetres of a unit; None: nobody knows
 UNITS = {"um": 0.001, "micron": 0.001, "microns": 0.001, "mm": 1, "cm": 10, "dm": 100, "m": 1000, "km": 1e6, "in": 25.4, "inch": 25.4,
-         "inches": 25.4, "ft": 304.8, "foot": 304.8, "feet": 304.8, "yd": 914.4, "yard": 914.4, "yards": 914.4, "unit": None, "units": None}
-for prefix, size in (("", 1000), ("micro", 0.001), ("milli", 1), ("centi", 10), ("deci", 100), ("kilo", 1e6)):
+         "inches": 25.4, "ft": 304.8, "foot": 304.8, "feet": 304.8, "yd": 914.4, "yard": 914.4, "yards": 914.4, "unit": None, "units": None,
+         "unitless": None, "unknown": None, "none": None, "mi": 1609344, "mile": 1609344, "miles": 1609344, "us-ft": 1200000 / 3937, "us-in": 100000 / 3937,
+         "us-yd": 3600000 / 3937, "us-mi": 6336000000 / 3937, "mil": 0.0254, "uin": 2.54e-5, "microinch": 2.54e-5, "microinches": 2.54e-5,
+         "nm": 1e-6, "angstrom": 1e-7, "angstroms": 1e-7, "dam": 1e4, "hm": 1e5, "gm": 1e12, "au": 1.495978707e14, "ly": 9.4607304725808e18,
+         "pc": 3.0856775814913673e19, "parsec": 3.0856775814913673e19, "parsecs": 3.0856775814913673e19}
+for prefix, size in (("", 1000), ("nano", 1e-6), ("micro", 0.001), ("milli", 1), ("centi", 10), ("deci", 100), ("deca", 1e4), ("hecto", 1e5),
+                     ("kilo", 1e6), ("giga", 1e12)):
     UNITS.update({prefix + metre: size for metre in ("meter", "meters", "metre", "metres")})
-SHORT = {0.001: "um", 1: "mm", 10: "cm", 100: "dm", 1000: "m", 1e6: "km", 25.4: "in", 304.8: "ft", 914.4: "yd", None: "unit"}
+SHORT = {0.001: "um", 1: "mm", 10: "cm", 100: "dm", 1000: "m", 1e6: "km", 25.4: "in", 304.8: "ft", 914.4: "yd", 1609344: "mi", 1200000 / 3937: "us-ft",
+         100000 / 3937: "us-in", 3600000 / 3937: "us-yd", 6336000000 / 3937: "us-mi", 0.0254: "mil", 2.54e-5: "uin", 1e-6: "nm", 1e-7: "angstrom",
+         1e4: "dam", 1e5: "hm", 1e12: "Gm", 1.495978707e14: "au", 9.4607304725808e18: "ly", 3.0856775814913673e19: "pc", None: "unit"}
 CONTROL = re.compile("[\x00-\x1f\x7f-\x9f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufffe\uffff]")
 
 

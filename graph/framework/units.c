@@ -7,7 +7,8 @@
 
 #define KNOWN "um, mm, cm, dm, m, km, in, ft or yd"
 
-/* The short name comes first. A foot and a yard are the international ones of 1959. */
+/* The short name comes first. A foot and a yard are the international ones of 1959; those of the US survey are 1200/3937 m and
+ * its multiples. The last ones are for drawings, whose header may name them: au of 2012, light years of Julian years. */
 static const struct {
   const char *name[8];
   double mm; /* 0: not known */
@@ -20,6 +21,21 @@ static const struct {
              {{"dm", "decimeter", "decimeters", "decimetre", "decimetres"}, 100},
              {{"km", "kilometer", "kilometers", "kilometre", "kilometres"}, 1e6},
              {{"yd", "yard", "yards"}, 914.4},
+             {{"mi", "mile", "miles"}, 1609344},
+             {{"us-ft"}, 1200000. / 3937},
+             {{"us-in"}, 100000. / 3937},
+             {{"us-yd"}, 3600000. / 3937},
+             {{"us-mi"}, 6336000000. / 3937},
+             {{"mil"}, 0.0254},
+             {{"uin", "microinch", "microinches"}, 2.54e-5},
+             {{"nm", "nanometer", "nanometers", "nanometre", "nanometres"}, 1e-6},
+             {{"angstrom", "angstroms"}, 1e-7},
+             {{"dam", "decameter", "decameters", "decametre", "decametres"}, 1e4},
+             {{"hm", "hectometer", "hectometers", "hectometre", "hectometres"}, 1e5},
+             {{"Gm", "gigameter", "gigameters", "gigametre", "gigametres"}, 1e12},
+             {{"au"}, 1.495978707e14},
+             {{"ly"}, 9.4607304725808e18},
+             {{"pc", "parsec", "parsecs"}, 3.0856775814913673e19},
              {{"unit", "units", "unitless", "unknown", "none"}, 0}};
 
 enum { N_UNITS = sizeof units / sizeof *units, MOST_NAMES = sizeof units[0].name / sizeof *units[0].name };

@@ -8,8 +8,9 @@
 
 const char *thr_dxf_unit(int code)
 {
-  static const char *const units[THR_DXF_UNITS] = {
-      [1] = "in", [2] = "ft", [4] = "mm", [5] = "cm", [6] = "m", [7] = "km", [10] = "yd", [13] = "um", [14] = "dm"};
+  static const char *const units[THR_DXF_UNITS] = {NULL,  "in", "ft",       "mi",    "mm",    "cm",    "m",    "km", "uin",
+                                                   "mil", "yd", "angstrom", "nm",    "um",    "dm",    "dam",  "hm", "Gm",
+                                                   "au",  "ly", "pc",       "us-ft", "us-in", "us-yd", "us-mi"};
   return code > 0 && code < THR_DXF_UNITS ? units[code] : NULL;
 }
 

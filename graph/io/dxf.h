@@ -5,8 +5,8 @@
 
 #include "graph/text.h"
 
-/* The unit of each code of $INSUNITS, NULL where this program has no word for it. */
-enum { THR_DXF_UNITS = 15 };
+/* The unit of each code of $INSUNITS, NULL for 0 and where there is no such code. */
+enum { THR_DXF_UNITS = 25 };
 const char *thr_dxf_unit(int code);
 
 typedef struct {

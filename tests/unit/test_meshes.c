@@ -2,6 +2,7 @@
  * cut or wrong. The cube: 8 corners, 12 edges, 6 faces of two triangles, so 6 diagonals; Euler: 8 - 18 + 12 = 2. */
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
+#include "graph/framework/units.h"
 #include "graph/io/read.h"
 #include "graph/text.h"
 #include "tests/support.h"
@@ -659,6 +660,51 @@ START_TEST(drawings_of_many_makers)
 }
 END_TEST
 
+/* All codes of $INSUNITS, in mm: Autodesk's list, and the definitions of the units. */
+START_TEST(units_of_drawings)
+{
+  const double foot = 1200. / 3937 * 1000; /* of the US survey */
+  const double mm[] = {0,
+                       25.4,
+                       304.8,
+                       1609344,
+                       1,
+                       10,
+                       1000,
+                       1e6,
+                       25.4e-6,
+                       0.0254,
+                       914.4,
+                       1e-7,
+                       1e-6,
+                       1e-3,
+                       100,
+                       1e4,
+                       1e5,
+                       1e12,
+                       149597870700e3,
+                       299792458. * 31557600 * 1000,
+                       149597870700e3 * 648000 / THR_PI,
+                       foot,
+                       foot / 12,
+                       3 * foot,
+                       5280 * foot};
+  for (int code = 0; code <= 25; code++) {
+    char text[300];
+    double size = 0;
+    thr_read_report r;
+    const thr_read_options options = thr_read_options_default();
+    snprintf(text, sizeof text, "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n%d\n0\nENDSEC\n%s", code, DXF("0\nLINE\n11\n7\n"));
+    thr_frame f = read_file(text, "a.dxf", &options, &r);
+    const bool known = code > 0 && code < 25;
+    ck_assert_int_eq(r.no_units, !known);
+    if (known) ck_assert_int_eq(thr_units_in_mm(f.units, &size, NULL), THR_OK);
+    if (known) ck_assert_double_eq_tol(size / mm[code], 1, 1e-12);
+    thr_frame_destroy(&f);
+  }
+}
+END_TEST
+
 /* The perimeter of an ellipse with half axes a >= b by the arithmetic-geometric mean (Gauss). */
 static double perimeter(double a, double b)
 {
@@ -819,6 +865,7 @@ int main(void)
   ADD_TEST(s, 4, which_way_is_up);
   ADD_TEST(s, 4, drawing);
   ADD_TEST(s, 4, drawings_of_many_makers);
+  ADD_TEST(s, 4, units_of_drawings);
   ADD_TEST(s, 4, curves_in_blocks);
   ADD_TEST(s, 4, hidden_layers_of_drawings);
   ADD_TEST(s, 4, drawings_that_are_wrong);
