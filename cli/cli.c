@@ -282,6 +282,7 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
     a->read.flat *= THR_PI / 180;
     return true;
   case OPTION_PICK: a->read.pick = value; return true;
+  case OPTION_COLUMNS: a->read.columns = value; return true;
   case OPTION_PARALLEL: {
     int choice;
     *ok = cli_choose(command, "--parallel", value, parallel_name, 2, &choice);

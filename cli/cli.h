@@ -105,6 +105,7 @@ typedef struct {
       {"scale", required_argument, NULL, OPTION_SCALE}, {"flat", required_argument, NULL, OPTION_FLAT},                          \
       {"pick", required_argument, NULL, OPTION_PICK}, {"layers", required_argument, NULL, OPTION_LAYERS},                        \
       {"split", no_argument, NULL, OPTION_SPLIT}, {"parallel", required_argument, NULL, OPTION_PARALLEL},                        \
+      {"columns", required_argument, NULL, OPTION_COLUMNS},                                                                      \
   {                                                                                                                              \
     "feet", required_argument, NULL, OPTION_FEET                                                                                 \
   }
@@ -119,6 +120,7 @@ enum {
   OPTION_LAYERS,
   OPTION_SPLIT,
   OPTION_PARALLEL,
+  OPTION_COLUMNS,
   OPTION_FEET,
   OPTION_FREE
 };
@@ -130,6 +132,7 @@ enum {
   "      --scale S        coordinates times S: 1000 for a file in metres whose dome is built in mm\n"                            \
   "      --up y|z         which coordinate points up (default: z, but y in OBJ files by Blender)\n"                              \
   "      --flat DEG       meshes: no edge between triangles that meet at less than DEG degrees\n"                                \
+  "      --columns A,B    tables: the two columns of the ends of an edge, by name or number (default: found)\n"                  \
   "      --parallel keep|shortest  of edges between the same nodes: all, parted by a node each, or the shortest (default)\n"     \
   "      --split          cut an edge where a node lies on it\n"                                                                 \
   "      --pick NAME|N    of a file of several frameworks, objects, groups or layers: this one, or the Nth (default: all)\n"     \

@@ -587,9 +587,15 @@ thr_status thr_draft_build(const thr_draft *draft, double tolerance, thr_frame *
       index[parent[draft->edge[e].a]] = index[parent[draft->edge[e].b]] = 1;
     }
   if (n_edges == 0) {
-    st = thr_fail(err, THR_EINPUT,
-                  "every edge has zero length: its ends are one node, or within the weld tolerance %g; use a smaller --weld",
-                  tolerance);
+    bool loops = true;
+    for (int e = 0; e < draft->n_edges; e++)
+      loops = loops && draft->edge[e].a == draft->edge[e].b;
+    st =
+        loops
+            ? thr_fail(err, THR_EINPUT, "every edge joins a node to itself; check what is given as its two ends")
+            : thr_fail(err, THR_EINPUT,
+                       "every edge has zero length: its ends are one node, or within the weld tolerance %g; use a smaller --weld",
+                       tolerance);
     goto done;
   }
   for (int v = 0; v < draft->n_nodes; v++) {

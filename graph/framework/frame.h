@@ -60,7 +60,9 @@ typedef struct {
   const char *pick; /* asked of the readers of files that hold several frameworks: the name or the number of one of them, from 1;
                        NULL = all of a list; borrowed */
   bool all_layers;  /* asked of the readers of drawings: what is on hidden layers is read, too */
-  double flat;      /* asked of the readers of meshes, rad: triangles that meet at less have no edge between them; 0 = all have */
+  const char *columns; /* asked of the reader of tables: the two columns of the ends of edges, "a,b" by name or number; NULL = as
+                          the table says; borrowed */
+  double flat; /* asked of the readers of meshes, rad: triangles that meet at less have no edge between them; 0 = all have */
 } thr_draft;
 
 /* What node v is called until another node is added; NULL means the index in decimal. */

@@ -83,7 +83,9 @@ static thr_status parse_csv_file(thr_draft *draft, thr_read_report *report, cons
   char *partner = NULL;
   thr_status st = thr_csv_scan(draft, report, text->data, text->length, name, &content, err);
   if (st || content == THR_CSV_WHOLE) return st;
+  const char *columns = draft->columns;
   thr_draft_destroy(draft);
+  draft->columns = columns;
   *report = (thr_read_report){0};
   st = find_partner(path, content, &partner, err);
   if (!st && partner) {
@@ -127,7 +129,8 @@ static thr_status check_pick(const thr_read_options *options, const thr_read_rep
 thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char *text, size_t n, const char *name,
                            const thr_read_options *options, thr_err *err)
 {
-  thr_draft draft = {.flat = options->flat, .pick = options->pick, .all_layers = options->all_layers};
+  thr_draft draft = {
+      .flat = options->flat, .pick = options->pick, .columns = options->columns, .all_layers = options->all_layers};
   *frame = (thr_frame){0};
   thr_status st = thr_draft_parse(&draft, report, text, n, name, NULL, err);
   if (!st) st = check_pick(options, report, name, err);
@@ -143,7 +146,8 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
                           char *pair_path, size_t pair_size, thr_err *err)
 {
   thr_text text = {0};
-  thr_draft draft = {.flat = options->flat, .pick = options->pick, .all_layers = options->all_layers};
+  thr_draft draft = {
+      .flat = options->flat, .pick = options->pick, .columns = options->columns, .all_layers = options->all_layers};
   const thr_format *format = NULL;
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
   *frame = (thr_frame){0};

@@ -24,6 +24,7 @@ typedef struct {
   const char *pick;       /* of a file that holds several frameworks, objects or layers: the name or the number of one of them,
                              from 1; NULL = all of a list */
   bool all_layers;        /* of a drawing the layers that are off or frozen, too */
+  const char *columns;    /* of a table of edges: the two columns of their ends by name or number, "a,b"; NULL = as it says */
   bool split;             /* an edge is cut where a node lies on it */
   bool parallel;          /* of edges between the same two nodes all that differ in length are kept, parted by a node each */
 } thr_read_options;

@@ -22,6 +22,7 @@ typedef struct {
   bool header;
   int width; /* fields in the row that this was learnt from */
   int id, xyz[6], foot, ends[2], length, cover, capacity, text;
+  bool paired; /* the header says which columns the ends stand in */
 } columns;
 
 typedef struct {
@@ -215,7 +216,7 @@ static int column(const csv *t, const char *const *names)
 
 static columns no_columns(const csv *t, row_kind kind, bool header)
 {
-  return (columns){kind, header, t->n_fields, -1, {-1, -1, -1, -1, -1, -1}, -1, {0, 1}, -1, -1, -1, -1};
+  return (columns){kind, header, t->n_fields, -1, {-1, -1, -1, -1, -1, -1}, -1, {0, 1}, -1, -1, -1, -1, false};
 }
 
 /* What a header may say of edges beside their ends. */
@@ -224,6 +225,17 @@ static void find_edge_columns(const csv *t, columns *c)
   c->length = COLUMN(t, "length");
   c->cover = COLUMN(t, "cover");
   c->capacity = COLUMN(t, "capacity");
+}
+
+/* Writes what the columns are called, for messages. */
+static void list_columns(const csv *t, char *out, size_t size)
+{
+  *out = '\0';
+  for (int i = 0; i < t->n_fields && strlen(out) + 8 < size; i++) {
+    const size_t n = strlen(out);
+    snprintf(out + n, size - n, "%s%.*s", i ? ", " : "", thr_span_width(t->field[i]), t->field[i].s);
+  }
+  thr_text_clean(out);
 }
 
 /* Fills header[n_fields] with what the row says of its columns. False if it is none, because two fields are numbers. */
@@ -319,6 +331,33 @@ static thr_status coordinate_header(csv *t, bool *is)
   return take_units(t, header);
 }
 
+/* Sets the two columns of the ends to those that are asked for, by name or by number from 1. */
+static thr_status find_asked_ends(csv *t)
+{
+  thr_span rest = thr_span_of(t->d->columns);
+  for (int end = 0; end < 2; end++) {
+    const char *comma = end ? NULL : memchr(rest.s, ',', rest.n);
+    const thr_span asked = thr_span_trim((thr_span){rest.s, comma ? (size_t)(comma - rest.s) : rest.n});
+    int number = 0, at = -1;
+    for (int i = t->n_fields - 1; i >= 0 && t->c.header; i--) {
+      bool same = t->field[i].n == asked.n;
+      for (size_t k = 0; k < asked.n && same; k++)
+        same = (t->field[i].s[k] | 0x20) == (asked.s[k] | 0x20);
+      if (same) at = i;
+    }
+    if (at < 0 && thr_span_int(asked, &number) && number >= 1 && number <= t->n_fields) at = number - 1;
+    char seen[160];
+    list_columns(t, seen, sizeof seen);
+    if (at < 0)
+      return thr_scan_fail(&t->scan, t->err, "no column '%.*s', which --columns asks for, among %s", thr_span_width(asked),
+                           asked.s, t->c.header ? seen : "the numbers of the columns");
+    t->c.ends[end] = at;
+    rest = comma ? (thr_span){comma + 1, rest.n - (size_t)(comma + 1 - rest.s)} : (thr_span){"", 0};
+  }
+  t->c.paired = true;
+  return THR_OK;
+}
+
 /* Marks the columns whose values all name nodes, in the rows that are left and, if there is no header, in this one. *counts is
  * set to whether the first column counts the rows, from 0 or 1. */
 static thr_status find_naming_columns(const csv *t, bool *names, bool *counts)
@@ -354,6 +393,7 @@ static thr_status find_ends_by_values(csv *t, const thr_header *header)
 {
   bool names[MAX_FIELDS], counts;
   int n = 0;
+  if (t->d->columns) return find_asked_ends(t);
   thr_status st = find_naming_columns(t, names, &counts);
   for (int i = 0; i < t->n_fields; i++)
     n += names[i];
@@ -363,7 +403,8 @@ static thr_status find_ends_by_values(csv *t, const thr_header *header)
       n--;
     }
   if (!st && n > 2)
-    return thr_scan_fail(&t->scan, t->err, "%d columns name nodes; put a header with a and b over the two ends of an edge", n);
+    return thr_scan_fail(&t->scan, t->err,
+                         "%d columns name nodes; say which two are the ends of an edge with --columns 2,3 or a header a,b", n);
   for (int i = 0, end = 0; i < t->n_fields && n == 2; i++)
     if (names[i]) t->c.ends[end++] = i;
   return st;
@@ -388,9 +429,10 @@ static thr_status edge_header(csv *t)
         if (found && names[t->c.ends[0]] && names[t->c.ends[1]]) continue;
         t->c.ends[0] = a;
         t->c.ends[1] = b;
-        found = true;
+        t->c.paired = found = true;
       }
-  if (!st && !found && t->n_fields > 2 && t->d->n_nodes) st = find_ends_by_values(t, header);
+  if (!st && t->d->columns) st = find_asked_ends(t);
+  if (!st && !t->c.paired && t->n_fields > 2 && t->d->n_nodes) st = find_ends_by_values(t, header);
   find_edge_columns(t, &t->c);
   int *const named[] = {&t->c.length, &t->c.cover, &t->c.capacity};
   for (int i = 0; i < 3; i++)
@@ -618,15 +660,17 @@ static thr_status learn(csv *t, bool *used)
     return thr_scan_fail(&t->scan, t->err, "columns x1 to z2 make a table of their own; take them out of the table of nodes");
   }
   if ((fresh || nodes_open) && t->n_fields >= 2 && all_words(t)) {
+    char seen[160];
+    list_columns(t, seen, sizeof seen);
     if (t->expected == NODE_TABLE)
-      return thr_scan_fail(&t->scan, t->err, "the header names no columns x and y; name the columns id,x,y,z");
+      return thr_scan_fail(&t->scan, t->err, "the header names no columns x and y but %s; name the columns id,x,y,z", seen);
     int a, b;
     thr_status st = begin_edges(t);
     if (!st) st = node_in(t, t->field[0], &a);
     if (!st) st = node_in(t, t->field[1], &b);
     if (st) return st;
     *used = a < 0 && b < 0;
-    return *used ? edge_header(t) : THR_OK;
+    return *used ? edge_header(t) : t->n_fields > 2 ? find_ends_by_values(t, NULL) : THR_OK;
   }
   if (fresh) return guess_columns(t);
   if (nodes_open && t->expected == ANY_TABLE && t->n_fields == 2 && t->c.width > 2) return begin_edges(t);
@@ -688,25 +732,39 @@ static thr_status read_table(csv *t, const char *text, size_t n, const char *nam
   return st;
 }
 
+/* Reports on the table that was read with this status, and frees what only reading needed. */
+static thr_status finish(csv *t, thr_status st)
+{
+  t->report->no_z = !t->has_z;
+  t->report->empty_z = t->has_z ? t->empty_z : 0;
+  thr_names_destroy(&t->names);
+  thr_text_destroy(&t->scratch);
+  if (st) thr_draft_destroy(t->d);
+  return st;
+}
+
 thr_status thr_csv_scan(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name,
                         thr_csv_content *content, thr_err *err)
 {
   csv t = {.expected = ANY_TABLE, .d = draft, .report = report, .err = err};
-  thr_status st = read_table(&t, text, n, name, content);
-  report->no_z = !t.has_z;
-  report->empty_z = t.has_z ? t.empty_z : 0;
-  thr_names_destroy(&t.names);
-  thr_text_destroy(&t.scratch);
-  if (st) thr_draft_destroy(draft);
-  return st;
+  return finish(&t, read_table(&t, text, n, name, content));
 }
 
 static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
 {
   thr_csv_content content;
-  thr_status st = thr_csv_scan(draft, report, text, n, name, &content, err);
+  csv t = {.expected = ANY_TABLE, .d = draft, .report = report, .err = err};
+  char seen[160];
+  thr_status st = finish(&t, read_table(&t, text, n, name, &content));
   if (st || content == THR_CSV_WHOLE) return st;
   thr_draft_destroy(draft);
+  list_columns(&t, seen, sizeof seen);
+  if (content == THR_CSV_EDGES_ONLY && t.c.header && !t.c.paired)
+    return thr_scan_fail(
+        &t.scan, err,
+        "columns %s: no coordinates (x,y,z or x1,y1,z1,x2,y2,z2) and no two ends of edges (a,b or start,end) are "
+        "among them",
+        seen);
   return content == THR_CSV_NODES_ONLY
              ? thr_fail(err, THR_EINPUT, "%s: nodes but no edges; add rows that name two nodes, or give the table of edges too",
                         name)

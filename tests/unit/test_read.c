@@ -294,6 +294,25 @@ START_TEST(csv_errors)
 }
 END_TEST
 
+START_TEST(csv_tells_the_columns_it_saw)
+{
+  const thr_format *csv = thr_format_named("csv");
+  check_error(
+      "left,right;up\n0,1;2\n", csv,
+      "f:1: columns left,right, up: no coordinates (x,y,z or x1,y1,z1,x2,y2,z2) and no two ends of edges (a,b or start,end) "
+      "are among them");
+  thr_draft d = {0};
+  thr_read_report r = {0};
+  thr_frame f;
+  thr_err err = {0};
+  const char *loops = "id,x,y\n1,0,0\n2,3,4\na,b\n1,1\n2,2\n";
+  ck_assert_int_eq(thr_draft_parse(&d, &r, loops, strlen(loops), "f", csv, &err), THR_OK);
+  ck_assert_int_eq(thr_draft_build(&d, -1, &f, &r, &err), THR_EINPUT);
+  ck_assert_str_eq(err.text, "every edge joins a node to itself; check what is given as its two ends");
+  thr_draft_destroy(&d);
+}
+END_TEST
+
 START_TEST(csv_nul_byte)
 {
   static const char text[] = "0,0,0,1,0,0\n0,0\0,0\n";
@@ -339,14 +358,15 @@ START_TEST(csv_pairs)
   ck_assert(d.n_edges == 2 && d.edge[0].a == 0 && d.edge[0].b == 1);
   thr_draft_destroy(&d);
   ck_assert_int_eq(parse_pair(square, "2,3,1\n4,1,2\n", &d, &err), THR_EINPUT);
-  ck_assert_str_eq(err.text, "edges:1: 3 columns name nodes; put a header with a and b over the two ends of an edge");
+  ck_assert_str_eq(err.text,
+                   "edges:1: 3 columns name nodes; say which two are the ends of an edge with --columns 2,3 or a header a,b");
   err = (thr_err){0};
 
   ck_assert_int_eq(parse_pair("id,x,y,z\n1,0,0,0\n", "a,b\n1,2\n", &d, &err), THR_EINPUT);
   ck_assert_str_eq(err.text, "edges:2: there is no node '2'; the nodes are called '1' to '1'");
   err = (thr_err){0};
   ck_assert_int_eq(parse_pair("a,b\n1,2\n", "id,x,y\n", &d, &err), THR_EINPUT);
-  ck_assert_str_eq(err.text, "nodes:1: the header names no columns x and y; name the columns id,x,y,z");
+  ck_assert_str_eq(err.text, "nodes:1: the header names no columns x and y but a, b; name the columns id,x,y,z");
   err = (thr_err){0};
   ck_assert_int_eq(parse_pair("id,x,y\n1,0,\n", "a,b\n1,2\n", &d, &err), THR_EINPUT);
   ck_assert_str_eq(err.text, "nodes:2: no y coordinate in column 3; give a number");
@@ -781,7 +801,7 @@ START_TEST(file_errors)
   } bad[] = {{"data/none.json", "data/none.json: cannot open", THR_EIO},
              {"data", "data: cannot read", THR_EIO},
              {"roof.3DM", "roof.3DM: this is a Rhino model, which is not read", THR_EINPUT},
-             {"LICENSE", "LICENSE: edges but no columns x and y", THR_EINPUT},
+             {"LICENSE", "LICENSE:1: columns GNU, GENERAL, PUBLIC, LICENSE: no coordinates", THR_EINPUT},
              {"tests/unit/files/alone-nodes.csv", "tests/unit/files/alone-nodes.csv: nodes but no edges", THR_EINPUT}};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     thr_frame f;
@@ -1068,6 +1088,7 @@ static void add_tests(TCase *t)
   tcase_add_test(t, csv_columns_by_their_words);
   tcase_add_test(t, csv_of_other_programs);
   tcase_add_test(t, csv_units_and_empty_z);
+  tcase_add_test(t, csv_tells_the_columns_it_saw);
   tcase_add_test(t, csv_nul_byte);
   tcase_add_test(t, csv_pairs);
   tcase_add_test(t, obj_records);
