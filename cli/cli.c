@@ -317,10 +317,15 @@ static thr_status note_read(const thr_frame *frame, const thr_read_report *repor
 
 int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame)
 {
-  thr_err err = {0};
   thr_read_report report = {0};
+  return cli_read_frame_report(path, a, frame, &report);
+}
+
+int cli_read_frame_report(const char *path, const cli_frame_args *a, thr_frame *frame, thr_read_report *report)
+{
+  thr_err err = {0};
   char pair[1024] = "";
-  thr_status st = thr_frame_read(frame, &report, path, &a->read, pair, sizeof pair, &err);
+  thr_status st = thr_frame_read(frame, report, path, &a->read, pair, sizeof pair, &err);
   if (pair[0]) cli_note("note: read together with %s", pair); /* before an error that may name that file */
   if (st) return cli_fail(&err);
   const int taken = pair[0] ? files_also_read(pair) : EXIT_OK;
@@ -328,7 +333,7 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame)
     thr_frame_destroy(frame);
     return taken;
   }
-  if (note_read(frame, &report, &err)) {
+  if (note_read(frame, report, &err)) {
     thr_frame_destroy(frame);
     return cli_fail(&err);
   }

@@ -144,6 +144,7 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
 
 /* Reads, says on stderr what was merged, dropped or odd, and sets the feet. Returns EXIT_OK or prints and returns the code. */
 int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame);
+int cli_read_frame_report(const char *path, const cli_frame_args *a, thr_frame *frame, thr_read_report *report);
 
 /* Is it a folder, or a name that ends like one? */
 bool cli_is_folder(const char *path);

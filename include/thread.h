@@ -40,16 +40,18 @@ THREAD_API void thread_free(void *bytes);      /* what a char ** received; NULL 
 
 typedef struct {
   size_t size;
-  const char *edges; /* second file of a CSV pair; NULL = none */
-  const char *units; /* NULL = as the file says, else mm */
-  double weld;       /* nodes closer than this are one; < 0 = 1e-6 of the bounding box */
-  double scale;      /* times every coordinate */
-  double flat;       /* rad: no edge between triangles that meet at less */
-  char up;           /* 'y', 'z', or 'a' = as the maker of the file is known to write */
-  char split;        /* 1: an edge is cut where a node lies on it */
-  int pick;          /* which framework of a file that holds several, from 1; 0 = all */
-  const char *part;  /* the same by its name, or by that of an object, group or layer; NULL = as pick says */
-  char all_layers;   /* 1: what a drawing has on layers that are off or frozen is read, too */
+  const char *edges;   /* second file of a CSV pair; NULL = none */
+  const char *units;   /* NULL = as the file says, else mm */
+  double weld;         /* nodes closer than this are one; < 0 = 1e-6 of the bounding box */
+  double scale;        /* times every coordinate */
+  double flat;         /* rad: no edge between triangles that meet at less */
+  char up;             /* 'y', 'z', or 'a' = as the maker of the file is known to write */
+  char split;          /* 1: an edge is cut where a node lies on it */
+  int pick;            /* which framework of a file that holds several, from 1; 0 = all */
+  const char *part;    /* the same by its name, or by that of an object, group or layer; NULL = as pick says */
+  char all_layers;     /* 1: what a drawing has on layers that are off or frozen is read, too */
+  char parallel;       /* 1: of edges between the same two nodes all that differ in length are kept, parted by a node each */
+  const char *columns; /* of a table of edges: the two columns of their ends by name or number, "a,b"; NULL = as it says */
 } thread_read_options;
 THREAD_API void thread_read_options_init(thread_read_options *options, size_t size);
 

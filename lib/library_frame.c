@@ -33,6 +33,8 @@ static thr_status read_options(const thread_read_options *theirs, thr_read_optio
   out->edges_path = o.edges;
   out->split = o.split != 0;
   out->all_layers = o.all_layers != 0;
+  out->parallel = o.parallel != 0;
+  out->columns = o.columns;
   snprintf(number, 12, "%d", o.pick);
   out->pick = o.part ? o.part : o.pick ? number : NULL;
   out->units = o.units;

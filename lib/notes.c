@@ -3,6 +3,7 @@
 #include "graph/framework/near.h"
 
 #include <math.h>
+#include <stdio.h>
 
 static void put_count(thr_text *out, int n, const char *one, const char *many, const char *what)
 {
@@ -72,7 +73,7 @@ static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_rep
 {
   enum { SHORT = 2, LONG = 1000 }; /* mm: hardly anybody threads pieces outside of these */
   int n_short = 0, n_long = 0;
-  if (report->turned)
+  if (report->up_from == THR_FROM_MAKER)
     thr_text_append(out, "made by Blender, which writes y upwards: turned so that y points up (--up z leaves it as it is)\n");
   if (report->lies)
     thr_text_append(out, "z is taken to point up, and only a line of nodes is lowest; if y points up in this file: --up y\n");
@@ -82,7 +83,7 @@ static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_rep
     n_short += frame->length[e] < SHORT;
     n_long += frame->length[e] > LONG;
   }
-  if (report->no_units && (n_short > frame->n_edges / 2 || n_long > frame->n_edges / 2))
+  if (report->units_from == THR_FROM_NOBODY && (n_short > frame->n_edges / 2 || n_long > frame->n_edges / 2))
     thr_text_printf(out,
                     "the file names no unit, and most of its edges are %s than %d mm; --units m says what they are, "
                     "--scale 1000 makes them others\n",
@@ -134,4 +135,65 @@ thr_status thr_read_notes(const thr_frame *frame, const thr_read_report *report,
   put_lengths(out, frame);
   thr_status st = put_near(out, frame, err);
   return !st && out->failed ? thr_nomem(err) : st;
+}
+
+const char *thr_whence_name(thr_whence from)
+{
+  static const char *const names[] = {"assumed", "maker", "file", "option"};
+  return names[from];
+}
+
+static thr_assumption assume(const char *what, thr_whence from, const char *why)
+{
+  thr_assumption a = {.what = what, .number = NAN, .from = from};
+  snprintf(a.why, sizeof a.why, "%s", why);
+  return a;
+}
+
+int thr_read_assumptions(const thr_read_options *options, const thr_frame *frame, const thr_read_report *report,
+                         thr_assumption row[THR_ASSUMPTIONS])
+{
+  int n = 0;
+  row[n] = assume("format", THR_FROM_FILE, "");
+  snprintf(row[n++].value, sizeof row->value, "%s", report->format);
+  row[n] = assume("unit", report->units_from, report->units_from ? "" : "the file names none; --units");
+  snprintf(row[n++].value, sizeof row->value, "%s", frame->units);
+  row[n] = assume("up", report->up_from,
+                  report->up_from == THR_FROM_NOBODY  ? "the file does not say; --up y"
+                  : report->up_from == THR_FROM_MAKER ? "Blender writes y upwards; --up z"
+                                                      : "");
+  snprintf(row[n++].value, sizeof row->value, "%s", report->y_up ? "y" : "z");
+  row[n] = assume("scale", options->scale == 1 ? THR_FROM_NOBODY : THR_FROM_USER,
+                  options->scale == 1 ? "the numbers as they are; --scale" : "");
+  row[n++].number = options->scale;
+  row[n] = assume("weld", options->weld < 0 ? THR_FROM_NOBODY : THR_FROM_USER, "");
+  row[n].number = report->weld_tolerance;
+  char welded[12] = "no";
+  if (report->welded_nodes) snprintf(welded, sizeof welded, "%d", report->welded_nodes);
+  snprintf(row[n].why, sizeof row->why, "%s %s so close to another%s", welded,
+           report->welded_nodes > 1 ? "nodes were" : "node was", options->weld < 0 ? "; --weld" : "");
+  n++;
+  if (report->hidden_layers || options->all_layers) {
+    row[n] = assume("layers", options->all_layers ? THR_FROM_USER : THR_FROM_FILE, "");
+    snprintf(row[n].value, sizeof row->value, "%s", options->all_layers ? "all" : "shown");
+    if (!options->all_layers)
+      snprintf(row[n].why, sizeof row->why, "%d %s on %d hidden left out; --layers all", report->hidden_edges,
+               report->hidden_edges == 1 ? "edge" : "edges", report->hidden_layers);
+    n++;
+  }
+  if (report->frameworks > 1) {
+    row[n] = assume("parts", options->pick ? THR_FROM_USER : THR_FROM_NOBODY, options->pick ? "" : "--pick NAME or N");
+    snprintf(row[n++].value, sizeof row->value, "%d of %d", report->frameworks_read, report->frameworks);
+  }
+  if (report->parallel_edges || options->parallel) {
+    row[n] = assume("parallel", options->parallel ? THR_FROM_USER : THR_FROM_NOBODY, "");
+    snprintf(row[n].value, sizeof row->value, "%s", options->parallel ? "keep" : "shortest");
+    if (!options->parallel)
+      snprintf(row[n].why, sizeof row->why, "%d longer %s left out; --parallel keep", report->parallel_edges,
+               report->parallel_edges == 1 ? "edge" : "edges");
+    n++;
+  }
+  for (int i = 0; i < n; i++)
+    if (!isnan(row[i].number)) snprintf(row[i].value, sizeof row->value, "%.3g", row[i].number);
+  return n;
 }

@@ -9,6 +9,7 @@
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
+#include "lib/notes.h"
 
 #include <inttypes.h>
 #include <limits.h>
@@ -46,6 +47,8 @@ typedef struct {
   bool channels;     /* planned with solid joints: they run through pieces */
   int64_t crossings; /* of two channels in a piece */
   int crossed;       /* pieces with one */
+  int n_assumptions;
+  thr_assumption assumption[THR_ASSUMPTIONS];
 } facts;
 
 /* Is the rank of the rigidity matrix worked out within a second or so? It is sparse unless edges are many for their nodes. */
@@ -58,7 +61,7 @@ static bool can_analyse(const thr_frame *frame)
 
 static thr_status find_facts(const thr_frame *frame, facts *a, thr_err *err)
 {
-  *a = (facts){.shortest = frame->length[0]};
+  a->shortest = frame->length[0];
   int *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
   bool *bridge = thr_calloc((size_t)frame->n_edges, sizeof *bridge);
   thr_status st = component && bridge ? THR_OK : thr_nomem(err);
@@ -153,6 +156,12 @@ static void put_range(thr_text *text, const char *what, const int *value, int n)
   thr_text_printf(text, "%-12s%d to %d passes an edge, given by the file\n", what, low, high);
 }
 
+static const char *from_words(thr_whence from)
+{
+  static const char *const words[] = {"assumed", "of the file's maker", "of the file", "as asked for"};
+  return words[from];
+}
+
 static void put_text(thr_text *text, const thr_frame *frame, const facts *a)
 {
   thr_text_printf(text, "nodes       %d, a piece each with solid joints\n", frame->n_nodes);
@@ -169,7 +178,11 @@ static void put_text(thr_text *text, const thr_frame *frame, const facts *a)
   if (frame->capacity) put_range(text, "capacities", frame->capacity, frame->n_edges);
   thr_text_printf(text, "size        %.6g %s (diagonal of the bounding box)\n", thr_frame_diagonal(frame), frame->units);
   put_rigidity(text, frame, a);
-  thr_text_printf(text, "hash        %016" PRIx64 "\n", thr_frame_hash(frame));
+  thr_text_printf(text, "hash        %016" PRIx64 "\n\nread as\n", thr_frame_hash(frame));
+  for (int i = 0; i < a->n_assumptions; i++) {
+    const thr_assumption *row = &a->assumption[i];
+    thr_text_printf(text, "%-11s %-11s %s%s%s\n", row->what, row->value, from_words(row->from), *row->why ? ": " : "", row->why);
+  }
 }
 
 static void put_rigidity_json(thr_writer *writer, const facts *a)
@@ -228,6 +241,19 @@ static void put_json(thr_text *text, const thr_frame *frame, const facts *a)
     thr_write_int(&writer, "crossed_pieces", a->crossed);
   }
   thr_write_hash(&writer, "hash", thr_frame_hash(frame));
+  thr_write_object(&writer, "read_as");
+  for (int i = 0; i < a->n_assumptions; i++) {
+    const thr_assumption *row = &a->assumption[i];
+    thr_write_object(&writer, row->what);
+    if (isnan(row->number))
+      thr_write_string(&writer, "value", row->value);
+    else
+      thr_write_number(&writer, "value", row->number);
+    thr_write_string(&writer, "from", thr_whence_name(row->from));
+    if (*row->why) thr_write_string(&writer, "why", row->why);
+    thr_write_close(&writer);
+  }
+  thr_write_close(&writer);
   thr_write_close(&writer);
   thr_text_append(text, "\n");
 }
@@ -235,9 +261,11 @@ static void put_json(thr_text *text, const thr_frame *frame, const facts *a)
 static int tell(const char *path, const cli_frame_args *args, bool json)
 {
   thr_frame frame;
-  int code = cli_read_frame(path, args, &frame);
+  thr_read_report report;
+  int code = cli_read_frame_report(path, args, &frame, &report);
   if (code) return code;
-  facts a;
+  facts a = {0};
+  a.n_assumptions = thr_read_assumptions(&args->read, &frame, &report, a.assumption);
   thr_text text = {0};
   thr_err err = {0};
   if (find_facts(&frame, &a, &err) || find_untied(path, &a, &err)) {

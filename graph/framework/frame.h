@@ -82,8 +82,13 @@ thr_status thr_draft_set_units(thr_draft *draft, const char *units, thr_err *err
 thr_status thr_draft_append(thr_draft *draft, const thr_draft *other, const char *prefix, thr_err *err) THR_MUST_CHECK;
 void thr_draft_destroy(thr_draft *draft);
 
+/* Whence something is known: the file leaves it open, its maker is known to write so, the file or its format says it, or the
+ * user. */
+typedef enum { THR_FROM_NOBODY, THR_FROM_MAKER, THR_FROM_FILE, THR_FROM_USER } thr_whence;
+
 /* What was done to the file's data, and what is odd about it. */
 typedef struct {
+  const char *format;    /* the format's name; static */
   double weld_tolerance; /* in units */
   int nodes_read, edges_read;
   int welded_nodes;      /* merged into an earlier node */
@@ -99,9 +104,10 @@ typedef struct {
   int unseen_records;     /* records that are marked invisible, or on paper, left out */
   int missing_blocks;     /* insertions of blocks that the file does not hold, left out */
   char missing_block[32]; /* the first one's name */
-  bool turned;            /* y was taken to point up, because the file's maker is known to write that */
+  thr_whence units_from;  /* nobody: they are taken to be mm */
+  thr_whence up_from;     /* nobody: z is taken to point up */
+  bool y_up;              /* y was taken to point up */
   bool lies;              /* z was taken to point up, but it may be y: the structure seems to lie on its side */
-  bool no_units;          /* nobody said what one unit is */
   bool no_z;              /* no node has a z: the framework is flat */
   int empty_z;            /* coordinates z left empty where others are not: taken as 0 */
   int frameworks;         /* that the file holds, and how many were read as one; 0 = the format holds one only */

@@ -29,6 +29,7 @@ thr_status thr_draft_parse(thr_draft *draft, thr_read_report *report, const char
     thr_draft_destroy(draft);
     *report = (thr_read_report){0};
   }
+  if (!st) report->format = format->name;
   return st;
 }
 
@@ -104,7 +105,7 @@ static thr_status build(const thr_read_options *options, const char *name, thr_d
 {
   thr_err why = {0};
   thr_status st = THR_OK;
-  report->no_units = !options->units && !draft->units[0];
+  report->units_from = options->units ? THR_FROM_USER : draft->units[0] ? THR_FROM_FILE : THR_FROM_NOBODY;
   if (options->units)
     st = thr_draft_set_units(draft, options->units, &why);
   else if (draft->other[0])
@@ -167,6 +168,7 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
   if (!st) st = check_pick(options, report, name, err);
   if (st) goto done;
   thr_text_destroy(&text);
+  report->format = format->name;
   st = build(options, name, &draft, frame, report, err);
 done:
   if (st) *report = (thr_read_report){0};

@@ -68,8 +68,9 @@ static thr_status scale(thr_draft *draft, double factor, thr_err *err)
 thr_status thr_draft_stand(thr_draft *draft, thr_up up, double factor, thr_read_report *report, thr_err *err)
 {
   const bool unasked = up == THR_UP_AUTO;
-  report->turned = unasked && draft->y_up;
-  if (up == THR_UP_Y || report->turned || (unasked && draft->up_is_y)) {
+  report->up_from = !unasked ? THR_FROM_USER : draft->y_up ? THR_FROM_MAKER : draft->up_is_y ? THR_FROM_FILE : THR_FROM_NOBODY;
+  report->y_up = up == THR_UP_Y || (unasked && (draft->y_up || draft->up_is_y));
+  if (report->y_up) {
     for (int i = 0; i < draft->n_nodes; i++) {
       double *at = draft->node[i].xyz, y = at[1];
       at[1] = at[2] == 0 ? 0 : -at[2];

@@ -9,8 +9,9 @@
 typedef enum { THR_UP_AUTO, THR_UP_Y, THR_UP_Z } thr_up;
 const char *thr_up_name(int up); /* "auto", "y", "z" */
 
-/* Turns the draft so that z points up and multiplies its coordinates and lengths by scale > 0; the report says if it was turned
- * unasked, or seems to lie. THR_EINPUT if a coordinate or a length leaves the range of numbers. O(nodes + edges). */
+/* Turns the draft so that z points up and multiplies its coordinates and lengths by scale > 0; the report says if y was up,
+ * whence that is known, and if it seems to lie. THR_EINPUT if a coordinate or a length leaves the range of numbers. O(nodes +
+ * edges). */
 thr_status thr_draft_stand(thr_draft *draft, thr_up up, double scale, thr_read_report *report, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -545,7 +545,7 @@ START_TEST(which_way_is_up)
   char name[64];
   snprintf(name, sizeof name, "up-%ld.obj", (long)getpid());
   thr_frame f = read_file("# Blender v2.93 OBJ File\n" TRIPOD, name, &options, &r);
-  ck_assert(r.turned && !r.lies && r.no_units);
+  ck_assert(r.up_from == THR_FROM_MAKER && !r.lies && r.units_from == THR_FROM_NOBODY);
   ck_assert(f.xyz[3][0] == 1 && f.xyz[3][1] == -1 && f.xyz[3][2] == 3);
   thr_frame_feet_lowest(&f);
   ck_assert(f.foot[0] && f.foot[1] && f.foot[2] && !f.foot[3]);
@@ -553,18 +553,18 @@ START_TEST(which_way_is_up)
 
   options.up = THR_UP_Z;
   f = read_file("# Blender v2.93 OBJ File\n" TRIPOD, name, &options, &r);
-  ck_assert(!r.turned && !r.lies && f.xyz[3][2] == 1);
+  ck_assert(r.up_from != THR_FROM_MAKER && !r.lies && f.xyz[3][2] == 1);
   thr_frame_destroy(&f);
 
   options = thr_read_options_default();
   f = read_file(TRIPOD, name, &options, &r);
-  ck_assert(!r.turned && r.lies); /* two nodes are lowest with z up, three that span a level with y up */
+  ck_assert(r.up_from != THR_FROM_MAKER && r.lies); /* two nodes are lowest with z up, three that span a level with y up */
   thr_frame_destroy(&f);
 
   options.up = THR_UP_Y;
   options.scale = 10;
   f = read_file("# units: cm\n" TRIPOD, name, &options, &r);
-  ck_assert(!r.turned && !r.lies && !r.no_units && f.xyz[3][2] == 30);
+  ck_assert(r.up_from != THR_FROM_MAKER && !r.lies && r.units_from != THR_FROM_NOBODY && f.xyz[3][2] == 30);
   ck_assert_double_eq_tol(thr_frame_total_length(&f), 10 * (sqrt(11) + 2 * sqrt(19)), 1e-9);
   thr_frame_destroy(&f);
 }
@@ -697,7 +697,7 @@ START_TEST(units_of_drawings)
     snprintf(text, sizeof text, "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n%d\n0\nENDSEC\n%s", code, DXF("0\nLINE\n11\n7\n"));
     thr_frame f = read_file(text, "a.dxf", &options, &r);
     const bool known = code > 0 && code < 25;
-    ck_assert_int_eq(r.no_units, !known);
+    ck_assert_int_eq(r.units_from, known ? THR_FROM_FILE : THR_FROM_NOBODY);
     if (known) ck_assert_int_eq(thr_units_in_mm(f.units, &size, NULL), THR_OK);
     if (known) ck_assert_double_eq_tol(size / mm[code], 1, 1e-12);
     thr_frame_destroy(&f);
