@@ -282,7 +282,13 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
     a->read.flat *= THR_PI / 180;
     return true;
   case OPTION_PICK: a->read.pick = value; return true;
-  case OPTION_COLUMNS: a->read.columns = value; return true;
+  case OPTION_COLUMNS: {
+    const char *comma = strchr(value, ',');
+    *ok = comma && comma != value && comma[1] && !strchr(comma + 1, ',');
+    if (!*ok) cli_usage(command, "--columns %s: expected two columns with a comma between them, like start,end or 2,3", value);
+    a->read.columns = value;
+    return true;
+  }
   case OPTION_PARALLEL: {
     int choice;
     *ok = cli_choose(command, "--parallel", value, parallel_name, 2, &choice);

@@ -120,9 +120,12 @@ static thr_status build(const thr_read_options *options, const char *name, thr_d
   return thr_fail(err, st, "%s: %s", name, why.text);
 }
 
-/* THR_EINPUT if there is no framework of the number that the options name. */
-static thr_status check_pick(const thr_read_options *options, const thr_read_report *report, const char *name, thr_err *err)
+/* THR_EINPUT if the options ask for columns of what is no table, or for a framework that is not there. */
+static thr_status check_asked(const thr_read_options *options, const thr_read_report *report, const thr_format *format,
+                              const char *name, thr_err *err)
 {
+  if (options->columns && !format->pairs)
+    return thr_fail(err, THR_EINPUT, "%s: --columns is for tables; this file is read as %s", name, format->name);
   if (!options->pick || strcmp(options->pick, "1") == 0 || report->frameworks) return THR_OK;
   return thr_fail(err, THR_EINPUT, "%s: there is no part '%.40s' to pick; the file holds one framework", name, options->pick);
 }
@@ -134,7 +137,7 @@ thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char
       .flat = options->flat, .pick = options->pick, .columns = options->columns, .all_layers = options->all_layers};
   *frame = (thr_frame){0};
   thr_status st = thr_draft_parse(&draft, report, text, n, name, NULL, err);
-  if (!st) st = check_pick(options, report, name, err);
+  if (!st) st = check_asked(options, report, thr_format_named(report->format), name, err);
   if (!st) st = build(options, name, &draft, frame, report, err);
   if (st) *report = (thr_read_report){0};
   thr_draft_destroy(&draft);
@@ -165,7 +168,7 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
     st = parse_csv_file(&draft, report, format, &text, path, name, pair_path, pair_size, err);
   else
     st = format->parse(&draft, report, text.data, text.length, name, err);
-  if (!st) st = check_pick(options, report, name, err);
+  if (!st) st = check_asked(options, report, format, name, err);
   if (st) goto done;
   thr_text_destroy(&text);
   report->format = format->name;
