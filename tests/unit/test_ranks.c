@@ -9,7 +9,6 @@
 #include "tortuosity/proof/orbit_ranks.h"
 #include "tortuosity/proof/orbits.h"
 #include "tortuosity/proof/pass_matching.h"
-#include "tortuosity/proof/ranks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -173,24 +172,6 @@ static double degrees(int64_t units)
   return ldexp((double)units, -THR_TURNING_BITS) * 180 / acos(-1);
 }
 
-/* Its matching turns by 5016.47 degrees, the programme with all its rows proves 5262.03, and the best cord known turns by
- * 5409.83. */
-START_TEST(a_sphere_is_proved_within_two_percent)
-{
-  const double best = 5409.83232;
-  thr_limits none = {0};
-  shell s;
-  int64_t bound;
-  shell_make(&s, 1);
-  double target = ldexp(best * acos(-1) / 180, THR_TURNING_BITS);
-  ck_assert_int_eq(thr_ranks_run(&s.c, s.x, &s.from, target, &none, &s.dual, NULL), THR_OK);
-  ck_assert_int_eq(thr_turning_dual_bound(&s.c, &s.dual, NULL, NULL, &bound, NULL), THR_OK);
-  ck_assert_double_ge(degrees(bound), 5310);
-  ck_assert_double_le(degrees(bound), best);
-  shell_destroy(&s);
-}
-END_TEST
-
 /* ---- with symmetries ---- */
 
 static int third_node(const thr_frame *f, int a, int b)
@@ -324,28 +305,6 @@ START_TEST(stopped_at_any_round_the_proof_holds)
 }
 END_TEST
 
-/* Steps towards a target that is far off, or slopes that are nearly flat, lead to multipliers beyond any number that fits: they
- * stay within what a proof may have, wherever the clock stops. */
-START_TEST(far_targets_leave_multipliers_that_hold)
-{
-  const thr_limits none = {0};
-  static const double target[] = {1e17, 1e20, 1e25, INFINITY};
-  shell s;
-  shell_make(&s, 1 + _i % 2);
-  for (int steps = 0; steps < 40; steps++) {
-    double work = (steps + 0.5) * 1e-5;
-    const thr_limits some = thr_limits_counted(&none, &work);
-    int64_t bound;
-    thr_err err = {0};
-    thr_turning_dual_destroy(&s.dual);
-    ck_assert_int_eq(thr_turning_dual_init(&s.dual, &s.c, NULL), THR_OK);
-    ck_assert_int_eq(thr_ranks_run(&s.c, s.x, &s.from, target[_i / 2], &some, &s.dual, NULL), THR_OK);
-    ck_assert_msg(thr_turning_dual_bound(&s.c, &s.dual, NULL, NULL, &bound, &err) == THR_OK, "%d steps: %s", steps, err.text);
-  }
-  shell_destroy(&s);
-}
-END_TEST
-
 /* Multipliers that the checker refuses end no search: the node keeps those that it had, or multipliers of 0. */
 START_TEST(a_search_drops_multipliers_that_do_not_hold)
 {
@@ -393,57 +352,14 @@ START_TEST(orbits_without_memory_fail)
 }
 END_TEST
 
-/* Two cords need one connection less, and no group; and with no time at all there is still a bound. */
-START_TEST(several_cords_and_no_time)
-{
-  thr_limits none = {0}, past = {.deadline = 1e-9};
-  shell s;
-  int64_t bound;
-  shell_make(&s, 2);
-  ck_assert_int_eq(thr_ranks_run(&s.c, s.x, &s.from, 1e17, &none, &s.dual, NULL), THR_OK);
-  ck_assert_int_eq(thr_turning_dual_bound(&s.c, &s.dual, NULL, NULL, &bound, NULL), THR_OK);
-  ck_assert_int_eq(s.dual.n_groups, 0);
-  ck_assert_double_ge(degrees(bound), 5016.47);
-  thr_turning_dual_destroy(&s.dual);
-  ck_assert_int_eq(thr_turning_dual_init(&s.dual, &s.c, NULL), THR_OK);
-  ck_assert_int_eq(thr_ranks_run(&s.c, s.x, &s.from, 1e17, &past, &s.dual, NULL), THR_OK);
-  ck_assert_int_eq(thr_turning_dual_bound(&s.c, &s.dual, NULL, NULL, &bound, NULL), THR_OK);
-  ck_assert_double_ge(degrees(bound), 4000);
-  shell_destroy(&s);
-}
-END_TEST
-
-/* Every allocation that fails is told, and nothing is lost. */
-START_TEST(a_run_without_memory_fails)
-{
-  thr_limits past = {.deadline = 1e-9};
-  shell s;
-  thr_status st = THR_ENOMEM;
-  shell_make(&s, 1);
-  for (long k = 1; st != THR_OK; k++) {
-    thr_turning_dual_destroy(&s.dual);
-    ck_assert_int_eq(thr_turning_dual_init(&s.dual, &s.c, NULL), THR_OK);
-    thr_alloc_fail_at(k);
-    st = thr_ranks_run(&s.c, s.x, &s.from, 1e17, &past, &s.dual, NULL);
-    thr_alloc_fail_at(0);
-    ck_assert(st == THR_OK || st == THR_ENOMEM);
-  }
-  shell_destroy(&s);
-}
-END_TEST
-
 int main(void)
 {
   Suite *s = suite_create("ranks of nodes");
   ADD_EXAMPLES(s, 20, a_forest_is_the_least_of_all_turns, 20);
   ADD_TEST(s, 20, the_largest_numbers_fit);
-  ADD_TEST(s, 60, a_sphere_is_proved_within_two_percent);
   ADD_TEST(s, 60, orbits_prove_what_the_linear_programme_does);
   ADD_TEST(s, 60, stopped_at_any_round_the_proof_holds);
-  ADD_EXAMPLES(s, 60, far_targets_leave_multipliers_that_hold, 8);
   ADD_TEST(s, 60, a_search_drops_multipliers_that_do_not_hold);
   ADD_TEST(s, 60, orbits_without_memory_fail);
-  ADD_TEST(s, 60, several_cords_and_no_time);
-  ADD_TEST(s, 60, a_run_without_memory_fails);
   return run_suite(s);
 }

@@ -7,8 +7,6 @@
 #include "tortuosity/cords/anneal_turns.h"
 #include "tortuosity/proof/ascent.h"
 #include "tortuosity/proof/column_groups.h"
-#include "tortuosity/proof/connect.h"
-#include "tortuosity/proof/cycles.h"
 #include "tortuosity/proof/partition.h"
 #include "tortuosity/proof/project.h"
 #include "tortuosity/proof/unit_matching.h"
@@ -65,7 +63,6 @@ void thr_branch_destroy(thr_branch *branch)
   free(branch->weight);
   free(branch->end_weight);
   if (branch->found) thr_join_destroy(&branch->best);
-  if (branch->other.found) thr_join_destroy(&branch->other.join);
   if (branch->relax.c) thr_relax_destroy(&branch->relax);
   for (int k = 0; k < THR_TREE_BATCH; k++)
     thr_orbit_destroy(&branch->orbit[k]);
@@ -301,47 +298,12 @@ void thr_branch_use_separators(thr_relax *relax)
   if (relax->any_odd) thr_search_use(search, thr_oddcuts_moats, &relax->odd, 0);
   if (!turning_task->end_allowed && !turning_task->tube) thr_search_use(search, thr_partitions_separate, relax, THR_FALLBACK);
   if (groups) thr_search_use(search, thr_groups_loose, relax, THR_FALLBACK);
-  if (groups) thr_search_use(search, thr_groups_exact, relax, THR_FALLBACK | THR_SLOW);
-  if (relax->any_odd) thr_search_use(search, thr_oddcuts_exact, &relax->odd, THR_FALLBACK | THR_SLOW);
 }
 
 thr_status thr_branch_set_bounds(void *user, int column, int low, int high, thr_err *err)
 {
   thr_branch *branch = user;
   return thr_relax_set(&branch->relax, column, low, high, err);
-}
-
-/* Plans of matchings near the best one, then of other extra passes, as long as both find better ones. */
-static thr_status improve_near(thr_branch *branch, int tries, thr_err *err)
-{
-  const thr_limits some = thr_limits_part(branch->limits, 0.4);
-  thr_status st = THR_OK;
-  for (int64_t best = INT64_MAX; branch->best_price < best && !st && !thr_branch_proved(branch) && !thr_limits_stop(&some);) {
-    const int64_t before = branch->best_price;
-    st = thr_connect_near(branch, &some, err);
-    if (!st && branch->best_price < before) st = thr_cycles_improve(branch, tries, err);
-    best = before;
-  }
-  return st;
-}
-
-static int tries_of_cycles(const thr_branch *branch)
-{
-  return (int)fmin(2000, 1e6 / branch->c->f->n_edges);
-}
-
-/* The programme of the root, and beside it cycles where it is not going to close the gap. */
-typedef struct {
-  thr_branch *branch;
-  const thr_limits *limits;
-} root_search;
-
-static thr_status solve_programme(void *user, bool *enough, thr_err *err)
-{
-  const root_search *r = user;
-  const thr_status st = thr_branch_solve_node(r->branch, 0, r->limits, err);
-  *enough = closed(r->branch, 0);
-  return st;
 }
 
 /* Anneals the best plan, once, where the programme at the root and the first nodes of the tree left the gap wide: mostly they
@@ -357,30 +319,10 @@ static thr_status anneal_later(thr_branch *branch, thr_err *err)
   return thr_branch_anneal_turns(branch, &some, err);
 }
 
-static thr_status solve_root(thr_branch *branch, const thr_limits *limits, bool *beside, thr_err *err)
+static thr_status solve_root(thr_branch *branch, const thr_limits *limits, thr_err *err)
 {
-  const thr_turning_columns *c = branch->c;
-  const bool single = !c->task->end_allowed && c->task->cords == 1 && !c->task->tube;
-  *beside = single && branch->found && !thr_connect_later(c) && is_wide(branch);
-  if (c->task->tube && !c->task->free_turns) return solve_tied_root(branch, 0, err);
-  if (!*beside) return thr_branch_solve_node(branch, 0, limits, err);
-  return thr_cycles_beside(branch, tries_of_cycles(branch), solve_programme, &(root_search){branch, limits}, err);
-}
-
-/* Plans near the best one, unless that was done, near the other one, and of random prices. */
-static thr_status improve_plans(thr_branch *branch, bool done, thr_err *err)
-{
-  const int tries = tries_of_cycles(branch), root = 0;
-  bool single = !branch->c->task->end_allowed && branch->c->task->cords == 1;
-  thr_status st = done ? THR_OK : thr_cycles_improve(branch, tries, err);
-  if (!st && branch->other.found && !closed(branch, root) && !thr_limits_stop(branch->limits)) {
-    thr_branch_swap(branch, &branch->other);
-    st = thr_cycles_improve(branch, tries, err);
-    if (branch->other.price < branch->best_price) thr_branch_swap(branch, &branch->other);
-  }
-  if (!st && single && thr_connect_later(branch->c) && !closed(branch, root)) st = thr_connect_plans(branch, branch->limits, err);
-  if (!st && single) st = improve_near(branch, tries, err);
-  return st;
+  const thr_turning_task *task = branch->c->task;
+  return task->tube && !task->free_turns ? solve_tied_root(branch, 0, err) : thr_branch_solve_node(branch, 0, limits, err);
 }
 
 /* The limits less what comes after the search: the bounds of all multipliers are checked again, and the proof is written, which
@@ -430,22 +372,18 @@ static thr_status count_ranks(thr_branch *branch, thr_err *err)
   return st ? st : thr_branch_ranks(branch, &search, err);
 }
 
-/* A node's bound and plans; then the column to branch on. Where programmes are slow, ranks come first. */
+/* A node's bound and plans; then the column to branch on. */
 static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err)
 {
   thr_branch *b = user;
-  const thr_turning_task *turning_task = b->c->task;
-  bool root = i == 0, beside = false;
+  const bool root = i == 0;
   const thr_limits search = limits_of_search(b);
   b->tree.stopped = !root && thr_limits_stop(&search);
   if (b->tree.stopped) return THR_OK;
-  const bool early = root && !thr_connect_later(b->c);
-  thr_status st = early ? count_ranks(b, err) : THR_OK;
-  if (!st) st = root ? solve_root(b, &search, &beside, err) : thr_branch_solve_node(b, i, &search, err);
+  thr_status st = root ? solve_root(b, &search, err) : thr_branch_solve_node(b, i, &search, err);
   if (st) return st;
   report(b);
-  if (root && b->found && !turning_task->tube && !b->tree.stopped && !closed(b, i)) st = improve_plans(b, beside, err);
-  if (!st && root && !early) st = count_ranks(b, err);
+  if (root) st = count_ranks(b, err);
   if (!st && root && !closed(b, i)) st = find_symmetries(b, err);
   if (!st && !root) st = anneal_later(b, err);
   b->tree.enough = enough(b);

@@ -17,15 +17,6 @@
 #include "tortuosity/proof/orbits.h"
 #include "tortuosity/proof/relax.h"
 
-/* A plan that is put aside. */
-typedef struct {
-  bool found;
-  thr_join join; /* if found */
-  int64_t price;
-  int passes;
-  double length;
-} thr_branch_plan;
-
 typedef struct thr_branch {
   const thr_turning_columns *c;
   const thr_limits *limits;
@@ -42,7 +33,6 @@ typedef struct thr_branch {
   int64_t best_price; /* in units of 2^-THR_TURNING_BITS, with the price of the extra cord; INT64_MAX = none */
   int best_passes;
   double best_length;         /* of the extra passes */
-  thr_branch_plan other;      /* no better, but found in another way */
   uint64_t tried;             /* name of the rounding tried last */
   int *passes, *ends, *whole; /* scratch */
   double *weight, *end_weight;
@@ -76,9 +66,9 @@ thr_status thr_branch_try_circuits(thr_branch *branch, thr_join *j, const int *p
  */
 thr_status thr_branch_try_point(thr_branch *branch, const int *x, thr_err *err) THR_MUST_CHECK;
 
-/* The same, but circuits that are apart are joined by the cheapest exchanges, and improved by others if that is
- * asked for or they are the best so far: closed cords. Others are tried as they are. */
-thr_status thr_branch_try_joined(thr_branch *branch, const int *x, bool improve, thr_err *err) THR_MUST_CHECK;
+/* The same, but circuits that are apart are joined by the cheapest exchanges, and improved by others: closed cords. Others are
+ * tried as they are. */
+thr_status thr_branch_try_joined(thr_branch *branch, const int *x, thr_err *err) THR_MUST_CHECK;
 
 /* The cords of a plan, improved by exchanges; the same. */
 thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
@@ -90,9 +80,6 @@ thr_status thr_branch_try_rounded(thr_branch *branch, thr_err *err) THR_MUST_CHE
 
 /* The same whatever the time, of solid joints: without the turns back that there is another way for, and not improved. */
 thr_status thr_branch_try_start(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
-
-/* Exchanges the best plan for another. */
-void thr_branch_swap(thr_branch *branch, thr_branch_plan *plan);
 
 /* Passes and ends of the best plan, which must have been found. */
 void thr_branch_best(const thr_branch *branch, int *passes, int *ends);
@@ -110,8 +97,8 @@ thr_status thr_branch_anneal_turns(thr_branch *branch, const thr_limits *limits,
 thr_status thr_branch_begin(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 thr_status thr_branch_match(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
-/* Closed cords: a bound of the root by connections counted exactly at every node (tortuosity/proof/ranks.h), if it is a better
- * one. There must be a plan. */
+/* Closed cords of a symmetric framework: a bound of the root by connections counted exactly at every node
+ * (tortuosity/proof/orbit_ranks.h), if it is a better one. There must be a plan. */
 thr_status thr_branch_ranks(thr_branch *branch, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
 /* Takes multipliers over, for node i of the tree if they prove more than it has while the columns are in this box (NULL: all). */

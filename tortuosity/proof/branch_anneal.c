@@ -41,7 +41,7 @@ static thr_status run_all(runs *r, thr_err *err)
 {
   thr_status st = thr_team_share(r->branch->team, RUNS, run_one, r, err);
   for (int k = 0; k < RUNS && !st; k++)
-    if (r->better[k]) st = thr_branch_try_joined(r->branch, r->x[k], true, err);
+    if (r->better[k]) st = thr_branch_try_joined(r->branch, r->x[k], err);
   r->round++;
   return st;
 }

@@ -4,10 +4,8 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "tortuosity/proof/branch.h"
-#include "tortuosity/proof/connect.h"
 #include "tortuosity/proof/orbit_ranks.h"
 #include "tortuosity/proof/pass_matching.h"
-#include "tortuosity/proof/ranks.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -109,33 +107,17 @@ thr_status thr_branch_match(thr_branch *branch, thr_err *err)
   if (!st && first.stopped) st = keep_halves(branch, err);
   if (found) st = thr_branch_try_point(branch, first.x, err);
   branch->matched = thr_branch_proved(branch);
-  const thr_limits some = thr_limits_part(branch->limits, 0.4);
-  if (!st && found && !branch->matched && !branch->dense)
-    st = thr_connect(branch, &first.passes, first.price, first.x, &some, err);
-  bool now = !thr_connect_later(c), single = !c->task->end_allowed && c->task->cords == 1;
-  if (!st && found && now && single && !branch->dense && !thr_branch_proved(branch)) st = thr_connect_plans(branch, &some, err);
   first_matching_destroy(&first);
   return st;
 }
 
-/* Ranks for the parts of the first matching: of a symmetric framework the best there are; else, where some thousand steps take a
- * second, from the multipliers that the root has. */
+/* Ranks for the parts of the first matching. */
 static thr_status count_ranks(thr_branch *branch, const int *x, const thr_limits *limits, thr_err *err)
 {
-  enum { SMALL = 5000 };
-  const thr_turning_columns *c = branch->c;
-  const thr_turning_dual *from = &branch->dual[branch->tree.node[0].proof];
   thr_turning_dual dual;
   bool found;
-  thr_status st = thr_orbit_ranks(c, &branch->orbits, x, limits, &dual, &found, err);
-  if (st || (!found && c->n_columns >= SMALL)) return st;
-  if (!found) {
-    st = thr_turning_dual_init(&dual, c, err);
-    if (!st) st = thr_ranks_run(c, x, from, (double)branch->best_price, limits, &dual, err);
-  }
-  if (!st) return thr_branch_keep_dual(branch, 0, dual, NULL, NULL, err);
-  thr_turning_dual_destroy(&dual);
-  return st;
+  thr_status st = thr_orbit_ranks(branch->c, &branch->orbits, x, limits, &dual, &found, err);
+  return st || !found ? st : thr_branch_keep_dual(branch, 0, dual, NULL, NULL, err);
 }
 
 thr_status thr_branch_ranks(thr_branch *branch, const thr_limits *limits, thr_err *err)

@@ -70,32 +70,25 @@ static thr_status keep_better(thr_branch *branch, thr_join *j, const int *passes
   return tell(branch, &branch->best, err);
 }
 
-void thr_branch_swap(thr_branch *branch, thr_branch_plan *plan)
-{
-  const thr_branch_plan mine = {branch->found, branch->best, branch->best_price, branch->best_passes, branch->best_length};
-  branch->found = plan->found;
-  branch->best = plan->join;
-  branch->best_price = plan->found ? plan->price : INT64_MAX;
-  branch->best_passes = plan->passes;
-  branch->best_length = plan->found ? plan->length : INFINITY;
-  *plan = mine;
-}
-
 void thr_branch_forget(thr_branch *other)
 {
-  thr_branch_plan plan = {0};
-  thr_branch_swap(other, &plan);
-  if (plan.found) thr_join_destroy(&plan.join);
+  if (other->found) thr_join_destroy(&other->best);
+  other->found = false;
+  other->best_price = INT64_MAX;
+  other->best_length = INFINITY;
 }
 
 thr_status thr_branch_take(thr_branch *branch, thr_branch *from, thr_err *err)
 {
   const bool better = from->found && from->best_price < branch->best_price;
-  thr_branch_plan plan = {0};
   if (better) {
-    thr_branch_swap(from, &plan);
-    thr_branch_swap(branch, &plan);
-    thr_branch_swap(from, &plan);
+    if (branch->found) thr_join_destroy(&branch->best);
+    branch->found = true;
+    branch->best = from->best;
+    branch->best_price = from->best_price;
+    branch->best_passes = from->best_passes;
+    branch->best_length = from->best_length;
+    from->found = false;
   }
   thr_branch_forget(from);
   return better ? tell(branch, &branch->best, err) : THR_OK;
@@ -288,7 +281,7 @@ thr_status thr_branch_try_point(thr_branch *branch, const int *x, thr_err *err)
   return within_limits(branch->c, branch->passes) ? try_columns(branch, branch->passes, branch->ends, err) : THR_OK;
 }
 
-thr_status thr_branch_try_joined(thr_branch *branch, const int *x, bool improve, thr_err *err)
+thr_status thr_branch_try_joined(thr_branch *branch, const int *x, thr_err *err)
 {
   const thr_turning_task *task = branch->c->task;
   thr_join j;
@@ -301,8 +294,7 @@ thr_status thr_branch_try_joined(thr_branch *branch, const int *x, bool improve,
   st = thr_join_columns(&j, branch->whole, &single, err);
   if (!st && !single) st = thr_transition_join(branch->c->f, &j.g, j.mate, NULL, err);
   if (!st) thr_join_measure(&j);
-  double best = branch->best_price < INT64_MAX ? ldexp((double)branch->best_price, -THR_TURNING_BITS) : INFINITY;
-  if (!st && !single && (improve || j.price < best)) st = thr_improve(&j, branch->limits, err);
+  if (!st && !single) st = thr_improve(&j, branch->limits, err);
   if (!st) return keep_better(branch, &j, branch->passes, err);
   thr_join_destroy(&j);
   return st;

@@ -1,5 +1,4 @@
-/* Finding groups of edges that a fractional point does not connect to the rest: first components of its support, then minimum
- * cuts by augmenting paths (L. R. Ford & D. R. Fulkerson 1956). Internal to tortuosity/.
+/* Finds groups of edges that a fractional point does not connect to the rest: components of its support. Internal to tortuosity/.
  *
  * Row of a group S of edges, not all of a component: a single closed cord leaves S at least twice; open cords leave it or end in
  * it.
@@ -14,10 +13,5 @@
  * with more, which is asked for step by step. O(columns) each. */
 thr_status thr_groups_apart(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 thr_status thr_groups_loose(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
-
-/* Exact: from a root in every component (its ends, or its first edge) a flow of 2 to every edge, which is then merged with the
- * root, so that a group that any flow misses separates two edges already on one side. Groups of less than 2 are the violated
- * ones. One flow per edge, each of few augmentations because the amounts are few multiples of 1/2, 1/3, .. */
-thr_status thr_groups_exact(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -146,14 +146,12 @@ static thr_status other_plans(thr_branch *branch, const thr_least_options *optio
   return st ? st : thr_branch_try(branch, passes, ends, err);
 }
 
-/* The same beside the plans of the matching, if there are any: exchanges may lead from the worse ones to better ones. */
+/* The same beside the plan of the matching, if there is one. */
 static thr_status first_plans(thr_branch *branch, const thr_least_options *options, const thr_least_start *start, int *passes,
                               int *ends, thr_err *err)
 {
   if (thr_branch_is_least(branch)) return THR_OK;
-  if (branch->found) thr_branch_swap(branch, &branch->other);
   thr_status st = other_plans(branch, options, start, passes, ends, err);
-  if (branch->other.found && branch->other.price <= branch->best_price) thr_branch_swap(branch, &branch->other);
   for (int i = 0; i < options->n_also && !st; i++)
     st = thr_branch_try_start(branch, options->also[i].cord, options->also[i].n, err);
   return st;

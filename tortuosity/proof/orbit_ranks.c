@@ -5,7 +5,6 @@
 #include "graph/plan/turning_ranks.h"
 #include "graph/scratch.h"
 #include "lp/solver/lp.h"
-#include "tortuosity/proof/connect.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -271,6 +270,16 @@ static thr_status write_dual(const programme *p, thr_turning_dual *dual, thr_err
   return write_groups(p, dual, err);
 }
 
+/* Numbers the parts that the turns of x leave apart: part[n_edges]. */
+static void find_parts(const thr_turning_columns *c, const int *x, int *part)
+{
+  for (int e = 0; e < c->f->n_edges; e++)
+    part[e] = e;
+  for (int j = 0; j < c->first_extra; j++)
+    if (x[j] > 0) thr_disjoint_join(part, c->half[j][0] >> 1, c->half[j][1] >> 1);
+  thr_disjoint_number(part, c->f->n_edges, part);
+}
+
 static thr_status init(programme *p, const int *x, thr_err *err)
 {
   const thr_turning_columns *c = p->c;
@@ -285,7 +294,7 @@ static thr_status init(programme *p, const int *x, thr_err *err)
   thr_status st = thr_scratch_check(&p->own, err);
   if (st) return st;
   find_orbits(p);
-  thr_connect_parts(c, x, part);
+  find_parts(c, x, part);
   find_blocks(p, part, other);
   p->connections = thr_turning_connections(c, p->block, other);
   p->rank = p->n_half;

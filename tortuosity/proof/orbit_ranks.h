@@ -7,8 +7,7 @@
  * as they are found to be worth less than it says (cutting planes: J. E. Kelley, J. SIAM 8, 1960). Its optimum is that of the
  * linear programme over all forests.
  *
- * Example: the sphere of 750 edges has 15 orbits of half-edges and falls into 25 circuits of 3 kinds: 13,499.7 degrees; the
- * volume algorithm over all of its 1,528 multipliers (tortuosity/proof/ranks.h) comes to 13,237 in as many steps as it may do. */
+ * Example: the sphere of 750 edges has 15 orbits of half-edges and falls into 25 circuits of 3 kinds: 13,499.7 degrees. */
 #ifndef THR_ORBIT_RANKS_H
 #define THR_ORBIT_RANKS_H
 
