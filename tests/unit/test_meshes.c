@@ -428,14 +428,175 @@ START_TEST(errors_of_gltf_say_where)
               "a.gltf: accessors[0]: is longer than its bufferView"},
              {"\"bufferViews\":[],\"buffers\":[{\"uri\":\"../../etc/passwd\"}]}",
               "a.gltf: buffers[0]: lies elsewhere; put its file beside this one, or save as .glb"},
+             {"\"bufferViews\":[],\"buffers\":[{\"uri\":\"%2E%2e%2Fpasswd\"}]}",
+              "a.gltf: buffers[0]: lies elsewhere; put its file beside this one, or save as .glb"},
+             {"\"bufferViews\":[],\"buffers\":[{\"uri\":\"%2fetc/passwd\"}]}",
+              "a.gltf: buffers[0]: lies elsewhere; put its file beside this one, or save as .glb"},
+             {"\"bufferViews\":[],\"buffers\":[{\"uri\":\"no%20%C3%A4.bin\"}]}",
+              "a.gltf: buffers[0]: its file 'no \xc3\xa4.bin', which should lie beside this one, cannot be read"},
              {"\"bufferViews\":[],\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}",
-              "a.gltf: compressed with KHR_draco_mesh_compression, which is not read; export without compression"}};
+              "a.gltf: requires the extension KHR_draco_mesh_compression, which is not read; export without it"},
+             {"\"bufferViews\":[],\"extensionsRequired\":[\"ACME_bent\",\"KHR_materials_unlit\",\"EXT_meshopt_compression\",7]}",
+              "a.gltf: requires the extensions ACME_bent, EXT_meshopt_compression, (no name), which are not read; export without "
+              "them"},
+             {"\"bufferViews\":[],\"extensionsRequired\":\"ACME_bent\"}", "a.gltf: extensionsRequired: is no list of names"}};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     thr_text t = {0};
     thr_text_append(&t, head);
     thr_text_append(&t, bad[i].rest);
     check_refused(t.data, "a.gltf", bad[i].message);
     thr_text_destroy(&t);
+  }
+}
+END_TEST
+
+/* A glTF file with a strut from 0, 0, 0 to 1, 2, 2 as mesh 0 and what moves three instances of it: accessor 1 to 10, 0, 0 and
+ * 0, 0, 20, 2 to 4 (bytes, shorts, floats) by 90 degrees about z and 180 about y, 5 to twice and thrice the size (in z alone), 6
+ * as 1 but sparse and without the last one. The first instance stays. */
+static thr_text put_strut(const char *nodes, const char *more)
+{
+  static const double translation[9] = {0, 0, 0, 10, 0, 0, 0, 0, 20}, scale[9] = {1, 1, 1, 2, 2, 2, 1, 1, 3},
+                      rotation[12] = {0, 0, 0, 1, 0, 0, .70866, .70866, 0, 1, 0, 0};
+  thr_text json = {0}, bytes = {0}, t = {0};
+  for (int i = 0; i < 6; i++)
+    put_float(&bytes, i < 3 ? 0 : i == 3 ? 1 : 2, false);
+  for (int i = 0; i < 9; i++)
+    put_float(&bytes, translation[i], false);
+  for (int i = 0; i < 12; i++)
+    thr_text_byte(&bytes, (char)lround(127 * rotation[i]));
+  for (int i = 0; i < 12; i++) {
+    const int16_t x = (int16_t)lround(32767 * rotation[i]);
+    put_bytes(&bytes, &x, sizeof x, false);
+  }
+  for (int i = 0; i < 12; i++)
+    put_float(&bytes, rotation[i] == .70866 ? sqrt(.5) : rotation[i], false);
+  for (int i = 0; i < 9; i++)
+    put_float(&bytes, scale[i], false);
+  put_u32(&bytes, 1, false);
+  thr_text_printf(&json,
+                  "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[%s],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+                  "\"mode\":1}]}],"
+                  "\"buffers\":[{\"byteLength\":%zu}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"accessors\":["
+                  "{\"bufferView\":0,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"},"
+                  "{\"bufferView\":0,\"byteOffset\":24,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+                  "{\"bufferView\":0,\"byteOffset\":60,\"componentType\":5120,\"count\":3,\"type\":\"VEC4\",\"normalized\":true},"
+                  "{\"bufferView\":0,\"byteOffset\":72,\"componentType\":5122,\"count\":3,\"type\":\"VEC4\",\"normalized\":true},"
+                  "{\"bufferView\":0,\"byteOffset\":96,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"},"
+                  "{\"bufferView\":0,\"byteOffset\":144,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+                  "{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":0,"
+                  "\"byteOffset\":180,\"componentType\":5125},\"values\":{\"bufferView\":0,\"byteOffset\":36}}}]%s}",
+                  nodes, bytes.length, bytes.length, more);
+  while (json.length % 4)
+    thr_text_byte(&json, ' ');
+  thr_text_append(&t, "glTF");
+  put_u32(&t, 2, false);
+  put_u32(&t, (uint32_t)(28 + json.length + bytes.length), false);
+  put_u32(&t, (uint32_t)json.length, false);
+  thr_text_append(&t, "JSON");
+  thr_text_append_bytes(&t, json.data, json.length);
+  put_u32(&t, (uint32_t)bytes.length, false);
+  thr_text_append_bytes(&t, "BIN", 4);
+  thr_text_append_bytes(&t, bytes.data, bytes.length);
+  thr_text_destroy(&json);
+  thr_text_destroy(&bytes);
+  return t;
+}
+
+#define INSTANCES(attributes) "\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{" attributes "}}}"
+
+/* Ends of the struts by hand, in the file's own axes. */
+START_TEST(gltf_has_instances_where_they_are_moved)
+{
+  static const struct {
+    const char *nodes;
+    int n;
+    double strut[4][6];
+  } good[] = {
+      {"{" INSTANCES("\"TRANSLATION\":1") "}", 3, {{0, 0, 0, 1, 2, 2}, {10, 0, 0, 11, 2, 2}, {0, 0, 20, 1, 2, 22}}},
+      {"{" INSTANCES("\"ROTATION\":2") "}", 3, {{0, 0, 0, 1, 2, 2}, {0, 0, 0, -2, 1, 2}, {0, 0, 0, -1, 2, -2}}},
+      {"{" INSTANCES("\"ROTATION\":3") "}", 3, {{0, 0, 0, 1, 2, 2}, {0, 0, 0, -2, 1, 2}, {0, 0, 0, -1, 2, -2}}},
+      {"{" INSTANCES("\"ROTATION\":4") "}", 3, {{0, 0, 0, 1, 2, 2}, {0, 0, 0, -2, 1, 2}, {0, 0, 0, -1, 2, -2}}},
+      {"{" INSTANCES("\"SCALE\":5,\"_ID\":2") "}", 3, {{0, 0, 0, 1, 2, 2}, {0, 0, 0, 2, 4, 4}, {0, 0, 0, 1, 2, 6}}},
+      {"{" INSTANCES("\"TRANSLATION\":6") "}", 2, {{0, 0, 0, 1, 2, 2}, {10, 0, 0, 11, 2, 2}}},
+      /* node 0 doubles and lifts all, node 1 takes x, y, z to x, -z, y; its child is there once */
+      {"{\"children\":[1],\"scale\":[2,2,2],\"translation\":[0,0,5]},{\"rotation\":[1,0,0,1],\"children\":[2]," INSTANCES(
+           "\"SCALE\":5,\"ROTATION\":2,\"TRANSLATION\":1") "},{\"mesh\":0,\"translation\":[0,0,1]}",
+       4,
+       {{0, 0, 5, 2, -4, 9}, {20, 0, 5, 12, -8, 9}, {0, -40, 5, -2, -28, 9}, {0, -2, 5, 2, -6, 9}}},
+      /* two nodes, one of them by a matrix */
+      {"{\"matrix\":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,7,0,1]," INSTANCES("\"TRANSLATION\":6") "},{" INSTANCES(
+           "\"TRANSLATION\":6") "}",
+       4,
+       {{0, 7, 0, 1, 9, 2}, {10, 7, 0, 11, 9, 2}, {0, 0, 0, 1, 2, 2}, {10, 0, 0, 11, 2, 2}}},
+  };
+  for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+    thr_text t = put_strut(good[i].nodes, ",\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\",\"KHR_texture_transform\"]");
+    thr_read_report r;
+    thr_frame f = read_as(&t, "stdin", 0, &r);
+    ck_assert_msg(f.n_edges == good[i].n, "%zu: %d", i, f.n_edges);
+    for (int e = 0; e < f.n_edges; e++)
+      for (int k = 0; k < 6; k++)
+        ck_assert_double_eq_tol(f.xyz[f.edge[e][k / 3]][k % 3], good[i].strut[e][k], 1e-5);
+    thr_frame_destroy(&f);
+    thr_text_destroy(&t);
+  }
+}
+END_TEST
+
+START_TEST(gltf_instances_that_do_not_match_are_refused)
+{
+  static const char *const bad[][2] = {
+      {"\"TRANSLATION\":1,\"SCALE\":0",
+       "nodes[0]: EXT_mesh_gpu_instancing has 3 instances by TRANSLATION and 2 by SCALE; export it again"},
+      {"\"SCALE\":5,\"_ID\":0", "nodes[0]: EXT_mesh_gpu_instancing has 3 instances by SCALE and 2 by _ID; export it again"},
+      {"", "nodes[0]: EXT_mesh_gpu_instancing without attributes; export it again"},
+      {"\"TRANSLATION\":9", "accessors[9]: is not there, or has no count"},
+      {"\"ROTATION\":5", "accessors[5]: is of type VEC3; VEC4 is needed here"}};
+  for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+    char nodes[200], message[200];
+    thr_draft d = {0};
+    thr_read_report r = {0};
+    thr_err err = {0};
+    snprintf(nodes, sizeof nodes, "{" INSTANCES("%s") "}", bad[i][0]);
+    snprintf(message, sizeof message, "a.glb: %s", bad[i][1]);
+    thr_text t = put_strut(nodes, "");
+    ck_assert_int_eq(thr_draft_parse(&d, &r, t.data, t.length, "a.glb", NULL, &err), THR_EINPUT);
+    ck_assert_str_eq(err.text, message);
+    thr_text_destroy(&t);
+  }
+}
+END_TEST
+
+/* The name of a buffer's file, and the uri that means it: decoded, or as it stands where a % is none of a uri. */
+START_TEST(gltf_buffers_are_found_by_decoded_names)
+{
+  static const char *const names[][2] = {{"my dome", "my%20dome"},
+                                         {"Tr\xc3\xa4ger \xc3\x96l", "Tr%C3%A4ger%20%c3%96l"},
+                                         {"50%", "50%25"},
+                                         {"50%", "50%"},
+                                         {"50% mm%2", "50% mm%2"},
+                                         {"a%zz b", "a%zz b"},
+                                         {"raw%20name", "raw%20name"}};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+    thr_text bytes = {0}, t = {0};
+    thr_read_report r;
+    thr_err err = {0};
+    char file[100];
+    snprintf(file, sizeof file, "%ld %s.bin", (long)getpid(), names[i][0]);
+    for (int k = 0; k < 6; k++)
+      put_float(&bytes, k < 3 ? 0 : k == 3 ? 1 : 2, false);
+    ck_assert_int_eq(thr_text_write(&bytes, file, &err), THR_OK);
+    thr_text_printf(&t,
+                    "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+                    "{\"POSITION\":0},\"mode\":1}]}],\"accessors\":[{\"componentType\":5126,\"count\":2,\"bufferView\":0}],"
+                    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":24}],\"buffers\":[{\"uri\":\"%ld %s.bin\"}]}",
+                    (long)getpid(), names[i][1]);
+    thr_frame f = read_as(&t, "a.gltf", 0, &r);
+    ck_assert_double_eq_tol(thr_frame_total_length(&f), 3, 1e-12);
+    unlink(file);
+    thr_frame_destroy(&f);
+    thr_text_destroy(&t);
+    thr_text_destroy(&bytes);
   }
 }
 END_TEST
@@ -860,6 +1021,9 @@ int main(void)
   ADD_LOOP(s, 4, what_is_cut_is_refused, 0, 5);
   ADD_TEST(s, 4, errors_of_graphs_say_where);
   ADD_TEST(s, 4, errors_of_gltf_say_where);
+  ADD_TEST(s, 4, gltf_has_instances_where_they_are_moved);
+  ADD_TEST(s, 4, gltf_instances_that_do_not_match_are_refused);
+  ADD_TEST(s, 4, gltf_buffers_are_found_by_decoded_names);
   ADD_TEST(s, 4, errors_say_where);
   ADD_TEST(s, 4, foreign_formats_are_called_by_name);
   ADD_TEST(s, 4, which_way_is_up);
