@@ -427,7 +427,7 @@ static thr_status read_mesh(gltf *g, int i, const thr_json *node, const placing 
   thr_status st = extension ? find_instances(g, i, extension, found, &n) : THR_OK;
   for (int k = 0; k < n && !st; k++) {
     moves by = still;
-    placing own, p;
+    placing own = {0}, p = {0};
     for (size_t j = 0; j < 4; j++) {
       if (found[0].first && j < 3) by.t[j] = component(&found[0], k, j);
       if (found[1].first) by.q[j] = component(&found[1], k, j);
@@ -444,7 +444,7 @@ static thr_status read_mesh(gltf *g, int i, const thr_json *node, const placing 
 static thr_status read_node(gltf *g, int i, const placing *outer, int depth)
 {
   const thr_json *node = element(g, "nodes", i), *children = thr_json_get(node, "children");
-  placing own, here;
+  placing own = {0}, here;
   if (!node) return bad(g, "nodes", i, "is not there");
   if (g->entered[i] || depth > MOST_NESTED) return bad(g, "nodes", i, "stands in more than one place, or too deep");
   g->entered[i] = true;

@@ -11,6 +11,7 @@ import argparse
 import os
 import random
 import resource
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -113,6 +114,9 @@ def main():
     program = os.path.abspath(args.program)
     passed = failed = 0
     with tempfile.TemporaryDirectory() as scratch:
+        for name in os.listdir(HERE):
+            if name.endswith(".bin"):  # of a glTF file, which finds it beside itself
+                shutil.copy(os.path.join(HERE, name), scratch)
         for form in args.formats or ENDINGS:
             rng = random.Random(f"{args.seed} {form}")
             files = samples(form)

@@ -7,6 +7,7 @@ folder=$(dirname "$0")
 thread=${1:-thread}
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
+cp "$folder"/*.bin "$scratch" # which glTF files want beside them
 
 count() { # FRAME: nodes, edges, length, highest z, from the six columns of CSV and from info
   "$thread" convert -q "$1" -T csv | awk -F, 'NR > 1 {
