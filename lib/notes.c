@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 static void put_count(thr_text *out, int n, const char *one, const char *many, const char *what)
 {
@@ -78,6 +79,9 @@ static void put_unsaid(thr_text *out, const thr_frame *frame, const thr_read_rep
   if (report->lies)
     thr_text_append(out, "z is taken to point up, and only a line of nodes is lowest; if y points up in this file: --up y\n");
   put_count(out, report->empty_z, "z is", "z are", "empty where others are not: taken as 0");
+  if (report->thousands[0])
+    thr_text_printf(out, "%s was read as %g; if the dot parts thousands, take it out\n", report->thousands,
+                    strtod(report->thousands, NULL));
   if (report->no_z) thr_text_append(out, "no node has a z: the framework is taken to be flat, z = 0\n");
   for (int e = 0; e < frame->n_edges; e++) {
     n_short += frame->length[e] < SHORT;

@@ -110,6 +110,7 @@ typedef struct {
   bool lies;              /* z was taken to point up, but it may be y: the structure seems to lie on its side */
   bool no_z;              /* no node has a z: the framework is flat */
   int empty_z;            /* coordinates z left empty where others are not: taken as 0 */
+  char thousands[8];      /* a number of the file, if the dot of all that have one may part thousands; else "" */
   int frameworks;         /* that the file holds, and how many were read as one; 0 = the format holds one only */
   int frameworks_read;
   int split_edges;  /* cut where a node lies on them */

@@ -7,6 +7,7 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,6 +38,7 @@ typedef struct {
   thr_err *err;
   bool has_z;  /* some node has a z */
   int empty_z; /* coordinates z that are left empty */
+  bool plain;  /* some number has a dot that cannot part thousands */
   int n_fields;
   thr_span field[MAX_FIELDS];
 } csv;
@@ -145,6 +147,10 @@ static thr_status next_row(csv *t, bool *more)
   bool measured;
   while ((*more = thr_scan_line(&t->scan, &line))) {
     line = thr_span_trim(line);
+    if (line.n && line.s[0] == '#') {
+      thr_status st = thr_scan_units(&t->scan, (thr_span){line.s + 1, line.n - 1}, t->d, t->err);
+      if (st) return st;
+    }
     if (line.n == 0 || line.s[0] == '#') continue;
     if (!t->separator && line.n == 5 && thr_span_starts(line, "sep=")) { /* as Excel says it */
       t->separator = line.s[4];
@@ -298,7 +304,7 @@ static thr_status take_units(csv *t, const thr_header *header)
       used = t->c.kind != EDGE_ROWS && i == t->c.xyz[k];
     if (!used || !header[i].unit[0]) continue;
     if (t->d->units[0] && strcmp(t->d->units, header[i].unit) != 0)
-      return thr_scan_fail(&t->scan, t->err, "columns in %s and in %s; give all of them in one unit", t->d->units,
+      return thr_scan_fail(&t->scan, t->err, "lengths in %s and in %s; give all of them in one unit", t->d->units,
                            header[i].unit);
     thr_status st = thr_draft_set_units(t->d, header[i].unit, t->err);
     if (st) return st;
@@ -450,6 +456,20 @@ static bool all_words(const csv *t)
 
 /* ---- rows ---- */
 
+/* Where ';' parts the fields, keeps the first number whose dot may part thousands for a note, and whether there is one whose dot
+ * cannot: thousands are 1 to 3 digits, not 0 first, a dot and 3 digits. */
+static void watch_dot(csv *t, thr_span f)
+{
+  if (f.n && (f.s[0] == '-' || f.s[0] == '+')) f = (thr_span){f.s + 1, f.n - 1};
+  if (t->separator != ';' || !f.n || !memchr(f.s, '.', f.n)) return;
+  bool thousands = f.n >= 5 && f.n <= 7 && f.s[0] != '0' && f.s[f.n - 4] == '.';
+  for (size_t i = 0; i < f.n && thousands; i++)
+    thousands = i + 4 == f.n || (f.s[i] >= '0' && f.s[i] <= '9');
+  t->plain |= !thousands;
+  char *example = t->report->thousands;
+  if (thousands && !*example) snprintf(example, sizeof t->report->thousands, "%.*s", (int)f.n, f.s);
+}
+
 static thr_status read_coordinates(csv *t, const int *at, double xyz[3])
 {
   for (int i = 0; i < 3; i++) {
@@ -464,6 +484,7 @@ static thr_status read_coordinates(csv *t, const int *at, double xyz[3])
     if (!number_at(t, at[i], &xyz[i]))
       return thr_scan_fail(&t->scan, t->err, "'%.*s' in column %d is not a finite number; give %c as a decimal number",
                            thr_span_width(f), f.s, at[i] + 1, 'x' + i);
+    watch_dot(t, f);
   }
   return THR_OK;
 }
@@ -477,10 +498,11 @@ static thr_status read_foot(const csv *t, bool *foot)
   return THR_OK;
 }
 
-static thr_status read_length(const csv *t, double *length)
+static thr_status read_length(csv *t, double *length)
 {
   thr_span f = field_at(t, t->c.length);
   *length = 0;
+  watch_dot(t, f);
   if (f.n == 0 || (number_at(t, t->c.length, length) && *length > 0)) return THR_OK;
   return thr_scan_fail(&t->scan, t->err,
                        "length '%.*s' is not a positive number; leave it empty for the distance of the two nodes",
@@ -711,6 +733,48 @@ static thr_status add_row(csv *t)
   }
 }
 
+static int by_place(const void *pa, const void *pb)
+{
+  const double *a = pa, *b = pb;
+  for (int i = 0; i < 3; i++)
+    if (a[i] != b[i]) return a[i] < b[i] ? -1 : 1;
+  return 0;
+}
+
+static bool has_length_one(const double *p)
+{
+  return fabs(sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - 1) <= 1e-3;
+}
+
+/* THR_EINPUT if lines without a header seem to be points with their normals: every second point has length 1 and begins no line,
+ * and the first ones neither are one point nor have length 1, too. O(n log n). */
+static thr_status check_normals(const csv *t)
+{
+  const int n = t->d->n_nodes / 2;
+  bool one_place = true, all_unit = true, joined = false;
+  for (int i = 0; i < n; i++) {
+    const double *first = t->d->node[2 * i].xyz;
+    if (!has_length_one(t->d->node[2 * i + 1].xyz)) return THR_OK;
+    one_place = one_place && by_place(first, t->d->node[0].xyz) == 0;
+    all_unit = all_unit && has_length_one(first);
+  }
+  if (one_place || all_unit) return THR_OK;
+
+  double(*begins)[3] = thr_calloc((size_t)n, sizeof *begins);
+  if (!begins) return thr_nomem(t->err);
+  for (int i = 0; i < n; i++)
+    memcpy(begins[i], t->d->node[2 * i].xyz, sizeof *begins);
+  qsort(begins, (size_t)n, sizeof *begins, by_place);
+  for (int i = 0; i < n && !joined; i++)
+    joined = bsearch(t->d->node[2 * i + 1].xyz, begins, (size_t)n, sizeof *begins, by_place);
+  free(begins);
+  return joined ? THR_OK
+                : thr_fail(t->err, THR_EINPUT,
+                           "%s: six columns without a header look like points and their normals; if they are edges, put the "
+                           "header x1,y1,z1,x2,y2,z2 before them",
+                           t->scan.name);
+}
+
 /* Reads one table into t->d. An edge table without nodes is not read further than its first row. */
 static thr_status read_table(csv *t, const char *text, size_t n, const char *name, thr_csv_content *content)
 {
@@ -729,6 +793,8 @@ static thr_status read_table(csv *t, const char *text, size_t n, const char *nam
     if (!used) st = add_row(t);
   }
   if (!st && t->c.kind == NO_ROWS) st = thr_scan_fail(&t->scan, t->err, "the table has no rows");
+  if (!st && t->c.kind == LINE_ROWS && !t->c.header) st = check_normals(t);
+  if (t->plain) t->report->thousands[0] = '\0';
   return st;
 }
 

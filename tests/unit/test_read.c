@@ -260,7 +260,51 @@ START_TEST(csv_units_and_empty_z)
   f = read_text("id,x,y,z\n1,0,0\n2,1,0\na,b\n1,2\n", csv, &r);
   ck_assert(r.no_z && r.empty_z == 0);
   thr_frame_destroy(&f);
-  check_error("x [mm],y [m]\n0,0\n", csv, "f:1: columns in mm and in m; give all of them in one unit");
+  check_error("x [mm],y [m]\n0,0\n", csv, "f:1: lengths in mm and in m; give all of them in one unit");
+  f = read_text("# units: cm\nx1,y1,x2,y2\n0,0,1,1\n", csv, &r);
+  ck_assert_str_eq(f.units, "cm");
+  thr_frame_destroy(&f);
+  check_error("# units: elbows\n0,0,0,1,1,0\n", csv,
+              "f:1: this comment's 'elbows' is no unit of length; correct or delete the comment");
+  check_error("# units: cm\nx [mm],y\n0,0\n", csv, "f:2: lengths in cm and in mm; give all of them in one unit");
+}
+END_TEST
+
+/* What six numbers in a row are: points with normals are refused, near ones that are edges are not. */
+START_TEST(csv_points_with_normals)
+{
+  const thr_format *csv = thr_format_named("csv");
+  static const char why[] = "f: six columns without a header look like points and their normals; if they are edges, put the "
+                            "header x1,y1,z1,x2,y2,z2 before them";
+  check_error("0,0,0,0,0,1\n20,0,0,0,0,1\n20,20,0,0,0,1\n", csv, why);
+  check_error("5 0 0 .6 0 .8\n0 5 0 0 .6004 .8\n", csv, why);
+  check_text("x1,y1,z1,x2,y2,z2\n2,0,0,0,0,1\n3,0,0,0,0,1\n", csv, 3, 2, sqrt(5) + sqrt(10), "");
+  check_text("2,0,0,0,0,1\n", csv, 2, 1, sqrt(5), "");                                  /* from one point */
+  check_text("0,0,0,0,0,1\n0,0,0,1,0,0\n", csv, 3, 2, 2, "");                           /* the same */
+  check_text("1,0,0,0,1,0\n0,-1,0,0,0,1\n", csv, 4, 2, 2 * SQRT2, "");                  /* on a sphere */
+  check_text("2,0,0,0,0,1\n0,0,1,0,1,0\n", csv, 3, 2, sqrt(5) + SQRT2, "");             /* joined */
+  check_text("2,0,0,0,0,1\n3,0,0,0,0,1.01\n", csv, 4, 2, sqrt(5) + hypot(3, 1.01), ""); /* not all of length 1 */
+}
+END_TEST
+
+START_TEST(csv_dots_that_may_part_thousands)
+{
+  static const struct {
+    const char *text, *example;
+  } row[] = {{"x1;y1;x2;y2\n0;0;1.250;0\n1.250;0;1.250;-12.000\n", "1.250"},
+             {"x1;y1;x2;y2\n0;0;1.250;0\n1.250;0;1.25;0,5\n", ""},
+             {"x1;y1;x2;y2\n0;0;1.250;0.500\n", ""},
+             {"x1;y1;x2;y2\n0;0;1.250;.500\n", ""},
+             {"x1;y1;x2;y2\n0;0;1250.500;7.125\n", ""},
+             {"x1;y1;x2;y2\n0;0;1.2e1;7.125\n", ""},
+             {"x1,y1,x2,y2\n0,0,1.250,0\n", ""},
+             {"id;x;y\na;0;0\nb;100;0\nu;v;length\na;b;101.125\n", "101.125"}};
+  for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+    thr_read_report r;
+    thr_frame f = read_text(row[i].text, thr_format_named("csv"), &r);
+    ck_assert_str_eq(r.thousands, row[i].example);
+    thr_frame_destroy(&f);
+  }
 }
 END_TEST
 
@@ -1088,6 +1132,8 @@ static void add_tests(TCase *t)
   tcase_add_test(t, csv_columns_by_their_words);
   tcase_add_test(t, csv_of_other_programs);
   tcase_add_test(t, csv_units_and_empty_z);
+  tcase_add_test(t, csv_points_with_normals);
+  tcase_add_test(t, csv_dots_that_may_part_thousands);
   tcase_add_test(t, csv_tells_the_columns_it_saw);
   tcase_add_test(t, csv_nul_byte);
   tcase_add_test(t, csv_pairs);
