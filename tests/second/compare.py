@@ -66,6 +66,17 @@ def thread_says(thread, paths):
     return said
 
 
+def units_differ():
+    """[(word, what units.c says of it, what the second checker says)] where they differ: short name and millimetres, None = unknown to it."""
+    with open(os.path.join(ROOT, "graph/framework/units.c"), encoding="utf-8") as file:
+        rows = re.findall(r"\{\{([^{}]*)\}, ([\w. /+-]*)\}", file.read())
+    first, second = {}, {word: (CHECKER.SHORT[size], size) for word, size in CHECKER.UNITS.items()}
+    for words, size in rows:
+        words, (over, _, under) = re.findall('"([^"]*)"', words), size.partition(" / ")
+        first.update({word.lower(): (words[0], float(over) / float(under or 1) or None) for word in words})
+    return [(word, first.get(word), second.get(word)) for word in sorted({*first, *second}) if first.get(word) != second.get(word)]
+
+
 def frame_hash(plan):
     """States the framework's hash."""
     try:
@@ -194,7 +205,11 @@ def main():
         single = compare_changed(a, folder, (mutate.changed_once(plan, path, way, frame_hash) for plan, path, way in chosen), f"of {len(every)} single changes")
         runs = [whole, changed, single]
     failed = sum(len(run.differences) for run in runs)
-    print(f"{sum(run.count for run in runs) - failed} passed, {failed} failed")
+    passed = sum(run.count for run in runs) - failed
+    for difference in units_differ():
+        print("units:", *difference)
+        failed += 1
+    print(f"{passed} passed, {failed} failed")
     return failed > 0
 
 
