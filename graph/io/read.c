@@ -89,6 +89,10 @@ static thr_status parse_csv_file(thr_draft *draft, thr_read_report *report, cons
   draft->columns = columns;
   *report = (thr_read_report){0};
   st = find_partner(path, content, &partner, err);
+  if (!st && !partner && content == THR_CSV_NODES_ONLY) { /* three numbers may be an edge, too, where the name says so */
+    content = THR_CSV_EDGES_ONLY;
+    st = find_partner(path, content, &partner, err);
+  }
   if (!st && partner) {
     if (pair_path) snprintf(pair_path, pair_size, "%s", partner);
     st = parse_with(draft, report, text, path, partner, content == THR_CSV_NODES_ONLY, err);
