@@ -110,7 +110,7 @@ def main():
     parser.add_argument("--plan", action="store_true")
     parser.add_argument("--keep")
     parser.add_argument("formats", nargs="*")
-    args = parser.parse_args()
+    args = parser.parse_intermixed_args()
     program = os.path.abspath(args.program)
     passed = failed = 0
     with tempfile.TemporaryDirectory() as scratch:
