@@ -53,8 +53,10 @@ static bool number_at(const csv *t, int i, double *x)
 {
   thr_span f = field_at(t, i);
   bool decimal_comma = t->separator == ';' || t->separator == '\t';
-  for (size_t k = f.n; k-- > 0;)
-    if (f.s[k] == '{') f = thr_span_trim((thr_span){f.s + k + 1, f.n - k - 1});
+  size_t brace = f.n;
+  while (brace > 0 && f.s[brace - 1] != '{')
+    brace--;
+  f = thr_span_trim((thr_span){f.s + brace, f.n - brace});
   if (f.n && f.s[f.n - 1] == '}') f = thr_span_trim((thr_span){f.s, f.n - 1});
   const char *comma = f.n ? memchr(f.s, ',', f.n) : NULL;
   if (comma && t->separator == ',') decimal_comma = f.s + f.n - comma != 4;

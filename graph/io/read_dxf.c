@@ -732,7 +732,7 @@ static thr_status find_layer(dxf *d)
 {
   const pair *named = find(d, 8);
   const thr_span name = named ? named->value : thr_span_of("0"), last = d->layer_name;
-  if (name.n == last.n && memcmp(name.s, last.s, name.n) == 0) return THR_OK;
+  if (last.s && name.n == last.n && memcmp(name.s, last.s, name.n) == 0) return THR_OK;
   d->layer_name = name;
   d->layer = ON_ZERO;
   if (thr_span_is(name, "0")) return THR_OK;
