@@ -380,7 +380,7 @@ static void begin_row(ply *p)
   if (p->encoding != ASCII || thr_span_trim(p->line).n) return;
   while (!thr_span_trim(p->line).n && thr_scan_line(&p->scan, &p->line)) {
   }
-  p->row = p->line;
+  p->row = thr_span_trim(p->line); /* ends where the words do */
 }
 
 /* Remembers the first item that leaves values of its row over. */

@@ -636,6 +636,8 @@ START_TEST(errors_say_where)
                 "a.ply:12: vertex 0: the row has 5 values, the header declares 4; correct the header or export again");
   check_refused(HEAD("ascii") EDGE "0 0 0 1\n1 0 0 1\n\n0 1 255 255\n", "a.ply",
                 "a.ply:15: edge 0: the row has 4 values, the header declares 2; correct the header or export again");
+  check_refused(HEAD("ascii") EDGE "0 0 0 1 \n1 0 0 1 \n0 1 0.5 0 \n", "a.ply", /* blanks at ends of rows, as MeshLab writes */
+                "a.ply:14: edge 0: the row has 4 values, the header declares 2; correct the header or export again");
   check_refused(HEAD("ascii") EDGE "0 0 0 1\n1 0 0 1\n0\n1\n\n2\n", "a.ply",
                 "a.ply:17: this is left after all that the header declares; correct the header or export again");
   check_refused(HEAD("ascii") "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
