@@ -464,7 +464,8 @@ static thr_status read_lwpolyline(dxf *d)
   return st ? st : add_polyline(d, &own, flags & 1);
 }
 
-/* Invisible sides (bits of 70) are no edges; a face with none of them is one for --flat as well. */
+/* Invisible sides (bits of 70) are no edges; a face with none of them is one for --flat as well. The last side of a triangle is
+ * the fourth of a face whose third side has no length. */
 static thr_status read_face(dxf *d)
 {
   double corner[4][3];
@@ -479,8 +480,7 @@ static thr_status read_face(dxf *d)
     st = add_point(d, &unmoved, corner[i]);
   if (!(hidden & 15)) return st ? st : add_shape(d, RING, first, d->n_points, 0);
   for (int i = 0; i < n && !st; i++)
-    if (!(hidden >> (i == n - 1 ? 3 : i) & 1) || (n == 3 && i == 2 && !(hidden & 4)))
-      st = add_segment(d, &unmoved, corner[i], corner[(i + 1) % n], 0);
+    if (!(hidden >> (i == n - 1 ? 3 : i) & 1)) st = add_segment(d, &unmoved, corner[i], corner[(i + 1) % n], 0);
   return st;
 }
 

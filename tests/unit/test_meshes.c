@@ -820,6 +820,12 @@ START_TEST(drawings_of_many_makers)
       length_of(DXF("0\nPOLYLINE\n70\n20\n71\n2\n72\n2\n73\n2\n74\n3\n75\n5\n" CONTROL CONTROL CONTROL CONTROL FITTED("0", "0")
                         FITTED("1", "0") FITTED("2", "0") FITTED("0", "1") FITTED("1", "1") FITTED("2", "1") "0\nSEQEND\n")),
       7, 1e-12);
+
+  /* A triangle of 3, 4 and 5, its third corner given once or twice: its side of 5 is hidden as the fourth one, 8 in code 70. */
+#define TRIANGLE(more) DXF("0\n3DFACE\n11\n4\n12\n4\n22\n3\n" more)
+  ck_assert_double_eq_tol(length_of(TRIANGLE("70\n8\n")), 7, 1e-12);
+  ck_assert_double_eq_tol(length_of(TRIANGLE("13\n4\n23\n3\n70\n8\n")), 7, 1e-12);
+  ck_assert_double_eq_tol(length_of(TRIANGLE("13\n4\n23\n3\n70\n4\n")), 12, 1e-12);
 }
 END_TEST
 
