@@ -165,10 +165,10 @@ static thr_status fail(dxf *d, const char *what)
   return thr_scan_fail(&d->scan, d->err, "this %.*s %s", thr_span_width(d->type), d->type.s, what);
 }
 
-/* Counts the entity as one that is not used. */
-static thr_status leave_out(dxf *d)
+/* Counts the entity as one that is not used, by its type or, if that says too little, another name. */
+static thr_status leave_out(dxf *d, const char *name)
 {
-  thr_report_skip(d->report, d->type);
+  thr_report_skip(d->report, name ? thr_span_of(name) : d->type);
   return THR_OK;
 }
 
@@ -484,12 +484,22 @@ static thr_status read_face(dxf *d)
   return st;
 }
 
-/* Adds a part of an ellipse, at most all of it. */
+/* Does a curve end where it begins? Then it leads from no node to another. */
+static bool is_closed(const double a[3], const double b[3], double length)
+{
+  return length > 0 && distance(a, b) <= 1e-6 * length;
+}
+
+/* Adds a part of an ellipse, less than all of it. */
 static thr_status add_ellipse(dxf *d, const placing *p, const ellipse *e, double from, double to)
 {
+  double a[3], b[3];
   const double turns = (to - from) / (2 * THR_PI);
   if (!(turns > 0 && turns <= 1)) to = from + 2 * THR_PI * (turns - ceil(turns) + 1);
-  return add_arc(d, p, e, from, to, ellipse_length(e, from, to));
+  const double length = ellipse_length(e, from, to);
+  ellipse_point(e, from, a);
+  ellipse_point(e, to, b);
+  return is_closed(a, b, length) ? leave_out(d, "a closed curve") : add_arc(d, p, e, from, to, length);
 }
 
 static thr_status read_arc(dxf *d)
@@ -549,13 +559,15 @@ static thr_status use_spline(dxf *d, curve *c, int n_knots, int n_weights)
       st = add_segment(d, &unmoved, c->control[i], c->control[i + 1], 0);
     return st;
   }
-  if (n_knots != c->n + c->degree + 1 || (n_weights && n_weights != c->n) || !thr_spline_is_sound(&s)) return leave_out(d);
+  if (n_knots != c->n + c->degree + 1 || (n_weights && n_weights != c->n) || !thr_spline_is_sound(&s)) return leave_out(d, NULL);
   double a[3], b[3];
   thr_spline_point(&s, s.knot[s.degree], a);
   thr_spline_point(&s, s.knot[s.n], b);
+  const double length = thr_spline_length(&s);
+  if (is_closed(a, b, length)) return leave_out(d, "a closed curve");
   curve taken = *c;
   *c = (curve){0};
-  return add_curve(d, &unmoved, a, b, &taken, thr_spline_length(&s));
+  return add_curve(d, &unmoved, a, b, &taken, length);
 }
 
 static thr_status read_spline(dxf *d)
@@ -570,7 +582,7 @@ static thr_status read_spline(dxf *d)
   if (!st) st = values_of(d, 40, &c.knot, &n_knots);
   if (!st) st = values_of(d, 41, &c.weight, &n_weights);
   const bool controlled = n[0] >= 2 && n[1] == n[0] && (!n[2] || n[2] == n[0]);
-  if (!st && !controlled) st = leave_out(d); /* it may have points to go through only */
+  if (!st && !controlled) st = leave_out(d, NULL); /* it may have points to go through only */
   if (!st && controlled && !(c.control = thr_calloc((size_t)n[0], sizeof *c.control))) st = thr_nomem(d->err);
   if (!st && controlled) {
     for (int i = 0; i < n[0]; i++)
@@ -778,7 +790,7 @@ static thr_status read_entity(dxf *d)
   if (is_skipped(d)) return THR_OK;
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
     if (thr_span_is(d->type, known[i].type)) return known[i].read(d);
-  return thr_span_is(d->type, "ATTRIB") || thr_span_is(d->type, "SEQEND") ? THR_OK : leave_out(d);
+  return thr_span_is(d->type, "ATTRIB") || thr_span_is(d->type, "SEQEND") ? THR_OK : leave_out(d, NULL);
 }
 
 /* Entities up to the pair 0 that ends them. */
@@ -989,7 +1001,7 @@ static thr_status fill_draft(dxf *d)
   if (d->faces.n == 0 && d->report->hidden_edges)
     return thr_fail(d->err, THR_EINPUT, "%s: all its edges are on hidden layers; --layers all reads them", d->scan.name);
   if (d->faces.n == 0)
-    return thr_fail(d->err, THR_EINPUT, "%s: no lines, polylines, faces or curves in its model%s%s%s%s", d->scan.name,
+    return thr_fail(d->err, THR_EINPUT, "%s: no lines, polylines, faces or open curves in its model%s%s%s%s", d->scan.name,
                     d->report->skipped_records ? ", but others: " : "", d->report->skipped_kind,
                     d->report->missing_blocks ? "; a block that is not in the file: " : "", d->report->missing_block);
   thr_faces rings = {0};

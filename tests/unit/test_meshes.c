@@ -972,15 +972,35 @@ START_TEST(hidden_layers_of_drawings)
 }
 END_TEST
 
+/* A circle as an arc of 360 degrees, as an ellipse, and as a cubic that comes back: none leads from a node to another. */
+#define LOOPS                                                                                                                    \
+  "0\nARC\n40\n1\n50\n0\n51\n360\n0\nELLIPSE\n11\n2\n40\n0."                                                                     \
+  "5\n0\nSPLINE\n71\n3\n40\n0\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n"                                                       \
+  "40\n1\n10\n0\n20\n0\n10\n1\n20\n9\n10\n4\n20\n9\n10\n0\n20\n0\n"
+
+START_TEST(closed_curves_are_counted)
+{
+  thr_read_report r;
+  const thr_read_options options = thr_read_options_default();
+  thr_frame f = read_file(DXF(LOOPS "0\nLINE\n11\n5\n"), "a.dxf", &options, &r);
+  ck_assert_int_eq(f.n_edges, 1);
+  ck_assert_int_eq(r.zero_length_edges, 0);
+  ck_assert_int_eq(r.skipped_records, 3);
+  ck_assert_str_eq(r.skipped_kind, "a closed curve");
+  thr_frame_destroy(&f);
+  check_refused(DXF(LOOPS), "a.dxf", "a.dxf: no lines, polylines, faces or open curves in its model, but others: a closed curve");
+}
+END_TEST
+
 START_TEST(drawings_that_are_wrong)
 {
   check_refused(DXF("0\nLINE\n10\nx\n"), "a.dxf", "a.dxf:6: this LINE has a value that is not a finite number");
   check_refused(DXF("0\nINSERT\n2\nnobody\n"), "a.dxf",
-                "a.dxf: no lines, polylines, faces or curves in its model; a block that is not in the file: nobody");
+                "a.dxf: no lines, polylines, faces or open curves in its model; a block that is not in the file: nobody");
   check_refused(DXF("0\nTEXT\n1\nhello\n"), "a.dxf",
-                "a.dxf: no lines, polylines, faces or curves in its model, but others: TEXT");
+                "a.dxf: no lines, polylines, faces or open curves in its model, but others: TEXT");
   check_refused(DXF("0\nSPLINE\n71\n3\n10\n0\n20\n0\n10\n1\n20\n0\n"), "a.dxf",
-                "a.dxf: no lines, polylines, faces or curves in its model, but others: SPLINE");
+                "a.dxf: no lines, polylines, faces or open curves in its model, but others: SPLINE");
   check_refused("0\nSECTION\n2\nBLOCKS\n" ROD("ROD", "1") ROD("Rod", "2") "0\nENDSEC\n" DXF("0\nINSERT\n2\nrod\n"), "a.dxf",
                 "a.dxf: two blocks are called 'rod', and it is inserted; rename one of them");
   check_refused("0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\na\n0\nINSERT\n2\na\n0\nENDBLK\n0\nENDSEC\n" DXF("0\nINSERT\n2\na\n"),
@@ -1040,6 +1060,7 @@ int main(void)
   ADD_TEST(s, 4, units_of_drawings);
   ADD_TEST(s, 4, curves_in_blocks);
   ADD_TEST(s, 4, hidden_layers_of_drawings);
+  ADD_TEST(s, 4, closed_curves_are_counted);
   ADD_TEST(s, 4, drawings_that_are_wrong);
   ADD_LOOP(s, 4, ply_round_trip, 0, 3);
   ADD_TEST(s, 4, every_allocation_may_fail);
