@@ -581,6 +581,7 @@ static thr_status read_spline(dxf *d)
     st = values_of(d, code[i], &value[i], &n[i]);
   if (!st) st = values_of(d, 40, &c.knot, &n_knots);
   if (!st) st = values_of(d, 41, &c.weight, &n_weights);
+  if (!find(d, 71)) c.degree = n_knots - n[0] - 1; /* trimesh does not say it */
   const bool controlled = n[0] >= 2 && n[1] == n[0] && (!n[2] || n[2] == n[0]);
   if (!st && !controlled) st = leave_out(d, NULL); /* it may have points to go through only */
   if (!st && controlled && !(c.control = thr_calloc((size_t)n[0], sizeof *c.control))) st = thr_nomem(d->err);

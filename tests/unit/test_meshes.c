@@ -911,6 +911,11 @@ START_TEST(curves_in_blocks)
                           perimeter(10, 0.05) / 2, 1e-4);
   ck_assert_double_eq_tol(length_of(DRAWN(CUBIC("2"), INSERTED("42\n3\n"))), length_of(DXF(CUBIC("6"))), 1e-9);
 
+  /* A straight cubic from 0 to 9 whose degree only its 8 knots tell. */
+  ck_assert_double_eq_tol(length_of(DXF("0\nSPLINE\n40\n0\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n40\n1\n"
+                                        "10\n0\n20\n0\n10\n1\n20\n0\n10\n4\n20\n0\n10\n9\n20\n0\n")),
+                          9, 1e-9);
+
   /* A block turned by 30 degrees in one that is drawn out, against 100,000 chords. */
   double chords = 0;
   const double c = cos(THR_PI / 6), s = sin(THR_PI / 6);
