@@ -38,7 +38,7 @@ typedef struct {
   thr_span value;
 } pair;
 
-typedef enum { PATH, RING, INSERT } shape_kind;
+typedef enum { PATH, RING, INSERT, UNUSED, UNSEEN } shape_kind;
 
 /* Layer 0 is in a block that of the INSERT. */
 enum { ON_ZERO = -1, SHOWN = INT_MAX };
@@ -55,10 +55,10 @@ typedef struct {
   double (*control)[3], *weight, *knot;
 } curve;
 
-/* A run of points: open, or a face; or a block inserted. */
+/* A run of points: open, or a face; or a block inserted; or a record that is only counted, wherever it is placed. */
 typedef struct {
   shape_kind kind;
-  int first, last;     /* PATH, RING: points; INSERT: which of inserted */
+  int first, last;     /* PATH, RING: points; INSERT: which of inserted; UNUSED: which of unused */
   double curve_length; /* PATH of two points: how long the curve between them is, 0 = straight */
   int curve;           /* the curve, if curve_length is not 0 */
   int layer;           /* number of the part, or without --pick of the hidden layer, or SHOWN; ON_ZERO */
@@ -105,6 +105,8 @@ typedef struct {
   int n_curves, curves_capacity;
   insertion *inserted;
   int n_inserted, inserted_capacity;
+  thr_span *unused; /* names of records that are not used */
+  int n_unused, unused_capacity;
   /* of the POLYLINE being read */
   double (*vertex)[3];
   double *bulge;
@@ -165,13 +167,6 @@ static thr_status fail(dxf *d, const char *what)
   return thr_scan_fail(&d->scan, d->err, "this %.*s %s", thr_span_width(d->type), d->type.s, what);
 }
 
-/* Counts the entity as one that is not used, by its type or, if that says too little, another name. */
-static thr_status leave_out(dxf *d, const char *name)
-{
-  thr_report_skip(d->report, name ? thr_span_of(name) : d->type);
-  return THR_OK;
-}
-
 /* The first pair with the code, NULL if there is none. */
 static const pair *find(const dxf *d, int code)
 {
@@ -227,12 +222,10 @@ static bool same_name(thr_span a, thr_span b)
 }
 
 /* On paper instead of in the model, or hidden. */
-static bool is_skipped(const dxf *d)
+static bool is_unseen(const dxf *d)
 {
   const pair *paper = find(d, 67), *hidden = find(d, 60);
-  const bool skipped = (paper && thr_span_is(paper->value, "1")) || (hidden && thr_span_is(hidden->value, "1"));
-  d->report->unseen_records += skipped;
-  return skipped;
+  return (paper && thr_span_is(paper->value, "1")) || (hidden && thr_span_is(hidden->value, "1"));
 }
 
 /* ---- coordinates ---- */
@@ -319,6 +312,15 @@ static thr_status add_shape(dxf *d, shape_kind kind, int first, int last, double
   thr_status st = thr_grow(&d->shape, d->n_shapes, &d->shapes_capacity, sizeof *d->shape, d->err);
   if (!st) d->shape[d->n_shapes++] = (shape){kind, first, last, curve_length, d->n_curves - 1, d->layer};
   return st;
+}
+
+/* Leaves out the entity as one that is not used, by its type or, if that says too little, another name. */
+static thr_status leave_out(dxf *d, const char *name)
+{
+  thr_status st = thr_grow(&d->unused, d->n_unused, &d->unused_capacity, sizeof *d->unused, d->err);
+  if (st) return st;
+  d->unused[d->n_unused] = name ? thr_span_of(name) : d->type;
+  return add_shape(d, UNUSED, d->n_unused++, 0, 0);
 }
 
 static thr_status add_segment(dxf *d, const placing *p, const double a[3], const double b[3], double curve_length)
@@ -656,7 +658,7 @@ static thr_status read_polyline(dxf *d)
   int flags, m, n;
   double elevation;
   const pair *height = find(d, 30) ? find(d, 30) : find(d, 38);
-  const bool skipped = is_skipped(d);
+  const bool unseen = is_unseen(d);
   const int first_shape = d->n_shapes;
   thr_status st = whole(d, 70, &flags);
 
@@ -681,8 +683,9 @@ static thr_status read_polyline(dxf *d)
     st = add_mesh(d, m, n, flags & CLOSED, flags & CLOSED_N);
   else if (!st && !(flags & POLYFACE))
     st = add_polyline(d, flags & SPACE ? &unmoved : &own, flags & CLOSED);
-  if (skipped) d->n_shapes = first_shape;
-  return st;
+  if (st || !unseen) return st;
+  d->n_shapes = first_shape;
+  return add_shape(d, UNSEEN, 0, 0, 0);
 }
 
 /* ---- blocks ---- */
@@ -788,7 +791,7 @@ static thr_status read_entity(dxf *d)
   if (!st) st = find_layer(d);
   if (st) return st;
   if (thr_span_is(d->type, "POLYLINE")) return read_polyline(d);
-  if (is_skipped(d)) return THR_OK;
+  if (is_unseen(d)) return add_shape(d, UNSEEN, 0, 0, 0);
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
     if (thr_span_is(d->type, known[i].type)) return known[i].read(d);
   return thr_span_is(d->type, "ATTRIB") || thr_span_is(d->type, "SEQEND") ? THR_OK : leave_out(d, NULL);
@@ -946,6 +949,14 @@ static thr_status place_run(dxf *d, const shape *s, const placing *p)
   return thr_faces_close(&d->faces, d->err);
 }
 
+/* Places a run of points, or counts a record that is left out. */
+static thr_status place_one(dxf *d, const shape *s, const placing *p)
+{
+  if (s->kind == UNUSED) thr_report_skip(d->report, d->unused[s->first]);
+  d->report->unseen_records += s->kind == UNSEEN;
+  return s->kind == PATH || s->kind == RING ? place_run(d, s, p) : THR_OK;
+}
+
 /* Places shapes. layer: that of those on layer 0; frozen: the layer that hides them all, or SHOWN. */
 static thr_status place_shapes(dxf *d, int first, int last, const placing *p, int layer, int frozen, int depth)
 {
@@ -957,9 +968,9 @@ static thr_status place_shapes(dxf *d, int first, int last, const placing *p, in
       return thr_fail(d->err, THR_EINPUT, "%s: more than %d entities with all inserted blocks", d->scan.name, MOST_PLACED);
     if (s->kind != INSERT) {
       if (hiding >= 0 && hiding < d->n_hidden)
-        d->hidden[hiding].n_edges += s->kind == RING ? s->last - s->first : 1;
+        d->hidden[hiding].n_edges += s->kind == RING ? s->last - s->first : s->kind == PATH;
       else if (thr_parts_has(&d->parts, own))
-        st = place_run(d, s, p);
+        st = place_one(d, s, p);
       continue;
     }
     const insertion *in = &d->inserted[s->first];
@@ -1002,8 +1013,9 @@ static thr_status fill_draft(dxf *d)
   if (d->faces.n == 0 && d->report->hidden_edges)
     return thr_fail(d->err, THR_EINPUT, "%s: all its edges are on hidden layers; --layers all reads them", d->scan.name);
   if (d->faces.n == 0)
-    return thr_fail(d->err, THR_EINPUT, "%s: no lines, polylines, faces or open curves in its model%s%s%s%s", d->scan.name,
+    return thr_fail(d->err, THR_EINPUT, "%s: no lines, polylines, faces or open curves in its model%s%s%s%s%s", d->scan.name,
                     d->report->skipped_records ? ", but others: " : "", d->report->skipped_kind,
+                    d->report->unseen_records ? "; what is on paper or marked invisible is not read" : "",
                     d->report->missing_blocks ? "; a block that is not in the file: " : "", d->report->missing_block);
   thr_faces rings = {0};
   int *node = thr_calloc((size_t)d->sites.n, sizeof *node);
@@ -1030,7 +1042,7 @@ static thr_status choose_layers(dxf *d)
   d->ground = d->parts.asked ? -1 : find_hidden(d, thr_span_of("0"));
   for (const block *b = d->block; b < d->block + d->n_blocks; b++)
     for (int i = b->first; i < b->last && b->name.n == 0; i++)
-      grounded |= d->shape[i].layer < 0;
+      grounded |= d->shape[i].layer < 0 && d->shape[i].kind < UNUSED;
   if (grounded && d->parts.asked) st = thr_parts_find(&d->parts, thr_span_of("0"), &d->ground, d->err);
   return st ? st : thr_parts_choose(&d->parts, d->scan.name, "layer", "layers", d->err);
 }
@@ -1045,6 +1057,7 @@ static void destroy(dxf *d)
     free_curve(&d->curve[i]);
   free(d->curve);
   free(d->inserted);
+  free(d->unused);
   free(d->hidden);
   free(d->vertex);
   free(d->bulge);

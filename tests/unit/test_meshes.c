@@ -997,6 +997,34 @@ START_TEST(closed_curves_are_counted)
 }
 END_TEST
 
+#define BLOCKS(more)                                                                                                             \
+  "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nA\n0\nTEXT\n0\nLINE\n60\n1\n0\nLINE\n11\n1\n0\nENDBLK\n" more "0\nENDSEC\n"
+
+/* A block of a text, an invisible line and a line, and one of a text that nobody inserts. */
+START_TEST(records_are_counted_where_they_are_placed)
+{
+  static const struct {
+    const char *inserts;
+    int times;
+  } drawings[] = {{DXF("0\nLINE\n11\n9\n"), 0}, {DXF("0\nINSERT\n2\nA\n"), 1}, {DXF("0\nINSERT\n2\nA\n70\n3\n44\n10\n"), 3}};
+  for (size_t i = 0; i < sizeof drawings / sizeof *drawings; i++) {
+    char text[2000];
+    thr_read_report r;
+    const thr_read_options options = thr_read_options_default();
+    snprintf(text, sizeof text, "%s%s", BLOCKS("0\nBLOCK\n2\nB\n0\nMTEXT\n0\nENDBLK\n"), drawings[i].inserts);
+    thr_frame f = read_file(text, "a.dxf", &options, &r);
+    ck_assert_int_eq(r.skipped_records, drawings[i].times);
+    ck_assert_int_eq(r.unseen_records, drawings[i].times);
+    ck_assert_str_eq(r.skipped_kind, drawings[i].times ? "TEXT" : "");
+    thr_frame_destroy(&f);
+  }
+  check_refused(BLOCKS("") DXF(""), "a.dxf", "a.dxf: no lines, polylines, faces or open curves in its model");
+  check_refused(
+      DXF("0\nLINE\n67\n1\n11\n1\n"), "a.dxf",
+      "a.dxf: no lines, polylines, faces or open curves in its model; what is on paper or marked invisible is not read");
+}
+END_TEST
+
 START_TEST(drawings_that_are_wrong)
 {
   check_refused(DXF("0\nLINE\n10\nx\n"), "a.dxf", "a.dxf:6: this LINE has a value that is not a finite number");
@@ -1066,6 +1094,7 @@ int main(void)
   ADD_TEST(s, 4, curves_in_blocks);
   ADD_TEST(s, 4, hidden_layers_of_drawings);
   ADD_TEST(s, 4, closed_curves_are_counted);
+  ADD_TEST(s, 4, records_are_counted_where_they_are_placed);
   ADD_TEST(s, 4, drawings_that_are_wrong);
   ADD_LOOP(s, 4, ply_round_trip, 0, 3);
   ADD_TEST(s, 4, every_allocation_may_fail);
