@@ -284,7 +284,7 @@ START_TEST(binary_stl_of_another_length_says_how_many_fit)
     char message[200];
     thr_text_append(&t, "solid of nothing");
     while (t.length < (size_t)bad[i].bytes)
-      thr_text_byte(&t, t.length >= 80 && t.length < 84 ? (char)((unsigned)bad[i].announced >> 8 * (t.length - 80)) : '\0');
+      thr_text_byte(&t, (char)(t.length >= 80 && t.length < 84 ? (unsigned)bad[i].announced >> 8 * (t.length - 80) : 0));
     ck_assert_int_eq(thr_draft_parse(&d, &r, t.data, t.length, bad[i].name, NULL, &err), THR_EINPUT);
     snprintf(message, sizeof message, "%s: this binary STL announces %s; export it again", bad[i].name, bad[i].message);
     ck_assert_str_eq(err.text, message);
