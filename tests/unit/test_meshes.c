@@ -973,6 +973,11 @@ START_TEST(hidden_layers_of_drawings)
       thr_frame_destroy(&f);
     }
   }
+  thr_read_options plain = thr_read_options_default();
+  thr_read_report report; /* an empty name is none of those that are hidden */
+  thr_frame nameless = read_file(LAYERS DXF(LINE("", "0", "1") LINE("Off", "0", "2")), "a.dxf", &plain, &report);
+  ck_assert_double_eq(thr_frame_total_length(&nameless), 1);
+  thr_frame_destroy(&nameless);
   check_refused(LAYERS DXF(LINE("Off", "0", "1")), "a.dxf", "a.dxf: all its edges are on hidden layers; --layers all reads them");
 }
 END_TEST
