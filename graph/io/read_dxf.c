@@ -1013,10 +1013,12 @@ static thr_status fill_draft(dxf *d)
   if (d->faces.n == 0 && d->report->hidden_edges)
     return thr_fail(d->err, THR_EINPUT, "%s: all its edges are on hidden layers; --layers all reads them", d->scan.name);
   if (d->faces.n == 0)
-    return thr_fail(d->err, THR_EINPUT, "%s: no lines, polylines, faces or open curves in its model%s%s%s%s%s", d->scan.name,
-                    d->report->skipped_records ? ", but others: " : "", d->report->skipped_kind,
-                    d->report->unseen_records ? "; what is on paper or marked invisible is not read" : "",
-                    d->report->missing_blocks ? "; a block that is not in the file: " : "", d->report->missing_block);
+    return thr_fail(
+        d->err, THR_EINPUT,
+        "%s: no lines, polylines, faces or open curves in its model%s%s%s%s%s; draw its edges as lines, or explode what has them",
+        d->scan.name, d->report->skipped_records ? ", but others: " : "", d->report->skipped_kind,
+        d->report->unseen_records ? "; what is on paper or marked invisible is not read" : "",
+        d->report->missing_blocks ? "; a block that is not in the file: " : "", d->report->missing_block);
   thr_faces rings = {0};
   int *node = thr_calloc((size_t)d->sites.n, sizeof *node);
   thr_status st = node ? thr_sites_finish(&d->sites, node, d->draft, d->err) : thr_nomem(d->err);

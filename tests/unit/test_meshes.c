@@ -998,7 +998,9 @@ START_TEST(closed_curves_are_counted)
   ck_assert_int_eq(r.skipped_records, 3);
   ck_assert_str_eq(r.skipped_kind, "a closed curve");
   thr_frame_destroy(&f);
-  check_refused(DXF(LOOPS), "a.dxf", "a.dxf: no lines, polylines, faces or open curves in its model, but others: a closed curve");
+  check_refused(DXF(LOOPS), "a.dxf",
+                "a.dxf: no lines, polylines, faces or open curves in its model, but others: a closed curve; draw its edges as "
+                "lines, or explode what has them");
 }
 END_TEST
 
@@ -1023,10 +1025,12 @@ START_TEST(records_are_counted_where_they_are_placed)
     ck_assert_str_eq(r.skipped_kind, drawings[i].times ? "TEXT" : "");
     thr_frame_destroy(&f);
   }
-  check_refused(BLOCKS("") DXF(""), "a.dxf", "a.dxf: no lines, polylines, faces or open curves in its model");
   check_refused(
-      DXF("0\nLINE\n67\n1\n11\n1\n"), "a.dxf",
-      "a.dxf: no lines, polylines, faces or open curves in its model; what is on paper or marked invisible is not read");
+      BLOCKS("") DXF(""), "a.dxf",
+      "a.dxf: no lines, polylines, faces or open curves in its model; draw its edges as lines, or explode what has them");
+  check_refused(DXF("0\nLINE\n67\n1\n11\n1\n"), "a.dxf",
+                "a.dxf: no lines, polylines, faces or open curves in its model; what is on paper or marked invisible is not "
+                "read; draw its edges as lines, or explode what has them");
 }
 END_TEST
 
@@ -1034,11 +1038,14 @@ START_TEST(drawings_that_are_wrong)
 {
   check_refused(DXF("0\nLINE\n10\nx\n"), "a.dxf", "a.dxf:6: this LINE has a value that is not a finite number");
   check_refused(DXF("0\nINSERT\n2\nnobody\n"), "a.dxf",
-                "a.dxf: no lines, polylines, faces or open curves in its model; a block that is not in the file: nobody");
+                "a.dxf: no lines, polylines, faces or open curves in its model; a block that is not in the file: nobody; draw "
+                "its edges as lines, or explode what has them");
   check_refused(DXF("0\nTEXT\n1\nhello\n"), "a.dxf",
-                "a.dxf: no lines, polylines, faces or open curves in its model, but others: TEXT");
+                "a.dxf: no lines, polylines, faces or open curves in its model, but others: TEXT; draw its edges as lines, or "
+                "explode what has them");
   check_refused(DXF("0\nSPLINE\n71\n3\n10\n0\n20\n0\n10\n1\n20\n0\n"), "a.dxf",
-                "a.dxf: no lines, polylines, faces or open curves in its model, but others: SPLINE");
+                "a.dxf: no lines, polylines, faces or open curves in its model, but others: SPLINE; draw its edges as lines, or "
+                "explode what has them");
   check_refused("0\nSECTION\n2\nBLOCKS\n" ROD("ROD", "1") ROD("Rod", "2") "0\nENDSEC\n" DXF("0\nINSERT\n2\nrod\n"), "a.dxf",
                 "a.dxf: two blocks are called 'rod', and it is inserted; rename one of them");
   check_refused("0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\na\n0\nINSERT\n2\na\n0\nENDBLK\n0\nENDSEC\n" DXF("0\nINSERT\n2\na\n"),
