@@ -1000,9 +1000,9 @@ static thr_status place_model(dxf *d)
   thr_status st = THR_OK;
   for (int i = 0; i < d->n_blocks && !st; i++)
     if (d->block[i].name.n == 0) st = place_shapes(d, d->block[i].first, d->block[i].last, &unmoved, d->ground, SHOWN, 0);
-  for (const hidden_layer *h = d->hidden; h < d->hidden + d->n_hidden; h++) {
-    d->report->hidden_edges += h->n_edges;
-    d->report->hidden_layers += h->n_edges > 0;
+  for (int i = 0; i < d->n_hidden; i++) {
+    d->report->hidden_edges += d->hidden[i].n_edges;
+    d->report->hidden_layers += d->hidden[i].n_edges > 0;
   }
   return st;
 }
@@ -1042,8 +1042,8 @@ static thr_status choose_layers(dxf *d)
   bool grounded = false;
   thr_status st = THR_OK;
   d->ground = d->parts.asked ? -1 : find_hidden(d, thr_span_of("0"));
-  for (const block *b = d->block; b < d->block + d->n_blocks; b++)
-    for (int i = b->first; i < b->last && b->name.n == 0; i++)
+  for (int b = 0; b < d->n_blocks; b++)
+    for (int i = d->block[b].first; i < d->block[b].last && d->block[b].name.n == 0; i++)
       grounded |= d->shape[i].layer < 0 && d->shape[i].kind < UNUSED;
   if (grounded && d->parts.asked) st = thr_parts_find(&d->parts, thr_span_of("0"), &d->ground, d->err);
   return st ? st : thr_parts_choose(&d->parts, d->scan.name, "layer", "layers", d->err);
