@@ -1070,7 +1070,12 @@ static void destroy(dxf *d)
 
 static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
 {
-  dxf d = {.draft = draft, .report = report, .err = err, .parts = {.asked = draft->pick}};
+  dxf d = {.draft = draft,
+           .report = report,
+           .err = err,
+           .parts = {.asked = draft->pick},
+           .layer_name = thr_span_of("0"),
+           .layer = ON_ZERO};
   thr_status st = THR_OK;
   if (n >= sizeof binary - 1 && memcmp(text, binary, sizeof binary - 1) == 0)
     st = thr_fail(err, THR_EINPUT, "%s: binary DXF is not read; export it as text", name);
