@@ -1036,7 +1036,9 @@ END_TEST
 
 START_TEST(drawings_that_are_wrong)
 {
-  check_refused("", "a.dxf", "a.dxf: no lines, polylines, faces or curves in its model");
+  check_refused(
+      "", "a.dxf",
+      "a.dxf: no lines, polylines, faces or open curves in its model; draw its edges as lines, or explode what has them");
   check_refused(DXF("0\nLINE\n10\nx\n"), "a.dxf", "a.dxf:6: this LINE has a value that is not a finite number");
   check_refused(DXF("0\nINSERT\n2\nnobody\n"), "a.dxf",
                 "a.dxf: no lines, polylines, faces or open curves in its model; a block that is not in the file: nobody; draw "
