@@ -79,7 +79,7 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
 {
   const thr_advise_options options = {.hand = thr_hand_always, .plan = plan};
   thr_advice advice = {0};
-  double newton = force_of(plan), work;
+  double newton = force_of(plan), work = 0;
   if (newton <= thr_hand_most) return;
   put_too_hard(text, newton);
   thr_text_append(text, ":\n");

@@ -45,7 +45,7 @@ static void shorten_words(char *line)
       from--;
     while (thr_text_is_inside(*to))
       to++;
-    memcpy(from, "..", 2);
+    from[0] = from[1] = '.';
     memmove(from + 2, to, strlen(to) + 1);
   }
 }

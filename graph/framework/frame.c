@@ -557,6 +557,18 @@ static thr_status fill_passes(thr_frame *frame, const thr_draft *draft, const bo
   return st;
 }
 
+/* Says why no edge of a draft is kept. */
+static thr_status fail_without_edges(const thr_draft *draft, double tolerance, thr_err *err)
+{
+  bool loops = true;
+  for (int e = 0; e < draft->n_edges; e++)
+    loops = loops && draft->edge[e].a == draft->edge[e].b;
+  if (loops) return thr_fail(err, THR_EINPUT, "every edge joins a node to itself; check what is given as its two ends");
+  return thr_fail(err, THR_EINPUT,
+                  "every edge has zero length: its ends are one node, or within the weld tolerance %g; use a smaller --weld",
+                  tolerance);
+}
+
 thr_status thr_draft_build(const thr_draft *draft, double tolerance, thr_frame *frame, thr_read_report *report, thr_err *err)
 {
   thr_frame framework = {0};
@@ -587,15 +599,7 @@ thr_status thr_draft_build(const thr_draft *draft, double tolerance, thr_frame *
       index[parent[draft->edge[e].a]] = index[parent[draft->edge[e].b]] = 1;
     }
   if (n_edges == 0) {
-    bool loops = true;
-    for (int e = 0; e < draft->n_edges; e++)
-      loops = loops && draft->edge[e].a == draft->edge[e].b;
-    st =
-        loops
-            ? thr_fail(err, THR_EINPUT, "every edge joins a node to itself; check what is given as its two ends")
-            : thr_fail(err, THR_EINPUT,
-                       "every edge has zero length: its ends are one node, or within the weld tolerance %g; use a smaller --weld",
-                       tolerance);
+    st = fail_without_edges(draft, tolerance, err);
     goto done;
   }
   for (int v = 0; v < draft->n_nodes; v++) {
@@ -638,7 +642,8 @@ static bool says_node(const thr_draft *draft, const thr_frame *frame, int v)
 {
   const struct thr_draft_node *node = &draft->node[v];
   const char *name = thr_draft_name(draft, v);
-  return memcmp(node->xyz, frame->xyz[v], sizeof node->xyz) == 0 && node->foot == frame->foot[v] &&
+  const double *at = frame->xyz[v];
+  return node->xyz[0] == at[0] && node->xyz[1] == at[1] && node->xyz[2] == at[2] && node->foot == frame->foot[v] &&
          (name ? strcmp(name, frame->name[v]) == 0 : is_index(frame->name[v], v));
 }
 
