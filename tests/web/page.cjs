@@ -166,7 +166,7 @@ const tests = {
   async 'files of other programs show as many pieces as on the command line'() {
     const formats = path.join(__dirname, '../formats');
     const names = ['blender-dome.obj', 'blender-dome.ply', 'blender-dome.stl', 'blender-both.glb', 'blender-both.gltf', 'ezdxf-rings-r2010.dxf', 'networkx.graphml',
-      'networkx-node-link.json'].map((name) => path.join(formats, name));
+      'networkx-node-link.json', '../fuzz/corpus/vef/cube.vef'].map((name) => path.join(formats, name));
     names.push(file('dome.csv'));
     thread('convert', path.join(DATA, 'dome7.json'), '-q', '-o', file('dome.csv'));
     const {page, close} = await open();
