@@ -603,7 +603,7 @@ static thr_status sort_members(parser *p, size_t block, size_t n)
 
 static thr_status take_member(parser *p)
 {
-  uint64_t bits;
+  uint64_t bits = 0;
   skip_blanks(p);
   if (p->at == p->end || *p->at != '"') return expected(p, "string or '}'");
   p->at++;
@@ -664,7 +664,7 @@ static thr_status parse_value(parser *p, uint64_t *bits)
 
 static thr_status parse_document(parser *p)
 {
-  uint64_t root;
+  uint64_t root = 0;
   skip_blanks(p);
   if (p->at == p->end) return thr_fail(p->err, THR_EINPUT, "%s:1: the file is empty", p->name);
   if (*p->at != '[' && *p->at != '{') return expected(p, "'[' or '{'");
