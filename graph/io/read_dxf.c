@@ -476,7 +476,7 @@ static thr_status read_face(dxf *d)
   for (int i = 0; i < 4 && !st; i++)
     st = point_of(d, 10 + i, corner[i]);
   if (st) return st;
-  if (!find(d, 13) || memcmp(corner[2], corner[3], sizeof corner[3]) == 0) n = 3;
+  if (!find(d, 13) || (corner[2][0] == corner[3][0] && corner[2][1] == corner[3][1] && corner[2][2] == corner[3][2])) n = 3;
   int first = d->n_points;
   for (int i = 0; i < n && !st && !(hidden & 15); i++)
     st = add_point(d, &unmoved, corner[i]);

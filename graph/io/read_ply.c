@@ -347,7 +347,7 @@ static thr_status read_item(ply *p)
   thr_status st = THR_OK;
   for (int i = p->now->first; i < p->now->last && !st; i++) {
     const property *q = &p->property[i];
-    double x;
+    double x = 0;
     if (q->list) {
       st = read_list(p, q);
       continue;
