@@ -101,6 +101,7 @@ static const foreign foreign_files[] = {{"dwg", "a DWG drawing", MODEL},
                                         {"jpg", "a JPEG picture", PICTURE},
                                         {"jpeg", "a JPEG picture", PICTURE},
                                         {"pdf", "a PDF document", PICTURE},
+                                        {"mtl", "the materials of an OBJ file", MODEL},
                                         {"md", "Markdown", TEXT},
                                         {"html", "a web page", TEXT},
                                         {"py", "a Python program", TEXT}};

@@ -545,7 +545,8 @@ static thr_status check_document(const gltf *g)
   const thr_json *required = thr_json_get(g->doc, "extensionsRequired");
   thr_text names = {0};
   int n = 0, n_named = 0;
-  if (!version || version[0] != '2') return thr_fail(g->err, THR_EINPUT, "%s: not glTF 2", g->file);
+  if (!version || version[0] != '2')
+    return thr_fail(g->err, THR_EINPUT, "%s: this is no glTF of version 2; export it as glTF 2.0 or GLB", g->file);
   if (required && thr_json_typeof(required) != THR_JSON_ARRAY)
     return thr_fail(g->err, THR_EINPUT, "%s: extensionsRequired: is no list of names", g->file);
   for (int i = 0; i < thr_json_size(required); i++) {
