@@ -642,9 +642,9 @@ static bool says_node(const thr_draft *draft, const thr_frame *frame, int v)
 {
   const struct thr_draft_node *node = &draft->node[v];
   const char *name = thr_draft_name(draft, v);
-  const double *at = frame->xyz[v];
-  return node->xyz[0] == at[0] && node->xyz[1] == at[1] && node->xyz[2] == at[2] && node->foot == frame->foot[v] &&
-         (name ? strcmp(name, frame->name[v]) == 0 : is_index(frame->name[v], v));
+  /* By their bytes, as the hash takes them: -0 is not 0. */
+  const bool same_place = memcmp(node->xyz, frame->xyz[v], sizeof node->xyz) == 0;
+  return same_place && node->foot == frame->foot[v] && (name ? strcmp(name, frame->name[v]) == 0 : is_index(frame->name[v], v));
 }
 
 static bool says_edge(const thr_draft *draft, const thr_frame *frame, int e)

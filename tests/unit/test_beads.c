@@ -243,7 +243,7 @@ START_TEST(nonsense_is_refused)
     double width, bore, density;
     const char *units, *word;
   } wrong[] = {{0, 0, 1, "mm", "bead_diameter"}, {NAN, 1, 1, "mm", "bead_diameter"}, {2, 2, 1, "mm", "bore"},
-               {2, -1, 1, "mm", "bore"},         {2, 1, 0, "mm", "density"},         {2, 1, 1, "parsec", "parsec"}};
+               {2, -1, 1, "mm", "bore"},         {2, 1, 0, "mm", "density"},         {2, 1, 1, "furlong", "furlong"}};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     thr_frame f = in_units(path_make(3), wrong[i].units);
     thr_physics p = physics_of(wrong[i].width, wrong[i].bore);
