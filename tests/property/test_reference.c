@@ -1,6 +1,7 @@
 /* The least turning of frameworks whose optima are known from other programs (docs/method.md), in degrees. */
 #include "graph/framework/make.h"
 #include "graph/angle.h"
+#include "planner/images.h"
 #include "tests/support.h"
 #include "tests/frameworks.h"
 #include "tests/symmetric.h"
@@ -46,13 +47,14 @@ static thr_frame helix_tube(int n, int rings)
 
 /* ---- what they cost ---- */
 
-/* One closed cord; slack as in thr_least_options. Releases f. */
+/* One closed cord, as the program searches for it: with the symmetries; slack as in thr_least_options. Releases f. */
 static thr_least solve(thr_frame *f, double slack, int most_nodes)
 {
   const thr_limits none = {0};
   thr_least_options o = thr_least_options_default();
   thr_least l;
   o.length_slack = slack;
+  o.motions = thr_planner_motions;
   o.most_nodes = most_nodes;
   thr_status st = thr_least_turning(f, &o, &none, &l, NULL);
   ck_assert(st == THR_OK || st == THR_ELIMIT);
