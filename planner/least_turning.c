@@ -37,19 +37,21 @@ static thr_least_options search_options(const thr_request *options)
 
 /* ---- cords ---- */
 
-/* Among cords that turn no more, shorter ones: the search once more, of solid joints without a tree, with a price on length that
- * is far below any turn's. What is proved of the turning stays; that no shorter cords turn as little is not proved. */
+/* Among cords that turn no more, shorter ones: the search once more, of solid joints with a small tree, with a price on length
+ * that is far below any turn's. What is proved of the turning stays; that no shorter cords turn as little is not proved. */
 static thr_status shorten(const thr_frame *frame, const thr_least_options *lo, const thr_limits *limits, thr_least *least,
                           thr_err *err)
 {
+  enum { FEW_NODES = 1000 };
+  const double part = 0.1;   /* of the time that is left */
   const double small = 1e-6; /* price of a mean edge's length; a U-turn costs 1 or more */
   thr_least_options with_length = *lo;
   thr_least other;
   if (!least->optimal || least->shortened || least->length <= least->shortest * (1 + 1e-9)) return THR_OK;
-  if (!lo->tube) with_length.most_nodes = 0;
+  if (!lo->tube) with_length.most_nodes = FEW_NODES;
   with_length.price_per_length = small * frame->n_edges / thr_frame_total_length(frame);
   thr_err unused = {0};
-  thr_limits exact = *limits;
+  thr_limits exact = thr_limits_part(limits, part);
   exact.gap = 0;
   thr_status st = thr_least_turning(frame, &with_length, &exact, &other, &unused);
   if (st == THR_ENOMEM) return thr_fail(err, st, "%s", unused.text);
