@@ -33,6 +33,7 @@ void advice_command_options(const cli_frame_args *a, const cli_physics *physics,
   if (a->read.scale != 1) put_number(text, "scale", a->read.scale);
   if (a->read.flat > 0) put_number(text, "flat", thr_degrees(a->read.flat));
   if (a->read.pick) put_option(text, "pick", a->read.pick);
+  if (a->read.columns) put_option(text, "columns", a->read.columns);
   if (a->read.all_layers) put_option(text, "layers", "all");
   if (a->read.parallel) put_option(text, "parallel", "keep");
   if (a->read.split) thr_text_append(text, " --split");
