@@ -14,6 +14,13 @@ thr_read_options thr_read_options_default(void)
   return (thr_read_options){.weld = -1, .scale = 1};
 }
 
+/* No nodes yet, and what the options ask of the reader. */
+static thr_draft draft_asked(const thr_read_options *options)
+{
+  return (thr_draft){
+      .flat = options->flat, .pick = options->pick, .columns = options->columns, .all_layers = options->all_layers};
+}
+
 static thr_status find_format(const char *text, size_t n, const char *name, const thr_format **format, thr_err *err)
 {
   const thr_format *named;
@@ -80,13 +87,13 @@ static thr_status parse_with(thr_draft *draft, thr_read_report *report, const th
 static thr_status parse_csv_file(thr_draft *draft, thr_read_report *report, const thr_format *format, const thr_text *text,
                                  const char *path, const char *name, char *pair_path, size_t pair_size, thr_err *err)
 {
+  const thr_draft asked = *draft;
   thr_csv_content content;
   char *partner = NULL;
   thr_status st = thr_csv_scan(draft, report, text->data, text->length, name, &content, err);
   if (st || content == THR_CSV_WHOLE) return st;
-  const char *columns = draft->columns;
   thr_draft_destroy(draft);
-  draft->columns = columns;
+  *draft = asked;
   *report = (thr_read_report){0};
   st = find_partner(path, content, &partner, err);
   if (!st && !partner && content == THR_CSV_NODES_ONLY) { /* three numbers may be an edge, too, where the name says so */
@@ -137,8 +144,7 @@ static thr_status check_asked(const thr_read_options *options, const thr_read_re
 thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char *text, size_t n, const char *name,
                            const thr_read_options *options, thr_err *err)
 {
-  thr_draft draft = {
-      .flat = options->flat, .pick = options->pick, .columns = options->columns, .all_layers = options->all_layers};
+  thr_draft draft = draft_asked(options);
   *frame = (thr_frame){0};
   thr_status st = thr_draft_parse(&draft, report, text, n, name, NULL, err);
   if (!st) st = check_asked(options, report, thr_format_named(report->format), name, err);
@@ -154,8 +160,7 @@ thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char 
                           char *pair_path, size_t pair_size, thr_err *err)
 {
   thr_text text = {0};
-  thr_draft draft = {
-      .flat = options->flat, .pick = options->pick, .columns = options->columns, .all_layers = options->all_layers};
+  thr_draft draft = draft_asked(options);
   const thr_format *format = NULL;
   const char *name = strcmp(path, "-") == 0 ? "stdin" : path;
   *frame = (thr_frame){0};

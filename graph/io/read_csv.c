@@ -347,18 +347,15 @@ static thr_status find_asked_ends(csv *t)
     const char *comma = end ? NULL : memchr(rest.s, ',', rest.n);
     const thr_span asked = thr_span_trim((thr_span){rest.s, comma ? (size_t)(comma - rest.s) : rest.n});
     int number = 0, at = -1;
-    for (int i = t->n_fields - 1; i >= 0 && t->c.header; i--) {
-      bool same = t->field[i].n == asked.n;
-      for (size_t k = 0; k < asked.n && same; k++)
-        same = (t->field[i].s[k] | 0x20) == (asked.s[k] | 0x20);
-      if (same) at = i;
-    }
+    for (int i = t->n_fields - 1; i >= 0 && t->c.header; i--)
+      if (thr_span_same(t->field[i], asked)) at = i;
     if (at < 0 && thr_span_int(asked, &number) && number >= 1 && number <= t->n_fields) at = number - 1;
-    char seen[160];
-    list_columns(t, seen, sizeof seen);
-    if (at < 0)
+    if (at < 0) {
+      char seen[160];
+      list_columns(t, seen, sizeof seen);
       return thr_scan_fail(&t->scan, t->err, "no column '%.*s', which --columns asks for, among %s", thr_span_width(asked),
                            asked.s, t->c.header ? seen : "the numbers of the columns");
+    }
     t->c.ends[end] = at;
     rest = comma ? (thr_span){comma + 1, rest.n - (size_t)(comma + 1 - rest.s)} : (thr_span){"", 0};
   }

@@ -103,12 +103,17 @@ static char lower(char c)
   return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
 }
 
-bool thr_span_is(thr_span t, const char *word)
+bool thr_span_same(thr_span a, thr_span b)
 {
   size_t i = 0;
-  while (i < t.n && word[i] && lower(t.s[i]) == lower(word[i]))
+  while (i < a.n && i < b.n && lower(a.s[i]) == lower(b.s[i]))
     i++;
-  return i == t.n && !word[i];
+  return i == a.n && i == b.n;
+}
+
+bool thr_span_is(thr_span t, const char *word)
+{
+  return thr_span_same(t, thr_span_of(word));
 }
 
 bool thr_span_starts(thr_span t, const char *start)

@@ -32,6 +32,7 @@ thr_span thr_span_of(const char *s);
 thr_span thr_span_trim(thr_span t);                  /* without blanks at both ends */
 thr_span thr_span_word(thr_span *rest);              /* takes the first word off, as far as a blank; n is 0 if there is none */
 bool thr_span_is(thr_span t, const char *word);      /* equal but for ASCII case */
+bool thr_span_same(thr_span a, thr_span b);          /* the same of two spans */
 bool thr_span_starts(thr_span t, const char *start); /* case counts */
 int thr_span_width(thr_span t);                      /* for "%.*s" in messages: at most 40 bytes */
 
