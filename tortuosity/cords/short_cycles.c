@@ -6,22 +6,32 @@
 
 #include <stdlib.h>
 
-void thr_path_finder_init(thr_path_finder *finder, const thr_frame *frame, thr_scratch *own)
+/* Breadth-first searches, one after the other. */
+typedef struct {
+  const thr_frame *f;
+  int *by, *seen, *queue; /* [n_nodes] half-edge that reached a node; search that did; nodes in order */
+  int search;
+} path_finder;
+
+/* The arrays are taken from own, whose owner asks whether they are there. */
+static void path_finder_init(path_finder *finder, const thr_frame *frame, thr_scratch *own)
 {
   const size_t n = (size_t)frame->n_nodes;
-  *finder = (thr_path_finder){.f = frame};
+  *finder = (path_finder){.f = frame};
   finder->by = thr_scratch_array(own, n, sizeof *finder->by);
   finder->seen = thr_scratch_array(own, n, sizeof *finder->seen);
   finder->queue = thr_scratch_array(own, n, sizeof *finder->queue);
 }
 
-int thr_path_find(thr_path_finder *s, int from, int to, int off_node, int off_edge, int most, int *half)
+/* Finds a shortest path from a node to another that keeps off a node: half[most] receives its half-edges. Returns their number,
+ * 0: there is none of so many. O(what is that near). */
+static int find_path(path_finder *s, int from, int to, int off_node, int most, int *half)
 {
   int head = 0, tail = 0, depth = 0, end_of_level = 1, n = 0;
   s->search++;
   s->queue[tail++] = from;
   s->seen[from] = s->search;
-  if (off_node >= 0) s->seen[off_node] = s->search;
+  s->seen[off_node] = s->search;
   for (; head < tail && s->seen[to] != s->search; head++) {
     if (head == end_of_level) {
       depth++;
@@ -31,7 +41,7 @@ int thr_path_find(thr_path_finder *s, int from, int to, int off_node, int off_ed
     const int u = s->queue[head];
     for (int i = s->f->first[u]; i < s->f->first[u + 1]; i++) {
       const int h = s->f->half[i], w = thr_head(s->f, h);
-      if (s->seen[w] == s->search || h >> 1 == off_edge) continue;
+      if (s->seen[w] == s->search) continue;
       s->seen[w] = s->search;
       s->by[w] = h;
       s->queue[tail++] = w;
@@ -59,15 +69,15 @@ static thr_status add_cycle(thr_short_cycles *cycles, int *n, int *room, const i
 thr_status thr_short_cycles_find(thr_short_cycles *cycles, const thr_turning_columns *c, thr_err *err)
 {
   thr_scratch own = {0};
-  thr_path_finder s;
+  path_finder s;
   int filled = 0, room = 0, half[THR_CYCLE_MOST];
   *cycles = (thr_short_cycles){.first = thr_calloc((size_t)c->first_extra + 1, sizeof *cycles->first)};
-  thr_path_finder_init(&s, c->f, &own);
+  path_finder_init(&s, c->f, &own);
   thr_status st = cycles->first ? thr_scratch_check(&own, err) : thr_nomem(err);
   for (int j = 0; j < c->first_extra && !st; j++) {
     const int a = c->half[j][0], b = c->half[j][1], from = thr_head(c->f, b), to = thr_head(c->f, a);
     if (from == to) continue; /* parallel edges */
-    const int path = thr_path_find(&s, from, to, thr_tail(c->f, a), -1, THR_CYCLE_MOST - 2, half + 1);
+    const int path = find_path(&s, from, to, thr_tail(c->f, a), THR_CYCLE_MOST - 2, half + 1);
     if (path == 0) continue;
     half[0] = b;
     half[path + 1] = a ^ 1;

@@ -1,27 +1,11 @@
-/* Shortest paths by number of edges, and the short cycles that they close. Internal to tortuosity/.
+/* Short cycles through every turn. Internal to tortuosity/.
  *
  * Example: through two sides of a triangle of a mesh that meet there is one cycle of three edges. */
 #ifndef THR_SHORT_CYCLES_H
 #define THR_SHORT_CYCLES_H
 
-#include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
-#include "graph/scratch.h"
 #include "graph/status.h"
-
-/* Breadth-first searches, one after the other. */
-typedef struct {
-  const thr_frame *f;
-  int *by, *seen, *queue; /* [n_nodes] half-edge that reached a node; search that did; nodes in order */
-  int search;
-} thr_path_finder;
-
-/* The arrays are taken from own, whose owner asks whether they are there. */
-void thr_path_finder_init(thr_path_finder *finder, const thr_frame *frame, thr_scratch *own);
-
-/* The half-edges, half[most], of a shortest path from a node to another that keeps off a node and an edge (-1: none); returns
- * their number, 0: there is none of so many. O(what is that near). */
-int thr_path_find(thr_path_finder *finder, int from, int to, int off_node, int off_edge, int most, int *half);
 
 /* Short cycles: half-edges half[first[i]] .. half[first[i + 1] - 1], each leaving the node at which the one before arrives. */
 typedef struct {

@@ -81,9 +81,6 @@ thr_status thr_branch_try_rounded(thr_branch *branch, thr_err *err) THR_MUST_CHE
 /* The same whatever the time, of solid joints: without the turns back that there is another way for, and not improved. */
 thr_status thr_branch_try_start(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
 
-/* Passes and ends of the best plan, which must have been found. */
-void thr_branch_best(const thr_branch *branch, int *passes, int *ends);
-
 /* Tube joints: from the best plan by annealing (tortuosity/tie/tie.h), kept if that turns less. */
 thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int rounds, thr_err *err) THR_MUST_CHECK;
 
@@ -128,11 +125,8 @@ void thr_branch_close_lanes(thr_branch *branch);
 /* The threads of a search, and its limits for them, if there are none yet. */
 thr_status thr_branch_gather(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
-/* Searches beside it: tells another one, without a plan of its own, what is the best so far; takes its plan over if that is
- * better; forgets it. */
-void thr_branch_brief(thr_branch *other, const thr_branch *branch);
+/* Takes over the plan of a lane, if it is better than the best so far; the lane forgets it. */
 thr_status thr_branch_take(thr_branch *branch, thr_branch *from, thr_err *err) THR_MUST_CHECK;
-void thr_branch_forget(thr_branch *other);
 
 /* The tree with the multipliers of its leaves, which are moved. */
 thr_status thr_branch_proof(thr_branch *branch, thr_turning_proof *proof, thr_err *err) THR_MUST_CHECK;

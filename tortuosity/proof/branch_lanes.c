@@ -64,13 +64,12 @@ void thr_branch_close_lanes(thr_branch *branch)
 
 thr_status thr_branch_gather(thr_branch *branch, thr_err *err)
 {
-  enum { MOST = 8 }; /* tries of cycles at once */
   if (branch->team) return THR_OK;
   branch->quiet = *branch->limits;
   branch->quiet.progress = NULL;
   branch->quiet.advance = NULL;
   branch->quiet.found = NULL; /* plans are told of in a fixed order */
-  return thr_team_create(&branch->team, MOST, &branch->quiet, err);
+  return thr_team_create(&branch->team, THR_TREE_BATCH, &branch->quiet, err);
 }
 
 /* The first n lanes. */
@@ -82,20 +81,15 @@ static thr_status open_lanes(thr_branch *branch, int n, thr_err *err)
   return st ? st : thr_team_run(branch->team, n, open_lane, branch, err);
 }
 
-void thr_branch_brief(thr_branch *other, const thr_branch *branch)
-{
-  other->best_price = branch->best_price;
-  other->best_passes = branch->best_passes;
-  other->best_length = branch->best_length;
-}
-
 /* What a lane is told, the same whatever the others come to meanwhile. */
 static void brief_lane(thr_branch *lane, const thr_branch *branch, int node)
 {
   lane->tree.node[0].bound = branch->tree.node[node].bound;
   lane->tree.node[0].proof = branch->tree.node[node].proof;
   lane->tree.stopped = false;
-  thr_branch_brief(lane, branch);
+  lane->best_price = branch->best_price;
+  lane->best_passes = branch->best_passes;
+  lane->best_length = branch->best_length;
 }
 
 static thr_status solve_lane(void *user, int k, const thr_limits *limits, thr_err *err)

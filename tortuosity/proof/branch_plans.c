@@ -70,7 +70,8 @@ static thr_status keep_better(thr_branch *branch, thr_join *j, const int *passes
   return tell(branch, &branch->best, err);
 }
 
-void thr_branch_forget(thr_branch *other)
+/* Forgets the plan of a lane, and what it was told. */
+static void forget(thr_branch *other)
 {
   if (other->found) thr_join_destroy(&other->best);
   other->found = false;
@@ -90,7 +91,7 @@ thr_status thr_branch_take(thr_branch *branch, thr_branch *from, thr_err *err)
     branch->best_length = from->best_length;
     from->found = false;
   }
-  thr_branch_forget(from);
+  forget(from);
   return better ? tell(branch, &branch->best, err) : THR_OK;
 }
 
@@ -233,7 +234,8 @@ thr_status thr_branch_try_start(thr_branch *branch, const thr_cord *cord, int n_
   return st;
 }
 
-void thr_branch_best(const thr_branch *branch, int *passes, int *ends)
+/* Passes and ends of the best plan, which must have been found. */
+static void count_best(const thr_branch *branch, int *passes, int *ends)
 {
   const thr_frame *frame = branch->c->f;
   const thr_multigraph *multigraph = &branch->best.g;
@@ -248,7 +250,7 @@ void thr_branch_best(const thr_branch *branch, int *passes, int *ends)
 
 thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int rounds, thr_err *err)
 {
-  thr_branch_best(branch, branch->passes, branch->ends);
+  count_best(branch, branch->passes, branch->ends);
   thr_status st = thr_tie_anneal(branch->c, limits, rounds, branch->passes, branch->ends, err);
   return st ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }

@@ -88,7 +88,7 @@ static void allot_copies(thr_pass_matching *passes)
 {
   const thr_turning_columns *c = passes->c;
   for (int e = 0; e < c->f->n_edges; e++)
-    passes->copies[e] = passes->open[e] + passes->spare < c->most[e] ? passes->open[e] + passes->spare : c->most[e];
+    passes->copies[e] = passes->open[e] + SPARE < c->most[e] ? passes->open[e] + SPARE : c->most[e];
   number_nodes(passes);
 }
 
@@ -109,8 +109,7 @@ static int first_copies(const thr_turning_columns *c, int e)
 thr_status thr_pass_matching_init(thr_pass_matching *passes, const thr_turning_columns *turning_columns, thr_err *err)
 {
   size_t m = (size_t)turning_columns->f->n_edges;
-  *passes = (thr_pass_matching){
-      .c = turning_columns, .n_places = 2 * (int)m + turning_columns->n_ends, .spare = SPARE, .most_rounds = MOST_ROUNDS};
+  *passes = (thr_pass_matching){.c = turning_columns, .n_places = 2 * (int)m + turning_columns->n_ends};
   passes->open = thr_calloc(m, sizeof *passes->open);
   passes->copies = thr_calloc(m, sizeof *passes->copies);
   passes->first = thr_calloc((size_t)passes->n_places + 1, sizeof *passes->first);
@@ -129,44 +128,6 @@ thr_status thr_pass_matching_init(thr_pass_matching *passes, const thr_turning_c
     passes->listed[j] |= j < turning_columns->first_end || j >= turning_columns->first_back;
   allot_copies(passes);
   return THR_OK;
-}
-
-thr_status thr_pass_matching_copy(thr_pass_matching *passes, const thr_pass_matching *from, thr_err *err)
-{
-  const size_t m = (size_t)from->c->f->n_edges, n = (size_t)n_nodes(from);
-  thr_status st = thr_pass_matching_init(passes, from->c, err);
-  if (st) return st;
-  memcpy(passes->open, from->open, m * sizeof *from->open);
-  memcpy(passes->listed, from->listed, (size_t)from->c->n_columns * sizeof *from->listed);
-  passes->spare = from->spare;
-  passes->most_rounds = from->most_rounds;
-  memcpy(passes->copies, from->copies, m * sizeof *from->copies);
-  number_nodes(passes);
-  if (!from->dual) return THR_OK;
-  passes->dual = thr_calloc(n, sizeof *passes->dual);
-  passes->mate = thr_calloc(n, sizeof *passes->mate);
-  if (!passes->dual || !passes->mate) {
-    thr_pass_matching_destroy(passes);
-    return thr_nomem(err);
-  }
-  memcpy(passes->dual, from->dual, n * sizeof *from->dual);
-  memcpy(passes->mate, from->mate, n * sizeof *from->mate);
-  return THR_OK;
-}
-
-void thr_pass_matching_shrink(thr_pass_matching *passes, const int *x)
-{
-  const thr_turning_columns *c = passes->c;
-  for (int e = 0; e < c->f->n_edges; e++) {
-    int wanted = c->cover[e] + x[c->first_extra + e] + 1;
-    if (wanted < passes->open[e]) passes->open[e] = wanted;
-  }
-  free(passes->dual);
-  free(passes->mate);
-  passes->dual = NULL;
-  passes->mate = NULL;
-  passes->spare = 1;
-  allot_copies(passes);
 }
 
 static thr_status add_edge(thr_pass_matching *passes, int a, int b, int column, thr_err *err)
@@ -560,7 +521,7 @@ static thr_status take(thr_pass_matching *passes, const int64_t *price, const th
   thr_status st = keep(passes, matching, err);
   if (!st) st = thr_pass_dual(passes, matching, price, dual, err);
   *more = false;
-  return st || passes->most_rounds == 1 ? st : price_out(passes, price, dual, first_odd, more, fit, err);
+  return st ? st : price_out(passes, price, dual, first_odd, more, fit, err);
 }
 
 thr_status thr_pass_matching_solve(thr_pass_matching *passes, const int64_t *price, const thr_limits *limits, int *x,
@@ -569,7 +530,7 @@ thr_status thr_pass_matching_solve(thr_pass_matching *passes, const int64_t *pri
   int first_odd = dual->n_odd, known = 0, round = 0;
   thr_matching matching = {0};
   thr_status st = THR_OK;
-  for (bool more = true, fit = true; more && !st && round < passes->most_rounds; round++) {
+  for (bool more = true, fit = true; more && !st && round < MOST_ROUNDS; round++) {
     thr_err why = {0};
     st = match(passes, price, known, limits, &matching, &why);
     known = passes->n_edges;
@@ -584,7 +545,7 @@ thr_status thr_pass_matching_solve(thr_pass_matching *passes, const int64_t *pri
     if (!more && !st) break;
   }
   thr_matching_destroy(&matching);
-  if (round == passes->most_rounds || (st == THR_ELIMIT && round > 0)) {
+  if (round == MOST_ROUNDS || (st == THR_ELIMIT && round > 0)) {
     thr_status settled = settle(passes, price, dual, first_odd, err);
     if (settled) st = settled;
   }

@@ -22,12 +22,10 @@
 typedef struct {
   const thr_turning_columns *c;
   int n_places;
-  int *open;       /* [n_edges] passes of every edge that may be made, from its cover to its most; owned */
-  int *copies;     /* [n_edges] those with nodes, the others of which are end to end; owned */
-  int *first;      /* [n_places + 1] nodes of a place: first[i] .. first[i + 1] - 1; owned */
-  int most_rounds; /* matchings for the same prices: after the last the multipliers may pay too much for what it does not know */
-  int spare;       /* copies that are allotted nodes beyond those that may be made */
-  bool *listed;    /* [n_columns] turns and ends that the matching knows; extra passes and U-turns always; owned */
+  int *open;    /* [n_edges] passes of every edge that may be made, from its cover to its most; owned */
+  int *copies;  /* [n_edges] those with nodes, the others of which are end to end; owned */
+  int *first;   /* [n_places + 1] nodes of a place: first[i] .. first[i + 1] - 1; owned */
+  bool *listed; /* [n_columns] turns and ends that the matching knows; extra passes and U-turns always; owned */
   int n_edges, room;
   int (*edge)[2];  /* [room] of the matching; owned */
   int *column;     /* [room] of the model, -1: of no price; owned */
@@ -44,9 +42,6 @@ thr_status thr_pass_matching_init(thr_pass_matching *passes, const thr_turning_c
                                   thr_err *err) THR_MUST_CHECK;
 void thr_pass_matching_destroy(thr_pass_matching *passes);
 
-/* With the same copies and turns, and to begin near the same matching. */
-thr_status thr_pass_matching_copy(thr_pass_matching *passes, const thr_pass_matching *from, thr_err *err) THR_MUST_CHECK;
-
 /* Least sum of price[n_columns] x over whole numbers that keep all equations: x receives them. dual receives potentials, those of
  * the ends, and odd sets, appended to what it holds (the first two must be allocated), that prove it, but for rounding. Prices in
  * units of 2^-THR_TURNING_BITS, of any sign. Begins near the matching before. THR_EINFEASIBLE: there are none. THR_ELIMIT:
@@ -54,10 +49,6 @@ thr_status thr_pass_matching_copy(thr_pass_matching *passes, const thr_pass_matc
  * frameworks. */
 thr_status thr_pass_matching_solve(thr_pass_matching *passes, const int64_t *price, const thr_limits *limits, int *x,
                                    thr_turning_dual *dual, thr_err *err) THR_MUST_CHECK;
-
-/* Forgets all copies but those that x[n_columns] needs, and one more of each edge, where many matchings under other prices
- * follow. */
-void thr_pass_matching_shrink(thr_pass_matching *passes, const int *x);
 
 /* Passes of a place that must be; ends, for an equation of them. */
 int thr_pass_needed(const thr_pass_matching *passes, int place);
