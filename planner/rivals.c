@@ -39,7 +39,7 @@ static thr_status make_corner(const thr_plan *plan, const thr_limits *limits, th
   thr_request options = plan->options;
   if (!is_tour(plan)) options.turning.length_slack = options.turning.length_slack == 0 ? -1 : 0;
   options.turning.tour = THR_TOUR_LEAST;
-  options.turning.ignore_pairings = false;
+  options.turning.pairings = THR_PAIRINGS_KEEP;
   thr_status st = plan->options.distinct > 0 ? thr_plan_make(&plan->frame, &options, limits, &rival->plan, NULL, &rival->why)
                                              : thr_tortuosity_plan(&plan->frame, &options, limits, &rival->plan, &rival->why);
   return close_rival(rival, st, err);

@@ -55,7 +55,7 @@ bool turning_option(turning_args *a, int option, const char *value, bool *ok)
     break;
   case OPTION_TURNING_PAIRINGS:
     *ok = cli_choose("plan", "--pairings", value, thr_pairings_name, 2, &i);
-    options->ignore_pairings = i == 1;
+    options->pairings = (thr_pairings)i;
     a->pairings = true;
     name = "--pairings";
     break;

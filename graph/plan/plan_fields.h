@@ -56,7 +56,7 @@ thr_status thr_field_name(const thr_field_reader *field_reader, const thr_json *
 
 /* The parts of a plan, each with the file it is in; what they have read so far is for thr_plan_destroy to release. */
 thr_status thr_plan_read_options(const thr_field_reader *field_reader, const thr_json *doc, const thr_frame *frame,
-                                 thr_request *options) THR_MUST_CHECK; /* plan_read_options.c */
+                                 thr_request *request) THR_MUST_CHECK; /* request_fields.c */
 thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_json *doc,
                                 thr_plan *plan) THR_MUST_CHECK; /* plan_read_proof.c */
 

@@ -5,6 +5,7 @@
 #include "graph/plan/plan.h"
 #include "graph/io/writer.h"
 #include "graph/plan/request.h"
+#include "graph/plan/request_fields.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/text.h"
 
@@ -107,98 +108,6 @@ static void put_frame(thr_writer *writer, const thr_frame *frame)
   thr_write_line(writer, 2);
   put_marked(writer, "feet", frame->foot, frame->n_nodes);
   put_line(writer);
-  thr_write_close(writer);
-}
-
-/* ---- options ---- */
-
-static void put_turning_options(thr_writer *writer, const thr_request *asked)
-{
-  const thr_turning_options *options = &asked->turning;
-  thr_write_object(writer, "turning");
-  thr_write_string(writer, "cost", thr_turn_cost_name(options->cost));
-  put_or_null(writer, "length_slack", options->length_slack);
-  thr_write_string(writer, "minimize", thr_minimize_name(thr_wants_largest(asked) + thr_wants_pull(asked)));
-  thr_write_string(writer, "tour", thr_tour_name(options->tour));
-  thr_write_string(writer, "pairings", thr_pairings_name(options->ignore_pairings));
-  if (options->nodes > 0) thr_write_int(writer, "nodes", options->nodes);
-  thr_write_close(writer);
-  thr_write_line(writer, 2);
-}
-
-static void put_symmetry_options(thr_writer *writer, const thr_request *asked)
-{
-  const thr_symmetry_options *options = &asked->symmetry;
-  thr_aim order[THR_N_AIMS];
-  thr_aims_order(asked, order);
-  thr_write_object(writer, "symmetry");
-  if (options->group[0])
-    thr_write_string(writer, "group", options->group);
-  else
-    thr_write_null(writer, "group");
-  put_or_null(writer, "geometric", options->geometric);
-  if (options->counted) thr_write_bool(writer, "counted", true);
-  thr_write_array(writer, "prefer");
-  for (int i = 0; i < THR_N_AIMS; i++)
-    thr_write_string(writer, NULL, thr_aim_name(order[i]));
-  thr_write_close(writer);
-  thr_write_close(writer);
-  thr_write_line(writer, 2);
-}
-
-/* Where cord ends may be, or how many there are. */
-static void put_ends(thr_writer *writer, const thr_plan *plan)
-{
-  const thr_request *options = &plan->options;
-  thr_write_string(writer, "ends", thr_ends_name(options->ends));
-  if (options->ends == THR_ENDS_NODES) put_marked(writer, "end_nodes", options->end_node, plan->frame.n_nodes);
-  if (options->ends != THR_ENDS_COUNTS) return;
-  thr_write_row(writer, "end_counts");
-  for (int v = 0; v < plan->frame.n_nodes; v++)
-    if (options->end_count[v]) thr_write_ints(writer, NULL, (const int[]){v, options->end_count[v]}, 2);
-  thr_write_close(writer);
-}
-
-static void put_number_of_cords(thr_writer *writer, const thr_request *options)
-{
-  if (options->cords_least == options->cords) {
-    thr_write_int(writer, "cords", options->cords);
-    return;
-  }
-  thr_write_object(writer, "cords");
-  thr_write_int(writer, "least", options->cords_least);
-  thr_write_int(writer, "most", options->cords);
-  thr_write_close(writer);
-}
-
-static void put_options(thr_writer *writer, const thr_plan *plan)
-{
-  const thr_request *options = &plan->options;
-  put_line(writer);
-  thr_write_object(writer, "options");
-  thr_write_string(writer, "objective", thr_objective_name(thr_aims_objective(options)));
-  thr_write_string(writer, "joint", thr_joint_name(options->joint));
-  thr_write_int(writer, "cover", options->cover);
-  if (options->capacity > 0) thr_write_int(writer, "capacity", options->capacity);
-  if (options->distinct > 0) thr_write_int(writer, "distinct", options->distinct);
-  put_number_of_cords(writer, options);
-  if (options->max_length > 0) thr_write_number(writer, "max_length", options->max_length);
-  if (options->max_pull > 0) thr_write_number(writer, "max_pull", options->max_pull);
-  if (thr_wants_balance(options)) thr_write_bool(writer, "balance", true);
-  put_ends(writer, plan);
-  if (thr_wants_turning(options)) put_turning_options(writer, options);
-  if (thr_wants_symmetry(options)) put_symmetry_options(writer, options);
-  if (options->order != THR_ORDER_PLANNED) thr_write_string(writer, "order", thr_order_name((int)options->order));
-  if (options->crossings != THR_CROSSINGS_ALLOW)
-    thr_write_string(writer, "crossings", thr_crossings_name((int)options->crossings));
-  if (options->needles) thr_write_int(writer, "needles", options->needles);
-  if (options->engine != THR_ENGINE_AUTO) thr_write_string(writer, "engine", thr_engine_name(options->engine));
-  if (thr_wants_length(options) && options->confirm != THR_CONFIRM_AUTO)
-    thr_write_string(writer, "confirm", thr_confirm_name(options->confirm));
-  thr_write_number(writer, "time_limit", options->time_limit);
-  if (options->gap >= 0) thr_write_number(writer, "gap", options->gap);
-  thr_write_line(writer, 2);
-  thr_physics_write(&options->physics, writer, "physics");
   thr_write_close(writer);
 }
 
@@ -451,7 +360,8 @@ void thr_plan_write(const thr_plan *plan, thr_text *text)
   put_line(&writer);
   thr_write_string(&writer, "generator", plan->generator ? plan->generator : "");
   put_frame(&writer, &plan->frame);
-  put_options(&writer, plan);
+  put_line(&writer);
+  thr_request_write(&writer, plan);
   put_cords(&writer, plan);
   if (plan->symmetry.present) put_symmetry(&writer, plan);
   put_metrics(&writer, plan);

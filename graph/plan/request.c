@@ -296,9 +296,9 @@ const char *thr_largest_name(const thr_request *options)
   return thr_wants_pull(options) ? "the largest turning before an end that is pulled" : "the largest turning of a cord";
 }
 
-const char *thr_pairings_name(int ignore)
+const char *thr_pairings_name(int p)
 {
-  return ignore ? "ignore" : "keep";
+  return p == THR_PAIRINGS_IGNORE ? "ignore" : "keep";
 }
 
 const char *thr_ends_name(int e)

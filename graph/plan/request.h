@@ -57,13 +57,16 @@ typedef enum {
   THR_N_TOURS
 } thr_tour;
 
+/* How a classical tour goes on at a node: by the cheapest pairing of its passes, or to the next edge in the framework's order. */
+typedef enum { THR_PAIRINGS_KEEP, THR_PAIRINGS_IGNORE } thr_pairings;
+
 /* What is asked for of a plan that turns little. */
 typedef struct {
   thr_turn_cost cost;
   double length_slack; /* cord allowed above the shortest, as a part of it; < 0 = any length */
   thr_tour tour;
-  bool ignore_pairings; /* of the classical tours: edges in their order instead of the cheapest pairing of every node */
-  int nodes;            /* of the search's tree at most, which ends it at the same place on any machine; 0 = any number */
+  thr_pairings pairings; /* of the classical tours */
+  int nodes;             /* of the search's tree at most, which ends it at the same place on any machine; 0 = any number */
 } thr_turning_options;
 
 /* What is asked for of a symmetric plan. */
@@ -175,13 +178,13 @@ thr_aim thr_minimize_aim(int i);      /* i < THR_N_MINIMIZE */
 const char *thr_largest_name(
     const thr_request *options); /* "the largest turning of a cord", or with pull what an end overcomes */
 enum { THR_N_MINIMIZE = 3 };
-const char *thr_pairings_name(int ignore); /* "keep", "ignore" */
-const char *thr_ends_name(int e);          /* "closed", "any", "feet", "nodes", "counts" */
-const char *thr_joint_name(int j);         /* "solid", "tube" */
-const char *thr_crossings_name(int c);     /* "allow", "price", "forbid" */
-const char *thr_order_name(int o);         /* "planned", "starts", "hand" */
-const char *thr_engine_name(int e);        /* "auto", "lp", "matching" */
-const char *thr_confirm_name(int c);       /* "auto", "always", "never" */
+const char *thr_pairings_name(int p);  /* "keep", "ignore" */
+const char *thr_ends_name(int e);      /* "closed", "any", "feet", "nodes", "counts" */
+const char *thr_joint_name(int j);     /* "solid", "tube" */
+const char *thr_crossings_name(int c); /* "allow", "price", "forbid" */
+const char *thr_order_name(int o);     /* "planned", "starts", "hand" */
+const char *thr_engine_name(int e);    /* "auto", "lp", "matching" */
+const char *thr_confirm_name(int c);   /* "auto", "always", "never" */
 
 /* How near plan and bound may be for a search to end, as a part of the bound: what was asked for, else 0 of a short plan and a
  * hundredth of others. */

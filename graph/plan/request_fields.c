@@ -1,0 +1,530 @@
+/* The members of `options` in plan.json: one table, and one loop each that writes and reads it (docs/plan-format.md). */
+#include "graph/plan/request_fields.h"
+#include "graph/framework/frame.h"
+#include "graph/io/json.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "graph/text.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- members with a shape of their own ---- */
+
+static void write_objective(thr_writer *writer, const thr_plan *plan)
+{
+  thr_write_string(writer, "objective", thr_objective_name(thr_aims_objective(&plan->options)));
+}
+
+/* Reads which kind of plan was asked for. What is minimized first, second, .. follows from `turning` or `symmetry`. */
+static thr_status read_objective(thr_request_reader *r, const thr_json *object)
+{
+  int objective;
+  thr_status st = thr_field_name(r->fields, object, "options", "objective", THR_N_OBJECTIVES, thr_objective_name, &objective);
+  if (!st) {
+    r->request->aims = thr_aims_of((thr_objective)objective);
+  }
+  return st;
+}
+
+/* A number says exactly so many; an object says least and most. */
+static void write_cords(thr_writer *writer, const thr_plan *plan)
+{
+  const thr_request *request = &plan->options;
+  if (request->cords_least == request->cords) {
+    thr_write_int(writer, "cords", request->cords);
+    return;
+  }
+  thr_write_object(writer, "cords");
+  thr_write_int(writer, "least", request->cords_least);
+  thr_write_int(writer, "most", request->cords);
+  thr_write_close(writer);
+}
+
+static thr_status read_cords(thr_request_reader *r, const thr_json *object)
+{
+  static const char *const known[] = {"least", "most", NULL};
+  const thr_json *value = thr_json_get(object, "cords");
+
+  /* A number: exactly so many. */
+  if (!value || thr_json_typeof(value) != THR_JSON_OBJECT) {
+    thr_status st = thr_field_int(r->fields, object, "cords", 1, THR_MOST_CORDS, &r->request->cords);
+    r->request->cords_least = r->request->cords;
+    return st;
+  }
+
+  thr_status st = thr_field_only(r->fields, value, "options.cords", known);
+  if (!st) st = thr_field_int(r->fields, value, "most", 1, THR_MOST_CORDS, &r->request->cords);
+  if (!st) st = thr_field_int(r->fields, value, "least", 1, r->request->cords, &r->request->cords_least);
+  return st;
+}
+
+static void write_balance(thr_writer *writer, const thr_plan *plan)
+{
+  if (thr_wants_balance(&plan->options)) {
+    thr_write_bool(writer, "balance", true);
+  }
+}
+
+/* Reads a member that is true or false, and may be left out: false. */
+static thr_status read_yes(const thr_field_reader *reader, const thr_json *object, const char *key, const char *place, bool *yes)
+{
+  const thr_json *value = thr_json_get(object, key);
+  *yes = value && thr_json_true(value);
+  return value && thr_json_typeof(value) != THR_JSON_BOOL ? thr_field_bad(reader, place, "not true or false") : THR_OK;
+}
+
+/* Writes where cord ends may be, or how many there are at each node. */
+static void write_ends(thr_writer *writer, const thr_plan *plan)
+{
+  const thr_request *request = &plan->options;
+  thr_write_string(writer, "ends", thr_ends_name(request->ends));
+
+  if (request->ends == THR_ENDS_NODES) {
+    thr_write_row(writer, "end_nodes");
+    for (int v = 0; v < plan->frame.n_nodes; v++) {
+      if (request->end_node[v]) {
+        thr_write_int(writer, NULL, v);
+      }
+    }
+    thr_write_close(writer);
+  }
+
+  if (request->ends == THR_ENDS_COUNTS) {
+    thr_write_row(writer, "end_counts");
+    for (int v = 0; v < plan->frame.n_nodes; v++) {
+      if (request->end_count[v]) {
+        thr_write_ints(writer, NULL, (const int[]){v, request->end_count[v]}, 2);
+      }
+    }
+    thr_write_close(writer);
+  }
+}
+
+static thr_status read_end_nodes(const thr_field_reader *reader, const thr_json *object, const thr_frame *frame, bool **end_node)
+{
+  const thr_json *list;
+  thr_status st = thr_field_need(reader, object, "end_nodes", THR_JSON_ARRAY, &list);
+  if (st) return st;
+  if (!(*end_node = thr_calloc((size_t)frame->n_nodes, sizeof **end_node))) return thr_nomem(reader->err);
+  for (int i = 0, node = 0; i < thr_json_size(list); i++) {
+    if ((st = thr_field_index(reader, list, i, frame->n_nodes, "options.end_nodes", &node))) return st;
+    (*end_node)[node] = true;
+  }
+  return THR_OK;
+}
+
+/* Reads pairs of a node and the number of cord ends there. */
+static thr_status read_end_counts(const thr_field_reader *reader, const thr_json *object, const thr_frame *frame, int **end_count)
+{
+  const thr_json *list;
+  thr_status st = thr_field_need(reader, object, "end_counts", THR_JSON_ARRAY, &list);
+  if (st) return st;
+  if (!(*end_count = thr_calloc((size_t)frame->n_nodes, sizeof **end_count))) return thr_nomem(reader->err);
+  for (int i = 0; i < thr_json_size(list); i++) {
+    const thr_json *pair = thr_json_at(list, i);
+    int64_t count;
+    int node = 0;
+    if (thr_json_size(pair) != 2) return thr_field_bad(reader, "options.end_counts", "not pairs of a node and a number");
+    if ((st = thr_field_index(reader, pair, 0, frame->n_nodes, "options.end_counts", &node))) return st;
+    if (!thr_json_int(thr_json_at(pair, 1), &count) || count < 1 || count > 2 * THR_MOST_CORDS || (*end_count)[node] > 0)
+      return thr_fail(reader->err, reader->code, "%s: options.end_counts[%d]: not a number from 1 to %d, or the node comes twice",
+                      reader->name, i, 2 * THR_MOST_CORDS);
+    (*end_count)[node] = (int)count;
+  }
+  return THR_OK;
+}
+
+static thr_status read_ends(thr_request_reader *r, const thr_json *object)
+{
+  int kind;
+  thr_status st = thr_field_name(r->fields, object, "options", "ends", THR_ENDS_COUNTS + 1, thr_ends_name, &kind);
+  if (st) return st;
+  r->request->ends = (thr_ends)kind;
+
+  /* Lists of nodes belong to one kind of ends each. */
+  if (thr_json_get(object, "end_nodes") && r->request->ends != THR_ENDS_NODES)
+    return thr_field_bad(r->fields, "options.end_nodes", "only with ends `nodes`");
+  if (thr_json_get(object, "end_counts") && r->request->ends != THR_ENDS_COUNTS)
+    return thr_field_bad(r->fields, "options.end_counts", "only with ends `counts`");
+  if (r->request->ends == THR_ENDS_NODES) return read_end_nodes(r->fields, object, r->frame, &r->request->end_node);
+  return r->request->ends == THR_ENDS_COUNTS ? read_end_counts(r->fields, object, r->frame, &r->request->end_count) : THR_OK;
+}
+
+static void write_minimize(thr_writer *writer, const thr_plan *plan)
+{
+  const thr_request *request = &plan->options;
+  thr_write_string(writer, "minimize", thr_minimize_name(thr_wants_largest(request) + thr_wants_pull(request)));
+}
+
+static thr_status read_minimize(thr_request_reader *r, const thr_json *object)
+{
+  int aim;
+  thr_status st = thr_field_name(r->fields, object, "options.turning", "minimize", THR_N_MINIMIZE, thr_minimize_name, &aim);
+  if (!st) {
+    r->request->aims = (thr_aims){1, {thr_minimize_aim(aim)}};
+  }
+  return st;
+}
+
+static void write_group(thr_writer *writer, const thr_plan *plan)
+{
+  const char *group = plan->options.symmetry.group;
+  if (*group) {
+    thr_write_string(writer, "group", group);
+  } else {
+    thr_write_null(writer, "group");
+  }
+}
+
+static thr_status read_group(thr_request_reader *r, const thr_json *object)
+{
+  char *group = r->request->symmetry.group;
+  const thr_json *value = thr_json_get(object, "group");
+  const char *name = thr_json_string(value);
+  const bool is_null = value && thr_json_typeof(value) == THR_JSON_NULL;
+  if (!is_null && (!name || !*name || strlen(name) >= sizeof r->request->symmetry.group))
+    return thr_field_bad(r->fields, "options.symmetry.group", "neither null nor a text of 1 to 15 bytes");
+  snprintf(group, sizeof r->request->symmetry.group, "%s", name ? name : "");
+  thr_text_clean(group);
+  return THR_OK;
+}
+
+static void write_counted(thr_writer *writer, const thr_plan *plan)
+{
+  if (plan->options.symmetry.counted) {
+    thr_write_bool(writer, "counted", true);
+  }
+}
+
+static thr_status read_counted(thr_request_reader *r, const thr_json *object)
+{
+  return read_yes(r->fields, object, "counted", "options.symmetry.counted", &r->request->symmetry.counted);
+}
+
+static void write_prefer(thr_writer *writer, const thr_plan *plan)
+{
+  thr_aim order[THR_N_AIMS];
+  thr_aims_order(&plan->options, order);
+  thr_write_array(writer, "prefer");
+  for (int i = 0; i < THR_N_AIMS; i++) {
+    thr_write_string(writer, NULL, thr_aim_name(order[i]));
+  }
+  thr_write_close(writer);
+}
+
+/* Reads the order of a symmetric plan's aims, each of which is named once. */
+static thr_status read_prefer(thr_request_reader *r, const thr_json *object)
+{
+  bool named[THR_N_AIMS] = {false};
+  const thr_json *list;
+  thr_status st = thr_field_need(r->fields, object, "prefer", THR_JSON_ARRAY, &list);
+  if (!st && thr_json_size(list) != THR_N_AIMS) return thr_field_bad(r->fields, "options.symmetry.prefer", "not four aims");
+  for (int i = 0, aim = 0; i < THR_N_AIMS && !st; i++) {
+    st = thr_field_name_of(r->fields, thr_json_at(list, i), "options.symmetry", "prefer", THR_N_AIMS, thr_aim_name, &aim);
+    if (!st && named[aim]) return thr_field_bad(r->fields, "options.symmetry.prefer", "names one aim twice");
+    named[aim] = true;
+    r->request->aims.aim[i] = (thr_aim)aim;
+  }
+  r->request->aims.n = THR_N_AIMS;
+  return st;
+}
+
+static void write_physics(thr_writer *writer, const thr_plan *plan)
+{
+  thr_write_line(writer, 2);
+  thr_physics_write(&plan->options.physics, writer, "physics");
+}
+
+static thr_status read_physics(thr_request_reader *r, const thr_json *object)
+{
+  char place[256];
+  snprintf(place, sizeof place, "%.200s: options.physics", r->fields->name);
+  return thr_physics_from_json(&r->request->physics, thr_json_get(object, "physics"), place, r->fields->err);
+}
+
+/* Members of their own that are of one objective only; the rows that are in them follow from the table. */
+static void write_turning(thr_writer *writer, const thr_plan *plan);
+static void write_symmetry(thr_writer *writer, const thr_plan *plan);
+static thr_status read_turning(thr_request_reader *r, const thr_json *object);
+static thr_status read_symmetry(thr_request_reader *r, const thr_json *object);
+
+/* ---- the table ---- */
+
+#define AT(member) .offset = offsetof(thr_request, member)
+#define COUNT .kind = THR_ASKS_COUNT
+#define AMOUNT .kind = THR_ASKS_AMOUNT
+#define AMOUNT_OR_NULL .kind = THR_ASKS_AMOUNT_OR_NULL
+#define WORD(names, n) .kind = THR_ASKS_WORD, .name = names, .n_names = n
+#define OTHER(what) .kind = THR_ASKS_OTHER, .write = write_##what, .read = read_##what
+#define TINY 5e-324 /* the least number above 0 */
+
+/* In the order in which plan.json has them. */
+const thr_request_field thr_request_fields[] = {
+    {"objective", OTHER(objective), .always = true},
+    {"joint", WORD(thr_joint_name, 2), AT(joint), .always = true},
+    {"cover", COUNT, AT(cover), .low = 1, .high = 100, .always = true},
+    {"capacity", COUNT, AT(capacity), .low = 1, .high = INT32_MAX},
+    {"distinct", COUNT, AT(distinct), .low = 2, .high = 100},
+    {"cords", OTHER(cords), .always = true},
+    {"max_length", AMOUNT, AT(max_length), .low = TINY, .high = 1e100},
+    {"max_pull", AMOUNT, AT(max_pull), .low = 1, .high = 1e300},
+    {"balance", .kind = THR_ASKS_OTHER, .write = write_balance}, /* read last: thr_plan_read_options */
+    {"ends", OTHER(ends), .always = true},
+    {"end_nodes", .kind = THR_ASKS_OTHER},  /* with ends */
+    {"end_counts", .kind = THR_ASKS_OTHER}, /* with ends */
+    {"turning", OTHER(turning)},
+    {"cost", "turning", WORD(thr_turn_cost_name, THR_N_TURN_COSTS), AT(turning.cost), .always = true},
+    {"length_slack", "turning", AMOUNT_OR_NULL, AT(turning.length_slack), .high = 1e100, .always = true},
+    {"minimize", "turning", OTHER(minimize), .always = true},
+    {"tour", "turning", WORD(thr_tour_name, THR_N_TOURS), AT(turning.tour), .always = true},
+    {"pairings", "turning", WORD(thr_pairings_name, 2), AT(turning.pairings), .always = true},
+    {"nodes", "turning", COUNT, AT(turning.nodes), .low = 1, .high = INT32_MAX},
+    {"symmetry", OTHER(symmetry)},
+    {"group", "symmetry", OTHER(group), .always = true},
+    {"geometric", "symmetry", AMOUNT_OR_NULL, AT(symmetry.geometric), .high = 1e100, .always = true},
+    {"counted", "symmetry", OTHER(counted)},
+    {"prefer", "symmetry", OTHER(prefer), .always = true},
+    {"order", WORD(thr_order_name, THR_N_ORDERS), AT(order)},
+    {"crossings", WORD(thr_crossings_name, THR_N_CROSSINGS), AT(crossings)},
+    {"needles", COUNT, AT(needles), .low = 1, .high = 2},
+    {"engine", WORD(thr_engine_name, 3), AT(engine)},
+    {"confirm", WORD(thr_confirm_name, 3), AT(confirm)},
+    {"time_limit", AMOUNT, AT(time_limit), .high = 1e300, .always = true},
+    {"gap", AMOUNT, AT(gap), .high = 100},
+    {"physics", OTHER(physics), .always = true},
+};
+const int thr_request_n_fields = (int)(sizeof thr_request_fields / sizeof *thr_request_fields);
+
+/* What a plan that does not say it had: an order of work as it was planned, since older plans had no other. */
+static thr_request unsaid(void)
+{
+  thr_request request = thr_request_default();
+  request.order = THR_ORDER_PLANNED;
+  return request;
+}
+
+const thr_request_field *thr_request_find(const char *option)
+{
+  for (int i = 0; i < thr_request_n_fields; i++) {
+    const char *key = thr_request_fields[i].key, *letter = option;
+    while (*key && (*key == *letter || (*key == '_' && *letter == '-'))) {
+      key++;
+      letter++;
+    }
+    if (!*key && !*letter) return &thr_request_fields[i];
+  }
+  return NULL;
+}
+
+void *thr_request_value(thr_request *request, const thr_request_field *field)
+{
+  return (char *)request + field->offset;
+}
+
+/* ---- writing ---- */
+
+static bool same_place(const char *a, const char *b)
+{
+  return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+/* Writes a number or a word, unless it is the default and may be left out. */
+static void write_value(thr_writer *writer, const thr_request_field *field, thr_request *request, thr_request *usual)
+{
+  const void *value = thr_request_value(request, field), *other = thr_request_value(usual, field);
+  const bool is_integer = field->kind == THR_ASKS_COUNT || field->kind == THR_ASKS_WORD;
+  const int count = is_integer ? *(const int *)value : 0;
+  const double amount = is_integer ? 0 : *(const double *)value;
+
+  const bool is_default = is_integer ? count == *(const int *)other : amount == *(const double *)other;
+  if (is_default && !field->always) return;
+
+  if (field->kind == THR_ASKS_COUNT) {
+    thr_write_int(writer, field->key, count);
+  } else if (field->kind == THR_ASKS_WORD) {
+    thr_write_string(writer, field->key, field->name(count));
+  } else if (field->kind == THR_ASKS_AMOUNT_OR_NULL && amount < 0) {
+    thr_write_null(writer, field->key);
+  } else {
+    thr_write_number(writer, field->key, amount);
+  }
+}
+
+/* Writes the rows of `options`, or of one of its members. */
+static void write_rows(thr_writer *writer, const thr_plan *plan, const char *in)
+{
+  thr_request request = plan->options, usual = unsaid();
+
+  /* Whether GLPK was asked for the same length says nothing of other plans. */
+  if (!thr_wants_length(&request)) {
+    request.confirm = usual.confirm;
+  }
+
+  for (int i = 0; i < thr_request_n_fields; i++) {
+    const thr_request_field *field = &thr_request_fields[i];
+    if (!same_place(field->in, in)) continue;
+    if (field->kind != THR_ASKS_OTHER) {
+      write_value(writer, field, &request, &usual);
+    } else if (field->write) {
+      field->write(writer, plan);
+    }
+  }
+}
+
+static void write_member(thr_writer *writer, const thr_plan *plan, const char *key)
+{
+  thr_write_object(writer, key);
+  write_rows(writer, plan, key);
+  thr_write_close(writer);
+  thr_write_line(writer, 2);
+}
+
+static void write_turning(thr_writer *writer, const thr_plan *plan)
+{
+  if (thr_wants_turning(&plan->options)) {
+    write_member(writer, plan, "turning");
+  }
+}
+
+static void write_symmetry(thr_writer *writer, const thr_plan *plan)
+{
+  if (thr_wants_symmetry(&plan->options)) {
+    write_member(writer, plan, "symmetry");
+  }
+}
+
+void thr_request_write(thr_writer *writer, const thr_plan *plan)
+{
+  thr_write_object(writer, "options");
+  write_rows(writer, plan, NULL);
+  thr_write_close(writer);
+}
+
+/* ---- reading ---- */
+
+static thr_status read_value(thr_request_reader *r, const thr_json *object, const char *place, const thr_request_field *field)
+{
+  void *value = thr_request_value(r->request, field);
+  double *amount = value;
+  char member[80];
+  thr_status st = THR_OK;
+
+  /* Counts and words. */
+  if (field->kind == THR_ASKS_COUNT)
+    return thr_field_int(r->fields, object, field->key, (int)field->low, (int)field->high, value);
+  if (field->kind == THR_ASKS_WORD)
+    return thr_field_name(r->fields, object, place, field->key, field->n_names, field->name, value);
+
+  /* Amounts. */
+  if (field->kind == THR_ASKS_AMOUNT_OR_NULL) {
+    st = thr_field_or_null(r->fields, object, field->key, amount);
+  } else {
+    st = thr_field_amount(r->fields, object, field->key, amount);
+  }
+  const bool is_null = field->kind == THR_ASKS_AMOUNT_OR_NULL && *amount < 0;
+  if (st || is_null || (*amount >= field->low && *amount <= field->high)) return st;
+  snprintf(member, sizeof member, "%s.%s", place, field->key);
+  return thr_field_bad(r->fields, member, *amount > field->high ? "too large" : *amount == 0 ? "not above 0" : "too small");
+}
+
+/* Reads the rows of `options`, or of one of its members. A member that the table does not know, or that belongs to another
+ * objective, is refused: it may be a wish that nobody checks. */
+static thr_status read_rows(thr_request_reader *r, const thr_json *object, const char *in)
+{
+  const thr_objective objective = thr_aims_objective(r->request);
+  const char *known[sizeof thr_request_fields / sizeof *thr_request_fields + 1], *place = "options";
+  char member[40];
+  int n = 0;
+  if (in) {
+    snprintf(member, sizeof member, "options.%s", in);
+    place = member;
+  }
+
+  /* Which members there may be. */
+  for (int i = 0; i < thr_request_n_fields; i++) {
+    const thr_request_field *field = &thr_request_fields[i];
+    const bool is_foreign = (field->read == read_turning && objective != THR_TORTUOSITY) ||
+                            (field->read == read_symmetry && objective != THR_SYMMETRY) ||
+                            (field->name == thr_confirm_name && objective != THR_LENGTH);
+    if (same_place(field->in, in) && !is_foreign) {
+      known[n++] = field->key;
+    }
+  }
+  known[n] = NULL;
+  thr_status st = thr_field_only(r->fields, object, place, known);
+
+  /* What is left out keeps its default, unless it is always there. */
+  for (int i = 0; i < thr_request_n_fields && !st; i++) {
+    const thr_request_field *field = &thr_request_fields[i];
+    if (!same_place(field->in, in) || (!field->always && !thr_json_get(object, field->key))) continue;
+    if (field->kind != THR_ASKS_OTHER) {
+      st = read_value(r, object, place, field);
+    } else if (field->read) {
+      st = field->read(r, object);
+    }
+  }
+  return st;
+}
+
+static thr_status read_member(thr_request_reader *r, const thr_json *object, const char *key)
+{
+  const thr_json *value;
+  const thr_status st = thr_field_need(r->fields, object, key, THR_JSON_OBJECT, &value);
+  return st ? st : read_rows(r, value, key);
+}
+
+static thr_status read_turning(thr_request_reader *r, const thr_json *object)
+{
+  return read_member(r, object, "turning");
+}
+
+static thr_status read_symmetry(thr_request_reader *r, const thr_json *object)
+{
+  return read_member(r, object, "symmetry");
+}
+
+/* Refuses what does not go together. */
+static thr_status check_together(const thr_field_reader *reader, const thr_request *request)
+{
+  if (request->distinct > request->cover) return thr_field_bad(reader, "options.distinct", "more than cover");
+  if (request->distinct > (thr_plan_counted(request) ? request->cords_least : request->cords))
+    return thr_field_bad(reader, "options.distinct", "more than the cords");
+  if (request->distinct > 0 && thr_wants_turning(request) && request->turning.tour != THR_TOUR_LEAST)
+    return thr_field_bad(reader, "options.distinct", "not with a classical tour");
+  if (request->crossings != THR_CROSSINGS_ALLOW && request->joint == THR_JOINT_TUBE)
+    return thr_field_bad(reader, "options.crossings", "goes with solid joints");
+  if (thr_wants_pull(request) && request->turning.cost != THR_TURN_ANGLE)
+    return thr_field_bad(reader, "options.turning.cost", "a pull is of angles");
+  return THR_OK;
+}
+
+thr_status thr_plan_read_options(const thr_field_reader *reader, const thr_json *doc, const thr_frame *frame,
+                                 thr_request *request)
+{
+  const thr_json *object;
+  bool balance = false;
+  thr_status st = thr_field_need(reader, doc, "options", THR_JSON_OBJECT, &object);
+  if (st) return st;
+  *request = unsaid();
+
+  /* The objective first, which says what else there may be, and needs to be. */
+  thr_request_reader r = {reader, frame, request};
+  st = read_objective(&r, object);
+  const char *own = thr_wants_turning(request) ? "turning" : "symmetry";
+  const bool has_own = !thr_wants_length(request);
+  const thr_json *member;
+  if (!st) st = read_rows(&r, object, NULL);
+  if (!st && has_own) st = thr_field_need(reader, object, own, THR_JSON_OBJECT, &member);
+
+  /* The longest cord comes before all other aims. */
+  if (!st) st = read_yes(reader, object, "balance", "options.balance", &balance);
+  if (!st && balance) {
+    memmove(&request->aims.aim[1], request->aims.aim, (size_t)request->aims.n++ * sizeof *request->aims.aim);
+    request->aims.aim[0] = THR_AIM_LONGEST;
+  }
+  return st ? st : check_together(reader, request);
+}
