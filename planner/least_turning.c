@@ -235,7 +235,8 @@ static thr_status find_cords(const thr_frame *frame, const thr_request *options,
 {
   const thr_least_options lo = search_options(options);
   if (options->turning.tour != THR_TOUR_LEAST)
-    return thr_baseline_tour(frame, &lo, options->turning.tour, options->turning.pairings == THR_PAIRINGS_IGNORE, s->solid.passes, least, err);
+    return thr_baseline_tour(frame, &lo, options->turning.tour, options->turning.pairings == THR_PAIRINGS_IGNORE, s->solid.passes,
+                             least, err);
   if (!thr_wants_largest(options)) return find_together(frame, options, s, limits, least, err);
   const double enough = options->max_pull > 0 ? thr_request_most_pulled(options) : 0;
   const thr_limits first = thr_dispatch_share(limits, THR_STEP_LEAST);

@@ -2,10 +2,10 @@
 #ifndef THR_CLI_SYMMETRY_ARGS_H
 #define THR_CLI_SYMMETRY_ARGS_H
 
-#include "cli/args/turning_args.h"
+#include "cli/pull.h"
 #include "graph/plan/request.h"
 
-enum { OPTION_SYMMETRY_GROUP = OPTION_TURNING_FREE, OPTION_SYMMETRY_GEOMETRIC, OPTION_SYMMETRY_PREFER, OPTION_SYMMETRY_FREE };
+enum { OPTION_SYMMETRY_GROUP = OPTION_PULL_FREE, OPTION_SYMMETRY_GEOMETRIC, OPTION_SYMMETRY_PREFER, OPTION_SYMMETRY_FREE };
 #define SYMMETRY_OPTIONS                                                                                                         \
   {"group", required_argument, NULL, OPTION_SYMMETRY_GROUP}, {"geometric", required_argument, NULL, OPTION_SYMMETRY_GEOMETRIC},  \
   {                                                                                                                              \

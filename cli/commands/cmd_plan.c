@@ -1,7 +1,7 @@
 /* thread plan: framework in, plan and diagrams out. */
 #include "cli/advice.h"
 #include "cli/best.h"
-#include "cli/args/aims_args.h"
+#include "cli/args/request_args.h"
 #include "cli/drawings.h"
 #include "cli/files.h"
 #include "cli/guard.h"
@@ -84,35 +84,21 @@ static const char *help(void)
   return text;
 }
 
-enum {
-  OPTION_COMPARE = OPTION_AIMS_FREE,
-  OPTION_DRAW,
-  OPTION_FORCE,
-  OPTION_JSON,
-  OPTION_ORDER,
-  OPTION_PROGRESS,
-  OPTION_CROSSINGS,
-  OPTION_GAP
-};
+enum { OPTION_COMPARE = OPTION_REQUEST_FREE, OPTION_DRAW, OPTION_FORCE, OPTION_JSON, OPTION_PROGRESS };
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
                                       PULL_RUN_OPTIONS,
-                                      TURNING_OPTIONS,
                                       SYMMETRY_OPTIONS,
-                                      CORDS_OPTIONS,
+                                      REQUEST_OPTIONS,
                                       {"compare-objectives", no_argument, NULL, OPTION_COMPARE},
-                                      AIMS_OPTIONS,
                                       GUARD_OPTIONS,
                                       {"output", required_argument, NULL, 'o'},
                                       {"draw", required_argument, NULL, OPTION_DRAW},
                                       {"force", no_argument, NULL, OPTION_FORCE},
                                       DRAWINGS_OPTIONS,
                                       {"json", no_argument, NULL, OPTION_JSON},
-                                      {"order", required_argument, NULL, OPTION_ORDER},
                                       {"progress", no_argument, NULL, OPTION_PROGRESS},
-                                      {"crossings", required_argument, NULL, OPTION_CROSSINGS},
-                                      {"gap", required_argument, NULL, OPTION_GAP},
                                       {NULL, 0, NULL, 0}};
 
 /* ---- options ---- */
@@ -120,51 +106,29 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
 typedef struct {
   cli_frame_args frame;
   pull_args pull;
-  turning_args turning;
   symmetry_args symmetry;
-  cords_args cords;
+  request_args request;
   guard_limits guard; /* seconds < 0: as the objective has it */
-  aims_args aims;
   thr_request wanted; /* aims, and what belongs to them */
   const char *path, *output, *draw;
   drawings_args drawings;
   bool json, compare, force;
-  int order;     /* of the work: thr_order */
-  int crossings; /* thr_crossings */
-  double gap;    /* %; < 0: not said */
 } arguments;
-
-/* -1 if it goes with what else is asked for. */
-static int check_crossings(const arguments *a)
-{
-  const char *other = a->cords.joint == THR_JOINT_TUBE
-                          ? "--joint tube: the cords of a tube lie side by side in one bore and cross nowhere inside"
-                      : thr_wants_symmetry(&a->wanted) ? "--objective symmetry: copies of a cord cross each other where they meet"
-                      : cords_args_limits_pull(&a->cords)        ? "a limit of the pull"
-                      : a->wanted.turning.tour != THR_TOUR_LEAST ? "a classical tour"
-                                                                 : NULL;
-  if (a->crossings == THR_CROSSINGS_ALLOW || !other) return -1;
-  return cli_usage("plan", "--crossings %s does not go with %s", thr_crossings_name(a->crossings), other);
-}
 
 static int parse(int argc, char **argv, arguments *a)
 {
   int done, o;
   bool ok = true;
   *a = (arguments){.frame = cli_frame_args_default(),
-                   .turning = turning_args_default(),
                    .symmetry = symmetry_args_default(),
-                   .cords = cords_args_default(),
+                   .request = request_args_default(),
                    .guard = guard_limits_default(),
-                   .drawings = {.quick = true},
-                   .order = THR_ORDER_STARTS,
-                   .gap = -1};
+                   .drawings = {.quick = true}};
   pull_args_init(&a->pull, THR_JOINT);
   while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(),
                                  &done)) != -1) {
     if (cli_frame_option(&a->frame, "plan", o, optarg, &ok) || pull_option(&a->pull, "plan", o, optarg, &ok) ||
-        turning_option(&a->turning, o, optarg, &ok) || symmetry_option(&a->symmetry, "plan", o, optarg, &ok) ||
-        cords_option(&a->cords, o, optarg, &ok) || aims_option(&a->aims, o, optarg, &ok) ||
+        symmetry_option(&a->symmetry, "plan", o, optarg, &ok) || request_option(&a->request, o, optarg, &ok) ||
         drawings_option(&a->drawings, "plan", o, optarg, &ok) || guard_option(&a->guard, "plan", o, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
       continue;
@@ -175,11 +139,6 @@ static int parse(int argc, char **argv, arguments *a)
     case OPTION_FORCE: a->force = true; break;
     case OPTION_JSON: a->json = true; break;
     case OPTION_PROGRESS: progress_begin(); break;
-    case OPTION_ORDER: ok = cli_choose("plan", "--order", optarg, thr_order_name, THR_N_ORDERS, &a->order); break;
-    case OPTION_CROSSINGS:
-      ok = cli_choose("plan", "--crossings", optarg, thr_crossings_name, THR_N_CROSSINGS, &a->crossings);
-      break;
-    case OPTION_GAP: ok = cli_double("plan", "--gap", optarg, 0, 100, &a->gap); break;
     case 'o': a->output = optarg; break;
     }
     if (!ok) return EXIT_USAGE;
@@ -190,28 +149,16 @@ static int parse(int argc, char **argv, arguments *a)
   a->path = argv[optind];
   if ((a->output && !*a->output) || (a->draw && !*a->draw)) return cli_usage("plan", "an empty name is no place to write to");
   if (a->output && cli_no_plan_name("plan", a->output)) return EXIT_USAGE;
-  const char *wordy = a->json ? "--json" : a->compare ? "--compare-objectives" : a->turning.frontier ? "--frontier" : NULL;
+  const char *wordy = a->json ? "--json" : a->compare ? "--compare-objectives" : a->request.frontier ? "--frontier" : NULL;
   if (wordy && a->output && strcmp(a->output, "-") == 0) return cli_usage("plan", "%s and -o - both want stdout", wordy);
-  int code = aims_args_settle(&a->aims, &a->turning, &a->symmetry, &a->cords);
-  if (code >= 0) return code;
-  aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, a->aims.objective, &a->wanted);
-  if (a->symmetry.given && !thr_wants_symmetry(&a->wanted))
-    return cli_usage("plan", "%s needs --objective symmetry", a->symmetry.given);
-  if ((code = check_crossings(a)) >= 0) return code;
-  code = turning_args_check(&a->turning, &a->wanted);
-  return code < 0 ? cords_args_check(&a->cords, &a->turning, &a->wanted) : code;
+  return request_args_check(&a->request, &a->symmetry, &a->wanted);
 }
 
 /* What is asked of an objective: what is about turning or symmetry concerns only one of them. */
 static void ask(const arguments *a, thr_objective objective, thr_request *options)
 {
-  aims_args_apply(&a->aims, &a->turning, &a->symmetry, &a->cords, objective, options);
-  options->joint = a->cords.joint;
-  options->order = (thr_order)a->order;
-  options->crossings = (thr_crossings)a->crossings;
-  options->gap = a->gap;
+  request_args_ask(&a->request, &a->symmetry, objective, options);
   if (options->order != THR_ORDER_PLANNED) options->needles = a->drawings.needles;
-  if (cords_args_limits_pull(&a->cords) && options->max_pull == 0) options->max_pull = 1; /* until it is known how much */
   options->time_limit = a->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : a->guard.seconds;
 }
 
@@ -248,7 +195,7 @@ static void put_pull(thr_text *text, const arguments *a, thr_objective objective
     thr_text_printf(text, eval->refused ? "%12.4g N (error at least %.3g %%" : "%12.4g N (+-%.3g %%", eval->record.largest,
                     pull_percent(eval->error));
     if (eval->refused) thr_text_printf(text, ": %d %s by closed form", eval->refused, cli_plural(eval->refused, "turn", "turns"));
-    thr_text_printf(text, ")%s", objective == a->aims.objective ? "   this plan" : "");
+    thr_text_printf(text, ")%s", objective == a->request.objective ? "   this plan" : "");
     if (thr_wants_symmetry(&p->options)) thr_text_printf(text, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
   } else {
     thr_text_printf(text, "%14s", "not known");
@@ -268,16 +215,6 @@ static int put_objective(thr_writer *writer, const arguments *a, thr_objective o
   return code;
 }
 
-/* An objective that cannot do what this plan was asked for. */
-static int put_refused(thr_writer *writer, const arguments *a, thr_objective objective, const char *option)
-{
-  if (a->json)
-    put_pull_json(writer, objective, NULL, EXIT_USAGE);
-  else
-    thr_text_printf(writer->out, "  %-12s%14s   not with %s\n", thr_objective_name(objective), "-", option);
-  return EXIT_OK;
-}
-
 /* Time that nobody asked for is no limit on work that is counted. *work: what limits count with. */
 static thr_limits limits_for(const arguments *a, const thr_request *options, double seconds, double *work)
 {
@@ -292,11 +229,9 @@ static int plan_and_put(thr_writer *writer, const arguments *a, thr_objective ob
 {
   thr_err err = {0};
   thr_plan other = {0};
-  if (objective == a->aims.objective) return put_objective(writer, a, objective, p);
+  if (objective == a->request.objective) return put_objective(writer, a, objective, p);
   thr_request options = p->options;
   ask(a, objective, &options);
-  const char *refused = cords_args_refused(&a->cords, &options);
-  if (refused) return put_refused(writer, a, objective, refused);
   double work;
   thr_limits limits = limits_for(a, &options, options.time_limit, &work);
   if (deadline > 0) limits.deadline = deadline;
@@ -338,7 +273,7 @@ static double deadline_of(const arguments *a)
 /* Seconds for the search: of a time that was asked for what the rest leaves. */
 static double time_of_plan(const arguments *a, const thr_request *options)
 {
-  bool more = a->turning.compare || a->turning.frontier || a->compare;
+  bool more = a->request.compare || a->request.frontier || a->compare;
   return a->guard.seconds <= 0 ? options->time_limit : thr_dispatch_search_seconds(options->time_limit, more);
 }
 
@@ -359,7 +294,7 @@ static int write_frontier(const arguments *a, const thr_plan *plan, const thr_ri
   thr_physics physics;
   char stem[256];
   if (frontier->n == 0) {
-    cli_error("%s: nothing to draw: there is no frontier", a->turning.plot);
+    cli_error("%s: nothing to draw: there is no frontier", a->request.plot);
     return EXIT_INPUT;
   }
   cli_stem(a->path, stem, sizeof stem);
@@ -378,7 +313,7 @@ static int write_frontier(const arguments *a, const thr_plan *plan, const thr_ri
                                     .mark = mark};
   if (!st) st = thr_frontier_svg(&chart, &svg, &err);
   free(mark);
-  return cli_write_drawn(st, &svg, a->turning.plot, &err);
+  return cli_write_drawn(st, &svg, a->request.plot, &err);
 }
 
 static int put_turning(thr_writer *writer, const arguments *a, planned *x)
@@ -387,14 +322,14 @@ static int put_turning(thr_writer *writer, const arguments *a, planned *x)
   thr_err err = {0};
   thr_limits limits = cli_limits(0);
   limits.deadline = deadline_of(a);
-  thr_status st = thr_rivals_make(&x->plan, &x->report.shortest, a->turning.compare, a->turning.frontier, &limits, &rivals, &err);
+  thr_status st = thr_rivals_make(&x->plan, &x->report.shortest, a->request.compare, a->request.frontier, &limits, &rivals, &err);
   cli_progress_end();
-  if (a->turning.frontier && !a->turning.minimize && x->plan.options.cords > 1)
+  if (a->request.frontier && !a->request.minimize && x->plan.options.cords > 1)
     cli_note("note: with --frontier all turning together is minimized; --minimize max-turning is for the cord that turns most");
   if (rivals.no_frontier.code) cli_note("no frontier: %s", rivals.no_frontier.text);
   put_plan(writer, a, x, &rivals);
   int code = st ? cli_fail(&err) : EXIT_OK;
-  if (!code && a->turning.plot) code = write_frontier(a, &x->plan, &rivals);
+  if (!code && a->request.plot) code = write_frontier(a, &x->plan, &rivals);
   thr_rivals_destroy(&rivals);
   return code;
 }
@@ -545,11 +480,8 @@ static int write_plan(const arguments *a, thr_plan *p, places *to, int *code)
 /* Was nothing said of what the plan is to be, and how long it may take? */
 static bool is_usual(const arguments *a, const thr_request *options)
 {
-  const cords_args usual = cords_args_default();
-  return thr_wants_length(options) && !thr_wants_balance(options) && a->cords.most == 0 && a->cords.max_length == 0 &&
-         strcmp(a->cords.ends, usual.ends) == 0 && a->cords.cover == usual.cover && a->cords.distinct == 0 &&
-         a->cords.capacity == 0 && !cords_args_limits_pull(&a->cords) && options->joint == THR_JOINT_SOLID &&
-         a->guard.seconds < 0 && !a->compare;
+  return thr_wants_length(options) && !thr_wants_balance(options) && request_args_usual(&a->request) && a->guard.seconds < 0 &&
+         !a->compare;
 }
 
 static void put_order(const arguments *a, const thr_plan *p, thr_text *text)
@@ -603,7 +535,7 @@ static int write_outputs(const arguments *a, planned *x, int *planned_code)
   places to = {0};
   const int written = write_plan(a, p, &to, planned_code);
   if (!to.plan) return written; /* there is none */
-  const bool is_silent = strcmp(to.plan, "-") == 0 || (cli_quiet && !a->json && !a->turning.plot);
+  const bool is_silent = strcmp(to.plan, "-") == 0 || (cli_quiet && !a->json && !a->request.plot);
   int code = is_silent ? EXIT_OK : print_summary(a, x);
   const int drawn = written ? EXIT_OK : write_drawings(a, p, &to);
   if (!code) code = drawn;
@@ -649,9 +581,9 @@ static int plan_frame(const arguments *a, thr_frame *framework)
   thr_err err = {0};
   planned x = {0};
   thr_request options = thr_request_default();
-  ask(a, a->aims.objective, &options);
+  ask(a, a->request.objective, &options);
   int code = apply_physics(a, framework, &options);
-  if (!code) code = cords_args_apply(&a->cords, framework, &options);
+  if (!code) code = request_args_apply(&a->request, framework, &options);
   if (code == EXIT_OK) {
     thr_status st = make_plan(a, framework, &options, &x, &err);
     if (guard_deadline() > 0) best_found(NULL, x.plan.cord, x.plan.n_cords, x.plan.symmetry.present ? &x.plan.symmetry : NULL);

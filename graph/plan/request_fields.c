@@ -277,17 +277,18 @@ const thr_request_field thr_request_fields[] = {
     {"end_nodes", .kind = THR_ASKS_OTHER},  /* with ends */
     {"end_counts", .kind = THR_ASKS_OTHER}, /* with ends */
     {"turning", OTHER(turning)},
-    {"cost", "turning", WORD(thr_turn_cost_name, THR_N_TURN_COSTS), AT(turning.cost), .always = true},
-    {"length_slack", "turning", AMOUNT_OR_NULL, AT(turning.length_slack), .high = 1e100, .always = true},
-    {"minimize", "turning", OTHER(minimize), .always = true},
-    {"tour", "turning", WORD(thr_tour_name, THR_N_TOURS), AT(turning.tour), .always = true},
-    {"pairings", "turning", WORD(thr_pairings_name, 2), AT(turning.pairings), .always = true},
-    {"nodes", "turning", COUNT, AT(turning.nodes), .low = 1, .high = INT32_MAX},
+    {"cost", .option = "turn-cost", .in = "turning", WORD(thr_turn_cost_name, THR_N_TURN_COSTS), AT(turning.cost),
+     .always = true},
+    {"length_slack", .in = "turning", AMOUNT_OR_NULL, AT(turning.length_slack), .high = 1e100, .always = true},
+    {"minimize", .in = "turning", OTHER(minimize), .always = true},
+    {"tour", .in = "turning", WORD(thr_tour_name, THR_N_TOURS), AT(turning.tour), .always = true},
+    {"pairings", .in = "turning", WORD(thr_pairings_name, 2), AT(turning.pairings), .always = true},
+    {"nodes", .in = "turning", COUNT, AT(turning.nodes), .low = 1, .high = 1e6},
     {"symmetry", OTHER(symmetry)},
-    {"group", "symmetry", OTHER(group), .always = true},
-    {"geometric", "symmetry", AMOUNT_OR_NULL, AT(symmetry.geometric), .high = 1e100, .always = true},
-    {"counted", "symmetry", OTHER(counted)},
-    {"prefer", "symmetry", OTHER(prefer), .always = true},
+    {"group", .in = "symmetry", OTHER(group), .always = true},
+    {"geometric", .in = "symmetry", AMOUNT_OR_NULL, AT(symmetry.geometric), .high = 1e100, .always = true},
+    {"counted", .in = "symmetry", OTHER(counted)},
+    {"prefer", .in = "symmetry", OTHER(prefer), .always = true},
     {"order", WORD(thr_order_name, THR_N_ORDERS), AT(order)},
     {"crossings", WORD(thr_crossings_name, THR_N_CROSSINGS), AT(crossings)},
     {"needles", COUNT, AT(needles), .low = 1, .high = 2},
@@ -310,12 +311,13 @@ static thr_request unsaid(void)
 const thr_request_field *thr_request_find(const char *option)
 {
   for (int i = 0; i < thr_request_n_fields; i++) {
-    const char *key = thr_request_fields[i].key, *letter = option;
+    const thr_request_field *field = &thr_request_fields[i];
+    const char *key = field->option ? field->option : field->key, *letter = option;
     while (*key && (*key == *letter || (*key == '_' && *letter == '-'))) {
       key++;
       letter++;
     }
-    if (!*key && !*letter) return &thr_request_fields[i];
+    if (!*key && !*letter) return field;
   }
   return NULL;
 }

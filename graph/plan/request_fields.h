@@ -36,8 +36,9 @@ typedef struct {
 } thr_request_reader;
 
 typedef struct {
-  const char *key; /* the member; the option on the command line has dashes for underscores */
-  const char *in;  /* the member of `options` that has it: "turning", "symmetry"; NULL: `options` itself */
+  const char *key;    /* the member */
+  const char *option; /* on the command line; NULL: the key with dashes for underscores */
+  const char *in;     /* the member of `options` that has it: "turning", "symmetry"; NULL: `options` itself */
   thr_asks kind;
   size_t offset;    /* of the value in thr_request */
   double low, high; /* of a value that is asked for, both inclusive */

@@ -1,0 +1,579 @@
+/* Options of `thread plan` that say what the plan is to be: parsed, held against each other, laid over a request. */
+#include "cli/args/request_args.h"
+#include "cli/args/end_counts.h"
+#include "eval/cord/knots.h"
+#include "graph/framework/bore.h"
+#include "graph/framework/frame.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/request.h"
+#include "graph/plan/request_fields.h"
+#include "graph/plan/turning_proof.h"
+#include "graph/status.h"
+#include "planner/dispatch.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+request_args request_args_default(void)
+{
+  return (request_args){.asked = thr_request_default(), .ends = "closed"};
+}
+
+/* ---- single options ---- */
+
+/* Reads n letters of --cords as a number of cords. */
+static bool parse_number_of_cords(const char *text, int n, int *out)
+{
+  char number[16];
+  if (n <= 0 || n >= (int)sizeof number) {
+    cli_usage("plan", "--cords: expected a number of cords, A..B, ..B or auto");
+    return false;
+  }
+  snprintf(number, sizeof number, "%.*s", n, text);
+  return cli_int("plan", "--cords", number, 1, THR_MOST_CORDS, out);
+}
+
+/* Reads "4", "2..4", "..4" or "auto". */
+static bool parse_cords(request_args *a, const char *value)
+{
+  const char *dots = strstr(value, "..");
+  a->automatic = strcmp(value, "auto") == 0;
+  a->least = 1;
+  a->most = THR_MOST_CORDS;
+  if (a->automatic) return true;
+
+  /* One number is both ends of the range. */
+  if (!dots) {
+    const bool ok = parse_number_of_cords(value, (int)strlen(value), &a->most);
+    a->least = a->most;
+    return ok;
+  }
+
+  if (dots > value && !parse_number_of_cords(value, (int)(dots - value), &a->least)) return false;
+  if (!parse_number_of_cords(dots + 2, (int)strlen(dots + 2), &a->most)) return false;
+  if (a->least <= a->most) return true;
+  cli_usage("plan", "--cords %s: the first number is the smaller one", value);
+  return false;
+}
+
+/* Reads "50", which is newtons, or "20x", which is times the seating tension. */
+static bool parse_pull(request_args *a, const char *value)
+{
+  char number[64];
+  const size_t n = strlen(value);
+  a->pull_is_factor = n > 1 && value[n - 1] == 'x';
+  snprintf(number, sizeof number, "%.*s", (int)(a->pull_is_factor ? n - 1 : n), value);
+  if (!cli_double("plan", "--max-pull", number, 0, 1e100, &a->max_pull)) return false;
+  if (a->max_pull == 0) {
+    cli_usage("plan", "--max-pull 0: a cord needs some pull");
+  }
+  return a->max_pull > 0;
+}
+
+static bool parse_force(const char *option, const char *value, double *newtons)
+{
+  if (!cli_double("plan", option, value, 0, 1e100, newtons)) return false;
+  if (*newtons == 0) {
+    cli_usage("plan", "%s 0: expected a force in newtons", option);
+  }
+  return *newtons > 0;
+}
+
+/* Reads "5" or "5%". */
+static bool parse_slack(const char *text, double *slack)
+{
+  char *end;
+  const double percent = strtod(text, &end);
+  const bool ok = end != text && (*end == '\0' || strcmp(end, "%") == 0) && percent >= 0 && percent <= 1e6;
+  if (ok) {
+    *slack = percent / 100;
+  } else {
+    cli_usage("plan", "--length-slack %s: expected a percentage from 0 to 1e+06, like 5 or 5%%", text);
+  }
+  return ok;
+}
+
+static bool parse_objective(request_args *a, const char *value)
+{
+  int i;
+  a->objective_said = true;
+  if (!cli_choose("plan", "--objective", value, thr_dispatch_name, THR_N_OBJECTIVES, &i)) return false;
+  a->objective = thr_dispatch_objective(i);
+  return true;
+}
+
+static bool parse_minimize(request_args *a, const char *value)
+{
+  int i;
+  a->minimize = true;
+  if (!cli_choose("plan", "--minimize", value, thr_minimize_name, THR_N_MINIMIZE, &i)) return false;
+  a->largest = i > 0;
+  a->pull = thr_minimize_aim(i) == THR_AIM_PULL;
+  return true;
+}
+
+static bool parse_frontier(request_args *a, const char *value)
+{
+  enum { USUAL_POINTS = 9, MOST_POINTS = 1000 };
+  a->frontier = USUAL_POINTS;
+  return !value || cli_int("plan", "--frontier", value, 2, MOST_POINTS, &a->frontier);
+}
+
+/* Reads a number or a word into the request, in the range that its row of the table has. */
+static bool parse_field(request_args *a, const thr_request_field *field, const char *option, const char *value)
+{
+  void *to = thr_request_value(&a->asked, field);
+  if (field->kind == THR_ASKS_COUNT) return cli_int("plan", option, value, (int)field->low, (int)field->high, to);
+  if (field->kind == THR_ASKS_WORD) return cli_choose("plan", option, value, field->name, field->n_names, to);
+
+  /* The least amount may be anything above 0, which is no number to print. */
+  double *amount = to;
+  if (!cli_double("plan", option, value, 0, field->high, amount)) return false;
+  if (*amount >= field->low) return true;
+  cli_usage("plan", "%s %s: expected a number above 0", option, value);
+  return false;
+}
+
+/* What an option is about, for the refusal of options that would be ignored. */
+static void note_option(request_args *a, int option, const char *name)
+{
+  const bool is_spelled = option == OPTION_SLACK || option == OPTION_MINIMIZE || strcmp(name, "--turn-cost") == 0;
+  const bool is_turning = is_spelled || option == OPTION_FRONTIER || option == OPTION_COMPARE_SHORTEST ||
+                          option == OPTION_FRONTIER_PLOT || strcmp(name, "--tour") == 0 || strcmp(name, "--pairings") == 0 ||
+                          strcmp(name, "--nodes") == 0;
+  if (is_spelled) {
+    a->spelled = name;
+  }
+  if (is_turning && !a->turning) {
+    a->turning = name;
+  }
+  a->cover_said |= strcmp(name, "--cover") == 0;
+  a->pairings_said |= strcmp(name, "--pairings") == 0;
+}
+
+/* Returns the name of an option with its dashes, or NULL if it is none of ours. It lives as long as the program. */
+static const char *name_of(int option)
+{
+  static const struct option table[] = {REQUEST_OPTIONS, {NULL, 0, NULL, 0}};
+  static char name[sizeof table / sizeof *table][24];
+  for (int i = 0; table[i].name; i++) {
+    if (table[i].val == option) {
+      snprintf(name[i], sizeof name[i], "--%s", table[i].name);
+      return name[i];
+    }
+  }
+  return NULL;
+}
+
+bool request_option(request_args *a, int option, const char *value, bool *ok)
+{
+  const char *name = name_of(option);
+  if (!name) return false;
+  note_option(a, option, name);
+  switch (option) {
+  case OPTION_AIMS: a->aims = value; break;
+  case OPTION_OBJECTIVE: *ok = parse_objective(a, value); break;
+  case OPTION_MINIMIZE: *ok = parse_minimize(a, value); break;
+  case OPTION_SLACK: *ok = parse_slack(value, &a->asked.turning.length_slack); break;
+  case OPTION_FRONTIER: *ok = parse_frontier(a, value); break;
+  case OPTION_COMPARE_SHORTEST: a->compare = true; break;
+  case OPTION_FRONTIER_PLOT: a->plot = value; break;
+  case OPTION_CORDS: *ok = parse_cords(a, value); break;
+  case OPTION_MAX_PULL: *ok = parse_pull(a, value); break;
+  case OPTION_HAND: *ok = cli_hand("plan", value, &a->hand); break;
+  case OPTION_STRENGTH: *ok = parse_force(name, value, &a->strength); break;
+  case OPTION_BALANCE: a->balance = true; break;
+  case OPTION_ENDS: a->ends = value; break;
+  default: *ok = parse_field(a, thr_request_find(name + 2), name, value);
+  }
+  return true;
+}
+
+/* ---- what they come to ---- */
+
+/* Returns the option that limits the pull, or NULL. */
+static const char *pull_limit(const request_args *a)
+{
+  return a->max_pull > 0 ? "--max-pull" : a->hand > 0 ? "--hand" : a->strength > 0 ? "--cord-strength" : NULL;
+}
+
+bool request_args_limits_pull(const request_args *a)
+{
+  return pull_limit(a) != NULL;
+}
+
+/* Is a limit given that takes as many cords as needed? */
+static bool takes_few(const request_args *a)
+{
+  return a->asked.max_length > 0 || a->max_pull > 0 || a->hand > 0;
+}
+
+/* Passes over every edge: as many as different cords, unless it was said. */
+static int cover_of(const request_args *a)
+{
+  return a->cover_said ? a->asked.cover : a->asked.distinct ? a->asked.distinct : 1;
+}
+
+bool request_args_usual(const request_args *a)
+{
+  const request_args usual = request_args_default();
+  return a->most == 0 && a->asked.max_length == 0 && strcmp(a->ends, usual.ends) == 0 && !a->cover_said &&
+         a->asked.distinct == 0 && a->asked.capacity == 0 && !pull_limit(a) && a->asked.joint == THR_JOINT_SOLID;
+}
+
+/* Of several cords the hand feels the one that turns most: a small sum may leave one that nobody can pull. */
+static bool wants_largest(const request_args *a)
+{
+  const bool several = a->most > 1 || takes_few(a);
+  return a->minimize ? a->largest : several && !a->balance && !a->frontier && a->asked.turning.tour == THR_TOUR_LEAST;
+}
+
+void request_args_ask(const request_args *a, const symmetry_args *symmetry, thr_objective objective, thr_request *request)
+{
+  const thr_request usual = thr_request_default();
+  const bool is_own = objective == a->objective;
+  thr_aims *aims = &request->aims;
+
+  /* What is about turning or symmetry concerns the objective that it was said of. */
+  *aims = thr_aims_of(objective);
+  request->turning = is_own && thr_wants_turning(request) ? a->asked.turning : usual.turning;
+  request->symmetry = is_own && thr_wants_symmetry(request) ? symmetry->options : usual.symmetry;
+  if (thr_wants_symmetry(request)) {
+    request->symmetry.counted = a->most > 0 || takes_few(a);
+  }
+  if (is_own && thr_wants_symmetry(request)) {
+    memcpy(aims->aim, symmetry->prefer, sizeof symmetry->prefer);
+  }
+  if (is_own && thr_wants_turning(request) && wants_largest(a)) {
+    aims->aim[0] = a->pull ? THR_AIM_PULL : THR_AIM_MAX_TURNING;
+  }
+  if (is_own && a->balance) {
+    memmove(&aims->aim[1], aims->aim, (size_t)aims->n++ * sizeof *aims->aim);
+    aims->aim[0] = THR_AIM_LONGEST;
+  }
+
+  /* The rest is any objective's. How much may be pulled is known when cord and beads are. */
+  request->joint = a->asked.joint;
+  request->order = a->asked.order;
+  request->crossings = a->asked.crossings;
+  request->gap = a->asked.gap;
+  if (pull_limit(a) && request->max_pull == 0) {
+    request->max_pull = 1;
+  }
+}
+
+/* ---- what goes together ---- */
+
+/* Facts about what was asked. */
+enum {
+  LENGTH = 1 << 0,
+  TURNING = 1 << 1,
+  SYMMETRY = 1 << 2,
+  TUBE = 1 << 3,
+  CLASSICAL = 1 << 4, /* a tour by Fleury or Hierholzer */
+  PULL = 1 << 5,      /* a limit on it */
+  MAX_LENGTH = 1 << 6,
+  BALANCE = 1 << 7,
+  AUTOMATIC = 1 << 8,
+  RANGE = 1 << 9,
+  FEW = 1 << 10,
+  SEVERAL = 1 << 11,
+  COUNTED_ENDS = 1 << 12,
+  SLACK = 1 << 13,
+  SOME_SLACK = 1 << 14, /* more than 0 */
+  LARGEST = 1 << 15,
+  LEAST_PULL = 1 << 16,
+  FRONTIER = 1 << 17,
+  COMPARE = 1 << 18,
+  PLOT = 1 << 19,
+  PAIRINGS = 1 << 20,
+  NODES = 1 << 21,
+  CONFIRM = 1 << 22,
+  COST = 1 << 23, /* of turns, other than their angle */
+  CROSSINGS = 1 << 24,
+  DISTINCT = 1 << 25,
+  OF_TURNING = 1 << 26,  /* an option that only plans of little turning know */
+  OF_SYMMETRY = 1 << 27, /* the same of symmetric plans */
+  BOTH_PULLS = 1 << 28,  /* --max-pull and --hand */
+  MIXED = 1 << 29        /* little turning, and a wish that is about single cords or their number */
+};
+
+/* Refused is what has all facts of the first kind and none of the second. What stands for %: the option about symmetry (S) or
+ * turning (G), the crossings (X), the tour (T), the cost of turns (C), the limit (L), the limit of the pull (P), the number of
+ * cords (K). The first row that applies is said. */
+static const struct {
+  int all, none;
+  const char *say;
+} refused[] = {
+    {OF_SYMMETRY, SYMMETRY, "%S needs --objective symmetry"},
+    {CROSSINGS | TUBE, 0,
+     "--crossings %X does not go with --joint tube: the cords of a tube lie side by side in one bore and cross nowhere inside"},
+    {CROSSINGS | SYMMETRY, 0,
+     "--crossings %X does not go with --objective symmetry: copies of a cord cross each other where they meet"},
+    {CROSSINGS | PULL, 0, "--crossings %X does not go with a limit of the pull"},
+    {CROSSINGS | CLASSICAL, 0, "--crossings %X does not go with a classical tour"},
+    {OF_TURNING, TURNING, "%G needs --objective tortuosity"},
+    {PLOT, FRONTIER, "--plot draws the frontier: it needs --frontier"},
+    {LEAST_PULL | COST, 0, "--minimize pull is of angles: no --turn-cost %C"},
+    {PAIRINGS, CLASSICAL, "--pairings is for --tour fleury and --tour hierholzer"},
+    {CLASSICAL | NODES, 0, "--tour %T searches nothing: no --nodes"},
+    {CLASSICAL | SOME_SLACK, 0, "--tour %T takes the shortest passes: no --length-slack but 0"},
+    {CLASSICAL | LEAST_PULL, 0, "--tour %T minimizes nothing: no --minimize pull"},
+    {CLASSICAL | LARGEST, 0, "--tour %T minimizes nothing: no --minimize max-turning"},
+    {CLASSICAL | FRONTIER, 0, "--tour %T minimizes nothing: no --frontier"},
+    {TURNING | CLASSICAL | MAX_LENGTH, 0, "--max-length: not with --objective tortuosity"},
+    {TURNING | CLASSICAL | PULL, 0, "%P: not with --objective tortuosity"},
+    {TURNING | CLASSICAL | BALANCE, 0, "--balance: not with --objective tortuosity"},
+    {TURNING | CLASSICAL | AUTOMATIC, 0, "--cords auto: not with --objective tortuosity"},
+    {TURNING | CLASSICAL | RANGE, 0, "a range of --cords: not with --objective tortuosity"},
+    {CONFIRM, LENGTH, "--confirm always: of shortest passes only, with --objective length and --joint solid"},
+    {CONFIRM | TUBE, 0, "--confirm always: of shortest passes only, with --objective length and --joint solid"},
+    {BALANCE, SEVERAL | COUNTED_ENDS | PULL, "--balance needs several --cords, or --max-pull"},
+    {BALANCE | AUTOMATIC, 0, "--balance makes the longest cord as short as can be: no --cords auto with it"},
+    {BALANCE | MAX_LENGTH, 0, "--balance makes the longest cord as short as can be: no --max-length with it"},
+    {AUTOMATIC, FEW, "--cords auto: as many as needed for what? Give --max-length or --max-pull"},
+    {BOTH_PULLS, 0, "--max-pull says what --hand does: one of them"},
+    {DISTINCT | CLASSICAL, 0, "--distinct: not with --tour %T, which makes one cord in each component"},
+    {MIXED | SLACK, 0, "--length-slack: not with --balance, %L or a range of --cords, whose least length is not proved"},
+    {MIXED | FRONTIER, 0, "--frontier: not with --balance, %L or a range of --cords, whose least length is not proved"},
+    {MIXED | COMPARE, 0, "--compare-shortest: not with --balance, %L or a range of --cords, whose least length is not proved"},
+    {CLASSICAL | SEVERAL, 0, "--tour %T makes one cord in each component, not --cords %K"},
+    {CLASSICAL | TUBE, 0, "--tour %T ties no joints: no --joint tube"},
+};
+
+static int facts_of(const request_args *a, const symmetry_args *symmetry, const thr_request *wanted)
+{
+  const thr_request *asked = &a->asked;
+  const thr_turning_options *turning = &asked->turning;
+  const bool is_range = a->least != a->most, limits_pull = pull_limit(a);
+  const struct {
+    bool holds;
+    int fact;
+  } facts[] = {
+      {thr_wants_length(wanted), LENGTH},
+      {thr_wants_turning(wanted), TURNING},
+      {thr_wants_symmetry(wanted), SYMMETRY},
+      {asked->joint == THR_JOINT_TUBE, TUBE},
+      {turning->tour != THR_TOUR_LEAST, CLASSICAL},
+      {limits_pull, PULL},
+      {asked->max_length > 0, MAX_LENGTH},
+      {a->balance, BALANCE},
+      {a->automatic, AUTOMATIC},
+      {is_range, RANGE},
+      {takes_few(a), FEW},
+      {a->most > 1, SEVERAL},
+      {strchr(a->ends, ':'), COUNTED_ENDS},
+      {turning->length_slack >= 0, SLACK},
+      {turning->length_slack > 0, SOME_SLACK},
+      {a->largest, LARGEST},
+      {a->pull, LEAST_PULL},
+      {a->frontier > 0, FRONTIER},
+      {a->compare, COMPARE},
+      {a->plot, PLOT},
+      {a->pairings_said, PAIRINGS},
+      {turning->nodes > 0, NODES},
+      {asked->confirm == THR_CONFIRM_ALWAYS, CONFIRM},
+      {turning->cost != THR_TURN_ANGLE, COST},
+      {asked->crossings != THR_CROSSINGS_ALLOW, CROSSINGS},
+      {asked->distinct > 0, DISTINCT},
+      {a->turning, OF_TURNING},
+      {symmetry->given, OF_SYMMETRY},
+      {a->max_pull > 0 && a->hand > 0, BOTH_PULLS},
+      {thr_wants_turning(wanted) && (asked->max_length > 0 || limits_pull || a->balance || is_range), MIXED},
+  };
+  int sum = 0;
+  for (size_t i = 0; i < sizeof facts / sizeof *facts; i++) {
+    sum |= facts[i].holds ? facts[i].fact : 0;
+  }
+  return sum;
+}
+
+/* Prints a refusal with what stands for its letters; returns the exit code. */
+static int refuse(const request_args *a, const symmetry_args *symmetry, const char *say)
+{
+  char text[256], cords[16];
+  size_t n = 0;
+  snprintf(cords, sizeof cords, "%d", a->most);
+  for (; *say && n + 1 < sizeof text; say++) {
+    if (*say != '%') {
+      text[n++] = *say;
+      continue;
+    }
+    const char letter = *++say;
+    const char *word = letter == 'S'   ? symmetry->given
+                       : letter == 'G' ? a->turning
+                       : letter == 'X' ? thr_crossings_name((int)a->asked.crossings)
+                       : letter == 'T' ? thr_tour_name((int)a->asked.turning.tour)
+                       : letter == 'C' ? thr_turn_cost_name((int)a->asked.turning.cost)
+                       : letter == 'L' ? (pull_limit(a) ? pull_limit(a) : "--max-length")
+                       : letter == 'P' ? pull_limit(a)
+                                       : cords;
+    n += (size_t)snprintf(text + n, sizeof text - n, "%s", word);
+  }
+  text[n < sizeof text ? n : sizeof text - 1] = '\0';
+  return cli_usage("plan", "%s", text);
+}
+
+/* Checks numbers against each other. Returns -1, or prints and returns the exit code. */
+static int check_numbers(const request_args *a)
+{
+  const thr_request *asked = &a->asked;
+  const int cover = cover_of(a);
+  if (asked->capacity > 0 && asked->capacity < cover)
+    return cli_usage("plan", "--capacity %d leaves no room for --%s %d", asked->capacity, a->cover_said ? "cover" : "distinct",
+                     cover);
+  if (a->cover_said && asked->distinct > 0 && asked->cover < asked->distinct)
+    return cli_usage("plan", "--cover %d: --distinct %d needs as many passes", asked->cover, asked->distinct);
+  if (asked->distinct == 0 || a->most == 0 || a->most >= asked->distinct) return -1;
+  cli_error("--cords %d: no edge is passed by %d different cords (proved: there are too few)", a->most, asked->distinct);
+  return EXIT_INFEASIBLE;
+}
+
+/* Lets --aims, which says all that is minimized, say what the other options would. Returns -1, or prints and returns the code. */
+static int settle_aims(request_args *a, symmetry_args *symmetry)
+{
+  thr_err err = {0};
+  thr_request listed = thr_request_default();
+  const char *other = a->objective_said     ? "--objective"
+                      : a->spelled          ? a->spelled
+                      : a->balance          ? "--balance"
+                      : symmetry->preferred ? "--prefer"
+                                            : NULL;
+  if (!a->aims) return -1;
+  if (other) return cli_usage("plan", "--aims says all that is minimized: no %s beside it", other);
+  if (thr_aims_parse(a->aims, &listed, &err)) return cli_usage("plan", "--aims %s: %s", a->aims, err.text);
+  a->objective = thr_aims_objective(&listed);
+  a->largest = thr_wants_largest(&listed);
+  a->pull = thr_wants_pull(&listed);
+  a->minimize = true;
+  a->asked.turning.cost = listed.turning.cost;
+  a->asked.turning.length_slack = listed.turning.length_slack;
+  a->balance = thr_wants_balance(&listed);
+  thr_aims_order(&listed, symmetry->prefer);
+  return -1;
+}
+
+int request_args_check(request_args *a, symmetry_args *symmetry, thr_request *wanted)
+{
+  int code = settle_aims(a, symmetry);
+  if (code >= 0) return code;
+  request_args_ask(a, symmetry, a->objective, wanted);
+
+  /* A picture has to go somewhere. */
+  if (a->plot && !*a->plot) return cli_usage("plan", "an empty name is no place to write to");
+  if (a->plot && strcmp(a->plot, "-") == 0) return cli_usage("plan", "--plot -: the summary has stdout; name a file");
+
+  const int facts = facts_of(a, symmetry, wanted);
+  for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
+    if ((facts & refused[i].all) == refused[i].all && !(facts & refused[i].none)) return refuse(a, symmetry, refused[i].say);
+  }
+  return check_numbers(a);
+}
+
+/* ---- with the framework ---- */
+
+/* Cord and bore say how many passes there is room for, where both were given. A symmetric plan is not held to that. */
+static int apply_bore(thr_request *request)
+{
+  const thr_physics *physics = &request->physics;
+  if (physics->bore == 0 || physics->cord_diameter == 0 || thr_wants_symmetry(request)) return EXIT_OK;
+  const int fit = thr_bore_fits(physics->bore, physics->cord_diameter);
+  if (fit < request->cover) {
+    cli_error("%d %s of a cord of %g mm %s through a bore of %g mm with ease; --cover asks for %d", fit,
+              cli_plural(fit, "pass", "passes"), physics->cord_diameter, fit == 1 ? "goes" : "go", physics->bore, request->cover);
+    return EXIT_INFEASIBLE;
+  }
+  if (request->capacity == 0 || fit < request->capacity) {
+    request->capacity = fit;
+  }
+  return EXIT_OK;
+}
+
+/* Sets what may be pulled, as a factor on the seating tension. */
+static int apply_pull(const request_args *a, thr_request *request)
+{
+  const double seating = request->physics.seating;
+  const double left = thr_strength_left(0), bears = a->strength * left;
+  const double newtons = a->max_pull > 0 ? a->max_pull * (a->pull_is_factor ? seating : 1) : a->hand > 0 ? a->hand : bears;
+  const char *option = pull_limit(a);
+  if (!option) return EXIT_OK;
+
+  if (a->strength > 0 && newtons > bears) {
+    cli_error("%s: a pull of %.6g N would break a cord of --cord-strength %.6g, of which an %s knot leaves %.0f %%; --max-pull "
+              "%.6g keeps to it",
+              option, newtons, a->strength, thr_knot_name(0), 100 * left, bears);
+    return EXIT_INFEASIBLE;
+  }
+  request->max_pull = newtons / seating;
+  if (request->max_pull >= 1) return EXIT_OK;
+  cli_error("%s: %.6g N is less than the seating tension of %.6g N, which every cord needs; --seating makes that less", option,
+            newtons, seating);
+  return EXIT_INFEASIBLE;
+}
+
+/* Sets how many cords there may be; where a limit takes as many as needed, any number. */
+static void apply_number(const request_args *a, thr_request *request)
+{
+  const bool is_free = a->most == 0 && takes_few(a);
+  const bool is_counted = a->most > 0 || is_free || !thr_wants_symmetry(request);
+  const int usual = request->distinct > 0 && is_counted ? request->distinct : 1;
+  request->cords = a->most ? a->most : is_free ? THR_MOST_CORDS : usual;
+  request->cords_least = a->most && a->least > usual ? a->least : usual;
+}
+
+/* Numbers of ends say how many cords there are. */
+static int apply_counts(const request_args *a, const thr_frame *frame, thr_request *request)
+{
+  int least, most;
+  if (thr_wants_symmetry(request))
+    return cli_usage("plan", "--ends NAME:N: not with --objective symmetry, whose groups move ends to other nodes");
+  const int code = end_counts_cords(frame, request->end_count, &least, &most);
+  if (code) return code;
+
+  if (request->turning.tour != THR_TOUR_LEAST && most > 1)
+    return cli_usage("plan", "--tour %s makes one cord in each component, not the %d of --ends %s",
+                     thr_tour_name((int)request->turning.tour), most, a->ends);
+  if (most > THR_MOST_CORDS || (a->most && (most > a->most || least < a->least))) {
+    const int wrong = most > a->most ? most : least;
+    cli_error("--ends %s: these are the ends of %d %s in a component; --cords says otherwise", a->ends, wrong,
+              cli_plural(wrong, "cord", "cords"));
+    return EXIT_INFEASIBLE;
+  }
+  if (least < request->distinct) {
+    cli_error("--ends %s: these are the ends of %d %s in a component; --distinct %d needs as many", a->ends, least,
+              cli_plural(least, "cord", "cords"), request->distinct);
+    return EXIT_INFEASIBLE;
+  }
+  request->ends = THR_ENDS_COUNTS;
+  request->cords_least = least;
+  request->cords = most;
+  return EXIT_OK;
+}
+
+int request_args_apply(const request_args *a, const thr_frame *frame, thr_request *request)
+{
+  request->cover = cover_of(a);
+  request->distinct = a->asked.distinct;
+  request->capacity = a->asked.capacity;
+  request->engine = a->asked.engine;
+  request->confirm = a->asked.confirm;
+  request->max_length = a->asked.max_length;
+  int code = apply_bore(request);
+  if (!code) code = apply_pull(a, request);
+  if (code) return code;
+  apply_number(a, request);
+
+  /* Ends by number, or by where they may be. */
+  request->end_count = thr_calloc((size_t)frame->n_nodes, sizeof *request->end_count);
+  if (!request->end_count) {
+    cli_error("out of memory");
+    return EXIT_INTERNAL;
+  }
+  code = end_counts_parse(frame, a->ends, request->end_count);
+  if (code == EXIT_OK) return apply_counts(a, frame, request);
+  if (code > 0) return code;
+  free(request->end_count);
+  request->end_count = NULL;
+  return cli_resolve_ends(a->ends, frame, request);
+}
