@@ -125,27 +125,35 @@ fi
 tier=${1:-test}
 export SHARE_RELEASE=1 SHARE_ASAN=10 MEMORY_SAMPLES=40 MUTANTS=50 FUZZ_RUNS=30000
 # Golden cases that take minutes under sanitizers, and whose planning and evaluation other tests run under them.
-slow='asan/figures.case asan/eval.case asan/cords.case asan/turning.case asan/threads.case'
+slow='asan/figures.case asan/eval.case asan/cords.case asan/turning.case asan/threads.case asan/convert.case asan/plan.case asan/compare.case asan/schedules.case'
 builds='release asan' tree='layers layers-self-test format bench/smallest library/install readme examples formats/mutants' programs='second/json second/plans viewer/page viewer/browser' whole='' fuzz=yes
 case $tier in
 test) whole='release/watchdog release/memory' MEMORY_SAMPLES=4 ;;
 fast) builds=release SHARE_RELEASE=10 programs='' fuzz='' ;;
-rest) builds=asan SHARE_ASAN=5 tree='' programs='' whole=release/memory MEMORY_SAMPLES=12 FUZZ_RUNS=100000 ;;
+rest) builds=asan SHARE_ASAN=8 tree='' programs='' whole=release/memory MEMORY_SAMPLES=12 FUZZ_RUNS=100000 ;;
 all) SHARE_ASAN=1 slow=asan/figures.case whole='release/watchdog release/memory exchange web static windows' MUTANTS=2000 FUZZ_RUNS=1000000 ;;
 fuzz) builds='' tree='' programs='' FUZZ_RUNS=0 ;;
 *) echo "tests/run.sh: $tier is none of test, fast, rest, all and fuzz" >&2 && exit 2 ;;
 esac
 
-list() { # every job of the tier; of a build, the longest first; of the rest those that `make test` runs a part of
+examples_under_sanitizers() { # of those tests that take a share of their examples
+  grep -lE 'share_of|ADD_EXAMPLES|ADD_LARGE' tests/property/*.c | sed 's#^tests/#asan/#; s#\.c$##'
+}
+
+list() { # every job of the tier; what `make test` leaves out is the rest's
   local build case
   printf '%s\n' $tree $whole $programs
   if [ "$tier" = rest ]; then
-    grep -lE 'share_of|ADD_EXAMPLES|ADD_LARGE' tests/property/*.c | sed 's#^tests/#asan/#; s#\.c$##'
+    examples_under_sanitizers
     "$MAKE" -s list-fuzz
     return
   fi
   for build in $builds; do
-    "$MAKE" -s list-tests | sed "s#^#$build/#"
+    if [ "$tier $build" = 'test asan' ]; then
+      "$MAKE" -s list-tests | sed "s#^#$build/#" | grep -vxF "$(examples_under_sanitizers)"
+    else
+      "$MAKE" -s list-tests | sed "s#^#$build/#"
+    fi
     for case in tests/golden/*.case; do
       [[ " $slow " == *" $build/${case##*/} "* ]] || echo "$build/${case#tests/}"
     done
