@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs what README.md shows: every line "$ command" in a block, in order and in one folder, and compares what it prints to stdout
-# with what stands below it. ".." there, on a line of its own or inside, stands for anything; a command with nothing below it may
+# Runs what README.md and docs/guide.md show: every line "$ command" in a block, in order and in one folder each, and compares what
+# it prints to stdout with what stands below it. ".." there, on a line of its own or inside, stands for anything; a command with nothing below it may
 # print anything. tests/readme/run.sh PROGRAM; closes with "N passed, N failed".
 set -u
 [ $# -eq 1 ] || { echo "usage: tests/readme/run.sh PROGRAM" >&2; exit 2; }
@@ -10,7 +10,8 @@ work=$(mktemp -d) || exit 2
 trap 'rm -rf "$work"' EXIT
 # One golden case each; exit code 5 says that not all is proved. Searches that their time ends (--objective, --balance) are only run,
 # for two seconds: what they find may depend on the machine.
-awk '
+cases() { # PAGE
+  awk '
   function finish() { if (shown && !lines) print " ..."; if (shown) print "? 0"; shown = lines = gap = 0 }
   /^```/ { inside = !inside; finish(); next }
   !inside { next }
@@ -31,5 +32,8 @@ awk '
     if ($0 == "..") $0 = " ..."
     gsub(/ \.\. /, "...")
     print
-  }' README.md >"$work/readme.case"
-tests/golden/run.sh "$program" "$work/readme.case"
+  }' "$1"
+}
+cases README.md >"$work/readme.case"
+cases docs/guide.md >"$work/guide.case"
+tests/golden/run.sh "$program" "$work/readme.case" "$work/guide.case"
