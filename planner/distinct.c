@@ -63,7 +63,6 @@ static thr_status plan_alike(const thr_frame *frame, const thr_request *options,
   plan->proof.lower_bound *= times;
   plan->turning.price *= times;
   plan->turning.lower_bound *= times;
-  plan->turning.pairing_bound *= times;
   if (plan->turning.length_limit > 0) plan->turning.length_limit *= times;
   if (!st) return made;
   thr_plan_destroy(plan);

@@ -67,10 +67,6 @@ static double turning_gap(const compare_entry *e)
 {
   return e->plan.turning.present ? 100 * e->plan.turning.gap : NAN;
 }
-static double pairing_bound(const compare_entry *e)
-{
-  return angle_claim(e) ? thr_degrees(angle_claim(e)->pairing_bound) : NAN;
-}
 static double largest_bound(const compare_entry *e)
 {
   return angle_claim(e) && !thr_wants_pull(&e->plan.options) ? thr_degrees(angle_claim(e)->largest_bound) : NAN;
@@ -179,7 +175,6 @@ const compare_row compare_rows[] = {
     {"above the least turning, %", "above_least_turning_percent", above_least_turning, false, -3, THR_CAPSTAN, true, false},
     {"turning: proven bound, deg", "turning_bound_deg", turning_bound, false, 1, THR_CAPSTAN, true, true},
     {"turning: gap to it %", "turning_gap_percent", turning_gap, false, -6, THR_CAPSTAN, true, true},
-    {"turning: pairing bound, deg", "pairing_bound_deg", pairing_bound, false, 1, THR_CAPSTAN, true, true},
     {"turning: bound of a cord, deg", "max_turning_bound_deg", largest_bound, false, 1, THR_CAPSTAN, true, true},
     {"sharpest turn, deg", "worst_turn_deg", worst_turn, true, 1, THR_CAPSTAN, false, false},
     {"turns over 60 deg", "turns_over_60", turns_over_60, true, -1, THR_CAPSTAN, false, false},

@@ -244,6 +244,9 @@ void terms_put(thr_text *text, const thr_plan *plan)
                     slack_proved(plan) ? "verified" : "not verified");
   if (row_asked(plan))
     thr_text_printf(text, "  not verified: that the group is row %s of a table of symmetries\n", plan->options.symmetry.group);
+  if (plan->turning.pairing_bound > 0) {
+    thr_text_append(text, "  not verified: pairing_bound, which plans no longer state\n");
+  }
   if (measured(plan) && plan->evaluation.standing.taut)
     thr_text_append(text, "  not verified: the turns of the tight cords; what follows from them is\n");
   else if (measured(plan))

@@ -177,9 +177,7 @@ static void put_machinery(thr_text *text, const thr_plan *plan)
                   cli_plural(n, "branching", "branchings"), tree->n_duals,
                   cli_plural(tree->n_duals, "multiplier set", "multiplier sets"));
   put_price(text, plan, claim->lower_bound);
-  thr_text_append(text, "\n         these passes, paired at every node on its own: ");
-  put_price(text, plan, claim->pairing_bound);
-  thr_text_append(text, "; that may be several loops\n");
+  thr_text_append(text, "\n");
 }
 
 /* What a limit on the length is measured from, where that is more than the length proof needs: the shortest passes may not hold
@@ -407,7 +405,6 @@ static void put_claim_json(thr_writer *writer, const thr_plan *plan, const thr_t
   put_bound_json(writer, plan, bound ? bound->lower_bound : NAN);
   thr_write_number(writer, "turning_gap", own->present ? own->gap : bound ? 1 - bound->lower_bound / price : NAN);
   thr_write_string(writer, "turning_status", proof_status(own->present, own->optimal));
-  thr_write_number(writer, "pairing_bound", own->present ? own->pairing_bound : NAN);
   const bool of_turning = bound && in_angles(plan) && !thr_wants_pull(&plan->options);
   thr_write_number(writer, "max_turning_bound", of_turning ? bound->largest_bound : NAN);
   thr_write_number(writer, "max_price_bound", bound ? bound->largest_bound : NAN);

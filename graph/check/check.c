@@ -275,7 +275,6 @@ static void take_round(const thr_plan *plan, int n_components, int *next, thr_pl
   part->proof.lower_bound = plan->proof.lower_bound / rounds;
   part->turning.price = plan->turning.price / rounds;
   part->turning.lower_bound = plan->turning.lower_bound / rounds;
-  part->turning.pairing_bound = plan->turning.pairing_bound / rounds;
   if (plan->turning.length_limit > 0) part->turning.length_limit = plan->turning.length_limit / rounds;
 }
 

@@ -44,8 +44,8 @@ thr_status thr_check_tied_cords(const thr_frame *frame, const thr_request *optio
 
 /* What the tree of a claim proves about these cords (which must cover the framework as the options say): fills found but for its
  * tree. Of the claim only tree, most_passes and length_limit are read. Optimal: the bound meets the price within the rounding of
- * the sum. THR_EVIOLATED: the tree proves nothing, or the cords are not of the kind that the proof is about. O(leaves * columns),
- * and up to a million steps per node, some milliseconds, for the pairing bound. */
+ * the sum. THR_EVIOLATED: the tree proves nothing, or the cords are not of the kind that the proof is about. O(leaves *
+ * columns). */
 thr_status thr_check_turning(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                              const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err) THR_MUST_CHECK;
 

@@ -1,5 +1,5 @@
 /* The checker's part for turning: what the tree of multipliers proves about a plan, and whether the plan is of the kind that the
- * proof is about. Prices and pairings are worked out here; the tree is graph/check/turning_proof.c's. */
+ * proof is about. The price of the cords' turns is worked out here; the tree is graph/check/turning_proof.c's. */
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
 #include "graph/check/few_edges.h"
@@ -16,134 +16,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- the cheapest pairing of a node on its own ---- */
-
-/* Points at a node come in kinds: the passes of an edge are alike, and so are the cord ends (the last kind, if there are any). */
-typedef struct {
-  int n_kinds, size;   /* size: of the table */
-  int *count, *stride; /* [n_kinds] points of a kind; step in the table that one of them makes */
-  double *price;       /* [n_kinds * n_kinds] of pairing two points; NULL without a table */
-} node_points;
-
-static void node_points_destroy(node_points *k)
-{
-  free(k->count);
-  free(k->stride);
-  free(k->price);
-}
-
 double thr_check_price(const thr_frame *frame, thr_turn_cost cost, int in, int out)
 {
   if (thr_turn_counted(cost)) return thr_turn_price(frame, cost, in, out);
   return thr_turn_cost_of(cost, in == (out ^ 1) ? THR_PI : thr_check_angle(frame, in, out));
-}
-
-/* Nothing turns where a cord ends; only where an edge is the only one may a cord turn back. */
-static void set_prices(node_points *k, const thr_frame *frame, thr_turn_cost cost, int v)
-{
-  int d = thr_degree(frame, v), n = k->n_kinds;
-  const int *half = frame->half + frame->first[v];
-  for (int i = 0; i < n; i++)
-    for (int j = 0; j < n; j++) {
-      bool forbidden = i == j && (i == d || d > 1);
-      k->price[i * n + j] = forbidden ? INFINITY : i == d || j == d ? 0 : thr_check_price(frame, cost, half[i] ^ 1, half[j]);
-    }
-}
-
-static thr_status node_points_init(node_points *k, const thr_frame *frame, thr_turn_cost cost, int v, const int *passes, int ends,
-                                   thr_err *err)
-{
-  enum { LARGEST = 1 << 16 }; /* some milliseconds */
-  int d = thr_degree(frame, v);
-  size_t n = (size_t)d + 1;
-  *k = (node_points){.n_kinds = d + (ends > 0), .size = 1};
-  k->count = thr_calloc(n, sizeof *k->count);
-  k->stride = thr_calloc(n, sizeof *k->stride);
-  if (!k->count || !k->stride) return thr_nomem(err);
-  for (int i = 0; i < k->n_kinds; i++) {
-    k->count[i] = i < d ? passes[frame->half[frame->first[v] + i] >> 1] : ends;
-    k->stride[i] = k->size;
-    k->size = k->size > LARGEST / (k->count[i] + 1) ? LARGEST + 1 : k->size * (k->count[i] + 1);
-  }
-  if (k->size > LARGEST) k->size = 0;
-  if (k->size == 0) return THR_OK;
-  if (!(k->price = thr_calloc(n * n, sizeof *k->price))) return thr_nomem(err);
-  set_prices(k, frame, cost, v);
-  return THR_OK;
-}
-
-/* Least price of a turn from half-edge i of the d at a node to another. No turn costs more than a sharper one, so only the
- * straightest are priced: those whose cosines are the same but for rounding. */
-static double cheapest_turn(const thr_frame *frame, thr_turn_cost cost, const int *half, int d, double (*unit)[3], int i)
-{
-  double straight = -INFINITY, least = INFINITY;
-  for (int pass = 0; pass < 2; pass++)
-    for (int j = 0; j < d; j++) {
-      double cosine = -(unit[i][0] * unit[j][0] + unit[i][1] * unit[j][1] + unit[i][2] * unit[j][2]);
-      if (j == i) continue;
-      if (pass == 0)
-        straight = fmax(straight, cosine);
-      else if (cosine >= straight - 1e-12)
-        least = fmin(least, thr_check_price(frame, cost, half[i] ^ 1, half[j]));
-    }
-  return least;
-}
-
-/* A bound where the table would be too large: every pass pays at least half of its cheapest turn, unless it goes on to a cord
- * end, of which there are so many. */
-static thr_status half_prices(const thr_frame *frame, thr_turn_cost cost, int v, const int *passes, int ends, double *sum,
-                              thr_err *err)
-{
-  int d = thr_degree(frame, v);
-  const int *half = frame->half + frame->first[v];
-  double half_sum = 0, most = 0, (*unit)[3] = thr_calloc((size_t)d, sizeof *unit);
-  if (!unit) return thr_nomem(err);
-  for (int i = 0; i < d; i++) {
-    const double *from = frame->xyz[v], *to = frame->xyz[thr_head(frame, half[i])];
-    double size = hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
-    for (int k = 0; k < 3; k++)
-      unit[i][k] = (to[k] - from[k]) / size;
-  }
-  for (int i = 0; i < d && d > 1; i++) {
-    double least = cheapest_turn(frame, cost, half, d, unit, i) / 2;
-    half_sum += passes[half[i] >> 1] * least;
-    most = fmax(most, least);
-  }
-  free(unit);
-  *sum += fmax(0, half_sum - ends * most);
-  return THR_OK;
-}
-
-/* Dynamic programming over how many points of each kind are left: the first kind with one left is paired with any. table: [size]
- * zeros. */
-static double cheapest(const node_points *k, double *table)
-{
-  int n = k->n_kinds;
-  for (int s = 1; s < k->size; s++) {
-    int first = 0;
-    while (s / k->stride[first] % (k->count[first] + 1) == 0)
-      first++;
-    int rest = s - k->stride[first];
-    table[s] = INFINITY;
-    for (int j = first; j < n; j++)
-      if (rest / k->stride[j] % (k->count[j] + 1) > 0)
-        table[s] = fmin(table[s], table[rest - k->stride[j]] + k->price[first * n + j]);
-  }
-  return table[k->size - 1];
-}
-
-static thr_status pair_node(const thr_frame *frame, thr_turn_cost cost, int v, const int *passes, int ends, double *sum,
-                            thr_err *err)
-{
-  node_points k;
-  thr_status st = node_points_init(&k, frame, cost, v, passes, ends, err);
-  double *table = st || !k.size ? NULL : thr_calloc((size_t)k.size, sizeof *table);
-  if (!st && k.size && !table) st = thr_nomem(err);
-  if (!st && table) *sum += cheapest(&k, table);
-  if (!st && !table) st = half_prices(frame, cost, v, passes, ends, sum, err);
-  free(table);
-  node_points_destroy(&k);
-  return st;
 }
 
 /* ---- the cords ---- */
@@ -155,14 +31,12 @@ typedef struct {
   int n_cords;
   int cords_least, cords_most; /* that a plan with these options has in all */
   int *passes;                 /* [n_edges] */
-  int *ends;                   /* [n_nodes] */
   bool *end_allowed;
 } walked;
 
 static void walked_destroy(walked *w)
 {
   free(w->passes);
-  free(w->ends);
   free(w->end_allowed);
 }
 
@@ -185,18 +59,13 @@ static thr_status walked_init(walked *w, const thr_frame *frame, const thr_reque
   size_t n = (size_t)frame->n_nodes;
   *w = (walked){.f = frame, .o = options, .cord = cord, .n_cords = n_cords};
   w->passes = thr_calloc((size_t)frame->n_edges, sizeof *w->passes);
-  w->ends = thr_calloc(n, sizeof *w->ends);
   w->end_allowed = thr_calloc(n, sizeof *w->end_allowed);
-  if (!w->passes || !w->ends || !w->end_allowed) return thr_nomem(err);
+  if (!w->passes || !w->end_allowed) return thr_nomem(err);
   for (int v = 0; v < frame->n_nodes; v++)
     w->end_allowed[v] = thr_plan_end_allowed(frame, options, v);
-  for (int i = 0; i < n_cords; i++) {
+  for (int i = 0; i < n_cords; i++)
     for (int k = 0; k < cord[i].n_passes; k++)
       w->passes[cord[i].half[k] >> 1]++;
-    if (options->ends == THR_ENDS_CLOSED) continue;
-    w->ends[thr_cord_start(frame, &cord[i])]++;
-    w->ends[thr_cord_end(frame, &cord[i])]++;
-  }
   return count_cords(w, err);
 }
 
@@ -309,10 +178,6 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, double 
   if (found->length_limit >= 0 && length > found->length_limit && !thr_check_close(length, found->length_limit, length))
     return thr_fail(err, THR_EVIOLATED, "proof.turning: the cords are %.12g long; the proof is about plans of at most %.12g",
                     length, found->length_limit);
-  for (int v = 0; v < frame->n_nodes; v++) {
-    thr_status st = pair_node(frame, w->o->turning.cost, v, w->passes, w->ends[v], &found->pairing_bound, err);
-    if (st) return st;
-  }
   return THR_OK;
 }
 
@@ -493,7 +358,6 @@ thr_status thr_check_turning_claim(const thr_plan *plan, double least_length, th
   double whole = 1 + found.price;
   if ((st = stated("price", claim->price, found.price, whole, err))) return st;
   if ((st = stated("largest.price", claim->largest, found.largest, whole, err))) return st;
-  if ((st = not_above("pairing_bound", claim->pairing_bound, found.pairing_bound, err))) return st;
   if ((st = not_above("lower_bound", claim->lower_bound, found.lower_bound, err))) return st;
   if ((st = not_above("largest.lower_bound", claim->largest_bound, found.largest_bound, err))) return st;
   double gap = found.price > 0 ? (claim->price - claim->lower_bound) / found.price : 0;

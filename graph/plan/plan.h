@@ -109,7 +109,7 @@ typedef struct {
   double price;         /* of all turns, as options.turning.cost prices them; THR_TURN_ANGLE: = metrics.turning */
   double lower_bound;   /* what the tree proves */
   double gap;           /* (price - lower_bound) / price, 0 if price is 0 */
-  double pairing_bound; /* sum over the nodes of the cheapest pairing of the passes and ends there, each node on its own */
+  double pairing_bound; /* that an older plan states; 0: none. Nothing verifies it, and it is not written */
   double largest;       /* price of the cord that turns most, or with THR_AIM_PULL the largest pulled turning, rad */
   double largest_bound; /* no plan of the same kind has less; with THR_AIM_PULL no threading whose cords turn back anywhere */
   bool largest_optimal;

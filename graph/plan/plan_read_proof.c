@@ -157,7 +157,8 @@ static thr_status read_turning_claim(const thr_field_reader *field_reader, const
   if (!st) st = thr_field_amount(field_reader, value, "price", &claim->price);
   if (!st) st = thr_field_amount(field_reader, value, "lower_bound", &claim->lower_bound);
   if (!st) st = thr_field_amount(field_reader, value, "gap", &claim->gap);
-  if (!st) st = thr_field_amount(field_reader, value, "pairing_bound", &claim->pairing_bound);
+  if (!st && thr_json_get(value, "pairing_bound"))
+    st = thr_field_amount(field_reader, value, "pairing_bound", &claim->pairing_bound);
   if (!st) st = read_largest(field_reader, value, claim);
   if (!st) st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
   if (!st) st = thr_field_or_null(field_reader, value, "length_limit", &claim->length_limit);

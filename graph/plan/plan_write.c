@@ -274,7 +274,6 @@ static void put_turning_proof(thr_writer *writer, const thr_plan *plan)
   thr_write_number(writer, "price", claim->price);
   thr_write_number(writer, "lower_bound", claim->lower_bound);
   thr_write_number(writer, "gap", claim->gap);
-  thr_write_number(writer, "pairing_bound", claim->pairing_bound);
   thr_write_line(writer, 2);
   thr_write_object(writer, "largest");
   thr_write_string(writer, "status", status_name(claim->largest_optimal));
