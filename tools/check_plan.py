@@ -477,6 +477,20 @@ class Cord:
 
 
 class Plan:
+    left_out = False  # was anything that a plan of version 1 proves within its limit on the pull?
+
+    def leave_out_older_pull(self):
+        """Claims about cords that a pass parts are not verified any more, nor what rests on them."""
+        stated, proof = self.proof, dict(self.proof)
+        by_walks = "walks" in (stated.get("length") or {})
+        self.left_out, self.proof = by_walks or "pull" in stated, proof
+        proof.pop("pull", None)
+        if by_walks:
+            proof.pop("length")
+            proof.pop("cords", None)
+            if (stated.get("turning") or {}).get("length_limit") is not None:
+                proof.pop("turning")
+
     def __init__(self, o):
         if type(o) is not dict or o.get("format") != "thread-plan":
             raise Unreadable("format: not a thread plan")
@@ -492,6 +506,8 @@ class Plan:
         self.file = o
         self.proof = member(o, "proof", "object", "")
         known(self.proof, "length cords pull turning", "proof")
+        if self.options.old_pull:
+            self.leave_out_older_pull()
         self.closing = self.options.ends == "closed"
         self.passes = [0] * f.m
         for cord in self.cords:
@@ -2147,12 +2163,11 @@ class Walks:
 
 
 class PulledWalks(Walks):
-    """Walks with a turn before and after which they turn by no more than a pull overcomes, less their lengths. (Version 1: a pass.)
+    """Walks with a turn before and after which they turn by no more than a pull overcomes, less their lengths.
     any_pull: by no more than their prices say."""
 
     def __init__(self, p, any_pull=False):
         f = p.frame
-        self.old = p.options.old_pull
         super().__init__(p, {(h, k): math.floor(f.angle(h, k) * UNIT) for h in range(2 * f.m) for k in f.at[f.tail(h)] if h <= k})
         o = p.options
         self.turning_allowed = -1
@@ -2195,9 +2210,9 @@ class PulledWalks(Walks):
             more = (lambda v: 0) if self.closed else (lambda v: self.node[v])
             ends = {x: more(self.node_of(x[0])) for x in order if self.node_of(x[0]) in home}
             after = self.all_worth(order, steps, ends, longest)
-            if not self.old:  # over the cut turn, or to an end without one
-                over = {x: max((after[to] + y for to, _, y in steps[x] if to in after), default=-math.inf) for x in order}
-                after = {x: max(y, ends.get(x, -math.inf)) for x, y in over.items() if x in ends or y > -math.inf}
+            # over the cut turn, or to an end without one
+            over = {x: max((after[to] + y for to, _, y in steps[x] if to in after), default=-math.inf) for x in order}
+            after = {x: max(y, ends.get(x, -math.inf)) for x, y in over.items() if x in ends or y > -math.inf}
             before = self.all_worth(order, steps, after, longest)
             firsts = [(d, (d, self.then(frozenset(), d, d))) for d in places if f.tail(d) in home]
             best = max([best] + [before[x] + self.passing(d) + more(f.tail(d)) for d, x in firsts if x in before])
@@ -2435,30 +2450,19 @@ def too_few(p, claim, place):
     limit = Fraction(math.log(o.max_pull))
     allowed = (limit + 2 * TOLERANCE * (1 + limit)) / Fraction(o.mu)
     bound = Fraction(0)  # on a side of a cut turn
-    if not o.old_pull:
-        walks = Walks(other, all_half_turns(f, o.tube))
-        bound = Fraction(walks.forced(True), UNIT)
+    walks = Walks(other, all_half_turns(f, o.tube))
+    bound = Fraction(walks.forced(True), UNIT)
     if "proof" in claim:
-        most = member(claim, "most_passes", "integer", place, 4 * max(o.need) + 4 if o.old_pull else 10**6, 10**6)
-        require(("cut" in claim) != o.old_pull, f"{place}.cut: with version 2, and only then")
-        cut = member(claim, "cut", "integer", place, 1, math.floor(math.pi * UNIT), default=None)
+        most = member(claim, "most_passes", "integer", place, 10**6, 10**6)
+        cut = member(claim, "cut", "integer", place, 1, math.floor(math.pi * UNIT))
         model = Model(other, cords, most, False, cut)
         model.read(member(claim, "proof", "object", place), place + ".proof")
         all_turns = model.bound(place + ".proof")
         require(all_turns is not None, f"{place}.proof: proves that there is no plan")
-        each = max(Fraction(0), Fraction(all_turns) / UNIT) / (cords * len(f.pieces))
-        if o.old_pull:
-            needed = 2 * math.log(o.max_pull) / o.mu + (math.pi if p.closing else 0)
-            each = max(each, largest_bound(other, model, cords, place + ".proof"), few_edges_bounds(other, True, needed * (1 + 1e-7) + 1e-7)[1])
-            if p.closing:  # Fenchel 1929; the last turn of a closed cord is at its ends
-                each = max(each, Fraction(2 * math.pi)) - Fraction(math.pi)
-            bound = each / 2
-        else:
-            require(model.walks is None, f"{place}.proof.walks: not within a pull")
-            each = each_turns(other, model, cords, all_turns)
-            bound = max(bound, (each - ends * Fraction(cut, UNIT)) / 2)
+        require(model.walks is None, f"{place}.proof.walks: not within a pull")
+        bound = max(bound, (each_turns(other, model, cords, all_turns) - ends * Fraction(cut, UNIT)) / 2)
     least = [sum(o.count.get(v, 0) for v in piece) // 2 if o.ends == "counts" else cords for piece in f.pieces]
-    fits = bound <= allowed and (o.old_pull or few_within(p, o, float(allowed), least, [x + 1 for x in least]) == least)
+    fits = bound <= allowed and few_within(p, o, float(allowed), least, [x + 1 for x in least]) == least
     require(not fits, f"{place}: {cords} cords are not proved to be too few")
     return cords
 
@@ -2496,7 +2500,7 @@ def check_pull(p):
         return
     known(claim, "status lower_bound parts", place)
     claims = member(claim, "parts", "list", place)
-    require(len(claims) == len(p.frame.pieces) <= 100 and not o.old_pull, f"{place}.parts: not one for each of at most 100 components")
+    require(len(claims) == len(p.frame.pieces) <= 100, f"{place}.parts: not one for each of at most 100 components")
     for c, part in enumerate(claims):
         require(type(part) is dict, f"{place}.parts[{c}]: not an object")
         check_fewest(alone(p, c), part, f"{place}.parts[{c}]")
@@ -2515,7 +2519,7 @@ def check_fewest(p, claim, place):
     known(claim, "status lower_bound excluded most_passes cut proof walks", place)
     require(("proof" in claim) == ("most_passes" in claim) >= ("cut" in claim), f"{place}: a part of the proof is missing")
     proofs = ("proof" in claim) + ("walks" in claim)
-    require(proofs <= ("excluded" in claim) and (proofs or not (o.old_pull and "excluded" in claim)), f"{place}: not one proof of what is excluded")
+    require(proofs <= ("excluded" in claim), f"{place}: not one proof of what is excluded")
     cords = 0
     if "excluded" in claim and "walks" not in claim:
         cords = too_few(p, claim, place)
@@ -2529,7 +2533,7 @@ def check_fewest(p, claim, place):
     fewest = sum(p.per_piece)
     if o.ends != "counts":
         least = [o.least] * len(p.frame.pieces)
-        if o.mu > 0 and not o.old_pull:
+        if o.mu > 0:
             limit = Fraction(math.log(o.max_pull))
             least = few_within(p, o, float((limit + 2 * TOLERANCE * (1 + limit)) / Fraction(o.mu)), least, p.per_piece)
         fewest = sum(least) + max(0, cords + 1 - max(least))
@@ -3487,7 +3491,7 @@ def terms(p):
     pull = claims.get("pull", {})
     most = [part["most_passes"] for part in [pull] + pull.get("parts", []) if "proof" in part]
     if most:
-        words += bounded % ("fewest cords", min(most)) + (back if p.options.old_pull else "")
+        words += bounded % ("fewest cords", min(most))
     if "turning" in claims:
         limit = claims["turning"].get("length_limit")
         words += bounded % ("turning", claims["turning"]["most_passes"]) + back + (" (for the pull anywhere)" if o.pull else "")
@@ -3558,9 +3562,13 @@ def said(p):
         lines.append(f"cord at most {'%g' % (100 * o.slack + 0.0)} % above the least length: {'verified' if proved else 'not verified'}")
     if o.objective == "symmetry" and (o.group or "")[:1].isdigit():
         lines.append(f"not verified: that the group is row {o.group} of a table of symmetries")
+    if p.proof.get("turning", {}).get("pairing_bound", 0) > 0:
+        lines.append("not verified: pairing_bound, which plans no longer state")
     if e and e.method != "capstan" and (not e.standing or e.taut):
         lines.append("not verified: the turns of the tight cords; what follows from them is" if e.taut else
                      f"not verified: the tensions, which method {e.method} measured; what follows from them is")
+    if p.left_out:
+        lines.append("not verified: what a plan of version 1 proves within its limit on the pull")
     if o.old_pull and (o.max_pull is not None or e and (e.standing or not e.steps and any(cord.pull == "both" for cord in e.cords))):
         lines.append("pulls at both ends are those of plans of version 1, which ask both for the pass in the middle: more than is needed")
     return lines + (structure_lines(p, e.standing) if e and e.standing else [])

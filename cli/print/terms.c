@@ -75,9 +75,7 @@ static int most_passes(const thr_pull_claim *claim)
 static void put_kind(thr_text *text, const thr_plan *plan)
 {
   const int most = most_passes(&plan->pull_claim);
-  if (most > 0)
-    thr_text_printf(text, "; for the fewest cords: at most %d passes of an edge%s", most,
-                    plan->options.old_pull ? ", back only at nodes with one edge" : "");
+  if (most > 0) thr_text_printf(text, "; for the fewest cords: at most %d passes of an edge", most);
   if (!plan->turning.present) return;
   thr_text_printf(text, "; for the turning: at most %d passes of an edge, back only at nodes with one edge%s",
                   plan->turning.most_passes, thr_wants_pull(&plan->options) ? " (for the pull anywhere)" : "");
@@ -252,6 +250,9 @@ void terms_put(thr_text *text, const thr_plan *plan)
   else if (measured(plan))
     thr_text_printf(text, "  not verified: the tensions, which method %s measured; what follows from them is\n",
                     thr_method_name(plan->evaluation.method));
+  if (plan->left_out) {
+    thr_text_append(text, "  not verified: what a plan of version 1 proves within its limit on the pull\n");
+  }
   if (is_of_older_pull(plan))
     thr_text_append(
         text,

@@ -121,12 +121,6 @@ thr_status thr_check_least_of(const thr_frame *frame, const thr_request *options
  * least_length: what the latter proves. */
 thr_status thr_check_turning_claim(const thr_plan *plan, double least_length, thr_err *err) THR_MUST_CHECK;
 
-/* What a tree, single edges, walks and, through few edges, all sets of cords prove of the price of turns: *all: of all cords;
- * *largest: of the dearest, component by component (limit: it need not be known above that). cords: that every component has at
- * most. */
-thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request *options, int cords,
-                          const thr_turning_proof *tree, double limit, double *all, double *largest, thr_err *err) THR_MUST_CHECK;
-
 /* Raises *side to what is proved, whatever the pull, of the turning on a side of some cord's cut turn (docs/plan-format.md, "The
  * cord that is hardest to pull"): by single edges, by the claim's tree and walks, and of few edges by trying what is claimed.
  * task: of the claim's turning, without a cut. THR_EVIOLATED: of walks that prove nothing. */
@@ -136,7 +130,8 @@ thr_status thr_check_pulled_least(const thr_frame *frame, const thr_request *opt
 /* Cords that component k has at most, where all have so many at most: given ends tell. */
 int thr_check_cords_of(const thr_turning_columns *columns, int k, int cords);
 
-/* Of that what a tree proves of all cords together, and of each component alone, and walks with it. */
+/* What a tree proves of the price of turns, and walks with it: *all: of all cords together; *largest: raised to that of the
+ * dearest, each component alone. */
 thr_status thr_check_shares(const thr_turning_columns *columns, int cords, const thr_turning_proof *tree, double *all,
                             double *largest, thr_err *err) THR_MUST_CHECK;
 

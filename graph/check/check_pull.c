@@ -100,7 +100,7 @@ static thr_turning_task task_of(const thr_frame *frame, const thr_request *optio
                             .end_allowed = options->ends == THR_ENDS_CLOSED ? NULL : end_allowed,
                             .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
                             .extra_limit = -1,
-                            .cut = options->old_pull ? 0 : claim->cut};
+                            .cut = claim->cut};
 }
 
 /* Raises *side to what the tree proves of the turns on one side of some cord's cut turn, rad. Where no turn weighs more than
@@ -117,22 +117,6 @@ static thr_status bound_by_tree(const thr_turning_columns *columns, const thr_tu
   return st;
 }
 
-/* Raises *side to half of what some cord turns, all its turns but that at a closed cord's ends being passed: plans of version 1.
- */
-static thr_status bound_whole(const thr_turning_columns *columns, const thr_request *fewer, const thr_turning_proof *tree,
-                              double *side, thr_err *err)
-{
-  const thr_turning_task *task = columns->task;
-  const double last = task->end_allowed ? 0 : THR_PI; /* of a closed cord: that turn is at its ends */
-  const double limit = 2 * thr_request_most_pulled(fewer) + last + 1e-3;
-  double all = 0, bound = 0;
-  thr_status st = thr_check_tree(columns, fewer, task->cords, tree, limit, &all, &bound, err);
-  bound = fmax(bound, all / ((double)task->cords * columns->n_components));
-  if (!task->end_allowed) bound = fmax(bound, thr_turn_closed(task->cost)) - last;
-  *side = fmax(*side, bound / 2);
-  return st;
-}
-
 /* What is known of any cords over single edges. */
 static thr_status bound_by_edges(const thr_frame *frame, const thr_turning_task *task, double *side, thr_err *err)
 {
@@ -145,18 +129,15 @@ static thr_status bound_by_edges(const thr_frame *frame, const thr_turning_task 
   return st;
 }
 
-static thr_status find_side(const thr_frame *frame, const thr_request *options, const thr_turning_task *task,
-                            const thr_turning_proof *tree, double *side, thr_err *err)
+/* Raises *side to the most that single edges and the tree, if there is one, prove. */
+static thr_status find_side(const thr_frame *frame, const thr_turning_task *task, const thr_turning_proof *tree, double *side,
+                            thr_err *err)
 {
   thr_turning_columns columns = {0};
-  thr_request fewer = *options; /* whose lists are borrowed */
-  fewer.cords_least = task->cords_least;
-  fewer.cords = task->cords;
-  fewer.turning.cost = task->cost;
-  thr_status st = options->old_pull ? THR_OK : bound_by_edges(frame, task, side, err);
+  thr_status st = bound_by_edges(frame, task, side, err);
   if (st || tree->n_nodes == 0) return st;
   st = thr_turning_columns_init(&columns, frame, task, err);
-  if (!st) st = options->old_pull ? bound_whole(&columns, &fewer, tree, side, err) : bound_by_tree(&columns, tree, side, err);
+  if (!st) st = bound_by_tree(&columns, tree, side, err);
   thr_turning_columns_destroy(&columns);
   return st;
 }
@@ -200,10 +181,10 @@ thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options,
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   if (!end_allowed) return thr_nomem(err);
   const thr_turning_task task = task_of(frame, options, cords, claim, end_allowed);
-  thr_status st = find_side(frame, options, &task, &claim->tree, &side, err);
+  thr_status st = find_side(frame, &task, &claim->tree, &side, err);
   free(end_allowed);
   *too_few = !st && side > most_turned(options);
-  if (!st && !*too_few && !options->old_pull) st = few_too_few(frame, options, cords, most_turned(options), too_few, err);
+  if (!st && !*too_few) st = few_too_few(frame, options, cords, most_turned(options), too_few, err);
   return st;
 }
 
@@ -253,8 +234,7 @@ thr_status thr_check_fewest_pulled(const thr_frame *frame, const thr_request *op
   thr_status st = thr_scratch_check(&own, err);
   for (int c = 0; c < components && !st; c++)
     number[c] = least;
-  if (!st && options->physics.mu > 0 && !options->old_pull)
-    st = thr_few_edges_within(frame, options, most_turned(options), cords, number, err);
+  if (!st && options->physics.mu > 0) st = thr_few_edges_within(frame, options, most_turned(options), cords, number, err);
   *fewest = 0;
   for (int c = 0; c < components && !st; c++) {
     *fewest += number[c];
@@ -271,14 +251,11 @@ thr_status thr_check_fewest_pulled(const thr_frame *frame, const thr_request *op
 static thr_status check_too_few(const thr_plan *plan, thr_err *err)
 {
   const thr_pull_claim *claim = &plan->pull_claim;
-  const bool old = plan->options.old_pull;
-  const int least_most = old ? thr_turning_most_passes(&plan->frame, plan->options.cover) : THR_PULL_PASSES;
   bool too_few;
-  if (claim->tree.n_nodes > 0 && claim->most_passes < least_most)
+  if (claim->tree.n_nodes > 0 && claim->most_passes < THR_PULL_PASSES)
     return thr_fail(err, THR_EVIOLATED, "proof.pull.most_passes: %d; a proof is about plans with up to %d passes over an edge",
-                    claim->most_passes, least_most);
-  if (claim->tree.n_nodes > 0 && (claim->cut > 0) == old)
-    return thr_fail(err, THR_EVIOLATED, "proof.pull.cut: %s", old ? "plans of version 1 have none" : "missing");
+                    claim->most_passes, THR_PULL_PASSES);
+  if (claim->tree.n_nodes > 0 && claim->cut <= 0) return thr_fail(err, THR_EVIOLATED, "proof.pull.cut: missing");
   thr_status st = thr_check_too_few(&plan->frame, &plan->options, claim->excluded, claim, &too_few, err);
   if (st || too_few) return st;
   return thr_fail(err, THR_EVIOLATED, "proof.pull: it is not proved that %d cords in every component are too few for the pull",

@@ -207,8 +207,11 @@ thr_status thr_check_shares(const thr_turning_columns *columns, int cords, const
   return st;
 }
 
-thr_status thr_check_tree(const thr_turning_columns *columns, const thr_request *options, int cords,
-                          const thr_turning_proof *tree, double limit, double *all, double *largest, thr_err *err)
+/* What a tree, single edges, walks and, through few edges, all sets of cords prove of the price of turns: *all: of all cords;
+ * *largest: of the dearest, component by component (limit: it need not be known above that). cords: that every component has at
+ * most. */
+static thr_status bound_by_tree(const thr_turning_columns *columns, const thr_request *options, int cords,
+                                const thr_turning_proof *tree, double limit, double *all, double *largest, thr_err *err)
 {
   double few_sum, few_largest;
   thr_status st = thr_walk_forced(columns, false, largest, err);
@@ -247,7 +250,7 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, do
   thr_status st = thr_turning_columns_init(&columns, w->f, &task, err);
   if (st) return st;
   if (pull) tree.walks = (thr_walk_proof){0};
-  st = thr_check_tree(&columns, w->o, cords, &tree, dearest + 1e-3, &bound, &forced, err);
+  st = bound_by_tree(&columns, w->o, cords, &tree, dearest + 1e-3, &bound, &forced, err);
   thr_turning_columns_destroy(&columns);
   if (!st && pull) st = thr_check_pulled_least(w->f, w->o, &task, claim, &side, err);
   if (st) return st;

@@ -457,13 +457,12 @@ size_t thr_walk_tables(thr_walk_measure measure)
   return measure == THR_WALK_PULL ? 2 : 1;
 }
 
-/* Fills steps->cut from the last level of the table of what comes after the cut turn: that turn may be any, and has no units.
- * Plans of version 1 are cut at a pass. */
+/* Fills steps->cut from the last level of the table of what comes after the cut turn: that turn may be any, and has no units. */
 static void fill_cuts(thr_walk_steps *steps, const int64_t *after, int levels)
 {
   for (int i = 0; i < steps->n; i++) {
-    int64_t most = steps->cut_at_pass ? after[(size_t)i * (size_t)levels] : steps->end[i];
-    for (int k = steps->first[i]; k < steps->first[i + 1] && !steps->cut_at_pass; k++) {
+    int64_t most = steps->end[i];
+    for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
       const int64_t on = after[(size_t)steps->move[k].to * (size_t)levels];
       if (!thr_walk_is_none(on) && on + steps->move[k].worth > most) most = on + steps->move[k].worth;
     }
@@ -625,15 +624,14 @@ double thr_walk_pull_bound(const thr_walk_steps *steps, const thr_walk_proof *pr
 
 /* *length: of at most so many cords of the proof's component together that have no more units than the proof says on either side
  * of their cut turn. */
-static thr_status length_within(const thr_turning_columns *columns, const thr_walk_proof *proof, bool cut_at_pass, int cords,
-                                double *length, thr_err *err)
+static thr_status length_within(const thr_turning_columns *columns, const thr_walk_proof *proof, int cords, double *length,
+                                thr_err *err)
 {
   thr_walk_steps steps;
   int64_t best = 0;
   *length = 0;
   thr_status st = thr_walk_steps_init(&steps, columns, THR_WALK_PULL, thr_walk_component(columns, proof), proof->unit, err);
   if (st) return st;
-  steps.cut_at_pass = cut_at_pass;
   if (proof->all != 0) st = thr_fail(err, THR_EVIOLATED, "walks: a price of all turns within a pull");
   if (!st) st = thr_walk_steps_remember(&steps, proof->memory, proof->n_memories, err);
   if (!st) st = thr_walk_steps_price(&steps, proof, err);
@@ -651,7 +649,7 @@ thr_status thr_walk_pull_check(const thr_turning_columns *columns, const thr_req
     return thr_fail(err, THR_EVIOLATED, "walks: there is no limit on the pull");
   if (proof->unit <= 0 || proof->units < thr_walk_pull_units(options, proof->unit))
     return thr_fail(err, THR_EVIOLATED, "walks: %d units leave out cords that are within the pull", proof->units);
-  return length_within(columns, proof, options->old_pull, cords, bound, err);
+  return length_within(columns, proof, cords, bound, err);
 }
 
 thr_status thr_walk_pull_least(const thr_turning_columns *columns, const thr_walk_proof *proof, int cords, double *bound,
@@ -660,7 +658,7 @@ thr_status thr_walk_pull_least(const thr_turning_columns *columns, const thr_wal
   double length = 0;
   *bound = 0;
   if (!proof->pulled || proof->bits != 0) return thr_fail(err, THR_EVIOLATED, "walks: they are not within a pull");
-  thr_status st = length_within(columns, proof, false, cords, &length, err);
+  thr_status st = length_within(columns, proof, cords, &length, err);
   if (!st && length <= 0) st = thr_fail(err, THR_EVIOLATED, "walks: their prices prove nothing");
   if (!st) *bound = ldexp((double)proof->unit * ((double)proof->units + 1), -THR_TURNING_BITS) * (1 - 1e-15);
   return st;

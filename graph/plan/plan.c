@@ -111,16 +111,11 @@ thr_status thr_plan_request(thr_plan *plan, const thr_frame *frame, const thr_re
 
 bool thr_plan_take_evaluation(thr_plan *plan, thr_evaluation *evaluation)
 {
-  const bool by_walks = plan->proof.present && plan->proof.pulled.unit > 0;
-  const bool outdated = plan->options.old_pull && (plan->pull_claim.present || by_walks);
+  const bool outdated = plan->left_out;
   thr_evaluation_destroy(&plan->evaluation);
   plan->evaluation = *evaluation;
   *evaluation = (thr_evaluation){0};
-  plan->options.old_pull = false;
-  if (outdated) {
-    plan->pull_claim.present = false;
-    if (by_walks) plan->proof.present = false;
-  }
+  plan->options.old_pull = plan->left_out = false;
   return outdated;
 }
 

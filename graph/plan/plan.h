@@ -169,12 +169,13 @@ typedef struct {
   thr_cords_claim cords_claim;
   thr_pull_claim pull_claim;
   thr_turning_claim turning;
+  bool left_out; /* of a plan of version 1: what it proves within max_pull, when it was read */
 } thr_plan;
 
 void thr_plan_destroy(thr_plan *plan);
 
-/* Gives the plan a new evaluation, which is emptied. A plan of version 1 becomes one of version 2; what it proves within max_pull
- * by the older definition is left out then. Returns whether anything was. */
+/* Gives the plan a new evaluation, which is emptied. A plan of version 1 becomes one of version 2; returns whether
+ * what it proves within max_pull by the older definition was left out. */
 bool thr_plan_take_evaluation(thr_plan *plan, thr_evaluation *evaluation);
 void thr_cords_destroy(thr_cord *cord, int n); /* cord[n] and their half arrays; NULL ok */
 thr_status thr_cords_copy(const thr_cord *cord, int n, thr_cord **copy, thr_err *err) THR_MUST_CHECK; /* NULL on failure */

@@ -268,6 +268,18 @@ static thr_status read_whole_pull_claim(const thr_field_reader *field_reader, co
   return st ? st : read_pull_parts(field_reader, parts, plan, claim);
 }
 
+/* What a plan of version 1 proves within its limit on the pull is about cords that a pass parts, and is not verified any more:
+ * the fewest cords; the length, if that rests on walks within the pull, and a turning that is limited by such a length. */
+static void leave_out_older_pull(thr_plan *plan)
+{
+  const bool by_walks = plan->proof.present && plan->proof.pulled.unit > 0;
+  plan->left_out = plan->pull_claim.present || by_walks;
+  plan->pull_claim.present = false;
+  if (!by_walks) return;
+  plan->proof.present = plan->cords_claim.present = false;
+  if (plan->turning.length_limit >= 0) plan->turning.present = false;
+}
+
 /* A proof says that nothing with the plan's options is better: one of turning goes with the objective that asks for it. */
 thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_json *doc, thr_plan *plan)
 {
@@ -285,5 +297,6 @@ thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_
   if (!st && pull && !(without & THR_CLAIM_PULL)) st = read_whole_pull_claim(field_reader, pull, plan);
   if (!st && turning && !(without & THR_CLAIM_TURNING))
     st = read_turning_claim(field_reader, turning, &plan->frame, &plan->turning);
+  if (!st && plan->options.old_pull) leave_out_older_pull(plan);
   return st;
 }

@@ -78,16 +78,15 @@ typedef struct {
   thr_walk_measure measure;
   int component, exponent;
   bool closed;
-  bool cut_at_pass; /* with a pull: as plans of version 1 understand it; set before thr_walk_run */
-  thr_scratch own;  /* the arrays */
-  int n;            /* places */
-  int n_spots;      /* without what is remembered at them */
-  int *spot;        /* [n] of each place */
-  int *copy;  /* [n_spots + 1] the places of a spot: copy[k] .. copy[k + 1] - 1, ahead the one where nothing is remembered */
-  int *place; /* spots [2 * n_edges] of half-edges, or [n_nodes]; -1: of another component */
-  int *group; /* [n] a closed walk begins at one of its places of the lowest group: edges, or nodes; with a pull the node
-                 that is reached, where it may begin in any case */
-  int *first; /* [n + 1] steps from place i: step[first[i]] .. step[first[i + 1] - 1] */
+  thr_scratch own; /* the arrays */
+  int n;           /* places */
+  int n_spots;     /* without what is remembered at them */
+  int *spot;       /* [n] of each place */
+  int *copy;       /* [n_spots + 1] the places of a spot: copy[k] .. copy[k + 1] - 1, ahead the one where nothing is remembered */
+  int *place;      /* spots [2 * n_edges] of half-edges, or [n_nodes]; -1: of another component */
+  int *group;      /* [n] a closed walk begins at one of its places of the lowest group: edges, or nodes; with a pull the node
+                      that is reached, where it may begin in any case */
+  int *first;      /* [n + 1] steps from place i: step[first[i]] .. step[first[i + 1] - 1] */
   thr_walk_step *step;
   thr_walk_move *move;  /* the same, with prices */
   int n_begins;         /* open: first passes of walks; closed: places that they begin at */
