@@ -163,12 +163,13 @@ static thr_status collect(const thr_frame *frame, const thr_multigraph *multigra
   return THR_OK;
 }
 
-/* One round of Kruskal's rule over exchanges; a pair takes part in at most one exchange a round. */
-static int apply_cheapest(exchanges *x, int *mate, const int *circuit, int *parent, bool *moved)
+/* Applies one round of Kruskal's rule over exchanges, `most` of them at most; a pair takes part in at most one exchange a round.
+ */
+static int apply_cheapest(exchanges *x, int *mate, const int *circuit, int *parent, bool *moved, int most)
 {
   int applied = 0;
   if (x->count) qsort(x->list, (size_t)x->count, sizeof *x->list, by_extra);
-  for (int i = 0; i < x->count; i++) {
+  for (int i = 0; i < x->count && applied < most; i++) {
     int a = x->list[i].a, c = x->list[i].c, b = mate[a], d = mate[c];
     if (moved[a] || moved[c]) continue;
     if (!thr_disjoint_join(parent, circuit[a], circuit[c])) continue;
@@ -181,9 +182,10 @@ static int apply_cheapest(exchanges *x, int *mate, const int *circuit, int *pare
 }
 
 thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, const double (*four)[3],
-                               thr_err *err)
+                               int enough, thr_err *err)
 {
   thr_status st = THR_OK;
+  int left;
   exchanges x = {0};
   int *circuit = thr_calloc((size_t)multigraph->n_darts, sizeof *circuit);
   int *parent = thr_calloc((size_t)multigraph->n_darts, sizeof *parent);
@@ -194,13 +196,13 @@ thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *mul
   }
   do {
     x.count = 0;
-    thr_threading_label(multigraph, mate, circuit);
+    left = thr_threading_label(multigraph, mate, circuit);
     memset(moved, 0, (size_t)multigraph->n_darts * sizeof *moved);
     for (int d = 0; d < multigraph->n_darts; d++)
       parent[d] = d;
     for (int v = 0; v < multigraph->n_nodes; v++)
       if ((st = collect(frame, multigraph, mate, four, circuit, v, &x, err))) goto done;
-  } while (apply_cheapest(&x, mate, circuit, parent, moved) > 0);
+  } while (apply_cheapest(&x, mate, circuit, parent, moved, left - enough) > 0);
 done:
   free(x.list);
   free(circuit);

@@ -22,10 +22,10 @@ thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *mul
 
 /* Exchanges pairs (a b)(c d) -> (a c)(b d) or (a d)(b c) at nodes where two circuits meet, cheapest first, until each
  * component of the multigraph is one circuit. Adds no U-turn where the pairs at hand have none:
- * if both new pairings had one, an old pair would have been one. O(p log p) a round for p pairs of pairs, few rounds. four: as
- * thr_transition_pair left it, or NULL. */
+ * if both new pairings had one, an old pair would have been one. Stops earlier where no more than `enough` circuits are left
+ * (0: at no number). O(p log p) a round for p pairs of pairs, few rounds. four: as thr_transition_pair left it, or NULL. */
 thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, const double (*four)[3],
-                               thr_err *err) THR_MUST_CHECK;
+                               int enough, thr_err *err) THR_MUST_CHECK;
 
 /* Where two passes of one edge are in different sets of circuits, exchanges their partners at one node, which joins the sets: the
  * same turns, fewer circuits. circuit[n_darts], which parent's disjoint sets are of. Near-linear. */

@@ -141,7 +141,7 @@ thr_status thr_walks_trace(const thr_frame *frame, const int *passes, thr_walks 
   if (!st && !(mate = thr_calloc((size_t)multigraph.n_darts, sizeof *mate))) st = thr_nomem(err);
   if (!st && !(four = thr_calloc((size_t)frame->n_nodes, sizeof *four))) st = thr_nomem(err);
   if (!st) st = thr_transition_pair(frame, &multigraph, mate, four, err);
-  if (!st) st = thr_transition_join(frame, &multigraph, mate, (const double(*)[3])four, err);
+  if (!st) st = thr_transition_join(frame, &multigraph, mate, (const double(*)[3])four, 0, err);
   free(four);
   if (!st) st = thr_walks_follow(out, frame, &multigraph, mate, err);
   if (st) thr_walks_destroy(out);

@@ -43,7 +43,7 @@ static asked *ask(thr_frame f, bool open, double slack)
   if (slack >= 0) a->task.extra_limit = thr_extra_length(&a->c, passes) + slack;
   thr_turning_limit(&a->c);
   ck_assert_int_eq(thr_join_init(&j, &a->c, passes, a->ends, &err), THR_OK);
-  ck_assert_int_eq(thr_join_greedy(&j, 0, &limits, &err), THR_OK);
+  ck_assert_int_eq(thr_join_greedy(&j, 0, &err), THR_OK);
   ck_assert_ptr_nonnull(a->x = calloc((size_t)a->c.n_columns, sizeof *a->x));
   thr_join_point(&j, a->x);
   thr_join_destroy(&j);

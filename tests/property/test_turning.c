@@ -441,7 +441,7 @@ START_TEST(greedy_matches_enumeration_up_to_four_passes)
       if (j.g.first[v + 1] - j.g.first[v] > most) most = j.g.first[v + 1] - j.g.first[v];
     if (most <= 6) {
       double least = least_single_circuit(&all, 0, 0, INFINITY);
-      ck_assert_int_eq(thr_join_greedy(&j, 0, &limits, NULL), THR_OK);
+      ck_assert_int_eq(thr_join_greedy(&j, 0, NULL), THR_OK);
       ck_assert_int_eq(circuits(&j), 1);
       if (most <= 4) {
         small++;

@@ -1,10 +1,7 @@
-/* Nodes of any degree: pairings of hubs against integer programming, and plans of frameworks whose turns no programme holds. */
-#include "tests/matchings.h"
+/* Nodes of any degree: what joining circuits at a hub costs, and plans of frameworks whose turns no programme holds. */
 #include "tests/support.h"
 #include "tests/plans.h"
 #include "tests/frameworks.h"
-#include "tortuosity/proof/hubs.h"
-#include "graph/threading/pairing.h"
 #include "planner/least_turning.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
@@ -15,8 +12,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-static const thr_limits no_limit = {0};
 
 static thr_turning_task closed_task(const thr_frame *f)
 {
@@ -44,37 +39,6 @@ static void star_join(thr_turning_columns *c, int passes_of_each, thr_join *j)
   free(passes);
 }
 
-START_TEST(hubs_are_paired_nearly_as_cheaply_as_by_matching)
-{
-  enum { SPOKES = 35, DARTS = 2 * SPOKES };
-  static double price[DARTS * DARTS];
-  rng r = rng_make((uint64_t)_i + 1);
-  thr_frame f = random_star(&r, SPOKES);
-  thr_turning_task task = closed_task(&f);
-  thr_turning_columns c;
-  thr_join j;
-  int pair[DARTS];
-  ck_assert_int_eq(thr_turning_columns_init(&c, &f, &task, NULL), THR_OK);
-  star_join(&c, 2, &j);
-  const int *dart = j.g.dart + j.g.first[0];
-  for (int a = 0; a < DARTS; a++)
-    for (int b = 0; b < DARTS; b++)
-      price[a * DARTS + b] = a == b ? 1000 : fmin(1000, thr_join_price(&j, dart[a], dart[b]));
-  double least = least_pairing(DARTS, price);
-  const thr_limits stopped = {.deadline = 1e-9};
-  for (int stop = 0; stop < 2; stop++) {
-    ck_assert_int_eq(thr_hub_pair(&j, 0, stop ? &stopped : &no_limit, pair, NULL), THR_OK);
-    for (int a = 0; a < DARTS; a++)
-      ck_assert(pair[a] != a && pair[pair[a]] == a);
-    ck_assert_double_ge(pairing_price(DARTS, price, pair), least - 1e-9);
-    ck_assert_double_le(pairing_price(DARTS, price, pair), (stop ? 2 : 1.05) * least);
-  }
-  thr_join_destroy(&j);
-  thr_turning_columns_destroy(&c);
-  thr_frame_destroy(&f);
-}
-END_TEST
-
 /* Circuits through all darts. */
 static int circuits(const thr_join *j)
 {
@@ -101,13 +65,13 @@ START_TEST(hubs_join_what_they_are_asked_to)
   ck_assert_int_eq(thr_turning_columns_init(&c, &f, &task, NULL), THR_OK);
   for (int apart = 0; apart < 2; apart++) {
     star_join(&c, 2, &j);
-    ck_assert_int_eq(thr_join_greedy(&j, apart ? 2000 : 0, &no_limit, NULL), THR_OK);
+    ck_assert_int_eq(thr_join_greedy(&j, apart ? 2000 : 0, NULL), THR_OK);
     price[apart] = j.price;
     if (apart == 0) ck_assert_int_eq(circuits(&j), 1);
     thr_join_destroy(&j);
   }
   ck_assert_double_le(price[1], price[0]);
-  ck_assert_double_le(price[0], 1.05 * price[1]); /* joining the near ones costs little */
+  ck_assert_double_le(price[0], 1.2 * price[1]); /* each pair is joined with the next */
   thr_turning_columns_destroy(&c);
   thr_frame_destroy(&f);
 }
@@ -136,7 +100,6 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("hubs");
-  ADD_EXAMPLES(s, 60, hubs_are_paired_nearly_as_cheaply_as_by_matching, 5);
   ADD_LOOP(s, 30, hubs_join_what_they_are_asked_to, 0, 2);
   ADD_LOOP(s, 60, dense_frameworks_have_plans_and_bounds, 0, 2);
   return run_suite(s);

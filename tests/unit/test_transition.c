@@ -239,8 +239,8 @@ START_TEST(join_leaves_one_circuit_and_no_new_u_turn)
   double(*four)[3] = calloc((size_t)f.n_nodes, sizeof *four);
   ck_assert_int_eq(thr_transition_pair(&f, &t.g, again, four, NULL), THR_OK);
   ck_assert(memcmp(again, t.mate, (size_t)t.g.n_darts * sizeof *again) == 0);
-  ck_assert_int_eq(thr_transition_join(&f, &t.g, again, (const double(*)[3])four, NULL), THR_OK);
-  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL, NULL), THR_OK);
+  ck_assert_int_eq(thr_transition_join(&f, &t.g, again, (const double(*)[3])four, 0, NULL), THR_OK);
+  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL, 0, NULL), THR_OK);
   ck_assert(memcmp(again, t.mate, (size_t)t.g.n_darts * sizeof *again) == 0);
   free(again);
   free(four);
@@ -263,7 +263,7 @@ START_TEST(octahedron_pairs_straight_then_joins)
     turning += price_at(&f, &t, v);
   ck_assert_double_eq_tol(turning, 6 * THR_PI, 1e-9); /* 1080 degrees in three squares */
   ck_assert_int_eq(count_circuits(&t), 3);
-  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL, NULL), THR_OK);
+  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL, 0, NULL), THR_OK);
   ck_assert_int_eq(count_circuits(&t), 1);
   thread_destroy(&t);
   thr_frame_destroy(&f);
@@ -613,7 +613,7 @@ START_TEST(hub_whose_darts_all_pair_badly_is_joined_fast)
   thr_frame f = star_make(20000);
   int *passes = constant(f.n_edges, 2);
   threading t = thread_make(&f, passes, NULL, 0);
-  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL, NULL), THR_OK);
+  ck_assert_int_eq(thr_transition_join(&f, &t.g, t.mate, NULL, 0, NULL), THR_OK);
   ck_assert_int_eq(count_circuits(&t), 1);
   thread_destroy(&t);
   free(passes);

@@ -5,12 +5,17 @@
 #include "graph/status.h"
 #include "graph/threading/multigraph.h"
 #include "tortuosity/cords/join.h"
-#include "tortuosity/proof/hubs.h"
 #include "graph/threading/pairing.h"
+#include "graph/threading/transition.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+enum {
+  HUB = 64,          /* more passes and ends than this make a node a hub */
+  MOST_PRICED = 2048 /* passes and ends of a hub whose prices are all looked at */
+};
 
 typedef struct {
   double regret;
@@ -19,8 +24,7 @@ typedef struct {
 
 typedef struct {
   thr_join *j;
-  thr_limits limits; /* for hubs alone: a part of those given */
-  int *place;        /* [n_darts] number of a dart at its node */
+  int *place; /* [n_darts] number of a dart at its node */
   int *link;  /* [n_darts] dart at the other end of the chain of passes that starts with this one; pairs made are inside chains */
   int *stamp; /* [n_nodes] search that saw the node last */
   int *class; /* [n_nodes] port whose search reached it */
@@ -29,25 +33,25 @@ typedef struct {
   int searches; /* so far */
   ranked *order;
   int most;        /* darts at a node */
-  int most_few;    /* darts at a node that is no hub */
-  double *price;   /* [most_few * most_few] at the node at hand */
+  int most_priced; /* darts at a node whose prices are looked at */
+  double *price;   /* [most_priced * most_priced] at the node at hand */
   int *pair;       /* [most] of the node at hand, by position */
   int *port;       /* [most] disjoint sets: what hangs together without the node */
   int *trial;      /* [2 * most] scratch */
   thr_scratch own; /* the arrays */
 } greedy;
 
-static thr_status greedy_init(greedy *s, thr_join *j, int apart, const thr_limits *limits, thr_err *err)
+static thr_status greedy_init(greedy *s, thr_join *j, int apart, thr_err *err)
 {
   const thr_multigraph *multigraph = &j->g;
   size_t n = (size_t)multigraph->n_nodes;
-  *s = (greedy){.j = j, .limits = thr_limits_part(limits, 0.3)};
+  *s = (greedy){.j = j};
   for (int v = 0; v < j->c->f->n_nodes; v++) {
     int darts = multigraph->first[v + 1] - multigraph->first[v];
     if (darts > s->most) s->most = darts;
-    if (darts > s->most_few && darts <= THR_HUB) s->most_few = darts;
+    if (darts > s->most_priced && darts <= MOST_PRICED) s->most_priced = darts;
   }
-  size_t k = (size_t)s->most, few = (size_t)s->most_few;
+  size_t k = (size_t)s->most, priced = (size_t)s->most_priced;
   s->place = thr_scratch_array(&s->own, (size_t)multigraph->n_darts, sizeof *s->place);
   s->link = thr_scratch_array(&s->own, (size_t)multigraph->n_darts, sizeof *s->link);
   s->stamp = thr_scratch_array(&s->own, n, sizeof *s->stamp);
@@ -55,7 +59,7 @@ static thr_status greedy_init(greedy *s, thr_join *j, int apart, const thr_limit
   s->queue = thr_scratch_array(&s->own, n, sizeof *s->queue);
   s->spare = thr_scratch_array(&s->own, (size_t)j->c->n_components, sizeof *s->spare);
   s->order = thr_scratch_array(&s->own, n, sizeof *s->order);
-  s->price = thr_scratch_array(&s->own, few * few, sizeof *s->price);
+  s->price = thr_scratch_array(&s->own, priced * priced, sizeof *s->price);
   s->pair = thr_scratch_array(&s->own, k, sizeof *s->pair);
   s->port = thr_scratch_array(&s->own, k, sizeof *s->port);
   s->trial = thr_scratch_array(&s->own, 2 * k, sizeof *s->trial);
@@ -111,10 +115,14 @@ static thr_status pair_node(greedy *s, int v, thr_err *err)
   const int *dart = multigraph->dart + multigraph->first[v];
   int n = multigraph->first[v + 1] - multigraph->first[v];
   s->order[v] = (ranked){-1, v};
-  if (n > THR_HUB) return thr_hub_pair(s->j, v, &s->limits, s->pair, err);
+  if (n > MOST_PRICED) {
+    for (int i = 0; i < n / 2; i++)
+      thr_set_pair(s->pair, i, i + n / 2);
+    return THR_OK;
+  }
   fill_prices(s, dart, n);
   thr_status st = thr_pairing_best(n, s->price, s->pair, err);
-  if (!st) s->order[v].regret = regret(s->price, n, s->pair);
+  if (!st && n <= HUB) s->order[v].regret = regret(s->price, n, s->pair);
   return st;
 }
 
@@ -226,16 +234,11 @@ static void exchange_until_few(greedy *s, int n, int pieces)
 }
 
 /* The cheapest pairing of the n darts of node v that leaves at most so many pieces, which the one in pair does not. */
-static thr_status pair_joined(greedy *s, int v, int n, int pieces, thr_err *err)
+static void pair_joined(greedy *s, int v, int n, int pieces)
 {
   enum { ENUMERATED = 8 };
   int free_darts[ENUMERATED];
   double least = INFINITY;
-  if (n > THR_HUB) {
-    for (int i = 0; i < n; i++)
-      s->trial[i] = thr_disjoint_find(s->port, i);
-    return thr_hub_join(s->j, v, pieces, s->trial, s->pair, err);
-  }
   fill_prices(s, s->j->g.dart + s->j->g.first[v], n);
   for (int i = 0; i < n && i < ENUMERATED; i++)
     free_darts[i] = -1;
@@ -243,21 +246,22 @@ static thr_status pair_joined(greedy *s, int v, int n, int pieces, thr_err *err)
     try_pairings(s, n, pieces, free_darts, 0, &least, s->pair);
   else
     exchange_until_few(s, n, pieces);
-  return THR_OK;
 }
 
 /* Gives node v the cheapest pairing that keeps enough connected, and joins the chains that it pairs. */
-static thr_status settle_node(greedy *s, int v, thr_err *err)
+static void settle_node(greedy *s, int v)
 {
   const thr_multigraph *multigraph = &s->j->g;
   const int *dart = multigraph->dart + multigraph->first[v];
   int n = multigraph->first[v + 1] - multigraph->first[v];
   for (int i = 0; i < n; i++)
     s->pair[i] = s->place[s->j->mate[dart[i]]];
-  find_ports(s, v, dart, n);
-  int *spare = &s->spare[s->j->c->component[v]], most = *spare < n ? *spare + 1 : n;
-  thr_status st = join_pairs(s, n, s->pair) > most ? pair_joined(s, v, n, most, err) : THR_OK;
-  *spare -= join_pairs(s, n, s->pair) - 1;
+  if (n <= HUB) {
+    find_ports(s, v, dart, n);
+    int *spare = &s->spare[s->j->c->component[v]], most = *spare < n ? *spare + 1 : n;
+    if (join_pairs(s, n, s->pair) > most) pair_joined(s, v, n, most);
+    *spare -= join_pairs(s, n, s->pair) - 1;
+  }
   for (int i = 0; i < n; i++) {
     int a = dart[i], b = dart[s->pair[i]];
     s->j->mate[a] = b;
@@ -266,16 +270,32 @@ static thr_status settle_node(greedy *s, int v, thr_err *err)
     s->link[p] = q;
     s->link[q] = p;
   }
+}
+
+/* Joins the circuits that hubs leave, until there are no more than `apart` besides one for each component. Meanwhile the ends are
+ * paired at their nodes, so that open cords are circuits, too. */
+static thr_status join_at_hubs(thr_join *j, int apart, thr_err *err)
+{
+  const thr_multigraph *multigraph = &j->g;
+  const int n = multigraph->n_nodes, first = j->c->f->n_nodes, components = j->c->n_components;
+  if (apart >= multigraph->n_darts / components) return THR_OK;
+  for (int v = first; v < n; v++)
+    for (int i = multigraph->first[v]; i + 1 < multigraph->first[v + 1]; i += 2)
+      thr_set_pair(j->mate, multigraph->dart[i], multigraph->dart[i + 1]);
+  thr_status st = thr_transition_join(j->c->f, multigraph, j->mate, NULL, components * (1 + apart), err);
+  for (int i = multigraph->first[first]; i < multigraph->first[n]; i++)
+    j->mate[multigraph->dart[i]] = -1;
   return st;
 }
 
-thr_status thr_join_greedy(thr_join *j, int apart, const thr_limits *limits, thr_err *err)
+thr_status thr_join_greedy(thr_join *j, int apart, thr_err *err)
 {
   greedy s;
-  thr_status st = greedy_init(&s, j, apart, limits, err);
+  thr_status st = greedy_init(&s, j, apart, err);
   if (!st) st = rank_nodes(&s, err);
   for (int i = 0; i < j->c->f->n_nodes && !st; i++)
-    st = settle_node(&s, s.order[i].node, err);
+    settle_node(&s, s.order[i].node);
+  if (!st && s.most > HUB) st = join_at_hubs(j, apart, err);
   thr_scratch_free(&s.own);
   if (!st) thr_join_measure(j);
   return st;

@@ -53,9 +53,11 @@ void thr_join_measure(thr_join *j);
 /* Bouchet's greedy (Math. Programming 38, 1987): nodes by decreasing regret (how much more than its best pairing a node's next
  * costs) take the cheapest pairing that keeps the partly split graph connected. Exact for these passes and ends if no node has
  * more than 4 passes and ends (apart = 0); else nodes of up to 8 take the cheapest of all their pairings, larger ones the
- * cheapest exchanges, and hubs come last (tortuosity/proof/hubs.h). A component becomes one circuit, or open cords alone; and at
- * most apart circuits more. A connectivity test looks at few edges as a rule, at all of them at worst. */
-thr_status thr_join_greedy(thr_join *j, int apart, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+ * cheapest exchanges. Hubs, nodes of more than 64, come last: they are paired by exchanges alone, or as they come if they have
+ * more than 2,048 passes and ends, and the circuits left are joined by the cheapest exchanges (graph/threading/transition.h). A
+ * component becomes one circuit, or open cords alone; and at most apart circuits more. A connectivity test looks at few edges as
+ * a rule, at all of them at worst. */
+thr_status thr_join_greedy(thr_join *j, int apart, thr_err *err) THR_MUST_CHECK;
 
 /* Pairs as the columns say (x[j] times column j, whole numbers that fit the passes and ends), and joins circuits over equal
  * passes at no price. *single: whether that left one circuit per component, or open cords alone. */

@@ -169,7 +169,7 @@ static thr_status make_cords(const search *x, thr_join *j, bool *found, thr_err 
   thr_status st = turning_task->tube ? thr_join_tie(j, x->c, x->passes, x->ends, found, err)
                                      : thr_join_init(j, x->c, x->passes, open ? x->ends : NULL, err);
   if (!st && !turning_task->tube) {
-    st = thr_join_greedy(j, open ? 0 : turning_task->cords - 1, x->limits, err);
+    st = thr_join_greedy(j, open ? 0 : turning_task->cords - 1, err);
     *found = !st;
     if (!st && open) st = thr_improve(j, x->limits, err);
   }

@@ -116,7 +116,7 @@ static thr_status try_greedy(thr_branch *branch, const int *passes, int apart, t
   thr_join j;
   thr_status st = thr_join_init(&j, branch->c, passes, NULL, err);
   if (st) return st;
-  st = thr_join_greedy(&j, apart, branch->limits, err);
+  st = thr_join_greedy(&j, apart, err);
   if (!st) return thr_branch_try_circuits(branch, &j, passes, err);
   thr_join_destroy(&j);
   return st;
@@ -131,7 +131,7 @@ static thr_status try_added(thr_branch *branch, const int *passes, thr_err *err)
   if (!all) return thr_nomem(err);
   thr_status st = thr_join_init(&j, branch->c, passes, NULL, err);
   if (!st) {
-    st = thr_join_greedy(&j, branch->c->task->cords - 1, branch->limits, err);
+    st = thr_join_greedy(&j, branch->c->task->cords - 1, err);
     if (!st) st = thr_circuits_add(&j, branch->limits, &more, all, &found, err);
     thr_join_destroy(&j);
   }
@@ -181,7 +181,7 @@ thr_status thr_branch_try(thr_branch *branch, const int *passes, const int *ends
   if (branch->several) return try_several(branch, passes, err);
   thr_status st = thr_join_init(&j, branch->c, passes, ends, err);
   if (st) return st;
-  st = thr_join_greedy(&j, 0, branch->limits, err);
+  st = thr_join_greedy(&j, 0, err);
   if (!st && !branch->found && j.price < thr_join_forbidden)
     st = tell(branch, &j, err); /* where improving it takes all the time */
   if (!st) st = thr_improve(&j, branch->limits, err);
@@ -294,7 +294,7 @@ thr_status thr_branch_try_joined(thr_branch *branch, const int *x, thr_err *err)
   thr_status st = thr_join_init(&j, branch->c, branch->passes, branch->ends, err);
   if (st) return st;
   st = thr_join_columns(&j, branch->whole, &single, err);
-  if (!st && !single) st = thr_transition_join(branch->c->f, &j.g, j.mate, NULL, err);
+  if (!st && !single) st = thr_transition_join(branch->c->f, &j.g, j.mate, NULL, 0, err);
   if (!st) thr_join_measure(&j);
   if (!st && !single) st = thr_improve(&j, branch->limits, err);
   if (!st) return keep_better(branch, &j, branch->passes, err);
