@@ -74,7 +74,7 @@ static void expect_proved(thr_frame f, double slack, double degrees, double tole
 /* A plan no worse and a bound no weaker than published ones that do not meet. */
 static void expect_between(thr_frame f, double bound, double price)
 {
-  thr_least l = solve(&f, -1, 20);
+  thr_least l = solve(&f, -1, 100);
   ck_assert_double_ge(l.bound / DEGREE, bound - 0.5);
   ck_assert_double_le(l.price / DEGREE, price + 0.5);
   thr_least_destroy(&l);

@@ -310,7 +310,7 @@ thr_status thr_branch_set_bounds(void *user, int column, int low, int high, thr_
  * close it in a small part of the time that annealing takes. */
 static thr_status anneal_later(thr_branch *branch, thr_err *err)
 {
-  enum { FIRST_NODES = 7 };
+  enum { FIRST_NODES = 31 };
   if (branch->annealed || branch->tree.n_solved < FIRST_NODES || !branch->found || !is_wide(branch) ||
       thr_branch_proved(branch) || !thr_anneal_turns_serves(branch->c))
     return THR_OK;
