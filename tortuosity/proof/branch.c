@@ -6,8 +6,6 @@
 #include "lp/tjoin/oddcut.h"
 #include "tortuosity/cords/anneal_turns.h"
 #include "tortuosity/proof/ascent.h"
-#include "tortuosity/proof/column_groups.h"
-#include "tortuosity/proof/partition.h"
 #include "tortuosity/proof/project.h"
 #include "tortuosity/proof/unit_matching.h"
 #include "tortuosity/tie/tie.h"
@@ -294,10 +292,9 @@ void thr_branch_use_separators(thr_relax *relax)
   } else if (turning_task->tube) {
     thr_search_use(search, thr_junctions_separate, relax, 0);
   }
-  if (groups) thr_search_use(search, thr_groups_apart, relax, 0);
+  if (groups) thr_search_use(search, thr_groups_separate, relax, 0);
   if (relax->any_odd) thr_search_use(search, thr_oddcuts_moats, &relax->odd, 0);
   if (!turning_task->end_allowed && !turning_task->tube) thr_search_use(search, thr_partitions_separate, relax, THR_FALLBACK);
-  if (groups) thr_search_use(search, thr_groups_loose, relax, THR_FALLBACK);
 }
 
 thr_status thr_branch_set_bounds(void *user, int column, int low, int high, thr_err *err)

@@ -1,5 +1,9 @@
-/* Groups: components of the support. */
-#include "tortuosity/proof/column_groups.h"
+/* Separates groups of edges that a fractional point does not connect to the rest: components of its support.
+ *
+ * Row of a group S of edges, not all of a component: a single closed cord leaves S at least twice; open cords leave it or end in
+ * it.
+ *
+ * Example: two circuits that meet at a node without a turn from one to the other: each of them is a violated group. */
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
@@ -65,9 +69,9 @@ static thr_status add_group(thr_relax *relax, const int *edge, int n, int *added
 
 /* ---- components ---- */
 
-/* Groups that turns with x > threshold join. */
-static thr_status find_groups(thr_relax *relax, double threshold, int *added, thr_err *err)
+thr_status thr_groups_separate(void *user, int *added, thr_err *err)
 {
+  thr_relax *relax = user;
   const thr_turning_columns *turning_columns = relax->c;
   int m = turning_columns->f->n_edges, n = m + turning_columns->n_components, a, b;
   thr_scratch own = {0};
@@ -79,7 +83,7 @@ static thr_status find_groups(thr_relax *relax, double threshold, int *added, th
   for (int v = 0; v < n && !st; v++)
     parent[v] = v;
   for (int j = 0; j < turning_columns->first_back && !st; j++)
-    if (joins(turning_columns, j, &a, &b) && relax->x[j] > threshold) thr_disjoint_join(parent, a, b);
+    if (joins(turning_columns, j, &a, &b) && relax->x[j] > tolerance) thr_disjoint_join(parent, a, b);
   for (int e = 0; e < m && !st; e++) {
     int root = thr_disjoint_find(parent, e);
     start[root + 2]++;
@@ -97,18 +101,5 @@ static thr_status find_groups(thr_relax *relax, double threshold, int *added, th
     st = add_group(relax, list + start[e], start[e + 1] - start[e], added, err);
   }
   thr_scratch_free(&own);
-  return st;
-}
-
-thr_status thr_groups_apart(void *user, int *added, thr_err *err)
-{
-  return find_groups(user, tolerance, added, err);
-}
-
-thr_status thr_groups_loose(void *user, int *added, thr_err *err)
-{
-  thr_status st = THR_OK;
-  for (double threshold = 0.2; !st && !*added && threshold < 1; threshold += 0.25)
-    st = find_groups(user, threshold, added, err);
   return st;
 }

@@ -75,4 +75,13 @@ thr_status thr_relax_crash(thr_relax *relax, const thr_limits *limits, thr_err *
 /* A separator, of a thr_relax, in tortuosity/proof/junctions.c: of every node the junction row that x violates most. */
 thr_status thr_junctions_separate(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
+/* A separator, of a thr_relax whose cords hang together, in tortuosity/proof/column_groups.c: connected components of the edges
+ * under turns with x > 0. O(columns). */
+thr_status thr_groups_separate(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* A separator, of a thr_relax, in tortuosity/proof/partition.c. Every node is given its cheapest pairing, or the one that x uses
+ * most; what hangs together then are the blocks of a partition. Nodes are made whole again in order of how little another pairing
+ * costs, so that there are as many partitions as different regrets, of which some tens are looked at. */
+thr_status thr_partitions_separate(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
+
 #endif
