@@ -2,7 +2,7 @@
  *
  *   matching FRAME FOLDER
  *
- * prints processor seconds of the whole (shrinking, searches, matching, pricing, moats) and its length, the same of the matching
+ * prints processor seconds of the whole (searches, matching, pricing, moats) and its length, the same of the matching
  * alone on the first candidate pairs, and odd nodes; and writes the instance for other codes: FOLDER/graph (nodes and edges, the
  * edges with integer weights, per node whether it is odd) and FOLDER/pairs (the candidate pairs of odd nodes). bench/peers.cpp
  * reads them. */
@@ -111,7 +111,7 @@ int main(int argc, char **argv)
   thr_limits limits = {0};
   write_list(argv[2], "graph", &p);
   double start = processor_seconds();
-  demand(thr_tjoin_shrunk(&p, THR_ENGINE_MATCHING, &limits, &join, &err), &err);
+  demand(thr_tjoin_minimum(&p, THR_ENGINE_MATCHING, &limits, &join, &err), &err);
   printf("%.6f %lld", processor_seconds() - start, (long long)join.length);
   match_candidates(&p, argv[2], &err);
   thr_tjoin_destroy(&join);

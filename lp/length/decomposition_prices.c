@@ -212,7 +212,7 @@ static thr_status solve_part(pricing *p, int part, const bool *odd, bool *in_joi
   *stopped |= sum > 0x1p50; /* so high a price is not tried: the sums would not fit */
   if (!st && !*stopped && q.n_edges > 0) {
     thr_tjoin_problem tjoin = {q.n_nodes, q.n_edges, (const int(*)[2])q.edge, q.weight, q.odd, 0};
-    st = thr_tjoin_shrunk(&tjoin, p->s->o->engine, p->limits, &t, &why);
+    st = thr_tjoin_minimum(&tjoin, p->s->o->engine, p->limits, &t, &why);
     *stopped |= st == THR_ELIMIT;
     if (st && st != THR_ELIMIT) st = thr_fail(err, st, "%s", why.text);
     for (int i = 0; i < q.n_edges && !*stopped && !st; i++)

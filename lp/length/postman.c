@@ -201,7 +201,7 @@ static thr_status solve_closed(postman *m, int d, const instance *in, thr_certif
 {
   thr_tjoin tjoin;
   thr_tjoin_problem tjoin_problem = {in->n_nodes, in->n_edges, (const int(*)[2])in->edge, in->weight, in->odd, 0};
-  thr_status st = thr_tjoin_shrunk(&tjoin_problem, m->o->engine, m->limits, &tjoin, err), taken = THR_OK;
+  thr_status st = thr_tjoin_minimum(&tjoin_problem, m->o->engine, m->limits, &tjoin, err), taken = THR_OK;
   if (!st) st = thr_confirmations_add(counter(m), &tjoin_problem, &tjoin, err);
   if (!st || st == THR_ELIMIT) {
     take_join(m, in, tjoin.in_join, c);

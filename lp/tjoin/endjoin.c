@@ -99,7 +99,7 @@ static thr_status solve_at(search *s, int64_t price, point *at, thr_err *err)
   for (int e = s->p->graph.n_edges; e < s->n_edges; e++)
     s->weight[e] = price;
   thr_tjoin_problem tjoin_problem = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
-  thr_status st = thr_tjoin_shrunk(&tjoin_problem, s->p->engine, s->limits, &at->t, err);
+  thr_status st = thr_tjoin_minimum(&tjoin_problem, s->p->engine, s->limits, &at->t, err);
   if (!st || st == THR_ELIMIT) weigh(s, at);
   return st;
 }
@@ -118,7 +118,7 @@ static thr_status solve_fewest(search *s, point *at, thr_err *err)
     for (int i = 0; i < n_pieces; i++)
       memcpy(edge[m + i], s->edge[s->end_of_piece[i]], sizeof *edge);
     thr_tjoin_problem tjoin_problem = {s->hub + 1, m + n_pieces, (const int(*)[2])edge, weight, s->odd, 0};
-    limit = thr_tjoin_shrunk(&tjoin_problem, s->p->engine, s->limits, &at->t, err);
+    limit = thr_tjoin_minimum(&tjoin_problem, s->p->engine, s->limits, &at->t, err);
     if (limit && limit != THR_ELIMIT) st = limit;
   }
   free(edge);
@@ -452,7 +452,7 @@ static thr_status solve_two(search *s, thr_endjoin *out, thr_err *err)
     edge[all - 1][0] = n, edge[all - 1][1] = n + 1;
     weight[all - 1] = 2 * s->p->far;
     thr_tjoin_problem p = {n + 2, all, (const int(*)[2])edge, weight, odd, 2};
-    limit = thr_tjoin_shrunk(&p, s->p->engine, s->limits, &tjoin, err);
+    limit = thr_tjoin_minimum(&p, s->p->engine, s->limits, &tjoin, err);
     if (limit == THR_ELIMIT) { /* whose quick joins need not respect the leaves */
       thr_tjoin_destroy(&tjoin);
       limit = thr_tjoin_solve(&p, s->limits, &tjoin, err);

@@ -1,10 +1,7 @@
-/* Minimum T-joins: which engine, shrinking first, and the word of a third party on the result.
+/* Solves minimum T-join problems by one of two engines, and asks GLPK whether the result is the minimum.
  *
  * Matching (lp/matching/moat.h) is the engine, unless the user asks for the linear programme (lp/tjoin/tjoin.h) or the weights
- * are too large for whole numbers of 64 bits.
- *
- * Example: of a framework with two bridges and ten chains the engine sees what is left of it without them; joins and cuts are
- * carried back. */
+ * are too large for whole numbers of 64 bits. */
 #ifndef THR_ENGINE_H
 #define THR_ENGINE_H
 
@@ -13,11 +10,10 @@
 #include "graph/status.h"
 #include "lp/tjoin/tjoin.h"
 
-/* As thr_tjoin_solve, by either engine: THR_ENGINE_LP is lp/tjoin/tjoin.h, THR_ENGINE_MATCHING lp/matching/moat.h (weights that
- * do not fit: THR_EINPUT). The problem is shrunk before (lp/tjoin/shrink.h) where that pays: always for the linear programme, for
- * the matching if it loses many nodes. */
-thr_status thr_tjoin_shrunk(const thr_tjoin_problem *tjoin_problem, thr_engine engine, const thr_limits *limits, thr_tjoin *out,
-                            thr_err *err) THR_MUST_CHECK;
+/* Computes the same as thr_tjoin_solve: THR_ENGINE_LP by thr_tjoin_solve itself, THR_ENGINE_MATCHING by thr_moat_solve (which
+ * returns THR_EINPUT for weights that do not fit), THR_ENGINE_AUTO by matching if the weights fit. */
+thr_status thr_tjoin_minimum(const thr_tjoin_problem *tjoin_problem, thr_engine engine, const thr_limits *limits, thr_tjoin *out,
+                             thr_err *err) THR_MUST_CHECK;
 
 enum { THR_CONFIRM_EDGES = 10000 }; /* problems up to this size are confirmed well within a second */
 

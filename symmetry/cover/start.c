@@ -198,7 +198,7 @@ static thr_status add_join(const request *r, const thr_programme *p, const thr_l
   }
   if (!st && *found && any) {
     thr_err why = {0};
-    st = thr_tjoin_shrunk(&g.problem, THR_ENGINE_AUTO, limits, &tjoin, &why);
+    st = thr_tjoin_minimum(&g.problem, THR_ENGINE_AUTO, limits, &tjoin, &why);
     st = st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK; /* the best so far will do */
     *least = (double)tjoin.sum / THR_DUAL_DENOMINATOR * g.unit;
   }

@@ -1,11 +1,10 @@
-/* Minimum T-joins of random graphs: both engines, with and without shrinking, against each other and against all subsets; every
- * certificate is checked here, by sums of 128 bits. */
+/* Minimum T-joins of random graphs: both engines against each other and against all subsets; every certificate is checked here,
+ * by sums of 128 bits. */
 #include "tests/support.h"
 #include "lp/tjoin/cutbasis.h"
 #include "lp/tjoin/engine.h"
 #include "lp/matching/moat.h"
 #include "lp/matching/nest.h"
-#include "lp/tjoin/shrink.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "lp/matching/blossom.h"
@@ -221,31 +220,14 @@ static void assert_optimal(const graph *g, const thr_tjoin *t, int64_t least)
   ck_assert(sum > (wide)(least - 1) * THR_DUAL_DENOMINATOR);
 }
 
-typedef enum { BY_LP, BY_MATCHING, BY_SHRUNK_LP, BY_SHRUNK_MATCHING, WAYS } way;
-
-static thr_status solve_shrunk_by_matching(const thr_tjoin_problem *p, thr_tjoin *t, thr_err *err)
-{
-  thr_shrinking s;
-  thr_tjoin small;
-  thr_status st = thr_shrinking_init(&s, p, err);
-  if (st) return st;
-  for (int e = 0; e < s.reduced.n_edges; e++)
-    ck_assert_int_ge(s.reduced.weight[e], 0);
-  st = thr_moat_solve(&s.reduced, &no_limit, &small, err);
-  if (!st) st = thr_shrinking_lift(&s, &small, t, err);
-  thr_shrinking_destroy(&s);
-  return st;
-}
+typedef enum { BY_LP, BY_MATCHING, WAYS } way;
 
 static thr_tjoin solve(const graph *g, way by)
 {
   thr_tjoin_problem p = problem_of(g);
   thr_tjoin t = {0};
   thr_err err = {0};
-  thr_status st = by == BY_LP          ? thr_tjoin_solve(&p, &no_limit, &t, &err)
-                  : by == BY_MATCHING  ? thr_moat_solve(&p, &no_limit, &t, &err)
-                  : by == BY_SHRUNK_LP ? thr_tjoin_shrunk(&p, THR_ENGINE_LP, &no_limit, &t, &err)
-                                       : solve_shrunk_by_matching(&p, &t, &err);
+  thr_status st = by == BY_LP ? thr_tjoin_solve(&p, &no_limit, &t, &err) : thr_moat_solve(&p, &no_limit, &t, &err);
   ck_assert_msg(st == THR_OK, "way %d: %s", by, err.text);
   return t;
 }
@@ -256,7 +238,7 @@ static void assert_all_ways(const graph *g, int64_t least)
     thr_tjoin t = solve(g, by);
     if (least == INT64_MAX) least = t.length;
     assert_optimal(g, &t, least);
-    if (by == BY_MATCHING || by == BY_SHRUNK_MATCHING) ck_assert(t.sum == t.length * THR_DUAL_DENOMINATOR);
+    if (by == BY_MATCHING) ck_assert(t.sum == t.length * THR_DUAL_DENOMINATOR);
     thr_tjoin_destroy(&t);
   }
 }
@@ -290,11 +272,9 @@ START_TEST(larger_ones_are_proved)
 {
   rng r = rng_make((uint64_t)_i + 2000);
   graph g = draw_graph(&r, rng_between(&r, 300, 900), (shape_kind)(_i % SHAPES), (weight_kind)(_i / SHAPES % WEIGHT_KINDS));
-  for (way by = BY_MATCHING; by < WAYS; by += BY_SHRUNK_MATCHING - BY_MATCHING) {
-    thr_tjoin t = solve(&g, by);
-    assert_optimal(&g, &t, t.length);
-    thr_tjoin_destroy(&t);
-  }
+  thr_tjoin t = solve(&g, BY_MATCHING);
+  assert_optimal(&g, &t, t.length);
+  thr_tjoin_destroy(&t);
   graph_destroy(&g);
 }
 END_TEST
@@ -350,10 +330,10 @@ START_TEST(every_allocation_fails_once)
     thr_tjoin t;
     thr_err err = {0};
     thr_alloc_fail_at(k);
-    st = _i % 2 ? thr_moat_solve(&p, &no_limit, &t, &err) : solve_shrunk_by_matching(&p, &t, &err);
+    st = _i % 2 ? thr_moat_solve(&p, &no_limit, &t, &err) : thr_tjoin_solve(&p, &no_limit, &t, &err);
     thr_alloc_fail_at(0);
     if (st) ck_assert_msg(st == THR_ENOMEM, "allocation %ld: %s", k, err.text);
-    if (st && _i % 2) ck_assert(!t.in_join && !t.cut);
+    if (st) ck_assert(!t.in_join && !t.cut);
     if (!st) thr_tjoin_destroy(&t);
   }
   graph_destroy(&g);
@@ -373,7 +353,7 @@ START_TEST(too_large_weights_are_refused_or_go_to_the_other_engine)
   ck_assert_int_eq(thr_moat_solve(&p, &no_limit, &t, &err), THR_EINPUT);
   ck_assert_ptr_null(t.in_join);
   assert_one_line(&err, "large");
-  ck_assert_int_eq(thr_tjoin_shrunk(&p, THR_ENGINE_AUTO, &no_limit, &t, NULL), THR_OK);
+  ck_assert_int_eq(thr_tjoin_minimum(&p, THR_ENGINE_AUTO, &no_limit, &t, NULL), THR_OK);
   assert_optimal(&g, &t, _i ? 10 : THR_MOAT_WEIGHTS_MOST);
   thr_tjoin_destroy(&t);
   graph_destroy(&g);
@@ -536,7 +516,7 @@ START_TEST(the_programme_on_the_cuts_starts_at_its_optimum)
       thr_cut_programme c = {0};
       if (t.n_cuts) ck_assert_int_eq(thr_cut_programme_init(&c, &p, &t, NULL), THR_OK);
       assert_adds_up_to_cuts(&g, &t, &c);
-      bool matched = t.n_cuts && (by == BY_MATCHING || by == BY_SHRUNK_MATCHING);
+      bool matched = t.n_cuts && (by == BY_MATCHING);
       if (matched) assert_basis_is_the_join(&g, &t, &c, by == BY_MATCHING);
       thr_cut_programme_destroy(&c);
       thr_tjoin_destroy(&t);

@@ -146,7 +146,7 @@ static thr_status solve_join(const thr_tjoin_problem *tjoin_problem, const thr_l
   thr_err stopped = {0};
   thr_limits quiet = *limits; /* the join's best and bound are not those of the turning */
   quiet.progress = NULL;
-  thr_status st = thr_tjoin_shrunk(tjoin_problem, THR_ENGINE_AUTO, &quiet, tjoin, &stopped);
+  thr_status st = thr_tjoin_minimum(tjoin_problem, THR_ENGINE_AUTO, &quiet, tjoin, &stopped);
   if (st == THR_ELIMIT && tjoin_problem->n_leaves) {
     thr_tjoin_destroy(tjoin);
     st = thr_tjoin_solve(tjoin_problem, &quiet, tjoin, &stopped);
