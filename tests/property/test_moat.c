@@ -454,8 +454,8 @@ static void solve_square(size_t n, double *a, double *b)
     b[k] /= a[k * n + k];
 }
 
-/* The basis matrix (turned: transposed) in a new array. */
-static double *basis_matrix(const thr_cut_programme *c, bool turned)
+/* The basis matrix in a new array. */
+static double *basis_matrix(const thr_cut_programme *c)
 {
   size_t n = (size_t)c->n_rows, count = 0;
   double *a = calloc(n * n, sizeof *a);
@@ -463,23 +463,20 @@ static double *basis_matrix(const thr_cut_programme *c, bool turned)
   for (int j = 0; j < c->n_columns; j++) {
     if (!c->basic[j]) continue;
     ck_assert_uint_lt(count, n);
-    for (int k = c->start[j]; k < c->start[j + 1]; k++) {
-      size_t row = (size_t)c->row[k];
-      a[turned ? count * n + row : row * n + count] += c->value[k];
-    }
+    for (int k = c->start[j]; k < c->start[j + 1]; k++)
+      a[(size_t)c->row[k] * n + count] += c->value[k];
     count++;
   }
   ck_assert_uint_eq(count, n);
   return a;
 }
 
-/* The basis is one, its point has no negative column and the join's weight; and, if wanted, it has no negative reduced cost. */
-static void assert_basis_is_the_join(const graph *g, const thr_tjoin *t, const thr_cut_programme *c, bool optimal)
+/* The basis is one, and its point has no negative column and the join's weight. */
+static void assert_basis_is_the_join(const graph *g, const thr_tjoin *t, const thr_cut_programme *c)
 {
   size_t n = (size_t)c->n_rows, count = 0;
-  double *a = basis_matrix(c, false), *turned = basis_matrix(c, true), *x = calloc(n, sizeof *x), *dual = calloc(n, sizeof *dual);
-  double weight = 0, most = 1;
-  ck_assert(x && dual);
+  double *a = basis_matrix(c), *x = calloc(n, sizeof *x), weight = 0, most = 1;
+  ck_assert_ptr_nonnull(x);
   memcpy(x, c->rhs, n * sizeof *x);
   solve_square(n, a, x);
   for (int e = 0; e < g->m; e++)
@@ -487,25 +484,15 @@ static void assert_basis_is_the_join(const graph *g, const thr_tjoin *t, const t
   for (int j = 0; j < c->n_columns; j++) {
     if (!c->basic[j]) continue;
     ck_assert_double_ge(x[count], -1e-9);
-    dual[count] = j < g->m ? (double)g->weight[j] : 0;
-    weight += dual[count] * x[count];
+    if (j < g->m) weight += (double)g->weight[j] * x[count];
     count++;
   }
   ck_assert_double_eq_tol(weight, (double)t->length, 1e-9 * most);
-  solve_square(n, turned, dual);
-  for (int j = 0; j < c->n_columns; j++) {
-    double reduced = j < g->m ? (double)g->weight[j] : 0;
-    for (int k = c->start[j]; k < c->start[j + 1]; k++)
-      reduced -= dual[c->row[k]] * c->value[k];
-    ck_assert(!optimal || reduced > -1e-9 * most);
-  }
   free(a);
-  free(turned);
   free(x);
-  free(dual);
 }
 
-START_TEST(the_programme_on_the_cuts_starts_at_its_optimum)
+START_TEST(the_programme_on_the_cuts_starts_at_the_join)
 {
   rng r = rng_make((uint64_t)_i + 6000);
   for (int k = 0; k < 2 * SHAPES; k++) {
@@ -516,8 +503,7 @@ START_TEST(the_programme_on_the_cuts_starts_at_its_optimum)
       thr_cut_programme c = {0};
       if (t.n_cuts) ck_assert_int_eq(thr_cut_programme_init(&c, &p, &t, NULL), THR_OK);
       assert_adds_up_to_cuts(&g, &t, &c);
-      bool matched = t.n_cuts && (by == BY_MATCHING);
-      if (matched) assert_basis_is_the_join(&g, &t, &c, by == BY_MATCHING);
+      if (t.n_cuts && by == BY_MATCHING) assert_basis_is_the_join(&g, &t, &c);
       thr_cut_programme_destroy(&c);
       thr_tjoin_destroy(&t);
     }
@@ -592,7 +578,7 @@ int main(void)
   ADD_EXAMPLES(s, 30, too_large_weights_are_refused_or_go_to_the_other_engine, 2);
   ADD_TEST(s, 30, large_weights_with_a_light_tree_are_matched);
   ADD_EXAMPLES(s, 60, glpk_confirms_what_is_optimal_and_nothing_else, 8);
-  ADD_EXAMPLES(s, 60, the_programme_on_the_cuts_starts_at_its_optimum, 16);
+  ADD_EXAMPLES(s, 60, the_programme_on_the_cuts_starts_at_the_join, 16);
   ADD_EXAMPLES(s, 60, every_allocation_of_a_confirmation_fails_once, 2 * SHAPES);
   ADD_TEST(s, 10, a_negative_width_is_taken_from_the_moats_between_mates);
   return run_suite(s);
