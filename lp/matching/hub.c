@@ -1,5 +1,7 @@
 /* Pairs over hubs. */
-#include "lp/matching/hub.h"
+#include "lp/matching/candidates.h"
+#include "graph/status.h"
+#include "lp/matching/network.h"
 #include "graph/random.h"
 
 #include <stdlib.h>

@@ -2,7 +2,6 @@
 #include "lp/matching/moat.h"
 #include "lp/matching/blossom.h"
 #include "lp/matching/candidates.h"
-#include "lp/matching/hub.h"
 #include "lp/matching/nest.h"
 #include "lp/matching/network.h"
 
