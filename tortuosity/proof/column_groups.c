@@ -9,6 +9,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
 #include "graph/sort.h"
+#include "graph/status.h"
 #include "lp/model/pool.h"
 #include "tortuosity/proof/relax.h"
 

@@ -11,6 +11,7 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
+#include "graph/status.h"
 #include "graph/threading/pairing.h"
 #include "lp/model/pool.h"
 
