@@ -8,6 +8,7 @@
 #include "tortuosity/cords/walk_centre.h"
 #include "tortuosity/cords/walk_dive.h"
 #include "tortuosity/cords/walk_memory.h"
+#include "tortuosity/cords/walk_near.h"
 #include "tortuosity/cords/walk_programme.h"
 
 #include <math.h>
@@ -18,10 +19,11 @@ enum {
   MOST_DENSE = 450 /* variables whose dense factors take less time than corners */,
   MOST_GROWTHS = 6,
   MOST_DIVES = 20,
-  FEW_DIVES = 8
+  FEW_DIVES = 8,
+  MOST_DRAWN = 12
 };
 
-/* Cords no further above the bound than this factor are near: few dives are made below them. */
+/* Cords no further above the bound than that are near: few dives, no walks drawn at random, none chosen in integers. */
 static const double near_enough = 1.05;
 
 /* Are cords of at most so many units too few? Then proof is why. *grown, where it is asked for: the walks that were enough go
@@ -135,15 +137,19 @@ static thr_status keep_better(thr_walk_programme *p, const thr_cord *cord, int n
 }
 
 /* Cords of at most so many units that turn, or are, less than the dearest of those that are known? Then they are better. */
-static thr_status look_below(thr_walk_programme *p, const thr_cord *cord, int n_cords, int units, int *passes, thr_cord **better,
-                             thr_err *err)
+static thr_status look_below(thr_walk_programme *p, const thr_cord *cord, int n_cords, double bound, int units, int *passes,
+                             thr_cord **better, thr_err *err)
 {
   const thr_walk_measure measure = p->steps.measure;
   const thr_cord *known = *better ? *better : cord;
   double largest = thr_walk_price(p->c, measure, &known[thr_walk_dearest(p->c, measure, known, n_cords)]);
   thr_cord *walk = thr_calloc((size_t)p->cords, sizeof *walk);
-  bool found = false;
-  thr_status st = walk ? thr_walk_dive(p, units, walk, &found, err) : thr_nomem(err);
+  bool found = false, wide = largest > near_enough * bound;
+  uint64_t random = 1;
+  thr_status st = walk ? thr_walk_dive(p, units, NULL, 0, walk, &found, err) : thr_nomem(err);
+  for (int i = 0; i < MOST_DRAWN && wide && !st && !found && !thr_limits_stop(p->limits); i++)
+    st = thr_walk_dive(p, units, &random, 0, walk, &found, err);
+  if (!st && !found && wide) st = thr_walk_choose(p, units, walk, &found, err);
   if (!st && found) st = keep_better(p, cord, n_cords, walk, largest, passes, better, err);
   thr_cords_destroy(walk, p->cords);
   return st;
@@ -167,11 +173,36 @@ static thr_status look_for_cords(thr_walk_programme *p, const thr_cord *cord, in
     if (units > high || thr_walk_programme_price(p, units) >= largest * (1 - 1e-6)) break;
     if (*better && thr_walk_programme_price(p, high - low) < near * largest) break;
     thr_cord *before = *better;
-    st = look_below(p, cord, n_cords, units, passes, better, err);
+    st = look_below(p, cord, n_cords, bound, units, passes, better, err);
     if (*better != before) continue;
     low = units;
     units += 1 + (high - units) / (i < 2 ? 32 : i < 5 ? 16 : 4);
   }
+  free(passes);
+  return st;
+}
+
+/* Cords near those that are known, in the programme's component. */
+static thr_status look_near(thr_walk_programme *p, const thr_cord *cord, int n_cords, double bound, thr_cord **better,
+                            thr_err *err)
+{
+  const double near = fmax(1e-9, p->limits->gap); /* of the bound */
+  const thr_walk_measure measure = p->steps.measure;
+  const thr_cord *known = *better ? *better : cord;
+  const double largest = thr_walk_price(p->c, measure, &known[thr_walk_dearest(p->c, measure, known, n_cords)]);
+  thr_cord *walk = NULL;
+  int n = 0, *passes = thr_calloc((size_t)p->c->f->n_edges, sizeof *passes);
+  bool improved = false;
+  thr_status st = passes ? thr_cords_copy(known, n_cords, &walk, err) : thr_nomem(err);
+  for (int i = 0; i < n_cords && !st; i++) { /* those of the component come first, in their order */
+    if (p->c->component[thr_tail(p->c->f, walk[i].half[0])] != p->component) continue;
+    const thr_cord here = walk[i];
+    walk[i] = walk[n];
+    walk[n++] = here;
+  }
+  if (!st && n == p->cords) st = thr_walk_near(p, bound * (1 + near), walk, &improved, err);
+  if (!st && improved) st = keep_better(p, known, n_cords, walk, largest, passes, better, err);
+  thr_cords_destroy(walk, walk ? n_cords : 0);
   free(passes);
   return st;
 }
@@ -185,18 +216,19 @@ static bool has_own_prices(const thr_walk_programme *p)
   return p->n_edges == edges;
 }
 
-/* Raises the bound, then looks for cords just above it, each in a part of the time. */
+/* Each in its part of the time: the bound; cords just above it; cords near those that are known. */
 static thr_status search(thr_walk_programme *p, const thr_walk_ask *ask, double *bound, thr_walk_proof *made, thr_cord **better,
                          thr_err *err)
 {
-  const double for_bound = .8; /* of the time */
+  const double for_bound = .8, for_cords = .3, for_near = .6; /* of what is left */
   const thr_turning_task *task = p->c->task;
   const thr_limits *limits = p->limits;
   const thr_cord *cord = ask->cord;
   const int n_cords = ask->n_cords;
   const double largest = thr_walk_price(p->c, ask->measure, &cord[thr_walk_dearest(p->c, ask->measure, cord, n_cords)]);
   int open = 0;
-  const thr_limits share = limits->brief ? *limits : thr_limits_part(limits, for_bound);
+  const bool brief = limits->brief; /* nothing is left for cords near others */
+  thr_limits share = brief ? *limits : thr_limits_part(limits, for_bound);
   p->limits = &share;
   thr_status st =
       ask->enough > 0 ? try_limit(p, ask->enough, made, bound, &open, err) : bisect(p, largest, false, made, bound, &open, err);
@@ -204,8 +236,11 @@ static thr_status search(thr_walk_programme *p, const thr_walk_ask *ask, double 
   const bool near = thr_limits_near(limits, largest, *bound);
   const bool wanted = !near && ask->measure != THR_WALK_PULL && (ask->enough <= 0 || *bound <= ask->enough) && !task->tube &&
                       !task->end_count && has_own_prices(p);
-  p->limits = limits;
+  if (!brief) share = thr_limits_part(limits, for_cords);
   if (!st && wanted) st = look_for_cords(p, cord, n_cords, *bound, open, better, err);
+  if (!brief) share = thr_limits_part(limits, for_near);
+  if (!st && wanted && !brief) st = look_near(p, cord, n_cords, *bound, better, err);
+  p->limits = limits;
   return st;
 }
 

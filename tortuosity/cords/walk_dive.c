@@ -1,9 +1,10 @@
-/* Dives on the columns of a programme over walks. */
+/* Diving on the columns, or a programme of all of them in integers. */
 #include "tortuosity/cords/walk_dive.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/random.h"
 #include "graph/status.h"
 #include "lp/model/pool.h"
 #include "lp/model/search.h"
@@ -18,7 +19,8 @@ typedef struct {
   thr_walk_programme *p;
   double *left, *cost; /* [n_variables] the right sides that are left; costs of the dual */
   thr_cord *cord;
-  int n_cords;
+  int n_cords, kept; /* of them those that were there before */
+  uint64_t *random;  /* state; NULL: the largest column is taken */
 } dive;
 
 /* Passes that the walk of a row makes of those that are still needed. */
@@ -51,21 +53,18 @@ static thr_status take(dive *d, const thr_row *row, thr_err *err)
   return THR_OK;
 }
 
-/* Returns the row of the walk with the largest column among those that make missing passes. -1: no walk does. */
-static int choose_walk(const dive *d)
+/* Of the walks that serve, the one with the largest column; or any, drawn as often as its column says. -1: there is none. */
+static int choose_walk(dive *d)
 {
   const thr_search *search = &d->p->search;
   int best = -1, rows = thr_lp_rows(search->lp);
-  double most = 0;
-
+  double sum = 0, most = 0;
   for (int i = 0; i < rows; i++) {
-    const double value = search->dual[i];
-    if (value < 1e-6 || serves(d, &search->pool.row[i]) == 0) {
-      continue;
-    }
-    if (value > most + 1e-9 || best < 0) {
-      best = i;
-    }
+    double value = search->dual[i];
+    if (value < 1e-6 || serves(d, &search->pool.row[i]) == 0) continue;
+    sum += value;
+    bool takes = d->random ? thr_random_unit(d->random) * sum < value : value > most + 1e-9;
+    if (takes || best < 0) best = i;
     most = fmax(most, value);
   }
   return best;
@@ -110,6 +109,24 @@ static thr_status fill_up(dive *d, const thr_pool *pool, thr_err *err)
   return st;
 }
 
+/* What the cords that are kept do is no longer needed. */
+static void take_off(dive *d, const thr_cord *cord)
+{
+  const thr_walk_programme *p = d->p;
+  const thr_frame *frame = p->c->f;
+  double *left = d->left;
+  for (int i = 0; i < cord->n_passes; i++) {
+    const int h = cord->half[i], end[] = {thr_tail(frame, h), thr_head(frame, h)};
+    left[p->edge[h >> 1]] = fmax(0, left[p->edge[h >> 1]] - 1);
+    for (int k = 0; k < 2; k++) {
+      const int j = p->node[end[k]], passes = 1 + (!p->steps.closed && i == (k ? cord->n_passes - 1 : 0));
+      if (j >= 0) left[j] = fmax(0, left[j] - passes);
+    }
+  }
+  if (p->least > 0)
+    left[p->n_variables - 1] = fmax(0, left[p->n_variables - 1] - thr_walk_price(p->c, p->steps.measure, cord) / p->least);
+}
+
 /* Walks in a part of the time; where that ends it, those will do. */
 static thr_status first_walks(thr_walk_programme *p, thr_err *err)
 {
@@ -138,29 +155,92 @@ static thr_status run(dive *d, bool *found, thr_err *err)
     if (!few && -p->search.objective > p->cords - d->n_cords + 1e-6) break;
     st = take_some(d, &taken, err);
   }
-  *found = !st && is_covered(d);
+  /* What is kept may do all that is needed before a walk is known: then there is none to fill up with. */
+  *found = !st && is_covered(d) && (d->n_cords == p->cords || p->search.pool.count > 0);
   return *found && !few ? fill_up(d, &p->search.pool, err) : st;
 }
 
-thr_status thr_walk_dive(thr_walk_programme *p, int units, thr_cord *cord, bool *found, thr_err *err)
+thr_status thr_walk_dive(thr_walk_programme *p, int units, uint64_t *random, int kept, thr_cord *cord, bool *found, thr_err *err)
 {
   const double dear = p->per_cord > 0 ? p->dearest : 10; /* no pass goes without a walk */
   size_t n = (size_t)p->n_variables;
-  dive d = {.p = p, .cord = cord};
+  dive d = {.p = p, .cord = cord, .n_cords = kept, .kept = kept, .random = random};
   d.left = thr_calloc(n, sizeof *d.left);
   d.cost = thr_calloc(n, sizeof *d.cost);
   *found = false;
   thr_status st = d.left && d.cost ? THR_OK : thr_nomem(err);
   if (!st) memcpy(d.left, p->right, n * sizeof *d.left);
+  for (int i = 0; i < kept && !st; i++)
+    take_off(&d, &cord[i]);
   p->to_exclude = false;
   if (!st) st = thr_walk_programme_begin(p, units, dear, err);
   if (!st) st = run(&d, found, err);
   if (!st) st = thr_walk_programme_end(p, err);
-  for (int i = 0; i < d.n_cords && !*found; i++) {
+  for (int i = kept; i < d.n_cords && !*found; i++) {
     free(cord[i].half);
     cord[i] = (thr_cord){0};
   }
   free(d.left);
   free(d.cost);
+  return st;
+}
+
+/* ---- among all walks ---- */
+
+/* Walks of at most so many units as columns, their number to be least; the edges' passes as rows. */
+static thr_status make_choice(const thr_walk_programme *p, const int *walk, int n, thr_lp **lp, thr_err *err)
+{
+  double *cost = thr_calloc((size_t)n, sizeof *cost), *value = thr_calloc((size_t)n, sizeof *value);
+  int *column = thr_calloc((size_t)n, sizeof *column);
+  thr_status st = cost && value && column ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < n && !st; i++)
+    cost[i] = 1;
+  if (!st) st = thr_lp_create(lp, n, cost, NULL, err);
+  for (int j = 0; j < p->n_edges && !st; j++) {
+    int entries = 0;
+    for (int i = 0; i < n; i++) {
+      const thr_row *row = &p->walks.row[walk[i]];
+      for (int k = 0; k < row->n; k++)
+        if (row->column[k] == j) {
+          column[entries] = i;
+          value[entries++] = row->value ? -row->value[k] : -1;
+        }
+    }
+    st = thr_lp_add_row(*lp, entries, column, value, p->right[j], err);
+  }
+  free(cost);
+  free(value);
+  free(column);
+  return st;
+}
+
+thr_status thr_walk_choose(thr_walk_programme *p, int units, thr_cord *cord, bool *found, thr_err *err)
+{
+  const double part = .1; /* of the time */
+  const thr_limits share = thr_limits_part(p->limits, part);
+  thr_lp_outcome outcome = THR_LP_STOPPED;
+  thr_lp *lp = NULL;
+  dive d = {.p = p, .cord = cord, .left = thr_calloc((size_t)p->n_variables, sizeof *d.left)};
+  int n = 0, *walk = thr_calloc((size_t)p->walks.count, sizeof *walk);
+  double *x = thr_calloc((size_t)p->walks.count, sizeof *x);
+  *found = false;
+  thr_status st = d.left && walk && x ? THR_OK : thr_nomem(err);
+  for (int i = 0; i < p->walks.count && !st; i++)
+    if (p->walks.row[i].index <= units) walk[n++] = i;
+  if (!st && n > 0) st = make_choice(p, walk, n, &lp, err);
+  if (!st && n > 0) st = thr_lp_solve(lp, &share, &outcome, err);
+  if (!st && outcome == THR_LP_OPTIMAL) st = thr_lp_solve_integer(lp, &share, &outcome, err);
+  if (!st && outcome == THR_LP_OPTIMAL && thr_lp_objective(lp) < p->cords + .5) {
+    *found = true;
+    thr_lp_primal(lp, x);
+    for (int i = 0; i < n && !st; i++)
+      for (int times = (int)(x[i] + .5); times > 0 && !st; times--)
+        st = take(&d, &p->walks.row[walk[i]], err);
+    if (!st) st = fill_up(&d, &p->walks, err);
+  }
+  thr_lp_destroy(lp);
+  free(d.left);
+  free(walk);
+  free(x);
   return st;
 }

@@ -1,10 +1,4 @@
-/* Chooses cords from the columns of a programme over walks by diving. Internal to tortuosity/.
- *
- * A column is the share of a walk in the best fractional plan. A dive takes every walk whose column
- * is 1, or else the one with the largest column, subtracts the passes that it makes from those that
- * are needed, solves the programme again with few new walks, and goes on until every edge has its
- * passes (depth-first, without backtracking: C. Joncour et al., Electronic Notes in Discrete
- * Mathematics 36, 2010). */
+/* Cords that a programme over walks chooses: by diving, and among all its walks. Internal to tortuosity/. */
 #ifndef THR_WALK_DIVE_H
 #define THR_WALK_DIVE_H
 
@@ -12,9 +6,16 @@
 #include "graph/status.h"
 #include "tortuosity/cords/walk_programme.h"
 
-/* Dives among walks of at most `units` units. cord[programme->cords] receives the walks and *found
- * becomes true if there are enough; else cord stays empty. Begins the programme's search, and ends
- * it. */
-thr_status thr_walk_dive(thr_walk_programme *programme, int units, thr_cord *cord, bool *found, thr_err *err) THR_MUST_CHECK;
+#include <stdint.h>
+
+/* Below so many units: columns of value 1 are fixed, or else the largest, or one drawn at random (NULL: none is), and what is
+ * left is solved again with few new walks, until the edges have their passes. cord[programme->cords] receives the walks, *found
+ * whether there were enough. kept: so many of them are there already, at the front of cord, and stay. The search is begun and
+ * ended here. */
+thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *random, int kept, thr_cord *cord, bool *found,
+                         thr_err *err) THR_MUST_CHECK;
+
+/* The same by an integer programme over the walks that are known, in a part of the time. */
+thr_status thr_walk_choose(thr_walk_programme *programme, int units, thr_cord *cord, bool *found, thr_err *err) THR_MUST_CHECK;
 
 #endif

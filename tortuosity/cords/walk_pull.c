@@ -114,7 +114,7 @@ thr_status thr_walk_pull_few(const thr_turning_columns *columns, const thr_reque
   if (!st) {
     p.cords = most;
     thr_walk_programme_round_up(&p, count_edges(columns, component));
-    st = thr_walk_dive(&p, p.units, cord, &found, &why);
+    st = thr_walk_dive(&p, p.units, NULL, 0, cord, &found, &why);
   }
   if (!st && found) {
     p.cords = count_cords(cord, most);
