@@ -6,7 +6,6 @@
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
-#include "tortuosity/cords/walk_cover.h"
 #include "tortuosity/cords/walk_dive.h"
 #include "tortuosity/cords/walk_memory.h"
 #include "tortuosity/cords/walk_programme.h"
@@ -116,11 +115,7 @@ thr_status thr_walk_pull_few(const thr_turning_columns *columns, const thr_reque
     thr_walk_programme_round_up(&p, count_edges(columns, component));
     st = thr_walk_dive(&p, p.units, NULL, 0, cord, &found, &why);
   }
-  if (!st && found) {
-    p.cords = count_cords(cord, most);
-    st = thr_walk_cover(&p, cord, &why);
-    *n = count_cords(cord, most);
-  }
+  if (!st && found) *n = count_cords(cord, most);
   thr_walk_programme_destroy(&p);
   return st == THR_ELIMIT ? THR_OK : st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }

@@ -1,4 +1,4 @@
-# awk -f readme.awk README.md OUTPUT: prints each line that the README shows as output of a command and that OUTPUT lacks or has
+# awk -f readme.awk PAGE OUTPUT: prints each line that the page shows as output of a command and that OUTPUT lacks or has
 # earlier than the line before. Numbers may differ by 2 %: simulations end in other last digits on other processors. ".." stands for
 # words left out, on a line of its own for lines.
 
