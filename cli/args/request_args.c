@@ -11,6 +11,7 @@
 #include "graph/status.h"
 #include "planner/dispatch.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -124,12 +125,15 @@ static bool parse_frontier(request_args *a, const char *value)
 static bool parse_field(request_args *a, const thr_request_field *field, const char *option, const char *value)
 {
   void *to = thr_request_value(&a->asked, field);
-  if (field->kind == THR_ASKS_COUNT) return cli_int("plan", option, value, (int)field->low, (int)field->high, to);
+  const double most_counted = 1e6;
+  if (field->kind == THR_ASKS_COUNT)
+    return cli_int("plan", option, value, (int)field->low, (int)fmin(field->high, most_counted), to);
   if (field->kind == THR_ASKS_WORD) return cli_choose("plan", option, value, field->name, field->n_names, to);
 
-  /* The least amount may be anything above 0, which is no number to print. */
+  /* The least amount may be anything above 0, and the most anything, which are no numbers to print. */
+  const double most = 1e100;
   double *amount = to;
-  if (!cli_double("plan", option, value, 0, field->high, amount)) return false;
+  if (!cli_double("plan", option, value, 0, fmin(field->high, most), amount)) return false;
   if (*amount >= field->low) return true;
   cli_usage("plan", "%s %s: expected a number above 0", option, value);
   return false;
