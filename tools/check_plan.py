@@ -337,11 +337,11 @@ class Options:
         self.objective = choice(o, "objective", p, ("length", "tortuosity", "symmetry"))
         self.tube = choice(o, "joint", p, ("solid", "tube")) == "tube"
         self.cover = member(o, "cover", "integer", p, 1, 100)
-        self.capacity = member(o, "capacity", "integer", p, 1, 100, default=0)
+        self.capacity = member(o, "capacity", "integer", p, 1, 2**31 - 1, default=0)
         self.balance = member(o, "balance", "truth", p, default=False)
         self.max_length = member(o, "max_length", "number", p, 5e-324, default=None)
         self.max_pull = member(o, "max_pull", "number", p, 1, default=None)
-        member(o, "time_limit", "number", p)
+        member(o, "time_limit", "number", p, 0)
         member(o, "gap", "number", p, 0, 100, default=None)
         member(o, "needles", "integer", p, 1, 2, default=0)
         choice(o, "order", p, ("hand", "planned", "starts"), default="planned")
@@ -2336,13 +2336,16 @@ def check_turning(p):
     require(bound is not None, f"{place}.proof: proves that there is no plan")
     bound = max(Fraction(0), Fraction(bound) / UNIT)
     largest = member(claim, "largest", "object", place)
-    few, few_largest = few_edges_bounds(p, True, member(largest, "lower_bound", "number", place + ".largest", 0))
+    # A turning that is said to be the least has to be proved up to the rounding of prices, any other bound to its last digits.
+    rounding = 2 * TOLERANCE * Fraction(math.pi if o.cost == "angle" else 1) * sum(min(x, 2 * n) for x, n in zip(p.passes, o.need))
+    stated = member(largest, "lower_bound", "number", place + ".largest", 0)
+    is_least = member(largest, "status", "text", place + ".largest") == "optimal"
+    few, few_largest = few_edges_bounds(p, True, max(0, stated - 0.9 * float(rounding)) if is_least else stated)
     bound = max(bound, few)
     if p.closing and o.cost in ("angle", "sine"):  # Fenchel 1929; sin(x / 2) >= x / pi
         bound = max(bound, Fraction(2 * math.pi if o.cost == "angle" else 2) * o.least * len(f.pieces))
     whole = common_angle(f, most) if o.cost == "angle" else None
     bound = round_up(whole, f.m, bound)
-    rounding = 2 * TOLERANCE * Fraction(math.pi if o.cost == "angle" else 1) * sum(min(x, 2 * n) for x, n in zip(p.passes, o.need))
     optimal = price - bound <= rounding
     scale = 1 + price
     p.close(member(claim, "price", "number", place), price, scale, place + ".price")
