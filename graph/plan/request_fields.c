@@ -264,7 +264,7 @@ static thr_status read_symmetry(thr_request_reader *r, const thr_json *object);
 
 /* In the order in which plan.json has them. */
 const thr_request_field thr_request_fields[] = {
-    {"objective", OTHER(objective), .always = true},
+    {"objective", .kind = THR_ASKS_OTHER, .write = write_objective}, /* read first: thr_plan_read_options */
     {"joint", WORD(thr_joint_name, 2), AT(joint), .always = true},
     {"cover", COUNT, AT(cover), .low = 1, .high = 100, .always = true},
     {"capacity", COUNT, AT(capacity), .low = 1, .high = INT32_MAX},

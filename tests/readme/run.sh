@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs what README.md and docs/guide.md show: every line "$ command" in a block, in order and in one folder each, and compares what
-# it prints to stdout with what stands below it. ".." there, on a line of its own or inside, stands for anything; a command with nothing below it may
-# print anything. tests/readme/run.sh PROGRAM; closes with "N passed, N failed".
+# it prints to stdout with what stands below it. ".." there, on a line of its own or inside, stands for anything; a command with
+# nothing below it may print anything. tests/readme/run.sh PROGRAM; closes with "N passed, N failed".
 set -u
 [ $# -eq 1 ] || { echo "usage: tests/readme/run.sh PROGRAM" >&2; exit 2; }
 program=$(realpath "$1")

@@ -20,8 +20,8 @@ thr_status thr_walk_pull_length(const thr_turning_columns *columns, const thr_re
                                 thr_err *err) THR_MUST_CHECK;
 
 /* Few cords of a component within options.max_pull, short ones where as few may be: by diving on the columns of a programme that
- * prices cords. some, of all components: any cords. cord[most]
- * receives n cords without names; the caller's. *n is 0 if none were found, or more than most. */
+ * prices cords. some, of all components: any cords. cord[most] receives n cords without names; the caller's. *n is 0 if none
+ * were found, or more than most. */
 thr_status thr_walk_pull_few(const thr_turning_columns *columns, const thr_request *options, const thr_cord *some, int n_some,
                              int component, const thr_limits *limits, int most, thr_cord *cord, int *n,
                              thr_err *err) THR_MUST_CHECK;
