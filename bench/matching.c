@@ -11,9 +11,7 @@
 #include "graph/limits.h"
 #include "graph/status.h"
 #include "lp/matching/blossom.h"
-#include "lp/matching/candidates.h"
-#include "lp/matching/network.h"
-#include "lp/tjoin/engine.h"
+#include "lp/matching/blossom_parts.h"
 #include "lp/tjoin/tjoin.h"
 
 #include <math.h>

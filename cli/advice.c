@@ -4,10 +4,8 @@
 #include "cli/print/plain.h"
 #include "graph/angle.h"
 #include "graph/io/stand.h"
-#include "graph/limits.h"
 #include "graph/plan/advice.h"
-#include "planner/advise.h"
-#include "planner/dispatch.h"
+#include "planner/planner.h"
 
 static const double usual_work = 2; /* counted, in seconds */
 

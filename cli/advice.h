@@ -4,9 +4,6 @@
 
 #include "cli/args/physics_args.h"
 #include "cli/cli.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/text.h"
 
 /* The options that were given of how FRAME is read and of what cord and beads are, each with a blank before it, for a shell. */
 void advice_command_options(const cli_frame_args *a, const cli_physics *physics, thr_text *text);

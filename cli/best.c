@@ -3,13 +3,9 @@
 #include "cli/guard.h"
 #include "cli/progress.h"
 #include "graph/check/check.h"
-#include "graph/limits.h"
 #include "graph/os.h"
-#include "graph/status.h"
-#include "graph/text.h"
+#include "planner/planner.h"
 #include "symmetry/cover/cover.h"
-#include "symmetry/cover/cover_options.h"
-#include "planner/uncross.h"
 
 #include <math.h>
 #include <stdlib.h>

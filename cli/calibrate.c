@@ -5,9 +5,6 @@
 #include "eval/cord/calibrate.h"
 #include "graph/angle.h"
 #include "graph/io/writer.h"
-#include "graph/io/read.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -5,7 +5,6 @@
 #include "cli/progress.h"
 #include "cli/args/config.h"
 #include "graph/suggestion.h"
-#include "graph/text.h"
 #include "graph/angle.h"
 #include "graph/io/stand.h"
 #include "graph/os.h"

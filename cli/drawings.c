@@ -6,10 +6,7 @@
 #include "diagram/layout/layout.h"
 #include "diagram/scene/pieces.h"
 #include "graph/plan/chains.h"
-#include "graph/limits.h"
 #include "graph/os.h"
-#include "graph/status.h"
-#include "graph/text.h"
 #include "lib/documents.h"
 
 #include <stdio.h>

@@ -3,11 +3,7 @@
 #define THR_CLI_DRAWINGS_H
 
 #include "cli/cli.h"
-#include "diagram/overview/overview.h"
 #include "diagram/scene/cord_lines.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 /* How documents are drawn. */
 typedef struct {

@@ -1,10 +1,7 @@
 /* One list of all files that a command has to do with. */
 #include "cli/files.h"
 #include "cli/cli.h"
-#include "graph/io/read.h"
 #include "graph/os.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <errno.h>
 #include <stdio.h>

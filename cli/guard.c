@@ -1,7 +1,6 @@
 /* The limits of a command as options, and the words for one that was ended. The two processes: guard_process.c. */
 #include "cli/guard.h"
 #include "cli/cli.h"
-#include "graph/text.h"
 
 #include <stdlib.h>
 #include <string.h>

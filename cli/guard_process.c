@@ -2,9 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "cli/guard.h"
 #include "cli/cli.h"
-#include "graph/limits.h"
 #include "graph/process/process.h"
-#include "graph/text.h"
 
 #include <errno.h>
 #include <fcntl.h>

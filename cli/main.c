@@ -1,13 +1,13 @@
 /* thread: plans how cord is threaded through bead structures. This file only finds the subcommand. */
 #include "cli/args/config.h"
-#include "graph/suggestion.h"
 #include "cli/cli.h"
 #include "cli/files.h"
 #include "cli/guard.h"
 #include "eval/joint/world.h"
 #include "graph/framework/cuttree.h"
+#include "graph/suggestion.h"
 #include "lp/solver/lp.h"
-#include "symmetry/group/automorphisms.h"
+#include "symmetry/group/group.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,8 +1,6 @@
 #include "cli/progress.h"
 
 #include "graph/io/writer.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
 #include "graph/text.h"
 
 #include <math.h>

@@ -8,7 +8,6 @@
 #include "graph/plan/physics.h"
 #include "graph/plan/schedule.h"
 #include "graph/status.h"
-#include "graph/text.h"
 #include "graph/plan/pulled.h"
 
 #include <math.h>

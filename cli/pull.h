@@ -7,7 +7,6 @@
 #include "eval/eval.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
-#include "graph/text.h"
 
 enum {
   OPTION_PULL_METHOD = OPTION_FREE,

@@ -4,11 +4,6 @@
 #define THR_METHODS_H
 
 #include "eval/eval.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
 
 /* Closed form over the turning angles (capstan.c). */
 thr_status thr_capstan_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,

@@ -1,5 +1,4 @@
 /* Status codes, error text and checked allocation. */
-#include "graph/status.h"
 #include "graph/os.h"
 #include "graph/text.h"
 

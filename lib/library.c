@@ -1,11 +1,9 @@
 /* libthread: what is not of frames or plans. */
 #include "eval/joint/world.h"
 #include "graph/framework/cuttree.h"
-#include "graph/status.h"
-#include "graph/text.h"
 #include "lib/handles.h"
 #include "lp/solver/lp.h"
-#include "symmetry/group/automorphisms.h"
+#include "symmetry/group/group.h"
 
 #include <pthread.h>
 #include <stdio.h>

@@ -1,9 +1,5 @@
 /* libthread: frames. */
-#include "graph/framework/frame.h"
 #include "graph/framework/make.h"
-#include "graph/io/read.h"
-#include "graph/status.h"
-#include "graph/text.h"
 #include "lib/handles.h"
 #include "lib/notes.h"
 

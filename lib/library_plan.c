@@ -1,20 +1,14 @@
 /* libthread: plans. */
 #include "eval/eval.h"
 #include "graph/check/check.h"
-#include "graph/framework/frame.h"
 #include "graph/io/json.h"
-#include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
 #include "graph/plan/plan_fields.h"
 #include "graph/plan/request.h"
-#include "graph/status.h"
-#include "graph/text.h"
 #include "lib/documents.h"
 #include "lib/handles.h"
-#include "planner/dispatch.h"
-#include "planner/make_plan.h"
+#include "planner/planner.h"
 
 #include <math.h>
 #include <stdio.h>

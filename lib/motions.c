@@ -2,7 +2,7 @@
 
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
-#include "symmetry/group/isometry.h"
+#include "symmetry/group/group.h"
 #include "symmetry/symmetry.h"
 
 #include <math.h>

@@ -1,15 +1,16 @@
-/* Rows of advice: plans for more and more cords, each from the cords of the plan with one, cut evenly, or from symmetric cords.
- */
-#include "planner/advise.h"
+/* How many cords, and from where: a plan for every number of cords and kind of ends that may be worth it, and a choice among
+ * them.
+ *
+ *   thr_advice advice;
+ *   thr_status st = thr_advise(&frame, &request, &(thr_advise_options){.hand = thr_hand_always}, &limits, &advice, &err);
+ *   if (!st && advice.chosen >= 0) printf("%d cords\n", advice.row[advice.chosen].cords);
+ *   thr_advice_destroy(&advice);
+ *
+ * Rows of advice: plans for more and more cords, each from the cords of the plan with one, cut evenly, or from symmetric cords. */
 #include "graph/framework/components.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
-#include "planner/cut.h"
-#include "planner/least_turning.h"
-#include "planner/make_plan.h"
-#include "symmetry/group/automorphisms.h"
+#include "planner/planner_parts.h"
 #include "symmetry/group/group.h"
-#include "symmetry/symmetry.h"
 
 #include <math.h>
 #include <stdlib.h>

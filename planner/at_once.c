@@ -1,14 +1,8 @@
 /* Cords that take no search, where a plan may be such. */
 #include "graph/framework/components.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "graph/threading/walks.h"
-#include "lp/length/cut_tour.h"
-#include "planner/planners.h"
-#include "tortuosity/tie/tube_first.h"
+#include "graph/threading/threading.h"
+#include "planner/planner_parts.h"
+#include "tortuosity/tie/tie.h"
 
 #include <stdlib.h>
 #include <string.h>

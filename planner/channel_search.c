@@ -1,4 +1,6 @@
-/* Cords without crossing channels, by branching.
+/* Cords without crossing channels, by branching on the channels of every node. Private to planner/.
+ *
+ * Cords without crossing channels, by branching.
  *
  * A plan is a number of passes for every edge and, at every node, a pairing of the passes that end there; what is left single is
  * a cord's end. A depth-first search pairs the ends node by node, so that no two channels of a node cross and no more circuits or
@@ -6,11 +8,8 @@
  *
  * Example: three closed cords whose greedy exchange left two, and the third had to be added as a loop over an edge: the search
  * pairs the same passes so that they fall in three. */
-#include "planner/channel_search.h"
+#include "planner/planner_parts.h"
 
-#include "graph/framework/frame.h"
-#include "graph/plan/channels.h"
-#include "graph/plan/request.h"
 #include "graph/scratch.h"
 
 #include <math.h>

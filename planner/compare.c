@@ -1,7 +1,5 @@
 /* Which of two plans serves the aims better. */
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "planner/planners.h"
+#include "planner/planner_parts.h"
 
 #include <math.h>
 

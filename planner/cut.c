@@ -1,6 +1,5 @@
-/* Cords cut evenly by what they turn. */
-#include "planner/cut.h"
-#include "graph/framework/frame.h"
+/* More cords by cutting few: a start for the cord that turns most, and the rows of advice. Private to planner/. */
+#include "planner/planner_parts.h"
 #include "graph/plan/least_pull.h"
 
 #include <math.h>

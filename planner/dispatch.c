@@ -1,5 +1,5 @@
-/* Who plans what, and how the time is shared out. */
-#include "planner/planners.h"
+/* Who plans what, and how the time is shared out: both tables are in planner/dispatch.c. */
+#include "planner/planner_parts.h"
 
 #include <math.h>
 

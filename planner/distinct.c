@@ -1,17 +1,9 @@
 /* Plans in which every edge is passed by several different cords. */
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
 #include "graph/plan/distinct_needs.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "planner/dispatch.h"
-#include "planner/distinct_few.h"
-#include "planner/make_plan.h"
-#include "planner/planners.h"
-#include "tortuosity/cords/distinct.h"
+#include "planner/planner_parts.h"
+#include "tortuosity/cords/several.h"
 
 #include <stdlib.h>
 #include <string.h>

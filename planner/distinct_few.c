@@ -1,7 +1,12 @@
-/* Sets of edges, and a walk over each. */
-#include "planner/distinct_few.h"
-#include "graph/check/few_edges.h"
-#include "graph/threading/small_cords.h"
+/* Several different cords over every edge, through few edges: the shortest, exactly.
+ *
+ * Which sets of edges the cords pass is known from a table (graph/check/few_edges.c), and the shortest cord over each set from
+ * another (graph/threading/small_cords.c).
+ *
+ * Example: a triangle, three closed cords, two different ones over every edge: twice round, and to and fro over one edge. */
+#include "planner/planner_parts.h"
+#include "graph/check/edge_sets.h"
+#include "graph/threading/threading.h"
 
 #include <math.h>
 #include <stdlib.h>

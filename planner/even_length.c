@@ -1,22 +1,12 @@
 /* A short longest cord: from several starts, and by the programme over walks. */
 #include "graph/check/check.h"
-#include "graph/check/short_cords.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
+#include "graph/check/edge_sets.h"
 #include "graph/plan/walk_proof.h"
 #include "graph/random.h"
-#include "graph/status.h"
-#include "graph/threading/walks.h"
-#include "lp/length/cords.h"
-#include "lp/length/decomposition.h"
-#include "planner/images.h"
-#include "planner/planners.h"
+#include "graph/threading/threading.h"
+#include "planner/planner_parts.h"
 #include "tortuosity/cords/anneal.h"
-#include "tortuosity/cords/walk_bound.h"
-#include "tortuosity/cords/walk_programme.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,11 +1,7 @@
-/* A second start for the cord that turns most: symmetric cords turn alike. */
-#include "planner/even_turning.h"
+/* The cord that turns most: a symmetric start for it, and the exchanges from there. Private to planner/. */
+#include "planner/planner_parts.h"
 #include "graph/plan/junction.h"
-#include "graph/plan/turning_proof.h"
-#include "planner/dispatch.h"
-#include "planner/images.h"
-#include "symmetry/symmetry.h"
-#include "tortuosity/cords/maxturn.h"
+#include "tortuosity/cords/several.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,6 @@
-/* Isometries, if any. */
-#include "planner/images.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/status.h"
-#include "symmetry/group/isometry.h"
+/* Motions of a framework onto itself, for those who bound what cords cost (tortuosity/proof/orbits.c). Private to planner/. */
+#include "planner/planner_parts.h"
+#include "symmetry/group/group.h"
 
 #include <stddef.h>
 

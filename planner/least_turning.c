@@ -1,17 +1,11 @@
-/* Options -> the search's task -> cords -> plan with its claims; and the trade-off between length and turning. */
-#include "planner/least_turning.h"
+/* Plans of the least turning: from the options of a plan to cords that turn least, and what is proved of them (thesis, chapter 6;
+ * docs/method.md). Friction grows as exp(mu * angle), so this is the threading that pulls most easily.
+ *
+ * Options -> the search's task -> cords -> plan with its claims; and the trade-off between length and turning. */
 #include "graph/check/check.h"
-#include "graph/plan/turning_proof.h"
-#include "lp/length/postman.h"
-#include "planner/cut.h"
-#include "planner/dispatch.h"
-#include "planner/even_turning.h"
-#include "planner/make_plan.h"
-#include "planner/images.h"
-#include "planner/planners.h"
-#include "tortuosity/cords/maxturn.h"
-#include "tortuosity/proof/least.h"
-#include "tortuosity/tie/tube.h"
+#include "planner/planner_parts.h"
+#include "tortuosity/cords/several.h"
+#include "tortuosity/tie/tie.h"
 #include "tortuosity/tour/baseline.h"
 
 #include <math.h>

@@ -2,18 +2,9 @@
  * ties a node are turns. */
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
 #include "graph/plan/junction.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "lp/length/cords.h"
-#include "planner/dispatch.h"
-#include "planner/make_plan.h"
-#include "planner/planners.h"
-#include "tortuosity/tie/tube.h"
-#include "tortuosity/tie/tube_cords.h"
+#include "planner/planner_parts.h"
+#include "tortuosity/tie/tie.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,13 +1,15 @@
-/* Request -> planner -> plan, in the order that was asked for, with the versions of the libraries that made it. */
-#include "planner/make_plan.h"
-#include "lp/solver/lp.h"
+/* One way to make a plan: what is wanted goes in, a plan with its proofs comes out (planner/dispatch.c says who plans it).
+ *
+ *   thr_request request = thr_request_default();
+ *   if (!thr_aims_parse("length+5%,turning", &request, &err) &&
+ *       !thr_plan_make(&frame, &request, &(thr_limits){0}, &plan, NULL, &err))
+ *     thr_plan_write(&plan, &text);
+ *
+ * Request -> planner -> plan, in the order that was asked for, with the versions of the libraries that made it. */
 #include "graph/framework/cuttree.h"
-#include "graph/plan/turning_proof.h"
-#include "planner/dispatch.h"
-#include "planner/order.h"
-#include "planner/planners.h"
-#include "planner/uncross.h"
-#include "symmetry/group/automorphisms.h"
+#include "lp/solver/lp.h"
+#include "planner/planner_parts.h"
+#include "symmetry/group/group.h"
 
 #include <stdio.h>
 

@@ -2,19 +2,9 @@
  * length, or first of all a short longest cord. Every number is planned without the limit; whichever of those cords, and of the
  * cords of the least length, keep to it and serve the aims best are the plan. What is proved without the limit holds with it. */
 #include "graph/check/check.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
 #include "graph/plan/junction.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "lp/length/cords.h"
-#include "lp/length/postman.h"
-#include "planner/dispatch.h"
-#include "planner/planners.h"
-#include "planner/least_turning.h"
-#include "tortuosity/tie/tube.h"
+#include "planner/planner_parts.h"
+#include "tortuosity/tie/tie.h"
 
 #include <math.h>
 #include <stdlib.h>

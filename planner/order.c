@@ -1,11 +1,5 @@
-/* Where cords begin, which way they run, and which comes first. */
-#include "planner/order.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/chains.h"
-#include "graph/plan/request.h"
-#include "planner/order_parts.h"
-#include "planner/starts.h"
-#include "planner/uncross.h"
+/* The order of work: among threadings of equal value the one in which what is threaded holds together. */
+#include "planner/planner_parts.h"
 
 #include <limits.h>
 #include <math.h>

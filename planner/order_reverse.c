@@ -1,15 +1,8 @@
 /* Parts of a cord between two visits of a node, run the other way round: as long, through the same passes, and with less loose
  * chains. */
-#include "graph/random.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/chains.h"
-#include "graph/plan/channels.h"
 #include "graph/plan/least_pull.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "planner/order_parts.h"
-#include "planner/starts.h"
+#include "graph/random.h"
+#include "planner/planner_parts.h"
 
 #include <limits.h>
 #include <math.h>

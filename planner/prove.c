@@ -1,17 +1,8 @@
 /* Proofs of one plan for the cords of another, and what is kept of a plan of which not every proof holds. */
 #include "graph/check/check.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
 #include "graph/plan/junction.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "graph/text.h"
-#include "lp/length/postman.h"
-#include "planner/make_plan.h"
-#include "planner/planners.h"
-#include "tortuosity/tie/tube.h"
+#include "planner/planner_parts.h"
+#include "tortuosity/tie/tie.h"
 
 #include <math.h>
 

@@ -7,15 +7,9 @@
  * Example: three edges that meet at right angles take one open cord that turns back; it is pulled through 90 degrees. */
 #include "graph/angle.h"
 #include "graph/check/check.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/status.h"
-#include "planner/planners.h"
-#include "tortuosity/cords/walk_bound.h"
+#include "planner/planner_parts.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,14 +1,8 @@
 /* The length of cords within a limit on the pull: what the programme over walks proves of it. */
 #include "graph/check/check.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/status.h"
-#include "planner/planners.h"
-#include "tortuosity/cords/walk_pull.h"
+#include "planner/planner_parts.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <stdlib.h>
 

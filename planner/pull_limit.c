@@ -7,17 +7,7 @@
 #include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "planner/cut.h"
-#include "planner/dispatch.h"
-#include "planner/least_turning.h"
-#include "planner/make_plan.h"
-#include "planner/planners.h"
+#include "planner/planner_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
-#include "planner/recut.h"
+/* Closed cords joined to one where they cross, and cut again where nothing does. Private to planner/. */
+#include "planner/planner_parts.h"
 
-#include "graph/framework/frame.h"
-#include "graph/plan/request.h"
 #include "graph/vector.h"
 
 #include <math.h>

@@ -1,8 +1,5 @@
 /* The plans that one of the least turning is held against. */
-#include "planner/rivals.h"
-#include "graph/plan/request.h"
-#include "planner/dispatch.h"
-#include "planner/make_plan.h"
+#include "planner/planner.h"
 
 #include <math.h>
 

@@ -1,12 +1,6 @@
 /* As few cords as a limit on their length takes, where shares of the shortest passes need more: cords of one number whose longest
  * one is short. */
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "planner/planners.h"
+#include "planner/planner_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,16 +2,8 @@
  * Where something is asked of the cords (their number, a limit on their length, a short longest one), the plan of the least
  * length that keeps to it comes first: the others are measured by it, and under the identity it is one of them. */
 #include "graph/check/check.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "planner/dispatch.h"
-#include "planner/make_plan.h"
-#include "planner/planners.h"
-#include "symmetry/lift/keep.h"
-#include "symmetry/symmetry.h"
+#include "planner/planner_parts.h"
+#include "symmetry/lift/lift.h"
 
 /* Cords of the least length, or of the shortest longest cord, that keep to what is asked; none: the plan is empty, and why says
  * it. */

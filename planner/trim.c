@@ -6,13 +6,8 @@
  * no choice leaves off more than what all edges can do without.
  *
  * Example: two cords round one ring, 1 2 3 4 and 3 4 5 6: either leaves off 3 4. */
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
-#include "graph/status.h"
-#include "planner/planners.h"
+#include "planner/planner_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

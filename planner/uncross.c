@@ -1,10 +1,6 @@
-#include "planner/uncross.h"
+/* Channels that cross inside pieces, led otherwise. */
 
-#include "graph/framework/frame.h"
-#include "graph/plan/channels.h"
-#include "graph/plan/request.h"
-#include "planner/channel_search.h"
-#include "planner/recut.h"
+#include "planner/planner_parts.h"
 
 #include <limits.h>
 #include <math.h>
@@ -264,7 +260,7 @@ static void claim_longest(thr_plan *plan)
   claim->longest_optimal = claim->longest <= claim->longest_bound * (1 + 1e-9);
 }
 
-/* Where exchanges left crossings, or made the cords longer, searches for others (planner/channel_search.h). */
+/* Where exchanges left crossings, or made the cords longer, searches for others (planner/channel_search.c). */
 static thr_status search_again(thr_plan *plan, const thr_cord *before, int n_before, thr_err *err)
 {
   bool changed = false;

@@ -3,11 +3,9 @@
 #include "graph/check/check.h"
 #include "graph/plan/reading.h"
 #include "lp/length/postman.h"
-#include "symmetry/cover/cover.h"
-#include "symmetry/cover/cover_options.h"
-#include "symmetry/cover/solve.h"
+#include "symmetry/cover/cover_parts.h"
 #include "symmetry/group/groups.h"
-#include "symmetry/lift/keep.h"
+#include "symmetry/lift/lift.h"
 
 #include <math.h>
 #include <stdio.h>

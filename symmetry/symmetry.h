@@ -15,7 +15,6 @@
 #include "graph/status.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/group/group.h"
-#include "symmetry/group/isometry.h"
 
 enum {
   THR_SYMMETRY_CLASSES = 100, /* of subgroups; a group with more is too large to be listed */
@@ -33,14 +32,14 @@ typedef struct {
   thr_subgroup elements;       /* owned */
   char name[16];               /* point group (Schoenflies), or "" if some element is no isometry within thr_symmetry_near */
   int kinds[THR_ISO_NONE + 1]; /* elements of each kind */
-  double residual;             /* of the element that is farthest from an isometry (symmetry/group/isometry.h) */
+  double residual;             /* of the element that is farthest from an isometry (symmetry/group/isometry.c) */
   /* THR_OK: best, proved. THR_ELIMIT: not proved, or none found in time (then n_cords = 0). THR_EINFEASIBLE, THR_EINPUT,
    * THR_ESOLVER: none, said why. code 0 and n_cords = 0: not asked for, or left out (behind). */
   thr_err why;
   int behind;  /* number, from 1, of a row that is chosen rather than this one whatever threading it has; 0 = none */
   bool solved; /* the programme was, to the end: if not THR_OK, it proves less than the best */
   double value[THR_N_AIMS], bound[THR_N_AIMS]; /* what the plan has; no threading under the group, as plans count, has less with
-                                                  the aims before it at these values (symmetry/cover/claims.h) */
+                                                  the aims before it at these values (symmetry/cover/claims.c) */
   int n_cords;
   int least_copies, most_copies; /* cords of a unique path, itself among them: the fewest and the most */
   thr_cord *cord;                /* [n_cords] owned; NULL once a plan has taken them */
@@ -86,8 +85,8 @@ typedef struct {
  * choice: least learned steps among the rows with at most thr_symmetry_slack more cord than the shortest plan, or if there is
  * none the least cord; ties by the longest cord if that is an aim, instructions (graph/plan/reading.h), overlap, cords, turning,
  * number. Threadings keep to the
- * numbers (if options.symmetry.counted) and the largest length of cords that are asked for, as symmetry/lift/keep.h makes them; a
- * row without such a threading has none. Time is shared as symmetry/cover/solve.h says. only_choice: as soon as the choice is
+ * numbers (if options.symmetry.counted) and the largest length of cords that are asked for, as symmetry/lift/keep.c makes them; a
+ * row without such a threading has none. Time is shared as symmetry/cover/solve.c says. only_choice: as soon as the choice is
  * proved, rows that are not needed for it are left out. THR_OK: every other row that was asked for is solved. THR_ELIMIT: some
  * are not (their row says so); out holds the rest. THR_EINPUT: no row of that number or name, or numbers of ends are asked for.
  * THR_EINFEASIBLE: no threading with these ends. Otherwise out is empty. */

@@ -1,6 +1,5 @@
 /* Small frameworks and options at random, by pairs. */
 #include "tests/crossing.h"
-#include "tests/frameworks.h"
 #include "graph/plan/turning_proof.h"
 #include "tests/plans.h"
 

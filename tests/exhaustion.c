@@ -1,18 +1,9 @@
 /* Every choice of copies, and of partners for their ends. */
 #include "tests/exhaustion.h"
-#include "graph/plan/junction.h"
 #include "graph/framework/make.h"
-#include "symmetry/group/automorphisms.h"
-#include "symmetry/cover/claims.h"
-#include "symmetry/cover/cover.h"
-#include "symmetry/group/isometry.h"
-#include "symmetry/cover/turning_bound.h"
-#include "tests/frameworks.h"
+#include "graph/plan/junction.h"
+#include "symmetry/cover/cover_parts.h"
 #include "tests/plans.h"
-#include "symmetry/cover/contraction.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/group/quotient.h"
-#include "symmetry/cover/cover_options.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 
 #include "graph/framework/frame.h"
 #include "graph/plan/request.h"
-#include "symmetry/cover/cover_options.h"
+#include "symmetry/cover/cover.h"
 #include "symmetry/group/group.h"
 
 #include <stdbool.h>

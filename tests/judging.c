@@ -2,11 +2,7 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "tests/judging.h"
-#include "graph/plan/plan.h"
-#include "tests/crossing.h"
-#include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "tests/walks.h"
 
 #include <math.h>
 #include <stdarg.h>

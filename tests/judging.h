@@ -5,7 +5,6 @@
 
 #include "graph/plan/plan.h"
 #include "tests/crossing.h"
-#include "tests/support.h"
 #include "tests/walks.h"
 
 #include <stdbool.h>

@@ -1,7 +1,5 @@
 /* The least that cords can do, by exhaustive search over walks. */
 #include "tests/judging.h"
-#include "graph/plan/plan.h"
-#include "tests/walks.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -171,8 +171,8 @@ check_structure() { # FILE..
     }' "$@"
 }
 
-# Whoever names a function or type of the house includes the header that declares it, or leaves that to its own header; tests to
-# the headers of tests/ that they include.
+# Whoever names a function or type of the house includes the header that declares it, or leaves that to a header of its own folder;
+# tests to the headers of tests/ that they include.
 check_uses() { # FILE..
   awk '
     function strip(s,    out, c, two, i, n) { # uses and sets in_comment; also strings go
@@ -206,14 +206,14 @@ check_uses() { # FILE..
       }
       if (depth == 0) held = held " "
     }
-    function included(file, header,    i, n, list) { # in tests/ also by headers of tests
+    function folder_of(file) { sub(/\/[^\/]*$/, "", file); return file }
+    function included(file, header,    i, n, list) { # also by headers of its folder, in tests/ by headers of tests
       if (index(includes[file] " ", " " header " ")) return 1
-      if (file !~ /^tests\//) return 0
       n = split(includes[file], list, " ")
-      for (i = 1; i <= n; i++) if (list[i] ~ /^tests\// && included(list[i], header)) return 1
+      for (i = 1; i <= n; i++)
+        if ((folder_of(list[i]) == folder_of(file) || (file ~ /^tests\// && list[i] ~ /^tests\//)) && included(list[i], header)) return 1
       return 0
     }
-    function own(file) { sub(/\.[a-z]+$/, ".h", file); return file }
     FNR == 1 { in_comment = 0; depth = 0; held = "" }
     /^[ \t]*#/ {
       if (!in_comment && $0 ~ /include[ \t]*"/) { name = $0; sub(/^[^"]*"/, "", name); sub(/".*/, "", name); includes[FILENAME] = includes[FILENAME] " " name }
@@ -233,7 +233,7 @@ check_uses() { # FILE..
         for (i = 1; i <= n; i++) {
           m = split(where[names[i]], header, " "); good = m == 0
           for (k = 1; k <= m; k++)
-            good = good || header[k] == file || header[k] == own(file) || included(file, header[k]) || included(own(file), header[k])
+            good = good || header[k] == file || included(file, header[k])
           if (!good && !((file, header[1]) in told)) {
             told[file, header[1]] = 1
             print file ":" used[file, names[i]] ": include \"" header[1] "\" for " names[i]

@@ -1,5 +1,4 @@
 #include "tests/oracles.h"
-#include "tests/support.h"
 #include "tests/walks.h"
 
 #include <math.h>

@@ -1,7 +1,6 @@
 #include "tests/plans.h"
 #include "graph/check/check.h"
-#include "lp/length/postman.h"
-#include "planner/planners.h"
+#include "planner/planner_parts.h"
 #include "tests/walks.h"
 
 #include <stdlib.h>

@@ -5,9 +5,9 @@
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "planner/make_plan.h"
+#include "lp/length/postman.h"
+#include "planner/planner.h"
 #include "tests/frameworks.h"
-#include "lp/length/cords.h"
 
 /* ---- requests ---- */
 

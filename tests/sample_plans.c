@@ -1,7 +1,6 @@
 #include "tests/sample_plans.h"
 
 #include "symmetry/symmetry.h"
-#include "tests/frameworks.h"
 #include "tests/plans.h"
 
 #include <stdio.h>

@@ -3,9 +3,7 @@
 #define THR_SAMPLE_PLANS_H
 
 #include "tests/symmetric.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
-#include "graph/plan/request.h"
 
 thr_plan plan_of(thr_frame f, thr_ends ends, int cover); /* takes the framework */
 

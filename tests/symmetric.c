@@ -1,8 +1,6 @@
 /* Frameworks whose symmetries are known. */
 #include "tests/symmetric.h"
-#include "symmetry/group/automorphisms.h"
 #include "tests/frameworks.h"
-#include "symmetry/cover/cover_options.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,13 +2,12 @@
 #ifndef THR_TEST_SYMMETRIC_H
 #define THR_TEST_SYMMETRIC_H
 
-#include "tests/support.h"
+#include "graph/framework/frame.h"
 #include "graph/framework/make.h"
+#include "graph/plan/request.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/group/group.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/request.h"
-#include "symmetry/cover/cover_options.h"
+#include "tests/support.h"
 
 thr_frame shape_make(thr_shape shape, int size, int rings); /* as `thread make` does */
 thr_frame truncated_icosahedron(void);                      /* 60 nodes of degree 3, no feet */

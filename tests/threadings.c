@@ -1,5 +1,4 @@
 #include "tests/threadings.h"
-#include "tests/support.h"
 #include "tests/plans.h"
 
 #include <stdlib.h>

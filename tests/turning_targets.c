@@ -1,13 +1,9 @@
 /* Small plans with their least, and random proofs. */
 #include "tests/turning_targets.h"
-#include "tests/attack.h"
-#include "graph/plan/junction.h"
-#include "tests/truth.h"
-#include "planner/least_turning.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
 #include "graph/check/check.h"
-#include "graph/plan/turning_proof.h"
+#include "graph/plan/junction.h"
+#include "tests/attack.h"
+#include "tests/plans.h"
 
 #include <limits.h>
 #include <math.h>

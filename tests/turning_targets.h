@@ -3,9 +3,6 @@
 #ifndef THR_TESTS_TURNING_TARGETS_H
 #define THR_TESTS_TURNING_TARGETS_H
 
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "tests/support.h"
 #include "tests/truth.h"

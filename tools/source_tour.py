@@ -5,7 +5,7 @@ tools/source_tour.py           rewrites the lists
 tools/source_tour.py --check   compares only: prints what differs, exit code 1
 
 Between a line `<!-- files of FOLDER -->` and the next `<!-- end -->` stands one row for each name in that folder: foo.c and foo.h are
-one row, described by the first sentence of the comment that the header begins with (of the source, if there is no header). Every
+one row, described by the first sentence of the comment that the source begins with (the header, if there is no source). Every
 folder with sources has its list; one without is an error, as is a file without a head.
 """
 import os
@@ -45,7 +45,7 @@ def rows(folder, names, bad):
     out = ["| file | what |", "|---|---|"]
     for name in sorted(names):
         endings = sorted(names[name], key=ENDINGS.index)
-        teller = os.path.join(folder, name + (".h" if ".h" in endings else endings[0]))
+        teller = os.path.join(folder, name + endings[0])
         what = first_sentence(teller)
         if what is None:
             bad.append("%s: begins with no comment that says what it is" % teller)

@@ -1,7 +1,6 @@
 /* `--ends NAME:N,..`: how many cord ends there are at each node. */
 #include "cli/args/end_counts.h"
 #include "cli/cli.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
 

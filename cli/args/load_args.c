@@ -1,7 +1,6 @@
 /* Loads, tilt, clamped feet. */
 #include "cli/args/load_args.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
 #include "graph/status.h"
 
 #include <math.h>

@@ -3,13 +3,11 @@
 #include "cli/args/end_counts.h"
 #include "eval/cord/knots.h"
 #include "graph/framework/bore.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/request.h"
 #include "graph/plan/request_fields.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
-#include "planner/dispatch.h"
+#include "planner/planner.h"
 
 #include <math.h>
 #include <stdio.h>

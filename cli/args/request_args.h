@@ -5,7 +5,6 @@
 
 #include "cli/args/symmetry_args.h"
 #include "graph/framework/frame.h"
-#include "graph/plan/request.h"
 
 enum {
   OPTION_AIMS = OPTION_SYMMETRY_FREE,

@@ -14,7 +14,7 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "graph/text.h"
-#include "planner/advise.h"
+#include "planner/planner.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,13 +1,13 @@
 /* thread plan: framework in, plan and diagrams out. */
 #include "cli/advice.h"
-#include "cli/best.h"
 #include "cli/args/request_args.h"
+#include "cli/best.h"
 #include "cli/drawings.h"
 #include "cli/files.h"
 #include "cli/guard.h"
-#include "cli/progress.h"
 #include "cli/print/plan_summary.h"
 #include "cli/print/symmetry_table.h"
+#include "cli/progress.h"
 #include "diagram/overview/frontier_chart.h"
 #include "eval/eval.h"
 #include "graph/check/check.h"
@@ -21,10 +21,7 @@
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "graph/text.h"
-#include "planner/dispatch.h"
-#include "planner/least_turning.h"
-#include "planner/make_plan.h"
-#include "planner/rivals.h"
+#include "planner/planner.h"
 
 #include <math.h>
 #include <stdio.h>

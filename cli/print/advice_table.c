@@ -1,14 +1,9 @@
 /* The table of advice, and the line that sums it up. */
 #include "cli/print/advice_table.h"
-#include "cli/cli.h"
 #include "cli/print/plain.h"
 #include "cli/print/seated.h"
 #include "cli/print/turning_summary.h"
-#include "eval/eval.h"
 #include "graph/angle.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 
 #include <math.h>

@@ -2,16 +2,9 @@
 #include "cli/print/eval_print.h"
 #include "cli/print/load_words.h"
 #include "cli/print/seated.h"
-#include "eval/eval.h"
 #include "eval/structure/holding.h"
-#include "eval/structure/erect.h"
 #include "eval/structure/settle.h"
-#include "graph/framework/frame.h"
-#include "graph/io/writer.h"
-#include "graph/plan/evaluation.h"
 #include "graph/plan/play.h"
-#include "graph/plan/plan.h"
-#include "graph/text.h"
 
 #include <math.h>
 

@@ -9,23 +9,17 @@
 #include "eval/cord/history.h"
 #include "eval/cord/knots.h"
 #include "eval/cord/profile.h"
-#include "eval/eval.h"
 #include "eval/joint/drag.h"
 #include "eval/structure/holding.h"
-#include "eval/structure/erect.h"
 #include "eval/structure/settle.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/advice.h"
-#include "graph/plan/evaluation.h"
 #include "graph/plan/friction.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/play.h"
 #include "graph/plan/schedule.h"
 #include "graph/plan/standing.h"
-#include "graph/plan/plan.h"
 #include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,6 @@
 /* Lines such as "at 5 N: carries 9.17 times the load; C4 goes first beyond 9.8". */
 #include "cli/print/load_words.h"
 #include "eval/structure/holding.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/standing.h"
 

@@ -3,11 +3,7 @@
 #include "cli/print/plain.h"
 #include "cli/print/seated.h"
 #include "cli/print/symmetry_table.h"
-#include "eval/eval.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/request.h"
 #include "graph/status.h"
 #include "graph/angle.h"
 

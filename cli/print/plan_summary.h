@@ -3,11 +3,7 @@
 #define THR_CLI_PLAN_SUMMARY_H
 
 #include "cli/print/turning_summary.h"
-#include "graph/io/writer.h"
-#include "graph/plan/plan.h"
-#include "graph/text.h"
-#include "lp/length/cords.h"
-#include "planner/rivals.h"
+#include "lp/length/postman.h"
 
 /* rivals: for a plan of the least turning, what it is held against; NULL for others. word: what is known beyond what is verified.
  */

@@ -5,7 +5,6 @@
 #include "eval/eval.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/seating.h"
 #include "graph/status.h"

@@ -4,9 +4,8 @@
 #include "cli/print/turning_summary.h"
 #include "graph/angle.h"
 #include "graph/plan/reading.h"
-#include "symmetry/group/automorphisms.h"
-#include "symmetry/group/isometry.h"
-#include "symmetry/lift/keep.h"
+#include "symmetry/group/group.h"
+#include "symmetry/lift/lift.h"
 
 #include <math.h>
 #include <stdio.h>

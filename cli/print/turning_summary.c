@@ -2,14 +2,11 @@
 #include "cli/print/turning_summary.h"
 #include "cli/print/plain.h"
 #include "cli/print/seated.h"
-#include "eval/eval.h"
+#include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/evaluation.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
-#include "planner/least_turning.h"
-#include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>

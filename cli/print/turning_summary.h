@@ -7,8 +7,7 @@
 #include "graph/io/writer.h"
 #include "graph/plan/plan.h"
 #include "graph/text.h"
-#include "planner/least_turning.h"
-#include "planner/rivals.h"
+#include "planner/planner.h"
 
 static const double turning_right_angle = 1.57079632679489661923;
 

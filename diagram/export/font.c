@@ -1,4 +1,3 @@
-#include "diagram/export/font.h"
 #include "diagram/export/font_parts.h"
 
 #include <stdio.h>

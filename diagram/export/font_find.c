@@ -5,8 +5,6 @@
 #include "graph/limits.h"
 #include "graph/process/child.h"
 #include "graph/process/lazy.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <fontconfig/fontconfig.h>
 #include <stdio.h>

@@ -1,8 +1,5 @@
 /* Outlines of glyphs: quadratic curves through points that lie on them or off them (ISO/IEC 14496-22, table glyf). */
-#include "diagram/export/font.h"
 #include "diagram/export/font_parts.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <stdlib.h>
 

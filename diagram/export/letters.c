@@ -1,6 +1,5 @@
 #include "diagram/export/letters.h"
 
-#include "diagram/export/font.h"
 #include "diagram/export/font_parts.h"
 
 #include <stdlib.h>

@@ -1,6 +1,5 @@
 #include "diagram/export/pages.h"
 
-#include "diagram/export/paper.h"
 #include "diagram/export/pdf.h"
 #include "diagram/export/svg_page.h"
 #include "graph/process/threads.h"

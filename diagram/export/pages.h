@@ -4,8 +4,6 @@
 
 #include "diagram/export/paper.h"
 #include "graph/limits.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <stdbool.h>
 

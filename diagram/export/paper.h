@@ -4,8 +4,6 @@
 #define THR_PAPER_H
 
 #include "diagram/export/font.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 typedef enum { THR_PAGE_A4, THR_PAGE_LETTER, THR_N_PAGES } thr_page_size;
 

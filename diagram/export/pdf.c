@@ -1,8 +1,6 @@
 #include "diagram/export/pdf.h"
 
 #include "diagram/export/deflate.h"
-#include "diagram/export/font.h"
-#include "diagram/export/paper.h"
 
 #include <stdio.h>
 #include <stdlib.h>

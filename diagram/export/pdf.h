@@ -4,8 +4,6 @@
 #define THR_PDF_H
 
 #include "diagram/export/paper.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 typedef struct thr_pdf thr_pdf;
 

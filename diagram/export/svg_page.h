@@ -5,8 +5,6 @@
 #define THR_SVG_PAGE_H
 
 #include "diagram/export/paper.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 /* Draws a whole SVG document on a page. Pages may be drawn in several threads. THR_ESOLVER with what it does not know, so that
  * nothing is left out silently. A style sheet holds for what comes after it. O(bytes + elements times rules). */

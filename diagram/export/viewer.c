@@ -1,6 +1,5 @@
 #include "diagram/export/viewer.h"
 
-#include "diagram/layout/layout.h"
 #include "diagram/scene/copies.h"
 #include "diagram/overview/guide.h"
 #include "diagram/scene/palette.h"

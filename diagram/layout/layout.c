@@ -1,9 +1,7 @@
 /* Candidate layouts: the projections, and the choice among all of them. */
-#include "diagram/layout/layout.h"
 
 #include "diagram/layout/layout_parts.h"
 #include "graph/framework/drawing.h"
-#include "graph/vector.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,9 +4,7 @@
  * cells and meets only its neighbourhood. Where edges are so long that it meets most others, pairs are counted for as many edges,
  * spread evenly over the list, as n log n of time is enough for, and the rest is estimated. */
 #include "diagram/layout/layout.h"
-#include "graph/framework/frame.h"
 #include "graph/sort.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,7 @@
 /* Two panels for a closed shell: each half azimuthal-equidistant about its pole (Snyder 1987, chapter 25), seen from outside. The
  * right one is what one sees after turning the shell half round about the page's vertical. The cut runs along edges near the
  * equator: all edges between nodes on the near side of it are in the left panel, the others in the right one. */
-#include "diagram/layout/layout.h"
 #include "diagram/layout/layout_parts.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
-#include "graph/vector.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,6 @@
 #define THR_LAYOUT_PARTS_H
 
 #include "diagram/layout/layout.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
 #include "graph/vector.h"
 
 /* Fill xy[n_nodes], which is allocated, and measure; THR_EINPUT if the frame is flat (not about z). */

@@ -1,10 +1,6 @@
 /* Spreading of closed shells: opened at the widest face, preferably below, and flattened stereographically. */
-#include "diagram/layout/layout.h"
 #include "diagram/layout/layout_parts.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
-#include "graph/vector.h"
 
 #include <math.h>
 #include <stdlib.h>

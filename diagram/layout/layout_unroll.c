@@ -1,10 +1,6 @@
 /* Unrolling of domes and tubes about an axis: azimuthal, and equidistant in that the distance from the middle is the arc
  * length along the mean meridian (Snyder 1987, chapter 25, for the sphere). */
-#include "diagram/layout/layout.h"
 #include "diagram/layout/layout_parts.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
-#include "graph/vector.h"
 
 #include <math.h>
 #include <stdlib.h>

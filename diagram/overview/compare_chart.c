@@ -1,6 +1,5 @@
 /* Plans side by side, as SVG: small pictures, pull with the band of mu, cord, number of cords. */
 #include "diagram/overview/compare_chart.h"
-#include "diagram/layout/layout.h"
 #include "diagram/overview/miniature.h"
 #include "diagram/overview/pull_axis.h"
 #include "diagram/overview/svg.h"

@@ -4,12 +4,9 @@
 
 #include "diagram/layout/layout.h"
 #include "diagram/overview/draw.h"
-#include "diagram/scene/boxes.h"
-#include "diagram/scene/scene.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
-#include "graph/text.h"
 
 /* Scenes of one plan at a few scales, each made when it is first asked for. */
 enum { THR_CROP_SCALES = 20 };

@@ -1,11 +1,7 @@
 /* Numbers, arrows and names in a part of a scene. The scene's own labels tell the whole plan; these only the passes of a page, so
  * they find room at smaller scales. */
-#include "diagram/layout/layout.h"
 #include "diagram/overview/crop.h"
-#include "diagram/scene/boxes.h"
-#include "diagram/scene/scene.h"
 #include "graph/framework/frame.h"
-#include "graph/status.h"
 
 #include <math.h>
 

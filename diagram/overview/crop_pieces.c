@@ -1,13 +1,7 @@
 /* The pieces in a part of a scene, all that look alike in one element. */
-#include "diagram/layout/layout.h"
 #include "diagram/overview/crop.h"
-#include "diagram/overview/draw.h"
 #include "diagram/overview/svg.h"
-#include "diagram/scene/boxes.h"
 #include "diagram/scene/outlines.h"
-#include "diagram/scene/scene.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 /* Writes a scene, or the part of it that a style asks for, as SVG. */
 #include "diagram/overview/draw.h"
 
-#include "diagram/layout/layout.h"
 #include "diagram/overview/miniature.h"
 #include "diagram/overview/svg.h"
 #include "diagram/scene/outlines.h"

@@ -2,8 +2,6 @@
 #include "diagram/overview/draw.h"
 
 #include "diagram/overview/svg.h"
-#include "diagram/scene/scene.h"
-#include "graph/text.h"
 
 #include <math.h>
 

@@ -10,8 +10,6 @@
 #include "diagram/scene/pieces.h"
 #include "diagram/scene/places.h"
 #include "graph/framework/frame.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/plan.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,10 +3,6 @@
 
 #include "diagram/overview/pull_axis.h"
 #include "diagram/overview/svg.h"
-#include "graph/plan/advice.h"
-#include "graph/plan/physics.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,6 @@
 #include "diagram/overview/miniature.h"
 
 #include "diagram/overview/svg.h"
-#include "diagram/scene/scene.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,10 +3,8 @@
 
 #include "diagram/overview/draw.h"
 #include "diagram/overview/legend.h"
-#include "diagram/scene/scene.h"
 #include "diagram/overview/svg.h"
 #include "diagram/overview/tension.h"
-#include "graph/plan/evaluation.h"
 
 #include <math.h>
 #include <stdio.h>

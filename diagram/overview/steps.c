@@ -1,14 +1,10 @@
 #include "diagram/overview/steps.h"
 #include "diagram/overview/tighten.h"
 
-#include "diagram/layout/layout.h"
 #include "diagram/scene/copies.h"
-#include "diagram/overview/guide.h"
 #include "diagram/scene/pieces.h"
 #include "diagram/scene/scene.h"
 #include "diagram/overview/svg.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/evaluation.h"
 
 #include <stdio.h>
 #include <stdlib.h>

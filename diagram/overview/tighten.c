@@ -1,7 +1,6 @@
 /* Steps of tightening in words. */
 #include "diagram/overview/tighten.h"
 #include "diagram/overview/svg.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/pulled.h"
 
 static void put_ends(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step, thr_text *words)

@@ -4,8 +4,6 @@
 
 #include "diagram/overview/guide.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/plan.h"
-#include "graph/text.h"
 
 /* "Cord A, pass 25: grip it between E5 and D5 and draw it from the side of its start, with 15 N; hold it until the next has taken
  * its slack." Places are the guide's. */

@@ -1,8 +1,5 @@
 /* Numbers, arrows and names: each takes the first free place of a few, the important ones first. */
-#include "diagram/scene/boxes.h"
 #include "diagram/scene/scene.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
 
 #include <math.h>
 

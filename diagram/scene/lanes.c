@@ -4,8 +4,6 @@
  * keeps left all the way, so a parallel run has at most one crossing (as in metro maps: Bekos, Kaufmann, Potika,
  * Symvonis 2008). Then lanes are swapped while that lowers the number of crossings inside the two nodes of a bead. */
 #include "diagram/scene/scene.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

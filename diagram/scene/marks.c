@@ -1,11 +1,7 @@
 /* Where the S disc and the E square of every cord go: beside the node, between two beads, so that neither hides a strand.
  * A short stub of cord leads there, as it does at the real node. */
-#include "diagram/scene/boxes.h"
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
 #include "graph/text.h"
 
 #include <math.h>

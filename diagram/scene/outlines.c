@@ -2,7 +2,6 @@
 
 #include "diagram/overview/svg.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
 
 #include <math.h>
 

@@ -2,7 +2,6 @@
 #ifndef THR_OUTLINES_H
 #define THR_OUTLINES_H
 
-#include "diagram/scene/boxes.h"
 #include "diagram/scene/scene.h"
 #include "graph/text.h"
 

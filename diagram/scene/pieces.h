@@ -6,9 +6,6 @@
 
 #include "diagram/scene/copies.h"
 #include "diagram/scene/places.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
 #include "graph/text.h"
 
 /* {0} is valid and empty. Arrays are owned, the plan is borrowed. A kind is called by the letter of its shape, a hyphen and its

@@ -1,10 +1,6 @@
 #include "diagram/scene/polylines.h"
 
-#include "diagram/scene/copies.h"
-#include "diagram/scene/cord_lines.h"
-#include "diagram/scene/palette.h"
 #include "diagram/scene/scene.h"
-#include "graph/framework/frame.h"
 #include "graph/framework/units.h"
 #include "graph/io/dxf.h"
 #include "graph/io/read.h"

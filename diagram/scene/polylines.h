@@ -5,8 +5,6 @@
 #define THR_POLYLINES_H
 
 #include "diagram/scene/cord_lines.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
 #include "graph/text.h"
 
 /* Wavefront OBJ in the framework's units: all nodes, then per cord an object with a two-vertex l record per pass, in order

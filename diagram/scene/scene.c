@@ -1,7 +1,6 @@
 /* Paper, beads and passes: the parts of the scene that everything else is placed against. */
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
-#include "graph/scratch.h"
 #include "graph/text.h"
 
 #include <math.h>

@@ -10,11 +10,8 @@
 #include "diagram/layout/layout.h"
 #include "diagram/scene/palette.h"
 #include "diagram/scene/places.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/plan.h"
 #include "graph/scratch.h"
-#include "graph/status.h"
 
 /* Sizes in the picture, all in mm. */
 typedef struct {

@@ -1,9 +1,5 @@
 /* The line of every pass: straight in its lane, and a Bezier curve through the node before it. */
-#include "diagram/layout/layout.h"
-#include "diagram/scene/boxes.h"
 #include "diagram/scene/scene.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
 
 #include <math.h>
 

@@ -1,11 +1,7 @@
 /* Two panels: which places are on both, and how a cord gets from one to the other. Where it leaves a panel a short end of it is
  * labelled with the next pass ("to 17"), and where it comes out on the other one with the pass before ("from 16"). */
-#include "diagram/layout/layout.h"
-#include "diagram/scene/boxes.h"
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdio.h>

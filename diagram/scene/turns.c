@@ -1,8 +1,5 @@
 /* Turns of the cords: their angles in space, and where sharp ones are marked. */
-#include "diagram/scene/boxes.h"
 #include "diagram/scene/scene.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
 
 #include <math.h>
 

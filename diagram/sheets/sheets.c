@@ -1,16 +1,6 @@
-#include "diagram/scene/pieces.h"
-#include "diagram/sheets/sheets_parts.h"
 #include "diagram/sheets/sheets_step.h"
-#include "diagram/space/space.h"
 
-#include "diagram/export/pages.h"
-#include "diagram/export/paper.h"
-#include "diagram/layout/layout.h"
-#include "diagram/overview/crop.h"
-#include "diagram/overview/guide.h"
-#include "diagram/scene/copies.h"
 #include "diagram/overview/svg.h"
-#include "diagram/tables/supplies.h"
 
 #include <stdio.h>
 #include <stdlib.h>

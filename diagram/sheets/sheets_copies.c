@@ -1,14 +1,5 @@
 /* The copies of a path: all in one picture, how each repeats it, and the places of each in full. */
-#include "diagram/overview/crop.h"
-#include "diagram/overview/guide.h"
-#include "diagram/scene/boxes.h"
-#include "diagram/scene/copies.h"
-#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,13 +1,6 @@
 /* Where the steps of a path end. */
-#include "diagram/overview/crop.h"
-#include "diagram/scene/pieces.h"
-#include "diagram/sheets/sheets_parts.h"
 #include "diagram/sheets/sheets_step.h"
-#include "diagram/space/space.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,17 +1,7 @@
 /* The title page of step sheets: counts, what the plan is good for, where things are, the picture of the whole. */
-#include "diagram/overview/crop.h"
-#include "diagram/scene/boxes.h"
-#include "diagram/scene/copies.h"
-#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
-#include "diagram/space/space.h"
-#include "diagram/tables/supplies.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <stdio.h>
 

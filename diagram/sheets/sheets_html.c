@@ -1,6 +1,5 @@
 /* The sheets as one HTML file: page after page the SVG that the PDF is drawn from, on paper of the same size. */
 #include "diagram/sheets/sheets_html.h"
-#include "diagram/export/paper.h"
 #include "diagram/sheets/sheets_parts.h"
 
 #include <stdio.h>

@@ -3,8 +3,6 @@
 #define THR_SHEETS_HTML_H
 
 #include "diagram/sheets/sheets.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 /* Appends all pages as one HTML file without scripts or links, of the same words and pictures as thr_sheets_pdf. Names within a
  * page's SVG get its number before them. html is unchanged on failure: THR_ENOMEM. O(bytes). */

@@ -1,15 +1,8 @@
 /* A hub of many arms, which run together in the picture and in an icon, alone and large in a corner of the picture. */
 #include "diagram/overview/svg.h"
-#include "diagram/scene/arms.h"
-#include "diagram/scene/boxes.h"
-#include "diagram/scene/pieces.h"
 #include "diagram/scene/scene.h"
-#include "diagram/sheets/sheets_parts.h"
 #include "diagram/sheets/sheets_step.h"
-#include "diagram/space/camera.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

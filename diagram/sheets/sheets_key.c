@@ -1,13 +1,8 @@
 /* The pieces on paper: a card for every kind, and a tag for every piece. */
-#include "diagram/overview/crop.h"
 #include "diagram/overview/svg.h"
-#include "diagram/scene/pieces.h"
 #include "diagram/scene/scene.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/channels.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

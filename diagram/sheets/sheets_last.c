@@ -1,14 +1,9 @@
 /* What to do when all cords are through: which ends to pull, knots, what to look at. */
-#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/advice.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

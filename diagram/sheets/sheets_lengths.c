@@ -1,11 +1,6 @@
 /* How much cord needles draw through, and where a new length is joined on. */
 #include "diagram/overview/svg.h"
-#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <stdio.h>
 

@@ -1,20 +1,12 @@
 /* How pieces are handled, in eight panels: what is needed, laying a piece, starting, slack, a row that went wrong, joining,
  * tightening, knots. Lengths, places and forces are those of the plan. */
-#include "diagram/layout/layout.h"
 #include "diagram/overview/draw.h"
-#include "diagram/overview/guide.h"
 #include "diagram/overview/svg.h"
-#include "diagram/scene/pieces.h"
 #include "diagram/scene/scene.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "diagram/tables/supplies.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/plan.h"
 #include "graph/plan/schedule.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,13 +1,6 @@
 /* The order of threading, and its rows in words. */
-#include "diagram/overview/guide.h"
 #include "diagram/scene/palette.h"
-#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "diagram/tables/supplies.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

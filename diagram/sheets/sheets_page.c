@@ -1,8 +1,6 @@
 /* Pages of step sheets: begun, filled from the top down, broken into lines. */
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -12,10 +12,6 @@
 #include "diagram/space/space.h"
 #include "diagram/tables/supplies.h"
 #include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 /* mm. Nothing is set smaller than SMALL: 7 pt are 2.47 mm. */
 static const double THR_SHEET_MARGIN = 12, THR_SHEET_FOOT = 9; /* around a page; kept free at its foot for the page's number */

@@ -1,12 +1,6 @@
 /* What to prepare: cords to cut, pieces to make, feet; and how the sheets are read. */
-#include "diagram/scene/pieces.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/overview/svg.h"
-#include "diagram/tables/supplies.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

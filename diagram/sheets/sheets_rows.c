@@ -1,15 +1,8 @@
 /* What is written on the page of a step: heading, rows to tick off, where the needle comes out. */
 #include "diagram/overview/draw.h"
-#include "diagram/overview/guide.h"
 #include "diagram/overview/svg.h"
 #include "diagram/scene/palette.h"
-#include "diagram/scene/pieces.h"
-#include "diagram/sheets/sheets_parts.h"
 #include "diagram/sheets/sheets_step.h"
-#include "diagram/tables/supplies.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

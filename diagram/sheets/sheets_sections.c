@@ -1,14 +1,7 @@
 /* Sections of large frameworks: before some hundred pieces a page with a map of where they go and how many of which kind they
  * are. */
-#include "diagram/overview/crop.h"
 #include "diagram/overview/draw.h"
-#include "diagram/scene/boxes.h"
-#include "diagram/scene/pieces.h"
-#include "diagram/sheets/sheets_parts.h"
 #include "diagram/sheets/sheets_step.h"
-#include "diagram/space/space.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,14 +2,9 @@
 #ifndef THR_SHEETS_STEP_H
 #define THR_SHEETS_STEP_H
 
-#include "diagram/overview/crop.h"
 #include "diagram/scene/arms.h"
-#include "diagram/scene/boxes.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "diagram/space/camera.h"
-#include "diagram/space/space.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 enum { THR_STEP_VISITS = 24 };
 

@@ -1,18 +1,8 @@
 /* The steps of a path: some twenty passes each, as a picture, the string of pieces and rows to tick off. A page takes as many
  * steps as fit whole, and what room is left goes to their pictures. */
-#include "diagram/overview/crop.h"
 #include "diagram/overview/draw.h"
-#include "diagram/scene/boxes.h"
-#include "diagram/scene/pieces.h"
 #include "diagram/scene/scene.h"
-#include "diagram/sheets/sheets_parts.h"
 #include "diagram/sheets/sheets_step.h"
-#include "diagram/space/camera.h"
-#include "diagram/space/space.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdlib.h>

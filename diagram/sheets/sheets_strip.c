@@ -1,16 +1,8 @@
 /* The string of pieces of a step: an icon each, in the order of threading. */
-#include "diagram/layout/layout.h"
 #include "diagram/overview/svg.h"
-#include "diagram/scene/arms.h"
-#include "diagram/scene/pieces.h"
 #include "diagram/scene/scene.h"
-#include "diagram/sheets/sheets_parts.h"
 #include "diagram/sheets/sheets_step.h"
-#include "diagram/space/camera.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
-#include "graph/text.h"
 #include "graph/vector.h"
 
 #include <math.h>

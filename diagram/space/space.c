@@ -2,7 +2,6 @@
 #include "diagram/space/space.h"
 
 #include "diagram/scene/scene.h"
-#include "graph/framework/frame.h"
 #include "graph/vector.h"
 
 #include <math.h>

@@ -1,16 +1,9 @@
 /* A step's picture from its view: lines for what is far from it, pieces in grey around it, then the pieces that it comes to, then
  * the cord, which nothing hides. */
-#include "diagram/overview/crop.h"
 #include "diagram/overview/draw.h"
 #include "diagram/overview/svg.h"
-#include "diagram/scene/arms.h"
-#include "diagram/scene/boxes.h"
 #include "diagram/scene/scene.h"
-#include "diagram/space/camera.h"
 #include "diagram/space/space.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
-#include "graph/text.h"
 #include "graph/vector.h"
 
 #include <math.h>

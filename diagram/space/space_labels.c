@@ -1,13 +1,8 @@
 /* Numbers on their passes or beside them with a leader, arrows, names at the hubs. */
-#include "diagram/overview/crop.h"
 #include "diagram/overview/svg.h"
-#include "diagram/scene/boxes.h"
 #include "diagram/scene/scene.h"
 #include "diagram/space/space.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

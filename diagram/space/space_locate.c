@@ -1,12 +1,7 @@
 /* The whole in small, seen as the step is. */
 #include "diagram/overview/svg.h"
-#include "diagram/scene/boxes.h"
 #include "diagram/scene/shadow.h"
-#include "diagram/space/camera.h"
 #include "diagram/space/space.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdlib.h>

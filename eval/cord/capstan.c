@@ -2,15 +2,8 @@
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
 #include "eval/methods.h"
-#include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/friction.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/pulled.h"
 #include "graph/scratch.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,6 @@
 #include "graph/angle.h"
 #include "graph/framework/units.h"
 #include "graph/plan/least_pull.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,6 @@
 
 #include "eval/joint/world.h"
 #include "eval/joint/contacts.h"
-#include "graph/status.h"
 
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionDispatch/btCompoundCompoundCollisionAlgorithm.h>

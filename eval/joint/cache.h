@@ -4,7 +4,6 @@
 #define THR_CACHE_H
 
 #include "eval/joint/drag.h"
-#include "graph/status.h"
 #include "graph/text.h"
 
 /* Everything that a measurement depends on, in plain text: the protocol, Bullet's version, and all of drag (n_turns must be 1).

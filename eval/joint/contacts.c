@@ -1,8 +1,7 @@
 /* Augmented Lagrangian outside, Newton's method with an exact line search inside. */
 #include "eval/joint/contacts.h"
 #include "graph/scratch.h"
-#include "lp/solver/bundles.h"
-#include "lp/solver/normal.h"
+#include "lp/solver/solver.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,7 +12,7 @@
 static const double STIFF = 1e4;
 
 /* The matrix has three columns for each contact, J^T, and then the unit of each of a body's six rows: J^T W J + M are normal
- * equations (lp/solver/normal.h). */
+ * equations (lp/solver/normal.c). */
 struct thr_contacts {
   int n_bodies, n_contacts, n_columns;
   int (*body)[2]; /* [n_contacts] */

@@ -12,9 +12,7 @@
 #include "eval/joint/drag.h"
 #include "eval/methods.h"
 #include "graph/framework/frame.h"
-#include "graph/limits.h"
 #include "graph/plan/plan.h"
-#include "graph/status.h"
 
 /* Where the friction of one joint comes from: thr_drag_measure, or in tests a law that is known exactly. Called in a child
  * process, without limits. */

@@ -2,7 +2,6 @@
 #include "eval/structure/beads.h"
 #include "graph/angle.h"
 #include "graph/framework/units.h"
-#include "graph/scratch.h"
 #include "graph/vector.h"
 
 #include <math.h>

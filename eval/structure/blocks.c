@@ -6,10 +6,6 @@
 #include "graph/angle.h"
 #include "graph/disjoint.h"
 #include "graph/vector.h"
-#include "lp/solver/bundles.h"
-#include "lp/solver/cones.h"
-#include "lp/solver/interior.h"
-#include "lp/solver/rays.h"
 
 #include <math.h>
 #include <stdlib.h>

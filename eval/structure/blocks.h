@@ -6,13 +6,9 @@
 #define THR_BLOCKS_H
 
 #include "eval/structure/beads.h"
-#include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/physics.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
-#include "lp/solver/interior.h"
 #include "lp/solver/lp.h"
+#include "lp/solver/solver.h"
 
 #include <stdbool.h>
 

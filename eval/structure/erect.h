@@ -10,11 +10,7 @@
 #define THR_ERECT_H
 
 #include "eval/structure/beads.h"
-#include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
 
 enum { THR_ERECT_STILLS = 6 };
 

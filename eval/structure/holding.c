@@ -9,14 +9,10 @@
  * beads together; more of both changes nothing else), and a mechanism in which some beads move as one is a mechanism. */
 #include "eval/structure/holding.h"
 
-#include "eval/structure/blocks.h"
 #include "eval/structure/mechanism.h"
 #include "eval/structure/welds.h"
-#include "lp/solver/interior.h"
 
 #include "graph/disjoint.h"
-#include "graph/plan/knotted.h"
-#include "graph/scratch.h"
 #include "graph/vector.h"
 
 #include <assert.h>

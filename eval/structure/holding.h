@@ -11,11 +11,7 @@
 #define THR_HOLDING_H
 
 #include "eval/structure/beads.h"
-#include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
 
 typedef struct {
   bool present;

@@ -1,7 +1,6 @@
 /* Velocities from the solver's multipliers, made exactly feasible. */
 #include "eval/structure/mechanism.h"
 
-#include "graph/limits.h"
 #include "graph/vector.h"
 
 #include <math.h>

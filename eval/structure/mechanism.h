@@ -6,11 +6,8 @@
 #ifndef THR_MECHANISM_H
 #define THR_MECHANISM_H
 
-#include "eval/structure/beads.h"
 #include "eval/structure/blocks.h"
-#include "graph/limits.h"
 #include "graph/plan/knotted.h"
-#include "graph/status.h"
 
 /* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull, W/N, by their true tensions; the
  * load. all, all_loads: of all weights, and loads, if each went its own way with the speed 1. */

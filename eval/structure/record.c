@@ -5,7 +5,6 @@
 #include "eval/structure/holding.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/standing.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <string.h>

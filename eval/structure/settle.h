@@ -9,11 +9,7 @@
 #define THR_SETTLE_H
 
 #include "eval/structure/beads.h"
-#include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
 
 typedef struct {
   double least;       /* N: below it nothing holds the structure, as limit analysis has proved; 0 = nothing is proved .. */

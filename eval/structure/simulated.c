@@ -1,6 +1,5 @@
 /* Beads as boxes in Bullet, cords as forces; what moved, what gapes. */
 #include "eval/structure/simulated.h"
-#include "eval/joint/world.h"
 #include "graph/random.h"
 #include "graph/vector.h"
 

@@ -8,12 +8,7 @@
 
 #include "eval/joint/world.h"
 #include "eval/structure/beads.h"
-#include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
 
 enum { THR_LOOKS = 10 }; /* that are remembered */
 

@@ -3,7 +3,6 @@
 #include "graph/limits.h"
 #include "graph/process/child.h"
 #include "graph/process/lazy.h"
-#include "graph/status.h"
 #include "graph/text.h"
 
 #include <SuiteSparseQR_C.h>

@@ -1,7 +1,6 @@
 /* Finds self-stresses one after the other, welds what they press, and looks again, until nothing more is found. */
 #include "eval/structure/welds.h"
 
-#include "eval/structure/beads.h"
 #include "graph/disjoint.h"
 
 #include <math.h>

@@ -9,8 +9,6 @@
 #define THR_WELDS_H
 
 #include "eval/structure/blocks.h"
-#include "graph/limits.h"
-#include "graph/status.h"
 
 /* weld[n_beads]: the lowest bead of the body that each bead is of, with s->weld = weld; s is as for thr_blocks_make. */
 thr_status thr_welds_find(const thr_blocks *s, double widen, const thr_limits *limits, int *weld, thr_err *err) THR_MUST_CHECK;

@@ -1,12 +1,5 @@
 /* Certificates: odd cuts, added up over trees of nested sets. */
-#include "graph/check/check.h"
 #include "graph/check/check_parts.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/prices.h"
-#include "graph/plan/request.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
 
 #include <inttypes.h>
 #include <math.h>

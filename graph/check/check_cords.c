@@ -1,15 +1,8 @@
 /* Claims about several cords: how short the longest can be, and how few they can be. */
 #include "graph/check/check_parts.h"
-#include "graph/check/few_edges.h"
-#include "graph/check/short_cords.h"
-#include "graph/check/ways_in.h"
-#include "graph/framework/frame.h"
+#include "graph/check/edge_sets.h"
 #include "graph/plan/junction.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,14 +1,7 @@
 /* The checker's part for evaluations: what must follow from tensions, cords and physics. Knows nothing of eval/. */
 #include "graph/check/check_parts.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/pulled.h"
-#include "graph/plan/request.h"
-#include "graph/plan/schedule.h"
 #include "graph/framework/units.h"
-#include "graph/status.h"
+#include "graph/plan/schedule.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,6 @@
 /* The checker's part for the group of a symmetric plan: that it is one of automorphisms, with the order and the name stated. */
 #include "graph/check/check_parts.h"
-#include "graph/framework/frame.h"
 #include "graph/framework/procrustes.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
 
 #include <stdlib.h>
 #include <string.h>

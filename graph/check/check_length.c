@@ -1,13 +1,6 @@
 /* What certificates, all sets of few edges and prices of walks prove of the length of passes and cords. */
-#include "graph/check/check.h"
 #include "graph/check/check_parts.h"
-#include "graph/check/few_edges.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
+#include "graph/check/edge_sets.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,17 +1,18 @@
-/* What the files of the checker share. Private to them. */
+/* What the files of graph/check/ share: comparisons of stated values, the plan as it was walked, and the parts of the proofs. */
 #ifndef THR_CHECK_PARTS_H
 #define THR_CHECK_PARTS_H
 
 #include "graph/check/check.h"
-#include "graph/framework/frame.h"
+#include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
 #include "graph/plan/prices.h"
 #include "graph/plan/pulled.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "graph/plan/evaluation.h"
+#include "graph/scratch.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* ---- What the files of the checker share. Private to them. */
 
 /* Lengths, angles and forces are sums of doubles, taken in an order of the plan's own: equal up to 1e-9 of what they are parts
  * of. */
@@ -174,5 +175,45 @@ thr_status thr_check_standing(const thr_plan *plan, thr_err *err) THR_MUST_CHECK
 /* Are the tensions of cord i those that the schedule leaves in it? */
 thr_status thr_check_schedule(const thr_frame *frame, const thr_cord *path, const thr_schedule *schedule, int i,
                               const thr_physics *physics, const thr_eval_cord *claim, thr_err *err) THR_MUST_CHECK;
+
+/* ---- turning_leaf.c: The bound that one leaf's multipliers prove, and its parts. */
+
+typedef struct {
+  const thr_turning_columns *c;
+  const thr_turning_dual *d;
+  thr_scratch own;    /* the arrays */
+  thr_wide *reduced;  /* [n_columns] price less what the multipliers take */
+  bool *member;       /* [2 * n_edges + n_ends] all false between sets */
+  thr_wide *constant; /* [n_components + 1] what the multipliers take in a component; last, what sets of several do, >= 0 */
+  thr_wide limit;     /* what the multiplier of the length takes off the sum, >= 0 */
+  int *of_ends;       /* [n_ends] component of an equation of ends */
+  int *edges;         /* [n_components] */
+  bool *open;         /* [n_components] may cords end there? */
+  bool ranked;        /* connections are counted exactly where they can be */
+} thr_turning_leaf;
+
+static inline int thr_turning_leaf_component(const thr_turning_leaf *k, int h)
+{
+  return k->c->component[k->c->f->edge[h >> 1][0]];
+}
+
+/* What the multipliers leave of all prices, and the sum of what they take. Release own with thr_scratch_free, after a failure
+ * too. */
+thr_status thr_turning_leaf_init(thr_turning_leaf *k, const thr_turning_columns *turning_columns, const thr_turning_dual *dual,
+                                 thr_err *err) THR_MUST_CHECK;
+
+/* What column j adds to the least value, between these bounds. With multipliers below 2^58 and sets below 2^62 together, reduced
+ * prices stay below 2^63, and nothing here comes near 2^127. */
+thr_wide thr_turning_leaf_adds(const thr_turning_leaf *k, int j, int least, int most);
+
+/* The nearest that 64 bits hold. */
+int64_t thr_turning_in_64_bits(thr_wide total);
+
+/* ---- ways_in.c: How long the longest of several cords is by the ways from where cords may end. */
+
+/* *longest: no less in component number, of at most so many cords; 0 for closed cords, given numbers of ends, tube joints, prices
+ * of places, and what is too large to look at in a moment. certificate: verified, of that component. O(cuts (nodes + edges)). */
+thr_status thr_ways_in(const thr_frame *frame, const thr_request *options, const int *component, int number, int cords,
+                       const thr_certificate *certificate, double *longest, thr_err *err) THR_MUST_CHECK;
 
 #endif

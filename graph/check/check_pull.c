@@ -1,16 +1,9 @@
 /* The checker's part for a limit on the pull: what each cord needs, and that fewer cords would need more. */
 #include "graph/angle.h"
-#include "graph/check/check.h"
 #include "graph/check/check_parts.h"
-#include "graph/check/few_edges.h"
+#include "graph/check/edge_sets.h"
 #include "graph/framework/components.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,13 +4,6 @@
 #include "graph/check/check_parts.h"
 #include "graph/framework/units.h"
 #include "graph/plan/schedule.h"
-#include "graph/scratch.h"
-#include "graph/plan/evaluation.h"
-#include "graph/status.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <string.h>

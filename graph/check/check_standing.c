@@ -3,17 +3,10 @@
  * the mechanism that is negative, and equilibrium is impossible where weights and loads do more than the cords resist. */
 #include "graph/angle.h"
 #include "graph/check/check_parts.h"
-#include "graph/framework/frame.h"
 #include "graph/framework/units.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
+#include "graph/plan/knotted.h"
 #include "graph/plan/schedule.h"
 #include "graph/plan/standing.h"
-#include "graph/plan/knotted.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
 #include "graph/vector.h"
 
 #include <math.h>

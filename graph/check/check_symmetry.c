@@ -1,11 +1,6 @@
 /* The checker's part for symmetry: that the group (graph/check/check_group.c) permutes the cords, and that every cord is the copy
  * that it is said to be. Cords are compared by the nodes that they come to. */
 #include "graph/check/check_parts.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
 
 #include <stdlib.h>
 #include <string.h>

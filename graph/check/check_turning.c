@@ -1,16 +1,10 @@
 /* The checker's part for turning: what the tree of multipliers proves about a plan, and whether the plan is of the kind that the
  * proof is about. The price of the cords' turns is worked out here; the tree is graph/check/turning_proof.c's. */
-#include "graph/check/check.h"
-#include "graph/check/check_parts.h"
-#include "graph/check/few_edges.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
+#include "graph/check/check_parts.h"
+#include "graph/check/edge_sets.h"
 #include "graph/plan/least_pull.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

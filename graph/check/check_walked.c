@@ -1,10 +1,6 @@
 /* Cords as a plan states them, against its framework and what was asked for. */
 #include "graph/check/check_parts.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/junction.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,5 @@
 /* Several different cords over every edge of a few: tables over what the edges still need. */
-#include "graph/check/few_edges.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
+#include "graph/check/edge_sets.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,12 +1,19 @@
-/* Tables over all sets of a few edges. */
-#include "graph/check/few_edges.h"
+/* The least of several cords through a component of few edges, without a proof: all sets of edges are tried. Private to the
+ * checker.
+ *
+ *   one[S]: least cost of a cord that passes at least the edges S. States are (set passed so far, half-edge passed last); sets
+ * only grow, so they are settled in ascending order, each by Dijkstra's method.
+ *   The dearest of n cords costs at most L if the sets of one[S] <= L have n whose union is everything. The unions of a set of
+ * one family and a set of another are those that some pair makes; pairs are counted by their zeta transforms over all subsets,
+ * which are multiplied, in 2^n n (A. Bjoerklund, T. Husfeldt & M. Koivisto, "Set partitioning via inclusion-exclusion", SIAM
+ * J. Computing 39, 2009). L is found by bisection.
+ *   In all: best_n[S] = min over T in S with its lowest edge of one[T] + best_(n-1)[S - T] (M. Held & R. M. Karp 1962, with
+ * walks). All covers count as 1, and nothing else that couples cords is asked: lower bounds then.
+ *
+ * Example: a ring of four unit edges, two open cords, ends anywhere: 4 together, the longer one 2. */
+#include "graph/check/edge_sets.h"
 #include "graph/check/check_parts.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/scratch.h"
 #include "graph/sort.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdint.h>

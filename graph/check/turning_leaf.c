@@ -1,11 +1,6 @@
-/* Lagrangean bounds on turning, in integers: what the multipliers of one leaf prove. */
-#include "graph/check/turning_leaf.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/prices.h"
-#include "graph/plan/turning_proof.h"
+/* The bound that one leaf's multipliers prove, and its parts. Private to the checker of turning proofs. */
+#include "graph/check/check_parts.h"
 #include "graph/plan/turning_ranks.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,11 +1,7 @@
 /* Proofs of turning: a tree of boxes, each leaf with its multipliers. */
-#include "graph/check/turning_leaf.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/prices.h"
+#include "graph/check/check_parts.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/turning_symmetry.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,6 +1,5 @@
 /* Components of a framework, and plans of them put together again. */
 #include "graph/framework/components.h"
-#include "graph/text.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,6 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "graph/status.h"
 
 /* Nodes and edges by component, ascending: those of component k are node[first_node[k] .. first_node[k + 1] - 1], and so the
  * edges. */

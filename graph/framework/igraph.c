@@ -7,7 +7,6 @@
 #include "graph/framework/cuttree.h"
 #include "graph/framework/drawing.h"
 #include "graph/process/lazy.h"
-#include "graph/status.h"
 #include "graph/text.h"
 
 #include <igraph.h>

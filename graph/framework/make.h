@@ -3,7 +3,6 @@
 #define THR_MAKE_H
 
 #include "graph/framework/frame.h"
-#include "graph/status.h"
 
 typedef enum { THR_MAKE_DOME, THR_MAKE_GEODESIC, THR_MAKE_TUBE, THR_MAKE_SPHERE, THR_MAKE_HONEYCOMB, THR_N_SHAPES } thr_shape;
 const char *thr_shape_name(int shape); /* "dome", "geodesic", "tube", "sphere", "honeycomb" */

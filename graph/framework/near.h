@@ -4,7 +4,6 @@
 #define THR_NEAR_H
 
 #include "graph/framework/frame.h"
-#include "graph/status.h"
 
 typedef struct {
   int n_close; /* pairs of nodes without an edge between them, at most a tenth of the shortest edge at either apart */

@@ -1,7 +1,6 @@
 /* The pairs of a DXF file, and frameworks as lines. */
 #include "graph/io/dxf.h"
 
-#include "graph/framework/frame.h"
 #include "graph/io/scan.h"
 
 #include <string.h>

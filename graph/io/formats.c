@@ -1,6 +1,5 @@
 /* The table of formats, and which of them a file is in: by its name's ending or, failing that, by its first line. */
 #include "graph/io/formats.h"
-#include "graph/io/read.h"
 #include "graph/os.h"
 
 #include <string.h>

@@ -2,10 +2,7 @@
 #ifndef THR_FORMATS_H
 #define THR_FORMATS_H
 
-#include "graph/framework/frame.h"
 #include "graph/io/scan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 /* A new format is one file, with its reader, perhaps its writer, and one of these, and its line in the table of formats.c. */
 struct thr_format {

@@ -1,12 +1,8 @@
 /* GraphML, read and written: keys declare attributes, data give them to nodes and edges. U. Brandes et al., "GraphML Progress
  * Report", 2002; http://graphml.graphdrawing.org/specification.html. */
-#include "graph/framework/frame.h"
 #include "graph/io/formats.h"
 #include "graph/io/links.h"
-#include "graph/io/scan.h"
 #include "graph/io/xml.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <string.h>
 

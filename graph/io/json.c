@@ -9,7 +9,6 @@
  */
 #include "graph/io/json.h"
 #include "graph/number.h"
-#include "graph/status.h"
 #include "graph/text.h"
 
 #include <math.h>

@@ -2,10 +2,7 @@
 #ifndef THR_LINKS_H
 #define THR_LINKS_H
 
-#include "graph/framework/frame.h"
 #include "graph/io/scan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 /* {0} is valid and empty. */
 typedef struct {

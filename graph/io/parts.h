@@ -3,10 +3,7 @@
 #ifndef THR_PARTS_H
 #define THR_PARTS_H
 
-#include "graph/framework/frame.h"
 #include "graph/io/scan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 /* Begin with {.asked = draft->pick}. Where nothing is asked for nothing is kept, and every part is chosen. */
 typedef struct {

@@ -1,7 +1,6 @@
 /* Reading a framework from a file: which format, which second file, then weld. */
 #include "graph/framework/near.h"
 #include "graph/io/formats.h"
-#include "graph/io/scan.h"
 #include "graph/os.h"
 
 #include <stdio.h>

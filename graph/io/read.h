@@ -2,10 +2,8 @@
 #ifndef THR_READ_H
 #define THR_READ_H
 
-#include "graph/framework/frame.h"
 #include "graph/io/json.h"
 #include "graph/io/stand.h"
-#include "graph/status.h"
 #include "graph/text.h"
 
 typedef struct thr_format thr_format; /* graph/io/formats.h */

@@ -1,11 +1,6 @@
 /* CSV: tables of nodes and edges, or one edge per line as six coordinates (docs/formats.md, "CSV"). */
-#include "graph/framework/frame.h"
 #include "graph/io/formats.h"
 #include "graph/io/headers.h"
-#include "graph/io/read.h"
-#include "graph/io/scan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,9 +2,7 @@
  * (docs/formats.md). The kind is told by its members. A document may hold several, however deep: those that stand where the
  * first one stands, but for numbers in lists, are read as one. */
 #include "graph/io/read_json.h"
-#include "graph/framework/frame.h"
 #include "graph/io/formats.h"
-#include "graph/io/scan.h"
 
 #include <stdio.h>
 #include <stdlib.h>

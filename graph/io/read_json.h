@@ -4,14 +4,8 @@
 #ifndef THR_READ_JSON_H
 #define THR_READ_JSON_H
 
-#include "graph/framework/frame.h"
 #include "graph/io/faces.h"
-#include "graph/io/json.h"
 #include "graph/io/parts.h"
-#include "graph/io/read.h"
-#include "graph/io/scan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 /* The way to a value, for messages: data.node["21"].x. It lives on the stack along the descent. */
 typedef struct thr_json_where {

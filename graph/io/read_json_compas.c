@@ -1,10 +1,5 @@
 /* COMPAS 1.x and 2.x, lists of its lines, assembly_instances and conmech. */
 #include "graph/io/read_json.h"
-#include "graph/framework/frame.h"
-#include "graph/io/faces.h"
-#include "graph/io/json.h"
-#include "graph/io/scan.h"
-#include "graph/status.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,9 +1,5 @@
 /* networkx node-link and adjacency: lists of nodes and of links. */
 #include "graph/io/read_json.h"
-#include "graph/framework/frame.h"
-#include "graph/io/json.h"
-#include "graph/io/scan.h"
-#include "graph/status.h"
 
 #include <stdio.h>
 #include <string.h>

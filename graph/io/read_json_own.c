@@ -1,9 +1,5 @@
 /* Our own frames and plans, and any JSON with lists of points and index pairs. */
 #include "graph/io/read_json.h"
-#include "graph/framework/frame.h"
-#include "graph/io/faces.h"
-#include "graph/io/json.h"
-#include "graph/status.h"
 
 #include <stdlib.h>
 

@@ -1,11 +1,5 @@
 /* Values and names in JSON frameworks. */
 #include "graph/io/read_json.h"
-#include "graph/framework/frame.h"
-#include "graph/io/json.h"
-#include "graph/io/read.h"
-#include "graph/io/scan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,11 +1,8 @@
 /* Wavefront OBJ: v, l, f and curves. Names are the file's own vertex numbers, from 1. */
-#include "graph/framework/frame.h"
 #include "graph/io/curve.h"
 #include "graph/io/faces.h"
 #include "graph/io/formats.h"
 #include "graph/io/parts.h"
-#include "graph/io/scan.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,6 @@
 /* OFF, the Object File Format of Geomview: OFF, COFF, NOFF, STOFF and their sums, as text. */
-#include "graph/framework/frame.h"
 #include "graph/io/faces.h"
 #include "graph/io/formats.h"
-#include "graph/io/scan.h"
-#include "graph/status.h"
 
 typedef struct {
   thr_words words;

@@ -1,11 +1,8 @@
 /* STL: triangles, as text or binary. Corners at exactly one place are one node. */
-#include "graph/framework/frame.h"
 #include "graph/io/faces.h"
 #include "graph/io/formats.h"
 #include "graph/io/parts.h"
 #include "graph/io/sites.h"
-#include "graph/io/scan.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdlib.h>

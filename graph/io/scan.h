@@ -2,10 +2,7 @@
 #ifndef THR_SCAN_H
 #define THR_SCAN_H
 
-#include "graph/framework/frame.h"
 #include "graph/io/read.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 /* Part of a text that somebody else owns; not NUL-terminated and without NUL bytes. */
 typedef struct {

@@ -1,10 +1,6 @@
 /* Frameworks as JSON, OBJ and CSV text. */
-#include "graph/framework/frame.h"
 #include "graph/io/formats.h"
-#include "graph/io/read.h"
-#include "graph/io/scan.h"
 #include "graph/io/writer.h"
-#include "graph/text.h"
 
 static void write_point(const double xyz[3], const char *separator, thr_text *out)
 {

@@ -4,8 +4,6 @@
 #define THR_XML_H
 
 #include "graph/io/scan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 typedef enum { THR_XML_END, THR_XML_OPEN, THR_XML_CLOSE, THR_XML_EMPTY } thr_xml_kind;
 

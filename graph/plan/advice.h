@@ -1,5 +1,5 @@
 /* How many cords, and from where: what `thread advise` found out, plan by plan, and which of them it recommends. The planner
- * fills it in (planner/advise.h), tables and pictures show it.
+ * fills it in (planner/advise.c), tables and pictures show it.
  *
  * Pulled at both ends, a cord is slackest at the pass with the turning from both ends most nearly equal. Its reach is the turning
  * from there to the end that is farther off, and the pull in N is seating x exp(mu x reach) (docs/method.md, "Pull force").
@@ -9,10 +9,7 @@
 #ifndef THR_ADVICE_H
 #define THR_ADVICE_H
 
-#include "graph/framework/frame.h"
-#include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
-#include "graph/plan/request.h"
 
 /* N. The most for a hand: what `thread plan --hand one` allows, and the mean strength of women's tip pinch (some 11 pounds:
  * Mathiowetz et al., Arch. Phys. Med. Rehabil. 66, 1985). And what thumb and finger manage time after time: 14 % of the strongest

@@ -7,10 +7,7 @@
 #ifndef THR_CHAINS_H
 #define THR_CHAINS_H
 
-#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
 
 typedef struct {
   int longest;     /* pieces */

@@ -2,9 +2,7 @@
 #ifndef THR_CHANNELS_H
 #define THR_CHANNELS_H
 
-#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
-#include "graph/status.h"
 
 /* From which arm to which arm. A channel in which a cord begins or ends has one arm only. */
 typedef struct {

@@ -1,6 +1,5 @@
 /* Bridges under several different cords. */
 #include "graph/plan/distinct_needs.h"
-#include "graph/scratch.h"
 
 #include <stdlib.h>
 

@@ -8,9 +8,7 @@
 #ifndef THR_DISTINCT_NEEDS_H
 #define THR_DISTINCT_NEEDS_H
 
-#include "graph/framework/frame.h"
 #include "graph/plan/request.h"
-#include "graph/status.h"
 
 /* *needs: [n_edges] passes that every edge has in a plan of these options whose edges all have their different cords; NULL where
  * that is no more than thr_plan_cover says, and of symmetric plans, whose proof of length is about any cords. Owned by the

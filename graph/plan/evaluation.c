@@ -1,7 +1,5 @@
 /* The record of an evaluation: sums, colours, and its member of plan.json. */
-#include "graph/plan/evaluation.h"
 
-#include "graph/plan/plan.h"
 #include "graph/plan/schedule.h"
 
 #include <inttypes.h>

@@ -3,12 +3,9 @@
 #ifndef THR_EVALUATION_H
 #define THR_EVALUATION_H
 
-#include "graph/io/json.h"
-#include "graph/io/writer.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/pulled.h"
 #include "graph/plan/standing.h"
-#include "graph/status.h"
 
 typedef enum { THR_CAPSTAN, THR_JOINT, THR_STRUCTURE, THR_N_METHODS } thr_method;
 typedef enum {

@@ -3,11 +3,7 @@
 #ifndef THR_JUNCTION_H
 #define THR_JUNCTION_H
 
-#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
 
 /* What the proof of least length is about, and how it prices length. end_allowed[n_nodes] is filled, and borrowed by task.
  * Closed cords: one per component, whatever their number, for several that tie the nodes make one of the same length where two

@@ -3,12 +3,8 @@
 #ifndef THR_PLAN_H
 #define THR_PLAN_H
 
-#include "graph/framework/frame.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 /* A cord: consecutive half-edges; half[i] arrives where half[i + 1] leaves. A closed cord also ends where it starts. */
 typedef struct thr_cord {

@@ -4,11 +4,7 @@
 #ifndef THR_PLAN_FIELDS_H
 #define THR_PLAN_FIELDS_H
 
-#include "graph/framework/frame.h"
-#include "graph/io/json.h"
 #include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
 
 typedef struct {
   const char *name; /* of the file, for messages */

@@ -1,13 +1,6 @@
 /* plan.json, read: docs/plan-format.md is the schema. Every accessor fails with "file: place: what". */
-#include "graph/framework/frame.h"
-#include "graph/io/json.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/plan.h"
 #include "graph/plan/plan_fields.h"
 #include "graph/io/read.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <assert.h>
 #include <inttypes.h>

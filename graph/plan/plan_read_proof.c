@@ -1,13 +1,7 @@
 /* plan.json, read: proofs. */
 #include "graph/framework/components.h"
-#include "graph/framework/frame.h"
 #include "graph/angle.h"
-#include "graph/io/json.h"
-#include "graph/plan/plan.h"
 #include "graph/plan/plan_fields.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdio.h>

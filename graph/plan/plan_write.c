@@ -1,13 +1,5 @@
 /* plan.json, written: docs/plan-format.md is the schema. */
-#include "graph/framework/frame.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/plan.h"
-#include "graph/io/writer.h"
-#include "graph/plan/request.h"
 #include "graph/plan/request_fields.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/text.h"
 
 /* A number that means nothing below 0. */
 static void put_or_null(thr_writer *writer, const char *key, double value)

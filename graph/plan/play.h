@@ -8,9 +8,7 @@
 #ifndef THR_PLAY_H
 #define THR_PLAY_H
 
-#include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
-#include "graph/status.h"
 
 typedef struct {
   double gap;  /* mm, at one gap */

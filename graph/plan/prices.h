@@ -12,9 +12,7 @@
 #ifndef THR_PRICES_H
 #define THR_PRICES_H
 
-#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
-#include "graph/plan/request.h"
 
 __extension__ typedef __int128 thr_wide; /* sums of hostile 64-bit multipliers cannot overflow it */
 

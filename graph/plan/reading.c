@@ -1,6 +1,5 @@
 /* Runs, periods, and paths that are others moved along. */
 #include "graph/plan/reading.h"
-#include "graph/framework/frame.h"
 #include "graph/vector.h"
 
 #include <math.h>

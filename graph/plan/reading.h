@@ -5,7 +5,6 @@
 #ifndef THR_READING_H
 #define THR_READING_H
 
-#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 
 /* Turns of less are "straight on". */

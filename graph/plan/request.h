@@ -6,10 +6,8 @@
 #ifndef THR_REQUEST_H
 #define THR_REQUEST_H
 
-#include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/turning_proof.h"
-#include "graph/status.h"
 #include "graph/text.h"
 
 #include <limits.h>
@@ -77,7 +75,7 @@ typedef struct {
   double row_work;  /* counted work (thr_limits_spend) for each row, which then ends by nothing else; 0 = by the time */
 } thr_symmetry_options;
 
-/* Which engine finds the shortest passes (lp/tjoin/engine.h). */
+/* Which engine finds the shortest passes (lp/tjoin/engine.c). */
 typedef enum {
   THR_ENGINE_AUTO, /* matching, unless the weights are more than it takes */
   THR_ENGINE_LP,   /* odd cuts, GLPK */
@@ -86,18 +84,18 @@ typedef enum {
 
 /* Whether GLPK's exact method is asked for the same minimum, too. */
 typedef enum {
-  THR_CONFIRM_AUTO,   /* of problems of moderate size, for a second at most (lp/tjoin/engine.h) */
+  THR_CONFIRM_AUTO,   /* of problems of moderate size, for a second at most (lp/tjoin/engine.c) */
   THR_CONFIRM_ALWAYS, /* whatever it takes, within the time limit */
   THR_CONFIRM_NEVER
 } thr_confirm;
 
-/* How what is threaded is to hold together while it is threaded (planner/order.h): not looked at, cords stay as they were found;
+/* How what is threaded is to hold together while it is threaded (planner/order.c): not looked at, cords stay as they were found;
  * by where they begin, which way they run and which comes first, and in short plans by what that takes, a twentieth more turning
  * at most; or whatever a tenth more turning serves for. */
 typedef enum { THR_ORDER_PLANNED, THR_ORDER_STARTS, THR_ORDER_HAND, THR_N_ORDERS } thr_order;
 
 /* Channels that cross inside solid pieces (graph/plan/channels.h): as it comes; fewer, where passes can go on otherwise at equal
- * length and, of a plan for little turning, at equal turning; or none (planner/uncross.h). */
+ * length and, of a plan for little turning, at equal turning; or none (planner/uncross.c). */
 typedef enum { THR_CROSSINGS_ALLOW, THR_CROSSINGS_PRICE, THR_CROSSINGS_FORBID, THR_N_CROSSINGS } thr_crossings;
 
 /* What the user asked for; echoed in the plan so that it can be made again. */

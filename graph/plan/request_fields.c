@@ -1,11 +1,5 @@
 /* The members of `options` in plan.json: one table, and one loop each that writes and reads it (docs/plan-format.md). */
 #include "graph/plan/request_fields.h"
-#include "graph/framework/frame.h"
-#include "graph/io/json.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 #include <limits.h>
 #include <math.h>

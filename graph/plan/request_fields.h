@@ -10,13 +10,7 @@
 #ifndef THR_REQUEST_FIELDS_H
 #define THR_REQUEST_FIELDS_H
 
-#include "graph/framework/frame.h"
-#include "graph/io/json.h"
-#include "graph/io/writer.h"
-#include "graph/plan/plan.h"
 #include "graph/plan/plan_fields.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
 
 #include <stddef.h>
 

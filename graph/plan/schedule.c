@@ -1,6 +1,5 @@
 /* The steps of a schedule, and their member of plan.json. */
 #include "graph/plan/schedule.h"
-#include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -9,12 +9,7 @@
 #ifndef THR_SCHEDULE_H
 #define THR_SCHEDULE_H
 
-#include "graph/io/json.h"
-#include "graph/io/writer.h"
-#include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
-#include "graph/status.h"
-#include "graph/text.h"
 
 const char *thr_deed_name(int deed); /* "pull", "grip", "release", "knot", "none" */
 

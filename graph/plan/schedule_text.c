@@ -1,12 +1,6 @@
 /* Schedules as text: what somebody types, and what is printed. */
-#include "graph/framework/frame.h"
 #include "graph/io/scan.h"
 #include "graph/plan/schedule.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/pulled.h"
-#include "graph/status.h"
-#include "graph/plan/evaluation.h"
-#include "graph/text.h"
 
 #include <string.h>
 

@@ -10,10 +10,7 @@
 #ifndef THR_SEATING_H
 #define THR_SEATING_H
 
-#include "graph/framework/frame.h"
-#include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
-#include "graph/status.h"
 
 /* Fills in evaluation->seated, the part of the gaps that any cord passes that the tensions seat, and seated_known: not if a cord
  * is not known. Tensions count to 1e-9 of the seating tension. O(passes). THR_ENOMEM. */

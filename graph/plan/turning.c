@@ -1,11 +1,6 @@
 /* Prices of turns, and the columns of the turning model. */
-#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/angle.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
 
 #include <limits.h>
 #include <math.h>

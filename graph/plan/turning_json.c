@@ -1,9 +1,5 @@
 /* The turning proof as JSON: docs/plan-format.md. */
-#include "graph/framework/frame.h"
-#include "graph/io/json.h"
-#include "graph/io/writer.h"
 #include "graph/plan/turning_proof.h"
-#include "graph/status.h"
 
 #include <inttypes.h>
 #include <limits.h>

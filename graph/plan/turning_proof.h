@@ -195,7 +195,7 @@ typedef struct {
 
 /* Prices that bound the turning of the cord that turns most, the length of the longest, or that of all cords within a limit on
  * the pull (graph/plan/walk_proof.h), >= 0; of one component. Of lengths of the longest also that all sets of edges that cords
- * pass below the bound were tried, which takes no prices (graph/check/short_cords.h). */
+ * pass below the bound were tried, which takes no prices (graph/check/short_cords.c). */
 typedef struct {
   int64_t unit;         /* of turning, in 2^-THR_TURNING_BITS of the price, or of length; 0: there is no such proof */
   int units;            /* cords of at most so many are worth too little, or are all that are within the pull */

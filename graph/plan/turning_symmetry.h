@@ -15,7 +15,6 @@
 #define THR_TURNING_SYMMETRY_H
 
 #include "graph/plan/turning_proof.h"
-#include "graph/status.h"
 
 /* Is image[n_edges], of the half-edges 2e, a symmetry of the task? Any numbers are looked at. O(columns). */
 thr_status thr_turning_symmetric(const thr_turning_columns *turning_columns, const int *image, bool *yes,

@@ -42,11 +42,7 @@
 #ifndef THR_WALK_PROOF_H
 #define THR_WALK_PROOF_H
 
-#include "graph/framework/frame.h"
 #include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
 
 #include <stdint.h>
 

@@ -1,7 +1,7 @@
-/* Exchanges at one node or two: by descent, and by simulated annealing. */
-#include "graph/threading/even.h"
+/* Exchanges that even out the totals of a threading's cords: the sum of their 8th powers, in which the largest counts most, is
+ * made small by descent and by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983). */
+#include "graph/threading/threading.h"
 #include "graph/random.h"
-#include "graph/threading/multigraph.h"
 
 #include <math.h>
 #include <string.h>

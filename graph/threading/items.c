@@ -1,5 +1,12 @@
-/* Items, the steps that collect them, and what walks miss that are not held to it. */
-#include "graph/threading/items.h"
+/* A small framework of one component as walks that collect items (graph/threading/subsets.c): states are its half-edges.
+ *
+ * Items: each pass that an edge needs, and a cord end wherever ends are counted. What ties so many choices together that a table
+ * for all would be large comes in only where cords were found that do without:
+ * - capacities: then each pass that the edge may have is an item, collected once;
+ * - cuts of tube joints: of the edges at a node some, the others, and as an item any turn between these and those. Where cords
+ *   never end a node of three edges needs none: each edge turns to another.
+ * Without them the table's cords cost no more than any others. */
+#include "graph/threading/threading.h"
 #include "graph/disjoint.h"
 #include "graph/plan/turning_proof.h"
 

@@ -1,5 +1,6 @@
-/* Turns by node, and whether they hang together. */
-#include "graph/threading/junction_graphs.h"
+/* The junction graph of every node (graph/plan/junction.h) while it is still open which cord takes which passes: the turns of all
+ * walks, counted, so that a change of turns can be tried. */
+#include "graph/threading/threading.h"
 
 #include <stdlib.h>
 #include <string.h>

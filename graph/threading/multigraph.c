@@ -1,5 +1,6 @@
-/* Multigraph of passes and virtual end edges. */
-#include "graph/threading/multigraph.h"
+/* The passes of a plan as a multigraph: one copy of an edge per pass, plus a virtual edge between each two cord ends, so
+ * that every degree is even and a threading is a set of closed circuits. */
+#include "graph/threading/euler.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -1,6 +1,10 @@
-/* Pairing at a node: subsets, exchanges. */
-#include "graph/threading/pairing.h"
-#include "graph/threading/multigraph.h"
+/* Pairing the passes at one node: minimum-weight perfect matching of n points under any prices.
+ *
+ * Up to 16 points by dynamic programming over subsets: best(S) = min over j of price(i, j) + best(S - {i, j}), i the lowest
+ * point of S; beyond, point i with i + n / 2, then exchanges of two pairs while any saves.
+ *
+ * Example: four passes straight across each other are paired with their opposites, at price 0. */
+#include "graph/threading/euler.h"
 
 #include <math.h>
 #include <stdlib.h>

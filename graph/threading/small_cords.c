@@ -1,6 +1,9 @@
-/* The table, the cords that it finds, and what they miss. */
-#include "graph/threading/small_cords.h"
-#include "graph/threading/subsets.h"
+/* All cords of a small framework of one component at once, exactly: shortest or turning least, together or the worst of them, or
+ * as few as a limit allows. A table over subsets (graph/threading/subsets.c) of what cords collect (graph/threading/items.c),
+ * again with more items as long as the cords that it finds do not keep to all that was asked.
+ *
+ * Example: a ring of six edges of length 1, two open cords, ends anywhere: both are 3 long. */
+#include "graph/threading/threading.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,15 @@
-/* The table and its combinations. */
-#include "graph/threading/subsets.h"
+/* The cheapest walks of a small component, exactly, by a table over subsets of what they have to collect together.
+ *
+ * A walk goes from state to state; every step has a cost and collects items. With half-edges as states, items are the passes that
+ * edges need, turns that tie a node, or cord ends.
+ *   f[S] = least cost of one walk that collects the items S: sets only grow, so they are settled in ascending order, and the
+ *          states at each by Dijkstra's method;
+ *   g_k[S] = min f[T] + g_(k-1)[S - T], or min max(f[T], g_(k-1)[S - T]), over the parts T of S that hold one item of it.
+ * That is Held and Karp's method for the travelling salesman (1962), with walks instead of steps once more.
+ *
+ * Example: a path of two edges, 1 and 2 long, walks from anywhere to anywhere. f[{a}] = 1, f[{b}] = 2, f[{a, b}] = 3. Two walks
+ * are together 3 long, the longer one 2. */
+#include "graph/threading/threading.h"
 
 #include <math.h>
 #include <stdlib.h>

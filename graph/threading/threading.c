@@ -1,4 +1,22 @@
-/* The cords of a transition system, in order, and exchanges of pairs. */
+/* A threading while it is changed: the passes as half-edges (graph/threading/multigraph.c), which of them continues into which at
+ * every node (its transition system), the cords that this makes, in order, with running sums of a price, and exchanges of pairs
+ * that are tried and taken back. What turns cost, and whether cords must tie every node, is handed in.
+ *
+ *   thr_threading_init(&t, f, &g, mate, price, of, false, err);
+ *   thr_threading_follow(&t, INT_MAX);                                    t.n_cords, t.total[0], ..
+ *   thr_exchange x = thr_threading_exchange(&t, i, k, true);              x.extra, x.change
+ *   if (thr_threading_allows(&t, &x)) thr_threading_make(&t, &x, NULL);   then follow again
+ *
+ * Walks (graph/threading/walks.c), cut into sections and joined anew (graph/threading/splice.c), are a second view of the same,
+ * with a conversion either way: thr_walks_follow, thr_transition_walk. Why there are two:
+ * - Here the passes are given, and any two pairs of a node can be exchanged. All cords are followed again afterwards, in time
+ *   proportional to all passes: 0.16 ms for 14,160 of them. Searches for little turning exchange pairs and nothing else.
+ * - Searches for short and even cords also add passes (detours, chords, circuits) and take some off. Half-edges would have to be
+ *   numbered again each time; of walks only those at hand change: 0.001 to 0.007 ms for two of 40 or of 5 with those passes.
+ * - Joining closed walks by pairs (thr_transition_join) was tried: 30 lines less, but of 258 plans four were better (even or
+ *   limited lengths of closed cords) and four worse, two of which lost their proof that no fewer cords do.
+ * Two more structures are no threadings: the turns of one node, counted (tortuosity/tie/tie.h), have no cords, and symmetric
+ * strands (symmetry/lift/strands.c) are orbits of half-edges, paired by elements of a group. */
 #include "graph/threading/threading.h"
 #include "graph/disjoint.h"
 

@@ -1,7 +1,6 @@
-/* One cord through all passes. */
-#include "graph/threading/tour.h"
+/* From edge multiplicities and ends to one cord, through the walk that graph/threading/walks.c traces. */
 #include "graph/angle.h"
-#include "graph/threading/walks.h"
+#include "graph/threading/threading.h"
 
 #include <stdlib.h>
 

@@ -1,10 +1,9 @@
-/* Pairing at nodes, joining circuits by exchanging pairs (Kotzig 1968), and pairs from walks. */
-#include "graph/threading/transition.h"
+/* Transition systems: at every node, which pass continues into which.
+ *
+ * Pairing at nodes, joining circuits by exchanging pairs (Kotzig 1968), and pairs from walks. */
+#include "graph/threading/threading.h"
 #include "graph/angle.h"
 #include "graph/disjoint.h"
-#include "graph/plan/plan.h"
-#include "graph/threading/pairing.h"
-#include "graph/threading/threading.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,6 @@
-/* Tracing, cutting and merging of walks. */
-#include "graph/threading/walks.h"
-#include "graph/threading/multigraph.h"
-#include "graph/threading/tour.h"
-#include "graph/threading/transition.h"
+/* Walks through the passes of a framework (graph theory's: consecutive half-edges, an edge as often as it comes), while it is
+ * still open which cord takes which. */
+#include "graph/threading/threading.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,12 @@
-/* The search: which walks exchange with which. */
-#include "graph/limits.h"
+/* Evening out the cords: exchanges until the longest cannot be made shorter (D. Ahr & G. Reinelt, "A tabu search
+ * algorithm for the min-max k-Chinese postman problem", Computers & Operations Research 33, 2006, for closed tours from one
+ * depot; here cords end where they may, and share nodes).
+ *
+ * Minimize the longest of K cords; no plan is below the total divided by K, or the least cord that passes any one edge.
+ *
+ * Example: cords of 3 and 9 that share a node exchange their tails and become 6 and 6. */
 #include "graph/random.h"
-#include "lp/length/balance.h"
+#include "lp/length/postman_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,12 +1,5 @@
 /* Exchanges that cost extra passes: a section goes to a walk that is not where it is. */
-#include "graph/framework/frame.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "graph/threading/junction_graphs.h"
-#include "graph/threading/splice.h"
-#include "graph/threading/walks.h"
-#include "lp/length/balance.h"
-#include "lp/length/shortest_paths.h"
+#include "lp/length/postman_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,13 +1,6 @@
 /* Exchanges between two walks over nodes that both visit: no pass is added. */
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/request.h"
 #include "graph/random.h"
-#include "graph/status.h"
-#include "graph/threading/junction_graphs.h"
-#include "graph/threading/splice.h"
-#include "graph/threading/walks.h"
-#include "lp/length/balance.h"
+#include "lp/length/postman_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

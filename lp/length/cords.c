@@ -1,12 +1,11 @@
-/* Passes, room for ends, walks, cords; once, or for more and more cords until none is too long. */
-#include "lp/length/cords.h"
+/* The shortest plan with any number of cords: passes (lp/length/postman.h), shared out among cords (lp/length/decomposition.c,
+ * lp/length/balance.c); for a length limit with more and more cords until none is longer.
+ *
+ * Example: a framework of 12 m of passes, no cord longer than 5 m: three cords at least, ceil(12 / 5).
+ *
+ * Passes, room for ends, walks, cords; once, or for more and more cords until none is too long. */
 #include "graph/check/check.h"
-#include "graph/threading/walks.h"
-#include "lp/length/postman.h"
-#include "lp/length/decomposition.h"
-#include "lp/length/decomposition_prices.h"
-#include "lp/length/decomposition_table.h"
-#include "lp/length/shortest_paths.h"
+#include "lp/length/postman_parts.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,8 +1,5 @@
-/* Sections of a tour, with paths to where cords may end. */
-#include "lp/length/cut_tour.h"
-#include "graph/framework/frame.h"
-#include "graph/threading/walks.h"
-#include "lp/length/shortest_paths.h"
+/* Cords of limited length at once: what there is before a search has found any. Internal to lp/ and whoever keeps the best. */
+#include "lp/length/postman.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,10 @@
-/* Cutting walks where cords may end, and evening them out. */
-#include "lp/length/decomposition.h"
-#include "lp/length/balance.h"
-#include "lp/length/decomposition_table.h"
+/* How the passes of a component are shared out among several cords (docs/method.md).
+ *
+ * Open cords: one walk, cut where cords may end, costs nothing. Closed cords: a walk that comes twice past a node falls into two
+ * there; where no node is passed twice, further passes make more circuits.
+ *
+ * Example: a figure of eight, two closed cords: cut at its middle. */
+#include "lp/length/postman_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

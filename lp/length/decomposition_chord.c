@@ -1,12 +1,5 @@
 /* More closed cords than circuits: walks are split along a path between two of their nodes, which both halves pass. */
-#include "graph/framework/frame.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "graph/threading/junction_graphs.h"
-#include "graph/threading/splice.h"
-#include "graph/threading/walks.h"
-#include "lp/length/decomposition.h"
-#include "lp/length/shortest_paths.h"
+#include "lp/length/postman.h"
 
 #include <math.h>
 #include <stdlib.h>

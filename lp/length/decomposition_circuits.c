@@ -1,11 +1,5 @@
 /* Sharing out passes among closed cords: splitting at nodes that a walk visits twice, short circuits, merging. */
-#include "graph/framework/frame.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "graph/threading/junction_graphs.h"
-#include "graph/threading/splice.h"
-#include "graph/threading/walks.h"
-#include "lp/length/decomposition.h"
+#include "lp/length/postman.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,13 +1,7 @@
 /* Extra passes where cord ends need more of them: a perfect matching of ports. */
 #include "graph/check/check.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
 #include "graph/scratch.h"
-#include "graph/status.h"
-#include "lp/matching/blossom.h"
-#include "lp/length/decomposition.h"
+#include "lp/length/postman.h"
 
 #include <limits.h>
 

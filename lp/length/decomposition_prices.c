@@ -1,16 +1,15 @@
-/* Prices of places: T-joins among priced edges. */
-#include "graph/limits.h"
-#include "lp/length/decomposition_prices.h"
+/* Proof that cords need as many passes as they have beyond a shortest join, by prices of places (graph/plan/prices.h).
+ *
+ * Let every pass at a node where a cord may end be worth p, a place for its end, as if it made the edge lighter, and let 2 K
+ * such places cost 2 K p: the least join at these prices, put together, is a bound for K cords, and the best p is searched for.
+ *
+ * Example: docs/method.md, "Several cords". */
 #include "graph/check/check.h"
 #include "graph/disjoint.h"
-#include "graph/framework/frame.h"
 #include "graph/plan/prices.h"
-#include "graph/plan/request.h"
 #include "graph/scratch.h"
-#include "lp/tjoin/cuts.h"
-#include "lp/tjoin/engine.h"
+#include "lp/length/postman_parts.h"
 #include "lp/solver/lp.h"
-#include "lp/tjoin/tjoin.h"
 
 #include <limits.h>
 #include <math.h>

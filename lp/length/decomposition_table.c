@@ -1,8 +1,5 @@
-/* Cords of the table as walks. */
-#include "graph/threading/walks.h"
-#include "lp/length/decomposition_table.h"
-#include "graph/framework/frame.h"
-#include "graph/threading/small_cords.h"
+/* The cords of a small framework by a table over subsets (graph/threading/small_cords.c): exact. */
+#include "lp/length/postman.h"
 
 #include <stdlib.h>
 #include <string.h>

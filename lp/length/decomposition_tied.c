@@ -1,12 +1,5 @@
 /* More closed cords for tube joints: other orders of the same passes, then pairs of passes, or a cord round a short circuit. */
-#include "graph/framework/frame.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "graph/threading/junction_graphs.h"
-#include "graph/threading/walks.h"
-#include "lp/length/balance.h"
-#include "lp/length/decomposition.h"
-#include "lp/length/shortest_paths.h"
+#include "lp/length/postman_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,14 @@
-/* Framework -> T-join problems -> passes and certificates. */
+/* Route Inspection: the shortest cord that covers a framework (thesis, chapter 5 "Length"; Edmonds & Johnson 1973).
+ *
+ * Length = cover x sum of all lengths + a minimum T-join of the nodes that these passes leave odd. K cords have 2 K ends, which
+ * may take odd nodes out of T (lp/tjoin/endjoin.c).
+ *
+ * Example: a square with one diagonal of length d: two odd nodes. Closed: 4 + 2 d, the diagonal twice; with two ends there: 4 +
+ * d. */
 #include "lp/length/postman.h"
 #include "graph/check/check.h"
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
-#include "lp/tjoin/endjoin.h"
-#include "lp/tjoin/tjoin.h"
 
 #include <assert.h>
 #include <math.h>

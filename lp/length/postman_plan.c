@@ -1,12 +1,7 @@
 /* Passes -> ends -> cords -> plan, and its proof. */
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "graph/threading/tour.h"
+#include "graph/threading/euler.h"
 #include "lp/length/postman.h"
 
 #include <stdlib.h>

@@ -1,6 +1,5 @@
-/* Dijkstra's method on a framework. */
-#include "lp/length/shortest_paths.h"
-#include "graph/threading/walks.h"
+/* Shortest paths from some nodes of a framework (Dijkstra), where there is room for a cord. Internal to lp/. */
+#include "lp/length/postman.h"
 
 #include <math.h>
 #include <stdlib.h>

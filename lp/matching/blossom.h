@@ -1,19 +1,14 @@
-/* Minimum-weight perfect matching in a sparse graph, with its proof: Edmonds' primal-dual method (J. Edmonds, "Maximum matching
- * and a polyhedron with 0,1-vertices", J. Res. NBS 69B, 1965), all alternating trees at once, on a half-integral start (D.
- * Applegate & W. Cook, "Solving large-scale matching problems", DIMACS 12, 1993; V. Kolmogorov, "Blossom V", Math. Prog. Comp.
- * 1, 2009). Exact: all numbers are 64-bit integers.
- *
- * Least sum of w(e) over matchings M = greatest sum of y(v) + sum of z(B) over odd sets B with z(B) >= 0, where for every edge
- * uv: y(u) + y(v) + sum of z(B) over the B that uv leaves <= w(uv).
- *
- * Example: a square 0-1-2-3 with weights 1, 5, 1, 5 round it. The matching is 01 and 23 with weight 2; y = 1/2 at every node
- * proves it, since both edges of weight 1 are tight and 1/2 + 1/2 <= 5. */
+/* Matchings of least weight in general graphs: Edmonds' blossom method, its moats, and flows in networks. */
 #ifndef THR_BLOSSOM_H
 #define THR_BLOSSOM_H
 
 #include "graph/limits.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
+#include "lp/tjoin/tjoin.h"
+
+/* ---- blossom.c: Minimum-weight perfect matching in a sparse graph, with its proof: Edmonds' primal-dual method (J. Edmonds,
+ * "Maximum matching and a polyhedron with 0,1-vertices", J. Res. */
 
 #define THR_MATCHING_WEIGHT_MOST (INT64_C(1) << 53)
 
@@ -59,5 +54,70 @@ thr_status thr_matching_near(const thr_matching_problem *matching_problem, const
 thr_status thr_matching_again(const thr_matching_problem *matching_problem, const thr_limits *limits, thr_matching *matching,
                               thr_err *err) THR_MUST_CHECK;
 void thr_matching_destroy(thr_matching *matching);
+
+/* ---- moat.c: Minimum T-join by matching: the odd nodes are paired along shortest paths, and the duals of the matching are
+ * moats round them (Edmonds & Johnson 1973; pricing: M. Groetschel & O. Holland, "Solving matching problems with linear
+ * programming", Math. */
+
+#define THR_MOAT_WEIGHTS_MOST (INT64_C(1) << 50)
+
+/* Do 64 bits hold all sums? No weight may be more than THR_MOAT_WEIGHTS_MOST, nor a lightest spanning tree, which bounds join and
+ * ways. O(edges); O(edges log edges) where all weights together are more. */
+thr_status thr_moat_fits(const thr_tjoin_problem *tjoin_problem, bool *fits, thr_err *err) THR_MUST_CHECK;
+
+/* The same contract as thr_tjoin_solve, for T-joins on a connected graph, except that weights must fit (THR_EINPUT) and that what
+ * out holds after THR_ELIMIT is quick, not good: the join of a lightest spanning tree, and a ball round each odd node. The cuts
+ * are a forest, every node is named in it at most once, and sum = length
+ * * THR_DUAL_DENOMINATOR. About O(m log m) on frameworks. */
+thr_status thr_moat_solve(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_tjoin *out,
+                          thr_err *err) THR_MUST_CHECK;
+
+/* ---- network.c: A T-join problem made ready for shortest paths: adjacency in one block, edges of weight 0 contracted. */
+
+/* An edge as seen from one of its places. */
+typedef struct {
+  int64_t weight; /* > 0 */
+  int head;       /* place where it leads */
+  int edge;       /* of the problem */
+} thr_arc;
+
+/* Nodes that edges of weight 0 connect are one place; it is odd if an odd number of its nodes are. */
+typedef struct {
+  const thr_tjoin_problem *p; /* borrowed */
+  int n_places, n_arcs, n_odd;
+  thr_scratch own; /* the arrays */
+  int *place;      /* [p->n_nodes] of a node */
+  int *first;      /* [n_places + 1] arcs that leave v: arc[first[v] .. first[v + 1] - 1] */
+  thr_arc *arc;    /* [n_arcs] */
+  int *odd;        /* [n_odd] the odd places, ascending */
+  int *number;     /* [n_places] position of a place in odd, or -1 */
+} thr_network;
+
+/* O(nodes + edges). Release with thr_network_destroy. */
+thr_status thr_network_init(thr_network *net, const thr_tjoin_problem *tjoin_problem, thr_err *err) THR_MUST_CHECK;
+void thr_network_destroy(thr_network *net);
+
+/* Makes a T-join of the problem from any set of edges: changes it along a forest of edges of weight 0, which is enough where
+ * every place has its parity already; with any_weight along a lightest spanning tree. O(nodes + edges log edges). */
+thr_status thr_network_mend(const thr_network *net, bool any_weight, bool *in_join, thr_err *err) THR_MUST_CHECK;
+
+/* Of a lightest spanning tree: there is a T-join that weighs no more, and no two nodes are farther apart. O(edges log edges). */
+thr_status thr_network_tree_weight(const thr_tjoin_problem *tjoin_problem, double *weight, thr_err *err) THR_MUST_CHECK;
+
+/* ---- a queue for Dijkstra's method ---- */
+
+typedef struct {
+  int64_t key;
+  int place;
+} thr_queued;
+
+/* A heap, four children per node: greatest key first. {0} is empty; release entry with free. */
+typedef struct {
+  int count, capacity;
+  thr_queued *entry;
+} thr_queue;
+
+thr_status thr_queue_push(thr_queue *q, thr_queued in, thr_err *err) THR_MUST_CHECK;
+thr_queued thr_queue_pop(thr_queue *q);
 
 #endif

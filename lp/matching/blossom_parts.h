@@ -1,4 +1,11 @@
-/* Inside of the matching engine: its state, and what its files call of each other.
+/* What the files of the blossom method share. */
+#ifndef THR_BLOSSOM_PARTS_H
+#define THR_BLOSSOM_PARTS_H
+
+#include "graph/plan/plan.h"
+#include "lp/matching/blossom.h"
+
+/* ---- Inside of the matching engine: its state, and what its files call of each other.
  *
  * A blossom is an odd set of nodes: a node by itself (blossom v = node v) or a cycle of blossoms joined by tight edges. Blossoms
  * that are in no other are the top ones; they alone are matched, labelled and changed. A dart is an edge in one direction:
@@ -8,13 +15,6 @@
  *
  * Alternating trees grow in time from exposed blossoms: outer ones widen at speed 1, inner ones shrink at speed 1, free ones (in
  * no tree) rest. Nothing is touched as time passes: moat, dual and offset are stored relative to it. */
-#ifndef THR_BLOSSOM_PARTS_H
-#define THR_BLOSSOM_PARTS_H
-
-#include "graph/limits.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
-#include "lp/matching/blossom.h"
 
 typedef enum { FREE, OUTER, INNER } blossom_label;
 
@@ -190,5 +190,107 @@ thr_status thr_blossom_make_room(thr_matching_state *matching_state, int edge) T
 /* Failures with their texts. */
 thr_status thr_blossom_infeasible(const thr_matching_state *matching_state);
 thr_status thr_blossom_too_large(const thr_matching_state *matching_state);
+
+/* ---- candidates.c: Pairs of odd places that a lightest perfect matching may use, and the shortest paths between them. */
+
+enum {
+  THR_HUB_DEGREE = 64
+}; /* a place with so many arcs is a hub (lp/matching/hub.h): no search for the nearest goes on from it */
+
+/* Places i and j of net->odd, and the weight of a way between them, not always a shortest one. */
+typedef struct {
+  int count, capacity;
+  int (*end)[2];   /* owned; end[0] < end[1] */
+  int64_t *weight; /* [capacity] owned */
+} thr_pairs;
+
+thr_status thr_pairs_add(thr_pairs *pairs, int i, int j, int64_t weight, thr_err *err) THR_MUST_CHECK;
+void thr_pairs_destroy(thr_pairs *pairs);
+
+/* Sorts the pairs from `from` on by their ends, n_odd = number of places, and keeps the lightest of those with the same ends.
+ * O(pairs + n_odd). */
+thr_status thr_pairs_tidy(thr_pairs *pairs, int from, int n_odd, thr_err *err) THR_MUST_CHECK;
+
+/* Which odd place reaches a place first if all grow at the same speed, each from a depth of its own (an additively weighted
+ * Voronoi diagram). */
+typedef struct {
+  int64_t *depth; /* [n_places] of its root, less twice the way from there; owned */
+  int *root;  /* [n_places] position in net->odd, or -1: not reached; an odd place counts as its own unless another one reaches
+                 it at greater depth; owned */
+  int *order; /* [n_reached] places reached above the floor, deepest first; owned */
+  int n_reached;
+} thr_flood;
+
+/* Depths in halves of a weight. start[n_odd]: of the odd places; places at or below the floor are not reached and keep it as
+ * depth (INT64_MIN: all are reached). O(m log m). Release with thr_flood_destroy. */
+thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t floor, thr_flood *flood,
+                         thr_err *err) THR_MUST_CHECK;
+void thr_flood_destroy(thr_flood *flood);
+
+/* Candidates to begin with: of every odd place the nearest others; those whose Voronoi cells touch; and pairs along a lightest
+ * spanning tree of these, which make a perfect matching (on a connected graph). reach[n_odd] receives how far the nearest of each
+ * go, in halves of a weight (INT64_MAX: there are few). THR_ELIMIT: pairs holds those whose cells touch and those along the tree,
+ * and so the nearest of every odd place. Near-linear. */
+thr_status thr_candidates_find(const thr_network *net, const thr_limits *limits, thr_pairs *pairs, int64_t *reach,
+                               thr_err *err) THR_MUST_CHECK;
+
+/* Pairs over a hub, a place with very many arcs, such as the one that stands for outside where cord ends are allowed at every
+ * node: any two odd places that reach it can be paired over it, too many pairs to list. Internal to lp/.
+ *
+ * A pair over the hub weighs d(u) + d(v), where d is the distance to the hub. Listed are the pairs along two random circuits
+ * through all places whose moats reach so far; pricing asks again until the moats pay for every pair.
+ *
+ * Example: four places a, b, c, d give ab, bc, cd, da in one circuit, of the six pairs that there are. */
+typedef struct {
+  int count, n_odd;
+  int64_t *way; /* [count * n_odd] weight of the shortest way from a hub to an odd place; owned */
+} thr_hubs;
+
+/* The places with most arcs, if they have many; few of them. O(m log m) each. Release with thr_hubs_destroy. */
+thr_status thr_hubs_find(const thr_network *net, thr_hubs *hubs, thr_err *err) THR_MUST_CHECK;
+void thr_hubs_destroy(thr_hubs *hubs);
+
+/* Adds pairs over each hub between odd places whose reach[n_odd] (halves of a weight) comes so far: along two random rounds
+ * through all of them. Such a graph expands: moats that are too wide on one side of it and too narrow on the other are worth
+ * less than even ones, so a few calls settle what all pairs together demand. O(count * n_odd). */
+thr_status thr_hubs_pairs(const thr_hubs *hubs, const int64_t *reach, uint64_t *random, thr_pairs *pairs,
+                          thr_err *err) THR_MUST_CHECK;
+
+/* ---- nest.c: The duals of a matching as nested moats: every odd place, and every blossom, is a set with a moat of some width
+ * round it. */
+
+/* Sets 0 .. n_odd - 1 are the odd places, then come the blossoms, children before parents. Widths and depths in halves of a
+ * weight. A place's depth is the total width of the moats that it lies inside of. */
+typedef struct {
+  int n_odd, n_sets;
+  thr_scratch own; /* the arrays */
+  int *parent;     /* [n_sets] the set right around, or -1 */
+  int *jump;       /* [n_sets] some set around it that makes searches outwards logarithmic, or -1 */
+  int *level;      /* [n_sets] number of sets around it */
+  int64_t *width;  /* [n_sets] >= 0 */
+  int64_t *outer;  /* [n_sets] depth just outside of its moat */
+} thr_nest;
+
+/* Negative widths, which no moat can have, are made 0: what place i lacks is taken from the moats between it and its mate k,
+ * those around i first, from the inside outwards, then those around k from the outside inwards. That spoils no pair (i, j) unless
+ * the duals were too large for (j, k) by way of i already, the way over i being at least as long as the shortest. raised[n_odd]
+ * receives what was changed. O(n_sets + the sets passed). */
+thr_status thr_nest_init(thr_nest *nest, int n_odd, const thr_matching *matching, bool *raised, thr_err *err) THR_MUST_CHECK;
+
+/* Every odd place alone, with these widths. */
+thr_status thr_nest_of_balls(thr_nest *nest, int n_odd, const int64_t *width, thr_err *err) THR_MUST_CHECK;
+void thr_nest_destroy(thr_nest *nest);
+
+/* Depth of the innermost set that holds both odd places, inside its moat; 0 if there is none. O(log n_sets). */
+int64_t thr_nest_shared_depth(const thr_nest *nest, int i, int j);
+
+/* start[n_odd]: depth of every odd place. */
+void thr_nest_depths(const thr_nest *nest, int64_t *start);
+
+/* The moats as odd cuts of the problem's nodes, in units of 1 / THR_DUAL_DENOMINATOR, from the flood that starts at the odd
+ * places' depths with floor 0: a forest (thr_cut.parent) in which every node is named once. O(nodes + cuts). On failure nothing
+ * is allocated. */
+thr_status thr_nest_cuts(const thr_nest *nest, const thr_network *net, const thr_flood *flood, thr_cut **cut, int *n_cuts,
+                         int64_t *sum, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,7 +1,6 @@
 /* The events of a search: a radix heap (Ahuja, Mehlhorn, Orlin and Tarjan, "Faster algorithms for the shortest path problem", J.
  * ACM 37, 1990), for no event is due before the one that led to it. Bucket 0 has what is due at s->queue_time, bucket k what
  * differs from that time in bit k - 1 and no higher one. Moving a bucket down reads memory in order; a heap does not. */
-#include "graph/status.h"
 #include "lp/matching/blossom_parts.h"
 
 static int bucket_of(const thr_matching_state *matching_state, int64_t time)

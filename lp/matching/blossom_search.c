@@ -1,6 +1,4 @@
 /* The searches: one tree at a time for the half-integral matching, all trees at once for the matching. */
-#include "graph/limits.h"
-#include "graph/status.h"
 #include "lp/matching/blossom_parts.h"
 
 enum { STEPS_BETWEEN_LIMITS = 1 << 13 };

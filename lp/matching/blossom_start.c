@@ -1,5 +1,4 @@
 /* Where the searches begin: greedy duals, or those of an earlier matching made fit for new edges. */
-#include "graph/status.h"
 #include "lp/matching/blossom_parts.h"
 
 #include <math.h>

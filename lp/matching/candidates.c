@@ -1,7 +1,12 @@
-/* Candidate pairs by truncated searches, by a Voronoi diagram, and along a tree. */
-#include "lp/matching/candidates.h"
+/* Pairs of odd places that a lightest perfect matching may use, and the shortest paths between them. Internal to lp/.
+ *
+ * For every odd place the nearest others by a truncated Dijkstra search; every two whose cells of the Voronoi diagram touch (an
+ * edge between the cells gives the path); and the edges of a spanning tree of these, so that all can be paired.
+ *
+ * Example: odd places at 0, 1, 5 and 6 of a line are candidates (0, 1), (1, 5) and (5, 6); (0, 6) is not, and pricing
+ * (lp/matching/moat.c) shows that it is not needed. */
+#include "lp/matching/blossom_parts.h"
 #include "graph/disjoint.h"
-#include "graph/scratch.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,6 @@
 /* Pairs over hubs. */
-#include "lp/matching/candidates.h"
-#include "graph/status.h"
-#include "lp/matching/network.h"
 #include "graph/random.h"
+#include "lp/matching/blossom_parts.h"
 
 #include <stdlib.h>
 

@@ -1,9 +1,16 @@
-/* Rounds of matching and pricing until the moats overload no edge; then the join and its cuts. */
-#include "lp/matching/moat.h"
-#include "lp/matching/blossom.h"
-#include "lp/matching/candidates.h"
-#include "lp/matching/nest.h"
-#include "lp/matching/network.h"
+/* Minimum T-join by matching: the odd nodes are paired along shortest paths, and the duals of the matching are moats round them
+ * (Edmonds & Johnson 1973; pricing: M. Groetschel & O. Holland, "Solving matching problems with linear programming", Math. Prog.
+ * 33, 1985). The engine for large frameworks; lp/tjoin/tjoin.h is the other one.
+ *
+ * Length of the join = sum over odd sets S of the width of the moat round S, where over every edge the widths of the moats that
+ * it crosses add up to no more than its weight. A pair that was left out is needed only if it is closer than the moats of its
+ * two places are wide in sum.
+ *
+ * Example: a path of edges 2, 3, 2 with all four nodes odd: moats of width 1 round each node lie within both edges of 2, and the
+ * join is these two edges, 4 long.
+ *
+ * Rounds of matching and pricing until the moats overload no edge; then the join and its cuts. */
+#include "lp/matching/blossom_parts.h"
 
 #include <assert.h>
 #include <stdlib.h>

@@ -1,5 +1,13 @@
-/* Moats: widths that are no less than 0, depths, and the odd cuts that they are made of. */
-#include "lp/matching/nest.h"
+/* The duals of a matching as nested moats: every odd place, and every blossom, is a set with a moat of some width round it.
+ * Internal to lp/.
+ *
+ * The depth of a place is the sum of the widths of the moats round it; two places can be paired at no loss if their depths add
+ * up to their distance. A negative width of a single place is taken from the moats round the place and its mate, which leaves
+ * every such sum as it is.
+ *
+ * Example: three odd places at distance 2 from each other in a blossom have width 1 each, and the moat of the blossom comes on
+ * top of that. */
+#include "lp/matching/blossom_parts.h"
 #include "graph/sort.h"
 
 #include <stdlib.h>

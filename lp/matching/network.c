@@ -1,5 +1,11 @@
-/* Adjacency without edges of weight 0, and the queue of the searches in it. */
-#include "lp/matching/network.h"
+/* A T-join problem made ready for shortest paths: adjacency in one block, edges of weight 0 contracted. Internal to lp/.
+ *
+ * A contracted place is odd if it holds an odd number of odd nodes; joins of the contracted graph and of the whole one have the
+ * same weight.
+ *
+ * Example: in a triangle with weights 0, 3 and 4 the ends of the first edge become one place, with two arcs of weight 3 and 4 to
+ * the third node. */
+#include "lp/matching/blossom.h"
 #include "graph/disjoint.h"
 
 #include <stdlib.h>

@@ -1,5 +1,14 @@
-/* Rows with names in an open-addressed table. */
-#include "lp/model/pool.h"
+/* The rows of a relaxation that separation has found: sum value x[column] >= lower (a pool of cuts).
+ *
+ * After Padberg & Rinaldi, SIAM Review 33, 1991. The pool says whether a point x violates a row, knows a row that it has already,
+ * and forgets rows that have been slack for long. It solves nothing: its rows may stand in a linear programme (lp/model/search.c)
+ * or be prices of a Lagrangian relaxation.
+ *
+ * A row is put together column by column and then added, or only if a point violates it and the pool has none like it:
+ *   thr_pool_put(pool, 3, 1);
+ *   thr_pool_put(pool, 7, 1);
+ *   st = thr_pool_offer(pool, (thr_row){.lower = 1}, x, 1e-6, &added, err);   x[3] + x[7] >= 1 */
+#include "lp/model/tree.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,15 @@
-/* One round after the other. */
-#include "lp/model/search.h"
+/* Rounds of cutting: a linear programme is solved, its optimum is looked at, and rows that it violates are added, until there are
+ * none or the bound suffices.
+ *
+ * Dantzig, Fulkerson & Johnson, Operations Research 2, 1954; at every node of a tree of bounds (lp/model/tree.h) it is branch and
+ * cut (Padberg & Rinaldi, SIAM Review 33, 1991). What finds rows is handed in, the cheap before the dear, and so is what is made
+ * of an optimum: a solution near it, a proof from its multipliers, the judgement that its bound suffices.
+ *
+ *   thr_search_init(&s, n, x, &err);             and s.lp, a programme of those columns
+ *   thr_search_use(&s, find_some, user, 0);
+ *   thr_search_use(&s, find_all, user, THR_FALLBACK);   where that has found none
+ *   thr_search_rounds(&s, &calls, &limits, &err); */
+#include "lp/model/tree.h"
 
 #include <assert.h>
 #include <stdlib.h>

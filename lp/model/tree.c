@@ -1,4 +1,19 @@
-/* Nodes in a heap; their bounds on columns are found on the way to the root. */
+/* Branch and bound, best bound first, over whatever bounds are handed in.
+ *
+ * Land & Doig, Econometrica 28, 1960; Dakin, Computer Journal 8, 1965. A node of the tree is a set of solutions: those that keep
+ * the decisions  x[column] <= value  or  x[column] >= value + 1  on the way from the root to it. A function says what they are
+ * worth at least, by a linear programme, a matching or an ascent, and which column to decide on next. A node whose bound reaches
+ * what the best solution known is worth is closed: nothing below it is looked at. So  least open bound <= optimum <= best known,
+ * and when all are closed the best known is the optimum.
+ *
+ * Solutions may have images of the same worth. Where the image of a decision is as good as that, one side decides for all images
+ * at once (orbital branching: Ostrowski, Linderoth, Rossi & Smriglio, Math. Programming 126, 2011).
+ *
+ * The node of least bound comes first; of equal ones the deepest, then the youngest, then the side that was preferred. Several
+ * may be solved at once, each in a place of its own, so that they can be given to threads: how many depends on the tree alone.
+ *   thr_tree_init(&tree, n, least, most, &err);
+ *   thr_tree_run(&tree, &calls, &err);   whose solve sets tree.node[node].bound, and tree.enough when it finds a solution
+ *   if (!tree.stopped) ..                nothing is worth less than tree.enough */
 #include "lp/model/tree.h"
 
 #include <limits.h>

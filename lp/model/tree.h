@@ -1,24 +1,124 @@
-/* Branch and bound, best bound first, over whatever bounds are handed in.
- *
- * Land & Doig, Econometrica 28, 1960; Dakin, Computer Journal 8, 1965. A node of the tree is a set of solutions: those that keep
- * the decisions  x[column] <= value  or  x[column] >= value + 1  on the way from the root to it. A function says what they are
- * worth at least, by a linear programme, a matching or an ascent, and which column to decide on next. A node whose bound reaches
- * what the best solution known is worth is closed: nothing below it is looked at. So  least open bound <= optimum <= best known,
- * and when all are closed the best known is the optimum.
- *
- * Solutions may have images of the same worth. Where the image of a decision is as good as that, one side decides for all images
- * at once (orbital branching: Ostrowski, Linderoth, Rossi & Smriglio, Math. Programming 126, 2011).
- *
- * The node of least bound comes first; of equal ones the deepest, then the youngest, then the side that was preferred. Several
- * may be solved at once, each in a place of its own, so that they can be given to threads: how many depends on the tree alone.
- *   thr_tree_init(&tree, n, least, most, &err);
- *   thr_tree_run(&tree, &calls, &err);   whose solve sets tree.node[node].bound, and tree.enough when it finds a solution
- *   if (!tree.stopped) ..                nothing is worth less than tree.enough */
+/* Branch and cut: a pool of rows, one node's search by cutting planes, and the tree of nodes. */
 #ifndef THR_TREE_H
 #define THR_TREE_H
 
 #include "graph/limits.h"
 #include "graph/status.h"
+#include "lp/solver/lp.h"
+
+#include <stdint.h>
+
+/* ---- pool.c: The rows of a relaxation that separation has found: sum value x[column] >= lower (a pool of cuts). */
+
+typedef struct {
+  uint64_t name;   /* 0 = its columns, values and lower bound, which the pool then makes a name of */
+  int kind, index; /* what it is the row of; the caller's */
+  int n_members;   /* the same, where one number does not say it: a set, the blocks of a partition */
+  int *member;     /* [n_members] or NULL; copied */
+  double lower;    /* the right side; the rest is filled in by the pool */
+  int n, *column;  /* [n] in the order in which they were put */
+  double *value;   /* [n]; NULL = all 1 */
+  int idle;        /* consecutive looks at which it was slack */
+} thr_row;
+
+typedef struct {
+  int n_columns, count, capacity;
+  thr_row *row;
+  uint64_t *seen; /* open-addressed set of names */
+  int seen_size, seen_used;
+  double *sum;   /* [n_columns] coefficients of the row that is being put together */
+  bool *drafted; /* [n_columns] does it stand in draft? */
+  int *draft, n_draft;
+} thr_pool;
+
+/* For points x[n_columns]. */
+thr_status thr_pool_init(thr_pool *p, int n_columns, thr_err *err) THR_MUST_CHECK;
+void thr_pool_destroy(thr_pool *p);
+
+/* Adds all rows of another pool for the same columns. */
+thr_status thr_pool_copy(thr_pool *p, const thr_pool *from, thr_err *err) THR_MUST_CHECK;
+
+/* Adds value to the coefficient of a column, in the row that is being put together. */
+void thr_pool_put(thr_pool *p, int column, double value);
+
+/* Is there a row of this name? */
+bool thr_pool_knows(const thr_pool *p, uint64_t name);
+
+/* The row that was put together becomes one of the pool, whatever is there already. */
+thr_status thr_pool_add(thr_pool *p, thr_row row, thr_err *err) THR_MUST_CHECK;
+
+/* The same if it is new and x violates it by more than the tolerance, counted in *added; else it is forgotten. */
+thr_status thr_pool_offer(thr_pool *p, thr_row row, const double *x, double tolerance, int *added, thr_err *err) THR_MUST_CHECK;
+
+/* sum value x[column] */
+double thr_row_sum(const thr_row *r, const double *x);
+
+/* reduced[column] -= price * value: what a row of this price leaves of the costs. */
+void thr_row_charge(const thr_row *r, double price, double *reduced);
+
+/* Forgets the rows marked in drop[count], which may be found again; the others keep their order. */
+void thr_pool_drop(thr_pool *p, const bool *drop);
+
+/* Forgets those from number `first` on that x does not violate by more than the tolerance. *added grows by the others. */
+thr_status thr_pool_keep_violated(thr_pool *p, int first, const double *x, double tolerance, int *added,
+                                  thr_err *err) THR_MUST_CHECK;
+
+/* ---- search.c: Rounds of cutting: a linear programme is solved, its optimum is looked at, and rows that it violates are
+ * added, until there are none or the bound suffices. */
+
+/* Adds rows that the point violates to the pool, counted in *added. */
+typedef thr_status thr_separator(void *user, int *added, thr_err *err);
+
+/* When a separator is asked: only where those before have found none in this round; not when the limits say stop, which ends the
+ * rounds. */
+enum { THR_FALLBACK = 1, THR_SLOW = 2 };
+
+typedef struct {
+  thr_lp *lp;             /* owned */
+  thr_pool pool;          /* its rows after the first n_fixed; the last of them may not be in it yet */
+  int n_fixed, help;      /* help: a column of value 1 in every row of the pool, which keeps it feasible; at first -1: none */
+  bool bare;              /* the next solve begins without the pool's rows, for which its basis is not feasible */
+  double *x;              /* [columns of lp] borrowed: the point of the last solve */
+  int n_dual;             /* rows at the last solve */
+  double *dual;           /* [n_dual] its multipliers; owned */
+  double objective;       /* its value */
+  thr_lp_outcome outcome; /* its outcome; THR_LP_STOPPED also where a slow separator was not begun */
+  bool whole, enough;     /* what thr_search_calls.look says of it */
+  double at_drop;         /* objective when rows were last dropped */
+  int n_separators;
+  struct {
+    thr_separator *find;
+    void *user;
+    int when;
+  } separator[8];
+} thr_search;
+
+/* What is done in every round. */
+typedef struct {
+  void *user;
+  const char *name; /* of a programme that always has an optimum: none is THR_ESOLVER; NULL = it may have none */
+  /* Solves s->lp; NULL = thr_lp_solve. */
+  thr_status (*solve)(void *user, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err);
+  /* Of the last solve, whatever its outcome: s->enough: no more rows are needed; s->whole: it is no fractional point. */
+  thr_status (*look)(void *user, thr_err *err);
+  int most_rounds; /* for points that are not whole; 0 = any number */
+  int patience;    /* rows slack for more rounds than this go, if all rows are the pool's; 0 = none goes */
+} thr_search_calls;
+
+/* Without a programme. pool_columns: of the pool's rows. x must outlive it. */
+thr_status thr_search_init(thr_search *s, int pool_columns, double *x, thr_err *err) THR_MUST_CHECK;
+void thr_search_destroy(thr_search *s);
+
+/* One more separator, asked after those before: at most 8. when: 0, THR_FALLBACK, THR_SLOW or both. */
+void thr_search_use(thr_search *s, thr_separator *find, void *user, int when);
+
+/* Adds the pool's rows that are not in the programme yet. */
+thr_status thr_search_load(thr_search *s, thr_err *err) THR_MUST_CHECK;
+
+/* Until no row is violated, the last look has found the bound enough, or there is no optimum: outcome says which. */
+thr_status thr_search_rounds(thr_search *s, const thr_search_calls *calls, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+
+/* ---- tree.c: Branch and bound, best bound first, over whatever bounds are handed in. */
 
 enum { THR_TREE_ANY = INT32_MAX }; /* a column that has no upper bound */
 

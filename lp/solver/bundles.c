@@ -1,5 +1,8 @@
-/* Forming the bundles; products. */
-#include "lp/solver/bundles.h"
+/* A sparse matrix as dense bundles: consecutive columns with the same rows, such as the forces at the four corners of a face,
+ * which act on the same two beads. Products with it read no index but those of the bundles' rows.
+ *
+ * Example: columns with rows {0, 2}, {0, 2}, {1}: two bundles. */
+#include "lp/solver/solver.h"
 
 #include "graph/wide.h"
 

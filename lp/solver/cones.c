@@ -1,11 +1,16 @@
-/* Notation: x, z primal and dual values, y row multipliers, d* their steps, p, q what is missing in A x = rhs and
+/* Linear programmes over second-order cones by a primal-dual interior point method: Yu. E. Nesterov & M. J. Todd, "Primal-dual
+ * interior-point methods for self-scaled cones", SIAM J. Optimization 8, 1998, with S. Mehrotra's predictor and corrector as of
+ * L. Vandenberghe, "The CVXOPT linear and quadratic cone program solvers", 2010.
+ *
+ * Minimize c x with A x = b, x in K: every step solves (A W W A^T) dy = r (lp/solver/normal.c), where W is what maps the dual
+ * values of a cone and its primal ones to the same point.
+ *
+ * Example: minimize x0 with x1 = 3, x2 = 4, x0 >= |(x1, x2)|: 5.
+ *
+ * Notation: x, z primal and dual values, y row multipliers, d* their steps, p, q what is missing in A x = rhs and
  * A^T y + z = cost; l = W z = W^-1 x. Products of cones are Jordan's: a o b = (a b, a0 b1 + b0 a1, a0 b2 + b0 a2). */
-#include "lp/solver/cones.h"
 
-#include "graph/scratch.h"
-#include "lp/solver/bundles.h"
-#include "lp/solver/normal.h"
-#include "lp/solver/sums.h"
+#include "lp/solver/solver_parts.h"
 
 #include <float.h>
 #include <math.h>

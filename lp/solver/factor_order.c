@@ -1,5 +1,12 @@
-/* Least degree by explicit elimination: what is left of a group's neighbours when it goes is its column of the factor. */
-#include "lp/solver/factor_order.h"
+/* Order and pattern of the factors of A A^T, by blocks: consecutive columns of the factor with the same rows below them
+ * (supernodes: J. W. H. Liu, E. G. Ng & B. W. Peyton, SIAM J. Matrix Anal. Appl. 14, 1993). Least degree (W. F. Tinney &
+ * J. W. Walker, 1967) takes rows with the same neighbours as one, such as the six rows of a bead; blocks follow each other as
+ * children and parents do, and are joined where that stores few zeros.
+ *
+ * Example: A A^T with the rows {0, 1} and {1, 2} joined: 0 and 2 go before 1, and no entry is added.
+ *
+ * Least degree by explicit elimination: what is left of a group's neighbours when it goes is its column of the factor. */
+#include "lp/solver/solver_parts.h"
 
 #include "graph/sort.h"
 

@@ -1,10 +1,15 @@
-/* Notation: x, z primal values and reduced costs, y row multipliers, d* their steps, p, q, r what is missing in
+/* Large sparse linear programmes by a primal-dual interior point method: predictor and corrector (S. Mehrotra, SIAM J.
+ * Optimization 2, 1992), further correctors (J. Gondzio, Comp. Optimization and Applications 6, 1996).
+ *
+ * Minimize c x with A x = b, x >= 0: Newton's method on A x = b, A^T y + z = c, x z = target, with the target going to 0; every
+ * step solves (A D A^T) dy = r with D = x / z (lp/solver/normal.c).
+ *
+ * Example: minimize x + 2 y with x + y = 1 ends at x = 1, y = 0 with the dual value 1.
+ *
+ * Notation: x, z primal values and reduced costs, y row multipliers, d* their steps, p, q, r what is missing in
  * A x = rhs,  A^T y + z = cost,  x z = target. */
-#include "lp/solver/bundles.h"
-#include "lp/solver/interior.h"
 
-#include "lp/solver/rays.h"
-#include "lp/solver/sums.h"
+#include "lp/solver/solver_parts.h"
 
 #include <float.h>
 #include <math.h>

@@ -16,7 +16,7 @@ typedef enum {
   THR_LP_INFEASIBLE,
   THR_LP_UNBOUNDED,
   THR_LP_STOPPED,  /* by the limits */
-  THR_LP_UNDECIDED /* interior point method only (lp/solver/interior.h) */
+  THR_LP_UNDECIDED /* interior point method only (lp/solver/interior.c) */
 } thr_lp_outcome;
 
 /* n columns with costs, 0 <= x (upper NULL) or 0 <= x <= upper. Release with thr_lp_destroy (NULL ok). */

@@ -2,8 +2,6 @@
  * error hook jumps out. After that GLPK's environment must be freed, which kills every problem of the process; each
  * thr_lp remembers in which generation of the environment it was born. */
 #define _POSIX_C_SOURCE 200809L
-#include "graph/limits.h"
-#include "graph/status.h"
 #include "graph/text.h"
 #include "lp/solver/lp.h"
 #include "graph/process/child.h"

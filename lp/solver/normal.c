@@ -1,10 +1,16 @@
-/* Factors by blocks of columns with the same rows below them: dense work, which a processor does fastest (supernodal, looking
+/* Normal equations (A W A^T) y = r of a sparse matrix A and a positive W, diagonal but for blocks of three: what an interior
+ * point method solves at every step. Sparse Cholesky factors in an order found once (lp/solver/factor_order.c).
+ *
+ * A W A^T = L L^T; L y' = r, then L^T y = y'. The factors are the program's own and not CHOLMOD's: the same digits on every
+ * machine and in a browser, dense work that does not wait for a fast BLAS, and rows that depend on others are left out. They are
+ * those of A W A^T with a little more on the diagonal.
+ *
+ * Example: A = (1 1), W = diag(2, 3), r = 10: 5 y = 10, y = 2.
+ *
+ * Factors by blocks of columns with the same rows below them: dense work, which a processor does fastest (supernodal, looking
  * left: a block takes off what the blocks before it bring, when its turn comes). */
-#include "lp/solver/normal.h"
-#include "graph/scratch.h"
-#include "lp/solver/dense.h"
-#include "lp/solver/factor_order.h"
 #include "graph/wide.h"
+#include "lp/solver/solver_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,8 @@
-/* Sums over rays. */
-#include "lp/solver/rays.h"
+/* Cones whose forces are mixtures of rays: columns of a programme that are A = G R, where a cone's rays span three directions
+ * only. The programme's unknowns are what each ray is used for; its equations see the three components of their sum.
+ *
+ * Example: the rays (1, 1, 0) and (1, -1, 0), used 2 and 3 times, give the force (5, -1, 0). */
+#include "lp/solver/solver.h"
 
 #include "graph/wide.h"
 

@@ -1,11 +1,7 @@
 /* The linear programmes on the cuts of finished T-joins, solved by GLPK from the joins. Its exact method computes with GMP, which
  * ends the program when memory runs out, and takes no heed of time within a pivot: all are solved in one child process. */
-#include "graph/limits.h"
 #include "graph/process/child.h"
-#include "graph/status.h"
 #include "graph/text.h"
-#include "lp/tjoin/cutbasis.h"
-#include "lp/tjoin/engine.h"
 #include "lp/solver/lp.h"
 #include "lp/tjoin/tjoin.h"
 

@@ -1,9 +1,15 @@
-/* Writes the programme of a T-join's cuts, and chooses a basis from the join.
+/* The cuts of a T-join as a linear programme, and a basis of it from the join, so that GLPK needs few pivots to confirm the
+ * optimum. Internal to lp/.
+ *
+ * Minimize the sum of w(e) x(e) with x(edges that leave S) >= 1 for every set S among the cuts.
+ *
+ * Example: one odd set S with two edges of weight 2 and 3 leaving it: the row x1 + x2 >= 1, basic x1 = 1.
+ *
+ * Writes the programme of a T-join's cuts, and chooses a basis from the join.
  *
  * A cut's equation is its own less those of the cuts right inside of it: an edge that leaves a set and the sets within it at one
  * node then stands in the equation of the innermost set only. */
-#include "lp/tjoin/cutbasis.h"
-#include "graph/plan/plan.h"
+#include "lp/tjoin/tjoin.h"
 #include "graph/scratch.h"
 
 #include <stdlib.h>

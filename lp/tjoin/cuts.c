@@ -1,5 +1,10 @@
-/* Nodes of a forest of cuts move between lists; whole sets are never written out. */
-#include "lp/tjoin/cuts.h"
+/* Forests of cuts (graph/plan/plan.h, thr_cut): nesting sets in each other, and changing the side of a cut. Internal to lp/.
+ *
+ * Each cut lists only the nodes that no set inside it has; the whole set is the list with those of all sets inside. A set and
+ * its complement have the same cut, so any set may be replaced by the nodes outside of it.
+ *
+ * Example: {0, 1, 2} round {0} is kept as the cut {0} and, outside it, the cut with the list 1, 2. */
+#include "lp/tjoin/tjoin.h"
 #include "graph/scratch.h"
 #include "graph/sort.h"
 

@@ -1,8 +1,15 @@
-/* The search for the price of an end, on T-joins with a hub. */
-#include "lp/tjoin/endjoin.h"
+/* Minimum T-join that may leave a limited number of odd nodes to cord ends: where the ends of several cords go.
+ *
+ * Let w(q) be the least weight of joins if every end costs q more. The number of ends falls as q rises, and the least weight
+ * with exactly n ends is the maximum over q of w(q) - n q: a concave function, so q is found by bisection (Lagrange; the
+ * differences of joins are circuits that change the number by two, so the maximum has no gap). The ends are edges to a hub, one
+ * more node.
+ *
+ * Example: a star with four leaves, all odd, ends allowed at the leaves. Four ends need no further pass; with two ends the two
+ * shortest edges are passed twice. */
+#include "lp/tjoin/tjoin.h"
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
-#include "lp/tjoin/cuts.h"
 
 #include <assert.h>
 #include <math.h>

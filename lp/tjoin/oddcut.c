@@ -1,7 +1,16 @@
-/* Odd sets: rows, moats by Dijkstra, exact separation by a Gomory-Hu tree. */
-#include "lp/tjoin/oddcut.h"
-#include "graph/framework/cuttree.h"
+/* Finding odd sets that a fractional point violates: sets S of nodes, an odd number of them odd, with x(edges that leave S) < 1.
+ * Heuristically by moats (a ball round every odd component of the support), exactly by a Gomory-Hu tree (Padberg & Rao,
+ * Mathematics of Operations Research 7, 1982): of a tree of minimum cuts the lightest edge with an odd number of odd nodes on
+ * its sides. Every set becomes a row of a pool, its members those of the row:
+ *
+ *   thr_oddcuts odd = {.graph = &graph, .x = x, .reduced_cost = cost, .threshold = {1e-6, 0.5}, .pool = &pool};
+ *   thr_search_use(&search, thr_oddcuts_moats, &odd, 0);
+ *   thr_search_use(&search, thr_oddcuts_exact, &odd, THR_FALLBACK);
+ *
+ * Example: a triangle of odd nodes with x = 1/2 on its edges and 0 on the others that leave it breaks the row of the triangle. */
+#include "lp/tjoin/tjoin.h"
 #include "graph/disjoint.h"
+#include "graph/framework/cuttree.h"
 #include "graph/random.h"
 #include "graph/scratch.h"
 #include "graph/sort.h"

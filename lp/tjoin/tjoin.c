@@ -1,12 +1,16 @@
-/* The cutting-plane loop: solve, separate, round to a join, turn the dual into an exact certificate. */
+/* Minimum T-join by linear programming over odd cuts (Edmonds & Johnson 1973; separation: Padberg & Rao 1982).
+ *
+ * Minimize the sum of w(e) x(e) with x(edges that leave S) >= 1 for every set S with an odd number of nodes of T; the corners of
+ * this polyhedron are T-joins, and its dual, a packing of odd cuts, is the proof.
+ *
+ * Example: a cycle of four edges of weight 1 with two opposite odd nodes: both halves are T-joins of weight 2, and moats of
+ * width 1 round each odd node prove it.
+ *
+ * The cutting-plane loop: solve, separate, round to a join, turn the dual into an exact certificate. */
 #include "lp/tjoin/tjoin.h"
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
-#include "lp/model/pool.h"
-#include "lp/model/search.h"
-#include "lp/tjoin/cuts.h"
 #include "lp/solver/lp.h"
-#include "lp/tjoin/oddcut.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,12 +1,10 @@
-/* Bounds on what is counted in a plan, from bounds on what is counted in the programme. */
-#include "symmetry/cover/claims.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "symmetry/cover/bounds.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/cover/turning_bound.h"
+/* What the bounds of a cover prove of threadings as a plan counts them. Internal.
+ *
+ * The programme of a cover differs from a plan (thr_symmetry_record, thr_metrics) in three ways. It tells cords that run through
+ * the same nodes apart; it takes the two passes of a cord that turns back over an edge which the group leaves where it is for
+ * images of each other, so that one is learned with the other; and with ends anywhere it counts every turn of a closed cord, of
+ * which a plan leaves one out. */
+#include "symmetry/cover/cover_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

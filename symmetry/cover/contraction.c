@@ -1,7 +1,10 @@
-/* Cells of dart types: made and undone. */
-#include "symmetry/cover/contraction.h"
+/* The programme without the turns at most nodes: which orbits of copies, ends and folds, but not who meets whom. Internal.
+ *
+ * A cell is a set of dart types at one node that turns join. Dart orbits of two different types of a cell can always be paired,
+ * so all that most cells ask for is an even number; a cell becomes one dart type with one turn, to itself. Every solution of the
+ * whole programme is one of the contracted programme, with the same overlap and steps and no more paths: its bounds hold. */
+#include "symmetry/cover/cover.h"
 #include "graph/disjoint.h"
-#include "symmetry/cover/ties.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,13 +1,11 @@
-/* The best symmetric cover, one aim after the other. */
-#include "symmetry/cover/cover.h"
-#include "graph/framework/frame.h"
-#include "symmetry/cover/bounds.h"
-#include "symmetry/cover/contraction.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/cover/relaxation.h"
-#include "symmetry/cover/cover_search.h"
-#include "symmetry/cover/ties.h"
-#include "symmetry/cover/turning_bound.h"
+/* The best symmetric cover for one group: how many orbits of each type of copies, turns, ends and folds
+ * (symmetry/group/quotient.c), as an integer programme.
+ *
+ * Minimize overlap, then steps, then paths, subject to: every edge orbit is passed often enough, the turns and ends of every
+ * dart type use up its darts, and what is chosen hangs together.
+ *
+ * Example: a ring of six edges under C6: one orbit of copies and one of turns make one closed cord. */
+#include "symmetry/cover/cover_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,8 @@
-/* Branch and cut, one aim after the other. */
-#include "symmetry/cover/cover_search.h"
-#include "lp/model/search.h"
+/* The search for the best whole solution of a programme (symmetry/cover/programme.c), aim by aim: when one is settled, or its
+ * time is up, its value becomes a row and the next is minimized. Internal.
+ *
+ * Example: the least overlap is 0; then, with overlap 0 as a row, the fewest steps. */
+#include "symmetry/cover/cover_parts.h"
 #include "lp/solver/lp.h"
 
 #include <math.h>

@@ -1,10 +1,6 @@
 /* Exchanges at the nodes of a whole solution: sets are joined, turning gets less. */
 #include "graph/disjoint.h"
-#include "graph/limits.h"
-#include "graph/status.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/cover/ties.h"
-#include "symmetry/group/quotient.h"
+#include "symmetry/cover/cover.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,6 @@
 /* Folds that outnumber the ends they could be led to: a flow. */
-#include "graph/status.h"
 #include "graph/scratch.h"
-#include "symmetry/cover/programme.h"
+#include "symmetry/cover/cover.h"
 
 #include <math.h>
 
@@ -13,7 +12,7 @@ typedef struct {
   int (*edge)[2];
   double *capacity, *flow;        /* [m] flow from edge[e][0] to edge[e][1] */
   double *supply, *demand, *used; /* [n] left; of copies at a dart type */
-  int *first, *incident;          /* as in lp/tjoin/oddcut.h */
+  int *first, *incident;          /* as in lp/tjoin/oddcut.c */
   int *queue, *arrived;           /* [n] edge by which a node was reached, -1 = not, m = a source */
   thr_scratch own;                /* the arrays */
 } network;

@@ -5,7 +5,7 @@
  * If each fold has a path of its own to a cord end (a maximum flow, Ford & Fulkerson 1956), what is left over is even at every
  * node and falls into circuits. At a type then as many copies arrive as turns lead away, so that they can be matched. */
 #include "graph/status.h"
-#include "symmetry/lift/strands.h"
+#include "symmetry/lift/lift.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,11 @@
-/* Columns, costs and connected sets of a symmetric cover. */
-#include "symmetry/cover/programme.h"
+/* The columns of the integer programme of symmetry/cover/cover.h, what they cost, and what a whole solution is worth. Internal.
+ *
+ * A column is a number of orbits; its cost in an aim is what one orbit adds to overlap, steps, paths or turning. Every value of
+ * an aim is a constant plus a multiple of its unit, so that a bound may be rounded up to the next one.
+ *
+ * Example: an orbit of three copies of an edge of length 2 that is covered already adds 6 to the overlap. */
+#include "symmetry/cover/cover.h"
 #include "graph/disjoint.h"
-#include "graph/framework/frame.h"
 
 #include <limits.h>
 #include <math.h>

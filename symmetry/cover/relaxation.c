@@ -1,11 +1,12 @@
-/* Rows and separation of the programme of a symmetric cover. */
-#include "symmetry/cover/relaxation.h"
+/* The linear programme over the columns of symmetry/cover/programme.c, with rows added as a point violates them (branch and cut:
+ * M. Padberg & G. Rinaldi, SIAM Review 33, 1991). Internal.
+ *
+ * The rows hold for every cover, whatever the bounds in force: odd sets, ties, connected sets, sets with too many folds.
+ *
+ * Example: copies over two edge orbits that share a node but no turn there break the row that asks for one. */
+#include "symmetry/cover/cover_parts.h"
 #include "graph/scratch.h"
-#include "lp/model/pool.h"
-#include "lp/model/search.h"
-#include "lp/model/tree.h"
 #include "lp/solver/lp.h"
-#include "symmetry/group/quotient.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,10 +1,6 @@
 /* Columns of a symmetric cover that no cover needs, or has. */
 #include "graph/disjoint.h"
-#include "graph/framework/frame.h"
-#include "graph/status.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/group/group.h"
-#include "symmetry/group/quotient.h"
+#include "symmetry/cover/cover.h"
 
 #include <stdlib.h>
 #include <string.h>

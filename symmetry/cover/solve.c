@@ -1,15 +1,8 @@
-/* Rows of the table: covers, the threadings made from them, and what is proved of those. */
-#include "symmetry/cover/solve.h"
-#include "graph/plan/plan.h"
+/* The best threading under each group of the table, and who gets how much of the time: all get a little, then those that are
+ * open and may still be the best get more. Internal to symmetry/. */
+#include "symmetry/cover/cover_parts.h"
 #include "graph/process/threads.h"
-#include "symmetry/cover/claims.h"
-#include "symmetry/cover/cover.h"
-#include "symmetry/cover/cover_options.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/group/group.h"
-#include "symmetry/group/quotient.h"
-#include "symmetry/lift/keep.h"
-#include "symmetry/lift/legible.h"
+#include "symmetry/lift/lift.h"
 
 #include <limits.h>
 #include <math.h>
@@ -139,7 +132,7 @@ static thr_status refuse(const thr_frame *frame, thr_symmetry_row *row, thr_err 
 static thr_status make_legible(const solver *s, const thr_quotient *quotient, const thr_limits *limits, thr_cover *c,
                                thr_symmetry_row *row, thr_err *err)
 {
-  thr_threading threading = {row->cord, row->n_cords, row->record};
+  thr_lifted threading = {row->cord, row->n_cords, row->record};
   thr_status st = thr_legible_cords(quotient, &s->how, s->o, limits, c, &threading, &row->instructions, err);
   row->cord = threading.cord;
   row->record = threading.record;

@@ -1,13 +1,7 @@
 /* Covers that need no programme: copies, made even by a least join, and ends where they cannot turn. */
 #include "graph/disjoint.h"
-#include "graph/limits.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
-#include "lp/tjoin/engine.h"
 #include "lp/tjoin/tjoin.h"
-#include "symmetry/cover/contraction.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/group/quotient.h"
+#include "symmetry/cover/cover.h"
 
 #include <math.h>
 #include <stdlib.h>

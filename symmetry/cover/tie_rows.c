@@ -1,8 +1,5 @@
 /* Rows of the relaxation that hold for tube joints. */
-#include "graph/status.h"
-#include "lp/model/pool.h"
-#include "symmetry/cover/relaxation.h"
-#include "symmetry/cover/ties.h"
+#include "symmetry/cover/cover_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

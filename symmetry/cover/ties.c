@@ -1,7 +1,11 @@
-/* Stars of tubes, and what joins them. */
-#include "symmetry/cover/ties.h"
+/* Tube joints (graph/plan/junction.h) in the programme of a symmetric cover: at every node the turns, as edges between its tubes,
+ * connect them all. Internal.
+ *
+ * A symmetric threading ties all nodes of an orbit or none, so one node stands for each: its star. A turn column joins, there,
+ * every two tubes that one of its turns goes between. Where it is not known which (symmetry/cover/contraction.c), its turns are
+ * only counted: between b blocks of tubes there are b - 1. */
+#include "symmetry/cover/cover.h"
 #include "graph/disjoint.h"
-#include "graph/framework/frame.h"
 
 #include <stdlib.h>
 

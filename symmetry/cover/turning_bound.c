@@ -1,11 +1,10 @@
-/* Lower bounds on turning, cell by cell. */
-#include "symmetry/cover/turning_bound.h"
-#include "graph/plan/request.h"
+/* How much the cords of a symmetric cover turn at least, known early and at any time. Internal.
+ *
+ * Both bounds take the nodes apart. What the turns in one cell (symmetry/cover/contraction.c) cost at least is a convex function
+ * of how often each of its dart types is used and of how many trails end there. */
+#include "symmetry/cover/cover_parts.h"
 #include "graph/scratch.h"
-#include "lp/model/pool.h"
-#include "lp/model/search.h"
 #include "lp/solver/lp.h"
-#include "symmetry/group/quotient.h"
 
 #include <math.h>
 #include <stdlib.h>

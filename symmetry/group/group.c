@@ -1,7 +1,12 @@
-/* Listing a permutation group and its product table. */
+/* A finite permutation group with all its elements listed, and its subgroups up to conjugacy.
+ *
+ * Elements are found breadth first from the generators, with a table of products; subgroups by extension: each one is extended
+ * by one more element, and one of each class of conjugates is kept (J. Neubueser 1960).
+ *
+ * Example: the eight elements of the square's group have 10 subgroups in 8 classes. */
 #include "symmetry/group/group.h"
 #include "graph/scratch.h"
-#include "symmetry/group/rows.h"
+#include "symmetry/group/groups.h"
 
 #include <stdlib.h>
 #include <string.h>

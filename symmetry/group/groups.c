@@ -1,10 +1,13 @@
-/* All subgroups where they can be listed, else the isometries and what a few generators make. */
+/* Which groups of automorphisms are offered for a framework: all subgroups up to conjugacy where they can be listed, else the
+ * isometries and what a few generators make. Internal to symmetry/.
+ *
+ * Example: of the square's group C4v: C1, C2, C4, two classes of mirrors, two of C2v, and C4v itself.
+ *
+ * All subgroups where they can be listed, else the isometries and what a few generators make. */
 #include "symmetry/group/groups.h"
 #include "graph/disjoint.h"
 #include "graph/framework/procrustes.h"
-#include "symmetry/group/automorphisms.h"
 #include "symmetry/group/group.h"
-#include "symmetry/group/isometry.h"
 
 #include <math.h>
 #include <stdio.h>

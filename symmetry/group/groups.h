@@ -1,9 +1,6 @@
-/* Which groups of automorphisms are offered for a framework: all subgroups up to conjugacy where they can be listed, else the
- * isometries and what a few generators make. Internal to symmetry/.
- *
- * Example: of the square's group C4v: C1, C2, C4, two classes of mirrors, two of C2v, and C4v itself. */
-#ifndef THR_SYMMETRY_GROUPS_H
-#define THR_SYMMETRY_GROUPS_H
+/* All groups that a plan may repeat by, the largest first. */
+#ifndef THR_GROUPS_H
+#define THR_GROUPS_H
 
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
@@ -11,9 +8,17 @@
 #include "graph/status.h"
 #include "symmetry/symmetry.h"
 
+/* ---- groups.c: Which groups of automorphisms are offered for a framework: all subgroups up to conjugacy where they can be
+ * listed, else the isometries and what a few generators make. */
+
 /* Fills the groups of the table and its rows, without threadings; fewer when the limits say so. On failure the table can still be
  * destroyed. */
 thr_status thr_symmetry_groups(const thr_frame *frame, const thr_request *options, const thr_limits *limits,
                                thr_symmetries *symmetries, thr_err *err) THR_MUST_CHECK;
+
+/* ---- rows.c: Permutations as rows of images, in lexicographic order, so that equal ones are found by bisection. */
+
+/* Sorts count rows of n ints. order: [count] receives which row comes first, second, .., as numbered before; NULL = not asked. */
+thr_status thr_rows_sort(int *row, int count, int n, int *order, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,14 +1,10 @@
 /* Isometries of a framework from its coordinates: two reference nodes may go to few places, and where they go fixes the motion up
  * to a mirror; every such motion is refined by Procrustes analysis and verified on all nodes and edges. */
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
-#include "symmetry/group/automorphisms.h"
-#include "symmetry/group/isometry.h"
 #include "graph/framework/procrustes.h"
-#include "symmetry/group/rows.h"
+#include "graph/scratch.h"
 #include "graph/vector.h"
+#include "symmetry/group/group.h"
+#include "symmetry/group/groups.h"
 
 #include <math.h>
 #include <stdlib.h>

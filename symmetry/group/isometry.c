@@ -1,5 +1,13 @@
-/* Procrustes analysis of automorphisms, their names, and the name of the point group that they make. */
-#include "symmetry/group/isometry.h"
+/* What an automorphism is in space: the best rigid motion or reflection that moves the nodes to their images, and what that is
+ * called.
+ *
+ * The orthogonal R with the least sum of |R x(v) - x(p(v))|^2 (Procrustes analysis, Schoenemann 1966): from the singular value
+ * decomposition X^T Y = U S V^T, R = V U^T. The trace of R says the angle, its determinant whether it reflects.
+ *
+ * Example: R with determinant 1 and trace -1 turns by 180 degrees: C2.
+ *
+ * Procrustes analysis of automorphisms, their names, and the name of the point group that they make. */
+#include "symmetry/group/group.h"
 #include "graph/angle.h"
 #include "graph/framework/procrustes.h"
 #include "graph/vector.h"

@@ -3,10 +3,8 @@
  * nauty's callback has no user pointer and its failures end the program: one target at a time in a thread, and alloc_error, which
  * nauty calls when memory runs out, is replaced by a jump back (the program's definition goes before the shared library's).
  * Sparse nauty itself is not used: it overruns its buffers on stars. */
-#include "graph/framework/frame.h"
-#include "graph/status.h"
-#include "symmetry/group/automorphisms.h"
 #include "graph/disjoint.h"
+#include "symmetry/group/group.h"
 
 #include <traces.h>
 #include <math.h>

@@ -1,7 +1,18 @@
-/* Orbits of copies, darts and turns under a group. */
-#include "symmetry/group/quotient.h"
+/* Threadings that a group H of automorphisms maps to themselves, counted by orbits (docs/method.md).
+ *
+ * A symmetric threading is an H-set of copies (passes) over the edges with an H-invariant pairing of their darts (a dart is one
+ * end of a copy) at the nodes. Fewer conditions are wrong: an H-invariant T-join with even degrees need not have an invariant
+ * pairing. copy type (e, K)  an orbit of copies over the orbit of edge e; K <= H_e, up to conjugacy in H_e, maps one copy to
+ * itself. It adds [H_e : K] passes to e. If an element of K turns e round, the copy is a fold: its trail is mapped to its
+ * reverse. dart type (h, S)  an orbit of darts over half-edge h with stabilizer S <= H_h. A copy type without fold has two dart
+ * orbits, of types (h, K) and (h ^ 1, K); with a fold one, of type (h, S) with S = the elements of K that do not turn e round.
+ *   pair type         an orbit of turns at a node: darts a, b with equal stabilizers over half-edges of one node; over one
+ * half-edge the cord turns back into its edge. If some g in H_v maps a to b, a pair within one dart orbit (a "self" pair) needs
+ * such a g that also maps b to a; it folds the trail at the node. Two different dart orbits of one type can be paired in any
+ * case. The stabilizer of a dart is that of all its trail (the layer): a trail over an edge in a mirror, passed by one fixed
+ * copy, stays in the mirror. In the quotient a trail's orbit is a path between two terminals (cord end or fold) or a circle. */
+#include "symmetry/group/group.h"
 #include "graph/scratch.h"
-#include "symmetry/group/isometry.h"
 
 #include <assert.h>
 #include <stdlib.h>

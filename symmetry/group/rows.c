@@ -1,5 +1,7 @@
-/* Rows of images in lexicographic order. */
-#include "symmetry/group/rows.h"
+/* Permutations as rows of images, in lexicographic order, so that equal ones are found by bisection.
+ *
+ * Example: (0 1 2), (1 0 2), (2 0 1) stand in this order. */
+#include "symmetry/group/groups.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,4 @@
 /* Subgroups of a listed group, and all of them up to conjugacy by extension (Neubueser 1960). */
-#include "graph/status.h"
 #include "symmetry/group/group.h"
 
 #include <assert.h>

@@ -1,10 +1,7 @@
 /* Automorphisms in a child process, which can be ended: nauty takes no heed of time. */
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
 #include "graph/process/child.h"
-#include "graph/status.h"
 #include "graph/text.h"
-#include "symmetry/group/automorphisms.h"
+#include "symmetry/group/group.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,9 +1,7 @@
 /* Copies for a start that has to tie tube joints. */
 #include "graph/status.h"
-#include "symmetry/cover/contraction.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/cover/ties.h"
-#include "symmetry/group/quotient.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/group/group.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -1,9 +1,10 @@
-/* Cords as many, and as short, as asked for: turns become ends, ends become turns. */
-#include "symmetry/lift/keep.h"
-#include "graph/framework/frame.h"
-#include "symmetry/cover/cover_options.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/cover/turning_bound.h"
+/* Cords of a symmetric cover that keep to what is asked of cords and not of covers: how many there are in a component, and how
+ * long they are. The cover's passes stay; its turns and ends change, orbit by orbit, so that what is made stays symmetric.
+ *
+ * Example: a ring of six edges under C3 is one closed cord. For three cords with ends anywhere an orbit of three turns becomes
+ * ends. */
+#include "symmetry/lift/lift.h"
+#include "symmetry/cover/cover_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

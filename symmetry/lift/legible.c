@@ -1,9 +1,10 @@
-/* Exchanges at the nodes that leave all aims as they are, kept where there is less to read. */
-#include "symmetry/lift/legible.h"
-#include "graph/framework/frame.h"
+/* Cords of a symmetric cover that are read in fewer instructions (graph/plan/reading.h), with every aim at the value it has: two
+ * turns of a node, in all their images, exchange their partners where that turns no more.
+ *
+ * Example: two stairs over a grid that go right and then up here, up and then right there, become stairs that are one the other
+ * moved along, which is read once. */
+#include "symmetry/lift/lift.h"
 #include "graph/plan/reading.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/lift/keep.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -30,7 +31,7 @@ typedef struct {
   bool better;
   level most;
   int instructions;
-  thr_threading *now;
+  thr_lifted *now;
 } reader;
 
 static void reader_destroy(reader *r)
@@ -41,19 +42,19 @@ static void reader_destroy(reader *r)
   thr_programme_destroy(&r->p);
 }
 
-static void threading_destroy(thr_threading *t)
+static void threading_destroy(thr_lifted *t)
 {
   thr_cords_destroy(t->cord, t->n_cords);
   thr_symmetry_record_destroy(&t->record);
 }
 
-static int count_instructions(const reader *r, const thr_threading *t)
+static int count_instructions(const reader *r, const thr_lifted *t)
 {
   const thr_plan plan = {.frame = *r->q->f, .options = *r->o, .cord = t->cord, .n_cords = t->n_cords, .symmetry = t->record};
   return thr_reading_of(&plan).instructions;
 }
 
-static level level_of(const reader *r, const thr_threading *t)
+static level level_of(const reader *r, const thr_lifted *t)
 {
   level out = {.cords = t->n_cords, .paths = t->record.unique_paths, .steps = t->record.steps};
   for (int i = 0; i < t->n_cords; i++)
@@ -69,7 +70,7 @@ static bool at_most(double a, double b)
   return a <= b + 1e-9 * fmax(1, fabs(b));
 }
 
-static bool stays(const reader *r, const thr_threading *t)
+static bool stays(const reader *r, const thr_lifted *t)
 {
   const level x = level_of(r, t);
   return x.cords == r->most.cords && x.paths == r->most.paths && at_most(x.steps, r->most.steps) &&
@@ -82,7 +83,7 @@ static thr_status try_value(reader *r, thr_err *err)
 {
   double worth[THR_N_AIMS];
   bool valid;
-  thr_threading t = {0};
+  thr_lifted t = {0};
   const thr_cover cover = {.copies = r->value, .pairs = r->value + r->p.first_pair, .ends = r->value + r->p.first_end};
   thr_status st = thr_programme_value(&r->p, r->value, worth, &valid, err);
   if (st || !valid || thr_programme_compare(&r->p, worth, r->worth) > 0) return st;
@@ -94,7 +95,7 @@ static thr_status try_value(reader *r, thr_err *err)
   if (r->better) {
     memcpy(r->best, r->value, (size_t)r->p.n * sizeof *r->best);
     r->instructions = instructions;
-    const thr_threading old = *r->now;
+    const thr_lifted old = *r->now;
     *r->now = t;
     t = old;
   }
@@ -145,7 +146,7 @@ static thr_status reader_init(reader *r, const thr_cover *cover, thr_err *err)
 }
 
 thr_status thr_legible_cords(const thr_quotient *quotient, const thr_cover_options *options, const thr_request *request,
-                             const thr_limits *limits, thr_cover *cover, thr_threading *threading, int *instructions,
+                             const thr_limits *limits, thr_cover *cover, thr_lifted *threading, int *instructions,
                              thr_err *err)
 {
   reader r = {.q = quotient, .how = options, .o = request, .limits = limits, .now = threading};

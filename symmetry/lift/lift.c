@@ -1,10 +1,8 @@
 /* Solutions of a contraction with turns, and the other way round. */
 #include "graph/disjoint.h"
 #include "graph/status.h"
-#include "symmetry/cover/contraction.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/cover/ties.h"
-#include "symmetry/group/quotient.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/group/group.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,12 @@
-/* Dart orbits as cosets, their links, and the choices among them. */
-#include "symmetry/lift/strands.h"
+/* A symmetric cover made concrete: orbits of darts as cosets of their stabilizers, linked over the edges and at the nodes
+ * (symmetry/group/quotient.c), and followed from end to end.
+ *
+ * The copies of a dart type with stabilizer S are the cosets gS; an element maps gS to hgS. A link is an element: which coset of
+ * the one orbit the first coset of the other continues into.
+ *
+ * Example: under C4 with trivial stabilizers an orbit has four darts 1, g, g^2, g^3; linked by g they make one closed cord. */
+#include "symmetry/lift/lift.h"
 #include "graph/disjoint.h"
-#include "graph/framework/frame.h"
-#include "symmetry/group/group.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,13 +1,6 @@
 /* The cords of a symmetric cover, copies as images of their unique paths, and the record that says so. */
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/status.h"
-#include "graph/threading/tour.h"
-#include "symmetry/cover/cover.h"
-#include "symmetry/cover/cover_options.h"
-#include "symmetry/group/group.h"
-#include "symmetry/group/quotient.h"
-#include "symmetry/lift/strands.h"
+#include "graph/threading/euler.h"
+#include "symmetry/lift/lift.h"
 
 #include <stdlib.h>
 #include <string.h>

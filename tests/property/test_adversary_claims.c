@@ -1,15 +1,15 @@
 /* The adversary of test_adversary_turning.c against the claims of whole plans: of the turning, in all and of the cord that turns
  * most, and of length, longest cord and fewest cords with tube joints. */
-#include "tests/turning_targets.h"
-#include "tests/attack.h"
 #include "graph/check/check.h"
 #include "graph/limits.h"
 #include "graph/plan/junction.h"
 #include "graph/plan/turning_proof.h"
-#include "planner/least_turning.h"
+#include "planner/planner.h"
+#include "tests/attack.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/truth.h"
+#include "tests/turning_targets.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,16 +1,15 @@
 /* The adversary of test_adversary.c against proofs of turning and of tied length: trees of multipliers on small frameworks,
  * looked for by hill climbing from nothing and from the program's own proofs, to prove more than is true. Of prices the truth is
  * exact (tests/truth.h), so that even the last bit of the rounding counts. */
-#include "tests/turning_targets.h"
-#include "tests/attack.h"
-#include "lp/model/tree.h"
-#include "tortuosity/proof/branch.h"
-#include "tortuosity/proof/relax.h"
-#include "tortuosity/tie/tube_cords.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
 #include "graph/plan/junction.h"
 #include "graph/plan/turning_proof.h"
+#include "lp/model/tree.h"
+#include "tests/attack.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/turning_targets.h"
+#include "tortuosity/proof/branch.h"
+#include "tortuosity/tie/tie.h"
 
 #include <math.h>
 #include <stdio.h>

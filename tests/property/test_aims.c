@@ -1,10 +1,10 @@
 /* Aims are lexicographic: with a second aim the length stays what all threadings leave possible. */
 #include "graph/framework/frame.h"
+#include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "graph/limits.h"
 #include "graph/status.h"
-#include "planner/make_plan.h"
+#include "planner/planner.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"

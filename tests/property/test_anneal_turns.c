@@ -5,9 +5,7 @@
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/walks.h"
-#include "tortuosity/cords/anneal_turns.h"
-#include "tortuosity/cords/short_cycles.h"
-#include "tortuosity/cords/extra.h"
+#include "tortuosity/cords/anneal.h"
 #include "tortuosity/cords/join.h"
 
 #include <math.h>

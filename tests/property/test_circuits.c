@@ -1,13 +1,13 @@
 /* Several closed cords in every component against enumeration over all pairings of all passes. */
-#include "tests/symmetric.h"
 #include "graph/angle.h"
 #include "graph/framework/make.h"
-#include "tortuosity/cords/maxturn.h"
-#include "tests/frameworks.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
-#include "tortuosity/proof/least.h"
+#include "tests/frameworks.h"
+#include "tests/symmetric.h"
+#include "tortuosity/cords/several.h"
+#include "tortuosity/proof/branch.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* What is claimed of rows must hold for threadings as plans count them, whatever comes first. */
-#include "symmetry/cover/claims.h"
-#include "tests/symmetric.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/cover/cover_parts.h"
+#include "symmetry/group/group.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "symmetry/group/quotient.h"
-#include "symmetry/cover/cover_options.h"
+#include "tests/symmetric.h"
 
 #include <string.h>
 

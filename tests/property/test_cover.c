@@ -1,22 +1,15 @@
 /* Symmetric covers against exhaustive search and against published figures. */
-#include "tests/exhaustion.h"
-#include "graph/plan/junction.h"
 #include "graph/framework/make.h"
-#include "symmetry/group/automorphisms.h"
-#include "symmetry/cover/claims.h"
+#include "graph/plan/junction.h"
 #include "symmetry/cover/cover.h"
-#include "symmetry/group/isometry.h"
-#include "symmetry/cover/turning_bound.h"
-#include "tests/symmetric.h"
+#include "symmetry/cover/cover_parts.h"
+#include "symmetry/group/group.h"
+#include "symmetry/lift/lift.h"
+#include "tests/exhaustion.h"
 #include "tests/frameworks.h"
 #include "tests/oracles.h"
 #include "tests/plans.h"
-#include "symmetry/cover/contraction.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/cover/relaxation.h"
-#include "symmetry/group/quotient.h"
-#include "symmetry/cover/cover_options.h"
-#include "symmetry/lift/keep.h"
+#include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdlib.h>

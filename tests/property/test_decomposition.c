@@ -1,10 +1,10 @@
 /* The longest of several cords against all ways to share out passes in small frameworks; what must hold in larger ones. */
-#include "lp/length/cords.h"
-#include "tests/support.h"
-#include "tests/walks.h"
+#include "lp/length/postman.h"
 #include "tests/frameworks.h"
 #include "tests/oracles.h"
 #include "tests/plans.h"
+#include "tests/support.h"
+#include "tests/walks.h"
 
 #include <math.h>
 #include <stdlib.h>

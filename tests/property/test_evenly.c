@@ -1,11 +1,11 @@
 /* Cords that turn evenly, tied cords that turn least, and given numbers of ends that differ from piece to piece, of random small
  * frameworks against every choice of passes, ends and pairs. */
-#include "tests/symmetric.h"
 #include "graph/framework/make.h"
-#include "planner/least_turning.h"
+#include "graph/plan/turning_proof.h"
+#include "planner/planner.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/plan/turning_proof.h"
+#include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,16 +1,15 @@
 /* Several cords through few edges, by the checker's tables, against all numbers of passes of all cords (tests/truth.h). */
-#include "graph/check/few_edges.h"
-#include "graph/check/short_cords.h"
-#include "graph/check/ways_in.h"
 #include "graph/angle.h"
+#include "graph/check/check_parts.h"
+#include "graph/check/edge_sets.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
-#include "graph/threading/small_cords.h"
-#include "planner/least_turning.h"
+#include "graph/threading/threading.h"
+#include "planner/planner.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"
@@ -247,7 +246,7 @@ START_TEST(bounds_are_of_all_pieces)
 }
 END_TEST
 
-/* Of more edges, by length or by turning: against the planner's table, which is another one (graph/threading/small_cords.h); and
+/* Of more edges, by length or by turning: against the planner's table, which is another one (graph/threading/small_cords.c); and
  * with a limit. */
 START_TEST(larger_ones_are_those_of_the_planner)
 {

@@ -1,9 +1,9 @@
 /* Shortest plans under every combination of cover, capacity, ends and number of cords, against all choices of extra passes. */
-#include "lp/length/cords.h"
-#include "tests/support.h"
+#include "graph/check/check.h"
+#include "lp/length/postman.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/check/check.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,14 +1,11 @@
 /* Minimum T-joins of random graphs: both engines against each other and against all subsets; every certificate is checked here,
  * by sums of 128 bits. */
-#include "tests/support.h"
-#include "lp/tjoin/cutbasis.h"
-#include "lp/tjoin/engine.h"
-#include "lp/matching/moat.h"
-#include "lp/matching/nest.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "lp/matching/blossom.h"
+#include "lp/matching/blossom_parts.h"
 #include "lp/tjoin/tjoin.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* The checker against altered plans. Alterations of cords and metrics must always be caught; a certificate may be altered
  * into another valid one, so there the verdict is compared with plain sums, and with what is known to be shortest. */
-#include "tests/support.h"
+#include "graph/check/check.h"
+#include "lp/length/postman.h"
 #include "tests/frameworks.h"
 #include "tests/oracles.h"
 #include "tests/plans.h"
-#include "graph/check/check.h"
-#include "lp/length/postman.h"
+#include "tests/support.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -7,7 +7,7 @@
 #include "graph/status.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"
-#include "tortuosity/proof/pass_matching.h"
+#include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

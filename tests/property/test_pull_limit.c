@@ -5,7 +5,7 @@
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
-#include "planner/make_plan.h"
+#include "planner/planner.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"

@@ -1,13 +1,13 @@
 /* The least turning of frameworks whose optima are known from other programs (docs/method.md), in degrees. */
-#include "graph/framework/make.h"
 #include "graph/angle.h"
-#include "planner/images.h"
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/symmetric.h"
-#include "tortuosity/proof/least.h"
+#include "graph/framework/make.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
+#include "planner/planner_parts.h"
+#include "tests/frameworks.h"
+#include "tests/support.h"
+#include "tests/symmetric.h"
+#include "tortuosity/proof/branch.h"
 
 #include <math.h>
 #include <stdlib.h>

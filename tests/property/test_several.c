@@ -1,11 +1,11 @@
 /* Lengths with covers, capacities and ends of every kind against all subsets of edges; what is said of several cords against all
  * ways to share small frameworks out. */
-#include "tests/support.h"
+#include "graph/check/check.h"
+#include "lp/length/postman.h"
 #include "tests/frameworks.h"
 #include "tests/oracles.h"
 #include "tests/plans.h"
-#include "graph/check/check.h"
-#include "lp/length/postman.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* Shortest cords of random frameworks against two oracles that know no linear programming, and what must not change. */
 #define _POSIX_C_SOURCE 200809L
-#include "tests/support.h"
+#include "graph/check/check.h"
+#include "lp/length/postman.h"
 #include "tests/frameworks.h"
 #include "tests/oracles.h"
 #include "tests/plans.h"
-#include "graph/check/check.h"
-#include "lp/length/postman.h"
+#include "tests/support.h"
 
 #include <dirent.h>
 #include <math.h>

@@ -1,9 +1,9 @@
 /* Cords of small components by a table over subsets, against all walks (tests/walks.h): length and turning, together and the
  * dearest, the fewest under a limit, for all ends, covers, capacities and joints. */
-#include "graph/threading/small_cords.h"
-#include "tests/support.h"
+#include "graph/threading/threading.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
+#include "tests/support.h"
 #include "tests/walks.h"
 
 #include <limits.h>

@@ -4,14 +4,13 @@
  * knapsack: every orbit adds passes to the orbits of edges, cords, steps, a path and turning. The walks are those of a few
  * passes, which turn back anywhere; what is found so is a threading, so that nothing better may be called impossible. No code is
  * shared with symmetry/. */
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
-#include "planner/make_plan.h"
+#include "planner/planner.h"
 #include "symmetry/cover/cover.h"
-#include "symmetry/cover/cover_options.h"
 #include "symmetry/group/group.h"
 #include "symmetry/symmetry.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,12 +1,11 @@
 /* Tied nodes: the turns of one against all turns, walks against prices from scratch, the ascent's bound against enumeration's
  * optimum in a linear programme with all rows. */
-#include "lp/solver/lp.h"
-#include "tests/ties.h"
-#include "tortuosity/proof/ascent.h"
-#include "tortuosity/tie/tie_walk.h"
-#include "tests/frameworks.h"
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
+#include "lp/solver/lp.h"
+#include "tests/frameworks.h"
+#include "tests/ties.h"
+#include "tortuosity/proof/relax_parts.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
-#include "planner/planners.h"
+#include "planner/planner_parts.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"

@@ -1,11 +1,11 @@
 /* The shortest cords for tube joints against all passes and all turns of small frameworks, and against published values. */
-#include "tests/ties.h"
 #include "graph/plan/junction.h"
-#include "planner/least_turning.h"
-#include "tortuosity/tie/tube.h"
+#include "graph/plan/turning_proof.h"
+#include "planner/planner.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/plan/turning_proof.h"
+#include "tests/ties.h"
+#include "tortuosity/tie/tie.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* Several cords for tube joints against all ways to choose them in small frameworks; what must hold in larger ones. */
-#include "tests/support.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "tortuosity/tie/tube_cords.h"
+#include "tests/support.h"
+#include "tortuosity/tie/tie.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,20 +1,18 @@
 /* The least turning of random small frameworks against enumeration, its proof under alteration, and what must not change. */
-#include "tests/symmetric.h"
 #include "graph/angle.h"
 #include "graph/framework/make.h"
-#include "tortuosity/cords/extra.h"
-#include "tortuosity/cords/improve.h"
-#include "tortuosity/proof/least.h"
-#include "tortuosity/cords/maxturn.h"
-#include "tests/frameworks.h"
 #include "graph/io/json.h"
 #include "graph/io/writer.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/turning_proof.h"
-#include "graph/threading/multigraph.h"
-#include "tortuosity/cords/join.h"
+#include "graph/threading/euler.h"
+#include "tests/frameworks.h"
 #include "tests/plans.h"
+#include "tests/symmetric.h"
+#include "tortuosity/cords/join.h"
+#include "tortuosity/cords/several.h"
+#include "tortuosity/proof/branch.h"
 
 #include <math.h>
 #include <stdlib.h>

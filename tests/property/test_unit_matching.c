@@ -8,7 +8,7 @@
 #include "graph/status.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"
-#include "tortuosity/proof/unit_matching.h"
+#include "tortuosity/proof/relax_parts.h"
 #include "tortuosity/tie/tie.h"
 
 #include <limits.h>

@@ -8,7 +8,7 @@
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
 #include "graph/status.h"
-#include "planner/make_plan.h"
+#include "planner/planner.h"
 #include "tests/attack.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"

@@ -1,13 +1,12 @@
 /* Cords without a search: sound on every framework that they are for, and none on others. */
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
-#include "lp/length/cords.h"
-#include "lp/length/cut_tour.h"
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tortuosity/tie/tube_first.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
+#include "lp/length/postman.h"
+#include "tests/frameworks.h"
+#include "tests/support.h"
+#include "tortuosity/tie/tie.h"
 
 #include <stdlib.h>
 #include <string.h>

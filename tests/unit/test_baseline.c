@@ -1,13 +1,13 @@
 /* The classical tours against a second Fleury on counts of passes, pairings by enumeration, and the shortest length. */
-#include "tests/support.h"
+#include "graph/framework/make.h"
+#include "lp/length/postman.h"
 #include "tests/frameworks.h"
 #include "tests/oracles.h"
 #include "tests/plans.h"
+#include "tests/support.h"
 #include "tests/symmetric.h"
-#include "graph/framework/make.h"
-#include "lp/length/postman.h"
+#include "tortuosity/proof/branch.h"
 #include "tortuosity/tour/baseline.h"
-#include "tortuosity/proof/least.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* The checker against forged plans: each claim, altered once, is caught and named. Random alterations are in
  * tests/property/test_mutations.c. */
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

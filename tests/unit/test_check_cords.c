@@ -1,9 +1,9 @@
 /* Claims about several cords in the checker: how short the longest can be, how few there can be, how they are counted. */
+#include "graph/check/check.h"
 #include "graph/check/check_parts.h"
-#include "tests/support.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/check/check.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,13 +1,13 @@
 /* Certificates of length in the checker: prices and cuts added up another way, and certificates that are none. */
-#include "graph/check/check_parts.h"
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
 #include "graph/check/check.h"
+#include "graph/check/check_parts.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/prices.h"
 #include "graph/plan/request.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdio.h>

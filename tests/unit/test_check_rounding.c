@@ -1,10 +1,10 @@
 /* What rounding takes off a bound in the checker, worked out another way. */
-#include "graph/check/check_parts.h"
 #include "graph/angle.h"
-#include "tests/support.h"
+#include "graph/check/check.h"
+#include "graph/check/check_parts.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/check/check.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

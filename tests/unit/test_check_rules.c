@@ -1,10 +1,10 @@
 /* Rules of the checker about a plan as a whole, and that no claim outlives a failure before it. */
+#include "graph/check/check.h"
 #include "graph/check/check_parts.h"
-#include "tests/support.h"
+#include "graph/plan/turning_proof.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/check/check.h"
-#include "graph/plan/turning_proof.h"
+#include "tests/support.h"
 
 #include <stdio.h>
 #include <stdlib.h>

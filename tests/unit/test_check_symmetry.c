@@ -1,10 +1,10 @@
 /* The checker's part for symmetry against groups made of matrices, and against readings of cords that are counted one by one. */
+#include "graph/angle.h"
 #include "graph/check/check_parts.h"
 #include "graph/framework/procrustes.h"
-#include "graph/angle.h"
-#include "tests/support.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* Tube joints in the checker: which nodes are tied, and what proofs of tied length prove. */
+#include "graph/check/check.h"
 #include "graph/check/check_parts.h"
 #include "graph/plan/junction.h"
-#include "tests/support.h"
+#include "graph/plan/turning_proof.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/check/check.h"
-#include "graph/plan/turning_proof.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,12 +1,12 @@
 /* What the checker finds out about turning and says of claims about it: trees whose bound is known, every number of a claim
  * changed. */
-#include "graph/check/check_parts.h"
 #include "graph/angle.h"
-#include "tests/support.h"
+#include "graph/check/check.h"
+#include "graph/check/check_parts.h"
+#include "graph/plan/turning_proof.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/check/check.h"
-#include "graph/plan/turning_proof.h"
+#include "tests/support.h"
 
 #include <limits.h>
 #include <math.h>

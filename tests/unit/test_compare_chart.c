@@ -5,7 +5,7 @@
 #include "graph/plan/advice.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
-#include "planner/make_plan.h"
+#include "planner/planner.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"
 #include "tests/svg_tree.h"

@@ -1,14 +1,12 @@
 /* Starts, contraction and exchanges of symmetric covers: every solution put into the equations by hand, least joins against
  * exhaustive search, turning against what a cross must have. */
-#include "symmetry/group/automorphisms.h"
-#include "symmetry/cover/bounds.h"
-#include "symmetry/cover/contraction.h"
-#include "tests/symmetric.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/cover/cover_parts.h"
+#include "symmetry/group/group.h"
 #include "tests/frameworks.h"
 #include "tests/oracles.h"
 #include "tests/plans.h"
-#include "symmetry/cover/programme.h"
-#include "symmetry/group/quotient.h"
+#include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdlib.h>

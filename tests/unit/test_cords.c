@@ -1,11 +1,10 @@
 /* Cords of symmetric covers: for every class of subgroups of small frameworks, plans that the checker agrees with. */
-#include "tests/symmetric.h"
-#include "symmetry/group/automorphisms.h"
+#include "graph/check/check.h"
 #include "symmetry/cover/cover.h"
+#include "symmetry/group/group.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/check/check.h"
-#include "symmetry/group/quotient.h"
+#include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdlib.h>

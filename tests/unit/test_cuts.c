@@ -1,7 +1,7 @@
 /* Forests of cuts against their sets written out. */
-#include "tests/support.h"
-#include "lp/tjoin/cuts.h"
 #include "graph/plan/plan.h"
+#include "lp/tjoin/tjoin.h"
+#include "tests/support.h"
 
 #include <stdlib.h>
 #include <string.h>

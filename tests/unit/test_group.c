@@ -1,13 +1,11 @@
 /* Automorphism groups by nauty against closed forms, igraph and all permutations; listed groups against their axioms; subgroups
  * against published counts and all subsets. */
 #define _POSIX_C_SOURCE 200809L
-#include "tests/symmetric.h"
 #include "graph/framework/automorphism_count.h"
-#include "symmetry/group/automorphisms.h"
-#include "symmetry/group/group.h"
-#include "symmetry/group/isometry.h"
-#include "tests/frameworks.h"
 #include "graph/limits.h"
+#include "symmetry/group/group.h"
+#include "tests/frameworks.h"
+#include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdio.h>

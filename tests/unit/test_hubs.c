@@ -1,12 +1,12 @@
 /* Nodes of any degree: what joining circuits at a hub costs, and plans of frameworks whose turns no programme holds. */
-#include "tests/support.h"
-#include "tests/plans.h"
-#include "tests/frameworks.h"
-#include "planner/least_turning.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
+#include "planner/planner.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 #include "tortuosity/cords/join.h"
 
 #include <math.h>

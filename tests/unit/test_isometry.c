@@ -1,14 +1,12 @@
 /* What automorphisms are in space, against the known classes of point groups; isometries from coordinates against nauty's group.
  */
-#include "tests/symmetric.h"
 #include "graph/angle.h"
-#include "symmetry/group/automorphisms.h"
-#include "symmetry/group/group.h"
-#include "symmetry/group/isometry.h"
 #include "graph/framework/procrustes.h"
-#include "graph/vector.h"
-#include "tests/frameworks.h"
 #include "graph/limits.h"
+#include "graph/vector.h"
+#include "symmetry/group/group.h"
+#include "tests/frameworks.h"
+#include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,14 +1,11 @@
 /* Contract of the linear programming interface, and of the cut tree. */
-#include "tests/support.h"
-#include "tests/frameworks.h"
 #include "graph/framework/cuttree.h"
-#include "lp/solver/bundles.h"
-#include "lp/solver/cones.h"
-#include "lp/solver/interior.h"
 #include "graph/limits.h"
 #include "lp/solver/lp.h"
-#include "lp/solver/dense.h"
-#include "lp/solver/normal.h"
+#include "lp/solver/solver.h"
+#include "lp/solver/solver_parts.h"
+#include "tests/frameworks.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

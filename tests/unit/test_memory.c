@@ -1,12 +1,12 @@
 /* Every allocation failing once, from the file to the pull force and back from plan.json: each time a clean THR_ENOMEM, and
  * nothing leaks (the sanitizer build looks). Allocations inside GLPK and igraph are their own. */
-#include "tests/support.h"
-#include "tests/plans.h"
 #include "eval/eval.h"
-#include "graph/io/read.h"
 #include "graph/check/check.h"
+#include "graph/io/read.h"
 #include "graph/plan/evaluation.h"
 #include "lp/length/postman.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,12 +1,10 @@
 /* Rows, rounds and tree of lp/model/ against all whole points of small covering problems: minimize cost x, A x >= lower, 0 <= x
  * <= most.
  */
-#include "lp/model/pool.h"
-#include "lp/model/search.h"
-#include "lp/model/tree.h"
-#include "tests/support.h"
 #include "graph/limits.h"
+#include "lp/model/tree.h"
 #include "lp/solver/lp.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

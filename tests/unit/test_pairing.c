@@ -1,8 +1,8 @@
 /* Pairing at one node: subsets against enumeration and the matching engine, on random stars under every price. */
+#include "graph/plan/turning_proof.h"
+#include "graph/threading/euler.h"
 #include "tests/matchings.h"
 #include "tests/support.h"
-#include "graph/threading/pairing.h"
-#include "graph/plan/turning_proof.h"
 
 #include <math.h>
 

@@ -2,10 +2,10 @@
 #define _XOPEN_SOURCE 700
 #include "graph/check/check.h"
 #include "graph/io/read.h"
-#include "planner/dispatch.h"
-#include "tests/support.h"
-#include "tests/plans.h"
+#include "planner/planner.h"
 #include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,6 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
-#include "planner/make_plan.h"
 
 static const char *const aims[] = {"length", "turning", "steps"}; /* of three plans */
 

@@ -1,11 +1,11 @@
 /* T-joins and the shortest cord: known answers, data files, limits. */
-#include "tests/support.h"
+#include "graph/framework/make.h"
+#include "lp/length/postman.h"
+#include "lp/tjoin/tjoin.h"
 #include "tests/frameworks.h"
 #include "tests/oracles.h"
 #include "tests/plans.h"
-#include "graph/framework/make.h"
-#include "lp/tjoin/tjoin.h"
-#include "lp/length/postman.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* Prices of places in certificates: loops, what the checker refuses, plans that need more places than a shortest join has. */
-#include "graph/plan/prices.h"
 #include "graph/check/check.h"
-#include "lp/length/cords.h"
-#include "graph/check/few_edges.h"
-#include "tests/support.h"
+#include "graph/check/edge_sets.h"
+#include "graph/plan/prices.h"
+#include "lp/length/postman.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
+#include "tests/support.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -78,7 +78,7 @@ static thr_plan plan_with(const thr_frame *f, thr_ends ends, int cords, int *end
   return p;
 }
 
-/* More edges than all sets of them are tried of (graph/check/few_edges.h): only then prices are the proof. */
+/* More edges than all sets of them are tried of (graph/check/few_edges.c): only then prices are the proof. */
 enum { EDGES = THR_FEW_SUMMED + 2 };
 
 /* K cords that end at the first node of a path: the first edge has 2K places there, and the last must be reached. */

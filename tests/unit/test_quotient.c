@@ -1,13 +1,10 @@
 /* Types of copies, darts and turns under a group: known cases, counts that must agree, limits, failing allocations. */
 #include "graph/framework/make.h"
-#include "symmetry/group/automorphisms.h"
-#include "symmetry/cover/cover.h"
-#include "tests/support.h"
-#include "tests/frameworks.h"
 #include "graph/limits.h"
+#include "symmetry/cover/cover.h"
 #include "symmetry/group/group.h"
-#include "symmetry/group/quotient.h"
-#include "symmetry/cover/cover_options.h"
+#include "tests/frameworks.h"
+#include "tests/support.h"
 
 #include <math.h>
 

@@ -6,9 +6,7 @@
 #include "graph/plan/turning_ranks.h"
 #include "tests/support.h"
 #include "tortuosity/proof/branch.h"
-#include "tortuosity/proof/orbit_ranks.h"
-#include "tortuosity/proof/orbits.h"
-#include "tortuosity/proof/pass_matching.h"
+#include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* What a plan can ask for beside its objective: written, read back, and checked. */
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,17 +1,17 @@
 /* The steps in words: read back row by row into half-edges and compared with the plan; sides against what is outside in space. */
-#include "diagram/scene/copies.h"
-#include "diagram/scene/places.h"
 #include "diagram/layout/layout.h"
 #include "diagram/overview/guide.h"
 #include "diagram/overview/steps.h"
+#include "diagram/scene/copies.h"
+#include "diagram/scene/places.h"
 #include "graph/angle.h"
 #include "graph/framework/make.h"
 #include "graph/vector.h"
+#include "symmetry/group/group.h"
 #include "symmetry/symmetry.h"
-#include "tests/sample_plans.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "symmetry/group/isometry.h"
+#include "tests/sample_plans.h"
 
 #include <check.h>
 #include <ctype.h>

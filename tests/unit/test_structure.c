@@ -1,17 +1,17 @@
 /* The pull that the structures of whole plans need (method structure): larger loads and domes, rougher cords, other ways of
  * writing the same plan. */
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
-#include "tests/symmetric.h"
-#include "graph/angle.h"
-#include "tests/threadings.h"
 #include "eval/eval.h"
-#include "graph/framework/make.h"
 #include "eval/structure/holding.h"
+#include "graph/angle.h"
+#include "graph/framework/make.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
-#include "graph/threading/walks.h"
+#include "graph/threading/threading.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
+#include "tests/symmetric.h"
+#include "tests/threadings.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,10 @@
 /* The table of groups, the choice, and plans from it: published values, permutations followed node by node, the checker. */
-#include "tests/symmetric.h"
 #include "graph/check/check.h"
+#include "planner/planner.h"
 #include "symmetry/symmetry.h"
-#include "planner/least_turning.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
+#include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdio.h>

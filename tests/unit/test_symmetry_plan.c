@@ -1,9 +1,9 @@
 /* Plans of symmetric threadings: known ones made by hand, what the checker says of every change to them, JSON. */
-#include "tests/symmetric.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdio.h>

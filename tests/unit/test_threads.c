@@ -1,17 +1,17 @@
 /* Plans that are made in two threads at once are those that one thread makes; jobs in many threads come to what they do in one.
  */
 #define _POSIX_C_SOURCE 200809L
-#include "planner/make_plan.h"
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/symmetric.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/make.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/process/threads.h"
+#include "planner/planner.h"
 #include "symmetry/symmetry.h"
+#include "tests/frameworks.h"
+#include "tests/support.h"
+#include "tests/symmetric.h"
 
 #include <pthread.h>
 #include <string.h>

@@ -2,13 +2,13 @@
  * under every group of small frameworks is shown in tests/property/test_cover.c. */
 #include "graph/check/check.h"
 #include "graph/plan/junction.h"
+#include "symmetry/cover/cover.h"
+#include "symmetry/group/group.h"
 #include "symmetry/symmetry.h"
-#include "symmetry/cover/ties.h"
-#include "tests/symmetric.h"
-#include "tortuosity/tie/tube.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "symmetry/group/quotient.h"
+#include "tests/symmetric.h"
+#include "tortuosity/tie/tie.h"
 
 #include <stdio.h>
 #include <stdlib.h>

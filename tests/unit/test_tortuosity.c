@@ -1,12 +1,12 @@
 /* The objective "tortuosity" as a whole: what the length slack is measured from, the trade-off, and what is said of a plan that
  * is not proved. */
-#include "tests/support.h"
+#include "graph/angle.h"
+#include "graph/check/check.h"
+#include "planner/planner.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/angle.h"
-#include "tortuosity/proof/least.h"
-#include "planner/least_turning.h"
-#include "graph/check/check.h"
+#include "tests/support.h"
+#include "tortuosity/proof/branch.h"
 
 #include <math.h>
 #include <string.h>

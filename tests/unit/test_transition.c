@@ -1,15 +1,10 @@
 /* Multigraph, pairing, joining, tracing, and the cords made of them. */
-#include "tests/support.h"
+#include "graph/angle.h"
+#include "graph/threading/euler.h"
+#include "graph/threading/threading.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/angle.h"
-#include "graph/threading/multigraph.h"
-#include "graph/threading/splice.h"
-#include "graph/threading/threading.h"
-#include "graph/threading/tour.h"
-#include "graph/threading/transition.h"
-#include "graph/threading/junction_graphs.h"
-#include "graph/threading/walks.h"
+#include "tests/support.h"
 
 #include <limits.h>
 #include <math.h>

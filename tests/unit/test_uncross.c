@@ -8,7 +8,7 @@
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
-#include "planner/make_plan.h"
+#include "planner/planner.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"
 #include "tests/symmetric.h"

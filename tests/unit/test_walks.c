@@ -6,13 +6,13 @@
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "planner/images.h"
+#include "planner/planner_parts.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"
 #include "tests/symmetric.h"
-#include "tortuosity/cords/walk_programme.h"
-#include "tortuosity/proof/orbits.h"
+#include "tortuosity/cords/walk_model.h"
+#include "tortuosity/proof/branch.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,6 @@
 
 #include "eval/joint/drag.h"
 #include "tests/validate/validate.h"
-#include "graph/status.h"
 
 enum { MOST_TURNS = 20 };
 

@@ -1,16 +1,14 @@
-/* Runs of annealing, and rounds of them. */
+/* Cords evened out by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983) that changes their passes, too. What
+ * exchanges of pairs (graph/threading/even.c) cannot do, it does: a part that other cords pass as well goes another way or is
+ * left out, and an open cord ends elsewhere.
+ *
+ * Example: a cord that turns by 400 degrees passes an edge that another one passes as well, with two turns of 90 degrees; it goes
+ * straight on instead. */
 #include "tortuosity/cords/anneal.h"
 #include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/plan/walk_proof.h"
 #include "graph/process/threads.h"
 #include "graph/random.h"
-#include "graph/status.h"
-#include "graph/threading/threading.h"
-#include "tortuosity/cords/anneal_parts.h"
-#include "tortuosity/cords/walk_programme.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
 #include <stdlib.h>

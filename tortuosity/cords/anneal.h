@@ -1,17 +1,15 @@
-/* Cords evened out by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983) that changes their passes, too. What
- * exchanges of pairs (graph/threading/even.h) cannot do, it does: a part that other cords pass as well goes another way or is
- * left out, and an open cord ends elsewhere.
- *
- * Example: a cord that turns by 400 degrees passes an edge that another one passes as well, with two turns of 90 degrees; it goes
- * straight on instead. */
+/* Simulated annealing of cords by exchanges: of walks, of turns at nodes, of parts. */
 #ifndef THR_ANNEAL_H
 #define THR_ANNEAL_H
 
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/plan/walk_proof.h"
-#include "graph/status.h"
+#include "graph/scratch.h"
+#include "tortuosity/cords/join.h"
+
+#include <stdint.h>
+
+/* ---- anneal.c: Cords evened out by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983) that changes their
+ * passes, too. */
 
 typedef struct {
   thr_walk_measure measure;
@@ -30,5 +28,154 @@ typedef struct {
  * A change that is not taken takes time that does not depend on the framework, one that is O(passes of two cords). */
 thr_status thr_anneal(const thr_turning_columns *columns, const thr_anneal_task *task, const thr_limits *limits, thr_cord *cord,
                       int n_cords, bool *better, thr_err *err) THR_MUST_CHECK;
+
+/* ---- anneal_turns.c: Turns and extra passes changed together by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P.
+ * Vecchi 1983), for the least turning of single cords. */
+
+/* Is it made for what is asked? Solid joints, one cord in every component, closed or open, turns that cost, and at most 64 edges
+ * at a node. */
+bool thr_anneal_turns_serves(const thr_turning_columns *columns);
+
+/* cycles: of these columns (thr_short_cycles_find). x[n_columns], whole numbers that keep the equations and hang together, is
+ * replaced if something cheaper is found: in so many steps of one run with these random numbers, or when the limits stop it.
+ * again: x was found by such a run, and the temperature begins so low that most of it stays. Cord ends stay at their nodes. A
+ * step is O(length of a cycle * degree), and what it looks at to see whether all hangs together; memory O(columns). */
+thr_status thr_anneal_turns(const thr_turning_columns *columns, const thr_short_cycles *cycles, bool again, int64_t steps,
+                            uint64_t seed, const thr_limits *limits, int *x, bool *better, thr_err *err) THR_MUST_CHECK;
+
+/* ---- The walks that are annealed, and changes of them. Internal to tortuosity/. */
+
+/* A cord. An open one visits the nodes between its passes, number i ahead of pass i, for i = 1 .. n - 1; a closed one also ahead
+ * of pass 0. */
+typedef struct {
+  int n, room, *half, *slot; /* [room]; slot: of visit i, in the list of its node */
+  double *sum;               /* [room] price as far as into pass i; of a closed one from pass 0 on */
+  double total;
+} thr_anneal_walk;
+
+typedef struct {
+  int cord, at;
+} thr_anneal_visit;
+
+/* A change of one cord or two, put together from sections of what there is and of new passes. */
+typedef struct {
+  int n_cords, cord[2];
+  double total[2]; /* what the cords turn by afterwards */
+  int n[2];        /* passes of each in made */
+  bool keeps;      /* every edge keeps its passes */
+} thr_anneal_change;
+
+typedef struct {
+  const thr_turning_columns *c;
+  thr_walk_measure measure;
+  bool closed;
+  thr_scratch own; /* all but the walks' arrays */
+  int n_cords;
+  thr_anneal_walk *walk;    /* [n_cords] */
+  int *pair_first;          /* [n_nodes] of the prices of the turns at a node */
+  double *price;            /* [sum of the squares of the degrees] by the numbers of both half-edges at their node */
+  double *end_price;        /* [n_edges] of a cord end; lengths are half those of the passes before and after a turn */
+  double noise;             /* of the prices of a route */
+  int *visit_first;         /* [n_nodes] of a node's visits */
+  int *n_visits;            /* [n_nodes] */
+  thr_anneal_visit *visit;  /* as many as there may be passes */
+  int *passes;              /* [n_edges] */
+  int *count;               /* [n_edges] zeros: passes of what is looked at */
+  double extra, most_extra; /* length of the passes beyond the covers, and how much it may be */
+  double *to_end;           /* [2 * n_edges] open: least price of the turns from a half-edge to an end; */
+  int *next;                /* [2 * n_edges] the half-edge after it on that way, -1: it ends there */
+  int room;                 /* of made, for each cord */
+  int *made[2];             /* what a change makes of its cords */
+  int *route, n_route;      /* [room] new passes */
+  double *reached;          /* [2 * n_edges] searches for routes */
+  int *before, *hops, *stamp, *queue, search;
+  uint64_t state; /* of the random numbers */
+} thr_annealer;
+
+/* Price of a turn from half-edge in to half-edge out; THR_FORBIDDEN: that is not done. */
+static inline double thr_anneal_turn(const thr_annealer *x, int in, int out)
+{
+  const thr_turning_columns *c = x->c;
+  const int v = c->f->edge[out >> 1][out & 1];
+  const int degree = c->f->first[v + 1] - c->f->first[v];
+  return x->price[x->pair_first[v] + c->position[in ^ 1] * degree + c->position[out]];
+}
+
+/* With the cords as walks. Random numbers begin at 1. On failure the annealer is to be destroyed too. O(passes + turns). */
+thr_status thr_annealer_init(thr_annealer *x, const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord,
+                             int n_cords, thr_err *err) THR_MUST_CHECK;
+void thr_annealer_destroy(thr_annealer *x);
+
+/* Makes a change, unless edges would no longer keep to their covers and limits. O(passes of its cords). */
+thr_status thr_anneal_make(thr_annealer *x, const thr_anneal_change *change, thr_err *err) THR_MUST_CHECK;
+
+/* Passes from .. end - 1 of half[], turned round if backwards, are put at the end of what is made of a change's cord i. */
+void thr_anneal_put(thr_annealer *x, thr_anneal_change *change, int i, const int *half, int from, int end, bool backwards);
+
+/* What the passes that are made for cord i of a change turn by; THR_FORBIDDEN or more: they turn back. O(passes). */
+double thr_anneal_total(const thr_annealer *x, const thr_anneal_change *change, int i);
+
+/* Are the passes from .. end - 1 of a cord covered without it, too? */
+bool thr_anneal_spare(thr_annealer *x, const thr_anneal_walk *walk, int from, int end);
+
+/* Each proposes a change of cord a and says whether there is one. Those of the first kind know its totals at once, and call
+ * thr_anneal_build to put it together if it is taken; those of the second have done so. */
+typedef struct {
+  thr_anneal_change change;
+  enum { THR_ANNEAL_TAILS, THR_ANNEAL_REVERSE, THR_ANNEAL_LOOP, THR_ANNEAL_MIDDLES } kind;
+  int i, i2, j, j2, m; /* places on both cords; of a loop, where it is entered */
+  bool turned;         /* the part of the second cord, or the loop, runs backwards */
+} thr_anneal_exchange;
+
+bool thr_anneal_exchanges(thr_annealer *x, int a, thr_anneal_exchange *exchange);
+void thr_anneal_build(thr_annealer *x, thr_anneal_exchange *exchange);
+bool thr_anneal_drop_loop(thr_annealer *x, int a, thr_anneal_change *change);
+bool thr_anneal_end_elsewhere(thr_annealer *x, int a, thr_anneal_change *change);
+bool thr_anneal_reroute(thr_annealer *x, int a, thr_anneal_change *change);
+
+/* A visit to a node, drawn from all; cord -1: there is none. */
+thr_anneal_visit thr_anneal_visit_at(thr_annealer *x, int node);
+
+/* One run of a task, with random numbers of its own. Of lengths odd ones begin hotter, and pass over more of what is good to get
+ * there; of turnings even ones stay near the best cords if the task says so. */
+thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task, int number, const thr_limits *limits,
+                          thr_cord *cord, int n_cords, bool *better, thr_err *err) THR_MUST_CHECK;
+
+/* ---- anneal_turns_parts.c: What the annealing of turns is made of. */
+
+/* Edges at a node at most; changes of columns that are tried together. */
+enum { THR_TURN_DEGREE = 64, THR_TURN_CHANGES = 5 * THR_CYCLE_MOST + 8 };
+
+typedef struct {
+  const thr_turning_columns *c;
+  thr_scratch own;
+  int *x;             /* [n_columns] */
+  uint64_t *partners; /* [2 * n_edges] of a half-edge: those of its node, by position, that it has turns with */
+  double *cost;       /* [n_columns] */
+  int64_t spare;      /* extra length that is left, in units of c->length; INT64_MAX = no limit */
+  int n_changes, change[THR_TURN_CHANGES][2]; /* column, by how much, in this order */
+  double gain;                                /* what they cost */
+  /* for thr_turn_parts */
+  int *label, *queue; /* [n_edges] source that an edge was reached from, -1 = none */
+} thr_turn_state;
+
+thr_status thr_turn_state_init(thr_turn_state *state, const thr_turning_columns *columns, const int *x,
+                               thr_err *err) THR_MUST_CHECK;
+void thr_turn_state_destroy(thr_turn_state *state);
+
+/* The partner -1 is a cord's end. */
+static inline int thr_turn_state_column(const thr_turn_state *state, int a, int b)
+{
+  return a < 0 ? state->c->end_column[b] : b < 0 ? state->c->end_column[a] : thr_turning_column(state->c, a, b);
+}
+
+void thr_turn_state_change(thr_turn_state *state, int column, int by);
+void thr_turn_state_undo(thr_turn_state *state);
+
+/* Into how many parts the edges of the turns that were changed fall. O(edges) at worst, few where they hang together. */
+int thr_turn_parts(thr_turn_state *state);
+
+/* The same before the changes. */
+int thr_turn_parts_before(thr_turn_state *state);
 
 #endif

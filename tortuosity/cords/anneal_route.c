@@ -1,8 +1,7 @@
 /* Changes of passes: what other cords pass as well goes another way, or is left out. */
 #include "graph/framework/frame.h"
 #include "graph/random.h"
-#include "graph/threading/threading.h"
-#include "tortuosity/cords/anneal_parts.h"
+#include "tortuosity/cords/anneal.h"
 
 #include <math.h>
 #include <string.h>

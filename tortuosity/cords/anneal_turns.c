@@ -1,10 +1,20 @@
-/* The changes, and when they are taken. */
-#include "tortuosity/cords/anneal_turns.h"
-#include "graph/framework/frame.h"
+/* Turns and extra passes changed together by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983), for the
+ * least turning of single cords.
+ *
+ * Passes over one edge are alike, so the counts of turns, extra passes and ends (graph/plan/turning_proof.h) are all there is to
+ * change; they are cords if their turns join all edges of a component. Two kinds of change keep the equations of all half-edges:
+ * - at one node, turns (a b)(c d) become (a c)(b d);
+ * - along a short cycle every edge gets an extra pass, or loses one that it has. At each of its nodes the new passes turn into
+ *   one another, or into a turn that was there, (a b) becoming (a p)(q b); lost ones leave their partners to each other.
+ * Parts that are apart are allowed for a time, at a price each that rises and falls until a fifth of the points hang
+ * together.
+ *
+ * Example: three rings of a sphere cross at 60 degrees. Exchanges join two of them by two turns of 60 degrees; an extra pass that
+ * leaves one ring's line for another's joins them by one. */
+#include "tortuosity/cords/anneal.h"
 #include "graph/angle.h"
+#include "graph/framework/frame.h"
 #include "graph/random.h"
-#include "graph/scratch.h"
-#include "tortuosity/cords/anneal_turns_parts.h"
 
 #include <float.h>
 #include <math.h>

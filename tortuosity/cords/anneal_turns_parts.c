@@ -1,5 +1,5 @@
-/* The counts of turns under change, and what hangs together by them. */
-#include "tortuosity/cords/anneal_turns_parts.h"
+/* What the annealing of turns is made of. Internal to tortuosity/cords/anneal_turns*.c. */
+#include "tortuosity/cords/anneal.h"
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
 

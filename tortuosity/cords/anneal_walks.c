@@ -1,13 +1,7 @@
 /* The walks while they are annealed: what is known of them, and how they are changed. */
 #include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/plan/walk_proof.h"
 #include "graph/random.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
-#include "graph/threading/threading.h"
-#include "tortuosity/cords/anneal_parts.h"
+#include "tortuosity/cords/anneal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,14 @@
-/* Exchanges between and within the circuits of closed cords. */
-#include "tortuosity/cords/circuits.h"
+/* A given number of closed cords in every component: circuits cut apart at nodes that one visits twice, and joined where two
+ * meet.
+ *
+ * Cutting at a node replaces turns (a b)(c d) by (a d)(c b), and one circuit becomes two; joining is the same exchange the other
+ * way round.
+ *
+ * Example: a figure of eight is one circuit or two, by the exchange at its middle. */
+#include "tortuosity/cords/join.h"
 #include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
 #include "graph/random.h"
-#include "graph/threading/threading.h"
-#include "tortuosity/cords/walk_search.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <assert.h>
 #include <math.h>

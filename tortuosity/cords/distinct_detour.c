@@ -1,10 +1,5 @@
 /* Cords led over edges that lack them, and circuits left out that are no longer needed. */
-#include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "tortuosity/cords/distinct_parts.h"
+#include "tortuosity/cords/several.h"
 
 #include <math.h>
 #include <stdlib.h>

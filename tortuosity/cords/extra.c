@@ -1,9 +1,9 @@
-/* T-joins with slots for the cord ends, component by component. */
-#include "tortuosity/cords/extra.h"
+/* Extra passes and ends of least weight under any prices of edges: where the search for the least turning starts, and how its
+ * points are rounded. A minimum T-join (lp/tjoin/engine.c) with slots for the ends. */
+#include "tortuosity/cords/join.h"
 #include "graph/framework/frame.h"
-#include "lp/tjoin/engine.h"
 #include "lp/tjoin/tjoin.h"
-#include "tortuosity/cords/walk_search.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <assert.h>
 #include <math.h>

@@ -1,12 +1,7 @@
 /* Bouchet's greedy on a multigraph of passes. */
 #include "graph/disjoint.h"
-#include "graph/limits.h"
 #include "graph/scratch.h"
-#include "graph/status.h"
-#include "graph/threading/multigraph.h"
 #include "tortuosity/cords/join.h"
-#include "graph/threading/pairing.h"
-#include "graph/threading/transition.h"
 
 #include <math.h>
 #include <stdlib.h>

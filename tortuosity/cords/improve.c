@@ -1,7 +1,12 @@
-/* Exchanges on a tour: reversals, and cuts that are joined elsewhere (2- and 3-opt on transitions). */
-#include "tortuosity/cords/improve.h"
-#include "graph/threading/multigraph.h"
-#include "graph/threading/threading.h"
+/* Fewer turns by exchanges of pairs at the nodes that leave the cords whole: 2-opt and 3-opt on transitions (as S. Lin, Bell
+ * System Technical Journal 44, 1965, on tours).
+ *
+ * Turns (a b)(c d) at a node become (a c)(b d), with the part between run backwards, if the price falls.
+ *
+ * Example: a cord that turns by 90 degrees twice at a crossing goes straight on twice.
+ *
+ * Exchanges on a tour: reversals, and cuts that are joined elsewhere (2- and 3-opt on transitions). */
+#include "tortuosity/cords/join.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,13 @@
-/* The multigraph of passes, and pairs as a point or cords say. */
+/* Cords from passes and ends: pairings at the nodes, chosen so that all passes of a component hang together.
+ *
+ * Bouchet's greedy (Greedy algorithm and symmetric matroids, Math. Programming 38, 1987): nodes in order of regret, each with
+ * the cheapest pairing that can still be completed; then exchanges join what is left apart.
+ *
+ * Example: at a crossing of two circuits the straight pairing leaves two; if nothing else joins them, the next cheapest is taken
+ * there. */
 #include "tortuosity/cords/join.h"
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
-#include "graph/threading/transition.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>

@@ -1,11 +1,5 @@
 /* Cords of a joined multigraph. */
 #include "graph/framework/frame.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "graph/threading/threading.h"
-#include "graph/threading/tour.h"
-#include "graph/threading/walks.h"
 #include "tortuosity/cords/join.h"
 
 #include <limits.h>

@@ -1,23 +1,16 @@
-/* Cords evened out from several starts. */
-#include "tortuosity/cords/maxturn.h"
+/* The largest turning of any cord: what the hand feels with several cords, each pulled at both ends.
+ *
+ * Minimize the largest of K sums whose total is at least T: no plan is below T / K. Exchanges make the sum of 8th powers small,
+ * in which the largest counts most (graph/threading/even.c).
+ *
+ * Example: cords of 5 and 9 rad with a total of 14 cannot be better than 7 and 7. */
+#include "tortuosity/cords/several.h"
 #include "graph/angle.h"
 #include "graph/plan/least_pull.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/plan/walk_proof.h"
 #include "graph/process/threads.h"
 #include "graph/random.h"
-#include "graph/threading/even.h"
-#include "graph/threading/multigraph.h"
-#include "graph/threading/threading.h"
 #include "tortuosity/cords/anneal.h"
-#include "tortuosity/cords/circuits.h"
-#include "tortuosity/cords/extra.h"
-#include "tortuosity/cords/improve.h"
-#include "tortuosity/cords/join.h"
-#include "tortuosity/cords/maxturn_small.h"
-#include "tortuosity/cords/walk_bound.h"
-#include "tortuosity/cords/walk_programme.h"
+#include "tortuosity/cords/walk_model.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>

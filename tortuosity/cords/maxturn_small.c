@@ -1,9 +1,7 @@
-/* Component by component; then the limits of the task. */
-#include "tortuosity/cords/maxturn_small.h"
+/* The largest turning of any cord in small components, or that of all cords: exact, by the table of
+ * graph/threading/small_cords.c. */
+#include "tortuosity/cords/several.h"
 #include "graph/framework/components.h"
-#include "graph/plan/request.h"
-#include "graph/threading/small_cords.h"
-#include "tortuosity/cords/extra.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,10 +1,8 @@
-/* Covers by short circuits, and all passes of tiny frameworks. */
+/* Plans with several closed cords in every component, to begin the search with: covers by short circuits, the same number of
+ * passes everywhere, and in tiny frameworks all choices of extra passes. Internal to tortuosity/.
+ *
+ * Example: of a cube its six faces cover every edge twice, in six closed cords. */
 #include "tortuosity/cords/several.h"
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/turning_proof.h"
-#include "tortuosity/cords/circuits.h"
-#include "tortuosity/cords/join.h"
 #include "tortuosity/tie/tie.h"
 
 #include <stdlib.h>

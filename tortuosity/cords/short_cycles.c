@@ -1,8 +1,9 @@
-/* Breadth-first searches for short cycles. */
-#include "tortuosity/cords/short_cycles.h"
+/* Short cycles through every turn. Internal to tortuosity/.
+ *
+ * Example: through two sides of a triangle of a mesh that meet there is one cycle of three edges. */
+#include "tortuosity/cords/join.h"
 #include "graph/framework/frame.h"
 #include "graph/scratch.h"
-#include "graph/status.h"
 
 #include <stdlib.h>
 

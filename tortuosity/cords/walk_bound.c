@@ -1,15 +1,8 @@
-/* Bisection on the limit, and dives just above it. */
-#include "tortuosity/cords/walk_bound.h"
+/* How much some cord has to turn, or how long it must be, and cords little above that: the programme over walks.
+ *
+ * Example: on a 7 x 7 dome with 14 cords between its feet some cord turns by 257 degrees, which is what the plan has. */
+#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "tortuosity/cords/walk_centre.h"
-#include "tortuosity/cords/walk_dive.h"
-#include "tortuosity/cords/walk_memory.h"
-#include "tortuosity/cords/walk_near.h"
-#include "tortuosity/cords/walk_programme.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,15 +1,8 @@
-/* Diving on the columns, or a programme of all of them in integers. */
-#include "tortuosity/cords/walk_dive.h"
+/* Cords that a programme over walks chooses: by diving, and among all its walks. Internal to tortuosity/. */
+#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/random.h"
-#include "graph/status.h"
-#include "lp/model/pool.h"
-#include "lp/model/search.h"
 #include "lp/solver/lp.h"
-#include "tortuosity/cords/walk_programme.h"
 
 #include <math.h>
 #include <stdlib.h>

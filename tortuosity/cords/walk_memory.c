@@ -1,13 +1,6 @@
-/* Rounds that are remembered, shortest first. */
-#include "tortuosity/cords/walk_memory.h"
+/* What the walks of a programme remember, so that they are not worth going round and round. Internal to tortuosity/. */
+#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/plan/walk_proof.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
-#include "lp/model/pool.h"
-#include "lp/model/search.h"
-#include "tortuosity/cords/walk_programme.h"
 
 #include <stdlib.h>
 #include <string.h>

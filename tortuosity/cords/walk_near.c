@@ -1,15 +1,8 @@
-/* Large neighbourhoods of cords, by dives. */
-#include "tortuosity/cords/walk_near.h"
+/* Cords near others: some of them are taken away, and a programme over walks chooses what takes their place. Internal to
+ * tortuosity/. */
+#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/plan/walk_proof.h"
 #include "graph/random.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
-#include "tortuosity/cords/walk_dive.h"
-#include "tortuosity/cords/walk_programme.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,17 +1,16 @@
-/* Rows for walks, found by the recursion. */
-#include "tortuosity/cords/walk_programme.h"
+/* A linear programme over the walks that the cords of one component can be, below a limit on their turning or their length.
+ * Internal to tortuosity/.
+ *
+ * A column for every walk between nodes where cords may end, or every closed one, at the cost of 1: a cord. Every edge needs its
+ * passes; at a node where their number is odd, passes and ends are one more; all cords together turn by the least that cords do,
+ * or are as long as they must be. What is solved is the dual, whose variables are prices (graph/plan/walk_proof.h) and whose
+ * rows, one for every walk, are found by the recursion that checks the proof (P. C. Gilmore & R. E. Gomory 1961). It goes by
+ * prices between the last optimum and the best so far, where optima alone would swing (P. Wentges 1997); any prices give a valid
+ * bound (A. A. Farley 1990), which ends most searches early. Optima are corners, by the simplex method, or near the middle
+ * (tortuosity/cords/walk_centre.c). */
+#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/request.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/plan/walk_proof.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
-#include "lp/model/pool.h"
-#include "lp/model/search.h"
 #include "lp/solver/lp.h"
-#include "tortuosity/cords/walk_memory.h"
 
 #include <limits.h>
 #include <math.h>

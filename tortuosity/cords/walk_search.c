@@ -1,5 +1,5 @@
-/* Searches over half-edges. */
-#include "tortuosity/cords/walk_search.h"
+/* Short walks that make one more cord: without U-turns but at nodes with one edge. Internal to tortuosity/. */
+#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
 
 #include <math.h>

@@ -1,9 +1,13 @@
-/* The volume algorithm over trees at the nodes. */
-#include "tortuosity/proof/ascent.h"
+/* A first bound for tube joints, without a linear programme. Internal to tortuosity/.
+ *
+ * Multipliers on the equations of the half-edges alone leave one problem per node: turns that tie its edges, each at its price
+ * less the multipliers of its two half-edges. The cheapest are a minimum spanning tree, and what is cheaper than nothing as often
+ * as it may be. The multipliers follow the mean of these solutions upwards (the volume algorithm: F. Barahona & R. Anbil, Math.
+ * Programming 87, 2000); the limit on the length has one as well. As no number of turns is odd or even here, this comes near the
+ * optimum of the linear programme without its odd rows. */
+#include "tortuosity/proof/relax_parts.h"
 #include "graph/angle.h"
 #include "graph/disjoint.h"
-#include "graph/framework/frame.h"
-#include "tortuosity/proof/relax.h"
 
 #include <math.h>
 #include <stdlib.h>

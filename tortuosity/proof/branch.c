@@ -1,13 +1,12 @@
-/* Best bound first; every node keeps the multipliers that prove its bound. */
-#include "tortuosity/proof/branch.h"
+/* Branch and cut over the turning relaxation (tortuosity/proof/relax.c) on the tree of lp/model/tree.h. Internal to tortuosity/.
+ *
+ * A column that is fractional, x = 2.5, is decided to be at most 2 or at least 3; each leaf of the finished tree keeps integer
+ * multipliers that prove its bound, and the least of these is the plan's.
+ *
+ * Example: bounds 10 and 12 of the two sides and a plan of price 11 leave one side open. */
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
-#include "lp/model/search.h"
-#include "lp/tjoin/oddcut.h"
-#include "tortuosity/cords/anneal_turns.h"
-#include "tortuosity/proof/ascent.h"
-#include "tortuosity/proof/project.h"
-#include "tortuosity/proof/unit_matching.h"
+#include "tortuosity/cords/anneal.h"
+#include "tortuosity/proof/relax_parts.h"
 #include "tortuosity/tie/tie.h"
 
 #include <limits.h>

@@ -1,13 +1,6 @@
 /* Plans by annealing from the best one. */
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/process/threads.h"
 #include "graph/scratch.h"
-#include "graph/status.h"
-#include "tortuosity/cords/anneal_turns.h"
-#include "tortuosity/cords/join.h"
-#include "tortuosity/cords/short_cycles.h"
+#include "tortuosity/cords/anneal.h"
 #include "tortuosity/proof/branch.h"
 
 enum {

@@ -1,10 +1,5 @@
 /* Nodes that are solved at once, in lanes: the search itself, and copies of its programme in other threads. */
-#include "graph/limits.h"
-#include "graph/process/threads.h"
-#include "graph/status.h"
-#include "lp/model/tree.h"
 #include "tortuosity/proof/branch.h"
-#include "tortuosity/proof/relax.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,11 +1,5 @@
 /* Where the search begins: the least turning without connectedness. */
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "tortuosity/proof/branch.h"
-#include "tortuosity/proof/orbit_ranks.h"
-#include "tortuosity/proof/pass_matching.h"
+#include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,16 +1,7 @@
 /* Plans from the points of the relaxation. */
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/plan.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "graph/threading/multigraph.h"
-#include "graph/threading/transition.h"
-#include "tortuosity/cords/join.h"
+#include "graph/threading/euler.h"
+#include "graph/threading/threading.h"
 #include "tortuosity/proof/branch.h"
-#include "tortuosity/cords/circuits.h"
-#include "tortuosity/cords/extra.h"
-#include "tortuosity/cords/improve.h"
 #include "tortuosity/tie/tie.h"
 
 #include <limits.h>

@@ -5,13 +5,9 @@
  *
  * Example: two circuits that meet at a node without a turn from one to the other: each of them is a violated group. */
 #include "graph/disjoint.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
 #include "graph/sort.h"
-#include "graph/status.h"
-#include "lp/model/pool.h"
-#include "tortuosity/proof/relax.h"
+#include "tortuosity/proof/branch.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,7 @@
 /* The equations of the turning relaxation, and a basis to start from. */
-#include "graph/framework/frame.h"
-#include "graph/limits.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
-#include "graph/status.h"
 #include "lp/solver/lp.h"
-#include "tortuosity/proof/relax.h"
+#include "tortuosity/proof/branch.h"
 
 #include <math.h>
 #include <stdlib.h>

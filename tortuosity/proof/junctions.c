@@ -1,11 +1,7 @@
 /* Finding divisions of the edges at a node that a point does not tie. */
 #include "graph/disjoint.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
-#include "graph/status.h"
-#include "lp/model/pool.h"
-#include "tortuosity/proof/relax.h"
+#include "tortuosity/proof/branch.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
-/* Cheapest turns, by one sweep over a node's columns. */
-#include "tortuosity/proof/nearest.h"
-#include "graph/framework/frame.h"
+/* The cheapest turns of every half-edge at a node of any degree: what pairings and bounds there are chosen among first. Internal
+ * to tortuosity/. One sweep over the node's columns, O(degree^2), with room for a few of each. */
+#include "tortuosity/proof/relax_parts.h"
 
 #include <stdlib.h>
 

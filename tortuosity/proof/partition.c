@@ -6,14 +6,10 @@
  * Programming 38, 1987).
  *
  * Example: three circuits need two connections to become one cord. */
-#include "tortuosity/proof/relax.h"
 #include "graph/disjoint.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
-#include "graph/status.h"
-#include "graph/threading/pairing.h"
-#include "lp/model/pool.h"
+#include "graph/threading/euler.h"
+#include "tortuosity/proof/branch.h"
 
 #include <math.h>
 #include <stdlib.h>

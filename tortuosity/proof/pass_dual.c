@@ -4,13 +4,8 @@
  * half-edge that it touches, is an odd set. Where it has only some of those of a half-edge h, the pass matched out of it is one
  * of these, and its row is no more than a part of the equation of h: then the potential takes its value, divided by the cover.
  * With cord ends it is the same. */
-#include "graph/framework/frame.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/scratch.h"
 #include "graph/sort.h"
-#include "graph/status.h"
-#include "lp/matching/blossom.h"
-#include "tortuosity/proof/pass_matching.h"
+#include "tortuosity/proof/relax_parts.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,16 @@
-/* Copies of passes as nodes, their perfect matching, and its moats as multipliers. */
-#include "tortuosity/proof/pass_matching.h"
-#include "graph/framework/frame.h"
-#include "graph/scratch.h"
-#include "tortuosity/proof/nearest.h"
+/* The least turning without connectedness: one perfect matching over copies of passes. Internal to tortuosity/.
+ *
+ * Node (h, k) of the matching is pass k of half-edge h's edge at h's node. Two passes of different edges at one node may be
+ * matched, which is a turn, at its price; passes k of an edge, k at least its cover, also end to end: then that pass is not made.
+ * Every cord end is a node, too, that may be matched with a pass where it may be; those that need not be also two by two.
+ *
+ * The moats of a matching are the multipliers of the turning proof: that of (h, 0) is the potential of h, and a blossom is the
+ * odd set of the half-edges whose pass 0 is in it (J. Edmonds 1965). So many copies are enough as the multipliers leave no extra
+ * pass a negative price; more are added where they do, and so are turns and ends, of which the likely ones come first.
+ *
+ * Example: a square, closed: each half-edge (h, 0) is matched with the other one at its node; the copies (h, 1) stay end to
+ * end. */
+#include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

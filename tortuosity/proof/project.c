@@ -1,10 +1,10 @@
-/* Rows and multipliers of the relaxation without turns. */
-#include "tortuosity/proof/project.h"
-#include "graph/framework/frame.h"
-#include "lp/model/pool.h"
+/* The relaxation of tortuosity/proof/relax.c without its turns, for the shortest passes with tube joints: where turns cost
+ * nothing, what they say about passes and ends is (tortuosity/tie/tie.h) at every node v with d edges: passes - ends >= 2 (d - 1)
+ * (0 if d = 1); for every edge e there: the passes less ends of the others >= those of e; passes less ends of e >= 1, if d > 1;
+ * passes and ends out of a set of nodes that has an odd number of covers: at least one extra pass or end. Internal to
+ * tortuosity/: relax.c calls these for tasks with free turns. */
+#include "tortuosity/proof/relax_parts.h"
 #include "lp/solver/lp.h"
-#include "lp/tjoin/oddcut.h"
-#include "lp/tjoin/tjoin.h"
 
 #include <math.h>
 #include <stdlib.h>

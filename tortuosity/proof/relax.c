@@ -1,10 +1,13 @@
-/* Rows, separation and multipliers of the turning relaxation. */
-#include "tortuosity/proof/relax.h"
-#include "graph/framework/frame.h"
-#include "lp/model/pool.h"
-#include "lp/model/search.h"
+/* The linear programme over the columns of graph/plan/turning_proof.h, with its odd, group, partition and junction rows added as
+ * a point violates them. Where turns cost nothing the columns of the turns may be left out (tortuosity/proof/project.c).
+ *
+ * Minimize the sum of price x turns, subject at every half-edge to: passes = turns + ends there. Odd sets, like those of
+ * matchings (Edmonds 1965), groups (what is chosen in a set of edges must leave it) and partitions (b blocks need b - 1 links)
+ * are separated.
+ *
+ * Example: a node with four edges passed once: two turns, each edge in one of them; the straight ones cost 0. */
 #include "lp/solver/lp.h"
-#include "tortuosity/proof/project.h"
+#include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

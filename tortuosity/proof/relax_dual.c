@@ -1,9 +1,5 @@
 /* The multipliers of the turning relaxation as integers. */
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
-#include "lp/model/pool.h"
-#include "tortuosity/proof/project.h"
-#include "tortuosity/proof/relax.h"
+#include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

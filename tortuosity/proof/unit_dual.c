@@ -3,13 +3,8 @@
  * The units of a node are alike, so that they pay the same, and a blossom that holds some of them only need not be there. What
  * spare units pay for the edges that they may take counts as well; so an edge may pay less than nothing where another pays more.
  */
-#include "graph/framework/frame.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/scratch.h"
 #include "graph/sort.h"
-#include "graph/status.h"
-#include "lp/matching/blossom.h"
-#include "tortuosity/proof/unit_parts.h"
+#include "tortuosity/proof/relax_parts.h"
 
 #include <stdlib.h>
 #include <string.h>

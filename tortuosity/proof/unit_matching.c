@@ -1,9 +1,17 @@
-/* Units, their matching, and its moats as multipliers. */
-#include "tortuosity/proof/unit_matching.h"
-#include "graph/framework/frame.h"
-#include "graph/scratch.h"
-#include "lp/matching/blossom.h"
-#include "tortuosity/proof/unit_parts.h"
+/* The shortest passes with tube joints, closed cords, as one perfect matching. Internal to tortuosity/.
+ *
+ * A node of d edges whose covers sum to C asks for 2 (d - 1) - C extra passes, or for as many as its parity needs, and then for
+ * any number of pairs of them (tortuosity/tie/tie.h). Each that it asks for is a unit, a node of the matching; so are pairs of
+ * spare units, which may be matched with each other for nothing. Units of neighbours may be matched at the length of the edge
+ * between them: that is an extra pass over it (b-matching by copies of nodes, W. T. Tutte, "A short proof of the factor theorem
+ * for finite graphs", Canad. J. Math. 6, 1954). No edge gets more passes than all others of a node together if the units of a
+ * pair take different ones; so they do where covers are 1, and at nodes of two edges, whose passes must be equal.
+ *
+ * The moats of the matching are multipliers of the turning proof: what the units of a node pay is the price of its passes, and a
+ * blossom of whole nodes is an odd set. Spare units come in where these say that they may save.
+ *
+ * Example: an octahedron: four edges at every node, which asks for two passes; twelve units, six pairs of neighbours. */
+#include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

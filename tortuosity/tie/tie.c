@@ -1,7 +1,13 @@
-/* Turns that tie the nodes. */
+/* Tube joints (graph/plan/junction.h): passes and ends for which every node can be tied, and the turns that tie it. Internal to
+ * tortuosity/.
+ *
+ * Which passes can be tied. At a node with d >= 2 edges let e have m_e passes of which t_e end there, z = sum t, M = sum m.
+ * Turns that tie the edges and never go back are a connected multigraph without loops on them, in which e has m_e - t_e turns.
+ * There is one, for some t, if and only if M - z is even and at least 2 (d - 1), and no 2 m_e is more than M + z (S. L. Hakimi,
+ * "On realizability of a set of integers as degrees of the vertices of a linear graph", J. SIAM 10, 1962, for the degrees; two
+ * parts of which one has a circuit are joined by exchanging two turns). At a node with one edge, m = z. */
 #include "tortuosity/tie/tie.h"
 #include "graph/disjoint.h"
-#include "graph/framework/frame.h"
 
 #include <stdlib.h>
 #include <string.h>

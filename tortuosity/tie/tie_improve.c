@@ -1,11 +1,7 @@
 /* Local search over the passes of tied nodes, and annealing. */
-#include "graph/limits.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/random.h"
 #include "graph/angle.h"
-#include "graph/status.h"
+#include "graph/random.h"
 #include "tortuosity/tie/tie.h"
-#include "tortuosity/tie/tie_walk.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,5 @@
 /* Turns that tie one node: a spanning tree that keeps to the numbers of passes, the rest paired cheaply, then exchanges. */
 #include "graph/disjoint.h"
-#include "graph/framework/frame.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>

@@ -1,7 +1,4 @@
 /* Passes that can be tied: walks between the nodes that need more of them. */
-#include "graph/framework/frame.h"
-#include "graph/plan/turning_proof.h"
-#include "graph/status.h"
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>

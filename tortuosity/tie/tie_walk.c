@@ -1,6 +1,10 @@
-/* Searching closed walks over tied nodes. */
-#include "tortuosity/tie/tie_walk.h"
-#include "graph/framework/frame.h"
+/* Closed walks along which one pass more or less over each edge changes the price of tied nodes. Internal to tortuosity/.
+ *
+ * A walk passes no node twice, so the change is the sum over its nodes of what their two edges change together, which is exact as
+ * far as the nodes' prices are. It may go once from the ends at one node to those at another: then an end moves. Of every closed
+ * walk that saves, one of the places to start from has only negative sums on the way (S. Lin & B. W. Kernighan, "An effective
+ * heuristic algorithm for the traveling-salesman problem", Operations Research 21, 1973): all others are left off. */
+#include "tortuosity/tie/tie.h"
 
 #include <math.h>
 #include <stdlib.h>

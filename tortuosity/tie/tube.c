@@ -1,9 +1,16 @@
-/* The shortest tied cords: a search without turns, then one with them where that leaves a gap. */
-#include "tortuosity/tie/tube.h"
+/* The shortest cords for tube joints: Graph Threading (Demaine, Kirkpatrick & Lin, ITCS 2024) with ends, covers, capacities.
+ *
+ * Minimize the length with, at every node of degree d: passes that arrive, less ends, at least 2 (d - 1), no edge with more of
+ * them than all others together, and an even number; these are the passes whose node can be tied (tortuosity/tie/tie.h).
+ *
+ * Example: an octahedron: 6 passes arrive at every node of degree 4, so it takes 18 over its twelve edges, where solid joints
+ * take 12.
+ *
+ * The shortest tied cords: a search without turns, then one with them where that leaves a gap. */
+#include "tortuosity/tie/tie.h"
 #include "graph/plan/junction.h"
 #include "tortuosity/cords/join.h"
 #include "tortuosity/proof/branch.h"
-#include "tortuosity/tie/tie.h"
 
 #include <stdlib.h>
 

@@ -1,8 +1,10 @@
-/* The shortest tied cords, then as many as asked for, evened out by exchanges that leave the nodes tied. */
-#include "tortuosity/tie/tube_cords.h"
-#include "graph/threading/walks.h"
-#include "lp/length/decomposition.h"
-#include "lp/length/decomposition_table.h"
+/* The least length with tube joints: one cord or several, of limited or even lengths. The shortest tied passes
+ * (tortuosity/tie/tube.c) are cut into cords at no cost where they may end; exchanges that leave every node tied then even them
+ * out.
+ *
+ * The shortest tied cords, then as many as asked for, evened out by exchanges that leave the nodes tied. */
+#include "tortuosity/tie/tie.h"
+#include "graph/threading/threading.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,15 +1,12 @@
-/* Tied cords without a search. At every node each edge is followed by the next one, and the last by the first: a ring of turns,
+/* Some cords for tube joints at once: what there is before a search has found any. Internal to tortuosity/.
+ *
+ * Tied cords without a search. At every node each edge is followed by the next one, and the last by the first: a ring of turns,
  * which ties the node. Where two passes of one edge belong to different circuits, exchanging them behind the edge joins the
  * circuits and changes no turn; so there is one circuit. It may be opened once at every node, because a ring
  * without one turn is a path; more closed cords run around a short circuit. */
-#include "tortuosity/tie/tube_first.h"
-#include "graph/framework/frame.h"
-#include "graph/threading/multigraph.h"
-#include "graph/threading/splice.h"
+#include "tortuosity/tie/tie.h"
+#include "graph/threading/euler.h"
 #include "graph/threading/threading.h"
-#include "graph/threading/transition.h"
-#include "graph/threading/walks.h"
-#include "lp/length/shortest_paths.h"
 
 #include <math.h>
 #include <stdlib.h>

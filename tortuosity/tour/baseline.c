@@ -2,9 +2,8 @@
 #include "tortuosity/tour/baseline.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/scratch.h"
-#include "graph/threading/multigraph.h"
+#include "graph/threading/euler.h"
 #include "tortuosity/cords/join.h"
-#include "graph/threading/pairing.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -10,14 +10,14 @@
 #include "graph/framework/frame.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
-#include "tortuosity/proof/least.h"
+#include "tortuosity/proof/branch.h"
 
 /* passes[n_edges] are those of the shortest cords with these options (lp/length/postman.h): every node has an even number of them
  * but for two in a component where a cord may end. Nothing here depends on time.
  *
  * Fleury's tour never takes a pass that is a bridge of what is left while there is another; Hierholzer's splices closed walks
  * into each other where they meet. Among the passes that are left both take the partner of the one they came by in its node's
- * cheapest pairing (graph/threading/pairing.h); where that is taken, Fleury takes the straightest, Hierholzer the first in the
+ * cheapest pairing (graph/threading/pairing.c); where that is taken, Fleury takes the straightest, Hierholzer the first in the
  * order of the framework's edges. With ignore_pairings both take the first in that order. By default Hierholzer's closed walks
  * are the circuits of the cheapest pairings, and two pairs change where one is spliced in.
  *
