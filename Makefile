@@ -48,7 +48,7 @@ OBJCOPY ?= objcopy
 # Asked for once and only when a recipe needs it: on a bare machine `make demo` installs pkg-config and the libraries first.
 PKG_CFLAGS = $(eval PKG_CFLAGS := $$(shell pkg-config --cflags igraph nauty))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $$(shell pkg-config --libs nauty bullet-float64))$(PKG_LIBS)
-# Loaded when needed (graph/process/lazy.h): igraph, fontconfig, zlib, SuiteSparseQR with CHOLMOD. Their names at run time, such as
+# Loaded when needed (graph/process/lazy.c): igraph, fontconfig, zlib, SuiteSparseQR with CHOLMOD. Their names at run time, such as
 # libz.so.1, are those that the linker writes into a program.
 LAZY_LIBS = $(shell pkg-config --libs igraph fontconfig zlib) -lspqr
 LAZY_NAMES = $(eval LAZY_NAMES := $$(shell tools/library-names.sh $$(call quote,$$(COMPILER)) igraph fontconfig z spqr -- $$(LAZY_LIBS)))$(LAZY_NAMES)

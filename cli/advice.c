@@ -1,9 +1,7 @@
 /* Advice beside a plan. */
 #include "cli/advice.h"
-#include "cli/print/advice_table.h"
-#include "cli/print/plain.h"
+#include "cli/print/print.h"
 #include "graph/angle.h"
-#include "graph/io/stand.h"
 #include "graph/plan/advice.h"
 #include "planner/planner.h"
 

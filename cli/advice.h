@@ -2,7 +2,7 @@
 #ifndef THR_CLI_ADVICE_H
 #define THR_CLI_ADVICE_H
 
-#include "cli/args/physics_args.h"
+#include "cli/args/args.h"
 #include "cli/cli.h"
 
 /* The options that were given of how FRAME is read and of what cord and beads are, each with a blank before it, for a shell. */

@@ -1,7 +1,5 @@
-#include "cli/best.h"
+/* The best cords found so far, handed to the parent (cli/guard.c) as a plan that claims nothing. */
 #include "cli/cli.h"
-#include "cli/guard.h"
-#include "cli/progress.h"
 #include "graph/check/check.h"
 #include "graph/os.h"
 #include "planner/planner.h"

@@ -1,7 +1,7 @@
 /* From weights to the file that --physics takes. */
 #include "cli/calibrate.h"
 #include "cli/cli.h"
-#include "diagram/export/test_piece.h"
+#include "diagram/export/paper.h"
 #include "eval/cord/calibrate.h"
 #include "graph/angle.h"
 #include "graph/io/writer.h"
@@ -73,7 +73,7 @@ static bool parse(const char *value, bench *b)
 /* Writes the file that --physics takes, and what is said of it. */
 static thr_status put_found(const bench *b, thr_text *file, thr_text *said, thr_err *err)
 {
-  thr_friction found;
+  thr_fitted_friction found;
   thr_writer writer = {.out = file};
   char note[160];
   thr_status st = THR_OK;

@@ -1,17 +1,13 @@
-/* Messages, options, reading and writing for all subcommands. */
+/* What the subcommands share. cli/ is the only folder that prints or exits. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
-#include "cli/files.h"
-#include "cli/progress.h"
-#include "cli/args/config.h"
-#include "graph/suggestion.h"
+#include "cli/args/args.h"
 #include "graph/angle.h"
-#include "graph/io/stand.h"
-#include "graph/os.h"
-#include "graph/plan/advice.h"
-#include "cli/guard.h"
 #include "graph/check/check.h"
 #include "graph/framework/units.h"
+#include "graph/os.h"
+#include "graph/plan/advice.h"
+#include "graph/suggestion.h"
 #include "lib/notes.h"
 
 #include <errno.h>

@@ -1,17 +1,21 @@
-/* What the subcommands share. cli/ is the only folder that prints or exits. */
+/* What all commands share: options, files, messages, progress. */
 #ifndef THR_CLI_H
 #define THR_CLI_H
 
 #include "diagram/overview/overview.h"
 #include "graph/framework/frame.h"
+#include "graph/io/read.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
-#include "graph/io/read.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
 #include <getopt.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+/* ---- cli.c: What the subcommands share. */
 
 /* Documented in the man page; scripts rely on them. */
 enum { EXIT_OK = 0, EXIT_VIOLATION = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_INFEASIBLE = 4, EXIT_LIMIT = 5, EXIT_INTERNAL = 70 };
@@ -54,7 +58,7 @@ int cli_usage(const char *command, const char *format, ...) THR_PRINTF(2, 3);
 
 enum { OPTION_LONG_ONLY = 256 }; /* first value for options without a letter */
 
-/* -h, -q, -v and --config (cli/args/config.h, which takes it out), in every table and every letter string. */
+/* -h, -q, -v and --config (cli/args/config.c, which takes it out), in every table and every letter string. */
 #define CLI_COMMON_LETTERS "hqv"
 #define CLI_COMMON_OPTIONS                                                                                                       \
   {"help", no_argument, NULL, 'h'}, {"quiet", no_argument, NULL, 'q'}, {"config", required_argument, NULL, 0},                   \
@@ -216,5 +220,127 @@ const char *cli_plural(int n, const char *one, const char *many);
 
 /* What the n multipliers of the plan's proof of length stand on: "odd cut", "odd cuts", "odd sets and junctions". */
 const char *cli_cuts_word(const thr_plan *plan, int n);
+
+/* ---- files.c: The files that a command reads and writes: no file is asked for twice, and every output is tried before
+ * anything is computed. */
+
+/* Takes down an option with its value, or an operand (option NULL). The strings stay the caller's, and where they are. */
+void files_heard(const char *option, const char *value);
+
+/* Compares all that was heard, makes the folders of outputs and tries to write there. Returns EXIT_OK, or prints and returns the
+ * code: EXIT_USAGE for a file that is asked for twice, EXIT_INPUT for an output that cannot be written. */
+int files_settle(const char *command);
+
+/* Makes a folder and tries to write there. Returns EXIT_OK, or prints and returns the code. */
+int files_try_folder(const char *folder);
+
+/* Takes down a file that is read unasked. Returns EXIT_OK, or prints and returns the code if it is an output. */
+int files_also_read(const char *path);
+
+/* Is path a file that was heard of, but not with this option (NULL: with any)? */
+bool files_is_taken(const char *path, const char *option);
+
+/* Prints which file would be lost and returns EXIT_USAGE if path, to be written by this option, is taken; else EXIT_OK. */
+int files_claim(const char *command, const char *option, const char *path);
+
+/* The same at the last moment, for inputs only: nothing that was read is ever written over. */
+int files_may_write(const char *path);
+
+/* Finds a name in the current folder that no file has, like that of path: "plan.json", "plan-2.json", .. */
+void files_name_beside(const char *path, char *name, size_t size);
+
+/* Takes down that a folder was made; at the end those that are still empty are removed. */
+void files_made(const char *folder);
+void files_tidy(void);
+
+/* ---- guard.c: Limits that hold whatever a command does: it runs in a child process whose memory the system bounds, and which
+ * is ended when its time is over. */
+
+/* --time-limit and --memory. */
+typedef struct {
+  double seconds; /* 0 = no limit, < 0 = not said */
+  double memory;  /* bytes, 0 = no limit */
+} guard_limits;
+
+enum { OPTION_TIME = 900, OPTION_MEMORY }; /* beyond the options that commands number on from each other */
+#define GUARD_OPTIONS                                                                                                            \
+  {"time-limit", required_argument, NULL, OPTION_TIME},                                                                          \
+  {                                                                                                                              \
+    "memory", required_argument, NULL, OPTION_MEMORY                                                                             \
+  }
+#define GUARD_MEMORY_HELP "      --memory SIZE    give up beyond so much memory, as 500MB or 2GB, 0 = any (default: 2GB)\n"
+#define GUARD_HELP "      --time-limit S   give up after S seconds, 0 = never (default: 0)\n" GUARD_MEMORY_HELP
+
+guard_limits guard_limits_default(void); /* no time said, 2 GB */
+
+/* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
+bool guard_option(guard_limits *l, const char *command, int option, const char *value, bool *ok);
+
+typedef enum {
+  GUARD_DONE,        /* the child ended by itself, with `code` */
+  GUARD_TIME,        /* it did not end in its time, and was ended */
+  GUARD_INTERRUPTED, /* nor when it was asked to by a signal */
+  GUARD_MEMORY,      /* it had no more memory */
+  GUARD_DIED         /* of a signal that nobody here sent, or a library ended it */
+} guard_reason;
+
+typedef struct {
+  guard_reason reason;
+  int code;      /* GUARD_DONE: the exit code */
+  bool written;  /* its result was out, with exit code `code`: only what comes after is missing */
+  thr_text kept; /* what it handed over last; owned by the caller */
+  char why[120]; /* the reason in words: "not done after 2 s" */
+} guard_end;
+
+/* Forks. Returns false in the child. Returns true in the parent, after the child has ended, or if there could be none (printed:
+ * GUARD_DONE with EXIT_INTERNAL). The first SIGINT, SIGTERM or SIGHUP is passed on to the child, which has half a second more
+ * then; the second ends both at once, but for another SIGHUP. */
+bool guard_fork(const guard_limits *l, guard_end *end);
+
+/* Where there is only one process (in a browser, targets/alone_guard.c), guard_fork returns false, and the command asks this when
+ * it is done, with its exit code: true if it left nothing but has kept something, for which *end is then filled as for a parent.
+ * False where there are two. */
+bool guard_alone(int code, guard_end *end);
+
+/* thr_clock() at which the child must be done; 0 = any time. Without a child 0. */
+double guard_deadline(void);
+
+/* From here on there are so many seconds, whatever there were; 0 = any time. */
+void guard_allow(double seconds);
+
+/* In the child; nothing without one. kept: replaces what was handed over before. Between writing and written nothing ends the
+ * child but a second signal. No memory: what the parent is to say if the child fails now; false if there is no parent. Ending:
+ * the child exits with this code by itself, not a library. */
+void guard_keep(const thr_text *text);
+void guard_writing(void);
+void guard_written(int code);
+bool guard_no_memory(void);
+void guard_ending(int code);
+
+/* What a command does that has nothing to hand over: prints why it ended and returns the exit code. */
+int guard_conclude(guard_end *end, const char *missing);
+
+/* ---- progress.c: --progress: how far a search is, for a program that reads it: one JSON object on a line of stderr each time
+ * the plan or its bound is better. */
+
+/* From here on lines are written. */
+void progress_begin(void);
+
+bool progress_wanted(void);
+
+/* Sets the functions of limits that tell of progress; their user may be any. */
+void progress_listen(thr_limits *limits);
+
+/* A plan that is better than the last one. */
+void progress_plan(const thr_plan *plan);
+
+/* ---- best.c: The best cords found so far, handed to the parent (cli/guard.c) as a plan that claims nothing. */
+
+/* What cords must be: those of a plan for this framework with these options. Both stay as they are until the search is over. */
+void best_begin(const thr_frame *frame, const thr_request *options);
+
+/* For thr_limits.found: keeps the cords if they pass the checker and are better than the last ones, a few times a second at most.
+ * O(size of a plan). */
+void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetry_record *symmetry);
 
 #endif

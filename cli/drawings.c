@@ -1,12 +1,9 @@
 #include "cli/drawings.h"
 
-#include "cli/files.h"
-#include "cli/guard.h"
 #include "diagram/export/paper.h"
 #include "diagram/layout/layout.h"
-#include "diagram/scene/pieces.h"
-#include "graph/plan/chains.h"
 #include "graph/os.h"
+#include "graph/plan/plan_measures.h"
 #include "lib/documents.h"
 
 #include <stdio.h>

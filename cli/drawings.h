@@ -3,7 +3,7 @@
 #define THR_CLI_DRAWINGS_H
 
 #include "cli/cli.h"
-#include "diagram/scene/cord_lines.h"
+#include "diagram/scene/scene.h"
 
 /* How documents are drawn. */
 typedef struct {
@@ -52,7 +52,7 @@ int drawings_write(const thr_plan *plan, int i, const char *path, const drawings
 int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a);
 
 /* Compares the names of document i, or of all that drawings_write_all may write (i = -1), in folder with the files that this
- * command reads and writes (cli/files.h). Returns EXIT_OK, or prints which one would be lost and returns EXIT_USAGE. */
+ * command reads and writes (cli/files.c). Returns EXIT_OK, or prints which one would be lost and returns EXIT_USAGE. */
 int drawings_claim(const char *command, const char *folder, int i);
 
 /* Would one of all documents take the place of such a file? */

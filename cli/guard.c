@@ -1,5 +1,11 @@
-/* The limits of a command as options, and the words for one that was ended. The two processes: guard_process.c. */
-#include "cli/guard.h"
+/* Limits that hold whatever a command does: it runs in a child process whose memory the system bounds, and which is ended when
+ * its time is over. What the child has found so far it hands to its parent, which outlives it.
+ *
+ *   guard_end end;
+ *   if (guard_fork(&limits, &end)) return conclude(&end);   the parent, after the child's end
+ *   ..                                                       the child goes on, and returns its exit code as always
+ *
+ * The limits of a command as options, and the words for one that was ended. The two processes: guard_process.c. */
 #include "cli/cli.h"
 
 #include <stdlib.h>

@@ -1,6 +1,5 @@
 /* The two processes of a command: the one that works, and the one that waits. */
 #define _POSIX_C_SOURCE 200809L
-#include "cli/guard.h"
 #include "cli/cli.h"
 #include "graph/process/process.h"
 

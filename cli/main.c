@@ -1,10 +1,7 @@
 /* thread: plans how cord is threaded through bead structures. This file only finds the subcommand. */
-#include "cli/args/config.h"
+#include "cli/args/args.h"
 #include "cli/cli.h"
-#include "cli/files.h"
-#include "cli/guard.h"
 #include "eval/joint/world.h"
-#include "graph/framework/cuttree.h"
 #include "graph/suggestion.h"
 #include "lp/solver/lp.h"
 #include "symmetry/group/group.h"

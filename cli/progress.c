@@ -1,7 +1,16 @@
-#include "cli/progress.h"
+/* --progress: how far a search is, for a program that reads it: one JSON object on a line of stderr each time the plan or its
+ * bound is better.
+ *
+ *   {"what":"plan","length":1995.2,"turning":53.5,"cords":1,"seconds":0.31}   a whole plan was found
+ *   {"what":"turning","best":53.5,"bound":51.2,"gap":4.3,"seconds":0.52}      what is minimized, and what nothing is below; gap:
+ * %
+ *   {"what":"joints","done":0.25,"seconds":2.1}                               work whose amount is known
+ *
+ * best and bound are prices of turns (rad, or as --turn-cost has it) where what is turning, else weights of extra cord; length is
+ * in the framework's units, turning in rad, seconds since the search began. */
+#include "cli/cli.h"
 
 #include "graph/io/writer.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

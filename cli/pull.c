@@ -1,14 +1,10 @@
 /* Options of the methods that measure the pull, and running them. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/pull.h"
-#include "graph/framework/frame.h"
 #include "graph/framework/units.h"
-#include "graph/limits.h"
 #include "graph/os.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/schedule.h"
-#include "graph/status.h"
-#include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -2,11 +2,10 @@
 #ifndef THR_PULL_H
 #define THR_PULL_H
 
-#include "cli/guard.h"
-#include "cli/args/physics_args.h"
+#include "cli/args/args.h"
+#include "cli/cli.h"
 #include "eval/eval.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/plan.h"
 
 enum {
   OPTION_PULL_METHOD = OPTION_FREE,

@@ -1,9 +1,12 @@
-/* One interface to the three methods: checks what is asked, prepares the record, calls the method, sums up. */
-#include "eval/cord/history.h"
-#include "eval/methods.h"
-#include "graph/plan/seating.h"
+/* How hard must one pull? Three methods behind one interface (docs/method.md, "Pull force").
+ * Seating pull = force at the pulled ends such that the slackest point of every cord holds the seating tension (capstan, joint).
+ * Holding pull = least pull at which the closed structure has any equilibrium while the cords are being drawn in (structure).
+ * They are different things.
+ *
+ * One interface to the three methods: checks what is asked, prepares the record, calls the method, sums up. */
+#include "eval/eval.h"
 #include "graph/framework/units.h"
-#include "graph/plan/friction.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/schedule.h"
 
 #include <inttypes.h>

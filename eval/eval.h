@@ -1,21 +1,17 @@
-/* How hard must one pull? Three methods behind one interface (docs/method.md, "Pull force").
- * Seating pull = force at the pulled ends such that the slackest point of every cord holds the seating tension (capstan, joint).
- * Holding pull = least pull at which the closed structure has any equilibrium while the cords are being drawn in (structure).
- * They are different things. */
+/* Evaluation: the pull that a plan needs, and what it holds. */
 #ifndef THR_EVAL_H
 #define THR_EVAL_H
 
-#include "eval/structure/holding.h"
 #include "eval/cord/profile.h"
-#include "eval/structure/erect.h"
-#include "eval/structure/settle.h"
+#include "eval/structure/beads.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
-#include "graph/plan/pulled.h"
 #include "graph/status.h"
+
+/* ---- eval.c: How hard must one pull? Three methods behind one interface (docs/method.md, "Pull force"). */
 
 typedef struct {
   thr_physics physics;       /* as asked; the methods resolve it against the framework */
@@ -108,5 +104,28 @@ enum { THR_HOLDS_LARGEST = 500 };
  * THR_HOLDS_LARGEST. Every cord is known. */
 thr_status thr_eval_holds_from(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation,
                                const thr_limits *limits, double *times, thr_err *err) THR_MUST_CHECK;
+
+/* ---- The three methods, called by thr_eval_plan with resolved physics (out->record.physics) and record.cord allocated. Private
+ * to eval/. */
+
+/* Closed form over the turning angles (capstan.c). */
+thr_status thr_capstan_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                              const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
+/* Joints measured in Bullet, composed along the taut path (joint.c). */
+thr_status thr_joint_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                            const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
+/* Limit analysis, confirmed by Bullet (structure.c): every cord is pulled at its harder end with the holding pull. If that
+ * is 0, so are forces, tensions and losses, and Bullet has nothing to show unless a start is given. THR_EINFEASIBLE if no pull
+ * holds it, THR_ESOLVER if that is not decided; at an end of the band the one is INFINITY, the other NAN. */
+thr_status thr_structure_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                                const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
+/* Does the structure stand with the tensions of the record, which a schedule left, how far can the ends be let down, and what
+ * of the load is carried? */
+thr_status thr_structure_after(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
+                               const thr_limits *limits, thr_eval *out, thr_err *err) THR_MUST_CHECK;
+/* How the cords of the record are drawn in, before a schedule changes it. */
+thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_options *options, thr_err *err) THR_MUST_CHECK;
+/* Lays what was found into the record, for the plan (record.c). */
+thr_status thr_structure_record(int n_beads, const thr_eval_options *options, thr_eval *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,17 +1,11 @@
 #include "lib/documents.h"
 
-#include "diagram/export/pages.h"
 #include "diagram/export/paper.h"
-#include "diagram/export/viewer.h"
 #include "diagram/mat/emboss.h"
 #include "diagram/mat/mat.h"
-#include "diagram/overview/poster.h"
-#include "diagram/overview/steps.h"
-#include "diagram/scene/polylines.h"
 #include "diagram/sheets/sheets.h"
-#include "diagram/sheets/sheets_html.h"
 #include "diagram/tables/tables.h"
-#include "lib/motions.h"
+#include "lib/handles.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 
 #include "diagram/layout/layout.h"
 #include "diagram/overview/overview.h"
-#include "diagram/scene/cord_lines.h"
+#include "diagram/scene/scene.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"

@@ -1,4 +1,4 @@
-/* What is behind the opaque types of include/thread.h, and how statuses and texts get there. */
+/* What the files of libthread share. */
 #ifndef THR_HANDLES_H
 #define THR_HANDLES_H
 
@@ -7,6 +7,8 @@
 #include "graph/status.h"
 #include "graph/text.h"
 #include "include/thread.h"
+
+/* ---- What is behind the opaque types of include/thread.h, and how statuses and texts get there. */
 
 struct thread_frame {
   thr_frame frame;
@@ -32,5 +34,17 @@ thr_status thr_library_options(void *own, size_t own_size, const void *theirs, c
 
 /* The text becomes the caller's. THR_ENOMEM if an append failed. */
 thr_status thr_library_give(thr_text *text, char **bytes, size_t *n, thr_err *err) THR_MUST_CHECK;
+
+/* ---- motions.c: What takes a unique path of a symmetric plan to its copies, in words for who threads. */
+
+typedef struct {
+  const char **motion; /* [n_cords] "turned by 90 degrees .."; NULL for no copy, and for one that no motion makes; owned */
+  char (*words)[104];  /* [n_images] owned */
+} thr_motions;
+
+/* Of each image the motion in space that is nearest to it, if it is within thr_symmetry_near. Plans that are not symmetric have
+ * no words. Release with thr_motions_destroy. O(images * n). */
+thr_status thr_motions_describe(const thr_plan *plan, thr_motions *out, thr_err *err) THR_MUST_CHECK;
+void thr_motions_destroy(thr_motions *c);
 
 #endif

@@ -1,6 +1,5 @@
 /* libthread: what is not of frames or plans. */
 #include "eval/joint/world.h"
-#include "graph/framework/cuttree.h"
 #include "lib/handles.h"
 #include "lp/solver/lp.h"
 #include "symmetry/group/group.h"

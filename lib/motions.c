@@ -1,7 +1,7 @@
-#include "lib/motions.h"
+/* What takes a unique path of a symmetric plan to its copies, in words for who threads. */
+#include "lib/handles.h"
 
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
 #include "symmetry/group/group.h"
 #include "symmetry/symmetry.h"
 

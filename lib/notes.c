@@ -1,7 +1,5 @@
 #include "lib/notes.h"
 
-#include "graph/framework/near.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,7 +6,8 @@
  *   if (!st && advice.chosen >= 0) printf("%d cords\n", advice.row[advice.chosen].cords);
  *   thr_advice_destroy(&advice);
  *
- * Rows of advice: plans for more and more cords, each from the cords of the plan with one, cut evenly, or from symmetric cords. */
+ * Rows of advice: plans for more and more cords, each from the cords of the plan with one, cut evenly, or from symmetric cords.
+ */
 #include "graph/framework/components.h"
 #include "graph/plan/physics.h"
 #include "planner/planner_parts.h"

@@ -1,6 +1,6 @@
 /* More cords by cutting few: a start for the cord that turns most, and the rows of advice. Private to planner/. */
+#include "graph/plan/physics.h"
 #include "planner/planner_parts.h"
-#include "graph/plan/least_pull.h"
 
 #include <math.h>
 #include <stdlib.h>

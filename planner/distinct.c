@@ -1,7 +1,6 @@
 /* Plans in which every edge is passed by several different cords. */
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
-#include "graph/plan/distinct_needs.h"
 #include "planner/planner_parts.h"
 #include "tortuosity/cords/several.h"
 

@@ -1,6 +1,5 @@
 /* The cord that turns most: a symmetric start for it, and the exchanges from there. Private to planner/. */
 #include "planner/planner_parts.h"
-#include "graph/plan/junction.h"
 #include "tortuosity/cords/several.h"
 
 #include <math.h>

@@ -2,7 +2,6 @@
  * ties a node are turns. */
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
-#include "graph/plan/junction.h"
 #include "planner/planner_parts.h"
 #include "tortuosity/tie/tie.h"
 

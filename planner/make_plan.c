@@ -6,7 +6,6 @@
  *     thr_plan_write(&plan, &text);
  *
  * Request -> planner -> plan, in the order that was asked for, with the versions of the libraries that made it. */
-#include "graph/framework/cuttree.h"
 #include "lp/solver/lp.h"
 #include "planner/planner_parts.h"
 #include "symmetry/group/group.h"

@@ -2,7 +2,6 @@
  * length, or first of all a short longest cord. Every number is planned without the limit; whichever of those cords, and of the
  * cords of the least length, keep to it and serve the aims best are the plan. What is proved without the limit holds with it. */
 #include "graph/check/check.h"
-#include "graph/plan/junction.h"
 #include "planner/planner_parts.h"
 #include "tortuosity/tie/tie.h"
 

@@ -1,6 +1,6 @@
 /* Parts of a cord between two visits of a node, run the other way round: as long, through the same passes, and with less loose
  * chains. */
-#include "graph/plan/least_pull.h"
+#include "graph/plan/physics.h"
 #include "graph/random.h"
 #include "planner/planner_parts.h"
 

@@ -2,8 +2,7 @@
 #ifndef THR_PLANNER_PARTS_H
 #define THR_PLANNER_PARTS_H
 
-#include "graph/plan/chains.h"
-#include "graph/plan/channels.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/turning_proof.h"
 #include "planner/planner.h"
 #include "tortuosity/proof/branch.h"
@@ -231,7 +230,7 @@ enum { THR_ORDER_MOST = 5000, THR_ORDER_REVERSED = 2500 };
 
 /* As the plan's request asks (thr_order), cords of a plan without an evaluation are begun elsewhere, turned round and numbered
  * anew, such that the longest loose chain is short, and then the sum of squares of all loose chains is small
- * (graph/plan/chains.h). Passes, claims and their proofs stay as they are; metrics are measured again. THR_ORDER_STARTS: if a
+ * (graph/plan/chains.c). Passes, claims and their proofs stay as they are; metrics are measured again. THR_ORDER_STARTS: if a
  * chain that is longer than a hand holds well gets shorter by it; without more turning or pull, or, in plans that are short and
  * nothing else, with as little as serves, a twentieth more turning at most. What changes:
  * - Closed cords, where ends do not matter, begin at a foot if they come by one, where a knot can lie; all directions and, of

@@ -1,6 +1,5 @@
 /* Proofs of one plan for the cords of another, and what is kept of a plan of which not every proof holds. */
 #include "graph/check/check.h"
-#include "graph/plan/junction.h"
 #include "planner/planner_parts.h"
 #include "tortuosity/tie/tie.h"
 

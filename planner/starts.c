@@ -1,8 +1,8 @@
 /* Every start of a closed cord: how loose what is threaded is from there, and how hard the cord is to pull. Private to planner/.
  *
  * A window that moves round a closed cord, and the pieces in it that are on the cord when they are come to. */
+#include "graph/plan/physics.h"
 #include "planner/planner_parts.h"
-#include "graph/plan/least_pull.h"
 
 #include <math.h>
 #include <stdlib.h>

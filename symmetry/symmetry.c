@@ -1,7 +1,7 @@
 /* Options -> groups -> the best symmetric threading of each -> one of them -> plan. */
 #include "symmetry/symmetry.h"
 #include "graph/check/check.h"
-#include "graph/plan/reading.h"
+#include "graph/plan/plan_measures.h"
 #include "lp/length/postman.h"
 #include "symmetry/cover/cover_parts.h"
 #include "symmetry/group/groups.h"

@@ -46,7 +46,7 @@ typedef struct {
   thr_symmetry_record record;    /* owned */
   thr_metrics metrics;
   double longest;   /* cord of it, if that is an aim; else 0 */
-  int instructions; /* graph/plan/reading.h */
+  int instructions; /* graph/plan/reading.c */
   double pulled;    /* rad, thr_cords_pulled_turning: what the hardest pull has to overcome */
 } thr_symmetry_row;
 
@@ -83,7 +83,7 @@ typedef struct {
  * isometries within it make, among the automorphisms that keep edge lengths (thr_length_colours).
  * options.symmetry.group: only the rows of that number or name are solved, and the best of them is chosen. Otherwise the default
  * choice: least learned steps among the rows with at most thr_symmetry_slack more cord than the shortest plan, or if there is
- * none the least cord; ties by the longest cord if that is an aim, instructions (graph/plan/reading.h), overlap, cords, turning,
+ * none the least cord; ties by the longest cord if that is an aim, instructions (graph/plan/reading.c), overlap, cords, turning,
  * number. Threadings keep to the
  * numbers (if options.symmetry.counted) and the largest length of cords that are asked for, as symmetry/lift/keep.c makes them; a
  * row without such a threading has none. Time is shared as symmetry/cover/solve.c says. only_choice: as soon as the choice is

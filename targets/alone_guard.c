@@ -1,7 +1,7 @@
-/* cli/guard.h for a system that has one process. The time ends a search as it does everywhere; nobody ends what takes no heed of
+/* cli/guard.c for a system that has one process. The time ends a search as it does everywhere; nobody ends what takes no heed of
  * it. The memory is bounded where the program gets it from its host. The best plan so far goes to the host, too, who may end the
  * program whenever it likes. */
-#include "cli/guard.h"
+#include "cli/cli.h"
 #include "graph/limits.h"
 #include "graph/text.h"
 #include "targets/host.h"

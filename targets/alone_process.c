@@ -1,9 +1,9 @@
-/* graph/process/child.h and workers.h for a system that has one process: the jobs are done in it, one after the other. What a
+/* graph/process/child.c and workers.c for a system that has one process: the jobs are done in it, one after the other. What a
  * library breaks or leaks is gone with the process or, in a page, with the instance of the program, of which every command has
  * its own (web/engine.js). A job that takes no heed of the time is not ended. */
 #include "graph/limits.h"
-#include "graph/process/child.h"
-#include "graph/process/workers.h"
+#include "graph/process/process.h"
+#include "graph/process/threads.h"
 #include "graph/status.h"
 #include "graph/text.h"
 

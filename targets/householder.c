@@ -1,4 +1,4 @@
-/* eval/structure/rank.h without SuiteSparse: Householder's QR factorization, column by column.
+/* eval/structure/beads.h without SuiteSparse: Householder's QR factorization, column by column.
  *
  * A reflection H = I - v v' / h with h = v'v / 2 takes what is left of a column to one row, which is then done with: v is 0 in
  * all rows that were done before. Column j is reflected by all that came before it; what it has then in rows that are not done is
@@ -7,7 +7,7 @@
  * the surface have few.
  *
  * Example: columns (1, 0), (2, 0), (1, 1): the second leaves nothing, the third (0, 1): rank 2. */
-#include "eval/structure/rank.h"
+#include "eval/structure/beads.h"
 #include "graph/status.h"
 
 #include <math.h>

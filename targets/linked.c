@@ -1,5 +1,5 @@
-/* graph/process/lazy.h where the libraries are linked with the program. */
-#include "graph/process/lazy.h"
+/* graph/process/lazy.c where the libraries are linked with the program. */
+#include "graph/process/process.h"
 #include "graph/status.h"
 
 #include <string.h>

@@ -1,8 +1,6 @@
 /* No PDF: there are no fonts to set its words in. */
-#include "diagram/export/letters.h"
-#include "diagram/export/pages.h"
-
 #include "diagram/export/paper.h"
+
 #include "graph/limits.h"
 #include "graph/status.h"
 #include "graph/text.h"

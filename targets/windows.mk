@@ -1,7 +1,7 @@
 # BUILD=windows: the program for Windows, by MinGW, as $(OUT)/windows/thread.exe, which needs nothing but Windows 10 or later (64 bits).
 # `make windows` begins it when targets/libraries.sh has put the libraries into LIBRARIES. The interfaces that are implemented a
 # second time, in targets/ and targets/windows/:
-#   graph/os.h   graph/process/child.h, workers.h, lazy.h   cli/guard.h   diagram/export/pages.h, letters.h   eval/structure/rank.h   <math.h>
+#   graph/os.h   graph/process/child.c, workers.h, lazy.h   cli/guard.c   diagram/export/pages.c, letters.h   eval/structure/beads.h   <math.h>
 CC := x86_64-w64-mingw32-gcc-posix
 CXX := x86_64-w64-mingw32-g++-posix
 AR := x86_64-w64-mingw32-ar

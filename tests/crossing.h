@@ -2,9 +2,9 @@
 #ifndef THR_CROSSING_H
 #define THR_CROSSING_H
 
-#include "tests/support.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/request.h"
+#include "tests/support.h"
 
 /* What a case chooses. */
 typedef enum {

@@ -2,8 +2,8 @@
 #ifndef THR_ORACLES_H
 #define THR_ORACLES_H
 
-#include "graph/plan/plan.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 
 /* Least length of extra passes with which o's cords cover the component of node 0 and end as o allows, by trying every

@@ -3,8 +3,8 @@
 #ifndef THR_THREADINGS_H
 #define THR_THREADINGS_H
 
-#include "graph/plan/plan.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
 
 typedef enum { THREAD_LINES, THREAD_STAIRS, THREAD_SNAKE, N_THREADINGS } threading;
 

@@ -1,6 +1,6 @@
 #include "tests/truth.h"
-#include "tests/support.h"
 #include "graph/plan/turning_proof.h"
+#include "tests/support.h"
 
 #include <limits.h>
 #include <math.h>

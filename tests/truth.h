@@ -2,8 +2,8 @@
 #ifndef THR_TRUTH_H
 #define THR_TRUTH_H
 
-#include "graph/plan/plan.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 
 enum { TRUTH_NODES = 8, TRUTH_EDGES = 8, TRUTH_TABLE_EDGES = 6 }; /* at most, in all components together; for tables */

@@ -2,8 +2,8 @@
  * every plan; here each is written down as a row over the columns, and what multipliers prove is added up row by row, exactly. */
 #include "tests/turning_rows.h"
 #include "graph/angle.h"
-#include "tests/support.h"
 #include "graph/plan/plan.h"
+#include "tests/support.h"
 
 #include <math.h>
 

@@ -3,8 +3,8 @@
 #ifndef THR_TURNING_ROWS_H
 #define THR_TURNING_ROWS_H
 
-#include "graph/plan/turning_proof.h"
 #include "graph/framework/frame.h"
+#include "graph/plan/turning_proof.h"
 
 __extension__ typedef __int128 wide;
 

@@ -1,7 +1,7 @@
 /* Small plans with their least, and random proofs. */
 #include "tests/turning_targets.h"
 #include "graph/check/check.h"
-#include "graph/plan/junction.h"
+#include "graph/plan/plan_measures.h"
 #include "tests/attack.h"
 #include "tests/plans.h"
 

@@ -6,10 +6,10 @@
 #ifndef THR_TEST_WALKS_H
 #define THR_TEST_WALKS_H
 
-#include "tests/support.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
+#include "tests/support.h"
 
 enum { WALKS_EDGES = 8, WALKS_NODES = 9, WALKS_DEGREE = 5 };
 

@@ -5,7 +5,7 @@ tools/source_tour.py           rewrites the lists
 tools/source_tour.py --check   compares only: prints what differs, exit code 1
 
 Between a line `<!-- files of FOLDER -->` and the next `<!-- end -->` stands one row for each name in that folder: foo.c and foo.h are
-one row, described by the first sentence of the comment that the source begins with (the header, if there is no source). Every
+one row, described by the first sentence of the comment that the source begins with (the header, if the source has none). Every
 folder with sources has its list; one without is an error, as is a file without a head.
 """
 import os
@@ -45,10 +45,10 @@ def rows(folder, names, bad):
     out = ["| file | what |", "|---|---|"]
     for name in sorted(names):
         endings = sorted(names[name], key=ENDINGS.index)
-        teller = os.path.join(folder, name + endings[0])
-        what = first_sentence(teller)
+        heads = [first_sentence(os.path.join(folder, name + ending)) for ending in endings]
+        what = next((head for head in heads if head), None)
         if what is None:
-            bad.append("%s: begins with no comment that says what it is" % teller)
+            bad.append("%s: begins with no comment that says what it is" % os.path.join(folder, name + endings[0]))
             continue
         out.append("| `%s` | %s |" % ("`, `".join([name + endings[0]] + endings[1:]), what))
     return out

@@ -1,6 +1,6 @@
 # BUILD=web: the program for wasm, by Emscripten, as $(OUT)/web/thread-engine.js and .wasm. `make web` begins it
 # when targets/libraries.sh has put the libraries into LIBRARIES. Of the interfaces that a browser cannot keep as they are, web/ and targets/ have the other implementation:
-#   graph/process/child.h, workers.h, lazy.h   cli/guard.h   diagram/export/pages.h, letters.h   eval/structure/rank.h   the viewer's page   <math.h>
+#   graph/process/child.c, workers.h, lazy.h   cli/guard.c   diagram/export/pages.c, letters.h   eval/structure/beads.h   the viewer's page   <math.h>
 CC := emcc
 CXX := em++
 AR := emar

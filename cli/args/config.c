@@ -1,6 +1,5 @@
-#include "cli/args/config.h"
-#include "cli/cli.h"
-#include "cli/files.h"
+/* --config FILE: options from a file, as if they stood before those of the command line. */
+#include "cli/args/args.h"
 #include "graph/status.h"
 #include "graph/text.h"
 

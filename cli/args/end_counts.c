@@ -1,7 +1,6 @@
 /* `--ends NAME:N,..`: how many cord ends there are at each node. */
-#include "cli/args/end_counts.h"
+#include "cli/args/request_args.h"
 #include "cli/cli.h"
-#include "graph/plan/request.h"
 #include "graph/status.h"
 
 #include <stdio.h>

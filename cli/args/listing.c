@@ -1,4 +1,5 @@
-#include "cli/args/listing.h"
+/* The options of a command as its help lists them: what completions and man pages are made from. */
+#include "cli/args/args.h"
 
 #include <ctype.h>
 #include <stdio.h>

@@ -3,8 +3,8 @@
 #define THR_LOAD_ARGS_H
 
 #include "cli/cli.h"
-#include "graph/framework/frame.h"
 #include "eval/eval.h"
+#include "graph/framework/frame.h"
 
 enum {
   OPTION_LOAD = 950,

@@ -1,5 +1,5 @@
-/* Options of the physical quantities. */
-#include "cli/args/physics_args.h"
+/* The options that describe cord and beads, made from the table in graph/plan/physics.h. Shared by eval, compare and plan. */
+#include "cli/args/args.h"
 #include "graph/status.h"
 
 #include <assert.h>

@@ -1,10 +1,11 @@
-/* Options of `thread plan` that say what the plan is to be: parsed, held against each other, laid over a request. */
+/* The options of `thread plan` that say what the plan is to be: aims, cords, ends, turning. Those that are a number or a word are
+ * rows of the request's table (graph/plan/request_fields.c).
+ *
+ * Options of `thread plan` that say what the plan is to be: parsed, held against each other, laid over a request. */
 #include "cli/args/request_args.h"
-#include "cli/args/end_counts.h"
-#include "eval/cord/knots.h"
-#include "graph/framework/bore.h"
+#include "eval/cord/profile.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/request_fields.h"
+#include "graph/plan/plan_fields.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"
 #include "planner/planner.h"

@@ -1,10 +1,11 @@
-/* The options of `thread plan` that say what the plan is to be: aims, cords, ends, turning. Those that are a number or a word are
- * rows of the request's table (graph/plan/request_fields.h). */
-#ifndef THR_CLI_REQUEST_ARGS_H
-#define THR_CLI_REQUEST_ARGS_H
+/* The options of a request. */
+#ifndef THR_REQUEST_ARGS_H
+#define THR_REQUEST_ARGS_H
 
 #include "cli/args/symmetry_args.h"
 #include "graph/framework/frame.h"
+
+/* ---- request_args.c: The options of `thread plan` that say what the plan is to be: aims, cords, ends, turning. */
 
 enum {
   OPTION_AIMS = OPTION_SYMMETRY_FREE,
@@ -128,5 +129,15 @@ bool request_args_limits_pull(const request_args *a);
 
 /* Was nothing asked for but a short cord? */
 bool request_args_usual(const request_args *a);
+
+/* ---- end_counts.c: `--ends NAME:N,..`: how many cord ends there are at each node. */
+
+/* Reads "A:2,B:1" into counts[n_nodes]. Returns -1 if no node comes with a number; EXIT_OK; or prints what is wrong and returns
+ * the exit code. */
+int end_counts_parse(const thr_frame *frame, const char *ends, int *counts);
+
+/* Finds the least and the most number of cords of any component that these ends make. Returns EXIT_OK, or prints and returns the
+ * exit code if some component has no end or an odd number of them. */
+int end_counts_cords(const thr_frame *frame, const int *counts, int *least, int *most);
 
 #endif

@@ -1,10 +1,9 @@
 /* thread advise: how many cords, and from where. */
 #include "cli/advice.h"
-#include "cli/args/physics_args.h"
+#include "cli/args/args.h"
 #include "cli/cli.h"
-#include "cli/guard.h"
-#include "cli/print/advice_table.h"
-#include "diagram/overview/advice_chart.h"
+#include "cli/print/print.h"
+#include "diagram/overview/charts.h"
 #include "graph/framework/frame.h"
 #include "graph/io/writer.h"
 #include "graph/limits.h"

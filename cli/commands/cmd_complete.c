@@ -1,5 +1,5 @@
 /* thread complete: what may stand next on a command line, for the completions of shells. */
-#include "cli/args/listing.h"
+#include "cli/args/args.h"
 #include "cli/cli.h"
 #include "graph/framework/make.h"
 

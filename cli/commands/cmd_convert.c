@@ -1,6 +1,5 @@
 /* thread convert: a framework from one format into another. */
 #include "cli/cli.h"
-#include "cli/guard.h"
 #include "graph/framework/frame.h"
 #include "graph/io/read.h"
 #include "graph/text.h"

@@ -1,6 +1,6 @@
 /* thread draw: diagrams of a plan. */
+#include "cli/cli.h"
 #include "cli/drawings.h"
-#include "cli/guard.h"
 #include "diagram/overview/overview.h"
 #include "graph/io/read.h"
 #include "graph/plan/plan.h"

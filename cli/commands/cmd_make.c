@@ -1,10 +1,10 @@
 /* thread make: example frameworks. */
-#include "graph/suggestion.h"
 #include "cli/cli.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/make.h"
 #include "graph/io/read.h"
 #include "graph/status.h"
+#include "graph/suggestion.h"
 #include "graph/text.h"
 
 #include <string.h>

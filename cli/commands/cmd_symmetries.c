@@ -1,7 +1,7 @@
 /* thread symmetries: the groups of a framework, and the best symmetric threading under each. */
-#include "cli/guard.h"
 #include "cli/args/symmetry_args.h"
-#include "cli/print/symmetry_table.h"
+#include "cli/cli.h"
+#include "cli/print/print.h"
 #include "graph/framework/frame.h"
 #include "graph/io/writer.h"
 #include "graph/limits.h"

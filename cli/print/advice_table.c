@@ -1,10 +1,6 @@
-/* The table of advice, and the line that sums it up. */
-#include "cli/print/advice_table.h"
-#include "cli/print/plain.h"
-#include "cli/print/seated.h"
-#include "cli/print/turning_summary.h"
+/* The table of `thread advise`, as text and as JSON, and the command that makes the recommended plan. */
+#include "cli/print/print.h"
 #include "graph/angle.h"
-#include "graph/plan/request.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,6 @@
-/* The rows of `thread compare`. */
-#include "cli/print/compare_rows.h"
-#include "cli/print/turning_summary.h"
-#include "graph/plan/advice.h"
+/* The table of `thread compare`: a row per value, a column per plan. */
+#include "cli/print/print.h"
 #include "graph/angle.h"
-#include "graph/plan/request.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,10 +1,5 @@
 /* thread eval as JSON. */
-#include "cli/print/eval_print.h"
-#include "cli/print/load_words.h"
-#include "cli/print/seated.h"
-#include "eval/structure/holding.h"
-#include "eval/structure/settle.h"
-#include "graph/plan/play.h"
+#include "cli/print/print.h"
 
 #include <math.h>
 

@@ -1,25 +1,10 @@
 /* thread eval in words: a line per cord, sums, what a hand manages, the structure's answers. */
-#include "cli/print/eval_print.h"
+#include "cli/print/print.h"
 
-#include "cli/cli.h"
-#include "cli/print/load_words.h"
-#include "cli/print/plain.h"
-#include "cli/print/seated.h"
-#include "cli/pull.h"
-#include "eval/cord/history.h"
-#include "eval/cord/knots.h"
 #include "eval/cord/profile.h"
-#include "eval/joint/drag.h"
-#include "eval/structure/holding.h"
-#include "eval/structure/settle.h"
+#include "eval/joint/joint.h"
 #include "graph/angle.h"
-#include "graph/plan/advice.h"
-#include "graph/plan/friction.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/play.h"
 #include "graph/plan/schedule.h"
-#include "graph/plan/standing.h"
-#include "graph/status.h"
 
 #include <math.h>
 #include <stdio.h>

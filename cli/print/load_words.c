@@ -1,8 +1,5 @@
-/* Lines such as "at 5 N: carries 9.17 times the load; C4 goes first beyond 9.8". */
-#include "cli/print/load_words.h"
-#include "eval/structure/holding.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/standing.h"
+/* What of a load is carried, in words and as JSON. */
+#include "cli/print/print.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,6 @@
-#include "cli/print/plain.h"
-#include "graph/plan/advice.h"
-#include "graph/plan/request.h"
-#include "graph/status.h"
+/* Forces and proofs in plain words, for the first screen of every command: newtons with the weight that pulls as much, and one
+ * clause for what is proved. Cuts, multipliers and solvers are for --verbose. */
+#include "cli/print/print.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,10 +1,5 @@
-/* The summary of `thread plan`, as text and as JSON. */
-#include "cli/print/plan_summary.h"
-#include "cli/print/plain.h"
-#include "cli/print/seated.h"
-#include "cli/print/symmetry_table.h"
-#include "graph/plan/physics.h"
-#include "graph/status.h"
+/* What `thread plan` says of a plan: its cords, their length, turning and pull. */
+#include "cli/print/print.h"
 #include "graph/angle.h"
 
 #include <inttypes.h>

@@ -1,5 +1,5 @@
-/* Rankings with honest ties. */
-#include "cli/print/ranking.h"
+/* An order of plans by a value of which more or less is known. Used by compare. */
+#include "cli/print/print.h"
 
 #include <math.h>
 #include <stdlib.h>

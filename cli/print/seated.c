@@ -1,13 +1,8 @@
-/* The gaps that are seated, in words. */
-#include "cli/print/seated.h"
+/* Prints which part of the gaps between pieces is closed by which pull, and by one cord or the other. */
+#include "cli/print/print.h"
 
-#include "cli/print/plain.h"
-#include "eval/eval.h"
-#include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/seating.h"
-#include "graph/status.h"
+#include "graph/plan/plan_measures.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,9 +1,7 @@
-/* Groups and copies in words and in JSON. */
-#include "cli/print/symmetry_table.h"
-#include "cli/print/plain.h"
-#include "cli/print/turning_summary.h"
+/* The table of groups, and how the cords of a symmetric plan are copies of each other. */
+#include "cli/print/print.h"
 #include "graph/angle.h"
-#include "graph/plan/reading.h"
+#include "graph/plan/plan_measures.h"
 #include "symmetry/group/group.h"
 #include "symmetry/lift/lift.h"
 

@@ -1,12 +1,7 @@
-#include "cli/print/terms.h"
-#include "cli/cli.h"
+/* Of which plans the claims of a plan speak, in words: a proof without its terms can be taken for more than it is. */
+#include "cli/print/print.h"
 #include "graph/angle.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/physics.h"
-#include "graph/plan/pulled.h"
-#include "graph/plan/request.h"
 #include "graph/plan/schedule.h"
-#include "graph/plan/standing.h"
 
 #include <ctype.h>
 #include <string.h>

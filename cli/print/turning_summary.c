@@ -1,11 +1,7 @@
-/* The table "each against", what is proved of the turning, and the frontier. */
-#include "cli/print/turning_summary.h"
-#include "cli/print/plain.h"
-#include "cli/print/seated.h"
+/* A plan of the least turning beside its lower bound, the other end of the trade-off and the shortest plan. */
+#include "cli/print/print.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 
 #include <math.h>

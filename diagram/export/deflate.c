@@ -1,6 +1,7 @@
-#include "diagram/export/deflate.h"
+/* Bytes made small for PDF (FlateDecode): zlib, loaded when it is first used. Private to diagram/. */
+#include "diagram/export/export_parts.h"
 
-#include "graph/process/lazy.h"
+#include "graph/process/process.h"
 
 #include <stdlib.h>
 #include <zlib.h>

@@ -1,4 +1,6 @@
-#include "diagram/export/font_parts.h"
+/* TrueType fonts (ISO/IEC 14496-22, "OpenType"): which glyph a letter has, how wide it is, and a font of some glyphs alone for a
+ * PDF. Bytes are read within the file's bounds whatever it holds. Private to diagram/. */
+#include "diagram/export/export_parts.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,10 +1,8 @@
 /* fontconfig. */
 #define _XOPEN_SOURCE 700
-#include "diagram/export/font.h"
+#include "diagram/export/paper.h"
 
-#include "graph/limits.h"
-#include "graph/process/child.h"
-#include "graph/process/lazy.h"
+#include "graph/process/process.h"
 
 #include <fontconfig/fontconfig.h>
 #include <stdio.h>

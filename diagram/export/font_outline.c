@@ -1,5 +1,5 @@
 /* Outlines of glyphs: quadratic curves through points that lie on them or off them (ISO/IEC 14496-22, table glyf). */
-#include "diagram/export/font_parts.h"
+#include "diagram/export/export_parts.h"
 
 #include <stdlib.h>
 

@@ -1,6 +1,7 @@
-#include "diagram/export/letters.h"
+/* Words as closed outlines, for programs that know no fonts: to cut, to engrave, to raise on a printed piece. Private to
+ * diagram/. */
 
-#include "diagram/export/font_parts.h"
+#include "diagram/export/export_parts.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,6 @@
-#include "diagram/export/pages.h"
+/* A PDF of pages that are written as SVG, drawn some at a time, in parallel, so that few are kept. Private to diagram/. */
 
-#include "diagram/export/pdf.h"
-#include "diagram/export/svg_page.h"
+#include "diagram/export/export_parts.h"
 #include "graph/process/threads.h"
 
 #include <stdlib.h>

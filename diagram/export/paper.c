@@ -1,6 +1,8 @@
+/* What is drawn on one page, in mm from its upper left corner: vectors stay vectors, text stays text. Several pages may be drawn
+ * at a time, each in one thread; diagram/export/pdf.c makes a file of them. Private to diagram/. */
 #include "diagram/export/paper.h"
 
-#include "diagram/scene/boxes.h"
+#include "diagram/scene/scene.h"
 #include "graph/angle.h"
 
 #include <math.h>

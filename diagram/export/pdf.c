@@ -1,6 +1,6 @@
-#include "diagram/export/pdf.h"
-
-#include "diagram/export/deflate.h"
+/* A PDF (1.4, ISO 32000-1) that grows page by page: each is compressed when it is added, so that pages need not be kept. Private
+ * to diagram/. */
+#include "diagram/export/export_parts.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
-#include "diagram/export/svg_page.h"
-
-#include "diagram/export/svg_style.h"
+/* A page drawn from SVG, read in one pass. It knows the SVG that diagram/ writes for pages: svg (in mm), title, desc, style, g
+ * with translations and clipping, clipPath around a rect, rect, turned or not, circle, path of M L H V C Z and their small
+ * letters, text; and of these no attribute but those that are drawn or say nothing of the picture. Private to diagram/. */
+#include "diagram/export/export_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,4 +1,7 @@
-#include "diagram/export/svg_style.h"
+/* Styles of the SVG that is written in diagram/. They come from presentation attributes, from style="..", and from style sheets
+ * whose selectors are lists of elements and classes with blanks between them, ".view-1 .place text.own", and
+ * :not([stroke-dasharray]). All properties are inherited. What is not known is an error. Private to diagram/export/. */
+#include "diagram/export/export_parts.h"
 
 #include "graph/number.h"
 

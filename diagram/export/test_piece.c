@@ -1,6 +1,6 @@
-/* A block to drill, and the same as a mesh. */
-#include "diagram/export/test_piece.h"
-#include "diagram/overview/svg.h"
+/* The piece in which a cord's friction is weighed: a bore that turns by 90 degrees, as in a bead with two arms. */
+#include "diagram/export/paper.h"
+#include "diagram/overview/overview.h"
 #include "graph/angle.h"
 
 #include <math.h>

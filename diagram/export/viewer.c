@@ -1,17 +1,15 @@
-#include "diagram/export/viewer.h"
+/* The viewer: the framework in space with the cords step by step, as one HTML file that needs no network. Its page is built from
+ * viewer/ (`make viewer`) and lies built in diagram/export/viewer_page.html, which becomes part of the program. */
+#include "diagram/export/paper.h"
 
-#include "diagram/scene/copies.h"
-#include "diagram/overview/guide.h"
-#include "diagram/scene/palette.h"
-#include "diagram/scene/pieces.h"
+#include "diagram/overview/overview.h"
+#include "diagram/overview/overview_parts.h"
 #include "diagram/scene/scene.h"
-#include "diagram/overview/svg.h"
-#include "diagram/overview/tension.h"
 #include "graph/framework/frame.h"
 #include "graph/io/writer.h"
-#include "graph/plan/chains.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/pulled.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan_measures.h"
 
 #include <assert.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Candidate layouts: the projections, and the choice among all of them. */
 
 #include "diagram/layout/layout_parts.h"
-#include "graph/framework/drawing.h"
+#include "graph/framework/make.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -71,7 +71,7 @@ thr_status thr_layout_measure(thr_layout *layout, const thr_frame *frame, thr_er
 /* The layout to draw, by crossings + squeezed, then ratio; of nearly equal candidates (ratio within a quarter) the
  * earlier kind wins, so a plan view with no crossing and a ratio of 0.8 or more is always taken, and one of 0.5 unless
  * unrolling opens up a rim that it shows foreshortened. Two panels are only considered when every single picture has faults or a
- * ratio under 0.5; a drawing by the algorithm of Kamada & Kawai (graph/framework/drawing.h), for up to THR_LAYOUT_DRAWN_NODES
+ * ratio under 0.5; a drawing by the algorithm of Kamada & Kawai (graph/framework/make.h), for up to THR_LAYOUT_DRAWN_NODES
  * nodes, only when all others have faults. extra[n_extra] are further measured candidates (NULL and 0 for none), only used if
  * they are better; the best is copied. */
 thr_status thr_layout_choose(thr_layout *best, const thr_frame *frame, const thr_layout *extra, int n_extra,

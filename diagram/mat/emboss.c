@@ -1,9 +1,9 @@
 #include "diagram/mat/emboss.h"
 
-#include "diagram/export/letters.h"
-#include "diagram/overview/guide.h"
-#include "diagram/overview/svg.h"
-#include "diagram/scene/pieces.h"
+#include "diagram/export/paper.h"
+#include "diagram/overview/overview.h"
+#include "diagram/overview/overview_parts.h"
+#include "diagram/scene/scene.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/units.h"
 #include "graph/plan/physics.h"

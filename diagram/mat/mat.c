@@ -1,12 +1,10 @@
 /* Middles of pieces on the mat, its pages, and what is on each. */
 #include "diagram/mat/mat.h"
 
-#include "diagram/export/pages.h"
 #include "diagram/layout/layout.h"
-#include "diagram/overview/guide.h"
-#include "diagram/overview/svg.h"
-#include "diagram/scene/arms.h"
-#include "diagram/scene/pieces.h"
+#include "diagram/overview/overview.h"
+#include "diagram/overview/overview_parts.h"
+#include "diagram/scene/scene.h"
 #include "diagram/tables/supplies.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/units.h"

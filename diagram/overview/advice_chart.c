@@ -1,8 +1,6 @@
-/* Pull and cord against the number of cords, as SVG. */
-#include "diagram/overview/advice_chart.h"
-#include "diagram/overview/pull_axis.h"
-#include "diagram/overview/svg.h"
-#include "graph/plan/physics.h"
+/* The picture of advice: pull and cord against the number of cords. */
+#include "diagram/overview/charts.h"
+#include "diagram/overview/overview.h"
 #include "graph/plan/request.h"
 
 #include <math.h>

@@ -1,8 +1,9 @@
-/* Plans side by side, as SVG: small pictures, pull with the band of mu, cord, number of cords. */
-#include "diagram/overview/compare_chart.h"
-#include "diagram/overview/miniature.h"
-#include "diagram/overview/pull_axis.h"
-#include "diagram/overview/svg.h"
+/* The picture of a comparison: plans of one framework side by side.
+ *
+ * Plans side by side, as SVG: small pictures, pull with the band of mu, cord, number of cords. */
+#include "diagram/overview/charts.h"
+#include "diagram/overview/overview.h"
+#include "diagram/overview/overview_parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,7 @@
-#include "diagram/overview/crop.h"
+/* Pictures for pages: the whole plan or a part of it, at a scale at which nothing is under 7 pt. Private to diagram/. */
+#include "diagram/overview/overview_parts.h"
 
-#include "diagram/overview/svg.h"
-#include "diagram/scene/outlines.h"
-#include "diagram/scene/shadow.h"
-#include "graph/framework/frame.h"
+#include "diagram/overview/overview.h"
 
 #include <math.h>
 #include <stdio.h>

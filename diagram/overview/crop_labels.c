@@ -1,7 +1,6 @@
 /* Numbers, arrows and names in a part of a scene. The scene's own labels tell the whole plan; these only the passes of a page, so
  * they find room at smaller scales. */
-#include "diagram/overview/crop.h"
-#include "graph/framework/frame.h"
+#include "diagram/overview/overview_parts.h"
 
 #include <math.h>
 

@@ -1,7 +1,6 @@
 /* The pieces in a part of a scene, all that look alike in one element. */
-#include "diagram/overview/crop.h"
-#include "diagram/overview/svg.h"
-#include "diagram/scene/outlines.h"
+#include "diagram/overview/overview.h"
+#include "diagram/overview/overview_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

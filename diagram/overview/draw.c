@@ -1,13 +1,10 @@
-/* Writes a scene, or the part of it that a style asks for, as SVG. */
-#include "diagram/overview/draw.h"
+/* Draws a scene as SVG elements, in mm on paper: pads of feet, beads, cords with casings, turns and arrows, ends, names of places
+ * and numbers. All of it for the overview; for a page about some passes the same scene with a state per pass. Private to
+ * diagram/. */
+#include "diagram/overview/overview_parts.h"
 
-#include "diagram/overview/miniature.h"
-#include "diagram/overview/svg.h"
-#include "diagram/scene/outlines.h"
-#include "diagram/scene/palette.h"
-#include "diagram/scene/places.h"
+#include "diagram/overview/overview.h"
 #include "graph/angle.h"
-#include "graph/framework/frame.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* The pieces of the picture that the legend shows, too, and the style of all. */
-#include "diagram/overview/draw.h"
+#include "diagram/overview/overview_parts.h"
 
-#include "diagram/overview/svg.h"
+#include "diagram/overview/overview.h"
 
 #include <math.h>
 

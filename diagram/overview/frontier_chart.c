@@ -1,7 +1,6 @@
-/* Pull against length of cord, as SVG. */
-#include "diagram/overview/frontier_chart.h"
-#include "diagram/overview/pull_axis.h"
-#include "diagram/overview/svg.h"
+/* The picture of the trade-off between cord and pull: `thread plan --frontier`. */
+#include "diagram/overview/charts.h"
+#include "diagram/overview/overview.h"
 #include "graph/angle.h"
 
 #include <math.h>

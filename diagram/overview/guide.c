@@ -1,9 +1,8 @@
-#include "diagram/overview/guide.h"
+/* What nodes and turns are called for whoever threads a plan, the same in every document. Private to diagram/. */
+#include "diagram/overview/overview_parts.h"
 
-#include "diagram/scene/scene.h"
-#include "graph/plan/reading.h"
 #include "graph/angle.h"
-#include "graph/plan/channels.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/vector.h"
 
 #include <math.h>

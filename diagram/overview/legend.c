@@ -1,15 +1,9 @@
-/* Heading and legend of the overview. Widths of text are estimated for a wide face, so that lines never run out. */
-#include "diagram/overview/legend.h"
+/* What is written around the overview picture: heading, key, one line per cord, scale bar. Private to diagram/.
+ *
+ * Heading and legend of the overview. Widths of text are estimated for a wide face, so that lines never run out. */
+#include "diagram/overview/overview_parts.h"
 
-#include "diagram/layout/layout.h"
-#include "diagram/overview/draw.h"
-#include "diagram/overview/svg.h"
-#include "diagram/overview/tension.h"
-#include "diagram/scene/copies.h"
-#include "diagram/scene/palette.h"
-#include "diagram/scene/pieces.h"
-#include "diagram/scene/places.h"
-#include "graph/framework/frame.h"
+#include "diagram/overview/overview.h"
 
 #include <math.h>
 #include <stdio.h>

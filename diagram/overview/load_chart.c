@@ -1,8 +1,7 @@
-/* Load against pull, as SVG. */
-#include "diagram/overview/load_chart.h"
+/* The picture of what a structure carries: load against pull. `thread eval --load .. --plot`. */
+#include "diagram/overview/charts.h"
 
-#include "diagram/overview/pull_axis.h"
-#include "diagram/overview/svg.h"
+#include "diagram/overview/overview.h"
 
 #include <math.h>
 #include <stdio.h>

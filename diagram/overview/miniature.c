@@ -1,6 +1,7 @@
-#include "diagram/overview/miniature.h"
+/* A plan as small as a stamp: its cords alone, without names and numbers. Private to diagram/. */
+#include "diagram/overview/overview_parts.h"
 
-#include "diagram/overview/svg.h"
+#include "diagram/overview/overview.h"
 
 #include <math.h>
 #include <string.h>

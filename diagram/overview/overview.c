@@ -1,10 +1,7 @@
-/* The sheet: heading, the scene, legend below. */
+/* The overview page: one SVG picture of all cords of a plan, to be followed with a finger from start to end. */
 #include "diagram/overview/overview.h"
 
-#include "diagram/overview/draw.h"
-#include "diagram/overview/legend.h"
-#include "diagram/overview/svg.h"
-#include "diagram/overview/tension.h"
+#include "diagram/overview/overview_parts.h"
 
 #include <math.h>
 #include <stdio.h>

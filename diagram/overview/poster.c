@@ -1,6 +1,5 @@
-#include "diagram/overview/poster.h"
-#include "diagram/export/pages.h"
-#include "diagram/overview/svg.h"
+/* The overview over several sheets of paper, to be glued together: a poster for the wall behind the table. */
+#include "diagram/overview/overview.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,7 @@
-#include "diagram/overview/pull_axis.h"
-#include "diagram/overview/svg.h"
+/* What the charts of pull and cord share: an axis of forces over their logarithm, what a hand manages, points with the band of
+ * mu, bars of cord. Private to diagram/. */
+#include "diagram/overview/charts.h"
+#include "diagram/overview/overview.h"
 
 #include <math.h>
 #include <stdio.h>

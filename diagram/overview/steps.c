@@ -1,10 +1,6 @@
-#include "diagram/overview/steps.h"
-#include "diagram/overview/tighten.h"
-
-#include "diagram/scene/copies.h"
-#include "diagram/scene/pieces.h"
-#include "diagram/scene/scene.h"
-#include "diagram/overview/svg.h"
+/* The steps of a plan in words, row by row to be ticked off: each unique path once, then how its copies repeat it. */
+#include "diagram/overview/overview.h"
+#include "diagram/overview/overview_parts.h"
 
 #include <stdio.h>
 #include <stdlib.h>

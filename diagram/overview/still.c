@@ -1,7 +1,6 @@
-/* Rigid beads as shaded prisms, painted back to front. */
-#include "diagram/overview/still.h"
+/* Still pictures: rigid beads before and after something gave way, or as they come up, side by side. */
+#include "diagram/overview/overview.h"
 
-#include "diagram/overview/svg.h"
 #include "graph/vector.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-#include "diagram/overview/svg.h"
+/* Small pieces of SVG: numbers, text, paths. Private to diagram/. */
+#include "diagram/overview/overview.h"
 #include "graph/number.h"
 
 #include <math.h>

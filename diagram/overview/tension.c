@@ -1,8 +1,7 @@
-/* The tension plot as SVG: one panel with all cords, or a panel for each. */
-#include "diagram/overview/tension.h"
+/* The tension plot: how the pull dies away along every cord. */
+#include "diagram/overview/overview.h"
 
-#include "diagram/scene/palette.h"
-#include "diagram/overview/svg.h"
+#include "diagram/scene/scene.h"
 #include "graph/plan/advice.h"
 #include "graph/plan/physics.h"
 

@@ -1,7 +1,7 @@
-/* Steps of tightening in words. */
-#include "diagram/overview/tighten.h"
-#include "diagram/overview/svg.h"
-#include "graph/plan/pulled.h"
+/* How cords are tightened, in words: the steps of a plan's schedule (graph/plan/schedule.h), for steps.txt and the booklet. */
+#include "diagram/overview/overview_parts.h"
+#include "diagram/overview/overview.h"
+#include "graph/plan/physics.h"
 
 static void put_ends(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step, thr_text *words)
 {

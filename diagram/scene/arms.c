@@ -1,7 +1,8 @@
-/* Two strokes for a piece, the outline below and the fill above. */
-#include "diagram/scene/arms.h"
+/* A solid piece drawn with a pen: strokes from its hub to the ends of its arms, for small pictures and for views in space, where
+ * an outline in one line would have arms in front of each other. Private to diagram/. */
+#include "diagram/scene/scene.h"
 
-#include "diagram/overview/svg.h"
+#include "diagram/overview/overview.h"
 #include "graph/angle.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Rectangles in a grid of linked lists. */
-#include "diagram/scene/boxes.h"
+/* What lies where on paper: rectangles in a grid, asked for overlaps when a number or a name looks for room. */
+#include "diagram/scene/scene.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
-#include "diagram/scene/copies.h"
-#include "graph/framework/frame.h"
+/* Which cords of a symmetric plan are copies of a unique path, and how they run through it. Private to diagram/ and to what makes
+ * words of it. */
+#include "diagram/scene/scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>

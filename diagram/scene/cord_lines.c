@@ -1,6 +1,6 @@
-#include "diagram/scene/cord_lines.h"
+/* Where a cord runs in space, as a line through the nodes or with a lane for each of its passes. */
+#include "diagram/scene/scene.h"
 
-#include "graph/framework/frame.h"
 #include "graph/sort.h"
 #include "graph/vector.h"
 

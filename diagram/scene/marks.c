@@ -2,7 +2,6 @@
  * A short stub of cord leads there, as it does at the real node. */
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

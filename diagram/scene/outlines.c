@@ -1,6 +1,7 @@
-#include "diagram/scene/outlines.h"
+/* What pieces look like on paper. Private to diagram/. */
+#include "diagram/scene/scene.h"
 
-#include "diagram/overview/svg.h"
+#include "diagram/overview/overview.h"
 #include "graph/angle.h"
 
 #include <math.h>

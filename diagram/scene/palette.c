@@ -1,4 +1,8 @@
-#include "diagram/scene/palette.h"
+/* Colours of cords: Okabe & Ito 2008 without yellow (too pale on paper) and black (text), told apart by colour-blind
+ * readers (least CIEDE2000 difference 22, without one kind of cone 10.9), but not in grey print; a dash pattern for every further
+ * six cords. Copies of a cord have its hue, paler than any strong colour and darker than a bead, so that lightness alone tells
+ * them apart. Colours of turns: a ramp whose lightness alone tells the order. */
+#include "diagram/scene/scene.h"
 #include "graph/angle.h"
 
 #include <math.h>

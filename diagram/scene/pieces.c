@@ -1,8 +1,11 @@
-#include "diagram/scene/pieces.h"
+/* The pieces of a plan: what a hand picks up. With solid joints a piece is a node, with an arm to the middle of each of its
+ * edges; with tube joints it is an edge. Every picture, table and sentence speaks of these and calls them alike. Private to
+ * diagram/. */
+#include "diagram/scene/scene.h"
 
 #include "diagram/tables/kinds.h"
 #include "graph/angle.h"
-#include "graph/plan/chains.h"
+#include "graph/plan/plan_measures.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,5 @@
-/* Clusters of x and of y; letters and numbers for them. */
-#include "diagram/scene/places.h"
-#include "graph/text.h"
+/* Letter and number places of grid-like pictures: column letters from left to right, row numbers from the bottom up. */
+#include "diagram/scene/scene.h"
 
 #include <ctype.h>
 #include <math.h>

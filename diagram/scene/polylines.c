@@ -1,8 +1,9 @@
-#include "diagram/scene/polylines.h"
-
+/* The cords as lines through the nodes, for CAD and for pictures made elsewhere. Objects are called "cord-A" by the cord's id as
+ * elements of the overview are; docs/outputs.md says more. The same plan gives the same bytes. THR_EINPUT for a plan without
+ * cords and for cords that do not fit the framework; out is then unchanged. O(nodes + passes). */
 #include "diagram/scene/scene.h"
+
 #include "graph/framework/units.h"
-#include "graph/io/dxf.h"
 #include "graph/io/read.h"
 #include "graph/io/writer.h"
 

@@ -1,7 +1,9 @@
-/* Paper, beads and passes: the parts of the scene that everything else is placed against. */
+/* The overview picture before it is written: everything in mm on paper, x to the right, y down, the nodes' bounding box at
+ * the origin. Private to diagram/. Built in steps, each in its own file: paper and beads (scene.c), the S and E marks
+ * (marks.c), seams between
+ * panels (seams.c), lanes (lanes.c), strands (strands.c), numbers, arrows and names (labels.c); if wanted, turns (turns.c). */
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
-#include "graph/text.h"
 
 #include <math.h>
 #include <stdio.h>

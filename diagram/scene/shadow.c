@@ -1,6 +1,8 @@
-#include "diagram/scene/shadow.h"
+/* The whole of a framework in so small a picture that its lines would run together: the area that they cover. Private to
+ * diagram/. */
+#include "diagram/scene/scene.h"
 
-#include "diagram/overview/svg.h"
+#include "diagram/overview/overview.h"
 
 #include <math.h>
 

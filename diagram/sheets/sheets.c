@@ -1,6 +1,9 @@
-#include "diagram/sheets/sheets_step.h"
+/* Step sheets: a plan as a booklet to thread from, with a pencil to tick off what is done. A title page with the picture of the
+ * whole; what to prepare; each path to learn in steps of about twenty passes with a picture of just these; its copies; and what
+ * to do at the end. */
+#include "diagram/sheets/sheets_parts.h"
 
-#include "diagram/overview/svg.h"
+#include "diagram/overview/overview.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,15 +1,15 @@
-/* Step sheets: a plan as a booklet to thread from, with a pencil to tick off what is done. A title page with the picture of the
- * whole; what to prepare; each path to learn in steps of about twenty passes with a picture of just these; its copies; and what
- * to do at the end. */
+/* The booklet for the hand. */
 #ifndef THR_SHEETS_H
 #define THR_SHEETS_H
 
-#include "diagram/layout/layout.h"
 #include "diagram/export/paper.h"
+#include "diagram/layout/layout.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/status.h"
 #include "graph/text.h"
+
+/* ---- sheets.c: Step sheets: a plan as a booklet to thread from, with a pencil to tick off what is done. */
 
 typedef struct {
   thr_page_size page;
@@ -51,5 +51,11 @@ thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, th
  * file's own size. *n_pages receives how many they are. Errors: as of thr_sheets_make. */
 thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits, int *n_pages,
                             thr_text *pdf, thr_err *err) THR_MUST_CHECK;
+
+/* ---- sheets_html.c: The booklet for browsers, which print it as they show it. */
+
+/* Appends all pages as one HTML file without scripts or links, of the same words and pictures as thr_sheets_pdf. Names within a
+ * page's SVG get its number before them. html is unchanged on failure: THR_ENOMEM. O(bytes). */
+thr_status thr_sheets_html(const thr_sheets *sheets, thr_text *html, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,5 +1,5 @@
 /* Where the steps of a path end. */
-#include "diagram/sheets/sheets_step.h"
+#include "diagram/sheets/sheets_parts.h"
 #include "graph/angle.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* The title page of step sheets: counts, what the plan is good for, where things are, the picture of the whole. */
+#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "diagram/overview/svg.h"
 #include "graph/plan/request.h"
 
 #include <stdio.h>

@@ -1,5 +1,6 @@
-/* The sheets as one HTML file: page after page the SVG that the PDF is drawn from, on paper of the same size. */
-#include "diagram/sheets/sheets_html.h"
+/* The booklet for browsers, which print it as they show it.
+ *
+ * The sheets as one HTML file: page after page the SVG that the PDF is drawn from, on paper of the same size. */
 #include "diagram/sheets/sheets_parts.h"
 
 #include <stdio.h>

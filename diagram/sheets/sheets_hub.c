@@ -1,7 +1,6 @@
 /* A hub of many arms, which run together in the picture and in an icon, alone and large in a corner of the picture. */
-#include "diagram/overview/svg.h"
-#include "diagram/scene/scene.h"
-#include "diagram/sheets/sheets_step.h"
+#include "diagram/overview/overview.h"
+#include "diagram/sheets/sheets_parts.h"
 #include "graph/angle.h"
 
 #include <math.h>

@@ -1,8 +1,7 @@
 /* The pieces on paper: a card for every kind, and a tag for every piece. */
-#include "diagram/overview/svg.h"
-#include "diagram/scene/scene.h"
+#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "graph/plan/channels.h"
+#include "graph/plan/plan_measures.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* What to do when all cords are through: which ends to pull, knots, what to look at. */
+#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "diagram/overview/svg.h"
 #include "graph/angle.h"
 #include "graph/plan/advice.h"
 #include "graph/plan/evaluation.h"

@@ -1,5 +1,5 @@
 /* How much cord needles draw through, and where a new length is joined on. */
-#include "diagram/overview/svg.h"
+#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 
 #include <stdio.h>

@@ -1,8 +1,6 @@
 /* How pieces are handled, in eight panels: what is needed, laying a piece, starting, slack, a row that went wrong, joining,
  * tightening, knots. Lengths, places and forces are those of the plan. */
-#include "diagram/overview/draw.h"
-#include "diagram/overview/svg.h"
-#include "diagram/scene/scene.h"
+#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/angle.h"
 #include "graph/plan/evaluation.h"

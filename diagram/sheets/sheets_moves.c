@@ -1,5 +1,4 @@
 /* The order of threading, and its rows in words. */
-#include "diagram/scene/palette.h"
 #include "diagram/sheets/sheets_parts.h"
 
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* Pages of step sheets: begun, filled from the top down, broken into lines. */
+#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "diagram/overview/svg.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* What to prepare: cords to cut, pieces to make, feet; and how the sheets are read. */
+#include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
-#include "diagram/overview/svg.h"
 
 #include <math.h>
 #include <stdio.h>

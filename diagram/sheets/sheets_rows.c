@@ -1,8 +1,6 @@
 /* What is written on the page of a step: heading, rows to tick off, where the needle comes out. */
-#include "diagram/overview/draw.h"
-#include "diagram/overview/svg.h"
-#include "diagram/scene/palette.h"
-#include "diagram/sheets/sheets_step.h"
+#include "diagram/overview/overview.h"
+#include "diagram/sheets/sheets_parts.h"
 
 #include <math.h>
 #include <stdio.h>

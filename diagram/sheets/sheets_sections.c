@@ -1,7 +1,6 @@
 /* Sections of large frameworks: before some hundred pieces a page with a map of where they go and how many of which kind they
  * are. */
-#include "diagram/overview/draw.h"
-#include "diagram/sheets/sheets_step.h"
+#include "diagram/sheets/sheets_parts.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,8 +1,6 @@
 /* The steps of a path: some twenty passes each, as a picture, the string of pieces and rows to tick off. A page takes as many
  * steps as fit whole, and what room is left goes to their pictures. */
-#include "diagram/overview/draw.h"
-#include "diagram/scene/scene.h"
-#include "diagram/sheets/sheets_step.h"
+#include "diagram/sheets/sheets_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,6 @@
 /* The string of pieces of a step: an icon each, in the order of threading. */
-#include "diagram/overview/svg.h"
-#include "diagram/scene/scene.h"
-#include "diagram/sheets/sheets_step.h"
+#include "diagram/overview/overview.h"
+#include "diagram/sheets/sheets_parts.h"
 #include "graph/angle.h"
 #include "graph/vector.h"
 

@@ -1,7 +1,6 @@
 /* What pictures in space are made from, and the choice of a view. */
 #include "diagram/space/space.h"
 
-#include "diagram/scene/scene.h"
 #include "graph/vector.h"
 
 #include <math.h>

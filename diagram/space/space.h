@@ -3,10 +3,8 @@
 #ifndef THR_SPACE_H
 #define THR_SPACE_H
 
-#include "diagram/overview/crop.h"
-#include "diagram/scene/arms.h"
-#include "diagram/scene/boxes.h"
-#include "diagram/scene/places.h"
+#include "diagram/overview/overview_parts.h"
+#include "diagram/scene/scene.h"
 #include "diagram/space/camera.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
@@ -32,7 +30,7 @@ thr_status thr_space_make(thr_space *space, const thr_plan *plan, const char (*l
                           thr_err *err) THR_MUST_CHECK;
 void thr_space_destroy(thr_space *space);
 
-/* A step's picture: a crop (see crop.h), the colour of its passes, and the half-edge into which the needle points behind the last
+/* A step's picture: a crop (see crop.c), the colour of its passes, and the half-edge into which the needle points behind the last
  * one, -1 = none. */
 typedef struct {
   thr_crop crop;

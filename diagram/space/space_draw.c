@@ -1,8 +1,6 @@
 /* A step's picture from its view: lines for what is far from it, pieces in grey around it, then the pieces that it comes to, then
  * the cord, which nothing hides. */
-#include "diagram/overview/draw.h"
-#include "diagram/overview/svg.h"
-#include "diagram/scene/scene.h"
+#include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
 #include "graph/vector.h"
 

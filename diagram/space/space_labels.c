@@ -1,6 +1,5 @@
 /* Numbers on their passes or beside them with a leader, arrows, names at the hubs. */
-#include "diagram/overview/svg.h"
-#include "diagram/scene/scene.h"
+#include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
 #include "graph/angle.h"
 

@@ -1,6 +1,5 @@
 /* The whole in small, seen as the step is. */
-#include "diagram/overview/svg.h"
-#include "diagram/scene/shadow.h"
+#include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
 
 #include <math.h>

@@ -1,7 +1,6 @@
 #include "diagram/tables/supplies.h"
 
 #include "diagram/scene/scene.h"
-#include "graph/framework/bore.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/units.h"
 #include "graph/plan/physics.h"

@@ -1,12 +1,11 @@
 #include "diagram/tables/tables.h"
 
-#include "diagram/overview/guide.h"
-#include "diagram/scene/copies.h"
-#include "diagram/scene/pieces.h"
+#include "diagram/overview/overview_parts.h"
+#include "diagram/scene/scene.h"
 #include "diagram/tables/supplies.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
-#include "graph/plan/channels.h"
+#include "graph/plan/plan_measures.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -21,12 +21,12 @@ thr_status thr_table_steps(const thr_plan *plan, double tolerance, int needles, 
 thr_status thr_table_cords(const thr_plan *plan, const char *const *motion, const thr_layout *layout, thr_text *out,
                            thr_err *err) THR_MUST_CHECK;
 
-/* A row per piece: the bead schedule. Kinds as in diagram/scene/pieces.h, bores as in graph/framework/bore.h for as many cords as
+/* A row per piece: the bead schedule. Kinds as in diagram/scene/pieces.c, bores as in graph/framework/bore.c for as many cords as
  * there are passes. As thr_kinds_find. */
 thr_status thr_table_beads(const thr_plan *plan, double tolerance, const thr_layout *layout, thr_text *out,
                            thr_err *err) THR_MUST_CHECK;
 
-/* A row per channel, piece by piece: which arm to which arm, for which pass (graph/plan/channels.h). */
+/* A row per channel, piece by piece: which arm to which arm, for which pass (graph/plan/channels.c). */
 thr_status thr_table_channels(const thr_plan *plan, double tolerance, const thr_layout *layout, thr_text *out,
                               thr_err *err) THR_MUST_CHECK;
 

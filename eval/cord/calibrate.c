@@ -12,10 +12,10 @@ static thr_status check(const thr_weighing *w, int i, thr_err *err)
                   w->hang, w->in, w->out);
 }
 
-thr_status thr_calibrate(const thr_weighing *weighing, int n, double angle, double error, thr_friction *out, thr_err *err)
+thr_status thr_calibrate(const thr_weighing *weighing, int n, double angle, double error, thr_fitted_friction *out, thr_err *err)
 {
   const double open = 2 * error / angle; /* both weights of a ratio off, to opposite sides */
-  *out = (thr_friction){0, INFINITY, 0};
+  *out = (thr_fitted_friction){0, INFINITY, 0};
   for (int i = 0; i < n; i++) {
     const thr_weighing *w = &weighing[i];
     thr_status st = check(w, i, err);
@@ -29,10 +29,10 @@ thr_status thr_calibrate(const thr_weighing *weighing, int n, double angle, doub
   return THR_OK;
 }
 
-thr_status thr_calibrate_tilt(const double *angle, int n, double error, thr_friction *out, thr_err *err)
+thr_status thr_calibrate_tilt(const double *angle, int n, double error, thr_fitted_friction *out, thr_err *err)
 {
   const double steepest = 80 * THR_PI / 180;
-  *out = (thr_friction){0, INFINITY, 0};
+  *out = (thr_fitted_friction){0, INFINITY, 0};
   for (int i = 0; i < n; i++) {
     if (!(angle[i] > 0 && angle[i] <= steepest))
       return thr_fail(err, THR_EINPUT, "slide %d: %g degrees; a board on which a piece slides is tilted by 0 to 80 degrees",

@@ -16,18 +16,18 @@ typedef struct {
 
 typedef struct {
   double mu, low, high; /* the mean of all; the least and the largest of single ones, and what the weights leave open */
-} thr_friction;
+} thr_fitted_friction;
 
 /* Computes the friction of pieces on each other, or on the ground, from the angles at which one slides on a board of the same
  * that is tilted: mu = tan(angle). angle[n]: rad, of one slide each; error: rad, of every angle. THR_EINPUT: an angle is not
  * between 0 and 80 degrees. O(n).
  *
  * Example: pieces slide at 17, 18 and 16 degrees: mu = 0.306, between 0.268 and 0.344 with angles right within a degree. */
-thr_status thr_calibrate_tilt(const double *angle, int n, double error, thr_friction *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_calibrate_tilt(const double *angle, int n, double error, thr_fitted_friction *out, thr_err *err) THR_MUST_CHECK;
 
 /* angle: rad, > 0; error: relative, of every weight, which moves mu by up to 2 error / angle. THR_EINPUT: a weighing is no such
  * thing (0 < out <= hang <= in). O(n). */
-thr_status thr_calibrate(const thr_weighing *weighing, int n, double angle, double error, thr_friction *out,
+thr_status thr_calibrate(const thr_weighing *weighing, int n, double angle, double error, thr_fitted_friction *out,
                          thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,8 +1,6 @@
 /* Pull force in closed form: what each turn of the cord through the bead centres costs. */
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
-#include "eval/methods.h"
-#include "graph/limits.h"
 #include "graph/scratch.h"
 
 #include <math.h>

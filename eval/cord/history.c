@@ -1,11 +1,23 @@
-/* Tensions after a schedule, and the schedule of fewest grips. */
-#include "eval/cord/history.h"
+/* Computes what pulling, gripping, letting down and knotting leave of tension in a cord, in closed form.
+ *
+ * Friction holds neighbouring passes apart by at most the factor of the turn between them: any tensions with
+ * T(k) exp(-e(k)) <= T(k + 1) <= T(k) exp(e(k)) are a state of the cord at rest. A pull P at pass j raises every pass that slides
+ * to P exp(-(exponents between)), and leaves the tighter ones; letting down to f at j lowers every pass to f exp(+(exponents
+ * between)) at most, and leaves the slacker ones (the same rules as for tendons that are stressed and released: Eurocode
+ * 2, 5.10). A knot lets its end down until the cord is shorter by the slip: the sum of (force lost) x length / EA.
+ *
+ * A grip that draws from one side holds the turn on its other side until the next grip or pull has taken its slack. Then the cord
+ * slips over that turn, and over those beside it, until each holds again. With the stiffness known the state is the one that
+ * keeps the sum of the elongations; without it that state lies between the largest state below and the least one above.
+ *
+ * An end that nobody has pulled, let down or knotted is free: it keeps no tension, and a grip draws none from its side. Who pulls
+ * one end holds the other one.
+ *
+ * Example: exponents ln 2, ln 2 between three passes; pulled at the end with 8 N: 2, 4, 8. Let down to 1 N: 2, 2, 1. */
+#include "eval/cord/profile.h"
 #include "graph/framework/units.h"
-#include "graph/plan/friction.h"
-#include "graph/plan/physics.h"
 #include "graph/plan/schedule.h"
 #include "graph/scratch.h"
-#include "graph/plan/pulled.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,14 @@
-/* Tension along a cord from what each turn costs. */
+/* Tension along a cord whose turns multiply it: every method that knows what each turn costs ends here.
+ *
+ * T(k + 1) = T(k) / c(k), c(k) >= 1 the factor of turn k. Pulled at both ends the cord is slackest on both sides of the turn that
+ * neither end slides over (graph/plan/least_pull.c). The pull is the seating tension times the product of the factors on the way
+ * there.
+ *
+ * Example: three turns of factors 2, 2 and 3, pulled at one end, 5 N at the far one: 5 * 12 = 60 N; at both ends, the last turn
+ * is slid over by nobody: 20 and 5 N, or the middle one: 10 and 15 N, which is the least. */
 #include "eval/cord/profile.h"
 #include "graph/angle.h"
 #include "graph/framework/units.h"
-#include "graph/plan/least_pull.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,20 @@
-/* Shortest path through a row of ellipses: minimize the sum of |p[i + 1] - p[i]| over p[i] = node[i] + z[0] axis[0] + z[1]
+/* The path of a tight cord through channels that are wider than it is: the shortest path through the convex openings between
+ * consecutive channels (ellipses in the mitre planes). A cord thinner than the bore cuts corners.
+ *
+ * Minimize the sum of |p(i + 1) - p(i)| with p(i) in opening i: a convex problem, solved by Newton's method with a barrier (S.
+ * Boyd & L. Vandenberghe, Convex Optimization, 2004, chapter 11).
+ *
+ * Example: in a straight run the path is straight, whatever the bores; round one turn it leans on the inner edge, and turns by
+ * as much in all.
+ *
+ * Shortest path through a row of ellipses: minimize the sum of |p[i + 1] - p[i]| over p[i] = node[i] + z[0] axis[0] + z[1]
  * axis[1], |z| <= 1. Lengths in here are in clearances, so that every opening is about 1 wide and gradients are turns in rad.
  *
  * Gauss-Seidel over the openings settles a straight run of n of them in n^2 sweeps; Newton steps with a barrier take the same few
  * dozen for 20 nodes and for 7,000. */
-#include "eval/cord/taut.h"
-#include "graph/framework/units.h"
+#include "eval/cord/profile.h"
 #include "graph/angle.h"
+#include "graph/framework/units.h"
 #include "graph/scratch.h"
 #include "graph/vector.h"
 

@@ -1,5 +1,8 @@
-/* One file per measured joint, named by a hash of its key; the key itself stands in it, so a collision is only a miss. */
-#include "eval/joint/cache.h"
+/* Joints that were measured before, one small text file each in a folder. A file that is corrupt, truncated, of another key or
+ * unreadable counts as absent: it is measured again. Private to eval/.
+ *
+ * One file per measured joint, named by a hash of its key; the key itself stands in it, so a collision is only a miss. */
+#include "eval/joint/joint.h"
 #include "eval/joint/world.h"
 #include "graph/os.h"
 

@@ -1,4 +1,11 @@
-/* Geometry of rigid beads: faces, masses, feet, and what cords do to them. */
+/* The framework as rigid beads: one bead per node, an arm of square section towards the middle of every edge, ended by a face in
+ * the plane through the edge's middle and square to it. Adjacent beads meet face to face; feet stand on the ground.
+ *
+ * A force F at the point p acts on a bead with centre c as the wrench (F, (p - c) x F), six numbers. A pass through a face draws
+ * the two beads together by its tension.
+ *
+ * Example: a pass of 10 N straight through a bead with two arms in line adds no wrench: what draws at one face draws as much at
+ * the other. */
 #include "eval/structure/beads.h"
 #include "graph/angle.h"
 #include "graph/framework/units.h"

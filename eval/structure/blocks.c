@@ -1,4 +1,9 @@
-/* Contacts, wrenches and the columns of the programme, which an interior point method solves: the equilibrium of a bead involves
+/* The framework as rigid blocks, and the linear programme of their equilibrium (eval/structure/holding.c says what for). Private
+ * to the limit analysis.
+ *
+ * Example: two beads merged into one body give six equations, not twelve.
+ *
+ * Contacts, wrenches and the columns of the programme, which an interior point method solves: the equilibrium of a bead involves
  * its neighbours only, so that the factors stay sparse. The one long column, the pull, is split into a copy for every two
  * beads, tied along a spanning forest. */
 #include "eval/structure/blocks.h"

@@ -1,16 +1,17 @@
-/* The framework as rigid blocks, and the linear programme of their equilibrium (eval/structure/holding.h says what for). Private
- * to the limit analysis.
- *
- * Example: two beads merged into one body give six equations, not twelve. */
+/* What the files of eval/structure/ share: blocks, mechanisms, welds, the simulation. */
 #ifndef THR_BLOCKS_H
 #define THR_BLOCKS_H
 
+#include "eval/joint/world.h"
 #include "eval/structure/beads.h"
-#include "graph/limits.h"
+#include "graph/plan/plan_measures.h"
 #include "lp/solver/lp.h"
 #include "lp/solver/solver.h"
 
 #include <stdbool.h>
+
+/* ---- blocks.c: The framework as rigid blocks, and the linear programme of their equilibrium (eval/structure/holding.c says
+ * what for). */
 
 /* Beads from which on the solver's bounds need not be nearer to each other than THR_BLOCKS_ROUGH, relative; twice that where the
  * multipliers do not count. */
@@ -46,7 +47,7 @@ typedef struct {
   bool carries;                /* the unknown is not the pull but what the load is multiplied by */
   double most;                 /* press above it is taken for it .. */
   bool merged;                 /* .. and the beads on either side for one body */
-  const int *weld;             /* [n_beads] beads with equal numbers are one body (welds.h); NULL = none are */
+  const int *weld;             /* [n_beads] beads with equal numbers are one body (welds.c); NULL = none are */
   double weight, length, pull; /* N, m, N */
   double widen;                /* factor on friction */
   int n_bodies, n_contacts, n_rows, n_copies, n_ties, n_plays;
@@ -103,5 +104,111 @@ thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *l
 thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits, thr_blocks_solution *out,
                                   thr_err *err) THR_MUST_CHECK;
 void thr_blocks_solution_destroy(thr_blocks_solution *o);
+
+/* ---- mechanism.c: Collapse mechanisms of rigid blocks: velocities of all beads, with which no contact closes, and the powers
+ * of what acts on them. */
+
+/* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull, W/N, by their true tensions; the
+ * load. all, all_loads: of all weights, and loads, if each went its own way with the speed 1. */
+typedef struct {
+  double falling, most, resistance, load, all, all_loads;
+} thr_powers;
+
+/* What drives a mechanism has to be more than this part of all that could: twice what the checker asks for, which counts the
+ * fastest point and not the fastest bead (graph/check/check_standing.c). */
+static const double THR_MECHANISM_DRIVE = 2e-7;
+
+/* Dual values of thr_blocks_solve as velocities [n_beads], scaled to a largest translation of 1. Contacts that would close are
+ * opened by a little flight. */
+thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, const thr_limits *limits, double (*velocity)[6],
+                              thr_err *err) THR_MUST_CHECK;
+
+/* Least power of any contact force: a mechanism has none below 0. */
+double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6]);
+
+/* How fast the beads of a face part where the cord is that resists most: anywhere within its bore. */
+double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], int face);
+
+/* Computes how fast the faces of s->b->rise part, as above, into apart[n_rises]. Returns the most for each metre of the cord
+ * there, or 0: the most that a newton metre of stretch resists, 1/m. */
+double thr_mechanism_stretching(const thr_blocks *s, const double (*velocity)[6], double *apart);
+
+/* Computes what knotted cords can resist beyond their least tensions (graph/plan/knotted.c), W, within their strength and while
+ * they have stretched by no more than `stretch`, N m (INFINITY: any), of which each newton metre takes off `resists`.
+ * apart[n_rises] as above; pass[n_rises] and point[n_rises + 2] are scratch. */
+double thr_mechanism_tightening(const thr_beads *beads, const double *apart, double resists, double stretch,
+                                thr_knotted_pass *pass, double (*point)[2]);
+
+thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6]);
+
+/* The lowest bead among the fastest; -1 if none moves. */
+int thr_mechanism_fastest(const thr_beads *beads, const double (*velocity)[6]);
+
+/* ---- welds.c: Welds: what held feet wedge. */
+
+/* weld[n_beads]: the lowest bead of the body that each bead is of, with s->weld = weld; s is as for thr_blocks_make. */
+thr_status thr_welds_find(const thr_blocks *s, double widen, const thr_limits *limits, int *weld, thr_err *err) THR_MUST_CHECK;
+
+/* ---- simulated.c: The closed structure as a world of Bullet: rigid beads that touch at the corners of their faces, feet on
+ * patches of ground, cords as forces between beads. */
+
+enum { THR_LOOKS = 10 }; /* that are remembered */
+
+typedef struct {
+  double at[3], turn[3][3];
+} thr_placed; /* a bead's mass centre and rotation matrix */
+
+typedef struct {
+  const thr_beads *b;
+  const thr_frame *f;
+  const thr_physics *physics;
+  const thr_limits *limits;
+  thr_world *world;
+  const thr_cord *cord;
+  int n_cords;
+  const double *const *tension, *const *most; /* N, of a pull of 1 N */
+  double unit, mass, weight;                  /* m per unit of length; kg and N of a mean bead */
+  double dt;
+  long steps, all;   /* taken; in all, at most */
+  double pull;       /* N, on the cords' ends */
+  double lift;       /* part of the weights that is carried from above */
+  bool leans;        /* cords lead from hole to hole, not along axes */
+  double *press;     /* [n_faces] sum of its passes' tensions */
+  int *body;         /* [n_beads] in the world */
+  thr_placed *now;   /* [n_beads] */
+  double (*home)[3]; /* [n_beads] node when settled */
+  double (*seen)[3]; /* [THR_LOOKS * n_beads] nodes at the last looks */
+  thr_scratch own;   /* the arrays */
+} thr_simulated;
+
+typedef struct {
+  double time_step, iterations; /* factors on the protocol's, 1 */
+  uint64_t seed;                /* of small initial displacements */
+} thr_simulated_options;
+
+/* m has b, f, physics, limits, cord, n_cords, tension and most; the rest is 0. End it whatever comes back. */
+thr_status thr_simulated_begin(thr_simulated *m, thr_err *err) THR_MUST_CHECK;
+void thr_simulated_end(thr_simulated *m);
+
+/* A fresh world as drawn, which is home; the old one goes. */
+thr_status thr_simulated_build(thr_simulated *m, const thr_simulated_options *options, thr_err *err) THR_MUST_CHECK;
+/* At m->pull and m->lift. THR_ELIMIT when stopped. */
+thr_status thr_simulated_step(thr_simulated *m, thr_err *err) THR_MUST_CHECK;
+/* Part of the velocity that is lost in a unit of time. */
+void thr_simulated_damp(const thr_simulated *m, double damping);
+long thr_simulated_steps(const thr_simulated *m, double time);
+
+/* Home is where the beads are now. */
+void thr_simulated_set_home(thr_simulated *m);
+/* How far the bead that moved most is from home, in edges. */
+double thr_simulated_most_moved(const thr_simulated *m, int *bead);
+/* How far the bead that moved most has moved within the last THR_LOOKS looks, of which this is the next; 0 before so many. */
+double thr_simulated_moved_lately(thr_simulated *m, long look, int *bead);
+/* Widest opening of any face, at its corners, in edges. */
+double thr_simulated_widest_gap(const thr_simulated *m);
+/* Faces that open nowhere by so many edges. */
+int thr_simulated_closed(const thr_simulated *m, double gap);
+/* pose[n_beads]: node in m, rotation from the drawn position as a quaternion (x y z w). */
+void thr_simulated_take_poses(const thr_simulated *m, double (*pose)[7]);
 
 #endif

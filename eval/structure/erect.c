@@ -1,8 +1,13 @@
-/* Slack, drawn in under a counterweight, let alone. */
-#include "eval/structure/erect.h"
-#include "eval/structure/settle.h"
-#include "eval/structure/simulated.h"
-#include "graph/plan/standing.h"
+/* How the structure comes up: the same beads and cords as in settle.c, sunk down under slack cords, then drawn in.
+ *
+ * A heap under tight cords does not rise by itself: faces that lean on each other's edges lock. A counterweight over every bead
+ * (the thesis's Fig. 25) that carries a part of its weight lets the cords close the gaps. The least of five parts that does is
+ * found by trying. Cords lead from hole to hole and have the tensions of being drawn in; beads without feet come to lie on the
+ * ground, too.
+ *
+ * This is a picture of one way up, not a proof: friction, damping and the way down are the simulation's. */
+#include "eval/structure/blocks.h"
+#include "graph/plan/evaluation.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,15 @@
-/* The least pull by the programme of eval/structure/blocks.h. What the solver says is not believed: its dual values are made an
- * exactly feasible mechanism (mechanism.h), whose power balance is the bound.
+/* Holding pull: least pull at which the closed structure of rigid beads has any equilibrium while the cords are being drawn in:
+ * their tension falls from the pulled ends inwards. A cord that was pulled and let go keeps tension inside, since friction acts
+ * against either direction, and may hold at a hundredth of it. Rigid-block limit analysis (R. K. Livesley, "Limit analysis of
+ * structures formed from rigid blocks", 1978) as a linear programme.
+ *
+ * Minimize the pull P with: contact forces of every bead + P x wrenches of its cords + weight = 0, contact forces within their
+ * (linearized) friction cones. Its dual is a mechanism, and the power of that is the proved bound.
+ *
+ * Example: a bead of 1 N held by friction 0.5 between two faces needs a pressure of 1 N on each: 2 x 0.5 x 1 = 1.
+ *
+ * The least pull by the programme of eval/structure/blocks.h. What the solver says is not believed: its dual values are made an
+ * exactly feasible mechanism (mechanism.c), whose power balance is the bound.
  *
  * Beyond 1,000 beads contact forces are within the cones themselves: one programme then tells both bounds, sooner than two with
  * pyramids, which are the rest's, and what is left where that one fails.
@@ -7,10 +17,8 @@
  * Tensions may span more powers of ten than a double has digits. Two things are true whatever they span, and keep the numbers
  * tame: equilibrium with some tensions taken smaller is equilibrium (the cords press a face together with what they draw its
  * beads together; more of both changes nothing else), and a mechanism in which some beads move as one is a mechanism. */
-#include "eval/structure/holding.h"
 
-#include "eval/structure/mechanism.h"
-#include "eval/structure/welds.h"
+#include "eval/structure/blocks.h"
 
 #include "graph/disjoint.h"
 #include "graph/vector.h"
@@ -168,7 +176,7 @@ typedef struct {
   double span;           /* .. its tensions, too */
   bool wants_way;        /* keep the mechanism by which no pull holds it, as `way`, which whoever wants it owns */
   double (*way)[6];
-  int *weld[2]; /* [n_beads] what held feet wedge, with cones' pyramids inside them, and round them (welds.h); owned */
+  int *weld[2]; /* [n_beads] what held feet wedge, with cones' pyramids inside them, and round them (welds.c); owned */
 } task;
 
 static void task_destroy(task *t)

@@ -1,5 +1,9 @@
-/* Velocities from the solver's multipliers, made exactly feasible. */
-#include "eval/structure/mechanism.h"
+/* Collapse mechanisms of rigid blocks: velocities of all beads, with which no contact closes, and the powers of what acts on
+ * them. Their balance is the proof of the limit analysis, in sums that know no solver. Private to it.
+ *
+ * A velocity has six numbers: translation of the bead's mass centre, rotation (1/m). Example: a bead that slides down a face of
+ * friction mu opens it by mu times its speed: the ray of the pyramid that resists has power 0. */
+#include "eval/structure/blocks.h"
 
 #include "graph/vector.h"
 

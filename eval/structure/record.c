@@ -1,10 +1,7 @@
 /* What the limit analysis found, as the plan keeps it: answers that are proved come with their mechanisms. */
 #include "eval/eval.h"
-#include "eval/methods.h"
-#include "eval/structure/erect.h"
-#include "eval/structure/holding.h"
+#include "eval/structure/beads.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/standing.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,12 @@
-/* Rigidity matrices, whole, with feet held, and within planes. */
-#include "eval/structure/rigidity.h"
-#include "eval/structure/rank.h"
+/* Can the framework move without stretching an edge, if its nodes were free hinges (thesis, chapter 3)? What it can, joints that
+ * lock must hold.
+ *
+ * Row of edge uv: (x(u) - x(v)) . (s(u) - s(v)) = 0 for velocities s. Motions = 3 n - rank, of which 6 of each component are
+ * those of a rigid body; states of self-stress = edges - rank (Maxwell 1864, Calladine 1978).
+ *
+ * Example: a square of four bars in space has rank 4 of 12: 8 motions, 2 beyond those of a rigid body, one of them within its
+ * plane. */
+#include "eval/structure/beads.h"
 #include "graph/vector.h"
 
 #include <math.h>

@@ -1,6 +1,12 @@
-/* The closed structure in Bullet: settles above the pull that holds it, then the pull is let off until a bead moves. */
-#include "eval/structure/settle.h"
-#include "eval/structure/simulated.h"
+/* The closed structure in Bullet, as a witness for the limit analysis: rigid beads that touch at the corners of their faces,
+ * cords as forces between them. It settles above the pull at which an equilibrium exists, then the pull is let off until a bead
+ * moves faster and faster. Newtons, between the pulls at which the fall began and was seen, also where they contradict it.
+ * Friction is the limit analysis's own (faces open by mu times their slide, bullet.cpp), so that both speak of one state;
+ * Coulomb's law, under which sliding faces do not open, lets a structure fall at a somewhat larger pull (docs/method.md). Beads
+ * touch only at the faces that meet in the middle of an edge, feet only their own ground: a falling bead passes the others.
+ *
+ * The closed structure in Bullet: settles above the pull that holds it, then the pull is let off until a bead moves. */
+#include "eval/structure/blocks.h"
 
 #include <math.h>
 #include <stdlib.h>

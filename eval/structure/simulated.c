@@ -1,5 +1,9 @@
-/* Beads as boxes in Bullet, cords as forces; what moved, what gapes. */
-#include "eval/structure/simulated.h"
+/* The closed structure as a world of Bullet: rigid beads that touch at the corners of their faces, feet on patches of ground,
+ * cords as forces between beads. Private to the simulations (settle.c, erect.c).
+ *
+ * Inside, the mean edge is 1 long, the mean bead weighs 1 and gravity is 1: so a structure and its scale model give the same
+ * numbers, and a time of 1 is what a bead takes to fall half an edge. */
+#include "eval/structure/blocks.h"
 #include "graph/random.h"
 #include "graph/vector.h"
 

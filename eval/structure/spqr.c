@@ -1,8 +1,6 @@
 /* The one file that knows SuiteSparse, which is loaded, and works, in a child process. */
-#include "eval/structure/rank.h"
-#include "graph/limits.h"
-#include "graph/process/child.h"
-#include "graph/process/lazy.h"
+#include "eval/structure/beads.h"
+#include "graph/process/process.h"
 #include "graph/text.h"
 
 #include <SuiteSparseQR_C.h>

@@ -1,15 +1,10 @@
 /* Method structure: every cord's tension profile by the capstan law, the pull by limit analysis, its failure shown by Bullet. */
 #include "eval/cord/profile.h"
-#include "eval/cord/taut.h"
 #include "eval/eval.h"
-#include "eval/methods.h"
-#include "eval/structure/erect.h"
-#include "eval/structure/holding.h"
-#include "eval/structure/settle.h"
+#include "eval/structure/beads.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/friction.h"
 #include "graph/plan/schedule.h"
-#include "graph/process/child.h"
+#include "graph/process/process.h"
 #include "graph/process/threads.h"
 #include "graph/text.h"
 

@@ -1,5 +1,13 @@
-/* Finds self-stresses one after the other, welds what they press, and looks again, until nothing more is found. */
-#include "eval/structure/welds.h"
+/* Welds: what held feet wedge. Private to the limit analysis.
+ *
+ * Between two beads that are held in place, contact forces may balance each other without any weight or cord, and be as large as
+ * one likes (a self-stress). Faces that such forces press everywhere do not move, in any mechanism, and carry whatever comes:
+ * their beads are one body. Taken for that, nothing is lost, and the numbers of what is left have bounds again.
+ *
+ * Example: seven pieces in a row, both ends held: one body with the ground.
+ *
+ * Finds self-stresses one after the other, welds what they press, and looks again, until nothing more is found. */
+#include "eval/structure/blocks.h"
 
 #include "graph/disjoint.h"
 

@@ -1,9 +1,6 @@
 /* The checker. Nothing here trusts what a plan says about itself. With the code that makes plans it shares the framework, the
  * readers, and the one line that defines the weights (thr_certificate_weight). */
 #include "graph/check/check_parts.h"
-#include "graph/plan/channels.h"
-#include "graph/plan/distinct_needs.h"
-#include "graph/plan/junction.h"
 #include "graph/vector.h"
 
 #include <math.h>

@@ -38,7 +38,7 @@ thr_status thr_check_component_least(const thr_frame *frame, const thr_request *
                                      const thr_certificate *certificate, int n_certificates, int component, double *least,
                                      thr_err *err) THR_MUST_CHECK;
 
-/* The same with tube joints, by their proof of length (graph/plan/junction.h). */
+/* The same with tube joints, by their proof of length (graph/plan/plan_measures.h). */
 thr_status thr_check_tied_cords(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
                                 const thr_turning_proof *tied, thr_cords_claim *found, thr_err *err) THR_MUST_CHECK;
 

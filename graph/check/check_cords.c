@@ -1,7 +1,6 @@
 /* Claims about several cords: how short the longest can be, and how few they can be. */
 #include "graph/check/check_parts.h"
 #include "graph/check/edge_sets.h"
-#include "graph/plan/junction.h"
 #include "graph/plan/walk_proof.h"
 
 #include <math.h>

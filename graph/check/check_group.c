@@ -1,6 +1,5 @@
 /* The checker's part for the group of a symmetric plan: that it is one of automorphisms, with the order and the name stated. */
 #include "graph/check/check_parts.h"
-#include "graph/framework/procrustes.h"
 
 #include <stdlib.h>
 #include <string.h>

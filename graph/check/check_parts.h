@@ -5,8 +5,7 @@
 #include "graph/check/check.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/prices.h"
-#include "graph/plan/pulled.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/scratch.h"
 
 #include <stdbool.h>

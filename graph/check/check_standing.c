@@ -4,9 +4,7 @@
 #include "graph/angle.h"
 #include "graph/check/check_parts.h"
 #include "graph/framework/units.h"
-#include "graph/plan/knotted.h"
 #include "graph/plan/schedule.h"
-#include "graph/plan/standing.h"
 #include "graph/vector.h"
 
 #include <math.h>
@@ -395,7 +393,7 @@ static bool knots_rest(const bodies *b, const thr_answer *a, double closing)
   return rest;
 }
 
-/* Returns what knotted cords can resist beyond the tensions that the schedule leaves (graph/plan/knotted.h), W: with no more than
+/* Returns what knotted cords can resist beyond the tensions that the schedule leaves (graph/plan/knotted.c), W: with no more than
  * `strength`, N, and while they have stretched by no more than `stretch`, N m, of which each newton metre takes off `resists`. */
 static double tightening(bodies *b, const thr_answer *a, double strength, double stretch, double resists)
 {

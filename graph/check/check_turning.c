@@ -3,7 +3,6 @@
 #include "graph/angle.h"
 #include "graph/check/check_parts.h"
 #include "graph/check/edge_sets.h"
-#include "graph/plan/least_pull.h"
 #include "graph/plan/walk_proof.h"
 
 #include <math.h>

@@ -1,6 +1,5 @@
 /* Cords as a plan states them, against its framework and what was asked for. */
 #include "graph/check/check_parts.h"
-#include "graph/plan/junction.h"
 
 #include <stdlib.h>
 

@@ -1,8 +1,8 @@
 /* Which nodes the cords tie. */
-#include "graph/framework/frame.h"
-#include "graph/plan/junction.h"
 #include "graph/disjoint.h"
+#include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"

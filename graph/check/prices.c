@@ -1,6 +1,6 @@
 /* Edges at their price. */
 #include "graph/framework/frame.h"
-#include "graph/plan/prices.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/request.h"
 
 #include <limits.h>

@@ -1,6 +1,5 @@
 /* The bound that one leaf's multipliers prove, and its parts. Private to the checker of turning proofs. */
 #include "graph/check/check_parts.h"
-#include "graph/plan/turning_ranks.h"
 
 #include <stdlib.h>
 #include <string.h>

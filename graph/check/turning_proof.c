@@ -1,7 +1,6 @@
 /* Proofs of turning: a tree of boxes, each leaf with its multipliers. */
 #include "graph/check/check_parts.h"
 #include "graph/plan/turning_proof.h"
-#include "graph/plan/turning_symmetry.h"
 
 #include <limits.h>
 #include <math.h>

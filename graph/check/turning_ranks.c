@@ -1,5 +1,5 @@
 /* Forests over the half-edges of a node. */
-#include "graph/plan/turning_ranks.h"
+#include "graph/plan/turning_proof.h"
 
 #include <stdbool.h>
 #include <string.h>

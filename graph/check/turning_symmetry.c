@@ -1,5 +1,4 @@
 /* Half-edges mapped onto half-edges, and the columns that follow. */
-#include "graph/plan/turning_symmetry.h"
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"

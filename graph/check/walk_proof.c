@@ -1,9 +1,9 @@
 /* Worth of walks, in integers. */
-#include "graph/plan/walk_proof.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/plan/walk_proof.h"
 #include "graph/scratch.h"
 #include "graph/status.h"
 #include "graph/wide.h"

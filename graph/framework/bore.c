@@ -1,5 +1,5 @@
-/* Round bores: the play that cords need in them. */
-#include "graph/framework/bore.h"
+/* Round bores: how many cords are drawn with ease through one, and how wide one has to be for so many. */
+#include "graph/framework/frame.h"
 
 #include <math.h>
 

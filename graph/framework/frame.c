@@ -1,4 +1,4 @@
-/* The framework: drafts as readers collect them, welding, adjacency, hash. */
+/* The framework: a simple graph whose nodes have coordinates. Nodes are beads, edges are interfaces (docs/formats.md). */
 #include "graph/framework/frame.h"
 #include "graph/disjoint.h"
 #include "graph/framework/units.h"

@@ -1,9 +1,11 @@
-/* The framework: a simple graph whose nodes have coordinates. Nodes are beads, edges are interfaces (docs/formats.md). */
+/* A framework: nodes with coordinates, edges, and what is said of them. */
 #ifndef THR_FRAME_H
 #define THR_FRAME_H
 
 #include "graph/status.h"
 #include "graph/text.h"
+
+/* ---- frame.c: The framework: a simple graph whose nodes have coordinates. */
 
 /* Half-edge h = 2*e + s is edge e seen from its end s: it leaves node edge[e][s] and arrives at edge[e][1-s].
  * h ^ 1 is the same edge the other way. All arrays are owned; {0} is valid and empty. */
@@ -177,5 +179,86 @@ thr_status thr_frame_components(const thr_frame *frame, int *component, int *cou
 
 /* Marks bridges (edges whose removal disconnects their component) in is_bridge[n_edges]. Iterative DFS, O(n + m). */
 thr_status thr_frame_bridges(const thr_frame *frame, bool *is_bridge, thr_err *err) THR_MUST_CHECK;
+
+/* ---- bore.c: Round bores: how many cords are drawn with ease through one, and how wide one has to be for so many. */
+
+/* Bore where none is given, in cord diameters: wide enough for one cord. */
+static const double THR_BORE_CORDS = 2;
+
+/* Bore through which n >= 1 cords are drawn with ease, in cord diameters: sqrt(n / fill), where the cords' sections fill no more
+ * of the bore's than is allowed in a conduit through which cables are pulled: 0.53 for one, 0.31 for two, 0.40 for more (NFPA 70,
+ * National Electrical Code, chapter 9, table 1). So 1.37, 2.54, 2.74, 3.16: always wider than the narrowest that holds them. */
+double thr_bore_clear(int n);
+
+enum { THR_BORE_MOST = 1000 }; /* cords that are counted */
+
+/* Cords of diameter cord that are drawn with ease through a bore (the same unit); 0 if none is. O(n).
+ * Example: through a bore of three cord diameters three cords, side by side it would hold seven. */
+int thr_bore_fits(double bore, double cord);
+
+/* ---- near.c: What a drawing nearly says: nodes that are almost one, nodes that lie on an edge which passes them, edges that
+ * cross without a node. */
+
+typedef struct {
+  int n_close; /* pairs of nodes without an edge between them, at most a tenth of the shortest edge at either apart */
+  int closest[2];
+  double gap;                     /* of the closest pair */
+  double weld;                    /* a tolerance that joins all of these pairs, and what it would do: */
+  int n_welded, n_merged, n_lost; /* nodes merged, edges merged, edges of no length dropped */
+  int components, components_welded;
+  int n_on_edge, on_edge[2]; /* nodes at most a thousandth of its length from an edge that does not end there; one and its edge */
+  int n_crossings, crossing[2]; /* pairs of edges as close to each other between their ends; one of them */
+  bool tangled;                 /* so many edges pass close to each other that not all pairs were looked at */
+} thr_near;
+
+/* Edges that are longer than their nodes are apart are taken for curves, of which only the ends count. O(n + m) where edges of
+ * about one length fill space evenly; at most about 1e8 comparisons. */
+thr_status thr_frame_near(const thr_frame *frame, thr_near *near, thr_err *err) THR_MUST_CHECK;
+
+/* Cuts each edge at the nodes that lie on it: its parts share its length, and each needs and takes as many passes. *n_cut
+ * receives how many edges were cut; parts that are edges already are dropped and counted in the report. */
+thr_status thr_frame_split(thr_frame *frame, int *n_cut, thr_read_report *report, thr_err *err) THR_MUST_CHECK;
+
+/* ---- Gomory-Hu cut tree (Gomory & Hu 1961), by igraph. */
+
+/* Graph with n nodes and m undirected edges of capacity >= 0; it should be connected. tree[0 .. n-2] receives the tree's
+ * edges and flow[0 .. n-2] the minimum cut that each stands for: removing the tree edge leaves the cut's two sides.
+ * n - 1 maximum flows. THR_ESOLVER if igraph fails. */
+thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capacity, int (*tree)[2], double *flow,
+                        thr_err *err) THR_MUST_CHECK;
+
+const char *thr_igraph_version(void);
+
+/* ---- procrustes.c: The orthogonal matrix that moves the nodes of a framework nearest to where a permutation sends them
+ * (Schoenemann 1966). */
+
+typedef struct {
+  double q[3][3];
+  bool proper;     /* determinant +1: a rotation */
+  bool flat;       /* the nodes span no more than a plane: a rotation would do as well as one that mirrors */
+  double residual; /* root mean square distance of moved nodes from their images, in parts of size */
+  double farthest; /* the largest such distance, in parts of size */
+} thr_motion;
+
+/* Residual up to which a permutation is called by the name of an isometry. */
+#define THR_ISOMETRY_NEAR 0.05
+
+/* What sums over coordinates lose to rounding, in parts of size. */
+#define THR_ISOMETRY_ROUNDING 1e-9
+
+/* Centroid, and as size the root mean square distance of the nodes from it. */
+void thr_frame_extent(const thr_frame *frame, double centroid[3], double *size);
+
+/* Best q about the centroid; image: [n_nodes], any node numbers. Where the nodes span no more than a plane (thinner than a
+ * ten-thousandth of the size), a rotation is taken, on a line the least one. O(n). */
+void thr_procrustes(const thr_frame *frame, const int *image, thr_motion *out);
+
+/* ---- How many automorphisms a coloured graph has, by igraph (bliss; Junttila & Kaski 2007): an opinion independent of nauty's.
+ */
+
+/* Graph with n nodes and m undirected edges; colour: [n], NULL = all alike. *digits receives the number in decimal; the caller
+ * frees it. THR_ESOLVER if igraph fails. */
+thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int *colour, char **digits,
+                                  thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,13 +1,9 @@
 /* The only file that knows igraph, which is loaded when it is first needed. igraph's default error handler aborts the program;
  * ours returns the error code. No routine of igraph that uses GLPK may be called here: it would replace the hooks that
  * lp/solver/lp_glpk.c sets. */
-#include "graph/framework/automorphism_count.h"
+#include "graph/framework/make.h"
 #include "graph/limits.h"
-#include "graph/process/child.h"
-#include "graph/framework/cuttree.h"
-#include "graph/framework/drawing.h"
-#include "graph/process/lazy.h"
-#include "graph/text.h"
+#include "graph/process/process.h"
 
 #include <igraph.h>
 #include <pthread.h>

@@ -1,4 +1,6 @@
-/* Example frameworks. Every node is called by a letter (column, ring or row) and a number, as on a map.
+/* Generators of example frameworks. Each appends nodes and edges to an empty draft; lengths in mm.
+ *
+ * Example frameworks. Every node is called by a letter (column, ring or row) and a number, as on a map.
  * Coordinates come from integers wherever possible, so that mirror images agree to the last digit. */
 #include "graph/framework/make.h"
 #include "graph/angle.h"

@@ -1,8 +1,10 @@
-/* Generators of example frameworks. Each appends nodes and edges to an empty draft; lengths in mm. */
+/* Frameworks that are made: shapes by name, and drawings of them. */
 #ifndef THR_MAKE_H
 #define THR_MAKE_H
 
 #include "graph/framework/frame.h"
+
+/* ---- make.c: Generators of example frameworks. */
 
 typedef enum { THR_MAKE_DOME, THR_MAKE_GEODESIC, THR_MAKE_TUBE, THR_MAKE_SPHERE, THR_MAKE_HONEYCOMB, THR_N_SHAPES } thr_shape;
 const char *thr_shape_name(int shape); /* "dome", "geodesic", "tube", "sphere", "honeycomb" */
@@ -20,5 +22,13 @@ thr_make_options thr_make_options_default(thr_shape shape);
 
 /* THR_EINPUT with the option's name for a size out of range; at most 2 million nodes. */
 thr_status thr_make(thr_draft *draft, const thr_make_options *options, thr_err *err) THR_MUST_CHECK;
+
+/* ---- Drawing of graphs by igraph. */
+
+/* Kamada & Kawai 1989: nodes as springs, whose lengths are the shortest ways along the edges. Graph with n nodes and m undirected
+ * edges of length > 0; xy[n] is where the search starts, unless it is to start from a circle, and receives where it ends. No
+ * randomness. O(n m log n), then O(n) for each of at most 50 n steps; n^2 numbers of memory. THR_ESOLVER if igraph fails. */
+thr_status thr_kamada_kawai(int n, int m, const int (*edge)[2], const double *length, bool circle, double (*xy)[2],
+                            thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,6 +1,9 @@
-/* Two grids of cells about as large as an edge is long, one with the nodes in each cell and one with the edges that pass through:
+/* What a drawing nearly says: nodes that are almost one, nodes that lie on an edge which passes them, edges that cross without a
+ * node. Joints that are meant to be there and are not make other cords, so a reader of frameworks remarks them.
+ *
+ * Two grids of cells about as large as an edge is long, one with the nodes in each cell and one with the edges that pass through:
  * nodes are compared with the nodes around them and the edges of their cell, edges with those that they share a cell with. */
-#include "graph/framework/near.h"
+#include "graph/framework/frame.h"
 
 #include "graph/sort.h"
 #include "graph/vector.h"

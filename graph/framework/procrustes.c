@@ -1,5 +1,7 @@
-/* Procrustes analysis by a singular value decomposition of the 3 x 3 correlation (one-sided Jacobi; Hestenes 1958). */
-#include "graph/framework/procrustes.h"
+/* The orthogonal matrix that moves the nodes of a framework nearest to where a permutation sends them (Schoenemann 1966).
+ *
+ * Procrustes analysis by a singular value decomposition of the 3 x 3 correlation (one-sided Jacobi; Hestenes 1958). */
+#include "graph/framework/frame.h"
 #include "graph/vector.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Lengths of curves by chords, points of B-splines by de Boor's recursion. */
-#include "graph/io/curve.h"
+/* Internal to the readers: how long the curves of drawings are. */
+#include "graph/io/read_parts.h"
 
 #include <math.h>
 

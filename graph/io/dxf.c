@@ -1,7 +1,7 @@
-/* The pairs of a DXF file, and frameworks as lines. */
-#include "graph/io/dxf.h"
+/* Writing DXF: drawings in the sense of release 12 (AC1009), the oldest that everything reads, with a unit. Autodesk, "DXF
+ * Reference". */
 
-#include "graph/io/scan.h"
+#include "graph/io/read_parts.h"
 
 #include <string.h>
 

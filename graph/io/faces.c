@@ -1,5 +1,5 @@
-/* Runs of node numbers, and their sides as edges. */
-#include "graph/io/faces.h"
+/* Internal to the readers of meshes: faces, which may be named before their nodes are there, and their sides as edges. */
+#include "graph/io/read_parts.h"
 #include "graph/vector.h"
 
 #include <math.h>

@@ -1,5 +1,7 @@
-/* The table of formats, and which of them a file is in: by its name's ending or, failing that, by its first line. */
-#include "graph/io/formats.h"
+/* Formats of framework files: what a file of graph/io/ says of the format that it reads.
+ *
+ * The table of formats, and which of them a file is in: by its name's ending or, failing that, by its first line. */
+#include "graph/io/read_parts.h"
 #include "graph/os.h"
 
 #include <string.h>

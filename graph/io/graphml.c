@@ -1,8 +1,6 @@
 /* GraphML, read and written: keys declare attributes, data give them to nodes and edges. U. Brandes et al., "GraphML Progress
  * Report", 2002; http://graphml.graphdrawing.org/specification.html. */
-#include "graph/io/formats.h"
-#include "graph/io/links.h"
-#include "graph/io/xml.h"
+#include "graph/io/read_parts.h"
 
 #include <string.h>
 

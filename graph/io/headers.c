@@ -1,11 +1,13 @@
-/* What the columns of a table mean, by the words in their headers.
+/* Internal to the reader of tables: what the columns of a table mean, by the words in their headers.
+ *
+ * What the columns of a table mean, by the words in their headers.
  *
  * A header is a few words in a row, of which one or two carry the meaning: "Knoten A", "node_a" and "NodeA" are all the word "a"
  * beside a word for nodes. So the tables below list words, and a header matches if nothing else stands in it. Words are English,
  * German, French, Spanish and Italian.
  *
  * Example: Anfang X [mm] is "anfangx": the first end of the pair anfang, ende, axis x, unit mm. */
-#include "graph/io/headers.h"
+#include "graph/io/read_parts.h"
 #include "graph/framework/units.h"
 
 #include <stdio.h>

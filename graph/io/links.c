@@ -1,5 +1,5 @@
-/* Edges by name, and the attributes that graph formats give to nodes and edges. */
-#include "graph/io/links.h"
+/* Internal to the readers of graphs: edges by the names of their nodes, which may come after them. */
+#include "graph/io/read_parts.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,6 @@
-#include "graph/io/parts.h"
+/* Internal to the readers: the parts of a file that have names of their own, of which one may be asked for (--pick). First all
+ * are named, then thr_parts_choose, then what belongs to a part that is not chosen is left out. */
+#include "graph/io/read_parts.h"
 #include "graph/suggestion.h"
 
 #include <stdlib.h>

@@ -1,6 +1,5 @@
-/* Reading a framework from a file: which format, which second file, then weld. */
-#include "graph/framework/near.h"
-#include "graph/io/formats.h"
+/* Reading and writing frameworks. docs/formats.md describes every format by example. */
+#include "graph/io/read_parts.h"
 #include "graph/os.h"
 
 #include <stdio.h>

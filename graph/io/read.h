@@ -1,12 +1,25 @@
-/* Reading and writing frameworks. docs/formats.md describes every format by example. */
+/* Readers of frameworks: one call for every format. */
 #ifndef THR_READ_H
 #define THR_READ_H
 
+#include "graph/framework/frame.h"
 #include "graph/io/json.h"
-#include "graph/io/stand.h"
 #include "graph/text.h"
 
-typedef struct thr_format thr_format; /* graph/io/formats.h */
+/* ---- stand.c: What a file may leave unsaid: which of its coordinates points up, and how large its numbers are meant. */
+
+/* AUTO: y if the file's maker is known to write that (Blender), else z. */
+typedef enum { THR_UP_AUTO, THR_UP_Y, THR_UP_Z } thr_up;
+const char *thr_up_name(int up); /* "auto", "y", "z" */
+
+/* Turns the draft so that z points up and multiplies its coordinates and lengths by scale > 0; the report says if y was up,
+ * whence that is known, and if it seems to lie. THR_EINPUT if a coordinate or a length leaves the range of numbers. O(nodes +
+ * edges). */
+thr_status thr_draft_stand(thr_draft *draft, thr_up up, double scale, thr_read_report *report, thr_err *err) THR_MUST_CHECK;
+
+/* ---- read.c: Reading and writing frameworks. */
+
+typedef struct thr_format thr_format; /* graph/io/formats.c */
 
 /* "json", "obj", "csv", "ply", "off" or "stl"; NULL if there is none of that name. */
 const thr_format *thr_format_named(const char *name);
@@ -68,5 +81,25 @@ const char *thr_path_ending(const char *path);
 
 /* The format that the path's ending says; NULL if it says none that can be written. */
 const thr_format *thr_format_of_path(const char *path);
+
+/* ---- dxf.c: Writing DXF: drawings in the sense of release 12 (AC1009), the oldest that everything reads, with a unit. */
+
+/* The unit of each code of $INSUNITS, NULL for 0 and where there is no such code. */
+enum { THR_DXF_UNITS = 25 };
+const char *thr_dxf_unit(int code);
+
+typedef struct {
+  char name[32];
+  int colour; /* of AutoCAD's index */
+} thr_dxf_layer;
+
+void thr_dxf_pair(thr_text *out, int code, const char *value);
+void thr_dxf_int(thr_text *out, int code, int value);
+/* Codes 10 + first, 20 + first and 30 + first. */
+void thr_dxf_point(thr_text *out, int first, const double xyz[3]);
+
+/* All before the first entity: units, layers, and the begin of the entities; and what ends the file. */
+void thr_dxf_begin(thr_text *out, const char *units, const thr_dxf_layer *layer, int n_layers);
+void thr_dxf_end(thr_text *out);
 
 #endif

@@ -1,6 +1,5 @@
 /* CSV: tables of nodes and edges, or one edge per line as six coordinates (docs/formats.md, "CSV"). */
-#include "graph/io/formats.h"
-#include "graph/io/headers.h"
+#include "graph/io/read_parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,12 +4,7 @@
  * A drawing is pairs of lines, a group code and a value. Each entity is read as a whole into its paths and faces, in the
  * coordinates of its block; at the end the model's entities are placed, with the blocks that they insert. */
 #include "graph/angle.h"
-#include "graph/io/curve.h"
-#include "graph/io/dxf.h"
-#include "graph/io/faces.h"
-#include "graph/io/formats.h"
-#include "graph/io/parts.h"
-#include "graph/io/sites.h"
+#include "graph/io/read_parts.h"
 #include "graph/vector.h"
 
 #include <limits.h>

@@ -1,9 +1,6 @@
 /* glTF 2.0, as JSON or in one binary file: lines and triangles of all meshes of the scene, where its nodes place them. Khronos,
  * "glTF 2.0 Specification", 2021. Coordinates are in metres and y points up. Buffers stand in the file, or in files beside it. */
-#include "graph/io/faces.h"
-#include "graph/io/formats.h"
-#include "graph/io/parts.h"
-#include "graph/io/sites.h"
+#include "graph/io/read_parts.h"
 #include "graph/os.h"
 
 #include <ctype.h>

@@ -1,8 +1,11 @@
-/* JSON frameworks: our own, COMPAS 1.x and 2.x, assembly_instances, conmech, networkx node-link and adjacency
+/* Inside graph/io: what the readers of JSON frameworks share (values and names, with the place of what is wrong), and those
+ * readers. read_json.c says which one reads what. All fail with THR_EINPUT, which names the file, the way to the value and what
+ * to do.
+ *
+ * JSON frameworks: our own, COMPAS 1.x and 2.x, assembly_instances, conmech, networkx node-link and adjacency
  * (docs/formats.md). The kind is told by its members. A document may hold several, however deep: those that stand where the
  * first one stands, but for numbers in lists, are read as one. */
-#include "graph/io/read_json.h"
-#include "graph/io/formats.h"
+#include "graph/io/read_parts.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* COMPAS 1.x and 2.x, lists of its lines, assembly_instances and conmech. */
-#include "graph/io/read_json.h"
+#include "graph/io/read_parts.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* networkx node-link and adjacency: lists of nodes and of links. */
-#include "graph/io/read_json.h"
+#include "graph/io/read_parts.h"
 
 #include <stdio.h>
 #include <string.h>

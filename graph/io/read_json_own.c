@@ -1,5 +1,5 @@
 /* Our own frames and plans, and any JSON with lists of points and index pairs. */
-#include "graph/io/read_json.h"
+#include "graph/io/read_parts.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 /* Values and names in JSON frameworks. */
-#include "graph/io/read_json.h"
+#include "graph/io/read_parts.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,8 +1,5 @@
 /* Wavefront OBJ: v, l, f and curves. Names are the file's own vertex numbers, from 1. */
-#include "graph/io/curve.h"
-#include "graph/io/faces.h"
-#include "graph/io/formats.h"
-#include "graph/io/parts.h"
+#include "graph/io/read_parts.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,5 @@
 /* OFF, the Object File Format of Geomview: OFF, COFF, NOFF, STOFF and their sums, as text. */
-#include "graph/io/faces.h"
-#include "graph/io/formats.h"
+#include "graph/io/read_parts.h"
 
 typedef struct {
   thr_words words;

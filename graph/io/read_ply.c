@@ -1,8 +1,7 @@
 /* PLY, the Stanford polygon format: ascii and both binary orders, elements and properties in any order. Vertices have x, y and z,
  * edges vertex1 and vertex2, faces, polylines and strips of triangles vertex_indices. G. Turk, "The PLY Polygon File Format",
  * 1994. */
-#include "graph/io/faces.h"
-#include "graph/io/formats.h"
+#include "graph/io/read_parts.h"
 
 #include <limits.h>
 #include <math.h>

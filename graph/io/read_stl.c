@@ -1,8 +1,5 @@
 /* STL: triangles, as text or binary. Corners at exactly one place are one node. */
-#include "graph/io/faces.h"
-#include "graph/io/formats.h"
-#include "graph/io/parts.h"
-#include "graph/io/sites.h"
+#include "graph/io/read_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

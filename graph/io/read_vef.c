@@ -1,8 +1,7 @@
 /* VEF, vertices, edges and faces: as vZome writes it, with coordinates in a number field, or as a list of points in space. vZome:
  * "(b,a)" is a + b times the field's irrational; the coordinate w comes first of four and is dropped, in versions before 4 last.
  */
-#include "graph/io/faces.h"
-#include "graph/io/formats.h"
+#include "graph/io/read_parts.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Lines, words and numbers of text formats; node names. */
-#include "graph/io/scan.h"
+/* Internal to the readers: lines, words and numbers of text formats, node names. */
+#include "graph/io/read_parts.h"
 #include "graph/framework/units.h"
 #include "graph/number.h"
 

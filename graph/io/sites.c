@@ -1,5 +1,5 @@
-/* Points at exactly one place are one node. */
-#include "graph/io/sites.h"
+/* Internal to the readers of formats whose lines and faces repeat coordinates: points at exactly one place are one node. */
+#include "graph/io/read_parts.h"
 
 #include <stdlib.h>
 #include <string.h>

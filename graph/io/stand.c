@@ -1,5 +1,5 @@
-/* Which way is up, and how large is a unit. */
-#include "graph/io/stand.h"
+/* What a file may leave unsaid: which of its coordinates points up, and how large its numbers are meant. */
+#include "graph/io/read.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Frameworks as JSON, OBJ and CSV text. */
-#include "graph/io/formats.h"
+#include "graph/io/read_parts.h"
 #include "graph/io/writer.h"
 
 static void write_point(const double xyz[3], const char *separator, thr_text *out)

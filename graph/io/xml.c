@@ -1,5 +1,6 @@
-/* Tags, attributes and entities of XML. */
-#include "graph/io/xml.h"
+/* Internal to the readers of XML formats: the tags of a document one after the other, with the text before each. Comments,
+ * instructions and the document type are passed over; entities are the five of XML and numbers. */
+#include "graph/io/read_parts.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,10 @@
-/* Loose chains of cords, counted along them. */
-#include "graph/plan/chains.h"
+/* How what is threaded holds together while it is threaded. A loose chain is what the cord picks up, piece after piece, until it
+ * comes to a piece that is on a cord already: so long it swings. The piece that a cord begins with holds it, and is not counted.
+ *
+ * A piece is a node with solid joints, and an edge with tube joints. A cord is threaded from its start with one needle; or from
+ * its fold, near the middle, with two: with the right one first, to the end, then with the left one back to the start. Each
+ * needle draws through about half of the cord then. */
+#include "graph/plan/plan_measures.h"
 
 #include <stdlib.h>
 

@@ -1,4 +1,5 @@
-#include "graph/plan/channels.h"
+/* Channels: the ways of the passes through the nodes, that is, with solid joints, through the pieces that a maker holds. */
+#include "graph/plan/plan_measures.h"
 
 #include "graph/vector.h"
 

@@ -1,5 +1,11 @@
-/* Bridges under several different cords. */
-#include "graph/plan/distinct_needs.h"
+/* Passes that edges need where several different cords are to pass each of them.
+ *
+ * A bridge parts its component in two. A cord that passes it an odd number of times has an end on either side; every other cord
+ * that passes it does so twice at least. So N different cords of which at most k have an end on either side make 2 N - k passes,
+ * if k is below N: 2 N of closed cords.
+ *
+ * Example: the tail of a kite, two different closed cords: four passes. */
+#include "graph/plan/request.h"
 
 #include <stdlib.h>
 

@@ -1,4 +1,5 @@
-/* The record of an evaluation: sums, colours, and its member of plan.json. */
+/* What `thread eval` found out about a plan, in the form that is kept in plan.json: the eval methods fill it, drawings show it,
+ * the checker verifies that it is consistent with the plan. */
 
 #include "graph/plan/schedule.h"
 

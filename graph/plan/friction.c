@@ -1,5 +1,13 @@
-/* The capstan law, and the one of friction that grows with a power of the load. */
-#include "graph/plan/friction.h"
+/* How the tension of a cord falls over its turns: by a factor, or, where friction grows with less than the load, by more where it
+ * is slack.
+ *
+ * Howell (J. Textile Inst. 44, 1953, T359) found F = a N^n for fibres, n between 2/3 and 1. Then dT / d(turning) = mu T0^(1-n)
+ * T^n, mu the coefficient at the tension T0, and T^(1-n) grows by (1-n) mu T0^(1-n) a radian: what adds up along a cord is u(T) =
+ * ((T / T0)^(1-n) - 1) / (1-n), which is ln(T / T0) for n = 1, and a turn holds two tensions apart by its exponent mu x angle in
+ * u. (J. H. Jung, N. Pan & T. J. Kang, Tribology International 41, 2008, have this law with the cord's stiffness.)
+ *
+ * Example: n = 1/2, T0 = 1 N, exponent 1: 4 N becomes (2 - 1/2)^2 = 2.25 N, and 0.25 N becomes 0: it holds by itself. */
+#include "graph/plan/physics.h"
 
 #include <math.h>
 

@@ -1,6 +1,8 @@
-/* Physical quantities: one table of fields, presets, JSON, and what follows from the framework. */
+/* What the simulation is told about cord and beads: friction, sizes, weights. One table (thr_physics_fields) drives the
+ * command line, the config file and plan.json, so that a quantity is named, bounded and explained once.
+ *
+ * Physical quantities: one table of fields, presets, JSON, and what follows from the framework. */
 #include "graph/plan/physics.h"
-#include "graph/framework/bore.h"
 #include "graph/text.h"
 
 #include <math.h>

@@ -1,13 +1,16 @@
-/* What the simulation is told about cord and beads: friction, sizes, weights. One table (thr_physics_fields) drives the
- * command line, the config file and plan.json, so that a quantity is named, bounded and explained once. */
+/* The physics of cord and bead, and what follows for one cord: friction, play, the least pull. */
 #ifndef THR_PHYSICS_H
 #define THR_PHYSICS_H
 
 #include "graph/framework/frame.h"
+#include "graph/framework/units.h"
 #include "graph/io/json.h"
 #include "graph/io/writer.h"
-#include "graph/framework/units.h"
 #include "graph/status.h"
+
+#include <stdbool.h>
+
+/* ---- physics.c: What the simulation is told about cord and beads: friction, sizes, weights. */
 
 /* Lengths in mm whatever the framework's units. 0 where it says so means "work it out": thr_physics_resolve. */
 typedef struct {
@@ -77,5 +80,79 @@ void thr_physics_write(const thr_physics *p, thr_writer *writer, const char *key
  * their nodes. With units that thr_units_in_mm does not know, sizes that were asked for in mm are an error; else a unit counts as
  * a mm, and what needs a true size must ask thr_units_in_mm itself. Resolving twice changes nothing. O(m log m). */
 thr_status thr_physics_resolve(const thr_physics *p, const thr_frame *frame, thr_physics *out, thr_err *err) THR_MUST_CHECK;
+
+/* ---- friction.c: How the tension of a cord falls over its turns: by a factor, or, where friction grows with less than the
+ * load, by more where it is slack. */
+
+typedef struct {
+  double power; /* n; 1: the capstan law */
+  double at;    /* N: T0 */
+} thr_friction;
+
+thr_friction thr_friction_of(const thr_physics *physics);
+
+/* The larger and the smaller tension that turns with this exponent hold apart from tension; 0 where it does not get so far. */
+double thr_friction_more(const thr_friction *friction, double tension, double exponent);
+double thr_friction_less(const thr_friction *friction, double tension, double exponent);
+
+/* The exponent that holds them apart, 0 < less <= more. */
+double thr_friction_exponent(const thr_friction *friction, double more, double less);
+
+/* ---- play.c: How far pieces can shift where their bores are wider than the cord (thesis, Fig. */
+
+typedef struct {
+  double gap;  /* mm, at one gap */
+  int piece;   /* the first of those farthest from a foot; -1: there is none */
+  int gaps;    /* between it and the nearest foot */
+  double most; /* mm, if all of them add up */
+} thr_play;
+
+/* physics: resolved. Feet are the framework's, or its lowest nodes. O(nodes + edges); THR_ENOMEM. */
+thr_status thr_play_find(const thr_frame *frame, const thr_physics *physics, thr_play *out, thr_err *err) THR_MUST_CHECK;
+
+/* ---- least_pull.c: Computes the least pull that seats every pass of a cord whose ends are both pulled. */
+
+/* A cord parted at turn `turn`, which lies between the passes `turn` and `turn` + 1, counted from
+ * 0. A cord of one pass has no turn; `turn` is that pass then. The sums of the turns before and
+ * after it are left to the cord's start and end. */
+typedef struct {
+  int turn;
+  double start, end;
+} thr_parting;
+
+/* Returns the larger sum of a parting, which says how hard the cord has to be pulled. */
+double thr_parting_larger(const thr_parting *parting);
+
+/* Returns the best parting of passes first .. last of a cord. sum[k] is the sum of the turns before
+ * pass k, counted from any turn on; it never falls. O(log passes). */
+thr_parting thr_least_pull(const double *sum, int first, int last);
+
+/* Returns the smaller sum of the best parting of passes first .. last, the least where there are several. O(passes). */
+double thr_least_pull_other(const double *sum, int first, int last);
+
+/* Returns the best parting of a whole cord, half[n_passes], where there may be several: the one with
+ * the smaller smaller sum, of these the one nearest to the middle, and of two as near the one whose
+ * inner pass, or whose passes further out, have the lower edge. Sums count as equal within 1e-12. So
+ * it does not depend on which end is called the start. O(n_passes). */
+thr_parting thr_least_pull_of(const double *sum, const int *half, int n_passes);
+
+/* Computes the larger sum of the best parting where the sums are not at hand. Begun with the sum of
+ * all turns, `thr_least_pull_next` takes one turn after the other, and returns false as soon as no
+ * later turn can be better; `larger` is then the answer. O(1) each. */
+typedef struct {
+  double whole, before, larger;
+} thr_least_pull_walk;
+
+thr_least_pull_walk thr_least_pull_begin(double whole);
+bool thr_least_pull_next(thr_least_pull_walk *walk, double turn);
+
+/* ---- pulled.c: Which end of a cord is pulled. */
+
+typedef enum { THR_PULL_START, THR_PULL_END, THR_PULL_BOTH, THR_PULL_NONE, THR_N_PULLS } thr_pull;
+
+const char *thr_pull_name(thr_pull p); /* "start", "end", "both", "none" */
+
+/* The one with this name, or -1; NULL has none. */
+int thr_pull_named(const char *name);
 
 #endif

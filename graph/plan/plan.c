@@ -1,7 +1,6 @@
 /* Plans: names, ends, turning angles, metrics. */
 #include "graph/plan/plan.h"
 #include "graph/angle.h"
-#include "graph/plan/least_pull.h"
 
 #include <limits.h>
 #include <math.h>

@@ -30,14 +30,14 @@ typedef struct {
  * ends, are odd in number. The values of the sets that an edge leaves add up to at most w_e * denominator, if the edge has room
  * for an extra pass at all; those of the sets that hold a node where cord ends are allowed, to at most end_price. Then for
  * every j no extra passes that leave j cord ends weigh less than (sum - j * end_price) / denominator: every set is left by an
- * extra pass, or holds a cord end. With prices of places (graph/plan/prices.h) edges have other weights and nodes another parity,
- * and the bound has a term more. */
+ * extra pass, or holds a cord end. With prices of places (graph/plan/plan_measures.h) edges have other weights and nodes another
+ * parity, and the bound has a term more. */
 typedef struct {
   int component;
-  double scale;         /* integer weight per unit of length, > 0 */
-  int64_t denominator;  /* > 0 */
-  int64_t end_price;    /* >= 0, in units of 1/denominator; 0 with THR_ENDS_CLOSED and THR_ENDS_COUNTS */
-  int n_prices;         /* 0 unless as many cords as asked for may need more passes than a join has (graph/plan/prices.h) */
+  double scale;        /* integer weight per unit of length, > 0 */
+  int64_t denominator; /* > 0 */
+  int64_t end_price;   /* >= 0, in units of 1/denominator; 0 with THR_ENDS_CLOSED and THR_ENDS_COUNTS */
+  int n_prices;        /* 0 unless as many cords as asked for may need more passes than a join has (graph/plan/plan_measures.h) */
   int64_t *place_price; /* >= 0, in units of 1/denominator; owned */
   int64_t join;         /* weight of the extra passes of the plan */
   int64_t sum;          /* of the cuts' values */
@@ -55,9 +55,9 @@ typedef struct {
   int unconfirmed; /* those it was not asked about, or did not finish in time. A solver's word: not written */
   int n_certificates;
   thr_certificate *certificate; /* one per component; owned */
-  thr_turning_proof tied;       /* THR_JOINT_TUBE, instead of certificates: the proof of thr_tied_task (graph/plan/junction.h) */
-  thr_walk_proof walks;         /* of the longest cord (graph/plan/walk_proof.h); unit 0: none */
-  thr_walk_proof pulled;        /* of the length within options.max_pull; unit 0: none */
+  thr_turning_proof tied; /* THR_JOINT_TUBE, instead of certificates: the proof of thr_tied_task (graph/plan/plan_measures.h) */
+  thr_walk_proof walks;   /* of the longest cord (graph/plan/walk_proof.h); unit 0: none */
+  thr_walk_proof pulled;  /* of the length within options.max_pull; unit 0: none */
 } thr_length_proof;
 
 /* What is proved about several cords, of plans with the same options. */
@@ -235,7 +235,7 @@ double thr_turns_price(const thr_frame *framework, thr_turn_cost cost, const int
 double thr_cord_price(const thr_frame *framework, const thr_request *wishes, const thr_cord *c);
 
 /* Turning that a pull has to overcome at the end that needs more, both being pulled, rad: the larger part of the cord's, parted
- * at the turn where that is least (graph/plan/least_pull.h; a closed cord's last turn is at its ends and counts for neither
+ * at the turn where that is least (graph/plan/least_pull.c; a closed cord's last turn is at its ends and counts for neither
  * part); and the largest of several cords. By the capstan law the pull is exp(mu x that) times the seating tension. O(passes).
  * Example: turns of 30, 90 and 60 degrees are parted at the 90, and 60 are left to the end. */
 double thr_cord_pulled_turning(const thr_frame *framework, const thr_cord *cord);

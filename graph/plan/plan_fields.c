@@ -1,4 +1,5 @@
-/* Members of plan.json, one at a time. */
+/* How plan.json is read: members of JSON objects, and what is wrong with them as "file: place: what". Private to
+ * graph/plan_read*.c. */
 #include "graph/plan/plan_fields.h"
 
 #include <inttypes.h>

@@ -1,10 +1,12 @@
-/* How plan.json is read: members of JSON objects, and what is wrong with them as "file: place: what". Private to
- * graph/plan_read*.c.
- */
+/* plan.json as a table of fields, and the request in it. */
 #ifndef THR_PLAN_FIELDS_H
 #define THR_PLAN_FIELDS_H
 
 #include "graph/plan/plan.h"
+
+#include <stddef.h>
+
+/* ---- plan_fields.c: How plan.json is read: members of JSON objects, and what is wrong with them as "file: place: what". */
 
 typedef struct {
   const char *name; /* of the file, for messages */
@@ -55,5 +57,49 @@ thr_status thr_plan_read_options(const thr_field_reader *field_reader, const thr
                                  thr_request *request) THR_MUST_CHECK; /* request_fields.c */
 thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_json *doc,
                                 thr_plan *plan) THR_MUST_CHECK; /* plan_read_proof.c */
+
+/* ---- request_fields.c: The table of a request: every member of `options` in plan.json, with its kind, its range and its
+ * place in thr_request. */
+
+typedef enum {
+  THR_ASKS_COUNT,          /* an int */
+  THR_ASKS_AMOUNT,         /* a double */
+  THR_ASKS_AMOUNT_OR_NULL, /* a double; below 0, which is written as null, it is not asked for */
+  THR_ASKS_WORD,           /* an enumeration, by its names */
+  THR_ASKS_OTHER           /* a shape of its own, with functions that write and read it */
+} thr_asks;
+
+/* A request while it is read from `options`. */
+typedef struct {
+  const thr_field_reader *fields;
+  const thr_frame *frame;
+  thr_request *request;
+} thr_request_reader;
+
+typedef struct {
+  const char *key;    /* the member */
+  const char *option; /* on the command line; NULL: the key with dashes for underscores */
+  const char *in;     /* the member of `options` that has it: "turning", "symmetry"; NULL: `options` itself */
+  thr_asks kind;
+  size_t offset;    /* of the value in thr_request */
+  double low, high; /* of a value that is asked for, both inclusive */
+  const char *(*name)(int);
+  int n_names; /* of a word: name(0) .. name(n_names - 1) */
+  bool always; /* written, and needed, where it is the default, too */
+  void (*write)(thr_writer *writer, const thr_plan *plan);
+  thr_status (*read)(thr_request_reader *reader, const thr_json *object);
+} thr_request_field;
+
+extern const thr_request_field thr_request_fields[];
+extern const int thr_request_n_fields;
+
+/* Returns the row of an option of the command line ("max-length"), or NULL. O(rows). */
+const thr_request_field *thr_request_find(const char *option);
+
+/* Returns where the value of a row is in a request: an int, a double or an enumeration. */
+void *thr_request_value(thr_request *request, const thr_request_field *field);
+
+/* Writes `options` of a plan: all that was asked for. */
+void thr_request_write(thr_writer *writer, const thr_plan *plan);
 
 #endif

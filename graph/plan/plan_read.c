@@ -1,6 +1,6 @@
 /* plan.json, read: docs/plan-format.md is the schema. Every accessor fails with "file: place: what". */
-#include "graph/plan/plan_fields.h"
 #include "graph/io/read.h"
+#include "graph/plan/plan_fields.h"
 
 #include <assert.h>
 #include <inttypes.h>

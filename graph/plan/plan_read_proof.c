@@ -1,6 +1,6 @@
 /* plan.json, read: proofs. */
-#include "graph/framework/components.h"
 #include "graph/angle.h"
+#include "graph/framework/components.h"
 #include "graph/plan/plan_fields.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* plan.json, written: docs/plan-format.md is the schema. */
-#include "graph/plan/request_fields.h"
+#include "graph/plan/plan_fields.h"
 
 /* A number that means nothing below 0. */
 static void put_or_null(thr_writer *writer, const char *key, double value)

@@ -1,5 +1,11 @@
-/* Breadth first from the feet. */
-#include "graph/plan/play.h"
+/* How far pieces can shift where their bores are wider than the cord (thesis, Fig. 14).
+ *
+ * Two bores that a cord goes through may lie askew by bore - cord at the gap between them, whatever the direction across. In a
+ * row of pieces this adds up from gap to gap; in a framework, where one way holds the other, it is the most that the shortest row
+ * of gaps from a foot allows.
+ *
+ * Example: 10 pieces out from a wall, cord 1 mm in bores of 1.5 mm: the last one may hang 5 mm low. */
+#include "graph/plan/physics.h"
 
 #include "graph/scratch.h"
 

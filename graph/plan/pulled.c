@@ -1,5 +1,5 @@
-/* Names of the ends that are pulled. */
-#include "graph/plan/pulled.h"
+/* Which end of a cord is pulled. */
+#include "graph/plan/physics.h"
 
 #include <string.h>
 

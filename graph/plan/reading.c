@@ -1,5 +1,8 @@
-/* Runs, periods, and paths that are others moved along. */
-#include "graph/plan/reading.h"
+/* What a hand reads of a plan: a run of passes that go straight on is one instruction, what repeats itself along the framework is
+ * read once. Of cords that are copies of each other only one is read.
+ *
+ * Example: a line of seven beads between ends that may be anywhere is three instructions: an end, "straight on to H1", an end. */
+#include "graph/plan/plan_measures.h"
 #include "graph/vector.h"
 
 #include <math.h>

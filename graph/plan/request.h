@@ -1,8 +1,4 @@
-/* The request: what a plan is asked to be, and what it is to have little of, first, second, ...
- *
- *   thr_request o = thr_request_default();
- *   thr_aims_parse("length+5%,turning:sine", &o, &err)   at most 5 % above the least length, and of that the least turning
- */
+/* What is asked of a plan. */
 #ifndef THR_REQUEST_H
 #define THR_REQUEST_H
 
@@ -11,6 +7,8 @@
 #include "graph/text.h"
 
 #include <limits.h>
+
+/* ---- request.c: The request: what a plan is asked to be, and what it is to have little of, first, second, ... */
 
 enum { THR_MOST_CORDS = 1000 }; /* that a plan may have in a component */
 
@@ -94,7 +92,7 @@ typedef enum {
  * at most; or whatever a tenth more turning serves for. */
 typedef enum { THR_ORDER_PLANNED, THR_ORDER_STARTS, THR_ORDER_HAND, THR_N_ORDERS } thr_order;
 
-/* Channels that cross inside solid pieces (graph/plan/channels.h): as it comes; fewer, where passes can go on otherwise at equal
+/* Channels that cross inside solid pieces (graph/plan/channels.c): as it comes; fewer, where passes can go on otherwise at equal
  * length and, of a plan for little turning, at equal turning; or none (planner/uncross.c). */
 typedef enum { THR_CROSSINGS_ALLOW, THR_CROSSINGS_PRICE, THR_CROSSINGS_FORBID, THR_N_CROSSINGS } thr_crossings;
 
@@ -228,5 +226,12 @@ static inline int thr_plan_capacity(const thr_frame *frame, const thr_request *o
   int own = frame->capacity && frame->capacity[e] > 0 ? frame->capacity[e] : INT_MAX;
   return options->capacity > 0 && options->capacity < own ? options->capacity : own;
 }
+
+/* ---- distinct_needs.c: Passes that edges need where several different cords are to pass each of them. */
+
+/* *needs: [n_edges] passes that every edge has in a plan of these options whose edges all have their different cords; NULL where
+ * that is no more than thr_plan_cover says, and of symmetric plans, whose proof of length is about any cords. Owned by the
+ * caller. O(nodes + edges). */
+thr_status thr_distinct_needs(const thr_frame *frame, const thr_request *options, int **needs, thr_err *err) THR_MUST_CHECK;
 
 #endif

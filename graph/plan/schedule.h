@@ -1,5 +1,5 @@
 /* What is done to the cords after threading, in order: pulled, gripped on the way, let down, knotted. The tension that it leaves
- * in every pass follows from it (eval/cord/history.h), and the checker works it out again.
+ * in every pass follows from it (eval/cord/history.c), and the checker works it out again.
  *
  *   A: grip 37 18.5 from start      the cord is drawn out at its pass 37, from the side of its start, with 18.5 N
  *   A: pull end 20                  its end is pulled with 20 N, and held

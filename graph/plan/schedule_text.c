@@ -1,5 +1,5 @@
 /* Schedules as text: what somebody types, and what is printed. */
-#include "graph/io/scan.h"
+#include "graph/io/read_parts.h"
 #include "graph/plan/schedule.h"
 
 #include <string.h>

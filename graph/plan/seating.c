@@ -1,6 +1,13 @@
-/* What seats a gap, from the tensions of the passes through it. */
-#include "graph/plan/seating.h"
-#include "graph/plan/friction.h"
+/* Which gaps between adjacent pieces the cords close.
+ *
+ * A gap counts as seated when its passes press the two pieces together with the seating tension or more, all passes added. While
+ * a cord is being drawn in by a pull P at its ends, pass k has P x the largest of the losses between it and a pulled end, so the
+ * pull that seats a gap is seating / (sum of these factors), in closed form. This says when the faces meet, not which shape the
+ * pieces have before they do.
+ *
+ * Example: seating tension 1 N, a cord of two passes with a turn that halves the tension, pulled at its start: the first gap is
+ * seated at 1 N, the second at 2 N. */
+#include "graph/plan/plan_measures.h"
 
 #include <math.h>
 #include <stdlib.h>

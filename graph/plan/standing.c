@@ -1,8 +1,11 @@
-/* The limit analysis of a structure in plan.json. */
-#include "graph/plan/standing.h"
+/* What the limit analysis found of a structure, in the form that is kept in plan.json: what acts on it, what was asked, and the
+ * mechanisms that prove the answers. The checker adds up the powers of each mechanism itself (graph/check/check_standing.c).
+ *
+ * Example: "pulled at both ends while it is drawn in, nothing holds it below 4.14 N", with the velocities of all beads by which
+ * it then falls. */
+#include "graph/plan/evaluation.h"
 
 #include "graph/angle.h"
-#include "graph/plan/pulled.h"
 
 #include <inttypes.h>
 #include <math.h>

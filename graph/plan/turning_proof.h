@@ -1,4 +1,16 @@
-/* Proof of a lower bound on the turning of all cords of a plan, and its check without a solver.
+/* Proofs of least turning as plan.json has them: the columns, the tree of boxes with multipliers, ranks and symmetries. */
+#ifndef THR_TURNING_PROOF_H
+#define THR_TURNING_PROOF_H
+
+#include "graph/framework/frame.h"
+#include "graph/io/json.h"
+#include "graph/io/writer.h"
+#include "graph/scratch.h"
+#include "graph/status.h"
+
+#include <stdint.h>
+
+/* ---- Proof of a lower bound on the turning of all cords of a plan, and its check without a solver.
  *
  * The model. At both ends of every edge its passes either turn into another edge or end there. Half-edge h
  * (graph/framework/frame.h) also names "edge h/2 seen from its node"; columns are what a plan counts: turn  (a, b)  passes that
@@ -18,19 +30,11 @@
  * edges at the node (times cover) are odd only if it has an extra pass there. A closed cord connects all blocks that it passes,
  * and the cords of a component pass all of its blocks, so with k cords the blocks of a component fall into at most k connected
  * parts: the sum over all nodes is at least the sum over the components of max(0, blocks - k); rank: the same partitions, but at
- * nodes of 2 to THR_RANK_DEGREE edges the connections are counted exactly (graph/plan/turning_ranks.h); then the turns of such a
+ * nodes of 2 to THR_RANK_DEGREE edges the connections are counted exactly (graph/plan/turning_proof.h); then the turns of such a
  * node are a problem of their own, in which every half-edge has one; junction (tube joints only): the edges at a node in b
  * blocks: at least b - 1 turns go between different blocks; the limit on the extra length. With tube joints nothing turns back,
  * and nothing but the passes need cost: then this is the proof of least length. A tree of bounds on single columns turns this
  * into an exact method: the proved bound is the least over its leaves. */
-#ifndef THR_TURNING_PROOF_H
-#define THR_TURNING_PROOF_H
-
-#include "graph/framework/frame.h"
-#include "graph/io/json.h"
-#include "graph/io/writer.h"
-#include "graph/scratch.h"
-#include "graph/status.h"
 
 typedef enum {
   THR_TURN_ANGLE, /* rad, 0 = straight on */
@@ -65,7 +69,7 @@ typedef struct {
   int cords_least;         /* open cords only: at least so many; 0 = exactly cords */
   const bool *end_allowed; /* [n_nodes] borrowed; NULL = closed cords */
   const int *end_count;    /* [n_nodes] borrowed; exactly so many ends at every node, end_allowed where not 0; NULL = not said */
-  bool tube;               /* tube joints: the turns tie the edges at every node (graph/plan/junction.h), none goes back */
+  bool tube;               /* tube joints: the turns tie the edges at every node (graph/plan/plan_measures.h), none goes back */
   bool free_turns;         /* turns cost nothing: price_per_length alone counts */
   int64_t cut;             /* > 0: no turn weighs more, and solid cords turn back at every node (graph/check/check_pull.c) */
   thr_turn_cost cost;
@@ -211,7 +215,7 @@ typedef struct {
 typedef struct {
   int n_nodes, n_duals, n_ends, n_symmetries;
   thr_turning_node *node; /* owned; node[0] is the root */
-  int *symmetry;          /* [n_symmetries * n_edges] images of the half-edges 2e (graph/plan/turning_symmetry.h); owned */
+  int *symmetry;          /* [n_symmetries * n_edges] images of the half-edges 2e (graph/plan/turning_proof.h); owned */
   thr_turning_dual *dual; /* owned; ends [n_ends] */
   thr_walk_proof walks;   /* of the cord that turns most, or of the one that is hardest to pull, if there is one */
 } thr_turning_proof;
@@ -250,5 +254,64 @@ thr_status thr_turning_proof_check_columns(const thr_turning_columns *turning_co
 void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *frame, thr_writer *writer, const char *key);
 thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame *frame, const thr_json *v, const char *place,
                                        thr_err *err) THR_MUST_CHECK;
+
+/* ---- Connections at a node, exactly: what turns cost there at least while they join blocks of edges.
+ *
+ * The rank of a node for a partition of the edges into blocks is how many connections its turns make between the blocks that meet
+ * there: blocks there less the parts that turns join them to. A closed cord, or several, needs so many connections in all nodes
+ * together (graph/plan/turning_proof.h), and every half-edge has a turn. So with a multiplier per partition a node is worth at
+ * least the minimum of  price of turns - sum of multipliers x ranks  over all turns that leave no half-edge alone. Where no price
+ * is negative, a forest has that minimum: a turn that closes a circuit joins nothing. So it is found by going through the
+ * partitions of the half-edges into parts of two or more, each part as its cheapest tree (Prim).
+ *
+ * Example: three straight lines cross at a node, each a block, and other turns cost 1: without a multiplier three straight turns
+ * are cheapest, 0; with a multiplier of 1.5 one line is joined to the next by one more turn, and so is the third: 2 - 3 = -1. */
+
+enum { THR_RANK_DEGREE = 8 }; /* edges at a node at most: 715 partitions into parts of two or more */
+
+typedef struct {
+  int degree;                                      /* 2 .. THR_RANK_DEGREE */
+  int64_t price[THR_RANK_DEGREE][THR_RANK_DEGREE]; /* symmetric, 0 .. 2^58 */
+  int n_rows;                                      /* partitions */
+  const int64_t *value;                            /* [n_rows] multipliers, at least 0, together 2^58 at most; borrowed */
+  int (*block)[THR_RANK_DEGREE];                   /* [n_rows] block of every half-edge, any numbers; borrowed */
+} thr_rank_node;
+
+/* The forest of the minimum. */
+typedef struct {
+  int n_turns, turn[THR_RANK_DEGREE][2]; /* of half-edges at the node, numbered from 0 */
+} thr_rank_turns;
+
+/* The minimum; turns (NULL = not asked for) receives turns that have it, the same every time. */
+int64_t thr_rank_least(const thr_rank_node *node, thr_rank_turns *turns);
+
+/* Rank of row i with these turns. */
+int thr_rank_of(const thr_rank_node *node, int i, const thr_rank_turns *turns);
+
+/* ---- Automorphisms of a task of least turning, by which the tree of its proof decides for all images of a column at once.
+ *
+ * A symmetry maps half-edges to half-edges, both ways along an edge alike and those of one node to those of one node, so that
+ * edges keep how often they are and may be passed, and nodes the ends that they have: then it maps plans to plans. Prices need
+ * not be the same: with the prices and lengths of all columns lowered to the least of their images no plan costs more than it
+ * does, none is shut out by the limit on the length, and a plan and its images cost the same. So a symmetry that was made up
+ * proves less, but nothing false.
+ *
+ * At a node of the tree whose bounds on columns a symmetry keeps, every plan in which the image of a column is at least v + 1 is
+ * the image of one in which the column itself is: those are below `high`, and below `low` all images are at most v (orbital
+ * branching: Ostrowski, Linderoth, Rossi & Smriglio, Math. Programming 126, 2011).
+ *
+ * Example: a cube's twelve edges are alike; either one of them has no extra pass, or edge 0 has one. */
+
+/* Is image[n_edges], of the half-edges 2e, a symmetry of the task? Any numbers are looked at. O(columns). */
+thr_status thr_turning_symmetric(const thr_turning_columns *turning_columns, const int *image, bool *yes,
+                                 thr_err *err) THR_MUST_CHECK;
+
+/* Where a symmetry maps a column. O(1), of U-turns O(log their number). */
+int thr_turning_image(const thr_turning_columns *turning_columns, const int *image, int column);
+
+/* The same columns, borrowed but for their prices and lengths, which are the least of all their images under n symmetries, images
+ * of image[n * n_edges]. Release with thr_turning_columns_destroy, before the others. O(n * columns). */
+thr_status thr_turning_lower(const thr_turning_columns *turning_columns, const int *image, int n, thr_turning_columns *lower,
+                             thr_err *err) THR_MUST_CHECK;
 
 #endif

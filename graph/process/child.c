@@ -1,6 +1,7 @@
-/* One child process and the messages that it sends: answers, progress, and the end with its status. */
+/* One job in a child process, with an answer of any size: for libraries that may crash, end the program or take no heed of time.
+ *
+ * One child process and the messages that it sends: answers, progress, and the end with its status. */
 #define _POSIX_C_SOURCE 200809L
-#include "graph/process/child.h"
 #include "graph/process/process.h"
 
 #include <errno.h>

@@ -1,7 +1,8 @@
-/* Forking, the signals and descriptors of a child, and how its end is told. */
+/* A child process that cannot harm its parent: what it prints is kept from the terminal, Ctrl-C is left to the parent, and it
+ * dies when the parent dies. Everything that runs in a child is started here (graph/process/workers.c, graph/process/child.c),
+ * but for commands as a whole (cli/guard.c). */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/process.h"
-#include "graph/limits.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -1,13 +1,15 @@
-/* A child process that cannot harm its parent: what it prints is kept from the terminal, Ctrl-C is left to the parent, and it
- * dies when the parent dies. Everything that runs in a child is started here (graph/process/workers.h, graph/process/child.h),
- * but for commands as a whole (cli/guard.h). */
+/* Processes: children with limits, and libraries that are loaded when they are needed. */
 #ifndef THR_PROCESS_H
 #define THR_PROCESS_H
 
+#include "graph/limits.h"
 #include "graph/status.h"
 #include "graph/text.h"
 
 #include <sys/types.h>
+
+/* ---- process.c: A child process that cannot harm its parent: what it prints is kept from the terminal, Ctrl-C is left to the
+ * parent, and it dies when the parent dies. */
 
 /* {0} is valid: no child. */
 typedef struct {
@@ -64,5 +66,53 @@ bool thr_process_stuck(thr_process *process);
 
 /* Ends it at once, whatever it does, and closes the pipes; nothing if there is no child. */
 void thr_process_kill(thr_process *process);
+
+/* ---- child.c: One job in a child process, with an answer of any size: for libraries that may crash, end the program or take
+ * no heed of time. */
+
+/* The child's way to its parent. */
+typedef struct thr_sender thr_sender;
+
+typedef struct {
+  const char *what;   /* messages begin with it, e.g. "sheets.pdf" */
+  const char *advice; /* what to do if the child dies, ends its message; NULL: nothing known */
+  /* Runs in the child, with the deadline, progress and work of the parent's limits; an interrupt of the parent's reaches it too.
+   * What it sends last is the answer. Returns a failure, whose text is carried back, or THR_ELIMIT with the best so far sent. */
+  thr_status (*run)(void *user, const thr_limits *limits, thr_sender *to, thr_err *err);
+  void *user;
+} thr_child;
+
+/* In the child: all bytes of `answer` in place of what was sent before. Sent now and then, it is the best so far that the parent
+ * has when it must end the child. Fails if the text failed (THR_ENOMEM) or the parent no longer listens (THR_ESOLVER). */
+thr_status thr_child_send(thr_sender *to, const thr_text *answer, thr_err *err) THR_MUST_CHECK;
+
+/* Runs the job and waits. At the deadline or an interrupt the child is asked to stop and killed a third of a second later:
+ * THR_ELIMIT. A child that dies is THR_ESOLVER. Whatever the status, *answer (empty before) holds what was sent last and arrived
+ * whole, of length 0 if there is none; the caller frees it. What the child took of limits->work is taken here, unless it was
+ * killed or died. */
+thr_status thr_child_run(const thr_child *child, const thr_limits *limits, thr_text *answer, thr_err *err) THR_MUST_CHECK;
+
+/* ---- lazy.c: Libraries that few commands need are loaded when one of their functions is first called: what starts `thread
+ * check` is small. */
+
+typedef struct {
+  const char *name;
+  void *pointer;        /* address of a pointer to a function, which receives that of this name */
+  void (*linked)(void); /* the function, where the library is linked with the program (THR_LINKED); else NULL */
+} thr_lazy_symbol;
+
+/* For a list of functions  #define FUNCTIONS(F) F(one) F(two):
+ * struct { FUNCTIONS(THR_LAZY_POINTER) bool loaded; } lib, and the symbols {FUNCTIONS(THR_LAZY_SYMBOL)} that fill it. */
+#define THR_LAZY_POINTER(f) __typeof__(f) *(f);
+#ifdef THR_LINKED
+#define THR_LAZY_SYMBOL(f) {#f, &lib.f, (void (*)(void))(f)},
+#else
+#define THR_LAZY_SYMBOL(f) {#f, &lib.f, NULL},
+#endif
+
+/* Unless *loaded, loads a library by the name that the run-time linker knows it by (libz.so.1) and fills the pointers, from
+ * it and from the libraries that it needs itself. What is loaded stays. THR_ESOLVER with the linker's reason and what to do. A
+ * few ms. */
+thr_status thr_lazy_load(bool *loaded, const char *library, const thr_lazy_symbol *symbol, size_t n, thr_err *err) THR_MUST_CHECK;
 
 #endif

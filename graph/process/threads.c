@@ -1,4 +1,13 @@
-/* Threads that wait for the next run; and jobs that whichever is free takes. */
+/* Independent jobs in threads of this process; each writes to its own place, so that the outcome is the same whatever the number
+ * of threads. Jobs that may crash or must be ended from outside go into forked processes instead (graph/process/workers.c,
+ * child.c): threads share what a library breaks.
+ *
+ *   thr_limits limits = {.threads = 2};
+ *   st = thr_threads_run(n_rows, solve_row, rows, &limits, &err);   solve_row(rows, 0, ..) .. solve_row(rows, n_rows - 1, ..)
+ *
+ * What libraries allow: an igraph with thread-local storage, nauty's sparse functions and Bullet are used from any thread, each
+ * with its own objects. GLPK's environment is the thread's, and a programme lives and dies in the thread that made it: jobs that
+ * keep one from run to run need a team. fontconfig is called in a child only. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/threads.h"
 #include "graph/plan/plan.h"

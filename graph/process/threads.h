@@ -1,18 +1,12 @@
-/* Independent jobs in threads of this process; each writes to its own place, so that the outcome is the same whatever the number
- * of threads. Jobs that may crash or must be ended from outside go into forked processes instead (graph/process/workers.h,
- * child.h): threads share what a library breaks.
- *
- *   thr_limits limits = {.threads = 2};
- *   st = thr_threads_run(n_rows, solve_row, rows, &limits, &err);   solve_row(rows, 0, ..) .. solve_row(rows, n_rows - 1, ..)
- *
- * What libraries allow: an igraph with thread-local storage, nauty's sparse functions and Bullet are used from any thread, each
- * with its own objects. GLPK's environment is the thread's, and a programme lives and dies in the thread that made it: jobs that
- * keep one from run to run need a team. fontconfig is called in a child only. */
+/* Threads, and teams of them. */
 #ifndef THR_THREADS_H
 #define THR_THREADS_H
 
 #include "graph/limits.h"
 #include "graph/status.h"
+
+/* ---- threads.c: Independent jobs in threads of this process; each writes to its own place, so that the outcome is the same
+ * whatever the number of threads. */
 
 /* One job. limits: those of thr_threads_run, for one thread, whose functions may be called from any thread. */
 typedef thr_status thr_threads_job(void *user, int job, const thr_limits *limits, thr_err *err);
@@ -42,5 +36,26 @@ thr_status thr_team_run(thr_team *team, int n_jobs, thr_threads_job *run, void *
 
 /* As thr_threads_run: whichever thread is free takes the next job; job 0 is done in the one that made the team and calls this. */
 thr_status thr_team_share(thr_team *team, int n_jobs, thr_threads_job *run, void *user, thr_err *err) THR_MUST_CHECK;
+
+/* ---- workers.c: Independent jobs in forked processes; results in fixed order, whatever the number of processes. */
+
+typedef struct {
+  int n_jobs;
+  size_t result_size; /* bytes of one result: plain data without pointers */
+  /* Runs in a child process: fills result, or returns a failure whose text is carried back. */
+  thr_status (*run)(void *user, int job, void *result, thr_err *err);
+  /* Runs in the parent as each job ends, in any order: e.g. to store it in the cache. May be NULL. */
+  void (*done)(void *user, int job, const void *result);
+  void *user;
+  const char *what;   /* for the progress line and for messages */
+  const char *advice; /* what to do if a child dies, ends its message; NULL: nothing known */
+} thr_work;
+
+/* Fills results[n_jobs * result_size] and finished[n_jobs]. Stops on the limits (THR_ELIMIT; finished says which results count)
+ * and on the first failing job in job order: its status and text, and no later job counts as finished. A child that dies is
+ * THR_ESOLVER. processes <= 1 still forks one child at a time, so that a crash in a library cannot take the parent with it.
+ * limits->advance is called in the parent with the part of the jobs that is done. No child is left, running or as a zombie. */
+thr_status thr_workers_run(const thr_work *w, int processes, const thr_limits *limits, void *results, bool *finished,
+                           thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,6 +1,6 @@
-/* A pool of forked processes, one per job, each with a pipe that carries its result back. */
+/* Independent jobs in forked processes; results in fixed order, whatever the number of processes. */
 #define _POSIX_C_SOURCE 200809L
-#include "graph/process/workers.h"
+#include "graph/process/threads.h"
 #include "graph/process/process.h"
 
 #include <errno.h>

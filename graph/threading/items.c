@@ -6,9 +6,9 @@
  * - cuts of tube joints: of the edges at a node some, the others, and as an item any turn between these and those. Where cords
  *   never end a node of three edges needs none: each edge turns to another.
  * Without them the table's cords cost no more than any others. */
-#include "graph/threading/threading.h"
 #include "graph/disjoint.h"
 #include "graph/plan/turning_proof.h"
+#include "graph/threading/threading.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,5 +1,5 @@
-/* The junction graph of every node (graph/plan/junction.h) while it is still open which cord takes which passes: the turns of all
- * walks, counted, so that a change of turns can be tried. */
+/* The junction graph of every node (graph/plan/plan_measures.h) while it is still open which cord takes which passes: the turns
+ * of all walks, counted, so that a change of turns can be tried. */
 #include "graph/threading/threading.h"
 
 #include <stdlib.h>

@@ -28,7 +28,7 @@ typedef struct {
   int *mate;             /* [n_darts] as in graph/threading/transition.c; -1 where a cord ends. These three are borrowed. */
   thr_pair_price *price; /* of(a, b); NULL: all 0 */
   const void *of;
-  bool tied;        /* cords must tie every node (graph/plan/junction.h) */
+  bool tied;        /* cords must tie every node (graph/plan/plan_measures.h) */
   int n_cords;      /* open ones first */
   int n_places;     /* of all cords */
   int *first;       /* [n_cords + 1] places of cord k: place[first[k]] .. place[first[k + 1] - 1] */
@@ -222,7 +222,7 @@ void thr_walk_visits_destroy(thr_walk_visits *visits);
 thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n_cords,
                            thr_err *err) THR_MUST_CHECK;
 
-/* ---- junction_graphs.c: The junction graph of every node (graph/plan/junction.h) while it is still open which cord takes
+/* ---- junction_graphs.c: The junction graph of every node (graph/plan/plan_measures.h) while it is still open which cord takes
  * which passes: the turns of all walks, counted, so that a change of turns can be tried. */
 
 /* count[first[v] + a * degree + b]: turns between the half-edges number a and b of node v, in both orders. */

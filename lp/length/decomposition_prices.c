@@ -1,4 +1,4 @@
-/* Proof that cords need as many passes as they have beyond a shortest join, by prices of places (graph/plan/prices.h).
+/* Proof that cords need as many passes as they have beyond a shortest join, by prices of places (graph/plan/plan_measures.h).
  *
  * Let every pass at a node where a cord may end be worth p, a place for its end, as if it made the edge lighter, and let 2 K
  * such places cost 2 K p: the least join at these prices, put together, is a bound for K cords, and the best p is searched for.
@@ -6,7 +6,7 @@
  * Example: docs/method.md, "Several cords". */
 #include "graph/check/check.h"
 #include "graph/disjoint.h"
-#include "graph/plan/prices.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/scratch.h"
 #include "lp/length/postman_parts.h"
 #include "lp/solver/lp.h"

@@ -61,7 +61,7 @@ thr_status thr_balance_shuffle(thr_balance *balance, int p, thr_err *err) THR_MU
 thr_status thr_balance_detour(thr_balance *balance, int p, int q, double below, bool *made, thr_err *err) THR_MUST_CHECK;
 
 /* ---- decomposition_prices.c: Proof that cords need as many passes as they have beyond a shortest join, by prices of places
- * (graph/plan/prices.h). */
+ * (graph/plan/plan_measures.h). */
 
 /* Where certificate, found without prices, proves less than these passes need for so many cords, looks for prices
  * that prove more: the bound is a concave function of the price, found between prices of too few and of too many places, each by

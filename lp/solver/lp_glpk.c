@@ -2,9 +2,9 @@
  * error hook jumps out. After that GLPK's environment must be freed, which kills every problem of the process; each
  * thr_lp remembers in which generation of the environment it was born. */
 #define _POSIX_C_SOURCE 200809L
+#include "graph/process/process.h"
 #include "graph/text.h"
 #include "lp/solver/lp.h"
-#include "graph/process/child.h"
 
 #include <glpk.h>
 #include <limits.h>

@@ -1,4 +1,5 @@
-/* Linear and cone programmes beside GLPK: the interior point method and its normal equations, column generation in bundles, rays. */
+/* Linear and cone programmes beside GLPK: the interior point method and its normal equations, column generation in bundles, rays.
+ */
 #ifndef THR_SOLVER_H
 #define THR_SOLVER_H
 

@@ -1,6 +1,6 @@
 /* The linear programmes on the cuts of finished T-joins, solved by GLPK from the joins. Its exact method computes with GMP, which
  * ends the program when memory runs out, and takes no heed of time within a pivot: all are solved in one child process. */
-#include "graph/process/child.h"
+#include "graph/process/process.h"
 #include "graph/text.h"
 #include "lp/solver/lp.h"
 #include "lp/tjoin/tjoin.h"

@@ -8,12 +8,12 @@
  *   thr_search_use(&search, thr_oddcuts_exact, &odd, THR_FALLBACK);
  *
  * Example: a triangle of odd nodes with x = 1/2 on its edges and 0 on the others that leave it breaks the row of the triangle. */
-#include "lp/tjoin/tjoin.h"
 #include "graph/disjoint.h"
-#include "graph/framework/cuttree.h"
+#include "graph/framework/frame.h"
 #include "graph/random.h"
 #include "graph/scratch.h"
 #include "graph/sort.h"
+#include "lp/tjoin/tjoin.h"
 
 #include <math.h>
 #include <stdlib.h>

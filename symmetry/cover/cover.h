@@ -21,10 +21,10 @@ typedef struct {
   const int *edge_cover;      /* [n_edges] instead of cover; NULL = all alike; borrowed */
   const int *edge_capacity;   /* [n_edges] passes that an edge may have at most, INT_MAX = any number; NULL = any; borrowed */
   int most_ends;              /* of cords, in all; 0 = any number */
-  bool tube;                  /* tube joints: the turns tie the edges at every node (graph/plan/junction.h), none goes back */
-  double start_by;            /* thr_clock() until when a first cover is looked for, even after the limits' deadline */
-  bool quick;                 /* overlap and steps only, as far as they come before turning: the rest is as it comes */
-  int most_closed;            /* of the cords: closed ones are as many as can be, up to so many in a component; 0: as few */
+  bool tube;       /* tube joints: the turns tie the edges at every node (graph/plan/plan_measures.h), none goes back */
+  double start_by; /* thr_clock() until when a first cover is looked for, even after the limits' deadline */
+  bool quick;      /* overlap and steps only, as far as they come before turning: the rest is as it comes */
+  int most_closed; /* of the cords: closed ones are as many as can be, up to so many in a component; 0: as few */
 } thr_cover_options;
 
 /* Is every cord open? With tube joints also if ends may be anywhere: where a closed cord comes out it ties nothing, so that its
@@ -87,7 +87,7 @@ thr_status thr_cover_cords(const thr_quotient *quotient, const thr_cover_options
 thr_status thr_cords_alone(const thr_frame *frame, const thr_cover_options *options, const thr_cord *cord, int n_cords,
                            thr_symmetry_record *record, thr_err *err) THR_MUST_CHECK;
 
-/* ---- ties.c: Tube joints (graph/plan/junction.h) in the programme of a symmetric cover: at every node the turns, as edges
+/* ---- ties.c: Tube joints (graph/plan/plan_measures.h) in the programme of a symmetric cover: at every node the turns, as edges
  * between its tubes, connect them all. */
 
 typedef struct {

@@ -1,7 +1,7 @@
 /* The best threading under each group of the table, and who gets how much of the time: all get a little, then those that are
  * open and may still be the best get more. Internal to symmetry/. */
-#include "symmetry/cover/cover_parts.h"
 #include "graph/process/threads.h"
+#include "symmetry/cover/cover_parts.h"
 #include "symmetry/lift/lift.h"
 
 #include <limits.h>

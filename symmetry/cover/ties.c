@@ -1,11 +1,11 @@
-/* Tube joints (graph/plan/junction.h) in the programme of a symmetric cover: at every node the turns, as edges between its tubes,
- * connect them all. Internal.
+/* Tube joints (graph/plan/plan_measures.h) in the programme of a symmetric cover: at every node the turns, as edges between its
+ * tubes, connect them all. Internal.
  *
  * A symmetric threading ties all nodes of an orbit or none, so one node stands for each: its star. A turn column joins, there,
  * every two tubes that one of its turns goes between. Where it is not known which (symmetry/cover/contraction.c), its turns are
  * only counted: between b blocks of tubes there are b - 1. */
-#include "symmetry/cover/cover.h"
 #include "graph/disjoint.h"
+#include "symmetry/cover/cover.h"
 
 #include <stdlib.h>
 

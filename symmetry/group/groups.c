@@ -6,7 +6,6 @@
  * All subgroups where they can be listed, else the isometries and what a few generators make. */
 #include "symmetry/group/groups.h"
 #include "graph/disjoint.h"
-#include "graph/framework/procrustes.h"
 #include "symmetry/group/group.h"
 
 #include <math.h>

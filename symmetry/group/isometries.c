@@ -1,6 +1,5 @@
 /* Isometries of a framework from its coordinates: two reference nodes may go to few places, and where they go fixes the motion up
  * to a mirror; every such motion is refined by Procrustes analysis and verified on all nodes and edges. */
-#include "graph/framework/procrustes.h"
 #include "graph/scratch.h"
 #include "graph/vector.h"
 #include "symmetry/group/group.h"

@@ -7,10 +7,9 @@
  * Example: R with determinant 1 and trace -1 turns by 180 degrees: C2.
  *
  * Procrustes analysis of automorphisms, their names, and the name of the point group that they make. */
-#include "symmetry/group/group.h"
 #include "graph/angle.h"
-#include "graph/framework/procrustes.h"
 #include "graph/vector.h"
+#include "symmetry/group/group.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* Automorphisms in a child process, which can be ended: nauty takes no heed of time. */
-#include "graph/process/child.h"
+#include "graph/process/process.h"
 #include "graph/text.h"
 #include "symmetry/group/group.h"
 

@@ -1,10 +1,10 @@
-/* Cords of a symmetric cover that are read in fewer instructions (graph/plan/reading.h), with every aim at the value it has: two
+/* Cords of a symmetric cover that are read in fewer instructions (graph/plan/reading.c), with every aim at the value it has: two
  * turns of a node, in all their images, exchange their partners where that turns no more.
  *
  * Example: two stairs over a grid that go right and then up here, up and then right there, become stairs that are one the other
  * moved along, which is read once. */
+#include "graph/plan/plan_measures.h"
 #include "symmetry/lift/lift.h"
-#include "graph/plan/reading.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -146,8 +146,7 @@ static thr_status reader_init(reader *r, const thr_cover *cover, thr_err *err)
 }
 
 thr_status thr_legible_cords(const thr_quotient *quotient, const thr_cover_options *options, const thr_request *request,
-                             const thr_limits *limits, thr_cover *cover, thr_lifted *threading, int *instructions,
-                             thr_err *err)
+                             const thr_limits *limits, thr_cover *cover, thr_lifted *threading, int *instructions, thr_err *err)
 {
   reader r = {.q = quotient, .how = options, .o = request, .limits = limits, .now = threading};
   thr_status st = reader_init(&r, cover, err);

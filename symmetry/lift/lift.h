@@ -34,7 +34,7 @@ thr_status thr_keep_cords(const thr_quotient *quotient, const thr_cover_options 
                           const thr_limits *limits, thr_cover *cover, thr_cord **cord, int *n_cords, thr_symmetry_record *record,
                           bool *kept, thr_err *err) THR_MUST_CHECK;
 
-/* ---- legible.c: Cords of a symmetric cover that are read in fewer instructions (graph/plan/reading.h), with every aim at the
+/* ---- legible.c: Cords of a symmetric cover that are read in fewer instructions (graph/plan/reading.c), with every aim at the
  * value it has: two turns of a node, in all their images, exchange their partners where that turns no more. */
 
 /* What a threading is for whoever has to do it. */

@@ -3,9 +3,8 @@
 #ifndef THR_FUZZ_H
 #define THR_FUZZ_H
 
-#include "graph/io/read.h"
 #include "graph/framework/frame.h"
-#include "graph/framework/near.h"
+#include "graph/io/read.h"
 #include "graph/status.h"
 #include "graph/text.h"
 

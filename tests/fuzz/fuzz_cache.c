@@ -1,8 +1,7 @@
 /* Fuzzes the reader of cached joints: the input as a whole file, and as the values of one whose key and checksum are right. What
  * is read must be finite, and write the same file again. */
+#include "eval/joint/joint.h"
 #include "fuzz.h"
-#include "eval/joint/cache.h"
-#include "eval/joint/drag.h"
 #include "graph/text.h"
 
 #include <inttypes.h>

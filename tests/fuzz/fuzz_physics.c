@@ -1,9 +1,9 @@
 /* Fuzzes the reader of physics (config files, options.physics of plans) and what is made of it: what parses is in range, survives
  * being written and read again, and resolves against a framework to sizes that fit, or is refused. */
-#include "graph/plan/physics.h"
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
 #include "graph/io/writer.h"
+#include "graph/plan/physics.h"
 #include "graph/status.h"
 #include "graph/text.h"
 

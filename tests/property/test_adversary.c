@@ -1,7 +1,7 @@
 /* An adversary of the checker: certificates that hill climbing looks for on small frameworks, to have a bound accepted that is
  * above the truth. The truth comes from trying all choices (tests/truth.h). */
 #include "graph/check/check.h"
-#include "graph/plan/prices.h"
+#include "graph/plan/plan_measures.h"
 #include "lp/length/postman.h"
 #include "tests/attack.h"
 #include "tests/frameworks.h"

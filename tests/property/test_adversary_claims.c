@@ -2,7 +2,7 @@
  * most, and of length, longest cord and fewest cords with tube joints. */
 #include "graph/check/check.h"
 #include "graph/limits.h"
-#include "graph/plan/junction.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/turning_proof.h"
 #include "planner/planner.h"
 #include "tests/attack.h"

@@ -1,7 +1,7 @@
 /* The adversary of test_adversary.c against proofs of turning and of tied length: trees of multipliers on small frameworks,
  * looked for by hill climbing from nothing and from the program's own proofs, to prove more than is true. Of prices the truth is
  * exact (tests/truth.h), so that even the last bit of the rounding counts. */
-#include "graph/plan/junction.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/turning_proof.h"
 #include "lp/model/tree.h"
 #include "tests/attack.h"

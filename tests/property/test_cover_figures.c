@@ -1,6 +1,6 @@
 /* Symmetric covers of frameworks whose figures are published, and route inspection as the cover under the trivial group. */
 #include "graph/framework/make.h"
-#include "graph/plan/junction.h"
+#include "graph/plan/plan_measures.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/cover/cover_parts.h"
 #include "symmetry/group/group.h"

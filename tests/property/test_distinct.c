@@ -3,7 +3,6 @@
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/distinct_needs.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
 #include "graph/status.h"

@@ -1,5 +1,5 @@
 /* Instructions of the rows of the table of symmetries, against all threadings that turn out the same in every aim. */
-#include "graph/plan/reading.h"
+#include "graph/plan/plan_measures.h"
 #include "symmetry/symmetry.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"

@@ -1,7 +1,6 @@
 /* What a drawing nearly says, on random frameworks in a square lattice: where edges cross and which nodes lie on edges is decided
  * there by signs of integers; nodes drawn twice at a hair's breadth are known from the making. */
 #include "graph/framework/frame.h"
-#include "graph/framework/near.h"
 #include "tests/support.h"
 
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "graph/check/check.h"
 #include "graph/framework/make.h"
 #include "graph/limits.h"
-#include "graph/plan/chains.h"
+#include "graph/plan/plan_measures.h"
 #include "planner/planner.h"
 #include "planner/planner_parts.h"
 #include "tests/frameworks.h"

@@ -1,5 +1,5 @@
 /* The shortest cords for tube joints against all passes and all turns of small frameworks, and against published values. */
-#include "graph/plan/junction.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/turning_proof.h"
 #include "planner/planner.h"
 #include "tests/frameworks.h"

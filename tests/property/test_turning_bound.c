@@ -1,7 +1,7 @@
 /* What random multipliers and trees prove, against the rows of turning_rows.h added up. */
 #include "graph/plan/turning_proof.h"
-#include "tests/support.h"
 #include "tests/frameworks.h"
+#include "tests/support.h"
 #include "tests/turning_rows.h"
 
 #include <math.h>

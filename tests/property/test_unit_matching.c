@@ -2,7 +2,7 @@
  * checker's arithmetic, is what they cost. That proves both, for whatever lengths and covers. */
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
-#include "graph/plan/junction.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/request.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/status.h"

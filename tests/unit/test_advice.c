@@ -1,5 +1,5 @@
 /* Advice: pulls from turning, cords cut evenly against every other way of cutting them, the choice, and the picture. */
-#include "diagram/overview/advice_chart.h"
+#include "diagram/overview/charts.h"
 #include "eval/eval.h"
 #include "graph/angle.h"
 #include "graph/limits.h"

@@ -1,5 +1,5 @@
 /* Friction from weights, and the piece that they hang from: what went in by the capstan law comes out; the mesh is closed. */
-#include "diagram/export/test_piece.h"
+#include "diagram/export/paper.h"
 #include "eval/cord/calibrate.h"
 #include "graph/angle.h"
 #include "tests/support.h"
@@ -12,7 +12,7 @@ START_TEST(capstan_law_is_undone)
 {
   const double mu = 0.05 + 0.1 * _i, angle = THR_PI / 2;
   const thr_weighing w[] = {{200, 200 * exp(mu * angle), 200 * exp(-mu * angle)}, {5, 5 * exp(mu * angle), 5 * exp(-mu * angle)}};
-  thr_friction found;
+  thr_fitted_friction found;
   thr_err err = {0};
   ck_assert_msg(thr_calibrate(w, 2, angle, 0, &found, &err) == THR_OK, "%s", err.text);
   ck_assert_double_eq_tol(found.mu, mu, 1e-12);
@@ -29,7 +29,7 @@ START_TEST(a_wrong_weight_shows_in_the_band)
 {
   const double mu = 0.2, angle = THR_PI / 2;
   const thr_weighing w = {200, 220 * exp(mu * angle), 220 * exp(-mu * angle)};
-  thr_friction found;
+  thr_fitted_friction found;
   ck_assert_int_eq(thr_calibrate(&w, 1, angle, 0, &found, NULL), THR_OK);
   ck_assert_double_eq_tol(found.mu, mu, 1e-12);
   ck_assert_double_eq_tol(found.high - mu, log(1.1) / angle, 1e-12);
@@ -41,7 +41,7 @@ START_TEST(nonsense_is_refused)
 {
   static const thr_weighing bad[] = {{5, 4, 3}, {5, 6, 5.5}, {5, 6, 0}, {0, 1, 0}, {-1, 2, -2}, {5, INFINITY, 1}, {NAN, 2, 1}};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-    thr_friction found;
+    thr_fitted_friction found;
     thr_err err = {0};
     ck_assert_int_eq(thr_calibrate(&bad[i], 1, 1, 0, &found, &err), THR_EINPUT);
     assert_one_line(&err, "weighing 1");
@@ -53,7 +53,7 @@ END_TEST
 START_TEST(a_tilted_board_tells_friction)
 {
   const double mu = 0.1 + 0.15 * _i, angle[] = {atan(mu), atan(mu), atan(2 * mu)}, degree = THR_PI / 180;
-  thr_friction found;
+  thr_fitted_friction found;
   thr_err err = {0};
   ck_assert_int_eq(thr_calibrate_tilt(angle, 2, 0, &found, &err), THR_OK);
   ck_assert_double_eq_tol(found.mu, mu, 1e-12);

@@ -1,13 +1,12 @@
 /* Method capstan: closed forms of both laws, symmetry, the best slackest pass by trying all, refusals. */
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
-#include "eval/eval.h"
 #include "eval/cord/profile.h"
+#include "eval/eval.h"
 #include "graph/angle.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/friction.h"
-#include "graph/plan/pulled.h"
+#include "graph/plan/physics.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "graph/check/check_parts.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
-#include "graph/plan/prices.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/request.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"

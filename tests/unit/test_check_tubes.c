@@ -1,7 +1,7 @@
 /* Tube joints in the checker: which nodes are tied, and what proofs of tied length prove. */
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
-#include "graph/plan/junction.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/turning_proof.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"

@@ -1,10 +1,9 @@
 /* One job in a child process: answers of any size, the best so far, deaths, limits, and no child that outlives its parent. */
 #define _POSIX_C_SOURCE 200809L
+#include "graph/limits.h"
+#include "graph/process/process.h"
 #include "tests/processes.h"
 #include "tests/support.h"
-#include "graph/process/child.h"
-#include "graph/process/process.h"
-#include "graph/limits.h"
 
 #include <errno.h>
 #include <poll.h>

@@ -1,6 +1,6 @@
 /* The picture of a comparison: bars, points and bands as high as the numbers say, texts apart and on the sheet; what the frontier
  * is. */
-#include "diagram/overview/compare_chart.h"
+#include "diagram/overview/charts.h"
 #include "graph/limits.h"
 #include "graph/plan/advice.h"
 #include "graph/plan/plan.h"

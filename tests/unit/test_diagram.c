@@ -1,12 +1,12 @@
 /* Diagrams: layouts measured and chosen, and the overview picture read back from its SVG text. */
+#include "diagram/layout/layout.h"
 #include "diagram/overview/overview.h"
-#include "diagram/scene/palette.h"
+#include "diagram/scene/scene.h"
 #include "graph/framework/make.h"
 #include "symmetry/symmetry.h"
-#include "tests/symmetric.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "diagram/layout/layout.h"
+#include "tests/symmetric.h"
 
 #include <check.h>
 #include <math.h>

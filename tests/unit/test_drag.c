@@ -1,9 +1,9 @@
 /* A cord dragged in Bullet: the capstan law as oracle, the taut path of a zigzag in closed form, same bits, range and refusals.
  */
-#include "tests/support.h"
-#include "eval/joint/drag.h"
+#include "eval/joint/joint.h"
 #include "graph/angle.h"
 #include "graph/limits.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,7 @@
 /* How structures come up: what stands without a cord comes up by itself, stills are what they say, nonsense is refused, and equal
  * input gives equal bits. */
-#include "eval/structure/erect.h"
-
 #include "eval/structure/beads.h"
+
 #include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"

@@ -1,14 +1,13 @@
 /* The contract of thr_eval_plan (eval/eval.h), for every method alike. A joint takes a second to measure, so that all joints are
  * kept in one folder for the run of this program, and the shape that the simulations see has one turn. */
 #define _POSIX_C_SOURCE 200809L
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
 #include "eval/eval.h"
 #include "graph/io/writer.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/pulled.h"
 #include "graph/plan/physics.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <dirent.h>
 #include <math.h>

@@ -1,11 +1,11 @@
 /* The record of an evaluation: colours, sums, JSON there and back, and what the checker sees. */
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
 #include "eval/eval.h"
 #include "graph/check/check.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/pulled.h"
+#include "graph/plan/physics.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* The picture of the frontier: circles and bands where the numbers say, texts apart and on the sheet. */
-#include "diagram/overview/frontier_chart.h"
+#include "diagram/overview/charts.h"
 #include "graph/plan/advice.h"
 #include "graph/plan/physics.h"
 #include "tests/support.h"

@@ -1,7 +1,7 @@
 /* Automorphism groups by nauty against closed forms, igraph and all permutations; listed groups against their axioms; subgroups
  * against published counts and all subsets. */
 #define _POSIX_C_SOURCE 200809L
-#include "graph/framework/automorphism_count.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "symmetry/group/group.h"
 #include "tests/frameworks.h"

@@ -1,17 +1,17 @@
 /* Tensions after pulls, grips, releases and knots: against the least and the largest state that the turns allow and the elastic
  * one, found turn by turn; grips against all sets of grips; schedules as text; what the checker says of other tensions.
  */
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/sample_plans.h"
-#include "eval/cord/history.h"
+#include "eval/cord/profile.h"
 #include "eval/eval.h"
 #include "graph/angle.h"
 #include "graph/check/check.h"
-#include "graph/plan/evaluation.h"
-#include "graph/plan/pulled.h"
-#include "graph/plan/schedule.h"
 #include "graph/limits.h"
+#include "graph/plan/evaluation.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/schedule.h"
+#include "tests/frameworks.h"
+#include "tests/sample_plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,14 +1,13 @@
 /* Holding pull: closed forms of cantilever and friction, a plain programme solved by simplex, the mechanism checked as a
  * mechanism. */
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
-#include "graph/angle.h"
-#include "lp/solver/lp.h"
 #include "eval/structure/beads.h"
-#include "eval/structure/holding.h"
+#include "graph/angle.h"
 #include "graph/plan/physics.h"
 #include "graph/vector.h"
+#include "lp/solver/lp.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* What automorphisms are in space, against the known classes of point groups; isometries from coordinates against nauty's group.
  */
 #include "graph/angle.h"
-#include "graph/framework/procrustes.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/vector.h"
 #include "symmetry/group/group.h"

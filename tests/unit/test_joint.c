@@ -1,16 +1,14 @@
 /* Composing joints along taut cords, with friction laws that are known exactly in Bullet's place; and the cache of joints. */
 #define _POSIX_C_SOURCE 200809L
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
-#include "eval/joint/cache.h"
-#include "eval/joint/joint.h"
-#include "eval/cord/taut.h"
-#include "graph/angle.h"
+#include "eval/cord/profile.h"
 #include "eval/eval.h"
-#include "eval/joint/drag.h"
+#include "eval/joint/joint.h"
+#include "graph/angle.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <dirent.h>
 #include <math.h>

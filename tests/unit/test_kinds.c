@@ -1,9 +1,9 @@
 /* Kinds of beads against turned, mirrored and renamed ones; bores against closed forms and areas. */
 #include "diagram/tables/kinds.h"
 #include "graph/angle.h"
-#include "graph/framework/bore.h"
-#include "tests/symmetric.h"
+#include "graph/framework/frame.h"
 #include "tests/frameworks.h"
+#include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdlib.h>

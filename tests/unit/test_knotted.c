@@ -1,5 +1,5 @@
 /* What a knotted cord can resist by tightening, against every corner of the set of its tensions. */
-#include "graph/plan/knotted.h"
+#include "graph/plan/plan_measures.h"
 #include "tests/support.h"
 
 #include <math.h>

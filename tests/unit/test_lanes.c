@@ -1,10 +1,10 @@
 /* Lanes by the geometry of the finished picture: which strands cross in a node is read from where they enter and leave it. */
+#include "diagram/layout/layout.h"
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "diagram/layout/layout.h"
 #include "graph/plan/plan.h"
+#include "tests/frameworks.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

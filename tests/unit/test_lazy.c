@@ -1,6 +1,6 @@
 /* Libraries that are loaded when they are needed. */
+#include "graph/process/process.h"
 #include "tests/support.h"
-#include "graph/process/lazy.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* The least pull at both ends: both ways to compute it, against every turn that could be left out. */
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
-#include "graph/plan/least_pull.h"
+#include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
 #include "tests/frameworks.h"
 #include "tests/support.h"

@@ -1,6 +1,6 @@
 /* Outlines of letters: as many closed curves as a letter has edges, holes against the rest, capitals as high as they are to be.
  */
-#include "diagram/export/letters.h"
+#include "diagram/export/paper.h"
 #include "diagram/mat/emboss.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/make.h"

@@ -1,5 +1,5 @@
 /* Contract of the linear programming interface, and of the cut tree. */
-#include "graph/framework/cuttree.h"
+#include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "lp/solver/lp.h"
 #include "lp/solver/solver.h"

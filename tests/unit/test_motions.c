@@ -1,10 +1,10 @@
 /* What the words for copies say, against matrices whose geometry is known: x to the right, y to the back, z up. */
-#include "lib/motions.c"
-#include "lib/motions.h"
 #include "graph/angle.h"
-#include "tests/symmetric.h"
-#include "tests/frameworks.h"
 #include "graph/plan/plan.h"
+#include "lib/handles.h"
+#include "lib/motions.c"
+#include "tests/frameworks.h"
+#include "tests/symmetric.h"
 
 #include <string.h>
 

@@ -1,12 +1,11 @@
 /* The overview looked at as a maker does: parsed from its SVG and held against the plan and the framework. */
+#include "diagram/layout/layout.h"
 #include "diagram/overview/overview.h"
-#include "diagram/scene/palette.h"
-#include "diagram/scene/places.h"
-#include "tests/sample_plans.h"
-#include "tests/svg_tree.h"
+#include "diagram/scene/scene.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "diagram/layout/layout.h"
+#include "tests/sample_plans.h"
+#include "tests/svg_tree.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* The palette in numbers, for eyes of every kind and for grey print. */
-#include "diagram/scene/palette.h"
+#include "diagram/scene/scene.h"
 #include "graph/angle.h"
 #include "tests/support.h"
 

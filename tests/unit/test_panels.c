@@ -1,10 +1,9 @@
 /* Two panels of closed shells, the side that they show, and drawings by springs. */
-#include "diagram/overview/guide.h"
 #include "diagram/layout/layout.h"
-#include "graph/framework/drawing.h"
+#include "diagram/overview/overview_parts.h"
 #include "graph/framework/make.h"
-#include "tests/symmetric.h"
 #include "tests/frameworks.h"
+#include "tests/symmetric.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* Physical quantities: ranges, presets, JSON there and back, sizes from the framework, refusals. */
 #define _POSIX_C_SOURCE 200809L
-#include "tests/support.h"
-#include "tests/frameworks.h"
 #include "graph/framework/units.h"
 #include "graph/io/json.h"
 #include "graph/io/writer.h"
 #include "graph/plan/physics.h"
+#include "tests/frameworks.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdio.h>

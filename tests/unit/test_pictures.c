@@ -1,15 +1,13 @@
 /* The tension plot, the overview coloured by tension and by turning, and the still picture: heights against tensions, lightness
  * against angles, order against depth, rotated poses against a rotated framework. */
 #include "diagram/overview/overview.h"
-#include "diagram/scene/palette.h"
-#include "diagram/overview/still.h"
-#include "diagram/overview/tension.h"
+#include "diagram/scene/scene.h"
 #include "graph/angle.h"
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,7 @@
 /* Play of pieces on a cord that is thinner than its bores. */
-#include "tests/support.h"
-#include "tests/frameworks.h"
 #include "graph/plan/physics.h"
-#include "graph/plan/play.h"
+#include "tests/frameworks.h"
+#include "tests/support.h"
 
 static thr_play play_of(const thr_frame *frame)
 {

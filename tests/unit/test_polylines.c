@@ -1,11 +1,9 @@
 /* The cords as lines: OBJ read back by the reader of frameworks and record by record, glTF decoded byte by byte. */
-#include "diagram/scene/cord_lines.h"
-#include "diagram/scene/palette.h"
-#include "diagram/scene/polylines.h"
+#include "diagram/scene/scene.h"
 #include "graph/io/json.h"
 #include "graph/io/read.h"
-#include "tests/sample_plans.h"
 #include "tests/plans.h"
+#include "tests/sample_plans.h"
 
 #include <math.h>
 #include <stdio.h>

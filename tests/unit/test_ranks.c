@@ -3,7 +3,6 @@
 #include "graph/framework/make.h"
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
-#include "graph/plan/turning_ranks.h"
 #include "tests/support.h"
 #include "tortuosity/proof/branch.h"
 #include "tortuosity/proof/relax_parts.h"

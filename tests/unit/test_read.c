@@ -1,8 +1,8 @@
 /* Readers and writers: every dialect with a known answer, the stored frameworks' totals, error texts, round trips, and
  * every allocation failing once. */
-#include "graph/io/read.h"
-#include "graph/io/scan.h"
 #include "graph/framework/frame.h"
+#include "graph/io/read.h"
+#include "graph/io/read_parts.h"
 #include "graph/status.h"
 #include "graph/text.h"
 #include "tests/support.h"

@@ -1,5 +1,5 @@
 /* What a hand reads of a plan: instructions counted by hand. */
-#include "graph/plan/reading.h"
+#include "graph/plan/plan_measures.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"

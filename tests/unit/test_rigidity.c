@@ -1,9 +1,8 @@
 /* Rigidity: closed forms, theorems (Cauchy and Dehn: convex triangulated spheres), and the rank of random frameworks with whole
  * coordinates by elimination modulo a prime. */
-#include "tests/symmetric.h"
-#include "eval/structure/rank.h"
-#include "eval/structure/rigidity.h"
+#include "eval/structure/beads.h"
 #include "tests/frameworks.h"
+#include "tests/symmetric.h"
 
 #include <stdlib.h>
 

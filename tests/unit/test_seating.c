@@ -1,12 +1,12 @@
 /* Gaps that are seated: closed forms, and what the tensions are once a cord was pulled by so much. */
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
 #include "eval/eval.h"
 #include "graph/plan/evaluation.h"
-#include "graph/plan/pulled.h"
+#include "graph/plan/physics.h"
+#include "graph/plan/plan_measures.h"
 #include "graph/plan/schedule.h"
-#include "graph/plan/seating.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

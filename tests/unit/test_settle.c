@@ -1,12 +1,11 @@
 /* The structure in Bullet against statics: cantilevers fall at the newtons that moments say, what stands stands, what cannot be
  * simulated is refused, and equal input gives equal bits. */
-#include "eval/structure/settle.h"
-#include "tests/support.h"
-#include "tests/frameworks.h"
 #include "eval/structure/beads.h"
 #include "graph/limits.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "tests/frameworks.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,12 +1,12 @@
 /* Step sheets: the PDF's text as pdftotext finds it, read row by row back into half-edges and compared with the plan; sizes of
  * pages and letters; every pass of a step numbered in its picture. */
 #define _POSIX_C_SOURCE 200809L
-#include "diagram/overview/guide.h"
-#include "diagram/sheets/sheets.h"
-#include "tests/sample_plans.h"
-#include "tests/frameworks.h"
 #include "diagram/export/paper.h"
+#include "diagram/overview/overview_parts.h"
+#include "diagram/sheets/sheets.h"
 #include "graph/limits.h"
+#include "tests/frameworks.h"
+#include "tests/sample_plans.h"
 
 #include <ctype.h>
 #include <stdio.h>

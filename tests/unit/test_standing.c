@@ -1,14 +1,13 @@
 /* What the limit analysis leaves in a plan: there and back as JSON, and what the checker believes of it. */
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "tests/plans.h"
-#include "eval/cord/taut.h"
+#include "eval/cord/profile.h"
 #include "eval/eval.h"
 #include "graph/check/check.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/schedule.h"
-#include "graph/plan/standing.h"
+#include "tests/frameworks.h"
+#include "tests/plans.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,9 +1,8 @@
 /* The steps in words: read back row by row into half-edges and compared with the plan; sides against what is outside in space. */
 #include "diagram/layout/layout.h"
-#include "diagram/overview/guide.h"
-#include "diagram/overview/steps.h"
-#include "diagram/scene/copies.h"
-#include "diagram/scene/places.h"
+#include "diagram/overview/overview.h"
+#include "diagram/overview/overview_parts.h"
+#include "diagram/scene/scene.h"
 #include "graph/angle.h"
 #include "graph/framework/make.h"
 #include "graph/vector.h"

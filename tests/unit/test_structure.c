@@ -1,7 +1,7 @@
 /* The pull that the structures of whole plans need (method structure): larger loads and domes, rougher cords, other ways of
  * writing the same plan. */
 #include "eval/eval.h"
-#include "eval/structure/holding.h"
+#include "eval/structure/beads.h"
 #include "graph/angle.h"
 #include "graph/framework/make.h"
 #include "graph/plan/evaluation.h"

@@ -1,10 +1,8 @@
 /* Pages drawn from SVG: the pixels are those that librsvg draws (rsvg-convert), the words those of the document, and what the
  * reader does not know is refused. */
 #define _POSIX_C_SOURCE 200809L
-#include "diagram/export/font.h"
-#include "diagram/export/pages.h"
+#include "diagram/export/export_parts.h"
 #include "diagram/export/paper.h"
-#include "diagram/export/svg_page.h"
 #include "diagram/sheets/sheets.h"
 #include "graph/limits.h"
 #include "graph/plan/plan.h"

@@ -2,10 +2,10 @@
 #include "diagram/tables/tables.h"
 #include "graph/angle.h"
 #include "graph/io/json.h"
-#include "tests/sample_plans.h"
+#include "graph/plan/physics.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
-#include "graph/plan/physics.h"
+#include "tests/sample_plans.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,10 +1,10 @@
 /* The taut path: closed forms by hand, a brute force that knows the openings only by distances to the channels' axes, symmetry.
  */
-#include "tests/support.h"
-#include "tests/frameworks.h"
-#include "eval/cord/taut.h"
+#include "eval/cord/profile.h"
 #include "graph/angle.h"
 #include "graph/plan/plan.h"
+#include "tests/frameworks.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

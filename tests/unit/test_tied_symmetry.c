@@ -1,7 +1,7 @@
 /* Symmetric threadings that tie tube joints: published lengths, the search without symmetry, the checker. That they are the best
  * under every group of small frameworks is shown in tests/property/test_cover.c. */
 #include "graph/check/check.h"
-#include "graph/plan/junction.h"
+#include "graph/plan/plan_measures.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/group/group.h"
 #include "symmetry/symmetry.h"

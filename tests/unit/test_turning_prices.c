@@ -1,8 +1,8 @@
 /* Prices of turns in all directions, and the limits on passes and length that the columns of a turning bound have. */
 #include "graph/angle.h"
 #include "graph/plan/turning_proof.h"
-#include "tests/support.h"
 #include "tests/frameworks.h"
+#include "tests/support.h"
 
 #include <limits.h>
 #include <math.h>

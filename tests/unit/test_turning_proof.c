@@ -1,7 +1,7 @@
 /* Multipliers, trees and tasks that are no proof, or none that is allowed. */
 #include "graph/plan/turning_proof.h"
-#include "tests/support.h"
 #include "tests/frameworks.h"
+#include "tests/support.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,14 +1,14 @@
 /* The viewer's page: what is in it is read back with the JSON library and compared with the plan, names that could end the script
  * do not, and failures leave nothing behind. What the page does is tested in tests/viewer. */
-#include "diagram/export/viewer.h"
-#include "graph/io/json.h"
+#include "diagram/export/paper.h"
 #include "graph/framework/make.h"
+#include "graph/io/json.h"
+#include "graph/plan/evaluation.h"
 #include "symmetry/symmetry.h"
-#include "tests/support.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
+#include "tests/support.h"
 #include "tests/symmetric.h"
-#include "graph/plan/evaluation.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,9 +1,9 @@
 /* The pool of processes: order, failures, crashes, signals, limits, and nothing left behind. */
 #define _POSIX_C_SOURCE 200809L
+#include "graph/limits.h"
+#include "graph/process/threads.h"
 #include "tests/processes.h"
 #include "tests/support.h"
-#include "graph/process/workers.h"
-#include "graph/limits.h"
 
 #include <errno.h>
 #include <signal.h>

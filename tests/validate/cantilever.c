@@ -1,12 +1,10 @@
 /* The thesis's Fig. 12: a row of beads held out from a wall by one straight cord. */
-#include "eval/structure/holding.h"
-#include "eval/structure/settle.h"
-#include "tests/validate/validate.h"
 #include "eval/structure/beads.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/physics.h"
 #include "graph/plan/plan.h"
+#include "tests/validate/validate.h"
 
 #include <math.h>
 #include <stdio.h>

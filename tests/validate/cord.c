@@ -1,9 +1,9 @@
 /* Whole cords of 20 turns in Bullet against joints composed along the taut path. */
-#include "eval/cord/taut.h"
+#include "eval/cord/profile.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
-#include "tests/validate/drags.h"
 #include "graph/plan/plan.h"
+#include "tests/validate/drags.h"
 
 #include <math.h>
 #include <stdio.h>

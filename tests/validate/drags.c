@@ -1,6 +1,6 @@
 #include "tests/validate/drags.h"
-#include "graph/process/workers.h"
 #include "graph/limits.h"
+#include "graph/process/threads.h"
 
 #include <stdlib.h>
 #include <unistd.h>

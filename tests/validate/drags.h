@@ -2,7 +2,7 @@
 #ifndef THR_DRAGS_H
 #define THR_DRAGS_H
 
-#include "eval/joint/drag.h"
+#include "eval/joint/joint.h"
 #include "tests/validate/validate.h"
 
 enum { MOST_TURNS = 20 };

@@ -1,5 +1,5 @@
 /* make validate: docs/validation.md. Exit code 1 if a value is outside its bound. Usage: validate FILE [part] */
-#include "eval/joint/drag.h"
+#include "eval/joint/joint.h"
 #include "eval/joint/world.h"
 #include "tests/validate/validate.h"
 

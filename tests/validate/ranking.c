@@ -1,10 +1,10 @@
 /* Three threadings of the 7x7 dome: the order of their pulls by every method and under varied settings of the simulation. */
 #include "eval/eval.h"
-#include "graph/process/workers.h"
-#include "tests/validate/validate.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/plan.h"
+#include "graph/process/threads.h"
+#include "tests/validate/validate.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -11,10 +11,10 @@
  *
  * Example: three rings of a sphere cross at 60 degrees. Exchanges join two of them by two turns of 60 degrees; an extra pass that
  * leaves one ring's line for another's joins them by one. */
-#include "tortuosity/cords/anneal.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/random.h"
+#include "tortuosity/cords/anneal.h"
 
 #include <float.h>
 #include <math.h>

@@ -5,9 +5,9 @@
  * way round.
  *
  * Example: a figure of eight is one circuit or two, by the exchange at its middle. */
-#include "tortuosity/cords/join.h"
 #include "graph/framework/frame.h"
 #include "graph/random.h"
+#include "tortuosity/cords/join.h"
 #include "tortuosity/cords/walk_model.h"
 
 #include <assert.h>

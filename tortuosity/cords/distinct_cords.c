@@ -2,9 +2,9 @@
  *
  * Two passes of one cord hold no more of a bead than one; two cords hold planar faces together, three any faces (C. Nelson's
  * thesis). Example: two passes over every edge of a cube, its six faces as cords: two different cords over every edge. */
-#include "tortuosity/cords/several.h"
-#include "graph/plan/least_pull.h"
+#include "graph/plan/physics.h"
 #include "graph/random.h"
+#include "tortuosity/cords/several.h"
 
 #include <limits.h>
 #include <math.h>

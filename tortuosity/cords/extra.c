@@ -1,8 +1,8 @@
 /* Extra passes and ends of least weight under any prices of edges: where the search for the least turning starts, and how its
  * points are rounded. A minimum T-join (lp/tjoin/engine.c) with slots for the ends. */
-#include "tortuosity/cords/join.h"
 #include "graph/framework/frame.h"
 #include "lp/tjoin/tjoin.h"
+#include "tortuosity/cords/join.h"
 #include "tortuosity/cords/walk_model.h"
 
 #include <assert.h>

@@ -4,12 +4,12 @@
  * in which the largest counts most (graph/threading/even.c).
  *
  * Example: cords of 5 and 9 rad with a total of 14 cannot be better than 7 and 7. */
-#include "tortuosity/cords/several.h"
 #include "graph/angle.h"
-#include "graph/plan/least_pull.h"
+#include "graph/plan/physics.h"
 #include "graph/process/threads.h"
 #include "graph/random.h"
 #include "tortuosity/cords/anneal.h"
+#include "tortuosity/cords/several.h"
 #include "tortuosity/cords/walk_model.h"
 #include "tortuosity/tie/tie.h"
 

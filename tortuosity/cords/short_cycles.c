@@ -1,9 +1,9 @@
 /* Short cycles through every turn. Internal to tortuosity/.
  *
  * Example: through two sides of a triangle of a mesh that meet there is one cycle of three edges. */
-#include "tortuosity/cords/join.h"
 #include "graph/framework/frame.h"
 #include "graph/scratch.h"
+#include "tortuosity/cords/join.h"
 
 #include <stdlib.h>
 

@@ -1,8 +1,8 @@
 /* How much some cord has to turn, or how long it must be, and cords little above that: the programme over walks.
  *
  * Example: on a 7 x 7 dome with 14 cords between its feet some cord turns by 257 degrees, which is what the plan has. */
-#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* Cords that a programme over walks chooses: by diving, and among all its walks. Internal to tortuosity/. */
-#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
 #include "graph/random.h"
 #include "lp/solver/lp.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* What the walks of a programme remember, so that they are not worth going round and round. Internal to tortuosity/. */
-#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,8 @@
 /* Cords near others: some of them are taken away, and a programme over walks chooses what takes their place. Internal to
  * tortuosity/. */
-#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
 #include "graph/random.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -8,9 +8,9 @@
  * prices between the last optimum and the best so far, where optima alone would swing (P. Wentges 1997); any prices give a valid
  * bound (A. A. Farley 1990), which ends most searches early. Optima are corners, by the simplex method, or near the middle
  * (tortuosity/cords/walk_centre.c). */
-#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
 #include "lp/solver/lp.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <limits.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Short walks that make one more cord: without U-turns but at nodes with one edge. Internal to tortuosity/. */
-#include "tortuosity/cords/walk_model.h"
 #include "graph/framework/frame.h"
+#include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
 #include <stdlib.h>

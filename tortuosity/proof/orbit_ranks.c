@@ -3,15 +3,14 @@
  * Of multipliers that prove a bound the mean of all images under the symmetries (tortuosity/proof/orbits.c) proves as much, as
  * the bound is concave. So it is enough to look for one number per orbit of half-edges, for one partition that no symmetry
  * changes, and for the orbits of its blocks, each of which is a group: some dozen numbers on a sphere of a thousand edges. What a
- * node is worth is the least over its forests (graph/plan/turning_ranks.h), which come into the linear programme of these numbers
+ * node is worth is the least over its forests (graph/plan/turning_proof.h), which come into the linear programme of these numbers
  * as they are found to be worth less than it says (cutting planes: J. E. Kelley, J. SIAM 8, 1960). Its optimum is that of the
  * linear programme over all forests.
  *
  * Example: the sphere of 750 edges has 15 orbits of half-edges and falls into 25 circuits of 3 kinds: 13,499.7 degrees. */
-#include "tortuosity/proof/relax_parts.h"
 #include "graph/disjoint.h"
-#include "graph/plan/turning_ranks.h"
 #include "lp/solver/lp.h"
+#include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,13 +1,12 @@
 /* Which columns a tree decides on at once: images under the symmetries of the task that keep what was decided before. Internal to
  * tortuosity/.
  *
- * Decided with a column are its images at a node (graph/plan/turning_symmetry.h). Only symmetries count under which prices are
+ * Decided with a column are its images at a node (graph/plan/turning_proof.h). Only symmetries count under which prices are
  * the same but for rounding, so that lowering them to the least of their images proves as much.
  *
  * Example: a dome of five alike sectors: the first decision is about five columns, and then mostly about two, left and right of
  * the mirror through the sector that was chosen. */
 #include "tortuosity/proof/branch.h"
-#include "graph/plan/turning_symmetry.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* Tube joints (graph/plan/junction.h): passes and ends for which every node can be tied, and the turns that tie it. Internal to
- * tortuosity/.
+/* Tube joints (graph/plan/plan_measures.h): passes and ends for which every node can be tied, and the turns that tie it. Internal
+ * to tortuosity/.
  *
  * Which passes can be tied. At a node with d >= 2 edges let e have m_e passes of which t_e end there, z = sum t, M = sum m.
  * Turns that tie the edges and never go back are a connected multigraph without loops on them, in which e has m_e - t_e turns.

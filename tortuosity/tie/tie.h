@@ -10,7 +10,7 @@
 #include "graph/status.h"
 #include "lp/length/postman.h"
 
-/* ---- tie.c: Tube joints (graph/plan/junction.h): passes and ends for which every node can be tied, and the turns that tie
+/* ---- tie.c: Tube joints (graph/plan/plan_measures.h): passes and ends for which every node can be tied, and the turns that tie
  * it. */
 
 /* How many more passes must start at node v, over edges of the right kind, until it can be tied; 0: it can. O(degree). */
@@ -134,7 +134,7 @@ typedef struct {
   thr_cord *cord; /* [n_cords] owned */
   double length;
   int most_passes;         /* of any edge */
-  thr_turning_proof proof; /* of bound, for graph/plan/junction.h */
+  thr_turning_proof proof; /* of bound, for graph/plan/plan_measures.h */
   double bound;            /* no cords of the options are shorter */
 } thr_tube;
 

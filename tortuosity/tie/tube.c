@@ -7,10 +7,10 @@
  * take 12.
  *
  * The shortest tied cords: a search without turns, then one with them where that leaves a gap. */
-#include "tortuosity/tie/tie.h"
-#include "graph/plan/junction.h"
+#include "graph/plan/plan_measures.h"
 #include "tortuosity/cords/join.h"
 #include "tortuosity/proof/branch.h"
+#include "tortuosity/tie/tie.h"
 
 #include <stdlib.h>
 

@@ -1,0 +1,152 @@
+/* What the writers of pages share: fonts, PDF, SVG, compression. */
+#ifndef THR_EXPORT_PARTS_H
+#define THR_EXPORT_PARTS_H
+
+#include "diagram/export/paper.h"
+
+#include <stddef.h>
+
+/* ---- Bytes of a font: big-endian; what is beyond the end of the file is 0. Private to the files font*.c. */
+
+static inline unsigned thr_font_8(const thr_font *f, size_t at)
+{
+  return at < f->file.length ? ((const unsigned char *)f->file.data)[at] : 0;
+}
+
+static inline unsigned thr_font_16(const thr_font *f, size_t at)
+{
+  return at + 2 <= f->file.length && at + 2 > at ? thr_font_8(f, at) << 8 | thr_font_8(f, at + 1) : 0;
+}
+
+static inline int thr_font_signed(const thr_font *f, size_t at)
+{
+  int value = (int)thr_font_16(f, at);
+  return value >= 0x8000 ? value - 0x10000 : value;
+}
+
+/* Where the outline of a glyph stands in the file: *n bytes. False: it has none. */
+bool thr_font_place(const thr_font *f, int glyph, size_t *at, size_t *n);
+
+/* ---- pdf.c: A PDF (1.4, ISO 32000-1) that grows page by page: each is compressed when it is added, so that pages need not be
+ * kept. */
+
+typedef struct thr_pdf thr_pdf;
+
+/* A document without pages. title: UTF-8 for the file's metadata, which have no date but a fixed one and name no file. Finds
+ * fonts. Release with thr_pdf_destroy (NULL ok). */
+thr_status thr_pdf_open(thr_pdf **pdf, thr_page_size size, const char *title, thr_err *err) THR_MUST_CHECK;
+void thr_pdf_destroy(thr_pdf *pdf);
+
+/* A page to draw on and then to compress, both in any thread; pdf must outlive it. */
+typedef struct {
+  thr_paper *paper;
+  thr_text small; /* its content, compressed */
+} thr_leaf;
+thr_status thr_leaf_open(thr_leaf *leaf, const thr_pdf *pdf, thr_err *err) THR_MUST_CHECK;
+thr_status thr_leaf_squeeze(thr_leaf *leaf, thr_err *err) THR_MUST_CHECK;
+void thr_leaf_destroy(thr_leaf *leaf);
+
+/* Adds a squeezed leaf as another page; or, page >= 0, to what is on that page, which may be added to once. One thread. */
+thr_status thr_pdf_add(thr_pdf *pdf, int page, const thr_leaf *leaf, thr_err *err) THR_MUST_CHECK;
+int thr_pdf_pages(const thr_pdf *pdf);
+
+/* Ends the file, of at least one page, and appends it to out. The last page comes first if last_first. The same leaves and fonts
+ * give the same bytes. */
+thr_status thr_pdf_close(thr_pdf *pdf, bool last_first, thr_text *out, thr_err *err) THR_MUST_CHECK;
+
+/* ---- svg_page.c: A page drawn from SVG, read in one pass. */
+
+/* Draws a whole SVG document on a page. Pages may be drawn in several threads. THR_ESOLVER with what it does not know, so that
+ * nothing is left out silently. A style sheet holds for what comes after it. O(bytes + elements times rules). */
+thr_status thr_svg_page(thr_paper *paper, const thr_text *svg, thr_err *err) THR_MUST_CHECK;
+
+/* ---- svg_style.c: Styles of the SVG that is written in diagram/. They come from presentation attributes, from style="..",
+ * and from style sheets whose selectors are lists of elements and classes with blanks between them, ".view-1 .place text.own",
+ * and :not([stroke-dasharray]). All properties are inherited. */
+
+/* Borrowed text that has no NUL at its end. */
+typedef struct {
+  const char *s;
+  size_t n;
+} thr_slice;
+
+bool thr_slice_is(thr_slice slice, const char *word);
+thr_slice thr_slice_trim(thr_slice slice); /* without blanks and ends of lines on either side */
+
+/* Takes a number off the front of text, with what stands before it of blanks and commas; false if there is none. */
+bool thr_slice_number(thr_slice *text, double *value);
+
+typedef enum {
+  THR_SVG_FILL, /* none, or red, green, blue from 0 to 1 */
+  THR_SVG_STROKE,
+  THR_SVG_FILL_OPACITY,
+  THR_SVG_STROKE_OPACITY,
+  THR_SVG_STROKE_WIDTH,
+  THR_SVG_LINECAP,   /* 1 = round */
+  THR_SVG_LINEJOIN,  /* 1 = round */
+  THR_SVG_DASHARRAY, /* none, or up to four lengths */
+  THR_SVG_DASHOFFSET,
+  THR_SVG_ANCHOR, /* 0 start, 1 middle, 2 end */
+  THR_SVG_FONT_SIZE,
+  THR_SVG_FONT_WEIGHT, /* 1 = bold */
+  THR_SVG_FONT_FAMILY, /* 1 = of one width */
+  THR_SVG_PAINT_ORDER, /* 1 = the stroke below the fill */
+  THR_SVG_PROPERTIES
+} thr_svg_property;
+
+typedef struct {
+  int n; /* numbers in x; 0 = none */
+  double x[4];
+} thr_svg_value;
+
+typedef struct {
+  thr_svg_value value[THR_SVG_PROPERTIES];
+} thr_svg_style;
+
+/* The root's: black, without a stroke. */
+thr_svg_style thr_svg_style_first(void);
+
+/* Is the attribute a property? */
+bool thr_svg_is_property(thr_slice name);
+
+thr_status thr_svg_style_set(thr_svg_style *style, thr_slice name, thr_slice value, thr_err *err) THR_MUST_CHECK;
+
+/* "fill:#fff;stroke:none". */
+thr_status thr_svg_style_list(thr_svg_style *style, thr_slice list, thr_err *err) THR_MUST_CHECK;
+
+/* ---- style sheets ---- */
+
+typedef struct thr_svg_rule thr_svg_rule;
+typedef struct thr_svg_declaration thr_svg_declaration;
+
+/* {0} is empty. Rules weakest first. */
+typedef struct {
+  thr_svg_rule *rule;
+  int n_rules, rules_capacity;
+  thr_svg_declaration *declaration;
+  int n_declarations, declarations_capacity;
+} thr_svg_sheet;
+
+/* An element: its name, its classes, whether it has the attribute stroke-dasharray. */
+typedef struct {
+  thr_slice name, classes;
+  bool dashed;
+} thr_svg_element;
+
+/* Adds the rules of CSS text, which is borrowed as long as the sheet lives. */
+thr_status thr_svg_sheet_add(thr_svg_sheet *sheet, thr_slice css, thr_err *err) THR_MUST_CHECK;
+
+/* Changes style as the rules say that meet the last of n elements, each of which is inside the one before it. O(rules n). */
+void thr_svg_sheet_apply(const thr_svg_sheet *sheet, const thr_svg_element *const *element, int n, thr_svg_style *style);
+
+void thr_svg_sheet_destroy(thr_svg_sheet *sheet);
+
+/* ---- deflate.c: Bytes made small for PDF (FlateDecode): zlib, loaded when it is first used. */
+
+/* Loads zlib: before the first thr_deflate, in one thread. */
+thr_status thr_deflate_load(thr_err *err) THR_MUST_CHECK;
+
+/* Appends the bytes as a zlib stream (RFC 1950), the same wherever and whenever. Any thread. THR_ENOMEM. */
+thr_status thr_deflate(const char *bytes, size_t n, thr_text *out, thr_err *err) THR_MUST_CHECK;
+
+#endif
