@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The time of the T-join of a framework (the edges that a closed cord passes once more), apart from all else that a plan takes:
  *
  *   matching FRAME FOLDER

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 // Other codes on the instances that bench/matching.c wrote: peers FILE prints processor seconds and length. One is defined of
 //   LEMON_PAIRS   LEMON's perfect matching (liblemon-dev) of candidate pairs
 //   LEMON_PORTS   the same of the port gadget of the whole graph: two nodes per edge, one more per odd node; an edge's two nodes

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Advice beside a plan. */
 #include "cli/advice.h"
 #include "cli/print/print.h"
@@ -44,12 +45,13 @@ void advice_command_options(const cli_frame_args *a, const cli_physics *physics,
 static double force_of(const thr_plan *plan)
 {
   double pull[THR_ADVICE_PULLS];
-  thr_advice_pulls(&plan->options.physics, thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords), pull);
+  thr_advice_pulls(&plan->options.physics,
+                   thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords), pull);
   return pull[THR_ADVICE_MU];
 }
 
-static void put_line(const thr_advice *advice, const thr_plan *plan, const char *path, const cli_frame_args *a,
-                     const cli_physics *physics, thr_text *text)
+static void put_line(const thr_advice *advice, const thr_plan *plan, const char *path,
+                     const cli_frame_args *a, const cli_physics *physics, thr_text *text)
 {
   const thr_advice_row *row = &advice->row[advice->chosen];
   thr_text options = {0}, command = {0};
@@ -71,8 +73,8 @@ static void put_too_hard(thr_text *text, double newton)
   plain_put_hand(text, newton);
 }
 
-void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_frame_args *a, const cli_physics *physics,
-                           thr_text *text)
+void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_frame_args *a,
+                           const cli_physics *physics, thr_text *text)
 {
   const thr_advise_options options = {.hand = thr_hand_always, .plan = plan};
   thr_advice advice = {0};
@@ -80,13 +82,16 @@ void advice_put_after_plan(const thr_plan *plan, const char *path, const cli_fra
   if (newton <= thr_hand_most) return;
   put_too_hard(text, newton);
   thr_text_append(text, ":\n");
-  thr_limits limits = advice_limits(-1, &work); /* as of the table, so that it recommends the same */
-  if (thr_advise(&plan->frame, &plan->options, &options, &limits, &advice, NULL)) advice.chosen = -1;
+  thr_limits limits =
+      advice_limits(-1, &work); /* as of the table, so that it recommends the same */
+  if (thr_advise(&plan->frame, &plan->options, &options, &limits, &advice, NULL))
+    advice.chosen = -1;
   cli_progress_end();
   if (advice.chosen >= 0)
     put_line(&advice, plan, path, a, physics, text);
   else
-    thr_text_append(text, "         no number of cords was found that it can pull; thread advise says more\n");
+    thr_text_append(
+        text, "         no number of cords was found that it can pull; thread advise says more\n");
   thr_advice_destroy(&advice);
 }
 

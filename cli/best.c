@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The best cords found so far, handed to the parent (cli/guard.c) as a plan that claims nothing. */
 #include "cli/cli.h"
 #include "graph/check/check.h"
@@ -9,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double OFTEN =
-    0.2; /* s between two plans that are kept, but for the first two: one that takes no search, and a good one */
+static const double OFTEN = 0.2; /* s between two plans that are kept, but for the first two: one
+                                    that takes no search, and a good one */
 
 static struct {
   const thr_frame *f;
@@ -31,8 +32,10 @@ void best_begin(const thr_frame *frame, const thr_request *options)
 static double value_of(const thr_plan *plan)
 {
   if (thr_wants_symmetry(&plan->options)) return plan->symmetry.steps;
-  if (thr_wants_balance(&plan->options)) return thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
-  if (thr_wants_pull(&plan->options)) return thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords);
+  if (thr_wants_balance(&plan->options))
+    return thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
+  if (thr_wants_pull(&plan->options))
+    return thr_cords_pulled_turning(&plan->frame, plan->cord, plan->n_cords);
   if (thr_wants_turning(&plan->options))
     return thr_wants_largest(&plan->options) ? plan->metrics.max_turning : plan->metrics.turning;
   return plan->metrics.length;
@@ -48,13 +51,15 @@ static bool count_cords(const thr_plan *plan, int *fewest, int *most)
   *fewest = count ? count[0] : 0;
   for (int k = 0; count && k < plan->frame.n_nodes; k++) {
     if (count[k] > *most) *most = count[k];
-    if (count[k] > 0 && count[k] < *fewest) *fewest = count[k]; /* components are numbered without gaps, and all have cords */
+    if (count[k] > 0 && count[k] < *fewest)
+      *fewest = count[k]; /* components are numbered without gaps, and all have cords */
   }
   free(count);
   return count != NULL;
 }
 
-/* As many cords as asked for, none too long? Of a symmetric plan they may be as many as they are. */
+/* As many cords as asked for, none too long? Of a symmetric plan they may be as many as they are.
+ */
 static bool fits(thr_plan *plan)
 {
   int fewest, most;
@@ -63,14 +68,17 @@ static bool fits(thr_plan *plan)
   if (!counted) plan->options.cords = most;
   bool few_enough = most <= plan->options.cords, enough = fewest >= plan->options.cords_least;
   const double limit = plan->options.max_length * (1 + 1e-12);
-  bool short_enough = limit == 0 || thr_cords_longest(&plan->frame, plan->cord, plan->n_cords) <= limit;
-  return few_enough && short_enough && (enough || !counted || plan->options.ends == THR_ENDS_COUNTS);
+  bool short_enough =
+      limit == 0 || thr_cords_longest(&plan->frame, plan->cord, plan->n_cords) <= limit;
+  return few_enough && short_enough &&
+         (enough || !counted || plan->options.ends == THR_ENDS_COUNTS);
 }
 
 static bool is_wanted(thr_plan *plan)
 {
   bool others;
-  if (!fits(plan) || thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, NULL))
+  if (!fits(plan) || thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords,
+                                      &plan->metrics, NULL))
     return false;
   if (thr_plan_uncross(plan, &others, NULL)) return false;
   if (plan->options.distinct > 0 && plan->metrics.distinct < plan->frame.n_edges) return false;
@@ -86,15 +94,16 @@ static void keep_better(thr_plan *plan, double now)
   guard_keep(&text);
   if (progress_wanted()) progress_plan(plan);
   if (cli_verbose)
-    cli_note("plan: length %.10g, turning %.10g rad, %.3f CPU s", plan->metrics.length, plan->metrics.turning,
-             thr_os_processor_seconds());
+    cli_note("plan: length %.10g, turning %.10g rad, %.3f CPU s", plan->metrics.length,
+             plan->metrics.turning, thr_os_processor_seconds());
   thr_text_destroy(&text);
   best.value = value_of(plan);
   best.at = now;
   best.n++;
 }
 
-/* Passes of their own for the cords, which are borrowed, if they may be led otherwise; false, and none, if there is no memory. */
+/* Passes of their own for the cords, which are borrowed, if they may be led otherwise; false, and
+ * none, if there is no memory. */
 static bool own_passes(thr_plan *plan)
 {
   int i;
@@ -102,7 +111,8 @@ static bool own_passes(thr_plan *plan)
   for (i = 0; i < plan->n_cords; i++) {
     int *half = thr_calloc((size_t)plan->cord[i].n_passes, sizeof *half);
     if (!half) break;
-    plan->cord[i].half = memcpy(half, plan->cord[i].half, (size_t)plan->cord[i].n_passes * sizeof *half);
+    plan->cord[i].half =
+        memcpy(half, plan->cord[i].half, (size_t)plan->cord[i].n_passes * sizeof *half);
   }
   if (i == plan->n_cords) return true;
   while (i-- > 0)
@@ -131,7 +141,8 @@ void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetr
   bool copies = thr_wants_symmetry(best.o), sound = plan.cord != NULL;
   if (sound && copies && !symmetry) {
     const thr_cover_options how = {.ends = best.o->ends, .tube = best.o->joint == THR_JOINT_TUBE};
-    sound = !*best.o->symmetry.group && thr_cords_alone(best.f, &how, plan.cord, n_cords, &own, NULL) == THR_OK;
+    sound = !*best.o->symmetry.group &&
+            thr_cords_alone(best.f, &how, plan.cord, n_cords, &own, NULL) == THR_OK;
   }
   if (copies) plan.symmetry = symmetry ? *symmetry : own;
   if (sound && own_passes(&plan)) {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From weights to the file that --physics takes. */
 #include "cli/calibrate.h"
 #include "cli/cli.h"
@@ -10,8 +11,10 @@
 #include <string.h>
 
 enum { MOST_WEIGHINGS = 64, N_TILTS = 2 };
-static const double WEIGHT_ERROR = 0.02;       /* relative: of weights that are cups of water or a spring balance */
-static const double TILT_ERROR = THR_PI / 180; /* of an angle that is read from a protractor or a telephone */
+static const double WEIGHT_ERROR =
+    0.02; /* relative: of weights that are cups of water or a spring balance */
+static const double TILT_ERROR =
+    THR_PI / 180; /* of an angle that is read from a protractor or a telephone */
 static const char *const tilt_name[N_TILTS] = {"bead", "ground"};
 static const char *const tilt_key[N_TILTS] = {"mu_bead", "mu_ground"};
 
@@ -37,7 +40,8 @@ typedef struct {
   int n_tilts[N_TILTS];
 } bench;
 
-/* Reads one item of the list, HANG,IN,OUT or bead=ANGLE,.. or ground=ANGLE,..; false if it is none, or there are too many. */
+/* Reads one item of the list, HANG,IN,OUT or bead=ANGLE,.. or ground=ANGLE,..; false if it is none,
+ * or there are too many. */
 static bool parse_item(const char *item, bench *b)
 {
   int read = 0;
@@ -46,14 +50,16 @@ static bool parse_item(const char *item, bench *b)
     if (strncmp(item, tilt_name[t], n) != 0 || item[n] != '=') continue;
     for (const char *at = item + n;; at += 1 + read) {
       double degrees;
-      if (b->n_tilts[t] == MOST_WEIGHINGS || sscanf(at + 1, "%lf %n", &degrees, &read) != 1) return false;
+      if (b->n_tilts[t] == MOST_WEIGHINGS || sscanf(at + 1, "%lf %n", &degrees, &read) != 1)
+        return false;
       b->tilt[t][b->n_tilts[t]++] = degrees * THR_PI / 180;
       if (at[1 + read] != ',') return at[1 + read] == '\0';
     }
   }
   if (b->n_weighings == MOST_WEIGHINGS) return false;
   thr_weighing *w = &b->weighing[b->n_weighings++];
-  return sscanf(item, "%lf , %lf , %lf %n", &w->hang, &w->in, &w->out, &read) == 3 && item[read] == '\0';
+  return sscanf(item, "%lf , %lf , %lf %n", &w->hang, &w->in, &w->out, &read) == 3 &&
+         item[read] == '\0';
 }
 
 /* Reads the items between semicolons. */
@@ -81,7 +87,8 @@ static thr_status put_found(const bench *b, thr_text *file, thr_text *said, thr_
     snprintf(note, sizeof note, "weighed at the bench, %d %s over 90 degrees", b->n_weighings,
              cli_plural(b->n_weighings, "weighing", "weighings"));
   else
-    snprintf(note, sizeof note, "slid on a tilted board at the bench, %d %s", b->n_tilts[0] + b->n_tilts[1],
+    snprintf(note, sizeof note, "slid on a tilted board at the bench, %d %s",
+             b->n_tilts[0] + b->n_tilts[1],
              cli_plural(b->n_tilts[0] + b->n_tilts[1], "slide", "slides"));
   thr_write_object(&writer, NULL);
   thr_write_string(&writer, "note", note);
@@ -90,17 +97,24 @@ static thr_status put_found(const bench *b, thr_text *file, thr_text *said, thr_
     thr_write_number(&writer, "mu", found.mu);
     thr_write_number(&writer, "mu_low", found.low);
     thr_write_number(&writer, "mu_high", found.high);
-    thr_text_printf(said, "friction mu = %.3f (band %.3f to %.3f), from %d %s over 90 degrees by the capstan law\n", found.mu,
-                    found.low, found.high, b->n_weighings, cli_plural(b->n_weighings, "weighing", "weighings"));
-    thr_text_printf(said, "the band is what single weights say, and weights that are off by %g %%\n", 100 * WEIGHT_ERROR);
+    thr_text_printf(
+        said,
+        "friction mu = %.3f (band %.3f to %.3f), from %d %s over 90 degrees by the capstan law\n",
+        found.mu, found.low, found.high, b->n_weighings,
+        cli_plural(b->n_weighings, "weighing", "weighings"));
+    thr_text_printf(said,
+                    "the band is what single weights say, and weights that are off by %g %%\n",
+                    100 * WEIGHT_ERROR);
   }
   for (int t = 0; t < N_TILTS && !st; t++) {
     if (b->n_tilts[t] == 0) continue;
     st = thr_calibrate_tilt(b->tilt[t], b->n_tilts[t], TILT_ERROR, &found, err);
     thr_write_number(&writer, tilt_key[t], found.mu);
     thr_text_printf(said,
-                    "%s = %.3f (single slides, angles off by a degree: %.3f to %.3f), from %d %s of a piece on a tilted board\n",
-                    tilt_key[t], found.mu, found.low, found.high, b->n_tilts[t], cli_plural(b->n_tilts[t], "slide", "slides"));
+                    "%s = %.3f (single slides, angles off by a degree: %.3f to %.3f), from %d %s "
+                    "of a piece on a tilted board\n",
+                    tilt_key[t], found.mu, found.low, found.high, b->n_tilts[t],
+                    cli_plural(b->n_tilts[t], "slide", "slides"));
   }
   thr_write_close(&writer);
   thr_text_append(file, "\n");
@@ -113,11 +127,11 @@ static int weigh(const char *value, const char *output, bool json)
   thr_err err = {0};
   thr_text file = {0}, said = {0};
   if (!parse(value, &b))
-    return cli_usage(
-        "eval",
-        "--calibrate %s: expected piece, HANG,IN,OUT (weights of one kind), bead=DEGREES,.. or ground=DEGREES,.., at "
-        "most %d of each, with semicolons between",
-        value, MOST_WEIGHINGS);
+    return cli_usage("eval",
+                     "--calibrate %s: expected piece, HANG,IN,OUT (weights of one kind), "
+                     "bead=DEGREES,.. or ground=DEGREES,.., at "
+                     "most %d of each, with semicolons between",
+                     value, MOST_WEIGHINGS);
   if (put_found(&b, &file, &said, &err)) {
     thr_text_destroy(&file);
     thr_text_destroy(&said);

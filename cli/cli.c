@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the subcommands share. cli/ is the only folder that prints or exits. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
@@ -27,7 +28,8 @@ enum { MOST_PROCESSES = 1024 };
 
 /* ---- messages ---- */
 
-/* Words of more than 400 bytes lose their middle: a value pasted by mistake does not fill the screen. */
+/* Words of more than 400 bytes lose their middle: a value pasted by mistake does not fill the
+ * screen. */
 static void shorten_words(char *line)
 {
   enum { MOST = 400, KEPT = 100 /* at each end */ };
@@ -88,7 +90,8 @@ int cli_fail(const thr_err *err)
   cli_error("%s", err->text);
   switch (err->code) {
   case THR_OK: return EXIT_OK;
-  case THR_EVIOLATED: /* only `check` calls this a violation; elsewhere the plan is simply no good input */
+  case THR_EVIOLATED: /* only `check` calls this a violation; elsewhere the plan is simply no good
+                         input */
   case THR_EIO:
   case THR_EINPUT: return EXIT_INPUT;
   case THR_EINFEASIBLE: return EXIT_INFEASIBLE;
@@ -102,8 +105,8 @@ int cli_usage(const char *command, const char *format, ...)
   char where[400];
   va_list args;
   const char *config = cli_config_of(optind - 1); /* the word that is being looked at */
-  snprintf(where, sizeof where, " (%s%.300s%ssee `thread %s --help`)", config ? "in " : "", config ? config : "",
-           config ? "; " : "", command);
+  snprintf(where, sizeof where, " (%s%.300s%ssee `thread %s --help`)", config ? "in " : "",
+           config ? config : "", config ? "; " : "", command);
   va_start(args, format);
   say(format, args, where);
   va_end(args);
@@ -112,7 +115,8 @@ int cli_usage(const char *command, const char *format, ...)
 
 /* ---- options ---- */
 
-/* The word is "--name" or "--name=value" of no option, of several, or of one that takes no value. */
+/* The word is "--name" or "--name=value" of no option, of several, or of one that takes no value.
+ */
 static int bad_long_option(const char *word, const char *command, const struct option *table)
 {
   char name[64], question[THR_SUGGESTION_TEXT], several[160] = "";
@@ -131,21 +135,25 @@ static int bad_long_option(const char *word, const char *command, const struct o
   thr_suggestion_ask(&suggestion, question);
   char *at = strstr(question, "mean ");
   if (!at) return cli_usage(command, "--%s is not an option here", name);
-  return cli_usage(command, "--%s is not an option here; did you mean --%s", name, at + strlen("mean "));
+  return cli_usage(command, "--%s is not an option here; did you mean --%s", name,
+                   at + strlen("mean "));
 }
 
-/* What the user typed: getopt has moved operands behind the options, so the culprit is the word before optind, or inside it. */
+/* What the user typed: getopt has moved operands behind the options, so the culprit is the word
+ * before optind, or inside it. */
 static int bad_option(int o, char **argv, const char *command, const struct option *table)
 {
   const char *word = argv[optind - 1];
   bool is_long = strncmp(word, "--", 2) == 0;
-  if (o == ':') return is_long ? cli_usage(command, "%s needs a value", word) : cli_usage(command, "-%c needs a value", optopt);
+  if (o == ':')
+    return is_long ? cli_usage(command, "%s needs a value", word)
+                   : cli_usage(command, "-%c needs a value", optopt);
   if (is_long) return bad_long_option(word, command, table);
   return cli_usage(command, "-%c is not an option here", optopt);
 }
 
-int cli_next_option(int argc, char **argv, const char *command, const char *letters, const struct option *table, const char *help,
-                    int *done)
+int cli_next_option(int argc, char **argv, const char *command, const char *letters,
+                    const struct option *table, const char *help, int *done)
 {
   *done = -1;
   opterr = 0;
@@ -180,7 +188,8 @@ int cli_next_option(int argc, char **argv, const char *command, const char *lett
   }
 }
 
-bool cli_double(const char *command, const char *option, const char *text, double low, double high, double *out)
+bool cli_double(const char *command, const char *option, const char *text, double low, double high,
+                double *out)
 {
   char *end;
   errno = 0;
@@ -220,7 +229,8 @@ bool cli_int(const char *command, const char *option, const char *text, int low,
   return false;
 }
 
-bool cli_choose(const char *command, const char *option, const char *value, const char *(*name)(int), int n, int *out)
+bool cli_choose(const char *command, const char *option, const char *value,
+                const char *(*name)(int), int n, int *out)
 {
   char known[160] = "", question[THR_SUGGESTION_TEXT];
   thr_suggestion suggestion = {.word = value};
@@ -231,7 +241,11 @@ bool cli_choose(const char *command, const char *option, const char *value, cons
   thr_suggestion_ask(&suggestion, question);
   for (int i = 0; i < n; i++) {
     size_t length = strlen(known);
-    snprintf(known + length, sizeof known - length, "%s%s", i == 0 ? "" : i == n - 1 ? " or " : ", ", name(i));
+    snprintf(known + length, sizeof known - length, "%s%s",
+             i == 0       ? ""
+             : i == n - 1 ? " or "
+                          : ", ",
+             name(i));
   }
   cli_usage(command, "%s %s: expected %s%s", option, value, known, question);
   return false;
@@ -254,7 +268,8 @@ static const char *layers_name(int layers)
   return layers == 0 ? "all" : "shown";
 }
 
-bool cli_frame_option(cli_frame_args *a, const char *command, int option, const char *value, bool *ok)
+bool cli_frame_option(cli_frame_args *a, const char *command, int option, const char *value,
+                      bool *ok)
 {
   *ok = true;
   switch (option) {
@@ -271,7 +286,9 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
     if (*ok) a->read.up = (thr_up)up;
     return true;
   }
-  case OPTION_SCALE: *ok = cli_double(command, "--scale", value, 1e-9, 1e9, &a->read.scale); return true;
+  case OPTION_SCALE:
+    *ok = cli_double(command, "--scale", value, 1e-9, 1e9, &a->read.scale);
+    return true;
   case OPTION_FLAT:
     *ok = cli_double(command, "--flat", value, 1e-6, 179, &a->read.flat);
     a->read.flat *= THR_PI / 180;
@@ -280,7 +297,11 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
   case OPTION_COLUMNS: {
     const char *comma = strchr(value, ',');
     *ok = comma && comma != value && comma[1] && !strchr(comma + 1, ',');
-    if (!*ok) cli_usage(command, "--columns %s: expected two columns with a comma between them, like start,end or 2,3", value);
+    if (!*ok)
+      cli_usage(
+          command,
+          "--columns %s: expected two columns with a comma between them, like start,end or 2,3",
+          value);
     a->read.columns = value;
     return true;
   }
@@ -298,7 +319,9 @@ bool cli_frame_option(cli_frame_args *a, const char *command, int option, const 
   }
   case OPTION_SPLIT: a->read.split = true; return true;
   case OPTION_FEET: a->feet = value; return true;
-  case OPTION_WELD: *ok = cli_double(command, "--weld", value, 0, 1e300, &a->read.weld); return true;
+  case OPTION_WELD:
+    *ok = cli_double(command, "--weld", value, 0, 1e300, &a->read.weld);
+    return true;
   default: return false;
   }
 }
@@ -322,12 +345,14 @@ int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame)
   return cli_read_frame_report(path, a, frame, &report);
 }
 
-int cli_read_frame_report(const char *path, const cli_frame_args *a, thr_frame *frame, thr_read_report *report)
+int cli_read_frame_report(const char *path, const cli_frame_args *a, thr_frame *frame,
+                          thr_read_report *report)
 {
   thr_err err = {0};
   char pair[1024] = "";
   thr_status st = thr_frame_read(frame, report, path, &a->read, pair, sizeof pair, &err);
-  if (pair[0]) cli_note("note: read together with %s", pair); /* before an error that may name that file */
+  if (pair[0])
+    cli_note("note: read together with %s", pair); /* before an error that may name that file */
   if (st) return cli_fail(&err);
   const int taken = pair[0] ? files_also_read(pair) : EXIT_OK;
   if (taken) {
@@ -359,17 +384,21 @@ bool cli_is_folder(const char *path)
 bool cli_misnamed(const char *output, const char *like)
 {
   const char *ending = thr_path_ending(output);
-  return *ending && !cli_is_folder(output) && strcmp(output, "-") != 0 && strcmp(ending, thr_path_ending(like)) != 0;
+  return *ending && !cli_is_folder(output) && strcmp(output, "-") != 0 &&
+         strcmp(ending, thr_path_ending(like)) != 0;
 }
 
 bool cli_no_plan_name(const char *command, const char *output)
 {
   const bool wrong = cli_misnamed(output, "plan.json");
-  if (wrong) cli_usage(command, "%s: a plan is JSON; end its name in .json (thread draw makes the pictures)", output);
+  if (wrong)
+    cli_usage(command, "%s: a plan is JSON; end its name in .json (thread draw makes the pictures)",
+              output);
   return wrong;
 }
 
-bool cli_output_format(const char *command, const char *output, const char *type, const thr_format **format)
+bool cli_output_format(const char *command, const char *output, const char *type,
+                       const thr_format **format)
 {
   const bool ends = *thr_path_ending(output) != '\0';
   const thr_format *named = thr_format_of_path(output);
@@ -379,8 +408,8 @@ bool cli_output_format(const char *command, const char *output, const char *type
     return false;
   }
   if (ends && (!named || (type && named != *format))) {
-    cli_usage(command, "%s: the ending must be %s%s", output, type ? "." : ".json, .obj, .csv, .ply, .dxf or .graphml",
-              type ? type : "");
+    cli_usage(command, "%s: the ending must be %s%s", output,
+              type ? "." : ".json, .obj, .csv, .ply, .dxf or .graphml", type ? type : "");
     return false;
   }
   return true;
@@ -393,7 +422,8 @@ int cli_no_node(const thr_frame *frame, const char *option, const char *what, co
   for (int v = 0; v < frame->n_nodes; v++)
     thr_suggestion_try(&suggestion, frame->name[v]);
   thr_suggestion_ask(&suggestion, question);
-  cli_error("%s: there is no %s %s; the first node is %s%s", option, what, name, frame->name[0], question);
+  cli_error("%s: there is no %s %s; the first node is %s%s", option, what, name, frame->name[0],
+            question);
   return EXIT_INPUT;
 }
 
@@ -412,7 +442,8 @@ bool cli_mark_nodes(const thr_frame *frame, const char *list, const char *option
 {
   thr_err err = {0};
   thr_text text = {0};
-  if (thr_frame_find(frame, list) >= 0) return mark_node(frame, list, option, mark); /* "(0, 1)" is one COMPAS key */
+  if (thr_frame_find(frame, list) >= 0)
+    return mark_node(frame, list, option, mark); /* "(0, 1)" is one COMPAS key */
   if (thr_os_is_file(list)) {
     if (thr_text_read_plain(&text, list, &err)) {
       cli_fail(&err);
@@ -422,8 +453,8 @@ bool cli_mark_nodes(const thr_frame *frame, const char *list, const char *option
     thr_text_append(&text, list);
   }
   bool ok = true, some = false;
-  for (char *save = NULL, *name = text.data ? strtok_r(text.data, ", \t\r\n;", &save) : NULL; name && ok;
-       name = strtok_r(NULL, ", \t\r\n;", &save)) {
+  for (char *save = NULL, *name = text.data ? strtok_r(text.data, ", \t\r\n;", &save) : NULL;
+       name && ok; name = strtok_r(NULL, ", \t\r\n;", &save)) {
     ok = mark_node(frame, name, option, mark);
     some = true;
   }
@@ -456,7 +487,9 @@ int cli_read_plan(const char *path, thr_plan *plan)
   if (thr_plan_read(plan, path, &err)) return cli_fail(&err);
   thr_status st = thr_check_plan(plan, &found);
   if (st)
-    cli_error(st == THR_EVIOLATED ? "warning: %s does not hold: %s" : "warning: %s could not be checked: %s", path, found.text);
+    cli_error(st == THR_EVIOLATED ? "warning: %s does not hold: %s"
+                                  : "warning: %s could not be checked: %s",
+              path, found.text);
   return EXIT_OK;
 }
 
@@ -490,7 +523,8 @@ int cli_make_folder(const char *folder)
     }
     const int why = errno;
     if (thr_os_is_folder(part)) continue;
-    cli_error("%s: cannot make this folder (%s); say where to write with -o or --draw", part, strerror(why));
+    cli_error("%s: cannot make this folder (%s); say where to write with -o or --draw", part,
+              strerror(why));
     return EXIT_INPUT;
   }
   return EXIT_OK;
@@ -508,7 +542,8 @@ int cli_in_folder(const char *folder, const char *file, char *out, size_t size)
     return EXIT_INPUT;
   }
   const int code = cli_make_folder(folder);
-  if (!code) snprintf(out, size, "%s%s%s", folder, thr_os_is_separator(folder[n - 1]) ? "" : "/", file);
+  if (!code)
+    snprintf(out, size, "%s%s%s", folder, thr_os_is_separator(folder[n - 1]) ? "" : "/", file);
   return code;
 }
 
@@ -533,7 +568,8 @@ int cli_write_kept(thr_text *text, const char **path)
     files_name_beside(*path, beside, sizeof beside);
     const bool left = thr_text_write(text, beside, &again) == THR_OK;
     *path = left ? beside : "-";
-    cli_error("%s%sit is %s%s instead", err.text, *err.text ? "; " : "", left ? "in " : "on ", left ? beside : "stdout");
+    cli_error("%s%sit is %s%s instead", err.text, *err.text ? "; " : "", left ? "in " : "on ",
+              left ? beside : "stdout");
     if (!left && thr_text_write(text, "-", &again)) cli_fail(&again);
   }
   thr_text_destroy(text);
@@ -551,15 +587,15 @@ int cli_write_drawn(thr_status st, thr_text *text, const char *path, const thr_e
 
 static volatile sig_atomic_t interrupted;
 
-/* The line on the terminal: what it says, when it was written, and since when there is something to wait for, by thr_clock().
- * began is 0 where nobody waits. */
+/* The line on the terminal: what it says, when it was written, and since when there is something to
+ * wait for, by thr_clock(). began is 0 where nobody waits. */
 static struct {
   char says[144];
   double written, began;
 } waiting;
 
-/* Writes the line once more, with the seconds that have passed, if nothing was written for some time. It may come at any moment,
- * so that it does nothing which a signal handler may not. */
+/* Writes the line once more, with the seconds that have passed, if nothing was written for some
+ * time. It may come at any moment, so that it does nothing which a signal handler may not. */
 static void keep_alive(int signal)
 {
   const double patience = 0.9; /* s */
@@ -610,7 +646,8 @@ static void put_line(void)
   fflush(stderr);
 }
 
-/* Asked twice: do not wait for the result. `timeout` sends its signal to the process and to its group: that is once. */
+/* Asked twice: do not wait for the result. `timeout` sends its signal to the process and to its
+ * group: that is once. */
 static void on_interrupt(int signal)
 {
   static double first;
@@ -679,7 +716,8 @@ static void show_advance(void *user, const char *what, double done)
     else
       snprintf(left, sizeof left, ", %.0f min left", ceil(seconds / 60));
   }
-  snprintf(waiting.says, sizeof waiting.says, "thread: %.40s [%s] %d %%%s", what, bar, (int)(100 * done), left);
+  snprintf(waiting.says, sizeof waiting.says, "thread: %.40s [%s] %d %%%s", what, bar,
+           (int)(100 * done), left);
   put_line();
 }
 
@@ -687,10 +725,11 @@ static void log_progress(void *user, const char *what, double best, double bound
 {
   (void)user;
   if (is_turning(what)) /* in rad, or as --turn-cost prices them */
-    cli_note("turning: price of all turns %.9g, at least %.9g, gap %.3g %%, %.3f CPU s", best, fmax(bound, 0),
-             progress_gap(best, bound), thr_os_processor_seconds());
+    cli_note("turning: price of all turns %.9g, at least %.9g, gap %.3g %%, %.3f CPU s", best,
+             fmax(bound, 0), progress_gap(best, bound), thr_os_processor_seconds());
   else
-    cli_note("%s: best join %.0f, bound %.1f (integer weights), %.3f CPU s", what, best, bound, thr_os_processor_seconds());
+    cli_note("%s: best join %.0f, bound %.1f (integer weights), %.3f CPU s", what, best, bound,
+             thr_os_processor_seconds());
 }
 
 bool cli_is_terminal(int file)
@@ -723,7 +762,8 @@ thr_limits cli_limits(double seconds)
   seen = (watch){0};
   cli_heed_signals();
   if (seconds > 0) limits.deadline = thr_clock() + seconds;
-  if (guard_deadline() > 0 && (limits.deadline == 0 || limits.deadline > guard_deadline())) limits.deadline = guard_deadline();
+  if (guard_deadline() > 0 && (limits.deadline == 0 || limits.deadline > guard_deadline()))
+    limits.deadline = guard_deadline();
   if (cli_verbose)
     limits.progress = log_progress;
   else if (!cli_quiet && cli_is_terminal(STDERR_FILENO))
@@ -757,5 +797,6 @@ const char *cli_plural(int n, const char *one, const char *many)
 const char *cli_cuts_word(const thr_plan *plan, int n)
 {
   bool tube = plan->options.joint == THR_JOINT_TUBE;
-  return cli_plural(n, tube ? "odd set or junction" : "odd cut", tube ? "odd sets and junctions" : "odd cuts");
+  return cli_plural(n, tube ? "odd set or junction" : "odd cut",
+                    tube ? "odd sets and junctions" : "odd cuts");
 }

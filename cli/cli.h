@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What all commands share: options, files, messages, progress. */
 #ifndef THR_CLI_H
 #define THR_CLI_H
@@ -18,7 +19,15 @@
 /* ---- cli.c: What the subcommands share. */
 
 /* Documented in the man page; scripts rely on them. */
-enum { EXIT_OK = 0, EXIT_VIOLATION = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_INFEASIBLE = 4, EXIT_LIMIT = 5, EXIT_INTERNAL = 70 };
+enum {
+  EXIT_OK = 0,
+  EXIT_VIOLATION = 1,
+  EXIT_USAGE = 2,
+  EXIT_INPUT = 3,
+  EXIT_INFEASIBLE = 4,
+  EXIT_LIMIT = 5,
+  EXIT_INTERNAL = 70
+};
 
 int cmd_plan(int argc, char **argv);
 int cmd_symmetries(int argc, char **argv);
@@ -58,42 +67,52 @@ int cli_usage(const char *command, const char *format, ...) THR_PRINTF(2, 3);
 
 enum { OPTION_LONG_ONLY = 256 }; /* first value for options without a letter */
 
-/* -h, -q, -v and --config (cli/args/config.c, which takes it out), in every table and every letter string. */
+/* -h, -q, -v and --config (cli/args/config.c, which takes it out), in every table and every letter
+ * string. */
 #define CLI_COMMON_LETTERS "hqv"
-#define CLI_COMMON_OPTIONS                                                                                                       \
-  {"help", no_argument, NULL, 'h'}, {"quiet", no_argument, NULL, 'q'}, {"config", required_argument, NULL, 0},                   \
-  {                                                                                                                              \
-    "verbose", no_argument, NULL, 'v'                                                                                            \
+#define CLI_COMMON_OPTIONS                                                                         \
+  {"help", no_argument, NULL, 'h'}, {"quiet", no_argument, NULL, 'q'},                             \
+      {"config", required_argument, NULL, 0},                                                      \
+  {                                                                                                \
+    "verbose", no_argument, NULL, 'v'                                                              \
   }
 
-/* Next option: its value, or -1 at the end. -h prints help and sets *done to EXIT_OK; a bad option prints why and
- * sets *done to EXIT_USAGE; *done < 0 means go on. -q and -v are taken here. */
-int cli_next_option(int argc, char **argv, const char *command, const char *letters, const struct option *table, const char *help,
-                    int *done);
+/* Next option: its value, or -1 at the end. -h prints help and sets *done to EXIT_OK; a bad option
+ * prints why and sets *done to EXIT_USAGE; *done < 0 means go on. -q and -v are taken here. */
+int cli_next_option(int argc, char **argv, const char *command, const char *letters,
+                    const struct option *table, const char *help, int *done);
 
-/* Somebody to whom a command shows its options and its help instead of doing anything; NULL = nobody. */
+/* Somebody to whom a command shows its options and its help instead of doing anything; NULL =
+ * nobody. */
 extern void (*cli_show_options)(const struct option *table, const char *help);
 
-/* -j: how many things are done at a time, at first one per processor. It changes no result. false: the value was bad (printed).
+/* -j: how many things are done at a time, at first one per processor. It changes no result. false:
+ * the value was bad (printed).
  */
 #define CLI_PROCESSES_LETTER "j:"
-#define CLI_PROCESSES_OPTION                                                                                                     \
-  {                                                                                                                              \
-    "processes", required_argument, NULL, 'j'                                                                                    \
+#define CLI_PROCESSES_OPTION                                                                       \
+  {                                                                                                \
+    "processes", required_argument, NULL, 'j'                                                      \
   }
-#define CLI_PROCESSES_HELP "  -j, --processes N    so many things at a time (default: one per processor); changes no result\n"
+#define CLI_PROCESSES_HELP                                                                         \
+  "  -j, --processes N    so many things at a time (default: one per processor); changes no "      \
+  "result\n"
 bool cli_processes_option(const char *command, const char *value);
 int cli_processes(void);
 
 /* Numbers in options, checked against a range: false prints why (a usage error). */
-bool cli_double(const char *command, const char *option, const char *text, double low, double high, double *out);
-bool cli_int(const char *command, const char *option, const char *text, int low, int high, int *out);
+bool cli_double(const char *command, const char *option, const char *text, double low, double high,
+                double *out);
+bool cli_int(const char *command, const char *option, const char *text, int low, int high,
+             int *out);
 
-/* Newtons for --hand: "one" and "two" hands are what these pull again and again (docs/method.md, "Few cords within a pull"). */
+/* Newtons for --hand: "one" and "two" hands are what these pull again and again (docs/method.md,
+ * "Few cords within a pull"). */
 bool cli_hand(const char *command, const char *text, double *newtons);
 
 /* One of n words, name(0) .. name(n - 1); false prints which there are. */
-bool cli_choose(const char *command, const char *option, const char *value, const char *(*name)(int), int n, int *out);
+bool cli_choose(const char *command, const char *option, const char *value,
+                const char *(*name)(int), int n, int *out);
 
 /* ---- frameworks and plans ---- */
 
@@ -103,15 +122,20 @@ typedef struct {
   const char *feet; /* NULL: as the file says; "lowest", a file's name, or node names with commas */
 } cli_frame_args;
 
-#define CLI_FRAME_OPTIONS                                                                                                        \
-  {"edges", required_argument, NULL, OPTION_EDGES}, {"weld", required_argument, NULL, OPTION_WELD},                              \
-      {"units", required_argument, NULL, OPTION_UNITS}, {"up", required_argument, NULL, OPTION_UP},                              \
-      {"scale", required_argument, NULL, OPTION_SCALE}, {"flat", required_argument, NULL, OPTION_FLAT},                          \
-      {"pick", required_argument, NULL, OPTION_PICK}, {"layers", required_argument, NULL, OPTION_LAYERS},                        \
-      {"split", no_argument, NULL, OPTION_SPLIT}, {"parallel", required_argument, NULL, OPTION_PARALLEL},                        \
-      {"columns", required_argument, NULL, OPTION_COLUMNS},                                                                      \
-  {                                                                                                                              \
-    "feet", required_argument, NULL, OPTION_FEET                                                                                 \
+#define CLI_FRAME_OPTIONS                                                                          \
+  {"edges", required_argument, NULL, OPTION_EDGES},                                                \
+      {"weld", required_argument, NULL, OPTION_WELD},                                              \
+      {"units", required_argument, NULL, OPTION_UNITS},                                            \
+      {"up", required_argument, NULL, OPTION_UP},                                                  \
+      {"scale", required_argument, NULL, OPTION_SCALE},                                            \
+      {"flat", required_argument, NULL, OPTION_FLAT},                                              \
+      {"pick", required_argument, NULL, OPTION_PICK},                                              \
+      {"layers", required_argument, NULL, OPTION_LAYERS},                                          \
+      {"split", no_argument, NULL, OPTION_SPLIT},                                                  \
+      {"parallel", required_argument, NULL, OPTION_PARALLEL},                                      \
+      {"columns", required_argument, NULL, OPTION_COLUMNS},                                        \
+  {                                                                                                \
+    "feet", required_argument, NULL, OPTION_FEET                                                   \
   }
 enum {
   OPTION_EDGES = OPTION_LONG_ONLY,
@@ -128,69 +152,86 @@ enum {
   OPTION_FEET,
   OPTION_FREE
 };
-#define CLI_FRAME_HELP                                                                                                           \
-  "      --feet lowest|FILE|NAME,..  where cord ends may come out (default: as the file says)\n"                                 \
-  "      --edges FILE     second file of a CSV pair: FRAME holds the nodes, FILE the edges\n"                                    \
-  "      --weld TOL       merge nodes closer than TOL (default: 1e-6 of the bounding box)\n"                                     \
-  "      --units NAME     what one unit of the coordinates is called (default: as the file says, or mm)\n"                       \
-  "      --scale S        coordinates times S: 1000 for a file in metres whose dome is built in mm\n"                            \
-  "      --up y|z         which coordinate points up (default: z, but y in OBJ files by Blender)\n"                              \
-  "      --flat DEG       meshes: no edge between triangles that meet at less than DEG degrees\n"                                \
-  "      --columns A,B    tables: the two columns of the ends of an edge, by name or number (default: found)\n"                  \
-  "      --parallel keep|shortest  of edges between the same nodes: all, parted by a node each, or the shortest (default)\n"     \
-  "      --split          cut an edge where a node lies on it\n"                                                                 \
-  "      --pick NAME|N    of a file of several frameworks, objects, groups or layers: this one, or the Nth (default: all)\n"     \
+#define CLI_FRAME_HELP                                                                             \
+  "      --feet lowest|FILE|NAME,..  where cord ends may come out (default: as the file says)\n"   \
+  "      --edges FILE     second file of a CSV pair: FRAME holds the nodes, FILE the edges\n"      \
+  "      --weld TOL       merge nodes closer than TOL (default: 1e-6 of the bounding box)\n"       \
+  "      --units NAME     what one unit of the coordinates is called (default: as the file says, " \
+  "or mm)\n"                                                                                       \
+  "      --scale S        coordinates times S: 1000 for a file in metres whose dome is built in "  \
+  "mm\n"                                                                                           \
+  "      --up y|z         which coordinate points up (default: z, but y in OBJ files by "          \
+  "Blender)\n"                                                                                     \
+  "      --flat DEG       meshes: no edge between triangles that meet at less than DEG degrees\n"  \
+  "      --columns A,B    tables: the two columns of the ends of an edge, by name or number "      \
+  "(default: found)\n"                                                                             \
+  "      --parallel keep|shortest  of edges between the same nodes: all, parted by a node each, "  \
+  "or the shortest (default)\n"                                                                    \
+  "      --split          cut an edge where a node lies on it\n"                                   \
+  "      --pick NAME|N    of a file of several frameworks, objects, groups or layers: this one, "  \
+  "or the Nth (default: all)\n"                                                                    \
   "      --layers all|shown  DXF: with the layers that are off or frozen, or without (default)\n"
 
 cli_frame_args cli_frame_args_default(void);
-/* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
-bool cli_frame_option(cli_frame_args *a, const char *command, int option, const char *value, bool *ok);
+/* Takes one of the options above; false if it is none of them. *ok false: its value was bad
+ * (printed). */
+bool cli_frame_option(cli_frame_args *a, const char *command, int option, const char *value,
+                      bool *ok);
 
-/* Reads, says on stderr what was merged, dropped or odd, and sets the feet. Returns EXIT_OK or prints and returns the code. */
+/* Reads, says on stderr what was merged, dropped or odd, and sets the feet. Returns EXIT_OK or
+ * prints and returns the code. */
 int cli_read_frame(const char *path, const cli_frame_args *a, thr_frame *frame);
-int cli_read_frame_report(const char *path, const cli_frame_args *a, thr_frame *frame, thr_read_report *report);
+int cli_read_frame_report(const char *path, const cli_frame_args *a, thr_frame *frame,
+                          thr_read_report *report);
 
 /* Is it a folder, or a name that ends like one? */
 bool cli_is_folder(const char *path);
 
-/* Has output another ending than the file's usual name? A folder, a device, "-" or a name without an ending has none. */
+/* Has output another ending than the file's usual name? A folder, a device, "-" or a name without
+ * an ending has none. */
 bool cli_misnamed(const char *output, const char *like);
 
 /* Is output no name for a plan? Prints the line about it. */
 bool cli_no_plan_name(const char *command, const char *output);
 
-/* The format to write a framework in, NULL = JSON: what the output's name says, else type (NULL: nothing was said). false: they
- * disagree, or it is not a format that is written (printed). */
-bool cli_output_format(const char *command, const char *output, const char *type, const thr_format **format);
+/* The format to write a framework in, NULL = JSON: what the output's name says, else type (NULL:
+ * nothing was said). false: they disagree, or it is not a format that is written (printed). */
+bool cli_output_format(const char *command, const char *output, const char *type,
+                       const thr_format **format);
 
-/* Says that there is no node of this name, and which comes nearest; what: "node", or what else was looked for. Returns
- * EXIT_INPUT. */
+/* Says that there is no node of this name, and which comes nearest; what: "node", or what else was
+ * looked for. Returns EXIT_INPUT. */
 int cli_no_node(const thr_frame *frame, const char *option, const char *what, const char *name);
 
-/* Marks one node by its name, the nodes in a list of names, or those in a file of names; false prints why. */
+/* Marks one node by its name, the nodes in a list of names, or those in a file of names; false
+ * prints why. */
 bool cli_mark_nodes(const thr_frame *frame, const char *list, const char *option, bool *mark);
 
-/* --ends closed, any, feet, or nodes as above: sets options->ends and, for nodes, options->end_node, which the caller frees.
- * Returns EXIT_OK or prints and returns the code. */
+/* --ends closed, any, feet, or nodes as above: sets options->ends and, for nodes,
+ * options->end_node, which the caller frees. Returns EXIT_OK or prints and returns the code. */
 int cli_resolve_ends(const char *ends, const thr_frame *frame, thr_request *options);
 
-/* Reads a plan; one that does not hold is still read, with a warning. Returns EXIT_OK or prints and returns the code. */
+/* Reads a plan; one that does not hold is still read, with a warning. Returns EXIT_OK or prints and
+ * returns the code. */
 int cli_read_plan(const char *path, thr_plan *plan);
 
 /* File name of a path without folder and extension ("frame" for "-"). */
 void cli_stem(const char *path, char *out, size_t size);
 
-/* Makes a folder and those that it is in, if they are not there. Returns EXIT_OK or prints and returns the code. */
+/* Makes a folder and those that it is in, if they are not there. Returns EXIT_OK or prints and
+ * returns the code. */
 int cli_make_folder(const char *folder);
 
 /* folder/file; makes the folder if needed. Returns EXIT_OK or prints and returns the code. */
 int cli_in_folder(const char *folder, const char *file, char *out, size_t size);
 
-/* Writes and destroys the text; prints and returns the code on failure, and if the file is one that the command has read. */
+/* Writes and destroys the text; prints and returns the code on failure, and if the file is one that
+ * the command has read. */
 int cli_write(thr_text *text, const char *path);
 
-/* The same for what took long to compute: if it cannot be written to *path, it is left in the current folder under another name,
- * or on stdout if that fails as well, *path is where, and what is printed says so. */
+/* The same for what took long to compute: if it cannot be written to *path, it is left in the
+ * current folder under another name, or on stdout if that fails as well, *path is where, and what
+ * is printed says so. */
 int cli_write_kept(thr_text *text, const char **path);
 
 /* The same for what was drawn, unless that failed with st: then err is printed. */
@@ -198,19 +239,22 @@ int cli_write_drawn(thr_status st, thr_text *text, const char *path, const thr_e
 
 /* ---- long computations ---- */
 
-/* From now on SIGINT, SIGTERM and SIGHUP only set what cli_limits' interrupt looks at; another one after a while, but for SIGHUP,
- * ends the process. */
+/* From now on SIGINT, SIGTERM and SIGHUP only set what cli_limits' interrupt looks at; another one
+ * after a while, but for SIGHUP, ends the process. */
 void cli_heed_signals(void);
 
-/* Limits with a deadline (0 = none), Ctrl-C and, on a terminal, a progress line on stderr with the time left. */
+/* Limits with a deadline (0 = none), Ctrl-C and, on a terminal, a progress line on stderr with the
+ * time left. */
 thr_limits cli_limits(double seconds);
 
-/* Wipes the progress line, which from now on is not kept up: from cli_limits on it tells every second that work goes on. */
+/* Wipes the progress line, which from now on is not kept up: from cli_limits on it tells every
+ * second that work goes on. */
 void cli_progress_end(void);
 void cli_progress_wipe(void); /* wipes it for what is printed now */
 void cli_wipe_line(void);     /* the same for one that another process has left */
 
-/* Is it a terminal that understands more than lines? Not with TERM=dumb. There are no colours (NO_COLOR). */
+/* Is it a terminal that understands more than lines? Not with TERM=dumb. There are no colours
+ * (NO_COLOR). */
 bool cli_is_terminal(int file);
 
 /* ---- tables ---- */
@@ -218,43 +262,49 @@ bool cli_is_terminal(int file);
 /* "n word" or "n words". */
 const char *cli_plural(int n, const char *one, const char *many);
 
-/* What the n multipliers of the plan's proof of length stand on: "odd cut", "odd cuts", "odd sets and junctions". */
+/* What the n multipliers of the plan's proof of length stand on: "odd cut", "odd cuts", "odd sets
+ * and junctions". */
 const char *cli_cuts_word(const thr_plan *plan, int n);
 
-/* ---- files.c: The files that a command reads and writes: no file is asked for twice, and every output is tried before
- * anything is computed. */
+/* ---- files.c: The files that a command reads and writes: no file is asked for twice, and every
+ * output is tried before anything is computed. */
 
-/* Takes down an option with its value, or an operand (option NULL). The strings stay the caller's, and where they are. */
+/* Takes down an option with its value, or an operand (option NULL). The strings stay the caller's,
+ * and where they are. */
 void files_heard(const char *option, const char *value);
 
-/* Compares all that was heard, makes the folders of outputs and tries to write there. Returns EXIT_OK, or prints and returns the
- * code: EXIT_USAGE for a file that is asked for twice, EXIT_INPUT for an output that cannot be written. */
+/* Compares all that was heard, makes the folders of outputs and tries to write there. Returns
+ * EXIT_OK, or prints and returns the code: EXIT_USAGE for a file that is asked for twice,
+ * EXIT_INPUT for an output that cannot be written. */
 int files_settle(const char *command);
 
 /* Makes a folder and tries to write there. Returns EXIT_OK, or prints and returns the code. */
 int files_try_folder(const char *folder);
 
-/* Takes down a file that is read unasked. Returns EXIT_OK, or prints and returns the code if it is an output. */
+/* Takes down a file that is read unasked. Returns EXIT_OK, or prints and returns the code if it is
+ * an output. */
 int files_also_read(const char *path);
 
 /* Is path a file that was heard of, but not with this option (NULL: with any)? */
 bool files_is_taken(const char *path, const char *option);
 
-/* Prints which file would be lost and returns EXIT_USAGE if path, to be written by this option, is taken; else EXIT_OK. */
+/* Prints which file would be lost and returns EXIT_USAGE if path, to be written by this option, is
+ * taken; else EXIT_OK. */
 int files_claim(const char *command, const char *option, const char *path);
 
 /* The same at the last moment, for inputs only: nothing that was read is ever written over. */
 int files_may_write(const char *path);
 
-/* Finds a name in the current folder that no file has, like that of path: "plan.json", "plan-2.json", .. */
+/* Finds a name in the current folder that no file has, like that of path: "plan.json",
+ * "plan-2.json", .. */
 void files_name_beside(const char *path, char *name, size_t size);
 
 /* Takes down that a folder was made; at the end those that are still empty are removed. */
 void files_made(const char *folder);
 void files_tidy(void);
 
-/* ---- guard.c: Limits that hold whatever a command does: it runs in a child process whose memory the system bounds, and which
- * is ended when its time is over. */
+/* ---- guard.c: Limits that hold whatever a command does: it runs in a child process whose memory
+ * the system bounds, and which is ended when its time is over. */
 
 /* --time-limit and --memory. */
 typedef struct {
@@ -262,18 +312,25 @@ typedef struct {
   double memory;  /* bytes, 0 = no limit */
 } guard_limits;
 
-enum { OPTION_TIME = 900, OPTION_MEMORY }; /* beyond the options that commands number on from each other */
-#define GUARD_OPTIONS                                                                                                            \
-  {"time-limit", required_argument, NULL, OPTION_TIME},                                                                          \
-  {                                                                                                                              \
-    "memory", required_argument, NULL, OPTION_MEMORY                                                                             \
+enum {
+  OPTION_TIME = 900,
+  OPTION_MEMORY
+}; /* beyond the options that commands number on from each other */
+#define GUARD_OPTIONS                                                                              \
+  {"time-limit", required_argument, NULL, OPTION_TIME},                                            \
+  {                                                                                                \
+    "memory", required_argument, NULL, OPTION_MEMORY                                               \
   }
-#define GUARD_MEMORY_HELP "      --memory SIZE    give up beyond so much memory, as 500MB or 2GB, 0 = any (default: 2GB)\n"
-#define GUARD_HELP "      --time-limit S   give up after S seconds, 0 = never (default: 0)\n" GUARD_MEMORY_HELP
+#define GUARD_MEMORY_HELP                                                                          \
+  "      --memory SIZE    give up beyond so much memory, as 500MB or 2GB, 0 = any (default: "      \
+  "2GB)\n"
+#define GUARD_HELP                                                                                 \
+  "      --time-limit S   give up after S seconds, 0 = never (default: 0)\n" GUARD_MEMORY_HELP
 
 guard_limits guard_limits_default(void); /* no time said, 2 GB */
 
-/* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
+/* Takes one of the options above; false if it is none of them. *ok false: its value was bad
+ * (printed). */
 bool guard_option(guard_limits *l, const char *command, int option, const char *value, bool *ok);
 
 typedef enum {
@@ -292,14 +349,15 @@ typedef struct {
   char why[120]; /* the reason in words: "not done after 2 s" */
 } guard_end;
 
-/* Forks. Returns false in the child. Returns true in the parent, after the child has ended, or if there could be none (printed:
- * GUARD_DONE with EXIT_INTERNAL). The first SIGINT, SIGTERM or SIGHUP is passed on to the child, which has half a second more
- * then; the second ends both at once, but for another SIGHUP. */
+/* Forks. Returns false in the child. Returns true in the parent, after the child has ended, or if
+ * there could be none (printed: GUARD_DONE with EXIT_INTERNAL). The first SIGINT, SIGTERM or SIGHUP
+ * is passed on to the child, which has half a second more then; the second ends both at once, but
+ * for another SIGHUP. */
 bool guard_fork(const guard_limits *l, guard_end *end);
 
-/* Where there is only one process (in a browser, targets/alone_guard.c), guard_fork returns false, and the command asks this when
- * it is done, with its exit code: true if it left nothing but has kept something, for which *end is then filled as for a parent.
- * False where there are two. */
+/* Where there is only one process (in a browser, targets/alone_guard.c), guard_fork returns false,
+ * and the command asks this when it is done, with its exit code: true if it left nothing but has
+ * kept something, for which *end is then filled as for a parent. False where there are two. */
 bool guard_alone(int code, guard_end *end);
 
 /* thr_clock() at which the child must be done; 0 = any time. Without a child 0. */
@@ -308,20 +366,22 @@ double guard_deadline(void);
 /* From here on there are so many seconds, whatever there were; 0 = any time. */
 void guard_allow(double seconds);
 
-/* In the child; nothing without one. kept: replaces what was handed over before. Between writing and written nothing ends the
- * child but a second signal. No memory: what the parent is to say if the child fails now; false if there is no parent. Ending:
- * the child exits with this code by itself, not a library. */
+/* In the child; nothing without one. kept: replaces what was handed over before. Between writing
+ * and written nothing ends the child but a second signal. No memory: what the parent is to say if
+ * the child fails now; false if there is no parent. Ending: the child exits with this code by
+ * itself, not a library. */
 void guard_keep(const thr_text *text);
 void guard_writing(void);
 void guard_written(int code);
 bool guard_no_memory(void);
 void guard_ending(int code);
 
-/* What a command does that has nothing to hand over: prints why it ended and returns the exit code. */
+/* What a command does that has nothing to hand over: prints why it ended and returns the exit code.
+ */
 int guard_conclude(guard_end *end, const char *missing);
 
-/* ---- progress.c: --progress: how far a search is, for a program that reads it: one JSON object on a line of stderr each time
- * the plan or its bound is better. */
+/* ---- progress.c: --progress: how far a search is, for a program that reads it: one JSON object on
+ * a line of stderr each time the plan or its bound is better. */
 
 /* From here on lines are written. */
 void progress_begin(void);
@@ -334,13 +394,15 @@ void progress_listen(thr_limits *limits);
 /* A plan that is better than the last one. */
 void progress_plan(const thr_plan *plan);
 
-/* ---- best.c: The best cords found so far, handed to the parent (cli/guard.c) as a plan that claims nothing. */
+/* ---- best.c: The best cords found so far, handed to the parent (cli/guard.c) as a plan that
+ * claims nothing. */
 
-/* What cords must be: those of a plan for this framework with these options. Both stay as they are until the search is over. */
+/* What cords must be: those of a plan for this framework with these options. Both stay as they are
+ * until the search is over. */
 void best_begin(const thr_frame *frame, const thr_request *options);
 
-/* For thr_limits.found: keeps the cords if they pass the checker and are better than the last ones, a few times a second at most.
- * O(size of a plan). */
+/* For thr_limits.found: keeps the cords if they pass the checker and are better than the last ones,
+ * a few times a second at most. O(size of a plan). */
 void best_found(void *user, const thr_cord *cord, int n_cords, const thr_symmetry_record *symmetry);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/drawings.h"
 
 #include "diagram/export/paper.h"
@@ -27,23 +28,28 @@ bool drawings_option(drawings_args *a, const char *command, int option, const ch
     return true;
   }
   if (option != OPTION_PAGE && option != OPTION_FROM) return false;
-  *ok = option == OPTION_PAGE ? cli_choose(command, "--page", value, thr_page_name, THR_N_PAGES, &a->page)
-                              : cli_choose(command, "--from", value, from_name, 2, &from);
+  *ok = option == OPTION_PAGE
+            ? cli_choose(command, "--page", value, thr_page_name, THR_N_PAGES, &a->page)
+            : cli_choose(command, "--from", value, from_name, 2, &from);
   if (option == OPTION_FROM) a->needles = 1 + from;
   return true;
 }
 
-thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text, thr_err *err)
+thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text,
+                           thr_err *err)
 {
   thr_chains chains, planned;
-  thr_status st = thr_plan_chains(plan, a->needles ? a->needles : plan->options.needles, &chains, err);
+  thr_status st =
+      thr_plan_chains(plan, a->needles ? a->needles : plan->options.needles, &chains, err);
   if (!st) st = thr_plan_chains(plan, plan->options.needles, &planned, err);
   if (st) return st;
-  thr_text_printf(text, "longest loose chain: %d %s", chains.longest, thr_pieces_word(plan, chains.longest));
+  thr_text_printf(text, "longest loose chain: %d %s", chains.longest,
+                  thr_pieces_word(plan, chains.longest));
   if (planned.longest < chains.longest &&
-      plan->options.order != THR_ORDER_PLANNED) /* the order of work is not the one for so many needles */
-    thr_text_printf(text, ", %d as planned; thread plan --from %s puts the work in order for that", planned.longest,
-                    a->needles == 1 ? "end" : "middle");
+      plan->options.order !=
+          THR_ORDER_PLANNED) /* the order of work is not the one for so many needles */
+    thr_text_printf(text, ", %d as planned; thread plan --from %s puts the work in order for that",
+                    planned.longest, a->needles == 1 ? "end" : "middle");
   return THR_OK;
 }
 
@@ -53,7 +59,8 @@ static void note_pages(const char *file, int n)
 }
 
 /* layout: NULL = of its own. */
-static int write_one(const thr_plan *plan, int i, const thr_layout *layout, const char *path, const drawings_args *a)
+static int write_one(const thr_plan *plan, int i, const thr_layout *layout, const char *path,
+                     const drawings_args *a)
 {
   thr_err err = {0};
   thr_text text = {0};
@@ -67,7 +74,8 @@ static int write_one(const thr_plan *plan, int i, const thr_layout *layout, cons
                                         .working_mm = a->working_mm,
                                         .pages = note_pages};
   thr_limits limits = cli_limits(0);
-  if (thr_limits_stop(&limits)) limits.interrupted = NULL; /* an interrupt that has ended the planning does not end this */
+  if (thr_limits_stop(&limits))
+    limits.interrupted = NULL; /* an interrupt that has ended the planning does not end this */
   thr_status st = thr_document_make(plan, i, &options, &limits, &text, &err);
   cli_progress_end();
   return cli_write_drawn(st, &text, path, &err);
@@ -89,7 +97,8 @@ void drawings_names(const thr_plan *plan, const drawings_args *a, char names[DRA
   names[0] = '\0';
   for (int i = 0; i < thr_documents_count() && n < DRAWINGS_NAMES; i++)
     if (thr_document_usual(i) && (i != thr_document_sheets() || !drawings_no_sheets(plan, a)))
-      n += snprintf(names + n, (size_t)(DRAWINGS_NAMES - n), "%s%s", n ? " " : "", thr_document_file(i));
+      n += snprintf(names + n, (size_t)(DRAWINGS_NAMES - n), "%s%s", n ? " " : "",
+                    thr_document_file(i));
 }
 
 /* Is document i one of those that are asked for? */
@@ -129,7 +138,8 @@ bool drawings_would_lose(const char *folder)
   return lost || files_is_taken(path, NULL);
 }
 
-/* In this order: the step sheets last, which take longest, so that who stops them has all others. */
+/* In this order: the step sheets last, which take longest, so that who stops them has all others.
+ */
 static int nth_document(int k)
 {
   const int sheets = thr_document_sheets();
@@ -145,7 +155,8 @@ static bool too_late(int k)
   return true;
 }
 
-static int write_all(const thr_plan *plan, const thr_layout *layout, const char *folder, const drawings_args *a)
+static int write_all(const thr_plan *plan, const thr_layout *layout, const char *folder,
+                     const drawings_args *a)
 {
   int code = EXIT_OK;
   for (int k = 0; k < thr_documents_count() && !code; k++) {

@@ -1,4 +1,6 @@
-/* The documents that are made from a plan, one table for all: what they are called, and writing one or all of them. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The documents that are made from a plan, one table for all: what they are called, and writing one
+ * or all of them. */
 #ifndef THR_CLI_DRAWINGS_H
 #define THR_CLI_DRAWINGS_H
 
@@ -9,23 +11,26 @@
 typedef struct {
   double pitch_mm;            /* of the overview; 0 = automatic */
   thr_overview_colour colour; /* of the overview */
-  double kind_tolerance;      /* pieces that differ by no more are of a kind, in units; 0 = the usual one */
-  double working_mm;          /* cord that is worked with at a time; 0 = the usual one */
-  int page;                   /* of the step sheets: thr_page_size */
-  int needles;                /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = not said */
-  thr_line_options lines;     /* of cords for CAD */
-  bool quick;                 /* all documents means all but the step sheets of too many pieces */
+  double
+      kind_tolerance; /* pieces that differ by no more are of a kind, in units; 0 = the usual one */
+  double working_mm;  /* cord that is worked with at a time; 0 = the usual one */
+  int page;           /* of the step sheets: thr_page_size */
+  int needles; /* that cords are threaded with in the step sheets: 1, 2 = from their middle; 0 = not
+                  said */
+  thr_line_options lines; /* of cords for CAD */
+  bool quick;             /* all documents means all but the step sheets of too many pieces */
 } drawings_args;
 
 /* With more pieces step sheets are hundreds of pages, which nobody prints unasked. */
 enum { DRAWINGS_SHEETS_PIECES = 1000, DRAWINGS_NAMES = 128 };
 
 /* --kind-tolerance; --page, --from: of the step sheets. */
-#define DRAWINGS_OPTIONS                                                                                                         \
-  {"kind-tolerance", required_argument, NULL, OPTION_KIND_TOLERANCE},                                                            \
-      {"working-length", required_argument, NULL, OPTION_WORKING}, {"page", required_argument, NULL, OPTION_PAGE},               \
-  {                                                                                                                              \
-    "from", required_argument, NULL, OPTION_FROM                                                                                 \
+#define DRAWINGS_OPTIONS                                                                           \
+  {"kind-tolerance", required_argument, NULL, OPTION_KIND_TOLERANCE},                              \
+      {"working-length", required_argument, NULL, OPTION_WORKING},                                 \
+      {"page", required_argument, NULL, OPTION_PAGE},                                              \
+  {                                                                                                \
+    "from", required_argument, NULL, OPTION_FROM                                                   \
   }
 enum {
   OPTION_PAGE = 960,
@@ -33,33 +38,42 @@ enum {
   OPTION_KIND_TOLERANCE,
   OPTION_WORKING
 }; /* between the options that commands number on from each other and those of cord and beads */
-#define DRAWINGS_HELP                                                                                                            \
-  "      --kind-tolerance X   pieces whose points differ by no more are of one kind, in units of the framework (default: a\n"    \
-  "                           hundredth of the median edge)\n"                                                                   \
-  "      --page a4|letter     paper of the step sheets (default: a4)\n"                                                          \
-  "      --from end|middle    thread each cord from its end with one needle, or those of 24 passes and more from their\n"        \
-  "                           middle with two (default: as the plan was made for; else closed ones of 48 and more)\n"            \
-  "      --working-length MM  cord to work with at a time, before more is joined on (default: 2000)\n"
+#define DRAWINGS_HELP                                                                              \
+  "      --kind-tolerance X   pieces whose points differ by no more are of one kind, in units of " \
+  "the framework (default: a\n"                                                                    \
+  "                           hundredth of the median edge)\n"                                     \
+  "      --page a4|letter     paper of the step sheets (default: a4)\n"                            \
+  "      --from end|middle    thread each cord from its end with one needle, or those of 24 "      \
+  "passes and more from their\n"                                                                   \
+  "                           middle with two (default: as the plan was made for; else closed "    \
+  "ones of 48 and more)\n"                                                                         \
+  "      --working-length MM  cord to work with at a time, before more is joined on (default: "    \
+  "2000)\n"
 
-/* Takes one of the options above; false if it is none of them. *ok false: its value was bad (printed). */
-bool drawings_option(drawings_args *a, const char *command, int option, const char *value, bool *ok);
+/* Takes one of the options above; false if it is none of them. *ok false: its value was bad
+ * (printed). */
+bool drawings_option(drawings_args *a, const char *command, int option, const char *value,
+                     bool *ok);
 
-/* Writes document i of the plan to path ("-" = stdout). Returns EXIT_OK or prints and returns the code. */
+/* Writes document i of the plan to path ("-" = stdout). Returns EXIT_OK or prints and returns the
+ * code. */
 int drawings_write(const thr_plan *plan, int i, const char *path, const drawings_args *a);
 
-/* Writes all of them into folder, which is made if needed, under their usual names; stops at the first that fails,
- * and with EXIT_LIMIT, printed, where the time of the command is over. */
+/* Writes all of them into folder, which is made if needed, under their usual names; stops at the
+ * first that fails, and with EXIT_LIMIT, printed, where the time of the command is over. */
 int drawings_write_all(const thr_plan *plan, const char *folder, const drawings_args *a);
 
-/* Compares the names of document i, or of all that drawings_write_all may write (i = -1), in folder with the files that this
- * command reads and writes (cli/files.c). Returns EXIT_OK, or prints which one would be lost and returns EXIT_USAGE. */
+/* Compares the names of document i, or of all that drawings_write_all may write (i = -1), in folder
+ * with the files that this command reads and writes (cli/files.c). Returns EXIT_OK, or prints which
+ * one would be lost and returns EXIT_USAGE. */
 int drawings_claim(const char *command, const char *folder, int i);
 
 /* Would one of all documents take the place of such a file? */
 bool drawings_would_lose(const char *folder);
 
 /* Appends how loose what is threaded is at most: "longest loose chain: 8 pieces". */
-thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text, thr_err *err) THR_MUST_CHECK;
+thr_status drawings_chains(const thr_plan *plan, const drawings_args *a, thr_text *text,
+                           thr_err *err) THR_MUST_CHECK;
 
 /* Does that leave out the step sheets? */
 bool drawings_no_sheets(const thr_plan *plan, const drawings_args *a);

@@ -1,8 +1,12 @@
-/* The files that a command reads and writes: no file is asked for twice, and every output is tried before anything is computed.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The files that a command reads and writes: no file is asked for twice, and every output is tried
+ * before anything is computed.
  *
- * cli_next_option tells every option and operand to this list, so a command needs no code of its own: options that name an output
- * are known here, every other value that is the name of a file is taken for an input. Files are compared by what they are, not by
- * their names (thr_os_is_same_file). Only `thread eval PLAN -o PLAN` writes what it has read: the plan with its evaluation. */
+ * cli_next_option tells every option and operand to this list, so a command needs no code of its
+ * own: options that name an output are known here, every other value that is the name of a file is
+ * taken for an input. Files are compared by what they are, not by their names
+ * (thr_os_is_same_file). Only `thread eval PLAN -o PLAN` writes what it has read: the plan with its
+ * evaluation. */
 #include "cli/cli.h"
 #include "graph/os.h"
 
@@ -78,7 +82,8 @@ static bool is_standard(const char *path)
 /* Does writing path lose this file? What comes from a file by standard input is that file. */
 static bool loses(const char *path, const file *f)
 {
-  if (is_standard(path) || f->kind == OUTPUT_FOLDER || (f->kind == OUTPUT && is_standard(f->path))) return false;
+  if (is_standard(path) || f->kind == OUTPUT_FOLDER || (f->kind == OUTPUT && is_standard(f->path)))
+    return false;
   if (f->kind == INPUT && is_standard(f->path)) return thr_os_is_same_file(path, "/dev/stdin");
   return (f->kind == OUTPUT || thr_os_is_file(f->path)) && thr_os_is_same_file(path, f->path);
 }
@@ -86,7 +91,8 @@ static bool loses(const char *path, const file *f)
 /* An evaluation is written into the plan that was evaluated. */
 static bool may_share(const char *option, const file *f)
 {
-  return all.command && strcmp(all.command, "eval") == 0 && option && strcmp(option, "output") == 0 && !f->option;
+  return all.command && strcmp(all.command, "eval") == 0 && option &&
+         strcmp(option, "output") == 0 && !f->option;
 }
 
 static bool is_same_option(const char *a, const char *b)
@@ -115,8 +121,8 @@ int files_claim(const char *command, const char *option, const char *path)
   if (!f) return EXIT_OK;
   const char *dashes = f->option ? "--" : "", *name = f->option ? f->option : "the command";
   if (f->kind == INPUT)
-    return cli_usage(command, "%s is read by %s%s, and %s%s would write over it: name another file", path, dashes, name,
-                     option ? "--" : "", option ? option : "a drawing");
+    return cli_usage(command, "%s is read by %s%s, and %s%s would write over it: name another file",
+                     path, dashes, name, option ? "--" : "", option ? option : "a drawing");
   return cli_usage(command, "%s is written by %s%s, too: name another file", path, dashes, name);
 }
 
@@ -190,7 +196,8 @@ int files_settle(const char *command)
     all.n = kept;
   }
   for (int i = 0; i < all.n && !code; i++)
-    if (all.file[i].kind == OUTPUT) code = files_claim(command, all.file[i].option, all.file[i].path);
+    if (all.file[i].kind == OUTPUT)
+      code = files_claim(command, all.file[i].option, all.file[i].path);
   for (int i = 0; i < all.n && !code; i++)
     code = try_output(&all.file[i]);
   return code;
@@ -201,7 +208,8 @@ int files_also_read(const char *path)
   files_heard(NULL, path);
   int code = EXIT_OK;
   for (int i = 0; i < all.n && !code; i++)
-    if (all.file[i].kind == OUTPUT) code = files_claim(all.command, all.file[i].option, all.file[i].path);
+    if (all.file[i].kind == OUTPUT)
+      code = files_claim(all.command, all.file[i].option, all.file[i].path);
   return code;
 }
 

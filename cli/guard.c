@@ -1,11 +1,15 @@
-/* Limits that hold whatever a command does: it runs in a child process whose memory the system bounds, and which is ended when
- * its time is over. What the child has found so far it hands to its parent, which outlives it.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Limits that hold whatever a command does: it runs in a child process whose memory the system
+ * bounds, and which is ended when its time is over. What the child has found so far it hands to its
+ * parent, which outlives it.
  *
  *   guard_end end;
  *   if (guard_fork(&limits, &end)) return conclude(&end);   the parent, after the child's end
- *   ..                                                       the child goes on, and returns its exit code as always
+ *   ..                                                       the child goes on, and returns its
+ * exit code as always
  *
- * The limits of a command as options, and the words for one that was ended. The two processes: guard_process.c. */
+ * The limits of a command as options, and the words for one that was ended. The two processes:
+ * guard_process.c. */
 #include "cli/cli.h"
 
 #include <stdlib.h>
@@ -26,7 +30,8 @@ static bool parse_memory(const char *command, const char *value, double *bytes)
   double number = strtod(value, &end), least = 50e6, most = 1e15;
   for (size_t i = 0; i < sizeof unit / sizeof *unit && end != value; i++) {
     *bytes = number * unit[i].bytes;
-    if (strcmp(end, unit[i].name) == 0 && (*bytes == 0 || (*bytes >= least && *bytes <= most))) return true;
+    if (strcmp(end, unit[i].name) == 0 && (*bytes == 0 || (*bytes >= least && *bytes <= most)))
+      return true;
   }
   cli_usage(command, "--memory %s: expected 50MB or more, as 500MB or 2GB, or 0 for any", value);
   return false;
@@ -36,7 +41,9 @@ bool guard_option(guard_limits *l, const char *command, int option, const char *
 {
   *ok = true;
   switch (option) {
-  case OPTION_TIME: *ok = cli_double(command, "--time-limit", value, 0, 1e9, &l->seconds); return true;
+  case OPTION_TIME:
+    *ok = cli_double(command, "--time-limit", value, 0, 1e9, &l->seconds);
+    return true;
   case OPTION_MEMORY: *ok = parse_memory(command, value, &l->memory); return true;
   default: return false;
   }

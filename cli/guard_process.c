@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The two processes of a command: the one that works, and the one that waits. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/cli.h"
@@ -14,12 +15,21 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-static const double GRACE = 0.5; /* s that a child has to end by itself after its deadline or a signal */
-static const double LOOK = 0.1;  /* s between two looks at the child when no signal wakes its parent */
+static const double GRACE =
+    0.5; /* s that a child has to end by itself after its deadline or a signal */
+static const double LOOK =
+    0.1; /* s between two looks at the child when no signal wakes its parent */
 
 /* ---- messages from the child ---- */
 
-enum { KEEP, WRITING, WRITTEN, NO_MEMORY, ALLOW, ENDING }; /* kinds; code: exit code; value of ALLOW: s */
+enum {
+  KEEP,
+  WRITING,
+  WRITTEN,
+  NO_MEMORY,
+  ALLOW,
+  ENDING
+}; /* kinds; code: exit code; value of ALLOW: s */
 
 static int to_parent = -1; /* in the child: where messages go */
 static double deadline;    /* thr_clock() */
@@ -76,8 +86,8 @@ static void count_signal(int signal)
   signals++;
 }
 
-/* The terminal closes, which kernel and shell both say: it counts once. Nobody reading is no reason to end before the plan is
- * written. */
+/* The terminal closes, which kernel and shell both say: it counts once. Nobody reading is no reason
+ * to end before the plan is written. */
 static void count_hangup(int signal_number)
 {
   (void)signal_number;
@@ -131,8 +141,8 @@ static void receive(guarded *g)
     continue;
 }
 
-/* Signals: the first is passed on, the second ends everything, unless it is the first once more, sent to the process and to its
- * group as `timeout` does. */
+/* Signals: the first is passed on, the second ends everything, unless it is the first once more,
+ * sent to the process and to its group as `timeout` does. */
 static void heed_signals(guarded *g)
 {
   double now = thr_clock();
@@ -152,7 +162,8 @@ static void watch(guarded *g)
 {
   struct pollfd news = {.fd = g->pipe, .events = POLLIN};
   while (!g->ended) {
-    if (poll(&news, 1, (int)(1000 * LOOK)) > 0 && news.revents & POLLHUP && !(news.revents & POLLIN))
+    if (poll(&news, 1, (int)(1000 * LOOK)) > 0 && news.revents & POLLHUP &&
+        !(news.revents & POLLIN))
       news.fd = -1; /* closed: only the end is left to wait for */
     receive(g);
     heed_signals(g);
@@ -172,7 +183,8 @@ static double system_memory(void)
   double least = INFINITY;
   for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
     struct rlimit r;
-    if (getrlimit(kinds[i], &r) == 0 && r.rlim_cur != RLIM_INFINITY) least = fmin(least, (double)r.rlim_cur);
+    if (getrlimit(kinds[i], &r) == 0 && r.rlim_cur != RLIM_INFINITY)
+      least = fmin(least, (double)r.rlim_cur);
   }
   return least;
 }
@@ -195,13 +207,16 @@ static void judge(guarded *g, const guard_limits *l)
 {
   guard_end *e = g->end;
   e->reason = reason_of(g, l);
-  if (!WIFSIGNALED(g->status) && (e->reason == GUARD_DONE || !e->written)) e->code = WEXITSTATUS(g->status);
+  if (!WIFSIGNALED(g->status) && (e->reason == GUARD_DONE || !e->written))
+    e->code = WEXITSTATUS(g->status);
   switch (e->reason) {
   case GUARD_TIME: snprintf(e->why, sizeof e->why, "not done in time"); break;
   case GUARD_INTERRUPTED: snprintf(e->why, sizeof e->why, "stopped"); break;
   case GUARD_MEMORY:
     if (system_memory() < (l->memory > 0 ? l->memory : INFINITY))
-      snprintf(e->why, sizeof e->why, "out of memory (the system's limit, ulimit -v, allows %.4g MB)", system_memory() / 1e6);
+      snprintf(e->why, sizeof e->why,
+               "out of memory (the system's limit, ulimit -v, allows %.4g MB)",
+               system_memory() / 1e6);
     else if (l->memory > 0)
       snprintf(e->why, sizeof e->why, "out of memory (--memory allows %g MB)", l->memory / 1e6);
     else
@@ -209,7 +224,9 @@ static void judge(guarded *g, const guard_limits *l)
     break;
   case GUARD_DIED:
     if (WIFSIGNALED(g->status))
-      snprintf(e->why, sizeof e->why, "died of signal %d (a fault of this program, or memory ran out)", WTERMSIG(g->status));
+      snprintf(e->why, sizeof e->why,
+               "died of signal %d (a fault of this program, or memory ran out)",
+               WTERMSIG(g->status));
     else
       snprintf(e->why, sizeof e->why, "ended by a library (exit code %d)", WEXITSTATUS(g->status));
     break;
@@ -230,14 +247,16 @@ static void bound_memory(double bytes)
 {
   struct rlimit r;
   if (!MEMORY_IS_BOUNDED || bytes <= 0 || getrlimit(RLIMIT_DATA, &r)) return;
-  if (r.rlim_cur != RLIM_INFINITY && (double)r.rlim_cur <= bytes) return; /* somebody was stricter */
+  if (r.rlim_cur != RLIM_INFINITY && (double)r.rlim_cur <= bytes)
+    return; /* somebody was stricter */
   r.rlim_cur = (rlim_t)bytes;
   setrlimit(RLIMIT_DATA, &r);
 }
 
 static void count_signals(void)
 {
-  struct sigaction count = {.sa_handler = count_signal}, ended = {.sa_handler = wake, .sa_flags = SA_NOCLDSTOP};
+  struct sigaction count = {.sa_handler = count_signal},
+                   ended = {.sa_handler = wake, .sa_flags = SA_NOCLDSTOP};
   struct sigaction hangup = {.sa_handler = count_hangup}, before;
   sigaction(SIGINT, &count, NULL);
   sigaction(SIGTERM, &count, NULL);

@@ -1,4 +1,6 @@
-/* thread: plans how cord is threaded through bead structures. This file only finds the subcommand. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* thread: plans how cord is threaded through bead structures. This file only finds the subcommand.
+ */
 #include "cli/args/args.h"
 #include "cli/cli.h"
 #include "eval/joint/world.h"
@@ -12,7 +14,8 @@
 const cli_command cli_commands[] = {
     {"plan", "find the best threading of a framework, prove it, draw it", cmd_plan},
     {"advise", "how many cords, and from where, so that a hand can pull them", cmd_advise},
-    {"symmetries", "groups of symmetries, and the best symmetric threading under each", cmd_symmetries},
+    {"symmetries", "groups of symmetries, and the best symmetric threading under each",
+     cmd_symmetries},
     {"check", "verify every claim of a plan, without any solver", cmd_check},
     {"eval", "how hard to pull: closed form, simulated joints, whole structure", cmd_eval},
     {"compare", "plans side by side, ranked by pull", cmd_compare},
@@ -25,17 +28,19 @@ const int cli_n_commands = sizeof cli_commands / sizeof *cli_commands;
 
 static void help(FILE *to)
 {
-  fputs("thread plans how cord is threaded through bead structures.\n\n"
-        "Examples:\n"
-        "  thread make dome --size 7 -o dome.json        a 7 x 7 dome to try things on\n"
-        "  thread plan dome.json                         shortest cord: plan and diagrams in dome/\n"
-        "  thread check dome/plan.json                   verify the plan and its proof\n"
-        "  thread eval dome/plan.json --method joint     how hard to pull, measured in simulation\n\n"
-        "Commands:\n",
-        to);
+  fputs(
+      "thread plans how cord is threaded through bead structures.\n\n"
+      "Examples:\n"
+      "  thread make dome --size 7 -o dome.json        a 7 x 7 dome to try things on\n"
+      "  thread plan dome.json                         shortest cord: plan and diagrams in dome/\n"
+      "  thread check dome/plan.json                   verify the plan and its proof\n"
+      "  thread eval dome/plan.json --method joint     how hard to pull, measured in simulation\n\n"
+      "Commands:\n",
+      to);
   for (int i = 0; i < cli_n_commands; i++)
     fprintf(to, "  %-10s %s\n", cli_commands[i].name, cli_commands[i].summary);
-  fputs("\nOptions of every command: -h, --help; -q, --quiet; -v, --verbose; --config FILE: options from a file.\n"
+  fputs("\nOptions of every command: -h, --help; -q, --quiet; -v, --verbose; --config FILE: "
+        "options from a file.\n"
         "`thread help COMMAND` and `man thread-COMMAND` say more; `man thread` says all.\n",
         to);
 }
@@ -43,12 +48,13 @@ static void help(FILE *to)
 static int version(void)
 {
   int bullet = thr_bullet_version();
-  printf(
-      "thread %s\n"
-      "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>\n"
-      "This is free software: you are free to change and redistribute it. There is NO WARRANTY, to the extent permitted by law.\n"
-      "With GLPK %s, igraph %s, nauty %s, Bullet %d.%d.\n",
-      THR_VERSION, thr_glpk_version(), thr_igraph_version(), thr_nauty_version(), bullet / 100, bullet % 100);
+  printf("thread %s\n"
+         "License GPLv3+: GNU GPL version 3 or later <https://gnu.org/licenses/gpl.html>\n"
+         "This is free software: you are free to change and redistribute it. There is NO WARRANTY, "
+         "to the extent permitted by law.\n"
+         "With GLPK %s, igraph %s, nauty %s, Bullet %d.%d.\n",
+         THR_VERSION, thr_glpk_version(), thr_igraph_version(), thr_nauty_version(), bullet / 100,
+         bullet % 100);
   return EXIT_OK;
 }
 
@@ -65,7 +71,8 @@ static int no_command(const char *name)
   for (int i = 0; i < cli_n_commands; i++)
     thr_suggestion_try(&suggestion, cli_commands[i].name);
   thr_suggestion_ask(&suggestion, question);
-  cli_error("there is no command %s%s%s `thread --help` lists them", name, question, *question ? "" : ";");
+  cli_error("there is no command %s%s%s `thread --help` lists them", name, question,
+            *question ? "" : ";");
   return EXIT_USAGE;
 }
 

@@ -1,13 +1,18 @@
-/* --progress: how far a search is, for a program that reads it: one JSON object on a line of stderr each time the plan or its
- * bound is better.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* --progress: how far a search is, for a program that reads it: one JSON object on a line of stderr
+ * each time the plan or its bound is better.
  *
- *   {"what":"plan","length":1995.2,"turning":53.5,"cords":1,"seconds":0.31}   a whole plan was found
- *   {"what":"turning","best":53.5,"bound":51.2,"gap":4.3,"seconds":0.52}      what is minimized, and what nothing is below; gap:
+ *   {"what":"plan","length":1995.2,"turning":53.5,"cords":1,"seconds":0.31}   a whole plan was
+ * found
+ *   {"what":"turning","best":53.5,"bound":51.2,"gap":4.3,"seconds":0.52}      what is minimized,
+ * and what nothing is below; gap:
  * %
- *   {"what":"joints","done":0.25,"seconds":2.1}                               work whose amount is known
+ *   {"what":"joints","done":0.25,"seconds":2.1}                               work whose amount is
+ * known
  *
- * best and bound are prices of turns (rad, or as --turn-cost has it) where what is turning, else weights of extra cord; length is
- * in the framework's units, turning in rad, seconds since the search began. */
+ * best and bound are prices of turns (rad, or as --turn-cost has it) where what is turning, else
+ * weights of extra cord; length is in the framework's units, turning in rad, seconds since the
+ * search began. */
 #include "cli/cli.h"
 
 #include "graph/io/writer.h"
@@ -87,7 +92,8 @@ static void tell_bound(void *user, const char *what, double best, double bound)
   thr_writer writer = open_line(&text, what);
   thr_write_number(&writer, "best", last.best);
   thr_write_number(&writer, "bound", last.bound);
-  thr_write_printf(&writer, "gap", "%.3g", last.best > 0 ? 100 * fmax(0, last.best - last.bound) / last.best : 0.);
+  thr_write_printf(&writer, "gap", "%.3g",
+                   last.best > 0 ? 100 * fmax(0, last.best - last.bound) / last.best : 0.);
   end_line(&writer);
 }
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Options of the methods that measure the pull, and running them. */
 #define _POSIX_C_SOURCE 200809L
 #include "cli/pull.h"
@@ -29,13 +30,14 @@ static bool pull_by_name(const char *value, size_t n, thr_pull *pull)
   return false;
 }
 
-/* The list A=start,B=none: item by item. False at its end; *ok false if the item is no such thing or ends the list
- * with a comma. */
+/* The list A=start,B=none: item by item. False at its end; *ok false if the item is no such thing
+ * or ends the list with a comma. */
 static bool next_pull(const char **list, char id[12], thr_pull *pull, bool *ok)
 {
   if (!**list) return false;
   size_t n = strcspn(*list, ","), letters = strcspn(*list, "=,");
-  *ok = letters > 0 && letters < 12 && letters < n && pull_by_name(*list + letters + 1, n - letters - 1, pull);
+  *ok = letters > 0 && letters < 12 && letters < n &&
+        pull_by_name(*list + letters + 1, n - letters - 1, pull);
   if ((*list)[n] == ',' && !(*list)[n + 1]) *ok = false;
   snprintf(id, 12, "%.*s", *ok ? (int)letters : 0, *list);
   *list += n;
@@ -67,7 +69,9 @@ static bool check_pull(const char *command, const char *value)
       return false;
     }
   }
-  if (!ok) cli_usage(command, "--pull %s: expected start, end or both, or a list like A=none,B=both", value);
+  if (!ok)
+    cli_usage(command, "--pull %s: expected start, end or both, or a list like A=none,B=both",
+              value);
   return ok;
 }
 
@@ -83,7 +87,9 @@ bool pull_option(pull_args *a, const char *command, int option, const char *valu
   int law, methods = strcmp(command, "compare") == 0 ? PULL_ALL_METHODS + 1 : THR_N_METHODS;
   *ok = true;
   switch (option) {
-  case OPTION_PULL_METHOD: *ok = cli_choose(command, "--method", value, method_name, methods, &a->method); return true;
+  case OPTION_PULL_METHOD:
+    *ok = cli_choose(command, "--method", value, method_name, methods, &a->method);
+    return true;
   case OPTION_PULL_LAW:
     *ok = cli_choose(command, "--law", value, thr_law_name, THR_N_LAWS, &law);
     if (*ok) options->law = (thr_law)law;
@@ -93,21 +99,29 @@ bool pull_option(pull_args *a, const char *command, int option, const char *valu
     a->pull = value;
     return true;
   case OPTION_PULL_SEED:
-    *ok = cli_double(command, "--seed", value, 0, 9007199254740992.0, &seed); /* what JSON can hold */
+    *ok =
+        cli_double(command, "--seed", value, 0, 9007199254740992.0, &seed); /* what JSON can hold */
     if (*ok && seed != floor(seed)) {
       cli_usage(command, "--seed %s: expected a whole number", value);
       *ok = false;
     }
     if (*ok) options->seed = (uint64_t)seed;
     return true;
-  case OPTION_PULL_TIME_STEP: *ok = cli_double(command, "--time-step", value, 0.01, 10, &options->time_step); return true;
-  case OPTION_PULL_ITERATIONS: *ok = cli_double(command, "--iterations", value, 0.1, 100, &options->iterations); return true;
-  case OPTION_PULL_START: *ok = cli_double(command, "--start", value, 1e-9, 1e12, &options->start); return true;
+  case OPTION_PULL_TIME_STEP:
+    *ok = cli_double(command, "--time-step", value, 0.01, 10, &options->time_step);
+    return true;
+  case OPTION_PULL_ITERATIONS:
+    *ok = cli_double(command, "--iterations", value, 0.1, 100, &options->iterations);
+    return true;
+  case OPTION_PULL_START:
+    *ok = cli_double(command, "--start", value, 1e-9, 1e12, &options->start);
+    return true;
   case 'j':
     if ((*ok = cli_processes_option(command, value))) options->processes = cli_processes();
     return true;
   case OPTION_PULL_CACHE:
-    if (!(*ok = *value != '\0')) cli_usage(command, "--cache: an empty name is no folder; --no-cache does without");
+    if (!(*ok = *value != '\0'))
+      cli_usage(command, "--cache: an empty name is no folder; --no-cache does without");
     options->cache = value;
     return true;
   case OPTION_PULL_NO_CACHE: a->no_cache = true; return true;
@@ -123,18 +137,24 @@ int pull_check(const pull_args *a, const char *command)
 {
   bool one = a->method != PULL_ALL_METHODS, structure = a->method == THR_STRUCTURE || !one;
   bool closed = a->method == THR_CAPSTAN || strcmp(command, "compare") == 0;
-  if (a->options.law != THR_LAW_CAPSTAN && !closed) return cli_usage(command, "--law is for --method capstan");
-  if (a->options.start > 0 && !structure) return cli_usage(command, "--start needs --method structure");
-  if (!a->options.dynamics && !structure) return cli_usage(command, "--no-dynamics needs --method structure");
-  if (a->options.large && !structure) return cli_usage(command, "--dynamics needs --method structure");
-  if (a->options.large && !a->options.dynamics) return cli_usage(command, "--dynamics and --no-dynamics exclude each other");
+  if (a->options.law != THR_LAW_CAPSTAN && !closed)
+    return cli_usage(command, "--law is for --method capstan");
+  if (a->options.start > 0 && !structure)
+    return cli_usage(command, "--start needs --method structure");
+  if (!a->options.dynamics && !structure)
+    return cli_usage(command, "--no-dynamics needs --method structure");
+  if (a->options.large && !structure)
+    return cli_usage(command, "--dynamics needs --method structure");
+  if (a->options.large && !a->options.dynamics)
+    return cli_usage(command, "--dynamics and --no-dynamics exclude each other");
   if (a->options.start > 0 && !a->options.dynamics)
     return cli_usage(command, "--start is of the simulation that --no-dynamics leaves out");
   return EXIT_OK;
 }
 
 /* The pull of each cord of a plan; *out is owned by the caller, NULL if all are pulled alike. */
-static int resolve_pulls(const pull_args *a, const char *path, const thr_plan *plan, thr_eval_options *options, thr_pull **out)
+static int resolve_pulls(const pull_args *a, const char *path, const thr_plan *plan,
+                         thr_eval_options *options, thr_pull **out)
 {
   const char *list = a->pull;
   char id[12];
@@ -153,18 +173,23 @@ static int resolve_pulls(const pull_args *a, const char *path, const thr_plan *p
     while (i < plan->n_cords && strcmp(plan->cord[i].id, id) != 0)
       i++;
     if (i == plan->n_cords) {
-      cli_error("--pull %s: %s has no cord %s; the last of its cords is %s", a->pull, path, id, plan->cord[plan->n_cords - 1].id);
+      cli_error("--pull %s: %s has no cord %s; the last of its cords is %s", a->pull, path, id,
+                plan->cord[plan->n_cords - 1].id);
       return EXIT_INPUT;
     }
     (*out)[i] = pull;
   }
   for (int i = 0; i < plan->n_cords; i++)
     if ((*out)[i] != THR_PULL_NONE) options->cord_pull = *out;
-  return options->cord_pull ? EXIT_OK : cli_usage("eval", "--pull %s: no cord of %s is pulled", a->pull, path);
+  return options->cord_pull
+             ? EXIT_OK
+             : cli_usage("eval", "--pull %s: no cord of %s is pulled", a->pull, path);
 }
 
-/* Sizes that were not said follow from the edges: a very short one makes every cord thin. Once is enough. */
-static void note_thin_cord(const thr_frame *frame, const thr_physics *asked, const thr_physics *resolved)
+/* Sizes that were not said follow from the edges: a very short one makes every cord thin. Once is
+ * enough. */
+static void note_thin_cord(const thr_frame *frame, const thr_physics *asked,
+                           const thr_physics *resolved)
 {
   static bool said;
   double mm = 1, shortest = INFINITY;
@@ -180,11 +205,14 @@ static void note_thin_cord(const thr_frame *frame, const thr_physics *asked, con
   }
   if (fabs(resolved->cord_diameter - shortest / 4) > 1e-9 * shortest) return;
   said = true;
-  cli_note("note: the cord is taken to be %.3g mm thick, as the edge from %s to %s is only %.3g mm long; --cord-diameter says it",
-           resolved->cord_diameter, frame->name[frame->edge[edge][0]], frame->name[frame->edge[edge][1]], shortest);
+  cli_note("note: the cord is taken to be %.3g mm thick, as the edge from %s to %s is only %.3g mm "
+           "long; --cord-diameter says it",
+           resolved->cord_diameter, frame->name[frame->edge[edge][0]],
+           frame->name[frame->edge[edge][1]], shortest);
 }
 
-int pull_eval(const pull_args *a, const char *path, const thr_plan *plan, thr_method method, thr_eval *out)
+int pull_eval(const pull_args *a, const char *path, const thr_plan *plan, thr_method method,
+              thr_eval *out)
 {
   thr_err err = {0}, found = {0};
   thr_eval_options options = a->options;
@@ -200,18 +228,22 @@ int pull_eval(const pull_args *a, const char *path, const thr_plan *plan, thr_me
     return code;
   }
   thr_limits limits = cli_limits(0);
-  thr_status st = thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, method, &options, &limits, out, &found);
+  thr_status st = thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, method, &options, &limits,
+                                out, &found);
   free(pulls);
   cli_progress_end();
   if (st == THR_ELIMIT) {
     int kept = options.cache && !out->cache_failed ? out->joints_measured : 0;
     if (method == THR_JOINT)
-      cli_note("note: %s: %d %s kept in the cache for the next run", path, kept, cli_plural(kept, "joint is", "joints are"));
+      cli_note("note: %s: %d %s kept in the cache for the next run", path, kept,
+               cli_plural(kept, "joint is", "joints are"));
     return EXIT_LIMIT;
   }
   if (!st) {
     if (method != THR_CAPSTAN) note_thin_cord(&plan->frame, &options.physics, &out->record.physics);
-    if (out->cache_failed) cli_note("note: measured joints could not be kept in %s; --cache names another folder", options.cache);
+    if (out->cache_failed)
+      cli_note("note: measured joints could not be kept in %s; --cache names another folder",
+               options.cache);
     return EXIT_OK;
   }
   thr_fail(&err, st, "%s: %s", path, found.text);
@@ -227,7 +259,9 @@ int pull_read_schedule(const char *value, const thr_plan *plan, thr_schedule *sc
   thr_status st = file ? thr_text_read_plain(&text, value, &err) : THR_OK;
   if (!file) thr_text_append(&text, value);
   if (!st && text.failed) st = thr_nomem(&err);
-  if (!st) st = thr_schedule_parse(schedule, plan, text.data, text.length, file ? value : "--schedule", &err);
+  if (!st)
+    st = thr_schedule_parse(schedule, plan, text.data, text.length, file ? value : "--schedule",
+                            &err);
   thr_text_destroy(&text);
   return st ? cli_fail(&err) : EXIT_OK;
 }

@@ -1,9 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How hard must one pull? Three methods behind one interface (docs/method.md, "Pull force").
- * Seating pull = force at the pulled ends such that the slackest point of every cord holds the seating tension (capstan, joint).
- * Holding pull = least pull at which the closed structure has any equilibrium while the cords are being drawn in (structure).
- * They are different things.
+ * Seating pull = force at the pulled ends such that the slackest point of every cord holds the
+ * seating tension (capstan, joint). Holding pull = least pull at which the closed structure has any
+ * equilibrium while the cords are being drawn in (structure). They are different things.
  *
- * One interface to the three methods: checks what is asked, prepares the record, calls the method, sums up. */
+ * One interface to the three methods: checks what is asked, prepares the record, calls the method,
+ * sums up. */
 #include "eval/eval.h"
 #include "graph/framework/units.h"
 #include "graph/plan/plan_measures.h"
@@ -15,8 +17,12 @@
 
 thr_eval_options thr_eval_options_default(void)
 {
-  return (thr_eval_options){
-      .physics = thr_physics_default(), .pull = THR_PULL_BOTH, .time_step = 1, .iterations = 1, .processes = 1, .dynamics = true};
+  return (thr_eval_options){.physics = thr_physics_default(),
+                            .pull = THR_PULL_BOTH,
+                            .time_step = 1,
+                            .iterations = 1,
+                            .processes = 1,
+                            .dynamics = true};
 }
 
 void thr_eval_destroy(thr_eval *eval)
@@ -41,17 +47,23 @@ static thr_status check_options(const thr_eval_options *options, thr_err *err)
 {
   static const uint64_t largest_seed = UINT64_C(1) << 53; /* JSON's numbers are doubles */
   if (!(options->time_step >= 0.01 && options->time_step <= 10))
-    return thr_fail(err, THR_EINPUT, "time step: a factor of %g; expected 0.01 to 10 times the validated step",
+    return thr_fail(err, THR_EINPUT,
+                    "time step: a factor of %g; expected 0.01 to 10 times the validated step",
                     options->time_step);
   if (!(options->iterations >= 0.1 && options->iterations <= 100))
-    return thr_fail(err, THR_EINPUT, "iterations: a factor of %g; expected 0.1 to 100 times the validated number",
+    return thr_fail(err, THR_EINPUT,
+                    "iterations: a factor of %g; expected 0.1 to 100 times the validated number",
                     options->iterations);
   if (!(options->start >= 0) || !isfinite(options->start))
-    return thr_fail(err, THR_EINPUT, "start: a pull of %g N; expected more than 0, or 0 for 1.3 times the holding pull",
-                    options->start);
-  if (options->processes < 1) return thr_fail(err, THR_EINPUT, "processes: %d; expected 1 or more", options->processes);
+    return thr_fail(
+        err, THR_EINPUT,
+        "start: a pull of %g N; expected more than 0, or 0 for 1.3 times the holding pull",
+        options->start);
+  if (options->processes < 1)
+    return thr_fail(err, THR_EINPUT, "processes: %d; expected 1 or more", options->processes);
   if (options->seed > largest_seed)
-    return thr_fail(err, THR_EINPUT, "seed: %" PRIu64 "; expected 0 to %" PRIu64, options->seed, largest_seed);
+    return thr_fail(err, THR_EINPUT, "seed: %" PRIu64 "; expected 0 to %" PRIu64, options->seed,
+                    largest_seed);
   return THR_OK;
 }
 
@@ -62,15 +74,19 @@ static bool physics_needs_units(const thr_physics *physics)
 }
 
 /* Friction that changes with the load is known in closed form only. */
-static thr_status check_friction(thr_method method, thr_law law, const thr_physics *physics, thr_err *err)
+static thr_status check_friction(thr_method method, thr_law law, const thr_physics *physics,
+                                 thr_err *err)
 {
-  if (thr_friction_of(physics).power == 1 || (method == THR_CAPSTAN && law == THR_LAW_CAPSTAN)) return THR_OK;
+  if (thr_friction_of(physics).power == 1 || (method == THR_CAPSTAN && law == THR_LAW_CAPSTAN))
+    return THR_OK;
   return thr_fail(err, THR_EINPUT,
-                  "mu_power: friction that changes with the load is of method capstan and its law; --mu-power 0 leaves it out");
+                  "mu_power: friction that changes with the load is of method capstan and its law; "
+                  "--mu-power 0 leaves it out");
 }
 
-static thr_status prepare(const thr_frame *frame, const thr_cord *cord, int n_cords, thr_method method,
-                          const thr_eval_options *options, thr_evaluation *evaluation, thr_err *err)
+static thr_status prepare(const thr_frame *frame, const thr_cord *cord, int n_cords,
+                          thr_method method, const thr_eval_options *options,
+                          thr_evaluation *evaluation, thr_err *err)
 {
   *evaluation = (thr_evaluation){.present = true,
                                  .method = method,
@@ -82,9 +98,12 @@ static thr_status prepare(const thr_frame *frame, const thr_cord *cord, int n_co
   if (!st) st = thr_physics_resolve(&options->physics, frame, &evaluation->physics, err);
   if (!st) st = check_friction(method, evaluation->law, &evaluation->physics, err);
   if (st) return st;
-  if (!(evaluation->cord = thr_calloc((size_t)n_cords, sizeof *evaluation->cord))) return thr_nomem(err);
+  if (!(evaluation->cord = thr_calloc((size_t)n_cords, sizeof *evaluation->cord)))
+    return thr_nomem(err);
   evaluation->n_cords = n_cords;
-  if (physics_needs_units(&evaluation->physics) && (st = thr_units_in_mm(frame->units, &(double){0}, err))) return st;
+  if (physics_needs_units(&evaluation->physics) &&
+      (st = thr_units_in_mm(frame->units, &(double){0}, err)))
+    return st;
   for (int i = 0; i < n_cords; i++) {
     evaluation->cord[i].n_passes = cord[i].n_passes;
     evaluation->cord[i].pull = options->cord_pull ? options->cord_pull[i] : options->pull;
@@ -93,11 +112,13 @@ static thr_status prepare(const thr_frame *frame, const thr_cord *cord, int n_co
 }
 
 /* What was asked for beyond one pull at the ends. */
-static thr_status follow_schedule(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
-                                  thr_evaluation *evaluation, thr_err *err)
+static thr_status follow_schedule(const thr_frame *frame, const thr_cord *cord,
+                                  const thr_eval_options *options, thr_evaluation *evaluation,
+                                  thr_err *err)
 {
   thr_status st = THR_OK;
-  if (options->hand > 0) st = thr_history_grips(cord, options->hand, evaluation, &evaluation->schedule, err);
+  if (options->hand > 0)
+    st = thr_history_grips(cord, options->hand, evaluation, &evaluation->schedule, err);
   for (int k = 0; options->schedule && k < options->schedule->n && !st; k++)
     st = thr_schedule_add(&evaluation->schedule, &options->schedule->step[k], err);
   return st || evaluation->schedule.n == 0 ? st : thr_history_follow(frame, cord, evaluation, err);
@@ -117,7 +138,8 @@ static thr_status sum_up(const thr_frame *frame, const thr_cord *cord, thr_eval 
   if (st) return st;
   if (isfinite(eval->record.total)) return THR_OK;
   return thr_fail(err, THR_EINPUT,
-                  "all pulls together are past what a number can hold; use a smaller mu, or a plan with more cords");
+                  "all pulls together are past what a number can hold; use a smaller mu, or a plan "
+                  "with more cords");
 }
 
 /* All that is left where no pull holds. */
@@ -131,12 +153,15 @@ static void keep_shape(thr_eval *eval)
   if (shape.present) eval->record.physics = physics;
 }
 
-thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cords, thr_method method,
-                         const thr_eval_options *options, const thr_limits *limits, thr_eval *out, thr_err *err)
+thr_status thr_eval_plan(const thr_frame *frame, const thr_cord *cord, int n_cords,
+                         thr_method method, const thr_eval_options *options,
+                         const thr_limits *limits, thr_eval *out, thr_err *err)
 {
-  static thr_status (*const run[THR_N_METHODS])(const thr_frame *, const thr_cord *, const thr_eval_options *, const thr_limits *,
-                                                thr_eval *, thr_err *) = {
-      [THR_CAPSTAN] = thr_capstan_method, [THR_JOINT] = thr_joint_method, [THR_STRUCTURE] = thr_structure_method};
+  static thr_status (*const run[THR_N_METHODS])(
+      const thr_frame *, const thr_cord *, const thr_eval_options *, const thr_limits *, thr_eval *,
+      thr_err *) = {[THR_CAPSTAN] = thr_capstan_method,
+                    [THR_JOINT] = thr_joint_method,
+                    [THR_STRUCTURE] = thr_structure_method};
   thr_eval eval = {.interpolation = NAN, .let_down = NAN, .after_carries = {.first_bead = -1}};
   *out = (thr_eval){0};
   thr_status st = prepare(frame, cord, n_cords, method, options, &eval.record, err);

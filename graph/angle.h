@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Angles, in radians: the number pi, degrees for people, and the angle between two directions. */
 #ifndef THR_ANGLE_H
 #define THR_ANGLE_H
@@ -13,8 +14,8 @@ static inline double thr_degrees(double radians)
   return radians * (180 / THR_PI);
 }
 
-/* Between two directions of any length: 0 .. pi. The arc tangent keeps full precision near 0 and pi, where the arc cosine loses
- * half of it. */
+/* Between two directions of any length: 0 .. pi. The arc tangent keeps full precision near 0 and
+ * pi, where the arc cosine loses half of it. */
 static inline double thr_angle_between(const double a[3], const double b[3])
 {
   double normal[3];

@@ -1,4 +1,6 @@
-/* Disjoint sets in an array of parents (parent[v] == v: a root), with path halving; the lowest member stays root. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Disjoint sets in an array of parents (parent[v] == v: a root), with path halving; the lowest
+ * member stays root. */
 #ifndef THR_DISJOINT_H
 #define THR_DISJOINT_H
 
@@ -19,8 +21,9 @@ static inline int thr_disjoint_join(int *parent, int a, int b)
   return 1;
 }
 
-/* number[n] receives the number of the set of each member of parent[n], in the order of the sets' lowest members; returns how
- * many there are. number may be parent itself, which is no forest any more then. */
+/* number[n] receives the number of the set of each member of parent[n], in the order of the sets'
+ * lowest members; returns how many there are. number may be parent itself, which is no forest any
+ * more then. */
 static inline int thr_disjoint_number(int *parent, int n, int *number)
 {
   int count = 0;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Time limits and interrupts. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/limits.h"
@@ -34,7 +35,9 @@ double thr_limits_work(const thr_limits *limits)
 
 double thr_limits_left(const thr_limits *limits, double most)
 {
-  if ((limits->interrupted && *limits->interrupted) || (limits->work && thr_limits_work(limits) <= 0)) return 0;
+  if ((limits->interrupted && *limits->interrupted) ||
+      (limits->work && thr_limits_work(limits) <= 0))
+    return 0;
   if (limits->deadline == 0) return most;
   double left = limits->deadline - thr_clock();
   return left < 0 ? 0 : left < most ? left : most;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* <charconv> behind number.h: the only file that knows it. */
 #include "graph/number.h"
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* POSIX, and what Linux adds to it. */
 #define _GNU_SOURCE /* madvise */
 #include "graph/os.h"
@@ -64,8 +65,8 @@ static size_t folder_length(const char *path)
   return (size_t)(thr_os_name(path) - path);
 }
 
-/* Returns the path that a link leads to, whether a file is there or not, and of anything else the path itself: to be freed. NULL
- * with errno: no memory, or links that go round in a circle. */
+/* Returns the path that a link leads to, whether a file is there or not, and of anything else the
+ * path itself: to be freed. NULL with errno: no memory, or links that go round in a circle. */
 static char *follow_links(const char *path)
 {
   enum { MOST_LINKS = 40, MOST_BYTES = 4096 };
@@ -105,8 +106,9 @@ static bool will_be_same(const char *a, const char *b)
 {
   struct stat in_a, in_b;
   char *x = follow_links(a), *y = follow_links(b);
-  const bool same = x && y && strcmp(thr_os_name(x), thr_os_name(y)) == 0 && stat_folder(x, &in_a) && stat_folder(y, &in_b) &&
-                    in_a.st_dev == in_b.st_dev && in_a.st_ino == in_b.st_ino;
+  const bool same = x && y && strcmp(thr_os_name(x), thr_os_name(y)) == 0 &&
+                    stat_folder(x, &in_a) && stat_folder(y, &in_b) && in_a.st_dev == in_b.st_dev &&
+                    in_a.st_ino == in_b.st_ino;
   free(x);
   free(y);
   return same;
@@ -134,7 +136,8 @@ void thr_os_cache_folder(char *path, size_t size)
 
 /* ---- writing ---- */
 
-/* Waits until what was written is on the disk, where the file is on one: pipes and some file systems know no fsync. */
+/* Waits until what was written is on the disk, where the file is on one: pipes and some file
+ * systems know no fsync. */
 static bool reach_disk(int fd)
 {
   return fsync(fd) == 0 || errno == EINVAL || errno == ENOTSUP || errno == ENOSYS;
@@ -149,8 +152,9 @@ static bool write_all(FILE *f, const char *data, size_t n)
   return closed && ok;
 }
 
-/* The new name is in the folder, which is written back by itself (open group, "fsync"; Linux fsync(2)). Best effort: the file is
- * whole under either name, and a folder that may be written to but not read cannot be opened. */
+/* The new name is in the folder, which is written back by itself (open group, "fsync"; Linux
+ * fsync(2)). Best effort: the file is whole under either name, and a folder that may be written to
+ * but not read cannot be opened. */
 static void folder_reaches_disk(const char *path, size_t folder)
 {
   char *name = thr_calloc(folder + 2, 1);
@@ -167,7 +171,8 @@ static void folder_reaches_disk(const char *path, size_t folder)
 /* Opens a new file beside path; -1 with errno. *temporary is its name, to be freed. */
 static int open_beside(const char *path, char **temporary)
 {
-  static const char name[] = ".thread-XXXXXX"; /* short: the folder may allow no longer name than path's */
+  static const char name[] =
+      ".thread-XXXXXX"; /* short: the folder may allow no longer name than path's */
   const size_t folder = folder_length(path);
   if (!(*temporary = thr_calloc(folder + sizeof name, 1))) {
     errno = ENOMEM;
@@ -236,7 +241,8 @@ bool thr_os_write(const char *path, const char *data, size_t n)
   struct stat target;
   bool exists = stat(path, &target) == 0;
   if (!exists && errno != ENOENT) return false;
-  if (exists && !S_ISREG(target.st_mode)) { /* a device or pipe (/dev/stdout) must be written through, not replaced */
+  if (exists && !S_ISREG(target.st_mode)) { /* a device or pipe (/dev/stdout) must be written
+                                               through, not replaced */
     FILE *f = fopen(path, "wb");
     return f && write_all(f, data, n);
   }
@@ -296,7 +302,8 @@ int thr_os_read_small(const char *path, char *data, int size)
 
 static void (*stop)(int signal);
 
-/* Whoever read what the program prints is gone with the terminal, too: the plan is written all the same. */
+/* Whoever read what the program prints is gone with the terminal, too: the plan is written all the
+ * same. */
 static void on_hangup(int signal_number)
 {
   (void)signal_number;
@@ -310,7 +317,8 @@ void thr_os_heed_stop(void (*on_stop)(int signal))
   stop = on_stop;
   sigaction(SIGINT, &act, NULL);
   sigaction(SIGTERM, &act, NULL); /* what timeout and batch systems send */
-  if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(SIGHUP, &hangup, NULL);
+  if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &hangup, NULL);
 }
 
 void thr_os_tick(int seconds, void (*on_tick)(int signal))
@@ -339,21 +347,25 @@ double thr_os_processor_seconds(void)
   struct rusage children = {0};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &own);
   getrusage(RUSAGE_CHILDREN, &children);
-  return (double)own.tv_sec + 1e-9 * (double)own.tv_nsec + seconds_of(children.ru_utime) + seconds_of(children.ru_stime);
+  return (double)own.tv_sec + 1e-9 * (double)own.tv_nsec + seconds_of(children.ru_utime) +
+         seconds_of(children.ru_stime);
 }
 
 /* ---- memory ---- */
 
-/* Of pages of 4 kB a million edges take 140,000, and a fault for every one of them, which is a fifth of the time; asked for are
- * pages of 2 MB (Linux, madvise(2)). What it answers counts for nothing. */
+/* Of pages of 4 kB a million edges take 140,000, and a fault for every one of them, which is a
+ * fifth of the time; asked for are pages of 2 MB (Linux, madvise(2)). What it answers counts for
+ * nothing. */
 void *thr_os_on_large_pages(void *block, size_t bytes)
 {
 #ifdef MADV_HUGEPAGE
   const size_t page = (size_t)1 << 21, large = page / 2;
   const int said = errno;
   if (block && bytes >= large) {
-    char *first = (char *)block - (uintptr_t)block % page; /* the whole pages that the block is in */
-    (void)madvise(first, ((size_t)((char *)block - first) + bytes + page - 1) / page * page, MADV_HUGEPAGE);
+    char *first =
+        (char *)block - (uintptr_t)block % page; /* the whole pages that the block is in */
+    (void)madvise(first, ((size_t)((char *)block - first) + bytes + page - 1) / page * page,
+                  MADV_HUGEPAGE);
   }
   errno = said;
 #else

@@ -1,5 +1,6 @@
-/* Random numbers that are the same everywhere: SplitMix64 (Steele, Lea and Flood, "Fast splittable pseudorandom number
- * generators", OOPSLA 2014). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Random numbers that are the same everywhere: SplitMix64 (Steele, Lea and Flood, "Fast splittable
+ * pseudorandom number generators", OOPSLA 2014). */
 #ifndef THR_RANDOM_H
 #define THR_RANDOM_H
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Arrays in a list, the last one first. */
 #include "graph/scratch.h"
 
@@ -14,7 +15,8 @@ void *thr_scratch_array(thr_scratch *scratch, size_t n, size_t size)
 {
   const size_t head = sizeof(struct thr_scratch_array);
   struct thr_scratch_array *made = NULL;
-  if (!scratch->failed && n <= (SIZE_MAX - head) / (size ? size : 1)) made = thr_calloc(1, head + n * size);
+  if (!scratch->failed && n <= (SIZE_MAX - head) / (size ? size : 1))
+    made = thr_calloc(1, head + n * size);
   scratch->failed = !made;
   if (!made) return NULL;
   made->before = scratch->last;

@@ -1,4 +1,6 @@
-/* Arrays that live as long as a call or an object: taken as they are needed, asked about once, freed at once.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Arrays that live as long as a call or an object: taken as they are needed, asked about once,
+ * freed at once.
  *
  *   thr_scratch own = {0};
  *   int *parent = thr_scratch_array(&own, n, sizeof *parent);
@@ -17,8 +19,9 @@ typedef struct {
   bool failed;
 } thr_scratch;
 
-/* Zeroed array of n elements of size bytes, as thr_calloc gives it: an allocation of its own, so that tests and sanitizers see
- * each one. NULL when memory runs out, and from then on. Never freed or made longer by itself. */
+/* Zeroed array of n elements of size bytes, as thr_calloc gives it: an allocation of its own, so
+ * that tests and sanitizers see each one. NULL when memory runs out, and from then on. Never freed
+ * or made longer by itself. */
 void *thr_scratch_array(thr_scratch *scratch, size_t n, size_t size) THR_MUST_CHECK;
 
 /* THR_ENOMEM if any of the arrays so far is missing. */

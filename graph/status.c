@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Status codes, error text and checked allocation. */
 #include "graph/os.h"
 #include "graph/text.h"
@@ -85,7 +86,9 @@ char *thr_strdup(const char *s)
 
 double thr_percent_above(double value, double bound)
 {
-  double percent = fmax(0, 100 * (value / bound - 1)), unit = percent < 10 ? 0.01 : percent < 100 ? 0.1 : 1;
+  double percent = fmax(0, 100 * (value / bound - 1)), unit = percent < 10    ? 0.01
+                                                              : percent < 100 ? 0.1
+                                                                              : 1;
   return unit * fmax(0, ceil(percent / unit - 1e-9)) + 0.0; /* never -0 */
 }
 

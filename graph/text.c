@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Growing text, number formatting, cleaning of foreign text, whole-file input and output. */
 #define _XOPEN_SOURCE 700
 #include "graph/text.h"
@@ -55,7 +56,8 @@ void thr_text_printf(thr_text *text, const char *format, ...)
   va_list args, again;
   va_start(args, format);
   va_copy(again, args);
-  const size_t room = text->data && !text->failed ? text->capacity - text->length : 0; /* most often enough */
+  const size_t room =
+      text->data && !text->failed ? text->capacity - text->length : 0; /* most often enough */
   int n = vsnprintf(room ? text->data + text->length : NULL, room, format, args);
   va_end(args);
   if (n >= 0 && reserve(text, (size_t)n)) {
@@ -68,7 +70,8 @@ void thr_text_printf(thr_text *text, const char *format, ...)
 
 void thr_text_double(thr_text *text, double value)
 {
-  if (reserve(text, THR_NUMBER_TEXT)) text->length += thr_number_print(value, text->data + text->length);
+  if (reserve(text, THR_NUMBER_TEXT))
+    text->length += thr_number_print(value, text->data + text->length);
   if (text->data) text->data[text->length] = '\0';
 }
 
@@ -90,14 +93,20 @@ void thr_text_json_number(thr_text *text, double value)
 
 enum { BROKEN_LETTER = 0x110000 }; /* one beyond the last code point: bytes that are no UTF-8 */
 
-/* Code point of the letter at s, of which n > 0 bytes are left, and its length in bytes; what is no UTF-8 (Unicode 15, table 3-7)
- * is one broken letter up to the next byte that can begin another. */
+/* Code point of the letter at s, of which n > 0 bytes are left, and its length in bytes; what is no
+ * UTF-8 (Unicode 15, table 3-7) is one broken letter up to the next byte that can begin another. */
 static uint32_t letter_at(const char *s, size_t n, size_t *length)
 {
   const unsigned char *b = (const unsigned char *)s;
-  size_t wanted = b[0] < 0x80 ? 1 : b[0] < 0xc2 ? 0 : b[0] < 0xe0 ? 2 : b[0] < 0xf0 ? 3 : b[0] < 0xf5 ? 4 : 0;
+  size_t wanted = b[0] < 0x80   ? 1
+                  : b[0] < 0xc2 ? 0
+                  : b[0] < 0xe0 ? 2
+                  : b[0] < 0xf0 ? 3
+                  : b[0] < 0xf5 ? 4
+                                : 0;
   size_t have = 1;
-  while (have < n && thr_text_is_inside((char)b[have]) && (wanted < 2 || have < wanted) && b[0] >= 0x80)
+  while (have < n && thr_text_is_inside((char)b[have]) && (wanted < 2 || have < wanted) &&
+         b[0] >= 0x80)
     have++;
   *length = have;
   if (wanted != have) return BROKEN_LETTER;
@@ -109,13 +118,15 @@ static uint32_t letter_at(const char *s, size_t n, size_t *length)
   return overlong || nobody ? BROKEN_LETTER : code;
 }
 
-/* Does this letter steer a terminal, a reader of lines or the direction of writing, instead of standing for itself? C0, DEL, C1;
- * the marks, embeddings, overrides and isolates of the Unicode bidirectional algorithm (UAX 9); the separators of lines and
- * paragraphs; and the two code points that XML has no place for. */
+/* Does this letter steer a terminal, a reader of lines or the direction of writing, instead of
+ * standing for itself? C0, DEL, C1; the marks, embeddings, overrides and isolates of the Unicode
+ * bidirectional algorithm (UAX 9); the separators of lines and paragraphs; and the two code points
+ * that XML has no place for. */
 static bool is_control(uint32_t code)
 {
-  return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x61c || code == 0x200e || code == 0x200f ||
-         (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069) || code == 0xfffe || code == 0xffff;
+  return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x61c || code == 0x200e ||
+         code == 0x200f || (code >= 0x2028 && code <= 0x202e) ||
+         (code >= 0x2066 && code <= 0x2069) || code == 0xfffe || code == 0xffff;
 }
 
 /* Is it a letter of ASCII that stands for itself? */
@@ -191,7 +202,8 @@ void thr_text_json_string(thr_text *text, const char *s)
   thr_text_append(text, "\"");
   for (size_t left = strlen(s), length = 0; left > 0; left -= length, s += length) {
     uint32_t code = 'a'; /* of many plain letters in one go */
-    for (length = 0; length < left && is_plain(s[length]) && s[length] != '"' && s[length] != '\\'; length++)
+    for (length = 0; length < left && is_plain(s[length]) && s[length] != '"' && s[length] != '\\';
+         length++)
       continue;
     if (length == 0) code = letter_at(s, left, &length);
     if (code == '"' || code == '\\')
@@ -233,7 +245,8 @@ static thr_status write_failed(const char *path, thr_err *err)
 
 static thr_status write_stdout(const thr_text *text, thr_err *err)
 {
-  if (text->length && fwrite(text->data, 1, text->length, stdout) != text->length) return write_failed("stdout", err);
+  if (text->length && fwrite(text->data, 1, text->length, stdout) != text->length)
+    return write_failed("stdout", err);
   return fflush(stdout) == 0 ? THR_OK : write_failed("stdout", err);
 }
 
@@ -242,7 +255,8 @@ thr_status thr_text_write(const thr_text *text, const char *path, thr_err *err)
   if (text->failed) return thr_nomem(err);
   if (strcmp(path, "-") == 0) return write_stdout(text, err);
   if (!*path) return thr_fail(err, THR_EIO, NO_NAME);
-  if (thr_os_is_folder(path)) return thr_fail(err, THR_EIO, "%s: is a folder; give the name of a file", path);
+  if (thr_os_is_folder(path))
+    return thr_fail(err, THR_EIO, "%s: is a folder; give the name of a file", path);
   if (thr_os_write(path, text->data, text->length)) return THR_OK;
   return errno == ENOMEM ? thr_nomem(err) : write_failed(path, err);
 }
@@ -256,8 +270,10 @@ thr_status thr_text_read(thr_text *text, const char *path, thr_err *err)
   struct stat about;
   const bool regular = fstat(fileno(f), &about) == 0 && S_ISREG(about.st_mode);
   size_t block = 1 << 16, n;
-  if (regular && about.st_size >= (off_t)block && about.st_size <= MAX_INPUT_BYTES) block = (size_t)about.st_size + 1;
-  for (; text->length <= MAX_INPUT_BYTES && reserve(text, block); text->length += n, block = 1 << 16)
+  if (regular && about.st_size >= (off_t)block && about.st_size <= MAX_INPUT_BYTES)
+    block = (size_t)about.st_size + 1;
+  for (; text->length <= MAX_INPUT_BYTES && reserve(text, block);
+       text->length += n, block = 1 << 16)
     if ((n = fread(text->data + text->length, 1, block, f)) == 0) break;
   if (text->data) text->data[text->length] = '\0';
   thr_status st = THR_OK;
@@ -277,5 +293,6 @@ thr_status thr_text_read_plain(thr_text *text, const char *path, thr_err *err)
   thr_status st = thr_text_read(text, path, err);
   if (st || !text->length || !memchr(text->data, 0, text->length)) return st;
   thr_text_destroy(text);
-  return thr_fail(err, THR_EINPUT, "%s: a NUL byte, so this is not plain text; save the file as UTF-8 text", path);
+  return thr_fail(err, THR_EINPUT,
+                  "%s: a NUL byte, so this is not plain text; save the file as UTF-8 text", path);
 }

@@ -1,11 +1,14 @@
-/* Growing text for everything that is written (JSON, SVG, CSV, tables), and whole-file input and output. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Growing text for everything that is written (JSON, SVG, CSV, tables), and whole-file input and
+ * output. */
 #ifndef THR_TEXT_H
 #define THR_TEXT_H
 
 #include "graph/status.h"
 
-/* {0} is valid and empty. A failed append sets failed and later appends do nothing, so a writer appends
- * freely and asks once at the end (thr_text_write does). data is NUL-terminated once anything was appended. */
+/* {0} is valid and empty. A failed append sets failed and later appends do nothing, so a writer
+ * appends freely and asks once at the end (thr_text_write does). data is NUL-terminated once
+ * anything was appended. */
 typedef struct {
   char *data;
   size_t length, capacity;
@@ -27,7 +30,8 @@ static inline void thr_text_byte(thr_text *text, char byte)
   text->data[text->length] = '\0';
 }
 
-/* Shortest decimal that reads back as the same double; "-0" is written as 0. Finite numbers only (graph/number.h). */
+/* Shortest decimal that reads back as the same double; "-0" is written as 0. Finite numbers only
+ * (graph/number.h). */
 void thr_text_double(thr_text *text, double value);
 
 void thr_text_int(thr_text *text, int64_t value);
@@ -35,11 +39,12 @@ void thr_text_int(thr_text *text, int64_t value);
 /* The same as JSON, which has no word for what is not finite: null. */
 void thr_text_json_number(thr_text *text, double value);
 
-/* Foreign text (of a file, a file's name, the command line) made harmless in place, so that it stays on its line, in its
- * direction and in its field wherever it is printed, drawn or written: control characters (C0, DEL, C1), marks of writing
- * direction (U+061C, U+200E, U+200F, U+202A to U+202E, U+2066 to U+2069), the separators of lines and paragraphs (U+2028,
- * U+2029), U+FFFE and U+FFFF become a blank, and a run of bytes that is no UTF-8 a question mark. All other letters stay. Doing
- * it twice changes nothing, and text never gets longer. O(bytes). */
+/* Foreign text (of a file, a file's name, the command line) made harmless in place, so that it
+ * stays on its line, in its direction and in its field wherever it is printed, drawn or written:
+ * control characters (C0, DEL, C1), marks of writing direction (U+061C, U+200E, U+200F, U+202A to
+ * U+202E, U+2066 to U+2069), the separators of lines and paragraphs (U+2028, U+2029), U+FFFE and
+ * U+FFFF become a blank, and a run of bytes that is no UTF-8 a question mark. All other letters
+ * stay. Doing it twice changes nothing, and text never gets longer. O(bytes). */
 void thr_text_clean(char *s);
 
 /* Appends it so. */
@@ -56,11 +61,12 @@ static inline bool thr_text_is_inside(char byte)
   return ((unsigned char)byte & 0xC0) == 0x80;
 }
 
-/* Width in columns of the first n bytes of UTF-8 text, or of all of it if there are fewer: one for each letter. */
+/* Width in columns of the first n bytes of UTF-8 text, or of all of it if there are fewer: one for
+ * each letter. */
 int thr_text_columns(const char *s, size_t n);
 
-/* JSON string in quotes, valid whatever the bytes: what thr_text_clean takes for a control character is escaped (a program that
- * reads it gets it back), what is no UTF-8 is U+FFFD. */
+/* JSON string in quotes, valid whatever the bytes: what thr_text_clean takes for a control
+ * character is escaped (a program that reads it gets it back), what is no UTF-8 is U+FFFD. */
 void thr_text_json_string(thr_text *text, const char *s);
 
 /* XML text with the five entities, cleaned; what is no UTF-8 is U+FFFD. */
@@ -68,9 +74,10 @@ void thr_text_xml(thr_text *text, const char *s);
 
 void thr_text_destroy(thr_text *text);
 
-/* Writes the text to path through a temporary file in the same folder and rename, so that path is either the
- * old file or the whole new one, and after a loss of power as well: the file is on the disk before it takes the name; "-" is
- * stdout. THR_EIO with the path and the reason; THR_ENOMEM if an append failed. */
+/* Writes the text to path through a temporary file in the same folder and rename, so that path is
+ * either the old file or the whole new one, and after a loss of power as well: the file is on the
+ * disk before it takes the name; "-" is stdout. THR_EIO with the path and the reason; THR_ENOMEM if
+ * an append failed. */
 thr_status thr_text_write(const thr_text *text, const char *path, thr_err *err) THR_MUST_CHECK;
 
 /* Reads a whole file ("-" is stdin) into an empty text. At most 1 GiB. */

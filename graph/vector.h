@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Arithmetic on points and directions in space. */
 #ifndef THR_VECTOR_H
 #define THR_VECTOR_H

@@ -1,10 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* libthread: plans how cord is threaded through bead structures, proves it, checks it, draws it.
  *
- * Objects are opaque. What can fail returns a thread_status and, if err is not NULL, one line of text; its outputs are then NULL,
- * 0 or empty. Nothing prints, exits or changes the locale. Text is UTF-8, lengths are in units of the frame, angles in rad,
- * forces in N. Calls on different objects may run in different threads; planning waits for planning (nauty and GLPK are not
- * reentrant). Some libraries run in forked children, which the library waits for: do not set SIGCHLD to SIG_IGN. Structs begin
- * with their size: thread_*_init fills in the usual values, and a program built with an older header goes on working.
+ * Objects are opaque. What can fail returns a thread_status and, if err is not NULL, one line of
+ * text; its outputs are then NULL, 0 or empty. Nothing prints, exits or changes the locale. Text is
+ * UTF-8, lengths are in units of the frame, angles in rad, forces in N. Calls on different objects
+ * may run in different threads; planning waits for planning (nauty and GLPK are not reentrant).
+ * Some libraries run in forked children, which the library waits for: do not set SIGCHLD to
+ * SIG_IGN. Structs begin with their size: thread_*_init fills in the usual values, and a program
+ * built with an older header goes on working.
  */
 #ifndef THREAD_H
 #define THREAD_H
@@ -20,8 +23,10 @@ typedef enum {
   THREAD_NO_MEMORY,
   THREAD_IO,         /* a file could not be opened, read or written */
   THREAD_BAD_INPUT,  /* the text says where, what, and what to do */
-  THREAD_INFEASIBLE, /* no threading with these options; the text says which node or component forbids it */
-  THREAD_NOT_PROVED, /* time was over, or progress said stop: what there is is valid and holds its bounds */
+  THREAD_INFEASIBLE, /* no threading with these options; the text says which node or component
+                        forbids it */
+  THREAD_NOT_PROVED, /* time was over, or progress said stop: what there is is valid and holds its
+                        bounds */
   THREAD_SOLVER,     /* a library failed */
   THREAD_VIOLATED    /* a claim of the plan is not true */
 } thread_status;
@@ -40,56 +45,72 @@ THREAD_API void thread_free(void *bytes);      /* what a char ** received; NULL 
 
 typedef struct {
   size_t size;
-  const char *edges;   /* second file of a CSV pair; NULL = none */
-  const char *units;   /* NULL = as the file says, else mm */
-  double weld;         /* nodes closer than this are one; < 0 = 1e-6 of the bounding box */
-  double scale;        /* times every coordinate */
-  double flat;         /* rad: no edge between triangles that meet at less */
-  char up;             /* 'y', 'z', or 'a' = as the maker of the file is known to write */
-  char split;          /* 1: an edge is cut where a node lies on it */
-  int pick;            /* which framework of a file that holds several, from 1; 0 = all */
-  const char *part;    /* the same by its name, or by that of an object, group or layer; NULL = as pick says */
+  const char *edges; /* second file of a CSV pair; NULL = none */
+  const char *units; /* NULL = as the file says, else mm */
+  double weld;       /* nodes closer than this are one; < 0 = 1e-6 of the bounding box */
+  double scale;      /* times every coordinate */
+  double flat;       /* rad: no edge between triangles that meet at less */
+  char up;           /* 'y', 'z', or 'a' = as the maker of the file is known to write */
+  char split;        /* 1: an edge is cut where a node lies on it */
+  int pick;          /* which framework of a file that holds several, from 1; 0 = all */
+  const char *
+      part; /* the same by its name, or by that of an object, group or layer; NULL = as pick says */
   char all_layers;     /* 1: what a drawing has on layers that are off or frozen is read, too */
-  char parallel;       /* 1: of edges between the same two nodes all that differ in length are kept, parted by a node each */
-  const char *columns; /* of a table of edges: the two columns of their ends by name or number, "a,b"; NULL = as it says */
+  char parallel;       /* 1: of edges between the same two nodes all that differ in length are kept,
+                          parted by a node each */
+  const char *columns; /* of a table of edges: the two columns of their ends by name or number,
+                          "a,b"; NULL = as it says */
 } thread_read_options;
 THREAD_API void thread_read_options_init(thread_read_options *options, size_t size);
 
 /* options: NULL = the usual ones. name: of the text, for messages and for its ending. */
-THREAD_API thread_status thread_frame_read(const char *path, const thread_read_options *options, thread_frame **out,
-                                           thread_error *err);
-THREAD_API thread_status thread_frame_parse(const char *text, size_t n, const char *name, const thread_read_options *options,
-                                            thread_frame **out, thread_error *err);
-/* xyz[3 * n_nodes], ends[2 * n_edges] nodes from 0, copied. Nothing is merged: two nodes in one place, an edge given twice or of
- * no length, and a node without an edge are THREAD_BAD_INPUT. units NULL = mm. */
-THREAD_API thread_status thread_frame_make(int n_nodes, const double *xyz, int n_edges, const int *ends, const char *units,
+THREAD_API thread_status thread_frame_read(const char *path, const thread_read_options *options,
                                            thread_frame **out, thread_error *err);
+THREAD_API thread_status thread_frame_parse(const char *text, size_t n, const char *name,
+                                            const thread_read_options *options, thread_frame **out,
+                                            thread_error *err);
+/* xyz[3 * n_nodes], ends[2 * n_edges] nodes from 0, copied. Nothing is merged: two nodes in one
+ * place, an edge given twice or of no length, and a node without an edge are THREAD_BAD_INPUT.
+ * units NULL = mm. */
+THREAD_API thread_status thread_frame_make(int n_nodes, const double *xyz, int n_edges,
+                                           const int *ends, const char *units, thread_frame **out,
+                                           thread_error *err);
 /* As thread make: "dome", "geodesic", "sphere", "tube", "honeycomb"; size 0 = the usual one. */
-THREAD_API thread_status thread_frame_shape(const char *shape, int size, thread_frame **out, thread_error *err);
+THREAD_API thread_status thread_frame_shape(const char *shape, int size, thread_frame **out,
+                                            thread_error *err);
 THREAD_API void thread_frame_free(thread_frame *frame); /* NULL ok */
 
-THREAD_API int thread_frame_nodes(const thread_frame *frame,
-                                  const double **xyz); /* count; xyz (NULL ok) receives 3 of each, borrowed */
-THREAD_API int thread_frame_edges(const thread_frame *frame, const int **ends); /* the same, 2 nodes of each */
-THREAD_API const char *thread_frame_name(const thread_frame *frame, int node);  /* borrowed; NULL: there is no such node */
-THREAD_API int thread_frame_find(const thread_frame *frame, const char *name);  /* -1: there is no such node */
-THREAD_API const char *thread_frame_notes(const thread_frame *frame); /* what reading merged, dropped or found odd, a line each */
+THREAD_API int thread_frame_nodes(
+    const thread_frame *frame,
+    const double **xyz); /* count; xyz (NULL ok) receives 3 of each, borrowed */
+THREAD_API int thread_frame_edges(const thread_frame *frame,
+                                  const int **ends); /* the same, 2 nodes of each */
+THREAD_API const char *thread_frame_name(const thread_frame *frame,
+                                         int node); /* borrowed; NULL: there is no such node */
+THREAD_API int thread_frame_find(const thread_frame *frame,
+                                 const char *name); /* -1: there is no such node */
+THREAD_API const char *thread_frame_notes(
+    const thread_frame *frame); /* what reading merged, dropped or found odd, a line each */
 /* Where cord ends may come out with THREAD_FEET; n < 0: the lowest nodes. */
-THREAD_API thread_status thread_frame_set_feet(thread_frame *frame, int n, const int *node, thread_error *err);
+THREAD_API thread_status thread_frame_set_feet(thread_frame *frame, int n, const int *node,
+                                               thread_error *err);
 /* Passes that an edge needs (1 .. 100) and that fit through it (0 = any number). */
-THREAD_API thread_status thread_frame_set_passes(thread_frame *frame, int edge, int cover, int capacity, thread_error *err);
-/* format: "json", "obj", "csv", "ply". Free *bytes, which end with a NUL that *n does not count, with thread_free. */
-THREAD_API thread_status thread_frame_write(const thread_frame *frame, const char *format, char **bytes, size_t *n,
-                                            thread_error *err);
+THREAD_API thread_status thread_frame_set_passes(thread_frame *frame, int edge, int cover,
+                                                 int capacity, thread_error *err);
+/* format: "json", "obj", "csv", "ply". Free *bytes, which end with a NUL that *n does not count,
+ * with thread_free. */
+THREAD_API thread_status thread_frame_write(const thread_frame *frame, const char *format,
+                                            char **bytes, size_t *n, thread_error *err);
 
 /* ---- plans ---- */
 
 typedef enum { THREAD_CLOSED, THREAD_ANY, THREAD_FEET, THREAD_NODES } thread_ends;
 typedef struct {
   size_t size;
-  const char *aims;       /* as --aims: "length", "turning", "length+5%,turning", "overlap,steps", ..; NULL = "length" */
-  const char *request;    /* all that is asked for, as "options" of a plan's JSON; then what is above and below down to physics
-                             does not count; NULL = none */
+  const char *aims;    /* as --aims: "length", "turning", "length+5%,turning", "overlap,steps", ..;
+                          NULL = "length" */
+  const char *request; /* all that is asked for, as "options" of a plan's JSON; then what is above
+                          and below down to physics does not count; NULL = none */
   int cords_least, cords; /* in every component, from .. to */
   int cover, capacity;    /* passes of every edge, from .. to; 0 = no capacity */
   int distinct;           /* cords that pass every edge; 0 = any */
@@ -99,44 +120,57 @@ typedef struct {
   thread_ends ends;       /* where cords end: both at one node, anywhere, at feet, at end_node */
   int n_end_nodes;
   const int *end_node; /* of THREAD_NODES */
-  const char *physics; /* of cord and beads, as the file of --physics: "{\"mu\": 0.3, \"seating\": 5}"; NULL = usual */
-  double seconds;      /* for the search; 0 = until it is proved; < 0 = as thread plan: 20, but 0 for the shortest cords */
-  int threads;         /* change no result but of a search that time ends */
-  int (*progress)(void *user, const char *what, double best, double bound); /* from any thread; not 0 = stop; NULL = nobody */
+  const char *physics; /* of cord and beads, as the file of --physics: "{\"mu\": 0.3, \"seating\":
+                          5}"; NULL = usual */
+  double seconds; /* for the search; 0 = until it is proved; < 0 = as thread plan: 20, but 0 for the
+                     shortest cords */
+  int threads;    /* change no result but of a search that time ends */
+  int (*progress)(void *user, const char *what, double best,
+                  double bound); /* from any thread; not 0 = stop; NULL = nobody */
   void *user;
-  double gap; /* %, 0 to 100: the search ends when the plan is so near to its bound, which is THREAD_OK; < 0 = as thread plan */
+  double gap; /* %, 0 to 100: the search ends when the plan is so near to its bound, which is
+                 THREAD_OK; < 0 = as thread plan */
 } thread_plan_options;
 THREAD_API void thread_plan_options_init(thread_plan_options *options, size_t size);
 
-/* THREAD_OK: nothing is better, proved. THREAD_NOT_PROVED: *out is the best so far, or NULL if there is none. The usual question,
- * the shortest cords, is polynomial; the least turning and symmetric threadings are NP-hard. */
-THREAD_API thread_status thread_plan_make(const thread_frame *frame, const thread_plan_options *options, thread_plan **out,
+/* THREAD_OK: nothing is better, proved. THREAD_NOT_PROVED: *out is the best so far, or NULL if
+ * there is none. The usual question, the shortest cords, is polynomial; the least turning and
+ * symmetric threadings are NP-hard. */
+THREAD_API thread_status thread_plan_make(const thread_frame *frame,
+                                          const thread_plan_options *options, thread_plan **out,
                                           thread_error *err);
-THREAD_API thread_status thread_plan_parse(const char *json, size_t n, const char *name, thread_plan **out, thread_error *err);
+THREAD_API thread_status thread_plan_parse(const char *json, size_t n, const char *name,
+                                           thread_plan **out, thread_error *err);
 THREAD_API thread_status thread_plan_write(const thread_plan *plan, char **json, size_t *n,
                                            thread_error *err);             /* as bytes above */
 THREAD_API void thread_plan_free(thread_plan *plan);                       /* NULL ok */
 THREAD_API const thread_frame *thread_plan_frame(const thread_plan *plan); /* borrowed */
 THREAD_API int thread_plan_cords(const thread_plan *plan);
-/* Edges that cord i, from 0, passes, one after another: count; node (NULL ok) receives one more, borrowed. 0: no such cord. */
+/* Edges that cord i, from 0, passes, one after another: count; node (NULL ok) receives one more,
+ * borrowed. 0: no such cord. */
 THREAD_API int thread_plan_cord(const thread_plan *plan, int i, const int **node);
 
 typedef struct {
   size_t size;
   double length, bound, overlap;   /* bound: no such plan is shorter */
   double turning, largest_turning; /* of all cords, and of the one that turns most */
-  double pull;                     /* both ends pulled, of the cord that needs most, by the closed form */
+  double pull; /* both ends pulled, of the cord that needs most, by the closed form */
   int passes, u_turns;
   int shortest, straightest; /* 1: no such plan is shorter, turns less, proved */
 } thread_summary;
-THREAD_API thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out, size_t size, thread_error *err);
+THREAD_API thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out,
+                                             size_t size, thread_error *err);
 
 /* Verifies every claim of the plan without a solver: THREAD_OK, or THREAD_VIOLATED and which. */
 THREAD_API thread_status thread_check(const thread_plan *plan, thread_error *err);
-/* Puts the pull and all tensions into the plan, as thread eval: method "capstan", "joint" or "structure". */
-THREAD_API thread_status thread_eval(thread_plan *plan, const char *method, double seconds, thread_error *err);
-/* A document as by thread draw --type: "svg", "pdf", "html", "steps", "cords.csv", "obj", .. Free *bytes with thread_free. */
-THREAD_API thread_status thread_draw(const thread_plan *plan, const char *type, char **bytes, size_t *n, thread_error *err);
+/* Puts the pull and all tensions into the plan, as thread eval: method "capstan", "joint" or
+ * "structure". */
+THREAD_API thread_status thread_eval(thread_plan *plan, const char *method, double seconds,
+                                     thread_error *err);
+/* A document as by thread draw --type: "svg", "pdf", "html", "steps", "cords.csv", "obj", .. Free
+ * *bytes with thread_free. */
+THREAD_API thread_status thread_draw(const thread_plan *plan, const char *type, char **bytes,
+                                     size_t *n, thread_error *err);
 #ifdef __cplusplus
 }
 #endif

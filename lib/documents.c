@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "lib/documents.h"
 
 #include "diagram/export/paper.h"
@@ -93,8 +94,8 @@ static int needles_of(const thr_plan *plan, const thr_document_options *a)
   return a->needles ? a->needles : plan->options.needles;
 }
 
-static thr_status overview(const thr_plan *plan, const thr_document_options *a, const char *const *motion, thr_text *out,
-                           thr_err *err)
+static thr_status overview(const thr_plan *plan, const thr_document_options *a,
+                           const char *const *motion, thr_text *out, thr_err *err)
 {
   thr_overview_options options = thr_overview_options_default();
   options.pitch_mm = a->pitch_mm;
@@ -104,8 +105,9 @@ static thr_status overview(const thr_plan *plan, const thr_document_options *a, 
   return thr_overview_svg(plan, &options, out, err);
 }
 
-static thr_status poster(const thr_plan *plan, const thr_document_options *a, const char *const *motion, const thr_limits *limits,
-                         thr_text *out, thr_err *err)
+static thr_status poster(const thr_plan *plan, const thr_document_options *a,
+                         const char *const *motion, const thr_limits *limits, thr_text *out,
+                         thr_err *err)
 {
   int n = 0;
   thr_text picture = {0};
@@ -116,7 +118,8 @@ static thr_status poster(const thr_plan *plan, const thr_document_options *a, co
   return st;
 }
 
-static thr_sheets_options sheets_options(const thr_plan *plan, const thr_document_options *a, const char *const *motion)
+static thr_sheets_options sheets_options(const thr_plan *plan, const thr_document_options *a,
+                                         const char *const *motion)
 {
   thr_sheets_options options = thr_sheets_options_default();
   options.page = (thr_page_size)a->page;
@@ -128,8 +131,9 @@ static thr_sheets_options sheets_options(const thr_plan *plan, const thr_documen
   return options;
 }
 
-static thr_status sheets_html(const thr_plan *plan, const thr_document_options *a, const char *const *motion,
-                              const thr_limits *limits, thr_text *out, thr_err *err)
+static thr_status sheets_html(const thr_plan *plan, const thr_document_options *a,
+                              const char *const *motion, const thr_limits *limits, thr_text *out,
+                              thr_err *err)
 {
   thr_sheets *pages = NULL;
   const thr_sheets_options options = sheets_options(plan, a, motion);
@@ -140,8 +144,9 @@ static thr_status sheets_html(const thr_plan *plan, const thr_document_options *
   return st;
 }
 
-static thr_status sheets(const thr_plan *plan, const thr_document_options *a, const char *const *motion, const thr_limits *limits,
-                         thr_text *out, thr_err *err)
+static thr_status sheets(const thr_plan *plan, const thr_document_options *a,
+                         const char *const *motion, const thr_limits *limits, thr_text *out,
+                         thr_err *err)
 {
   int n = 0;
   const thr_sheets_options options = sheets_options(plan, a, motion);
@@ -150,7 +155,8 @@ static thr_status sheets(const thr_plan *plan, const thr_document_options *a, co
   return st;
 }
 
-static thr_status mat(const thr_plan *plan, const thr_document_options *a, const thr_limits *limits, thr_text *out, thr_err *err)
+static thr_status mat(const thr_plan *plan, const thr_document_options *a, const thr_limits *limits,
+                      thr_text *out, thr_err *err)
 {
   thr_mat *pages = NULL;
   thr_status st = thr_mat_make(&pages, plan, (thr_page_size)a->page, a->kind_tolerance, err);
@@ -161,8 +167,8 @@ static thr_status mat(const thr_plan *plan, const thr_document_options *a, const
 }
 
 /* A document that says what moves a path to its copies. */
-static thr_status describe(const thr_plan *plan, document which, const thr_document_options *a, const thr_limits *limits,
-                           thr_text *out, thr_err *err)
+static thr_status describe(const thr_plan *plan, document which, const thr_document_options *a,
+                           const thr_limits *limits, thr_text *out, thr_err *err)
 {
   thr_motions copies;
   thr_status st = thr_motions_describe(plan, &copies, err);
@@ -172,21 +178,31 @@ static thr_status describe(const thr_plan *plan, document which, const thr_docum
   case SHEETS: st = sheets(plan, a, copies.motion, limits, out, err); break;
   case POSTER: st = poster(plan, a, copies.motion, limits, out, err); break;
   case PAGES: st = sheets_html(plan, a, copies.motion, limits, out, err); break;
-  case STEPS: st = thr_steps_text(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), a->layout, out, err); break;
-  case VIEWER: st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), a->layout, out, err); break;
+  case STEPS:
+    st = thr_steps_text(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), a->layout, out,
+                        err);
+    break;
+  case VIEWER:
+    st = thr_viewer_html(plan, copies.motion, a->kind_tolerance, needles_of(plan, a), a->layout,
+                         out, err);
+    break;
   default: st = thr_table_cords(plan, copies.motion, a->layout, out, err);
   }
   thr_motions_destroy(&copies);
   return st;
 }
 
-thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_options *options, const thr_limits *limits,
-                             thr_text *out, thr_err *err)
+thr_status thr_document_make(const thr_plan *plan, int i, const thr_document_options *options,
+                             const thr_limits *limits, thr_text *out, thr_err *err)
 {
   switch ((document)i) {
-  case STEPS_TABLE: return thr_table_steps(plan, options->kind_tolerance, needles_of(plan, options), options->layout, out, err);
-  case BEADS_TABLE: return thr_table_beads(plan, options->kind_tolerance, options->layout, out, err);
-  case CHANNELS_TABLE: return thr_table_channels(plan, options->kind_tolerance, options->layout, out, err);
+  case STEPS_TABLE:
+    return thr_table_steps(plan, options->kind_tolerance, needles_of(plan, options),
+                           options->layout, out, err);
+  case BEADS_TABLE:
+    return thr_table_beads(plan, options->kind_tolerance, options->layout, out, err);
+  case CHANNELS_TABLE:
+    return thr_table_channels(plan, options->kind_tolerance, options->layout, out, err);
   case LABELS: return thr_emboss_svg(plan, out, err);
   case MAT: return mat(plan, options, limits, out, err);
   case OBJ: return thr_polylines_obj(plan, &options->lines, out, err);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the files of libthread share. */
 #ifndef THR_HANDLES_H
 #define THR_HANDLES_H
@@ -8,7 +9,8 @@
 #include "graph/text.h"
 #include "include/thread.h"
 
-/* ---- What is behind the opaque types of include/thread.h, and how statuses and texts get there. */
+/* ---- What is behind the opaque types of include/thread.h, and how statuses and texts get there.
+ */
 
 struct thread_frame {
   thr_frame frame;
@@ -28,23 +30,27 @@ void thr_library_unlock(void);
 /* The status and text of the house as those of the library; err may be NULL. */
 thread_status thr_library_status(thr_status st, const thr_err *from, thread_error *err);
 
-/* Fills own, of which a program knows the first *size bytes, *size being the first member of both; theirs may be NULL. THR_EINPUT
- * if that size is none. */
-thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what, thr_err *err) THR_MUST_CHECK;
+/* Fills own, of which a program knows the first *size bytes, *size being the first member of both;
+ * theirs may be NULL. THR_EINPUT if that size is none. */
+thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what,
+                               thr_err *err) THR_MUST_CHECK;
 
 /* The text becomes the caller's. THR_ENOMEM if an append failed. */
 thr_status thr_library_give(thr_text *text, char **bytes, size_t *n, thr_err *err) THR_MUST_CHECK;
 
-/* ---- motions.c: What takes a unique path of a symmetric plan to its copies, in words for who threads. */
+/* ---- motions.c: What takes a unique path of a symmetric plan to its copies, in words for who
+ * threads. */
 
 typedef struct {
-  const char **motion; /* [n_cords] "turned by 90 degrees .."; NULL for no copy, and for one that no motion makes; owned */
+  const char **motion; /* [n_cords] "turned by 90 degrees .."; NULL for no copy, and for one that no
+                          motion makes; owned */
   char (*words)[104];  /* [n_images] owned */
 } thr_motions;
 
-/* Of each image the motion in space that is nearest to it, if it is within thr_symmetry_near. Plans that are not symmetric have
- * no words. Release with thr_motions_destroy. O(images * n). */
-thr_status thr_motions_describe(const thr_plan *plan, thr_motions *out, thr_err *err) THR_MUST_CHECK;
+/* Of each image the motion in space that is nearest to it, if it is within thr_symmetry_near. Plans
+ * that are not symmetric have no words. Release with thr_motions_destroy. O(images * n). */
+thr_status thr_motions_describe(const thr_plan *plan, thr_motions *out,
+                                thr_err *err) THR_MUST_CHECK;
 void thr_motions_destroy(thr_motions *c);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* libthread: what is not of frames or plans. */
 #include "eval/joint/world.h"
 #include "lib/handles.h"
@@ -31,8 +32,9 @@ const char *thread_libraries(void)
   static char text[200];
   int bullet = thr_bullet_version();
   thr_library_lock();
-  snprintf(text, sizeof text, "thread %s, GLPK %s, igraph %s, nauty %s, Bullet %d.%d", THR_VERSION, thr_glpk_version(),
-           thr_igraph_version(), thr_nauty_version(), bullet / 100, bullet % 100);
+  snprintf(text, sizeof text, "thread %s, GLPK %s, igraph %s, nauty %s, Bullet %d.%d", THR_VERSION,
+           thr_glpk_version(), thr_igraph_version(), thr_nauty_version(), bullet / 100,
+           bullet % 100);
   thr_library_unlock();
   return text;
 }
@@ -59,7 +61,8 @@ thread_status thr_library_status(thr_status st, const thr_err *from, thread_erro
   return same[st];
 }
 
-thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what, thr_err *err)
+thr_status thr_library_options(void *own, size_t own_size, const void *theirs, const char *what,
+                               thr_err *err)
 {
   size_t size;
   if (!theirs) return THR_OK;

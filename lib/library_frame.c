@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* libthread: frames. */
 #include "graph/framework/make.h"
 #include "lib/handles.h"
@@ -15,16 +16,20 @@ void thread_read_options_init(thread_read_options *options, size_t size)
 }
 
 /* number: receives pick as digits, to which *out refers. */
-static thr_status read_options(const thread_read_options *theirs, thr_read_options *out, char number[12], thr_err *err)
+static thr_status read_options(const thread_read_options *theirs, thr_read_options *out,
+                               char number[12], thr_err *err)
 {
   thread_read_options o;
   *out = thr_read_options_default();
   thread_read_options_init(&o, sizeof o);
   thr_status st = thr_library_options(&o, sizeof o, theirs, "thread_read_options", err);
   if (st) return st;
-  if (!(o.scale > 0 && o.scale <= 1e9)) return thr_fail(err, THR_EINPUT, "scale %g: not above 0 and up to 1e9", o.scale);
-  if (!(o.flat >= 0 && o.flat < 3.15)) return thr_fail(err, THR_EINPUT, "flat %g: not from 0 to pi", o.flat);
-  if (o.up != 'y' && o.up != 'z' && o.up != 'a') return thr_fail(err, THR_EINPUT, "up: none of 'y', 'z' and 'a'");
+  if (!(o.scale > 0 && o.scale <= 1e9))
+    return thr_fail(err, THR_EINPUT, "scale %g: not above 0 and up to 1e9", o.scale);
+  if (!(o.flat >= 0 && o.flat < 3.15))
+    return thr_fail(err, THR_EINPUT, "flat %g: not from 0 to pi", o.flat);
+  if (o.up != 'y' && o.up != 'z' && o.up != 'a')
+    return thr_fail(err, THR_EINPUT, "up: none of 'y', 'z' and 'a'");
   if (o.pick < 0) return thr_fail(err, THR_EINPUT, "pick %d: below 0", o.pick);
   out->edges_path = o.edges;
   out->split = o.split != 0;
@@ -42,8 +47,8 @@ static thr_status read_options(const thread_read_options *theirs, thr_read_optio
 }
 
 /* Takes the framework over, or destroys it after a failure. */
-static thread_status hand_over(thr_status st, thr_frame *frame, const thr_read_report *report, thread_frame **out, thr_err *why,
-                               thread_error *err)
+static thread_status hand_over(thr_status st, thr_frame *frame, const thr_read_report *report,
+                               thread_frame **out, thr_err *why, thread_error *err)
 {
   thread_frame *made = st ? NULL : thr_calloc(1, sizeof *made);
   if (!st && !made) st = thr_nomem(why);
@@ -60,7 +65,8 @@ static thread_status hand_over(thr_status st, thr_frame *frame, const thr_read_r
   return thr_library_status(st, why, err);
 }
 
-thread_status thread_frame_read(const char *path, const thread_read_options *options, thread_frame **out, thread_error *err)
+thread_status thread_frame_read(const char *path, const thread_read_options *options,
+                                thread_frame **out, thread_error *err)
 {
   thr_err why = {0};
   thr_frame frame = {0};
@@ -74,8 +80,9 @@ thread_status thread_frame_read(const char *path, const thread_read_options *opt
   return hand_over(st, &frame, &report, out, &why, err);
 }
 
-thread_status thread_frame_parse(const char *text, size_t n, const char *name, const thread_read_options *options,
-                                 thread_frame **out, thread_error *err)
+thread_status thread_frame_parse(const char *text, size_t n, const char *name,
+                                 const thread_read_options *options, thread_frame **out,
+                                 thread_error *err)
 {
   thr_err why = {0};
   thr_frame frame = {0};
@@ -91,7 +98,8 @@ thread_status thread_frame_parse(const char *text, size_t n, const char *name, c
 }
 
 /* All that is given must be in the framework. */
-static thr_status build_whole(const thr_draft *draft, thr_frame *frame, thr_read_report *report, thr_err *err)
+static thr_status build_whole(const thr_draft *draft, thr_frame *frame, thr_read_report *report,
+                              thr_err *err)
 {
   thr_status st = thr_draft_build(draft, 0, frame, report, err);
   const char *lost = st                          ? NULL
@@ -105,8 +113,8 @@ static thr_status build_whole(const thr_draft *draft, thr_frame *frame, thr_read
   return thr_fail(err, THR_EINPUT, "%s", lost);
 }
 
-thread_status thread_frame_make(int n_nodes, const double *xyz, int n_edges, const int *ends, const char *units,
-                                thread_frame **out, thread_error *err)
+thread_status thread_frame_make(int n_nodes, const double *xyz, int n_edges, const int *ends,
+                                const char *units, thread_frame **out, thread_error *err)
 {
   thr_err why = {0};
   thr_draft draft = {0};
@@ -195,7 +203,8 @@ thread_status thread_frame_set_feet(thread_frame *frame, int n, const int *node,
   thr_status st = THR_OK;
   for (int i = 0; i < n && !st; i++)
     if (node[i] < 0 || node[i] >= f->n_nodes)
-      st = thr_fail(&why, THR_EINPUT, "foot %d: there is no node %d, only 0 to %d", i, node[i], f->n_nodes - 1);
+      st = thr_fail(&why, THR_EINPUT, "foot %d: there is no node %d, only 0 to %d", i, node[i],
+                    f->n_nodes - 1);
   if (!st && n < 0) thr_frame_feet_lowest(f);
   if (!st && n >= 0) memset(f->foot, 0, (size_t)f->n_nodes * sizeof *f->foot);
   for (int i = 0; i < n && !st; i++)
@@ -212,7 +221,8 @@ static int *array_of(int **array, int n, int usual)
   return *array;
 }
 
-thread_status thread_frame_set_passes(thread_frame *frame, int edge, int cover, int capacity, thread_error *err)
+thread_status thread_frame_set_passes(thread_frame *frame, int edge, int cover, int capacity,
+                                      thread_error *err)
 {
   thr_err why = {0};
   thr_frame *f = &frame->frame;
@@ -220,7 +230,8 @@ thread_status thread_frame_set_passes(thread_frame *frame, int edge, int cover, 
   if (edge < 0 || edge >= f->n_edges)
     st = thr_fail(&why, THR_EINPUT, "there is no edge %d, only 0 to %d", edge, f->n_edges - 1);
   else if (cover < 1 || cover > 100 || (capacity != 0 && (capacity < cover || capacity > 100)))
-    st = thr_fail(&why, THR_EINPUT, "edge %d: needs 1 to 100 passes, and 0 or as many to 100 fit through it", edge);
+    st = thr_fail(&why, THR_EINPUT,
+                  "edge %d: needs 1 to 100 passes, and 0 or as many to 100 fit through it", edge);
   else if (!array_of(&f->cover, f->n_edges, 1) || !array_of(&f->capacity, f->n_edges, 0))
     st = thr_nomem(&why);
   if (!st) {
@@ -230,7 +241,8 @@ thread_status thread_frame_set_passes(thread_frame *frame, int edge, int cover, 
   return thr_library_status(st, &why, err);
 }
 
-thread_status thread_frame_write(const thread_frame *frame, const char *format, char **bytes, size_t *n, thread_error *err)
+thread_status thread_frame_write(const thread_frame *frame, const char *format, char **bytes,
+                                 size_t *n, thread_error *err)
 {
   thr_err why = {0};
   thr_text text = {0};

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* libthread: plans. */
 #include "eval/eval.h"
 #include "graph/check/check.h"
@@ -19,20 +20,27 @@
 
 void thread_plan_options_init(thread_plan_options *options, size_t size)
 {
-  const thread_plan_options usual = {
-      .size = size, .cords_least = 1, .cords = 1, .cover = 1, .seconds = -1, .threads = 1, .gap = -1};
+  const thread_plan_options usual = {.size = size,
+                                     .cords_least = 1,
+                                     .cords = 1,
+                                     .cover = 1,
+                                     .seconds = -1,
+                                     .threads = 1,
+                                     .gap = -1};
   memset(options, 0, size);
   memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
 }
 
 /* As "options" of a plan; a document around them, since that is what is read. */
-static thr_status parse_request(const char *text, const thr_frame *frame, thr_request *out, thr_err *err)
+static thr_status parse_request(const char *text, const thr_frame *frame, thr_request *out,
+                                thr_err *err)
 {
   thr_text whole = {0};
   thr_json *doc = NULL;
   const thr_field_reader reader = {.name = "request", .code = THR_EINPUT, .err = err};
   thr_text_printf(&whole, "{\"options\":%s}", text);
-  thr_status st = whole.failed ? thr_nomem(err) : thr_json_parse(&doc, whole.data, whole.length, "request", err);
+  thr_status st = whole.failed ? thr_nomem(err)
+                               : thr_json_parse(&doc, whole.data, whole.length, "request", err);
   if (!st) st = thr_plan_read_options(&reader, doc, frame, out);
   thr_json_destroy(doc);
   thr_text_destroy(&whole);
@@ -51,31 +59,39 @@ static thr_status parse_physics(const char *text, thr_physics *out, thr_err *err
 static thr_status check_ranges(const thread_plan_options *o, thr_err *err)
 {
   if (o->cords < 1 || o->cords > THR_MOST_CORDS || o->cords_least < 1 || o->cords_least > o->cords)
-    return thr_fail(err, THR_EINPUT, "cords: not 1 to %d, or cords_least is no less number", THR_MOST_CORDS);
+    return thr_fail(err, THR_EINPUT, "cords: not 1 to %d, or cords_least is no less number",
+                    THR_MOST_CORDS);
   if (o->cover < 1 || o->cover > 100 || o->capacity < 0 || (o->capacity && o->capacity < o->cover))
     return thr_fail(err, THR_EINPUT, "cover: not 1 to 100, or capacity leaves no room for it");
   if (o->distinct < 0 || o->distinct == 1 || o->distinct > o->cover || o->distinct > o->cords_least)
-    return thr_fail(err, THR_EINPUT, "distinct: not 0 or from 2 to the least of cover and cords_least");
-  if (!(o->max_length >= 0 && o->max_length < INFINITY)) return thr_fail(err, THR_EINPUT, "max_length: not 0 or a length");
+    return thr_fail(err, THR_EINPUT,
+                    "distinct: not 0 or from 2 to the least of cover and cords_least");
+  if (!(o->max_length >= 0 && o->max_length < INFINITY))
+    return thr_fail(err, THR_EINPUT, "max_length: not 0 or a length");
   if (!(o->max_pull == 0 || (o->max_pull >= 1 && o->max_pull < INFINITY)))
     return thr_fail(err, THR_EINPUT, "max_pull: neither 0 nor 1 or more");
-  if ((int)o->ends < THREAD_CLOSED || o->ends > THREAD_NODES) return thr_fail(err, THR_EINPUT, "ends: no thread_ends");
+  if ((int)o->ends < THREAD_CLOSED || o->ends > THREAD_NODES)
+    return thr_fail(err, THR_EINPUT, "ends: no thread_ends");
   return THR_OK;
 }
 
-static thr_status read_end_nodes(const thread_plan_options *o, const thr_frame *frame, thr_request *out, thr_err *err)
+static thr_status read_end_nodes(const thread_plan_options *o, const thr_frame *frame,
+                                 thr_request *out, thr_err *err)
 {
-  if (!(out->end_node = thr_calloc((size_t)frame->n_nodes, sizeof *out->end_node))) return thr_nomem(err);
+  if (!(out->end_node = thr_calloc((size_t)frame->n_nodes, sizeof *out->end_node)))
+    return thr_nomem(err);
   for (int i = 0; i < o->n_end_nodes; i++) {
     if (o->end_node[i] < 0 || o->end_node[i] >= frame->n_nodes)
-      return thr_fail(err, THR_EINPUT, "end_node[%d]: there is no node %d, only 0 to %d", i, o->end_node[i], frame->n_nodes - 1);
+      return thr_fail(err, THR_EINPUT, "end_node[%d]: there is no node %d, only 0 to %d", i,
+                      o->end_node[i], frame->n_nodes - 1);
     out->end_node[o->end_node[i]] = true;
   }
   return THR_OK;
 }
 
 /* The caller frees out->end_node and out->end_count, also after a failure. */
-static thr_status read_wishes(const thread_plan_options *o, const thr_frame *frame, thr_request *out, thr_err *err)
+static thr_status read_wishes(const thread_plan_options *o, const thr_frame *frame,
+                              thr_request *out, thr_err *err)
 {
   *out = thr_request_default();
   if (o->request) return parse_request(o->request, frame, out, err);
@@ -137,7 +153,8 @@ static thr_status describe(thread_plan *plan, thr_err *err)
 }
 
 /* A plan with cords becomes the caller's, whatever is proved of it. */
-static thread_status hand_over(thr_status st, thread_plan *made, thread_plan **out, thr_err *why, thread_error *err)
+static thread_status hand_over(thr_status st, thread_plan *made, thread_plan **out, thr_err *why,
+                               thread_error *err)
 {
   bool whole = made && made->plan.n_cords > 0 && (st == THR_OK || st == THR_ELIMIT);
   thr_status described = whole ? describe(made, why) : THR_OK;
@@ -150,15 +167,22 @@ static thread_status hand_over(thr_status st, thread_plan *made, thread_plan **o
   return thr_library_status(st, why, err);
 }
 
-static thr_status make(const thread_plan_options *o, const thr_frame *frame, thr_plan *plan, thr_err *err)
+static thr_status make(const thread_plan_options *o, const thr_frame *frame, thr_plan *plan,
+                       thr_err *err)
 {
   thr_request wishes;
   listener l = {.options = o};
-  thr_limits limits = {.threads = o->threads, .interrupted = &l.stop, .user = &l, .progress = o->progress ? tell : NULL};
+  thr_limits limits = {.threads = o->threads,
+                       .interrupted = &l.stop,
+                       .user = &l,
+                       .progress = o->progress ? tell : NULL};
   thr_status st = read_wishes(o, frame, &wishes, err);
-  if (!st && !(o->gap <= 100)) st = thr_fail(err, THR_EINPUT, "gap: neither below 0 nor from 0 to 100 percent");
-  if (!st && o->gap >= 0) wishes.gap = o->gap; /* also beside a request, which has one of its own perhaps */
-  if (!st && !o->request) wishes.time_limit = o->seconds < 0 ? thr_dispatch_usual_seconds(&wishes) : o->seconds;
+  if (!st && !(o->gap <= 100))
+    st = thr_fail(err, THR_EINPUT, "gap: neither below 0 nor from 0 to 100 percent");
+  if (!st && o->gap >= 0)
+    wishes.gap = o->gap; /* also beside a request, which has one of its own perhaps */
+  if (!st && !o->request)
+    wishes.time_limit = o->seconds < 0 ? thr_dispatch_usual_seconds(&wishes) : o->seconds;
   double seconds = st ? 0 : o->seconds < 0 ? wishes.time_limit : o->seconds;
   double work = thr_dispatch_work(&wishes);
   const bool unsaid = !st && o->seconds < 0 && seconds > 0;
@@ -172,8 +196,8 @@ static thr_status make(const thread_plan_options *o, const thr_frame *frame, thr
   return st;
 }
 
-thread_status thread_plan_make(const thread_frame *frame, const thread_plan_options *options, thread_plan **out,
-                               thread_error *err)
+thread_status thread_plan_make(const thread_frame *frame, const thread_plan_options *options,
+                               thread_plan **out, thread_error *err)
 {
   thr_err why = {0};
   thread_plan_options o;
@@ -181,18 +205,21 @@ thread_status thread_plan_make(const thread_frame *frame, const thread_plan_opti
   thr_library_lock();
   thread_plan *made = thr_calloc(1, sizeof *made);
   thread_plan_options_init(&o, sizeof o);
-  thr_status st = made ? thr_library_options(&o, sizeof o, options, "thread_plan_options", &why) : thr_nomem(&why);
+  thr_status st = made ? thr_library_options(&o, sizeof o, options, "thread_plan_options", &why)
+                       : thr_nomem(&why);
   if (!st) st = make(&o, &frame->frame, &made->plan, &why);
   return hand_over(st, made, out, &why, err);
 }
 
-thread_status thread_plan_parse(const char *json, size_t n, const char *name, thread_plan **out, thread_error *err)
+thread_status thread_plan_parse(const char *json, size_t n, const char *name, thread_plan **out,
+                                thread_error *err)
 {
   thr_err why = {0};
   *out = NULL;
   thr_library_lock();
   thread_plan *made = thr_calloc(1, sizeof *made);
-  thr_status st = made ? thr_plan_parse(&made->plan, json, n, name ? name : "plan", &why) : thr_nomem(&why);
+  thr_status st =
+      made ? thr_plan_parse(&made->plan, json, n, name ? name : "plan", &why) : thr_nomem(&why);
   return hand_over(st, made, out, &why, err);
 }
 
@@ -230,7 +257,8 @@ int thread_plan_cord(const thread_plan *plan, int i, const int **node)
   return known ? plan->plan.cord[i].n_passes : 0;
 }
 
-thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out, size_t size, thread_error *err)
+thread_status thread_plan_summary(const thread_plan *plan, thread_summary *out, size_t size,
+                                  thread_error *err)
 {
   thr_err why = {0};
   thr_physics physics;
@@ -283,14 +311,17 @@ thread_status thread_eval(thread_plan *plan, const char *method, double seconds,
   options.physics = p->options.physics;
   thr_library_lock();
   if (which == THR_N_METHODS) st = thr_fail(&why, THR_EINPUT, "there is no method %s", method);
-  if (!st) st = thr_eval_plan(&p->frame, p->cord, p->n_cords, (thr_method)which, &options, &limits, &found, &why);
+  if (!st)
+    st = thr_eval_plan(&p->frame, p->cord, p->n_cords, (thr_method)which, &options, &limits, &found,
+                       &why);
   if (!st) (void)thr_plan_take_evaluation(p, &found.record);
   thr_eval_destroy(&found);
   thr_library_unlock();
   return thr_library_status(st, &why, err);
 }
 
-thread_status thread_draw(const thread_plan *plan, const char *type, char **bytes, size_t *n, thread_error *err)
+thread_status thread_draw(const thread_plan *plan, const char *type, char **bytes, size_t *n,
+                          thread_error *err)
 {
   thr_err why = {0};
   thr_text text = {0};

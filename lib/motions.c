@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What takes a unique path of a symmetric plan to its copies, in words for who threads. */
 #include "lib/handles.h"
 
@@ -12,7 +13,8 @@
 static const double UPRIGHT = 0.94, LEVEL = 0.34; /* cosines to the vertical: 20 and 70 degrees */
 static const double EXACTLY = 0.9998;             /* cosine: 1 degree */
 
-/* " about the x axis", " about a slanted axis"; nothing for the vertical, which is meant if nothing is said. */
+/* " about the x axis", " about a slanted axis"; nothing for the vertical, which is meant if nothing
+ * is said. */
 static const char *about(const double axis[3])
 {
   if (fabs(axis[2]) > UPRIGHT) return "";
@@ -29,7 +31,8 @@ static const char *across(const double axis[3])
   return fabs(axis[1]) > EXACTLY ? " front to back" : "";
 }
 
-/* From where an axis is seen that points upwards, to the right or to the back; "" if no short words say it. */
+/* From where an axis is seen that points upwards, to the right or to the back; "" if no short words
+ * say it. */
 static const char *seen_from(const double axis[3])
 {
   if (fabs(axis[2]) > UPRIGHT) return " from above";
@@ -37,11 +40,13 @@ static const char *seen_from(const double axis[3])
   return fabs(axis[1]) > EXACTLY ? " from behind" : "";
 }
 
-/* "turned by 90 degrees clockwise from above". The axis points upwards, x to the right or y to the back. */
+/* "turned by 90 degrees clockwise from above". The axis points upwards, x to the right or y to the
+ * back. */
 static void say_turn(const thr_isometry *isometry, char words[72])
 {
   double angle = fabs(isometry->angle) * 180 / THR_PI;
-  const char *way = isometry->angle > 0 ? "counter-clockwise" : "clockwise", *from = seen_from(isometry->axis);
+  const char *way = isometry->angle > 0 ? "counter-clockwise" : "clockwise",
+             *from = seen_from(isometry->axis);
   bool half = angle > 180 - 1e-6;
   if (half && fabs(isometry->axis[2]) < LEVEL)
     snprintf(words, 72, "turned over%s", about(isometry->axis));
@@ -105,10 +110,12 @@ thr_status thr_motions_describe(const thr_plan *plan, thr_motions *out, thr_err 
   thr_status st = c.motion && c.words && hit ? THR_OK : thr_nomem(err);
   for (int i = 0; i < record->n_images && !st; i++) {
     const int *image = record->image + (size_t)i * (size_t)plan->frame.n_nodes;
-    if (is_permutation(image, plan->frame.n_nodes, hit)) say_motion(&plan->frame, image, c.words[i]);
+    if (is_permutation(image, plan->frame.n_nodes, hit))
+      say_motion(&plan->frame, image, c.words[i]);
   }
   for (int i = 0; i < plan->n_cords && record->present && !st; i++)
-    if (record->unique[i] != i && c.words[record->element[i]][0]) c.motion[i] = c.words[record->element[i]];
+    if (record->unique[i] != i && c.words[record->element[i]][0])
+      c.motion[i] = c.words[record->element[i]];
   free(hit);
   if (st) thr_motions_destroy(&c);
   *out = c;

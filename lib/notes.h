@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What reading a framework merged, dropped or found odd, in words for its user. */
 #ifndef THR_NOTES_H
 #define THR_NOTES_H
@@ -8,9 +9,11 @@
 #include "graph/text.h"
 
 /* Appends a line for each; none where nothing is worth a word. THR_ENOMEM. As thr_frame_near. */
-thr_status thr_read_notes(const thr_frame *frame, const thr_read_report *report, thr_text *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_read_notes(const thr_frame *frame, const thr_read_report *report, thr_text *out,
+                          thr_err *err) THR_MUST_CHECK;
 
-/* What was taken of something that a file may leave open, and why: "unit", "mm", THR_FROM_NOBODY, "the file names none; --units".
+/* What was taken of something that a file may leave open, and why: "unit", "mm", THR_FROM_NOBODY,
+ * "the file names none; --units".
  */
 typedef struct {
   const char *what; /* static, as the other two */
@@ -22,10 +25,11 @@ typedef struct {
 
 enum { THR_ASSUMPTIONS = 8 };
 
-/* Fills row with what applies to this file and returns how many: its format, unit, which way is up, scale and weld tolerance
- * always; hidden layers, parts and parallel edges where it has such. The scale's `from` is never THR_FROM_FILE. */
-int thr_read_assumptions(const thr_read_options *options, const thr_frame *frame, const thr_read_report *report,
-                         thr_assumption row[THR_ASSUMPTIONS]);
+/* Fills row with what applies to this file and returns how many: its format, unit, which way is up,
+ * scale and weld tolerance always; hidden layers, parts and parallel edges where it has such. The
+ * scale's `from` is never THR_FROM_FILE. */
+int thr_read_assumptions(const thr_read_options *options, const thr_frame *frame,
+                         const thr_read_report *report, thr_assumption row[THR_ASSUMPTIONS]);
 
 /* "assumed", "maker", "file" or "option". */
 const char *thr_whence_name(thr_whence from);

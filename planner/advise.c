@@ -1,12 +1,14 @@
-/* How many cords, and from where: a plan for every number of cords and kind of ends that may be worth it, and a choice among
- * them.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How many cords, and from where: a plan for every number of cords and kind of ends that may be
+ * worth it, and a choice among them.
  *
  *   thr_advice advice;
- *   thr_status st = thr_advise(&frame, &request, &(thr_advise_options){.hand = thr_hand_always}, &limits, &advice, &err);
- *   if (!st && advice.chosen >= 0) printf("%d cords\n", advice.row[advice.chosen].cords);
- *   thr_advice_destroy(&advice);
+ *   thr_status st = thr_advise(&frame, &request, &(thr_advise_options){.hand = thr_hand_always},
+ * &limits, &advice, &err); if (!st && advice.chosen >= 0) printf("%d cords\n",
+ * advice.row[advice.chosen].cords); thr_advice_destroy(&advice);
  *
- * Rows of advice: plans for more and more cords, each from the cords of the plan with one, cut evenly, or from symmetric cords.
+ * Rows of advice: plans for more and more cords, each from the cords of the plan with one, cut
+ * evenly, or from symmetric cords.
  */
 #include "graph/framework/components.h"
 #include "graph/plan/physics.h"
@@ -28,8 +30,8 @@ enum { MOST_ORDER = 240, IDLE = 2, TIMES = 4, MOST_SEARCHED = 5000 }; /* edges *
 /* Plans with ends of one kind. */
 typedef struct {
   thr_ends ends;
-  thr_plan first;            /* with one cord in every component */
-  thr_parts cuts;            /* of first, where no cord needs to be looked at; empty until it is asked for */
+  thr_plan first; /* with one cord in every component */
+  thr_parts cuts; /* of first, where no cord needs to be looked at; empty until it is asked for */
   thr_symmetries symmetries; /* with these ends */
   bool over;                 /* no more cords than were tried have a plan */
   double pull;               /* least so far, N at mu */
@@ -49,7 +51,8 @@ typedef struct {
 
 /* ---- learned steps ---- */
 
-/* Does the image of cord a run as cord b does, one way or the other? The framework has one edge at most between two nodes. */
+/* Does the image of cord a run as cord b does, one way or the other? The framework has one edge at
+ * most between two nodes. */
 static bool is_image(const thr_frame *frame, const int *image, const thr_cord *a, const thr_cord *b)
 {
   int n = a->n_passes;
@@ -67,11 +70,13 @@ static bool is_image(const thr_frame *frame, const int *image, const thr_cord *a
 static bool is_copy(const adviser *x, const thr_cord *cord, const thr_cord *earlier)
 {
   for (int g = 1; g < x->group.order; g++)
-    if (is_image(x->frame, x->group.image + (size_t)g * (size_t)x->group.degree, earlier, cord)) return true;
+    if (is_image(x->frame, x->group.image + (size_t)g * (size_t)x->group.degree, earlier, cord))
+      return true;
   return false;
 }
 
-/* Passes of the cords that are copies of none before them, and their ends where those may be anywhere. */
+/* Passes of the cords that are copies of none before them, and their ends where those may be
+ * anywhere. */
 static int learned(const adviser *x, const thr_plan *plan)
 {
   const thr_cord *cord = plan->cord;
@@ -95,7 +100,8 @@ static thr_status find_group(adviser *x, thr_err *err)
   bool all;
   thr_status st = thr_automorphisms_within(x->frame, &all_alike, &share, &all, &found, &why);
   if (!st && all && found.exponent == 0 && found.mantissa <= MOST_ORDER)
-    st = thr_group_generate(found.n, found.generator, found.n_generators, MOST_ORDER, &x->group, &why);
+    st = thr_group_generate(found.n, found.generator, found.n_generators, MOST_ORDER, &x->group,
+                            &why);
   thr_automorphisms_destroy(&found);
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* without a group every cord is learned */
 }
@@ -124,7 +130,8 @@ static thr_status new_row(adviser *x, thr_advice_row **row, thr_err *err)
   return THR_OK;
 }
 
-/* Sets what the ends of the cord that is hardest to pull take. reach, other: rad that they have to overcome. */
+/* Sets what the ends of the cord that is hardest to pull take. reach, other: rad that they have to
+ * overcome. */
 static void set_pulls(const adviser *x, double reach, double other, thr_advice_row *row)
 {
   double pull[THR_ADVICE_PULLS];
@@ -148,7 +155,8 @@ static void measure_row(adviser *x, const kind *k, const thr_plan *plan, thr_adv
   x->out->base_length = plan->metrics.base_length;
 }
 
-/* The row of cuts->plan cut into so many: what measure_row would say of the cords, none of which is a copy. */
+/* The row of cuts->plan cut into so many: what measure_row would say of the cords, none of which is
+ * a copy. */
 static void measure_cuts(adviser *x, const kind *k, int cords, thr_advice_row *row)
 {
   const thr_metrics *whole = &k->first.metrics;
@@ -174,9 +182,10 @@ static void settle_row(adviser *x, kind *k, bool added, thr_advice_row *row, con
   if (x->options->row) x->options->row(x->options->user, row, plan);
 }
 
-/* A row for the cords of plan, or in the place of a row whose cord that turns most turns more. claim: NULL = they were not
- * searched. */
-static thr_status set_row(adviser *x, kind *k, const thr_plan *plan, const thr_turning_claim *claim, thr_err *err)
+/* A row for the cords of plan, or in the place of a row whose cord that turns most turns more.
+ * claim: NULL = they were not searched. */
+static thr_status set_row(adviser *x, kind *k, const thr_plan *plan, const thr_turning_claim *claim,
+                          thr_err *err)
 {
   thr_advice_row *row = find_row(x, k, plan->options.cords);
   bool added = !row;
@@ -196,7 +205,8 @@ static int within(const adviser *x, const kind *k)
   int fewest = 0;
   for (int i = 0; i < x->out->n; i++) {
     const thr_advice_row *row = &x->out->row[i];
-    if (row->ends == k->ends && thr_advice_within(x->out, row) && (!fewest || row->cords < fewest)) fewest = row->cords;
+    if (row->ends == k->ends && thr_advice_within(x->out, row) && (!fewest || row->cords < fewest))
+      fewest = row->cords;
   }
   return fewest;
 }
@@ -220,9 +230,10 @@ static thr_request request_of(const adviser *x, const kind *k, int cords)
   return request;
 }
 
-/* The better of the cords cut from one, and of the symmetric ones if there are any of that number. It may stay empty. */
-static thr_status find_seed(const adviser *x, kind *k, const thr_request *request, const thr_limits *limits, thr_plan *seed,
-                            thr_err *err)
+/* The better of the cords cut from one, and of the symmetric ones if there are any of that number.
+ * It may stay empty. */
+static thr_status find_seed(const adviser *x, kind *k, const thr_request *request,
+                            const thr_limits *limits, thr_plan *seed, thr_err *err)
 {
   thr_plan symmetric = {0};
   thr_err why = {0};
@@ -230,8 +241,10 @@ static thr_status find_seed(const adviser *x, kind *k, const thr_request *reques
   thr_request plain = *request;
   plain.aims = thr_aims_symmetric;
   thr_status st = request->cords > 1 ? thr_cut_seed(&k->first, request, seed, err) : THR_OK;
-  if (!st && row >= 0) st = thr_symmetries_plan(&k->symmetries, row, x->frame, &plain, limits, &symmetric, &why);
-  if (symmetric.n_cords > 0 && (seed->n_cords == 0 || symmetric.metrics.max_turning <= seed->metrics.max_turning * (1 + 1e-9))) {
+  if (!st && row >= 0)
+    st = thr_symmetries_plan(&k->symmetries, row, x->frame, &plain, limits, &symmetric, &why);
+  if (symmetric.n_cords > 0 && (seed->n_cords == 0 || symmetric.metrics.max_turning <=
+                                                          seed->metrics.max_turning * (1 + 1e-9))) {
     thr_plan cut = *seed;
     *seed = symmetric;
     symmetric = cut;
@@ -240,7 +253,8 @@ static thr_status find_seed(const adviser *x, kind *k, const thr_request *reques
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
 }
 
-/* A row without a search where no cords can be copies, or symmetric: without looking at the cords themselves. */
+/* A row without a search where no cords can be copies, or symmetric: without looking at the cords
+ * themselves. */
 static thr_status cut_large(adviser *x, kind *k, int cords, thr_err *err)
 {
   const thr_request request = request_of(x, k, cords);
@@ -273,7 +287,9 @@ static thr_status search_cords(adviser *x, kind *k, int cords, double part, thr_
   thr_plan seed = {0}, plan = {0};
   thr_err why = {0};
   thr_status st = find_seed(x, k, &request, &share, &seed, err);
-  if (!st) st = thr_tortuosity_plan_from(x->frame, &request, seed.n_cords ? &seed : NULL, &share, &plan, &why);
+  if (!st)
+    st = thr_tortuosity_plan_from(x->frame, &request, seed.n_cords ? &seed : NULL, &share, &plan,
+                                  &why);
   if (st == THR_ENOMEM)
     st = thr_nomem(err);
   else
@@ -293,13 +309,15 @@ static thr_status search_cords(adviser *x, kind *k, int cords, double part, thr_
 
 /* ---- closed cords opened ---- */
 
-/* The plan with one closed cord is one with both ends at a node: it takes the place of the first if that turns more. */
+/* The plan with one closed cord is one with both ends at a node: it takes the place of the first if
+ * that turns more. */
 static thr_status take_closed(adviser *x, kind *k, const thr_plan *closed, thr_err *err)
 {
   const thr_request request = request_of(x, k, 1);
   thr_plan opened = {0};
   thr_status st = thr_cut_open(x->frame, &request, closed, &opened, err);
-  if (!st && opened.n_cords > 0 && (k->first.n_cords == 0 || opened.metrics.max_turning < k->first.metrics.max_turning)) {
+  if (!st && opened.n_cords > 0 &&
+      (k->first.n_cords == 0 || opened.metrics.max_turning < k->first.metrics.max_turning)) {
     thr_plan before = k->first;
     k->first = opened;
     opened = before;
@@ -333,8 +351,8 @@ static int next_number(int cords)
 static bool is_over(const adviser *x, const kind *k, int cords)
 {
   int fewest = within(x, k);
-  return k->over || k->idle >= IDLE || k->pull <= slack_pull * x->out->physics.seating || cords > x->frame->n_edges ||
-         cords > THR_MOST_CORDS || (fewest && cords > TIMES * fewest);
+  return k->over || k->idle >= IDLE || k->pull <= slack_pull * x->out->physics.seating ||
+         cords > x->frame->n_edges || cords > THR_MOST_CORDS || (fewest && cords > TIMES * fewest);
 }
 
 /* The time is over: what was to be tried still is not. */
@@ -363,12 +381,14 @@ static thr_status cut_numbers(adviser *x, kind *k, thr_err *err)
   return st;
 }
 
-/* The fewest that stay within the hand, and one fewer as long as a search finds that they do, too. */
+/* The fewest that stay within the hand, and one fewer as long as a search finds that they do, too.
+ */
 static thr_status search_fewest(adviser *x, kind *k, thr_err *err)
 {
   int fewest = within(x, k);
   thr_status st = fewest > 1 ? search_cords(x, k, fewest, part_row, err) : THR_OK;
-  for (int cords = fewest - 1; !st && cords > 1 && within(x, k) == cords + 1 && !stopped(x); cords--)
+  for (int cords = fewest - 1; !st && cords > 1 && within(x, k) == cords + 1 && !stopped(x);
+       cords--)
     st = search_cords(x, k, cords, part_row, err);
   return st;
 }
@@ -443,7 +463,8 @@ static thr_status cut_shortest(adviser *x, kind *k, int n_kinds, const thr_plan 
   thr_request request = x->request;
   thr_plan shortest = {0};
   request.aims = thr_aims_shortest;
-  thr_status st = plan ? THR_OK : thr_plan_make(x->frame, &request, x->limits, &shortest, NULL, err);
+  thr_status st =
+      plan ? THR_OK : thr_plan_make(x->frame, &request, x->limits, &shortest, NULL, err);
   if (st == THR_ELIMIT && shortest.n_cords > 0) st = THR_OK; /* not proved, but cords */
   for (int i = 0; i < n_kinds && !st; i++)
     st = cut_plan(x, &k[i], plan ? plan : &shortest, err);
@@ -452,10 +473,15 @@ static thr_status cut_shortest(adviser *x, kind *k, int n_kinds, const thr_plan 
 }
 
 /* Appends the rows of a framework of one component, or of all components alike. */
-static thr_status find_rows(const thr_frame *frame, const thr_request *request, const thr_advise_options *options, bool searches,
+static thr_status find_rows(const thr_frame *frame, const thr_request *request,
+                            const thr_advise_options *options, bool searches,
                             const thr_limits *limits, thr_advice *out, thr_err *err)
 {
-  adviser x = {.frame = frame, .request = thr_request_default(), .limits = limits, .options = options, .out = out};
+  adviser x = {.frame = frame,
+               .request = thr_request_default(),
+               .limits = limits,
+               .options = options,
+               .out = out};
   kind k[2] = {{.ends = THR_ENDS_ANY, .pull = INFINITY}};
   int n_kinds = 1;
   bool feet = false;
@@ -471,9 +497,11 @@ static thr_status find_rows(const thr_frame *frame, const thr_request *request, 
   x.request.capacity = request->capacity;
   x.request.physics = request->physics;
   x.searches = searches && frame->n_edges <= MOST_SEARCHED;
-  thr_status st = x.searches ? search_all(&x, k, n_kinds, err) : cut_shortest(&x, k, n_kinds, options->plan, err);
+  thr_status st = x.searches ? search_all(&x, k, n_kinds, err)
+                             : cut_shortest(&x, k, n_kinds, options->plan, err);
   if (!st && out->n == 0)
-    st = thr_fail(err, stopped(&x) ? THR_ELIMIT : THR_EINFEASIBLE, "no threading with one cord or more was found");
+    st = thr_fail(err, stopped(&x) ? THR_ELIMIT : THR_EINFEASIBLE,
+                  "no threading with one cord or more was found");
   for (int i = 0; i < n_kinds; i++)
     kind_destroy(&k[i]);
   thr_group_destroy(&x.group);
@@ -482,8 +510,8 @@ static thr_status find_rows(const thr_frame *frame, const thr_request *request, 
 
 /* ---- several components ---- */
 
-/* Returns the row of the least pull with no more cords than that, and that of the fewest cords with no more pull; NULL: there is
- * none. */
+/* Returns the row of the least pull with no more cords than that, and that of the fewest cords with
+ * no more pull; NULL: there is none. */
 static const thr_advice_row *least_pull_row(const thr_advice *of, thr_ends ends, int cords)
 {
   const thr_advice_row *best = NULL;
@@ -524,8 +552,8 @@ static void add_to_row(thr_advice_row *sum, const thr_advice_row *row)
     sum->pull[i] = fmax(sum->pull[i], row->pull[i]);
 }
 
-/* Makes the row of at most so many cords in every component: each has as few as the pull of the one that is hardest allows.
- * False: some component has no such cords. */
+/* Makes the row of at most so many cords in every component: each has as few as the pull of the one
+ * that is hardest allows. False: some component has no such cords. */
 static bool join_row(const thr_advice *part, int n, thr_ends ends, int cords, thr_advice_row *sum)
 {
   double pull = 0;
@@ -541,8 +569,10 @@ static bool join_row(const thr_advice *part, int n, thr_ends ends, int cords, th
   return true;
 }
 
-/* Joins the rows of all components: one for every number of cords that some component has a row of. */
-static thr_status join_rows(const thr_advice *part, int n, const thr_advise_options *options, thr_advice *out, thr_err *err)
+/* Joins the rows of all components: one for every number of cords that some component has a row of.
+ */
+static thr_status join_rows(const thr_advice *part, int n, const thr_advise_options *options,
+                            thr_advice *out, thr_err *err)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_FEET, THR_ENDS_ANY};
   bool *has = thr_calloc(THR_MOST_CORDS + 1, sizeof *has);
@@ -569,7 +599,8 @@ static thr_status join_rows(const thr_advice *part, int n, const thr_advise_opti
 
 /* Finds rows component by component, as one needs more cords than another. */
 static thr_status find_by_components(const thr_components *components, const thr_request *request,
-                                     const thr_advise_options *options, const thr_limits *limits, thr_advice *out, thr_err *err)
+                                     const thr_advise_options *options, const thr_limits *limits,
+                                     thr_advice *out, thr_err *err)
 {
   enum { MOST_COMPONENTS = 20 }; /* that are searched */
   const thr_advise_options quiet = {.hand = options->hand};
@@ -577,7 +608,8 @@ static thr_status find_by_components(const thr_components *components, const thr
   thr_advice *part = thr_calloc((size_t)n, sizeof *part);
   thr_status st = part ? THR_OK : thr_nomem(err);
   for (int k = 0; k < n && !st; k++) {
-    const thr_limits share = thr_limits_part(limits, (double)(first[k + 1] - first[k]) / (first[n] - first[k]));
+    const thr_limits share =
+        thr_limits_part(limits, (double)(first[k + 1] - first[k]) / (first[n] - first[k]));
     thr_plan asked;
     if ((st = thr_component_take(components, k, &asked, err))) break;
     part[k] = (thr_advice){.physics = out->physics, .hand = options->hand, .complete = true};
@@ -593,8 +625,9 @@ static thr_status find_by_components(const thr_components *components, const thr
   return st;
 }
 
-thr_status thr_advise(const thr_frame *frame, const thr_request *request, const thr_advise_options *options,
-                      const thr_limits *limits, thr_advice *out, thr_err *err)
+thr_status thr_advise(const thr_frame *frame, const thr_request *request,
+                      const thr_advise_options *options, const thr_limits *limits, thr_advice *out,
+                      thr_err *err)
 {
   thr_components components = {0};
   *out = (thr_advice){.hand = options->hand, .complete = true, .chosen = -1};

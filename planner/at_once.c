@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cords that take no search, where a plan may be such. */
 #include "graph/framework/components.h"
 #include "graph/threading/threading.h"
@@ -7,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A closed walk over every edge as often there as back, which takes no pairing (Hierholzer 1873). */
+/* A closed walk over every edge as often there as back, which takes no pairing (Hierholzer 1873).
+ */
 typedef struct {
   const thr_frame *f;
   int *left;         /* [2 n_edges] passes to be made over each half-edge */
@@ -44,7 +46,8 @@ static thr_status rounds_init(rounds *x, const thr_request *options, bool *fits,
   return x->stack && x->walk ? THR_OK : thr_nomem(err);
 }
 
-/* A half-edge that leads on from v with passes left, not straight back where there is another; -1 if there is none. */
+/* A half-edge that leads on from v with passes left, not straight back where there is another; -1
+ * if there is none. */
 static int next_from(rounds *x, int v, int back)
 {
   const thr_frame *frame = x->f;
@@ -76,9 +79,10 @@ static int walk_all(rounds *x)
   }
 }
 
-/* One cord through every edge of a component an even number of times; *n = 0 where there is no room for that. */
-static thr_status even_cord(const thr_frame *frame, const thr_request *options, const int *given, thr_cord **cord, int *n,
-                            thr_err *err)
+/* One cord through every edge of a component an even number of times; *n = 0 where there is no room
+ * for that. */
+static thr_status even_cord(const thr_frame *frame, const thr_request *options, const int *given,
+                            thr_cord **cord, int *n, thr_err *err)
 {
   rounds x = {.f = frame};
   thr_walks walks = {0};
@@ -94,24 +98,33 @@ static thr_status even_cord(const thr_frame *frame, const thr_request *options, 
   return st;
 }
 
-/* The matching has the shortest cords about as soon as these are written, unless more is asked of them. */
+/* The matching has the shortest cords about as soon as these are written, unless more is asked of
+ * them. */
 static bool is_quick(const thr_request *options)
 {
-  bool shortest = !thr_wants_turning(options) && !thr_wants_symmetry(options) && !thr_wants_balance(options);
-  return shortest && options->joint == THR_JOINT_SOLID && options->cords == 1 && options->max_length == 0 &&
-         options->ends != THR_ENDS_COUNTS && options->engine != THR_ENGINE_LP;
+  bool shortest =
+      !thr_wants_turning(options) && !thr_wants_symmetry(options) && !thr_wants_balance(options);
+  return shortest && options->joint == THR_JOINT_SOLID && options->cords == 1 &&
+         options->max_length == 0 && options->ends != THR_ENDS_COUNTS &&
+         options->engine != THR_ENGINE_LP;
 }
 
-void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options, const thr_limits *limits)
+void thr_planner_tell_at_once(const thr_frame *frame, const thr_request *options,
+                              const thr_limits *limits)
 {
-  enum { MOST_EDGES = 200000, FEW_EDGES = 20000 }; /* beyond, writing it takes longer than it is worth */
+  enum {
+    MOST_EDGES = 200000,
+    FEW_EDGES = 20000
+  }; /* beyond, writing it takes longer than it is worth */
   thr_cord *cord = NULL;
   int n = 0;
   thr_err why = {0};
   if (!limits->found || frame->n_edges > MOST_EDGES || options->distinct > 0) return;
   if (frame->n_edges > FEW_EDGES && limits->deadline == 0 && is_quick(options)) return;
   bool tube = options->joint == THR_JOINT_TUBE;
-  thr_component_cords *make = tube ? thr_tube_first : options->max_length > 0 ? thr_cut_tour : even_cord;
+  thr_component_cords *make = tube                      ? thr_tube_first
+                              : options->max_length > 0 ? thr_cut_tour
+                                                        : even_cord;
   thr_status st = thr_components_cords(frame, options, NULL, make, &cord, &n, &why);
   if (!st) thr_limits_found(limits, cord, n, NULL);
   thr_cords_destroy(cord, n);

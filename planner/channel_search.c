@@ -1,13 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cords without crossing channels, by branching on the channels of every node. Private to planner/.
  *
  * Cords without crossing channels, by branching.
  *
- * A plan is a number of passes for every edge and, at every node, a pairing of the passes that end there; what is left single is
- * a cord's end. A depth-first search pairs the ends node by node, so that no two channels of a node cross and no more circuits or
- * ends come about than the cords have. Passes of an edge that nothing leads to yet are alike: only the first of them is tried.
+ * A plan is a number of passes for every edge and, at every node, a pairing of the passes that end
+ * there; what is left single is a cord's end. A depth-first search pairs the ends node by node, so
+ * that no two channels of a node cross and no more circuits or ends come about than the cords have.
+ * Passes of an edge that nothing leads to yet are alike: only the first of them is tried.
  *
- * Example: three closed cords whose greedy exchange left two, and the third had to be added as a loop over an edge: the search
- * pairs the same passes so that they fall in three. */
+ * Example: three closed cords whose greedy exchange left two, and the third had to be added as a
+ * loop over an edge: the search pairs the same passes so that they fall in three. */
 #include "planner/planner_parts.h"
 
 #include "graph/scratch.h"
@@ -18,7 +20,8 @@
 
 enum { MOST_EDGES = 40, MOST_JOINS = 20000 };
 static const int64_t most_steps = 1000000, most_steps_of_join = 200000;
-static const double most_longer = 1.25; /* than the plan that crosses, where nothing else limits it */
+static const double most_longer =
+    1.25; /* than the plan that crosses, where nothing else limits it */
 
 enum { OPEN = -1, END = -2 }; /* of a pass's end: nothing is chosen yet, a cord ends there */
 
@@ -31,10 +34,11 @@ typedef struct {
 
   /* Ends of passes: pass p leaves by 2p along its edge, and by 2p + 1 against it. */
   int n_ends;
-  int *arm;        /* [n_ends] half-edge by which the pass leaves its node */
-  int *order;      /* [n_ends] by node */
-  int *mate, *far; /* [n_ends] the end it is led to, OPEN or END; the other end of the path that it ends */
-  int *node_ends;  /* [n_nodes] cord ends at each node */
+  int *arm;   /* [n_ends] half-edge by which the pass leaves its node */
+  int *order; /* [n_ends] by node */
+  int *mate,
+      *far; /* [n_ends] the end it is led to, OPEN or END; the other end of the path that it ends */
+  int *node_ends; /* [n_nodes] cord ends at each node */
   int n_closed, n_single;
   thr_cord *cord;                    /* [n_cords] what was found; owned */
   double most_longest, most_turning; /* of the cords */
@@ -109,7 +113,8 @@ static bool take_cords(search *s)
   int n = 0;
   s->status = seen ? THR_OK : THR_ENOMEM;
   for (int x = 0; x < s->n_ends && !s->status; x++)
-    if (!seen[x / 2] && (is_closed || s->mate[x] == END)) s->status = trace(s, x, seen, &s->cord[n++]);
+    if (!seen[x / 2] && (is_closed || s->mate[x] == END))
+      s->status = trace(s, x, seen, &s->cord[n++]);
   free(seen);
   if (!s->status && serves(s, n)) return true;
   for (int i = 0; i < n; i++) {
@@ -125,7 +130,8 @@ static bool lead_on(search *s, int k);
 static bool try_channel(search *s, int k, int x, int y)
 {
   const bool closes = s->far[x] == y;
-  if (closes && (s->plan->options.ends != THR_ENDS_CLOSED || s->n_closed == s->n_cords)) return false;
+  if (closes && (s->plan->options.ends != THR_ENDS_CLOSED || s->n_closed == s->n_cords))
+    return false;
   if (would_cross(s, x, y, k)) return false;
 
   const int one = s->far[x], other = s->far[y];
@@ -201,7 +207,8 @@ static bool try_join(search *s, const unsigned char *passes)
     s->far[x] = x ^ 1;
   }
   s->n_closed = s->n_single = 0;
-  s->limit = s->steps + most_steps_of_join < most_steps ? s->steps + most_steps_of_join : most_steps;
+  s->limit =
+      s->steps + most_steps_of_join < most_steps ? s->steps + most_steps_of_join : most_steps;
   return lead_on(s, 0);
 }
 
@@ -238,7 +245,8 @@ static bool is_even(const joins *j, int v)
   return request->ends != THR_ENDS_CLOSED && thr_plan_end_allowed(&j->s->plan->frame, request, v);
 }
 
-/* Lists what the edges i, i + 1, .. may have, with now for those before; now.length counts what these need at least. */
+/* Lists what the edges i, i + 1, .. may have, with now for those before; now.length counts what
+ * these need at least. */
 static void list_joins(joins *j, int i)
 {
   const thr_plan *plan = j->s->plan;
@@ -248,7 +256,8 @@ static void list_joins(joins *j, int i)
     return;
   }
   const int e = j->s->edge[i], a = thr_tail(&plan->frame, 2 * e), b = thr_head(&plan->frame, 2 * e);
-  const int least = thr_plan_cover(&plan->frame, &plan->options, e), most = thr_plan_capacity(&plan->frame, &plan->options, e);
+  const int least = thr_plan_cover(&plan->frame, &plan->options, e),
+            most = thr_plan_capacity(&plan->frame, &plan->options, e);
   const double before = j->now.length;
   j->left[a]--;
   j->left[b]--;
@@ -301,7 +310,8 @@ typedef struct {
   int *passes; /* [n_edges] of the frame */
 } measured;
 
-static void measure(const thr_plan *plan, const int *component, int k, const thr_cord *cord, int n, measured *m)
+static void measure(const thr_plan *plan, const int *component, int k, const thr_cord *cord, int n,
+                    measured *m)
 {
   const thr_frame *frame = &plan->frame;
   m->n_cords = 0;
@@ -331,10 +341,11 @@ static void replace(thr_plan *plan, const int *component, int k, search *s)
   }
 }
 
-/* Looks for other cords of component k, which crosses or is longer than before. Of one that does not cross they may not spoil
- * what was asked for first. */
-static thr_status search_component(thr_plan *plan, const int *component, int k, const int *rank, const measured *before,
-                                   const measured *now, bool crosses, bool *changed, thr_err *err)
+/* Looks for other cords of component k, which crosses or is longer than before. Of one that does
+ * not cross they may not spoil what was asked for first. */
+static thr_status search_component(thr_plan *plan, const int *component, int k, const int *rank,
+                                   const measured *before, const measured *now, bool crosses,
+                                   bool *changed, thr_err *err)
 {
   enum { MOST_PASSES = 100 }; /* of an edge */
   thr_scratch own = {0};
@@ -343,7 +354,11 @@ static thr_status search_component(thr_plan *plan, const int *component, int k, 
   const bool turns = thr_wants_turning(request);
   double limit = now->length * (1 - 1e-9);
   if (crosses) limit = before->length * (turns ? 1 + 1e-9 : most_longer);
-  search s = {.plan = plan, .rank = rank, .n_cords = before->n_cords, .most_longest = HUGE_VAL, .most_turning = HUGE_VAL};
+  search s = {.plan = plan,
+              .rank = rank,
+              .n_cords = before->n_cords,
+              .most_longest = HUGE_VAL,
+              .most_turning = HUGE_VAL};
   if (request->max_length > 0) s.most_longest = request->max_length;
   if (!crosses && thr_wants_balance(request)) s.most_longest = fmin(s.most_longest, now->longest);
   if (!crosses && turns && request->turning.length_slack < 0) s.most_turning = now->turning;
@@ -357,7 +372,8 @@ static thr_status search_component(thr_plan *plan, const int *component, int k, 
       if (before->passes[e] > most) most = before->passes[e];
       s.edge[s.n_edges++] = e;
     }
-  if (st || s.n_edges == 0 || s.n_edges > MOST_EDGES || most + 2 * s.n_cords > MOST_PASSES) goto done;
+  if (st || s.n_edges == 0 || s.n_edges > MOST_EDGES || most + 2 * s.n_cords > MOST_PASSES)
+    goto done;
 
   most += 2 * s.n_cords;
   n_passes = s.n_edges * most;
@@ -391,13 +407,15 @@ static bool has_crossing(const thr_channels *channels, const int *component, int
   return false;
 }
 
-thr_status thr_channel_search(thr_plan *plan, const thr_cord *before, int n_before, bool *changed, thr_err *err)
+thr_status thr_channel_search(thr_plan *plan, const thr_cord *before, int n_before, bool *changed,
+                              thr_err *err)
 {
   thr_scratch own = {0};
   thr_channels channels = {0};
   const thr_frame *frame = &plan->frame;
   const size_t n = (size_t)frame->n_edges;
-  int *component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component), n_components = 0;
+  int *component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component),
+      n_components = 0;
   measured was = {.passes = thr_scratch_array(&own, n, sizeof *was.passes)};
   measured is = {.passes = thr_scratch_array(&own, n, sizeof *is.passes)};
   thr_status st = thr_scratch_check(&own, err);
@@ -407,7 +425,8 @@ thr_status thr_channel_search(thr_plan *plan, const thr_cord *before, int n_befo
   for (int k = 0; k < n_components && !st; k++) {
     measure(plan, component, k, before, n_before, &was);
     measure(plan, component, k, plan->cord, plan->n_cords, &is);
-    const bool crosses = has_crossing(&channels, component, frame->n_nodes, k), longer = is.length > was.length * (1 + 1e-12);
+    const bool crosses = has_crossing(&channels, component, frame->n_nodes, k),
+               longer = is.length > was.length * (1 + 1e-12);
     if (is.n_cords != was.n_cords || !(crosses || longer)) continue;
     st = search_component(plan, component, k, channels.rank, &was, &is, crosses, changed, err);
   }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which of two plans serves the aims better. */
 #include "planner/planner_parts.h"
 
@@ -11,7 +12,8 @@ static double value_of(const thr_request *options, thr_aim aim, const thr_plan *
   if (aim == THR_AIM_LONGEST) return thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
   for (int i = 0; i < plan->n_cords; i++) {
     const thr_cord *cord = &plan->cord[i];
-    double price = aim == THR_AIM_LENGTH ? thr_cord_length(&plan->frame, cord) : thr_cord_price(&plan->frame, options, cord);
+    double price = aim == THR_AIM_LENGTH ? thr_cord_length(&plan->frame, cord)
+                                         : thr_cord_price(&plan->frame, options, cord);
     sum += price;
     most = fmax(most, price);
   }
@@ -22,7 +24,8 @@ bool thr_planner_is_better(const thr_request *options, const thr_plan *a, const 
 {
   if (b->n_cords == 0) return true;
   for (int i = 0; i < options->aims.n; i++) {
-    double x = value_of(options, options->aims.aim[i], a), y = value_of(options, options->aims.aim[i], b);
+    double x = value_of(options, options->aims.aim[i], a),
+           y = value_of(options, options->aims.aim[i], b);
     if (fabs(x - y) > 1e-9 * fmax(x, y)) return x < y;
   }
   return false;

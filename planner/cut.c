@@ -1,4 +1,6 @@
-/* More cords by cutting few: a start for the cord that turns most, and the rows of advice. Private to planner/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* More cords by cutting few: a start for the cord that turns most, and the rows of advice. Private
+ * to planner/. */
 #include "graph/plan/physics.h"
 #include "planner/planner_parts.h"
 
@@ -24,7 +26,8 @@ static void cutter_destroy(cutter *x)
   free(x->last);
 }
 
-static thr_status cutter_init(cutter *x, const thr_plan *plan, const thr_request *options, const thr_cord *cord, thr_err *err)
+static thr_status cutter_init(cutter *x, const thr_plan *plan, const thr_request *options,
+                              const thr_cord *cord, thr_err *err)
 {
   size_t n = (size_t)cord->n_passes;
   *x = (cutter){.n = cord->n_passes,
@@ -36,7 +39,8 @@ static thr_status cutter_init(cutter *x, const thr_plan *plan, const thr_request
   thr_turns turns = thr_turns_begin(&plan->frame, cord->half[0]);
   for (int k = 0; k < x->n; k++) {
     const int half = cord->half[k];
-    const bool ends = k + 1 == x->n || thr_plan_end_allowed(&plan->frame, options, thr_head(&plan->frame, half));
+    const bool ends =
+        k + 1 == x->n || thr_plan_end_allowed(&plan->frame, options, thr_head(&plan->frame, half));
     x->end[k] = ends ? k : k > 0 ? x->end[k - 1] : -1;
     x->length[k + 1] = x->length[k] + plan->frame.length[half >> 1];
     if (k > 0) x->before[k] = x->before[k - 1] + thr_turns_next(&turns, half);
@@ -54,7 +58,8 @@ static bool is_within(const cutter *x, int first, int last, const thr_parts_meas
   return thr_parting_larger(&parting) <= limit->pulled;
 }
 
-/* Returns the last pass with which a part from first on is within the limits, or first. O(log^2 passes). */
+/* Returns the last pass with which a part from first on is within the limits, or first. O(log^2
+ * passes). */
 static int reach_of(const cutter *x, int first, const thr_parts_measures *limit)
 {
   int low = first, high = x->n;
@@ -68,7 +73,8 @@ static int reach_of(const cutter *x, int first, const thr_parts_measures *limit)
   return low;
 }
 
-/* Parts within the limits, each as long as can be: there are no fewer such parts. False: some part is not. */
+/* Parts within the limits, each as long as can be: there are no fewer such parts. False: some part
+ * is not. */
 static bool cut_within(cutter *x, const thr_parts_measures *limit)
 {
   x->n_parts = 0;
@@ -89,7 +95,8 @@ static bool cut_once_more(cutter *x)
   for (int i = 0, first = 0; i < x->n_parts; first = x->last[i++] + 1) {
     double turning = x->before[x->last[i]] - x->before[first], nearest = INFINITY;
     for (int k = first; k < x->last[i] && turning > most; k++) {
-      double larger = fmax(x->before[k] - x->before[first], x->before[x->last[i]] - x->before[k + 1]);
+      double larger =
+          fmax(x->before[k] - x->before[first], x->before[x->last[i]] - x->before[k + 1]);
       if (x->end[k] != k || larger >= nearest) continue;
       nearest = larger;
       part = i;
@@ -108,7 +115,8 @@ static bool cut_once_more(cutter *x)
 static bool cut_evenly(cutter *x, int parts)
 {
   enum { HALVINGS = 60 };
-  thr_parts_measures limit = {.turning = x->before[x->n - 1], .pulled = INFINITY, .longest = INFINITY};
+  thr_parts_measures limit = {
+      .turning = x->before[x->n - 1], .pulled = INFINITY, .longest = INFINITY};
   double low = 0, high = limit.turning;
   for (int i = 0; i < HALVINGS; i++) {
     limit.turning = (low + high) / 2;
@@ -130,7 +138,9 @@ static thr_status add_parts(const cutter *x, const thr_cord *cord, thr_plan *see
   for (int i = 0, first = 0; i < x->n_parts; first = x->last[i++] + 1) {
     thr_cord *part = &seed->cord[seed->n_cords];
     int n = x->last[i] + 1 - first;
-    *part = (thr_cord){.component = cord->component, .n_passes = n, .half = thr_calloc((size_t)n, sizeof *part->half)};
+    *part = (thr_cord){.component = cord->component,
+                       .n_passes = n,
+                       .half = thr_calloc((size_t)n, sizeof *part->half)};
     if (!part->half) return thr_nomem(err);
     memcpy(part->half, cord->half + first, (size_t)n * sizeof *part->half);
     part->closed = thr_cord_start(&seed->frame, part) == thr_cord_end(&seed->frame, part);
@@ -139,7 +149,8 @@ static thr_status add_parts(const cutter *x, const thr_cord *cord, thr_plan *see
   return THR_OK;
 }
 
-thr_status thr_parts_open(thr_parts *cuts, const thr_plan *plan, const thr_request *options, thr_err *err)
+thr_status thr_parts_open(thr_parts *cuts, const thr_plan *plan, const thr_request *options,
+                          thr_err *err)
 {
   *cuts = (thr_parts){.plan = plan, .cord = thr_calloc((size_t)plan->n_cords, sizeof *cuts->cord)};
   thr_status st = cuts->cord ? THR_OK : thr_nomem(err);
@@ -175,7 +186,8 @@ thr_parts_measures thr_parts_measure(const thr_parts *cuts)
       const int last = x->last[i];
       m.turning = fmax(m.turning, x->before[last] - x->before[first]);
       const thr_parting parting = thr_least_pull(x->before, first, last);
-      if (thr_parting_larger(&parting) > m.pulled) m.other = thr_least_pull_other(x->before, first, last);
+      if (thr_parting_larger(&parting) > m.pulled)
+        m.other = thr_least_pull_other(x->before, first, last);
       m.pulled = fmax(m.pulled, thr_parting_larger(&parting));
       m.longest = fmax(m.longest, x->length[last + 1] - x->length[first]);
     }
@@ -185,14 +197,17 @@ thr_parts_measures thr_parts_measure(const thr_parts *cuts)
 
 /* ---- the shortest cords, opened and cut ---- */
 
-/* The closed cord begins where it turned most, of the nodes where an end may be. False: there is none. */
-static bool open_cord(const thr_frame *frame, const thr_request *request, thr_cord *cord, int *scratch)
+/* The closed cord begins where it turned most, of the nodes where an end may be. False: there is
+ * none. */
+static bool open_cord(const thr_frame *frame, const thr_request *request, thr_cord *cord,
+                      int *scratch)
 {
   int best = -1, n = cord->n_passes;
   double most = -1;
   for (int i = 0; i < n; i++) {
     double angle = thr_turn_angle(frame, cord->half[(i + n - 1) % n], cord->half[i]);
-    if (angle <= most || !thr_plan_end_allowed(frame, request, thr_tail(frame, cord->half[i]))) continue;
+    if (angle <= most || !thr_plan_end_allowed(frame, request, thr_tail(frame, cord->half[i])))
+      continue;
     most = angle;
     best = i;
   }
@@ -202,8 +217,8 @@ static bool open_cord(const thr_frame *frame, const thr_request *request, thr_co
   return best >= 0;
 }
 
-thr_status thr_cut_open(const thr_frame *frame, const thr_request *request, const thr_plan *closed, thr_plan *opened,
-                        thr_err *err)
+thr_status thr_cut_open(const thr_frame *frame, const thr_request *request, const thr_plan *closed,
+                        thr_plan *opened, thr_err *err)
 {
   bool can = closed->n_cords > 0;
   thr_status st = thr_plan_request(opened, frame, request, err);
@@ -213,18 +228,22 @@ thr_status thr_cut_open(const thr_frame *frame, const thr_request *request, cons
   if (!scratch && !st) st = thr_nomem(err);
   for (int i = 0; i < opened->n_cords && !st && can; i++)
     can = open_cord(frame, request, &opened->cord[i], scratch);
-  if (!st && can) st = thr_plan_measure(&opened->frame, &opened->options, opened->cord, opened->n_cords, &opened->metrics, err);
+  if (!st && can)
+    st = thr_plan_measure(&opened->frame, &opened->options, opened->cord, opened->n_cords,
+                          &opened->metrics, err);
   free(scratch);
   if (st || !can) thr_plan_destroy(opened);
   return st;
 }
 
-/* Cuts every cord into as few parts as keep to the limits, at least as many as asked for. False: more are needed than allowed. */
+/* Cuts every cord into as few parts as keep to the limits, at least as many as asked for. False:
+ * more are needed than allowed. */
 static bool cut_few(thr_parts *cuts, const thr_request *options)
 {
   const thr_parts_measures limit = {.turning = INFINITY,
                                     .pulled = thr_request_most_pulled(options),
-                                    .longest = options->max_length > 0 ? options->max_length : INFINITY};
+                                    .longest =
+                                        options->max_length > 0 ? options->max_length : INFINITY};
   bool done = cuts->n > 0;
   for (int i = 0; i < cuts->n && done; i++) {
     cutter *x = &cuts->cord[i];
@@ -244,28 +263,35 @@ static int count_parts(const thr_parts *cuts)
 }
 
 /* Makes a plan of the parts that the cords of a plan are cut into. On failure seed is empty. */
-static thr_status plan_parts(const thr_parts *cuts, const thr_request *options, thr_plan *seed, thr_err *err)
+static thr_status plan_parts(const thr_parts *cuts, const thr_request *options, thr_plan *seed,
+                             thr_err *err)
 {
   const thr_plan *plan = cuts->plan;
   thr_status st = thr_plan_request(seed, &plan->frame, options, err);
-  if (!st && !(seed->cord = thr_calloc((size_t)count_parts(cuts), sizeof *seed->cord))) st = thr_nomem(err);
+  if (!st && !(seed->cord = thr_calloc((size_t)count_parts(cuts), sizeof *seed->cord)))
+    st = thr_nomem(err);
   for (int i = 0; i < plan->n_cords && !st; i++)
     st = add_parts(&cuts->cord[i], &plan->cord[i], seed, err);
-  if (!st) st = thr_plan_measure(&seed->frame, &seed->options, seed->cord, seed->n_cords, &seed->metrics, err);
+  if (!st)
+    st = thr_plan_measure(&seed->frame, &seed->options, seed->cord, seed->n_cords, &seed->metrics,
+                          err);
   if (st) thr_plan_destroy(seed);
   return st;
 }
 
-thr_status thr_cut_few(const thr_frame *frame, const thr_request *options, const thr_plan *closed, thr_plan *seed, thr_err *err)
+thr_status thr_cut_few(const thr_frame *frame, const thr_request *options, const thr_plan *closed,
+                       thr_plan *seed, thr_err *err)
 {
-  const bool is_range = options->cords_least<options->cords, is_limited = options->max_pull> 0 || options->max_length > 0;
+  const bool is_range = options->cords_least<options->cords, is_limited = options->max_pull> 0 ||
+                        options->max_length > 0;
   thr_plan opened = {0};
   thr_parts cuts = {0};
   *seed = (thr_plan){0};
   if (options->ends == THR_ENDS_COUNTS || options->joint == THR_JOINT_TUBE) return THR_OK;
   thr_status st = thr_cut_open(frame, options, closed, &opened, err);
   if (!st && opened.n_cords > 0) st = thr_parts_open(&cuts, &opened, options, err);
-  bool done = !st && (is_range && is_limited ? cut_few(&cuts, options) : thr_parts_into(&cuts, options->cords));
+  bool done = !st && (is_range && is_limited ? cut_few(&cuts, options)
+                                             : thr_parts_into(&cuts, options->cords));
   if (options->ends == THR_ENDS_CLOSED && count_parts(&cuts) > cuts.n) done = false;
   if (done) st = plan_parts(&cuts, options, seed, err);
   thr_parts_destroy(&cuts);
@@ -273,7 +299,8 @@ thr_status thr_cut_few(const thr_frame *frame, const thr_request *options, const
   return st;
 }
 
-thr_status thr_cut_seed(const thr_plan *plan, const thr_request *options, thr_plan *seed, thr_err *err)
+thr_status thr_cut_seed(const thr_plan *plan, const thr_request *options, thr_plan *seed,
+                        thr_err *err)
 {
   thr_parts cuts;
   thr_status st = thr_parts_open(&cuts, plan, options, err);

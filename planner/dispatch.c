@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Who plans what, and how the time is shared out: both tables are in planner/dispatch.c. */
 #include "planner/planner_parts.h"
 
@@ -8,16 +9,21 @@ static const struct {
   thr_objective id;
   double seconds; /* unless the user says otherwise; 0 = as long as it takes */
   thr_planner *plan;
-} objectives[THR_N_OBJECTIVES] = {
-    {THR_LENGTH, 0, thr_planner_length}, {THR_SYMMETRY, 20, thr_planner_symmetric}, {THR_TORTUOSITY, 20, thr_planner_turning}};
+} objectives[THR_N_OBJECTIVES] = {{THR_LENGTH, 0, thr_planner_length},
+                                  {THR_SYMMETRY, 20, thr_planner_symmetric},
+                                  {THR_TORTUOSITY, 20, thr_planner_turning}};
 
-static const double hard_seconds = 20; /* of any objective: tied cords, or few cords of little pull, are an integer programme */
+static const double hard_seconds =
+    20; /* of any objective: tied cords, or few cords of little pull, are an integer programme */
 
-/* Counted work of some three seconds each, as measured on frameworks of 100 to 3,000 edges: what is counted runs ahead of the
- * clock where one cord is sought, and behind it with tube joints. Ten times as much of several cords if a gap is asked for. */
-static const double work_of_one_cord = 10, work_of_several_cords = 1, work_of_tubes = 3, work_if_asked = 10;
+/* Counted work of some three seconds each, as measured on frameworks of 100 to 3,000 edges: what is
+ * counted runs ahead of the clock where one cord is sought, and behind it with tube joints. Ten
+ * times as much of several cords if a gap is asked for. */
+static const double work_of_one_cord = 10, work_of_several_cords = 1, work_of_tubes = 3,
+                    work_if_asked = 10;
 
-/* Of cords within a pull unless it is asked how near they have to be: its planner counts its work by the seconds it is given. */
+/* Of cords within a pull unless it is asked how near they have to be: its planner counts its work
+ * by the seconds it is given. */
 static const double brief_seconds = 3;
 
 /* Of the time that is left when a step begins. */
@@ -35,7 +41,8 @@ static const double part[THR_N_STEPS] = {
 };
 
 /* The same where little work is counted, for steps whose part differs: nothing is annealed then. */
-static const double part_if_brief[THR_N_STEPS] = {[THR_STEP_SEED] = 0.25, [THR_STEP_LEAST] = 0.6, [THR_STEP_EXCHANGES] = 0.5};
+static const double part_if_brief[THR_N_STEPS] = {
+    [THR_STEP_SEED] = 0.25, [THR_STEP_LEAST] = 0.6, [THR_STEP_EXCHANGES] = 0.5};
 
 /* Of all that a user allows. */
 static const double part_checking = 0.05, part_compared = 0.5, most_after_search = 3; /* s */
@@ -67,7 +74,8 @@ thr_planner *thr_dispatch(const thr_request *options)
 
 thr_limits thr_dispatch_share(const thr_limits *limits, thr_step step)
 {
-  return thr_limits_part(limits, limits->brief && part_if_brief[step] > 0 ? part_if_brief[step] : part[step]);
+  return thr_limits_part(limits, limits->brief && part_if_brief[step] > 0 ? part_if_brief[step]
+                                                                          : part[step]);
 }
 
 double thr_dispatch_usual_seconds(const thr_request *options)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plans in which every edge is passed by several different cords. */
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
@@ -32,9 +33,11 @@ static thr_status repeat_cords(thr_plan *plan, int times, thr_err *err)
   return THR_OK;
 }
 
-/* One cord in every component, as good as can be, and the others alike: what is proved of it is proved of each. */
-static thr_status plan_alike(const thr_frame *frame, const thr_request *options, const thr_request *one, const thr_limits *limits,
-                             thr_plan *plan, thr_report *report, thr_err *err)
+/* One cord in every component, as good as can be, and the others alike: what is proved of it is
+ * proved of each. */
+static thr_status plan_alike(const thr_frame *frame, const thr_request *options,
+                             const thr_request *one, const thr_limits *limits, thr_plan *plan,
+                             thr_report *report, thr_err *err)
 {
   const int times = options->distinct;
   thr_limits quiet = *limits;
@@ -44,13 +47,15 @@ static thr_status plan_alike(const thr_frame *frame, const thr_request *options,
   if (plan->n_cords == 0) return made;
   thr_status st = THR_OK;
   if (thr_wants_balance(options) && !plan->cords_claim.present)
-    st = thr_check_cords(frame, one, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates, NULL,
-                         &plan->cords_claim, err);
+    st = thr_check_cords(frame, one, plan->cord, plan->n_cords, plan->proof.certificate,
+                         plan->proof.n_certificates, NULL, &plan->cords_claim, err);
   plan->options.distinct = options->distinct;
   plan->options.cover = options->cover;
   plan->options.cords = plan->options.cords_least = options->cords;
   if (!st) st = repeat_cords(plan, times, err);
-  if (!st) st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (!st)
+    st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics,
+                          err);
   plan->proof.lower_bound *= times;
   plan->turning.price *= times;
   plan->turning.lower_bound *= times;
@@ -62,14 +67,16 @@ static thr_status plan_alike(const thr_frame *frame, const thr_request *options,
 
 /* ---- more cords than that: exchanges ---- */
 
-/* What plans of the options are made of. needed: the framework, whose bridges need passes for several different cords. */
+/* What plans of the options are made of. needed: the framework, whose bridges need passes for
+ * several different cords. */
 typedef struct {
   const thr_frame *f;
   thr_frame needed;
   const thr_request *o;
   const thr_limits *limits;
   double length_limit; /* of all cords; < 0: none */
-  thr_plan best;       /* empty: none yet; in steps: which edges lack cords, then how many cords, then the aims */
+  thr_plan best; /* empty: none yet; in steps: which edges lack cords, then how many cords, then the
+                    aims */
 } maker;
 
 /* Do the options say how many cords every component has? */
@@ -102,10 +109,10 @@ static thr_status add_cords(thr_plan *from, int times, thr_cord **cord, int *n_c
   return THR_OK;
 }
 
-/* As many covers as every edge needs cords, each by cords of its own: *n_cords is 0 where there are none. Covers by as many cords
- * each are alike. */
-static thr_status plan_covers(const maker *x, const thr_request *options, const thr_limits *limits, thr_cord **cord, int *n_cords,
-                              thr_err *err)
+/* As many covers as every edge needs cords, each by cords of its own: *n_cords is 0 where there are
+ * none. Covers by as many cords each are alike. */
+static thr_status plan_covers(const maker *x, const thr_request *options, const thr_limits *limits,
+                              thr_cord **cord, int *n_cords, thr_err *err)
 {
   const int covers = options->distinct, cords = options->cords, more = cords % covers;
   const int times[2] = {more, covers - more};
@@ -114,7 +121,8 @@ static thr_status plan_covers(const maker *x, const thr_request *options, const 
   thr_err why = {0};
   one.cover = 1;
   one.distinct = 0;
-  if (options->cover > covers || x->f->cover || options->capacity || x->f->capacity || options->ends == THR_ENDS_COUNTS)
+  if (options->cover > covers || x->f->cover || options->capacity || x->f->capacity ||
+      options->ends == THR_ENDS_COUNTS)
     return THR_OK;
   for (int i = 0; i < 2 && !st; i++) {
     thr_plan plan;
@@ -137,7 +145,8 @@ static thr_status plan_covers(const maker *x, const thr_request *options, const 
 }
 
 /* Any cords with these passes over every edge. */
-static thr_status plan_any(const maker *x, const thr_request *options, const thr_limits *limits, thr_plan *plan, thr_err *why)
+static thr_status plan_any(const maker *x, const thr_request *options, const thr_limits *limits,
+                           thr_plan *plan, thr_err *why)
 {
   thr_request any = *options;
   thr_limits quiet = *limits;
@@ -173,15 +182,18 @@ static thr_status offer(maker *x, thr_cord **cord, int *n_cords, thr_err *err)
   for (int i = 0; i < plan.n_cords; i++)
     thr_cord_id(i, plan.cord[i].id);
   st = thr_plan_measure(&plan.frame, o, plan.cord, plan.n_cords, &plan.metrics, err);
-  bool fits = o->max_length == 0 || thr_cords_longest(x->f, plan.cord, plan.n_cords) <= o->max_length * (1 + 1e-12);
+  bool fits = o->max_length == 0 ||
+              thr_cords_longest(x->f, plan.cord, plan.n_cords) <= o->max_length * (1 + 1e-12);
   fits = fits && thr_cords_within_pull(x->f, o, plan.cord, plan.n_cords);
   int more = x->best.n_cords == 0 ? 1 : plan.metrics.distinct - x->best.metrics.distinct;
   if (more == 0 && fewest_first(o)) more = x->best.n_cords - plan.n_cords;
-  if (!st && plan.n_cords > 0 && fits && (more > 0 || (more == 0 && thr_planner_is_better(o, &plan, &x->best)))) {
+  if (!st && plan.n_cords > 0 && fits &&
+      (more > 0 || (more == 0 && thr_planner_is_better(o, &plan, &x->best)))) {
     thr_plan swap = x->best;
     x->best = plan;
     plan = swap;
-    if (x->best.metrics.distinct == x->f->n_edges) thr_limits_found(x->limits, x->best.cord, x->best.n_cords, NULL);
+    if (x->best.metrics.distinct == x->f->n_edges)
+      thr_limits_found(x->limits, x->best.cord, x->best.n_cords, NULL);
   }
   thr_plan_destroy(&plan);
   return st;
@@ -194,14 +206,17 @@ static bool is_whole(const maker *x)
 }
 
 /* Makes the cords of from, which are as many as options say, different. */
-static thr_status make_different(maker *x, const thr_request *options, const thr_limits *limits, thr_plan *from, thr_err *err)
+static thr_status make_different(maker *x, const thr_request *options, const thr_limits *limits,
+                                 thr_plan *from, thr_err *err)
 {
   thr_cord *covers = NULL;
   int n_covers = 0;
   const thr_limits part = thr_dispatch_share(limits, THR_STEP_COVERS);
   thr_status st = plan_covers(x, options, &part, &covers, &n_covers, err);
   const thr_cord *other = n_covers == from->n_cords ? covers : NULL;
-  if (!st) st = thr_distinct_make(x->f, options, limits, x->length_limit, other, from->cord, from->n_cords, err);
+  if (!st)
+    st = thr_distinct_make(x->f, options, limits, x->length_limit, other, from->cord, from->n_cords,
+                           err);
   thr_cords_destroy(covers, n_covers);
   return st ? st : offer(x, &from->cord, &from->n_cords, err);
 }
@@ -237,14 +252,16 @@ static thr_status try_covers(maker *x, thr_err *err)
   return st;
 }
 
-/* As few cords as are found, from the number of `from` in growing steps, up to those of covers; then down again. */
+/* As few cords as are found, from the number of `from` in growing steps, up to those of covers;
+ * then down again. */
 static thr_status search_fewest(maker *x, int from, thr_err *err)
 {
   int failed = from - 1, step = 1;
   thr_status st = try_covers(x, err);
   int found = is_whole(x) ? x->best.n_cords : x->o->cords;
   bool tried = false; /* so many that serve the aims, too */
-  for (int n = from; !st && n < found && !tried && !thr_limits_stop(x->limits); n += step, step *= 2) {
+  for (int n = from; !st && n < found && !tried && !thr_limits_stop(x->limits);
+       n += step, step *= 2) {
     st = try_number(x, n, err);
     tried = is_whole(x) && x->best.n_cords <= n;
     if (!tried) failed = n;
@@ -339,8 +356,8 @@ static thr_status make_components(maker *x, thr_err *err)
 
 /* ---- what is proved ---- */
 
-/* What is proved of any cords with these passes over every edge, which bridges need, too; nothing is the least where edges lack
- * cords. */
+/* What is proved of any cords with these passes over every edge, which bridges need, too; nothing
+ * is the least where edges lack cords. */
 static thr_status prove(maker *x, thr_plan *from, thr_plan *plan, thr_err *err)
 {
   int *own = plan->frame.cover;
@@ -349,14 +366,16 @@ static thr_status prove(maker *x, thr_plan *from, thr_plan *plan, thr_err *err)
   if (from->proof.present) st = thr_planner_prove_length(plan, from, err);
   if (!st) st = thr_planner_prove_turning(plan, &from->turning, err);
   plan->frame.cover = own;
-  plan->proof.slack_open = !thr_plan_within_slack(&plan->options, plan->metrics.length, plan->proof.lower_bound);
+  plan->proof.slack_open =
+      !thr_plan_within_slack(&plan->options, plan->metrics.length, plan->proof.lower_bound);
   if (!st && from->pull_claim.present && plan->n_cords >= from->pull_claim.fewest) {
     plan->pull_claim = from->pull_claim;
     plan->pull_claim.optimal = plan->n_cords == plan->pull_claim.fewest;
     from->pull_claim = (thr_pull_claim){0};
   }
   if (st || plan->metrics.distinct == plan->frame.n_edges) return st;
-  plan->proof.optimal = plan->cords_claim.longest_optimal = plan->cords_claim.fewest_optimal = plan->pull_claim.optimal = false;
+  plan->proof.optimal = plan->cords_claim.longest_optimal = plan->cords_claim.fewest_optimal =
+      plan->pull_claim.optimal = false;
   plan->turning.optimal = plan->turning.largest_optimal = false;
   return THR_OK;
 }
@@ -366,17 +385,22 @@ static thr_status judge(const maker *x, const thr_plan *plan, thr_err *err)
 {
   const int n = x->f->n_edges, met = plan->metrics.distinct;
   if (met < n)
-    return thr_fail(err, THR_ELIMIT, "%d of %d edges are passed by %d different cords; no better cords were found", met, n,
-                    x->o->distinct);
+    return thr_fail(err, THR_ELIMIT,
+                    "%d of %d edges are passed by %d different cords; no better cords were found",
+                    met, n, x->o->distinct);
   if (plan->pull_claim.present && !plan->pull_claim.optimal)
-    return thr_fail(err, THR_ELIMIT, "%d cords keep to the pull; it is proved only that fewer than %d cannot", plan->n_cords,
-                    plan->pull_claim.fewest);
+    return thr_fail(err, THR_ELIMIT,
+                    "%d cords keep to the pull; it is proved only that fewer than %d cannot",
+                    plan->n_cords, plan->pull_claim.fewest);
   if (x->o->max_length > 0 && plan->cords_claim.fewest > 0 && !plan->cords_claim.fewest_optimal)
-    return thr_fail(err, THR_ELIMIT, "%d cords keep to the length; it is proved only that fewer than %d cannot", plan->n_cords,
-                    plan->cords_claim.fewest);
+    return thr_fail(err, THR_ELIMIT,
+                    "%d cords keep to the length; it is proved only that fewer than %d cannot",
+                    plan->n_cords, plan->cords_claim.fewest);
   if (plan->proof.slack_open)
-    return thr_fail(err, THR_ELIMIT, "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
-                    100 * (plan->metrics.length / plan->proof.lower_bound - 1));
+    return thr_fail(
+        err, THR_ELIMIT,
+        "the least length is not proved: the cords may be %.3g %% longer, more than --length-slack",
+        100 * (plan->metrics.length / plan->proof.lower_bound - 1));
   return thr_planner_verdict(plan, err);
 }
 
@@ -387,8 +411,10 @@ static thr_status check_room(const maker *x, thr_err *err)
     int needs = x->needed.cover[e], room = thr_plan_capacity(x->f, x->o, e);
     if (needs > room)
       return thr_fail(err, THR_EINFEASIBLE,
-                      "edge %s-%s is a bridge: %d different cords pass it %d times at least, but only %d passes fit (proved)",
-                      x->f->name[x->f->edge[e][0]], x->f->name[x->f->edge[e][1]], x->o->distinct, needs, room);
+                      "edge %s-%s is a bridge: %d different cords pass it %d times at least, but "
+                      "only %d passes fit (proved)",
+                      x->f->name[x->f->edge[e][0]], x->f->name[x->f->edge[e][1]], x->o->distinct,
+                      needs, room);
   }
   return THR_OK;
 }
@@ -398,15 +424,17 @@ static thr_status make_cords(maker *x, const thr_plan *from, thr_err *err)
   int n, *component = thr_calloc((size_t)x->f->n_nodes, sizeof *component);
   thr_status st = component ? thr_frame_components(x->f, component, &n, err) : thr_nomem(err);
   free(component);
-  if (from->turning.present && from->turning.length_limit >= 0) x->length_limit = from->turning.length_limit;
+  if (from->turning.present && from->turning.length_limit >= 0)
+    x->length_limit = from->turning.length_limit;
   if (!st) st = n > 1 && !is_exact(x->o) ? make_components(x, err) : make_component(x, from, err);
   if (!st && x->best.n_cords == 0)
-    st = thr_fail(err, THR_ELIMIT, "no cords were found that pass every edge and keep to what is asked of them");
+    st = thr_fail(err, THR_ELIMIT,
+                  "no cords were found that pass every edge and keep to what is asked of them");
   return st;
 }
 
-static thr_status plan_different(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                                 thr_err *err)
+static thr_status plan_different(const thr_frame *frame, const thr_request *options,
+                                 const thr_limits *limits, thr_plan *plan, thr_err *err)
 {
   maker x = {.f = frame, .needed = *frame, .o = options, .limits = limits, .length_limit = -1};
   thr_plan from = {0};
@@ -436,11 +464,13 @@ static thr_status plan_different(const thr_frame *frame, const thr_request *opti
   return st;
 }
 
-thr_status thr_planner_distinct(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                                thr_report *report, thr_err *err)
+thr_status thr_planner_distinct(const thr_frame *frame, const thr_request *options,
+                                const thr_limits *limits, thr_plan *plan, thr_report *report,
+                                thr_err *err)
 {
   thr_request one;
   *plan = (thr_plan){0};
-  if (thr_request_alike(frame, options, &one)) return plan_alike(frame, options, &one, limits, plan, report, err);
+  if (thr_request_alike(frame, options, &one))
+    return plan_alike(frame, options, &one, limits, plan, report, err);
   return plan_different(frame, options, limits, plan, err);
 }

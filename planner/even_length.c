@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A short longest cord: from several starts, and by the programme over walks. */
 #include "graph/check/check.h"
 #include "graph/check/edge_sets.h"
@@ -14,14 +15,16 @@
 
 static const double near = 1e-9; /* of the bound: rounding */
 
-/* Other cords, which are the caller's, take the place of the plan's. The walks that it has are about any cords. */
+/* Other cords, which are the caller's, take the place of the plan's. The walks that it has are
+ * about any cords. */
 static thr_status take_cords(thr_plan *plan, thr_cord *cord, thr_err *err)
 {
   thr_plan before = {.proof = plan->proof};
   thr_cords_destroy(plan->cord, plan->n_cords);
   plan->cord = cord;
   plan->proof = (thr_length_proof){0};
-  thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords,
+                                   &plan->metrics, err);
   if (!st) st = thr_planner_prove_length(plan, &before, err);
   thr_plan_destroy(&before);
   return st;
@@ -32,13 +35,15 @@ static thr_status judge(thr_plan *plan, thr_err *err)
 {
   const thr_length_proof *proof = &plan->proof;
   thr_err found = {0};
-  thr_status st = thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
-                                  proof->n_certificates, &proof->walks, &plan->cords_claim, &found);
+  thr_status st =
+      thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
+                      proof->n_certificates, &proof->walks, &plan->cords_claim, &found);
   return thr_check_own(st, &found, err);
 }
 
 /* Do as many passes fit as the cords make? */
-static bool has_room(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n)
+static bool has_room(const thr_frame *frame, const thr_request *options, const thr_cord *cord,
+                     int n)
 {
   bool fits = true;
   for (int e = 0; e < frame->n_edges && fits; e++) {
@@ -54,10 +59,11 @@ static bool has_room(const thr_frame *frame, const thr_request *options, const t
 
 /* ---- from several starts ---- */
 
-/* The cords of a plan for edges that are longer than they are, each by up to a part of its length, evened out as long as they
- * are. *cord: NULL, or the caller's. */
-static thr_status start_again(const thr_frame *frame, const thr_request *options, double part, uint64_t *random,
-                              const thr_limits *limits, thr_cord **cord, int *n_cords, thr_err *err)
+/* The cords of a plan for edges that are longer than they are, each by up to a part of its length,
+ * evened out as long as they are. *cord: NULL, or the caller's. */
+static thr_status start_again(const thr_frame *frame, const thr_request *options, double part,
+                              uint64_t *random, const thr_limits *limits, thr_cord **cord,
+                              int *n_cords, thr_err *err)
 {
   thr_plan asked = {0}, made = {0};
   thr_decomposition x = {0};
@@ -73,7 +79,8 @@ static thr_status start_again(const thr_frame *frame, const thr_request *options
   st = st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no start */
   if (!st && found) st = thr_decomposition_init(&x, frame, options, limits, err);
   for (int i = 0; i < made.n_cords && !st; i++)
-    st = thr_walks_copy(&x.walks, frame, made.cord[i].half, made.cord[i].n_passes, options->ends == THR_ENDS_CLOSED, err);
+    st = thr_walks_copy(&x.walks, frame, made.cord[i].half, made.cord[i].n_passes,
+                        options->ends == THR_ENDS_CLOSED, err);
   if (!st && found) thr_walks_count(&x.walks, x.passes);
   if (!st && found) st = thr_decomposition_even(&x, 0, err);
   if (!st && found) st = thr_walks_cords(&x.walks, frame, options, cord, n_cords, err);
@@ -86,14 +93,15 @@ static thr_status start_again(const thr_frame *frame, const thr_request *options
 /* Keeps the cords with the shorter longest one. */
 static void keep_shorter(const thr_frame *frame, thr_cord **best, thr_cord *cord, int n_cords)
 {
-  bool shorter = thr_cords_longest(frame, cord, n_cords) < thr_cords_longest(frame, *best, n_cords) * (1 - 1e-9);
+  bool shorter = thr_cords_longest(frame, cord, n_cords) <
+                 thr_cords_longest(frame, *best, n_cords) * (1 - 1e-9);
   thr_cords_destroy(shorter ? *best : cord, n_cords);
   if (shorter) *best = cord;
 }
 
 /* *best: n_cords cords, of which the longest is short enough at that length. */
-static thr_status try_starts(const thr_frame *frame, const thr_request *options, double enough, const thr_limits *limits,
-                             thr_cord **best, int n_cords, thr_err *err)
+static thr_status try_starts(const thr_frame *frame, const thr_request *options, double enough,
+                             const thr_limits *limits, thr_cord **best, int n_cords, thr_err *err)
 {
   enum { STARTS = 400, UNLIMITED = 30, PASSES = 20000 };
   static const double part[] = {.02, .1, .4};
@@ -103,7 +111,9 @@ static thr_status try_starts(const thr_frame *frame, const thr_request *options,
   thr_status st = THR_OK;
   if (starts > STARTS) starts = STARTS;
   quiet.found = NULL;
-  for (int i = 0; i < starts && !st && thr_cords_longest(frame, *best, n_cords) > enough && !thr_limits_stop(&quiet); i++) {
+  for (int i = 0; i < starts && !st && thr_cords_longest(frame, *best, n_cords) > enough &&
+                  !thr_limits_stop(&quiet);
+       i++) {
     thr_cord *cord;
     int n = 0;
     st = start_again(frame, options, part[i % 3], &random, &quiet, &cord, &n, err);
@@ -115,19 +125,22 @@ static thr_status try_starts(const thr_frame *frame, const thr_request *options,
   return st;
 }
 
-thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                                   thr_cords_word *word, thr_err *err)
+thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *options,
+                                   const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
+                                   thr_err *err)
 {
   enum { MOST_EDGES = 1000 };
   thr_cord *best = NULL;
   thr_err why = {0};
   thr_status st = thr_cords_plan(frame, options, limits, plan, word, &why);
   const thr_cords_claim *claim = &plan->cords_claim;
-  bool wanted = thr_wants_balance(options) && options->max_length == 0 && frame->n_edges <= MOST_EDGES &&
-                claim->longest > claim->longest_bound * (1 + near);
+  bool wanted = thr_wants_balance(options) && options->max_length == 0 &&
+                frame->n_edges <= MOST_EDGES && claim->longest > claim->longest_bound * (1 + near);
   if (st != THR_ELIMIT || !wanted) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
   st = thr_cords_copy(plan->cord, plan->n_cords, &best, err);
-  if (!st) st = try_starts(frame, options, claim->longest_bound * (1 + near), limits, &best, plan->n_cords, err);
+  if (!st)
+    st = try_starts(frame, options, claim->longest_bound * (1 + near), limits, &best, plan->n_cords,
+                    err);
   if (!st && thr_cords_longest(frame, best, plan->n_cords) < claim->longest) {
     st = take_cords(plan, best, err);
     best = NULL;
@@ -140,7 +153,8 @@ thr_status thr_planner_even_starts(const thr_frame *frame, const thr_request *op
 /* ---- all sets of edges ---- */
 
 /* The cords over chosen sets; more of them are copies of the first. *cord is the caller's. */
-static thr_status walk_over(const thr_short_cords *cords, const int *chosen, int n, thr_cord **cord, thr_err *err)
+static thr_status walk_over(const thr_short_cords *cords, const int *chosen, int n, thr_cord **cord,
+                            thr_err *err)
 {
   thr_status st = THR_OK;
   if (!(*cord = thr_calloc((size_t)n, sizeof **cord))) return thr_nomem(err);
@@ -151,8 +165,8 @@ static thr_status walk_over(const thr_short_cords *cords, const int *chosen, int
   return st;
 }
 
-/* Where cords are short all sets of edges that one of them can pass are few: then the longest is as short as can be. Raises
- * *bound to what they prove of it. */
+/* Where cords are short all sets of edges that one of them can pass are few: then the longest is as
+ * short as can be. Raises *bound to what they prove of it. */
 static thr_status try_sets(thr_plan *plan, const thr_limits *limits, double *bound, thr_err *err)
 {
   const double part = .15; /* of the time; the checker's search takes as long */
@@ -164,7 +178,8 @@ static thr_status try_sets(thr_plan *plan, const thr_limits *limits, double *bou
   thr_short_cords cords;
   thr_cord *cord = NULL;
   int *chosen = thr_calloc((size_t)n, sizeof *chosen);
-  thr_status st = chosen ? thr_short_cords_init(&cords, frame, &plan->options, longest, &share, err) : thr_nomem(err);
+  thr_status st = chosen ? thr_short_cords_init(&cords, frame, &plan->options, longest, &share, err)
+                         : thr_nomem(err);
   if (!chosen) return st;
   const bool few = !st && cords.n > 0;
   if (few) st = thr_short_cords_longest(&cords, n, longest, chosen, &proved, &found, err);
@@ -184,16 +199,19 @@ static thr_status try_sets(thr_plan *plan, const thr_limits *limits, double *bou
 /* ---- the programme over walks ---- */
 
 /* The plan's cords annealed, in part of the time that a user gives. */
-static thr_status anneal(thr_plan *plan, const thr_turning_columns *columns, const thr_limits *limits, thr_err *err)
+static thr_status anneal(thr_plan *plan, const thr_turning_columns *columns,
+                         const thr_limits *limits, thr_err *err)
 {
   const double part = .4;
   const thr_limits share = thr_limits_part(limits, part);
-  const thr_anneal_task task = {
-      .measure = THR_WALK_LENGTH, .steps = 6000000, .rounds = 2, .enough = plan->cords_claim.longest_bound * (1 + near)};
+  const thr_anneal_task task = {.measure = THR_WALK_LENGTH,
+                                .steps = 6000000,
+                                .rounds = 2,
+                                .enough = plan->cords_claim.longest_bound * (1 + near)};
   thr_cord *cord = NULL;
   bool better = false;
-  if (limits->deadline == 0 || limits->brief || plan->n_cords < 2 || plan->options.joint == THR_JOINT_TUBE ||
-      plan->options.ends == THR_ENDS_COUNTS)
+  if (limits->deadline == 0 || limits->brief || plan->n_cords < 2 ||
+      plan->options.joint == THR_JOINT_TUBE || plan->options.ends == THR_ENDS_COUNTS)
     return THR_OK;
   thr_status st = thr_cords_copy(plan->cord, plan->n_cords, &cord, err);
   if (!st) st = thr_anneal(columns, &task, &share, cord, plan->n_cords, &better, err);
@@ -207,17 +225,20 @@ static thr_status anneal(thr_plan *plan, const thr_turning_columns *columns, con
 }
 
 /* *improved: the component of the longest cord has others. */
-static thr_status improve(thr_plan *plan, const thr_turning_columns *columns, const thr_limits *limits, bool *improved,
-                          thr_err *err)
+static thr_status improve(thr_plan *plan, const thr_turning_columns *columns,
+                          const thr_limits *limits, bool *improved, thr_err *err)
 {
   const thr_length_proof *proof = &plan->proof;
-  const thr_cord *longest = &plan->cord[thr_walk_dearest(columns, THR_WALK_LENGTH, plan->cord, plan->n_cords)];
+  const thr_cord *longest =
+      &plan->cord[thr_walk_dearest(columns, THR_WALK_LENGTH, plan->cord, plan->n_cords)];
   int component = columns->component[thr_cord_start(&plan->frame, longest)];
   double least = 0, bound = plan->cords_claim.longest_bound;
   thr_cord *better = NULL;
-  thr_status st = thr_check_component_least(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
-                                            proof->n_certificates, component, &least, err);
-  const thr_walk_ask ask = {THR_WALK_LENGTH, plan->cord, plan->n_cords, least, 0, thr_planner_near_motions};
+  thr_status st =
+      thr_check_component_least(&plan->frame, &plan->options, plan->cord, plan->n_cords,
+                                proof->certificate, proof->n_certificates, component, &least, err);
+  const thr_walk_ask ask = {THR_WALK_LENGTH, plan->cord, plan->n_cords,
+                            least,           0,          thr_planner_near_motions};
   if (!st) st = thr_walk_bound(columns, &ask, limits, &plan->proof.walks, &bound, &better, err);
   *improved = better;
   if (!st && better) st = take_cords(plan, better, err);
@@ -230,29 +251,34 @@ thr_status thr_planner_even_length(thr_plan *plan, const thr_limits *limits, thr
   double work = 1; /* seconds, where nobody has said how long it may take */
   const bool unsaid = limits->deadline == 0 && !limits->work;
   const bool timed = limits->deadline > 0;
-  const double again = 1.5;  /* as long as the sets took is left to the checker, which tries them again */
+  const double again =
+      1.5; /* as long as the sets took is left to the checker, which tries them again */
   thr_limits rest = *limits; /* of the time */
   const thr_cords_claim *claim = &plan->cords_claim;
   bool enough = claim->longest <= claim->longest_bound * (1 + near);
-  if (!thr_wants_balance(&plan->options) || enough || plan->frame.n_edges > MOST_EDGES) return THR_OK;
+  if (!thr_wants_balance(&plan->options) || enough || plan->frame.n_edges > MOST_EDGES)
+    return THR_OK;
   bool *end_allowed = thr_calloc((size_t)plan->frame.n_nodes, sizeof *end_allowed), improved = true;
   thr_turning_columns columns = {0};
   if (!end_allowed) return thr_nomem(err);
   const thr_turning_task task = thr_walk_length_task(&plan->frame, &plan->options, end_allowed);
   thr_status st = thr_turning_columns_init(&columns, &plan->frame, &task, err);
   const bool one = columns.n_components == 1 && plan->options.joint == THR_JOINT_SOLID;
-  double by_sets = 0, start = timed ? thr_clock() : 0; /* bound on the longest; when it is looked for */
+  double by_sets = 0,
+         start = timed ? thr_clock() : 0; /* bound on the longest; when it is looked for */
   if (!st && one) st = try_sets(plan, limits, &by_sets, err);
   if (timed && by_sets > claim->longest_bound) rest.deadline -= again * (thr_clock() - start);
   const double before = claim->longest;
   const bool settled = by_sets >= before * (1 - 1e-9);
   const thr_limits counted = unsaid ? thr_limits_brief(limits, &work) : rest;
   if (!st && !settled) st = anneal(plan, &columns, &rest, err);
-  for (int k = 0; k < columns.n_components && !st && improved && !settled && !claim->longest_optimal; k++) {
+  for (int k = 0;
+       k < columns.n_components && !st && improved && !settled && !claim->longest_optimal; k++) {
     st = improve(plan, &columns, &counted, &improved, err);
     if (!st && improved) thr_limits_found(limits, plan->cord, plan->n_cords, NULL);
   }
-  if (!st && one && !claim->longest_optimal && claim->longest < before) st = try_sets(plan, limits, &by_sets, err);
+  if (!st && one && !claim->longest_optimal && claim->longest < before)
+    st = try_sets(plan, limits, &by_sets, err);
   if (!st && by_sets > claim->longest_bound * (1 + 1e-9)) {
     plan->proof.walks.sets = true;
     st = judge(plan, err);

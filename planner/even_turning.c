@@ -1,12 +1,14 @@
-/* The cord that turns most: a symmetric start for it, and the exchanges from there. Private to planner/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cord that turns most: a symmetric start for it, and the exchanges from there. Private to
+ * planner/. */
 #include "planner/planner_parts.h"
 #include "tortuosity/cords/several.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-thr_status thr_even_seed(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *seed,
-                         thr_err *err)
+thr_status thr_even_seed(const thr_frame *frame, const thr_request *options,
+                         const thr_limits *limits, thr_plan *seed, thr_err *err)
 {
   thr_symmetries symmetries;
   thr_request so = *options;
@@ -22,16 +24,19 @@ thr_status thr_even_seed(const thr_frame *frame, const thr_request *options, con
   return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves no seed */
 }
 
-/* Are they cords of the task: as many in every component as least has, over passes and ends that it allows? Given numbers of ends
- * no other objective's plan keeps to. */
-static thr_status seed_fits(const thr_frame *frame, const thr_least *least, const thr_plan *seed, bool *fits, thr_err *err)
+/* Are they cords of the task: as many in every component as least has, over passes and ends that it
+ * allows? Given numbers of ends no other objective's plan keeps to. */
+static thr_status seed_fits(const thr_frame *frame, const thr_least *least, const thr_plan *seed,
+                            bool *fits, thr_err *err)
 {
-  int *count = thr_calloc((size_t)frame->n_nodes, sizeof *count); /* cords of a component: least's less the seed's */
+  int *count = thr_calloc((size_t)frame->n_nodes,
+                          sizeof *count); /* cords of a component: least's less the seed's */
   bool *tied = thr_calloc((size_t)frame->n_nodes, sizeof *tied), open = least->end_allowed != NULL;
   thr_status st = count && tied ? THR_OK : thr_nomem(err);
   double length = 0;
-  *fits = !least->task.end_count && seed->n_cords == least->n_cords && seed->frame.n_nodes == frame->n_nodes &&
-          seed->options.cover == least->task.cover && seed->metrics.most_passes <= least->task.most_passes;
+  *fits = !least->task.end_count && seed->n_cords == least->n_cords &&
+          seed->frame.n_nodes == frame->n_nodes && seed->options.cover == least->task.cover &&
+          seed->metrics.most_passes <= least->task.most_passes;
   if (!st && *fits) st = thr_junction_tied(frame, seed->cord, seed->n_cords, !open, tied, err);
   *fits &= !st;
   for (int i = 0; *fits && i < least->n_cords; i++) {
@@ -39,9 +44,11 @@ static thr_status seed_fits(const thr_frame *frame, const thr_least *least, cons
     count[least->cord[i].component]++;
     count[cord->component]--;
     length += thr_cord_length(frame, cord);
-    *fits =
-        open ? least->end_allowed[thr_cord_start(frame, cord)] && least->end_allowed[thr_cord_end(frame, cord)] : cord->closed;
-    for (int k = 0; k + 1 < cord->n_passes && *fits; k++) /* the search never turns back where it need not */
+    *fits = open ? least->end_allowed[thr_cord_start(frame, cord)] &&
+                       least->end_allowed[thr_cord_end(frame, cord)]
+                 : cord->closed;
+    for (int k = 0; k + 1 < cord->n_passes && *fits;
+         k++) /* the search never turns back where it need not */
       *fits = cord->half[k + 1] != (cord->half[k] ^ 1) ||
               (thr_degree(frame, thr_head(frame, cord->half[k])) == 1 && !least->task.tube);
   }
@@ -54,16 +61,18 @@ static thr_status seed_fits(const thr_frame *frame, const thr_least *least, cons
 }
 
 /* Nothing is left to look for. */
-static bool is_done(const thr_frame *frame, const thr_least *least, const thr_max_turning *found, double enough,
-                    const thr_limits *limits)
+static bool is_done(const thr_frame *frame, const thr_least *least, const thr_max_turning *found,
+                    double enough, const thr_limits *limits)
 {
   if (thr_limits_near(limits, found->largest, found->bound)) return true;
   return enough > 0 && thr_cords_pulled_turning(frame, least->cord, least->n_cords) <= enough;
 }
 
-/* Exchanges from the seed's cords, and if that is not enough from least's; the better cords stay. */
-static thr_status exchange(const thr_frame *frame, const thr_plan *seed, double enough, const thr_limits *limits,
-                           thr_least *least, thr_max_turning *found, thr_err *err)
+/* Exchanges from the seed's cords, and if that is not enough from least's; the better cords stay.
+ */
+static thr_status exchange(const thr_frame *frame, const thr_plan *seed, double enough,
+                           const thr_limits *limits, thr_least *least, thr_max_turning *found,
+                           thr_err *err)
 {
   bool fits = false;
   thr_max_turning own = {.largest = INFINITY}, other = own;
@@ -87,13 +96,14 @@ static thr_status exchange(const thr_frame *frame, const thr_plan *seed, double 
   return st;
 }
 
-thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, double enough, const thr_limits *limits,
-                            thr_least *least, thr_err *err)
+thr_status thr_even_turning(const thr_frame *frame, const thr_plan *seed, double enough,
+                            const thr_limits *limits, thr_least *least, thr_err *err)
 {
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_EXCHANGES);
   thr_max_turning found;
   thr_status st = exchange(frame, seed, enough, &share, least, &found, err);
   return st || is_done(frame, least, &found, enough, limits)
              ? st
-             : thr_max_turning_walks(frame, enough, thr_planner_near_motions, limits, least, &found, err);
+             : thr_max_turning_walks(frame, enough, thr_planner_near_motions, limits, least, &found,
+                                     err);
 }

@@ -1,10 +1,13 @@
-/* Motions of a framework onto itself, for those who bound what cords cost (tortuosity/proof/orbits.c). Private to planner/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Motions of a framework onto itself, for those who bound what cords cost
+ * (tortuosity/proof/orbits.c). Private to planner/. */
 #include "planner/planner_parts.h"
 #include "symmetry/group/group.h"
 
 #include <stddef.h>
 
-static thr_status find(const thr_frame *frame, double rounding, const thr_limits *limits, int **image, int *n, thr_err *err)
+static thr_status find(const thr_frame *frame, double rounding, const thr_limits *limits,
+                       int **image, int *n, thr_err *err)
 {
   enum { MOST = 240 };
   thr_err why = {0};
@@ -15,12 +18,14 @@ static thr_status find(const thr_frame *frame, double rounding, const thr_limits
   return st == THR_ELIMIT ? THR_OK : thr_fail(err, st, "%s", why.text);
 }
 
-thr_status thr_planner_motions(const thr_frame *frame, const thr_limits *limits, int **image, int *n, thr_err *err)
+thr_status thr_planner_motions(const thr_frame *frame, const thr_limits *limits, int **image,
+                               int *n, thr_err *err)
 {
   return find(frame, 1e-9, limits, image, n, err);
 }
 
-thr_status thr_planner_near_motions(const thr_frame *frame, const thr_limits *limits, int **image, int *n, thr_err *err)
+thr_status thr_planner_near_motions(const thr_frame *frame, const thr_limits *limits, int **image,
+                                    int *n, thr_err *err)
 {
   return find(frame, 1e-4, limits, image, n, err);
 }

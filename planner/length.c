@@ -1,5 +1,6 @@
-/* Plans of the least length, component by component: of solid joints lp/ makes them, of tube joints tortuosity/tie, since what
- * ties a node are turns. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Plans of the least length, component by component: of solid joints lp/ makes them, of tube joints
+ * tortuosity/tie, since what ties a node are turns. */
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
 #include "planner/planner_parts.h"
@@ -8,14 +9,17 @@
 #include <math.h>
 #include <stdlib.h>
 
-typedef thr_status component_planner(const thr_frame *f, const thr_request *o, const thr_limits *limits, thr_plan *plan,
-                                     thr_cords_word *word, thr_err *err);
+typedef thr_status component_planner(const thr_frame *f, const thr_request *o,
+                                     const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
+                                     thr_err *err);
 
 /* ---- several components ---- */
 
-/* One component by itself, in its part of the time: it may need more cords than another, or hold fewer. */
-static thr_status plan_component(const thr_components *components, int k, component_planner *one, const thr_limits *limits,
-                                 thr_plan *made, thr_cords_word *all, thr_err *err)
+/* One component by itself, in its part of the time: it may need more cords than another, or hold
+ * fewer. */
+static thr_status plan_component(const thr_components *components, int k, component_planner *one,
+                                 const thr_limits *limits, thr_plan *made, thr_cords_word *all,
+                                 thr_err *err)
 {
   thr_plan asked;
   thr_cords_word word = {0};
@@ -23,20 +27,24 @@ static thr_status plan_component(const thr_components *components, int k, compon
   thr_status st = thr_component_take(components, k, &asked, err);
   if (st) return st;
   const int *first = components->first_edge;
-  thr_limits share = thr_limits_part(limits, (double)(first[k + 1] - first[k]) / (first[components->n] - first[k]));
+  thr_limits share = thr_limits_part(limits, (double)(first[k + 1] - first[k]) /
+                                                 (first[components->n] - first[k]));
   share.found = NULL; /* cords of a component are no plan */
   st = one(&asked.frame, &asked.options, &share, made, &word, &why);
   thr_plan_destroy(&asked);
   all->passes_least &= word.passes_least;
   all->longest_least &= word.longest_least || made->cords_claim.longest_optimal;
-  return st && (st != THR_ELIMIT || made->n_cords == 0) ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  return st && (st != THR_ELIMIT || made->n_cords == 0) ? thr_fail(err, st, "%s", why.text)
+                                                        : THR_OK;
 }
 
 /* The certificates of the components' plans, and how often GLPK agreed. */
-static thr_status take_certificates(const thr_components *components, thr_plan *made, thr_length_proof *proof, thr_err *err)
+static thr_status take_certificates(const thr_components *components, thr_plan *made,
+                                    thr_length_proof *proof, thr_err *err)
 {
   *proof = (thr_length_proof){.present = true};
-  if (!(proof->certificate = thr_calloc((size_t)components->n, sizeof *proof->certificate))) return thr_nomem(err);
+  if (!(proof->certificate = thr_calloc((size_t)components->n, sizeof *proof->certificate)))
+    return thr_nomem(err);
   proof->n_certificates = components->n;
   for (int k = 0; k < components->n; k++) {
     thr_component_give_certificate(components, k, &made[k], &proof->certificate[k]);
@@ -46,9 +54,10 @@ static thr_status take_certificates(const thr_components *components, thr_plan *
   return THR_OK;
 }
 
-/* Fills the cords of plan, which holds framework and options, and with solid joints its certificates. */
-static thr_status plan_components(component_planner *one, const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
-                                  thr_err *err)
+/* Fills the cords of plan, which holds framework and options, and with solid joints its
+ * certificates. */
+static thr_status plan_components(component_planner *one, const thr_limits *limits, thr_plan *plan,
+                                  thr_cords_word *word, thr_err *err)
 {
   thr_components components;
   thr_status st = thr_components_init(&components, &plan->frame, &plan->options, err);
@@ -59,7 +68,8 @@ static thr_status plan_components(component_planner *one, const thr_limits *limi
   for (int k = 0; k < components.n && !st; k++)
     st = plan_component(&components, k, one, limits, &made[k], word, err);
   if (!st) st = thr_components_join(&components, made, plan, err);
-  if (!st && plan->options.joint == THR_JOINT_SOLID) st = take_certificates(&components, made, &plan->proof, err);
+  if (!st && plan->options.joint == THR_JOINT_SOLID)
+    st = take_certificates(&components, made, &plan->proof, err);
   for (int k = 0; made && k < components.n; k++)
     thr_plan_destroy(&made[k]);
   free(made);
@@ -86,11 +96,11 @@ static thr_status prove_solid(thr_plan *plan, thr_err *err)
   thr_err found = {0};
   thr_status st = thr_plan_measure(frame, options, plan->cord, plan->n_cords, &plan->metrics, err);
   if (st) return st;
-  st = thr_check_length_proof(frame, options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates,
-                              &proof->optimal, &proof->lower_bound, &found);
+  st = thr_check_length_proof(frame, options, plan->cord, plan->n_cords, proof->certificate,
+                              proof->n_certificates, &proof->optimal, &proof->lower_bound, &found);
   if (!st)
-    st = thr_check_cords(frame, options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates, NULL,
-                         &plan->cords_claim, &found);
+    st = thr_check_cords(frame, options, plan->cord, plan->n_cords, proof->certificate,
+                         proof->n_certificates, NULL, &plan->cords_claim, &found);
   proof->gap = (plan->metrics.length - proof->lower_bound) / plan->metrics.length;
   return thr_check_own(st, &found, err);
 }
@@ -102,8 +112,9 @@ static bool one_each(const thr_request *options)
 }
 
 /* A framework of one component. */
-static thr_status one_component(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                                thr_cords_word *word, thr_err *err)
+static thr_status one_component(const thr_frame *frame, const thr_request *options,
+                                const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
+                                thr_err *err)
 {
   thr_err why = {0};
   thr_status st = thr_planner_even_starts(frame, options, limits, plan, word, &why);
@@ -115,8 +126,9 @@ static thr_status one_component(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
-static thr_status plan_solid(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                             thr_cords_word *word, thr_err *err)
+static thr_status plan_solid(const thr_frame *frame, const thr_request *options,
+                             const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
+                             thr_err *err)
 {
   int n = 1;
   thr_status st = one_each(options) ? THR_OK : count_components(frame, &n, err);
@@ -141,17 +153,20 @@ static thr_status prove_tied(thr_tube *tube, thr_plan *plan, thr_err *err)
   thr_status st = thr_plan_measure(frame, options, plan->cord, plan->n_cords, &plan->metrics, err);
   if (!st) thr_tube_prove(tube, plan->metrics.length, &plan->proof);
   if (st || one_each(options)) return st;
-  return thr_check_tied_cords(frame, options, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim, err);
+  return thr_check_tied_cords(frame, options, plan->cord, plan->n_cords, &plan->proof.tied,
+                              &plan->cords_claim, err);
 }
 
-static thr_status plan_tied(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                            thr_cords_word *word, thr_err *err)
+static thr_status plan_tied(const thr_frame *frame, const thr_request *options,
+                            const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
+                            thr_err *err)
 {
   thr_tube tube = {0};
   thr_err why = {0};
   int n;
-  const thr_limits part =
-      thr_wants_balance(options) || options->max_length > 0 ? thr_dispatch_share(limits, THR_STEP_TIED) : *limits;
+  const thr_limits part = thr_wants_balance(options) || options->max_length > 0
+                              ? thr_dispatch_share(limits, THR_STEP_TIED)
+                              : *limits;
   thr_status proved = thr_tube_shortest(frame, options, &part, &tube, &why);
   if (proved && proved != THR_ELIMIT) return thr_fail(err, proved, "%s", why.text);
   thr_status st = thr_plan_request(plan, frame, options, err);
@@ -168,18 +183,20 @@ static thr_status plan_tied(const thr_frame *frame, const thr_request *options, 
 
 /* ---- the planner ---- */
 
-/* Cords within a limit on their length of which it is not proved that they are the fewest, or none: fewer by another way, of
- * which the solver says nothing. st: of what there is. */
-static thr_status few_short(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_status st,
-                            thr_plan *plan, thr_cords_word *word, thr_err *err)
+/* Cords within a limit on their length of which it is not proved that they are the fewest, or none:
+ * fewer by another way, of which the solver says nothing. st: of what there is. */
+static thr_status few_short(const thr_frame *frame, const thr_request *options,
+                            const thr_limits *limits, thr_status st, thr_plan *plan,
+                            thr_cords_word *word, thr_err *err)
 {
   enum { MOST_EDGES = 2000 };
   thr_err why = {0};
   int n = 0;
   const int before = plan->n_cords;
   double longest = 0;
-  if (st != THR_ELIMIT || options->max_length == 0 || options->max_pull > 0 || thr_wants_balance(options) ||
-      options->ends == THR_ENDS_COUNTS || frame->n_edges > MOST_EDGES ||
+  if (st != THR_ELIMIT || options->max_length == 0 || options->max_pull > 0 ||
+      thr_wants_balance(options) || options->ends == THR_ENDS_COUNTS ||
+      frame->n_edges > MOST_EDGES ||
       (plan->cords_claim.present && plan->cords_claim.fewest_optimal))
     return st;
   thr_status found = count_components(frame, &n, &why);
@@ -187,9 +204,10 @@ static thr_status few_short(const thr_frame *frame, const thr_request *options, 
   if (found == THR_ENOMEM) return thr_nomem(err);
   if (plan->n_cords == 0 && longest > 0) {
     *err = (thr_err){0};
-    return thr_fail(
-        err, st, "did not find %d cords with none longer than %g %s; with --balance instead of --max-length the longest is %g %s",
-        options->cords, options->max_length, frame->units, longest, frame->units);
+    return thr_fail(err, st,
+                    "did not find %d cords with none longer than %g %s; with --balance instead of "
+                    "--max-length the longest is %g %s",
+                    options->cords, options->max_length, frame->units, longest, frame->units);
   }
   if (found || n != 1 || plan->n_cords == before) return st;
   *word = (thr_cords_word){0};
@@ -197,13 +215,16 @@ static thr_status few_short(const thr_frame *frame, const thr_request *options, 
   return thr_cords_judge(plan, &(thr_err){0}, err);
 }
 
-thr_status thr_planner_length(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                              thr_report *report, thr_err *err)
+thr_status thr_planner_length(const thr_frame *frame, const thr_request *options,
+                              const thr_limits *limits, thr_plan *plan, thr_report *report,
+                              thr_err *err)
 {
   thr_cords_word word = {0};
   *plan = (thr_plan){0};
-  thr_status st = (options->joint == THR_JOINT_TUBE ? plan_tied : plan_solid)(frame, options, limits, plan, &word, err);
-  if (options->joint == THR_JOINT_SOLID) st = few_short(frame, options, limits, st, plan, &word, err);
+  thr_status st = (options->joint == THR_JOINT_TUBE ? plan_tied : plan_solid)(
+      frame, options, limits, plan, &word, err);
+  if (options->joint == THR_JOINT_SOLID)
+    st = few_short(frame, options, limits, st, plan, &word, err);
   if (report) report->word = word;
   return st;
 }
@@ -211,19 +232,22 @@ thr_status thr_planner_length(const thr_frame *frame, const thr_request *options
 bool thr_planner_is_quick(const thr_frame *frame, const thr_request *options)
 {
   enum { EDGES = 20000, DEGREE = 1000 };
-  return options->joint == THR_JOINT_SOLID && frame->n_edges <= EDGES && thr_frame_largest_degree(frame) <= DEGREE &&
-         options->engine != THR_ENGINE_LP;
+  return options->joint == THR_JOINT_SOLID && frame->n_edges <= EDGES &&
+         thr_frame_largest_degree(frame) <= DEGREE && options->engine != THR_ENGINE_LP;
 }
 
-thr_limits thr_planner_share(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_step step)
+thr_limits thr_planner_share(const thr_frame *frame, const thr_request *options,
+                             const thr_limits *limits, thr_step step)
 {
   const double least = 1;
   thr_limits share = thr_dispatch_share(limits, step);
-  if (share.deadline > 0 && thr_planner_is_quick(frame, options)) share.deadline = fmax(share.deadline, thr_clock() + least);
+  if (share.deadline > 0 && thr_planner_is_quick(frame, options))
+    share.deadline = fmax(share.deadline, thr_clock() + least);
   return share;
 }
 
-void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *shortest)
+void thr_planner_tell_first(const thr_frame *frame, const thr_request *options,
+                            const thr_limits *limits, thr_plan *shortest)
 {
   thr_request length = *options;
   thr_limits share = thr_planner_share(frame, options, limits, THR_STEP_FIRST);
@@ -235,10 +259,12 @@ void thr_planner_tell_first(const thr_frame *frame, const thr_request *options, 
   length.aims = thr_aims_shortest;
   length.turning = thr_request_default().turning;
   length.confirm = THR_CONFIRM_NEVER;
-  thr_status st = options->joint == THR_JOINT_TUBE ? thr_tube_some(frame, &length, &share, &tube, NULL)
-                                                   : thr_planner_length(frame, &length, &share, &p, NULL, NULL);
+  thr_status st = options->joint == THR_JOINT_TUBE
+                      ? thr_tube_some(frame, &length, &share, &tube, NULL)
+                      : thr_planner_length(frame, &length, &share, &p, NULL, NULL);
   if (!st || st == THR_ELIMIT)
-    thr_limits_found(limits, tube.cord ? tube.cord : p.cord, tube.cord ? tube.n_cords : p.n_cords, NULL);
+    thr_limits_found(limits, tube.cord ? tube.cord : p.cord, tube.cord ? tube.n_cords : p.n_cords,
+                     NULL);
   if (!st && shortest) {
     *shortest = p;
     p = (thr_plan){0};

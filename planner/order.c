@@ -1,4 +1,6 @@
-/* The order of work: among threadings of equal value the one in which what is threaded holds together. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The order of work: among threadings of equal value the one in which what is threaded holds
+ * together. */
 #include "planner/planner_parts.h"
 
 #include <limits.h>
@@ -11,7 +13,8 @@ enum { TRIED = 5 };
 static const double tried[TRIED] = {1, 1.01, 1.02, 1.05, 1.1};
 static const double rounding = 1e-12;
 
-/* Of cords of one component: all orders of so many; and so many visits of pieces, some 10 ms, are worth it. */
+/* Of cords of one component: all orders of so many; and so many visits of pieces, some 10 ms, are
+ * worth it. */
 enum { FEW_CORDS = 6, MOST_VISITS = 100000 };
 
 typedef struct {
@@ -41,15 +44,16 @@ bool thr_order_turns(const thr_request *request, const thr_cord *cord)
 
 bool thr_order_reverses(const thr_request *request, const thr_cord *cord)
 {
-  return cord->n_passes <= THR_ORDER_REVERSED && request->joint == THR_JOINT_SOLID && !thr_wants_symmetry(request) &&
+  return cord->n_passes <= THR_ORDER_REVERSED && request->joint == THR_JOINT_SOLID &&
+         !thr_wants_symmetry(request) &&
          (!thr_wants_turning(request) || request->turning.cost == THR_TURN_ANGLE);
 }
 
 /* May cords turn more than they were found to? */
 static bool has_slack(const thr_request *request)
 {
-  return request->joint == THR_JOINT_SOLID && request->max_pull == 0 && !thr_wants_turning(request) &&
-         !thr_wants_symmetry(request);
+  return request->joint == THR_JOINT_SOLID && request->max_pull == 0 &&
+         !thr_wants_turning(request) && !thr_wants_symmetry(request);
 }
 
 /* ---- beginnings ---- */
@@ -72,7 +76,8 @@ static thr_chains chains_now(work *x, const thr_cord *cord)
 
 static void keep(work *x, const thr_cord *cord)
 {
-  thr_threaded_keep(&x->threaded, x->piece, thr_cord_pieces(&x->plan->frame, x->plan->options.joint, cord, x->piece));
+  thr_threaded_keep(&x->threaded, x->piece,
+                    thr_cord_pieces(&x->plan->frame, x->plan->options.joint, cord, x->piece));
 }
 
 /* Which cords are begun alike: one, or a path and its copies, pass by pass. */
@@ -99,7 +104,8 @@ static thr_status add_chains(work *x, int c, bool backwards, thr_chains *sum, th
   return st;
 }
 
-/* Which starts the cords may have: those within their room, and of these only feet, if there are some. */
+/* Which starts the cords may have: those within their room, and of these only feet, if there are
+ * some. */
 static thr_status allow_starts(work *x, alike cords, thr_err *err)
 {
   const thr_frame *frame = &x->plan->frame;
@@ -136,7 +142,8 @@ static thr_status find_beginning(work *x, alike cords, int limit, beginning *bes
   for (int back = 0; back < 2 && !st; back++)
     for (int s = 0; s < (turns ? first->n_passes : 1); s++) {
       thr_chains chains = x->sum[(size_t)back * x->most + (size_t)s];
-      if ((!turns || x->allowed[s]) && is_better(chains, best->chains, limit)) *best = (beginning){s, back, chains};
+      if ((!turns || x->allowed[s]) && is_better(chains, best->chains, limit))
+        *best = (beginning){s, back, chains};
     }
   return st;
 }
@@ -147,7 +154,8 @@ static void begin(work *x, thr_cord *cord, const beginning *at)
   memcpy(cord->half, x->half, (size_t)cord->n_passes * sizeof *cord->half);
 }
 
-/* Cord c as the next one: begun where that is best, and run otherwise in parts if its chains stay long. */
+/* Cord c as the next one: begun where that is best, and run otherwise in parts if its chains stay
+ * long. */
 static thr_status thread_next(work *x, int c, thr_err *err)
 {
   beginning at;
@@ -176,10 +184,13 @@ typedef struct {
 
 static void forget(work *x)
 {
-  memset(x->threaded.on, 0, (size_t)thr_chains_pieces(&x->plan->frame, x->plan->options.joint) * sizeof *x->threaded.on);
+  memset(x->threaded.on, 0,
+         (size_t)thr_chains_pieces(&x->plan->frame, x->plan->options.joint) *
+             sizeof *x->threaded.on);
 }
 
-/* The best of all orders, by the sets of cords that may come first; chains no longer than limit are alike. */
+/* The best of all orders, by the sets of cords that may come first; chains no longer than limit are
+ * alike. */
 static thr_status try_orders(work *x, orders *o, int limit, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -243,11 +254,13 @@ static void find_room(work *x, int c)
   const thr_cord *cord = &plan->cord[c];
   double part = thr_order_reverses(&plan->options, cord) ? x->more : 1;
   x->room[c].exactly = thr_wants_turning(&plan->options);
-  x->room[c].turning = part * thr_cord_turning(&plan->frame, cord, thr_order_turns(&plan->options, cord));
+  x->room[c].turning =
+      part * thr_cord_turning(&plan->frame, cord, thr_order_turns(&plan->options, cord));
   x->room[c].pulled = part * thr_cord_pulled_turning(&plan->frame, cord);
 }
 
-/* The cords cord[n] of one component, of so many passes in all: threads them, and permutes the list to their order. */
+/* The cords cord[n] of one component, of so many passes in all: threads them, and permutes the list
+ * to their order. */
 static thr_status thread_cords(work *x, int *cord, int n, int64_t passes, thr_err *err)
 {
   bool few = n > 1 && n <= FEW_CORDS && passes << n <= MOST_VISITS;
@@ -322,7 +335,8 @@ static thr_status thread_paths(work *x, const int *order, thr_err *err)
   thr_status st = THR_OK;
   for (int first = 0, end; first < plan->n_cords && !st; first = end) {
     beginning at;
-    for (end = first + 1; end < plan->n_cords && plan->symmetry.unique[order[end]] == order[first]; end++)
+    for (end = first + 1; end < plan->n_cords && plan->symmetry.unique[order[end]] == order[first];
+         end++)
       follow_path(plan, order[end]);
     for (int i = first; i < end; i++)
       find_room(x, order[i]);
@@ -350,7 +364,8 @@ static thr_status order_paths(work *x, thr_err *err)
 
 static thr_status work_init(work *x, thr_plan *plan, double more, thr_err *err)
 {
-  *x = (work){.plan = plan, .more = more, .room = thr_calloc((size_t)plan->n_cords, sizeof *x->room)};
+  *x = (work){
+      .plan = plan, .more = more, .room = thr_calloc((size_t)plan->n_cords, sizeof *x->room)};
   for (int c = 0; c < plan->n_cords; c++)
     x->most = (size_t)plan->cord[c].n_passes > x->most ? (size_t)plan->cord[c].n_passes : x->most;
   x->half = thr_calloc(x->most, sizeof *x->half);
@@ -359,7 +374,8 @@ static thr_status work_init(work *x, thr_plan *plan, double more, thr_err *err)
   x->sum = thr_calloc(2 * x->most, sizeof *x->sum);
   x->pulled = thr_calloc(x->most, sizeof *x->pulled);
   x->allowed = thr_calloc(x->most, sizeof *x->allowed);
-  if (!x->room || !x->half || !x->piece || !x->chains || !x->sum || !x->pulled || !x->allowed) return thr_nomem(err);
+  if (!x->room || !x->half || !x->piece || !x->chains || !x->sum || !x->pulled || !x->allowed)
+    return thr_nomem(err);
   return thr_threaded_init(&x->threaded, &plan->frame, plan->options.joint, err);
 }
 
@@ -420,8 +436,8 @@ static thr_status order_all(thr_plan *plan, double more, thr_err *err)
   return st;
 }
 
-/* Is one order of work better than another? By hand in any way; else only if its longest chain is shorter, and chains that a hand
- * holds well are alike. */
+/* Is one order of work better than another? By hand in any way; else only if its longest chain is
+ * shorter, and chains that a hand holds well are alike. */
 static bool serves_better(bool by_hand, thr_chains a, thr_chains b)
 {
   if (by_hand) return thr_chains_compare(a, b) < 0;
@@ -435,7 +451,8 @@ static thr_status keep_cords(const thr_plan *plan, backup *b, thr_err *err)
   return save_cords(plan, b, err);
 }
 
-/* Orders the cords, if chains get shorter by it: without more turning, or with as little as serves. */
+/* Orders the cords, if chains get shorter by it: without more turning, or with as little as serves.
+ */
 static thr_status order_if_worth(thr_plan *plan, bool by_hand, bool *changed, thr_err *err)
 {
   const int n = !has_slack(&plan->options) ? 1 : by_hand ? TRIED : TRIED - 1;
@@ -473,8 +490,10 @@ thr_status thr_plan_order(thr_plan *plan, thr_err *err)
   if (order == THR_ORDER_PLANNED || plan->n_cords == 0) return THR_OK;
   thr_status st = order_if_worth(plan, order == THR_ORDER_HAND, &changed, err);
   if (st || !changed) return st;
-  const double length = plan->metrics.length; /* the same passes, whatever the order in which they are added up */
-  st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  const double length =
+      plan->metrics.length; /* the same passes, whatever the order in which they are added up */
+  st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics,
+                        err);
   plan->metrics.length = length;
   return st ? st : thr_plan_count_crossings(plan, err);
 }

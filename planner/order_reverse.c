@@ -1,5 +1,6 @@
-/* Parts of a cord between two visits of a node, run the other way round: as long, through the same passes, and with less loose
- * chains. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Parts of a cord between two visits of a node, run the other way round: as long, through the same
+ * passes, and with less loose chains. */
 #include "graph/plan/physics.h"
 #include "graph/random.h"
 #include "planner/planner_parts.h"
@@ -9,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A chain's pieces beyond those that a hand holds well count by their square, a turn of so many rad as one piece; heat at the
- * beginning, and at the end of that. */
+/* A chain's pieces beyond those that a hand holds well count by their square, a turn of so many rad
+ * as one piece; heat at the beginning, and at the end of that. */
 static const double turn_weight = 1, heat_first = 16, heat_last = 0.01;
 static const double most_steps = 20000, most_visits = 8e6; /* of pieces: 30 ms */
 
@@ -21,18 +22,19 @@ typedef struct {
   const thr_request *request;
   thr_turning_room room;
   thr_threaded *threaded;
-  bool turns;            /* it may begin anywhere */
-  bool feet;             /* at feet only */
-  thr_cord now;          /* half: [n] owned */
-  int *best, *half;      /* [n] the best passes, scratch; owned */
-  int *piece;            /* [n + 1] owned */
-  int *chain;            /* [n + 1] scratch; owned */
-  int *arm;              /* [2 n_edges] its number among those of its node; owned */
-  size_t *row;           /* [n_nodes + 1] where the node's turns begin; owned */
-  thr_channels channels; /* of all cords: those of others count; empty = channels may cross; owned */
-  int number;            /* of the cord */
-  double *angle;         /* [row[n_nodes]] from arm to arm, rad; < 0 = not asked for yet; owned */
-  uint64_t state;        /* of the random numbers */
+  bool turns;       /* it may begin anywhere */
+  bool feet;        /* at feet only */
+  thr_cord now;     /* half: [n] owned */
+  int *best, *half; /* [n] the best passes, scratch; owned */
+  int *piece;       /* [n + 1] owned */
+  int *chain;       /* [n + 1] scratch; owned */
+  int *arm;         /* [2 n_edges] its number among those of its node; owned */
+  size_t *row;      /* [n_nodes + 1] where the node's turns begin; owned */
+  thr_channels
+      channels;   /* of all cords: those of others count; empty = channels may cross; owned */
+  int number;     /* of the cord */
+  double *angle;  /* [row[n_nodes]] from arm to arm, rad; < 0 = not asked for yet; owned */
+  uint64_t state; /* of the random numbers */
 } annealer;
 
 /* ---- turns ---- */
@@ -70,7 +72,8 @@ static bool has_angles(annealer *x)
 static double angle_of(const annealer *x, int in, int out)
 {
   int v = thr_tail(x->frame, out);
-  double *angle = &x->angle[x->row[v] + (size_t)x->arm[in ^ 1] * (size_t)thr_degree(x->frame, v) + (size_t)x->arm[out]];
+  double *angle = &x->angle[x->row[v] + (size_t)x->arm[in ^ 1] * (size_t)thr_degree(x->frame, v) +
+                            (size_t)x->arm[out]];
   if (*angle < 0) *angle = thr_turn_angle(x->frame, in, out);
   return *angle;
 }
@@ -126,15 +129,17 @@ static double weigh(const worth *w)
 
 typedef enum { BEGIN, REVERSE, EXCHANGE } kind;
 
-/* Of passes at[0] .. at[n] - 1. BEGIN: the cord begins with pass at[0]. REVERSE: they are run the other way round. EXCHANGE: they
- * are three parts, between visits of nodes v, w, v, w, of which the first and the last change places. */
+/* Of passes at[0] .. at[n] - 1. BEGIN: the cord begins with pass at[0]. REVERSE: they are run the
+ * other way round. EXCHANGE: they are three parts, between visits of nodes v, w, v, w, of which the
+ * first and the last change places. */
 typedef struct {
   kind kind;
   int at[4];
   double turning; /* more, rad */
 } change;
 
-/* The turn from half-edge in to out, if there is one; INFINITY if a cord would turn back into its edge. */
+/* The turn from half-edge in to out, if there is one; INFINITY if a cord would turn back into its
+ * edge. */
 static double turn(const annealer *x, int in, int out)
 {
   if (in < 0 || out < 0) return 0;
@@ -160,8 +165,10 @@ static double turn_at(const annealer *x, int k)
 static double turning_of_reverse(const annealer *x, const int at[4])
 {
   if (at[0] == 0 && at[1] == x->now.n_passes) return 0;
-  double now = turn(x, into(x, at[0]), out_of(x, at[0])) + turn(x, into(x, at[1]), out_of(x, at[1]));
-  return turn(x, into(x, at[0]), into(x, at[1]) ^ 1) + turn(x, out_of(x, at[0]) ^ 1, out_of(x, at[1])) - now;
+  double now =
+      turn(x, into(x, at[0]), out_of(x, at[0])) + turn(x, into(x, at[1]), out_of(x, at[1]));
+  return turn(x, into(x, at[0]), into(x, at[1]) ^ 1) +
+         turn(x, out_of(x, at[0]) ^ 1, out_of(x, at[1])) - now;
 }
 
 static double turning_of_exchange(const annealer *x, const int at[4])
@@ -169,7 +176,8 @@ static double turning_of_exchange(const annealer *x, const int at[4])
   double now = turn(x, into(x, at[0]), out_of(x, at[0])) + turn_at(x, at[1]) + turn_at(x, at[2]) +
                turn(x, into(x, at[3]), out_of(x, at[3]));
   return turn(x, into(x, at[0]), out_of(x, at[2])) + turn(x, into(x, at[3]), out_of(x, at[1])) +
-         turn(x, into(x, at[2]), out_of(x, at[0])) + turn(x, into(x, at[1]), out_of(x, at[3])) - now;
+         turn(x, into(x, at[2]), out_of(x, at[0])) + turn(x, into(x, at[1]), out_of(x, at[3])) -
+         now;
 }
 
 static void reverse(int *half, int from, int end)
@@ -215,7 +223,8 @@ static void take_back(annealer *x, const change *c)
 
 /* ---- at random ---- */
 
-/* Another visit of the piece of visit k, of those from .. end - 1, from a random one on; -1: there is none. */
+/* Another visit of the piece of visit k, of those from .. end - 1, from a random one on; -1: there
+ * is none. */
 static int other_visit(annealer *x, int k, int from, int end)
 {
   int n = end - from, first = n > 0 ? thr_random_below(&x->state, n) : 0;
@@ -274,7 +283,8 @@ static int count_visits(const annealer *x)
   return x->now.n_passes + !x->turns;
 }
 
-/* Pairs of channels of node v that cross, one of them or both of the cord; piece is up to date. O(passes + channels^2). */
+/* Pairs of channels of node v that cross, one of them or both of the cord; piece is up to date.
+ * O(passes + channels^2). */
 static int crossings_in(const annealer *x, int v)
 {
   int n = 0;
@@ -284,17 +294,20 @@ static int crossings_in(const annealer *x, int v)
     if (one.in < 0 || one.out < 0) continue;
     for (int i = k + 1; i < count_visits(x); i++) {
       thr_channel other = channel_at(x, i);
-      n += x->piece[i] == v && other.in >= 0 && other.out >= 0 && thr_channels_cross(x->channels.rank, &one, &other);
+      n += x->piece[i] == v && other.in >= 0 && other.out >= 0 &&
+           thr_channels_cross(x->channels.rank, &one, &other);
     }
     for (int i = x->channels.first[v]; i < x->channels.first[v + 1]; i++) {
       const thr_channel *other = &x->channels.channel[i];
-      n += other->cord != x->number && other->in >= 0 && other->out >= 0 && thr_channels_cross(x->channels.rank, &one, other);
+      n += other->cord != x->number && other->in >= 0 && other->out >= 0 &&
+           thr_channels_cross(x->channels.rank, &one, other);
     }
   }
   return n;
 }
 
-/* Those in the nodes v and w whose channels a change changes; none for a cord that is only begun elsewhere. */
+/* Those in the nodes v and w whose channels a change changes; none for a cord that is only begun
+ * elsewhere. */
 static int crossings_of(const annealer *x, const change *c, int v, int w)
 {
   if (!x->channels.rank || c->kind == BEGIN) return 0;
@@ -303,7 +316,8 @@ static int crossings_of(const annealer *x, const change *c, int v, int w)
 
 static bool has_channels(annealer *x, const thr_plan *plan)
 {
-  return plan->options.crossings == THR_CROSSINGS_ALLOW || thr_channels_make(&x->channels, plan, NULL) == THR_OK;
+  return plan->options.crossings == THR_CROSSINGS_ALLOW ||
+         thr_channels_make(&x->channels, plan, NULL) == THR_OK;
 }
 
 /* ---- annealing ---- */
@@ -340,13 +354,19 @@ static void anneal(annealer *x)
   }
 }
 
-thr_status thr_order_reverse(const thr_plan *plan, int c, thr_turning_room room, thr_threaded *threaded, thr_err *err)
+thr_status thr_order_reverse(const thr_plan *plan, int c, thr_turning_room room,
+                             thr_threaded *threaded, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   const thr_request *request = &plan->options;
   thr_cord *cord = &plan->cord[c];
   size_t n = (size_t)cord->n_passes;
-  annealer x = {.frame = frame, .request = request, .room = room, .threaded = threaded, .now = *cord, .number = c};
+  annealer x = {.frame = frame,
+                .request = request,
+                .room = room,
+                .threaded = threaded,
+                .now = *cord,
+                .number = c};
   if (count_angles(frame) > MOST_ANGLES) return THR_OK;
   x.turns = thr_order_turns(request, cord);
   x.now.half = thr_calloc(n, sizeof *x.now.half);
@@ -354,7 +374,8 @@ thr_status thr_order_reverse(const thr_plan *plan, int c, thr_turning_room room,
   x.half = thr_calloc(n, sizeof *x.half);
   x.piece = thr_calloc(n + 1, sizeof *x.piece);
   x.chain = thr_calloc(n + 1, sizeof *x.chain);
-  bool all = has_angles(&x) && has_channels(&x, plan) && (x.now.half && x.best && x.half && x.piece && x.chain);
+  bool all = has_angles(&x) && has_channels(&x, plan) &&
+             (x.now.half && x.best && x.half && x.piece && x.chain);
   for (size_t k = 0; k < n && all; k++)
     x.feet |= frame->foot[thr_tail(frame, cord->half[k])];
   if (all) {

@@ -1,4 +1,6 @@
-/* Proofs of one plan for the cords of another, and what is kept of a plan of which not every proof holds. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Proofs of one plan for the cords of another, and what is kept of a plan of which not every proof
+ * holds. */
 #include "graph/check/check.h"
 #include "planner/planner_parts.h"
 #include "tortuosity/tie/tie.h"
@@ -10,12 +12,14 @@ static thr_status judge_cords(thr_plan *plan, thr_err *err)
 {
   thr_length_proof *proof = &plan->proof;
   thr_err why = {0};
-  thr_status st = thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
-                                  proof->n_certificates, &proof->walks, &plan->cords_claim, &why);
-  if (st != THR_EVIOLATED || !(proof->walks.unit || proof->walks.sets)) return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  thr_status st =
+      thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
+                      proof->n_certificates, &proof->walks, &plan->cords_claim, &why);
+  if (st != THR_EVIOLATED || !(proof->walks.unit || proof->walks.sets))
+    return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
   thr_walk_proof_destroy(&proof->walks);
-  return thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates, NULL,
-                         &plan->cords_claim, err);
+  return thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords,
+                         proof->certificate, proof->n_certificates, NULL, &plan->cords_claim, err);
 }
 
 thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
@@ -29,14 +33,17 @@ thr_status thr_planner_prove_length(thr_plan *plan, thr_plan *p, thr_err *err)
     thr_status st = thr_tied_least(frame, options, &tube.proof, &tube.bound, err);
     if (!st) thr_tube_prove(&tube, plan->metrics.length, &plan->proof);
     thr_tube_destroy(&tube);
-    return st ? st : thr_check_tied_cords(frame, options, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim, err);
+    return st ? st
+              : thr_check_tied_cords(frame, options, plan->cord, plan->n_cords, &plan->proof.tied,
+                                     &plan->cords_claim, err);
   }
   thr_shortest s = {.n_certificates = from->n_certificates, .certificate = from->certificate};
   s.confirmed.confirmed = from->confirmed;
   s.confirmed.skipped = from->unconfirmed;
   from->certificate = NULL;
   from->n_certificates = 0;
-  thr_status st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, &s, &plan->proof, err);
+  thr_status st =
+      thr_postman_prove(frame, options, plan->cord, plan->n_cords, &s, &plan->proof, err);
   thr_shortest_destroy(&s);
   plan->proof.walks = from->walks;
   from->walks = (thr_walk_proof){0};
@@ -55,7 +62,8 @@ thr_status thr_planner_prove_turning(thr_plan *plan, thr_turning_claim *claim, t
   if (!claim->present) return THR_OK;
   claim->length_limit = thr_planner_length_limit(plan, claim->length_limit);
   thr_turning_claim found;
-  thr_status st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, claim, &found, &why);
+  thr_status st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, claim,
+                                    &found, &why);
   if (st == THR_EVIOLATED) return THR_OK;
   if (st) return thr_fail(err, st, "%s", why.text);
   plan->turning = found;
@@ -69,14 +77,16 @@ thr_status thr_planner_prove_again(thr_plan *plan, thr_err *err)
   thr_plan before = {.proof = plan->proof, .turning = plan->turning};
   plan->proof = (thr_length_proof){0};
   plan->turning = (thr_turning_claim){0};
-  thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  thr_status st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords,
+                                   &plan->metrics, err);
   if (!st && before.proof.present) {
     const thr_walk_proof pulled = before.proof.pulled;
     before.proof.pulled = (thr_walk_proof){0};
     st = thr_planner_prove_length(plan, &before, err);
     plan->proof.pulled = pulled;
     if (!st && pulled.unit) st = thr_planner_judge_length(plan, err);
-    plan->proof.slack_open = !thr_plan_within_slack(&plan->options, plan->metrics.length, plan->proof.lower_bound);
+    plan->proof.slack_open =
+        !thr_plan_within_slack(&plan->options, plan->metrics.length, plan->proof.lower_bound);
   }
   if (!st) st = thr_planner_prove_turning(plan, &before.turning, err);
   thr_plan_destroy(&before);
@@ -89,12 +99,15 @@ thr_status thr_planner_verdict(const thr_plan *plan, thr_err *err)
   const thr_length_proof *length = &plan->proof;
   bool largest = thr_wants_largest(&plan->options);
   if (thr_wants_balance(&plan->options) && !plan->cords_claim.longest_optimal)
-    return thr_not_proved(err, "the length of the longest cord", plan->cords_claim.longest, plan->cords_claim.longest_bound);
+    return thr_not_proved(err, "the length of the longest cord", plan->cords_claim.longest,
+                          plan->cords_claim.longest_bound);
   if (thr_wants_length(&plan->options) && length->optimal) return THR_OK;
-  if (thr_wants_length(&plan->options)) return thr_not_proved(err, "the length", plan->metrics.length, length->lower_bound);
+  if (thr_wants_length(&plan->options))
+    return thr_not_proved(err, "the length", plan->metrics.length, length->lower_bound);
   if (!claim->present) return thr_fail(err, THR_ELIMIT, "nothing is proved of the turning");
   if (largest ? claim->largest_optimal : claim->optimal) return THR_OK;
-  return largest ? thr_not_proved(err, thr_largest_name(&plan->options), claim->largest, claim->largest_bound)
+  return largest ? thr_not_proved(err, thr_largest_name(&plan->options), claim->largest,
+                                  claim->largest_bound)
                  : thr_not_proved(err, "the turning", claim->price, claim->lower_bound);
 }
 
@@ -108,7 +121,8 @@ static bool keeps_to_limits(const thr_plan *plan)
   return !(plan->proof.present && plan->proof.slack_open && request->turning.length_slack >= 0) &&
          (request->distinct == 0 || plan->metrics.distinct == plan->frame.n_edges) &&
          (request->max_length == 0 || longest <= request->max_length * (1 + 1e-9)) &&
-         (request->max_pull == 0 || thr_cords_within_pull(&plan->frame, request, plan->cord, plan->n_cords)) &&
+         (request->max_pull == 0 ||
+          thr_cords_within_pull(&plan->frame, request, plan->cord, plan->n_cords)) &&
          (request->crossings != THR_CROSSINGS_FORBID || plan->metrics.crossings == 0);
 }
 
@@ -120,7 +134,8 @@ static bool has_few_cords(const thr_plan *plan, double gap)
   const bool few = request->cords_least < request->cords;
   const int least = pull->present ? pull->fewest : plan->cords_claim.fewest;
   if (!few || (request->max_pull == 0 && request->max_length == 0)) return true;
-  return (pull->present && pull->optimal) || (plan->cords_claim.present && plan->cords_claim.fewest_optimal) ||
+  return (pull->present && pull->optimal) ||
+         (plan->cords_claim.present && plan->cords_claim.fewest_optimal) ||
          plan->n_cords <= least * (1 + gap);
 }
 
@@ -130,7 +145,9 @@ bool thr_planner_is_enough(const thr_plan *plan, const thr_limits *limits)
   const double gap = thr_request_gap(request) + 1e-12;
   if (plan->n_cords == 0 || !keeps_to_limits(plan)) return false;
   const bool is_proved = thr_wants_symmetry(request) || thr_plan_gap(plan) < INFINITY;
-  if (request->gap < 0 && limits->usual && is_proved && (!thr_wants_length(request) || request->max_pull > 0)) return true;
+  if (request->gap < 0 && limits->usual && is_proved &&
+      (!thr_wants_length(request) || request->max_pull > 0))
+    return true;
   return thr_plan_gap(plan) <= gap && has_few_cords(plan, gap);
 }
 
@@ -155,16 +172,19 @@ static int count_claims(int claims)
 }
 
 /* Reads the plan without some claims, and checks it. plan is empty on failure. */
-static thr_status confirm_without(thr_plan *plan, const thr_text *text, const char *name, int claims, thr_err *err)
+static thr_status confirm_without(thr_plan *plan, const thr_text *text, const char *name,
+                                  int claims, thr_err *err)
 {
   thr_status st = thr_plan_parse_without(plan, text->data, text->length, name, claims, err);
   if (!st && (st = thr_check_plan(plan, err))) thr_plan_destroy(plan);
   return st;
 }
 
-thr_status thr_plan_confirm(thr_plan *plan, thr_text *text, const char *name, int *dropped, thr_err *err)
+thr_status thr_plan_confirm(thr_plan *plan, thr_text *text, const char *name, int *dropped,
+                            thr_err *err)
 {
-  const int confirmed = plan->proof.confirmed, unconfirmed = plan->proof.unconfirmed; /* are not written */
+  const int confirmed = plan->proof.confirmed,
+            unconfirmed = plan->proof.unconfirmed; /* are not written */
   thr_err why = {0};
   *dropped = 0;
   thr_status st = thr_plan_parse_back(plan, text->data, text->length, name, &why);

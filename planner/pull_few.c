@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Few cords within a limit on the pull, as the programme over walks finds them. */
 #include "graph/plan/walk_proof.h"
 #include "planner/planner_parts.h"
@@ -5,8 +6,8 @@
 
 #include <stdlib.h>
 
-thr_status thr_planner_some_cords(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *some,
-                                  thr_err *err)
+thr_status thr_planner_some_cords(const thr_frame *frame, const thr_request *options,
+                                  const thr_limits *limits, thr_plan *some, thr_err *err)
 {
   thr_request any = *options;
   thr_limits quiet = *limits;
@@ -20,17 +21,18 @@ thr_status thr_planner_some_cords(const thr_frame *frame, const thr_request *opt
 }
 
 /* Those of a component become the last of the plan. *found false: there are none. */
-static thr_status add_component(const thr_turning_columns *columns, const thr_plan *some, int component, const thr_limits *limits,
-                                thr_plan *plan, bool *found, thr_err *err)
+static thr_status add_component(const thr_turning_columns *columns, const thr_plan *some,
+                                int component, const thr_limits *limits, thr_plan *plan,
+                                bool *found, thr_err *err)
 {
   const thr_request *options = &plan->options;
   thr_cord *cord = plan->cord + plan->n_cords;
   int n = 0;
-  thr_status st =
-      thr_walk_pull_few(columns, options, some->cord, some->n_cords, component, limits, options->cords, cord, &n, err);
+  thr_status st = thr_walk_pull_few(columns, options, some->cord, some->n_cords, component, limits,
+                                    options->cords, cord, &n, err);
   for (int i = 0; i < n; i++) {
-    cord[i].closed =
-        options->ends == THR_ENDS_CLOSED || thr_cord_start(&plan->frame, &cord[i]) == thr_cord_end(&plan->frame, &cord[i]);
+    cord[i].closed = options->ends == THR_ENDS_CLOSED ||
+                     thr_cord_start(&plan->frame, &cord[i]) == thr_cord_end(&plan->frame, &cord[i]);
     thr_cord_id(plan->n_cords + i, cord[i].id);
   }
   plan->n_cords += n;
@@ -54,8 +56,8 @@ int thr_planner_most_cords(const thr_plan *plan, int *component)
 }
 
 /* Every component's cords. *found false: not of all. */
-static thr_status find_cords(const thr_turning_columns *columns, const thr_plan *some, const thr_limits *limits, thr_plan *plan,
-                             bool *found, thr_err *err)
+static thr_status find_cords(const thr_turning_columns *columns, const thr_plan *some,
+                             const thr_limits *limits, thr_plan *plan, bool *found, thr_err *err)
 {
   const size_t most = (size_t)plan->options.cords * (size_t)columns->n_components;
   thr_status st = THR_OK;
@@ -66,12 +68,15 @@ static thr_status find_cords(const thr_turning_columns *columns, const thr_plan 
     st = add_component(columns, some, k, &share, plan, found, err);
   }
   *found = *found && thr_cords_within_pull(&plan->frame, &plan->options, plan->cord, plan->n_cords);
-  if (!st && *found) st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  if (!st && *found)
+    st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics,
+                          err);
   return st;
 }
 
-thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *options, const thr_plan *some,
-                                const thr_limits *limits, thr_plan *plan, thr_err *err)
+thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *options,
+                                const thr_plan *some, const thr_limits *limits, thr_plan *plan,
+                                thr_err *err)
 {
   thr_turning_columns columns = {0};
   bool found = false, *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
@@ -87,10 +92,12 @@ thr_status thr_planner_pull_few(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
-/* More than the known number are too few: of the component that has most cords in a plan within the pull, fewer than it has;
- * where no plan is within it, of some component as many as the options allow. */
-static thr_status exclude(const thr_turning_columns *columns, const thr_request *options, const thr_plan *plan, int known,
-                          const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err)
+/* More than the known number are too few: of the component that has most cords in a plan within the
+ * pull, fewer than it has; where no plan is within it, of some component as many as the options
+ * allow. */
+static thr_status exclude(const thr_turning_columns *columns, const thr_request *options,
+                          const thr_plan *plan, int known, const thr_limits *limits,
+                          thr_walk_proof *walks, int *excluded, thr_err *err)
 {
   const bool within = thr_cords_within_pull(columns->f, options, plan->cord, plan->n_cords);
   int largest;
@@ -99,14 +106,15 @@ static thr_status exclude(const thr_turning_columns *columns, const thr_request 
   thr_status st = THR_OK;
   for (int k = first; k < end && !st && *excluded == 0; k++) {
     const thr_limits share = thr_limits_part(limits, 1.0 / (end - k));
-    st = thr_walk_pull_too_few(columns, options, plan->cord, plan->n_cords, k, known, within ? number - 1 : options->cords,
-                               &share, walks, excluded, err);
+    st = thr_walk_pull_too_few(columns, options, plan->cord, plan->n_cords, k, known,
+                               within ? number - 1 : options->cords, &share, walks, excluded, err);
   }
   return st;
 }
 
-thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *options, const thr_plan *plan, int known,
-                                    const thr_limits *limits, thr_walk_proof *walks, int *excluded, thr_err *err)
+thr_status thr_planner_pull_too_few(const thr_frame *frame, const thr_request *options,
+                                    const thr_plan *plan, int known, const thr_limits *limits,
+                                    thr_walk_proof *walks, int *excluded, thr_err *err)
 {
   thr_turning_columns columns = {0};
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);

@@ -1,10 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is proved of the cord that is hardest to pull.
  *
- * Three kinds of proof are tried (docs/plan-format.md, "The cord that is hardest to pull"), and the one that proves most is
- * taken: the search's own tree, read for sides of cut turns; prices of walks, by bisection on the turning of a side; and in
- * components of few edges all sets of edges that cords can pass, by bisection on the bound that is claimed.
+ * Three kinds of proof are tried (docs/plan-format.md, "The cord that is hardest to pull"), and the
+ * one that proves most is taken: the search's own tree, read for sides of cut turns; prices of
+ * walks, by bisection on the turning of a side; and in components of few edges all sets of edges
+ * that cords can pass, by bisection on the bound that is claimed.
  *
- * Example: three edges that meet at right angles take one open cord that turns back; it is pulled through 90 degrees. */
+ * Example: three edges that meet at right angles take one open cord that turns back; it is pulled
+ * through 90 degrees. */
 #include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/plan/walk_proof.h"
@@ -14,8 +17,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Work that is counted for prices of walks, in seconds, beside what the search for cords is allowed: where nobody has said how
- * long it may take, and where somebody has. On a 7 x 7 dome with 2 to 8 cords the first proves 93 % of what the second does. */
+/* Work that is counted for prices of walks, in seconds, beside what the search for cords is
+ * allowed: where nobody has said how long it may take, and where somebody has. On a 7 x 7 dome with
+ * 2 to 8 cords the first proves 93 % of what the second does. */
 static const double usual_work = 1, most_work = 10;
 
 typedef struct {
@@ -26,8 +30,8 @@ typedef struct {
   thr_turning_claim *claim; /* of the cords: what is proved so far, and by what */
 } bounding;
 
-/* Takes claim, whose tree and walks become those of the best claim so far, if it proves more than that; else leaves it alone.
- * *more: it did. */
+/* Takes claim, whose tree and walks become those of the best claim so far, if it proves more than
+ * that; else leaves it alone. *more: it did. */
 static thr_status try_claim(bounding *b, thr_turning_claim *claim, bool *more, thr_err *err)
 {
   thr_turning_claim found;
@@ -52,11 +56,13 @@ static double sharpest_turn(const thr_frame *frame)
   return most;
 }
 
-/* Chooses what turns count for at most where the tree is read for a pull: the sharpest turn, or some other part of 180 degrees.
+/* Chooses what turns count for at most where the tree is read for a pull: the sharpest turn, or
+ * some other part of 180 degrees.
  */
 static thr_status choose_cut(bounding *b, thr_err *err)
 {
-  const double cuts[] = {fmax(sharpest_turn(b->frame), 1e-3) / THR_PI, 0.5, 0.25, 0.375, 0.625, 0.75, 1};
+  const double cuts[] = {
+      fmax(sharpest_turn(b->frame), 1e-3) / THR_PI, 0.5, 0.25, 0.375, 0.625, 0.75, 1};
   thr_status st = THR_OK;
   for (size_t i = 0; i < sizeof cuts / sizeof *cuts && !st && !b->claim->largest_optimal; i++) {
     thr_turning_claim claim = *b->claim;
@@ -101,7 +107,9 @@ static thr_status claim_few(bounding *b, thr_err *err)
   enum { MOST_EDGES = 64, STEPS = 12 };
   double low = b->claim->largest_bound, high = b->claim->largest;
   thr_status st = THR_OK;
-  for (int i = 0; i < STEPS && !st && !b->claim->largest_optimal && (i == 0 || b->frame->n_edges <= MOST_EDGES); i++) {
+  for (int i = 0; i < STEPS && !st && !b->claim->largest_optimal &&
+                  (i == 0 || b->frame->n_edges <= MOST_EDGES);
+       i++) {
     thr_turning_claim claim = *b->claim;
     bool more;
     claim.largest_bound = i == 0 ? high : (low + high) / 2;
@@ -114,8 +122,9 @@ static thr_status claim_few(bounding *b, thr_err *err)
   return st;
 }
 
-thr_status thr_planner_pull_least(const thr_frame *frame, const thr_request *request, const thr_cord *cord, int n_cords,
-                                  const thr_limits *limits, thr_turning_claim *claim, thr_err *err)
+thr_status thr_planner_pull_least(const thr_frame *frame, const thr_request *request,
+                                  const thr_cord *cord, int n_cords, const thr_limits *limits,
+                                  thr_turning_claim *claim, thr_err *err)
 {
   bounding b = {frame, request, cord, n_cords, claim};
   if (!thr_wants_pull(request) || !claim->present) return THR_OK;

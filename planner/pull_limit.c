@@ -1,9 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plans within a limit on the pull: as few cords as that takes, then the aims with so many.
  *
- * With both ends pulled a limit on the pull is one on the turns on either side of a cord's cut turn (docs/plan-format.md,
- * "Threadings within a pull"). How many cords it takes is bounded from below by the turning of all of them shared out evenly, by
- * single edges, by all sets of cords through few edges, and by the worth of walks; from above by cords of which the one that
- * turns most turns little, and by cords of the programme over walks. */
+ * With both ends pulled a limit on the pull is one on the turns on either side of a cord's cut turn
+ * (docs/plan-format.md, "Threadings within a pull"). How many cords it takes is bounded from below
+ * by the turning of all of them shared out evenly, by single edges, by all sets of cords through
+ * few edges, and by the worth of walks; from above by cords of which the one that turns most turns
+ * little, and by cords of the programme over walks. */
 #include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
@@ -12,12 +14,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Counted work (graph/limits.h) for a second that the user allows, so that the plan does not depend on the machine: to find how
- * many cords it takes, by search, by walks and by annealing fewer, and then cords that serve the aims. Together they take a tenth
- * of that second up to twice as long. */
-static const double work_to_find = 1.2, work_to_choose = 1.2, work_to_anneal = 0.5, work_to_serve = 0.6;
+/* Counted work (graph/limits.h) for a second that the user allows, so that the plan does not depend
+ * on the machine: to find how many cords it takes, by search, by walks and by annealing fewer, and
+ * then cords that serve the aims. Together they take a tenth of that second up to twice as long. */
+static const double work_to_find = 1.2, work_to_choose = 1.2, work_to_anneal = 0.5,
+                    work_to_serve = 0.6;
 
-/* How many times as much work is done once more where the usual work found no cords, and they were not proved too few. */
+/* How many times as much work is done once more where the usual work found no cords, and they were
+ * not proved too few. */
 static const double where_none_is_found = 10;
 
 typedef struct {
@@ -29,7 +33,7 @@ typedef struct {
   thr_plan found;       /* within the limit, of the fewest cords so far; n_cords is 0: none yet */
   int number;           /* of them in every component */
   bool is_short;        /* they were found as short cords, not as ones that turn little */
-  double beyond;        /* the last cords turn by this part more than they may, at most twice as much */
+  double beyond; /* the last cords turn by this part more than they may, at most twice as much */
 } fewest;
 
 static void fewest_destroy(fewest *x)
@@ -45,8 +49,9 @@ static bool is_range(const thr_request *options)
 
 /* ---- too few ---- */
 
-/* Takes the tree of a plan if it proves that n cords in every component are too few. What walks are worth is about the turning of
- * whole cords, and left out. Of what a cut turn may count for, what proves it is found by trying. */
+/* Takes the tree of a plan if it proves that n cords in every component are too few. What walks are
+ * worth is about the turning of whole cords, and left out. Of what a cut turn may count for, what
+ * proves it is found by trying. */
 static thr_status rule_out(fewest *x, int n, thr_turning_claim *made, thr_err *err)
 {
   static const double cuts[] = {0.5, 0.25, 0.375, 0.625, 0.75, 1}; /* of 180 degrees */
@@ -89,7 +94,8 @@ static thr_status rule_out_few(fewest *x, thr_err *err)
 /* ---- plans of one number ---- */
 
 /* n cords in every component for an aim, in a part of the time. THR_OK with or without a plan. */
-static thr_status plan_number(const fewest *x, int n, thr_aim aim, thr_step step, thr_plan *plan, thr_err *err)
+static thr_status plan_number(const fewest *x, int n, thr_aim aim, thr_step step, thr_plan *plan,
+                              thr_err *err)
 {
   thr_request options = *x->o;
   thr_limits share = thr_dispatch_share(x->limits, step);
@@ -100,7 +106,8 @@ static thr_status plan_number(const fewest *x, int n, thr_aim aim, thr_step step
   options.max_length = 0;
   if (options.ends != THR_ENDS_COUNTS) options.cords = options.cords_least = n;
   const bool annealed = step == THR_STEP_FEW_ANNEAL, shortest = aim == THR_AIM_LENGTH;
-  if (annealed || shortest) options.max_pull = 0; /* all of the work goes into even cords, none into a proof */
+  if (annealed || shortest)
+    options.max_pull = 0; /* all of the work goes into even cords, none into a proof */
   thr_status st = annealed   ? thr_planner_turning(x->f, &options, &share, plan, NULL, &why)
                   : shortest ? thr_planner_length(x->f, &options, &share, plan, NULL, &why)
                              : thr_tortuosity_plan(x->f, &options, &share, plan, &why);
@@ -108,14 +115,18 @@ static thr_status plan_number(const fewest *x, int n, thr_aim aim, thr_step step
   return THR_OK; /* what else fails leaves no plan */
 }
 
-/* What the turning of so many cords is at least, on average; and whether they are too few. 0: not known. */
+/* What the turning of so many cords is at least, on average; and whether they are too few. 0: not
+ * known. */
 static thr_status bound_number(fewest *x, int n, double *each, thr_err *err)
 {
   thr_plan plan;
   thr_status st = plan_number(x, n, THR_AIM_TURNING, THR_STEP_FEW_BOUND, &plan, err);
-  *each = plan.turning.present && plan.n_cords > 0 ? plan.turning.lower_bound * n / plan.n_cords : 0; /* of a component */
-  if (!st && x->o->cords > n && n == x->o->cords_least) st = rule_out(x, x->o->cords, &plan.turning, err);
-  if (!st && *each > 0 && ceil(*each / x->most) - 1 < n && ceil(*each / x->most) > x->o->cords_least)
+  *each = plan.turning.present && plan.n_cords > 0 ? plan.turning.lower_bound * n / plan.n_cords
+                                                   : 0; /* of a component */
+  if (!st && x->o->cords > n && n == x->o->cords_least)
+    st = rule_out(x, x->o->cords, &plan.turning, err);
+  if (!st && *each > 0 && ceil(*each / x->most) - 1 < n &&
+      ceil(*each / x->most) > x->o->cords_least)
     st = rule_out(x, (int)ceil(*each / x->most) - 1, &plan.turning, err);
   if (!st) st = rule_out(x, n, &plan.turning, err);
   thr_plan_destroy(&plan);
@@ -137,20 +148,24 @@ static void take_found(fewest *x, thr_plan *plan, int number)
 static bool keeps(const fewest *x, const thr_plan *plan)
 {
   const double limit = x->o->max_length * (1 + 1e-12);
-  const bool short_enough = limit == 0 || thr_cords_longest(x->f, plan->cord, plan->n_cords) <= limit;
-  return plan->n_cords > 0 && short_enough && thr_cords_within_pull(x->f, x->o, plan->cord, plan->n_cords);
+  const bool short_enough =
+      limit == 0 || thr_cords_longest(x->f, plan->cord, plan->n_cords) <= limit;
+  return plan->n_cords > 0 && short_enough &&
+         thr_cords_within_pull(x->f, x->o, plan->cord, plan->n_cords);
 }
 
-/* How many cords are too few by walks, if that is more than is known; where none were found that may be all that are allowed.
- * some: any cords. */
+/* How many cords are too few by walks, if that is more than is known; where none were found that
+ * may be all that are allowed. some: any cords. */
 static thr_status exclude_by_walks(fewest *x, const thr_plan *some, thr_err *err)
 {
   const thr_limits share = thr_dispatch_share(x->limits, THR_STEP_FEW_WALKS);
   thr_walk_proof walks = {0};
   int excluded = 0;
-  if (x->found.n_cords > 0 && (!is_range(x->o) || x->number - 1 <= x->claim.excluded)) return THR_OK;
+  if (x->found.n_cords > 0 && (!is_range(x->o) || x->number - 1 <= x->claim.excluded))
+    return THR_OK;
   const thr_plan *plan = x->found.n_cords > 0 ? &x->found : some;
-  thr_status st = thr_planner_pull_too_few(x->f, x->o, plan, x->claim.excluded, &share, &walks, &excluded, err);
+  thr_status st =
+      thr_planner_pull_too_few(x->f, x->o, plan, x->claim.excluded, &share, &walks, &excluded, err);
   if (!st && excluded > x->claim.excluded) {
     thr_turning_proof_destroy(&x->claim.tree);
     thr_walk_proof_destroy(&x->claim.walks);
@@ -162,7 +177,8 @@ static thr_status exclude_by_walks(fewest *x, const thr_plan *some, thr_err *err
   return st;
 }
 
-/* Fewer cords by the programme over walks than were found without, unless these are proved to be few enough. */
+/* Fewer cords by the programme over walks than were found without, unless these are proved to be
+ * few enough. */
 static thr_status use_walks(fewest *x, thr_err *err)
 {
   enum { MOST_EDGES = 500 }; /* no walks that serve are found in larger frameworks in the time */
@@ -170,13 +186,15 @@ static thr_status use_walks(fewest *x, thr_err *err)
   thr_plan plan = {0}, some;
   thr_err why = {0};
   int component;
-  if (x->o->joint == THR_JOINT_TUBE || x->o->physics.mu <= 0 || x->f->n_edges > MOST_EDGES) return THR_OK;
+  if (x->o->joint == THR_JOINT_TUBE || x->o->physics.mu <= 0 || x->f->n_edges > MOST_EDGES)
+    return THR_OK;
   if (x->found.n_cords > 0 && x->number - 1 <= x->claim.excluded) return THR_OK;
   thr_status st = thr_planner_some_cords(x->f, x->o, &share, &some, &why);
   st = st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* what else fails leaves none */
   if (!st) st = thr_planner_pull_few(x->f, x->o, &some, &share, &plan, err);
   const int number = thr_planner_most_cords(&plan, &component);
-  if (!st && keeps(x, &plan) && (x->found.n_cords == 0 || number < x->number)) take_found(x, &plan, number);
+  if (!st && keeps(x, &plan) && (x->found.n_cords == 0 || number < x->number))
+    take_found(x, &plan, number);
   thr_plan_destroy(&plan);
   if (!st) st = exclude_by_walks(x, &some, err);
   thr_plan_destroy(&some);
@@ -189,7 +207,8 @@ static thr_status try_number(fewest *x, int n, thr_step step, bool *fits, thr_er
   thr_plan plan;
   thr_status st = plan_number(x, n, THR_AIM_MAX_TURNING, step, &plan, err);
   *fits = !st && keeps(x, &plan);
-  double turning = plan.n_cords > 0 ? thr_cords_pulled_turning(x->f, plan.cord, plan.n_cords) : INFINITY;
+  double turning =
+      plan.n_cords > 0 ? thr_cords_pulled_turning(x->f, plan.cord, plan.n_cords) : INFINITY;
   x->beyond = fmin(1, fmax(0, turning / thr_request_most_pulled(x->o) - 1));
   if (*fits && (x->found.n_cords == 0 || n < x->number + x->is_short)) {
     take_found(x, &plan, n);
@@ -200,15 +219,18 @@ static thr_status try_number(fewest *x, int n, thr_step step, bool *fits, thr_er
   return st;
 }
 
-/* Short cords, which may turn back at their ends where those that turn little do not; closed ones over single edges are within
- * many a limit. Numbers that are not excluded are tried from the least on, as a small framework may hold some of them. */
+/* Short cords, which may turn back at their ends where those that turn little do not; closed ones
+ * over single edges are within many a limit. Numbers that are not excluded are tried from the least
+ * on, as a small framework may hold some of them. */
 static thr_status try_short(fewest *x, thr_err *err)
 {
   enum { MOST_EDGES = 18 };
   const int most = x->o->cords < x->f->n_edges ? x->o->cords : x->f->n_edges;
   thr_status st = THR_OK;
-  if (x->o->ends != THR_ENDS_CLOSED || x->o->joint == THR_JOINT_TUBE || x->f->n_edges > MOST_EDGES) return THR_OK;
-  for (int n = x->claim.excluded + 1; n <= most && !st && x->found.n_cords == 0 && !thr_limits_stop(x->limits); n++) {
+  if (x->o->ends != THR_ENDS_CLOSED || x->o->joint == THR_JOINT_TUBE || x->f->n_edges > MOST_EDGES)
+    return THR_OK;
+  for (int n = x->claim.excluded + 1;
+       n <= most && !st && x->found.n_cords == 0 && !thr_limits_stop(x->limits); n++) {
     thr_plan plan;
     st = plan_number(x, n, THR_AIM_LENGTH, THR_STEP_FEW_TRY, &plan, err);
     if (!st && keeps(x, &plan)) take_found(x, &plan, n);
@@ -225,7 +247,8 @@ static bool is_over(const fewest *x)
   return x->claim.excluded >= x->o->cords || thr_limits_stop(x->limits);
 }
 
-/* Raises claim.excluded by bounds on the turning of all cords, between the fewest and as many as share it out evenly enough. */
+/* Raises claim.excluded by bounds on the turning of all cords, between the fewest and as many as
+ * share it out evenly enough. */
 static thr_status bound_all(fewest *x, thr_err *err)
 {
   double each;
@@ -242,8 +265,8 @@ static thr_status bound_all(fewest *x, thr_err *err)
   return st;
 }
 
-/* From the number that is not excluded upwards, in growing steps while nothing is proved of the numbers tried, by as much as
- * their cords turn too much; then down again.
+/* From the number that is not excluded upwards, in growing steps while nothing is proved of the
+ * numbers tried, by as much as their cords turn too much; then down again.
  */
 static thr_status search_numbers(fewest *x, thr_err *err)
 {
@@ -267,14 +290,15 @@ static thr_status search_numbers(fewest *x, thr_err *err)
   return st;
 }
 
-/* One cord less at a time as long as there are some, or of a given number cords at all: each number with as much work as cords
- * take without a limit on the pull, and some numbers at most. */
+/* One cord less at a time as long as there are some, or of a given number cords at all: each number
+ * with as much work as cords take without a limit on the pull, and some numbers at most. */
 static thr_status anneal_fewer(fewest *x, const thr_limits *limits, thr_err *err)
 {
   enum { MOST_NUMBERS = 4 };
   bool fits = true;
   thr_status st = THR_OK;
-  for (int i = 0; i < MOST_NUMBERS && !st && fits && (x->found.n_cords == 0) != is_range(x->o); i++) {
+  for (int i = 0; i < MOST_NUMBERS && !st && fits && (x->found.n_cords == 0) != is_range(x->o);
+       i++) {
     const int n = x->found.n_cords > 0 ? x->number - 1 : x->o->cords;
     double work = work_to_anneal * x->o->time_limit;
     const thr_limits counted = thr_limits_counted(limits, &work);
@@ -296,27 +320,30 @@ static thr_status not_found(const fewest *x, const thr_err *why, thr_err *err)
   thr_err none = {0};
   const char *more = is_range(o) ? "time, cords" : "time";
   double newtons = o->max_pull * o->physics.seating;
-  if (why->code == THR_EINPUT || why->code == THR_ENOMEM) return thr_fail(err, why->code, "%s", why->text);
+  if (why->code == THR_EINPUT || why->code == THR_ENOMEM)
+    return thr_fail(err, why->code, "%s", why->text);
   if (x->claim.excluded >= o->cords && o->cords == THR_MOST_CORDS)
-    return thr_fail(
-        err, THR_EINFEASIBLE,
-        "over a single edge some cord turns so much that it needs more than %.6g N, however many cords there are (proved)",
-        newtons);
+    return thr_fail(err, THR_EINFEASIBLE,
+                    "over a single edge some cord turns so much that it needs more than %.6g N, "
+                    "however many cords there are (proved)",
+                    newtons);
   if (x->claim.excluded >= o->cords)
-    return thr_fail(
-        err, THR_EINFEASIBLE,
-        "with at most %d cord%s in a component some cord needs more than %.6g N (proved); allow more cords or more pull",
-        o->cords, o->cords == 1 ? "" : "s", newtons);
+    return thr_fail(err, THR_EINFEASIBLE,
+                    "with at most %d cord%s in a component some cord needs more than %.6g N "
+                    "(proved); allow more cords or more pull",
+                    o->cords, o->cords == 1 ? "" : "s", newtons);
   const thr_status any = thr_planner_some_cords(x->f, o, x->limits, &some, &none);
   thr_plan_destroy(&some);
   if (any == THR_EINFEASIBLE || any == THR_ENOMEM) return thr_fail(err, any, "%s", none.text);
   if (x->claim.excluded >= o->cords_least && is_range(o))
     return thr_fail(err, THR_ELIMIT,
-                    "no cords were found of which none needs more than %.6g N; %d in every component are too few (proved); allow "
+                    "no cords were found of which none needs more than %.6g N; %d in every "
+                    "component are too few (proved); allow "
                     "more %s or pull",
                     newtons, x->claim.excluded, more);
-  return thr_fail(err, THR_ELIMIT, "no cords were found of which none needs more than %.6g N; allow more %s or pull", newtons,
-                  more);
+  return thr_fail(err, THR_ELIMIT,
+                  "no cords were found of which none needs more than %.6g N; allow more %s or pull",
+                  newtons, more);
 }
 
 /* Counts the cords of every component, cords[n_nodes]. *n: how many have some. */
@@ -340,8 +367,10 @@ static thr_status claim_number(fewest *x, thr_plan *plan, thr_err *err)
   if (!cords) return thr_nomem(err);
   count_cords(plan, cords, &components);
   claim->fewest = 0;
-  thr_status st =
-      claim->n_parts > 0 ? THR_OK : thr_check_fewest_pulled(x->f, x->o, cords, components, claim->excluded, &claim->fewest, err);
+  thr_status st = claim->n_parts > 0
+                      ? THR_OK
+                      : thr_check_fewest_pulled(x->f, x->o, cords, components, claim->excluded,
+                                                &claim->fewest, err);
   for (int k = 0; k < claim->n_parts; k++) {
     claim->fewest += claim->part[k].fewest;
     claim->part[k].optimal = claim->part[k].fewest == cords[k];
@@ -353,8 +382,9 @@ static thr_status claim_number(fewest *x, thr_plan *plan, thr_err *err)
   plan->pull_claim = *claim;
   *claim = (thr_pull_claim){0};
   if (plan->pull_claim.optimal) return THR_OK;
-  return thr_fail(err, THR_ELIMIT, "%d cords keep to the pull; it is proved only that fewer than %d cannot", plan->n_cords,
-                  plan->pull_claim.fewest);
+  return thr_fail(err, THR_ELIMIT,
+                  "%d cords keep to the pull; it is proved only that fewer than %d cannot",
+                  plan->n_cords, plan->pull_claim.fewest);
 }
 
 /* The fewest cords, by all means in turn. */
@@ -366,7 +396,9 @@ static thr_status find_fewest(fewest *x, const thr_limits *limits, thr_err *err)
   share = thr_limits_brief(&share, &work);
   x->limits = &share;
   thr_status st = rule_out_few(x, err);
-  if (!st) st = is_range(x->o) ? bound_all(x, err) : try_number(x, x->o->cords, THR_STEP_FEW_TRY, &fits, err);
+  if (!st)
+    st = is_range(x->o) ? bound_all(x, err)
+                        : try_number(x, x->o->cords, THR_STEP_FEW_TRY, &fits, err);
   if (!st) st = try_short(x, err);
   if (!st && is_range(x->o)) st = search_numbers(x, err);
   if (!st && (is_range(x->o) || (x->found.n_cords == 0 && x->claim.excluded < x->o->cords))) {
@@ -381,7 +413,8 @@ static thr_status find_fewest(fewest *x, const thr_limits *limits, thr_err *err)
 
 /* ---- cords that take no search ---- */
 
-/* Cuts the shortest closed cords: the first plan of every search. It stands by where numbers are not free. */
+/* Cuts the shortest closed cords: the first plan of every search. It stands by where numbers are
+ * not free. */
 static thr_status cut_first(fewest *x, thr_plan *by, thr_err *err)
 {
   thr_limits share = thr_planner_share(x->f, x->o, x->limits, THR_STEP_FIRST);
@@ -422,7 +455,8 @@ static thr_status find_together(fewest *x, const thr_limits *limits, thr_err *er
   int component;
   thr_status st = cut_first(x, &by, err);
   if (!st && !thr_tortuosity_too_large(x->f, x->o)) st = find_fewest(x, limits, err);
-  if (!st && x->found.n_cords == 0 && by.n_cords > 0) take_found(x, &by, thr_planner_most_cords(&by, &component));
+  if (!st && x->found.n_cords == 0 && by.n_cords > 0)
+    take_found(x, &by, thr_planner_most_cords(&by, &component));
   thr_plan_destroy(&by);
   return st;
 }
@@ -430,7 +464,8 @@ static thr_status find_together(fewest *x, const thr_limits *limits, thr_err *er
 /* ---- several components ---- */
 
 /* Plans one component by itself, in its part of the time and of the work. */
-static thr_status find_component(const thr_components *components, int k, const thr_limits *limits, thr_plan *made, thr_err *err)
+static thr_status find_component(const thr_components *components, int k, const thr_limits *limits,
+                                 thr_plan *made, thr_err *err)
 {
   const int *first = components->first_edge;
   const double part = (double)(first[k + 1] - first[k]) / (first[components->n] - first[k]);
@@ -443,13 +478,16 @@ static thr_status find_component(const thr_components *components, int k, const 
   asked.options.time_limit *= (double)(first[k + 1] - first[k]) / first[components->n];
   st = thr_planner_pull(&asked.frame, &asked.options, &share, made, NULL, &why);
   thr_plan_destroy(&asked);
-  return st && (st != THR_ELIMIT || made->n_cords == 0) ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  return st && (st != THR_ELIMIT || made->n_cords == 0) ? thr_fail(err, st, "%s", why.text)
+                                                        : THR_OK;
 }
 
 /* Takes what is proved of every component alone. */
-static thr_status take_parts(fewest *x, const thr_components *components, thr_plan *made, thr_err *err)
+static thr_status take_parts(fewest *x, const thr_components *components, thr_plan *made,
+                             thr_err *err)
 {
-  if (!(x->claim.part = thr_calloc((size_t)components->n, sizeof *x->claim.part))) return thr_nomem(err);
+  if (!(x->claim.part = thr_calloc((size_t)components->n, sizeof *x->claim.part)))
+    return thr_nomem(err);
   x->claim.n_parts = components->n;
   for (int k = 0; k < components->n; k++) {
     x->claim.part[k] = made[k].pull_claim;
@@ -461,8 +499,8 @@ static thr_status take_parts(fewest *x, const thr_components *components, thr_pl
 }
 
 /* Finds the numbers of cords component by component, as one needs more than another. */
-static thr_status find_by_components(fewest *x, const thr_components *components, const thr_limits *limits, thr_err *why,
-                                     thr_err *err)
+static thr_status find_by_components(fewest *x, const thr_components *components,
+                                     const thr_limits *limits, thr_err *why, thr_err *err)
 {
   const thr_limits share = thr_dispatch_share(limits, THR_STEP_FEWEST);
   thr_plan *made = thr_calloc((size_t)components->n, sizeof *made), joined = {0};
@@ -472,7 +510,9 @@ static thr_status find_by_components(fewest *x, const thr_components *components
     st = find_component(components, k, &share, &made[k], why);
   if (!st) st = thr_plan_request(&joined, x->f, x->o, err);
   if (!st) st = thr_components_join(components, made, &joined, err);
-  if (!st) st = thr_plan_measure(&joined.frame, &joined.options, joined.cord, joined.n_cords, &joined.metrics, err);
+  if (!st)
+    st = thr_plan_measure(&joined.frame, &joined.options, joined.cord, joined.n_cords,
+                          &joined.metrics, err);
   if (!st && keeps(x, &joined)) take_found(x, &joined, thr_planner_most_cords(&joined, &component));
   if (!st && x->found.n_cords > 0) st = take_parts(x, components, made, err);
   for (int k = 0; made && k < components->n; k++)
@@ -489,7 +529,8 @@ static thr_status find_numbers(fewest *x, const thr_limits *limits, thr_err *why
   thr_status st = thr_components_init(&components, x->f, x->o, err);
   if (st) return st;
   const bool apart = components.n > 1 && is_range(x->o) && !thr_tortuosity_too_large(x->f, x->o);
-  if (apart && components.n <= THR_MOST_PULL_PARTS) /* more are cut, each into as few cords as that takes */
+  if (apart &&
+      components.n <= THR_MOST_PULL_PARTS) /* more are cut, each into as few cords as that takes */
     st = find_by_components(x, &components, limits, why, err);
   else
     st = find_together(x, limits, err);
@@ -517,39 +558,49 @@ static thr_status plan_cut(fewest *x, const thr_request *few, thr_plan *plan, th
     plan->n_cords = x->found.n_cords;
     x->found.cord = NULL;
     x->found.n_cords = 0;
-    st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+    st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics,
+                          err);
   }
   if (!st && shortest.n_cords > 0) st = thr_planner_prove_length(plan, &shortest, err);
   thr_plan_destroy(&shortest);
-  return st ? st : thr_fail(err, THR_ELIMIT, "the shortest cords were cut: the framework is too large for a search");
+  return st ? st
+            : thr_fail(err, THR_ELIMIT,
+                       "the shortest cords were cut: the framework is too large for a search");
 }
 
-thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                            thr_report *report, thr_err *err)
+thr_status thr_planner_pull(const thr_frame *frame, const thr_request *options,
+                            const thr_limits *limits, thr_plan *plan, thr_report *report,
+                            thr_err *err)
 {
-  fewest x = {.f = frame, .o = options, .limits = limits, .claim.excluded = options->cords_least - 1};
+  fewest x = {
+      .f = frame, .o = options, .limits = limits, .claim.excluded = options->cords_least - 1};
   thr_err why = {0}, found = {0};
   thr_request few = *options;
   (void)report;
   *plan = (thr_plan){0};
   if (options->turning.length_slack >= 0)
-    return thr_fail(err, THR_EINPUT, "cord above the shortest is not limited together with the pull");
+    return thr_fail(err, THR_EINPUT,
+                    "cord above the shortest is not limited together with the pull");
   x.most = thr_request_most_turning(options) + (options->ends == THR_ENDS_CLOSED ? THR_PI : 0);
   thr_status st = find_numbers(&x, limits, &why, &found);
   thr_request patient = *options;
   patient.time_limit *= where_none_is_found;
-  if (!st && !why.code && !found.code && limits->usual && x.found.n_cords == 0 && x.claim.excluded < options->cords) {
+  if (!st && !why.code && !found.code && limits->usual && x.found.n_cords == 0 &&
+      x.claim.excluded < options->cords) {
     x.o = &patient;
     st = find_numbers(&x, limits, &why, &found);
     x.o = options;
   }
-  if (why.code) { /* of a component: there is no plan, perhaps of another one not even without the limit */
+  if (why.code) { /* of a component: there is no plan, perhaps of another one not even without the
+                     limit */
     thr_plan some;
     thr_err none = {0};
-    const bool any = thr_planner_some_cords(frame, options, limits, &some, &none) != THR_EINFEASIBLE;
+    const bool any =
+        thr_planner_some_cords(frame, options, limits, &some, &none) != THR_EINFEASIBLE;
     thr_plan_destroy(&some);
     fewest_destroy(&x);
-    return any ? thr_fail(err, why.code, "%s", why.text) : thr_fail(err, THR_EINFEASIBLE, "%s", none.text);
+    return any ? thr_fail(err, why.code, "%s", why.text)
+               : thr_fail(err, THR_EINFEASIBLE, "%s", none.text);
   }
   if (found.code) thr_fail(err, found.code, "%s", found.text);
   double rest = work_to_serve * options->time_limit;

@@ -1,4 +1,6 @@
-/* Closed cords joined to one where they cross, and cut again where nothing does. Private to planner/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Closed cords joined to one where they cross, and cut again where nothing does. Private to
+ * planner/. */
 #include "planner/planner_parts.h"
 
 #include "graph/vector.h"
@@ -18,9 +20,11 @@ void thr_passes_reverse(int *half, int from, int last)
 
 /* ---- two become one ---- */
 
-thr_status thr_cords_join(thr_plan *plan, const thr_channel *a, const thr_channel *b, bool backwards, thr_err *err)
+thr_status thr_cords_join(thr_plan *plan, const thr_channel *a, const thr_channel *b,
+                          bool backwards, thr_err *err)
 {
-  thr_cord *first = &plan->cord[a->cord], *second = &plan->cord[b->cord], *last = &plan->cord[plan->n_cords - 1];
+  thr_cord *first = &plan->cord[a->cord], *second = &plan->cord[b->cord],
+           *last = &plan->cord[plan->n_cords - 1];
   const int n = first->n_passes, m = second->n_passes, before = a->pass + 1;
   int *half = thr_calloc((size_t)n + (size_t)m, sizeof *half);
   if (!half) return thr_nomem(err);
@@ -49,7 +53,9 @@ thr_status thr_recut_count(thr_recut *recut, const thr_plan *plan, thr_err *err)
 {
   recut->n_cords = plan->n_cords;
   recut->component = thr_calloc((size_t)plan->frame.n_nodes, sizeof *recut->component);
-  thr_status st = recut->component ? thr_frame_components(&plan->frame, recut->component, &recut->n, err) : thr_nomem(err);
+  thr_status st = recut->component
+                      ? thr_frame_components(&plan->frame, recut->component, &recut->n, err)
+                      : thr_nomem(err);
   if (st) return st;
   recut->cords = thr_calloc((size_t)recut->n, sizeof *recut->cords);
   if (!recut->cords) return thr_nomem(err);
@@ -67,15 +73,16 @@ void thr_recut_destroy(thr_recut *recut)
 
 /* ---- one becomes two ---- */
 
-/* A cord that leaves out what it does between two visits of a node, which becomes a cord of its own. */
+/* A cord that leaves out what it does between two visits of a node, which becomes a cord of its
+ * own. */
 typedef struct {
   int cord, from, to; /* the part's passes: from .. to - 1; cord < 0: none */
   double longer;      /* length of the longer part */
 } cut;
 
 /* Of cord c, whose first k passes are upto[k] long, at one node: is there a better one? */
-static void try_node(const thr_recut *recut, const thr_channel *channel, int n, int c, const double *upto, double whole,
-                     bool back, cut *best)
+static void try_node(const thr_recut *recut, const thr_channel *channel, int n, int c,
+                     const double *upto, double whole, bool back, cut *best)
 {
   for (int j = 0; j < n; j++)
     for (int i = 0; i < j; i++) {
@@ -84,16 +91,18 @@ static void try_node(const thr_recut *recut, const thr_channel *channel, int n, 
       double part = upto[b->pass + 1] - upto[a->pass + 1], longer = fmax(part, whole - part);
       if (best->cord >= 0 && longer >= best->longer) continue;
       thr_channel one = {.in = a->in, .out = b->out}, other = {.in = b->in, .out = a->out};
-      bool free_of = (back || (one.in != one.out && other.in != other.out)) && !thr_channels_cross(recut->rank, &one, &other);
+      bool free_of = (back || (one.in != one.out && other.in != other.out)) &&
+                     !thr_channels_cross(recut->rank, &one, &other);
       for (int k = 0; k < n && free_of; k++)
         free_of = k == i || k == j ||
-                  (!thr_channels_cross(recut->rank, &one, &channel[k]) && !thr_channels_cross(recut->rank, &other, &channel[k]));
+                  (!thr_channels_cross(recut->rank, &one, &channel[k]) &&
+                   !thr_channels_cross(recut->rank, &other, &channel[k]));
       if (free_of) *best = (cut){c, a->pass + 1, b->pass + 1, longer};
     }
 }
 
-static thr_status find_cut(const thr_recut *recut, const thr_plan *plan, const thr_channels *channels, int c, bool back,
-                           cut *best, thr_err *err)
+static thr_status find_cut(const thr_recut *recut, const thr_plan *plan,
+                           const thr_channels *channels, int c, bool back, cut *best, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   const thr_cord *cord = &plan->cord[c];
@@ -103,8 +112,9 @@ static thr_status find_cut(const thr_recut *recut, const thr_plan *plan, const t
     upto[k + 1] = upto[k] + frame->length[cord->half[k] >> 1];
   for (int v = 0; v < frame->n_nodes; v++)
     if (recut->component[v] == component_of(recut, plan, c))
-      try_node(recut, channels->channel + channels->first[v], channels->first[v + 1] - channels->first[v], c, upto,
-               upto[cord->n_passes], back, best);
+      try_node(recut, channels->channel + channels->first[v],
+               channels->first[v + 1] - channels->first[v], c, upto, upto[cord->n_passes], back,
+               best);
   free(upto);
   return THR_OK;
 }
@@ -116,7 +126,8 @@ static thr_status make_cut(thr_plan *plan, const cut *x, thr_err *err)
   int *half = thr_calloc((size_t)n, sizeof *half);
   if (!half) return thr_nomem(err);
   memcpy(half, cord->half + x->from, (size_t)n * sizeof *half);
-  memmove(cord->half + x->from, cord->half + x->to, (size_t)(cord->n_passes - x->to) * sizeof *half);
+  memmove(cord->half + x->from, cord->half + x->to,
+          (size_t)(cord->n_passes - x->to) * sizeof *half);
   cord->n_passes -= n;
   *part = (thr_cord){.half = half, .n_passes = n, .closed = true, .component = cord->component};
   plan->n_cords++;
@@ -124,7 +135,8 @@ static thr_status make_cut(thr_plan *plan, const cut *x, thr_err *err)
 }
 
 /* Of a component the longest cord that none has looked at yet; -1: there is none. */
-static int longest_left(const thr_recut *recut, const thr_plan *plan, int component, const bool *seen)
+static int longest_left(const thr_recut *recut, const thr_plan *plan, int component,
+                        const bool *seen)
 {
   int longest = -1;
   double length = -1;
@@ -138,14 +150,16 @@ static int longest_left(const thr_recut *recut, const thr_plan *plan, int compon
   return longest;
 }
 
-static thr_status cut_one(const thr_recut *recut, thr_plan *plan, int component, bool back, bool *done, thr_err *err)
+static thr_status cut_one(const thr_recut *recut, thr_plan *plan, int component, bool back,
+                          bool *done, thr_err *err)
 {
   cut best = {.cord = -1};
   thr_channels channels;
   bool *seen = thr_calloc((size_t)plan->n_cords, sizeof *seen);
   if (!seen) return thr_nomem(err);
   thr_status st = thr_channels_make(&channels, plan, err);
-  for (int c; !st && best.cord < 0 && (c = longest_left(recut, plan, component, seen)) >= 0; seen[c] = true)
+  for (int c; !st && best.cord < 0 && (c = longest_left(recut, plan, component, seen)) >= 0;
+       seen[c] = true)
     st = find_cut(recut, plan, &channels, c, back, &best, err);
   thr_channels_destroy(&channels);
   free(seen);
@@ -153,9 +167,10 @@ static thr_status cut_one(const thr_recut *recut, thr_plan *plan, int component,
   return !st && *done ? make_cut(plan, &best, err) : st;
 }
 
-/* Adds a closed cord over the shortest edge of the component that has room for two passes more, to and fro: its channels turn
- * back, and cross nothing. passes[n_edges] by all cords. */
-static thr_status add_loop(const thr_recut *recut, thr_plan *plan, int component, int *passes, bool *done, thr_err *err)
+/* Adds a closed cord over the shortest edge of the component that has room for two passes more, to
+ * and fro: its channels turn back, and cross nothing. passes[n_edges] by all cords. */
+static thr_status add_loop(const thr_recut *recut, thr_plan *plan, int component, int *passes,
+                           bool *done, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   int best = -1;
@@ -171,12 +186,14 @@ static thr_status add_loop(const thr_recut *recut, thr_plan *plan, int component
   if (!half) return thr_nomem(err);
   half[0] = 2 * best;
   half[1] = 2 * best + 1;
-  plan->cord[plan->n_cords++] = (thr_cord){.half = half, .n_passes = 2, .closed = true, .component = component};
+  plan->cord[plan->n_cords++] =
+      (thr_cord){.half = half, .n_passes = 2, .closed = true, .component = component};
   passes[best] += 2;
   return THR_OK;
 }
 
-static thr_status add_loops(const thr_recut *recut, thr_plan *plan, int component, int missing, thr_err *err)
+static thr_status add_loops(const thr_recut *recut, thr_plan *plan, int component, int missing,
+                            thr_err *err)
 {
   int *passes = thr_calloc((size_t)plan->frame.n_edges, sizeof *passes);
   thr_status st = passes ? THR_OK : thr_nomem(err);
@@ -196,11 +213,13 @@ thr_status thr_recut_cords(const thr_recut *recut, thr_plan *plan, thr_err *err)
     for (int c = 0; c < plan->n_cords; c++)
       missing -= component_of(recut, plan, c) == k;
 
-    /* Cuts that turn back into an edge come last: they cross nothing, and only plans without crossings need them. */
+    /* Cuts that turn back into an edge come last: they cross nothing, and only plans without
+     * crossings need them. */
     for (int back = 0; back <= (plan->options.crossings == THR_CROSSINGS_FORBID); back++)
       for (bool done = true; missing > 0 && done && !st; missing -= done)
         st = cut_one(recut, plan, k, back, &done, err);
-    if (!st && missing > 0 && plan->options.crossings == THR_CROSSINGS_FORBID) st = add_loops(recut, plan, k, missing, err);
+    if (!st && missing > 0 && plan->options.crossings == THR_CROSSINGS_FORBID)
+      st = add_loops(recut, plan, k, missing, err);
   }
   for (int c = 0; c < plan->n_cords; c++)
     thr_cord_id(c, plan->cord[c].id);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The plans that one of the least turning is held against. */
 #include "planner/planner.h"
 
@@ -7,11 +8,14 @@
 static thr_status close_rival(thr_rival *rival, thr_status st, thr_err *err)
 {
   rival->made = rival->plan.n_cords > 0 && (!st || st == THR_ELIMIT);
-  return !st || st == THR_ELIMIT || st == THR_EINFEASIBLE || st == THR_EINPUT ? THR_OK : thr_fail(err, st, "%s", rival->why.text);
+  return !st || st == THR_ELIMIT || st == THR_EINFEASIBLE || st == THR_EINPUT
+             ? THR_OK
+             : thr_fail(err, st, "%s", rival->why.text);
 }
 
 /* As many cords as plan's options say. */
-static thr_status make_length(const thr_plan *plan, thr_plan *shortest, const thr_limits *limits, thr_rival *rival, thr_err *err)
+static thr_status make_length(const thr_plan *plan, thr_plan *shortest, const thr_limits *limits,
+                              thr_rival *rival, thr_err *err)
 {
   if (shortest->n_cords > 0) {
     rival->plan = *shortest;
@@ -22,7 +26,8 @@ static thr_status make_length(const thr_plan *plan, thr_plan *shortest, const th
   options.aims = thr_aims_shortest;
   options.turning = thr_request_default().turning;
   options.max_pull = 0;
-  return close_rival(rival, thr_plan_make(&plan->frame, &options, limits, &rival->plan, NULL, &rival->why), err);
+  return close_rival(
+      rival, thr_plan_make(&plan->frame, &options, limits, &rival->plan, NULL, &rival->why), err);
 }
 
 static bool is_tour(const thr_plan *plan)
@@ -30,33 +35,42 @@ static bool is_tour(const thr_plan *plan)
   return plan->options.turning.tour != THR_TOUR_LEAST;
 }
 
-/* Of a classical tour, whose passes are the shortest, the least turning with the same limit on the length. */
-static thr_status make_corner(const thr_plan *plan, const thr_limits *limits, thr_rival *rival, thr_err *err)
+/* Of a classical tour, whose passes are the shortest, the least turning with the same limit on the
+ * length. */
+static thr_status make_corner(const thr_plan *plan, const thr_limits *limits, thr_rival *rival,
+                              thr_err *err)
 {
   thr_request options = plan->options;
   if (!is_tour(plan)) options.turning.length_slack = options.turning.length_slack == 0 ? -1 : 0;
   options.turning.tour = THR_TOUR_LEAST;
   options.turning.pairings = THR_PAIRINGS_KEEP;
-  thr_status st = plan->options.distinct > 0 ? thr_plan_make(&plan->frame, &options, limits, &rival->plan, NULL, &rival->why)
-                                             : thr_tortuosity_plan(&plan->frame, &options, limits, &rival->plan, &rival->why);
+  thr_status st =
+      plan->options.distinct > 0
+          ? thr_plan_make(&plan->frame, &options, limits, &rival->plan, NULL, &rival->why)
+          : thr_tortuosity_plan(&plan->frame, &options, limits, &rival->plan, &rival->why);
   return close_rival(rival, st, err);
 }
 
-static thr_status make_frontier(const thr_plan *plan, int points, const thr_limits *limits, thr_rivals *out, thr_err *err)
+static thr_status make_frontier(const thr_plan *plan, int points, const thr_limits *limits,
+                                thr_rivals *out, thr_err *err)
 {
   thr_limits own = *limits;
   thr_err why = {0};
-  if (own.deadline == 0 && plan->options.time_limit > 0) own.deadline = thr_clock() + plan->options.time_limit;
-  thr_status st = thr_tortuosity_frontier(&plan->frame, &plan->options, points, &own, &out->frontier, &why);
+  if (own.deadline == 0 && plan->options.time_limit > 0)
+    own.deadline = thr_clock() + plan->options.time_limit;
+  thr_status st =
+      thr_tortuosity_frontier(&plan->frame, &plan->options, points, &own, &out->frontier, &why);
   if (st == THR_EINFEASIBLE) out->no_frontier = why;
-  return st && st != THR_ELIMIT && st != THR_EINFEASIBLE ? thr_fail(err, st, "%s", why.text) : THR_OK;
+  return st && st != THR_ELIMIT && st != THR_EINFEASIBLE ? thr_fail(err, st, "%s", why.text)
+                                                         : THR_OK;
 }
 
-/* s, for the shortest passes where the search has used up its time: stopped at once, they would not be the shortest. */
+/* s, for the shortest passes where the search has used up its time: stopped at once, they would not
+ * be the shortest. */
 static const double grace = 0.3;
 
-thr_status thr_rivals_make(const thr_plan *plan, thr_plan *length_plan, bool optima, int frontier, const thr_limits *limits,
-                           thr_rivals *out, thr_err *err)
+thr_status thr_rivals_make(const thr_plan *plan, thr_plan *length_plan, bool optima, int frontier,
+                           const thr_limits *limits, thr_rivals *out, thr_err *err)
 {
   thr_limits own = *limits;
   bool shortest = plan->options.turning.length_slack == 0;
@@ -65,16 +79,18 @@ thr_status thr_rivals_make(const thr_plan *plan, thr_plan *length_plan, bool opt
                                                         : "shortest cord",
                                  .key = "corner"},
                       .length = {.title = "--objective length", .key = "length_plan"}};
-  if (limits->interrupted && *limits->interrupted) { /* whoever stopped the plan wants to see it now */
+  if (limits->interrupted &&
+      *limits->interrupted) { /* whoever stopped the plan wants to see it now */
     thr_fail(&out->corner.why, THR_ELIMIT, "the search was stopped");
     thr_fail(&out->length.why, THR_ELIMIT, "the search was stopped");
     if (frontier) thr_fail(&out->no_frontier, THR_ELIMIT, "the search was stopped");
     return THR_OK;
   }
-  bool tube =
-      plan->options.joint == THR_JOINT_TUBE; /* its shortest cords are an integer programme, solved already for the proof */
+  bool tube = plan->options.joint == THR_JOINT_TUBE; /* its shortest cords are an integer programme,
+                                                        solved already for the proof */
   if (own.deadline > 0) own.deadline = fmax(own.deadline, thr_clock() + grace);
-  thr_status st = optima || !tube ? make_length(plan, length_plan, &own, &out->length, err) : THR_OK;
+  thr_status st =
+      optima || !tube ? make_length(plan, length_plan, &own, &out->length, err) : THR_OK;
   if (!st && optima) st = make_corner(plan, limits, &out->corner, err);
   if (!st && frontier) st = make_frontier(plan, frontier, limits, out, err);
   return st;

@@ -1,5 +1,6 @@
-/* As few cords as a limit on their length takes, where shares of the shortest passes need more: cords of one number whose longest
- * one is short. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* As few cords as a limit on their length takes, where shares of the shortest passes need more:
+ * cords of one number whose longest one is short. */
 #include "planner/planner_parts.h"
 
 #include <math.h>
@@ -43,7 +44,8 @@ static thr_status try_number(shortest_few *x, int n, bool *fits, thr_err *err)
   options.aims = (thr_aims){2, {THR_AIM_LONGEST, THR_AIM_LENGTH}};
   options.max_length = 0;
   options.cords = options.cords_least = n;
-  if (thr_planner_length(x->f, &options, &quiet, &even, NULL, &why) == THR_ENOMEM) return thr_nomem(err);
+  if (thr_planner_length(x->f, &options, &quiet, &even, NULL, &why) == THR_ENOMEM)
+    return thr_nomem(err);
   x->longest = even.n_cords > 0 ? thr_cords_longest(x->f, even.cord, even.n_cords) : 0;
   *fits = x->longest > 0 && x->longest <= x->o->max_length * (1 + 1e-12);
   thr_status st = *fits ? take(x, &even, err) : THR_OK;
@@ -55,7 +57,9 @@ static thr_status try_number(shortest_few *x, int n, bool *fits, thr_err *err)
 static int too_few(const shortest_few *x)
 {
   if (x->plan->n_cords > 0) return x->plan->cords_claim.fewest - 1;
-  return (int)fmin(x->o->cords, ceil(thr_turning_base_length(x->f, x->o->cover) / x->o->max_length * (1 - 1e-9))) - 1;
+  return (int)fmin(x->o->cords, ceil(thr_turning_base_length(x->f, x->o->cover) / x->o->max_length *
+                                     (1 - 1e-9))) -
+         1;
 }
 
 /* From the number that is too few upwards in growing steps, up to the first that fits. */
@@ -72,8 +76,9 @@ static thr_status find_some(shortest_few *x, int *failed, thr_err *err)
   return st;
 }
 
-thr_status thr_planner_short_few(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                                 double *longest, thr_err *err)
+thr_status thr_planner_short_few(const thr_frame *frame, const thr_request *options,
+                                 const thr_limits *limits, thr_plan *plan, double *longest,
+                                 thr_err *err)
 {
   shortest_few x = {frame, options, limits, plan, 0};
   bool fits;

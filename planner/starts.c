@@ -1,23 +1,29 @@
-/* Every start of a closed cord: how loose what is threaded is from there, and how hard the cord is to pull. Private to planner/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every start of a closed cord: how loose what is threaded is from there, and how hard the cord is
+ * to pull. Private to planner/.
  *
- * A window that moves round a closed cord, and the pieces in it that are on the cord when they are come to. */
+ * A window that moves round a closed cord, and the pieces in it that are on the cord when they are
+ * come to. */
 #include "graph/plan/physics.h"
 #include "planner/planner_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Place p of the cord, gone round twice, is that of pass p (mod n): the window first .. last holds the pieces from one start.
- * Marked are those that are on a cord when the needle comes to them, the fold, and the places before and behind the window:
- * between two marks next to each other is a loose chain. */
+/* Place p of the cord, gone round twice, is that of pass p (mod n): the window first .. last holds
+ * the pieces from one start. Marked are those that are on a cord when the needle comes to them, the
+ * fold, and the places before and behind the window: between two marks next to each other is a
+ * loose chain. */
 typedef struct {
   int n;                 /* passes */
   int first, fold, last; /* places */
   int *piece;            /* [n] owned */
-  int *next, *before;    /* [n] places to the next and to the last visit of the piece, going round; owned */
-  int *left, *right;     /* [2 n + 2] from place -1: the marks next to a mark, left NONE of no mark; owned */
-  double *along;         /* [2 n + 1] cord before the place; owned */
-  int *count;            /* [2 n + 2] chains of each length; owned */
+  int *next,
+      *before; /* [n] places to the next and to the last visit of the piece, going round; owned */
+  int *left,
+      *right; /* [2 n + 2] from place -1: the marks next to a mark, left NONE of no mark; owned */
+  double *along; /* [2 n + 1] cord before the place; owned */
+  int *count;    /* [2 n + 2] chains of each length; owned */
   thr_chains chains;
   const thr_threaded *threaded;
 } window;
@@ -94,7 +100,8 @@ static int mark_before(const window *w, int p)
 
 /* ---- moving on ---- */
 
-/* The fold moves on by a place. Its piece is the left needle's now, and is not on the cord where the right one comes by again. */
+/* The fold moves on by a place. Its piece is the left needle's now, and is not on the cord where
+ * the right one comes by again. */
 static void move_fold(window *w)
 {
   int old = w->fold++, again = old + w->next[old % w->n];
@@ -110,7 +117,8 @@ static void move_window(window *w)
   w->right[last + 1] = w->left[last + 2] = NONE;
   link_marks(w, last, last + 1);
   if (!is_on(w, last)) unmark(w, last);
-  if (earlier > w->first && earlier < w->fold && !is_marked(w, earlier)) mark(w, earlier, mark_before(w, earlier));
+  if (earlier > w->first && earlier < w->fold && !is_marked(w, earlier))
+    mark(w, earlier, mark_before(w, earlier));
   int outside = w->first - 1, first = w->first++;
   if (!is_marked(w, first)) mark(w, first, outside);
 }
@@ -152,7 +160,8 @@ static void find_visits(window *w, int *seen)
   }
 }
 
-static thr_status window_init(window *w, const thr_frame *frame, const thr_request *request, const thr_cord *cord, thr_err *err)
+static thr_status window_init(window *w, const thr_frame *frame, const thr_request *request,
+                              const thr_cord *cord, thr_err *err)
 {
   size_t n = (size_t)cord->n_passes;
   w->n = cord->n_passes;
@@ -164,7 +173,8 @@ static thr_status window_init(window *w, const thr_frame *frame, const thr_reque
   w->along = thr_calloc(2 * n + 1, sizeof *w->along);
   w->count = thr_calloc(2 * n + 2, sizeof *w->count);
   int *seen = thr_calloc((size_t)thr_chains_pieces(frame, request->joint), sizeof *seen);
-  bool all = w->piece && w->next && w->before && w->left && w->right && w->along && w->count && seen;
+  bool all =
+      w->piece && w->next && w->before && w->left && w->right && w->along && w->count && seen;
   if (all) {
     w->last = thr_cord_pieces(frame, request->joint, cord, w->piece) - 1;
     for (int p = 0; p < 2 * w->n; p++)
@@ -177,8 +187,9 @@ static thr_status window_init(window *w, const thr_frame *frame, const thr_reque
   return all ? THR_OK : thr_nomem(err);
 }
 
-thr_status thr_starts_chains(const thr_frame *frame, const thr_request *request, const thr_cord *cord,
-                             const thr_threaded *threaded, thr_chains *chains, thr_err *err)
+thr_status thr_starts_chains(const thr_frame *frame, const thr_request *request,
+                             const thr_cord *cord, const thr_threaded *threaded, thr_chains *chains,
+                             thr_err *err)
 {
   window w = {.threaded = threaded};
   bool folded = thr_cord_folded(request->needles, cord);
@@ -196,14 +207,18 @@ thr_status thr_starts_chains(const thr_frame *frame, const thr_request *request,
 
 /* ---- pull ---- */
 
-thr_status thr_starts_pulled(const thr_frame *frame, const thr_cord *cord, double *pulled, thr_err *err)
+thr_status thr_starts_pulled(const thr_frame *frame, const thr_cord *cord, double *pulled,
+                             thr_err *err)
 {
   int n = cord->n_passes;
-  double *turned = thr_calloc(2 * (size_t)n + 1, sizeof *turned); /* up to before the turn into pass p, going round */
+  double *turned = thr_calloc(2 * (size_t)n + 1,
+                              sizeof *turned); /* up to before the turn into pass p, going round */
   if (!turned) return thr_nomem(err);
   for (int p = 0; p < 2 * n; p++)
-    turned[p + 1] = turned[p] + thr_turn_angle(frame, cord->half[(p + n - 1) % n], cord->half[p % n]);
-  for (int s = 0; s < n; s++) { /* begun with pass s, the cord turns into the passes s + 1 .. s + n - 1 */
+    turned[p + 1] =
+        turned[p] + thr_turn_angle(frame, cord->half[(p + n - 1) % n], cord->half[p % n]);
+  for (int s = 0; s < n;
+       s++) { /* begun with pass s, the cord turns into the passes s + 1 .. s + n - 1 */
     const thr_parting parting = thr_least_pull(turned + 1, s, s + n - 1);
     pulled[s] = thr_parting_larger(&parting);
   }

@@ -1,14 +1,16 @@
-/* Symmetric plans: the table of groups and the one that is chosen from it; with tube joints its length is proved afterwards.
- * Where something is asked of the cords (their number, a limit on their length, a short longest one), the plan of the least
- * length that keeps to it comes first: the others are measured by it, and under the identity it is one of them. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Symmetric plans: the table of groups and the one that is chosen from it; with tube joints its
+ * length is proved afterwards. Where something is asked of the cords (their number, a limit on
+ * their length, a short longest one), the plan of the least length that keeps to it comes first:
+ * the others are measured by it, and under the identity it is one of them. */
 #include "graph/check/check.h"
 #include "planner/planner_parts.h"
 #include "symmetry/lift/lift.h"
 
-/* Cords of the least length, or of the shortest longest cord, that keep to what is asked; none: the plan is empty, and why says
- * it. */
-static thr_status plan_length(const thr_frame *frame, const thr_request *asked, const thr_limits *limits, thr_plan *plan,
-                              thr_err *why)
+/* Cords of the least length, or of the shortest longest cord, that keep to what is asked; none: the
+ * plan is empty, and why says it. */
+static thr_status plan_length(const thr_frame *frame, const thr_request *asked,
+                              const thr_limits *limits, thr_plan *plan, thr_err *why)
 {
   thr_request options = *asked;
   thr_limits share = thr_dispatch_share(limits, THR_STEP_BY_LENGTH);
@@ -32,19 +34,21 @@ static thr_status prove_tied(thr_plan *plan, const thr_limits *limits, thr_err *
 {
   thr_status st = thr_planner_prove_tied(plan, limits, err);
   if (st || !thr_keep_asked(&plan->options)) return st;
-  return thr_check_tied_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->proof.tied, &plan->cords_claim,
-                              err);
+  return thr_check_tied_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords,
+                              &plan->proof.tied, &plan->cords_claim, err);
 }
 
 static thr_status judge_longest(const thr_plan *plan, thr_err *err)
 {
   const thr_cords_claim *claim = &plan->cords_claim;
-  if (plan->n_cords == 0 || !thr_wants_balance(&plan->options) || claim->longest_optimal) return THR_OK;
-  return thr_not_proved(err, "the length of the longest cord", claim->longest, claim->longest_bound);
+  if (plan->n_cords == 0 || !thr_wants_balance(&plan->options) || claim->longest_optimal)
+    return THR_OK;
+  return thr_not_proved(err, "the length of the longest cord", claim->longest,
+                        claim->longest_bound);
 }
 
-/* A plan of fewer cords than were asked for at most is one of that request, too, of which less may be proved. With tube joints
- * the proof comes later. */
+/* A plan of fewer cords than were asked for at most is one of that request, too, of which less may
+ * be proved. With tube joints the proof comes later. */
 static thr_status take_request(thr_plan *plan, int cords, thr_err *err)
 {
   plan->options.cords = cords;
@@ -68,11 +72,13 @@ static void replace(thr_plan *plan, thr_plan *next, thr_symmetries *table, thr_s
   *rows = (thr_symmetries){0};
 }
 
-/* With a limit on the pull, or the length, the fewest cords come first: symmetric plans of fewer cords than this one's as long as
- * there are some under a group that has more than the identity, each in a part of the time. table: of the last, NULL = not
- * wanted. found, why: what was said of the plan, and then of the last. */
-static thr_status take_fewer(const thr_frame *frame, const thr_request *options, const thr_plan *shortest,
-                             const thr_limits *limits, thr_symmetries *table, thr_plan *plan, thr_status found, thr_err *why)
+/* With a limit on the pull, or the length, the fewest cords come first: symmetric plans of fewer
+ * cords than this one's as long as there are some under a group that has more than the identity,
+ * each in a part of the time. table: of the last, NULL = not wanted. found, why: what was said of
+ * the plan, and then of the last. */
+static thr_status take_fewer(const thr_frame *frame, const thr_request *options,
+                             const thr_plan *shortest, const thr_limits *limits,
+                             thr_symmetries *table, thr_plan *plan, thr_status found, thr_err *why)
 {
   thr_status st = THR_OK;
   for (bool fewer = true; fewer && !st && !thr_limits_stop(limits);) {
@@ -84,7 +90,8 @@ static thr_status take_fewer(const thr_frame *frame, const thr_request *options,
     int component;
     few.cords = thr_planner_most_cords(plan, &component) - 1;
     if (few.cords < 1 || few.cords < few.cords_least) break;
-    const thr_status made = thr_symmetry_plan_from(frame, &few, shortest, &share, table ? &rows : NULL, &next, &said);
+    const thr_status made =
+        thr_symmetry_plan_from(frame, &few, shortest, &share, table ? &rows : NULL, &next, &said);
     fewer = next.n_cords > 0 && next.symmetry.order > 1;
     if (fewer) st = take_request(&next, options->cords, &(thr_err){0});
     if (fewer && !st) {
@@ -98,8 +105,9 @@ static thr_status take_fewer(const thr_frame *frame, const thr_request *options,
   return st == THR_ENOMEM ? st : found;
 }
 
-thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                                 thr_report *report, thr_err *err)
+thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *options,
+                                 const thr_limits *limits, thr_plan *plan, thr_report *report,
+                                 thr_err *err)
 {
   thr_symmetries *table = report ? &report->symmetries : NULL;
   const bool tied = options->joint == THR_JOINT_TUBE;
@@ -110,12 +118,14 @@ thr_status thr_planner_symmetric(const thr_frame *frame, const thr_request *opti
   if (st) return thr_fail(err, st, "%s", none.text);
   if (tied) thr_planner_tell_first(frame, options, limits, NULL);
   const thr_limits share = tied ? thr_dispatch_share(limits, THR_STEP_SYMMETRIC_TIED) : *limits;
-  thr_status found =
-      thr_symmetry_plan_from(frame, options, shortest.n_cords > 0 ? &shortest : NULL, &share, table, plan, &unproved);
-  if (plan->n_cords > 0 && plan->symmetry.order > 1 && (options->max_pull > 0 || options->max_length > 0) &&
-      options->cords_least < options->cords)
-    found = take_fewer(frame, options, shortest.n_cords > 0 ? &shortest : NULL, &share, table, plan, found, &unproved);
-  if (plan->n_cords > 0 && shortest.pull_claim.present && plan->n_cords >= shortest.pull_claim.fewest) { /* it is of any plan */
+  thr_status found = thr_symmetry_plan_from(frame, options, shortest.n_cords > 0 ? &shortest : NULL,
+                                            &share, table, plan, &unproved);
+  if (plan->n_cords > 0 && plan->symmetry.order > 1 &&
+      (options->max_pull > 0 || options->max_length > 0) && options->cords_least < options->cords)
+    found = take_fewer(frame, options, shortest.n_cords > 0 ? &shortest : NULL, &share, table, plan,
+                       found, &unproved);
+  if (plan->n_cords > 0 && shortest.pull_claim.present &&
+      plan->n_cords >= shortest.pull_claim.fewest) { /* it is of any plan */
     plan->pull_claim = shortest.pull_claim;
     plan->pull_claim.optimal = plan->n_cords == plan->pull_claim.fewest;
     shortest.pull_claim = (thr_pull_claim){0};

@@ -1,9 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Leaves off passes at the ends of cords that other cords make already.
  *
- * An edge with n passes that needs c of them can do without n - c. Where it can do without none, its passes belong to the core of
- * their cords. In front of a cord's core, and behind it, any number of passes may go as long as the cord ends where ends may be.
- * Which go is a search by branch and bound over the cords' ends, longest piece first, so that the first leaf is a greedy choice;
- * no choice leaves off more than what all edges can do without.
+ * An edge with n passes that needs c of them can do without n - c. Where it can do without none,
+ * its passes belong to the core of their cords. In front of a cord's core, and behind it, any
+ * number of passes may go as long as the cord ends where ends may be. Which go is a search by
+ * branch and bound over the cords' ends, longest piece first, so that the first leaf is a greedy
+ * choice; no choice leaves off more than what all edges can do without.
  *
  * Example: two cords round one ring, 1 2 3 4 and 3 4 5 6: either leaves off 3 4. */
 #include "graph/scratch.h"
@@ -13,16 +15,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CHOICES = 100000, MOST_DEEP = 10000 /* ends that are looked at: the search is recursive */ };
+enum {
+  MOST_CHOICES = 100000,
+  MOST_DEEP = 10000 /* ends that are looked at: the search is recursive */
+};
 
 /* Ends 2 i and 2 i + 1 are the first and the last end of cord i. */
 typedef struct {
   const thr_plan *plan;
-  int *spare;                   /* [n_edges] passes that an edge can do without now */
-  int *cut, *best;              /* [2 n_cords] passes left off at each end, now and in the best choice */
-  int *most;                    /* [2 n_cords] passes up to the core at most */
-  double *rest;                 /* [2 n_cords + 1] length that these ends and all later ones can leave off at most */
-  double removed, record, room; /* length left off now, in the best choice; that edges can still do without */
+  int *spare;      /* [n_edges] passes that an edge can do without now */
+  int *cut, *best; /* [2 n_cords] passes left off at each end, now and in the best choice */
+  int *most;       /* [2 n_cords] passes up to the core at most */
+  double
+      *rest; /* [2 n_cords + 1] length that these ends and all later ones can leave off at most */
+  double removed, record,
+      room; /* length left off now, in the best choice; that edges can still do without */
   long choices;
 } trimming;
 
@@ -97,7 +104,9 @@ static void prepare(trimming *t)
   for (int end = 2 * t->plan->n_cords - 1, deep = 0; end >= 0; end--) {
     double length = 0;
     int k = 0;
-    for (; deep < MOST_DEEP && k + 1 < t->plan->cord[end / 2].n_passes && t->spare[pass_from(t, end, k) >> 1] > 0; k++)
+    for (; deep < MOST_DEEP && k + 1 < t->plan->cord[end / 2].n_passes &&
+           t->spare[pass_from(t, end, k) >> 1] > 0;
+         k++)
       length += frame->length[pass_from(t, end, k) >> 1];
     t->most[end] = k;
     deep += k > 0;
@@ -119,11 +128,13 @@ static void cut_cords(thr_plan *plan, const int *cut)
 thr_status thr_plan_trim(thr_plan *plan, bool *trimmed, thr_err *err)
 {
   const thr_request *request = &plan->options;
-  const bool free_ends = request->ends == THR_ENDS_ANY || request->ends == THR_ENDS_FEET || request->ends == THR_ENDS_NODES;
+  const bool free_ends = request->ends == THR_ENDS_ANY || request->ends == THR_ENDS_FEET ||
+                         request->ends == THR_ENDS_NODES;
   thr_scratch scratch = {0};
   *trimmed = false;
-  if (!free_ends || plan->n_cords < 1 || plan->symmetry.present || request->joint == THR_JOINT_TUBE || request->distinct > 0 ||
-      plan->proof.optimal || request->turning.tour != THR_TOUR_LEAST)
+  if (!free_ends || plan->n_cords < 1 || plan->symmetry.present ||
+      request->joint == THR_JOINT_TUBE || request->distinct > 0 || plan->proof.optimal ||
+      request->turning.tour != THR_TOUR_LEAST)
     return THR_OK;
   const size_t ends = 2 * (size_t)plan->n_cords;
   trimming t = {.plan = plan,

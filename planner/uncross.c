@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Channels that cross inside pieces, led otherwise. */
 
 #include "planner/planner_parts.h"
@@ -13,14 +14,16 @@ typedef struct {
   bool exactly;                 /* the turning must stay the same */
   bool between;                 /* cords may exchange their ends; closed ones are joined */
   int node, n;
-  thr_channel *channel; /* [n] those of the node, by cord and pass; room for as many as any node has */
+  thr_channel
+      *channel; /* [n] those of the node, by cord and pass; room for as many as any node has */
 } uncrossing;
 
 /* How two channels, the first of the earlier cord or pass, are to be led instead. */
 typedef enum {
   REVERSE,  /* of one cord: the part between them is run the other way round */
   EXCHANGE, /* of two: each cord ends as the other did; closed, they are one then */
-  TURN      /* of two: the first cord ends as the second began, backwards, and the second begins as the first ended */
+  TURN /* of two: the first cord ends as the second began, backwards, and the second begins as the
+          first ended */
 } way;
 
 typedef struct {
@@ -39,15 +42,19 @@ static void list_channels(uncrossing *x)
     const thr_cord *cord = &plan->cord[c];
     for (int k = 0, turns = thr_cord_turns(&plan->options, cord); k < turns; k++)
       if (thr_head(&plan->frame, cord->half[k]) == x->node)
-        x->channel[x->n++] = (thr_channel){c, k, cord->half[k] ^ 1, cord->half[(k + 1) % cord->n_passes], 0};
+        x->channel[x->n++] =
+            (thr_channel){c, k, cord->half[k] ^ 1, cord->half[(k + 1) % cord->n_passes], 0};
   }
 }
 
 /* By how much the cords would turn more, rad. */
-static double more_turning(const thr_frame *frame, way how, const thr_channel *a, const thr_channel *b)
+static double more_turning(const thr_frame *frame, way how, const thr_channel *a,
+                           const thr_channel *b)
 {
   double now = thr_turn_angle(frame, a->in ^ 1, a->out) + thr_turn_angle(frame, b->in ^ 1, b->out);
-  if (how == EXCHANGE) return thr_turn_angle(frame, a->in ^ 1, b->out) + thr_turn_angle(frame, b->in ^ 1, a->out) - now;
+  if (how == EXCHANGE)
+    return thr_turn_angle(frame, a->in ^ 1, b->out) + thr_turn_angle(frame, b->in ^ 1, a->out) -
+           now;
   return thr_turn_angle(frame, a->in ^ 1, b->in) + thr_turn_angle(frame, a->out ^ 1, b->out) - now;
 }
 
@@ -72,12 +79,14 @@ static void try_ways(const uncrossing *x, const thr_channel *a, const thr_channe
   bool one = a->cord == b->cord;
   if (!one && !x->between) return;
   for (way how = one ? REVERSE : EXCHANGE; how <= (one ? REVERSE : TURN); how++) {
-    change c = {how, *a, *b, one ? 0 : longer_of(x->plan, how, a, b), more_turning(&x->plan->frame, how, a, b)};
+    change c = {how, *a, *b, one ? 0 : longer_of(x->plan, how, a, b),
+                more_turning(&x->plan->frame, how, a, b)};
     if (is_less(&c, best) && (!x->exactly || fabs(c.more) <= 1e-12)) *best = c;
   }
 }
 
-/* Two cords go on, after passes i of a and j of b, as the other did; owned passes take the place of those that they had. */
+/* Two cords go on, after passes i of a and j of b, as the other did; owned passes take the place of
+ * those that they had. */
 static thr_status exchange(thr_plan *plan, thr_cord *a, int i, thr_cord *b, int j, thr_err *err)
 {
   int n = i + b->n_passes - j, m = j + a->n_passes - i;
@@ -110,7 +119,8 @@ static thr_status make(thr_plan *plan, const change *c, thr_err *err)
     thr_passes_reverse(a->half, c->a.pass + 1, c->b.pass);
     return THR_OK;
   }
-  if (plan->options.ends == THR_ENDS_CLOSED) return thr_cords_join(plan, &c->a, &c->b, c->way == TURN, err);
+  if (plan->options.ends == THR_ENDS_CLOSED)
+    return thr_cords_join(plan, &c->a, &c->b, c->way == TURN, err);
   if (c->way == TURN) { /* backwards the second cord comes by the arm by which it went */
     thr_passes_reverse(b->half, 0, b->n_passes - 1);
     j = b->n_passes - j;
@@ -118,7 +128,8 @@ static thr_status make(thr_plan *plan, const change *c, thr_err *err)
   return exchange(plan, a, c->a.pass + 1, b, j, err);
 }
 
-/* Leads one pair of channels of the node otherwise, such that it crosses no longer. *changed: there was one. */
+/* Leads one pair of channels of the node otherwise, such that it crosses no longer. *changed: there
+ * was one. */
 static thr_status uncross_pair(uncrossing *x, bool *changed, thr_err *err)
 {
   change best = {.longer = INT_MAX, .more = HUGE_VAL};
@@ -151,7 +162,8 @@ static thr_status uncross_nodes(uncrossing *x, thr_err *err)
   return st;
 }
 
-/* Different cords may be led otherwise where a plan is short; or in any case, if no crossing is allowed. */
+/* Different cords may be led otherwise where a plan is short; or in any case, if no crossing is
+ * allowed. */
 static bool may_exchange(const thr_request *o)
 {
   return (thr_wants_length(o) || o->crossings == THR_CROSSINGS_FORBID) && o->max_pull == 0;
@@ -164,10 +176,12 @@ static thr_status uncross_cords(thr_plan *plan, bool between, thr_err *err)
   thr_channels channels = {0};
   thr_status st = thr_channels_make(&channels, plan, err);
   for (int v = 0; v < frame->n_nodes && !st; v++)
-    if ((size_t)(channels.first[v + 1] - channels.first[v]) > most) most = (size_t)(channels.first[v + 1] - channels.first[v]);
+    if ((size_t)(channels.first[v + 1] - channels.first[v]) > most)
+      most = (size_t)(channels.first[v + 1] - channels.first[v]);
   uncrossing x = {.plan = plan,
                   .channels = &channels,
-                  .exactly = thr_wants_turning(&plan->options) && plan->options.crossings != THR_CROSSINGS_FORBID,
+                  .exactly = thr_wants_turning(&plan->options) &&
+                             plan->options.crossings != THR_CROSSINGS_FORBID,
                   .between = between,
                   .channel = thr_calloc(most, sizeof *x.channel)};
   thr_recut recut = {.rank = channels.rank};
@@ -184,11 +198,12 @@ static thr_status uncross_cords(thr_plan *plan, bool between, thr_err *err)
 
 static thr_status measure(thr_plan *plan, thr_err *err)
 {
-  return thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
+  return thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics,
+                          err);
 }
 
-/* As many cords as before, over every edge as many different ones, and none longer than may be; even ones stay as even, unless
- * no crossing is allowed. */
+/* As many cords as before, over every edge as many different ones, and none longer than may be;
+ * even ones stay as even, unless no crossing is allowed. */
 static bool serves(const thr_plan *plan, int n_cords, int distinct, double longest)
 {
   const thr_request *o = &plan->options;
@@ -198,7 +213,8 @@ static bool serves(const thr_plan *plan, int n_cords, int distinct, double longe
          thr_cords_longest(&plan->frame, plan->cord, plan->n_cords) <= limit * (1 + 1e-12);
 }
 
-/* Each cord by itself, and those of different cords too if what is asked of single cords is kept. before[n]: a copy of the cords.
+/* Each cord by itself, and those of different cords too if what is asked of single cords is kept.
+ * before[n]: a copy of the cords.
  */
 static thr_status uncross(thr_plan *plan, const thr_cord *before, int n, thr_err *err)
 {
@@ -244,11 +260,14 @@ thr_status thr_plan_count_crossings(thr_plan *plan, thr_err *err)
 
 static thr_status refuse(const thr_plan *plan, int crossed, thr_err *err)
 {
-  if (plan->options.crossings != THR_CROSSINGS_FORBID || plan->metrics.crossings == 0) return THR_OK;
-  return thr_fail(err, THR_ELIMIT,
-                  "no plan without crossing channels was found: %d cross inside %d of %d pieces; use --crossings price, fewer "
-                  "cords, or nothing that is asked of single cords (--balance, --max-length, --distinct)",
-                  plan->metrics.crossings, crossed, plan->frame.n_nodes);
+  if (plan->options.crossings != THR_CROSSINGS_FORBID || plan->metrics.crossings == 0)
+    return THR_OK;
+  return thr_fail(
+      err, THR_ELIMIT,
+      "no plan without crossing channels was found: %d cross inside %d of %d pieces; use "
+      "--crossings price, fewer "
+      "cords, or nothing that is asked of single cords (--balance, --max-length, --distinct)",
+      plan->metrics.crossings, crossed, plan->frame.n_nodes);
 }
 
 /* Another cord may be the longest now; what bounds it holds of any cords. */
@@ -260,7 +279,8 @@ static void claim_longest(thr_plan *plan)
   claim->longest_optimal = claim->longest <= claim->longest_bound * (1 + 1e-9);
 }
 
-/* Where exchanges left crossings, or made the cords longer, searches for others (planner/channel_search.c). */
+/* Where exchanges left crossings, or made the cords longer, searches for others
+ * (planner/channel_search.c). */
 static thr_status search_again(thr_plan *plan, const thr_cord *before, int n_before, thr_err *err)
 {
   bool changed = false;
@@ -270,7 +290,8 @@ static thr_status search_again(thr_plan *plan, const thr_cord *before, int n_bef
 }
 
 /* *others: the cords pass some edge more or less often than before. */
-static thr_status compare_passes(const thr_plan *plan, const thr_cord *before, int n_before, bool *others, thr_err *err)
+static thr_status compare_passes(const thr_plan *plan, const thr_cord *before, int n_before,
+                                 bool *others, thr_err *err)
 {
   int *more = thr_calloc((size_t)plan->frame.n_edges, sizeof *more);
   if (!more) return thr_nomem(err);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Options -> groups -> the best symmetric threading of each -> one of them -> plan. */
 #include "symmetry/symmetry.h"
 #include "graph/check/check.h"
@@ -20,8 +21,10 @@ static thr_status check_asked(const thr_symmetries *symmetries, const char *grou
 {
   for (int i = 0; i < symmetries->n; i++)
     if (thr_symmetry_asked(symmetries, i, group)) return THR_OK;
-  return thr_fail(err, THR_EINPUT, "there is no group %s: they are numbered 1 to %d, and `thread symmetries` lists their names",
-                  group, symmetries->n);
+  return thr_fail(
+      err, THR_EINPUT,
+      "there is no group %s: they are numbered 1 to %d, and `thread symmetries` lists their names",
+      group, symmetries->n);
 }
 
 /* 1 % of a millionth is rounding. */
@@ -31,8 +34,8 @@ static int compare(double a, double b)
   return a < b - least ? -1 : a > b + least;
 }
 
-/* By learned steps and what there is to read (not if none is within the slack), the longest cord if it is an aim, cord, number of
- * cords, turning. */
+/* By learned steps and what there is to read (not if none is within the slack), the longest cord if
+ * it is an aim, cord, number of cords, turning. */
 static bool is_better(const thr_symmetry_row *a, const thr_symmetry_row *b, bool within)
 {
   int by = within ? compare(a->record.steps, b->record.steps) : 0;
@@ -59,7 +62,8 @@ static void choose(thr_symmetries *symmetries)
     for (int i = 0; i < symmetries->n; i++) {
       const thr_symmetry_row *row = &symmetries->row[i];
       if (row->n_cords == 0 || (symmetries->within && !is_within(symmetries, row))) continue;
-      if (symmetries->chosen < 0 || is_better(row, &symmetries->row[symmetries->chosen], symmetries->within))
+      if (symmetries->chosen < 0 ||
+          is_better(row, &symmetries->row[symmetries->chosen], symmetries->within))
         symmetries->chosen = i;
     }
   }
@@ -68,8 +72,9 @@ static void choose(thr_symmetries *symmetries)
 /* ---- all rows ---- */
 
 /* The shortest cords, one in each component, for whoever keeps the best so far. */
-static thr_status tell_shortest(const thr_frame *frame, const thr_request *options, const thr_shortest *shortest,
-                                const thr_limits *limits, thr_err *err)
+static thr_status tell_shortest(const thr_frame *frame, const thr_request *options,
+                                const thr_shortest *shortest, const thr_limits *limits,
+                                thr_err *err)
 {
   int n = 0;
   thr_cord *cord = NULL;
@@ -81,26 +86,28 @@ static thr_status tell_shortest(const thr_frame *frame, const thr_request *optio
 }
 
 /* With as many cords as asked for; else with one per component, if that can be. */
-static thr_status find_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits,
-                                thr_symmetries *symmetries, thr_err *err)
+static thr_status find_shortest(const thr_frame *frame, const thr_request *options,
+                                const thr_limits *limits, thr_symmetries *symmetries, thr_err *err)
 {
   thr_shortest shortest;
   thr_err why = {0};
   thr_request few = *options;
   const thr_limits share = thr_limits_part(limits, 0.25);
   if (options->joint == THR_JOINT_TUBE)
-    return thr_symmetry_shortest_tied(frame, options, options->ends != THR_ENDS_CLOSED, &share, &symmetries->shortest,
-                                      &symmetries->shortest_optimal, err);
+    return thr_symmetry_shortest_tied(frame, options, options->ends != THR_ENDS_CLOSED, &share,
+                                      &symmetries->shortest, &symmetries->shortest_optimal, err);
   if (!options->symmetry.counted) few.cords = 1;
   thr_status st = thr_postman_shortest(frame, &few, &share, &shortest, &why);
-  if (st == THR_EINFEASIBLE && options->ends != THR_ENDS_CLOSED) { /* capacities may ask for more cords */
+  if (st == THR_EINFEASIBLE &&
+      options->ends != THR_ENDS_CLOSED) { /* capacities may ask for more cords */
     few.cords = THR_MOST_CORDS;
     st = thr_postman_shortest(frame, &few, &share, &shortest, &why);
   }
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
   symmetries->shortest = shortest.length;
   symmetries->shortest_optimal = shortest.optimal;
-  st = few.cords == 1 && few.cords_least == 1 ? tell_shortest(frame, &few, &shortest, limits, err) : THR_OK;
+  st = few.cords == 1 && few.cords_least == 1 ? tell_shortest(frame, &few, &shortest, limits, err)
+                                              : THR_OK;
   thr_shortest_destroy(&shortest);
   return st;
 }
@@ -116,24 +123,30 @@ static thr_status verdict(const thr_symmetries *symmetries, const char *group, t
     asked++;
     unsolved += why == THR_ELIMIT || why == THR_ESOLVER;
     loose += symmetries->row[i].solved && why == THR_ELIMIT;
-    if (!open && (why == THR_ESOLVER || (why == THR_ELIMIT && !symmetries->row[i].solved))) open = &symmetries->row[i];
+    if (!open && (why == THR_ESOLVER || (why == THR_ELIMIT && !symmetries->row[i].solved)))
+      open = &symmetries->row[i];
     if (why) none = &symmetries->row[i];
   }
-  if (none && symmetries->chosen < 0 && !unsolved) return thr_fail(err, none->why.code, "%s", none->why.text);
+  if (none && symmetries->chosen < 0 && !unsolved)
+    return thr_fail(err, none->why.code, "%s", none->why.text);
   if (!unsolved) return THR_OK;
   if (loose == unsolved && asked == 1)
-    return thr_fail(err, THR_ELIMIT, "the group is solved, but not optimal by the solver's word: %s", none->why.text);
-  if (loose == unsolved)
-    return thr_fail(err, THR_ELIMIT, "%d of %d groups are solved, but not optimal by the solver's word: %s", loose, asked,
+    return thr_fail(err, THR_ELIMIT,
+                    "the group is solved, but not optimal by the solver's word: %s",
                     none->why.text);
+  if (loose == unsolved)
+    return thr_fail(err, THR_ELIMIT,
+                    "%d of %d groups are solved, but not optimal by the solver's word: %s", loose,
+                    asked, none->why.text);
   return thr_fail(err, THR_ELIMIT, "%d of %d %s not solved to the end: %s", unsolved - loose, asked,
                   asked == 1 ? "group was" : "groups were", open->why.text);
 }
 
 /* ---- cords without symmetry ---- */
 
-/* The plan's cords as the threading of this row, which has none, under the identity alone. Of the row's bounds only that on the
- * first aim holds for them, and that there is no more to learn of an edge than its passes. */
+/* The plan's cords as the threading of this row, which has none, under the identity alone. Of the
+ * row's bounds only that on the first aim holds for them, and that there is no more to learn of an
+ * edge than its passes. */
 static thr_status take_plan(const thr_plan *plan, thr_symmetry_row *row, thr_err *err)
 {
   const thr_request *options = &plan->options;
@@ -153,15 +166,17 @@ static thr_status take_plan(const thr_plan *plan, thr_symmetry_row *row, thr_err
   row->value[THR_AIM_TURNING] = plan->metrics.turning;
   for (int a = 0; a < THR_N_AIMS; a++)
     row->bound[a] = 0;
-  row->bound[THR_AIM_OVERLAP] = fmin(row->value[THR_AIM_OVERLAP], fmax(0, plan->proof.lower_bound - plan->metrics.base_length));
+  row->bound[THR_AIM_OVERLAP] = fmin(row->value[THR_AIM_OVERLAP],
+                                     fmax(0, plan->proof.lower_bound - plan->metrics.base_length));
   row->least_copies = row->most_copies = 1;
   row->why = (thr_err){0};
   return THR_OK;
 }
 
-/* Tells whether one threading serves the aims better than another of the same group: the longest cord if it is one of them, then
- * the others in their order. */
-static bool serves_better(const thr_request *options, const thr_symmetry_row *a, const thr_symmetry_row *b)
+/* Tells whether one threading serves the aims better than another of the same group: the longest
+ * cord if it is one of them, then the others in their order. */
+static bool serves_better(const thr_request *options, const thr_symmetry_row *a,
+                          const thr_symmetry_row *b)
 {
   thr_aim order[THR_N_AIMS];
   int by = compare(a->longest, b->longest);
@@ -171,22 +186,28 @@ static bool serves_better(const thr_request *options, const thr_symmetry_row *a,
   return by < 0;
 }
 
-/* Cords without symmetry that keep to what is asked are a threading under the identity, where the search has none or a worse one.
+/* Cords without symmetry that keep to what is asked are a threading under the identity, where the
+ * search has none or a worse one.
  */
-static thr_status use_plan(const thr_plan *plan, const thr_request *options, thr_symmetries *symmetries, thr_err *err)
+static thr_status use_plan(const thr_plan *plan, const thr_request *options,
+                           thr_symmetries *symmetries, thr_err *err)
 {
   for (int i = 0; i < symmetries->n; i++) {
     thr_symmetry_row *row = &symmetries->row[i];
-    if (row->order > 1 || row->behind || !thr_symmetry_asked(symmetries, i, options->symmetry.group)) continue;
+    if (row->order > 1 || row->behind ||
+        !thr_symmetry_asked(symmetries, i, options->symmetry.group))
+      continue;
     thr_symmetry_row other = *row;
     other.cord = NULL;
     other.n_cords = 0;
     other.record = (thr_symmetry_record){0};
     thr_status st = take_plan(plan, &other, err);
-    if (thr_wants_balance(options)) other.longest = thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
+    if (thr_wants_balance(options))
+      other.longest = thr_cords_longest(&plan->frame, plan->cord, plan->n_cords);
     const bool kept = st || (row->n_cords > 0 && !serves_better(options, &other, row));
     if (!kept)
-      thr_fail(&other.why, THR_ELIMIT, "these are the cords of least length, which need not be the best under this group");
+      thr_fail(&other.why, THR_ELIMIT,
+               "these are the cords of least length, which need not be the best under this group");
     thr_symmetry_row *dropped = kept ? &other : row;
     thr_cords_destroy(dropped->cord, dropped->n_cords);
     thr_symmetry_record_destroy(&dropped->record);
@@ -203,10 +224,12 @@ static thr_status check_request(const thr_request *options, thr_err *err)
 {
   if (options->ends != THR_ENDS_COUNTS) return THR_OK;
   return thr_fail(err, THR_EINPUT,
-                  "symmetric threadings do not know a number of cord ends for each node, which only few groups would keep");
+                  "symmetric threadings do not know a number of cord ends for each node, which "
+                  "only few groups would keep");
 }
 
-thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *options, bool only_choice, const thr_plan *plan,
+thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *options,
+                                    bool only_choice, const thr_plan *plan,
                                     const thr_limits *limits, thr_symmetries *out, thr_err *err)
 {
   *out = (thr_symmetries){.chosen = -1};
@@ -216,7 +239,8 @@ thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *o
   if (plan) {
     out->shortest = fmax(plan->metrics.length, plan->metrics.base_length); /* but for rounding */
     out->shortest_optimal = plan->proof.optimal;
-    if (thr_wants_balance(options)) out->longest = thr_cords_longest(frame, plan->cord, plan->n_cords);
+    if (thr_wants_balance(options))
+      out->longest = thr_cords_longest(frame, plan->cord, plan->n_cords);
   }
   const thr_limits share = thr_limits_part(limits, 0.3);
   if (!st) st = thr_symmetry_groups(frame, options, &share, out, err);
@@ -233,8 +257,8 @@ thr_status thr_symmetries_find_from(const thr_frame *frame, const thr_request *o
   return st;
 }
 
-thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, bool only_choice, const thr_limits *limits,
-                               thr_symmetries *out, thr_err *err)
+thr_status thr_symmetries_find(const thr_frame *frame, const thr_request *options, bool only_choice,
+                               const thr_limits *limits, thr_symmetries *out, thr_err *err)
 {
   return thr_symmetries_find_from(frame, options, only_choice, NULL, limits, out, err);
 }
@@ -263,7 +287,8 @@ static void count_cords(const thr_symmetry_row *row, int *least, int *most)
   int n = 0;
   *most = 0;
   *least = row->n_cords;
-  for (int i = 0; i < row->n_cords; i++) { /* components are numbered without gaps, and all have cords */
+  for (int i = 0; i < row->n_cords;
+       i++) { /* components are numbered without gaps, and all have cords */
     if (row->cord[i].component >= n) n = row->cord[i].component + 1;
   }
   for (int k = 0; k < n; k++) {
@@ -281,16 +306,18 @@ static thr_status prove(thr_plan *plan, const thr_limits *limits, thr_err *err)
   thr_err why = {0};
   thr_status st = thr_postman_shortest(&plan->frame, &plan->options, limits, &shortest, &why);
   if (st && st != THR_ELIMIT) return thr_fail(err, st, "%s", why.text);
-  st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &shortest, &plan->proof, err);
+  st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, &shortest,
+                         &plan->proof, err);
   thr_shortest_destroy(&shortest);
   if (st || !thr_keep_asked(&plan->options)) return st;
   const thr_length_proof *proof = &plan->proof;
-  return thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate, proof->n_certificates, NULL,
-                         &plan->cords_claim, err);
+  return thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords,
+                         proof->certificate, proof->n_certificates, NULL, &plan->cords_claim, err);
 }
 
-thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_frame *frame, const thr_request *options,
-                               const thr_limits *limits, thr_plan *plan, thr_err *err)
+thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_frame *frame,
+                               const thr_request *options, const thr_limits *limits, thr_plan *plan,
+                               thr_err *err)
 {
   thr_symmetry_row *symmetry_row = &symmetries->row[row];
   thr_request with = *options;
@@ -299,8 +326,8 @@ thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_fr
   if (!thr_wants_symmetry(options)) with.aims = thr_aims_symmetric;
   count_cords(symmetry_row, &least, &most);
   if (most > THR_MOST_CORDS)
-    return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one component, more than %d", row + 1, most,
-                    THR_MOST_CORDS);
+    return thr_fail(err, THR_EINFEASIBLE, "group %d makes %d cords in one component, more than %d",
+                    row + 1, most, THR_MOST_CORDS);
   if (!thr_plan_counted(&with)) with.cords = most;
   thr_status st = thr_plan_request(plan, frame, &with, err);
   if (!st) {
@@ -314,27 +341,33 @@ thr_status thr_symmetries_plan(thr_symmetries *symmetries, int row, const thr_fr
                                                  .unique_paths = symmetry_row->record.unique_paths};
     if (options->joint == THR_JOINT_SOLID) st = prove(plan, limits, err);
   }
-  if (!st && symmetry_row->why.code) st = thr_fail(err, symmetry_row->why.code, "%s", symmetry_row->why.text);
+  if (!st && symmetry_row->why.code)
+    st = thr_fail(err, symmetry_row->why.code, "%s", symmetry_row->why.text);
   if (st && st != THR_ELIMIT) thr_plan_destroy(plan);
   return st;
 }
 
-thr_status thr_symmetry_plan_from(const thr_frame *frame, const thr_request *options, const thr_plan *shortest,
-                                  const thr_limits *limits, thr_symmetries *table, thr_plan *plan, thr_err *err)
+thr_status thr_symmetry_plan_from(const thr_frame *frame, const thr_request *options,
+                                  const thr_plan *shortest, const thr_limits *limits,
+                                  thr_symmetries *table, thr_plan *plan, thr_err *err)
 {
   thr_symmetries symmetries;
   thr_err early = {0}, own = {0};
   *plan = (thr_plan){0};
-  thr_status found = thr_symmetries_find_from(frame, options, true, shortest, limits, &symmetries, &early), st = found;
-  if (symmetries.chosen >= 0) st = thr_symmetries_plan(&symmetries, symmetries.chosen, frame, options, limits, plan, &own);
+  thr_status found = thr_symmetries_find_from(frame, options, true, shortest, limits, &symmetries,
+                                              &early),
+             st = found;
+  if (symmetries.chosen >= 0)
+    st = thr_symmetries_plan(&symmetries, symmetries.chosen, frame, options, limits, plan, &own);
   if (st == THR_OK) st = found;
   if (!table || (st && st != THR_ELIMIT)) thr_symmetries_destroy(&symmetries);
   if (table) *table = symmetries;
   return st ? thr_fail(err, st, "%s", found ? early.text : own.text) : THR_OK;
 }
 
-thr_status thr_symmetry_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_symmetries *table,
-                             thr_plan *plan, thr_err *err)
+thr_status thr_symmetry_plan(const thr_frame *frame, const thr_request *options,
+                             const thr_limits *limits, thr_symmetries *table, thr_plan *plan,
+                             thr_err *err)
 {
   return thr_symmetry_plan_from(frame, options, NULL, limits, table, plan, err);
 }
@@ -346,7 +379,9 @@ int thr_symmetries_even(const thr_symmetries *symmetries, int cords)
     if (symmetries->row[i].n_cords == 0 || !symmetries->row[i].cord) continue;
     count_cords(&symmetries->row[i], &least, &most);
     if (least != cords || most != cords) continue;
-    if (best < 0 || symmetries->row[i].metrics.max_turning < symmetries->row[best].metrics.max_turning) best = i;
+    if (best < 0 ||
+        symmetries->row[i].metrics.max_turning < symmetries->row[best].metrics.max_turning)
+      best = i;
   }
   return best;
 }

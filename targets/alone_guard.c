@@ -1,6 +1,7 @@
-/* cli/guard.c for a system that has one process. The time ends a search as it does everywhere; nobody ends what takes no heed of
- * it. The memory is bounded where the program gets it from its host. The best plan so far goes to the host, too, who may end the
- * program whenever it likes. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* cli/guard.c for a system that has one process. The time ends a search as it does everywhere;
+ * nobody ends what takes no heed of it. The memory is bounded where the program gets it from its
+ * host. The best plan so far goes to the host, too, who may end the program whenever it likes. */
 #include "cli/cli.h"
 #include "graph/limits.h"
 #include "graph/text.h"

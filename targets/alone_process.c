@@ -1,6 +1,8 @@
-/* graph/process/child.c and workers.c for a system that has one process: the jobs are done in it, one after the other. What a
- * library breaks or leaks is gone with the process or, in a page, with the instance of the program, of which every command has
- * its own (web/engine.js). A job that takes no heed of the time is not ended. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* graph/process/child.c and workers.c for a system that has one process: the jobs are done in it,
+ * one after the other. What a library breaks or leaks is gone with the process or, in a page, with
+ * the instance of the program, of which every command has its own (web/engine.js). A job that takes
+ * no heed of the time is not ended. */
 #include "graph/limits.h"
 #include "graph/process/process.h"
 #include "graph/process/threads.h"
@@ -24,7 +26,8 @@ thr_status thr_child_send(thr_sender *to, const thr_text *answer, thr_err *err)
 }
 
 /* Limits as a child has them: its plans are not the command's. */
-thr_status thr_child_run(const thr_child *c, const thr_limits *limits, thr_text *answer, thr_err *err)
+thr_status thr_child_run(const thr_child *c, const thr_limits *limits, thr_text *answer,
+                         thr_err *err)
 {
   thr_sender to = {.answer = answer};
   thr_limits own = *limits;
@@ -46,8 +49,8 @@ static thr_status stopped(const thr_work *w, int n_finished, thr_err *err)
   return thr_fail(err, THR_ELIMIT, "%s: stopped after %d of %d", w->what, n_finished, w->n_jobs);
 }
 
-thr_status thr_workers_run(const thr_work *w, int processes, const thr_limits *limits, void *results, bool *finished,
-                           thr_err *err)
+thr_status thr_workers_run(const thr_work *w, int processes, const thr_limits *limits,
+                           void *results, bool *finished, thr_err *err)
 {
   (void)processes;
   memset(finished, 0, (size_t)w->n_jobs * sizeof *finished);

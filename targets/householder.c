@@ -1,10 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* eval/structure/beads.h without SuiteSparse: Householder's QR factorization, column by column.
  *
- * A reflection H = I - v v' / h with h = v'v / 2 takes what is left of a column to one row, which is then done with: v is 0 in
- * all rows that were done before. Column j is reflected by all that came before it; what it has then in rows that are not done is
- * what the columns before it leave of it. If that is no more than the tolerance of its length, it depends on them (M. T. Heath,
- * SIAM J. Sci. Stat. Comput. 3, 1982). Reflections are kept as lists of their entries, of which meshes that are numbered along
- * the surface have few.
+ * A reflection H = I - v v' / h with h = v'v / 2 takes what is left of a column to one row, which
+ * is then done with: v is 0 in all rows that were done before. Column j is reflected by all that
+ * came before it; what it has then in rows that are not done is what the columns before it leave of
+ * it. If that is no more than the tolerance of its length, it depends on them (M. T. Heath, SIAM J.
+ * Sci. Stat. Comput. 3, 1982). Reflections are kept as lists of their entries, of which meshes that
+ * are numbered along the surface have few.
  *
  * Example: columns (1, 0), (2, 0), (1, 1): the second leaves nothing, the third (0, 1): rank 2. */
 #include "eval/structure/beads.h"
@@ -38,14 +40,16 @@ static void reflect(const reflection *by, double *x)
     x[by->row[k]] -= along * by->value[k];
 }
 
-/* Makes the reflection that takes what is left of the column, of this length, to the first row where it is not 0. */
+/* Makes the reflection that takes what is left of the column, of this length, to the first row
+ * where it is not 0. */
 static thr_status add(work *w, double length, thr_err *err)
 {
   reflection *by = &w->by[w->rank];
   int n = 0, to = -1;
   for (int i = 0; i < w->n_rows; i++)
     n += !w->done[i] && w->column[i] != 0;
-  *by = (reflection){.row = thr_calloc((size_t)n, sizeof *by->row), .value = thr_calloc((size_t)n, sizeof *by->value)};
+  *by = (reflection){.row = thr_calloc((size_t)n, sizeof *by->row),
+                     .value = thr_calloc((size_t)n, sizeof *by->value)};
   w->rank++;
   if (!by->row || !by->value) return thr_nomem(err);
   for (int i = 0; i < w->n_rows; i++) {
@@ -72,10 +76,11 @@ static void release(work *w)
   free(w->done);
 }
 
-thr_status thr_rank(int n_rows, int n_columns, const int *start, const int *row, const double *value, double tolerance, int *rank,
-                    thr_err *err)
+thr_status thr_rank(int n_rows, int n_columns, const int *start, const int *row,
+                    const double *value, double tolerance, int *rank, thr_err *err)
 {
-  const size_t most = (size_t)(n_rows < n_columns ? n_rows : n_columns) + 1, rows = (size_t)n_rows + 1;
+  const size_t most = (size_t)(n_rows < n_columns ? n_rows : n_columns) + 1,
+               rows = (size_t)n_rows + 1;
   work w = {.n_rows = n_rows,
             .column = thr_calloc(rows, sizeof *w.column),
             .done = thr_calloc(rows, sizeof *w.done),

@@ -1,12 +1,15 @@
-/* Functions of <math.h> as the installed program has them: rounded to the nearest double but for one case in some thousands, as
- * by glibc. Emscripten's own (musl's) are up to one unit in the last place off, in a fifth of all cases, and MinGW's are others:
- * two pairings of passes that turn by the same angle would then be told apart, and another one of two plans that are as good be
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Functions of <math.h> as the installed program has them: rounded to the nearest double but for
+ * one case in some thousands, as by glibc. Emscripten's own (musl's) are up to one unit in the last
+ * place off, in a fifth of all cases, and MinGW's are others: two pairings of passes that turn by
+ * the same angle would then be told apart, and another one of two plans that are as good be
  * written.
  *
- * Each is computed in pairs of doubles (high + low, some 105 bits; T. J. Dekker, Numer. Math. 18, 1971): sines and cosines by
- * Taylor's series, the others from what musl gives for them by one step of Newton's method: with t near atan2(y, x),
- *   atan2(y, x) = t + (y cos t - x sin t) / (x cos t + y sin t).
- * Where arguments are 0, infinite, no numbers, or so large or small that products leave the range, musl's value stands.
+ * Each is computed in pairs of doubles (high + low, some 105 bits; T. J. Dekker, Numer. Math. 18,
+ * 1971): sines and cosines by Taylor's series, the others from what musl gives for them by one step
+ * of Newton's method: with t near atan2(y, x), atan2(y, x) = t + (y cos t - x sin t) / (x cos t + y
+ * sin t). Where arguments are 0, infinite, no numbers, or so large or small that products leave the
+ * range, musl's value stands.
  *
  * The linker puts __wrap_f in the place of f, and __real_f is musl's. */
 #include <math.h>
@@ -16,9 +19,11 @@ typedef struct {
   double high, low;
 } pair;
 
-double __real_sin(double), __real_cos(double), __real_tan(double), __real_asin(double), __real_acos(double);
+double __real_sin(double), __real_cos(double), __real_tan(double), __real_asin(double),
+    __real_acos(double);
 double __real_atan2(double, double), __real_hypot(double, double);
-double __wrap_sin(double), __wrap_cos(double), __wrap_tan(double), __wrap_asin(double), __wrap_acos(double);
+double __wrap_sin(double), __wrap_cos(double), __wrap_tan(double), __wrap_asin(double),
+    __wrap_acos(double);
 double __wrap_atan2(double, double), __wrap_hypot(double, double);
 
 /* ---- pairs ---- */
@@ -32,7 +37,8 @@ static pair sum_of(double a, double b)
 static pair product_of(double a, double b)
 {
   const double split = 134217729; /* 2^27 + 1 */
-  const double ta = split * a, tb = split * b, a1 = ta - (ta - a), b1 = tb - (tb - b), a2 = a - a1, b2 = b - b1;
+  const double ta = split * a, tb = split * b, a1 = ta - (ta - a), b1 = tb - (tb - b), a2 = a - a1,
+               b2 = b - b1;
   const double product = a * b;
   return (pair){product, ((a1 * b1 - product) + a1 * b2 + a2 * b1) + a2 * b2};
 }
@@ -80,7 +86,8 @@ static void make_terms(void)
   }
 }
 
-/* Of |a| <= pi / 4: Taylor's series at a / 8, and three times sin 2x = 2 sin x cos x, 1 - cos 2x = 2 sin^2 x. */
+/* Of |a| <= pi / 4: Taylor's series at a / 8, and three times sin 2x = 2 sin x cos x, 1 - cos 2x =
+ * 2 sin^2 x. */
 static void small(pair a, pair *sine, pair *cosine)
 {
   const int halvings = 3;
@@ -93,10 +100,13 @@ static void small(pair a, pair *sine, pair *cosine)
     s = add(k % 2 ? odd[k] : (pair){-odd[k].high, -odd[k].low}, times(s, square));
   for (int k = TERMS - 2; k >= 0; k--)
     c = add(k % 2 ? (pair){-even[k].high, -even[k].low} : even[k], times(c, square));
-  s = add(a, times(times(a, square), s));                                              /* a - a^3 / 6 + .. */
-  c = add(scaled(square, 0.5), times(times(square, square), (pair){-c.high, -c.low})); /* 1 - cos a = a^2 / 2 - a^4 / 24 + .. */
+  s = add(a, times(times(a, square), s)); /* a - a^3 / 6 + .. */
+  c = add(scaled(square, 0.5),
+          times(times(square, square),
+                (pair){-c.high, -c.low})); /* 1 - cos a = a^2 / 2 - a^4 / 24 + .. */
   for (int k = 0; k < halvings; k++) {
-    const pair cosine_now = add((pair){1, 0}, (pair){-c.high, -c.low}), twice = scaled(times(s, s), 2);
+    const pair cosine_now = add((pair){1, 0}, (pair){-c.high, -c.low}),
+               twice = scaled(times(s, s), 2);
     s = scaled(times(s, cosine_now), 2);
     c = twice;
   }
@@ -107,9 +117,11 @@ static void small(pair a, pair *sine, pair *cosine)
 /* Of |a| <= 1e5, as a sum of a multiple of pi / 2 and a rest. */
 static void both(double a, pair *sine, pair *cosine)
 {
-  static const double half_pi[4] = {1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21, 1.0085854035872481e-37};
+  static const double half_pi[4] = {1.5707963267341256, 6.077100506303966e-11,
+                                    2.0222662487959506e-21, 1.0085854035872481e-37};
   const double n = nearbyint(a * 0.63661977236758134308);
-  pair rest = sum_of(a, -n * half_pi[0]), s, c; /* this part has 33 bits, and its product none too many */
+  pair rest = sum_of(a, -n * half_pi[0]), s,
+       c; /* this part has 33 bits, and its product none too many */
   rest = add(rest, (pair){-n * half_pi[1], 0}); /* 33 bits, too */
   const pair third = product_of(-n, half_pi[2]);
   rest = add(rest, third);
@@ -161,7 +173,9 @@ double __wrap_atan2(double y, double x)
 {
   const double near = __real_atan2(y, x), least = 1e-100, most = 1e100;
   pair sine, cosine;
-  if (!(fabs(x) > least && fabs(x) < most && fabs(y) > least && fabs(y) < most) || fabs(near) < 1e-8) return near;
+  if (!(fabs(x) > least && fabs(x) < most && fabs(y) > least && fabs(y) < most) ||
+      fabs(near) < 1e-8)
+    return near;
   both(near, &sine, &cosine);
   const pair across = add(scaled(cosine, y), scaled(sine, -x));
   return near + (across.high + across.low) / (x * cosine.high + y * sine.high);
@@ -189,8 +203,9 @@ double __wrap_asin(double x)
 
 /* ---- lengths ---- */
 
-/* The square root of the sum of squares with one correction for its rounding, "corrected unfused" in C. F. Borges, An Improved
- * Algorithm for hypot(a, b), ACM TOMS 47, 2021: what glibc computes, to the digit. */
+/* The square root of the sum of squares with one correction for its rounding, "corrected unfused"
+ * in C. F. Borges, An Improved Algorithm for hypot(a, b), ACM TOMS 47, 2021: what glibc computes,
+ * to the digit. */
 double __wrap_hypot(double x, double y)
 {
   const double least = 1e-140, most = 1e140, much = 0x1p53;

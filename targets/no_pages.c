@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* No PDF: there are no fonts to set its words in. */
 #include "diagram/export/paper.h"
 
@@ -10,15 +11,17 @@ bool thr_pages_exist(void)
   return false;
 }
 
-thr_status thr_pages_open(thr_pages **pages, const char *name, thr_page_size size, const char *title, const thr_limits *limits,
-                          thr_err *err)
+thr_status thr_pages_open(thr_pages **pages, const char *name, thr_page_size size,
+                          const char *title, const thr_limits *limits, thr_err *err)
 {
   (void)size;
   (void)title;
   (void)limits;
   *pages = NULL;
   return thr_fail(err, THR_ESOLVER,
-                  "the %s as PDF: this build of thread makes no PDF; the installed program draws it from the same plan", name);
+                  "the %s as PDF: this build of thread makes no PDF; the installed program draws "
+                  "it from the same plan",
+                  name);
 }
 
 void thr_pages_destroy(thr_pages *pages)
@@ -46,7 +49,8 @@ thr_status thr_letters_open(thr_letters_set **set, thr_err *err)
 {
   *set = NULL;
   return thr_fail(err, THR_ESOLVER,
-                  "labels: this build of thread has no fonts; the installed program makes them from the same plan");
+                  "labels: this build of thread has no fonts; the installed program makes them "
+                  "from the same plan");
 }
 
 void thr_letters_close(thr_letters_set *set)
@@ -61,7 +65,8 @@ double thr_letters_width(const thr_letters_set *set, const char *words)
   return 0;
 }
 
-void thr_letters_put(const thr_letters_set *set, const char *words, const double at[2], double height, thr_text *path)
+void thr_letters_put(const thr_letters_set *set, const char *words, const double at[2],
+                     double height, thr_text *path)
 {
   (void)set;
   (void)words;

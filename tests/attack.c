@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/attack.h"
 
 #include <inttypes.h>
@@ -6,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool attack_climb(rng *r, const attack_kind *kind, const void *target, void *candidate, int steps, attack_tally *tally)
+bool attack_climb(rng *r, const attack_kind *kind, const void *target, void *candidate, int steps,
+                  attack_tally *tally)
 {
   void *next = malloc(kind->size);
   ck_assert(next != NULL);
@@ -43,8 +45,8 @@ uint64_t attack_seed(void)
 void attack_report(const attack_tally *t)
 {
   if (!getenv("THREAD_ADVERSARY_ATTACKS")) return;
-  printf("%-10s %10ld attacks, %10ld accepted, %ld holes, best %+.3g of the truth\n", t->name, t->judged, t->accepted, t->holes,
-         t->best);
+  printf("%-10s %10ld attacks, %10ld accepted, %ld holes, best %+.3g of the truth\n", t->name,
+         t->judged, t->accepted, t->holes, t->best);
   fflush(stdout);
 }
 

@@ -1,11 +1,14 @@
-/* The adversary's search: candidates are changed a little at a time, and what the checker would prove from them is to rise. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The adversary's search: candidates are changed a little at a time, and what the checker would
+ * prove from them is to rise. */
 #ifndef THR_ATTACK_H
 #define THR_ATTACK_H
 
 #include "tests/support.h"
 
-/* A candidate is a plain structure that can be copied. change alters it. judge lets the checker have it and returns by how much
- * what is proved is above the truth, as a part of it, or less: -INFINITY if nothing is proved. */
+/* A candidate is a plain structure that can be copied. change alters it. judge lets the checker
+ * have it and returns by how much what is proved is above the truth, as a part of it, or less:
+ * -INFINITY if nothing is proved. */
 typedef struct {
   size_t size;
   void (*change)(rng *r, const void *target, void *candidate);
@@ -20,12 +23,13 @@ typedef struct {
   double best; /* of what judge said */
 } attack_tally;
 
-/* Climbs from a candidate, which ends as the best one: a change that is no worse is kept. Returns true as soon as there is a
- * hole. */
-bool attack_climb(rng *r, const attack_kind *kind, const void *target, void *candidate, int steps, attack_tally *tally);
+/* Climbs from a candidate, which ends as the best one: a change that is no worse is kept. Returns
+ * true as soon as there is a hole. */
+bool attack_climb(rng *r, const attack_kind *kind, const void *target, void *candidate, int steps,
+                  attack_tally *tally);
 
-/* How many attacks to make (THREAD_ADVERSARY_ATTACKS in the environment; otherwise a part of the usual number), and the first
- * seed (THREAD_ADVERSARY_SEED). */
+/* How many attacks to make (THREAD_ADVERSARY_ATTACKS in the environment; otherwise a part of the
+ * usual number), and the first seed (THREAD_ADVERSARY_SEED). */
 long attack_number(long usual);
 uint64_t attack_seed(void);
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Small frameworks and options at random, by pairs. */
 #include "tests/crossing.h"
 #include "graph/plan/turning_proof.h"
@@ -9,9 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const crossing_name[N_CHOICES] = {"objective",  "joint",   "ends",   "pieces", "cords",     "cover", "capacity",
-                                              "own passes", "lengths", "shape",  "limit",  "balance",   "slack", "turn cost",
-                                              "minimize",   "tour",    "engine", "prefer", "geometric", "cords"};
+const char *const crossing_name[N_CHOICES] = {
+    "objective",  "joint",   "ends",   "pieces", "cords",     "cover", "capacity",
+    "own passes", "lengths", "shape",  "limit",  "balance",   "slack", "turn cost",
+    "minimize",   "tour",    "engine", "prefer", "geometric", "cords"};
 
 enum { LENGTH, TORTUOSITY, SYMMETRY };
 enum { CORDS_UNSAID, CORDS_2, CORDS_3, CORDS_1_TO_3, CORDS_2_TO_4, CORDS_UP_TO_8, CORDS_AUTO };
@@ -204,7 +206,8 @@ void crossing_choose(rng *r, const crossing_tally *t, const char *only, int *val
     do {
       for (int c = 0; c < N_CHOICES; c++)
         try[c] = rng_below(r, 3) ? rng_below(r, crossing_values((crossing_choice)c)) : 0;
-      if (try[BY_OBJECTIVE] != TORTUOSITY) try[BY_SLACK] = try[BY_COST] = try[BY_MINIMIZE] = try[BY_TOUR] = 0;
+      if (try[BY_OBJECTIVE] != TORTUOSITY)
+        try[BY_SLACK] = try[BY_COST] = try[BY_MINIMIZE] = try[BY_TOUR] = 0;
       if (try[BY_OBJECTIVE] != SYMMETRY) try[BY_PREFER] = try[BY_GEOMETRIC] = 0;
     } while (crossing_is_refused(try) || !wanted(try, only));
     double found = score(t, try);
@@ -249,7 +252,8 @@ typedef struct {
 static bool joined(const sketch *s, int a, int b)
 {
   for (int e = 0; e < s->m; e++)
-    if ((s->edge[e][0] == a && s->edge[e][1] == b) || (s->edge[e][0] == b && s->edge[e][1] == a)) return true;
+    if ((s->edge[e][0] == a && s->edge[e][1] == b) || (s->edge[e][0] == b && s->edge[e][1] == a))
+      return true;
   return false;
 }
 
@@ -399,7 +403,8 @@ static void write_sketch(rng *r, const sketch *s, const int *value, const char *
   for (int e = 0; e < s->m; e++) {
     fprintf(out, "%s[%d,%d]", e ? "," : "", s->edge[e][0], s->edge[e][1]);
     int cover = rng_below(r, 3) ? 1 : rng_between(r, 1, 3), room = rng_below(r, 3);
-    double length = value[BY_LENGTHS] == 3 ? rng_between(r, 1, 5) : 10 + floor(rng_unit(r) * 90000) / 1000;
+    double length =
+        value[BY_LENGTHS] == 3 ? rng_between(r, 1, 5) : 10 + floor(rng_unit(r) * 90000) / 1000;
     if (value[BY_LENGTHS] == 1) length = units[1];
     if (value[BY_PASSES] == 2) cover = 1;
     int least = cover > capacity_least ? cover : capacity_least;
@@ -460,7 +465,9 @@ static void say_counts(crossing_case *c, const sketch *s, rng *r)
   ck_assert_ptr_nonnull(c->o.end_count);
   for (int k = 0; k < s->pieces; k++) {
     int one = c->o.distinct > 0 ? c->o.distinct : 1;
-    int cords = c->value[BY_TOUR] ? 1 : free_number ? rng_between(r, one, 2) : rng_between(r, least, most < 3 ? most : 3);
+    int cords = c->value[BY_TOUR] ? 1
+                : free_number     ? rng_between(r, one, 2)
+                                  : rng_between(r, least, most < 3 ? most : 3);
     if (cords < fewest) fewest = cords;
     if (cords > greatest) greatest = cords;
     for (int i = 0; i < 2 * cords;) {
@@ -515,7 +522,8 @@ static void say_turning(crossing_case *c)
   const int *v = c->value;
   c->o.turning.length_slack = slack[v[BY_SLACK]];
   c->o.turning.cost = (thr_turn_cost)v[BY_COST];
-  if (v[BY_MINIMIZE] && v[BY_OBJECTIVE] == TORTUOSITY) c->o.aims.aim[c->o.aims.n - 1] = THR_AIM_MAX_TURNING;
+  if (v[BY_MINIMIZE] && v[BY_OBJECTIVE] == TORTUOSITY)
+    c->o.aims.aim[c->o.aims.n - 1] = THR_AIM_MAX_TURNING;
   c->o.turning.tour = (thr_tour)v[BY_TOUR];
   if (v[BY_SLACK]) say(c, " --length-slack %s", crossing_value[BY_SLACK][v[BY_SLACK]]);
   if (v[BY_COST]) say(c, " --turn-cost %s", crossing_value[BY_COST][v[BY_COST]]);
@@ -526,7 +534,8 @@ static void say_turning(crossing_case *c)
 static void say_options(crossing_case *c, const sketch *s, rng *r)
 {
   enum { BALANCED = 3 };
-  static const char *const aims[] = {"length", "turning", "overlap,steps", "longest", "longest,turning", "longest,overlap,steps"};
+  static const char *const aims[] = {"length",  "turning",         "overlap,steps",
+                                     "longest", "longest,turning", "longest,overlap,steps"};
   const int *v = c->value;
   c->o = thr_request_default();
   want(&c->o, aims[v[BY_BALANCE] ? BALANCED + v[BY_OBJECTIVE] : v[BY_OBJECTIVE]]);
@@ -551,7 +560,9 @@ static void say_options(crossing_case *c, const sketch *s, rng *r)
   case 0: c->o.ends = THR_ENDS_CLOSED; break;
   case 3: say_list(c, s, r); break;
   case 4: say_counts(c, s, r); break;
-  default: c->o.ends = v[BY_ENDS] == 1 ? THR_ENDS_ANY : THR_ENDS_FEET; say(c, " --ends %s", crossing_value[BY_ENDS][v[BY_ENDS]]);
+  default:
+    c->o.ends = v[BY_ENDS] == 1 ? THR_ENDS_ANY : THR_ENDS_FEET;
+    say(c, " --ends %s", crossing_value[BY_ENDS][v[BY_ENDS]]);
   }
 }
 

@@ -1,4 +1,6 @@
-/* Random cases for the planner: a small framework and a value of every option, so that all pairs of values are met. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Random cases for the planner: a small framework and a value of every option, so that all pairs of
+ * values are met. */
 #ifndef THR_CROSSING_H
 #define THR_CROSSING_H
 
@@ -33,7 +35,8 @@ typedef enum {
 
 enum { CROSSING_VALUES = 7 };
 
-/* Names of the values of each choice, and how many there are; value 0 is what the program does if it is not told. */
+/* Names of the values of each choice, and how many there are; value 0 is what the program does if
+ * it is not told. */
 extern const char *const crossing_value[N_CHOICES][CROSSING_VALUES];
 extern const char *const crossing_name[N_CHOICES];
 int crossing_values(crossing_choice c);
@@ -67,13 +70,14 @@ bool crossing_is_refused(const int *value);
 /* Can no case have both values, because something else refuses every case with both? */
 bool crossing_never_meet(crossing_choice a, int value_a, crossing_choice b, int value_b);
 
-/* Values that are not refused, chosen at random among those that meet pairs which met least. only: names of values that all cases
- * have, separated by spaces; NULL: none. */
+/* Values that are not refused, chosen at random among those that meet pairs which met least. only:
+ * names of values that all cases have, separated by spaces; NULL: none. */
 void crossing_choose(rng *r, const crossing_tally *t, const char *only, int *value);
 void crossing_count(crossing_tally *t, const int *value);
 void crossing_print(const crossing_tally *t);
 
-/* A random framework for these values, written to path and read again, and the options in both forms. */
+/* A random framework for these values, written to path and read again, and the options in both
+ * forms. */
 crossing_case crossing_make(rng *r, const int *value, const char *path, int most_edges);
 void crossing_destroy(crossing_case *c);
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every choice of copies, and of partners for their ends. */
 #include "tests/exhaustion.h"
 #include "graph/framework/make.h"
@@ -13,13 +14,15 @@
 
 thr_frame frame_from(int n, int m, const int (*edge)[2], const int *feet)
 {
-  static const double xyz[MOST_NODES][3] = {{0, 0, 0}, {10, 1, 0}, {3, 9, 1}, {-4, 5, 7}, {2, -6, 3}, {6, 4, -8}};
+  static const double xyz[MOST_NODES][3] = {{0, 0, 0},  {10, 1, 0}, {3, 9, 1},
+                                            {-4, 5, 7}, {2, -6, 3}, {6, 4, -8}};
   return frame_make(n, xyz, m, edge, NULL, feet);
 }
 
 thr_group automorphisms_by_hand(const thr_frame *f)
 {
-  int n = f->n_nodes, count = 0, at[MOST_NODES], *list = thr_calloc((size_t)720 * MOST_NODES, sizeof *list);
+  int n = f->n_nodes, count = 0, at[MOST_NODES],
+      *list = thr_calloc((size_t)720 * MOST_NODES, sizeof *list);
   thr_group g;
   ck_assert_ptr_nonnull(list);
   for (int i = 0, all = (int)lround(pow(n, n)); i < all; i++) {
@@ -28,7 +31,8 @@ thr_group automorphisms_by_hand(const thr_frame *f)
       at[v] = rest % n;
     for (int v = 0; v < n && good; v++)
       for (int w = 0; w < v && good; w++)
-        good = at[v] != at[w] && (thr_frame_edge_between(f, v, w) < 0) == (thr_frame_edge_between(f, at[v], at[w]) < 0);
+        good = at[v] != at[w] && (thr_frame_edge_between(f, v, w) < 0) ==
+                                     (thr_frame_edge_between(f, at[v], at[w]) < 0);
     for (int v = 0; v < n && good; v++)
       good = f->foot[v] == f->foot[at[v]];
     if (good) memcpy(&list[n * count++], at, (size_t)n * sizeof *at);
@@ -43,7 +47,8 @@ thr_group automorphisms_by_hand(const thr_frame *f)
 
 static int half_image(const exhaustive *x, int g, int h)
 {
-  int a = x->image[g][thr_tail(x->f, h)], b = x->image[g][thr_head(x->f, h)], e = thr_frame_edge_between(x->f, a, b);
+  int a = x->image[g][thr_tail(x->f, h)], b = x->image[g][thr_head(x->f, h)],
+      e = thr_frame_edge_between(x->f, a, b);
   return 2 * e + (x->f->edge[e][0] != a);
 }
 
@@ -87,7 +92,8 @@ static void list_kinds(exhaustive *x, int orbit, int e)
   }
 }
 
-void exhaustive_init(exhaustive *x, const thr_frame *f, const thr_group *g, const thr_subgroup *h, const thr_cover_options *o)
+void exhaustive_init(exhaustive *x, const thr_frame *f, const thr_group *g, const thr_subgroup *h,
+                     const thr_cover_options *o)
 {
   bool done[32] = {false};
   memset(x, 0, sizeof *x);
@@ -98,7 +104,8 @@ void exhaustive_init(exhaustive *x, const thr_frame *f, const thr_group *g, cons
     memcpy(x->image[i], &g->image[h->element[i] * g->degree], (size_t)g->degree * sizeof(int));
     for (int k = 0; k < h->order; k++)
       for (int p = 0; p < h->order; p++)
-        if (g->product[h->element[i] * g->order + h->element[k]] == h->element[p]) x->product[i][k] = p;
+        if (g->product[h->element[i] * g->order + h->element[k]] == h->element[p])
+          x->product[i][k] = p;
   }
   ck_assert_int_le(f->n_edges, MOST_ORBITS);
   for (int a = 0; a < 2 * f->n_edges; a++)
@@ -141,7 +148,8 @@ static bool is_tied(const exhaustive *x)
       join(tube, x->half[d], x->half[x->partner[d]]);
   for (int a = 0; a < 2 * x->f->n_edges; a++)
     for (int b = 0; b < a; b++)
-      if (thr_tail(x->f, a) == thr_tail(x->f, b) && root_of(tube, a) != root_of(tube, b)) return false;
+      if (thr_tail(x->f, a) == thr_tail(x->f, b) && root_of(tube, a) != root_of(tube, b))
+        return false;
   return true;
 }
 
@@ -219,7 +227,8 @@ static void weigh(exhaustive *x, double overlap, double steps)
   x->found = true;
 }
 
-/* Gives all images of dart a the images of b (-2: ends) as partners; false if that contradicts itself. Undo by the old partners.
+/* Gives all images of dart a the images of b (-2: ends) as partners; false if that contradicts
+ * itself. Undo by the old partners.
  */
 static bool pair_all(exhaustive *x, int a, int b)
 {
@@ -287,7 +296,8 @@ static void make_copies(exhaustive *x, const int *number)
         if (x->copy_orbit[to] == x->copy_orbit[c] && set[to] == coset(x, g, set[c])) {
           x->copy_image[g][c] = to;
           for (int side = 0; side < 2; side++)
-            x->dart_image[g][2 * c + side] = 2 * to + (x->half[2 * to] != half_image(x, g, x->half[2 * c + side]));
+            x->dart_image[g][2 * c + side] =
+                2 * to + (x->half[2 * to] != half_image(x, g, x->half[2 * c + side]));
         }
 }
 
@@ -317,7 +327,8 @@ int exhaustive_most_passes(const exhaustive *x)
 }
 
 /* All choices of copies with cover .. most_passes passes over every edge. */
-static void list_choices(const exhaustive *x, int k, choice *now, const int *passes, choice **list, int *n, int *capacity)
+static void list_choices(const exhaustive *x, int k, choice *now, const int *passes, choice **list,
+                         int *n, int *capacity)
 {
   if (k == x->n_kinds) {
     int copies = 0;
@@ -362,7 +373,8 @@ bool exhaustive_search(exhaustive *x)
   list_choices(x, 0, &none, passes, &list, &n, &capacity);
   if (n > 0) qsort(list, (size_t)n, sizeof *list, by_worth);
   for (int i = 0; i < n && x->leaves <= LEAVES; i++) {
-    if (x->found && (list[i].overlap > x->best[0] + 1e-6 || list[i].steps > x->best[1] + 1e-6)) break;
+    if (x->found && (list[i].overlap > x->best[0] + 1e-6 || list[i].steps > x->best[1] + 1e-6))
+      break;
     make_copies(x, list[i].number);
     if (x->o->tube && !may_tie(x)) continue;
     for (int d = 0; d < 2 * x->n_copies; d++)
@@ -389,8 +401,20 @@ const example cover_examples[] = {
     {"tetrahedron", 4, 6, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}, {0, -1}},
     {"bow tie", 5, 6, {{0, 1}, {0, 2}, {1, 2}, {0, 3}, {0, 4}, {3, 4}}, {0, -1}},
     {"ladder", 6, 7, {{0, 1}, {1, 2}, {3, 4}, {4, 5}, {0, 3}, {1, 4}, {2, 5}}, {0, 2, 3, 5, -1}},
-    {"wheel", 5, 8, {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {2, 3}, {3, 4}, {4, 1}}, {1, 2, 3, 4, -1}},
-    {"prism", 6, 9, {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}, {0, 1, 2, 3, 4, 5, -1}},
+    {"wheel",
+     5,
+     8,
+     {{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {2, 3}, {3, 4}, {4, 1}},
+     {1, 2, 3, 4, -1}},
+    {"prism",
+     6,
+     9,
+     {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}},
+     {0, 1, 2, 3, 4, 5, -1}},
     {"kite with a tail", 5, 6, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {1, 3}, {2, 4}}, {0, 4, -1}},
-    {"K33", 6, 9, {{0, 3}, {0, 4}, {0, 5}, {1, 3}, {1, 4}, {1, 5}, {2, 3}, {2, 4}, {2, 5}}, {0, 1, 2, -1}},
+    {"K33",
+     6,
+     9,
+     {{0, 3}, {0, 4}, {0, 5}, {1, 3}, {1, 4}, {1, 5}, {2, 3}, {2, 4}, {2, 5}},
+     {0, 1, 2, -1}},
 };

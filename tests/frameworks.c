@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/frameworks.h"
 #include "graph/angle.h"
 #include "graph/io/read.h"
@@ -6,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-thr_frame frame_make(int n, const double (*xyz)[3], int m, const int (*edge)[2], const double *length, const int *feet)
+thr_frame frame_make(int n, const double (*xyz)[3], int m, const int (*edge)[2],
+                     const double *length, const int *feet)
 {
   thr_draft d = {0};
   thr_frame f;
@@ -15,7 +17,8 @@ thr_frame frame_make(int n, const double (*xyz)[3], int m, const int (*edge)[2],
   for (int v = 0; v < n; v++)
     ck_assert_int_eq(thr_draft_add_node(&d, xyz[v], NULL, false, NULL), THR_OK);
   for (int e = 0; e < m; e++)
-    ck_assert_int_eq(thr_draft_add_edge(&d, edge[e][0], edge[e][1], length ? length[e] : 0, NULL), THR_OK);
+    ck_assert_int_eq(thr_draft_add_edge(&d, edge[e][0], edge[e][1], length ? length[e] : 0, NULL),
+                     THR_OK);
   for (int i = 0; feet && feet[i] >= 0; i++)
     d.node[feet[i]].foot = true;
   ck_assert_msg(thr_draft_build(&d, 0, &f, &report, &err) == THR_OK, "%s", err.text);
@@ -44,7 +47,8 @@ static thr_frame nearest_frame(int n, double (*xyz)[3])
   for (int pass = 0; pass < 2; pass++)
     for (int a = 0; a < n; a++)
       for (int b = a + 1; b < n; b++) {
-        double d = hypot(hypot(xyz[a][0] - xyz[b][0], xyz[a][1] - xyz[b][1]), xyz[a][2] - xyz[b][2]);
+        double d =
+            hypot(hypot(xyz[a][0] - xyz[b][0], xyz[a][1] - xyz[b][1]), xyz[a][2] - xyz[b][2]);
         if (pass == 0)
           near = fmin(near, d);
         else if (d < 1.001 * near)
@@ -118,7 +122,8 @@ static void put_foot(sketch *s, int v)
 static thr_frame sketch_finish(sketch *s, const double *length)
 {
   s->feet[s->n_feet] = -1;
-  thr_frame f = frame_make(s->n, (const double(*)[3])s->xyz, s->m, (const int(*)[2])s->edge, length, s->feet);
+  thr_frame f =
+      frame_make(s->n, (const double(*)[3])s->xyz, s->m, (const int(*)[2])s->edge, length, s->feet);
   free(s->xyz);
   free(s->edge);
   free(s->feet);
@@ -204,7 +209,8 @@ thr_frame triangles_make(int n)
 {
   sketch s = sketch_make(3 * n, 3 * n);
   for (int i = 0; i < n; i++) {
-    int a = put_node(&s, 2 * i, 0, 0), b = put_node(&s, 2 * i + 1, 0, 0), c = put_node(&s, 2 * i + 0.5, sqrt(0.75), 0);
+    int a = put_node(&s, 2 * i, 0, 0), b = put_node(&s, 2 * i + 1, 0, 0),
+        c = put_node(&s, 2 * i + 0.5, sqrt(0.75), 0);
     put_edge(&s, a, b);
     put_edge(&s, b, c);
     put_edge(&s, c, a);
@@ -233,7 +239,8 @@ thr_frame side_by_side(const thr_frame *a, const thr_frame *b)
 static bool joined(const sketch *s, int a, int b)
 {
   for (int e = 0; e < s->m; e++)
-    if ((s->edge[e][0] == a && s->edge[e][1] == b) || (s->edge[e][0] == b && s->edge[e][1] == a)) return true;
+    if ((s->edge[e][0] == a && s->edge[e][1] == b) || (s->edge[e][0] == b && s->edge[e][1] == a))
+      return true;
   return false;
 }
 
@@ -285,8 +292,9 @@ thr_frame random_frame_few_odd(rng *r, int n, int extra, length_kind kind, int m
     length[e] = kind == LENGTHS_EQUAL            ? 7.3
                 : kind == LENGTHS_SMALL_INTEGERS ? rng_between(r, 1, 4)
                 : kind == LENGTHS_RANDOM         ? 0.01 + 10 * rng_unit(r)
-                : kind == LENGTHS_SURDS          ? rng_between(r, 1, 3) * sqrt(rng_between(r, 1, 3)) /* no common measure */
-                                                 : 0;
+                : kind == LENGTHS_SURDS
+                    ? rng_between(r, 1, 3) * sqrt(rng_between(r, 1, 3)) /* no common measure */
+                    : 0;
   int some = rng_below(r, n);
   for (int v = 0; v < n; v++)
     if (v == some || rng_below(r, 4) == 0) put_foot(&s, v);

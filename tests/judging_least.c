@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The least that cords can do, by exhaustive search over walks. */
 #include "tests/judging.h"
 
@@ -10,15 +11,19 @@ long judged_most_states = 8000;
 
 enum { MOST_APART = 600 }; /* states, where each cord has a limit of its own */
 
-judged_piece judged_piece_find(const judged *j, int k, walks_back back, walks_weights weights, double limit, int most)
+judged_piece judged_piece_find(const judged *j, int k, walks_back back, walks_weights weights,
+                               double limit, int most)
 {
   judged_piece found = {.known = false};
   walks_piece w;
   const bool apart = weights.length > 0 && limit < 0 && j->c.o.max_length > 0;
   if (apart) weights.longest = j->c.o.max_length * (1 + 1e-9);
-  const long most_states = apart && judged_most_states > MOST_APART ? MOST_APART : judged_most_states;
-  if (!walks_piece_init(&w, &j->c.f, &j->c.o, k, back, j->c.o.turning.cost, INFINITY, most_states)) return found;
-  double *in = calloc((size_t)w.n_states, sizeof *in), *out = calloc((size_t)w.n_states, sizeof *out);
+  const long most_states =
+      apart && judged_most_states > MOST_APART ? MOST_APART : judged_most_states;
+  if (!walks_piece_init(&w, &j->c.f, &j->c.o, k, back, j->c.o.turning.cost, INFINITY, most_states))
+    return found;
+  double *in = calloc((size_t)w.n_states, sizeof *in),
+         *out = calloc((size_t)w.n_states, sizeof *out);
   ck_assert(in != NULL && out != NULL);
   walks_begin(&w, in);
   found.known = true;
@@ -39,7 +44,8 @@ judged_piece judged_piece_find(const judged *j, int k, walks_back back, walks_we
 const double judged_rounding = 1e-13; /* of a cord's length */
 const walks_weights judged_by_length = {.length = 1}, judged_by_turn = {.turn = 1};
 
-/* Cords of piece k, least and most, as the options say for this objective; with ends counted all of them are used. */
+/* Cords of piece k, least and most, as the options say for this objective; with ends counted all of
+ * them are used. */
 static void cords_of(const judged *j, int k, int *least, int *most)
 {
   const thr_request *o = &j->c.o;
@@ -122,8 +128,11 @@ static bool piece_front(const judged *j, int k, double longest, double limit_tur
   walks_piece w;
   int least, most, n = 0;
   cords_of(j, k, &least, &most);
-  if (!walks_piece_init(&w, &j->c.f, &j->c.o, k, BACK_AT_LEAVES, j->c.o.turning.cost, longest, judged_most_states)) return false;
-  double *in = calloc((size_t)w.n_states, sizeof *in), *out = calloc((size_t)w.n_states, sizeof *out);
+  if (!walks_piece_init(&w, &j->c.f, &j->c.o, k, BACK_AT_LEAVES, j->c.o.turning.cost, longest,
+                        judged_most_states))
+    return false;
+  double *in = calloc((size_t)w.n_states, sizeof *in),
+         *out = calloc((size_t)w.n_states, sizeof *out);
   double(*pair)[2] = calloc((size_t)w.n_states * (size_t)(most - least + 1), sizeof *pair);
   ck_assert(in != NULL && out != NULL && pair != NULL);
   walks_begin(&w, in);
@@ -133,7 +142,8 @@ static bool piece_front(const judged *j, int k, double longest, double limit_tur
     in = out;
     out = swap;
     for (long s = 0; s < w.n_states && i >= least; s++)
-      if (in[s] < INFINITY && walks_complete(&w, s)) pair[n][0] = walks_length(&w, s), pair[n++][1] = in[s];
+      if (in[s] < INFINITY && walks_complete(&w, s))
+        pair[n][0] = walks_length(&w, s), pair[n++][1] = in[s];
   }
   front_sort(f, pair, n);
   free(in);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/matchings.h"
 #include "graph/limits.h"
 
@@ -46,13 +47,15 @@ void join_randomly(instance *g, rng *r, int n_edges, int64_t most)
 
 /* ---- the proof ---- */
 
-/* Each of these says what is wrong, or NULL: one assertion for all, as Check notes each in a pipe. */
+/* Each of these says what is wrong, or NULL: one assertion for all, as Check notes each in a pipe.
+ */
 static const char *fault_of_pairs(const instance *g, const thr_matching *m)
 {
   int64_t twice = 0;
   for (int v = 0; v < g->n_nodes; v++) {
     int mate = m->mate[v], e = m->mate_edge[v];
-    if (mate < 0 || mate >= g->n_nodes || e < 0 || e >= g->n_edges) return "mate or edge out of range";
+    if (mate < 0 || mate >= g->n_nodes || e < 0 || e >= g->n_edges)
+      return "mate or edge out of range";
     if (m->mate[mate] != v || m->mate_edge[mate] != e) return "not each other's mates";
     if (g->edge[e][0] != v && g->edge[e][1] != v) return "mated by another's edge";
     if (g->edge[e][0] != mate && g->edge[e][1] != mate) return "mated by an edge to another";
@@ -74,7 +77,8 @@ static const char *fault_of_sets(const instance *g, const thr_matching *m, int *
     int parent = m->blossom_parent[b];
     if (m->blossom_dual[b] <= 0) fault = "a blossom without a dual";
     if (size[b] % 2 == 0 || size[b] < 3) fault = "a blossom that is not odd";
-    if (parent != -1 && (parent <= b || parent >= m->n_blossoms)) fault = "not children before parents";
+    if (parent != -1 && (parent <= b || parent >= m->n_blossoms))
+      fault = "not children before parents";
     if (parent >= 0 && !fault) size[parent] += size[b];
   }
   for (int b = m->n_blossoms - 1; b >= 0 && !fault; b--)
@@ -83,8 +87,10 @@ static const char *fault_of_sets(const instance *g, const thr_matching *m, int *
   return fault;
 }
 
-/* What the blossoms that an edge leaves load it with; counts it in leaving[] of each, unless that is NULL. */
-static wide load_of_blossoms(const instance *g, const thr_matching *m, const int *depth, int e, int *leaving)
+/* What the blossoms that an edge leaves load it with; counts it in leaving[] of each, unless that
+ * is NULL. */
+static wide load_of_blossoms(const instance *g, const thr_matching *m, const int *depth, int e,
+                             int *leaving)
 {
   wide load = 0;
   for (int a = m->node_blossom[g->edge[e][0]], b = m->node_blossom[g->edge[e][1]]; a != b;) {
@@ -97,7 +103,8 @@ static wide load_of_blossoms(const instance *g, const thr_matching *m, const int
   return load;
 }
 
-static const char *fault_of_duals(const instance *g, const thr_matching *m, const int *depth, int *leaving)
+static const char *fault_of_duals(const instance *g, const thr_matching *m, const int *depth,
+                                  int *leaving)
 {
   wide sum = 0;
   for (int e = 0; e < g->n_edges; e++) {
@@ -118,7 +125,8 @@ static const char *fault_of_duals(const instance *g, const thr_matching *m, cons
 
 void assert_lightest(const instance *g, const thr_matching *m)
 {
-  int *depth = calloc((size_t)m->n_blossoms + 1, sizeof *depth), *leaving = calloc((size_t)m->n_blossoms + 1, sizeof *leaving);
+  int *depth = calloc((size_t)m->n_blossoms + 1, sizeof *depth),
+      *leaving = calloc((size_t)m->n_blossoms + 1, sizeof *leaving);
   const char *fault = fault_of_pairs(g, m);
   if (!fault) fault = fault_of_sets(g, m, depth);
   if (!fault) fault = fault_of_duals(g, m, depth, leaving);

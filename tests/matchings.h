@@ -1,4 +1,6 @@
-/* What the tests of the matching engine share: instances, the proof that a matching is right, brute force. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the tests of the matching engine share: instances, the proof that a matching is right, brute
+ * force. */
 #ifndef THR_MATCHINGS_H
 #define THR_MATCHINGS_H
 
@@ -26,17 +28,19 @@ void join_randomly(instance *g, rng *r, int n_edges, int64_t most);
 /* 0 .. most. */
 int64_t random_weight(rng *r, int64_t most);
 
-/* Fails unless m is a perfect matching and its duals prove it lightest, by the sums of lp/matching/blossom.h. */
+/* Fails unless m is a perfect matching and its duals prove it lightest, by the sums of
+ * lp/matching/blossom.h. */
 void assert_lightest(const instance *g, const thr_matching *m);
 
 /* Weight of the lightest perfect matching by trying all of them, or -1; at most 20 nodes. */
 int64_t lightest_by_force(const instance *g);
 
-/* Pairings of an even number n of points: price[i * n + j] = price[j * n + i] >= 0 of pairing i with j. */
+/* Pairings of an even number n of points: price[i * n + j] = price[j * n + i] >= 0 of pairing i
+ * with j. */
 double pairing_price(int n, const double *price, const int *mate);
 
-/* The least price, as the engine's lightest perfect matching of the complete graph, with prices in whole 1e-12; at most 1000
- * each. */
+/* The least price, as the engine's lightest perfect matching of the complete graph, with prices in
+ * whole 1e-12; at most 1000 each. */
 double least_pairing(int n, const double *price);
 
 #endif

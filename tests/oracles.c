@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/oracles.h"
 #include "tests/walks.h"
 
@@ -11,7 +12,8 @@ static bool roomy(const thr_frame *f, const thr_request *o, int e)
   return walks_capacity(f, o, e) > walks_cover(f, o, e);
 }
 
-/* Is the number of passes at v that its edges need, together with the ends that it is to have, odd? */
+/* Is the number of passes at v that its edges need, together with the ends that it is to have, odd?
+ */
 static bool odd_need(const thr_frame *f, const thr_request *o, int v)
 {
   int sum = o->ends == THR_ENDS_COUNTS ? o->end_count[v] : 0;
@@ -79,9 +81,10 @@ static double *distances(const thr_frame *f, const thr_request *o)
   return d;
 }
 
-/* least[s] = least total distance of pairing the odd nodes of subset s where free_ends of them may instead run to an
- * end of a cord: end[i] = distance of odd node i to the nearest allowed end. */
-static double pair_subsets(const double *d, int n, const int *odd, int k, const double *end, int free_ends)
+/* least[s] = least total distance of pairing the odd nodes of subset s where free_ends of them may
+ * instead run to an end of a cord: end[i] = distance of odd node i to the nearest allowed end. */
+static double pair_subsets(const double *d, int n, const int *odd, int k, const double *end,
+                           int free_ends)
 {
   double *least = calloc((size_t)(free_ends + 1) << k, sizeof *least);
   ck_assert(least != NULL);
@@ -94,7 +97,9 @@ static double pair_subsets(const double *d, int n, const int *odd, int k, const 
       while (!(s >> i & 1))
         i++;
       for (int j = i + 1; j < k; j++)
-        if (s >> j & 1) *at = fmin(*at, d[odd[i] * n + odd[j]] + least[((uint32_t)used << k) + (s ^ 1u << i ^ 1u << j)]);
+        if (s >> j & 1)
+          *at = fmin(*at, d[odd[i] * n + odd[j]] +
+                              least[((uint32_t)used << k) + (s ^ 1u << i ^ 1u << j)]);
       if (used > 0) *at = fmin(*at, end[i] + least[((uint32_t)(used - 1) << k) + (s ^ 1u << i)]);
     }
   double found = least[((size_t)(free_ends + 1) << k) - 1];
@@ -124,13 +129,15 @@ double least_extra_by_matching(const thr_frame *f, const thr_request *o)
 int forced_u_turns(const thr_plan *p)
 {
   const thr_frame *f = &p->frame;
-  int *passes = calloc((size_t)f->n_edges, sizeof *passes), *ends = calloc((size_t)f->n_nodes, sizeof *ends), forced = 0;
+  int *passes = calloc((size_t)f->n_edges, sizeof *passes),
+      *ends = calloc((size_t)f->n_nodes, sizeof *ends), forced = 0;
   ck_assert(passes && ends);
   for (int i = 0; i < p->n_cords; i++) {
     const thr_cord *c = &p->cord[i];
     for (int k = 0; k < c->n_passes; k++)
       passes[c->half[k] / 2]++;
-    if (p->options.ends == THR_ENDS_CLOSED) continue; /* the measure counts the turn where it closes */
+    if (p->options.ends == THR_ENDS_CLOSED)
+      continue; /* the measure counts the turn where it closes */
     ends[f->edge[c->half[0] / 2][c->half[0] % 2]]++;
     ends[f->edge[c->half[c->n_passes - 1] / 2][1 - c->half[c->n_passes - 1] % 2]]++;
   }
@@ -152,8 +159,8 @@ int forced_u_turns(const thr_plan *p)
 
 __extension__ typedef __int128 big;
 
-/* Which sets hold which node, set after set, written out: [n_cuts * n_nodes], freed by the caller. NULL if the cuts are no forest
- * of sets. */
+/* Which sets hold which node, set after set, written out: [n_cuts * n_nodes], freed by the caller.
+ * NULL if the cuts are no forest of sets. */
 static bool *written_out(const thr_certificate *c, int n)
 {
   bool *in = calloc((size_t)c->n_cuts * (size_t)n + 1, sizeof *in), good = true;
@@ -174,14 +181,16 @@ static bool *written_out(const thr_certificate *c, int n)
   return NULL;
 }
 
-static int verdict_of_sets(const thr_plan *p, const thr_certificate *c, const bool *in, const int *component, const int *passes)
+static int verdict_of_sets(const thr_plan *p, const thr_certificate *c, const bool *in,
+                           const int *component, const int *passes)
 {
   const thr_frame *f = &p->frame;
   const thr_request *o = &p->options;
   int n = f->n_nodes;
   bool more = false, weightless = false;
   big sum = 0, join = 0, d = c->denominator;
-  double up[2] = {0}, total = 0, extra_length = 0; /* up: what lengths are rounded up by, in all and beyond 5e-10 */
+  double up[2] = {0}, total = 0,
+         extra_length = 0; /* up: what lengths are rounded up by, in all and beyond 5e-10 */
   for (int i = 0; i < c->n_cuts; i++) {
     int odd = 0;
     for (int v = 0; v < n; v++) {
@@ -214,14 +223,20 @@ static int verdict_of_sets(const thr_plan *p, const thr_certificate *c, const bo
     if (component[v] == c->component && walks_may_end(f, o, v) && held > c->end_price) return 0;
   }
   if (sum != c->sum || join != c->join) return 0;
-  big proved = sum - (big)ends_of(o) * c->end_price; /* multiplied out: at most what the join weighs, optimal above 1 less */
+  big proved =
+      sum -
+      (big)ends_of(o) *
+          c->end_price; /* multiplied out: at most what the join weighs, optimal above 1 less */
   if (proved > join * d) return 0;
-  double least = fmax((double)join / c->scale - up[0], (double)join / c->scale * (1 - 5e-10) - up[1]);
-  bool all = proved > (join - 1) * d && !weightless && extra_length - fmax(0, least) <= 1e-9 * total;
+  double least =
+      fmax((double)join / c->scale - up[0], (double)join / c->scale * (1 - 5e-10) - up[1]);
+  bool all =
+      proved > (join - 1) * d && !weightless && extra_length - fmax(0, least) <= 1e-9 * total;
   return !more || all ? 2 : 1;
 }
 
-static int verdict_of(const thr_plan *p, const thr_certificate *c, const int *component, const int *passes)
+static int verdict_of(const thr_plan *p, const thr_certificate *c, const int *component,
+                      const int *passes)
 {
   bool *in = written_out(c, p->frame.n_nodes);
   int verdict = in ? verdict_of_sets(p, c, in, component, passes) : 0;
@@ -232,7 +247,8 @@ static int verdict_of(const thr_plan *p, const thr_certificate *c, const int *co
 int verdict_by_sums(const thr_plan *p)
 {
   const thr_frame *f = &p->frame;
-  int *passes = calloc((size_t)f->n_edges, sizeof *passes), *component = calloc((size_t)f->n_nodes, sizeof *component);
+  int *passes = calloc((size_t)f->n_edges, sizeof *passes),
+      *component = calloc((size_t)f->n_nodes, sizeof *component);
   int count, verdict = 2;
   ck_assert(passes && component);
   ck_assert_int_eq(thr_frame_components(f, component, &count, NULL), THR_OK);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/plans.h"
 #include "graph/check/check.h"
 #include "planner/planner_parts.h"
@@ -16,8 +17,8 @@ void want(thr_request *o, const char *aims)
   o->turning = turning;
 }
 
-thr_status length_plan(const thr_frame *f, const thr_request *o, const thr_limits *limits, thr_plan *p, thr_cords_word *word,
-                       thr_err *err)
+thr_status length_plan(const thr_frame *f, const thr_request *o, const thr_limits *limits,
+                       thr_plan *p, thr_cords_word *word, thr_err *err)
 {
   thr_report r = {0};
   thr_status st = thr_planner_length(f, o, limits, p, &r, err);
@@ -51,11 +52,13 @@ thr_plan plan_simple(const thr_frame *f, thr_ends ends, int cover)
   return plan_make(f, &o);
 }
 
-/* One closed walk (Hierholzer) over passes and links: from odd node v a link leads to link[v], which is -1 elsewhere. walk
- * receives half-edges, and -1 for a link; left and link are used up. Returns how many. */
+/* One closed walk (Hierholzer) over passes and links: from odd node v a link leads to link[v],
+ * which is -1 elsewhere. walk receives half-edges, and -1 for a link; left and link are used up.
+ * Returns how many. */
 static int euler_walk(const thr_frame *f, int *left, int *link, int start, int room, int *walk)
 {
-  int *node = calloc((size_t)room + 1, sizeof *node), *came = calloc((size_t)room + 1, sizeof *came), top = 0, n = 0;
+  int *node = calloc((size_t)room + 1, sizeof *node),
+      *came = calloc((size_t)room + 1, sizeof *came), top = 0, n = 0;
   ck_assert(node && came);
   node[0] = start;
   while (top >= 0) {
@@ -68,7 +71,8 @@ static int euler_walk(const thr_frame *f, int *left, int *link, int start, int r
       if (next >= 0) left[h / 2]--;
     }
     if (next < 0) {
-      if (top > 0) walk[n++] = came[top] < 0 ? -1 : came[top] ^ 1; /* the walk comes out backwards */
+      if (top > 0)
+        walk[n++] = came[top] < 0 ? -1 : came[top] ^ 1; /* the walk comes out backwards */
       top--;
       continue;
     }
@@ -92,7 +96,8 @@ static void add_piece(thr_plan *p, const int *half, int n)
   thr_cord_id(p->n_cords++, c->id);
 }
 
-/* Cuts the walk at its links and, as long as more pieces are wanted, at the first places where an end may be. */
+/* Cuts the walk at its links and, as long as more pieces are wanted, at the first places where an
+ * end may be. */
 static void cut_walk(thr_plan *p, const int *walk, int n, int n_links)
 {
   int more = p->options.cords - (n_links ? n_links : 1), from = 0;
@@ -100,7 +105,8 @@ static void cut_walk(thr_plan *p, const int *walk, int n, int n_links)
     bool link = i + 1 < n && walk[i + 1] < 0, last = i + 1 == n;
     if (walk[i] < 0) {
       from = i + 1;
-    } else if (link || last || (more > 0 && walks_may_end(&p->frame, &p->options, thr_head(&p->frame, walk[i])))) {
+    } else if (link || last ||
+               (more > 0 && walks_may_end(&p->frame, &p->options, thr_head(&p->frame, walk[i])))) {
       more -= !link && !last;
       add_piece(p, walk + from, i + 1 - from);
       from = i + 1;
@@ -131,15 +137,19 @@ thr_plan plan_of_cords(const thr_frame *f, const thr_request *o)
       odd = v;
     start = v;
   }
-  int *walk = calloc((size_t)(room + n_links) + 1, sizeof *walk), *left = calloc((size_t)f->n_edges, sizeof *left);
+  int *walk = calloc((size_t)(room + n_links) + 1, sizeof *walk),
+      *left = calloc((size_t)f->n_edges, sizeof *left);
   p.cord = calloc((size_t)o->cords, sizeof *p.cord);
   ck_assert(walk && left && p.cord);
   memcpy(left, s.passes, (size_t)f->n_edges * sizeof *left);
   cut_walk(&p, walk, euler_walk(f, left, link, start, room + n_links, walk), n_links);
   ck_assert_int_eq(p.n_cords, o->cords);
   p.options.cords_least = o->cords;
-  ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
-  ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err) == THR_OK, "%s", err.text);
+  ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL),
+                   THR_OK);
+  ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err) ==
+                    THR_OK,
+                "%s", err.text);
   thr_shortest_destroy(&s);
   free(walk);
   free(left);
@@ -179,8 +189,8 @@ void assert_same_text(const thr_text *a, const thr_text *b)
   size_t i = 0;
   while (a->data[i] && a->data[i] == b->data[i])
     i++;
-  ck_assert_msg(a->length == b->length && i == a->length, "texts differ from byte %d on: %.60s | %.60s", (int)i, a->data + i,
-                b->data + i);
+  ck_assert_msg(a->length == b->length && i == a->length,
+                "texts differ from byte %d on: %.60s | %.60s", (int)i, a->data + i, b->data + i);
 }
 
 void assert_plan_sound(const thr_plan *p)

@@ -1,4 +1,6 @@
-/* Requests, the plans that answer them, and what is asserted of every plan. Builders assert that they succeed. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Requests, the plans that answer them, and what is asserted of every plan. Builders assert that
+ * they succeed. */
 #ifndef THR_TEST_PLANS_H
 #define THR_TEST_PLANS_H
 
@@ -11,12 +13,13 @@
 
 /* ---- requests ---- */
 
-/* Asks for these aims, a list as thr_aims_parse reads; prices of turns and the slack of the length stay as they are. */
+/* Asks for these aims, a list as thr_aims_parse reads; prices of turns and the slack of the length
+ * stay as they are. */
 void want(thr_request *o, const char *aims);
 
 /* A plan of the least length, as the planner makes it. word: NULL = not wanted. */
-thr_status length_plan(const thr_frame *f, const thr_request *o, const thr_limits *limits, thr_plan *p, thr_cords_word *word,
-                       thr_err *err);
+thr_status length_plan(const thr_frame *f, const thr_request *o, const thr_limits *limits,
+                       thr_plan *p, thr_cords_word *word, thr_err *err);
 
 /* ---- plans ---- */
 
@@ -24,8 +27,9 @@ thr_request options_for(thr_ends ends, int cover);
 thr_plan plan_make(const thr_frame *f, const thr_request *o);
 thr_plan plan_simple(const thr_frame *f, thr_ends ends, int cover);
 
-/* Plan of o->cords cords through the shortest passes of a connected framework with ends; the proof is the postman's. Its cords
- * are a walk's pieces, cut where an end may be: fails if there are too few such places. */
+/* Plan of o->cords cords through the shortest passes of a connected framework with ends; the proof
+ * is the postman's. Its cords are a walk's pieces, cut where an end may be: fails if there are too
+ * few such places. */
 thr_plan plan_of_cords(const thr_frame *f, const thr_request *o);
 
 /* Appends so many closed cords there and back over an edge, and counts them in *n. */

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* For tests of processes: waiting, what is left behind, Ctrl-C, and few files. */
 #ifndef THR_TEST_PROCESSES_H
 #define THR_TEST_PROCESSES_H

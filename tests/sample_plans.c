@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/sample_plans.h"
 
 #include "symmetry/symmetry.h"
@@ -21,7 +22,8 @@ thr_plan symmetric_plan(thr_frame f, thr_ends ends, int cover, const char *group
   want(&o, "overlap,steps");
   snprintf(o.symmetry.group, sizeof o.symmetry.group, "%s", group);
   thr_status st = thr_symmetry_plan(&f, &o, &none, NULL, &p, &err);
-  ck_assert_msg(st == THR_OK || (st == THR_ELIMIT && p.n_cords > 0), "%s", err.text); /* proved or not */
+  ck_assert_msg(st == THR_OK || (st == THR_ELIMIT && p.n_cords > 0), "%s",
+                err.text); /* proved or not */
   thr_frame_destroy(&f);
   return p;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/support.h"
 
 #include <stdlib.h>
@@ -34,7 +35,8 @@ int share_of(int n)
   return (n + share() - 1) / share();
 }
 
-/* One of each run of share() numbers, its place in the run another each time: kinds that take turns all have theirs. */
+/* One of each run of share() numbers, its place in the run another each time: kinds that take turns
+ * all have theirs. */
 void add_examples(Suite *s, const char *name, double seconds, const TTest *test, int end)
 {
   TCase *t = tcase_create(name);
@@ -100,7 +102,8 @@ void rng_shuffle(rng *r, int *a, int n)
 
 /* ---- memory ---- */
 
-void assert_allocations_may_fail(thr_status (*make)(const void *user, thr_text *t, thr_err *err), const void *user, long most)
+void assert_allocations_may_fail(thr_status (*make)(const void *user, thr_text *t, thr_err *err),
+                                 const void *user, long most)
 {
   thr_status st = THR_ENOMEM;
   for (long k = 1; st; k++) {

@@ -1,4 +1,6 @@
-/* What all unit and property tests share: how they run, seeded random numbers, and what is asserted of every error. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What all unit and property tests share: how they run, seeded random numbers, and what is asserted
+ * of every error. */
 #ifndef THR_SUPPORT_H
 #define THR_SUPPORT_H
 
@@ -10,8 +12,8 @@
 
 /* ---- running ---- */
 
-/* Check writes every assertion that it meets into a file, which takes most of the time of tests with millions of them. Here one
- * that holds leaves no mark. */
+/* Check writes every assertion that it meets into a file, which takes most of the time of tests
+ * with millions of them. Here one that holds leaves no mark. */
 #define _mark_point(file, line) ((void)0)
 
 /* Runs the suite, each test in its own process; what main returns. */
@@ -22,7 +24,8 @@ int run_suite(Suite *s);
 #define ADD_LOOP(suite, seconds, test, first, end) add_case(suite, #test, seconds, test, first, end)
 void add_case(Suite *s, const char *name, double seconds, const TTest *test, int first, int end);
 
-/* A part of n examples of an exhaustive test, one at least: all, or with THREAD_TEST_SHARE=10 in the environment a tenth. */
+/* A part of n examples of an exhaustive test, one at least: all, or with THREAD_TEST_SHARE=10 in
+ * the environment a tenth. */
 int share_of(int n);
 
 /* Adds the test for a part of the numbers 0 .. end - 1, spread over them. */
@@ -30,7 +33,8 @@ int share_of(int n);
 void add_examples(Suite *s, const char *name, double seconds, const TTest *test, int end);
 
 /* Adds a test that takes long, only where all examples are run. */
-#define ADD_LARGE(suite, seconds, test, first, end) add_large(suite, #test, seconds, test, first, end)
+#define ADD_LARGE(suite, seconds, test, first, end)                                                \
+  add_large(suite, #test, seconds, test, first, end)
 void add_large(Suite *s, const char *name, double seconds, const TTest *test, int first, int end);
 
 /* Fails unless err holds a status with a text of one line that contains word (NULL: any). */
@@ -50,8 +54,9 @@ void rng_shuffle(rng *r, int *a, int n);
 
 /* ---- memory ---- */
 
-/* Calls make with each of its allocations failing once, fewer than most. It fails for want of memory then and leaves no text; in
- * the end it succeeds. */
-void assert_allocations_may_fail(thr_status (*make)(const void *user, thr_text *t, thr_err *err), const void *user, long most);
+/* Calls make with each of its allocations failing once, fewer than most. It fails for want of
+ * memory then and leaves no text; in the end it succeeds. */
+void assert_allocations_may_fail(thr_status (*make)(const void *user, thr_text *t, thr_err *err),
+                                 const void *user, long most);
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/svg_tree.h"
 
 #include "graph/status.h"
@@ -76,7 +77,9 @@ svg_tree svg_parse(const char *svg)
     if (s[1] == '/') {
       ck_assert_int_ge(open, 0);
       n = strcspn(s + 2, ">");
-      ck_assert_msg(strlen(t.element[open].name) == n && strncmp(t.element[open].name, s + 2, n) == 0, "tags do not match");
+      ck_assert_msg(strlen(t.element[open].name) == n &&
+                        strncmp(t.element[open].name, s + 2, n) == 0,
+                    "tags do not match");
       open = t.element[open].parent;
       s = end;
       continue;
@@ -126,7 +129,8 @@ bool svg_attribute(const svg_tree *t, int i, const char *name, char value[256])
 double svg_number(const svg_tree *t, int i, const char *name)
 {
   char value[256];
-  ck_assert_msg(svg_attribute(t, i, name, value), "<%s%s> has no %s", t->element[i].name, t->element[i].attributes, name);
+  ck_assert_msg(svg_attribute(t, i, name, value), "<%s%s> has no %s", t->element[i].name,
+                t->element[i].attributes, name);
   return strtod(value, NULL);
 }
 
@@ -161,12 +165,16 @@ bool svg_inside(const svg_tree *t, int i, int ancestor)
   return i == ancestor;
 }
 
-/* Width of a text in DejaVu Sans, in em, a little more than less: digits are exact, letters a mean. */
+/* Width of a text in DejaVu Sans, in em, a little more than less: digits are exact, letters a mean.
+ */
 static double text_width(const char *s)
 {
   double width = 0;
   while (*s) {
-    width += *s >= '0' && *s <= '9' ? 0.636 : *s >= 'A' && *s <= 'Z' ? 0.7 : *s >= 'a' && *s <= 'z' ? 0.58 : 0.4;
+    width += *s >= '0' && *s <= '9'   ? 0.636
+             : *s >= 'A' && *s <= 'Z' ? 0.7
+             : *s >= 'a' && *s <= 'z' ? 0.58
+                                      : 0.4;
     if (*s == '&') s += strcspn(s, ";");
     for (s++; ((unsigned char)*s & 0xC0) == 0x80;)
       s++;
@@ -180,12 +188,17 @@ void svg_box(const svg_tree *t, int i, double box[4])
   ck_assert_double_eq(e->angle, 0);
   if (strcmp(e->name, "circle") == 0) {
     double r = svg_number(t, i, "r");
-    box[2] = 2 * r, box[3] = 2 * r, box[0] = svg_number(t, i, "cx") - r, box[1] = svg_number(t, i, "cy") - r;
+    box[2] = 2 * r, box[3] = 2 * r, box[0] = svg_number(t, i, "cx") - r,
+    box[1] = svg_number(t, i, "cy") - r;
   } else if (strcmp(e->name, "text") == 0) {
     double size = svg_number(t, i, "font-size");
-    box[2] = (svg_has_class(t, i, "seam") ? 1.09 : 1) * size * text_width(e->text); /* bold digits: 0.696 em */
+    box[2] = (svg_has_class(t, i, "seam") ? 1.09 : 1) * size *
+             text_width(e->text); /* bold digits: 0.696 em */
     box[3] = 0.73 * size;
-    box[0] = svg_number(t, i, "x") - (svg_has_class(t, i, "middle") ? 0.5 : svg_has_class(t, i, "end") ? 1 : 0) * box[2];
+    box[0] = svg_number(t, i, "x") - (svg_has_class(t, i, "middle") ? 0.5
+                                      : svg_has_class(t, i, "end")  ? 1
+                                                                    : 0) *
+                                         box[2];
     box[1] = svg_number(t, i, "y") - box[3];
   } else {
     ck_assert_str_eq(e->name, "rect");

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frameworks whose symmetries are known. */
 #include "tests/symmetric.h"
 #include "tests/frameworks.h"
@@ -36,7 +37,8 @@ thr_frame box_make(double a, double b, double c, double shear)
       for (int j = 0; j < 3; j++)
         xyz[v][i] += side[j] * (i == j ? 1 : shear) * (cube.xyz[v][j] > 0);
     }
-  thr_frame f = frame_make(8, (const double(*)[3])xyz, cube.n_edges, (const int(*)[2])cube.edge, NULL, NULL);
+  thr_frame f =
+      frame_make(8, (const double(*)[3])xyz, cube.n_edges, (const int(*)[2])cube.edge, NULL, NULL);
   thr_frame_destroy(&cube);
   return no_feet(f);
 }
@@ -67,7 +69,8 @@ thr_frame truncated_icosahedron(void)
 static int edge_of(const thr_frame *f, int a, int b)
 {
   for (int e = 0; e < f->n_edges; e++)
-    if ((f->edge[e][0] == a && f->edge[e][1] == b) || (f->edge[e][0] == b && f->edge[e][1] == a)) return e;
+    if ((f->edge[e][0] == a && f->edge[e][1] == b) || (f->edge[e][0] == b && f->edge[e][1] == a))
+      return e;
   return -1;
 }
 
@@ -76,7 +79,8 @@ bool keeps_frame(const thr_frame *f, const int *edge_colour, const int *image)
   bool *hit = calloc((size_t)f->n_nodes, sizeof *hit), good = true;
   ck_assert(hit != NULL);
   for (int v = 0; v < f->n_nodes; v++) {
-    good &= image[v] >= 0 && image[v] < f->n_nodes && !hit[image[v]] && f->foot[image[v]] == f->foot[v];
+    good &=
+        image[v] >= 0 && image[v] < f->n_nodes && !hit[image[v]] && f->foot[image[v]] == f->foot[v];
     if (!good) break;
     hit[image[v]] = true;
   }
@@ -94,7 +98,8 @@ setting setting_make(int most, thr_frame f)
   thr_automorphism_options plain = {0};
   thr_automorphisms a;
   ck_assert_int_eq(thr_automorphisms_find(&f, &plain, &a, NULL), THR_OK);
-  ck_assert_int_eq(thr_group_generate(a.n, a.generator, a.n_generators, THR_GROUP_CAP, &s.g, NULL), THR_OK);
+  ck_assert_int_eq(thr_group_generate(a.n, a.generator, a.n_generators, THR_GROUP_CAP, &s.g, NULL),
+                   THR_OK);
   ck_assert_int_eq(thr_subgroup_classes_find(&s.g, most, &s.classes, NULL), THR_OK);
   thr_automorphisms_destroy(&a);
   return s;
@@ -110,5 +115,7 @@ void setting_destroy(setting *s)
 thr_cover_options cover_options(thr_ends ends, int cover)
 {
   return (thr_cover_options){
-      .cover = cover, .ends = ends, .prefer = {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
+      .cover = cover,
+      .ends = ends,
+      .prefer = {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
 }

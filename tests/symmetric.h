@@ -1,4 +1,6 @@
-/* Frameworks whose symmetries are known, and a look at permutations that shares no code with the program. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Frameworks whose symmetries are known, and a look at permutations that shares no code with the
+ * program. */
 #ifndef THR_TEST_SYMMETRIC_H
 #define THR_TEST_SYMMETRIC_H
 
@@ -11,7 +13,8 @@
 
 thr_frame shape_make(thr_shape shape, int size, int rings); /* as `thread make` does */
 thr_frame truncated_icosahedron(void);                      /* 60 nodes of degree 3, no feet */
-/* A cube with edges of these lengths along the axes, each axis sheared by as much along the others; no feet. */
+/* A cube with edges of these lengths along the axes, each axis sheared by as much along the others;
+ * no feet. */
 thr_frame box_make(double a, double b, double c, double shear);
 thr_frame no_feet(thr_frame f); /* the same framework, whose feet it takes away */
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/threadings.h"
 #include "tests/plans.h"
 
@@ -12,8 +13,9 @@ static void add_cord(thr_plan *p, const int *node, int n_nodes)
   p->cord = realloc(p->cord, (size_t)(p->n_cords + 1) * sizeof *p->cord);
   ck_assert_ptr_nonnull(p->cord);
   thr_cord *c = &p->cord[p->n_cords];
-  *c = (thr_cord){
-      .n_passes = n_nodes - 1, .closed = node[0] == node[n_nodes - 1], .half = calloc((size_t)n_nodes, sizeof *c->half)};
+  *c = (thr_cord){.n_passes = n_nodes - 1,
+                  .closed = node[0] == node[n_nodes - 1],
+                  .half = calloc((size_t)n_nodes, sizeof *c->half)};
   ck_assert_ptr_nonnull(c->half);
   thr_cord_id(p->n_cords++, c->id);
   for (int k = 0; k + 1 < n_nodes; k++) {
@@ -81,6 +83,7 @@ thr_plan threading_make(const thr_frame *dome, int n, threading kind)
   else
     add_snake(&p, n, node);
   free(node);
-  ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL),
+                   THR_OK);
   return p;
 }

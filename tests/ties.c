@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All turns of one node, tried. */
 #include "tests/ties.h"
 
@@ -17,7 +18,8 @@ static bool connected(int d, const unsigned *link)
   return seen == (1u << d) - 1;
 }
 
-/* Numbers of turns between points a and b and all later pairs, of which none is of a point with itself. */
+/* Numbers of turns between points a and b and all later pairs, of which none is of a point with
+ * itself. */
 static void all_turns(tied_star *k, int a, int b, double price)
 {
   if (b > k->d) {

@@ -1,4 +1,6 @@
-/* What it costs to tie a node, by trying all turns there: the oracle of the tests of tube joints. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What it costs to tie a node, by trying all turns there: the oracle of the tests of tube joints.
+ */
 #ifndef THR_TEST_TIES_H
 #define THR_TEST_TIES_H
 
@@ -14,7 +16,8 @@ typedef struct {
   double least;
 } tied_star;
 
-/* Least price of turns that take all passes and ends, none back into its own edge, and tie the edges; INFINITY: there are none.
+/* Least price of turns that take all passes and ends, none back into its own edge, and tie the
+ * edges; INFINITY: there are none.
  */
 double least_by_all_turns(tied_star *k);
 

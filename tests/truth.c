@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/truth.h"
 #include "graph/plan/turning_proof.h"
 #include "tests/support.h"
@@ -13,9 +14,11 @@
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
-  int n_edges, edge[TRUTH_EDGES];              /* of the component, by ascending length */
-  signed char circuits[1 << TRUTH_EDGES];      /* most circuits that a set of edges falls into; -1: a node has an odd number */
-  int passes[TRUTH_EDGES], least[TRUTH_EDGES]; /* by edge of the framework: as chosen; of the best choice */
+  int n_edges, edge[TRUTH_EDGES];         /* of the component, by ascending length */
+  signed char circuits[1 << TRUTH_EDGES]; /* most circuits that a set of edges falls into; -1: a
+                                             node has an odd number */
+  int passes[TRUTH_EDGES],
+      least[TRUTH_EDGES]; /* by edge of the framework: as chosen; of the best choice */
   double best;
 } piece;
 
@@ -28,7 +31,8 @@ static int need(const piece *p, int e)
 /* How many passes more of the edge fit. */
 static int room(const piece *p, int e)
 {
-  int own = p->f->capacity && p->f->capacity[e] ? p->f->capacity[e] : INT_MAX, all = p->o->capacity ? p->o->capacity : INT_MAX;
+  int own = p->f->capacity && p->f->capacity[e] ? p->f->capacity[e] : INT_MAX,
+      all = p->o->capacity ? p->o->capacity : INT_MAX;
   return (own < all ? own : all) - p->passes[e];
 }
 
@@ -51,13 +55,16 @@ static unsigned odd_nodes(const piece *p, unsigned edges)
   return odd;
 }
 
-/* Sets are met after their parts. Which part is one circuit needs no asking: a part that is several counts for less. */
+/* Sets are met after their parts. Which part is one circuit needs no asking: a part that is several
+ * counts for less. */
 static void count_circuits(piece *p)
 {
   for (unsigned s = 0; s < 1u << p->n_edges; s++) {
     p->circuits[s] = odd_nodes(p, s) ? -1 : s > 0;
     for (unsigned part = (s - 1) & s; part > 0 && p->circuits[s] > 0; part = (part - 1) & s) {
-      int both = p->circuits[part] < 0 || p->circuits[s ^ part] < 0 ? 0 : p->circuits[part] + p->circuits[s ^ part];
+      int both = p->circuits[part] < 0 || p->circuits[s ^ part] < 0
+                     ? 0
+                     : p->circuits[part] + p->circuits[s ^ part];
       if (both > p->circuits[s]) p->circuits[s] = (signed char)both;
     }
   }
@@ -73,11 +80,13 @@ static void keep(piece *p)
   memcpy(p->least, p->passes, sizeof p->least);
 }
 
-/* So many pairs of passes over the shortest edges that have `ends` nodes where a cord may end; false: no room. ends < 0: any. */
+/* So many pairs of passes over the shortest edges that have `ends` nodes where a cord may end;
+ * false: no room. ends < 0: any. */
 static bool add_pairs(piece *p, int pairs, int ends)
 {
   for (int i = 0; i < p->n_edges && pairs > 0; i++) {
-    int e = p->edge[i], a = may_end(p->f, p->o, p->f->edge[e][0]) + may_end(p->f, p->o, p->f->edge[e][1]);
+    int e = p->edge[i],
+        a = may_end(p->f, p->o, p->f->edge[e][0]) + may_end(p->f, p->o, p->f->edge[e][1]);
     if (ends >= 0 && a != ends) continue;
     int n = room(p, e) / 2 < pairs ? room(p, e) / 2 : pairs;
     p->passes[e] += 2 * n;
@@ -119,7 +128,8 @@ static void try_free_ends(piece *p)
   }
 }
 
-/* Pairs of passes for the first node that has fewer passes than ends, over each of its edges in turn. */
+/* Pairs of passes for the first node that has fewer passes than ends, over each of its edges in
+ * turn. */
 static void try_counts(piece *p)
 {
   int at[TRUTH_NODES] = {0}, before[TRUTH_EDGES], v = 0;
@@ -138,7 +148,8 @@ static void try_counts(piece *p)
   }
   memcpy(before, p->passes, sizeof before);
   for (int i = 0; i < p->n_edges; i++) {
-    int e = p->edge[i], missing = (p->o->end_count[v] - at[v]) / 2, n = room(p, e) / 2 < missing ? room(p, e) / 2 : missing;
+    int e = p->edge[i], missing = (p->o->end_count[v] - at[v]) / 2,
+        n = room(p, e) / 2 < missing ? room(p, e) / 2 : missing;
     if ((p->f->edge[e][0] != v && p->f->edge[e][1] != v) || n <= 0) continue;
     p->passes[e] += 2 * n;
     try_counts(p);
@@ -245,9 +256,10 @@ static double turn(const truth_table *t, int in, int out)
   return thr_turn_price(f, t->o->turning.cost, in, out);
 }
 
-/* Walks from half-edge first, numbers of passes ascending: least[x * MOST_HALF + h] of those that make passes x and arrive over
- * h. */
-static void walk_from(truth_table *t, int first, const double price[MOST_HALF][MOST_HALF], long double *least)
+/* Walks from half-edge first, numbers of passes ascending: least[x * MOST_HALF + h] of those that
+ * make passes x and arrive over h. */
+static void walk_from(truth_table *t, int first, const double price[MOST_HALF][MOST_HALF],
+                      long double *least)
 {
   const thr_frame *f = t->f;
   bool closed = t->o->ends == THR_ENDS_CLOSED;
@@ -290,7 +302,8 @@ truth_table truth_table_make(const thr_frame *f, const thr_request *o, int most)
     for (int g = 0; g < 2 * f->n_edges; g++)
       price[h][g] = thr_head(f, h) == thr_tail(f, g) ? turn(&t, h, g) : INFINITY;
   for (int h = 0; h < 2 * f->n_edges; h++)
-    if (o->ends == THR_ENDS_CLOSED || may_end(f, o, thr_tail(f, h))) walk_from(&t, h, (const double(*)[MOST_HALF])price, least);
+    if (o->ends == THR_ENDS_CLOSED || may_end(f, o, thr_tail(f, h)))
+      walk_from(&t, h, (const double(*)[MOST_HALF])price, least);
   free(least);
   return t;
 }
@@ -305,7 +318,8 @@ void truth_table_destroy(truth_table *t)
 
 /* ---- several cords ---- */
 
-/* Of the passes of all cords, what is more than cover is not told apart, unless there are capacities. */
+/* Of the passes of all cords, what is more than cover is not told apart, unless there are
+ * capacities. */
 typedef struct {
   const truth_table *t;
   int base, size, cover[TRUTH_TABLE_EDGES], most[TRUTH_TABLE_EDGES];
@@ -349,7 +363,8 @@ static bool covered(const sums *s, int sum)
 static long double least_largest(const truth_table *t, int n, const long double *value)
 {
   sums s = sums_make(t);
-  long double best = INFINITY, *now = calloc((size_t)s.size, sizeof *now), *next = calloc((size_t)s.size, sizeof *next);
+  long double best = INFINITY, *now = calloc((size_t)s.size, sizeof *now),
+              *next = calloc((size_t)s.size, sizeof *next);
   ck_assert(now && next);
   for (int i = 0; i < s.size; i++)
     now[i] = i ? INFINITY : 0;
@@ -382,7 +397,8 @@ double truth_longest(const truth_table *t, int n)
 }
 
 /* left cords more, none before x in the table. */
-static void choose(const sums *s, int left, int from, int sum, long double price, double length, double limit, long double *best)
+static void choose(const sums *s, int left, int from, int sum, long double price, double length,
+                   double limit, long double *best)
 {
   const truth_table *t = s->t;
   if (price >= *best || (limit >= 0 && length > limit)) return;
@@ -392,7 +408,8 @@ static void choose(const sums *s, int left, int from, int sum, long double price
   }
   for (int x = from; x < t->size; x++) {
     int more = t->price[x] < INFINITY ? plus(s, sum, x) : -1;
-    if (more >= 0) choose(s, left - 1, x, more, price + t->price[x], length + t->length[x], limit, best);
+    if (more >= 0)
+      choose(s, left - 1, x, more, price + t->price[x], length + t->length[x], limit, best);
   }
 }
 

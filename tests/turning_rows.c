@@ -1,5 +1,7 @@
-/* Columns and rows of the turning bound, by definition: graph/plan/turning_proof.h says which equations and inequalities hold for
- * every plan; here each is written down as a row over the columns, and what multipliers prove is added up row by row, exactly. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Columns and rows of the turning bound, by definition: graph/plan/turning_proof.h says which
+ * equations and inequalities hold for every plan; here each is written down as a row over the
+ * columns, and what multipliers prove is added up row by row, exactly. */
 #include "tests/turning_rows.h"
 #include "graph/angle.h"
 #include "graph/plan/plan.h"
@@ -48,7 +50,10 @@ static int group_of(const model *m, int v)
 
 static double price_of(const model *m, int a, int b)
 {
-  return m->task.free_turns ? 0 : thr_turn_cost_of(m->task.cost, thr_turn_angle(&m->frame, a ^ 1, b)); /* none near a quarter */
+  return m->task.free_turns
+             ? 0
+             : thr_turn_cost_of(m->task.cost,
+                                thr_turn_angle(&m->frame, a ^ 1, b)); /* none near a quarter */
 }
 
 static void expect_column(model *m, int j, column_kind kind, int a, int b, double price, int most)
@@ -86,7 +91,8 @@ void rows_fill(model *m)
       ck_assert_int_eq(c->end_column[a] >= 0, ends);
       if (ends) {
         ck_assert(c->end_column[a] >= c->first_end && c->end_column[a] < c->first_back);
-        expect_column(m, c->end_column[a], END, a, -1, 0, least_of(room, rows_supply(m, group_of(m, v), true)));
+        expect_column(m, c->end_column[a], END, a, -1, 0,
+                      least_of(room, rows_supply(m, group_of(m, v), true)));
       }
       n += ends;
       if (thr_degree(f, v) == 1 && !t->tube) {
@@ -95,24 +101,31 @@ void rows_fill(model *m)
       }
     }
   for (int e = 0; e < f->n_edges; e++, n++)
-    expect_column(m, c->first_extra + e, EXTRA, 2 * e, 2 * e + 1, t->price_per_length * f->length[e],
-                  room_of(m, e) - rows_cover(m, e));
+    expect_column(m, c->first_extra + e, EXTRA, 2 * e, 2 * e + 1,
+                  t->price_per_length * f->length[e], room_of(m, e) - rows_cover(m, e));
   ck_assert_int_eq(n, c->n_columns);
   double longest = 0, limit = t->extra_limit;
   for (int e = 0; e < f->n_edges; e++)
     longest = fmax(longest, f->length[e]);
   for (int e = 0; e < f->n_edges; e++)
-    ck_assert_int_eq(c->length[e], (int64_t)floor(f->length[e] / longest * 1099511627776.0)); /* 2^40 */
-  ck_assert_int_eq(c->extra_limit, limit < 0 ? -1 : 1 + (int64_t)ceil(limit / longest * 1099511627776.0));
+    ck_assert_int_eq(c->length[e],
+                     (int64_t)floor(f->length[e] / longest * 1099511627776.0)); /* 2^40 */
+  ck_assert_int_eq(c->extra_limit,
+                   limit < 0 ? -1 : 1 + (int64_t)ceil(limit / longest * 1099511627776.0));
   for (int k = 0; k < m->n_components; k++)
-    ck_assert_int_eq(thr_turning_open(c, k), t->end_allowed && (!t->end_count || m->end_count[k ? f->n_nodes - 1 : 0] > 0));
+    ck_assert_int_eq(thr_turning_open(c, k),
+                     t->end_allowed && (!t->end_count || m->end_count[k ? f->n_nodes - 1 : 0] > 0));
 }
 
 /* ---- rows ---- */
 
-enum { PIECES = 2, SEVERAL = PIECES }; /* components of a model; the place of rows that are in both */
+enum {
+  PIECES = 2,
+  SEVERAL = PIECES
+}; /* components of a model; the place of rows that are in both */
 
-/* What all rows together take off the columns' prices, and the right sides of those of a component. */
+/* What all rows together take off the columns' prices, and the right sides of those of a component.
+ */
 typedef struct {
   wide taken[MOST], constant[PIECES + 1];
 } sums;
@@ -138,15 +151,18 @@ static void add_equations(const model *m, const thr_turning_dual *d, sums *s)
   for (int h = 0; h < 2 * m->frame.n_edges; h++) {
     for (int j = 0; j < m->columns.n_columns; j++) {
       const column *x = &m->column[j];
-      s->taken[j] += (wide)d->potential[h] * (x->kind == EXTRA ? -(x->a / 2 == h / 2) : times(x, h));
+      s->taken[j] +=
+          (wide)d->potential[h] * (x->kind == EXTRA ? -(x->a / 2 == h / 2) : times(x, h));
     }
     s->constant[piece_of_half(m, h)] += (wide)d->potential[h] * rows_cover(m, h / 2);
   }
   int n = m->task.end_count ? m->frame.n_nodes : m->n_components;
   for (int k = 0; k < n; k++) {
     for (int j = 0; j < m->columns.n_columns; j++)
-      if (m->column[j].kind == END && group_of(m, m->column[j].node) == k) s->taken[j] += d->ends[k];
-    wide least = (wide)d->ends[k] * rows_supply(m, k, false), most = (wide)d->ends[k] * rows_supply(m, k, true);
+      if (m->column[j].kind == END && group_of(m, m->column[j].node) == k)
+        s->taken[j] += d->ends[k];
+    wide least = (wide)d->ends[k] * rows_supply(m, k, false),
+         most = (wide)d->ends[k] * rows_supply(m, k, true);
     s->constant[piece_of_group(m, k)] += least < most ? least : most;
   }
 }
@@ -172,7 +188,9 @@ static int piece_of_set(const model *m, const thr_turning_set *set, bool edges)
   int members[PIECES] = {0}, darts = 2 * m->frame.n_edges;
   for (int i = 0; i < set->n; i++) {
     int x = set->member[i];
-    members[edges ? piece_of_half(m, 2 * x) : x < darts ? piece_of_half(m, x) : piece_of_group(m, x - darts)]++;
+    members[edges       ? piece_of_half(m, 2 * x)
+            : x < darts ? piece_of_half(m, x)
+                        : piece_of_group(m, x - darts)]++;
   }
   return members[0] == set->n ? 0 : members[1] == set->n ? 1 : SEVERAL;
 }
@@ -227,7 +245,8 @@ static void add_partition(const model *m, const thr_turning_partition *p, bool r
         break;
       }
   for (int k = 0; k < m->n_components; k++)
-    s->constant[k] += (wide)p->value * (n_blocks[k] > m->task.cords ? n_blocks[k] - m->task.cords : 0);
+    s->constant[k] +=
+        (wide)p->value * (n_blocks[k] > m->task.cords ? n_blocks[k] - m->task.cords : 0);
   for (int v = 0; v < f->n_nodes; v++) {
     int meet = 0, odd = 0;
     for (int b = 0; b < f->n_edges; b++) {
@@ -238,10 +257,12 @@ static void add_partition(const model *m, const thr_turning_partition *p, bool r
       odd += here && passes_at(m, p->block, v, b) % 2;
     }
     if (meet < 2 || (rank && is_ranked(m, v))) continue;
-    wide share = rounded_up((wide)p->value * (meet - 1), meet), half = rounded_up((wide)p->value * (meet - 1), 2 * (wide)meet);
+    wide share = rounded_up((wide)p->value * (meet - 1), meet),
+         half = rounded_up((wide)p->value * (meet - 1), 2 * (wide)meet);
     for (int j = 0; j < m->columns.n_columns; j++) {
       const column *x = &m->column[j];
-      if (x->kind == TURN && x->node == v && p->block[x->a / 2] != p->block[x->b / 2]) s->taken[j] += share;
+      if (x->kind == TURN && x->node == v && p->block[x->a / 2] != p->block[x->b / 2])
+        s->taken[j] += share;
       if (x->kind == EXTRA && (f->edge[x->a / 2][0] == v || f->edge[x->a / 2][1] == v) &&
           passes_at(m, p->block, v, p->block[x->a / 2]) % 2 == 0)
         s->taken[j] += half;
@@ -263,14 +284,16 @@ static void add_junction(const model *m, const thr_turning_junction *p, sums *s)
     blocks = p->block[i] >= blocks ? p->block[i] + 1 : blocks;
   for (int j = 0; j < m->columns.n_columns; j++) {
     const column *x = &m->column[j];
-    if (x->kind == TURN && x->node == p->node && block_at(m, p, x->a) != block_at(m, p, x->b)) s->taken[j] += p->value;
+    if (x->kind == TURN && x->node == p->node && block_at(m, p, x->a) != block_at(m, p, x->b))
+      s->taken[j] += p->value;
   }
   s->constant[m->component[p->node]] += (wide)p->value * (blocks - 1);
 }
 
 /* ---- ranks ---- */
 
-/* A way in which half-edges at a node hang together, each named by the lowest of its part, and the cheapest turns for it. */
+/* A way in which half-edges at a node hang together, each named by the lowest of its part, and the
+ * cheapest turns for it. */
 typedef struct {
   int name[8];
   wide least;
@@ -310,8 +333,10 @@ static int rank_of(const int *block, const int *part, int d)
   return blocks - sets;
 }
 
-/* The least over all sets of turns at v that leave no half-edge alone; left: of the columns' prices. */
-static wide ranked_node(const model *m, const thr_turning_dual *d, int v, const wide *left, wide one)
+/* The least over all sets of turns at v that leave no half-edge alone; left: of the columns'
+ * prices. */
+static wide ranked_node(const model *m, const thr_turning_dual *d, int v, const wide *left,
+                        wide one)
 {
   static state list[STATES];
   const int *half = m->frame.half + m->frame.first[v], degree = thr_degree(&m->frame, v);
@@ -330,7 +355,8 @@ static wide ranked_node(const model *m, const thr_turning_dual *d, int v, const 
       b++;
     for (int i = 0, known = n; i < known; i++) {
       state new = list[i];
-      int to = new.name[a] < new.name[b] ? new.name[a] : new.name[b], from = new.name[a] + new.name[b] - to;
+      int to = new.name[a] < new.name[b] ? new.name[a] : new.name[b],
+          from = new.name[a] + new.name[b] - to;
       for (int k = 0; k < degree; k++)
         if (new.name[k] == from) new.name[k] = to;
       new.least += left[j] > 0 ? left[j] : 0;
@@ -357,7 +383,8 @@ static wide ranked_node(const model *m, const thr_turning_dual *d, int v, const 
   return best;
 }
 
-wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const int *high, int piece)
+wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const int *high,
+                int piece)
 {
   const wide one = (wide)1 << THR_LENGTH_BITS;
   static wide left[MOST];
@@ -384,6 +411,7 @@ wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const
     if (reduced < 0 || !apart) total += reduced * (reduced < 0 ? high[j] : low[j]);
   }
   for (int v = 0; v < m->frame.n_nodes && d->n_ranks > 0; v++)
-    if (is_ranked(m, v) && (piece < 0 || m->component[v] == piece)) total += ranked_node(m, d, v, left, one);
+    if (is_ranked(m, v) && (piece < 0 || m->component[v] == piece))
+      total += ranked_node(m, d, v, left, one);
   return total;
 }

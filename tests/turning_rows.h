@@ -1,5 +1,7 @@
-/* The columns and rows of the turning bound by their definition, an oracle that shares no code with the program: what multipliers
- * prove for an integer programme, added up row by row in integers that do not overflow. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The columns and rows of the turning bound by their definition, an oracle that shares no code with
+ * the program: what multipliers prove for an integer programme, added up row by row in integers
+ * that do not overflow. */
 #ifndef THR_TURNING_ROWS_H
 #define THR_TURNING_ROWS_H
 
@@ -36,9 +38,11 @@ void rows_fill(model *m);
 int rows_cover(const model *m, int e);                /* passes that edge e needs */
 int rows_supply(const model *m, int k, bool largest); /* ends of group k: least or largest number */
 
-/* What the multipliers prove of plans whose columns lie in low .. high, times 2^40: the limit on the length has multipliers of
- * that. Of the cords of one component, or of all (piece < 0): in one, rows that are in several have the right side 0, and the
- * limit on the length is as it is. O(rows * columns). */
-wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const int *high, int piece);
+/* What the multipliers prove of plans whose columns lie in low .. high, times 2^40: the limit on
+ * the length has multipliers of that. Of the cords of one component, or of all (piece < 0): in one,
+ * rows that are in several have the right side 0, and the limit on the length is as it is. O(rows *
+ * columns). */
+wide rows_bound(const model *m, const thr_turning_dual *d, const int *low, const int *high,
+                int piece);
 
 #endif

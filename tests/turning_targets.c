@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Small plans with their least, and random proofs. */
 #include "tests/turning_targets.h"
 #include "graph/check/check.h"
@@ -31,7 +32,8 @@ static void limit_edges(rng *r, thr_frame *f)
 void target_options(rng *r, target *t, thr_frame *f, thr_request *o)
 {
   limit_edges(r, f);
-  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS};
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_CLOSED, THR_ENDS_ANY,
+                                  THR_ENDS_FEET,   THR_ENDS_NODES,  THR_ENDS_COUNTS};
   *o = options_for(ends[rng_below(r, 6)], rng_below(r, 4) ? 1 : 2);
   want(o, t->tied ? "length" : "turning");
   o->joint = t->tied || rng_below(r, 4) == 0 ? THR_JOINT_TUBE : THR_JOINT_SOLID;
@@ -65,19 +67,21 @@ static void find_task(target *t)
     t->end_allowed[v] = thr_plan_end_allowed(&p->frame, o, v);
   t->n_pieces = target_pieces(&p->frame);
   t->n_ends = o->ends == THR_ENDS_COUNTS ? p->frame.n_nodes : t->n_pieces;
-  t->task = (thr_turning_task){.cover = o->cover,
-                               .capacity = o->capacity,
-                               .tube = o->joint == THR_JOINT_TUBE,
-                               .most_passes = p->turning.most_passes,
-                               .cords = o->cords,
-                               .cords_least = o->cords_least,
-                               .end_allowed = o->ends == THR_ENDS_CLOSED ? NULL : t->end_allowed,
-                               .end_count = o->ends == THR_ENDS_COUNTS ? t->end_count : NULL,
-                               .cost = o->turning.cost,
-                               .extra_limit = thr_turning_extra_limit(&p->frame, o->cover, p->turning.length_limit)};
+  t->task = (thr_turning_task){
+      .cover = o->cover,
+      .capacity = o->capacity,
+      .tube = o->joint == THR_JOINT_TUBE,
+      .most_passes = p->turning.most_passes,
+      .cords = o->cords,
+      .cords_least = o->cords_least,
+      .end_allowed = o->ends == THR_ENDS_CLOSED ? NULL : t->end_allowed,
+      .end_count = o->ends == THR_ENDS_COUNTS ? t->end_count : NULL,
+      .cost = o->turning.cost,
+      .extra_limit = thr_turning_extra_limit(&p->frame, o->cover, p->turning.length_limit)};
 }
 
-/* The sum of the program's own turns; of all cords with few passes, if tables can be made of them. */
+/* The sum of the program's own turns; of all cords with few passes, if tables can be made of them.
+ */
 static long double least_price(const target *t)
 {
   const thr_plan *p = &t->plan;
@@ -85,8 +89,10 @@ static long double least_price(const target *t)
   long double sum = 0;
   for (int i = 0; i < p->n_cords; i++)
     for (int k = 0; k < thr_cord_turns(o, &p->cord[i]); k++)
-      sum += thr_turn_price(&p->frame, o->turning.cost, p->cord[i].half[k], p->cord[i].half[(k + 1) % p->cord[i].n_passes]);
-  if (o->joint == THR_JOINT_TUBE || o->ends == THR_ENDS_COUNTS || t->n_pieces > 1 || p->frame.n_edges > TRUTH_TABLE_EDGES)
+      sum += thr_turn_price(&p->frame, o->turning.cost, p->cord[i].half[k],
+                            p->cord[i].half[(k + 1) % p->cord[i].n_passes]);
+  if (o->joint == THR_JOINT_TUBE || o->ends == THR_ENDS_COUNTS || t->n_pieces > 1 ||
+      p->frame.n_edges > TRUTH_TABLE_EDGES)
     return sum;
   truth_table table = truth_table_make(&p->frame, o, o->cords > 1 ? 2 : 3);
   long double least = truth_price(&table, o->cords, false, p->turning.length_limit);
@@ -94,7 +100,8 @@ static long double least_price(const target *t)
   return least < sum ? least : sum;
 }
 
-/* Two flat triangles across each other, with one node in common: two closed cords need not meet there, and had better not. */
+/* Two flat triangles across each other, with one node in common: two closed cords need not meet
+ * there, and had better not. */
 thr_frame target_bowtie(rng *r)
 {
   static const int edge[][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {3, 4}, {4, 0}};
@@ -141,7 +148,8 @@ static void take_motion(const thr_frame *f, const int *node, target *t)
   for (int e = 0; e < f->n_edges; e++) {
     image[e] = -1;
     for (int h = 0; h < 2 * f->n_edges; h++)
-      if (thr_tail(f, h) == node[f->edge[e][0]] && thr_head(f, h) == node[f->edge[e][1]]) image[e] = h;
+      if (thr_tail(f, h) == node[f->edge[e][0]] && thr_head(f, h) == node[f->edge[e][1]])
+        image[e] = h;
     if (image[e] < 0) return;
   }
   t->n_motions++;
@@ -175,14 +183,17 @@ bool target_make(rng *r, target *t, bool tied)
   for (int e = 0; e < f.n_edges && rng_below(r, 2); e++)
     f.length[e] *= pow(10, rng_between(r, -4, 4)), f.own_lengths = true;
   target_options(r, t, &f, &o);
-  if (apart) o.ends = THR_ENDS_CLOSED, o.end_node = NULL, o.end_count = NULL, o.cords = o.cords_least = 2;
+  if (apart)
+    o.ends = THR_ENDS_CLOSED, o.end_node = NULL, o.end_count = NULL, o.cords = o.cords_least = 2;
   thr_limits limits = {.deadline = thr_clock() + 5};
   thr_status st = THR_EINFEASIBLE;
   if (o.ends != THR_ENDS_COUNTS || counts_fit(&f, t->end_count))
-    st = (tied ? length_plan(&f, &o, &limits, &t->plan, NULL, &err) : thr_tortuosity_plan(&f, &o, &limits, &t->plan, &err));
+    st = (tied ? length_plan(&f, &o, &limits, &t->plan, NULL, &err)
+               : thr_tortuosity_plan(&f, &o, &limits, &t->plan, &err));
   thr_frame_destroy(&f);
   if (st && st != THR_ELIMIT) return false;
-  if ((tied ? !t->plan.proof.present : !t->plan.turning.present) || thr_check_plan(&t->plan, NULL)) {
+  if ((tied ? !t->plan.proof.present : !t->plan.turning.present) ||
+      thr_check_plan(&t->plan, NULL)) {
     target_destroy(t);
     return false;
   }
@@ -235,7 +246,8 @@ static void build_leaf(built *b, int i)
   d->n_ranks = build_partitions(m->rank, m->n_ranks, d->rank);
   for (int k = 0; k < m->n_junctions; k++)
     for (int c = 0; c < m->junction[k].copies; c++)
-      d->junction[d->n_junctions++] = (thr_turning_junction){m->junction[k].node, m->junction[k].block, m->junction[k].value};
+      d->junction[d->n_junctions++] =
+          (thr_turning_junction){m->junction[k].node, m->junction[k].block, m->junction[k].value};
 }
 
 void candidate_build(const target *t, const candidate *c, built *b)
@@ -269,7 +281,8 @@ static void take_sets(const thr_turning_set *from, int n, set *to, int *count)
   }
 }
 
-static void take_partitions(const thr_turning_partition *from, int n, int n_edges, division *to, int *count)
+static void take_partitions(const thr_turning_partition *from, int n, int n_edges, division *to,
+                            int *count)
 {
   for (*count = 0; *count < n && *count < SETS; ++*count) {
     to[*count] = (division){.value = from[*count].value, .copies = 1};
@@ -290,7 +303,8 @@ static void take_leaf(const target *t, const thr_turning_dual *d, multipliers *m
   for (; m->n_junctions < d->n_junctions && m->n_junctions < SETS; m->n_junctions++) {
     const thr_turning_junction *j = &d->junction[m->n_junctions];
     m->junction[m->n_junctions] = (division){.value = j->value, .node = j->node, .copies = 1};
-    memcpy(m->junction[m->n_junctions].block, j->block, (size_t)thr_degree(f, j->node) * sizeof(int));
+    memcpy(m->junction[m->n_junctions].block, j->block,
+           (size_t)thr_degree(f, j->node) * sizeof(int));
   }
 }
 
@@ -342,7 +356,9 @@ static int which(rng *r, int n)
 static void change_set(rng *r, unsigned likely, int members, set *s, int *n)
 {
   int i = which(r, *n);
-  if (i == *n) s[(*n)++] = (set){.members = rng_below(r, 2) ? likely : 1u << rng_below(r, members), .copies = 1};
+  if (i == *n)
+    s[(*n)++] =
+        (set){.members = rng_below(r, 2) ? likely : 1u << rng_below(r, members), .copies = 1};
   switch (rng_below(r, 4)) {
   case 3: s[i].members = likely; break;
   case 0: s[i].members ^= 1u << rng_below(r, members); break;
@@ -357,7 +373,8 @@ static void change_blocks(rng *r, const target *t, int *block)
   int m = t->plan.frame.n_edges, whole = rng_below(r, 4);
   for (int e = 0; e < m && whole < 2; e++)
     block[e] = whole ? e : rng_below(r, 3);
-  if (whole >= 2) block[rng_below(r, m)] = rng_below(r, 20) ? rng_below(r, m) : rng_between(r, -1, EDGES + 1);
+  if (whole >= 2)
+    block[rng_below(r, m)] = rng_below(r, 20) ? rng_below(r, m) : rng_between(r, -1, EDGES + 1);
 }
 
 static void change_division(rng *r, const target *t, division *d, int *n)
@@ -379,7 +396,8 @@ static void change_division(rng *r, const target *t, division *d, int *n)
 static void change_potential(rng *r, const target *t, multipliers *m)
 {
   const thr_frame *f = &t->plan.frame;
-  int h = rng_below(r, 2 * f->n_edges), g = rng_below(r, 2 * f->n_edges), k = rng_below(r, t->n_ends);
+  int h = rng_below(r, 2 * f->n_edges), g = rng_below(r, 2 * f->n_edges),
+      k = rng_below(r, t->n_ends);
   int64_t by = step(r);
   switch (rng_below(r, 5)) {
   case 0: m->potential[h] = rng_below(r, 100) ? m->potential[h] + by : attack_integer(r); break;
@@ -390,8 +408,10 @@ static void change_potential(rng *r, const target *t, multipliers *m)
   }
 }
 
-/* Takes from every half-edge of node v its part of what a partition with this multiplier takes from turns there. */
-static void pay_partition(const thr_frame *f, const int *block, int v, int64_t value, multipliers *m)
+/* Takes from every half-edge of node v its part of what a partition with this multiplier takes from
+ * turns there. */
+static void pay_partition(const thr_frame *f, const int *block, int v, int64_t value,
+                          multipliers *m)
 {
   unsigned blocks = 0;
   for (int i = f->first[v]; i < f->first[v + 1]; i++)
@@ -401,7 +421,8 @@ static void pay_partition(const thr_frame *f, const int *block, int v, int64_t v
     m->potential[f->half[i]] -= (value * (b - 1) + 2 * b - 1) / (2 * b);
 }
 
-/* A set's multiplier and the potentials together, so that no turn that leaves the set falls in price. */
+/* A set's multiplier and the potentials together, so that no turn that leaves the set falls in
+ * price. */
 static void change_and_pay(rng *r, const target *t, multipliers *m)
 {
   const thr_frame *f = &t->plan.frame;
@@ -416,9 +437,12 @@ static void change_and_pay(rng *r, const target *t, multipliers *m)
   if (kind == 3) m->junction[i].value += by;
   if (kind == 4) m->rank[i].value += by;
   for (int h = 0; h < 2 * f->n_edges; h++) {
-    bool pays = kind == 0 ? m->odd[i].members >> h & 1u : kind == 1 ? m->group[i].members >> (h >> 1) & 1u : false;
+    bool pays = kind == 0   ? m->odd[i].members >> h & 1u
+                : kind == 1 ? m->group[i].members >> (h >> 1) & 1u
+                            : false;
     if (pays) m->potential[h] -= by;
-    if (kind == 4 || (kind == 3 && thr_tail(f, h) == m->junction[i].node)) m->potential[h] -= by / 2;
+    if (kind == 4 || (kind == 3 && thr_tail(f, h) == m->junction[i].node))
+      m->potential[h] -= by / 2;
   }
   for (int v = 0; v < f->n_nodes && kind == 2; v++)
     pay_partition(f, m->partition[i].block, v, by, m);
@@ -436,14 +460,17 @@ static void change_tree(rng *r, const target *t, candidate *c)
   }
   switch (rng_below(r, 4)) {
   case 0: c->node[i].a = rng_below(r, darts); break;
-  case 1: c->node[i].b = rng_below(r, 3) ? rng_below(r, darts) : rng_below(r, 2) ? c->node[i].a ^ 1 : -1; break;
+  case 1:
+    c->node[i].b = rng_below(r, 3) ? rng_below(r, darts) : rng_below(r, 2) ? c->node[i].a ^ 1 : -1;
+    break;
   case 2: c->node[i].value = rng_below(r, 20) ? rng_below(r, 4) : (int)attack_integer(r); break;
   default: c->node[i].dual = rng_below(r, LEAVES);
   }
   if (rng_below(r, 4) == 0) c->leaf[rng_below(r, LEAVES)] = c->leaf[rng_below(r, LEAVES)];
 }
 
-/* Motions that may be none of the task, at nodes that they may not keep; now and then what is no motion at all. */
+/* Motions that may be none of the task, at nodes that they may not keep; now and then what is no
+ * motion at all. */
 static void change_orbits(rng *r, const target *t, candidate *c)
 {
   const int i = rng_below(r, TREE), k = rng_below(r, SYMMETRIES), m = t->plan.frame.n_edges;
@@ -452,7 +479,10 @@ static void change_orbits(rng *r, const target *t, candidate *c)
     memcpy(c->symmetry[k], t->motion[rng_below(r, t->n_motions)], (size_t)m * sizeof(int));
     if (c->n_symmetries <= k) c->n_symmetries = k + 1;
     break;
-  case 1: c->symmetry[k][rng_below(r, m)] = rng_below(r, 20) ? rng_below(r, 2 * m) : (int)attack_integer(r); break;
+  case 1:
+    c->symmetry[k][rng_below(r, m)] =
+        rng_below(r, 20) ? rng_below(r, 2 * m) : (int)attack_integer(r);
+    break;
   case 2: c->n_symmetries = 0; break;
   default:
     c->node[i].n_orbit = rng_below(r, SYMMETRIES + 1);
@@ -480,9 +510,15 @@ void candidate_change(rng *r, const void *of_target, void *of)
   case 2:
   case 3: change_potential(r, t, m); break;
   case 4:
-  case 5: change_set(r, 3u << 2 * (unsigned)rng_below(r, m_edges), 2 * m_edges + t->n_ends, m->odd, &m->n_odd); break;
+  case 5:
+    change_set(r, 3u << 2 * (unsigned)rng_below(r, m_edges), 2 * m_edges + t->n_ends, m->odd,
+               &m->n_odd);
+    break;
   case 6:
-  case 7: change_set(r, edges_of_a_cord(r, &t->plan), m_edges + !rng_below(r, 50), m->group, &m->n_groups); break;
+  case 7:
+    change_set(r, edges_of_a_cord(r, &t->plan), m_edges + !rng_below(r, 50), m->group,
+               &m->n_groups);
+    break;
   case 8: change_division(r, t, m->partition, &m->n_partitions); break;
   case 14: change_division(r, t, m->rank, &m->n_ranks); break;
   case 9: change_division(r, t, m->junction, &m->n_junctions); break;

@@ -1,5 +1,7 @@
-/* What an adversary attacks of turning and tied lengths: plans of small frameworks whose least is known, and proofs without
- * pointers that are changed at random. Shared by property/test_adversary_turning.c and test_adversary_claims.c. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What an adversary attacks of turning and tied lengths: plans of small frameworks whose least is
+ * known, and proofs without pointers that are changed at random. Shared by
+ * property/test_adversary_turning.c and test_adversary_claims.c. */
 #ifndef THR_TESTS_TURNING_TARGETS_H
 #define THR_TESTS_TURNING_TARGETS_H
 
@@ -26,14 +28,17 @@ typedef struct {
   bool end_node[NODES], end_allowed[NODES];
   int end_count[NODES];
   thr_turning_task task;
-  bool tied;                             /* the proof is one of length, with tube joints */
-  int n_pieces, n_ends;                  /* components; equations of ends */
-  long double least;                     /* the truth: a price, or a length */
-  long double largest;                   /* of the dearest cord, if a whole plan is attacked */
-  int n_motions, motion[MOTIONS][EDGES]; /* of the graph onto itself, whatever prices and passes are: half-edges 2e */
+  bool tied;            /* the proof is one of length, with tube joints */
+  int n_pieces, n_ends; /* components; equations of ends */
+  long double least;    /* the truth: a price, or a length */
+  long double largest;  /* of the dearest cord, if a whole plan is attacked */
+  int n_motions,
+      motion[MOTIONS]
+            [EDGES]; /* of the graph onto itself, whatever prices and passes are: half-edges 2e */
 } target;
 
-/* A target with its least; false: none came of these random numbers. tied: of lengths with tube joints. */
+/* A target with its least; false: none came of these random numbers. tied: of lengths with tube
+ * joints. */
 bool target_make(rng *r, target *t, bool tied);
 void target_destroy(target *t);
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* All cords of small pieces, by dynamic programming over walks. */
 #include "tests/walks.h"
 
@@ -7,8 +8,9 @@
 #include <string.h>
 
 /* ---- partitions of the edges at a node ----
- * Tables for up to WALKS_DEGREE edges, those of more blocks first, so that tying edges together gives a later one. A partition is
- * written as the lowest member of the block of each edge, in base 8. */
+ * Tables for up to WALKS_DEGREE edges, those of more blocks first, so that tying edges together
+ * gives a later one. A partition is written as the lowest member of the block of each edge, in
+ * base 8. */
 
 enum { PARTITIONS = 52 };
 typedef struct {
@@ -177,7 +179,8 @@ static void take_turns(walks_piece *w, const thr_frame *f, walks_back back, thr_
       int v = w->half_tail[in ^ 1];
       w->price[in][out] = INFINITY;
       if (v != w->half_tail[out]) continue;
-      bool turns_back = in == (out ^ 1), may = back == BACK_ANYWHERE || (back == BACK_AT_LEAVES && w->degree[v] == 1);
+      bool turns_back = in == (out ^ 1),
+           may = back == BACK_ANYWHERE || (back == BACK_AT_LEAVES && w->degree[v] == 1);
       int far_in = 2 * w->edge[in >> 1] + (in & 1), far_out = 2 * w->edge[out >> 1] + (out & 1);
       if (!turns_back || may) w->price[in][out] = walks_price(f, cost, far_in, far_out);
     }
@@ -204,7 +207,8 @@ static void take_tops(walks_piece *w, double count_all)
     left -= w->least[e] * w->length[e];
   for (int e = 0; e < w->n_edges; e++) {
     w->top[e] = w->most[e] < INT_MAX ? w->most[e] : w->least[e];
-    if (!isfinite(count_all) && (tie_covers(w, e) || cords_cover(w, e))) w->top[e] = w->least[e] = 0;
+    if (!isfinite(count_all) && (tie_covers(w, e) || cords_cover(w, e)))
+      w->top[e] = w->least[e] = 0;
     if (!isfinite(count_all)) continue;
     int fit = w->least[e] + (left > 0 ? (int)floor(left / w->length[e] + 1e-6) : 0);
     w->top[e] = fit < w->most[e] ? fit : w->most[e];
@@ -235,11 +239,13 @@ static bool take_strides(walks_piece *w, long most_states)
   return n <= most_states;
 }
 
-bool walks_piece_init(walks_piece *w, const thr_frame *f, const thr_request *o, int k, walks_back back, thr_turn_cost cost,
-                      double count_all, long most_states)
+bool walks_piece_init(walks_piece *w, const thr_frame *f, const thr_request *o, int k,
+                      walks_back back, thr_turn_cost cost, double count_all, long most_states)
 {
   int local[64];
-  *w = (walks_piece){.closed = o->ends == THR_ENDS_CLOSED, .tube = o->joint == THR_JOINT_TUBE, .distinct = o->distinct};
+  *w = (walks_piece){.closed = o->ends == THR_ENDS_CLOSED,
+                     .tube = o->joint == THR_JOINT_TUBE,
+                     .distinct = o->distinct};
   if (!take_nodes(w, f, k, local) || !take_edges(w, f, o, local)) return false;
   for (int v = 0; v < w->n_nodes; v++) {
     w->may_end[v] = walks_may_end(f, o, w->node[v]);
@@ -261,7 +267,8 @@ static int digit(long state, long stride, int base)
 static long with_cord(const walks_piece *w, long s, int e)
 {
   if (w->distinct == 0 || digit(s, w->here_stride[e], 2)) return s;
-  return s + w->here_stride[e] + (digit(s, w->cords_stride[e], w->distinct + 1) < w->distinct ? w->cords_stride[e] : 0);
+  return s + w->here_stride[e] +
+         (digit(s, w->cords_stride[e], w->distinct + 1) < w->distinct ? w->cords_stride[e] : 0);
 }
 
 /* It is at its end: another one walks next. */
@@ -299,11 +306,14 @@ bool walks_complete(const walks_piece *w, long s)
 {
   for (int e = 0; e < w->n_edges; e++) {
     if (digit(s, w->stride[e], w->top[e] + 1) < w->least[e]) return false;
-    if (w->distinct > 0 && digit(s, w->cords_stride[e], w->distinct + 1) < w->distinct) return false;
+    if (w->distinct > 0 && digit(s, w->cords_stride[e], w->distinct + 1) < w->distinct)
+      return false;
   }
   for (int v = 0; v < w->n_nodes; v++) {
     if (w->ends[v] > 0 && digit(s, w->end_stride[v], w->ends[v] + 1) < w->ends[v]) return false;
-    if (w->tube && digit(s, w->tie_stride[v], table_of(w->degree[v])->n) < table_of(w->degree[v])->n - 1) return false;
+    if (w->tube &&
+        digit(s, w->tie_stride[v], table_of(w->degree[v])->n) < table_of(w->degree[v])->n - 1)
+      return false;
   }
   return true;
 }
@@ -330,8 +340,9 @@ typedef struct {
   const walks_piece *w;
   walks_weights weights;
   double limit;
-  int first;  /* edge of a closed cord, none lower on it; -1 = open */
-  double *at; /* [n_states * 2 * n_edges] least cost of a cord that has just passed this half-edge */
+  int first; /* edge of a closed cord, none lower on it; -1 = open */
+  double
+      *at; /* [n_states * 2 * n_edges] least cost of a cord that has just passed this half-edge */
   double *out;
 } walker;
 
@@ -364,7 +375,8 @@ static void leave(walker *x, long s, int h, double cost)
   else if (w->price[h][start] < INFINITY)
     finish(x, with_turn(w, s, h, start), cost + x->weights.turn * w->price[h][start]);
   for (int next = 0; next < 2 * w->n_edges; next++)
-    if (w->price[h][next] < INFINITY) reach(x, with_turn(w, s, h, next), next, cost + x->weights.turn * w->price[h][next]);
+    if (w->price[h][next] < INFINITY)
+      reach(x, with_turn(w, s, h, next), next, cost + x->weights.turn * w->price[h][next]);
 }
 
 /* The half-edges of one state in order of cost: passes that it does not count stay in it. */
@@ -407,10 +419,12 @@ void walks_begin(const walks_piece *w, double *cost)
 }
 
 /* From each state that there is by itself, so that what the cord costs is known. */
-static void one_more_of_each(const walks_piece *w, walks_weights weights, const double *in, double *out)
+static void one_more_of_each(const walks_piece *w, walks_weights weights, const double *in,
+                             double *out)
 {
   const double longest = weights.longest;
-  double *from = calloc((size_t)w->n_states, sizeof *from), *to = calloc((size_t)w->n_states, sizeof *to);
+  double *from = calloc((size_t)w->n_states, sizeof *from),
+         *to = calloc((size_t)w->n_states, sizeof *to);
   ck_assert(from && to);
   weights.longest = 0;
   for (long t = 0; t < w->n_states; t++)
@@ -427,7 +441,8 @@ static void one_more_of_each(const walks_piece *w, walks_weights weights, const 
   free(to);
 }
 
-void walks_one_more(const walks_piece *w, walks_weights weights, double limit, const double *in, double *out)
+void walks_one_more(const walks_piece *w, walks_weights weights, double limit, const double *in,
+                    double *out)
 {
   if (weights.longest > 0 && limit < 0) {
     one_more_of_each(w, weights, in, out);
@@ -449,7 +464,8 @@ double walks_least_of(const thr_frame *f, const thr_request *o, int cords, walks
   walks_piece w;
   const walks_back back = by.turn > 0 ? BACK_AT_LEAVES : BACK_ANYWHERE;
   ck_assert(walks_piece_init(&w, f, o, 0, back, o->turning.cost, INFINITY, 100000));
-  double *in = calloc((size_t)w.n_states, sizeof *in), *out = calloc((size_t)w.n_states, sizeof *out);
+  double *in = calloc((size_t)w.n_states, sizeof *in),
+         *out = calloc((size_t)w.n_states, sizeof *out);
   ck_assert(in && out);
   walks_begin(&w, in);
   for (int n = 0; n < cords; n++) {

@@ -19,10 +19,10 @@ ENDINGS = [".c", ".h", ".cpp", ".S"]
 
 
 def first_sentence(path):
-    """Of the comment that the file begins with; None if it begins otherwise."""
+    """Of the comment that the file begins with after its licence; None if it begins otherwise."""
     with open(path, encoding="utf-8") as f:
         text = f.read()
-    found = re.match(r"/\*(.*?)\*/", text, re.DOTALL)
+    found = re.match(r"(?:/\* SPDX[^\n]*\n)?/\*(.*?)\*/", text, re.DOTALL)
     if not found:
         return None
     words = re.sub(r"\s*\n \*[ ]?", "\n", found.group(1)).split("\n\n")[0].replace("\n", " ").strip()

@@ -1,7 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The only file that knows Emscripten.
  *
- * The linker puts __wrap_x in the place of the library's x (--wrap): the clock, which every search with a time limit asks, also
- * asks the host whether to stop; sbrk, from which malloc has its memory, holds --memory. */
+ * The linker puts __wrap_x in the place of the library's x (--wrap): the clock, which every search
+ * with a time limit asks, also asks the host whether to stop; sbrk, from which malloc has its
+ * memory, holds --memory. */
 #define _GNU_SOURCE
 #include "targets/host.h"
 
@@ -67,7 +69,8 @@ void *__wrap_sbrk(intptr_t increment)
 int __real_clock_gettime(clockid_t id, struct timespec *time);
 int __wrap_clock_gettime(clockid_t id, struct timespec *time);
 
-/* Emscripten measures no processor time. The engine has one thread, which is at work from the first question on. */
+/* Emscripten measures no processor time. The engine has one thread, which is at work from the first
+ * question on. */
 static int processor_time(struct timespec *time)
 {
   static struct timespec begun;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* --config FILE: options from a file, as if they stood before those of the command line. */
 #include "cli/args/args.h"
 #include "graph/status.h"
@@ -25,8 +26,10 @@ static char *trim(char *s)
   return s + strspn(s, " \t");
 }
 
-/* One line as a word of the command line, "" if it is none; false prints what is wrong with it. It takes no more room. */
-static bool word_of(char *line, int number, const char *command, bool *applies, char *word, size_t size)
+/* One line as a word of the command line, "" if it is none; false prints what is wrong with it. It
+ * takes no more room. */
+static bool word_of(char *line, int number, const char *command, bool *applies, char *word,
+                    size_t size)
 {
   char *name = trim(line), *value = strchr(name, '='), *after;
   size_t n = strlen(name);
@@ -41,7 +44,9 @@ static bool word_of(char *line, int number, const char *command, bool *applies, 
   name = trim(name);
   after = name + strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789-");
   if (*name == '-' || *name == '\0' || *after || strcmp(name, "config") == 0) {
-    cli_error("%s:%d: %s: expected `name = value`, the name of an option without dashes, or [command]", source, number, name);
+    cli_error(
+        "%s:%d: %s: expected `name = value`, the name of an option without dashes, or [command]",
+        source, number, name);
     return false;
   }
   if (*applies) snprintf(word, size, value ? "--%s=%s" : "--%s", name, value ? trim(value) : "");
@@ -106,7 +111,8 @@ int cli_config(int *argc, char ***argv)
   int n = 0;
   if (!take_out(argc, *argv)) return cli_usage((*argv)[1], "--config needs a value");
   if (!source) return EXIT_OK;
-  if (strcmp(source, "-") == 0) return cli_usage((*argv)[1], "--config -: options come from a file, not from stdin");
+  if (strcmp(source, "-") == 0)
+    return cli_usage((*argv)[1], "--config -: options come from a file, not from stdin");
   if (thr_text_read_plain(&file, source, &err)) return cli_fail(&err);
   files_heard("config", source);
   int code = join(&file, (*argv)[1], *argc, *argv, &n);

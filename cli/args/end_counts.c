@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* `--ends NAME:N,..`: how many cord ends there are at each node. */
 #include "cli/args/request_args.h"
 #include "cli/cli.h"
@@ -7,8 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The node whose name is before the last colon of text[0 .. n-1], -1 if there is none; *number: what is after it. Names may hold
- * colons themselves: what is a node's name as a whole has no number. */
+/* The node whose name is before the last colon of text[0 .. n-1], -1 if there is none; *number:
+ * what is after it. Names may hold colons themselves: what is a node's name as a whole has no
+ * number. */
 static int counted_node(const thr_frame *frame, const char *text, int n, char number[256])
 {
   char word[256], *colon;
@@ -36,15 +38,18 @@ int end_counts_parse(const thr_frame *frame, const char *ends, int *counts)
     long count = strtol(number, &rest, 10);
     some = true;
     if (rest == number || *rest || count < 1 || count > 2 * THR_MOST_CORDS)
-      return cli_usage("plan", "--ends %.*s: expected a number of cord ends from 1 to %d after the colon", n, word,
-                       2 * THR_MOST_CORDS);
+      return cli_usage("plan",
+                       "--ends %.*s: expected a number of cord ends from 1 to %d after the colon",
+                       n, word, 2 * THR_MOST_CORDS);
     if (counts[v]) return cli_usage("plan", "--ends %s: node %s comes twice", ends, frame->name[v]);
     counts[v] = (int)count;
   }
   if (!some) return -1;
   if (alone)
-    return cli_usage("plan", "--ends %s: %.*s is no node with a number of cord ends; give every node one, or none", ends,
-                     (int)strcspn(alone, ","), alone);
+    return cli_usage(
+        "plan",
+        "--ends %s: %.*s is no node with a number of cord ends; give every node one, or none", ends,
+        (int)strcspn(alone, ","), alone);
   return EXIT_OK;
 }
 
@@ -52,8 +57,10 @@ int end_counts_cords(const thr_frame *frame, const int *counts, int *least, int 
 {
   thr_err err = {0};
   int n, code = EXIT_OK, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
-  int *sum = thr_calloc((size_t)frame->n_nodes, sizeof *sum), *first = thr_calloc((size_t)frame->n_nodes, sizeof *first);
-  thr_status st = component && sum && first ? thr_frame_components(frame, component, &n, &err) : thr_nomem(&err);
+  int *sum = thr_calloc((size_t)frame->n_nodes, sizeof *sum),
+      *first = thr_calloc((size_t)frame->n_nodes, sizeof *first);
+  thr_status st = component && sum && first ? thr_frame_components(frame, component, &n, &err)
+                                            : thr_nomem(&err);
   *least = THR_MOST_CORDS;
   *most = 0;
   for (int v = frame->n_nodes - 1; v >= 0 && !st; v--) {
@@ -62,7 +69,8 @@ int end_counts_cords(const thr_frame *frame, const int *counts, int *least, int 
   }
   for (int k = 0; !st && !code && k < n; k++) {
     if (sum[k] % 2 || sum[k] == 0) {
-      cli_error("--ends: the component with node %s has %d %s; cords have two each, and every component needs one",
+      cli_error("--ends: the component with node %s has %d %s; cords have two each, and every "
+                "component needs one",
                 frame->name[first[k]], sum[k], cli_plural(sum[k], "cord end", "cord ends"));
       code = EXIT_INFEASIBLE;
     }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The options of a command as its help lists them: what completions and man pages are made from. */
 #include "cli/args/args.h"
 
@@ -7,7 +8,8 @@
 
 enum { BELOW = 20 }; /* blanks before a line that goes on with the option above it */
 
-/* Is text[at] the dash of an option that is listed, not of one that is only spoken of? *letter: its short name. */
+/* Is text[at] the dash of an option that is listed, not of one that is only spoken of? *letter: its
+ * short name. */
 static bool is_listed(const char *text, const char *at, char *letter)
 {
   const char *before = at;
@@ -69,8 +71,10 @@ bool cli_listed_next(const char **at, const struct option *table, cli_listed *ou
 static void take_below(const char *line, void (*take)(void *user, const char *word), void *user)
 {
   for (; (int)strspn(line, " ") >= BELOW; line = strchr(line, '\n') + 1) {
-    const char *word = line + strspn(line, " "), *end = strstr(word, "  "), *stop = strchr(word, '\n');
-    for (; end && stop && end < stop && islower((unsigned char)*word) && word < end; word += strspn(word, ", ")) {
+    const char *word = line + strspn(line, " "), *end = strstr(word, "  "),
+               *stop = strchr(word, '\n');
+    for (; end && stop && end < stop && islower((unsigned char)*word) && word < end;
+         word += strspn(word, ", ")) {
       char text[32];
       size_t n = strcspn(word, ", ");
       snprintf(text, sizeof text, "%.*s", (int)n, word);
@@ -81,7 +85,8 @@ static void take_below(const char *line, void (*take)(void *user, const char *wo
   }
 }
 
-void cli_listed_values(const cli_listed *option, void (*take)(void *user, const char *word), void *user)
+void cli_listed_values(const cli_listed *option, void (*take)(void *user, const char *word),
+                       void *user)
 {
   const char *word = option->value;
   bool some = false;

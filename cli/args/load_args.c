@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Loads, tilt, clamped feet. */
 #include "cli/args/load_args.h"
 #include "graph/angle.h"
@@ -8,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Numbers with commas between them; how many, -1 if that is no such list or one of more than most. */
+/* Numbers with commas between them; how many, -1 if that is no such list or one of more than most.
+ */
 static int parse_numbers(const char *text, size_t length, double *out, int most)
 {
   char word[400], *at = word, *end;
@@ -31,7 +33,8 @@ static bool parse_pulls(load_args *a, const char *command, const char *value)
   for (int i = 0; i < a->n_pulls; i++)
     ok &= a->pulls[i] > 0 && a->pulls[i] <= 1e12;
   if (!ok)
-    cli_usage(command, "--load-pulls %s: expected up to %d newtons above 0 with commas, as 1,5,50", value, LOAD_MOST_PULLS);
+    cli_usage(command, "--load-pulls %s: expected up to %d newtons above 0 with commas, as 1,5,50",
+              value, LOAD_MOST_PULLS);
   return ok;
 }
 
@@ -40,7 +43,8 @@ static bool parse_tilt(load_args *a, const char *command, const char *value)
   double number[2] = {0};
   const int n = parse_numbers(value, strlen(value), number, 2);
   const bool ok = n > 0 && number[0] >= 0 && number[0] < 90 && fabs(number[1]) <= 360;
-  if (!ok) cli_usage(command, "--tilt %s: expected degrees from 0 to below 90, or DEG,AZIMUTH", value);
+  if (!ok)
+    cli_usage(command, "--tilt %s: expected degrees from 0 to below 90, or DEG,AZIMUTH", value);
   a->tilt = number[0] * THR_PI / 180;
   a->azimuth = number[1] * THR_PI / 180;
   return ok;
@@ -53,14 +57,17 @@ bool load_option(load_args *a, const char *command, int option, const char *valu
   switch (option) {
   case OPTION_LOAD:
     *ok = !a->load;
-    if (a->load) cli_usage(command, "--load is there twice; several nodes go into one, with semicolons");
+    if (a->load)
+      cli_usage(command, "--load is there twice; several nodes go into one, with semicolons");
     a->load = value;
     return true;
   case OPTION_LOAD_PULLS: *ok = parse_pulls(a, command, value); return true;
   case OPTION_TILT: *ok = parse_tilt(a, command, value); return true;
   case OPTION_CLAMP: a->clamped = true; return true;
   case OPTION_TAUT: a->taut = true; return true;
-  case OPTION_RAYS: *ok = cli_int(command, "--rays", value, THR_USUAL_RAYS, THR_MOST_RAYS, &a->rays); return true;
+  case OPTION_RAYS:
+    *ok = cli_int(command, "--rays", value, THR_USUAL_RAYS, THR_MOST_RAYS, &a->rays);
+    return true;
   default: return false;
   }
 }
@@ -71,7 +78,8 @@ bool load_any(const load_args *a)
 }
 
 /* One load, "D4=10" or "D4=0,1,-10": a single number hangs. */
-static int add_load(const char *command, const thr_frame *frame, const char *text, size_t length, double (*load)[3])
+static int add_load(const char *command, const thr_frame *frame, const char *text, size_t length,
+                    double (*load)[3])
 {
   char name[256];
   double force[3];
@@ -80,7 +88,9 @@ static int add_load(const char *command, const thr_frame *frame, const char *tex
     equals--;
   const int n = equals > 1 ? parse_numbers(text + equals, length - equals, force, 3) : -1;
   if ((n != 1 && n != 3) || equals - 1 >= sizeof name)
-    return cli_usage(command, "--load %.*s: expected NODE=N, newtons that hang there, or NODE=FX,FY,FZ", (int)length, text);
+    return cli_usage(command,
+                     "--load %.*s: expected NODE=N, newtons that hang there, or NODE=FX,FY,FZ",
+                     (int)length, text);
   snprintf(name, sizeof name, "%.*s", (int)(equals - 1), text);
   const int v = thr_frame_find(frame, name);
   if (v < 0) return cli_no_node(frame, "--load", "node", name);
@@ -89,7 +99,8 @@ static int add_load(const char *command, const thr_frame *frame, const char *tex
   return EXIT_OK;
 }
 
-static int read_loads(const char *command, const char *list, const thr_frame *frame, double (*load)[3])
+static int read_loads(const char *command, const char *list, const thr_frame *frame,
+                      double (*load)[3])
 {
   bool some = false;
   for (const char *at = list; *at;) {
@@ -103,7 +114,8 @@ static int read_loads(const char *command, const char *list, const thr_frame *fr
   return some ? EXIT_OK : cli_usage(command, "--load %s: no force at all", list);
 }
 
-int load_apply(const load_args *a, const thr_frame *frame, thr_eval_options *options, double (**load)[3])
+int load_apply(const load_args *a, const thr_frame *frame, thr_eval_options *options,
+               double (**load)[3])
 {
   int code = EXIT_OK;
   *load = NULL;

@@ -1,4 +1,6 @@
-/* The options that describe cord and beads, made from the table in graph/plan/physics.h. Shared by eval, compare and plan. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The options that describe cord and beads, made from the table in graph/plan/physics.h. Shared by
+ * eval, compare and plan. */
 #include "cli/args/args.h"
 #include "graph/status.h"
 
@@ -28,7 +30,8 @@ static void join_tables(const struct option *own, struct option *table, char (*n
   int n = 0;
   for (; own->name; own++)
     table[n++] = *own;
-  assert(n + N_EXTRA + thr_physics_n_fields < MOST_OPTIONS); /* a command's options are known when it is compiled */
+  assert(n + N_EXTRA + thr_physics_n_fields <
+         MOST_OPTIONS); /* a command's options are known when it is compiled */
   for (int i = 0; i < N_EXTRA; i++)
     table[n++] = extra[i];
   for (int i = 0; i < thr_physics_n_fields; i++) {
@@ -53,7 +56,8 @@ static const char *join_help(const char *own)
   static char whole[16384]; /* a help text has at most 8,190 bytes, two literals */
   const thr_physics usual = thr_physics_default();
   size_t n = 0;
-  n += put(whole + n, sizeof whole - n, "%s\nCord and beads (default: what the plan says, else what stands here):\n", own);
+  n += put(whole + n, sizeof whole - n,
+           "%s\nCord and beads (default: what the plan says, else what stands here):\n", own);
   for (int i = 0; i < thr_physics_n_fields; i++) {
     const thr_physics_field *field = &thr_physics_fields[i];
     char name[MOST_LETTERS], both[40];
@@ -68,8 +72,10 @@ static const char *join_help(const char *own)
            "      --preset NAME          a set of values:\n");
   for (int i = 0; i < thr_physics_n_presets; i++) {
     const thr_physics *physics = &thr_physics_presets[i].physics;
-    n += put(whole + n, sizeof whole - n, "                               %-14s mu %g (%g to %g), density %g\n",
-             thr_physics_presets[i].name, physics->mu, physics->mu_low, physics->mu_high, physics->density);
+    n += put(whole + n, sizeof whole - n,
+             "                               %-14s mu %g (%g to %g), density %g\n",
+             thr_physics_presets[i].name, physics->mu, physics->mu_low, physics->mu_high,
+             physics->density);
   }
   n += put(whole + n, sizeof whole - n, "%s",
            "      --presets              what each of them rests on\n"
@@ -101,7 +107,8 @@ static void print_presets(void)
       double value = thr_physics_get(&preset->physics, &thr_physics_fields[k]);
       option_name(k, name);
       if (!(value > 0)) continue;
-      printf("  %-14s %g%s%s\n", name, value, *thr_physics_fields[k].unit ? " " : "", thr_physics_fields[k].unit);
+      printf("  %-14s %g%s%s\n", name, value, *thr_physics_fields[k].unit ? " " : "",
+             thr_physics_fields[k].unit);
     }
     print_wrapped(preset->source);
   }
@@ -128,8 +135,8 @@ static bool fits(const char *command, int option, const char *value)
   return false;
 }
 
-int cli_physics_option(cli_physics *a, int argc, char **argv, const char *command, const char *letters, const struct option *own,
-                       const char *help, int *done)
+int cli_physics_option(cli_physics *a, int argc, char **argv, const char *command,
+                       const char *letters, const struct option *own, const char *help, int *done)
 {
   struct option table[MOST_OPTIONS];
   char name[MOST_OPTIONS][MOST_LETTERS];
@@ -161,13 +168,14 @@ int cli_physics_apply(const cli_physics *a, thr_physics *physics)
   thr_err err = {0};
   thr_status st = THR_OK;
   for (int i = 0; i < a->n && !st; i++) {
-    if (a->given[i].option == OPTION_PRESET) st = thr_physics_set_preset(physics, a->given[i].value, &err);
+    if (a->given[i].option == OPTION_PRESET)
+      st = thr_physics_set_preset(physics, a->given[i].value, &err);
     if (a->given[i].option == OPTION_FILE) st = thr_physics_read(physics, a->given[i].value, &err);
   }
   for (int i = 0; i < a->n && !st; i++)
     if (a->given[i].option >= OPTION_QUANTITY)
-      st = thr_physics_set(physics, &thr_physics_fields[a->given[i].option - OPTION_QUANTITY], strtod(a->given[i].value, NULL),
-                           &err);
+      st = thr_physics_set(physics, &thr_physics_fields[a->given[i].option - OPTION_QUANTITY],
+                           strtod(a->given[i].value, NULL), &err);
   return st ? cli_fail(&err) : EXIT_OK;
 }
 

@@ -1,7 +1,9 @@
-/* The options of `thread plan` that say what the plan is to be: aims, cords, ends, turning. Those that are a number or a word are
- * rows of the request's table (graph/plan/request_fields.c).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The options of `thread plan` that say what the plan is to be: aims, cords, ends, turning. Those
+ * that are a number or a word are rows of the request's table (graph/plan/request_fields.c).
  *
- * Options of `thread plan` that say what the plan is to be: parsed, held against each other, laid over a request. */
+ * Options of `thread plan` that say what the plan is to be: parsed, held against each other, laid
+ * over a request. */
 #include "cli/args/request_args.h"
 #include "eval/cord/profile.h"
 #include "graph/plan/physics.h"
@@ -85,11 +87,13 @@ static bool parse_slack(const char *text, double *slack)
 {
   char *end;
   const double percent = strtod(text, &end);
-  const bool ok = end != text && (*end == '\0' || strcmp(end, "%") == 0) && percent >= 0 && percent <= 1e6;
+  const bool ok =
+      end != text && (*end == '\0' || strcmp(end, "%") == 0) && percent >= 0 && percent <= 1e6;
   if (ok) {
     *slack = percent / 100;
   } else {
-    cli_usage("plan", "--length-slack %s: expected a percentage from 0 to 1e+06, like 5 or 5%%", text);
+    cli_usage("plan", "--length-slack %s: expected a percentage from 0 to 1e+06, like 5 or 5%%",
+              text);
   }
   return ok;
 }
@@ -98,7 +102,8 @@ static bool parse_objective(request_args *a, const char *value)
 {
   int i;
   a->objective_said = true;
-  if (!cli_choose("plan", "--objective", value, thr_dispatch_name, THR_N_OBJECTIVES, &i)) return false;
+  if (!cli_choose("plan", "--objective", value, thr_dispatch_name, THR_N_OBJECTIVES, &i))
+    return false;
   a->objective = thr_dispatch_objective(i);
   return true;
 }
@@ -121,15 +126,19 @@ static bool parse_frontier(request_args *a, const char *value)
 }
 
 /* Reads a number or a word into the request, in the range that its row of the table has. */
-static bool parse_field(request_args *a, const thr_request_field *field, const char *option, const char *value)
+static bool parse_field(request_args *a, const thr_request_field *field, const char *option,
+                        const char *value)
 {
   void *to = thr_request_value(&a->asked, field);
   const double most_counted = 1e6;
   if (field->kind == THR_ASKS_COUNT)
-    return cli_int("plan", option, value, (int)field->low, (int)fmin(field->high, most_counted), to);
-  if (field->kind == THR_ASKS_WORD) return cli_choose("plan", option, value, field->name, field->n_names, to);
+    return cli_int("plan", option, value, (int)field->low, (int)fmin(field->high, most_counted),
+                   to);
+  if (field->kind == THR_ASKS_WORD)
+    return cli_choose("plan", option, value, field->name, field->n_names, to);
 
-  /* The least amount may be anything above 0, and the most anything, which are no numbers to print. */
+  /* The least amount may be anything above 0, and the most anything, which are no numbers to print.
+   */
   const double most = 1e100;
   double *amount = to;
   if (!cli_double("plan", option, value, 0, fmin(field->high, most), amount)) return false;
@@ -141,9 +150,11 @@ static bool parse_field(request_args *a, const thr_request_field *field, const c
 /* What an option is about, for the refusal of options that would be ignored. */
 static void note_option(request_args *a, int option, const char *name)
 {
-  const bool is_spelled = option == OPTION_SLACK || option == OPTION_MINIMIZE || strcmp(name, "--turn-cost") == 0;
-  const bool is_turning = is_spelled || option == OPTION_FRONTIER || option == OPTION_COMPARE_SHORTEST ||
-                          option == OPTION_FRONTIER_PLOT || strcmp(name, "--tour") == 0 || strcmp(name, "--pairings") == 0 ||
+  const bool is_spelled =
+      option == OPTION_SLACK || option == OPTION_MINIMIZE || strcmp(name, "--turn-cost") == 0;
+  const bool is_turning = is_spelled || option == OPTION_FRONTIER ||
+                          option == OPTION_COMPARE_SHORTEST || option == OPTION_FRONTIER_PLOT ||
+                          strcmp(name, "--tour") == 0 || strcmp(name, "--pairings") == 0 ||
                           strcmp(name, "--nodes") == 0;
   if (is_spelled) {
     a->spelled = name;
@@ -155,7 +166,8 @@ static void note_option(request_args *a, int option, const char *name)
   a->pairings_said |= strcmp(name, "--pairings") == 0;
 }
 
-/* Returns the name of an option with its dashes, or NULL if it is none of ours. It lives as long as the program. */
+/* Returns the name of an option with its dashes, or NULL if it is none of ours. It lives as long as
+ * the program. */
 static const char *name_of(int option)
 {
   static const struct option table[] = {REQUEST_OPTIONS, {NULL, 0, NULL, 0}};
@@ -198,7 +210,10 @@ bool request_option(request_args *a, int option, const char *value, bool *ok)
 /* Returns the option that limits the pull, or NULL. */
 static const char *pull_limit(const request_args *a)
 {
-  return a->max_pull > 0 ? "--max-pull" : a->hand > 0 ? "--hand" : a->strength > 0 ? "--cord-strength" : NULL;
+  return a->max_pull > 0   ? "--max-pull"
+         : a->hand > 0     ? "--hand"
+         : a->strength > 0 ? "--cord-strength"
+                           : NULL;
 }
 
 bool request_args_limits_pull(const request_args *a)
@@ -221,18 +236,23 @@ static int cover_of(const request_args *a)
 bool request_args_usual(const request_args *a)
 {
   const request_args usual = request_args_default();
-  return a->most == 0 && a->asked.max_length == 0 && strcmp(a->ends, usual.ends) == 0 && !a->cover_said &&
-         a->asked.distinct == 0 && a->asked.capacity == 0 && !pull_limit(a) && a->asked.joint == THR_JOINT_SOLID;
+  return a->most == 0 && a->asked.max_length == 0 && strcmp(a->ends, usual.ends) == 0 &&
+         !a->cover_said && a->asked.distinct == 0 && a->asked.capacity == 0 && !pull_limit(a) &&
+         a->asked.joint == THR_JOINT_SOLID;
 }
 
-/* Of several cords the hand feels the one that turns most: a small sum may leave one that nobody can pull. */
+/* Of several cords the hand feels the one that turns most: a small sum may leave one that nobody
+ * can pull. */
 static bool wants_largest(const request_args *a)
 {
   const bool several = a->most > 1 || takes_few(a);
-  return a->minimize ? a->largest : several && !a->balance && !a->frontier && a->asked.turning.tour == THR_TOUR_LEAST;
+  return a->minimize
+             ? a->largest
+             : several && !a->balance && !a->frontier && a->asked.turning.tour == THR_TOUR_LEAST;
 }
 
-void request_args_ask(const request_args *a, const symmetry_args *symmetry, thr_objective objective, thr_request *request)
+void request_args_ask(const request_args *a, const symmetry_args *symmetry, thr_objective objective,
+                      thr_request *request)
 {
   const thr_request usual = thr_request_default();
   const bool is_own = objective == a->objective;
@@ -302,18 +322,21 @@ enum {
   MIXED = 1 << 29        /* little turning, and a wish that is about single cords or their number */
 };
 
-/* Refused is what has all facts of the first kind and none of the second. What stands for %: the option about symmetry (S) or
- * turning (G), the crossings (X), the tour (T), the cost of turns (C), the limit (L), the limit of the pull (P), the number of
- * cords (K). The first row that applies is said. */
+/* Refused is what has all facts of the first kind and none of the second. What stands for %: the
+ * option about symmetry (S) or turning (G), the crossings (X), the tour (T), the cost of turns (C),
+ * the limit (L), the limit of the pull (P), the number of cords (K). The first row that applies is
+ * said. */
 static const struct {
   int all, none;
   const char *say;
 } refused[] = {
     {OF_SYMMETRY, SYMMETRY, "%S needs --objective symmetry"},
     {CROSSINGS | TUBE, 0,
-     "--crossings %X does not go with --joint tube: the cords of a tube lie side by side in one bore and cross nowhere inside"},
+     "--crossings %X does not go with --joint tube: the cords of a tube lie side by side in one "
+     "bore and cross nowhere inside"},
     {CROSSINGS | SYMMETRY, 0,
-     "--crossings %X does not go with --objective symmetry: copies of a cord cross each other where they meet"},
+     "--crossings %X does not go with --objective symmetry: copies of a cord cross each other "
+     "where they meet"},
     {CROSSINGS | PULL, 0, "--crossings %X does not go with a limit of the pull"},
     {CROSSINGS | CLASSICAL, 0, "--crossings %X does not go with a classical tour"},
     {OF_TURNING, TURNING, "%G needs --objective tortuosity"},
@@ -330,17 +353,27 @@ static const struct {
     {TURNING | CLASSICAL | BALANCE, 0, "--balance: not with --objective tortuosity"},
     {TURNING | CLASSICAL | AUTOMATIC, 0, "--cords auto: not with --objective tortuosity"},
     {TURNING | CLASSICAL | RANGE, 0, "a range of --cords: not with --objective tortuosity"},
-    {CONFIRM, LENGTH, "--confirm always: of shortest passes only, with --objective length and --joint solid"},
-    {CONFIRM | TUBE, 0, "--confirm always: of shortest passes only, with --objective length and --joint solid"},
+    {CONFIRM, LENGTH,
+     "--confirm always: of shortest passes only, with --objective length and --joint solid"},
+    {CONFIRM | TUBE, 0,
+     "--confirm always: of shortest passes only, with --objective length and --joint solid"},
     {BALANCE, SEVERAL | COUNTED_ENDS | PULL, "--balance needs several --cords, or --max-pull"},
-    {BALANCE | AUTOMATIC, 0, "--balance makes the longest cord as short as can be: no --cords auto with it"},
-    {BALANCE | MAX_LENGTH, 0, "--balance makes the longest cord as short as can be: no --max-length with it"},
+    {BALANCE | AUTOMATIC, 0,
+     "--balance makes the longest cord as short as can be: no --cords auto with it"},
+    {BALANCE | MAX_LENGTH, 0,
+     "--balance makes the longest cord as short as can be: no --max-length with it"},
     {AUTOMATIC, FEW, "--cords auto: as many as needed for what? Give --max-length or --max-pull"},
     {BOTH_PULLS, 0, "--max-pull says what --hand does: one of them"},
-    {DISTINCT | CLASSICAL, 0, "--distinct: not with --tour %T, which makes one cord in each component"},
-    {MIXED | SLACK, 0, "--length-slack: not with --balance, %L or a range of --cords, whose least length is not proved"},
-    {MIXED | FRONTIER, 0, "--frontier: not with --balance, %L or a range of --cords, whose least length is not proved"},
-    {MIXED | COMPARE, 0, "--compare-shortest: not with --balance, %L or a range of --cords, whose least length is not proved"},
+    {DISTINCT | CLASSICAL, 0,
+     "--distinct: not with --tour %T, which makes one cord in each component"},
+    {MIXED | SLACK, 0,
+     "--length-slack: not with --balance, %L or a range of --cords, whose least length is not "
+     "proved"},
+    {MIXED | FRONTIER, 0,
+     "--frontier: not with --balance, %L or a range of --cords, whose least length is not proved"},
+    {MIXED | COMPARE, 0,
+     "--compare-shortest: not with --balance, %L or a range of --cords, whose least length is not "
+     "proved"},
     {CLASSICAL | SEVERAL, 0, "--tour %T makes one cord in each component, not --cords %K"},
     {CLASSICAL | TUBE, 0, "--tour %T ties no joints: no --joint tube"},
 };
@@ -383,7 +416,9 @@ static int facts_of(const request_args *a, const symmetry_args *symmetry, const 
       {a->turning, OF_TURNING},
       {symmetry->given, OF_SYMMETRY},
       {a->max_pull > 0 && a->hand > 0, BOTH_PULLS},
-      {thr_wants_turning(wanted) && (asked->max_length > 0 || limits_pull || a->balance || is_range), MIXED},
+      {thr_wants_turning(wanted) &&
+           (asked->max_length > 0 || limits_pull || a->balance || is_range),
+       MIXED},
   };
   int sum = 0;
   for (size_t i = 0; i < sizeof facts / sizeof *facts; i++) {
@@ -424,16 +459,19 @@ static int check_numbers(const request_args *a)
   const thr_request *asked = &a->asked;
   const int cover = cover_of(a);
   if (asked->capacity > 0 && asked->capacity < cover)
-    return cli_usage("plan", "--capacity %d leaves no room for --%s %d", asked->capacity, a->cover_said ? "cover" : "distinct",
-                     cover);
+    return cli_usage("plan", "--capacity %d leaves no room for --%s %d", asked->capacity,
+                     a->cover_said ? "cover" : "distinct", cover);
   if (a->cover_said && asked->distinct > 0 && asked->cover < asked->distinct)
-    return cli_usage("plan", "--cover %d: --distinct %d needs as many passes", asked->cover, asked->distinct);
+    return cli_usage("plan", "--cover %d: --distinct %d needs as many passes", asked->cover,
+                     asked->distinct);
   if (asked->distinct == 0 || a->most == 0 || a->most >= asked->distinct) return -1;
-  cli_error("--cords %d: no edge is passed by %d different cords (proved: there are too few)", a->most, asked->distinct);
+  cli_error("--cords %d: no edge is passed by %d different cords (proved: there are too few)",
+            a->most, asked->distinct);
   return EXIT_INFEASIBLE;
 }
 
-/* Lets --aims, which says all that is minimized, say what the other options would. Returns -1, or prints and returns the code. */
+/* Lets --aims, which says all that is minimized, say what the other options would. Returns -1, or
+ * prints and returns the code. */
 static int settle_aims(request_args *a, symmetry_args *symmetry)
 {
   thr_err err = {0};
@@ -445,7 +483,8 @@ static int settle_aims(request_args *a, symmetry_args *symmetry)
                                             : NULL;
   if (!a->aims) return -1;
   if (other) return cli_usage("plan", "--aims says all that is minimized: no %s beside it", other);
-  if (thr_aims_parse(a->aims, &listed, &err)) return cli_usage("plan", "--aims %s: %s", a->aims, err.text);
+  if (thr_aims_parse(a->aims, &listed, &err))
+    return cli_usage("plan", "--aims %s: %s", a->aims, err.text);
   a->objective = thr_aims_objective(&listed);
   a->largest = thr_wants_largest(&listed);
   a->pull = thr_wants_pull(&listed);
@@ -465,26 +504,31 @@ int request_args_check(request_args *a, symmetry_args *symmetry, thr_request *wa
 
   /* A picture has to go somewhere. */
   if (a->plot && !*a->plot) return cli_usage("plan", "an empty name is no place to write to");
-  if (a->plot && strcmp(a->plot, "-") == 0) return cli_usage("plan", "--plot -: the summary has stdout; name a file");
+  if (a->plot && strcmp(a->plot, "-") == 0)
+    return cli_usage("plan", "--plot -: the summary has stdout; name a file");
 
   const int facts = facts_of(a, symmetry, wanted);
   for (size_t i = 0; i < sizeof refused / sizeof *refused; i++) {
-    if ((facts & refused[i].all) == refused[i].all && !(facts & refused[i].none)) return refuse(a, symmetry, refused[i].say);
+    if ((facts & refused[i].all) == refused[i].all && !(facts & refused[i].none))
+      return refuse(a, symmetry, refused[i].say);
   }
   return check_numbers(a);
 }
 
 /* ---- with the framework ---- */
 
-/* Cord and bore say how many passes there is room for, where both were given. A symmetric plan is not held to that. */
+/* Cord and bore say how many passes there is room for, where both were given. A symmetric plan is
+ * not held to that. */
 static int apply_bore(thr_request *request)
 {
   const thr_physics *physics = &request->physics;
-  if (physics->bore == 0 || physics->cord_diameter == 0 || thr_wants_symmetry(request)) return EXIT_OK;
+  if (physics->bore == 0 || physics->cord_diameter == 0 || thr_wants_symmetry(request))
+    return EXIT_OK;
   const int fit = thr_bore_fits(physics->bore, physics->cord_diameter);
   if (fit < request->cover) {
-    cli_error("%d %s of a cord of %g mm %s through a bore of %g mm with ease; --cover asks for %d", fit,
-              cli_plural(fit, "pass", "passes"), physics->cord_diameter, fit == 1 ? "goes" : "go", physics->bore, request->cover);
+    cli_error("%d %s of a cord of %g mm %s through a bore of %g mm with ease; --cover asks for %d",
+              fit, cli_plural(fit, "pass", "passes"), physics->cord_diameter,
+              fit == 1 ? "goes" : "go", physics->bore, request->cover);
     return EXIT_INFEASIBLE;
   }
   if (request->capacity == 0 || fit < request->capacity) {
@@ -498,20 +542,24 @@ static int apply_pull(const request_args *a, thr_request *request)
 {
   const double seating = request->physics.seating;
   const double left = thr_strength_left(0), bears = a->strength * left;
-  const double newtons = a->max_pull > 0 ? a->max_pull * (a->pull_is_factor ? seating : 1) : a->hand > 0 ? a->hand : bears;
+  const double newtons = a->max_pull > 0 ? a->max_pull * (a->pull_is_factor ? seating : 1)
+                         : a->hand > 0   ? a->hand
+                                         : bears;
   const char *option = pull_limit(a);
   if (!option) return EXIT_OK;
 
   if (a->strength > 0 && newtons > bears) {
-    cli_error("%s: a pull of %.6g N would break a cord of --cord-strength %.6g, of which an %s knot leaves %.0f %%; --max-pull "
+    cli_error("%s: a pull of %.6g N would break a cord of --cord-strength %.6g, of which an %s "
+              "knot leaves %.0f %%; --max-pull "
               "%.6g keeps to it",
               option, newtons, a->strength, thr_knot_name(0), 100 * left, bears);
     return EXIT_INFEASIBLE;
   }
   request->max_pull = newtons / seating;
   if (request->max_pull >= 1) return EXIT_OK;
-  cli_error("%s: %.6g N is less than the seating tension of %.6g N, which every cord needs; --seating makes that less", option,
-            newtons, seating);
+  cli_error("%s: %.6g N is less than the seating tension of %.6g N, which every cord needs; "
+            "--seating makes that less",
+            option, newtons, seating);
   return EXIT_INFEASIBLE;
 }
 
@@ -530,7 +578,9 @@ static int apply_counts(const request_args *a, const thr_frame *frame, thr_reque
 {
   int least, most;
   if (thr_wants_symmetry(request))
-    return cli_usage("plan", "--ends NAME:N: not with --objective symmetry, whose groups move ends to other nodes");
+    return cli_usage(
+        "plan",
+        "--ends NAME:N: not with --objective symmetry, whose groups move ends to other nodes");
   const int code = end_counts_cords(frame, request->end_count, &least, &most);
   if (code) return code;
 
@@ -539,13 +589,13 @@ static int apply_counts(const request_args *a, const thr_frame *frame, thr_reque
                      thr_tour_name((int)request->turning.tour), most, a->ends);
   if (most > THR_MOST_CORDS || (a->most && (most > a->most || least < a->least))) {
     const int wrong = most > a->most ? most : least;
-    cli_error("--ends %s: these are the ends of %d %s in a component; --cords says otherwise", a->ends, wrong,
-              cli_plural(wrong, "cord", "cords"));
+    cli_error("--ends %s: these are the ends of %d %s in a component; --cords says otherwise",
+              a->ends, wrong, cli_plural(wrong, "cord", "cords"));
     return EXIT_INFEASIBLE;
   }
   if (least < request->distinct) {
-    cli_error("--ends %s: these are the ends of %d %s in a component; --distinct %d needs as many", a->ends, least,
-              cli_plural(least, "cord", "cords"), request->distinct);
+    cli_error("--ends %s: these are the ends of %d %s in a component; --distinct %d needs as many",
+              a->ends, least, cli_plural(least, "cord", "cords"), request->distinct);
     return EXIT_INFEASIBLE;
   }
   request->ends = THR_ENDS_COUNTS;

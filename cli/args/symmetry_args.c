@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Options of symmetric threading. */
 #include "cli/args/symmetry_args.h"
 

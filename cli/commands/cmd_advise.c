@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread advise: how many cords, and from where. */
 #include "cli/advice.h"
 #include "cli/args/args.h"
@@ -21,26 +22,34 @@
 #include <unistd.h>
 
 static const char help[] =
-    "thread advise FRAME [options]: how many cords, and from where, so that a hand can pull them\n\n"
+    "thread advise FRAME [options]: how many cords, and from where, so that a hand can pull "
+    "them\n\n"
     "Examples:\n"
-    "  thread advise dome.json                       a table, one line of it recommended, and the command that makes its plan\n"
+    "  thread advise dome.json                       a table, one line of it recommended, and the "
+    "command that makes its plan\n"
     "  thread advise dome.json -T svg -o advice.svg  pull and cord against the number of cords\n"
     "  thread advise shell.obj --feet lowest --seating 2 --mu 0.25\n\n"
     "Options:\n"
     "  -T, --type text|svg  a table (default), or a picture\n"
     "  -o, --output FILE    (default: stdout)\n"
     "      --json           the table as JSON, with -T svg on stdout beside the picture in -o\n"
-    "      --hand N         what the pull is to stay within, in newton, even at the upper end of the band of mu\n"
-    "                       (default: 10, what a hand manages time after time; one: 50, the most; two: 100)\n"
+    "      --hand N         what the pull is to stay within, in newton, even at the upper end of "
+    "the band of mu\n"
+    "                       (default: 10, what a hand manages time after time; one: 50, the most; "
+    "two: 100)\n"
     "      --cover N        at least N passes over every interface (default: 1)\n"
     "      --time-limit S   for all rows together, 0 = until every search has ended\n"
-    "                       (without it some two seconds, counted: the same rows on every machine)\n" GUARD_MEMORY_HELP
-        CLI_FRAME_HELP "  -q, --quiet          no notes       -v, --verbose  what the solver does       -h, --help\n\n"
-    "Every row is a plan whose cord that turns most turns as little as was found in its part of the time. Steps are the passes "
+    "                       (without it some two seconds, counted: the same rows on every "
+    "machine)\n" GUARD_MEMORY_HELP CLI_FRAME_HELP
+    "  -q, --quiet          no notes       -v, --verbose  what the solver does       -h, --help\n\n"
+    "Every row is a plan whose cord that turns most turns as little as was found in its part of "
+    "the time. Steps are the passes "
     "of\n"
-    "those cords that are no mirrored or turned copies of others, and their ends if they may be anywhere: what is to be "
+    "those cords that are no mirrored or turned copies of others, and their ends if they may be "
+    "anywhere: what is to be "
     "learned.\n"
-    "Exit codes: 0 a row is recommended, 2 usage, 3 bad input, 4 no row stays within the hand (table printed), or no\n"
+    "Exit codes: 0 a row is recommended, 2 usage, 3 bad input, 4 no row stays within the hand "
+    "(table printed), or no\n"
     "threading, 5 no row in time\n";
 
 enum { OPTION_HAND = OPTION_FREE, OPTION_COVER, OPTION_JSON };
@@ -76,7 +85,8 @@ static const char *type_name(int type)
 static bool take_option(arguments *a, int option, const char *value)
 {
   bool ok = true;
-  if (cli_frame_option(&a->frame, "advise", option, value, &ok) || guard_option(&a->guard, "advise", option, value, &ok))
+  if (cli_frame_option(&a->frame, "advise", option, value, &ok) ||
+      guard_option(&a->guard, "advise", option, value, &ok))
     return ok;
   switch (option) {
   case 'T': return cli_choose("advise", "--type", value, type_name, N_TYPES, &a->type);
@@ -96,15 +106,17 @@ static int parse(int argc, char **argv, arguments *a)
                    .request = thr_request_default(),
                    .output = "-",
                    .hand = thr_hand_always};
-  while ((option = cli_physics_option(&a->physics, argc, argv, "advise", ":" CLI_COMMON_LETTERS "T:o:", table, help, &done)) !=
-         -1)
+  while ((option = cli_physics_option(&a->physics, argc, argv, "advise",
+                                      ":" CLI_COMMON_LETTERS "T:o:", table, help, &done)) != -1)
     if (!take_option(a, option, optarg)) return EXIT_USAGE;
   if (done >= 0) return done;
-  if (optind + 1 != argc) return cli_usage("advise", optind == argc ? "which framework?" : "one framework at a time");
+  if (optind + 1 != argc)
+    return cli_usage("advise", optind == argc ? "which framework?" : "one framework at a time");
   a->path = argv[optind];
   if (!*a->output) return cli_usage("advise", "an empty name is no place to write to");
   if (a->json && a->type == TYPE_SVG && strcmp(a->output, "-") == 0)
-    return cli_usage("advise", "--json and the picture both want stdout; -o FILE takes the picture");
+    return cli_usage("advise",
+                     "--json and the picture both want stdout; -o FILE takes the picture");
   return -1;
 }
 
@@ -127,7 +139,8 @@ typedef struct {
   int n_kept;
 } live;
 
-/* Keeps a copy of the cords of a plan, as those of a row. Without memory for it there is nothing to say of these cords. */
+/* Keeps a copy of the cords of a plan, as those of a row. Without memory for it there is nothing to
+ * say of these cords. */
 static void keep_cords(live *l, const thr_advice_row *row, const thr_plan *plan)
 {
   int i = 0;
@@ -152,13 +165,15 @@ static void forget_cords(live *l)
 }
 
 /* Lays out a plan with the recommended cords, all of it borrowed; false if they are not kept. */
-static bool chosen_plan(const live *l, const thr_request *request, const thr_advice *advice, thr_plan *plan)
+static bool chosen_plan(const live *l, const thr_request *request, const thr_advice *advice,
+                        thr_plan *plan)
 {
   for (int i = 0; i < l->n_kept && advice->chosen >= 0; i++) {
     const thr_advice_row *row = &advice->row[advice->chosen];
     const laid *kept = &l->kept[i];
     if (kept->ends != row->ends || kept->cords != row->cords || kept->n == 0) continue;
-    *plan = (thr_plan){.frame = *l->frame, .cord = kept->cord, .n_cords = kept->n, .options = *request};
+    *plan =
+        (thr_plan){.frame = *l->frame, .cord = kept->cord, .n_cords = kept->n, .options = *request};
     return true;
   }
   return false;
@@ -189,17 +204,19 @@ static void wipe_rows(const live *l)
 
 /* ---- outputs ---- */
 
-static thr_status draw(const arguments *a, const thr_frame *frame, const thr_advice *advice, const char *command, thr_text *text,
-                       thr_err *err)
+static thr_status draw(const arguments *a, const thr_frame *frame, const thr_advice *advice,
+                       const char *command, thr_text *text, thr_err *err)
 {
   char stem[256];
   cli_stem(a->path, stem, sizeof stem);
-  return thr_advice_svg(advice, &(thr_advice_chart){.name = stem, .units = frame->units, .command = command}, text, err);
+  return thr_advice_svg(
+      advice, &(thr_advice_chart){.name = stem, .units = frame->units, .command = command}, text,
+      err);
 }
 
 /* To stdout where the picture has the file. */
-static int write_json(const arguments *a, const thr_frame *frame, const thr_advice *advice, const char *command,
-                      const thr_plan *chosen)
+static int write_json(const arguments *a, const thr_frame *frame, const thr_advice *advice,
+                      const char *command, const thr_plan *chosen)
 {
   thr_text text = {0};
   advice_put_json(&(thr_writer){.out = &text}, frame, advice, command, chosen);
@@ -207,7 +224,8 @@ static int write_json(const arguments *a, const thr_frame *frame, const thr_advi
   return cli_write(&text, a->type == TYPE_SVG ? "-" : a->output);
 }
 
-static int write_advice(const arguments *a, const thr_frame *frame, const thr_advice *advice, const live *l)
+static int write_advice(const arguments *a, const thr_frame *frame, const thr_advice *advice,
+                        const live *l)
 {
   thr_text text = {0}, options = {0}, command = {0};
   thr_err err = {0};
@@ -216,7 +234,9 @@ static int write_advice(const arguments *a, const thr_frame *frame, const thr_ad
   thr_plan chosen;
   const bool laid_out = chosen_plan(l, &a->request, advice, &chosen);
   advice_command_options(&a->frame, &a->physics, &options);
-  if (advice->chosen >= 0) advice_put_command(&command, a->path, options.data ? options.data : "", &advice->row[advice->chosen]);
+  if (advice->chosen >= 0)
+    advice_put_command(&command, a->path, options.data ? options.data : "",
+                       &advice->row[advice->chosen]);
   const char *words = command.data ? command.data : "";
   if (options.failed || command.failed)
     st = thr_nomem(&err);
@@ -226,7 +246,8 @@ static int write_advice(const arguments *a, const thr_frame *frame, const thr_ad
     advice_put_table(&text, frame, advice, words);
   if (!st && !a->json && a->type != TYPE_SVG && laid_out) advice_put_holding(&text, &chosen);
   if (!st && a->json) code = write_json(a, frame, advice, words, laid_out ? &chosen : NULL);
-  if (!code && (st || !a->json || a->type == TYPE_SVG)) code = cli_write_drawn(st, &text, a->output, &err);
+  if (!code && (st || !a->json || a->type == TYPE_SVG))
+    code = cli_write_drawn(st, &text, a->output, &err);
   thr_text_destroy(&text);
   thr_text_destroy(&options);
   thr_text_destroy(&command);
@@ -241,8 +262,11 @@ static int advise(arguments *a, const thr_frame *frame)
   int code = cli_physics_apply(&a->physics, &a->request.physics);
   if (code) return code;
   if (thr_physics_resolve(&a->request.physics, frame, &resolved, &err)) return cli_fail(&err);
-  live l = {.frame = frame, .physics = &resolved, .base_length = a->request.cover * thr_frame_total_length(frame)};
-  l.shown = a->type == TYPE_TEXT && !a->json && !cli_quiet && strcmp(a->output, "-") == 0 && cli_is_terminal(STDOUT_FILENO);
+  live l = {.frame = frame,
+            .physics = &resolved,
+            .base_length = a->request.cover * thr_frame_total_length(frame)};
+  l.shown = a->type == TYPE_TEXT && !a->json && !cli_quiet && strcmp(a->output, "-") == 0 &&
+            cli_is_terminal(STDOUT_FILENO);
   const thr_advise_options options = {.hand = a->hand, .row = show_row, .user = &l};
   double work = 0;
   thr_limits limits = advice_limits(a->guard.seconds, &work);
@@ -252,7 +276,9 @@ static int advise(arguments *a, const thr_frame *frame)
   if (!st) code = write_advice(a, frame, &advice, &l);
   forget_cords(&l);
   if (st) return cli_fail(&err);
-  if (!advice.complete) cli_note("note: the time was over before all numbers of cords were tried; --time-limit gives more");
+  if (!advice.complete)
+    cli_note(
+        "note: the time was over before all numbers of cords were tried; --time-limit gives more");
   if (!code && advice.chosen < 0) code = EXIT_INFEASIBLE;
   thr_advice_destroy(&advice);
   return code;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread check: is everything that a plan says true? */
 #include "cli/cli.h"
 #include "cli/print/print.h"
@@ -19,23 +20,28 @@
 #include <sys/stat.h>
 
 static const char help[] =
-    "thread check PLAN.. [--json]: verify coverage, ends, metrics and the proof of optimality; no solver is used\n\n"
+    "thread check PLAN.. [--json]: verify coverage, ends, metrics and the proof of optimality; no "
+    "solver is used\n\n"
     "Examples:\n"
     "  thread check plan.json\n"
     "  thread plan dome.obj -o - | thread check -\n\n"
     "Options:\n"
     "      --json           one JSON line per plan\n"
-    "      --time-limit S   give up after S seconds, 0 = never (default: 7 for each plan of up to 20 MB)\n" GUARD_MEMORY_HELP
-    "  -q, --quiet          print nothing for plans that hold       -v, --verbose  what proofs are made of, crossings\n"
+    "      --time-limit S   give up after S seconds, 0 = never (default: 7 for each plan of up to "
+    "20 MB)\n" GUARD_MEMORY_HELP "  -q, --quiet          print nothing for plans that hold       "
+    "-v, --verbose  what proofs are made of, crossings\n"
     "  -h, --help\n\n"
     "Exit codes: 0 all plans hold, 1 a violation (printed with its place), 2 usage, 3 not a plan,\n"
     "5 not verified in the time or memory\n";
 
 enum { OPTION_JSON = OPTION_FREE };
-static const struct option table[] = {
-    CLI_COMMON_OPTIONS, GUARD_OPTIONS, {"json", no_argument, NULL, OPTION_JSON}, {NULL, 0, NULL, 0}};
+static const struct option table[] = {CLI_COMMON_OPTIONS,
+                                      GUARD_OPTIONS,
+                                      {"json", no_argument, NULL, OPTION_JSON},
+                                      {NULL, 0, NULL, 0}};
 
-/* Of a plan for the least turning, whether its length is the shortest or not: that is another claim. */
+/* Of a plan for the least turning, whether its length is the shortest or not: that is another
+ * claim. */
 static void put_turning(thr_text *text, const thr_plan *plan)
 {
   const thr_turning_claim *claim = &plan->turning;
@@ -68,8 +74,9 @@ static void put_symmetry(thr_text *text, const thr_plan *plan)
 {
   const thr_symmetry_record *record = &plan->symmetry;
   if (!record->present) return;
-  thr_text_printf(text, "; group %s%sof order %d, %d unique %s, %g learned steps", record->name, record->name[0] ? " " : "",
-                  record->order, record->unique_paths, cli_plural(record->unique_paths, "path", "paths"), record->steps);
+  thr_text_printf(text, "; group %s%sof order %d, %d unique %s, %g learned steps", record->name,
+                  record->name[0] ? " " : "", record->order, record->unique_paths,
+                  cli_plural(record->unique_paths, "path", "paths"), record->steps);
 }
 
 /* What was verified of several cords, where the plan asked for it. */
@@ -78,11 +85,12 @@ static void put_cords(thr_text *text, const thr_plan *plan)
   const thr_cords_claim *claim = &plan->cords_claim;
   if (claim->present && thr_wants_balance(&plan->options)) {
     thr_text_printf(text, "; longest cord %.7g %s: ", claim->longest, plan->frame.units);
-    plain_put_proof(text, claim->longest_optimal, claim->longest, claim->longest_bound, "it can be no shorter",
-                    "shortest possible");
+    plain_put_proof(text, claim->longest_optimal, claim->longest, claim->longest_bound,
+                    "it can be no shorter", "shortest possible");
   }
   if (claim->present) plain_put_fewest(text, plan, claim->fewest, " cords", "");
-  if (plan->pull_claim.present) plain_put_fewest(text, plan, plan->pull_claim.fewest, " cords", " within that pull");
+  if (plan->pull_claim.present)
+    plain_put_fewest(text, plan, plan->pull_claim.fewest, " cords", " within that pull");
   if (plan->options.joint == THR_JOINT_TUBE) thr_text_append(text, "; every joint tied");
 }
 
@@ -92,11 +100,12 @@ static void put_machinery(thr_text *text, const thr_plan *plan)
   const thr_turning_proof *tree = &plan->turning.tree;
   int cuts = thr_length_proof_cuts(&plan->proof), branchings = tree->n_nodes / 2;
   if (!cli_verbose || !plan->proof.present) return;
-  thr_text_printf(text, "  certificate: %d %s, at least %.6f %s", cuts, cli_cuts_word(plan, cuts), plan->proof.lower_bound,
-                  plan->frame.units);
+  thr_text_printf(text, "  certificate: %d %s, at least %.6f %s", cuts, cli_cuts_word(plan, cuts),
+                  plan->proof.lower_bound, plan->frame.units);
   if (plan->turning.present)
-    thr_text_printf(text, "; of the turning: %d %s, %d %s", branchings, cli_plural(branchings, "branching", "branchings"),
-                    tree->n_duals, cli_plural(tree->n_duals, "multiplier set", "multiplier sets"));
+    thr_text_printf(text, "; of the turning: %d %s, %d %s", branchings,
+                    cli_plural(branchings, "branching", "branchings"), tree->n_duals,
+                    cli_plural(tree->n_duals, "multiplier set", "multiplier sets"));
   thr_text_append(text, "\n");
 }
 
@@ -108,8 +117,10 @@ static void put_crossings(thr_text *text, const thr_plan *plan)
   if (thr_channels_make(&channels, plan, NULL))
     text->failed = true;
   else
-    thr_text_printf(text, "  pieces: %d, %d of them with cords that cross inside (%" PRId64 " %s)\n", plan->frame.n_nodes,
-                    channels.crossed, channels.crossings, cli_plural((int)channels.crossings, "crossing", "crossings"));
+    thr_text_printf(text,
+                    "  pieces: %d, %d of them with cords that cross inside (%" PRId64 " %s)\n",
+                    plan->frame.n_nodes, channels.crossed, channels.crossings,
+                    cli_plural((int)channels.crossings, "crossing", "crossings"));
   thr_channels_destroy(&channels);
 }
 
@@ -119,7 +130,8 @@ static void put_verdict(thr_text *text, const char *path, const thr_plan *plan)
   const char *units = plan->frame.units;
   thr_text_append_clean(text, path);
   thr_text_printf(text, ": holds: %d %s, %d passes, every edge covered, %.7g %s: ", plan->n_cords,
-                  cli_plural(plan->n_cords, "cord", "cords"), metrics->passes, metrics->length, units);
+                  cli_plural(plan->n_cords, "cord", "cords"), metrics->passes, metrics->length,
+                  units);
   if (plan->proof.present)
     plain_put_length_proof(text, plan);
   else
@@ -168,7 +180,8 @@ static void put_claims_json(thr_writer *writer, const thr_plan *plan)
     thr_write_number(writer, "gap", plan->proof.gap);
   }
   if (plan->cords_claim.present) put_cords_json(writer, &plan->cords_claim);
-  if (plan->pull_claim.present) thr_write_int(writer, "fewest_cords_for_pull", plan->pull_claim.fewest);
+  if (plan->pull_claim.present)
+    thr_write_int(writer, "fewest_cords_for_pull", plan->pull_claim.fewest);
   if (thr_wants_turning(&plan->options)) put_turning_json(writer, plan);
   if (plan->symmetry.present) put_symmetry_json(writer, &plan->symmetry);
   terms_put_json(writer, plan);
@@ -188,7 +201,8 @@ static void put_json(thr_text *text, const char *path, const thr_plan *plan, con
   thr_text_append(text, "\n");
 }
 
-/* Seconds that a plan may take if nobody said: those of docs/plan-format.md for each 20 MB, and not less. */
+/* Seconds that a plan may take if nobody said: those of docs/plan-format.md for each 20 MB, and not
+ * less. */
 static double seconds_for(double bytes)
 {
   return fmax(1, bytes / 20e6) * 7;
@@ -198,11 +212,13 @@ static double seconds_for(double bytes)
 static double file_size(const char *path)
 {
   struct stat about;
-  return strcmp(path, "-") != 0 && stat(path, &about) == 0 && S_ISREG(about.st_mode) ? (double)about.st_size : -1;
+  return strcmp(path, "-") != 0 && stat(path, &about) == 0 && S_ISREG(about.st_mode)
+             ? (double)about.st_size
+             : -1;
 }
 
-/* Tells the process that waits that plan number i is next, and what time it has. Of a stream its size is not known: reading it
- * may take any time. */
+/* Tells the process that waits that plan number i is next, and what time it has. Of a stream its
+ * size is not known: reading it may take any time. */
 static void announce(const char *path, int i)
 {
   thr_text number = {0};
@@ -239,7 +255,8 @@ static int check_one(const char *path, bool json, bool timed)
   thr_err err = {0}, found = {0};
   thr_status st = thr_plan_read(&plan, path, &err);
   if (timed && !st && guard_deadline() == 0) guard_allow(seconds_for(200. * plan.frame.n_edges));
-  if (!st && (st = thr_check_plan(&plan, &found))) thr_fail(&err, st, "%s: %s", name_of(path), found.text);
+  if (!st && (st = thr_check_plan(&plan, &found)))
+    thr_fail(&err, st, "%s: %s", name_of(path), found.text);
   int code = st == THR_OK ? EXIT_OK : EXIT_VIOLATION;
   if (st && st != THR_EVIOLATED) code = cli_fail(&err);
   code = put_one(name_of(path), json, &plan, &err, code);
@@ -274,7 +291,8 @@ int cmd_check(int argc, char **argv)
   bool json = false, ok = true;
   guard_limits guard = guard_limits_default();
   guard_end end;
-  while ((o = cli_next_option(argc, argv, "check", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1) {
+  while ((o = cli_next_option(argc, argv, "check", ":" CLI_COMMON_LETTERS, table, help, &done)) !=
+         -1) {
     if (o == OPTION_JSON) json = true;
     if (guard_option(&guard, "check", o, optarg, &ok) && !ok) return EXIT_USAGE;
   }
@@ -283,7 +301,8 @@ int cmd_check(int argc, char **argv)
 
   /* What cannot be judged in its time leaves the plans behind it to another process. */
   for (char **path = argv + optind, **last = argv + argc; path < last;) {
-    if (!guard_fork(&guard, &end)) return check_all(path, (int)(last - path), json, guard.seconds < 0);
+    if (!guard_fork(&guard, &end))
+      return check_all(path, (int)(last - path), json, guard.seconds < 0);
     if (end.reason == GUARD_DONE || end.reason == GUARD_INTERRUPTED || end.kept.length == 0) {
       const int one = guard_conclude(&end, "not verified");
       return one > code ? one : code;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread compare: plans of one framework side by side, ranked by how hard they are to pull. */
 #include "cli/args/load_args.h"
 #include "cli/print/print.h"
@@ -23,36 +24,56 @@
 #include <string.h>
 
 static const char help[] =
-    "thread compare PLAN.. [options]: plans of one framework side by side; * marks the best of each row\n\n"
+    "thread compare PLAN.. [options]: plans of one framework side by side; * marks the best of "
+    "each row\n\n"
     "Examples:\n"
-    "  thread compare closed.json feet.json --mu 0.3           ranked by pull, joints measured in simulation\n"
-    "  thread compare closed.json feet.json --method capstan   the same by the closed form, at once\n"
-    "  thread compare data/dome7-*.json --method all           closed form, joints, structure: do they agree?\n"
-    "  thread compare data/dome7-*.json --method structure --load D4=1 --schedule \"all: pull both 20\"\n"
-    "                                                          by what they carry, drawn in and afterwards\n\n"
+    "  thread compare closed.json feet.json --mu 0.3           ranked by pull, joints measured in "
+    "simulation\n"
+    "  thread compare closed.json feet.json --method capstan   the same by the closed form, at "
+    "once\n"
+    "  thread compare data/dome7-*.json --method all           closed form, joints, structure: do "
+    "they agree?\n"
+    "  thread compare data/dome7-*.json --method structure --load D4=1 --schedule \"all: pull both "
+    "20\"\n"
+    "                                                          by what they carry, drawn in and "
+    "afterwards\n\n"
     "Options:\n"
     "      --method joint|capstan|structure|all\n"
-    "                       what to rank by (default: joint); the closed form is always shown beside it\n" PULL_HELP(
-        "largest holding pull of the plans") "      --load NODE=N    structure: rank by what the plans carry, too: newtons that "
+    "                       what to rank by (default: joint); the closed form is always shown "
+    "beside it\n" PULL_HELP(
+        "largest holding pull of the plans") "      --load NODE=N    structure: rank by what the "
+                                             "plans carry, too: newtons that "
                                              "hang on a node, or\n"
-                                             "                       NODE=FX,FY,FZ; several with semicolons\n"
-                                             "      --load-pulls N   with so many newtons at all ends (default: 10)\n"
-                                             "      --schedule TEXT  structure: and after what is done to the cords, as `thread "
+                                             "                       NODE=FX,FY,FZ; several with "
+                                             "semicolons\n"
+                                             "      --load-pulls N   with so many newtons at all "
+                                             "ends (default: 10)\n"
+                                             "      --schedule TEXT  structure: and after what is "
+                                             "done to the cords, as `thread "
                                              "eval` takes it\n"
-                                             "      --tilt DEG       structure: leaning ground, as `thread eval` takes it\n"
-                                             "      --clamp-feet     structure: feet are held in place\n"
-                                             "      --taut           structure: turns of the tight cord\n"
-                                             "      --rays N         structure: rays of the friction pyramids, 8 to 48\n"
-                                             "      --plot FILE      write a picture as SVG: the plans side by side, small, with "
+                                             "      --tilt DEG       structure: leaning ground, as "
+                                             "`thread eval` takes it\n"
+                                             "      --clamp-feet     structure: feet are held in "
+                                             "place\n"
+                                             "      --taut           structure: turns of the tight "
+                                             "cord\n"
+                                             "      --rays N         structure: rays of the "
+                                             "friction pyramids, 8 to 48\n"
+                                             "      --plot FILE      write a picture as SVG: the "
+                                             "plans side by side, small, with "
                                              "pull, cord and number of cords\n"
                                              "      --json           as JSON\n"
-                                             "  -q, --quiet          no notes and no progress       -h, --help\n\n"
-                                             "A difference within the measured error is a tie. The simulation of the structure "
+                                             "  -q, --quiet          no notes and no progress      "
+                                             " -h, --help\n\n"
+                                             "A difference within the measured error is a tie. The "
+                                             "simulation of the structure "
                                              "runs twice for each plan, the second time "
                                              "with half\n"
-                                             "the time step; only what both runs and their errors tell apart is no tie. It takes "
+                                             "the time step; only what both runs and their errors "
+                                             "tell apart is no tie. It takes "
                                              "minutes; --no-dynamics is fast;\n"
-                                             "it knows no loads, leaning ground, held feet and schedules, and is left out with "
+                                             "it knows no loads, leaning ground, held feet and "
+                                             "schedules, and is left out with "
                                              "them.\n";
 
 enum { OPTION_PLOT = OPTION_PULL_FREE, OPTION_SCHEDULE };
@@ -64,7 +85,18 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"schedule", required_argument, NULL, OPTION_SCHEDULE},
                                       {NULL, 0, NULL, 0}};
 
-enum { CAPSTAN, JOINT, HOLDING, STANDING, AFTER, LOADED, CARRIED, CARRIED_AFTER, SIMULATION, N_RANKINGS };
+enum {
+  CAPSTAN,
+  JOINT,
+  HOLDING,
+  STANDING,
+  AFTER,
+  LOADED,
+  CARRIED,
+  CARRIED_AFTER,
+  SIMULATION,
+  N_RANKINGS
+};
 
 /* What is done to the structures beside pulling. */
 typedef struct {
@@ -107,16 +139,19 @@ static void rank_band(ranking *r, int band, const double value[2], int i)
 static void rank_bands(ranking *r, int by, const entry *e, int i)
 {
   static const thr_asked of[N_RANKINGS] = {
-      [HOLDING] = THR_ASKED_HOLDING, [STANDING] = THR_ASKED_ANY_STATE, [AFTER] = THR_ASKED_AFTER,
-      [LOADED] = THR_ASKED_LOADED,   [CARRIED] = THR_ASKED_CARRIED,    [CARRIED_AFTER] = THR_ASKED_CARRIED_AFTER};
+      [HOLDING] = THR_ASKED_HOLDING, [STANDING] = THR_ASKED_ANY_STATE,
+      [AFTER] = THR_ASKED_AFTER,     [LOADED] = THR_ASKED_LOADED,
+      [CARRIED] = THR_ASKED_CARRIED, [CARRIED_AFTER] = THR_ASKED_CARRIED_AFTER};
   const thr_eval *structure = &e->eval[THR_STRUCTURE];
   if (by == CAPSTAN || by == JOINT) {
-    if (!isnan(r->value[i])) rank_band(r, 0, e->eval[by == CAPSTAN ? THR_CAPSTAN : THR_JOINT].band, i);
+    if (!isnan(r->value[i]))
+      rank_band(r, 0, e->eval[by == CAPSTAN ? THR_CAPSTAN : THR_JOINT].band, i);
   } else if (by == CARRIED) {
     if (structure->n_carries) rank_band(r, 1, structure->carries[0].band_beads, i);
   } else if (by != SIMULATION && structure->record.present) {
     rank_band(r, 1, structure->band_beads[of[by]], i);
-    if (by == HOLDING || by == STANDING) rank_band(r, 0, by == HOLDING ? structure->band : structure->band_any, i);
+    if (by == HOLDING || by == STANDING)
+      rank_band(r, 0, by == HOLDING ? structure->band : structure->band_any, i);
   }
 }
 
@@ -133,7 +168,8 @@ static void rank_plan(ranking *r, int by, const entry *e, int i)
   case JOINT:
     r->value[i] = compare_largest(e, THR_JOINT);
     r->low[i] = r->value[i] * exp(-e->eval[THR_JOINT].error);
-    r->high[i] = e->eval[THR_JOINT].refused ? INFINITY : r->value[i] * exp(e->eval[THR_JOINT].error);
+    r->high[i] =
+        e->eval[THR_JOINT].refused ? INFINITY : r->value[i] * exp(e->eval[THR_JOINT].error);
     break;
   case HOLDING: rank_need(r, &structure->holding, i); break;
   case STANDING: rank_need(r, &structure->loosest, i); break;
@@ -165,7 +201,8 @@ static bool asked(int by, const entry *e, int n)
   if (by == SIMULATION) return simulated(e, n);
   for (int i = 0; i < n; i++) {
     const thr_eval *structure = &e[i].eval[THR_STRUCTURE];
-    if (by < STANDING || (by == STANDING && structure->loosest.present) || (by == AFTER && structure->after.present) ||
+    if (by < STANDING || (by == STANDING && structure->loosest.present) ||
+        (by == AFTER && structure->after.present) ||
         ((by == LOADED || by == CARRIED) && structure->n_carries > 0) ||
         (by == CARRIED_AFTER && structure->after.present && structure->n_carries > 0))
       return true;
@@ -174,44 +211,48 @@ static bool asked(int by, const entry *e, int n)
 }
 
 /* Those of the wanted methods, one after the other; *count of them. */
-static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranking *r, int *count, thr_err *err)
+static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranking *r, int *count,
+                                thr_err *err)
 {
   static const ranking kind[N_RANKINGS] = {
       [CAPSTAN] = {.title = "seating pull, closed form", .key = "capstan", .unit = " N"},
-      [JOINT] = {.title = "seating pull, joints measured in simulation (+-: their scatter, drift and interpolation; mu as given)",
+      [JOINT] = {.title = "seating pull, joints measured in simulation (+-: their scatter, drift "
+                          "and interpolation; mu as given)",
                  .key = "joint",
                  .unit = " N",
                  .error = true,
                  .open = "some turns by closed form, their error is not known"},
-      [HOLDING] =
-          {.title = "holding pull while drawn in (below the first force nothing holds it, at the second an equilibrium exists)",
-           .key = "holding",
-           .unit = " N"},
-      [STANDING] = {.title = "force at all ends once the cords are in, in any state that friction keeps (the same two forces)",
+      [HOLDING] = {.title = "holding pull while drawn in (below the first force nothing holds it, "
+                            "at the second an equilibrium exists)",
+                   .key = "holding",
+                   .unit = " N"},
+      [STANDING] = {.title = "force at all ends once the cords are in, in any state that friction "
+                             "keeps (the same two forces)",
                     .key = "any_state",
                     .unit = " N"},
-      [AFTER] = {.title = "part of the tensions after the schedule that would do (the same two, over 1: it falls)",
+      [AFTER] = {.title = "part of the tensions after the schedule that would do (the same two, "
+                          "over 1: it falls)",
                  .key = "after",
                  .unit = ""},
-      [LOADED] = {.title = "pull at all ends that carries the load while the cords are drawn in (the same two forces)",
+      [LOADED] = {.title = "pull at all ends that carries the load while the cords are drawn in "
+                           "(the same two forces)",
                   .key = "loaded",
                   .unit = " N"},
-      [CARRIED] =
-          {.title =
-               "load carried at the pull that was given, while the cords are drawn in (at the first an equilibrium exists, above "
-               "the second nothing holds it)",
-           .key = "carried",
-           .unit = " x",
-           .most = true},
+      [CARRIED] = {.title = "load carried at the pull that was given, while the cords are drawn in "
+                            "(at the first an equilibrium exists, above "
+                            "the second nothing holds it)",
+                   .key = "carried",
+                   .unit = " x",
+                   .most = true},
       [CARRIED_AFTER] = {.title = "load carried after the schedule (the same two)",
                          .key = "carried_after",
                          .unit = " x",
                          .most = true},
-      [SIMULATION] = {
-          .title = "pull at which the structure falls in simulation (from where it is seen to where it begins, with both time "
-                   "steps; nothing else is in it)",
-          .key = "simulation",
-          .unit = " N"}};
+      [SIMULATION] = {.title = "pull at which the structure falls in simulation (from where it is "
+                               "seen to where it begins, with both time "
+                               "steps; nothing else is in it)",
+                      .key = "simulation",
+                      .unit = " N"}};
   bool all = a->method == PULL_ALL_METHODS;
   *count = 0;
   for (int by = 0; by < N_RANKINGS; by++) {
@@ -229,7 +270,8 @@ static thr_status make_rankings(const pull_args *a, const entry *e, int n, ranki
   return THR_OK;
 }
 
-/* The first two rankings that contradict each other, and about which plans; false if they all agree. */
+/* The first two rankings that contradict each other, and about which plans; false if they all
+ * agree. */
 static bool find_disagreement(const ranking *r, int count, int which[2], int pair[2])
 {
   for (which[0] = 0; which[0] < count; which[0]++)
@@ -246,7 +288,8 @@ static bool same_order(const ranking *a, const ranking *b)
   return true;
 }
 
-/* Which rankings that tell plans apart have which order: "lines.json, stairs.json = snake.json  by holding, carried". */
+/* Which rankings that tell plans apart have which order: "lines.json, stairs.json = snake.json  by
+ * holding, carried". */
 static void put_orders(const ranking *r, int count, const char *const *name, thr_text *text)
 {
   thr_text_append(text, "the rankings disagree:\n");
@@ -262,7 +305,8 @@ static void put_orders(const ranking *r, int count, const char *const *name, thr
                                                                                 : ", ",
                       name[r[i].order[k]]);
     for (int k = i; k < count; k++)
-      if (same_order(&r[k], &r[i])) thr_text_printf(text, "%s%s", k == i ? "  by " : ", ", r[k].key);
+      if (same_order(&r[k], &r[i]))
+        thr_text_printf(text, "%s%s", k == i ? "  by " : ", ", r[k].key);
     thr_text_append(text, "\n");
   }
 }
@@ -282,8 +326,11 @@ static void put_agreement(const ranking *r, int count, const char *const *name, 
   if (find_disagreement(r, count, which, pair))
     put_orders(r, count, name, text);
   else
-    thr_text_append(text, let_go ? "the rankings agree, while cords are drawn in and afterwards, ties aside\n"
-                                 : "the rankings agree, ties aside; both ask for the pull while cords are drawn in\n");
+    thr_text_append(
+        text,
+        let_go
+            ? "the rankings agree, while cords are drawn in and afterwards, ties aside\n"
+            : "the rankings agree, ties aside; both ask for the pull while cords are drawn in\n");
 }
 
 /* ---- output ---- */
@@ -322,7 +369,8 @@ static void put_head(thr_text *text, const entry *e, int n)
 static bool same_physics(const thr_physics *a, const thr_physics *b)
 {
   for (int i = 0; i < thr_physics_n_fields; i++)
-    if (thr_physics_get(a, &thr_physics_fields[i]) != thr_physics_get(b, &thr_physics_fields[i])) return false;
+    if (thr_physics_get(a, &thr_physics_fields[i]) != thr_physics_get(b, &thr_physics_fields[i]))
+      return false;
   return true;
 }
 
@@ -337,14 +385,15 @@ static void name_ends(const thr_physics *physics, bool same, char at[RANKING_END
     else
       snprintf(at[end], sizeof at[end], "the %s end of mu", which);
     if (same && physics->mu > 0)
-      snprintf(at[2 + end], sizeof at[2 + end], "mu_bead %.3g", physics->mu_bead * mu[end] / physics->mu);
+      snprintf(at[2 + end], sizeof at[2 + end], "mu_bead %.3g",
+               physics->mu_bead * mu[end] / physics->mu);
     else
       snprintf(at[2 + end], sizeof at[2 + end], "the %s end of mu_bead", which);
   }
 }
 
-static void put_text(thr_text *text, const pull_args *a, const entry *e, int n, const ranking *r, int count,
-                     const char *const *name)
+static void put_text(thr_text *text, const pull_args *a, const entry *e, int n, const ranking *r,
+                     int count, const char *const *name)
 {
   const thr_physics *first = &e[0].eval[THR_CAPSTAN].record.physics;
   bool same = true;
@@ -353,17 +402,20 @@ static void put_text(thr_text *text, const pull_args *a, const entry *e, int n, 
     if (!wanted(a, compare_rows[k].method) || !compare_is_shown(e, n, &compare_rows[k])) continue;
     thr_text_printf(text, "\n%-32s", compare_rows[k].label);
     for (int i = 0; i < n; i++)
-      compare_put_cell(text, &compare_rows[k], compare_rows[k].value(&e[i]), compare_is_best(e, n, &compare_rows[k], i));
+      compare_put_cell(text, &compare_rows[k], compare_rows[k].value(&e[i]),
+                       compare_is_best(e, n, &compare_rows[k], i));
   }
   for (int i = 1; i < n; i++)
     same = same && same_physics(first, &e[i].eval[THR_CAPSTAN].record.physics);
-  thr_text_printf(text, "\n\n* best of the row. Pull: seating tension %g N, pulled at: %s, mu = ", first->seating, a->pull);
+  thr_text_printf(text, "\n\n* best of the row. Pull: seating tension %g N, pulled at: %s, mu = ",
+                  first->seating, a->pull);
   if (same)
     thr_text_printf(text, "%g\n", first->mu);
   else
     thr_text_append(text, "each plan's own\n");
   if (n < 2) return;
-  thr_text_append(text, "frontier: no other plan is as good in cord, number of cords and pull, and better in one of them\n");
+  thr_text_append(text, "frontier: no other plan is as good in cord, number of cords and pull, and "
+                        "better in one of them\n");
   thr_text_append(text, "\n");
   char at[RANKING_ENDS][40];
   name_ends(first, same, at);
@@ -384,19 +436,21 @@ static void put_plan_json(thr_writer *writer, const pull_args *a, const entry *e
   thr_write_string(writer, "ends", thr_ends_name(e[i].plan.options.ends));
   thr_physics_write(&e[i].eval[THR_CAPSTAN].record.physics, writer, "physics");
   for (int k = 0; k < compare_n_rows; k++)
-    if (wanted(a, compare_rows[k].method)) thr_write_number(writer, compare_rows[k].key, compare_rows[k].value(&e[i]));
+    if (wanted(a, compare_rows[k].method))
+      thr_write_number(writer, compare_rows[k].key, compare_rows[k].value(&e[i]));
   thr_write_bool(writer, "frontier", compare_on_frontier(e, n, i));
   thr_write_number(writer, "pull_low", e[i].eval[THR_CAPSTAN].band[0]);
   thr_write_number(writer, "pull_high", e[i].eval[THR_CAPSTAN].band[1]);
   thr_write_array(writer, "best");
   for (int k = 0; k < compare_n_rows; k++)
-    if (compare_is_best(e, n, &compare_rows[k], i)) thr_write_string(writer, NULL, compare_rows[k].key);
+    if (compare_is_best(e, n, &compare_rows[k], i))
+      thr_write_string(writer, NULL, compare_rows[k].key);
   thr_write_close(writer);
   thr_write_close(writer);
 }
 
-static void put_json(thr_text *text, const pull_args *a, const entry *e, int n, const ranking *r, int count,
-                     const char *const *name)
+static void put_json(thr_text *text, const pull_args *a, const entry *e, int n, const ranking *r,
+                     int count, const char *const *name)
 {
   int which[2], pair[2];
   thr_writer writer = {.out = text};
@@ -433,10 +487,12 @@ static void put_note(thr_text *text, const pull_args *a, const entry *e, int n)
                                                : a->pull);
   if (same)
     thr_text_printf(text,
-                    "so that %g N is left where it is slackest (closed form; mu = %g, the pale bars its band from %g to %g).",
+                    "so that %g N is left where it is slackest (closed form; mu = %g, the pale "
+                    "bars its band from %g to %g).",
                     physics->seating, physics->mu, physics->mu_low, physics->mu_high);
   else
-    thr_text_append(text, "by the closed form, each plan with its own cord and beads; the pale bars are the bands of mu.");
+    thr_text_append(text, "by the closed form, each plan with its own cord and beads; the pale "
+                          "bars are the bands of mu.");
 }
 
 static int write_plot(const pull_args *a, const entry *e, int n, const char *path)
@@ -449,10 +505,11 @@ static int write_plot(const pull_args *a, const entry *e, int n, const char *pat
   if (note.failed && !st) st = thr_nomem(&err);
   for (int i = 0; i < n && !st; i++) {
     const thr_eval *eval = &e[i].eval[THR_CAPSTAN];
-    column[i] = (thr_compare_column){.name = e[i].path,
-                                     .plan = &e[i].plan,
-                                     .pull = {eval->band[0], compare_largest(&e[i], THR_CAPSTAN), eval->band[1]},
-                                     .frontier = compare_on_frontier(e, n, i)};
+    column[i] = (thr_compare_column){
+        .name = e[i].path,
+        .plan = &e[i].plan,
+        .pull = {eval->band[0], compare_largest(&e[i], THR_CAPSTAN), eval->band[1]},
+        .frontier = compare_on_frontier(e, n, i)};
   }
   if (!st) st = thr_compare_svg(column, n, note.data, &svg, &err);
   free(column);
@@ -471,14 +528,16 @@ static int read_entries(char **path, int n, entry *e)
     int code = cli_read_plan(path[i], &e[i].plan);
     if (code) return code;
     if (i == 0 || thr_frame_hash(&e[i].plan.frame) == thr_frame_hash(&e[0].plan.frame)) continue;
-    cli_error("%s is for another framework than %s: pulls can be compared on one framework only", path[i], path[0]);
+    cli_error("%s is for another framework than %s: pulls can be compared on one framework only",
+              path[i], path[0]);
     return EXIT_INPUT;
   }
   return EXIT_OK;
 }
 
 /* Loads and schedule as nodes and cords of a plan. */
-static int read_deeds(const deeds *d, const entry *e, thr_eval_options *options, thr_schedule *schedule, double (**load)[3])
+static int read_deeds(const deeds *d, const entry *e, thr_eval_options *options,
+                      thr_schedule *schedule, double (**load)[3])
 {
   const int code = pull_read_schedule(d->schedule, &e->plan, schedule);
   return code ? code : load_apply(&d->load, &e->plan.frame, options, load);
@@ -515,8 +574,8 @@ static int evaluate_one(const pull_args *a, const deeds *d, thr_method method, e
   return code;
 }
 
-/* Every method for every plan. One that fails for a plan leaves it unknown, its message printed; but nothing compares if not even
- * the closed form is known, or if the user has stopped it. */
+/* Every method for every plan. One that fails for a plan leaves it unknown, its message printed;
+ * but nothing compares if not even the closed form is known, or if the user has stopped it. */
 static int evaluate(const pull_args *a, const deeds *d, entry *e, int n)
 {
   int worst = EXIT_OK;
@@ -525,8 +584,10 @@ static int evaluate(const pull_args *a, const deeds *d, entry *e, int n)
       int code = evaluate_one(a, d, (thr_method)method, &e[i]);
       if (code == EXIT_LIMIT || (code && method == THR_CAPSTAN)) return code;
       if (!worst) worst = code;
-      if (i > 0 && method == THR_CAPSTAN && !same_physics(&e[i].eval[0].record.physics, &e[0].eval[0].record.physics))
-        cli_note("note: %s has its own cord and beads, other than %s: give --mu and the like to compare like with like",
+      if (i > 0 && method == THR_CAPSTAN &&
+          !same_physics(&e[i].eval[0].record.physics, &e[0].eval[0].record.physics))
+        cli_note("note: %s has its own cord and beads, other than %s: give --mu and the like to "
+                 "compare like with like",
                  e[i].path, e[0].path);
     }
   return worst;
@@ -559,15 +620,18 @@ static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
   thr_beads beads = {0};
   thr_settle out = {0};
   double **tension = thr_calloc((size_t)evaluation->n_cords, sizeof *tension);
-  thr_status st = tension ? thr_beads_make(&e->plan.frame, &evaluation->physics, &beads, err) : thr_nomem(err);
+  thr_status st =
+      tension ? thr_beads_make(&e->plan.frame, &evaluation->physics, &beads, err) : thr_nomem(err);
   for (int i = 0; i < evaluation->n_cords && !st; i++) { /* of a pull of 1 */
-    if (!(tension[i] = thr_calloc((size_t)evaluation->cord[i].n_passes, sizeof **tension))) st = thr_nomem(err);
+    if (!(tension[i] = thr_calloc((size_t)evaluation->cord[i].n_passes, sizeof **tension)))
+      st = thr_nomem(err);
     for (int k = 0; k < evaluation->cord[i].n_passes && !st; k++)
       tension[i][k] = evaluation->cord[i].tension[k] / options.least;
   }
   if (!st)
-    st = thr_settle_run(&beads, &e->plan.frame, e->plan.cord, evaluation->n_cords, (const double *const *)tension, NULL,
-                        &evaluation->physics, &options, s->limits, &out, err);
+    st = thr_settle_run(&beads, &e->plan.frame, e->plan.cord, evaluation->n_cords,
+                        (const double *const *)tension, NULL, &evaluation->physics, &options,
+                        s->limits, &out, err);
   *(settled *)result = (settled){out.fall, out.error, out.status};
   thr_settle_destroy(&out);
   for (int i = 0; i < evaluation->n_cords && tension; i++)
@@ -577,10 +641,12 @@ static thr_status settle_plan(void *user, int job, void *result, thr_err *err)
   return st;
 }
 
-static thr_status run_simulations(const pull_args *a, entry *e, const int *plan, int n, thr_err *err)
+static thr_status run_simulations(const pull_args *a, entry *e, const int *plan, int n,
+                                  thr_err *err)
 {
   const thr_limits limits = cli_limits(0);
-  const thr_limits quiet = {.interrupted = limits.interrupted}; /* in a child: only the parent draws the bar */
+  const thr_limits quiet = {.interrupted =
+                                limits.interrupted}; /* in a child: only the parent draws the bar */
   simulation s = {a, e, plan, &quiet};
   const thr_work work = {.n_jobs = 2 * n,
                          .result_size = sizeof(settled),
@@ -590,8 +656,9 @@ static thr_status run_simulations(const pull_args *a, entry *e, const int *plan,
                          .advice = "use --no-dynamics"};
   settled *found = thr_calloc(2 * (size_t)n, sizeof *found);
   bool *finished = thr_calloc(2 * (size_t)n, sizeof *finished);
-  thr_status st =
-      found && finished ? thr_workers_run(&work, a->options.processes, &limits, found, finished, err) : thr_nomem(err);
+  thr_status st = found && finished
+                      ? thr_workers_run(&work, a->options.processes, &limits, found, finished, err)
+                      : thr_nomem(err);
   for (int i = 0; i < 2 * n && found && finished; i++) {
     entry *of = &e[plan[i / 2]];
     if (!finished[i]) continue;
@@ -602,9 +669,11 @@ static thr_status run_simulations(const pull_args *a, entry *e, const int *plan,
     if (found[i].status != THR_SETTLE_FELL && !(i & 1 && of->contradicted)) {
       of->contradicted = true;
       cli_note("note: %s: the simulation %s; `thread eval --method structure` says more", of->path,
-               found[i].status == THR_SETTLE_NEVER_SETTLED ? "never came to rest under the pull at its start"
-               : found[i].fall > 0 ? "falls where the limit analysis says otherwise, or at a pull not well known"
-                                   : "did not fall");
+               found[i].status == THR_SETTLE_NEVER_SETTLED
+                   ? "never came to rest under the pull at its start"
+               : found[i].fall > 0
+                   ? "falls where the limit analysis says otherwise, or at a pull not well known"
+                   : "did not fall");
     }
   }
   free(found);
@@ -621,12 +690,15 @@ static int settle(const pull_args *a, entry *e, int n)
   thr_status st = plan ? THR_OK : thr_nomem(&err);
   bool large = e[0].plan.frame.n_nodes > thr_settle_largest(a->options.large);
   if (large)
-    cli_note("note: no simulation of the structure: it has more than %d beads%s", thr_settle_largest(a->options.large),
+    cli_note("note: no simulation of the structure: it has more than %d beads%s",
+             thr_settle_largest(a->options.large),
              a->options.large ? "" : "; --dynamics takes more");
   for (int i = 0; i < n && plan && !large; i++) {
     double pull = compare_largest(&e[i], THR_STRUCTURE);
     if (pull > 0) plan[count++] = i;
-    if (pull <= 0) cli_note("note: %s is not simulated: it needs no pull, so that there is none to let off", e[i].path);
+    if (pull <= 0)
+      cli_note("note: %s is not simulated: it needs no pull, so that there is none to let off",
+               e[i].path);
   }
   if (count > 0) st = run_simulations(a, e, plan, count, &err);
   free(plan);
@@ -653,7 +725,8 @@ static int print(const pull_args *a, const entry *e, int n)
 }
 
 /* plot: where the picture goes, NULL = nowhere. */
-static int compare(const pull_args *a, const deeds *d, char **path, int n, entry *e, const char *plot)
+static int compare(const pull_args *a, const deeds *d, char **path, int n, entry *e,
+                   const char *plot)
 {
   int code = read_entries(path, n, e);
   if (code) return code;
@@ -676,12 +749,16 @@ static int compare(const pull_args *a, const deeds *d, char **path, int n, entry
 /* What would be ignored is refused; the simulation knows only cords and weights. */
 static int check_deeds(pull_args *a, deeds *d)
 {
-  const bool structure = a->method == THR_STRUCTURE || a->method == PULL_ALL_METHODS, any = load_any(&d->load) || d->schedule;
+  const bool structure = a->method == THR_STRUCTURE || a->method == PULL_ALL_METHODS,
+             any = load_any(&d->load) || d->schedule;
   if (!structure && (any || d->load.rays || d->load.taut))
-    return cli_usage("compare", "--load, --tilt, --clamp-feet, --taut, --rays and --schedule are of --method structure or all");
-  if (d->schedule && !*d->schedule) return cli_usage("compare", "--schedule: an empty one does nothing");
+    return cli_usage("compare", "--load, --tilt, --clamp-feet, --taut, --rays and --schedule are "
+                                "of --method structure or all");
+  if (d->schedule && !*d->schedule)
+    return cli_usage("compare", "--schedule: an empty one does nothing");
   if (d->load.n_pulls && !d->load.load) return cli_usage("compare", "--load-pulls needs --load");
-  if (d->load.n_pulls > 1) return cli_usage("compare", "--load-pulls: one pull, to rank by what is carried at it");
+  if (d->load.n_pulls > 1)
+    return cli_usage("compare", "--load-pulls: one pull, to rank by what is carried at it");
   if (any && a->options.start > 0)
     return cli_usage("compare", "--start is of the simulation, which knows no loads and schedules");
   if (d->load.load && !d->load.n_pulls) d->load.pulls[d->load.n_pulls++] = 10;
@@ -699,12 +776,14 @@ int cmd_compare(int argc, char **argv)
   const char *plot = NULL;
   deeds d = {0};
   pull_args_init(&a, THR_JOINT);
-  while ((option = cli_physics_option(&a.physics, argc, argv, "compare", ":" CLI_COMMON_LETTERS PULL_LETTERS, table, help,
-                                      &done)) != -1) {
+  while ((option = cli_physics_option(&a.physics, argc, argv, "compare",
+                                      ":" CLI_COMMON_LETTERS PULL_LETTERS, table, help, &done)) !=
+         -1) {
     if (option == OPTION_PLOT) plot = optarg;
     if (option == OPTION_SCHEDULE) d.schedule = optarg;
     if (plot && !*plot) return cli_usage("compare", "an empty name is no place to write to");
-    if ((pull_option(&a, "compare", option, optarg, &ok) || guard_option(&guard, "compare", option, optarg, &ok) ||
+    if ((pull_option(&a, "compare", option, optarg, &ok) ||
+         guard_option(&guard, "compare", option, optarg, &ok) ||
          load_option(&d.load, "compare", option, optarg, &ok)) &&
         !ok)
       return EXIT_USAGE;
@@ -712,7 +791,8 @@ int cmd_compare(int argc, char **argv)
   if (done >= 0) return done;
   int n = argc - optind;
   if (n < 1) return cli_usage("compare", "which plans?");
-  if (a.json && plot && strcmp(plot, "-") == 0) return cli_usage("compare", "--json and --plot - both want stdout");
+  if (a.json && plot && strcmp(plot, "-") == 0)
+    return cli_usage("compare", "--json and --plot - both want stdout");
   int code = pull_check(&a, "compare");
   if (!code) code = check_deeds(&a, &d);
   if (code) return code;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread complete: what may stand next on a command line, for the completions of shells. */
 #include "cli/args/args.h"
 #include "cli/cli.h"
@@ -7,7 +8,8 @@
 #include <string.h>
 
 /* Of the command that is asked: filled while it shows its options. */
-static const char *wanted; /* the option whose values are looked for, as it was typed; NULL = all options */
+static const char
+    *wanted; /* the option whose values are looked for, as it was typed; NULL = all options */
 static bool found;
 
 static void put(void *user, const char *word)
@@ -24,7 +26,8 @@ static bool is_wanted(const cli_listed *option)
 }
 
 /* Is it the first of its name that the help lists? */
-static bool find_listed(const struct option *table, const char *help, const char *name, cli_listed *out)
+static bool find_listed(const struct option *table, const char *help, const char *name,
+                        cli_listed *out)
 {
   for (const char *at = help; cli_listed_next(&at, table, out);)
     if (strcmp(out->name, name) == 0) return true;
@@ -72,13 +75,15 @@ static void put_commands(void)
     printf("%s\t%s\n", cli_commands[i].name, cli_commands[i].summary);
 }
 
-/* argv: "complete" and the words of the line after "thread", of which the last is being typed. Prints a line for each word that
- * may stand in its place, whatever of it is typed already, with a tab and an explanation; nothing where any file may. */
+/* argv: "complete" and the words of the line after "thread", of which the last is being typed.
+ * Prints a line for each word that may stand in its place, whatever of it is typed already, with a
+ * tab and an explanation; nothing where any file may. */
 int cmd_complete(int argc, char **argv)
 {
   const char *last = argc > 1 ? argv[argc - 1] : "", *before = argc > 2 ? argv[argc - 2] : "";
   const cli_command *command = argc > 2 ? find_command(argv[1]) : NULL;
-  if (strcmp(before, "=") == 0 && argc > 3) before = argv[argc - 3]; /* shells that take --name=value for three words */
+  if (strcmp(before, "=") == 0 && argc > 3)
+    before = argv[argc - 3]; /* shells that take --name=value for three words */
   if (strcmp(last, "=") == 0) {
     last = "";
   } else if (strncmp(last, "--", 2) == 0 && strchr(last, '=')) {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread convert: a framework from one format into another. */
 #include "cli/cli.h"
 #include "graph/framework/frame.h"
@@ -9,13 +10,16 @@
 static const char help[] =
     "thread convert FRAME [options]: a framework, read and checked, in another format\n\n"
     "Examples:\n"
-    "  thread convert shell.stl --flat 1 -o shell.obj    the mesh's edges, without diagonals of flat faces\n"
+    "  thread convert shell.stl --flat 1 -o shell.obj    the mesh's edges, without diagonals of "
+    "flat faces\n"
     "  thread convert dome.obj --scale 1000 --units mm --feet lowest -o dome.json\n"
     "  thread convert - -T csv < dome.json | wc -l\n\n"
     "Options:\n"
     "  -o, --output FILE    .json, .obj, .csv, .ply, .dxf or .graphml (default: stdout)\n"
-    "  -T, --type json|obj|csv|ply|dxf|graphml   the format, if the file's name does not say (default: json)\n" CLI_FRAME_HELP
-        GUARD_HELP "  -q, --quiet          no notes                                                            -h, --help\n";
+    "  -T, --type json|obj|csv|ply|dxf|graphml   the format, if the file's name does not say "
+    "(default: json)\n" CLI_FRAME_HELP GUARD_HELP
+    "  -q, --quiet          no notes                                                            "
+    "-h, --help\n";
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
@@ -24,7 +28,8 @@ static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       {"type", required_argument, NULL, 'T'},
                                       {NULL, 0, NULL, 0}};
 
-static int convert(const char *path, const cli_frame_args *args, const thr_format *format, const char *output)
+static int convert(const char *path, const cli_frame_args *args, const thr_format *format,
+                   const char *output)
 {
   thr_frame frame;
   thr_text text = {0};
@@ -43,8 +48,10 @@ int cmd_convert(int argc, char **argv)
   cli_frame_args args = cli_frame_args_default();
   guard_limits guard = guard_limits_default();
   guard_end end;
-  while ((o = cli_next_option(argc, argv, "convert", ":" CLI_COMMON_LETTERS "o:T:", table, help, &done)) != -1) {
-    if (cli_frame_option(&args, "convert", o, optarg, &ok) || guard_option(&guard, "convert", o, optarg, &ok)) {
+  while ((o = cli_next_option(argc, argv, "convert", ":" CLI_COMMON_LETTERS "o:T:", table, help,
+                              &done)) != -1) {
+    if (cli_frame_option(&args, "convert", o, optarg, &ok) ||
+        guard_option(&guard, "convert", o, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
     } else if (o == 'o') {
       output = optarg;
@@ -53,7 +60,8 @@ int cmd_convert(int argc, char **argv)
     }
   }
   if (done >= 0) return done;
-  if (optind + 1 != argc) return cli_usage("convert", optind == argc ? "which framework?" : "one framework at a time");
+  if (optind + 1 != argc)
+    return cli_usage("convert", optind == argc ? "which framework?" : "one framework at a time");
   const thr_format *format;
   if (!cli_output_format("convert", output, type, &format)) return EXIT_USAGE;
   if (guard_fork(&guard, &end)) return guard_conclude(&end, "nothing is written");

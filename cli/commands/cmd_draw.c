@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread draw: diagrams of a plan. */
 #include "cli/cli.h"
 #include "cli/drawings.h"
@@ -16,33 +17,46 @@ static const char help[] =
     "  thread draw plan.json -o overview.svg\n"
     "  thread draw plan.json -o diagrams/            overview.svg in that folder\n"
     "  thread draw plan.json -T all -o diagrams/     all documents there\n"
-    "  thread draw plan.json -T pdf                  sheets.pdf: step by step on paper, with pictures\n"
+    "  thread draw plan.json -T pdf                  sheets.pdf: step by step on paper, with "
+    "pictures\n"
     "  thread draw plan.json -T steps                steps.txt: row by row, to be ticked off\n"
     "  thread draw plan.json --color tension         after `thread eval plan.json -o plan.json`\n"
     "  thread draw plan.json --color turning         the sharper a turn the darker\n\n"
     "Options:\n"
     "  -T, --type TYPE      what to make (default: svg)\n"
     "                       svg         overview.svg, the picture of all cords\n"
-    "                       pdf         sheets.pdf: what to prepare, each step with its picture, what to do last\n"
+    "                       pdf         sheets.pdf: what to prepare, each step with its picture, "
+    "what to do last\n"
     "                       steps       steps.txt: each path to learn once, then its copies\n"
     "                       html        viewer.html: step by step in space, in any browser\n"
-    "                       steps.csv   a row per piece that the needle comes to: arms, turn, cord used\n"
+    "                       steps.csv   a row per piece that the needle comes to: arms, turn, cord "
+    "used\n"
     "                       cords.csv   the cut list: a row per cord, with tails and allowances\n"
     "                       beads.csv   the bead schedule: a row per piece, kinds, arms, bores\n"
-    "                       channels.csv   which pass goes from which arm to which, piece by piece, and what crosses\n"
+    "                       channels.csv   which pass goes from which arm to which, piece by "
+    "piece, and what crosses\n"
     "                       obj, gltf   cords.obj, cords.gltf: cords as lines for CAD and Blender\n"
     "                       all         all of these, into the folder of -o, else the current one\n"
-    "                       mat         mat.pdf: the outlines of all pieces, true to size, to lay them out on\n"
-    "                       labels      labels.svg: the pieces' names as outlines, true to size, to raise on printed pieces\n"
-    "                       poster      poster.pdf: the overview over several sheets, to glue together; --pitch says how large\n"
-    "                       sheets.html sheets.html: the pages of sheets.pdf for any browser, which prints them\n"
-    "                       dxf         cords.dxf: a layer, a colour and a polyline in space for each cord\n"
+    "                       mat         mat.pdf: the outlines of all pieces, true to size, to lay "
+    "them out on\n"
+    "                       labels      labels.svg: the pieces' names as outlines, true to size, "
+    "to raise on printed pieces\n"
+    "                       poster      poster.pdf: the overview over several sheets, to glue "
+    "together; --pitch says how large\n"
+    "                       sheets.html sheets.html: the pages of sheets.pdf for any browser, "
+    "which prints them\n"
+    "                       dxf         cords.dxf: a layer, a colour and a polyline in space for "
+    "each cord\n"
     "                       compas      cords.json: COMPAS polylines\n"
-    "      --lanes          obj, gltf, dxf, compas: passes of an edge side by side, so that none coincide\n"
-    "      --up y|z         obj, dxf, compas: which coordinate points up (default: z; glTF always: y)\n"
-    "      --color cord|tension|turning   what colours of the overview tell apart: cords (default), how\n"
+    "      --lanes          obj, gltf, dxf, compas: passes of an edge side by side, so that none "
+    "coincide\n"
+    "      --up y|z         obj, dxf, compas: which coordinate points up (default: z; glTF always: "
+    "y)\n"
+    "      --color cord|tension|turning   what colours of the overview tell apart: cords "
+    "(default), how\n"
     "                       tight each pass is, or how sharply the cord turns\n"
-    "      --pitch MM       millimetres on paper per edge (default: 24, less for large frameworks)\n" DRAWINGS_HELP GUARD_HELP
+    "      --pitch MM       millimetres on paper per edge (default: 24, less for large "
+    "frameworks)\n" DRAWINGS_HELP GUARD_HELP
     "  -o, --output FILE|DIR   (default: its usual name in the current folder; - = stdout)\n"
     "  -h, --help\n\n"
     "Exit codes: 0 drawn, 2 usage, 3 not a plan, 5 not all drawn in the time or memory\n";
@@ -99,31 +113,43 @@ int cmd_draw(int argc, char **argv)
   int color = THR_COLOUR_CORD, type = 0;
   int up = 1;
   const char *output = NULL;
-  while ((option = cli_next_option(argc, argv, "draw", ":" CLI_COMMON_LETTERS "T:o:", table, help, &done)) != -1) {
-    if (option == 'T' && !cli_choose("draw", "--type", optarg, type_name, thr_documents_count() + 1, &type)) return EXIT_USAGE;
-    bool ok = true;
-    if ((drawings_option(&a, "draw", option, optarg, &ok) || guard_option(&guard, "draw", option, optarg, &ok)) && !ok)
+  while ((option = cli_next_option(argc, argv, "draw", ":" CLI_COMMON_LETTERS "T:o:", table, help,
+                                   &done)) != -1) {
+    if (option == 'T' &&
+        !cli_choose("draw", "--type", optarg, type_name, thr_documents_count() + 1, &type))
       return EXIT_USAGE;
-    if (option == OPTION_PITCH && !cli_double("draw", "--pitch", optarg, 2, 200, &a.pitch_mm)) return EXIT_USAGE;
-    if (option == OPTION_COLOR && !cli_choose("draw", "--color", optarg, thr_overview_colour_name, THR_N_COLOURS, &color))
+    bool ok = true;
+    if ((drawings_option(&a, "draw", option, optarg, &ok) ||
+         guard_option(&guard, "draw", option, optarg, &ok)) &&
+        !ok)
+      return EXIT_USAGE;
+    if (option == OPTION_PITCH && !cli_double("draw", "--pitch", optarg, 2, 200, &a.pitch_mm))
+      return EXIT_USAGE;
+    if (option == OPTION_COLOR &&
+        !cli_choose("draw", "--color", optarg, thr_overview_colour_name, THR_N_COLOURS, &color))
       return EXIT_USAGE;
     if (option == 'o') output = optarg;
     if (option == OPTION_LANES) a.lines.lanes = true;
-    if (option == OPTION_UP && !cli_choose("draw", "--up", optarg, up_name, 2, &up)) return EXIT_USAGE;
+    if (option == OPTION_UP && !cli_choose("draw", "--up", optarg, up_name, 2, &up))
+      return EXIT_USAGE;
   }
   if (done >= 0) return done;
   a.colour = (thr_overview_colour)color;
   a.lines.up_y = up == 0;
   bool all = type == thr_documents_count();
   if (output && !*output) return cli_usage("draw", "an empty name is no place to write to");
-  if (all && output && strcmp(output, "-") == 0) return cli_usage("draw", "--type all makes several files: -o names a folder");
+  if (all && output && strcmp(output, "-") == 0)
+    return cli_usage("draw", "--type all makes several files: -o names a folder");
   if (!all && output && cli_misnamed(output, thr_document_file(type)))
-    return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type), thr_document_file(type));
-  if (optind + 1 != argc) return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
+    return cli_usage("draw", "%s: --type %s makes %s; say which type", output, type_name(type),
+                     thr_document_file(type));
+  if (optind + 1 != argc)
+    return cli_usage("draw", optind == argc ? "which plan?" : "one plan at a time");
   const char *folder = !output ? "." : cli_is_folder(output) || all ? output : NULL;
   const int claimed = folder ? drawings_claim("draw", folder, all ? -1 : type) : EXIT_OK;
   if (claimed) return claimed;
-  if (guard_fork(&guard, &end)) return guard_conclude(&end, all ? "not all documents are drawn" : "nothing is drawn");
+  if (guard_fork(&guard, &end))
+    return guard_conclude(&end, all ? "not all documents are drawn" : "nothing is drawn");
   thr_plan plan;
   int code = cli_read_plan(argv[optind], &plan);
   if (code) return code;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread eval: how hard must one pull? */
 #include "cli/args/load_args.h"
 #include "cli/calibrate.h"
@@ -25,48 +26,70 @@
 static const char help_method[] =
     "thread eval PLAN [options]: pull force, friction loss and tension along each cord\n\n"
     "Examples:\n"
-    "  thread eval plan.json --mu 0.3 --seating 5         newtons at the pulled ends so that 5 N reaches every bead\n"
+    "  thread eval plan.json --mu 0.3 --seating 5         newtons at the pulled ends so that 5 N "
+    "reaches every bead\n"
     "  thread eval plan.json --method joint               joints measured in simulation\n"
-    "  thread eval plan.json --method structure --still still.svg   least pull at which the whole can stand\n"
-    "  thread eval plan.json -o plan.json --plot tension.svg        keep it in the plan; draw it\n\n"
+    "  thread eval plan.json --method structure --still still.svg   least pull at which the whole "
+    "can stand\n"
+    "  thread eval plan.json -o plan.json --plot tension.svg        keep it in the plan; draw "
+    "it\n\n"
     "Options:\n"
     "      --method capstan|joint|structure\n"
-    "                       capstan: closed form, force = seating tension x exp(mu x turning) (default)\n"
-    "                       joint: each joint's friction measured in simulation, along the path the tight cord takes\n"
-    "                       structure: least pull at which the rigid beads have any equilibrium while the cord is\n"
+    "                       capstan: closed form, force = seating tension x exp(mu x turning) "
+    "(default)\n"
+    "                       joint: each joint's friction measured in simulation, along the path "
+    "the tight cord takes\n"
+    "                       structure: least pull at which the rigid beads have any equilibrium "
+    "while the cord is\n"
     "                       drawn in, and which fails first\n" PULL_HELP("holding pull");
 static const char help_rest[] =
     "      --tension        print the tension in every pass\n"
-    "      --hand N         the fewest grips with which no pull is above N newtons (one: 50, two: 100): where, how hard\n"
-    "      --schedule TEXT  what is done to the cords, in order, and the tension that it leaves; or a file "
+    "      --hand N         the fewest grips with which no pull is above N newtons (one: 50, two: "
+    "100): where, how hard\n"
+    "      --schedule TEXT  what is done to the cords, in order, and the tension that it leaves; "
+    "or a file "
     "of that:\n"
-    "                       \"A: pull both 40; A: release end 5; A: knot both 0.5; B: knot start; C: none;\n"
-    "                       B: grip 37 20 from start; B: pull end 9\" (newtons; passes as in steps.txt, or two nodes;\n"
-    "                       a knot may slip by mm: --stiffness, which grips that are let go ask for, too)\n" LOAD_HELP
-        CALIBRATE_HELP "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
-    "      --plot FILE      write a plot of the tension along each cord, as SVG: with a fan over the band of "
+    "                       \"A: pull both 40; A: release end 5; A: knot both 0.5; B: knot start; "
+    "C: none;\n"
+    "                       B: grip 37 20 from start; B: pull end 9\" (newtons; passes as in "
+    "steps.txt, or two nodes;\n"
+    "                       a knot may slip by mm: --stiffness, which grips that are let go ask "
+    "for, too)\n" LOAD_HELP CALIBRATE_HELP
+    "  -o, --output FILE    write the plan with this evaluation in it (- = stdout)\n"
+    "      --plot FILE      write a plot of the tension along each cord, as SVG: with a fan over "
+    "the band of "
     "mu,\n"
-    "                       and with lines at what a hand manages and at --cord-strength; with --load: what is "
+    "                       and with lines at what a hand manages and at --cord-strength; with "
+    "--load: what is "
     "carried\n"
     "                       against pull, and which piece moves first\n"
-    "      --cord-strength N   newtons that the straight cord bears: says whether the pull would break it, at its\n"
-    "                       knots or over the edges of bores, which leave half of that; structure: knotted cords get\n"
+    "      --cord-strength N   newtons that the straight cord bears: says whether the pull would "
+    "break it, at its\n"
+    "                       knots or over the edges of bores, which leave half of that; structure: "
+    "knotted cords get\n"
     "                       no tighter\n"
-    "      --knot NAME      that knot: overhand (the default, leaves 45 %), reef 45, figure-eight 48, bowline 60,\n"
+    "      --knot NAME      that knot: overhand (the default, leaves 45 %), reef 45, figure-eight "
+    "48, bowline 60,\n"
     "                       anchor 70, clove-hitch 75, two-half-hitches 75, eye-splice 95\n"
-    "      --still FILE     structure: write a picture of the beads before and after the fall, as SVG\n"
-    "      --stills FILE    structure: how it comes up from slack as the cords are drawn in, in stills, as SVG, and the\n"
-    "                       counterweight that takes (--pull A=both,B=none: by one cord alone); -o keeps their poses\n"
+    "      --still FILE     structure: write a picture of the beads before and after the fall, as "
+    "SVG\n"
+    "      --stills FILE    structure: how it comes up from slack as the cords are drawn in, in "
+    "stills, as SVG, and the\n"
+    "                       counterweight that takes (--pull A=both,B=none: by one cord alone); -o "
+    "keeps their poses\n"
     "      --json           everything as JSON\n"
     "  -q, --quiet          no notes and no progress       -h, --help\n\n"
-    "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating tension "
+    "Pull is the force at the pulled ends of a cord at which its slackest pass has the seating "
+    "tension "
     "(capstan, joint), or at "
     "which\n"
-    "the structure can just stand while the cord is drawn in (structure). These are different things. The "
+    "the structure can just stand while the cord is drawn in (structure). These are different "
+    "things. The "
     "closed form takes the cord "
     "through the middle of "
     "every\n"
-    "bead; a cord thinner than the bore cuts corners, turns less and needs less: method joint knows.\n";
+    "bead; a cord thinner than the bore cuts corners, turns less and needs less: method joint "
+    "knows.\n";
 
 /* One text: as one literal it would be longer than C promises to take. */
 static const char *help(void)
@@ -120,7 +143,9 @@ static int calibrate(const arguments *a, bool with_plan)
   thr_physics physics = thr_physics_default();
   if (with_plan) return cli_usage("eval", "--calibrate takes no plan");
   int code = cli_physics_apply(&a->pull.physics, &physics);
-  return code ? code : calibrate_run(a->calibrate, physics.bore > 0 ? physics.bore : 2, a->output, a->pull.json);
+  return code ? code
+              : calibrate_run(a->calibrate, physics.bore > 0 ? physics.bore : 2, a->output,
+                              a->pull.json);
 }
 
 static int parse(int argc, char **argv, arguments *a)
@@ -129,9 +154,11 @@ static int parse(int argc, char **argv, arguments *a)
   bool ok;
   *a = (arguments){.guard = guard_limits_default()};
   pull_args_init(&a->pull, THR_CAPSTAN);
-  while ((option = cli_physics_option(&a->pull.physics, argc, argv, "eval", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table,
-                                      help(), &done)) != -1) {
-    if (pull_option(&a->pull, "eval", option, optarg, &ok) || guard_option(&a->guard, "eval", option, optarg, &ok) ||
+  while ((option = cli_physics_option(&a->pull.physics, argc, argv, "eval",
+                                      ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(),
+                                      &done)) != -1) {
+    if (pull_option(&a->pull, "eval", option, optarg, &ok) ||
+        guard_option(&a->guard, "eval", option, optarg, &ok) ||
         load_option(&a->load, "eval", option, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
       continue;
@@ -146,10 +173,12 @@ static int parse(int argc, char **argv, arguments *a)
       a->pull.options.erect = true;
       break;
     case OPTION_STRENGTH:
-      if (!cli_double("eval", "--cord-strength", optarg, 1e-6, 1e9, &a->strength)) return EXIT_USAGE;
+      if (!cli_double("eval", "--cord-strength", optarg, 1e-6, 1e9, &a->strength))
+        return EXIT_USAGE;
       break;
     case OPTION_KNOT:
-      if (!cli_choose("eval", "--knot", optarg, thr_knot_name, thr_n_knots, &a->knot)) return EXIT_USAGE;
+      if (!cli_choose("eval", "--knot", optarg, thr_knot_name, thr_n_knots, &a->knot))
+        return EXIT_USAGE;
       break;
     case OPTION_SCHEDULE: a->schedule = optarg; break;
     case OPTION_CALIBRATE: a->calibrate = optarg; break;
@@ -161,29 +190,37 @@ static int parse(int argc, char **argv, arguments *a)
   if (done >= 0) return done;
   if (a->calibrate) return calibrate(a, optind < argc);
   if (optind + 1 != argc)
-    return cli_usage("eval", optind == argc ? "which plan?" : "one plan at a time; `thread compare` takes several");
+    return cli_usage("eval", optind == argc ? "which plan?"
+                                            : "one plan at a time; `thread compare` takes several");
   a->path = argv[optind];
   const char *const out[] = {a->output, a->plot, a->still, a->stills};
   int to_stdout = a->pull.json;
   for (int i = 0; i < 4; i++)
     to_stdout += out[i] && strcmp(out[i], "-") == 0;
-  if (to_stdout > 1) return cli_usage("eval", "only one of --json, -o -, --plot -, --still - and --stills - can have stdout");
+  if (to_stdout > 1)
+    return cli_usage(
+        "eval", "only one of --json, -o -, --plot -, --still - and --stills - can have stdout");
   if (a->output && cli_no_plan_name("eval", a->output)) return EXIT_USAGE;
   if (pull_check(&a->pull, "eval")) return EXIT_USAGE;
-  if (a->schedule && a->pull.options.hand > 0) return cli_usage("eval", "--hand makes a schedule of its own: no --schedule");
+  if (a->schedule && a->pull.options.hand > 0)
+    return cli_usage("eval", "--hand makes a schedule of its own: no --schedule");
   if (a->pull.options.hand > 0 && a->pull.method == THR_STRUCTURE)
-    return cli_usage("eval", "--hand is of the methods capstan and joint; --schedule takes what it says");
+    return cli_usage("eval",
+                     "--hand is of the methods capstan and joint; --schedule takes what it says");
   if ((a->still || a->stills) && a->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "%s needs --method structure", a->still ? "--still" : "--stills");
-  if (a->stills && a->schedule) return cli_usage("eval", "--stills draws the cords in; take --schedule away");
+  if (a->stills && a->schedule)
+    return cli_usage("eval", "--stills draws the cords in; take --schedule away");
   if (load_any(&a->load) && a->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "--load, --tilt and --clamp-feet are of --method structure");
   if ((a->load.rays || a->load.taut) && a->pull.method != THR_STRUCTURE)
     return cli_usage("eval", "%s is of --method structure", a->load.rays ? "--rays" : "--taut");
   if (a->load.n_pulls && !a->load.load) return cli_usage("eval", "--load-pulls needs --load");
   const char *shows = a->still ? "--still" : a->stills ? "--stills" : NULL;
-  if (shows && a->load.load) return cli_usage("eval", "%s shows a simulation, which knows no loads", shows);
-  if (shows && !a->pull.options.dynamics) return cli_usage("eval", "%s shows a simulation; take --no-dynamics away", shows);
+  if (shows && a->load.load)
+    return cli_usage("eval", "%s shows a simulation, which knows no loads", shows);
+  if (shows && !a->pull.options.dynamics)
+    return cli_usage("eval", "%s shows a simulation; take --no-dynamics away", shows);
   return -1;
 }
 
@@ -204,12 +241,14 @@ static thr_status eval_at(const thr_plan *plan, double mu, thr_eval *out, thr_er
   options.physics.mu_low = options.physics.mu_high = 0; /* as they follow from mu */
   options.law = evaluation->law;
   options.cord_pull = pull;
-  thr_status st = thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, &none, out, err);
+  thr_status st = thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options,
+                                &none, out, err);
   free(pull);
   return st;
 }
 
-/* With a fan where the method has one: the limit analysis has none, and beyond 1e300 N nothing is drawn. */
+/* With a fan where the method has one: the limit analysis has none, and beyond 1e300 N nothing is
+ * drawn. */
 static int write_plot(const thr_plan *plan, double strength, const char *path)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
@@ -239,7 +278,8 @@ static int by_pull(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-static int write_load_plot(const thr_plan *plan, const thr_eval *eval, const char *load, const char *path)
+static int write_load_plot(const thr_plan *plan, const thr_eval *eval, const char *load,
+                           const char *path)
 {
   thr_err err = {0};
   thr_text svg = {0}, words = {0};
@@ -256,7 +296,8 @@ static int write_load_plot(const thr_plan *plan, const thr_eval *eval, const cha
   }
   if (!st) qsort(mark, (size_t)eval->n_carries, sizeof *mark, by_pull);
   thr_text_printf(&words, "--load %s: newtons at the pieces named", load);
-  const thr_load_chart chart = {words.data ? words.data : "", &plan->evaluation.physics, eval->n_carries, mark};
+  const thr_load_chart chart = {words.data ? words.data : "", &plan->evaluation.physics,
+                                eval->n_carries, mark};
   if (!st) st = thr_load_svg(&chart, &svg, &err);
   thr_text_destroy(&words);
   free(mark);
@@ -275,7 +316,8 @@ static double (*poses_of(const double (*from)[7], size_t n, double mm))[7]
   return pose;
 }
 
-static thr_status draw_still(const thr_plan *plan, const thr_settle *settle, thr_text *svg, thr_err *err)
+static thr_status draw_still(const thr_plan *plan, const thr_settle *settle, thr_text *svg,
+                             thr_err *err)
 {
   const size_t n = (size_t)settle->n_beads;
   double mm = 1;
@@ -284,17 +326,20 @@ static thr_status draw_still(const thr_plan *plan, const thr_settle *settle, thr
   double(*before)[7] = poses_of((const double(*)[7])settle->before, n, mm),
   (*after)[7] = poses_of((const double(*)[7])settle->after, n, mm);
   char caption[2][160], first[80] = "";
-  if (settle->first_bead >= 0) snprintf(first, sizeof first, "; bead %.60s moved first", plan->frame.name[settle->first_bead]);
+  if (settle->first_bead >= 0)
+    snprintf(first, sizeof first, "; bead %.60s moved first", plan->frame.name[settle->first_bead]);
   snprintf(caption[0], sizeof caption[0], "Before: widest gap %.3g mm", settle->gap_before);
   snprintf(caption[1], sizeof caption[1], "After: widest gap %.3g mm%s", settle->gap_after, first);
   const thr_still_panel panel[] = {{"before", caption[0], (const double(*)[7])before},
                                    {"after", caption[1], (const double(*)[7])after}};
   const char *note =
-      settle->status == THR_SETTLE_FELL   ? "Before: under the pull at the start. After: the pull let off until it fell."
+      settle->status == THR_SETTLE_FELL
+          ? "Before: under the pull at the start. After: the pull let off until it fell."
       : settle->status == THR_SETTLE_HELD ? "It stands until the pull is gone."
-      : settle->fall > 0
-          ? "Before: under the pull at the start. After: it fell outside the pulls that the limit analysis leaves open."
-          : "No fall was seen, though nothing holds it there (proved): what is seen here was too slow.";
+      : settle->fall > 0 ? "Before: under the pull at the start. After: it fell outside the pulls "
+                           "that the limit analysis leaves open."
+                         : "No fall was seen, though nothing holds it there (proved): what is seen "
+                           "here was too slow.";
   const thr_still still = {.title = "The structure in simulation",
                            .note = note,
                            .width = plan->evaluation.physics.bead_diameter / mm,
@@ -308,24 +353,29 @@ static thr_status draw_still(const thr_plan *plan, const thr_settle *settle, thr
 }
 
 /* How it comes up: slack, drawn in, let alone. */
-static thr_status draw_stills(const thr_plan *plan, const thr_erect *erect, thr_text *svg, thr_err *err)
+static thr_status draw_stills(const thr_plan *plan, const thr_erect *erect, thr_text *svg,
+                              thr_err *err)
 {
-  static const char *const id[THR_ERECT_STILLS] = {"slack", "half", "once", "twice", "alone", "rested"};
-  static const char *const when[THR_ERECT_STILLS] = {"Slack",  "Drawn in", "Drawn in", "Drawn in", "Without counterweight",
-                                                     "At rest"};
+  static const char *const id[THR_ERECT_STILLS] = {"slack", "half",  "once",
+                                                   "twice", "alone", "rested"};
+  static const char *const when[THR_ERECT_STILLS] = {
+      "Slack", "Drawn in", "Drawn in", "Drawn in", "Without counterweight", "At rest"};
   thr_still_panel panel[THR_ERECT_STILLS];
   char caption[THR_ERECT_STILLS][200];
   thr_text note = {0};
   double mm = 1;
   thr_status st = thr_units_in_mm(plan->frame.units, &mm, err);
   if (st) return st;
-  double(*pose)[7] = poses_of((const double(*)[7])erect->pose, THR_ERECT_STILLS * (size_t)erect->n_beads, mm);
+  double(*pose)[7] =
+      poses_of((const double(*)[7])erect->pose, THR_ERECT_STILLS * (size_t)erect->n_beads, mm);
   for (int i = 0; i < THR_ERECT_STILLS; i++) {
     const thr_erect_still *s = &erect->still[i];
-    snprintf(caption[i], sizeof caption[i],
-             "%s: %.3g N at the harder ends, counterweight %.3g N; %d of %d gaps closed, %.3g mm high", when[i], s->pull,
-             s->lift * erect->weight, s->closed, erect->n_gaps, s->height);
-    panel[i] = (thr_still_panel){id[i], caption[i], (const double(*)[7])(pose ? pose + i * erect->n_beads : NULL)};
+    snprintf(
+        caption[i], sizeof caption[i],
+        "%s: %.3g N at the harder ends, counterweight %.3g N; %d of %d gaps closed, %.3g mm high",
+        when[i], s->pull, s->lift * erect->weight, s->closed, erect->n_gaps, s->height);
+    panel[i] = (thr_still_panel){id[i], caption[i],
+                                 (const double(*)[7])(pose ? pose + i * erect->n_beads : NULL)};
   }
   erect_put(&note, erect);
   const thr_still still = {.title = "How the structure comes up",
@@ -340,7 +390,8 @@ static thr_status draw_stills(const thr_plan *plan, const thr_erect *erect, thr_
   return st;
 }
 
-static int write_stills(const thr_plan *plan, const thr_erect *erect, bool stopped, const char *path)
+static int write_stills(const thr_plan *plan, const thr_erect *erect, bool stopped,
+                        const char *path)
 {
   thr_err err = {0};
   thr_text svg = {0};
@@ -353,7 +404,8 @@ static int write_stills(const thr_plan *plan, const thr_erect *erect, bool stopp
   return draw_stills(plan, erect, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
 }
 
-static int write_still(const thr_plan *plan, const thr_settle *settle, bool stopped, const char *path)
+static int write_still(const thr_plan *plan, const thr_settle *settle, bool stopped,
+                       const char *path)
 {
   thr_err err = {0};
   thr_text svg = {0};
@@ -361,17 +413,19 @@ static int write_still(const thr_plan *plan, const thr_settle *settle, bool stop
     cli_error("%s: not written: stopped before the simulation was done", path);
     return EXIT_OK; /* what stopped it has a code of its own */
   }
-  if (!settle->present || !settle->before || !settle->after || settle->status == THR_SETTLE_TOO_LARGE ||
-      settle->status == THR_SETTLE_NEVER_SETTLED) {
+  if (!settle->present || !settle->before || !settle->after ||
+      settle->status == THR_SETTLE_TOO_LARGE || settle->status == THR_SETTLE_NEVER_SETTLED) {
     cli_error("%s: nothing to draw: %s", path,
-              settle->present && settle->status == THR_SETTLE_NEVER_SETTLED ? "the simulation never came to rest"
-                                                                            : "there was no simulation");
+              settle->present && settle->status == THR_SETTLE_NEVER_SETTLED
+                  ? "the simulation never came to rest"
+                  : "there was no simulation");
     return EXIT_INPUT;
   }
   return draw_still(plan, settle, &svg, &err) ? cli_fail(&err) : cli_write(&svg, path);
 }
 
-static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eval *eval, bool stopped)
+static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eval *eval,
+                         bool stopped)
 {
   thr_text text = {0};
   const char *to = a->output;
@@ -388,7 +442,9 @@ static int write_outputs(const arguments *a, const thr_plan *plan, const thr_eva
   if (!code && a->stills) code = write_stills(plan, &eval->erect, stopped, a->stills);
   const char *const out[] = {to, a->plot, a->still, a->stills};
   const eval_view view = {
-      a->pull.pull, a->strength, a->knot, a->tension, a->load.load != NULL, a->pull.options.dynamics && !a->load.load, stopped};
+      a->pull.pull, a->strength,          a->knot,
+      a->tension,   a->load.load != NULL, a->pull.options.dynamics && !a->load.load,
+      stopped};
   for (int i = 0; i < 4; i++)
     if (out[i] && strcmp(out[i], "-") == 0) return code;
   if (a->pull.json)
@@ -426,11 +482,12 @@ int cmd_eval(int argc, char **argv)
   bool known = (code == EXIT_OK || code == EXIT_LIMIT) && any_known(&eval.record);
   if (known) { /* the plan takes the record over, so that one thing is written, drawn and printed */
     if (thr_plan_take_evaluation(&plan, &eval.record) && a.output)
-      cli_note(
-          "note: what the plan proves within its limit on the pull is by the definition of plans of version 1; it is left out");
+      cli_note("note: what the plan proves within its limit on the pull is by the definition of "
+               "plans of version 1; it is left out");
     int written = write_outputs(&a, &plan, &eval, code == EXIT_LIMIT);
     if (written) code = written;
-    if (plan.evaluation.method == THR_JOINT && code == EXIT_OK) /* on stderr: results do not depend on it */
+    if (plan.evaluation.method == THR_JOINT &&
+        code == EXIT_OK) /* on stderr: results do not depend on it */
       cli_note("note: %d %s measured, %d from the cache", eval.joints_measured,
                cli_plural(eval.joints_measured, "joint", "joints"), eval.joints_cached);
   }
@@ -439,7 +496,8 @@ int cmd_eval(int argc, char **argv)
     const int written = write_stills(&plan, &eval.erect, false, a.stills);
     if (written) code = written;
   }
-  if (code == EXIT_LIMIT) cli_error(known ? "stopped: only a part is known" : "stopped before any cord was known");
+  if (code == EXIT_LIMIT)
+    cli_error(known ? "stopped: only a part is known" : "stopped before any cord was known");
   thr_schedule_destroy(&schedule);
   free(load);
   thr_eval_destroy(&eval);

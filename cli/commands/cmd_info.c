@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread info: what a framework is made of. */
 #include "cli/cli.h"
 #include "eval/structure/beads.h"
@@ -21,17 +22,23 @@ static const char help[] =
     "Examples:\n"
     "  thread info dome.obj --feet lowest\n"
     "  thread info nodes.csv --edges edges.csv --json\n"
-    "  thread info plan.json                         the framework inside a plan, the joints that its cords do not tie, and\n"
+    "  thread info plan.json                         the framework inside a plan, the joints that "
+    "its cords do not tie, and\n"
     "                                                the channels that cross inside a piece\n\n"
-    "The line `hinged` takes every node for a ball joint: can nodes move without an edge getting longer?\n"
-    "What can move must be held by joints that lock. A joint is tied if the cord alone holds its edges\n"
+    "The line `hinged` takes every node for a ball joint: can nodes move without an edge getting "
+    "longer?\n"
+    "What can move must be held by joints that lock. A joint is tied if the cord alone holds its "
+    "edges\n"
     "together (--joint tube); joints of solid beads need not be.\n\n"
     "Options:\n" CLI_FRAME_HELP "      --json           as JSON\n" GUARD_HELP
     "  -q, --quiet          no notes on what was merged or dropped       -h, --help\n";
 
 enum { OPTION_JSON = OPTION_FREE, MOST_DEGREES = 64, MOST_NAMES = 20, MOST_BARS = 50000 };
-static const struct option table[] = {
-    CLI_COMMON_OPTIONS, CLI_FRAME_OPTIONS, GUARD_OPTIONS, {"json", no_argument, NULL, OPTION_JSON}, {NULL, 0, NULL, 0}};
+static const struct option table[] = {CLI_COMMON_OPTIONS,
+                                      CLI_FRAME_OPTIONS,
+                                      GUARD_OPTIONS,
+                                      {"json", no_argument, NULL, OPTION_JSON},
+                                      {NULL, 0, NULL, 0}};
 
 typedef struct {
   int degree[MOST_DEGREES + 1]; /* nodes of each degree; the last counts all higher ones too */
@@ -49,7 +56,8 @@ typedef struct {
   thr_assumption assumption[THR_ASSUMPTIONS];
 } facts;
 
-/* Is the rank of the rigidity matrix worked out within a second or so? It is sparse unless edges are many for their nodes. */
+/* Is the rank of the rigidity matrix worked out within a second or so? It is sparse unless edges
+ * are many for their nodes. */
 static bool can_analyse(const thr_frame *frame)
 {
   const double most_work = 2e9, columns = 3.0 * frame->n_nodes;
@@ -94,8 +102,8 @@ static thr_status count_crossings(const thr_plan *plan, facts *a, thr_err *err)
   return THR_OK;
 }
 
-/* Joints that the cords of a plan do not tie, and channels that cross; nothing if the file is no valid plan. stdin has been read
- * already. */
+/* Joints that the cords of a plan do not tie, and channels that cross; nothing if the file is no
+ * valid plan. stdin has been read already. */
 static thr_status find_untied(const char *path, facts *a, thr_err *err)
 {
   thr_plan plan;
@@ -104,7 +112,9 @@ static thr_status find_untied(const char *path, facts *a, thr_err *err)
   thr_status st = thr_plan_read(&plan, path, &not_a_plan);
   if (st) return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;
   if (!(a->untied = thr_calloc((size_t)plan.frame.n_nodes, sizeof *a->untied))) st = thr_nomem(err);
-  if (!st) st = thr_junction_tied(&plan.frame, plan.cord, plan.n_cords, plan.options.ends == THR_ENDS_CLOSED, a->untied, err);
+  if (!st)
+    st = thr_junction_tied(&plan.frame, plan.cord, plan.n_cords,
+                           plan.options.ends == THR_ENDS_CLOSED, a->untied, err);
   for (int v = 0; v < plan.frame.n_nodes && !st; v++)
     a->n_untied += a->untied[v] = !a->untied[v];
   a->planned = !st;
@@ -120,7 +130,8 @@ static void put_motions(thr_text *text, const facts *a)
     thr_text_printf(text, "hinged      rigid, %d %s more than it needs", r->self_stresses,
                     r->self_stresses == 1 ? "edge" : "edges");
   else
-    thr_text_printf(text, "hinged      %d %s to move without stretching an edge", r->motions, r->motions == 1 ? "way" : "ways");
+    thr_text_printf(text, "hinged      %d %s to move without stretching an edge", r->motions,
+                    r->motions == 1 ? "way" : "ways");
   if (r->flat) thr_text_printf(text, "; %d within its plane", r->plane_motions);
   if (a->feet) thr_text_printf(text, "; %d with its feet held", r->pinned);
   thr_text_printf(text, "%s\n", r->unclear ? " (a close call: rounding decides)" : "");
@@ -139,8 +150,8 @@ static void put_rigidity(thr_text *text, const thr_frame *frame, const facts *a)
     if (a->untied[v]) thr_text_printf(text, "%s%s", shown++ ? " " : ": ", frame->name[v]);
   thr_text_append(text, shown < a->n_untied ? " ..\n" : "\n");
   if (a->channels)
-    thr_text_printf(text, "crossings   %" PRId64 " of two channels, inside %d of %d pieces\n", a->crossings, a->crossed,
-                    frame->n_nodes);
+    thr_text_printf(text, "crossings   %" PRId64 " of two channels, inside %d of %d pieces\n",
+                    a->crossings, a->crossed, frame->n_nodes);
 }
 
 /* Covers or capacities; 0 = none. */
@@ -156,30 +167,37 @@ static void put_range(thr_text *text, const char *what, const int *value, int n)
 
 static const char *from_words(thr_whence from)
 {
-  static const char *const words[] = {"assumed", "of the file's maker", "of the file", "as asked for"};
+  static const char *const words[] = {"assumed", "of the file's maker", "of the file",
+                                      "as asked for"};
   return words[from];
 }
 
 static void put_text(thr_text *text, const thr_frame *frame, const facts *a)
 {
   thr_text_printf(text, "nodes       %d, a piece each with solid joints\n", frame->n_nodes);
-  thr_text_printf(text, "edges       %d, interfaces of two pieces; with --joint tube a tube each\n", frame->n_edges);
+  thr_text_printf(text, "edges       %d, interfaces of two pieces; with --joint tube a tube each\n",
+                  frame->n_edges);
   thr_text_append(text, "degrees    ");
   for (int d = 0; d <= MOST_DEGREES; d++)
-    if (a->degree[d]) thr_text_printf(text, " %d x %d%s", a->degree[d], d, d == MOST_DEGREES ? " or more" : "");
-  thr_text_printf(text, "\nodd nodes   %d%s\n", a->odd, a->odd ? "" : " (one closed cord needs no overlap)");
-  thr_text_printf(text, "components  %d\nbridges     %d%s\nfeet        %d\n", a->components, a->bridges,
-                  a->bridges ? " (a closed cord passes each twice)" : "", a->feet);
-  thr_text_printf(text, "length      %.6f %s in all, edges from %.6g to %.6g%s\n", thr_frame_total_length(frame), frame->units,
-                  a->shortest, a->longest, frame->own_lengths ? " (given by the file)" : "");
+    if (a->degree[d])
+      thr_text_printf(text, " %d x %d%s", a->degree[d], d, d == MOST_DEGREES ? " or more" : "");
+  thr_text_printf(text, "\nodd nodes   %d%s\n", a->odd,
+                  a->odd ? "" : " (one closed cord needs no overlap)");
+  thr_text_printf(text, "components  %d\nbridges     %d%s\nfeet        %d\n", a->components,
+                  a->bridges, a->bridges ? " (a closed cord passes each twice)" : "", a->feet);
+  thr_text_printf(text, "length      %.6f %s in all, edges from %.6g to %.6g%s\n",
+                  thr_frame_total_length(frame), frame->units, a->shortest, a->longest,
+                  frame->own_lengths ? " (given by the file)" : "");
   if (frame->cover) put_range(text, "covers", frame->cover, frame->n_edges);
   if (frame->capacity) put_range(text, "capacities", frame->capacity, frame->n_edges);
-  thr_text_printf(text, "size        %.6g %s (diagonal of the bounding box)\n", thr_frame_diagonal(frame), frame->units);
+  thr_text_printf(text, "size        %.6g %s (diagonal of the bounding box)\n",
+                  thr_frame_diagonal(frame), frame->units);
   put_rigidity(text, frame, a);
   thr_text_printf(text, "hash        %016" PRIx64 "\n\nread as\n", thr_frame_hash(frame));
   for (int i = 0; i < a->n_assumptions; i++) {
     const thr_assumption *row = &a->assumption[i];
-    thr_text_printf(text, "%-11s %-11s %s%s%s\n", row->what, row->value, from_words(row->from), *row->why ? ": " : "", row->why);
+    thr_text_printf(text, "%-11s %-11s %s%s%s\n", row->what, row->value, from_words(row->from),
+                    *row->why ? ": " : "", row->why);
   }
 }
 
@@ -284,15 +302,18 @@ int cmd_info(int argc, char **argv)
   cli_frame_args args = cli_frame_args_default();
   guard_limits guard = guard_limits_default();
   guard_end end;
-  while ((o = cli_next_option(argc, argv, "info", ":" CLI_COMMON_LETTERS, table, help, &done)) != -1) {
-    if (cli_frame_option(&args, "info", o, optarg, &ok) || guard_option(&guard, "info", o, optarg, &ok)) {
+  while ((o = cli_next_option(argc, argv, "info", ":" CLI_COMMON_LETTERS, table, help, &done)) !=
+         -1) {
+    if (cli_frame_option(&args, "info", o, optarg, &ok) ||
+        guard_option(&guard, "info", o, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
     } else if (o == OPTION_JSON) {
       json = true;
     }
   }
   if (done >= 0) return done;
-  if (optind + 1 != argc) return cli_usage("info", optind == argc ? "which framework?" : "one framework at a time");
+  if (optind + 1 != argc)
+    return cli_usage("info", optind == argc ? "which framework?" : "one framework at a time");
   if (guard_fork(&guard, &end)) return guard_conclude(&end, "nothing is known");
   return tell(argv[optind], &args, json);
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread make: example frameworks. */
 #include "cli/cli.h"
 #include "graph/framework/frame.h"
@@ -9,23 +10,24 @@
 
 #include <string.h>
 
-static const char help[] = "thread make SHAPE [options]: an example framework\n\n"
-                           "Examples:\n"
-                           "  thread make dome --size 7 -o dome.json        7 x 7 nodes, feet at the four corners\n"
-                           "  thread make tube --size 12 --rings 7 -o tube.obj\n\n"
-                           "Shapes (what --size counts):\n"
-                           "  dome       square grid, domed, a foot at each corner (nodes per side)\n"
-                           "  geodesic   geodesic dome standing on its rim (frequency)\n"
-                           "  sphere     closed geodesic sphere (frequency)\n"
-                           "  tube       square grid rolled up, standing on its first ring (nodes around)\n"
-                           "  honeycomb  hexagonal grid, domed (rings of hexagons)\n\n"
-                           "Options:\n"
-                           "      --size N         see above\n"
-                           "      --rings N        tube: rings along the axis\n"
-                           "      --pitch MM       distance between neighbours in mm\n"
-                           "      --rise R         dome, honeycomb: height over half span\n"
-                           "  -o, --output FILE    .json, .obj, .csv, .ply, .dxf or .graphml (default: JSON on stdout)\n"
-                           "  -h, --help\n";
+static const char help[] =
+    "thread make SHAPE [options]: an example framework\n\n"
+    "Examples:\n"
+    "  thread make dome --size 7 -o dome.json        7 x 7 nodes, feet at the four corners\n"
+    "  thread make tube --size 12 --rings 7 -o tube.obj\n\n"
+    "Shapes (what --size counts):\n"
+    "  dome       square grid, domed, a foot at each corner (nodes per side)\n"
+    "  geodesic   geodesic dome standing on its rim (frequency)\n"
+    "  sphere     closed geodesic sphere (frequency)\n"
+    "  tube       square grid rolled up, standing on its first ring (nodes around)\n"
+    "  honeycomb  hexagonal grid, domed (rings of hexagons)\n\n"
+    "Options:\n"
+    "      --size N         see above\n"
+    "      --rings N        tube: rings along the axis\n"
+    "      --pitch MM       distance between neighbours in mm\n"
+    "      --rise R         dome, honeycomb: height over half span\n"
+    "  -o, --output FILE    .json, .obj, .csv, .ply, .dxf or .graphml (default: JSON on stdout)\n"
+    "  -h, --help\n";
 
 enum { OPTION_SIZE = OPTION_FREE, OPTION_RINGS, OPTION_PITCH, OPTION_RISE };
 static const struct option table[] = {CLI_COMMON_OPTIONS,
@@ -45,7 +47,8 @@ static int find_shape(const char *name)
     thr_suggestion_try(&suggestion, thr_shape_name(i));
   }
   thr_suggestion_ask(&suggestion, question);
-  cli_usage("make", "there is no shape %s; there are dome, geodesic, sphere, tube and honeycomb%s", name, question);
+  cli_usage("make", "there is no shape %s; there are dome, geodesic, sphere, tube and honeycomb%s",
+            name, question);
   return -1;
 }
 
@@ -63,7 +66,8 @@ static bool apply(const arguments *a, thr_make_options *options)
   }
   if (a->size && !cli_int("make", "--size", a->size, 1, 1000000, &options->size)) return false;
   if (a->rings && !cli_int("make", "--rings", a->rings, 1, 1000000, &options->rings)) return false;
-  if (a->pitch && !cli_double("make", "--pitch", a->pitch, 1e-6, 1e9, &options->pitch)) return false;
+  if (a->pitch && !cli_double("make", "--pitch", a->pitch, 1e-6, 1e9, &options->pitch))
+    return false;
   return !a->rise || cli_double("make", "--rise", a->rise, 0, 100, &options->rise);
 }
 
@@ -87,7 +91,8 @@ int cmd_make(int argc, char **argv)
 {
   int done, option;
   arguments a = {.output = "-"};
-  while ((option = cli_next_option(argc, argv, "make", ":" CLI_COMMON_LETTERS "o:", table, help, &done)) != -1) {
+  while ((option = cli_next_option(argc, argv, "make", ":" CLI_COMMON_LETTERS "o:", table, help,
+                                   &done)) != -1) {
     switch (option) {
     case OPTION_SIZE: a.size = optarg; break;
     case OPTION_RINGS: a.rings = optarg; break;
@@ -98,7 +103,9 @@ int cmd_make(int argc, char **argv)
   }
   if (done >= 0) return done;
   if (optind + 1 != argc)
-    return cli_usage("make", optind == argc ? "which shape? dome, geodesic, sphere, tube or honeycomb" : "one shape at a time");
+    return cli_usage("make", optind == argc
+                                 ? "which shape? dome, geodesic, sphere, tube or honeycomb"
+                                 : "one shape at a time");
   int shape = find_shape(argv[optind]);
   if (shape < 0) return EXIT_USAGE;
   const thr_format *format;

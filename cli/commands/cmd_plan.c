@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread plan: framework in, plan and diagrams out. */
 #include "cli/advice.h"
 #include "cli/args/request_args.h"
@@ -26,47 +27,69 @@
 #include <unistd.h>
 
 static const char help_requests[] =
-    "thread plan FRAME [options]: plan how cord is threaded: shortest or turning least, proved, or symmetric\n\n"
+    "thread plan FRAME [options]: plan how cord is threaded: shortest or turning least, proved, or "
+    "symmetric\n\n"
     "Examples:\n"
-    "  thread plan dome.obj                          plan.json, overview.svg, sheets.pdf and more in the folder dome/\n"
+    "  thread plan dome.obj                          plan.json, overview.svg, sheets.pdf and more "
+    "in the folder dome/\n"
     "  thread plan dome.obj --cover 2 -o plan.json   two passes per interface; the plan only\n"
-    "  thread plan dome.obj --cords 4 --ends feet --feet lowest --balance   four cords of much the same length\n"
+    "  thread plan dome.obj --cords 4 --ends feet --feet lowest --balance   four cords of much the "
+    "same length\n"
     "  thread plan dome.obj --max-length 900 --ends any   as few cords as that takes\n"
-    "  thread plan dome.obj --objective tortuosity   the cord that turns least: it pulls most easily\n"
-    "  thread plan dome.obj --objective symmetry     a short path to learn, and its mirrored and turned copies\n"
+    "  thread plan dome.obj --objective tortuosity   the cord that turns least: it pulls most "
+    "easily\n"
+    "  thread plan dome.obj --objective symmetry     a short path to learn, and its mirrored and "
+    "turned copies\n"
     "  thread make dome | thread plan - -o - | thread check -\n\n"
     "What is planned:\n" AIMS_HELP CORDS_HELP
-    "      --crossings allow|price|forbid   channels that cross inside a piece: any (default); fewer, where cords can be led\n"
-    "                       otherwise at equal length, by more turns (with an aim of turning: at equal turning); none, by\n"
-    "                       more turns in any case. Cords that cross each other exchange their ends, closed ones are\n"
-    "                       joined and cut elsewhere, if what is asked of single cords allows it (--balance, --max-length,\n"
+    "      --crossings allow|price|forbid   channels that cross inside a piece: any (default); "
+    "fewer, where cords can be led\n"
+    "                       otherwise at equal length, by more turns (with an aim of turning: at "
+    "equal turning); none, by\n"
+    "                       more turns in any case. Cords that cross each other exchange their "
+    "ends, closed ones are\n"
+    "                       joined and cut elsewhere, if what is asked of single cords allows it "
+    "(--balance, --max-length,\n"
     "                       --distinct). Not with tube joints or copies\n";
 static const char help_rest[] =
-    "      --gap PERCENT    enough is a plan that is proved to be at most so much above the least possible, 0 = the least\n"
+    "      --gap PERCENT    enough is a plan that is proved to be at most so much above the least "
+    "possible, 0 = the least\n"
     "                       itself (default: 0 for length, else 1). A search ends there\n"
-    "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never (default: 0; other\n"
-    "                       objectives and tube joints: 20). --frontier, --compare-shortest and --compare-objectives share\n"
-    "                       an S that is given; else each search has its 20 s. Drawings are made whole, and take their time.\n"
-    "                       Without S --max-pull, one cord that turns least, and several by their largest turning,\n"
-    "                       count their work instead, some three seconds, ten times as much for --max-pull where that\n"
-    "                       finds no cords: the same plan on every machine, later on a busy one\n" GUARD_MEMORY_HELP
-    "\n" TURNING_HELP "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
+    "      --time-limit S   stop after S seconds with the best plan so far and its gap, 0 = never "
+    "(default: 0; other\n"
+    "                       objectives and tube joints: 20). --frontier, --compare-shortest and "
+    "--compare-objectives share\n"
+    "                       an S that is given; else each search has its 20 s. Drawings are made "
+    "whole, and take their time.\n"
+    "                       Without S --max-pull, one cord that turns least, and several by their "
+    "largest turning,\n"
+    "                       count their work instead, some three seconds, ten times as much for "
+    "--max-pull where that\n"
+    "                       finds no cords: the same plan on every machine, later on a busy "
+    "one\n" GUARD_MEMORY_HELP "\n" TURNING_HELP
+    "\nSymmetry (with --objective symmetry; thread symmetries --help says more):\n"
     "      --group ID|NAME   --geometric TOL   --prefer overlap,steps,paths,turning\n"
     "\nFramework:\n" CLI_FRAME_HELP;
 static const char help_output[] =
     "\nOutput:\n"
     "  -o, --output FILE    write the plan here (- = stdout), and no diagrams unless --draw\n"
     "      --draw DIR       write the diagrams into this folder, and without -o the plan too\n"
-    "                       (no sheets.pdf for more than 1000 pieces: thread draw PLAN -T pdf makes it)\n"
-    "      --force          in a folder named after FRAME, replace another plan (else FRAME-2, FRAME-3, ..)\n" DRAWINGS_HELP
-    "      --order starts|hand|planned   cords begin and run so that what is threaded holds together: for as little\n"
-    "                       turning as serves, a twentieth more at most (default), a tenth, or not at all\n"
+    "                       (no sheets.pdf for more than 1000 pieces: thread draw PLAN -T pdf "
+    "makes it)\n"
+    "      --force          in a folder named after FRAME, replace another plan (else FRAME-2, "
+    "FRAME-3, ..)\n" DRAWINGS_HELP "      --order starts|hand|planned   cords begin and run so "
+    "that what is threaded holds together: for as little\n"
+    "                       turning as serves, a twentieth more at most (default), a tenth, or not "
+    "at all\n"
     "      --json           summary as JSON on stdout\n"
     "      --progress       a line of JSON on stderr each time the plan or its bound is better\n"
-    "      --compare-objectives   pull of this plan beside those for the other objectives, joints simulated\n" PULL_RUN_HELP
-    "  -q, --quiet          no notes and no summary       -v, --verbose  what the solver does       -h, --help\n\n"
-    "Exit codes: 0 as asked: the shortest, or within the gap; of other aims without --gap and --time-limit within any gap,\n"
-    "which is said; 2 usage, 3 bad input, 4 infeasible or none found, 5 not as asked (plan written), 70 internal.\n"
+    "      --compare-objectives   pull of this plan beside those for the other objectives, joints "
+    "simulated\n" PULL_RUN_HELP "  -q, --quiet          no notes and no summary       -v, "
+    "--verbose  what the solver does       -h, --help\n\n"
+    "Exit codes: 0 as asked: the shortest, or within the gap; of other aims without --gap and "
+    "--time-limit within any gap,\n"
+    "which is said; 2 usage, 3 bad input, 4 infeasible or none found, 5 not as asked (plan "
+    "written), 70 internal.\n"
     "What is said of cord and beads is stored in the plan; thread eval begins with it.\n";
 
 /* One text: as one literal it would be longer than C promises to take. */
@@ -77,7 +100,13 @@ static const char *help(void)
   return text;
 }
 
-enum { OPTION_COMPARE = OPTION_REQUEST_FREE, OPTION_DRAW, OPTION_FORCE, OPTION_JSON, OPTION_PROGRESS };
+enum {
+  OPTION_COMPARE = OPTION_REQUEST_FREE,
+  OPTION_DRAW,
+  OPTION_FORCE,
+  OPTION_JSON,
+  OPTION_PROGRESS
+};
 
 static const struct option table[] = {CLI_COMMON_OPTIONS,
                                       CLI_FRAME_OPTIONS,
@@ -118,11 +147,15 @@ static int parse(int argc, char **argv, arguments *a)
                    .guard = guard_limits_default(),
                    .drawings = {.quick = true}};
   pull_args_init(&a->pull, THR_JOINT);
-  while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan", ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(),
-                                 &done)) != -1) {
-    if (cli_frame_option(&a->frame, "plan", o, optarg, &ok) || pull_option(&a->pull, "plan", o, optarg, &ok) ||
-        symmetry_option(&a->symmetry, "plan", o, optarg, &ok) || request_option(&a->request, o, optarg, &ok) ||
-        drawings_option(&a->drawings, "plan", o, optarg, &ok) || guard_option(&a->guard, "plan", o, optarg, &ok)) {
+  while ((o = cli_physics_option(&a->pull.physics, argc, argv, "plan",
+                                 ":" CLI_COMMON_LETTERS PULL_LETTERS "o:", table, help(), &done)) !=
+         -1) {
+    if (cli_frame_option(&a->frame, "plan", o, optarg, &ok) ||
+        pull_option(&a->pull, "plan", o, optarg, &ok) ||
+        symmetry_option(&a->symmetry, "plan", o, optarg, &ok) ||
+        request_option(&a->request, o, optarg, &ok) ||
+        drawings_option(&a->drawings, "plan", o, optarg, &ok) ||
+        guard_option(&a->guard, "plan", o, optarg, &ok)) {
       if (!ok) return EXIT_USAGE;
       continue;
     }
@@ -138,12 +171,18 @@ static int parse(int argc, char **argv, arguments *a)
     if (done >= 0) return done;
   }
   if (done >= 0) return done;
-  if (optind + 1 != argc) return cli_usage("plan", optind == argc ? "which framework?" : "one framework at a time");
+  if (optind + 1 != argc)
+    return cli_usage("plan", optind == argc ? "which framework?" : "one framework at a time");
   a->path = argv[optind];
-  if ((a->output && !*a->output) || (a->draw && !*a->draw)) return cli_usage("plan", "an empty name is no place to write to");
+  if ((a->output && !*a->output) || (a->draw && !*a->draw))
+    return cli_usage("plan", "an empty name is no place to write to");
   if (a->output && cli_no_plan_name("plan", a->output)) return EXIT_USAGE;
-  const char *wordy = a->json ? "--json" : a->compare ? "--compare-objectives" : a->request.frontier ? "--frontier" : NULL;
-  if (wordy && a->output && strcmp(a->output, "-") == 0) return cli_usage("plan", "%s and -o - both want stdout", wordy);
+  const char *wordy = a->json               ? "--json"
+                      : a->compare          ? "--compare-objectives"
+                      : a->request.frontier ? "--frontier"
+                                            : NULL;
+  if (wordy && a->output && strcmp(a->output, "-") == 0)
+    return cli_usage("plan", "%s and -o - both want stdout", wordy);
   return request_args_check(&a->request, &a->symmetry, &a->wanted);
 }
 
@@ -152,23 +191,27 @@ static void ask(const arguments *a, thr_objective objective, thr_request *option
 {
   request_args_ask(&a->request, &a->symmetry, objective, options);
   if (options->order != THR_ORDER_PLANNED) options->needles = a->drawings.needles;
-  options->time_limit = a->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : a->guard.seconds;
+  options->time_limit =
+      a->guard.seconds < 0 ? thr_dispatch_usual_seconds(options) : a->guard.seconds;
 }
 
-/* What was said of cord and beads must fit the framework; if nothing was, a framework of any size will do. */
+/* What was said of cord and beads must fit the framework; if nothing was, a framework of any size
+ * will do. */
 static int apply_physics(const arguments *a, const thr_frame *framework, thr_request *options)
 {
   thr_err err = {0};
   thr_physics resolved;
   int code = cli_physics_apply(&a->pull.physics, &options->physics);
   if (code || a->pull.physics.n == 0) return code;
-  return thr_physics_resolve(&options->physics, framework, &resolved, &err) ? cli_fail(&err) : EXIT_OK;
+  return thr_physics_resolve(&options->physics, framework, &resolved, &err) ? cli_fail(&err)
+                                                                            : EXIT_OK;
 }
 
 /* ---- the other objectives ---- */
 
 /* code: why its pull is not known, EXIT_OK if it is. */
-static void put_pull_json(thr_writer *writer, thr_objective objective, const thr_eval *eval, int code)
+static void put_pull_json(thr_writer *writer, thr_objective objective, const thr_eval *eval,
+                          int code)
 {
   thr_write_object(writer, NULL);
   thr_write_string(writer, "objective", thr_objective_name(objective));
@@ -180,23 +223,28 @@ static void put_pull_json(thr_writer *writer, thr_objective objective, const thr
   thr_write_close(writer);
 }
 
-static void put_pull(thr_text *text, const arguments *a, thr_objective objective, const thr_plan *p, const thr_eval *eval,
-                     int code)
+static void put_pull(thr_text *text, const arguments *a, thr_objective objective, const thr_plan *p,
+                     const thr_eval *eval, int code)
 {
   thr_text_printf(text, "  %-12s", thr_objective_name(objective));
   if (code == EXIT_OK) {
-    thr_text_printf(text, eval->refused ? "%12.4g N (error at least %.3g %%" : "%12.4g N (+-%.3g %%", eval->record.largest,
-                    pull_percent(eval->error));
-    if (eval->refused) thr_text_printf(text, ": %d %s by closed form", eval->refused, cli_plural(eval->refused, "turn", "turns"));
+    thr_text_printf(text,
+                    eval->refused ? "%12.4g N (error at least %.3g %%" : "%12.4g N (+-%.3g %%",
+                    eval->record.largest, pull_percent(eval->error));
+    if (eval->refused)
+      thr_text_printf(text, ": %d %s by closed form", eval->refused,
+                      cli_plural(eval->refused, "turn", "turns"));
     thr_text_printf(text, ")%s", objective == a->request.objective ? "   this plan" : "");
-    if (thr_wants_symmetry(&p->options)) thr_text_printf(text, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
+    if (thr_wants_symmetry(&p->options))
+      thr_text_printf(text, "   %d %s", p->n_cords, cli_plural(p->n_cords, "cord", "cords"));
   } else {
     thr_text_printf(text, "%14s", "not known");
   }
   thr_text_append(text, "\n");
 }
 
-static int put_objective(thr_writer *writer, const arguments *a, thr_objective objective, const thr_plan *p)
+static int put_objective(thr_writer *writer, const arguments *a, thr_objective objective,
+                         const thr_plan *p)
 {
   thr_eval eval;
   int code = pull_eval(&a->pull, thr_objective_name(objective), p, THR_JOINT, &eval);
@@ -209,7 +257,8 @@ static int put_objective(thr_writer *writer, const arguments *a, thr_objective o
 }
 
 /* Time that nobody asked for is no limit on work that is counted. *work: what limits count with. */
-static thr_limits limits_for(const arguments *a, const thr_request *options, double seconds, double *work)
+static thr_limits limits_for(const arguments *a, const thr_request *options, double seconds,
+                             double *work)
 {
   const bool unsaid = a->guard.seconds < 0;
   thr_limits limits = cli_limits((unsaid ? thr_dispatch_patience(options) : 1) * seconds);
@@ -218,7 +267,8 @@ static thr_limits limits_for(const arguments *a, const thr_request *options, dou
   return unsaid && *work > 0 ? thr_limits_counted(&limits, work) : limits;
 }
 
-static int plan_and_put(thr_writer *writer, const arguments *a, thr_objective objective, const thr_plan *p, double deadline)
+static int plan_and_put(thr_writer *writer, const arguments *a, thr_objective objective,
+                        const thr_plan *p, double deadline)
 {
   thr_err err = {0};
   thr_plan other = {0};
@@ -236,7 +286,8 @@ static int plan_and_put(thr_writer *writer, const arguments *a, thr_objective ob
 }
 
 /* Pull of this plan beside that of the plans for the other objectives. */
-static int put_comparison(thr_writer *writer, const arguments *a, const thr_plan *p, double deadline)
+static int put_comparison(thr_writer *writer, const arguments *a, const thr_plan *p,
+                          double deadline)
 {
   int code = EXIT_OK;
   if (a->json)
@@ -257,7 +308,8 @@ typedef struct {
   thr_report report;
 } planned;
 
-/* When all must be done: the plan and what it is held against share the time that was asked for; 0 = none was. */
+/* When all must be done: the plan and what it is held against share the time that was asked for; 0
+ * = none was. */
 static double deadline_of(const arguments *a)
 {
   return a->guard.seconds > 0 ? guard_deadline() : 0;
@@ -267,10 +319,12 @@ static double deadline_of(const arguments *a)
 static double time_of_plan(const arguments *a, const thr_request *options)
 {
   bool more = a->request.compare || a->request.frontier || a->compare;
-  return a->guard.seconds <= 0 ? options->time_limit : thr_dispatch_search_seconds(options->time_limit, more);
+  return a->guard.seconds <= 0 ? options->time_limit
+                               : thr_dispatch_search_seconds(options->time_limit, more);
 }
 
-static void put_plan(thr_writer *writer, const arguments *a, const planned *x, const thr_rivals *rivals)
+static void put_plan(thr_writer *writer, const arguments *a, const planned *x,
+                     const thr_rivals *rivals)
 {
   if (a->json)
     plan_put_json(writer, &x->plan, rivals, x->report.word);
@@ -292,10 +346,12 @@ static int write_frontier(const arguments *a, const thr_plan *plan, const thr_ri
   }
   cli_stem(a->path, stem, sizeof stem);
   thr_frontier_mark *mark = thr_calloc((size_t)frontier->n, sizeof *mark);
-  thr_status st = mark ? thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, &err) : thr_nomem(&err);
+  thr_status st = mark ? thr_physics_resolve(&plan->options.physics, &plan->frame, &physics, &err)
+                       : thr_nomem(&err);
   for (int i = 0; i < frontier->n && !st; i++) {
     const thr_frontier_point *point = &frontier->point[i];
-    mark[i] = (thr_frontier_mark){.length = point->length, .turning = point->turning, .proved = !point->open};
+    mark[i] = (thr_frontier_mark){
+        .length = point->length, .turning = point->turning, .proved = !point->open};
     thr_advice_pulls(&physics, point->pulled, mark[i].pull);
   }
   const thr_frontier_chart chart = {.name = stem,
@@ -315,10 +371,12 @@ static int put_turning(thr_writer *writer, const arguments *a, planned *x)
   thr_err err = {0};
   thr_limits limits = cli_limits(0);
   limits.deadline = deadline_of(a);
-  thr_status st = thr_rivals_make(&x->plan, &x->report.shortest, a->request.compare, a->request.frontier, &limits, &rivals, &err);
+  thr_status st = thr_rivals_make(&x->plan, &x->report.shortest, a->request.compare,
+                                  a->request.frontier, &limits, &rivals, &err);
   cli_progress_end();
   if (a->request.frontier && !a->request.minimize && x->plan.options.cords > 1)
-    cli_note("note: with --frontier all turning together is minimized; --minimize max-turning is for the cord that turns most");
+    cli_note("note: with --frontier all turning together is minimized; --minimize max-turning is "
+             "for the cord that turns most");
   if (rivals.no_frontier.code) cli_note("no frontier: %s", rivals.no_frontier.text);
   put_plan(writer, a, x, &rivals);
   int code = st ? cli_fail(&err) : EXIT_OK;
@@ -373,7 +431,8 @@ static int print_summary(const arguments *a, planned *x)
 
 /* ---- outputs ---- */
 
-/* Where plan and diagrams go: where the options say; where they say nothing, in a folder named after the framework. */
+/* Where plan and diagrams go: where the options say; where they say nothing, in a folder named
+ * after the framework. */
 typedef struct {
   const char *plan, *folder; /* folder: NULL = no diagrams */
   char own[280], in_folder[1200];
@@ -400,15 +459,19 @@ static void find_folder(const arguments *a, const thr_text *text, char folder[28
   cli_stem(a->path, stem, sizeof stem);
   snprintf(folder, 280, "%s", stem);
   const bool reads = drawings_would_lose(stem);
-  for (int i = 2; i <= MOST && ((!a->force && holds_another(folder, text)) || drawings_would_lose(folder)); i++)
+  for (int i = 2;
+       i <= MOST && ((!a->force && holds_another(folder, text)) || drawings_would_lose(folder));
+       i++)
     snprintf(folder, 280, "%s-%d", stem, i);
   if (strcmp(folder, stem) != 0)
-    cli_note(reads ? "note: in %s a drawing would take the place of a file that is read: this plan is in %s"
+    cli_note(reads ? "note: in %s a drawing would take the place of a file that is read: this plan "
+                     "is in %s"
                    : "note: %s holds another plan: this one is in %s (--force replaces the other)",
              stem, folder);
 }
 
-/* Before the search: where drawings and the plan go unasked is tried, and no drawing takes the place of a file that is named. */
+/* Before the search: where drawings and the plan go unasked is tried, and no drawing takes the
+ * place of a file that is named. */
 static int try_places(const arguments *a)
 {
   char stem[256];
@@ -426,32 +489,37 @@ static int find_places(const arguments *a, const thr_text *text, places *to)
   if (!a->draw && !a->output) find_folder(a, text, to->own);
   to->folder = a->draw ? a->draw : a->output ? NULL : to->own;
   to->plan = a->output ? a->output : to->in_folder;
-  return to->folder ? cli_in_folder(to->folder, "plan.json", to->in_folder, sizeof to->in_folder) : EXIT_OK;
+  return to->folder ? cli_in_folder(to->folder, "plan.json", to->in_folder, sizeof to->in_folder)
+                    : EXIT_OK;
 }
 
-/* What is written is first read back and checked as a whole, as by thread check: a claim that it would refuse is not left. *code:
- * of the plan, if it is kept. */
+/* What is written is first read back and checked as a whole, as by thread check: a claim that it
+ * would refuse is not left. *code: of the plan, if it is kept. */
 static int check_text(thr_text *text, const char *path, thr_plan *plan, int *code)
 {
   thr_err err = {0};
   int dropped;
   if (text->failed) return EXIT_OK; /* writing says so */
-  thr_status st = thr_plan_confirm(plan, text, strcmp(path, "-") == 0 ? "stdout" : path, &dropped, &err);
+  thr_status st =
+      thr_plan_confirm(plan, text, strcmp(path, "-") == 0 ? "stdout" : path, &dropped, &err);
   if (st == THR_ENOMEM) return cli_fail(&err);
   if (st) {
-    cli_error("a fault of this program: the plan does not pass its own check, and is not written: %s", err.text);
+    cli_error(
+        "a fault of this program: the plan does not pass its own check, and is not written: %s",
+        err.text);
     return EXIT_INTERNAL;
   }
   for (int claim = 1; claim <= THR_CLAIMS_ALL; claim *= 2)
     if (dropped & claim)
-      cli_error("a fault of this program: what it proved of %s does not pass its own check, and is left out: %s",
+      cli_error("a fault of this program: what it proved of %s does not pass its own check, and is "
+                "left out: %s",
                 thr_claim_name(claim), err.text);
   if (dropped) *code = EXIT_LIMIT;
   return EXIT_OK;
 }
 
-/* From here on the plan is what this run leaves, with this exit code, which is another if the plan lost a claim. Where it cannot
- * be written, to->plan says where it is instead. */
+/* From here on the plan is what this run leaves, with this exit code, which is another if the plan
+ * lost a claim. Where it cannot be written, to->plan says where it is instead. */
 static int write_plan(const arguments *a, thr_plan *p, places *to, int *code)
 {
   thr_text text = {0};
@@ -473,8 +541,8 @@ static int write_plan(const arguments *a, thr_plan *p, places *to, int *code)
 /* Was nothing said of what the plan is to be, and how long it may take? */
 static bool is_usual(const arguments *a, const thr_request *options)
 {
-  return thr_wants_length(options) && !thr_wants_balance(options) && request_args_usual(&a->request) && a->guard.seconds < 0 &&
-         !a->compare;
+  return thr_wants_length(options) && !thr_wants_balance(options) &&
+         request_args_usual(&a->request) && a->guard.seconds < 0 && !a->compare;
 }
 
 static void put_order(const arguments *a, const thr_plan *p, thr_text *text)
@@ -485,8 +553,10 @@ static void put_order(const arguments *a, const thr_plan *p, thr_text *text)
   thr_text_append(text, "\n");
 }
 
-/* Where the plan is and, unless folder is NULL, the drawings; and what to do if a hand cannot pull it. */
-static int print_places(const arguments *a, const thr_plan *p, const char *plan_path, const char *folder)
+/* Where the plan is and, unless folder is NULL, the drawings; and what to do if a hand cannot pull
+ * it. */
+static int print_places(const arguments *a, const thr_plan *p, const char *plan_path,
+                        const char *folder)
 {
   const bool usual = is_usual(a, &p->options);
   char names[DRAWINGS_NAMES];
@@ -516,8 +586,9 @@ static int write_drawings(const arguments *a, const thr_plan *p, const places *t
   guard_allow(0);
   const int code = drawings_write_all(p, to->folder, &a->drawings);
   if (!code && drawings_no_sheets(p, &a->drawings))
-    cli_note("no sheets.pdf, which has hundreds of pages for more than %d pieces: thread draw %s -T pdf", DRAWINGS_SHEETS_PIECES,
-             strcmp(to->plan, "-") == 0 ? "plan.json" : to->plan);
+    cli_note(
+        "no sheets.pdf, which has hundreds of pages for more than %d pieces: thread draw %s -T pdf",
+        DRAWINGS_SHEETS_PIECES, strcmp(to->plan, "-") == 0 ? "plan.json" : to->plan);
   return code;
 }
 
@@ -532,16 +603,20 @@ static int write_outputs(const arguments *a, planned *x, int *planned_code)
   int code = is_silent ? EXIT_OK : print_summary(a, x);
   const int drawn = written ? EXIT_OK : write_drawings(a, p, &to);
   if (!code) code = drawn;
-  if (!code && !is_silent && !a->json && !cli_quiet) code = print_places(a, p, to.plan, written ? NULL : to.folder);
+  if (!code && !is_silent && !a->json && !cli_quiet)
+    code = print_places(a, p, to.plan, written ? NULL : to.folder);
   return written ? written : code;
 }
 
 /* Time that nobody asked for is the search's alone. */
-static thr_status make_plan(const arguments *a, const thr_frame *framework, const thr_request *options, planned *x, thr_err *err)
+static thr_status make_plan(const arguments *a, const thr_frame *framework,
+                            const thr_request *options, planned *x, thr_err *err)
 {
   double work;
   if (a->guard.seconds < 0)
-    guard_allow(options->time_limit > 0 ? 1 + 1.1 * thr_dispatch_patience(options) * options->time_limit : 0);
+    guard_allow(options->time_limit > 0
+                    ? 1 + 1.1 * thr_dispatch_patience(options) * options->time_limit
+                    : 0);
   thr_limits limits = limits_for(a, options, time_of_plan(a, options), &work);
   best_begin(framework, options);
   limits.found = best_found;
@@ -552,7 +627,8 @@ static thr_status make_plan(const arguments *a, const thr_frame *framework, cons
   return st;
 }
 
-/* Says why there is no plan: in one line, and with --json as an object, too. Returns the exit code. */
+/* Says why there is no plan: in one line, and with --json as an object, too. Returns the exit code.
+ */
 static int refuse(const arguments *a, const thr_err *err)
 {
   thr_text text = {0};
@@ -579,7 +655,9 @@ static int plan_frame(const arguments *a, thr_frame *framework)
   if (!code) code = request_args_apply(&a->request, framework, &options);
   if (code == EXIT_OK) {
     thr_status st = make_plan(a, framework, &options, &x, &err);
-    if (guard_deadline() > 0) best_found(NULL, x.plan.cord, x.plan.n_cords, x.plan.symmetry.present ? &x.plan.symmetry : NULL);
+    if (guard_deadline() > 0)
+      best_found(NULL, x.plan.cord, x.plan.n_cords,
+                 x.plan.symmetry.present ? &x.plan.symmetry : NULL);
     best_begin(NULL, NULL);
     thr_frame_destroy(framework);
     int planned_code = st ? EXIT_LIMIT : EXIT_OK;
@@ -595,7 +673,8 @@ static int plan_frame(const arguments *a, thr_frame *framework)
   return code;
 }
 
-/* Draws a plan that a search left which did not end by itself, in a process of its own: what fits is drawn. */
+/* Draws a plan that a search left which did not end by itself, in a process of its own: what fits
+ * is drawn. */
 static int draw_kept(const arguments *a, const places *to)
 {
   const guard_limits limits = {.memory = a->guard.memory};
@@ -612,20 +691,26 @@ static int draw_kept(const arguments *a, const places *to)
   return EXIT_LIMIT; /* of the search */
 }
 
-/* After the planning, in the parent if there is one: if it left no plan, but had some cords, they are the plan. */
+/* After the planning, in the parent if there is one: if it left no plan, but had some cords, they
+ * are the plan. */
 static int conclude(const arguments *a, guard_end *end)
 {
   places to;
-  if (end->written) return guard_conclude(end, "the plan is written, but not all that was to be drawn or said of it");
-  bool searched = end->code == EXIT_LIMIT || end->code == EXIT_INFEASIBLE || end->code == EXIT_INTERNAL;
+  if (end->written)
+    return guard_conclude(end,
+                          "the plan is written, but not all that was to be drawn or said of it");
+  bool searched =
+      end->code == EXIT_LIMIT || end->code == EXIT_INFEASIBLE || end->code == EXIT_INTERNAL;
   bool told = end->reason == GUARD_DONE && !searched; /* what the user wants to know */
   if (end->kept.length == 0 || told) return guard_conclude(end, "no plan was found");
   int code = find_places(a, &end->kept, &to);
   if (!code) code = cli_write_kept(&end->kept, &to.plan);
   thr_text_destroy(&end->kept);
   if (code) return code;
-  cli_error("%s%s%s holds the best plan so far, of which nothing is proved", end->why, *end->why ? ": " : "", to.plan);
-  if (to.folder && end->reason != GUARD_INTERRUPTED && strcmp(to.plan, "-") != 0) return draw_kept(a, &to);
+  cli_error("%s%s%s holds the best plan so far, of which nothing is proved", end->why,
+            *end->why ? ": " : "", to.plan);
+  if (to.folder && end->reason != GUARD_INTERRUPTED && strcmp(to.plan, "-") != 0)
+    return draw_kept(a, &to);
   return EXIT_LIMIT;
 }
 

@@ -1,4 +1,6 @@
-/* The table of `thread advise`, as text and as JSON, and the command that makes the recommended plan. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of `thread advise`, as text and as JSON, and the command that makes the recommended
+ * plan. */
 #include "cli/print/print.h"
 #include "graph/angle.h"
 
@@ -8,7 +10,8 @@
 
 void advice_put_word(thr_text *text, const char *word)
 {
-  static const char safe[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:+=@%";
+  static const char safe[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:+=@%";
   if (*word && strspn(word, safe) == strlen(word)) {
     thr_text_append(text, word);
     return;
@@ -22,24 +25,28 @@ void advice_put_word(thr_text *text, const char *word)
   thr_text_append(text, "'");
 }
 
-void advice_put_command(thr_text *text, const char *path, const char *options, const thr_advice_row *row)
+void advice_put_command(thr_text *text, const char *path, const char *options,
+                        const thr_advice_row *row)
 {
   thr_text_append(text, "thread plan ");
   advice_put_word(text, path);
   if (row->uneven) { /* each component has a number of its own */
     const double digits = pow(10, 3 - floor(log10(row->pull[THR_ADVICE_MU])));
-    thr_text_printf(text, "%s --max-pull %g --ends %s", options, ceil(row->pull[THR_ADVICE_MU] * digits) / digits,
+    thr_text_printf(text, "%s --max-pull %g --ends %s", options,
+                    ceil(row->pull[THR_ADVICE_MU] * digits) / digits,
                     thr_ends_name((int)row->ends));
     return;
   }
-  thr_text_printf(text, "%s --cords %d --ends %s --objective tortuosity --minimize pull", options, row->cords,
-                  thr_ends_name((int)row->ends));
+  thr_text_printf(text, "%s --cords %d --ends %s --objective tortuosity --minimize pull", options,
+                  row->cords, thr_ends_name((int)row->ends));
 }
 
 void advice_put_cords(thr_text *text, const thr_advice_row *row)
 {
   const char *closed = row->ends == THR_ENDS_CLOSED ? "closed " : "";
-  const char *where = row->ends == THR_ENDS_CLOSED ? "" : row->ends == THR_ENDS_FEET ? " to the feet" : " with ends anywhere";
+  const char *where = row->ends == THR_ENDS_CLOSED ? ""
+                      : row->ends == THR_ENDS_FEET ? " to the feet"
+                                                   : " with ends anywhere";
   thr_text_printf(text, "%d %s%s", row->cords, closed, cli_plural(row->cords, "cord", "cords"));
   if (row->uneven)
     thr_text_printf(text, " at most in a component, %d in all,", row->all);
@@ -54,12 +61,16 @@ void advice_put_head(thr_text *text, const thr_frame *frame, const thr_physics *
 {
   char units[24];
   snprintf(units, sizeof units, "cord, %.15s", frame->units);
-  thr_text_printf(text, "%d pieces, %d %s; pull at both ends of every cord, so that %g N is left where it is slackest;\n",
-                  frame->n_nodes, frame->n_edges, cli_plural(frame->n_edges, "interface", "interfaces"), physics->seating);
-  thr_text_printf(text, "friction mu = %g, or anything in its band from %g to %g\n\n", physics->mu, physics->mu_low,
-                  physics->mu_high);
-  thr_text_printf(text, "   cords  %-11s %14s %8s %10s %12s %13s %19s %6s  %s\n", "ends", units, "overlap", "longest",
-                  "most turning", "pull, N", "in the band of mu", "steps", "proved");
+  thr_text_printf(text,
+                  "%d pieces, %d %s; pull at both ends of every cord, so that %g N is left where "
+                  "it is slackest;\n",
+                  frame->n_nodes, frame->n_edges,
+                  cli_plural(frame->n_edges, "interface", "interfaces"), physics->seating);
+  thr_text_printf(text, "friction mu = %g, or anything in its band from %g to %g\n\n", physics->mu,
+                  physics->mu_low, physics->mu_high);
+  thr_text_printf(text, "   cords  %-11s %14s %8s %10s %12s %13s %19s %6s  %s\n", "ends", units,
+                  "overlap", "longest", "most turning", "pull, N", "in the band of mu", "steps",
+                  "proved");
 }
 
 void advice_put_row(thr_text *text, const thr_advice_row *row, double base_length, const char *mark)
@@ -72,8 +83,9 @@ void advice_put_row(thr_text *text, const thr_advice_row *row, double base_lengt
     snprintf(proof, sizeof proof, "it cannot turn less");
   else if (row->bound > 0)
     snprintf(proof, sizeof proof, "turning of at least %.0f deg", floor(thr_degrees(row->bound)));
-  thr_text_printf(text, "%-3s%5d  %-11s %14.3f %6.1f %% %10.4g %8.0f deg %13s %19s %6d  %s\n", mark, row->cords,
-                  thr_advice_ends(row->ends), row->length, over < 0.05 ? 0 : over, row->longest, thr_degrees(row->turning),
+  thr_text_printf(text, "%-3s%5d  %-11s %14.3f %6.1f %% %10.4g %8.0f deg %13s %19s %6d  %s\n", mark,
+                  row->cords, thr_advice_ends(row->ends), row->length, over < 0.05 ? 0 : over,
+                  row->longest, thr_degrees(row->turning),
                   plain_two(row->other, row->pull[THR_ADVICE_MU], pull), band, row->steps, proof);
 }
 
@@ -90,32 +102,41 @@ static void put_choice(thr_text *text, const thr_advice *advice, const char *com
   char low[24], pull[64], high[24], hand[64];
   plain_force(advice->hand, hand);
   if (advice->chosen < 0) {
-    thr_text_printf(text, "no row stays within %s%s at mu = %g; --hand N says what is enough\n", hand, hand_words(advice->hand),
-                    advice->physics.mu_high);
+    thr_text_printf(text, "no row stays within %s%s at mu = %g; --hand N says what is enough\n",
+                    hand, hand_words(advice->hand), advice->physics.mu_high);
     return;
   }
   const thr_advice_row *row = &advice->row[advice->chosen];
   thr_text_append(text, "> ");
   advice_put_cords(text, row);
-  thr_text_printf(text, ": %s, or %s to %s N in the band. The fewest found that stay within %s%s even at mu = %g\n  ",
-                  plain_both(row->other, row->pull[THR_ADVICE_MU], pull), plain_newtons(row->pull[THR_ADVICE_LOW], low),
-                  plain_newtons(row->pull[THR_ADVICE_HIGH], high), hand, hand_words(advice->hand), advice->physics.mu_high);
+  thr_text_printf(
+      text,
+      ": %s, or %s to %s N in the band. The fewest found that stay within %s%s even at mu = %g\n  ",
+      plain_both(row->other, row->pull[THR_ADVICE_MU], pull),
+      plain_newtons(row->pull[THR_ADVICE_LOW], low),
+      plain_newtons(row->pull[THR_ADVICE_HIGH], high), hand, hand_words(advice->hand),
+      advice->physics.mu_high);
   thr_text_append_clean(text, command);
   thr_text_append(text, "\n");
 }
 
-void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *advice, const char *command)
+void advice_put_table(thr_text *text, const thr_frame *frame, const thr_advice *advice,
+                      const char *command)
 {
   advice_put_head(text, frame, &advice->physics);
   for (int i = 0; i < advice->n; i++) {
     char mark[4];
-    snprintf(mark, sizeof mark, "%s%s", i == advice->chosen ? ">" : " ", advice->row[i].frontier ? "*" : " ");
+    snprintf(mark, sizeof mark, "%s%s", i == advice->chosen ? ">" : " ",
+             advice->row[i].frontier ? "*" : " ");
     advice_put_row(text, &advice->row[i], advice->base_length, mark);
   }
-  thr_text_append(text, "\n* no other row is as good in number of cords, cord and pull, and better in one of them");
+  thr_text_append(
+      text,
+      "\n* no other row is as good in number of cords, cord and pull, and better in one of them");
   if (advice->left_out)
     thr_text_printf(text, "; %d %s nothing %s left out", advice->left_out,
-                    cli_plural(advice->left_out, "row that buys", "rows that buy"), cli_plural(advice->left_out, "is", "are"));
+                    cli_plural(advice->left_out, "row that buys", "rows that buy"),
+                    cli_plural(advice->left_out, "is", "are"));
   thr_text_append(text, "\n");
   put_choice(text, advice, command);
 }
@@ -162,7 +183,10 @@ static void put_row_json(thr_writer *writer, const thr_advice_row *row)
   thr_write_number(writer, "longest", row->longest);
   thr_write_number(writer, "max_turning", row->turning);
   thr_write_number(writer, "max_turning_bound", row->bound > 0 ? row->bound : NAN);
-  thr_write_string(writer, "max_turning_status", row->optimal ? "optimal" : row->bound > 0 ? "bound" : "unknown");
+  thr_write_string(writer, "max_turning_status",
+                   row->optimal     ? "optimal"
+                   : row->bound > 0 ? "bound"
+                                    : "unknown");
   thr_write_number(writer, "pull", row->pull[THR_ADVICE_MU]);
   thr_write_number(writer, "other_pull", row->other);
   thr_write_number(writer, "pull_low", row->pull[THR_ADVICE_LOW]);
@@ -173,8 +197,8 @@ static void put_row_json(thr_writer *writer, const thr_advice_row *row)
   thr_write_close(writer);
 }
 
-void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice, const char *command,
-                     const thr_plan *chosen)
+void advice_put_json(thr_writer *writer, const thr_frame *frame, const thr_advice *advice,
+                     const char *command, const thr_plan *chosen)
 {
   thr_write_object(writer, NULL);
   thr_write_hash(writer, "framework", thr_frame_hash(frame));

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of `thread compare`: a row per value, a column per plan. */
 #include "cli/print/print.h"
 #include "graph/angle.h"
@@ -32,12 +33,16 @@ static double gap_percent(const compare_entry *e)
 static double above_shortest(const compare_entry *e)
 {
   const thr_length_proof *proof = &e->plan.proof;
-  return proof->present && proof->lower_bound > 0 ? 100 * fmax(0, e->plan.metrics.length / proof->lower_bound - 1) : NAN;
+  return proof->present && proof->lower_bound > 0
+             ? 100 * fmax(0, e->plan.metrics.length / proof->lower_bound - 1)
+             : NAN;
 }
 static double above_least_turning(const compare_entry *e)
 {
   const thr_turning_claim *claim = &e->plan.turning;
-  return claim->present && claim->lower_bound > 0 ? 100 * fmax(0, claim->price / claim->lower_bound - 1) : NAN;
+  return claim->present && claim->lower_bound > 0
+             ? 100 * fmax(0, claim->price / claim->lower_bound - 1)
+             : NAN;
 }
 static double turning(const compare_entry *e)
 {
@@ -54,7 +59,9 @@ static double worst_turn(const compare_entry *e)
 /* A price of turns bounds their angles only where it is the angle. */
 static const thr_turning_claim *angle_claim(const compare_entry *e)
 {
-  return e->plan.turning.present && e->plan.options.turning.cost == THR_TURN_ANGLE ? &e->plan.turning : NULL;
+  return e->plan.turning.present && e->plan.options.turning.cost == THR_TURN_ANGLE
+             ? &e->plan.turning
+             : NULL;
 }
 static double turning_bound(const compare_entry *e)
 {
@@ -66,7 +73,9 @@ static double turning_gap(const compare_entry *e)
 }
 static double largest_bound(const compare_entry *e)
 {
-  return angle_claim(e) && !thr_wants_pull(&e->plan.options) ? thr_degrees(angle_claim(e)->largest_bound) : NAN;
+  return angle_claim(e) && !thr_wants_pull(&e->plan.options)
+             ? thr_degrees(angle_claim(e)->largest_bound)
+             : NAN;
 }
 static double capstan(const compare_entry *e)
 {
@@ -164,31 +173,45 @@ const compare_row compare_rows[] = {
     {"length", "length", length, true, 3, THR_CAPSTAN, false, false},
     {"overlap", "overlap", overlap, true, 3, THR_CAPSTAN, false, false},
     {"overlap %", "overlap_percent", overlap_percent, true, 2, THR_CAPSTAN, false, false},
-    {"above the shortest possible, %", "above_shortest_percent", above_shortest, false, -3, THR_CAPSTAN, false, false},
+    {"above the shortest possible, %", "above_shortest_percent", above_shortest, false, -3,
+     THR_CAPSTAN, false, false},
     {"length: gap to its bound %", "gap_percent", gap_percent, false, -6, THR_CAPSTAN, false, true},
     {"turning with closing turns, deg", "turning_deg", turning, true, 1, THR_CAPSTAN, false, false},
-    {"the same, largest cord, deg", "max_turning_deg", max_turning, true, 1, THR_CAPSTAN, false, false},
+    {"the same, largest cord, deg", "max_turning_deg", max_turning, true, 1, THR_CAPSTAN, false,
+     false},
     {"capstan factor of that cord", "max_capstan", capstan, true, -6, THR_CAPSTAN, false, true},
-    {"above the least turning, %", "above_least_turning_percent", above_least_turning, false, -3, THR_CAPSTAN, true, false},
-    {"turning: proven bound, deg", "turning_bound_deg", turning_bound, false, 1, THR_CAPSTAN, true, true},
-    {"turning: gap to it %", "turning_gap_percent", turning_gap, false, -6, THR_CAPSTAN, true, true},
-    {"turning: bound of a cord, deg", "max_turning_bound_deg", largest_bound, false, 1, THR_CAPSTAN, true, true},
+    {"above the least turning, %", "above_least_turning_percent", above_least_turning, false, -3,
+     THR_CAPSTAN, true, false},
+    {"turning: proven bound, deg", "turning_bound_deg", turning_bound, false, 1, THR_CAPSTAN, true,
+     true},
+    {"turning: gap to it %", "turning_gap_percent", turning_gap, false, -6, THR_CAPSTAN, true,
+     true},
+    {"turning: bound of a cord, deg", "max_turning_bound_deg", largest_bound, false, 1, THR_CAPSTAN,
+     true, true},
     {"sharpest turn, deg", "worst_turn_deg", worst_turn, true, 1, THR_CAPSTAN, false, false},
     {"turns over 60 deg", "turns_over_60", turns_over_60, true, -1, THR_CAPSTAN, false, false},
     {"turns over 90 deg", "turns_over_90", turns_over_90, true, -1, THR_CAPSTAN, false, false},
     {"U-turns", "u_turns", u_turns, true, -1, THR_CAPSTAN, false, false},
-    {"largest pull, closed form, N", "largest_pull", closed_largest, true, -6, THR_CAPSTAN, false, false},
-    {"the other end of that cord, N", "other_pull", closed_other, false, -6, THR_CAPSTAN, true, false},
+    {"largest pull, closed form, N", "largest_pull", closed_largest, true, -6, THR_CAPSTAN, false,
+     false},
+    {"the other end of that cord, N", "other_pull", closed_other, false, -6, THR_CAPSTAN, true,
+     false},
     {"all pulls together, N", "total_pull", closed_total, true, -6, THR_CAPSTAN, false, false},
-    {"turning of the tight cords, deg", "taut_turning_deg", taut_turning, true, 1, THR_JOINT, false, false},
+    {"turning of the tight cords, deg", "taut_turning_deg", taut_turning, true, 1, THR_JOINT, false,
+     false},
     {"largest pull, simulated, N", "joint_pull", joint_largest, true, -4, THR_JOINT, false, false},
-    {"the other end of that cord, N", "joint_other_pull", joint_other, false, -4, THR_JOINT, true, false},
-    {"its error where measured, +- %", "joint_error_percent", joint_error, false, -3, THR_JOINT, false, false},
+    {"the other end of that cord, N", "joint_other_pull", joint_other, false, -4, THR_JOINT, true,
+     false},
+    {"its error where measured, +- %", "joint_error_percent", joint_error, false, -3, THR_JOINT,
+     false, false},
     {"turns by closed form", "joint_refused", joint_refused, false, -1, THR_JOINT, false, false},
-    {"all pulls together, simulated, N", "joint_total", joint_total, true, -4, THR_JOINT, false, false},
-    {"holding pull while drawn in, N", "holding_pull", holding, true, -6, THR_STRUCTURE, false, false},
+    {"all pulls together, simulated, N", "joint_total", joint_total, true, -4, THR_JOINT, false,
+     false},
+    {"holding pull while drawn in, N", "holding_pull", holding, true, -6, THR_STRUCTURE, false,
+     false},
     {"falls in simulation at, N", "falls_at", settle_fall, false, -4, THR_STRUCTURE, false, false},
-    {"the same, finer steps, N", "falls_at_fine", settle_fall_fine, false, -4, THR_STRUCTURE, false, false},
+    {"the same, finer steps, N", "falls_at_fine", settle_fall_fine, false, -4, THR_STRUCTURE, false,
+     false},
 };
 const int compare_n_rows = (int)(sizeof compare_rows / sizeof *compare_rows);
 
@@ -206,9 +229,12 @@ bool compare_on_frontier(const compare_entry *e, int n, int i)
   thr_method method = THR_JOINT;
   for (int k = 0; k < n; k++)
     if (!is_known(&e[k], THR_JOINT)) method = THR_CAPSTAN;
-  const thr_price mine = {e[i].plan.n_cords, e[i].plan.metrics.length, compare_largest(&e[i], method)};
+  const thr_price mine = {e[i].plan.n_cords, e[i].plan.metrics.length,
+                          compare_largest(&e[i], method)};
   for (int k = 0; k < n; k++)
-    if (thr_price_beats(&(thr_price){e[k].plan.n_cords, e[k].plan.metrics.length, compare_largest(&e[k], method)}, &mine))
+    if (thr_price_beats(&(thr_price){e[k].plan.n_cords, e[k].plan.metrics.length,
+                                     compare_largest(&e[k], method)},
+                        &mine))
       return false;
   return true;
 }

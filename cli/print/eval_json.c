@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread eval as JSON. */
 #include "cli/print/print.h"
 
@@ -21,8 +22,8 @@ static void put_json_band(thr_writer *writer, const char *key, const double band
   thr_write_close(writer);
 }
 
-static void put_json_holding(thr_writer *writer, const thr_frame *frame, const char *key, const thr_holding *holding,
-                             const double band[2], const char *when)
+static void put_json_holding(thr_writer *writer, const thr_frame *frame, const char *key,
+                             const thr_holding *holding, const double band[2], const char *when)
 {
   thr_write_line(writer, 1);
   thr_write_object(writer, key);
@@ -39,7 +40,8 @@ static void put_json_holding(thr_writer *writer, const thr_frame *frame, const c
 static void put_json_answers(thr_writer *writer, const thr_frame *frame, const thr_eval *eval)
 {
   const double(*band)[2] = eval->band_beads;
-  put_json_holding(writer, frame, "holding", &eval->holding, band[THR_ASKED_HOLDING], "while the cord is being drawn in");
+  put_json_holding(writer, frame, "holding", &eval->holding, band[THR_ASKED_HOLDING],
+                   "while the cord is being drawn in");
   if (eval->equal.present)
     put_json_holding(writer, frame, "equal_pulls", &eval->equal, band[THR_ASKED_EQUAL],
                      "while the cord is being drawn in, with equal pulls at all ends");
@@ -71,21 +73,26 @@ static void put_json_play(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
-static void put_json_simulation(thr_writer *writer, const thr_frame *frame, const thr_settle *settle, bool after)
+static void put_json_simulation(thr_writer *writer, const thr_frame *frame,
+                                const thr_settle *settle, bool after)
 {
-  static const char *const status[] = {"fell", "held", "not settled", "too large", "fell", "fell"},
-                           *const why[] = {NULL,
-                                           NULL,
-                                           "never came to rest",
-                                           NULL,
-                                           "crept: where the limit analysis found an equilibrium, or not known to a twentieth",
-                                           "late: below where nothing holds"};
+  static const char *const
+      status[] = {"fell", "held", "not settled", "too large", "fell", "fell"},
+      *const why[] = {
+          NULL,
+          NULL,
+          "never came to rest",
+          NULL,
+          "crept: where the limit analysis found an equilibrium, or not known to a twentieth",
+          "late: below where nothing holds"};
   const bool fell = settle->fall > 0;
   thr_write_line(writer, 1);
   thr_write_object(writer, "simulation");
-  thr_write_string(writer, "status", settle->status == THR_SETTLE_LATE && !fell ? "stood" : status[settle->status]);
+  thr_write_string(writer, "status",
+                   settle->status == THR_SETTLE_LATE && !fell ? "stood" : status[settle->status]);
   if (why[settle->status]) thr_write_string(writer, "why", why[settle->status]);
-  thr_write_string(writer, "state", after ? "ends let down after the schedule" : "while the cord is being drawn in");
+  thr_write_string(writer, "state",
+                   after ? "ends let down after the schedule" : "while the cord is being drawn in");
   thr_write_number(writer, "falls_at", fell ? settle->fall : NAN);
   thr_write_number(writer, "falls_error", fell ? settle->error : NAN);
   put_bead(writer, "first_bead", frame, settle->first_bead);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thread eval in words: a line per cord, sums, what a hand manages, the structure's answers. */
 #include "cli/print/print.h"
 
@@ -13,26 +14,34 @@ static const char *method_words(const thr_evaluation *evaluation, bool refused)
 {
   switch (evaluation->method) {
   case THR_JOINT:
-    return refused ? "joints measured in simulation, some turns by closed form, composed along the path of the tight cord"
+    return refused ? "joints measured in simulation, some turns by closed form, composed along the "
+                     "path of the tight cord"
                    : "joints measured in simulation, composed along the path of the tight cord";
-  case THR_STRUCTURE: return "structure: least pull at which rigid beads can stand while the cord is drawn in (limit analysis)";
+  case THR_STRUCTURE:
+    return "structure: least pull at which rigid beads can stand while the cord is drawn in (limit "
+           "analysis)";
   default:
-    return evaluation->law == THR_LAW_MITRE ? "mitred beads, by the closed form; --method joint measures the joints in simulation"
+    return evaluation->law == THR_LAW_MITRE ? "mitred beads, by the closed form; --method joint "
+                                              "measures the joints in simulation"
            : thr_friction_of(&evaluation->physics).power < 1
                ? "by the closed form of friction that grows with less than the load"
-               : "by the closed form exp(mu x turning); --method joint measures the joints in simulation";
+               : "by the closed form exp(mu x turning); --method joint measures the joints in "
+                 "simulation";
   }
 }
 
-static void put_heading(thr_text *text, const thr_evaluation *evaluation, bool refused, const char *pulled)
+static void put_heading(thr_text *text, const thr_evaluation *evaluation, bool refused,
+                        const char *pulled)
 {
   const thr_physics *physics = &evaluation->physics;
-  thr_text_printf(text, "%s\nfriction mu = %g (band %g to %g), ", method_words(evaluation, refused), physics->mu, physics->mu_low,
-                  physics->mu_high);
+  thr_text_printf(text, "%s\nfriction mu = %g (band %g to %g), ", method_words(evaluation, refused),
+                  physics->mu, physics->mu_low, physics->mu_high);
   if (thr_friction_of(physics).power < 1)
-    thr_text_printf(text, "at %g N; friction = a x load^%g, ", physics->mu_tension, physics->mu_power);
+    thr_text_printf(text, "at %g N; friction = a x load^%g, ", physics->mu_tension,
+                    physics->mu_power);
   if (evaluation->method == THR_STRUCTURE) {
-    thr_text_printf(text, "bead on bead %g, foot on ground %g, ", physics->mu_bead, physics->mu_ground);
+    thr_text_printf(text, "bead on bead %g, foot on ground %g, ", physics->mu_bead,
+                    physics->mu_ground);
     if (physics->bead_mass > 0)
       thr_text_printf(text, "beads of %g g, ", physics->bead_mass);
     else
@@ -41,7 +50,8 @@ static void put_heading(thr_text *text, const thr_evaluation *evaluation, bool r
     thr_text_printf(text, "seating tension %g N, ", physics->seating);
   }
   if (evaluation->method == THR_JOINT || evaluation->standing.taut)
-    thr_text_printf(text, "cord %.4g mm in bores of %.4g mm, ", physics->cord_diameter, physics->bore);
+    thr_text_printf(text, "cord %.4g mm in bores of %.4g mm, ", physics->cord_diameter,
+                    physics->bore);
   thr_text_printf(text, "pulled at: %s\n\n", pulled);
 }
 
@@ -75,7 +85,8 @@ static void put_error(thr_text *text, const thr_eval_cord *cord)
   thr_text_printf(text, " %6s %%", cell);
 }
 
-static void put_cord(thr_text *text, const char *id, const thr_eval_cord *cord, thr_method method, bool tight)
+static void put_cord(thr_text *text, const char *id, const thr_eval_cord *cord, thr_method method,
+                     bool tight)
 {
   thr_text_printf(text, "%-5s %8.1f deg", id, thr_degrees(cord->turning));
   if (tight) thr_text_printf(text, " %8.1f deg", thr_degrees(cord->taut_turning));
@@ -93,8 +104,9 @@ static void put_cord(thr_text *text, const char *id, const thr_eval_cord *cord, 
 static void put_cords(thr_text *text, const thr_plan *plan, const thr_evaluation *evaluation)
 {
   const bool joint = evaluation->method == THR_JOINT, tight = joint || evaluation->standing.taut;
-  thr_text_printf(text, "%-5s %12s%s %12s %13s %9s %12s%s  %s\n", "cord", "turning", tight ? "    when tight" : "", "pull (N)",
-                  "other end (N)", "loss", "work per m", joint ? "   error +-" : "", "slackest pass");
+  thr_text_printf(text, "%-5s %12s%s %12s %13s %9s %12s%s  %s\n", "cord", "turning",
+                  tight ? "    when tight" : "", "pull (N)", "other end (N)", "loss", "work per m",
+                  joint ? "   error +-" : "", "slackest pass");
   for (int i = 0; i < evaluation->n_cords; i++) {
     if (evaluation->cord[i].known)
       put_cord(text, plan->cord[i].id, &evaluation->cord[i], evaluation->method, tight);
@@ -116,7 +128,8 @@ static void put_band_end(thr_text *text, const thr_evaluation *evaluation, doubl
                                                               : " over 1e300 N");
 }
 
-/* The largest pull over the band of mu; an end of it may be past what a number can hold, or hold nothing at any pull. */
+/* The largest pull over the band of mu; an end of it may be past what a number can hold, or hold
+ * nothing at any pull. */
 static void put_band(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval)
 {
   const double *const band = eval->band, *const any = eval->band_any;
@@ -149,29 +162,38 @@ static void put_hand(thr_text *text, double newton)
   thr_text_append(text, "\n");
 }
 
-/* Says whether the cord bears the largest pull where it is weakest: at its knots, and over the edges of bores. */
+/* Says whether the cord bears the largest pull where it is weakest: at its knots, and over the
+ * edges of bores. */
 static void put_strength(thr_text *text, double newton, double strength, int knot)
 {
   char force[64];
   const double left = thr_knots[knot].left;
-  thr_text_printf(text, "a cord that bears %s %s: the knot (%s) leaves %.3g N, %.0f %% (Plymouth Cordage 1946; --knot), ",
-                  plain_force(strength, force), newton > strength * thr_strength_left(knot) ? "breaks" : "holds",
+  thr_text_printf(text,
+                  "a cord that bears %s %s: the knot (%s) leaves %.3g N, %.0f %% (Plymouth Cordage "
+                  "1946; --knot), ",
+                  plain_force(strength, force),
+                  newton > strength * thr_strength_left(knot) ? "breaks" : "holds",
                   thr_knots[knot].name, strength * left, 100 * left);
-  thr_text_printf(text, "edges of bores %.3g N, %.0f %% (as round a pin as thick as it)\n", strength * thr_bend_left,
-                  100 * thr_bend_left);
+  thr_text_printf(text, "edges of bores %.3g N, %.0f %% (as round a pin as thick as it)\n",
+                  strength * thr_bend_left, 100 * thr_bend_left);
 }
 
-/* What is beyond a hand at once, grips on the way draw in, unless one turn alone is too much; more cords need less. */
+/* What is beyond a hand at once, grips on the way draw in, unless one turn alone is too much; more
+ * cords need less. */
 static void put_grips(thr_text *text, const thr_plan *plan)
 {
   thr_schedule schedule = {0};
   char force[64];
   if (plan->evaluation.largest <= thr_hand_most || plan->evaluation.schedule.n > 0) return;
-  const thr_status st = thr_history_grips(plan->cord, thr_hand_most, &plan->evaluation, &schedule, NULL);
+  const thr_status st =
+      thr_history_grips(plan->cord, thr_hand_most, &plan->evaluation, &schedule, NULL);
   const int grips = thr_schedule_grips(&schedule, -1);
   if (st == THR_OK)
-    thr_text_printf(text, "with %d %s on the way no pull is above %s (--hand %g), and more cords need less (thread advise)\n",
-                    grips, cli_plural(grips, "grip", "grips"), plain_force(thr_hand_most, force), thr_hand_most);
+    thr_text_printf(text,
+                    "with %d %s on the way no pull is above %s (--hand %g), and more cords need "
+                    "less (thread advise)\n",
+                    grips, cli_plural(grips, "grip", "grips"), plain_force(thr_hand_most, force),
+                    thr_hand_most);
   else if (st == THR_EINPUT)
     thr_text_append(text, "the seating tension alone is more than a hand: no grips help\n");
   else
@@ -179,11 +201,13 @@ static void put_grips(thr_text *text, const thr_plan *plan)
   thr_schedule_destroy(&schedule);
 }
 
-static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval, const eval_view *view)
+static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval,
+                     const eval_view *view)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
-  thr_text_printf(text, "\nlargest pull %.*g N, all pulls together %.*g N", digits(evaluation->method), evaluation->largest,
-                  digits(evaluation->method), evaluation->total);
+  thr_text_printf(text, "\nlargest pull %.*g N, all pulls together %.*g N",
+                  digits(evaluation->method), evaluation->largest, digits(evaluation->method),
+                  evaluation->total);
   if (eval->refused)
     thr_text_printf(text, ", error at least %.2f %%", pull_percent(eval->error));
   else if (eval->error > 0)
@@ -191,7 +215,8 @@ static void put_sums(thr_text *text, const thr_plan *plan, const thr_eval *eval,
   thr_text_append(text, "\n");
   if (evaluation->schedule.n == 0) put_band(text, evaluation, eval);
   if (eval->complete && evaluation->method != THR_STRUCTURE) put_hand(text, evaluation->largest);
-  if (eval->complete && (evaluation->method != THR_STRUCTURE || evaluation->schedule.n > 0) && view->strength > 0)
+  if (eval->complete && (evaluation->method != THR_STRUCTURE || evaluation->schedule.n > 0) &&
+      view->strength > 0)
     put_strength(text, evaluation->largest, view->strength, view->knot);
   if (eval->complete && evaluation->method != THR_STRUCTURE) put_grips(text, plan);
   if (!eval->complete) {
@@ -217,15 +242,20 @@ static void put_reason(thr_text *text, int n, const char *why)
 static void put_joint(thr_text *text, const thr_plan *plan, const thr_eval *eval)
 {
   char sharp[80];
-  snprintf(sharp, sizeof sharp, "sharper than %.0f degrees, the sharpest that was validated", thr_degrees(thr_drag_largest_turn));
+  snprintf(sharp, sizeof sharp, "sharper than %.0f degrees, the sharpest that was validated",
+           thr_degrees(thr_drag_largest_turn));
   if (eval->refused)
-    thr_text_printf(text, "%d of %d turns by closed form, whose error is not known:\n", eval->refused, turns_of(plan));
+    thr_text_printf(text, "%d of %d turns by closed form, whose error is not known:\n",
+                    eval->refused, turns_of(plan));
   put_reason(text, eval->refused_sharp, sharp);
-  put_reason(text, eval->refused_unsettled, "the cord did not slide steadily; try a smaller --time-step or more --iterations");
-  put_reason(text, eval->refused_outside, "out of the simulation's range; try a wider --bore or a smaller --mu");
+  put_reason(text, eval->refused_unsettled,
+             "the cord did not slide steadily; try a smaller --time-step or more --iterations");
+  put_reason(text, eval->refused_outside,
+             "out of the simulation's range; try a wider --bore or a smaller --mu");
   if (eval->interpolation > 0)
     thr_text_printf(text,
-                    "measured angles, left out one by one, are predicted by their neighbours within %.2g %% of the exponent\n",
+                    "measured angles, left out one by one, are predicted by their neighbours "
+                    "within %.2g %% of the exponent\n",
                     100 * eval->interpolation);
 }
 
@@ -233,23 +263,26 @@ static void put_fall(thr_text *text, const thr_plan *plan, const thr_settle *set
 {
   thr_text_printf(
       text,
-      "simulation     falls %s %.4g N (begins at %.4g N, is seen at %.4g N; what time step, iterations and seed add to "
+      "simulation     falls %s %.4g N (begins at %.4g N, is seen at %.4g N; what time step, "
+      "iterations and seed add to "
       "that is not in it); bead %s moves first; widest gap %.3g mm before, %.3g mm after\n",
-      after ? "when all ends are let down to" : "at", settle->fall, settle->fall + settle->error / 2,
-      settle->fall - settle->error / 2, plan->frame.name[settle->first_bead], settle->gap_before, settle->gap_after);
+      after ? "when all ends are let down to" : "at", settle->fall,
+      settle->fall + settle->error / 2, settle->fall - settle->error / 2,
+      plan->frame.name[settle->first_bead], settle->gap_before, settle->gap_after);
   if (settle->status == THR_SETTLE_CREPT)
-    thr_text_append(
-        text, "               this contradicts the limit analysis, which found an equilibrium there, or is not known to a\n"
-              "               twentieth: beads creep in the simulation; a smaller --time-step or more --iterations may help\n");
+    thr_text_append(text, "               this contradicts the limit analysis, which found an "
+                          "equilibrium there, or is not known to a\n"
+                          "               twentieth: beads creep in the simulation; a smaller "
+                          "--time-step or more --iterations may help\n");
   if (settle->status == THR_SETTLE_LATE)
-    thr_text_append(text,
-                    "               this is below the pull under which nothing holds it (proved): its fall was seen late\n");
+    thr_text_append(text, "               this is below the pull under which nothing holds it "
+                          "(proved): its fall was seen late\n");
 }
 
 static void put_too_large(thr_text *text)
 {
-  thr_text_printf(text, "simulation     left out: more than %d beads (with --dynamics up to %d)\n", thr_settle_largest(false),
-                  thr_settle_largest(true));
+  thr_text_printf(text, "simulation     left out: more than %d beads (with --dynamics up to %d)\n",
+                  thr_settle_largest(false), thr_settle_largest(true));
 }
 
 /* Newtons, or why there are none. */
@@ -258,19 +291,21 @@ static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *s
   switch (settle->status) {
   case THR_SETTLE_FELL: put_fall(text, plan, settle, after); break;
   case THR_SETTLE_HELD:
-    thr_text_printf(text, "simulation     stands until the pull is gone; widest gap %.3g mm\n", settle->gap_before);
+    thr_text_printf(text, "simulation     stands until the pull is gone; widest gap %.3g mm\n",
+                    settle->gap_before);
     break;
   case THR_SETTLE_TOO_LARGE: put_too_large(text); break;
   case THR_SETTLE_NEVER_SETTLED:
-    thr_text_append(text,
-                    "simulation     not settled: it never came to rest under the pull at its start. Nothing is known of the\n"
-                    "               fall; a larger --start or more --iterations may help\n");
+    thr_text_append(text, "simulation     not settled: it never came to rest under the pull at its "
+                          "start. Nothing is known of the\n"
+                          "               fall; a larger --start or more --iterations may help\n");
     break;
   default:
     if (settle->fall > 0)
       put_fall(text, plan, settle, after);
     else
-      thr_text_append(text, "simulation     stood where nothing holds it (proved): its fall was too slow to be seen\n");
+      thr_text_append(text, "simulation     stood where nothing holds it (proved): its fall was "
+                            "too slow to be seen\n");
   }
 }
 
@@ -278,17 +313,22 @@ static void put_settle(thr_text *text, const thr_plan *plan, const thr_settle *s
 static void put_bounds(thr_text *text, const thr_holding *holding, const char *when)
 {
   if (holding->lower > 0)
-    thr_text_printf(text, "below %.6g N %s nothing holds it (proved, residual %.1g)", holding->lower, when, holding->residual);
+    thr_text_printf(text, "below %.6g N %s nothing holds it (proved, residual %.1g)",
+                    holding->lower, when, holding->residual);
   else if (holding->upper == 0)
     thr_text_append(text, "0 N: an equilibrium exists without any pull");
   else
-    thr_text_append(text, "it may need none: that an equilibrium exists without any pull is not excluded, not shown");
-  if (holding->upper > 0 && isfinite(holding->upper)) thr_text_printf(text, "; at %.6g N an equilibrium exists", holding->upper);
+    thr_text_append(
+        text,
+        "it may need none: that an equilibrium exists without any pull is not excluded, not shown");
+  if (holding->upper > 0 && isfinite(holding->upper))
+    thr_text_printf(text, "; at %.6g N an equilibrium exists", holding->upper);
   if (!isfinite(holding->upper)) thr_text_append(text, "; no equilibrium was found at any pull");
   thr_text_append(text, "\n");
 }
 
-/* The three answers: while cords are drawn in, whatever was done to them, and after what was done. */
+/* The three answers: while cords are drawn in, whatever was done to them, and after what was done.
+ */
 static void put_holding(thr_text *text, const thr_eval *eval)
 {
   thr_text_append(text, "\nholding pull   ");
@@ -307,17 +347,22 @@ static void put_holding(thr_text *text, const thr_eval *eval)
 static void put_longer(thr_text *text, const thr_evaluation *evaluation, double stretch)
 {
   const double stiffness = evaluation->physics.stiffness;
-  thr_text_printf(text, stiffness > 0 ? "%.3g mm" : "%.3g N m / EA", stiffness > 0 ? 1e3 * stretch / stiffness : stretch);
+  thr_text_printf(text, stiffness > 0 ? "%.3g mm" : "%.3g N m / EA",
+                  stiffness > 0 ? 1e3 * stretch / stiffness : stretch);
 }
 
-/* What cords that are knotted at both ends have to stretch by, as pieces part, for an equilibrium. */
+/* What cords that are knotted at both ends have to stretch by, as pieces part, for an equilibrium.
+ */
 static void put_stretch(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval)
 {
   const thr_holding *stretch = &eval->stretch;
   const double strength = evaluation->standing.strength;
   thr_text_append(text, "after it       ");
   if (!isfinite(stretch->lower) && stretch->velocity) {
-    thr_text_printf(text, "it falls: no tensions up to %.3g N, which the cord bears at its knots, hold it (proved)\n", strength);
+    thr_text_printf(
+        text,
+        "it falls: no tensions up to %.3g N, which the cord bears at its knots, hold it (proved)\n",
+        strength);
     return;
   }
   if (!isfinite(stretch->lower)) {
@@ -331,9 +376,12 @@ static void put_stretch(thr_text *text, const thr_evaluation *evaluation, const 
   if (isfinite(stretch->upper)) {
     thr_text_append(text, "an equilibrium exists once knotted cord has stretched by ");
     put_longer(text, evaluation, stretch->upper);
-    thr_text_printf(text, ", up to %.3g N%s", eval->tightest, strength > 0 ? ", which it bears" : "");
+    thr_text_printf(text, ", up to %.3g N%s", eval->tightest,
+                    strength > 0 ? ", which it bears" : "");
   } else if (strength > 0) {
-    thr_text_printf(text, "no equilibrium was found with the %.3g N that the cord bears at its knots", strength);
+    thr_text_printf(text,
+                    "no equilibrium was found with the %.3g N that the cord bears at its knots",
+                    strength);
   } else {
     thr_text_append(text, "no equilibrium was found, however knotted cord stretches");
   }
@@ -345,7 +393,8 @@ static void put_stretch(thr_text *text, const thr_evaluation *evaluation, const 
   thr_text_append(text, "\n");
 }
 
-/* What is proved over the frictions of beads and ground, which are estimates, at each end of their band. */
+/* What is proved over the frictions of beads and ground, which are estimates, at each end of their
+ * band. */
 static void put_bead_band(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval)
 {
   static const struct {
@@ -357,7 +406,9 @@ static void put_bead_band(thr_text *text, const thr_evaluation *evaluation, cons
   if (isnan(band[THR_ASKED_HOLDING][0]) && isnan(band[THR_ASKED_HOLDING][1])) return;
   for (int end = 0; end < 2; end++) {
     const double times = (end ? physics->mu_high : physics->mu_low) / physics->mu;
-    thr_text_printf(text, end ? "; with %.3g, %.3g:" : "other beads    with bead on bead %.3g, foot on ground %.3g:",
+    thr_text_printf(text,
+                    end ? "; with %.3g, %.3g:"
+                        : "other beads    with bead on bead %.3g, foot on ground %.3g:",
                     times * physics->mu_bead, times * physics->mu_ground);
     put_band_end(text, evaluation, band[THR_ASKED_HOLDING][end], true);
     for (size_t i = 0; i < sizeof named / sizeof *named && eval->holding.lower > 0; i++) {
@@ -378,7 +429,9 @@ static void put_after_band(thr_text *text, const thr_evaluation *evaluation, con
   if (isnan(band[0]) && isnan(band[1])) return;
   for (int end = 0; end < 2; end++) {
     const double times = (end ? physics->mu_high : physics->mu_low) / physics->mu;
-    thr_text_printf(text, end ? "; with %.3g, %.3g: " : "               with bead on bead %.3g, foot on ground %.3g: ",
+    thr_text_printf(text,
+                    end ? "; with %.3g, %.3g: "
+                        : "               with bead on bead %.3g, foot on ground %.3g: ",
                     times * physics->mu_bead, times * physics->mu_ground);
     if (isnan(band[end]))
       thr_text_append(text, "not decided");
@@ -396,16 +449,21 @@ static void put_after_band(thr_text *text, const thr_evaluation *evaluation, con
 static void put_after(thr_text *text, const thr_evaluation *evaluation, const thr_eval *eval)
 {
   const thr_holding *after = &eval->after;
-  if (eval->stretch.present) put_stretch(text, evaluation, eval), put_after_band(text, evaluation, eval);
+  if (eval->stretch.present)
+    put_stretch(text, evaluation, eval), put_after_band(text, evaluation, eval);
   if (!after->present) return;
   thr_text_append(text, "after it       ");
   if (after->upper <= 1)
-    thr_text_printf(text, "an equilibrium exists, and would with %.4g of the tensions", after->upper);
+    thr_text_printf(text, "an equilibrium exists, and would with %.4g of the tensions",
+                    after->upper);
   else if (after->lower > 1)
-    thr_text_printf(text, "these tensions are too small: %.4g times as much is needed (proved)", after->lower);
+    thr_text_printf(text, "these tensions are too small: %.4g times as much is needed (proved)",
+                    after->lower);
   else
-    thr_text_printf(text, "an equilibrium may exist or not: between %.4g and %.4g of the tensions", after->lower, after->upper);
-  if (isfinite(eval->let_down)) thr_text_printf(text, "; with all ends let down to %.3g N, too", eval->let_down);
+    thr_text_printf(text, "an equilibrium may exist or not: between %.4g and %.4g of the tensions",
+                    after->lower, after->upper);
+  if (isfinite(eval->let_down))
+    thr_text_printf(text, "; with all ends let down to %.3g N, too", eval->let_down);
   thr_text_append(text, "\n");
   put_after_band(text, evaluation, eval);
 }
@@ -414,29 +472,32 @@ void erect_put(thr_text *text, const thr_erect *erect)
 {
   const thr_erect_still *last = &erect->still[THR_ERECT_STILLS - 1];
   if (erect->lift == 0)
-    thr_text_printf(text, "Drawn in with %.3g N at the harder ends it comes up by itself", last->pull);
+    thr_text_printf(text, "Drawn in with %.3g N at the harder ends it comes up by itself",
+                    last->pull);
   else if (erect->lift > 0)
-    thr_text_printf(
-        text,
-        "Drawn in with %.3g N at the harder ends it comes up under a counterweight of %.3g N (%.0f %% of its weight), and then "
-        "stands alone",
-        last->pull, erect->lift * erect->weight, 100 * erect->lift);
+    thr_text_printf(text,
+                    "Drawn in with %.3g N at the harder ends it comes up under a counterweight of "
+                    "%.3g N (%.0f %% of its weight), and then "
+                    "stands alone",
+                    last->pull, erect->lift * erect->weight, 100 * erect->lift);
   else
-    thr_text_printf(
-        text,
-        "Drawn in with %.3g N at the harder ends it does not come up to its shape, not even with all its weight of %.3g N "
-        "carried",
-        last->pull, erect->weight);
+    thr_text_printf(text,
+                    "Drawn in with %.3g N at the harder ends it does not come up to its shape, not "
+                    "even with all its weight of %.3g N "
+                    "carried",
+                    last->pull, erect->weight);
 }
 
-static void put_structure(thr_text *text, const eval_view *view, const thr_plan *plan, const thr_eval *eval)
+static void put_structure(thr_text *text, const eval_view *view, const thr_plan *plan,
+                          const thr_eval *eval)
 {
   const thr_holding *holding = &eval->holding;
   if (!holding->present) return;
   put_holding(text, eval);
   put_bead_band(text, &plan->evaluation, eval);
   if (holding->first_bead >= 0)
-    thr_text_printf(text, "just below     bead %s moves fastest (collapse mechanism)\n", plan->frame.name[holding->first_bead]);
+    thr_text_printf(text, "just below     bead %s moves fastest (collapse mechanism)\n",
+                    plan->frame.name[holding->first_bead]);
   if (view->loaded) load_put(text, plan, eval);
   if (!view->simulated) return;
   if (eval->settle.present)
@@ -457,12 +518,13 @@ static void put_tension(thr_text *text, const thr_plan *plan, const thr_evaluati
     const thr_cord *cord = &plan->cord[i];
     if (!evaluation->cord[i].known) continue;
     const double *most = evaluation->cord[i].most;
-    thr_text_printf(text, "\n%-5s %6s  %-12s %-12s %12s%s\n", "cord", "pass", "from", "to", "tension (N)",
-                    most ? "      at most" : "");
+    thr_text_printf(text, "\n%-5s %6s  %-12s %-12s %12s%s\n", "cord", "pass", "from", "to",
+                    "tension (N)", most ? "      at most" : "");
     for (int k = 0; k < cord->n_passes; k++) {
       thr_text_printf(text, "%-5s %6d  %-12s %-12s %12.6g", cord->id, k + 1,
                       plan->frame.name[thr_tail(&plan->frame, cord->half[k])],
-                      plan->frame.name[thr_head(&plan->frame, cord->half[k])], evaluation->cord[i].tension[k]);
+                      plan->frame.name[thr_head(&plan->frame, cord->half[k])],
+                      evaluation->cord[i].tension[k]);
       if (most) put_cell(text, 12, 6, most[k], true);
       thr_text_append(text, "\n");
     }
@@ -477,8 +539,10 @@ static void put_schedule(thr_text *text, const thr_plan *plan)
   const int grips = thr_schedule_grips(schedule, -1);
   thr_text_append(text, "\nschedule");
   if (grips)
-    thr_text_printf(text, " of %d pulls, %d of them %s on the way (hold each until the next has taken its slack)",
-                    thr_schedule_pulls(schedule), grips, cli_plural(grips, "a grip", "grips"));
+    thr_text_printf(
+        text,
+        " of %d pulls, %d of them %s on the way (hold each until the next has taken its slack)",
+        thr_schedule_pulls(schedule), grips, cli_plural(grips, "a grip", "grips"));
   thr_text_append(text, "\n");
   for (int k = 0; k < schedule->n; k++) {
     thr_text_append(text, "  ");
@@ -498,7 +562,8 @@ static void put_slack(thr_text *text, const thr_plan *plan)
       most = fmax(most, cord->tension[k]);
     if (cord->known && cord->pull != THR_PULL_NONE && most == 0)
       thr_text_printf(text,
-                      "               cord %s has none, as an end is free or was let down to 0 N; knot or pull it, or let it\n"
+                      "               cord %s has none, as an end is free or was let down to 0 N; "
+                      "knot or pull it, or let it\n"
                       "               down to more\n",
                       plan->cord[i].id);
   }
@@ -518,13 +583,14 @@ static void put_left(thr_text *text, const thr_plan *plan)
     }
   }
   thr_text_printf(text, "afterwards     %.4g to %.4g N in the passes; %s\n", least, most,
-                  least >= evaluation->physics.seating * (1 - 1e-9) ? "every one is seated" : "not every one is seated");
+                  least >= evaluation->physics.seating * (1 - 1e-9) ? "every one is seated"
+                                                                    : "not every one is seated");
   if (open > 0)
-    thr_text_printf(
-        text,
-        "               at least: where a grip was let go, single passes may keep more, up to %.4g N (--tension); which,\n"
-        "               the stretch of the cord decides (--stiffness)\n",
-        open);
+    thr_text_printf(text,
+                    "               at least: where a grip was let go, single passes may keep "
+                    "more, up to %.4g N (--tension); which,\n"
+                    "               the stretch of the cord decides (--stiffness)\n",
+                    open);
   put_slack(text, plan);
 }
 
@@ -544,8 +610,10 @@ static void put_pressure(thr_text *text, const thr_plan *plan)
   thr_text_append_clean(text, frame->name[frame->edge[edge][0]]);
   thr_text_append(text, " and ");
   thr_text_append_clean(text, frame->name[frame->edge[edge][1]]);
-  thr_text_printf(text, ": %.3g MPa, which beads that bear %.3g MPa %s\n", pressure, evaluation->physics.bead_strength,
-                  pressure > evaluation->physics.bead_strength ? "do not stand: they are crushed" : "stand");
+  thr_text_printf(text, ": %.3g MPa, which beads that bear %.3g MPa %s\n", pressure,
+                  evaluation->physics.bead_strength,
+                  pressure > evaluation->physics.bead_strength ? "do not stand: they are crushed"
+                                                               : "stand");
 }
 
 /* How far the farthest piece can shift, as its bores are wider than the cord. */
@@ -559,14 +627,16 @@ static void put_play(thr_text *text, const thr_plan *plan)
   if (play.gaps == 0) return;
   thr_text_printf(text, "play: %.3g mm at a gap (bore less cord); piece ", play.gap);
   thr_text_append_clean(text, plan->frame.name[play.piece]);
-  thr_text_printf(text, ", %d %s from a foot, may be out by %.3g mm if all of it adds up\n", play.gaps,
-                  cli_plural(play.gaps, "gap", "gaps"), play.most);
+  thr_text_printf(text, ", %d %s from a foot, may be out by %.3g mm if all of it adds up\n",
+                  play.gaps, cli_plural(play.gaps, "gap", "gaps"), play.most);
 }
 
-void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan, const thr_eval *eval)
+void eval_put_text(thr_text *text, const eval_view *view, const thr_plan *plan,
+                   const thr_eval *eval)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
-  put_heading(text, evaluation, eval->refused > 0, evaluation->schedule.n > 0 ? "by the schedule below" : view->pulled);
+  put_heading(text, evaluation, eval->refused > 0,
+              evaluation->schedule.n > 0 ? "by the schedule below" : view->pulled);
   put_cords(text, plan, evaluation);
   put_sums(text, plan, eval, view);
   seated_put(text, plan);

@@ -1,10 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What of a load is carried, in words and as JSON. */
 #include "cli/print/print.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* What is too much at the ends of the band of the frictions of beads and ground; nothing where that was not asked. */
+/* What is too much at the ends of the band of the frictions of beads and ground; nothing where that
+ * was not asked. */
 static void put_band(thr_text *text, const double band[2], bool banded)
 {
   for (int end = 0; end < 2 && banded; end++)
@@ -16,17 +18,20 @@ static void put_band(thr_text *text, const double band[2], bool banded)
       thr_text_append(text, "      none  ");
 }
 
-static void put_one(thr_text *text, const thr_frame *frame, const thr_carry *carry, const double band[2], bool banded)
+static void put_one(thr_text *text, const thr_frame *frame, const thr_carry *carry,
+                    const double band[2], bool banded)
 {
   if (carry->first_bead < 0) {
-    thr_text_append(text, "not decided: more than cords can tell, or than the solver's numbers can\n");
+    thr_text_append(text,
+                    "not decided: more than cords can tell, or than the solver's numbers can\n");
     return;
   }
   if (carry->beyond > 0 && !isfinite(carry->carried)) {
     thr_text_printf(text, "%10s  ", "none found");
     thr_text_printf(text, isfinite(carry->beyond) ? "%10.4g  " : "      none  ", carry->beyond);
   } else if (carry->beyond > 0)
-    thr_text_printf(text, isfinite(carry->beyond) ? "%10.4g  %10.4g  " : "%10.4g        none  ", carry->carried, carry->beyond);
+    thr_text_printf(text, isfinite(carry->beyond) ? "%10.4g  %10.4g  " : "%10.4g        none  ",
+                    carry->carried, carry->beyond);
   else
     thr_text_append(text, "does not stand as it is ");
   put_band(text, band, banded);
@@ -35,20 +40,25 @@ static void put_one(thr_text *text, const thr_frame *frame, const thr_carry *car
 }
 
 /* The pull that carries all of it, and with other frictions. */
-static void put_needed(thr_text *text, const thr_physics *physics, const thr_holding *loaded, const double band[2])
+static void put_needed(thr_text *text, const thr_physics *physics, const thr_holding *loaded,
+                       const double band[2])
 {
   thr_text_append(text, "\nload           ");
   if (isfinite(loaded->upper))
-    thr_text_printf(text, "all of it is carried with %.4g N at all ends; less than %.4g N is too little (proved)", loaded->upper,
-                    loaded->lower);
+    thr_text_printf(
+        text,
+        "all of it is carried with %.4g N at all ends; less than %.4g N is too little (proved)",
+        loaded->upper, loaded->lower);
   else if (!isfinite(loaded->lower))
-    thr_text_append(text, "no pull carries all of it: something gives way however hard the cords are pulled (proved)");
+    thr_text_append(text, "no pull carries all of it: something gives way however hard the cords "
+                          "are pulled (proved)");
   else
     thr_text_append(text, "whether any pull carries all of it is not decided");
   for (int end = 0; end < 2 && !isnan(band[0]) && !isnan(band[1]); end++) {
     const double times = (end ? physics->mu_high : physics->mu_low) / physics->mu;
-    thr_text_printf(text, end ? "; %.3g, %.3g: " : "; with bead on bead %.3g, foot on ground %.3g: ", times * physics->mu_bead,
-                    times * physics->mu_ground);
+    thr_text_printf(text,
+                    end ? "; %.3g, %.3g: " : "; with bead on bead %.3g, foot on ground %.3g: ",
+                    times * physics->mu_bead, times * physics->mu_ground);
     thr_text_printf(text, isfinite(band[end]) ? "%.4g N" : "no pull does", band[end]);
   }
   thr_text_append(text, "\n");
@@ -62,12 +72,17 @@ void load_put(thr_text *text, const thr_plan *plan, const thr_eval *eval)
   for (int i = 0; i < eval->n_carries; i++)
     banded |= !isnan(eval->carries[i].band_beads[0]) || !isnan(eval->carries[i].band_beads[1]);
   put_needed(text, physics, &eval->loaded, eval->band_beads[THR_ASKED_LOADED]);
-  thr_text_printf(text, "with equal pulls at all ends, while the cords are drawn in, so many times the load%s:\n",
-                  banded ? "; at: what is too much with such friction of bead on bead, and of the ground in proportion" : "");
+  thr_text_printf(
+      text,
+      "with equal pulls at all ends, while the cords are drawn in, so many times the load%s:\n",
+      banded ? "; at: what is too much with such friction of bead on bead, and of the ground in "
+               "proportion"
+             : "");
   thr_text_append(text, "  pull (N)     carried    too much  ");
   for (int end = 0; end < 2 && banded; end++) {
     char cell[40];
-    snprintf(cell, sizeof cell, "at %.3g", physics->mu_bead * (end ? physics->mu_high : physics->mu_low) / physics->mu);
+    snprintf(cell, sizeof cell, "at %.3g",
+             physics->mu_bead * (end ? physics->mu_high : physics->mu_low) / physics->mu);
     thr_text_printf(text, "%10s  ", cell);
   }
   thr_text_append(text, "moves first\n");
@@ -88,7 +103,8 @@ static void put_band_json(thr_writer *writer, const double band[2])
   thr_write_close(writer);
 }
 
-static void put_members(thr_writer *writer, const thr_frame *frame, const thr_carry *carry, const double band[2])
+static void put_members(thr_writer *writer, const thr_frame *frame, const thr_carry *carry,
+                        const double band[2])
 {
   const bool decided = carry->first_bead >= 0;
   thr_write_number(writer, "carried", decided ? carry->carried : NAN);

@@ -1,5 +1,7 @@
-/* Forces and proofs in plain words, for the first screen of every command: newtons with the weight that pulls as much, and one
- * clause for what is proved. Cuts, multipliers and solvers are for --verbose. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Forces and proofs in plain words, for the first screen of every command: newtons with the weight
+ * that pulls as much, and one clause for what is proved. Cuts, multipliers and solvers are for
+ * --verbose. */
 #include "cli/print/print.h"
 
 #include <math.h>
@@ -69,7 +71,8 @@ const char *plain_both(double smaller, double larger, char out[64])
   return out;
 }
 
-void plain_put_proof(thr_text *text, bool optimal, double value, double bound, const char *less, const char *least)
+void plain_put_proof(thr_text *text, bool optimal, double value, double bound, const char *less,
+                     const char *least)
 {
   if (optimal) {
     thr_text_printf(text, "proved: %s", less);
@@ -79,7 +82,8 @@ void plain_put_proof(thr_text *text, bool optimal, double value, double bound, c
     thr_text_printf(text, "how near that is to the %s is not known", least);
     return;
   }
-  thr_text_printf(text, "at most %.6g %% above the %s (proved)", thr_percent_above(value, bound), least);
+  thr_text_printf(text, "at most %.6g %% above the %s (proved)", thr_percent_above(value, bound),
+                  least);
 }
 
 void plain_put_length_proof(thr_text *text, const thr_plan *plan)
@@ -89,19 +93,24 @@ void plain_put_length_proof(thr_text *text, const thr_plan *plan)
   const bool few_first = thr_plan_fewest_first(&plan->options);
   if (few_first) least = "shortest possible with so many cords";
   if (plan->symmetry.present) least = "shortest cords without symmetry";
-  plain_put_proof(text, proof->optimal, plan->metrics.length, proof->lower_bound,
-                  few_first ? "with so many cords nothing shorter exists" : "nothing shorter exists", least);
+  plain_put_proof(
+      text, proof->optimal, plan->metrics.length, proof->lower_bound,
+      few_first ? "with so many cords nothing shorter exists" : "nothing shorter exists", least);
 }
 
-bool plain_put_fewest(thr_text *text, const thr_plan *plan, int fewest, const char *cords, const char *within)
+bool plain_put_fewest(thr_text *text, const thr_plan *plan, int fewest, const char *cords,
+                      const char *within)
 {
   /* A bound that is no more than the number of cords asked for was not proved, but asked for. */
   const int n_components = thr_plan_components(plan), least = thr_plan_cords_least(&plan->options);
   const int asked = plan->options.ends == THR_ENDS_COUNTS ? plan->n_cords : least * n_components;
-  if (fewest <= 1 || (least > 1 && fewest <= asked) || plan->options.ends == THR_ENDS_COUNTS) return false;
+  if (fewest <= 1 || (least > 1 && fewest <= asked) || plan->options.ends == THR_ENDS_COUNTS)
+    return false;
 
   thr_text_append(text, "; proved: ");
-  if (least > 1) thr_text_printf(text, "from %d cords%s on, ", least, n_components > 1 ? " in each component" : "");
+  if (least > 1)
+    thr_text_printf(text, "from %d cords%s on, ", least,
+                    n_components > 1 ? " in each component" : "");
   thr_text_printf(text, "fewer than %d%s are impossible%s", fewest, least > 1 ? "" : cords, within);
   return true;
 }
@@ -110,9 +119,12 @@ void plain_put_hand(thr_text *text, double newton)
 {
   char force[64];
   if (newton > thr_hand_most)
-    thr_text_printf(text, "too hard for a hand, which manages about %s", plain_force(thr_hand_most, force));
+    thr_text_printf(text, "too hard for a hand, which manages about %s",
+                    plain_force(thr_hand_most, force));
   else if (newton > thr_hand_always)
-    thr_text_printf(text, "within the %s that a hand manages now and then", plain_force(thr_hand_most, force));
+    thr_text_printf(text, "within the %s that a hand manages now and then",
+                    plain_force(thr_hand_most, force));
   else
-    thr_text_printf(text, "within the %s that a hand manages time after time", plain_force(thr_hand_always, force));
+    thr_text_printf(text, "within the %s that a hand manages time after time",
+                    plain_force(thr_hand_always, force));
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What `thread plan` says of a plan: its cords, their length, turning and pull. */
 #include "cli/print/print.h"
 #include "graph/angle.h"
@@ -14,7 +15,8 @@ static bool turns_least(const thr_plan *plan)
 
 /* ---- cords ---- */
 
-/* Of the turns that the plan counts; for other objectives than the least turning of those inside the cord. */
+/* Of the turns that the plan counts; for other objectives than the least turning of those inside
+ * the cord. */
 typedef struct {
   double turning, sharpest; /* rad */
   int u_turns;
@@ -34,9 +36,10 @@ static cord_turns turns_of(const thr_plan *plan, const thr_cord *cord)
   return x;
 }
 
-/* pull: times the seating tension, N at the harder end. seated: the cord's evaluation in N, NULL if there is none; it knows what
- * the other end takes, which is said where that is less. */
-static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord, double pull, const thr_eval_cord *seated)
+/* pull: times the seating tension, N at the harder end. seated: the cord's evaluation in N, NULL if
+ * there is none; it knows what the other end takes, which is said where that is less. */
+static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord, double pull,
+                     const thr_eval_cord *seated)
 {
   const cord_turns x = turns_of(plan, cord);
   const char *from = plan->frame.name[thr_cord_start(&plan->frame, cord)],
@@ -44,16 +47,19 @@ static void put_cord(thr_text *text, const thr_plan *plan, const thr_cord *cord,
   char factor[24], force[64];
   const double newton = pull * plan->options.physics.seating;
   plain_both(seated ? fmin(seated->force, seated->other_force) : newton, newton, force);
-  thr_text_printf(text, "%-5s %7d %14.3f %6.0f deg ", cord->id, cord->n_passes, thr_cord_length(&plan->frame, cord),
-                  thr_degrees(x.turning));
+  thr_text_printf(text, "%-5s %7d %14.3f %6.0f deg ", cord->id, cord->n_passes,
+                  thr_cord_length(&plan->frame, cord), thr_degrees(x.turning));
   if (turns_least(plan)) thr_text_printf(text, "%6.0f deg ", thr_degrees(x.sharpest));
   thr_text_printf(text, "%8d ", x.u_turns);
-  if (cli_verbose) thr_text_printf(text, "%12s ", turning_factor(turning_capstan(plan->options.physics.mu, x.turning), factor));
+  if (cli_verbose)
+    thr_text_printf(text, "%12s ",
+                    turning_factor(turning_capstan(plan->options.physics.mu, x.turning), factor));
   thr_text_printf(text, "%18s", force);
   thr_text_printf(text, cord->closed ? "  both at %s\n" : "  %s and %s\n", from, to);
 }
 
-static void put_cords(thr_text *text, const thr_plan *plan, const double *pull, const thr_eval *seated)
+static void put_cords(thr_text *text, const thr_plan *plan, const double *pull,
+                      const thr_eval *seated)
 {
   enum { MOST = 12 };
   thr_text_printf(text, "%-5s %7s %14s %10s ", "cord", "passes", "length", "turning");
@@ -85,9 +91,11 @@ static void put_number(thr_text *text, const thr_plan *plan, int components)
   else if (options->cords_least == options->cords && options->cords > 1)
     thr_text_printf(text, "; %d cords%s", options->cords, each);
   if (thr_wants_balance(options)) thr_text_append(text, "; of even length");
-  if (options->max_length > 0) thr_text_printf(text, "; none longer than %g %s", options->max_length, plan->frame.units);
+  if (options->max_length > 0)
+    thr_text_printf(text, "; none longer than %g %s", options->max_length, plan->frame.units);
   if (options->max_pull > 0)
-    thr_text_printf(text, "; none pulled by more than %g N", options->max_pull * options->physics.seating);
+    thr_text_printf(text, "; none pulled by more than %g N",
+                    options->max_pull * options->physics.seating);
 }
 
 static void put_head(thr_text *text, const thr_plan *plan)
@@ -96,12 +104,13 @@ static void put_head(thr_text *text, const thr_plan *plan)
   int components = thr_plan_components(plan);
   bool tubes = options->joint == THR_JOINT_TUBE;
   if (tubes)
-    thr_text_printf(text, "%d %s, %d joints", plan->frame.n_edges, cli_plural(plan->frame.n_edges, "tube", "tubes"),
-                    plan->frame.n_nodes);
+    thr_text_printf(text, "%d %s, %d joints", plan->frame.n_edges,
+                    cli_plural(plan->frame.n_edges, "tube", "tubes"), plan->frame.n_nodes);
   else
     thr_text_printf(text, "%d pieces, %d %s", plan->frame.n_nodes, plan->frame.n_edges,
                     cli_plural(plan->frame.n_edges, "interface", "interfaces"));
-  thr_text_printf(text, ", %d %s; %d %s per %s", components, cli_plural(components, "component", "components"), options->cover,
+  thr_text_printf(text, ", %d %s; %d %s per %s", components,
+                  cli_plural(components, "component", "components"), options->cover,
                   cli_plural(options->cover, "pass", "passes"), tubes ? "tube" : "interface");
   if (plan->frame.cover) thr_text_append(text, " or as the framework says");
   if (options->capacity) thr_text_printf(text, ", at most %d", options->capacity);
@@ -112,7 +121,8 @@ static void put_head(thr_text *text, const thr_plan *plan)
 }
 
 /* Whether fewer cords would do. */
-static void put_fewest(thr_text *text, const thr_plan *plan, int fewest, bool optimal, const char *within)
+static void put_fewest(thr_text *text, const thr_plan *plan, int fewest, bool optimal,
+                       const char *within)
 {
   thr_text_printf(text, "cords    %d", plan->n_cords);
   if (plain_put_fewest(text, plan, fewest, "", within))
@@ -133,8 +143,8 @@ static void put_claim(thr_text *text, const thr_plan *plan, thr_cords_word word)
   thr_text_printf(text, "longest  %.7g %s", claim->longest, units);
   if (claim->longest_optimal || thr_wants_balance(&plan->options)) {
     thr_text_append(text, "; ");
-    plain_put_proof(text, claim->longest_optimal, claim->longest, claim->longest_bound, "the longest cord can be no shorter",
-                    "shortest possible");
+    plain_put_proof(text, claim->longest_optimal, claim->longest, claim->longest_bound,
+                    "the longest cord can be no shorter", "shortest possible");
   }
   thr_text_append(text, "\n");
   if (!claim->longest_optimal && thr_wants_balance(&plan->options) && word.longest_least)
@@ -150,12 +160,13 @@ static void put_pull_limit(thr_text *text, const thr_plan *plan, double largest)
   double seating = options->physics.seating;
   char force[64];
   if (options->max_pull <= 0) return;
-  thr_text_printf(text, "hand     %s at most at the end of a cord; %.6g N are allowed\n", plain_force(largest * seating, force),
-                  options->max_pull * seating);
+  thr_text_printf(text, "hand     %s at most at the end of a cord; %.6g N are allowed\n",
+                  plain_force(largest * seating, force), options->max_pull * seating);
   if (claim->present) put_fewest(text, plan, claim->fewest, claim->optimal, " within that pull");
 }
 
-/* What the checker has verified, and whether GLPK's exact simplex finds the same minimum on these cuts: for those who ask. */
+/* What the checker has verified, and whether GLPK's exact simplex finds the same minimum on these
+ * cuts: for those who ask. */
 static void put_certificate(thr_text *text, const thr_plan *plan)
 {
   const thr_length_proof *proof = &plan->proof;
@@ -163,8 +174,8 @@ static void put_certificate(thr_text *text, const thr_plan *plan)
   bool agreed = proof->confirmed > 0 && proof->unconfirmed == 0;
   bool missed = proof->unconfirmed > 0 && plan->options.confirm == THR_CONFIRM_ALWAYS;
   if (!cli_verbose && plan->options.confirm != THR_CONFIRM_ALWAYS) return;
-  thr_text_printf(text, "         certificate: %d %s, verified; at least %.6f %s%s\n", cuts, cli_cuts_word(plan, cuts),
-                  proof->lower_bound, plan->frame.units,
+  thr_text_printf(text, "         certificate: %d %s, verified; at least %.6f %s%s\n", cuts,
+                  cli_cuts_word(plan, cuts), proof->lower_bound, plan->frame.units,
                   agreed   ? "; GLPK agrees"
                   : missed ? "; not confirmed by GLPK"
                            : "");
@@ -176,12 +187,16 @@ static void put_length_status(thr_text *text, const thr_plan *plan, thr_cords_wo
   thr_text_append(text, "         ");
   plain_put_length_proof(text, plan);
   thr_text_append(text, "\n");
-  if (!proof->optimal && word.passes_least && plan->options.max_length == 0 && !thr_wants_balance(&plan->options))
-    thr_text_append(text, "         the search ruled out everything shorter with so many cords (not verified)\n");
+  if (!proof->optimal && word.passes_least && plan->options.max_length == 0 &&
+      !thr_wants_balance(&plan->options))
+    thr_text_append(
+        text,
+        "         the search ruled out everything shorter with so many cords (not verified)\n");
   put_certificate(text, plan);
 }
 
-/* What has no other cord, by cord: interfaces between rigid pieces, or with tube joints the pieces. */
+/* What has no other cord, by cord: interfaces between rigid pieces, or with tube joints the pieces.
+ */
 static int edges_alone(const thr_plan *plan, const int *only, int cord)
 {
   int n = 0;
@@ -238,10 +253,12 @@ static void put_loose(thr_text *text, const thr_plan *plan, const int *only, int
   thr_text_append(text, "\n");
 }
 
-/* What comes loose if one of several cords is cut: the worst of them, and each if more is to be said. */
+/* What comes loose if one of several cords is cut: the worst of them, and each if more is to be
+ * said. */
 static void put_cut(thr_text *text, const thr_plan *plan)
 {
-  int worst = 0, most = 0, *only = plan->n_cords > 1 ? thr_calloc((size_t)plan->frame.n_edges, sizeof *only) : NULL;
+  int worst = 0, most = 0,
+      *only = plan->n_cords > 1 ? thr_calloc((size_t)plan->frame.n_edges, sizeof *only) : NULL;
   const char *what = plan->options.joint == THR_JOINT_TUBE ? "piece" : "interface";
   if (plan->n_cords <= 1) return;
   if (!only) {
@@ -257,11 +274,13 @@ static void put_cut(thr_text *text, const thr_plan *plan)
   if (most == 0)
     thr_text_printf(text, "cut      whichever cord is cut, every %s keeps another\n", what);
   else
-    thr_text_printf(text, "cut      if one cord is cut, at worst %d of %d %ss are left without any (cord %s)\n", most,
-                    plan->frame.n_edges, what, plan->cord[worst].id);
+    thr_text_printf(
+        text, "cut      if one cord is cut, at worst %d of %d %ss are left without any (cord %s)\n",
+        most, plan->frame.n_edges, what, plan->cord[worst].id);
   for (int i = 0; i < plan->n_cords && cli_verbose && most > 0; i++) {
-    thr_text_printf(text, "         cord %s: %d without any, %d %s wholly loose", plan->cord[i].id, edges_alone(plan, only, i),
-                    pieces_alone(plan, only, i), cli_plural(pieces_alone(plan, only, i), "piece", "pieces"));
+    thr_text_printf(text, "         cord %s: %d without any, %d %s wholly loose", plan->cord[i].id,
+                    edges_alone(plan, only, i), pieces_alone(plan, only, i),
+                    cli_plural(pieces_alone(plan, only, i), "piece", "pieces"));
     put_loose(text, plan, only, i);
   }
   free(only);
@@ -271,32 +290,41 @@ static void put_cut(thr_text *text, const thr_plan *plan)
 static void put_distinct(thr_text *text, const thr_plan *plan)
 {
   int asked = plan->options.distinct, met = plan->metrics.distinct, n = plan->frame.n_edges;
-  if (asked > 0) thr_text_printf(text, "distinct %d of %d edges are passed by %d different cords\n", met, n, asked);
+  if (asked > 0)
+    thr_text_printf(text, "distinct %d of %d edges are passed by %d different cords\n", met, n,
+                    asked);
 }
 
 /* seated: what the pulls do, NULL if they are more than a number holds. */
-static void put_text(thr_text *text, const thr_plan *plan, const double *pull, double largest, const thr_eval *seated,
-                     const thr_rivals *rivals, thr_cords_word word)
+static void put_text(thr_text *text, const thr_plan *plan, const double *pull, double largest,
+                     const thr_eval *seated, const thr_rivals *rivals, thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
   const thr_physics *physics = &plan->options.physics;
   put_head(text, plan);
   put_cords(text, plan, pull, seated);
   if (plan->symmetry.present) symmetry_put_paths(text, plan);
-  thr_text_printf(text, "\nlength   %.7g %s = %.7g for ", metrics->length, plan->frame.units, metrics->base_length);
+  thr_text_printf(text, "\nlength   %.7g %s = %.7g for ", metrics->length, plan->frame.units,
+                  metrics->base_length);
   if (plan->frame.cover)
     thr_text_append(text, "the passes that every edge needs");
   else
-    thr_text_printf(text, "%d %s over every edge", plan->options.cover, cli_plural(plan->options.cover, "pass", "passes"));
-  thr_text_printf(text, " + %.7g overlap (%.1f %%)\n", metrics->overlap, 100 * metrics->overlap / metrics->base_length);
+    thr_text_printf(text, "%d %s over every edge", plan->options.cover,
+                    cli_plural(plan->options.cover, "pass", "passes"));
+  thr_text_printf(text, " + %.7g overlap (%.1f %%)\n", metrics->overlap,
+                  100 * metrics->overlap / metrics->base_length);
   put_length_status(text, plan, word);
   put_claim(text, plan, word);
   put_distinct(text, plan);
   put_cut(text, plan);
   put_pull_limit(text, plan, largest);
   if (rivals) turning_put_status(text, plan, rivals);
-  if (cli_verbose) thr_text_append(text, "capstan  exp(mu x turning): the factor from one end of a cord to the other\n");
-  thr_text_printf(text, "pull     at both ends of every cord, so that %g N is left where it is slackest (friction mu = %g)\n",
+  if (cli_verbose)
+    thr_text_append(text,
+                    "capstan  exp(mu x turning): the factor from one end of a cord to the other\n");
+  thr_text_printf(text,
+                  "pull     at both ends of every cord, so that %g N is left where it is slackest "
+                  "(friction mu = %g)\n",
                   physics->seating, physics->mu);
   if (seated) seated_put_holding(text, "hold     ", plan, &seated->record);
   if (rivals) turning_put_table(text, plan, rivals);
@@ -311,7 +339,8 @@ static double *pulls_of(thr_text *text, const thr_plan *plan, double *largest)
   return pull;
 }
 
-void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals, thr_cords_word word)
+void plan_put_summary(thr_text *text, const thr_plan *plan, const thr_rivals *rivals,
+                      thr_cords_word word)
 {
   double largest, *pull = pulls_of(text, plan, &largest);
   thr_eval seated;
@@ -351,7 +380,8 @@ static void put_loose_json(thr_writer *writer, const thr_plan *plan, const int *
   thr_write_close(writer);
 }
 
-/* Of several cords, the edges that each alone passes, and which pieces come wholly loose without it. */
+/* Of several cords, the edges that each alone passes, and which pieces come wholly loose without
+ * it. */
 static void put_cut_json(thr_writer *writer, const thr_plan *plan)
 {
   int *only = thr_calloc((size_t)plan->frame.n_edges, sizeof *only);
@@ -376,7 +406,8 @@ static void put_cut_json(thr_writer *writer, const thr_plan *plan)
   free(only);
 }
 
-void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals, thr_cords_word word)
+void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *rivals,
+                   thr_cords_word word)
 {
   const thr_metrics *metrics = &plan->metrics;
   thr_write_hash(writer, "framework", thr_frame_hash(&plan->frame));
@@ -400,7 +431,8 @@ void plan_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals *r
   if (plan->options.max_pull > 0) thr_write_number(writer, "max_pull", plan->options.max_pull);
   if (plan->pull_claim.present) {
     thr_write_int(writer, "fewest_cords_for_pull", plan->pull_claim.fewest);
-    thr_write_string(writer, "fewest_cords_for_pull_status", plan->pull_claim.optimal ? "optimal" : "bound");
+    thr_write_string(writer, "fewest_cords_for_pull_status",
+                     plan->pull_claim.optimal ? "optimal" : "bound");
   }
   if (plan->cords_claim.present) put_claim_json(writer, plan, word);
   if (plan->options.distinct > 0) thr_write_int(writer, "distinct", metrics->distinct);

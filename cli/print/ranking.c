@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* An order of plans by a value of which more or less is known. Used by compare. */
 #include "cli/print/print.h"
 
@@ -104,7 +105,8 @@ static void put_interval(const ranking *r, int i, thr_text *text)
 {
   const double low = count_of(r, i).low, high = count_of(r, i).high;
   if (!isfinite(high))
-    thr_text_printf(text, " (at least %.4g%s%s%s)", low, r->unit, r->open ? ": " : "", r->open ? r->open : "");
+    thr_text_printf(text, " (at least %.4g%s%s%s)", low, r->unit, r->open ? ": " : "",
+                    r->open ? r->open : "");
   else if (r->error && r->value[i] > 0)
     thr_text_printf(text, " (+-%.3g %%)", 100 * (high / r->value[i] - 1));
   else if (!r->error && high > low * (1 + 1e-5))
@@ -121,7 +123,8 @@ static void put_value(const ranking *r, int i, thr_text *text)
   put_interval(r, i, text);
 }
 
-/* With whom of those before it the plan in place k ties, named where it is not just the one before. */
+/* With whom of those before it the plan in place k ties, named where it is not just the one before.
+ */
 static void put_ties(const ranking *r, int k, const char *const *name, thr_text *text)
 {
   int ties = 0;
@@ -187,14 +190,17 @@ static int count_swaps(const ranking *r, int band)
   return n;
 }
 
-void ranking_put_bands(const ranking *r, const char *const *name, char at[RANKING_ENDS][40], thr_text *text)
+void ranking_put_bands(const ranking *r, const char *const *name, char at[RANKING_ENDS][40],
+                       thr_text *text)
 {
   enum { MOST = 3 };
   if (!ranking_tells_apart(r)) return;
   for (int band = 0; band < RANKING_BANDS; band++) {
     const int all = is_banded(r, band) ? count_swaps(r, band) : -1;
     int said = 0;
-    if (all == 0) thr_text_printf(text, "     the same order at %s and at %s\n", at[2 * band], at[2 * band + 1]);
+    if (all == 0)
+      thr_text_printf(text, "     the same order at %s and at %s\n", at[2 * band],
+                      at[2 * band + 1]);
     for (int end = 2 * band; end < 2 * band + 2 && all > 0; end++)
       for (int i = 0; i < r->n; i++)
         for (int k = 0; k < r->n; k++)
@@ -229,7 +235,9 @@ void ranking_put_json(const ranking *r, const char *const *name, thr_writer *wri
   }
   thr_write_close(writer);
   for (int band = 0; band < RANKING_BANDS; band++)
-    if (is_banded(r, band)) thr_write_bool(writer, band ? "same_over_band_beads" : "same_over_band", count_swaps(r, band) == 0);
+    if (is_banded(r, band))
+      thr_write_bool(writer, band ? "same_over_band_beads" : "same_over_band",
+                     count_swaps(r, band) == 0);
   thr_write_close(writer);
 }
 

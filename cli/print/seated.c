@@ -1,4 +1,6 @@
-/* Prints which part of the gaps between pieces is closed by which pull, and by one cord or the other. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Prints which part of the gaps between pieces is closed by which pull, and by one cord or the
+ * other. */
 #include "cli/print/print.h"
 
 #include "graph/limits.h"
@@ -21,8 +23,8 @@ static thr_status put_alone(thr_text *text, const thr_plan *plan, double *pull)
     st = thr_seating_pulls(&plan->frame, plan->cord, &plan->evaluation, i, pull, &n, NULL);
     while (seated < n && isfinite(pull[seated]))
       seated++;
-    thr_text_printf(text, "  cord %s alone, the others slack: %d of %d gaps, the last at %.4g N\n", plan->cord[i].id, seated, n,
-                    seated > 0 ? pull[seated - 1] : 0);
+    thr_text_printf(text, "  cord %s alone, the others slack: %d of %d gaps, the last at %.4g N\n",
+                    plan->cord[i].id, seated, n, seated > 0 ? pull[seated - 1] : 0);
   }
   return st;
 }
@@ -32,12 +34,15 @@ static void put_parts(thr_text *text, const double *pull, int n, double seating)
 {
   static const int percent[] = {25, 50, 75, 100};
   int said = 0;
-  thr_text_printf(text, "gaps seated (pressed by %g N), with equal pulls at all pulled ends:", seating);
+  thr_text_printf(text,
+                  "gaps seated (pressed by %g N), with equal pulls at all pulled ends:", seating);
   for (size_t k = 0; k < sizeof percent / sizeof *percent; k++) {
     const int needed = (int)(((long)percent[k] * n + 99) / 100);
-    if (isfinite(pull[needed - 1])) thr_text_printf(text, "%s %d %% at %.4g N", said++ ? "," : "", percent[k], pull[needed - 1]);
+    if (isfinite(pull[needed - 1]))
+      thr_text_printf(text, "%s %d %% at %.4g N", said++ ? "," : "", percent[k], pull[needed - 1]);
   }
-  if (!isfinite(pull[n - 1])) thr_text_printf(text, "%s only slack cords go through the others", said ? ";" : "");
+  if (!isfinite(pull[n - 1]))
+    thr_text_printf(text, "%s only slack cords go through the others", said ? ";" : "");
   thr_text_append(text, "\n");
 }
 
@@ -47,14 +52,16 @@ void seated_put(thr_text *text, const thr_plan *plan)
   const double seating = evaluation->physics.seating;
   if (!evaluation->seated_known) return;
   if (evaluation->schedule.n > 0) {
-    thr_text_printf(text, "gaps seated (pressed by %g N): %.4g %%\n", seating, 100 * evaluation->seated);
+    thr_text_printf(text, "gaps seated (pressed by %g N): %.4g %%\n", seating,
+                    100 * evaluation->seated);
     return;
   }
   int n = 0, pulled = 0;
   double *pull = thr_calloc((size_t)plan->frame.n_edges + 1, sizeof *pull);
   for (int i = 0; i < evaluation->n_cords; i++)
     pulled += evaluation->cord[i].pull != THR_PULL_NONE;
-  thr_status st = pull ? thr_seating_pulls(&plan->frame, plan->cord, evaluation, -1, pull, &n, NULL) : THR_ENOMEM;
+  thr_status st = pull ? thr_seating_pulls(&plan->frame, plan->cord, evaluation, -1, pull, &n, NULL)
+                       : THR_ENOMEM;
   if (!st && n > 0) put_parts(text, pull, n, seating);
   if (!st && pulled > 1 && pulled <= MOST_ALONE) st = put_alone(text, plan, pull);
   if (st) text->failed = true;
@@ -68,28 +75,34 @@ static bool has_feet(const thr_frame *frame)
   return false;
 }
 
-/* Returns the factor on the pulls from which on the pieces may hold; NAN if there is nothing to say: what falls over on its
- * lowest pieces, without feet, was perhaps not meant to stand there. */
+/* Returns the factor on the pulls from which on the pieces may hold; NAN if there is nothing to
+ * say: what falls over on its lowest pieces, without feet, was perhaps not meant to stand there. */
 static double holds_from(thr_text *text, const thr_plan *plan, const thr_evaluation *evaluation)
 {
   const thr_limits none = {0};
   double times = NAN;
-  if (plan->options.joint == THR_JOINT_TUBE || evaluation->method == THR_STRUCTURE || evaluation->schedule.n > 0) return NAN;
+  if (plan->options.joint == THR_JOINT_TUBE || evaluation->method == THR_STRUCTURE ||
+      evaluation->schedule.n > 0)
+    return NAN;
   for (int i = 0; i < evaluation->n_cords; i++)
     if (!evaluation->cord[i].known) return NAN;
-  if (thr_eval_holds_from(&plan->frame, plan->cord, evaluation, &none, &times, NULL)) text->failed = true;
+  if (thr_eval_holds_from(&plan->frame, plan->cord, evaluation, &none, &times, NULL))
+    text->failed = true;
   return isinf(times) && !has_feet(&plan->frame) ? NAN : times;
 }
 
-void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan, const thr_evaluation *evaluation)
+void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
+                        const thr_evaluation *evaluation)
 {
   const double times = holds_from(text, plan, evaluation), largest = evaluation->largest;
   const thr_physics *physics = &evaluation->physics;
   double least = INFINITY;
   char from[24], to[24], needed[64];
   if (plan->frame.n_nodes > THR_HOLDS_LARGEST && plan->options.joint != THR_JOINT_TUBE) {
-    thr_text_printf(text, "%swhat holding takes is not computed for more than %d pieces: thread eval --method structure\n", label,
-                    THR_HOLDS_LARGEST);
+    thr_text_printf(text,
+                    "%swhat holding takes is not computed for more than %d pieces: thread eval "
+                    "--method structure\n",
+                    label, THR_HOLDS_LARGEST);
     return;
   }
   if (!(times > 1)) return;
@@ -99,21 +112,25 @@ void seated_put_holding(thr_text *text, const char *label, const thr_plan *plan,
     if (evaluation->cord[i].pull != THR_PULL_NONE) least = fmin(least, evaluation->cord[i].force);
   plain_newtons(least, from);
   plain_newtons(largest, to);
-  thr_text_printf(text, "%sseated by %s%s%s N, but while the cords are drawn in %s hold ", label, from,
-                  strcmp(from, to) ? " to " : "", strcmp(from, to) ? to : "",
+  thr_text_printf(text, "%sseated by %s%s%s N, but while the cords are drawn in %s hold ", label,
+                  from, strcmp(from, to) ? " to " : "", strcmp(from, to) ? to : "",
                   has_feet(&plan->frame) ? "the pieces" : "the pieces, on the lowest of them,");
   if (!isfinite(times))
     thr_text_append(text, "at no pull");
   else if (strcmp(from, to) == 0)
     thr_text_printf(text, "only from %s", plain_force(times * largest, needed));
   else
-    thr_text_printf(text, "only from %.3g times that, %s at the hardest", times, plain_force(times * largest, needed));
-  thr_text_printf(text, " (proved at frictions of %g bead on bead, %g on the ground, %g of the cord)%s\n", physics->mu_bead,
-                  physics->mu_ground, physics->mu,
-                  isfinite(times) ? ": pull that much" : ": thread eval --method structure says which give way");
+    thr_text_printf(text, "only from %.3g times that, %s at the hardest", times,
+                    plain_force(times * largest, needed));
+  thr_text_printf(text,
+                  " (proved at frictions of %g bead on bead, %g on the ground, %g of the cord)%s\n",
+                  physics->mu_bead, physics->mu_ground, physics->mu,
+                  isfinite(times) ? ": pull that much"
+                                  : ": thread eval --method structure says which give way");
 }
 
-void seated_put_holding_json(thr_writer *writer, const thr_plan *plan, const thr_evaluation *evaluation)
+void seated_put_holding_json(thr_writer *writer, const thr_plan *plan,
+                             const thr_evaluation *evaluation)
 {
   const double times = holds_from(writer->out, plan, evaluation);
   if (isnan(times)) return;

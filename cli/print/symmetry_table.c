@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table of groups, and how the cords of a symmetric plan are copies of each other. */
 #include "cli/print/print.h"
 #include "graph/angle.h"
@@ -25,16 +26,18 @@ static void put_order(thr_text *text, double mantissa, int exponent)
 /* "identity, 3 rotations, 4 mirrors". */
 static void put_kinds(thr_text *text, const thr_symmetry_row *row)
 {
-  static const char *const word[][2] = {[THR_ISO_ROTATION] = {"rotation", "rotations"},
-                                        [THR_ISO_MIRROR] = {"mirror", "mirrors"},
-                                        [THR_ISO_INVERSION] = {"inversion", "inversions"},
-                                        [THR_ISO_ROTOREFLECTION] = {"rotoreflection", "rotoreflections"},
-                                        [THR_ISO_NONE] = {"of the graph only", "of the graph only"}};
+  static const char *const word[][2] = {
+      [THR_ISO_ROTATION] = {"rotation", "rotations"},
+      [THR_ISO_MIRROR] = {"mirror", "mirrors"},
+      [THR_ISO_INVERSION] = {"inversion", "inversions"},
+      [THR_ISO_ROTOREFLECTION] = {"rotoreflection", "rotoreflections"},
+      [THR_ISO_NONE] = {"of the graph only", "of the graph only"}};
   const char *comma = "";
   if (row->order == 1) thr_text_append(text, "identity");
   for (int k = THR_ISO_IDENTITY + 1; k <= THR_ISO_NONE; k++) {
     if (row->kinds[k] == 0) continue;
-    thr_text_printf(text, "%s%d %s", comma, row->kinds[k], cli_plural(row->kinds[k], word[k][0], word[k][1]));
+    thr_text_printf(text, "%s%d %s", comma, row->kinds[k],
+                    cli_plural(row->kinds[k], word[k][0], word[k][1]));
     comma = ", ";
   }
 }
@@ -48,7 +51,8 @@ static void put_name(thr_text *text, const thr_symmetry_row *row)
     thr_text_printf(text, "order %d of the graph", row->order);
 }
 
-/* Paths and the copies of each, itself among them: "2 x 4", or "3 x 4-8" if some have more than others. */
+/* Paths and the copies of each, itself among them: "2 x 4", or "3 x 4-8" if some have more than
+ * others. */
 static void copies_of(const thr_symmetry_row *row, char out[40])
 {
   int paths = row->record.unique_paths;
@@ -58,11 +62,14 @@ static void copies_of(const thr_symmetry_row *row, char out[40])
     snprintf(out, 40, "%d x %d-%d", paths, row->least_copies, row->most_copies);
 }
 
-/* The solver's word, which no checker verifies: "nothing", or the first aim that may not be as low as can be. */
+/* The solver's word, which no checker verifies: "nothing", or the first aim that may not be as low
+ * as can be. */
 static const char *solvers_word(const thr_request *options, const thr_symmetry_row *row)
 {
-  static const char *const no[] = {
-      [THR_AIM_OVERLAP] = "overlap", [THR_AIM_STEPS] = "steps", [THR_AIM_PATHS] = "paths", [THR_AIM_TURNING] = "turning"};
+  static const char *const no[] = {[THR_AIM_OVERLAP] = "overlap",
+                                   [THR_AIM_STEPS] = "steps",
+                                   [THR_AIM_PATHS] = "paths",
+                                   [THR_AIM_TURNING] = "turning"};
   thr_aim order[THR_N_AIMS];
   if (row->why.code == THR_OK) return "nothing";
   thr_aims_order(options, order);
@@ -75,7 +82,8 @@ static const char *solvers_word(const thr_request *options, const thr_symmetry_r
 
 /* ---- text ---- */
 
-void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request *options, const thr_symmetries *symmetries)
+void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request *options,
+                       const thr_symmetries *symmetries)
 {
   bool shape = options->symmetry.geometric >= 0;
   double kept = shape ? symmetries->keep_lengths[0] : symmetries->mantissa;
@@ -85,20 +93,25 @@ void symmetry_put_head(thr_text *text, const thr_frame *frame, const thr_request
     thr_text_printf(text, "%.0f %s of the shape within %g, of ", symmetries->mantissa,
                     symmetries->mantissa == 1 ? "motion" : "motions", options->symmetry.geometric);
   put_order(text, kept, exponent);
-  thr_text_printf(text, " %s to map the framework onto itself%s", ways, shape ? " with edges as long" : "");
+  thr_text_printf(text, " %s to map the framework onto itself%s", ways,
+                  shape ? " with edges as long" : "");
   if (cli_verbose) thr_text_printf(text, " (automorphisms by nauty %s)", thr_nauty_version());
-  thr_text_printf(text, "; %d %s among %d nodes, %d among %d edges; %d %s of groups%s\n", symmetries->node_orbits,
-                  cli_plural(symmetries->node_orbits, "kind", "kinds"), frame->n_nodes, symmetries->edge_orbits, frame->n_edges,
-                  symmetries->n, cli_plural(symmetries->n, "kind", "kinds"), symmetries->listed ? "" : ", not all:");
+  thr_text_printf(text, "; %d %s among %d nodes, %d among %d edges; %d %s of groups%s\n",
+                  symmetries->node_orbits, cli_plural(symmetries->node_orbits, "kind", "kinds"),
+                  frame->n_nodes, symmetries->edge_orbits, frame->n_edges, symmetries->n,
+                  cli_plural(symmetries->n, "kind", "kinds"),
+                  symmetries->listed ? "" : ", not all:");
   if (!symmetries->listed) thr_text_printf(text, "%s\n", symmetries->note);
   double base = 0;
   for (int e = 0; e < frame->n_edges; e++)
     base += thr_plan_cover(frame, options, e) * frame->length[e];
-  thr_text_printf(text, "ends: %s; %d %s per edge%s; the shortest plan with %s has %.1f %% overlap%s\n\n",
-                  thr_ends_name(options->ends), options->cover, cli_plural(options->cover, "pass", "passes"),
-                  options->joint == THR_JOINT_TUBE ? "; joints: tube" : "",
-                  thr_keep_asked(options) ? "cords as asked for" : "one cord in each component",
-                  100 * (symmetries->shortest - base) / base, symmetries->shortest_optimal ? "" : " (not proved)");
+  thr_text_printf(
+      text, "ends: %s; %d %s per edge%s; the shortest plan with %s has %.1f %% overlap%s\n\n",
+      thr_ends_name(options->ends), options->cover, cli_plural(options->cover, "pass", "passes"),
+      options->joint == THR_JOINT_TUBE ? "; joints: tube" : "",
+      thr_keep_asked(options) ? "cords as asked for" : "one cord in each component",
+      100 * (symmetries->shortest - base) / base,
+      symmetries->shortest_optimal ? "" : " (not proved)");
 }
 
 /* N at the hardest end. */
@@ -107,7 +120,8 @@ static double row_pull(const thr_request *options, const thr_symmetry_row *row)
   return options->physics.seating * turning_capstan(options->physics.mu, row->pulled);
 }
 
-static void put_row(thr_text *text, const thr_request *options, const thr_symmetries *symmetries, int i)
+static void put_row(thr_text *text, const thr_request *options, const thr_symmetries *symmetries,
+                    int i)
 {
   const thr_symmetry_row *row = &symmetries->row[i];
   const thr_metrics *metrics = &row->metrics;
@@ -117,12 +131,16 @@ static void put_row(thr_text *text, const thr_request *options, const thr_symmet
   if (row->n_cords > 0) {
     copies_of(row, copies);
     thr_text_printf(text, "%7.1f %% %14s %8.6g %5d %6d %8.0f deg %8.0f deg %12s %11s",
-                    100 * metrics->overlap / metrics->base_length, copies, row->record.steps, row->instructions, row->n_cords,
-                    thr_degrees(metrics->turning), thr_degrees(metrics->max_turning),
-                    plain_newtons(row_pull(options, row), force), solvers_word(options, row));
+                    100 * metrics->overlap / metrics->base_length, copies, row->record.steps,
+                    row->instructions, row->n_cords, thr_degrees(metrics->turning),
+                    thr_degrees(metrics->max_turning), plain_newtons(row_pull(options, row), force),
+                    solvers_word(options, row));
   } else {
     bool open = row->why.code == THR_ELIMIT || row->why.code == THR_ESOLVER;
-    thr_text_printf(text, "  %-95.95s", open ? row->why.text : row->why.code ? "no threading" : "not asked for");
+    thr_text_printf(text, "  %-95.95s",
+                    open            ? row->why.text
+                    : row->why.code ? "no threading"
+                                    : "not asked for");
   }
   thr_text_printf(text, " %8.3f  ", row->residual);
   put_kinds(text, row);
@@ -138,10 +156,12 @@ static void put_reason(thr_text *text, const thr_request *options, const thr_sym
   if (*options->symmetry.group)
     thr_text_printf(text, ": asked for as --group %s", options->symmetry.group);
   else if (symmetries->within)
-    thr_text_printf(text, ": the fewest learned steps (%g) with at most %g %% more cord than the shortest plan",
-                    row->record.steps, percent);
+    thr_text_printf(
+        text, ": the fewest learned steps (%g) with at most %g %% more cord than the shortest plan",
+        row->record.steps, percent);
   else
-    thr_text_printf(text, ": the least cord; none has at most %g %% more than the shortest plan", percent);
+    thr_text_printf(text, ": the least cord; none has at most %g %% more than the shortest plan",
+                    percent);
   thr_text_append(text, "\n");
 }
 
@@ -152,7 +172,8 @@ static bool is_shown(const thr_request *options, const thr_symmetries *symmetrie
 }
 
 /* Rows first .. last - 1 of those that are shown, the chosen one among them: at most `most`. */
-static void choose_window(const thr_request *options, const thr_symmetries *symmetries, int most, int *first, int *last)
+static void choose_window(const thr_request *options, const thr_symmetries *symmetries, int most,
+                          int *first, int *last)
 {
   int n = 0, at = 0;
   for (int i = 0; i < symmetries->n; i++) {
@@ -163,13 +184,15 @@ static void choose_window(const thr_request *options, const thr_symmetries *symm
   *last = n < *first + most ? n : *first + most;
 }
 
-void symmetry_put_table(thr_text *text, const thr_request *options, const thr_symmetries *symmetries, int most)
+void symmetry_put_table(thr_text *text, const thr_request *options,
+                        const thr_symmetries *symmetries, int most)
 {
   int first, last, behind = 0, at = 0;
-  choose_window(options, symmetries, *options->symmetry.group ? symmetries->n : most, &first, &last);
-  thr_text_printf(text, "%6s %6s  %-6s %9s %14s %8s %5s %6s %12s %12s %12s %11s %8s  %s\n", "number", "order", "group", "overlap",
-                  "paths x copies", "steps", "read", "cords", "turning", "largest", "pull, N", "may be less", "residual",
-                  "elements");
+  choose_window(options, symmetries, *options->symmetry.group ? symmetries->n : most, &first,
+                &last);
+  thr_text_printf(text, "%6s %6s  %-6s %9s %14s %8s %5s %6s %12s %12s %12s %11s %8s  %s\n",
+                  "number", "order", "group", "overlap", "paths x copies", "steps", "read", "cords",
+                  "turning", "largest", "pull, N", "may be less", "residual", "elements");
   if (first > 0) thr_text_printf(text, "    ..  %d larger\n", first);
   for (int i = 0; i < symmetries->n; i++) {
     behind += symmetries->row[i].behind > 0;
@@ -189,7 +212,8 @@ void symmetry_put_table(thr_text *text, const thr_request *options, const thr_sy
 static void put_isometry(thr_text *text, const thr_plan *plan, int image)
 {
   thr_isometry iso;
-  thr_isometry_of(&plan->frame, &plan->symmetry.image[(size_t)image * (size_t)plan->frame.n_nodes], thr_symmetry_near, &iso);
+  thr_isometry_of(&plan->frame, &plan->symmetry.image[(size_t)image * (size_t)plan->frame.n_nodes],
+                  thr_symmetry_near, &iso);
   thr_text_append(text, iso.name);
 }
 
@@ -200,9 +224,11 @@ static void put_copies_of(thr_text *text, const thr_plan *plan, int path)
   int n = 0;
   thr_text_printf(text, "         %s: unique", plan->cord[path].id);
   for (int i = 0; i < plan->n_cords; i++)
-    if (i != path && record->unique[i] == path && n++ < MOST) thr_text_printf(text, n == 1 ? "; %s" : ", %s", plan->cord[i].id);
+    if (i != path && record->unique[i] == path && n++ < MOST)
+      thr_text_printf(text, n == 1 ? "; %s" : ", %s", plan->cord[i].id);
   if (n > MOST) thr_text_printf(text, " and %d more", n - MOST);
-  if (n > 0) thr_text_printf(text, ": %s of %s by ", cli_plural(n, "copy", "copies"), plan->cord[path].id);
+  if (n > 0)
+    thr_text_printf(text, ": %s of %s by ", cli_plural(n, "copy", "copies"), plan->cord[path].id);
   n = 0;
   for (int i = 0; i < plan->n_cords; i++)
     if (i != path && record->unique[i] == path && n++ < MOST) {
@@ -223,9 +249,11 @@ static void put_reading(thr_text *text, const thr_plan *plan)
                     cli_plural(reading.repeated, "path does", "paths do"));
   if (reading.mapped > 0)
     thr_text_printf(text, ", %d %s turned or mirrored", reading.mapped,
-                    cli_plural(reading.mapped, "path goes on as its beginning", "paths go on as their beginning"));
+                    cli_plural(reading.mapped, "path goes on as its beginning",
+                               "paths go on as their beginning"));
   if (reading.moved > 0)
-    thr_text_printf(text, ", %d %s moved along", reading.moved, cli_plural(reading.moved, "path is another", "paths are others"));
+    thr_text_printf(text, ", %d %s moved along", reading.moved,
+                    cli_plural(reading.moved, "path is another", "paths are others"));
   thr_text_append(text, "\n");
 }
 
@@ -234,10 +262,10 @@ void symmetry_put_paths(thr_text *text, const thr_plan *plan)
   enum { MOST = 12 };
   const thr_symmetry_record *record = &plan->symmetry;
   int n = 0;
-  thr_text_printf(text, "\npaths    %d unique, %g learned %s of %d passes", record->unique_paths, record->steps,
-                  record->steps == 1 ? "step" : "steps", plan->metrics.passes);
-  thr_text_printf(text, "; group %s%s of order %d\n", *record->name ? record->name : "of the graph", *record->name ? "" : ",",
-                  record->order);
+  thr_text_printf(text, "\npaths    %d unique, %g learned %s of %d passes", record->unique_paths,
+                  record->steps, record->steps == 1 ? "step" : "steps", plan->metrics.passes);
+  thr_text_printf(text, "; group %s%s of order %d\n", *record->name ? record->name : "of the graph",
+                  *record->name ? "" : ",", record->order);
   for (int i = 0; i < plan->n_cords; i++)
     if (record->unique[i] == i && n++ < MOST) put_copies_of(text, plan, i);
   if (n > MOST) thr_text_printf(text, "         .. and %d more unique paths\n", n - MOST);
@@ -267,14 +295,18 @@ static void put_name_json(thr_writer *writer, const char *name)
 static const char *row_status(const thr_symmetry_row *row)
 {
   switch (row->why.code) {
-  case THR_OK: return row->n_cords > 0 ? "optimal by the solver's word" : row->behind ? "not chosen" : "not asked for";
+  case THR_OK:
+    return row->n_cords > 0 ? "optimal by the solver's word"
+           : row->behind    ? "not chosen"
+                            : "not asked for";
   case THR_ELIMIT: return row->n_cords > 0 ? "bound" : "stopped";
   case THR_EINFEASIBLE: return "infeasible";
   default: return "failed";
   }
 }
 
-static void put_threading_json(thr_writer *writer, const thr_request *options, const thr_symmetry_row *row)
+static void put_threading_json(thr_writer *writer, const thr_request *options,
+                               const thr_symmetry_row *row)
 {
   const thr_metrics *metrics = &row->metrics;
   thr_write_number(writer, "overlap", metrics->overlap);
@@ -288,7 +320,8 @@ static void put_threading_json(thr_writer *writer, const thr_request *options, c
   thr_write_int(writer, "instructions", row->instructions);
   thr_write_number(writer, "turning", metrics->turning);
   thr_write_number(writer, "max_turning", metrics->max_turning);
-  thr_write_number(writer, "max_capstan", turning_capstan(options->physics.mu, metrics->max_turning));
+  thr_write_number(writer, "max_capstan",
+                   turning_capstan(options->physics.mu, metrics->max_turning));
   thr_write_number(writer, "pull", row_pull(options, row));
   thr_write_object(writer, "bound");
   for (int a = 0; a < THR_N_AIMS; a++)
@@ -296,7 +329,8 @@ static void put_threading_json(thr_writer *writer, const thr_request *options, c
   thr_write_close(writer);
 }
 
-static void put_row_json(thr_writer *writer, const thr_request *options, const thr_symmetries *symmetries, int i)
+static void put_row_json(thr_writer *writer, const thr_request *options,
+                         const thr_symmetries *symmetries, int i)
 {
   static const char *const kind[] = {[THR_ISO_IDENTITY] = "identity",
                                      [THR_ISO_ROTATION] = "rotation",
@@ -323,7 +357,8 @@ static void put_row_json(thr_writer *writer, const thr_request *options, const t
   thr_write_close(writer);
 }
 
-void symmetry_put_table_json(thr_writer *writer, const thr_request *options, const thr_symmetries *symmetries)
+void symmetry_put_table_json(thr_writer *writer, const thr_request *options,
+                             const thr_symmetries *symmetries)
 {
   const bool geometric = options->symmetry.geometric >= 0;
   put_order_json(writer, "order", symmetries->mantissa, symmetries->exponent);
@@ -332,11 +367,14 @@ void symmetry_put_table_json(thr_writer *writer, const thr_request *options, con
   thr_write_bool(writer, "listed", symmetries->listed);
   thr_write_string(writer, "note", symmetries->note);
   thr_write_number(writer, "geometric", geometric ? options->symmetry.geometric : NAN);
-  if (geometric) put_order_json(writer, "length_keeping", symmetries->keep_lengths[0], (int)symmetries->keep_lengths[1]);
+  if (geometric)
+    put_order_json(writer, "length_keeping", symmetries->keep_lengths[0],
+                   (int)symmetries->keep_lengths[1]);
   thr_write_number(writer, "mu", options->physics.mu);
   thr_write_number(writer, "shortest", symmetries->shortest);
   thr_write_string(writer, "shortest_status", symmetries->shortest_optimal ? "optimal" : "bound");
-  thr_write_number(writer, "chosen", symmetries->chosen >= 0 ? (double)symmetries->chosen + 1 : NAN);
+  thr_write_number(writer, "chosen",
+                   symmetries->chosen >= 0 ? (double)symmetries->chosen + 1 : NAN);
   thr_write_bool(writer, "within_slack", symmetries->within);
   thr_write_array(writer, "groups");
   for (int i = 0; i < symmetries->n; i++)

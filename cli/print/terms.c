@@ -1,4 +1,6 @@
-/* Of which plans the claims of a plan speak, in words: a proof without its terms can be taken for more than it is. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Of which plans the claims of a plan speak, in words: a proof without its terms can be taken for
+ * more than it is. */
 #include "cli/print/print.h"
 #include "graph/angle.h"
 #include "graph/plan/schedule.h"
@@ -21,21 +23,28 @@ static void put_ends(thr_text *text, const thr_plan *plan)
   switch (plan->options.ends) {
   case THR_ENDS_CLOSED: thr_text_append(text, "closed cords"); break;
   case THR_ENDS_ANY: thr_text_append(text, "cord ends at any node"); break;
-  case THR_ENDS_FEET: thr_text_printf(text, "cord ends at the %d %s", n, cli_plural(n, "foot", "feet")); break;
-  case THR_ENDS_NODES: thr_text_printf(text, "cord ends at %d given %s", n, cli_plural(n, "node", "nodes")); break;
-  default: thr_text_printf(text, "given numbers of cord ends at %d %s", n, cli_plural(n, "node", "nodes"));
+  case THR_ENDS_FEET:
+    thr_text_printf(text, "cord ends at the %d %s", n, cli_plural(n, "foot", "feet"));
+    break;
+  case THR_ENDS_NODES:
+    thr_text_printf(text, "cord ends at %d given %s", n, cli_plural(n, "node", "nodes"));
+    break;
+  default:
+    thr_text_printf(text, "given numbers of cord ends at %d %s", n, cli_plural(n, "node", "nodes"));
   }
 }
 
 static void put_passes(thr_text *text, const thr_plan *plan)
 {
   const thr_request *options = &plan->options;
-  thr_text_printf(text, "; %d %s of every edge or more", options->cover, cli_plural(options->cover, "pass", "passes"));
+  thr_text_printf(text, "; %d %s of every edge or more", options->cover,
+                  cli_plural(options->cover, "pass", "passes"));
   if (plan->frame.cover) thr_text_append(text, ", as the framework says");
   if (options->distinct) thr_text_printf(text, ", by %d different cords", options->distinct);
   if (options->capacity) thr_text_printf(text, ", at most %d", options->capacity);
   if (plan->frame.capacity)
-    thr_text_append(text, options->capacity ? " or what the framework allows" : ", at most what the framework allows");
+    thr_text_append(text, options->capacity ? " or what the framework allows"
+                                            : ", at most what the framework allows");
 }
 
 static void put_number(thr_text *text, const thr_plan *plan)
@@ -48,11 +57,13 @@ static void put_number(thr_text *text, const thr_plan *plan)
     thr_text_printf(text, "; %d to %d cords", least, options->cords);
   else
     thr_text_printf(text, "; %d %s", options->cords, cli_plural(options->cords, "cord", "cords"));
-  if (components > 1 && options->ends != THR_ENDS_COUNTS) thr_text_printf(text, " in each of %d components", components);
-  if (options->max_length > 0) thr_text_printf(text, ", none longer than %.12g %s", options->max_length, plan->frame.units);
+  if (components > 1 && options->ends != THR_ENDS_COUNTS)
+    thr_text_printf(text, " in each of %d components", components);
+  if (options->max_length > 0)
+    thr_text_printf(text, ", none longer than %.12g %s", options->max_length, plan->frame.units);
   if (options->max_pull > 0)
-    thr_text_printf(text, ", none that needs more than %.6g times the seating tension at mu = %g", options->max_pull,
-                    options->physics.mu);
+    thr_text_printf(text, ", none that needs more than %.6g times the seating tension at mu = %g",
+                    options->max_pull, options->physics.mu);
 }
 
 /* The least that any tree of a claim, or of one of its parts, is about; 0: there is none. */
@@ -72,9 +83,11 @@ static void put_kind(thr_text *text, const thr_plan *plan)
   const int most = most_passes(&plan->pull_claim);
   if (most > 0) thr_text_printf(text, "; for the fewest cords: at most %d passes of an edge", most);
   if (!plan->turning.present) return;
-  thr_text_printf(text, "; for the turning: at most %d passes of an edge, back only at nodes with one edge%s",
-                  plan->turning.most_passes, thr_wants_pull(&plan->options) ? " (for the pull anywhere)" : "");
-  if (plan->turning.length_limit >= 0) thr_text_printf(text, ", at most %.6f %s", plan->turning.length_limit, plan->frame.units);
+  thr_text_printf(
+      text, "; for the turning: at most %d passes of an edge, back only at nodes with one edge%s",
+      plan->turning.most_passes, thr_wants_pull(&plan->options) ? " (for the pull anywhere)" : "");
+  if (plan->turning.length_limit >= 0)
+    thr_text_printf(text, ", at most %.6f %s", plan->turning.length_limit, plan->frame.units);
 }
 
 static void put_plans(thr_text *text, const thr_plan *plan)
@@ -83,7 +96,8 @@ static void put_plans(thr_text *text, const thr_plan *plan)
   put_passes(text, plan);
   put_number(text, plan);
   thr_text_append(text, plan->options.joint == THR_JOINT_TUBE ? "; tube joints" : "; solid joints");
-  if (plan->frame.own_lengths) thr_text_append(text, "; lengths of edges as given, not from their nodes");
+  if (plan->frame.own_lengths)
+    thr_text_append(text, "; lengths of edges as given, not from their nodes");
   put_kind(text, plan);
 }
 
@@ -100,13 +114,15 @@ static bool slack_proved(const thr_plan *plan)
 static bool measured(const thr_plan *plan)
 {
   const thr_evaluation *evaluation = &plan->evaluation;
-  return evaluation->present && evaluation->method != THR_CAPSTAN && (!evaluation->standing.present || evaluation->standing.taut);
+  return evaluation->present && evaluation->method != THR_CAPSTAN &&
+         (!evaluation->standing.present || evaluation->standing.taut);
 }
 
 /* Was a row of a table asked for, which says nothing without the table? */
 static bool row_asked(const thr_plan *plan)
 {
-  return thr_wants_symmetry(&plan->options) && isdigit((unsigned char)plan->options.symmetry.group[0]);
+  return thr_wants_symmetry(&plan->options) &&
+         isdigit((unsigned char)plan->options.symmetry.group[0]);
 }
 
 /* How the cords are drawn in: "2 cords pulled at both ends, 1 slack". */
@@ -132,7 +148,8 @@ static void put_drawn(thr_text *text, const thr_standing *standing)
 
 static void put_force(thr_text *text, const thr_load *load, const thr_plan *plan)
 {
-  thr_text_printf(text, "(%.6g, %.6g, %.6g) N at ", load->force[0] + 0.0, load->force[1] + 0.0, load->force[2] + 0.0);
+  thr_text_printf(text, "(%.6g, %.6g, %.6g) N at ", load->force[0] + 0.0, load->force[1] + 0.0,
+                  load->force[2] + 0.0);
   thr_text_append_clean(text, plan->frame.name[load->node]);
 }
 
@@ -140,9 +157,11 @@ static void put_force(thr_text *text, const thr_load *load, const thr_plan *plan
 static void put_step(thr_text *text, const thr_plan *plan, const thr_schedule_step *step)
 {
   thr_text_printf(text, "%s %s", plan->cord[step->cord].id, thr_deed_name(step->deed));
-  if (step->deed == THR_DEED_GRIP) thr_text_printf(text, " %d %.6g from", step->pass + 1, step->force + 0.0);
+  if (step->deed == THR_DEED_GRIP)
+    thr_text_printf(text, " %d %.6g from", step->pass + 1, step->force + 0.0);
   if (step->deed != THR_DEED_NONE) thr_text_printf(text, " %s", thr_pull_name(step->end));
-  if (step->deed == THR_DEED_PULL || step->deed == THR_DEED_RELEASE) thr_text_printf(text, " %.6g", step->force + 0.0);
+  if (step->deed == THR_DEED_PULL || step->deed == THR_DEED_RELEASE)
+    thr_text_printf(text, " %.6g", step->force + 0.0);
   if (step->deed == THR_DEED_KNOT && step->slip > 0) thr_text_printf(text, " %.6g", step->slip);
 }
 
@@ -159,19 +178,21 @@ static void put_structure(thr_text *text, const thr_plan *plan)
     thr_text_printf(text, "beads of %.6g g/cm3", physics->density);
   thr_text_printf(text, ", %.6g mm wide, ", physics->bead_diameter);
   if (standing->model > 1)
-    thr_text_printf(text, "cords of %.6g mm anywhere in bores of %.6g mm", physics->cord_diameter, physics->bore);
+    thr_text_printf(text, "cords of %.6g mm anywhere in bores of %.6g mm", physics->cord_diameter,
+                    physics->bore);
   else
     thr_text_printf(text, "cords in the middle of bores of %.6g mm", physics->bore);
-  thr_text_printf(text, "; friction %.6g of beads, %.6g of the ground, %.6g of cords", physics->mu_bead, physics->mu_ground,
-                  physics->mu);
+  thr_text_printf(text, "; friction %.6g of beads, %.6g of the ground, %.6g of cords",
+                  physics->mu_bead, physics->mu_ground, physics->mu);
   if (physics->wobble > 0) thr_text_printf(text, " and %.6g rad/m of wobble", physics->wobble);
-  thr_text_append(text, standing->taut ? "; turns of the tight cords" : "; turns in the middles of the beads");
+  thr_text_append(text, standing->taut ? "; turns of the tight cords"
+                                       : "; turns in the middles of the beads");
   thr_text_append(text, standing->clamped     ? "; feet are held"
                         : standing->model > 1 ? "; feet stand on discs"
                                               : "; feet stand on squares");
   if (standing->tilt > 0)
-    thr_text_printf(text, " on ground that leans by %.6g degrees towards %.6g", thr_degrees(standing->tilt),
-                    thr_degrees(standing->azimuth) + 0.0);
+    thr_text_printf(text, " on ground that leans by %.6g degrees towards %.6g",
+                    thr_degrees(standing->tilt), thr_degrees(standing->azimuth) + 0.0);
   thr_text_printf(text, "; gravity %.6g m/s2", physics->gravity + 0.0);
   put_drawn(text, standing);
 
@@ -180,25 +201,31 @@ static void put_structure(thr_text *text, const thr_plan *plan)
     put_step(text, plan, &schedule->step[i]);
   }
   if (schedule->n > MOST_STEPS) thr_text_printf(text, " and %d more", schedule->n - MOST_STEPS);
-  if (standing->strength > 0) thr_text_printf(text, "; knotted cords bear %.6g N", standing->strength);
+  if (standing->strength > 0)
+    thr_text_printf(text, "; knotted cords bear %.6g N", standing->strength);
   for (int i = 0; i < standing->n_loads && i < MOST_LOADS; i++) {
     thr_text_append(text, i ? ", " : "; load ");
     put_force(text, &standing->load[i], plan);
   }
-  if (standing->n_loads > MOST_LOADS) thr_text_printf(text, " and %d more", standing->n_loads - MOST_LOADS);
+  if (standing->n_loads > MOST_LOADS)
+    thr_text_printf(text, " and %d more", standing->n_loads - MOST_LOADS);
 }
 
-/* "below 4.14 N at the harder ends, .. nothing holds it: verified", a line for each answer of the limit analysis. */
+/* "below 4.14 N at the harder ends, .. nothing holds it: verified", a line for each answer of the
+ * limit analysis. */
 static void standing_put(thr_text *text, const thr_plan *plan)
 {
   static const char *const below[] = {
       [THR_ASKED_HOLDING] = "N at the harder ends, while the cords are drawn in, nothing holds it",
       [THR_ASKED_EQUAL] = "N at all ends, while the cords are drawn in, nothing holds it",
-      [THR_ASKED_ANY_STATE] = "N at all ends, whatever was done to the cords before, nothing holds it",
+      [THR_ASKED_ANY_STATE] =
+          "N at all ends, whatever was done to the cords before, nothing holds it",
       [THR_ASKED_AFTER] = "of the tensions that the schedule leaves nothing holds it",
-      [THR_ASKED_STRETCH] = "N m, by which the tension of knotted cord grows x its length, nothing holds it after the schedule",
+      [THR_ASKED_STRETCH] = "N m, by which the tension of knotted cord grows x its length, nothing "
+                            "holds it after the schedule",
       [THR_ASKED_TIGHTEST] = "N in every pass of knotted cord nothing holds it after the schedule",
-      [THR_ASKED_LOADED] = "N at all ends, while the cords are drawn in, it does not carry the load"};
+      [THR_ASKED_LOADED] =
+          "N at all ends, while the cords are drawn in, it does not carry the load"};
   const thr_standing *standing = &plan->evaluation.standing;
   if (!standing->present) return;
   thr_text_append(text, "  terms of the structure: ");
@@ -210,12 +237,16 @@ static void standing_put(thr_text *text, const thr_plan *plan)
     if (!thr_asked_of_load(answer->asked))
       thr_text_printf(text, "  below %.6g %s: verified\n", answer->proved, below[answer->asked]);
     else if (answer->asked == THR_ASKED_CARRIED)
-      thr_text_printf(text, "  %.6g N at all ends carry no more than %.4g times the load: verified\n", answer->pull,
-                      answer->proved);
+      thr_text_printf(text,
+                      "  %.6g N at all ends carry no more than %.4g times the load: verified\n",
+                      answer->pull, answer->proved);
     else
-      thr_text_printf(text, "  after the schedule it carries no more than %.4g times the load: verified\n", answer->proved);
+      thr_text_printf(
+          text, "  after the schedule it carries no more than %.4g times the load: verified\n",
+          answer->proved);
   }
-  thr_text_append(text, "  not verified: that the equilibria which the limit analysis found exist\n");
+  thr_text_append(text,
+                  "  not verified: that the equilibria which the limit analysis found exist\n");
 }
 
 /* Does a plan of version 1 say anything of pulls at both ends? */
@@ -233,25 +264,29 @@ void terms_put(thr_text *text, const thr_plan *plan)
   put_plans(text, plan);
   thr_text_append(text, "\n");
   if (slack_asked(plan))
-    thr_text_printf(text, "  cord at most %g %% above the least length: %s\n", 100 * plan->options.turning.length_slack + 0.0,
+    thr_text_printf(text, "  cord at most %g %% above the least length: %s\n",
+                    100 * plan->options.turning.length_slack + 0.0,
                     slack_proved(plan) ? "verified" : "not verified");
   if (row_asked(plan))
-    thr_text_printf(text, "  not verified: that the group is row %s of a table of symmetries\n", plan->options.symmetry.group);
+    thr_text_printf(text, "  not verified: that the group is row %s of a table of symmetries\n",
+                    plan->options.symmetry.group);
   if (plan->turning.pairing_bound > 0) {
     thr_text_append(text, "  not verified: pairing_bound, which plans no longer state\n");
   }
   if (measured(plan) && plan->evaluation.standing.taut)
-    thr_text_append(text, "  not verified: the turns of the tight cords; what follows from them is\n");
+    thr_text_append(text,
+                    "  not verified: the turns of the tight cords; what follows from them is\n");
   else if (measured(plan))
-    thr_text_printf(text, "  not verified: the tensions, which method %s measured; what follows from them is\n",
-                    thr_method_name(plan->evaluation.method));
+    thr_text_printf(
+        text, "  not verified: the tensions, which method %s measured; what follows from them is\n",
+        thr_method_name(plan->evaluation.method));
   if (plan->left_out) {
-    thr_text_append(text, "  not verified: what a plan of version 1 proves within its limit on the pull\n");
+    thr_text_append(
+        text, "  not verified: what a plan of version 1 proves within its limit on the pull\n");
   }
   if (is_of_older_pull(plan))
-    thr_text_append(
-        text,
-        "  pulls at both ends are those of plans of version 1, which ask both for the pass in the middle: more than is needed\n");
+    thr_text_append(text, "  pulls at both ends are those of plans of version 1, which ask both "
+                          "for the pass in the middle: more than is needed\n");
   standing_put(text, plan);
 }
 

@@ -1,4 +1,6 @@
-/* A plan of the least turning beside its lower bound, the other end of the trade-off and the shortest plan. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A plan of the least turning beside its lower bound, the other end of the trade-off and the
+ * shortest plan. */
 #include "cli/print/print.h"
 #include "graph/angle.h"
 #include "graph/limits.h"
@@ -9,14 +11,35 @@
 
 /* ---- figures ---- */
 
-enum { LENGTH, ABOVE, TURNING, PRICE, LARGEST, CAPSTAN, SHARPEST, OVER_60, OVER_90, U_TURNS, PULL, N_FIGURES };
+enum {
+  LENGTH,
+  ABOVE,
+  TURNING,
+  PRICE,
+  LARGEST,
+  CAPSTAN,
+  SHARPEST,
+  OVER_60,
+  OVER_90,
+  U_TURNS,
+  PULL,
+  N_FIGURES
+};
 
 /* Of one plan, or of the bound. rad, units, parts; NAN = not known or without meaning. */
 typedef struct {
   double value[N_FIGURES];
 } figures;
 
-typedef enum { FORMAT_LENGTH, FORMAT_PERCENT, FORMAT_ANGLE, FORMAT_PRICE, FORMAT_FACTOR, FORMAT_FORCE, FORMAT_COUNT } format;
+typedef enum {
+  FORMAT_LENGTH,
+  FORMAT_PERCENT,
+  FORMAT_ANGLE,
+  FORMAT_PRICE,
+  FORMAT_FACTOR,
+  FORMAT_FORCE,
+  FORMAT_COUNT
+} format;
 
 /* Those that any plan's JSON has are not written again. */
 static const struct {
@@ -49,7 +72,8 @@ bool turning_seat(const thr_plan *plan, double seating, thr_eval *eval)
   thr_eval_options options = thr_eval_options_default();
   options.physics = plan->options.physics;
   options.physics.seating = seating;
-  return thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, &none, eval, NULL) == THR_OK;
+  return thr_eval_plan(&plan->frame, plan->cord, plan->n_cords, THR_CAPSTAN, &options, &none, eval,
+                       NULL) == THR_OK;
 }
 
 void turning_put_ends_json(thr_writer *writer, const thr_plan *plan)
@@ -70,7 +94,9 @@ double turning_pull(const thr_plan *plan, double *cord)
   for (int i = 0; i < plan->n_cords; i++) {
     double pull = known ? eval.record.cord[i].force : NAN;
     /* pulled at both ends, each has half of the turning to overcome */
-    if (!known && plan->options.physics.mu * thr_cord_turning(&plan->frame, &plan->cord[i], false) / 2 > 690) pull = INFINITY;
+    if (!known &&
+        plan->options.physics.mu * thr_cord_turning(&plan->frame, &plan->cord[i], false) / 2 > 690)
+      pull = INFINITY;
     if (cord) cord[i] = pull;
     if (isinf(pull)) largest = pull;
   }
@@ -115,11 +141,13 @@ static figures figures_of(const thr_plan *plan, const thr_plan *q)
                     [PULL] = turning_pull(q, NULL)}};
 }
 
-/* The claim that bounds the turning: of a classical tour, that of the plan with the least. NULL = none. */
+/* The claim that bounds the turning: of a classical tour, that of the plan with the least. NULL =
+ * none. */
 static const thr_turning_claim *claim_of(const thr_plan *plan, const thr_rivals *rivals)
 {
   if (plan->turning.present) return &plan->turning;
-  return rivals->corner.made && rivals->corner.plan.turning.present ? &rivals->corner.plan.turning : NULL;
+  return rivals->corner.made && rivals->corner.plan.turning.present ? &rivals->corner.plan.turning
+                                                                    : NULL;
 }
 
 static bool in_angles(const thr_plan *plan)
@@ -159,37 +187,42 @@ static void put_price(thr_text *text, const thr_plan *plan, double price)
     thr_text_printf(text, "%.6g (%s)", price, thr_turn_cost_name(plan->options.turning.cost));
 }
 
-/* For those who ask: branchings, sets of multipliers at the leaves, and what every node would turn on its own. */
+/* For those who ask: branchings, sets of multipliers at the leaves, and what every node would turn
+ * on its own. */
 static void put_machinery(thr_text *text, const thr_plan *plan)
 {
   const thr_turning_claim *claim = &plan->turning;
   const thr_turning_proof *tree = &claim->tree;
   int n = tree->n_nodes / 2;
   if (!cli_verbose) return;
-  thr_text_printf(text, "         proof: %d %s, %d %s, verified; all cords together need at least ", n,
-                  cli_plural(n, "branching", "branchings"), tree->n_duals,
+  thr_text_printf(text, "         proof: %d %s, %d %s, verified; all cords together need at least ",
+                  n, cli_plural(n, "branching", "branchings"), tree->n_duals,
                   cli_plural(tree->n_duals, "multiplier set", "multiplier sets"));
   put_price(text, plan, claim->lower_bound);
   thr_text_append(text, "\n");
 }
 
-/* What a limit on the length is measured from, where that is more than the length proof needs: the shortest passes may not hold
- * so many cords. */
+/* What a limit on the length is measured from, where that is more than the length proof needs: the
+ * shortest passes may not hold so many cords. */
 static void put_shortest(thr_text *text, const thr_plan *plan)
 {
-  double shortest = plan->turning.length_limit / (1 + plan->options.turning.length_slack), least = plan->proof.lower_bound;
+  double shortest = plan->turning.length_limit / (1 + plan->options.turning.length_slack),
+         least = plan->proof.lower_bound;
   if (plan->turning.length_limit < 0 || shortest <= least * (1 + 1e-9)) return;
-  thr_text_printf(text, "         shortest found for %s: %.7g %s, %.2f %% above the least length that is proved\n",
-                  plan->options.cords > 1 ? "so many cords" : "one cord", shortest, plan->frame.units,
-                  100 * (shortest / least - 1));
+  thr_text_printf(
+      text,
+      "         shortest found for %s: %.7g %s, %.2f %% above the least length that is proved\n",
+      plan->options.cords > 1 ? "so many cords" : "one cord", shortest, plan->frame.units,
+      100 * (shortest / least - 1));
 }
 
 static void put_restriction(thr_text *text, const thr_plan *plan)
 {
   const thr_turning_claim *claim = &plan->turning;
-  thr_text_printf(text, "         among threadings with at most %d %s over an edge", claim->most_passes,
-                  cli_plural(claim->most_passes, "pass", "passes"));
-  if (claim->length_limit >= 0) thr_text_printf(text, ", cord up to %.7g %s", claim->length_limit, plan->frame.units);
+  thr_text_printf(text, "         among threadings with at most %d %s over an edge",
+                  claim->most_passes, cli_plural(claim->most_passes, "pass", "passes"));
+  if (claim->length_limit >= 0)
+    thr_text_printf(text, ", cord up to %.7g %s", claim->length_limit, plan->frame.units);
   thr_text_printf(text, " and U-turns only at beads with one interface%s\n",
                   thr_wants_pull(&plan->options) ? " (of the pull: anywhere)" : "");
   put_shortest(text, plan);
@@ -201,8 +234,8 @@ static void put_largest(thr_text *text, const thr_plan *plan)
   thr_text_append(text, "largest  ");
   put_price(text, plan, claim->largest);
   const bool pull = thr_wants_pull(&plan->options);
-  thr_text_append(text,
-                  pull ? ", what an end of the cord that is hardest to pull has to overcome; " : ", the cord that turns most; ");
+  thr_text_append(text, pull ? ", what an end of the cord that is hardest to pull has to overcome; "
+                             : ", the cord that turns most; ");
   plain_put_proof(text, claim->largest_optimal, claim->largest, claim->largest_bound,
                   pull              ? "it cannot be less"
                   : in_angles(plan) ? "it cannot turn less"
@@ -231,7 +264,8 @@ static void put_u_turns(thr_text *text, const thr_plan *plan)
       if (j == n && n < MOST) at[n++] = v;
     }
   }
-  thr_text_printf(text, "U-turns  %d, %s", plan->metrics.u_turns, forced ? "forced at the beads with one interface: " : "at ");
+  thr_text_printf(text, "U-turns  %d, %s", plan->metrics.u_turns,
+                  forced ? "forced at the beads with one interface: " : "at ");
   for (int j = 0; j < n; j++)
     thr_text_printf(text, "%s%s", j ? ", " : "", frame->name[at[j]]);
   thr_text_append(text, more ? ", ..\n" : "\n");
@@ -241,7 +275,8 @@ static void put_open_status(thr_text *text, const thr_plan *plan, const thr_riva
 {
   const thr_turning_claim *claim = claim_of(plan, rivals);
   const bool tour = plan->options.turning.tour != THR_TOUR_LEAST;
-  thr_text_append(text, tour ? "; a classical tour, of which nothing is proved\n" : "; nothing is proved of it\n");
+  thr_text_append(text, tour ? "; a classical tour, of which nothing is proved\n"
+                             : "; nothing is proved of it\n");
   if (!claim) return;
   thr_text_append(text, "         the least turning is at least ");
   put_price(text, plan, claim->lower_bound);
@@ -262,7 +297,8 @@ void turning_put_status(thr_text *text, const thr_plan *plan, const thr_rivals *
   } else {
     thr_text_append(text, "; ");
     plain_put_proof(text, claim->optimal, claim->price, claim->lower_bound,
-                    in_angles(plan) ? "nothing turns less" : "nothing has a lower price", "least possible");
+                    in_angles(plan) ? "nothing turns less" : "nothing has a lower price",
+                    "least possible");
     thr_text_append(text, "\n");
     if (plan->n_cords > 1 || thr_wants_largest(&plan->options)) put_largest(text, plan);
     put_restriction(text, plan);
@@ -312,14 +348,17 @@ static int make_columns(const thr_plan *plan, const thr_rivals *rivals, column o
   out[n++] = (column){"this plan", yes_or_no(plan), figures_of(plan, plan)};
   out[n++] = (column){"at least", "-", figures_of_bound(plan, rivals)};
   if (rivals->corner.made)
-    out[n++] = (column){rivals->corner.title, yes_or_no(&rivals->corner.plan), figures_of(plan, &rivals->corner.plan)};
-  if (rivals->length.made) out[n++] = (column){rivals->length.title, "-", figures_of(plan, &rivals->length.plan)};
+    out[n++] = (column){rivals->corner.title, yes_or_no(&rivals->corner.plan),
+                        figures_of(plan, &rivals->corner.plan)};
+  if (rivals->length.made)
+    out[n++] = (column){rivals->length.title, "-", figures_of(plan, &rivals->length.plan)};
   return n;
 }
 
 static void put_left_out(thr_text *text, const thr_rival *rival)
 {
-  if (!rival->made && rival->why.code) thr_text_printf(text, "without %s: %s\n", rival->title, rival->why.text);
+  if (!rival->made && rival->why.code)
+    thr_text_printf(text, "without %s: %s\n", rival->title, rival->why.text);
 }
 
 void turning_put_table(thr_text *text, const thr_plan *plan, const thr_rivals *rivals)
@@ -330,7 +369,8 @@ void turning_put_table(thr_text *text, const thr_plan *plan, const thr_rivals *r
   for (int k = 0; k < n; k++)
     thr_text_printf(text, " %18s", c[k].title);
   for (int i = 0; i < N_FIGURES; i++) {
-    if ((i == PRICE && in_angles(plan)) || (i == CAPSTAN && !cli_verbose)) continue; /* the turning itself; for those who ask */
+    if ((i == PRICE && in_angles(plan)) || (i == CAPSTAN && !cli_verbose))
+      continue; /* the turning itself; for those who ask */
     if (i == LENGTH)
       thr_text_printf(text, "\nlength, %-19s", plan->frame.units);
     else
@@ -356,25 +396,29 @@ void turning_put_frontier(thr_text *text, const thr_plan *plan, const thr_rivals
   const thr_frontier *frontier = &rivals->frontier;
   bool angles = in_angles(plan), proved = true;
   if (frontier->n == 0) return;
-  thr_text_printf(text, "\nfrontier: the least turning for each length\n%14s %16s %13s", "length", "above shortest", "turning");
+  thr_text_printf(text, "\nfrontier: the least turning for each length\n%14s %16s %13s", "length",
+                  "above shortest", "turning");
   if (!angles) thr_text_printf(text, " %13s", "price");
   thr_text_printf(text, " %13s %13s %12s\n", "at least", "largest cord", "pull, N");
   for (int i = 0; i < frontier->n; i++) {
     const thr_frontier_point *frontier_point = &frontier->point[i];
     char force[24];
     thr_text_printf(text, "%14.3f %14.2f %% %9.1f deg", frontier_point->length,
-                    100 * fmax(0, frontier_point->length / plan->proof.lower_bound - 1), thr_degrees(frontier_point->turning));
+                    100 * fmax(0, frontier_point->length / plan->proof.lower_bound - 1),
+                    thr_degrees(frontier_point->turning));
     if (angles)
       thr_text_printf(text, " %9.1f deg", thr_degrees(frontier_point->lower_bound));
     else
       thr_text_printf(text, " %13.6g %13.6g", frontier_point->price, frontier_point->lower_bound);
-    thr_text_printf(text, " %9.1f deg %12s%s\n", thr_degrees(frontier_point->max_turning),
-                    plain_newtons(turning_point_pull(plan, frontier_point, plan->options.physics.mu), force),
-                    frontier_point->open ? "  *" : "");
+    thr_text_printf(
+        text, " %9.1f deg %12s%s\n", thr_degrees(frontier_point->max_turning),
+        plain_newtons(turning_point_pull(plan, frontier_point, plan->options.physics.mu), force),
+        frontier_point->open ? "  *" : "");
     proved &= !frontier_point->open;
   }
   if (!proved)
-    thr_text_append(text, "* not proved: of that length, or less, something may turn less, but not less than \"at least\"\n");
+    thr_text_append(text, "* not proved: of that length, or less, something may turn less, but not "
+                          "less than \"at least\"\n");
 }
 
 /* ---- JSON ---- */
@@ -390,13 +434,17 @@ static const char *proof_status(bool claimed, bool optimal)
   return !claimed ? "none" : optimal ? "optimal" : "bound";
 }
 
-/* bound: the claim that bounds the turning, NULL = none. A classical tour has that of the plan with the least turning, but claims
- * nothing itself. */
-static void put_claim_json(thr_writer *writer, const thr_plan *plan, const thr_turning_claim *bound, double price)
+/* bound: the claim that bounds the turning, NULL = none. A classical tour has that of the plan with
+ * the least turning, but claims nothing itself. */
+static void put_claim_json(thr_writer *writer, const thr_plan *plan, const thr_turning_claim *bound,
+                           double price)
 {
   const thr_turning_claim *own = &plan->turning;
   put_bound_json(writer, plan, bound ? bound->lower_bound : NAN);
-  thr_write_number(writer, "turning_gap", own->present ? own->gap : bound ? 1 - bound->lower_bound / price : NAN);
+  thr_write_number(writer, "turning_gap",
+                   own->present ? own->gap
+                   : bound      ? 1 - bound->lower_bound / price
+                                : NAN);
   thr_write_string(writer, "turning_status", proof_status(own->present, own->optimal));
   const bool of_turning = bound && in_angles(plan) && !thr_wants_pull(&plan->options);
   thr_write_number(writer, "max_turning_bound", of_turning ? bound->largest_bound : NAN);
@@ -410,7 +458,8 @@ static void put_figures_json(thr_writer *writer, const figures *x, bool all)
     if (all || !figure[i].known) thr_write_number(writer, figure[i].key, x->value[i]);
 }
 
-static void put_rival_json(thr_writer *writer, const thr_plan *plan, const thr_rival *rival, bool claims)
+static void put_rival_json(thr_writer *writer, const thr_plan *plan, const thr_rival *rival,
+                           bool claims)
 {
   if (!rival->made) {
     thr_write_null(writer, rival->key);
@@ -424,7 +473,8 @@ static void put_rival_json(thr_writer *writer, const thr_plan *plan, const thr_r
   thr_write_close(writer);
 }
 
-static void put_frontier_json(thr_writer *writer, const thr_plan *plan, const thr_frontier *frontier)
+static void put_frontier_json(thr_writer *writer, const thr_plan *plan,
+                              const thr_frontier *frontier)
 {
   thr_write_array(writer, "frontier");
   for (int i = 0; i < frontier->n; i++) {
@@ -437,8 +487,10 @@ static void put_frontier_json(thr_writer *writer, const thr_plan *plan, const th
     thr_write_number(writer, "price", frontier_point->price);
     put_bound_json(writer, plan, frontier_point->lower_bound);
     thr_write_number(writer, "max_turning", frontier_point->max_turning);
-    thr_write_number(writer, "max_capstan", turning_capstan(plan->options.physics.mu, frontier_point->max_turning));
-    thr_write_number(writer, "pull", turning_point_pull(plan, frontier_point, plan->options.physics.mu));
+    thr_write_number(writer, "max_capstan",
+                     turning_capstan(plan->options.physics.mu, frontier_point->max_turning));
+    thr_write_number(writer, "pull",
+                     turning_point_pull(plan, frontier_point, plan->options.physics.mu));
     thr_write_string(writer, "turning_status", frontier_point->open ? "bound" : "optimal");
     thr_write_close(writer);
   }
@@ -453,7 +505,8 @@ void turning_put_json(thr_writer *writer, const thr_plan *plan, const thr_rivals
   put_claim_json(writer, plan, claim_of(plan, rivals), x.value[PRICE]);
   thr_write_array(writer, "capstan");
   for (int i = 0; i < plan->n_cords; i++) {
-    double turning = thr_cord_turning(&plan->frame, &plan->cord[i], plan->options.ends == THR_ENDS_CLOSED);
+    double turning =
+        thr_cord_turning(&plan->frame, &plan->cord[i], plan->options.ends == THR_ENDS_CLOSED);
     thr_write_number(writer, NULL, turning_capstan(plan->options.physics.mu, turning));
   }
   thr_write_close(writer);

@@ -1,4 +1,6 @@
-/* Bytes made small for PDF (FlateDecode): zlib, loaded when it is first used. Private to diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bytes made small for PDF (FlateDecode): zlib, loaded when it is first used. Private to diagram/.
+ */
 #include "diagram/export/export_parts.h"
 
 #include "graph/process/process.h"

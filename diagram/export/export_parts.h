@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the writers of pages share: fonts, PDF, SVG, compression. */
 #ifndef THR_EXPORT_PARTS_H
 #define THR_EXPORT_PARTS_H
@@ -6,7 +7,8 @@
 
 #include <stddef.h>
 
-/* ---- Bytes of a font: big-endian; what is beyond the end of the file is 0. Private to the files font*.c. */
+/* ---- Bytes of a font: big-endian; what is beyond the end of the file is 0. Private to the files
+ * font*.c. */
 
 static inline unsigned thr_font_8(const thr_font *f, size_t at)
 {
@@ -15,7 +17,8 @@ static inline unsigned thr_font_8(const thr_font *f, size_t at)
 
 static inline unsigned thr_font_16(const thr_font *f, size_t at)
 {
-  return at + 2 <= f->file.length && at + 2 > at ? thr_font_8(f, at) << 8 | thr_font_8(f, at + 1) : 0;
+  return at + 2 <= f->file.length && at + 2 > at ? thr_font_8(f, at) << 8 | thr_font_8(f, at + 1)
+                                                 : 0;
 }
 
 static inline int thr_font_signed(const thr_font *f, size_t at)
@@ -27,14 +30,15 @@ static inline int thr_font_signed(const thr_font *f, size_t at)
 /* Where the outline of a glyph stands in the file: *n bytes. False: it has none. */
 bool thr_font_place(const thr_font *f, int glyph, size_t *at, size_t *n);
 
-/* ---- pdf.c: A PDF (1.4, ISO 32000-1) that grows page by page: each is compressed when it is added, so that pages need not be
- * kept. */
+/* ---- pdf.c: A PDF (1.4, ISO 32000-1) that grows page by page: each is compressed when it is
+ * added, so that pages need not be kept. */
 
 typedef struct thr_pdf thr_pdf;
 
-/* A document without pages. title: UTF-8 for the file's metadata, which have no date but a fixed one and name no file. Finds
- * fonts. Release with thr_pdf_destroy (NULL ok). */
-thr_status thr_pdf_open(thr_pdf **pdf, thr_page_size size, const char *title, thr_err *err) THR_MUST_CHECK;
+/* A document without pages. title: UTF-8 for the file's metadata, which have no date but a fixed
+ * one and name no file. Finds fonts. Release with thr_pdf_destroy (NULL ok). */
+thr_status thr_pdf_open(thr_pdf **pdf, thr_page_size size, const char *title,
+                        thr_err *err) THR_MUST_CHECK;
 void thr_pdf_destroy(thr_pdf *pdf);
 
 /* A page to draw on and then to compress, both in any thread; pdf must outlive it. */
@@ -46,23 +50,26 @@ thr_status thr_leaf_open(thr_leaf *leaf, const thr_pdf *pdf, thr_err *err) THR_M
 thr_status thr_leaf_squeeze(thr_leaf *leaf, thr_err *err) THR_MUST_CHECK;
 void thr_leaf_destroy(thr_leaf *leaf);
 
-/* Adds a squeezed leaf as another page; or, page >= 0, to what is on that page, which may be added to once. One thread. */
+/* Adds a squeezed leaf as another page; or, page >= 0, to what is on that page, which may be added
+ * to once. One thread. */
 thr_status thr_pdf_add(thr_pdf *pdf, int page, const thr_leaf *leaf, thr_err *err) THR_MUST_CHECK;
 int thr_pdf_pages(const thr_pdf *pdf);
 
-/* Ends the file, of at least one page, and appends it to out. The last page comes first if last_first. The same leaves and fonts
- * give the same bytes. */
+/* Ends the file, of at least one page, and appends it to out. The last page comes first if
+ * last_first. The same leaves and fonts give the same bytes. */
 thr_status thr_pdf_close(thr_pdf *pdf, bool last_first, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 /* ---- svg_page.c: A page drawn from SVG, read in one pass. */
 
-/* Draws a whole SVG document on a page. Pages may be drawn in several threads. THR_ESOLVER with what it does not know, so that
- * nothing is left out silently. A style sheet holds for what comes after it. O(bytes + elements times rules). */
+/* Draws a whole SVG document on a page. Pages may be drawn in several threads. THR_ESOLVER with
+ * what it does not know, so that nothing is left out silently. A style sheet holds for what comes
+ * after it. O(bytes + elements times rules). */
 thr_status thr_svg_page(thr_paper *paper, const thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
-/* ---- svg_style.c: Styles of the SVG that is written in diagram/. They come from presentation attributes, from style="..",
- * and from style sheets whose selectors are lists of elements and classes with blanks between them, ".view-1 .place text.own",
- * and :not([stroke-dasharray]). All properties are inherited. */
+/* ---- svg_style.c: Styles of the SVG that is written in diagram/. They come from presentation
+ * attributes, from style="..", and from style sheets whose selectors are lists of elements and
+ * classes with blanks between them, ".view-1 .place text.own", and :not([stroke-dasharray]). All
+ * properties are inherited. */
 
 /* Borrowed text that has no NUL at its end. */
 typedef struct {
@@ -73,7 +80,8 @@ typedef struct {
 bool thr_slice_is(thr_slice slice, const char *word);
 thr_slice thr_slice_trim(thr_slice slice); /* without blanks and ends of lines on either side */
 
-/* Takes a number off the front of text, with what stands before it of blanks and commas; false if there is none. */
+/* Takes a number off the front of text, with what stands before it of blanks and commas; false if
+ * there is none. */
 bool thr_slice_number(thr_slice *text, double *value);
 
 typedef enum {
@@ -109,7 +117,8 @@ thr_svg_style thr_svg_style_first(void);
 /* Is the attribute a property? */
 bool thr_svg_is_property(thr_slice name);
 
-thr_status thr_svg_style_set(thr_svg_style *style, thr_slice name, thr_slice value, thr_err *err) THR_MUST_CHECK;
+thr_status thr_svg_style_set(thr_svg_style *style, thr_slice name, thr_slice value,
+                             thr_err *err) THR_MUST_CHECK;
 
 /* "fill:#fff;stroke:none". */
 thr_status thr_svg_style_list(thr_svg_style *style, thr_slice list, thr_err *err) THR_MUST_CHECK;
@@ -136,8 +145,10 @@ typedef struct {
 /* Adds the rules of CSS text, which is borrowed as long as the sheet lives. */
 thr_status thr_svg_sheet_add(thr_svg_sheet *sheet, thr_slice css, thr_err *err) THR_MUST_CHECK;
 
-/* Changes style as the rules say that meet the last of n elements, each of which is inside the one before it. O(rules n). */
-void thr_svg_sheet_apply(const thr_svg_sheet *sheet, const thr_svg_element *const *element, int n, thr_svg_style *style);
+/* Changes style as the rules say that meet the last of n elements, each of which is inside the one
+ * before it. O(rules n). */
+void thr_svg_sheet_apply(const thr_svg_sheet *sheet, const thr_svg_element *const *element, int n,
+                         thr_svg_style *style);
 
 void thr_svg_sheet_destroy(thr_svg_sheet *sheet);
 
@@ -146,7 +157,8 @@ void thr_svg_sheet_destroy(thr_svg_sheet *sheet);
 /* Loads zlib: before the first thr_deflate, in one thread. */
 thr_status thr_deflate_load(thr_err *err) THR_MUST_CHECK;
 
-/* Appends the bytes as a zlib stream (RFC 1950), the same wherever and whenever. Any thread. THR_ENOMEM. */
+/* Appends the bytes as a zlib stream (RFC 1950), the same wherever and whenever. Any thread.
+ * THR_ENOMEM. */
 thr_status thr_deflate(const char *bytes, size_t n, thr_text *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

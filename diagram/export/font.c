@@ -1,5 +1,7 @@
-/* TrueType fonts (ISO/IEC 14496-22, "OpenType"): which glyph a letter has, how wide it is, and a font of some glyphs alone for a
- * PDF. Bytes are read within the file's bounds whatever it holds. Private to diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* TrueType fonts (ISO/IEC 14496-22, "OpenType"): which glyph a letter has, how wide it is, and a
+ * font of some glyphs alone for a PDF. Bytes are read within the file's bounds whatever it holds.
+ * Private to diagram/. */
 #include "diagram/export/export_parts.h"
 
 #include <stdio.h>
@@ -37,21 +39,24 @@ static table find(const thr_font *f, const char *tag)
     size_t at = f->start + HEADER + (size_t)i * RECORD;
     if (at + RECORD > f->file.length) break;
     table t = {read_32(f, at + 8), read_32(f, at + 12)};
-    if (memcmp(f->file.data + at, tag, 4) == 0 && t.at <= f->file.length && t.n <= f->file.length - t.at) return t;
+    if (memcmp(f->file.data + at, tag, 4) == 0 && t.at <= f->file.length &&
+        t.n <= f->file.length - t.at)
+      return t;
   }
   return (table){0, 0};
 }
 
 /* ---- letters ---- */
 
-/* A table of segments (format 4): runs of letters whose glyphs are theirs plus a constant, or stand in a list. */
+/* A table of segments (format 4): runs of letters whose glyphs are theirs plus a constant, or stand
+ * in a list. */
 static void read_segments(thr_font *f, size_t at)
 {
-  size_t n = thr_font_16(f, at + 6) / 2, ends = at + 14, starts = ends + 2 * n + 2, deltas = starts + 2 * n,
-         lists = deltas + 2 * n;
+  size_t n = thr_font_16(f, at + 6) / 2, ends = at + 14, starts = ends + 2 * n + 2,
+         deltas = starts + 2 * n, lists = deltas + 2 * n;
   for (size_t i = 0; i < n; i++) {
-    unsigned first = thr_font_16(f, starts + 2 * i), last = thr_font_16(f, ends + 2 * i), list = thr_font_16(f, lists + 2 * i),
-             delta = thr_font_16(f, deltas + 2 * i);
+    unsigned first = thr_font_16(f, starts + 2 * i), last = thr_font_16(f, ends + 2 * i),
+             list = thr_font_16(f, lists + 2 * i), delta = thr_font_16(f, deltas + 2 * i);
     for (unsigned c = first; c <= last && c < THR_FONT_LETTERS - 1; c++) {
       unsigned glyph = list ? thr_font_16(f, lists + 2 * i + list + 2 * (size_t)(c - first)) : c;
       if (glyph || !list) glyph = (glyph + delta) & 0xffff;
@@ -76,7 +81,8 @@ static bool read_letters(thr_font *f)
 
 static thr_status no_font(const char *path, const char *what, thr_err *err)
 {
-  return thr_fail(err, THR_ESOLVER, "the font %s cannot be used: %s; install fonts-dejavu-core", path, what);
+  return thr_fail(err, THR_ESOLVER, "the font %s cannot be used: %s; install fonts-dejavu-core",
+                  path, what);
 }
 
 thr_status thr_font_read(thr_font *f, const char *path, int index, const char *name, thr_err *err)
@@ -84,8 +90,10 @@ thr_status thr_font_read(thr_font *f, const char *path, int index, const char *n
   snprintf(f->name, sizeof f->name, "%.63s", name);
   thr_status st = thr_text_read(&f->file, path, err);
   if (st) return st;
-  if (f->file.length > 12 && memcmp(f->file.data, "ttcf", 4) == 0) f->start = read_32(f, 12 + 4 * (size_t)index);
-  table head = find(f, "head"), hhea = find(f, "hhea"), maxp = find(f, "maxp"), hmtx = find(f, "hmtx");
+  if (f->file.length > 12 && memcmp(f->file.data, "ttcf", 4) == 0)
+    f->start = read_32(f, 12 + 4 * (size_t)index);
+  table head = find(f, "head"), hhea = find(f, "hhea"), maxp = find(f, "maxp"),
+        hmtx = find(f, "hmtx");
   if (!head.n || !hhea.n || !maxp.n || !hmtx.n || !find(f, "glyf").n || !find(f, "loca").n)
     return no_font(path, "it has no TrueType outlines", err);
   f->units = (int)thr_font_16(f, head.at + 18);
@@ -161,7 +169,11 @@ static void mark_parts(const thr_font *f, int glyph, unsigned char *used)
     for (size_t at = outline.at + 10; flags & MORE && at + 4 <= outline.at + outline.n;) {
       int part = (int)thr_font_16(f, at + 2);
       flags = thr_font_16(f, at);
-      at += 4 + (flags & WORDS ? 4u : 2u) + (flags & SCALE ? 2u : flags & TWO_SCALES ? 4u : flags & MATRIX ? 8u : 0u);
+      at += 4 + (flags & WORDS ? 4u : 2u) +
+            (flags & SCALE        ? 2u
+             : flags & TWO_SCALES ? 4u
+             : flags & MATRIX     ? 8u
+                                  : 0u);
       if (part >= f->n_glyphs || used[part]) continue;
       used[part] = 1;
       if (depth < DEPTH) stack[depth++] = part;
@@ -170,7 +182,8 @@ static void mark_parts(const thr_font *f, int glyph, unsigned char *used)
 }
 
 /* The outlines one after the other, and where each begins. */
-static void put_outlines(const thr_font *f, const unsigned char *used, thr_text *glyf, thr_text *loca)
+static void put_outlines(const thr_font *f, const unsigned char *used, thr_text *glyf,
+                         thr_text *loca)
 {
   for (int i = 0; i < f->n_glyphs; i++) {
     put_32(loca, glyf->length);
@@ -184,13 +197,15 @@ static void put_outlines(const thr_font *f, const unsigned char *used, thr_text 
 
 static void put_tables(const thr_font *f, const thr_text *glyf, const thr_text *loca, thr_text *out)
 {
-  static const char *const tag[] = {"cvt ", "fpgm", "glyf", "head", "hhea", "hmtx", "loca", "maxp", "prep"};
+  static const char *const tag[] = {"cvt ", "fpgm", "glyf", "head", "hhea",
+                                    "hmtx", "loca", "maxp", "prep"};
   enum { N = sizeof tag / sizeof *tag, GLYF = 2, HEAD = 3, LOCA = 6 };
   size_t begin = out->length, at = 12 + 16 * N;
   table t[N];
   put_32(out, 0x00010000);
   put_16(out, N);
-  put_16(out, 128); /* for halving: 16 times the greatest power of 2 up to N, its exponent, the rest */
+  put_16(out,
+         128); /* for halving: 16 times the greatest power of 2 up to N, its exponent, the rest */
   put_16(out, 3);
   put_16(out, 16 * N - 128);
   for (int i = 0; i < N; i++) {
@@ -209,7 +224,8 @@ static void put_tables(const thr_font *f, const thr_text *glyf, const thr_text *
       if (made->length) thr_text_append_bytes(out, made->data, made->length);
     } else if (t[i].n)
       thr_text_append_bytes(out, f->file.data + t[i].at, t[i].n);
-    if (i == HEAD && !out->failed && t[i].n > 52) out->data[from + 51] = 1; /* places of outlines take 4 bytes */
+    if (i == HEAD && !out->failed && t[i].n > 52)
+      out->data[from + 51] = 1; /* places of outlines take 4 bytes */
     while (!out->failed && (out->length - begin) % 4)
       thr_text_byte(out, '\0');
   }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* fontconfig. */
 #define _XOPEN_SOURCE 700
 #include "diagram/export/paper.h"
@@ -11,7 +12,8 @@
 #include <sys/resource.h>
 
 #ifdef __SANITIZE_ADDRESS__
-/* fontconfig keeps what it has read of fonts until the process ends, where the leak checker cannot see it. */
+/* fontconfig keeps what it has read of fonts until the process ends, where the leak checker cannot
+ * see it. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_options(void);
 
@@ -26,14 +28,14 @@ const char *__lsan_default_options(void)
 }
 #endif
 
-#define FUNCTIONS(F)                                                                                                             \
-  F(FcConfigSubstitute)                                                                                                          \
-  F(FcDefaultSubstitute)                                                                                                         \
-  F(FcFontSetDestroy)                                                                                                            \
-  F(FcFontSort)                                                                                                                  \
-  F(FcNameParse)                                                                                                                 \
-  F(FcPatternDestroy)                                                                                                            \
-  F(FcPatternGetInteger)                                                                                                         \
+#define FUNCTIONS(F)                                                                               \
+  F(FcConfigSubstitute)                                                                            \
+  F(FcDefaultSubstitute)                                                                           \
+  F(FcFontSetDestroy)                                                                              \
+  F(FcFontSort)                                                                                    \
+  F(FcNameParse)                                                                                   \
+  F(FcPatternDestroy)                                                                              \
+  F(FcPatternGetInteger)                                                                           \
   F(FcPatternGetString)
 
 static struct {
@@ -41,7 +43,8 @@ static struct {
   bool loaded;
 } lib;
 
-/* Ends this process if it takes so many seconds of processor time: fontconfig without memory tries for ever. */
+/* Ends this process if it takes so many seconds of processor time: fontconfig without memory tries
+ * for ever. */
 static void bound_time(void)
 {
   enum { MOST = 10 };
@@ -61,14 +64,16 @@ static bool tell(FcPattern *font, thr_text *out)
   int index = 0;
   char plain[64] = "Font";
   if (lib.FcPatternGetString(font, FC_FILE, 0, &path) != FcResultMatch) return false;
-  if (lib.FcPatternGetString(font, FC_FONTFORMAT, 0, &format) != FcResultMatch || strcmp((char *)format, "TrueType") != 0)
+  if (lib.FcPatternGetString(font, FC_FONTFORMAT, 0, &format) != FcResultMatch ||
+      strcmp((char *)format, "TrueType") != 0)
     return false;
   if (strchr((char *)path, '\n')) return false;
   if (lib.FcPatternGetInteger(font, FC_INDEX, 0, &index) != FcResultMatch) index = 0;
   if (lib.FcPatternGetString(font, FC_POSTSCRIPT_NAME, 0, &name) == FcResultMatch) {
     size_t n = 0;
     for (const char *c = (char *)name; *c && n + 1 < sizeof plain; c++)
-      if (strchr("-0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ", *c)) plain[n++] = *c;
+      if (strchr("-0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ", *c))
+        plain[n++] = *c;
     plain[n] = '\0';
   }
   thr_text_printf(out, "%d %s\n%s\n", index & 0xffff, *plain ? plain : "Font", (char *)path);
@@ -90,19 +95,22 @@ static thr_status find_face(const char *words, thr_text *out, thr_err *err)
   if (out->failed || (!set && result == FcResultOutOfMemory)) return thr_nomem(err);
   return found ? THR_OK
                : thr_fail(err, THR_ESOLVER,
-                          "no TrueType font was found for the words of the PDF; install one, as fonts-dejavu-core");
+                          "no TrueType font was found for the words of the PDF; install one, as "
+                          "fonts-dejavu-core");
 }
 
 static thr_status find_faces(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
 {
   static const thr_lazy_symbol symbol[] = {FUNCTIONS(THR_LAZY_SYMBOL)};
-  static const char *const face[THR_FACES] = {"DejaVu Sans:style=Book", "DejaVu Sans:bold", "DejaVu Sans Mono:style=Book",
+  static const char *const face[THR_FACES] = {"DejaVu Sans:style=Book", "DejaVu Sans:bold",
+                                              "DejaVu Sans Mono:style=Book",
                                               "DejaVu Sans Mono:bold"};
   thr_text out = {0};
   (void)user;
   (void)limits;
   bound_time();
-  thr_status st = thr_lazy_load(&lib.loaded, THR_LIBRARY_FONTCONFIG, symbol, sizeof symbol / sizeof *symbol, err);
+  thr_status st = thr_lazy_load(&lib.loaded, THR_LIBRARY_FONTCONFIG, symbol,
+                                sizeof symbol / sizeof *symbol, err);
   for (int i = 0; i < THR_FACES && !st; i++)
     st = find_face(face[i], &out, err);
   if (!st) st = thr_child_send(to, &out, err);
@@ -129,12 +137,13 @@ static bool is_family(const thr_text *answer)
   return n == THR_FACES;
 }
 
-/* Where an allocation fails, fontconfig answers with another family and says nothing: only a second answer of that kind is
- * believed. */
+/* Where an allocation fails, fontconfig answers with another family and says nothing: only a second
+ * answer of that kind is believed. */
 static thr_status ask(thr_text *answer, thr_err *err)
 {
-  const thr_child child = {
-      .what = "finding fonts for the PDF", .advice = "free memory, or draw without it (-T svg)", .run = find_faces};
+  const thr_child child = {.what = "finding fonts for the PDF",
+                           .advice = "free memory, or draw without it (-T svg)",
+                           .run = find_faces};
   const thr_limits none = {0};
   thr_status st = thr_child_run(&child, &none, answer, err);
   if (st || is_family(answer)) return st;

@@ -1,4 +1,6 @@
-/* Outlines of glyphs: quadratic curves through points that lie on them or off them (ISO/IEC 14496-22, table glyf). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Outlines of glyphs: quadratic curves through points that lie on them or off them (ISO/IEC
+ * 14496-22, table glyf). */
 #include "diagram/export/export_parts.h"
 
 #include <stdlib.h>
@@ -12,9 +14,11 @@ typedef struct {
   bool on;
 } point;
 
-/* Flags, then all x, then all y, each as what it differs from the one before by. Returns false if the glyph has not all of them.
+/* Flags, then all x, then all y, each as what it differs from the one before by. Returns false if
+ * the glyph has not all of them.
  */
-static bool read_points(const thr_font *f, size_t at, size_t end, point *points, unsigned char *flags, int n)
+static bool read_points(const thr_font *f, size_t at, size_t end, point *points,
+                        unsigned char *flags, int n)
 {
   for (int i = 0; i < n;) {
     if (at + 1 > end) return false;
@@ -77,9 +81,11 @@ static void put_contour(const point *points, int n, const double place[6], thr_t
   thr_text_byte(path, 'Z');
 }
 
-static void put_simple(const thr_font *f, size_t at, size_t end, const double place[6], thr_text *path)
+static void put_simple(const thr_font *f, size_t at, size_t end, const double place[6],
+                       thr_text *path)
 {
-  int contours = thr_font_signed(f, at), n = contours ? thr_font_signed(f, at + 8 + 2 * (size_t)contours) + 1 : 0;
+  int contours = thr_font_signed(f, at),
+      n = contours ? thr_font_signed(f, at + 8 + 2 * (size_t)contours) + 1 : 0;
   size_t from = at + 10 + 2 * (size_t)contours;
   from += 2 + (size_t)thr_font_16(f, from); /* instructions */
   if (n <= 0 || n > MOST_POINTS) return;
@@ -111,7 +117,8 @@ static size_t read_part(const thr_font *f, size_t at, unsigned flags, double par
   for (int k = 0; k < 6; k++)
     part[k] = own[k];
   for (size_t k = 0; k < 2 && moved; k++)
-    part[4 + k] = words ? thr_font_signed(f, at + 2 * k) : (double)(signed char)thr_font_8(f, at + k);
+    part[4 + k] =
+        words ? thr_font_signed(f, at + 2 * k) : (double)(signed char)thr_font_8(f, at + k);
   at += words ? 4 : 2;
   const size_t n = flags & SCALE ? 1 : flags & TWO_SCALES ? 2 : flags & MATRIX ? 4 : 0;
   for (size_t k = 0; k < n; k++)
@@ -120,7 +127,8 @@ static size_t read_part(const thr_font *f, size_t at, unsigned flags, double par
   return at + 2 * n;
 }
 
-static void put_glyph(const thr_font *f, int glyph, const double place[6], int depth, thr_text *path)
+static void put_glyph(const thr_font *f, int glyph, const double place[6], int depth,
+                      thr_text *path)
 {
   size_t at, n;
   if (!thr_font_place(f, glyph, &at, &n) || n < 10 || depth > DEPTH) return;

@@ -1,5 +1,6 @@
-/* Words as closed outlines, for programs that know no fonts: to cut, to engrave, to raise on a printed piece. Private to
- * diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Words as closed outlines, for programs that know no fonts: to cut, to engrave, to raise on a
+ * printed piece. Private to diagram/. */
 
 #include "diagram/export/export_parts.h"
 
@@ -20,7 +21,8 @@ static double capitals(const thr_font *font)
 {
   enum { TOP = 8 }; /* byte of an outline at which its greatest y stands */
   size_t at, n;
-  if (font->glyph['H'] && thr_font_place(font, font->glyph['H'], &at, &n) && thr_font_signed(font, at + TOP) > 0)
+  if (font->glyph['H'] && thr_font_place(font, font->glyph['H'], &at, &n) &&
+      thr_font_signed(font, at + TOP) > 0)
     return (double)thr_font_signed(font, at + TOP) / font->units;
   return 0.7;
 }
@@ -54,7 +56,8 @@ double thr_letters_width(const thr_letters_set *set, const char *words)
   return width;
 }
 
-void thr_letters_put(const thr_letters_set *set, const char *words, const double at[2], double height, thr_text *path)
+void thr_letters_put(const thr_letters_set *set, const char *words, const double at[2],
+                     double height, thr_text *path)
 {
   const double size = height * set->em, unit = size / face(set)->units;
   double place[6] = {unit, 0, 0, -unit, at[0], at[1]};

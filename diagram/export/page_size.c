@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Names and sizes of pages. */
 #include "diagram/export/paper.h"
 

@@ -1,4 +1,6 @@
-/* A PDF of pages that are written as SVG, drawn some at a time, in parallel, so that few are kept. Private to diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A PDF of pages that are written as SVG, drawn some at a time, in parallel, so that few are kept.
+ * Private to diagram/. */
 
 #include "diagram/export/export_parts.h"
 #include "graph/process/threads.h"
@@ -23,8 +25,8 @@ bool thr_pages_exist(void)
   return true;
 }
 
-thr_status thr_pages_open(thr_pages **out, const char *name, thr_page_size size, const char *title, const thr_limits *limits,
-                          thr_err *err)
+thr_status thr_pages_open(thr_pages **out, const char *name, thr_page_size size, const char *title,
+                          const thr_limits *limits, thr_err *err)
 {
   thr_pages *pages = *out = thr_calloc(1, sizeof *pages);
   if (!pages) return thr_nomem(err);
@@ -65,7 +67,8 @@ static thr_status draw_one(void *user, int i, const thr_limits *limits, thr_err 
 static thr_status draw(thr_pages *pages, thr_err *err)
 {
   if (thr_limits_stop(pages->limits))
-    return thr_fail(err, THR_ELIMIT, "interrupted at page %d of the %s", pages->drawn + 1, pages->name);
+    return thr_fail(err, THR_ELIMIT, "interrupted at page %d of the %s", pages->drawn + 1,
+                    pages->name);
   thr_status st = thr_threads_run(pages->n, draw_one, pages, pages->limits, err);
   for (int i = 0; i < pages->n && !st; i++)
     st = thr_pdf_add(pages->pdf, pages->page[i], &pages->leaf[i], err);

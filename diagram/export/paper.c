@@ -1,5 +1,7 @@
-/* What is drawn on one page, in mm from its upper left corner: vectors stay vectors, text stays text. Several pages may be drawn
- * at a time, each in one thread; diagram/export/pdf.c makes a file of them. Private to diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is drawn on one page, in mm from its upper left corner: vectors stay vectors, text stays
+ * text. Several pages may be drawn at a time, each in one thread; diagram/export/pdf.c makes a file
+ * of them. Private to diagram/. */
 #include "diagram/export/paper.h"
 
 #include "diagram/scene/scene.h"
@@ -10,7 +12,8 @@
 #include <string.h>
 
 static const double POINT = 25.4 / 72; /* mm */
-static const double MITRE = 4;         /* as in SVG: how far a corner reaches, in halves of the line's width */
+static const double MITRE =
+    4; /* as in SVG: how far a corner reaches, in halves of the line's width */
 
 enum { DEPTH = 32, DASHES = 4 };
 
@@ -26,12 +29,14 @@ typedef struct {
 } state;
 
 struct thr_paper {
-  thr_text out, path;   /* path: that which grows; states may not change inside one, so that they are written before it */
+  thr_text out, path; /* path: that which grows; states may not change inside one, so that they are
+                         written before it */
   const thr_font *font; /* [THR_FACES], borrowed */
   state open[DEPTH];
   int depth;           /* of the state that holds */
   thr_box box;         /* around the path that grows */
-  double pen[2], trim; /* where it is; so much around its parts, the rest of which is clipped away, is drawn; < 0: all is */
+  double pen[2], trim; /* where it is; so much around its parts, the rest of which is clipped away,
+                          is drawn; < 0: all is */
   bool lifted;         /* the pen: what came before is left out */
   thr_paper_needs needs;
 };
@@ -40,7 +45,8 @@ struct thr_paper {
 
 enum { NUMBER = 16, NUMBERS = 6 }; /* bytes of a number at most; numbers of an operator */
 
-/* A number with up to three decimals and a blank: 12.5, -0.013. What is beyond any page is cut off there. Returns its length. */
+/* A number with up to three decimals and a blank: 12.5, -0.013. What is beyond any page is cut off
+ * there. Returns its length. */
 static size_t print_number(double value, char *to)
 {
   const double most = 100000000;
@@ -155,7 +161,8 @@ void thr_paper_shift(thr_paper *paper, const double by[2])
 
 void thr_paper_turn(thr_paper *paper, double degrees)
 {
-  const double c = cos(degrees * THR_PI / 180), s = sin(degrees * THR_PI / 180), matrix[6] = {c, s, -s, c, 0, 0};
+  const double c = cos(degrees * THR_PI / 180), s = sin(degrees * THR_PI / 180),
+               matrix[6] = {c, s, -s, c, 0, 0};
   put(&paper->out, 6, matrix, "cm");
   paper->open[paper->depth].turned = true;
 }
@@ -165,8 +172,9 @@ static bool is_hidden(const thr_paper *paper, thr_box box, double around)
 {
   const state *now = &paper->open[paper->depth];
   const thr_box *shown = &now->shown;
-  return !now->turned && (box.x1 + around + now->at[0] < shown->x0 || box.x0 - around + now->at[0] > shown->x1 ||
-                          box.y1 + around + now->at[1] < shown->y0 || box.y0 - around + now->at[1] > shown->y1);
+  return !now->turned &&
+         (box.x1 + around + now->at[0] < shown->x0 || box.x0 - around + now->at[0] > shown->x1 ||
+          box.y1 + around + now->at[1] < shown->y0 || box.y0 - around + now->at[1] > shown->y1);
 }
 
 /* Puts an operator of the path with its points. */
@@ -221,8 +229,9 @@ void thr_paper_end(thr_paper *paper)
   put(&paper->path, 0, NULL, "h");
 }
 
-/* A quarter of a circle from where the pen is, which is at a multiple i of a right angle: the cubic that leaves it by 0.03 % of
- * the radius at most has its inner points 4 (sqrt 2 - 1) / 3 radii from its ends. */
+/* A quarter of a circle from where the pen is, which is at a multiple i of a right angle: the cubic
+ * that leaves it by 0.03 % of the radius at most has its inner points 4 (sqrt 2 - 1) / 3 radii from
+ * its ends. */
 static void put_quarter(thr_paper *paper, const double middle[2], double radius, int i)
 {
   static const double cosine[] = {1, 0, -1, 0, 1}, sine[] = {0, 1, 0, -1, 0};
@@ -246,10 +255,12 @@ void thr_paper_rect(thr_paper *paper, const double at[2], const double size[2], 
     put(&paper->path, 4, box, "re");
     return;
   }
-  for (int i = 0; i < 4; i++) { /* corners right and low, left and low, left and high, right and high */
+  for (int i = 0; i < 4;
+       i++) { /* corners right and low, left and low, left and high, right and high */
     double middle[2] = {i == 0 || i == 3 ? at[0] + size[0] - radius : at[0] + radius,
                         i < 2 ? at[1] + size[1] - radius : at[1] + radius};
-    double from[2] = {middle[0] + radius * cos(i * THR_PI / 2), middle[1] + radius * sin(i * THR_PI / 2)};
+    double from[2] = {middle[0] + radius * cos(i * THR_PI / 2),
+                      middle[1] + radius * sin(i * THR_PI / 2)};
     put_path(paper, 1, from, i ? "l" : "m");
     put_quarter(paper, middle, radius, i);
   }
@@ -324,7 +335,8 @@ static void end_path(thr_paper *paper, const char *operator)
 
 void thr_paper_paint(thr_paper *paper, const thr_ink *fill, const thr_line *line)
 {
-  if (is_hidden(paper, paper->box, line ? MITRE / 2 * line->width : 0)) { /* corners reach so far beyond the line */
+  if (is_hidden(paper, paper->box,
+                line ? MITRE / 2 * line->width : 0)) { /* corners reach so far beyond the line */
     forget_path(paper);
     return;
   }
@@ -370,7 +382,8 @@ static void put_letters(thr_paper *paper, int face, const char *words, thr_text 
   }
 }
 
-/* What is beyond the basic plane is found as itself, too: the span says what its boxes stand for. */
+/* What is beyond the basic plane is found as itself, too: the span says what its boxes stand for.
+ */
 static bool open_span(thr_paper *paper, const char *words)
 {
   bool beyond = false;
@@ -382,7 +395,8 @@ static bool open_span(thr_paper *paper, const char *words)
     const unsigned char *s = (const unsigned char *)c;
     unsigned letter = thr_font_letter(&c);
     if (*s >= 0xf0 && c - (const char *)s == 4) {
-      unsigned high = ((*s & 7u) << 18 | (s[1] & 0x3fu) << 12 | (s[2] & 0x3fu) << 6 | (s[3] & 0x3fu)) - 0x10000;
+      unsigned high =
+          ((*s & 7u) << 18 | (s[1] & 0x3fu) << 12 | (s[2] & 0x3fu) << 6 | (s[3] & 0x3fu)) - 0x10000;
       thr_text_printf(&paper->out, "%04X", 0xd800 | (high >> 10 & 0x3ff));
       letter = 0xdc00 | (high & 0x3ff);
     }
@@ -392,11 +406,14 @@ static bool open_span(thr_paper *paper, const char *words)
   return true;
 }
 
-void thr_paper_text(thr_paper *paper, const double at[2], const thr_letters *letters, const char *words)
+void thr_paper_text(thr_paper *paper, const double at[2], const thr_letters *letters,
+                    const char *words)
 {
   int face = (letters->bold ? THR_FACE_BOLD : 0) + (letters->mono ? THR_FACE_MONO : 0);
-  const double size = letters->size, width = size * width_of(&paper->font[face], words), left = at[0] - letters->anchor * width;
-  if (is_hidden(paper, (thr_box){left, at[1], left + width, at[1]}, 2 * size)) return; /* no letter reaches further */
+  const double size = letters->size, width = size * width_of(&paper->font[face], words),
+               left = at[0] - letters->anchor * width;
+  if (is_hidden(paper, (thr_box){left, at[1], left + width, at[1]}, 2 * size))
+    return; /* no letter reaches further */
   if (!paper->needs.letter[face]) paper->needs.letter[face] = thr_calloc(THR_FONT_LETTERS / 8, 1);
   if (!paper->needs.letter[face]) {
     paper->out.failed = true;

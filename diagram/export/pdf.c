@@ -1,5 +1,6 @@
-/* A PDF (1.4, ISO 32000-1) that grows page by page: each is compressed when it is added, so that pages need not be kept. Private
- * to diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A PDF (1.4, ISO 32000-1) that grows page by page: each is compressed when it is added, so that
+ * pages need not be kept. Private to diagram/. */
 #include "diagram/export/export_parts.h"
 
 #include <stdio.h>
@@ -80,7 +81,8 @@ static void end(thr_pdf *pdf)
   thr_text_append(&pdf->out, "\nendobj\n");
 }
 
-/* A stream of compressed bytes; more: further entries of its dictionary. Returns its number, 0 without memory. */
+/* A stream of compressed bytes; more: further entries of its dictionary. Returns its number, 0
+ * without memory. */
 static int put_stream(thr_pdf *pdf, const thr_text *small, const char *more)
 {
   int object = begin_new(pdf);
@@ -134,7 +136,8 @@ static thr_status add_needs(thr_paper_needs *all, const thr_paper_needs *more, t
 thr_status thr_pdf_add(thr_pdf *pdf, int nth, const thr_leaf *leaf, thr_err *err)
 {
   thr_status st = add_needs(&pdf->needs, thr_paper_needs_of(leaf->paper), err);
-  if (!st && nth < 0) st = thr_grow(&pdf->page, pdf->n_pages, &pdf->pages_capacity, sizeof *pdf->page, err);
+  if (!st && nth < 0)
+    st = thr_grow(&pdf->page, pdf->n_pages, &pdf->pages_capacity, sizeof *pdf->page, err);
   if (st) return st;
   int object = put_stream(pdf, &leaf->small, "");
   if (!object) return thr_nomem(err);
@@ -150,7 +153,8 @@ int thr_pdf_pages(const thr_pdf *pdf)
   return pdf->n_pages;
 }
 
-/* The tree of pages: one node, whose kids are all. Returns without them if memory ran out, as out.failed says. */
+/* The tree of pages: one node, whose kids are all. Returns without them if memory ran out, as
+ * out.failed says. */
 static void put_pages(thr_pdf *pdf, bool last_first)
 {
   thr_text kids = {0};
@@ -164,8 +168,9 @@ static void put_pages(thr_pdf *pdf, bool last_first)
     end(pdf);
   }
   begin(pdf, PAGES);
-  thr_text_printf(&pdf->out, "<</Type/Pages/Count %d/MediaBox[0 0 %.6f %.6f]/Resources %d 0 R/Kids[\n", pdf->n_pages,
-                  pdf->size[0] / POINT, pdf->size[1] / POINT, RESOURCES);
+  thr_text_printf(&pdf->out,
+                  "<</Type/Pages/Count %d/MediaBox[0 0 %.6f %.6f]/Resources %d 0 R/Kids[\n",
+                  pdf->n_pages, pdf->size[0] / POINT, pdf->size[1] / POINT, RESOURCES);
   if (kids.failed) pdf->out.failed = true;
   if (kids.length) thr_text_append_bytes(&pdf->out, kids.data, kids.length);
   thr_text_append(&pdf->out, "]>>");
@@ -181,7 +186,8 @@ static bool is_set(const unsigned char *letters, int c)
 }
 
 /* The font file, of the glyphs that are needed. */
-static int put_file(thr_pdf *pdf, const thr_font *font, const unsigned char *letters, thr_err *err, thr_status *st)
+static int put_file(thr_pdf *pdf, const thr_font *font, const unsigned char *letters, thr_err *err,
+                    thr_status *st)
 {
   thr_text part = {0}, small = {0};
   int object = 0;
@@ -203,7 +209,8 @@ static int put_file(thr_pdf *pdf, const thr_font *font, const unsigned char *let
 }
 
 /* From letters to glyphs: two bytes each. */
-static int put_glyphs(thr_pdf *pdf, const thr_font *font, const unsigned char *letters, thr_err *err, thr_status *st)
+static int put_glyphs(thr_pdf *pdf, const thr_font *font, const unsigned char *letters,
+                      thr_err *err, thr_status *st)
 {
   thr_text map = {0}, small = {0};
   for (int c = 0; c < THR_FONT_LETTERS; c++) {
@@ -224,9 +231,9 @@ static int put_words(thr_pdf *pdf, const unsigned char *letters, thr_err *err, t
   enum { MOST = 100 }; /* in one list */
   thr_text map = {0}, list = {0}, small = {0};
   int n = 0;
-  thr_text_append(&map,
-                  "/CIDInit /ProcSet findresource begin\n12 dict begin\nbegincmap\n/CMapName /Letters def\n/CMapType 2 def\n"
-                  "1 begincodespacerange\n<0000> <FFFF>\nendcodespacerange\n");
+  thr_text_append(&map, "/CIDInit /ProcSet findresource begin\n12 dict begin\nbegincmap\n/CMapName "
+                        "/Letters def\n/CMapType 2 def\n"
+                        "1 begincodespacerange\n<0000> <FFFF>\nendcodespacerange\n");
   for (int c = 0; c <= THR_FONT_LETTERS; c++) {
     bool here = c < THR_FONT_LETTERS && is_set(letters, c);
     if (here) thr_text_printf(&list, "<%04X> <%04X>\n", (unsigned)c, (unsigned)c);
@@ -258,10 +265,12 @@ static int put_descriptor(thr_pdf *pdf, const thr_font *font, int face, int file
   int object = begin_new(pdf);
   thr_text_append(&pdf->out, "<</Type/FontDescriptor/FontName");
   put_name(pdf, font, face);
-  thr_text_printf(
-      &pdf->out, "/Flags %d/FontBBox[%.0f %.0f %.0f %.0f]/ItalicAngle 0/Ascent %.0f/Descent %.0f/CapHeight %.0f/StemV %d",
-      SYMBOLIC + (face & THR_FACE_MONO ? FIXED : 0), font->box[0] * em, font->box[1] * em, font->box[2] * em, font->box[3] * em,
-      font->ascent * em, font->descent * em, 0.75 * font->ascent * em, face & THR_FACE_BOLD ? 140 : 80);
+  thr_text_printf(&pdf->out,
+                  "/Flags %d/FontBBox[%.0f %.0f %.0f %.0f]/ItalicAngle 0/Ascent %.0f/Descent "
+                  "%.0f/CapHeight %.0f/StemV %d",
+                  SYMBOLIC + (face & THR_FACE_MONO ? FIXED : 0), font->box[0] * em,
+                  font->box[1] * em, font->box[2] * em, font->box[3] * em, font->ascent * em,
+                  font->descent * em, 0.75 * font->ascent * em, face & THR_FACE_BOLD ? 140 : 80);
   thr_text_printf(&pdf->out, "/FontFile2 %d 0 R>>", file);
   end(pdf);
   return object;
@@ -272,23 +281,27 @@ static int put_font(thr_pdf *pdf, int face, thr_err *err, thr_status *st)
 {
   const thr_font *font = &pdf->font[face];
   const unsigned char *letters = pdf->needs.letter[face];
-  int file = put_file(pdf, font, letters, err, st), glyphs = *st ? 0 : put_glyphs(pdf, font, letters, err, st),
+  int file = put_file(pdf, font, letters, err, st),
+      glyphs = *st ? 0 : put_glyphs(pdf, font, letters, err, st),
       words = *st ? 0 : put_words(pdf, letters, err, st);
   if (*st) return 0;
   int descriptor = put_descriptor(pdf, font, face, file), below = begin_new(pdf);
   thr_text_append(&pdf->out, "<</Type/Font/Subtype/CIDFontType2/BaseFont");
   put_name(pdf, font, face);
-  thr_text_printf(
-      &pdf->out, "/CIDSystemInfo<</Registry(Adobe)/Ordering(Identity)/Supplement 0>>/FontDescriptor %d 0 R/CIDToGIDMap %d 0 R/W[",
-      descriptor, glyphs);
+  thr_text_printf(&pdf->out,
+                  "/CIDSystemInfo<</Registry(Adobe)/Ordering(Identity)/Supplement "
+                  "0>>/FontDescriptor %d 0 R/CIDToGIDMap %d 0 R/W[",
+                  descriptor, glyphs);
   for (int c = 0; c < THR_FONT_LETTERS; c++)
-    if (is_set(letters, c)) thr_text_printf(&pdf->out, "%d[%.3f]\n", c, 1000 * thr_font_advance(font, font->glyph[c]));
+    if (is_set(letters, c))
+      thr_text_printf(&pdf->out, "%d[%.3f]\n", c, 1000 * thr_font_advance(font, font->glyph[c]));
   thr_text_append(&pdf->out, "]>>");
   end(pdf);
   int object = begin_new(pdf);
   thr_text_append(&pdf->out, "<</Type/Font/Subtype/Type0/BaseFont");
   put_name(pdf, font, face);
-  thr_text_printf(&pdf->out, "/Encoding/Identity-H/DescendantFonts[%d 0 R]/ToUnicode %d 0 R>>", below, words);
+  thr_text_printf(&pdf->out, "/Encoding/Identity-H/DescendantFonts[%d 0 R]/ToUnicode %d 0 R>>",
+                  below, words);
   end(pdf);
   return object;
 }
@@ -322,7 +335,8 @@ static void put_info(thr_pdf *pdf)
   begin(pdf, INFO);
   thr_text_append(&pdf->out, "<</Title<FEFF");
   for (const char *c = pdf->title; *c; c++)
-    thr_text_printf(&pdf->out, "%04X", (unsigned char)*c < 0x80 ? (unsigned)(unsigned char)*c : '?');
+    thr_text_printf(&pdf->out, "%04X",
+                    (unsigned char)*c < 0x80 ? (unsigned)(unsigned char)*c : '?');
   thr_text_printf(&pdf->out, ">/CreationDate%s/ModDate%s>>", epoch, epoch);
   end(pdf);
 }
@@ -340,8 +354,9 @@ thr_status thr_pdf_close(thr_pdf *pdf, bool last_first, thr_text *out, thr_err *
   thr_text_printf(&pdf->out, "xref\n0 %d\n0000000000 65535 f \n", pdf->n_objects);
   for (int i = 1; i < pdf->n_objects; i++)
     thr_text_printf(&pdf->out, "%010zu 00000 n \n", pdf->object[i]);
-  thr_text_printf(&pdf->out, "trailer\n<</Size %d/Root %d 0 R/Info %d 0 R>>\nstartxref\n%zu\n%%%%EOF\n", pdf->n_objects, CATALOG,
-                  INFO, table);
+  thr_text_printf(&pdf->out,
+                  "trailer\n<</Size %d/Root %d 0 R/Info %d 0 R>>\nstartxref\n%zu\n%%%%EOF\n",
+                  pdf->n_objects, CATALOG, INFO, table);
   if (pdf->out.failed) return thr_nomem(err);
   if (!out->length && !out->failed) {
     thr_text_destroy(out);

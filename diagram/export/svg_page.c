@@ -1,6 +1,8 @@
-/* A page drawn from SVG, read in one pass. It knows the SVG that diagram/ writes for pages: svg (in mm), title, desc, style, g
- * with translations and clipping, clipPath around a rect, rect, turned or not, circle, path of M L H V C Z and their small
- * letters, text; and of these no attribute but those that are drawn or say nothing of the picture. Private to diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A page drawn from SVG, read in one pass. It knows the SVG that diagram/ writes for pages: svg (in
+ * mm), title, desc, style, g with translations and clipping, clipPath around a rect, rect, turned
+ * or not, circle, path of M L H V C Z and their small letters, text; and of these no attribute but
+ * those that are drawn or say nothing of the picture. Private to diagram/. */
 #include "diagram/export/export_parts.h"
 
 #include <math.h>
@@ -45,7 +47,8 @@ typedef struct {
 
 static thr_status broken(reader *r, const char *what, thr_slice words)
 {
-  return thr_fail(r->err, THR_ESOLVER, "a page cannot be drawn: %s '%.*s'", what, (int)(words.n < 60 ? words.n : 60), words.s);
+  return thr_fail(r->err, THR_ESOLVER, "a page cannot be drawn: %s '%.*s'", what,
+                  (int)(words.n < 60 ? words.n : 60), words.s);
 }
 
 /* ---- tags ---- */
@@ -78,7 +81,8 @@ static thr_status read_attributes(reader *r, thr_slice text, tag *t)
   for (text = thr_slice_trim(text); text.n; text = thr_slice_trim(text)) {
     attribute a = {.name = {text.s, name_length(text)}};
     thr_slice rest = {text.s + a.name.n, text.n - a.name.n};
-    if (!a.name.n || rest.n < 2 || rest.s[0] != '=' || rest.s[1] != '"' || t->n_attributes == ATTRIBUTES)
+    if (!a.name.n || rest.n < 2 || rest.s[0] != '=' || rest.s[1] != '"' ||
+        t->n_attributes == ATTRIBUTES)
       return broken(r, "the attributes", text);
     skip(&rest, 2);
     if (!take_until(&rest, '"', &a.value)) return broken(r, "the attribute", text);
@@ -88,7 +92,8 @@ static thr_status read_attributes(reader *r, thr_slice text, tag *t)
   return THR_OK;
 }
 
-/* Goes to the next tag; what stands before it is given back in between. Name empty at the end of the document, and of <?xml ..?>.
+/* Goes to the next tag; what stands before it is given back in between. Name empty at the end of
+ * the document, and of <?xml ..?>.
  */
 static thr_status next_tag(reader *r, thr_slice *between, tag *t)
 {
@@ -129,7 +134,8 @@ static thr_status read_number(reader *r, const tag *t, const char *name, double 
   return thr_slice_number(&rest, value) && !rest.n ? THR_OK : broken(r, name, *text);
 }
 
-static thr_status read_numbers(reader *r, const tag *t, int n, const char *const *name, double *value)
+static thr_status read_numbers(reader *r, const tag *t, int n, const char *const *name,
+                               double *value)
 {
   thr_status st = THR_OK;
   for (int i = 0; i < n && !st; i++)
@@ -142,13 +148,15 @@ static thr_status read_numbers(reader *r, const tag *t, int n, const char *const
 /* Is the attribute one that the element draws by, or one that says nothing of the picture? */
 static bool is_known(const tag *t, thr_slice name)
 {
-  static const char *const any[] = {"class", "style", "id", "data-piece", "data-for", "shape-rendering"};
-  static const char *const known[][8] = {{"svg", "xmlns", "width", "height", "viewBox", "role", "aria-labelledby"},
-                                         {"g", "transform", "clip-path"},
-                                         {"rect", "x", "y", "width", "height", "rx", "transform"},
-                                         {"circle", "cx", "cy", "r"},
-                                         {"path", "d"},
-                                         {"text", "x", "y"}};
+  static const char *const any[] = {"class",      "style",    "id",
+                                    "data-piece", "data-for", "shape-rendering"};
+  static const char *const known[][8] = {
+      {"svg", "xmlns", "width", "height", "viewBox", "role", "aria-labelledby"},
+      {"g", "transform", "clip-path"},
+      {"rect", "x", "y", "width", "height", "rx", "transform"},
+      {"circle", "cx", "cy", "r"},
+      {"path", "d"},
+      {"text", "x", "y"}};
   if (thr_svg_is_property(name)) return true;
   for (size_t i = 0; i < sizeof any / sizeof *any; i++)
     if (thr_slice_is(name, any[i])) return true;
@@ -158,7 +166,8 @@ static bool is_known(const tag *t, thr_slice name)
   return false;
 }
 
-/* Opens an element, whose style is its parent's, then of its attributes, then of the style sheet, then of style="..". */
+/* Opens an element, whose style is its parent's, then of its attributes, then of the style sheet,
+ * then of style="..". */
 static thr_status push(reader *r, const tag *t)
 {
   const thr_slice *classes = find(t, "class"), *list = find(t, "style");
@@ -171,7 +180,8 @@ static thr_status push(reader *r, const tag *t)
   for (int i = 0; i < t->n_attributes && !st; i++) {
     const attribute *a = &t->attribute[i];
     if (!is_known(t, a->name)) return broken(r, "not known is the attribute", a->name);
-    if (thr_svg_is_property(a->name)) st = thr_svg_style_set(&new->style, a->name, a->value, r->err);
+    if (thr_svg_is_property(a->name))
+      st = thr_svg_style_set(&new->style, a->name, a->value, r->err);
   }
   if (st) return st;
   const thr_svg_element *inside[DEPTH];
@@ -181,7 +191,8 @@ static thr_status push(reader *r, const tag *t)
   return list ? thr_svg_style_list(&new->style, *list, r->err) : THR_OK;
 }
 
-static bool ink_of(const thr_svg_style *style, thr_svg_property colour, thr_svg_property opacity, thr_ink *ink)
+static bool ink_of(const thr_svg_style *style, thr_svg_property colour, thr_svg_property opacity,
+                   thr_ink *ink)
 {
   memcpy(ink->colour, style->value[colour].x, sizeof ink->colour);
   ink->opacity = style->value[opacity].x[0];
@@ -268,7 +279,8 @@ static thr_status trace_path(reader *r, thr_slice d)
 
 static thr_status trace_shape(reader *r, const tag *t)
 {
-  static const char *const rect[] = {"x", "y", "width", "height", "rx"}, *const circle[] = {"cx", "cy", "r"};
+  static const char *const rect[] = {"x", "y", "width", "height", "rx"}, *const circle[] = {
+                                                                             "cx", "cy", "r"};
   double x[5] = {0};
   thr_status st;
   if (thr_slice_is(t->name, "path")) {
@@ -281,7 +293,10 @@ static thr_status trace_shape(reader *r, const tag *t)
     return st;
   }
   st = read_numbers(r, t, 5, rect, x);
-  double most = 0.5 * fmin(x[2], x[3]); /* corners of an ellipse beyond it, but for the rounding of what is written */
+  double most =
+      0.5 *
+      fmin(x[2],
+           x[3]); /* corners of an ellipse beyond it, but for the rounding of what is written */
   if (!st && x[4] > most + 0.02) return broken(r, "not known are such corners of a", t->name);
   if (!st) thr_paper_rect(r->paper, x, x + 2, fmin(x[4], most));
   return st;
@@ -301,12 +316,13 @@ static thr_status shift(reader *r, thr_slice text)
 {
   thr_slice rest = text;
   double by[2], degrees;
-  if (!take_word(&rest, "translate(") || !thr_slice_number(&rest, &by[0]) || !thr_slice_number(&rest, &by[1]) ||
-      !take_word(&rest, ")"))
+  if (!take_word(&rest, "translate(") || !thr_slice_number(&rest, &by[0]) ||
+      !thr_slice_number(&rest, &by[1]) || !take_word(&rest, ")"))
     return broken(r, "not known is", text);
   thr_paper_shift(r->paper, by);
   if (!rest.n) return THR_OK;
-  if (!take_word(&rest, " rotate(") || !thr_slice_number(&rest, &degrees) || !thr_slice_is(rest, ")"))
+  if (!take_word(&rest, " rotate(") || !thr_slice_number(&rest, &degrees) ||
+      !thr_slice_is(rest, ")"))
     return broken(r, "not known is", text);
   thr_paper_turn(r->paper, degrees);
   return THR_OK;
@@ -331,7 +347,8 @@ static thr_status draw_shape(reader *r, const tag *t)
   }
   if (st) return st;
   const thr_svg_style *style = &r->open[--r->depth].style;
-  bool filled = ink_of(style, THR_SVG_FILL, THR_SVG_FILL_OPACITY, &fill), drawn = line_of(style, &line);
+  bool filled = ink_of(style, THR_SVG_FILL, THR_SVG_FILL_OPACITY, &fill),
+       drawn = line_of(style, &line);
   if (drawn && !filled && !line.n_dash && is_open(t)) thr_paper_trim(r->paper, &line);
   st = trace_shape(r, t);
   thr_paper_trim(r->paper, NULL);
@@ -350,7 +367,8 @@ static thr_status draw_shape(reader *r, const tag *t)
 
 static thr_status put_words(reader *r, thr_slice text)
 {
-  static const char *const entity[][2] = {{"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&apos;", "'"}};
+  static const char *const entity[][2] = {
+      {"&amp;", "&"}, {"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&apos;", "'"}};
   r->words.length = 0;
   while (text.n) {
     const char *and = memchr(text.s, '&', text.n);
@@ -359,7 +377,8 @@ static thr_status put_words(reader *r, thr_slice text)
     skip(&text, n);
     if (!text.n) break;
     for (i = 0; i < sizeof entity / sizeof *entity; i++)
-      if (text.n >= strlen(entity[i][0]) && memcmp(text.s, entity[i][0], strlen(entity[i][0])) == 0) break;
+      if (text.n >= strlen(entity[i][0]) && memcmp(text.s, entity[i][0], strlen(entity[i][0])) == 0)
+        break;
     if (i == sizeof entity / sizeof *entity) return broken(r, "not known is", text);
     thr_text_append(&r->words, entity[i][1]);
     skip(&text, strlen(entity[i][0]));
@@ -377,7 +396,8 @@ static thr_status draw_text(reader *r, const tag *t)
   thr_status st = push(r, t);
   if (!st) st = read_numbers(r, t, 2, name, at);
   if (!st) st = next_tag(r, &words, &end);
-  if (!st && (!end.closes || !thr_slice_is(end.name, "text"))) return broken(r, "not known inside text is", end.name);
+  if (!st && (!end.closes || !thr_slice_is(end.name, "text")))
+    return broken(r, "not known inside text is", end.name);
   if (!st) st = put_words(r, words);
   if (st) return st;
   const thr_svg_style *style = &r->open[--r->depth].style;
@@ -399,7 +419,9 @@ static thr_status clip_to(reader *r, thr_slice text)
 {
   for (int i = r->n_clips - 1; i >= 0; i--) {
     const clip *c = &r->clip[i];
-    if (text.n != c->id.n + 6 || memcmp(text.s, "url(#", 5) != 0 || memcmp(text.s + 5, c->id.s, c->id.n) != 0) continue;
+    if (text.n != c->id.n + 6 || memcmp(text.s, "url(#", 5) != 0 ||
+        memcmp(text.s + 5, c->id.s, c->id.n) != 0)
+      continue;
     thr_paper_rect(r->paper, c->at, c->size, 0);
     thr_paper_clip(r->paper);
     return THR_OK;
@@ -432,7 +454,8 @@ static thr_status read_clip(reader *r, const tag *t)
     return broken(r, "no plain rectangle clips:", inner.name);
   if (!st) st = read_numbers(r, &inner, 4, name, x);
   if (!st) st = next_tag(r, &between, &end);
-  if (!st && (!end.closes || !thr_slice_is(end.name, "clipPath"))) return broken(r, "not known in clipPath is", end.name);
+  if (!st && (!end.closes || !thr_slice_is(end.name, "clipPath")))
+    return broken(r, "not known in clipPath is", end.name);
   r->clip[r->n_clips++] = (clip){.id = *id, .at = {x[0], x[1]}, .size = {x[2], x[3]}};
   return st;
 }
@@ -442,7 +465,8 @@ static thr_status read_words(reader *r, const tag *t, thr_slice *words)
 {
   tag end;
   thr_status st = next_tag(r, words, &end);
-  if (!st && (!end.closes || end.name.n != t->name.n || memcmp(end.name.s, t->name.s, end.name.n) != 0))
+  if (!st &&
+      (!end.closes || end.name.n != t->name.n || memcmp(end.name.s, t->name.s, end.name.n) != 0))
     return broken(r, "not known inside it is", end.name);
   return st;
 }
@@ -450,7 +474,8 @@ static thr_status read_words(reader *r, const tag *t, thr_slice *words)
 static thr_status close_element(reader *r, const tag *t)
 {
   const thr_slice *name = r->depth ? &r->open[r->depth - 1].element.name : NULL;
-  if (!name || name->n != t->name.n || memcmp(name->s, t->name.s, name->n) != 0) return broken(r, "not open is", t->name);
+  if (!name || name->n != t->name.n || memcmp(name->s, t->name.s, name->n) != 0)
+    return broken(r, "not open is", t->name);
   if (thr_slice_is(t->name, "g")) thr_paper_pop(r->paper);
   r->depth--;
   return THR_OK;
@@ -460,14 +485,16 @@ static thr_status read_element(reader *r, const tag *t)
 {
   thr_slice words;
   if (t->closes) return close_element(r, t);
-  if (thr_slice_is(t->name, "path") || thr_slice_is(t->name, "rect") || thr_slice_is(t->name, "circle"))
+  if (thr_slice_is(t->name, "path") || thr_slice_is(t->name, "rect") ||
+      thr_slice_is(t->name, "circle"))
     return t->empty ? draw_shape(r, t) : broken(r, "open is", t->name);
   if (t->empty) return broken(r, "empty is", t->name);
   if (thr_slice_is(t->name, "g")) return open_group(r, t);
   if (thr_slice_is(t->name, "text")) return draw_text(r, t);
   if (thr_slice_is(t->name, "svg")) return push(r, t);
   if (thr_slice_is(t->name, "clipPath")) return read_clip(r, t);
-  if (thr_slice_is(t->name, "title") || thr_slice_is(t->name, "desc")) return read_words(r, t, &words);
+  if (thr_slice_is(t->name, "title") || thr_slice_is(t->name, "desc"))
+    return read_words(r, t, &words);
   if (!thr_slice_is(t->name, "style")) return broken(r, "not known is", t->name);
   thr_status st = read_words(r, t, &words);
   return st ? st : thr_svg_sheet_add(&r->sheet, words, r->err);

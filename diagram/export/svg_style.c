@@ -1,6 +1,8 @@
-/* Styles of the SVG that is written in diagram/. They come from presentation attributes, from style="..", and from style sheets
- * whose selectors are lists of elements and classes with blanks between them, ".view-1 .place text.own", and
- * :not([stroke-dasharray]). All properties are inherited. What is not known is an error. Private to diagram/export/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Styles of the SVG that is written in diagram/. They come from presentation attributes, from
+ * style="..", and from style sheets whose selectors are lists of elements and classes with blanks
+ * between them, ".view-1 .place text.own", and :not([stroke-dasharray]). All properties are
+ * inherited. What is not known is an error. Private to diagram/export/. */
 #include "diagram/export/export_parts.h"
 
 #include "graph/number.h"
@@ -30,11 +32,13 @@ thr_slice thr_slice_trim(thr_slice slice)
   return slice;
 }
 
-/* "-12.34" by so few digits that both their number and the power of ten are exact, so that the quotient is the nearest double. */
+/* "-12.34" by so few digits that both their number and the power of ten are exact, so that the
+ * quotient is the nearest double. */
 static bool read_few_digits(const char *s, size_t n, double *value)
 {
   enum { MOST = 15 };
-  static const double power[MOST + 1] = {1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  static const double power[MOST + 1] = {1,   1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                         1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
   const bool minus = n && *s == '-';
   int64_t digits = 0;
   int behind = -1; /* digits behind the point; -1: there is none yet */
@@ -55,7 +59,9 @@ bool thr_slice_number(thr_slice *text, double *value)
     n++;
   for (end = n + (n < text->n && text->s[n] == '-'); end < text->n; end++)
     if ((text->s[end] < '0' || text->s[end] > '9') && text->s[end] != '.') break;
-  if (!read_few_digits(text->s + n, end - n, value) && !thr_number_parse(text->s + n, end - n, value)) return false;
+  if (!read_few_digits(text->s + n, end - n, value) &&
+      !thr_number_parse(text->s + n, end - n, value))
+    return false;
   *text = (thr_slice){text->s + end, text->n - end};
   return true;
 }
@@ -109,7 +115,8 @@ thr_svg_style thr_svg_style_first(void)
   thr_svg_style style = {{{0}}};
   for (int i = 0; i < THR_SVG_PROPERTIES; i++)
     style.value[i].n = i == THR_SVG_STROKE || i == THR_SVG_DASHARRAY ? 0 : property[i].most;
-  style.value[THR_SVG_FILL_OPACITY].x[0] = style.value[THR_SVG_STROKE_OPACITY].x[0] = style.value[THR_SVG_STROKE_WIDTH].x[0] = 1;
+  style.value[THR_SVG_FILL_OPACITY].x[0] = style.value[THR_SVG_STROKE_OPACITY].x[0] =
+      style.value[THR_SVG_STROKE_WIDTH].x[0] = 1;
   style.value[THR_SVG_FONT_SIZE].x[0] = 16;
   return style;
 }
@@ -129,7 +136,8 @@ bool thr_svg_is_property(thr_slice name)
 
 static int hex_digit(char c)
 {
-  const char *digits = "0123456789abcdef", *at = c ? strchr(digits, c >= 'A' && c <= 'F' ? c - 'A' + 'a' : c) : NULL;
+  const char *digits = "0123456789abcdef",
+             *at = c ? strchr(digits, c >= 'A' && c <= 'F' ? c - 'A' + 'a' : c) : NULL;
   return at ? (int)(at - digits) : -1;
 }
 
@@ -166,13 +174,15 @@ static bool read_word(thr_slice text, const char *const *word, thr_svg_value *va
   return false;
 }
 
-static thr_status read_property(thr_slice name, thr_slice text, int *which, thr_svg_value *value, thr_err *err)
+static thr_status read_property(thr_slice name, thr_slice text, int *which, thr_svg_value *value,
+                                thr_err *err)
 {
   *which = find_property(name);
   *value = (thr_svg_value){0};
   if (*which < 0) return unknown("property", name, err);
   kind k = property[*which].kind;
-  bool may_lack = k == COLOUR || *which == THR_SVG_DASHARRAY, ok = may_lack && thr_slice_is(text, "none");
+  bool may_lack = k == COLOUR || *which == THR_SVG_DASHARRAY,
+       ok = may_lack && thr_slice_is(text, "none");
   if (!ok && k == COLOUR) ok = read_colour(text, value);
   if (!ok && k == NUMBERS) ok = read_numbers(text, property[*which].most, value);
   if (!ok && k == WORD) ok = read_word(text, property[*which].word, value);
@@ -265,7 +275,8 @@ static thr_status read_declarations(thr_svg_sheet *sheet, thr_slice list, thr_er
   while (list.n && !st) {
     thr_slice text = take_until(&list, ';'), name = take_until(&text, ':');
     if (!name.n) continue;
-    st = thr_grow(&sheet->declaration, sheet->n_declarations, &sheet->declarations_capacity, sizeof *sheet->declaration, err);
+    st = thr_grow(&sheet->declaration, sheet->n_declarations, &sheet->declarations_capacity,
+                  sizeof *sheet->declaration, err);
     if (st) break;
     thr_svg_declaration *next = &sheet->declaration[sheet->n_declarations++];
     st = read_property(name, text, &next->property, &next->value, err);
@@ -281,7 +292,8 @@ thr_status thr_svg_sheet_add(thr_svg_sheet *sheet, thr_slice css, thr_err *err)
     thr_slice selector = take_until(&css, '{'), list = take_until(&css, '}');
     st = read_selector(selector, &rule, err);
     if (!st) st = read_declarations(sheet, list, err);
-    if (!st) st = thr_grow(&sheet->rule, sheet->n_rules, &sheet->rules_capacity, sizeof *sheet->rule, err);
+    if (!st)
+      st = thr_grow(&sheet->rule, sheet->n_rules, &sheet->rules_capacity, sizeof *sheet->rule, err);
     if (st) break;
     rule.end = sheet->n_declarations;
     int at = sheet->n_rules++;
@@ -303,7 +315,9 @@ static bool has_class(thr_slice classes, thr_slice wanted)
 
 static bool meets(const compound *c, const thr_svg_element *element)
 {
-  if (c->name.n && (c->name.n != element->name.n || memcmp(c->name.s, element->name.s, c->name.n) != 0)) return false;
+  if (c->name.n &&
+      (c->name.n != element->name.n || memcmp(c->name.s, element->name.s, c->name.n) != 0))
+    return false;
   for (int i = 0; i < c->n_classes; i++)
     if (!has_class(element->classes, c->class[i])) return false;
   return !c->not_dashed || !element->dashed;
@@ -319,7 +333,8 @@ static bool rule_meets(const thr_svg_rule *rule, const thr_svg_element *const *e
   return left == 0;
 }
 
-void thr_svg_sheet_apply(const thr_svg_sheet *sheet, const thr_svg_element *const *element, int n, thr_svg_style *style)
+void thr_svg_sheet_apply(const thr_svg_sheet *sheet, const thr_svg_element *const *element, int n,
+                         thr_svg_style *style)
 {
   for (int i = 0; i < sheet->n_rules; i++) {
     const thr_svg_rule *rule = &sheet->rule[i];

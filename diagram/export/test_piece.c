@@ -1,4 +1,6 @@
-/* The piece in which a cord's friction is weighed: a bore that turns by 90 degrees, as in a bead with two arms. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The piece in which a cord's friction is weighed: a bore that turns by 90 degrees, as in a bead
+ * with two arms. */
 #include "diagram/export/paper.h"
 #include "diagram/overview/overview.h"
 #include "graph/angle.h"
@@ -23,18 +25,21 @@ void thr_test_piece_svg(double bore, thr_text *svg)
   char words[120];
   thr_svg_open(svg, 140, 120, "A test piece for the friction of a cord",
                "A block with two bores that meet at a right angle, 1:1.");
-  thr_text_append(
-      svg, "<style>.thread text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}"
-           ".block{fill:#f3e6b8;stroke:#222;stroke-width:.35}.bore{fill:none;stroke:#222;stroke-width:.2;stroke-dasharray:1.5 1}"
-           ".cord{fill:none;stroke:#d55e00;stroke-width:.8}</style>\n");
+  thr_text_append(svg, "<style>.thread text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}"
+                       ".block{fill:#f3e6b8;stroke:#222;stroke-width:.35}.bore{fill:none;stroke:#"
+                       "222;stroke-width:.2;stroke-dasharray:1.5 1}"
+                       ".cord{fill:none;stroke:#d55e00;stroke-width:.8}</style>\n");
   thr_text_append(svg, "<rect width=\"140\" height=\"120\" fill=\"#fff\"/>\n");
-  thr_text_printf(svg, "<rect class=\"block\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", x, y, side, side);
+  thr_text_printf(svg,
+                  "<rect class=\"block\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
+                  x, y, side, side);
   for (int k = -1; k <= 1; k += 2) {
     const double off = k * bore / 2;
-    thr_text_printf(svg, "<path class=\"bore\" d=\"M%.2f %.2fH%.2fM%.2f %.2fV%.2f\"/>\n", x, y + middle + off, x + middle,
-                    x + middle + off, y + side, y + middle);
+    thr_text_printf(svg, "<path class=\"bore\" d=\"M%.2f %.2fH%.2fM%.2f %.2fV%.2f\"/>\n", x,
+                    y + middle + off, x + middle, x + middle + off, y + side, y + middle);
   }
-  thr_text_printf(svg, "<path class=\"cord\" d=\"M%.2f %.2fH%.2fV%.2f\"/>\n", x - 22, y + middle, x + middle, y + side + 32);
+  thr_text_printf(svg, "<path class=\"cord\" d=\"M%.2f %.2fH%.2fV%.2f\"/>\n", x - 22, y + middle,
+                  x + middle, y + side + 32);
   snprintf(words, sizeof words, "drill both bores %.2f mm wide, until they meet;", bore);
   put_words(svg, 5, 8, words);
   put_words(svg, 5, 13, "or print the STL. Break no edge that the pieces of the dome keep.");
@@ -49,11 +54,12 @@ void thr_test_piece_svg(double bore, thr_text *svg)
 
 /* ---- the mesh ---- */
 
-/* Of the outer square (k >= SIDES) or the bore, in the plane of a station: offset towards the inner side of the bend, and
- * upwards. */
+/* Of the outer square (k >= SIDES) or the bore, in the plane of a station: offset towards the inner
+ * side of the bend, and upwards. */
 static void profile(double bore, int k, double out[2])
 {
-  const double angle = 2 * THR_PI * (k % SIDES) / SIDES, c = cos(angle), s = sin(angle), half = fmax(5, 1.5 * bore);
+  const double angle = 2 * THR_PI * (k % SIDES) / SIDES, c = cos(angle), s = sin(angle),
+               half = fmax(5, 1.5 * bore);
   const double size = k < SIDES ? bore / 2 : half / fmax(fabs(c), fabs(s));
   out[0] = size * c;
   out[1] = size * s;
@@ -79,7 +85,8 @@ static void put_triangle(thr_text *stl, const double a[3], const double b[3], co
   for (int k = 0; k < 3; k++)
     n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
   const double size = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  thr_text_printf(stl, "facet normal %.6f %.6f %.6f\nouter loop\n", n[0] / size, n[1] / size, n[2] / size);
+  thr_text_printf(stl, "facet normal %.6f %.6f %.6f\nouter loop\n", n[0] / size, n[1] / size,
+                  n[2] / size);
   for (int i = 0; i < 3; i++) {
     const double *p = i == 0 ? a : i == 1 ? b : c;
     thr_text_printf(stl, "vertex %.6f %.6f %.6f\n", p[0], p[1], p[2]);
@@ -102,7 +109,8 @@ void thr_test_piece_stl(double bore, thr_text *stl)
   for (int k = 0; k < SIDES; k++) {
     const int next = (k + 1) % SIDES, out = k + SIDES, out_next = next + SIDES;
     for (int s = 0; s + 1 < STATIONS; s++) {
-      put_quad(stl, bore, (const int[]){s, s, s + 1, s + 1}, (const int[]){out, out_next, out_next, out});
+      put_quad(stl, bore, (const int[]){s, s, s + 1, s + 1},
+               (const int[]){out, out_next, out_next, out});
       put_quad(stl, bore, (const int[]){s, s + 1, s + 1, s}, (const int[]){k, k, next, next});
     }
     put_quad(stl, bore, (const int[]){0, 0, 0, 0}, (const int[]){k, next, out_next, out});

@@ -1,5 +1,7 @@
-/* The viewer: the framework in space with the cords step by step, as one HTML file that needs no network. Its page is built from
- * viewer/ (`make viewer`) and lies built in diagram/export/viewer_page.html, which becomes part of the program. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The viewer: the framework in space with the cords step by step, as one HTML file that needs no
+ * network. Its page is built from viewer/ (`make viewer`) and lies built in
+ * diagram/export/viewer_page.html, which becomes part of the program. */
 #include "diagram/export/paper.h"
 
 #include "diagram/overview/overview.h"
@@ -122,7 +124,8 @@ static void put_tension(viewer *s, const thr_eval_cord *cord)
   if (cord->pull == THR_PULL_NONE)
     snprintf(words, sizeof words, "not pulled");
   else
-    snprintf(words, sizeof words, "pull at %s: %s", cord->pull == THR_PULL_BOTH ? "both ends" : thr_pull_name(cord->pull), text);
+    snprintf(words, sizeof words, "pull at %s: %s",
+             cord->pull == THR_PULL_BOTH ? "both ends" : thr_pull_name(cord->pull), text);
   thr_write_line(writer, 1);
   thr_write_string(writer, "pull", words);
   thr_write_array(writer, "tension");
@@ -250,7 +253,8 @@ static void put_plan(viewer *s)
   thr_write_close(&s->out);
 }
 
-/* Appends JSON as it may stand in a <script>: no "<", which only strings hold; line separators are escaped in them already. */
+/* Appends JSON as it may stand in a <script>: no "<", which only strings hold; line separators are
+ * escaped in them already. */
 static void put_in_script(const thr_text *json, thr_text *out)
 {
   const char *from = json->data, *end = from + json->length;
@@ -285,11 +289,15 @@ static thr_status prepare(viewer *s, double tolerance, const thr_layout *layout,
   return st;
 }
 
-thr_status thr_viewer_html(const thr_plan *p, const char *const *motion, double tolerance, int needles, const thr_layout *layout,
-                           thr_text *html, thr_err *err)
+thr_status thr_viewer_html(const thr_plan *p, const char *const *motion, double tolerance,
+                           int needles, const thr_layout *layout, thr_text *html, thr_err *err)
 {
   thr_text json = {0}, page = {0};
-  viewer s = {.plan = p, .f = &p->frame, .motion = motion, .needles = needles, .out = {.out = &json, .compact = true}};
+  viewer s = {.plan = p,
+              .f = &p->frame,
+              .motion = motion,
+              .needles = needles,
+              .out = {.out = &json, .compact = true}};
   const char *mark = strstr(thr_viewer_page, THR_VIEWER_MARK);
   assert(mark);
   thr_status st = prepare(&s, tolerance, layout, err);

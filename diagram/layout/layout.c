@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Candidate layouts: the projections, and the choice among all of them. */
 
 #include "diagram/layout/layout_parts.h"
@@ -15,18 +16,23 @@ const char *thr_layout_words(thr_layout_kind kind)
 {
   static const char *const words[THR_LAYOUT_KINDS] = {
       "Plan, seen from outside (from above).",
-      "Unrolled from the crown in the middle outwards, seen from outside (from above); distances around the middle are "
+      "Unrolled from the crown in the middle outwards, seen from outside (from above); distances "
+      "around the middle are "
       "stretched.",
       "Elevation, seen from outside (from the front: x to the right, z up).",
       "Elevation, seen from outside (from the side: y to the right, z up).",
       "Seen at right angles to the plane that fits best, with the higher nodes up the page.",
-      "Unrolled about the x axis, seen from outside (from the +x end, which is in the middle); distances around it are "
+      "Unrolled about the x axis, seen from outside (from the +x end, which is in the middle); "
+      "distances around it are "
       "stretched.",
-      "Unrolled about the y axis, seen from outside (from the +y end, which is in the middle); distances around it are "
+      "Unrolled about the y axis, seen from outside (from the +y end, which is in the middle); "
+      "distances around it are "
       "stretched.",
-      "Spread flat from the middle outwards, like a shell opened on the far side, seen from outside; beads far out look longer "
+      "Spread flat from the middle outwards, like a shell opened on the far side, seen from "
+      "outside; beads far out look longer "
       "than they are.",
-      "Two halves of a closed shell, both seen from outside: turn the shell half round about the page's vertical to get from one "
+      "Two halves of a closed shell, both seen from outside: turn the shell half round about the "
+      "page's vertical to get from one "
       "to the other. Places on their rims are on both.",
       "Schematic: which bead joins which is true, lengths and angles are not."};
   return (unsigned)kind < THR_LAYOUT_KINDS ? words[kind] : "";
@@ -34,7 +40,8 @@ const char *thr_layout_words(thr_layout_kind kind)
 
 bool thr_layout_to_scale(thr_layout_kind kind)
 {
-  return kind == THR_LAYOUT_PLAN || kind == THR_LAYOUT_FRONT || kind == THR_LAYOUT_SIDE || kind == THR_LAYOUT_PLANE;
+  return kind == THR_LAYOUT_PLAN || kind == THR_LAYOUT_FRONT || kind == THR_LAYOUT_SIDE ||
+         kind == THR_LAYOUT_PLANE;
 }
 
 void thr_layout_destroy(thr_layout *layout)
@@ -55,7 +62,8 @@ thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err)
   layout.node = from->node ? thr_calloc(n, sizeof *layout.node) : NULL;
   if (!layout.xy || (from->node && !layout.node)) st = thr_nomem(err);
   if (!st && from->node)
-    st = thr_layout_join(&layout.paper, from->n_points, from->paper.n_edges, (const int(*)[2])from->paper.edge, err);
+    st = thr_layout_join(&layout.paper, from->n_points, from->paper.n_edges,
+                         (const int(*)[2])from->paper.edge, err);
   if (st) {
     thr_layout_destroy(&layout);
     return st;
@@ -66,7 +74,8 @@ thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_layout_join(thr_frame *paper, int n_points, int n_edges, const int (*edge)[2], thr_err *err)
+thr_status thr_layout_join(thr_frame *paper, int n_points, int n_edges, const int (*edge)[2],
+                           thr_err *err)
 {
   thr_frame frame = {.n_nodes = n_points, .n_edges = n_edges};
   frame.edge = thr_calloc((size_t)frame.n_edges, sizeof *frame.edge);
@@ -99,7 +108,8 @@ void thr_layout_keep_better(thr_layout *best, thr_layout *layout)
   thr_layout_destroy(layout);
 }
 
-static void project(thr_layout *layout, const thr_frame *frame, const double right[3], const double up[3])
+static void project(thr_layout *layout, const thr_frame *frame, const double right[3],
+                    const double up[3])
 {
   for (int v = 0; v < frame->n_nodes; v++) {
     layout->xy[v][0] = thr_dot(frame->xyz[v], right);
@@ -109,12 +119,14 @@ static void project(thr_layout *layout, const thr_frame *frame, const double rig
 
 /* ---- best-fit plane ---- */
 
-/* One Jacobi rotation that zeroes a[p][q] of a symmetric matrix; vec collects the eigenvectors as columns. */
+/* One Jacobi rotation that zeroes a[p][q] of a symmetric matrix; vec collects the eigenvectors as
+ * columns. */
 static void rotate(double a[3][3], double vec[3][3], int p, int q)
 {
   if (a[p][q] == 0) return;
   double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-  double t = (theta >= 0 ? 1 : -1) / (fabs(theta) + sqrt(theta * theta + 1)), c = 1 / sqrt(t * t + 1), s = t * c;
+  double t = (theta >= 0 ? 1 : -1) / (fabs(theta) + sqrt(theta * theta + 1)),
+         c = 1 / sqrt(t * t + 1), s = t * c;
   for (int k = 0; k < 3; k++) {
     double x = a[k][p], y = a[k][q];
     a[k][p] = c * x - s * y;
@@ -130,7 +142,8 @@ static void rotate(double a[3][3], double vec[3][3], int p, int q)
   }
 }
 
-/* Unit normal of the least-squares plane, towards the viewer: upwards, or for a wall from the front or the side. */
+/* Unit normal of the least-squares plane, towards the viewer: upwards, or for a wall from the front
+ * or the side. */
 static void plane_normal(const thr_frame *frame, double normal[3])
 {
   double mean[3], a[3][3] = {{0}}, vec[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -149,7 +162,9 @@ static void plane_normal(const thr_frame *frame, double normal[3])
     if (a[i][i] < a[least][least]) least = i;
   for (int i = 0; i < 3; i++)
     normal[i] = vec[i][least];
-  double sign = fabs(normal[2]) > 1e-6 ? normal[2] : fabs(normal[1]) > 1e-6 ? -normal[1] : normal[0];
+  double sign = fabs(normal[2]) > 1e-6   ? normal[2]
+                : fabs(normal[1]) > 1e-6 ? -normal[1]
+                                         : normal[0];
   for (int i = 0; i < 3 && sign < 0; i++)
     normal[i] = -normal[i];
 }
@@ -184,18 +199,22 @@ static thr_status place(thr_layout *layout, const thr_frame *frame, thr_err *err
   case THR_LAYOUT_UNROLLED_Y: return thr_layout_unroll(layout, frame, 1, err);
   case THR_LAYOUT_UNROLLED_Z: return thr_layout_unroll(layout, frame, 2, err);
   case THR_LAYOUT_SPREAD: return thr_layout_spread(layout, frame, err);
-  default: return thr_fail(err, THR_EINPUT, "layout kind %d cannot be made from coordinates", (int)layout->kind);
+  default:
+    return thr_fail(err, THR_EINPUT, "layout kind %d cannot be made from coordinates",
+                    (int)layout->kind);
   }
 }
 
-thr_status thr_layout_make(thr_layout *out, const thr_frame *frame, thr_layout_kind kind, thr_err *err)
+thr_status thr_layout_make(thr_layout *out, const thr_frame *frame, thr_layout_kind kind,
+                           thr_err *err)
 {
   thr_layout layout = {.n_nodes = frame->n_nodes, .n_points = frame->n_nodes, .kind = kind};
   *out = (thr_layout){0};
   for (int v = 0; v < frame->n_nodes; v++)
     for (int i = 0; i < 3; i++)
       if (!(fabs(frame->xyz[v][i]) < MAX_COORDINATE))
-        return thr_fail(err, THR_EINPUT, "node %d lies at %g: too far to be drawn", v, frame->xyz[v][i]);
+        return thr_fail(err, THR_EINPUT, "node %d lies at %g: too far to be drawn", v,
+                        frame->xyz[v][i]);
   if (kind == THR_LAYOUT_PANELS) return thr_layout_panels(out, frame, err);
   layout.xy = thr_calloc((size_t)frame->n_nodes, sizeof *layout.xy);
   if (!layout.xy) return thr_nomem(err);
@@ -206,9 +225,11 @@ thr_status thr_layout_make(thr_layout *out, const thr_frame *frame, thr_layout_k
   return st;
 }
 
-thr_status thr_layout_adopt(thr_layout *out, const thr_frame *frame, const double (*xy)[2], thr_err *err)
+thr_status thr_layout_adopt(thr_layout *out, const thr_frame *frame, const double (*xy)[2],
+                            thr_err *err)
 {
-  thr_layout layout = {.n_nodes = frame->n_nodes, .n_points = frame->n_nodes, .kind = THR_LAYOUT_DRAWN};
+  thr_layout layout = {
+      .n_nodes = frame->n_nodes, .n_points = frame->n_nodes, .kind = THR_LAYOUT_DRAWN};
   for (int v = 0; v < frame->n_nodes; v++)
     if (!(fabs(xy[v][0]) < MAX_COORDINATE && fabs(xy[v][1]) < MAX_COORDINATE))
       return thr_fail(err, THR_EINPUT, "node %d of the layout has no finite place on paper", v);
@@ -227,21 +248,24 @@ static bool legible(const thr_layout *layout)
   return !layout->crossings && !layout->squeezed && layout->ratio >= LEGIBLE;
 }
 
-/* Replaces *best by what the drawing algorithm makes of it, or of its own circle, if that is better. */
+/* Replaces *best by what the drawing algorithm makes of it, or of its own circle, if that is
+ * better. */
 static thr_status try_drawing(thr_layout *best, const thr_frame *frame, bool circle, thr_err *err)
 {
   thr_layout layout = {0};
   double(*xy)[2] = thr_calloc((size_t)frame->n_nodes, sizeof *xy);
   if (!xy) return thr_nomem(err);
   memcpy(xy, best->xy, (size_t)frame->n_nodes * sizeof *xy);
-  thr_status st = thr_kamada_kawai(frame->n_nodes, frame->n_edges, (const int(*)[2])frame->edge, frame->length, circle, xy, err);
+  thr_status st = thr_kamada_kawai(frame->n_nodes, frame->n_edges, (const int(*)[2])frame->edge,
+                                   frame->length, circle, xy, err);
   if (!st) st = thr_layout_adopt(&layout, frame, (const double(*)[2])xy, err);
   if (!st) thr_layout_keep_better(best, &layout);
   free(xy);
   return st;
 }
 
-thr_status thr_layout_choose(thr_layout *out, const thr_frame *frame, const thr_layout *extra, int n_extra, thr_err *err)
+thr_status thr_layout_choose(thr_layout *out, const thr_frame *frame, const thr_layout *extra,
+                             int n_extra, thr_err *err)
 {
   thr_layout best = {0}, l = {0};
   thr_status st = THR_OK;

@@ -1,6 +1,7 @@
-/* Where the nodes of a framework go on paper. Several candidates are made and measured; the one with the fewest
- * faults is drawn. A layout keeps the handedness of the framework seen from outside, so that "turn left" on paper
- * is "turn left" in the hand. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where the nodes of a framework go on paper. Several candidates are made and measured; the one
+ * with the fewest faults is drawn. A layout keeps the handedness of the framework seen from
+ * outside, so that "turn left" on paper is "turn left" in the hand. */
 #ifndef THR_LAYOUT_H
 #define THR_LAYOUT_H
 
@@ -8,43 +9,52 @@
 #include "graph/status.h"
 
 enum { THR_LAYOUT_DRAWN_NODES = 1000 };
-static const double THR_LAYOUT_OPEN = 1; /* rad, seen from the middle: half the angle of the widest opening of a closed shell */
+static const double THR_LAYOUT_OPEN =
+    1; /* rad, seen from the middle: half the angle of the widest opening of a closed shell */
 
 typedef enum {
   THR_LAYOUT_PLAN,       /* x to the right, y up the page, +z towards the viewer */
-  THR_LAYOUT_UNROLLED_Z, /* azimuthal-equidistant about the vertical: the crown in the middle, rings around it */
+  THR_LAYOUT_UNROLLED_Z, /* azimuthal-equidistant about the vertical: the crown in the middle, rings
+                            around it */
   THR_LAYOUT_FRONT,      /* x to the right, z up, seen from -y */
   THR_LAYOUT_SIDE,       /* y to the right, z up, seen from +x */
   THR_LAYOUT_PLANE,      /* at right angles onto the best-fit plane */
   THR_LAYOUT_UNROLLED_X, /* azimuthal-equidistant about the x axis: the +x end in the middle */
   THR_LAYOUT_UNROLLED_Y, /* the same about the y axis */
-  THR_LAYOUT_SPREAD,     /* a closed shell opened at the face opposite the middle and spread flat (stereographic) */
-  THR_LAYOUT_PANELS,     /* a closed shell cut near its equator: both halves azimuthal-equidistant, side by side */
-  THR_LAYOUT_DRAWN,      /* made by a drawing algorithm: only the adjacency is true (see thr_layout_adopt) */
+  THR_LAYOUT_SPREAD,     /* a closed shell opened at the face opposite the middle and spread flat
+                            (stereographic) */
+  THR_LAYOUT_PANELS, /* a closed shell cut near its equator: both halves azimuthal-equidistant, side
+                        by side */
+  THR_LAYOUT_DRAWN,  /* made by a drawing algorithm: only the adjacency is true (see
+                        thr_layout_adopt) */
   THR_LAYOUT_KINDS
 } thr_layout_kind;
 
-/* Arrays are owned; {0} is valid and empty. With two panels, a node on the seam between them has a point on each, so that every
- * edge lies in one panel; a cord that goes on from one panel to the other does so between the two points of a node. */
+/* Arrays are owned; {0} is valid and empty. With two panels, a node on the seam between them has a
+ * point on each, so that every edge lies in one panel; a cord that goes on from one panel to the
+ * other does so between the two points of a node. */
 typedef struct {
   int n_nodes;
   int n_points;    /* on paper: n_nodes, and the second points of nodes that have two */
-  double (*xy)[2]; /* [n_points] units of the framework (THR_LAYOUT_DRAWN: any), +y up the page; point v < n_nodes shows node v */
+  double (*xy)[2]; /* [n_points] units of the framework (THR_LAYOUT_DRAWN: any), +y up the page;
+                      point v < n_nodes shows node v */
   int *node;       /* [n_points] which node a point shows; NULL: no node has two */
-  thr_frame paper; /* with node, the edges of the framework, joining points: n_nodes (= n_points), n_edges, edge, first and half
-                      are filled, the rest is empty */
-  int axis;        /* of two panels: they are seen from the positive end of the x (0), y (1) or z axis and from the other */
+  thr_frame paper; /* with node, the edges of the framework, joining points: n_nodes (= n_points),
+                      n_edges, edge, first and half are filled, the rest is empty */
+  int axis; /* of two panels: they are seen from the positive end of the x (0), y (1) or z axis and
+               from the other */
   double middle[2][2]; /* and these are their middles, the left one's first */
   thr_layout_kind kind;
-  long crossings; /* pairs of edges that cross, touch or lie on each other on paper (see thr_layout_measure) */
+  long crossings; /* pairs of edges that cross, touch or lie on each other on paper (see
+                     thr_layout_measure) */
   bool estimated; /* from the crossings of a part of the edges, evenly spread */
   int squeezed;   /* edges shorter than a fifth of the median: no room for a bead */
   double median;  /* median edge length on paper, in units of xy */
   double ratio;   /* shortest edge on paper over median, 0 .. 1; 0 when the median is 0 */
 } thr_layout;
 
-/* What edges join on paper: the framework's nodes, or the layout's points. Either is a frame to ask for ends and half-edges; of a
- * layout's points no more is known. */
+/* What edges join on paper: the framework's nodes, or the layout's points. Either is a frame to ask
+ * for ends and half-edges; of a layout's points no more is known. */
 static inline const thr_frame *thr_layout_paper(const thr_layout *layout, const thr_frame *frame)
 {
   return layout->node ? &layout->paper : frame;
@@ -55,27 +65,33 @@ static inline int thr_layout_node(const thr_layout *layout, int point)
   return layout->node ? layout->node[point] : point;
 }
 
-/* Makes and measures one candidate other than THR_LAYOUT_DRAWN. THR_EINPUT if the frame has no such view (a flat
- * frame has nothing to unroll, one with an opening as wide as THR_LAYOUT_OPEN no two halves). */
-thr_status thr_layout_make(thr_layout *layout, const thr_frame *frame, thr_layout_kind kind, thr_err *err) THR_MUST_CHECK;
+/* Makes and measures one candidate other than THR_LAYOUT_DRAWN. THR_EINPUT if the frame has no such
+ * view (a flat frame has nothing to unroll, one with an opening as wide as THR_LAYOUT_OPEN no two
+ * halves). */
+thr_status thr_layout_make(thr_layout *layout, const thr_frame *frame, thr_layout_kind kind,
+                           thr_err *err) THR_MUST_CHECK;
 
-/* Takes over coordinates made elsewhere (igraph's Kamada-Kawai, a file): copies xy[frame->n_nodes], measures, kind =
- * THR_LAYOUT_DRAWN. Coordinates must be finite (THR_EINPUT). */
-thr_status thr_layout_adopt(thr_layout *layout, const thr_frame *frame, const double (*xy)[2], thr_err *err) THR_MUST_CHECK;
+/* Takes over coordinates made elsewhere (igraph's Kamada-Kawai, a file): copies xy[frame->n_nodes],
+ * measures, kind = THR_LAYOUT_DRAWN. Coordinates must be finite (THR_EINPUT). */
+thr_status thr_layout_adopt(thr_layout *layout, const thr_frame *frame, const double (*xy)[2],
+                            thr_err *err) THR_MUST_CHECK;
 
-/* Fills crossings, estimated, squeezed, median and ratio from xy. Two edges without a common node count as crossing when
- * they come nearer than 2 % of the median; two edges at a node when they leave it within 1 degree of each other.
- * Hash grid: O(m + pairs that are near), and O(m log m) at most: beyond that crossings are estimated. */
-thr_status thr_layout_measure(thr_layout *layout, const thr_frame *frame, thr_err *err) THR_MUST_CHECK;
+/* Fills crossings, estimated, squeezed, median and ratio from xy. Two edges without a common node
+ * count as crossing when they come nearer than 2 % of the median; two edges at a node when they
+ * leave it within 1 degree of each other. Hash grid: O(m + pairs that are near), and O(m log m) at
+ * most: beyond that crossings are estimated. */
+thr_status thr_layout_measure(thr_layout *layout, const thr_frame *frame,
+                              thr_err *err) THR_MUST_CHECK;
 
-/* The layout to draw, by crossings + squeezed, then ratio; of nearly equal candidates (ratio within a quarter) the
- * earlier kind wins, so a plan view with no crossing and a ratio of 0.8 or more is always taken, and one of 0.5 unless
- * unrolling opens up a rim that it shows foreshortened. Two panels are only considered when every single picture has faults or a
- * ratio under 0.5; a drawing by the algorithm of Kamada & Kawai (graph/framework/make.h), for up to THR_LAYOUT_DRAWN_NODES
- * nodes, only when all others have faults. extra[n_extra] are further measured candidates (NULL and 0 for none), only used if
- * they are better; the best is copied. */
-thr_status thr_layout_choose(thr_layout *best, const thr_frame *frame, const thr_layout *extra, int n_extra,
-                             thr_err *err) THR_MUST_CHECK;
+/* The layout to draw, by crossings + squeezed, then ratio; of nearly equal candidates (ratio within
+ * a quarter) the earlier kind wins, so a plan view with no crossing and a ratio of 0.8 or more is
+ * always taken, and one of 0.5 unless unrolling opens up a rim that it shows foreshortened. Two
+ * panels are only considered when every single picture has faults or a ratio under 0.5; a drawing
+ * by the algorithm of Kamada & Kawai (graph/framework/make.h), for up to THR_LAYOUT_DRAWN_NODES
+ * nodes, only when all others have faults. extra[n_extra] are further measured candidates (NULL and
+ * 0 for none), only used if they are better; the best is copied. */
+thr_status thr_layout_choose(thr_layout *best, const thr_frame *frame, const thr_layout *extra,
+                             int n_extra, thr_err *err) THR_MUST_CHECK;
 
 /* Is one candidate clearly better than another? The order of thr_layout_choose. */
 bool thr_layout_better(const thr_layout *a, const thr_layout *b);
@@ -83,10 +99,13 @@ bool thr_layout_better(const thr_layout *a, const thr_layout *b);
 thr_status thr_layout_copy(thr_layout *to, const thr_layout *from, thr_err *err) THR_MUST_CHECK;
 void thr_layout_destroy(thr_layout *layout);
 
-const char *thr_layout_words(thr_layout_kind kind); /* for the reader of a diagram: "seen from outside (from above)", .. */
+const char *thr_layout_words(
+    thr_layout_kind kind); /* for the reader of a diagram: "seen from outside (from above)", .. */
 
-/* Half-edges as paper->half, but by ascending angle[2 * n_edges] (rad, in (-pi, pi]) within a node, in around[2 * n_edges]. */
-thr_status thr_layout_around(const thr_frame *paper, const double *angle, int *around, thr_err *err) THR_MUST_CHECK;
+/* Half-edges as paper->half, but by ascending angle[2 * n_edges] (rad, in (-pi, pi]) within a node,
+ * in around[2 * n_edges]. */
+thr_status thr_layout_around(const thr_frame *paper, const double *angle, int *around,
+                             thr_err *err) THR_MUST_CHECK;
 
 /* Are distances on paper those of the framework, up to the foreshortening of a projection? */
 bool thr_layout_to_scale(thr_layout_kind kind);

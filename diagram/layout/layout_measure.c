@@ -1,8 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How good is a layout: crossings, squeezed edges and the spread of edge lengths.
  *
- * Crossings are counted with a hash grid whose cells are as wide as the mean edge, so that an edge lies in a few
- * cells and meets only its neighbourhood. Where edges are so long that it meets most others, pairs are counted for as many edges,
- * spread evenly over the list, as n log n of time is enough for, and the rest is estimated. */
+ * Crossings are counted with a hash grid whose cells are as wide as the mean edge, so that an edge
+ * lies in a few cells and meets only its neighbourhood. Where edges are so long that it meets most
+ * others, pairs are counted for as many edges, spread evenly over the list, as n log n of time is
+ * enough for, and the rest is estimated. */
 #include "diagram/layout/layout.h"
 #include "graph/sort.h"
 
@@ -33,7 +35,8 @@ static double edge_length(const thr_layout *layout, const thr_frame *paper, int 
   return hypot(b[0] - a[0], b[1] - a[1]);
 }
 
-static thr_status measure_lengths(thr_layout *layout, const thr_frame *frame, double *mean, thr_err *err)
+static thr_status measure_lengths(thr_layout *layout, const thr_frame *frame, double *mean,
+                                  thr_err *err)
 {
   double *length = thr_calloc((size_t)frame->n_edges, sizeof *length);
   if (!length) return thr_nomem(err);
@@ -87,10 +90,14 @@ static bool cross(const grid *g, int e, int d)
   const double *a = g->xy[p[0]], *b = g->xy[p[1]], *c = g->xy[q[0]], *h = g->xy[q[1]];
   for (int k = 0; k < 2; k++) {
     double low = a[k] < b[k] ? a[k] : b[k], high = a[k] < b[k] ? b[k] : a[k];
-    if ((c[k] > high + g->near && h[k] > high + g->near) || (c[k] < low - g->near && h[k] < low - g->near)) return false;
+    if ((c[k] > high + g->near && h[k] > high + g->near) ||
+        (c[k] < low - g->near && h[k] < low - g->near))
+      return false;
   }
-  if (side_of(a, b, c) * side_of(a, b, h) < 0 && side_of(c, h, a) * side_of(c, h, b) < 0) return true;
-  return touches(a, c, h, g->near) || touches(b, c, h, g->near) || touches(c, a, b, g->near) || touches(h, a, b, g->near);
+  if (side_of(a, b, c) * side_of(a, b, h) < 0 && side_of(c, h, a) * side_of(c, h, b) < 0)
+    return true;
+  return touches(a, c, h, g->near) || touches(b, c, h, g->near) || touches(c, a, b, g->near) ||
+         touches(h, a, b, g->near);
 }
 
 static int cell_of(double x, double low, double cell, int n)
@@ -136,7 +143,8 @@ static void size_grid(grid *g, double mean)
       high[i] = fmax(high[i], g->xy[v][i]);
     }
   double w = high[0] - g->low[0], h = high[1] - g->low[1];
-  double wanted = fmax(sqrt(w * h / (2.0 * g->f->n_edges + 1)), (w + h) / (2.0 * g->f->n_edges + 1));
+  double wanted =
+      fmax(sqrt(w * h / (2.0 * g->f->n_edges + 1)), (w + h) / (2.0 * g->f->n_edges + 1));
   g->cell = fmax(fmax(mean, wanted), 4 * g->near);
   if (!(g->cell > 0)) g->cell = 1;
   g->columns = (int)(w / g->cell) + 1;
@@ -176,7 +184,8 @@ static int common_divisor(int a, int b)
   return b ? common_divisor(b, a % b) : a;
 }
 
-/* The k-th edge whose turn it is: steps of the golden section of their number visit all, and any first few of them evenly. */
+/* The k-th edge whose turn it is: steps of the golden section of their number visit all, and any
+ * first few of them evenly. */
 static int edge_of_turn(int k, int step, int n)
 {
   return (int)((int64_t)k * step % n);
@@ -190,7 +199,8 @@ static int choose_step(int n)
   return n > 1 ? step : 1;
 }
 
-/* Pairs of edge e with those whose turn is later; seen[d] = e + 1: d was met in an earlier cell. Returns how many were tried. */
+/* Pairs of edge e with those whose turn is later; seen[d] = e + 1: d was met in an earlier cell.
+ * Returns how many were tried. */
 static long count_edge(const grid *g, int e, int *seen, long *crossings)
 {
   int rows[2], span[2];
@@ -198,7 +208,8 @@ static long count_edge(const grid *g, int e, int *seen, long *crossings)
   row_range(g, e, rows);
   for (int r = rows[0]; r <= rows[1]; r++) {
     row_span(g, e, r, span);
-    for (int i = g->first[r * g->columns + span[0]]; i < g->first[r * g->columns + span[1] + 1]; i++) {
+    for (int i = g->first[r * g->columns + span[0]]; i < g->first[r * g->columns + span[1] + 1];
+         i++) {
       int d = g->entry[i];
       pairs++;
       if (g->turn[d] <= g->turn[e] || seen[d] == e + 1) continue;

@@ -1,4 +1,6 @@
-/* Spreading of closed shells: opened at the widest face, preferably below, and flattened stereographically. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Spreading of closed shells: opened at the widest face, preferably below, and flattened
+ * stereographically. */
 #include "diagram/layout/layout_parts.h"
 #include "graph/angle.h"
 
@@ -6,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cosine of the angle between direction d and the nearest node, all seen from the sphere's centre. */
+/* Cosine of the angle between direction d and the nearest node, all seen from the sphere's centre.
+ */
 static double nearest_node(const double (*unit)[3], int n, const double d[3])
 {
   double most = -1;
@@ -15,7 +18,8 @@ static double nearest_node(const double (*unit)[3], int n, const double d[3])
   return most;
 }
 
-/* Direction i of n on a Fibonacci lattice, from the lowest up: evenly spread over the sphere (Gonzalez 2010). */
+/* Direction i of n on a Fibonacci lattice, from the lowest up: evenly spread over the sphere
+ * (Gonzalez 2010). */
 static void lattice(int i, int n, double d[3])
 {
   double z = (2.0 * i + 1) / n - 1, r = sqrt(1 - z * z), turn = i * THR_PI * (3 - sqrt(5));
@@ -41,7 +45,8 @@ static void find_opening(const double (*unit)[3], int n, double best[3])
     }
 }
 
-/* Moves a direction to the middle of its empty cap: a pattern search that maximizes the angle to the nearest node. */
+/* Moves a direction to the middle of its empty cap: a pattern search that maximizes the angle to
+ * the nearest node. */
 static double centre_opening(const double (*unit)[3], int n, double d[3])
 {
   double best = nearest_node(unit, n, d), step = 0.1;
@@ -64,11 +69,13 @@ static double centre_opening(const double (*unit)[3], int n, double d[3])
   return best;
 }
 
-/* One way to flatten the sphere: the polar angle theta, measured from the point opposite the opening, goes to the
- * stereographic radius r = tan(theta / 2), and that to log(1 + r * squeeze) so that the rim does not fill the sheet. */
+/* One way to flatten the sphere: the polar angle theta, measured from the point opposite the
+ * opening, goes to the stereographic radius r = tan(theta / 2), and that to log(1 + r * squeeze) so
+ * that the rim does not fill the sheet. */
 typedef struct {
-  double squeeze;  /* > 0 */
-  double rim;      /* radius of the nodes around the opening over that of the farthest other node; 0 = as it comes */
+  double squeeze; /* > 0 */
+  double rim; /* radius of the nodes around the opening over that of the farthest other node; 0 = as
+                 it comes */
   double rim_from; /* cosine of theta below which a node counts as one of them */
 } flattening;
 
@@ -78,11 +85,14 @@ static double spread_radius(double cos_theta, double squeeze)
   return log(1 + squeeze * rho / fmax(1 + cos_theta, 1e-4));
 }
 
-/* Stereographic projection of a polyhedron inscribed in a sphere, from a point beyond one face only, crosses no edges
- * (it is a Schlegel diagram). A rim of few nodes needs a larger radius: its chords must pass outside of all others. */
-static void lay_spread(thr_layout *layout, const double (*unit)[3], const double opening[3], flattening how)
+/* Stereographic projection of a polyhedron inscribed in a sphere, from a point beyond one face
+ * only, crosses no edges (it is a Schlegel diagram). A rim of few nodes needs a larger radius: its
+ * chords must pass outside of all others. */
+static void lay_spread(thr_layout *layout, const double (*unit)[3], const double opening[3],
+                       flattening how)
 {
-  const double axis[3] = {-opening[0], -opening[1], -opening[2]}, top[3] = {0, fabs(axis[2]) > 0.7, fabs(axis[2]) <= 0.7};
+  const double axis[3] = {-opening[0], -opening[1], -opening[2]},
+               top[3] = {0, fabs(axis[2]) > 0.7, fabs(axis[2]) <= 0.7};
   double up[3], along = thr_dot(top, axis), size = 0, right[3];
   for (int i = 0; i < 3; i++)
     up[i] = top[i] - along * axis[i];
@@ -92,7 +102,8 @@ static void lay_spread(thr_layout *layout, const double (*unit)[3], const double
   thr_cross(up, axis, right);
   double inner = 0;
   for (int v = 0; v < layout->n_nodes; v++)
-    if (thr_dot(unit[v], axis) > how.rim_from) inner = fmax(inner, spread_radius(thr_dot(unit[v], axis), how.squeeze));
+    if (thr_dot(unit[v], axis) > how.rim_from)
+      inner = fmax(inner, spread_radius(thr_dot(unit[v], axis), how.squeeze));
   for (int v = 0; v < layout->n_nodes; v++) {
     double x = thr_dot(unit[v], right), y = thr_dot(unit[v], up), rho = hypot(x, y);
     double height = thr_dot(unit[v], axis), r = spread_radius(height, how.squeeze);
@@ -110,7 +121,8 @@ thr_status thr_layout_directions(const thr_frame *frame, double (**unit)[3], thr
   *unit = thr_calloc((size_t)frame->n_nodes, sizeof **unit);
   if (!*unit) return thr_nomem(err);
   for (int v = 0; v < frame->n_nodes; v++) {
-    double d[3] = {frame->xyz[v][0] - centre[0], frame->xyz[v][1] - centre[1], frame->xyz[v][2] - centre[2]},
+    double d[3] = {frame->xyz[v][0] - centre[0], frame->xyz[v][1] - centre[1],
+                   frame->xyz[v][2] - centre[2]},
            size = sqrt(thr_dot(d, d));
     for (int i = 0; i < 3; i++)
       (*unit)[v][i] = size > 0 ? d[i] / size : 0;
@@ -141,10 +153,12 @@ thr_status thr_layout_spread(thr_layout *layout, const thr_frame *frame, thr_err
   thr_layout best = {0};
   thr_status st = thr_layout_directions(frame, &unit, err);
   if (st || !unit) return st;
-  double rim_from = -cos(1.2 * thr_layout_opening((const double(*)[3])unit, frame->n_nodes, opening));
+  double rim_from =
+      -cos(1.2 * thr_layout_opening((const double(*)[3])unit, frame->n_nodes, opening));
   int n = frame->n_edges > 20000 ? 6 : 36;
   for (int i = 0; i < n && !st; i++) {
-    lay_spread(layout, (const double(*)[3])unit, opening, (flattening){squeeze[i % 6], rim[i / 6], rim_from});
+    lay_spread(layout, (const double(*)[3])unit, opening,
+               (flattening){squeeze[i % 6], rim[i / 6], rim_from});
     st = thr_layout_measure(layout, frame, err);
     double use = compactness(layout) * fmin(layout->ratio, 0.4);
     long now = layout->crossings + layout->squeezed, then = best.crossings + best.squeezed;

@@ -1,5 +1,7 @@
-/* Unrolling of domes and tubes about an axis: azimuthal, and equidistant in that the distance from the middle is the arc
- * length along the mean meridian (Snyder 1987, chapter 25, for the sphere). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Unrolling of domes and tubes about an axis: azimuthal, and equidistant in that the distance from
+ * the middle is the arc length along the mean meridian (Snyder 1987, chapter 25, for the sphere).
+ */
 #include "diagram/layout/layout_parts.h"
 
 #include <math.h>
@@ -14,7 +16,8 @@ void thr_layout_mean_point(const thr_frame *frame, double mean[3])
       mean[i] += frame->xyz[v][i] / frame->n_nodes;
 }
 
-/* Solves the symmetric 4 x 4 system in place by elimination with pivoting; false when it is singular. */
+/* Solves the symmetric 4 x 4 system in place by elimination with pivoting; false when it is
+ * singular. */
 static bool solve4(double a[4][5])
 {
   for (int k = 0; k < 4; k++) {
@@ -36,7 +39,8 @@ static bool solve4(double a[4][5])
   return true;
 }
 
-/* |p|^2 = 2 c.p + k, about the mean point and in units of the diagonal so that the pivot test means something. */
+/* |p|^2 = 2 c.p + k, about the mean point and in units of the diagonal so that the pivot test means
+ * something. */
 bool thr_layout_fit_sphere(const thr_frame *frame, double centre[3])
 {
   double mean[3], a[4][5] = {{0}}, size = thr_frame_diagonal(frame);
@@ -62,7 +66,8 @@ bool thr_layout_fit_sphere(const thr_frame *frame, double centre[3])
   return radius2 < THR_LAYOUT_FLAT * THR_LAYOUT_FLAT;
 }
 
-/* A node in cylinder coordinates about the axis, and its polar angle from the crown seen from the sphere's centre. */
+/* A node in cylinder coordinates about the axis, and its polar angle from the crown seen from the
+ * sphere's centre. */
 typedef struct {
   double theta, rho, height;
   double x, y; /* unit direction on paper; 0 on the axis */
@@ -76,7 +81,8 @@ static int by_theta(const void *a, const void *b)
   return p->node - q->node;
 }
 
-/* The mean meridian: n points, each the mean of the nodes in a band of polar angle, and the arc length up to it. */
+/* The mean meridian: n points, each the mean of the nodes in a band of polar angle, and the arc
+ * length up to it. */
 typedef struct {
   double theta, rho, height, arc;
 } station;
@@ -96,13 +102,16 @@ static int mean_meridian(const polar *p, int n, double band, station *s)
     now->theta /= i - from;
     now->rho /= i - from;
     now->height /= i - from;
-    now->arc = count ? s[count - 1].arc + hypot(now->rho - s[count - 1].rho, now->height - s[count - 1].height) : now->rho;
+    now->arc = count ? s[count - 1].arc +
+                           hypot(now->rho - s[count - 1].rho, now->height - s[count - 1].height)
+                     : now->rho;
     count++;
   }
   return count;
 }
 
-/* Arc length at a polar angle: linear between stations and beyond the last, to 0 at the crown. *at is a cursor. */
+/* Arc length at a polar angle: linear between stations and beyond the last, to 0 at the crown. *at
+ * is a cursor. */
 static double arc_at(const station *s, int count, double theta, int *at)
 {
   while (*at < count - 1 && s[*at].theta < theta)
@@ -123,7 +132,8 @@ static double mean_length(const thr_frame *frame)
   return sum / frame->n_edges;
 }
 
-/* Nodes in polar coordinates about the axis, sorted from the crown, and the mean meridian through them. */
+/* Nodes in polar coordinates about the axis, sorted from the crown, and the mean meridian through
+ * them. */
 typedef struct {
   int n, n_stations;
   polar *node;
@@ -136,7 +146,8 @@ static thr_status make_meridian(meridian *m, const thr_frame *frame, int axis, t
   int right = (axis + 1) % 3, up = (axis + 2) % 3;
   double centre[3], radius = 0;
   if (!thr_layout_fit_sphere(frame, centre)) {
-    if (axis != 2) return thr_fail(err, THR_EINPUT, "the framework is flat: there is nothing to unroll");
+    if (axis != 2)
+      return thr_fail(err, THR_EINPUT, "the framework is flat: there is nothing to unroll");
     /* seen from far below, the polar angle of a flat frame is its distance from the middle */
     thr_layout_mean_point(frame, centre);
     centre[2] -= 2 * THR_LAYOUT_FLAT * thr_frame_diagonal(frame);
@@ -146,18 +157,21 @@ static thr_status make_meridian(meridian *m, const thr_frame *frame, int axis, t
   m->station = thr_calloc((size_t)m->n, sizeof *m->station);
   if (!m->node || !m->station) return thr_nomem(err);
   for (int v = 0; v < m->n; v++) {
-    double x = frame->xyz[v][right] - centre[right], y = frame->xyz[v][up] - centre[up], z = frame->xyz[v][axis] - centre[axis];
+    double x = frame->xyz[v][right] - centre[right], y = frame->xyz[v][up] - centre[up],
+           z = frame->xyz[v][axis] - centre[axis];
     double rho = hypot(x, y);
     m->node[v] = (polar){atan2(rho, z), rho, z, rho > 0 ? x / rho : 0, rho > 0 ? y / rho : 0, v};
     radius += hypot(rho, z) / m->n;
   }
   qsort(m->node, (size_t)m->n, sizeof *m->node, by_theta);
   m->mean_length = mean_length(frame);
-  m->n_stations = mean_meridian(m->node, m->n, 0.5 * m->mean_length / (radius > 0 ? radius : 1), m->station);
+  m->n_stations =
+      mean_meridian(m->node, m->n, 0.5 * m->mean_length / (radius > 0 ? radius : 1), m->station);
   return THR_OK;
 }
 
-/* Lays the nodes at their arc lengths, all but a node at the crown itself pushed outwards by opening. */
+/* Lays the nodes at their arc lengths, all but a node at the crown itself pushed outwards by
+ * opening. */
 static void lay_rings(thr_layout *layout, const meridian *m, double opening)
 {
   int at = 0;
@@ -170,8 +184,9 @@ static void lay_rings(thr_layout *layout, const meridian *m, double opening)
   }
 }
 
-/* Azimuthal-equidistant about the axis (0 = x, 1 = y, 2 = z), seen from its positive end. Paper directions keep the frame
- * right-handed: x-y for z, y-z for x, z-x for y. Where many meridians meet at the crown its rings are opened up. */
+/* Azimuthal-equidistant about the axis (0 = x, 1 = y, 2 = z), seen from its positive end. Paper
+ * directions keep the frame right-handed: x-y for z, y-z for x, z-x for y. Where many meridians
+ * meet at the crown its rings are opened up. */
 thr_status thr_layout_unroll(thr_layout *layout, const thr_frame *frame, int axis, thr_err *err)
 {
   static const double opening[] = {0, 1, 2, 3};

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "diagram/mat/emboss.h"
 
 #include "diagram/export/paper.h"
@@ -39,7 +40,9 @@ static thr_status find_room(embossed *l, thr_err *err)
   thr_physics physics;
   double mm, shortest = HUGE_VAL;
   if (thr_units_in_mm(f->units, &mm, NULL))
-    return thr_fail(err, THR_EINPUT, "labels are of true size, and nobody knows the framework's unit: plan it with --units");
+    return thr_fail(
+        err, THR_EINPUT,
+        "labels are of true size, and nobody knows the framework's unit: plan it with --units");
   thr_status st = thr_physics_resolve(&l->plan->options.physics, f, &physics, err);
   for (int e = 0; e < f->n_edges; e++)
     shortest = fmin(shortest, f->length[e] * mm);
@@ -64,11 +67,14 @@ static thr_status find_height(embossed *l, thr_err *err)
 static thr_status put_all(const embossed *l, thr_text *svg, thr_err *err)
 {
   const double step[2] = {l->widest * l->height + APART, l->height + APART};
-  const int columns = (int)fmax(1, floor((ROW - APART) / step[0])), rows = (l->pieces.n + columns - 1) / columns;
+  const int columns = (int)fmax(1, floor((ROW - APART) / step[0])),
+            rows = (l->pieces.n + columns - 1) / columns;
   char words[240];
   snprintf(words, sizeof words, "Closed outlines in mm, capitals %.2f mm high%s.", l->height,
-           l->height < PRINTED ? ": fine for engraving; few printers raise letters below 3 mm" : "");
-  thr_svg_open(svg, APART + columns * step[0], APART + rows * step[1], "Names of the pieces, to emboss", words);
+           l->height < PRINTED ? ": fine for engraving; few printers raise letters below 3 mm"
+                               : "");
+  thr_svg_open(svg, APART + columns * step[0], APART + rows * step[1],
+               "Names of the pieces, to emboss", words);
   for (int i = 0; i < l->pieces.n; i++) {
     const int row = i / columns;
     const double at[2] = {APART + i % columns * step[0], (1 + row) * step[1]};

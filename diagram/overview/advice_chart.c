@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The picture of advice: pull and cord against the number of cords. */
 #include "diagram/overview/charts.h"
 #include "diagram/overview/overview.h"
@@ -8,9 +9,12 @@
 #include <stdlib.h>
 
 /* mm */
-static const double MARGIN = THR_CHART_MARGIN, TITLE_SIZE = THR_CHART_TITLE, NAME_SIZE = THR_CHART_NAME,
-                    TEXT_SIZE = THR_CHART_TEXT, SMALL = THR_CHART_SMALL, MARK = THR_CHART_MARK;
-static const double WIDTH = 190, LEFT = 22, RIGHT = 16; /* room for the numbers of the axis and for the names of the lines */
+static const double MARGIN = THR_CHART_MARGIN, TITLE_SIZE = THR_CHART_TITLE,
+                    NAME_SIZE = THR_CHART_NAME, TEXT_SIZE = THR_CHART_TEXT, SMALL = THR_CHART_SMALL,
+                    MARK = THR_CHART_MARK;
+static const double WIDTH = 190, LEFT = 22,
+                    RIGHT =
+                        16; /* room for the numbers of the axis and for the names of the lines */
 static const double FLAG = 7, PLOT = 50, BARS = 16, ROW = 4.4;
 static const double COMMAND = 178; /* width of lines whose letters are all wide */
 enum { MOST_DECADES = 5 };
@@ -31,7 +35,8 @@ static double place_x(const picture *p, int i)
   return p->axis.x + p->axis.width * (i + 0.5) / p->n;
 }
 
-/* One axis for all panels: from the slackest pull to the tightest, at most five powers of ten, and the hand well inside. */
+/* One axis for all panels: from the slackest pull to the tightest, at most five powers of ten, and
+ * the hand well inside. */
 static void choose_axis(picture *p)
 {
   double low = p->advice->physics.seating, high = 2 * p->advice->hand;
@@ -54,20 +59,24 @@ static void flag_words(const thr_advice_row *row, char words[120])
   thr_pull_words(row->pull[THR_ADVICE_LOW], low);
   thr_pull_words(row->pull[THR_ADVICE_MU], pull);
   thr_pull_words(row->pull[THR_ADVICE_HIGH], high);
-  snprintf(words, 120, "%d %s: %s N (%s to %s)", row->cords, row->cords == 1 ? "cord" : "cords", pull, low, high);
+  snprintf(words, 120, "%d %s: %s N (%s to %s)", row->cords, row->cords == 1 ? "cord" : "cords",
+           pull, low, high);
 }
 
 /* ---- plot ---- */
 
-/* What a line of the chart (0: lower end of the band, 1: the pull, 2: upper end) is at x, between its points. */
+/* What a line of the chart (0: lower end of the band, 1: the pull, 2: upper end) is at x, between
+ * its points. */
 static double line_y(const picture *p, double x, int line)
 {
   double at = fmin(fmax((x - p->axis.x) / p->axis.width * p->n - 0.5, 0), p->n - 1);
   int i = (int)at, next = i + 1 < p->n ? i + 1 : i;
-  return thr_pull_y(&p->axis, p->row[i].pull[line]) * (1 - (at - i)) + thr_pull_y(&p->axis, p->row[next].pull[line]) * (at - i);
+  return thr_pull_y(&p->axis, p->row[i].pull[line]) * (1 - (at - i)) +
+         thr_pull_y(&p->axis, p->row[next].pull[line]) * (at - i);
 }
 
-/* What words over the line of a hand, from x to x, would lie on: 0 nothing, 1 the band, 2 the pull, 3 the marked row's line. */
+/* What words over the line of a hand, from x to x, would lie on: 0 nothing, 1 the band, 2 the pull,
+ * 3 the marked row's line. */
 static int lies_on(const picture *p, double hand, double from, double to)
 {
   enum { STEPS = 32 };
@@ -85,13 +94,16 @@ static int lies_on(const picture *p, double hand, double from, double to)
   return on;
 }
 
-/* The words stand where they lie on least: at the right end of the plot, at its left, or beside the line of the marked row. */
+/* The words stand where they lie on least: at the right end of the plot, at its left, or beside the
+ * line of the marked row. */
 static void write_hand(const picture *p, double hand, thr_text *text)
 {
   char words[80];
-  double wide = thr_pull_hand_words(hand, words), left = p->axis.x + 1, right = p->axis.x + p->axis.width - 1;
+  double wide = thr_pull_hand_words(hand, words), left = p->axis.x + 1,
+         right = p->axis.x + p->axis.width - 1;
   double line = p->chosen < 0 ? left : place_x(p, p->chosen);
-  const double place[4] = {right, left, fmax(line - 2 * MARK, left + wide), fmin(line + 2 * MARK, right - wide)};
+  const double place[4] = {right, left, fmax(line - 2 * MARK, left + wide),
+                           fmin(line + 2 * MARK, right - wide)};
   int best = 0, least = 4;
   for (int i = 0; i < 4; i++) {
     double from = i % 2 ? place[i] : place[i] - wide;
@@ -109,7 +121,8 @@ static void write_band(const picture *p, thr_text *text)
     (i ? thr_svg_line : thr_svg_move)(text, at);
   }
   for (int i = p->n - 1; i >= 0; i--)
-    thr_svg_line(text, (double[2]){place_x(p, i), thr_pull_y(&p->axis, p->row[i].pull[THR_ADVICE_LOW])});
+    thr_svg_line(text,
+                 (double[2]){place_x(p, i), thr_pull_y(&p->axis, p->row[i].pull[THR_ADVICE_LOW])});
   thr_text_append(text, "Z\"/>\n<path class=\"pull\" d=\"");
   for (int i = 0; i < p->n; i++) {
     const double at[2] = {place_x(p, i), thr_pull_y(&p->axis, p->row[i].pull[THR_ADVICE_MU])};
@@ -129,8 +142,9 @@ static void write_mu(const picture *p, thr_text *text)
   for (int i = 0; i < THR_ADVICE_PULLS; i++) { /* upwards: the lowest name stays in the plot */
     double y = fmin(thr_pull_y(&p->axis, last->pull[i]), below);
     snprintf(words, sizeof words, "mu %g", mu[i]);
-    thr_svg_text(text, p->axis.x + p->axis.width + 1.5, y + 0.36 * SMALL, SMALL,
-                 i == THR_ADVICE_MU ? " fill=\"#0072B2\" font-weight=\"bold\"" : " fill=\"#0072B2\"", words);
+    thr_svg_text(
+        text, p->axis.x + p->axis.width + 1.5, y + 0.36 * SMALL, SMALL,
+        i == THR_ADVICE_MU ? " fill=\"#0072B2\" font-weight=\"bold\"" : " fill=\"#0072B2\"", words);
     below = y - room;
   }
 }
@@ -145,7 +159,8 @@ static void write_bars(const picture *p, double y, thr_text *text)
     double over = thr_svg_round(BARS * p->row[i].length / p->most) - base;
     thr_pull_bar(place_x(p, i) - wide / 2, y, wide, base, over, i == p->chosen, text);
   }
-  thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fh%.2f\"/>\n", p->axis.x, y, p->axis.width);
+  thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fh%.2f\"/>\n", p->axis.x, y,
+                  p->axis.width);
   thr_svg_text(text, p->axis.x - 1.6, y - BARS / 2 + 0.36 * SMALL, SMALL, " class=\"end\"", "cord");
 }
 
@@ -171,7 +186,8 @@ static void write_lines(const picture *p, double y, thr_text *text)
     for (int i = 0; i < p->n; i++) {
       char words[24];
       cell_words(p, (cell)l, i, words);
-      thr_svg_text(text, place_x(p, i), y, size, i == p->chosen ? " class=\"middle\" font-weight=\"bold\"" : " class=\"middle\"",
+      thr_svg_text(text, place_x(p, i), y, size,
+                   i == p->chosen ? " class=\"middle\" font-weight=\"bold\"" : " class=\"middle\"",
                    words);
     }
   }
@@ -182,8 +198,8 @@ static void write_lines(const picture *p, double y, thr_text *text)
 static void write_chosen_line(const picture *p, double bottom, thr_text *text)
 {
   if (p->chosen < 0) return;
-  thr_text_printf(text, "<path class=\"chosen-line\" d=\"M%.2f %.2fV%.2f\"/>\n", thr_svg_round(place_x(p, p->chosen)),
-                  p->axis.y - 1.5, bottom);
+  thr_text_printf(text, "<path class=\"chosen-line\" d=\"M%.2f %.2fV%.2f\"/>\n",
+                  thr_svg_round(place_x(p, p->chosen)), p->axis.y - 1.5, bottom);
 }
 
 static void write_flag(const picture *p, thr_text *text)
@@ -191,10 +207,13 @@ static void write_flag(const picture *p, thr_text *text)
   char words[120];
   if (p->chosen < 0) return;
   flag_words(&p->row[p->chosen], words);
-  double wide = 0.66 * TEXT_SIZE * thr_text_columns(words, sizeof words) + 4, x = place_x(p, p->chosen) - wide / 2;
+  double wide = 0.66 * TEXT_SIZE * thr_text_columns(words, sizeof words) + 4,
+         x = place_x(p, p->chosen) - wide / 2;
   x = thr_svg_round(fmin(fmax(x, p->axis.x), p->axis.x + p->axis.width - wide));
-  thr_text_printf(text, "<rect class=\"flag\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"5.50\" rx=\"0.8\"/>\n", x,
-                  p->axis.y - FLAG, wide);
+  thr_text_printf(
+      text,
+      "<rect class=\"flag\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"5.50\" rx=\"0.8\"/>\n", x,
+      p->axis.y - FLAG, wide);
   thr_svg_text(text, x + wide / 2, p->axis.y - FLAG + 3.9, TEXT_SIZE,
                " class=\"middle\" font-weight=\"bold\" style=\"fill:#fff\"", words);
 }
@@ -235,7 +254,8 @@ static double write_kind(picture *p, thr_ends ends, double y, thr_text *text)
   p->row = advice->row + first;
   for (p->n = 0; first + p->n < advice->n && p->row[p->n].ends == ends;)
     p->n++;
-  p->chosen = advice->chosen >= first && advice->chosen < first + p->n ? advice->chosen - first : -1;
+  p->chosen =
+      advice->chosen >= first && advice->chosen < first + p->n ? advice->chosen - first : -1;
   return p->n ? write_panel(p, ends, y, text) : y;
 }
 
@@ -249,7 +269,8 @@ static double write_heading(const picture *p, thr_text *text)
   thr_svg_text(text, MARGIN, y, TITLE_SIZE, " font-weight=\"bold\"", "How many cords?");
   y = thr_svg_wrap(text, MARGIN, y + 6.5, NAME_SIZE, WIDTH, "", p->chart->name);
   snprintf(line, sizeof line,
-           "Pull at both ends of every cord, so that %g N is left where it is slackest (closed form; mu = %g, band %g to %g), "
+           "Pull at both ends of every cord, so that %g N is left where it is slackest (closed "
+           "form; mu = %g, band %g to %g), "
            "and the cord that it takes.",
            physics->seating, physics->mu, physics->mu_low, physics->mu_high);
   y = thr_svg_wrap(text, MARGIN, y - 0.5, TEXT_SIZE, WIDTH, " class=\"quiet\"", line);
@@ -265,24 +286,29 @@ static double write_foot(const picture *p, double y, thr_text *text)
 {
   const thr_advice *advice = p->advice;
   char length[64], line[400];
-  if (advice->chosen >= 0) y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, COMMAND, " class=\"command\"", p->chart->command) + 1.5;
+  if (advice->chosen >= 0)
+    y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, COMMAND, " class=\"command\"", p->chart->command) +
+        1.5;
   thr_svg_length(advice->base_length, p->chart->units, length);
   const thr_advice_row *row = advice->chosen >= 0 ? &advice->row[advice->chosen] : NULL;
   if (row)
-    snprintf(
-        line, sizeof line,
-        "Marked: the fewest cords found that stay within %g N even at mu %g%s. Cord: the light part of a bar is %s, what the "
-        "edges need; the dark part is overlap. Tails and knots are not counted. Twice the seating tension, twice the pull.",
-        advice->hand, advice->physics.mu_high, row->all > row->cords ? ", as many in every component" : "", length);
+    snprintf(line, sizeof line,
+             "Marked: the fewest cords found that stay within %g N even at mu %g%s. Cord: the "
+             "light part of a bar is %s, what the "
+             "edges need; the dark part is overlap. Tails and knots are not counted. Twice the "
+             "seating tension, twice the pull.",
+             advice->hand, advice->physics.mu_high,
+             row->all > row->cords ? ", as many in every component" : "", length);
   else
-    snprintf(
-        line, sizeof line,
-        "No row stays within %g N at mu %g. Cord: the light part of a bar is %s, what the edges need; the dark part is overlap.",
-        advice->hand, advice->physics.mu_high, length);
+    snprintf(line, sizeof line,
+             "No row stays within %g N at mu %g. Cord: the light part of a bar is %s, what the "
+             "edges need; the dark part is overlap.",
+             advice->hand, advice->physics.mu_high, length);
   return thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, " class=\"quiet\"", line);
 }
 
-thr_status thr_advice_svg(const thr_advice *advice, const thr_advice_chart *chart, thr_text *svg, thr_err *err)
+thr_status thr_advice_svg(const thr_advice *advice, const thr_advice_chart *chart, thr_text *svg,
+                          thr_err *err)
 {
   picture p = {.advice = advice, .chart = chart};
   thr_text body = {0};
@@ -291,7 +317,8 @@ thr_status thr_advice_svg(const thr_advice *advice, const thr_advice_chart *char
   y = write_kind(&p, THR_ENDS_FEET, y, &body);
   y = write_kind(&p, THR_ENDS_ANY, y, &body);
   double bottom = write_foot(&p, y, &body) + MARGIN - TEXT_SIZE, width = WIDTH + 2 * MARGIN;
-  thr_status st = thr_pull_sheet(&body, width, bottom, "How many cords?", "Pull and cord against the number of cords.", svg, err);
+  thr_status st = thr_pull_sheet(&body, width, bottom, "How many cords?",
+                                 "Pull and cord against the number of cords.", svg, err);
   thr_text_destroy(&body);
   return st;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Charts: plans by pull, frontiers, loads, advice. */
 #ifndef THR_CHARTS_H
 #define THR_CHARTS_H
@@ -18,35 +19,42 @@ typedef struct {
   const char *command; /* that makes the recommended plan; "" where none is */
 } thr_advice_chart;
 
-/* Appends the picture to svg: for ends at the feet and ends anywhere a panel each, if there are such rows, with a column for
- * every row; the pull at mu as a line over its logarithm, between mu_low and mu_high a band, what a hand manages as lines, the
- * cord as bars below, the recommended column marked; the command below. Sizes are physical (mm); no text is under 7 pt. The same
- * advice gives the same bytes. svg is unchanged on failure. O(rows). */
-thr_status thr_advice_svg(const thr_advice *advice, const thr_advice_chart *chart, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+/* Appends the picture to svg: for ends at the feet and ends anywhere a panel each, if there are
+ * such rows, with a column for every row; the pull at mu as a line over its logarithm, between
+ * mu_low and mu_high a band, what a hand manages as lines, the cord as bars below, the recommended
+ * column marked; the command below. Sizes are physical (mm); no text is under 7 pt. The same advice
+ * gives the same bytes. svg is unchanged on failure. O(rows). */
+thr_status thr_advice_svg(const thr_advice *advice, const thr_advice_chart *chart, thr_text *svg,
+                          thr_err *err) THR_MUST_CHECK;
 
 /* ---- compare_chart.c: The picture of a comparison: plans of one framework side by side. */
 
 typedef struct {
   const char *name; /* of the plan, shown whole; borrowed */
   const thr_plan *plan;
-  double pull[THR_ADVICE_PULLS]; /* N at the hardest end, at mu_low, mu and mu_high; NAN = not known, INFINITY beyond 1e300 */
+  double pull[THR_ADVICE_PULLS]; /* N at the hardest end, at mu_low, mu and mu_high; NAN = not
+                                    known, INFINITY beyond 1e300 */
   bool frontier;
 } thr_compare_column;
 
-/* Appends the picture to svg: for every plan a column <g id="plan-1"> with a small picture of its cords, its name, its pull with
- * the band of mu over the logarithm, its cord as a bar (what the edges need, and overlap) and its number of cords as a bar, each
- * with its number; plans of the frontier are marked. note: how the pulls were found. All plans are of one framework. Sizes are
- * physical (mm); no text is under 7 pt. The same plans give the same bytes. THR_EINPUT for plans that cannot be drawn. svg is
- * unchanged on failure. O(passes). */
-thr_status thr_compare_svg(const thr_compare_column *column, int n, const char *note, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+/* Appends the picture to svg: for every plan a column <g id="plan-1"> with a small picture of its
+ * cords, its name, its pull with the band of mu over the logarithm, its cord as a bar (what the
+ * edges need, and overlap) and its number of cords as a bar, each with its number; plans of the
+ * frontier are marked. note: how the pulls were found. All plans are of one framework. Sizes are
+ * physical (mm); no text is under 7 pt. The same plans give the same bytes. THR_EINPUT for plans
+ * that cannot be drawn. svg is unchanged on failure. O(passes). */
+thr_status thr_compare_svg(const thr_compare_column *column, int n, const char *note, thr_text *svg,
+                           thr_err *err) THR_MUST_CHECK;
 
-/* ---- frontier_chart.c: The picture of the trade-off between cord and pull: `thread plan --frontier`. */
+/* ---- frontier_chart.c: The picture of the trade-off between cord and pull: `thread plan
+ * --frontier`. */
 
 /* A plan that nothing is both shorter and turns less than. */
 typedef struct {
   double length;                 /* units */
   double turning;                /* rad, of all cords */
-  double pull[THR_ADVICE_PULLS]; /* N at the hardest end, at mu_low, mu and mu_high; INFINITY beyond 1e300 */
+  double pull[THR_ADVICE_PULLS]; /* N at the hardest end, at mu_low, mu and mu_high; INFINITY beyond
+                                    1e300 */
   bool proved;                   /* none of that length, or less, turns less */
 } thr_frontier_mark;
 
@@ -60,11 +68,13 @@ typedef struct {
 
 enum { THR_FRONTIER_LINES = 24 };
 
-/* Appends the picture to svg: the pull over its logarithm, with the band of mu, against the length of cord; each plan is a circle
- * <circle id="point-1">, full if it is proved, else hollow; below them a table of up to THR_FRONTIER_LINES of them. Sizes are
- * physical (mm); no text is under 7 pt. The same points give the same bytes. THR_EINPUT without a point. svg is unchanged on
- * failure. O(n). */
-thr_status thr_frontier_svg(const thr_frontier_chart *chart, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+/* Appends the picture to svg: the pull over its logarithm, with the band of mu, against the length
+ * of cord; each plan is a circle <circle id="point-1">, full if it is proved, else hollow; below
+ * them a table of up to THR_FRONTIER_LINES of them. Sizes are physical (mm); no text is under 7 pt.
+ * The same points give the same bytes. THR_EINPUT without a point. svg is unchanged on failure.
+ * O(n). */
+thr_status thr_frontier_svg(const thr_frontier_chart *chart, thr_text *svg,
+                            thr_err *err) THR_MUST_CHECK;
 
 /* ---- load_chart.c: The picture of what a structure carries: load against pull. */
 
@@ -84,17 +94,19 @@ typedef struct {
   const thr_load_mark *mark; /* [n] by ascending pull; borrowed */
 } thr_load_chart;
 
-/* Appends the picture to svg: times the load over the pull (its logarithm), the line of what is carried, a pale band up to what
- * is too much, at each pull a circle <circle id="point-1"> with the piece that moves first; below them a table. Sizes are
- * physical (mm); no text is under 7 pt. The same points give the same bytes. THR_EINPUT without a pull that is decided. svg is
- * unchanged on failure. O(n). */
+/* Appends the picture to svg: times the load over the pull (its logarithm), the line of what is
+ * carried, a pale band up to what is too much, at each pull a circle <circle id="point-1"> with the
+ * piece that moves first; below them a table. Sizes are physical (mm); no text is under 7 pt. The
+ * same points give the same bytes. THR_EINPUT without a pull that is decided. svg is unchanged on
+ * failure. O(n). */
 thr_status thr_load_svg(const thr_load_chart *chart, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
-/* ---- pull_axis.c: What the charts of pull and cord share: an axis of forces over their logarithm, what a hand manages,
- * points with the band of mu, bars of cord. */
+/* ---- pull_axis.c: What the charts of pull and cord share: an axis of forces over their logarithm,
+ * what a hand manages, points with the band of mu, bars of cord. */
 
 /* mm */
-static const double THR_CHART_MARGIN = 10, THR_CHART_TITLE = 6, THR_CHART_NAME = 4.4, THR_CHART_TEXT = 3.2, THR_CHART_SMALL = 2.6;
+static const double THR_CHART_MARGIN = 10, THR_CHART_TITLE = 6, THR_CHART_NAME = 4.4,
+                    THR_CHART_TEXT = 3.2, THR_CHART_SMALL = 2.6;
 static const double THR_CHART_MARK = 1.3, THR_CHART_WIDEST_BAR = 9;
 
 typedef struct {
@@ -102,7 +114,8 @@ typedef struct {
   int low, high;              /* powers of ten at its ends */
 } thr_pull_axis;
 
-/* low and high for forces from low to high N: at most so many powers of ten, and the hand well inside. */
+/* low and high for forces from low to high N: at most so many powers of ten, and the hand well
+ * inside. */
 void thr_pull_choose(thr_pull_axis *axis, double low, double high, double hand, int most);
 
 /* Within the plot, whatever the pull; and is it above? */
@@ -112,28 +125,35 @@ bool thr_pull_beyond(const thr_pull_axis *axis, double newton);
 /* "3.5", "151", "10430", "2e6"; "> 1e300". */
 void thr_pull_words(double newton, char words[24]);
 
-/* A line for every power of ten, or for every so many where they are more than 12, with its number at the left; and the ground of
- * what stays within the hand. */
+/* A line for every power of ten, or for every so many where they are more than 12, with its number
+ * at the left; and the ground of what stays within the hand. */
 void thr_pull_grid(const thr_pull_axis *axis, thr_text *text);
 void thr_pull_within(const thr_pull_axis *axis, double hand, thr_text *text);
 
-/* "10 N: a hand, time after time", and how wide that is, mm; a dashed line there with those words above it, which begin or end at
- * x: nothing beyond the axis. */
+/* "10 N: a hand, time after time", and how wide that is, mm; a dashed line there with those words
+ * above it, which begin or end at x: nothing beyond the axis. */
 double thr_pull_hand_words(double hand, char words[80]);
-void thr_pull_hand_line(const thr_pull_axis *axis, double hand, thr_text *text); /* with its number alone, right of the plot */
+void thr_pull_hand_line(const thr_pull_axis *axis, double hand,
+                        thr_text *text); /* with its number alone, right of the plot */
 void thr_pull_hand(const thr_pull_axis *axis, double hand, double x, bool begin, thr_text *text);
 
-/* A disc at a pull, x mm from the left of the sheet; a triangle at the upper end if it is beyond. */
-void thr_pull_point(const thr_pull_axis *axis, double x, double newton, bool chosen, thr_text *text);
+/* A disc at a pull, x mm from the left of the sheet; a triangle at the upper end if it is beyond.
+ */
+void thr_pull_point(const thr_pull_axis *axis, double x, double newton, bool chosen,
+                    thr_text *text);
 
-/* The band of mu: a pale bar so wide about x, from low to high; nothing where one of them is NAN. */
-void thr_pull_band(const thr_pull_axis *axis, double x, double wide, double low, double high, thr_text *text);
+/* The band of mu: a pale bar so wide about x, from low to high; nothing where one of them is NAN.
+ */
+void thr_pull_band(const thr_pull_axis *axis, double x, double wide, double low, double high,
+                   thr_text *text);
 
-/* Cord as a bar on the line at y, its left edge at x: what the edges need, mm, and above it the overlap. */
-void thr_pull_bar(double x, double y, double wide, double base, double over, bool chosen, thr_text *text);
+/* Cord as a bar on the line at y, its left edge at x: what the edges need, mm, and above it the
+ * overlap. */
+void thr_pull_bar(double x, double y, double wide, double base, double over, bool chosen,
+                  thr_text *text);
 
 /* The sheet round a body, which is put into svg: title, style, white ground. */
-thr_status thr_pull_sheet(const thr_text *body, double width, double height, const char *title, const char *description,
-                          thr_text *svg, thr_err *err) THR_MUST_CHECK;
+thr_status thr_pull_sheet(const thr_text *body, double width, double height, const char *title,
+                          const char *description, thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The picture of a comparison: plans of one framework side by side.
  *
  * Plans side by side, as SVG: small pictures, pull with the band of mu, cord, number of cords. */
@@ -10,7 +11,8 @@
 
 /* mm */
 static const double MARGIN = THR_CHART_MARGIN, TEXT_SIZE = THR_CHART_TEXT, SMALL = THR_CHART_SMALL;
-static const double LEFT = 24, ACROSS = 190, NARROW = 34, WIDE = 48; /* room for the axis; columns */
+static const double LEFT = 24, ACROSS = 190, NARROW = 34,
+                    WIDE = 48; /* room for the axis; columns */
 static const double PLOT = 50, BARS = 16, ROW = 4.4, AIR = 4, BAND = 4.4;
 enum { MOST_DECADES = 12 };
 
@@ -46,18 +48,21 @@ static void choose_axis(picture *p)
 
 /* ---- rows ---- */
 
-static double write_pictures(const picture *p, const thr_layout *layout, double y, thr_text *text, thr_status *st, thr_err *err)
+static double write_pictures(const picture *p, const thr_layout *layout, double y, thr_text *text,
+                             thr_status *st, thr_err *err)
 {
   double side = p->wide - AIR, bottom = y;
   for (int i = 0; i < p->n && !*st; i++) {
     const thr_compare_column *column = &p->column[i];
     double x = middle(p, i) - side / 2;
     *st = thr_miniature_put(column->plan, layout, x + 1, y + 1, side - 2, text, err);
-    thr_text_printf(text, "<rect class=\"frame%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
-                    column->frontier ? " chosen" : "", thr_svg_round(x), y, side, side);
-    bottom = fmax(bottom,
-                  thr_svg_wrap(text, middle(p, i), y + side + 4, SMALL, side,
-                               column->frontier ? " class=\"middle\" font-weight=\"bold\"" : " class=\"middle\"", column->name));
+    thr_text_printf(
+        text, "<rect class=\"frame%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
+        column->frontier ? " chosen" : "", thr_svg_round(x), y, side, side);
+    bottom = fmax(bottom, thr_svg_wrap(text, middle(p, i), y + side + 4, SMALL, side,
+                                       column->frontier ? " class=\"middle\" font-weight=\"bold\""
+                                                        : " class=\"middle\"",
+                                       column->name));
   }
   return bottom;
 }
@@ -66,7 +71,8 @@ static void write_pull(const picture *p, int i, thr_text *text)
 {
   const thr_compare_column *column = &p->column[i];
   if (isnan(column->pull[THR_ADVICE_MU])) return;
-  thr_pull_band(&p->axis, middle(p, i), BAND, column->pull[THR_ADVICE_LOW], column->pull[THR_ADVICE_HIGH], text);
+  thr_pull_band(&p->axis, middle(p, i), BAND, column->pull[THR_ADVICE_LOW],
+                column->pull[THR_ADVICE_HIGH], text);
   thr_pull_point(&p->axis, middle(p, i), column->pull[THR_ADVICE_MU], column->frontier, text);
 }
 
@@ -76,10 +82,12 @@ static void write_bars(const picture *p, int i, double cord, double cords, thr_t
   const thr_metrics *metrics = &column->plan->metrics;
   double wide = THR_CHART_WIDEST_BAR, x = middle(p, i) - wide / 2;
   double base = thr_svg_round(BARS * fmin(metrics->base_length, metrics->length) / p->most);
-  thr_pull_bar(x, cord, wide, base, thr_svg_round(BARS * metrics->length / p->most) - base, column->frontier, text);
+  thr_pull_bar(x, cord, wide, base, thr_svg_round(BARS * metrics->length / p->most) - base,
+               column->frontier, text);
   double high = thr_svg_round(BARS * column->plan->n_cords / p->most_cords);
-  thr_text_printf(text, "<rect class=\"count%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
-                  column->frontier ? " chosen" : "", thr_svg_round(x), cords - high, wide, high);
+  thr_text_printf(
+      text, "<rect class=\"count%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
+      column->frontier ? " chosen" : "", thr_svg_round(x), cords - high, wide, high);
 }
 
 static void pull_words(const thr_compare_column *column, char words[96])
@@ -103,12 +111,14 @@ static void write_numbers(const picture *p, int i, const double y[3], thr_text *
 {
   const thr_compare_column *column = &p->column[i];
   const thr_metrics *metrics = &column->plan->metrics;
-  const char *attributes = column->frontier ? " class=\"middle\" font-weight=\"bold\"" : " class=\"middle\"";
+  const char *attributes =
+      column->frontier ? " class=\"middle\" font-weight=\"bold\"" : " class=\"middle\"";
   char words[96], length[64];
   pull_words(column, words);
   thr_svg_text(text, middle(p, i), y[0], SMALL, attributes, words);
   thr_svg_length(metrics->length, column->plan->frame.units, length);
-  snprintf(words, sizeof words, "%s, +%.0f %%", length, fmax(0, 100 * (metrics->length / metrics->base_length - 1)));
+  snprintf(words, sizeof words, "%s, +%.0f %%", length,
+           fmax(0, 100 * (metrics->length / metrics->base_length - 1)));
   thr_svg_text(text, middle(p, i), y[1], SMALL, attributes, words);
   snprintf(words, sizeof words, "%d", column->plan->n_cords);
   thr_svg_text(text, middle(p, i), y[2], TEXT_SIZE, attributes, words);
@@ -139,8 +149,8 @@ static double write_chart(picture *p, double y, thr_text *text)
   }
   thr_pull_hand_line(&p->axis, thr_hand_always, text);
   thr_pull_hand_line(&p->axis, thr_hand_most, text);
-  thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fh%.2fM%.2f %.2fh%.2f\"/>\n", p->axis.x, cord, p->axis.width,
-                  p->axis.x, cords, p->axis.width);
+  thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fh%.2fM%.2f %.2fh%.2f\"/>\n", p->axis.x,
+                  cord, p->axis.width, p->axis.x, cords, p->axis.width);
   write_label(p, numbers[0], "pull", text);
   write_label(p, cord - BARS / 2, "cord", text);
   write_label(p, cords - BARS / 2, "number of", text);
@@ -148,29 +158,35 @@ static double write_chart(picture *p, double y, thr_text *text)
   return numbers[2] + ROW;
 }
 
-static thr_status write_sheet(picture *p, const thr_layout *layout, const char *note, thr_text *svg, thr_err *err)
+static thr_status write_sheet(picture *p, const thr_layout *layout, const char *note, thr_text *svg,
+                              thr_err *err)
 {
   thr_text body = {0};
   thr_status st = THR_OK;
-  double width = fmax(p->axis.x + p->axis.width + 4, MARGIN + ACROSS), across = width - MARGIN, y = MARGIN + THR_CHART_TITLE;
+  double width = fmax(p->axis.x + p->axis.width + 4, MARGIN + ACROSS), across = width - MARGIN,
+         y = MARGIN + THR_CHART_TITLE;
   thr_svg_text(&body, MARGIN, y, THR_CHART_TITLE, " font-weight=\"bold\"", "Plans side by side");
   y = thr_svg_wrap(&body, MARGIN, y + 6, TEXT_SIZE, across, " class=\"quiet\"", note) + 1;
   y = write_pictures(p, layout, y, &body, &st, err);
   y = write_chart(p, y + 3, &body);
-  y = thr_svg_wrap(
-      &body, MARGIN, y + 2, TEXT_SIZE, across, " class=\"quiet\"",
-      "Marked (bold, filled, in a frame): the frontier, which no other plan beats: none is as good in cord, number of "
-      "cords and pull, and better in one of them. Cord: the lower part of a bar is what the edges need, the upper "
-      "part is overlap. Tails and knots are not counted. Dashed: what a hand manages, 10 N time after time, "
-      "50 N at most.");
+  y = thr_svg_wrap(&body, MARGIN, y + 2, TEXT_SIZE, across, " class=\"quiet\"",
+                   "Marked (bold, filled, in a frame): the frontier, which no other plan beats: "
+                   "none is as good in cord, number of "
+                   "cords and pull, and better in one of them. Cord: the lower part of a bar is "
+                   "what the edges need, the upper "
+                   "part is overlap. Tails and knots are not counted. Dashed: what a hand manages, "
+                   "10 N time after time, "
+                   "50 N at most.");
   if (!st)
-    st = thr_pull_sheet(&body, width + MARGIN, y + MARGIN - TEXT_SIZE, "Plans side by side",
-                        "Pull, cord and number of cords of several plans, each with a small picture.", svg, err);
+    st = thr_pull_sheet(
+        &body, width + MARGIN, y + MARGIN - TEXT_SIZE, "Plans side by side",
+        "Pull, cord and number of cords of several plans, each with a small picture.", svg, err);
   thr_text_destroy(&body);
   return st;
 }
 
-thr_status thr_compare_svg(const thr_compare_column *column, int n, const char *note, thr_text *svg, thr_err *err)
+thr_status thr_compare_svg(const thr_compare_column *column, int n, const char *note, thr_text *svg,
+                           thr_err *err)
 {
   picture p = {.column = column, .n = n, .wide = fmin(fmax((ACROSS - LEFT) / n, NARROW), WIDE)};
   thr_layout layout = {0};

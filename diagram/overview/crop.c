@@ -1,4 +1,6 @@
-/* Pictures for pages: the whole plan or a part of it, at a scale at which nothing is under 7 pt. Private to diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pictures for pages: the whole plan or a part of it, at a scale at which nothing is under 7 pt.
+ * Private to diagram/. */
 #include "diagram/overview/overview_parts.h"
 
 #include "diagram/overview/overview.h"
@@ -25,7 +27,9 @@ void thr_crops_make(thr_crops *crops, const thr_plan *plan, const thr_layout *la
   for (int v = 1; v < layout->n_points; v++)
     box_point(&all, layout->xy[v]);
   *crops =
-      (thr_crops){.plan = plan, .layout = layout, .slender = (all.y1 - all.y0) / fmax(all.x1 - all.x0, 1e-6 * (all.y1 - all.y0))};
+      (thr_crops){.plan = plan,
+                  .layout = layout,
+                  .slender = (all.y1 - all.y0) / fmax(all.x1 - all.x0, 1e-6 * (all.y1 - all.y0))};
 }
 
 void thr_crops_destroy(thr_crops *crops)
@@ -39,7 +43,9 @@ void thr_crops_destroy(thr_crops *crops)
 
 static thr_status make_scene(thr_crops *crops, int i, thr_err *err)
 {
-  thr_status st = crops->made[i] ? THR_OK : thr_scene_build(&crops->scene[i], crops->plan, crops->layout, PITCH[i], true, err);
+  thr_status st = crops->made[i] ? THR_OK
+                                 : thr_scene_build(&crops->scene[i], crops->plan, crops->layout,
+                                                   PITCH[i], true, err);
   if (st || crops->made[i]) return st;
   crops->made[i] = true;
   thr_boxes_destroy(&crops->scene[i].boxes); /* labels are placed anew in each picture */
@@ -51,10 +57,13 @@ static thr_status make_scene(thr_crops *crops, int i, thr_err *err)
 static void box_mark(thr_box *box, const thr_mark *mark)
 {
   const double edge = 0.8;
-  if (mark) thr_box_extend(box, thr_box_around(mark->at[0], mark->at[1], mark->half[0] + edge, mark->half[1] + edge));
+  if (mark)
+    thr_box_extend(
+        box, thr_box_around(mark->at[0], mark->at[1], mark->half[0] + edge, mark->half[1] + edge));
 }
 
-/* Of the passes drawn now, with their turns and marks and a ring of context as far as there is any. */
+/* Of the passes drawn now, with their turns and marks and a ring of context as far as there is any.
+ */
 static thr_box box_of_view(const thr_scene *scene, const thr_crop *crop)
 {
   const double ring = RING * scene->size.pitch, *at = scene->pass[crop->now[0]].from;
@@ -68,11 +77,12 @@ static thr_box box_of_view(const thr_scene *scene, const thr_crop *crop)
     box_mark(&box, thr_scene_mark_before(scene, i));
     box_mark(&box, thr_scene_mark_after(scene, i));
   }
-  return (thr_box){fmax(box.x0 - ring, all.x0 - EDGE), fmax(box.y0 - ring, all.y0 - EDGE), fmin(box.x1 + ring, all.x1 + EDGE),
-                   fmin(box.y1 + ring, all.y1 + EDGE)};
+  return (thr_box){fmax(box.x0 - ring, all.x0 - EDGE), fmax(box.y0 - ring, all.y0 - EDGE),
+                   fmin(box.x1 + ring, all.x1 + EDGE), fmin(box.y1 + ring, all.y1 + EDGE)};
 }
 
-/* Where a view as long as room, of something from low to high, begins so that it shows from .. to and little beyond the rest. */
+/* Where a view as long as room, of something from low to high, begins so that it shows from .. to
+ * and little beyond the rest. */
 static double slide(double from, double to, double room, double low, double high)
 {
   double start = 0.5 * (from + to - room);
@@ -88,8 +98,8 @@ static thr_box window_of(const thr_scene *scene, const thr_crop *crop, const dou
   return (thr_box){x, y, x + size[0], y + size[1]};
 }
 
-thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double room[2], const double least[2], thr_crop_view *view,
-                        thr_err *err)
+thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double room[2],
+                        const double least[2], thr_crop_view *view, thr_err *err)
 {
   thr_status st = make_scene(crops, BASE, err);
   *view = (thr_crop_view){.scale = 0};
@@ -100,7 +110,8 @@ thr_status thr_crop_fit(thr_crops *crops, const thr_crop *crop, const double roo
          (pitches[0] * PITCH[view->scale] > room[0] || pitches[1] * PITCH[view->scale] > room[1]))
     view->scale++;
   for (int i = 0; i < 2; i++) {
-    double own = pitches[i] * PITCH[view->scale < THR_CROP_SCALES ? view->scale : THR_CROP_SCALES - 1];
+    double own =
+        pitches[i] * PITCH[view->scale < THR_CROP_SCALES ? view->scale : THR_CROP_SCALES - 1];
     view->size[i] = fmax(own, fmin(least[i], room[i]));
   }
   return THR_OK;
@@ -119,13 +130,14 @@ void thr_crop_fill(const thr_crops *crops, thr_crop_view *view, const double roo
 
 static void put_frame(thr_box at, const char *colour, double width, thr_text *text)
 {
-  thr_text_printf(
-      text, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\"/>\n",
-      at.x0, at.y0, at.x1 - at.x0, at.y1 - at.y0, colour, width);
+  thr_text_printf(text,
+                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" "
+                  "stroke=\"%s\" stroke-width=\"%.2f\"/>\n",
+                  at.x0, at.y0, at.x1 - at.x0, at.y1 - at.y0, colour, width);
 }
 
-thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, const double at[2], thr_box *shown,
-                         thr_text *text, thr_err *err)
+thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view,
+                         const double at[2], thr_box *shown, thr_text *text, thr_err *err)
 {
   thr_scene *scene = &crops->scene[view->scale];
   thr_status st = make_scene(crops, view->scale, err);
@@ -135,11 +147,17 @@ thr_status thr_crop_draw(thr_crops *crops, const thr_crop *crop, const thr_crop_
   snprintf(scope, sizeof scope, "view-%d", crop->number);
   *shown = window_of(scene, crop, view->size);
   if ((st = thr_crop_label(scene, crop, *shown, err))) return st;
-  thr_draw_style style = {.state = crop->state, .window = shown, .anonymous = true, .colour = crop->colour, .no_pieces = true};
+  thr_draw_style style = {.state = crop->state,
+                          .window = shown,
+                          .anonymous = true,
+                          .colour = crop->colour,
+                          .no_pieces = true};
   thr_draw_css(scene, scope, text);
   thr_text_printf(text, "<g class=\"%s\">\n", scope);
-  thr_text_printf(text, "<clipPath id=\"%s\"><rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/></clipPath>\n", scope,
-                  paper.x0, paper.y0, view->size[0], view->size[1]);
+  thr_text_printf(text,
+                  "<clipPath id=\"%s\"><rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" "
+                  "height=\"%.2f\"/></clipPath>\n",
+                  scope, paper.x0, paper.y0, view->size[0], view->size[1]);
   thr_text_printf(text, "<g clip-path=\"url(#%s)\"><g transform=\"translate(%.2f %.2f)\">\n", scope,
                   thr_svg_round(paper.x0 - shown->x0), thr_svg_round(paper.y0 - shown->y0));
   thr_draw_feet(scene, &style, text);
@@ -158,8 +176,8 @@ static double reach_of(const thr_scene *scene, int point)
   return 0.5 * (box.x1 - box.x0);
 }
 
-thr_status thr_crop_piece(thr_crops *crops, int node, const double at[2], double room, const thr_scene **scene, int *point,
-                          thr_text *text, thr_err *err)
+thr_status thr_crop_piece(thr_crops *crops, int node, const double at[2], double room,
+                          const thr_scene **scene, int *point, thr_text *text, thr_err *err)
 {
   thr_text data = {0};
   thr_status st = make_scene(crops, BASE, err);
@@ -173,7 +191,8 @@ thr_status thr_crop_piece(thr_crops *crops, int node, const double at[2], double
   if ((st = make_scene(crops, i, err))) return st;
   *scene = &crops->scene[i];
   thr_outline_solid(*scene, *point, &data);
-  thr_text_printf(text, "<g transform=\"translate(%.2f %.2f)\">", thr_svg_round(at[0] - (*scene)->at[*point][0]),
+  thr_text_printf(text, "<g transform=\"translate(%.2f %.2f)\">",
+                  thr_svg_round(at[0] - (*scene)->at[*point][0]),
                   thr_svg_round(at[1] - (*scene)->at[*point][1]));
   if (data.data && !data.failed) thr_draw_outlines(*scene, THR_PIECE_NEW, data.data, text);
   thr_text_append(text, "</g>\n");
@@ -189,7 +208,8 @@ static void put_small(const double at[2], const double map[3], double out[2])
 }
 
 /* All edges, at one scale; kept for the next picture, which most often has it at the same place. */
-static void put_edges(thr_crops *crops, int scale, const double map[3], thr_box paper, thr_text *text)
+static void put_edges(thr_crops *crops, int scale, const double map[3], thr_box paper,
+                      thr_text *text)
 {
   const thr_scene *scene = &crops->scene[scale];
   thr_text *whole = &crops->whole[scale];
@@ -210,7 +230,8 @@ static void put_edges(thr_crops *crops, int scale, const double map[3], thr_box 
 }
 
 /* A line for the passes drawn now; passes that follow each other are one line. */
-static void put_now(const thr_scene *scene, const thr_crop *crop, const double map[3], thr_text *text)
+static void put_now(const thr_scene *scene, const thr_crop *crop, const double map[3],
+                    thr_text *text)
 {
   int last = -1;
   for (int k = 0; k < crop->n_now; k++) {
@@ -225,38 +246,45 @@ static void put_now(const thr_scene *scene, const thr_crop *crop, const double m
   }
 }
 
-void thr_crop_locate(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view, thr_box shown, thr_box paper,
-                     thr_text *text)
+void thr_crop_locate(thr_crops *crops, const thr_crop *crop, const thr_crop_view *view,
+                     thr_box shown, thr_box paper, thr_text *text)
 {
   const thr_scene *scene = &crops->scene[view->scale];
   const thr_box all = scene->extent;
-  double k = fmin((paper.x1 - paper.x0) / (all.x1 - all.x0), (paper.y1 - paper.y0) / (all.y1 - all.y0));
+  double k =
+      fmin((paper.x1 - paper.x0) / (all.x1 - all.x0), (paper.y1 - paper.y0) / (all.y1 - all.y0));
   const double map[3] = {k, paper.x1 - k * all.x1, paper.y0 - k * all.y0}, out = 1;
   char colour[8];
   thr_scene_colour(scene, crop->now[0], colour);
   put_edges(crops, view->scale, map, paper, text);
-  thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"0.60\" d=\"", crop->colour ? crop->colour : colour);
+  thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"0.60\" d=\"",
+                  crop->colour ? crop->colour : colour);
   put_now(scene, crop, map, text);
   thr_text_append(text, "\"/>\n");
-  thr_box frame = {fmax(k * shown.x0 + map[1], paper.x0 - out), fmax(k * shown.y0 + map[2], paper.y0 - out),
-                   fmin(k * shown.x1 + map[1], paper.x1 + out), fmin(k * shown.y1 + map[2], paper.y1 + out)};
+  thr_box frame = {
+      fmax(k * shown.x0 + map[1], paper.x0 - out), fmax(k * shown.y0 + map[2], paper.y0 - out),
+      fmin(k * shown.x1 + map[1], paper.x1 + out), fmin(k * shown.y1 + map[2], paper.y1 + out)};
   put_frame(frame, "#D55E00", 0.5, text);
 }
 
-thr_status thr_crop_whole(const thr_plan *plan, const thr_layout *layout, const unsigned char *state, const unsigned char *piece,
-                          thr_box paper, double *found, const thr_limits *limits, thr_text *text, thr_err *err)
+thr_status thr_crop_whole(const thr_plan *plan, const thr_layout *layout,
+                          const unsigned char *state, const unsigned char *piece, thr_box paper,
+                          double *found, const thr_limits *limits, thr_text *text, thr_err *err)
 {
   enum { ATTEMPTS = 8 };
   thr_scene scene = {0};
   thr_status st = THR_OK;
-  double room[2] = {paper.x1 - paper.x0, paper.y1 - paper.y0}, pitch = found && *found > 0 ? *found : PITCH[0], over = 2;
+  double room[2] = {paper.x1 - paper.x0, paper.y1 - paper.y0},
+         pitch = found && *found > 0 ? *found : PITCH[0], over = 2;
   for (int i = 0; i < ATTEMPTS && over > 1; i++) {
     thr_scene_destroy(&scene);
-    if (thr_limits_stop(limits)) return thr_fail(err, THR_ELIMIT, "interrupted at a picture of the whole");
+    if (thr_limits_stop(limits))
+      return thr_fail(err, THR_ELIMIT, "interrupted at a picture of the whole");
     if ((st = thr_scene_build(&scene, plan, layout, pitch, true, err))) return st;
-    double border = scene.places.n_columns ? 18 : 0; /* letters and numbers of places, on both sides */
-    over =
-        fmax((scene.extent.x1 - scene.extent.x0) / (room[0] - border), (scene.extent.y1 - scene.extent.y0) / (room[1] - border));
+    double border =
+        scene.places.n_columns ? 18 : 0; /* letters and numbers of places, on both sides */
+    over = fmax((scene.extent.x1 - scene.extent.x0) / (room[0] - border),
+                (scene.extent.y1 - scene.extent.y0) / (room[1] - border));
     if (found) *found = pitch;
     pitch *= over > 1 ? 0.98 / over : 1;
   }
@@ -264,7 +292,8 @@ thr_status thr_crop_whole(const thr_plan *plan, const thr_layout *layout, const 
          y = 0.5 * (paper.y0 + paper.y1 - scene.extent.y0 - scene.extent.y1);
   thr_draw_style style = {.state = state, .anonymous = true, .no_pieces = true};
   thr_draw_css(&scene, "thread", text);
-  thr_text_printf(text, "<g transform=\"translate(%.2f %.2f)\">\n", thr_svg_round(x), thr_svg_round(y));
+  thr_text_printf(text, "<g transform=\"translate(%.2f %.2f)\">\n", thr_svg_round(x),
+                  thr_svg_round(y));
   thr_draw_feet(&scene, &style, text);
   st = thr_crop_pieces(&scene, piece, &scene.extent, text, err);
   thr_draw_scene(&scene, &style, &scene.extent, text);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pieces in a part of a scene, all that look alike in one element. */
 #include "diagram/overview/overview.h"
 #include "diagram/overview/overview_parts.h"
@@ -11,7 +12,8 @@ static bool touch(thr_box a, thr_box b)
 }
 
 /* Appends the data of a path to a picture, in the look of a state. Destroys them. */
-static void put_path(const thr_scene *scene, thr_piece_state state, double width, thr_text *data, thr_text *text)
+static void put_path(const thr_scene *scene, thr_piece_state state, double width, thr_text *data,
+                     thr_text *text)
 {
   if (data->failed) text->failed = true;
   if (data->data && !data->failed && width > 0)
@@ -23,8 +25,8 @@ static void put_path(const thr_scene *scene, thr_piece_state state, double width
 
 /* ---- solid pieces: outlines ---- */
 
-static void put_solid(const thr_scene *scene, const unsigned char *state, thr_piece_state wanted, const thr_box *window,
-                      thr_text *text)
+static void put_solid(const thr_scene *scene, const unsigned char *state, thr_piece_state wanted,
+                      const thr_box *window, thr_text *text)
 {
   thr_text data = {0};
   for (int p = 0; p < scene->layout->n_points; p++) {
@@ -61,13 +63,15 @@ static capsule capsule_of(const thr_scene *scene, int e, thr_piece_state state)
 static bool is_seen(const capsule *c, const thr_box *box)
 {
   double radius = 0.05 * c->width;
-  return touch((thr_box){fmin(c->end[0][0], c->end[1][0]) - radius, fmin(c->end[0][1], c->end[1][1]) - radius,
-                         fmax(c->end[0][0], c->end[1][0]) + radius, fmax(c->end[0][1], c->end[1][1]) + radius},
+  return touch((thr_box){fmin(c->end[0][0], c->end[1][0]) - radius,
+                         fmin(c->end[0][1], c->end[1][1]) - radius,
+                         fmax(c->end[0][0], c->end[1][0]) + radius,
+                         fmax(c->end[0][1], c->end[1][1]) + radius},
                *box);
 }
 
-static thr_status put_tubes(const thr_scene *scene, const unsigned char *state, const thr_box *window, thr_text *text,
-                            thr_err *err)
+static thr_status put_tubes(const thr_scene *scene, const unsigned char *state,
+                            const thr_box *window, thr_text *text, thr_err *err)
 {
   capsule *c = thr_calloc((size_t)scene->frame->n_edges, sizeof *c);
   int n = 0;
@@ -89,8 +93,8 @@ static thr_status put_tubes(const thr_scene *scene, const unsigned char *state, 
   return THR_OK;
 }
 
-thr_status thr_crop_pieces(const thr_scene *scene, const unsigned char *state, const thr_box *window, thr_text *text,
-                           thr_err *err)
+thr_status thr_crop_pieces(const thr_scene *scene, const unsigned char *state,
+                           const thr_box *window, thr_text *text, thr_err *err)
 {
   for (int wanted = 0; wanted < THR_PIECE_STATES && scene->solid; wanted++)
     put_solid(scene, state, (thr_piece_state)wanted, window, text);

@@ -1,6 +1,7 @@
-/* Draws a scene as SVG elements, in mm on paper: pads of feet, beads, cords with casings, turns and arrows, ends, names of places
- * and numbers. All of it for the overview; for a page about some passes the same scene with a state per pass. Private to
- * diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Draws a scene as SVG elements, in mm on paper: pads of feet, beads, cords with casings, turns and
+ * arrows, ends, names of places and numbers. All of it for the overview; for a page about some
+ * passes the same scene with a state per pass. Private to diagram/. */
 #include "diagram/overview/overview_parts.h"
 
 #include "diagram/overview/overview.h"
@@ -51,7 +52,8 @@ static void box_point(thr_box *box, const double at[2])
 static thr_box box_of_strand(const thr_scene *scene, int i, double half)
 {
   const thr_scene_pass *scene_pass = &scene->pass[i];
-  thr_box box = {scene_pass->from[0], scene_pass->from[1], scene_pass->from[0], scene_pass->from[1]};
+  thr_box box = {scene_pass->from[0], scene_pass->from[1], scene_pass->from[0],
+                 scene_pass->from[1]};
   const thr_mark *after = thr_scene_mark_after(scene, i);
   box_point(&box, scene_pass->to);
   box_point(&box, scene_pass->turn[0]);
@@ -75,7 +77,8 @@ static void colour_of(const drawing *d, int i, char hex[8])
 }
 
 /* Begins a group or element, with an id if there are to be any. */
-static void open_element(const drawing *d, const char *element, const char *prefix, const char *id, int number, thr_text *text)
+static void open_element(const drawing *d, const char *element, const char *prefix, const char *id,
+                         int number, thr_text *text)
 {
   thr_text_printf(text, "<%s", element);
   if (d->style->anonymous) return;
@@ -93,7 +96,8 @@ void thr_draw_feet(const thr_scene *scene, const thr_draw_style *style, thr_text
   thr_text_append(text, ">\n");
   for (int v = 0; v < scene->layout->n_points; v++)
     if (scene->frame->foot && scene->frame->foot[thr_layout_node(scene->layout, v)] &&
-        in_window(d, thr_box_around(scene->at[v][0], scene->at[v][1], scene->size.foot, scene->size.foot)))
+        in_window(d, thr_box_around(scene->at[v][0], scene->at[v][1], scene->size.foot,
+                                    scene->size.foot)))
       thr_draw_foot_pad(scene, scene->at[v][0], scene->at[v][1], text);
   thr_text_append(text, "</g>\n");
 }
@@ -119,7 +123,9 @@ static void write_solid(const drawing *d, int v, thr_text *text)
 {
   const thr_scene *scene = d->s;
   int twin = scene->twin[v];
-  if (!in_window(d, thr_outline_box(scene, v)) && (twin < 0 || !in_window(d, thr_outline_box(scene, twin)))) return;
+  if (!in_window(d, thr_outline_box(scene, v)) &&
+      (twin < 0 || !in_window(d, thr_outline_box(scene, twin))))
+    return;
   open_piece(d, "path", v, text);
   thr_text_append(text, " d=\"");
   thr_outline_solid(scene, v, text);
@@ -135,13 +141,16 @@ static void write_tube(const drawing *d, int e, thr_text *text)
   double along[2], w = scene->bead[e], near = scene->gap[2 * e], far = scene->gap[2 * e + 1];
   double length = fmax(thr_scene_edge_length(scene, e) - near - far, 0.3 * w);
   thr_scene_direction(scene, 2 * e, along);
-  double x = 0.5 * (a[0] + b[0] + (near - far) * along[0]), y = 0.5 * (a[1] + b[1] + (near - far) * along[1]);
+  double x = 0.5 * (a[0] + b[0] + (near - far) * along[0]),
+         y = 0.5 * (a[1] + b[1] + (near - far) * along[1]);
   if (!in_window(d, thr_box_around(x, y, 0.5 * (length + w), 0.5 * (length + w)))) return;
   double turn = thr_svg_round(atan2(along[1], along[0]) * 180 / THR_PI);
   open_piece(d, "rect", e, text);
-  thr_text_printf(text, " x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"%.2f\"", thr_svg_round(-0.5 * length),
-                  thr_svg_round(-0.5 * w), length, w, 0.4 * fmin(w, length));
-  thr_text_printf(text, " transform=\"translate(%.2f %.2f) rotate(%.2f)\"/>\n", thr_svg_round(x), thr_svg_round(y), turn);
+  thr_text_printf(text, " x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"%.2f\"",
+                  thr_svg_round(-0.5 * length), thr_svg_round(-0.5 * w), length, w,
+                  0.4 * fmin(w, length));
+  thr_text_printf(text, " transform=\"translate(%.2f %.2f) rotate(%.2f)\"/>\n", thr_svg_round(x),
+                  thr_svg_round(y), turn);
 }
 
 static void write_pieces(const drawing *d, thr_text *text)
@@ -160,12 +169,14 @@ static void write_pieces(const drawing *d, thr_text *text)
 /* Path data of the arrow on a pass, if it has one. */
 static void write_tip(const thr_scene_pass *scene_pass, thr_text *text)
 {
-  double length = hypot(scene_pass->to[0] - scene_pass->from[0], scene_pass->to[1] - scene_pass->from[1]);
+  double length =
+      hypot(scene_pass->to[0] - scene_pass->from[0], scene_pass->to[1] - scene_pass->from[1]);
   if (scene_pass->arrow_size == 0 || !(length > 0)) return;
   double dx = (scene_pass->to[0] - scene_pass->from[0]) / length * scene_pass->arrow_size,
          dy = (scene_pass->to[1] - scene_pass->from[1]) / length * scene_pass->arrow_size;
   double tip[2] = {scene_pass->arrow[0] + 0.5 * dx, scene_pass->arrow[1] + 0.5 * dy},
-         left[2] = {tip[0] - dx - 0.4 * dy, tip[1] - dy + 0.4 * dx}, right[2] = {tip[0] - dx + 0.4 * dy, tip[1] - dy - 0.4 * dx};
+         left[2] = {tip[0] - dx - 0.4 * dy, tip[1] - dy + 0.4 * dx},
+         right[2] = {tip[0] - dx + 0.4 * dy, tip[1] - dy - 0.4 * dx};
   thr_svg_move(text, tip);
   thr_svg_line(text, left);
   thr_svg_line(text, right);
@@ -186,7 +197,8 @@ static void write_arrow(const thr_scene_pass *scene_pass, const char *rim, thr_t
   thr_text_destroy(&tip);
 }
 
-/* Path data of a pass in two parts: the curve through the node before it and its lane up to a point, and .. */
+/* Path data of a pass in two parts: the curve through the node before it and its lane up to a
+ * point, and .. */
 static void write_first_part(const thr_scene *scene, int i, const double to[2], thr_text *text)
 {
   const thr_scene_pass *scene_pass = &scene->pass[i];
@@ -217,11 +229,13 @@ static void open_turn(double angle, thr_text *text)
   thr_text_printf(text, "<path class=\"turn\" stroke=\"%s\" d=\"", colour);
 }
 
-/* The inside of a pass, up to the middle of its lane in the colour of the turn before it, then of the turn after it. */
+/* The inside of a pass, up to the middle of its lane in the colour of the turn before it, then of
+ * the turn after it. */
 static void write_turns(const thr_scene *scene, int i, thr_text *text)
 {
   const thr_scene_pass *scene_pass = &scene->pass[i];
-  double middle[2] = {0.5 * (scene_pass->from[0] + scene_pass->to[0]), 0.5 * (scene_pass->from[1] + scene_pass->to[1])},
+  double middle[2] = {0.5 * (scene_pass->from[0] + scene_pass->to[0]),
+                      0.5 * (scene_pass->from[1] + scene_pass->to[1])},
          after = thr_scene_turn_after(scene, i);
   if (scene_pass->turned >= 0) {
     open_turn(scene_pass->turned, text);
@@ -278,8 +292,8 @@ static void write_pass(const drawing *d, int i, thr_text *text)
   thr_text_append(text, "</g>\n");
 }
 
-/* Passes of a cord that do not touch each other but where one leads to the next: a few elements draw them as a few for each
- * would, and are read in a fraction of the time. */
+/* Passes of a cord that do not touch each other but where one leads to the next: a few elements
+ * draw them as a few for each would, and are read in a fraction of the time. */
 enum { TOGETHER = 64 };
 
 typedef struct {
@@ -288,11 +302,13 @@ typedef struct {
   thr_box box[TOGETHER];
 } bunch;
 
-static void write_strands(const drawing *d, const bunch *b, const char *class, const char *rim, thr_text *text)
+static void write_strands(const drawing *d, const bunch *b, const char *class, const char *rim,
+                          thr_text *text)
 {
   thr_text_printf(text, "<path class=\"%s\"", class);
   if (rim) thr_text_printf(text, " stroke=\"%s\"", rim);
-  if (strcmp(class, "casing") != 0) thr_draw_dash(d->s, thr_scene_dash(d->s, d->s->pass[b->pass[0]].cord), text);
+  if (strcmp(class, "casing") != 0)
+    thr_draw_dash(d->s, thr_scene_dash(d->s, d->s->pass[b->pass[0]].cord), text);
   thr_text_append(text, " d=\"");
   for (int k = 0; k < b->n; k++)
     write_strand(d->s, b->pass[k], text);
@@ -348,7 +364,8 @@ static void write_cords(const drawing *d, thr_draw_state state, thr_text *text)
       if (together.colour)
         thr_text_printf(text, " stroke=\"%s\"", together.colour);
       else if (state != THR_DRAW_NOW)
-        thr_text_printf(text, "<g stroke=\"%s\"", EARLIER); /* without id: the cord's group is that of the passes drawn now */
+        thr_text_printf(text, "<g stroke=\"%s\"",
+                        EARLIER); /* without id: the cord's group is that of the passes drawn now */
       thr_text_printf(text, "%s>\n", copy ? " class=\"copy\"" : "");
       for (int i = scene->first_pass[c]; i < scene->first_pass[c + 1]; i++)
         if (state_of(d, i) != state || !in_window(d, box_of_pass(scene, i)))
@@ -392,16 +409,20 @@ static void write_marks(const drawing *d, thr_text *text)
     for (int end = 0; end < 2; end++) {
       const thr_mark *mark = &scene->mark[c][end];
       int pass = end ? scene->first_pass[c + 1] - 1 : scene->first_pass[c];
-      const char *ring = scene->plan->n_cords > 1 && !scene->tension ? thr_scene_cord_colour(scene, c) : "#111";
+      const char *ring =
+          scene->plan->n_cords > 1 && !scene->tension ? thr_scene_cord_colour(scene, c) : "#111";
       if (state_of(d, pass) == THR_DRAW_HIDDEN ||
-          !wholly_in_window(d, thr_box_around(mark->at[0], mark->at[1], mark->radius, mark->radius)))
+          !wholly_in_window(d,
+                            thr_box_around(mark->at[0], mark->at[1], mark->radius, mark->radius)))
         continue;
-      thr_draw_mark(scene, mark, end, thr_scene_is_copy(scene, c), ring, mark->at[0], mark->at[1], text);
+      thr_draw_mark(scene, mark, end, thr_scene_is_copy(scene, c), ring, mark->at[0], mark->at[1],
+                    text);
     }
   thr_text_append(text, "</g>\n");
 }
 
-/* The labels of the cords that go on in the other panel: "out-A-16" says to which pass, "in-A-17" from which. */
+/* The labels of the cords that go on in the other panel: "out-A-16" says to which pass, "in-A-17"
+ * from which. */
 static void write_seams(const drawing *d, thr_text *text)
 {
   const thr_scene *scene = d->s;
@@ -417,7 +438,8 @@ static void write_seams(const drawing *d, thr_text *text)
           !in_window(d, thr_box_around(mark->at[0], mark->at[1], mark->half[0], mark->half[1])))
         continue;
       colour_of(d, pass, colour);
-      open_element(d, "g", in ? "in-" : "out-", scene->id[scene->pass[pass].cord], scene->pass[pass].number, text);
+      open_element(d, "g", in ? "in-" : "out-", scene->id[scene->pass[pass].cord],
+                   scene->pass[pass].number, text);
       thr_text_append(text, ">");
       thr_draw_seam(scene, mark, colour, text);
       thr_text_append(text, "</g>\n");
@@ -437,7 +459,8 @@ static void write_numbers(const drawing *d, thr_text *text)
     if (!scene_pass->numbered || state_of(d, i) != THR_DRAW_NOW) continue;
     thr_scene_number(scene, i, number);
     double w = thr_scene_pill_width(scene, number), h = thr_scene_pill_height(scene);
-    if (!in_window(d, thr_box_around(scene_pass->pill[0], scene_pass->pill[1], 0.5 * w, 0.5 * h))) continue;
+    if (!in_window(d, thr_box_around(scene_pass->pill[0], scene_pass->pill[1], 0.5 * w, 0.5 * h)))
+      continue;
     colour_of(d, i, colour);
     open_element(d, "g", "n-", scene->id[scene_pass->cord], scene_pass->number, text);
     thr_text_append(text, ">");
@@ -452,8 +475,8 @@ bool thr_draw_grid_both(const thr_scene *scene)
   return scene->places.n_columns > 10 || scene->places.n_rows > 10;
 }
 
-/* Letters below and numbers left of the box of a grid-like picture, of a large one above and right too; none nearer than 5 mm to
- * the one before, and none of a place beyond the box. */
+/* Letters below and numbers left of the box of a grid-like picture, of a large one above and right
+ * too; none nearer than 5 mm to the one before, and none of a place beyond the box. */
 static void write_grid(const thr_scene *scene, const thr_box *box, thr_text *text)
 {
   const thr_places *p = &scene->places;
@@ -471,7 +494,8 @@ static void write_grid(const thr_scene *scene, const thr_box *box, thr_text *tex
     if (y > last - 5 || y < box->y0 || y > box->y1) continue;
     last = y;
     thr_svg_text(text, box->x0 - 4, y + 0.36 * size, size, " class=\"middle\"", p->number[r]);
-    if (both) thr_svg_text(text, box->x1 + 4, y + 0.36 * size, size, " class=\"middle\"", p->number[r]);
+    if (both)
+      thr_svg_text(text, box->x1 + 4, y + 0.36 * size, size, " class=\"middle\"", p->number[r]);
   }
 }
 
@@ -482,9 +506,10 @@ static void write_places(const drawing *d, const thr_box *grid, thr_text *text)
   thr_text_append(text, " class=\"place\">\n");
   if (grid) write_grid(scene, grid, text);
   for (int k = 0; k < 2 && scene->layout->node; k++)
-    if (in_window(d, (thr_box){scene->caption[k][0], scene->caption[k][1], scene->caption[k][0], scene->caption[k][1]}))
-      thr_svg_text(text, scene->caption[k][0], scene->caption[k][1] + 0.5 * scene->size.text, 1.4 * scene->size.text,
-                   " class=\"middle\"", thr_scene_caption(scene, k));
+    if (in_window(d, (thr_box){scene->caption[k][0], scene->caption[k][1], scene->caption[k][0],
+                               scene->caption[k][1]}))
+      thr_svg_text(text, scene->caption[k][0], scene->caption[k][1] + 0.5 * scene->size.text,
+                   1.4 * scene->size.text, " class=\"middle\"", thr_scene_caption(scene, k));
   for (int v = 0; v < scene->layout->n_points; v++) {
     char name[48];
     const double *at = scene->name_at[v];
@@ -499,7 +524,8 @@ static void write_places(const drawing *d, const thr_box *grid, thr_text *text)
   thr_text_append(text, "</g>\n");
 }
 
-void thr_draw_scene(const thr_scene *scene, const thr_draw_style *style, const thr_box *grid, thr_text *text)
+void thr_draw_scene(const thr_scene *scene, const thr_draw_style *style, const thr_box *grid,
+                    thr_text *text)
 {
   drawing d = {scene, style};
   if (scene->lines) {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The picture of the trade-off between cord and pull: `thread plan --frontier`. */
 #include "diagram/overview/charts.h"
 #include "diagram/overview/overview.h"
@@ -7,9 +8,12 @@
 #include <stdio.h>
 
 /* mm */
-static const double MARGIN = THR_CHART_MARGIN, TEXT_SIZE = THR_CHART_TEXT, SMALL = THR_CHART_SMALL, MARK = THR_CHART_MARK;
-static const double ACROSS = 190, LEFT = 22, RIGHT = 12, INSIDE = 6, PLOT = 70, ROW = 4.4, BAND = 2.4;
-static const double COLUMN[] = {10, 42, 70, 98, 124, 128}; /* ends of numbers, and where the last words begin */
+static const double MARGIN = THR_CHART_MARGIN, TEXT_SIZE = THR_CHART_TEXT, SMALL = THR_CHART_SMALL,
+                    MARK = THR_CHART_MARK;
+static const double ACROSS = 190, LEFT = 22, RIGHT = 12, INSIDE = 6, PLOT = 70, ROW = 4.4,
+                    BAND = 2.4;
+static const double COLUMN[] = {10, 42,  70,
+                                98, 124, 128}; /* ends of numbers, and where the last words begin */
 enum { MOST_DECADES = 40, MOST_TICKS = 8, N_COLUMNS = 5 };
 
 typedef struct {
@@ -45,7 +49,8 @@ static void write_ticks(const picture *p, thr_text *text)
   const thr_frontier_chart *chart = p->chart;
   double tick[MOST_TICKS], y = p->axis.y + p->axis.height;
   char words[96];
-  int n = thr_svg_ticks(chart->mark[0].length, chart->mark[chart->n - 1].length, false, MOST_TICKS, tick);
+  int n = thr_svg_ticks(chart->mark[0].length, chart->mark[chart->n - 1].length, false, MOST_TICKS,
+                        tick);
   for (int i = 0; i < n; i++) {
     double x = thr_svg_round(place_x(p, tick[i]));
     thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fv1.20\"/>\n", x, y);
@@ -53,7 +58,8 @@ static void write_ticks(const picture *p, thr_text *text)
     thr_svg_text(text, x, y + 1.6 + SMALL, SMALL, " class=\"middle\"", words);
   }
   snprintf(words, sizeof words, "all cord, %.15s", chart->units);
-  thr_svg_text(text, p->axis.x + p->axis.width / 2, y + 5.5 + TEXT_SIZE, TEXT_SIZE, " class=\"middle\"", words);
+  thr_svg_text(text, p->axis.x + p->axis.width / 2, y + 5.5 + TEXT_SIZE, TEXT_SIZE,
+               " class=\"middle\"", words);
 }
 
 static void write_line(const picture *p, thr_text *text)
@@ -62,13 +68,14 @@ static void write_line(const picture *p, thr_text *text)
   double wide = fmin(BAND, p->axis.width / (2 * chart->n));
   thr_text_append(text, "<path class=\"thin\" d=\"");
   for (int i = 0; i < chart->n; i++) {
-    const double at[2] = {place_x(p, chart->mark[i].length), thr_pull_y(&p->axis, chart->mark[i].pull[THR_ADVICE_MU])};
+    const double at[2] = {place_x(p, chart->mark[i].length),
+                          thr_pull_y(&p->axis, chart->mark[i].pull[THR_ADVICE_MU])};
     (i ? thr_svg_line : thr_svg_move)(text, at);
   }
   thr_text_append(text, "\"/>\n");
   for (int i = 0; i < chart->n; i++)
-    thr_pull_band(&p->axis, place_x(p, chart->mark[i].length), wide, chart->mark[i].pull[THR_ADVICE_LOW],
-                  chart->mark[i].pull[THR_ADVICE_HIGH], text);
+    thr_pull_band(&p->axis, place_x(p, chart->mark[i].length), wide,
+                  chart->mark[i].pull[THR_ADVICE_LOW], chart->mark[i].pull[THR_ADVICE_HIGH], text);
 }
 
 /* Each with its number above, where there is room beside the number before. */
@@ -78,9 +85,11 @@ static void write_points(const picture *p, thr_text *text)
   char words[24];
   for (int i = 0; i < p->chart->n; i++) {
     const thr_frontier_mark *mark = &p->chart->mark[i];
-    double x = thr_svg_round(place_x(p, mark->length)), y = thr_svg_round(thr_pull_y(&p->axis, mark->pull[THR_ADVICE_MU]));
-    thr_text_printf(text, "<circle id=\"point-%d\" class=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", i + 1,
-                    mark->proved ? "proved" : "point", x, y, MARK);
+    double x = thr_svg_round(place_x(p, mark->length)),
+           y = thr_svg_round(thr_pull_y(&p->axis, mark->pull[THR_ADVICE_MU]));
+    thr_text_printf(text,
+                    "<circle id=\"point-%d\" class=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n",
+                    i + 1, mark->proved ? "proved" : "point", x, y, MARK);
     snprintf(words, sizeof words, "%d", i + 1);
     double half = 0.33 * SMALL * thr_text_columns(words, sizeof words) + 0.5;
     if (x - half < taken) continue;
@@ -91,7 +100,8 @@ static void write_points(const picture *p, thr_text *text)
 
 /* ---- table ---- */
 
-static void write_cells(double y, const char *const cell[N_COLUMNS], const char *last, thr_text *text)
+static void write_cells(double y, const char *const cell[N_COLUMNS], const char *last,
+                        thr_text *text)
 {
   for (int i = 0; i < N_COLUMNS; i++)
     thr_svg_text(text, MARGIN + COLUMN[i], y, SMALL, " class=\"end\"", cell[i]);
@@ -115,8 +125,10 @@ static double write_table(const picture *p, double y, thr_text *text)
     snprintf(above, sizeof above, "%.2f %%", 100 * fmax(0, mark->length / chart->shortest - 1));
     snprintf(turning, sizeof turning, "%.0f deg", thr_degrees(mark->turning));
     snprintf(pull, sizeof pull, "%s N", newton);
-    snprintf(words, sizeof words, "%s to %s N%s", low, high, mark->proved ? "; proved" : "; not proved");
-    write_cells(y += ROW, (const char *const[N_COLUMNS]){number, length, above, turning, pull}, words, text);
+    snprintf(words, sizeof words, "%s to %s N%s", low, high,
+             mark->proved ? "; proved" : "; not proved");
+    write_cells(y += ROW, (const char *const[N_COLUMNS]){number, length, above, turning, pull},
+                words, text);
   }
   if (chart->n > THR_FRONTIER_LINES) {
     snprintf(words, sizeof words, "and %d more", chart->n - THR_FRONTIER_LINES);
@@ -132,14 +144,17 @@ static double write_heading(const picture *p, thr_text *text)
   const thr_physics *physics = p->chart->physics;
   char line[400];
   double y = MARGIN + THR_CHART_TITLE;
-  thr_svg_text(text, MARGIN, y, THR_CHART_TITLE, " font-weight=\"bold\"", "What a little more cord buys");
+  thr_svg_text(text, MARGIN, y, THR_CHART_TITLE, " font-weight=\"bold\"",
+               "What a little more cord buys");
   y = thr_svg_wrap(text, MARGIN, y + 6.5, THR_CHART_NAME, ACROSS, "", p->chart->name);
-  snprintf(
-      line, sizeof line,
-      "The least turning for every length of cord. Pull at both ends of every cord, so that %g N is left where it is slackest "
-      "(closed form; mu = %g, the pale bars its band from %g to %g). Dashed: what a hand manages, %g N time after time, "
-      "%g N at most.",
-      physics->seating, physics->mu, physics->mu_low, physics->mu_high, thr_hand_always, thr_hand_most);
+  snprintf(line, sizeof line,
+           "The least turning for every length of cord. Pull at both ends of every cord, so that "
+           "%g N is left where it is slackest "
+           "(closed form; mu = %g, the pale bars its band from %g to %g). Dashed: what a hand "
+           "manages, %g N time after time, "
+           "%g N at most.",
+           physics->seating, physics->mu, physics->mu_low, physics->mu_high, thr_hand_always,
+           thr_hand_most);
   return thr_svg_wrap(text, MARGIN, y - 0.5, TEXT_SIZE, ACROSS, " class=\"quiet\"", line) + 2;
 }
 
@@ -161,8 +176,9 @@ thr_status thr_frontier_svg(const thr_frontier_chart *chart, thr_text *svg, thr_
   write_points(&p, &body);
   write_ticks(&p, &body);
   double bottom = write_table(&p, p.axis.y + PLOT + 18, &body);
-  thr_status st = thr_pull_sheet(&body, ACROSS + 2 * MARGIN, bottom + MARGIN - ROW, "What a little more cord buys",
-                                 "Pull against length of cord, of plans that turn least.", svg, err);
+  thr_status st = thr_pull_sheet(
+      &body, ACROSS + 2 * MARGIN, bottom + MARGIN - ROW, "What a little more cord buys",
+      "Pull against length of cord, of plans that turn least.", svg, err);
   thr_text_destroy(&body);
   return st;
 }

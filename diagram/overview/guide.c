@@ -1,4 +1,6 @@
-/* What nodes and turns are called for whoever threads a plan, the same in every document. Private to diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What nodes and turns are called for whoever threads a plan, the same in every document. Private
+ * to diagram/. */
 #include "diagram/overview/overview_parts.h"
 
 #include "graph/angle.h"
@@ -10,12 +12,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double AHEAD = 0.13962634015954636; /* rad, 8 degrees: to that side it is still ahead */
+static const double AHEAD =
+    0.13962634015954636; /* rad, 8 degrees: to that side it is still ahead */
 
 void thr_guide_place(const thr_guide *guide, int v, thr_text *text)
 {
   const char *own = guide->f->name && guide->f->name[v] ? guide->f->name[v] : NULL;
-  thr_text_printf(text, "%s%s", guide->f->foot && guide->f->foot[v] ? "foot " : "", guide->label[v]);
+  thr_text_printf(text, "%s%s", guide->f->foot && guide->f->foot[v] ? "foot " : "",
+                  guide->label[v]);
   if (!guide->places.n_columns || !own || strcmp(own, guide->label[v]) == 0) return;
   char name[41];
   thr_text_copy_clean(name, sizeof name, own);
@@ -46,12 +50,14 @@ static bool direction(const thr_frame *frame, int h, double d[3])
   return length > 0;
 }
 
-/* Adds up what two edges that are neighbours around a node, counter-clockwise on paper, say about the side that one sees there.
+/* Adds up what two edges that are neighbours around a node, counter-clockwise on paper, say about
+ * the side that one sees there.
  */
 static void add_corner(const thr_frame *frame, int h, int g, double sweep, double normal[3])
 {
   double a[3], b[3], cross[3];
-  if (!(sweep > 0 && sweep < THR_PI - 1e-6) || !direction(frame, h, a) || !direction(frame, g, b)) return;
+  if (!(sweep > 0 && sweep < THR_PI - 1e-6) || !direction(frame, h, a) || !direction(frame, g, b))
+    return;
   thr_cross(a, b, cross);
   for (int i = 0; i < 3; i++)
     normal[i] += cross[i];
@@ -65,7 +71,8 @@ static thr_status find_outward(thr_guide *guide, thr_err *err)
   int *around = thr_calloc(2 * (size_t)frame->n_edges, sizeof *around);
   thr_status st = angle && around ? THR_OK : thr_nomem(err);
   for (int h = 0; h < 2 * frame->n_edges && !st; h++) {
-    const double *a = guide->layout.xy[thr_tail(paper, h)], *b = guide->layout.xy[thr_head(paper, h)];
+    const double *a = guide->layout.xy[thr_tail(paper, h)],
+                 *b = guide->layout.xy[thr_head(paper, h)];
     angle[h] = atan2(b[1] - a[1], b[0] - a[0]);
   }
   if (!st) st = thr_layout_around(paper, angle, around, err);
@@ -88,12 +95,14 @@ static thr_status find_outward(thr_guide *guide, thr_err *err)
   return st;
 }
 
-/* Do the arms in around[n] of node v follow each other counter-clockwise seen from outside? False too where that is not known. */
+/* Do the arms in around[n] of node v follow each other counter-clockwise seen from outside? False
+ * too where that is not known. */
 static bool counter_clockwise(const thr_guide *guide, int v, const int *around, int n)
 {
   double sum[3] = {0}, a[3], b[3], cross[3];
   for (int i = 0; i < n; i++) {
-    if (!direction(guide->f, around[i], a) || !direction(guide->f, around[(i + 1) % n], b)) continue;
+    if (!direction(guide->f, around[i], a) || !direction(guide->f, around[(i + 1) % n], b))
+      continue;
     thr_cross(a, b, cross);
     for (int k = 0; k < 3; k++)
       sum[k] += cross[k];
@@ -135,16 +144,20 @@ thr_status thr_guide_around(const thr_guide *guide, int *around, thr_err *err)
   return st;
 }
 
-thr_status thr_guide_make(thr_guide *guide, const thr_frame *frame, const thr_layout *layout, thr_err *err)
+thr_status thr_guide_make(thr_guide *guide, const thr_frame *frame, const thr_layout *layout,
+                          thr_err *err)
 {
   *guide = (thr_guide){.f = frame};
   guide->outward = thr_calloc((size_t)frame->n_nodes, sizeof *guide->outward);
   guide->label = thr_calloc((size_t)frame->n_nodes, sizeof *guide->label);
   if (!guide->outward || !guide->label) return thr_nomem(err);
-  thr_status st = layout ? thr_layout_copy(&guide->layout, layout, err) : thr_layout_choose(&guide->layout, frame, NULL, 0, err);
+  thr_status st = layout ? thr_layout_copy(&guide->layout, layout, err)
+                         : thr_layout_choose(&guide->layout, frame, NULL, 0, err);
   if (!st && thr_layout_to_scale(guide->layout.kind))
-    st = thr_places_find(&guide->places, frame, (const double(*)[2])guide->layout.xy, guide->layout.median, err);
-  guide->sides = !guide->layout.crossings && !guide->layout.estimated && guide->layout.kind != THR_LAYOUT_DRAWN;
+    st = thr_places_find(&guide->places, frame, (const double(*)[2])guide->layout.xy,
+                         guide->layout.median, err);
+  guide->sides = !guide->layout.crossings && !guide->layout.estimated &&
+                 guide->layout.kind != THR_LAYOUT_DRAWN;
   if (!st && guide->sides) st = find_outward(guide, err);
   return st ? st : thr_places_labels(&guide->places, frame, guide->label, err);
 }
@@ -165,7 +178,9 @@ thr_way thr_guide_way(const thr_guide *guide, int in, int out)
   double a[3], b[3], cross[3], *n = guide->outward[thr_tail(guide->f, out)];
   if (out == (in ^ 1)) return THR_WAY_BACK;
   if (thr_turn_angle(guide->f, in, out) < THR_STRAIGHT) return THR_WAY_STRAIGHT;
-  if (!guide->sides || thr_dot(n, n) == 0 || !direction(guide->f, in, a) || !direction(guide->f, out, b)) return THR_WAY_TURN;
+  if (!guide->sides || thr_dot(n, n) == 0 || !direction(guide->f, in, a) ||
+      !direction(guide->f, out, b))
+    return THR_WAY_TURN;
   thr_cross(a, b, cross);
   double turn = atan2(thr_dot(n, cross), thr_dot(a, b) - thr_dot(a, n) * thr_dot(b, n));
   if (fabs(turn) < AHEAD) return THR_WAY_OVER;
@@ -174,7 +189,8 @@ thr_way thr_guide_way(const thr_guide *guide, int in, int out)
 
 void thr_guide_say(const thr_guide *guide, int in, int out, thr_text *text)
 {
-  static const char *const word[] = {"straight on", "turn left", "turn right", "over the curve", "turn", "turn back"};
+  static const char *const word[] = {"straight on",    "turn left", "turn right",
+                                     "over the curve", "turn",      "turn back"};
   thr_way way = thr_guide_way(guide, in, out);
   thr_text_append(text, word[way]);
   if (way != THR_WAY_STRAIGHT && way != THR_WAY_BACK)

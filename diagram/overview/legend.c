@@ -1,6 +1,9 @@
-/* What is written around the overview picture: heading, key, one line per cord, scale bar. Private to diagram/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is written around the overview picture: heading, key, one line per cord, scale bar. Private
+ * to diagram/.
  *
- * Heading and legend of the overview. Widths of text are estimated for a wide face, so that lines never run out. */
+ * Heading and legend of the overview. Widths of text are estimated for a wide face, so that lines
+ * never run out. */
 #include "diagram/overview/overview_parts.h"
 
 #include "diagram/overview/overview.h"
@@ -26,8 +29,8 @@ void thr_legend_title(const thr_scene *scene, const char *given, char title[160]
   int n = scene->plan->n_cords, paths = scene->copy ? thr_copies_paths(scene->copy, n) : n,
       pieces = thr_pieces_count(scene->plan);
   char size[64];
-  snprintf(size, sizeof size, "%d %s, %d pass%s", pieces, thr_pieces_word(scene->plan, pieces), scene->n_passes,
-           scene->n_passes == 1 ? "" : "es");
+  snprintf(size, sizeof size, "%d %s, %d pass%s", pieces, thr_pieces_word(scene->plan, pieces),
+           scene->n_passes, scene->n_passes == 1 ? "" : "es");
   if (given && *given)
     snprintf(title, 160, "%.159s", given);
   else if (n == 1)
@@ -61,32 +64,37 @@ static double write_view(const thr_scene *scene, double x, double y, double widt
 {
   char line[512], number[40];
   const thr_layout *layout = scene->layout;
-  y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, " font-weight=\"bold\"", thr_layout_words(layout->kind));
+  y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, " font-weight=\"bold\"",
+                   thr_layout_words(layout->kind));
   if (scene->n_seams && !thr_scene_labels_seams(scene))
     y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "",
-                     "At a place on the rim the cord may go on in the other half, at the place of the same name.");
+                     "At a place on the rim the cord may go on in the other half, at the place of "
+                     "the same name.");
   if (thr_scene_labels_seams(scene)) {
-    snprintf(
-        line, sizeof line,
-        "\"to 17\" where the cord leaves a half and \"from 16\" where it comes out on the other: at places of the same name.");
+    snprintf(line, sizeof line,
+             "\"to 17\" where the cord leaves a half and \"from 16\" where it comes out on the "
+             "other: at places of the same name.");
     y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
   }
   if (scene->unlabelled) {
-    snprintf(line, sizeof line, "%d such place%s without a label for want of room: look for the number of the next pass.",
-             scene->unlabelled, scene->unlabelled == 1 ? " is" : "s are");
+    snprintf(
+        line, sizeof line,
+        "%d such place%s without a label for want of room: look for the number of the next pass.",
+        scene->unlabelled, scene->unlabelled == 1 ? " is" : "s are");
     y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
   }
   if (!layout->crossings && !layout->estimated) return y;
   snprintf(number, sizeof number, layout->estimated ? "about %.0f" : "%.0f",
            layout->estimated ? two_digits((double)layout->crossings) : (double)layout->crossings);
-  snprintf(
-      line, sizeof line,
-      "In this layout %s pair%s of edges cross or touch that do not in space: at these places follow the arrows and numbers.",
-      number, plural(layout->crossings == 1 ? 1 : 2));
+  snprintf(line, sizeof line,
+           "In this layout %s pair%s of edges cross or touch that do not in space: at these places "
+           "follow the arrows and numbers.",
+           number, plural(layout->crossings == 1 ? 1 : 2));
   return thr_svg_wrap(text, x, y, TEXT_SIZE, width, " fill=\"#A03000\"", line);
 }
 
-double thr_legend_heading(const thr_scene *scene, const char *title, double x, double y, double width, thr_text *text)
+double thr_legend_heading(const thr_scene *scene, const char *title, double x, double y,
+                          double width, thr_text *text)
 {
   char line[512], length[64], numbers[160];
   const thr_frame *frame = scene->frame;
@@ -96,25 +104,30 @@ double thr_legend_heading(const thr_scene *scene, const char *title, double x, d
   thr_svg_length(total, frame->units, length);
   y = thr_svg_wrap(text, x, y + TITLE_SIZE, TITLE_SIZE, width, " font-weight=\"bold\"", title);
   int feet = count_feet(frame);
-  snprintf(line, sizeof line, "%d %s, %d %s%s, %d %s; %d cord%s, %d pass%s, %s of cord.", thr_pieces_count(scene->plan),
-           thr_pieces_word(scene->plan, thr_pieces_count(scene->plan)), scene->solid ? frame->n_edges : frame->n_nodes,
-           scene->solid ? "interface" : "place", plural(scene->solid ? frame->n_edges : frame->n_nodes), feet,
-           feet == 1 ? "foot" : "feet", scene->plan->n_cords, plural(scene->plan->n_cords), scene->n_passes,
-           scene->n_passes == 1 ? "" : "es", length);
+  snprintf(line, sizeof line, "%d %s, %d %s%s, %d %s; %d cord%s, %d pass%s, %s of cord.",
+           thr_pieces_count(scene->plan),
+           thr_pieces_word(scene->plan, thr_pieces_count(scene->plan)),
+           scene->solid ? frame->n_edges : frame->n_nodes, scene->solid ? "interface" : "place",
+           plural(scene->solid ? frame->n_edges : frame->n_nodes), feet,
+           feet == 1 ? "foot" : "feet", scene->plan->n_cords, plural(scene->plan->n_cords),
+           scene->n_passes, scene->n_passes == 1 ? "" : "es", length);
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
   y = write_view(scene, x, y, width, text);
   if (scene->lines)
     return thr_svg_wrap(text, x, y, TEXT_SIZE, width, "",
-                        "So many passes are drawn as lines: pieces, numbers, arrows and names are left out. The step sheets and "
+                        "So many passes are drawn as lines: pieces, numbers, arrows and names are "
+                        "left out. The step sheets and "
                         "the viewer show them.");
   if (scene->number_step == 1)
-    snprintf(numbers, sizeof numbers, "Every pass%s is numbered", scene->copy ? " of a path to learn" : "");
+    snprintf(numbers, sizeof numbers, "Every pass%s is numbered",
+             scene->copy ? " of a path to learn" : "");
   else
-    snprintf(numbers, sizeof numbers, "Every %dth pass is numbered, and each %s's first and last", scene->number_step,
-             scene->copy ? "path" : "cord");
+    snprintf(numbers, sizeof numbers, "Every %dth pass is numbered, and each %s's first and last",
+             scene->number_step, scene->copy ? "path" : "cord");
   const char *pale = scene->copy ? " Pale and thin: copies of a path." : "";
   if (scene->dropped)
-    snprintf(line, sizeof line, "%s, except %d where there is no room.%s", numbers, scene->dropped, pale);
+    snprintf(line, sizeof line, "%s, except %d where there is no room.%s", numbers, scene->dropped,
+             pale);
   else
     snprintf(line, sizeof line, "%s.%s", numbers, pale);
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
@@ -123,26 +136,36 @@ double thr_legend_heading(const thr_scene *scene, const char *title, double x, d
                         scene->layout->node ? "Only places on the rims have names at this scale."
                                             : "Places have no names at this scale.");
   if (!scene->nameless) return y;
-  snprintf(line, sizeof line, "%d place%s no name for want of room.", scene->nameless, scene->nameless == 1 ? " has" : "s have");
+  snprintf(line, sizeof line, "%d place%s no name for want of room.", scene->nameless,
+           scene->nameless == 1 ? " has" : "s have");
   return thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
 }
 
 /* A round length whose bar is 20 to 50 mm on paper. */
-static double write_scale_bar(const thr_scene *scene, double x, double y, double width, thr_text *text)
+static double write_scale_bar(const thr_scene *scene, double x, double y, double width,
+                              thr_text *text)
 {
   char length[64], line[160];
   double most = 50 / scene->scale, unit = pow(10, floor(log10(most)));
-  double value = most >= 5 * unit ? 5 * unit : most >= 2 * unit ? 2 * unit : unit, bar = value * scene->scale;
-  if (scene->layout->kind == THR_LAYOUT_SPREAD || scene->layout->kind == THR_LAYOUT_DRAWN || !(bar > 1 && bar < 60)) return y;
-  thr_text_printf(text, "<g id=\"scale\"><path class=\"bar\" d=\"M%.2f %.2fv-2.00M%.2f %.2fh%.2fM%.2f %.2fv-2.00\"/>\n", x, y, x,
-                  y - 1, bar, x + bar, y);
+  double value = most >= 5 * unit   ? 5 * unit
+                 : most >= 2 * unit ? 2 * unit
+                                    : unit,
+         bar = value * scene->scale;
+  if (scene->layout->kind == THR_LAYOUT_SPREAD || scene->layout->kind == THR_LAYOUT_DRAWN ||
+      !(bar > 1 && bar < 60))
+    return y;
+  thr_text_printf(text,
+                  "<g id=\"scale\"><path class=\"bar\" d=\"M%.2f %.2fv-2.00M%.2f %.2fh%.2fM%.2f "
+                  "%.2fv-2.00\"/>\n",
+                  x, y, x, y - 1, bar, x + bar, y);
   if (value >= 1e6 || value < 1e-3)
     snprintf(length, sizeof length, "%.0e", value);
   else
     snprintf(length, sizeof length, "%.*f", value < 1 ? (int)ceil(-log10(value) - 1e-9) : 0, value);
   snprintf(line, sizeof line, "%s %.15s%s", length, scene->frame->units,
-           thr_layout_to_scale(scene->layout->kind) ? " of the framework, as seen here"
-                                                    : " of the framework, from the middle outwards");
+           thr_layout_to_scale(scene->layout->kind)
+               ? " of the framework, as seen here"
+               : " of the framework, from the middle outwards");
   y = thr_svg_wrap(text, x + bar + 3, y, TEXT_SIZE, width - bar - 3, "", line) - 1.45 * TEXT_SIZE;
   thr_text_append(text, "</g>\n");
   return y + ROW + 2;
@@ -168,26 +191,34 @@ static double write_key(const thr_scene *scene, double x, double y, thr_text *te
   x += 38;
   if (scene->solid)
     thr_text_printf(text,
-                    "<path class=\"piece\" d=\"M%.2f %.2fh1.60v1.70h1.70v1.60h-1.70v1.70h-1.60v-1.70h-1.70v-1.60h1.70z\"/>\n",
+                    "<path class=\"piece\" d=\"M%.2f "
+                    "%.2fh1.60v1.70h1.70v1.60h-1.70v1.70h-1.60v-1.70h-1.70v-1.60h1.70z\"/>\n",
                     x - 0.8, y - 2.5);
   else
-    thr_text_printf(text, "<rect class=\"piece\" x=\"%.2f\" y=\"%.2f\" width=\"9.00\" height=\"4.00\" rx=\"1.20\"/>\n", x - 4,
-                    y - 2);
-  thr_svg_text(text, x += scene->solid ? 4 : 7, line, TEXT_SIZE, "", thr_pieces_word(scene->plan, 1));
+    thr_text_printf(text,
+                    "<rect class=\"piece\" x=\"%.2f\" y=\"%.2f\" width=\"9.00\" height=\"4.00\" "
+                    "rx=\"1.20\"/>\n",
+                    x - 4, y - 2);
+  thr_svg_text(text, x += scene->solid ? 4 : 7, line, TEXT_SIZE, "",
+               thr_pieces_word(scene->plan, 1));
   if (!count_feet(scene->frame)) return y + ROW + 2;
-  thr_text_printf(text, "<rect class=\"foot\" x=\"%.2f\" y=\"%.2f\" width=\"4.00\" height=\"4.00\"/>\n", x + 14, y - 2);
+  thr_text_printf(text,
+                  "<rect class=\"foot\" x=\"%.2f\" y=\"%.2f\" width=\"4.00\" height=\"4.00\"/>\n",
+                  x + 14, y - 2);
   thr_svg_text(text, x + 20, line, TEXT_SIZE, "", "foot");
   return y + ROW + 2;
 }
 
-static void write_swatch(const thr_scene *scene, int c, const char *colour, double x, double y, thr_text *text)
+static void write_swatch(const thr_scene *scene, int c, const char *colour, double x, double y,
+                         thr_text *text)
 {
   char rim[8];
   bool rimmed = thr_scene_rim(scene, c, colour, rim);
   thr_text_printf(text, "<g class=\"swatch%s\" data-for=\"%s\" stroke=\"%s\" fill=\"%s\">",
                   thr_scene_is_copy(scene, c) ? " copy" : "", scene->id[c], colour, colour);
   if (rimmed) {
-    thr_text_printf(text, "<path class=\"rim\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"", rim, x, y, SWATCH - 3);
+    thr_text_printf(text, "<path class=\"rim\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"", rim, x, y,
+                    SWATCH - 3);
     thr_draw_dash(scene, thr_scene_dash(scene, c), text);
     thr_text_append(text, "/>");
   }
@@ -197,7 +228,8 @@ static void write_swatch(const thr_scene *scene, int c, const char *colour, doub
   if (scene->turning) {
     char straight[8];
     thr_turning_colour(0, straight);
-    thr_text_printf(text, "<path class=\"turn\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"/>", straight, x, y, SWATCH - 3);
+    thr_text_printf(text, "<path class=\"turn\" stroke=\"%s\" d=\"M%.2f %.2fh%.2f\"/>", straight, x,
+                    y, SWATCH - 3);
   }
   thr_text_append(text, "<path class=\"arrow\"");
   if (rimmed) thr_text_printf(text, " fill=\"%s\"", rim);
@@ -209,7 +241,8 @@ static void ranges_of_colour(const thr_scene *scene, int k, char line[320])
 {
   int period = THR_COLOURS * THR_COLOUR_PASSES, shown = 0, n = snprintf(line, 320, "passes ");
   for (int from = k * THR_COLOUR_PASSES + 1; from <= scene->n_passes; from += period) {
-    int to = from + THR_COLOUR_PASSES - 1 < scene->n_passes ? from + THR_COLOUR_PASSES - 1 : scene->n_passes;
+    int to = from + THR_COLOUR_PASSES - 1 < scene->n_passes ? from + THR_COLOUR_PASSES - 1
+                                                            : scene->n_passes;
     if (shown++ == 3) {
       n += snprintf(line + n, (size_t)(320 - n), ", and so on");
       break;
@@ -225,7 +258,8 @@ static int piece_at(const thr_scene *scene, int half)
   return scene->solid ? thr_head(scene->frame, half) : half >> 1;
 }
 
-/* "Cord A: 86 passes through 49 pieces, 2413 mm, from A3 to C1"; seen[piece] = c + 1 marks those met. */
+/* "Cord A: 86 passes through 49 pieces, 2413 mm, from A3 to C1"; seen[piece] = c + 1 marks those
+ * met. */
 static void describe_cord(const thr_scene *scene, int c, int *seen, char line[320])
 {
   const thr_cord *cord = &scene->plan->cord[c];
@@ -244,11 +278,13 @@ static void describe_cord(const thr_scene *scene, int c, int *seen, char line[32
     snprintf(where, sizeof where, "from %s and back to it", from);
   else
     snprintf(where, sizeof where, "from %s to %s", from, to);
-  snprintf(line, 320, "Cord %s: %d pass%s through %d %s, %s, %s", scene->id[c], cord->n_passes, cord->n_passes == 1 ? "" : "es",
-           pieces, thr_pieces_word(scene->plan, pieces), length, where);
+  snprintf(line, 320, "Cord %s: %d pass%s through %d %s, %s, %s", scene->id[c], cord->n_passes,
+           cord->n_passes == 1 ? "" : "es", pieces, thr_pieces_word(scene->plan, pieces), length,
+           where);
 }
 
-/* "1200 DEG of turning, sharpest turn 120 DEG, 14 over 60 DEG, 3 over 90 DEG": of the cords from first to before end. */
+/* "1200 DEG of turning, sharpest turn 120 DEG, 14 over 60 DEG, 3 over 90 DEG": of the cords from
+ * first to before end. */
 static void describe_turning(const thr_scene *scene, int first, int end, char line[160])
 {
   double sum = 0, sharpest = 0;
@@ -260,7 +296,9 @@ static void describe_turning(const thr_scene *scene, int first, int end, char li
     over_60 += thr_turn_over(angle, THR_SCENE_SHARP * 2 / 3);
     over_90 += thr_turn_over(angle, THR_SCENE_SHARP);
   }
-  snprintf(line, 160, "%.0f" DEGREE " of turning, sharpest turn %.10g" DEGREE ", %d over 60" DEGREE ", %d over 90" DEGREE,
+  snprintf(line, 160,
+           "%.0f" DEGREE " of turning, sharpest turn %.10g" DEGREE ", %d over 60" DEGREE
+           ", %d over 90" DEGREE,
            degrees(sum), round(10 * degrees(sharpest)) / 10, over_60, over_90);
 }
 
@@ -278,7 +316,8 @@ typedef struct {
 static double ramp_part(const ramp *r, double value)
 {
   if (!(r->high > r->low)) return 0.5;
-  return r->logarithmic ? log(value / r->low) / log(r->high / r->low) : (value - r->low) / (r->high - r->low);
+  return r->logarithmic ? log(value / r->low) / log(r->high / r->low)
+                        : (value - r->low) / (r->high - r->low);
 }
 
 static double ramp_value(const ramp *r, double part)
@@ -294,8 +333,9 @@ static double write_ramp(const thr_scene *scene, const ramp *r, double x, double
   thr_text_printf(text, "<g id=\"%s\" shape-rendering=\"crispEdges\">\n", r->id);
   for (int i = 0; i < STEPS; i++) {
     r->colour(scene, ramp_value(r, (i + 0.5) / STEPS), hex);
-    thr_text_printf(text, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\"/>\n", x + RAMP / STEPS * i, y,
-                    RAMP / STEPS, high, hex);
+    thr_text_printf(text,
+                    "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\"/>\n",
+                    x + RAMP / STEPS * i, y, RAMP / STEPS, high, hex);
   }
   thr_text_append(text, "</g>\n");
   for (int i = 0; i < r->n_ticks; i++) {
@@ -319,7 +359,8 @@ static void colour_of_turn(const thr_scene *scene, double degrees_turned, char h
 }
 
 /* The scale of the colours of tension, with its method in words. */
-static double write_tension_scale(const thr_scene *scene, double x, double y, double width, thr_text *text)
+static double write_tension_scale(const thr_scene *scene, double x, double y, double width,
+                                  thr_text *text)
 {
   char line[320];
   const double *range = scene->tension_range;
@@ -327,8 +368,10 @@ static double write_tension_scale(const thr_scene *scene, double x, double y, do
   r.logarithmic = range[0] > 0 && range[1] > range[0];
   if (!r.logarithmic) r.high = r.low;
   r.n_ticks = thr_svg_ticks(range[0], range[1], r.logarithmic, MOST_TICKS, r.tick);
-  snprintf(line, sizeof line, "Colour: tension in newton, on a logarithmic scale, by method %s (%s); mu = %g.",
-           thr_method_name(scene->tension->method), thr_tension_method_words(scene->tension), scene->tension->physics.mu);
+  snprintf(line, sizeof line,
+           "Colour: tension in newton, on a logarithmic scale, by method %s (%s); mu = %g.",
+           thr_method_name(scene->tension->method), thr_tension_method_words(scene->tension),
+           scene->tension->physics.mu);
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
   return write_ramp(scene, &r, x, y - 0.5 * TEXT_SIZE, text);
 }
@@ -348,7 +391,8 @@ static void write_sharp_key(const thr_scene *scene, double x, double y, thr_text
 }
 
 /* The scale of the colours of turns, below the sum over all cords. */
-static double write_turning_scale(const thr_scene *scene, double x, double y, double width, thr_text *text)
+static double write_turning_scale(const thr_scene *scene, double x, double y, double width,
+                                  thr_text *text)
 {
   char line[200], sum[160];
   ramp r = {.id = "turning-scale", .high = 180, .colour = colour_of_turn};
@@ -361,7 +405,8 @@ static double write_turning_scale(const thr_scene *scene, double x, double y, do
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line);
   snprintf(line, sizeof line, "Colour: turn %s, in degrees (0 = straight); %s.",
            scene->solid ? "in a piece" : "between two tubes",
-           scene->plan->options.ends == THR_ENDS_CLOSED ? "ends: closing turn" : "ends do not turn");
+           scene->plan->options.ends == THR_ENDS_CLOSED ? "ends: closing turn"
+                                                        : "ends do not turn");
   y = thr_svg_wrap(text, x, y, TEXT_SIZE, width, "", line) - 0.5 * TEXT_SIZE;
   write_sharp_key(scene, x + RAMP + 8, y + 2, text);
   return write_ramp(scene, &r, x, y, text);
@@ -378,18 +423,21 @@ static void describe_copy(const thr_scene *scene, int c, char line[320])
            scene->frame->foot && scene->frame->foot[start] ? "foot " : "", from, words);
 }
 
-/* A row of the legend: of a cord, or of a colour of the only cord, or of the copies of a cord that have no row. */
+/* A row of the legend: of a cord, or of a colour of the only cord, or of the copies of a cord that
+ * have no row. */
 typedef struct {
   int cord;
   int more; /* so many copies, or 0 */
 } row;
 
-/* One row per cord, each unique path followed by its copies; of too many copies the first; or one per colour. Returns how many.
+/* One row per cord, each unique path followed by its copies; of too many copies the first; or one
+ * per colour. Returns how many.
  */
 static int list_rows(const thr_scene *scene, row *rows)
 {
   enum { MOST_COPIES = 48, FEWEST = 2 };
-  int n = 0, cords = scene->plan->n_cords, colours = (scene->n_passes + THR_COLOUR_PASSES - 1) / THR_COLOUR_PASSES;
+  int n = 0, cords = scene->plan->n_cords,
+      colours = (scene->n_passes + THR_COLOUR_PASSES - 1) / THR_COLOUR_PASSES;
   int most = scene->copy ? MOST_COPIES / thr_copies_paths(scene->copy, cords) : 0;
   if (most < FEWEST) most = FEWEST;
   if (cords == 1 && colours > THR_COLOURS) colours = THR_COLOURS;
@@ -397,7 +445,9 @@ static int list_rows(const thr_scene *scene, row *rows)
     if (thr_scene_is_copy(scene, i)) continue;
     rows[n++] = (row){i, 0};
     int copies = scene->copy ? thr_copies_count(scene->copy, cords, i) : 0, shown = 0;
-    int rows_left = copies == most + 1 ? copies : most; /* a row that says "1 more" may as well be that copy's */
+    int rows_left = copies == most + 1
+                        ? copies
+                        : most; /* a row that says "1 more" may as well be that copy's */
     for (int c = 0; c < cords && shown < copies && shown < rows_left; c++) {
       if (c == i || scene->copy[c].of != i) continue;
       rows[n++] = (row){c, 0};
@@ -413,7 +463,8 @@ static void describe_row(const thr_scene *scene, row r, int *seen, char line[320
   if (scene->plan->n_cords == 1)
     ranges_of_colour(scene, r.cord, line);
   else if (r.more)
-    snprintf(line, 320, "and %d more cop%s of %s", r.more, r.more == 1 ? "y" : "ies", scene->id[r.cord]);
+    snprintf(line, 320, "and %d more cop%s of %s", r.more, r.more == 1 ? "y" : "ies",
+             scene->id[r.cord]);
   else if (thr_scene_is_copy(scene, r.cord))
     describe_copy(scene, r.cord, line);
   else
@@ -427,9 +478,10 @@ static const char *row_colour(const thr_scene *scene, int c)
   return scene->plan->n_cords == 1 ? thr_palette(c).hex : thr_scene_cord_colour(scene, c);
 }
 
-/* The rows of the legend in columns that fit the width; cords whose turning is shown have a second line. */
-static double write_rows(const thr_scene *scene, const row *rows, int n, double x, double y, double width, int *seen,
-                         thr_text *text)
+/* The rows of the legend in columns that fit the width; cords whose turning is shown have a second
+ * line. */
+static double write_rows(const thr_scene *scene, const row *rows, int n, double x, double y,
+                         double width, int *seen, thr_text *text)
 {
   char line[320], turning[160] = "";
   bool single = scene->plan->n_cords == 1;
@@ -450,7 +502,8 @@ static double write_rows(const thr_scene *scene, const row *rows, int n, double 
     double left = x + at * column;
     if (i % down == 0) base = y;
     describe_row(scene, rows[i], seen, line);
-    if (!rows[i].more) write_swatch(scene, single ? 0 : c, row_colour(scene, c), left, base - 1.1, text);
+    if (!rows[i].more)
+      write_swatch(scene, single ? 0 : c, row_colour(scene, c), left, base - 1.1, text);
     base = thr_svg_wrap(text, left + SWATCH, base, TEXT_SIZE, room, "", line);
     if (scene->turning) {
       describe_turning(scene, c, c + 1, turning);
@@ -462,11 +515,13 @@ static double write_rows(const thr_scene *scene, const row *rows, int n, double 
   return bottom;
 }
 
-thr_status thr_legend_foot(const thr_scene *scene, double x, double y, double width, thr_text *text, double *bottom, thr_err *err)
+thr_status thr_legend_foot(const thr_scene *scene, double x, double y, double width, thr_text *text,
+                           double *bottom, thr_err *err)
 {
   char line[320];
   *bottom = y;
-  int *seen = thr_calloc((size_t)thr_pieces_count(scene->plan), sizeof *seen), most = 2 * scene->plan->n_cords + THR_COLOURS;
+  int *seen = thr_calloc((size_t)thr_pieces_count(scene->plan), sizeof *seen),
+      most = 2 * scene->plan->n_cords + THR_COLOURS;
   row *rows = thr_calloc((size_t)most, sizeof *rows);
   thr_status st = seen && rows ? THR_OK : thr_nomem(err);
   if (st) goto done;

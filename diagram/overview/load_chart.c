@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The picture of what a structure carries: load against pull. `thread eval --load .. --plot`. */
 #include "diagram/overview/charts.h"
 
@@ -7,9 +8,11 @@
 #include <stdio.h>
 
 /* mm */
-static const double MARGIN = THR_CHART_MARGIN, TEXT_SIZE = THR_CHART_TEXT, SMALL = THR_CHART_SMALL, MARK = THR_CHART_MARK;
+static const double MARGIN = THR_CHART_MARGIN, TEXT_SIZE = THR_CHART_TEXT, SMALL = THR_CHART_SMALL,
+                    MARK = THR_CHART_MARK;
 static const double ACROSS = 190, LEFT = 22, RIGHT = 12, INSIDE = 8, PLOT = 70, ROW = 4.4;
-static const double COLUMN[] = {28, 62, 96, 102}; /* ends of numbers, and where the last words begin */
+static const double COLUMN[] = {28, 62, 96,
+                                102}; /* ends of numbers, and where the last words begin */
 enum { MOST_TICKS = 8, N_COLUMNS = 3 };
 
 typedef struct {
@@ -54,9 +57,10 @@ static void write_axes(const picture *p, thr_text *text)
     thr_svg_text(text, x, y + 1.6 + SMALL, SMALL, " class=\"middle\"", words);
     taken = x + half;
   }
-  thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fv%.2fh%.2f\"/>\n", p->x, p->y, p->height, p->width);
-  thr_svg_text(text, p->x + p->width / 2, p->y + p->height + 5.5 + TEXT_SIZE, TEXT_SIZE, " class=\"middle\"",
-               "pull at all ends (log scale)");
+  thr_text_printf(text, "<path class=\"axis\" d=\"M%.2f %.2fv%.2fh%.2f\"/>\n", p->x, p->y,
+                  p->height, p->width);
+  thr_svg_text(text, p->x + p->width / 2, p->y + p->height + 5.5 + TEXT_SIZE, TEXT_SIZE,
+               " class=\"middle\"", "pull at all ends (log scale)");
 }
 
 /* From what is carried to what is too much. */
@@ -84,7 +88,8 @@ static void write_band(const picture *p, thr_text *text)
   thr_text_append(text, "\"/>\n");
 }
 
-/* With the piece that goes first above what is too much, where there is room beside the name before. */
+/* With the piece that goes first above what is too much, where there is room beside the name
+ * before. */
 static void write_points(const picture *p, thr_text *text)
 {
   double taken = -INFINITY;
@@ -93,19 +98,22 @@ static void write_points(const picture *p, thr_text *text)
     const thr_load_mark *mark = &p->chart->mark[i];
     if (!mark->decided) continue;
     const double x = place_x(p, mark->pull);
-    thr_text_printf(text, "<circle id=\"point-%d\" class=\"point\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", i + 1, x,
-                    place_y(p, mark->carried), MARK);
+    thr_text_printf(
+        text, "<circle id=\"point-%d\" class=\"point\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n",
+        i + 1, x, place_y(p, mark->carried), MARK);
     snprintf(words, sizeof words, "%.40s", mark->first);
     const double half = 0.33 * SMALL * thr_text_columns(words, sizeof words) + 0.5;
     if (x - half < taken) continue;
-    thr_svg_text(text, x, place_y(p, mark->beyond) - MARK - 1, SMALL, " class=\"middle halo\"", words);
+    thr_svg_text(text, x, place_y(p, mark->beyond) - MARK - 1, SMALL, " class=\"middle halo\"",
+                 words);
     taken = x + half;
   }
 }
 
 /* ---- table ---- */
 
-static void write_cells(double y, const char *const cell[N_COLUMNS], const char *last, thr_text *text)
+static void write_cells(double y, const char *const cell[N_COLUMNS], const char *last,
+                        thr_text *text)
 {
   for (int i = 0; i < N_COLUMNS; i++)
     thr_svg_text(text, MARGIN + COLUMN[i], y, SMALL, " class=\"end\"", cell[i]);
@@ -123,8 +131,10 @@ static double write_table(const picture *p, double y, thr_text *text)
     snprintf(carried, sizeof carried, "%.4g x", mark->carried);
     snprintf(beyond, sizeof beyond, "%.4g x", mark->beyond);
     snprintf(first, sizeof first, "%.60s", mark->decided ? mark->first : "not decided");
-    write_cells(y += ROW, (const char *const[N_COLUMNS]){pull, mark->decided ? carried : "", mark->decided ? beyond : ""}, first,
-                text);
+    write_cells(y += ROW,
+                (const char *const[N_COLUMNS]){pull, mark->decided ? carried : "",
+                                               mark->decided ? beyond : ""},
+                first, text);
   }
   return y + ROW;
 }
@@ -138,12 +148,13 @@ static double write_heading(const picture *p, thr_text *text)
   double y = MARGIN + THR_CHART_TITLE;
   thr_svg_text(text, MARGIN, y, THR_CHART_TITLE, " font-weight=\"bold\"", "What it carries");
   y = thr_svg_wrap(text, MARGIN, y + 6.5, THR_CHART_NAME, ACROSS, "", p->chart->load);
-  snprintf(
-      line, sizeof line,
-      "So many times this load, at equal pulls of all ends while the cords are drawn in (limit analysis of rigid pieces; mu = "
-      "%g, piece on piece %g, foot on ground %g). Line: an equilibrium exists. Upper edge of the band: above it none does "
-      "(proved); the piece named there moves first.",
-      physics->mu, physics->mu_bead, physics->mu_ground);
+  snprintf(line, sizeof line,
+           "So many times this load, at equal pulls of all ends while the cords are drawn in "
+           "(limit analysis of rigid pieces; mu = "
+           "%g, piece on piece %g, foot on ground %g). Line: an equilibrium exists. Upper edge of "
+           "the band: above it none does "
+           "(proved); the piece named there moves first.",
+           physics->mu, physics->mu_bead, physics->mu_ground);
   return thr_svg_wrap(text, MARGIN, y - 0.5, TEXT_SIZE, ACROSS, " class=\"quiet\"", line) + 2;
 }
 
@@ -157,7 +168,8 @@ thr_status thr_load_svg(const thr_load_chart *chart, thr_text *svg, thr_err *err
     decided++;
     p.most = fmax(p.most, 1.1 * chart->mark[i].beyond);
   }
-  if (decided == 0) return thr_fail(err, THR_EINPUT, "nothing to plot: at no pull is it decided what is carried");
+  if (decided == 0)
+    return thr_fail(err, THR_EINPUT, "nothing to plot: at no pull is it decided what is carried");
   if (!(p.most > 0)) p.most = 1;
   p.x = MARGIN + LEFT;
   p.y = write_heading(&p, &body);
@@ -167,8 +179,8 @@ thr_status thr_load_svg(const thr_load_chart *chart, thr_text *svg, thr_err *err
   write_band(&p, &body);
   write_points(&p, &body);
   const double bottom = write_table(&p, p.y + PLOT + 18, &body);
-  thr_status st = thr_pull_sheet(&body, ACROSS + 2 * MARGIN, bottom + MARGIN - ROW, "What it carries",
-                                 "Load that is carried against pull.", svg, err);
+  thr_status st = thr_pull_sheet(&body, ACROSS + 2 * MARGIN, bottom + MARGIN - ROW,
+                                 "What it carries", "Load that is carried against pull.", svg, err);
   thr_text_destroy(&body);
   return st;
 }

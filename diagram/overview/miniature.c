@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A plan as small as a stamp: its cords alone, without names and numbers. Private to diagram/. */
 #include "diagram/overview/overview_parts.h"
 
@@ -24,7 +25,8 @@ static void write_beads(const small *m, thr_text *text)
 {
   const thr_scene *scene = m->scene;
   double at[2];
-  thr_text_printf(text, "<path stroke=\"#E4E4E0\" stroke-width=\"%.2f\" d=\"", fmax(THICK, m->scale * scene->size.bead));
+  thr_text_printf(text, "<path stroke=\"#E4E4E0\" stroke-width=\"%.2f\" d=\"",
+                  fmax(THICK, m->scale * scene->size.bead));
   for (int e = 0; e < scene->paper->n_edges; e++) {
     place(m, scene->at[scene->paper->edge[e][0]], at);
     thr_svg_move(text, at);
@@ -61,9 +63,11 @@ static void write_cord(const small *m, int c, thr_text *text)
     bool meets = i > scene->first_pass[c] && scene->pass[i].seam < 0;
     thr_scene_colour(scene, i, colour);
     if (strcmp(colour, before) != 0) {
-      thr_text_printf(text, "%s<path stroke=\"%s\" stroke-width=\"%.2f\"", *before ? "\"/>\n" : "", colour, width);
+      thr_text_printf(text, "%s<path stroke=\"%s\" stroke-width=\"%.2f\"", *before ? "\"/>\n" : "",
+                      colour, width);
       for (int k = 0; dash && dash[k] > 0; k++)
-        thr_text_printf(text, "%s%.2f%s", k ? " " : " stroke-dasharray=\"", dash[k] * width, dash[k + 1] > 0 ? "" : "\"");
+        thr_text_printf(text, "%s%.2f%s", k ? " " : " stroke-dasharray=\"", dash[k] * width,
+                        dash[k + 1] > 0 ? "" : "\"");
       thr_text_append(text, " d=\"");
       if (meets) { /* the turn is of the new colour */
         double at[2];
@@ -90,8 +94,8 @@ void thr_miniature_draw(const thr_scene *scene, thr_text *text)
   thr_text_append(text, "</g>\n");
 }
 
-thr_status thr_miniature_put(const thr_plan *plan, const thr_layout *layout, double x, double y, double side, thr_text *text,
-                             thr_err *err)
+thr_status thr_miniature_put(const thr_plan *plan, const thr_layout *layout, double x, double y,
+                             double side, thr_text *text, thr_err *err)
 {
   thr_scene scene = {0};
   thr_status st = thr_scene_build(&scene, plan, layout, PITCH, false, err);

@@ -1,4 +1,6 @@
-/* The overview page: one SVG picture of all cords of a plan, to be followed with a finger from start to end. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The overview page: one SVG picture of all cords of a plan, to be followed with a finger from
+ * start to end. */
 #include "diagram/overview/overview.h"
 
 #include "diagram/overview/overview_parts.h"
@@ -6,11 +8,13 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double MARGIN = 10, PLACE_ROOM = 9; /* mm around the sheet; for the letters and numbers of places */
+static const double MARGIN = 10,
+                    PLACE_ROOM = 9; /* mm around the sheet; for the letters and numbers of places */
 
 thr_overview_options thr_overview_options_default(void)
 {
-  return (thr_overview_options){.title = NULL, .pitch_mm = 0, .layout = NULL, .colour = THR_COLOUR_CORD, .motion = NULL};
+  return (thr_overview_options){
+      .title = NULL, .pitch_mm = 0, .layout = NULL, .colour = THR_COLOUR_CORD, .motion = NULL};
 }
 
 const char *thr_overview_colour_name(int c)
@@ -20,26 +24,31 @@ const char *thr_overview_colour_name(int c)
 }
 
 /* Puts heading, drawing and legend below each other and the whole into svg. */
-static thr_status write_sheet(const thr_scene *scene, const char *given, thr_text *svg, thr_err *err)
+static thr_status write_sheet(const thr_scene *scene, const char *given, thr_text *svg,
+                              thr_err *err)
 {
   thr_text body = {0};
   char title[160], description[512];
-  double room = scene->places.n_columns ? PLACE_ROOM : 0, other = thr_draw_grid_both(scene) ? PLACE_ROOM : 0, bottom;
-  double drawn = scene->extent.x1 - scene->extent.x0 + room + other, width = fmax(drawn, THR_LEGEND_WIDTH);
+  double room = scene->places.n_columns ? PLACE_ROOM : 0,
+         other = thr_draw_grid_both(scene) ? PLACE_ROOM : 0, bottom;
+  double drawn = scene->extent.x1 - scene->extent.x0 + room + other,
+         width = fmax(drawn, THR_LEGEND_WIDTH);
   thr_legend_title(scene, given, title);
   double y = thr_legend_heading(scene, title, MARGIN, MARGIN, width, &body);
   y += other;
   thr_text_printf(&body, "<g id=\"drawing\" transform=\"translate(%.2f %.2f)\">\n",
-                  thr_svg_round(MARGIN + 0.5 * (width - drawn) + room - scene->extent.x0), thr_svg_round(y - scene->extent.y0));
+                  thr_svg_round(MARGIN + 0.5 * (width - drawn) + room - scene->extent.x0),
+                  thr_svg_round(y - scene->extent.y0));
   thr_draw_scene(scene, &(thr_draw_style){0}, &scene->extent, &body);
   thr_text_append(&body, "</g>\n");
   y += scene->extent.y1 - scene->extent.y0 + room;
   thr_status st = thr_legend_foot(scene, MARGIN, y + 2, width, &body, &bottom, err);
   if (st) goto done;
   double w = width + 2 * MARGIN, h = bottom + MARGIN;
-  snprintf(description, sizeof description,
-           "Overview of a threading plan. Each group cord-ID holds the passes of a cord in order. %s",
-           thr_layout_words(scene->layout->kind));
+  snprintf(
+      description, sizeof description,
+      "Overview of a threading plan. Each group cord-ID holds the passes of a cord in order. %s",
+      thr_layout_words(scene->layout->kind));
   thr_svg_open(svg, w, h, title, description);
   thr_draw_css(scene, "thread", svg);
   thr_text_printf(svg, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", w, h);
@@ -51,16 +60,19 @@ done:
   return st;
 }
 
-thr_status thr_overview_svg(const thr_plan *plan, const thr_overview_options *options, thr_text *svg, thr_err *err)
+thr_status thr_overview_svg(const thr_plan *plan, const thr_overview_options *options,
+                            thr_text *svg, thr_err *err)
 {
   thr_layout own = {0};
   thr_scene scene = {0};
   thr_text out = {0};
   thr_status st = THR_OK;
   if (options->pitch_mm != 0 && !(options->pitch_mm >= 2 && options->pitch_mm <= 200))
-    return thr_fail(err, THR_EINPUT, "a pitch of %g mm: choose 2 to 200, or 0 for automatic", options->pitch_mm);
+    return thr_fail(err, THR_EINPUT, "a pitch of %g mm: choose 2 to 200, or 0 for automatic",
+                    options->pitch_mm);
   if (options->layout && options->layout->n_nodes != plan->frame.n_nodes)
-    return thr_fail(err, THR_EINPUT, "the layout has %d nodes, the framework %d", options->layout->n_nodes, plan->frame.n_nodes);
+    return thr_fail(err, THR_EINPUT, "the layout has %d nodes, the framework %d",
+                    options->layout->n_nodes, plan->frame.n_nodes);
   if (!plan->n_cords) return thr_fail(err, THR_EINPUT, "the plan has no cord to draw");
   if (options->colour == THR_COLOUR_TENSION && (st = thr_tension_usable(plan, err))) return st;
   if (!options->layout) st = thr_layout_choose(&own, &plan->frame, NULL, 0, err);

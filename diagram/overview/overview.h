@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pictures of whole plans: overview, steps, poster, stills, tension. */
 #ifndef THR_OVERVIEW_H
 #define THR_OVERVIEW_H
@@ -11,71 +12,88 @@
 #include "graph/status.h"
 #include "graph/text.h"
 
-/* ---- overview.c: The overview page: one SVG picture of all cords of a plan, to be followed with a finger from start to end. */
+/* ---- overview.c: The overview page: one SVG picture of all cords of a plan, to be followed with a
+ * finger from start to end. */
 
-typedef enum { THR_COLOUR_CORD, THR_COLOUR_TENSION, THR_COLOUR_TURNING, THR_N_COLOURS } thr_overview_colour;
+typedef enum {
+  THR_COLOUR_CORD,
+  THR_COLOUR_TENSION,
+  THR_COLOUR_TURNING,
+  THR_N_COLOURS
+} thr_overview_colour;
 
 const char *thr_overview_colour_name(int c); /* "cord", "tension", "turning" */
 
 typedef struct {
-  const char *title;          /* NULL or "": "Cord A: 49 pieces, 86 passes"; borrowed */
-  double pitch_mm;            /* mm on paper for the median edge, 2 .. 200; 0 = automatic: 24 if the sheet stays within A0 */
+  const char *title; /* NULL or "": "Cord A: 49 pieces, 86 passes"; borrowed */
+  double pitch_mm;   /* mm on paper for the median edge, 2 .. 200; 0 = automatic: 24 if the sheet
+                        stays within A0 */
   const thr_layout *layout;   /* NULL: thr_layout_choose; borrowed */
   thr_overview_colour colour; /* what colours tell apart; tension needs the plan's evaluation */
-  const char *const *motion;  /* [n_cords] what moves a unique path to a copy: "turned by 90 degrees", or NULL if no motion in
-                                 space does; NULL: not said; borrowed */
+  const char *const
+      *motion; /* [n_cords] what moves a unique path to a copy: "turned by 90 degrees", or NULL if
+                  no motion in space does; NULL: not said; borrowed */
 } thr_overview_options;
 
 thr_overview_options thr_overview_options_default(void);
 
-/* Appends the picture to svg. Its size is physical (mm); no text is under 7 pt. Elements: <g id="cord-A"> holds the
- * passes, <g id="A-17"> is pass 17 (counted from 1), "piece-12" is node 12 (counted from 0; with tube joints edge 12) with
- * its name in data-piece, "n-A-17" a pass's number.
- * Of more than 20,000 passes these elements are left out, which the heading says, but those of the cords, whose passes are lines;
- * not where turning is shown, which needs each of them.
- * A cord's id is used if it is capital letters only, else the id that its index would have. With turning shown, a pass holds the
- * halves of the turns before and after it as <path class="turn">: the curve with the half lane that follows, and the other half
- * lane; "t-A-17" marks a turn of more than 90 degrees to pass 17. Turns that do not count (graph/plan/plan.h) have no colour.
- * Where colours tell the cords apart, copies of a symmetric plan's unique paths are class="copy": pale, thin, without numbers and
- * with few arrows; the legend says how they repeat their path. The same plan and options give the same bytes. THR_EINPUT with the
- * cord and pass for cords that name edges out of range or whose passes do not meet, for a pitch or layout that does not fit, and
- * for colours of tension without an evaluation. O(n log n + pairs of cords that share an edge). svg is unchanged on failure. */
-thr_status thr_overview_svg(const thr_plan *plan, const thr_overview_options *options, thr_text *svg,
-                            thr_err *err) THR_MUST_CHECK;
-
-/* ---- steps.c: The steps of a plan in words, row by row to be ticked off: each unique path once, then how its copies repeat
- * it. */
-
-/* Appends UTF-8 text of at most 100 columns. Places are called as in the overview. A path is a heading, a line "start at PLACE",
- * a row for every piece that the needle comes to, as thr_pieces_say has it, [ ]  S  start, pick up L-1 (A7): out to A6 [ ]  4
- * pick up X-10 (B5): in from A5, out to C5 [ ]  8  through F5, on cord A since its row 3: in from E5, out to G5 numbered as the
- * passes are that lead into them; and a line "the needle comes out at PLACE". Long rows go on in indented lines. Copies are a row
- * each, "Cord B: the same, ..", or listed in full if no motion in space makes them. motion: as in thr_overview_options;
- * tolerance: as in thr_pieces_make; layout: as in thr_guide_make. The same plan gives the same bytes. needles: as in
- * thr_pieces_parts; of a cord that is threaded from its fold the rows of the right needle come first, then, after a line, those
- * of the left one. THR_EINPUT for a plan without cords and for cords that do not fit the framework. O(n log n). out is unchanged
+/* Appends the picture to svg. Its size is physical (mm); no text is under 7 pt. Elements: <g
+ * id="cord-A"> holds the passes, <g id="A-17"> is pass 17 (counted from 1), "piece-12" is node 12
+ * (counted from 0; with tube joints edge 12) with its name in data-piece, "n-A-17" a pass's number.
+ * Of more than 20,000 passes these elements are left out, which the heading says, but those of the
+ * cords, whose passes are lines; not where turning is shown, which needs each of them. A cord's id
+ * is used if it is capital letters only, else the id that its index would have. With turning shown,
+ * a pass holds the halves of the turns before and after it as <path class="turn">: the curve with
+ * the half lane that follows, and the other half lane; "t-A-17" marks a turn of more than 90
+ * degrees to pass 17. Turns that do not count (graph/plan/plan.h) have no colour. Where colours
+ * tell the cords apart, copies of a symmetric plan's unique paths are class="copy": pale, thin,
+ * without numbers and with few arrows; the legend says how they repeat their path. The same plan
+ * and options give the same bytes. THR_EINPUT with the cord and pass for cords that name edges out
+ * of range or whose passes do not meet, for a pitch or layout that does not fit, and for colours of
+ * tension without an evaluation. O(n log n + pairs of cords that share an edge). svg is unchanged
  * on failure. */
-thr_status thr_steps_text(const thr_plan *plan, const char *const *motion, double tolerance, int needles,
-                          const thr_layout *layout, thr_text *out, thr_err *err) THR_MUST_CHECK;
+thr_status thr_overview_svg(const thr_plan *plan, const thr_overview_options *options,
+                            thr_text *svg, thr_err *err) THR_MUST_CHECK;
 
-/* ---- poster.c: The overview over several sheets of paper, to be glued together: a poster for the wall behind the table. */
+/* ---- steps.c: The steps of a plan in words, row by row to be ticked off: each unique path once,
+ * then how its copies repeat it. */
+
+/* Appends UTF-8 text of at most 100 columns. Places are called as in the overview. A path is a
+ * heading, a line "start at PLACE", a row for every piece that the needle comes to, as
+ * thr_pieces_say has it, [ ]  S  start, pick up L-1 (A7): out to A6 [ ]  4 pick up X-10 (B5): in
+ * from A5, out to C5 [ ]  8  through F5, on cord A since its row 3: in from E5, out to G5 numbered
+ * as the passes are that lead into them; and a line "the needle comes out at PLACE". Long rows go
+ * on in indented lines. Copies are a row each, "Cord B: the same, ..", or listed in full if no
+ * motion in space makes them. motion: as in thr_overview_options; tolerance: as in thr_pieces_make;
+ * layout: as in thr_guide_make. The same plan gives the same bytes. needles: as in
+ * thr_pieces_parts; of a cord that is threaded from its fold the rows of the right needle come
+ * first, then, after a line, those of the left one. THR_EINPUT for a plan without cords and for
+ * cords that do not fit the framework. O(n log n). out is unchanged on failure. */
+thr_status thr_steps_text(const thr_plan *plan, const char *const *motion, double tolerance,
+                          int needles, const thr_layout *layout, thr_text *out,
+                          thr_err *err) THR_MUST_CHECK;
+
+/* ---- poster.c: The overview over several sheets of paper, to be glued together: a poster for the
+ * wall behind the table. */
 
 enum { THR_POSTER_PAGES = 100 };
 
-/* Appends a PDF of pages that show the picture in its own size, row by row, each with a strip that the next ones are glued on.
- * overview: of thr_overview_svg. *n receives the number of pages. THR_EINPUT: more than THR_POSTER_PAGES of them. pdf is
- * unchanged on failure. O(pages x bytes). */
-thr_status thr_poster_pdf(const thr_text *overview, thr_page_size page, const thr_limits *limits, int *n, thr_text *pdf,
-                          thr_err *err) THR_MUST_CHECK;
+/* Appends a PDF of pages that show the picture in its own size, row by row, each with a strip that
+ * the next ones are glued on. overview: of thr_overview_svg. *n receives the number of pages.
+ * THR_EINPUT: more than THR_POSTER_PAGES of them. pdf is unchanged on failure. O(pages x bytes). */
+thr_status thr_poster_pdf(const thr_text *overview, thr_page_size page, const thr_limits *limits,
+                          int *n, thr_text *pdf, thr_err *err) THR_MUST_CHECK;
 
-/* ---- still.c: Still pictures: rigid beads before and after something gave way, or as they come up, side by side. */
+/* ---- still.c: Still pictures: rigid beads before and after something gave way, or as they come
+ * up, side by side. */
 
-/* Beads are a node's arms of square section to the middles of its edges, one side as level as the edge allows. Lengths in units
- * of the framework; everything is borrowed. */
+/* Beads are a node's arms of square section to the middles of its edges, one side as level as the
+ * edge allows. Lengths in units of the framework; everything is borrowed. */
 typedef struct {
   const char *id;          /* of the panel's element */
   const char *caption;     /* below it */
-  const double (*pose)[7]; /* [n_nodes] where the node is and how its bead is turned: position, quaternion (x y z w) */
+  const double (*pose)[7]; /* [n_nodes] where the node is and how its bead is turned: position,
+                              quaternion (x y z w) */
 } thr_still_panel;
 
 typedef struct {
@@ -88,18 +106,21 @@ typedef struct {
   int first_bead; /* in another colour; -1 = none */
 } thr_still;
 
-/* Appends the picture to svg: all panels seen from one side, to one scale, faces shaded and drawn back to front; ends of arms
- * are pale, so that gaps show. What has gone far away from the first panel is cut off at the edge. The same input gives the same
- * bytes. THR_EINPUT for poses that are not finite, a width <= 0 or a bead out of range. O(n log n). svg is unchanged on failure.
+/* Appends the picture to svg: all panels seen from one side, to one scale, faces shaded and drawn
+ * back to front; ends of arms are pale, so that gaps show. What has gone far away from the first
+ * panel is cut off at the edge. The same input gives the same bytes. THR_EINPUT for poses that are
+ * not finite, a width <= 0 or a bead out of range. O(n log n). svg is unchanged on failure.
  */
-thr_status thr_still_svg(const thr_frame *frame, const thr_still *still, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+thr_status thr_still_svg(const thr_frame *frame, const thr_still *still, thr_text *svg,
+                         thr_err *err) THR_MUST_CHECK;
 
 /* ---- tension.c: The tension plot: how the pull dies away along every cord. */
 
 typedef struct {
   const char *title; /* NULL or "": "Tension along 3 cords"; borrowed */
   bool passes;       /* x counts passes, else it is distance along the cord */
-  /* the same plan at both ends of the band of mu, between which a fan opens; NULL = no fan; borrowed */
+  /* the same plan at both ends of the band of mu, between which a fan opens; NULL = no fan;
+   * borrowed */
   const thr_evaluation *low, *high;
   bool hand;       /* lines at what a hand manages, time after time and at most */
   double strength; /* N, a line at what the cord bears; 0 = none */
@@ -107,19 +128,24 @@ typedef struct {
 
 thr_tension_options thr_tension_options_default(void);
 
-/* Cords that get a panel of their own when there are too many for one panel; those with the largest force. */
+/* Cords that get a panel of their own when there are too many for one panel; those with the largest
+ * force. */
 enum { THR_TENSION_LINES = 6, THR_TENSION_PANELS = 48 };
 
-/* Appends the plot of plan->evaluation to svg: a step per pass, one line per cord, all axes alike, logarithmic where the tensions
- * differ by more than a factor of 20; with a fan every cord has a panel of its own. Sizes are physical (mm); no text is under 7
- * pt. Elements: <g id="cord-A"> holds a cord's line, its pulled ends and its slackest pass, <path id="fan-A"> its fan; cords are
- * called by index as in the overview. Lines of class "hand" and "strength" are drawn where they lie within the axis, which
- * reaches up to the nearest one that is at most 5 times as much as the pull. The same plan and options give the same bytes.
- * THR_EINPUT if the plan has no evaluation, no known cord, or one that does not fit its cords. O(n). svg is unchanged on failure.
+/* Appends the plot of plan->evaluation to svg: a step per pass, one line per cord, all axes alike,
+ * logarithmic where the tensions differ by more than a factor of 20; with a fan every cord has a
+ * panel of its own. Sizes are physical (mm); no text is under 7 pt. Elements: <g id="cord-A"> holds
+ * a cord's line, its pulled ends and its slackest pass, <path id="fan-A"> its fan; cords are called
+ * by index as in the overview. Lines of class "hand" and "strength" are drawn where they lie within
+ * the axis, which reaches up to the nearest one that is at most 5 times as much as the pull. The
+ * same plan and options give the same bytes. THR_EINPUT if the plan has no evaluation, no known
+ * cord, or one that does not fit its cords. O(n). svg is unchanged on failure.
  */
-thr_status thr_tension_svg(const thr_plan *plan, const thr_tension_options *options, thr_text *svg, thr_err *err) THR_MUST_CHECK;
+thr_status thr_tension_svg(const thr_plan *plan, const thr_tension_options *options, thr_text *svg,
+                           thr_err *err) THR_MUST_CHECK;
 
-/* THR_EINPUT with advice unless the plan's evaluation is there and has a tension per pass of every known cord. */
+/* THR_EINPUT with advice unless the plan's evaluation is there and has a tension per pass of every
+ * known cord. */
 thr_status thr_tension_usable(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* "joints measured in simulation, .. ": what a method's tensions are. */
@@ -130,15 +156,21 @@ const char *thr_tension_method_words(const thr_evaluation *evaluation);
 /* Rounded to the two decimals that are printed, and never -0. */
 double thr_svg_round(double value);
 
-/* The document up to its description, in mm; title and description are escaped. Close it with </svg>. */
-void thr_svg_open(thr_text *text, double width, double height, const char *title, const char *description);
+/* The document up to its description, in mm; title and description are escaped. Close it with
+ * </svg>. */
+void thr_svg_open(thr_text *text, double width, double height, const char *title,
+                  const char *description);
 
-/* <text> at the baseline point; attributes is put in as it is ("" for none), e.g. " text-anchor=\"middle\"". */
-void thr_svg_text(thr_text *text, double x, double y, double size, const char *attributes, const char *s);
+/* <text> at the baseline point; attributes is put in as it is ("" for none), e.g. "
+ * text-anchor=\"middle\"". */
+void thr_svg_text(thr_text *text, double x, double y, double size, const char *attributes,
+                  const char *s);
 
-/* The same in lines of at most width mm (estimated for a wide face), broken at spaces, but for "mu = 0.2" and "1 N", and in a
- * name that is too wide behind a slash; returns the y of the next line. */
-double thr_svg_wrap(thr_text *text, double x, double y, double size, double width, const char *attributes, const char *words);
+/* The same in lines of at most width mm (estimated for a wide face), broken at spaces, but for "mu
+ * = 0.2" and "1 N", and in a name that is too wide behind a slash; returns the y of the next line.
+ */
+double thr_svg_wrap(thr_text *text, double x, double y, double size, double width,
+                    const char *attributes, const char *words);
 
 void thr_svg_move(thr_text *text, const double at[2]);
 void thr_svg_line(thr_text *text, const double at[2]);
@@ -150,8 +182,9 @@ void thr_svg_length(double value, const char *units, char text[64]);
 /* A force with about three digits: "12.3 N". */
 void thr_svg_force(double newton, char text[32]);
 
-/* Round values for an axis from low to high, at most `most` (>= 3) of them, ascending; returns their number. Logarithmic (low >
- * 0): powers of ten, with their 2 and 5 fold where these are few; even steps where that leaves fewer than two. */
+/* Round values for an axis from low to high, at most `most` (>= 3) of them, ascending; returns
+ * their number. Logarithmic (low > 0): powers of ten, with their 2 and 5 fold where these are few;
+ * even steps where that leaves fewer than two. */
 int thr_svg_ticks(double low, double high, bool logarithmic, int most, double *tick);
 
 #endif

@@ -1,5 +1,6 @@
-/* What the charts of pull and cord share: an axis of forces over their logarithm, what a hand manages, points with the band of
- * mu, bars of cord. Private to diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the charts of pull and cord share: an axis of forces over their logarithm, what a hand
+ * manages, points with the band of mu, bars of cord. Private to diagram/. */
 #include "diagram/overview/charts.h"
 #include "diagram/overview/overview.h"
 
@@ -55,7 +56,9 @@ static void decade_words(int power, char words[24])
 
 double thr_pull_hand_words(double hand, char words[80])
 {
-  const char *what = hand == thr_hand_always ? ": a hand, time after time" : hand == thr_hand_most ? ": the most for a hand" : "";
+  const char *what = hand == thr_hand_always ? ": a hand, time after time"
+                     : hand == thr_hand_most ? ": the most for a hand"
+                                             : "";
   snprintf(words, 80, "%g N%s", hand, what);
   return 0.6 * SMALL * thr_text_columns(words, 80);
 }
@@ -68,7 +71,8 @@ void thr_pull_grid(const thr_pull_axis *axis, thr_text *text)
   int step = (axis->high - axis->low + MOST_LINES - 1) / MOST_LINES;
   for (int power = axis->low; power <= axis->high; power += step) {
     double y = thr_svg_round(thr_pull_y(axis, pow(10, power)));
-    thr_text_printf(text, "<path class=\"grid\" d=\"M%.2f %.2fh%.2f\"/>\n", axis->x, y, axis->width);
+    thr_text_printf(text, "<path class=\"grid\" d=\"M%.2f %.2fh%.2f\"/>\n", axis->x, y,
+                    axis->width);
     decade_words(power, words);
     thr_svg_text(text, axis->x - 1.6, y + 0.36 * SMALL, SMALL, " class=\"end\"", words);
   }
@@ -78,8 +82,9 @@ void thr_pull_grid(const thr_pull_axis *axis, thr_text *text)
 void thr_pull_within(const thr_pull_axis *axis, double hand, thr_text *text)
 {
   double y = thr_svg_round(thr_pull_y(axis, hand));
-  thr_text_printf(text, "<rect class=\"within\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", axis->x, y,
-                  axis->width, axis->y + axis->height - y);
+  thr_text_printf(text,
+                  "<rect class=\"within\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
+                  axis->x, y, axis->width, axis->y + axis->height - y);
 }
 
 void thr_pull_hand_line(const thr_pull_axis *axis, double hand, thr_text *text)
@@ -89,7 +94,8 @@ void thr_pull_hand_line(const thr_pull_axis *axis, double hand, thr_text *text)
   if (thr_pull_beyond(axis, hand)) return;
   thr_text_printf(text, "<path class=\"hand\" d=\"M%.2f %.2fh%.2f\"/>\n", axis->x, y, axis->width);
   snprintf(words, sizeof words, "%g N", hand);
-  thr_svg_text(text, axis->x + axis->width + 1, y + 0.36 * SMALL, SMALL, " fill=\"#00664B\"", words);
+  thr_svg_text(text, axis->x + axis->width + 1, y + 0.36 * SMALL, SMALL, " fill=\"#00664B\"",
+               words);
 }
 
 void thr_pull_hand(const thr_pull_axis *axis, double hand, double x, bool begin, thr_text *text)
@@ -99,7 +105,9 @@ void thr_pull_hand(const thr_pull_axis *axis, double hand, double x, bool begin,
   if (thr_pull_beyond(axis, hand)) return;
   thr_text_printf(text, "<path class=\"hand\" d=\"M%.2f %.2fh%.2f\"/>\n", axis->x, y, axis->width);
   thr_pull_hand_words(hand, words);
-  thr_svg_text(text, x, y - 1, SMALL, begin ? " class=\"halo\" fill=\"#00664B\"" : " class=\"end halo\" fill=\"#00664B\"", words);
+  thr_svg_text(text, x, y - 1, SMALL,
+               begin ? " class=\"halo\" fill=\"#00664B\"" : " class=\"end halo\" fill=\"#00664B\"",
+               words);
 }
 
 void thr_pull_point(const thr_pull_axis *axis, double x, double newton, bool chosen, thr_text *text)
@@ -107,30 +115,35 @@ void thr_pull_point(const thr_pull_axis *axis, double x, double newton, bool cho
   double y = thr_svg_round(thr_pull_y(axis, newton));
   x = thr_svg_round(x);
   if (thr_pull_beyond(axis, newton))
-    thr_text_printf(text, "<path class=\"beyond\" d=\"M%.2f %.2fl%.2f %.2fh%.2fz\"/>\n", x, y - MARK, 1.2 * MARK, 2 * MARK,
-                    -2.4 * MARK);
+    thr_text_printf(text, "<path class=\"beyond\" d=\"M%.2f %.2fl%.2f %.2fh%.2fz\"/>\n", x,
+                    y - MARK, 1.2 * MARK, 2 * MARK, -2.4 * MARK);
   else
-    thr_text_printf(text, "<circle class=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", chosen ? "chosen" : "point", x, y,
-                    chosen ? 1.5 * MARK : MARK);
+    thr_text_printf(text, "<circle class=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n",
+                    chosen ? "chosen" : "point", x, y, chosen ? 1.5 * MARK : MARK);
 }
 
-void thr_pull_band(const thr_pull_axis *axis, double x, double wide, double low, double high, thr_text *text)
+void thr_pull_band(const thr_pull_axis *axis, double x, double wide, double low, double high,
+                   thr_text *text)
 {
   if (isnan(low) || isnan(high)) return;
   double y = thr_svg_round(thr_pull_y(axis, high));
-  thr_text_printf(text, "<rect class=\"band\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
+  thr_text_printf(text,
+                  "<rect class=\"band\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
                   thr_svg_round(x - wide / 2), y, wide, thr_svg_round(thr_pull_y(axis, low)) - y);
 }
 
-void thr_pull_bar(double x, double y, double wide, double base, double over, bool chosen, thr_text *text)
+void thr_pull_bar(double x, double y, double wide, double base, double over, bool chosen,
+                  thr_text *text)
 {
   const char *mark = chosen ? " chosen" : "";
   x = thr_svg_round(x);
-  thr_text_printf(text, "<rect class=\"base%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", mark, x, y - base,
-                  wide, base);
+  thr_text_printf(text,
+                  "<rect class=\"base%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
+                  mark, x, y - base, wide, base);
   if (over > 0)
-    thr_text_printf(text, "<rect class=\"over%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", mark, x,
-                    y - base - over, wide, over);
+    thr_text_printf(
+        text, "<rect class=\"over%s\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
+        mark, x, y - base - over, wide, over);
 }
 
 /* ---- sheet ---- */
@@ -138,26 +151,32 @@ void thr_pull_bar(double x, double y, double wide, double base, double over, boo
 static void write_style(thr_text *text)
 {
   thr_text_append(
-      text, "<style>\n.thread text{stroke:none;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
-            ".thread .middle{text-anchor:middle}.thread .end{text-anchor:end}.thread .quiet{fill:#555}\n"
-            ".thread .command{font-family:'DejaVu Sans Mono',monospace}\n"
-            ".thread text.halo{stroke:#fff;stroke-width:0.80;stroke-linejoin:round;paint-order:stroke}\n"
-            ".thread .grid{fill:none;stroke:#ddd;stroke-width:0.20}.thread .axis{fill:none;stroke:#222;stroke-width:0.35}\n"
-            ".thread .within{fill:#E3F3EE}.thread .hand{fill:none;stroke:#009E73;stroke-width:0.35;stroke-dasharray:1.6 1}\n"
-            ".thread .band{fill:#0072B2;fill-opacity:0.18}.thread .pull{fill:none;stroke:#0072B2;stroke-width:0.80}\n"
-            ".thread .point{fill:#fff;stroke:#0072B2;stroke-width:0.55}.thread .beyond{fill:#0072B2}\n"
-            ".thread circle.chosen{fill:#D55E00}.thread .chosen-line{fill:none;stroke:#D55E00;stroke-width:0.50}\n"
-            ".thread .flag{fill:#B84F00}.thread .base{fill:#D9DCDF}.thread .over{fill:#98A1AA}\n"
-            ".thread .base.chosen{fill:#F4C9A5}.thread .over.chosen{fill:#D55E00}\n"
-            ".thread .thin{fill:none;stroke:#0072B2;stroke-width:0.35}.thread "
-            ".proved{fill:#0072B2;stroke:#fff;stroke-width:0.30}.thread .count{fill:#98A1AA}.thread "
-            ".count.chosen{fill:#D55E00}\n"
-            ".thread .frame{fill:none;stroke:#bbb;stroke-width:0.20}.thread .frame.chosen{stroke:#D55E00;stroke-width:0.70}\n"
-            ".thread .miniature{fill:none;stroke-linecap:round;stroke-linejoin:round}\n</style>\n");
+      text,
+      "<style>\n.thread text{stroke:none;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
+      ".thread .middle{text-anchor:middle}.thread .end{text-anchor:end}.thread .quiet{fill:#555}\n"
+      ".thread .command{font-family:'DejaVu Sans Mono',monospace}\n"
+      ".thread text.halo{stroke:#fff;stroke-width:0.80;stroke-linejoin:round;paint-order:stroke}\n"
+      ".thread .grid{fill:none;stroke:#ddd;stroke-width:0.20}.thread "
+      ".axis{fill:none;stroke:#222;stroke-width:0.35}\n"
+      ".thread .within{fill:#E3F3EE}.thread "
+      ".hand{fill:none;stroke:#009E73;stroke-width:0.35;stroke-dasharray:1.6 1}\n"
+      ".thread .band{fill:#0072B2;fill-opacity:0.18}.thread "
+      ".pull{fill:none;stroke:#0072B2;stroke-width:0.80}\n"
+      ".thread .point{fill:#fff;stroke:#0072B2;stroke-width:0.55}.thread .beyond{fill:#0072B2}\n"
+      ".thread circle.chosen{fill:#D55E00}.thread "
+      ".chosen-line{fill:none;stroke:#D55E00;stroke-width:0.50}\n"
+      ".thread .flag{fill:#B84F00}.thread .base{fill:#D9DCDF}.thread .over{fill:#98A1AA}\n"
+      ".thread .base.chosen{fill:#F4C9A5}.thread .over.chosen{fill:#D55E00}\n"
+      ".thread .thin{fill:none;stroke:#0072B2;stroke-width:0.35}.thread "
+      ".proved{fill:#0072B2;stroke:#fff;stroke-width:0.30}.thread .count{fill:#98A1AA}.thread "
+      ".count.chosen{fill:#D55E00}\n"
+      ".thread .frame{fill:none;stroke:#bbb;stroke-width:0.20}.thread "
+      ".frame.chosen{stroke:#D55E00;stroke-width:0.70}\n"
+      ".thread .miniature{fill:none;stroke-linecap:round;stroke-linejoin:round}\n</style>\n");
 }
 
-thr_status thr_pull_sheet(const thr_text *body, double width, double height, const char *title, const char *description,
-                          thr_text *svg, thr_err *err)
+thr_status thr_pull_sheet(const thr_text *body, double width, double height, const char *title,
+                          const char *description, thr_text *svg, thr_err *err)
 {
   thr_text out = {0};
   thr_svg_open(&out, width, height, title, description);

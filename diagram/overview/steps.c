@@ -1,4 +1,6 @@
-/* The steps of a plan in words, row by row to be ticked off: each unique path once, then how its copies repeat it. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The steps of a plan in words, row by row to be ticked off: each unique path once, then how its
+ * copies repeat it. */
 #include "diagram/overview/overview.h"
 #include "diagram/overview/overview_parts.h"
 
@@ -26,7 +28,8 @@ typedef struct {
 
 /* ---- lines ---- */
 
-/* Writes the prefix and then the words, broken at blanks; further lines begin below the first word. Destroys words. */
+/* Writes the prefix and then the words, broken at blanks; further lines begin below the first word.
+ * Destroys words. */
 static void put_wrapped(steps *s, const char *prefix, thr_text *words)
 {
   int indent = thr_text_columns(prefix, SIZE_MAX), column = indent;
@@ -60,7 +63,8 @@ static void put_line(steps *s, const char *line)
 
 /* ---- paths ---- */
 
-/* One row: a visit. Rows are numbered as the passes are in the pictures; S: here the cord starts. */
+/* One row: a visit. Rows are numbered as the passes are in the pictures; S: here the cord starts.
+ */
 static void put_row(steps *s, const thr_cord *cord, int i)
 {
   thr_text words = {0};
@@ -90,10 +94,12 @@ static void put_rows(steps *s, int c)
   char indent[INDENT + 1];
   int start = thr_cord_start(s->f, cord), end = thr_cord_end(s->f, cord);
   snprintf(indent, sizeof indent, "%*s", INDENT, "");
-  int i = s->first[c], left = i + cord->n_passes - fold_of(s, c) + s->pieces.solid, last = i + cord->n_passes + s->pieces.solid;
+  int i = s->first[c], left = i + cord->n_passes - fold_of(s, c) + s->pieces.solid,
+      last = i + cord->n_passes + s->pieces.solid;
   if (left < last) thr_text_append(&words, "right needle, from the fold of the cord: ");
   thr_text_append(&words, "start at ");
-  thr_guide_place(&s->guide, left < last ? thr_tail(s->f, cord->half[fold_of(s, c)]) : start, &words);
+  thr_guide_place(&s->guide, left < last ? thr_tail(s->f, cord->half[fold_of(s, c)]) : start,
+                  &words);
   put_wrapped(s, indent, &words);
   for (; i < left; i++)
     put_row(s, cord, i);
@@ -122,14 +128,15 @@ static void put_measure(const steps *s, int c, thr_text *text)
   for (int i = s->first[c]; i < s->n_visits && s->visit[i].cord == c; i++)
     picked += s->visit[i].nth == 1;
   thr_svg_length(thr_cord_length(s->f, cord), s->f->units, length);
-  thr_text_printf(text, ", %d pass%s, %d %s to pick up, %s", cord->n_passes, cord->n_passes == 1 ? "" : "es", picked,
-                  thr_pieces_word(s->plan, picked), length);
+  thr_text_printf(text, ", %d pass%s, %d %s to pick up, %s", cord->n_passes,
+                  cord->n_passes == 1 ? "" : "es", picked, thr_pieces_word(s->plan, picked),
+                  length);
 }
 
 /* ---- copies ---- */
 
-/* Is every left turn of the path a right one of its copy, and the other way round? Not for copies threaded backwards, whose turns
- * come in the opposite order too. */
+/* Is every left turn of the path a right one of its copy, and the other way round? Not for copies
+ * threaded backwards, whose turns come in the opposite order too. */
 static bool is_reflected(const steps *s, int c)
 {
   const thr_copy *copy = &s->copy[c];
@@ -153,7 +160,8 @@ static void put_copy(steps *s, int c)
   const thr_cord *cord = &s->plan->cord[c];
   thr_copies_words(s->plan, s->copy, c, s->motion, how);
   if (!s->motion || !s->motion[c]) {
-    thr_text_printf(&words, "Cord %s: copy of path %d%s, in full:", cord->id, s->copy[c].path + 1, how);
+    thr_text_printf(&words, "Cord %s: copy of path %d%s, in full:", cord->id, s->copy[c].path + 1,
+                    how);
     put_wrapped(s, "", &words);
     put_rows(s, c);
     return;
@@ -180,7 +188,8 @@ static void put_path(steps *s, int c, int n_paths)
   put_wrapped(s, "", &words);
   put_rows(s, c);
   if (!copies) return;
-  thr_text_printf(s->out, "\nRepeat path %d with %d other cord%s:\n", s->copy[c].path + 1, copies, copies == 1 ? "" : "s");
+  thr_text_printf(s->out, "\nRepeat path %d with %d other cord%s:\n", s->copy[c].path + 1, copies,
+                  copies == 1 ? "" : "s");
   for (int i = 0; i < s->plan->n_cords; i++)
     if (i != c && s->copy[i].of == c) put_copy(s, i);
 }
@@ -215,19 +224,21 @@ static void put_heading(steps *s, int n_paths)
     total += thr_cord_length(s->f, &s->plan->cord[c]);
   thr_svg_length(total, s->f->units, length);
   thr_text_printf(&words, "Steps: %d cord%s", n, n == 1 ? "" : "s");
-  if (n_paths < n) thr_text_printf(&words, ", %d path%s to learn", n_paths, n_paths == 1 ? "" : "s");
-  thr_text_printf(&words, ", %d %s, %d passes, %s of cord", s->pieces.n, thr_pieces_word(s->plan, s->pieces.n), s->n_passes,
-                  length);
+  if (n_paths < n)
+    thr_text_printf(&words, ", %d path%s to learn", n_paths, n_paths == 1 ? "" : "s");
+  thr_text_printf(&words, ", %d %s, %d passes, %s of cord", s->pieces.n,
+                  thr_pieces_word(s->plan, s->pieces.n), s->n_passes, length);
   put_wrapped(s, "", &words);
   thr_text_append(s->out, "\n");
   put_line(s, thr_layout_words(s->guide.layout.kind));
-  put_line(
-      s,
-      s->pieces.solid
-          ? "Rows: box to tick, the number of the pass that leads into the piece (S: the cord starts), whether the piece is new "
-            "or on a cord already, and by which arms the cord goes in and out: an arm is called by the piece that it faces."
-          : "Rows: box to tick, the number of the pass, whether the tube is new or on a cord already, and the places at which "
-            "the cord goes in and out. Back through: against the way of the cord that came before.");
+  put_line(s, s->pieces.solid ? "Rows: box to tick, the number of the pass that leads into the "
+                                "piece (S: the cord starts), whether the piece is new "
+                                "or on a cord already, and by which arms the cord goes in and out: "
+                                "an arm is called by the piece that it faces."
+                              : "Rows: box to tick, the number of the pass, whether the tube is "
+                                "new or on a cord already, and the places at which "
+                                "the cord goes in and out. Back through: against the way of the "
+                                "cord that came before.");
   put_example(s);
 }
 
@@ -244,7 +255,8 @@ static void put_tightening(steps *s)
   }
 }
 
-static thr_status prepare(steps *s, double tolerance, int needles, const thr_layout *layout, thr_err *err)
+static thr_status prepare(steps *s, double tolerance, int needles, const thr_layout *layout,
+                          thr_err *err)
 {
   const thr_plan *p = s->plan;
   thr_status st = thr_scene_check_cords(p, &s->n_passes, err);
@@ -253,7 +265,8 @@ static thr_status prepare(steps *s, double tolerance, int needles, const thr_lay
   s->copy = thr_calloc((size_t)p->n_cords, sizeof *s->copy);
   s->part = thr_calloc(2 * (size_t)p->n_cords, sizeof *s->part);
   s->first = thr_calloc((size_t)p->n_cords, sizeof *s->first);
-  st = s->copy && s->part && s->first ? thr_guide_make(&s->guide, s->f, layout, err) : thr_nomem(err);
+  st = s->copy && s->part && s->first ? thr_guide_make(&s->guide, s->f, layout, err)
+                                      : thr_nomem(err);
   if (!st) st = thr_copies_find(p, s->copy, err);
   if (!st) st = thr_pieces_make(&s->pieces, p, tolerance, err);
   if (st) return st;
@@ -264,8 +277,8 @@ static thr_status prepare(steps *s, double tolerance, int needles, const thr_lay
   return st;
 }
 
-thr_status thr_steps_text(const thr_plan *p, const char *const *motion, double tolerance, int needles, const thr_layout *layout,
-                          thr_text *out, thr_err *err)
+thr_status thr_steps_text(const thr_plan *p, const char *const *motion, double tolerance,
+                          int needles, const thr_layout *layout, thr_text *out, thr_err *err)
 {
   thr_text text = {0};
   steps s = {.plan = p, .f = &p->frame, .motion = motion, .out = &text};

@@ -1,4 +1,6 @@
-/* Still pictures: rigid beads before and after something gave way, or as they come up, side by side. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Still pictures: rigid beads before and after something gave way, or as they come up, side by
+ * side. */
 #include "diagram/overview/overview.h"
 
 #include "graph/vector.h"
@@ -8,11 +10,12 @@
 #include <stdlib.h>
 
 static const double MARGIN = 10, PANEL = 130, GAP = 8, TITLE_SIZE = 5, TEXT_SIZE = 3.2; /* mm */
-static const double AZIMUTH = -0.95, ELEVATION = 0.42;                                  /* rad, of the eye */
-static const double LIGHT[3] = {0.32, -0.52, 0.79};                                     /* unit, towards the light */
+static const double AZIMUTH = -0.95, ELEVATION = 0.42; /* rad, of the eye */
+static const double LIGHT[3] = {0.32, -0.52, 0.79};    /* unit, towards the light */
 static const double ROAM = 0.3; /* share of the first picture by which the others may be larger */
 enum { MOST_IN_ROW = 3 };
-static const int BEAD[3] = {205, 184, 140}, END[3] = {255, 246, 226}, FIRST[3] = {213, 94, 0}, FIRST_END[3] = {255, 190, 140};
+static const int BEAD[3] = {205, 184, 140}, END[3] = {255, 246, 226}, FIRST[3] = {213, 94, 0},
+                 FIRST_END[3] = {255, 190, 140};
 
 typedef struct {
   double depth; /* larger = nearer to the eye */
@@ -57,12 +60,14 @@ static void look(view *w)
 
 /* ---- faces ---- */
 
-/* The arm of half-edge h in the bead's own axes: from half a width behind the node, so that joints have corners, to the middle of
- * the edge. */
-static void arm_corners(const view *w, int h, double axis[3], double side[2][3], double corner[2][4][3])
+/* The arm of half-edge h in the bead's own axes: from half a width behind the node, so that joints
+ * have corners, to the middle of the edge. */
+static void arm_corners(const view *w, int h, double axis[3], double side[2][3],
+                        double corner[2][4][3])
 {
   static const double turned[4][2] = {{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
-  const double *from = w->f->xyz[thr_tail(w->f, h)], *to = w->f->xyz[thr_head(w->f, h)], width = w->still->width;
+  const double *from = w->f->xyz[thr_tail(w->f, h)], *to = w->f->xyz[thr_head(w->f, h)],
+               width = w->still->width;
   for (int k = 0; k < 3; k++)
     axis[k] = to[k] - from[k];
   double length = sqrt(thr_dot(axis, axis));
@@ -83,11 +88,13 @@ static void arm_corners(const view *w, int h, double axis[3], double side[2][3],
 static void shade(const int colour[3], const double normal[3], char hex[8])
 {
   double light = 0.58 + 0.42 * fmax(0, thr_dot(normal, LIGHT));
-  snprintf(hex, 8, "#%02x%02x%02x", (unsigned)(colour[0] * light), (unsigned)(colour[1] * light), (unsigned)(colour[2] * light));
+  snprintf(hex, 8, "#%02x%02x%02x", (unsigned)(colour[0] * light), (unsigned)(colour[1] * light),
+           (unsigned)(colour[2] * light));
 }
 
 /* Adds the face with these corners in the bead's axes unless its back is turned to the eye. */
-static int add_face(view *w, int n, const double pose[7], const double corner[4][3], const double normal[3], const int colour[3])
+static int add_face(view *w, int n, const double pose[7], const double corner[4][3],
+                    const double normal[3], const int colour[3])
 {
   double turned[3];
   turn(pose, normal, turned);
@@ -116,7 +123,14 @@ static int add_arm(view *w, int n, const double (*pose)[7], int h)
   for (int i = 0; i < 4; i++) { /* the side between corners i and i + 1 */
     double four[4][3];
     for (int k = 0; k < 3; k++) {
-      normal[k] = (i == 0 ? -1 : i == 2 ? 1 : 0) * side[1][k] + (i == 1 ? 1 : i == 3 ? -1 : 0) * side[0][k];
+      normal[k] = (i == 0   ? -1
+                   : i == 2 ? 1
+                            : 0) *
+                      side[1][k] +
+                  (i == 1   ? 1
+                   : i == 3 ? -1
+                            : 0) *
+                      side[0][k];
       four[0][k] = corner[0][i][k];
       four[1][k] = corner[0][(i + 1) % 4][k];
       four[2][k] = corner[1][(i + 1) % 4][k];
@@ -161,7 +175,8 @@ static void ground_corners(const view *w, double at[4][2])
     stretch(low, high, w->still->panel[0].pose[v]);
   double room = 2 * w->still->width;
   for (int i = 0; i < 4; i++) {
-    double p[3] = {i == 0 || i == 3 ? low[0] - room : high[0] + room, i < 2 ? low[1] - room : high[1] + room, w->still->ground};
+    double p[3] = {i == 0 || i == 3 ? low[0] - room : high[0] + room,
+                   i < 2 ? low[1] - room : high[1] + room, w->still->ground};
     at[i][0] = thr_dot(p, w->right);
     at[i][1] = thr_dot(p, w->up);
   }
@@ -195,7 +210,8 @@ static void measure(view *w)
   w->scale = PANEL / fmax(w->high[0] - w->low[0], w->high[1] - w->low[1]);
 }
 
-static void write_polygon(const view *w, const double at[4][2], const char *attributes, thr_text *text)
+static void write_polygon(const view *w, const double at[4][2], const char *attributes,
+                          thr_text *text)
 {
   thr_text_printf(text, "<path%s d=\"", attributes);
   for (int i = 0; i < 4; i++) {
@@ -208,11 +224,15 @@ static void write_polygon(const view *w, const double at[4][2], const char *attr
   thr_text_append(text, "z\"/>\n");
 }
 
-static void write_panel(view *w, const char *id, const double (*pose)[7], double x, double y, thr_text *text)
+static void write_panel(view *w, const char *id, const double (*pose)[7], double x, double y,
+                        thr_text *text)
 {
   double corner[4][2];
   char attributes[32];
-  thr_text_printf(text, "<g id=\"%s\" class=\"panel\" clip-path=\"url(#panel)\" transform=\"translate(%.2f %.2f)\">\n", id, x, y);
+  thr_text_printf(text,
+                  "<g id=\"%s\" class=\"panel\" clip-path=\"url(#panel)\" "
+                  "transform=\"translate(%.2f %.2f)\">\n",
+                  id, x, y);
   ground_corners(w, corner);
   write_polygon(w, (const double(*)[2])corner, " class=\"ground\"", text);
   int n = collect(w, pose);
@@ -230,23 +250,32 @@ static void write_sheet(view *w, thr_text *text)
   const int in_row = still->n_panels < MOST_IN_ROW ? still->n_panels : MOST_IN_ROW;
   thr_text body = {0};
   double wide = (w->high[0] - w->low[0]) * w->scale, high = (w->high[1] - w->low[1]) * w->scale;
-  double column = fmax(wide, 75), width = in_row * column + (in_row - 1) * GAP; /* captions need room too */
-  double y = thr_svg_wrap(&body, MARGIN, MARGIN + TITLE_SIZE, TITLE_SIZE, width, " font-weight=\"bold\"", title), bottom = 0;
+  double column = fmax(wide, 75),
+         width = in_row * column + (in_row - 1) * GAP; /* captions need room too */
+  double y = thr_svg_wrap(&body, MARGIN, MARGIN + TITLE_SIZE, TITLE_SIZE, width,
+                          " font-weight=\"bold\"", title),
+         bottom = 0;
   for (int p = 0; p < still->n_panels; p++) {
     const thr_still_panel *panel = &still->panel[p];
     double x = MARGIN + p % in_row * (column + GAP);
     if (p > 0 && p % in_row == 0) y = bottom + 1;
     write_panel(w, panel->id, panel->pose, x + 0.5 * (column - wide), y, &body);
-    bottom = fmax(bottom, thr_svg_wrap(&body, x, y + high + 2 + TEXT_SIZE, TEXT_SIZE, column, "", panel->caption));
+    bottom = fmax(bottom, thr_svg_wrap(&body, x, y + high + 2 + TEXT_SIZE, TEXT_SIZE, column, "",
+                                       panel->caption));
   }
-  if (still->note) bottom = thr_svg_wrap(&body, MARGIN, bottom + 1, TEXT_SIZE, width, "", still->note);
+  if (still->note)
+    bottom = thr_svg_wrap(&body, MARGIN, bottom + 1, TEXT_SIZE, width, "", still->note);
   width += 2 * MARGIN;
   bottom += MARGIN - TEXT_SIZE;
   thr_svg_open(text, width, bottom, title, "Rigid beads, seen from one side, drawn back to front.");
-  thr_text_append(text, "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
-                        ".thread .panel{stroke:#4a4030;stroke-width:0.12;stroke-linejoin:round}\n"
-                        ".thread .ground{fill:#eef0ea;stroke:#9aa08c;stroke-width:0.25}\n</style>\n");
-  thr_text_printf(text, "<clipPath id=\"panel\"><rect x=\"-0.50\" y=\"-0.50\" width=\"%.2f\" height=\"%.2f\"/></clipPath>\n",
+  thr_text_append(
+      text,
+      "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
+      ".thread .panel{stroke:#4a4030;stroke-width:0.12;stroke-linejoin:round}\n"
+      ".thread .ground{fill:#eef0ea;stroke:#9aa08c;stroke-width:0.25}\n</style>\n");
+  thr_text_printf(text,
+                  "<clipPath id=\"panel\"><rect x=\"-0.50\" y=\"-0.50\" width=\"%.2f\" "
+                  "height=\"%.2f\"/></clipPath>\n",
                   wide + 1, high + 1);
   thr_text_printf(text, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", width, bottom);
   if (body.data) thr_text_append_bytes(text, body.data, body.length);
@@ -257,13 +286,15 @@ static void write_sheet(view *w, thr_text *text)
 
 static thr_status check(const thr_frame *frame, const thr_still *s, thr_err *err)
 {
-  if (!(s->width > 0) || !isfinite(s->width)) return thr_fail(err, THR_EINPUT, "arms %g wide cannot be drawn", s->width);
+  if (!(s->width > 0) || !isfinite(s->width))
+    return thr_fail(err, THR_EINPUT, "arms %g wide cannot be drawn", s->width);
   if (s->first_bead < -1 || s->first_bead >= frame->n_nodes)
     return thr_fail(err, THR_EINPUT, "bead %d is not one of the %d", s->first_bead, frame->n_nodes);
   for (int i = 0; i < s->n_panels * frame->n_nodes; i++)
     for (int v = i % frame->n_nodes, k = 0; k < 7; k++)
       if (!(fabs(s->panel[i / frame->n_nodes].pose[v][k]) < 1e100))
-        return thr_fail(err, THR_EINPUT, "bead %s has no place in space to be drawn at", frame->name[v]);
+        return thr_fail(err, THR_EINPUT, "bead %s has no place in space to be drawn at",
+                        frame->name[v]);
   return THR_OK;
 }
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Small pieces of SVG: numbers, text, paths. Private to diagram/. */
 #include "diagram/overview/overview.h"
 #include "graph/number.h"
@@ -12,11 +13,14 @@ double thr_svg_round(double value)
   return value == 0 ? 0 : value;
 }
 
-void thr_svg_open(thr_text *text, double width, double height, const char *title, const char *description)
+void thr_svg_open(thr_text *text, double width, double height, const char *title,
+                  const char *description)
 {
   thr_text_printf(text,
-                  "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"thread\" "
-                  "width=\"%.2fmm\" height=\"%.2fmm\" viewBox=\"0 0 %.2f %.2f\" role=\"img\" aria-labelledby=\"title "
+                  "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
+                  "xmlns=\"http://www.w3.org/2000/svg\" class=\"thread\" "
+                  "width=\"%.2fmm\" height=\"%.2fmm\" viewBox=\"0 0 %.2f %.2f\" role=\"img\" "
+                  "aria-labelledby=\"title "
                   "desc\">\n<title id=\"title\">",
                   width, height, width, height);
   thr_text_xml(text, title);
@@ -25,10 +29,11 @@ void thr_svg_open(thr_text *text, double width, double height, const char *title
   thr_text_append(text, "</desc>\n");
 }
 
-void thr_svg_text(thr_text *text, double x, double y, double size, const char *attributes, const char *s)
+void thr_svg_text(thr_text *text, double x, double y, double size, const char *attributes,
+                  const char *s)
 {
-  thr_text_printf(text, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%.2f\"%s>", thr_svg_round(x), thr_svg_round(y), size,
-                  attributes);
+  thr_text_printf(text, "<text x=\"%.2f\" y=\"%.2f\" font-size=\"%.2f\"%s>", thr_svg_round(x),
+                  thr_svg_round(y), size, attributes);
   thr_text_xml(text, s);
   thr_text_append(text, "</text>\n");
 }
@@ -43,7 +48,8 @@ static bool is_tied(const char *words, int space)
   return last == '=' || (*next == '=' && unit == 1) || (last >= '0' && last <= '9' && measure);
 }
 
-double thr_svg_wrap(thr_text *text, double x, double y, double size, double width, const char *attributes, const char *words)
+double thr_svg_wrap(thr_text *text, double x, double y, double size, double width,
+                    const char *attributes, const char *words)
 {
   char line[512];
   int n = 0, fits = (int)(width / (0.58 * size));
@@ -57,7 +63,8 @@ double thr_svg_wrap(thr_text *text, double x, double y, double size, double widt
       n++;
       if (words[n - 1] == '/') slash = n;
     }
-    if (words[n] && (words[n] != ' ' || is_tied(words, n))) n = last_space > 0 ? last_space : slash > 0 ? slash : n;
+    if (words[n] && (words[n] != ' ' || is_tied(words, n)))
+      n = last_space > 0 ? last_space : slash > 0 ? slash : n;
     /* never cut a character in two */
     while (n > 1 && thr_text_is_inside(words[n]))
       n--;
@@ -73,13 +80,14 @@ double thr_svg_wrap(thr_text *text, double x, double y, double size, double widt
 
 enum { NUMBER = THR_INT_TEXT + 4 };
 
-/* As "%.2f" of thr_svg_round: most of a picture is such numbers, and printf takes most of its time for them. False: it is beyond
- * any picture. */
+/* As "%.2f" of thr_svg_round: most of a picture is such numbers, and printf takes most of its time
+ * for them. False: it is beyond any picture. */
 static bool print_number(double value, char **to)
 {
   static const double most = 1e12;
   if (!(value < most && value > -most)) return false;
-  int64_t hundredths = (int64_t)round(value * 100), size = hundredths < 0 ? -hundredths : hundredths;
+  int64_t hundredths = (int64_t)round(value * 100),
+          size = hundredths < 0 ? -hundredths : hundredths;
   char *at = *to;
   if (hundredths < 0) *at++ = '-';
   if (size < 1000)

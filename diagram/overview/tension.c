@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The tension plot: how the pull dies away along every cord. */
 #include "diagram/overview/overview.h"
 
@@ -12,11 +13,12 @@
 
 /* mm */
 static const double MARGIN = 10, WIDTH = 190, TITLE_SIZE = 5, TEXT_SIZE = 3.2, SMALL = 2.6;
-static const double LEFT = 17, LABELS = 46; /* room for the numbers of the y axis and for the lines' labels */
+static const double LEFT = 17,
+                    LABELS = 46; /* room for the numbers of the y axis and for the lines' labels */
 static const double PANEL_HEIGHT = 95, SMALL_HEIGHT = 34, SMALL_GAP = 9;
 static const double LINE = 0.6, SIGN = 1.5; /* width of a cord's line, radius of a mark */
 static const double LOGARITHMIC = 20;       /* from this ratio of tensions on */
-static const double NEAR = 5;               /* times the tensions: a limit that far above them is still shown */
+static const double NEAR = 5; /* times the tensions: a limit that far above them is still shown */
 enum { COLUMNS = 3, MOST_TICKS = 10, FEW_TICKS = 5 };
 
 typedef struct {
@@ -50,10 +52,13 @@ const char *thr_tension_method_words(const thr_evaluation *evaluation)
   switch (evaluation->method) {
   case THR_JOINT:
     return refused_turns(evaluation) > 0
-               ? "joints measured in simulation, some turns by closed form, composed along the taut path"
+               ? "joints measured in simulation, some turns by closed form, composed along the "
+                 "taut path"
                : "joints measured in simulation, composed along the taut path";
   case THR_STRUCTURE: return "limit analysis: the least pull at which the structure can stand";
-  default: return evaluation->law == THR_LAW_MITRE ? "closed form: mitred beads" : "closed form: capstan law";
+  default:
+    return evaluation->law == THR_LAW_MITRE ? "closed form: mitred beads"
+                                            : "closed form: capstan law";
   }
 }
 
@@ -63,20 +68,26 @@ thr_status thr_tension_usable(const thr_plan *p, thr_err *err)
   bool known = false;
   if (!evaluation->present)
     return thr_fail(err, THR_EINPUT,
-                    "the plan says nothing about tension: evaluate it first, with `thread eval plan.json -o plan.json`");
+                    "the plan says nothing about tension: evaluate it first, with `thread eval "
+                    "plan.json -o plan.json`");
   if (evaluation->n_cords != p->n_cords)
-    return thr_fail(err, THR_EINPUT, "the evaluation has %d cords, the plan %d: evaluate it again", evaluation->n_cords,
-                    p->n_cords);
+    return thr_fail(err, THR_EINPUT, "the evaluation has %d cords, the plan %d: evaluate it again",
+                    evaluation->n_cords, p->n_cords);
   for (int c = 0; c < evaluation->n_cords; c++) {
     const thr_eval_cord *cord = &evaluation->cord[c];
     if (!cord->known) continue;
     known = true;
-    if (cord->n_passes != p->cord[c].n_passes || !cord->tension || cord->slackest < 0 || cord->slackest >= cord->n_passes)
-      return thr_fail(err, THR_EINPUT, "the evaluation of cord %s does not fit its %d passes: evaluate the plan again",
-                      p->cord[c].id, p->cord[c].n_passes);
+    if (cord->n_passes != p->cord[c].n_passes || !cord->tension || cord->slackest < 0 ||
+        cord->slackest >= cord->n_passes)
+      return thr_fail(
+          err, THR_EINPUT,
+          "the evaluation of cord %s does not fit its %d passes: evaluate the plan again",
+          p->cord[c].id, p->cord[c].n_passes);
   }
   if (!known)
-    return thr_fail(err, THR_EINPUT, "the evaluation was stopped before any cord was known: evaluate the plan to the end");
+    return thr_fail(
+        err, THR_EINPUT,
+        "the evaluation was stopped before any cord was known: evaluate the plan to the end");
   return THR_OK;
 }
 
@@ -95,8 +106,8 @@ static double place_x(const plot *s, double along)
 
 static double place_y(const plot *s, double tension)
 {
-  double part =
-      s->logarithmic ? log(fmax(tension, s->low) / s->low) / log(s->high / s->low) : (tension - s->low) / (s->high - s->low);
+  double part = s->logarithmic ? log(fmax(tension, s->low) / s->low) / log(s->high / s->low)
+                               : (tension - s->low) / (s->high - s->low);
   return s->y + s->height * (1 - fmin(fmax(part, 0), 1));
 }
 
@@ -140,7 +151,9 @@ static void choose_axes(plot *s)
   }
   s->logarithmic = range[0] > 0 && range[1] / range[0] > LOGARITHMIC;
   s->low = s->logarithmic ? range[0] * exp(-0.06 * log(range[1] / range[0])) : 0;
-  s->high = s->logarithmic ? range[1] * exp(0.04 * log(range[1] / range[0])) : range[1] > 0 ? 1.06 * range[1] : 1;
+  s->high = s->logarithmic ? range[1] * exp(0.04 * log(range[1] / range[0]))
+            : range[1] > 0 ? 1.06 * range[1]
+                           : 1;
   for (int i = 0; i < s->n_shown; i++) {
     double along = 0;
     for (int k = 0; k < s->plan->cord[s->shown[i]].n_passes; k++)
@@ -181,8 +194,9 @@ static void write_panel(const plot *s, bool left, bool bottom, thr_text *text)
 {
   write_y_axis(s, left, text);
   write_x_axis(s, bottom, text);
-  thr_text_printf(text, "<rect class=\"axis\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n", s->x, s->y, s->width,
-                  s->height);
+  thr_text_printf(text,
+                  "<rect class=\"axis\" x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/>\n",
+                  s->x, s->y, s->width, s->height);
   if (s->seating)
     thr_text_printf(text, "<path class=\"seating\" d=\"M%.2f %.2fh%.2f\"/>\n", s->x,
                     thr_svg_round(place_y(s, s->e->physics.seating)), s->width);
@@ -195,7 +209,8 @@ static void write_axis_titles(const plot *s, thr_text *text)
     snprintf(words, sizeof words, "pass");
   else
     snprintf(words, sizeof words, "along the cord, %.15s", s->plan->frame.units);
-  thr_svg_text(text, s->x + 0.5 * s->width, s->y + s->height + 6 + TEXT_SIZE, TEXT_SIZE, " class=\"middle\"", words);
+  thr_svg_text(text, s->x + 0.5 * s->width, s->y + s->height + 6 + TEXT_SIZE, TEXT_SIZE,
+               " class=\"middle\"", words);
 }
 
 /* ---- cords ---- */
@@ -212,7 +227,8 @@ static bool coincide(const plot *s, int a, int b)
   return true;
 }
 
-/* Of lines that coincide in one panel the later ones are dashed over the first, in turn, so that every colour shows. */
+/* Of lines that coincide in one panel the later ones are dashed over the first, in turn, so that
+ * every colour shows. */
 static bool write_turns(const plot *s, int c, thr_text *text)
 {
   int before = 0, all = 1;
@@ -222,7 +238,8 @@ static bool write_turns(const plot *s, int c, thr_text *text)
     before += s->shown[i] < c;
   }
   if (before == 0) return false;
-  thr_text_printf(text, " stroke-dasharray=\"2.00 %.2f\" stroke-dashoffset=\"%.2f\"", 2.0 * (all - 1), -2.0 * before);
+  thr_text_printf(text, " stroke-dasharray=\"2.00 %.2f\" stroke-dashoffset=\"%.2f\"",
+                  2.0 * (all - 1), -2.0 * before);
   return true;
 }
 
@@ -252,7 +269,8 @@ static void write_steps(const plot *s, int c, thr_text *text)
   thr_text_printf(text, "H%.2f\"/>\n", thr_svg_round(place_x(s, along)));
 }
 
-/* Between the tensions at both ends of the band of mu: along the upper ones, and back along the lower ones. */
+/* Between the tensions at both ends of the band of mu: along the upper ones, and back along the
+ * lower ones. */
 static void write_fan(const plot *s, int c, thr_text *text)
 {
   const thr_evaluation *const fan[2] = {s->options->high, s->options->low};
@@ -261,15 +279,17 @@ static void write_fan(const plot *s, int c, thr_text *text)
   char id[12];
   if (!fan[0] || !fan[1] || !fan[0]->cord[c].known || !fan[1]->cord[c].known) return;
   thr_cord_id(c, id);
-  thr_text_printf(text, "<path id=\"fan-%s\" class=\"fan\" fill=\"%s\" d=\"M%.2f %.2f", id, thr_palette(c).hex, s->x,
-                  thr_svg_round(place_y(s, fan[0]->cord[c].tension[0])));
+  thr_text_printf(text, "<path id=\"fan-%s\" class=\"fan\" fill=\"%s\" d=\"M%.2f %.2f", id,
+                  thr_palette(c).hex, s->x, thr_svg_round(place_y(s, fan[0]->cord[c].tension[0])));
   for (int k = 0; k < n; k++) {
     along += step_of(s, c, k);
-    thr_text_printf(text, "V%.2fH%.2f", thr_svg_round(place_y(s, fan[0]->cord[c].tension[k])), thr_svg_round(place_x(s, along)));
+    thr_text_printf(text, "V%.2fH%.2f", thr_svg_round(place_y(s, fan[0]->cord[c].tension[k])),
+                    thr_svg_round(place_x(s, along)));
   }
   for (int k = n - 1; k >= 0; k--) {
     along -= step_of(s, c, k);
-    thr_text_printf(text, "V%.2fH%.2f", thr_svg_round(place_y(s, fan[1]->cord[c].tension[k])), thr_svg_round(place_x(s, along)));
+    thr_text_printf(text, "V%.2fH%.2f", thr_svg_round(place_y(s, fan[1]->cord[c].tension[k])),
+                    thr_svg_round(place_x(s, along)));
   }
   thr_text_append(text, "Z\"/>\n");
 }
@@ -282,7 +302,8 @@ static double slackest_at(const plot *s, int c)
   return along + 0.5 * step_of(s, c, s->e->cord[c].slackest);
 }
 
-/* Limits within the axis, each with its number above the slackest pass of cord c, where the lines are low; no number on another.
+/* Limits within the axis, each with its number above the slackest pass of cord c, where the lines
+ * are low; no number on another.
  */
 static void write_limits(const plot *s, int c, thr_text *text)
 {
@@ -302,15 +323,17 @@ static void write_limits(const plot *s, int c, thr_text *text)
     snprintf(words, sizeof words, "%g N", limit[i]);
     double half = 0.35 * SMALL * (double)strlen(words) + 1;
     double x = fmin(fmax(place_x(s, slackest_at(s, c)), s->x + half), s->x + s->width - half);
-    thr_svg_text(text, x, y + (y - s->y > 1.4 * SMALL ? -0.6 : 0.4 + SMALL), SMALL, " class=\"middle halo\"", words);
+    thr_svg_text(text, x, y + (y - s->y > 1.4 * SMALL ? -0.6 : 0.4 + SMALL), SMALL,
+                 " class=\"middle halo\"", words);
   }
 }
 
-static void write_pulled_end(const plot *s, int c, double along, double tension, double way, thr_text *text)
+static void write_pulled_end(const plot *s, int c, double along, double tension, double way,
+                             thr_text *text)
 {
   double x = thr_svg_round(place_x(s, along)), y = thr_svg_round(place_y(s, tension));
-  thr_text_printf(text, "<path class=\"pulled\" fill=\"%s\" d=\"M%.2f %.2fl%.2f %.2fv%.2fz\"/>\n", thr_palette(c).hex,
-                  x + way * SIGN * 1.2, y, -way * SIGN * 1.8, -SIGN, 2 * SIGN);
+  thr_text_printf(text, "<path class=\"pulled\" fill=\"%s\" d=\"M%.2f %.2fl%.2f %.2fv%.2fz\"/>\n",
+                  thr_palette(c).hex, x + way * SIGN * 1.2, y, -way * SIGN * 1.8, -SIGN, 2 * SIGN);
 }
 
 static void write_cord_marks(const plot *s, int c, thr_text *text)
@@ -319,11 +342,14 @@ static void write_cord_marks(const plot *s, int c, thr_text *text)
   double along = 0, slackest = slackest_at(s, c);
   for (int k = 0; k < cord->n_passes; k++)
     along += step_of(s, c, k);
-  thr_text_printf(text, "<circle class=\"slackest\" stroke=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", thr_palette(c).hex,
-                  thr_svg_round(place_x(s, slackest)), thr_svg_round(place_y(s, cord->tension[cord->slackest])), 0.7 * SIGN);
+  thr_text_printf(text,
+                  "<circle class=\"slackest\" stroke=\"%s\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n",
+                  thr_palette(c).hex, thr_svg_round(place_x(s, slackest)),
+                  thr_svg_round(place_y(s, cord->tension[cord->slackest])), 0.7 * SIGN);
   if (cord->pull == THR_PULL_NONE) return;
   if (cord->pull != THR_PULL_END) write_pulled_end(s, c, 0, cord->tension[0], -1, text);
-  if (cord->pull != THR_PULL_START) write_pulled_end(s, c, along, cord->tension[cord->n_passes - 1], 1, text);
+  if (cord->pull != THR_PULL_START)
+    write_pulled_end(s, c, along, cord->tension[cord->n_passes - 1], 1, text);
 }
 
 static void write_cord(const plot *s, int c, thr_text *text)
@@ -344,7 +370,8 @@ static void label_cord(const plot *s, int c, char label[96])
   thr_svg_force(cord->force, force);
   thr_svg_force(cord->other_force, other);
   if (cord->pull == THR_PULL_BOTH && cord->force < 1e6)
-    snprintf(label, 96, "%.11s: %.*s and %s", s->plan->cord[c].id, (int)strcspn(force, " "), force, other);
+    snprintf(label, 96, "%.11s: %.*s and %s", s->plan->cord[c].id, (int)strcspn(force, " "), force,
+             other);
   else
     snprintf(label, 96, "%.11s: %s", s->plan->cord[c].id, force);
 }
@@ -364,7 +391,8 @@ static void write_line_labels(const plot *s, thr_text *text)
     at[i] = y;
   }
   for (int k = s->n_shown - 1; k >= 0; k--) /* from below: the lowest label stays in the panel */
-    at[order[k]] = fmin(at[order[k]], k + 1 < s->n_shown ? at[order[k + 1]] - room : s->y + s->height);
+    at[order[k]] =
+        fmin(at[order[k]], k + 1 < s->n_shown ? at[order[k + 1]] - room : s->y + s->height);
   for (int k = 0; k < s->n_shown; k++)
     at[order[k]] = fmax(at[order[k]], k > 0 ? at[order[k - 1]] + room : s->y);
   for (int i = 0; i < s->n_shown; i++) {
@@ -387,7 +415,8 @@ static double write_one_panel(plot *s, double y, thr_text *text)
   s->y = y + TEXT_SIZE;
   s->width = WIDTH - LEFT - LABELS;
   s->height = PANEL_HEIGHT;
-  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "", s->logarithmic ? "tension, N (log scale)" : "tension, N");
+  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "",
+               s->logarithmic ? "tension, N (log scale)" : "tension, N");
   write_panel(s, true, true, text);
   for (int i = 0; i < s->n_shown; i++)
     write_fan(s, s->shown[i], text);
@@ -404,7 +433,8 @@ static double write_small_panels(plot *s, double y, thr_text *text)
   double gap = 5;
   s->width = (WIDTH - LEFT - (COLUMNS - 1) * gap) / COLUMNS;
   s->height = SMALL_HEIGHT;
-  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "", s->logarithmic ? "tension, N (log scale)" : "tension, N");
+  thr_svg_text(text, MARGIN, y, TEXT_SIZE, "",
+               s->logarithmic ? "tension, N (log scale)" : "tension, N");
   y += 3;
   for (int i = 0; i < s->n_shown; i++) {
     char label[96];
@@ -431,10 +461,13 @@ static double write_heading(const plot *s, const char *title, thr_text *text)
 {
   const thr_evaluation *evaluation = s->e;
   char line[400], largest[32], total[32], seating[48] = "";
-  double y = thr_svg_wrap(text, MARGIN, MARGIN + TITLE_SIZE, TITLE_SIZE, WIDTH, " font-weight=\"bold\"", title), error = 0;
+  double y = thr_svg_wrap(text, MARGIN, MARGIN + TITLE_SIZE, TITLE_SIZE, WIDTH,
+                          " font-weight=\"bold\"", title),
+         error = 0;
   for (int c = 0; c < evaluation->n_cords; c++)
     error = fmax(error, evaluation->cord[c].error);
-  if (s->seating) snprintf(seating, sizeof seating, ", seating tension %g N", evaluation->physics.seating);
+  if (s->seating)
+    snprintf(seating, sizeof seating, ", seating tension %g N", evaluation->physics.seating);
   snprintf(line, sizeof line, "Method %s (%s); mu = %g%s.", thr_method_name(evaluation->method),
            thr_tension_method_words(evaluation), evaluation->physics.mu, seating);
   y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, "", line);
@@ -442,19 +475,21 @@ static double write_heading(const plot *s, const char *title, thr_text *text)
   thr_svg_force(evaluation->total, total);
   snprintf(line, sizeof line, "Largest pull %s, all pulled ends together %s", largest, total);
   if (refused_turns(evaluation) > 0)
-    snprintf(line + strlen(line), sizeof line - strlen(line), ", error at least %.3g %%: %d of the turns by closed form",
-             100 * expm1(error), refused_turns(evaluation));
+    snprintf(line + strlen(line), sizeof line - strlen(line),
+             ", error at least %.3g %%: %d of the turns by closed form", 100 * expm1(error),
+             refused_turns(evaluation));
   else if (error > 0)
-    snprintf(line + strlen(line), sizeof line - strlen(line), ", each within %.3g %%", 100 * expm1(error));
+    snprintf(line + strlen(line), sizeof line - strlen(line), ", each within %.3g %%",
+             100 * expm1(error));
   snprintf(line + strlen(line), sizeof line - strlen(line), ".");
   y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, "", line);
   line[0] = '\0';
   if (s->n_known < evaluation->n_cords)
-    snprintf(line, sizeof line, "The evaluation was stopped: %d of %d cords are not known. ", evaluation->n_cords - s->n_known,
-             evaluation->n_cords);
+    snprintf(line, sizeof line, "The evaluation was stopped: %d of %d cords are not known. ",
+             evaluation->n_cords - s->n_known, evaluation->n_cords);
   if (s->n_shown < s->n_known)
-    snprintf(line + strlen(line), sizeof line - strlen(line), "Shown: the %d cords with the largest pull, of %d.", s->n_shown,
-             s->n_known);
+    snprintf(line + strlen(line), sizeof line - strlen(line),
+             "Shown: the %d cords with the largest pull, of %d.", s->n_shown, s->n_known);
   if (line[0]) y = thr_svg_wrap(text, MARGIN, y, TEXT_SIZE, WIDTH, " fill=\"#A03000\"", line);
   return y + 3;
 }
@@ -466,15 +501,19 @@ static double write_key_of_limits(const plot *s, double y, thr_text *text)
   double x = MARGIN + LEFT, base = y + 0.36 * TEXT_SIZE;
   char words[120];
   if (s->options->low && s->options->high) {
-    thr_text_printf(text, "<rect class=\"fan\" fill=\"#555\" x=\"%.2f\" y=\"%.2f\" width=\"8.00\" height=\"3.00\"/>\n", x,
-                    y - 1.5);
-    snprintf(words, sizeof words, "mu from %g to %g (closed form)", physics->mu_low, physics->mu_high);
+    thr_text_printf(text,
+                    "<rect class=\"fan\" fill=\"#555\" x=\"%.2f\" y=\"%.2f\" width=\"8.00\" "
+                    "height=\"3.00\"/>\n",
+                    x, y - 1.5);
+    snprintf(words, sizeof words, "mu from %g to %g (closed form)", physics->mu_low,
+             physics->mu_high);
     thr_svg_text(text, x + 10, base, TEXT_SIZE, "", words);
     y += 5.5;
   }
   if (s->options->hand && thr_hand_always <= s->high) {
     thr_text_printf(text, "<path class=\"hand\" d=\"M%.2f %.2fh8.00\"/>\n", x, y);
-    snprintf(words, sizeof words, "what a hand manages: %g N time after time, %g N at most", thr_hand_always, thr_hand_most);
+    snprintf(words, sizeof words, "what a hand manages: %g N time after time, %g N at most",
+             thr_hand_always, thr_hand_most);
     thr_svg_text(text, x + 10, y + 0.36 * TEXT_SIZE, TEXT_SIZE, "", words);
     y += 5.5;
   }
@@ -490,10 +529,14 @@ static double write_key_of_limits(const plot *s, double y, thr_text *text)
 static double write_key(const plot *s, double y, thr_text *text)
 {
   double x = MARGIN + LEFT, base = y + 0.36 * TEXT_SIZE;
-  thr_text_printf(text, "<path class=\"pulled\" fill=\"#555\" d=\"M%.2f %.2fl-2.70 -1.50v3.00z\"/>\n", x + 2.7, y);
+  thr_text_printf(text,
+                  "<path class=\"pulled\" fill=\"#555\" d=\"M%.2f %.2fl-2.70 -1.50v3.00z\"/>\n",
+                  x + 2.7, y);
   thr_svg_text(text, x + 5, base, TEXT_SIZE, "", "pulled end");
   x += 35;
-  thr_text_printf(text, "<circle class=\"slackest\" stroke=\"#555\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", x, y, 0.7 * SIGN);
+  thr_text_printf(
+      text, "<circle class=\"slackest\" stroke=\"#555\" cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\"/>\n", x,
+      y, 0.7 * SIGN);
   thr_svg_text(text, x + 3.5, base, TEXT_SIZE, "", "slackest pass");
   x += 38;
   if (s->seating) {
@@ -505,17 +548,23 @@ static double write_key(const plot *s, double y, thr_text *text)
 
 static void write_style(thr_text *text)
 {
-  thr_text_append(text, "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
-                        ".thread .middle{text-anchor:middle}.thread .end{text-anchor:end}\n"
-                        ".thread .axis{fill:none;stroke:#444;stroke-width:0.25}.thread .grid{stroke:#ddd;stroke-width:0.20}\n");
+  thr_text_append(
+      text,
+      "<style>\n.thread text{stroke:none;fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}\n"
+      ".thread .middle{text-anchor:middle}.thread .end{text-anchor:end}\n"
+      ".thread .axis{fill:none;stroke:#444;stroke-width:0.25}.thread "
+      ".grid{stroke:#ddd;stroke-width:0.20}\n");
   thr_text_printf(text, ".thread .line{fill:none;stroke-width:%.2f;stroke-linejoin:round}\n", LINE);
-  thr_text_append(text,
-                  ".thread .seating{fill:none;stroke:#444;stroke-width:0.25;stroke-dasharray:1.2 0.8}\n"
-                  ".thread .fan{fill-opacity:0.18;stroke:none}.thread "
-                  ".hand{fill:none;stroke:#009E73;stroke-width:0.35;stroke-dasharray:1.6 1}\n"
-                  ".thread .strength{fill:none;stroke:#D55E00;stroke-width:0.45;stroke-dasharray:3 0.8 0.6 0.8}\n"
-                  ".thread text.halo{stroke:#fff;stroke-width:0.80;stroke-linejoin:round;paint-order:stroke}\n"
-                  ".thread .slackest{fill:#fff;stroke-width:0.50}.thread .pulled{stroke:#fff;stroke-width:0.20}\n</style>\n");
+  thr_text_append(
+      text,
+      ".thread .seating{fill:none;stroke:#444;stroke-width:0.25;stroke-dasharray:1.2 0.8}\n"
+      ".thread .fan{fill-opacity:0.18;stroke:none}.thread "
+      ".hand{fill:none;stroke:#009E73;stroke-width:0.35;stroke-dasharray:1.6 1}\n"
+      ".thread .strength{fill:none;stroke:#D55E00;stroke-width:0.45;stroke-dasharray:3 0.8 0.6 "
+      "0.8}\n"
+      ".thread text.halo{stroke:#fff;stroke-width:0.80;stroke-linejoin:round;paint-order:stroke}\n"
+      ".thread .slackest{fill:#fff;stroke-width:0.50}.thread "
+      ".pulled{stroke:#fff;stroke-width:0.20}\n</style>\n");
 }
 
 /* Known cords; of too many those with the largest force, the lower index first among equals. */
@@ -555,7 +604,8 @@ static thr_status write_sheet(plot *s, const char *given, thr_text *svg, thr_err
   double y = write_heading(s, title, &body);
   y = s->small ? write_small_panels(s, y, &body) : write_one_panel(s, y, &body);
   double bottom = write_key(s, y, &body) + MARGIN, width = WIDTH + 2 * MARGIN;
-  thr_svg_open(svg, width, bottom, title, "Tension in every pass of a cord, from its start to its end.");
+  thr_svg_open(svg, width, bottom, title,
+               "Tension in every pass of a cord, from its start to its end.");
   write_style(svg);
   thr_text_printf(svg, "<rect width=\"%.2f\" height=\"%.2f\" fill=\"#fff\"/>\n", width, bottom);
   if (body.data) thr_text_append_bytes(svg, body.data, body.length);
@@ -565,7 +615,8 @@ static thr_status write_sheet(plot *s, const char *given, thr_text *svg, thr_err
   return st;
 }
 
-thr_status thr_tension_svg(const thr_plan *p, const thr_tension_options *options, thr_text *svg, thr_err *err)
+thr_status thr_tension_svg(const thr_plan *p, const thr_tension_options *options, thr_text *svg,
+                           thr_err *err)
 {
   plot s = {.plan = p,
             .e = &p->evaluation,

@@ -1,27 +1,34 @@
-/* How cords are tightened, in words: the steps of a plan's schedule (graph/plan/schedule.h), for steps.txt and the booklet. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How cords are tightened, in words: the steps of a plan's schedule (graph/plan/schedule.h), for
+ * steps.txt and the booklet. */
 #include "diagram/overview/overview_parts.h"
 #include "diagram/overview/overview.h"
 #include "graph/plan/physics.h"
 
-static void put_ends(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step, thr_text *words)
+static void put_ends(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step,
+                     thr_text *words)
 {
   const thr_cord *cord = &plan->cord[step->cord];
-  const char *start = guide->label[thr_cord_start(&plan->frame, cord)], *end = guide->label[thr_cord_end(&plan->frame, cord)];
+  const char *start = guide->label[thr_cord_start(&plan->frame, cord)],
+             *end = guide->label[thr_cord_end(&plan->frame, cord)];
   if (step->end == THR_PULL_BOTH && cord->closed)
     thr_text_printf(words, "both ends, at %s", start);
   else if (step->end == THR_PULL_BOTH)
     thr_text_printf(words, "both ends, at %s and %s", start, end);
   else
-    thr_text_printf(words, "its %s, at %s", thr_pull_name(step->end), step->end == THR_PULL_START ? start : end);
+    thr_text_printf(words, "its %s, at %s", thr_pull_name(step->end),
+                    step->end == THR_PULL_START ? start : end);
 }
 
-static void put_grip(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step, thr_text *words)
+static void put_grip(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step,
+                     thr_text *words)
 {
   const int half = plan->cord[step->cord].half[step->pass];
   char force[32];
   thr_svg_force(step->force, force);
   thr_text_printf(words, ", pass %d: grip it between %s and %s and draw it from ", step->pass + 1,
-                  guide->label[thr_tail(&plan->frame, half)], guide->label[thr_head(&plan->frame, half)]);
+                  guide->label[thr_tail(&plan->frame, half)],
+                  guide->label[thr_head(&plan->frame, half)]);
   if (step->end == THR_PULL_BOTH)
     thr_text_append(words, "both sides");
   else
@@ -29,7 +36,8 @@ static void put_grip(const thr_plan *plan, const thr_guide *guide, const thr_sch
   thr_text_printf(words, ", with %s; hold it until the next has taken its slack.", force);
 }
 
-void thr_tighten_step(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step, thr_text *words)
+void thr_tighten_step(const thr_plan *plan, const thr_guide *guide, const thr_schedule_step *step,
+                      thr_text *words)
 {
   static const char *const verb[THR_N_DEEDS] = {
       [THR_DEED_PULL] = ": pull ", [THR_DEED_RELEASE] = ": let down ", [THR_DEED_KNOT] = ": tie "};

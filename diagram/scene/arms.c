@@ -1,5 +1,7 @@
-/* A solid piece drawn with a pen: strokes from its hub to the ends of its arms, for small pictures and for views in space, where
- * an outline in one line would have arms in front of each other. Private to diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A solid piece drawn with a pen: strokes from its hub to the ends of its arms, for small pictures
+ * and for views in space, where an outline in one line would have arms in front of each other.
+ * Private to diagram/. */
 #include "diagram/scene/scene.h"
 
 #include "diagram/overview/overview.h"
@@ -13,13 +15,15 @@ static const double BEND = 0.5; /* part of the shorter arm along which a cord be
 /* A point so far from the hub towards an arm's end; beyond it if back is less than 0. */
 static void point_of(const thr_arms *arms, int i, double back, double at[2])
 {
-  double d[2] = {arms->end[i][0] - arms->hub[0], arms->end[i][1] - arms->hub[1]}, length = hypot(d[0], d[1]);
+  double d[2] = {arms->end[i][0] - arms->hub[0], arms->end[i][1] - arms->hub[1]},
+         length = hypot(d[0], d[1]);
   double part = length > 0 ? fmax(length - back, 0) / length : 0;
   for (int k = 0; k < 2; k++)
     at[k] = arms->hub[k] + part * d[k];
 }
 
-/* Arms in pairs, so that a round corner covers the hub. A piece of one arm goes beyond its hub by half its width. */
+/* Arms in pairs, so that a round corner covers the hub. A piece of one arm goes beyond its hub by
+ * half its width. */
 void thr_arms_strokes(const thr_arms *arms, double back, thr_text *text)
 {
   double at[2];
@@ -31,9 +35,11 @@ void thr_arms_strokes(const thr_arms *arms, double back, thr_text *text)
       point_of(arms, i + 1, back, at);
       thr_svg_line(text, at);
     } else if (!i) {
-      double d[2] = {arms->end[0][0] - arms->hub[0], arms->end[0][1] - arms->hub[1]}, length = hypot(d[0], d[1]);
+      double d[2] = {arms->end[0][0] - arms->hub[0], arms->end[0][1] - arms->hub[1]},
+             length = hypot(d[0], d[1]);
       double beyond = length > 0 ? (0.5 * arms->width - back) / length : 0;
-      thr_svg_line(text, (const double[]){arms->hub[0] - beyond * d[0], arms->hub[1] - beyond * d[1]});
+      thr_svg_line(text,
+                   (const double[]){arms->hub[0] - beyond * d[0], arms->hub[1] - beyond * d[1]});
     }
   }
 }
@@ -42,8 +48,10 @@ void thr_arms_draw(const thr_arms *arms, thr_text *text)
 {
   const char *const colour[2] = {arms->outline, arms->fill};
   for (int k = 0; k < 2 && arms->n; k++) {
-    thr_text_printf(text, "<path fill=\"none\" stroke-linejoin=\"round\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", colour[k],
-                    fmax(arms->width + (k ? -1 : 1) * arms->line, 0.1));
+    thr_text_printf(
+        text,
+        "<path fill=\"none\" stroke-linejoin=\"round\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"",
+        colour[k], fmax(arms->width + (k ? -1 : 1) * arms->line, 0.1));
     thr_arms_strokes(arms, k ? arms->line : 0, text);
     thr_text_append(text, "\"/>\n");
   }
@@ -57,7 +65,8 @@ void thr_arms_way(const thr_arms *arms, int in, int out, double width, thr_text 
   double from[2], to[2], before[2], after[2], reach[2] = {0, 0};
   const int arm[2] = {in, out};
   for (int k = 0; k < 2; k++)
-    if (arm[k] >= 0) reach[k] = hypot(arms->end[arm[k]][0] - arms->hub[0], arms->end[arm[k]][1] - arms->hub[1]);
+    if (arm[k] >= 0)
+      reach[k] = hypot(arms->end[arm[k]][0] - arms->hub[0], arms->end[arm[k]][1] - arms->hub[1]);
   double bend = BEND * fmin(reach[0] > 0 ? reach[0] : reach[1], reach[1] > 0 ? reach[1] : reach[0]);
   if (in >= 0) point_of(arms, in, 0, from);
   if (out >= 0) point_of(arms, out, back, to);
@@ -73,7 +82,8 @@ void thr_arms_way(const thr_arms *arms, int in, int out, double width, thr_text 
 
 void thr_arms_tip(const thr_arms *arms, int out, double width, thr_text *text)
 {
-  double d[2] = {arms->end[out][0] - arms->hub[0], arms->end[out][1] - arms->hub[1]}, length = hypot(d[0], d[1]);
+  double d[2] = {arms->end[out][0] - arms->hub[0], arms->end[out][1] - arms->hub[1]},
+         length = hypot(d[0], d[1]);
   double tip[2], size = TIP * width;
   if (!(length > 0)) return;
   for (int k = 0; k < 2; k++) {

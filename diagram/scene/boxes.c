@@ -1,4 +1,6 @@
-/* What lies where on paper: rectangles in a grid, asked for overlaps when a number or a name looks for room. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What lies where on paper: rectangles in a grid, asked for overlaps when a number or a name looks
+ * for room. */
 #include "diagram/scene/scene.h"
 
 #include <math.h>

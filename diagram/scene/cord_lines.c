@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where a cord runs in space, as a line through the nodes or with a lane for each of its passes. */
 #include "diagram/scene/scene.h"
 
@@ -9,7 +10,7 @@
 #include <string.h>
 
 static const double SPACING = 0.115; /* of the median edge */
-static const double TURNING = 0.15;  /* of an edge, where cords leave the node and join their lane */
+static const double TURNING = 0.15; /* of an edge, where cords leave the node and join their lane */
 
 static thr_status choose_spacing(thr_cord_lines *lines, thr_err *err)
 {
@@ -23,7 +24,8 @@ static thr_status choose_spacing(thr_cord_lines *lines, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_cord_lines_begin(thr_cord_lines *lines, const thr_plan *plan, const thr_line_options *options, thr_err *err)
+thr_status thr_cord_lines_begin(thr_cord_lines *lines, const thr_plan *plan,
+                                const thr_line_options *options, thr_err *err)
 {
   int longest = 0;
   const size_t m = (size_t)plan->frame.n_edges;
@@ -42,7 +44,8 @@ thr_status thr_cord_lines_begin(thr_cord_lines *lines, const thr_plan *plan, con
 
 void thr_cord_lines_turn(const thr_line_options *options, const double xyz[3], double out[3])
 {
-  const double turned[3] = {xyz[0], options->up_y ? xyz[2] : xyz[1], options->up_y ? -xyz[1] : xyz[2]};
+  const double turned[3] = {xyz[0], options->up_y ? xyz[2] : xyz[1],
+                            options->up_y ? -xyz[1] : xyz[2]};
   for (int i = 0; i < 3; i++)
     out[i] = turned[i] == 0 ? 0 : turned[i];
 }
@@ -52,7 +55,8 @@ static void put(thr_cord_lines *lines, const double xyz[3])
   thr_cord_lines_turn(&lines->options, xyz, lines->point[lines->n_points++]);
 }
 
-/* A direction across the edge, level unless the edge is upright; the same whichever way it is passed. */
+/* A direction across the edge, level unless the edge is upright; the same whichever way it is
+ * passed. */
 static void across(const double along[3], double out[3])
 {
   static const double up[3] = {0, 0, 1}, aside[3] = {1, 0, 0};
@@ -69,8 +73,10 @@ static void put_lane(thr_cord_lines *lines, int half)
   const thr_frame *f = &lines->plan->frame;
   const int e = half >> 1, side = half & 1, n = lines->passes[e];
   const double *a = f->xyz[f->edge[e][0]], *b = f->xyz[f->edge[e][1]];
-  const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, apart = sqrt(thr_dot(along, along));
-  const double step = n > 1 ? fmin(lines->spacing, apart / 2 / (n - 1)) : 0, shift = step * (lines->seen[e]++ - (n - 1) / 2.0);
+  const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]},
+               apart = sqrt(thr_dot(along, along));
+  const double step = n > 1 ? fmin(lines->spacing, apart / 2 / (n - 1)) : 0,
+               shift = step * (lines->seen[e]++ - (n - 1) / 2.0);
   double normal[3];
   across(along, normal);
   for (int end = 0; end < 2; end++) {

@@ -1,19 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers, arrows and names: each takes the first free place of a few, the important ones first. */
 #include "diagram/scene/scene.h"
 
 #include <math.h>
 
 enum { MAX_PLACES = 10 };
-/* Along the straight part of a pass. Of a solid piece the number is on the arm by which the cord comes in, the arrow on that by
- * which it goes out: they say which piece they belong to, and the hub stays free. */
-static const double NUMBER_AT[2][MAX_PLACES] = {{0.30, 0.22, 0.38, 0.46, 0.14, 0.54, 0.62, 0.70, 0.80, 0.90},
-                                                {0.76, 0.70, 0.82, 0.64, 0.88, 0.94, 0.58, 0.52, 0.40, 0.20}};
-static const double ARROW_AT[2][MAX_PLACES] = {{0.68, 0.76, 0.60, 0.84, 0.52, 0.92, 0.44, 0.30, 0.20, 0.10},
-                                               {0.32, 0.26, 0.38, 0.20, 0.44, 0.14, 0.50, 0.08, 0.60, 0.70}};
-enum { TAKEN = THR_BOX_MARK | THR_BOX_NUMBER | THR_BOX_NAME }; /* what a number may not cover, and what would hide an arrow */
-static const double CAPTION = 1.4;                             /* size of captions, over that of numbers */
-static const double MUCH = 1e6;                                /* cost of a number on another, over that of one on arrows */
-static const double SEEN = 0.2;                                /* mm: smaller arrows are not drawn */
+/* Along the straight part of a pass. Of a solid piece the number is on the arm by which the cord
+ * comes in, the arrow on that by which it goes out: they say which piece they belong to, and the
+ * hub stays free. */
+static const double NUMBER_AT[2][MAX_PLACES] = {
+    {0.30, 0.22, 0.38, 0.46, 0.14, 0.54, 0.62, 0.70, 0.80, 0.90},
+    {0.76, 0.70, 0.82, 0.64, 0.88, 0.94, 0.58, 0.52, 0.40, 0.20}};
+static const double ARROW_AT[2][MAX_PLACES] = {
+    {0.68, 0.76, 0.60, 0.84, 0.52, 0.92, 0.44, 0.30, 0.20, 0.10},
+    {0.32, 0.26, 0.38, 0.20, 0.44, 0.14, 0.50, 0.08, 0.60, 0.70}};
+enum {
+  TAKEN = THR_BOX_MARK | THR_BOX_NUMBER | THR_BOX_NAME
+};                                 /* what a number may not cover, and what would hide an arrow */
+static const double CAPTION = 1.4; /* size of captions, over that of numbers */
+static const double MUCH = 1e6;    /* cost of a number on another, over that of one on arrows */
+static const double SEEN = 0.2;    /* mm: smaller arrows are not drawn */
 static const int STEPS[] = {1, 5, 10, 20, 50, 100, 200, 500, 1000};
 enum { COPY_ARROWS = 4 }; /* a copy has an arrow on every so many passes, on the first one too */
 enum { N_STEPS = sizeof STEPS / sizeof STEPS[0] };
@@ -34,10 +40,12 @@ static thr_box pill_box(const thr_scene *scene, int i, const double at[2])
   char text[32];
   thr_scene_number(scene, i, text);
   /* the same size as overview.c draws, with a hair of air */
-  return thr_box_around(at[0], at[1], 0.5 * thr_scene_pill_width(scene, text) + 0.15, 0.5 * thr_scene_pill_height(scene) + 0.15);
+  return thr_box_around(at[0], at[1], 0.5 * thr_scene_pill_width(scene, text) + 0.15,
+                        0.5 * thr_scene_pill_height(scene) + 0.15);
 }
 
-/* Every pass from a pitch of 20 mm, every tenth from 8; below that so many that numbers stay 80 mm of cord apart. */
+/* Every pass from a pitch of 20 mm, every tenth from 8; below that so many that numbers stay 80 mm
+ * of cord apart. */
 static int choose_step(double pitch)
 {
   if (pitch >= 20) return 1;
@@ -55,10 +63,13 @@ static int importance(const thr_scene *scene, int i)
   if (thr_scene_is_copy(scene, scene->pass[i].cord)) return -1;
   if (number == 1 || !thr_scene_continues(scene, i)) return 0;
   if (number % scene->number_step) return -1;
-  return number % (10 * scene->number_step) == 0 ? 1 : number % (5 * scene->number_step) == 0 ? 2 : 3;
+  return number % (10 * scene->number_step) == 0  ? 1
+         : number % (5 * scene->number_step) == 0 ? 2
+                                                  : 3;
 }
 
-/* Moves a number that must be there off the pass to the nearest free place around it, if there is one. */
+/* Moves a number that must be there off the pass to the nearest free place around it, if there is
+ * one. */
 static void move_aside(thr_scene *scene, int i)
 {
   thr_scene_pass *pass = &scene->pass[i];
@@ -73,8 +84,8 @@ static void move_aside(thr_scene *scene, int i)
     }
 }
 
-/* Puts the number of pass i in the first place that is free, preferring one that hides no arrow. must: put it in the
- * least bad place if none is free. */
+/* Puts the number of pass i in the first place that is free, preferring one that hides no arrow.
+ * must: put it in the least bad place if none is free. */
 static thr_status place_number(thr_scene *scene, int i, bool must, thr_err *err)
 {
   thr_scene_pass *pass = &scene->pass[i];
@@ -83,7 +94,8 @@ static thr_status place_number(thr_scene *scene, int i, bool must, thr_err *err)
     along(pass, NUMBER_AT[scene->solid][k], at);
     thr_box box = pill_box(scene, i, at);
     double taken = thr_boxes_overlap(&scene->boxes, box, TAKEN, must ? HUGE_VAL : 1e-9);
-    double cost = (taken > 0 ? MUCH + 1000 * taken : 0) + thr_boxes_overlap(&scene->boxes, box, THR_BOX_ARROW, least);
+    double cost = (taken > 0 ? MUCH + 1000 * taken : 0) +
+                  thr_boxes_overlap(&scene->boxes, box, THR_BOX_ARROW, least);
     if (cost >= least || (taken > 0 && !must)) continue;
     least = cost;
     pass->pill[0] = at[0];
@@ -92,7 +104,9 @@ static thr_status place_number(thr_scene *scene, int i, bool must, thr_err *err)
   }
   if (must && least >= MUCH) move_aside(scene, i);
   if (!pass->numbered) scene->dropped++;
-  return pass->numbered ? thr_boxes_add(&scene->boxes, pill_box(scene, i, pass->pill), THR_BOX_NUMBER, err) : THR_OK;
+  return pass->numbered
+             ? thr_boxes_add(&scene->boxes, pill_box(scene, i, pass->pill), THR_BOX_NUMBER, err)
+             : THR_OK;
 }
 
 static bool wants_arrow(const thr_scene *scene, int i)
@@ -105,13 +119,17 @@ static bool wants_arrow(const thr_scene *scene, int i)
 static void place_arrow(thr_scene *scene, int i)
 {
   thr_scene_pass *pass = &scene->pass[i];
-  double least = HUGE_VAL, at[2], length = hypot(pass->to[0] - pass->from[0], pass->to[1] - pass->from[1]);
+  double least = HUGE_VAL, at[2],
+         length = hypot(pass->to[0] - pass->from[0], pass->to[1] - pass->from[1]);
   pass->arrow_size = fmin(scene->size.arrow, 0.8 * length);
-  if (pass->arrow_size < 0.4 * scene->size.arrow || pass->arrow_size < SEEN || !wants_arrow(scene, i)) pass->arrow_size = 0;
+  if (pass->arrow_size < 0.4 * scene->size.arrow || pass->arrow_size < SEEN ||
+      !wants_arrow(scene, i))
+    pass->arrow_size = 0;
   if (pass->arrow_size == 0) return;
   for (int k = 0; k < MAX_PLACES && least > 0; k++) {
     along(pass, ARROW_AT[scene->solid][k], at);
-    double hidden = thr_boxes_overlap(&scene->boxes, arrow_box(at, 0.9 * pass->arrow_size), TAKEN, least);
+    double hidden =
+        thr_boxes_overlap(&scene->boxes, arrow_box(at, 0.9 * pass->arrow_size), TAKEN, least);
     if (hidden >= least) continue;
     least = hidden;
     pass->arrow[0] = at[0];
@@ -126,7 +144,8 @@ static thr_status place_numbers(thr_scene *scene, thr_err *err)
   scene->number_step = choose_step(scene->size.pitch);
   for (int i = 0; i < scene->n_passes && scene->size.arrow >= SEEN && !st; i++) {
     along(&scene->pass[i], ARROW_AT[scene->solid][0], at);
-    if (wants_arrow(scene, i)) st = thr_boxes_add(&scene->boxes, arrow_box(at, scene->size.arrow), THR_BOX_ARROW, err);
+    if (wants_arrow(scene, i))
+      st = thr_boxes_add(&scene->boxes, arrow_box(at, scene->size.arrow), THR_BOX_ARROW, err);
   }
   for (int level = 0; level < 4; level++)
     for (int i = 0; i < scene->n_passes && !st; i++)
@@ -138,23 +157,29 @@ static thr_status place_numbers(thr_scene *scene, thr_err *err)
 
 /* ---- names of nodes ---- */
 
-/* Looks for room for the name at point v between its beads: at a share of the way from each to the next, at so many distances. */
+/* Looks for room for the name at point v between its beads: at a share of the way from each to the
+ * next, at so many distances. */
 static thr_status place_name(thr_scene *scene, int v, double share, int distances, thr_err *err)
 {
   const thr_frame *frame = scene->paper;
   char name[48];
   thr_scene_place_name(scene, v, name);
-  double half_width = 0.5 * thr_scene_text_width(name, scene->size.text), half_height = 0.42 * scene->size.text;
+  double half_width = 0.5 * thr_scene_text_width(name, scene->size.text),
+         half_height = 0.42 * scene->size.text;
   int first = frame->first[v], degree = thr_degree(frame, v);
   for (int i = 0; i < degree; i++) {
     int h = scene->around[first + i], g = scene->around[first + (i + 1) % degree];
-    double wide = degree > 1 ? thr_scene_sweep(scene->angle[h], scene->angle[g]) : 6.28, off = scene->angle[h] + share * wide;
+    double wide = degree > 1 ? thr_scene_sweep(scene->angle[h], scene->angle[g]) : 6.28,
+           off = scene->angle[h] + share * wide;
     double c = cos(off), w = sin(off);
     for (int k = 0; k < distances; k++) {
-      double d =
-          (0.14 + 0.08 * k) * scene->size.pitch + fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
-      thr_box box = thr_box_around(scene->at[v][0] + d * c, scene->at[v][1] + d * w, half_width, half_height);
-      if (d > 0.6 * scene->size.pitch + half_width || thr_boxes_overlap(&scene->boxes, box, ~0, 1e-9) > 0) continue;
+      double d = (0.14 + 0.08 * k) * scene->size.pitch +
+                 fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
+      thr_box box =
+          thr_box_around(scene->at[v][0] + d * c, scene->at[v][1] + d * w, half_width, half_height);
+      if (d > 0.6 * scene->size.pitch + half_width ||
+          thr_boxes_overlap(&scene->boxes, box, ~0, 1e-9) > 0)
+        continue;
       scene->named[v] = true;
       scene->name_at[v][0] = scene->at[v][0] + d * c;
       scene->name_at[v][1] = scene->at[v][1] + d * w;
@@ -171,7 +196,8 @@ static thr_status place_names(thr_scene *scene, thr_err *err)
   thr_status st = scene->layout->node ? THR_OK : thr_scene_box_strands(scene, err);
   for (int k = 0; k < 6; k++)
     for (int v = 0; v < scene->layout->n_points && !st; v++)
-      if (scene->twin[v] < 0 && !scene->named[v]) st = place_name(scene, v, share[k], k ? 9 : 4, err);
+      if (scene->twin[v] < 0 && !scene->named[v])
+        st = place_name(scene, v, share[k], k ? 9 : 4, err);
   scene->nameless = 0;
   for (int v = 0; v < scene->layout->n_nodes; v++)
     scene->nameless += !scene->named[v];
@@ -192,8 +218,9 @@ static void measure_extent(thr_scene *scene)
 
 const char *thr_scene_caption(const thr_scene *scene, int panel)
 {
-  static const char *const words[3][2] = {
-      {"from the +x end", "from the -x end"}, {"from the +y end", "from the -y end"}, {"from above", "from below"}};
+  static const char *const words[3][2] = {{"from the +x end", "from the -x end"},
+                                          {"from the +y end", "from the -y end"},
+                                          {"from above", "from below"}};
   return words[scene->layout->axis][panel];
 }
 
@@ -205,9 +232,12 @@ static thr_status place_captions(thr_scene *scene, thr_err *err)
   for (int panel = 0; panel < 2 && !st; panel++) {
     scene->caption[panel][0] = (scene->layout->middle[panel][0] - scene->origin[0]) * scene->scale;
     scene->caption[panel][1] = top;
-    double half_width = 0.5 * thr_scene_text_width(thr_scene_caption(scene, panel), CAPTION * scene->size.text);
-    st = thr_boxes_add(&scene->boxes, thr_box_around(scene->caption[panel][0], top, half_width, CAPTION * scene->size.text),
-                       THR_BOX_NAME, err);
+    double half_width =
+        0.5 * thr_scene_text_width(thr_scene_caption(scene, panel), CAPTION * scene->size.text);
+    st = thr_boxes_add(
+        &scene->boxes,
+        thr_box_around(scene->caption[panel][0], top, half_width, CAPTION * scene->size.text),
+        THR_BOX_NAME, err);
   }
   measure_extent(scene);
   return st;
@@ -216,7 +246,8 @@ static thr_status place_captions(thr_scene *scene, thr_err *err)
 thr_status thr_scene_place_labels(thr_scene *scene, thr_err *err)
 {
   thr_status st = place_numbers(scene, err);
-  if (!st && !scene->places.n_columns && scene->size.pitch >= THR_SCENE_NAMED) st = place_names(scene, err);
+  if (!st && !scene->places.n_columns && scene->size.pitch >= THR_SCENE_NAMED)
+    st = place_names(scene, err);
   if (!st) measure_extent(scene);
   return !st && scene->layout->node ? place_captions(scene, err) : st;
 }

@@ -1,8 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which lane each pass takes inside its bead, so that cords cross in few nodes.
  *
- * Two passes in a bead are first ordered by looking along both cords to where they part: the one that parts to the left
- * keeps left all the way, so a parallel run has at most one crossing (as in metro maps: Bekos, Kaufmann, Potika,
- * Symvonis 2008). Then lanes are swapped while that lowers the number of crossings inside the two nodes of a bead. */
+ * Two passes in a bead are first ordered by looking along both cords to where they part: the one
+ * that parts to the left keeps left all the way, so a parallel run has at most one crossing (as in
+ * metro maps: Bekos, Kaufmann, Potika, Symvonis 2008). Then lanes are swapped while that lowers the
+ * number of crossings inside the two nodes of a bead. */
 #include "diagram/scene/scene.h"
 
 #include <math.h>
@@ -10,12 +12,14 @@
 
 enum { LOOK_AHEAD = 60, MAX_LANES = 24, MAX_CHORDS = 40, SWEEPS = 4 };
 
-/* The way a strand goes through a node, as two ports on the node's rim: half-edge rank, then place in the half-edge. */
+/* The way a strand goes through a node, as two ports on the node's rim: half-edge rank, then place
+ * in the half-edge. */
 typedef struct {
   double a, b;
 } chord;
 
-/* Strands by point: joint i is what pass i goes on to, the next pass or a mark; joint -1 - i is the mark that pass i comes from.
+/* Strands by point: joint i is what pass i goes on to, the next pass or a mark; joint -1 - i is the
+ * mark that pass i comes from.
  */
 typedef struct {
   int *first; /* [points + 1] into joint */
@@ -34,10 +38,12 @@ static int moving_half(const thr_scene *scene, walker w)
   return w.step > 0 ? scene->pass[w.pass].half : scene->pass[w.pass].half ^ 1;
 }
 
-/* Angle at which the walker leaves the point ahead, and the half-edge it leaves by (-1: to a mark). */
+/* Angle at which the walker leaves the point ahead, and the half-edge it leaves by (-1: to a mark).
+ */
 static double leave(const thr_scene *scene, walker w, int *out)
 {
-  const thr_mark *mark = w.step > 0 ? thr_scene_mark_after(scene, w.pass) : thr_scene_mark_before(scene, w.pass);
+  const thr_mark *mark =
+      w.step > 0 ? thr_scene_mark_after(scene, w.pass) : thr_scene_mark_before(scene, w.pass);
   if (mark) {
     *out = -1;
     return mark->angle;
@@ -46,8 +52,9 @@ static double leave(const thr_scene *scene, walker w, int *out)
   return scene->angle[*out];
 }
 
-/* Follows two walkers that stand on one edge and move to the same node until they part: 1 if p then goes to the side of
- * the edge's normal (seen in the direction of movement), -1 if q does, 0 if that cannot be said. */
+/* Follows two walkers that stand on one edge and move to the same node until they part: 1 if p then
+ * goes to the side of the edge's normal (seen in the direction of movement), -1 if q does, 0 if
+ * that cannot be said. */
 static int part(const thr_scene *scene, walker p, walker q)
 {
   for (int i = 0; i < LOOK_AHEAD; i++) {
@@ -64,8 +71,9 @@ static int part(const thr_scene *scene, walker p, walker q)
   return 0;
 }
 
-/* 1 if pass i should lie further towards the normal of their edge than pass j > i, -1 if less, 0 if it does not matter.
- * Walking with the earlier pass first gives the same answer all along a parallel run. */
+/* 1 if pass i should lie further towards the normal of their edge than pass j > i, -1 if less, 0 if
+ * it does not matter. Walking with the earlier pass first gives the same answer all along a
+ * parallel run. */
 static int compare(const thr_scene *scene, int i, int j)
 {
   bool same = scene->pass[i].half == scene->pass[j].half;
@@ -77,7 +85,8 @@ static int compare(const thr_scene *scene, int i, int j)
 /* Orders the passes of edge e by the sum of their comparisons. */
 static void order_edge(thr_scene *scene, int e)
 {
-  int *on = &scene->on[scene->first_on[e]], n = scene->first_on[e + 1] - scene->first_on[e], score[MAX_LANES] = {0};
+  int *on = &scene->on[scene->first_on[e]], n = scene->first_on[e + 1] - scene->first_on[e],
+      score[MAX_LANES] = {0};
   if (n < 2 || n > MAX_LANES) return;
   for (int i = 0; i < n; i++)
     for (int j = i + 1; j < n; j++) {
@@ -108,8 +117,10 @@ static void number_lanes(thr_scene *scene)
 static double port(const thr_scene *scene, int i, bool end)
 {
   const thr_scene_pass *scene_pass = &scene->pass[i];
-  int h = end ? scene_pass->half ^ 1 : scene_pass->half, e = h >> 1, n = scene->first_on[e + 1] - scene->first_on[e];
-  /* seen from the node, the lanes lie by rising angle towards the normal of the outgoing direction */
+  int h = end ? scene_pass->half ^ 1 : scene_pass->half, e = h >> 1,
+      n = scene->first_on[e + 1] - scene->first_on[e];
+  /* seen from the node, the lanes lie by rising angle towards the normal of the outgoing direction
+   */
   int place = h & 1 ? n - 1 - scene_pass->lane : scene_pass->lane;
   return scene->rank[h] + (place + 1.0) / (n + 2);
 }
@@ -126,14 +137,18 @@ static double mark_port(const thr_scene *scene, const thr_mark *mark)
 
 static chord chord_of(const thr_scene *scene, int joint)
 {
-  if (joint < 0) return (chord){mark_port(scene, thr_scene_mark_before(scene, -1 - joint)), port(scene, -1 - joint, false)};
+  if (joint < 0)
+    return (chord){mark_port(scene, thr_scene_mark_before(scene, -1 - joint)),
+                   port(scene, -1 - joint, false)};
   const thr_mark *mark = thr_scene_mark_after(scene, joint);
-  return (chord){port(scene, joint, true), mark ? mark_port(scene, mark) : port(scene, joint + 1, false)};
+  return (chord){port(scene, joint, true),
+                 mark ? mark_port(scene, mark) : port(scene, joint + 1, false)};
 }
 
 static int joint_point(const thr_scene *scene, int joint)
 {
-  return joint < 0 ? thr_tail(scene->paper, scene->pass[-1 - joint].half) : thr_head(scene->paper, scene->pass[joint].half);
+  return joint < 0 ? thr_tail(scene->paper, scene->pass[-1 - joint].half)
+                   : thr_head(scene->paper, scene->pass[joint].half);
 }
 
 static bool between(double x, chord c)
@@ -157,7 +172,8 @@ static int crossings_at(const thr_scene *scene, const joints *at, int v)
 
 static int crossings_of_edge(const thr_scene *scene, const joints *at, int e)
 {
-  return crossings_at(scene, at, scene->paper->edge[e][0]) + crossings_at(scene, at, scene->paper->edge[e][1]);
+  return crossings_at(scene, at, scene->paper->edge[e][0]) +
+         crossings_at(scene, at, scene->paper->edge[e][1]);
 }
 
 static void swap_lanes(thr_scene *scene, int i, int j)
@@ -201,7 +217,9 @@ static thr_status collect_joints(const thr_scene *scene, joints *at, thr_err *er
 {
   int n = scene->paper->n_nodes;
   at->first = thr_calloc((size_t)n + 2, sizeof *at->first);
-  at->joint = thr_calloc((size_t)scene->n_passes + (size_t)scene->plan->n_cords + (size_t)scene->n_seams, sizeof *at->joint);
+  at->joint =
+      thr_calloc((size_t)scene->n_passes + (size_t)scene->plan->n_cords + (size_t)scene->n_seams,
+                 sizeof *at->joint);
   if (!at->first || !at->joint) return thr_nomem(err);
   for (int i = -scene->n_passes; i < scene->n_passes; i++)
     if (is_joint(scene, i)) at->first[joint_point(scene, i) + 2]++;

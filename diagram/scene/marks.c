@@ -1,5 +1,6 @@
-/* Where the S disc and the E square of every cord go: beside the node, between two beads, so that neither hides a strand.
- * A short stub of cord leads there, as it does at the real node. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where the S disc and the E square of every cord go: beside the node, between two beads, so that
+ * neither hides a strand. A short stub of cord leads there, as it does at the real node. */
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
 
@@ -16,23 +17,32 @@ typedef struct {
 
 static double mark_radius(const thr_scene *scene, const char *text)
 {
-  return fmax(fmax(2.2, fmin(0.105 * scene->size.pitch, 3.2)), 0.36 * scene->size.text * thr_text_columns(text, SIZE_MAX) + 0.5);
+  return fmax(fmax(2.2, fmin(0.105 * scene->size.pitch, 3.2)),
+              0.36 * scene->size.text * thr_text_columns(text, SIZE_MAX) + 0.5);
 }
 
 /* Keeps the cheaper of best and a place at a distance and direction from the node. */
-static void judge(thr_scene *scene, const thr_mark *mark, double angle, double distance, double penalty, candidate *best)
+static void judge(thr_scene *scene, const thr_mark *mark, double angle, double distance,
+                  double penalty, candidate *best)
 {
   const double *o = scene->at[mark->point];
   double r = mark->radius, x = o[0] + distance * cos(angle), y = o[1] + distance * sin(angle);
   double disc = 4 * r * r;
   double cost = penalty + distance / scene->size.pitch;
-  cost += 100 * thr_boxes_overlap(&scene->boxes, thr_box_around(x, y, r + 0.4, r + 0.4), THR_BOX_MARK, HUGE_VAL) / disc;
-  cost += 2 * thr_boxes_overlap(&scene->boxes, thr_box_around(x, y, 0.8 * r, 0.8 * r), THR_BOX_BEAD, HUGE_VAL) / disc;
+  cost += 100 *
+          thr_boxes_overlap(&scene->boxes, thr_box_around(x, y, r + 0.4, r + 0.4), THR_BOX_MARK,
+                            HUGE_VAL) /
+          disc;
+  cost += 2 *
+          thr_boxes_overlap(&scene->boxes, thr_box_around(x, y, 0.8 * r, 0.8 * r), THR_BOX_BEAD,
+                            HUGE_VAL) /
+          disc;
   if (cost < best->cost - 1e-9) *best = (candidate){{x, y}, angle, cost, distance > 0};
 }
 
 /* Tries the sector that begins at half-edge around[first + i] of the mark's node. */
-static void judge_sector(thr_scene *scene, const thr_mark *mark, int i, double penalty, candidate *best)
+static void judge_sector(thr_scene *scene, const thr_mark *mark, int i, double penalty,
+                         candidate *best)
 {
   const thr_frame *frame = scene->paper;
   int first = frame->first[mark->point], degree = thr_degree(frame, mark->point);
@@ -43,10 +53,12 @@ static void judge_sector(thr_scene *scene, const thr_mark *mark, int i, double p
   int n = wide > 1.7 ? SPREAD : 1;
   for (int k = 1; k <= n; k++) {
     double off = wide * k / (n + 1), nearest = fmin(fmin(off, wide - off), THR_PI / 2);
-    double distance = fmax((mark->radius + half_bead + 0.3) / sin(nearest), mark->radius + scene->size.gap);
+    double distance =
+        fmax((mark->radius + half_bead + 0.3) / sin(nearest), mark->radius + scene->size.gap);
     /* straight out of the sector's middle looks best: a little is charged for leaning over */
     double lean = penalty + 0.1 * fabs(2 * off / wide - 1);
-    judge(scene, mark, scene->angle[h] + off, fmin(distance, 0.62 * scene->size.pitch + mark->radius), lean, best);
+    judge(scene, mark, scene->angle[h] + off,
+          fmin(distance, 0.62 * scene->size.pitch + mark->radius), lean, best);
   }
 }
 
@@ -74,7 +86,8 @@ static thr_status place_mark(thr_scene *scene, thr_mark *mark, int half, thr_err
   mark->angle = atan2(sin(best.angle), cos(best.angle));
   mark->beside = best.beside;
   double reach = mark->radius + 0.5; /* its outline too */
-  return thr_boxes_add(&scene->boxes, thr_box_around(mark->at[0], mark->at[1], reach, reach), THR_BOX_MARK, err);
+  return thr_boxes_add(&scene->boxes, thr_box_around(mark->at[0], mark->at[1], reach, reach),
+                       THR_BOX_MARK, err);
 }
 
 thr_status thr_scene_place_marks(thr_scene *scene, thr_err *err)

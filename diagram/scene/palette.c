@@ -1,7 +1,9 @@
-/* Colours of cords: Okabe & Ito 2008 without yellow (too pale on paper) and black (text), told apart by colour-blind
- * readers (least CIEDE2000 difference 22, without one kind of cone 10.9), but not in grey print; a dash pattern for every further
- * six cords. Copies of a cord have its hue, paler than any strong colour and darker than a bead, so that lightness alone tells
- * them apart. Colours of turns: a ramp whose lightness alone tells the order. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Colours of cords: Okabe & Ito 2008 without yellow (too pale on paper) and black (text), told
+ * apart by colour-blind readers (least CIEDE2000 difference 22, without one kind of cone 10.9), but
+ * not in grey print; a dash pattern for every further six cords. Copies of a cord have its hue,
+ * paler than any strong colour and darker than a bead, so that lightness alone tells them apart.
+ * Colours of turns: a ramp whose lightness alone tells the order. */
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
 
@@ -12,9 +14,10 @@
 thr_colour thr_palette(int i)
 {
   /* neighbours in this order differ most: vermillion and orange are kept apart */
-  static const thr_colour colour[THR_COLOURS] = {{"#0072B2", "#9ECDF5", "blue"},     {"#D55E00", "#F1B99E", "vermillion"},
-                                                 {"#009E73", "#99D7BC", "green"},    {"#CC79A7", "#ECB4D1", "pink"},
-                                                 {"#56B4E9", "#A5DDFF", "sky blue"}, {"#E69F00", "#F1CE9D", "orange"}};
+  static const thr_colour colour[THR_COLOURS] = {
+      {"#0072B2", "#9ECDF5", "blue"},     {"#D55E00", "#F1B99E", "vermillion"},
+      {"#009E73", "#99D7BC", "green"},    {"#CC79A7", "#ECB4D1", "pink"},
+      {"#56B4E9", "#A5DDFF", "sky blue"}, {"#E69F00", "#F1CE9D", "orange"}};
   return colour[i % THR_COLOURS];
 }
 
@@ -40,7 +43,8 @@ static double to_light(unsigned value)
 
 bool thr_palette_rim(const char *hex, char rim[8])
 {
-  static const double part[3] = {0.2126, 0.7152, 0.0722}, most = 1.05 / 3 - 0.05, wanted = 1.05 / 4.5 - 0.05; /* luminance */
+  static const double part[3] = {0.2126, 0.7152, 0.0722}, most = 1.05 / 3 - 0.05,
+                      wanted = 1.05 / 4.5 - 0.05; /* luminance */
   unsigned value[3] = {0, 0, 0};
   double light[3], sum = 0;
   if (sscanf(hex, "#%2x%2x%2x", &value[0], &value[1], &value[2]) != 3) return false;
@@ -50,20 +54,23 @@ bool thr_palette_rim(const char *hex, char rim[8])
   }
   if (sum <= most) return false;
   double shade = wanted / sum;
-  snprintf(rim, 8, "#%02x%02x%02x", from_light(shade * light[0]), from_light(shade * light[1]), from_light(shade * light[2]));
+  snprintf(rim, 8, "#%02x%02x%02x", from_light(shade * light[0]), from_light(shade * light[1]),
+           from_light(shade * light[2]));
   return true;
 }
 
 void thr_turning_colour(double angle, char hex[8])
 {
-  static const double pale[3] = {0.94, 0.0100, -0.0173}, dark[3] = {0.27, 0.0700, -0.1212}; /* lightness, a, b */
+  static const double pale[3] = {0.94, 0.0100, -0.0173},
+                      dark[3] = {0.27, 0.0700, -0.1212}; /* lightness, a, b */
   double part = fmin(fmax(angle / THR_PI, 0), 1), at[3], cone[3];
   for (int i = 0; i < 3; i++)
     at[i] = pale[i] + part * (dark[i] - pale[i]);
   cone[0] = pow(at[0] + 0.3963377774 * at[1] + 0.2158037573 * at[2], 3);
   cone[1] = pow(at[0] - 0.1055613458 * at[1] - 0.0638541728 * at[2], 3);
   cone[2] = pow(at[0] - 0.0894841775 * at[1] - 1.2914855480 * at[2], 3);
-  snprintf(hex, 8, "#%02x%02x%02x", from_light(4.0767416621 * cone[0] - 3.3077115913 * cone[1] + 0.2309699292 * cone[2]),
+  snprintf(hex, 8, "#%02x%02x%02x",
+           from_light(4.0767416621 * cone[0] - 3.3077115913 * cone[1] + 0.2309699292 * cone[2]),
            from_light(-1.2684380046 * cone[0] + 2.6097574011 * cone[1] - 0.3413193965 * cone[2]),
            from_light(-0.0041960863 * cone[0] - 0.7034186147 * cone[1] + 1.7076147010 * cone[2]));
 }

@@ -1,6 +1,7 @@
-/* The pieces of a plan: what a hand picks up. With solid joints a piece is a node, with an arm to the middle of each of its
- * edges; with tube joints it is an edge. Every picture, table and sentence speaks of these and calls them alike. Private to
- * diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pieces of a plan: what a hand picks up. With solid joints a piece is a node, with an arm to
+ * the middle of each of its edges; with tube joints it is an edge. Every picture, table and
+ * sentence speaks of these and calls them alike. Private to diagram/. */
 #include "diagram/scene/scene.h"
 
 #include "diagram/tables/kinds.h"
@@ -33,7 +34,8 @@ static bool has_line(const thr_frame *frame, int v)
 {
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
     for (int j = frame->first[v]; j < i; j++)
-      if (thr_turn_angle(frame, frame->half[i] ^ 1, frame->half[j]) < THR_PI - THR_PIECES_IN_LINE) return true;
+      if (thr_turn_angle(frame, frame->half[i] ^ 1, frame->half[j]) < THR_PI - THR_PIECES_IN_LINE)
+        return true;
   return false;
 }
 
@@ -73,7 +75,8 @@ static thr_status order_kinds(thr_pieces *pieces, thr_err *err)
   pieces->model = thr_calloc((size_t)n + 1, sizeof *pieces->model);
   thr_status st = shapes && number && pieces->members && pieces->model ? THR_OK : thr_nomem(err);
   for (int i = pieces->n - 1; i >= 0 && !st; i--)
-    shapes[pieces->kind[i] - 1] = (shape){thr_pieces_arms(pieces, i), thr_pieces_letter(pieces, i), i, pieces->kind[i]};
+    shapes[pieces->kind[i] - 1] =
+        (shape){thr_pieces_arms(pieces, i), thr_pieces_letter(pieces, i), i, pieces->kind[i]};
   if (!st && pieces->solid) qsort(shapes, (size_t)n, sizeof *shapes, by_shape);
   for (int k = 0; k < n && !st; k++) {
     number[shapes[k].kind] = k + 1;
@@ -90,12 +93,13 @@ static thr_status order_kinds(thr_pieces *pieces, thr_err *err)
 
 thr_status thr_pieces_make(thr_pieces *pieces, const thr_plan *plan, double tolerance, thr_err *err)
 {
-  *pieces = (thr_pieces){.plan = plan, .f = &plan->frame, .solid = plan->options.joint == THR_JOINT_SOLID};
+  *pieces = (thr_pieces){
+      .plan = plan, .f = &plan->frame, .solid = plan->options.joint == THR_JOINT_SOLID};
   pieces->n = thr_pieces_count(plan);
   pieces->kind = thr_calloc((size_t)pieces->n, sizeof *pieces->kind);
   if (!pieces->kind) return thr_nomem(err);
-  thr_status st =
-      thr_kinds_find(pieces->f, tolerance, pieces->solid ? NULL : pieces->kind, pieces->solid ? pieces->kind : NULL, err);
+  thr_status st = thr_kinds_find(pieces->f, tolerance, pieces->solid ? NULL : pieces->kind,
+                                 pieces->solid ? pieces->kind : NULL, err);
   return st ? st : order_kinds(pieces, err);
 }
 
@@ -121,7 +125,8 @@ void thr_pieces_kind_name(const thr_pieces *pieces, int kind, char name[24])
     snprintf(name, 24, "%d-%d", arms, kind);
 }
 
-void thr_pieces_name(const thr_pieces *pieces, const char (*label)[THR_LABEL], int piece, thr_text *text)
+void thr_pieces_name(const thr_pieces *pieces, const char (*label)[THR_LABEL], int piece,
+                     thr_text *text)
 {
   const int *end = pieces->solid ? NULL : pieces->f->edge[piece];
   if (pieces->solid)
@@ -130,7 +135,8 @@ void thr_pieces_name(const thr_pieces *pieces, const char (*label)[THR_LABEL], i
     thr_text_printf(text, "%s-%s", label[end[0]], label[end[1]]);
 }
 
-void thr_pieces_pick(const thr_pieces *pieces, const char (*label)[THR_LABEL], int piece, thr_text *text)
+void thr_pieces_pick(const thr_pieces *pieces, const char (*label)[THR_LABEL], int piece,
+                     thr_text *text)
 {
   char name[24], letter = thr_pieces_letter(pieces, piece);
   bool alone = pieces->members[pieces->kind[piece]] == 1;
@@ -140,7 +146,8 @@ void thr_pieces_pick(const thr_pieces *pieces, const char (*label)[THR_LABEL], i
   if (!alone)
     thr_text_append(text, ")");
   else if (letter)
-    thr_text_printf(text, " (%s %c)", letter == 'P' || letter == 'T' || letter == 'Y' ? "a" : "an", letter);
+    thr_text_printf(text, " (%s %c)", letter == 'P' || letter == 'T' || letter == 'Y' ? "a" : "an",
+                    letter);
   else if (pieces->solid)
     thr_text_printf(text, " (with %d arms)", thr_pieces_arms(pieces, piece));
 }
@@ -151,7 +158,8 @@ void thr_pieces_shapes(const thr_pieces *pieces, thr_text *text)
   for (int k = 1, count; k <= pieces->n_kinds && pieces->solid; k += count) {
     int arms = thr_pieces_arms(pieces, pieces->model[k]), members = 0;
     char letter = thr_pieces_letter(pieces, pieces->model[k]);
-    for (count = 0; k + count <= pieces->n_kinds && thr_pieces_arms(pieces, pieces->model[k + count]) == arms &&
+    for (count = 0; k + count <= pieces->n_kinds &&
+                    thr_pieces_arms(pieces, pieces->model[k + count]) == arms &&
                     thr_pieces_letter(pieces, pieces->model[k + count]) == letter;
          count++)
       members += pieces->members[k + count];
@@ -170,7 +178,8 @@ typedef struct {
   const thr_pieces *pieces;
   thr_visit *visit;
   int n;
-  int *times, *since, *last; /* [pieces->n] visits so far, the first of them, the half-edge by which the last one came in */
+  int *times, *since, *last; /* [pieces->n] visits so far, the first of them, the half-edge by which
+                                the last one came in */
 } follower;
 
 static void enter(follower *to, int cord, int number, int in, int out)
@@ -195,14 +204,16 @@ static void follow_part(follower *to, const thr_part *part)
   const int *half = to->pieces->plan->cord[part->cord].half;
   int n = part->end - part->first;
   for (int i = part->begins && to->pieces->solid ? -1 : 0; i < n; i++) {
-    int k = part->backward ? part->end - 1 - i : part->first + i, next = part->backward ? k - 1 : k + 1;
-    int in = i < 0 ? -1 : half[k] ^ part->backward, out = i + 1 < n ? half[next] ^ part->backward : -1;
+    int k = part->backward ? part->end - 1 - i : part->first + i,
+        next = part->backward ? k - 1 : k + 1;
+    int in = i < 0 ? -1 : half[k] ^ part->backward,
+        out = i + 1 < n ? half[next] ^ part->backward : -1;
     enter(to, part->cord, i < 0 ? 0 : k + 1, in, to->pieces->solid ? out : in);
   }
 }
 
-thr_status thr_pieces_follow(const thr_pieces *pieces, const thr_part *parts, int n_parts, thr_visit **visits, int *n,
-                             thr_err *err)
+thr_status thr_pieces_follow(const thr_pieces *pieces, const thr_part *parts, int n_parts,
+                             thr_visit **visits, int *n, thr_err *err)
 {
   int total = 0;
   for (int i = 0; i < n_parts; i++)
@@ -248,7 +259,8 @@ int thr_pieces_parts(const thr_plan *plan, const thr_copy *copy, int needles, th
 /* ---- words ---- */
 
 /* ", on cord A since its row 3", ", on the cord since its start" */
-static void say_since(const thr_pieces *pieces, const thr_visit *visits, int i, const int *step, thr_text *text)
+static void say_since(const thr_pieces *pieces, const thr_visit *visits, int i, const int *step,
+                      thr_text *text)
 {
   const thr_visit *visit = &visits[i], *first = &visits[visit->since];
   bool same = visit->cord == first->cord;
@@ -270,11 +282,13 @@ static void say_since(const thr_pieces *pieces, const thr_visit *visits, int i, 
 }
 
 /* "in from A5, out to C5" */
-static void say_arms(const thr_pieces *pieces, const char (*label)[THR_LABEL], const thr_visit *visit, thr_text *text)
+static void say_arms(const thr_pieces *pieces, const char (*label)[THR_LABEL],
+                     const thr_visit *visit, thr_text *text)
 {
   const thr_frame *frame = pieces->f;
   if (!pieces->solid) {
-    thr_text_printf(text, "in at %s, out at %s", label[thr_tail(frame, visit->in)], label[thr_head(frame, visit->in)]);
+    thr_text_printf(text, "in at %s, out at %s", label[thr_tail(frame, visit->in)],
+                    label[thr_head(frame, visit->in)]);
     return;
   }
   if (visit->in >= 0) thr_text_printf(text, "in from %s, ", label[thr_tail(frame, visit->in)]);
@@ -284,8 +298,8 @@ static void say_arms(const thr_pieces *pieces, const char (*label)[THR_LABEL], c
     thr_text_append(text, "here the end comes out");
 }
 
-void thr_pieces_say(const thr_pieces *pieces, const char (*label)[THR_LABEL], const thr_visit *visits, int i, const int *step,
-                    thr_text *text)
+void thr_pieces_say(const thr_pieces *pieces, const char (*label)[THR_LABEL],
+                    const thr_visit *visits, int i, const int *step, thr_text *text)
 {
   const thr_visit *visit = &visits[i];
   bool begins = pieces->solid && visit->in < 0;

@@ -1,4 +1,6 @@
-/* Letter and number places of grid-like pictures: column letters from left to right, row numbers from the bottom up. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Letter and number places of grid-like pictures: column letters from left to right, row numbers
+ * from the bottom up. */
 #include "diagram/scene/scene.h"
 
 #include <ctype.h>
@@ -32,9 +34,11 @@ void thr_places_destroy(thr_places *p)
   *p = (thr_places){0};
 }
 
-/* Clusters one coordinate: line[v] = cluster of node v, centre[] their means; returns how many, or 0 if a cluster is
- * wider than a tenth of the median. A gap of a quarter of the median starts a new one. */
-static int cluster(const double (*xy)[2], int n, int axis, double median, keyed *k, int *line, double *centre)
+/* Clusters one coordinate: line[v] = cluster of node v, centre[] their means; returns how many, or
+ * 0 if a cluster is wider than a tenth of the median. A gap of a quarter of the median starts a new
+ * one. */
+static int cluster(const double (*xy)[2], int n, int axis, double median, keyed *k, int *line,
+                   double *centre)
 {
   for (int v = 0; v < n; v++)
     k[v] = (keyed){xy[v][axis], v};
@@ -71,7 +75,8 @@ static bool grid_like(const thr_places *p, const thr_frame *frame, bool *taken)
   return along * 10L >= frame->n_edges * 9L;
 }
 
-/* Splits "AB12" into letters and digits; false for anything else or longer than 7 bytes of either. */
+/* Splits "AB12" into letters and digits; false for anything else or longer than 7 bytes of either.
+ */
 static bool split_name(const char *name, char letter[8], char number[8])
 {
   size_t n = strspn(name, "ABCDEFGHIJKLMNOPQRSTUVWXYZ"), m = strspn(name + n, "0123456789");
@@ -87,7 +92,8 @@ static bool take_names(thr_places *p, const thr_frame *frame)
 {
   for (int v = 0; v < frame->n_nodes; v++) {
     char letter[8], number[8], *l = p->letter[p->column[v]], *n = p->number[p->row[v]];
-    if (!frame->name || !frame->name[v] || !split_name(frame->name[v], letter, number)) return false;
+    if (!frame->name || !frame->name[v] || !split_name(frame->name[v], letter, number))
+      return false;
     if ((*l && strcmp(l, letter) != 0) || (*n && strcmp(n, number) != 0)) return false;
     snprintf(l, 8, "%s", letter);
     snprintf(n, 8, "%s", number);
@@ -119,7 +125,8 @@ static thr_status allocate(thr_places *p, int n, thr_err *err)
   return p->x && p->y && p->letter && p->number && p->column && p->row ? THR_OK : thr_nomem(err);
 }
 
-thr_status thr_places_find(thr_places *out, const thr_frame *frame, const double (*xy)[2], double median, thr_err *err)
+thr_status thr_places_find(thr_places *out, const thr_frame *frame, const double (*xy)[2],
+                           double median, thr_err *err)
 {
   thr_places p = {0};
   bool found = false, *taken = NULL;
@@ -185,7 +192,8 @@ static void tell_apart(char (*label)[THR_LABEL], named *k, int n)
   }
 }
 
-thr_status thr_places_labels(const thr_places *p, const thr_frame *frame, char (*label)[THR_LABEL], thr_err *err)
+thr_status thr_places_labels(const thr_places *p, const thr_frame *frame, char (*label)[THR_LABEL],
+                             thr_err *err)
 {
   named *k = thr_calloc((size_t)frame->n_nodes, sizeof *k);
   if (!k) return thr_nomem(err);

@@ -1,6 +1,8 @@
-/* The cords as lines through the nodes, for CAD and for pictures made elsewhere. Objects are called "cord-A" by the cord's id as
- * elements of the overview are; docs/outputs.md says more. The same plan gives the same bytes. THR_EINPUT for a plan without
- * cords and for cords that do not fit the framework; out is then unchanged. O(nodes + passes). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cords as lines through the nodes, for CAD and for pictures made elsewhere. Objects are called
+ * "cord-A" by the cord's id as elements of the overview are; docs/outputs.md says more. The same
+ * plan gives the same bytes. THR_EINPUT for a plan without cords and for cords that do not fit the
+ * framework; out is then unchanged. O(nodes + passes). */
 #include "diagram/scene/scene.h"
 
 #include "graph/framework/units.h"
@@ -47,8 +49,9 @@ static void put_object(const thr_plan *plan, int c, thr_text *out)
   thr_text_printf(out, "o cord-%s\n", id);
 }
 
-/* Each cord through the nodes, which stand before all of them. Where it passes an edge again it goes on to a vertex of its own:
- * two vertices have one edge in a mesh of Blender. last: [n_edges] zeros. */
+/* Each cord through the nodes, which stand before all of them. Where it passes an edge again it
+ * goes on to a vertex of its own: two vertices have one edge in a mesh of Blender. last: [n_edges]
+ * zeros. */
 static void put_passes(thr_cord_lines *lines, int *last, thr_text *out)
 {
   const thr_plan *plan = lines->plan;
@@ -57,7 +60,8 @@ static void put_passes(thr_cord_lines *lines, int *last, thr_text *out)
     const thr_cord *cord = &plan->cord[c];
     thr_cord_lines_next(lines, c);
     put_object(plan, c, out);
-    for (int k = 0, from = thr_cord_start(&plan->frame, cord) + 1, to; k < cord->n_passes; k++, from = to) {
+    for (int k = 0, from = thr_cord_start(&plan->frame, cord) + 1, to; k < cord->n_passes;
+         k++, from = to) {
       const int e = cord->half[k] >> 1;
       to = thr_head(&plan->frame, cord->half[k]) + 1;
       if (last[e] == c + 1) {
@@ -84,7 +88,8 @@ static void put_lanes(thr_cord_lines *lines, thr_text *out)
   }
 }
 
-thr_status thr_polylines_obj(const thr_plan *plan, const thr_line_options *options, thr_text *out, thr_err *err)
+thr_status thr_polylines_obj(const thr_plan *plan, const thr_line_options *options, thr_text *out,
+                             thr_err *err)
 {
   int n;
   thr_text text = {0};
@@ -94,7 +99,8 @@ thr_status thr_polylines_obj(const thr_plan *plan, const thr_line_options *optio
   int *last = thr_calloc((size_t)plan->frame.n_edges, sizeof *last);
   st = thr_cord_lines_begin(&lines, plan, options, err);
   if (!st && !last) st = thr_nomem(err);
-  thr_text_printf(&text, "# thread plan: %d cord%s, %d passes\n", plan->n_cords, plan->n_cords == 1 ? "" : "s", n);
+  thr_text_printf(&text, "# thread plan: %d cord%s, %d passes\n", plan->n_cords,
+                  plan->n_cords == 1 ? "" : "s", n);
   if (options->up_y) thr_text_append(&text, "# up: y\n");
   if (!st && options->lanes) {
     thr_text_append(&text, "# units: ");
@@ -112,12 +118,14 @@ thr_status thr_polylines_obj(const thr_plan *plan, const thr_line_options *optio
 
 /* ---- DXF ---- */
 
-/* The index of AutoCAD's colours that is nearest to "#rrggbb": 10 to 249 are 24 hues in five shades, full and half as vivid. */
+/* The index of AutoCAD's colours that is nearest to "#rrggbb": 10 to 249 are 24 hues in five
+ * shades, full and half as vivid. */
 static int colour_index(const char *hex)
 {
   static const double shade[] = {1, 0.65, 0.5, 0.3, 0.15};
   const long wanted = strtol(hex + 1, NULL, 16);
-  const double rgb[3] = {(double)(wanted >> 16 & 255) / 255, (double)(wanted >> 8 & 255) / 255, (double)(wanted & 255) / 255};
+  const double rgb[3] = {(double)(wanted >> 16 & 255) / 255, (double)(wanted >> 8 & 255) / 255,
+                         (double)(wanted & 255) / 255};
   int best = 7;
   double least = 3;
   for (int i = 10; i < 250; i++) {
@@ -171,7 +179,8 @@ static void name_layer(const thr_plan *plan, const thr_copy *copy, int c, thr_dx
   layer->colour = colour_index(colour_of(plan, copy, c).hex);
 }
 
-thr_status thr_polylines_dxf(const thr_plan *plan, const thr_line_options *options, thr_text *out, thr_err *err)
+thr_status thr_polylines_dxf(const thr_plan *plan, const thr_line_options *options, thr_text *out,
+                             thr_err *err)
 {
   int n;
   thr_text text = {0};
@@ -220,7 +229,8 @@ static void put_compas(thr_cord_lines *lines, int c, thr_writer *writer)
   thr_write_close(writer);
 }
 
-thr_status thr_polylines_compas(const thr_plan *plan, const thr_line_options *options, thr_text *out, thr_err *err)
+thr_status thr_polylines_compas(const thr_plan *plan, const thr_line_options *options,
+                                thr_text *out, thr_err *err)
 {
   int n;
   thr_text text = {0};
@@ -265,7 +275,8 @@ static void put_byte(base64 *b, unsigned char byte)
   b->waiting[b->n++] = byte;
   if (b->n < 3) return;
   unsigned bits = (unsigned)b->waiting[0] << 16 | (unsigned)b->waiting[1] << 8 | b->waiting[2];
-  const char four[4] = {letter[bits >> 18], letter[bits >> 12 & 63], letter[bits >> 6 & 63], letter[bits & 63]};
+  const char four[4] = {letter[bits >> 18], letter[bits >> 12 & 63], letter[bits >> 6 & 63],
+                        letter[bits & 63]};
   thr_text_append_bytes(b->out, four, 4);
   b->n = 0;
 }
@@ -285,14 +296,17 @@ static thr_status position(const double at[3], double metres, float out[3], thr_
   for (int i = 0; i < 3; i++) {
     const double x = at[i] * metres;
     if (!(fabs(x) <= FLT_MAX))
-      return thr_fail(err, THR_EINPUT, "a node lies too far away for glTF's numbers; move the framework or set its --units");
+      return thr_fail(
+          err, THR_EINPUT,
+          "a node lies too far away for glTF's numbers; move the framework or set its --units");
     out[i] = x == 0 ? 0 : (float)x;
   }
   return THR_OK;
 }
 
 /* A point has twelve bytes, full groups of three: base64 needs no padding. */
-static thr_status put_strip(thr_cord_lines *lines, int c, double metres, base64 *b, strip *s, thr_err *err)
+static thr_status put_strip(thr_cord_lines *lines, int c, double metres, base64 *b, strip *s,
+                            thr_err *err)
 {
   float at[3] = {0};
   thr_cord_lines_next(lines, c);
@@ -373,8 +387,8 @@ static void put_view(thr_writer *writer, const strip *s, int64_t offset)
 typedef enum { NODES, MESHES, MATERIALS, ACCESSORS, VIEWS, N_LISTS } list;
 
 /* One element per cord of a list; bytes before it in the buffer: offset. */
-static void put_element(thr_writer *writer, const thr_plan *plan, const thr_copy *copy, list what, int c, const strip *s,
-                        int64_t offset)
+static void put_element(thr_writer *writer, const thr_plan *plan, const thr_copy *copy, list what,
+                        int c, const strip *s, int64_t offset)
 {
   char id[12], name[24];
   thr_scene_cord_id(plan, c, id);
@@ -392,9 +406,11 @@ static void put_element(thr_writer *writer, const thr_plan *plan, const thr_copy
   thr_write_close(writer);
 }
 
-static void put_members(thr_writer *writer, const thr_plan *plan, const thr_copy *copy, const strip *s)
+static void put_members(thr_writer *writer, const thr_plan *plan, const thr_copy *copy,
+                        const strip *s)
 {
-  static const char *const key[N_LISTS] = {"nodes", "meshes", "materials", "accessors", "bufferViews"};
+  static const char *const key[N_LISTS] = {"nodes", "meshes", "materials", "accessors",
+                                           "bufferViews"};
   for (int what = 0; what < N_LISTS; what++) {
     int64_t offset = 0;
     thr_write_line(writer, 0);
@@ -443,7 +459,8 @@ static void put_buffers(thr_writer *writer, int64_t n, thr_text *address)
   thr_write_close(writer);
 }
 
-thr_status thr_polylines_gltf(const thr_plan *plan, const thr_line_options *options, thr_text *out, thr_err *err)
+thr_status thr_polylines_gltf(const thr_plan *plan, const thr_line_options *options, thr_text *out,
+                              thr_err *err)
 {
   int n;
   double mm;

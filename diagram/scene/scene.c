@@ -1,7 +1,9 @@
-/* The overview picture before it is written: everything in mm on paper, x to the right, y down, the nodes' bounding box at
- * the origin. Private to diagram/. Built in steps, each in its own file: paper and beads (scene.c), the S and E marks
- * (marks.c), seams between
- * panels (seams.c), lanes (lanes.c), strands (strands.c), numbers, arrows and names (labels.c); if wanted, turns (turns.c). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The overview picture before it is written: everything in mm on paper, x to the right, y down, the
+ * nodes' bounding box at the origin. Private to diagram/. Built in steps, each in its own file:
+ * paper and beads (scene.c), the S and E marks (marks.c), seams between panels (seams.c), lanes
+ * (lanes.c), strands (strands.c), numbers, arrows and names (labels.c); if wanted, turns (turns.c).
+ */
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
 
@@ -10,12 +12,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double AUTO_PITCH = 24, MAX_WIDTH = 1130, MAX_HEIGHT = 1070; /* mm; A0 is 1189 long, less margins and text */
-static const double SHORT = 0.36; /* at most this share of an edge is left free at each end */
+static const double AUTO_PITCH = 24, MAX_WIDTH = 1130,
+                    MAX_HEIGHT = 1070; /* mm; A0 is 1189 long, less margins and text */
+static const double SHORT = 0.36;      /* at most this share of an edge is left free at each end */
 
 double thr_scene_text_width(const char *text, double font_size)
 {
-  /* DejaVu Sans, a wide face: digits 0.636 em, capitals 0.70 in the mean, many of those in names 0.77 */
+  /* DejaVu Sans, a wide face: digits 0.636 em, capitals 0.70 in the mean, many of those in names
+   * 0.77 */
   int capitals = 0;
   for (const char *s = text; *s; s++)
     capitals += *s >= 'A' && *s <= 'Z';
@@ -29,13 +33,15 @@ double thr_scene_pill_height(const thr_scene *scene)
 
 double thr_scene_pill_width(const thr_scene *scene, const char *text)
 {
-  return fmax(thr_scene_text_width(text, scene->size.text) + 0.6 * scene->size.text, thr_scene_pill_height(scene));
+  return fmax(thr_scene_text_width(text, scene->size.text) + 0.6 * scene->size.text,
+              thr_scene_pill_height(scene));
 }
 
 void thr_scene_number(const thr_scene *scene, int pass, char text[32])
 {
   const thr_scene_pass *scene_pass = &scene->pass[pass];
-  snprintf(text, 32, "%s%d", scene->plan->n_cords > 1 ? scene->id[scene_pass->cord] : "", scene_pass->number);
+  snprintf(text, 32, "%s%d", scene->plan->n_cords > 1 ? scene->id[scene_pass->cord] : "",
+           scene_pass->number);
 }
 
 double thr_scene_sweep(double a, double b)
@@ -63,8 +69,9 @@ const char *thr_scene_cord_colour(const thr_scene *scene, int c)
 void thr_scene_colour(const thr_scene *scene, int i, char hex[8])
 {
   const thr_scene_pass *pass = &scene->pass[i];
-  const thr_eval_cord *known =
-      scene->tension && scene->tension->cord[pass->cord].known ? &scene->tension->cord[pass->cord] : NULL;
+  const thr_eval_cord *known = scene->tension && scene->tension->cord[pass->cord].known
+                                   ? &scene->tension->cord[pass->cord]
+                                   : NULL;
   if (known)
     thr_tension_colour(scene->tension_range, known->tension[pass->number - 1], hex);
   else if (scene->tension)
@@ -84,7 +91,8 @@ bool thr_scene_rim(const thr_scene *scene, int c, const char *colour, char rim[8
 
 const double *thr_scene_dash(const thr_scene *scene, int c)
 {
-  int hues = scene->copy ? thr_copies_paths(scene->copy, scene->plan->n_cords) : scene->plan->n_cords;
+  int hues =
+      scene->copy ? thr_copies_paths(scene->copy, scene->plan->n_cords) : scene->plan->n_cords;
   return hues > THR_COLOURS ? thr_palette_dash(thr_scene_hue(scene, c) / THR_COLOURS) : NULL;
 }
 
@@ -145,8 +153,8 @@ void thr_scene_destroy(thr_scene *scene)
 
 static thr_status allocate(thr_scene *scene, thr_err *err)
 {
-  size_t n = (size_t)scene->layout->n_points, m = (size_t)scene->frame->n_edges, c = (size_t)scene->plan->n_cords,
-         p = (size_t)scene->n_passes;
+  size_t n = (size_t)scene->layout->n_points, m = (size_t)scene->frame->n_edges,
+         c = (size_t)scene->plan->n_cords, p = (size_t)scene->n_passes;
   scene->at = thr_scratch_array(&scene->own, n, sizeof *scene->at);
   scene->twin = thr_scratch_array(&scene->own, n, sizeof *scene->twin);
   scene->angle = thr_scratch_array(&scene->own, 2 * m, sizeof *scene->angle);
@@ -163,7 +171,8 @@ static thr_status allocate(thr_scene *scene, thr_err *err)
   scene->id = thr_scratch_array(&scene->own, c, sizeof *scene->id);
   scene->named = thr_scratch_array(&scene->own, n, sizeof *scene->named);
   scene->name_at = thr_scratch_array(&scene->own, n, sizeof *scene->name_at);
-  scene->label = thr_scratch_array(&scene->own, (size_t)scene->frame->n_nodes, sizeof *scene->label);
+  scene->label =
+      thr_scratch_array(&scene->own, (size_t)scene->frame->n_nodes, sizeof *scene->label);
   return thr_scratch_check(&scene->own, err);
 }
 
@@ -177,10 +186,11 @@ thr_status thr_scene_check_cords(const thr_plan *plan, int *n_passes, thr_err *e
     for (int i = 0; i < cord->n_passes; i++) {
       int h = cord->half[i];
       if (h < 0 || h >= 2 * frame->n_edges)
-        return thr_fail(err, THR_EINPUT, "cord %.11s: pass %d names edge %d, but there are %d", cord->id, i + 1, h / 2,
-                        frame->n_edges);
+        return thr_fail(err, THR_EINPUT, "cord %.11s: pass %d names edge %d, but there are %d",
+                        cord->id, i + 1, h / 2, frame->n_edges);
       if (i && thr_head(frame, cord->half[i - 1]) != thr_tail(frame, h))
-        return thr_fail(err, THR_EINPUT, "cord %.11s: pass %d does not start where pass %d ends", cord->id, i + 1, i);
+        return thr_fail(err, THR_EINPUT, "cord %.11s: pass %d does not start where pass %d ends",
+                        cord->id, i + 1, i);
     }
     total += cord->n_passes;
   }
@@ -220,7 +230,8 @@ static void collect_passes(thr_scene *scene)
     const thr_cord *cord = &scene->plan->cord[c];
     scene->first_pass[c] = n;
     for (int i = 0; i < cord->n_passes; i++) {
-      scene->pass[n++] = (thr_scene_pass){.cord = c, .number = i + 1, .half = cord->half[i], .seam = -1};
+      scene->pass[n++] =
+          (thr_scene_pass){.cord = c, .number = i + 1, .half = cord->half[i], .seam = -1};
       scene->first_on[(cord->half[i] >> 1) + 2]++;
     }
     thr_scene_cord_id(scene->plan, c, scene->id[c]);
@@ -258,19 +269,23 @@ static thr_status place_nodes(thr_scene *scene, double pitch_mm, thr_err *err)
       high[i] = fmax(high[i], layout->xy[v][i]);
     }
   double extent = fmax(high[0] - low[0], high[1] - low[1]);
-  double unit = layout->median > 1e-9 * extent ? layout->median : extent / sqrt(scene->frame->n_edges);
+  double unit =
+      layout->median > 1e-9 * extent ? layout->median : extent / sqrt(scene->frame->n_edges);
   if (!(unit > 0)) unit = 1;
   /* a layout with many short edges gets a larger sheet, so that these have room too */
   double wanted = AUTO_PITCH * fmax(1, fmin(1.4, 0.6 / fmax(layout->ratio, 0.01)));
-  wanted *= fmax(1, fmin(1.5, 0.8 + 0.17 * scene->n_passes / scene->frame->n_edges)); /* and so does one with many lanes */
+  wanted *=
+      fmax(1, fmin(1.5, 0.8 + 0.17 * scene->n_passes /
+                                  scene->frame->n_edges)); /* and so does one with many lanes */
   double relative = fmax((high[0] - low[0]) / MAX_WIDTH, (high[1] - low[1]) / MAX_HEIGHT) / unit;
   scene->size.pitch = pitch_mm > 0 ? pitch_mm : fmin(wanted, relative > 0 ? 1 / relative : wanted);
   scene->scale = scene->size.pitch / unit;
   scene->width = (high[0] - low[0]) * scene->scale;
   scene->height = (high[1] - low[1]) * scene->scale;
   if (!(scene->width < 1e5 && scene->height < 1e5))
-    return thr_fail(err, THR_EINPUT, "a pitch of %g mm needs a sheet %.0f mm wide; choose a smaller one", scene->size.pitch,
-                    fmax(scene->width, scene->height));
+    return thr_fail(err, THR_EINPUT,
+                    "a pitch of %g mm needs a sheet %.0f mm wide; choose a smaller one",
+                    scene->size.pitch, fmax(scene->width, scene->height));
   scene->origin[0] = low[0];
   scene->origin[1] = high[1];
   for (int v = 0; v < layout->n_points; v++) {
@@ -302,14 +317,17 @@ static void size_beads(thr_scene *scene)
 {
   for (int e = 0; e < scene->frame->n_edges; e++) {
     int n = scene->first_on[e + 1] - scene->first_on[e];
-    double room = fmin(0.62 * scene->size.pitch, fmax(0.6 * thr_scene_edge_length(scene, e), 0.2 * scene->size.pitch));
+    double room = fmin(0.62 * scene->size.pitch,
+                       fmax(0.6 * thr_scene_edge_length(scene, e), 0.2 * scene->size.pitch));
     scene->lane[e] = n > 1 ? fmin(scene->size.lane, room / (n - 1)) : scene->size.lane;
     double wide = (n > 1 ? (n - 1) * scene->lane[e] : 0) + 0.2 * scene->size.pitch;
-    scene->bead[e] = fmax(wide, fmin(scene->size.bead, fmax(0.55 * thr_scene_edge_length(scene, e), 0.17 * scene->size.pitch)));
+    scene->bead[e] = fmax(wide, fmin(scene->size.bead, fmax(0.55 * thr_scene_edge_length(scene, e),
+                                                            0.17 * scene->size.pitch)));
   }
 }
 
-/* How far from the node half-edge h may start so that its bead clears the bead of its neighbour other. */
+/* How far from the node half-edge h may start so that its bead clears the bead of its neighbour
+ * other. */
 static double clearance(const thr_scene *scene, int h, int other)
 {
   double a = thr_scene_sweep(scene->angle[h], scene->angle[other]);
@@ -329,37 +347,48 @@ static void size_gaps(thr_scene *scene)
       double gap = scene->size.gap;
       if (degree > 1) {
         gap = fmax(gap, 0.95 * clearance(scene, h, scene->around[first + (i + 1) % degree]));
-        gap = fmax(gap, 0.95 * clearance(scene, h, scene->around[first + (i + degree - 1) % degree]));
+        gap =
+            fmax(gap, 0.95 * clearance(scene, h, scene->around[first + (i + degree - 1) % degree]));
       }
-      scene->gap[h] = fmin(fmin(gap, scene->size.pitch), SHORT * thr_scene_edge_length(scene, h >> 1));
+      scene->gap[h] =
+          fmin(fmin(gap, scene->size.pitch), SHORT * thr_scene_edge_length(scene, h >> 1));
     }
   }
 }
 
-/* Tells the boxes where tubes and arms are: small squares along each. Names may touch the sides of arms. */
+/* Tells the boxes where tubes and arms are: small squares along each. Names may touch the sides of
+ * arms. */
 static thr_status box_beads(thr_scene *scene, thr_err *err)
 {
   double u = scene->size.pitch, seen = scene->solid ? 0.75 : 0.9;
-  thr_status st = thr_boxes_init(&scene->boxes, (thr_box){-u, -u, scene->width + u, scene->height + u}, fmax(0.5 * u, 4), err);
+  thr_status st = thr_boxes_init(
+      &scene->boxes, (thr_box){-u, -u, scene->width + u, scene->height + u}, fmax(0.5 * u, 4), err);
   for (int e = 0; e < scene->frame->n_edges && !st; e++) {
-    double d[2], half = 0.5 * scene->bead[e],
-                 length = thr_scene_edge_length(scene, e) - scene->gap[2 * e] - scene->gap[2 * e + 1];
+    double d[2],
+        half = 0.5 * scene->bead[e],
+        length = thr_scene_edge_length(scene, e) - scene->gap[2 * e] - scene->gap[2 * e + 1];
     const double *a = scene->at[scene->paper->edge[e][0]];
     thr_scene_direction(scene, 2 * e, d);
     int n = (int)fmin(ceil(length / scene->bead[e]) + 1, 64);
     for (int i = 0; i < n && !st; i++) {
-      double t = scene->gap[2 * e] + (n > 1 ? fmin(half, 0.5 * length) + i * fmax(length - 2 * half, 0) / (n - 1) : 0.5 * length);
-      st = thr_boxes_add(&scene->boxes, thr_box_around(a[0] + t * d[0], a[1] + t * d[1], seen * half, seen * half), THR_BOX_BEAD,
-                         err);
+      double t = scene->gap[2 * e] +
+                 (n > 1 ? fmin(half, 0.5 * length) + i * fmax(length - 2 * half, 0) / (n - 1)
+                        : 0.5 * length);
+      st = thr_boxes_add(&scene->boxes,
+                         thr_box_around(a[0] + t * d[0], a[1] + t * d[1], seen * half, seen * half),
+                         THR_BOX_BEAD, err);
     }
   }
   return st;
 }
 
-thr_status thr_scene_build(thr_scene *scene, const thr_plan *plan, const thr_layout *layout, double pitch_mm, bool pale_copies,
-                           thr_err *err)
+thr_status thr_scene_build(thr_scene *scene, const thr_plan *plan, const thr_layout *layout,
+                           double pitch_mm, bool pale_copies, thr_err *err)
 {
-  *scene = (thr_scene){.plan = plan, .frame = &plan->frame, .layout = layout, .paper = thr_layout_paper(layout, &plan->frame)};
+  *scene = (thr_scene){.plan = plan,
+                       .frame = &plan->frame,
+                       .layout = layout,
+                       .paper = thr_layout_paper(layout, &plan->frame)};
   scene->solid = plan->options.joint == THR_JOINT_SOLID;
   thr_status st = thr_scene_check_cords(plan, &scene->n_passes, err);
   if (!st) st = allocate(scene, err);
@@ -368,7 +397,8 @@ thr_status thr_scene_build(thr_scene *scene, const thr_plan *plan, const thr_lay
   collect_passes(scene);
   if ((st = place_nodes(scene, pitch_mm, err))) goto done;
   if (thr_layout_to_scale(layout->kind))
-    st = thr_places_find(&scene->places, scene->frame, (const double(*)[2])layout->xy, layout->median, err);
+    st = thr_places_find(&scene->places, scene->frame, (const double(*)[2])layout->xy,
+                         layout->median, err);
   if (!st) st = thr_places_labels(&scene->places, scene->frame, scene->label, err);
   if (st) goto done;
   if ((st = sort_around(scene, err))) goto done;

@@ -1,9 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The line of every pass: straight in its lane, and a Bezier curve through the node before it. */
 #include "diagram/scene/scene.h"
 
 #include <math.h>
 
-void thr_scene_curve_at(const double a[2], const double b[2], const double c[2], const double d[2], double t, double at[2])
+void thr_scene_curve_at(const double a[2], const double b[2], const double c[2], const double d[2],
+                        double t, double at[2])
 {
   double u = 1 - t;
   for (int k = 0; k < 2; k++)
@@ -15,7 +17,8 @@ static void lane_end(const thr_scene *scene, int i, bool end, double at[2])
 {
   const thr_scene_pass *pass = &scene->pass[i];
   const thr_frame *frame = scene->paper;
-  int e = pass->half >> 1, n = scene->first_on[e + 1] - scene->first_on[e], tail = end ? pass->half ^ 1 : pass->half;
+  int e = pass->half >> 1, n = scene->first_on[e + 1] - scene->first_on[e],
+      tail = end ? pass->half ^ 1 : pass->half;
   double d[2], out[2], offset = (pass->lane - 0.5 * (n - 1)) * scene->lane[e];
   const double *o = scene->at[thr_tail(frame, tail)];
   thr_scene_direction(scene, 2 * e, d);
@@ -27,7 +30,8 @@ static void lane_end(const thr_scene *scene, int i, bool end, double at[2])
 }
 
 /* Where two rays meet: p + a * d = q - b * g, for a, b > 0; false if they do not. */
-static bool meet(const double p[2], const double d[2], const double q[2], const double g[2], double *a, double *b)
+static bool meet(const double p[2], const double d[2], const double q[2], const double g[2],
+                 double *a, double *b)
 {
   double x = q[0] - p[0], y = q[1] - p[1], cross = d[0] * g[1] - d[1] * g[0];
   if (fabs(cross) < 0.05) return false;
@@ -36,8 +40,10 @@ static bool meet(const double p[2], const double d[2], const double q[2], const 
   return *a > 0 && *b > 0;
 }
 
-/* Control points of a curve from p in direction d to q in direction g; reach is how far it may go into the node. */
-static void bend(const double p[2], const double d[2], const double q[2], const double g[2], double reach, double turn[2][2])
+/* Control points of a curve from p in direction d to q in direction g; reach is how far it may go
+ * into the node. */
+static void bend(const double p[2], const double d[2], const double q[2], const double g[2],
+                 double reach, double turn[2][2])
 {
   double chord = hypot(q[0] - p[0], q[1] - p[1]), a = 0, b = 0;
   if (meet(p, d, q, g, &a, &b)) {
@@ -55,8 +61,10 @@ static void bend(const double p[2], const double d[2], const double q[2], const 
   }
 }
 
-/* The curve between a mark and a lane: leaves the mark towards the node, or along the lane if it sits on the node. */
-static void stub(const thr_scene *scene, const thr_mark *mark, const double lane[2], const double into[2], double turn[2][2])
+/* The curve between a mark and a lane: leaves the mark towards the node, or along the lane if it
+ * sits on the node. */
+static void stub(const thr_scene *scene, const thr_mark *mark, const double lane[2],
+                 const double into[2], double turn[2][2])
 {
   const double *o = scene->at[mark->point];
   double length = hypot(lane[0] - mark->at[0], lane[1] - mark->at[1]);
@@ -77,7 +85,8 @@ static void lay_turn(thr_scene *scene, int i)
     return;
   }
   thr_scene_direction(scene, pass[-1].half, d);
-  bend(pass[-1].to, d, pass->from, g, fmin(scene->gap[pass->half], scene->gap[pass[-1].half ^ 1]), pass->turn);
+  bend(pass[-1].to, d, pass->from, g, fmin(scene->gap[pass->half], scene->gap[pass[-1].half ^ 1]),
+       pass->turn);
 }
 
 void thr_scene_lay_strands(thr_scene *scene)
@@ -102,8 +111,8 @@ void thr_scene_lay_strands(thr_scene *scene)
 }
 
 /* Boxes along a curve through a node, as dense as the line is wide. */
-static thr_status box_curve(thr_scene *scene, const double a[2], const double b[2], const double c[2], const double d[2],
-                            thr_err *err)
+static thr_status box_curve(thr_scene *scene, const double a[2], const double b[2],
+                            const double c[2], const double d[2], thr_err *err)
 {
   thr_status st = THR_OK;
   double at[2], half = 0.5 * scene->size.cord + scene->size.casing;
@@ -121,12 +130,15 @@ thr_status thr_scene_box_strands(thr_scene *scene, thr_err *err)
   for (int i = 0; i < scene->n_passes && !st; i++) {
     const thr_scene_pass *pass = &scene->pass[i];
     const thr_mark *mark = thr_scene_mark_after(scene, i);
-    st = box_curve(scene, thr_scene_turn_start(scene, i), pass->turn[0], pass->turn[1], pass->from, err);
+    st = box_curve(scene, thr_scene_turn_start(scene, i), pass->turn[0], pass->turn[1], pass->from,
+                   err);
     if (!st && mark) st = box_curve(scene, pass->to, pass->leave[0], pass->leave[1], mark->at, err);
   }
   for (int v = 0; v < scene->layout->n_points && !st; v++)
     if (scene->frame->foot && scene->frame->foot[thr_layout_node(scene->layout, v)])
-      st = thr_boxes_add(&scene->boxes, thr_box_around(scene->at[v][0], scene->at[v][1], scene->size.foot, scene->size.foot),
-                         THR_BOX_FOOT, err);
+      st = thr_boxes_add(
+          &scene->boxes,
+          thr_box_around(scene->at[v][0], scene->at[v][1], scene->size.foot, scene->size.foot),
+          THR_BOX_FOOT, err);
   return st;
 }

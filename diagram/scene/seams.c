@@ -1,16 +1,19 @@
-/* Two panels: which places are on both, and how a cord gets from one to the other. Where it leaves a panel a short end of it is
- * labelled with the next pass ("to 17"), and where it comes out on the other one with the pass before ("from 16"). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Two panels: which places are on both, and how a cord gets from one to the other. Where it leaves
+ * a panel a short end of it is labelled with the next pass ("to 17"), and where it comes out on the
+ * other one with the pass before ("from 16"). */
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static const double HIDES = 8;                                  /* cost of a label that lies on a bead or on cord, in pitches */
-static const double AIR = 0.25;                                 /* mm */
-static const double SMALLEST = 16;                              /* mm: pitch from which on cords are labelled */
-static const double NARROW = 0.35;                              /* rad: no label between two beads closer than this */
-static const double NEAREST = 0.45, FARTHEST = 2.6, STEP = 0.2; /* pitches from a point to its labels */
+static const double HIDES = 8;     /* cost of a label that lies on a bead or on cord, in pitches */
+static const double AIR = 0.25;    /* mm */
+static const double SMALLEST = 16; /* mm: pitch from which on cords are labelled */
+static const double NARROW = 0.35; /* rad: no label between two beads closer than this */
+static const double NEAREST = 0.45, FARTHEST = 2.6,
+                    STEP = 0.2; /* pitches from a point to its labels */
 
 bool thr_scene_labels_seams(const thr_scene *scene)
 {
@@ -36,8 +39,10 @@ static bool on_its_side(const thr_scene *scene, int point, thr_box box, double g
 
 /* ---- names ---- */
 
-/* Middle of the name's nearest free place around a point, between two of its beads; false if there is none. */
-static bool find_name_place(thr_scene *scene, int point, double half_width, double half_height, double gap, double at[2])
+/* Middle of the name's nearest free place around a point, between two of its beads; false if there
+ * is none. */
+static bool find_name_place(thr_scene *scene, int point, double half_width, double half_height,
+                            double gap, double at[2])
 {
   const thr_frame *frame = scene->paper;
   int first = frame->first[point], degree = thr_degree(frame, point);
@@ -45,14 +50,18 @@ static bool find_name_place(thr_scene *scene, int point, double half_width, doub
   bool found = false;
   for (int i = 0; i < degree; i++) {
     int h = scene->around[first + i], g = scene->around[first + (i + 1) % degree];
-    double wide = degree > 1 ? thr_scene_sweep(scene->angle[h], scene->angle[g]) : 2 * THR_PI, off = scene->angle[h] + 0.5 * wide;
-    double c = cos(off), w = sin(off), reach = fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
+    double wide = degree > 1 ? thr_scene_sweep(scene->angle[h], scene->angle[g]) : 2 * THR_PI,
+           off = scene->angle[h] + 0.5 * wide;
+    double c = cos(off), w = sin(off),
+           reach = fmin(half_width / fmax(fabs(c), 1e-9), half_height / fmax(fabs(w), 1e-9));
     for (int k = 0;; k++) {
       double d = (0.2 + 0.08 * k) * scene->size.pitch + reach;
       if (d >= best) break;
       double x = scene->at[point][0] + d * c, y = scene->at[point][1] + d * w;
       thr_box box = thr_box_around(x, y, half_width, half_height);
-      if (!on_its_side(scene, point, box, gap) || thr_boxes_overlap(&scene->boxes, box, ~0, 1e-9) > 0) continue;
+      if (!on_its_side(scene, point, box, gap) ||
+          thr_boxes_overlap(&scene->boxes, box, ~0, 1e-9) > 0)
+        continue;
       best = d;
       at[0] = x;
       at[1] = y;
@@ -70,7 +79,8 @@ static thr_status name_both(thr_scene *scene, int point, double gap, thr_err *er
   double at[2][2];
   thr_scene_place_name(scene, point, name);
   /* bold, so wider than other names, and with some air to the labels of the cords */
-  double half_width = 0.57 * thr_scene_text_width(name, scene->size.text) + AIR, half_height = 0.42 * scene->size.text + AIR;
+  double half_width = 0.57 * thr_scene_text_width(name, scene->size.text) + AIR,
+         half_height = 0.42 * scene->size.text + AIR;
   for (int k = 0; k < 2; k++)
     if (!find_name_place(scene, points[k], half_width, half_height, gap, at[k])) return THR_OK;
   thr_status st = THR_OK;
@@ -78,7 +88,8 @@ static thr_status name_both(thr_scene *scene, int point, double gap, thr_err *er
     scene->named[points[k]] = true;
     scene->name_at[points[k]][0] = at[k][0];
     scene->name_at[points[k]][1] = at[k][1];
-    st = thr_boxes_add(&scene->boxes, thr_box_around(at[k][0], at[k][1], half_width, half_height), THR_BOX_NAME, err);
+    st = thr_boxes_add(&scene->boxes, thr_box_around(at[k][0], at[k][1], half_width, half_height),
+                       THR_BOX_NAME, err);
   }
   return st;
 }
@@ -94,13 +105,15 @@ thr_status thr_scene_name_seams(thr_scene *scene, thr_err *err)
 
 /* ---- labels of cords ---- */
 
-/* How much is in the way of a straight line from a point to a label: the part of it that other things cover. */
+/* How much is in the way of a straight line from a point to a label: the part of it that other
+ * things cover. */
 static double in_the_way(thr_scene *scene, const double from[2], const double to[2], int kinds)
 {
   enum { SAMPLES = 8 };
   double half = 0.5 * scene->size.cord, covered = 0;
   for (int k = 1; k <= SAMPLES; k++) {
-    double t = 0.25 + 0.75 * k / (SAMPLES + 1), x = from[0] + t * (to[0] - from[0]), y = from[1] + t * (to[1] - from[1]);
+    double t = 0.25 + 0.75 * k / (SAMPLES + 1), x = from[0] + t * (to[0] - from[0]),
+           y = from[1] + t * (to[1] - from[1]);
     covered += thr_boxes_overlap(&scene->boxes, thr_box_around(x, y, half, half), kinds, 1e-9) > 0;
   }
   return covered / SAMPLES;
@@ -114,16 +127,20 @@ typedef struct {
   double cost;     /* of its place, HUGE_VAL = it has none */
 } label;
 
-/* Takes a place at a distance and direction from the point if it is better and covers nothing that is to be read. */
+/* Takes a place at a distance and direction from the point if it is better and covers nothing that
+ * is to be read. */
 static void judge(thr_scene *scene, label *l, double angle, double distance)
 {
   thr_mark *m = l->mark;
-  const double *o = scene->at[m->point], to[2] = {o[0] + distance * cos(angle), o[1] + distance * sin(angle)};
-  double cost = distance / scene->size.pitch + 0.2 * fabs(remainder(angle - l->straight, 2 * THR_PI));
+  const double *o = scene->at[m->point],
+               to[2] = {o[0] + distance * cos(angle), o[1] + distance * sin(angle)};
+  double cost =
+      distance / scene->size.pitch + 0.2 * fabs(remainder(angle - l->straight, 2 * THR_PI));
   thr_box box = thr_box_around(to[0], to[1], m->half[0] + AIR, m->half[1] + AIR);
   if (cost >= l->cost || !on_its_side(scene, m->point, box, l->gap)) return;
   if (thr_boxes_overlap(&scene->boxes, box, THR_BOX_MARK | THR_BOX_NAME, 1e-9) > 0) return;
-  cost += HIDES * thr_boxes_overlap(&scene->boxes, box, THR_BOX_BEAD | THR_BOX_CORD, HUGE_VAL) / (4 * m->half[0] * m->half[1]);
+  cost += HIDES * thr_boxes_overlap(&scene->boxes, box, THR_BOX_BEAD | THR_BOX_CORD, HUGE_VAL) /
+          (4 * m->half[0] * m->half[1]);
   cost += 4 * in_the_way(scene, o, to, THR_BOX_MARK | THR_BOX_NAME | THR_BOX_BEAD | THR_BOX_CORD);
   if (cost >= l->cost) return;
   l->cost = cost;
@@ -141,7 +158,8 @@ static bool find_label_place(thr_scene *scene, label *l)
   double nearest = fmax(NEAREST * scene->size.pitch, m->half[1] + 1);
   int steps = (int)((FARTHEST - NEAREST) / STEP + 0.5);
   for (int i = 0; i < degree; i++) {
-    double low = scene->angle[scene->around[first + i]], high = scene->angle[scene->around[first + (i + 1) % degree]];
+    double low = scene->angle[scene->around[first + i]],
+           high = scene->angle[scene->around[first + (i + 1) % degree]];
     double wide = degree > 1 ? thr_scene_sweep(low, high) : 2 * THR_PI;
     int n = (int)(wide / NARROW);
     for (int k = 1; k <= n; k++)
@@ -158,12 +176,15 @@ static thr_status box_label(thr_scene *scene, const thr_mark *m, thr_err *err)
   enum { PIECES = 12 };
   const double *o = scene->at[m->point];
   double half = 0.5 * scene->size.cord + scene->size.casing;
-  thr_status st =
-      thr_boxes_add(&scene->boxes, thr_box_around(m->at[0], m->at[1], m->half[0] + 0.2, m->half[1] + 0.2), THR_BOX_MARK, err);
+  thr_status st = thr_boxes_add(
+      &scene->boxes, thr_box_around(m->at[0], m->at[1], m->half[0] + 0.2, m->half[1] + 0.2),
+      THR_BOX_MARK, err);
   for (int k = 1; k < PIECES && !st; k++) {
     double t = (double)k / PIECES;
-    st = thr_boxes_add(&scene->boxes, thr_box_around(o[0] + t * (m->at[0] - o[0]), o[1] + t * (m->at[1] - o[1]), half, half),
-                       THR_BOX_CORD, err);
+    st = thr_boxes_add(
+        &scene->boxes,
+        thr_box_around(o[0] + t * (m->at[0] - o[0]), o[1] + t * (m->at[1] - o[1]), half, half),
+        THR_BOX_CORD, err);
   }
   return st;
 }
@@ -217,8 +238,8 @@ thr_status thr_scene_place_seams(thr_scene *scene, thr_err *err)
   for (int p = n_nodes; p < n_points; p++)
     scene->twin[scene->twin[p]] = p;
   for (int i = 1; i < scene->n_passes; i++)
-    if (scene->pass[i].number > 1 &&
-        thr_head(scene->paper, scene->pass[i - 1].half) != thr_tail(scene->paper, scene->pass[i].half))
+    if (scene->pass[i].number > 1 && thr_head(scene->paper, scene->pass[i - 1].half) !=
+                                         thr_tail(scene->paper, scene->pass[i].half))
       scene->pass[i].seam = scene->n_seams++;
   scene->seam = thr_calloc((size_t)scene->n_seams, sizeof *scene->seam);
   scene->seam_labelled = thr_calloc((size_t)scene->n_seams, sizeof *scene->seam_labelled);

@@ -1,5 +1,6 @@
-/* The whole of a framework in so small a picture that its lines would run together: the area that they cover. Private to
- * diagram/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The whole of a framework in so small a picture that its lines would run together: the area that
+ * they cover. Private to diagram/. */
 #include "diagram/scene/scene.h"
 
 #include "diagram/overview/overview.h"
@@ -23,16 +24,19 @@ static int cell_of(double at, double low, double cell)
 
 void thr_shadow_line(thr_shadow *shadow, const double a[2], const double b[2])
 {
-  int n = 1 + (int)fmin(hypot(b[0] - a[0], b[1] - a[1]) / (0.7 * shadow->cell), 2 * THR_SHADOW_CELLS);
+  int n =
+      1 + (int)fmin(hypot(b[0] - a[0], b[1] - a[1]) / (0.7 * shadow->cell), 2 * THR_SHADOW_CELLS);
   for (int k = 0; k <= n; k++) {
     double x = a[0] + k * (b[0] - a[0]) / n, y = a[1] + k * (b[1] - a[1]) / n;
-    shadow->covered[cell_of(y, shadow->paper.y0, shadow->cell)][cell_of(x, shadow->paper.x0, shadow->cell)] = true;
+    shadow->covered[cell_of(y, shadow->paper.y0, shadow->cell)]
+                   [cell_of(x, shadow->paper.x0, shadow->cell)] = true;
   }
 }
 
 void thr_shadow_put(const thr_shadow *shadow, const char *colour, thr_text *text)
 {
-  thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", colour, shadow->cell);
+  thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"", colour,
+                  shadow->cell);
   for (int row = 0; row < THR_SHADOW_CELLS; row++)
     for (int i = 0, from; i < THR_SHADOW_CELLS; i++) {
       if (!shadow->covered[row][i]) continue;
@@ -45,13 +49,16 @@ void thr_shadow_put(const thr_shadow *shadow, const char *colour, thr_text *text
   thr_text_append(text, "\"/>\n");
 }
 
-void thr_shadow_edges(const thr_frame *frame, const double *at, int stride, double pitch, thr_box paper, thr_text *text)
+void thr_shadow_edges(const thr_frame *frame, const double *at, int stride, double pitch,
+                      thr_box paper, thr_text *text)
 {
   bool lines = pitch > LINES;
   thr_shadow shadow = thr_shadow_on(paper);
-  if (lines) thr_text_append(text, "<path fill=\"none\" stroke=\"#bbb\" stroke-width=\"0.20\" d=\"");
+  if (lines)
+    thr_text_append(text, "<path fill=\"none\" stroke=\"#bbb\" stroke-width=\"0.20\" d=\"");
   for (int e = 0; e < frame->n_edges; e++) {
-    const double *a = at + (size_t)stride * (size_t)frame->edge[e][0], *b = at + (size_t)stride * (size_t)frame->edge[e][1];
+    const double *a = at + (size_t)stride * (size_t)frame->edge[e][0],
+                 *b = at + (size_t)stride * (size_t)frame->edge[e][1];
     if (lines) {
       thr_svg_move(text, a);
       thr_svg_line(text, b);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Turns of the cords: their angles in space, and where sharp ones are marked. */
 #include "diagram/scene/scene.h"
 
@@ -5,11 +6,12 @@
 
 enum { MAX_PLACES = 5 };
 static const double SHARP_AT[MAX_PLACES] = {0.5, 0.4, 0.6, 0.3, 0.7}; /* along the curve */
-static const double SEEN = 0.3;                                       /* mm: smaller signs are not drawn */
+static const double SEEN = 0.3; /* mm: smaller signs are not drawn */
 
 double thr_scene_turn_after(const thr_scene *scene, int i)
 {
-  return scene->pass[thr_scene_continues(scene, i) ? i + 1 : scene->first_pass[scene->pass[i].cord]].turned;
+  return scene->pass[thr_scene_continues(scene, i) ? i + 1 : scene->first_pass[scene->pass[i].cord]]
+      .turned;
 }
 
 double thr_scene_sharp_size(const thr_scene *scene)
@@ -28,15 +30,19 @@ static void measure_turns(thr_scene *scene, int c)
   }
 }
 
-/* Marks the turn to pass i on its curve, unless something that is to be read lies everywhere along it. */
+/* Marks the turn to pass i on its curve, unless something that is to be read lies everywhere along
+ * it. */
 static thr_status place_sign(thr_scene *scene, int i, thr_err *err)
 {
   thr_scene_pass *pass = &scene->pass[i];
   double half = thr_scene_sharp_size(scene);
   for (int k = 0; k < MAX_PLACES; k++) {
-    thr_scene_curve_at(thr_scene_turn_start(scene, i), pass->turn[0], pass->turn[1], pass->from, SHARP_AT[k], pass->sharp_at);
+    thr_scene_curve_at(thr_scene_turn_start(scene, i), pass->turn[0], pass->turn[1], pass->from,
+                       SHARP_AT[k], pass->sharp_at);
     thr_box box = thr_box_around(pass->sharp_at[0], pass->sharp_at[1], half, half);
-    if (thr_boxes_overlap(&scene->boxes, box, THR_BOX_MARK | THR_BOX_NUMBER | THR_BOX_NAME | THR_BOX_TURN, 1e-9) > 0) continue;
+    if (thr_boxes_overlap(&scene->boxes, box,
+                          THR_BOX_MARK | THR_BOX_NUMBER | THR_BOX_NAME | THR_BOX_TURN, 1e-9) > 0)
+      continue;
     pass->sharp = true;
     return thr_boxes_add(&scene->boxes, box, THR_BOX_TURN, err);
   }
@@ -50,6 +56,7 @@ thr_status thr_scene_find_turns(thr_scene *scene, thr_err *err)
   for (int c = 0; c < scene->plan->n_cords; c++)
     measure_turns(scene, c);
   for (int i = 0; i < scene->n_passes && thr_scene_sharp_size(scene) >= SEEN && !st; i++)
-    if (scene->pass[i].number > 1 && thr_turn_over(scene->pass[i].turned, THR_SCENE_SHARP)) st = place_sign(scene, i, err);
+    if (scene->pass[i].number > 1 && thr_turn_over(scene->pass[i].turned, THR_SCENE_SHARP))
+      st = place_sign(scene, i, err);
   return st;
 }

@@ -1,6 +1,7 @@
-/* Step sheets: a plan as a booklet to thread from, with a pencil to tick off what is done. A title page with the picture of the
- * whole; what to prepare; each path to learn in steps of about twenty passes with a picture of just these; its copies; and what
- * to do at the end. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Step sheets: a plan as a booklet to thread from, with a pencil to tick off what is done. A title
+ * page with the picture of the whole; what to prepare; each path to learn in steps of about twenty
+ * passes with a picture of just these; its copies; and what to do at the end. */
 #include "diagram/sheets/sheets_parts.h"
 
 #include "diagram/overview/overview.h"
@@ -11,7 +12,8 @@
 
 thr_sheets_options thr_sheets_options_default(void)
 {
-  return (thr_sheets_options){.page = THR_PAGE_A4, .needles = 0, .kind_tolerance = 0, .motion = NULL};
+  return (thr_sheets_options){
+      .page = THR_PAGE_A4, .needles = 0, .kind_tolerance = 0, .motion = NULL};
 }
 
 void thr_sheets_destroy(thr_sheets *sheets)
@@ -60,10 +62,12 @@ static thr_status prepare(thr_sheets *sheets, thr_err *err)
   sheets->in_space = !sheets->guide.sides || sheets->guide.layout.node;
   if (!sheets->in_space) return THR_OK;
   return thr_space_make(&sheets->space, plan, thr_sheets_labels(sheets),
-                        sheets->guide.sides ? (const double(*)[3])sheets->guide.outward : NULL, err);
+                        sheets->guide.sides ? (const double(*)[3])sheets->guide.outward : NULL,
+                        err);
 }
 
-/* The title page knows where all others are: it is made last, and comes first wherever pages are counted or drawn. */
+/* The title page knows where all others are: it is made last, and comes first wherever pages are
+ * counted or drawn. */
 static void lay_out(thr_sheets *sheets)
 {
   int first[THR_SHEET_PARTS];
@@ -95,8 +99,8 @@ static thr_status told(const thr_sheets *sheets, thr_err *err)
 }
 
 /* All but the pages. *out is NULL on failure. */
-static thr_status start(thr_sheets **out, const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits,
-                        thr_err *err)
+static thr_status start(thr_sheets **out, const thr_plan *plan, const thr_sheets_options *options,
+                        const thr_limits *limits, thr_err *err)
 {
   thr_sheets *sheets = *out = thr_calloc(1, sizeof *sheets);
   if (!sheets) return thr_nomem(err);
@@ -112,7 +116,8 @@ static thr_status start(thr_sheets **out, const thr_plan *plan, const thr_sheets
   return st;
 }
 
-thr_status thr_sheets_make(thr_sheets **out, const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits,
+thr_status thr_sheets_make(thr_sheets **out, const thr_plan *plan,
+                           const thr_sheets_options *options, const thr_limits *limits,
                            thr_err *err)
 {
   thr_status st = start(out, plan, options, limits, err);
@@ -134,20 +139,21 @@ int thr_sheets_pages(const thr_sheets *sheets)
 void thr_sheets_heading(const thr_sheets *sheets, char title[96])
 {
   int n = sheets->plan->n_cords;
-  snprintf(title, 96, "Step sheets: %d %s, %d cord%s", sheets->pieces.n, thr_pieces_word(sheets->plan, sheets->pieces.n), n,
-           n == 1 ? "" : "s");
+  snprintf(title, 96, "Step sheets: %d %s, %d cord%s", sheets->pieces.n,
+           thr_pieces_word(sheets->plan, sheets->pieces.n), n, n == 1 ? "" : "s");
 }
 
 /* From which side the pictures are seen: as much of it as two lines take. */
 static void put_view(const thr_sheets *sheets, double foot, thr_text *svg)
 {
-  static const char *const in_space =
-      "Each step is drawn from where it is seen best: turn the pieces until they look like the small "
-      "picture. Round openings are arms that come towards you.";
+  static const char *const in_space = "Each step is drawn from where it is seen best: turn the "
+                                      "pieces until they look like the small "
+                                      "picture. Round openings are arms that come towards you.";
   const char *words = sheets->in_space ? in_space : thr_layout_words(sheets->guide.layout.kind);
   double width = thr_sheets_width(sheets) - 24;
   int lines = thr_sheets_lines(words, width, THR_SHEET_SMALL);
-  for (double y = foot - (lines > 1 ? 1.4 * THR_SHEET_SMALL : 0); *words && y < foot + 0.1; y += 1.4 * THR_SHEET_SMALL) {
+  for (double y = foot - (lines > 1 ? 1.4 * THR_SHEET_SMALL : 0); *words && y < foot + 0.1;
+       y += 1.4 * THR_SHEET_SMALL) {
     size_t n = thr_sheets_fit(words, width, THR_SHEET_SMALL);
     char line[256];
     snprintf(line, sizeof line, "%.*s", (int)n, words);
@@ -162,7 +168,8 @@ static void open_page(const thr_sheets *sheets, thr_text *svg)
   char title[96];
   thr_sheets_heading(sheets, title);
   thr_svg_open(svg, sheets->size[0], sheets->size[1], title, "A page of step sheets.");
-  thr_text_append(svg, "<style>.thread text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}</style>\n");
+  thr_text_append(
+      svg, "<style>.thread text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif}</style>\n");
 }
 
 /* What stands at the foot of page i; all must be laid out. */
@@ -172,7 +179,8 @@ static void put_foot(const thr_sheets *sheets, int i, thr_text *svg)
   double foot = sheets->size[1] - THR_SHEET_MARGIN;
   put_view(sheets, foot, svg);
   snprintf(line, sizeof line, "page %d of %d", i + 1, sheets->n_pages);
-  thr_svg_text(svg, sheets->size[0] - THR_SHEET_MARGIN, foot, THR_SHEET_SMALL, " text-anchor=\"end\" style=\"fill:#666\"", line);
+  thr_svg_text(svg, sheets->size[0] - THR_SHEET_MARGIN, foot, THR_SHEET_SMALL,
+               " text-anchor=\"end\" style=\"fill:#666\"", line);
 }
 
 thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_err *err)
@@ -188,7 +196,8 @@ thr_status thr_sheets_svg(const thr_sheets *sheets, int i, thr_text *svg, thr_er
 /* ---- PDF ---- */
 
 /* Gives a body to the file. */
-static thr_status send_body(const thr_sheets *sheets, const thr_text *body, thr_pages *pages, thr_err *err)
+static thr_status send_body(const thr_sheets *sheets, const thr_text *body, thr_pages *pages,
+                            thr_err *err)
 {
   thr_text svg = {0};
   open_page(sheets, &svg);
@@ -223,7 +232,8 @@ static thr_status end_pdf(const thr_sheets *sheets, thr_pages *pages, thr_text *
 
 static const char NAME[] = "step sheets";
 
-thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, thr_text *pdf, thr_err *err)
+thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, thr_text *pdf,
+                          thr_err *err)
 {
   char title[96];
   thr_pages *pages = NULL;
@@ -236,8 +246,8 @@ thr_status thr_sheets_pdf(const thr_sheets *sheets, const thr_limits *limits, th
   return st;
 }
 
-thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *options, const thr_limits *limits, int *n_pages,
-                            thr_text *pdf, thr_err *err)
+thr_status thr_sheets_write(const thr_plan *plan, const thr_sheets_options *options,
+                            const thr_limits *limits, int *n_pages, thr_text *pdf, thr_err *err)
 {
   char title[96];
   thr_sheets *sheets = NULL;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The copies of a path: all in one picture, how each repeats it, and the places of each in full. */
 #include "diagram/sheets/sheets_parts.h"
 
@@ -23,9 +24,10 @@ static void put_picture(thr_sheets *sheets, int path)
       state[i++] = own;
   }
   double height = 0.52 * (thr_sheets_bottom(sheets) - sheets->y);
-  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN, sheets->y + height};
-  thr_status st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, NULL, paper, NULL, sheets->limits,
-                                 thr_sheets_out(sheets), &sheets->why);
+  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN,
+                   sheets->y + height};
+  thr_status st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, NULL, paper, NULL,
+                                 sheets->limits, thr_sheets_out(sheets), &sheets->why);
   if (st) thr_sheets_fail(sheets, st, NULL);
   sheets->y += height + 2 * THR_SHEET_LINE;
   free(state);
@@ -64,7 +66,8 @@ static void put_place(const thr_sheets *sheets, int node, bool held, thr_text *w
   thr_text_printf(words, held ? " (%s)" : " %s", sheets->guide.label[node]);
 }
 
-/* "Cord B, passes 1-16: G1 to F1 E1 (D1) ..": of tubes the brackets tell of the way to a place. Returns the visit after them. */
+/* "Cord B, passes 1-16: G1 to F1 E1 (D1) ..": of tubes the brackets tell of the way to a place.
+ * Returns the visit after them. */
 static int put_places(thr_sheets *sheets, int first, int end)
 {
   thr_text words = {0};
@@ -80,7 +83,8 @@ static int put_places(thr_sheets *sheets, int first, int end)
                   needle == THR_NEEDLE_RIGHT  ? ", right needle"
                   : needle == THR_NEEDLE_LEFT ? ", left needle"
                                               : "");
-  thr_text_printf(&words, next > first + 1 ? "passes %d-%d:" : "pass %d:", visit->number, sheets->visit[next - 1].number);
+  thr_text_printf(&words, next > first + 1 ? "passes %d-%d:" : "pass %d:", visit->number,
+                  sheets->visit[next - 1].number);
   put_place(sheets, thr_tail(sheets->f, visit->in), held, &words);
   thr_text_append(&words, " to");
   for (int i = first; i < next; i++)
@@ -95,7 +99,8 @@ void thr_sheets_copies(thr_sheets *sheets, int c)
   int n = sheets->plan->n_cords, copies = thr_copies_count(sheets->copy, n, c);
   if (!copies || sheets->st) return;
   thr_sheets_flush(sheets);
-  snprintf(line, sizeof line, "Repeat cord %s with %d other cord%s", sheets->plan->cord[c].id, copies, copies == 1 ? "" : "s");
+  snprintf(line, sizeof line, "Repeat cord %s with %d other cord%s", sheets->plan->cord[c].id,
+           copies, copies == 1 ? "" : "s");
   thr_sheets_page(sheets, line, line);
   if (sheets->st) return;
   put_picture(sheets, c);
@@ -106,7 +111,8 @@ void thr_sheets_copies(thr_sheets *sheets, int c)
       sheets, 0,
       sheets->pieces.solid
           ? "To check by. In brackets: pieces that hold cord already. All others are picked up."
-          : "To check by. In brackets: the way there is through a tube that holds cord already. All others are picked up.");
+          : "To check by. In brackets: the way there is through a tube that holds cord already. "
+            "All others are picked up.");
   for (int i = 0; i < n; i++) {
     if (i == c || sheets->copy[i].of != c) continue;
     int end = thr_sheets_end(sheets, i);

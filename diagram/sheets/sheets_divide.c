@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where the steps of a path end. */
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/angle.h"
@@ -5,10 +6,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { SMALLEST = 13 };          /* number of the least scale of a flat picture */
-static const double TURNED = 40; /* degrees: a cord that turns by more has come to the end of a run */
-static const double STEP = 4, STRAIGHT = 20, NEW = 6, SHORT = 4; /* prices: of a step, of one that ends badly, */
-enum { FEW = 6 };                                                /* of each visit that it has less than so many */
+enum { SMALLEST = 13 }; /* number of the least scale of a flat picture */
+static const double TURNED =
+    40; /* degrees: a cord that turns by more has come to the end of a run */
+static const double STEP = 4, STRAIGHT = 20, NEW = 6,
+                    SHORT = 4; /* prices: of a step, of one that ends badly, */
+enum { FEW = 6 };              /* of each visit that it has less than so many */
 
 bool thr_step_begins(const thr_sheets *sheets, int i)
 {
@@ -52,9 +55,11 @@ static thr_status is_good(path *p, int i, int end, bool *good, thr_err *err)
   int now[THR_STEP_VISITS];
   thr_crop crop = {.now = now, .n_now = thr_step_now(sheets, p->first + i, p->first + end, now)};
   crop.backward = sheets->move[p->first + i].needle == THR_NEEDLE_LEFT;
-  double below = THR_STEP_LEGEND + thr_step_strip_height(end - i) +
-                 thr_step_words_height(thr_step_rows_height(p->lines[end] - p->lines[i], end - i), 1, 1);
-  double room[2] = {thr_sheets_width(sheets), thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - THR_STEP_HEAD - below};
+  double below =
+      THR_STEP_LEGEND + thr_step_strip_height(end - i) +
+      thr_step_words_height(thr_step_rows_height(p->lines[end] - p->lines[i], end - i), 1, 1);
+  double room[2] = {thr_sheets_width(sheets),
+                    thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - THR_STEP_HEAD - below};
   thr_crop_view view;
   *good = room[1] >= THR_STEP_PICTURE[1];
   if (!*good) return THR_OK;
@@ -74,7 +79,8 @@ static thr_status find_reach(path *p, thr_err *err)
   for (int i = 0, end = 0; i < p->n && !st; i++) {
     bool good = true;
     if (end < i + fewest(p, i)) end = i + fewest(p, i);
-    while (good && !st && end < p->n && end < i + THR_STEP_VISITS && !thr_step_ends(p->sheets, p->first + end - 1)) {
+    while (good && !st && end < p->n && end < i + THR_STEP_VISITS &&
+           !thr_step_ends(p->sheets, p->first + end - 1)) {
       st = is_good(p, i, end + 1, &good, err);
       end += good;
     }
@@ -94,7 +100,8 @@ static double price_of_end(const path *p, int last)
   return (turns ? 0 : STRAIGHT) + (visit->nth == 1 ? NEW : 0);
 }
 
-/* Cheapest ends: of all ways to divide the visits up to each. before[e]: where the step begins that ends there. */
+/* Cheapest ends: of all ways to divide the visits up to each. before[e]: where the step begins that
+ * ends there. */
 static void choose(const path *p, double *least, int *before)
 {
   least[0] = 0;
@@ -102,7 +109,8 @@ static void choose(const path *p, double *least, int *before)
     least[e] = HUGE_VAL;
   for (int i = 0; i < p->n; i++)
     for (int e = i + fewest(p, i); e <= p->reach[i]; e++) {
-      double price = least[i] + STEP + price_of_end(p, e - 1) + (e - i < FEW ? (FEW - e + i) * SHORT : 0);
+      double price =
+          least[i] + STEP + price_of_end(p, e - 1) + (e - i < FEW ? (FEW - e + i) * SHORT : 0);
       if (price >= least[e]) continue;
       least[e] = price;
       before[e] = i;
@@ -111,7 +119,9 @@ static void choose(const path *p, double *least, int *before)
 
 thr_status thr_step_divide(thr_sheets *sheets, int c, int **ends, int *n_steps, thr_err *err)
 {
-  path p = {.sheets = sheets, .first = sheets->first_visit[c], .n = thr_sheets_end(sheets, c) - sheets->first_visit[c]};
+  path p = {.sheets = sheets,
+            .first = sheets->first_visit[c],
+            .n = thr_sheets_end(sheets, c) - sheets->first_visit[c]};
   size_t n = (size_t)p.n + 1;
   double *least = thr_calloc(n, sizeof *least);
   int *before = thr_calloc(n, sizeof *before), *end = *ends = thr_calloc(n, sizeof *end);

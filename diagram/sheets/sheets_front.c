@@ -1,4 +1,6 @@
-/* The title page of step sheets: counts, what the plan is good for, where things are, the picture of the whole. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The title page of step sheets: counts, what the plan is good for, where things are, the picture
+ * of the whole. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/plan/request.h"
@@ -27,12 +29,14 @@ static void put_counts(thr_sheets *sheets)
   if (sheets->pieces.solid) {
     thr_text_append(&words, " (");
     thr_pieces_shapes(&sheets->pieces, &words);
-    thr_text_printf(&words, ") that meet in %d place%s, face to face", frame->n_edges, plural(frame->n_edges));
+    thr_text_printf(&words, ") that meet in %d place%s, face to face", frame->n_edges,
+                    plural(frame->n_edges));
   } else
-    thr_text_printf(&words, " of %d length%s between %d places", sheets->pieces.n_kinds, plural(sheets->pieces.n_kinds),
-                    frame->n_nodes);
-  thr_text_printf(&words, "; %d %s; %d cord%s, %d pass%s, %s of cord.", feet, feet == 1 ? "foot" : "feet", cords, plural(cords),
-                  sheets->n_passes, sheets->n_passes == 1 ? "" : "es", length);
+    thr_text_printf(&words, " of %d length%s between %d places", sheets->pieces.n_kinds,
+                    plural(sheets->pieces.n_kinds), frame->n_nodes);
+  thr_text_printf(&words, "; %d %s; %d cord%s, %d pass%s, %s of cord.", feet,
+                  feet == 1 ? "foot" : "feet", cords, plural(cords), sheets->n_passes,
+                  sheets->n_passes == 1 ? "" : "es", length);
   if (words.failed)
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
   else
@@ -41,7 +45,8 @@ static void put_counts(thr_sheets *sheets)
 }
 
 /* What the plan says that is proved: "as little as possible", or how far from it. */
-static void put_proof(char *line, size_t size, const char *of_what, bool present, bool optimal, double gap)
+static void put_proof(char *line, size_t size, const char *of_what, bool present, bool optimal,
+                      double gap)
 {
   if (!present)
     snprintf(line, size, "how little %s would do has not been worked out.", of_what);
@@ -56,15 +61,19 @@ static void put_goal(thr_sheets *sheets)
   const thr_plan *plan = sheets->plan;
   char line[320], proof[128];
   if (thr_wants_turning(&plan->options)) {
-    put_proof(proof, sizeof proof, "turning", plan->turning.present, plan->turning.optimal, plan->turning.gap);
+    put_proof(proof, sizeof proof, "turning", plan->turning.present, plan->turning.optimal,
+              plan->turning.gap);
     snprintf(line, sizeof line, "Goal: as little turning as possible; %s", proof);
   } else if (thr_wants_symmetry(&plan->options)) {
     int paths = thr_copies_paths(sheets->copy, plan->n_cords);
-    put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal, plan->proof.gap);
-    snprintf(line, sizeof line, "Goal: cords that repeat each other: %d path%s to learn, %d cop%s; %s", paths, plural(paths),
-             plan->n_cords - paths, plan->n_cords - paths == 1 ? "y" : "ies", proof);
+    put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal,
+              plan->proof.gap);
+    snprintf(line, sizeof line,
+             "Goal: cords that repeat each other: %d path%s to learn, %d cop%s; %s", paths,
+             plural(paths), plan->n_cords - paths, plan->n_cords - paths == 1 ? "y" : "ies", proof);
   } else {
-    put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal, plan->proof.gap);
+    put_proof(proof, sizeof proof, "cord", plan->proof.present, plan->proof.optimal,
+              plan->proof.gap);
     snprintf(line, sizeof line, "Goal: as little cord as possible; %s", proof);
   }
   thr_sheets_paragraph(sheets, 0, line);
@@ -74,8 +83,10 @@ static void put_goal(thr_sheets *sheets)
 static void put_contents(thr_sheets *sheets, const int *first)
 {
   char line[160];
-  snprintf(line, sizeof line, "%d pages. Prepare first: from page %d. Steps: from page %d. Last: from page %d.", sheets->n_pages,
-           first[THR_SHEET_PREPARE] + 2, first[THR_SHEET_STEPS] + 2, first[THR_SHEET_LAST] + 2);
+  snprintf(line, sizeof line,
+           "%d pages. Prepare first: from page %d. Steps: from page %d. Last: from page %d.",
+           sheets->n_pages, first[THR_SHEET_PREPARE] + 2, first[THR_SHEET_STEPS] + 2,
+           first[THR_SHEET_LAST] + 2);
   thr_sheets_paragraph(sheets, 0, line);
 }
 
@@ -90,9 +101,12 @@ void thr_sheets_front(thr_sheets *sheets, const int *first)
   if (thr_supplies_doubt(&sheets->supplies, doubt)) thr_sheets_paragraph(sheets, 0, doubt);
   if (sheets->plan->n_cords == 1 && !sheets->in_space)
     thr_sheets_paragraph(sheets, 0, "In this picture the colour changes every twenty passes.");
-  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN, thr_sheets_bottom(sheets)};
-  thr_status st = sheets->in_space ? thr_space_whole(&sheets->space, NULL, paper, thr_sheets_out(sheets), &sheets->why)
-                                   : thr_crop_whole(sheets->plan, &sheets->guide.layout, NULL, NULL, paper, NULL, sheets->limits,
-                                                    thr_sheets_out(sheets), &sheets->why);
+  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN,
+                   thr_sheets_bottom(sheets)};
+  thr_status st =
+      sheets->in_space
+          ? thr_space_whole(&sheets->space, NULL, paper, thr_sheets_out(sheets), &sheets->why)
+          : thr_crop_whole(sheets->plan, &sheets->guide.layout, NULL, NULL, paper, NULL,
+                           sheets->limits, thr_sheets_out(sheets), &sheets->why);
   if (st) thr_sheets_fail(sheets, st, NULL);
 }

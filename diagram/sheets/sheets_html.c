@@ -1,6 +1,8 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The booklet for browsers, which print it as they show it.
  *
- * The sheets as one HTML file: page after page the SVG that the PDF is drawn from, on paper of the same size. */
+ * The sheets as one HTML file: page after page the SVG that the PDF is drawn from, on paper of the
+ * same size. */
 #include "diagram/sheets/sheets_parts.h"
 
 #include <stdio.h>
@@ -16,12 +18,14 @@ static const char *next_name(const char *at)
   const char *best = NULL;
   for (int k = 0; k < N_BEFORE; k++) {
     const char *found = strstr(at, before_name[k]);
-    if (found && (!best || found + strlen(before_name[k]) < best)) best = found + strlen(before_name[k]);
+    if (found && (!best || found + strlen(before_name[k]) < best))
+      best = found + strlen(before_name[k]);
   }
   return best;
 }
 
-/* A list of names, as "title desc": the page's number before each. The rest of it begins at what is returned. */
+/* A list of names, as "title desc": the page's number before each. The rest of it begins at what is
+ * returned. */
 static const char *put_names(thr_text *html, const char *at, int page)
 {
   for (;;) {
@@ -39,7 +43,8 @@ static const char *put_names(thr_text *html, const char *at, int page)
 static void put_page(thr_text *html, const thr_text *svg, int page)
 {
   const char *at = strstr(svg->data, "<svg");
-  thr_text_printf(html, "<section class=\"page\" id=\"page-%d\" aria-label=\"Page %d\">\n", page, page);
+  thr_text_printf(html, "<section class=\"page\" id=\"page-%d\" aria-label=\"Page %d\">\n", page,
+                  page);
   for (const char *name = next_name(at); name; name = next_name(at)) {
     thr_text_append_bytes(html, at, (size_t)(name - at));
     at = put_names(html, name, page);
@@ -53,15 +58,18 @@ static void put_head(const thr_sheets *sheets, thr_text *html)
   const double *mm = sheets->size;
   char title[96];
   thr_sheets_heading(sheets, title);
-  thr_text_append(html, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
+  thr_text_append(
+      html, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>");
   thr_text_append(html, title);
   thr_text_printf(
       html,
       "</title>\n<style>\n@page{size:%gmm %gmm;margin:0}\nhtml{background:#777}\nbody{margin:0}\n"
-      ".page{width:%gmm;height:%gmm;overflow:hidden;background:#fff;break-after:page;break-inside:avoid}\n"
+      ".page{width:%gmm;height:%gmm;overflow:hidden;background:#fff;break-after:page;break-inside:"
+      "avoid}\n"
       ".page:last-child{break-after:auto}\n.page>svg{display:block;width:100%%;height:100%%}\n"
-      "@media screen{.page{max-width:100%%;height:auto;aspect-ratio:%g/%g;margin:4mm auto}}\n</style>\n</head>\n<body>\n",
+      "@media screen{.page{max-width:100%%;height:auto;aspect-ratio:%g/%g;margin:4mm "
+      "auto}}\n</style>\n</head>\n<body>\n",
       mm[0], mm[1], mm[0], mm[1], mm[0], mm[1]);
 }
 

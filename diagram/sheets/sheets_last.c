@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What to do when all cords are through: which ends to pull, knots, what to look at. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
@@ -40,7 +41,8 @@ static const thr_eval_cord *known_of(const thr_sheets *sheets, int c)
 static pull pull_of(const thr_sheets *sheets, int c)
 {
   const thr_eval_cord *known = known_of(sheets, c);
-  double force = known ? fmax(known->force, known->other_force) : thr_cord_turning(sheets->f, &sheets->plan->cord[c], false);
+  double force = known ? fmax(known->force, known->other_force)
+                       : thr_cord_turning(sheets->f, &sheets->plan->cord[c], false);
   return (pull){c, known != NULL, force};
 }
 
@@ -58,7 +60,8 @@ void thr_sheets_too_hard(double newton, thr_text *words)
 {
   char force[32];
   thr_svg_force(thr_hand_most, force);
-  if (newton > thr_hand_most) thr_text_printf(words, ": too hard for a hand, which manages about %s", force);
+  if (newton > thr_hand_most)
+    thr_text_printf(words, ": too hard for a hand, which manages about %s", force);
 }
 
 /* How many cords ask for more than a hand has, and what helps. */
@@ -77,19 +80,22 @@ static void put_too_hard(thr_sheets *sheets, const pull *p)
   thr_text_append(&words, n == 1 ? " asks for a pull that is" : " ask for a pull that is");
   thr_svg_force(thr_hand_most, force);
   thr_text_printf(&words,
-                  " too hard for a hand, which manages about %s. Draw the slack pass by pass, grip by grip, from its slackest "
+                  " too hard for a hand, which manages about %s. Draw the slack pass by pass, grip "
+                  "by grip, from its slackest "
                   "pass, or plan more cords (thread advise).",
                   force);
   if (words.failed)
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
   else
-    sheets->y = thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y + 1, THR_SHEET_TEXT, 0.92 * thr_sheets_width(sheets),
-                                " font-weight=\"bold\"", words.data);
+    sheets->y =
+        thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y + 1, THR_SHEET_TEXT,
+                        0.92 * thr_sheets_width(sheets), " font-weight=\"bold\"", words.data);
   thr_text_destroy(&words);
 }
 
 /* Which end(s) to pull and how hard. */
-static void put_force(const thr_sheets *sheets, const thr_eval_cord *known, int start, int end, char (*cell)[96])
+static void put_force(const thr_sheets *sheets, const thr_eval_cord *known, int start, int end,
+                      char (*cell)[96])
 {
   const char *from = sheets->guide.label[start], *to = sheets->guide.label[end];
   char force[32], other[32];
@@ -118,13 +124,17 @@ static void put_cord(thr_sheets *sheets, const pull *p, const double *x)
   if (known) {
     put_force(sheets, known, start, end, cell);
     int h = cord->half[known->slackest];
-    snprintf(cell[4], 96, "pass %d, %.20s - %.20s", known->slackest + 1, sheets->guide.label[thr_tail(sheets->f, h)],
+    snprintf(cell[4], 96, "pass %d, %.20s - %.20s", known->slackest + 1,
+             sheets->guide.label[thr_tail(sheets->f, h)],
              sheets->guide.label[thr_head(sheets->f, h)]);
   } else {
     if (sheets->plan->evaluation.present) snprintf(cell[2], 96, "not known");
-    snprintf(cell[1], 96, "both, at %.30s and %.30s", sheets->guide.label[start], sheets->guide.label[end]);
+    snprintf(cell[1], 96, "both, at %.30s and %.30s", sheets->guide.label[start],
+             sheets->guide.label[end]);
   }
-  snprintf(cell[5], 96, "%.0f", degrees(thr_cord_turning(sheets->f, cord, sheets->plan->options.ends == THR_ENDS_CLOSED)));
+  snprintf(
+      cell[5], 96, "%.0f",
+      degrees(thr_cord_turning(sheets->f, cord, sheets->plan->options.ends == THR_ENDS_CLOSED)));
   thr_sheets_cells(sheets, CELLS, x, cell, false);
 }
 
@@ -142,16 +152,22 @@ static void put_pulling(thr_sheets *sheets, pull *p)
     snprintf(head[i], 96, "%s", (const char *const[]){"force", "lost", "slackest"}[i - 2]);
   if (evaluation->present)
     snprintf(line, sizeof line,
-             "Forces were worked out by method %s for friction mu = %.3g, so that a tension of %.3g N reaches the slackest pass. "
+             "Forces were worked out by method %s for friction mu = %.3g, so that a tension of "
+             "%.3g N reaches the slackest pass. "
              "Lost: what friction takes off on the way there. Hardest first.",
-             thr_method_name(evaluation->method), evaluation->physics.mu, evaluation->physics.seating);
+             thr_method_name(evaluation->method), evaluation->physics.mu,
+             evaluation->physics.seating);
   else
     snprintf(line, sizeof line,
-             "Forces are not known: the plan was not evaluated (thread eval). Friction grows with the turning of a cord; the "
+             "Forces are not known: the plan was not evaluated (thread eval). Friction grows with "
+             "the turning of a cord; the "
              "cord that "
-             "turns most is the first in the list. Pulling at both ends halves the way that slack has to go.");
+             "turns most is the first in the list. Pulling at both ends halves the way that slack "
+             "has to go.");
   thr_sheets_paragraph(sheets, 0, line);
-  thr_sheets_paragraph(sheets, 0, "How cords that share pieces hinder each other has not been worked out. Turning in degrees.");
+  thr_sheets_paragraph(
+      sheets, 0,
+      "How cords that share pieces hinder each other has not been worked out. Turning in degrees.");
   sheets->y += 1.5;
   thr_sheets_cells(sheets, CELLS, x, head, true);
   for (int i = 0; i < n; i++)
@@ -165,13 +181,15 @@ static void put_knots(thr_sheets *sheets)
   thr_sheets_title(sheets, "Knots");
   if (sheets->supplies.mm > 0)
     snprintf(line, sizeof line,
-             "An overhand knot at each end, drawn up to its piece; it takes %.0f mm of this cord. Cut the tails only when all "
+             "An overhand knot at each end, drawn up to its piece; it takes %.0f mm of this cord. "
+             "Cut the tails only when all "
              "cords are "
              "tight.",
              ceil(THR_SUPPLIES_KNOT * sheets->supplies.cord));
   else
     snprintf(line, sizeof line,
-             "An overhand knot at each end, drawn up to its piece. Cut the tails only when all cords are tight.");
+             "An overhand knot at each end, drawn up to its piece. Cut the tails only when all "
+             "cords are tight.");
   thr_sheets_paragraph(sheets, 0, line);
 }
 
@@ -185,12 +203,15 @@ static void put_checks(thr_sheets *sheets)
   snprintf(line, sizeof line, "All %d %s are on a cord, none is left over.", sheets->pieces.n,
            thr_pieces_word(sheets->plan, sheets->pieces.n));
   thr_sheets_tick(sheets, line);
-  snprintf(line, sizeof line, "All %d ends of cord come out where the cut list says.", 2 * sheets->plan->n_cords);
+  snprintf(line, sizeof line, "All %d ends of cord come out where the cut list says.",
+           2 * sheets->plan->n_cords);
   thr_sheets_tick(sheets, line);
-  snprintf(line, sizeof line, "No %s holds fewer or more cords than channels.csv says (%d at most).",
+  snprintf(line, sizeof line,
+           "No %s holds fewer or more cords than channels.csv says (%d at most).",
            sheets->pieces.solid ? "arm" : "tube", most);
   thr_sheets_tick(sheets, line);
-  thr_sheets_tick(sheets, "No cord can be drawn further at its ends; no piece turns or gapes; all knots sit on their pieces.");
+  thr_sheets_tick(sheets, "No cord can be drawn further at its ends; no piece turns or gapes; all "
+                          "knots sit on their pieces.");
 }
 
 void thr_sheets_last(thr_sheets *sheets)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How much cord needles draw through, and where a new length is joined on. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
@@ -11,7 +12,8 @@ static double drawn_by_needles(const thr_sheets *sheets)
 {
   double drawn = 0, whole = 0;
   for (int i = sheets->n_visits - 1; i >= 0; i--) {
-    if (i + 1 == sheets->n_visits || sheets->move[i].part != sheets->move[i + 1].part) whole = sheets->move[i].used;
+    if (i + 1 == sheets->n_visits || sheets->move[i].part != sheets->move[i + 1].part)
+      whole = sheets->move[i].used;
     if (sheets->visit[i].number) drawn += whole - sheets->move[i].used;
   }
   return drawn;
@@ -37,9 +39,11 @@ static int place_of(const thr_sheets *sheets, int i)
   return visit->number ? thr_head(sheets->f, visit->in) : visit->piece;
 }
 
-/* The joins of the part that begins with a visit: at the last foot that a length reaches, where a knot keeps no faces apart.
- * Returns the visit after the part. *late: a stretch without a foot is longer than a length. */
-static int put_joins(const thr_sheets *sheets, int first, double working, int *said, bool *late, thr_text *words)
+/* The joins of the part that begins with a visit: at the last foot that a length reaches, where a
+ * knot keeps no faces apart. Returns the visit after the part. *late: a stretch without a foot is
+ * longer than a length. */
+static int put_joins(const thr_sheets *sheets, int first, double working, int *said, bool *late,
+                     thr_text *words)
 {
   double from = 0;
   int i = first, foot = -1;
@@ -63,7 +67,8 @@ static int put_joins(const thr_sheets *sheets, int first, double working, int *s
 
 void thr_sheets_lengths(thr_sheets *sheets)
 {
-  double mm = sheets->supplies.mm, working = sheets->o.working_mm > 0 ? sheets->o.working_mm : THR_SHEETS_WORKING;
+  double mm = sheets->supplies.mm,
+         working = sheets->o.working_mm > 0 ? sheets->o.working_mm : THR_SHEETS_WORKING;
   thr_text words = {0}, joins = {0};
   char now[64], one[64];
   int said = 0;
@@ -79,13 +84,13 @@ void thr_sheets_lengths(thr_sheets *sheets)
     i = put_joins(sheets, i, working / mm, &said, &late, &joins);
   snprintf(now, sizeof now, "%g m", working / 1000);
   if (said)
-    thr_text_printf(&words, "With lengths of %s a new one is joined on: %s%s. ", now, joins.data ? joins.data : "",
-                    said > MOST_NAMED ? ", .." : "");
+    thr_text_printf(&words, "With lengths of %s a new one is joined on: %s%s. ", now,
+                    joins.data ? joins.data : "", said > MOST_NAMED ? ", .." : "");
   if (late)
-    thr_text_printf(
-        &words,
-        "Where no foot comes within %s nothing is joined: keep what the needle does not need yet in a coil, and pull it through.",
-        now);
+    thr_text_printf(&words,
+                    "Where no foot comes within %s nothing is joined: keep what the needle does "
+                    "not need yet in a coil, and pull it through.",
+                    now);
   else if (!said)
     thr_text_printf(&words, "No needle has more than %s of cord: nothing is joined on.", now);
   if (words.failed || joins.failed)

@@ -1,5 +1,6 @@
-/* How pieces are handled, in eight panels: what is needed, laying a piece, starting, slack, a row that went wrong, joining,
- * tightening, knots. Lengths, places and forces are those of the plan. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How pieces are handled, in eight panels: what is needed, laying a piece, starting, slack, a row
+ * that went wrong, joining, tightening, knots. Lengths, places and forces are those of the plan. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
 #include "graph/angle.h"
@@ -10,9 +11,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { COLUMNS = 2, ROWS = 4, LINES = 5, NAMED = 4 };             /* feet that are named */
-static const double AIR = 3, INDENT = 3;                          /* mm: between panels; of what is in one */
-static const double ARM = 5, CORD = 1.4, CASING = 2.4;            /* mm: widths */
+enum { COLUMNS = 2, ROWS = 4, LINES = 5, NAMED = 4 };  /* feet that are named */
+static const double AIR = 3, INDENT = 3;               /* mm: between panels; of what is in one */
+static const double ARM = 5, CORD = 1.4, CASING = 2.4; /* mm: widths */
 static const char *const OLD = "#d55e00", *const NEW = "#0072b2"; /* cords of the pictures */
 
 /* A panel being filled: the picture is around (x, y), which is its middle. */
@@ -30,19 +31,24 @@ static void put_label(const panel *p, double x, double y, const char *words)
   thr_svg_text(p->out, x, y, THR_SHEET_SMALL, " text-anchor=\"middle\"", words);
 }
 
-static void put_line(const panel *p, double x0, double y0, double x1, double y1, double width, const char *colour)
+static void put_line(const panel *p, double x0, double y0, double x1, double y1, double width,
+                     const char *colour)
 {
-  thr_text_printf(p->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"M%.2f %.2fL%.2f %.2f\"/>\n", colour, width,
-                  x0, y0, x1, y1);
+  thr_text_printf(
+      p->out,
+      "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"M%.2f %.2fL%.2f %.2f\"/>\n",
+      colour, width, x0, y0, x1, y1);
 }
 
 /* A straight arrow to (x1, y1). */
 static void put_arrow(const panel *p, double x0, double y0, double x1, double y1)
 {
-  double length = hypot(x1 - x0, y1 - y0), dx = 2.2 * (x1 - x0) / length, dy = 2.2 * (y1 - y0) / length;
+  double length = hypot(x1 - x0, y1 - y0), dx = 2.2 * (x1 - x0) / length,
+         dy = 2.2 * (y1 - y0) / length;
   put_line(p, x0, y0, x1 - dx, y1 - dy, 0.5, "#222");
-  thr_text_printf(p->out, "<path fill=\"#222\" d=\"M%.2f %.2fL%.2f %.2fL%.2f %.2fz\"/>\n", x1, y1, x1 - dx - 0.45 * dy,
-                  y1 - dy + 0.45 * dx, x1 - dx + 0.45 * dy, y1 - dy - 0.45 * dx);
+  thr_text_printf(p->out, "<path fill=\"#222\" d=\"M%.2f %.2fL%.2f %.2fL%.2f %.2fz\"/>\n", x1, y1,
+                  x1 - dx - 0.45 * dy, y1 - dy + 0.45 * dx, x1 - dx + 0.45 * dy,
+                  y1 - dy - 0.45 * dx);
 }
 
 static void put_cord(const panel *p, double x0, double y0, double x1, double y1, const char *colour)
@@ -53,13 +59,16 @@ static void put_cord(const panel *p, double x0, double y0, double x1, double y1,
 
 static void put_stopper(const panel *p, double x, double y)
 {
-  thr_text_printf(p->out, "<rect x=\"%.2f\" y=\"%.2f\" width=\"2.4\" height=\"6\" rx=\"0.6\" fill=\"#222\"/>\n", x - 1.2, y - 3);
+  thr_text_printf(
+      p->out, "<rect x=\"%.2f\" y=\"%.2f\" width=\"2.4\" height=\"6\" rx=\"0.6\" fill=\"#222\"/>\n",
+      x - 1.2, y - 3);
 }
 
 static void put_needle(const panel *p, double x, double y, double length)
 {
   thr_text_printf(p->out,
-                  "<path fill=\"#ddd\" stroke=\"#222\" stroke-width=\"0.3\" d=\"M%.2f %.2fL%.2f %.2fL%.2f %.2fL%.2f %.2fz\"/>\n",
+                  "<path fill=\"#ddd\" stroke=\"#222\" stroke-width=\"0.3\" d=\"M%.2f %.2fL%.2f "
+                  "%.2fL%.2f %.2fL%.2f %.2fz\"/>\n",
                   x, y - 0.7, x + 0.8 * length, y - 0.5, x + length, y, x + 0.8 * length, y + 0.7);
 }
 
@@ -68,9 +77,11 @@ static const char *fill_of(thr_piece_state state)
   return state == THR_PIECE_NEW ? "#ffe08a" : state == THR_PIECE_HELD ? "#d3ccbf" : "#fff";
 }
 
-/* A piece with its hub at (x, y) and n arms of a length by their angles, as lines with a dark edge below and their colour above.
+/* A piece with its hub at (x, y) and n arms of a length by their angles, as lines with a dark edge
+ * below and their colour above.
  */
-static void put_piece(const panel *p, double x, double y, int n, const double *angle, double length, thr_piece_state state)
+static void put_piece(const panel *p, double x, double y, int n, const double *angle, double length,
+                      thr_piece_state state)
 {
   double edge = state == THR_PIECE_NEW ? 1.2 : 0.8;
   for (int above = 0; above < 2; above++) {
@@ -79,14 +90,16 @@ static void put_piece(const panel *p, double x, double y, int n, const double *a
     for (int i = 0; i < n; i++)
       put_line(p, x, y, x + tip * cos(angle[i]), y - tip * sin(angle[i]), ARM + grow, colour);
     if (n > 2)
-      thr_text_printf(p->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"%s\"/>\n", x, y, (ARM + grow) / 2, colour);
+      thr_text_printf(p->out, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"%s\"/>\n", x, y,
+                      (ARM + grow) / 2, colour);
   }
 }
 
 static const double CROSS[4] = {0, THR_PI / 2, THR_PI, -THR_PI / 2};
 
 /* A row of n pieces like those of the plan, from (x, y) to the right: crosses, or tubes. */
-static double put_row(const panel *p, double x, double y, int n, double gap, const thr_piece_state *state)
+static double put_row(const panel *p, double x, double y, int n, double gap,
+                      const thr_piece_state *state)
 {
   bool solid = p->sheets->pieces.solid;
   static const double tube[2] = {0, THR_PI};
@@ -118,7 +131,8 @@ static int by_height(const void *a, const void *b)
 
 static void add_bit(strands *s, const double from[3], const double to[3], const char *colour)
 {
-  if (s->n < MOST_BITS) s->bit[s->n++] = (bit){{from[0], from[1]}, {to[0], to[1]}, (from[2] + to[2]) / 2, colour};
+  if (s->n < MOST_BITS)
+    s->bit[s->n++] = (bit){{from[0], from[1]}, {to[0], to[1]}, (from[2] + to[2]) / 2, colour};
 }
 
 static void put_strands(const panel *p, strands *s)
@@ -126,20 +140,24 @@ static void put_strands(const panel *p, strands *s)
   qsort(s->bit, (size_t)s->n, sizeof *s->bit, by_height);
   for (int i = 0; i < s->n; i++)
     for (int above = 0; above < 2; above++)
-      thr_text_printf(
-          p->out, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" stroke-linecap=\"%s\" d=\"M%.2f %.2fL%.2f %.2f\"/>\n",
-          above ? s->bit[i].colour : "#fff", above ? CORD : CASING, above ? "round" : "butt", s->bit[i].from[0],
-          s->bit[i].from[1], s->bit[i].to[0], s->bit[i].to[1]);
+      thr_text_printf(p->out,
+                      "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" "
+                      "stroke-linecap=\"%s\" d=\"M%.2f %.2fL%.2f %.2f\"/>\n",
+                      above ? s->bit[i].colour : "#fff", above ? CORD : CASING,
+                      above ? "round" : "butt", s->bit[i].from[0], s->bit[i].from[1],
+                      s->bit[i].to[0], s->bit[i].to[1]);
 }
 
-/* An overhand knot: a trefoil, opened at the lobe that points down; its ends go on to the left and to the right along a line. */
+/* An overhand knot: a trefoil, opened at the lobe that points down; its ends go on to the left and
+ * to the right along a line. */
 static void add_overhand(strands *s, double x, double y, double size)
 {
   enum { N = 120 };
   double before[3] = {0};
   for (int i = 0; i <= N; i++) {
     double t = THR_PI + 0.35 + (2 * THR_PI - 0.7) * i / N;
-    double at[3] = {x + size * (sin(t) + 2 * sin(2 * t)), y - size * (cos(t) - 2 * cos(2 * t)), -sin(3 * t)};
+    double at[3] = {x + size * (sin(t) + 2 * sin(2 * t)), y - size * (cos(t) - 2 * cos(2 * t)),
+                    -sin(3 * t)};
     if (i) add_bit(s, before, at, OLD);
     for (int k = 0; k < 3; k++)
       before[k] = at[k];
@@ -147,7 +165,8 @@ static void add_overhand(strands *s, double x, double y, double size)
   double low = y + 3.3 * size;
   for (int side = 0; side < 2; side++) { /* the end of the curve is on the left */
     double sign = side ? 1 : -1;
-    const double tip[3] = {x + sign * size * 0.945, y + size * 2.47, 0}, bend[3] = {x + sign * size * 1.8, low, 0};
+    const double tip[3] = {x + sign * size * 0.945, y + size * 2.47, 0},
+                 bend[3] = {x + sign * size * 1.8, low, 0};
     const double far[3] = {x + sign * size * 8, low, 0};
     add_bit(s, tip, bend, OLD);
     add_bit(s, bend, far, OLD);
@@ -216,19 +235,22 @@ static void put_need(panel *p, thr_text *words)
   put_label(p, p->x + 23, p->y + 2, "needle, blunt");
   put_stopper(p, p->x + 2, p->y - 3);
   put_label(p, p->x + 2, p->y + 5, "stopper");
-  thr_text_printf(words, "%d %s; %d cord%s of %s", sheets->pieces.n, thr_pieces_word(sheets->plan, sheets->pieces.n), n,
-                  n == 1 ? "" : "s", from);
+  thr_text_printf(words, "%d %s; %d cord%s of %s", sheets->pieces.n,
+                  thr_pieces_word(sheets->plan, sheets->pieces.n), n, n == 1 ? "" : "s", from);
   if (most > least * (1 + 1e-9)) thr_text_printf(words, " to %s", to);
   thr_text_append(words, " (cut list); a needle");
   if (sheets->supplies.mm > 0)
-    thr_text_printf(words, " that with its cord goes through %.2f mm; a stopper that does not slip into %.2f mm",
-                    widest_bore(sheets, true), widest_bore(sheets, false));
+    thr_text_printf(
+        words,
+        " that with its cord goes through %.2f mm; a stopper that does not slip into %.2f mm",
+        widest_bore(sheets, true), widest_bore(sheets, false));
   else
     thr_text_append(words, " thinner than the bores; a stopper wider than they are");
   thr_text_append(words, "; tape, scissors, and overview.svg to lay the pieces on.");
 }
 
-/* The first stay of a needle in a new piece that it comes into and leaves, with as many arms as can be: -1 = none. */
+/* The first stay of a needle in a new piece that it comes into and leaves, with as many arms as can
+ * be: -1 = none. */
 static int example(const thr_sheets *sheets)
 {
   int best = -1, arms = 0;
@@ -269,15 +291,19 @@ static double widest_gap(int n, const double *angle)
   return best;
 }
 
-/* The cord from the hub out of an arm, and what that arm faces: beside the end of a steep arm, beyond that of a flat one. */
+/* The cord from the hub out of an arm, and what that arm faces: beside the end of a steep arm,
+ * beyond that of a flat one. */
 static void put_arm(const panel *p, int half, bool out)
 {
-  double a = direction(p->sheets, half), x = cos(a), y = -sin(a), far = fabs(y) > 0.4 ? 13 * fmin(fabs(y), 1) : 0;
+  double a = direction(p->sheets, half), x = cos(a), y = -sin(a),
+         far = fabs(y) > 0.4 ? 13 * fmin(fabs(y), 1) : 0;
   char words[THR_LABEL + 16];
   put_cord(p, p->x, p->y, p->x + 11.5 * x, p->y + 11.5 * y, OLD);
   if (out) put_arrow(p, p->x + 9 * x, p->y + 9 * y, p->x + 14 * x, p->y + 14 * y);
-  snprintf(words, sizeof words, "%s %.20s", out ? "out to" : "in from", p->sheets->guide.label[thr_head(p->sheets->f, half)]);
-  put_label(p, p->x + (x < -0.1 ? -1 : 1) * (fabs(24 * x) + (far > 0 ? far - 10 * fabs(x) : 0)), p->y + 11 * y + 1, words);
+  snprintf(words, sizeof words, "%s %.20s", out ? "out to" : "in from",
+           p->sheets->guide.label[thr_head(p->sheets->f, half)]);
+  put_label(p, p->x + (x < -0.1 ? -1 : 1) * (fabs(24 * x) + (far > 0 ? far - 10 * fabs(x) : 0)),
+            p->y + 11 * y + 1, words);
 }
 
 static void put_example(const panel *p, const thr_visit *visit)
@@ -307,15 +333,16 @@ static void put_lay(panel *p, thr_text *words)
     put_cord(p, p->x - 28, p->y, p->x + 5, p->y, OLD);
   }
   if (i >= 0) {
-    thr_text_append(words, "Lay each piece as the overview shows it: its outer side up, its name upright. ");
+    thr_text_append(
+        words, "Lay each piece as the overview shows it: its outer side up, its name upright. ");
     const thr_visit *visit = &sheets->visit[i];
     thr_text_printf(words, "Here %s: in by the arm that faces %s, out by the one that faces %s.",
-                    sheets->guide.label[visit->piece], sheets->guide.label[thr_tail(sheets->f, visit->in)],
+                    sheets->guide.label[visit->piece],
+                    sheets->guide.label[thr_tail(sheets->f, visit->in)],
                     sheets->guide.label[thr_head(sheets->f, visit->out)]);
   } else
-    thr_text_append(
-        words,
-        "Lay each piece where the overview has it, its name upright. Rows say by which of its two ends the needle goes in.");
+    thr_text_append(words, "Lay each piece where the overview has it, its name upright. Rows say "
+                           "by which of its two ends the needle goes in.");
 }
 
 static void put_start(panel *p, thr_text *words)
@@ -332,19 +359,23 @@ static void put_start(panel *p, thr_text *words)
   put_label(p, p->x + 27, p->y + 5, "needle");
   thr_text_append(words, "Thread the needle, fold the end of the cord back and tape it flat. ");
   if (sheets->fold[part->cord])
-    thr_text_append(
-        words, "A cord that is threaded from its middle has the stopper at its fold (cut list), until the left needle's turn.");
+    thr_text_append(words, "A cord that is threaded from its middle has the stopper at its fold "
+                           "(cut list), until the left needle's turn.");
   else {
-    thr_text_printf(words, "Put the stopper %.0f mm from the other end: that tail is for the knot. Cord %s starts at ",
-                    THR_SUPPLIES_TAIL, sheets->plan->cord[part->cord].id);
-    thr_guide_place(&sheets->guide, thr_cord_start(sheets->f, &sheets->plan->cord[part->cord]), words);
+    thr_text_printf(
+        words,
+        "Put the stopper %.0f mm from the other end: that tail is for the knot. Cord %s starts at ",
+        THR_SUPPLIES_TAIL, sheets->plan->cord[part->cord].id);
+    thr_guide_place(&sheets->guide, thr_cord_start(sheets->f, &sheets->plan->cord[part->cord]),
+                    words);
     thr_text_append(words, "; the first piece goes up to the stopper.");
   }
 }
 
 static void put_slack(panel *p, thr_text *words)
 {
-  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_NEW, THR_PIECE_NEW};
+  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_NEW,
+                                           THR_PIECE_NEW};
   put_row(p, p->x - 29, p->y, 2, 0.5, state);
   put_row(p, p->x + 2, p->y, 2, 0.5, state + 2);
   put_cord(p, p->x - 33, p->y, p->x + 36, p->y, OLD);
@@ -354,24 +385,29 @@ static void put_slack(panel *p, thr_text *words)
   put_label(p, p->x - 23, p->y - 9, "hold");
   put_label(p, p->x, p->y + 10, "this gap closes");
   put_arrow(p, p->x - 1, p->y + 7, p->x - 1, p->y + 2);
-  thr_text_append(words,
-                  "Draw the slack every few rows, and at every check: hold the last piece that sits, draw the cord until ");
+  thr_text_append(words, "Draw the slack every few rows, and at every check: hold the last piece "
+                         "that sits, draw the cord until ");
   thr_text_append(words, p->sheets->pieces.solid ? "the faces touch" : "the tubes meet");
-  thr_text_append(words, ", go on to the next one, from the stopper to the needle. Never a long way in one pull.");
+  thr_text_append(
+      words,
+      ", go on to the next one, from the stopper to the needle. Never a long way in one pull.");
 }
 
 static void put_wrong(panel *p, thr_text *words)
 {
-  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_LATER, THR_PIECE_LATER};
+  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_LATER,
+                                           THR_PIECE_LATER};
   put_row(p, p->x - 29, p->y, 4, 0.5, state);
   put_cord(p, p->x - 33, p->y, p->x - 1.5, p->y, OLD);
   put_line(p, p->x - 2, p->y - 8, p->x - 2, p->y + 8, 0.8, "#009e73");
   put_label(p, p->x - 2, p->y - 9.5, "last check");
   put_arrow(p, p->x + 28, p->y - 8, p->x + 12, p->y - 8);
   put_label(p, p->x + 20, p->y - 10, "back, one by one");
-  thr_text_append(words, "A row went wrong: take the needle off the cord. Draw the bare cord back by hand, piece by piece, as "
-                         "far as the last check that held. "
-                         "Lay the pieces back in their places, untick the rows, begin again from there.");
+  thr_text_append(words,
+                  "A row went wrong: take the needle off the cord. Draw the bare cord back by "
+                  "hand, piece by piece, as "
+                  "far as the last check that held. "
+                  "Lay the pieces back in their places, untick the rows, begin again from there.");
 }
 
 static void put_join(panel *p, thr_text *words)
@@ -388,11 +424,14 @@ static void put_join(panel *p, thr_text *words)
   put_label(p, p->x + 29, p->y + 6, "new length");
   put_arrow(p, p->x - 12, p->y + 7, p->x - 4, p->y + 7);
   put_arrow(p, p->x + 12, p->y + 7, p->x + 4, p->y + 7);
-  thr_text_append(words, "To join a new length, tie each end round the other cord and draw both knots together. ");
+  thr_text_append(
+      words,
+      "To join a new length, tie each end round the other cord and draw both knots together. ");
   thr_text_append(words, p->sheets->pieces.solid ? "Join only at a foot or where a hub is open"
                                                  : "Join only at a foot or where tubes leave room");
   for (int v = 0; v < frame->n_nodes; v++)
-    if (frame->foot[v] && feet++ < NAMED) thr_text_printf(words, "%s%s", feet > 1 ? ", " : " (feet: ", p->sheets->guide.label[v]);
+    if (frame->foot[v] && feet++ < NAMED)
+      thr_text_printf(words, "%s%s", feet > 1 ? ", " : " (feet: ", p->sheets->guide.label[v]);
   thr_text_append(words, feet > NAMED ? ", ..)" : feet ? ")" : "; this frame has no foot");
   thr_text_append(words, p->sheets->pieces.solid ? ": a knot between two faces keeps them apart."
                                                  : ": a knot in a tube stops the cord.");
@@ -422,17 +461,17 @@ static void put_schedule(const thr_sheets *sheets, int c, thr_text *words)
     if (step->cord != c || step->deed != THR_DEED_GRIP) continue;
     const int half = cord->half[step->pass];
     thr_text_printf(words, "%s%s and %s (pass %d)", n++ ? ", " : "Grip it between ",
-                    sheets->guide.label[thr_tail(sheets->f, half)], sheets->guide.label[thr_head(sheets->f, half)],
-                    step->pass + 1);
+                    sheets->guide.label[thr_tail(sheets->f, half)],
+                    sheets->guide.label[thr_head(sheets->f, half)], step->pass + 1);
   }
   if (grips > n) thr_text_printf(words, " and at %d more places (steps.txt)", grips - n);
-  thr_text_append(
-      words, grips
-                 ? ", last pull its end: each time draw the slack of the part before, and hold until the next grip has taken it."
-                 : "Pull as steps.txt says.");
+  thr_text_append(words, grips ? ", last pull its end: each time draw the slack of the part "
+                                 "before, and hold until the next grip has taken it."
+                               : "Pull as steps.txt says.");
 }
 
-/* Which cord is first, where it is held and where it is drawn: of an evaluated plan the slack starts where it is slackest. */
+/* Which cord is first, where it is held and where it is drawn: of an evaluated plan the slack
+ * starts where it is slackest. */
 static void put_tighten(panel *p, thr_text *words)
 {
   const thr_sheets *sheets = p->sheets;
@@ -441,13 +480,16 @@ static void put_tighten(panel *p, thr_text *words)
   const thr_evaluation *evaluation = &sheets->plan->evaluation;
   const char *start = sheets->guide.label[thr_cord_start(sheets->f, cord)],
              *end = sheets->guide.label[thr_cord_end(sheets->f, cord)];
-  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_HELD};
+  static const thr_piece_state state[4] = {THR_PIECE_HELD, THR_PIECE_HELD, THR_PIECE_HELD,
+                                           THR_PIECE_HELD};
   put_row(p, p->x - 27, p->y, 4, 0.5, state);
   put_cord(p, p->x - 36, p->y, p->x + 36, p->y, OLD);
-  thr_text_printf(words, "%sord %s%s. ", sheets->plan->n_cords > 1 ? "The order is on the page \"Last\": first c" : "C", cord->id,
-                  sheets->plan->n_cords > 1 ? "" : " is tightened when all is threaded");
+  thr_text_printf(words, "%sord %s%s. ",
+                  sheets->plan->n_cords > 1 ? "The order is on the page \"Last\": first c" : "C",
+                  cord->id, sheets->plan->n_cords > 1 ? "" : " is tightened when all is threaded");
   bool from_start = true, from_end = true,
-       known = evaluation->present && evaluation->cord[c].known && evaluation->cord[c].pull != THR_PULL_NONE;
+       known = evaluation->present && evaluation->cord[c].known &&
+               evaluation->cord[c].pull != THR_PULL_NONE;
   if (known && evaluation->schedule.n > 0) {
     put_schedule(sheets, c, words);
     put_label(p, p->x, p->y + 10, "first grip");
@@ -459,8 +501,11 @@ static void put_tighten(panel *p, thr_text *words)
     int pull = evaluation->cord[c].pull, half = cord->half[evaluation->cord[c].slackest];
     from_start = pull != THR_PULL_END;
     from_end = pull != THR_PULL_START;
-    thr_text_printf(words, "Its slackest pass is %d, %s to %s: grip the pieces on both sides of it, draw, then grip by grip to ",
-                    evaluation->cord[c].slackest + 1, sheets->guide.label[thr_tail(sheets->f, half)],
+    thr_text_printf(words,
+                    "Its slackest pass is %d, %s to %s: grip the pieces on both sides of it, draw, "
+                    "then grip by grip to ",
+                    evaluation->cord[c].slackest + 1,
+                    sheets->guide.label[thr_tail(sheets->f, half)],
                     sheets->guide.label[thr_head(sheets->f, half)]);
     put_label(p, p->x, p->y + 10, "first grip");
     put_arrow(p, p->x - 1, p->y + 7.5, p->x - 1, p->y + 3.5);
@@ -495,11 +540,12 @@ static void put_knot(panel *p, thr_text *words)
   put_arrow(p, p->x - 4, p->y + 8, p->x - 14, p->y + 8);
   thr_text_append(words, "When all cords are tight, an overhand knot at each end");
   if (p->sheets->supplies.mm > 0)
-    thr_text_printf(words, " (it takes %.0f mm of this cord)", ceil(THR_SUPPLIES_KNOT * p->sheets->supplies.cord));
-  thr_text_append(
-      words,
-      ", drawn up to its piece with the needle's tip in the loop. Two ends that come out at one place may be tied together. "
-      "Look at the cords once more, then trim to 10 mm and push the ends into a bore.");
+    thr_text_printf(words, " (it takes %.0f mm of this cord)",
+                    ceil(THR_SUPPLIES_KNOT * p->sheets->supplies.cord));
+  thr_text_append(words,
+                  ", drawn up to its piece with the needle's tip in the loop. Two ends that come "
+                  "out at one place may be tied together. "
+                  "Look at the cords once more, then trim to 10 mm and push the ends into a bore.");
 }
 
 /* ---- the page ---- */
@@ -516,7 +562,8 @@ static void put_panel(thr_sheets *sheets, int number, const subject *about, doub
   char title[96];
   thr_text words = {0};
   thr_text_printf(p.out,
-                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"2\" fill=\"#fcfcf9\" stroke=\"#bbb\" "
+                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" rx=\"2\" "
+                  "fill=\"#fcfcf9\" stroke=\"#bbb\" "
                   "stroke-width=\"0.3\"/>\n",
                   p.left, p.top, width, height);
   snprintf(title, sizeof title, "%d  %s", number + 1, about->title);
@@ -527,17 +574,19 @@ static void put_panel(thr_sheets *sheets, int number, const subject *about, doub
   else {
     double size = THR_SHEET_SMALL, room = width - 2 * INDENT;
     int lines = thr_sheets_lines(words.data, room, size);
-    thr_sheets_text(sheets, p.left + INDENT, p.top + height - 2 - (lines - 1) * 1.45 * size, size, room, "", words.data);
+    thr_sheets_text(sheets, p.left + INDENT, p.top + height - 2 - (lines - 1) * 1.45 * size, size,
+                    room, "", words.data);
   }
   thr_text_destroy(&words);
 }
 
 void thr_sheets_making(thr_sheets *sheets)
 {
-  static const subject subjects[COLUMNS * ROWS] = {{"What you need", put_need},          {"Laying a piece", put_lay},
-                                                   {"How to start", put_start},          {"Drawing the slack", put_slack},
-                                                   {"When a row went wrong", put_wrong}, {"Joining a new length", put_join},
-                                                   {"Tightening", put_tighten},          {"Knots", put_knot}};
+  static const subject subjects[COLUMNS * ROWS] = {
+      {"What you need", put_need},          {"Laying a piece", put_lay},
+      {"How to start", put_start},          {"Drawing the slack", put_slack},
+      {"When a row went wrong", put_wrong}, {"Joining a new length", put_join},
+      {"Tightening", put_tighten},          {"Knots", put_knot}};
   thr_sheets_page(sheets, "Before you begin", "Before you begin (continued)");
   if (sheets->st) return;
   double height = (thr_sheets_bottom(sheets) - sheets->y - (ROWS - 1) * AIR) / ROWS;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The order of threading, and its rows in words. */
 #include "diagram/sheets/sheets_parts.h"
 
@@ -46,13 +47,14 @@ thr_status thr_sheets_follow(thr_sheets *sheets, thr_err *err)
   sheets->first_pass = thr_calloc((size_t)n, sizeof *sheets->first_pass);
   sheets->fold = thr_calloc((size_t)n, sizeof *sheets->fold);
   sheets->threaded = thr_calloc((size_t)sheets->pieces.n, sizeof *sheets->threaded);
-  if (!sheets->part || !sheets->move || !sheets->step || !sheets->visited || !sheets->first_visit || !sheets->first_pass ||
-      !sheets->fold || !sheets->threaded)
+  if (!sheets->part || !sheets->move || !sheets->step || !sheets->visited || !sheets->first_visit ||
+      !sheets->first_pass || !sheets->fold || !sheets->threaded)
     return thr_nomem(err);
   sheets->n_parts = thr_pieces_parts(sheets->plan, sheets->copy, sheets->o.needles, sheets->part);
   for (int i = 0; i < sheets->n_parts; i++)
     if (sheets->part[i].begins) sheets->fold[sheets->part[i].cord] = sheets->part[i].first;
-  thr_status st = thr_pieces_follow(&sheets->pieces, sheets->part, sheets->n_parts, &sheets->visit, &sheets->n_visits, err);
+  thr_status st = thr_pieces_follow(&sheets->pieces, sheets->part, sheets->n_parts, &sheets->visit,
+                                    &sheets->n_visits, err);
   if (!st) index_visits(sheets);
   return st;
 }
@@ -74,6 +76,7 @@ void thr_sheets_cord_words(const thr_sheets *sheets, int c, char words[96])
   if (n == 1)
     snprintf(words, 96, "Cord %s", sheets->plan->cord[c].id);
   else
-    snprintf(words, 96, "Cord %s (%s%s%s)", sheets->plan->cord[c].id, sheets->copy[c].of == c ? "" : "pale ",
-             thr_palette(hue).name, dash[hue / THR_COLOURS % THR_DASHES]);
+    snprintf(words, 96, "Cord %s (%s%s%s)", sheets->plan->cord[c].id,
+             sheets->copy[c].of == c ? "" : "pale ", thr_palette(hue).name,
+             dash[hue / THR_COLOURS % THR_DASHES]);
 }

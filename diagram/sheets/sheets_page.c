@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pages of step sheets: begun, filled from the top down, broken into lines. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
@@ -33,7 +34,8 @@ double thr_sheets_bottom(const thr_sheets *sheets)
 
 /* ---- lines ---- */
 
-/* Width of a character in em, rather too much: DejaVu Sans, and a full square for scripts that it lacks. */
+/* Width of a character in em, rather too much: DejaVu Sans, and a full square for scripts that it
+ * lacks. */
 static double advance(const char *c)
 {
   if ((unsigned char)*c >= 0x80) return thr_text_is_inside(*c) ? 0 : 1;
@@ -79,8 +81,8 @@ static double line_height(double size)
   return size == THR_SHEET_TEXT ? THR_SHEET_LINE : 1.45 * size;
 }
 
-double thr_sheets_text(thr_sheets *sheets, double x, double y, double size, double width, const char *attributes,
-                       const char *words)
+double thr_sheets_text(thr_sheets *sheets, double x, double y, double size, double width,
+                       const char *attributes, const char *words)
 {
   while (*words && !sheets->st) {
     size_t n = thr_sheets_fit(words, width, size);
@@ -102,7 +104,8 @@ void thr_sheets_page(thr_sheets *sheets, const char *heading, const char *runnin
 {
   thr_sheets_send(sheets);
   if (sheets->st) return;
-  thr_status st = thr_grow(&sheets->page, sheets->n_pages, &sheets->pages_capacity, sizeof *sheets->page, &sheets->why);
+  thr_status st = thr_grow(&sheets->page, sheets->n_pages, &sheets->pages_capacity,
+                           sizeof *sheets->page, &sheets->why);
   if (st) {
     thr_sheets_fail(sheets, st, NULL);
     return;
@@ -111,9 +114,9 @@ void thr_sheets_page(thr_sheets *sheets, const char *heading, const char *runnin
   thr_text copy = {0}; /* heading may be sheets->running */
   thr_text_append(&copy, running);
   sheets->y = THR_SHEET_MARGIN + HEADING;
-  sheets->y =
-      thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, HEADING, thr_sheets_width(sheets), " font-weight=\"bold\"", heading) +
-      1;
+  sheets->y = thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, HEADING,
+                              thr_sheets_width(sheets), " font-weight=\"bold\"", heading) +
+              1;
   if (copy.failed) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
   size_t n = copy.length < sizeof sheets->running ? copy.length : sizeof sheets->running - 1;
   if (n) memcpy(sheets->running, copy.data, n);
@@ -132,9 +135,11 @@ bool thr_sheets_room(thr_sheets *sheets, double height)
 
 void thr_sheets_title(thr_sheets *sheets, const char *words)
 {
-  if (!thr_sheets_room(sheets, 5 * THR_SHEET_LINE)) sheets->y += 3; /* with some of what it is the title of */
-  sheets->y =
-      thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, 3.6, thr_sheets_width(sheets), " font-weight=\"bold\"", words) + 0.5;
+  if (!thr_sheets_room(sheets, 5 * THR_SHEET_LINE))
+    sheets->y += 3; /* with some of what it is the title of */
+  sheets->y = thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, 3.6, thr_sheets_width(sheets),
+                              " font-weight=\"bold\"", words) +
+              0.5;
 }
 
 /* Line by line, so that a long paragraph may go over to other pages. */
@@ -161,9 +166,10 @@ void thr_sheets_paragraph(thr_sheets *sheets, double indent, const char *words)
 
 void thr_sheets_box(thr_text *text, double x, double y)
 {
-  thr_text_printf(
-      text, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\" stroke=\"#222\" stroke-width=\"0.25\"/>\n",
-      x, y - 0.9 * BOX, BOX, BOX);
+  thr_text_printf(text,
+                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"#fff\" "
+                  "stroke=\"#222\" stroke-width=\"0.25\"/>\n",
+                  x, y - 0.9 * BOX, BOX, BOX);
 }
 
 void thr_sheets_tick(thr_sheets *sheets, const char *words)
@@ -180,7 +186,8 @@ void thr_sheets_cells(thr_sheets *sheets, int n, const double *x, char (*cell)[9
     char attributes[64] = "";
     if (x[i] < 0) strcat(attributes, " text-anchor=\"end\"");
     if (bold) strcat(attributes, " font-weight=\"bold\"");
-    thr_svg_text(thr_sheets_out(sheets), THR_SHEET_MARGIN + fabs(x[i]), sheets->y, THR_SHEET_SMALL, attributes, cell[i]);
+    thr_svg_text(thr_sheets_out(sheets), THR_SHEET_MARGIN + fabs(x[i]), sheets->y, THR_SHEET_SMALL,
+                 attributes, cell[i]);
   }
   sheets->y += 4.1;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What to prepare: cords to cut, pieces to make, feet; and how the sheets are read. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
@@ -52,8 +53,11 @@ static void put_cord(thr_sheets *sheets, int c, const double *x)
 static void put_cords(thr_sheets *sheets)
 {
   static const double x[9] = {0, -58, -75, -90, -104, -118, -134, -150, 153};
-  char head[9][96] = {"cord", "passes", "length", "tails", "knots", "turns", "cut", "", "from - to"}, line[320], cord[32] = "";
-  if (sheets->supplies.mm > 0) snprintf(cord, sizeof cord, ", %.3g mm thick", sheets->supplies.cord);
+  char head[9][96] = {"cord",  "passes", "length", "tails",    "knots",
+                      "turns", "cut",    "",       "from - to"},
+       line[320], cord[32] = "";
+  if (sheets->supplies.mm > 0)
+    snprintf(cord, sizeof cord, ", %.3g mm thick", sheets->supplies.cord);
   snprintf(line, sizeof line, "Cut these cords (lengths in %s%s)", sheets->f->units, cord);
   thr_sheets_title(sheets, line);
   if (some_folded(sheets)) snprintf(head[7], 96, "fold at");
@@ -63,12 +67,16 @@ static void put_cords(thr_sheets *sheets)
   sheets->y += 1;
   if (sheets->supplies.mm > 0)
     snprintf(line, sizeof line,
-             "Cut = length through the middles of the pieces + a tail of %.0f mm to hold at each end + an overhand knot at each "
+             "Cut = length through the middles of the pieces + a tail of %.0f mm to hold at each "
+             "end + an overhand knot at each "
              "end + what turns take at most where the cord lies at the outside of its bores.%s",
              THR_SUPPLIES_TAIL,
-             some_folded(sheets) ? " Fold at: from the end that comes out at the first place of the last column." : "");
+             some_folded(sheets)
+                 ? " Fold at: from the end that comes out at the first place of the last column."
+                 : "");
   else
-    snprintf(line, sizeof line, "The size of cord and pieces is not known: add tails, knots and what turns take.");
+    snprintf(line, sizeof line,
+             "The size of cord and pieces is not known: add tails, knots and what turns take.");
   thr_sheets_paragraph(sheets, 0, line);
   thr_sheets_lengths(sheets);
 }
@@ -98,7 +106,8 @@ static int most_cords(const thr_sheets *sheets, int piece)
   return most;
 }
 
-/* A row of the table: a kind, or so many that have one piece each, of one shape, with as many cords and as wide a bore. */
+/* A row of the table: a kind, or so many that have one piece each, of one shape, with as many cords
+ * and as wide a bore. */
 typedef struct {
   char name[24];
   int model, pieces, cords;
@@ -125,7 +134,8 @@ static void put_kinds(thr_sheets *sheets, const kind_row *row, int n)
 {
   static const double x[2 * CELLS] = {-14, -28, -48, -64, -86, -109, -123, -143, -159, -181};
   char cell[2 * CELLS][96];
-  const char *const head[CELLS] = {"kind", "pieces", sheets->pieces.solid ? "arms" : "length", "cords", "bore"};
+  const char *const head[CELLS] = {"kind", "pieces", sheets->pieces.solid ? "arms" : "length",
+                                   "cords", "bore"};
   int filled = 0;
   for (int i = 0; i < 2 * CELLS; i++)
     snprintf(cell[i], 96, "%s", head[i % CELLS]);
@@ -137,7 +147,8 @@ static void put_kinds(thr_sheets *sheets, const kind_row *row, int n)
   }
 }
 
-/* Of each kind k, from 1, the most cords and the widest bore: row[k - 1]. Returns how many have one piece only. */
+/* Of each kind k, from 1, the most cords and the widest bore: row[k - 1]. Returns how many have one
+ * piece only. */
 static int find_kinds(const thr_sheets *sheets, kind_row *row)
 {
   const thr_pieces *pieces = &sheets->pieces;
@@ -151,14 +162,16 @@ static int find_kinds(const thr_sheets *sheets, kind_row *row)
   for (int i = 0; i < pieces->n; i++) {
     kind_row *kind = &row[pieces->kind[i] - 1];
     int cords = most_cords(sheets, i);
-    double bore = pieces->solid ? thr_supplies_node_bore(&sheets->supplies, i) : thr_supplies_bore(&sheets->supplies, i);
+    double bore = pieces->solid ? thr_supplies_node_bore(&sheets->supplies, i)
+                                : thr_supplies_bore(&sheets->supplies, i);
     kind->cords = cords > kind->cords ? cords : kind->cords;
     kind->bore = fmax(kind->bore, bore);
   }
   return single;
 }
 
-/* Kinds of one piece each become one row where only their numbers differ. Returns how many rows are left of n. */
+/* Kinds of one piece each become one row where only their numbers differ. Returns how many rows are
+ * left of n. */
 static int count_together(kind_row *row, int n)
 {
   int left = 0;
@@ -168,7 +181,8 @@ static int count_together(kind_row *row, int n)
     if (kind.pieces == 1) {
       kind.name[strcspn(kind.name, "-")] = '\0';
       for (same = 0; same < left; same++)
-        if (strcmp(row[same].name, kind.name) == 0 && row[same].cords == kind.cords && fabs(row[same].bore - kind.bore) < 1e-9)
+        if (strcmp(row[same].name, kind.name) == 0 && row[same].cords == kind.cords &&
+            fabs(row[same].bore - kind.bore) < 1e-9)
           break;
     }
     if (same == left)
@@ -189,12 +203,16 @@ static void put_pieces(thr_sheets *sheets)
     return;
   }
   bool together = find_kinds(sheets, row) > MOST_SINGLE && pieces->solid;
-  int n = snprintf(line, sizeof line, "%d %s in %d kind%s by shape", pieces->n, thr_pieces_word(sheets->plan, pieces->n),
-                   pieces->n_kinds, pieces->n_kinds == 1 ? "" : "s");
-  if (!pieces->solid) snprintf(line + n, sizeof line - (size_t)n, " (lengths in %s)", sheets->f->units);
+  int n = snprintf(line, sizeof line, "%d %s in %d kind%s by shape", pieces->n,
+                   thr_pieces_word(sheets->plan, pieces->n), pieces->n_kinds,
+                   pieces->n_kinds == 1 ? "" : "s");
+  if (!pieces->solid)
+    snprintf(line + n, sizeof line - (size_t)n, " (lengths in %s)", sheets->f->units);
   thr_sheets_title(sheets, line);
   put_kinds(sheets, row, together ? count_together(row, pieces->n_kinds) : pieces->n_kinds);
-  if (together) thr_sheets_paragraph(sheets, 0, "Letters without a number: so many pieces, each one of a kind.");
+  if (together)
+    thr_sheets_paragraph(sheets, 0,
+                         "Letters without a number: so many pieces, each one of a kind.");
   free(row);
 }
 
@@ -222,30 +240,38 @@ static void put_feet(thr_sheets *sheets)
 static void put_reading(thr_sheets *sheets)
 {
   thr_sheets_title(sheets, "How to read the steps");
-  thr_sheets_paragraph(
-      sheets, 0,
-      sheets->pieces.solid
-          ? "Each row is a piece that the needle comes to. Pick up: a new piece goes on the cord. Through: it is on a cord "
-            "already. In from A5, out to C5: arms are called by the pieces that they face; all pieces lie with their outer "
-            "side up and turned as in the picture. The number of a row is that in the picture, on the arm by which the "
-            "cord comes in. S: the cord starts in this piece."
-          : "Each row is a tube that the needle comes to. Pick up: a new tube goes on the cord. Through: it is on a cord "
-            "already, and the needle goes the way that the cord in it went last; back through: against that way. The "
-            "number of a row is that in the picture.");
-  thr_sheets_paragraph(
-      sheets, 0,
-      "A piece has its kind in the box, by letter and number, and its place in the whole: X-10 (B5) is one of kind X-10 "
-      "that comes to B5. Put its place on it when it goes on the cord: later rows call it by that.");
-  thr_sheets_paragraph(
-      sheets, 0,
-      "In the pictures pieces to pick up have a bold outline, those that are on a cord are grey, those that wait are "
-      "dashed. Grey lines are earlier passes, coloured ones those of the step. The small picture shows where they are. "
-      "S: a cord starts. E: it ends.");
+  thr_sheets_paragraph(sheets, 0,
+                       sheets->pieces.solid
+                           ? "Each row is a piece that the needle comes to. Pick up: a new piece "
+                             "goes on the cord. Through: it is on a cord "
+                             "already. In from A5, out to C5: arms are called by the pieces that "
+                             "they face; all pieces lie with their outer "
+                             "side up and turned as in the picture. The number of a row is that in "
+                             "the picture, on the arm by which the "
+                             "cord comes in. S: the cord starts in this piece."
+                           : "Each row is a tube that the needle comes to. Pick up: a new tube "
+                             "goes on the cord. Through: it is on a cord "
+                             "already, and the needle goes the way that the cord in it went last; "
+                             "back through: against that way. The "
+                             "number of a row is that in the picture.");
+  thr_sheets_paragraph(sheets, 0,
+                       "A piece has its kind in the box, by letter and number, and its place in "
+                       "the whole: X-10 (B5) is one of kind X-10 "
+                       "that comes to B5. Put its place on it when it goes on the cord: later rows "
+                       "call it by that.");
+  thr_sheets_paragraph(sheets, 0,
+                       "In the pictures pieces to pick up have a bold outline, those that are on a "
+                       "cord are grey, those that wait are "
+                       "dashed. Grey lines are earlier passes, coloured ones those of the step. "
+                       "The small picture shows where they are. "
+                       "S: a cord starts. E: it ends.");
   if (some_folded(sheets))
     thr_sheets_paragraph(sheets, 0,
-                         "Cords that have a fold in the cut list are threaded from there with a needle at each end: first the "
+                         "Cords that have a fold in the cut list are threaded from there with a "
+                         "needle at each end: first the "
                          "right needle, to the "
-                         "end of the cord, then the left needle from the fold back to its start, with falling numbers.");
+                         "end of the cord, then the left needle from the fold back to its start, "
+                         "with falling numbers.");
 }
 
 void thr_sheets_prepare(thr_sheets *sheets)
@@ -256,8 +282,8 @@ void thr_sheets_prepare(thr_sheets *sheets)
   put_feet(sheets);
   put_pieces(sheets);
   sheets->y += 1;
-  thr_sheets_paragraph(
-      sheets, 0,
-      "Cords: the most in one arm of such a piece; the bore holds them side by side. Which piece is of which kind: "
-      "beads.csv. Which way the cords take through each: channels.csv.");
+  thr_sheets_paragraph(sheets, 0,
+                       "Cords: the most in one arm of such a piece; the bore holds them side by "
+                       "side. Which piece is of which kind: "
+                       "beads.csv. Which way the cords take through each: channels.csv.");
 }

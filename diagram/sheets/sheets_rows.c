@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is written on the page of a step: heading, rows to tick off, where the needle comes out. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
@@ -6,10 +7,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double NUMBER = 9;         /* mm: the number of a step */
-static const double LOCATOR = 44;       /* mm: width of the small picture in the corner */
-static const double BOX = 5, COUNT = 8; /* mm: a box to tick, and white behind it; the number of a row */
-static const double AFTER = 0.7;        /* mm after a row */
+static const double NUMBER = 9;   /* mm: the number of a step */
+static const double LOCATOR = 44; /* mm: width of the small picture in the corner */
+static const double BOX = 5,
+                    COUNT = 8;   /* mm: a box to tick, and white behind it; the number of a row */
+static const double AFTER = 0.7; /* mm after a row */
 
 static double column_width(const thr_sheets *sheets)
 {
@@ -38,16 +40,19 @@ static void put_beginning(const thr_sheets *sheets, int i, thr_text *text)
   if (needle == THR_NEEDLE_ONLY) {
     thr_text_append(text, "Begin at ");
     thr_guide_place(&sheets->guide, place_before(sheets, i), text);
-    thr_text_printf(text, ": leave a tail of %.0f mm there and a knot's length.", THR_SUPPLIES_TAIL);
+    thr_text_printf(text, ": leave a tail of %.0f mm there and a knot's length.",
+                    THR_SUPPLIES_TAIL);
   } else {
-    thr_text_printf(text, needle == THR_NEEDLE_RIGHT ? "Right needle first: the fold of the cord lies at "
-                                                     : "Now the left needle, from the fold of the cord at ");
+    thr_text_printf(text, needle == THR_NEEDLE_RIGHT
+                              ? "Right needle first: the fold of the cord lies at "
+                              : "Now the left needle, from the fold of the cord at ");
     thr_guide_place(&sheets->guide, place_before(sheets, i), text);
     thr_text_append(text, ".");
   }
 }
 
-/* "Check: the needle comes out of F12 and points at E12." Tubes: "Check: the needle comes out at F12; next E12." */
+/* "Check: the needle comes out of F12 and points at E12." Tubes: "Check: the needle comes out at
+ * F12; next E12." */
 static void put_check(const thr_sheets *sheets, int last, thr_text *text)
 {
   const thr_visit *visit = &sheets->visit[last];
@@ -66,7 +71,8 @@ static void put_check(const thr_sheets *sheets, int last, thr_text *text)
   else if (needle == THR_NEEDLE_RIGHT)
     thr_text_append(text, ": the end of the cord. Leave it there and go on with the left needle.");
   else
-    thr_text_append(text, needle == THR_NEEDLE_LEFT ? ": the start of the cord." : ": the end of the cord.");
+    thr_text_append(text, needle == THR_NEEDLE_LEFT ? ": the start of the cord."
+                                                    : ": the end of the cord.");
 }
 
 void thr_step_destroy_text(thr_step *p)
@@ -102,13 +108,15 @@ double thr_step_rows_height(int lines, int rows)
 
 double thr_step_words_height(double rows_height, int lines_before, int lines_after)
 {
-  return rows_height + (lines_before + lines_after) * THR_SHEET_LINE + (lines_before ? 1 : 0) + THR_SHEET_LINE + 1.5;
+  return rows_height + (lines_before + lines_after) * THR_SHEET_LINE + (lines_before ? 1 : 0) +
+         THR_SHEET_LINE + 1.5;
 }
 
 int thr_step_row_lines(thr_sheets *sheets, int visit)
 {
   thr_text row = {0};
-  thr_pieces_say(&sheets->pieces, thr_sheets_labels(sheets), sheets->visit, visit, sheets->step, &row);
+  thr_pieces_say(&sheets->pieces, thr_sheets_labels(sheets), sheets->visit, visit, sheets->step,
+                 &row);
   int lines = count_lines(sheets, &row, column_width(sheets) - BOX - COUNT, THR_SHEET_SMALL);
   thr_text_destroy(&row);
   return lines;
@@ -122,7 +130,8 @@ void thr_step_find_text(thr_sheets *sheets, thr_step *p)
     thr_text *row = &p->row[p->n_rows];
     *row = (thr_text){0};
     thr_pieces_say(&sheets->pieces, thr_sheets_labels(sheets), sheets->visit, i, sheets->step, row);
-    p->lines[p->n_rows++] = count_lines(sheets, row, column_width(sheets) - BOX - COUNT, THR_SHEET_SMALL);
+    p->lines[p->n_rows++] =
+        count_lines(sheets, row, column_width(sheets) - BOX - COUNT, THR_SHEET_SMALL);
   }
   part_rows(p);
   put_beginning(sheets, p->first, &p->before);
@@ -131,7 +140,8 @@ void thr_step_find_text(thr_sheets *sheets, thr_step *p)
   p->lines_after = count_lines(sheets, &p->after, thr_sheets_width(sheets), THR_SHEET_TEXT);
 }
 
-/* "11 pieces to pick up, 5 that are on a cord already; 38 of 49 are threaded then; cord used 640.1 mm, left 1773 mm" */
+/* "11 pieces to pick up, 5 that are on a cord already; 38 of 49 are threaded then; cord used 640.1
+ * mm, left 1773 mm" */
 static void put_tally(const thr_sheets *sheets, const thr_step *p, thr_text *text)
 {
   char used[64], left[64];
@@ -148,9 +158,11 @@ static void put_tally(const thr_sheets *sheets, const thr_step *p, thr_text *tex
     thr_svg_length(sheets->move[last].used - move->used, sheets->f->units, left);
   else
     snprintf(left, sizeof left, "none");
-  thr_text_printf(text, "%d %s to pick up, %d on a cord already; %d of %d are threaded then; cord used%s %s, left for the way %s",
-                  picked, thr_pieces_word(sheets->plan, picked), p->end - p->first - picked, before, n,
-                  move->needle == THR_NEEDLE_ONLY ? "" : " by this needle", used, left);
+  thr_text_printf(text,
+                  "%d %s to pick up, %d on a cord already; %d of %d are threaded then; cord used%s "
+                  "%s, left for the way %s",
+                  picked, thr_pieces_word(sheets->plan, picked), p->end - p->first - picked, before,
+                  n, move->needle == THR_NEEDLE_ONLY ? "" : " by this needle", used, left);
 }
 
 /* Number of the first pass that a step draws. */
@@ -170,7 +182,8 @@ const char *thr_step_colour(const thr_sheets *sheets, const thr_step *p)
 /* Number, cord and passes; what there is to do. */
 void thr_step_put_heading(thr_sheets *sheets, const thr_step *p, double top)
 {
-  int c = sheets->visit[p->first].cord, low = first_number(sheets, p), high = sheets->visit[p->end - 1].number;
+  int c = sheets->visit[p->first].cord, low = first_number(sheets, p),
+      high = sheets->visit[p->end - 1].number;
   thr_needle needle = sheets->move[p->first].needle;
   char cord[96], line[256], colour[64], big[16];
   const char *own = thr_step_colour(sheets, p);
@@ -179,7 +192,8 @@ void thr_step_put_heading(thr_sheets *sheets, const thr_step *p, double top)
                    needle == THR_NEEDLE_RIGHT  ? ", right needle"
                    : needle == THR_NEEDLE_LEFT ? ", left needle"
                                                : "");
-  n += snprintf(line + n, sizeof line - (size_t)n, low == high ? "pass %d" : "passes %d-%d", low, high);
+  n += snprintf(line + n, sizeof line - (size_t)n, low == high ? "pass %d" : "passes %d-%d", low,
+                high);
   snprintf(line + n, sizeof line - (size_t)n, " of %d", sheets->plan->cord[c].n_passes);
   snprintf(colour, sizeof colour, " font-weight=\"bold\" style=\"fill:%s\"", own);
   snprintf(big, sizeof big, "%d", p->number);
@@ -188,11 +202,13 @@ void thr_step_put_heading(thr_sheets *sheets, const thr_step *p, double top)
   double x = THR_SHEET_MARGIN, width = thr_sheets_width(sheets) + THR_SHEET_MARGIN - LOCATOR - 3;
   thr_svg_text(thr_sheets_out(sheets), x, top + 6.5, NUMBER, " font-weight=\"bold\"", big);
   x += fmax(14, 0.72 * NUMBER * (double)strlen(big) + 3);
-  thr_svg_text(thr_sheets_out(sheets), x, top + 3.5, fmin(4.4, (width - x) / (0.66 * (double)strlen(line))), colour, line);
+  thr_svg_text(thr_sheets_out(sheets), x, top + 3.5,
+               fmin(4.4, (width - x) / (0.66 * (double)strlen(line))), colour, line);
   if (tally.failed)
     thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
   else
-    thr_sheets_text(sheets, x, top + 9, THR_SHEET_SMALL, width - x, " style=\"fill:#444\"", tally.data);
+    thr_sheets_text(sheets, x, top + 9, THR_SHEET_SMALL, width - x, " style=\"fill:#444\"",
+                    tally.data);
   thr_text_destroy(&tally);
 }
 
@@ -216,8 +232,8 @@ void thr_step_put_legend(thr_sheets *sheets, double y, const char *what)
 static void put_words(thr_sheets *sheets, const thr_text *words, const char *attributes)
 {
   if (words->data)
-    sheets->y =
-        thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, THR_SHEET_TEXT, thr_sheets_width(sheets), attributes, words->data);
+    sheets->y = thr_sheets_text(sheets, THR_SHEET_MARGIN, sheets->y, THR_SHEET_TEXT,
+                                thr_sheets_width(sheets), attributes, words->data);
 }
 
 /* A row with its box and number. */
@@ -227,8 +243,8 @@ static void put_row(thr_sheets *sheets, const thr_step *p, int i, double x, doub
   const thr_visit *visit = &sheets->visit[p->first + i];
   if (visit->number) snprintf(number, sizeof number, "%d", visit->number);
   thr_sheets_box(thr_sheets_out(sheets), x, y);
-  thr_svg_text(thr_sheets_out(sheets), x + BOX + COUNT - 1.5, y, THR_SHEET_SMALL, " text-anchor=\"end\" font-weight=\"bold\"",
-               number);
+  thr_svg_text(thr_sheets_out(sheets), x + BOX + COUNT - 1.5, y, THR_SHEET_SMALL,
+               " text-anchor=\"end\" font-weight=\"bold\"", number);
   thr_sheets_text(sheets, x + BOX + COUNT, y, THR_SHEET_SMALL, column_width(sheets) - BOX - COUNT,
                   visit->nth == 1 ? "" : " style=\"fill:#444\"", p->row[i].data);
 }

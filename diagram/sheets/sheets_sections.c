@@ -1,5 +1,6 @@
-/* Sections of large frameworks: before some hundred pieces a page with a map of where they go and how many of which kind they
- * are. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sections of large frameworks: before some hundred pieces a page with a map of where they go and
+ * how many of which kind they are. */
 #include "diagram/sheets/sheets_parts.h"
 
 #include <stdio.h>
@@ -22,7 +23,8 @@ static int count_new(const thr_sheets *sheets, int first, int end)
 
 int thr_sheets_sections(const thr_sheets *sheets, int first, int end)
 {
-  int n = sheets->pieces.n, size = n / MOST > SECTION ? n / MOST : SECTION, new = count_new(sheets, first, end);
+  int n = sheets->pieces.n, size = n / MOST > SECTION ? n / MOST : SECTION,
+      new = count_new(sheets, first, end);
   return n <= LARGE || 2 * new < size ? 0 : new < size ? 1 : new / size;
 }
 
@@ -61,16 +63,20 @@ static thr_status put_map(thr_sheets *sheets, int first, int end, thr_err *err)
 {
   unsigned char *piece = thr_calloc((size_t)sheets->pieces.n, sizeof *piece);
   unsigned char *state = thr_calloc((size_t)sheets->n_passes, sizeof *state);
-  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN, thr_sheets_bottom(sheets) - THR_STEP_LEGEND};
+  thr_box paper = {THR_SHEET_MARGIN, sheets->y, sheets->size[0] - THR_SHEET_MARGIN,
+                   thr_sheets_bottom(sheets) - THR_STEP_LEGEND};
   thr_status st = piece && state ? THR_OK : thr_nomem(err);
   for (int i = 0; i < sheets->pieces.n && !st; i++)
-    piece[i] = sheets->threaded[i] < first ? THR_PIECE_HELD : sheets->threaded[i] < end ? THR_PIECE_NEW : THR_PIECE_LATER;
+    piece[i] = sheets->threaded[i] < first ? THR_PIECE_HELD
+               : sheets->threaded[i] < end ? THR_PIECE_NEW
+                                           : THR_PIECE_LATER;
   for (int i = 0; i < sheets->n_passes && !st; i++)
     state[i] = THR_DRAW_HIDDEN;
-  if (!st && sheets->in_space) st = thr_space_whole(&sheets->space, piece, paper, thr_sheets_out(sheets), err);
+  if (!st && sheets->in_space)
+    st = thr_space_whole(&sheets->space, piece, paper, thr_sheets_out(sheets), err);
   if (!st && !sheets->in_space)
-    st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, piece, paper, &sheets->map_pitch, sheets->limits,
-                        thr_sheets_out(sheets), err);
+    st = thr_crop_whole(sheets->plan, &sheets->guide.layout, state, piece, paper,
+                        &sheets->map_pitch, sheets->limits, thr_sheets_out(sheets), err);
   free(piece);
   free(state);
   return st;
@@ -82,10 +88,11 @@ void thr_sheets_section(thr_sheets *sheets, int nth, int n, int first, int end, 
   const char *id = sheets->plan->cord[sheets->visit[first].cord].id;
   thr_sheets_flush(sheets);
   if (n > 1)
-    snprintf(title, sizeof title, "Section %d of %d of cord %.11s: steps %d to %d", nth, n, id, sheets->n_steps + 1,
-             sheets->n_steps + steps);
+    snprintf(title, sizeof title, "Section %d of %d of cord %.11s: steps %d to %d", nth, n, id,
+             sheets->n_steps + 1, sheets->n_steps + steps);
   else
-    snprintf(title, sizeof title, "Section of cord %.11s: steps %d to %d", id, sheets->n_steps + 1, sheets->n_steps + steps);
+    snprintf(title, sizeof title, "Section of cord %.11s: steps %d to %d", id, sheets->n_steps + 1,
+             sheets->n_steps + steps);
   if (!sheets->st) thr_sheets_page(sheets, title, title);
   if (!sheets->st) put_kinds(sheets, first, end);
   thr_status st = sheets->st ? sheets->st : put_map(sheets, first, end, &sheets->why);

@@ -1,13 +1,15 @@
-/* The steps of a path: some twenty passes each, as a picture, the string of pieces and rows to tick off. A page takes as many
- * steps as fit whole, and what room is left goes to their pictures. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The steps of a path: some twenty passes each, as a picture, the string of pieces and rows to tick
+ * off. A page takes as many steps as fit whole, and what room is left goes to their pictures. */
 #include "diagram/sheets/sheets_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-static const double BETWEEN = 5;              /* mm between two steps of a page */
-static const double LOCATOR[2] = {44, 22};    /* mm: width and height of the small picture, at most */
-static const double IN_SPACE = 9, MOST = 110; /* mm: least height of a picture in space for each visit; in all */
+static const double BETWEEN = 5;           /* mm between two steps of a page */
+static const double LOCATOR[2] = {44, 22}; /* mm: width and height of the small picture, at most */
+static const double IN_SPACE = 9,
+                    MOST = 110; /* mm: least height of a picture in space for each visit; in all */
 
 /* Height of a step but for its picture, mm. */
 static double height_beside(const thr_step *p)
@@ -31,7 +33,8 @@ static thr_status find_height(thr_sheets *sheets, thr_step *p, thr_err *err)
 {
   int now[THR_STEP_VISITS];
   thr_crop crop = crop_of(sheets, p, now);
-  double room[2] = {thr_sheets_width(sheets), thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - height_beside(p)};
+  double room[2] = {thr_sheets_width(sheets),
+                    thr_sheets_bottom(sheets) - THR_SHEET_MARGIN - height_beside(p)};
   room[1] = fmax(room[1], THR_STEP_PICTURE[1]);
   p->height = fmin(room[1], fmin(MOST, THR_STEP_PICTURE[1] + IN_SPACE * (p->end - p->first)));
   if (sheets->in_space) return THR_OK;
@@ -41,13 +44,15 @@ static thr_status find_height(thr_sheets *sheets, thr_step *p, thr_err *err)
   return st;
 }
 
-static thr_status put_flat(thr_sheets *sheets, thr_step *p, const thr_crop *crop, const double room[2], double top, thr_err *err)
+static thr_status put_flat(thr_sheets *sheets, thr_step *p, const thr_crop *crop,
+                           const double room[2], double top, thr_err *err)
 {
   thr_box shown, paper = {0, top, sheets->size[0] - THR_SHEET_MARGIN, top + LOCATOR[1]};
   paper.x0 = paper.x1 - LOCATOR[0];
   thr_crop_fill(&sheets->crops, &p->view, room);
   double at[2] = {0.5 * (sheets->size[0] - p->view.size[0]), top + THR_STEP_HEAD};
-  thr_status st = thr_crop_draw(&sheets->crops, crop, &p->view, at, &shown, thr_sheets_out(sheets), err);
+  thr_status st =
+      thr_crop_draw(&sheets->crops, crop, &p->view, at, &shown, thr_sheets_out(sheets), err);
   if (!st) thr_crop_locate(&sheets->crops, crop, &p->view, shown, paper, thr_sheets_out(sheets));
   sheets->y = at[1] + p->view.size[1];
   double busy[2 * THR_STEP_VISITS][2];
@@ -59,15 +64,17 @@ static thr_status put_flat(thr_sheets *sheets, thr_step *p, const thr_crop *crop
       busy[2 * i + 1][k] = at[k] + scene->pass[crop->now[i]].to[k] - corner;
     }
   thr_box picture = {at[0], at[1], at[0] + p->view.size[0], sheets->y};
-  if (!st) thr_step_put_hub(sheets, p, NULL, crop->colour, picture, (const double(*)[2])busy, 2 * crop->n_now);
+  if (!st)
+    thr_step_put_hub(sheets, p, NULL, crop->colour, picture, (const double(*)[2])busy,
+                     2 * crop->n_now);
   if (!st) thr_step_put_legend(sheets, sheets->y + 4, "step");
   sheets->y += THR_STEP_LEGEND;
   if (!st) thr_step_put_strip(sheets, p, NULL, crop->colour);
   return st;
 }
 
-static thr_status put_in_space(thr_sheets *sheets, const thr_step *p, const thr_crop *crop, const double room[2], double top,
-                               thr_err *err)
+static thr_status put_in_space(thr_sheets *sheets, const thr_step *p, const thr_crop *crop,
+                               const double room[2], double top, thr_err *err)
 {
   thr_box paper = {0, top, sheets->size[0] - THR_SHEET_MARGIN, top + LOCATOR[1]};
   paper.x0 = paper.x1 - LOCATOR[0];
@@ -81,12 +88,15 @@ static thr_status put_in_space(thr_sheets *sheets, const thr_step *p, const thr_
   double busy[2 * THR_STEP_VISITS][2], seen[3];
   for (int i = 0; i < 2 * crop->n_now; i++) {
     int h = thr_space_half(&sheets->space, crop, crop->now[i / 2]);
-    thr_camera_project(&view, sheets->f->xyz[i % 2 ? thr_head(sheets->f, h) : thr_tail(sheets->f, h)], seen);
+    thr_camera_project(
+        &view, sheets->f->xyz[i % 2 ? thr_head(sheets->f, h) : thr_tail(sheets->f, h)], seen);
     for (int k = 0; k < 2; k++)
       busy[i][k] = at[k] + seen[k];
   }
   thr_box picture = {at[0], at[1], at[0] + view.size[0], sheets->y};
-  if (!st) thr_step_put_hub(sheets, p, &view.camera, crop->colour, picture, (const double(*)[2])busy, 2 * crop->n_now);
+  if (!st)
+    thr_step_put_hub(sheets, p, &view.camera, crop->colour, picture, (const double(*)[2])busy,
+                     2 * crop->n_now);
   if (!st) thr_step_put_legend(sheets, sheets->y + 4, "step");
   sheets->y += THR_STEP_LEGEND;
   if (!st) thr_step_put_strip(sheets, p, &view.camera, crop->colour);
@@ -94,16 +104,21 @@ static thr_status put_in_space(thr_sheets *sheets, const thr_step *p, const thr_
 }
 
 /* extra: mm that the picture is higher than it has to be. */
-static thr_status put_pictures(thr_sheets *sheets, thr_step *p, double top, double extra, thr_err *err)
+static thr_status put_pictures(thr_sheets *sheets, thr_step *p, double top, double extra,
+                               thr_err *err)
 {
   int now[THR_STEP_VISITS];
   unsigned char *state = thr_calloc((size_t)sheets->n_passes, sizeof *state);
   unsigned char *piece = thr_calloc((size_t)sheets->pieces.n, sizeof *piece);
   thr_status st = state && piece ? THR_OK : thr_nomem(err);
   for (int i = 0; i < sheets->n_passes && !st; i++)
-    state[i] = sheets->visited[i] < p->first ? THR_DRAW_EARLIER : sheets->visited[i] < p->end ? THR_DRAW_NOW : THR_DRAW_HIDDEN;
+    state[i] = sheets->visited[i] < p->first ? THR_DRAW_EARLIER
+               : sheets->visited[i] < p->end ? THR_DRAW_NOW
+                                             : THR_DRAW_HIDDEN;
   for (int i = 0; i < sheets->pieces.n && !st; i++)
-    piece[i] = sheets->threaded[i] < p->first ? THR_PIECE_HELD : sheets->threaded[i] < p->end ? THR_PIECE_NEW : THR_PIECE_LATER;
+    piece[i] = sheets->threaded[i] < p->first ? THR_PIECE_HELD
+               : sheets->threaded[i] < p->end ? THR_PIECE_NEW
+                                              : THR_PIECE_LATER;
   thr_crop crop = crop_of(sheets, p, now);
   crop.state = state;
   crop.piece = piece;
@@ -130,7 +145,8 @@ static void put_step(thr_sheets *sheets, thr_step *p, double top, double extra)
 /* A rule between two steps. */
 static void put_rule(thr_sheets *sheets, double y)
 {
-  thr_text_printf(thr_sheets_out(sheets), "<path stroke=\"#999\" stroke-width=\"0.20\" d=\"M%.2f %.2fh%.2f\"/>\n",
+  thr_text_printf(thr_sheets_out(sheets),
+                  "<path stroke=\"#999\" stroke-width=\"0.20\" d=\"M%.2f %.2fh%.2f\"/>\n",
                   THR_SHEET_MARGIN, y, thr_sheets_width(sheets));
 }
 
@@ -167,9 +183,12 @@ static bool has_room(const thr_sheets *sheets, const thr_step *step)
 static void poll(thr_sheets *sheets, int first)
 {
   const thr_limits *limits = sheets->limits;
-  if (limits->advance) limits->advance(limits->user, "pages of the step sheets", (double)first / sheets->n_visits);
+  if (limits->advance)
+    limits->advance(limits->user, "pages of the step sheets", (double)first / sheets->n_visits);
   if (thr_limits_stop(limits))
-    thr_sheets_fail(sheets, thr_fail(&sheets->why, THR_ELIMIT, "interrupted at page %d of the step sheets", sheets->n_pages + 1),
+    thr_sheets_fail(sheets,
+                    thr_fail(&sheets->why, THR_ELIMIT, "interrupted at page %d of the step sheets",
+                             sheets->n_pages + 1),
                     NULL);
 }
 
@@ -182,7 +201,9 @@ static thr_status wait(thr_sheets *sheets, int first, int end, thr_err *err)
   thr_step_find_text(sheets, &step);
   thr_status st = sheets->st ? sheets->st : find_height(sheets, &step, err);
   if (!st && !has_room(sheets, &step)) thr_sheets_flush(sheets);
-  if (!st) st = thr_grow(&sheets->waiting, sheets->n_waiting, &sheets->waiting_capacity, sizeof *sheets->waiting, err);
+  if (!st)
+    st = thr_grow(&sheets->waiting, sheets->n_waiting, &sheets->waiting_capacity,
+                  sizeof *sheets->waiting, err);
   if (st)
     thr_step_destroy_text(&step);
   else
@@ -190,8 +211,10 @@ static thr_status wait(thr_sheets *sheets, int first, int end, thr_err *err)
   return st;
 }
 
-/* Where the section ends that begins with step i of n: that many steps, of which the last has picked up its share. */
-static int steps_of_section(const thr_sheets *sheets, const int *end, int n, int i, int new, int share)
+/* Where the section ends that begins with step i of n: that many steps, of which the last has
+ * picked up its share. */
+static int steps_of_section(const thr_sheets *sheets, const int *end, int n, int i, int new,
+                            int share)
 {
   int first = i ? end[i - 1] : sheets->first_visit[sheets->visit[end[0] - 1].cord], steps = 0;
   for (int k = first; i + steps < n; k++) {
@@ -214,7 +237,9 @@ void thr_sheets_steps(thr_sheets *sheets, int c)
   for (int i = 0; i < n && !sheets->st; first = end[i++]) {
     poll(sheets, first);
     if (!sheets->st && i == next && section < sections) {
-      int steps = section + 1 < sections ? steps_of_section(sheets, end, n, i, new, all * (section + 1) / sections) : n - i;
+      int steps = section + 1 < sections
+                      ? steps_of_section(sheets, end, n, i, new, all * (section + 1) / sections)
+                      : n - i;
       thr_sheets_section(sheets, ++section, sections, first, end[i + steps - 1], steps);
       next = i + steps;
     }

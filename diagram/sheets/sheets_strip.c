@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The string of pieces of a step: an icon each, in the order of threading. */
 #include "diagram/overview/overview.h"
 #include "diagram/sheets/sheets_parts.h"
@@ -7,14 +8,15 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { FEW = 8, MANY = 12 };                 /* icons in a row: of up to two rows of few, else of many */
-static const double REACH[2] = {6.2, 5};     /* mm from a hub to the longest arm's end, in such rows */
-static const double NAME = 4.2, AIR = 1.5;   /* mm below an icon for its name; above the first row */
+enum { FEW = 8, MANY = 12 }; /* icons in a row: of up to two rows of few, else of many */
+static const double REACH[2] = {6.2, 5}; /* mm from a hub to the longest arm's end, in such rows */
+static const double NAME = 4.2, AIR = 1.5; /* mm below an icon for its name; above the first row */
 static const double ARM = 0.42, CORD = 0.14; /* widths, of the reach */
 static const double CROWD = 0.8;             /* of the room between many arms that one takes */
-static const double ASIDE[2] = {1.5, 2.6};   /* mm that an icon is off the middle of its place, for its number; of four digits */
-static const double LINE[2] = {0.25, 0.5};   /* mm: outlines of pieces held and new */
-enum { CROWDED = 8 };                        /* arms: more run together */
+static const double ASIDE[2] = {
+    1.5, 2.6}; /* mm that an icon is off the middle of its place, for its number; of four digits */
+static const double LINE[2] = {0.25, 0.5}; /* mm: outlines of pieces held and new */
+enum { CROWDED = 8 };                      /* arms: more run together */
 
 static int columns_of(int visits)
 {
@@ -43,13 +45,14 @@ static void direction(const thr_sheets *sheets, const thr_camera *camera, int h,
     d[1] = -thr_dot(along, camera->up);
     return;
   }
-  const double *a = sheets->guide.layout.xy[thr_tail(paper, h)], *b = sheets->guide.layout.xy[thr_head(paper, h)];
+  const double *a = sheets->guide.layout.xy[thr_tail(paper, h)],
+               *b = sheets->guide.layout.xy[thr_head(paper, h)];
   d[0] = b[0] - a[0];
   d[1] = a[1] - b[1];
 }
 
-void thr_step_arms(const thr_sheets *sheets, const thr_camera *camera, int v, double reach, thr_arms *arms, int half_in,
-                   int half_out, int *in, int *out)
+void thr_step_arms(const thr_sheets *sheets, const thr_camera *camera, int v, double reach,
+                   thr_arms *arms, int half_in, int half_out, int *in, int *out)
 {
   const thr_frame *f = sheets->f;
   double longest = 0;
@@ -68,7 +71,8 @@ void thr_step_arms(const thr_sheets *sheets, const thr_camera *camera, int v, do
 }
 
 /* A tube: two arms from its middle. */
-static void tube_of(const thr_sheets *sheets, const thr_camera *camera, int half, double reach, thr_arms *arms, int *in, int *out)
+static void tube_of(const thr_sheets *sheets, const thr_camera *camera, int half, double reach,
+                    thr_arms *arms, int *in, int *out)
 {
   double d[2];
   direction(sheets, camera, half, d);
@@ -82,12 +86,14 @@ static void tube_of(const thr_sheets *sheets, const thr_camera *camera, int half
   *out = arms->n ? 1 : -1;
 }
 
-/* What lies on what, in few elements for all icons: outlines and fills of pieces, held and new; the cord. */
+/* What lies on what, in few elements for all icons: outlines and fills of pieces, held and new; the
+ * cord. */
 typedef struct {
   thr_text piece[2][2], way, tip, end;
 } layers;
 
-static void add_icon(const thr_sheets *sheets, int visit, const thr_camera *camera, const double hub[2], double reach, layers *l)
+static void add_icon(const thr_sheets *sheets, int visit, const thr_camera *camera,
+                     const double hub[2], double reach, layers *l)
 {
   const thr_visit *v = &sheets->visit[visit];
   bool new = v->nth == 1;
@@ -102,14 +108,18 @@ static void add_icon(const thr_sheets *sheets, int visit, const thr_camera *came
   thr_arms_way(&arms, in, out, CORD * reach, &l->way);
   if (out >= 0) thr_arms_tip(&arms, out, CORD * reach, &l->tip);
   if (in < 0 || out < 0)
-    thr_text_printf(&l->end, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"#111\"/>\n", hub[0], hub[1], 1.1 * CORD * reach);
+    thr_text_printf(&l->end, "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" fill=\"#111\"/>\n", hub[0],
+                    hub[1], 1.1 * CORD * reach);
 }
 
-static void put_path(thr_text *data, const char *fill, const char *stroke, double width, thr_text *text)
+static void put_path(thr_text *data, const char *fill, const char *stroke, double width,
+                     thr_text *text)
 {
   if (data->data && !data->failed)
-    thr_text_printf(text, "<path fill=\"%s\" stroke-linejoin=\"round\" stroke=\"%s\" stroke-width=\"%.2f\" d=\"%s\"/>\n", fill,
-                    stroke, width, data->data);
+    thr_text_printf(text,
+                    "<path fill=\"%s\" stroke-linejoin=\"round\" stroke=\"%s\" "
+                    "stroke-width=\"%.2f\" d=\"%s\"/>\n",
+                    fill, stroke, width, data->data);
   text->failed |= data->failed;
   thr_text_destroy(data);
 }
@@ -155,9 +165,11 @@ static void put_name(thr_sheets *sheets, int visit, double x, double y, double w
     thr_pieces_kind_name(pieces, pieces->kind[v->piece], kind);
   snprintf(words, sizeof words, "%s%s%.90s", kind, *kind ? " " : "", name.data ? name.data : "");
   if (name.failed) thr_sheets_fail(sheets, thr_nomem(&sheets->why), NULL);
-  if (*kind && thr_scene_text_width(words, THR_SHEET_SMALL) > width) snprintf(words, sizeof words, "%.90s", name.data);
+  if (*kind && thr_scene_text_width(words, THR_SHEET_SMALL) > width)
+    snprintf(words, sizeof words, "%.90s", name.data);
   thr_text_destroy(&name);
-  snprintf(attributes, sizeof attributes, " text-anchor=\"middle\"%s", new ? " font-weight=\"bold\"" : " style=\"fill:#444\"");
+  snprintf(attributes, sizeof attributes, " text-anchor=\"middle\"%s",
+           new ? " font-weight=\"bold\"" : " style=\"fill:#444\"");
   if (thr_scene_text_width(words, THR_SHEET_SMALL) <= width)
     thr_svg_text(thr_sheets_out(sheets), x, y, THR_SHEET_SMALL, attributes, words);
 }
@@ -170,16 +182,21 @@ static void put_number(thr_sheets *sheets, int visit, double x, double y)
   thr_svg_text(thr_sheets_out(sheets), x, y, THR_SHEET_SMALL, " font-weight=\"bold\"", count);
 }
 
-void thr_step_put_strip(thr_sheets *sheets, const thr_step *step, const thr_camera *camera, const char *colour)
+void thr_step_put_strip(thr_sheets *sheets, const thr_step *step, const thr_camera *camera,
+                        const char *colour)
 {
   int visits = step->end - step->first, columns = columns_of(visits);
-  double reach = reach_of(visits), high = 2 * reach + NAME, width = thr_sheets_width(sheets) / columns;
+  double reach = reach_of(visits), high = 2 * reach + NAME,
+         width = thr_sheets_width(sheets) / columns;
   const double aside = ASIDE[sheets->n_passes > 999];
   thr_text *text = thr_sheets_out(sheets);
   for (int first = 0; first < visits; first += columns) {
     int n = visits - first < columns ? visits - first : columns;
     double y = sheets->y + AIR + first / columns * high + reach;
-    thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"0.50\" stroke-dasharray=\"1.00 1.00\" d=\"", colour);
+    thr_text_printf(text,
+                    "<path fill=\"none\" stroke=\"%s\" stroke-width=\"0.50\" "
+                    "stroke-dasharray=\"1.00 1.00\" d=\"",
+                    colour);
     thr_svg_move(text, (const double[]){THR_SHEET_MARGIN, y});
     thr_svg_line(text, (const double[]){THR_SHEET_MARGIN + n * width, y});
     thr_text_append(text, "\"/>\n");

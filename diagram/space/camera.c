@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The directions that are tried lie evenly between looking up a little and looking down steeply. */
 #include "diagram/space/camera.h"
 #include "graph/angle.h"
@@ -8,18 +9,23 @@
 #include <string.h>
 
 enum { AROUND = 60, LEVELS = 7, DIRECTIONS = AROUND * LEVELS, STRIDE = 97 };
-static const double LOWEST = -15, LEVEL = 79.0 / 6; /* degrees of elevation, and from level to level */
-static const double RING = 0.55;                    /* pitches of context on each side */
-static const double LARGEST = 48;                   /* mm: a pitch is at most so large on paper */
-static const double NUMBERS = 5.2, NUMBER_AT = 0.7; /* mm between two numbers; part of the way at which one stands */
-static const double ROOMY = 14;                     /* mm: longer passes are no better */
-static const double RIM = 0.02;                     /* cosine: nearer to the rim of a shell a pass counts as hidden */
-static const double SHORT = 1000, HIDDEN = 1000, NEAR = 0.3, CROSSED = 0.15, OUTWARD = 0.8; /* against foreshortening */
+static const double LOWEST = -15,
+                    LEVEL = 79.0 / 6; /* degrees of elevation, and from level to level */
+static const double RING = 0.55;      /* pitches of context on each side */
+static const double LARGEST = 48;     /* mm: a pitch is at most so large on paper */
+static const double NUMBERS = 5.2,
+                    NUMBER_AT =
+                        0.7;    /* mm between two numbers; part of the way at which one stands */
+static const double ROOMY = 14; /* mm: longer passes are no better */
+static const double RIM = 0.02; /* cosine: nearer to the rim of a shell a pass counts as hidden */
+static const double SHORT = 1000, HIDDEN = 1000, NEAR = 0.3, CROSSED = 0.15,
+                    OUTWARD = 0.8; /* against foreshortening */
 
 thr_camera thr_camera_at(double azimuth, double elevation)
 {
-  thr_camera c = {.right = {-sin(azimuth), cos(azimuth), 0},
-                  .eye = {cos(elevation) * cos(azimuth), cos(elevation) * sin(azimuth), sin(elevation)}};
+  thr_camera c = {
+      .right = {-sin(azimuth), cos(azimuth), 0},
+      .eye = {cos(elevation) * cos(azimuth), cos(elevation) * sin(azimuth), sin(elevation)}};
   thr_cross(c.eye, c.right, c.up);
   return c;
 }
@@ -28,7 +34,8 @@ thr_camera thr_camera_at(double azimuth, double elevation)
 static thr_camera camera_number(int i)
 {
   int k = i * STRIDE % DIRECTIONS;
-  return thr_camera_at(2 * THR_PI * (k % AROUND) / AROUND, (LOWEST + LEVEL * (k / AROUND)) * THR_PI / 180);
+  return thr_camera_at(2 * THR_PI * (k % AROUND) / AROUND,
+                       (LOWEST + LEVEL * (k / AROUND)) * THR_PI / 180);
 }
 
 void thr_camera_project(const thr_camera_view *view, const double point[3], double at[3])
@@ -42,13 +49,17 @@ void thr_camera_project(const thr_camera_view *view, const double point[3], doub
 /* What the camera sees, in mm. */
 typedef struct {
   thr_camera_view view;
-  double a[THR_CAMERA_PASSES][2], b[THR_CAMERA_PASSES][2];   /* ends of the passes, mm from the middle */
-  double length[THR_CAMERA_PASSES], part[THR_CAMERA_PASSES]; /* mm on paper; part of it that is not foreshortened */
-  double least;                                              /* of the lengths, each as a part of what it has to be */
-  double facing, most_hidden; /* cosines between the eye and the outside: their mean; the least, at most 0 on the far side */
+  double a[THR_CAMERA_PASSES][2],
+      b[THR_CAMERA_PASSES][2]; /* ends of the passes, mm from the middle */
+  double length[THR_CAMERA_PASSES],
+      part[THR_CAMERA_PASSES]; /* mm on paper; part of it that is not foreshortened */
+  double least;                /* of the lengths, each as a part of what it has to be */
+  double facing, most_hidden;  /* cosines between the eye and the outside: their mean; the least, at
+                                  most 0 on the far side */
 } sight;
 
-static void look(const thr_camera_scene *scene, const thr_camera *camera, const double size[2], sight *s)
+static void look(const thr_camera_scene *scene, const thr_camera *camera, const double size[2],
+                 sight *s)
 {
   double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
   for (int i = 0; i < scene->n; i++)
@@ -64,14 +75,18 @@ static void look(const thr_camera_scene *scene, const thr_camera *camera, const 
     }
   double ring = 2 * RING * scene->pitch;
   s->view = (thr_camera_view){.camera = *camera, .size = {size[0], size[1]}};
-  s->view.scale = fmin(fmin(size[0] / (high[0] - low[0] + ring), size[1] / (high[1] - low[1] + ring)), LARGEST / scene->pitch);
+  s->view.scale =
+      fmin(fmin(size[0] / (high[0] - low[0] + ring), size[1] / (high[1] - low[1] + ring)),
+           LARGEST / scene->pitch);
   s->least = s->most_hidden = HUGE_VAL;
   s->facing = 0;
   for (int k = 0; k < 2; k++)
     s->view.middle[k] = 0.5 * (low[k] + high[k]);
   for (int i = 0; i < scene->n; i++) {
-    double d[3] = {scene->to[i][0] - scene->from[i][0], scene->to[i][1] - scene->from[i][1], scene->to[i][2] - scene->from[i][2]};
-    double whole = sqrt(thr_dot(d, d)), wanted = THR_CAMERA_PASS * fmin(1, whole / (0.5 * scene->pitch));
+    double d[3] = {scene->to[i][0] - scene->from[i][0], scene->to[i][1] - scene->from[i][1],
+                   scene->to[i][2] - scene->from[i][2]};
+    double whole = sqrt(thr_dot(d, d)),
+           wanted = THR_CAMERA_PASS * fmin(1, whole / (0.5 * scene->pitch));
     s->length[i] = s->view.scale * hypot(s->b[i][0] - s->a[i][0], s->b[i][1] - s->a[i][1]);
     s->part[i] = whole > 0 ? s->length[i] / (s->view.scale * whole) : 1;
     s->least = fmin(s->least, wanted > 0 ? s->length[i] / wanted : 1);

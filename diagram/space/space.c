@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What pictures in space are made from, and the choice of a view. */
 #include "diagram/space/space.h"
 
@@ -52,11 +53,14 @@ static void collect(thr_space *space)
     space->on[space->first_on[(space->half[i] >> 1) + 1]++] = i;
 }
 
-thr_status thr_space_make(thr_space *space, const thr_plan *plan, const char (*label)[THR_LABEL], const double (*outward)[3],
-                          thr_err *err)
+thr_status thr_space_make(thr_space *space, const thr_plan *plan, const char (*label)[THR_LABEL],
+                          const double (*outward)[3], thr_err *err)
 {
-  *space = (thr_space){
-      .plan = plan, .f = &plan->frame, .label = label, .outward = outward, .solid = plan->options.joint == THR_JOINT_SOLID};
+  *space = (thr_space){.plan = plan,
+                       .f = &plan->frame,
+                       .label = label,
+                       .outward = outward,
+                       .solid = plan->options.joint == THR_JOINT_SOLID};
   thr_status st = thr_scene_check_cords(plan, &space->n_passes, err);
   if (st) return st;
   space->half = thr_calloc((size_t)space->n_passes, sizeof *space->half);
@@ -73,14 +77,17 @@ int thr_space_half(const thr_space *space, const thr_crop *crop, int i)
   return space->half[i] ^ crop->backward;
 }
 
-/* The way to the outside at a pass: of a shell that at its nodes, else from the middle of all nodes to the pass. */
+/* The way to the outside at a pass: of a shell that at its nodes, else from the middle of all nodes
+ * to the pass. */
 static void find_outward(const thr_space *space, int h, double outward[3])
 {
   int a = thr_tail(space->f, h), b = thr_head(space->f, h);
   for (int k = 0; k < 3; k++)
-    outward[k] = space->outward ? space->outward[a][k] + space->outward[b][k]
-                                : 0.5 * (space->f->xyz[a][k] + space->f->xyz[b][k]) - space->middle[k];
-  double length = sqrt(thr_dot(outward, outward)), least = space->outward ? 1e-6 : 1e-3 * space->pitch;
+    outward[k] = space->outward
+                     ? space->outward[a][k] + space->outward[b][k]
+                     : 0.5 * (space->f->xyz[a][k] + space->f->xyz[b][k]) - space->middle[k];
+  double length = sqrt(thr_dot(outward, outward)),
+         least = space->outward ? 1e-6 : 1e-3 * space->pitch;
   for (int k = 0; k < 3; k++)
     outward[k] = length > least ? outward[k] / length : 0;
 }
@@ -98,7 +105,8 @@ static void camera_scene(const thr_space *space, const thr_crop *crop, thr_camer
   }
 }
 
-bool thr_space_legible(const thr_space *space, const thr_crop *crop, const double room[2], int *first)
+bool thr_space_legible(const thr_space *space, const thr_crop *crop, const double room[2],
+                       int *first)
 {
   thr_camera_scene scene;
   camera_scene(space, crop, &scene);

@@ -1,5 +1,6 @@
-/* A step's picture from its view: lines for what is far from it, pieces in grey around it, then the pieces that it comes to, then
- * the cord, which nothing hides. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A step's picture from its view: lines for what is far from it, pieces in grey around it, then the
+ * pieces that it comes to, then the cord, which nothing hides. */
 #include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
 #include "graph/vector.h"
@@ -8,12 +9,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { BINS = 4 };                                        /* of depth, for lines */
-static const double ARM = 0.33, LANE = 0.115;             /* of the pitch: width of an arm; between two lanes, at most */
+enum { BINS = 4 }; /* of depth, for lines */
+static const double ARM = 0.33,
+                    LANE = 0.115; /* of the pitch: width of an arm; between two lanes, at most */
 static const double WIDEST = 7, CORD = 1.6, CASING = 0.6; /* mm */
-static const double GAP = 0.45;                           /* mm from the middle of an edge to a face */
-static const double FADE = 0.55, DEEP = 3;                /* how pale at most; so many pitches away */
-static const double OPEN = 0.25;                          /* cosine to the eye from which an arm's opening is seen */
+static const double GAP = 0.45;            /* mm from the middle of an edge to a face */
+static const double FADE = 0.55, DEEP = 3; /* how pale at most; so many pitches away */
+static const double OPEN = 0.25; /* cosine to the eye from which an arm's opening is seen */
 
 /* What is near enough to be drawn as a piece. */
 typedef enum { FAR, AROUND, NOW } nearness;
@@ -25,8 +27,9 @@ typedef struct {
   double (*at)[3];     /* [n_nodes] on paper, and depth */
   unsigned char *near; /* [n_nodes] of hubs */
   thr_box window;
-  double depth, deep; /* mean depth of what is drawn now; so far from it colours are as pale as they get */
-  double pitch, arm;  /* mm */
+  double depth,
+      deep; /* mean depth of what is drawn now; so far from it colours are as pale as they get */
+  double pitch, arm; /* mm */
   thr_text *text;
 } drawing;
 
@@ -50,8 +53,8 @@ static double fade_of(const drawing *d, double depth)
 static bool seen(const drawing *d, const double *a, const double *b, double more)
 {
   const thr_box *w = &d->window;
-  return fmin(a[0], b[0]) <= w->x1 + more && fmax(a[0], b[0]) >= w->x0 - more && fmin(a[1], b[1]) <= w->y1 + more &&
-         fmax(a[1], b[1]) >= w->y0 - more;
+  return fmin(a[0], b[0]) <= w->x1 + more && fmax(a[0], b[0]) >= w->x0 - more &&
+         fmin(a[1], b[1]) <= w->y1 + more && fmax(a[1], b[1]) >= w->y0 - more;
 }
 
 static int piece_of(const drawing *d, int h)
@@ -76,17 +79,20 @@ static void put_lines(const drawing *d)
       char colour[8];
       for (int e = 0; e < f->n_edges; e++) {
         const double *a = d->at[f->edge[e][0]], *b = d->at[f->edge[e][1]];
-        bool own = state_of(d, piece_of(d, 2 * e)) != THR_PIECE_LATER && state_of(d, piece_of(d, 2 * e + 1)) != THR_PIECE_LATER;
+        bool own = state_of(d, piece_of(d, 2 * e)) != THR_PIECE_LATER &&
+                   state_of(d, piece_of(d, 2 * e + 1)) != THR_PIECE_LATER;
         double white = fade_of(d, 0.5 * (a[2] + b[2]));
-        if (own != held || (d->near[f->edge[e][0]] && d->near[f->edge[e][1]]) || !seen(d, a, b, 1) ||
-            (int)fmin(BINS * white / FADE, BINS - 1) != bin)
+        if (own != held || (d->near[f->edge[e][0]] && d->near[f->edge[e][1]]) ||
+            !seen(d, a, b, 1) || (int)fmin(BINS * white / FADE, BINS - 1) != bin)
           continue;
         thr_svg_move(&data, a);
         thr_svg_line(&data, b);
       }
       pale(held ? "#b3aa98" : "#c8c8c8", FADE * (bin + 0.5) / BINS, colour);
       if (data.data)
-        thr_text_printf(d->text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linecap=\"round\" d=\"%s\"/>\n",
+        thr_text_printf(d->text,
+                        "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" "
+                        "stroke-linecap=\"round\" d=\"%s\"/>\n",
                         colour, held ? "0.80" : "0.35", data.data);
       d->text->failed |= data.failed;
       thr_text_destroy(&data);
@@ -102,7 +108,8 @@ static void arms_of(const drawing *d, int v, thr_arms *arms)
   *arms = (thr_arms){.hub = {hub[0], hub[1]}, .width = d->arm};
   for (int i = f->first[v]; i < f->first[v + 1] && arms->n < THR_ARMS; i++) {
     const double *other = d->at[thr_head(f, f->half[i])];
-    double length = hypot(other[0] - hub[0], other[1] - hub[1]), part = length > 0 ? 0.5 - fmin(GAP / length, 0.1) : 0;
+    double length = hypot(other[0] - hub[0], other[1] - hub[1]),
+           part = length > 0 ? 0.5 - fmin(GAP / length, 0.1) : 0;
     for (int k = 0; k < 2; k++)
       arms->end[arms->n][k] = hub[k] + part * (other[k] - hub[k]);
     arms->n++;
@@ -110,13 +117,15 @@ static void arms_of(const drawing *d, int v, thr_arms *arms)
 }
 
 /* The opening at the end of an arm that comes towards the eye: an ellipse, as four curves. */
-static void put_opening(const drawing *d, const double end[2], const double side[2], double open, const char *fill,
-                        const char *outline)
+static void put_opening(const drawing *d, const double end[2], const double side[2], double open,
+                        const char *fill, const char *outline)
 {
   static const double round = 0.5522847498; /* of a quarter of a circle */
-  double a = 0.5 * d->arm, b = a * open, u[2] = {side[0] * a, side[1] * a}, w[2] = {-side[1] * b, side[0] * b};
+  double a = 0.5 * d->arm, b = a * open, u[2] = {side[0] * a, side[1] * a},
+         w[2] = {-side[1] * b, side[0] * b};
   static const double turn[5][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}};
-  thr_text_printf(d->text, "<path fill=\"%s\" stroke=\"%s\" stroke-width=\"0.25\" d=\"", fill, outline);
+  thr_text_printf(d->text, "<path fill=\"%s\" stroke=\"%s\" stroke-width=\"0.25\" d=\"", fill,
+                  outline);
   for (int q = 0; q < 5; q++) {
     double at[2], before[2], after[2];
     for (int k = 0; k < 2; k++) {
@@ -139,9 +148,11 @@ static void put_openings(const drawing *d, int v, const thr_arms *arms, const ch
   const thr_frame *f = d->space->f;
   for (int i = 0; i < arms->n; i++) {
     const double *to = f->xyz[thr_head(f, f->half[f->first[v] + i])], *from = f->xyz[v];
-    double along[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]}, length = sqrt(thr_dot(along, along));
+    double along[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]},
+           length = sqrt(thr_dot(along, along));
     double open = length > 0 ? thr_dot(along, d->view->camera.eye) / length : 0;
-    double flat[2] = {arms->end[i][0] - arms->hub[0], arms->end[i][1] - arms->hub[1]}, wide = hypot(flat[0], flat[1]);
+    double flat[2] = {arms->end[i][0] - arms->hub[0], arms->end[i][1] - arms->hub[1]},
+           wide = hypot(flat[0], flat[1]);
     if (open < OPEN) continue;
     double side[2] = {wide > 1e-6 ? -flat[1] / wide : 1, wide > 1e-6 ? flat[0] / wide : 0};
     put_opening(d, arms->end[i], side, open, "#fff", outline);
@@ -190,13 +201,16 @@ static void put_tube(const drawing *d, int e, bool now)
   const thr_frame *f = d->space->f;
   const double *a = d->at[f->edge[e][0]], *b = d->at[f->edge[e][1]];
   thr_piece_state state = state_of(d, e);
-  double length = hypot(b[0] - a[0], b[1] - a[1]), off = length > 0 ? fmin(0.5 * d->arm + 1, 0.3 * length) / length : 0;
+  double length = hypot(b[0] - a[0], b[1] - a[1]),
+         off = length > 0 ? fmin(0.5 * d->arm + 1, 0.3 * length) / length : 0;
   double white = now ? 0 : 0.35 + 0.65 * fade_of(d, 0.5 * (a[2] + b[2]));
   for (int k = 0; k < 2; k++) {
     char colour[8];
     pale(k ? looks[state].fill : looks[state].outline, white, colour);
-    thr_text_printf(d->text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" stroke-linecap=\"round\" d=\"", colour,
-                    0.8 * d->arm + (k ? -1 : 1) * looks[state].line);
+    thr_text_printf(
+        d->text,
+        "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" stroke-linecap=\"round\" d=\"",
+        colour, 0.8 * d->arm + (k ? -1 : 1) * looks[state].line);
     thr_svg_move(d->text, (const double[]){a[0] + off * (b[0] - a[0]), a[1] + off * (b[1] - a[1])});
     thr_svg_line(d->text, (const double[]){b[0] + off * (a[0] - b[0]), b[1] + off * (a[1] - b[1])});
     thr_text_append(d->text, "\"/>\n");
@@ -207,7 +221,9 @@ static nearness near_of(const drawing *d, int piece)
 {
   if (d->space->solid) return (nearness)d->near[piece];
   const int *end = d->space->f->edge[piece];
-  return d->near[end[0]] && d->near[end[1]] ? (nearness)(d->near[end[0]] == NOW && d->near[end[1]] == NOW ? NOW : AROUND) : FAR;
+  return d->near[end[0]] && d->near[end[1]]
+             ? (nearness)(d->near[end[0]] == NOW && d->near[end[1]] == NOW ? NOW : AROUND)
+             : FAR;
 }
 
 /* Pieces that are so near and, of those that are drawn now, new or held; back to front. */
@@ -216,8 +232,11 @@ static void put_pieces(const drawing *d, nearness near, bool new, placed *list)
   const thr_frame *f = d->space->f;
   int n = 0, pieces = d->space->solid ? f->n_nodes : f->n_edges;
   for (int i = 0; i < pieces; i++) {
-    const double *a = d->at[d->space->solid ? i : f->edge[i][0]], *b = d->at[d->space->solid ? i : f->edge[i][1]];
-    if (near_of(d, i) != near || (near == NOW && (state_of(d, i) == THR_PIECE_NEW) != new) || !seen(d, a, b, d->pitch)) continue;
+    const double *a = d->at[d->space->solid ? i : f->edge[i][0]],
+                 *b = d->at[d->space->solid ? i : f->edge[i][1]];
+    if (near_of(d, i) != near || (near == NOW && (state_of(d, i) == THR_PIECE_NEW) != new) ||
+        !seen(d, a, b, d->pitch))
+      continue;
     list[n++] = (placed){i, a[2] + b[2]};
   }
   qsort(list, (size_t)n, sizeof *list, back_to_front);
@@ -242,7 +261,8 @@ static thr_lane lane_of(const drawing *d, int i)
     rank += space->on[k] < i;
     n++;
   }
-  double off = n > 1 ? (rank - 0.5 * (n - 1)) * fmin(LANE * d->pitch, (d->arm - CORD) / (n - 1)) : 0;
+  double off =
+      n > 1 ? (rank - 0.5 * (n - 1)) * fmin(LANE * d->pitch, (d->arm - CORD) / (n - 1)) : 0;
   double back = fmin(0.3 * lane.length, 0.9 * d->arm), sign = h & 1 ? -1 : 1;
   for (int k = 0; k < 2; k++)
     lane.along[k] = lane.length > 0 ? (b[k] - a[k]) / lane.length : 0;
@@ -281,7 +301,8 @@ static void put_earlier(const drawing *d)
       continue;
     thr_lane lane = lane_of(d, i);
     bool on = last == i - 1 && space->cord[i] == space->cord[last];
-    if (d->step->crop.backward) { /* lanes are told as the needle goes; this one goes on from the end of the one before */
+    if (d->step->crop.backward) { /* lanes are told as the needle goes; this one goes on from the
+                                     end of the one before */
       thr_lane t = lane;
       for (int k = 0; k < 2; k++) {
         lane.from[k] = t.to[k];
@@ -300,7 +321,9 @@ static void put_earlier(const drawing *d)
     last = i;
   }
   for (int k = 0; k < 2 && data.data; k++)
-    thr_text_printf(d->text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" stroke-linejoin=\"round\" d=\"%s\"/>\n",
+    thr_text_printf(d->text,
+                    "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%s\" "
+                    "stroke-linejoin=\"round\" d=\"%s\"/>\n",
                     k ? "#a2a2a2" : "#ffffff", k ? "0.90" : "1.60", data.data);
   d->text->failed |= data.failed;
   thr_text_destroy(&data);
@@ -327,7 +350,9 @@ static void put_cord(const drawing *d, const thr_lane *lane, int n)
   } else
     thr_svg_line(&data, tip);
   for (int k = 0; k < 2 && data.data; k++)
-    thr_text_printf(d->text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" stroke-linejoin=\"round\" d=\"%s\"/>\n",
+    thr_text_printf(d->text,
+                    "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%.2f\" "
+                    "stroke-linejoin=\"round\" d=\"%s\"/>\n",
                     k ? d->step->colour : "#fff", k ? CORD : CORD + 2 * CASING, data.data);
   d->text->failed |= data.failed;
   thr_text_destroy(&data);
@@ -346,7 +371,8 @@ static void find_near(drawing *d)
     d->depth += 0.5 * (d->at[thr_tail(f, h)][2] + d->at[thr_head(f, h)][2]) / crop->n_now;
   }
   for (int h = 0; h < 2 * f->n_edges; h++)
-    if (d->near[thr_tail(f, h)] == NOW && d->near[thr_head(f, h)] == FAR) d->near[thr_head(f, h)] = AROUND;
+    if (d->near[thr_tail(f, h)] == NOW && d->near[thr_head(f, h)] == FAR)
+      d->near[thr_head(f, h)] = AROUND;
 }
 
 static thr_status put_all(drawing *d, placed *list, thr_err *err)
@@ -363,27 +389,40 @@ static thr_status put_all(drawing *d, placed *list, thr_err *err)
   for (int i = 0; i < n; i++)
     lane[i] = lane_of(d, crop->now[i]);
   put_cord(d, lane, n);
-  return thr_space_label(d->space, d->step, lane, (const double(*)[3])d->at, d->window, 0.5 * d->arm, d->text, err);
+  return thr_space_label(d->space, d->step, lane, (const double(*)[3])d->at, d->window,
+                         0.5 * d->arm, d->text, err);
 }
 
-static void open_group(const thr_space_step *step, const thr_camera_view *view, const double at[2], thr_text *text)
+static void open_group(const thr_space_step *step, const thr_camera_view *view, const double at[2],
+                       thr_text *text)
 {
   int n = step->crop.number;
-  thr_text_printf(text, "<style>.view-%d text{fill:#222;font-family:'DejaVu Sans',Verdana,sans-serif;text-anchor:middle}", n);
-  thr_text_printf(text, ".view-%d .pill{fill:#fff;stroke-width:0.45}.view-%d .own{fill:#111;font-weight:bold}", n, n);
+  thr_text_printf(text,
+                  "<style>.view-%d text{fill:#222;font-family:'DejaVu "
+                  "Sans',Verdana,sans-serif;text-anchor:middle}",
+                  n);
+  thr_text_printf(
+      text, ".view-%d .pill{fill:#fff;stroke-width:0.45}.view-%d .own{fill:#111;font-weight:bold}",
+      n, n);
   thr_text_printf(text, ".view-%d .other{fill:#777}</style>\n<g class=\"view-%d\">\n", n, n);
   thr_text_printf(text,
-                  "<clipPath id=\"view-%d-0\"><rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\"/></clipPath>\n"
+                  "<clipPath id=\"view-%d-0\"><rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" "
+                  "height=\"%.2f\"/></clipPath>\n"
                   "<g clip-path=\"url(#view-%d-0)\"><g transform=\"translate(%.2f %.2f)\">\n",
                   n, at[0], at[1], view->size[0], view->size[1], n, at[0], at[1]);
 }
 
-thr_status thr_space_draw(const thr_space *space, const thr_space_step *step, const thr_camera_view *view, const double at[2],
-                          thr_text *text, thr_err *err)
+thr_status thr_space_draw(const thr_space *space, const thr_space_step *step,
+                          const thr_camera_view *view, const double at[2], thr_text *text,
+                          thr_err *err)
 {
   const thr_frame *f = space->f;
   int most = f->n_nodes > f->n_edges ? f->n_nodes : f->n_edges;
-  drawing d = {.space = space, .step = step, .view = view, .text = text, .window = {0, 0, view->size[0], view->size[1]}};
+  drawing d = {.space = space,
+               .step = step,
+               .view = view,
+               .text = text,
+               .window = {0, 0, view->size[0], view->size[1]}};
   d.pitch = view->scale * space->pitch;
   d.deep = DEEP * space->pitch;
   d.arm = fmin(ARM * d.pitch, WIDEST);
@@ -396,10 +435,11 @@ thr_status thr_space_draw(const thr_space *space, const thr_space_step *step, co
   open_group(step, view, at, text);
   if (!st) st = put_all(&d, list, err);
   thr_text_append(text, "</g></g>\n");
-  thr_text_printf(text,
-                  "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" stroke=\"#999\" "
-                  "stroke-width=\"0.25\"/>\n</g>\n",
-                  at[0], at[1], view->size[0], view->size[1]);
+  thr_text_printf(
+      text,
+      "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" stroke=\"#999\" "
+      "stroke-width=\"0.25\"/>\n</g>\n",
+      at[0], at[1], view->size[0], view->size[1]);
   free(d.at);
   free(d.near);
   free(list);
@@ -422,7 +462,8 @@ static thr_status put_names(const drawing *d, placed *list, thr_err *err)
   for (int i = n - 1; i >= 0 && !st; i--) {
     const double *at = d->at[list[i].piece];
     const char *name = d->space->label[list[i].piece];
-    thr_box box = thr_box_around(at[0], at[1], 0.5 * thr_scene_text_width(name, size) + 0.3, 0.6 * size);
+    thr_box box =
+        thr_box_around(at[0], at[1], 0.5 * thr_scene_text_width(name, size) + 0.3, 0.6 * size);
     if (thr_boxes_overlap(&boxes, box, ~0, 1e-9) > 0) continue;
     thr_svg_text(d->text, at[0], at[1] + 0.36 * size, size, "", name);
     st = thr_boxes_add(&boxes, box, THR_BOX_NAME, err);
@@ -456,7 +497,8 @@ static thr_camera_view view_of_all(const thr_space *space, const double size[2],
   return view;
 }
 
-thr_status thr_space_whole(const thr_space *space, const unsigned char *state, thr_box paper, thr_text *text, thr_err *err)
+thr_status thr_space_whole(const thr_space *space, const unsigned char *state, thr_box paper,
+                           thr_text *text, thr_err *err)
 {
   const thr_frame *f = space->f;
   int most = f->n_nodes > f->n_edges ? f->n_nodes : f->n_edges;

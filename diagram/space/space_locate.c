@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The whole in small, seen as the step is. */
 #include "diagram/overview/overview.h"
 #include "diagram/space/space.h"
@@ -6,7 +7,8 @@
 #include <stdlib.h>
 
 /* The view that shows all nodes in the upper right corner of the paper; at: where they are. */
-static double place(const thr_space *space, const thr_camera *camera, thr_box paper, double (*at)[3])
+static double place(const thr_space *space, const thr_camera *camera, thr_box paper,
+                    double (*at)[3])
 {
   thr_camera_view view = {.camera = *camera, .scale = 1};
   thr_box all = {HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
@@ -23,15 +25,19 @@ static double place(const thr_space *space, const thr_camera *camera, thr_box pa
   return scale;
 }
 
-thr_status thr_space_locate(const thr_space *space, const thr_space_step *step, const thr_camera_view *view, thr_box paper,
-                            thr_text *text, thr_err *err)
+thr_status thr_space_locate(const thr_space *space, const thr_space_step *step,
+                            const thr_camera_view *view, thr_box paper, thr_text *text,
+                            thr_err *err)
 {
   const thr_frame *f = space->f;
   double(*at)[3] = thr_calloc((size_t)f->n_nodes, sizeof *at);
   if (!at) return thr_nomem(err);
   double pitch = place(space, &view->camera, paper, at) * space->pitch;
   thr_shadow_edges(f, at[0], 3, pitch, paper, text);
-  thr_text_printf(text, "<path fill=\"none\" stroke=\"%s\" stroke-width=\"0.70\" stroke-linejoin=\"round\" d=\"", step->colour);
+  thr_text_printf(
+      text,
+      "<path fill=\"none\" stroke=\"%s\" stroke-width=\"0.70\" stroke-linejoin=\"round\" d=\"",
+      step->colour);
   for (int i = 0; i < step->crop.n_now; i++) {
     int h = thr_space_half(space, &step->crop, step->crop.now[i]);
     if (!i) thr_svg_move(text, at[thr_tail(f, h)]);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "diagram/tables/kinds.h"
 
 #include "graph/vector.h"
@@ -37,11 +38,13 @@ typedef struct {
   int n;
   double tip[THR_KINDS_ARMS][3];
   double length[THR_KINDS_ARMS];
-  int base[2];  /* arms that span the frame: along the first, beside it the second; equal if all arms are in one line */
+  int base[2]; /* arms that span the frame: along the first, beside it the second; equal if all arms
+                  are in one line */
   double slant; /* sine of the angle between them */
 } bead;
 
-static const double IN_LINE = THR_KINDS_TOLERANCE; /* sine: the tips of arms so nearly in line are within the tolerance of one */
+static const double IN_LINE = THR_KINDS_TOLERANCE; /* sine: the tips of arms so nearly in line are
+                                                      within the tolerance of one */
 
 /* Sine of the angle between two arms. */
 static double sine(const bead *b, int i, int j)
@@ -70,12 +73,14 @@ static void bead_make(const thr_frame *frame, int v, bead *b)
   }
 }
 
-/* Unit vectors: along arm i, at right angles to it towards arm j (any if i = j), and at right angles to both. */
+/* Unit vectors: along arm i, at right angles to it towards arm j (any if i = j), and at right
+ * angles to both. */
 static void span(const bead *b, int i, int j, double axis[3][3])
 {
   const double *a = b->tip[i];
   double other[3] = {0};
-  int least = fabs(a[0]) <= fabs(a[1]) ? (fabs(a[0]) <= fabs(a[2]) ? 0 : 2) : (fabs(a[1]) <= fabs(a[2]) ? 1 : 2);
+  int least = fabs(a[0]) <= fabs(a[1]) ? (fabs(a[0]) <= fabs(a[2]) ? 0 : 2)
+                                       : (fabs(a[1]) <= fabs(a[2]) ? 1 : 2);
   other[least] = 1;
   for (int k = 0; k < 3; k++) {
     axis[0][k] = b->length[i] > 0 ? a[k] / b->length[i] : 0;
@@ -105,7 +110,8 @@ static bool tips_meet(int n, const double (*a)[3], const double (*b)[3], double 
     int nearest = -1;
     double least = tolerance;
     for (int j = 0; j < n; j++) {
-      double d[3] = {a[i][0] - b[j][0], a[i][1] - b[j][1], a[i][2] - b[j][2]}, apart = sqrt(thr_dot(d, d));
+      double d[3] = {a[i][0] - b[j][0], a[i][1] - b[j][1], a[i][2] - b[j][2]},
+             apart = sqrt(thr_dot(d, d));
       if (taken[j] || apart > least) continue;
       least = apart;
       nearest = j;
@@ -124,23 +130,27 @@ static bool alike(const bead *a, const bead *b, double tolerance)
   for (int i = 0; i < b->n; i++) {
     if (fabs(b->length[i] - a->length[first]) > tolerance) continue;
     for (int j = 0; j < b->n; j++) {
-      if ((i == j) != (first == second) || fabs(b->length[j] - a->length[second]) > tolerance) continue;
+      if ((i == j) != (first == second) || fabs(b->length[j] - a->length[second]) > tolerance)
+        continue;
       if (i != j && sine(b, i, j) < IN_LINE / 2) continue;
       turn_into(b, i, j, turned);
-      if (tips_meet(a->n, (const double(*)[3])own, (const double(*)[3])turned, tolerance)) return true;
+      if (tips_meet(a->n, (const double(*)[3])own, (const double(*)[3])turned, tolerance))
+        return true;
     }
   }
   return false;
 }
 
-/* Of beads that are alike it differs by at most sway(arms): the distances of their tips from each other and from the node. */
+/* Of beads that are alike it differs by at most sway(arms): the distances of their tips from each
+ * other and from the node. */
 static double bead_size(const bead *b)
 {
   double size = 0;
   for (int i = 0; i < b->n; i++) {
     size += b->length[i];
     for (int j = 0; j < i; j++) {
-      double d[3] = {b->tip[i][0] - b->tip[j][0], b->tip[i][1] - b->tip[j][1], b->tip[i][2] - b->tip[j][2]};
+      double d[3] = {b->tip[i][0] - b->tip[j][0], b->tip[i][1] - b->tip[j][1],
+                     b->tip[i][2] - b->tip[j][2]};
       size += sqrt(thr_dot(d, d));
     }
   }
@@ -152,7 +162,8 @@ static double sway(int arms, double tolerance)
   return tolerance * (arms + arms * (arms - 1.0)) * (1 + 1e-9);
 }
 
-static thr_status find_nodes(const thr_frame *frame, double tolerance, int *node, keyed *k, thr_err *err)
+static thr_status find_nodes(const thr_frame *frame, double tolerance, int *node, keyed *k,
+                             thr_err *err)
 {
   int n = frame->n_nodes, kinds = 0;
   int *model = thr_calloc((size_t)n, sizeof *model); /* place in k of the first of every kind */
@@ -210,7 +221,8 @@ static void find_edges(int n, const keyed *k, double tolerance, int *edge, int *
   renumber(edge, n, next);
 }
 
-thr_status thr_kinds_find(const thr_frame *frame, double tolerance, int *edge, int *node, thr_err *err)
+thr_status thr_kinds_find(const thr_frame *frame, double tolerance, int *edge, int *node,
+                          thr_err *err)
 {
   int most = frame->n_edges > frame->n_nodes ? frame->n_edges : frame->n_nodes;
   double median;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "diagram/tables/supplies.h"
 
 #include "diagram/scene/scene.h"
@@ -54,9 +55,11 @@ bool thr_supplies_doubt(const thr_supplies *supplies, char line[160])
   const double thinnest = 0.2, thickest = 15; /* mm: of sewing thread, of rope */
   const thr_physics *asked = &supplies->plan->options.physics;
   bool said = asked->cord_diameter > 0 || asked->bore > 0 || asked->bead_diameter > 0;
-  if (said || !(supplies->mm > 0) || (supplies->cord >= thinnest && supplies->cord <= thickest)) return false;
+  if (said || !(supplies->mm > 0) || (supplies->cord >= thinnest && supplies->cord <= thickest))
+    return false;
   snprintf(line, 160,
-           "A cord of %.3g mm through bores of %.4g mm: is that the size to be built? Else plan it with --units or --scale.",
+           "A cord of %.3g mm through bores of %.4g mm: is that the size to be built? Else plan it "
+           "with --units or --scale.",
            supplies->cord, supplies->bore);
   return true;
 }
@@ -88,7 +91,8 @@ static double in_turns(const thr_supplies *supplies, const thr_cord *cord)
   int turns = thr_cord_turns(&supplies->plan->options, cord);
   for (int k = 0; k < turns; k++) {
     int in = cord->half[k], out = cord->half[(k + 1) % cord->n_passes];
-    double bore = supplies->cord * fmax(thr_supplies_bore(supplies, in >> 1), thr_supplies_bore(supplies, out >> 1));
+    double bore = supplies->cord *
+                  fmax(thr_supplies_bore(supplies, in >> 1), thr_supplies_bore(supplies, out >> 1));
     sum += (bore - supplies->cord) / 2 * thr_turn_angle(&supplies->plan->frame, in, out);
   }
   return sum;
@@ -99,7 +103,8 @@ thr_cut_length thr_supplies_cut(const thr_supplies *supplies, int c)
   const thr_cord *cord = &supplies->plan->cord[c];
   thr_cut_length cut = {.length = thr_cord_length(&supplies->plan->frame, cord)};
   if (!(supplies->mm > 0)) return cut;
-  double tails = 2 * THR_SUPPLIES_TAIL, knots = 2 * THR_SUPPLIES_KNOT * supplies->cord, turns = in_turns(supplies, cord);
+  double tails = 2 * THR_SUPPLIES_TAIL, knots = 2 * THR_SUPPLIES_KNOT * supplies->cord,
+         turns = in_turns(supplies, cord);
   cut.tails = tails / supplies->mm;
   cut.knots = knots / supplies->mm;
   cut.turns = turns / supplies->mm;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "diagram/tables/tables.h"
 
 #include "diagram/overview/overview_parts.h"
@@ -34,7 +35,8 @@ static bool is_formula(const char *s)
   return s[strspn(s, "+-.0123456789eE")] || !isfinite(value) || *end;
 }
 
-/* A name of the framework's file, or a word: cleaned, with an apostrophe before what would be a formula, in quotes if needed. */
+/* A name of the framework's file, or a word: cleaned, with an apostrophe before what would be a
+ * formula, in quotes if needed. */
 static void put_text(table *t, const char *s)
 {
   thr_text word = {0};
@@ -90,7 +92,8 @@ static void put_unit(table *t)
 
 /* ---- what they share ---- */
 
-static thr_status table_make(table *t, const thr_plan *p, double tolerance, const thr_layout *layout, thr_text *out, thr_err *err)
+static thr_status table_make(table *t, const thr_plan *p, double tolerance,
+                             const thr_layout *layout, thr_text *out, thr_err *err)
 {
   *t = (table){.plan = p, .f = &p->frame, .out = out};
   thr_status st = thr_supplies_make(&t->supplies, p, err);
@@ -134,17 +137,20 @@ static void put_kind(table *t, int piece)
   put_text(t, name);
 }
 
-/* What the arm of a half-edge that leaves a piece faces; with tube joints the place at that end. -1 = no arm. */
+/* What the arm of a half-edge that leaves a piece faces; with tube joints the place at that end. -1
+ * = no arm. */
 static void put_arm(table *t, int half)
 {
-  put_text(t, half < 0 ? "" : place(t, t->pieces.solid ? thr_head(t->f, half) : thr_tail(t->f, half)));
+  put_text(t,
+           half < 0 ? "" : place(t, t->pieces.solid ? thr_head(t->f, half) : thr_tail(t->f, half)));
 }
 
 /* ---- steps.csv ---- */
 
 static const char *way_name(thr_way way)
 {
-  static const char *const name[] = {"straight on", "left", "right", "over the curve", "turn", "back"};
+  static const char *const name[] = {"straight on",    "left", "right",
+                                     "over the curve", "turn", "back"};
   return name[way];
 }
 
@@ -168,7 +174,8 @@ static int arm_out(const thr_visit *visit, bool solid)
   return visit->out < 0 ? -1 : solid ? visit->out : visit->out ^ 1;
 }
 
-/* What a needle has behind it; whether it is the one that goes back from the fold, or the only one. */
+/* What a needle has behind it; whether it is the one that goes back from the fold, or the only one.
+ */
 typedef struct {
   bool left, alone;
   double used, length; /* of its part of the cord */
@@ -239,8 +246,8 @@ static int put_part(table *t, const thr_part *part, const thr_visit *visit)
   return n;
 }
 
-thr_status thr_table_steps(const thr_plan *p, double tolerance, int needles, const thr_layout *layout, thr_text *out,
-                           thr_err *err)
+thr_status thr_table_steps(const thr_plan *p, double tolerance, int needles,
+                           const thr_layout *layout, thr_text *out, thr_err *err)
 {
   table t;
   thr_text text = {0};
@@ -253,9 +260,9 @@ thr_status thr_table_steps(const thr_plan *p, double tolerance, int needles, con
     parts = thr_pieces_parts(p, t.copy, needles, part);
     st = thr_pieces_follow(&t.pieces, part, parts, &visit, &n, err);
   }
-  thr_text_append(&text,
-                  "cord,step,piece,kind,how,visit,in,out,turn,degrees,length,used,left,path,path_step,edge,from_node,to_node,"
-                  "needle,unit\n");
+  thr_text_append(&text, "cord,step,piece,kind,how,visit,in,out,turn,degrees,length,used,left,path,"
+                         "path_step,edge,from_node,to_node,"
+                         "needle,unit\n");
   for (int k = 0, i = 0; k < parts && !st; k++)
     i += put_part(&t, &part[k], visit + i);
   free(part);
@@ -290,13 +297,15 @@ static void put_cord(table *t, int c, const char *const *motion)
   put_unit(t);
 }
 
-thr_status thr_table_cords(const thr_plan *p, const char *const *motion, const thr_layout *layout, thr_text *out, thr_err *err)
+thr_status thr_table_cords(const thr_plan *p, const char *const *motion, const thr_layout *layout,
+                           thr_text *out, thr_err *err)
 {
   table t;
   thr_text text = {0};
   thr_status st = table_make(&t, p, 0, layout, &text, err);
   if (!st) st = thr_supplies_find_sizes(&t.supplies, err);
-  thr_text_append(&text, "cord,closed,start,end,passes,length,tails,knots,turns,cut,turning_degrees,path,repeated,unit\n");
+  thr_text_append(&text, "cord,closed,start,end,passes,length,tails,knots,turns,cut,turning_"
+                         "degrees,path,repeated,unit\n");
   for (int c = 0; c < p->n_cords && !st; c++)
     put_cord(&t, c, motion);
   return table_close(&t, st, out, err);
@@ -313,13 +322,14 @@ static void put_bore(table *t, double cords)
     thr_text_append(t->out, ",");
 }
 
-/* What the arms of a piece face and how many cords are in each, in the order of thr_guide_around; of a tube its two places and
- * the cords in it. */
+/* What the arms of a piece face and how many cords are in each, in the order of thr_guide_around;
+ * of a tube its two places and the cords in it. */
 static void put_arms(table *t, int piece, const int *around)
 {
   thr_text faces = {0}, cords = {0};
   if (!t->pieces.solid) {
-    thr_text_printf(&faces, "%s %s", place(t, t->f->edge[piece][0]), place(t, t->f->edge[piece][1]));
+    thr_text_printf(&faces, "%s %s", place(t, t->f->edge[piece][0]),
+                    place(t, t->f->edge[piece][1]));
     thr_text_printf(&cords, "%d", t->supplies.passes[piece]);
   } else
     for (int i = t->f->first[piece]; i < t->f->first[piece + 1]; i++) {
@@ -357,12 +367,14 @@ static void put_piece(table *t, int piece, const int *around, const int *visits)
   put_arms(t, piece, around);
   put_number(t, length_of(t, piece));
   put_int(t, solid ? visits[piece] : t->supplies.passes[piece]);
-  put_bore(t, solid ? thr_supplies_node_bore(&t->supplies, piece) : thr_supplies_bore(&t->supplies, piece));
+  put_bore(t, solid ? thr_supplies_node_bore(&t->supplies, piece)
+                    : thr_supplies_bore(&t->supplies, piece));
   put_yes(t, is_foot(t, piece));
   put_unit(t);
 }
 
-thr_status thr_table_beads(const thr_plan *p, double tolerance, const thr_layout *layout, thr_text *out, thr_err *err)
+thr_status thr_table_beads(const thr_plan *p, double tolerance, const thr_layout *layout,
+                           thr_text *out, thr_err *err)
 {
   table t;
   thr_text text = {0};
@@ -373,7 +385,8 @@ thr_status thr_table_beads(const thr_plan *p, double tolerance, const thr_layout
   if (!st && (!visits || !around)) st = thr_nomem(err);
   if (!st) st = thr_guide_around(&t.guide, around, err);
   if (!st) thr_supplies_visits(p, visits);
-  thr_text_append(&text, "piece,kind,number,arms,faces,cords,length,visits,bore_cords,bore_mm,foot,unit\n");
+  thr_text_append(
+      &text, "piece,kind,number,arms,faces,cords,length,visits,bore_cords,bore_mm,foot,unit\n");
   for (int i = 0; i < t.pieces.n && !st; i++)
     put_piece(&t, i, around, visits);
   free(visits);
@@ -395,7 +408,9 @@ static void put_channel(table *t, const thr_channel *channel, int piece)
   put_int(t, channel->in < 0 ? 0 : passes[channel->in >> 1]);
   put_int(t, channel->out < 0 ? 0 : passes[channel->out >> 1]);
   put_int(t, channel->crosses);
-  put_angle(t, channel->in < 0 || channel->out < 0 || !t->pieces.solid ? 0 : thr_turn_angle(t->f, channel->in ^ 1, channel->out));
+  put_angle(t, channel->in < 0 || channel->out < 0 || !t->pieces.solid
+                   ? 0
+                   : thr_turn_angle(t->f, channel->in ^ 1, channel->out));
   if (!t->out->failed) t->out->data[t->out->length - 1] = '\n';
 }
 
@@ -408,7 +423,8 @@ static void put_tube_channels(table *t)
     }
 }
 
-thr_status thr_table_channels(const thr_plan *p, double tolerance, const thr_layout *layout, thr_text *out, thr_err *err)
+thr_status thr_table_channels(const thr_plan *p, double tolerance, const thr_layout *layout,
+                              thr_text *out, thr_err *err)
 {
   table t;
   thr_text text = {0};

@@ -1,10 +1,13 @@
-/* Friction of a cord at the bench: a weight hangs from one end of a cord that runs through a bend; at the other end that weight
- * is looked for which just draws it in, and that which just lets it slip out.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction of a cord at the bench: a weight hangs from one end of a cord that runs through a bend;
+ * at the other end that weight is looked for which just draws it in, and that which just lets it
+ * slip out.
  *
- * By the capstan law in = hang exp(mu angle) and out = hang exp(-mu angle): each weighing gives mu twice, and ln(in / out) / 2
- * angle does not depend on what hangs.
+ * By the capstan law in = hang exp(mu angle) and out = hang exp(-mu angle): each weighing gives mu
+ * twice, and ln(in / out) / 2 angle does not depend on what hangs.
  *
- * Example: 200 g hang, 290 g draw in, 140 g let slip, 90 degrees: mu = ln(290 / 140) / pi = 0.232, between 0.227 and 0.237. */
+ * Example: 200 g hang, 290 g draw in, 140 g let slip, 90 degrees: mu = ln(290 / 140) / pi = 0.232,
+ * between 0.227 and 0.237. */
 #ifndef THR_CALIBRATE_H
 #define THR_CALIBRATE_H
 
@@ -15,19 +18,22 @@ typedef struct {
 } thr_weighing;
 
 typedef struct {
-  double mu, low, high; /* the mean of all; the least and the largest of single ones, and what the weights leave open */
+  double mu, low, high; /* the mean of all; the least and the largest of single ones, and what the
+                           weights leave open */
 } thr_fitted_friction;
 
-/* Computes the friction of pieces on each other, or on the ground, from the angles at which one slides on a board of the same
- * that is tilted: mu = tan(angle). angle[n]: rad, of one slide each; error: rad, of every angle. THR_EINPUT: an angle is not
- * between 0 and 80 degrees. O(n).
+/* Computes the friction of pieces on each other, or on the ground, from the angles at which one
+ * slides on a board of the same that is tilted: mu = tan(angle). angle[n]: rad, of one slide each;
+ * error: rad, of every angle. THR_EINPUT: an angle is not between 0 and 80 degrees. O(n).
  *
- * Example: pieces slide at 17, 18 and 16 degrees: mu = 0.306, between 0.268 and 0.344 with angles right within a degree. */
-thr_status thr_calibrate_tilt(const double *angle, int n, double error, thr_fitted_friction *out, thr_err *err) THR_MUST_CHECK;
+ * Example: pieces slide at 17, 18 and 16 degrees: mu = 0.306, between 0.268 and 0.344 with angles
+ * right within a degree. */
+thr_status thr_calibrate_tilt(const double *angle, int n, double error, thr_fitted_friction *out,
+                              thr_err *err) THR_MUST_CHECK;
 
-/* angle: rad, > 0; error: relative, of every weight, which moves mu by up to 2 error / angle. THR_EINPUT: a weighing is no such
- * thing (0 < out <= hang <= in). O(n). */
-thr_status thr_calibrate(const thr_weighing *weighing, int n, double angle, double error, thr_fitted_friction *out,
-                         thr_err *err) THR_MUST_CHECK;
+/* angle: rad, > 0; error: relative, of every weight, which moves mu by up to 2 error / angle.
+ * THR_EINPUT: a weighing is no such thing (0 < out <= hang <= in). O(n). */
+thr_status thr_calibrate(const thr_weighing *weighing, int n, double angle, double error,
+                         thr_fitted_friction *out, thr_err *err) THR_MUST_CHECK;
 
 #endif

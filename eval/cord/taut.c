@@ -1,17 +1,21 @@
-/* The path of a tight cord through channels that are wider than it is: the shortest path through the convex openings between
- * consecutive channels (ellipses in the mitre planes). A cord thinner than the bore cuts corners.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The path of a tight cord through channels that are wider than it is: the shortest path through
+ * the convex openings between consecutive channels (ellipses in the mitre planes). A cord thinner
+ * than the bore cuts corners.
  *
- * Minimize the sum of |p(i + 1) - p(i)| with p(i) in opening i: a convex problem, solved by Newton's method with a barrier (S.
- * Boyd & L. Vandenberghe, Convex Optimization, 2004, chapter 11).
+ * Minimize the sum of |p(i + 1) - p(i)| with p(i) in opening i: a convex problem, solved by
+ * Newton's method with a barrier (S. Boyd & L. Vandenberghe, Convex Optimization, 2004, chapter
+ * 11).
  *
- * Example: in a straight run the path is straight, whatever the bores; round one turn it leans on the inner edge, and turns by
- * as much in all.
+ * Example: in a straight run the path is straight, whatever the bores; round one turn it leans on
+ * the inner edge, and turns by as much in all.
  *
- * Shortest path through a row of ellipses: minimize the sum of |p[i + 1] - p[i]| over p[i] = node[i] + z[0] axis[0] + z[1]
- * axis[1], |z| <= 1. Lengths in here are in clearances, so that every opening is about 1 wide and gradients are turns in rad.
+ * Shortest path through a row of ellipses: minimize the sum of |p[i + 1] - p[i]| over p[i] =
+ * node[i] + z[0] axis[0] + z[1] axis[1], |z| <= 1. Lengths in here are in clearances, so that every
+ * opening is about 1 wide and gradients are turns in rad.
  *
- * Gauss-Seidel over the openings settles a straight run of n of them in n^2 sweeps; Newton steps with a barrier take the same few
- * dozen for 20 nodes and for 7,000. */
+ * Gauss-Seidel over the openings settles a straight run of n of them in n^2 sweeps; Newton steps
+ * with a barrier take the same few dozen for 20 nodes and for 7,000. */
 #include "eval/cord/profile.h"
 #include "graph/angle.h"
 #include "graph/framework/units.h"
@@ -22,8 +26,9 @@
 #include <string.h>
 
 static const double NO_CLEARANCE = 1e-9; /* of the shortest edge */
-static const double REACH = 0.4;         /* of the shorter edge, along the channels; < 0.5 keeps every piece longer than 0 */
-static const double U_TURN = 1e-6;       /* rad short of pi */
+static const double REACH =
+    0.4; /* of the shorter edge, along the channels; < 0.5 keeps every piece longer than 0 */
+static const double U_TURN = 1e-6; /* rad short of pi */
 static const double LAST_BARRIER = 1e-13;
 static const double BALANCED = 1e-11; /* rad: largest residual of stationarity */
 static const double PROVED = 1e-9;    /* relative gap between the length and its lower bound */
@@ -34,8 +39,8 @@ typedef struct {
   double unit[3], length; /* length in clearances */
 } piece;
 
-/* One vertex of the Newton system, in the basis (along z, across z): there the barrier's large entry stands alone on the diagonal
- * and cancels nothing. */
+/* One vertex of the Newton system, in the basis (along z, across z): there the barrier's large
+ * entry stands alone on the diagonal and cancels nothing. */
 typedef struct {
   double radial[2];   /* unit, along z */
   double axis[2][3];  /* the opening's half-axes in that basis */
@@ -87,18 +92,24 @@ static double edge_vector(const thr_frame *frame, int half, double d[3])
   return scale_to_unit(unit);
 }
 
-/* The opening between two channels with unit directions u and w: half-axes of unit length, or 0 for the node itself. */
-static opening make_opening(const double u[3], const double w[3], double short_edge, double axis[2][3])
+/* The opening between two channels with unit directions u and w: half-axes of unit length, or 0 for
+ * the node itself. */
+static opening make_opening(const double u[3], const double w[3], double short_edge,
+                            double axis[2][3])
 {
   double normal[3], in_turn[3];
   for (int k = 0; k < 3; k++) {
     normal[k] = u[k] + w[k];
     in_turn[k] = w[k] - u[k];
   }
-  opening o = {.cosine = scale_to_unit(normal) / 2, .sine = scale_to_unit(in_turn) / 2, .short_edge = short_edge};
+  opening o = {.cosine = scale_to_unit(normal) / 2,
+               .sine = scale_to_unit(in_turn) / 2,
+               .short_edge = short_edge};
   if (o.cosine < U_TURN / 2) return (opening){.cosine = 0};
   if (o.sine < 1e-9) { /* straight on: any direction across */
-    int k = fabs(u[0]) <= fabs(u[1]) && fabs(u[0]) <= fabs(u[2]) ? 0 : fabs(u[1]) <= fabs(u[2]) ? 1 : 2;
+    int k = fabs(u[0]) <= fabs(u[1]) && fabs(u[0]) <= fabs(u[2]) ? 0
+            : fabs(u[1]) <= fabs(u[2])                           ? 1
+                                                                 : 2;
     for (int i = 0; i < 3; i++)
       in_turn[i] = (i == k) - normal[k] * normal[i];
     scale_to_unit(in_turn);
@@ -108,7 +119,8 @@ static opening make_opening(const double u[3], const double w[3], double short_e
   return o;
 }
 
-/* Scales the half-axis in the plane of the turn to what a cord of this radius has that turns by this much. */
+/* Scales the half-axis in the plane of the turn to what a cord of this radius has that turns by
+ * this much. */
 static void open_to(const opening *o, double radius, double turn, double axis[2][3])
 {
   if (o->cosine == 0) return;
@@ -125,7 +137,8 @@ static void path_destroy(path *p)
   *p = (path){0};
 }
 
-static thr_status path_make(path *p, const thr_frame *frame, const thr_cord *cord, double clearance, thr_err *err)
+static thr_status path_make(path *p, const thr_frame *frame, const thr_cord *cord, double clearance,
+                            thr_err *err)
 {
   size_t n = (size_t)cord->n_passes;
   *p = (path){.n = cord->n_passes};
@@ -262,7 +275,8 @@ static void newton_step(path *p, double barrier)
   }
 }
 
-/* Largest parts of the step, at most 1, that leave every slack and every push a little of what it is. */
+/* Largest parts of the step, at most 1, that leave every slack and every push a little of what it
+ * is. */
 static void step_lengths(const path *p, double *place, double *push)
 {
   const double most = 0.99;
@@ -302,10 +316,12 @@ static bool take_step(path *p, double barrier)
   step_lengths(p, &part, &push_part);
   for (int i = 0; i <= p->n; i++) {
     double s = slack(p->z[i]), r = hypot(p->z[i][0], p->z[i][1]);
-    slope += (p->block[i].gradient[0] + barrier / s * r) * p->block[i].step[0] + p->block[i].gradient[1] * p->block[i].step[1];
+    slope += (p->block[i].gradient[0] + barrier / s * r) * p->block[i].step[0] +
+             p->block[i].gradient[1] * p->block[i].step[1];
     if (i < p->n) length += p->piece[i].length;
   }
-  double noise = 1e-15 * length; /* of the sum of differences: near the end the true change is less */
+  double noise =
+      1e-15 * length; /* of the sum of differences: near the end the true change is less */
   int halvings = 0;
   while (!(try_step(p, part, barrier) <= 1e-4 * part * slope + noise)) {
     if (++halvings > MAX_HALVINGS) return false;
@@ -324,7 +340,8 @@ static bool take_step(path *p, double barrier)
   return true;
 }
 
-/* What the multipliers prove: by convexity no path is shorter than the length less this, in clearances. */
+/* What the multipliers prove: by convexity no path is shorter than the length less this, in
+ * clearances. */
 static double proof_gap(const path *p)
 {
   double gap = 0;
@@ -345,7 +362,9 @@ static thr_status solve(path *p, const char *id, thr_err *err)
   measure_pieces(p, (const double(*)[2])p->z, p->piece);
   residuals(p, barrier, &balance, &product);
   int steps = 0;
-  for (; steps < MAX_STEPS && (barrier > LAST_BARRIER || balance > BALANCED || product > LAST_BARRIER); steps++) {
+  for (; steps < MAX_STEPS &&
+         (barrier > LAST_BARRIER || balance > BALANCED || product > LAST_BARRIER);
+       steps++) {
     if (barrier > LAST_BARRIER && fmax(balance, product) <= 10 * barrier) {
       barrier = fmax(LAST_BARRIER, fmin(0.2 * barrier, pow(barrier, 1.5)));
       residuals(p, barrier, &balance, &product);
@@ -356,10 +375,12 @@ static thr_status solve(path *p, const char *id, thr_err *err)
   }
   for (int i = 0; i < p->n; i++)
     length += p->piece[i].length;
-  if (barrier <= LAST_BARRIER && balance <= 10 * BALANCED && proof_gap(p) <= PROVED * length) return THR_OK;
+  if (barrier <= LAST_BARRIER && balance <= 10 * BALANCED && proof_gap(p) <= PROVED * length)
+    return THR_OK;
   return thr_fail(err, THR_ESOLVER,
-                  "cord %s: no taut path found: out of balance by %.2g rad after %d steps; use --method capstan", id, balance,
-                  steps);
+                  "cord %s: no taut path found: out of balance by %.2g rad after %d steps; use "
+                  "--method capstan",
+                  id, balance, steps);
 }
 
 /* Openings and path in turns, until the turns stay: turn holds the nominal ones at first. */
@@ -379,11 +400,14 @@ static thr_status settle(path *p, double radius, const char *id, double *turn, t
     }
     if (change <= SETTLED || radius == 0) return THR_OK;
   }
-  return thr_fail(err, THR_ESOLVER, "cord %s: the taut path still changes by %.2g rad after %d rounds; use --method capstan", id,
-                  change, MAX_ROUNDS);
+  return thr_fail(
+      err, THR_ESOLVER,
+      "cord %s: the taut path still changes by %.2g rad after %d rounds; use --method capstan", id,
+      change, MAX_ROUNDS);
 }
 
-static void nominal_path(const thr_frame *frame, const thr_cord *cord, double *turn, double (*point)[3], double *length)
+static void nominal_path(const thr_frame *frame, const thr_cord *cord, double *turn,
+                         double (*point)[3], double *length)
 {
   double sum = 0;
   for (int i = 0; i < cord->n_passes; i++) {
@@ -392,18 +416,21 @@ static void nominal_path(const thr_frame *frame, const thr_cord *cord, double *t
     if (i + 1 < cord->n_passes) turn[i] = thr_turn_angle(frame, cord->half[i], cord->half[i + 1]);
   }
   for (int i = 0; i <= cord->n_passes && point; i++)
-    memcpy(point[i], frame->xyz[i ? thr_head(frame, cord->half[i - 1]) : thr_tail(frame, cord->half[0])], sizeof *point);
+    memcpy(point[i],
+           frame->xyz[i ? thr_head(frame, cord->half[i - 1]) : thr_tail(frame, cord->half[0])],
+           sizeof *point);
   if (length) *length = sum;
 }
 
-static void taut_points(const path *p, const thr_frame *frame, const thr_cord *cord, double clearance, double (*point)[3],
-                        double *length)
+static void taut_points(const path *p, const thr_frame *frame, const thr_cord *cord,
+                        double clearance, double (*point)[3], double *length)
 {
   double sum = 0;
   for (int i = 0; i < p->n; i++)
     sum += p->piece[i].length;
   for (int i = 0; i <= p->n && point; i++) {
-    const double *node = frame->xyz[i ? thr_head(frame, cord->half[i - 1]) : thr_tail(frame, cord->half[0])];
+    const double *node =
+        frame->xyz[i ? thr_head(frame, cord->half[i - 1]) : thr_tail(frame, cord->half[0])];
     offset(p, (const double(*)[2])p->z, i, point[i]);
     for (int k = 0; k < 3; k++)
       point[i][k] = node[k] + clearance * point[i][k];
@@ -411,20 +438,24 @@ static void taut_points(const path *p, const thr_frame *frame, const thr_cord *c
   if (length) *length = clearance * sum;
 }
 
-thr_status thr_taut_path(const thr_frame *frame, const thr_cord *cord, double radius, double clearance, double *turn,
-                         double (*point)[3], double *length, thr_err *err)
+thr_status thr_taut_path(const thr_frame *frame, const thr_cord *cord, double radius,
+                         double clearance, double *turn, double (*point)[3], double *length,
+                         thr_err *err)
 {
   double shortest = INFINITY;
   if (length) *length = 0;
   if (!(radius >= 0) || !isfinite(radius) || !(clearance >= 0) || !isfinite(clearance))
-    return thr_fail(err, THR_EINPUT, "cord radius %g, clearance %g: both must be 0 or more; is the bore wider than the cord?",
-                    radius, clearance);
+    return thr_fail(
+        err, THR_EINPUT,
+        "cord radius %g, clearance %g: both must be 0 or more; is the bore wider than the cord?",
+        radius, clearance);
   for (int i = 0; i < cord->n_passes; i++) {
     double d[3];
     shortest = fmin(shortest, edge_vector(frame, cord->half[i], d));
   }
   if (!(shortest > 0))
-    return thr_fail(err, THR_EINPUT, "cord %s: an edge joins two nodes at one place; weld them (--weld)", cord->id);
+    return thr_fail(err, THR_EINPUT,
+                    "cord %s: an edge joins two nodes at one place; weld them (--weld)", cord->id);
   nominal_path(frame, cord, turn, point, length);
   if (clearance < NO_CLEARANCE * shortest) return THR_OK;
   path p;
@@ -435,16 +466,20 @@ thr_status thr_taut_path(const thr_frame *frame, const thr_cord *cord, double ra
   return st;
 }
 
-thr_status thr_taut_turns(const thr_frame *frame, const thr_cord *cord, int n_cords, const thr_physics *physics,
-                          const thr_limits *limits, double **taut, thr_err *err)
+thr_status thr_taut_turns(const thr_frame *frame, const thr_cord *cord, int n_cords,
+                          const thr_physics *physics, const thr_limits *limits, double **taut,
+                          thr_err *err)
 {
   double mm;
-  if (thr_units_in_mm(frame->units, &mm, NULL)) mm = 1; /* as thr_physics_resolve took them: all sizes come from the framework */
+  if (thr_units_in_mm(frame->units, &mm, NULL))
+    mm = 1; /* as thr_physics_resolve took them: all sizes come from the framework */
   for (int i = 0; i < n_cords; i++) {
-    if (thr_limits_stop(limits)) return thr_fail(err, THR_ELIMIT, "stopped before the taut path of cord %s", cord[i].id);
+    if (thr_limits_stop(limits))
+      return thr_fail(err, THR_ELIMIT, "stopped before the taut path of cord %s", cord[i].id);
     if (!(taut[i] = thr_calloc((size_t)cord[i].n_passes, sizeof **taut))) return thr_nomem(err);
-    thr_status st = thr_taut_path(frame, &cord[i], physics->cord_diameter / 2 / mm,
-                                  (physics->bore - physics->cord_diameter) / 2 / mm, taut[i], NULL, NULL, err);
+    thr_status st =
+        thr_taut_path(frame, &cord[i], physics->cord_diameter / 2 / mm,
+                      (physics->bore - physics->cord_diameter) / 2 / mm, taut[i], NULL, NULL, err);
     if (st) return st;
   }
   return THR_OK;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bullet 3.24 behind world.h: the only file that knows the library. */
 
 #include "eval/joint/world.h"

@@ -1,7 +1,9 @@
-/* Joints that were measured before, one small text file each in a folder. A file that is corrupt, truncated, of another key or
- * unreadable counts as absent: it is measured again. Private to eval/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Joints that were measured before, one small text file each in a folder. A file that is corrupt,
+ * truncated, of another key or unreadable counts as absent: it is measured again. Private to eval/.
  *
- * One file per measured joint, named by a hash of its key; the key itself stands in it, so a collision is only a miss. */
+ * One file per measured joint, named by a hash of its key; the key itself stands in it, so a
+ * collision is only a miss. */
 #include "eval/joint/joint.h"
 #include "eval/joint/world.h"
 #include "graph/os.h"
@@ -26,11 +28,14 @@ static uint64_t fnv1a(const char *s, size_t n)
 void thr_cache_key(const thr_drag *drag, thr_text *key)
 {
   assert(drag->n_turns == 1);
-  thr_text_printf(key, "joint measured by thread\nprotocol %s\nbullet %d\n", thr_drag_protocol(), thr_bullet_version());
-  thr_text_printf(key, "turn %.17g\ntwist %.17g\nsegment %.17g\nbore %.17g\nmu %.17g\n", drag->turn[0],
-                  drag->twist ? drag->twist[0] : 0, drag->segment, drag->bore, drag->mu);
-  thr_text_printf(key, "seed %" PRIu64 "\ntime_step %.17g\niterations %.17g\nspacing %.17g\nsides %d\n", drag->seed,
-                  drag->time_step, drag->iterations, drag->spacing, drag->sides);
+  thr_text_printf(key, "joint measured by thread\nprotocol %s\nbullet %d\n", thr_drag_protocol(),
+                  thr_bullet_version());
+  thr_text_printf(key, "turn %.17g\ntwist %.17g\nsegment %.17g\nbore %.17g\nmu %.17g\n",
+                  drag->turn[0], drag->twist ? drag->twist[0] : 0, drag->segment, drag->bore,
+                  drag->mu);
+  thr_text_printf(key,
+                  "seed %" PRIu64 "\ntime_step %.17g\niterations %.17g\nspacing %.17g\nsides %d\n",
+                  drag->seed, drag->time_step, drag->iterations, drag->spacing, drag->sides);
 }
 
 void thr_cache_write(const thr_text *key, const thr_drag_result *result, thr_text *out)
@@ -38,15 +43,17 @@ void thr_cache_write(const thr_text *key, const thr_drag_result *result, thr_tex
   size_t begin = out->length;
   if (key->failed) out->failed = true;
   thr_text_append_bytes(out, key->data, key->length);
-  thr_text_printf(out, "status %d\nratio %.17g\ndrift %.17g\nscatter %.17g\ntaut %.17g\nsteps %.17g\n", result->status,
-                  result->ratio, result->drift, result->scatter, result->taut, result->steps);
-  if (!out->failed) thr_text_printf(out, "check %016" PRIx64 "\n", fnv1a(out->data + begin, out->length - begin));
+  thr_text_printf(
+      out, "status %d\nratio %.17g\ndrift %.17g\nscatter %.17g\ntaut %.17g\nsteps %.17g\n",
+      result->status, result->ratio, result->drift, result->scatter, result->taut, result->steps);
+  if (!out->failed)
+    thr_text_printf(out, "check %016" PRIx64 "\n", fnv1a(out->data + begin, out->length - begin));
 }
 
 static bool finite_result(const thr_drag_result *result)
 {
-  return isfinite(result->ratio) && isfinite(result->drift) && isfinite(result->scatter) && isfinite(result->taut) &&
-         isfinite(result->steps);
+  return isfinite(result->ratio) && isfinite(result->drift) && isfinite(result->scatter) &&
+         isfinite(result->taut) && isfinite(result->steps);
 }
 
 bool thr_cache_parse(const char *text, size_t n, const thr_text *key, thr_drag_result *out)
@@ -59,10 +66,11 @@ bool thr_cache_parse(const char *text, size_t n, const thr_text *key, thr_drag_r
 
   thr_drag_result result;
   double status; /* an integer of any length would overflow %d */
-  if (sscanf(values, "status %lf ratio %lf drift %lf scatter %lf taut %lf steps %lf", &status, &result.ratio, &result.drift,
-             &result.scatter, &result.taut, &result.steps) != 6)
+  if (sscanf(values, "status %lf ratio %lf drift %lf scatter %lf taut %lf steps %lf", &status,
+             &result.ratio, &result.drift, &result.scatter, &result.taut, &result.steps) != 6)
     return false;
-  if (status != THR_DRAG_SETTLED && status != THR_DRAG_UNSETTLED && status != THR_DRAG_OUT_OF_RANGE) return false;
+  if (status != THR_DRAG_SETTLED && status != THR_DRAG_UNSETTLED && status != THR_DRAG_OUT_OF_RANGE)
+    return false;
   result.status = (int)status;
   if (!finite_result(&result)) return false;
 
@@ -108,7 +116,8 @@ static void make_folders(char *path)
   }
 }
 
-thr_status thr_cache_store(const char *folder, const thr_drag *drag, const thr_drag_result *result, thr_err *err)
+thr_status thr_cache_store(const char *folder, const thr_drag *drag, const thr_drag_result *result,
+                           thr_err *err)
 {
   thr_text key = {0}, path = {0}, text = {0};
   thr_status st;

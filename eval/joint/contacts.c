@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Augmented Lagrangian outside, Newton's method with an exact line search inside. */
 #include "eval/joint/contacts.h"
 #include "graph/scratch.h"
@@ -7,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Impulse for a velocity that a contact lacks, over its effective mass. The 10 x 10 dome of straight cords takes 9 s with a
- * third of it and 7 s with this. */
+/* Impulse for a velocity that a contact lacks, over its effective mass. The 10 x 10 dome of
+ * straight cords takes 9 s with a third of it and 7 s with this. */
 static const double STIFF = 1e4;
 
-/* The matrix has three columns for each contact, J^T, and then the unit of each of a body's six rows: J^T W J + M are normal
- * equations (lp/solver/normal.c). */
+/* The matrix has three columns for each contact, J^T, and then the unit of each of a body's six
+ * rows: J^T W J + M are normal equations (lp/solver/normal.c). */
 struct thr_contacts {
   int n_bodies, n_contacts, n_columns;
   int (*body)[2]; /* [n_contacts] */
@@ -22,14 +23,15 @@ struct thr_contacts {
   const double (*mass)[2];
   const thr_cone_contact *contact;
   double stiff;
-  double *last;                       /* [3 n_contacts] impulses with which the last step began .. */
-  bool known;                         /* .. if there was one */
-  double *impulse;                    /* [n_columns] multipliers; of bodies not used */
-  double *lack;                       /* [n_columns] J d - t */
-  double *found;                      /* [n_columns] projected impulses; of bodies -M d */
-  double *along;                      /* [n_columns] J of the direction */
-  double *weight;                     /* 6 a contact, then one each */
-  double *change, *direction, *slope; /* [6 n_bodies] d, where Newton's method goes, the energy's slope downwards */
+  double *last;    /* [3 n_contacts] impulses with which the last step began .. */
+  bool known;      /* .. if there was one */
+  double *impulse; /* [n_columns] multipliers; of bodies not used */
+  double *lack;    /* [n_columns] J d - t */
+  double *found;   /* [n_columns] projected impulses; of bodies -M d */
+  double *along;   /* [n_columns] J of the direction */
+  double *weight;  /* 6 a contact, then one each */
+  double *change, *direction,
+      *slope; /* [6 n_bodies] d, where Newton's method goes, the energy's slope downwards */
   thr_scratch own;
 };
 
@@ -55,7 +57,8 @@ void thr_contacts_destroy(thr_contacts *cones)
 
 /* ---- the matrix ---- */
 
-static bool same_pattern(const thr_contacts *c, int n_bodies, int n_contacts, const thr_cone_contact *contact)
+static bool same_pattern(const thr_contacts *c, int n_bodies, int n_contacts,
+                         const thr_cone_contact *contact)
 {
   if (!c->normal || c->n_bodies != n_bodies || c->n_contacts != n_contacts) return false;
   for (int i = 0; i < n_contacts; i++)
@@ -98,7 +101,8 @@ static thr_columns matrix(const thr_contacts *c)
   return (thr_columns){6 * c->n_bodies, c->n_columns, c->start, c->row, c->value};
 }
 
-static thr_status renew(thr_contacts *c, int n_bodies, int n_contacts, const thr_cone_contact *contact, thr_err *err)
+static thr_status renew(thr_contacts *c, int n_bodies, int n_contacts,
+                        const thr_cone_contact *contact, thr_err *err)
 {
   empty(c);
   const size_t n = 6 * (size_t)n_bodies, m = 3 * (size_t)n_contacts, entries = 12 * m + n;
@@ -139,7 +143,8 @@ static void project(const double y[3], double mu, double p[3], double w[6])
   } else if (r <= mu * y[0]) {
     memcpy(p, y, 3 * sizeof *p);
   } else {
-    const double a = 1 / (1 + mu * mu), n = a * (y[0] + mu * r), u = y[1] / r, v = y[2] / r, across = mu * n / r;
+    const double a = 1 / (1 + mu * mu), n = a * (y[0] + mu * r), u = y[1] / r, v = y[2] / r,
+                 across = mu * n / r;
     p[0] = n;
     p[1] = mu * n * u;
     p[2] = mu * n * v;
@@ -204,7 +209,8 @@ static double line_search(thr_contacts *c)
   }
   if (at_high <= enough) return high;
   for (int i = 0, kept = 0; i < 40; i++) {
-    const double middle = low + (high - low) * at_low / (at_low - at_high), at = slope_at(c, middle);
+    const double middle = low + (high - low) * at_low / (at_low - at_high),
+                 at = slope_at(c, middle);
     if (fabs(at) <= enough) return middle;
     if (at < 0) {
       low = middle;
@@ -268,23 +274,26 @@ static double stiffness(const thr_contacts *c)
     for (int side = 0; side < 2; side++)
       for (int j = 0; j < 6 && c->contact[i].body[side] >= 0; j++)
         for (int k = 0; k < 3; k++)
-          inverse +=
-              c->contact[i].jacobian[k][side][j] * c->contact[i].jacobian[k][side][j] / c->mass[c->contact[i].body[side]][j >= 3];
+          inverse += c->contact[i].jacobian[k][side][j] * c->contact[i].jacobian[k][side][j] /
+                     c->mass[c->contact[i].body[side]][j >= 3];
     sum += 3 / inverse;
   }
   return STIFF * sum / c->n_contacts;
 }
 
-static thr_status set_up(thr_contacts *c, int n_bodies, int n_contacts, const thr_cone_contact *contact, thr_err *err)
+static thr_status set_up(thr_contacts *c, int n_bodies, int n_contacts,
+                         const thr_cone_contact *contact, thr_err *err)
 {
-  if (!same_pattern(c, n_bodies, n_contacts, contact)) return renew(c, n_bodies, n_contacts, contact, err);
+  if (!same_pattern(c, n_bodies, n_contacts, contact))
+    return renew(c, n_bodies, n_contacts, contact, err);
   fill_values(c, contact);
   const thr_columns a = matrix(c);
   thr_normal_refill(c->normal, &a);
   return THR_OK;
 }
 
-/* Impulses as they would be if they went on as from the step before the last, and what they change. */
+/* Impulses as they would be if they went on as from the step before the last, and what they change.
+ */
 static void begin(thr_contacts *c)
 {
   const int n = 3 * c->n_contacts;
@@ -300,8 +309,9 @@ static void begin(thr_contacts *c)
     c->change[j] = c->slope[j] / mass_of(c, j);
 }
 
-thr_status thr_contacts_solve(thr_contacts *c, int n_bodies, const double (*mass)[2], int n_contacts, thr_cone_contact *contact,
-                              double still, int most, thr_err *err)
+thr_status thr_contacts_solve(thr_contacts *c, int n_bodies, const double (*mass)[2],
+                              int n_contacts, thr_cone_contact *contact, double still, int most,
+                              thr_err *err)
 {
   thr_status st = n_contacts > 0 ? set_up(c, n_bodies, n_contacts, contact, err) : THR_OK;
   if (st || n_contacts == 0) return st;

@@ -1,15 +1,19 @@
-/* Friction of a cord dragged through bead joints, measured in Bullet: a chain of small spheres linked by one-row distance
- * constraints, in channels of convex walls. The capstan law chooses the length of the steps and enters nothing else that is
- * measured.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction of a cord dragged through bead joints, measured in Bullet: a chain of small spheres
+ * linked by one-row distance constraints, in channels of convex walls. The capstan law chooses the
+ * length of the steps and enters nothing else that is measured.
  *
- * Measured is the ratio T(out) / T(in) of the tensions on both sides once it no longer changes; its logarithm over mu is the
- * turning that the cord felt (Euler 1769, Eytelwein 1808: ratio = exp(mu x angle)).
+ * Measured is the ratio T(out) / T(in) of the tensions on both sides once it no longer changes; its
+ * logarithm over mu is the turning that the cord felt (Euler 1769, Eytelwein 1808: ratio = exp(mu x
+ * angle)).
  *
- * Example: a mitred turn of 90 degrees with mu 0.1 should give exp(0.157) = 1.17 (docs/validation.md).
+ * Example: a mitred turn of 90 degrees with mu 0.1 should give exp(0.157) = 1.17
+ * (docs/validation.md).
  *
- * The chain and its channels in units of the cord's radius, the hold-back tension and the time in which the cord is dragged by
- * speed radii. Each turn has its own two pieces of channel, up to the middles of the straights before and behind it, in a frame
- * whose y axis points to the inside of the turn: a flat wall meets the inner edge, as the round bore meets the cord in one line.
+ * The chain and its channels in units of the cord's radius, the hold-back tension and the time in
+ * which the cord is dragged by speed radii. Each turn has its own two pieces of channel, up to the
+ * middles of the straights before and behind it, in a frame whose y axis points to the inside of
+ * the turn: a flat wall meets the inner edge, as the round bore meets the cord in one line.
  */
 #include "eval/joint/joint.h"
 #include "eval/joint/world.h"
@@ -26,24 +30,28 @@
 #ifndef PROTOCOL
 #define PROTOCOL static const
 #endif
-/* Known errors. Of the exponent mu theta: the chain is a polygon round the edge, + spacing^2 (1 + mu^2) / 12. Of the ratio:
- * spheres hit the edge, + density speed^2 theta spacing / 2; the cord's inertia, - density speed^2 (1 - 1 / ratio). Where the
- * cord wedges, bores of 64 and of 128 sides differ by up to 8 % of what exceeds mu theta. Two things limit the step, and both
- * lose friction without any other sign: a taut chain shakes itself off the edge (tension step^2 / (mass spacing): harmless up to
- * 0.4, not at 0.7), and friction that could turn a sphere's velocity round within a step shakes it sideways (mu tension spacing
- * step / (mass speed): diverges from 2). */
+/* Known errors. Of the exponent mu theta: the chain is a polygon round the edge, + spacing^2 (1 +
+ * mu^2) / 12. Of the ratio: spheres hit the edge, + density speed^2 theta spacing / 2; the cord's
+ * inertia, - density speed^2 (1 - 1 / ratio). Where the cord wedges, bores of 64 and of 128 sides
+ * differ by up to 8 % of what exceeds mu theta. Two things limit the step, and both lose friction
+ * without any other sign: a taut chain shakes itself off the edge (tension step^2 / (mass spacing):
+ * harmless up to 0.4, not at 0.7), and friction that could turn a sphere's velocity round within a
+ * step shakes it sideways (mu tension spacing step / (mass speed): diverges from 2). */
 PROTOCOL struct {
   double spacing, density, speed; /* of the spheres; mass per length; of the drag */
   double shake, sway;             /* limits of the two products above */
-  double polygon;                 /* largest error of the exponent by the polygon: spacing shrinks for it */
-  int iterations;                 /* of sequential impulse */
-  double erp, damping, disorder;  /* error reduction; x chain length: rate while settling; first offsets */
-  double settle, average, lead;   /* travel before and while averaging; straight cord left at either end */
-  double wall, segment, end_mass; /* thickness; length between turns; of the sphere that is dragged */
-  int sides, wedge_sides;         /* of the bore; where the cord wedges */
-  double drift, scatter;          /* of a settled result, at most */
-  double most_mu, most_log;       /* range; of the expected ratio's logarithm .. */
-  double least_fit;               /* .. and of bore cos(turn / 2), below 1 where the cord wedges */
+  double polygon; /* largest error of the exponent by the polygon: spacing shrinks for it */
+  int iterations; /* of sequential impulse */
+  double erp, damping,
+      disorder; /* error reduction; x chain length: rate while settling; first offsets */
+  double settle, average,
+      lead; /* travel before and while averaging; straight cord left at either end */
+  double wall, segment,
+      end_mass;             /* thickness; length between turns; of the sphere that is dragged */
+  int sides, wedge_sides;   /* of the bore; where the cord wedges */
+  double drift, scatter;    /* of a settled result, at most */
+  double most_mu, most_log; /* range; of the expected ratio's logarithm .. */
+  double least_fit;         /* .. and of bore cos(turn / 2), below 1 where the cord wedges */
 } protocol = {.spacing = 0.2,
               .density = 5e-3,
               .speed = 1,
@@ -110,9 +118,10 @@ static void turned(const double q[4], int axis, double by, double out[4])
 {
   double p[4] = {0, 0, 0, cos(by / 2)};
   p[axis] = sin(by / 2);
-  const double v[4] = {
-      q[3] * p[0] + q[0] * p[3] + q[1] * p[2] - q[2] * p[1], q[3] * p[1] - q[0] * p[2] + q[1] * p[3] + q[2] * p[0],
-      q[3] * p[2] + q[0] * p[1] - q[1] * p[0] + q[2] * p[3], q[3] * p[3] - q[0] * p[0] - q[1] * p[1] - q[2] * p[2]};
+  const double v[4] = {q[3] * p[0] + q[0] * p[3] + q[1] * p[2] - q[2] * p[1],
+                       q[3] * p[1] - q[0] * p[2] + q[1] * p[3] + q[2] * p[0],
+                       q[3] * p[2] + q[0] * p[1] - q[1] * p[0] + q[2] * p[3],
+                       q[3] * p[3] - q[0] * p[0] - q[1] * p[1] - q[2] * p[2]};
   memcpy(out, v, sizeof v);
 }
 
@@ -150,39 +159,52 @@ static double expected_log(const thr_drag *d)
 static double spacing_of(const thr_drag *d)
 {
   double polygon = d->mu * largest_turn(d) * (1 + d->mu * d->mu) / 12;
-  return d->spacing * fmin(protocol.spacing, polygon > 0 ? sqrt(protocol.polygon / polygon) : INFINITY);
+  return d->spacing *
+         fmin(protocol.spacing, polygon > 0 ? sqrt(protocol.polygon / polygon) : INFINITY);
 }
 
 double thr_drag_error(const thr_drag *d, const thr_drag_result *result)
 {
-  double turn = 0, spacing = spacing_of(d), inertia = protocol.density * protocol.speed * protocol.speed;
+  double turn = 0, spacing = spacing_of(d),
+         inertia = protocol.density * protocol.speed * protocol.speed;
   for (int i = 0; i < d->n_turns; i++)
     turn += d->turn[i];
   double log_law = d->mu * turn;
-  double polygon = log_law * spacing * spacing * (1 + d->mu * d->mu) / 12, impacts = inertia * turn * spacing / 2;
-  double facets = largest_turn(d) > thr_drag_round_turn(d->bore) ? fmax(0, log(result->ratio) - log_law) * WEDGE_DOUBT : 0;
-  return fabs(result->drift) + 2 * result->scatter + fmax(polygon + impacts, inertia * (1 - exp(-log_law))) + facets;
+  double polygon = log_law * spacing * spacing * (1 + d->mu * d->mu) / 12,
+         impacts = inertia * turn * spacing / 2;
+  double facets = largest_turn(d) > thr_drag_round_turn(d->bore)
+                      ? fmax(0, log(result->ratio) - log_law) * WEDGE_DOUBT
+                      : 0;
+  return fabs(result->drift) + 2 * result->scatter +
+         fmax(polygon + impacts, inertia * (1 - exp(-log_law))) + facets;
 }
 
 static thr_status check(const thr_drag *d, thr_err *err)
 {
   if (d->n_turns < 1 || d->n_turns > MOST_TURNS)
-    return thr_fail(err, THR_EINPUT, "drag: %d turns; 1 to %d can be simulated", d->n_turns, MOST_TURNS);
+    return thr_fail(err, THR_EINPUT, "drag: %d turns; 1 to %d can be simulated", d->n_turns,
+                    MOST_TURNS);
   for (int i = 0; i < d->n_turns; i++)
     if (!(d->turn[i] >= 0 && d->turn[i] <= THR_PI) || (d->twist && !isfinite(d->twist[i])))
-      return thr_fail(err, THR_EINPUT, "drag: turn %d must be between 0 and pi and its twist finite", i + 1);
-  if (!(d->mu >= 0 && d->mu <= DBL_MAX)) return thr_fail(err, THR_EINPUT, "drag: mu is %g; give one of 0 or more", d->mu);
+      return thr_fail(err, THR_EINPUT,
+                      "drag: turn %d must be between 0 and pi and its twist finite", i + 1);
+  if (!(d->mu >= 0 && d->mu <= DBL_MAX))
+    return thr_fail(err, THR_EINPUT, "drag: mu is %g; give one of 0 or more", d->mu);
   if (!(d->bore > 1 && d->bore <= thr_drag_largest_bore))
-    return thr_fail(err, THR_EINPUT, "drag: the bore is %g cords wide; give one above 1 and up to %g", d->bore,
+    return thr_fail(err, THR_EINPUT,
+                    "drag: the bore is %g cords wide; give one above 1 and up to %g", d->bore,
                     thr_drag_largest_bore);
   if (!(d->segment >= 0 && d->segment <= 1e3))
-    return thr_fail(err, THR_EINPUT, "drag: a channel of %g cord radii; give 0 to 1000", d->segment);
+    return thr_fail(err, THR_EINPUT, "drag: a channel of %g cord radii; give 0 to 1000",
+                    d->segment);
   const double factor[] = {d->time_step, d->iterations, d->spacing};
   for (int i = 0; i < 3; i++)
     if (!(factor[i] >= 0.01 && factor[i] <= (i < 2 ? 100 : 4)))
-      return thr_fail(err, THR_EINPUT, "drag: factors are 0.01 to 100, of spacing to 4, not %g", factor[i]);
+      return thr_fail(err, THR_EINPUT, "drag: factors are 0.01 to 100, of spacing to 4, not %g",
+                      factor[i]);
   if (d->sides && (d->sides < 3 || d->sides > MOST_SIDES))
-    return thr_fail(err, THR_EINPUT, "drag: a bore of %d sides; give 3 to %d", d->sides, MOST_SIDES);
+    return thr_fail(err, THR_EINPUT, "drag: a bore of %d sides; give 3 to %d", d->sides,
+                    MOST_SIDES);
   return THR_OK;
 }
 
@@ -190,23 +212,27 @@ static thr_status check(const thr_drag *d, thr_err *err)
 static bool in_range(const thr_drag *d)
 {
   double most = largest_turn(d), segment = d->segment > 0 ? d->segment : protocol.segment;
-  return most <= thr_drag_largest_turn && d->bore >= thr_drag_least_bore && d->mu <= protocol.most_mu &&
-         d->bore * cos(most / 2) >= protocol.least_fit && expected_log(d) <= protocol.most_log &&
+  return most <= thr_drag_largest_turn && d->bore >= thr_drag_least_bore &&
+         d->mu <= protocol.most_mu && d->bore * cos(most / 2) >= protocol.least_fit &&
+         expected_log(d) <= protocol.most_log &&
          (d->n_turns == 1 || d->bore * tan(most / 2) < segment / 2);
 }
 
 const char *thr_drag_protocol(void)
 {
   static char text[512];
-  snprintf(
-      text, sizeof text,
-      "spheres %g apart (polygon %g), density %g, speed %g, shake %g, sway %g, least steps %d, %d iterations, erp %g, damping "
-      "%g, "
-      "disorder %g, settle %g, average %g, lead %g, wall %g, segment %g, end mass %g, sides %d (wedged %d), margin 0, settled at "
-      "drift %g scatter %g",
-      protocol.spacing, protocol.polygon, protocol.density, protocol.speed, protocol.shake, protocol.sway, LEAST_STEPS,
-      protocol.iterations, protocol.erp, protocol.damping, protocol.disorder, protocol.settle, protocol.average, protocol.lead,
-      protocol.wall, protocol.segment, protocol.end_mass, protocol.sides, protocol.wedge_sides, protocol.drift, protocol.scatter);
+  snprintf(text, sizeof text,
+           "spheres %g apart (polygon %g), density %g, speed %g, shake %g, sway %g, least steps "
+           "%d, %d iterations, erp %g, damping "
+           "%g, "
+           "disorder %g, settle %g, average %g, lead %g, wall %g, segment %g, end mass %g, sides "
+           "%d (wedged %d), margin 0, settled at "
+           "drift %g scatter %g",
+           protocol.spacing, protocol.polygon, protocol.density, protocol.speed, protocol.shake,
+           protocol.sway, LEAST_STEPS, protocol.iterations, protocol.erp, protocol.damping,
+           protocol.disorder, protocol.settle, protocol.average, protocol.lead, protocol.wall,
+           protocol.segment, protocol.end_mass, protocol.sides, protocol.wedge_sides,
+           protocol.drift, protocol.scatter);
   return text;
 }
 
@@ -215,7 +241,7 @@ const char *thr_drag_protocol(void)
 typedef struct {
   double before[4], behind[4]; /* frames: x along the channel, y to the inside of the turn */
   double at[3];                /* where the axes meet */
-  double via[3];               /* where two straight pieces of a cord would meet that touches the inner edge */
+  double via[3]; /* where two straight pieces of a cord would meet that touches the inner edge */
   double angle;
   double reach[2]; /* of the two pieces of channel from at */
 } joint;
@@ -225,11 +251,13 @@ typedef struct {
   const thr_drag *d;
   joint *joint;                 /* [d->n_turns] */
   double spacing, travel, most; /* .. pull expected at most */
-  long block, settle, blocks;   /* steps in which the chain moves by its spacing; so many to settle, and to average over */
+  long block, settle, blocks;   /* steps in which the chain moves by its spacing; so many to settle,
+                                   and to average over */
   thr_world *world;
-  int sphere, spheres;     /* first body of the chain, at the hold end; how many */
-  int link;                /* first of spheres - 1 */
-  double hold[3], drag[3]; /* unit, axes of the first and the last channel in the direction of travel */
+  int sphere, spheres; /* first body of the chain, at the hold end; how many */
+  int link;            /* first of spheres - 1 */
+  double hold[3],
+      drag[3]; /* unit, axes of the first and the last channel in the direction of travel */
 } run;
 
 static void set_protocol(run *r)
@@ -238,9 +266,11 @@ static void set_protocol(run *r)
   r->spacing = spacing_of(d);
   r->most = exp(expected_log(d));
   double pull = r->most / (protocol.density * protocol.speed * protocol.speed);
-  double steps = fmax(LEAST_STEPS, fmax(sqrt(pull / protocol.shake), d->mu * pull * r->spacing / protocol.sway));
+  double steps = fmax(LEAST_STEPS,
+                      fmax(sqrt(pull / protocol.shake), d->mu * pull * r->spacing / protocol.sway));
   r->block = (long)fmax(PHASES, ceil(steps / d->time_step));
-  r->settle = (long)ceil(protocol.settle * (d->settle > 0 ? d->settle : 1) * (1 + d->n_turns) / r->spacing);
+  r->settle =
+      (long)ceil(protocol.settle * (d->settle > 0 ? d->settle : 1) * (1 + d->n_turns) / r->spacing);
   r->blocks = 2 * (long)ceil(protocol.average / r->spacing / 2);
   r->travel = (double)(r->settle + r->blocks) * r->spacing;
 }
@@ -279,13 +309,16 @@ static int sides_of(const thr_drag *d)
   return largest_turn(d) > thr_drag_round_turn(d->bore) ? protocol.wedge_sides : protocol.sides;
 }
 
-/* Corners of wall i of the piece of channel that lies before (side -1) or behind (1) a joint: x = 0 there, mitred. */
+/* Corners of wall i of the piece of channel that lies before (side -1) or behind (1) a joint: x = 0
+ * there, mitred. */
 static void wall_corners(const run *r, const joint *j, int side, int i, int sides, double (*p)[3])
 {
   double slope = tan(j->angle / 2), reach = j->reach[side > 0], bore = r->d->bore;
-  double outer = fmin(bore + protocol.wall, slope > 0 ? (bore + reach / slope) / 2 : INFINITY); /* mitred walls must not cross */
+  double outer = fmin(bore + protocol.wall, slope > 0 ? (bore + reach / slope) / 2
+                                                      : INFINITY); /* mitred walls must not cross */
   for (int k = 0; k < 8; k++) {
-    double phi = THR_PI * (2 * i + (k & 1 ? 1 : -1)) / sides, radius = (k & 2 ? outer : bore) / cos(THR_PI / sides);
+    double phi = THR_PI * (2 * i + (k & 1 ? 1 : -1)) / sides,
+           radius = (k & 2 ? outer : bore) / cos(THR_PI / sides);
     double y = radius * cos(phi);
     p[k][0] = side * (k & 4 ? reach : y * slope);
     p[k][1] = y;
@@ -305,15 +338,16 @@ static thr_status add_channel(run *r, const joint *j, int side, thr_err *err)
     wall_corners(r, j, side, i, sides, p + (ptrdiff_t)8 * i);
   }
   if (s == THR_OK)
-    s = thr_world_add_hulls(r->world,
-                            &(thr_world_hulls){.n_hulls = sides,
-                                               .n_points = count,
-                                               .points = (const double(*)[3])p,
-                                               .pose = {j->at[0], j->at[1], j->at[2], q[0], q[1], q[2], q[3]},
-                                               .friction = r->d->mu,
-                                               .group = BEAD,
-                                               .mask = CORD},
-                            &body, err);
+    s = thr_world_add_hulls(
+        r->world,
+        &(thr_world_hulls){.n_hulls = sides,
+                           .n_points = count,
+                           .points = (const double(*)[3])p,
+                           .pose = {j->at[0], j->at[1], j->at[2], q[0], q[1], q[2], q[3]},
+                           .friction = r->d->mu,
+                           .group = BEAD,
+                           .mask = CORD},
+        &body, err);
   free(p);
   free(count);
   return s;
@@ -321,8 +355,9 @@ static thr_status add_channel(run *r, const joint *j, int side, thr_err *err)
 
 /* ---- the chain ---- */
 
-/* Where the chain starts: straight from via point to via point, with arcs of the cord's radius. Both are measured in links: an
- * arc holds angle / (2 asin(spacing / 2)) of them, since links are its chords. */
+/* Where the chain starts: straight from via point to via point, with arcs of the cord's radius.
+ * Both are measured in links: an arc holds angle / (2 asin(spacing / 2)) of them, since links are
+ * its chords. */
 typedef struct {
   double from[3], d[3], straight; /* links, to .. */
   double inside[3], arc, links;   /* .. an arc of so many radians and links */
@@ -377,8 +412,9 @@ static thr_status add_sphere(run *r, const double at[3], const double d[3], bool
 {
   double v[3];
   int body, link;
-  thr_status s = thr_world_add_sphere(r->world, 1, last ? protocol.end_mass : protocol.density * r->spacing, at, 1, CORD,
-                                      last ? 0 : BEAD, &body, err);
+  thr_status s =
+      thr_world_add_sphere(r->world, 1, last ? protocol.end_mass : protocol.density * r->spacing,
+                           at, 1, CORD, last ? 0 : BEAD, &body, err);
   if (s != THR_OK) return s;
   along((double[3]){0}, protocol.speed, d, v);
   thr_world_set_velocity(r->world, body, v, (double[3]){0});
@@ -431,7 +467,8 @@ static double tension(const run *r, int first)
   return sum / LINKS_MEASURED;
 }
 
-/* Towards sliding along itself: zero in steady sliding, so that it hastens settling and nothing else. */
+/* Towards sliding along itself: zero in steady sliding, so that it hastens settling and nothing
+ * else. */
 static void damp(run *r)
 {
   double rate = protocol.damping / (r->spheres * r->spacing), mass = protocol.density * r->spacing;
@@ -450,8 +487,9 @@ static void damp(run *r)
   }
 }
 
-/* Adds the chain, that many blocks on its way, to the mean path: what is at place i now was so many places behind before. Phases
- * between blocks count too, since the chain trembles in step with its spheres. */
+/* Adds the chain, that many blocks on its way, to the mean path: what is at place i now was so many
+ * places behind before. Phases between blocks count too, since the chain trembles in step with its
+ * spheres. */
 static void add_to_path(const run *r, double blocks, double (*path)[3])
 {
   double at[3], behind[3], weight = 1.0 / (double)(r->blocks * PHASES);
@@ -464,7 +502,8 @@ static void add_to_path(const run *r, double blocks, double (*path)[3])
   }
 }
 
-/* Of the mean path, in chords as long as a cord radius: snapshots and short chords show how the chain trembles. */
+/* Of the mean path, in chords as long as a cord radius: snapshots and short chords show how the
+ * chain trembles. */
 static double turning(const run *r, double (*path)[3])
 {
   double sum = 0, before[3] = {0}, d[3];
@@ -505,7 +544,8 @@ static thr_status advance(run *r, long done, const thr_limits *limits, thr_err *
 {
   double part = (double)done / (double)((r->settle + r->blocks) * r->block);
   if (!limits) return THR_OK;
-  if (thr_limits_stop(limits)) return thr_fail(err, THR_ELIMIT, "drag: stopped with %.0f %% done", 100 * part);
+  if (thr_limits_stop(limits))
+    return thr_fail(err, THR_ELIMIT, "drag: stopped with %.0f %% done", 100 * part);
   if (limits->advance) limits->advance(limits->user, "dragging a cord", part);
   return THR_OK;
 }
@@ -524,7 +564,8 @@ static thr_status simulate(run *r, const thr_limits *limits, thr_drag_result *ou
       if (s != THR_OK || b < 0) continue;
       block[b].hold += tension(r, 0);
       block[b].drag += tension(r, r->spheres - 1 - MARGIN_LINKS - LINKS_MEASURED);
-      if (i * PHASES % r->block < PHASES) add_to_path(r, (double)b + (double)(i + 1) / (double)r->block, path);
+      if (i * PHASES % r->block < PHASES)
+        add_to_path(r, (double)b + (double)(i + 1) / (double)r->block, path);
     }
   }
   if (s == THR_OK) {
@@ -539,12 +580,13 @@ static thr_status simulate(run *r, const thr_limits *limits, thr_drag_result *ou
 static thr_status build(run *r, bool *fits, thr_err *err)
 {
   const thr_drag *d = r->d;
-  thr_world_options options = {.time_step = r->spacing / protocol.speed / (double)r->block,
-                               .iterations = (int)ceil(protocol.iterations * d->iterations * protocol.spacing / r->spacing),
-                               .erp = protocol.erp,
-                               .erp2 = protocol.erp,
-                               .split_impulse = true,
-                               .warm_start = true};
+  thr_world_options options = {
+      .time_step = r->spacing / protocol.speed / (double)r->block,
+      .iterations = (int)ceil(protocol.iterations * d->iterations * protocol.spacing / r->spacing),
+      .erp = protocol.erp,
+      .erp2 = protocol.erp,
+      .split_impulse = true,
+      .warm_start = true};
   thr_status s = make_joints(r, err);
   if (s == THR_OK) s = thr_world_create(&r->world, &options, err);
   for (int i = 0; s == THR_OK && i < d->n_turns; i++)
@@ -554,7 +596,8 @@ static thr_status build(run *r, bool *fits, thr_err *err)
   return s;
 }
 
-thr_status thr_drag_measure(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
+thr_status thr_drag_measure(const thr_drag *d, const thr_limits *limits, thr_drag_result *out,
+                            thr_err *err)
 {
   *out = (thr_drag_result){.status = THR_DRAG_OUT_OF_RANGE};
   thr_status s = check(d, err);

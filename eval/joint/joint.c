@@ -1,12 +1,15 @@
-/* Composing measured joints along taut cords, with the measuring function as a parameter. Private to eval/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Composing measured joints along taut cords, with the measuring function as a parameter. Private
+ * to eval/.
  *
- * Ratios are measured at some angles and read off between two of them by their rate, ln(ratio) / angle, linearly in the angle;
- * the ratio of a cord is the product over its turns.
+ * Ratios are measured at some angles and read off between two of them by their rate, ln(ratio) /
+ * angle, linearly in the angle; the ratio of a cord is the product over its turns.
  *
- * Example: a turn of 50 degrees between measured ones of 45 and 60 takes two thirds of the rate of the one and a third of that
- * of the other.
+ * Example: a turn of 50 degrees between measured ones of 45 and 60 takes two thirds of the rate of
+ * the one and a third of that of the other.
  *
- * Method joint: a table of joints measured in Bullet, composed along the taut path of every cord. */
+ * Method joint: a table of joints measured in Bullet, composed along the taut path of every cord.
+ */
 #include "eval/cord/profile.h"
 #include "eval/joint/joint.h"
 #include "graph/angle.h"
@@ -24,7 +27,8 @@ const double thr_joint_step = THR_PI / 24;
 
 static const double STRAIGHT = 1e-6; /* rad: a turn that costs nothing */
 static const double ON_GRID = 1e-9;  /* rad: closer to a measured angle is that angle */
-static const double QUANTA = 1e6;    /* per 1 of mu and of bore / cord, so that rounding does not ask for another joint */
+static const double QUANTA =
+    1e6; /* per 1 of mu and of bore / cord, so that rounding does not ask for another joint */
 
 /* A measured angle. */
 typedef struct {
@@ -45,8 +49,8 @@ typedef struct {
 /* Whether a turn has been measured, or why the closed form stands in. */
 typedef enum { MEASURED, UNSETTLED, OUTSIDE, SHARP } verdict;
 
-/* Where an angle lies in the table: between joints i and i + 1, part of the way; or exactly at i if part is 0. part < 0: below
- * the first. */
+/* Where an angle lies in the table: between joints i and i + 1, part of the way; or exactly at i if
+ * part is 0. part < 0: below the first. */
 typedef struct {
   int i; /* -1: beyond the table */
   double part;
@@ -101,7 +105,8 @@ static void ask_for(table *t, double turn)
   if (p.i < 0) return;
   t->at[p.i].needed = true;
   if (p.part != 0) t->at[p.i + 1].needed = true;
-  if (p.part > 0 && t->n > 2) t->at[p.i > 0 ? p.i - 1 : 2].needed = true; /* a third, to judge interpolation by */
+  if (p.part > 0 && t->n > 2)
+    t->at[p.i > 0 ? p.i - 1 : 2].needed = true; /* a third, to judge interpolation by */
 }
 
 static void ask_for_cord(table *t, const thr_frame *frame, const thr_cord *cord, const double *taut)
@@ -140,7 +145,8 @@ static void keep_job(void *user, int job, const void *result)
 }
 
 /* Every needed joint from the cache or by measuring it. */
-static thr_status measure_joints(work *w, const thr_eval_options *options, const thr_limits *limits, thr_eval *out, thr_err *err)
+static thr_status measure_joints(work *w, const thr_eval_options *options, const thr_limits *limits,
+                                 thr_eval *out, thr_err *err)
 {
   table *t = w->table;
   thr_work jobs = {.result_size = sizeof(thr_drag_result),
@@ -160,8 +166,9 @@ static thr_status measure_joints(work *w, const thr_eval_options *options, const
   }
   thr_drag_result *results = thr_calloc((size_t)jobs.n_jobs, sizeof *results);
   bool *finished = thr_calloc((size_t)jobs.n_jobs, sizeof *finished);
-  thr_status st =
-      results && finished ? thr_workers_run(&jobs, options->processes, limits, results, finished, err) : thr_nomem(err);
+  thr_status st = results && finished
+                      ? thr_workers_run(&jobs, options->processes, limits, results, finished, err)
+                      : thr_nomem(err);
   for (int i = 0; i < jobs.n_jobs && finished; i++)
     out->joints_measured += finished[i];
   free(results);
@@ -175,10 +182,13 @@ static bool settled(const joint *j)
   return j->known && j->result.status == THR_DRAG_SETTLED;
 }
 
-/* Rate at joint i as its neighbours predict it, less what was measured there; false if one of the three is missing. */
+/* Rate at joint i as its neighbours predict it, less what was measured there; false if one of the
+ * three is missing. */
 static bool left_out(const table *t, int i, double *miss)
 {
-  if (i < 1 || i + 1 >= t->n || !settled(&t->at[i - 1]) || !settled(&t->at[i]) || !settled(&t->at[i + 1])) return false;
+  if (i < 1 || i + 1 >= t->n || !settled(&t->at[i - 1]) || !settled(&t->at[i]) ||
+      !settled(&t->at[i + 1]))
+    return false;
   const joint *a = &t->at[i - 1], *b = &t->at[i], *c = &t->at[i + 1];
   double part = (b->turn - a->turn) / (c->turn - a->turn);
   *miss = (1 - part) * a->rate + part * c->rate - b->rate;
@@ -241,8 +251,10 @@ static verdict rate_at(const table *t, double turn, double *rate, double *error)
   return MEASURED;
 }
 
-/* Exponent of one turn and its error. If the table cannot tell, the closed form stands in, without an error of its own. */
-static verdict exponent_of(const table *t, double nominal, double taut, double *exponent, double *error)
+/* Exponent of one turn and its error. If the table cannot tell, the closed form stands in, without
+ * an error of its own. */
+static verdict exponent_of(const table *t, double nominal, double taut, double *exponent,
+                           double *error)
 {
   double rate, doubt, taut_rate, taut_doubt;
   *exponent = *error = 0;
@@ -253,8 +265,8 @@ static verdict exponent_of(const table *t, double nominal, double taut, double *
     return v;
   }
   *exponent = fmax(0, rate * taut);
-  *error =
-      (doubt + fabs(rate - taut_rate)) * taut + fmax(0, -rate * taut); /* friction never helps: a ratio below 1 is an error */
+  *error = (doubt + fabs(rate - taut_rate)) * taut +
+           fmax(0, -rate * taut); /* friction never helps: a ratio below 1 is an error */
   return MEASURED;
 }
 
@@ -265,17 +277,19 @@ static bool angle_measured(const table *t, double turn)
   return p.i < 0 || (t->at[p.i].known && (p.part == 0 || t->at[p.i + 1].known));
 }
 
-static bool cord_measured(const table *t, const thr_frame *frame, const thr_cord *cord, const double *taut)
+static bool cord_measured(const table *t, const thr_frame *frame, const thr_cord *cord,
+                          const double *taut)
 {
   for (int k = 0; k + 1 < cord->n_passes; k++)
     if (taut[k] >= STRAIGHT &&
-        (!angle_measured(t, taut[k]) || !angle_measured(t, thr_turn_angle(frame, cord->half[k], cord->half[k + 1]))))
+        (!angle_measured(t, taut[k]) ||
+         !angle_measured(t, thr_turn_angle(frame, cord->half[k], cord->half[k + 1]))))
       return false;
   return true;
 }
 
-/* An end's force hangs on the turns between it and the slackest pass; their errors may all have one sign. Where both ends are
- * pulled, neither slides over the turn behind that. */
+/* An end's force hangs on the turns between it and the slackest pass; their errors may all have one
+ * sign. Where both ends are pulled, neither slides over the turn behind that. */
 static double error_from_slackest(const thr_eval_cord *cord, const double *error)
 {
   double side[2] = {0};
@@ -284,9 +298,11 @@ static double error_from_slackest(const thr_eval_cord *cord, const double *error
   return fmax(side[0], side[1]);
 }
 
-/* Leaves the cord's record as it is if some joint of it is not known. Adds its refused turns to out, its others to *measured. */
-static thr_status fill_cord(thr_eval *out, thr_eval_cord *eval_cord, const thr_frame *frame, const thr_cord *cord, const table *t,
-                            const double *taut, bool gripped, int *measured, thr_err *err)
+/* Leaves the cord's record as it is if some joint of it is not known. Adds its refused turns to
+ * out, its others to *measured. */
+static thr_status fill_cord(thr_eval *out, thr_eval_cord *eval_cord, const thr_frame *frame,
+                            const thr_cord *cord, const table *t, const double *taut, bool gripped,
+                            int *measured, thr_err *err)
 {
   int count[SHARP + 1] = {0};
   if (!cord_measured(t, frame, cord, taut)) return THR_OK;
@@ -302,7 +318,8 @@ static thr_status fill_cord(thr_eval *out, thr_eval_cord *eval_cord, const thr_f
     eval_cord->taut_turning += taut[k];
   }
   if (!st)
-    st = thr_profile_before(eval_cord, cord, exponent, out->record.physics.seating, &(thr_friction){.power = 1}, gripped, err);
+    st = thr_profile_before(eval_cord, cord, exponent, out->record.physics.seating,
+                            &(thr_friction){.power = 1}, gripped, err);
   if (!st) eval_cord->error = error_from_slackest(eval_cord, error);
   eval_cord->known = !st;
   eval_cord->refused = count[SHARP] + count[OUTSIDE] + count[UNSETTLED];
@@ -315,8 +332,10 @@ static thr_status fill_cord(thr_eval *out, thr_eval_cord *eval_cord, const thr_f
   return st;
 }
 
-/* Raises *largest to the cord's larger end force by the closed form; INFINITY if that is past what a number can hold. */
-static thr_status raise_to_closed_form(const thr_frame *frame, const thr_cord *cord, const thr_physics *physics, thr_pull pull,
+/* Raises *largest to the cord's larger end force by the closed form; INFINITY if that is past what
+ * a number can hold. */
+static thr_status raise_to_closed_form(const thr_frame *frame, const thr_cord *cord,
+                                       const thr_physics *physics, thr_pull pull,
                                        const double *taut, double mu, double *largest, thr_err *err)
 {
   thr_eval_cord other = {.force = INFINITY};
@@ -324,7 +343,8 @@ static thr_status raise_to_closed_form(const thr_frame *frame, const thr_cord *c
   if (!exponent) return thr_nomem(err);
   for (int k = 0; k + 1 < cord->n_passes; k++)
     exponent[k] = mu * taut[k] + thr_profile_wobble(frame, physics, cord, k, mu);
-  thr_status st = thr_profile_cord(&other, cord, exponent, pull, physics->seating, &(thr_friction){.power = 1}, NULL);
+  thr_status st = thr_profile_cord(&other, cord, exponent, pull, physics->seating,
+                                   &(thr_friction){.power = 1}, NULL);
   free(other.tension);
   free(exponent);
   if (st == THR_ENOMEM) return thr_nomem(err);
@@ -333,22 +353,31 @@ static thr_status raise_to_closed_form(const thr_frame *frame, const thr_cord *c
 }
 
 /* No turn was measured: because none costs anything, or because all were refused. */
-static thr_status check_any_measured(const thr_eval *eval, const thr_drag *d, double largest_turn, thr_err *err)
+static thr_status check_any_measured(const thr_eval *eval, const thr_drag *d, double largest_turn,
+                                     thr_err *err)
 {
-  int sharp = eval->refused_sharp, outside = eval->refused_outside, unsettled = eval->refused_unsettled;
+  int sharp = eval->refused_sharp, outside = eval->refused_outside,
+      unsettled = eval->refused_unsettled;
   char why[3][120] = {{0}};
   if (sharp + outside + unsettled == 0) return THR_OK;
-  if (sharp) snprintf(why[0], sizeof why[0], "; %d sharper than %.0f degrees", sharp, largest_turn * (180 / THR_PI));
+  if (sharp)
+    snprintf(why[0], sizeof why[0], "; %d sharper than %.0f degrees", sharp,
+             largest_turn * (180 / THR_PI));
   if (outside)
-    snprintf(why[1], sizeof why[1], "; %d out of range at bore / cord diameter = %.4g and mu = %.4g", outside, d->bore, d->mu);
-  if (unsettled) snprintf(why[2], sizeof why[2], "; %d where the cord does not slide steadily", unsettled);
-  return thr_fail(err, THR_EINPUT, "no turn could be measured%s%s%s; use %s%s%s--method capstan", why[0], why[1], why[2],
-                  outside ? "a wider --bore, " : "", unsettled ? "a finer --time-step, " : "",
+    snprintf(why[1], sizeof why[1],
+             "; %d out of range at bore / cord diameter = %.4g and mu = %.4g", outside, d->bore,
+             d->mu);
+  if (unsettled)
+    snprintf(why[2], sizeof why[2], "; %d where the cord does not slide steadily", unsettled);
+  return thr_fail(err, THR_EINPUT, "no turn could be measured%s%s%s; use %s%s%s--method capstan",
+                  why[0], why[1], why[2], outside ? "a wider --bore, " : "",
+                  unsettled ? "a finer --time-step, " : "",
                   outside || unsettled ? "a smaller --mu, or " : "");
 }
 
-static thr_status compose(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options, const thr_limits *limits,
-                          work *w, double *const *taut, thr_eval *out, thr_err *err)
+static thr_status compose(const thr_frame *frame, const thr_cord *cord,
+                          const thr_eval_options *options, const thr_limits *limits, work *w,
+                          double *const *taut, thr_eval *out, thr_err *err)
 {
   const thr_physics *physics = &out->record.physics;
   thr_err stop = {0};
@@ -360,10 +389,14 @@ static thr_status compose(const thr_frame *frame, const thr_cord *cord, const th
   table_finish(w, out);
   for (int i = 0; i < out->record.n_cords && !st; i++) {
     thr_eval_cord *eval_cord = &out->record.cord[i];
-    st = fill_cord(out, eval_cord, frame, &cord[i], w->table, taut[i], options->hand > 0, &measured, err);
+    st = fill_cord(out, eval_cord, frame, &cord[i], w->table, taut[i], options->hand > 0, &measured,
+                   err);
     if (st || !eval_cord->known) continue;
-    st = raise_to_closed_form(frame, &cord[i], physics, eval_cord->pull, taut[i], physics->mu_low, &out->band[0], err);
-    if (!st) st = raise_to_closed_form(frame, &cord[i], physics, eval_cord->pull, taut[i], physics->mu_high, &out->band[1], err);
+    st = raise_to_closed_form(frame, &cord[i], physics, eval_cord->pull, taut[i], physics->mu_low,
+                              &out->band[0], err);
+    if (!st)
+      st = raise_to_closed_form(frame, &cord[i], physics, eval_cord->pull, taut[i],
+                                physics->mu_high, &out->band[1], err);
   }
   if (!st && stopped) return thr_fail(err, stopped, "%s", stop.text);
   if (!st && measured == 0) st = check_any_measured(out, &w->drag, w->source->largest_turn, err);
@@ -375,19 +408,22 @@ static double quantized(double x)
   return rint(x * QUANTA) / QUANTA;
 }
 
-static thr_status check_bore(const thr_joint_source *source, double ratio, const thr_physics *physics, thr_err *err)
+static thr_status check_bore(const thr_joint_source *source, double ratio,
+                             const thr_physics *physics, thr_err *err)
 {
   if (ratio >= source->least_bore && ratio <= source->largest_bore) return THR_OK;
-  return thr_fail(
-      err, THR_EINPUT,
-      "--bore, %.8g mm, is %.8g times --cord-diameter, %.8g mm; the simulation was validated for %g to %g times; use a "
-      "%s --bore, or --method capstan",
-      physics->bore, physics->bore / physics->cord_diameter, physics->cord_diameter, source->least_bore, source->largest_bore,
-      ratio < source->least_bore ? "wider" : "narrower");
+  return thr_fail(err, THR_EINPUT,
+                  "--bore, %.8g mm, is %.8g times --cord-diameter, %.8g mm; the simulation was "
+                  "validated for %g to %g times; use a "
+                  "%s --bore, or --method capstan",
+                  physics->bore, physics->bore / physics->cord_diameter, physics->cord_diameter,
+                  source->least_bore, source->largest_bore,
+                  ratio < source->least_bore ? "wider" : "narrower");
 }
 
-thr_status thr_joint_compose(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
-                             const thr_limits *limits, const thr_joint_source *source, thr_eval *out, thr_err *err)
+thr_status thr_joint_compose(const thr_frame *frame, const thr_cord *cord,
+                             const thr_eval_options *options, const thr_limits *limits,
+                             const thr_joint_source *source, thr_eval *out, thr_err *err)
 {
   const thr_physics *physics = &out->record.physics;
   const int n_cords = out->record.n_cords;
@@ -415,8 +451,9 @@ thr_status thr_joint_compose(const thr_frame *frame, const thr_cord *cord, const
   return st;
 }
 
-thr_status thr_joint_method(const thr_frame *frame, const thr_cord *cord, const thr_eval_options *options,
-                            const thr_limits *limits, thr_eval *out, thr_err *err)
+thr_status thr_joint_method(const thr_frame *frame, const thr_cord *cord,
+                            const thr_eval_options *options, const thr_limits *limits,
+                            thr_eval *out, thr_err *err)
 {
   const thr_joint_source bullet = {.measure = thr_drag_measure,
                                    .error = thr_drag_error,

@@ -1,11 +1,13 @@
-/* The framework as rigid beads: one bead per node, an arm of square section towards the middle of every edge, ended by a face in
- * the plane through the edge's middle and square to it. Adjacent beads meet face to face; feet stand on the ground.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The framework as rigid beads: one bead per node, an arm of square section towards the middle of
+ * every edge, ended by a face in the plane through the edge's middle and square to it. Adjacent
+ * beads meet face to face; feet stand on the ground.
  *
- * A force F at the point p acts on a bead with centre c as the wrench (F, (p - c) x F), six numbers. A pass through a face draws
- * the two beads together by its tension.
+ * A force F at the point p acts on a bead with centre c as the wrench (F, (p - c) x F), six
+ * numbers. A pass through a face draws the two beads together by its tension.
  *
- * Example: a pass of 10 N straight through a bead with two arms in line adds no wrench: what draws at one face draws as much at
- * the other. */
+ * Example: a pass of 10 N straight through a bead with two arms in line adds no wrench: what draws
+ * at one face draws as much at the other. */
 #include "eval/structure/beads.h"
 #include "graph/angle.h"
 #include "graph/framework/units.h"
@@ -52,7 +54,8 @@ typedef struct {
 
 static footing find_footing(const thr_frame *frame)
 {
-  footing g = {.lowest = INFINITY, .tolerance = 1e-6 * thr_frame_diagonal(frame), .ground = INFINITY};
+  footing g = {
+      .lowest = INFINITY, .tolerance = 1e-6 * thr_frame_diagonal(frame), .ground = INFINITY};
   for (int v = 0; v < frame->n_nodes; v++) {
     if (frame->foot[v]) g.ground = fmin(g.ground, frame->xyz[v][2]);
     g.any_foot = g.any_foot || frame->foot[v];
@@ -62,32 +65,39 @@ static footing find_footing(const thr_frame *frame)
   return g;
 }
 
-/* The corners of a regular polygon on the edge of each foot's disc, the first half a side from the level direction. */
+/* The corners of a regular polygon on the edge of each foot's disc, the first half a side from the
+ * level direction. */
 static void place_feet(thr_beads *beads, const thr_frame *frame, const footing *g)
 {
   int n = 0;
   for (int v = 0; v < frame->n_nodes; v++) {
     if (!is_foot(frame, v, g->any_foot, g->lowest, g->tolerance)) continue;
     for (int i = 0; i < THR_FOOT_POINTS; i++) {
-      const double angle = 2 * THR_PI * (i + 0.5) / THR_FOOT_POINTS, along = 0.5 * beads->width * cos(angle),
+      const double angle = 2 * THR_PI * (i + 0.5) / THR_FOOT_POINTS,
+                   along = 0.5 * beads->width * cos(angle),
                    across = 0.5 * beads->width * sin(angle);
-      beads->foot_point[n][i][0] = beads->centre[v][0] + along * beads->level[0] - across * beads->level[1];
-      beads->foot_point[n][i][1] = beads->centre[v][1] + along * beads->level[1] + across * beads->level[0];
+      beads->foot_point[n][i][0] =
+          beads->centre[v][0] + along * beads->level[0] - across * beads->level[1];
+      beads->foot_point[n][i][1] =
+          beads->centre[v][1] + along * beads->level[1] + across * beads->level[0];
       beads->foot_point[n][i][2] = beads->centre[v][2] - 0.5 * beads->width;
     }
     beads->foot[n++] = v;
   }
 }
 
-static const double VERTICAL = 1e-9; /* horizontal part of a unit vector that is vertical, at most */
+static const double VERTICAL =
+    1e-9; /* horizontal part of a unit vector that is vertical, at most */
 
-/* Finds the direction of the horizontal part of the first edge that is not vertical; x if all are. */
+/* Finds the direction of the horizontal part of the first edge that is not vertical; x if all are.
+ */
 static void find_level(thr_beads *beads, const thr_frame *frame)
 {
   beads->level[0] = 1;
   for (int e = 0; e < frame->n_edges; e++) {
     const double *from = beads->centre[frame->edge[e][0]], *to = beads->centre[frame->edge[e][1]];
-    const double way[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]}, along = hypot(way[0], way[1]);
+    const double way[3] = {to[0] - from[0], to[1] - from[1], to[2] - from[2]},
+                 along = hypot(way[0], way[1]);
     if (!(along > VERTICAL * sqrt(thr_dot(way, way)))) continue;
     beads->level[0] = way[0] / along;
     beads->level[1] = way[1] / along;
@@ -116,20 +126,24 @@ static thr_status place_face(thr_beads *beads, const thr_frame *frame, int e, th
   }
   double length = sqrt(thr_dot(beads->axis[e], beads->axis[e]));
   if (!(length > 0))
-    return thr_fail(err, THR_EINPUT, "edge between nodes %s and %s has no length in space: a bead needs an arm there",
-                    frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]]);
+    return thr_fail(
+        err, THR_EINPUT,
+        "edge between nodes %s and %s has no length in space: a bead needs an arm there",
+        frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]]);
   for (int k = 0; k < 3; k++)
     beads->axis[e][k] /= length;
   section(beads, beads->axis[e], side);
   for (int i = 0; i < 4; i++)
     for (int k = 0; k < 3; k++)
-      beads->corner[e][i][k] = beads->middle[e][k] + beads->width * (turn[i][0] * side[0][k] + turn[i][1] * side[1][k]);
+      beads->corner[e][i][k] =
+          beads->middle[e][k] + beads->width * (turn[i][0] * side[0][k] + turn[i][1] * side[1][k]);
   return THR_OK;
 }
 
-/* An arm is a prism from the node to the face. Two opposite arms fill the cube of side width round the node between them; k arms
- * that meet square fill it k / 2 times, so with more than two each counts 2 / k of its first half width. Exact, but for the
- * bores, for square joints with two opposite arms among them. */
+/* An arm is a prism from the node to the face. Two opposite arms fill the cube of side width round
+ * the node between them; k arms that meet square fill it k / 2 times, so with more than two each
+ * counts 2 / k of its first half width. Exact, but for the bores, for square joints with two
+ * opposite arms among them. */
 static void weigh(thr_beads *beads, const thr_frame *frame, const thr_physics *physics, int v)
 {
   double section_area = beads->width * beads->width - 0.25 * THR_PI * beads->bore * beads->bore;
@@ -141,18 +155,20 @@ static void weigh(thr_beads *beads, const thr_frame *frame, const thr_physics *p
       arm[k] = beads->middle[frame->half[i] >> 1][k] - beads->centre[v][k];
     length = sqrt(thr_dot(arm, arm));
     double shared = fmin(0.5 * beads->width, length), part = length - (1 - share) * shared;
-    double lever = 0.5 * (length * length - (1 - share) * shared * shared) / length; /* m of the first moment per m of arm */
+    double lever = 0.5 * (length * length - (1 - share) * shared * shared) /
+                   length; /* m of the first moment per m of arm */
     volume += section_area * part;
     for (int k = 0; k < 3; k++)
       moment[k] += section_area * lever * arm[k];
   }
-  beads->mass[v] = physics->bead_mass > 0 ? 1e-3 * physics->bead_mass : 1e3 * physics->density * volume;
+  beads->mass[v] =
+      physics->bead_mass > 0 ? 1e-3 * physics->bead_mass : 1e3 * physics->density * volume;
   for (int k = 0; k < 3; k++)
     beads->mass_centre[v][k] = beads->centre[v][k] + moment[k] / volume;
 }
 
-static thr_status fill(thr_beads *beads, const thr_frame *frame, const thr_physics *physics, double unit, const footing *g,
-                       thr_err *err)
+static thr_status fill(thr_beads *beads, const thr_frame *frame, const thr_physics *physics,
+                       double unit, const footing *g, thr_err *err)
 {
   for (int v = 0; v < frame->n_nodes; v++) {
     beads->centre[v][0] = unit * frame->xyz[v][0];
@@ -169,24 +185,28 @@ static thr_status fill(thr_beads *beads, const thr_frame *frame, const thr_physi
   for (int v = 0; v < frame->n_nodes; v++) {
     weigh(beads, frame, physics, v);
     if (!(beads->mass[v] > 0) || !isfinite(beads->mass[v]))
-      return thr_fail(err, THR_EINPUT, "bead at node %s weighs %g kg: set density (g/cm3) or bead_mass (g)", frame->name[v],
-                      beads->mass[v]);
+      return thr_fail(err, THR_EINPUT,
+                      "bead at node %s weighs %g kg: set density (g/cm3) or bead_mass (g)",
+                      frame->name[v], beads->mass[v]);
   }
   return THR_OK;
 }
 
-thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, thr_beads *out, thr_err *err)
+thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, thr_beads *out,
+                          thr_err *err)
 {
   double unit;
   *out = (thr_beads){0};
   thr_status s = thr_units_in_mm(frame->units, &unit, err);
   if (s != THR_OK) return s;
   if (!(physics->bead_diameter > 0 && physics->bore >= 0 && physics->bead_diameter > physics->bore))
-    return thr_fail(err, THR_EINPUT, "bead_diameter %g mm: must be wider than the bore, %g mm", physics->bead_diameter,
-                    physics->bore);
+    return thr_fail(err, THR_EINPUT, "bead_diameter %g mm: must be wider than the bore, %g mm",
+                    physics->bead_diameter, physics->bore);
   footing g = find_footing(frame);
-  thr_beads beads = {
-      .n_beads = frame->n_nodes, .n_faces = frame->n_edges, .width = 1e-3 * physics->bead_diameter, .bore = 1e-3 * physics->bore};
+  thr_beads beads = {.n_beads = frame->n_nodes,
+                     .n_faces = frame->n_edges,
+                     .width = 1e-3 * physics->bead_diameter,
+                     .bore = 1e-3 * physics->bore};
   beads.play = fmax(0, 0.5e-3 * (physics->bore - physics->cord_diameter));
   for (int v = 0; v < frame->n_nodes; v++)
     beads.n_feet += is_foot(frame, v, g.any_foot, g.lowest, g.tolerance);

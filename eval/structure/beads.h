@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The structure that stands: beads, what holds, settles, erects, and whether it is rigid. */
 #ifndef THR_BEADS_H
 #define THR_BEADS_H
@@ -9,8 +10,9 @@
 #include "graph/scratch.h"
 #include "graph/status.h"
 
-/* ---- beads.c: The framework as rigid beads: one bead per node, an arm of square section towards the middle of every edge,
- * ended by a face in the plane through the edge's middle and square to it. */
+/* ---- beads.c: The framework as rigid beads: one bead per node, an arm of square section towards
+ * the middle of every edge, ended by a face in the plane through the edge's middle and square to
+ * it. */
 
 enum { THR_USUAL_RAYS = 8, THR_MOST_RAYS = 48 }; /* of the pyramids that stand for friction cones */
 
@@ -25,57 +27,68 @@ enum { THR_FOOT_POINTS = 16 }; /* corners of the polygon that stands for the dis
 
 /* Units here are SI: m, kg, N. */
 typedef struct {
-  int n_beads, n_faces;                     /* = nodes, edges of the framework */
-  double (*centre)[3];                      /* [n_beads] node positions, m; z = 0 is the underside of the lowest foot */
-  double (*mass_centre)[3];                 /* [n_beads] m */
-  double *mass;                             /* [n_beads] kg */
-  double (*middle)[3];                      /* [n_faces] centre of the interface, m */
-  double (*axis)[3];                        /* [n_faces] unit, from bead edge[e][0] to edge[e][1] */
-  double (*corner)[4][3];                   /* [n_faces] corners of the interface, m, in order round the axis */
-  double width;                             /* m, of an arm */
-  double bore;                              /* m */
-  double play;                              /* m: how far from the middle of a face a cord may go through it */
-  int n_feet;                               /* supports: the framework's feet, or its lowest nodes if it has none */
-  int *foot;                                /* [n_feet] bead */
-  double (*foot_point)[THR_FOOT_POINTS][3]; /* [n_feet] contact points with the ground, m, on the edge of a disc of diameter
-                                               width, half a width below the foot's node: each foot has its own patch of level
-                                               ground at its underside */
-  double level[3];   /* unit, horizontal: along the first edge that is not vertical, so that it turns with the drawing */
-  bool *fixed;       /* [n_beads] held in place: such beads need no equilibrium. All false until thr_beads_clamp */
-  int rays;          /* of a friction pyramid; THR_USUAL_RAYS until it is set */
-  double down[3];    /* unit: where weight draws; (0, 0, -1) until thr_beads_tilt */
+  int n_beads, n_faces; /* = nodes, edges of the framework */
+  double (*centre)[3];  /* [n_beads] node positions, m; z = 0 is the underside of the lowest foot */
+  double (*mass_centre)[3]; /* [n_beads] m */
+  double *mass;             /* [n_beads] kg */
+  double (*middle)[3];      /* [n_faces] centre of the interface, m */
+  double (*axis)[3];        /* [n_faces] unit, from bead edge[e][0] to edge[e][1] */
+  double (*corner)[4][3];   /* [n_faces] corners of the interface, m, in order round the axis */
+  double width;             /* m, of an arm */
+  double bore;              /* m */
+  double play;              /* m: how far from the middle of a face a cord may go through it */
+  int n_feet;               /* supports: the framework's feet, or its lowest nodes if it has none */
+  int *foot;                /* [n_feet] bead */
+  double (*foot_point)[THR_FOOT_POINTS]
+                      [3]; /* [n_feet] contact points with the ground, m, on the edge of a disc of
+                              diameter width, half a width below the foot's node: each foot has its
+                              own patch of level ground at its underside */
+  double level[3]; /* unit, horizontal: along the first edge that is not vertical, so that it turns
+                      with the drawing */
+  bool *fixed;     /* [n_beads] held in place: such beads need no equilibrium. All false until
+                      thr_beads_clamp */
+  int rays;        /* of a friction pyramid; THR_USUAL_RAYS until it is set */
+  double down[3];  /* unit: where weight draws; (0, 0, -1) until thr_beads_tilt */
   double (*load)[3]; /* [n_beads] N at the node, beside the weight; all 0 until it is filled in */
-  int n_rises;       /* passes of knotted cords, cord by cord; 0 until they are filled in, as the next two .. */
-  thr_rise *rise;    /* [n_rises] borrowed */
-  double strength;   /* N: what a knotted cord bears; 0 = not known: any tension */
-  double size;       /* m: diagonal of the bounding box, for tolerances */
-  thr_scratch own;   /* the arrays */
+  int n_rises; /* passes of knotted cords, cord by cord; 0 until they are filled in, as the next two
+                  .. */
+  thr_rise *rise;  /* [n_rises] borrowed */
+  double strength; /* N: what a knotted cord bears; 0 = not known: any tension */
+  double size;     /* m: diagonal of the bounding box, for tolerances */
+  thr_scratch own; /* the arrays */
 } thr_beads;
 
-/* physics must be resolved. One side of every arm's square section is horizontal; a vertical arm's sides are along `level` and
- * square to it. Faces are in the middle of the straight line between the nodes, also where the framework gives its own lengths.
- * Mass: bead_mass, or density x (volume of the arms less their bores), the arms' overlap at the node taken off (the text in
- * beads.c says how). THR_EINPUT for sizes out of range. Release with thr_beads_destroy. O(n). */
-thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, thr_beads *out, thr_err *err) THR_MUST_CHECK;
+/* physics must be resolved. One side of every arm's square section is horizontal; a vertical arm's
+ * sides are along `level` and square to it. Faces are in the middle of the straight line between
+ * the nodes, also where the framework gives its own lengths. Mass: bead_mass, or density x (volume
+ * of the arms less their bores), the arms' overlap at the node taken off (the text in beads.c says
+ * how). THR_EINPUT for sizes out of range. Release with thr_beads_destroy. O(n). */
+thr_status thr_beads_make(const thr_frame *frame, const thr_physics *physics, thr_beads *out,
+                          thr_err *err) THR_MUST_CHECK;
 void thr_beads_destroy(thr_beads *beads);
 
 /* N, of all beads that are not fixed. */
 double thr_beads_weight(const thr_beads *beads, const thr_physics *physics);
 
-/* Holds the beads with fixed[n_beads] true in place and takes the ground away (n_feet = 0): for cantilevers and the like. */
+/* Holds the beads with fixed[n_beads] true in place and takes the ground away (n_feet = 0): for
+ * cantilevers and the like. */
 void thr_beads_clamp(thr_beads *beads, const bool *fixed);
 
-/* The ground is tilted about a horizontal axis by angle, rad, so that weight draws towards azimuth (rad from x towards y), too.
+/* The ground is tilted about a horizontal axis by angle, rad, so that weight draws towards azimuth
+ * (rad from x towards y), too.
  */
 void thr_beads_tilt(thr_beads *beads, double angle, double azimuth);
 
-/* ---- settle.c: The closed structure in Bullet, as a witness for the limit analysis: rigid beads that touch at the corners of
- * their faces, cords as forces between them. */
+/* ---- settle.c: The closed structure in Bullet, as a witness for the limit analysis: rigid beads
+ * that touch at the corners of their faces, cords as forces between them. */
 
 typedef struct {
-  double least;       /* N: below it nothing holds the structure, as limit analysis has proved; 0 = nothing is proved .. */
-  double equilibrium; /* N: .. and at it, and at every larger pull, an equilibrium exists; INFINITY = none was found */
-  double start;       /* N: pull at which the structure settles; 0 = 1.3 x equilibrium, or least where none was found */
+  double least;       /* N: below it nothing holds the structure, as limit analysis has proved; 0 =
+                         nothing is proved .. */
+  double equilibrium; /* N: .. and at it, and at every larger pull, an equilibrium exists; INFINITY
+                         = none was found */
+  double start; /* N: pull at which the structure settles; 0 = 1.3 x equilibrium, or least where
+                   none was found */
   double time_step, iterations; /* factors on the protocol's, 1 */
   uint64_t seed;
   bool large; /* thr_settle_largest */
@@ -86,48 +99,56 @@ typedef enum {
   THR_SETTLE_HELD, /* without any pull */
   THR_SETTLE_NEVER_SETTLED,
   THR_SETTLE_TOO_LARGE,
-  THR_SETTLE_CREPT, /* a bead moved at a pull at which an equilibrium exists, or too slowly to say when (thr_settle_judge) */
-  THR_SETTLE_LATE   /* it stood where limit analysis proves that nothing holds it (thr_settle_judge) */
+  THR_SETTLE_CREPT, /* a bead moved at a pull at which an equilibrium exists, or too slowly to say
+                       when (thr_settle_judge) */
+  THR_SETTLE_LATE   /* it stood where limit analysis proves that nothing holds it (thr_settle_judge)
+                     */
 } thr_settle_status;
 
 typedef struct {
   bool present;
-  int status;                   /* thr_settle_status */
-  double fall, error;           /* N: it began to fall, and that was seen, at fall + error / 2 and fall - error / 2; 0 if it did
-                                   not, CREPT or LATE though it may be */
-  int first_bead;               /* that moved; -1 if none */
-  double gap_before, gap_after; /* mm, widest gap between two adjacent faces, settled and at the end */
-  double drift;                 /* mm, largest movement while settling */
-  double effort;                /* factor on the options' iterations with which this was found: 1 or 4 */
+  int status;         /* thr_settle_status */
+  double fall, error; /* N: it began to fall, and that was seen, at fall + error / 2 and fall -
+                         error / 2; 0 if it did not, CREPT or LATE though it may be */
+  int first_bead;     /* that moved; -1 if none */
+  double gap_before,
+      gap_after; /* mm, widest gap between two adjacent faces, settled and at the end */
+  double drift;  /* mm, largest movement while settling */
+  double effort; /* factor on the options' iterations with which this was found: 1 or 4 */
   int n_beads;
-  double (*before)[7], (*after)[7]; /* [n_beads] position of the node (m, as thr_beads.centre) and rotation from the drawn
-                                       position as a quaternion (x y z w) of each bead, settled and after the fall; owned */
+  double (*before)[7], (*after)[7]; /* [n_beads] position of the node (m, as thr_beads.centre) and
+                                       rotation from the drawn position as a quaternion (x y z w) of
+                                       each bead, settled and after the fall; owned */
 } thr_settle;
 
-/* n_beads above it: status TOO_LARGE, nothing else; large: where it is asked for, and takes many minutes. */
+/* n_beads above it: status TOO_LARGE, nothing else; large: where it is asked for, and takes many
+ * minutes. */
 int thr_settle_largest(bool large);
 
-/* A fall counts if it is known to a twentieth and not more than a twentieth above a pull at which an equilibrium exists (CREPT
- * otherwise) or below the one below which none does (LATE). Without a proof (least 0) it need not be known so well. What does not
- * count is told all the same. */
+/* A fall counts if it is known to a twentieth and not more than a twentieth above a pull at which
+ * an equilibrium exists (CREPT otherwise) or below the one below which none does (LATE). Without a
+ * proof (least 0) it need not be known so well. What does not count is told all the same. */
 void thr_settle_judge(thr_settle *settle, double least, double equilibrium);
 
-/* A cord's pass has tension x pull, but not more than most: [n_cords][n_passes] N each; most NULL: no such limit, cords are drawn
- * in; else they were drawn in and are let down, tension = what friction keeps of a force of 1 at the ends. Settles for 2, then
- * lets off the pull by 4 % in units of the time sqrt(mean edge / gravity), down to 0.7 of least; where nothing is proved, for 15
- * and then all of it: structures and their scale models behave alike. It falls when a bead moves by 0.005 of the mean edge within
- * half a unit; it began to when that was a tenth as much. NEVER_SETTLED: a bead moved by a twentieth of an edge at the start.
- * What does not count is tried once more with four times the linear systems and a 16th of the velocity that may be wrong. Same
- * input and seed, same bits on one machine. Some 1,500 steps of five linear systems: 49 beads 4 s, 400 beads
- * two minutes. THR_EINPUT for options out of range, THR_ELIMIT when stopped, both with out empty. */
-thr_status thr_settle_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord, int n_cords,
-                          const double *const *tension, const double *const *most, const thr_physics *physics,
-                          const thr_settle_options *options, const thr_limits *limits, thr_settle *out,
-                          thr_err *err) THR_MUST_CHECK;
+/* A cord's pass has tension x pull, but not more than most: [n_cords][n_passes] N each; most NULL:
+ * no such limit, cords are drawn in; else they were drawn in and are let down, tension = what
+ * friction keeps of a force of 1 at the ends. Settles for 2, then lets off the pull by 4 % in units
+ * of the time sqrt(mean edge / gravity), down to 0.7 of least; where nothing is proved, for 15 and
+ * then all of it: structures and their scale models behave alike. It falls when a bead moves by
+ * 0.005 of the mean edge within half a unit; it began to when that was a tenth as much.
+ * NEVER_SETTLED: a bead moved by a twentieth of an edge at the start. What does not count is tried
+ * once more with four times the linear systems and a 16th of the velocity that may be wrong. Same
+ * input and seed, same bits on one machine. Some 1,500 steps of five linear systems: 49 beads 4 s,
+ * 400 beads two minutes. THR_EINPUT for options out of range, THR_ELIMIT when stopped, both with
+ * out empty. */
+thr_status thr_settle_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord,
+                          int n_cords, const double *const *tension, const double *const *most,
+                          const thr_physics *physics, const thr_settle_options *options,
+                          const thr_limits *limits, thr_settle *out, thr_err *err) THR_MUST_CHECK;
 void thr_settle_destroy(thr_settle *settle);
 
-/* ---- erect.c: How the structure comes up: the same beads and cords as in settle.c, sunk down under slack cords, then drawn
- * in. */
+/* ---- erect.c: How the structure comes up: the same beads and cords as in settle.c, sunk down
+ * under slack cords, then drawn in. */
 
 enum { THR_ERECT_STILLS = 6 };
 
@@ -141,13 +162,15 @@ typedef struct {
 
 typedef struct {
   bool present;
-  double
-      lift; /* least part of the weight with which it comes up and then stands alone, of 0, 1/4, 1/2, 3/4, 1; NAN = with none */
+  double lift; /* least part of the weight with which it comes up and then stands alone, of 0, 1/4,
+                  1/2, 3/4, 1; NAN = with none */
   double weight; /* N, of all that is not held in place */
   double drawn;  /* mm, height as drawn */
   int n_beads, n_gaps;
-  thr_erect_still still[THR_ERECT_STILLS]; /* slack; drawn in by a half, once, twice the pull; let alone */
-  double (*pose)[7]; /* [THR_ERECT_STILLS * n_beads] of each still: node (m), rotation (x y z w) from the drawn position; owned */
+  thr_erect_still
+      still[THR_ERECT_STILLS]; /* slack; drawn in by a half, once, twice the pull; let alone */
+  double (*pose)[7]; /* [THR_ERECT_STILLS * n_beads] of each still: node (m), rotation (x y z w)
+                        from the drawn position; owned */
 } thr_erect;
 
 typedef struct {
@@ -156,63 +179,81 @@ typedef struct {
   uint64_t seed;
 } thr_erect_options;
 
-/* tension: N, of a pull of 1 N. It comes up if no face opens by a fiftieth of an edge and nine tenths of the drawn height are
- * there, when the counterweight is gone. Stills are those of the least counterweight that does it, or of the largest. Same input
- * and seed, same bits on one machine. At most five runs of some 4,000 steps: 49 beads half a minute. THR_EINPUT for a pull that
- * is not positive, THR_ELIMIT when stopped, both with out empty; above thr_settle_largest(false) beads not present. */
-thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord, int n_cords,
-                         const double *const *tension, const thr_physics *physics, const thr_erect_options *options,
-                         const thr_limits *limits, thr_erect *out, thr_err *err) THR_MUST_CHECK;
+/* tension: N, of a pull of 1 N. It comes up if no face opens by a fiftieth of an edge and nine
+ * tenths of the drawn height are there, when the counterweight is gone. Stills are those of the
+ * least counterweight that does it, or of the largest. Same input and seed, same bits on one
+ * machine. At most five runs of some 4,000 steps: 49 beads half a minute. THR_EINPUT for a pull
+ * that is not positive, THR_ELIMIT when stopped, both with out empty; above
+ * thr_settle_largest(false) beads not present. */
+thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord,
+                         int n_cords, const double *const *tension, const thr_physics *physics,
+                         const thr_erect_options *options, const thr_limits *limits, thr_erect *out,
+                         thr_err *err) THR_MUST_CHECK;
 void thr_erect_destroy(thr_erect *erect);
 
-/* ---- holding.c: Holding pull: least pull at which the closed structure of rigid beads has any equilibrium while the cords
- * are being drawn in: their tension falls from the pulled ends inwards. */
+/* ---- holding.c: Holding pull: least pull at which the closed structure of rigid beads has any
+ * equilibrium while the cords are being drawn in: their tension falls from the pulled ends inwards.
+ */
 
 typedef struct {
   bool present;
-  double lower;   /* N: below it no equilibrium exists while the cords are drawn in (friction pyramids round the cones, or cones),
-                     proved by the   power balance of the mechanism `velocity`, and within a thousandth of the least such pull; 0 if
-                     none is needed */
-  double upper;   /* N: at it an equilibrium exists (pyramids inside the cones, or cones), 0 if not computed, INFINITY if none was
-                     found. The   structure stands by itself if this is 0 too */
-  int first_bead; /* that moves fastest in the collapse mechanism just below lower; -1 if lower is 0 */
-  double
-      residual; /* fastest closing of a contact in the mechanism, whose fastest bead moves with 1: how exactly lower is proved */
-  double (*velocity)[6]; /* [n_beads] collapse mechanism: translation of the mass centre, rotation (1/m), scaled to a largest
-                            translation of 1; owned */
+  double lower; /* N: below it no equilibrium exists while the cords are drawn in (friction pyramids
+                   round the cones, or cones),    proved by the   power balance of the mechanism
+                   `velocity`, and within a thousandth of the least such pull; 0 if    none is
+                   needed */
+  double upper; /* N: at it an equilibrium exists (pyramids inside the cones, or cones), 0 if not
+                   computed, INFINITY if none was found. The   structure stands by itself if this is
+                   0 too */
+  int first_bead; /* that moves fastest in the collapse mechanism just below lower; -1 if lower is 0
+                   */
+  double residual; /* fastest closing of a contact in the mechanism, whose fastest bead moves with
+                      1: how exactly lower is proved */
+  double (*velocity)[6]; /* [n_beads] collapse mechanism: translation of the mass centre, rotation
+                            (1/m), scaled to a largest translation of 1; owned */
   double resists;        /* 1/m: of a stretch, what each newton metre resists of that */
 } thr_holding;
 
-/* Adds to press[n_faces] what the cords press each face with at a pull of 1; tension[i] is cord i's tension per pass. */
-void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *tension, double *press);
+/* Adds to press[n_faces] what the cords press each face with at a pull of 1; tension[i] is cord i's
+ * tension per pass. */
+void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *tension,
+                       double *press);
 
-/* press: thr_holding_press, from 0. THR_EINFEASIBLE if no pull holds it, by a mechanism verified here (says which bead fails:
- * e.g. feet slide); THR_ESOLVER if neither was decided, because tensions span too many powers of ten; THR_ELIMIT when stopped. */
-thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                            bool want_upper, const thr_limits *limits, thr_holding *out, thr_err *err) THR_MUST_CHECK;
+/* press: thr_holding_press, from 0. THR_EINFEASIBLE if no pull holds it, by a mechanism verified
+ * here (says which bead fails: e.g. feet slide); THR_ESOLVER if neither was decided, because
+ * tensions span too many powers of ten; THR_ELIMIT when stopped. */
+thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame,
+                            const thr_physics *physics, const double *press, bool want_upper,
+                            const thr_limits *limits, thr_holding *out,
+                            thr_err *err) THR_MUST_CHECK;
 /* What a load may be multiplied by. */
 typedef struct {
-  double
-      carried; /* at so many times the load an equilibrium exists (friction pyramids inside the cones); 0 if it does not stand */
-  double beyond;  /* above so many times none does (pyramids round the cones), proved by the power balance of a mechanism */
+  double carried; /* at so many times the load an equilibrium exists (friction pyramids inside the
+                     cones); 0 if it does not stand */
+  double beyond;  /* above so many times none does (pyramids round the cones), proved by the power
+                     balance of a mechanism */
   int first_bead; /* that moves fastest in it; -1: not decided, and the rest says nothing */
   double (*velocity)[6]; /* [n_beads] the mechanism, as of a holding; owned */
 } thr_carry;
 
-/* press: thr_holding_press of tensions in N. load: N, [n_beads], acts at the nodes, beside the weights; beads->load is left out.
- * Where beads->rise tells of knotted cord, what is too much is so whatever its tension grows to, and with beads->strength within
- * that; carried (0 unless it is wanted) is what the tensions do that cords have then, else the least ones.
- * THR_ESOLVER if it is not decided: among others where no multiple is too much (a foot pushed into the ground). */
-thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                             const double (*load)[3], bool want_carried, const thr_limits *limits, thr_carry *out,
-                             thr_err *err) THR_MUST_CHECK;
-/* press: thr_holding_press of tensions in N, which are the least that the cords have. Where beads->rise tells of knotted cord,
- * tension grows as it stretches, as friction lets it: lower and upper are N m, the sum of what its passes have grown by, times
- * their lengths, that is needed; beads->load is left out. more[n_rises] receives what they have grown by at upper, N.
- * THR_EINFEASIBLE if it falls however tight these cords get, within beads->strength if it is known: out->velocity proves the
- * latter then, or is NULL. */
-thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                               const thr_limits *limits, thr_holding *out, double *more, thr_err *err) THR_MUST_CHECK;
+/* press: thr_holding_press of tensions in N. load: N, [n_beads], acts at the nodes, beside the
+ * weights; beads->load is left out. Where beads->rise tells of knotted cord, what is too much is so
+ * whatever its tension grows to, and with beads->strength within that; carried (0 unless it is
+ * wanted) is what the tensions do that cords have then, else the least ones. THR_ESOLVER if it is
+ * not decided: among others where no multiple is too much (a foot pushed into the ground). */
+thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame,
+                             const thr_physics *physics, const double *press,
+                             const double (*load)[3], bool want_carried, const thr_limits *limits,
+                             thr_carry *out, thr_err *err) THR_MUST_CHECK;
+/* press: thr_holding_press of tensions in N, which are the least that the cords have. Where
+ * beads->rise tells of knotted cord, tension grows as it stretches, as friction lets it: lower and
+ * upper are N m, the sum of what its passes have grown by, times their lengths, that is needed;
+ * beads->load is left out. more[n_rises] receives what they have grown by at upper, N.
+ * THR_EINFEASIBLE if it falls however tight these cords get, within beads->strength if it is known:
+ * out->velocity proves the latter then, or is NULL. */
+thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame,
+                               const thr_physics *physics, const double *press,
+                               const thr_limits *limits, thr_holding *out, double *more,
+                               thr_err *err) THR_MUST_CHECK;
 void thr_holding_destroy(thr_holding *holding);
 void thr_carry_destroy(thr_carry *carry);
 
@@ -222,30 +263,37 @@ void thr_carry_destroy(thr_carry *carry);
  *
  * Example: rows (1, 0), (0, 1), (1, 1) have rank 2. */
 
-/* Matrix by columns: entries start[j] .. start[j + 1] - 1 of row[] and value[], rows ascending. Columns count as dependent when,
- * with those before them taken out, no more than tolerance of their length is left. THR_ESOLVER if the library fails. Time and
- * memory of a sparse QR factorization: some seconds at 50,000 columns of a shell. */
-thr_status thr_rank(int n_rows, int n_columns, const int *start, const int *row, const double *value, double tolerance, int *rank,
-                    thr_err *err) THR_MUST_CHECK;
+/* Matrix by columns: entries start[j] .. start[j + 1] - 1 of row[] and value[], rows ascending.
+ * Columns count as dependent when, with those before them taken out, no more than tolerance of
+ * their length is left. THR_ESOLVER if the library fails. Time and memory of a sparse QR
+ * factorization: some seconds at 50,000 columns of a shell. */
+thr_status thr_rank(int n_rows, int n_columns, const int *start, const int *row,
+                    const double *value, double tolerance, int *rank, thr_err *err) THR_MUST_CHECK;
 
-/* ---- rigidity.c: Can the framework move without stretching an edge, if its nodes were free hinges (thesis, chapter 3)? What
- * it can, joints that lock must hold. */
+/* ---- rigidity.c: Can the framework move without stretching an edge, if its nodes were free hinges
+ * (thesis, chapter 3)? What it can, joints that lock must hold. */
 
-/* Of the framework with a bar for every edge and a ball joint for every node, summed over its pieces. Counts of independent
- * infinitesimal motions: besides moving and turning as a whole, which a piece does in rigid_motions ways. */
+/* Of the framework with a bar for every edge and a ball joint for every node, summed over its
+ * pieces. Counts of independent infinitesimal motions: besides moving and turning as a whole, which
+ * a piece does in rigid_motions ways. */
 typedef struct {
   int rank;          /* of the rigidity matrix, [n_edges x 3 n_nodes] */
   int rigid_motions; /* 6 of a piece, 5 of a straight one */
-  int motions;       /* 3 n_nodes - rank - rigid_motions: the degrees of freedom; 0 = infinitesimally rigid */
+  int motions; /* 3 n_nodes - rank - rigid_motions: the degrees of freedom; 0 = infinitesimally
+                  rigid */
   int self_stresses; /* n_edges - rank: bars more than their work needs */
   bool flat;         /* all nodes of every piece lie in a plane (and not in a line) */
   int plane_motions; /* flat: motions within the planes; else 0 */
-  int pinned;        /* motions with every foot held in place, the piece's as a whole among them; = all if there are no feet */
-  bool unclear;      /* some motion stretches edges so little that rounding decides; counts are of the finer tolerance */
+  int pinned; /* motions with every foot held in place, the piece's as a whole among them; = all if
+                 there are no feet */
+  bool unclear; /* some motion stretches edges so little that rounding decides; counts are of the
+                   finer tolerance */
 } thr_rigidity;
 
-/* Rows of the matrix are unit vectors along the edges; a part of 1e-9 that is left of a column counts as rounding, and where 1e-6
- * would give another rank, that is said. Own lengths do not matter. Time of a few sparse QR factorizations. */
-thr_status thr_rigidity_find(const thr_frame *frame, thr_rigidity *out, thr_err *err) THR_MUST_CHECK;
+/* Rows of the matrix are unit vectors along the edges; a part of 1e-9 that is left of a column
+ * counts as rounding, and where 1e-6 would give another rank, that is said. Own lengths do not
+ * matter. Time of a few sparse QR factorizations. */
+thr_status thr_rigidity_find(const thr_frame *frame, thr_rigidity *out,
+                             thr_err *err) THR_MUST_CHECK;
 
 #endif

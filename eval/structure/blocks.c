@@ -1,11 +1,12 @@
-/* The framework as rigid blocks, and the linear programme of their equilibrium (eval/structure/holding.c says what for). Private
- * to the limit analysis.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The framework as rigid blocks, and the linear programme of their equilibrium
+ * (eval/structure/holding.c says what for). Private to the limit analysis.
  *
  * Example: two beads merged into one body give six equations, not twelve.
  *
- * Contacts, wrenches and the columns of the programme, which an interior point method solves: the equilibrium of a bead involves
- * its neighbours only, so that the factors stay sparse. The one long column, the pull, is split into a copy for every two
- * beads, tied along a spanning forest. */
+ * Contacts, wrenches and the columns of the programme, which an interior point method solves: the
+ * equilibrium of a bead involves its neighbours only, so that the factors stay sparse. The one long
+ * column, the pull, is split into a copy for every two beads, tied along a spanning forest. */
 #include "eval/structure/blocks.h"
 
 #include "graph/angle.h"
@@ -16,7 +17,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is asked for: the least pull or the largest load; the least that hands must do; forces that balance each other. */
+/* What is asked for: the least pull or the largest load; the least that hands must do; forces that
+ * balance each other. */
 typedef enum { EQUILIBRIUM, WITH_HANDS, SELF_STRESS } aim;
 
 typedef struct {
@@ -55,8 +57,8 @@ static void set_ray(const thr_beads *beads, int e, double mu, double ray[3])
 }
 
 /* along: unit, square to the normal. */
-static thr_contact *add_contact(thr_blocks *s, int bead, int other, const double at[3], const double normal[3],
-                                const double along[3], double mu)
+static thr_contact *add_contact(thr_blocks *s, int bead, int other, const double at[3],
+                                const double normal[3], const double along[3], double mu)
 {
   thr_contact *c = &s->contact[s->n_contacts++];
   *c = (thr_contact){.bead = bead, .other = other};
@@ -102,8 +104,8 @@ static void set_contacts(thr_blocks *s, double widen)
     if (thr_blocks_inside(s, e)) continue;
     set_side(beads, e, side);
     for (int i = 0; i < THR_CORNERS; i++)
-      add_contact(s, s->f->edge[e][1], s->f->edge[e][0], beads->corner[e][i], beads->axis[e], side[0],
-                  widen * s->physics->mu_bead)
+      add_contact(s, s->f->edge[e][1], s->f->edge[e][0], beads->corner[e][i], beads->axis[e],
+                  side[0], widen * s->physics->mu_bead)
           ->press = fmin(s->press[e], s->most) / THR_CORNERS;
   }
   for (int k = 0; k < beads->n_feet; k++)
@@ -124,7 +126,8 @@ static void set_units(thr_blocks *s)
   s->length = beads->width;
   for (int v = 0; v < s->n_bodies; v++)
     if (s->row[v] >= 0) {
-      square += thr_dot(s->wrench[v], s->wrench[v]) + thr_dot(s->wrench[v] + 3, s->wrench[v] + 3) / (s->length * s->length);
+      square += thr_dot(s->wrench[v], s->wrench[v]) +
+                thr_dot(s->wrench[v] + 3, s->wrench[v] + 3) / (s->length * s->length);
       bodies++;
     }
   s->pull = square > 0 ? s->weight / sqrt(square / bodies) : s->weight;
@@ -139,7 +142,8 @@ static void set_bodies(thr_blocks *s, int *parent)
   for (int e = 0; e < beads->n_faces && s->merged; e++)
     if (s->press[e] > s->most) thr_disjoint_join(parent, s->f->edge[e][0], s->f->edge[e][1]);
   for (int i = 0; i < beads->n_rises && s->merged && s->stretches; i++)
-    thr_disjoint_join(parent, s->f->edge[beads->rise[i].face][0], s->f->edge[beads->rise[i].face][1]);
+    thr_disjoint_join(parent, s->f->edge[beads->rise[i].face][0],
+                      s->f->edge[beads->rise[i].face][1]);
   for (int v = 0; v < beads->n_beads; v++) {
     int root = thr_disjoint_find(parent, v);
     if (root == v) memcpy(s->origin[s->n_bodies], beads->mass_centre[v], sizeof *s->origin);
@@ -150,7 +154,8 @@ static void set_bodies(thr_blocks *s, int *parent)
     if (s->row[v] == 0) s->row[v] = s->n_rows, s->n_rows += 6;
 }
 
-static void add_force(const thr_blocks *s, double (*wrench)[6], int bead, const double force[3], const double at[3], double times)
+static void add_force(const thr_blocks *s, double (*wrench)[6], int bead, const double force[3],
+                      const double at[3], double times)
 {
   const int body = s->body[bead];
   double lever[3], moment[3];
@@ -166,16 +171,18 @@ static void add_force(const thr_blocks *s, double (*wrench)[6], int bead, const 
 /* The cords draw the two beads of a face together; the load acts on the nodes. */
 static void set_wrenches(thr_blocks *s)
 {
-  double(*of_cords)[6] = s->carries || s->stretches ? s->given : s->wrench, (*of_load)[6] = s->carries ? s->wrench : s->given;
+  double(*of_cords)[6] = s->carries || s->stretches ? s->given : s->wrench,
+  (*of_load)[6] = s->carries ? s->wrench : s->given;
   for (int e = 0; e < s->b->n_faces; e++)
     for (int side = 0; side < 2 && !thr_blocks_inside(s, e); side++)
-      add_force(s, of_cords, s->f->edge[e][side], s->b->axis[e], s->b->middle[e], (side ? -1 : 1) * fmin(s->press[e], s->most));
+      add_force(s, of_cords, s->f->edge[e][side], s->b->axis[e], s->b->middle[e],
+                (side ? -1 : 1) * fmin(s->press[e], s->most));
   for (int v = 0; v < s->b->n_beads && s->load; v++)
     add_force(s, of_load, v, s->load[v], s->b->centre[v], 1);
 }
 
-/* Two neighbours share a copy of the pull where they can: they have each other's rows anyway. Copies are tied along a spanning
- * forest. */
+/* Two neighbours share a copy of the pull where they can: they have each other's rows anyway.
+ * Copies are tied along a spanning forest. */
 static void set_copies(thr_blocks *s, int *parent)
 {
   s->n_rises = thr_blocks_tightens(s) && !s->merged ? s->b->n_rises : 0;
@@ -222,8 +229,9 @@ thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err)
   const thr_beads *beads = s->b;
   size_t n = (size_t)beads->n_beads;
   int *parent = thr_scratch_array(&s->own, n, sizeof *parent);
-  s->contact = thr_scratch_array(&s->own, (size_t)beads->n_faces * THR_CORNERS + (size_t)beads->n_feet * THR_FOOT_POINTS,
-                                 sizeof *s->contact);
+  s->contact = thr_scratch_array(
+      &s->own, (size_t)beads->n_faces * THR_CORNERS + (size_t)beads->n_feet * THR_FOOT_POINTS,
+      sizeof *s->contact);
   s->body = thr_scratch_array(&s->own, n, sizeof *s->body);
   s->origin = thr_scratch_array(&s->own, n, sizeof *s->origin);
   s->wrench = thr_scratch_array(&s->own, n, sizeof *s->wrench);
@@ -271,8 +279,10 @@ static void column(programme *p)
   p->start[p->n_columns + 1] = p->start[p->n_columns];
 }
 
-/* A force of one weight along ray at the contact. All its entries are kept: those of a face have the same rows. */
-static void contact_entries(const thr_blocks *s, programme *p, const thr_contact *c, int bead, const double ray[3], double sign)
+/* A force of one weight along ray at the contact. All its entries are kept: those of a face have
+ * the same rows. */
+static void contact_entries(const thr_blocks *s, programme *p, const thr_contact *c, int bead,
+                            const double ray[3], double sign)
 {
   int body = bead < 0 ? -1 : s->body[bead];
   if (body < 0 || s->row[body] < 0) return;
@@ -318,12 +328,15 @@ static double tension_unit(const thr_blocks *s)
   return s->carries ? s->weight : s->pull;
 }
 
-/* A cone for every face that cords go through: its height is the pull, by an equation, and across it is the pull times where the
- * cord is, in parts of the play. Where cords tighten its height is their tension. */
+/* A cone for every face that cords go through: its height is the pull, by an equation, and across
+ * it is the pull times where the cord is, in parts of the play. Where cords tighten its height is
+ * their tension. */
 static void play_columns(const thr_blocks *s, programme *p)
 {
   const bool tightens = thr_blocks_tightens(s);
-  const double unit = tightens ? tension_unit(s) / s->weight : s->carries ? 1 / s->weight : s->pull / s->weight;
+  const double unit = tightens     ? tension_unit(s) / s->weight
+                      : s->carries ? 1 / s->weight
+                                   : s->pull / s->weight;
   const int first = s->n_rows + s->n_ties;
   for (int i = 0; i < s->n_plays; i++) {
     const int e = s->play[i];
@@ -338,7 +351,8 @@ static void play_columns(const thr_blocks *s, programme *p)
         memset(moment, 0, sizeof moment);
       for (int which = 0; which < 2; which++) {
         const int row = s->row[s->body[s->f->edge[e][which]]];
-        const double arm = (which ? -1 : 1) * unit * s->b->play * (tightens ? 1 : fmin(s->press[e], s->most)) / s->length;
+        const double arm = (which ? -1 : 1) * unit * s->b->play *
+                           (tightens ? 1 : fmin(s->press[e], s->most)) / s->length;
         for (int j = 0; j < 3 && row >= 0; j++)
           entry(p, row + 3 + j, arm * moment[j]);
       }
@@ -360,14 +374,16 @@ static void pull_columns(const thr_blocks *s, programme *p, double cost)
       for (int k = 0; k < 6 && s->copy[v] == c && s->row[v] >= 0; k++)
         entry(p, s->row[v] + k, unit * s->wrench[v][k] / (k < 3 ? 1 : s->length));
     for (int t = 0; t < s->n_ties; t++)
-      if (s->tie[t][0] == c || s->tie[t][1] == c) entry(p, s->n_rows + t, s->tie[t][0] == c ? 1 : -1);
+      if (s->tie[t][0] == c || s->tie[t][1] == c)
+        entry(p, s->n_rows + t, s->tie[t][0] == c ? 1 : -1);
     for (int i = 0; i < s->n_plays && !s->carries; i++)
       if (s->copy[s->body[s->f->edge[s->play[i]][0]]] == c) entry(p, s->n_rows + s->n_ties + i, -1);
   }
 }
 
-/* Two rows for every pass whose tension is unknown, of the turn behind it: neither of the tensions on its two sides is more than
- * `holds` times the other. A third one says what the cord bears, if that is known. */
+/* Two rows for every pass whose tension is unknown, of the turn behind it: neither of the tensions
+ * on its two sides is more than `holds` times the other. A third one says what the cord bears, if
+ * that is known. */
 static int rows_of_a_rise(const thr_blocks *s)
 {
   return s->b->strength > 0 ? 3 : 2;
@@ -395,19 +411,22 @@ static void rise_entries(const thr_blocks *s, programme *p, int e)
       lever[k] = (s->b->middle[e][k] - s->origin[body][k]) / s->length;
     thr_cross(lever, s->b->axis[e], moment);
     for (int k = 0; k < 6; k++)
-      entry(p, s->row[body] + k, (which ? -unit : unit) * (k < 3 ? s->b->axis[e][k] : moment[k - 3]));
+      entry(p, s->row[body] + k,
+            (which ? -unit : unit) * (k < 3 ? s->b->axis[e][k] : moment[k - 3]));
   }
   if (s->play_of[e] >= 0) entry(p, s->n_rows + s->n_ties + s->play_of[e], -1);
 }
 
-/* Does the cord go straight on behind a pass? The tensions on both sides are equal then, which is one equation. */
+/* Does the cord go straight on behind a pass? The tensions on both sides are equal then, which is
+ * one equation. */
 static bool goes_straight(const thr_rise *rise)
 {
   return rise->exponent >= 0 && rise->exponent < 1e-9;
 }
 
-/* By how much more than the least the tension of each pass may be, at the cost of the cord's length there, and what is left at
- * each turn and below the strength. Where no turn is both count for what is left, so that there is an interior. */
+/* By how much more than the least the tension of each pass may be, at the cost of the cord's length
+ * there, and what is left at each turn and below the strength. Where no turn is both count for what
+ * is left, so that there is an interior. */
 static void rise_columns(const thr_blocks *s, programme *p, double cost)
 {
   const thr_rise *rise = s->b->rise;
@@ -415,8 +434,10 @@ static void rise_columns(const thr_blocks *s, programme *p, double cost)
   for (int i = 0; i < s->n_rises; i++) {
     const int row = first_row_of_a_rise(s, i), rows = rows_of_a_rise(s);
     const bool goes_on = rise[i].exponent >= 0, went_on = i > 0 && rise[i - 1].exponent >= 0;
-    const bool turns = goes_on && !goes_straight(&rise[i]), turned = went_on && !goes_straight(&rise[i - 1]);
-    const double holds = turns ? exp(rise[i].exponent) : 1, held = turned ? exp(rise[i - 1].exponent) : 1;
+    const bool turns = goes_on && !goes_straight(&rise[i]),
+               turned = went_on && !goes_straight(&rise[i - 1]);
+    const double holds = turns ? exp(rise[i].exponent) : 1,
+                 held = turned ? exp(rise[i - 1].exponent) : 1;
 
     column(p);
     p->cost[p->n_costs++] = cost * rise[i].length / s->length;
@@ -431,7 +452,8 @@ static void rise_columns(const thr_blocks *s, programme *p, double cost)
     p->rhs[row] = goes_on ? (rise[i + 1].least - rise[i].least / holds) / unit : 1;
     p->rhs[row + 1] = turns ? (rise[i].least - rise[i + 1].least / holds) / unit : goes_on ? 2 : 1;
     if (turns) p->rhs[row] = fmax(0, p->rhs[row]), p->rhs[row + 1] = fmax(0, p->rhs[row + 1]);
-    if (rows > 2) p->rhs[row + 2] = fmax(1e-6 * s->b->strength, s->b->strength - rise[i].least) / unit;
+    if (rows > 2)
+      p->rhs[row + 2] = fmax(1e-6 * s->b->strength, s->b->strength - rise[i].least) / unit;
     for (int k = 0; k < rows; k++, p->n_columns++) {
       column(p);
       p->cost[p->n_costs++] = 0;
@@ -483,9 +505,10 @@ static thr_status programme_make(const thr_blocks *s, aim what, programme *p, th
 {
   const bool hands = what != EQUILIBRIUM;
   size_t n = (size_t)s->n_bodies, cones = (size_t)count_cones(s), rays = (size_t)s->b->rays;
-  size_t others = n + 4 * (size_t)s->n_rises + (hands ? 2 * (size_t)s->n_rows : 0), columns = 3 * cones + others;
-  size_t entries =
-      39 * cones + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows + (size_t)s->n_plays + 21 * (size_t)s->n_rises;
+  size_t others = n + 4 * (size_t)s->n_rises + (hands ? 2 * (size_t)s->n_rows : 0),
+         columns = 3 * cones + others;
+  size_t entries = 39 * cones + 6 * n + 2 * (size_t)s->n_ties + 2 * (size_t)s->n_rows +
+                   (size_t)s->n_plays + 21 * (size_t)s->n_rises;
   *p = (programme){0};
   p->rhs = thr_scratch_array(&p->own, (size_t)count_rows(s), sizeof *p->rhs);
   p->cost = thr_scratch_array(&p->own, rays * cones + others, sizeof *p->cost);
@@ -536,10 +559,12 @@ static double outside(const thr_blocks *s, const double *x)
 }
 
 /* Objective, and the largest difference between A x and rhs. */
-static thr_status finish(const thr_blocks *s, const programme *p, thr_blocks_solution *o, thr_err *err)
+static thr_status finish(const thr_blocks *s, const programme *p, thr_blocks_solution *o,
+                         thr_err *err)
 {
   const thr_columns a = columns_of(s, p);
-  const thr_rays rays = {count_cones(s), s->b->rays, a.n_columns - 3 * count_cones(s), p->kind, (const double(*)[3])p->ray};
+  const thr_rays rays = {count_cones(s), s->b->rays, a.n_columns - 3 * count_cones(s), p->kind,
+                         (const double(*)[3])p->ray};
   thr_scratch own = {0};
   double *left = thr_scratch_array(&own, (size_t)a.n_rows, sizeof *left);
   double *u = thr_scratch_array(&own, (size_t)a.n_columns, sizeof *u);
@@ -562,8 +587,8 @@ static thr_status finish(const thr_blocks *s, const programme *p, thr_blocks_sol
   return st;
 }
 
-/* What the cords press the contacts with at the pull that is guessed, and no less than a weight; the ground carries all weights:
- * balanced but for those. */
+/* What the cords press the contacts with at the pull that is guessed, and no less than a weight;
+ * the ground carries all weights: balanced but for those. */
 static void guess_forces(const thr_blocks *s, double *x)
 {
   const double pull = s->carries ? 1 : s->guess;
@@ -571,7 +596,8 @@ static void guess_forces(const thr_blocks *s, double *x)
   for (int i = 0; i < s->n_contacts; i++)
     on_ground += s->contact[i].other < 0;
   for (int i = 0; i < s->n_contacts; i++)
-    x[3 * i] = s->contact[i].other < 0 ? (double)s->b->n_beads / on_ground : fmax(1, pull * s->contact[i].press / s->weight);
+    x[3 * i] = s->contact[i].other < 0 ? (double)s->b->n_beads / on_ground
+                                       : fmax(1, pull * s->contact[i].press / s->weight);
   for (int c = 0; c < s->n_copies; c++)
     x[3 * count_cones(s) + c] = s->carries ? 1 : pull / s->pull;
   for (int i = s->n_contacts; i < count_cones(s); i++)
@@ -587,41 +613,43 @@ static double relative(const thr_blocks *s, const programme *p, double weights)
   return weights / largest;
 }
 
-static thr_status solve_round(const thr_blocks *s, const programme *p, const thr_limits *limits, thr_interior *found,
-                              thr_err *err)
+static thr_status solve_round(const thr_blocks *s, const programme *p, const thr_limits *limits,
+                              thr_interior *found, thr_err *err)
 {
   guess_forces(s, found->x);
-  const thr_cone_equations equations = {.a = columns_of(s, p),
-                                        .rhs = p->rhs,
-                                        .cost = p->cost,
-                                        .goal =
-                                            s->merged ? 1e-9 : THR_BLOCKS_ROUGH, /* of merged ones no rounding is made up for */
-                                        .met = relative(s, p, s->merged ? THR_BLOCKS_UNMET : THR_BLOCKS_MET),
-                                        .start = found->x,
-                                        .n_cones = count_cones(s)};
+  const thr_cone_equations equations = {
+      .a = columns_of(s, p),
+      .rhs = p->rhs,
+      .cost = p->cost,
+      .goal = s->merged ? 1e-9 : THR_BLOCKS_ROUGH, /* of merged ones no rounding is made up for */
+      .met = relative(s, p, s->merged ? THR_BLOCKS_UNMET : THR_BLOCKS_MET),
+      .start = found->x,
+      .n_cones = count_cones(s)};
   return thr_cones_solve(&equations, limits, found, err);
 }
 
-static thr_status solve_pyramids(const thr_blocks *s, const programme *p, const thr_limits *limits, thr_interior *found,
-                                 thr_err *err)
+static thr_status solve_pyramids(const thr_blocks *s, const programme *p, const thr_limits *limits,
+                                 thr_interior *found, thr_err *err)
 {
   const bool large = s->n_bodies > THR_BLOCKS_LARGE;
-  const thr_equations equations = {.a = columns_of(s, p),
-                                   .rhs = p->rhs,
-                                   .cost = p->cost,
-                                   .goal = !large     ? 0
-                                           : s->bound ? THR_BLOCKS_ROUGH
-                                                      : 2 * THR_BLOCKS_ROUGH,
-                                   .met = large ? relative(s, p, s->bound ? THR_BLOCKS_UNMET : THR_BLOCKS_MET) : 0,
-                                   .warm = large ? s->warm : NULL,
-                                   .n_cones = count_cones(s),
-                                   .n_rays = s->b->rays,
-                                   .kind = p->kind,
-                                   .ray = (const double(*)[3])p->ray};
+  const thr_equations equations = {
+      .a = columns_of(s, p),
+      .rhs = p->rhs,
+      .cost = p->cost,
+      .goal = !large     ? 0
+              : s->bound ? THR_BLOCKS_ROUGH
+                         : 2 * THR_BLOCKS_ROUGH,
+      .met = large ? relative(s, p, s->bound ? THR_BLOCKS_UNMET : THR_BLOCKS_MET) : 0,
+      .warm = large ? s->warm : NULL,
+      .n_cones = count_cones(s),
+      .n_rays = s->b->rays,
+      .kind = p->kind,
+      .ray = (const double(*)[3])p->ray};
   return thr_interior_solve(&equations, limits, found, err);
 }
 
-static thr_status solve(const thr_blocks *s, aim what, const thr_limits *limits, thr_blocks_solution *out, thr_err *err)
+static thr_status solve(const thr_blocks *s, aim what, const thr_limits *limits,
+                        thr_blocks_solution *out, thr_err *err)
 {
   programme p;
   *out = (thr_blocks_solution){0};
@@ -633,20 +661,24 @@ static thr_status solve(const thr_blocks *s, aim what, const thr_limits *limits,
   if (!out->x || !out->dual) st = thr_nomem(err);
   if (!st) st = (s->round ? solve_round : solve_pyramids)(s, &p, limits, &found, err);
   out->outcome = found.outcome;
-  if (!st && out->outcome == THR_LP_STOPPED) st = thr_fail(err, THR_ELIMIT, "stopped before the holding pull was found");
+  if (!st && out->outcome == THR_LP_STOPPED)
+    st = thr_fail(err, THR_ELIMIT, "stopped before the holding pull was found");
   if (!st) st = finish(s, &p, out, err);
   programme_destroy(&p);
   if (st) thr_blocks_solution_destroy(out);
   return st;
 }
 
-thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits, thr_blocks_solution *out, thr_err *err)
+thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits,
+                            thr_blocks_solution *out, thr_err *err)
 {
   return solve(s, hands ? WITH_HANDS : EQUILIBRIUM, limits, out, err);
 }
 
-/* The equation of the sum takes the place of those that tie the copies of the pull, which is not there. */
-thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits, thr_blocks_solution *out, thr_err *err)
+/* The equation of the sum takes the place of those that tie the copies of the pull, which is not
+ * there. */
+thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits,
+                                  thr_blocks_solution *out, thr_err *err)
 {
   thr_blocks alone = *s;
   alone.round = false;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the files of eval/structure/ share: blocks, mechanisms, welds, the simulation. */
 #ifndef THR_BLOCKS_H
 #define THR_BLOCKS_H
@@ -10,48 +11,50 @@
 
 #include <stdbool.h>
 
-/* ---- blocks.c: The framework as rigid blocks, and the linear programme of their equilibrium (eval/structure/holding.c says
- * what for). */
+/* ---- blocks.c: The framework as rigid blocks, and the linear programme of their equilibrium
+ * (eval/structure/holding.c says what for). */
 
-/* Beads from which on the solver's bounds need not be nearer to each other than THR_BLOCKS_ROUGH, relative; twice that where the
- * multipliers do not count. */
+/* Beads from which on the solver's bounds need not be nearer to each other than THR_BLOCKS_ROUGH,
+ * relative; twice that where the multipliers do not count. */
 enum { THR_BLOCKS_LARGE = 1000 };
 enum { THR_CORNERS = 4 }; /* contacts of a face, one after the other, faces before feet */
 static const double THR_BLOCKS_ROUGH = 5e-4;
-/* How far the equations are met then, in weights; and where only the multipliers count: their bound is proved by itself. */
+/* How far the equations are met then, in weights; and where only the multipliers count: their bound
+ * is proved by itself. */
 static const double THR_BLOCKS_MET = 5e-6, THR_BLOCKS_UNMET = 1e-3;
 
 typedef struct {
-  int bead, other;          /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
-  double press;             /* N: its share of what the cords press its face with, as thr_blocks.press */
+  int bead, other; /* pushed along the rays of the friction pyramid; pushed back, -1 = the ground */
+  double press;    /* N: its share of what the cords press its face with, as thr_blocks.press */
   double at[3], axis[3][3]; /* normal and tangents */
   double ray[THR_MOST_RAYS][3];
 } thr_contact;
 
-/* Bodies are beads, or sets of beads that move as one. Forces are counted in weights of a mean bead, lengths in `length`, the
- * pull in `pull`: numbers near 1 for the solver. */
+/* Bodies are beads, or sets of beads that move as one. Forces are counted in weights of a mean
+ * bead, lengths in `length`, the pull in `pull`: numbers near 1 for the solver. */
 typedef struct {
   const thr_beads *b;
   const thr_frame *f;
   const thr_physics *physics;
-  const double *press;         /* [n_faces] of a pull of 1; N where the load is asked for */
-  const double (*load)[3];     /* [n_beads] N, at its node; NULL = none */
-  thr_warm *warm;              /* where a large programme may start, and leaves a start for the next; NULL ok */
-  bool bound;                  /* only the multipliers count */
-  bool round;                  /* contact forces are within cones, not pyramids .. */
-  double guess;                /* .. and N: a pull that is enough, not a thousand times too much */
-  bool outside;                /* all that may be: cords anywhere within their bores, polygons round the discs of feet; else cords
-                                  in the middle, and polygons inside */
-  bool stretches;              /* the unknown is how much more tension than the least there is in the passes that b->rise tells,
-                                  each newton at the cost of their lengths; the rest is given */
-  bool carries;                /* the unknown is not the pull but what the load is multiplied by */
-  double most;                 /* press above it is taken for it .. */
-  bool merged;                 /* .. and the beads on either side for one body */
-  const int *weld;             /* [n_beads] beads with equal numbers are one body (welds.c); NULL = none are */
+  const double *press;     /* [n_faces] of a pull of 1; N where the load is asked for */
+  const double (*load)[3]; /* [n_beads] N, at its node; NULL = none */
+  thr_warm *warm; /* where a large programme may start, and leaves a start for the next; NULL ok */
+  bool bound;     /* only the multipliers count */
+  bool round;     /* contact forces are within cones, not pyramids .. */
+  double guess;   /* .. and N: a pull that is enough, not a thousand times too much */
+  bool outside;   /* all that may be: cords anywhere within their bores, polygons round the discs of
+                     feet; else cords   in the middle, and polygons inside */
+  bool stretches; /* the unknown is how much more tension than the least there is in the passes that
+                     b->rise tells, each newton at the cost of their lengths; the rest is given */
+  bool carries;   /* the unknown is not the pull but what the load is multiplied by */
+  double most;    /* press above it is taken for it .. */
+  bool merged;    /* .. and the beads on either side for one body */
+  const int *weld; /* [n_beads] beads with equal numbers are one body (welds.c); NULL = none are */
   double weight, length, pull; /* N, m, N */
   double widen;                /* factor on friction */
   int n_bodies, n_contacts, n_rows, n_copies, n_ties, n_plays;
-  int n_rises; /* passes whose tension is unknown: all of b->rise, or none. When stretched n_copies is 0 */
+  int n_rises; /* passes whose tension is unknown: all of b->rise, or none. When stretched n_copies
+                  is 0 */
   thr_contact *contact;
   int *body;           /* [n_beads] */
   double (*origin)[3]; /* [n_bodies] where moments are taken about, m */
@@ -82,62 +85,69 @@ double thr_blocks_friction(const thr_blocks *s, const thr_contact *contact);
 /* Do knotted cords tighten, within what they bear? */
 bool thr_blocks_tightens(const thr_blocks *s);
 
-/* Columns that the programme has for each of these passes, the first one what its tension has grown by. */
+/* Columns that the programme has for each of these passes, the first one what its tension has grown
+ * by. */
 int thr_blocks_columns_of_a_rise(const thr_blocks *s);
 
 /* Is the face within a body, or between two that are held? */
 bool thr_blocks_inside(const thr_blocks *s, int face);
 
-/* From s->b, f, physics, press, load, outside, stretches, carries, most, merged and weld; the rest is 0. widen: factor on
- * friction. s is freed on failure. */
+/* From s->b, f, physics, press, load, outside, stretches, carries, most, merged and weld; the rest
+ * is 0. widen: factor on friction. s is freed on failure. */
 thr_status thr_blocks_make(thr_blocks *s, double widen, thr_err *err) THR_MUST_CHECK;
 void thr_blocks_destroy(thr_blocks *s);
 
-/* The least pull, or the largest load, at which they are in equilibrium; with hands, that push and turn each bead at a cost, the
- * least of that cost. THR_ELIMIT when stopped. Release out whatever comes back. */
-thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits, thr_blocks_solution *out,
-                            thr_err *err) THR_MUST_CHECK;
+/* The least pull, or the largest load, at which they are in equilibrium; with hands, that push and
+ * turn each bead at a cost, the least of that cost. THR_ELIMIT when stopped. Release out whatever
+ * comes back. */
+thr_status thr_blocks_solve(const thr_blocks *s, bool hands, const thr_limits *limits,
+                            thr_blocks_solution *out, thr_err *err) THR_MUST_CHECK;
 
-/* Contact forces that balance each other without any weight or cord, of one on the mean: hands that push and turn do what is
- * missing, at a cost. With the cost 0 they are a self-stress, x of each contact's rays; else the multipliers are velocities that
- * open every contact. Release out whatever comes back. */
-thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits, thr_blocks_solution *out,
-                                  thr_err *err) THR_MUST_CHECK;
+/* Contact forces that balance each other without any weight or cord, of one on the mean: hands that
+ * push and turn do what is missing, at a cost. With the cost 0 they are a self-stress, x of each
+ * contact's rays; else the multipliers are velocities that open every contact. Release out whatever
+ * comes back. */
+thr_status thr_blocks_self_stress(const thr_blocks *s, const thr_limits *limits,
+                                  thr_blocks_solution *out, thr_err *err) THR_MUST_CHECK;
 void thr_blocks_solution_destroy(thr_blocks_solution *o);
 
-/* ---- mechanism.c: Collapse mechanisms of rigid blocks: velocities of all beads, with which no contact closes, and the powers
- * of what acts on them. */
+/* ---- mechanism.c: Collapse mechanisms of rigid blocks: velocities of all beads, with which no
+ * contact closes, and the powers of what acts on them. */
 
-/* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull, W/N, by their true tensions; the
- * load. all, all_loads: of all weights, and loads, if each went its own way with the speed 1. */
+/* Powers: weights, W; the same if all went straight down; cords' resistance per newton of pull,
+ * W/N, by their true tensions; the load. all, all_loads: of all weights, and loads, if each went
+ * its own way with the speed 1. */
 typedef struct {
   double falling, most, resistance, load, all, all_loads;
 } thr_powers;
 
-/* What drives a mechanism has to be more than this part of all that could: twice what the checker asks for, which counts the
- * fastest point and not the fastest bead (graph/check/check_standing.c). */
+/* What drives a mechanism has to be more than this part of all that could: twice what the checker
+ * asks for, which counts the fastest point and not the fastest bead (graph/check/check_standing.c).
+ */
 static const double THR_MECHANISM_DRIVE = 2e-7;
 
-/* Dual values of thr_blocks_solve as velocities [n_beads], scaled to a largest translation of 1. Contacts that would close are
- * opened by a little flight. */
-thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, const thr_limits *limits, double (*velocity)[6],
-                              thr_err *err) THR_MUST_CHECK;
+/* Dual values of thr_blocks_solve as velocities [n_beads], scaled to a largest translation of 1.
+ * Contacts that would close are opened by a little flight. */
+thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, const thr_limits *limits,
+                              double (*velocity)[6], thr_err *err) THR_MUST_CHECK;
 
 /* Least power of any contact force: a mechanism has none below 0. */
 double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6]);
 
-/* How fast the beads of a face part where the cord is that resists most: anywhere within its bore. */
+/* How fast the beads of a face part where the cord is that resists most: anywhere within its bore.
+ */
 double thr_mechanism_parting(const thr_blocks *s, const double (*velocity)[6], int face);
 
-/* Computes how fast the faces of s->b->rise part, as above, into apart[n_rises]. Returns the most for each metre of the cord
- * there, or 0: the most that a newton metre of stretch resists, 1/m. */
+/* Computes how fast the faces of s->b->rise part, as above, into apart[n_rises]. Returns the most
+ * for each metre of the cord there, or 0: the most that a newton metre of stretch resists, 1/m. */
 double thr_mechanism_stretching(const thr_blocks *s, const double (*velocity)[6], double *apart);
 
-/* Computes what knotted cords can resist beyond their least tensions (graph/plan/knotted.c), W, within their strength and while
- * they have stretched by no more than `stretch`, N m (INFINITY: any), of which each newton metre takes off `resists`.
- * apart[n_rises] as above; pass[n_rises] and point[n_rises + 2] are scratch. */
-double thr_mechanism_tightening(const thr_beads *beads, const double *apart, double resists, double stretch,
-                                thr_knotted_pass *pass, double (*point)[2]);
+/* Computes what knotted cords can resist beyond their least tensions (graph/plan/knotted.c), W,
+ * within their strength and while they have stretched by no more than `stretch`, N m (INFINITY:
+ * any), of which each newton metre takes off `resists`. apart[n_rises] as above; pass[n_rises] and
+ * point[n_rises + 2] are scratch. */
+double thr_mechanism_tightening(const thr_beads *beads, const double *apart, double resists,
+                                double stretch, thr_knotted_pass *pass, double (*point)[2]);
 
 thr_powers thr_mechanism_balance(const thr_blocks *s, const double (*velocity)[6]);
 
@@ -146,11 +156,13 @@ int thr_mechanism_fastest(const thr_beads *beads, const double (*velocity)[6]);
 
 /* ---- welds.c: Welds: what held feet wedge. */
 
-/* weld[n_beads]: the lowest bead of the body that each bead is of, with s->weld = weld; s is as for thr_blocks_make. */
-thr_status thr_welds_find(const thr_blocks *s, double widen, const thr_limits *limits, int *weld, thr_err *err) THR_MUST_CHECK;
+/* weld[n_beads]: the lowest bead of the body that each bead is of, with s->weld = weld; s is as for
+ * thr_blocks_make. */
+thr_status thr_welds_find(const thr_blocks *s, double widen, const thr_limits *limits, int *weld,
+                          thr_err *err) THR_MUST_CHECK;
 
-/* ---- simulated.c: The closed structure as a world of Bullet: rigid beads that touch at the corners of their faces, feet on
- * patches of ground, cords as forces between beads. */
+/* ---- simulated.c: The closed structure as a world of Bullet: rigid beads that touch at the
+ * corners of their faces, feet on patches of ground, cords as forces between beads. */
 
 enum { THR_LOOKS = 10 }; /* that are remembered */
 
@@ -186,12 +198,14 @@ typedef struct {
   uint64_t seed;                /* of small initial displacements */
 } thr_simulated_options;
 
-/* m has b, f, physics, limits, cord, n_cords, tension and most; the rest is 0. End it whatever comes back. */
+/* m has b, f, physics, limits, cord, n_cords, tension and most; the rest is 0. End it whatever
+ * comes back. */
 thr_status thr_simulated_begin(thr_simulated *m, thr_err *err) THR_MUST_CHECK;
 void thr_simulated_end(thr_simulated *m);
 
 /* A fresh world as drawn, which is home; the old one goes. */
-thr_status thr_simulated_build(thr_simulated *m, const thr_simulated_options *options, thr_err *err) THR_MUST_CHECK;
+thr_status thr_simulated_build(thr_simulated *m, const thr_simulated_options *options,
+                               thr_err *err) THR_MUST_CHECK;
 /* At m->pull and m->lift. THR_ELIMIT when stopped. */
 thr_status thr_simulated_step(thr_simulated *m, thr_err *err) THR_MUST_CHECK;
 /* Part of the velocity that is lost in a unit of time. */
@@ -202,7 +216,8 @@ long thr_simulated_steps(const thr_simulated *m, double time);
 void thr_simulated_set_home(thr_simulated *m);
 /* How far the bead that moved most is from home, in edges. */
 double thr_simulated_most_moved(const thr_simulated *m, int *bead);
-/* How far the bead that moved most has moved within the last THR_LOOKS looks, of which this is the next; 0 before so many. */
+/* How far the bead that moved most has moved within the last THR_LOOKS looks, of which this is the
+ * next; 0 before so many. */
 double thr_simulated_moved_lately(thr_simulated *m, long look, int *bead);
 /* Widest opening of any face, at its corners, in edges. */
 double thr_simulated_widest_gap(const thr_simulated *m);

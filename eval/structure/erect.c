@@ -1,11 +1,15 @@
-/* How the structure comes up: the same beads and cords as in settle.c, sunk down under slack cords, then drawn in.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How the structure comes up: the same beads and cords as in settle.c, sunk down under slack cords,
+ * then drawn in.
  *
- * A heap under tight cords does not rise by itself: faces that lean on each other's edges lock. A counterweight over every bead
- * (the thesis's Fig. 25) that carries a part of its weight lets the cords close the gaps. The least of five parts that does is
- * found by trying. Cords lead from hole to hole and have the tensions of being drawn in; beads without feet come to lie on the
- * ground, too.
+ * A heap under tight cords does not rise by itself: faces that lean on each other's edges lock. A
+ * counterweight over every bead (the thesis's Fig. 25) that carries a part of its weight lets the
+ * cords close the gaps. The least of five parts that does is found by trying. Cords lead from hole
+ * to hole and have the tensions of being drawn in; beads without feet come to lie on the ground,
+ * too.
  *
- * This is a picture of one way up, not a proof: friction, damping and the way down are the simulation's. */
+ * This is a picture of one way up, not a proof: friction, damping and the way down are the
+ * simulation's. */
 #include "eval/structure/blocks.h"
 #include "graph/plan/evaluation.h"
 
@@ -38,11 +42,12 @@ static void take_still(const thr_simulated *m, int i, thr_erect *out)
 {
   double(*pose)[7] = out->pose + i * m->b->n_beads;
   thr_simulated_take_poses(m, pose);
-  out->still[i] = (thr_erect_still){.pull = m->pull,
-                                    .lift = m->lift,
-                                    .height = 1e3 * height_of((const double(*)[7])pose, m->b->n_beads),
-                                    .gap = 1e3 * m->unit * thr_simulated_widest_gap(m),
-                                    .closed = thr_simulated_closed(m, THR_SEATED)};
+  out->still[i] =
+      (thr_erect_still){.pull = m->pull,
+                        .lift = m->lift,
+                        .height = 1e3 * height_of((const double(*)[7])pose, m->b->n_beads),
+                        .gap = 1e3 * m->unit * thr_simulated_widest_gap(m),
+                        .closed = thr_simulated_closed(m, THR_SEATED)};
 }
 
 static thr_status rest(thr_simulated *m, double time, thr_err *err)
@@ -58,7 +63,8 @@ static thr_status sink(thr_simulated *m, double pull, thr_err *err)
   int bead;
   thr_status s = THR_OK;
   m->pull = SLACK * pull;
-  for (long i = thr_simulated_steps(m, SINK_TIME); i > 0 && !s && thr_simulated_most_moved(m, &bead) < SUNK; i--)
+  for (long i = thr_simulated_steps(m, SINK_TIME);
+       i > 0 && !s && thr_simulated_most_moved(m, &bead) < SUNK; i--)
     s = thr_simulated_step(m, err);
   return s;
 }
@@ -90,9 +96,11 @@ static thr_status let_alone(thr_simulated *m, double lift, thr_err *err)
   return s;
 }
 
-static thr_status attempt(thr_simulated *m, const thr_erect_options *options, double lift, thr_erect *out, thr_err *err)
+static thr_status attempt(thr_simulated *m, const thr_erect_options *options, double lift,
+                          thr_erect *out, thr_err *err)
 {
-  const thr_simulated_options world = {options->time_step, ROUGH * options->iterations, options->seed};
+  const thr_simulated_options world = {options->time_step, ROUGH * options->iterations,
+                                       options->seed};
   thr_status s = thr_simulated_build(m, &world, err);
   if (s) return s;
   m->all = PARTS * thr_simulated_steps(m, SINK_TIME + DRAW_TIME + ALONE_TIME + 2 * REST_TIME);
@@ -117,17 +125,24 @@ static bool is_up(const thr_simulated *m, const thr_erect *e)
   return last->gap < UP_GAP * 1e3 * m->unit && last->height > UP_HEIGHT * e->drawn;
 }
 
-thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord, int n_cords,
-                         const double *const *tension, const thr_physics *physics, const thr_erect_options *options,
-                         const thr_limits *limits, thr_erect *out, thr_err *err)
+thr_status thr_erect_run(const thr_beads *beads, const thr_frame *frame, const thr_cord *cord,
+                         int n_cords, const double *const *tension, const thr_physics *physics,
+                         const thr_erect_options *options, const thr_limits *limits, thr_erect *out,
+                         thr_err *err)
 {
   *out = (thr_erect){.lift = NAN};
   if (!(options->pull > 0 && options->pull <= 1e12))
-    return thr_fail(err, THR_EINPUT, "structure: a pull of %g N draws nothing up: give more than 0 and at most 1e12",
+    return thr_fail(err, THR_EINPUT,
+                    "structure: a pull of %g N draws nothing up: give more than 0 and at most 1e12",
                     options->pull);
   if (beads->n_beads > thr_settle_largest(false)) return THR_OK;
-  thr_simulated m = {
-      .b = beads, .f = frame, .physics = physics, .limits = limits, .cord = cord, .n_cords = n_cords, .tension = tension};
+  thr_simulated m = {.b = beads,
+                     .f = frame,
+                     .physics = physics,
+                     .limits = limits,
+                     .cord = cord,
+                     .n_cords = n_cords,
+                     .tension = tension};
   out->present = true;
   out->n_beads = beads->n_beads;
   out->n_gaps = beads->n_faces;

@@ -1,22 +1,29 @@
-/* Holding pull: least pull at which the closed structure of rigid beads has any equilibrium while the cords are being drawn in:
- * their tension falls from the pulled ends inwards. A cord that was pulled and let go keeps tension inside, since friction acts
- * against either direction, and may hold at a hundredth of it. Rigid-block limit analysis (R. K. Livesley, "Limit analysis of
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Holding pull: least pull at which the closed structure of rigid beads has any equilibrium while
+ * the cords are being drawn in: their tension falls from the pulled ends inwards. A cord that was
+ * pulled and let go keeps tension inside, since friction acts against either direction, and may
+ * hold at a hundredth of it. Rigid-block limit analysis (R. K. Livesley, "Limit analysis of
  * structures formed from rigid blocks", 1978) as a linear programme.
  *
- * Minimize the pull P with: contact forces of every bead + P x wrenches of its cords + weight = 0, contact forces within their
- * (linearized) friction cones. Its dual is a mechanism, and the power of that is the proved bound.
+ * Minimize the pull P with: contact forces of every bead + P x wrenches of its cords + weight = 0,
+ * contact forces within their (linearized) friction cones. Its dual is a mechanism, and the power
+ * of that is the proved bound.
  *
- * Example: a bead of 1 N held by friction 0.5 between two faces needs a pressure of 1 N on each: 2 x 0.5 x 1 = 1.
+ * Example: a bead of 1 N held by friction 0.5 between two faces needs a pressure of 1 N on each: 2
+ * x 0.5 x 1 = 1.
  *
- * The least pull by the programme of eval/structure/blocks.h. What the solver says is not believed: its dual values are made an
- * exactly feasible mechanism (mechanism.c), whose power balance is the bound.
+ * The least pull by the programme of eval/structure/blocks.h. What the solver says is not believed:
+ * its dual values are made an exactly feasible mechanism (mechanism.c), whose power balance is the
+ * bound.
  *
- * Beyond 1,000 beads contact forces are within the cones themselves: one programme then tells both bounds, sooner than two with
- * pyramids, which are the rest's, and what is left where that one fails.
+ * Beyond 1,000 beads contact forces are within the cones themselves: one programme then tells both
+ * bounds, sooner than two with pyramids, which are the rest's, and what is left where that one
+ * fails.
  *
- * Tensions may span more powers of ten than a double has digits. Two things are true whatever they span, and keep the numbers
- * tame: equilibrium with some tensions taken smaller is equilibrium (the cords press a face together with what they draw its
- * beads together; more of both changes nothing else), and a mechanism in which some beads move as one is a mechanism. */
+ * Tensions may span more powers of ten than a double has digits. Two things are true whatever they
+ * span, and keep the numbers tame: equilibrium with some tensions taken smaller is equilibrium (the
+ * cords press a face together with what they draw its beads together; more of both changes nothing
+ * else), and a mechanism in which some beads move as one is a mechanism. */
 
 #include "eval/structure/blocks.h"
 
@@ -28,14 +35,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Tensions are capped at so many times the least one, until the bound closes: further apart, the solver loses the small ones. */
+/* Tensions are capped at so many times the least one, until the bound closes: further apart, the
+ * solver loses the small ones. */
 enum { CAPS = 5 };
 static const double cap[CAPS] = {1e4, 1e6, 1e8, 1e10, 1e12};
-/* Factors on what the unknown is counted in: rounding may spoil a programme in one scale and not in another. */
+/* Factors on what the unknown is counted in: rounding may spoil a programme in one scale and not in
+ * another. */
 enum { UNITS = 5 };
 static const double unit[UNITS] = {1, 0.1, 10, 0.01, 100};
-/* A bound has closed if it is that near to a pull that holds, relative, and no contact closes faster. Where none does, by
- * rounding, the best of those that are near is taken. */
+/* A bound has closed if it is that near to a pull that holds, relative, and no contact closes
+ * faster. Where none does, by rounding, the best of those that are near is taken. */
 static const double CLOSE = 1e-6, NEAR = 1e-3, STILL = 1e-13;
 
 typedef struct {
@@ -69,7 +78,8 @@ typedef struct {
   thr_scratch own; /* the arrays */
 } knotted;
 
-static thr_status knotted_make(const thr_blocks *s, const double (*velocity)[6], knotted *k, thr_err *err)
+static thr_status knotted_make(const thr_blocks *s, const double (*velocity)[6], knotted *k,
+                               thr_err *err)
 {
   const size_t n = (size_t)s->b->n_rises;
   *k = (knotted){0};
@@ -84,11 +94,13 @@ static thr_status knotted_make(const thr_blocks *s, const double (*velocity)[6],
   return st;
 }
 
-/* The stretch below which cords cannot resist the power `missing`: any price of a newton metre tells one, and the best price is
- * found by golden sections, as the bound has a single maximum over its logarithm. At most `enough`, which bounds how far cords
- * tighten: somewhat more than what the programme finds, whose polygons round the bores are a little wide. *resists: that price.
+/* The stretch below which cords cannot resist the power `missing`: any price of a newton metre
+ * tells one, and the best price is found by golden sections, as the bound has a single maximum over
+ * its logarithm. At most `enough`, which bounds how far cords tighten: somewhat more than what the
+ * programme finds, whose polygons round the bores are a little wide. *resists: that price.
  */
-static double least_stretch(const thr_blocks *s, const knotted *k, double missing, double enough, double *resists)
+static double least_stretch(const thr_blocks *s, const knotted *k, double missing, double enough,
+                            double *resists)
 {
   enum { SECTIONS = 60 };
   const double part = 0.6180339887498949;
@@ -97,8 +109,11 @@ static double least_stretch(const thr_blocks *s, const knotted *k, double missin
   for (int i = 0; i < SECTIONS && isfinite(enough); i++) {
     double found[2];
     for (int j = 0; j < 2; j++) {
-      const double price = k->most * exp(j ? low + part * (high - low) : high - part * (high - low));
-      found[j] = (missing - thr_mechanism_tightening(s->b, k->apart, price, enough, k->pass, k->point)) / price;
+      const double price =
+          k->most * exp(j ? low + part * (high - low) : high - part * (high - low));
+      found[j] =
+          (missing - thr_mechanism_tightening(s->b, k->apart, price, enough, k->pass, k->point)) /
+          price;
       if (found[j] > best) best = found[j], *resists = price;
     }
     if (found[0] > found[1])
@@ -109,8 +124,8 @@ static double least_stretch(const thr_blocks *s, const knotted *k, double missin
   return fmin(best, enough);
 }
 
-/* Weak duality, in our own sums: the pull at which the cords' resistance makes up for the weights, and for the load; or the load
- * at which both make up for the cords. */
+/* Weak duality, in our own sums: the pull at which the cords' resistance makes up for the weights,
+ * and for the load; or the load at which both make up for the cords. */
 static thr_status certify(const thr_blocks *s, answer *a, thr_err *err)
 {
   const double(*velocity)[6] = (const double(*)[6])a->velocity;
@@ -119,23 +134,33 @@ static thr_status certify(const thr_blocks *s, answer *a, thr_err *err)
   knotted k;
   const thr_status st = knotted_make(s, velocity, &k, err);
   if (st) return st;
-  if (s->carries && thr_blocks_tightens(s)) p.resistance += thr_mechanism_tightening(s->b, k.apart, 0, INFINITY, k.pass, k.point);
+  if (s->carries && thr_blocks_tightens(s))
+    p.resistance += thr_mechanism_tightening(s->b, k.apart, 0, INFINITY, k.pass, k.point);
   a->residual = fmax(0, -thr_mechanism_opening(s, velocity));
-  bool falls = given > THR_MECHANISM_DRIVE * (p.all + p.all_loads); /* less is rounding: it stands by itself */
+  bool falls = given > THR_MECHANISM_DRIVE *
+                           (p.all + p.all_loads); /* less is rounding: it stands by itself */
   a->lower = !falls ? 0 : p.resistance > 0 ? given / p.resistance : INFINITY;
-  if (s->carries) a->lower = p.load > THR_MECHANISM_DRIVE * p.all_loads ? fmax(0, (p.resistance - p.falling) / p.load) : INFINITY;
+  if (s->carries)
+    a->lower = p.load > THR_MECHANISM_DRIVE * p.all_loads
+                   ? fmax(0, (p.resistance - p.falling) / p.load)
+                   : INFINITY;
   if (s->stretches) {
     const double missing = p.falling - p.resistance;
     falls = falls && missing > THR_MECHANISM_DRIVE * p.all;
-    a->lower = !falls ? 0 : k.most > 0 ? least_stretch(s, &k, missing, 1.2 * a->pull, &a->resists) : INFINITY;
+    a->lower = !falls       ? 0
+               : k.most > 0 ? least_stretch(s, &k, missing, 1.2 * a->pull, &a->resists)
+                            : INFINITY;
   }
-  double apart = s->carries ? a->lower - a->pull : a->pull - a->lower; /* polygons round a disc make it less than nothing */
+  double apart = s->carries
+                     ? a->lower - a->pull
+                     : a->pull - a->lower; /* polygons round a disc make it less than nothing */
   a->gap = isfinite(apart) ? fmax(0, apart) / (a->pull + 1e-3 * unit_of(s)) : 1;
   thr_scratch_free(&k.own);
   return THR_OK;
 }
 
-/* The least pull (if wanted) at which the solver found an equilibrium, and a mechanism with its bound. */
+/* The least pull (if wanted) at which the solver found an equilibrium, and a mechanism with its
+ * bound. */
 static thr_status solve_pull(const thr_blocks *s, const thr_limits *limits, answer *a, thr_err *err)
 {
   thr_blocks_solution o;
@@ -146,8 +171,12 @@ static thr_status solve_pull(const thr_blocks *s, const thr_limits *limits, answ
   thr_status st = thr_blocks_solve(s, false, limits, &o, err);
   if (!st) st = thr_mechanism_make(s, o.dual, limits, a->velocity, err);
   if (!st) {
-    const double balanced = s->bound && s->n_bodies > THR_BLOCKS_LARGE ? 10 * THR_BLOCKS_UNMET : 1e-5;
-    if (!s->merged) a->pull = o.imbalance < balanced ? fmax(0, s->carries ? -o.objective : o.objective) * unit_of(s) : INFINITY;
+    const double balanced =
+        s->bound && s->n_bodies > THR_BLOCKS_LARGE ? 10 * THR_BLOCKS_UNMET : 1e-5;
+    if (!s->merged)
+      a->pull = o.imbalance < balanced
+                    ? fmax(0, s->carries ? -o.objective : o.objective) * unit_of(s)
+                    : INFINITY;
     if (a->pull < 1e-9 * unit_of(s)) a->pull = 0;
     const int unknown = (s->n_contacts + s->n_plays) * (s->round ? 3 : s->b->rays) + s->n_copies;
     const int columns = thr_blocks_columns_of_a_rise(s);
@@ -172,11 +201,14 @@ typedef struct {
   double unit; /* factor on what the unknown is counted in */
   const thr_limits *limits;
   double least, largest; /* press of any face that is pressed */
-  thr_warm warm;         /* where the programme of a large structure may start: near the optimum of one that differs little .. */
-  double span;           /* .. its tensions, too */
-  bool wants_way;        /* keep the mechanism by which no pull holds it, as `way`, which whoever wants it owns */
+  thr_warm warm; /* where the programme of a large structure may start: near the optimum of one that
+                    differs little .. */
+  double span;   /* .. its tensions, too */
+  bool wants_way; /* keep the mechanism by which no pull holds it, as `way`, which whoever wants it
+                     owns */
   double (*way)[6];
-  int *weld[2]; /* [n_beads] what held feet wedge, with cones' pyramids inside them, and round them (welds.c); owned */
+  int *weld[2]; /* [n_beads] what held feet wedge, with cones' pyramids inside them, and round them
+                   (welds.c); owned */
 } task;
 
 static void task_destroy(task *t)
@@ -217,11 +249,13 @@ static thr_status find_welds(task *t, thr_err *err)
 
   /* However tight knotted cords get: their faces do not open. */
   for (int i = 0; i < t->b->n_rises && t->carries && !(t->b->strength > 0) && !st; i++)
-    thr_disjoint_join(t->weld[1], t->f->edge[t->b->rise[i].face][0], t->f->edge[t->b->rise[i].face][1]);
+    thr_disjoint_join(t->weld[1], t->f->edge[t->b->rise[i].face][0],
+                      t->f->edge[t->b->rise[i].face][1]);
   return st;
 }
 
-/* A start from a programme whose tensions were capped alike; else a fresh one, as others would mislead. */
+/* A start from a programme whose tensions were capped alike; else a fresh one, as others would
+ * mislead. */
 static thr_warm *warm_at(task *t, double most, bool merged)
 {
   if (merged) return NULL;
@@ -231,11 +265,13 @@ static thr_warm *warm_at(task *t, double most, bool merged)
   return &t->warm;
 }
 
-/* One programme: replaces the mechanism in a, if there was one. Merged, its pull is about a->pull. */
+/* One programme: replaces the mechanism in a, if there was one. Merged, its pull is about a->pull.
+ */
 static thr_status pull_of(task *t, double most, bool merged, bool outside, answer *a, thr_err *err)
 {
   const double widen = outside && !t->round ? thr_blocks_widening(t->b) : 1;
-  const double plenty = 3000; /* weights of a bead in what draws it: ten times what a dome of 2,000 beads needs */
+  const double plenty =
+      3000; /* weights of a bead in what draws it: ten times what a dome of 2,000 beads needs */
   thr_blocks s = part(t, most, merged, outside);
   thr_status st = thr_blocks_make(&s, widen, err);
   if (st) return st;
@@ -256,7 +292,8 @@ static double close_enough(const task *t)
   return t->b->n_beads > THR_BLOCKS_LARGE ? 2 * THR_BLOCKS_ROUGH : CLOSE;
 }
 
-/* Where nothing is proved, as no pull is needed, no mechanism has to hold: the multipliers are all about 0 then. */
+/* Where nothing is proved, as no pull is needed, no mechanism has to hold: the multipliers are all
+ * about 0 then. */
 static bool closed(const task *t, const answer *a, double within)
 {
   return a->gap < within && (a->residual < STILL || (!t->carries && a->lower == 0));
@@ -265,7 +302,9 @@ static bool closed(const task *t, const answer *a, double within)
 /* Moves a to best if it is near and its bound the better one: the higher pull, the lower load. */
 static void keep_better(const task *t, answer *a, double most, answer *best, double *best_most)
 {
-  if (!closed(t, a, NEAR) || (best->velocity && (t->carries ? a->lower >= best->lower : a->lower <= best->lower))) return;
+  if (!closed(t, a, NEAR) ||
+      (best->velocity && (t->carries ? a->lower >= best->lower : a->lower <= best->lower)))
+    return;
   answer_destroy(best);
   *best = *a;
   *best_most = most;
@@ -273,11 +312,13 @@ static void keep_better(const task *t, answer *a, double most, answer *best, dou
   a->more = NULL;
 }
 
-/* Is this proof that no pull holds it: nothing closes, no cord is drawn out, the weights go down? */
+/* Is this proof that no pull holds it: nothing closes, no cord is drawn out, the weights go down?
+ */
 static bool gives_way(const thr_blocks *s, const double (*velocity)[6])
 {
   thr_powers p = thr_mechanism_balance(s, velocity);
-  if (!(thr_mechanism_opening(s, velocity) >= -STILL) || !(p.falling + p.load > 1e-6 * p.most)) return false;
+  if (!(thr_mechanism_opening(s, velocity) >= -STILL) || !(p.falling + p.load > 1e-6 * p.most))
+    return false;
   const double still = 1e-6 * (p.falling + p.load) / p.most;
   bool still_all = true;
   for (int e = 0; e < s->b->n_faces; e++)
@@ -288,19 +329,22 @@ static bool gives_way(const thr_blocks *s, const double (*velocity)[6])
 }
 
 /* Is this proof that no tensions within their strength let knotted cords hold it? */
-static thr_status breaks(const thr_blocks *s, const double (*velocity)[6], bool *proved, thr_err *err)
+static thr_status breaks(const thr_blocks *s, const double (*velocity)[6], bool *proved,
+                         thr_err *err)
 {
   const thr_powers p = thr_mechanism_balance(s, velocity);
   knotted k;
   thr_status st = knotted_make(s, velocity, &k, err);
   if (st) return st;
   const double more = thr_mechanism_tightening(s->b, k.apart, 0, INFINITY, k.pass, k.point);
-  *proved = thr_mechanism_opening(s, velocity) >= -STILL && p.falling - p.resistance - more > THR_MECHANISM_DRIVE * p.all;
+  *proved = thr_mechanism_opening(s, velocity) >= -STILL &&
+            p.falling - p.resistance - more > THR_MECHANISM_DRIVE * p.all;
   thr_scratch_free(&k.own);
   return THR_OK;
 }
 
-/* Finds the mechanism that the programme of some blocks, which are made here, prices; no bead moves where there are no rows. */
+/* Finds the mechanism that the programme of some blocks, which are made here, prices; no bead moves
+ * where there are no rows. */
 static thr_status find_mechanism(const task *t, thr_blocks *s, double (*velocity)[6], thr_err *err)
 {
   thr_blocks_solution o = {0};
@@ -319,7 +363,8 @@ static void take_way(task *t, double (**velocity)[6])
   *velocity = NULL;
 }
 
-/* THR_EINFEASIBLE with t->way as the proof if knotted cords cannot hold the structure within their strength: hands have to help.
+/* THR_EINFEASIBLE with t->way as the proof if knotted cords cannot hold the structure within their
+ * strength: hands have to help.
  */
 static thr_status check_strength(task *t, thr_err *err)
 {
@@ -338,8 +383,9 @@ static thr_status check_strength(task *t, thr_err *err)
   return st;
 }
 
-/* THR_EINFEASIBLE with a proof that no pull holds the structure. However little the cords press a face with friction, a large
- * pull makes its beads one: what then gives way, without cords, gives way at any pull, and nothing else does. */
+/* THR_EINFEASIBLE with a proof that no pull holds the structure. However little the cords press a
+ * face with friction, a large pull makes its beads one: what then gives way, without cords, gives
+ * way at any pull, and nothing else does. */
 static thr_status check_feasible(task *t, thr_err *err)
 {
   bool friction = t->physics->mu_bead > 0;
@@ -351,8 +397,10 @@ static thr_status check_feasible(task *t, thr_err *err)
   if (!st && gives_way(&s, (const double(*)[6])velocity)) {
     int v = thr_mechanism_fastest(t->b, (const double(*)[6])velocity);
     st = thr_fail(err, THR_EINFEASIBLE,
-                  "no pull holds the structure: the bead at node %s gives way however hard the cords are pulled; more friction "
-                  "(mu_bead, mu_ground), other feet or a cord that presses this bead against its neighbours may help",
+                  "no pull holds the structure: the bead at node %s gives way however hard the "
+                  "cords are pulled; more friction "
+                  "(mu_bead, mu_ground), other feet or a cord that presses this bead against its "
+                  "neighbours may help",
                   v < 0 ? "?" : t->f->name[v]);
     if (t->wants_way) take_way(t, &velocity);
   }
@@ -362,7 +410,8 @@ static thr_status check_feasible(task *t, thr_err *err)
 }
 
 /* At one cap; merged too if the bound does not close otherwise. */
-static thr_status lower_at(task *t, double most, answer *a, answer *best, double *best_most, thr_err *err)
+static thr_status lower_at(task *t, double most, answer *a, answer *best, double *best_most,
+                           thr_err *err)
 {
   thr_status st = pull_of(t, most, false, true, a, err);
   if (st || closed(t, a, close_enough(t))) return st;
@@ -384,8 +433,11 @@ static thr_status lower_pull_in(task *t, double *most, answer *a, thr_err *err)
     st = lower_at(t, *most, a, &best, &best_most, err);
     if (st || (a->velocity && closed(t, a, close_enough(t)))) goto done;
     if (i == 0 && !best.velocity && !t->carries && (st = check_feasible(t, err))) goto done;
-    if (i == 0 && !best.velocity && t->stretches && t->b->strength > 0 && (st = check_strength(t, err))) goto done;
-    if (t->largest <= *most || (t->round && !isfinite(a->pull))) break; /* a greater span is no easier for cones */
+    if (i == 0 && !best.velocity && t->stretches && t->b->strength > 0 &&
+        (st = check_strength(t, err)))
+      goto done;
+    if (t->largest <= *most || (t->round && !isfinite(a->pull)))
+      break; /* a greater span is no easier for cones */
   }
   if (best.velocity) {
     answer_destroy(a);
@@ -394,13 +446,15 @@ static thr_status lower_pull_in(task *t, double *most, answer *a, thr_err *err)
     return THR_OK;
   }
   const double span = t->least > 0 ? t->largest / t->least : 1;
-  st = span > 1 / CLOSE
-           ? thr_fail(err, THR_ESOLVER,
-                      "the holding pull is not decided: the solver's numbers do not suffice (tensions along the cords "
-                      "span a factor of %.0e); a smaller --mu or more cords, each with less turning, may help",
-                      span)
-           : thr_fail(err, THR_ESOLVER,
-                      "the holding pull is not decided: the solver's numbers do not suffice; other --rays may help");
+  st = span > 1 / CLOSE ? thr_fail(err, THR_ESOLVER,
+                                   "the holding pull is not decided: the solver's numbers do not "
+                                   "suffice (tensions along the cords "
+                                   "span a factor of %.0e); a smaller --mu or more cords, each "
+                                   "with less turning, may help",
+                                   span)
+                        : thr_fail(err, THR_ESOLVER,
+                                   "the holding pull is not decided: the solver's numbers do not "
+                                   "suffice; other --rays may help");
 done:
   answer_destroy(&best);
   return st;
@@ -420,15 +474,16 @@ static thr_status lower_pull(task *t, double *most, answer *a, thr_err *err)
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
-void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *tension, double *press)
+void thr_holding_press(const thr_cord *cord, int n_cords, const double *const *tension,
+                       double *press)
 {
   for (int i = 0; i < n_cords; i++)
     for (int k = 0; k < cord[i].n_passes; k++)
       press[cord[i].half[k] >> 1] += tension[i][k];
 }
 
-/* The pull at which there is an equilibrium within pyramids inside the cones: of the rays that are asked for, then of as many as
- * there may be. */
+/* The pull at which there is an equilibrium within pyramids inside the cones: of the rays that are
+ * asked for, then of as many as there may be. */
 static thr_status upper_pull(task *t, double most, answer *a, thr_err *err)
 {
   const thr_beads *usual = t->b;
@@ -446,9 +501,10 @@ static thr_status upper_pull(task *t, double most, answer *a, thr_err *err)
   return st;
 }
 
-/* upper: at which there is an equilibrium within the cones. Where a programme with cones is not decided, one with pyramids inside
- * them tells it, if it is wanted. */
-static thr_status bounds(task *t, bool want_upper, answer *a, double *upper, double *more, thr_err *err)
+/* upper: at which there is an equilibrium within the cones. Where a programme with cones is not
+ * decided, one with pyramids inside them tells it, if it is wanted. */
+static thr_status bounds(task *t, bool want_upper, answer *a, double *upper, double *more,
+                         thr_err *err)
 {
   answer inside_cones = {0};
   double most;
@@ -465,7 +521,8 @@ static thr_status bounds(task *t, bool want_upper, answer *a, double *upper, dou
   thr_status st = lower_pull(t, &most, a, err);
   if (!st && want_upper) st = upper_pull(t, most, &inside_cones, err);
   *upper = inside_cones.pull;
-  if (more && inside_cones.more) memcpy(more, inside_cones.more, (size_t)t->b->n_rises * sizeof *more);
+  if (more && inside_cones.more)
+    memcpy(more, inside_cones.more, (size_t)t->b->n_rises * sizeof *more);
   answer_destroy(&inside_cones);
   return st;
 }
@@ -483,7 +540,9 @@ static thr_status hold(task *t, bool want_upper, thr_holding *holding, double *m
     holding->lower = a.lower;
     holding->upper = upper;
     holding->residual = a.residual;
-    holding->first_bead = a.lower > 0 || t->carries ? thr_mechanism_fastest(t->b, (const double(*)[6])a.velocity) : -1;
+    holding->first_bead = a.lower > 0 || t->carries
+                              ? thr_mechanism_fastest(t->b, (const double(*)[6])a.velocity)
+                              : -1;
     holding->velocity = a.velocity;
     holding->resists = a.resists;
     a.velocity = NULL;
@@ -493,10 +552,16 @@ static thr_status hold(task *t, bool want_upper, thr_holding *holding, double *m
   return st;
 }
 
-static task task_of(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                    const thr_limits *limits)
+static task task_of(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics,
+                    const double *press, const thr_limits *limits)
 {
-  task t = {.b = beads, .f = frame, .physics = physics, .press = press, .limits = limits, .least = INFINITY, .unit = 1};
+  task t = {.b = beads,
+            .f = frame,
+            .physics = physics,
+            .press = press,
+            .limits = limits,
+            .least = INFINITY,
+            .unit = 1};
   t.round = beads->n_beads > THR_BLOCKS_LARGE && beads->rays == THR_USUAL_RAYS;
   for (int e = 0; e < beads->n_faces; e++) {
     if (press[e] > 0) t.least = fmin(t.least, press[e]);
@@ -505,8 +570,9 @@ static task task_of(const thr_beads *beads, const thr_frame *frame, const thr_ph
   return t;
 }
 
-thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                            bool want_upper, const thr_limits *limits, thr_holding *out, thr_err *err)
+thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame,
+                            const thr_physics *physics, const double *press, bool want_upper,
+                            const thr_limits *limits, thr_holding *out, thr_err *err)
 {
   task t = task_of(beads, frame, physics, press, limits);
   t.load = (const double(*)[3])beads->load;
@@ -514,8 +580,8 @@ thr_status thr_holding_pull(const thr_beads *beads, const thr_frame *frame, cons
   return hold(&t, want_upper, out, NULL, err);
 }
 
-/* A mechanism in which the structure gives way under some multiple of the load, with the cords as they are: it does under all
- * multiples for which excess + multiple x load is more than 0. */
+/* A mechanism in which the structure gives way under some multiple of the load, with the cords as
+ * they are: it does under all multiples for which excess + multiple x load is more than 0. */
 typedef struct {
   double (*velocity)[6]; /* owned */
   double excess, load;   /* W: of the weights less what the cords resist; of the load once */
@@ -529,7 +595,8 @@ static void weigh_powers(const thr_blocks *s, yielding *y)
 }
 
 /* Finds one at a multiple of the load. THR_ESOLVER if there is none, or none was found. */
-static thr_status yield_at(const thr_blocks *s, double multiple, const thr_limits *limits, yielding *out, thr_err *err)
+static thr_status yield_at(const thr_blocks *s, double multiple, const thr_limits *limits,
+                           yielding *out, thr_err *err)
 {
   const size_t n = (size_t)s->b->n_beads;
   thr_holding found = {0};
@@ -553,8 +620,8 @@ static thr_status yield_at(const thr_blocks *s, double multiple, const thr_limit
   return st == THR_ENOMEM || st == THR_ELIMIT ? st : THR_ESOLVER;
 }
 
-/* Adds a part of `high`, which the load drives, to `low`: as mechanisms form a cone, and what the cords resist is
- * convex, the sum is a mechanism whose excess is at least the sum of both. */
+/* Adds a part of `high`, which the load drives, to `low`: as mechanisms form a cone, and what the
+ * cords resist is convex, the sum is a mechanism whose excess is at least the sum of both. */
 static void combine(const thr_blocks *s, yielding *low, const yielding *high, double part)
 {
   double fastest = 0;
@@ -569,12 +636,15 @@ static void combine(const thr_blocks *s, yielding *low, const yielding *high, do
   weigh_powers(s, low);
 }
 
-/* Where no multiple of the load has an equilibrium the programme for the largest one has no solution. Decides that case by
- * mechanisms: one that gives way without the load and that the load holds back excludes the multiples up to some `enough`; the
- * one at `enough` excludes more of them, or all that are larger, and then both together exclude all. *st stays where that does
- * not tell it. */
-static thr_status carry_nothing(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                                const double (*load)[3], const thr_limits *limits, thr_carry *carry, thr_err *err)
+/* Where no multiple of the load has an equilibrium the programme for the largest one has no
+ * solution. Decides that case by mechanisms: one that gives way without the load and that the load
+ * holds back excludes the multiples up to some `enough`; the one at `enough` excludes more of them,
+ * or all that are larger, and then both together exclude all. *st stays where that does not tell
+ * it. */
+static thr_status carry_nothing(const thr_beads *beads, const thr_frame *frame,
+                                const thr_physics *physics, const double *press,
+                                const double (*load)[3], const thr_limits *limits, thr_carry *carry,
+                                thr_err *err)
 {
   enum { TRIES = 12 };
   task t = task_of(beads, frame, physics, press, limits);
@@ -587,11 +657,14 @@ static thr_status carry_nothing(const thr_beads *beads, const thr_frame *frame, 
   if (st) return st;
   st = yield_at(&s, 0, limits, &low, &why);
 
-  /* A load that hardly acts on what gives way, by rounding or by symmetry: some of what it does move where it is large. */
-  const thr_powers at_rest = st ? (thr_powers){0} : thr_mechanism_balance(&s, (const double(*)[6])low.velocity);
+  /* A load that hardly acts on what gives way, by rounding or by symmetry: some of what it does
+   * move where it is large. */
+  const thr_powers at_rest =
+      st ? (thr_powers){0} : thr_mechanism_balance(&s, (const double(*)[6])low.velocity);
   if (!st && fabs(low.load) < 1e-6 * at_rest.all_loads) {
     st = yield_at(&s, 100 * at_rest.all / at_rest.all_loads, limits, &high, &why);
-    if (!st && high.load > 0) combine(&s, &low, &high, high.excess < 0 ? 0.5 * low.excess / -high.excess : 1);
+    if (!st && high.load > 0)
+      combine(&s, &low, &high, high.excess < 0 ? 0.5 * low.excess / -high.excess : 1);
     free(high.velocity);
     high.velocity = NULL;
   }
@@ -613,7 +686,9 @@ static thr_status carry_nothing(const thr_beads *beads, const thr_frame *frame, 
   answer a = {.velocity = low.velocity, .lower = INFINITY};
   if (!st) st = certify(&s, &a, &why);
   if (!st && a.lower == 0 && a.residual < STILL) {
-    *carry = (thr_carry){.first_bead = thr_mechanism_fastest(beads, (const double(*)[6])low.velocity), .velocity = low.velocity};
+    *carry =
+        (thr_carry){.first_bead = thr_mechanism_fastest(beads, (const double(*)[6])low.velocity),
+                    .velocity = low.velocity};
   } else {
     free(low.velocity);
     if (!st) st = THR_ESOLVER;
@@ -622,8 +697,10 @@ static thr_status carry_nothing(const thr_beads *beads, const thr_frame *frame, 
   return st == THR_ESOLVER || !st ? st : thr_fail(err, st, "%s", why.text);
 }
 
-thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                             const double (*load)[3], bool want_carried, const thr_limits *limits, thr_carry *out, thr_err *err)
+thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame,
+                             const thr_physics *physics, const double *press,
+                             const double (*load)[3], bool want_carried, const thr_limits *limits,
+                             thr_carry *out, thr_err *err)
 {
   thr_holding found = {0};
   task t = task_of(beads, frame, physics, press, limits);
@@ -633,12 +710,19 @@ thr_status thr_holding_carry(const thr_beads *beads, const thr_frame *frame, con
   *out = (thr_carry){0};
   thr_status st = hold(&t, want_carried, &found, NULL, err);
   if (!st)
-    *out = (thr_carry){.beyond = found.lower, .carried = found.upper, .first_bead = found.first_bead, .velocity = found.velocity};
-  return st == THR_ESOLVER && beads->n_rises == 0 ? carry_nothing(beads, frame, physics, press, load, limits, out, err) : st;
+    *out = (thr_carry){.beyond = found.lower,
+                       .carried = found.upper,
+                       .first_bead = found.first_bead,
+                       .velocity = found.velocity};
+  return st == THR_ESOLVER && beads->n_rises == 0
+             ? carry_nothing(beads, frame, physics, press, load, limits, out, err)
+             : st;
 }
 
-thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame, const thr_physics *physics, const double *press,
-                               const thr_limits *limits, thr_holding *out, double *more, thr_err *err)
+thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame,
+                               const thr_physics *physics, const double *press,
+                               const thr_limits *limits, thr_holding *out, double *more,
+                               thr_err *err)
 {
   task t = task_of(beads, frame, physics, press, limits);
   t.stretches = true;
@@ -646,7 +730,8 @@ thr_status thr_holding_stretch(const thr_beads *beads, const thr_frame *frame, c
   t.wants_way = true;
   *out = (thr_holding){0};
   thr_status st = hold(&t, true, out, more, err);
-  if (st == THR_EINFEASIBLE && t.way && beads->strength > 0) { /* does it prove as much of the strength? */
+  if (st == THR_EINFEASIBLE && t.way &&
+      beads->strength > 0) { /* does it prove as much of the strength? */
     thr_blocks s = part(&t, INFINITY, false, true);
     bool proved = false;
     thr_err why = {0};

@@ -1,8 +1,11 @@
-/* Collapse mechanisms of rigid blocks: velocities of all beads, with which no contact closes, and the powers of what acts on
- * them. Their balance is the proof of the limit analysis, in sums that know no solver. Private to it.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Collapse mechanisms of rigid blocks: velocities of all beads, with which no contact closes, and
+ * the powers of what acts on them. Their balance is the proof of the limit analysis, in sums that
+ * know no solver. Private to it.
  *
- * A velocity has six numbers: translation of the bead's mass centre, rotation (1/m). Example: a bead that slides down a face of
- * friction mu opens it by mu times its speed: the ray of the pyramid that resists has power 0. */
+ * A velocity has six numbers: translation of the bead's mass centre, rotation (1/m). Example: a
+ * bead that slides down a face of friction mu opens it by mu times its speed: the ray of the
+ * pyramid that resists has power 0. */
 #include "eval/structure/blocks.h"
 
 #include "graph/vector.h"
@@ -12,7 +15,8 @@
 #include <string.h>
 
 /* Velocity of a bead's point at. */
-static void point_velocity(const thr_blocks *s, int bead, const double (*velocity)[6], const double at[3], double out[3])
+static void point_velocity(const thr_blocks *s, int bead, const double (*velocity)[6],
+                           const double at[3], double out[3])
 {
   double lever[3];
   for (int k = 0; k < 3; k++)
@@ -27,7 +31,9 @@ static double power(const thr_blocks *s, const thr_contact *c, const double apar
 {
   double least = INFINITY;
   if (s->round)
-    return thr_dot(c->axis[0], apart) - thr_blocks_friction(s, c) * hypot(thr_dot(c->axis[1], apart), thr_dot(c->axis[2], apart));
+    return thr_dot(c->axis[0], apart) -
+           thr_blocks_friction(s, c) *
+               hypot(thr_dot(c->axis[1], apart), thr_dot(c->axis[2], apart));
   for (int e = 0; e < s->b->rays; e++)
     least = fmin(least, thr_dot(c->ray[e], apart));
   return least;
@@ -50,8 +56,8 @@ double thr_mechanism_opening(const thr_blocks *s, const double (*velocity)[6])
   return least;
 }
 
-/* All beads fly apart from a point deep below the ground, or from a bead that is held: this opens every contact, and a little of
- * it makes up for the solver's rounding. */
+/* All beads fly apart from a point deep below the ground, or from a bead that is held: this opens
+ * every contact, and a little of it makes up for the solver's rounding. */
 static void flight(const thr_blocks *s, double (*velocity)[6])
 {
   const thr_beads *beads = s->b;
@@ -64,7 +70,8 @@ static void flight(const thr_blocks *s, double (*velocity)[6])
     if (beads->fixed[v]) memcpy(from, beads->centre[v], sizeof from);
   for (int v = 0; v < beads->n_beads; v++)
     for (int k = 0; k < 3; k++)
-      velocity[v][k] = s->row[s->body[v]] < 0 ? 0 : (s->origin[s->body[v]][k] - from[k]) / beads->size;
+      velocity[v][k] =
+          s->row[s->body[v]] < 0 ? 0 : (s->origin[s->body[v]][k] - from[k]) / beads->size;
 }
 
 static void scale(const thr_blocks *s, double (*velocity)[6], double factor)
@@ -87,7 +94,8 @@ static double largest_translation(const thr_beads *beads, const double (*velocit
   return largest;
 }
 
-/* The lowest bead among the fastest: those that symmetry makes equal differ by what the solver leaves open. */
+/* The lowest bead among the fastest: those that symmetry makes equal differ by what the solver
+ * leaves open. */
 int thr_mechanism_fastest(const thr_beads *beads, const double (*velocity)[6])
 {
   double largest = largest_translation(beads, velocity);
@@ -110,9 +118,11 @@ static void move_with_body(const thr_blocks *s, int bead, const double *dual, do
     velocity[k] += turn[k];
 }
 
-/* Velocities that open every contact, and by how much at least: a flight, or, where feet that are held are in its way, the
- * multipliers of contact forces that would balance each other. *margin: 0 if there are none. */
-static thr_status open_all(const thr_blocks *s, const thr_limits *limits, double (*apart)[6], double *margin, thr_err *err)
+/* Velocities that open every contact, and by how much at least: a flight, or, where feet that are
+ * held are in its way, the multipliers of contact forces that would balance each other. *margin: 0
+ * if there are none. */
+static thr_status open_all(const thr_blocks *s, const thr_limits *limits, double (*apart)[6],
+                           double *margin, thr_err *err)
 {
   thr_blocks_solution o = {0};
   flight(s, apart);
@@ -128,10 +138,10 @@ static thr_status open_all(const thr_blocks *s, const thr_limits *limits, double
   return st;
 }
 
-/* Dual values as velocities, scaled to a largest translation of 1. Contacts that would close are opened by a little of what opens
- * all. */
-thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, const thr_limits *limits, double (*velocity)[6],
-                              thr_err *err)
+/* Dual values as velocities, scaled to a largest translation of 1. Contacts that would close are
+ * opened by a little of what opens all. */
+thr_status thr_mechanism_make(const thr_blocks *s, const double *dual, const thr_limits *limits,
+                              double (*velocity)[6], thr_err *err)
 {
   double margin = 0;
   thr_status st = THR_OK;
@@ -179,14 +189,15 @@ double thr_mechanism_stretching(const thr_blocks *s, const double (*velocity)[6]
   return most;
 }
 
-double thr_mechanism_tightening(const thr_beads *beads, const double *apart, double resists, double stretch,
-                                thr_knotted_pass *pass, double (*point)[2])
+double thr_mechanism_tightening(const thr_beads *beads, const double *apart, double resists,
+                                double stretch, thr_knotted_pass *pass, double (*point)[2])
 {
   double sum = 0;
   for (int i = 0, first = 0; i < beads->n_rises; i++) {
     const thr_rise *rise = &beads->rise[i];
     pass[i] = (thr_knotted_pass){rise->least,
-                                 fmin(beads->strength > 0 ? beads->strength : INFINITY, rise->least + stretch / rise->length),
+                                 fmin(beads->strength > 0 ? beads->strength : INFINITY,
+                                      rise->least + stretch / rise->length),
                                  apart[i] - resists * rise->length, rise->exponent};
     if (rise->exponent >= 0) continue;
     sum += thr_knotted_most(pass + first, i + 1 - first, point);

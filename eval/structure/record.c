@@ -1,4 +1,6 @@
-/* What the limit analysis found, as the plan keeps it: answers that are proved come with their mechanisms. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the limit analysis found, as the plan keeps it: answers that are proved come with their
+ * mechanisms. */
 #include "eval/eval.h"
 #include "eval/structure/beads.h"
 #include "graph/plan/evaluation.h"
@@ -9,12 +11,15 @@
 /* Room for the named answers and one of every pull with a load. */
 enum { NAMED = THR_N_ASKED };
 
-static thr_status add(thr_standing *standing, int n_beads, const thr_answer *answer, const double (*velocity)[6], thr_err *err)
+static thr_status add(thr_standing *standing, int n_beads, const thr_answer *answer,
+                      const double (*velocity)[6], thr_err *err)
 {
   thr_answer *to = &standing->answer[standing->n_answers++];
-  const bool of_load = thr_asked_of_load(answer->asked), proved = of_load ? isfinite(answer->proved) : answer->proved > 0;
+  const bool of_load = thr_asked_of_load(answer->asked),
+             proved = of_load ? isfinite(answer->proved) : answer->proved > 0;
   *to = *answer;
-  if (of_load ? to->found > to->proved : to->found < to->proved) to->found = INFINITY; /* rounding: nothing is said of it */
+  if (of_load ? to->found > to->proved : to->found < to->proved)
+    to->found = INFINITY; /* rounding: nothing is said of it */
   if (!proved || !isfinite(answer->proved) || !velocity) {
     to->proved = of_load ? INFINITY : 0;
     return THR_OK;
@@ -26,7 +31,8 @@ static thr_status add(thr_standing *standing, int n_beads, const thr_answer *ans
 }
 
 /* Where no pull holds it, a plan says nothing: what shows it is of another kind. */
-static thr_status add_holding(thr_standing *standing, int n_beads, thr_asked asked, const thr_holding *holding, thr_err *err)
+static thr_status add_holding(thr_standing *standing, int n_beads, thr_asked asked,
+                              const thr_holding *holding, thr_err *err)
 {
   if (!holding->present || !isfinite(holding->lower)) return THR_OK;
   return add(standing, n_beads,
@@ -37,28 +43,39 @@ static thr_status add_holding(thr_standing *standing, int n_beads, thr_asked ask
              (const double(*)[6])holding->velocity, err);
 }
 
-/* Where knotted cords break before they hold it, the tension that is not enough is what they bear. */
-static thr_status add_tightest(thr_standing *standing, int n_beads, const thr_holding *stretch, thr_err *err)
+/* Where knotted cords break before they hold it, the tension that is not enough is what they bear.
+ */
+static thr_status add_tightest(thr_standing *standing, int n_beads, const thr_holding *stretch,
+                               thr_err *err)
 {
   if (!stretch->present || isfinite(stretch->lower) || !stretch->velocity) return THR_OK;
   return add(standing, n_beads,
-             &(thr_answer){.asked = THR_ASKED_TIGHTEST, .proved = standing->strength, .found = INFINITY, .resists = -1},
+             &(thr_answer){.asked = THR_ASKED_TIGHTEST,
+                           .proved = standing->strength,
+                           .found = INFINITY,
+                           .resists = -1},
              (const double(*)[6])stretch->velocity, err);
 }
 
-static thr_status add_carry(thr_standing *standing, int n_beads, thr_asked asked, double pull, const thr_carry *carry,
-                            thr_err *err)
+static thr_status add_carry(thr_standing *standing, int n_beads, thr_asked asked, double pull,
+                            const thr_carry *carry, thr_err *err)
 {
   if (carry->first_bead < 0) return THR_OK;
   return add(standing, n_beads,
-             &(thr_answer){.asked = asked, .pull = pull, .proved = carry->beyond, .found = carry->carried, .resists = -1},
+             &(thr_answer){.asked = asked,
+                           .pull = pull,
+                           .proved = carry->beyond,
+                           .found = carry->carried,
+                           .resists = -1},
              (const double(*)[6])carry->velocity, err);
 }
 
-static thr_status add_loads(thr_standing *standing, int n_nodes, const double (*load)[3], thr_err *err)
+static thr_status add_loads(thr_standing *standing, int n_nodes, const double (*load)[3],
+                            thr_err *err)
 {
   if (!load) return THR_OK;
-  if (!(standing->load = thr_calloc((size_t)n_nodes, sizeof *standing->load))) return thr_nomem(err);
+  if (!(standing->load = thr_calloc((size_t)n_nodes, sizeof *standing->load)))
+    return thr_nomem(err);
   for (int v = 0; v < n_nodes; v++) {
     if (load[v][0] == 0 && load[v][1] == 0 && load[v][2] == 0) continue;
     standing->load[standing->n_loads].node = v;
@@ -67,15 +84,18 @@ static thr_status add_loads(thr_standing *standing, int n_nodes, const double (*
   return THR_OK;
 }
 
-static thr_status add_stills(thr_standing *standing, int n_beads, const thr_erect *erect, thr_err *err)
+static thr_status add_stills(thr_standing *standing, int n_beads, const thr_erect *erect,
+                             thr_err *err)
 {
   if (!erect->present) return THR_OK;
-  if (!(standing->still = thr_calloc(THR_ERECT_STILLS, sizeof *standing->still))) return thr_nomem(err);
+  if (!(standing->still = thr_calloc(THR_ERECT_STILLS, sizeof *standing->still)))
+    return thr_nomem(err);
   while (standing->n_stills < THR_ERECT_STILLS) {
     const int i = standing->n_stills++;
     const thr_erect_still *from = &erect->still[i];
     thr_posed *to = &standing->still[i];
-    *to = (thr_posed){.pull = from->pull, .counterweight = from->lift * erect->weight, .seated = from->closed};
+    *to = (thr_posed){
+        .pull = from->pull, .counterweight = from->lift * erect->weight, .seated = from->closed};
     if (!(to->pose = thr_calloc((size_t)n_beads, sizeof *to->pose))) return thr_nomem(err);
     memcpy(to->pose, erect->pose + i * n_beads, (size_t)n_beads * sizeof *to->pose);
     to->n_beads = n_beads;
@@ -83,7 +103,8 @@ static thr_status add_stills(thr_standing *standing, int n_beads, const thr_erec
   return THR_OK;
 }
 
-thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_options *options, thr_err *err)
+thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_options *options,
+                               thr_err *err)
 {
   thr_standing *standing = &evaluation->standing;
   *standing = (thr_standing){.present = true,
@@ -101,7 +122,8 @@ thr_status thr_structure_drawn(thr_evaluation *evaluation, const thr_eval_option
   return THR_OK;
 }
 
-thr_status thr_structure_record(int n_beads, const thr_eval_options *options, thr_eval *out, thr_err *err)
+thr_status thr_structure_record(int n_beads, const thr_eval_options *options, thr_eval *out,
+                                thr_err *err)
 {
   thr_standing *standing = &out->record.standing;
   standing->let_down = out->let_down;
@@ -118,6 +140,8 @@ thr_status thr_structure_record(int n_beads, const thr_eval_options *options, th
   if (!st) st = add_tightest(standing, n_beads, &out->stretch, err);
   if (!st) st = add_holding(standing, n_beads, THR_ASKED_LOADED, &out->loaded, err);
   for (int i = 0; i < out->n_carries && !st; i++)
-    st = add_carry(standing, n_beads, THR_ASKED_CARRIED, out->carries[i].pull, &out->carries[i].carry, err);
-  return st ? st : add_carry(standing, n_beads, THR_ASKED_CARRIED_AFTER, 0, &out->after_carries, err);
+    st = add_carry(standing, n_beads, THR_ASKED_CARRIED, out->carries[i].pull,
+                   &out->carries[i].carry, err);
+  return st ? st
+            : add_carry(standing, n_beads, THR_ASKED_CARRIED_AFTER, 0, &out->after_carries, err);
 }

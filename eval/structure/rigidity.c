@@ -1,11 +1,13 @@
-/* Can the framework move without stretching an edge, if its nodes were free hinges (thesis, chapter 3)? What it can, joints that
- * lock must hold.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Can the framework move without stretching an edge, if its nodes were free hinges (thesis, chapter
+ * 3)? What it can, joints that lock must hold.
  *
- * Row of edge uv: (x(u) - x(v)) . (s(u) - s(v)) = 0 for velocities s. Motions = 3 n - rank, of which 6 of each component are
- * those of a rigid body; states of self-stress = edges - rank (Maxwell 1864, Calladine 1978).
+ * Row of edge uv: (x(u) - x(v)) . (s(u) - s(v)) = 0 for velocities s. Motions = 3 n - rank, of
+ * which 6 of each component are those of a rigid body; states of self-stress = edges - rank
+ * (Maxwell 1864, Calladine 1978).
  *
- * Example: a square of four bars in space has rank 4 of 12: 8 motions, 2 beyond those of a rigid body, one of them within its
- * plane. */
+ * Example: a square of four bars in space has rank 4 of 12: 8 motions, 2 beyond those of a rigid
+ * body, one of them within its plane. */
 #include "eval/structure/beads.h"
 #include "graph/vector.h"
 
@@ -68,7 +70,8 @@ static thr_status matrix_make(matrix *a, const thr_frame *frame, const velocitie
   return THR_OK;
 }
 
-static thr_status rank_of(const thr_frame *frame, const velocities *s, int *rank, bool *unclear, thr_err *err)
+static thr_status rank_of(const thr_frame *frame, const velocities *s, int *rank, bool *unclear,
+                          thr_err *err)
 {
   matrix a;
   int coarse = 0;
@@ -138,7 +141,8 @@ static int axes(const work *w)
 static thr_status freedoms(work *w, int *count, bool *unclear, thr_err *err)
 {
   int rank;
-  thr_status st = rank_of(w->f, &(velocities){w->n_axes, (const double(*)[3])w->axis}, &rank, unclear, err);
+  thr_status st =
+      rank_of(w->f, &(velocities){w->n_axes, (const double(*)[3])w->axis}, &rank, unclear, err);
   *count = axes(w) - rank;
   return st;
 }

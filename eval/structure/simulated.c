@@ -1,8 +1,10 @@
-/* The closed structure as a world of Bullet: rigid beads that touch at the corners of their faces, feet on patches of ground,
- * cords as forces between beads. Private to the simulations (settle.c, erect.c).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The closed structure as a world of Bullet: rigid beads that touch at the corners of their faces,
+ * feet on patches of ground, cords as forces between beads. Private to the simulations (settle.c,
+ * erect.c).
  *
- * Inside, the mean edge is 1 long, the mean bead weighs 1 and gravity is 1: so a structure and its scale model give the same
- * numbers, and a time of 1 is what a bead takes to fall half an edge. */
+ * Inside, the mean edge is 1 long, the mean bead weighs 1 and gravity is 1: so a structure and its
+ * scale model give the same numbers, and a time of 1 is what a bead takes to fall half an edge. */
 #include "eval/structure/blocks.h"
 #include "graph/random.h"
 #include "graph/vector.h"
@@ -13,11 +15,14 @@
 
 /* A tenth of the usual erp: what pushes sunk faces apart shakes the others. */
 static const double TIME_STEP = 6e-3;
-static const double SYSTEMS = 200; /* linear systems in a step, at most; some five are enough while a structure stands */
-static const double STILL = 1e-6;  /* velocity that may be wrong at the usual number; a 16th at four times it */
+static const double SYSTEMS =
+    200; /* linear systems in a step, at most; some five are enough while a structure stands */
+static const double STILL =
+    1e-6; /* velocity that may be wrong at the usual number; a 16th at four times it */
 static const double ERP = 0.01;
-static const double DISORDER = 1e-5;    /* of an edge: initial displacements */
-static const double TILT_LENGTH = 0.35; /* of an edge: over which a cord between two holes out of line leans */
+static const double DISORDER = 1e-5; /* of an edge: initial displacements */
+static const double TILT_LENGTH =
+    0.35; /* of an edge: over which a cord between two holes out of line leans */
 static const int STEPS_PER_REPORT = 20;
 
 static double distance(const double a[3], const double b[3])
@@ -112,14 +117,17 @@ typedef struct {
 static void arm_box(const thr_simulated *m, int v, int e, boxes *out)
 {
   const thr_beads *beads = m->b;
-  double side[2][3], length = distance(beads->centre[v], beads->middle[e]) / m->unit, width = beads->width / m->unit;
+  double side[2][3], length = distance(beads->centre[v], beads->middle[e]) / m->unit,
+                     width = beads->width / m->unit;
   for (int k = 0; k < 3; k++) {
     side[0][k] = (beads->corner[e][1][k] - beads->corner[e][0][k]) / beads->width;
     side[1][k] = (beads->corner[e][2][k] - beads->corner[e][1][k]) / beads->width;
-    out->place[out->n][k] = (0.5 * (beads->centre[v][k] + beads->middle[e][k]) - beads->mass_centre[v][k]) / m->unit;
+    out->place[out->n][k] =
+        (0.5 * (beads->centre[v][k] + beads->middle[e][k]) - beads->mass_centre[v][k]) / m->unit;
   }
   quaternion_of(side[0], side[1], beads->axis[e], out->place[out->n] + 3);
-  memcpy(out->half[out->n], (const double[3]){0.5 * width, 0.5 * width, 0.5 * length}, sizeof *out->half);
+  memcpy(out->half[out->n], (const double[3]){0.5 * width, 0.5 * width, 0.5 * length},
+         sizeof *out->half);
   out->tag[out->n++] = e;
 }
 
@@ -136,7 +144,8 @@ static void foot_box(const thr_simulated *m, int v, int foot, boxes *out)
   out->tag[out->n++] = m->b->n_faces + foot;
 }
 
-/* One moment of inertia for all axes, a third of their sum: only how fast a bead turns as it falls depends on it. */
+/* One moment of inertia for all axes, a third of their sum: only how fast a bead turns as it falls
+ * depends on it. */
 static double inertia(const thr_simulated *m, int v, double mass)
 {
   double sum = 0, length = 0, width = m->b->width / m->unit;
@@ -149,8 +158,8 @@ static double inertia(const thr_simulated *m, int v, double mass)
   return 2.0 / 3 * mass * fmax(sum / length - off * off, width * width / 6);
 }
 
-static thr_status add_bead(thr_simulated *m, int v, const thr_physics *physics, double mass_unit, uint64_t *random, boxes *parts,
-                           thr_err *err)
+static thr_status add_bead(thr_simulated *m, int v, const thr_physics *physics, double mass_unit,
+                           uint64_t *random, boxes *parts, thr_err *err)
 {
   parts->n = 0;
   for (int i = m->f->first[v]; i < m->f->first[v + 1]; i++)
@@ -167,7 +176,8 @@ static thr_status add_bead(thr_simulated *m, int v, const thr_physics *physics, 
                           .pose = {0, 0, 0, 0, 0, 0, 1},
                           .friction = sqrt(fmax(physics->mu_bead, 1e-9))};
   for (int k = 0; k < 3; k++)
-    body.pose[k] = m->b->mass_centre[v][k] / m->unit + (mass > 0 ? DISORDER * thr_random_disorder(random) : 0);
+    body.pose[k] =
+        m->b->mass_centre[v][k] / m->unit + (mass > 0 ? DISORDER * thr_random_disorder(random) : 0);
   return thr_world_add_boxes(m->world, &body, &m->body[v], err);
 }
 
@@ -198,21 +208,24 @@ thr_status thr_simulated_build(thr_simulated *m, const thr_simulated_options *op
   m->lift = 0;
   m->leans = false;
   const double *down = m->b->down, gravity = physics->gravity > 0 ? 1 : 0;
-  thr_world_options world_options = {.time_step = m->dt,
-                                     .iterations = (int)ceil(options->iterations * SYSTEMS),
-                                     .gravity = {gravity * down[0], gravity * down[1], gravity * down[2]},
-                                     .erp = -1,
-                                     .erp2 = ERP,
-                                     .cfm = -1,
-                                     .cones = true,
-                                     .still = STILL / (options->iterations * options->iterations)};
+  thr_world_options world_options = {
+      .time_step = m->dt,
+      .iterations = (int)ceil(options->iterations * SYSTEMS),
+      .gravity = {gravity * down[0], gravity * down[1], gravity * down[2]},
+      .erp = -1,
+      .erp2 = ERP,
+      .cfm = -1,
+      .cones = true,
+      .still = STILL / (options->iterations * options->iterations)};
   int most = 1;
   for (int v = 0; v < m->b->n_beads; v++)
     most = thr_degree(m->f, v) + 1 > most ? thr_degree(m->f, v) + 1 : most;
   boxes parts = {.half = thr_calloc((size_t)most, sizeof *parts.half),
                  .place = thr_calloc((size_t)most, sizeof *parts.place),
                  .tag = thr_calloc((size_t)most, sizeof *parts.tag)};
-  thr_status s = parts.half && parts.place && parts.tag ? thr_world_create(&m->world, &world_options, err) : thr_nomem(err);
+  thr_status s = parts.half && parts.place && parts.tag
+                     ? thr_world_create(&m->world, &world_options, err)
+                     : thr_nomem(err);
   uint64_t random = options->seed;
   for (int i = 0; s == THR_OK && i < m->b->n_feet; i++)
     s = add_ground(m, i, physics, err);
@@ -236,13 +249,15 @@ static void set_press(thr_simulated *m)
   for (int i = 0; i < m->n_cords; i++)
     for (int k = 0; k < m->cord[i].n_passes; k++) {
       const double tension = m->pull * m->tension[i][k];
-      m->press[m->cord[i].half[k] >> 1] += (m->most ? fmin(tension, m->most[i][k]) : tension) / m->weight;
+      m->press[m->cord[i].half[k] >> 1] +=
+          (m->most ? fmin(tension, m->most[i][k]) : tension) / m->weight;
     }
 }
 
-/* Each face's cords draw its two beads together: along their common axis as in the limit analysis; in a fall along the line from
- * hole to hole. When the gap is closed that line has no direction: TILT_LENGTH of the axis is added. Both beads feel the force at
- * the same point, so that cords turn nothing as a whole. */
+/* Each face's cords draw its two beads together: along their common axis as in the limit analysis;
+ * in a fall along the line from hole to hole. When the gap is closed that line has no direction:
+ * TILT_LENGTH of the axis is added. Both beads feel the force at the same point, so that cords turn
+ * nothing as a whole. */
 static void pull_cords(thr_simulated *m)
 {
   for (int e = 0; e < m->b->n_faces; e++) {
@@ -277,8 +292,8 @@ static void carry(thr_simulated *m)
   }
 }
 
-/* Ground under a corner of a bead that has sunk into it: a spring and a damper, weak enough for the time step, and friction that
- * grows with the speed up to Coulomb's. share: of the bead's mass. */
+/* Ground under a corner of a bead that has sunk into it: a spring and a damper, weak enough for the
+ * time step, and friction that grows with the speed up to Coulomb's. share: of the bead's mass. */
 static void push_up(thr_simulated *m, int v, const double at[3], double depth, double share)
 {
   const double stiff = 0.1 / (m->dt * m->dt), damping = 0.3 / m->dt;
@@ -317,7 +332,8 @@ thr_status thr_simulated_step(thr_simulated *m, thr_err *err)
   if (m->steps % STEPS_PER_REPORT == 0) {
     if (m->limits && thr_limits_stop(m->limits))
       return thr_fail(err, THR_ELIMIT, "structure: stopped before the simulation was done");
-    if (m->limits && m->limits->advance) m->limits->advance(m->limits->user, "structure", (double)m->steps / (double)m->all);
+    if (m->limits && m->limits->advance)
+      m->limits->advance(m->limits->user, "structure", (double)m->steps / (double)m->all);
   }
   m->steps++;
   set_press(m);
@@ -354,7 +370,8 @@ void thr_simulated_set_home(thr_simulated *m)
     carried(m, v, m->b->centre[v], m->home[v]);
 }
 
-/* How far the bead that moved most has moved within the last THR_LOOKS looks, of which this is the next; 0 before so many. */
+/* How far the bead that moved most has moved within the last THR_LOOKS looks, of which this is the
+ * next; 0 before so many. */
 double thr_simulated_moved_lately(thr_simulated *m, long look, int *bead)
 {
   double most = 0, (*seen)[3] = m->seen + (look % THR_LOOKS) * m->b->n_beads;

@@ -1,20 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Welds: what held feet wedge. Private to the limit analysis.
  *
- * Between two beads that are held in place, contact forces may balance each other without any weight or cord, and be as large as
- * one likes (a self-stress). Faces that such forces press everywhere do not move, in any mechanism, and carry whatever comes:
- * their beads are one body. Taken for that, nothing is lost, and the numbers of what is left have bounds again.
+ * Between two beads that are held in place, contact forces may balance each other without any
+ * weight or cord, and be as large as one likes (a self-stress). Faces that such forces press
+ * everywhere do not move, in any mechanism, and carry whatever comes: their beads are one body.
+ * Taken for that, nothing is lost, and the numbers of what is left have bounds again.
  *
  * Example: seven pieces in a row, both ends held: one body with the ground.
  *
- * Finds self-stresses one after the other, welds what they press, and looks again, until nothing more is found. */
+ * Finds self-stresses one after the other, welds what they press, and looks again, until nothing
+ * more is found. */
 #include "eval/structure/blocks.h"
 
 #include "graph/disjoint.h"
 
 #include <math.h>
 
-/* What hands still do for all contacts, of which each bears 1 on the mean, where they need do nothing; the part of that mean that
- * a pressed corner bears. */
+/* What hands still do for all contacts, of which each bears 1 on the mean, where they need do
+ * nothing; the part of that mean that a pressed corner bears. */
 static const double NOTHING = 1e-6, PRESSED = 1e-4;
 
 /* Tells whether the self-stress presses every corner of the face that begins with contact i. */
@@ -47,7 +50,8 @@ static int count_held(const thr_beads *beads)
   return n;
 }
 
-thr_status thr_welds_find(const thr_blocks *s, double widen, const thr_limits *limits, int *weld, thr_err *err)
+thr_status thr_welds_find(const thr_blocks *s, double widen, const thr_limits *limits, int *weld,
+                          thr_err *err)
 {
   thr_status st = THR_OK;
   for (int v = 0; v < s->b->n_beads; v++)
@@ -64,7 +68,8 @@ thr_status thr_welds_find(const thr_blocks *s, double widen, const thr_limits *l
     if (st) break;
     more = part.n_rows > 0 && part.n_contacts > 0;
     if (more) st = thr_blocks_self_stress(&part, limits, &o, err);
-    more = more && !st && o.objective < NOTHING * part.n_contacts && weld_pressed(&part, &o, weld) > 0;
+    more =
+        more && !st && o.objective < NOTHING * part.n_contacts && weld_pressed(&part, &o, weld) > 0;
     thr_blocks_solution_destroy(&o);
     thr_blocks_destroy(&part);
   }

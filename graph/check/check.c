@@ -1,5 +1,7 @@
-/* The checker. Nothing here trusts what a plan says about itself. With the code that makes plans it shares the framework, the
- * readers, and the one line that defines the weights (thr_certificate_weight). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The checker. Nothing here trusts what a plan says about itself. With the code that makes plans it
+ * shares the framework, the readers, and the one line that defines the weights
+ * (thr_certificate_weight). */
 #include "graph/check/check_parts.h"
 #include "graph/vector.h"
 
@@ -42,7 +44,8 @@ double thr_check_angle(const thr_frame *frame, int in, int out)
 static thr_status metric(const char *name, double stated, double found, double whole, thr_err *err)
 {
   if (thr_check_close(stated, found, whole)) return THR_OK;
-  return thr_fail(err, THR_EVIOLATED, "metrics.%s: stated %.12g, but the cords give %.12g", name, stated, found);
+  return thr_fail(err, THR_EVIOLATED, "metrics.%s: stated %.12g, but the cords give %.12g", name,
+                  stated, found);
 }
 
 /* Metrics from the cords alone; passes[n_edges] as check_cords counted them. */
@@ -87,7 +90,9 @@ static thr_status check_crossings(const thr_plan *plan, thr_err *err)
   double found = (double)channels.crossings;
   thr_channels_destroy(&channels);
   if (plan->options.crossings == THR_CROSSINGS_FORBID && found > 0)
-    return thr_fail(err, THR_EVIOLATED, "options.crossings: forbidden, but the cords cross %.0f times inside pieces", found);
+    return thr_fail(err, THR_EVIOLATED,
+                    "options.crossings: forbidden, but the cords cross %.0f times inside pieces",
+                    found);
   return metric("crossings", plan->metrics.crossings, found, 0, err);
 }
 
@@ -97,20 +102,23 @@ static thr_status check_metrics(const thr_plan *plan, const int *passes, thr_err
   const thr_metrics *s = &plan->metrics;
   thr_status st;
   if ((st = metric("length", s->length, metrics.length, metrics.length, err))) return st;
-  if ((st = metric("base_length", s->base_length, metrics.base_length, metrics.length, err))) return st;
+  if ((st = metric("base_length", s->base_length, metrics.base_length, metrics.length, err)))
+    return st;
   if ((st = metric("overlap", s->overlap, metrics.overlap, metrics.length, err))) return st;
   if ((st = metric("passes", s->passes, metrics.passes, 0, err))) return st;
   if ((st = metric("most_passes", s->most_passes, metrics.most_passes, 0, err))) return st;
   if ((st = metric("turning", s->turning, metrics.turning, 1 + metrics.turning, err))) return st;
-  if ((st = metric("max_turning", s->max_turning, metrics.max_turning, 1 + metrics.turning, err))) return st;
-  if ((st = metric("worst_turn", s->worst_turn, metrics.worst_turn, 1 + metrics.turning, err))) return st;
+  if ((st = metric("max_turning", s->max_turning, metrics.max_turning, 1 + metrics.turning, err)))
+    return st;
+  if ((st = metric("worst_turn", s->worst_turn, metrics.worst_turn, 1 + metrics.turning, err)))
+    return st;
   if ((st = metric("u_turns", s->u_turns, metrics.u_turns, 0, err))) return st;
   return check_crossings(plan, err);
 }
 
 /* *proved: no cords with these options are shorter. */
-static thr_status check_length_claim(const thr_plan *plan, const thr_check_walked *check_walked, const thr_check_verdict *verdict,
-                                     double *proved, thr_err *err)
+static thr_status check_length_claim(const thr_plan *plan, const thr_check_walked *check_walked,
+                                     const thr_check_verdict *verdict, double *proved, thr_err *err)
 {
   bool optimal;
   double lower_bound, length = thr_check_length_of(&plan->frame, check_walked->passes);
@@ -119,79 +127,100 @@ static thr_status check_length_claim(const thr_plan *plan, const thr_check_walke
     thr_status st = thr_tied_least(&plan->frame, &plan->options, &claim->tied, &lower_bound, err);
     if (st) return st;
     if (lower_bound > length && !thr_check_close(lower_bound, length, length))
-      return thr_fail(err, THR_EVIOLATED, "proof.length: the tree proves %.12g, which is more than the length %.12g", lower_bound,
-                      length);
+      return thr_fail(err, THR_EVIOLATED,
+                      "proof.length: the tree proves %.12g, which is more than the length %.12g",
+                      lower_bound, length);
     optimal = thr_check_close(lower_bound, length, length);
   } else {
     int each = 1;
-    thr_status st = thr_check_different(&plan->frame, &plan->options, plan->cord, plan->n_cords, &each, err);
+    thr_status st =
+        thr_check_different(&plan->frame, &plan->options, plan->cord, plan->n_cords, &each, err);
     if (!st)
-      st = thr_check_sum_verdicts(&plan->frame, &plan->options, check_walked, each, verdict, &claim->pulled, length, &optimal,
-                                  &lower_bound, err);
+      st = thr_check_sum_verdicts(&plan->frame, &plan->options, check_walked, each, verdict,
+                                  &claim->pulled, length, &optimal, &lower_bound, err);
     if (st) return st;
   }
   *proved = lower_bound;
   if (!claim->slack_open && !thr_plan_within_slack(&plan->options, length, lower_bound))
     return thr_fail(err, THR_EVIOLATED,
-                    "options.turning.length_slack: at most %.12g above the least length, but the cords are %.12g long and only "
+                    "options.turning.length_slack: at most %.12g above the least length, but the "
+                    "cords are %.12g long and only "
                     "%.12g is proved",
                     plan->options.turning.length_slack, length, lower_bound);
   if (claim->optimal && !optimal)
-    return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but the certificate only proves %.12g of %.12g", lower_bound,
-                    plan->metrics.length);
-  if (claim->optimal && !thr_check_close(claim->lower_bound, plan->metrics.length, plan->metrics.length))
-    return thr_fail(err, THR_EVIOLATED, "proof.length: says optimal, but its lower bound %.12g is not the length %.12g",
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.length: says optimal, but the certificate only proves %.12g of %.12g",
+                    lower_bound, plan->metrics.length);
+  if (claim->optimal &&
+      !thr_check_close(claim->lower_bound, plan->metrics.length, plan->metrics.length))
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.length: says optimal, but its lower bound %.12g is not the length %.12g",
                     claim->lower_bound, plan->metrics.length);
-  const double least = optimal ? fmax(lower_bound, length) : lower_bound; /* its own rounding is the length's */
+  const double least =
+      optimal ? fmax(lower_bound, length) : lower_bound; /* its own rounding is the length's */
   if (claim->lower_bound > least && !thr_check_close(claim->lower_bound, least, least))
-    return thr_fail(err, THR_EVIOLATED, "proof.length.lower_bound: stated %.12g, but the certificate proves %.12g",
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.length.lower_bound: stated %.12g, but the certificate proves %.12g",
                     claim->lower_bound, lower_bound);
-  if (!thr_check_close(claim->gap, (plan->metrics.length - claim->lower_bound) / plan->metrics.length, 1))
-    return thr_fail(err, THR_EVIOLATED, "proof.length.gap: stated %.12g, but length and lower bound give %.12g", claim->gap,
-                    (plan->metrics.length - claim->lower_bound) / plan->metrics.length);
+  if (!thr_check_close(claim->gap,
+                       (plan->metrics.length - claim->lower_bound) / plan->metrics.length, 1))
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.length.gap: stated %.12g, but length and lower bound give %.12g",
+                    claim->gap, (plan->metrics.length - claim->lower_bound) / plan->metrics.length);
   return THR_OK;
 }
 
-static thr_status check_cords_claim(const thr_plan *plan, const thr_check_walked *check_walked, const thr_check_verdict *verdict,
-                                    thr_err *err)
+static thr_status check_cords_claim(const thr_plan *plan, const thr_check_walked *check_walked,
+                                    const thr_check_verdict *verdict, thr_err *err)
 {
   const thr_cords_claim *claim = &plan->cords_claim;
   thr_cords_claim found;
-  const thr_turning_proof *tied = plan->options.joint == THR_JOINT_TUBE && plan->proof.present ? &plan->proof.tied : NULL;
-  thr_status st = thr_check_several(&plan->frame, &plan->options, check_walked, plan->cord, plan->n_cords,
-                                    plan->proof.certificate, verdict, tied, &plan->proof.walks, &found, err);
+  const thr_turning_proof *tied =
+      plan->options.joint == THR_JOINT_TUBE && plan->proof.present ? &plan->proof.tied : NULL;
+  thr_status st =
+      thr_check_several(&plan->frame, &plan->options, check_walked, plan->cord, plan->n_cords,
+                        plan->proof.certificate, verdict, tied, &plan->proof.walks, &found, err);
   if (st) return st;
   const double whole = found.longest;
   if (!thr_check_close(claim->longest, found.longest, whole))
-    return thr_fail(err, THR_EVIOLATED, "proof.cords.longest.length: stated %.12g, but the longest cord is %.12g long",
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.cords.longest.length: stated %.12g, but the longest cord is %.12g long",
                     claim->longest, found.longest);
   if (claim->longest_bound > found.longest_bound &&
       !thr_check_close(claim->longest_bound, found.longest_bound, found.longest_bound))
-    return thr_fail(err, THR_EVIOLATED, "proof.cords.longest.lower_bound: stated %.12g, but only %.12g is proved",
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.cords.longest.lower_bound: stated %.12g, but only %.12g is proved",
                     claim->longest_bound, found.longest_bound);
-  if (claim->longest_optimal && !(found.longest_optimal && thr_check_close(claim->longest_bound, found.longest, whole)))
-    return thr_fail(err, THR_EVIOLATED, "proof.cords.longest: says optimal, but only %.12g of %.12g is proved",
+  if (claim->longest_optimal &&
+      !(found.longest_optimal && thr_check_close(claim->longest_bound, found.longest, whole)))
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.cords.longest: says optimal, but only %.12g of %.12g is proved",
                     fmin(claim->longest_bound, found.longest_bound), found.longest);
   if (claim->fewest > found.fewest)
-    return thr_fail(err, THR_EVIOLATED, "proof.cords.fewest.lower_bound: stated %d, but only %d is proved", claim->fewest,
-                    found.fewest);
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.cords.fewest.lower_bound: stated %d, but only %d is proved",
+                    claim->fewest, found.fewest);
   if (claim->fewest_optimal && (claim->fewest != plan->n_cords || claim->fewest == 0))
-    return thr_fail(err, THR_EVIOLATED, "proof.cords.fewest: says optimal, but there are %d cords and its bound is %d",
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.cords.fewest: says optimal, but there are %d cords and its bound is %d",
                     plan->n_cords, claim->fewest);
   return THR_OK;
 }
 
 /* *proved: as for check_length_claim; left alone without one. */
-static thr_status check_claims(const thr_plan *plan, const thr_check_walked *check_walked, double *proved, thr_err *err)
+static thr_status check_claims(const thr_plan *plan, const thr_check_walked *check_walked,
+                               double *proved, thr_err *err)
 {
   thr_check_verdict *verdict = NULL;
   thr_status st = THR_OK;
-  if (plan->proof.present && (plan->options.joint == THR_JOINT_TUBE) != (plan->proof.tied.n_nodes > 0))
+  if (plan->proof.present &&
+      (plan->options.joint == THR_JOINT_TUBE) != (plan->proof.tied.n_nodes > 0))
     return thr_fail(err, THR_EVIOLATED, "proof.length: has a %s, but the plan's joints are %s",
-                    plan->proof.tied.n_nodes > 0 ? "proof" : "certificate", thr_joint_name(plan->options.joint));
+                    plan->proof.tied.n_nodes > 0 ? "proof" : "certificate",
+                    thr_joint_name(plan->options.joint));
   if (plan->proof.present && plan->options.joint == THR_JOINT_SOLID)
-    st = thr_check_judge(&plan->frame, &plan->options, check_walked, plan->proof.certificate, plan->proof.n_certificates,
-                         &verdict, err);
+    st = thr_check_judge(&plan->frame, &plan->options, check_walked, plan->proof.certificate,
+                         plan->proof.n_certificates, &verdict, err);
   if (!st && plan->proof.present) st = check_length_claim(plan, check_walked, verdict, proved, err);
   if (!st && plan->cords_claim.present) st = check_cords_claim(plan, check_walked, verdict, err);
   free(verdict);
@@ -204,14 +233,16 @@ static thr_status check_names(const thr_plan *plan, thr_err *err)
     char id[12];
     thr_cord_id(i, id);
     if (strcmp(plan->cord[i].id, id) != 0)
-      return thr_fail(err, THR_EVIOLATED, "cord number %d is called %s; expected %s", i + 1, plan->cord[i].id, id);
+      return thr_fail(err, THR_EVIOLATED, "cord number %d is called %s; expected %s", i + 1,
+                      plan->cord[i].id, id);
   }
   return THR_OK;
 }
 
 thr_status thr_check_own(thr_status st, const thr_err *found, thr_err *err)
 {
-  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the plan does not pass its own check: %s", found->text);
+  if (st == THR_EVIOLATED)
+    return thr_fail(err, THR_ESOLVER, "the plan does not pass its own check: %s", found->text);
   return st ? thr_fail(err, st, "%s", found->text) : THR_OK;
 }
 
@@ -220,18 +251,22 @@ static thr_status check_distinct(const thr_plan *plan, thr_err *err)
 {
   const thr_frame *frame = &plan->frame;
   int found = 0;
-  thr_status st = thr_check_count_different(frame, plan->options.distinct, plan->cord, plan->n_cords, &found, err);
+  thr_status st = thr_check_count_different(frame, plan->options.distinct, plan->cord,
+                                            plan->n_cords, &found, err);
   if (!st) st = metric("distinct", plan->metrics.distinct, found, 0, err);
-  bool optimal = plan->proof.optimal || plan->cords_claim.longest_optimal || plan->cords_claim.fewest_optimal ||
-                 plan->pull_claim.optimal || plan->turning.optimal || plan->turning.largest_optimal;
+  bool optimal = plan->proof.optimal || plan->cords_claim.longest_optimal ||
+                 plan->cords_claim.fewest_optimal || plan->pull_claim.optimal ||
+                 plan->turning.optimal || plan->turning.largest_optimal;
   if (!st && optimal && found < frame->n_edges)
-    st = thr_fail(err, THR_EVIOLATED, "proof: says optimal, but only %d of %d edges are passed by %d different cords", found,
-                  frame->n_edges, plan->options.distinct);
+    st = thr_fail(err, THR_EVIOLATED,
+                  "proof: says optimal, but only %d of %d edges are passed by %d different cords",
+                  found, frame->n_edges, plan->options.distinct);
   return st;
 }
 
 /* All that is proved of cords that were checked already. */
-static thr_status check_proofs(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err)
+static thr_status check_proofs(const thr_plan *plan, const thr_check_walked *check_walked,
+                               thr_err *err)
 {
   double least_length = 0;
   thr_status st = check_claims(plan, check_walked, &least_length, err);
@@ -240,14 +275,17 @@ static thr_status check_proofs(const thr_plan *plan, const thr_check_walked *che
   return st;
 }
 
-/* The proofs of cords over every edge by several different ones: about passes that bridges need for that, if the plan has them
- * everywhere. */
-static thr_status check_needed(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err)
+/* The proofs of cords over every edge by several different ones: about passes that bridges need for
+ * that, if the plan has them everywhere. */
+static thr_status check_needed(const thr_plan *plan, const thr_check_walked *check_walked,
+                               thr_err *err)
 {
   thr_plan needed = *plan;
   int *needs = NULL;
   bool all = true;
-  thr_status st = plan->options.distinct > 0 ? thr_distinct_needs(&plan->frame, &plan->options, &needs, err) : THR_OK;
+  thr_status st = plan->options.distinct > 0
+                      ? thr_distinct_needs(&plan->frame, &plan->options, &needs, err)
+                      : THR_OK;
   for (int e = 0; needs && e < plan->frame.n_edges; e++)
     all = all && check_walked->passes[e] >= needs[e];
   if (needs && all) needed.frame.cover = needs;
@@ -256,7 +294,8 @@ static thr_status check_needed(const thr_plan *plan, const thr_check_walked *che
   return st;
 }
 
-/* Takes the next cord of every component, after the numbers next[n_components], and the part of the claims that is about these.
+/* Takes the next cord of every component, after the numbers next[n_components], and the part of the
+ * claims that is about these.
  */
 static void take_round(const thr_plan *plan, int n_components, int *next, thr_plan *part)
 {
@@ -272,12 +311,14 @@ static void take_round(const thr_plan *plan, int n_components, int *next, thr_pl
   part->proof.lower_bound = plan->proof.lower_bound / rounds;
   part->turning.price = plan->turning.price / rounds;
   part->turning.lower_bound = plan->turning.lower_bound / rounds;
-  if (plan->turning.length_limit > 0) part->turning.length_limit = plan->turning.length_limit / rounds;
+  if (plan->turning.length_limit > 0)
+    part->turning.length_limit = plan->turning.length_limit / rounds;
 }
 
-/* Every cord passes every edge (thr_request_alike): the claims hold of a cord of every component by itself, whichever it is, in
- * equal parts. */
-static thr_status check_alike(const thr_plan *plan, const thr_request *one, int n_components, thr_err *err)
+/* Every cord passes every edge (thr_request_alike): the claims hold of a cord of every component by
+ * itself, whichever it is, in equal parts. */
+static thr_status check_alike(const thr_plan *plan, const thr_request *one, int n_components,
+                              thr_err *err)
 {
   thr_plan part = *plan;
   int *next = thr_calloc((size_t)n_components, sizeof *next);
@@ -303,8 +344,11 @@ thr_status thr_check_plan(const thr_plan *plan, thr_err *err)
   thr_request one;
   thr_status st = check_names(plan, err);
   if (st) return st;
-  if ((st = thr_check_walked_from(&check_walked, &plan->frame, &plan->options, plan->cord, plan->n_cords, err))) return st;
-  if (plan->proof.present || plan->cords_claim.present || plan->options.distinct > 0 || !thr_wants_length(&plan->options))
+  if ((st = thr_check_walked_from(&check_walked, &plan->frame, &plan->options, plan->cord,
+                                  plan->n_cords, err)))
+    return st;
+  if (plan->proof.present || plan->cords_claim.present || plan->options.distinct > 0 ||
+      !thr_wants_length(&plan->options))
     st = thr_check_cord_count(&check_walked, &plan->options, err);
   if (!st) st = check_metrics(plan, check_walked.passes, err);
   if (!st && plan->options.distinct > 0) st = check_distinct(plan, err);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Certificates: odd cuts, added up over trees of nested sets. */
 #include "graph/check/check_parts.h"
 
@@ -11,7 +12,8 @@ int64_t thr_certificate_weight(const thr_frame *frame, const thr_certificate *ce
   return (int64_t)nearbyint(frame->length[e] * certificate->scale);
 }
 
-/* Work space over the framework. Each component has one certificate: what is filled in at its nodes and edges stays. */
+/* Work space over the framework. Each component has one certificate: what is filled in at its nodes
+ * and edges stays. */
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
@@ -20,14 +22,16 @@ typedef struct {
   int *edge_start, *edge; /* its edges likewise */
   int *cords;             /* [n_components] that a component has at most */
   bool *odd;              /* [n_nodes] */
-  int *far_start, *far;   /* at v, the other ends of its edges to nodes with more edges: at most sqrt(2 * n_edges) of them */
+  int *far_start, *far;   /* at v, the other ends of its edges to nodes with more edges: at most
+                             sqrt(2 * n_edges) of them */
   int *far_edge;          /* those edges */
   wide *held;             /* [n_nodes] sum of the values of the sets that hold a node */
   wide *shared;           /* [n_edges] sum of the values of the sets that hold both ends */
-  int *own;               /* [n_nodes] cut of the present tree whose own node this is, else -1; no tree's between trees */
-  int64_t *price;         /* [n_nodes] of a place for a cord end there */
-  int *loop, *work;       /* [n_edges] in the order of edge, once they are asked for: thr_prices_loops */
-  thr_scratch scratch;    /* the arrays */
+  int *own; /* [n_nodes] cut of the present tree whose own node this is, else -1; no tree's between
+               trees */
+  int64_t *price;   /* [n_nodes] of a place for a cord end there */
+  int *loop, *work; /* [n_edges] in the order of edge, once they are asked for: thr_prices_loops */
+  thr_scratch scratch; /* the arrays */
 } workspace;
 
 /* The cuts of one certificate as a forest. Arrays of n_cuts. */
@@ -35,7 +39,8 @@ typedef struct {
   const thr_certificate *c;
   int *first, *next; /* at a root, first cut of its tree; next one of the same tree; -1 = none */
   int *root, *size;  /* last cut of its tree; cuts below it and itself */
-  int *heavy, *head; /* child with the largest size, or -1; uppermost cut from which heavy children lead here */
+  int *heavy, *head; /* child with the largest size, or -1; uppermost cut from which heavy children
+                        lead here */
   wide *depth;       /* sum of the values from the root to here */
   bool *odd;         /* is the number of odd nodes in the set? */
   thr_scratch own;   /* the arrays */
@@ -64,28 +69,34 @@ static thr_status forest_init(forest *t, const thr_certificate *certificate, thr
   return THR_OK;
 }
 
-static thr_status check_cut(const workspace *k, const thr_certificate *certificate, int i, thr_err *err)
+static thr_status check_cut(const workspace *k, const thr_certificate *certificate, int i,
+                            thr_err *err)
 {
   const thr_cut *cut = &certificate->cut[i];
   if (cut->value < 0)
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: multiplier %" PRId64 " is negative",
+    return thr_fail(err, THR_EVIOLATED,
+                    "certificate of component %d, cut %d: multiplier %" PRId64 " is negative",
                     certificate->component, i, cut->value);
   if (cut->parent != -1 && (cut->parent <= i || cut->parent >= certificate->n_cuts))
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: its parent %d is not a later cut",
+    return thr_fail(err, THR_EVIOLATED,
+                    "certificate of component %d, cut %d: its parent %d is not a later cut",
                     certificate->component, i, cut->parent);
   for (int j = 0; j < cut->n_nodes; j++) {
     int v = cut->node[j];
     if (j > 0 && v <= cut->node[j - 1])
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: nodes are not ascending at %d",
+      return thr_fail(err, THR_EVIOLATED,
+                      "certificate of component %d, cut %d: nodes are not ascending at %d",
                       certificate->component, i, v);
     if (k->w->component[v] != certificate->component)
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: node %d is in component %d",
+      return thr_fail(err, THR_EVIOLATED,
+                      "certificate of component %d, cut %d: node %d is in component %d",
                       certificate->component, i, v, k->w->component[v]);
   }
   return THR_OK;
 }
 
-/* Children come before their parents: sizes and parities go up, roots, depths and heavy paths down. */
+/* Children come before their parents: sizes and parities go up, roots, depths and heavy paths down.
+ */
 static thr_status forest_fill(forest *t, const workspace *k, thr_err *err)
 {
   const thr_certificate *certificate = t->c;
@@ -96,7 +107,8 @@ static thr_status forest_fill(forest *t, const workspace *k, thr_err *err)
     for (int j = 0; j < certificate->cut[i].n_nodes; j++)
       t->odd[i] ^= k->odd[certificate->cut[i].node[j]];
     if (!t->odd[i])
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: holds an even number of odd nodes",
+      return thr_fail(err, THR_EVIOLATED,
+                      "certificate of component %d, cut %d: holds an even number of odd nodes",
                       certificate->component, i);
     t->size[i]++;
     if (p < 0) continue;
@@ -115,7 +127,8 @@ static thr_status forest_fill(forest *t, const workspace *k, thr_err *err)
   return THR_OK;
 }
 
-/* Lowest cut round both. Of two heavy paths the one that starts earlier in the list does not hold it. */
+/* Lowest cut round both. Of two heavy paths the one that starts earlier in the list does not hold
+ * it. */
 static int common_cut(const forest *t, int a, int b)
 {
   while (t->head[a] != t->head[b]) {
@@ -133,15 +146,18 @@ static thr_status mark_tree(workspace *k, const forest *t, int root, thr_err *er
     for (int j = 0; j < t->c->cut[i].n_nodes; j++) {
       int v = t->c->cut[i].node[j];
       if (k->own[v] >= 0)
-        return thr_fail(err, THR_EVIOLATED, "certificate of component %d, cut %d: node %d is in cut %d, too, which is not inside",
-                        t->c->component, i, v, k->own[v]);
+        return thr_fail(
+            err, THR_EVIOLATED,
+            "certificate of component %d, cut %d: node %d is in cut %d, too, which is not inside",
+            t->c->component, i, v, k->own[v]);
       k->own[v] = i;
     }
   return THR_OK;
 }
 
-/* Adds the values of a tree's cuts to the nodes in their sets, and to the edges inside them: both ends of an edge are in the sets
- * round the lowest one that holds them. A node may be in many trees, so edges are looked at from the end with fewer of them. */
+/* Adds the values of a tree's cuts to the nodes in their sets, and to the edges inside them: both
+ * ends of an edge are in the sets round the lowest one that holds them. A node may be in many
+ * trees, so edges are looked at from the end with fewer of them. */
 static void load_tree(workspace *k, const forest *t, int root)
 {
   for (int i = t->first[root]; i >= 0; i = t->next[i])
@@ -165,36 +181,45 @@ static thr_priced priced(const workspace *k, const thr_certificate *certificate,
   bool closed = k->o->ends == THR_ENDS_CLOSED;
   wide of = closed ? (certificate->n_prices ? certificate->place_price[0] : 0)
                    : (wide)k->price[k->f->edge[e][0]] + k->price[k->f->edge[e][1]];
-  return thr_prices_edge(k->f, k->o, e, (wide)thr_certificate_weight(k->f, certificate, e) * certificate->denominator, of,
-                         closed && certificate->n_prices && k->loop ? k->loop[j] : 2); /* find_loops comes first */
+  return thr_prices_edge(
+      k->f, k->o, e, (wide)thr_certificate_weight(k->f, certificate, e) * certificate->denominator,
+      of, closed && certificate->n_prices && k->loop ? k->loop[j] : 2); /* find_loops comes first */
 }
 
-/* Prices at nodes, the parity of nodes at these prices, and in *places, which is 0 before, what all that adds to the bound. */
-static thr_status apply_prices(workspace *k, const thr_certificate *certificate, wide *places, thr_err *err)
+/* Prices at nodes, the parity of nodes at these prices, and in *places, which is 0 before, what all
+ * that adds to the bound. */
+static thr_status apply_prices(workspace *k, const thr_certificate *certificate, wide *places,
+                               thr_err *err)
 {
   const thr_frame *frame = k->f;
   const thr_request *options = k->o;
   int first = k->start[certificate->component], n = k->start[certificate->component + 1] - first;
   if (certificate->n_prices == 0) return THR_OK;
   if (certificate->n_prices != thr_prices_number(options, n))
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: %d place prices; expected %d", certificate->component,
-                    certificate->n_prices, thr_prices_number(options, n));
+    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: %d place prices; expected %d",
+                    certificate->component, certificate->n_prices, thr_prices_number(options, n));
   for (int i = 0; i < certificate->n_prices; i++)
     if (certificate->place_price[i] < 0)
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: place price %" PRId64 " is negative",
+      return thr_fail(err, THR_EVIOLATED,
+                      "certificate of component %d: place price %" PRId64 " is negative",
                       certificate->component, certificate->place_price[i]);
   for (int i = 0; i < n && options->ends != THR_ENDS_CLOSED; i++) {
     int v = k->node[first + i];
-    if (thr_plan_end_allowed(frame, options, v)) k->price[v] = certificate->place_price[options->ends == THR_ENDS_COUNTS ? i : 0];
+    if (thr_plan_end_allowed(frame, options, v))
+      k->price[v] = certificate->place_price[options->ends == THR_ENDS_COUNTS ? i : 0];
     if (options->ends == THR_ENDS_COUNTS) *places += (wide)k->price[v] * options->end_count[v];
   }
-  if (options->ends != THR_ENDS_COUNTS) *places = 2 * (wide)options->cords_least * certificate->place_price[0];
-  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1]; j++) {
+  if (options->ends != THR_ENDS_COUNTS)
+    *places = 2 * (wide)options->cords_least * certificate->place_price[0];
+  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1];
+       j++) {
     const int *end = frame->edge[k->edge[j]];
     thr_priced p = priced(k, certificate, j);
     if (p.room && p.endless)
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: place prices make edge %d cheaper the more it is passed",
-                      certificate->component, k->edge[j]);
+      return thr_fail(
+          err, THR_EVIOLATED,
+          "certificate of component %d: place prices make edge %d cheaper the more it is passed",
+          certificate->component, k->edge[j]);
     bool odd = p.room && p.odd < p.even;
     *places += (odd ? p.odd : p.even) - p.held;
     k->odd[end[0]] ^= odd;
@@ -205,42 +230,53 @@ static thr_status apply_prices(workspace *k, const thr_certificate *certificate,
 
 static thr_status check_loads(const workspace *k, const thr_certificate *certificate, thr_err *err)
 {
-  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1]; j++) {
+  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1];
+       j++) {
     int e = k->edge[j];
     wide load = k->held[k->f->edge[e][0]] + k->held[k->f->edge[e][1]] - 2 * k->shared[e];
     if (load <= 0) continue; /* bears any price */
     thr_priced p = priced(k, certificate, j);
     if (p.room && load > (p.odd > p.even ? p.odd - p.even : p.even - p.odd))
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the cuts over edge %d add up to more than its weight",
-                      certificate->component, e);
+      return thr_fail(
+          err, THR_EVIOLATED,
+          "certificate of component %d: the cuts over edge %d add up to more than its weight",
+          certificate->component, e);
   }
   if (!thr_check_ends_free(k->o)) return THR_OK;
   for (int j = k->start[certificate->component]; j < k->start[certificate->component + 1]; j++) {
     int v = k->node[j];
     if (thr_plan_end_allowed(k->f, k->o, v) && k->held[v] > certificate->end_price)
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the cuts round node %d add up to more than the end price",
-                      certificate->component, v);
+      return thr_fail(
+          err, THR_EVIOLATED,
+          "certificate of component %d: the cuts round node %d add up to more than the end price",
+          certificate->component, v);
   }
   return THR_OK;
 }
 
-/* Least weight of extra passes that leave so many ends; weights are integers, and nothing fits between the bound and the next. */
+/* Least weight of extra passes that leave so many ends; weights are integers, and nothing fits
+ * between the bound and the next. */
 static wide least_weight(const thr_certificate *certificate, wide places, int64_t ends)
 {
   wide proved = certificate->sum + places - (wide)ends * certificate->end_price;
   return proved > 0 ? (proved + certificate->denominator - 1) / certificate->denominator : 0;
 }
 
-/* Least weight of extra passes that leave so many ends, as a length: what rounding may have added is taken off. Passes x cost
- * at least (1 - r) w x / scale less what each edge's rounding adds above its part r, whatever r is; two of them are tried. */
-double thr_check_extra(const thr_certificate *certificate, const thr_check_verdict *check_verdict, int64_t ends)
+/* Least weight of extra passes that leave so many ends, as a length: what rounding may have added
+ * is taken off. Passes x cost at least (1 - r) w x / scale less what each edge's rounding adds
+ * above its part r, whatever r is; two of them are tried. */
+double thr_check_extra(const thr_certificate *certificate, const thr_check_verdict *check_verdict,
+                       int64_t ends)
 {
-  double weight = (double)least_weight(certificate, check_verdict->places, ends) / certificate->scale;
-  return fmax(0, fmax(weight - check_verdict->rounding, weight * (1 - THR_CHECK_ROUNDING) - check_verdict->rounding_above));
+  double weight =
+      (double)least_weight(certificate, check_verdict->places, ends) / certificate->scale;
+  return fmax(0, fmax(weight - check_verdict->rounding,
+                      weight * (1 - THR_CHECK_ROUNDING) - check_verdict->rounding_above));
 }
 
-/* Extra passes of an edge in some shortest plan, at the most. Two passes less leave parity and ends as they are; and where more
- * passes than 2 cords run over an edge, one cord has three of them, and can do without two. */
+/* Extra passes of an edge in some shortest plan, at the most. Two passes less leave parity and ends
+ * as they are; and where more passes than 2 cords run over an edge, one cord has three of them, and
+ * can do without two. */
 static int most_extra(const workspace *k, const thr_certificate *certificate, int e)
 {
   int cover = thr_plan_cover(k->f, k->o, e), room = thr_plan_capacity(k->f, k->o, e) - cover;
@@ -257,7 +293,8 @@ static inline double at_least_0(double x)
 }
 
 /* What rounding an edge's length up to its weight may add to a bound. */
-static void charge_rounding(const workspace *k, const thr_certificate *certificate, int e, int64_t units, thr_check_verdict *out)
+static void charge_rounding(const workspace *k, const thr_certificate *certificate, int e,
+                            int64_t units, thr_check_verdict *out)
 {
   double weight = (double)units / certificate->scale, added = weight - k->f->length[e];
   int most = most_extra(k, certificate, e);
@@ -266,14 +303,15 @@ static void charge_rounding(const workspace *k, const thr_certificate *certifica
 }
 
 /* Compares the stated sums with the true ones, and says what they prove. */
-static thr_status judge(const workspace *k, const thr_certificate *certificate, wide sum, wide places, thr_check_verdict *out,
-                        thr_err *err)
+static thr_status judge(const workspace *k, const thr_certificate *certificate, wide sum,
+                        wide places, thr_check_verdict *out, thr_err *err)
 {
   bool weightless = false; /* a scale may round what passes cost to nothing */
   wide join = 0;
   double total = 0, extra = 0;
   *out = (thr_check_verdict){.places = places};
-  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1]; j++) {
+  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1];
+       j++) {
     int e = k->edge[j], more = k->w->passes[e] - thr_plan_cover(k->f, k->o, e);
     int64_t weight = thr_certificate_weight(k->f, certificate, e);
     join += (wide)weight * more;
@@ -283,36 +321,46 @@ static thr_status judge(const workspace *k, const thr_certificate *certificate, 
     charge_rounding(k, certificate, e, weight, out);
   }
   if (sum != certificate->sum)
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the multipliers do not add up to the stated sum %" PRId64,
-                    certificate->component, certificate->sum);
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "certificate of component %d: the multipliers do not add up to the stated sum %" PRId64,
+        certificate->component, certificate->sum);
   if (join != certificate->join)
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: the extra passes do not weigh the stated %" PRId64,
-                    certificate->component, certificate->join);
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "certificate of component %d: the extra passes do not weigh the stated %" PRId64,
+        certificate->component, certificate->join);
   int cords = thr_plan_fewest_first(k->o) ? k->w->cords[certificate->component] : k->o->cords;
   int64_t ends = thr_check_ends_free(k->o) ? 2 * (int64_t)cords : 0;
   if (least_weight(certificate, places, ends) > join)
-    return thr_fail(err, THR_EVIOLATED,
-                    "certificate of component %d: its bound is above the weight of the plan's own extra passes",
-                    certificate->component);
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "certificate of component %d: its bound is above the weight of the plan's own extra passes",
+        certificate->component);
   out->extra = thr_check_extra(certificate, out, ends);
   bool attained = !weightless && least_weight(certificate, places, ends) >= join;
   out->optimal = extra == 0 || (attained && extra - out->extra <= 1e-9 * total);
   return THR_OK;
 }
 
-static thr_status check_numbers(const workspace *k, const thr_certificate *certificate, thr_err *err)
+static thr_status check_numbers(const workspace *k, const thr_certificate *certificate,
+                                thr_err *err)
 {
   if (!(certificate->scale > 0) || certificate->denominator < 1)
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale and denominator must be positive",
+    return thr_fail(err, THR_EVIOLATED,
+                    "certificate of component %d: scale and denominator must be positive",
                     certificate->component);
-  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1]; j++) {
+  for (int j = k->edge_start[certificate->component]; j < k->edge_start[certificate->component + 1];
+       j++) {
     int e = k->edge[j];
     if (!(k->f->length[e] * certificate->scale < 1e18))
-      return thr_fail(err, THR_EVIOLATED, "certificate of component %d: scale is too large for edge %d", certificate->component,
-                      e);
+      return thr_fail(err, THR_EVIOLATED,
+                      "certificate of component %d: scale is too large for edge %d",
+                      certificate->component, e);
   }
   if (certificate->end_price < 0 || (certificate->end_price > 0 && !thr_check_ends_free(k->o)))
-    return thr_fail(err, THR_EVIOLATED, "certificate of component %d: an end price of %" PRId64 " does not fit ends %s",
+    return thr_fail(err, THR_EVIOLATED,
+                    "certificate of component %d: an end price of %" PRId64 " does not fit ends %s",
                     certificate->component, certificate->end_price, thr_ends_name(k->o->ends));
   return THR_OK;
 }
@@ -321,18 +369,21 @@ static thr_status find_loops(workspace *k, int component, thr_err *err)
 {
   const int first = k->edge_start[component], n = k->edge_start[component + 1] - first;
   if (!k->loop) k->loop = thr_scratch_array(&k->scratch, (size_t)k->f->n_edges, sizeof *k->loop);
-  if (!k->work) k->work = thr_scratch_array(&k->scratch, 2 * (size_t)k->f->n_nodes, sizeof *k->work);
+  if (!k->work)
+    k->work = thr_scratch_array(&k->scratch, 2 * (size_t)k->f->n_nodes, sizeof *k->work);
   if (thr_scratch_check(&k->scratch, err)) return THR_ENOMEM;
   thr_prices_loops(k->f, k->edge + first, n, k->work, k->loop + first);
   return THR_OK;
 }
 
-static thr_status run_certificate(workspace *k, const thr_certificate *certificate, thr_check_verdict *out, thr_err *err)
+static thr_status run_certificate(workspace *k, const thr_certificate *certificate,
+                                  thr_check_verdict *out, thr_err *err)
 {
   forest t = {0};
   wide sum = 0, places = 0;
   thr_status st = check_numbers(k, certificate, err);
-  if (!st && certificate->n_prices > 0 && k->o->ends == THR_ENDS_CLOSED) st = find_loops(k, certificate->component, err);
+  if (!st && certificate->n_prices > 0 && k->o->ends == THR_ENDS_CLOSED)
+    st = find_loops(k, certificate->component, err);
   if (!st) st = apply_prices(k, certificate, &places, err);
   if (!st) st = forest_init(&t, certificate, err);
   if (!st) st = forest_fill(&t, k, err);
@@ -353,7 +404,8 @@ static void workspace_destroy(workspace *k)
   thr_scratch_free(&k->scratch);
 }
 
-/* Groups nodes and edges by component: counting sort, shifted by one place so that filling leaves the starts right. */
+/* Groups nodes and edges by component: counting sort, shifted by one place so that filling leaves
+ * the starts right. */
 static void group(workspace *k)
 {
   const thr_frame *frame = k->f;
@@ -378,7 +430,8 @@ static void point(workspace *k)
   const thr_frame *frame = k->f;
   for (int v = 0, n = 0; v < frame->n_nodes; v++) {
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
-      int other = thr_head(frame, frame->half[i]), more = thr_degree(frame, other) - thr_degree(frame, v);
+      int other = thr_head(frame, frame->half[i]),
+          more = thr_degree(frame, other) - thr_degree(frame, v);
       if (more < 0 || (more == 0 && other < v)) continue;
       k->far[n] = other;
       k->far_edge[n++] = frame->half[i] >> 1;
@@ -419,17 +472,21 @@ static thr_status workspace_init(workspace *k, const thr_frame *frame, const thr
   return THR_OK;
 }
 
-thr_status thr_check_certificates(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
-                                  const thr_certificate *certificate, int n, thr_check_verdict *verdict, thr_err *err)
+thr_status thr_check_certificates(const thr_frame *frame, const thr_request *options,
+                                  const thr_check_walked *check_walked,
+                                  const thr_certificate *certificate, int n,
+                                  thr_check_verdict *verdict, thr_err *err)
 {
   workspace k;
   if (n != check_walked->n_components)
-    return thr_fail(err, THR_EVIOLATED, "%d certificates for %d components; expected one per component", n,
+    return thr_fail(err, THR_EVIOLATED,
+                    "%d certificates for %d components; expected one per component", n,
                     check_walked->n_components);
   thr_status st = workspace_init(&k, frame, options, check_walked, err);
   for (int i = 0; i < n && !st; i++) {
     if (certificate[i].component != i)
-      st = thr_fail(err, THR_EVIOLATED, "certificate %d is for component %d; expected one per component in order", i,
+      st = thr_fail(err, THR_EVIOLATED,
+                    "certificate %d is for component %d; expected one per component in order", i,
                     certificate[i].component);
     else
       st = run_certificate(&k, &certificate[i], &verdict[i], err);

@@ -1,4 +1,6 @@
-/* What the files of graph/check/ share: comparisons of stated values, the plan as it was walked, and the parts of the proofs. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the files of graph/check/ share: comparisons of stated values, the plan as it was walked,
+ * and the parts of the proofs. */
 #ifndef THR_CHECK_PARTS_H
 #define THR_CHECK_PARTS_H
 
@@ -13,22 +15,25 @@
 
 /* ---- What the files of the checker share. Private to them. */
 
-/* Lengths, angles and forces are sums of doubles, taken in an order of the plan's own: equal up to 1e-9 of what they are parts
- * of. */
+/* Lengths, angles and forces are sums of doubles, taken in an order of the plan's own: equal up to
+ * 1e-9 of what they are parts of. */
 bool thr_check_close(double a, double b, double whole);
 
-/* Turning angle by Kahan's formula on unit vectors, rad: another way than the one that made the plan. */
+/* Turning angle by Kahan's formula on unit vectors, rad: another way than the one that made the
+ * plan. */
 double thr_check_angle(const thr_frame *frame, int in, int out);
 
-/* Returns the first pass that the end's pull reaches: pulled at both ends the one behind the slackest, unless the plan is of
- * version 1, which parts cords at a pass; else the slackest. */
+/* Returns the first pass that the end's pull reaches: pulled at both ends the one behind the
+ * slackest, unless the plan is of version 1, which parts cords at a pass; else the slackest. */
 int thr_check_from_end(const thr_request *request, thr_pull pull, int slackest, int n_passes);
 
-/* Is that pass the last one that the start's pull reaches, such that no other asks for less of the harder end? before[n_passes]:
- * exponents before each pass. O(n_passes). */
-bool thr_check_slackest(const thr_request *request, thr_pull pull, int slackest, const double *before, int n_passes);
+/* Is that pass the last one that the start's pull reaches, such that no other asks for less of the
+ * harder end? before[n_passes]: exponents before each pass. O(n_passes). */
+bool thr_check_slackest(const thr_request *request, thr_pull pull, int slackest,
+                        const double *before, int n_passes);
 
-/* Price of a turn, by that formula; of costs with a threshold by the one definition that there is. */
+/* Price of a turn, by that formula; of costs with a threshold by the one definition that there is.
+ */
 double thr_check_price(const thr_frame *frame, thr_turn_cost cost, int in, int out);
 
 /* Components and passes, worked out once for everything that is checked. */
@@ -40,19 +45,23 @@ typedef struct {
 } thr_check_walked;
 
 /* Without passes yet. On failure check_walked is empty. */
-thr_status thr_check_walked_init(thr_check_walked *check_walked, const thr_frame *frame, const thr_request *options,
-                                 thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_walked_init(thr_check_walked *check_walked, const thr_frame *frame,
+                                 const thr_request *options, thr_err *err) THR_MUST_CHECK;
 
 /* The same from cords, which are checked on the way. */
-thr_status thr_check_walked_from(thr_check_walked *check_walked, const thr_frame *frame, const thr_request *options,
-                                 const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_walked_from(thr_check_walked *check_walked, const thr_frame *frame,
+                                 const thr_request *options, const thr_cord *cord, int n_cords,
+                                 thr_err *err) THR_MUST_CHECK;
 void thr_check_walked_destroy(thr_check_walked *check_walked);
 
 /* Every edge has the passes that it needs, and no more than fit. */
-thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, const int *passes, thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, const int *passes,
+                           thr_err *err) THR_MUST_CHECK;
 
-/* As many cords in every component as the options say; where they were not asked for, in the one that has most. */
-thr_status thr_check_cord_count(const thr_check_walked *check_walked, const thr_request *options, thr_err *err) THR_MUST_CHECK;
+/* As many cords in every component as the options say; where they were not asked for, in the one
+ * that has most. */
+thr_status thr_check_cord_count(const thr_check_walked *check_walked, const thr_request *options,
+                                thr_err *err) THR_MUST_CHECK;
 
 /* Cord ends at allowed nodes, their number at each being free? */
 static inline bool thr_check_ends_free(const thr_request *options)
@@ -60,91 +69,118 @@ static inline bool thr_check_ends_free(const thr_request *options)
   return options->ends != THR_ENDS_CLOSED && options->ends != THR_ENDS_COUNTS;
 }
 
-/* Part of a bound that may be taken off it for rounding, instead of so much for every extra pass. */
+/* Part of a bound that may be taken off it for rounding, instead of so much for every extra pass.
+ */
 #define THR_CHECK_ROUNDING 5e-10
 
-/* What a certificate proves about its component. Lengths round to weights, and what is rounded up is taken off every bound: for
- * as many extra passes of each edge as a shortest plan with these options may have, not those of this plan. */
+/* What a certificate proves about its component. Lengths round to weights, and what is rounded up
+ * is taken off every bound: for as many extra passes of each edge as a shortest plan with these
+ * options may have, not those of this plan. */
 typedef struct {
-  bool optimal;          /* the passes are the shortest for at most options.cords cords (thr_plan_fewest_first: as many) */
+  bool optimal;          /* the passes are the shortest for at most options.cords cords
+                            (thr_plan_fewest_first: as many) */
   double extra;          /* no such cords have less extra cord, in units */
   double rounding;       /* what it adds at most, in units */
   double rounding_above; /* the same beyond THR_CHECK_ROUNDING of each edge's weight */
   thr_wide places;       /* what the prices of places add to the cuts' values */
 } thr_check_verdict;
 
-/* Cords that each component has at most: cords[check_walked->n_components]. Given numbers of ends say how many. O(nodes). */
-void thr_check_most_cords(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked, int *cords);
+/* Cords that each component has at most: cords[check_walked->n_components]. Given numbers of ends
+ * say how many. O(nodes). */
+void thr_check_most_cords(const thr_frame *frame, const thr_request *options,
+                          const thr_check_walked *check_walked, int *cords);
 
-/* Verifies the certificates, which must be one per component in order, for passes that were checked already:
- * verdict[check_walked->n_components]. O(nodes + edges, and for each node in a list of the cuts its edges, or sqrt(edges) if that
- * is less, times log(cuts)). */
-thr_status thr_check_certificates(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
-                                  const thr_certificate *certificate, int n, thr_check_verdict *verdict,
-                                  thr_err *err) THR_MUST_CHECK;
+/* Verifies the certificates, which must be one per component in order, for passes that were checked
+ * already: verdict[check_walked->n_components]. O(nodes + edges, and for each node in a list of the
+ * cuts its edges, or sqrt(edges) if that is less, times log(cuts)). */
+thr_status thr_check_certificates(const thr_frame *frame, const thr_request *options,
+                                  const thr_check_walked *check_walked,
+                                  const thr_certificate *certificate, int n,
+                                  thr_check_verdict *verdict, thr_err *err) THR_MUST_CHECK;
 
-/* Least extra cord of that component, in units, with so many cord ends, by a certificate with this verdict. */
-double thr_check_extra(const thr_certificate *certificate, const thr_check_verdict *check_verdict, int64_t ends);
+/* Least extra cord of that component, in units, with so many cord ends, by a certificate with this
+ * verdict. */
+double thr_check_extra(const thr_certificate *certificate, const thr_check_verdict *check_verdict,
+                       int64_t ends);
 
 /* Length of passes, and the edges that so many different cords pass. */
 double thr_check_length_of(const thr_frame *frame, const int *passes);
-thr_status thr_check_count_different(const thr_frame *frame, int distinct, const thr_cord *cord, int n_cords, int *found,
-                                     thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_count_different(const thr_frame *frame, int distinct, const thr_cord *cord,
+                                     int n_cords, int *found, thr_err *err) THR_MUST_CHECK;
 
-/* How many different cords plans like this one have over every edge: what is asked for, if it has them; else 1. */
-thr_status thr_check_different(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords, int *each,
+/* How many different cords plans like this one have over every edge: what is asked for, if it has
+ * them; else 1. */
+thr_status thr_check_different(const thr_frame *frame, const thr_request *options,
+                               const thr_cord *cord, int n_cords, int *each,
                                thr_err *err) THR_MUST_CHECK;
 
-/* Verifies the certificates for passes that were checked already. *verdict is for the caller to free; NULL on failure. */
-thr_status thr_check_judge(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
-                           const thr_certificate *certificate, int n, thr_check_verdict **verdict, thr_err *err) THR_MUST_CHECK;
+/* Verifies the certificates for passes that were checked already. *verdict is for the caller to
+ * free; NULL on failure. */
+thr_status thr_check_judge(const thr_frame *frame, const thr_request *options,
+                           const thr_check_walked *check_walked, const thr_certificate *certificate,
+                           int n, thr_check_verdict **verdict, thr_err *err) THR_MUST_CHECK;
 
-/* What the verdicts prove of passes with this length; and, of cords (each > 0: so many different ones over every edge), what all
- * sets of few edges do, and prices of walks within a pull (NULL: none). */
-thr_status thr_check_sum_verdicts(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
-                                  int each, const thr_check_verdict *verdict, const thr_walk_proof *pulled, double length,
-                                  bool *optimal, double *lower_bound, thr_err *err) THR_MUST_CHECK;
+/* What the verdicts prove of passes with this length; and, of cords (each > 0: so many different
+ * ones over every edge), what all sets of few edges do, and prices of walks within a pull (NULL:
+ * none). */
+thr_status thr_check_sum_verdicts(const thr_frame *frame, const thr_request *options,
+                                  const thr_check_walked *check_walked, int each,
+                                  const thr_check_verdict *verdict, const thr_walk_proof *pulled,
+                                  double length, bool *optimal, double *lower_bound,
+                                  thr_err *err) THR_MUST_CHECK;
 
-/* What can be claimed of several cords that were checked already: fills found. verdict NULL: no certificates; tied: the proof
- * of tube joints, or NULL; walks: prices that bound the longest, or NULL. */
-thr_status thr_check_several(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
-                             const thr_cord *cord, int n_cords, const thr_certificate *certificate,
-                             const thr_check_verdict *verdict, const thr_turning_proof *tied, const thr_walk_proof *walks,
-                             thr_cords_claim *found, thr_err *err) THR_MUST_CHECK;
+/* What can be claimed of several cords that were checked already: fills found. verdict NULL: no
+ * certificates; tied: the proof of tube joints, or NULL; walks: prices that bound the longest, or
+ * NULL. */
+thr_status thr_check_several(const thr_frame *frame, const thr_request *options,
+                             const thr_check_walked *check_walked, const thr_cord *cord,
+                             int n_cords, const thr_certificate *certificate,
+                             const thr_check_verdict *verdict, const thr_turning_proof *tied,
+                             const thr_walk_proof *walks, thr_cords_claim *found,
+                             thr_err *err) THR_MUST_CHECK;
 
 /* No cords of a component, as many as it may have, are shorter together than *least. */
-thr_status thr_check_least_of(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
-                              const thr_certificate *certificate, const thr_check_verdict *verdict, int component, double *least,
-                              thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_least_of(const thr_frame *frame, const thr_request *options,
+                              const thr_check_walked *check_walked,
+                              const thr_certificate *certificate, const thr_check_verdict *verdict,
+                              int component, double *least, thr_err *err) THR_MUST_CHECK;
 
-/* Verifies the plan's claim about its turning, which must be present, with cords and length proof that were checked already.
- * least_length: what the latter proves. */
-thr_status thr_check_turning_claim(const thr_plan *plan, double least_length, thr_err *err) THR_MUST_CHECK;
+/* Verifies the plan's claim about its turning, which must be present, with cords and length proof
+ * that were checked already. least_length: what the latter proves. */
+thr_status thr_check_turning_claim(const thr_plan *plan, double least_length,
+                                   thr_err *err) THR_MUST_CHECK;
 
-/* Raises *side to what is proved, whatever the pull, of the turning on a side of some cord's cut turn (docs/plan-format.md, "The
- * cord that is hardest to pull"): by single edges, by the claim's tree and walks, and of few edges by trying what is claimed.
- * task: of the claim's turning, without a cut. THR_EVIOLATED: of walks that prove nothing. */
-thr_status thr_check_pulled_least(const thr_frame *frame, const thr_request *options, const thr_turning_task *task,
-                                  const thr_turning_claim *claim, double *side, thr_err *err) THR_MUST_CHECK;
+/* Raises *side to what is proved, whatever the pull, of the turning on a side of some cord's cut
+ * turn (docs/plan-format.md, "The cord that is hardest to pull"): by single edges, by the claim's
+ * tree and walks, and of few edges by trying what is claimed. task: of the claim's turning, without
+ * a cut. THR_EVIOLATED: of walks that prove nothing. */
+thr_status thr_check_pulled_least(const thr_frame *frame, const thr_request *options,
+                                  const thr_turning_task *task, const thr_turning_claim *claim,
+                                  double *side, thr_err *err) THR_MUST_CHECK;
 
 /* Cords that component k has at most, where all have so many at most: given ends tell. */
 int thr_check_cords_of(const thr_turning_columns *columns, int k, int cords);
 
-/* What a tree proves of the price of turns, and walks with it: *all: of all cords together; *largest: raised to that of the
- * dearest, each component alone. */
-thr_status thr_check_shares(const thr_turning_columns *columns, int cords, const thr_turning_proof *tree, double *all,
-                            double *largest, thr_err *err) THR_MUST_CHECK;
+/* What a tree proves of the price of turns, and walks with it: *all: of all cords together;
+ * *largest: raised to that of the dearest, each component alone. */
+thr_status thr_check_shares(const thr_turning_columns *columns, int cords,
+                            const thr_turning_proof *tree, double *all, double *largest,
+                            thr_err *err) THR_MUST_CHECK;
 
 /* No cord needs more pull than the options allow. */
-thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
-                           thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, const thr_cord *cord,
+                           int n_cords, thr_err *err) THR_MUST_CHECK;
 
-/* What prices of walks within the pull prove of the length of their component, if that is more than length[n_components] says. */
-thr_status thr_check_pulled_length(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
-                                   const thr_walk_proof *pulled, double *length, thr_err *err) THR_MUST_CHECK;
+/* What prices of walks within the pull prove of the length of their component, if that is more than
+ * length[n_components] says. */
+thr_status thr_check_pulled_length(const thr_frame *frame, const thr_request *options,
+                                   const thr_check_walked *check_walked,
+                                   const thr_walk_proof *pulled, double *length,
+                                   thr_err *err) THR_MUST_CHECK;
 
 /* Verifies the plan's claim about the fewest cords for its pull, which must be present. */
-thr_status thr_check_pull_claim(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_pull_claim(const thr_plan *plan, const thr_check_walked *check_walked,
+                                thr_err *err) THR_MUST_CHECK;
 
 /* The elements of a symmetric plan's group as images of the nodes. */
 typedef struct {
@@ -152,28 +188,36 @@ typedef struct {
   int *image;   /* [order * n] owned */
 } thr_check_elements;
 
-/* Verifies what the record says of the group itself: generators, images, order and name. On failure out is empty. */
-thr_status thr_check_group(const thr_plan *plan, thr_check_elements *out, thr_err *err) THR_MUST_CHECK;
+/* Verifies what the record says of the group itself: generators, images, order and name. On failure
+ * out is empty. */
+thr_status thr_check_group(const thr_plan *plan, thr_check_elements *out,
+                           thr_err *err) THR_MUST_CHECK;
 
-/* Verifies the plan's record of its symmetry, which must be present, with cords that were checked already. */
+/* Verifies the plan's record of its symmetry, which must be present, with cords that were checked
+ * already. */
 thr_status thr_check_symmetry(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* Verifies the plan's evaluation, which must be present, with cords that were checked already. */
 thr_status thr_check_evaluation(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
-/* ln of the ratio of the tensions on both sides of the turn after pass i, by the evaluation's law; 0 after the last pass. */
-double thr_check_exponent(const thr_frame *frame, const thr_evaluation *evaluation, const thr_cord *cord, int i);
+/* ln of the ratio of the tensions on both sides of the turn after pass i, by the evaluation's law;
+ * 0 after the last pass. */
+double thr_check_exponent(const thr_frame *frame, const thr_evaluation *evaluation,
+                          const thr_cord *cord, int i);
 
-/* The tension that turns with this exponent, negative towards the slack side, lead from a tension to, by the law of the physics.
+/* The tension that turns with this exponent, negative towards the slack side, lead from a tension
+ * to, by the law of the physics.
  */
 double thr_check_tension(const thr_physics *physics, double tension, double exponent);
 
-/* Verifies what the limit analysis proved of the structure, which must be present, by the powers of its mechanisms. */
+/* Verifies what the limit analysis proved of the structure, which must be present, by the powers of
+ * its mechanisms. */
 thr_status thr_check_standing(const thr_plan *plan, thr_err *err) THR_MUST_CHECK;
 
 /* Are the tensions of cord i those that the schedule leaves in it? */
-thr_status thr_check_schedule(const thr_frame *frame, const thr_cord *path, const thr_schedule *schedule, int i,
-                              const thr_physics *physics, const thr_eval_cord *claim, thr_err *err) THR_MUST_CHECK;
+thr_status thr_check_schedule(const thr_frame *frame, const thr_cord *path,
+                              const thr_schedule *schedule, int i, const thr_physics *physics,
+                              const thr_eval_cord *claim, thr_err *err) THR_MUST_CHECK;
 
 /* ---- turning_leaf.c: The bound that one leaf's multipliers prove, and its parts. */
 
@@ -183,7 +227,8 @@ typedef struct {
   thr_scratch own;    /* the arrays */
   thr_wide *reduced;  /* [n_columns] price less what the multipliers take */
   bool *member;       /* [2 * n_edges + n_ends] all false between sets */
-  thr_wide *constant; /* [n_components + 1] what the multipliers take in a component; last, what sets of several do, >= 0 */
+  thr_wide *constant; /* [n_components + 1] what the multipliers take in a component; last, what
+                         sets of several do, >= 0 */
   thr_wide limit;     /* what the multiplier of the length takes off the sum, >= 0 */
   int *of_ends;       /* [n_ends] component of an equation of ends */
   int *edges;         /* [n_components] */
@@ -196,13 +241,13 @@ static inline int thr_turning_leaf_component(const thr_turning_leaf *k, int h)
   return k->c->component[k->c->f->edge[h >> 1][0]];
 }
 
-/* What the multipliers leave of all prices, and the sum of what they take. Release own with thr_scratch_free, after a failure
- * too. */
-thr_status thr_turning_leaf_init(thr_turning_leaf *k, const thr_turning_columns *turning_columns, const thr_turning_dual *dual,
-                                 thr_err *err) THR_MUST_CHECK;
+/* What the multipliers leave of all prices, and the sum of what they take. Release own with
+ * thr_scratch_free, after a failure too. */
+thr_status thr_turning_leaf_init(thr_turning_leaf *k, const thr_turning_columns *turning_columns,
+                                 const thr_turning_dual *dual, thr_err *err) THR_MUST_CHECK;
 
-/* What column j adds to the least value, between these bounds. With multipliers below 2^58 and sets below 2^62 together, reduced
- * prices stay below 2^63, and nothing here comes near 2^127. */
+/* What column j adds to the least value, between these bounds. With multipliers below 2^58 and sets
+ * below 2^62 together, reduced prices stay below 2^63, and nothing here comes near 2^127. */
 thr_wide thr_turning_leaf_adds(const thr_turning_leaf *k, int j, int least, int most);
 
 /* The nearest that 64 bits hold. */
@@ -210,9 +255,11 @@ int64_t thr_turning_in_64_bits(thr_wide total);
 
 /* ---- ways_in.c: How long the longest of several cords is by the ways from where cords may end. */
 
-/* *longest: no less in component number, of at most so many cords; 0 for closed cords, given numbers of ends, tube joints, prices
- * of places, and what is too large to look at in a moment. certificate: verified, of that component. O(cuts (nodes + edges)). */
-thr_status thr_ways_in(const thr_frame *frame, const thr_request *options, const int *component, int number, int cords,
-                       const thr_certificate *certificate, double *longest, thr_err *err) THR_MUST_CHECK;
+/* *longest: no less in component number, of at most so many cords; 0 for closed cords, given
+ * numbers of ends, tube joints, prices of places, and what is too large to look at in a moment.
+ * certificate: verified, of that component. O(cuts (nodes + edges)). */
+thr_status thr_ways_in(const thr_frame *frame, const thr_request *options, const int *component,
+                       int number, int cords, const thr_certificate *certificate, double *longest,
+                       thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,4 +1,6 @@
-/* The checker's part for a limit on the pull: what each cord needs, and that fewer cords would need more. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The checker's part for a limit on the pull: what each cord needs, and that fewer cords would need
+ * more. */
 #include "graph/angle.h"
 #include "graph/check/check_parts.h"
 #include "graph/check/edge_sets.h"
@@ -8,12 +10,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Of the capstan law's exponent, mu times the turning: a pull may be above the limit by so much of it. */
+/* Of the capstan law's exponent, mu times the turning: a pull may be above the limit by so much of
+ * it. */
 static const double rounding = 1e-9;
 
 /* ---- the cords ---- */
 
-/* The larger part of a cord's turning, rad, parted where that is least: at a turn, or for plans of version 1 at a pass. */
+/* The larger part of a cord's turning, rad, parted where that is least: at a turn, or for plans of
+ * version 1 at a pass. */
 static double larger_part(const thr_frame *frame, const thr_cord *cord, bool at_pass)
 {
   double whole = 0, before = 0;
@@ -28,14 +32,17 @@ static double larger_part(const thr_frame *frame, const thr_cord *cord, bool at_
   return larger;
 }
 
-thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords, thr_err *err)
+thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, const thr_cord *cord,
+                           int n_cords, thr_err *err)
 {
   const double mu = options->physics.mu;
   for (int i = 0; i < n_cords && options->max_pull > 0; i++) {
-    double exponent = mu * larger_part(frame, &cord[i], options->old_pull), most = log(options->max_pull);
+    double exponent = mu * larger_part(frame, &cord[i], options->old_pull),
+           most = log(options->max_pull);
     if (exponent > most + rounding * (1 + most))
       return thr_fail(err, THR_EVIOLATED,
-                      "cord %s: pulled at both ends it needs %.12g times the seating tension; the plan's options allow %.12g",
+                      "cord %s: pulled at both ends it needs %.12g times the seating tension; the "
+                      "plan's options allow %.12g",
                       cord[i].id, exp(exponent), options->max_pull);
   }
   return THR_OK;
@@ -43,9 +50,11 @@ thr_status thr_check_pulls(const thr_frame *frame, const thr_request *options, c
 
 /* ---- their length ---- */
 
-/* *bound: so many cords of the prices' component at most have this length at least; cords 0: as many as the options say. */
-static thr_status walks_bound(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
-                              const thr_walk_proof *walks, int cords, int *component, double *bound, thr_err *err)
+/* *bound: so many cords of the prices' component at most have this length at least; cords 0: as
+ * many as the options say. */
+static thr_status walks_bound(const thr_frame *frame, const thr_request *options,
+                              const thr_check_walked *check_walked, const thr_walk_proof *walks,
+                              int cords, int *component, double *bound, thr_err *err)
 {
   bool *end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *end_allowed);
   int *most = thr_calloc((size_t)check_walked->n_components, sizeof *most);
@@ -57,8 +66,9 @@ static thr_status walks_bound(const thr_frame *frame, const thr_request *options
     st = thr_turning_columns_init(&columns, frame, &task, err);
     *component = st ? 0 : thr_walk_component(&columns, walks);
     if (!st)
-      st = thr_walk_pull_check(&columns, options, walks, cords > 0 && cords < most[*component] ? cords : most[*component], bound,
-                               err);
+      st = thr_walk_pull_check(&columns, options, walks,
+                               cords > 0 && cords < most[*component] ? cords : most[*component],
+                               bound, err);
     thr_turning_columns_destroy(&columns);
   }
   free(end_allowed);
@@ -66,7 +76,8 @@ static thr_status walks_bound(const thr_frame *frame, const thr_request *options
   return st;
 }
 
-thr_status thr_check_pulled_length(const thr_frame *frame, const thr_request *options, const thr_check_walked *check_walked,
+thr_status thr_check_pulled_length(const thr_frame *frame, const thr_request *options,
+                                   const thr_check_walked *check_walked,
                                    const thr_walk_proof *pulled, double *length, thr_err *err)
 {
   double bound = 0;
@@ -78,40 +89,45 @@ thr_status thr_check_pulled_length(const thr_frame *frame, const thr_request *op
 
 /* ---- too few cords ---- */
 
-static thr_turning_task task_of(const thr_frame *frame, const thr_request *options, int cords, const thr_pull_claim *claim,
-                                bool *end_allowed)
+static thr_turning_task task_of(const thr_frame *frame, const thr_request *options, int cords,
+                                const thr_pull_claim *claim, bool *end_allowed)
 {
   const int least = thr_plan_cords_least(options);
   for (int v = 0; v < frame->n_nodes; v++)
     end_allowed[v] = thr_plan_end_allowed(frame, options, v);
-  return (thr_turning_task){.cover = options->cover,
-                            .capacity = options->capacity,
-                            .tube = options->joint == THR_JOINT_TUBE,
-                            .most_passes = claim->tree.n_nodes > 0 ? claim->most_passes : THR_PULL_PASSES,
-                            .cords = cords,
-                            .cords_least = least < cords ? least : cords,
-                            .end_allowed = options->ends == THR_ENDS_CLOSED ? NULL : end_allowed,
-                            .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
-                            .extra_limit = -1,
-                            .cut = claim->cut};
+  return (thr_turning_task){
+      .cover = options->cover,
+      .capacity = options->capacity,
+      .tube = options->joint == THR_JOINT_TUBE,
+      .most_passes = claim->tree.n_nodes > 0 ? claim->most_passes : THR_PULL_PASSES,
+      .cords = cords,
+      .cords_least = least < cords ? least : cords,
+      .end_allowed = options->ends == THR_ENDS_CLOSED ? NULL : end_allowed,
+      .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
+      .extra_limit = -1,
+      .cut = claim->cut};
 }
 
-/* Raises *side to what the tree proves of the turns on one side of some cord's cut turn, rad. Where no turn weighs more than
- * task->cut, all turns of a cord weigh at most what its two sides do and a cut turn, with closed cords also the turn at its ends.
+/* Raises *side to what the tree proves of the turns on one side of some cord's cut turn, rad. Where
+ * no turn weighs more than task->cut, all turns of a cord weigh at most what its two sides do and a
+ * cut turn, with closed cords also the turn at its ends.
  */
-static thr_status bound_by_tree(const thr_turning_columns *columns, const thr_turning_proof *tree, double *side, thr_err *err)
+static thr_status bound_by_tree(const thr_turning_columns *columns, const thr_turning_proof *tree,
+                                double *side, thr_err *err)
 {
   const thr_turning_task *task = columns->task;
   double each = 0, all = 0;
   thr_status st = thr_check_shares(columns, task->cords, tree, &all, &each, err);
-  const double passed_by_nobody = (task->end_allowed ? 1 : 2) * ldexp((double)task->cut, -THR_TURNING_BITS) * (1 + 1e-15);
+  const double passed_by_nobody =
+      (task->end_allowed ? 1 : 2) * ldexp((double)task->cut, -THR_TURNING_BITS) * (1 + 1e-15);
   each = fmax(each, all / ((double)task->cords * columns->n_components));
   *side = fmax(*side, (each - passed_by_nobody) / 2);
   return st;
 }
 
 /* What is known of any cords over single edges. */
-static thr_status bound_by_edges(const thr_frame *frame, const thr_turning_task *task, double *side, thr_err *err)
+static thr_status bound_by_edges(const thr_frame *frame, const thr_turning_task *task, double *side,
+                                 thr_err *err)
 {
   thr_turning_task uncut = *task;
   thr_turning_columns columns;
@@ -123,8 +139,8 @@ static thr_status bound_by_edges(const thr_frame *frame, const thr_turning_task 
 }
 
 /* Raises *side to the most that single edges and the tree, if there is one, prove. */
-static thr_status find_side(const thr_frame *frame, const thr_turning_task *task, const thr_turning_proof *tree, double *side,
-                            thr_err *err)
+static thr_status find_side(const thr_frame *frame, const thr_turning_task *task,
+                            const thr_turning_proof *tree, double *side, thr_err *err)
 {
   thr_turning_columns columns = {0};
   thr_status st = bound_by_edges(frame, task, side, err);
@@ -135,21 +151,24 @@ static thr_status find_side(const thr_frame *frame, const thr_turning_task *task
   return st;
 }
 
-/* The turning, rad, that is allowed on either side of a cut turn: with twice the rounding that cords are allowed. */
+/* The turning, rad, that is allowed on either side of a cut turn: with twice the rounding that
+ * cords are allowed. */
 static double most_turned(const thr_request *options)
 {
   const double most = log(options->max_pull);
   return (most + 2 * rounding * (1 + most)) / options->physics.mu;
 }
 
-/* Are so many cords too few for some component of few edges, if turns on either side of a cut turn come to `allowed` rad at most?
+/* Are so many cords too few for some component of few edges, if turns on either side of a cut turn
+ * come to `allowed` rad at most?
  */
-static thr_status few_too_few(const thr_frame *frame, const thr_request *options, int cords, double allowed, bool *too_few,
-                              thr_err *err)
+static thr_status few_too_few(const thr_frame *frame, const thr_request *options, int cords,
+                              double allowed, bool *too_few, thr_err *err)
 {
   thr_scratch own = {0};
   const size_t n = (size_t)frame->n_nodes; /* no more components than that */
-  int *component = thr_scratch_array(&own, n, sizeof *component), *enough = thr_scratch_array(&own, n, sizeof *enough);
+  int *component = thr_scratch_array(&own, n, sizeof *component),
+      *enough = thr_scratch_array(&own, n, sizeof *enough);
   int *fewest = thr_scratch_array(&own, n, sizeof *fewest), components = 0, least, most;
   thr_status st = thr_scratch_check(&own, err);
   if (!st) st = thr_frame_components(frame, component, &components, err);
@@ -165,8 +184,8 @@ static thr_status few_too_few(const thr_frame *frame, const thr_request *options
   return st;
 }
 
-thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options, int cords, const thr_pull_claim *claim,
-                             bool *too_few, thr_err *err)
+thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options, int cords,
+                             const thr_pull_claim *claim, bool *too_few, thr_err *err)
 {
   double side = 0;
   *too_few = false;
@@ -181,8 +200,9 @@ thr_status thr_check_too_few(const thr_frame *frame, const thr_request *options,
   return st;
 }
 
-thr_status thr_check_pulled_least(const thr_frame *frame, const thr_request *options, const thr_turning_task *task,
-                                  const thr_turning_claim *claim, double *side, thr_err *err)
+thr_status thr_check_pulled_least(const thr_frame *frame, const thr_request *options,
+                                  const thr_turning_task *task, const thr_turning_claim *claim,
+                                  double *side, thr_err *err)
 {
   thr_turning_proof tree = claim->tree;
   thr_turning_task cut = *task;
@@ -191,7 +211,8 @@ thr_status thr_check_pulled_least(const thr_frame *frame, const thr_request *opt
   tree.walks = (thr_walk_proof){0};
   cut.cut = claim->cut;
 
-  /* Reads the tree where turns count for no more than the cut, and takes what single edges force. */
+  /* Reads the tree where turns count for no more than the cut, and takes what single edges force.
+   */
   thr_status st = bound_by_edges(frame, task, side, err);
   if (!st && claim->cut > 0) {
     st = thr_turning_columns_init(&columns, frame, &cut, err);
@@ -201,11 +222,13 @@ thr_status thr_check_pulled_least(const thr_frame *frame, const thr_request *opt
 
   /* Prices of walks. */
   if (!st && claim->tree.walks.unit > 0) {
-    if (task->tube) return thr_fail(err, THR_EVIOLATED, "walks: with tube joints none are within a pull");
+    if (task->tube)
+      return thr_fail(err, THR_EVIOLATED, "walks: with tube joints none are within a pull");
     st = thr_turning_columns_init(&columns, frame, task, err);
     const int component = st ? 0 : thr_walk_component(&columns, &claim->tree.walks);
     if (!st)
-      st = thr_walk_pull_least(&columns, &claim->tree.walks, thr_check_cords_of(&columns, component, task->cords), &walks, err);
+      st = thr_walk_pull_least(&columns, &claim->tree.walks,
+                               thr_check_cords_of(&columns, component, task->cords), &walks, err);
     *side = fmax(*side, walks);
     thr_turning_columns_destroy(&columns);
   }
@@ -213,13 +236,15 @@ thr_status thr_check_pulled_least(const thr_frame *frame, const thr_request *opt
   /* All sets of cords through few edges decide whether what is claimed is so. */
   bool too_few = false;
   const double stated = claim->largest_bound - 5e-10 * (1 + claim->largest_bound);
-  if (!st && stated > *side) st = few_too_few(frame, options, options->cords, stated, &too_few, err);
+  if (!st && stated > *side)
+    st = few_too_few(frame, options, options->cords, stated, &too_few, err);
   if (too_few) *side = stated;
   return st;
 }
 
-thr_status thr_check_fewest_pulled(const thr_frame *frame, const thr_request *options, const int *cords, int components,
-                                   int excluded, int *fewest, thr_err *err)
+thr_status thr_check_fewest_pulled(const thr_frame *frame, const thr_request *options,
+                                   const int *cords, int components, int excluded, int *fewest,
+                                   thr_err *err)
 {
   thr_scratch own = {0};
   const int least = thr_plan_cords_least(options);
@@ -227,7 +252,8 @@ thr_status thr_check_fewest_pulled(const thr_frame *frame, const thr_request *op
   thr_status st = thr_scratch_check(&own, err);
   for (int c = 0; c < components && !st; c++)
     number[c] = least;
-  if (!st && options->physics.mu > 0) st = thr_few_edges_within(frame, options, most_turned(options), cords, number, err);
+  if (!st && options->physics.mu > 0)
+    st = thr_few_edges_within(frame, options, most_turned(options), cords, number, err);
   *fewest = 0;
   for (int c = 0; c < components && !st; c++) {
     *fewest += number[c];
@@ -246,30 +272,44 @@ static thr_status check_too_few(const thr_plan *plan, thr_err *err)
   const thr_pull_claim *claim = &plan->pull_claim;
   bool too_few;
   if (claim->tree.n_nodes > 0 && claim->most_passes < THR_PULL_PASSES)
-    return thr_fail(err, THR_EVIOLATED, "proof.pull.most_passes: %d; a proof is about plans with up to %d passes over an edge",
-                    claim->most_passes, THR_PULL_PASSES);
-  if (claim->tree.n_nodes > 0 && claim->cut <= 0) return thr_fail(err, THR_EVIOLATED, "proof.pull.cut: missing");
-  thr_status st = thr_check_too_few(&plan->frame, &plan->options, claim->excluded, claim, &too_few, err);
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "proof.pull.most_passes: %d; a proof is about plans with up to %d passes over an edge",
+        claim->most_passes, THR_PULL_PASSES);
+  if (claim->tree.n_nodes > 0 && claim->cut <= 0)
+    return thr_fail(err, THR_EVIOLATED, "proof.pull.cut: missing");
+  thr_status st =
+      thr_check_too_few(&plan->frame, &plan->options, claim->excluded, claim, &too_few, err);
   if (st || too_few) return st;
-  return thr_fail(err, THR_EVIOLATED, "proof.pull: it is not proved that %d cords in every component are too few for the pull",
-                  claim->excluded);
+  return thr_fail(
+      err, THR_EVIOLATED,
+      "proof.pull: it is not proved that %d cords in every component are too few for the pull",
+      claim->excluded);
 }
 
-/* Any length at all of so many cords means that there are none where lengths count for nothing (thr_walk_proof.bits 0). */
-static thr_status check_walks(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err)
+/* Any length at all of so many cords means that there are none where lengths count for nothing
+ * (thr_walk_proof.bits 0). */
+static thr_status check_walks(const thr_plan *plan, const thr_check_walked *check_walked,
+                              thr_err *err)
 {
   const thr_pull_claim *claim = &plan->pull_claim;
   double bound = 0;
   int k;
-  if (claim->walks.bits != 0) return thr_fail(err, THR_EVIOLATED, "proof.pull.walks.bits: %d; 0 is expected", claim->walks.bits);
-  thr_status st = walks_bound(&plan->frame, &plan->options, check_walked, &claim->walks, claim->excluded, &k, &bound, err);
+  if (claim->walks.bits != 0)
+    return thr_fail(err, THR_EVIOLATED, "proof.pull.walks.bits: %d; 0 is expected",
+                    claim->walks.bits);
+  thr_status st = walks_bound(&plan->frame, &plan->options, check_walked, &claim->walks,
+                              claim->excluded, &k, &bound, err);
   if (st || bound > 0) return st;
-  return thr_fail(err, THR_EVIOLATED, "proof.pull: it is not proved that %d cords in every component are too few for the pull",
-                  claim->excluded);
+  return thr_fail(
+      err, THR_EVIOLATED,
+      "proof.pull: it is not proved that %d cords in every component are too few for the pull",
+      claim->excluded);
 }
 
 /* *fewest: what the claim proves, but for its parts. */
-static thr_status check_fewest(const thr_plan *plan, const thr_check_walked *check_walked, int *fewest, thr_err *err)
+static thr_status check_fewest(const thr_plan *plan, const thr_check_walked *check_walked,
+                               int *fewest, thr_err *err)
 {
   const thr_pull_claim *claim = &plan->pull_claim;
   thr_status st = THR_OK;
@@ -278,12 +318,13 @@ static thr_status check_fewest(const thr_plan *plan, const thr_check_walked *che
   else if (thr_pull_excludes(claim))
     st = check_too_few(plan, err);
   if (st || plan->options.ends == THR_ENDS_COUNTS) return st;
-  return thr_check_fewest_pulled(&plan->frame, &plan->options, check_walked->cords, check_walked->n_components, claim->excluded,
-                                 fewest, err);
+  return thr_check_fewest_pulled(&plan->frame, &plan->options, check_walked->cords,
+                                 check_walked->n_components, claim->excluded, fewest, err);
 }
 
 /* Component k alone, with as many cords as it has. */
-static thr_status check_part(const thr_components *components, int k, const thr_pull_claim *part, int cords, thr_err *err)
+static thr_status check_part(const thr_components *components, int k, const thr_pull_claim *part,
+                             int cords, thr_err *err)
 {
   thr_check_walked walked = {0};
   thr_plan alone;
@@ -305,7 +346,8 @@ static thr_status check_part(const thr_components *components, int k, const thr_
 }
 
 /* *fewest: what is proved of all components, each alone. */
-static thr_status check_parts(const thr_plan *plan, const thr_check_walked *check_walked, int *fewest, thr_err *err)
+static thr_status check_parts(const thr_plan *plan, const thr_check_walked *check_walked,
+                              int *fewest, thr_err *err)
 {
   const thr_pull_claim *claim = &plan->pull_claim;
   thr_components components;
@@ -319,21 +361,26 @@ static thr_status check_parts(const thr_plan *plan, const thr_check_walked *chec
   return st;
 }
 
-thr_status thr_check_pull_claim(const thr_plan *plan, const thr_check_walked *check_walked, thr_err *err)
+thr_status thr_check_pull_claim(const thr_plan *plan, const thr_check_walked *check_walked,
+                                thr_err *err)
 {
   const thr_pull_claim *claim = &plan->pull_claim;
   int fewest = plan->n_cords;
-  if (plan->options.max_pull <= 0) return thr_fail(err, THR_EVIOLATED, "proof.pull: the options set no limit on the pull");
-  thr_status st =
-      claim->n_parts > 0 ? check_parts(plan, check_walked, &fewest, err) : check_fewest(plan, check_walked, &fewest, err);
+  if (plan->options.max_pull <= 0)
+    return thr_fail(err, THR_EVIOLATED, "proof.pull: the options set no limit on the pull");
+  thr_status st = claim->n_parts > 0 ? check_parts(plan, check_walked, &fewest, err)
+                                     : check_fewest(plan, check_walked, &fewest, err);
   if (st) return st;
   if (claim->fewest > fewest)
-    return thr_fail(err, THR_EVIOLATED, "proof.pull.lower_bound: stated %d, but only %d is proved", claim->fewest, fewest);
+    return thr_fail(err, THR_EVIOLATED, "proof.pull.lower_bound: stated %d, but only %d is proved",
+                    claim->fewest, fewest);
   if (claim->fewest > plan->n_cords)
-    return thr_fail(err, THR_EVIOLATED, "proof.pull: any plan would have %d cords or more, but this one has %d", claim->fewest,
-                    plan->n_cords);
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.pull: any plan would have %d cords or more, but this one has %d",
+                    claim->fewest, plan->n_cords);
   if (claim->optimal && claim->fewest != plan->n_cords)
-    return thr_fail(err, THR_EVIOLATED, "proof.pull: says optimal, but there are %d cords and its bound is %d", plan->n_cords,
-                    claim->fewest);
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.pull: says optimal, but there are %d cords and its bound is %d",
+                    plan->n_cords, claim->fewest);
   return THR_OK;
 }

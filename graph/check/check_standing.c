@@ -1,6 +1,8 @@
-/* The checker's part for the limit analysis: beads as rigid bodies, and the powers of what acts on them in the mechanisms that
- * the plan states. Knows nothing of eval/, and no solver: if no contact closes, contact forces within their cones do no work on
- * the mechanism that is negative, and equilibrium is impossible where weights and loads do more than the cords resist. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The checker's part for the limit analysis: beads as rigid bodies, and the powers of what acts on
+ * them in the mechanisms that the plan states. Knows nothing of eval/, and no solver: if no contact
+ * closes, contact forces within their cones do no work on the mechanism that is negative, and
+ * equilibrium is impossible where weights and loads do more than the cords resist. */
 #include "graph/angle.h"
 #include "graph/check/check_parts.h"
 #include "graph/framework/units.h"
@@ -9,11 +11,12 @@
 
 #include <math.h>
 
-/* All tolerances are parts of what the mechanism itself has, so that no mechanism is slow enough to hide in them. STILL is the
- * part of the speed of the fastest point that a contact may close with, and ROUNDING the part of the sum of the terms of all
- * powers that they are compared within: both are rounding. DRIVE is the part of all weights and loads, each moving with that
- * speed, that has to drive the mechanism. It is so much more than STILL that no chain of contacts, each closing by what STILL
- * allows, comes to it. A bead is FASTEST if its speed is 1 within that part. */
+/* All tolerances are parts of what the mechanism itself has, so that no mechanism is slow enough to
+ * hide in them. STILL is the part of the speed of the fastest point that a contact may close with,
+ * and ROUNDING the part of the sum of the terms of all powers that they are compared within: both
+ * are rounding. DRIVE is the part of all weights and loads, each moving with that speed, that has
+ * to drive the mechanism. It is so much more than STILL that no chain of contacts, each closing by
+ * what STILL allows, comes to it. A bead is FASTEST if its speed is 1 within that part. */
 static const double STILL = 1e-13, ROUNDING = 1e-14, DRIVE = 1e-7, FASTEST = 1e-9;
 
 /* Bodies in SI units. */
@@ -26,9 +29,10 @@ typedef struct {
   double play;     /* how far from the middle of a face a cord may go through it */
   double *mass, (*centre)[3], (*mass_centre)[3];
   bool *foot;
-  double *knotted;        /* [n_edges] m: length of the edge, of those that a cord passes which is knotted at both ends; else 0 */
-  double *press;          /* [n_edges] of what is asked at the time */
-  double *at;             /* [longest cord] exponents before each pass */
+  double *knotted; /* [n_edges] m: length of the edge, of those that a cord passes which is knotted
+                      at both ends; else 0 */
+  double *press;   /* [n_edges] of what is asked at the time */
+  double *at;      /* [longest cord] exponents before each pass */
   thr_knotted_pass *pass; /* [longest cord] */
   double (*point)[2];     /* [longest cord + 2] */
   thr_scratch own;
@@ -39,7 +43,8 @@ typedef struct {
 static void place_nodes(bodies *b)
 {
   const thr_frame *frame = &b->plan->frame;
-  double lowest = INFINITY, low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+  double lowest = INFINITY, low[3] = {INFINITY, INFINITY, INFINITY},
+         high[3] = {-INFINITY, -INFINITY, -INFINITY};
   bool any = false;
   for (int v = 0; v < frame->n_nodes; v++) {
     for (int k = 0; k < 3; k++) {
@@ -50,8 +55,9 @@ static void place_nodes(bodies *b)
     lowest = fmin(lowest, b->centre[v][2]);
     any |= frame->foot[v];
   }
-  const double size = sqrt((high[0] - low[0]) * (high[0] - low[0]) + (high[1] - low[1]) * (high[1] - low[1]) +
-                           (high[2] - low[2]) * (high[2] - low[2]));
+  const double size =
+      sqrt((high[0] - low[0]) * (high[0] - low[0]) + (high[1] - low[1]) * (high[1] - low[1]) +
+           (high[2] - low[2]) * (high[2] - low[2]));
   for (int v = 0; v < frame->n_nodes; v++)
     b->foot[v] = any ? frame->foot[v] : b->centre[v][2] <= lowest + 1e-6 * size;
 }
@@ -123,7 +129,8 @@ static void weigh(bodies *b)
   for (int v = 0; v < frame->n_nodes; v++) {
     for (int k = 0; k < 3; k++)
       b->mass_centre[v][k] = b->centre[v][k] + b->mass_centre[v][k] / b->mass[v];
-    b->mass[v] = physics->bead_mass > 0 ? physics->bead_mass / 1e3 : 1e3 * physics->density * b->mass[v];
+    b->mass[v] =
+        physics->bead_mass > 0 ? physics->bead_mass / 1e3 : 1e3 * physics->density * b->mass[v];
   }
 }
 
@@ -135,7 +142,10 @@ static thr_status bodies_make(bodies *b, const thr_plan *plan, thr_err *err)
   int longest = 1;
   for (int i = 0; i < plan->n_cords; i++)
     longest = plan->cord[i].n_passes > longest ? plan->cord[i].n_passes : longest;
-  *b = (bodies){.plan = plan, .e = &plan->evaluation, .s = s, .width = plan->evaluation.physics.bead_diameter / 1e3};
+  *b = (bodies){.plan = plan,
+                .e = &plan->evaluation,
+                .s = s,
+                .width = plan->evaluation.physics.bead_diameter / 1e3};
   b->mass = thr_scratch_array(&b->own, n, sizeof *b->mass);
   b->centre = thr_scratch_array(&b->own, n, sizeof *b->centre);
   b->mass_centre = thr_scratch_array(&b->own, n, sizeof *b->mass_centre);
@@ -147,7 +157,8 @@ static thr_status bodies_make(bodies *b, const thr_plan *plan, thr_err *err)
   b->point = thr_scratch_array(&b->own, (size_t)longest + 2, sizeof *b->point);
   thr_status st = thr_scratch_check(&b->own, err);
   if (!st && thr_units_in_mm(plan->frame.units, &mm, NULL))
-    st = thr_fail(err, THR_EVIOLATED, "evaluation.structure: beads, but nobody knows how long a unit is");
+    st = thr_fail(err, THR_EVIOLATED,
+                  "evaluation.structure: beads, but nobody knows how long a unit is");
   if (st) return st;
   b->unit = mm / 1e3;
   b->down[0] = sin(s->tilt) * cos(s->azimuth);
@@ -171,23 +182,28 @@ static double exponents(bodies *b, int i)
   for (int k = 0; k < cord->n_passes; k++) {
     b->at[k] = sum;
     if (k + 1 < cord->n_passes)
-      sum += cord->exponent ? cord->exponent[k] : thr_check_exponent(&b->plan->frame, b->e, &b->plan->cord[i], k);
+      sum += cord->exponent ? cord->exponent[k]
+                            : thr_check_exponent(&b->plan->frame, b->e, &b->plan->cord[i], k);
   }
   return sum;
 }
 
 /* Tension of pass k of a cord that is asked about at a pull of 1, or as the schedule leaves it. */
-static double tension_of(const bodies *b, const thr_drawn *drawn, thr_asked asked, int i, int k, double total)
+static double tension_of(const bodies *b, const thr_drawn *drawn, thr_asked asked, int i, int k,
+                         double total)
 {
   const thr_request *request = &b->plan->options;
-  const double most = 600, near = fmin(most, fmin(b->at[k], total - b->at[k])), slackest = b->at[drawn->slackest];
-  const double from_end = b->at[thr_check_from_end(request, drawn->pull, drawn->slackest, b->e->cord[i].n_passes)];
+  const double most = 600, near = fmin(most, fmin(b->at[k], total - b->at[k])),
+               slackest = b->at[drawn->slackest];
+  const double from_end =
+      b->at[thr_check_from_end(request, drawn->pull, drawn->slackest, b->e->cord[i].n_passes)];
   const double hard = drawn->pull == THR_PULL_START ? slackest
                       : drawn->pull == THR_PULL_END ? total - slackest
                                                     : fmax(slackest, total - from_end);
   if (thr_asked_after(asked)) return b->e->cord[i].tension[k];
   if (drawn->pull == THR_PULL_NONE) return 0;
-  if (asked == THR_ASKED_HOLDING) return exp((k <= drawn->slackest ? slackest - b->at[k] : b->at[k] - from_end) - hard);
+  if (asked == THR_ASKED_HOLDING)
+    return exp((k <= drawn->slackest ? slackest - b->at[k] : b->at[k] - from_end) - hard);
   return exp(asked == THR_ASKED_ANY_STATE ? near : -near);
 }
 
@@ -200,13 +216,15 @@ static void press(bodies *b, const thr_answer *answer)
     const double total = exponents(b, i);
     for (int k = 0; k < plan->cord[i].n_passes; k++)
       b->press[plan->cord[i].half[k] >> 1] +=
-          (answer->asked == THR_ASKED_CARRIED ? answer->pull : 1) * tension_of(b, &b->s->drawn[i], answer->asked, i, k, total);
+          (answer->asked == THR_ASKED_CARRIED ? answer->pull : 1) *
+          tension_of(b, &b->s->drawn[i], answer->asked, i, k, total);
   }
 }
 
 /* ---- mechanisms ---- */
 
-static void point_velocity(const bodies *b, const thr_answer *a, int v, const double at[3], double out[3])
+static void point_velocity(const bodies *b, const thr_answer *a, int v, const double at[3],
+                           double out[3])
 {
   double lever[3];
   for (int k = 0; k < 3; k++)
@@ -216,8 +234,8 @@ static void point_velocity(const bodies *b, const thr_answer *a, int v, const do
     out[k] += a->velocity[v][k];
 }
 
-/* Returns whether no force within the friction cone round normal, on what moves with apart, does negative work. closing is the
- * speed up to which a contact counts as still. */
+/* Returns whether no force within the friction cone round normal, on what moves with apart, does
+ * negative work. closing is the speed up to which a contact counts as still. */
 static bool opens(const double apart[3], const double normal[3], double mu, double closing)
 {
   const double along = thr_dot(apart, normal);
@@ -239,14 +257,17 @@ static void axes_of(const bodies *b, int e, double axis[3], double side[2][3])
 }
 
 /* Point number i of the corners of a square of side width round `middle`. */
-static void corner_of(const bodies *b, const double middle[3], const double side[2][3], int i, double out[3])
+static void corner_of(const bodies *b, const double middle[3], const double side[2][3], int i,
+                      double out[3])
 {
   for (int k = 0; k < 3; k++)
-    out[k] = middle[k] + b->width / 2 * ((i & 1 ? 1 : -1) * side[0][k] + (i & 2 ? 1 : -1) * side[1][k]);
+    out[k] =
+        middle[k] + b->width / 2 * ((i & 1 ? 1 : -1) * side[0][k] + (i & 2 ? 1 : -1) * side[1][k]);
 }
 
 /* Computes the corners of the face of edge e, and their velocities on both of its beads. */
-static void face_velocities(const bodies *b, const thr_answer *a, int e, double axis[3], double velocity[2][4][3])
+static void face_velocities(const bodies *b, const thr_answer *a, int e, double axis[3],
+                            double velocity[2][4][3])
 {
   const int *end = b->plan->frame.edge[e];
   double side[2][3], middle[3], at[3];
@@ -261,17 +282,20 @@ static void face_velocities(const bodies *b, const thr_answer *a, int e, double 
   }
 }
 
-/* Computes the velocities of the corners on which foot v stands, and returns their number: those of a regular polygon round its
- * disc, or, in the first model, of a square. If no corner closes, no point of the disc does. */
+/* Computes the velocities of the corners on which foot v stands, and returns their number: those of
+ * a regular polygon round its disc, or, in the first model, of a square. If no corner closes, no
+ * point of the disc does. */
 enum { SIDES = 16 };
 static int foot_velocities(const bodies *b, const thr_answer *a, int v, double velocity[SIDES][3])
 {
   const int sides = b->s->model > 1 ? SIDES : 4;
   const double radius = b->width / 2 / cos(THR_PI / sides);
   for (int i = 0; i < sides; i++) {
-    const double angle = THR_PI * (2 * i + 1) / sides, along = radius * cos(angle), across = radius * sin(angle);
+    const double angle = THR_PI * (2 * i + 1) / sides, along = radius * cos(angle),
+                 across = radius * sin(angle);
     const double at[3] = {b->centre[v][0] + along * b->level[0] - across * b->level[1],
-                          b->centre[v][1] + along * b->level[1] + across * b->level[0], b->centre[v][2] - b->width / 2};
+                          b->centre[v][1] + along * b->level[1] + across * b->level[0],
+                          b->centre[v][2] - b->width / 2};
     point_velocity(b, a, v, at, velocity[i]);
   }
   return sides;
@@ -291,7 +315,8 @@ static double fastest_bead(const bodies *b, const thr_answer *a)
   return fastest;
 }
 
-/* Returns the speed of the fastest point of the mechanism: of all mass centres and all corners that touch something. */
+/* Returns the speed of the fastest point of the mechanism: of all mass centres and all corners that
+ * touch something. */
 static double fastest_point(const bodies *b, const thr_answer *a)
 {
   double fastest = fastest_bead(b, a), axis[3], face[2][4][3], foot[SIDES][3];
@@ -350,8 +375,10 @@ static void add_power(power *p, double value)
   p->terms += fabs(value);
 }
 
-/* Adds `press` times how fast the beads of edge e part: at the middle of their face, and as much more where the cord may be. */
-static void parting_power(const bodies *b, const thr_answer *a, int e, double press, power *resistance)
+/* Adds `press` times how fast the beads of edge e part: at the middle of their face, and as much
+ * more where the cord may be. */
+static void parting_power(const bodies *b, const thr_answer *a, int e, double press,
+                          power *resistance)
 {
   const int *end = b->plan->frame.edge[e];
   double axis[3], middle[3], velocity[3], turn[3], across[3];
@@ -368,8 +395,9 @@ static void parting_power(const bodies *b, const thr_answer *a, int e, double pr
   add_power(resistance, press * b->play * sqrt(thr_dot(across, across)));
 }
 
-/* Returns the most that a face with knotted cord parts by for each metre of the cord, 1/s. Its tension can only grow there as it
- * stretches, so that a newton metre of stretch resists so much at most. */
+/* Returns the most that a face with knotted cord parts by for each metre of the cord, 1/s. Its
+ * tension can only grow there as it stretches, so that a newton metre of stretch resists so much at
+ * most. */
 static double stretching(const bodies *b, const thr_answer *a)
 {
   double most = 0;
@@ -393,9 +421,11 @@ static bool knots_rest(const bodies *b, const thr_answer *a, double closing)
   return rest;
 }
 
-/* Returns what knotted cords can resist beyond the tensions that the schedule leaves (graph/plan/knotted.c), W: with no more than
- * `strength`, N, and while they have stretched by no more than `stretch`, N m, of which each newton metre takes off `resists`. */
-static double tightening(bodies *b, const thr_answer *a, double strength, double stretch, double resists)
+/* Returns what knotted cords can resist beyond the tensions that the schedule leaves
+ * (graph/plan/knotted.c), W: with no more than `strength`, N, and while they have stretched by no
+ * more than `stretch`, N m, of which each newton metre takes off `resists`. */
+static double tightening(bodies *b, const thr_answer *a, double strength, double stretch,
+                         double resists)
 {
   double sum = 0;
   for (int i = 0; i < b->plan->n_cords; i++) {
@@ -407,10 +437,11 @@ static double tightening(bodies *b, const thr_answer *a, double strength, double
       const double least = b->e->cord[i].tension[k], length = b->knotted[e];
       power parting = {0};
       parting_power(b, a, e, 1, &parting);
-      b->pass[k] = (thr_knotted_pass){.least = least,
-                                      .most = fmin(strength, least + stretch / length),
-                                      .gain = parting.sum - resists * length,
-                                      .exponent = k + 1 < cord->n_passes ? b->at[k + 1] - b->at[k] : 0};
+      b->pass[k] =
+          (thr_knotted_pass){.least = least,
+                             .most = fmin(strength, least + stretch / length),
+                             .gain = parting.sum - resists * length,
+                             .exponent = k + 1 < cord->n_passes ? b->at[k + 1] - b->at[k] : 0};
     }
     sum += thr_knotted_most(b->pass, cord->n_passes, b->point);
   }
@@ -426,20 +457,22 @@ static void loads_power(const bodies *b, const thr_answer *a, power *load)
   }
 }
 
-/* Returns the power of all weights and loads that drive a mechanism if each of them moved its own way as fast as fastest: loads
- * alone where they are what is asked for. */
+/* Returns the power of all weights and loads that drive a mechanism if each of them moved its own
+ * way as fast as fastest: loads alone where they are what is asked for. */
 static double most_drive(const bodies *b, const thr_answer *a, double fastest)
 {
   double sum = 0;
   for (int v = 0; v < b->plan->frame.n_nodes && !thr_asked_of_load(a->asked); v++)
     sum += b->mass[v] * b->e->physics.gravity;
-  for (int i = 0; i < b->s->n_loads && (thr_asked_of_load(a->asked) || a->asked == THR_ASKED_LOADED); i++)
+  for (int i = 0;
+       i < b->s->n_loads && (thr_asked_of_load(a->asked) || a->asked == THR_ASKED_LOADED); i++)
     sum += speed(b->s->load[i].force);
   return sum * fastest;
 }
 
-/* Compares the powers at what is claimed. They are given by weights (and the load) and resisted by the cords at the pull; or
- * given by the load and resisted by cords and weights. The balance may be short by 1e-9 of the one that the claim multiplies. */
+/* Compares the powers at what is claimed. They are given by weights (and the load) and resisted by
+ * the cords at the pull; or given by the load and resisted by cords and weights. The balance may be
+ * short by 1e-9 of the one that the claim multiplies. */
 static bool proves(bodies *b, const thr_answer *a, double fastest)
 {
   power falling = {0}, load = {0}, resistance = {0};
@@ -451,7 +484,8 @@ static bool proves(bodies *b, const thr_answer *a, double fastest)
   press(b, a);
   for (int e = 0; e < b->plan->frame.n_edges; e++)
     parting_power(b, a, e, b->press[e], &resistance);
-  const bool of_stretch = a->asked == THR_ASKED_STRETCH, after = thr_asked_after(a->asked) && a->asked != THR_ASKED_AFTER;
+  const bool of_stretch = a->asked == THR_ASKED_STRETCH,
+             after = thr_asked_after(a->asked) && a->asked != THR_ASKED_AFTER;
   const double strength = b->s->strength > 0 ? b->s->strength : INFINITY;
   const bool rests = a->asked == THR_ASKED_CARRIED_AFTER && !isfinite(strength);
   if (rests && !knots_rest(b, a, STILL * fastest)) return false;
@@ -464,7 +498,8 @@ static bool proves(bodies *b, const thr_answer *a, double fastest)
     grown = tightening(b, a, a->asked == THR_ASKED_TIGHTEST ? a->proved : strength, INFINITY, 0);
   }
   const double pull = of_load || after ? 1 : a->proved, times = of_load ? a->proved : 1;
-  const double slip = ROUNDING * (falling.terms + times * load.terms + pull * resistance.terms + grown);
+  const double slip =
+      ROUNDING * (falling.terms + times * load.terms + pull * resistance.terms + grown);
   const double over = falling.sum + times * load.sum - pull * resistance.sum - grown;
   const double drive = of_load ? load.sum : falling.sum + load.sum;
   const double claimed = fabs(of_load ? times * load.sum : after ? grown : pull * resistance.sum);
@@ -477,28 +512,34 @@ static thr_status check_answer(bodies *b, int i, thr_err *err)
   const thr_answer *a = &b->s->answer[i];
   if (a->n_beads == 0) return THR_OK; /* nothing is proved, and nothing said to be */
   if (a->n_beads != frame->n_nodes)
-    return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: not one velocity per node", i);
+    return thr_fail(err, THR_EVIOLATED,
+                    "evaluation.structure.answers[%d].mechanism: not one velocity per node", i);
 
   if (!(fabs(fastest_bead(b, a) - 1) <= FASTEST))
     return thr_fail(err, THR_EVIOLATED,
-                    "evaluation.structure.answers[%d].mechanism: the fastest bead has the speed %.12g; expected 1", i,
-                    fastest_bead(b, a));
+                    "evaluation.structure.answers[%d].mechanism: the fastest bead has the speed "
+                    "%.12g; expected 1",
+                    i, fastest_bead(b, a));
   const double fastest = fastest_point(b, a), closing = STILL * fastest;
   if (!isfinite(fastest))
-    return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: a bead turns too fast", i);
+    return thr_fail(err, THR_EVIOLATED,
+                    "evaluation.structure.answers[%d].mechanism: a bead turns too fast", i);
 
   for (int e = 0; e < frame->n_edges; e++)
     if (!face_opens(b, a, e, closing))
-      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: beads go into each other at edge %d", i,
-                      e);
+      return thr_fail(
+          err, THR_EVIOLATED,
+          "evaluation.structure.answers[%d].mechanism: beads go into each other at edge %d", i, e);
   for (int v = 0; v < frame->n_nodes; v++)
     if (b->foot[v] && !foot_opens(b, a, v, closing))
-      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: foot %d %s", i, v,
-                      b->s->clamped ? "is held, but moves" : "goes into the ground");
+      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].mechanism: foot %d %s",
+                      i, v, b->s->clamped ? "is held, but moves" : "goes into the ground");
 
   if (proves(b, a, fastest)) return THR_OK;
-  return thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d].proved: the powers of the mechanism do not prove %.12g",
-                  i, a->proved);
+  return thr_fail(
+      err, THR_EVIOLATED,
+      "evaluation.structure.answers[%d].proved: the powers of the mechanism do not prove %.12g", i,
+      a->proved);
 }
 
 /* ---- the rest ---- */
@@ -508,7 +549,8 @@ static const char *misfit(const thr_standing *s, const thr_answer *a, bool sched
 {
   const bool of_load = thr_asked_of_load(a->asked);
   if (thr_asked_after(a->asked) && !scheduled) return "it comes with a schedule";
-  if ((a->asked == THR_ASKED_STRETCH || a->asked == THR_ASKED_TIGHTEST) && s->model < 2) return "it comes with model 2";
+  if ((a->asked == THR_ASKED_STRETCH || a->asked == THR_ASKED_TIGHTEST) && s->model < 2)
+    return "it comes with model 2";
   if ((of_load || a->asked == THR_ASKED_LOADED) && s->n_loads == 0) return "it comes with loads";
   if (!isfinite(a->found)) return NULL; /* none was found */
   if (of_load ? a->found > a->proved * (1 + 1e-6) : a->found < a->proved * (1 - 1e-6))
@@ -520,7 +562,8 @@ static const char *misfit(const thr_standing *s, const thr_answer *a, bool sched
 static bool let_down_fits(const thr_standing *s)
 {
   for (int i = 0; i < s->n_answers; i++)
-    if (s->answer[i].asked == THR_ASKED_ANY_STATE && s->let_down < s->answer[i].proved * (1 - 1e-6)) return false;
+    if (s->answer[i].asked == THR_ASKED_ANY_STATE && s->let_down < s->answer[i].proved * (1 - 1e-6))
+      return false;
   return true;
 }
 
@@ -529,18 +572,24 @@ static thr_status check_cords(bodies *b, thr_err *err)
   for (int i = 0; i < b->plan->n_cords; i++) {
     const thr_drawn *drawn = &b->s->drawn[i];
     const int last = b->plan->cord[i].n_passes - 1;
-    if (!b->e->cord[i].known) return thr_fail(err, THR_EVIOLATED, "evaluation.structure: not every cord is known");
+    if (!b->e->cord[i].known)
+      return thr_fail(err, THR_EVIOLATED, "evaluation.structure: not every cord is known");
     if (drawn->slackest > last || (drawn->pull == THR_PULL_START && drawn->slackest != last) ||
         ((drawn->pull == THR_PULL_END || drawn->pull == THR_PULL_NONE) && drawn->slackest != 0))
-      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.drawn[%d].slackest: not the pass that a pull reaches last", i);
+      return thr_fail(
+          err, THR_EVIOLATED,
+          "evaluation.structure.drawn[%d].slackest: not the pass that a pull reaches last", i);
     (void)exponents(b, i);
-    if (drawn->pull == THR_PULL_BOTH && !thr_check_slackest(&b->plan->options, THR_PULL_BOTH, drawn->slackest, b->at, last + 1))
-      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.drawn[%d].slackest: another pass needs less pull", i);
+    if (drawn->pull == THR_PULL_BOTH &&
+        !thr_check_slackest(&b->plan->options, THR_PULL_BOTH, drawn->slackest, b->at, last + 1))
+      return thr_fail(err, THR_EVIOLATED,
+                      "evaluation.structure.drawn[%d].slackest: another pass needs less pull", i);
   }
   return THR_OK;
 }
 
-/* The exponents of tight turns are stated: together they are what the turning that is stated, too, makes of them. */
+/* The exponents of tight turns are stated: together they are what the turning that is stated, too,
+ * makes of them. */
 static thr_status check_taut(bodies *b, thr_err *err)
 {
   const double mu = b->e->physics.mu;
@@ -550,13 +599,15 @@ static thr_status check_taut(bodies *b, thr_err *err)
     for (int k = 0; k < cord->n_passes; k++)
       expected += thr_check_exponent(&b->plan->frame, b->e, &b->plan->cord[i], k);
     if (!thr_check_close(exponents(b, i), expected, 1 + mu * cord->turning))
-      return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: its exponents do not add up to mu x taut_turning",
+      return thr_fail(err, THR_EVIOLATED,
+                      "evaluation of cord %s: its exponents do not add up to mu x taut_turning",
                       b->plan->cord[i].id);
   }
   return THR_OK;
 }
 
-/* Without a schedule the tensions are those of the first answer: all cords drawn in with so much at their harder ends. */
+/* Without a schedule the tensions are those of the first answer: all cords drawn in with so much at
+ * their harder ends. */
 static thr_status check_tensions(bodies *b, thr_err *err)
 {
   double pull = 0;
@@ -566,12 +617,15 @@ static thr_status check_tensions(bodies *b, thr_err *err)
   for (int i = 0; i < b->plan->n_cords; i++) {
     const double total = exponents(b, i);
     if ((int)b->e->cord[i].pull != b->s->drawn[i].pull)
-      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.drawn[%d].pull: not that of the cord", i);
+      return thr_fail(err, THR_EVIOLATED,
+                      "evaluation.structure.drawn[%d].pull: not that of the cord", i);
     for (int k = 0; k < b->plan->cord[i].n_passes; k++) {
       const double expected = pull * tension_of(b, &b->s->drawn[i], THR_ASKED_HOLDING, i, k, total);
       if (!thr_check_close(b->e->cord[i].tension[k], expected, expected * (1 + total)))
-        return thr_fail(err, THR_EVIOLATED, "evaluation of cord %s: pass %d: stated %.12g N, but the holding pull gives %.12g N",
-                        b->plan->cord[i].id, k + 1, b->e->cord[i].tension[k], expected);
+        return thr_fail(
+            err, THR_EVIOLATED,
+            "evaluation of cord %s: pass %d: stated %.12g N, but the holding pull gives %.12g N",
+            b->plan->cord[i].id, k + 1, b->e->cord[i].tension[k], expected);
     }
   }
   return THR_OK;
@@ -626,11 +680,14 @@ static thr_status check_still(const bodies *b, int i, thr_err *err)
   double mean = 0;
   int least = 0, most = 0;
   if (still->n_beads != frame->n_nodes)
-    return thr_fail(err, THR_EVIOLATED, "evaluation.structure.stills[%d].poses: not seven numbers for every node", i);
+    return thr_fail(err, THR_EVIOLATED,
+                    "evaluation.structure.stills[%d].poses: not seven numbers for every node", i);
   for (int v = 0; v < frame->n_nodes; v++) {
     const double *q = still->pose[v] + 3;
     if (!(fabs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) <= 1e-6))
-      return thr_fail(err, THR_EVIOLATED, "evaluation.structure.stills[%d].poses: node %d is not turned, but stretched", i, v);
+      return thr_fail(err, THR_EVIOLATED,
+                      "evaluation.structure.stills[%d].poses: node %d is not turned, but stretched",
+                      i, v);
   }
   for (int e = 0; e < frame->n_edges; e++) {
     const double *one = b->centre[frame->edge[e][0]], *other = b->centre[frame->edge[e][1]];
@@ -643,7 +700,8 @@ static thr_status check_still(const bodies *b, int i, thr_err *err)
     most += part < THR_SEATED + 1e-6;
   }
   if (still->seated >= least && still->seated <= most) return THR_OK;
-  return thr_fail(err, THR_EVIOLATED, "evaluation.structure.stills[%d].seated: %d, but %d gaps are", i, still->seated, least);
+  return thr_fail(err, THR_EVIOLATED, "evaluation.structure.stills[%d].seated: %d, but %d gaps are",
+                  i, still->seated, least);
 }
 
 thr_status thr_check_standing(const thr_plan *plan, thr_err *err)
@@ -653,7 +711,8 @@ thr_status thr_check_standing(const thr_plan *plan, thr_err *err)
   thr_status st = bodies_make(&b, plan, err);
   for (int i = 0; i < s->n_loads && !st; i++)
     if (s->load[i].node >= plan->frame.n_nodes)
-      st = thr_fail(err, THR_EVIOLATED, "evaluation.structure.loads[%d].node: there is no such node", i);
+      st = thr_fail(err, THR_EVIOLATED,
+                    "evaluation.structure.loads[%d].node: there is no such node", i);
   for (int i = 0; i < s->n_stills && !st; i++)
     st = check_still(&b, i, err);
   if (!st) st = check_cords(&b, err);
@@ -661,10 +720,13 @@ thr_status thr_check_standing(const thr_plan *plan, thr_err *err)
   if (!st) st = check_tensions(&b, err);
   for (int i = 0; i < s->n_answers && !st; i++) {
     const char *wrong = misfit(s, &s->answer[i], plan->evaluation.schedule.n > 0);
-    st = wrong ? thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d]: %s", i, wrong) : check_answer(&b, i, err);
+    st = wrong ? thr_fail(err, THR_EVIOLATED, "evaluation.structure.answers[%d]: %s", i, wrong)
+               : check_answer(&b, i, err);
   }
   if (!st && isfinite(s->let_down) && (plan->evaluation.schedule.n == 0 || !let_down_fits(s)))
-    st = thr_fail(err, THR_EVIOLATED, "evaluation.structure.let_down: not what ends can be let down to after a schedule");
+    st = thr_fail(
+        err, THR_EVIOLATED,
+        "evaluation.structure.let_down: not what ends can be let down to after a schedule");
   thr_scratch_free(&b.own);
   return st;
 }

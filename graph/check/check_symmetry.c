@@ -1,5 +1,7 @@
-/* The checker's part for symmetry: that the group (graph/check/check_group.c) permutes the cords, and that every cord is the copy
- * that it is said to be. Cords are compared by the nodes that they come to. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The checker's part for symmetry: that the group (graph/check/check_group.c) permutes the cords,
+ * and that every cord is the copy that it is said to be. Cords are compared by the nodes that they
+ * come to. */
 #include "graph/check/check_parts.h"
 
 #include <stdlib.h>
@@ -7,15 +9,17 @@
 
 /* ---- cords as sequences of nodes ---- */
 
-/* The node sequence of a cord, or of an image of it, in its normal form: the lexicographically least of those that start at its
- * other end or, of one that runs round, anywhere, either way round. Of the latter the node where it ends is left out. */
+/* The node sequence of a cord, or of an image of it, in its normal form: the lexicographically
+ * least of those that start at its other end or, of one that runs round, anywhere, either way
+ * round. Of the latter the node where it ends is left out. */
 typedef struct {
   const int *node;
   int n, cord;
   bool closed;
 } path;
 
-/* Start of the least rotation of n numbers, read from the end if reverse (two candidates that overtake each other). */
+/* Start of the least rotation of n numbers, read from the end if reverse (two candidates that
+ * overtake each other). */
 static int least_rotation(const int *a, int n, bool reverse)
 {
   int i = 0, j = 1, k = 0;
@@ -45,7 +49,9 @@ static int at(const int *a, int n, int start, bool reverse, int i)
 /* Writes the normal form of a[n] to out. */
 static void normalize(const int *a, int n, bool closed, int *out)
 {
-  int start[2] = {closed ? least_rotation(a, n, false) : 0, closed ? least_rotation(a, n, true) : 0}, i = 0;
+  int start[2] = {closed ? least_rotation(a, n, false) : 0,
+                  closed ? least_rotation(a, n, true) : 0},
+      i = 0;
   while (i < n && at(a, n, start[0], false, i) == at(a, n, start[1], true, i))
     i++;
   bool reverse = i < n && at(a, n, start[1], true, i) < at(a, n, start[0], false, i);
@@ -72,10 +78,11 @@ static int by_nodes(const void *a, const void *b)
 /* All cords: as they run, and two tables of normal forms. */
 typedef struct {
   const thr_plan *p;
-  int *run;             /* the nodes of all cords, one after the other */
-  int *form[2];         /* as long: normal forms of the cords, and of their images */
-  int *scratch;         /* [nodes of the longest cord] */
-  path *cord, *moved;   /* [n_cords] in the order of the cords, each pointing into form[0] and form[1] */
+  int *run;     /* the nodes of all cords, one after the other */
+  int *form[2]; /* as long: normal forms of the cords, and of their images */
+  int *scratch; /* [nodes of the longest cord] */
+  path *cord,
+      *moved; /* [n_cords] in the order of the cords, each pointing into form[0] and form[1] */
   path *sorted, *other; /* [n_cords] the same by their nodes */
   int *start;           /* [n_cords] of a cord in run and form */
   thr_scratch own;      /* the arrays */
@@ -146,11 +153,13 @@ static thr_status check_permuted(paths *s, const int *image, int number, thr_err
   for (int i = 0; i < n; i++) {
     int order = compare(&s->other[i], &s->sorted[i]);
     if (order < 0)
-      return thr_fail(err, THR_EVIOLATED, "symmetry.generators[%d]: takes cord %s to a path that no cord of its own runs", number,
-                      s->p->cord[s->other[i].cord].id);
+      return thr_fail(
+          err, THR_EVIOLATED,
+          "symmetry.generators[%d]: takes cord %s to a path that no cord of its own runs", number,
+          s->p->cord[s->other[i].cord].id);
     if (order > 0)
-      return thr_fail(err, THR_EVIOLATED, "symmetry.generators[%d]: takes no cord to cord %s", number,
-                      s->p->cord[s->sorted[i].cord].id);
+      return thr_fail(err, THR_EVIOLATED, "symmetry.generators[%d]: takes no cord to cord %s",
+                      number, s->p->cord[s->sorted[i].cord].id);
   }
   return THR_OK;
 }
@@ -166,11 +175,16 @@ static thr_status check_copy(paths *s, int i, thr_err *err)
   if (u < 0 || u >= plan->n_cords || x < 0 || x >= record->n_images)
     return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: there is no such cord or image", i);
   if (record->unique[u] != u)
-    return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: cord %s is said to be a copy of %s, which is a copy itself", i, id,
-                    plan->cord[u].id);
-  if (u == i && x != 0) return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: a unique path is its own image 0", i);
-  if (compare(move(s, u, record->image + (size_t)x * (size_t)plan->frame.n_nodes), &s->cord[i]) != 0)
-    return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: cord %s is not image %d of cord %s", i, id, x, plan->cord[u].id);
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "symmetry.cords[%d]: cord %s is said to be a copy of %s, which is a copy itself", i, id,
+        plan->cord[u].id);
+  if (u == i && x != 0)
+    return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: a unique path is its own image 0", i);
+  if (compare(move(s, u, record->image + (size_t)x * (size_t)plan->frame.n_nodes), &s->cord[i]) !=
+      0)
+    return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: cord %s is not image %d of cord %s", i,
+                    id, x, plan->cord[u].id);
   return THR_OK;
 }
 
@@ -181,8 +195,8 @@ static bool keeps_nodes(const paths *s, int i, const int *image)
   return true;
 }
 
-/* Of a closed path: after how many nodes it repeats itself, n if only after all (Knuth, Morris & Pratt 1977; failure: [n]
- * scratch). */
+/* Of a closed path: after how many nodes it repeats itself, n if only after all (Knuth, Morris &
+ * Pratt 1977; failure: [n] scratch). */
 static int period_of(const int *node, int n, int *failure)
 {
   failure[0] = 0;
@@ -216,9 +230,11 @@ static const int *element(const thr_check_elements *check_elements, int i)
   return check_elements->image + (size_t)i * (size_t)check_elements->n;
 }
 
-/* Passes of unique path u and, where they may be anywhere, ends, over the number of elements that map it to itself; as many as
- * fix all its nodes do so alike. Older plans count the ways of each. No other unique path may be an image. */
-static thr_status add_steps(paths *s, const thr_check_elements *check_elements, int u, double *steps, thr_err *err)
+/* Passes of unique path u and, where they may be anywhere, ends, over the number of elements that
+ * map it to itself; as many as fix all its nodes do so alike. Older plans count the ways of each.
+ * No other unique path may be an image. */
+static thr_status add_steps(paths *s, const thr_check_elements *check_elements, int u,
+                            double *steps, thr_err *err)
 {
   const thr_symmetry_record *record = &s->p->symmetry;
   int mapped = 0, fixed = 0;
@@ -236,9 +252,11 @@ static thr_status add_steps(paths *s, const thr_check_elements *check_elements, 
     }
     for (; low < s->p->n_cords && compare(&s->sorted[low], image) == 0; low++)
       if (record->unique[s->sorted[low].cord] != u)
-        return thr_fail(err, THR_EVIOLATED, "symmetry.cords[%d]: cord %s is an image of cord %s, but said to be one of cord %s",
-                        s->sorted[low].cord, s->p->cord[s->sorted[low].cord].id, s->p->cord[u].id,
-                        s->p->cord[record->unique[s->sorted[low].cord]].id);
+        return thr_fail(
+            err, THR_EVIOLATED,
+            "symmetry.cords[%d]: cord %s is an image of cord %s, but said to be one of cord %s",
+            s->sorted[low].cord, s->p->cord[s->sorted[low].cord].id, s->p->cord[u].id,
+            s->p->cord[record->unique[s->sorted[low].cord]].id);
   }
   const int ends = s->p->options.ends == THR_ENDS_ANY && !s->cord[u].closed ? 2 : 0;
   const int ways = record->retraced ? 1 : ways_to_read(s, &s->cord[u]);
@@ -261,9 +279,12 @@ static thr_status check_copies(paths *s, const thr_check_elements *check_element
   }
   if (st) return st;
   if (record->unique_paths != unique_paths)
-    return thr_fail(err, THR_EVIOLATED, "symmetry.unique_paths: stated %d, but there are %d", record->unique_paths, unique_paths);
+    return thr_fail(err, THR_EVIOLATED, "symmetry.unique_paths: stated %d, but there are %d",
+                    record->unique_paths, unique_paths);
   if (!thr_check_close(record->steps, steps, steps))
-    return thr_fail(err, THR_EVIOLATED, "symmetry.steps: stated %.12g, but the unique paths give %.12g", record->steps, steps);
+    return thr_fail(err, THR_EVIOLATED,
+                    "symmetry.steps: stated %.12g, but the unique paths give %.12g", record->steps,
+                    steps);
   return THR_OK;
 }
 

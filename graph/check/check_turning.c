@@ -1,5 +1,7 @@
-/* The checker's part for turning: what the tree of multipliers proves about a plan, and whether the plan is of the kind that the
- * proof is about. The price of the cords' turns is worked out here; the tree is graph/check/turning_proof.c's. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The checker's part for turning: what the tree of multipliers proves about a plan, and whether the
+ * plan is of the kind that the proof is about. The price of the cords' turns is worked out here;
+ * the tree is graph/check/turning_proof.c's. */
 #include "graph/angle.h"
 #include "graph/check/check_parts.h"
 #include "graph/check/edge_sets.h"
@@ -37,7 +39,8 @@ static void walked_destroy(walked *w)
 static thr_status count_cords(walked *w, thr_err *err)
 {
   int components, *component = thr_calloc((size_t)w->f->n_nodes, sizeof *component);
-  thr_status st = component ? thr_frame_components(w->f, component, &components, err) : thr_nomem(err);
+  thr_status st =
+      component ? thr_frame_components(w->f, component, &components, err) : thr_nomem(err);
   free(component);
   if (st) return st;
   bool counts = w->o->ends == THR_ENDS_COUNTS;
@@ -46,8 +49,8 @@ static thr_status count_cords(walked *w, thr_err *err)
   return THR_OK;
 }
 
-static thr_status walked_init(walked *w, const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
-                              thr_err *err)
+static thr_status walked_init(walked *w, const thr_frame *frame, const thr_request *options,
+                              const thr_cord *cord, int n_cords, thr_err *err)
 {
   size_t n = (size_t)frame->n_nodes;
   *w = (walked){.f = frame, .o = options, .cord = cord, .n_cords = n_cords};
@@ -71,17 +74,18 @@ static thr_status price_cord(const walked *w, const thr_cord *c, double *price, 
     int in = c->half[k], out = c->half[k + 1 < c->n_passes ? k + 1 : 0], v = thr_head(w->f, in);
     bool back = in == (out ^ 1);
     if (back && thr_degree(w->f, v) > 1)
-      return thr_fail(
-          err, THR_EVIOLATED,
-          "proof.turning: cord %s turns back at node %d after pass %d; the proof is about plans that turn back only at "
-          "nodes with one edge",
-          c->id, v, k + 1);
+      return thr_fail(err, THR_EVIOLATED,
+                      "proof.turning: cord %s turns back at node %d after pass %d; the proof is "
+                      "about plans that turn back only at "
+                      "nodes with one edge",
+                      c->id, v, k + 1);
     *price += thr_check_price(w->f, w->o->turning.cost, in, out);
   }
   return THR_OK;
 }
 
-/* Turning that the harder of two pulled ends has to overcome, rad (least pull: docs/plan-format.md). */
+/* Turning that the harder of two pulled ends has to overcome, rad (least pull:
+ * docs/plan-format.md). */
 static double pulled_turning(const thr_frame *frame, const thr_cord *cord)
 {
   double whole = 0;
@@ -89,7 +93,8 @@ static double pulled_turning(const thr_frame *frame, const thr_cord *cord)
     whole += thr_check_angle(frame, cord->half[k - 1], cord->half[k]);
   thr_least_pull_walk walk = thr_least_pull_begin(whole);
   for (int k = 1; k < cord->n_passes; k++)
-    if (!thr_least_pull_next(&walk, thr_check_angle(frame, cord->half[k - 1], cord->half[k]))) break;
+    if (!thr_least_pull_next(&walk, thr_check_angle(frame, cord->half[k - 1], cord->half[k])))
+      break;
   return walk.larger;
 }
 
@@ -119,8 +124,8 @@ static bool keep_parts(parts *p, double angle, double tolerance)
   return any;
 }
 
-/* The largest part of pi, at least pi / 180, of which every turn at a node is a multiple, within 9e-10 over most_passes; 0 if
- * there is none. O(sum of degrees^2). */
+/* The largest part of pi, at least pi / 180, of which every turn at a node is a multiple, within
+ * 9e-10 over most_passes; 0 if there is none. O(sum of degrees^2). */
 static double common_angle(const thr_frame *frame, int most_passes)
 {
   const double tolerance = 9e-10 / most_passes;
@@ -139,8 +144,8 @@ static double common_angle(const thr_frame *frame, int most_passes)
   return THR_PI / k;
 }
 
-/* A bound on sums of turns, no more of them than most_passes of every edge: a multiple of the angle where that is one, but for
- * 1e-9 an edge. */
+/* A bound on sums of turns, no more of them than most_passes of every edge: a multiple of the angle
+ * where that is one, but for 1e-9 an edge. */
 static double round_up(const walked *w, double angle, double bound)
 {
   const double rounding = 1e-9 * w->f->n_edges;
@@ -148,9 +153,11 @@ static double round_up(const walked *w, double angle, double bound)
   return fmax(bound, ceil((bound - rounding) / angle) * angle - rounding);
 }
 
-/* Adds to *found, which is zeros, what follows from the cords; and they must be of the kind that the proof is about. *dearest:
- * the largest price of a cord's turns, which found->largest is, too, where no pull is minimized. */
-static thr_status judge_cords(const walked *w, thr_turning_claim *found, double *dearest, thr_err *err)
+/* Adds to *found, which is zeros, what follows from the cords; and they must be of the kind that
+ * the proof is about. *dearest: the largest price of a cord's turns, which found->largest is, too,
+ * where no pull is minimized. */
+static thr_status judge_cords(const walked *w, thr_turning_claim *found, double *dearest,
+                              thr_err *err)
 {
   const thr_frame *frame = w->f;
   double length = 0;
@@ -160,17 +167,23 @@ static thr_status judge_cords(const walked *w, thr_turning_claim *found, double 
     if (st) return st;
     found->price += price;
     *dearest = fmax(*dearest, price);
-    found->largest = fmax(found->largest, thr_wants_pull(w->o) ? pulled_turning(frame, &w->cord[i]) : price);
+    found->largest =
+        fmax(found->largest, thr_wants_pull(w->o) ? pulled_turning(frame, &w->cord[i]) : price);
   }
   for (int e = 0; e < frame->n_edges; e++) {
     length += w->passes[e] * frame->length[e];
     if (w->passes[e] > found->most_passes)
-      return thr_fail(err, THR_EVIOLATED, "proof.turning: %d passes over edge %d; the proof is about plans with at most %d",
-                      w->passes[e], e, found->most_passes);
+      return thr_fail(
+          err, THR_EVIOLATED,
+          "proof.turning: %d passes over edge %d; the proof is about plans with at most %d",
+          w->passes[e], e, found->most_passes);
   }
-  if (found->length_limit >= 0 && length > found->length_limit && !thr_check_close(length, found->length_limit, length))
-    return thr_fail(err, THR_EVIOLATED, "proof.turning: the cords are %.12g long; the proof is about plans of at most %.12g",
-                    length, found->length_limit);
+  if (found->length_limit >= 0 && length > found->length_limit &&
+      !thr_check_close(length, found->length_limit, length))
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "proof.turning: the cords are %.12g long; the proof is about plans of at most %.12g",
+        length, found->length_limit);
   return THR_OK;
 }
 
@@ -184,27 +197,30 @@ int thr_check_cords_of(const thr_turning_columns *columns, int k, int cords)
   return ends > 0 ? ends / 2 : cords;
 }
 
-/* *largest: raised to what the tree proves of each component alone, shared out among its cords, and what walks do with that. */
-thr_status thr_check_shares(const thr_turning_columns *columns, int cords, const thr_turning_proof *tree, double *all,
-                            double *largest, thr_err *err)
+/* *largest: raised to what the tree proves of each component alone, shared out among its cords, and
+ * what walks do with that. */
+thr_status thr_check_shares(const thr_turning_columns *columns, int cords,
+                            const thr_turning_proof *tree, double *all, double *largest,
+                            thr_err *err)
 {
   double worth = 0, *bound_of = thr_calloc((size_t)columns->n_components, sizeof *bound_of);
   if (!bound_of) return thr_nomem(err);
   thr_status st = thr_turning_proof_check_columns(columns, tree, all, bound_of, err);
   if (!st && tree->walks.unit)
-    st = thr_walk_proof_check(columns, THR_WALK_TURNING, &tree->walks, cords, bound_of[thr_walk_component(columns, &tree->walks)],
-                              &worth, err);
+    st = thr_walk_proof_check(columns, THR_WALK_TURNING, &tree->walks, cords,
+                              bound_of[thr_walk_component(columns, &tree->walks)], &worth, err);
   for (int k = 0; k < columns->n_components && !st; k++)
     *largest = fmax(*largest, fmax(worth, bound_of[k] / thr_check_cords_of(columns, k, cords)));
   free(bound_of);
   return st;
 }
 
-/* What a tree, single edges, walks and, through few edges, all sets of cords prove of the price of turns: *all: of all cords;
- * *largest: of the dearest, component by component (limit: it need not be known above that). cords: that every component has at
- * most. */
-static thr_status bound_by_tree(const thr_turning_columns *columns, const thr_request *options, int cords,
-                                const thr_turning_proof *tree, double limit, double *all, double *largest, thr_err *err)
+/* What a tree, single edges, walks and, through few edges, all sets of cords prove of the price of
+ * turns: *all: of all cords; *largest: of the dearest, component by component (limit: it need not
+ * be known above that). cords: that every component has at most. */
+static thr_status bound_by_tree(const thr_turning_columns *columns, const thr_request *options,
+                                int cords, const thr_turning_proof *tree, double limit, double *all,
+                                double *largest, thr_err *err)
 {
   double few_sum, few_largest;
   thr_status st = thr_walk_forced(columns, false, largest, err);
@@ -216,8 +232,8 @@ static thr_status bound_by_tree(const thr_turning_columns *columns, const thr_re
   return THR_OK;
 }
 
-static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, double dearest, thr_turning_claim *found,
-                             thr_err *err)
+static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, double dearest,
+                             thr_turning_claim *found, thr_err *err)
 {
   double bound, forced, side = 0, passes = 0, length = 0;
   const bool pull = thr_wants_pull(w->o);
@@ -227,18 +243,20 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, do
     passes += fmin(w->passes[e], 2 * thr_plan_cover(w->f, w->o, e));
     length += w->passes[e] * w->f->length[e];
   }
-  /* the cords are among the plans that the proof is about, or a limit just below them would prove what it likes */
+  /* the cords are among the plans that the proof is about, or a limit just below them would prove
+   * what it likes */
   double limit = claim->length_limit < 0 ? -1 : fmax(claim->length_limit, length);
-  const thr_turning_task task = {.cover = w->o->cover,
-                                 .capacity = w->o->capacity,
-                                 .tube = w->o->joint == THR_JOINT_TUBE,
-                                 .most_passes = claim->most_passes,
-                                 .cords = w->o->cords,
-                                 .cords_least = w->o->cords_least,
-                                 .end_allowed = w->o->ends == THR_ENDS_CLOSED ? NULL : w->end_allowed,
-                                 .end_count = w->o->ends == THR_ENDS_COUNTS ? w->o->end_count : NULL,
-                                 .cost = w->o->turning.cost,
-                                 .extra_limit = thr_turning_extra_limit(w->f, w->o->cover, limit)};
+  const thr_turning_task task = {
+      .cover = w->o->cover,
+      .capacity = w->o->capacity,
+      .tube = w->o->joint == THR_JOINT_TUBE,
+      .most_passes = claim->most_passes,
+      .cords = w->o->cords,
+      .cords_least = w->o->cords_least,
+      .end_allowed = w->o->ends == THR_ENDS_CLOSED ? NULL : w->end_allowed,
+      .end_count = w->o->ends == THR_ENDS_COUNTS ? w->o->end_count : NULL,
+      .cost = w->o->turning.cost,
+      .extra_limit = thr_turning_extra_limit(w->f, w->o->cover, limit)};
   thr_turning_columns columns;
   thr_status st = thr_turning_columns_init(&columns, w->f, &task, err);
   if (st) return st;
@@ -247,39 +265,53 @@ static thr_status judge_tree(const walked *w, const thr_turning_claim *claim, do
   thr_turning_columns_destroy(&columns);
   if (!st && pull) st = thr_check_pulled_least(w->f, w->o, &task, claim, &side, err);
   if (st) return st;
-  if (w->o->ends == THR_ENDS_CLOSED) bound = fmax(bound, thr_turn_closed(w->o->turning.cost) * w->cords_least);
-  const double angle = w->o->turning.cost == THR_TURN_ANGLE ? common_angle(w->f, claim->most_passes) : 0;
+  if (w->o->ends == THR_ENDS_CLOSED)
+    bound = fmax(bound, thr_turn_closed(w->o->turning.cost) * w->cords_least);
+  const double angle =
+      w->o->turning.cost == THR_TURN_ANGLE ? common_angle(w->f, claim->most_passes) : 0;
   bound = round_up(w, angle, bound);
-  /* prices are sums of so many roundings: equal within 1e-9 of a U-turn for each pass, of an edge at most twice those it needs */
+  /* prices are sums of so many roundings: equal within 1e-9 of a U-turn for each pass, of an edge
+   * at most twice those it needs */
   double tolerance = 2e-9 * passes * thr_turn_cost_of(w->o->turning.cost, THR_PI);
   if (bound > found->price + tolerance)
-    return thr_fail(err, THR_EVIOLATED, "proof.turning: the tree proves %.12g, which is more than the turns of this plan, %.12g",
-                    bound, found->price);
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "proof.turning: the tree proves %.12g, which is more than the turns of this plan, %.12g",
+        bound, found->price);
   found->optimal = bound >= found->price - tolerance;
   found->lower_bound = found->optimal ? found->price : bound;
   found->gap = found->optimal ? 0 : (found->price - bound) / found->price;
-  found->largest_bound = round_up(w, angle, pull ? side : fmax(found->lower_bound / w->cords_most, forced));
+  found->largest_bound =
+      round_up(w, angle, pull ? side : fmax(found->lower_bound / w->cords_most, forced));
   if (found->largest_bound > found->largest + tolerance)
     return thr_fail(err, THR_EVIOLATED,
-                    "proof.turning: some cord is proved to turn by %.12g, which is more than any of this plan, %.12g",
+                    "proof.turning: some cord is proved to turn by %.12g, which is more than any "
+                    "of this plan, %.12g",
                     found->largest_bound, found->largest);
   found->largest_optimal = found->largest <= found->largest_bound + tolerance;
   if (found->largest_optimal) found->largest_bound = found->largest;
   return THR_OK;
 }
 
-thr_status thr_check_turning(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
-                             const thr_turning_claim *claim, thr_turning_claim *found, thr_err *err)
+thr_status thr_check_turning(const thr_frame *frame, const thr_request *options,
+                             const thr_cord *cord, int n_cords, const thr_turning_claim *claim,
+                             thr_turning_claim *found, thr_err *err)
 {
   walked w;
-  *found = (thr_turning_claim){
-      .present = true, .most_passes = claim->most_passes, .length_limit = claim->length_limit, .cut = claim->cut};
+  *found = (thr_turning_claim){.present = true,
+                               .most_passes = claim->most_passes,
+                               .length_limit = claim->length_limit,
+                               .cut = claim->cut};
   int least_most = thr_turning_most_passes(frame, options->cover);
   if (claim->most_passes < least_most)
-    return thr_fail(err, THR_EVIOLATED, "proof.turning.most_passes: %d; a proof is about plans with up to %d passes over an edge",
-                    claim->most_passes, least_most);
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "proof.turning.most_passes: %d; a proof is about plans with up to %d passes over an edge",
+        claim->most_passes, least_most);
   if (claim->tree.walks.unit > 0 && claim->tree.walks.pulled != thr_wants_pull(options))
-    return thr_fail(err, THR_EVIOLATED, "proof.turning.proof.walks: with minimize pull they are within a pull, else not");
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "proof.turning.proof.walks: with minimize pull they are within a pull, else not");
   if (claim->cut > 0 && !thr_wants_pull(options))
     return thr_fail(err, THR_EVIOLATED, "proof.turning.largest.cut: with minimize pull only");
   thr_status st = walked_init(&w, frame, options, cord, n_cords, err);
@@ -295,51 +327,66 @@ thr_status thr_check_turning(const thr_frame *frame, const thr_request *options,
 static thr_status stated(const char *name, double said, double found, double whole, thr_err *err)
 {
   if (thr_check_close(said, found, whole)) return THR_OK;
-  return thr_fail(err, THR_EVIOLATED, "proof.turning.%s: stated %.12g, but expected %.12g", name, said, found);
+  return thr_fail(err, THR_EVIOLATED, "proof.turning.%s: stated %.12g, but expected %.12g", name,
+                  said, found);
 }
 
-/* A bound may be less than what is proved, not more: by rounding of that, and not of a plan that may turn far more. */
+/* A bound may be less than what is proved, not more: by rounding of that, and not of a plan that
+ * may turn far more. */
 static thr_status not_above(const char *name, double said, double found, thr_err *err)
 {
   return said <= found ? THR_OK : stated(name, said, found, 1 + found, err);
 }
 
-static thr_status check_optimal(const thr_turning_claim *claim, const thr_turning_claim *found, double whole, thr_err *err)
+static thr_status check_optimal(const thr_turning_claim *claim, const thr_turning_claim *found,
+                                double whole, thr_err *err)
 {
   if (claim->optimal && !found->optimal)
-    return thr_fail(err, THR_EVIOLATED, "proof.turning: says optimal, but the tree only proves %.12g of %.12g",
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.turning: says optimal, but the tree only proves %.12g of %.12g",
                     found->lower_bound, found->price);
   if (claim->largest_optimal && !found->largest_optimal)
-    return thr_fail(err, THR_EVIOLATED, "proof.turning.largest: says optimal, but only %.12g of %.12g is proved",
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.turning.largest: says optimal, but only %.12g of %.12g is proved",
                     found->largest_bound, found->largest);
   if (claim->optimal && !thr_check_close(claim->lower_bound, claim->price, whole))
-    return thr_fail(err, THR_EVIOLATED, "proof.turning: says optimal, but its lower bound %.12g is not the price %.12g",
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.turning: says optimal, but its lower bound %.12g is not the price %.12g",
                     claim->lower_bound, claim->price);
   if (claim->largest_optimal && !thr_check_close(claim->largest_bound, claim->largest, whole))
-    return thr_fail(err, THR_EVIOLATED, "proof.turning.largest: says optimal, but its lower bound %.12g is not the price %.12g",
-                    claim->largest_bound, claim->largest);
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "proof.turning.largest: says optimal, but its lower bound %.12g is not the price %.12g",
+        claim->largest_bound, claim->largest);
   return THR_OK;
 }
 
-/* The limit on the length must let in everything that the options allow: that part above the least length that the plan states,
- * which is no more than what is proved. (A plan with a weak proof of length may have a lower limit: what is said of its turning
- * names the limit.) */
+/* The limit on the length must let in everything that the options allow: that part above the least
+ * length that the plan states, which is no more than what is proved. (A plan with a weak proof of
+ * length may have a lower limit: what is said of its turning names the limit.) */
 static thr_status check_limit(const thr_plan *plan, double least_length, thr_err *err)
 {
   const double slack = plan->options.turning.length_slack, limit = plan->turning.length_limit;
   if (slack < 0) {
     if (limit < 0) return THR_OK;
-    return thr_fail(err, THR_EVIOLATED, "proof.turning.length_limit: %.12g, but the options allow any length", limit);
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.turning.length_limit: %.12g, but the options allow any length", limit);
   }
   if (limit < 0) return THR_OK; /* more than asked for */
   if (!plan->proof.present)
-    return thr_fail(err, THR_EVIOLATED, "proof.turning.length_limit: nothing says what the least length is (no proof.length)");
+    return thr_fail(
+        err, THR_EVIOLATED,
+        "proof.turning.length_limit: nothing says what the least length is (no proof.length)");
   /* Version 1 knew no bounds of few edges with a slack: there what the plan states is enough. */
-  const double least = plan->options.old_pull ? fmin(least_length, plan->proof.lower_bound) : least_length;
+  const double least =
+      plan->options.old_pull ? fmin(least_length, plan->proof.lower_bound) : least_length;
   const double needed = (1 + slack) * least;
-  if (limit >= needed * (1 - 5e-12)) return THR_OK; /* the proof allows 1e-11 more: thr_turning_extra_limit */
-  return thr_fail(err, THR_EVIOLATED, "proof.turning.length_limit: %.12g shuts out plans of up to %.12g, which the options allow",
-                  limit, needed);
+  if (limit >= needed * (1 - 5e-12))
+    return THR_OK; /* the proof allows 1e-11 more: thr_turning_extra_limit */
+  return thr_fail(
+      err, THR_EVIOLATED,
+      "proof.turning.length_limit: %.12g shuts out plans of up to %.12g, which the options allow",
+      limit, needed);
 }
 
 thr_status thr_check_turning_claim(const thr_plan *plan, double least_length, thr_err *err)
@@ -347,15 +394,19 @@ thr_status thr_check_turning_claim(const thr_plan *plan, double least_length, th
   const thr_turning_claim *claim = &plan->turning;
   thr_turning_claim found;
   if (plan->options.turning.tour != THR_TOUR_LEAST)
-    return thr_fail(err, THR_EVIOLATED, "proof.turning: a classical tour claims nothing about its turning");
+    return thr_fail(err, THR_EVIOLATED,
+                    "proof.turning: a classical tour claims nothing about its turning");
   thr_status st = check_limit(plan, least_length, err);
-  if (!st) st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, claim, &found, err);
+  if (!st)
+    st = thr_check_turning(&plan->frame, &plan->options, plan->cord, plan->n_cords, claim, &found,
+                           err);
   if (st) return st;
   double whole = 1 + found.price;
   if ((st = stated("price", claim->price, found.price, whole, err))) return st;
   if ((st = stated("largest.price", claim->largest, found.largest, whole, err))) return st;
   if ((st = not_above("lower_bound", claim->lower_bound, found.lower_bound, err))) return st;
-  if ((st = not_above("largest.lower_bound", claim->largest_bound, found.largest_bound, err))) return st;
+  if ((st = not_above("largest.lower_bound", claim->largest_bound, found.largest_bound, err)))
+    return st;
   double gap = found.price > 0 ? (claim->price - claim->lower_bound) / found.price : 0;
   if ((st = stated("gap", claim->gap, gap, 1, err))) return st;
   return check_optimal(claim, &found, whole, err);

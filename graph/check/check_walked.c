@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cords as a plan states them, against its framework and what was asked for. */
 #include "graph/check/check_parts.h"
 
@@ -7,45 +8,51 @@ static thr_status check_walk(const thr_frame *frame, const thr_cord *cord, thr_e
 {
   for (int i = 0; i + 1 < cord->n_passes; i++)
     if (thr_head(frame, cord->half[i]) != thr_tail(frame, cord->half[i + 1]))
-      return thr_fail(err, THR_EVIOLATED, "cord %s, pass %d: ends at node %d, but pass %d starts at node %d", cord->id, i + 1,
-                      thr_head(frame, cord->half[i]), i + 2, thr_tail(frame, cord->half[i + 1]));
+      return thr_fail(err, THR_EVIOLATED,
+                      "cord %s, pass %d: ends at node %d, but pass %d starts at node %d", cord->id,
+                      i + 1, thr_head(frame, cord->half[i]), i + 2,
+                      thr_tail(frame, cord->half[i + 1]));
   bool meets = thr_cord_start(frame, cord) == thr_cord_end(frame, cord);
   if (cord->closed != meets)
-    return thr_fail(err, THR_EVIOLATED, "cord %s: said to be %s, but runs from node %d to node %d", cord->id,
-                    cord->closed ? "closed" : "open", thr_cord_start(frame, cord), thr_cord_end(frame, cord));
+    return thr_fail(err, THR_EVIOLATED, "cord %s: said to be %s, but runs from node %d to node %d",
+                    cord->id, cord->closed ? "closed" : "open", thr_cord_start(frame, cord),
+                    thr_cord_end(frame, cord));
   return THR_OK;
 }
 
-static thr_status check_ends(const thr_frame *frame, const thr_request *options, const thr_cord *cord, thr_err *err)
+static thr_status check_ends(const thr_frame *frame, const thr_request *options,
+                             const thr_cord *cord, thr_err *err)
 {
   if (options->ends == THR_ENDS_CLOSED && !cord->closed)
-    return thr_fail(err, THR_EVIOLATED, "cord %s: open, but the plan's options say closed", cord->id);
+    return thr_fail(err, THR_EVIOLATED, "cord %s: open, but the plan's options say closed",
+                    cord->id);
   int end[2] = {thr_cord_start(frame, cord), thr_cord_end(frame, cord)};
   for (int i = 0; i < 2; i++)
     if (!thr_plan_end_allowed(frame, options, end[i]))
-      return thr_fail(err, THR_EVIOLATED, "cord %s: %s at node %d, where no cord end is allowed", cord->id, i ? "ends" : "starts",
-                      end[i]);
+      return thr_fail(err, THR_EVIOLATED, "cord %s: %s at node %d, where no cord end is allowed",
+                      cord->id, i ? "ends" : "starts", end[i]);
   return THR_OK;
 }
 
 /* Every edge has the passes that it needs, and no more than fit. */
-thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, const int *passes, thr_err *err)
+thr_status thr_check_cover(const thr_frame *frame, const thr_request *options, const int *passes,
+                           thr_err *err)
 {
   for (int e = 0; e < frame->n_edges; e++) {
     int least = thr_plan_cover(frame, options, e), most = thr_plan_capacity(frame, options, e);
     if (passes[e] < least)
-      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d of %d passes", e, frame->edge[e][0], frame->edge[e][1],
-                      passes[e], least);
+      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d of %d passes", e,
+                      frame->edge[e][0], frame->edge[e][1], passes[e], least);
     if (passes[e] > most)
-      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d passes, but only %d fit", e, frame->edge[e][0],
-                      frame->edge[e][1], passes[e], most);
+      return thr_fail(err, THR_EVIOLATED, "edge %d (nodes %d and %d): %d passes, but only %d fit",
+                      e, frame->edge[e][0], frame->edge[e][1], passes[e], most);
   }
   return THR_OK;
 }
 
 /* THR_ENDS_COUNTS: at every node as many cord ends as asked for. */
-static thr_status check_end_counts(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
-                                   thr_err *err)
+static thr_status check_end_counts(const thr_frame *frame, const thr_request *options,
+                                   const thr_cord *cord, int n_cords, thr_err *err)
 {
   if (options->ends != THR_ENDS_COUNTS) return THR_OK;
   int *count = thr_calloc((size_t)frame->n_nodes, sizeof *count);
@@ -56,46 +63,53 @@ static thr_status check_end_counts(const thr_frame *frame, const thr_request *op
   }
   for (int v = 0; v < frame->n_nodes && !st; v++)
     if (count[v] != options->end_count[v])
-      st = thr_fail(err, THR_EVIOLATED, "node %d: has %d cord %s; the plan's options say %d", v, count[v],
-                    count[v] == 1 ? "end" : "ends", options->end_count[v]);
+      st = thr_fail(err, THR_EVIOLATED, "node %d: has %d cord %s; the plan's options say %d", v,
+                    count[v], count[v] == 1 ? "end" : "ends", options->end_count[v]);
   free(count);
   return st;
 }
 
-static thr_status check_lengths(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
-                                thr_err *err)
+static thr_status check_lengths(const thr_frame *frame, const thr_request *options,
+                                const thr_cord *cord, int n_cords, thr_err *err)
 {
   for (int i = 0; i < n_cords && options->max_length > 0; i++) {
     double length = thr_cord_length(frame, &cord[i]);
     if (length > options->max_length && !thr_check_close(length, options->max_length, length))
-      return thr_fail(err, THR_EVIOLATED, "cord %s: %.12g long; the plan's options allow %.12g", cord[i].id, length,
-                      options->max_length);
+      return thr_fail(err, THR_EVIOLATED, "cord %s: %.12g long; the plan's options allow %.12g",
+                      cord[i].id, length, options->max_length);
   }
   return THR_OK;
 }
 
-/* THR_JOINT_TUBE: no cord turns back into its edge, and the turns tie the edges of every node together. */
-static thr_status check_joints(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
-                               thr_err *err)
+/* THR_JOINT_TUBE: no cord turns back into its edge, and the turns tie the edges of every node
+ * together. */
+static thr_status check_joints(const thr_frame *frame, const thr_request *options,
+                               const thr_cord *cord, int n_cords, thr_err *err)
 {
   if (options->joint != THR_JOINT_TUBE) return THR_OK;
   for (int i = 0; i < n_cords; i++)
     for (int k = 0; k < thr_cord_turns(options, &cord[i]); k++)
       if (cord[i].half[(k + 1) % cord[i].n_passes] >> 1 == cord[i].half[k] >> 1)
-        return thr_fail(err, THR_EVIOLATED, "cord %s, pass %d: turns back at node %d, which ties no tube joint", cord[i].id,
-                        k + 1, thr_head(frame, cord[i].half[k]));
+        return thr_fail(err, THR_EVIOLATED,
+                        "cord %s, pass %d: turns back at node %d, which ties no tube joint",
+                        cord[i].id, k + 1, thr_head(frame, cord[i].half[k]));
   bool *tied = thr_calloc((size_t)frame->n_nodes, sizeof *tied);
-  thr_status st = tied ? thr_junction_tied(frame, cord, n_cords, options->ends == THR_ENDS_CLOSED, tied, err) : thr_nomem(err);
+  thr_status st =
+      tied ? thr_junction_tied(frame, cord, n_cords, options->ends == THR_ENDS_CLOSED, tied, err)
+           : thr_nomem(err);
   for (int v = 0; v < frame->n_nodes && !st; v++)
     if (!tied[v])
-      st = thr_fail(err, THR_EVIOLATED, "node %d: the cords do not tie its edges together, as the plan's tube joints need", v);
+      st = thr_fail(
+          err, THR_EVIOLATED,
+          "node %d: the cords do not tie its edges together, as the plan's tube joints need", v);
   free(tied);
   return st;
 }
 
 /* Counts the passes that the cords make. */
-static thr_status check_cords(const thr_frame *frame, const thr_request *options, const int *component, const thr_cord *cord,
-                              int n_cords, int *passes, thr_err *err)
+static thr_status check_cords(const thr_frame *frame, const thr_request *options,
+                              const int *component, const thr_cord *cord, int n_cords, int *passes,
+                              thr_err *err)
 {
   thr_status st;
   for (int i = 0; i < n_cords; i++) {
@@ -103,8 +117,9 @@ static thr_status check_cords(const thr_frame *frame, const thr_request *options
     if ((st = check_walk(frame, c, err))) return st;
     if ((st = check_ends(frame, options, c, err))) return st;
     if (component[thr_cord_start(frame, c)] != c->component)
-      return thr_fail(err, THR_EVIOLATED, "cord %s: said to be in component %d, but runs in component %d", c->id, c->component,
-                      component[thr_cord_start(frame, c)]);
+      return thr_fail(err, THR_EVIOLATED,
+                      "cord %s: said to be in component %d, but runs in component %d", c->id,
+                      c->component, component[thr_cord_start(frame, c)]);
     for (int k = 0; k < c->n_passes; k++)
       passes[c->half[k] >> 1]++;
   }
@@ -123,13 +138,17 @@ void thr_check_walked_destroy(thr_check_walked *check_walked)
   *check_walked = (thr_check_walked){0};
 }
 
-thr_status thr_check_walked_init(thr_check_walked *check_walked, const thr_frame *frame, const thr_request *options, thr_err *err)
+thr_status thr_check_walked_init(thr_check_walked *check_walked, const thr_frame *frame,
+                                 const thr_request *options, thr_err *err)
 {
-  *check_walked = (thr_check_walked){.component = thr_calloc((size_t)frame->n_nodes, sizeof *check_walked->component),
-                                     .passes = thr_calloc((size_t)frame->n_edges, sizeof *check_walked->passes)};
+  *check_walked = (thr_check_walked){
+      .component = thr_calloc((size_t)frame->n_nodes, sizeof *check_walked->component),
+      .passes = thr_calloc((size_t)frame->n_edges, sizeof *check_walked->passes)};
   thr_status st = check_walked->component && check_walked->passes ? THR_OK : thr_nomem(err);
-  if (!st) st = thr_frame_components(frame, check_walked->component, &check_walked->n_components, err);
-  if (!st && !(check_walked->cords = thr_calloc((size_t)check_walked->n_components, sizeof *check_walked->cords)))
+  if (!st)
+    st = thr_frame_components(frame, check_walked->component, &check_walked->n_components, err);
+  if (!st && !(check_walked->cords =
+                   thr_calloc((size_t)check_walked->n_components, sizeof *check_walked->cords)))
     st = thr_nomem(err);
   for (int k = 0; k < check_walked->n_components && !st; k++)
     check_walked->cords[k] = options->cords;
@@ -145,22 +164,27 @@ static void count_cords(thr_check_walked *check_walked, const thr_cord *cord, in
     check_walked->cords[cord[i].component]++;
 }
 
-thr_status thr_check_walked_from(thr_check_walked *check_walked, const thr_frame *frame, const thr_request *options,
-                                 const thr_cord *cord, int n_cords, thr_err *err)
+thr_status thr_check_walked_from(thr_check_walked *check_walked, const thr_frame *frame,
+                                 const thr_request *options, const thr_cord *cord, int n_cords,
+                                 thr_err *err)
 {
   thr_status st = thr_check_walked_init(check_walked, frame, options, err);
-  if (!st) st = check_cords(frame, options, check_walked->component, cord, n_cords, check_walked->passes, err);
+  if (!st)
+    st = check_cords(frame, options, check_walked->component, cord, n_cords, check_walked->passes,
+                     err);
   if (!st) count_cords(check_walked, cord, n_cords);
   if (st) thr_check_walked_destroy(check_walked);
   return st;
 }
 
-thr_status thr_check_cord_count(const thr_check_walked *check_walked, const thr_request *options, thr_err *err)
+thr_status thr_check_cord_count(const thr_check_walked *check_walked, const thr_request *options,
+                                thr_err *err)
 {
   const int *count = check_walked->cords;
   thr_status st = THR_OK;
   bool counted = thr_plan_counted(options);
-  int first = 0, end = check_walked->n_components, least = counted ? options->cords_least : options->cords;
+  int first = 0, end = check_walked->n_components,
+      least = counted ? options->cords_least : options->cords;
   for (int k = 0; k < check_walked->n_components && !st && !counted; k++) {
     if (count[k] > count[first]) first = k;
     end = first + 1;
@@ -169,10 +193,11 @@ thr_status thr_check_cord_count(const thr_check_walked *check_walked, const thr_
     const char *cords = count[k] == 1 ? "cord" : "cords";
     if (count[k] >= least && count[k] <= options->cords) continue;
     if (least == options->cords)
-      st = thr_fail(err, THR_EVIOLATED, "component %d: has %d %s; the plan's options say %d", k, count[k], cords, least);
+      st = thr_fail(err, THR_EVIOLATED, "component %d: has %d %s; the plan's options say %d", k,
+                    count[k], cords, least);
     else
-      st = thr_fail(err, THR_EVIOLATED, "component %d: has %d %s; the plan's options say %d to %d", k, count[k], cords, least,
-                    options->cords);
+      st = thr_fail(err, THR_EVIOLATED, "component %d: has %d %s; the plan's options say %d to %d",
+                    k, count[k], cords, least, options->cords);
   }
   return st;
 }
@@ -185,8 +210,8 @@ double thr_check_length_of(const thr_frame *frame, const int *passes)
   return sum;
 }
 
-thr_status thr_check_count_different(const thr_frame *frame, int distinct, const thr_cord *cord, int n_cords, int *found,
-                                     thr_err *err)
+thr_status thr_check_count_different(const thr_frame *frame, int distinct, const thr_cord *cord,
+                                     int n_cords, int *found, thr_err *err)
 {
   int *cords = thr_calloc((size_t)frame->n_edges, sizeof *cords);
   bool *here = thr_calloc((size_t)frame->n_edges, sizeof *here);
@@ -207,8 +232,8 @@ thr_status thr_check_count_different(const thr_frame *frame, int distinct, const
   return st;
 }
 
-thr_status thr_check_different(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords, int *each,
-                               thr_err *err)
+thr_status thr_check_different(const thr_frame *frame, const thr_request *options,
+                               const thr_cord *cord, int n_cords, int *each, thr_err *err)
 {
   int found = 0;
   *each = 1;

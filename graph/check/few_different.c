@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Several different cords over every edge of a few: tables over what the edges still need. */
 #include "graph/check/edge_sets.h"
 
@@ -8,7 +9,8 @@
 
 /* ---- the shortest in all ---- */
 
-/* Needs of all edges are the digits of a number to the base each + 1, the first edge's the lowest. */
+/* Needs of all edges are the digits of a number to the base each + 1, the first edge's the lowest.
+ */
 typedef struct {
   const thr_few_edges *few;
   int base, needs; /* needs: how many numbers there are */
@@ -23,7 +25,8 @@ static unsigned edges_of(const sharing *x, int needs)
   return set;
 }
 
-/* The best set for one cord, of those that hold the lowest edge with needs, and what it and the others cost: best is of these. */
+/* The best set for one cord, of those that hold the lowest edge with needs, and what it and the
+ * others cost: best is of these. */
 static double best_part(const sharing *x, int needs, const double *best, unsigned *cord)
 {
   const unsigned set = edges_of(x, needs), lowest = set & (~set + 1), rest = set & ~lowest;
@@ -85,9 +88,11 @@ static thr_status share_all(sharing *x, int most, double **best, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_few_edges_different(const thr_few_edges *few, int each, int least, int most, double *cost, thr_err *err)
+thr_status thr_few_edges_different(const thr_few_edges *few, int each, int least, int most,
+                                   double *cost, thr_err *err)
 {
-  const int enough = each * few->n, n = most < enough ? most : enough; /* more cords than that only cost more */
+  const int enough = each * few->n,
+            n = most < enough ? most : enough; /* more cords than that only cost more */
   sharing x = {.few = few, .base = each + 1};
   double *best = NULL;
   *cost = 0;
@@ -105,7 +110,8 @@ thr_status thr_few_edges_different(const thr_few_edges *few, int each, int least
   return st;
 }
 
-/* One edge that a cord passes at no more cost than any: what cords beyond those that are needed do. */
+/* One edge that a cord passes at no more cost than any: what cords beyond those that are needed do.
+ */
 static unsigned cheapest_edge(const thr_few_edges *few)
 {
   int best = 0;
@@ -114,7 +120,8 @@ static unsigned cheapest_edge(const thr_few_edges *few)
   return 1u << best;
 }
 
-thr_status thr_few_edges_sets(const thr_few_edges *few, int each, int cords, unsigned *set, bool *found, thr_err *err)
+thr_status thr_few_edges_sets(const thr_few_edges *few, int each, int cords, unsigned *set,
+                              bool *found, thr_err *err)
 {
   const int enough = each * few->n, n = cords < enough ? cords : enough;
   sharing x = {.few = few, .base = each + 1};
@@ -139,17 +146,20 @@ thr_status thr_few_edges_sets(const thr_few_edges *few, int each, int cords, uns
 
 enum { PLACES = 1 << 19, NONE = -1 };
 
-/* Pairs of what edges need and a set that are looked at: for one limit, and for all. What is not decided then stays open. */
+/* Pairs of what edges need and a set that are looked at: for one limit, and for all. What is not
+ * decided then stays open. */
 static const double most_work = 1 << 27, most_in_all = 1 << 28;
 
-/* What so many cords cannot do: pass what the edges need, a number to the base each + 1; cords 0: an empty place. */
+/* What so many cords cannot do: pass what the edges need, a number to the base each + 1; cords 0:
+ * an empty place. */
 typedef struct {
   int64_t needs;
   int cords;
 } failure;
 
-/* Can so many cords, none above the limit, pass everything often enough? The next cord passes the edge in need that the fewest
- * sets hold; a set that is part of another below the limit is left out, and what failed before as well. */
+/* Can so many cords, none above the limit, pass everything often enough? The next cord passes the
+ * edge in need that the fewest sets hold; a set that is part of another below the limit is left
+ * out, and what failed before as well. */
 typedef struct {
   const thr_few_edges *few;
   int each, cords;
@@ -158,9 +168,9 @@ typedef struct {
   int n_sets;                 /* below the limit and part of no other */
   unsigned *set;              /* [2^n] */
   int holders[THR_FEW_EDGES]; /* sets that hold an edge */
-  int weight[THR_FEW_EDGES];  /* of an edge, such that the sets weigh little for what all edges do */
-  int heaviest;               /* weight of the heaviest set: no cord passes more */
-  failure *failed;            /* [PLACES] hashed by needs */
+  int weight[THR_FEW_EDGES]; /* of an edge, such that the sets weigh little for what all edges do */
+  int heaviest;              /* weight of the heaviest set: no cord passes more */
+  failure *failed;           /* [PLACES] hashed by needs */
   int n_failed;
   unsigned *chosen; /* [cords] the sets of the cords, the last one first */
   thr_scratch own;
@@ -198,8 +208,9 @@ static unsigned find_heaviest(const decision *x, const int *weight, int *most)
   return heaviest;
 }
 
-/* Weights for which cords are many: edges of the heaviest set get lighter, again and again (S. Plotkin, D. Shmoys & E. Tardos,
- * "Fast approximation algorithms for fractional packing and covering problems", 1995). Any weights would be right. */
+/* Weights for which cords are many: edges of the heaviest set get lighter, again and again (S.
+ * Plotkin, D. Shmoys & E. Tardos, "Fast approximation algorithms for fractional packing and
+ * covering problems", 1995). Any weights would be right. */
 static void weigh(decision *x)
 {
   enum { ROUNDS = 200, FIRST = 1 << 20, PART = 16, MOST = 1 << 14 };
@@ -235,13 +246,16 @@ static failure *find_failure(const decision *x, int64_t needs)
 static void note_failure(decision *x, int64_t needs, int cords)
 {
   failure *at = find_failure(x, needs);
-  if (at->cords == 0 && 2 * ++x->n_failed > PLACES) return; /* there is no room, and it is found out again */
+  if (at->cords == 0 && 2 * ++x->n_failed > PLACES)
+    return; /* there is no room, and it is found out again */
   *at = (failure){needs, cords};
 }
 
-/* What the edges are to the cords that are left: *some: those with needs; *all: those that every one of them has to pass; *next:
- * the one of the first with the fewest sets. False: they cannot do. */
-static bool look_at(const decision *x, int64_t needs, int left, unsigned *some, unsigned *all, int *next)
+/* What the edges are to the cords that are left: *some: those with needs; *all: those that every
+ * one of them has to pass; *next: the one of the first with the fewest sets. False: they cannot do.
+ */
+static bool look_at(const decision *x, int64_t needs, int left, unsigned *some, unsigned *all,
+                    int *next)
 {
   int64_t sum = 0;
   bool enough = true;
@@ -258,8 +272,8 @@ static bool look_at(const decision *x, int64_t needs, int left, unsigned *some, 
   return enough && sum <= (int64_t)left * x->heaviest && x->few->one[*all] <= x->limit;
 }
 
-/* Do so many cords pass what the edges need? Of the last two the second has to pass what the first does not. False also where
- * that is too much work. */
+/* Do so many cords pass what the edges need? Of the last two the second has to pass what the first
+ * does not. False also where that is too much work. */
 static bool suffice(decision *x, int64_t needs, int cords)
 {
   unsigned some, all;
@@ -275,7 +289,9 @@ static bool suffice(decision *x, int64_t needs, int cords)
   for (int k = 0; k < x->n_sets && x->work <= most_work; k++) {
     const unsigned set = x->set[k] & some, rest = all | (some & ~set);
     x->chosen[cords - 1] = set;
-    if (!(set >> next & 1u) || (all & ~set) != 0 || !(x->few->one[cords == 2 ? rest : 0] <= x->limit)) continue;
+    if (!(set >> next & 1u) || (all & ~set) != 0 ||
+        !(x->few->one[cords == 2 ? rest : 0] <= x->limit))
+      continue;
     if (suffice(x, needs - x->offset[set], cords - 1)) return true;
   }
   if (x->work <= most_work) note_failure(x, needs, cords);
@@ -317,10 +333,11 @@ static thr_status decision_init(decision *x, thr_err *err)
   return st;
 }
 
-/* Of values[n], ascending, the first that is not excluded, *low, n: all are; and the first that is possible, *high, n: none is
- * known to be; set receives the sets of its cords (NULL: not wanted). What is just below the known cost comes first: mostly it is
- * excluded, or should be. */
-static void bisect(decision *x, const double *value, size_t n, double known, unsigned *set, size_t *low, size_t *high)
+/* Of values[n], ascending, the first that is not excluded, *low, n: all are; and the first that is
+ * possible, *high, n: none is known to be; set receives the sets of its cords (NULL: not wanted).
+ * What is just below the known cost comes first: mostly it is excluded, or should be. */
+static void bisect(decision *x, const double *value, size_t n, double known, unsigned *set,
+                   size_t *low, size_t *high)
 {
   size_t open = n, probe = 0;
   *low = 0;
@@ -341,11 +358,13 @@ static void bisect(decision *x, const double *value, size_t n, double known, uns
   }
 }
 
-thr_status thr_few_edges_different_dearest(const thr_few_edges *few, int each, int cords, double known, unsigned *set,
-                                           double *proved, double *found, thr_err *err)
+thr_status thr_few_edges_different_dearest(const thr_few_edges *few, int each, int cords,
+                                           double known, unsigned *set, double *proved,
+                                           double *found, thr_err *err)
 {
   const int enough = each * few->n;
-  decision x = {.few = few, .each = each, .cords = cords < enough ? cords : enough}; /* more cost no less */
+  decision x = {
+      .few = few, .each = each, .cords = cords < enough ? cords : enough}; /* more cost no less */
   double *value = NULL;
   size_t n = 0, low = 0, high = 0;
   *proved = 0;

@@ -1,16 +1,20 @@
-/* The least of several cords through a component of few edges, without a proof: all sets of edges are tried. Private to the
- * checker.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The least of several cords through a component of few edges, without a proof: all sets of edges
+ * are tried. Private to the checker.
  *
- *   one[S]: least cost of a cord that passes at least the edges S. States are (set passed so far, half-edge passed last); sets
- * only grow, so they are settled in ascending order, each by Dijkstra's method.
- *   The dearest of n cords costs at most L if the sets of one[S] <= L have n whose union is everything. The unions of a set of
- * one family and a set of another are those that some pair makes; pairs are counted by their zeta transforms over all subsets,
- * which are multiplied, in 2^n n (A. Bjoerklund, T. Husfeldt & M. Koivisto, "Set partitioning via inclusion-exclusion", SIAM
+ *   one[S]: least cost of a cord that passes at least the edges S. States are (set passed so far,
+ * half-edge passed last); sets only grow, so they are settled in ascending order, each by
+ * Dijkstra's method. The dearest of n cords costs at most L if the sets of one[S] <= L have n whose
+ * union is everything. The unions of a set of one family and a set of another are those that some
+ * pair makes; pairs are counted by their zeta transforms over all subsets, which are multiplied, in
+ * 2^n n (A. Bjoerklund, T. Husfeldt & M. Koivisto, "Set partitioning via inclusion-exclusion", SIAM
  * J. Computing 39, 2009). L is found by bisection.
- *   In all: best_n[S] = min over T in S with its lowest edge of one[T] + best_(n-1)[S - T] (M. Held & R. M. Karp 1962, with
- * walks). All covers count as 1, and nothing else that couples cords is asked: lower bounds then.
+ *   In all: best_n[S] = min over T in S with its lowest edge of one[T] + best_(n-1)[S - T] (M. Held
+ * & R. M. Karp 1962, with walks). All covers count as 1, and nothing else that couples cords is
+ * asked: lower bounds then.
  *
- * Example: a ring of four unit edges, two open cords, ends anywhere: 4 together, the longer one 2. */
+ * Example: a ring of four unit edges, two open cords, ends anywhere: 4 together, the longer one 2.
+ */
 #include "graph/check/edge_sets.h"
 #include "graph/check/check_parts.h"
 #include "graph/sort.h"
@@ -52,8 +56,10 @@ static double step_cost(const search *x, int from, int to)
   int a = half_of(x, from), b = half_of(x, to), v = thr_tail(x->f, b);
   bool back = b == (a ^ 1), tube = x->o->joint == THR_JOINT_TUBE;
   if (thr_head(x->f, a) != v) return INFINITY;
-  if (back && (tube || (x->turning && !x->back_anywhere && thr_degree(x->f, v) > 1))) return INFINITY;
-  return x->turning ? thr_check_price(x->f, x->o->turning.cost, a, b) : x->f->length[x->edge[to >> 1]];
+  if (back && (tube || (x->turning && !x->back_anywhere && thr_degree(x->f, v) > 1)))
+    return INFINITY;
+  return x->turning ? thr_check_price(x->f, x->o->turning.cost, a, b)
+                    : x->f->length[x->edge[to >> 1]];
 }
 
 static double first_cost(const search *x, int s)
@@ -79,7 +85,8 @@ static void list_steps(search *x)
   x->first[2 * x->n] = n;
 }
 
-/* Dijkstra's method over the half-edges of one set; steps to a further edge go to its set. Edges below the lowest are left out.
+/* Dijkstra's method over the half-edges of one set; steps to a further edge go to its set. Edges
+ * below the lowest are left out.
  */
 static void settle(const search *x, unsigned set, int lowest)
 {
@@ -116,16 +123,19 @@ static void open_cords(const search *x)
 {
   forget(x, 0);
   for (int s = 0; s < 2 * x->n; s++)
-    if (thr_plan_end_allowed(x->f, x->o, thr_tail(x->f, half_of(x, s)))) costs_at(x, 1u << (s >> 1))[s] = first_cost(x, s);
+    if (thr_plan_end_allowed(x->f, x->o, thr_tail(x->f, half_of(x, s))))
+      costs_at(x, 1u << (s >> 1))[s] = first_cost(x, s);
   for (unsigned set = 1; set < 1u << x->n; set++) {
     settle(x, set, 0);
     for (int s = 0; s < 2 * x->n; s++)
-      if (thr_plan_end_allowed(x->f, x->o, thr_head(x->f, half_of(x, s))) && costs_at(x, set)[s] <= x->limit)
+      if (thr_plan_end_allowed(x->f, x->o, thr_head(x->f, half_of(x, s))) &&
+          costs_at(x, set)[s] <= x->limit)
         x->out->one[set] = fmin(x->out->one[set], costs_at(x, set)[s]);
   }
 }
 
-/* A closed cord, perhaps the other way round, passes its lowest edge from its first node to the second. */
+/* A closed cord, perhaps the other way round, passes its lowest edge from its first node to the
+ * second. */
 static void closed_cords(const search *x)
 {
   for (int i = 0; i < x->n; i++) {
@@ -135,7 +145,8 @@ static void closed_cords(const search *x)
       if (!(set >> i & 1u)) continue;
       settle(x, set, i);
       for (int s = 2 * i; s < 2 * x->n; s++) {
-        double cost = costs_at(x, set)[s] + step_cost(x, s, 2 * i) - (x->turning ? 0 : first_cost(x, 2 * i));
+        double cost =
+            costs_at(x, set)[s] + step_cost(x, s, 2 * i) - (x->turning ? 0 : first_cost(x, 2 * i));
         if (cost <= x->limit) x->out->one[set] = fmin(x->out->one[set], cost);
       }
     }
@@ -161,8 +172,9 @@ static int count_edges(const thr_frame *frame, const int *component, int number,
   return n;
 }
 
-thr_status thr_few_edges_init(thr_few_edges *few, const thr_frame *frame, const thr_request *options, const int *component,
-                              int number, bool turning, double limit, int sets, thr_err *err)
+thr_status thr_few_edges_init(thr_few_edges *few, const thr_frame *frame,
+                              const thr_request *options, const int *component, int number,
+                              bool turning, double limit, int sets, thr_err *err)
 {
   search x = {.f = frame, .o = options, .turning = turning, .limit = limit, .out = few};
   *few = (thr_few_edges){.n = x.n = count_edges(frame, component, number, x.edge)};
@@ -200,9 +212,10 @@ void thr_few_edges_destroy(thr_few_edges *few)
 typedef struct {
   int n;
   size_t sets;
-  int64_t *some, *all, *half; /* [sets] the sets below a limit; unions of some of them; of half of all */
-  int64_t *other, *product;   /* [sets] while unions are made */
-  thr_scratch own;            /* the arrays */
+  int64_t *some, *all,
+      *half; /* [sets] the sets below a limit; unions of some of them; of half of all */
+  int64_t *other, *product; /* [sets] while unions are made */
+  thr_scratch own;          /* the arrays */
 } families;
 
 /* Sums over all parts of every set; or back. */
@@ -214,7 +227,8 @@ static void add_parts(int64_t *f, int n, int64_t sign)
         f[k + ((size_t)1 << i)] += sign * f[k];
 }
 
-/* *of: the unions of two of its sets; or of one of them and one below the limit. There are at most 4^n pairs. */
+/* *of: the unions of two of its sets; or of one of them and one below the limit. There are at most
+ * 4^n pairs. */
 static void unite(families *x, bool itself)
 {
   memcpy(x->product, x->all, x->sets * sizeof *x->product);
@@ -228,7 +242,8 @@ static void unite(families *x, bool itself)
     x->all[set] = x->product[set] > 0;
 }
 
-/* Do so many cords, none above the limit, pass everything? Half of them pass a set, and the others what is left. */
+/* Do so many cords, none above the limit, pass everything? Half of them pass a set, and the others
+ * what is left. */
 static bool suffice(families *x, const thr_few_edges *few, int cords, double limit)
 {
   const int half = cords / 2;
@@ -309,7 +324,8 @@ static thr_status costs_of(const thr_few_edges *few, int most, double *of, thr_e
 {
   thr_scratch own = {0};
   size_t sets = (size_t)1 << few->n;
-  double *best = thr_scratch_array(&own, sets, sizeof *best), *more = thr_scratch_array(&own, sets, sizeof *more);
+  double *best = thr_scratch_array(&own, sets, sizeof *best),
+         *more = thr_scratch_array(&own, sets, sizeof *more);
   thr_status st = thr_scratch_check(&own, err);
   for (size_t set = 0; set < sets && !st; set++)
     best[set] = few->one[set];
@@ -324,7 +340,8 @@ static thr_status costs_of(const thr_few_edges *few, int most, double *of, thr_e
   return st;
 }
 
-thr_status thr_few_edges_sum(const thr_few_edges *few, int least, int most, double *cost, thr_err *err)
+thr_status thr_few_edges_sum(const thr_few_edges *few, int least, int most, double *cost,
+                             thr_err *err)
 {
   double of[THR_FEW_SUMMED + 1];
   int n = few->n;
@@ -339,8 +356,8 @@ thr_status thr_few_edges_sum(const thr_few_edges *few, int least, int most, doub
 
 /* ---- all components ---- */
 
-void thr_few_edges_cords(const thr_frame *frame, const thr_request *options, const int *component, int number, int *least,
-                         int *most)
+void thr_few_edges_cords(const thr_frame *frame, const thr_request *options, const int *component,
+                         int number, int *least, int *most)
 {
   int ends = 0;
   *least = thr_plan_cords_least(options);
@@ -352,7 +369,8 @@ void thr_few_edges_cords(const thr_frame *frame, const thr_request *options, con
 }
 
 /* Edges of each component. */
-static thr_status count_all_edges(const thr_frame *frame, const int *component, int n_components, int **edges, thr_err *err)
+static thr_status count_all_edges(const thr_frame *frame, const int *component, int n_components,
+                                  int **edges, thr_err *err)
 {
   if (!(*edges = thr_calloc((size_t)n_components, sizeof **edges))) return thr_nomem(err);
   for (int e = 0; e < frame->n_edges; e++)
@@ -368,8 +386,9 @@ static void keep_to_length(thr_few_edges *few, const thr_request *options)
     if (few->one[set] > longest) few->one[set] = INFINITY;
 }
 
-thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *options, const int *component, int n_components,
-                                 const int *cords, int each, double *least, thr_err *err)
+thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *options,
+                                 const int *component, int n_components, const int *cords, int each,
+                                 double *least, thr_err *err)
 {
   int sets = THR_FEW_SETS, *edges = NULL;
   thr_status st = count_all_edges(frame, component, n_components, &edges, err);
@@ -380,10 +399,12 @@ thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *opti
     if (edges[c] > THR_FEW_SUMMED) continue;
     thr_few_edges_cords(frame, options, component, c, &from, &to);
     if (cords) to = cords[c];
-    if (to > 1) st = thr_few_edges_init(&few, frame, options, component, c, false, INFINITY, sets, err);
+    if (to > 1)
+      st = thr_few_edges_init(&few, frame, options, component, c, false, INFINITY, sets, err);
     if (few.n > 0) sets -= 1 << few.n;
     if (!st) keep_to_length(&few, options);
-    if (!st && few.n > 0 && each > 1) st = thr_few_edges_different(&few, each, from, to, &least[c], err);
+    if (!st && few.n > 0 && each > 1)
+      st = thr_few_edges_different(&few, each, from, to, &least[c], err);
     if (!st && few.n > 0 && least[c] == 0) st = thr_few_edges_sum(&few, from, to, &least[c], err);
     thr_few_edges_destroy(&few);
   }
@@ -391,11 +412,12 @@ thr_status thr_few_edges_lengths(const thr_frame *frame, const thr_request *opti
   return st;
 }
 
-thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *options, double limit, double *sum, double *dearest,
-                                thr_err *err)
+thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *options, double limit,
+                                double *sum, double *dearest, thr_err *err)
 {
   thr_scratch own = {0};
-  int n, sets = THR_FEW_SETS, *component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component);
+  int n, sets = THR_FEW_SETS,
+         *component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component);
   bool all = true;
   *sum = *dearest = 0;
   thr_status st = thr_scratch_check(&own, err);
@@ -405,7 +427,8 @@ thr_status thr_few_edges_bounds(const thr_frame *frame, const thr_request *optio
     double worst = 0, total = 0;
     int least, most;
     thr_few_edges_cords(frame, options, component, c, &least, &most);
-    if (most > 1) st = thr_few_edges_init(&few, frame, options, component, c, true, limit, sets, err);
+    if (most > 1)
+      st = thr_few_edges_init(&few, frame, options, component, c, true, limit, sets, err);
     if (few.n > 0) sets -= 1 << few.n;
     bool summed = few.n > 0 && few.n <= THR_FEW_SUMMED;
     if (!st && few.n > 0) st = thr_few_edges_dearest(&few, most, &worst, err);
@@ -436,7 +459,8 @@ static void begin_sides(pulled *p, int home)
   forget(&p->x, 0);
   for (int s = 0; s < 2 * p->x.n; s++) {
     const int v = thr_tail(p->x.f, half_of(&p->x, s));
-    if (home < 0 ? thr_plan_end_allowed(p->x.f, p->x.o, v) : v == home) costs_at(&p->x, 1u << (s >> 1))[s] = 0;
+    if (home < 0 ? thr_plan_end_allowed(p->x.f, p->x.o, v) : v == home)
+      costs_at(&p->x, 1u << (s >> 1))[s] = 0;
   }
   for (unsigned set = 1; set < 1u << p->x.n; set++)
     settle(&p->x, set, 0);
@@ -449,7 +473,8 @@ static void join_sides(pulled *p, int v)
   for (unsigned set = 0; set < sets; set++) {
     p->side[set] = 0;
     for (int s = 0; s < 2 * p->x.n; s++)
-      if (thr_head(p->x.f, half_of(&p->x, s)) == v && costs_at(&p->x, set)[s] <= p->x.limit) p->side[set] = 1;
+      if (thr_head(p->x.f, half_of(&p->x, s)) == v && costs_at(&p->x, set)[s] <= p->x.limit)
+        p->side[set] = 1;
   }
   memcpy(p->pairs, p->side, sets * sizeof *p->pairs);
   add_parts(p->pairs, p->x.n, 1);
@@ -508,8 +533,8 @@ static thr_status component_within(pulled *p, int enough, int *fewest, thr_err *
   return st;
 }
 
-thr_status thr_few_edges_within(const thr_frame *frame, const thr_request *options, double allowed, const int *enough,
-                                int *fewest, thr_err *err)
+thr_status thr_few_edges_within(const thr_frame *frame, const thr_request *options, double allowed,
+                                const int *enough, int *fewest, thr_err *err)
 {
   thr_scratch own = {0};
   int n, *component = thr_scratch_array(&own, (size_t)frame->n_nodes, sizeof *component);
@@ -519,9 +544,10 @@ thr_status thr_few_edges_within(const thr_frame *frame, const thr_request *optio
   thr_status st = thr_scratch_check(&own, err);
   if (!st) st = thr_frame_components(frame, component, &n, err);
   for (int c = 0; !st && c < n; c++) {
-    pulled p = {.x = {.f = frame, .o = &by_angle, .turning = true, .back_anywhere = true, .limit = allowed},
-                .component = component,
-                .number = c};
+    pulled p = {
+        .x = {.f = frame, .o = &by_angle, .turning = true, .back_anywhere = true, .limit = allowed},
+        .component = component,
+        .number = c};
     int nodes = 0;
     p.x.n = count_edges(frame, component, c, p.x.edge);
     for (int v = 0; v < frame->n_nodes; v++)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which nodes the cords tie. */
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
@@ -10,10 +11,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-thr_status thr_junction_tied(const thr_frame *frame, const thr_cord *cord, int n_cords, bool closing_turns, bool *tied,
-                             thr_err *err)
+thr_status thr_junction_tied(const thr_frame *frame, const thr_cord *cord, int n_cords,
+                             bool closing_turns, bool *tied, thr_err *err)
 {
-  int *parent = thr_calloc(2 * (size_t)frame->n_edges, sizeof *parent); /* of half-edges, each the edge as seen from its node */
+  int *parent = thr_calloc(2 * (size_t)frame->n_edges,
+                           sizeof *parent); /* of half-edges, each the edge as seen from its node */
   if (!parent) return thr_nomem(err);
   for (int h = 0; h < 2 * frame->n_edges; h++)
     parent[h] = h;
@@ -21,18 +23,21 @@ thr_status thr_junction_tied(const thr_frame *frame, const thr_cord *cord, int n
     const thr_cord *c = &cord[i];
     for (int k = 0; k + 1 < c->n_passes; k++)
       thr_disjoint_join(parent, c->half[k] ^ 1, c->half[k + 1]);
-    if (closing_turns && c->closed) thr_disjoint_join(parent, c->half[c->n_passes - 1] ^ 1, c->half[0]);
+    if (closing_turns && c->closed)
+      thr_disjoint_join(parent, c->half[c->n_passes - 1] ^ 1, c->half[0]);
   }
   for (int v = 0; v < frame->n_nodes; v++) {
     tied[v] = true;
     for (int i = frame->first[v] + 1; i < frame->first[v + 1]; i++)
-      tied[v] &= thr_disjoint_find(parent, frame->half[i]) == thr_disjoint_find(parent, frame->half[i - 1]);
+      tied[v] &= thr_disjoint_find(parent, frame->half[i]) ==
+                 thr_disjoint_find(parent, frame->half[i - 1]);
   }
   free(parent);
   return THR_OK;
 }
 
-void thr_tied_task(const thr_frame *frame, const thr_request *options, bool *end_allowed, thr_turning_task *task)
+void thr_tied_task(const thr_frame *frame, const thr_request *options, bool *end_allowed,
+                   thr_turning_task *task)
 {
   bool closed = options->ends == THR_ENDS_CLOSED;
   int cover = 1, degree = 1, cords = closed ? 1 : options->cords;
@@ -45,21 +50,22 @@ void thr_tied_task(const thr_frame *frame, const thr_request *options, bool *end
     end_allowed[v] = thr_plan_end_allowed(frame, options, v);
     if (thr_degree(frame, v) > degree) degree = thr_degree(frame, v);
   }
-  *task = (thr_turning_task){.cover = options->cover,
-                             .capacity = options->capacity,
-                             .most_passes = 2 * (cover + degree + 2 * cords) + 1,
-                             .cords = cords,
-                             .cords_least = closed ? 1 : thr_plan_cords_least(options),
-                             .end_allowed = closed ? NULL : end_allowed,
-                             .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
-                             .tube = true,
-                             .free_turns = true,
-                             .price_per_length = fmin(frame->n_edges / thr_frame_total_length(frame), 5e3 / longest),
-                             .extra_limit = -1};
+  *task = (thr_turning_task){
+      .cover = options->cover,
+      .capacity = options->capacity,
+      .most_passes = 2 * (cover + degree + 2 * cords) + 1,
+      .cords = cords,
+      .cords_least = closed ? 1 : thr_plan_cords_least(options),
+      .end_allowed = closed ? NULL : end_allowed,
+      .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
+      .tube = true,
+      .free_turns = true,
+      .price_per_length = fmin(frame->n_edges / thr_frame_total_length(frame), 5e3 / longest),
+      .extra_limit = -1};
 }
 
-thr_status thr_tied_least(const thr_frame *frame, const thr_request *options, const thr_turning_proof *proof, double *least,
-                          thr_err *err)
+thr_status thr_tied_least(const thr_frame *frame, const thr_request *options,
+                          const thr_turning_proof *proof, double *least, thr_err *err)
 {
   thr_turning_task task;
   double extra = 0;

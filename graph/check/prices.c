@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Edges at their price. */
 #include "graph/framework/frame.h"
 #include "graph/plan/plan_measures.h"
@@ -20,11 +21,13 @@ static thr_wide price_of(const thr_request *options, thr_wide of, int loop, int 
   return 2 * of * (n / 2) + (n % 2 ? (2 * of + loop - 1) / loop : 0);
 }
 
-thr_priced thr_prices_edge(const thr_frame *frame, const thr_request *options, int e, thr_wide weight, thr_wide of, int loop)
+thr_priced thr_prices_edge(const thr_frame *frame, const thr_request *options, int e,
+                           thr_wide weight, thr_wide of, int loop)
 {
   int cover = thr_plan_cover(frame, options, e), most = thr_plan_capacity(frame, options, e);
-  thr_priced priced = {
-      .held = price_of(options, of, loop, cover), .room = most > cover, .endless = of > weight && most == INT_MAX};
+  thr_priced priced = {.held = price_of(options, of, loop, cover),
+                       .room = most > cover,
+                       .endless = of > weight && most == INT_MAX};
   for (int i = 0; i < 2; i++) { /* costs are linear in pairs of passes */
     int n = i;
     if (of > weight && most > cover && most < INT_MAX) n = most - cover - ((most - cover) % 2 != i);
@@ -37,11 +40,13 @@ thr_priced thr_prices_edge(const thr_frame *frame, const thr_request *options, i
 
 /* Searches from one node, cut off at a depth. */
 typedef struct {
-  int *mark, *queue; /* [n_nodes] number of the edge whose search reached a node last, plus 1; those reached */
+  int *mark, *queue; /* [n_nodes] number of the edge whose search reached a node last, plus 1; those
+                        reached */
   int steps;
 } search;
 
-/* Edges of the shortest way between the edge's nodes that is not the edge, up to most; most if there is none. */
+/* Edges of the shortest way between the edge's nodes that is not the edge, up to most; most if
+ * there is none. */
 static int way_round(const thr_frame *frame, int e, int most, search *s)
 {
   int n = 0, depth = 0, goal = frame->edge[e][1];
@@ -49,7 +54,8 @@ static int way_round(const thr_frame *frame, int e, int most, search *s)
   s->mark[frame->edge[e][0]] = e + 1;
   for (int at = 0, level = n; at < n && depth < most - 1; depth++, level = n)
     for (; at < level; at++)
-      for (int i = frame->first[s->queue[at]]; i < frame->first[s->queue[at] + 1]; i++, s->steps++) {
+      for (int i = frame->first[s->queue[at]]; i < frame->first[s->queue[at] + 1];
+           i++, s->steps++) {
         int v = thr_head(frame, frame->half[i]);
         if (frame->half[i] >> 1 == e || s->mark[v] == e + 1) continue;
         if (v == goal) return depth + 1;

@@ -1,17 +1,22 @@
-/* The least longest of several cords that pass few edges each, without a proof: all sets of edges that a cord below a limit
- * passes are looked at. Private to the checker and the planner.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The least longest of several cords that pass few edges each, without a proof: all sets of edges
+ * that a cord below a limit passes are looked at. Private to the checker and the planner.
  *
- *   States are (set passed so far, node); Dijkstra's method settles them by length, and goes on only where the way back, or to an
- * end, stays below the limit. Few are left where a cord passes some dozen edges of a framework whose nodes have three or four.
- *   Whether K cords below a limit do is decided by depth first search: the next one passes the edge that is lacking and in the
- * fewest sets; sets that are part of others are left out, and what failed before. What is lacking cannot be passed by j cords
- *   - where it weighs more than j times the heaviest set, for weights of the edges that make many cords (any would be right), and
- *   - where its length, and what its odd nodes add (half of the shortest edge there, but for 2 j of them if cords may end there:
- *     half an edge from either side are odd cuts), is more than j times the limit.
- * A table over the sets of few edges (graph/check/few_edges.c) has no limit on the cords; this one has none on the framework.
+ *   States are (set passed so far, node); Dijkstra's method settles them by length, and goes on
+ * only where the way back, or to an end, stays below the limit. Few are left where a cord passes
+ * some dozen edges of a framework whose nodes have three or four. Whether K cords below a limit do
+ * is decided by depth first search: the next one passes the edge that is lacking and in the fewest
+ * sets; sets that are part of others are left out, and what failed before. What is lacking cannot
+ * be passed by j cords
+ *   - where it weighs more than j times the heaviest set, for weights of the edges that make many
+ * cords (any would be right), and
+ *   - where its length, and what its odd nodes add (half of the shortest edge there, but for 2 j of
+ * them if cords may end there: half an edge from either side are odd cuts), is more than j times
+ * the limit. A table over the sets of few edges (graph/check/few_edges.c) has no limit on the
+ * cords; this one has none on the framework.
  *
- * Example: four closed cords through robarch_tree_S, 45 edges of three at a node: 37,260 sets of at most 780 mm, none of which
- * four pass all. Least length over four is 741.5. */
+ * Example: four closed cords through robarch_tree_S, 45 edges of three at a node: 37,260 sets of at
+ * most 780 mm, none of which four pass all. Least length over four is 741.5. */
 #include "graph/check/edge_sets.h"
 #include "graph/sort.h"
 
@@ -107,7 +112,8 @@ static int take_shortest(walker *x)
   const int top = x->queue[0], last = x->queue[--x->n_queue];
   int i = 0;
   for (int child; (child = 2 * i + 1) < x->n_queue; i = child) {
-    if (child + 1 < x->n_queue && state[x->queue[child + 1]].length < state[x->queue[child]].length) child++;
+    if (child + 1 < x->n_queue && state[x->queue[child + 1]].length < state[x->queue[child]].length)
+      child++;
     if (state[last].length <= state[x->queue[child]].length) break;
     put(x, i, x->queue[child]);
   }
@@ -164,7 +170,9 @@ static void walk_on(walker *x)
     if (here.set != 0 && ends_at(x, here.node)) note_set(x, s);
     for (int i = frame->first[here.node]; i < frame->first[here.node + 1]; i++) {
       const int half = frame->half[i], to = thr_head(frame, half);
-      if (to >= x->first) reach(x, here.set | edge_set(half >> 1), to, here.length + frame->length[half >> 1], s, half);
+      if (to >= x->first)
+        reach(x, here.set | edge_set(half >> 1), to, here.length + frame->length[half >> 1], s,
+              half);
     }
   }
 }
@@ -186,17 +194,20 @@ static void find_sets(walker *x)
   if (x->full) out->n = 0;
 }
 
-static thr_status is_asked(const thr_frame *frame, const thr_request *options, bool *asked, thr_err *err)
+static thr_status is_asked(const thr_frame *frame, const thr_request *options, bool *asked,
+                           thr_err *err)
 {
   int n = 0, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
   thr_status st = component ? thr_frame_components(frame, component, &n, err) : thr_nomem(err);
   free(component);
-  *asked = n == 1 && frame->n_edges <= THR_SHORT_EDGES && options->joint == THR_JOINT_SOLID && options->ends != THR_ENDS_COUNTS;
+  *asked = n == 1 && frame->n_edges <= THR_SHORT_EDGES && options->joint == THR_JOINT_SOLID &&
+           options->ends != THR_ENDS_COUNTS;
   return st;
 }
 
-thr_status thr_short_cords_init(thr_short_cords *cords, const thr_frame *frame, const thr_request *options, double limit,
-                                const thr_limits *limits, thr_err *err)
+thr_status thr_short_cords_init(thr_short_cords *cords, const thr_frame *frame,
+                                const thr_request *options, double limit, const thr_limits *limits,
+                                thr_err *err)
 {
   walker x = {.out = cords, .closed = options->ends == THR_ENDS_CLOSED};
   thr_scratch own = {0};
@@ -261,16 +272,17 @@ typedef struct {
   const thr_frame *f;
   bool closed;
   double limit, work, in_all;
-  double *half;                                        /* [n_nodes] of the shortest edge there: what an odd node adds */
-  double *odd;                                         /* [n_nodes] */
-  int *degree;                                         /* [n_nodes] */
-  int n_most;                                          /* sets below the limit that are part of no other */
-  counted *most;                                       /* [all->n] */
-  link *link;                                          /* lists of the sets that hold an edge */
-  int last[THR_SHORT_EDGES], holders[THR_SHORT_EDGES]; /* of an edge: the last one of its list, and their number */
-  int64_t weight[THR_SHORT_EDGES / 8][256], heaviest;  /* of eight edges at a time */
-  counted *next;                                       /* [room] the sets that are tried, of one cord after the other */
-  failure *failed;                                     /* [PLACES] */
+  double *half;  /* [n_nodes] of the shortest edge there: what an odd node adds */
+  double *odd;   /* [n_nodes] */
+  int *degree;   /* [n_nodes] */
+  int n_most;    /* sets below the limit that are part of no other */
+  counted *most; /* [all->n] */
+  link *link;    /* lists of the sets that hold an edge */
+  int last[THR_SHORT_EDGES],
+      holders[THR_SHORT_EDGES]; /* of an edge: the last one of its list, and their number */
+  int64_t weight[THR_SHORT_EDGES / 8][256], heaviest; /* of eight edges at a time */
+  counted *next;   /* [room] the sets that are tried, of one cord after the other */
+  failure *failed; /* [PLACES] */
   int n_failed;
   thr_edge_set *chosen;   /* [cords] the last cord first */
   thr_scratch own, tried; /* tried: what is for one limit */
@@ -367,7 +379,8 @@ static void set_weights(decision *x, const int64_t *weight)
     }
 }
 
-/* Edges of the heaviest set get lighter, again and again (S. Plotkin, D. Shmoys & E. Tardos 1995). */
+/* Edges of the heaviest set get lighter, again and again (S. Plotkin, D. Shmoys & E. Tardos 1995).
+ */
 static void weigh(decision *x, thr_edge_set needed)
 {
   enum { ROUNDS = 400, LOOKS = 1 << 22, FIRST = 1 << 30, PART = 32 };
@@ -441,18 +454,21 @@ static failure *find_failure(const decision *x, thr_edge_set lacking)
   return &x->failed[at];
 }
 
-/* The sets of the lacking edges, one of which is in the fewest, that a cord may pass and leave not too much to so many others. */
+/* The sets of the lacking edges, one of which is in the fewest, that a cord may pass and leave not
+ * too much to so many others. */
 static int list_next(decision *x, thr_edge_set lacking, int others, counted *next)
 {
   int n = 0;
   for (int k = x->last[rarest_edge(x, lacking)]; k != NONE; k = x->link[k].next) {
     const thr_edge_set set = x->most[x->link[k].set].set & lacking;
-    if (others == 0 ? set == lacking : !is_too_much(x, lacking & ~set, others)) next[n++] = (counted){set, count_edges(set)};
+    if (others == 0 ? set == lacking : !is_too_much(x, lacking & ~set, others))
+      next[n++] = (counted){set, count_edges(set)};
   }
   return keep_largest(x, next, n);
 }
 
-/* Do so many cords pass what is lacking? False also where that is too much work. next: room for the sets that are tried. */
+/* Do so many cords pass what is lacking? False also where that is too much work. next: room for the
+ * sets that are tried. */
 static bool suffice(decision *x, thr_edge_set lacking, int cords, counted *next)
 {
   if (lacking == 0) {
@@ -467,13 +483,15 @@ static bool suffice(decision *x, thr_edge_set lacking, int cords, counted *next)
     if (suffice(x, lacking & ~next[i].set, cords - 1, next + n)) return true;
   }
   failure *at = find_failure(x, lacking);
-  if (x->work <= most_work && (at->cords > 0 || 2 * ++x->n_failed < PLACES)) *at = (failure){lacking, cords};
+  if (x->work <= most_work && (at->cords > 0 || 2 * ++x->n_failed < PLACES))
+    *at = (failure){lacking, cords};
   return false;
 }
 
 typedef enum { IMPOSSIBLE, POSSIBLE, OPEN } verdict;
 
-static thr_status decide(decision *x, double limit, thr_edge_set needed, int cords, verdict *found, thr_err *err)
+static thr_status decide(decision *x, double limit, thr_edge_set needed, int cords, verdict *found,
+                         thr_err *err)
 {
   *found = OPEN;
   if (x->in_all > most_in_all) return THR_OK;
@@ -481,7 +499,8 @@ static thr_status decide(decision *x, double limit, thr_edge_set needed, int cor
   x->work = 0;
   x->n_failed = 0;
   thr_status st = list_most(x, err);
-  x->next = thr_scratch_array(&x->tried, (size_t)(x->n_most + 1) * (size_t)(cords + 1), sizeof *x->next);
+  x->next =
+      thr_scratch_array(&x->tried, (size_t)(x->n_most + 1) * (size_t)(cords + 1), sizeof *x->next);
   if (!st) st = thr_scratch_check(&x->tried, err);
   if (!st) {
     weigh(x, needed);
@@ -536,8 +555,8 @@ static thr_status list_lengths(const thr_short_cords *cords, double **value, thr
   return THR_OK;
 }
 
-thr_status thr_short_cords_longest(const thr_short_cords *cords, int n, double known, int *chosen, double *proved, double *found,
-                                   thr_err *err)
+thr_status thr_short_cords_longest(const thr_short_cords *cords, int n, double known, int *chosen,
+                                   double *proved, double *found, thr_err *err)
 {
   decision x = {.all = cords, .f = cords->f, .closed = cords->o->ends == THR_ENDS_CLOSED};
   double *value = NULL;

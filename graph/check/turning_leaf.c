@@ -1,4 +1,6 @@
-/* The bound that one leaf's multipliers prove, and its parts. Private to the checker of turning proofs. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The bound that one leaf's multipliers prove, and its parts. Private to the checker of turning
+ * proofs. */
 #include "graph/check/check_parts.h"
 
 #include <stdlib.h>
@@ -18,14 +20,18 @@ static int component_of_set(const thr_turning_leaf *k, const thr_turning_set *se
   return own;
 }
 
-static thr_status check_set(const char *what, int i, const thr_turning_set *turning_set, int limit, thr_err *err)
+static thr_status check_set(const char *what, int i, const thr_turning_set *turning_set, int limit,
+                            thr_err *err)
 {
-  if (turning_set->value < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: multiplier is negative", what, i);
-  if (turning_set->n < 1) return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: empty", what, i);
+  if (turning_set->value < 0)
+    return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: multiplier is negative", what, i);
+  if (turning_set->n < 1)
+    return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: empty", what, i);
   for (int j = 0; j < turning_set->n; j++)
     if (turning_set->member[j] < 0 || turning_set->member[j] >= limit ||
         (j > 0 && turning_set->member[j] <= turning_set->member[j - 1]))
-      return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: member %d is out of range or out of order", what, i,
+      return thr_fail(err, THR_EVIOLATED,
+                      "turning proof: %s %d: member %d is out of range or out of order", what, i,
                       turning_set->member[j]);
   return THR_OK;
 }
@@ -41,12 +47,15 @@ static void take_potentials(thr_turning_leaf *k)
     if (j >= turning_columns->first_end && j < turning_columns->first_back)
       sum += k->d->ends[turning_columns->end_group[thr_tail(turning_columns->f, a)]];
     k->reduced[j] =
-        (thr_wide)turning_columns->weight[j] + (j >= turning_columns->first_extra && j < turning_columns->first_end ? sum : -sum);
+        (thr_wide)turning_columns->weight[j] +
+        (j >= turning_columns->first_extra && j < turning_columns->first_end ? sum : -sum);
   }
   for (int h = 0; h < 2 * turning_columns->f->n_edges; h++)
-    k->constant[thr_turning_leaf_component(k, h)] += (thr_wide)turning_columns->cover[h >> 1] * k->d->potential[h];
+    k->constant[thr_turning_leaf_component(k, h)] +=
+        (thr_wide)turning_columns->cover[h >> 1] * k->d->potential[h];
   for (int i = 0; i < turning_columns->n_ends; i++)
-    k->constant[k->of_ends[i]] += (thr_wide)turning_columns->supply[i][k->d->ends[i] < 0] * k->d->ends[i];
+    k->constant[k->of_ends[i]] +=
+        (thr_wide)turning_columns->supply[i][k->d->ends[i] < 0] * k->d->ends[i];
 }
 
 /* Takes value off the turns at half-edge h that leave the marked set. */
@@ -56,7 +65,8 @@ static void take_turns(thr_turning_leaf *k, int h, bool by_edge, int64_t value)
   int v = thr_tail(frame, h);
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
     int g = frame->half[i];
-    if (g != h && !k->member[by_edge ? g >> 1 : g]) k->reduced[thr_turning_column(k->c, h, g)] -= value;
+    if (g != h && !k->member[by_edge ? g >> 1 : g])
+      k->reduced[thr_turning_column(k->c, h, g)] -= value;
   }
 }
 
@@ -66,14 +76,17 @@ static void take_odd(thr_turning_leaf *k, const thr_turning_set *turning_set)
   int darts = 2 * turning_columns->f->n_edges;
   bool ends = turning_set->member[turning_set->n - 1] >= darts; /* members ascend */
   for (int e = turning_columns->first_end; ends && e < turning_columns->first_back; e++)
-    if (k->member[darts + turning_columns->end_group[thr_tail(turning_columns->f, turning_columns->half[e][0])]] &&
+    if (k->member[darts + turning_columns->end_group[thr_tail(turning_columns->f,
+                                                              turning_columns->half[e][0])]] &&
         !k->member[turning_columns->half[e][0]])
       k->reduced[e] -= turning_set->value;
   for (int j = 0; j < turning_set->n && turning_set->member[j] < darts; j++) {
     int h = turning_set->member[j];
     take_turns(k, h, false, turning_set->value);
-    if (!k->member[h ^ 1]) k->reduced[turning_columns->first_extra + (h >> 1)] -= turning_set->value;
-    if (turning_columns->end_column[h] >= 0 && !k->member[darts + turning_columns->end_group[thr_tail(turning_columns->f, h)]])
+    if (!k->member[h ^ 1])
+      k->reduced[turning_columns->first_extra + (h >> 1)] -= turning_set->value;
+    if (turning_columns->end_column[h] >= 0 &&
+        !k->member[darts + turning_columns->end_group[thr_tail(turning_columns->f, h)]])
       k->reduced[turning_columns->end_column[h]] -= turning_set->value;
   }
   k->constant[component_of_set(k, turning_set, false)] += turning_set->value;
@@ -88,7 +101,9 @@ static thr_status run_odd(thr_turning_leaf *k, int i, thr_err *err)
   for (int j = 0; j < turning_set->n; j++)
     sum += turning_set->member[j] < darts ? k->c->cover[turning_set->member[j] >> 1] % 2
                                           : k->c->supply[turning_set->member[j] - darts][0] % 2;
-  if (sum % 2 == 0) return thr_fail(err, THR_EVIOLATED, "turning proof: odd set %d: the passes and ends in it may be even", i);
+  if (sum % 2 == 0)
+    return thr_fail(err, THR_EVIOLATED,
+                    "turning proof: odd set %d: the passes and ends in it may be even", i);
   for (int j = 0; j < turning_set->n; j++)
     k->member[turning_set->member[j]] = true;
   take_odd(k, turning_set);
@@ -98,17 +113,20 @@ static thr_status run_odd(thr_turning_leaf *k, int i, thr_err *err)
 }
 
 /* Must every plan of the task connect the group with the rest, or put ends in it? */
-static thr_status check_group(const thr_turning_leaf *k, int i, const thr_turning_set *turning_set, thr_err *err)
+static thr_status check_group(const thr_turning_leaf *k, int i, const thr_turning_set *turning_set,
+                              thr_err *err)
 {
   const thr_turning_columns *turning_columns = k->c;
   int own = turning_columns->component[turning_columns->f->edge[turning_set->member[0]][0]];
   if (k->open[own]) return THR_OK; /* a cord through it has two ends */
   if (turning_columns->task->cords > 1)
-    return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: several closed cords need not meet", i);
+    return thr_fail(err, THR_EVIOLATED,
+                    "turning proof: group %d: several closed cords need not meet", i);
   for (int j = 0; j < turning_set->n; j++)
     if (turning_columns->component[turning_columns->f->edge[turning_set->member[j]][0]] != own)
       return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: edges of two components", i);
-  if (k->edges[own] == turning_set->n) return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: a whole component", i);
+  if (k->edges[own] == turning_set->n)
+    return thr_fail(err, THR_EVIOLATED, "turning proof: group %d: a whole component", i);
   return THR_OK;
 }
 
@@ -132,7 +150,8 @@ static thr_status run_group(thr_turning_leaf *k, int i, thr_err *err)
   return THR_OK;
 }
 
-int thr_turning_blocks_at(const thr_turning_columns *turning_columns, const int *block, int v, int *odd, bool *even)
+int thr_turning_blocks_at(const thr_turning_columns *turning_columns, const int *block, int v,
+                          int *odd, bool *even)
 {
   const thr_frame *frame = turning_columns->f;
   const int *half = frame->half + frame->first[v];
@@ -168,7 +187,8 @@ static bool is_ranked(const thr_turning_leaf *k, int v)
 }
 
 /* rank: where connections are not counted exactly. */
-static void take_partition(thr_turning_leaf *k, const thr_turning_partition *partition, bool rank, bool *even)
+static void take_partition(thr_turning_leaf *k, const thr_turning_partition *partition, bool rank,
+                           bool *even)
 {
   const thr_turning_columns *turning_columns = k->c;
   const thr_frame *frame = turning_columns->f;
@@ -187,7 +207,8 @@ static void take_partition(thr_turning_leaf *k, const thr_turning_partition *par
   }
 }
 
-int thr_turning_connections(const thr_turning_columns *turning_columns, const int *block, int *scratch)
+int thr_turning_connections(const thr_turning_columns *turning_columns, const int *block,
+                            int *scratch)
 {
   int m = turning_columns->f->n_edges, blocks = 0, connections = 0;
   int *home = scratch, *own_blocks = scratch + m; /* component of a block; blocks of a component */
@@ -207,23 +228,29 @@ int thr_turning_connections(const thr_turning_columns *turning_columns, const in
   return connections;
 }
 
-static thr_status run_partition(thr_turning_leaf *k, const thr_turning_partition *partition, bool rank, int i, thr_err *err)
+static thr_status run_partition(thr_turning_leaf *k, const thr_turning_partition *partition,
+                                bool rank, int i, thr_err *err)
 {
   const thr_turning_columns *turning_columns = k->c;
   const char *what = rank ? "rank" : "partition";
-  if (partition->value < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: multiplier is negative", what, i);
+  if (partition->value < 0)
+    return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: multiplier is negative", what, i);
   if (turning_columns->task->end_allowed)
-    return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: holds for closed cords only", what, i);
-  int *scratch = thr_calloc((size_t)turning_columns->f->n_edges + (size_t)turning_columns->n_components, sizeof *scratch);
+    return thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: holds for closed cords only", what,
+                    i);
+  int *scratch = thr_calloc(
+      (size_t)turning_columns->f->n_edges + (size_t)turning_columns->n_components, sizeof *scratch);
   bool *even = thr_calloc((size_t)turning_columns->f->n_edges, sizeof *even);
   thr_status st = scratch && even ? THR_OK : thr_nomem(err);
-  const int cords = turning_columns->task->cords, *blocks = scratch ? scratch + turning_columns->f->n_edges : NULL;
+  const int cords = turning_columns->task->cords,
+            *blocks = scratch ? scratch + turning_columns->f->n_edges : NULL;
   if (!st && thr_turning_connections(turning_columns, partition->block, scratch) < 0)
     st = thr_fail(err, THR_EVIOLATED, "turning proof: %s %d: bad block numbers", what, i);
   if (!st) {
     take_partition(k, partition, rank, even);
     for (int own = 0; own < turning_columns->n_components; own++)
-      if (blocks[own] > cords) k->constant[own] += (thr_wide)partition->value * (blocks[own] - cords);
+      if (blocks[own] > cords)
+        k->constant[own] += (thr_wide)partition->value * (blocks[own] - cords);
   }
   free(scratch);
   free(even);
@@ -235,11 +262,13 @@ static thr_status run_junction(thr_turning_leaf *k, int i, thr_err *err)
   const thr_turning_columns *turning_columns = k->c;
   const thr_frame *frame = turning_columns->f;
   const thr_turning_junction *turning_junction = &k->d->junction[i];
-  if (turning_junction->value < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: multiplier is negative", i);
+  if (turning_junction->value < 0)
+    return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: multiplier is negative", i);
   if (!turning_columns->task->tube)
     return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: only tube joints are tied", i);
   if (turning_junction->node < 0 || turning_junction->node >= frame->n_nodes)
-    return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: no node %d", i, turning_junction->node);
+    return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: no node %d", i,
+                    turning_junction->node);
   const int *half = frame->half + frame->first[turning_junction->node];
   int d = thr_degree(frame, turning_junction->node), blocks = 0, used = 0;
   bool *seen = thr_calloc((size_t)d, sizeof *seen), ok = true;
@@ -253,21 +282,27 @@ static thr_status run_junction(thr_turning_leaf *k, int i, thr_err *err)
     if (b >= blocks) blocks = b + 1;
   }
   free(seen);
-  if (!ok || used < blocks) return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: bad block numbers", i);
+  if (!ok || used < blocks)
+    return thr_fail(err, THR_EVIOLATED, "turning proof: junction %d: bad block numbers", i);
   for (int a = 0; a < d; a++)
     for (int b = a + 1; b < d; b++)
       if (turning_junction->block[a] != turning_junction->block[b])
-        k->reduced[thr_turning_column(turning_columns, half[a], half[b])] -= turning_junction->value;
-  k->constant[turning_columns->component[turning_junction->node]] += (thr_wide)turning_junction->value * (blocks - 1);
+        k->reduced[thr_turning_column(turning_columns, half[a], half[b])] -=
+            turning_junction->value;
+  k->constant[turning_columns->component[turning_junction->node]] +=
+      (thr_wide)turning_junction->value * (blocks - 1);
   return THR_OK;
 }
 
-/* What the turns at a ranked node are worth: those that are left a price below 0 are counted as columns, and join for nothing. */
-static thr_wide node_worth(const thr_turning_leaf *k, int v, const int64_t *value, int (*block)[THR_RANK_DEGREE])
+/* What the turns at a ranked node are worth: those that are left a price below 0 are counted as
+ * columns, and join for nothing. */
+static thr_wide node_worth(const thr_turning_leaf *k, int v, const int64_t *value,
+                           int (*block)[THR_RANK_DEGREE])
 {
   const int64_t most = (int64_t)1 << 58;
   const int *half = k->c->f->half + k->c->f->first[v];
-  thr_rank_node node = {.degree = thr_degree(k->c->f, v), .n_rows = k->d->n_ranks, .value = value, .block = block};
+  thr_rank_node node = {
+      .degree = thr_degree(k->c->f, v), .n_rows = k->d->n_ranks, .value = value, .block = block};
   for (int a = 0; a < node.degree; a++) {
     for (int i = 0; i < node.n_rows; i++)
       block[i][a] = k->d->rank[i].block[half[a] >> 1];
@@ -297,12 +332,13 @@ static thr_status count_ranks(thr_turning_leaf *k, thr_err *err)
 thr_wide thr_turning_leaf_adds(const thr_turning_leaf *k, int j, int least, int most)
 {
   thr_wide reduced = k->reduced[j];
-  if (reduced > 0 && j < k->c->first_extra && is_ranked(k, thr_tail(k->c->f, k->c->half[j][0]))) return 0;
+  if (reduced > 0 && j < k->c->first_extra && is_ranked(k, thr_tail(k->c->f, k->c->half[j][0])))
+    return 0;
   return reduced * (reduced < 0 ? most : least);
 }
 
-/* The multiplier of the length; neither it nor a length is negative. What it adds to the prices of extra passes, rounded down,
- * and takes off the sum, rounded up. */
+/* The multiplier of the length; neither it nor a length is negative. What it adds to the prices of
+ * extra passes, rounded down, and takes off the sum, rounded up. */
 static void take_length(thr_turning_leaf *k)
 {
   const thr_turning_columns *turning_columns = k->c;
@@ -310,7 +346,8 @@ static void take_length(thr_turning_leaf *k)
   if (length == 0) return;
   k->limit = ((thr_wide)length * turning_columns->extra_limit >> THR_LENGTH_BITS) + 1;
   for (int j = turning_columns->first_extra; j < turning_columns->first_end; j++)
-    k->reduced[j] += (thr_wide)length * turning_columns->length[j - turning_columns->first_extra] >> THR_LENGTH_BITS;
+    k->reduced[j] += (thr_wide)length * turning_columns->length[j - turning_columns->first_extra] >>
+                     THR_LENGTH_BITS;
 }
 
 int64_t thr_turning_in_64_bits(thr_wide total)
@@ -319,7 +356,8 @@ int64_t thr_turning_in_64_bits(thr_wide total)
 }
 
 /* Nothing that overflows sums. */
-static thr_status check_sizes(const thr_turning_columns *turning_columns, const thr_turning_dual *dual, thr_err *err)
+static thr_status check_sizes(const thr_turning_columns *turning_columns,
+                              const thr_turning_dual *dual, thr_err *err)
 {
   const int64_t most = (int64_t)1 << 58;
   bool ok = dual->length >= 0 && dual->length <= most;
@@ -339,17 +377,20 @@ static thr_status check_sizes(const thr_turning_columns *turning_columns, const 
   for (int i = 0; i < dual->n_ranks; i++)
     ranks += dual->rank[i].value;
   if (ok && ranks <= most && sets <= 8 * (thr_wide)most) return THR_OK;
-  return thr_fail(err, THR_EVIOLATED, "turning proof: a multiplier is too large, or that of the length negative");
+  return thr_fail(err, THR_EVIOLATED,
+                  "turning proof: a multiplier is too large, or that of the length negative");
 }
 
 static thr_status leaf_allocate(thr_turning_leaf *k, thr_err *err)
 {
   const thr_turning_columns *turning_columns = k->c;
   k->reduced = thr_scratch_array(&k->own, (size_t)turning_columns->n_columns, sizeof *k->reduced);
-  k->constant = thr_scratch_array(&k->own, (size_t)turning_columns->n_components + 1, sizeof *k->constant);
+  k->constant =
+      thr_scratch_array(&k->own, (size_t)turning_columns->n_components + 1, sizeof *k->constant);
   k->of_ends = thr_scratch_array(&k->own, (size_t)turning_columns->n_ends, sizeof *k->of_ends);
-  k->member =
-      thr_scratch_array(&k->own, 2 * (size_t)turning_columns->f->n_edges + (size_t)turning_columns->n_ends, sizeof *k->member);
+  k->member = thr_scratch_array(
+      &k->own, 2 * (size_t)turning_columns->f->n_edges + (size_t)turning_columns->n_ends,
+      sizeof *k->member);
   k->edges = thr_scratch_array(&k->own, (size_t)turning_columns->n_components, sizeof *k->edges);
   k->open = thr_scratch_array(&k->own, (size_t)turning_columns->n_components, sizeof *k->open);
   thr_status st = thr_scratch_check(&k->own, err);
@@ -357,16 +398,19 @@ static thr_status leaf_allocate(thr_turning_leaf *k, thr_err *err)
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     k->edges[turning_columns->component[turning_columns->f->edge[e][0]]]++;
   for (int v = 0; v < turning_columns->f->n_nodes; v++) {
-    k->open[turning_columns->component[v]] |= turning_columns->supply[turning_columns->end_group[v]][1] > 0;
+    k->open[turning_columns->component[v]] |=
+        turning_columns->supply[turning_columns->end_group[v]][1] > 0;
     k->of_ends[turning_columns->end_group[v]] = turning_columns->component[v];
   }
   return THR_OK;
 }
 
-thr_status thr_turning_leaf_init(thr_turning_leaf *k, const thr_turning_columns *turning_columns, const thr_turning_dual *dual,
-                                 thr_err *err)
+thr_status thr_turning_leaf_init(thr_turning_leaf *k, const thr_turning_columns *turning_columns,
+                                 const thr_turning_dual *dual, thr_err *err)
 {
-  *k = (thr_turning_leaf){.c = turning_columns, .d = dual, .ranked = dual->n_ranks > 0 && turning_columns->task->cut == 0};
+  *k = (thr_turning_leaf){.c = turning_columns,
+                          .d = dual,
+                          .ranked = dual->n_ranks > 0 && turning_columns->task->cut == 0};
   thr_status st = leaf_allocate(k, err);
   if (!st) st = check_sizes(turning_columns, dual, err);
   if (!st) take_potentials(k);
@@ -384,8 +428,9 @@ thr_status thr_turning_leaf_init(thr_turning_leaf *k, const thr_turning_columns 
   return st || !k->ranked ? st : count_ranks(k, err);
 }
 
-thr_status thr_turning_dual_bound(const thr_turning_columns *turning_columns, const thr_turning_dual *dual, const int *low,
-                                  const int *high, int64_t *bound, thr_err *err)
+thr_status thr_turning_dual_bound(const thr_turning_columns *turning_columns,
+                                  const thr_turning_dual *dual, const int *low, const int *high,
+                                  int64_t *bound, thr_err *err)
 {
   thr_turning_leaf k;
   bool empty = false;

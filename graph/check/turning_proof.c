@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Proofs of turning: a tree of boxes, each leaf with its multipliers. */
 #include "graph/check/check_parts.h"
 #include "graph/plan/turning_proof.h"
@@ -16,10 +17,12 @@ static void destroy_sets(thr_turning_set *set, int n)
   free(set);
 }
 
-thr_status thr_turning_dual_init(thr_turning_dual *dual, const thr_turning_columns *columns, thr_err *err)
+thr_status thr_turning_dual_init(thr_turning_dual *dual, const thr_turning_columns *columns,
+                                 thr_err *err)
 {
-  *dual = (thr_turning_dual){.potential = thr_calloc(2 * (size_t)columns->f->n_edges, sizeof *dual->potential),
-                             .ends = thr_calloc((size_t)columns->n_ends, sizeof *dual->ends)};
+  *dual = (thr_turning_dual){
+      .potential = thr_calloc(2 * (size_t)columns->f->n_edges, sizeof *dual->potential),
+      .ends = thr_calloc((size_t)columns->n_ends, sizeof *dual->ends)};
   if (dual->potential && dual->ends) return THR_OK;
   thr_turning_dual_destroy(dual);
   return thr_nomem(err);
@@ -77,27 +80,32 @@ static int branch_column(const thr_turning_columns *turning_columns, const thr_t
   for (int j = turning_columns->first_back; a == b && j < turning_columns->n_columns; j++)
     if (turning_columns->half[j][0] == a) return j;
   if (a == b) return -1;
-  return thr_tail(turning_columns->f, a) == thr_tail(turning_columns->f, b) ? thr_turning_column(turning_columns, a, b) : -1;
+  return thr_tail(turning_columns->f, a) == thr_tail(turning_columns->f, b)
+             ? thr_turning_column(turning_columns, a, b)
+             : -1;
 }
 
-/* parent[i] and column[i] of every node, the column that it branches on or -1; every node but the root is the child of exactly
- * one before it, so walking up ends. */
-static thr_status link_tree(const thr_turning_columns *turning_columns, const thr_turning_proof *proof, int *parent, int *column,
-                            thr_err *err)
+/* parent[i] and column[i] of every node, the column that it branches on or -1; every node but the
+ * root is the child of exactly one before it, so walking up ends. */
+static thr_status link_tree(const thr_turning_columns *turning_columns,
+                            const thr_turning_proof *proof, int *parent, int *column, thr_err *err)
 {
   for (int i = 0; i < proof->n_nodes; i++)
     parent[i] = column[i] = -1;
   for (int i = 0; i < proof->n_nodes; i++) {
     const thr_turning_node *node = &proof->node[i];
     int child[2] = {node->low, node->high};
-    if (i > 0 && parent[i] < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: node %d hangs nowhere in the tree", i);
+    if (i > 0 && parent[i] < 0)
+      return thr_fail(err, THR_EVIOLATED, "turning proof: node %d hangs nowhere in the tree", i);
     if (node->low == 0 && node->high == 0) {
       if (node->dual < 0 || node->dual >= proof->n_duals)
-        return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: no multipliers %d", i, node->dual);
+        return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: no multipliers %d", i,
+                        node->dual);
       continue;
     }
     column[i] = branch_column(turning_columns, node);
-    if (column[i] < 0) return thr_fail(err, THR_EVIOLATED, "turning proof: node %d branches on nothing", i);
+    if (column[i] < 0)
+      return thr_fail(err, THR_EVIOLATED, "turning proof: node %d branches on nothing", i);
     for (int k = 0; k < 2; k++) {
       if (child[k] <= i || child[k] >= proof->n_nodes || parent[child[k]] >= 0)
         return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: bad child %d", i, child[k]);
@@ -117,17 +125,19 @@ typedef struct {
   int node, changes;
 } waiting;
 
-/* The box of the node that is visited, and what the multipliers of a leaf come to in it. Both follow the tree from node to node:
- * a branching narrows some columns, and going back up the log undoes it. So a visit takes as long as what it changes, however
- * deep the node lies. */
+/* The box of the node that is visited, and what the multipliers of a leaf come to in it. Both
+ * follow the tree from node to node: a branching narrows some columns, and going back up the log
+ * undoes it. So a visit takes as long as what it changes, however deep the node lies. */
 typedef struct {
   const thr_turning_columns *c;
   const thr_turning_proof *p;
-  thr_scratch own;           /* the arrays */
-  int *parent, *column;      /* [n_nodes] */
-  int *marked;               /* [n_nodes] the last multipliers that a leaf at or below the node has; -1: none yet */
-  waiting *stack;            /* [n_nodes] */
-  int *low, *high, *changed; /* [n_columns] the box; how many entries of the log are about a column */
+  thr_scratch own;      /* the arrays */
+  int *parent, *column; /* [n_nodes] */
+  int *marked; /* [n_nodes] the last multipliers that a leaf at or below the node has; -1: none yet
+                */
+  waiting *stack; /* [n_nodes] */
+  int *low, *high,
+      *changed; /* [n_columns] the box; how many entries of the log are about a column */
   int *narrowed, n_narrowed; /* columns that the log is about */
   was *log;
   int n_changes, n_empty;    /* entries of the log; columns without a value */
@@ -139,7 +149,8 @@ typedef struct {
 
 static thr_status boxes_init(boxes *x, thr_err *err)
 {
-  const size_t nodes = (size_t)x->p->n_nodes, columns = x->p->n_nodes > 1 ? (size_t)x->c->n_columns : 0;
+  const size_t nodes = (size_t)x->p->n_nodes,
+               columns = x->p->n_nodes > 1 ? (size_t)x->c->n_columns : 0;
   size_t changes = nodes;
   for (size_t i = 0; i < nodes; i++)
     changes += (size_t)x->p->node[i].n_orbit;
@@ -176,7 +187,8 @@ static void set_limits(boxes *x, int j, int low, int high)
 {
   x->n_empty += (low > high) - (x->low[j] > x->high[j]);
   if (x->k && x->low[j] <= x->high[j] && low <= high) {
-    const thr_wide adds = thr_turning_leaf_adds(x->k, j, low, high) - thr_turning_leaf_adds(x->k, j, x->low[j], x->high[j]);
+    const thr_wide adds = thr_turning_leaf_adds(x->k, j, low, high) -
+                          thr_turning_leaf_adds(x->k, j, x->low[j], x->high[j]);
     x->here[thr_turning_leaf_component(x->k, x->c->half[j][0])] += adds;
     x->here[x->c->n_components] += adds;
   }
@@ -237,16 +249,20 @@ static thr_status check_orbits(const thr_turning_proof *proof, thr_err *err)
   for (int i = 0; i < proof->n_nodes; i++) {
     const thr_turning_node *node = &proof->node[i];
     if (node->n_orbit == 0) continue;
-    if (!node->low) return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: an orbit, but nothing is decided", i);
+    if (!node->low)
+      return thr_fail(err, THR_EVIOLATED,
+                      "turning proof: node %d: an orbit, but nothing is decided", i);
     for (int k = 0; k < node->n_orbit; k++)
       if (node->orbit[k] < 0 || node->orbit[k] >= proof->n_symmetries)
-        return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: no symmetry %d", i, node->orbit[k]);
+        return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: no symmetry %d", i,
+                        node->orbit[k]);
   }
   return THR_OK;
 }
 
-/* Values of a leaf's multipliers with columns in their widest limits. In one component alone, sets of several only take off
- * prices, and the limit on all extra length holds for that of the component. */
+/* Values of a leaf's multipliers with columns in their widest limits. In one component alone, sets
+ * of several only take off prices, and the limit on all extra length holds for that of the
+ * component. */
 static void find_widest(boxes *x, const thr_turning_leaf *k)
 {
   const int n = x->c->n_components;
@@ -262,14 +278,16 @@ static void find_widest(boxes *x, const thr_turning_leaf *k)
   }
 }
 
-/* Visits a node whose box is there: of multipliers, takes the least values at their leaves; without, checks that its orbit keeps
- * the box. */
+/* Visits a node whose box is there: of multipliers, takes the least values at their leaves;
+ * without, checks that its orbit keeps the box. */
 static thr_status visit(boxes *x, int i, thr_err *err)
 {
   const thr_turning_node *node = &x->p->node[i];
   for (int k = 0; k < node->n_orbit && !x->k; k++)
     if (!keeps_box(x, symmetry_of(x, node, k)))
-      return thr_fail(err, THR_EVIOLATED, "turning proof: node %d: a symmetry does not keep what was decided before", i);
+      return thr_fail(err, THR_EVIOLATED,
+                      "turning proof: node %d: a symmetry does not keep what was decided before",
+                      i);
   for (int j = 0; j <= x->c->n_components && x->k && !node->low; j++) {
     const int64_t here = thr_turning_in_64_bits(x->here[j]);
     if (here < x->least[j]) x->least[j] = here;
@@ -292,33 +310,40 @@ static thr_status visit_all(boxes *x, int mark, thr_err *err)
     st = visit(x, next.node, err);
     for (int k = 0; k < 2 && node->low; k++) {
       const int child = k ? node->low : node->high;
-      if (mark < 0 || x->marked[child] == mark) x->stack[n++] = (waiting){.node = child, .changes = x->n_changes};
+      if (mark < 0 || x->marked[child] == mark)
+        x->stack[n++] = (waiting){.node = child, .changes = x->n_changes};
     }
   }
   widen(x, 0);
   return st;
 }
 
-static thr_status check_symmetries(const thr_turning_columns *turning_columns, const thr_turning_proof *proof, thr_err *err)
+static thr_status check_symmetries(const thr_turning_columns *turning_columns,
+                                   const thr_turning_proof *proof, thr_err *err)
 {
   bool yes;
   for (int i = 0; i < proof->n_symmetries; i++) {
     const int *image = proof->symmetry + (size_t)i * (size_t)turning_columns->f->n_edges;
     thr_status st = thr_turning_symmetric(turning_columns, image, &yes, err);
     if (st) return st;
-    if (!yes) return thr_fail(err, THR_EVIOLATED, "turning proof: symmetry %d does not map plans to plans", i);
+    if (!yes)
+      return thr_fail(err, THR_EVIOLATED, "turning proof: symmetry %d does not map plans to plans",
+                      i);
   }
   return THR_OK;
 }
 
-static thr_status check_dual_shape(const thr_turning_columns *turning_columns, const thr_turning_proof *proof, thr_err *err)
+static thr_status check_dual_shape(const thr_turning_columns *turning_columns,
+                                   const thr_turning_proof *proof, thr_err *err)
 {
   if (proof->n_ends != turning_columns->n_ends)
-    return thr_fail(err, THR_EVIOLATED, "turning proof: multipliers for %d sums of ends, but there are %d", proof->n_ends,
-                    turning_columns->n_ends);
+    return thr_fail(err, THR_EVIOLATED,
+                    "turning proof: multipliers for %d sums of ends, but there are %d",
+                    proof->n_ends, turning_columns->n_ends);
   if (proof->n_nodes < 1) return thr_fail(err, THR_EVIOLATED, "turning proof: no tree");
   for (int i = 0; i < proof->n_duals; i++)
-    if (!proof->dual[i].potential || !proof->dual[i].ends) return thr_fail(err, THR_EVIOLATED, "turning proof: no multipliers");
+    if (!proof->dual[i].potential || !proof->dual[i].ends)
+      return thr_fail(err, THR_EVIOLATED, "turning proof: no multipliers");
   return THR_OK;
 }
 
@@ -333,8 +358,9 @@ static void sort_leaves(const thr_turning_proof *proof, int *first, int *number)
     if (!proof->node[i].low) number[first[proof->node[i].dual + 1]++] = i;
 }
 
-/* Least values over the boxes of n leaves that have the multipliers number d. O(columns + what they list, each member as often as
- * there are turns at it, + nodes above the leaves + leaves * components). */
+/* Least values over the boxes of n leaves that have the multipliers number d. O(columns + what they
+ * list, each member as often as there are turns at it, + nodes above the leaves + leaves *
+ * components). */
 static thr_status least_of_leaves(boxes *x, int d, const int *node, int n, thr_err *err)
 {
   thr_turning_leaf k;
@@ -350,8 +376,10 @@ static thr_status least_of_leaves(boxes *x, int d, const int *node, int n, thr_e
   return st;
 }
 
-/* Leaves are about a plan or one of its images: a component's bound is also that of those which symmetries make of it. */
-static void share_bounds(const thr_turning_columns *columns, const thr_turning_proof *proof, double *bound_of)
+/* Leaves are about a plan or one of its images: a component's bound is also that of those which
+ * symmetries make of it. */
+static void share_bounds(const thr_turning_columns *columns, const thr_turning_proof *proof,
+                         double *bound_of)
 {
   const int *component = columns->component;
   const int m = columns->f->n_edges;
@@ -367,8 +395,9 @@ static void share_bounds(const thr_turning_columns *columns, const thr_turning_p
 }
 
 /* The least over all leaves. */
-static thr_status check_tree(const thr_turning_columns *turning_columns, const thr_turning_proof *proof, double *bound,
-                             double *bound_of, thr_err *err)
+static thr_status check_tree(const thr_turning_columns *turning_columns,
+                             const thr_turning_proof *proof, double *bound, double *bound_of,
+                             thr_err *err)
 {
   boxes x = {.c = turning_columns, .p = proof};
   const int n = turning_columns->n_components;
@@ -380,7 +409,8 @@ static thr_status check_tree(const thr_turning_columns *turning_columns, const t
   if (!st && proof->n_symmetries > 0) st = visit_all(&x, -1, err);
   if (!st) sort_leaves(proof, first, leaves);
   for (int d = 0; d < proof->n_duals && !st; d++)
-    if (first[d + 1] > first[d]) st = least_of_leaves(&x, d, leaves + first[d], first[d + 1] - first[d], err);
+    if (first[d + 1] > first[d])
+      st = least_of_leaves(&x, d, leaves + first[d], first[d + 1] - first[d], err);
   if (!st && x.least[n] > 0) *bound = ldexp((double)x.least[n], -THR_TURNING_BITS);
   for (int i = 0; i < n && !st && bound_of; i++)
     bound_of[i] = fmax(0, ldexp((double)x.least[i], -THR_TURNING_BITS));
@@ -389,27 +419,32 @@ static thr_status check_tree(const thr_turning_columns *turning_columns, const t
   return st;
 }
 
-thr_status thr_turning_proof_check_columns(const thr_turning_columns *turning_columns, const thr_turning_proof *proof,
-                                           double *bound, double *bound_of, thr_err *err)
+thr_status thr_turning_proof_check_columns(const thr_turning_columns *turning_columns,
+                                           const thr_turning_proof *proof, double *bound,
+                                           double *bound_of, thr_err *err)
 {
   thr_turning_columns lower;
   *bound = 0;
   thr_status st = check_dual_shape(turning_columns, proof, err);
-  if (st || proof->n_symmetries == 0) return st ? st : check_tree(turning_columns, proof, bound, bound_of, err);
+  if (st || proof->n_symmetries == 0)
+    return st ? st : check_tree(turning_columns, proof, bound, bound_of, err);
   st = check_symmetries(turning_columns, proof, err);
-  if (!st) st = thr_turning_lower(turning_columns, proof->symmetry, proof->n_symmetries, &lower, err);
+  if (!st)
+    st = thr_turning_lower(turning_columns, proof->symmetry, proof->n_symmetries, &lower, err);
   if (st) return st;
   st = check_tree(&lower, proof, bound, bound_of, err);
   thr_turning_columns_destroy(&lower);
   return st;
 }
 
-thr_status thr_turning_proof_check(const thr_frame *frame, const thr_turning_task *task, const thr_turning_proof *proof,
-                                   double *bound, thr_err *err)
+thr_status thr_turning_proof_check(const thr_frame *frame, const thr_turning_task *task,
+                                   const thr_turning_proof *proof, double *bound, thr_err *err)
 {
   thr_turning_columns turning_columns;
   *bound = 0;
-  if (proof->walks.unit) return thr_fail(err, THR_EVIOLATED, "turning proof: walks, which are about the cord that turns most");
+  if (proof->walks.unit)
+    return thr_fail(err, THR_EVIOLATED,
+                    "turning proof: walks, which are about the cord that turns most");
   thr_status st = thr_turning_columns_init(&turning_columns, frame, task, err);
   if (st) return st;
   st = thr_turning_proof_check_columns(&turning_columns, proof, bound, NULL, err);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Forests over the half-edges of a node. */
 #include "graph/plan/turning_proof.h"
 
@@ -12,7 +13,8 @@ typedef struct {
   int64_t least, most_gain;           /* most_gain: of all ranks together */
 } forests;
 
-/* Prim's tree over a set of half-edges: its price; its turns are appended to turns (NULL: not asked for). */
+/* Prim's tree over a set of half-edges: its price; its turns are appended to turns (NULL: not asked
+ * for). */
 static int64_t find_tree(const thr_rank_node *node, int set, thr_rank_turns *turns)
 {
   int via[THR_RANK_DEGREE], at = 0;
@@ -71,7 +73,8 @@ static void part_rest(forests *s, int left, int64_t price)
   if (price - s->most_gain >= s->least) return;
   if (left == 0) {
     for (int i = 0; i < s->node->n_rows; i++)
-      if (s->node->value[i] > 0) price -= s->node->value[i] * rank_of_parts(s->node, i, s->part, s->n_parts);
+      if (s->node->value[i] > 0)
+        price -= s->node->value[i] * rank_of_parts(s->node, i, s->part, s->n_parts);
     if (price >= s->least) return;
     s->least = price;
     s->n_best = s->n_parts;

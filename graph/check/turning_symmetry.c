@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Half-edges mapped onto half-edges, and the columns that follow. */
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
@@ -36,8 +37,8 @@ int thr_turning_image(const thr_turning_columns *turning_columns, const int *ima
   return column < c->first_back ? c->end_column[a] : back_at(c, a);
 }
 
-/* Does the image have each edge once, and all half-edges of a node at one node of its own? edge: [n_edges] all false; node:
- * [2 * n_nodes] all -1. */
+/* Does the image have each edge once, and all half-edges of a node at one node of its own? edge:
+ * [n_edges] all false; node: [2 * n_nodes] all -1. */
 static bool is_one_to_one(const thr_frame *frame, const int *image, bool *edge, int *node)
 {
   int *from = node + frame->n_nodes;
@@ -61,15 +62,18 @@ static bool keeps_task(const thr_turning_columns *c, const int *image)
 {
   for (int h = 0; h < 2 * c->f->n_edges; h++) {
     int g = image_of(image, h);
-    const int *own = c->supply[c->end_group[thr_tail(c->f, h)]], *other = c->supply[c->end_group[thr_tail(c->f, g)]];
-    if (c->cover[h >> 1] != c->cover[g >> 1] || c->most[h >> 1] != c->most[g >> 1] || own[0] != other[0] || own[1] != other[1] ||
+    const int *own = c->supply[c->end_group[thr_tail(c->f, h)]],
+              *other = c->supply[c->end_group[thr_tail(c->f, g)]];
+    if (c->cover[h >> 1] != c->cover[g >> 1] || c->most[h >> 1] != c->most[g >> 1] ||
+        own[0] != other[0] || own[1] != other[1] ||
         (c->end_column[h] >= 0) != (c->end_column[g] >= 0))
       return false;
   }
   return true;
 }
 
-thr_status thr_turning_symmetric(const thr_turning_columns *turning_columns, const int *image, bool *yes, thr_err *err)
+thr_status thr_turning_symmetric(const thr_turning_columns *turning_columns, const int *image,
+                                 bool *yes, thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   thr_scratch own = {0};
@@ -91,17 +95,19 @@ static void take_least(const thr_turning_columns *from, int *orbit, thr_turning_
   for (int j = 0; j < from->n_columns; j++) { /* the lowest column of an orbit is its root */
     int root = thr_disjoint_find(orbit, j), e = j - from->first_extra, r = root - from->first_extra;
     if (from->weight[j] < to->weight[root]) to->weight[root] = from->weight[j];
-    if (j >= from->first_extra && j < from->first_end && from->length[e] < to->length[r]) to->length[r] = from->length[e];
+    if (j >= from->first_extra && j < from->first_end && from->length[e] < to->length[r])
+      to->length[r] = from->length[e];
   }
   for (int j = 0; j < from->n_columns; j++) {
     int root = thr_disjoint_find(orbit, j);
     to->weight[j] = to->weight[root];
-    if (j >= from->first_extra && j < from->first_end) to->length[j - from->first_extra] = to->length[root - from->first_extra];
+    if (j >= from->first_extra && j < from->first_end)
+      to->length[j - from->first_extra] = to->length[root - from->first_extra];
   }
 }
 
-thr_status thr_turning_lower(const thr_turning_columns *turning_columns, const int *image, int n, thr_turning_columns *lower,
-                             thr_err *err)
+thr_status thr_turning_lower(const thr_turning_columns *turning_columns, const int *image, int n,
+                             thr_turning_columns *lower, thr_err *err)
 {
   const thr_turning_columns *c = turning_columns;
   const size_t m = (size_t)c->f->n_edges;

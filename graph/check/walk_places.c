@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Walks that remember which edges they have passed: one place of a spot for every set of them. */
 #include "graph/framework/frame.h"
 #include "graph/plan/turning_proof.h"
@@ -9,35 +10,46 @@
 
 enum { MOST_BITS = 16 };
 
-/* The places before a memory are spots; a spot and a set of the edges that are remembered there make a place. Sets are numbers
- * whose bits say which edges of the spot's list are in them; place[offset[spot] + set] is -1 until a walk is found to come there.
+/* The places before a memory are spots; a spot and a set of the edges that are remembered there
+ * make a place. Sets are numbers whose bits say which edges of the spot's list are in them;
+ * place[offset[spot] + set] is -1 until a walk is found to come there.
  */
 typedef struct {
   thr_walk_steps *steps;
   thr_scratch own;
-  int *first, *edge;   /* [n_spots + 1] lists of the edges that are remembered at a spot: edge[first[spot]] .. */
+  int *first, *edge;   /* [n_spots + 1] lists of the edges that are remembered at a spot:
+                          edge[first[spot]] .. */
   int *offset, *place; /* [n_spots + 1], [offset[n_spots]] */
-  int *queue, *at;     /* [offset[n_spots]] places as they are found: their index in place, and their spot */
-  int n, n_steps;      /* places found, steps from them */
+  int *queue,
+      *at; /* [offset[n_spots]] places as they are found: their index in place, and their spot */
+  int n, n_steps; /* places found, steps from them */
 } making;
 
 /* ---- the lists ---- */
 
 /* THR_OK if an edge and places may stand in a memory after the edge before. */
-static thr_status check_memory(const thr_walk_steps *steps, const thr_walk_memory *memory, int before, thr_err *err)
+static thr_status check_memory(const thr_walk_steps *steps, const thr_walk_memory *memory,
+                               int before, thr_err *err)
 {
   const thr_turning_columns *columns = steps->c;
   const thr_frame *frame = columns->f;
-  const int e = memory->edge, most = steps->measure == THR_WALK_LENGTH ? frame->n_nodes : 2 * frame->n_edges;
-  if (e <= before || e >= frame->n_edges || columns->component[frame->edge[e][0]] != steps->component)
-    return thr_fail(err, THR_EVIOLATED, "walks: edge %d is not to be remembered: out of order, or of another component", e);
+  const int e = memory->edge,
+            most = steps->measure == THR_WALK_LENGTH ? frame->n_nodes : 2 * frame->n_edges;
+  if (e <= before || e >= frame->n_edges ||
+      columns->component[frame->edge[e][0]] != steps->component)
+    return thr_fail(err, THR_EVIOLATED,
+                    "walks: edge %d is not to be remembered: out of order, or of another component",
+                    e);
   if (columns->cover[e] != 1)
-    return thr_fail(err, THR_EVIOLATED, "walks: edge %d, which is remembered, needs %d passes", e, columns->cover[e]);
+    return thr_fail(err, THR_EVIOLATED, "walks: edge %d, which is remembered, needs %d passes", e,
+                    columns->cover[e]);
   for (int k = 0; k < memory->n; k++) {
     const int at = memory->place[k];
     if (at < 0 || at >= most || (k && at <= memory->place[k - 1]) || steps->place[at] < 0)
-      return thr_fail(err, THR_EVIOLATED, "walks: edge %d is not to be remembered at %d: out of order, or of another component",
-                      e, at);
+      return thr_fail(
+          err, THR_EVIOLATED,
+          "walks: edge %d is not to be remembered at %d: out of order, or of another component", e,
+          at);
   }
   return THR_OK;
 }
@@ -85,12 +97,14 @@ static bool remembers(const making *m, int spot, int set, int edge)
   return false;
 }
 
-/* The set at a spot after that at another, from which an edge was passed. before < 0: nothing was passed before. */
+/* The set at a spot after that at another, from which an edge was passed. before < 0: nothing was
+ * passed before. */
 static int set_after(const making *m, int before, int set, int edge, int spot)
 {
   int after = 0;
   for (int k = m->first[spot]; k < m->first[spot + 1]; k++)
-    if (m->edge[k] == edge || (before >= 0 && remembers(m, before, set, m->edge[k]))) after |= 1 << (k - m->first[spot]);
+    if (m->edge[k] == edge || (before >= 0 && remembers(m, before, set, m->edge[k])))
+      after |= 1 << (k - m->first[spot]);
   return after;
 }
 
@@ -127,7 +141,8 @@ static thr_status find_places(making *m, thr_err *err)
     const int spot = m->at[i], set = m->queue[i] - m->offset[spot];
     m->n_steps += steps->first[spot + 1] - steps->first[spot];
     for (int k = steps->first[spot]; k < steps->first[spot + 1]; k++)
-      find_place(m, steps->step[k].to, set_after(m, spot, set, steps->step[k].half >> 1, steps->step[k].to));
+      find_place(m, steps->step[k].to,
+                 set_after(m, spot, set, steps->step[k].half >> 1, steps->step[k].to));
   }
   return st;
 }
@@ -171,7 +186,8 @@ static void copy_steps(const making *m, thr_walk_steps *to)
     to->begin[k].to = m->place[m->offset[from->begin[k].to] + first_set(m, &from->begin[k])];
 }
 
-thr_status thr_walk_steps_remember(thr_walk_steps *steps, const thr_walk_memory *memory, int n, thr_err *err)
+thr_status thr_walk_steps_remember(thr_walk_steps *steps, const thr_walk_memory *memory, int n,
+                                   thr_err *err)
 {
   making m = {.steps = steps};
   if (n == 0) return THR_OK;

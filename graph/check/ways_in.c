@@ -1,12 +1,17 @@
-/* How long the longest of several cords is by the ways from where cords may end. Private to the checker.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How long the longest of several cords is by the ways from where cords may end. Private to the
+ * checker.
  *
- * All nodes nearer to such a node than a radius are one side of a cut B. A cord that passes anything beyond it crosses B twice at
- * least, as both its ends are on this side. So either all K cords do: then B is passed 2 K times, which takes the shortest edge
- * of B where its edges need fewer passes, and odd cuts of the certificate that have no edge of B prove what the other edges need
- * besides. Or K - 1 at most do, and pass all that is beyond and B twice each. The best of all radii counts.
+ * All nodes nearer to such a node than a radius are one side of a cut B. A cord that passes
+ * anything beyond it crosses B twice at least, as both its ends are on this side. So either all K
+ * cords do: then B is passed 2 K times, which takes the shortest edge of B where its edges need
+ * fewer passes, and odd cuts of the certificate that have no edge of B prove what the other edges
+ * need besides. Or K - 1 at most do, and pass all that is beyond and B twice each. The best of all
+ * radii counts.
  *
- * Example: a ring of length 12 on a stalk of length 1, two cords with their ends at the foot of the stalk: each goes up and down
- * the stalk, (12 + 4) / 2 = 8. By the least length of all, which a cord up and down the stalk belongs to, it is 7. */
+ * Example: a ring of length 12 on a stalk of length 1, two cords with their ends at the foot of the
+ * stalk: each goes up and down the stalk, (12 + 4) / 2 = 8. By the least length of all, which a
+ * cord up and down the stalk belongs to, it is 7. */
 #include "graph/check/check_parts.h"
 #include "graph/sort.h"
 
@@ -126,7 +131,8 @@ static void count_cuts(search *x, const thr_certificate *certificate)
   }
 }
 
-/* How much more than its length an edge's weight may be, as a part of it: the odd cuts count by so much less. */
+/* How much more than its length an edge's weight may be, as a part of it: the odd cuts count by so
+ * much less. */
 static double rounding_of(const search *x, double scale)
 {
   double most = 0;
@@ -137,14 +143,17 @@ static double rounding_of(const search *x, double scale)
 
 static double longest_of(const search *x, const thr_certificate *certificate, int cords)
 {
-  const double unit = (double)certificate->denominator * certificate->scale * (1 + rounding_of(x, certificate->scale));
+  const double unit = (double)certificate->denominator * certificate->scale *
+                      (1 + rounding_of(x, certificate->scale));
   double best = 0, base = 0;
   for (int e = 0; e < x->f->n_edges; e++)
     if (is_here(x, e)) base += thr_plan_cover(x->f, x->o, e) * x->f->length[e];
   for (int r = 0; r + 1 < x->n; r++) {
     const radius *cut = &x->radius[r];
-    const double extra = (double)(certificate->sum - cut->crossed) - 2.0 * cords * (double)certificate->end_price;
-    const double more = cut->passes < 2 * (int64_t)cords ? (double)(2 * (int64_t)cords - cut->passes) : 0;
+    const double extra =
+        (double)(certificate->sum - cut->crossed) - 2.0 * cords * (double)certificate->end_price;
+    const double more =
+        cut->passes < 2 * (int64_t)cords ? (double)(2 * (int64_t)cords - cut->passes) : 0;
     const double all = (base + fmax(extra, 0) / unit + more * cut->shortest) / cords;
     const double fewer = cords > 1 ? cut->beyond / (cords - 1) + 2 * cut->shortest : INFINITY;
     best = fmax(best, fmin(all, fewer));
@@ -152,15 +161,18 @@ static double longest_of(const search *x, const thr_certificate *certificate, in
   return best * (1 - 1e-11);
 }
 
-thr_status thr_ways_in(const thr_frame *frame, const thr_request *options, const int *component, int number, int cords,
-                       const thr_certificate *certificate, double *longest, thr_err *err)
+thr_status thr_ways_in(const thr_frame *frame, const thr_request *options, const int *component,
+                       int number, int cords, const thr_certificate *certificate, double *longest,
+                       thr_err *err)
 {
   const double most = 1 << 24; /* of cuts and of radii times nodes and edges */
   search x = {.f = frame, .o = options, .component = component, .number = number};
   const size_t n = (size_t)frame->n_nodes;
-  const double size = ((double)certificate->n_cuts + frame->n_nodes) * (frame->n_nodes + frame->n_edges);
+  const double size =
+      ((double)certificate->n_cuts + frame->n_nodes) * (frame->n_nodes + frame->n_edges);
   *longest = 0;
-  if (!thr_check_ends_free(options) || options->joint == THR_JOINT_TUBE || certificate->n_prices > 0 || size > most)
+  if (!thr_check_ends_free(options) || options->joint == THR_JOINT_TUBE ||
+      certificate->n_prices > 0 || size > most)
     return THR_OK;
   x.distance = thr_scratch_array(&x.own, n, sizeof *x.distance);
   x.sorted = thr_scratch_array(&x.own, n, sizeof *x.sorted);

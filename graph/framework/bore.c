@@ -1,4 +1,6 @@
-/* Round bores: how many cords are drawn with ease through one, and how wide one has to be for so many. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Round bores: how many cords are drawn with ease through one, and how wide one has to be for so
+ * many. */
 #include "graph/framework/frame.h"
 
 #include <math.h>

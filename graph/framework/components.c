@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Components of a framework, and plans of them put together again. */
 #include "graph/framework/components.h"
 
@@ -39,28 +40,34 @@ static thr_status sort_all(thr_components *components, thr_err *err)
   components->node = thr_calloc((size_t)frame->n_nodes, sizeof *components->node);
   components->edge = thr_calloc((size_t)frame->n_edges, sizeof *components->edge);
   components->local = thr_calloc((size_t)frame->n_nodes, sizeof *components->local);
-  thr_status st =
-      of_edge && components->first_node && components->first_edge && components->node && components->edge && components->local
-          ? THR_OK
-          : thr_nomem(err);
+  thr_status st = of_edge && components->first_node && components->first_edge && components->node &&
+                          components->edge && components->local
+                      ? THR_OK
+                      : thr_nomem(err);
   if (!st) {
     for (int e = 0; e < frame->n_edges; e++)
       of_edge[e] = components->component[frame->edge[e][0]];
-    sort_by(components->component, frame->n_nodes, components->first_node, components->n, components->node);
+    sort_by(components->component, frame->n_nodes, components->first_node, components->n,
+            components->node);
     sort_by(of_edge, frame->n_edges, components->first_edge, components->n, components->edge);
     for (int i = 0; i < frame->n_nodes; i++)
-      components->local[components->node[i]] = i - components->first_node[components->component[components->node[i]]];
+      components->local[components->node[i]] =
+          i - components->first_node[components->component[components->node[i]]];
   }
   free(of_edge);
   return st;
 }
 
-thr_status thr_components_init(thr_components *components, const thr_frame *frame, const thr_request *options, thr_err *err)
+thr_status thr_components_init(thr_components *components, const thr_frame *frame,
+                               const thr_request *options, thr_err *err)
 {
-  *components =
-      (thr_components){.f = frame, .o = options, .component = thr_calloc((size_t)frame->n_nodes, sizeof *components->component)};
-  thr_status st =
-      components->component ? thr_frame_components(frame, components->component, &components->n, err) : thr_nomem(err);
+  *components = (thr_components){
+      .f = frame,
+      .o = options,
+      .component = thr_calloc((size_t)frame->n_nodes, sizeof *components->component)};
+  thr_status st = components->component
+                      ? thr_frame_components(frame, components->component, &components->n, err)
+                      : thr_nomem(err);
   if (!st) st = sort_all(components, err);
   if (st) thr_components_destroy(components);
   return st;
@@ -68,21 +75,29 @@ thr_status thr_components_init(thr_components *components, const thr_frame *fram
 
 /* ---- taking one out ---- */
 
-static thr_status allocate(const thr_components *components, thr_frame *frame, thr_request *options, thr_err *err)
+static thr_status allocate(const thr_components *components, thr_frame *frame, thr_request *options,
+                           thr_err *err)
 {
   size_t n = (size_t)frame->n_nodes, m = (size_t)frame->n_edges;
-  bool good = (frame->xyz = thr_calloc(n, sizeof *frame->xyz)) && (frame->foot = thr_calloc(n, sizeof *frame->foot)) &&
-              (frame->name = thr_calloc(n, sizeof *frame->name)) && (frame->first = thr_calloc(n + 1, sizeof *frame->first)) &&
-              (frame->edge = thr_calloc(m, sizeof *frame->edge)) && (frame->length = thr_calloc(m, sizeof *frame->length)) &&
+  bool good = (frame->xyz = thr_calloc(n, sizeof *frame->xyz)) &&
+              (frame->foot = thr_calloc(n, sizeof *frame->foot)) &&
+              (frame->name = thr_calloc(n, sizeof *frame->name)) &&
+              (frame->first = thr_calloc(n + 1, sizeof *frame->first)) &&
+              (frame->edge = thr_calloc(m, sizeof *frame->edge)) &&
+              (frame->length = thr_calloc(m, sizeof *frame->length)) &&
               (frame->half = thr_calloc(2 * m, sizeof *frame->half));
   if (components->f->cover) good = good && (frame->cover = thr_calloc(m, sizeof *frame->cover));
-  if (components->f->capacity) good = good && (frame->capacity = thr_calloc(m, sizeof *frame->capacity));
-  if (components->o->end_node) good = good && (options->end_node = thr_calloc(n, sizeof *options->end_node));
-  if (components->o->end_count) good = good && (options->end_count = thr_calloc(n, sizeof *options->end_count));
+  if (components->f->capacity)
+    good = good && (frame->capacity = thr_calloc(m, sizeof *frame->capacity));
+  if (components->o->end_node)
+    good = good && (options->end_node = thr_calloc(n, sizeof *options->end_node));
+  if (components->o->end_count)
+    good = good && (options->end_count = thr_calloc(n, sizeof *options->end_count));
   return good ? THR_OK : thr_nomem(err);
 }
 
-static thr_status copy_nodes(const thr_components *components, int k, thr_frame *frame, thr_request *options, thr_err *err)
+static thr_status copy_nodes(const thr_components *components, int k, thr_frame *frame,
+                             thr_request *options, thr_err *err)
 {
   thr_text names = {0};
   for (int i = 0; i < frame->n_nodes; i++) {
@@ -131,7 +146,8 @@ thr_status thr_component_take(const thr_components *components, int k, thr_plan 
 
 /* ---- putting them together ---- */
 
-static void give_cords(const thr_components *components, int k, thr_plan *component, thr_plan *whole)
+static void give_cords(const thr_components *components, int k, thr_plan *component,
+                       thr_plan *whole)
 {
   for (int i = 0; i < component->n_cords; i++) {
     thr_cord *cord = &whole->cord[whole->n_cords];
@@ -144,7 +160,8 @@ static void give_cords(const thr_components *components, int k, thr_plan *compon
   }
 }
 
-thr_status thr_components_join(const thr_components *components, thr_plan *component, thr_plan *whole, thr_err *err)
+thr_status thr_components_join(const thr_components *components, thr_plan *component,
+                               thr_plan *whole, thr_err *err)
 {
   size_t n = 0;
   for (int k = 0; k < components->n; k++)
@@ -155,8 +172,8 @@ thr_status thr_components_join(const thr_components *components, thr_plan *compo
   return THR_OK;
 }
 
-static thr_status make_cords(const thr_components *components, int k, const int *passes, thr_component_cords *make,
-                             thr_plan *made, thr_err *err)
+static thr_status make_cords(const thr_components *components, int k, const int *passes,
+                             thr_component_cords *make, thr_plan *made, thr_err *err)
 {
   thr_status st = thr_component_take(components, k, made, err);
   if (st) return st;
@@ -169,8 +186,9 @@ static thr_status make_cords(const thr_components *components, int k, const int 
   return st;
 }
 
-thr_status thr_components_cords(const thr_frame *frame, const thr_request *options, const int *passes, thr_component_cords *make,
-                                thr_cord **cord, int *n_cords, thr_err *err)
+thr_status thr_components_cords(const thr_frame *frame, const thr_request *options,
+                                const int *passes, thr_component_cords *make, thr_cord **cord,
+                                int *n_cords, thr_err *err)
 {
   thr_components components;
   thr_plan whole = {0}, *made = NULL;
@@ -197,7 +215,8 @@ thr_status thr_components_cords(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
-void thr_component_give_certificate(const thr_components *components, int k, thr_plan *component, thr_certificate *certificate)
+void thr_component_give_certificate(const thr_components *components, int k, thr_plan *component,
+                                    thr_certificate *certificate)
 {
   if (component->proof.n_certificates != 1) return;
   thr_certificate *own = &component->proof.certificate[0];
@@ -207,5 +226,6 @@ void thr_component_give_certificate(const thr_components *components, int k, thr
   certificate->component = k;
   for (int i = 0; i < certificate->n_cuts; i++)
     for (int j = 0; j < certificate->cut[i].n_nodes; j++)
-      certificate->cut[i].node[j] = components->node[components->first_node[k] + certificate->cut[i].node[j]];
+      certificate->cut[i].node[j] =
+          components->node[components->first_node[k] + certificate->cut[i].node[j]];
 }

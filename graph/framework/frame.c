@@ -1,4 +1,6 @@
-/* The framework: a simple graph whose nodes have coordinates. Nodes are beads, edges are interfaces (docs/formats.md). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The framework: a simple graph whose nodes have coordinates. Nodes are beads, edges are interfaces
+ * (docs/formats.md). */
 #include "graph/framework/frame.h"
 #include "graph/disjoint.h"
 #include "graph/framework/units.h"
@@ -11,7 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lengths outside these bounds are nonsense in any unit, and their sums and quotients would overflow. */
+/* Lengths outside these bounds are nonsense in any unit, and their sums and quotients would
+ * overflow. */
 static const double SHORTEST = 1e-100, LONGEST = 1e100;
 
 /* 64-bit FNV-1a (Fowler, Noll, Vo), continued from a hash. */
@@ -27,12 +30,16 @@ static uint64_t fnv(uint64_t hash, const void *bytes, size_t n)
 
 /* ---- drafts ---- */
 
-thr_status thr_draft_add_node(thr_draft *draft, const double xyz[3], const char *name, bool foot, thr_err *err)
+thr_status thr_draft_add_node(thr_draft *draft, const double xyz[3], const char *name, bool foot,
+                              thr_err *err)
 {
   for (int i = 0; i < 3; i++)
     if (!(fabs(xyz[i]) < LONGEST))
-      return thr_fail(err, THR_EINPUT, "node %d has a coordinate that is not a finite number below %g", draft->n_nodes, LONGEST);
-  thr_status st = thr_grow(&draft->node, draft->n_nodes, &draft->nodes_capacity, sizeof *draft->node, err);
+      return thr_fail(err, THR_EINPUT,
+                      "node %d has a coordinate that is not a finite number below %g",
+                      draft->n_nodes, LONGEST);
+  thr_status st =
+      thr_grow(&draft->node, draft->n_nodes, &draft->nodes_capacity, sizeof *draft->node, err);
   if (st) return st;
   size_t at = draft->names.length;
   if (name) {
@@ -40,7 +47,8 @@ thr_status thr_draft_add_node(thr_draft *draft, const double xyz[3], const char 
     thr_text_append_bytes(&draft->names, "", 1);
   }
   if (draft->names.failed || draft->names.length > INT_MAX) return thr_nomem(err);
-  draft->node[draft->n_nodes++] = (struct thr_draft_node){{xyz[0], xyz[1], xyz[2]}, name ? (int)at : -1, foot};
+  draft->node[draft->n_nodes++] =
+      (struct thr_draft_node){{xyz[0], xyz[1], xyz[2]}, name ? (int)at : -1, foot};
   return THR_OK;
 }
 
@@ -53,8 +61,10 @@ thr_status thr_draft_add_edge(thr_draft *draft, int a, int b, double length, thr
 {
   int worst = a < 0 || a >= draft->n_nodes ? a : b;
   if (worst < 0 || worst >= draft->n_nodes)
-    return thr_fail(err, THR_EINPUT, "edge %d names node %d, but there are %d nodes", draft->n_edges, worst, draft->n_nodes);
-  thr_status st = thr_grow(&draft->edge, draft->n_edges, &draft->edges_capacity, sizeof *draft->edge, err);
+    return thr_fail(err, THR_EINPUT, "edge %d names node %d, but there are %d nodes",
+                    draft->n_edges, worst, draft->n_nodes);
+  thr_status st =
+      thr_grow(&draft->edge, draft->n_edges, &draft->edges_capacity, sizeof *draft->edge, err);
   if (st) return st;
   draft->edge[draft->n_edges++] = (struct thr_draft_edge){.a = a, .b = b, .length = length};
   return THR_OK;
@@ -64,9 +74,12 @@ thr_status thr_draft_edge_passes(thr_draft *draft, int cover, int capacity, thr_
 {
   int e = draft->n_edges - 1;
   if (cover < 0 || cover > 100)
-    return thr_fail(err, THR_EINPUT, "edge %d needs %d passes; a cover lies between 1 and 100", e, cover);
+    return thr_fail(err, THR_EINPUT, "edge %d needs %d passes; a cover lies between 1 and 100", e,
+                    cover);
   if (capacity < 0 || capacity > 100 || (capacity > 0 && capacity < cover))
-    return thr_fail(err, THR_EINPUT, "edge %d has room for %d passes; a capacity lies between the cover and 100", e, capacity);
+    return thr_fail(err, THR_EINPUT,
+                    "edge %d has room for %d passes; a capacity lies between the cover and 100", e,
+                    capacity);
   draft->edge[e].cover = cover;
   draft->edge[e].capacity = capacity;
   return THR_OK;
@@ -80,7 +93,8 @@ thr_status thr_draft_set_units(thr_draft *draft, const char *units, thr_err *err
   return st;
 }
 
-thr_status thr_draft_append(thr_draft *draft, const thr_draft *other, const char *prefix, thr_err *err)
+thr_status thr_draft_append(thr_draft *draft, const thr_draft *other, const char *prefix,
+                            thr_err *err)
 {
   const int base = draft->n_nodes;
   thr_text name = {0};
@@ -91,7 +105,9 @@ thr_status thr_draft_append(thr_draft *draft, const thr_draft *other, const char
     thr_text_append(&name, prefix);
     if (own) thr_text_append(&name, own);
     if (!own) thr_text_int(&name, v);
-    st = name.failed ? thr_nomem(err) : thr_draft_add_node(draft, other->node[v].xyz, name.data, other->node[v].foot, err);
+    st = name.failed
+             ? thr_nomem(err)
+             : thr_draft_add_node(draft, other->node[v].xyz, name.data, other->node[v].foot, err);
   }
   for (int e = 0; e < other->n_edges && !st; e++) {
     const struct thr_draft_edge *edge = &other->edge[e];
@@ -111,8 +127,9 @@ void thr_draft_destroy(thr_draft *draft)
   *draft = (thr_draft){0};
 }
 
-/* ---- welding: nodes closer than the tolerance are also close in their projection on any direction, so sort by a
- * projection that regular grids do not share and compare each node with the window before it ---- */
+/* ---- welding: nodes closer than the tolerance are also close in their projection on any
+ * direction, so sort by a projection that regular grids do not share and compare each node with the
+ * window before it ---- */
 
 typedef struct {
   double along; /* projection on a fixed unit direction */
@@ -129,17 +146,21 @@ static int by_projection(const void *pa, const void *pb)
   return (a->node > b->node) - (a->node < b->node);
 }
 
-/* Which of n buckets of equal width from low to high, of which one is the last: no lower for what is further along. */
+/* Which of n buckets of equal width from low to high, of which one is the last: no lower for what
+ * is further along. */
 static int bucket_of(const projected *p, double low, double high, int n)
 {
   return high > low ? (int)((p->along - low) / (high - low) * (n - 1)) : 0;
 }
 
-/* p[n] by projection: into a bucket for each node, and then each bucket by itself. O(n) where nodes are spread evenly. */
+/* p[n] by projection: into a bucket for each node, and then each bucket by itself. O(n) where nodes
+ * are spread evenly. */
 static thr_status sort_projected(projected *p, int n, thr_err *err)
 {
   projected *sorted = thr_calloc((size_t)n, sizeof *sorted);
-  int *start = thr_calloc((size_t)n + 2, sizeof *start); /* shifted by one place so that filling leaves the starts right */
+  int *start =
+      thr_calloc((size_t)n + 2,
+                 sizeof *start); /* shifted by one place so that filling leaves the starts right */
   thr_status st = sorted && start ? THR_OK : thr_nomem(err);
   double low = p[0].along, high = low;
   for (int i = 1; i < n; i++) {
@@ -153,7 +174,8 @@ static thr_status sort_projected(projected *p, int n, thr_err *err)
   for (int i = 0; i < n && !st; i++)
     sorted[start[bucket_of(&p[i], low, high, n) + 1]++] = p[i];
   for (int i = 0; i < n && !st; i++)
-    if (start[i + 1] - start[i] > 1) qsort(sorted + start[i], (size_t)(start[i + 1] - start[i]), sizeof *sorted, by_projection);
+    if (start[i + 1] - start[i] > 1)
+      qsort(sorted + start[i], (size_t)(start[i + 1] - start[i]), sizeof *sorted, by_projection);
   if (!st) memcpy(p, sorted, (size_t)n * sizeof *p);
   free(sorted);
   free(start);
@@ -162,7 +184,8 @@ static thr_status sort_projected(projected *p, int n, thr_err *err)
 
 static double distance(const double a[3], const double b[3])
 {
-  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+              (a[2] - b[2]) * (a[2] - b[2]));
 }
 
 /* parent[v] becomes the lowest node of v's welded group. */
@@ -174,7 +197,8 @@ static thr_status weld(const thr_draft *draft, double tolerance, int *parent, th
   for (int v = 0; v < n; v++) {
     const double *x = draft->node[v].xyz;
     parent[v] = v;
-    p[v] = (projected){0.6324 * x[0] + 0.5477 * x[1] + 0.5478 * x[2], x, v}; /* length 0.99999: never above 1 */
+    p[v] = (projected){0.6324 * x[0] + 0.5477 * x[1] + 0.5478 * x[2], x,
+                       v}; /* length 0.99999: never above 1 */
   }
   thr_status st = sort_projected(p, n, err);
   for (int i = 0; i < n && !st; i++)
@@ -203,8 +227,8 @@ static double diagonal_of(const double (*xyz)[3], int n, size_t stride)
   return distance(low, high);
 }
 
-/* 1e-6 of the bounding box's diagonal, but no more than a thousandth of the median edge: one stray node far away must not
- * weld everything else together. */
+/* 1e-6 of the bounding box's diagonal, but no more than a thousandth of the median edge: one stray
+ * node far away must not weld everything else together. */
 static thr_status default_tolerance(const thr_draft *draft, double *tolerance, thr_err *err)
 {
   double *length = thr_calloc((size_t)draft->n_edges, sizeof *length);
@@ -214,7 +238,8 @@ static thr_status default_tolerance(const thr_draft *draft, double *tolerance, t
     double apart = distance(draft->node[draft->edge[e].a].xyz, draft->node[draft->edge[e].b].xyz);
     if (apart > 0) length[n++] = apart;
   }
-  *tolerance = 1e-6 * diagonal_of((const double(*)[3])draft->node[0].xyz, draft->n_nodes, sizeof *draft->node);
+  *tolerance = 1e-6 * diagonal_of((const double(*)[3])draft->node[0].xyz, draft->n_nodes,
+                                  sizeof *draft->node);
   int shorter = 0;
   for (int i = 0; i < n; i++)
     shorter += 1e-3 * length[i] < *tolerance;
@@ -243,7 +268,8 @@ static int by_ends(const void *pa, const void *pb)
 }
 
 /* Lists the edges that are no loops by their ends, then by length. The caller frees *list. */
-static thr_status list_by_ends(const thr_draft *draft, const int *parent, joining **list, int *n, thr_err *err)
+static thr_status list_by_ends(const thr_draft *draft, const int *parent, joining **list, int *n,
+                               thr_err *err)
 {
   *n = 0;
   *list = thr_calloc((size_t)draft->n_edges, sizeof **list);
@@ -284,9 +310,10 @@ static void append_node(char *text, size_t size, const thr_draft *draft, int v)
     snprintf(text + n, size - n, "%d", v);
 }
 
-/* Of each group of edges between the same nodes the shortest is kept instead of the first; the report tells of the others that
- * have another length. */
-static thr_status keep_shortest(const thr_draft *draft, const int *parent, bool *keep, thr_read_report *report, thr_err *err)
+/* Of each group of edges between the same nodes the shortest is kept instead of the first; the
+ * report tells of the others that have another length. */
+static thr_status keep_shortest(const thr_draft *draft, const int *parent, bool *keep,
+                                thr_read_report *report, thr_err *err)
 {
   joining *list;
   int n;
@@ -297,22 +324,28 @@ static thr_status keep_shortest(const thr_draft *draft, const int *parent, bool 
       char *text = report->parallel;
       keep[list[k].edge] = k == i;
       if (k == i || !is_longer(list, k)) continue;
-      if (report->parallel_edges++) snprintf(text + strlen(text), sizeof report->parallel - strlen(text), "; ");
+      if (report->parallel_edges++)
+        snprintf(text + strlen(text), sizeof report->parallel - strlen(text), "; ");
       append_node(text, sizeof report->parallel, draft, list[k].low);
       snprintf(text + strlen(text), sizeof report->parallel - strlen(text), " to ");
       append_node(text, sizeof report->parallel, draft, list[k].high);
-      snprintf(text + strlen(text), sizeof report->parallel - strlen(text), ": %.6g beside %.6g", list[k].length, list[i].length);
+      snprintf(text + strlen(text), sizeof report->parallel - strlen(text), ": %.6g beside %.6g",
+               list[k].length, list[i].length);
     }
   }
   free(list);
   return st;
 }
 
-/* keep[e] = 1 for the edges that survive: not of zero length, the shortest of those that join the same nodes. */
-static thr_status choose_edges(const thr_draft *draft, const int *parent, bool *keep, thr_read_report *report, thr_err *err)
+/* keep[e] = 1 for the edges that survive: not of zero length, the shortest of those that join the
+ * same nodes. */
+static thr_status choose_edges(const thr_draft *draft, const int *parent, bool *keep,
+                               thr_read_report *report, thr_err *err)
 {
-  int *next = thr_calloc((size_t)draft->n_edges, sizeof *next); /* of the edges with one lower end, by number */
-  int *first = thr_calloc((size_t)draft->n_nodes, sizeof *first), *seen = thr_calloc((size_t)draft->n_nodes, sizeof *seen);
+  int *next = thr_calloc((size_t)draft->n_edges,
+                         sizeof *next); /* of the edges with one lower end, by number */
+  int *first = thr_calloc((size_t)draft->n_nodes, sizeof *first),
+      *seen = thr_calloc((size_t)draft->n_nodes, sizeof *seen);
   thr_status st = next && first && seen ? THR_OK : thr_nomem(err);
   for (int v = 0; v < draft->n_nodes && !st; v++)
     first[v] = seen[v] = -1;
@@ -335,7 +368,8 @@ static thr_status choose_edges(const thr_draft *draft, const int *parent, bool *
   return st || !report->duplicate_edges ? st : keep_shortest(draft, parent, keep, report, err);
 }
 
-/* Puts a node on the straight line of an edge, at a share of its length, and makes two edges of it. */
+/* Puts a node on the straight line of an edge, at a share of its length, and makes two edges of it.
+ */
 static thr_status part_edge(thr_draft *draft, int e, double share, int number, thr_err *err)
 {
   const struct thr_draft_edge edge = draft->edge[e];
@@ -365,7 +399,8 @@ thr_status thr_draft_keep_parallel(thr_draft *draft, double tolerance, thr_err *
   int n = 0, *parent = NULL;
   if (draft->n_edges == 0) return THR_OK; /* an error of who builds it */
   thr_status st = tolerance < 0 ? default_tolerance(draft, &tolerance, err) : THR_OK;
-  if (!st) st = (parent = thr_calloc((size_t)draft->n_nodes, sizeof *parent)) ? THR_OK : thr_nomem(err);
+  if (!st)
+    st = (parent = thr_calloc((size_t)draft->n_nodes, sizeof *parent)) ? THR_OK : thr_nomem(err);
   if (!st) st = weld(draft, tolerance, parent, err);
   if (!st) st = list_by_ends(draft, parent, &list, &n, err);
   for (int i = 0, size; i < n && !st; i += size) {
@@ -377,7 +412,8 @@ thr_status thr_draft_keep_parallel(thr_draft *draft, double tolerance, thr_err *
       struct thr_draft_edge *edge = &draft->edge[list[k].edge];
       const double share = (double)(parted + 1) / (longer + 1);
       if (is_longer(list, k))
-        st = part_edge(draft, list[k].edge, parent[edge->a] == list[k].low ? share : 1 - share, ++parted, err);
+        st = part_edge(draft, list[k].edge, parent[edge->a] == list[k].low ? share : 1 - share,
+                       ++parted, err);
       else if (parted) /* as long as the one before it, whose first half it repeats */
         *edge = draft->edge[list[k - 1].edge];
     }
@@ -398,8 +434,10 @@ static thr_status allocate(thr_frame *frame, int n_nodes, int n_edges, thr_err *
   frame->length = thr_calloc((size_t)n_edges, sizeof *frame->length);
   frame->first = thr_calloc((size_t)n_nodes + 1, sizeof *frame->first);
   frame->half = thr_calloc(2 * (size_t)n_edges, sizeof *frame->half);
-  return frame->xyz && frame->foot && frame->name && frame->edge && frame->length && frame->first && frame->half ? THR_OK
-                                                                                                                 : thr_nomem(err);
+  return frame->xyz && frame->foot && frame->name && frame->edge && frame->length && frame->first &&
+                 frame->half
+             ? THR_OK
+             : thr_nomem(err);
 }
 
 /* Room for covers or capacities, which most frameworks do not have. */
@@ -407,7 +445,8 @@ static thr_status allocate_passes(thr_frame *frame, bool covers, bool capacities
 {
   size_t m = (size_t)frame->n_edges;
   if (covers && !(frame->cover = thr_calloc(m, sizeof *frame->cover))) return thr_nomem(err);
-  if (capacities && !(frame->capacity = thr_calloc(m, sizeof *frame->capacity))) return thr_nomem(err);
+  if (capacities && !(frame->capacity = thr_calloc(m, sizeof *frame->capacity)))
+    return thr_nomem(err);
   return THR_OK;
 }
 
@@ -449,7 +488,8 @@ static void append_name(thr_text *names, const thr_draft *draft, int v)
   thr_text_append_bytes(names, "", 1);
 }
 
-static thr_status fill_nodes(thr_frame *frame, const thr_draft *draft, const int *parent, const int *index, thr_err *err)
+static thr_status fill_nodes(thr_frame *frame, const thr_draft *draft, const int *parent,
+                             const int *index, thr_err *err)
 {
   thr_text names = {0};
   for (int v = 0; v < draft->n_nodes; v++) {
@@ -475,7 +515,8 @@ static int by_name(const void *pa, const void *pb)
   return order ? order : (a->node > b->node) - (a->node < b->node);
 }
 
-/* Has every node a name of its own? Names go into a table by their hashes, the next free place counting. O(bytes). */
+/* Has every node a name of its own? Names go into a table by their hashes, the next free place
+ * counting. O(bytes). */
 static thr_status names_differ(const thr_frame *frame, bool *differ, thr_err *err)
 {
   size_t places = 1;
@@ -496,8 +537,10 @@ static thr_status names_differ(const thr_frame *frame, bool *differ, thr_err *er
   return THR_OK;
 }
 
-/* Options and tables call nodes by their names. O(bytes), and O(n log n) to say which two have one. */
-static thr_status check_names(const thr_frame *frame, const thr_draft *draft, const int *parent, const int *index, thr_err *err)
+/* Options and tables call nodes by their names. O(bytes), and O(n log n) to say which two have one.
+ */
+static thr_status check_names(const thr_frame *frame, const thr_draft *draft, const int *parent,
+                              const int *index, thr_err *err)
 {
   bool indices = true; /* no two are the same */
   for (int v = 0; v < draft->n_nodes && indices; v++)
@@ -513,14 +556,16 @@ static thr_status check_names(const thr_frame *frame, const thr_draft *draft, co
   qsort(list, (size_t)frame->n_nodes, sizeof *list, by_name);
   for (int i = 1; i < frame->n_nodes && !st; i++)
     if (strcmp(list[i - 1].name, list[i].name) == 0)
-      st = thr_fail(err, THR_EINPUT, "nodes %d and %d, counted from 0, are both called '%.40s'; give each its own name",
-                    list[i - 1].node, list[i].node, list[i].name);
+      st = thr_fail(
+          err, THR_EINPUT,
+          "nodes %d and %d, counted from 0, are both called '%.40s'; give each its own name",
+          list[i - 1].node, list[i].node, list[i].name);
   free(list);
   return st;
 }
 
-static thr_status fill_edges(thr_frame *frame, const thr_draft *draft, const int *parent, const int *index, const bool *keep,
-                             thr_err *err)
+static thr_status fill_edges(thr_frame *frame, const thr_draft *draft, const int *parent,
+                             const int *index, const bool *keep, thr_err *err)
 {
   int n = 0;
   for (int e = 0; e < draft->n_edges; e++) {
@@ -530,8 +575,9 @@ static thr_status fill_edges(thr_frame *frame, const thr_draft *draft, const int
     double length = given != 0 ? given : euclidean;
     if (!(euclidean > SHORTEST)) length = euclidean; /* without a direction there are no angles */
     if (!(length > SHORTEST && length < LONGEST))
-      return thr_fail(err, THR_EINPUT, "edge %d (%s to %s) has length %g; lengths must lie between %g and %g", e, frame->name[a],
-                      frame->name[b], length, SHORTEST, LONGEST);
+      return thr_fail(err, THR_EINPUT,
+                      "edge %d (%s to %s) has length %g; lengths must lie between %g and %g", e,
+                      frame->name[a], frame->name[b], length, SHORTEST, LONGEST);
     if (given != 0) frame->own_lengths = true;
     frame->edge[n][0] = a;
     frame->edge[n][1] = b;
@@ -540,7 +586,8 @@ static thr_status fill_edges(thr_frame *frame, const thr_draft *draft, const int
   return THR_OK;
 }
 
-static thr_status fill_passes(thr_frame *frame, const thr_draft *draft, const bool *keep, thr_err *err)
+static thr_status fill_passes(thr_frame *frame, const thr_draft *draft, const bool *keep,
+                              thr_err *err)
 {
   bool covers = false, capacities = false;
   for (int e = 0; e < draft->n_edges; e++) {
@@ -563,13 +610,17 @@ static thr_status fail_without_edges(const thr_draft *draft, double tolerance, t
   bool loops = true;
   for (int e = 0; e < draft->n_edges; e++)
     loops = loops && draft->edge[e].a == draft->edge[e].b;
-  if (loops) return thr_fail(err, THR_EINPUT, "every edge joins a node to itself; check what is given as its two ends");
+  if (loops)
+    return thr_fail(err, THR_EINPUT,
+                    "every edge joins a node to itself; check what is given as its two ends");
   return thr_fail(err, THR_EINPUT,
-                  "every edge has zero length: its ends are one node, or within the weld tolerance %g; use a smaller --weld",
+                  "every edge has zero length: its ends are one node, or within the weld tolerance "
+                  "%g; use a smaller --weld",
                   tolerance);
 }
 
-thr_status thr_draft_build(const thr_draft *draft, double tolerance, thr_frame *frame, thr_read_report *report, thr_err *err)
+thr_status thr_draft_build(const thr_draft *draft, double tolerance, thr_frame *frame,
+                           thr_read_report *report, thr_err *err)
 {
   thr_frame framework = {0};
   thr_read_report read_report = *report;
@@ -577,7 +628,8 @@ thr_status thr_draft_build(const thr_draft *draft, double tolerance, thr_frame *
   read_report.nodes_read = draft->n_nodes;
   read_report.edges_read = draft->n_edges;
   if (draft->n_edges == 0)
-    return thr_fail(err, THR_EINPUT, "no edge found; a framework needs at least one edge between two nodes");
+    return thr_fail(err, THR_EINPUT,
+                    "no edge found; a framework needs at least one edge between two nodes");
   thr_status st = THR_OK;
   if (tolerance < 0 && (st = default_tolerance(draft, &tolerance, err))) return st;
   read_report.weld_tolerance = tolerance;
@@ -644,21 +696,25 @@ static bool says_node(const thr_draft *draft, const thr_frame *frame, int v)
   const char *name = thr_draft_name(draft, v);
   /* By their bytes, as the hash takes them: -0 is not 0. */
   const bool same_place = memcmp(node->xyz, frame->xyz[v], sizeof node->xyz) == 0;
-  return same_place && node->foot == frame->foot[v] && (name ? strcmp(name, frame->name[v]) == 0 : is_index(frame->name[v], v));
+  return same_place && node->foot == frame->foot[v] &&
+         (name ? strcmp(name, frame->name[v]) == 0 : is_index(frame->name[v], v));
 }
 
 static bool says_edge(const thr_draft *draft, const thr_frame *frame, int e)
 {
   const struct thr_draft_edge *edge = &draft->edge[e];
-  const double length = frame->own_lengths ? edge->length : distance(frame->xyz[edge->a], frame->xyz[edge->b]);
-  return edge->a == frame->edge[e][0] && edge->b == frame->edge[e][1] && length == frame->length[e] &&
-         frame->own_lengths == (edge->length != 0) && edge->cover == (frame->cover ? frame->cover[e] : 0) &&
+  const double length =
+      frame->own_lengths ? edge->length : distance(frame->xyz[edge->a], frame->xyz[edge->b]);
+  return edge->a == frame->edge[e][0] && edge->b == frame->edge[e][1] &&
+         length == frame->length[e] && frame->own_lengths == (edge->length != 0) &&
+         edge->cover == (frame->cover ? frame->cover[e] : 0) &&
          edge->capacity == (frame->capacity ? frame->capacity[e] : 0);
 }
 
 bool thr_draft_says(const thr_draft *draft, const thr_frame *frame)
 {
-  bool same = draft->n_nodes == frame->n_nodes && draft->n_edges == frame->n_edges && strcmp(draft->units, frame->units) == 0;
+  bool same = draft->n_nodes == frame->n_nodes && draft->n_edges == frame->n_edges &&
+              strcmp(draft->units, frame->units) == 0;
   for (int v = 0; v < frame->n_nodes && same; v++)
     same = says_node(draft, frame, v);
   for (int e = 0; e < frame->n_edges && same; e++)
@@ -702,7 +758,8 @@ thr_status thr_frame_copy(thr_frame *to, const thr_frame *from, thr_err *err)
   frame.own_lengths = from->own_lengths;
   thr_text names = {0};
   const char *last = n ? from->name[n - 1] : "";
-  if (n) thr_text_append_bytes(&names, from->names, (size_t)(last - from->names) + strlen(last) + 1);
+  if (n)
+    thr_text_append_bytes(&names, from->names, (size_t)(last - from->names) + strlen(last) + 1);
   st = thr_frame_take_names(&frame, &names, err);
 done:
   if (st) thr_frame_destroy(&frame);
@@ -739,7 +796,8 @@ double thr_frame_diagonal(const thr_frame *frame)
 
 void thr_frame_feet_lowest(thr_frame *frame)
 {
-  double lowest = frame->n_nodes ? frame->xyz[0][2] : 0, tolerance = 1e-6 * thr_frame_diagonal(frame);
+  double lowest = frame->n_nodes ? frame->xyz[0][2] : 0,
+         tolerance = 1e-6 * thr_frame_diagonal(frame);
   for (int v = 0; v < frame->n_nodes; v++)
     if (frame->xyz[v][2] < lowest) lowest = frame->xyz[v][2];
   for (int v = 0; v < frame->n_nodes; v++)
@@ -773,7 +831,9 @@ uint64_t thr_frame_hash(const thr_frame *frame)
   hash = fnv(hash, frame->length, (size_t)frame->n_edges * sizeof *frame->length);
   hash = fnv(hash, frame->foot, (size_t)frame->n_nodes * sizeof *frame->foot);
   if (frame->cover) hash = fnv(hash, frame->cover, (size_t)frame->n_edges * sizeof *frame->cover);
-  if (frame->capacity) hash = fnv(fnv(hash, "capacity", 8), frame->capacity, (size_t)frame->n_edges * sizeof *frame->capacity);
+  if (frame->capacity)
+    hash = fnv(fnv(hash, "capacity", 8), frame->capacity,
+               (size_t)frame->n_edges * sizeof *frame->capacity);
   return hash;
 }
 
@@ -810,9 +870,10 @@ thr_status thr_frame_components(const thr_frame *frame, int *component, int *cou
   return THR_OK;
 }
 
-/* One depth-first search from root: low[v] = earliest node reachable from v's subtree without the edge to its parent. */
-static void bridges_from(const thr_frame *frame, int root, int *order, int *low, int *cursor, int *via, int *clock,
-                         bool *is_bridge)
+/* One depth-first search from root: low[v] = earliest node reachable from v's subtree without the
+ * edge to its parent. */
+static void bridges_from(const thr_frame *frame, int root, int *order, int *low, int *cursor,
+                         int *via, int *clock, bool *is_bridge)
 {
   int v = root;
   via[root] = -1;
@@ -846,7 +907,8 @@ thr_status thr_frame_bridges(const thr_frame *frame, bool *is_bridge, thr_err *e
   int clock = 0;
   memset(is_bridge, 0, (size_t)frame->n_edges * sizeof *is_bridge);
   for (int v = 0; v < frame->n_nodes; v++)
-    if (!work[v]) bridges_from(frame, v, work, work + n, work + 2 * n, work + 3 * n, &clock, is_bridge);
+    if (!work[v])
+      bridges_from(frame, v, work, work + n, work + 2 * n, work + 3 * n, &clock, is_bridge);
   free(work);
   return THR_OK;
 }

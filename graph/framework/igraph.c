@@ -1,6 +1,7 @@
-/* The only file that knows igraph, which is loaded when it is first needed. igraph's default error handler aborts the program;
- * ours returns the error code. No routine of igraph that uses GLPK may be called here: it would replace the hooks that
- * lp/solver/lp_glpk.c sets. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The only file that knows igraph, which is loaded when it is first needed. igraph's default error
+ * handler aborts the program; ours returns the error code. No routine of igraph that uses GLPK may
+ * be called here: it would replace the hooks that lp/solver/lp_glpk.c sets. */
 #include "graph/framework/make.h"
 #include "graph/limits.h"
 #include "graph/process/process.h"
@@ -10,22 +11,22 @@
 
 #include <string.h>
 
-#define FUNCTIONS(F)                                                                                                             \
-  F(igraph_automorphisms)                                                                                                        \
-  F(igraph_create)                                                                                                               \
-  F(igraph_destroy)                                                                                                              \
-  F(igraph_error_handler_ignore)                                                                                                 \
-  F(igraph_free)                                                                                                                 \
-  F(igraph_gomory_hu_tree)                                                                                                       \
-  F(igraph_layout_kamada_kawai)                                                                                                  \
-  F(igraph_matrix_destroy)                                                                                                       \
-  F(igraph_matrix_init)                                                                                                          \
-  F(igraph_set_error_handler)                                                                                                    \
-  F(igraph_strerror)                                                                                                             \
-  F(igraph_vcount)                                                                                                               \
-  F(igraph_vector_destroy)                                                                                                       \
-  F(igraph_vector_init)                                                                                                          \
-  F(igraph_vector_int_destroy)                                                                                                   \
+#define FUNCTIONS(F)                                                                               \
+  F(igraph_automorphisms)                                                                          \
+  F(igraph_create)                                                                                 \
+  F(igraph_destroy)                                                                                \
+  F(igraph_error_handler_ignore)                                                                   \
+  F(igraph_free)                                                                                   \
+  F(igraph_gomory_hu_tree)                                                                         \
+  F(igraph_layout_kamada_kawai)                                                                    \
+  F(igraph_matrix_destroy)                                                                         \
+  F(igraph_matrix_init)                                                                            \
+  F(igraph_set_error_handler)                                                                      \
+  F(igraph_strerror)                                                                               \
+  F(igraph_vcount)                                                                                 \
+  F(igraph_vector_destroy)                                                                         \
+  F(igraph_vector_init)                                                                            \
+  F(igraph_vector_int_destroy)                                                                     \
   F(igraph_vector_int_init)
 
 static struct {
@@ -36,7 +37,8 @@ static struct {
 static thr_status load(thr_err *err)
 {
   static const thr_lazy_symbol symbol[] = {FUNCTIONS(THR_LAZY_SYMBOL)};
-  return thr_lazy_load(&lib.loaded, THR_LIBRARY_IGRAPH, symbol, sizeof symbol / sizeof *symbol, err);
+  return thr_lazy_load(&lib.loaded, THR_LIBRARY_IGRAPH, symbol, sizeof symbol / sizeof *symbol,
+                       err);
 }
 
 static thr_status failed(igraph_error_t code, thr_err *err)
@@ -45,7 +47,8 @@ static thr_status failed(igraph_error_t code, thr_err *err)
   return thr_fail(err, THR_ESOLVER, "igraph: %s", lib.igraph_strerror(code));
 }
 
-/* igraph keeps its stack of what to release in static variables: one thread at a time, from enter to leave. */
+/* igraph keeps its stack of what to release in static variables: one thread at a time, from enter
+ * to leave. */
 static pthread_mutex_t one_thread = PTHREAD_MUTEX_INITIALIZER;
 
 static thr_status enter(igraph_error_handler_t **old, thr_err *err)
@@ -77,8 +80,8 @@ static igraph_error_t list_ends(igraph_vector_int_t *ends, int m, const int (*ed
   return code;
 }
 
-static igraph_error_t cut_tree(const igraph_vector_int_t *ends, int n, const igraph_vector_t *capacity, int (*tree)[2],
-                               double *flow)
+static igraph_error_t cut_tree(const igraph_vector_int_t *ends, int n,
+                               const igraph_vector_t *capacity, int (*tree)[2], double *flow)
 {
   igraph_t g, t;
   igraph_vector_t flows;
@@ -99,7 +102,8 @@ no_flows:
   return code;
 }
 
-thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capacity, int (*tree)[2], double *flow, thr_err *err)
+thr_status thr_cut_tree(int n, int m, const int (*edge)[2], const double *capacity, int (*tree)[2],
+                        double *flow, thr_err *err)
 {
   igraph_error_handler_t *old;
   thr_status st = enter(&old, err);
@@ -120,7 +124,8 @@ no_ends:
   return code ? failed(code, err) : THR_OK;
 }
 
-static igraph_error_t count_coloured(const igraph_t *g, const int *colour, igraph_bliss_info_t *info)
+static igraph_error_t count_coloured(const igraph_t *g, const int *colour,
+                                     igraph_bliss_info_t *info)
 {
   igraph_vector_int_t colours;
   if (!colour) return lib.igraph_automorphisms(g, NULL, IGRAPH_BLISS_FL, info);
@@ -133,7 +138,8 @@ static igraph_error_t count_coloured(const igraph_t *g, const int *colour, igrap
   return code;
 }
 
-thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int *colour, char **digits, thr_err *err)
+thr_status thr_automorphism_count(int n, int m, const int (*edge)[2], const int *colour,
+                                  char **digits, thr_err *err)
 {
   igraph_error_handler_t *old;
   thr_status st = enter(&old, err);
@@ -156,7 +162,8 @@ no_ends:
   return *digits ? THR_OK : thr_nomem(err);
 }
 
-static igraph_error_t kamada_kawai(const igraph_t *g, const igraph_vector_t *length, bool circle, double (*xy)[2])
+static igraph_error_t kamada_kawai(const igraph_t *g, const igraph_vector_t *length, bool circle,
+                                   double (*xy)[2])
 {
   igraph_matrix_t at;
   igraph_integer_t n = lib.igraph_vcount(g);
@@ -165,7 +172,8 @@ static igraph_error_t kamada_kawai(const igraph_t *g, const igraph_vector_t *len
   for (igraph_integer_t v = 0; v < n; v++)
     for (int k = 0; k < 2; k++)
       MATRIX(at, v, k) = xy[v][k];
-  code = lib.igraph_layout_kamada_kawai(g, &at, !circle, 50 * n, 0, (double)n, length, NULL, NULL, NULL, NULL);
+  code = lib.igraph_layout_kamada_kawai(g, &at, !circle, 50 * n, 0, (double)n, length, NULL, NULL,
+                                        NULL, NULL);
   for (igraph_integer_t v = 0; v < n && !code; v++)
     for (int k = 0; k < 2; k++)
       xy[v][k] = MATRIX(at, v, k);
@@ -219,10 +227,12 @@ static thr_status place_and_send(void *user, const thr_limits *limits, thr_sende
   return st;
 }
 
-thr_status thr_kamada_kawai(int n, int m, const int (*edge)[2], const double *length, bool circle, double (*xy)[2], thr_err *err)
+thr_status thr_kamada_kawai(int n, int m, const int (*edge)[2], const double *length, bool circle,
+                            double (*xy)[2], thr_err *err)
 {
   springs s = {n, m, edge, length, circle, xy};
-  const thr_child child = {.what = "placing nodes for the picture", .run = place_and_send, .user = &s};
+  const thr_child child = {
+      .what = "placing nodes for the picture", .run = place_and_send, .user = &s};
   const thr_limits none = {0};
   thr_text places = {0};
   thr_status st = thr_child_run(&child, &none, &places, err);

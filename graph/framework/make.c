@@ -1,7 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Generators of example frameworks. Each appends nodes and edges to an empty draft; lengths in mm.
  *
- * Example frameworks. Every node is called by a letter (column, ring or row) and a number, as on a map.
- * Coordinates come from integers wherever possible, so that mirror images agree to the last digit. */
+ * Example frameworks. Every node is called by a letter (column, ring or row) and a number, as on a
+ * map. Coordinates come from integers wherever possible, so that mirror images agree to the last
+ * digit. */
 #include "graph/framework/make.h"
 #include "graph/angle.h"
 
@@ -18,8 +20,11 @@ const char *thr_shape_name(int shape)
 
 thr_make_options thr_make_options_default(thr_shape shape)
 {
-  static const int size[] = {
-      [THR_MAKE_DOME] = 7, [THR_MAKE_GEODESIC] = 4, [THR_MAKE_TUBE] = 12, [THR_MAKE_SPHERE] = 3, [THR_MAKE_HONEYCOMB] = 3};
+  static const int size[] = {[THR_MAKE_DOME] = 7,
+                             [THR_MAKE_GEODESIC] = 4,
+                             [THR_MAKE_TUBE] = 12,
+                             [THR_MAKE_SPHERE] = 3,
+                             [THR_MAKE_HONEYCOMB] = 3};
   return (thr_make_options){shape, size[shape], 7, 20, 0.5};
 }
 
@@ -35,18 +40,21 @@ static void node_name(int letter, int number, char name[24])
   snprintf(name + n, 24 - (size_t)n, "%d", number + 1);
 }
 
-static thr_status add_node(thr_draft *draft, double x, double y, double z, int letter, int number, bool foot, thr_err *err)
+static thr_status add_node(thr_draft *draft, double x, double y, double z, int letter, int number,
+                           bool foot, thr_err *err)
 {
   char name[24];
   node_name(letter, number, name);
   return thr_draft_add_node(draft, (double[3]){x, y, z}, name, foot, err);
 }
 
-/* ---- square-grid dome: z = crown * (1 - r^2 / R^2), zero at the four corners, which are the feet ---- */
+/* ---- square-grid dome: z = crown * (1 - r^2 / R^2), zero at the four corners, which are the feet
+ * ---- */
 
 static thr_status make_dome(thr_draft *draft, const thr_make_options *options, thr_err *err)
 {
-  int n = options->size, half = n - 1; /* in half pitches, so that even sides have integer places too */
+  int n = options->size,
+      half = n - 1; /* in half pitches, so that even sides have integer places too */
   double crown = options->rise * 0.5 * half * options->pitch;
   thr_status st = THR_OK;
   for (int column = 0; column < n; column++)
@@ -54,7 +62,8 @@ static thr_status make_dome(thr_draft *draft, const thr_make_options *options, t
       int x = 2 * column - half, y = 2 * row - half;
       bool corner = (column == 0 || column == n - 1) && (row == 0 || row == n - 1);
       double height = 1 - (double)(x * x + y * y) / (2.0 * half * half);
-      st = add_node(draft, 0.5 * x * options->pitch, 0.5 * y * options->pitch, crown * height, column, row, corner, err);
+      st = add_node(draft, 0.5 * x * options->pitch, 0.5 * y * options->pitch, crown * height,
+                    column, row, corner, err);
     }
   for (int v = 0; v < n * n && !st; v++) {
     if (v % n < n - 1) st = thr_draft_add_edge(draft, v, v + 1, 0, err);
@@ -65,7 +74,8 @@ static thr_status make_dome(thr_draft *draft, const thr_make_options *options, t
 
 /* ---- circles ---- */
 
-/* The point i of n on the unit circle, folded into the first octant so that mirror images are exact. */
+/* The point i of n on the unit circle, folded into the first octant so that mirror images are
+ * exact. */
 static void circle_point(int i, int n, double *x, double *y)
 {
   int64_t part = i, whole = n; /* of a turn */
@@ -95,7 +105,8 @@ static void circle_point(int i, int n, double *x, double *y)
 static thr_status make_tube(thr_draft *draft, const thr_make_options *options, thr_err *err)
 {
   int n = options->size;
-  double radius = 0.5 * options->pitch / sin(THR_PI / n); /* neighbours on a ring are one pitch apart */
+  double radius =
+      0.5 * options->pitch / sin(THR_PI / n); /* neighbours on a ring are one pitch apart */
   thr_status st = THR_OK;
   for (int ring = 0; ring < options->rings; ring++)
     for (int i = 0; i < n && !st; i++) {
@@ -112,9 +123,10 @@ static thr_status make_tube(thr_draft *draft, const thr_make_options *options, t
   return st;
 }
 
-/* ---- geodesic: an icosahedron with a corner up, each side cut into f parts and pushed out to the sphere.
- * Its nodes lie in rows 0 .. 3f from the north pole N over the upper corners U_0 .. U_4 (row f) and the lower ones
- * L_0 .. L_4 (row 2f) to the south pole S; row r has row_size nodes in five equal sectors ---- */
+/* ---- geodesic: an icosahedron with a corner up, each side cut into f parts and pushed out to the
+ * sphere. Its nodes lie in rows 0 .. 3f from the north pole N over the upper corners U_0 .. U_4
+ * (row f) and the lower ones L_0 .. L_4 (row 2f) to the south pole S; row r has row_size nodes in
+ * five equal sectors ---- */
 
 static int row_size(int f, int r)
 {
@@ -145,7 +157,8 @@ static icosahedron make_icosahedron(void)
 }
 
 /* Point of the unit sphere over (wa * a + wb * b + wc * c) of a flat face. */
-static void on_sphere(const double a[3], int wa, const double b[3], int wb, const double c[3], int wc, double xyz[3])
+static void on_sphere(const double a[3], int wa, const double b[3], int wb, const double c[3],
+                      int wc, double xyz[3])
 {
   double norm = 0;
   for (int i = 0; i < 3; i++) {
@@ -159,8 +172,10 @@ static void on_sphere(const double a[3], int wa, const double b[3], int wb, cons
 /* Place of node i of row r. */
 static void row_point(const icosahedron *k, int f, int r, int i, double xyz[3])
 {
-  int per_sector = row_size(f, r) / 5, s = per_sector ? i / per_sector : 0, j = per_sector ? i % per_sector : 0;
-  const double *u0 = k->upper[s], *u1 = k->upper[(s + 1) % 5], *l0 = k->lower[s], *l1 = k->lower[(s + 1) % 5];
+  int per_sector = row_size(f, r) / 5, s = per_sector ? i / per_sector : 0,
+      j = per_sector ? i % per_sector : 0;
+  const double *u0 = k->upper[s], *u1 = k->upper[(s + 1) % 5], *l0 = k->lower[s],
+               *l1 = k->lower[(s + 1) % 5];
   if (r <= f)
     on_sphere(k->north, f - r, u0, r - j, u1, j, xyz);
   else if (r >= 2 * f)
@@ -171,7 +186,8 @@ static void row_point(const icosahedron *k, int f, int r, int i, double xyz[3])
     on_sphere(u1, 2 * f - r, l0, f - j, l1, j - (2 * f - r), xyz);
 }
 
-/* Joins a row of 5m nodes (m = 0: the pole) to the row of 5(m + 1) beside it, farther from the pole. */
+/* Joins a row of 5m nodes (m = 0: the pole) to the row of 5(m + 1) beside it, farther from the
+ * pole. */
 static thr_status join_growing(thr_draft *draft, int near, int m, int far, thr_err *err)
 {
   int n = 5 * (m + 1);
@@ -204,7 +220,8 @@ static void scale_to_pitch(thr_draft *draft, double pitch)
   double sum = 0;
   for (int e = 0; e < draft->n_edges; e++) {
     const double *a = draft->node[draft->edge[e].a].xyz, *b = draft->node[draft->edge[e].b].xyz;
-    sum += sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+    sum += sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                (a[2] - b[2]) * (a[2] - b[2]));
   }
   double radius = pitch / (sum / draft->n_edges);
   for (int v = 0; v < draft->n_nodes; v++)
@@ -213,7 +230,8 @@ static void scale_to_pitch(thr_draft *draft, double pitch)
 }
 
 /* Rows 0 .. last; the last row are the feet, unless it is the south pole. */
-static thr_status make_rows(thr_draft *draft, const thr_make_options *options, int last, thr_err *err)
+static thr_status make_rows(thr_draft *draft, const thr_make_options *options, int last,
+                            thr_err *err)
 {
   const icosahedron k = make_icosahedron();
   int f = options->size, start = 0, before = 0;
@@ -239,8 +257,9 @@ static thr_status make_rows(thr_draft *draft, const thr_make_options *options, i
   return st;
 }
 
-/* ---- honeycomb dome: hexagons with a corner up in rings round one. 2R zigzag rows; row k < R has 2R + 1 + 2k nodes
- * with both ends low, the rest mirrors it. Places are integers: x in sqrt(3)/2 pitches, y in half pitches ---- */
+/* ---- honeycomb dome: hexagons with a corner up in rings round one. 2R zigzag rows; row k < R has
+ * 2R + 1 + 2k nodes with both ends low, the rest mirrors it. Places are integers: x in sqrt(3)/2
+ * pitches, y in half pitches ---- */
 
 static int zigzag_size(int rings, int k)
 {
@@ -276,8 +295,8 @@ static thr_status make_honeycomb(thr_draft *draft, const thr_make_options *optio
       zigzag_place(rings, k, t, &x, &y);
       int64_t square = zigzag_square(x, y);
       double height = 1 - (double)square / (double)rim;
-      st =
-          add_node(draft, 0.5 * sqrt(3) * x * options->pitch, 0.5 * y * options->pitch, crown * height, k, t, square == rim, err);
+      st = add_node(draft, 0.5 * sqrt(3) * x * options->pitch, 0.5 * y * options->pitch,
+                    crown * height, k, t, square == rim, err);
     }
   for (int k = 0; k < 2 * rings; start += zigzag_size(rings, k), k++) {
     int n = zigzag_size(rings, k), next = k + 1 < 2 * rings ? zigzag_size(rings, k + 1) : 0;
@@ -296,7 +315,8 @@ static thr_status make_honeycomb(thr_draft *draft, const thr_make_options *optio
 static thr_status check_size(const char *what, int size, int least, int most, thr_err *err)
 {
   if (size >= least && size <= most) return THR_OK;
-  return thr_fail(err, THR_EINPUT, "%s is %d; it must be %d to %d for this shape", what, size, least, most);
+  return thr_fail(err, THR_EINPUT, "%s is %d; it must be %d to %d for this shape", what, size,
+                  least, most);
 }
 
 static thr_status check_options(const thr_make_options *options, thr_err *err)
@@ -309,12 +329,17 @@ static thr_status check_options(const thr_make_options *options, thr_err *err)
               [THR_MAKE_TUBE] = {3, MAX_NODES / 2},
               [THR_MAKE_SPHERE] = {1, 447},
               [THR_MAKE_HONEYCOMB] = {1, 577}};
-  thr_status st = check_size("size", options->size, size[options->shape].least, size[options->shape].most, err);
-  if (!st && options->shape == THR_MAKE_TUBE) st = check_size("rings", options->rings, 2, MAX_NODES / options->size, err);
+  thr_status st =
+      check_size("size", options->size, size[options->shape].least, size[options->shape].most, err);
+  if (!st && options->shape == THR_MAKE_TUBE)
+    st = check_size("rings", options->rings, 2, MAX_NODES / options->size, err);
   if (!st && !(options->pitch > 0 && isfinite(options->pitch)))
-    st = thr_fail(err, THR_EINPUT, "pitch is %g; it must be a positive length in mm", options->pitch);
+    st = thr_fail(err, THR_EINPUT, "pitch is %g; it must be a positive length in mm",
+                  options->pitch);
   if (!st && !(options->rise >= 0 && isfinite(options->rise)))
-    st = thr_fail(err, THR_EINPUT, "rise is %g; it must be 0 or more, as a fraction of the half span", options->rise);
+    st =
+        thr_fail(err, THR_EINPUT,
+                 "rise is %g; it must be 0 or more, as a fraction of the half span", options->rise);
   return st;
 }
 
@@ -326,7 +351,9 @@ thr_status thr_make(thr_draft *draft, const thr_make_options *options, thr_err *
   switch (options->shape) {
   case THR_MAKE_DOME: st = make_dome(draft, options, err); break;
   case THR_MAKE_TUBE: st = make_tube(draft, options, err); break;
-  case THR_MAKE_GEODESIC: st = make_rows(draft, options, options->size + (options->size + 1) / 2, err); break;
+  case THR_MAKE_GEODESIC:
+    st = make_rows(draft, options, options->size + (options->size + 1) / 2, err);
+    break;
   case THR_MAKE_SPHERE: st = make_rows(draft, options, 3 * options->size, err); break;
   default: st = make_honeycomb(draft, options, err);
   }

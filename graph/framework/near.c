@@ -1,8 +1,11 @@
-/* What a drawing nearly says: nodes that are almost one, nodes that lie on an edge which passes them, edges that cross without a
- * node. Joints that are meant to be there and are not make other cords, so a reader of frameworks remarks them.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a drawing nearly says: nodes that are almost one, nodes that lie on an edge which passes
+ * them, edges that cross without a node. Joints that are meant to be there and are not make other
+ * cords, so a reader of frameworks remarks them.
  *
- * Two grids of cells about as large as an edge is long, one with the nodes in each cell and one with the edges that pass through:
- * nodes are compared with the nodes around them and the edges of their cell, edges with those that they share a cell with. */
+ * Two grids of cells about as large as an edge is long, one with the nodes in each cell and one
+ * with the edges that pass through: nodes are compared with the nodes around them and the edges of
+ * their cell, edges with those that they share a cell with. */
 #include "graph/framework/frame.h"
 
 #include "graph/sort.h"
@@ -75,18 +78,21 @@ static bool is_straight(const search *s, int e)
 
 static place place_of(const search *s, const double p[3], double shift)
 {
-  return (place){(int64_t)floor((p[0] - s->low[0] + shift) / s->cell), (int64_t)floor((p[1] - s->low[1] + shift) / s->cell),
+  return (place){(int64_t)floor((p[0] - s->low[0] + shift) / s->cell),
+                 (int64_t)floor((p[1] - s->low[1] + shift) / s->cell),
                  (int64_t)floor((p[2] - s->low[2] + shift) / s->cell)};
 }
 
 /* Cells side by side have buckets side by side. */
 static uint32_t bucket_of(const search *s, place p)
 {
-  const uint64_t hash = ((uint64_t)p.y * UINT64_C(0xc2b2ae3d27d4eb4f)) ^ ((uint64_t)p.z * UINT64_C(0x165667b19e3779f9));
+  const uint64_t hash = ((uint64_t)p.y * UINT64_C(0xc2b2ae3d27d4eb4f)) ^
+                        ((uint64_t)p.z * UINT64_C(0x165667b19e3779f9));
   return (uint32_t)((hash ^ hash >> 32) + (uint64_t)p.x) & s->mask;
 }
 
-/* The cell size: that of the median of some edges, but so that all together pass through few cells, and none beyond counting. */
+/* The cell size: that of the median of some edges, but so that all together pass through few cells,
+ * and none beyond counting. */
 static thr_status choose_cells(search *s)
 {
   enum { SAMPLE = 10000 };
@@ -111,8 +117,8 @@ static thr_status choose_cells(search *s)
   return THR_OK;
 }
 
-/* Adds the edge to the buckets of the cells that one of its parts comes close to; while members are counted, member is NULL.
- * last[bucket]: the edge that came last. */
+/* Adds the edge to the buckets of the cells that one of its parts comes close to; while members are
+ * counted, member is NULL. last[bucket]: the edge that came last. */
 static void put_part(search *s, int e, double from, double to, int *last)
 {
   double a[3], b[3], low[3], high[3];
@@ -198,7 +204,9 @@ static bool goes_on(search *s)
 static void compare_nodes(search *s, int v, int w)
 {
   const double gap = distance(s->frame->xyz[v], s->frame->xyz[w]);
-  if (gap > CLOSE * fmin(fmin(s->shortest[v], s->shortest[w]), s->cell) || thr_frame_edge_between(s->frame, v, w) >= 0) return;
+  if (gap > CLOSE * fmin(fmin(s->shortest[v], s->shortest[w]), s->cell) ||
+      thr_frame_edge_between(s->frame, v, w) >= 0)
+    return;
   if (s->near->n_close++ == 0 || gap < s->near->gap) {
     s->near->gap = gap;
     s->near->closest[0] = v;
@@ -210,7 +218,8 @@ static void compare_nodes(search *s, int v, int w)
 static void find_close_nodes(search *s, int v)
 {
   const double reach = CLOSE * fmin(s->shortest[v], s->cell);
-  const place first = place_of(s, s->frame->xyz[v], -reach), end = place_of(s, s->frame->xyz[v], reach);
+  const place first = place_of(s, s->frame->xyz[v], -reach),
+              end = place_of(s, s->frame->xyz[v], reach);
   place p;
   for (p.x = first.x; p.x <= end.x; p.x++)
     for (p.y = first.y; p.y <= end.y; p.y++)
@@ -236,24 +245,30 @@ static thr_status compare_node(search *s, int v, int e)
 {
   if (s->frame->edge[e][0] == v || s->frame->edge[e][1] == v) return THR_OK;
   const double *a = end_of(s, e, 0), *b = end_of(s, e, 1), *p = s->frame->xyz[v];
-  const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, to[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]};
+  const double along[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]},
+               to[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]};
   const double at = thr_dot(along, to) / thr_dot(along, along);
   double foot[3];
   if (!is_within(at)) return THR_OK;
   point_on(s, e, at, foot);
-  if (distance(p, foot) > TOUCHING * fmin(s->apart[e], fmin(s->shortest[v], 10 * s->cell))) return THR_OK;
+  if (distance(p, foot) > TOUCHING * fmin(s->apart[e], fmin(s->shortest[v], 10 * s->cell)))
+    return THR_OK;
   for (int side = 0; side < 2; side++)
-    if (distance(p, end_of(s, e, side)) <= CLOSE * fmin(s->shortest[v], s->shortest[s->frame->edge[e][side]])) return THR_OK;
+    if (distance(p, end_of(s, e, side)) <=
+        CLOSE * fmin(s->shortest[v], s->shortest[s->frame->edge[e][side]]))
+      return THR_OK;
   thr_status st = thr_grow(&s->touch, s->n_touches, &s->touches_capacity, sizeof *s->touch, s->err);
   if (!st) s->touch[s->n_touches++] = (touch){v, e, at};
   return st;
 }
 
 /* Where two lines that are not parallel come closest, as parts of the edges. */
-static bool closest_points(const double p[3], const double d1[3], const double q[3], const double d2[3], double *at1, double *at2)
+static bool closest_points(const double p[3], const double d1[3], const double q[3],
+                           const double d2[3], double *at1, double *at2)
 {
   const double r[3] = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-  const double a = thr_dot(d1, d1), b = thr_dot(d1, d2), c = thr_dot(d2, d2), d = thr_dot(d1, r), e = thr_dot(d2, r);
+  const double a = thr_dot(d1, d1), b = thr_dot(d1, d2), c = thr_dot(d2, d2), d = thr_dot(d1, r),
+               e = thr_dot(d2, r);
   const double determinant = a * c - b * b;
   if (!(determinant > 1e-9 * a * c)) return false;
   *at1 = (b * e - c * d) / determinant;
@@ -265,8 +280,10 @@ static void compare_edges(search *s, int e, int f, uint32_t bucket)
 {
   const int *m = s->frame->edge[e], *n = s->frame->edge[f];
   if (m[0] == n[0] || m[0] == n[1] || m[1] == n[0] || m[1] == n[1]) return;
-  const double *p = s->frame->xyz[m[0]], *q = s->frame->xyz[n[0]], *pp = s->frame->xyz[m[1]], *qq = s->frame->xyz[n[1]];
-  const double d1[3] = {pp[0] - p[0], pp[1] - p[1], pp[2] - p[2]}, d2[3] = {qq[0] - q[0], qq[1] - q[1], qq[2] - q[2]};
+  const double *p = s->frame->xyz[m[0]], *q = s->frame->xyz[n[0]], *pp = s->frame->xyz[m[1]],
+               *qq = s->frame->xyz[n[1]];
+  const double d1[3] = {pp[0] - p[0], pp[1] - p[1], pp[2] - p[2]},
+               d2[3] = {qq[0] - q[0], qq[1] - q[1], qq[2] - q[2]};
   double at1, at2, here[3], there[3];
   if (!closest_points(p, d1, q, d2, &at1, &at2) || !is_within(at1) || !is_within(at2)) return;
   point_on(s, e, at1, here);
@@ -341,10 +358,13 @@ static thr_status add_nodes(const thr_frame *f, thr_draft *draft, thr_err *err)
 }
 
 /* Adds a part of an edge, all of it is 1. */
-static thr_status add_part(const thr_frame *f, int e, int a, int b, double part, thr_draft *draft, thr_err *err)
+static thr_status add_part(const thr_frame *f, int e, int a, int b, double part, thr_draft *draft,
+                           thr_err *err)
 {
   thr_status st = thr_draft_add_edge(draft, a, b, f->own_lengths ? f->length[e] * part : 0, err);
-  return st ? st : thr_draft_edge_passes(draft, f->cover ? f->cover[e] : 0, f->capacity ? f->capacity[e] : 0, err);
+  return st ? st
+            : thr_draft_edge_passes(draft, f->cover ? f->cover[e] : 0,
+                                    f->capacity ? f->capacity[e] : 0, err);
 }
 
 static thr_status count_components(const thr_frame *f, int *count, thr_err *err)
@@ -374,7 +394,8 @@ static thr_status try_weld(const thr_frame *f, thr_near *near, thr_err *err)
   return st;
 }
 
-/* A power of ten of at least twice the widest gap or, if that would swallow edges, the gap with two digits, rounded up. */
+/* A power of ten of at least twice the widest gap or, if that would swallow edges, the gap with two
+ * digits, rounded up. */
 static thr_status choose_weld(const search *s, thr_near *near)
 {
   double least = INFINITY, digit = pow(10, floor(log10(s->widest)) - 1);
@@ -441,7 +462,8 @@ thr_status thr_frame_split(thr_frame *frame, int *n_cut, thr_read_report *report
   thr_status st = begin(&s, frame, &near, err);
   if (!st) st = look_around(&s);
   if (!st && near.tangled)
-    st = thr_fail(err, THR_ELIMIT, "too many edges pass close to each other to find all nodes that lie on them");
+    st = thr_fail(err, THR_ELIMIT,
+                  "too many edges pass close to each other to find all nodes that lie on them");
   if (st || !s.n_touches) goto done;
   qsort(s.touch, (size_t)s.n_touches, sizeof *s.touch, along_edges);
   st = add_nodes(frame, &draft, err);

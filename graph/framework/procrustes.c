@@ -1,6 +1,9 @@
-/* The orthogonal matrix that moves the nodes of a framework nearest to where a permutation sends them (Schoenemann 1966).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The orthogonal matrix that moves the nodes of a framework nearest to where a permutation sends
+ * them (Schoenemann 1966).
  *
- * Procrustes analysis by a singular value decomposition of the 3 x 3 correlation (one-sided Jacobi; Hestenes 1958). */
+ * Procrustes analysis by a singular value decomposition of the 3 x 3 correlation (one-sided Jacobi;
+ * Hestenes 1958). */
 #include "graph/framework/frame.h"
 #include "graph/vector.h"
 
@@ -24,7 +27,8 @@ void thr_frame_extent(const thr_frame *frame, double centroid[3], double *size)
   *size = sqrt(sum);
 }
 
-/* Vectors in rows: turns rows i and j of a, and of b alike, so that those of a become orthogonal. Returns whether they were not.
+/* Vectors in rows: turns rows i and j of a, and of b alike, so that those of a become orthogonal.
+ * Returns whether they were not.
  */
 static bool turn_rows(double a[3][3], double b[3][3], int i, int j)
 {
@@ -61,8 +65,9 @@ static void any_orthogonal(const double a[3], double out[3])
     out[i] /= norm;
 }
 
-/* Left singular vectors that rounding left open, from the right ones. On a line: if from and to are opposite, half a turn about
- * an axis across them; else the least rotation, which leaves alone what is across both. */
+/* Left singular vectors that rounding left open, from the right ones. On a line: if from and to are
+ * opposite, half a turn about an axis across them; else the least rotation, which leaves alone what
+ * is across both. */
 static void complete(double u[3][3], double v[3][3], int rank)
 {
   if (rank == 0) memcpy(u, v, sizeof(double[3][3]));
@@ -80,11 +85,13 @@ static void complete(double u[3][3], double v[3][3], int rank)
     thr_cross(v[0], v[1], v[2]);
     thr_cross(u[0], u[1], u[2]);
   }
-  if (rank == 2 && thr_dot(u[2], v[2]) < 0) /* a flat framework stays right side up: mirrored, not turned over */
+  if (rank == 2 &&
+      thr_dot(u[2], v[2]) < 0) /* a flat framework stays right side up: mirrored, not turned over */
     memcpy(u[2], v[2], sizeof u[2]);
 }
 
-/* q = sum of u v^T over the singular vectors of h = sum of s u v^T. h is used up. flat: they span no more than a plane. */
+/* q = sum of u v^T over the singular vectors of h = sum of s u v^T. h is used up. flat: they span
+ * no more than a plane. */
 static void polar(double h[3][3], double q[3][3], bool *flat)
 {
   double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, s[3];
@@ -115,7 +122,8 @@ static void polar(double h[3][3], double q[3][3], bool *flat)
       q[i][j] = h[0][i] * v[0][j] + h[1][i] * v[1][j] + h[2][i] * v[2][j];
 }
 
-static void measure(const thr_frame *frame, const int *image, const double centroid[3], double size, thr_motion *motion)
+static void measure(const thr_frame *frame, const int *image, const double centroid[3], double size,
+                    thr_motion *motion)
 {
   double sum = 0, most = 0;
   for (int v = 0; v < frame->n_nodes; v++) {
@@ -142,7 +150,8 @@ void thr_procrustes(const thr_frame *frame, const int *image, thr_motion *out)
   for (int v = 0; v < frame->n_nodes; v++)
     for (int i = 0; i < 3; i++)
       for (int j = 0; j < 3; j++) /* rows: h[j] collects the images of direction j */
-        h[j][i] += (frame->xyz[image[v]][i] - centroid[i]) * scale * (frame->xyz[v][j] - centroid[j]) * scale;
+        h[j][i] += (frame->xyz[image[v]][i] - centroid[i]) * scale *
+                   (frame->xyz[v][j] - centroid[j]) * scale;
   polar(h, out->q, &out->flat);
   thr_cross(out->q[0], out->q[1], across);
   out->proper = thr_dot(across, out->q[2]) > 0;

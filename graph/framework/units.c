@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Units of length. */
 #include "graph/framework/units.h"
 
@@ -7,38 +8,43 @@
 
 #define KNOWN "um, mm, cm, dm, m, km, in, ft or yd"
 
-/* The short name comes first. A foot and a yard are the international ones of 1959; those of the US survey are 1200/3937 m and
- * its multiples. The last ones are for drawings, whose header may name them: au of 2012, light years of Julian years. */
+/* The short name comes first. A foot and a yard are the international ones of 1959; those of the US
+ * survey are 1200/3937 m and its multiples. The last ones are for drawings, whose header may name
+ * them: au of 2012, light years of Julian years. */
 static const struct {
   const char *name[8];
   double mm; /* 0: not known */
-} units[] = {{{"mm", "millimeter", "millimeters", "millimetre", "millimetres"}, 1},
-             {{"cm", "centimeter", "centimeters", "centimetre", "centimetres"}, 10},
-             {{"m", "meter", "meters", "metre", "metres"}, 1000},
-             {{"in", "inch", "inches"}, 25.4},
-             {{"ft", "foot", "feet"}, 304.8},
-             {{"um", "micrometer", "micrometers", "micrometre", "micrometres", "micron", "microns"}, 0.001},
-             {{"dm", "decimeter", "decimeters", "decimetre", "decimetres"}, 100},
-             {{"km", "kilometer", "kilometers", "kilometre", "kilometres"}, 1e6},
-             {{"yd", "yard", "yards"}, 914.4},
-             {{"mi", "mile", "miles"}, 1609344},
-             {{"us-ft"}, 1200000. / 3937},
-             {{"us-in"}, 100000. / 3937},
-             {{"us-yd"}, 3600000. / 3937},
-             {{"us-mi"}, 6336000000. / 3937},
-             {{"mil"}, 0.0254},
-             {{"uin", "microinch", "microinches"}, 2.54e-5},
-             {{"nm", "nanometer", "nanometers", "nanometre", "nanometres"}, 1e-6},
-             {{"angstrom", "angstroms"}, 1e-7},
-             {{"dam", "decameter", "decameters", "decametre", "decametres"}, 1e4},
-             {{"hm", "hectometer", "hectometers", "hectometre", "hectometres"}, 1e5},
-             {{"Gm", "gigameter", "gigameters", "gigametre", "gigametres"}, 1e12},
-             {{"au"}, 1.495978707e14},
-             {{"ly"}, 9.4607304725808e18},
-             {{"pc", "parsec", "parsecs"}, 3.0856775814913673e19},
-             {{"unit", "units", "unitless", "unknown", "none"}, 0}};
+} units[] = {
+    {{"mm", "millimeter", "millimeters", "millimetre", "millimetres"}, 1},
+    {{"cm", "centimeter", "centimeters", "centimetre", "centimetres"}, 10},
+    {{"m", "meter", "meters", "metre", "metres"}, 1000},
+    {{"in", "inch", "inches"}, 25.4},
+    {{"ft", "foot", "feet"}, 304.8},
+    {{"um", "micrometer", "micrometers", "micrometre", "micrometres", "micron", "microns"}, 0.001},
+    {{"dm", "decimeter", "decimeters", "decimetre", "decimetres"}, 100},
+    {{"km", "kilometer", "kilometers", "kilometre", "kilometres"}, 1e6},
+    {{"yd", "yard", "yards"}, 914.4},
+    {{"mi", "mile", "miles"}, 1609344},
+    {{"us-ft"}, 1200000. / 3937},
+    {{"us-in"}, 100000. / 3937},
+    {{"us-yd"}, 3600000. / 3937},
+    {{"us-mi"}, 6336000000. / 3937},
+    {{"mil"}, 0.0254},
+    {{"uin", "microinch", "microinches"}, 2.54e-5},
+    {{"nm", "nanometer", "nanometers", "nanometre", "nanometres"}, 1e-6},
+    {{"angstrom", "angstroms"}, 1e-7},
+    {{"dam", "decameter", "decameters", "decametre", "decametres"}, 1e4},
+    {{"hm", "hectometer", "hectometers", "hectometre", "hectometres"}, 1e5},
+    {{"Gm", "gigameter", "gigameters", "gigametre", "gigametres"}, 1e12},
+    {{"au"}, 1.495978707e14},
+    {{"ly"}, 9.4607304725808e18},
+    {{"pc", "parsec", "parsecs"}, 3.0856775814913673e19},
+    {{"unit", "units", "unitless", "unknown", "none"}, 0}};
 
-enum { N_UNITS = sizeof units / sizeof *units, MOST_NAMES = sizeof units[0].name / sizeof *units[0].name };
+enum {
+  N_UNITS = sizeof units / sizeof *units,
+  MOST_NAMES = sizeof units[0].name / sizeof *units[0].name
+};
 
 /* Place in the table, -1 if there is none. */
 static int find(const char *word)
@@ -59,7 +65,9 @@ thr_status thr_units_find(const char *word, const char **name, thr_err *err)
 {
   *name = thr_units_name(word);
   if (*name) return THR_OK;
-  return thr_fail(err, THR_EINPUT, "\"%.40s\" is no unit of length; expected " KNOWN ", or unit if none of them", word);
+  return thr_fail(err, THR_EINPUT,
+                  "\"%.40s\" is no unit of length; expected " KNOWN ", or unit if none of them",
+                  word);
 }
 
 thr_status thr_units_in_mm(const char *word, double *mm, thr_err *err)
@@ -67,12 +75,15 @@ thr_status thr_units_in_mm(const char *word, double *mm, thr_err *err)
   int i = find(word);
   *mm = i < 0 ? 0 : units[i].mm;
   if (*mm > 0) return THR_OK;
-  return thr_fail(err, THR_EINPUT, "units: how long is one \"%.40s\"? Expected " KNOWN "; set them with --units", word);
+  return thr_fail(err, THR_EINPUT,
+                  "units: how long is one \"%.40s\"? Expected " KNOWN "; set them with --units",
+                  word);
 }
 
 /* ---- comments ---- */
 
-/* A word of a comment, copied, and whether what stands before it sets it off: a colon, an equals sign or a bracket. */
+/* A word of a comment, copied, and whether what stands before it sets it off: a colon, an equals
+ * sign or a bracket. */
 typedef struct {
   char text[24];
   const char *at;
@@ -81,7 +92,8 @@ typedef struct {
 
 enum { MOST_WORDS = 24 };
 
-/* Takes the next word of the text off; false if there is none. A word that is longer than any unit's name is cut. */
+/* Takes the next word of the text off; false if there is none. A word that is longer than any
+ * unit's name is cut. */
 static bool next_word(const char **at, const char *end, comment_word *word)
 {
   *word = (comment_word){0};
@@ -92,7 +104,9 @@ static bool next_word(const char **at, const char *end, comment_word *word)
   }
   word->at = c;
   size_t n = 0;
-  for (; c < end && (isalnum((unsigned char)*c) || (unsigned char)*c >= 0x80 || (*c && strchr("._-", *c))); c++)
+  for (; c < end &&
+         (isalnum((unsigned char)*c) || (unsigned char)*c >= 0x80 || (*c && strchr("._-", *c)));
+       c++)
     if (n + 1 < sizeof word->text) word->text[n++] = *c;
   while (n > 1 && word->text[n - 1] == '.')
     n--;
@@ -113,18 +127,21 @@ static bool is_unit_word(const comment_word *word)
   return is_among(word->text, (const char *const[]){"unit", "units", NULL});
 }
 
-/* Returns the unit at word i of n, NULL if that is none or only part of a rate (mm/s, mm per pixel). */
+/* Returns the unit at word i of n, NULL if that is none or only part of a rate (mm/s, mm per
+ * pixel). */
 static const char *unit_at(const comment_word *word, int i, int n)
 {
-  if (i >= n || (i + 1 < n && (word[i + 1].rate || strcasecmp(word[i + 1].text, "per") == 0))) return NULL;
+  if (i >= n || (i + 1 < n && (word[i + 1].rate || strcasecmp(word[i + 1].text, "per") == 0)))
+    return NULL;
   return is_unit_word(&word[i]) && !word[i].set_off ? NULL : thr_units_name(word[i].text);
 }
 
-/* Returns the unit that the words after "units", which is word i, or those before it name; NULL if there is none. "in" is an inch
- * only where it is set off and no unit follows it. */
+/* Returns the unit that the words after "units", which is word i, or those before it name; NULL if
+ * there is none. "in" is an inch only where it is set off and no unit follows it. */
 static const char *unit_beside(const comment_word *word, int i, int n)
 {
-  static const char *const between[] = {"is", "are", "in", "of", "length", "measurement", "used", "1", "1.0", NULL};
+  static const char *const between[] = {"is",          "are",  "in", "of",  "length",
+                                        "measurement", "used", "1",  "1.0", NULL};
   const char *inch = NULL;
   int k = i + 1;
   for (; k < n && is_among(word[k].text, between); k++)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Internal to the readers: how long the curves of drawings are. */
 #include "graph/io/read_parts.h"
 
@@ -11,8 +12,9 @@ static double chords(thr_curve_point point, const void *curve, double a, double 
   point(curve, a, last);
   for (int i = 1; i <= steps; i++) {
     point(curve, a + (b - a) * i / steps, here);
-    length += sqrt((here[0] - last[0]) * (here[0] - last[0]) + (here[1] - last[1]) * (here[1] - last[1]) +
-                   (here[2] - last[2]) * (here[2] - last[2]));
+    length +=
+        sqrt((here[0] - last[0]) * (here[0] - last[0]) + (here[1] - last[1]) * (here[1] - last[1]) +
+             (here[2] - last[2]) * (here[2] - last[2]));
     for (int k = 0; k < 3; k++)
       last[k] = here[k];
   }
@@ -64,7 +66,8 @@ void thr_spline_point(const void *spline, double t, double xyz[3])
   }
   for (int r = 1; r <= p; r++)
     for (int j = p; j >= r; j--) {
-      const double from = s->knot[j + k - p], to = s->knot[j + 1 + k - r], a = to > from ? (t - from) / (to - from) : 0;
+      const double from = s->knot[j + k - p], to = s->knot[j + 1 + k - r],
+                   a = to > from ? (t - from) / (to - from) : 0;
       for (int i = 0; i < 4; i++)
         d[j][i] = (1 - a) * d[j - 1][i] + a * d[j][i];
     }
@@ -76,6 +79,7 @@ double thr_spline_length(const thr_spline *s)
 {
   double length = 0;
   for (int i = s->degree; i < s->n; i++)
-    if (s->knot[i] < s->knot[i + 1]) length += thr_curve_length(thr_spline_point, s, s->knot[i], s->knot[i + 1]);
+    if (s->knot[i] < s->knot[i + 1])
+      length += thr_curve_length(thr_spline_point, s, s->knot[i], s->knot[i + 1]);
   return length;
 }

@@ -1,5 +1,6 @@
-/* Writing DXF: drawings in the sense of release 12 (AC1009), the oldest that everything reads, with a unit. Autodesk, "DXF
- * Reference". */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writing DXF: drawings in the sense of release 12 (AC1009), the oldest that everything reads, with
+ * a unit. Autodesk, "DXF Reference". */
 
 #include "graph/io/read_parts.h"
 
@@ -7,9 +8,9 @@
 
 const char *thr_dxf_unit(int code)
 {
-  static const char *const units[THR_DXF_UNITS] = {NULL,  "in", "ft",       "mi",    "mm",    "cm",    "m",    "km", "uin",
-                                                   "mil", "yd", "angstrom", "nm",    "um",    "dm",    "dam",  "hm", "Gm",
-                                                   "au",  "ly", "pc",       "us-ft", "us-in", "us-yd", "us-mi"};
+  static const char *const units[THR_DXF_UNITS] = {
+      NULL, "in", "ft",  "mi", "mm", "cm", "m",  "km", "uin",   "mil",   "yd",    "angstrom", "nm",
+      "um", "dm", "dam", "hm", "Gm", "au", "ly", "pc", "us-ft", "us-in", "us-yd", "us-mi"};
   return code > 0 && code < THR_DXF_UNITS ? units[code] : NULL;
 }
 

@@ -1,4 +1,6 @@
-/* Internal to the readers of meshes: faces, which may be named before their nodes are there, and their sides as edges. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Internal to the readers of meshes: faces, which may be named before their nodes are there, and
+ * their sides as edges. */
 #include "graph/io/read_parts.h"
 #include "graph/vector.h"
 
@@ -9,7 +11,8 @@
 
 thr_status thr_faces_corner(thr_faces *faces, int node, thr_err *err)
 {
-  thr_status st = thr_grow(&faces->corner, faces->n_corners, &faces->corners_capacity, sizeof *faces->corner, err);
+  thr_status st = thr_grow(&faces->corner, faces->n_corners, &faces->corners_capacity,
+                           sizeof *faces->corner, err);
   if (!st) faces->corner[faces->n_corners++] = node;
   return st;
 }
@@ -84,43 +87,55 @@ static void normal_of(const thr_faces *faces, const thr_draft *draft, int run, d
 {
   const int *c = faces->corner + beginning(faces, run);
   const double *o = draft->node[c[0]].xyz, *p = draft->node[c[1]].xyz, *q = draft->node[c[2]].xyz;
-  const double a[3] = {p[0] - o[0], p[1] - o[1], p[2] - o[2]}, b[3] = {q[0] - o[0], q[1] - o[1], q[2] - o[2]};
+  const double a[3] = {p[0] - o[0], p[1] - o[1], p[2] - o[2]},
+               b[3] = {q[0] - o[0], q[1] - o[1], q[2] - o[2]};
   thr_cross(a, b, normal);
 }
 
-/* Do two triangles meet at such an angle that their side is a diagonal of one flat face? They may go round in different senses.
+/* Do two triangles meet at such an angle that their side is a diagonal of one flat face? They may
+ * go round in different senses.
  */
-static bool is_diagonal(const thr_faces *faces, const thr_draft *draft, const side *a, const side *b)
+static bool is_diagonal(const thr_faces *faces, const thr_draft *draft, const side *a,
+                        const side *b)
 {
   double na[3], nb[3], across[3];
-  if (faces->end[a->run] - beginning(faces, a->run) != 3 || faces->end[b->run] - beginning(faces, b->run) != 3) return false;
+  if (faces->end[a->run] - beginning(faces, a->run) != 3 ||
+      faces->end[b->run] - beginning(faces, b->run) != 3)
+    return false;
   normal_of(faces, draft, a->run, na);
   normal_of(faces, draft, b->run, nb);
   bool same_sense = faces->corner[a->index] != faces->corner[b->index];
   thr_cross(na, nb, across);
-  return atan2(sqrt(thr_dot(across, across)), same_sense ? thr_dot(na, nb) : -thr_dot(na, nb)) < draft->flat;
+  return atan2(sqrt(thr_dot(across, across)), same_sense ? thr_dot(na, nb) : -thr_dot(na, nb)) <
+         draft->flat;
 }
 
 /* keep[i]: is the side that begins at corner i an edge? Of equal ones the first, or none. */
-static void choose(const thr_faces *faces, const thr_draft *draft, const side *sorted, int n, bool *keep)
+static void choose(const thr_faces *faces, const thr_draft *draft, const side *sorted, int n,
+                   bool *keep)
 {
   for (int i = 0, next; i < n; i = next) {
-    for (next = i + 1; next < n && sorted[next].low == sorted[i].low && sorted[next].high == sorted[i].high;)
+    for (next = i + 1;
+         next < n && sorted[next].low == sorted[i].low && sorted[next].high == sorted[i].high;)
       next++;
-    keep[sorted[i].index] = !(draft->flat > 0 && next == i + 2 && is_diagonal(faces, draft, &sorted[i], &sorted[i + 1]));
+    keep[sorted[i].index] = !(draft->flat > 0 && next == i + 2 &&
+                              is_diagonal(faces, draft, &sorted[i], &sorted[i + 1]));
   }
 }
 
-static thr_status check_corners(const thr_faces *faces, const thr_draft *draft, const char *name, thr_err *err)
+static thr_status check_corners(const thr_faces *faces, const thr_draft *draft, const char *name,
+                                thr_err *err)
 {
   for (int i = 0; i < faces->n_corners; i++)
     if (faces->corner[i] < 0 || faces->corner[i] >= draft->n_nodes)
-      return thr_fail(err, THR_EINPUT, "%s: a face or edge names vertex %d; there are %d, and the first is 0", name,
+      return thr_fail(err, THR_EINPUT,
+                      "%s: a face or edge names vertex %d; there are %d, and the first is 0", name,
                       faces->corner[i], draft->n_nodes);
   return THR_OK;
 }
 
-thr_status thr_faces_finish(const thr_faces *faces, thr_draft *draft, const char *name, thr_err *err)
+thr_status thr_faces_finish(const thr_faces *faces, thr_draft *draft, const char *name,
+                            thr_err *err)
 {
   thr_status st = check_corners(faces, draft, name, err);
   if (st || faces->n == 0) return st;
@@ -136,7 +151,8 @@ thr_status thr_faces_finish(const thr_faces *faces, thr_draft *draft, const char
     int from = beginning(faces, run), corners = faces->end[run] - from;
     for (int i = 0; i < n_sides(corners) && !st; i++)
       if (keep[from + i])
-        st = thr_draft_add_edge(draft, faces->corner[from + i], faces->corner[from + (i + 1) % corners], 0, err);
+        st = thr_draft_add_edge(draft, faces->corner[from + i],
+                                faces->corner[from + (i + 1) % corners], 0, err);
   }
   free(sorted);
   free(keep);

@@ -1,13 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Formats of framework files: what a file of graph/io/ says of the format that it reads.
  *
- * The table of formats, and which of them a file is in: by its name's ending or, failing that, by its first line. */
+ * The table of formats, and which of them a file is in: by its name's ending or, failing that, by
+ * its first line. */
 #include "graph/io/read_parts.h"
 #include "graph/os.h"
 
 #include <string.h>
 
-extern const thr_format thr_json_format, thr_obj_format, thr_csv_format, thr_ply_format, thr_off_format, thr_vef_format,
-    thr_stl_format, thr_dxf_format, thr_graphml_format, thr_gltf_format;
+extern const thr_format thr_json_format, thr_obj_format, thr_csv_format, thr_ply_format,
+    thr_off_format, thr_vef_format, thr_stl_format, thr_dxf_format, thr_graphml_format,
+    thr_gltf_format;
 
 static const thr_format *const formats[] = {&thr_json_format,
                                             &thr_obj_format,
@@ -58,7 +61,8 @@ static const char *const advice[] = {
     [TABLE] = "which is not read; save the sheet as CSV",
     [PACKED] = "which is not read; unpack it, or save a spreadsheet as CSV",
     [PICTURE] = "which is no framework; export the model that it shows as OBJ, DXF or JSON",
-    [TEXT] = "which is no framework; export the model as OBJ, DXF or JSON, or its nodes and edges as CSV"};
+    [TEXT] = "which is no framework; export the model as OBJ, DXF or JSON, or its nodes and edges "
+             "as CSV"};
 
 /* start: how a file's name ends, or how its text begins. */
 typedef struct {
@@ -194,8 +198,8 @@ static const thr_format *format_said(const char *text, size_t n)
   return NULL;
 }
 
-thr_status thr_format_by_text(const char *text, size_t n, const char *name, const thr_format *named, const thr_format **format,
-                              thr_err *err)
+thr_status thr_format_by_text(const char *text, size_t n, const char *name, const thr_format *named,
+                              const thr_format **format, thr_err *err)
 {
   const thr_format *said = format_said(text, n);
   *format = said && (!named || named->begins) ? said : named ? named : &thr_csv_format;

@@ -1,5 +1,6 @@
-/* GraphML, read and written: keys declare attributes, data give them to nodes and edges. U. Brandes et al., "GraphML Progress
- * Report", 2002; http://graphml.graphdrawing.org/specification.html. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* GraphML, read and written: keys declare attributes, data give them to nodes and edges. U. Brandes
+ * et al., "GraphML Progress Report", 2002; http://graphml.graphdrawing.org/specification.html. */
 #include "graph/io/read_parts.h"
 
 #include <string.h>
@@ -51,7 +52,8 @@ static void add_key(graphml *g)
 static void begin_data(graphml *g)
 {
   g->key.length = 0;
-  if (thr_xml_attribute(&g->xml, "key", &g->value)) thr_text_append(&g->key, key_name(g, g->value.data ? g->value.data : ""));
+  if (thr_xml_attribute(&g->xml, "key", &g->value))
+    thr_text_append(&g->key, key_name(g, g->value.data ? g->value.data : ""));
 }
 
 /* The name of the key that was opened last is still in to. */
@@ -61,7 +63,8 @@ static void begin_default(graphml *g)
   thr_text_append_bytes(&g->key, g->to.data ? g->to.data : "", g->to.length);
 }
 
-/* Takes the text before the tag as the value of the open key: of the graph, or into what is said of a node or an edge. */
+/* Takes the text before the tag as the value of the open key: of the graph, or into what is said of
+ * a node or an edge. */
 static thr_status take_value(graphml *g, owner_kind owner, thr_said *said)
 {
   const char *what = NULL;
@@ -77,11 +80,14 @@ static thr_status take_value(graphml *g, owner_kind owner, thr_said *said)
   const thr_span key = {g->key.data, g->key.length};
   if (owner == GRAPH) {
     if (!thr_span_is(key, "units")) return THR_OK;
-    return thr_draft_set_units(g->draft, g->value.data, &why) ? thr_scan_fail(&g->xml.scan, g->err, "%s", why.text) : THR_OK;
+    return thr_draft_set_units(g->draft, g->value.data, &why)
+               ? thr_scan_fail(&g->xml.scan, g->err, "%s", why.text)
+               : THR_OK;
   }
   thr_said_take(said, key, thr_span_of(g->value.data), &what);
   if (!what) return THR_OK;
-  return thr_scan_fail(&g->xml.scan, g->err, "%.*s '%.40s' is %s", thr_span_width(key), key.s, g->value.data, what);
+  return thr_scan_fail(&g->xml.scan, g->err, "%.*s '%.40s' is %s", thr_span_width(key), key.s,
+                       g->value.data, what);
 }
 
 /* Ends what holds a value: data of the graph, a node or an edge, or the default of a key. */
@@ -96,14 +102,17 @@ static thr_status end_value(graphml *g, bool data)
 
 static thr_status begin_owner(graphml *g, owner_kind owner)
 {
-  if (g->open) return thr_scan_fail(&g->xml.scan, g->err, "a node or an edge inside another; graphs in nodes are not read");
+  if (g->open)
+    return thr_scan_fail(&g->xml.scan, g->err,
+                         "a node or an edge inside another; graphs in nodes are not read");
   g->open = true;
   g->owner = owner;
   g->line = g->xml.scan.line;
   g->said = g->given[owner];
   if (owner == NODE && !thr_xml_attribute(&g->xml, "id", &g->name))
     return thr_scan_fail(&g->xml.scan, g->err, "a node without an id");
-  if (owner == EDGE && (!thr_xml_attribute(&g->xml, "source", &g->from) || !thr_xml_attribute(&g->xml, "target", &g->to)))
+  if (owner == EDGE && (!thr_xml_attribute(&g->xml, "source", &g->from) ||
+                        !thr_xml_attribute(&g->xml, "target", &g->to)))
     return thr_scan_fail(&g->xml.scan, g->err, "an edge without source and target");
   return g->name.failed || g->from.failed || g->to.failed ? thr_nomem(g->err) : THR_OK;
 }
@@ -113,7 +122,8 @@ static thr_status end_owner(graphml *g)
   g->open = false;
   const owner_kind owner = g->owner;
   g->owner = GRAPH;
-  if (owner == NODE) return thr_said_node(&g->said, g->draft, g->name.data, &g->has_z, &g->xml.scan, g->err);
+  if (owner == NODE)
+    return thr_said_node(&g->said, g->draft, g->name.data, &g->has_z, &g->xml.scan, g->err);
   thr_status st = thr_links_add(&g->links, g->from.data, g->to.data, g->line, g->err);
   if (!st) thr_said_link(&g->said, &g->links);
   return st;
@@ -128,7 +138,8 @@ static thr_status take_tag(graphml *g)
   thr_status st = THR_OK;
   if (begins && thr_span_is(tag, "key")) add_key(g);
   if (begins && thr_span_is(tag, "hyperedge"))
-    return thr_scan_fail(&g->xml.scan, g->err, "hyperedges join more than two nodes and are not read");
+    return thr_scan_fail(&g->xml.scan, g->err,
+                         "hyperedges join more than two nodes and are not read");
   if (begins && (node || edge)) st = begin_owner(g, node ? NODE : EDGE);
   if (!st && g->xml.kind == THR_XML_OPEN && data) begin_data(g);
   if (!st && g->xml.kind == THR_XML_OPEN && value && !data) begin_default(g);
@@ -138,7 +149,8 @@ static thr_status take_tag(graphml *g)
   return st;
 }
 
-static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n,
+                        const char *name, thr_err *err)
 {
   graphml g = {.draft = draft, .err = err};
   bool graph = false;
@@ -166,7 +178,8 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
 
 static void put_key(thr_text *out, const char *id, const char *owner, const char *type)
 {
-  thr_text_printf(out, " <key id=\"%s\" for=\"%s\" attr.name=\"%s\" attr.type=\"%s\"/>\n", id, owner, id, type);
+  thr_text_printf(out, " <key id=\"%s\" for=\"%s\" attr.name=\"%s\" attr.type=\"%s\"/>\n", id,
+                  owner, id, type);
 }
 
 static void put_number(thr_text *out, const char *key, double x)
@@ -200,14 +213,16 @@ static void write_edges(const thr_frame *frame, thr_text *out)
     thr_text_append(out, "\">");
     if (frame->own_lengths) put_number(out, "length", frame->length[e]);
     if (frame->cover) thr_text_printf(out, "<data key=\"cover\">%d</data>", frame->cover[e]);
-    if (frame->capacity && frame->capacity[e]) thr_text_printf(out, "<data key=\"capacity\">%d</data>", frame->capacity[e]);
+    if (frame->capacity && frame->capacity[e])
+      thr_text_printf(out, "<data key=\"capacity\">%d</data>", frame->capacity[e]);
     thr_text_append(out, "</edge>\n");
   }
 }
 
 static void write(const thr_frame *frame, thr_text *out)
 {
-  thr_text_append(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
+  thr_text_append(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<graphml "
+                       "xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n");
   put_key(out, "units", "graph", "string");
   put_key(out, "x", "node", "double");
   put_key(out, "y", "node", "double");
@@ -236,9 +251,14 @@ static bool is(const char *text, size_t n)
   thr_span t = {text, n};
   while (t.n && (t.s[0] <= ' ' || (unsigned char)t.s[0] >= 0x80)) /* blanks and a byte-order mark */
     t = (thr_span){t.s + 1, t.n - 1};
-  if (!t.n || t.s[0] != '<' || thr_xml_start(&xml, t.s, t.n, "", NULL) || thr_xml_next(&xml, NULL)) return false;
+  if (!t.n || t.s[0] != '<' || thr_xml_start(&xml, t.s, t.n, "", NULL) || thr_xml_next(&xml, NULL))
+    return false;
   return xml.kind != THR_XML_END && thr_span_is(xml.name, "graphml");
 }
 
-const thr_format thr_graphml_format = {
-    .name = "graphml", .ending = {"graphml"}, .begins = begins, .parse = parse, .write = write, .is = is};
+const thr_format thr_graphml_format = {.name = "graphml",
+                                       .ending = {"graphml"},
+                                       .begins = begins,
+                                       .parse = parse,
+                                       .write = write,
+                                       .is = is};

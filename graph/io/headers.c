@@ -1,10 +1,13 @@
-/* Internal to the reader of tables: what the columns of a table mean, by the words in their headers.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Internal to the reader of tables: what the columns of a table mean, by the words in their
+ * headers.
  *
  * What the columns of a table mean, by the words in their headers.
  *
- * A header is a few words in a row, of which one or two carry the meaning: "Knoten A", "node_a" and "NodeA" are all the word "a"
- * beside a word for nodes. So the tables below list words, and a header matches if nothing else stands in it. Words are English,
- * German, French, Spanish and Italian.
+ * A header is a few words in a row, of which one or two carry the meaning: "Knoten A", "node_a" and
+ * "NodeA" are all the word "a" beside a word for nodes. So the tables below list words, and a
+ * header matches if nothing else stands in it. Words are English, German, French, Spanish and
+ * Italian.
  *
  * Example: Anfang X [mm] is "anfangx": the first end of the pair anfang, ende, axis x, unit mm. */
 #include "graph/io/read_parts.h"
@@ -13,23 +16,28 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const nodes[] = {"node",   "nodes",  "joint",  "point",  "punkt", "knoten", "knotenpunkt", "noeud",
-                                    "nodo",   "nudo",   "punto",  "vertex", "id",    "nr",     "no",          "num",
-                                    "number", "nummer", "numero", "name",   "nom",   "nombre", "nome",        "label",
-                                    "n",      "p",      "pt",     "k",      "v",     NULL};
-static const char *const bars[] = {"bar",  "member", "element", "frame",  "rod",      "strut", "beam",  "edge",  "line",
-                                   "stab", "kante",  "barre",   "barra",  "elemento", "asta",  "arete", "id",    "nr",
-                                   "no",   "num",    "number",  "nummer", "numero",   "name",  "label", "index", NULL};
-static const char *const beside_axis[] = {"coordinate", "coord",    "coords", "koordinate", "koord",  "coordonnee", "coordenada",
-                                          "coordinata", "position", "pos",    "value",      "wert",   "global",     "axis",
-                                          "node",       "joint",    "point",  "punkt",      "knoten", "noeud",      "nodo",
-                                          "nudo",       "punto",    "vertex", "p",          NULL};
-static const char *const beside_end[] = {"node",  "nodes", "joint",  "point",  "punkt",  "knoten", "knotenpunkt",
-                                         "noeud", "nodo",  "nudo",   "punto",  "vertex", "id",     "nr",
-                                         "no",    "num",   "number", "nummer", "numero", "name",   "label",
-                                         "n",     "p",     "pt",     "k",      "v",      "end",    NULL};
-static const char *const feet[] = {"issupport", "isgrounded", "isanchor", "isfixed", "foot",  "feet",     "support", "fixed",
-                                   "anchor",    "grounded",   "auflager", "appui",   "apoyo", "appoggio", NULL};
+static const char *const nodes[] = {"node",        "nodes", "joint", "point",  "punkt",  "knoten",
+                                    "knotenpunkt", "noeud", "nodo",  "nudo",   "punto",  "vertex",
+                                    "id",          "nr",    "no",    "num",    "number", "nummer",
+                                    "numero",      "name",  "nom",   "nombre", "nome",   "label",
+                                    "n",           "p",     "pt",    "k",      "v",      NULL};
+static const char *const bars[] = {
+    "bar",  "member", "element", "frame",  "rod",      "strut", "beam",  "edge",  "line",
+    "stab", "kante",  "barre",   "barra",  "elemento", "asta",  "arete", "id",    "nr",
+    "no",   "num",    "number",  "nummer", "numero",   "name",  "label", "index", NULL};
+static const char *const beside_axis[] = {
+    "coordinate", "coord",    "coords", "koordinate", "koord",  "coordonnee", "coordenada",
+    "coordinata", "position", "pos",    "value",      "wert",   "global",     "axis",
+    "node",       "joint",    "point",  "punkt",      "knoten", "noeud",      "nodo",
+    "nudo",       "punto",    "vertex", "p",          NULL};
+static const char *const beside_end[] = {
+    "node",  "nodes", "joint",  "point",  "punkt",  "knoten", "knotenpunkt",
+    "noeud", "nodo",  "nudo",   "punto",  "vertex", "id",     "nr",
+    "no",    "num",   "number", "nummer", "numero", "name",   "label",
+    "n",     "p",     "pt",     "k",      "v",      "end",    NULL};
+static const char *const feet[] = {"issupport", "isgrounded", "isanchor", "isfixed",  "foot",
+                                   "feet",      "support",    "fixed",    "anchor",   "grounded",
+                                   "auflager",  "appui",      "apoyo",    "appoggio", NULL};
 static const char *const lines[] = {"wkt", "geometry", "geom", "thegeom", "wktgeom", NULL};
 
 static const char *const pairs[][2] = {{"a", "b"},
@@ -66,10 +74,12 @@ bool thr_header_pair(int pair, const char *word[2])
   return true;
 }
 
-/* The letter without its accent of a character of two bytes, UTF-8; "" if it is none of those that the words above need. */
+/* The letter without its accent of a character of two bytes, UTF-8; "" if it is none of those that
+ * the words above need. */
 static const char *plain_letter(const char *c)
 {
-  static const char *const accented[] = {"äÄàÀáÁâÂ", "éÉèÈêÊëË", "íÍìÌîÎ", "öÖóÓòÒôÔ", "üÜúÚùÙûÛ", "ñÑ", "çÇ"};
+  static const char *const accented[] = {"äÄàÀáÁâÂ", "éÉèÈêÊëË", "íÍìÌîÎ", "öÖóÓòÒôÔ",
+                                         "üÜúÚùÙûÛ", "ñÑ",       "çÇ"};
   static const char *const letter[] = {"a", "e", "i", "o", "u", "n", "c"};
   for (size_t i = 0; i < sizeof letter / sizeof *letter; i++)
     for (const char *known = accented[i]; *known; known += 2)
@@ -109,7 +119,8 @@ thr_header thr_header_of(thr_span field)
     while (last > 0 && field.s[last - 1] != ' ' && field.s[last - 1] != '_')
       last--;
     const char *unit = last > 1 ? unit_in((thr_span){field.s + last, field.n - last}) : NULL;
-    if (unit && strcmp(unit, "unit") != 0 && !thr_span_is((thr_span){field.s + last, field.n - last}, "foot") &&
+    if (unit && strcmp(unit, "unit") != 0 &&
+        !thr_span_is((thr_span){field.s + last, field.n - last}, "foot") &&
         !thr_span_is((thr_span){field.s + last, field.n - last}, "feet")) {
       header.unit = unit;
       field.n = last;
@@ -118,11 +129,13 @@ thr_header thr_header_of(thr_span field)
 
   for (size_t i = 0; i < field.n && n + 3 < sizeof header.word; i++) {
     const char c = field.s[i];
-    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'), digit = c >= '0' && c <= '9';
+    const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'),
+               digit = c >= '0' && c <= '9';
     if (letter || digit)
       header.word[n++] = (char)(letter ? c | 0x20 : c);
     else if ((unsigned char)c >= 0xc0 && i + 1 < field.n)
-      n += (size_t)snprintf(header.word + n, sizeof header.word - n, "%s", plain_letter(field.s + i++));
+      n += (size_t)snprintf(header.word + n, sizeof header.word - n, "%s",
+                            plain_letter(field.s + i++));
   }
   header.word[n] = '\0';
   return header;
@@ -194,7 +207,8 @@ int thr_header_end_axis(const thr_header *header, const char *word)
 {
   for (const char *at = strstr(header->word, word); at; at = strstr(at + 1, word)) {
     thr_header rest = {"", ""};
-    snprintf(rest.word, sizeof rest.word, "%.*s%s", (int)(at - header->word), header->word, at + strlen(word));
+    snprintf(rest.word, sizeof rest.word, "%.*s%s", (int)(at - header->word), header->word,
+             at + strlen(word));
     const int axis = thr_header_axis(&rest);
     if (axis >= 0) return axis;
   }

@@ -1,11 +1,14 @@
-/* A JSON document as one array of slots of eight bytes. A number is its own double or a whole number of 48 bits; text, lists and
- * objects are the distance in slots from the slot that names them to a block of slots further on or back. Nothing is allocated
- * for a value by itself: [0.5, 2] takes three slots, a node's coordinates four.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A JSON document as one array of slots of eight bytes. A number is its own double or a whole
+ * number of 48 bits; text, lists and objects are the distance in slots from the slot that names
+ * them to a block of slots further on or back. Nothing is allocated for a value by itself: [0.5, 2]
+ * takes three slots, a node's coordinates four.
  *
  * Blocks:  text    its bytes and a NUL
  *          key     where it begins in the document, then as text
  *          list    its size unless that is below MANY, then the values
- *          object  its size, then a key and a value for each member, then if they are many the members' numbers by their keys
+ *          object  its size, then a key and a value for each member, then if they are many the
+ * members' numbers by their keys
  */
 #include "graph/io/json.h"
 #include "graph/number.h"
@@ -21,7 +24,14 @@ struct thr_json {
   uint64_t bits;
 };
 
-enum { TAG_WORD = 0xfff9, TAG_INT, TAG_LONG, TAG_TEXT, TAG_ARRAY, TAG_OBJECT }; /* LONG: its block is an int64_t */
+enum {
+  TAG_WORD = 0xfff9,
+  TAG_INT,
+  TAG_LONG,
+  TAG_TEXT,
+  TAG_ARRAY,
+  TAG_OBJECT
+}; /* LONG: its block is an int64_t */
 enum { WORD_NULL, WORD_FALSE, WORD_TRUE, WORD_NAN };
 enum { MANY = 15, FEW_MEMBERS = 8, DEEPEST = 2048 };
 
@@ -66,7 +76,9 @@ thr_json_type thr_json_typeof(const thr_json *value)
   if (!value) return THR_JSON_NULL;
   switch (tag_of(value)) {
   case TAG_WORD:
-    return payload_of(value) == WORD_NULL ? THR_JSON_NULL : payload_of(value) == WORD_NAN ? THR_JSON_NAN : THR_JSON_BOOL;
+    return payload_of(value) == WORD_NULL  ? THR_JSON_NULL
+           : payload_of(value) == WORD_NAN ? THR_JSON_NAN
+                                           : THR_JSON_BOOL;
   case TAG_TEXT: return THR_JSON_STRING;
   case TAG_ARRAY: return THR_JSON_ARRAY;
   case TAG_OBJECT: return THR_JSON_OBJECT;
@@ -195,7 +207,8 @@ bool thr_json_indices(const thr_json *array, int n, int limit, int *out)
 bool thr_json_true(const thr_json *value)
 {
   double x;
-  return value && (value->bits == tagged(TAG_WORD, WORD_TRUE) || (thr_json_number(value, &x) && x != 0));
+  return value &&
+         (value->bits == tagged(TAG_WORD, WORD_TRUE) || (thr_json_number(value, &x) && x != 0));
 }
 
 bool thr_json_next(const thr_json *object, void **iter, const char **key, const thr_json **value)
@@ -235,7 +248,8 @@ typedef struct {
   const char *text, *at, *end, *name;
   thr_err *err;
   slots done; /* the document: slot 0 is its root */
-  slots open; /* values of lists and objects that are not closed; what is pointing there says the slot in done itself */
+  slots open; /* values of lists and objects that are not closed; what is pointing there says the
+                 slot in done itself */
   int depth;
   bool python; /* NaN and Infinity are values */
 } parser;
@@ -344,7 +358,8 @@ static char *put_letter(char *out, int code)
 static thr_status take_coded(parser *p, const char *place, char **out)
 {
   int code = take_unit(p);
-  if (code >= 0xd800 && code < 0xdc00 && p->end - p->at >= 2 && p->at[0] == '\\' && p->at[1] == 'u') {
+  if (code >= 0xd800 && code < 0xdc00 && p->end - p->at >= 2 && p->at[0] == '\\' &&
+      p->at[1] == 'u') {
     p->at += 2;
     int low = take_unit(p);
     code = low >= 0xdc00 && low < 0xe000 ? 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00) : -1;
@@ -378,8 +393,8 @@ static const char *end_of_text(const parser *p)
   return c;
 }
 
-/* After the opening quote: the text into a new block, which begins with where it stands if it is a key. Escaped text never gets
- * longer than it was. */
+/* After the opening quote: the text into a new block, which begins with where it stands if it is a
+ * key. Escaped text never gets longer than it was. */
 static thr_status take_text(parser *p, bool key, uint64_t *bits)
 {
   const char *begin = p->at, *end = end_of_text(p);
@@ -399,7 +414,8 @@ static thr_status take_text(parser *p, bool key, uint64_t *bits)
   if (st) return st;
   if (p->at == p->end) return fail_at(p, begin - 1, "this text has no closing quote");
   *out++ = '\0';
-  if (!thr_text_is_utf8(start, (size_t)(out - start - 1))) return fail_at(p, begin, "this text is not UTF-8");
+  if (!thr_text_is_utf8(start, (size_t)(out - start - 1)))
+    return fail_at(p, begin, "this text is not UTF-8");
   p->at = end + 1;
   p->done.n += (size_t)key + ((size_t)(out - start) + sizeof(thr_json) - 1) / sizeof(thr_json);
   *bits = pointing(TAG_TEXT, (int64_t)block, 0);
@@ -420,7 +436,8 @@ static const char *after_digits(const parser *p, const char *c)
   return c;
 }
 
-/* What follows the number that begins here; NULL if none does: -0.5e+3. *real: it has a point or an exponent. */
+/* What follows the number that begins here; NULL if none does: -0.5e+3. *real: it has a point or an
+ * exponent. */
 static const char *end_of_number(const parser *p, bool *real)
 {
   const char *c = p->at + (*p->at == '-');
@@ -441,7 +458,8 @@ static const char *end_of_number(const parser *p, bool *real)
   return is_digit(p, c) ? NULL : c; /* no zeros in front */
 }
 
-/* The digits before end, with their sign; false if that is no int64_t. Counted downwards, where there is one more. */
+/* The digits before end, with their sign; false if that is no int64_t. Counted downwards, where
+ * there is one more. */
 static bool read_whole(const char *c, const char *end, int64_t *whole)
 {
   bool negative = *c == '-';
@@ -472,12 +490,14 @@ static inline thr_status put_whole(parser *p, int64_t whole, uint64_t *bits)
   return THR_OK;
 }
 
-/* The digits at the beginning of eight letters, which are in memory's order with the first one lowest, and what they mean,
- * without a branch: bytes that are no digits are found all at once, then digits become pairs, these fours, and these the number.
+/* The digits at the beginning of eight letters, which are in memory's order with the first one
+ * lowest, and what they mean, without a branch: bytes that are no digits are found all at once,
+ * then digits become pairs, these fours, and these the number.
  */
 static int digits_of_eight(uint64_t letters, uint64_t *value)
 {
-  const uint64_t others = ((letters + 0x4646464646464646u) | (letters - 0x3030303030303030u)) & 0x8080808080808080u;
+  const uint64_t others =
+      ((letters + 0x4646464646464646u) | (letters - 0x3030303030303030u)) & 0x8080808080808080u;
   const int n = others ? __builtin_ctzll(others) / 8 : 8;
   uint64_t digits = n ? (letters & 0x0f0f0f0f0f0f0f0fu) << (64 - 8 * n) : 0; /* zeros in front */
   digits = (digits * 10 + (digits >> 8)) & 0x00ff00ff00ff00ffu;
@@ -486,7 +506,8 @@ static int digits_of_eight(uint64_t letters, uint64_t *value)
   return n;
 }
 
-/* A whole number of few digits, which most numbers of a framework are, in one go; false: it may be another. */
+/* A whole number of few digits, which most numbers of a framework are, in one go; false: it may be
+ * another. */
 static inline bool take_few_digits(parser *p, uint64_t *bits)
 {
   uint64_t letters, value;
@@ -496,7 +517,8 @@ static inline bool take_few_digits(parser *p, uint64_t *bits)
   memcpy(&letters, first, sizeof letters);
   const int n = digits_of_eight(letters, &value);
   const char next = first[n];
-  if (n == 0 || (*first == '0' && n > 1) || (next >= '0' && next <= '9') || next == '.' || next == 'e' || next == 'E')
+  if (n == 0 || (*first == '0' && n > 1) || (next >= '0' && next <= '9') || next == '.' ||
+      next == 'e' || next == 'E')
     return false;
   *bits = tagged(TAG_INT, negative ? -(int64_t)value : (int64_t)value);
   p->at = first + n;
@@ -511,8 +533,11 @@ static thr_status take_number(parser *p, uint64_t *bits)
   const char *begin = p->at, *end = end_of_number(p, &real);
   if (!end) return expected(p, "a number");
   p->at = end;
-  if (!real) return read_whole(begin, end, &whole) ? put_whole(p, whole, bits) : fail_at(p, begin, "too big integer");
-  if (!thr_number_parse(begin, (size_t)(end - begin), &value)) return fail_at(p, begin, "real number overflow");
+  if (!real)
+    return read_whole(begin, end, &whole) ? put_whole(p, whole, bits)
+                                          : fail_at(p, begin, "too big integer");
+  if (!thr_number_parse(begin, (size_t)(end - begin), &value))
+    return fail_at(p, begin, "real number overflow");
   memcpy(bits, &value, sizeof *bits);
   return THR_OK;
 }
@@ -527,13 +552,15 @@ static bool take_word(parser *p, const char *word)
 
 /* ---- lists and objects ---- */
 
-/* The values from first on leave the open ones for a block of the document, where what they point to is at a distance. */
+/* The values from first on leave the open ones for a block of the document, where what they point
+ * to is at a distance. */
 static void close_block(parser *p, size_t first)
 {
   slots *done = &p->done;
   for (size_t i = first; i < p->open.n; i++, done->n++) {
     uint64_t bits = p->open.slot[i].bits;
-    if (is_pointing(bits)) bits = tagged((unsigned)(bits >> 48), payload_of(&p->open.slot[i]) - 16 * (int64_t)done->n);
+    if (is_pointing(bits))
+      bits = tagged((unsigned)(bits >> 48), payload_of(&p->open.slot[i]) - 16 * (int64_t)done->n);
     done->slot[done->n].bits = bits;
   }
   p->open.n = first;
@@ -648,9 +675,15 @@ static thr_status parse_value(parser *p, uint64_t *bits)
   case '[':
   case '{': return parse_nested(p, bits);
   case '"': p->at++; return take_text(p, false, bits);
-  case 'n': *bits = tagged(TAG_WORD, WORD_NULL); return take_word(p, "null") ? THR_OK : expected(p, "a value");
-  case 'f': *bits = tagged(TAG_WORD, WORD_FALSE); return take_word(p, "false") ? THR_OK : expected(p, "a value");
-  case 't': *bits = tagged(TAG_WORD, WORD_TRUE); return take_word(p, "true") ? THR_OK : expected(p, "a value");
+  case 'n':
+    *bits = tagged(TAG_WORD, WORD_NULL);
+    return take_word(p, "null") ? THR_OK : expected(p, "a value");
+  case 'f':
+    *bits = tagged(TAG_WORD, WORD_FALSE);
+    return take_word(p, "false") ? THR_OK : expected(p, "a value");
+  case 't':
+    *bits = tagged(TAG_WORD, WORD_TRUE);
+    return take_word(p, "true") ? THR_OK : expected(p, "a value");
   default: break;
   }
   const char *begin = p->at;
@@ -677,11 +710,18 @@ static thr_status parse_document(parser *p)
   return THR_OK;
 }
 
-static thr_status parse(thr_json **doc, const char *text, size_t n, const char *name, bool python, thr_err *err)
+static thr_status parse(thr_json **doc, const char *text, size_t n, const char *name, bool python,
+                        thr_err *err)
 {
-  bool marked = n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0; /* byte-order mark, as Windows editors leave it */
+  bool marked = n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) ==
+                              0; /* byte-order mark, as Windows editors leave it */
   const char *begin = n == 0 ? "" : marked ? text + 3 : text;
-  parser p = {.text = begin, .at = begin, .end = n == 0 ? begin : text + n, .name = name, .python = python, .err = err};
+  parser p = {.text = begin,
+              .at = begin,
+              .end = n == 0 ? begin : text + n,
+              .name = name,
+              .python = python,
+              .err = err};
   thr_status st = parse_document(&p);
   free(p.open.slot);
   if (st) free(p.done.slot);
@@ -689,12 +729,14 @@ static thr_status parse(thr_json **doc, const char *text, size_t n, const char *
   return st;
 }
 
-thr_status thr_json_parse(thr_json **doc, const char *text, size_t n, const char *name, thr_err *err)
+thr_status thr_json_parse(thr_json **doc, const char *text, size_t n, const char *name,
+                          thr_err *err)
 {
   return parse(doc, text, n, name, false, err);
 }
 
-thr_status thr_json_parse_python(thr_json **doc, const char *text, size_t n, const char *name, thr_err *err)
+thr_status thr_json_parse_python(thr_json **doc, const char *text, size_t n, const char *name,
+                                 thr_err *err)
 {
   return parse(doc, text, n, name, true, err);
 }

@@ -1,4 +1,6 @@
-/* Internal to the readers of graphs: edges by the names of their nodes, which may come after them. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Internal to the readers of graphs: edges by the names of their nodes, which may come after them.
+ */
 #include "graph/io/read_parts.h"
 
 #include <stdlib.h>
@@ -19,14 +21,18 @@ thr_status thr_links_add(thr_links *links, const char *from, const char *to, int
   return THR_OK;
 }
 
-static thr_status find(const thr_links *links, const thr_names *names, size_t at, int *node, const thr_scan *scan, thr_err *err)
+static thr_status find(const thr_links *links, const thr_names *names, size_t at, int *node,
+                       const thr_scan *scan, thr_err *err)
 {
   const thr_span name = thr_span_of(links->names.data + at);
   *node = thr_names_find(names, name);
-  return *node >= 0 ? THR_OK : thr_scan_fail(scan, err, "there is no node '%.*s'", thr_span_width(name), name.s);
+  return *node >= 0
+             ? THR_OK
+             : thr_scan_fail(scan, err, "there is no node '%.*s'", thr_span_width(name), name.s);
 }
 
-thr_status thr_links_finish(const thr_links *links, thr_draft *draft, const char *name, thr_err *err)
+thr_status thr_links_finish(const thr_links *links, thr_draft *draft, const char *name,
+                            thr_err *err)
 {
   thr_names names = {0};
   thr_scan scan = {.name = name};
@@ -39,7 +45,8 @@ thr_status thr_links_finish(const thr_links *links, thr_draft *draft, const char
     st = find(links, &names, link->from, &a, &scan, err);
     if (!st) st = find(links, &names, link->to, &b, &scan, err);
     if (!st) st = thr_draft_add_edge(draft, a, b, link->length, err);
-    if (!st && thr_draft_edge_passes(draft, link->cover, link->passes, &why)) st = thr_scan_fail(&scan, err, "%s", why.text);
+    if (!st && thr_draft_edge_passes(draft, link->cover, link->passes, &why))
+      st = thr_scan_fail(&scan, err, "%s", why.text);
   }
   thr_names_destroy(&names);
   return st;
@@ -62,12 +69,14 @@ static void take_count(thr_span value, bool nothing, int *count, const char **wh
 {
   *count = 0;
   if (nothing) return;
-  if (!thr_span_int(value, count) || *count < 1 || *count > 100) *what = "not a whole number from 1 to 100";
+  if (!thr_span_int(value, count) || *count < 1 || *count > 100)
+    *what = "not a whole number from 1 to 100";
 }
 
 void thr_said_take(thr_said *said, thr_span key, thr_span value, const char **what)
 {
-  static const char *const axis[] = {"x", "y", "z"}, *const foot[] = {"is_support", "is_grounded", "is_anchor", "is_fixed",
+  static const char *const axis[] = {"x", "y", "z"}, *const foot[] = {"is_support", "is_grounded",
+                                                                      "is_anchor", "is_fixed",
                                                                       "foot"};
   bool unused;
   value = thr_span_trim(value);
@@ -76,7 +85,8 @@ void thr_said_take(thr_said *said, thr_span key, thr_span value, const char **wh
   /* igraph writes NaN where an edge does not have what others have. */
   const bool nothing = value.n == 0 || thr_span_is(value, "nan");
   for (size_t i = 0; i < sizeof foot / sizeof *foot; i++)
-    if (thr_span_is(key, foot[i]) && !thr_span_truth(nothing ? thr_span_of("") : value, &said->foot))
+    if (thr_span_is(key, foot[i]) &&
+        !thr_span_truth(nothing ? thr_span_of("") : value, &said->foot))
       *what = "neither true nor false";
   if (thr_span_is(key, "length")) {
     said->length = 0;
@@ -87,11 +97,13 @@ void thr_said_take(thr_said *said, thr_span key, thr_span value, const char **wh
   if (thr_span_is(key, "capacity")) take_count(value, nothing, &said->capacity, what);
 }
 
-thr_status thr_said_node(const thr_said *said, thr_draft *draft, const char *node, bool *has_z, const thr_scan *scan,
-                         thr_err *err)
+thr_status thr_said_node(const thr_said *said, thr_draft *draft, const char *node, bool *has_z,
+                         const thr_scan *scan, thr_err *err)
 {
   for (int i = 0; i < 2; i++)
-    if (!said->has[i]) return thr_scan_fail(scan, err, "node '%.40s' has no %c; nodes need attributes x, y and z", node, 'x' + i);
+    if (!said->has[i])
+      return thr_scan_fail(scan, err, "node '%.40s' has no %c; nodes need attributes x, y and z",
+                           node, 'x' + i);
   *has_z |= said->has[2];
   return thr_draft_add_node(draft, said->xyz, node, said->foot, err);
 }

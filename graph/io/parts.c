@@ -1,5 +1,7 @@
-/* Internal to the readers: the parts of a file that have names of their own, of which one may be asked for (--pick). First all
- * are named, then thr_parts_choose, then what belongs to a part that is not chosen is left out. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Internal to the readers: the parts of a file that have names of their own, of which one may be
+ * asked for (--pick). First all are named, then thr_parts_choose, then what belongs to a part that
+ * is not chosen is left out. */
 #include "graph/io/read_parts.h"
 #include "graph/suggestion.h"
 
@@ -41,23 +43,28 @@ static void list(const thr_parts *parts, thr_text *out)
   thr_text_printf(out, "%s there are: ", *question ? question : ";");
   name = parts->names.data;
   for (int i = 0; i < parts->n && i < MOST_LISTED; i++, name += strlen(name) + 1)
-    *name ? thr_text_printf(out, "%s%.40s", i ? ", " : "", name) : thr_text_printf(out, "%snumber %d", i ? ", " : "", i + 1);
+    *name ? thr_text_printf(out, "%s%.40s", i ? ", " : "", name)
+          : thr_text_printf(out, "%snumber %d", i ? ", " : "", i + 1);
   if (parts->n > MOST_LISTED) thr_text_printf(out, " and %d more", parts->n - MOST_LISTED);
 }
 
-static thr_status refuse(const thr_parts *parts, const char *file, const char *what, const char *many, thr_err *err)
+static thr_status refuse(const thr_parts *parts, const char *file, const char *what,
+                         const char *many, thr_err *err)
 {
   thr_text names = {0};
   if (!parts->n)
-    return thr_fail(err, THR_EINPUT, "%s: there is no %s '%.40s'; the file has no %s", file, what, parts->asked, many);
+    return thr_fail(err, THR_EINPUT, "%s: there is no %s '%.40s'; the file has no %s", file, what,
+                    parts->asked, many);
   list(parts, &names);
   thr_status st = names.failed ? thr_nomem(err)
-                               : thr_fail(err, THR_EINPUT, "%s: there is no %s '%.40s'%s", file, what, parts->asked, names.data);
+                               : thr_fail(err, THR_EINPUT, "%s: there is no %s '%.40s'%s", file,
+                                          what, parts->asked, names.data);
   thr_text_destroy(&names);
   return st;
 }
 
-thr_status thr_parts_choose(thr_parts *parts, const char *file, const char *what, const char *many, thr_err *err)
+thr_status thr_parts_choose(thr_parts *parts, const char *file, const char *what, const char *many,
+                            thr_err *err)
 {
   int number;
   if (!parts->asked) return THR_OK;
@@ -65,7 +72,8 @@ thr_status thr_parts_choose(thr_parts *parts, const char *file, const char *what
   const char *name = parts->names.data;
   for (int i = 0; i < parts->n; i++, name += strlen(name) + 1)
     parts->n_chosen += parts->chosen[i] = strcmp(name, parts->asked) == 0;
-  if (!parts->n_chosen && thr_span_int(thr_span_of(parts->asked), &number) && number >= 1 && number <= parts->n)
+  if (!parts->n_chosen && thr_span_int(thr_span_of(parts->asked), &number) && number >= 1 &&
+      number <= parts->n)
     parts->n_chosen += parts->chosen[number - 1] = true;
   return parts->n_chosen ? THR_OK : refuse(parts, file, what, many, err);
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reading and writing frameworks. docs/formats.md describes every format by example. */
 #include "graph/io/read_parts.h"
 #include "graph/os.h"
@@ -15,19 +16,22 @@ thr_read_options thr_read_options_default(void)
 /* No nodes yet, and what the options ask of the reader. */
 static thr_draft draft_asked(const thr_read_options *options)
 {
-  return (thr_draft){
-      .flat = options->flat, .pick = options->pick, .columns = options->columns, .all_layers = options->all_layers};
+  return (thr_draft){.flat = options->flat,
+                     .pick = options->pick,
+                     .columns = options->columns,
+                     .all_layers = options->all_layers};
 }
 
-static thr_status find_format(const char *text, size_t n, const char *name, const thr_format **format, thr_err *err)
+static thr_status find_format(const char *text, size_t n, const char *name,
+                              const thr_format **format, thr_err *err)
 {
   const thr_format *named;
   thr_status st = thr_format_by_name(name, &named, err);
   return st ? st : thr_format_by_text(text, n, name, named, format, err);
 }
 
-thr_status thr_draft_parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name,
-                           const thr_format *format, thr_err *err)
+thr_status thr_draft_parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n,
+                           const char *name, const thr_format *format, thr_err *err)
 {
   thr_status st = format ? THR_OK : find_format(text, n, name, &format, err);
   if (!st && (st = format->parse(draft, report, text, n, name, err))) {
@@ -40,8 +44,10 @@ thr_status thr_draft_parse(thr_draft *draft, thr_read_report *report, const char
 
 /* ---- the other half of a CSV pair ---- */
 
-/* path with the last `have` of its file name replaced by `want`; NULL in *other if there is none. */
-static thr_status replace_word(const char *path, const char *have, const char *want, char **other, thr_err *err)
+/* path with the last `have` of its file name replaced by `want`; NULL in *other if there is none.
+ */
+static thr_status replace_word(const char *path, const char *have, const char *want, char **other,
+                               thr_err *err)
 {
   const char *found = NULL;
   for (const char *c = thr_os_name(path); (c = strstr(c, have)); c++)
@@ -55,7 +61,8 @@ static thr_status replace_word(const char *path, const char *have, const char *w
 }
 
 /* Name of the table that a nodes-only (or edges-only) file needs, if it exists; NULL otherwise. */
-static thr_status find_partner(const char *path, thr_csv_content content, char **partner, thr_err *err)
+static thr_status find_partner(const char *path, thr_csv_content content, char **partner,
+                               thr_err *err)
 {
   static const char *const word[][2] = {{"nodes", "edges"}, {"Nodes", "Edges"}, {"NODES", "EDGES"}};
   int have = content == THR_CSV_NODES_ONLY ? 0 : 1;
@@ -70,20 +77,25 @@ static thr_status find_partner(const char *path, thr_csv_content content, char *
   return THR_OK;
 }
 
-/* Parses the nodes in one text and the edges in the file at edges_path (nodes_first), or the other way round. */
-static thr_status parse_with(thr_draft *draft, thr_read_report *report, const thr_text *text, const char *path,
-                             const char *other_path, bool nodes_first, thr_err *err)
+/* Parses the nodes in one text and the edges in the file at edges_path (nodes_first), or the other
+ * way round. */
+static thr_status parse_with(thr_draft *draft, thr_read_report *report, const thr_text *text,
+                             const char *path, const char *other_path, bool nodes_first,
+                             thr_err *err)
 {
   thr_text other = {0};
   thr_status st = thr_text_read(&other, other_path, err);
-  if (!st && nodes_first) st = thr_csv_parse_pair(draft, report, text, path, &other, other_path, err);
-  if (!st && !nodes_first) st = thr_csv_parse_pair(draft, report, &other, other_path, text, path, err);
+  if (!st && nodes_first)
+    st = thr_csv_parse_pair(draft, report, text, path, &other, other_path, err);
+  if (!st && !nodes_first)
+    st = thr_csv_parse_pair(draft, report, &other, other_path, text, path, err);
   thr_text_destroy(&other);
   return st;
 }
 
-static thr_status parse_csv_file(thr_draft *draft, thr_read_report *report, const thr_format *format, const thr_text *text,
-                                 const char *path, const char *name, char *pair_path, size_t pair_size, thr_err *err)
+static thr_status parse_csv_file(thr_draft *draft, thr_read_report *report,
+                                 const thr_format *format, const thr_text *text, const char *path,
+                                 const char *name, char *pair_path, size_t pair_size, thr_err *err)
 {
   const thr_draft asked = *draft;
   thr_csv_content content;
@@ -94,7 +106,9 @@ static thr_status parse_csv_file(thr_draft *draft, thr_read_report *report, cons
   *draft = asked;
   *report = (thr_read_report){0};
   st = find_partner(path, content, &partner, err);
-  if (!st && !partner && content == THR_CSV_NODES_ONLY) { /* three numbers may be an edge, too, where the name says so */
+  if (!st && !partner &&
+      content ==
+          THR_CSV_NODES_ONLY) { /* three numbers may be an edge, too, where the name says so */
     content = THR_CSV_EDGES_ONLY;
     st = find_partner(path, content, &partner, err);
   }
@@ -102,24 +116,28 @@ static thr_status parse_csv_file(thr_draft *draft, thr_read_report *report, cons
     if (pair_path) snprintf(pair_path, pair_size, "%s", partner);
     st = parse_with(draft, report, text, path, partner, content == THR_CSV_NODES_ONLY, err);
   } else if (!st) {
-    st = format->parse(draft, report, text->data, text->length, name, err); /* says what is missing */
+    st = format->parse(draft, report, text->data, text->length, name,
+                       err); /* says what is missing */
   }
   free(partner);
   return st;
 }
 
 /* What the options say of all formats, and the framework of the draft. */
-static thr_status build(const thr_read_options *options, const char *name, thr_draft *draft, thr_frame *frame,
-                        thr_read_report *report, thr_err *err)
+static thr_status build(const thr_read_options *options, const char *name, thr_draft *draft,
+                        thr_frame *frame, thr_read_report *report, thr_err *err)
 {
   thr_err why = {0};
   thr_status st = THR_OK;
-  report->units_from = options->units ? THR_FROM_USER : draft->units[0] ? THR_FROM_FILE : THR_FROM_NOBODY;
+  report->units_from = options->units    ? THR_FROM_USER
+                       : draft->units[0] ? THR_FROM_FILE
+                                         : THR_FROM_NOBODY;
   if (options->units)
     st = thr_draft_set_units(draft, options->units, &why);
   else if (draft->other[0])
-    st = thr_fail(&why, THR_EINPUT, "comments name two units of length, %s and %s; say which with --units", draft->other,
-                  draft->units);
+    st = thr_fail(&why, THR_EINPUT,
+                  "comments name two units of length, %s and %s; say which with --units",
+                  draft->other, draft->units);
   if (!st) st = thr_draft_stand(draft, options->up, options->scale, report, &why);
   if (!st && options->parallel) st = thr_draft_keep_parallel(draft, options->weld, &why);
   if (!st) st = thr_draft_build(draft, options->weld, frame, report, &why);
@@ -129,18 +147,22 @@ static thr_status build(const thr_read_options *options, const char *name, thr_d
   return thr_fail(err, st, "%s: %s", name, why.text);
 }
 
-/* THR_EINPUT if the options ask for columns of what is no table, or for a framework that is not there. */
-static thr_status check_asked(const thr_read_options *options, const thr_read_report *report, const thr_format *format,
-                              const char *name, thr_err *err)
+/* THR_EINPUT if the options ask for columns of what is no table, or for a framework that is not
+ * there. */
+static thr_status check_asked(const thr_read_options *options, const thr_read_report *report,
+                              const thr_format *format, const char *name, thr_err *err)
 {
   if (options->columns && !format->pairs)
-    return thr_fail(err, THR_EINPUT, "%s: --columns is for tables; this file is read as %s", name, format->name);
+    return thr_fail(err, THR_EINPUT, "%s: --columns is for tables; this file is read as %s", name,
+                    format->name);
   if (!options->pick || strcmp(options->pick, "1") == 0 || report->frameworks) return THR_OK;
-  return thr_fail(err, THR_EINPUT, "%s: there is no part '%.40s' to pick; the file holds one framework", name, options->pick);
+  return thr_fail(err, THR_EINPUT,
+                  "%s: there is no part '%.40s' to pick; the file holds one framework", name,
+                  options->pick);
 }
 
-thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char *text, size_t n, const char *name,
-                           const thr_read_options *options, thr_err *err)
+thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char *text, size_t n,
+                           const char *name, const thr_read_options *options, thr_err *err)
 {
   thr_draft draft = draft_asked(options);
   *frame = (thr_frame){0};
@@ -154,8 +176,9 @@ thr_status thr_frame_parse(thr_frame *frame, thr_read_report *report, const char
 
 /* ---- files ---- */
 
-thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char *path, const thr_read_options *options,
-                          char *pair_path, size_t pair_size, thr_err *err)
+thr_status thr_frame_read(thr_frame *frame, thr_read_report *report, const char *path,
+                          const thr_read_options *options, char *pair_path, size_t pair_size,
+                          thr_err *err)
 {
   thr_text text = {0};
   thr_draft draft = draft_asked(options);

@@ -1,4 +1,6 @@
-/* CSV: tables of nodes and edges, or one edge per line as six coordinates (docs/formats.md, "CSV"). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* CSV: tables of nodes and edges, or one edge per line as six coordinates (docs/formats.md, "CSV").
+ */
 #include "graph/io/read_parts.h"
 
 #include <math.h>
@@ -8,8 +10,18 @@
 
 enum { MAX_FIELDS = 64 }; /* columns after these are not looked at */
 
-typedef enum { ANY_TABLE, NODE_TABLE, EDGE_TABLE } table_kind;                 /* what the caller knows of the text */
-typedef enum { NO_ROWS, NODE_ROWS, EDGE_ROWS, LINE_ROWS, TEXT_ROWS } row_kind; /* TEXT: lines as WKT */
+typedef enum {
+  ANY_TABLE,
+  NODE_TABLE,
+  EDGE_TABLE
+} table_kind; /* what the caller knows of the text */
+typedef enum {
+  NO_ROWS,
+  NODE_ROWS,
+  EDGE_ROWS,
+  LINE_ROWS,
+  TEXT_ROWS
+} row_kind; /* TEXT: lines as WKT */
 
 /* Where things stand in a row; -1 = nowhere. */
 typedef struct {
@@ -42,7 +54,8 @@ static thr_span field_at(const csv *t, int i)
   return i >= 0 && i < t->n_fields ? t->field[i] : (thr_span){"", 0};
 }
 
-/* A comma in quotes is decimal, too, unless it may part thousands. Grasshopper's panel puts braces round three numbers. */
+/* A comma in quotes is decimal, too, unless it may part thousands. Grasshopper's panel puts braces
+ * round three numbers. */
 static bool number_at(const csv *t, int i, double *x)
 {
   thr_span f = field_at(t, i);
@@ -59,11 +72,12 @@ static bool number_at(const csv *t, int i, double *x)
 
 /* ---- from line to fields ---- */
 
-/* What kind of geometry a well-known text is, NULL if none: *rest receives its lists of points, *measured whether a third number
- * is a measure and no z. */
+/* What kind of geometry a well-known text is, NULL if none: *rest receives its lists of points,
+ * *measured whether a third number is a measure and no z. */
 static const char *wkt_of(thr_span text, thr_span *rest, bool *measured)
 {
-  static const char *const kind[] = {"LINESTRING", "MULTILINESTRING", "POLYGON", "MULTIPOLYGON", "POINT", "MULTIPOINT"};
+  static const char *const kind[] = {"LINESTRING",   "MULTILINESTRING", "POLYGON",
+                                     "MULTIPOLYGON", "POINT",           "MULTIPOINT"};
   const char *after = text.n && thr_span_starts(text, "SRID=") ? memchr(text.s, ';', text.n) : NULL;
   if (after) text = (thr_span){after + 1, text.n - (size_t)(after + 1 - text.s)};
   for (size_t i = 0; i < sizeof kind / sizeof *kind; i++) {
@@ -119,7 +133,8 @@ static thr_status take_field(csv *t, thr_span *rest, thr_span *field)
     start = ++i;
     while (i < rest->n && (rest->s[i] != '"' || (i + 1 < rest->n && rest->s[i + 1] == '"')))
       i += rest->s[i] == '"' ? 2 : 1;
-    if (i >= rest->n) return thr_scan_fail(&t->scan, t->err, "a quote is not closed; close it on the same line");
+    if (i >= rest->n)
+      return thr_scan_fail(&t->scan, t->err, "a quote is not closed; close it on the same line");
     end = i++;
   } else {
     start = i;
@@ -135,8 +150,8 @@ static thr_status take_field(csv *t, thr_span *rest, thr_span *field)
   return THR_OK;
 }
 
-/* Fills t->field from the next line that has something on it; empty fields at the end do not count (spreadsheets pad
- * rows). *more is false at the end of the text. */
+/* Fills t->field from the next line that has something on it; empty fields at the end do not count
+ * (spreadsheets pad rows). *more is false at the end of the text. */
 static thr_status next_row(csv *t, bool *more)
 {
   thr_span line, rest;
@@ -170,7 +185,8 @@ static thr_status next_row(csv *t, bool *more)
 
 /* ---- names ---- */
 
-/* Tables that went through floating point call node 7 "7.0". An apostrophe keeps a spreadsheet from taking a name for a formula.
+/* Tables that went through floating point call node 7 "7.0". An apostrophe keeps a spreadsheet from
+ * taking a name for a formula.
  */
 static thr_span plain_name(thr_span t)
 {
@@ -179,7 +195,8 @@ static thr_span plain_name(thr_span t)
   while (n && t.s[n - 1] == '0')
     n--;
   int whole;
-  if (n > 1 && n < t.n && t.s[n - 1] == '.' && thr_span_int((thr_span){t.s, n - 1}, &whole)) t.n = n - 1;
+  if (n > 1 && n < t.n && t.s[n - 1] == '.' && thr_span_int((thr_span){t.s, n - 1}, &whole))
+    t.n = n - 1;
   return t;
 }
 
@@ -218,7 +235,8 @@ static int column(const csv *t, const char *const *names)
 
 static columns no_columns(const csv *t, row_kind kind, bool header)
 {
-  return (columns){kind, header, t->n_fields, -1, {-1, -1, -1, -1, -1, -1}, -1, {0, 1}, -1, -1, -1, -1, false};
+  return (columns){kind, header, t->n_fields, -1,   {-1, -1, -1, -1, -1, -1}, -1, {0, 1}, -1,
+                   -1,   -1,     -1,          false};
 }
 
 /* What a header may say of edges beside their ends. */
@@ -235,12 +253,14 @@ static void list_columns(const csv *t, char *out, size_t size)
   *out = '\0';
   for (int i = 0; i < t->n_fields && strlen(out) + 8 < size; i++) {
     const size_t n = strlen(out);
-    snprintf(out + n, size - n, "%s%.*s", i ? ", " : "", thr_span_width(t->field[i]), t->field[i].s);
+    snprintf(out + n, size - n, "%s%.*s", i ? ", " : "", thr_span_width(t->field[i]),
+             t->field[i].s);
   }
   thr_text_clean(out);
 }
 
-/* Fills header[n_fields] with what the row says of its columns. False if it is none, because two fields are numbers. */
+/* Fills header[n_fields] with what the row says of its columns. False if it is none, because two
+ * fields are numbers. */
 static bool read_headers(const csv *t, thr_header *header)
 {
   double x;
@@ -252,7 +272,8 @@ static bool read_headers(const csv *t, thr_header *header)
   return numbers < 2;
 }
 
-/* Finds the columns of both ends of a line: x1, y1, z1, x2, y2, z2 or the same with another pair of words. */
+/* Finds the columns of both ends of a line: x1, y1, z1, x2, y2, z2 or the same with another pair of
+ * words. */
 static bool find_line_columns(const csv *t, const thr_header *header, columns *c)
 {
   const char *word[2];
@@ -268,7 +289,8 @@ static bool find_line_columns(const csv *t, const thr_header *header, columns *c
   return false;
 }
 
-/* Finds the columns of nodes: x, y, z, the feet and the name, which is the first column that means one or else the first. */
+/* Finds the columns of nodes: x, y, z, the feet and the name, which is the first column that means
+ * one or else the first. */
 static bool find_node_columns(const csv *t, const thr_header *header, columns *c)
 {
   *c = no_columns(t, NODE_ROWS, true);
@@ -300,7 +322,8 @@ static thr_status take_units(csv *t, const thr_header *header)
       used = t->c.kind != EDGE_ROWS && i == t->c.xyz[k];
     if (!used || !header[i].unit[0]) continue;
     if (t->d->units[0] && strcmp(t->d->units, header[i].unit) != 0)
-      return thr_scan_fail(&t->scan, t->err, "lengths in %s and in %s; give all of them in one unit", t->d->units,
+      return thr_scan_fail(&t->scan, t->err,
+                           "lengths in %s and in %s; give all of them in one unit", t->d->units,
                            header[i].unit);
     thr_status st = thr_draft_set_units(t->d, header[i].unit, t->err);
     if (st) return st;
@@ -308,7 +331,8 @@ static thr_status take_units(csv *t, const thr_header *header)
   return THR_OK;
 }
 
-/* Whether a node read so far has this name. O(nodes): before edges begin, while there is no list by name. */
+/* Whether a node read so far has this name. O(nodes): before edges begin, while there is no list by
+ * name. */
 static bool is_node(const csv *t, thr_span name)
 {
   bool found = false;
@@ -324,9 +348,11 @@ static thr_status coordinate_header(csv *t, bool *is)
 {
   thr_header header[MAX_FIELDS];
   columns c;
-  *is = read_headers(t, header) && (find_line_columns(t, header, &c) || find_node_columns(t, header, &c) ||
-                                    (t->c.kind == NO_ROWS && find_text_column(t, header, &c)));
-  if (*is && t->c.kind == NODE_ROWS && t->n_fields == 2) *is = !is_node(t, t->field[0]) || !is_node(t, t->field[1]);
+  *is = read_headers(t, header) &&
+        (find_line_columns(t, header, &c) || find_node_columns(t, header, &c) ||
+         (t->c.kind == NO_ROWS && find_text_column(t, header, &c)));
+  if (*is && t->c.kind == NODE_ROWS && t->n_fields == 2)
+    *is = !is_node(t, t->field[0]) || !is_node(t, t->field[1]);
   if (!*is) return THR_OK;
   if (c.kind == LINE_ROWS) find_edge_columns(t, &c);
   t->c = c;
@@ -339,16 +365,19 @@ static thr_status find_asked_ends(csv *t)
   thr_span rest = thr_span_of(t->d->columns);
   for (int end = 0; end < 2; end++) {
     const char *comma = end ? NULL : memchr(rest.s, ',', rest.n);
-    const thr_span asked = thr_span_trim((thr_span){rest.s, comma ? (size_t)(comma - rest.s) : rest.n});
+    const thr_span asked =
+        thr_span_trim((thr_span){rest.s, comma ? (size_t)(comma - rest.s) : rest.n});
     int number = 0, at = -1;
     for (int i = t->n_fields - 1; i >= 0 && t->c.header; i--)
       if (thr_span_same(t->field[i], asked)) at = i;
-    if (at < 0 && thr_span_int(asked, &number) && number >= 1 && number <= t->n_fields) at = number - 1;
+    if (at < 0 && thr_span_int(asked, &number) && number >= 1 && number <= t->n_fields)
+      at = number - 1;
     if (at < 0) {
       char seen[160];
       list_columns(t, seen, sizeof seen);
-      return thr_scan_fail(&t->scan, t->err, "no column '%.*s', which --columns asks for, among %s", thr_span_width(asked),
-                           asked.s, t->c.header ? seen : "the numbers of the columns");
+      return thr_scan_fail(&t->scan, t->err, "no column '%.*s', which --columns asks for, among %s",
+                           thr_span_width(asked), asked.s,
+                           t->c.header ? seen : "the numbers of the columns");
     }
     t->c.ends[end] = at;
     rest = comma ? (thr_span){comma + 1, rest.n - (size_t)(comma + 1 - rest.s)} : (thr_span){"", 0};
@@ -357,8 +386,8 @@ static thr_status find_asked_ends(csv *t)
   return THR_OK;
 }
 
-/* Marks the columns whose values all name nodes, in the rows that are left and, if there is no header, in this one. *counts is
- * set to whether the first column counts the rows, from 0 or 1. */
+/* Marks the columns whose values all name nodes, in the rows that are left and, if there is no
+ * header, in this one. *counts is set to whether the first column counts the rows, from 0 or 1. */
 static thr_status find_naming_columns(const csv *t, bool *names, bool *counts)
 {
   csv ahead = *t;
@@ -386,8 +415,9 @@ static thr_status find_naming_columns(const csv *t, bool *names, bool *counts)
   return st;
 }
 
-/* Sets the two columns of the ends by their values, where the headers do not say them: those two that always name nodes. A
- * third one that does is the number of the bar if its header says so or, the first one, if it counts the rows. */
+/* Sets the two columns of the ends by their values, where the headers do not say them: those two
+ * that always name nodes. A third one that does is the number of the bar if its header says so or,
+ * the first one, if it counts the rows. */
 static thr_status find_ends_by_values(csv *t, const thr_header *header)
 {
   bool names[MAX_FIELDS], counts;
@@ -403,14 +433,16 @@ static thr_status find_ends_by_values(csv *t, const thr_header *header)
     }
   if (!st && n > 2)
     return thr_scan_fail(&t->scan, t->err,
-                         "%d columns name nodes; say which two are the ends of an edge with --columns 2,3 or a header a,b", n);
+                         "%d columns name nodes; say which two are the ends of an edge with "
+                         "--columns 2,3 or a header a,b",
+                         n);
   for (int i = 0, end = 0; i < t->n_fields && n == 2; i++)
     if (names[i]) t->c.ends[end++] = i;
   return st;
 }
 
-/* Learns from the header of edges which columns their ends stand in: those of a pair of words, of several pairs the first one
- * whose values all name nodes; else by the values. */
+/* Learns from the header of edges which columns their ends stand in: those of a pair of words, of
+ * several pairs the first one whose values all name nodes; else by the values. */
 static thr_status edge_header(csv *t)
 {
   thr_header header[MAX_FIELDS];
@@ -424,7 +456,9 @@ static thr_status edge_header(csv *t)
   for (int pair = 0; thr_header_pair(pair, word); pair++)
     for (int a = 0; a < t->n_fields; a++)
       for (int b = 0; b < t->n_fields; b++) {
-        if (a == b || (found && !(names[a] && names[b])) || !thr_header_ends(&header[a], &header[b], word)) continue;
+        if (a == b || (found && !(names[a] && names[b])) ||
+            !thr_header_ends(&header[a], &header[b], word))
+          continue;
         if (found && names[t->c.ends[0]] && names[t->c.ends[1]]) continue;
         t->c.ends[0] = a;
         t->c.ends[1] = b;
@@ -449,8 +483,9 @@ static bool all_words(const csv *t)
 
 /* ---- rows ---- */
 
-/* Where ';' parts the fields, keeps the first number whose dot may part thousands for a note, and whether there is one whose dot
- * cannot: thousands are 1 to 3 digits, not 0 first, a dot and 3 digits. */
+/* Where ';' parts the fields, keeps the first number whose dot may part thousands for a note, and
+ * whether there is one whose dot cannot: thousands are 1 to 3 digits, not 0 first, a dot and 3
+ * digits. */
 static void watch_dot(csv *t, thr_span f)
 {
   if (f.n && (f.s[0] == '-' || f.s[0] == '+')) f = (thr_span){f.s + 1, f.n - 1};
@@ -473,10 +508,14 @@ static thr_status read_coordinates(csv *t, const int *at, double xyz[3])
       continue;
     }
     t->has_z |= i == 2;
-    if (f.n == 0) return thr_scan_fail(&t->scan, t->err, "no %c coordinate in column %d; give a number", 'x' + i, at[i] + 1);
+    if (f.n == 0)
+      return thr_scan_fail(&t->scan, t->err, "no %c coordinate in column %d; give a number",
+                           'x' + i, at[i] + 1);
     if (!number_at(t, at[i], &xyz[i]))
-      return thr_scan_fail(&t->scan, t->err, "'%.*s' in column %d is not a finite number; give %c as a decimal number",
-                           thr_span_width(f), f.s, at[i] + 1, 'x' + i);
+      return thr_scan_fail(
+          &t->scan, t->err,
+          "'%.*s' in column %d is not a finite number; give %c as a decimal number",
+          thr_span_width(f), f.s, at[i] + 1, 'x' + i);
     watch_dot(t, f);
   }
   return THR_OK;
@@ -486,7 +525,8 @@ static thr_status read_foot(const csv *t, bool *foot)
 {
   thr_span f = field_at(t, t->c.foot);
   if (!thr_span_truth(f, foot))
-    return thr_scan_fail(&t->scan, t->err, "'%.*s' in column %d does not say whether this is a foot; use 1 or 0",
+    return thr_scan_fail(&t->scan, t->err,
+                         "'%.*s' in column %d does not say whether this is a foot; use 1 or 0",
                          thr_span_width(f), f.s, t->c.foot + 1);
   return THR_OK;
 }
@@ -497,9 +537,10 @@ static thr_status read_length(csv *t, double *length)
   *length = 0;
   watch_dot(t, f);
   if (f.n == 0 || (number_at(t, t->c.length, length) && *length > 0)) return THR_OK;
-  return thr_scan_fail(&t->scan, t->err,
-                       "length '%.*s' is not a positive number; leave it empty for the distance of the two nodes",
-                       thr_span_width(f), f.s);
+  return thr_scan_fail(
+      &t->scan, t->err,
+      "length '%.*s' is not a positive number; leave it empty for the distance of the two nodes",
+      thr_span_width(f), f.s);
 }
 
 /* A whole number from 1; 0 if the field is empty. */
@@ -508,8 +549,9 @@ static thr_status read_count(const csv *t, int at, const char *what, int *count)
   thr_span f = field_at(t, at);
   *count = 0;
   if (f.n == 0 || (thr_span_int(plain_name(f), count) && *count >= 1)) return THR_OK;
-  return thr_scan_fail(&t->scan, t->err, "%s '%.*s' is not a whole number from 1 on; leave it empty if there is none", what,
-                       thr_span_width(f), f.s);
+  return thr_scan_fail(&t->scan, t->err,
+                       "%s '%.*s' is not a whole number from 1 on; leave it empty if there is none",
+                       what, thr_span_width(f), f.s);
 }
 
 /* Adds an edge with what its row says beside the ends. */
@@ -536,9 +578,11 @@ static thr_status add_node(csv *t)
   if (st) return st;
 
   thr_span id = field_at(t, t->c.id);
-  if (t->c.id >= 0 && id.n == 0) return thr_scan_fail(&t->scan, t->err, "the node has no name in column %d", t->c.id + 1);
+  if (t->c.id >= 0 && id.n == 0)
+    return thr_scan_fail(&t->scan, t->err, "the node has no name in column %d", t->c.id + 1);
   if (!thr_text_is_utf8(id.s, id.n))
-    return thr_scan_fail(&t->scan, t->err, "the node's name is not UTF-8; save the file as UTF-8 text");
+    return thr_scan_fail(&t->scan, t->err,
+                         "the node's name is not UTF-8; save the file as UTF-8 text");
   char number[16];
   const char *name;
   snprintf(number, sizeof number, "%d", t->d->n_nodes);
@@ -554,8 +598,10 @@ static thr_status add_edge(csv *t)
     thr_status st = node_in(t, id, &end[i]);
     if (st) return st;
     if (end[i] < 0)
-      return thr_scan_fail(&t->scan, t->err, "there is no node '%.*s'; the nodes are called '%.40s' to '%.40s'",
-                           thr_span_width(id), id.s, thr_draft_name(t->d, 0), thr_draft_name(t->d, t->d->n_nodes - 1));
+      return thr_scan_fail(&t->scan, t->err,
+                           "there is no node '%.*s'; the nodes are called '%.40s' to '%.40s'",
+                           thr_span_width(id), id.s, thr_draft_name(t->d, 0),
+                           thr_draft_name(t->d, t->d->n_nodes - 1));
   }
   return finish_edge(t, end[0], end[1]);
 }
@@ -575,14 +621,17 @@ static thr_status end_point(csv *t, const double *number, int n, bool measured, 
 {
   const double xyz[3] = {number[0], number[1], n > 2 && !measured ? number[2] : 0};
   t->has_z |= n > 2 && !measured;
-  thr_status st = n < 2 ? thr_scan_fail(&t->scan, t->err, "a point of one number; give x and y or x, y and z") : THR_OK;
+  thr_status st =
+      n < 2 ? thr_scan_fail(&t->scan, t->err, "a point of one number; give x and y or x, y and z")
+            : THR_OK;
   if (!st) st = thr_draft_add_node(t->d, xyz, NULL, false, t->err);
   if (!st && *before >= 0) st = thr_draft_add_edge(t->d, *before, t->d->n_nodes - 1, 0, t->err);
   *before = t->d->n_nodes - 1;
   return st;
 }
 
-/* Adds the lines of a well-known text, "LINESTRING Z (0 0 0, 20 0 0)": lists of points in brackets. */
+/* Adds the lines of a well-known text, "LINESTRING Z (0 0 0, 20 0 0)": lists of points in brackets.
+ */
 static thr_status add_text(csv *t)
 {
   const thr_span whole = field_at(t, t->c.text);
@@ -593,8 +642,10 @@ static thr_status add_text(csv *t)
   if (whole.n == 0) return THR_OK;
   const char *kind = wkt_of(whole, &text, &measured);
   if (!kind)
-    return thr_scan_fail(&t->scan, t->err, "'%.*s' in column %d is no line; write LINESTRING Z (0 0 0, 20 0 0), in quotes",
-                         thr_span_width(whole), whole.s, t->c.text + 1);
+    return thr_scan_fail(
+        &t->scan, t->err,
+        "'%.*s' in column %d is no line; write LINESTRING Z (0 0 0, 20 0 0), in quotes",
+        thr_span_width(whole), whole.s, t->c.text + 1);
   if (strstr(kind, "POINT")) thr_report_skip(t->report, thr_span_of(kind));
   if (strstr(kind, "POINT") || (text.n && text.s[0] != '(')) return THR_OK; /* EMPTY */
 
@@ -609,7 +660,8 @@ static thr_status add_text(csv *t)
       if (text.s[i] == ')') before = -1;
       depth -= text.s[i] == ')';
       n_numbers = 0;
-    } else if (n && (depth < 1 || n_numbers == 4 || !thr_span_number((thr_span){text.s + i, n}, false, &number[n_numbers++]))) {
+    } else if (n && (depth < 1 || n_numbers == 4 ||
+                     !thr_span_number((thr_span){text.s + i, n}, false, &number[n_numbers++]))) {
       depth = -1;
     }
     if (st) return st;
@@ -617,7 +669,8 @@ static thr_status add_text(csv *t)
     n += n == 0;
   }
   return depth == 0 ? THR_OK
-                    : thr_scan_fail(&t->scan, t->err, "'%.*s' is not lists of points in brackets", thr_span_width(text), text.s);
+                    : thr_scan_fail(&t->scan, t->err, "'%.*s' is not lists of points in brackets",
+                                    thr_span_width(text), text.s);
 }
 
 /* ---- what kind of row ---- */
@@ -650,9 +703,10 @@ static thr_status guess_columns(csv *t)
   }
   if (t->expected == EDGE_TABLE || (n != 3 && n != 4))
     return thr_scan_fail(&t->scan, t->err, "a row of %d fields without a header; %s", n,
-                         t->expected == EDGE_TABLE   ? "an edge names two nodes"
-                         : t->expected == NODE_TABLE ? "a node is x,y,z or id,x,y,z"
-                                                     : "an edge is x1,y1,z1,x2,y2,z2, a node x,y,z or id,x,y,z");
+                         t->expected == EDGE_TABLE ? "an edge names two nodes"
+                         : t->expected == NODE_TABLE
+                             ? "a node is x,y,z or id,x,y,z"
+                             : "an edge is x1,y1,z1,x2,y2,z2, a node x,y,z or id,x,y,z");
   t->c = no_columns(t, NODE_ROWS, false);
   if (n == 4) t->c.id = 0;
   for (int i = 0; i < 3; i++)
@@ -672,13 +726,17 @@ static thr_status learn(csv *t, bool *used)
   }
   if (*used) {
     if (t->c.kind == NODE_ROWS || (t->expected == ANY_TABLE && fresh)) return THR_OK;
-    return thr_scan_fail(&t->scan, t->err, "columns x1 to z2 make a table of their own; take them out of the table of nodes");
+    return thr_scan_fail(
+        &t->scan, t->err,
+        "columns x1 to z2 make a table of their own; take them out of the table of nodes");
   }
   if ((fresh || nodes_open) && t->n_fields >= 2 && all_words(t)) {
     char seen[160];
     list_columns(t, seen, sizeof seen);
     if (t->expected == NODE_TABLE)
-      return thr_scan_fail(&t->scan, t->err, "the header names no columns x and y but %s; name the columns id,x,y,z", seen);
+      return thr_scan_fail(&t->scan, t->err,
+                           "the header names no columns x and y but %s; name the columns id,x,y,z",
+                           seen);
     int a, b;
     thr_status st = begin_edges(t);
     if (!st) st = node_in(t, t->field[0], &a);
@@ -688,16 +746,19 @@ static thr_status learn(csv *t, bool *used)
     return *used ? edge_header(t) : t->n_fields > 2 ? find_ends_by_values(t, NULL) : THR_OK;
   }
   if (fresh) return guess_columns(t);
-  if (nodes_open && t->expected == ANY_TABLE && t->n_fields == 2 && t->c.width > 2) return begin_edges(t);
+  if (nodes_open && t->expected == ANY_TABLE && t->n_fields == 2 && t->c.width > 2)
+    return begin_edges(t);
   return THR_OK;
 }
 
-/* Columns that mean nothing go into the report by name, of the row that the columns were learnt from. */
+/* Columns that mean nothing go into the report by name, of the row that the columns were learnt
+ * from. */
 static void note_unused(csv *t)
 {
   const columns *c = &t->c;
   for (int i = 0; i < t->n_fields; i++) {
-    bool used = i == c->id || i == c->foot || i == c->length || i == c->cover || i == c->capacity || i == c->text;
+    bool used = i == c->id || i == c->foot || i == c->length || i == c->cover || i == c->capacity ||
+                i == c->text;
     for (int k = 0; k < 6; k++)
       used |= c->kind != EDGE_ROWS && i == c->xyz[k];
     for (int k = 0; k < 2; k++)
@@ -706,7 +767,8 @@ static void note_unused(csv *t)
     if (used || n + 1 >= size) continue;
     const char *comma = n ? ", " : "";
     if (c->header && t->field[i].n)
-      snprintf(t->report->unused + n, size - n, "%s%.*s", comma, thr_span_width(t->field[i]), t->field[i].s);
+      snprintf(t->report->unused + n, size - n, "%s%.*s", comma, thr_span_width(t->field[i]),
+               t->field[i].s);
     else
       snprintf(t->report->unused + n, size - n, "%scolumn %d", comma, i + 1);
   }
@@ -716,8 +778,10 @@ static void note_unused(csv *t)
 static thr_status add_row(csv *t)
 {
   if (!t->c.header && t->n_fields != t->c.width && !(t->expected == EDGE_TABLE && t->n_fields >= 2))
-    return thr_scan_fail(&t->scan, t->err, "%d fields where the rows before have %d; %s", t->n_fields, t->c.width,
-                         t->c.kind == EDGE_ROWS ? "nodes come before edges" : "complete the row or put a header before it");
+    return thr_scan_fail(&t->scan, t->err, "%d fields where the rows before have %d; %s",
+                         t->n_fields, t->c.width,
+                         t->c.kind == EDGE_ROWS ? "nodes come before edges"
+                                                : "complete the row or put a header before it");
   switch (t->c.kind) {
   case NODE_ROWS: return add_node(t);
   case EDGE_ROWS: return add_edge(t);
@@ -739,8 +803,9 @@ static bool has_length_one(const double *p)
   return fabs(sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]) - 1) <= 1e-3;
 }
 
-/* THR_EINPUT if lines without a header seem to be points with their normals: every second point has length 1 and begins no line,
- * and the first ones neither are one point nor have length 1, too. O(n log n). */
+/* THR_EINPUT if lines without a header seem to be points with their normals: every second point has
+ * length 1 and begins no line, and the first ones neither are one point nor have length 1, too. O(n
+ * log n). */
 static thr_status check_normals(const csv *t)
 {
   const int n = t->d->n_nodes / 2;
@@ -763,13 +828,15 @@ static thr_status check_normals(const csv *t)
   free(begins);
   return joined ? THR_OK
                 : thr_fail(t->err, THR_EINPUT,
-                           "%s: six columns without a header look like points and their normals; if they are edges, put the "
+                           "%s: six columns without a header look like points and their normals; "
+                           "if they are edges, put the "
                            "header x1,y1,z1,x2,y2,z2 before them",
                            t->scan.name);
 }
 
 /* Reads one table into t->d. An edge table without nodes is not read further than its first row. */
-static thr_status read_table(csv *t, const char *text, size_t n, const char *name, thr_csv_content *content)
+static thr_status read_table(csv *t, const char *text, size_t n, const char *name,
+                             thr_csv_content *content)
 {
   bool more = true, used;
   *content = THR_CSV_WHOLE;
@@ -802,14 +869,15 @@ static thr_status finish(csv *t, thr_status st)
   return st;
 }
 
-thr_status thr_csv_scan(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name,
-                        thr_csv_content *content, thr_err *err)
+thr_status thr_csv_scan(thr_draft *draft, thr_read_report *report, const char *text, size_t n,
+                        const char *name, thr_csv_content *content, thr_err *err)
 {
   csv t = {.expected = ANY_TABLE, .d = draft, .report = report, .err = err};
   return finish(&t, read_table(&t, text, n, name, content));
 }
 
-static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n,
+                        const char *name, thr_err *err)
 {
   thr_csv_content content;
   csv t = {.expected = ANY_TABLE, .d = draft, .report = report, .err = err};
@@ -819,19 +887,24 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
   thr_draft_destroy(draft);
   list_columns(&t, seen, sizeof seen);
   if (content == THR_CSV_EDGES_ONLY && t.c.header && !t.c.paired)
-    return thr_scan_fail(
-        &t.scan, err,
-        "columns %s: no coordinates (x,y,z or x1,y1,z1,x2,y2,z2) and no two ends of edges (a,b or start,end) are "
-        "among them",
-        seen);
+    return thr_scan_fail(&t.scan, err,
+                         "columns %s: no coordinates (x,y,z or x1,y1,z1,x2,y2,z2) and no two ends "
+                         "of edges (a,b or start,end) are "
+                         "among them",
+                         seen);
   return content == THR_CSV_NODES_ONLY
-             ? thr_fail(err, THR_EINPUT, "%s: nodes but no edges; add rows that name two nodes, or give the table of edges too",
+             ? thr_fail(err, THR_EINPUT,
+                        "%s: nodes but no edges; add rows that name two nodes, or give the table "
+                        "of edges too",
                         name)
-             : thr_fail(err, THR_EINPUT, "%s: edges but no columns x and y before them; give the table of nodes too", name);
+             : thr_fail(err, THR_EINPUT,
+                        "%s: edges but no columns x and y before them; give the table of nodes too",
+                        name);
 }
 
-thr_status thr_csv_parse_pair(thr_draft *draft, thr_read_report *report, const thr_text *nodes, const char *nodes_name,
-                              const thr_text *edges, const char *edges_name, thr_err *err)
+thr_status thr_csv_parse_pair(thr_draft *draft, thr_read_report *report, const thr_text *nodes,
+                              const char *nodes_name, const thr_text *edges, const char *edges_name,
+                              thr_err *err)
 {
   thr_csv_content content;
   csv n = {.expected = NODE_TABLE, .d = draft, .report = report, .err = err};
@@ -839,7 +912,8 @@ thr_status thr_csv_parse_pair(thr_draft *draft, thr_read_report *report, const t
   thr_status st = read_table(&n, nodes->data, nodes->length, nodes_name, &content);
   report->no_z = !n.has_z;
   report->empty_z = n.has_z ? n.empty_z : 0;
-  if (!st && draft->n_nodes == 0) st = thr_fail(err, THR_EINPUT, "%s: no row with a node's coordinates", nodes_name);
+  if (!st && draft->n_nodes == 0)
+    st = thr_fail(err, THR_EINPUT, "%s: no row with a node's coordinates", nodes_name);
   if (!st) st = thr_names_build(&e.names, draft, nodes_name, err);
   if (!st) st = read_table(&e, edges->data, edges->length, edges_name, &content);
   thr_names_destroy(&n.names);

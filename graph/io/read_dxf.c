@@ -1,8 +1,11 @@
-/* DXF, the drawing exchange format of AutoCAD, as text: LINE, LWPOLYLINE, POLYLINE (2-D, 3-D, meshes and polyface meshes),
- * 3DFACE, SPLINE, ARC and ELLIPSE, and INSERT of blocks, nested and in arrays. Autodesk, "DXF Reference".
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* DXF, the drawing exchange format of AutoCAD, as text: LINE, LWPOLYLINE, POLYLINE (2-D, 3-D,
+ * meshes and polyface meshes), 3DFACE, SPLINE, ARC and ELLIPSE, and INSERT of blocks, nested and in
+ * arrays. Autodesk, "DXF Reference".
  *
- * A drawing is pairs of lines, a group code and a value. Each entity is read as a whole into its paths and faces, in the
- * coordinates of its block; at the end the model's entities are placed, with the blocks that they insert. */
+ * A drawing is pairs of lines, a group code and a value. Each entity is read as a whole into its
+ * paths and faces, in the coordinates of its block; at the end the model's entities are placed,
+ * with the blocks that they insert. */
 #include "graph/angle.h"
 #include "graph/io/read_parts.h"
 #include "graph/vector.h"
@@ -13,7 +16,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_NESTED = 16, MOST_INSERTED = 1000000, MOST_PLACED = 20000000 }; /* blocks in blocks; all blocks; all their points */
+enum {
+  MOST_NESTED = 16,
+  MOST_INSERTED = 1000000,
+  MOST_PLACED = 20000000
+}; /* blocks in blocks; all blocks; all their points */
 
 /* x' = m x + t */
 typedef struct {
@@ -38,7 +45,8 @@ typedef struct {
   double center[3], major[3], minor[3];
 } ellipse;
 
-/* A curve in the coordinates of its block: a part of an ellipse, or a spline, whose arrays are owned. */
+/* A curve in the coordinates of its block: a part of an ellipse, or a spline, whose arrays are
+ * owned. */
 typedef struct {
   ellipse arc;
   double from, to; /* of arc */
@@ -46,13 +54,14 @@ typedef struct {
   double (*control)[3], *weight, *knot;
 } curve;
 
-/* A run of points: open, or a face; or a block inserted; or a record that is only counted, wherever it is placed. */
+/* A run of points: open, or a face; or a block inserted; or a record that is only counted, wherever
+ * it is placed. */
 typedef struct {
   shape_kind kind;
   int first, last;     /* PATH, RING: points; INSERT: which of inserted; UNUSED: which of unused */
   double curve_length; /* PATH of two points: how long the curve between them is, 0 = straight */
   int curve;           /* the curve, if curve_length is not 0 */
-  int layer;           /* number of the part, or without --pick of the hidden layer, or SHOWN; ON_ZERO */
+  int layer; /* number of the part, or without --pick of the hidden layer, or SHOWN; ON_ZERO */
 } shape;
 
 typedef struct {
@@ -67,8 +76,8 @@ typedef struct {
   placing place;
 } insertion;
 
-/* A layer that is not shown. What is inserted on one that is frozen is hidden as a whole, on one that is off only what would take
- * its layer from the insertion. */
+/* A layer that is not shown. What is inserted on one that is frozen is hidden as a whole, on one
+ * that is off only what would take its layer from the insertion. */
 typedef struct {
   thr_span name;
   bool frozen;
@@ -130,9 +139,12 @@ static thr_status look(dxf *d)
     return THR_OK;
   }
   if (!thr_span_int(thr_span_trim(code), &number))
-    return thr_scan_fail(&d->scan, d->err, "'%.*s' is no group code; a DXF file is pairs of lines, a number and a value",
-                         thr_span_width(code), code.s);
-  if (!thr_scan_line(&d->scan, &value)) return thr_scan_fail(&d->scan, d->err, "the file ends in the middle of a pair");
+    return thr_scan_fail(
+        &d->scan, d->err,
+        "'%.*s' is no group code; a DXF file is pairs of lines, a number and a value",
+        thr_span_width(code), code.s);
+  if (!thr_scan_line(&d->scan, &value))
+    return thr_scan_fail(&d->scan, d->err, "the file ends in the middle of a pair");
   d->next = (pair){number, thr_span_trim(value)};
   return THR_OK;
 }
@@ -168,7 +180,8 @@ static const pair *find(const dxf *d, int code)
 
 static thr_status number_of(dxf *d, const pair *p, double *x)
 {
-  return thr_span_number(p->value, false, x) ? THR_OK : fail(d, "has a value that is not a finite number");
+  return thr_span_number(p->value, false, x) ? THR_OK
+                                             : fail(d, "has a value that is not a finite number");
 }
 
 static thr_status number(dxf *d, int code, double otherwise, double *x)
@@ -182,7 +195,8 @@ static thr_status whole(dxf *d, int code, int *n)
 {
   const pair *p = find(d, code);
   *n = 0;
-  return !p || thr_span_int(p->value, n) ? THR_OK : fail(d, "has a value that is not a whole number");
+  return !p || thr_span_int(p->value, n) ? THR_OK
+                                         : fail(d, "has a value that is not a whole number");
 }
 
 /* The point whose codes are code, code + 10 and code + 20; what is missing is 0. */
@@ -194,10 +208,12 @@ static thr_status point_of(dxf *d, int code, double xyz[3])
   return st;
 }
 
-/* Returns c, or the small letter of a capital one: of ASCII, and after the byte C3 of UTF-8 of Latin-1. */
+/* Returns c, or the small letter of a capital one: of ASCII, and after the byte C3 of UTF-8 of
+ * Latin-1. */
 static unsigned char small(unsigned char before, unsigned char c)
 {
-  const bool capital = (c >= 'A' && c <= 'Z') || (before == 0xc3 && c >= 0x80 && c <= 0x9e && c != 0x97);
+  const bool capital =
+      (c >= 'A' && c <= 'Z') || (before == 0xc3 && c >= 0x80 && c <= 0x9e && c != 0x97);
   return capital ? c + 32 : c;
 }
 
@@ -236,7 +252,8 @@ static void apply(const placing *p, const double in[3], double out[3])
     out[i] += p->t[i];
 }
 
-/* Returns by what factor the placing stretches all directions, mirrored or not; 0 if not all alike. */
+/* Returns by what factor the placing stretches all directions, mirrored or not; 0 if not all alike.
+ */
 static double even_scale(const placing *p)
 {
   double dot[3][3];
@@ -269,7 +286,8 @@ static bool normalize(double v[3])
   return n > 0;
 }
 
-/* An entity's own coordinates, told by the direction of its z axis (codes 210 to 230): the "arbitrary axis algorithm". */
+/* An entity's own coordinates, told by the direction of its z axis (codes 210 to 230): the
+ * "arbitrary axis algorithm". */
 static thr_status own_coordinates(dxf *d, placing *p)
 {
   double z[3], x[3], y[3];
@@ -301,11 +319,13 @@ static thr_status add_point(dxf *d, const placing *p, const double xyz[3])
 static thr_status add_shape(dxf *d, shape_kind kind, int first, int last, double curve_length)
 {
   thr_status st = thr_grow(&d->shape, d->n_shapes, &d->shapes_capacity, sizeof *d->shape, d->err);
-  if (!st) d->shape[d->n_shapes++] = (shape){kind, first, last, curve_length, d->n_curves - 1, d->layer};
+  if (!st)
+    d->shape[d->n_shapes++] = (shape){kind, first, last, curve_length, d->n_curves - 1, d->layer};
   return st;
 }
 
-/* Leaves out the entity as one that is not used, by its type or, if that says too little, another name. */
+/* Leaves out the entity as one that is not used, by its type or, if that says too little, another
+ * name. */
 static thr_status leave_out(dxf *d, const char *name)
 {
   thr_status st = thr_grow(&d->unused, d->n_unused, &d->unused_capacity, sizeof *d->unused, d->err);
@@ -314,7 +334,8 @@ static thr_status leave_out(dxf *d, const char *name)
   return add_shape(d, UNUSED, d->n_unused++, 0, 0);
 }
 
-static thr_status add_segment(dxf *d, const placing *p, const double a[3], const double b[3], double curve_length)
+static thr_status add_segment(dxf *d, const placing *p, const double a[3], const double b[3],
+                              double curve_length)
 {
   int first = d->n_points;
   thr_status st = add_point(d, p, a);
@@ -337,15 +358,18 @@ static void ellipse_point(const void *arc, double t, double xyz[3])
     xyz[k] = e->center[k] + cos(t) * e->major[k] + sin(t) * e->minor[k];
 }
 
-/* Computes the length of an arc of a circle, or sums by quarters, between which a thin ellipse turns sharply. */
+/* Computes the length of an arc of a circle, or sums by quarters, between which a thin ellipse
+ * turns sharply. */
 static double ellipse_length(const ellipse *e, double from, double to)
 {
   double length = 0;
   const double square = thr_dot(e->major, e->major);
-  if (thr_dot(e->major, e->minor) == 0 && thr_dot(e->minor, e->minor) == square) return sqrt(square) * (to - from);
+  if (thr_dot(e->major, e->minor) == 0 && thr_dot(e->minor, e->minor) == square)
+    return sqrt(square) * (to - from);
   const int n = (int)ceil((to - from) / (THR_PI / 2) - 1e-9);
   for (int i = 0; i < n; i++)
-    length += thr_curve_length(ellipse_point, e, from + (to - from) * i / n, from + (to - from) * (i + 1) / n);
+    length += thr_curve_length(ellipse_point, e, from + (to - from) * i / n,
+                               from + (to - from) * (i + 1) / n);
   return length;
 }
 
@@ -362,7 +386,8 @@ static thr_spline spline_of(const curve *c)
 }
 
 /* Takes the curve over and adds the segment that it leads along. */
-static thr_status add_curve(dxf *d, const placing *p, const double a[3], const double b[3], curve *c, double length)
+static thr_status add_curve(dxf *d, const placing *p, const double a[3], const double b[3],
+                            curve *c, double length)
 {
   thr_status st = thr_grow(&d->curve, d->n_curves, &d->curves_capacity, sizeof *d->curve, d->err);
   if (st) {
@@ -374,7 +399,8 @@ static thr_status add_curve(dxf *d, const placing *p, const double a[3], const d
 }
 
 /* Adds a part of an ellipse that lies in the coordinates p as one edge. */
-static thr_status add_arc(dxf *d, const placing *p, const ellipse *e, double from, double to, double length)
+static thr_status add_arc(dxf *d, const placing *p, const ellipse *e, double from, double to,
+                          double length)
 {
   double a[3], b[3];
   curve c = {.from = from, .to = to};
@@ -385,25 +411,29 @@ static thr_status add_arc(dxf *d, const placing *p, const ellipse *e, double fro
   return add_curve(d, p, a, b, &c, length);
 }
 
-/* Adds a segment of a polyline. Its bulge is the tangent of a quarter of its arc's angle, 0 = straight. halved: the arc becomes
- * two edges that meet in its middle. */
-static thr_status add_bulge(dxf *d, const placing *p, const double a[3], const double b[3], double bulge, bool halved)
+/* Adds a segment of a polyline. Its bulge is the tangent of a quarter of its arc's angle, 0 =
+ * straight. halved: the arc becomes two edges that meet in its middle. */
+static thr_status add_bulge(dxf *d, const placing *p, const double a[3], const double b[3],
+                            double bulge, bool halved)
 {
   const double angle = 4 * atan(fabs(bulge)), half = sin(angle / 2), way = bulge < 0 ? -1 : 1;
   if (bulge == 0 || half <= 0) return add_segment(d, p, a, b, 0);
 
   /* The centre is to the left of the chord where the bulge is between 0 and 1. */
-  const double aside = (1 - bulge * bulge) / (4 * bulge), length = distance(a, b) * angle / (2 * half);
-  const double center[3] = {(a[0] + b[0]) / 2 - aside * (b[1] - a[1]), (a[1] + b[1]) / 2 + aside * (b[0] - a[0]), a[2]};
+  const double aside = (1 - bulge * bulge) / (4 * bulge),
+               length = distance(a, b) * angle / (2 * half);
+  const double center[3] = {(a[0] + b[0]) / 2 - aside * (b[1] - a[1]),
+                            (a[1] + b[1]) / 2 + aside * (b[0] - a[0]), a[2]};
   const double r[2] = {a[0] - center[0], a[1] - center[1]};
-  const ellipse e = {{center[0], center[1], center[2]}, {r[0], r[1], 0}, {-way * r[1], way * r[0], 0}};
+  const ellipse e = {
+      {center[0], center[1], center[2]}, {r[0], r[1], 0}, {-way * r[1], way * r[0], 0}};
   if (!halved) return add_arc(d, p, &e, 0, angle, length);
   thr_status st = add_arc(d, p, &e, 0, angle / 2, length / 2);
   return st ? st : add_arc(d, p, &e, angle / 2, angle, length / 2);
 }
 
-/* Adds d->vertex as segments. Two arcs between the same two vertices, like those of a circle, would be one edge: both get a node
- * in their middle. */
+/* Adds d->vertex as segments. Two arcs between the same two vertices, like those of a circle, would
+ * be one edge: both get a node in their middle. */
 static thr_status add_polyline(dxf *d, const placing *p, bool closed)
 {
   thr_status st = THR_OK;
@@ -418,7 +448,8 @@ static thr_status add_polyline(dxf *d, const placing *p, bool closed)
 
 static thr_status add_vertex(dxf *d, const double xyz[3], double bulge)
 {
-  thr_status st = thr_grow(&d->vertex, d->n_vertices, &d->vertices_capacity, sizeof *d->vertex, d->err);
+  thr_status st =
+      thr_grow(&d->vertex, d->n_vertices, &d->vertices_capacity, sizeof *d->vertex, d->err);
   if (!st) st = thr_grow(&d->bulge, d->n_vertices, &d->bulge_capacity, sizeof *d->bulge, d->err);
   if (st) return st;
   memcpy(d->vertex[d->n_vertices], xyz, sizeof *d->vertex);
@@ -448,7 +479,8 @@ static thr_status read_lwpolyline(dxf *d)
   for (int i = 0; i < d->n_pairs && !st; i++) {
     const int code = d->pair[i].code;
     if (code != 10 && code != 20 && code != 42) continue;
-    if (code != 10 && d->n_vertices == 0) return fail(d, "has a coordinate before its first vertex");
+    if (code != 10 && d->n_vertices == 0)
+      return fail(d, "has a coordinate before its first vertex");
     st = number_of(d, &d->pair[i], &x);
     if (!st && code == 10) st = add_vertex(d, (double[3]){x, 0, z}, 0);
     if (!st && code == 20) d->vertex[d->n_vertices - 1][1] = x;
@@ -457,8 +489,8 @@ static thr_status read_lwpolyline(dxf *d)
   return st ? st : add_polyline(d, &own, flags & 1);
 }
 
-/* Invisible sides (bits of 70) are no edges; a face with none of them is one for --flat as well. The last side of a triangle is
- * the fourth of a face whose third side has no length. */
+/* Invisible sides (bits of 70) are no edges; a face with none of them is one for --flat as well.
+ * The last side of a triangle is the fourth of a face whose third side has no length. */
 static thr_status read_face(dxf *d)
 {
   double corner[4][3];
@@ -467,13 +499,16 @@ static thr_status read_face(dxf *d)
   for (int i = 0; i < 4 && !st; i++)
     st = point_of(d, 10 + i, corner[i]);
   if (st) return st;
-  if (!find(d, 13) || (corner[2][0] == corner[3][0] && corner[2][1] == corner[3][1] && corner[2][2] == corner[3][2])) n = 3;
+  if (!find(d, 13) || (corner[2][0] == corner[3][0] && corner[2][1] == corner[3][1] &&
+                       corner[2][2] == corner[3][2]))
+    n = 3;
   int first = d->n_points;
   for (int i = 0; i < n && !st && !(hidden & 15); i++)
     st = add_point(d, &unmoved, corner[i]);
   if (!(hidden & 15)) return st ? st : add_shape(d, RING, first, d->n_points, 0);
   for (int i = 0; i < n && !st; i++)
-    if (!(hidden >> (i == n - 1 ? 3 : i) & 1)) st = add_segment(d, &unmoved, corner[i], corner[(i + 1) % n], 0);
+    if (!(hidden >> (i == n - 1 ? 3 : i) & 1))
+      st = add_segment(d, &unmoved, corner[i], corner[(i + 1) % n], 0);
   return st;
 }
 
@@ -492,7 +527,8 @@ static thr_status add_ellipse(dxf *d, const placing *p, const ellipse *e, double
   const double length = ellipse_length(e, from, to);
   ellipse_point(e, from, a);
   ellipse_point(e, to, b);
-  return is_closed(a, b, length) ? leave_out(d, "a closed curve") : add_arc(d, p, e, from, to, length);
+  return is_closed(a, b, length) ? leave_out(d, "a closed curve")
+                                 : add_arc(d, p, e, from, to, length);
 }
 
 static thr_status read_arc(dxf *d)
@@ -506,7 +542,8 @@ static thr_status read_arc(dxf *d)
   if (!st) st = number(d, 50, 0, &from);
   if (!st) st = number(d, 51, 360, &to);
   if (st) return st;
-  if (fabs(from) > 1e6 || fabs(to) > 1e6) return fail(d, "has angles of more than a million degrees");
+  if (fabs(from) > 1e6 || fabs(to) > 1e6)
+    return fail(d, "has angles of more than a million degrees");
   e.major[0] = e.minor[1] = radius;
   return add_ellipse(d, &own, &e, from * THR_PI / 180, to * THR_PI / 180);
 }
@@ -541,8 +578,8 @@ static thr_status values_of(dxf *d, int code, double **out, int *n)
   return st;
 }
 
-/* Degree 1: a polyline through its control points. Higher: one edge from beginning to end, as long as the curve, which is taken
- * over and left without its arrays. */
+/* Degree 1: a polyline through its control points. Higher: one edge from beginning to end, as long
+ * as the curve, which is taken over and left without its arrays. */
 static thr_status use_spline(dxf *d, curve *c, int n_knots, int n_weights)
 {
   const thr_spline s = spline_of(c);
@@ -552,7 +589,9 @@ static thr_status use_spline(dxf *d, curve *c, int n_knots, int n_weights)
       st = add_segment(d, &unmoved, c->control[i], c->control[i + 1], 0);
     return st;
   }
-  if (n_knots != c->n + c->degree + 1 || (n_weights && n_weights != c->n) || !thr_spline_is_sound(&s)) return leave_out(d, NULL);
+  if (n_knots != c->n + c->degree + 1 || (n_weights && n_weights != c->n) ||
+      !thr_spline_is_sound(&s))
+    return leave_out(d, NULL);
   double a[3], b[3];
   thr_spline_point(&s, s.knot[s.degree], a);
   thr_spline_point(&s, s.knot[s.n], b);
@@ -577,7 +616,8 @@ static thr_status read_spline(dxf *d)
   if (!find(d, 71)) c.degree = n_knots - n[0] - 1; /* trimesh does not say it */
   const bool controlled = n[0] >= 2 && n[1] == n[0] && (!n[2] || n[2] == n[0]);
   if (!st && !controlled) st = leave_out(d, NULL); /* it may have points to go through only */
-  if (!st && controlled && !(c.control = thr_calloc((size_t)n[0], sizeof *c.control))) st = thr_nomem(d->err);
+  if (!st && controlled && !(c.control = thr_calloc((size_t)n[0], sizeof *c.control)))
+    st = thr_nomem(d->err);
   if (!st && controlled) {
     for (int i = 0; i < n[0]; i++)
       for (int k = 0; k < 3; k++)
@@ -597,10 +637,18 @@ static thr_status read_spline(dxf *d)
 
 /* ---- POLYLINE: its vertices are entities of their own ---- */
 
-enum { CLOSED = 1, SPLINE_FIT = 4, SPACE = 8, MESH = 16, CLOSED_N = 32, POLYFACE = 64 }; /* code 70 of a POLYLINE */
-enum { FRAME_POINT = 16, FACE_RECORD = 128, FACE_PLACE = 64 };                           /* of a VERTEX */
+enum {
+  CLOSED = 1,
+  SPLINE_FIT = 4,
+  SPACE = 8,
+  MESH = 16,
+  CLOSED_N = 32,
+  POLYFACE = 64
+};                                                             /* code 70 of a POLYLINE */
+enum { FRAME_POINT = 16, FACE_RECORD = 128, FACE_PLACE = 64 }; /* of a VERTEX */
 
-/* A face record of a polyface mesh: numbers of vertices from 1, negative where the side after it is hidden. */
+/* A face record of a polyface mesh: numbers of vertices from 1, negative where the side after it is
+ * hidden. */
 static thr_status read_face_record(dxf *d)
 {
   thr_status st = THR_OK;
@@ -612,8 +660,10 @@ static thr_status read_face_record(dxf *d)
   }
   for (int i = 0; i < n && !st; i++) {
     int a = abs(corner[i]), b = abs(corner[(i + 1) % n]);
-    if (a > d->n_vertices || b > d->n_vertices) return fail(d, "names a vertex that does not exist");
-    if (corner[i] > 0 && n > 1) st = add_segment(d, &unmoved, d->vertex[a - 1], d->vertex[b - 1], 0);
+    if (a > d->n_vertices || b > d->n_vertices)
+      return fail(d, "names a vertex that does not exist");
+    if (corner[i] > 0 && n > 1)
+      st = add_segment(d, &unmoved, d->vertex[a - 1], d->vertex[b - 1], 0);
   }
   return st;
 }
@@ -624,7 +674,8 @@ static thr_status read_vertex(dxf *d, int polyline_flags)
   int flags;
   thr_status st = whole(d, 70, &flags);
   if (st || flags & FRAME_POINT) return st;
-  if (polyline_flags & POLYFACE && flags & FACE_RECORD && !(flags & FACE_PLACE)) return read_face_record(d);
+  if (polyline_flags & POLYFACE && flags & FACE_RECORD && !(flags & FACE_PLACE))
+    return read_face_record(d);
   st = point_of(d, 10, xyz);
   if (!st) st = number(d, 42, 0, &bulge);
   return st ? st : add_vertex(d, xyz, polyline_flags & (SPACE | MESH | POLYFACE) ? 0 : bulge);
@@ -633,12 +684,15 @@ static thr_status read_vertex(dxf *d, int polyline_flags)
 static thr_status add_mesh(dxf *d, int m, int n, bool closed_m, bool closed_n)
 {
   thr_status st = THR_OK;
-  if (m < 1 || n < 1 || (int64_t)m * n > d->n_vertices) return fail(d, "has fewer vertices than its mesh needs");
+  if (m < 1 || n < 1 || (int64_t)m * n > d->n_vertices)
+    return fail(d, "has fewer vertices than its mesh needs");
   for (int i = 0; i < m && !st; i++)
     for (int j = 0; j < n && !st; j++) {
       const double *here = d->vertex[i * n + j];
-      if (i + 1 < m || (closed_m && m > 2)) st = add_segment(d, &unmoved, here, d->vertex[(i + 1) % m * n + j], 0);
-      if (!st && (j + 1 < n || (closed_n && n > 2))) st = add_segment(d, &unmoved, here, d->vertex[i * n + (j + 1) % n], 0);
+      if (i + 1 < m || (closed_m && m > 2))
+        st = add_segment(d, &unmoved, here, d->vertex[(i + 1) % m * n + j], 0);
+      if (!st && (j + 1 < n || (closed_n && n > 2)))
+        st = add_segment(d, &unmoved, here, d->vertex[i * n + (j + 1) % n], 0);
     }
   return st;
 }
@@ -667,7 +721,8 @@ static thr_status read_polyline(dxf *d)
   }
   if (!st && thr_span_is(d->next.value, "SEQEND")) st = take_entity(d);
 
-  /* All vertices of a 2-D polyline have its elevation. Where that is 0 those that say a height of their own keep it. */
+  /* All vertices of a 2-D polyline have its elevation. Where that is 0 those that say a height of
+   * their own keep it. */
   for (int i = 0; i < d->n_vertices && elevation != 0 && !(flags & (SPACE | MESH | POLYFACE)); i++)
     d->vertex[i][2] = elevation;
   if (!st && flags & MESH)
@@ -683,7 +738,8 @@ static thr_status read_polyline(dxf *d)
 
 static thr_status add_insertion(dxf *d, thr_span name, const placing *place)
 {
-  thr_status st = thr_grow(&d->inserted, d->n_inserted, &d->inserted_capacity, sizeof *d->inserted, d->err);
+  thr_status st =
+      thr_grow(&d->inserted, d->n_inserted, &d->inserted_capacity, sizeof *d->inserted, d->err);
   if (st) return st;
   d->inserted[d->n_inserted] = (insertion){name, *place};
   return add_shape(d, INSERT, d->n_inserted++, 0, 0);
@@ -707,7 +763,8 @@ static thr_status read_insert(dxf *d)
   if (!st) st = number(d, 44, 0, &step[0]);
   if (!st) st = number(d, 45, 0, &step[1]);
   if (st) return st;
-  const double c = cos(turn * THR_PI / 180), s = sin(turn * THR_PI / 180), at[3] = {local.t[0], local.t[1], local.t[2]};
+  const double c = cos(turn * THR_PI / 180), s = sin(turn * THR_PI / 180),
+               at[3] = {local.t[0], local.t[1], local.t[2]};
   const double turned[2][2] = {{c, -s}, {s, c}};
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++)
@@ -755,7 +812,8 @@ static thr_status read_layer(dxf *d)
   int flags, colour;
   thr_status st = whole(d, 70, &flags);
   if (!st) st = whole(d, 62, &colour);
-  if (st || !name || !((flags & 1) || colour < 0) || d->draft->all_layers || d->parts.asked) return st;
+  if (st || !name || !((flags & 1) || colour < 0) || d->draft->all_layers || d->parts.asked)
+    return st;
   st = thr_grow(&d->hidden, d->n_hidden, &d->hidden_capacity, sizeof *d->hidden, d->err);
   if (!st) d->hidden[d->n_hidden++] = (hidden_layer){name->value, flags & 1, 0};
   return st;
@@ -776,8 +834,10 @@ static thr_status read_entity(dxf *d)
   static const struct {
     const char *type;
     thr_status (*read)(dxf *);
-  } known[] = {{"LINE", read_line}, {"LWPOLYLINE", read_lwpolyline}, {"3DFACE", read_face},  {"SPLINE", read_spline},
-               {"ARC", read_arc},   {"ELLIPSE", read_ellipse},       {"INSERT", read_insert}};
+  } known[] = {{"LINE", read_line},    {"LWPOLYLINE", read_lwpolyline},
+               {"3DFACE", read_face},  {"SPLINE", read_spline},
+               {"ARC", read_arc},      {"ELLIPSE", read_ellipse},
+               {"INSERT", read_insert}};
   thr_status st = take_entity(d);
   if (!st) st = find_layer(d);
   if (st) return st;
@@ -785,7 +845,8 @@ static thr_status read_entity(dxf *d)
   if (is_unseen(d)) return add_shape(d, UNSEEN, 0, 0, 0);
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
     if (thr_span_is(d->type, known[i].type)) return known[i].read(d);
-  return thr_span_is(d->type, "ATTRIB") || thr_span_is(d->type, "SEQEND") ? THR_OK : leave_out(d, NULL);
+  return thr_span_is(d->type, "ATTRIB") || thr_span_is(d->type, "SEQEND") ? THR_OK
+                                                                          : leave_out(d, NULL);
 }
 
 /* Entities up to the pair 0 that ends them. */
@@ -828,8 +889,8 @@ static thr_status read_header(dxf *d)
 {
   int unit = 0;
   for (int i = 0; i + 1 < d->n_pairs; i++)
-    if (d->pair[i].code == 9 && thr_span_is(d->pair[i].value, "$INSUNITS") && d->pair[i + 1].code == 70 &&
-        !thr_span_int(d->pair[i + 1].value, &unit))
+    if (d->pair[i].code == 9 && thr_span_is(d->pair[i].value, "$INSUNITS") &&
+        d->pair[i + 1].code == 70 && !thr_span_int(d->pair[i + 1].value, &unit))
       return fail(d, "has a $INSUNITS that is not a whole number");
   return thr_dxf_unit(unit) ? thr_draft_set_units(d->draft, thr_dxf_unit(unit), d->err) : THR_OK;
 }
@@ -868,19 +929,21 @@ static void miss_block(dxf *d, thr_span name)
 {
   thr_read_report *r = d->report;
   if (r->missing_blocks++) return;
-  snprintf(r->missing_block, sizeof r->missing_block, "%.*s", name.n < 31 ? (int)name.n : 31, name.s);
+  snprintf(r->missing_block, sizeof r->missing_block, "%.*s", name.n < 31 ? (int)name.n : 31,
+           name.s);
   thr_text_clean(r->missing_block);
 }
 
-/* Finds the block of a name in the same letter case, else in any. *found is NULL if there is none; THR_EINPUT if there are two
- * that are not empty. */
+/* Finds the block of a name in the same letter case, else in any. *found is NULL if there is none;
+ * THR_EINPUT if there are two that are not empty. */
 static thr_status find_block(const dxf *d, thr_span name, const block **found)
 {
   bool exact = false, twice = false;
   *found = NULL;
   for (const block *b = d->block; b < d->block + d->n_blocks; b++) {
     if (name.n == 0 || !same_name(b->name, name)) continue;
-    const bool same = memcmp(b->name.s, name.s, name.n) == 0, better = !*found || (*found)->first == (*found)->last;
+    const bool same = memcmp(b->name.s, name.s, name.n) == 0,
+               better = !*found || (*found)->first == (*found)->last;
     if (exact && !same) continue;
     twice = same == exact && !better && b->first < b->last;
     if (same > exact || better) *found = b;
@@ -888,11 +951,13 @@ static thr_status find_block(const dxf *d, thr_span name, const block **found)
     if (twice) break;
   }
   if (!twice) return THR_OK;
-  return thr_fail(d->err, THR_EINPUT, "%s: two blocks are called '%.*s', and it is inserted; rename one of them", d->scan.name,
-                  thr_span_width(name), name.s);
+  return thr_fail(d->err, THR_EINPUT,
+                  "%s: two blocks are called '%.*s', and it is inserted; rename one of them",
+                  d->scan.name, thr_span_width(name), name.s);
 }
 
-/* Computes how long a curve is where it is placed: an ellipse stays one, a spline moves with its control points. */
+/* Computes how long a curve is where it is placed: an ellipse stays one, a spline moves with its
+ * control points. */
 static thr_status placed_length(dxf *d, const shape *s, const placing *p, double *length)
 {
   const double scale = even_scale(p);
@@ -923,10 +988,12 @@ static thr_status place_run(dxf *d, const shape *s, const placing *p)
   thr_status st = THR_OK;
   for (int i = s->first; i < s->last && !st; i++) {
     if (d->sites.n >= MOST_PLACED)
-      return thr_fail(d->err, THR_EINPUT, "%s: more than %d points with all inserted blocks", d->scan.name, MOST_PLACED);
+      return thr_fail(d->err, THR_EINPUT, "%s: more than %d points with all inserted blocks",
+                      d->scan.name, MOST_PLACED);
     apply(p, d->point[i], at);
     if (!isfinite(at[0]) || !isfinite(at[1]) || !isfinite(at[2]))
-      return thr_fail(d->err, THR_EINPUT, "%s: an inserted block leaves the range of numbers", d->scan.name);
+      return thr_fail(d->err, THR_EINPUT, "%s: an inserted block leaves the range of numbers",
+                      d->scan.name);
     st = thr_faces_corner(&d->faces, d->sites.n, d->err);
     if (!st) st = thr_sites_add(&d->sites, at, d->err);
   }
@@ -936,7 +1003,8 @@ static thr_status place_run(dxf *d, const shape *s, const placing *p)
   if (s->curve_length > 0) st = placed_length(d, s, p, &d->length[d->faces.n]);
   if (st) return st;
   if (!isfinite(d->length[d->faces.n]))
-    return thr_fail(d->err, THR_EINPUT, "%s: an inserted block leaves the range of numbers", d->scan.name);
+    return thr_fail(d->err, THR_EINPUT, "%s: an inserted block leaves the range of numbers",
+                    d->scan.name);
   return thr_faces_close(&d->faces, d->err);
 }
 
@@ -948,15 +1016,18 @@ static thr_status place_one(dxf *d, const shape *s, const placing *p)
   return s->kind == PATH || s->kind == RING ? place_run(d, s, p) : THR_OK;
 }
 
-/* Places shapes. layer: that of those on layer 0; frozen: the layer that hides them all, or SHOWN. */
-static thr_status place_shapes(dxf *d, int first, int last, const placing *p, int layer, int frozen, int depth)
+/* Places shapes. layer: that of those on layer 0; frozen: the layer that hides them all, or SHOWN.
+ */
+static thr_status place_shapes(dxf *d, int first, int last, const placing *p, int layer, int frozen,
+                               int depth)
 {
   thr_status st = THR_OK;
   for (int i = first; i < last && !st; i++) {
     const shape *s = &d->shape[i];
     const int own = s->layer >= 0 ? s->layer : layer, hiding = frozen < d->n_hidden ? frozen : own;
     if (++d->n_visited > MOST_PLACED)
-      return thr_fail(d->err, THR_EINPUT, "%s: more than %d entities with all inserted blocks", d->scan.name, MOST_PLACED);
+      return thr_fail(d->err, THR_EINPUT, "%s: more than %d entities with all inserted blocks",
+                      d->scan.name, MOST_PLACED);
     if (s->kind != INSERT) {
       if (hiding >= 0 && hiding < d->n_hidden)
         d->hidden[hiding].n_edges += s->kind == RING ? s->last - s->first : s->kind == PATH;
@@ -973,8 +1044,9 @@ static thr_status place_shapes(dxf *d, int first, int last, const placing *p, in
       continue;
     }
     if (depth == MOST_NESTED || ++d->n_placed > MOST_INSERTED)
-      return thr_fail(d->err, THR_EINPUT, "%s: blocks are nested more than %d deep, or inserted more than %d times", d->scan.name,
-                      MOST_NESTED, MOST_INSERTED);
+      return thr_fail(d->err, THR_EINPUT,
+                      "%s: blocks are nested more than %d deep, or inserted more than %d times",
+                      d->scan.name, MOST_NESTED, MOST_INSERTED);
     placing base = unmoved;
     for (int k = 0; k < 3; k++)
       base.t[k] = -b->base[k];
@@ -990,7 +1062,8 @@ static thr_status place_model(dxf *d)
 {
   thr_status st = THR_OK;
   for (int i = 0; i < d->n_blocks && !st; i++)
-    if (d->block[i].name.n == 0) st = place_shapes(d, d->block[i].first, d->block[i].last, &unmoved, d->ground, SHOWN, 0);
+    if (d->block[i].name.n == 0)
+      st = place_shapes(d, d->block[i].first, d->block[i].last, &unmoved, d->ground, SHOWN, 0);
   for (int i = 0; i < d->n_hidden; i++) {
     d->report->hidden_edges += d->hidden[i].n_edges;
     d->report->hidden_layers += d->hidden[i].n_edges > 0;
@@ -1002,14 +1075,18 @@ static thr_status place_model(dxf *d)
 static thr_status fill_draft(dxf *d)
 {
   if (d->faces.n == 0 && d->report->hidden_edges)
-    return thr_fail(d->err, THR_EINPUT, "%s: all its edges are on hidden layers; --layers all reads them", d->scan.name);
+    return thr_fail(d->err, THR_EINPUT,
+                    "%s: all its edges are on hidden layers; --layers all reads them",
+                    d->scan.name);
   if (d->faces.n == 0)
     return thr_fail(
         d->err, THR_EINPUT,
-        "%s: no lines, polylines, faces or open curves in its model%s%s%s%s%s; draw its edges as lines, or explode what has them",
+        "%s: no lines, polylines, faces or open curves in its model%s%s%s%s%s; draw its edges as "
+        "lines, or explode what has them",
         d->scan.name, d->report->skipped_records ? ", but others: " : "", d->report->skipped_kind,
         d->report->unseen_records ? "; what is on paper or marked invisible is not read" : "",
-        d->report->missing_blocks ? "; a block that is not in the file: " : "", d->report->missing_block);
+        d->report->missing_blocks ? "; a block that is not in the file: " : "",
+        d->report->missing_block);
   thr_faces rings = {0};
   int *node = thr_calloc((size_t)d->sites.n, sizeof *node);
   thr_status st = node ? thr_sites_finish(&d->sites, node, d->draft, d->err) : thr_nomem(d->err);
@@ -1036,7 +1113,8 @@ static thr_status choose_layers(dxf *d)
   for (int b = 0; b < d->n_blocks; b++)
     for (int i = d->block[b].first; i < d->block[b].last && d->block[b].name.n == 0; i++)
       grounded |= d->shape[i].layer < 0 && d->shape[i].kind < UNUSED;
-  if (grounded && d->parts.asked) st = thr_parts_find(&d->parts, thr_span_of("0"), &d->ground, d->err);
+  if (grounded && d->parts.asked)
+    st = thr_parts_find(&d->parts, thr_span_of("0"), &d->ground, d->err);
   return st ? st : thr_parts_choose(&d->parts, d->scan.name, "layer", "layers", d->err);
 }
 
@@ -1059,7 +1137,8 @@ static void destroy(dxf *d)
   thr_faces_destroy(&d->faces);
 }
 
-static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n,
+                        const char *name, thr_err *err)
 {
   dxf d = {.draft = draft,
            .report = report,
@@ -1088,9 +1167,11 @@ static bool is_dxf(const char *text, size_t n)
   if (n >= sizeof binary - 1 && memcmp(text, binary, sizeof binary - 1) == 0) return true;
   const char *nul = n ? memchr(text, '\0', n) : NULL;
   if (thr_scan_start(&scan, text, nul ? (size_t)(nul - text) : n, "", NULL)) return false;
-  while (thr_scan_line(&scan, &code) && thr_scan_line(&scan, &value) && thr_span_is(thr_span_trim(code), "999")) {
+  while (thr_scan_line(&scan, &code) && thr_scan_line(&scan, &value) &&
+         thr_span_is(thr_span_trim(code), "999")) {
   }
   return thr_span_is(thr_span_trim(code), "0") && thr_span_is(thr_span_trim(value), "SECTION");
 }
 
-const thr_format thr_dxf_format = {.name = "dxf", .ending = {"dxf"}, .parse = parse, .is = is_dxf, .write = thr_dxf_write};
+const thr_format thr_dxf_format = {
+    .name = "dxf", .ending = {"dxf"}, .parse = parse, .is = is_dxf, .write = thr_dxf_write};

@@ -1,5 +1,7 @@
-/* glTF 2.0, as JSON or in one binary file: lines and triangles of all meshes of the scene, where its nodes place them. Khronos,
- * "glTF 2.0 Specification", 2021. Coordinates are in metres and y points up. Buffers stand in the file, or in files beside it. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* glTF 2.0, as JSON or in one binary file: lines and triangles of all meshes of the scene, where
+ * its nodes place them. Khronos, "glTF 2.0 Specification", 2021. Coordinates are in metres and y
+ * points up. Buffers stand in the file, or in files beside it. */
 #include "graph/io/read_parts.h"
 #include "graph/os.h"
 
@@ -39,11 +41,12 @@ typedef struct {
   const unsigned char *chunk; /* of a binary file */
   size_t chunk_size;
   int n_buffers;
-  thr_text *buffer;      /* [n_buffers] bytes of those that are decoded or read; owned */
-  unsigned char **dense; /* [accessors] elements of those that are sparse, once they were needed; owned */
-  bool *entered;         /* [nodes] placed already; owned */
-  thr_parts parts;       /* nodes that have a mesh, called as they or it */
-  int *part;             /* [nodes] -1 = has no mesh; owned */
+  thr_text *buffer; /* [n_buffers] bytes of those that are decoded or read; owned */
+  unsigned char *
+      *dense;      /* [accessors] elements of those that are sparse, once they were needed; owned */
+  bool *entered;   /* [nodes] placed already; owned */
+  thr_parts parts; /* nodes that have a mesh, called as they or it */
+  int *part;       /* [nodes] -1 = has no mesh; owned */
   thr_sites sites;
   thr_faces faces;
   thr_draft *draft;
@@ -102,7 +105,8 @@ static int hex_value(char c)
   return digit ? (int)(digit - digits) : -1;
 }
 
-/* Decodes the %XX of a uri into name, which has room for all of it. Where a % stands for no byte, or for NUL, name is the uri. */
+/* Decodes the %XX of a uri into name, which has room for all of it. Where a % stands for no byte,
+ * or for NUL, name is the uri. */
 static void decode_percent(const char *uri, char *name)
 {
   char *out = name;
@@ -120,12 +124,14 @@ static void decode_percent(const char *uri, char *name)
   *out = '\0';
 }
 
-/* Reads a file beside the document's, called by the decoded uri; if there is none, by the uri as it stands. */
+/* Reads a file beside the document's, called by the decoded uri; if there is none, by the uri as it
+ * stands. */
 static thr_status read_beside(gltf *g, int i, const char *uri)
 {
   char name[1000], path[2200];
   const int folder = (int)(thr_os_name(g->file) - g->file);
-  if (strlen(uri) >= sizeof name || folder >= 1200) return bad(g, "buffers", i, "the path is too long");
+  if (strlen(uri) >= sizeof name || folder >= 1200)
+    return bad(g, "buffers", i, "the path is too long");
   decode_percent(uri, name);
   if (thr_os_is_separator(name[0]) || strstr(name, "..") || strchr(name, ':'))
     return bad(g, "buffers", i, "lies elsewhere; put its file beside this one, or save as .glb");
@@ -136,8 +142,10 @@ static thr_status read_beside(gltf *g, int i, const char *uri)
   }
   if (st == THR_ENOMEM) return thr_nomem(g->err);
   if (!st) return THR_OK;
-  return thr_fail(g->err, THR_EINPUT, "%s: buffers[%d]: its file '%.100s', which should lie beside this one, cannot be read",
-                  g->file, i, name);
+  return thr_fail(
+      g->err, THR_EINPUT,
+      "%s: buffers[%d]: its file '%.100s', which should lie beside this one, cannot be read",
+      g->file, i, name);
 }
 
 static thr_status read_buffers(gltf *g)
@@ -149,7 +157,8 @@ static thr_status read_buffers(gltf *g)
   if (!g->buffer || !g->dense) return thr_nomem(g->err);
   thr_status st = THR_OK;
   for (int i = 0; i < g->n_buffers && !st; i++) {
-    const char *uri = thr_json_string(thr_json_get(thr_json_at(list, i), "uri")), *data = uri ? strstr(uri, ";base64,") : NULL;
+    const char *uri = thr_json_string(thr_json_get(thr_json_at(list, i), "uri")),
+               *data = uri ? strstr(uri, ";base64,") : NULL;
     if (!uri && i == 0 && g->chunk) continue;
     if (!uri) return bad(g, "buffers", i, "has no uri, and there is no binary chunk for it");
     if (strncmp(uri, "data:", 5) != 0)
@@ -172,25 +181,31 @@ static void bytes_of(const gltf *g, int i, const unsigned char **bytes, size_t *
 
 static size_t size_of(int type)
 {
-  return type == BYTE || type == UBYTE ? 1 : type == SHORT || type == USHORT ? 2 : type == UINT || type == FLOAT ? 4 : 0;
+  return type == BYTE || type == UBYTE     ? 1
+         : type == SHORT || type == USHORT ? 2
+         : type == UINT || type == FLOAT   ? 4
+                                           : 0;
 }
 
-/* Finds the elements of accessor i, of size bytes each, in the view and from the byte that an object names, itself or a part of
- * it. Checks that they lie in their view, and the view in its buffer. */
-static thr_status find_in_view(const gltf *g, int i, const thr_json *object, size_t size, elements *out)
+/* Finds the elements of accessor i, of size bytes each, in the view and from the byte that an
+ * object names, itself or a part of it. Checks that they lie in their view, and the view in its
+ * buffer. */
+static thr_status find_in_view(const gltf *g, int i, const thr_json *object, size_t size,
+                               elements *out)
 {
   const int v = member(object, "bufferView", -1), at = member(object, "byteOffset", 0);
   const thr_json *view = element(g, "bufferViews", v);
   const unsigned char *bytes;
   size_t n_bytes;
   if (!view) return bad(g, "bufferViews", v, "is not there");
-  const int buffer = member(view, "buffer", -1), offset = member(view, "byteOffset", 0), length = member(view, "byteLength", -1),
-            stride = member(view, "byteStride", 0);
+  const int buffer = member(view, "buffer", -1), offset = member(view, "byteOffset", 0),
+            length = member(view, "byteLength", -1), stride = member(view, "byteStride", 0);
   if (buffer < 0 || buffer >= g->n_buffers || offset < 0 || length < 0 || at < 0 || stride < 0)
     return bad(g, "bufferViews", v, "has a number that cannot be");
   bytes_of(g, buffer, &bytes, &n_bytes);
   out->stride = stride ? (size_t)stride : size;
-  if (!bytes || (size_t)offset + (size_t)length > n_bytes) return bad(g, "bufferViews", v, "is longer than its buffer");
+  if (!bytes || (size_t)offset + (size_t)length > n_bytes)
+    return bad(g, "bufferViews", v, "is longer than its buffer");
   if (out->count && (size_t)at + (size_t)(out->count - 1) * out->stride + size > (size_t)length)
     return bad(g, "accessors", i, "is longer than its bufferView");
   out->first = bytes + offset + at;
@@ -208,20 +223,26 @@ static double component(const elements *e, int i, size_t k)
   switch (e->type) {
   case FLOAT: memcpy(&f, &bits, sizeof f); return (double)f;
   case BYTE: return e->normalized ? fmax((double)(int8_t)bits / 127, -1) : (double)(int8_t)bits;
-  case SHORT: return e->normalized ? fmax((double)(int16_t)bits / 32767, -1) : (double)(int16_t)bits;
+  case SHORT:
+    return e->normalized ? fmax((double)(int16_t)bits / 32767, -1) : (double)(int16_t)bits;
   case UBYTE: return (double)bits / (e->normalized ? 255 : 1);
   case USHORT: return (double)bits / (e->normalized ? 65535 : 1);
   default: return (double)bits;
   }
 }
 
-/* Copies the elements of a sparse accessor, of size bytes each or without a view zeros, and replaces those that it lists. */
+/* Copies the elements of a sparse accessor, of size bytes each or without a view zeros, and
+ * replaces those that it lists. */
 static thr_status fill_sparse(gltf *g, int i, const thr_json *sparse, size_t size, elements *all)
 {
-  const thr_json *places = thr_json_get(sparse, "indices"), *values = thr_json_get(sparse, "values");
-  elements index = {.count = member(sparse, "count", -1), .type = member(places, "componentType", -1)}, value = *all;
+  const thr_json *places = thr_json_get(sparse, "indices"),
+                 *values = thr_json_get(sparse, "values");
+  elements index = {.count = member(sparse, "count", -1),
+                    .type = member(places, "componentType", -1)},
+           value = *all;
   value.count = index.count;
-  if (index.count < 0 || !size_of(index.type)) return bad(g, "accessors", i, "is sparse without a count or a type of indices");
+  if (index.count < 0 || !size_of(index.type))
+    return bad(g, "accessors", i, "is sparse without a count or a type of indices");
   if (!all->first && all->count > MOST_ZEROS)
     return bad(g, "accessors", i, "has more than 1000000 elements without a bufferView");
   thr_status st = find_in_view(g, i, places, size_of(index.type), &index);
@@ -233,7 +254,8 @@ static thr_status fill_sparse(gltf *g, int i, const thr_json *sparse, size_t siz
     memcpy(bytes + k * size, all->first + k * all->stride, size);
   for (int k = 0; k < index.count; k++) {
     const double to = component(&index, k, 0);
-    if (!(to >= 0 && to < all->count)) return bad(g, "accessors", i, "is sparse with an index beyond its elements");
+    if (!(to >= 0 && to < all->count))
+      return bad(g, "accessors", i, "is sparse with an index beyond its elements");
     memcpy(bytes + (size_t)to * size, value.first + (size_t)k * value.stride, size);
   }
   return THR_OK;
@@ -250,13 +272,15 @@ static thr_status find_elements(gltf *g, int i, size_t n, elements *out)
                     .type = member(a, "componentType", -1),
                     .normalized = thr_json_true(thr_json_get(a, "normalized"))};
   const size_t size = n * size_of(out->type);
-  if (out->count < 0 || !size) return bad(g, "accessors", i, "has no count or no component type that is known");
+  if (out->count < 0 || !size)
+    return bad(g, "accessors", i, "has no count or no component type that is known");
   if (type ? strcmp(type, wanted[n]) != 0 : sparse != NULL)
-    return thr_fail(g->err, THR_EINPUT, "%s: accessors[%d]: is of type %.20s; %s is needed here", g->file, i,
-                    type ? type : "none", wanted[n]);
+    return thr_fail(g->err, THR_EINPUT, "%s: accessors[%d]: is of type %.20s; %s is needed here",
+                    g->file, i, type ? type : "none", wanted[n]);
   const bool has_view = thr_json_get(a, "bufferView") != NULL;
   if (!has_view && !sparse)
-    return bad(g, "accessors", i, "has no bufferView: the mesh is compressed; export without compression");
+    return bad(g, "accessors", i,
+               "has no bufferView: the mesh is compressed; export without compression");
   thr_status st = has_view ? find_in_view(g, i, a, size, out) : THR_OK;
   if (st || !sparse) return st;
   if (!g->dense[i]) st = fill_sparse(g, i, sparse, size, out);
@@ -276,7 +300,8 @@ static thr_status add_sites(gltf *g, const elements *position, const placing *p)
       at[k] = component(position, i, k);
     for (int k = 0; k < 3; k++) {
       out[k] = p->m[k][0] * at[0] + p->m[k][1] * at[1] + p->m[k][2] * at[2] + p->m[k][3];
-      if (!isfinite(out[k])) return thr_fail(g->err, THR_EINPUT, "%s: a coordinate is not a finite number", g->file);
+      if (!isfinite(out[k]))
+        return thr_fail(g->err, THR_EINPUT, "%s: a coordinate is not a finite number", g->file);
     }
     st = thr_sites_add(&g->sites, out, g->err);
   }
@@ -289,7 +314,8 @@ static thr_status add_runs(gltf *g, int mode, int n, const int *corner)
   thr_status st = THR_OK;
   const int size = mode <= LINE_STRIP ? 2 : 3, step = mode == LINES ? 2 : mode == TRIANGLES ? 3 : 1;
   for (int i = 0; i + size <= n && !st; i += step) {
-    const int run[3] = {mode == TRIANGLE_FAN ? corner[0] : corner[i], corner[i + 1], corner[i + size - 1]};
+    const int run[3] = {mode == TRIANGLE_FAN ? corner[0] : corner[i], corner[i + 1],
+                        corner[i + size - 1]};
     st = thr_faces_add(&g->faces, run, size, g->err);
   }
   const int last[2] = {n ? corner[n - 1] : 0, n ? corner[0] : 0};
@@ -299,10 +325,12 @@ static thr_status add_runs(gltf *g, int mode, int n, const int *corner)
 
 static thr_status read_primitive(gltf *g, int mesh, const thr_json *primitive, const placing *p)
 {
-  const int mode = member(primitive, "mode", TRIANGLES), indices = member(primitive, "indices", -1), base = g->sites.n;
+  const int mode = member(primitive, "mode", TRIANGLES), indices = member(primitive, "indices", -1),
+            base = g->sites.n;
   const int where = member(thr_json_get(primitive, "attributes"), "POSITION", -1);
   elements position = {0}, index = {0};
-  if (mode < 0 || mode > TRIANGLE_FAN) return bad(g, "meshes", mesh, "a primitive of a mode that is not known");
+  if (mode < 0 || mode > TRIANGLE_FAN)
+    return bad(g, "meshes", mesh, "a primitive of a mode that is not known");
   if (mode == POINTS || where < 0) {
     thr_report_skip(g->report, thr_span_of(mode == POINTS ? "points" : "primitive"));
     return THR_OK;
@@ -310,9 +338,11 @@ static thr_status read_primitive(gltf *g, int mesh, const thr_json *primitive, c
   thr_status st = find_elements(g, where, 3, &position);
   if (!st && thr_json_get(primitive, "indices")) st = find_elements(g, indices, 1, &index);
   const int n = index.first ? index.count : position.count;
-  if (!st && (base + (int64_t)position.count > MOST_PLACED || g->faces.n_corners + 3 * (int64_t)n > MOST_CORNERS))
-    st = thr_fail(g->err, THR_EINPUT, "%s: more than %d points or %d corners with all nodes and instances", g->file, MOST_PLACED,
-                  MOST_CORNERS);
+  if (!st && (base + (int64_t)position.count > MOST_PLACED ||
+              g->faces.n_corners + 3 * (int64_t)n > MOST_CORNERS))
+    st = thr_fail(g->err, THR_EINPUT,
+                  "%s: more than %d points or %d corners with all nodes and instances", g->file,
+                  MOST_PLACED, MOST_CORNERS);
   if (!st) st = add_sites(g, &position, p);
   if (st) return st;
   int *corner = thr_calloc((size_t)n, sizeof *corner);
@@ -341,11 +371,13 @@ static bool numbers(const thr_json *object, const char *key, int n, double *out)
 /* Of node i, whose quaternion may have any length: quaternions of bytes are not exactly 1 long. */
 static thr_status place_by(const gltf *g, int i, const moves *by, placing *out)
 {
-  const double x = by->q[0], y = by->q[1], z = by->q[2], w = by->q[3], square = x * x + y * y + z * z + w * w, c = 2 / square;
+  const double x = by->q[0], y = by->q[1], z = by->q[2], w = by->q[3],
+               square = x * x + y * y + z * z + w * w, c = 2 / square;
   const double r[3][3] = {{1 - c * (y * y + z * z), c * (x * y - z * w), c * (x * z + y * w)},
                           {c * (x * y + z * w), 1 - c * (x * x + z * z), c * (y * z - x * w)},
                           {c * (x * z - y * w), c * (y * z + x * w), 1 - c * (x * x + y * y)}};
-  if (!(square > 1e-12 && square < 1e12)) return bad(g, "nodes", i, "has a rotation that is no quaternion");
+  if (!(square > 1e-12 && square < 1e12))
+    return bad(g, "nodes", i, "has a rotation that is no quaternion");
   for (int k = 0; k < 3; k++) {
     for (int j = 0; j < 3; j++)
       out->m[k][j] = r[k][j] * by->s[j];
@@ -383,27 +415,32 @@ static placing compose(const placing *a, const placing *b)
   return c;
 }
 
-/* Finds how often node i has its mesh, and what each instance is moved by: translation, rotation, scale. Those that the extension
- * does not name have no first element. */
-static thr_status find_instances(gltf *g, int i, const thr_json *extension, elements found[3], int *n)
+/* Finds how often node i has its mesh, and what each instance is moved by: translation, rotation,
+ * scale. Those that the extension does not name have no first element. */
+static thr_status find_instances(gltf *g, int i, const thr_json *extension, elements found[3],
+                                 int *n)
 {
   static const char *const names[] = {"TRANSLATION", "ROTATION", "SCALE"};
   const char *key, *first = NULL;
   const thr_json *value;
   thr_status st = THR_OK;
-  for (void *iter = NULL; !st && thr_json_next(thr_json_get(extension, "attributes"), &iter, &key, &value);
+  for (void *iter = NULL;
+       !st && thr_json_next(thr_json_get(extension, "attributes"), &iter, &key, &value);
        first = first ? first : key) {
     const int a = int_of(value, -1), count = member(element(g, "accessors", a), "count", -1);
     if (count < 0) return bad(g, "accessors", a, "is not there, or has no count");
     if (first && count != *n)
       return thr_fail(g->err, THR_EINPUT,
-                      "%s: nodes[%d]: EXT_mesh_gpu_instancing has %d instances by %.40s and %d by %.40s; export it again",
+                      "%s: nodes[%d]: EXT_mesh_gpu_instancing has %d instances by %.40s and %d by "
+                      "%.40s; export it again",
                       g->file, i, *n, first, count, key);
     *n = count;
     for (int k = 0; k < 3 && !st; k++)
       if (strcmp(key, names[k]) == 0) st = find_elements(g, a, k == 1 ? 4 : 3, &found[k]);
   }
-  return st || first ? st : bad(g, "nodes", i, "EXT_mesh_gpu_instancing without attributes; export it again");
+  return st || first
+             ? st
+             : bad(g, "nodes", i, "EXT_mesh_gpu_instancing without attributes; export it again");
 }
 
 /* Reads the mesh of node i, which stands here, or all its instances. */
@@ -411,7 +448,8 @@ static thr_status read_mesh(gltf *g, int i, const thr_json *node, const placing 
 {
   const int m = member(node, "mesh", -1);
   const thr_json *mesh = element(g, "meshes", m), *primitives = thr_json_get(mesh, "primitives");
-  const thr_json *extension = thr_json_get(thr_json_get(node, "extensions"), "EXT_mesh_gpu_instancing");
+  const thr_json *extension =
+      thr_json_get(thr_json_get(node, "extensions"), "EXT_mesh_gpu_instancing");
   elements found[3] = {{0}};
   int n = 1;
   if (!mesh) return bad(g, "meshes", m, "is not there");
@@ -438,7 +476,8 @@ static thr_status read_node(gltf *g, int i, const placing *outer, int depth)
   const thr_json *node = element(g, "nodes", i), *children = thr_json_get(node, "children");
   placing own = {0}, here;
   if (!node) return bad(g, "nodes", i, "is not there");
-  if (g->entered[i] || depth > MOST_NESTED) return bad(g, "nodes", i, "stands in more than one place, or too deep");
+  if (g->entered[i] || depth > MOST_NESTED)
+    return bad(g, "nodes", i, "stands in more than one place, or too deep");
   g->entered[i] = true;
   thr_status st = place_node(g, i, node, &own);
   if (st) return st;
@@ -458,14 +497,17 @@ static thr_status name_parts(gltf *g, const thr_json *nodes)
   for (int i = 0; i < n && !st; i++) {
     const thr_json *node = thr_json_at(nodes, i);
     const char *name = thr_json_string(thr_json_get(node, "name"));
-    if (!name) name = thr_json_string(thr_json_get(element(g, "meshes", member(node, "mesh", -1)), "name"));
+    if (!name)
+      name = thr_json_string(thr_json_get(element(g, "meshes", member(node, "mesh", -1)), "name"));
     g->part[i] = -1;
-    if (thr_json_get(node, "mesh")) st = thr_parts_add(&g->parts, thr_span_of(name ? name : ""), &g->part[i], g->err);
+    if (thr_json_get(node, "mesh"))
+      st = thr_parts_add(&g->parts, thr_span_of(name ? name : ""), &g->part[i], g->err);
   }
   return st ? st : thr_parts_choose(&g->parts, g->file, "object", "objects", g->err);
 }
 
-/* The scene that is shown, else the first one, else every node that no other one has for a child. */
+/* The scene that is shown, else the first one, else every node that no other one has for a child.
+ */
 static thr_status read_scene(gltf *g)
 {
   static const placing unmoved = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
@@ -499,17 +541,20 @@ static uint32_t little(const char *b)
   return (uint32_t)u[0] | (uint32_t)u[1] << 8 | (uint32_t)u[2] << 16 | (uint32_t)u[3] << 24;
 }
 
-/* Finds the document and the binary chunk of a .glb file: a head of 12 bytes, then chunks of a length, a type and bytes. */
+/* Finds the document and the binary chunk of a .glb file: a head of 12 bytes, then chunks of a
+ * length, a type and bytes. */
 static thr_status open_binary(gltf *g, const char *text, size_t n, thr_span *json)
 {
   *json = (thr_span){text, n};
   if (n < 4 || memcmp(text, "glTF", 4) != 0) return THR_OK;
   if (n < 20 || little(text + 4) != 2)
-    return thr_fail(g->err, THR_EINPUT, "%s: a glb file of another version than 2, or cut off", g->file);
+    return thr_fail(g->err, THR_EINPUT, "%s: a glb file of another version than 2, or cut off",
+                    g->file);
   json->n = 0;
   for (size_t at = 12; n - at >= 8;) {
     const size_t size = little(text + at);
-    if (size > n - at - 8) return thr_fail(g->err, THR_EINPUT, "%s: the file ends in the middle of a chunk", g->file);
+    if (size > n - at - 8)
+      return thr_fail(g->err, THR_EINPUT, "%s: the file ends in the middle of a chunk", g->file);
     if (memcmp(text + at + 4, "JSON", 4) == 0) *json = (thr_span){text + at + 8, size};
     if (memcmp(text + at + 4, "BIN", 4) == 0) { /* with its NUL */
       g->chunk = (const unsigned char *)text + at + 8;
@@ -517,18 +562,21 @@ static thr_status open_binary(gltf *g, const char *text, size_t n, thr_span *jso
     }
     at += 8 + size;
   }
-  return json->n ? THR_OK : thr_fail(g->err, THR_EINPUT, "%s: a glb file without its JSON chunk", g->file);
+  return json->n ? THR_OK
+                 : thr_fail(g->err, THR_EINPUT, "%s: a glb file without its JSON chunk", g->file);
 }
 
-/* Can what requires an extension be read? Besides the two that are implemented: those that are about looks or notes, by the
- * beginnings of their names. */
+/* Can what requires an extension be read? Besides the two that are implemented: those that are
+ * about looks or notes, by the beginnings of their names. */
 static bool is_read(const char *extension)
 {
-  static const char *const looks[] = {"KHR_materials_", "KHR_texture_", "KHR_lights_",  "KHR_xmp_json_ld",
-                                      "EXT_texture_",   "EXT_lights_",  "MSFT_texture_"};
+  static const char *const looks[] = {"KHR_materials_",  "KHR_texture_", "KHR_lights_",
+                                      "KHR_xmp_json_ld", "EXT_texture_", "EXT_lights_",
+                                      "MSFT_texture_"};
   for (size_t i = 0; i < sizeof looks / sizeof *looks; i++)
     if (strncmp(extension, looks[i], strlen(looks[i])) == 0) return true;
-  return strcmp(extension, "EXT_mesh_gpu_instancing") == 0 || strcmp(extension, "KHR_mesh_quantization") == 0;
+  return strcmp(extension, "EXT_mesh_gpu_instancing") == 0 ||
+         strcmp(extension, "KHR_mesh_quantization") == 0;
 }
 
 static thr_status check_document(const gltf *g)
@@ -538,19 +586,22 @@ static thr_status check_document(const gltf *g)
   thr_text names = {0};
   int n = 0, n_named = 0;
   if (!version || version[0] != '2')
-    return thr_fail(g->err, THR_EINPUT, "%s: this is no glTF of version 2; export it as glTF 2.0 or GLB", g->file);
+    return thr_fail(g->err, THR_EINPUT,
+                    "%s: this is no glTF of version 2; export it as glTF 2.0 or GLB", g->file);
   if (required && thr_json_typeof(required) != THR_JSON_ARRAY)
     return thr_fail(g->err, THR_EINPUT, "%s: extensionsRequired: is no list of names", g->file);
   for (int i = 0; i < thr_json_size(required); i++) {
     const char *name = thr_json_string(thr_json_at(required, i));
     if (name && is_read(name)) continue;
-    if (names.length < 300 && ++n_named) thr_text_printf(&names, "%s%.60s", n ? ", " : "", name ? name : "(no name)");
+    if (names.length < 300 && ++n_named)
+      thr_text_printf(&names, "%s%.60s", n ? ", " : "", name ? name : "(no name)");
     n++;
   }
   if (n > n_named) thr_text_printf(&names, " and %d more", n - n_named);
   thr_status st = names.failed ? thr_nomem(g->err) : THR_OK;
   if (n && !st)
-    st = thr_fail(g->err, THR_EINPUT, "%s: requires the extension%s %s, which %s not read; export without %s", g->file,
+    st = thr_fail(g->err, THR_EINPUT,
+                  "%s: requires the extension%s %s, which %s not read; export without %s", g->file,
                   n == 1 ? "" : "s", names.data, n == 1 ? "is" : "are", n == 1 ? "it" : "them");
   thr_text_destroy(&names);
   return st;
@@ -567,13 +618,16 @@ static thr_status place(gltf *g)
   if (!st) st = thr_faces_finish(&g->faces, g->draft, g->file, g->err);
   if (!st) st = thr_draft_set_units(g->draft, "m", g->err);
   g->draft->up_is_y = true;
-  if (!st && g->draft->n_edges == 0) st = thr_fail(g->err, THR_EINPUT, "%s: no lines and no triangles in the scene", g->file);
+  if (!st && g->draft->n_edges == 0)
+    st = thr_fail(g->err, THR_EINPUT, "%s: no lines and no triangles in the scene", g->file);
   return st;
 }
 
-static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n,
+                        const char *name, thr_err *err)
 {
-  gltf g = {.file = name, .draft = draft, .report = report, .err = err, .parts = {.asked = draft->pick}};
+  gltf g = {
+      .file = name, .draft = draft, .report = report, .err = err, .parts = {.asked = draft->pick}};
   thr_span json;
   thr_status st = open_binary(&g, text, n, &json);
   if (!st) st = thr_json_parse(&g.doc, json.s, json.n, name, err);
@@ -599,7 +653,8 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
 static bool holds(const char *text, size_t n, const char *word)
 {
   const size_t m = strlen(word);
-  for (const char *c = text; n >= m && (c = memchr(c, word[0], n - m + 1 - (size_t)(c - text))); c++) {
+  for (const char *c = text; n >= m && (c = memchr(c, word[0], n - m + 1 - (size_t)(c - text)));
+       c++) {
     if (memcmp(c, word, m) == 0) return true;
     if ((size_t)(c + 1 - text) > n - m) break;
   }
@@ -613,7 +668,9 @@ static bool is(const char *text, size_t n)
   size_t i = 0;
   while (i < n && (text[i] == ' ' || text[i] == '\n' || text[i] == '\r' || text[i] == '\t'))
     i++;
-  return i < n && text[i] == '{' && holds(text, n, "\"asset\"") && holds(text, n, "\"bufferViews\"");
+  return i < n && text[i] == '{' && holds(text, n, "\"asset\"") &&
+         holds(text, n, "\"bufferViews\"");
 }
 
-const thr_format thr_gltf_format = {.name = "gltf", .ending = {"gltf", "glb"}, .parse = parse, .is = is};
+const thr_format thr_gltf_format = {
+    .name = "gltf", .ending = {"gltf", "glb"}, .parse = parse, .is = is};

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* COMPAS 1.x and 2.x, lists of its lines, assembly_instances and conmech. */
 #include "graph/io/read_parts.h"
 
@@ -27,8 +28,10 @@ bool thr_json_parse_key(const char *key, int64_t *number)
   return true;
 }
 
-/* Sets *foot if a value says yes; a list does if one of its values does, which are directions that are held. */
-static thr_status take_truth(thr_json_reader *r, const thr_json_where *at, const thr_json *v, bool *foot)
+/* Sets *foot if a value says yes; a list does if one of its values does, which are directions that
+ * are held. */
+static thr_status take_truth(thr_json_reader *r, const thr_json_where *at, const thr_json *v,
+                             bool *foot)
 {
   thr_status st = THR_OK;
   bool yes = thr_json_true(v);
@@ -42,8 +45,10 @@ static thr_status take_truth(thr_json_reader *r, const thr_json_where *at, const
   return st;
 }
 
-/* Sets *held to whether a support holds its node in any direction: it does if it does not list them. */
-static thr_status take_directions(thr_json_reader *r, const thr_json_where *at, const thr_json *support, bool *held)
+/* Sets *held to whether a support holds its node in any direction: it does if it does not list
+ * them. */
+static thr_status take_directions(thr_json_reader *r, const thr_json_where *at,
+                                  const thr_json *support, bool *held)
 {
   const char *key;
   const thr_json *directions = THR_JSON_MEMBER(support, &key, "condition", "fixities");
@@ -52,8 +57,8 @@ static thr_status take_directions(thr_json_reader *r, const thr_json_where *at, 
   return take_truth(r, &here, directions, held);
 }
 
-thr_status thr_json_support(thr_json_reader *r, const thr_json_where *at, const thr_json *node, const thr_json *defaults,
-                            bool *foot)
+thr_status thr_json_support(thr_json_reader *r, const thr_json_where *at, const thr_json *node,
+                            const thr_json *defaults, bool *foot)
 {
   static const char *const said[] = {"is_support", "is_anchor", "is_fixed", "is_grounded", "foot"};
   thr_status st = THR_OK;
@@ -69,7 +74,8 @@ thr_status thr_json_support(thr_json_reader *r, const thr_json_where *at, const 
   return st;
 }
 
-/* Lists an object's members; keys that are all integers come in numeric order, so that node i is key i. */
+/* Lists an object's members; keys that are all integers come in numeric order, so that node i is
+ * key i. */
 static thr_status list_members(thr_json_reader *r, const thr_json *object, keyed **list)
 {
   keyed *k = *list = thr_calloc((size_t)thr_json_size(object), sizeof *k);
@@ -87,8 +93,8 @@ static thr_status list_members(thr_json_reader *r, const thr_json *object, keyed
   return THR_OK;
 }
 
-static thr_status read_compas_nodes(thr_json_reader *r, const thr_json_where *list, const thr_json *nodes,
-                                    const thr_json *defaults)
+static thr_status read_compas_nodes(thr_json_reader *r, const thr_json_where *list,
+                                    const thr_json *nodes, const thr_json *defaults)
 {
   keyed *k;
   thr_status st = list_members(r, nodes, &k);
@@ -107,7 +113,8 @@ static thr_status read_compas_nodes(thr_json_reader *r, const thr_json_where *li
 }
 
 /* {u: {v: ..}}. Adjacency lists say each edge from both ends: then only one of the two counts. */
-static thr_status read_compas_edges(thr_json_reader *r, const thr_json_where *list, const thr_json *edges, bool both_ways)
+static thr_status read_compas_edges(thr_json_reader *r, const thr_json_where *list,
+                                    const thr_json *edges, bool both_ways)
 {
   void *outer = NULL;
   const char *from, *to, *name;
@@ -132,11 +139,13 @@ static thr_status read_compas_edges(thr_json_reader *r, const thr_json_where *li
 }
 
 /* A face is a list of vertices. */
-static thr_status read_compas_face(thr_json_reader *r, const thr_json_where *at, const thr_json *face)
+static thr_status read_compas_face(thr_json_reader *r, const thr_json_where *at,
+                                   const thr_json *face)
 {
   int n = thr_json_size(face), *corner = thr_calloc((size_t)n, sizeof *corner);
   if (!corner) return thr_nomem(r->err);
-  thr_status st = thr_json_is_array(face) ? THR_OK : thr_json_bad(r, at, "not a face; list its vertices");
+  thr_status st =
+      thr_json_is_array(face) ? THR_OK : thr_json_bad(r, at, "not a face; list its vertices");
   for (int i = 0; i < n && !st; i++) {
     thr_json_where here = {at, NULL, i};
     st = thr_json_reference(r, &here, thr_json_at(face, i), &corner[i]);
@@ -146,7 +155,8 @@ static thr_status read_compas_face(thr_json_reader *r, const thr_json_where *at,
   return st;
 }
 
-static thr_status read_compas_faces(thr_json_reader *r, const thr_json_where *list, const thr_json *faces)
+static thr_status read_compas_faces(thr_json_reader *r, const thr_json_where *list,
+                                    const thr_json *faces)
 {
   thr_status st = THR_OK;
   for (int i = 0; thr_json_is_array(faces) && i < thr_json_size(faces) && !st; i++) {
@@ -163,13 +173,15 @@ static thr_status read_compas_faces(thr_json_reader *r, const thr_json_where *li
   return st;
 }
 
-thr_status thr_json_read_compas(thr_json_reader *r, const thr_json_where *at, const thr_json *object)
+thr_status thr_json_read_compas(thr_json_reader *r, const thr_json_where *at,
+                                const thr_json *object)
 {
   const char *node_key, *default_key, *edge_key;
   const thr_json *nodes = THR_JSON_MEMBER(object, &node_key, "node", "vertex");
-  const thr_json *defaults =
-      THR_JSON_MEMBER(object, &default_key, "default_node_attributes", "default_vertex_attributes", "dna", "dva");
-  const thr_json *edges = THR_JSON_MEMBER(object, &edge_key, "edge", "adjacency"), *faces = thr_json_get(object, "face");
+  const thr_json *defaults = THR_JSON_MEMBER(object, &default_key, "default_node_attributes",
+                                             "default_vertex_attributes", "dna", "dva");
+  const thr_json *edges = THR_JSON_MEMBER(object, &edge_key, "edge", "adjacency"),
+                 *faces = thr_json_get(object, "face");
   thr_json_where node_list = {at, node_key, 0}, face_list = {at, "face", 0};
   thr_status st = read_compas_nodes(r, &node_list, nodes, defaults);
   if (!st) st = thr_names_build(&r->names, r->d, r->file, r->err);
@@ -181,11 +193,13 @@ thr_status thr_json_read_compas(thr_json_reader *r, const thr_json_where *at, co
   return st ? st : read_compas_faces(r, &face_list, faces);
 }
 
-/* ---- lines: [[[x, y, z], [x, y, z]], ..] or COMPAS Line and Polyline objects, in a list or an object ---- */
+/* ---- lines: [[[x, y, z], [x, y, z]], ..] or COMPAS Line and Polyline objects, in a list or an
+ * object ---- */
 
 const thr_json *thr_json_points_of_line(const thr_json *v, const char *const **end)
 {
-  static const char *const ends[][2] = {{"start", "end"}, {"From", "To"}, {"from", "to"}}; /* COMPAS; Rhino */
+  static const char *const ends[][2] = {
+      {"start", "end"}, {"From", "To"}, {"from", "to"}}; /* COMPAS; Rhino */
   const char *which;
   *end = ends[0];
   if (thr_json_is_array(v)) return v;
@@ -212,7 +226,8 @@ static thr_status read_line(thr_json_reader *r, const thr_json_where *at, const 
   for (int i = 0; i < n && !st; i++) {
     thr_json_where here = {at, two ? end[i] : NULL, i};
     double xyz[3];
-    st = thr_json_point(r, &here, two ? thr_json_get(points, end[i]) : thr_json_at(points, i), NULL, xyz);
+    st = thr_json_point(r, &here, two ? thr_json_get(points, end[i]) : thr_json_at(points, i), NULL,
+                        xyz);
     if (!st) st = thr_draft_add_node(r->d, xyz, NULL, false, r->err);
     if (!st && i) st = thr_draft_add_edge(r->d, r->d->n_nodes - 2, r->d->n_nodes - 1, 0, r->err);
   }
@@ -238,15 +253,19 @@ thr_status thr_json_read_lines(thr_json_reader *r, const thr_json_where *at, con
 
 /* ---- GeoJSON: RFC 7946, its coordinates taken as they are ---- */
 
-/* How deep lists of points lie in the coordinates of a geometry; 0 for points, which are no lines; -1 for anything else. */
+/* How deep lists of points lie in the coordinates of a geometry; 0 for points, which are no lines;
+ * -1 for anything else. */
 static int depth_of_geometry(const thr_json *v)
 {
   static const struct {
     const char *type;
     int depth;
-  } known[] = {{"LineString", 1}, {"MultiLineString", 2}, {"Polygon", 2}, {"MultiPolygon", 3}, {"Point", 0}, {"MultiPoint", 0}};
+  } known[] = {{"LineString", 1},   {"MultiLineString", 2}, {"Polygon", 2},
+               {"MultiPolygon", 3}, {"Point", 0},           {"MultiPoint", 0}};
   const char *type = thr_json_string(thr_json_get(v, "type"));
-  for (size_t i = 0; type && thr_json_is_array(thr_json_get(v, "coordinates")) && i < sizeof known / sizeof *known; i++)
+  for (size_t i = 0; type && thr_json_is_array(thr_json_get(v, "coordinates")) &&
+                     i < sizeof known / sizeof *known;
+       i++)
     if (strcmp(type, known[i].type) == 0) return known[i].depth;
   return -1;
 }
@@ -256,7 +275,8 @@ bool thr_json_is_geometry(const thr_json *v)
   return depth_of_geometry(v) >= 0;
 }
 
-static thr_status read_nested_lines(thr_json_reader *r, const thr_json_where *at, const thr_json *v, int depth)
+static thr_status read_nested_lines(thr_json_reader *r, const thr_json_where *at, const thr_json *v,
+                                    int depth)
 {
   if (depth == 1) return read_line(r, at, v);
   thr_status st = thr_json_is_array(v) ? THR_OK : thr_json_bad(r, at, "not a list of lines");
@@ -267,7 +287,8 @@ static thr_status read_nested_lines(thr_json_reader *r, const thr_json_where *at
   return st;
 }
 
-thr_status thr_json_read_geometry(thr_json_reader *r, const thr_json_where *at, const thr_json *object)
+thr_status thr_json_read_geometry(thr_json_reader *r, const thr_json_where *at,
+                                  const thr_json *object)
 {
   thr_json_where here = {at, "coordinates", 0};
   const int depth = depth_of_geometry(object);
@@ -278,7 +299,8 @@ thr_status thr_json_read_geometry(thr_json_reader *r, const thr_json_where *at, 
 
 /* ---- assembly_instances (node_list) and conmech (nodes) ---- */
 
-static thr_status read_assembly_nodes(thr_json_reader *r, const thr_json_where *list, const thr_json *nodes)
+static thr_status read_assembly_nodes(thr_json_reader *r, const thr_json_where *list,
+                                      const thr_json *nodes)
 {
   for (int i = 0; i < thr_json_size(nodes); i++) {
     thr_json_where here = {list, NULL, i}, point = {&here, "point", 0};
@@ -301,14 +323,17 @@ static thr_status read_assembly_nodes(thr_json_reader *r, const thr_json_where *
   return thr_names_build(&r->names, r->d, r->file, r->err);
 }
 
-static thr_status read_assembly_elements(thr_json_reader *r, const thr_json_where *list, const thr_json *elements)
+static thr_status read_assembly_elements(thr_json_reader *r, const thr_json_where *list,
+                                         const thr_json *elements)
 {
   thr_status st = THR_OK;
   for (int e = 0; e < thr_json_size(elements) && !st; e++) {
     const char *key;
-    const thr_json *ends = THR_JSON_MEMBER(thr_json_at(elements, e), &key, "end_node_ids", "end_node_inds");
+    const thr_json *ends =
+        THR_JSON_MEMBER(thr_json_at(elements, e), &key, "end_node_ids", "end_node_inds");
     thr_json_where here = {list, NULL, e}, there = {&here, key, 0};
-    if (!thr_json_is_array(ends) || thr_json_size(ends) != 2) return thr_json_bad(r, &there, "not two node numbers");
+    if (!thr_json_is_array(ends) || thr_json_size(ends) != 2)
+      return thr_json_bad(r, &there, "not two node numbers");
     int end[2] = {0, 0};
     for (int i = 0; i < 2 && !st; i++) {
       thr_json_where side = {&there, NULL, i};
@@ -319,14 +344,16 @@ static thr_status read_assembly_elements(thr_json_reader *r, const thr_json_wher
   return st;
 }
 
-thr_status thr_json_read_assembly(thr_json_reader *r, const thr_json_where *at, const thr_json *object)
+thr_status thr_json_read_assembly(thr_json_reader *r, const thr_json_where *at,
+                                  const thr_json *object)
 {
   const char *node_key, *element_key, *unit_key;
   const thr_json *nodes = THR_JSON_MEMBER(object, &node_key, "node_list", "nodes");
   const thr_json *elements = THR_JSON_MEMBER(object, &element_key, "element_list", "elements"),
                  *supports = thr_json_get(object, "supports");
   const thr_json *units = THR_JSON_MEMBER(object, &unit_key, "unit", "units");
-  thr_json_where node_list = {at, node_key, 0}, element_list = {at, element_key, 0}, support_list = {at, "supports", 0};
+  thr_json_where node_list = {at, node_key, 0}, element_list = {at, element_key, 0},
+                 support_list = {at, "supports", 0};
   thr_status st = thr_json_units(r, at, unit_key, units);
   if (!st) st = read_assembly_nodes(r, &node_list, nodes);
   if (!st) st = read_assembly_elements(r, &element_list, elements);

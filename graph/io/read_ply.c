@@ -1,6 +1,7 @@
-/* PLY, the Stanford polygon format: ascii and both binary orders, elements and properties in any order. Vertices have x, y and z,
- * edges vertex1 and vertex2, faces, polylines and strips of triangles vertex_indices. G. Turk, "The PLY Polygon File Format",
- * 1994. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* PLY, the Stanford polygon format: ascii and both binary orders, elements and properties in any
+ * order. Vertices have x, y and z, edges vertex1 and vertex2, faces, polylines and strips of
+ * triangles vertex_indices. G. Turk, "The PLY Polygon File Format", 1994. */
 #include "graph/io/read_parts.h"
 
 #include <limits.h>
@@ -9,7 +10,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef enum { INT8, UINT8, INT16, UINT16, INT32, UINT32, INT64, UINT64, FLOAT32, FLOAT64, N_TYPES } number_type;
+typedef enum {
+  INT8,
+  UINT8,
+  INT16,
+  UINT16,
+  INT32,
+  UINT32,
+  INT64,
+  UINT64,
+  FLOAT32,
+  FLOAT64,
+  N_TYPES
+} number_type;
 typedef enum { IGNORED, X, Y, Z, VERTEX_1, VERTEX_2, CORNERS } role;
 typedef enum { ASCII, LITTLE, BIG } encoding;
 typedef enum { OTHER, VERTEX, EDGE, FACE, LINE, STRIP } element_kind;
@@ -42,25 +55,29 @@ typedef struct {
   const element *now; /* the element being read, and which of its items, from 0 */
   double item;
   thr_span row; /* ascii: the line on which that item begins, if nothing stands before it */
-  /* ascii: the first item that ends before its row does, which is no fault of a stream without rows */
+  /* ascii: the first item that ends before its row does, which is no fault of a stream without rows
+   */
   const element *short_of; /* NULL: there is none */
   double short_item;
   int short_line, row_values, item_values;
 } ply;
 
-/* Says that a row has more values than the header declares, which is why the numbers after it make no sense. */
+/* Says that a row has more values than the header declares, which is why the numbers after it make
+ * no sense. */
 static thr_status fail_at_long_row(ply *p)
 {
   p->scan.line = p->short_line;
-  return thr_scan_fail(&p->scan, p->err,
-                       "%s %.0f: the row has %d values, the header declares %d; correct the header or export again",
-                       p->short_of->name, p->short_item, p->row_values, p->item_values);
+  return thr_scan_fail(
+      &p->scan, p->err,
+      "%s %.0f: the row has %d values, the header declares %d; correct the header or export again",
+      p->short_of->name, p->short_item, p->row_values, p->item_values);
 }
 
 static thr_status fail(ply *p, const char *what)
 {
   if (p->short_of) return fail_at_long_row(p);
-  if (p->encoding == ASCII) return thr_scan_fail(&p->scan, p->err, "%s %.0f: %s", p->now->name, p->item, what);
+  if (p->encoding == ASCII)
+    return thr_scan_fail(&p->scan, p->err, "%s %.0f: %s", p->now->name, p->item, what);
   return thr_fail(p->err, THR_EINPUT, "%s: %s %.0f: %s", p->scan.name, p->now->name, p->item, what);
 }
 
@@ -70,8 +87,9 @@ static thr_status fail(ply *p, const char *what)
 static number_type type_named(thr_span word)
 {
   static const char *const names[N_TYPES][2] = {
-      {"char", "int8"},   {"uchar", "uint8"}, {"short", "int16"},  {"ushort", "uint16"}, {"int", "int32"},
-      {"uint", "uint32"}, {"long", "int64"},  {"ulong", "uint64"}, {"float", "float32"}, {"double", "float64"}};
+      {"char", "int8"},     {"uchar", "uint8"},   {"short", "int16"}, {"ushort", "uint16"},
+      {"int", "int32"},     {"uint", "uint32"},   {"long", "int64"},  {"ulong", "uint64"},
+      {"float", "float32"}, {"double", "float64"}};
   number_type t = INT8;
   while (t < N_TYPES && !thr_span_is(word, names[t][0]) && !thr_span_is(word, names[t][1]))
     t++;
@@ -96,9 +114,11 @@ static role role_of(element_kind kind, bool list, thr_span name)
                {EDGE, false, "v2", VERTEX_2},
                {EDGE, false, "start", VERTEX_1},
                {EDGE, false, "end", VERTEX_2}};
-  static const char *const corners[] = {"vertex_indices", "vertex_index", "vertex_ids", "vertices", "indices"};
+  static const char *const corners[] = {"vertex_indices", "vertex_index", "vertex_ids", "vertices",
+                                        "indices"};
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
-    if (known[i].kind == kind && known[i].list == list && thr_span_is(name, known[i].name)) return known[i].role;
+    if (known[i].kind == kind && known[i].list == list && thr_span_is(name, known[i].name))
+      return known[i].role;
   for (size_t i = 0; i < sizeof corners / sizeof *corners && list && kind >= EDGE; i++)
     if (thr_span_is(name, corners[i])) return CORNERS;
   return IGNORED;
@@ -127,7 +147,8 @@ static thr_status read_element(ply *p, thr_span rest)
   snprintf(e.name, sizeof e.name, "%.*s", name.n < 20 ? (int)name.n : 20, name.s);
   thr_text_clean(e.name);
   if (e.kind == OTHER && e.n > 0) thr_report_skip(p->report, name);
-  thr_status st = thr_grow(&p->element, p->n_elements, &p->elements_capacity, sizeof *p->element, p->err);
+  thr_status st =
+      thr_grow(&p->element, p->n_elements, &p->elements_capacity, sizeof *p->element, p->err);
   if (!st) p->element[p->n_elements++] = e;
   return st;
 }
@@ -136,7 +157,8 @@ static thr_status read_property(ply *p, thr_span rest)
 {
   property q = {0};
   thr_span word = thr_span_word(&rest);
-  if (p->n_elements == 0) return thr_scan_fail(&p->scan, p->err, "a property before the first element");
+  if (p->n_elements == 0)
+    return thr_scan_fail(&p->scan, p->err, "a property before the first element");
   element *e = &p->element[p->n_elements - 1];
   q.list = thr_span_is(word, "list");
   if (q.list) {
@@ -146,9 +168,12 @@ static thr_status read_property(ply *p, thr_span rest)
   q.type = type_named(word);
   word = thr_span_word(&rest);
   if (q.type == N_TYPES || q.count == N_TYPES || !word.n)
-    return thr_scan_fail(&p->scan, p->err, "a property is a type (char .. double, int8 .. float64) or a list of one, and a name");
+    return thr_scan_fail(
+        &p->scan, p->err,
+        "a property is a type (char .. double, int8 .. float64) or a list of one, and a name");
   q.role = role_of(e->kind, q.list, word);
-  thr_status st = thr_grow(&p->property, p->n_properties, &p->properties_capacity, sizeof *p->property, p->err);
+  thr_status st =
+      thr_grow(&p->property, p->n_properties, &p->properties_capacity, sizeof *p->property, p->err);
   if (st) return st;
   p->property[p->n_properties++] = q;
   e->last = p->n_properties;
@@ -164,8 +189,10 @@ static thr_status read_format(ply *p, thr_span rest)
       p->encoding = (encoding)i;
       return THR_OK;
     }
-  return thr_scan_fail(&p->scan, p->err, "the format is '%.*s'; ascii, binary_little_endian and binary_big_endian are read",
-                       thr_span_width(word), word.s);
+  return thr_scan_fail(
+      &p->scan, p->err,
+      "the format is '%.*s'; ascii, binary_little_endian and binary_big_endian are read",
+      thr_span_width(word), word.s);
 }
 
 /* Has the element a property for each role from first to last? */
@@ -185,11 +212,16 @@ static thr_status check_header(ply *p)
   for (int i = 0; i < p->n_elements; i++) {
     const element *e = &p->element[i];
     const char *missing = NULL;
-    if (e->kind == VERTEX && !has_roles(p, e, X, Z)) missing = "vertices need the properties x, y and z";
-    if (e->kind == EDGE && !has_roles(p, e, VERTEX_1, VERTEX_2) && !has_roles(p, e, CORNERS, CORNERS))
+    if (e->kind == VERTEX && !has_roles(p, e, X, Z))
+      missing = "vertices need the properties x, y and z";
+    if (e->kind == EDGE && !has_roles(p, e, VERTEX_1, VERTEX_2) &&
+        !has_roles(p, e, CORNERS, CORNERS))
       missing = "edges need the properties vertex1 and vertex2";
-    if (e->kind > EDGE && !has_roles(p, e, CORNERS, CORNERS)) missing = "faces and lines need the property list vertex_indices";
-    if (e->n > 0 && missing) return thr_fail(p->err, THR_EINPUT, "%s: %s; export it again with them", p->scan.name, missing);
+    if (e->kind > EDGE && !has_roles(p, e, CORNERS, CORNERS))
+      missing = "faces and lines need the property list vertex_indices";
+    if (e->n > 0 && missing)
+      return thr_fail(p->err, THR_EINPUT, "%s: %s; export it again with them", p->scan.name,
+                      missing);
   }
   return THR_OK;
 }
@@ -216,8 +248,8 @@ static thr_status read_header(ply *p)
     }
     if (st) return st;
   }
-  return thr_fail(p->err, THR_EINPUT, "%s: the header has no %s, so this is not a whole PLY file", p->scan.name,
-                  has_format ? "line end_header" : "lines ply and format");
+  return thr_fail(p->err, THR_EINPUT, "%s: the header has no %s, so this is not a whole PLY file",
+                  p->scan.name, has_format ? "line end_header" : "lines ply and format");
 }
 
 /* ---- numbers ---- */
@@ -225,7 +257,8 @@ static thr_status read_header(ply *p)
 /* Is the word one that programs write for a number that is not finite: nan, -inf, 1.#QNAN? */
 static bool is_not_finite(thr_span word)
 {
-  static const char *const known[] = {"nan", "inf", "infinity", "nan(ind)", "nan(snan)", "1.#qnan", "1.#inf", "1.#ind"};
+  static const char *const known[] = {"nan",       "inf",     "infinity", "nan(ind)",
+                                      "nan(snan)", "1.#qnan", "1.#inf",   "1.#ind"};
   if (word.n && (word.s[0] == '-' || word.s[0] == '+')) word = (thr_span){word.s + 1, word.n - 1};
   for (size_t i = 0; i < sizeof known / sizeof *known; i++)
     if (thr_span_is(word, known[i])) return true;
@@ -303,21 +336,24 @@ static thr_status next_number(ply *p, number_type type, bool used, double *x)
 
 /* ---- items ---- */
 
-/* Adds a corner to a face; to a polyline the edge from the corner before it, to a strip of triangles the triangle with the two
- * before it. run holds the last two corners of n since the list began or since the last -1, which begins a strip anew. */
+/* Adds a corner to a face; to a polyline the edge from the corner before it, to a strip of
+ * triangles the triangle with the two before it. run holds the last two corners of n since the list
+ * began or since the last -1, which begins a strip anew. */
 static thr_status corner(ply *p, double x, int run[2], int *n)
 {
   if (x == -1 && p->now->kind == STRIP) {
     *n = 0;
     return THR_OK;
   }
-  if (x != floor(x) || x < 0 || x > INT_MAX) return fail(p, "a vertex number must be a whole number from 0");
+  if (x != floor(x) || x < 0 || x > INT_MAX)
+    return fail(p, "a vertex number must be a whole number from 0");
   if (p->now->kind == FACE) return thr_faces_corner(&p->faces, (int)x, p->err);
   const int k = p->now->kind == STRIP ? 2 : 1;
   thr_status st = THR_OK;
   if (*n >= k) {
     const int corners[3] = {run[(*n - k) % 2], run[(*n - 1) % 2], (int)x};
-    st = k == 2 ? thr_faces_add(&p->faces, corners, 3, p->err) : thr_faces_add(&p->faces, corners + 1, 2, p->err);
+    st = k == 2 ? thr_faces_add(&p->faces, corners, 3, p->err)
+                : thr_faces_add(&p->faces, corners + 1, 2, p->err);
   }
   run[(*n)++ % 2] = (int)x;
   return st;
@@ -328,7 +364,8 @@ static thr_status read_list(ply *p, const property *q)
   double n, x;
   int run[2], n_run = 0;
   thr_status st = next_number(p, q->count, true, &n);
-  if (!st && (n < 0 || n != floor(n))) return fail(p, "the length of a list must be a whole number from 0");
+  if (!st && (n < 0 || n != floor(n)))
+    return fail(p, "the length of a list must be a whole number from 0");
   for (double i = 0; !st && i < n; i++) {
     st = next_number(p, q->type, q->role == CORNERS, &x);
     if (!st && q->role == CORNERS) st = corner(p, x, run, &n_run);
@@ -355,7 +392,8 @@ static thr_status read_item(ply *p)
     st = thr_draft_add_node(p->draft, xyz, NULL, false, p->err);
   }
   int run[2], n_run = 0;
-  if (!st && p->now->kind == EDGE && has_roles(p, p->now, VERTEX_1, VERTEX_2)) st = corner(p, value[VERTEX_1], run, &n_run);
+  if (!st && p->now->kind == EDGE && has_roles(p, p->now, VERTEX_1, VERTEX_2))
+    st = corner(p, value[VERTEX_1], run, &n_run);
   if (!st && n_run) st = corner(p, value[VERTEX_2], run, &n_run);
   return st ? st : thr_faces_close(&p->faces, p->err);
 }
@@ -381,7 +419,9 @@ static void begin_row(ply *p)
 /* Remembers the first item that leaves values of its row over. */
 static void end_row(ply *p)
 {
-  if (p->short_of || !p->row.n || !thr_span_trim(p->line).n || p->line.s + p->line.n != p->row.s + p->row.n) return;
+  if (p->short_of || !p->row.n || !thr_span_trim(p->line).n ||
+      p->line.s + p->line.n != p->row.s + p->row.n)
+    return;
   p->short_of = p->now;
   p->short_item = p->item;
   p->short_line = p->scan.line;
@@ -389,15 +429,18 @@ static void end_row(ply *p)
   p->item_values = p->row_values - count_words(p->line);
 }
 
-/* Refuses a file in which anything but blanks is left after the items that its header declares: then the rows have more values
- * than the header says, and every item after the first may be wrong. */
+/* Refuses a file in which anything but blanks is left after the items that its header declares:
+ * then the rows have more values than the header says, and every item after the first may be wrong.
+ */
 static thr_status check_end(ply *p)
 {
   if (p->encoding == ASCII) {
     begin_row(p);
     if (!thr_span_trim(p->line).n) return THR_OK;
     if (p->short_of) return fail_at_long_row(p);
-    return thr_scan_fail(&p->scan, p->err, "this is left after all that the header declares; correct the header or export again");
+    return thr_scan_fail(
+        &p->scan, p->err,
+        "this is left after all that the header declares; correct the header or export again");
   }
   const size_t left = (size_t)(p->scan.end - p->scan.at);
   size_t blanks = 0;
@@ -406,10 +449,11 @@ static thr_status check_end(ply *p)
   if (blanks == left) return THR_OK;
   char rows[160] = "";
   for (int i = 0, at = 0; i < p->n_elements && at < (int)sizeof rows; i++)
-    at += snprintf(rows + at, sizeof rows - (size_t)at, "%s%.0f %s with %d", i ? ", " : "", p->element[i].n, p->element[i].name,
-                   p->element[i].last - p->element[i].first);
+    at += snprintf(rows + at, sizeof rows - (size_t)at, "%s%.0f %s with %d", i ? ", " : "",
+                   p->element[i].n, p->element[i].name, p->element[i].last - p->element[i].first);
   return thr_fail(p->err, THR_EINPUT,
-                  "%s: %zu bytes are left after the values that the header declares (%s); correct the header or export again",
+                  "%s: %zu bytes are left after the values that the header declares (%s); correct "
+                  "the header or export again",
                   p->scan.name, left, rows);
 }
 
@@ -428,14 +472,16 @@ static thr_status read_items(ply *p)
   return st ? st : check_end(p);
 }
 
-static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n,
+                        const char *name, thr_err *err)
 {
   ply p = {.scan = {name, text, text + n, 1, 1}, .draft = draft, .report = report, .err = err};
   thr_status st = n ? read_header(&p) : thr_fail(err, THR_EINPUT, "%s: the file is empty", name);
   if (!st) st = read_items(&p);
   if (!st) st = thr_faces_finish(&p.faces, draft, name, err);
   if (!st && draft->n_edges == 0)
-    st = thr_fail(err, THR_EINPUT, "%s: no edges and no faces, only %d points; export the lines or the mesh", name,
+    st = thr_fail(err, THR_EINPUT,
+                  "%s: no edges and no faces, only %d points; export the lines or the mesh", name,
                   draft->n_nodes);
   thr_faces_destroy(&p.faces);
   free(p.element);
@@ -453,8 +499,11 @@ static void write(const thr_frame *frame, thr_text *out)
 {
   thr_text_append(out, "ply\nformat ascii 1.0\ncomment units: ");
   thr_text_append_clean(out, frame->units);
-  thr_text_printf(out, "\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\n", frame->n_nodes);
-  thr_text_printf(out, "element edge %d\nproperty int vertex1\nproperty int vertex2\nend_header\n", frame->n_edges);
+  thr_text_printf(out,
+                  "\nelement vertex %d\nproperty double x\nproperty double y\nproperty double z\n",
+                  frame->n_nodes);
+  thr_text_printf(out, "element edge %d\nproperty int vertex1\nproperty int vertex2\nend_header\n",
+                  frame->n_edges);
   for (int v = 0; v < frame->n_nodes; v++)
     for (int i = 0; i < 3; i++) {
       thr_text_double(out, frame->xyz[v][i]);
@@ -464,4 +513,5 @@ static void write(const thr_frame *frame, thr_text *out)
     thr_text_printf(out, "%d %d\n", frame->edge[e][0], frame->edge[e][1]);
 }
 
-const thr_format thr_ply_format = {.name = "ply", .ending = {"ply"}, .begins = begins, .parse = parse, .write = write};
+const thr_format thr_ply_format = {
+    .name = "ply", .ending = {"ply"}, .begins = begins, .parse = parse, .write = write};

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STL: triangles, as text or binary. Corners at exactly one place are one node. */
 #include "graph/io/read_parts.h"
 
@@ -5,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Binary: 80 bytes of anything, the number of triangles, then for each twelve floats (normal, three corners) and two bytes. */
+/* Binary: 80 bytes of anything, the number of triangles, then for each twelve floats (normal, three
+ * corners) and two bytes. */
 enum { HEAD = 84, TRIANGLE = 50, FIRST_CORNER = 12 };
 
 /* ---- binary ---- */
@@ -24,14 +26,16 @@ static double little_float(const char *at)
   return f;
 }
 
-/* Is the text exactly as long as its number of triangles says? Nothing else tells, as a binary file may begin with "solid", too.
+/* Is the text exactly as long as its number of triangles says? Nothing else tells, as a binary file
+ * may begin with "solid", too.
  */
 static bool is_binary(const char *text, size_t n)
 {
   return n >= HEAD && n == HEAD + (size_t)TRIANGLE * little32(text + HEAD - 4);
 }
 
-static thr_status read_binary(thr_sites *c, thr_draft *draft, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status read_binary(thr_sites *c, thr_draft *draft, const char *text, size_t n,
+                              const char *name, thr_err *err)
 {
   const thr_scan head = {name, text, text + n, 1, 1};
   thr_status st = thr_scan_units(&head, (thr_span){text, HEAD - 4}, draft, err);
@@ -51,12 +55,14 @@ static thr_status read_binary(thr_sites *c, thr_draft *draft, const char *text, 
 /* Says of a binary file, which is not as long as it announces, how many triangles fit into it. */
 static thr_status fail_length(const char *text, size_t n, const char *name, thr_err *err)
 {
-  if (n < HEAD) return thr_fail(err, THR_EINPUT, "%s: a binary STL of %zu bytes is not whole; its head alone has 84", name, n);
+  if (n < HEAD)
+    return thr_fail(err, THR_EINPUT,
+                    "%s: a binary STL of %zu bytes is not whole; its head alone has 84", name, n);
   const size_t fit = (n - HEAD) / TRIANGLE, left = (n - HEAD) % TRIANGLE;
-  return thr_fail(
-      err, THR_EINPUT,
-      "%s: this binary STL announces %u triangles; %zu fit into its %zu bytes, and %zu bytes are left; export it again", name,
-      (unsigned)little32(text + HEAD - 4), fit, n, left);
+  return thr_fail(err, THR_EINPUT,
+                  "%s: this binary STL announces %u triangles; %zu fit into its %zu bytes, and %zu "
+                  "bytes are left; export it again",
+                  name, (unsigned)little32(text + HEAD - 4), fit, n, left);
 }
 
 /* ---- text ---- */
@@ -67,24 +73,27 @@ static thr_status read_vertex(const thr_scan *scan, thr_sites *c, thr_span rest,
   for (int i = 0; i < 3; i++) {
     thr_span word = thr_span_word(&rest);
     if (!thr_span_real(word, &xyz[i]))
-      return thr_scan_fail(scan, err, "a vertex needs x, y and z; '%.*s' is not a finite number", thr_span_width(word), word.s);
+      return thr_scan_fail(scan, err, "a vertex needs x, y and z; '%.*s' is not a finite number",
+                           thr_span_width(word), word.s);
   }
   return thr_sites_add(c, xyz, err);
 }
 
-static thr_status name_parts(thr_parts *parts, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status name_parts(thr_parts *parts, const char *text, size_t n, const char *name,
+                             thr_err *err)
 {
   thr_scan scan;
   thr_span line;
   int part;
   thr_status st = thr_scan_start(&scan, text, n, name, err);
   while (!st && parts->asked && thr_scan_line(&scan, &line))
-    if (thr_span_is(thr_span_word(&line), "solid")) st = thr_parts_add(parts, thr_span_trim(line), &part, err);
+    if (thr_span_is(thr_span_word(&line), "solid"))
+      st = thr_parts_add(parts, thr_span_trim(line), &part, err);
   return st ? st : thr_parts_choose(parts, name, "solid", "solids", err);
 }
 
-static thr_status read_text(thr_sites *c, thr_draft *draft, thr_parts *parts, const char *text, size_t n, const char *name,
-                            thr_err *err)
+static thr_status read_text(thr_sites *c, thr_draft *draft, thr_parts *parts, const char *text,
+                            size_t n, const char *name, thr_err *err)
 {
   thr_scan scan;
   thr_span line;
@@ -99,9 +108,12 @@ static thr_status read_text(thr_sites *c, thr_draft *draft, thr_parts *parts, co
     if (!st && thr_span_is(word, "vertex")) st = read_vertex(&scan, c, line, err);
     if (thr_span_is(word, "facet")) facet = c->n;
     if (!st && thr_span_is(word, "endfacet") && c->n - facet != 3)
-      st = thr_scan_fail(&scan, err, "a facet needs three vertices, this one has %d; export triangles", c->n - facet);
+      st = thr_scan_fail(&scan, err,
+                         "a facet needs three vertices, this one has %d; export triangles",
+                         c->n - facet);
   }
-  if (!st && c->n % 3) st = thr_scan_fail(&scan, err, "the file ends inside a facet; it is not whole");
+  if (!st && c->n % 3)
+    st = thr_scan_fail(&scan, err, "the file ends inside a facet; it is not whole");
   return st;
 }
 
@@ -110,7 +122,8 @@ static thr_status read_text(thr_sites *c, thr_draft *draft, thr_parts *parts, co
 static thr_status fill_draft(const thr_sites *c, thr_draft *draft, const char *name, thr_err *err)
 {
   thr_faces faces = {0};
-  if (c->n < 3) return thr_fail(err, THR_EINPUT, "%s: no triangles; this is an empty STL file, or none", name);
+  if (c->n < 3)
+    return thr_fail(err, THR_EINPUT, "%s: no triangles; this is an empty STL file, or none", name);
   int *node = thr_calloc((size_t)c->n, sizeof *node);
   if (!node) return thr_nomem(err);
   thr_status st = thr_sites_finish(c, node, draft, err);
@@ -125,7 +138,8 @@ static thr_status fill_draft(const thr_sites *c, thr_draft *draft, const char *n
   return st;
 }
 
-static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n,
+                        const char *name, thr_err *err)
 {
   thr_sites c = {0};
   thr_parts solids = {.asked = draft->pick};
@@ -147,4 +161,5 @@ static bool begins(thr_span line)
   return thr_span_starts(line, "solid ") || thr_span_is(line, "solid");
 }
 
-const thr_format thr_stl_format = {.name = "stl", .ending = {"stl"}, .begins = begins, .parse = parse, .is = is_binary};
+const thr_format thr_stl_format = {
+    .name = "stl", .ending = {"stl"}, .begins = begins, .parse = parse, .is = is_binary};

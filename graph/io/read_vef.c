@@ -1,5 +1,8 @@
-/* VEF, vertices, edges and faces: as vZome writes it, with coordinates in a number field, or as a list of points in space. vZome:
- * "(b,a)" is a + b times the field's irrational; the coordinate w comes first of four and is dropped, in versions before 4 last.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* VEF, vertices, edges and faces: as vZome writes it, with coordinates in a number field, or as a
+ * list of points in space. vZome:
+ * "(b,a)" is a + b times the field's irrational; the coordinate w comes first of four and is
+ * dropped, in versions before 4 last.
  */
 #include "graph/io/read_parts.h"
 
@@ -40,7 +43,8 @@ static bool read_fraction(thr_span t, double *x)
   const char *stroke = memchr(t.s, '/', t.n);
   double divisor = 1;
   const size_t n = stroke ? (size_t)(stroke - t.s) : t.n;
-  if (stroke && !thr_span_number((thr_span){stroke + 1, t.n - n - 1}, false, &divisor)) return false;
+  if (stroke && !thr_span_number((thr_span){stroke + 1, t.n - n - 1}, false, &divisor))
+    return false;
   if (!thr_span_number((thr_span){t.s, n}, false, x) || divisor == 0) return false;
   *x /= divisor;
   return true;
@@ -69,8 +73,8 @@ static thr_status read_number(vef *v, thr_span word, double *x)
 {
   if (!word.n) return thr_words_fail(&v->words, "the file ends here; it is not whole");
   if (read_term(v->field, word, x)) return THR_OK;
-  return thr_scan_fail(&v->words.scan, v->words.err, "'%.*s' is no number of the field %s", thr_span_width(word), word.s,
-                       v->field->name);
+  return thr_scan_fail(&v->words.scan, v->words.err, "'%.*s' is no number of the field %s",
+                       thr_span_width(word), word.s, v->field->name);
 }
 
 /* Reads a number for each dimension. */
@@ -103,10 +107,10 @@ static thr_status read_field(vef *v, thr_span name)
       v->field = &fields[i];
       return THR_OK;
     }
-  return thr_scan_fail(
-      &v->words.scan, v->words.err,
-      "the field '%.*s' is not read; golden, rootTwo, rootThree, heptagon and rational are: export as OBJ or STL",
-      thr_span_width(name), name.s);
+  return thr_scan_fail(&v->words.scan, v->words.err,
+                       "the field '%.*s' is not read; golden, rootTwo, rootThree, heptagon and "
+                       "rational are: export as OBJ or STL",
+                       thr_span_width(name), name.s);
 }
 
 static thr_status read_scale(vef *v, thr_span word)
@@ -118,7 +122,8 @@ static thr_status read_scale(vef *v, thr_span word)
   return st;
 }
 
-/* Reads "vZome VEF 6 field golden scale (0,1) .." up to the number of vertices. Without it the first vertex tells the dimension.
+/* Reads "vZome VEF 6 field golden scale (0,1) .." up to the number of vertices. Without it the
+ * first vertex tells the dimension.
  */
 static thr_status read_head(vef *v, int *n_vertices)
 {
@@ -140,7 +145,8 @@ static thr_status read_head(vef *v, int *n_vertices)
     else if (thr_span_is(word, "offset"))
       st = read_vector(v, v->offset);
     else if (!thr_span_is(word, "actual"))
-      st = thr_scan_fail(&v->words.scan, v->words.err, "'%.*s' where the number of vertices was expected", thr_span_width(word),
+      st = thr_scan_fail(&v->words.scan, v->words.err,
+                         "'%.*s' where the number of vertices was expected", thr_span_width(word),
                          word.s);
   if (!st && !word.n) st = thr_words_fail(&v->words, "the file ends here; it is not whole");
   if (!st && *n_vertices < 0) st = thr_words_fail(&v->words, "the number of vertices is negative");
@@ -163,20 +169,24 @@ static thr_status find_dimension(vef *v)
 
 static thr_status read_vertices(vef *v, int n)
 {
-  const int first = v->dimension == 4 && v->version >= 4, dropped = v->dimension == 3 ? -1 : first ? 0 : 3;
+  const int first = v->dimension == 4 && v->version >= 4, dropped = v->dimension == 3 ? -1
+                                                                    : first           ? 0
+                                                                                      : 3;
   thr_status st = THR_OK;
   for (int i = 0; i < n && !st; i++) {
     double x[MOST_DIMENSIONS];
     st = read_vector(v, x);
     for (int k = 0; k < v->dimension && !st; k++)
       x[k] = x[k] * v->scale[k] + v->offset[k];
-    if (!st && dropped >= 0 && x[dropped] != 0) thr_report_skip(v->report, thr_span_of("a fourth coordinate"));
+    if (!st && dropped >= 0 && x[dropped] != 0)
+      thr_report_skip(v->report, thr_span_of("a fourth coordinate"));
     if (!st) st = thr_draft_add_node(v->words.draft, x + first, NULL, false, v->words.err);
   }
   return st;
 }
 
-/* Reads edges (corners is 2) or faces (0: each says how many it has). A part that is not there has none. */
+/* Reads edges (corners is 2) or faces (0: each says how many it has). A part that is not there has
+ * none. */
 static thr_status read_runs(vef *v, int corners)
 {
   while (!thr_span_trim(v->words.line).n && thr_words_line(&v->words)) {
@@ -196,9 +206,13 @@ static thr_status read_runs(vef *v, int corners)
   return st;
 }
 
-static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n, const char *name, thr_err *err)
+static thr_status parse(thr_draft *draft, thr_read_report *report, const char *text, size_t n,
+                        const char *name, thr_err *err)
 {
-  vef v = {.words = {.draft = draft, .err = err}, .report = report, .field = &fields[0], .scale = {1, 1, 1, 1}};
+  vef v = {.words = {.draft = draft, .err = err},
+           .report = report,
+           .field = &fields[0],
+           .scale = {1, 1, 1, 1}};
   int n_vertices = 0;
   thr_status st = thr_scan_start(&v.words.scan, text, n, name, err);
   if (!st) st = read_head(&v, &n_vertices);
@@ -208,8 +222,9 @@ static thr_status parse(thr_draft *draft, thr_read_report *report, const char *t
   if (!st) st = read_runs(&v, 0); /* balls and what vZome writes of its parts follow */
   if (!st) st = thr_faces_finish(&v.faces, draft, name, err);
   if (!st && draft->n_edges == 0)
-    st =
-        thr_fail(err, THR_EINPUT, "%s: no edges and no faces, only %d points; export the struts or panels", name, draft->n_nodes);
+    st = thr_fail(err, THR_EINPUT,
+                  "%s: no edges and no faces, only %d points; export the struts or panels", name,
+                  draft->n_nodes);
   thr_faces_destroy(&v.faces);
   return st;
 }
@@ -219,4 +234,5 @@ static bool begins(thr_span line)
   return thr_span_starts(line, "vZome VEF");
 }
 
-const thr_format thr_vef_format = {.name = "vef", .ending = {"vef"}, .begins = begins, .parse = parse};
+const thr_format thr_vef_format = {
+    .name = "vef", .ending = {"vef"}, .begins = begins, .parse = parse};

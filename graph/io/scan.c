@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Internal to the readers: lines, words and numbers of text formats, node names. */
 #include "graph/io/read_parts.h"
 #include "graph/framework/units.h"
@@ -11,7 +12,8 @@
 
 /* ---- lines ---- */
 
-thr_status thr_scan_start(thr_scan *scan, const char *text, size_t n, const char *name, thr_err *err)
+thr_status thr_scan_start(thr_scan *scan, const char *text, size_t n, const char *name,
+                          thr_err *err)
 {
   *scan = (thr_scan){name, text, text, 1, 1};
   if (n == 0) return THR_OK; /* an empty file's text is NULL */
@@ -20,7 +22,8 @@ thr_status thr_scan_start(thr_scan *scan, const char *text, size_t n, const char
   if (nul) {
     for (const char *c = scan->at; c < nul; c++)
       scan->line += *c == '\n';
-    return thr_scan_fail(scan, err, "a NUL byte, so this is not plain text; save the file as UTF-8 text");
+    return thr_scan_fail(scan, err,
+                         "a NUL byte, so this is not plain text; save the file as UTF-8 text");
   }
   if (n >= 3 && memcmp(scan->at, "\xef\xbb\xbf", 3) == 0) scan->at += 3;
   return THR_OK;
@@ -138,8 +141,10 @@ bool thr_span_number(thr_span t, bool decimal_comma, double *x)
   if (t.n == 0 || t.n >= sizeof copy) return false;
   for (size_t i = 0; i < t.n; i++) {
     char c = t.s[i];
-    bool comma = decimal_comma && c == ',' && i > 0 && i + 1 < t.n && is_digit(t.s[i - 1]) && is_digit(t.s[i + 1]);
-    if (!is_digit(c) && c != '+' && c != '-' && c != '.' && c != 'e' && c != 'E' && !comma) return false; /* inf, nan, hex */
+    bool comma = decimal_comma && c == ',' && i > 0 && i + 1 < t.n && is_digit(t.s[i - 1]) &&
+                 is_digit(t.s[i + 1]);
+    if (!is_digit(c) && c != '+' && c != '-' && c != '.' && c != 'e' && c != 'E' && !comma)
+      return false; /* inf, nan, hex */
     copy[i] = comma ? '.' : c;
   }
   const size_t plus = copy[0] == '+';
@@ -152,9 +157,11 @@ bool thr_span_number(thr_span t, bool decimal_comma, double *x)
 
 bool thr_span_truth(thr_span t, bool *yes)
 {
-  static const char *const affirmative[] = {"true", "yes", "x",         "t",         "y",    "wahr",      "ja",   "vrai",
-                                            "oui",  "si",  "s\xc3\xac", "s\xc3\xad", "vero", "verdadero", "fixed"},
-                           *const negative[] = {"", "false", "no", "f", "n", "falsch", "nein", "faux", "non", "falso", "free"};
+  static const char *const affirmative[] = {"true",      "yes",       "x",    "t",         "y",
+                                            "wahr",      "ja",        "vrai", "oui",       "si",
+                                            "s\xc3\xac", "s\xc3\xad", "vero", "verdadero", "fixed"},
+                           *const negative[] = {"",     "false", "no",  "f",     "n",   "falsch",
+                                                "nein", "faux",  "non", "falso", "free"};
   double number;
   *yes = false;
   if (thr_span_number(t, true, &number)) {
@@ -211,9 +218,10 @@ thr_status thr_names_build(thr_names *names, const thr_draft *draft, const char 
   qsort(entry, (size_t)draft->n_nodes, sizeof *entry, by_name);
   for (int i = 1; i < draft->n_nodes; i++)
     if (strcmp(entry[i - 1].name, entry[i].name) == 0) {
-      thr_status st =
-          thr_fail(err, THR_EINPUT, "%s: two nodes are called '%.40s' (number %d and number %d); give each its own name", file,
-                   entry[i].name, entry[i - 1].node + 1, entry[i].node + 1);
+      thr_status st = thr_fail(
+          err, THR_EINPUT,
+          "%s: two nodes are called '%.40s' (number %d and number %d); give each its own name",
+          file, entry[i].name, entry[i - 1].node + 1, entry[i].node + 1);
       free(entry);
       return st;
     }
@@ -249,7 +257,8 @@ void thr_names_destroy(thr_names *names)
 void thr_report_skip(thr_read_report *report, thr_span keyword)
 {
   if (report->skipped_records++) return;
-  snprintf(report->skipped_kind, sizeof report->skipped_kind, "%.*s", keyword.n < 31 ? (int)keyword.n : 31, keyword.s);
+  snprintf(report->skipped_kind, sizeof report->skipped_kind, "%.*s",
+           keyword.n < 31 ? (int)keyword.n : 31, keyword.s);
   thr_text_clean(report->skipped_kind);
 }
 
@@ -259,11 +268,13 @@ thr_status thr_scan_units(const thr_scan *scan, thr_span comment, thr_draft *dra
   thr_units_in_comment(comment.s, comment.n, &name, &wrong);
   if (!name && wrong) {
     const thr_span word = thr_span_trim((thr_span){wrong, (size_t)(comment.s + comment.n - wrong)});
-    return thr_scan_fail(scan, err, "this comment's '%.*s' is no unit of length; correct or delete the comment",
-                         thr_span_width(word), word.s);
+    return thr_scan_fail(
+        scan, err, "this comment's '%.*s' is no unit of length; correct or delete the comment",
+        thr_span_width(word), word.s);
   }
   if (!name) return THR_OK;
-  if (draft->units[0] && strcmp(draft->units, name) != 0) snprintf(draft->other, sizeof draft->other, "%s", draft->units);
+  if (draft->units[0] && strcmp(draft->units, name) != 0)
+    snprintf(draft->other, sizeof draft->other, "%s", draft->units);
   snprintf(draft->units, sizeof draft->units, "%s", name);
   return THR_OK;
 }
@@ -299,6 +310,7 @@ thr_status thr_words_count(thr_words *words, int *n)
   thr_span word = thr_words_next(words);
   if (!word.n) return thr_words_fail(words, "the file ends here; it is not whole");
   if (thr_span_int(word, n) && *n >= 0 && *n < INT_MAX) return THR_OK;
-  return thr_scan_fail(&words->scan, words->err, "'%.*s' is not a number of vertices, faces or corners", thr_span_width(word),
+  return thr_scan_fail(&words->scan, words->err,
+                       "'%.*s' is not a number of vertices, faces or corners", thr_span_width(word),
                        word.s);
 }

@@ -1,4 +1,6 @@
-/* Internal to the readers of formats whose lines and faces repeat coordinates: points at exactly one place are one node. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Internal to the readers of formats whose lines and faces repeat coordinates: points at exactly
+ * one place are one node. */
 #include "graph/io/read_parts.h"
 
 #include <stdlib.h>

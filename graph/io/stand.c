@@ -1,4 +1,6 @@
-/* What a file may leave unsaid: which of its coordinates points up, and how large its numbers are meant. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a file may leave unsaid: which of its coordinates points up, and how large its numbers are
+ * meant. */
 #include "graph/io/read.h"
 
 #include <float.h>
@@ -10,7 +12,8 @@ const char *thr_up_name(int up)
   return names[up];
 }
 
-/* Do the nodes of least coordinate `up` span a level, that is, are they not all in one line? Within 1e-6 of the size. */
+/* Do the nodes of least coordinate `up` span a level, that is, are they not all in one line? Within
+ * 1e-6 of the size. */
 static bool stands_on(const thr_draft *draft, int up, double size)
 {
   const int u = (up + 1) % 3, v = (up + 2) % 3;
@@ -62,13 +65,18 @@ static thr_status scale(thr_draft *draft, double factor, thr_err *err)
     least = fmin(least, draft->edge[e].length);
   }
   if (most < 1e100 && least > 0) return THR_OK;
-  return thr_fail(err, THR_EINPUT, "scaled by %g, its coordinates or lengths are no numbers to work with", factor);
+  return thr_fail(err, THR_EINPUT,
+                  "scaled by %g, its coordinates or lengths are no numbers to work with", factor);
 }
 
-thr_status thr_draft_stand(thr_draft *draft, thr_up up, double factor, thr_read_report *report, thr_err *err)
+thr_status thr_draft_stand(thr_draft *draft, thr_up up, double factor, thr_read_report *report,
+                           thr_err *err)
 {
   const bool unasked = up == THR_UP_AUTO;
-  report->up_from = !unasked ? THR_FROM_USER : draft->y_up ? THR_FROM_MAKER : draft->up_is_y ? THR_FROM_FILE : THR_FROM_NOBODY;
+  report->up_from = !unasked         ? THR_FROM_USER
+                    : draft->y_up    ? THR_FROM_MAKER
+                    : draft->up_is_y ? THR_FROM_FILE
+                                     : THR_FROM_NOBODY;
   report->y_up = up == THR_UP_Y || (unasked && (draft->y_up || draft->up_is_y));
   if (report->y_up) {
     for (int i = 0; i < draft->n_nodes; i++) {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Frameworks as JSON, OBJ and CSV text. */
 #include "graph/io/read_parts.h"
 #include "graph/io/writer.h"
@@ -140,8 +141,8 @@ void thr_obj_write(const thr_frame *frame, thr_text *out)
 
 void thr_csv_write(const thr_frame *frame, thr_text *out)
 {
-  thr_text_printf(out, "x1,y1,z1,x2,y2,z2%s%s%s\n", frame->own_lengths ? ",length" : "", frame->cover ? ",cover" : "",
-                  frame->capacity ? ",capacity" : "");
+  thr_text_printf(out, "x1,y1,z1,x2,y2,z2%s%s%s\n", frame->own_lengths ? ",length" : "",
+                  frame->cover ? ",cover" : "", frame->capacity ? ",capacity" : "");
   for (int e = 0; e < frame->n_edges; e++) {
     write_point(frame->xyz[frame->edge[e][0]], ",", out);
     thr_text_append(out, ",");

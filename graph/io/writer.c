@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JSON, written member by member. */
 #include "graph/io/writer.h"
 

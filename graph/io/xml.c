@@ -1,5 +1,7 @@
-/* Internal to the readers of XML formats: the tags of a document one after the other, with the text before each. Comments,
- * instructions and the document type are passed over; entities are the five of XML and numbers. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Internal to the readers of XML formats: the tags of a document one after the other, with the text
+ * before each. Comments, instructions and the document type are passed over; entities are the five
+ * of XML and numbers. */
 #include "graph/io/read_parts.h"
 
 #include <stdlib.h>
@@ -9,7 +11,8 @@
 static const struct {
   const char *begin, *end;
   bool text;
-} passed[] = {{"!--", "-->", false}, {"?", "?>", false}, {"![CDATA[", "]]>", true}, {"!", ">", false}};
+} passed[] = {
+    {"!--", "-->", false}, {"?", "?>", false}, {"![CDATA[", "]]>", true}, {"!", ">", false}};
 
 thr_status thr_xml_start(thr_xml *xml, const char *text, size_t n, const char *name, thr_err *err)
 {
@@ -91,7 +94,8 @@ thr_status thr_xml_next(thr_xml *xml, thr_err *err)
     while (i < sizeof passed / sizeof *passed && !stands_here(xml, passed[i].begin))
       i++;
     if (i == sizeof passed / sizeof *passed) return read_tag(xml, err);
-    if (!pass(xml, passed[i].end)) return thr_scan_fail(&xml->scan, err, "what begins with <%s is not closed", passed[i].begin);
+    if (!pass(xml, passed[i].end))
+      return thr_scan_fail(&xml->scan, err, "what begins with <%s is not closed", passed[i].begin);
   }
 }
 
@@ -135,13 +139,14 @@ static size_t append_entity(thr_span t, thr_text *out)
   return first + n + 1;
 }
 
-/* Takes what stands in a text and is no tag: CDATA as they are written, comments and instructions not at all. Returns how many
- * bytes that has; 0 if it is none. */
+/* Takes what stands in a text and is no tag: CDATA as they are written, comments and instructions
+ * not at all. Returns how many bytes that has; 0 if it is none. */
 static size_t append_section(thr_span t, thr_text *out)
 {
   for (size_t i = 0; i < sizeof passed / sizeof *passed; i++) {
     const size_t begin = 1 + strlen(passed[i].begin), end = strlen(passed[i].end);
-    if (t.n < begin + end || !thr_span_starts((thr_span){t.s + 1, t.n - 1}, passed[i].begin)) continue;
+    if (t.n < begin + end || !thr_span_starts((thr_span){t.s + 1, t.n - 1}, passed[i].begin))
+      continue;
     size_t n = begin;
     while (n + end <= t.n && memcmp(t.s + n, passed[i].end, end) != 0)
       n++;
@@ -157,7 +162,9 @@ void thr_xml_plain(thr_span text, thr_text *out)
   thr_text_append(out, "");
   for (size_t i = 0; i < text.n;) {
     const thr_span rest = {text.s + i, text.n - i};
-    const size_t taken = text.s[i] == '&' ? append_entity(rest, out) : text.s[i] == '<' ? append_section(rest, out) : 0;
+    const size_t taken = text.s[i] == '&'   ? append_entity(rest, out)
+                         : text.s[i] == '<' ? append_section(rest, out)
+                                            : 0;
     if (!taken) thr_text_byte(out, text.s[i]);
     i += taken ? taken : 1;
   }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows of advice: pull, order, choice, and what buys nothing. */
 #include "graph/plan/advice.h"
 
@@ -57,7 +58,8 @@ static bool is_better(const thr_advice_row *row, const thr_advice_row *other)
   return row->length < other->length;
 }
 
-/* The fewest cords that stay within the hand, of rows with ends at the feet only or of all; -1: there are none. */
+/* The fewest cords that stay within the hand, of rows with ends at the feet only or of all; -1:
+ * there are none. */
 static int fewest(const thr_advice *advice, bool feet)
 {
   int chosen = -1;
@@ -81,8 +83,11 @@ static int choose(const thr_advice *advice)
 bool thr_price_beats(const thr_price *other, const thr_price *one)
 {
   if (isnan(other->pull) || isnan(one->pull)) return false;
-  if (other->cords > one->cords || other->length > one->length * same || other->pull > one->pull * same) return false;
-  return other->cords < one->cords || other->length * same < one->length || other->pull * same < one->pull;
+  if (other->cords > one->cords || other->length > one->length * same ||
+      other->pull > one->pull * same)
+    return false;
+  return other->cords < one->cords || other->length * same < one->length ||
+         other->pull * same < one->pull;
 }
 
 static bool dominates(const thr_advice_row *other, const thr_advice_row *row)
@@ -94,9 +99,12 @@ static bool dominates(const thr_advice_row *other, const thr_advice_row *row)
 /* Infinite pulls are alike: they do not tell rows apart. */
 static bool buys_nothing(const thr_advice_row *row, const thr_advice_row *other)
 {
-  if (other->ends != row->ends && (other->ends != THR_ENDS_FEET || row->ends == THR_ENDS_CLOSED)) return false;
-  if (other->cords > row->cords || (other->cords == row->cords && other->ends == row->ends)) return false;
-  return other->pull[THR_ADVICE_MU] <= row->pull[THR_ADVICE_MU] * worth && other->length <= row->length * same_cord;
+  if (other->ends != row->ends && (other->ends != THR_ENDS_FEET || row->ends == THR_ENDS_CLOSED))
+    return false;
+  if (other->cords > row->cords || (other->cords == row->cords && other->ends == row->ends))
+    return false;
+  return other->pull[THR_ADVICE_MU] <= row->pull[THR_ADVICE_MU] * worth &&
+         other->length <= row->length * same_cord;
 }
 
 /* Rows are held against those that stay: the chosen one stays in any case. */
@@ -117,7 +125,8 @@ static void drop_rows(thr_advice *advice)
   advice->chosen = chosen;
 }
 
-/* More cords that are longer than fewer are no use to anybody, unless they are the first within the hand. */
+/* More cords that are longer than fewer are no use to anybody, unless they are the first within the
+ * hand. */
 static void drop_longer(thr_advice *advice)
 {
   int kept = 0;
@@ -125,7 +134,8 @@ static void drop_longer(thr_advice *advice)
   bool within = false;
   for (int i = 0; i < advice->n; i++) {
     const thr_advice_row row = advice->row[i];
-    const bool first = i == 0 || row.ends != advice->row[kept - 1].ends, fits = thr_advice_within(advice, &row);
+    const bool first = i == 0 || row.ends != advice->row[kept - 1].ends,
+               fits = thr_advice_within(advice, &row);
     if (first) longest = INFINITY;
     if (first) within = false;
     const bool useful = row.longest <= longest * (1 + 1e-9) || (fits && !within);

@@ -1,9 +1,12 @@
-/* How what is threaded holds together while it is threaded. A loose chain is what the cord picks up, piece after piece, until it
- * comes to a piece that is on a cord already: so long it swings. The piece that a cord begins with holds it, and is not counted.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How what is threaded holds together while it is threaded. A loose chain is what the cord picks
+ * up, piece after piece, until it comes to a piece that is on a cord already: so long it swings.
+ * The piece that a cord begins with holds it, and is not counted.
  *
- * A piece is a node with solid joints, and an edge with tube joints. A cord is threaded from its start with one needle; or from
- * its fold, near the middle, with two: with the right one first, to the end, then with the left one back to the start. Each
- * needle draws through about half of the cord then. */
+ * A piece is a node with solid joints, and an edge with tube joints. A cord is threaded from its
+ * start with one needle; or from its fold, near the middle, with two: with the right one first, to
+ * the end, then with the left one back to the start. Each needle draws through about half of the
+ * cord then. */
 #include "graph/plan/plan_measures.h"
 
 #include <stdlib.h>
@@ -29,7 +32,8 @@ thr_chains thr_chains_of(const int *chain, int n)
 
 bool thr_cord_folded(int needles, const thr_cord *cord)
 {
-  return needles == 0 ? cord->closed && cord->n_passes >= THR_FOLD_LONG : needles == 2 && cord->n_passes >= THR_FOLD_LEAST;
+  return needles == 0 ? cord->closed && cord->n_passes >= THR_FOLD_LONG
+                      : needles == 2 && cord->n_passes >= THR_FOLD_LEAST;
 }
 
 int thr_cord_fold(const thr_frame *frame, int needles, const thr_cord *cord)
@@ -62,9 +66,11 @@ int thr_cord_pieces(const thr_frame *frame, thr_joint joint, const thr_cord *cor
   return n;
 }
 
-thr_status thr_threaded_init(thr_threaded *threaded, const thr_frame *frame, thr_joint joint, thr_err *err)
+thr_status thr_threaded_init(thr_threaded *threaded, const thr_frame *frame, thr_joint joint,
+                             thr_err *err)
 {
-  *threaded = (thr_threaded){.on = thr_calloc((size_t)thr_chains_pieces(frame, joint), sizeof *threaded->on)};
+  *threaded = (thr_threaded){
+      .on = thr_calloc((size_t)thr_chains_pieces(frame, joint), sizeof *threaded->on)};
   return threaded->on ? THR_OK : thr_nomem(err);
 }
 
@@ -90,7 +96,8 @@ static inline bool thread_piece(thr_threaded *threaded, int piece)
 }
 
 /* Pieces from .. end, end left out, up or down. Returns how many chains there are then. */
-static int thread_row(thr_threaded *threaded, const int *piece, int from, int end, int *chain, int chains)
+static int thread_row(thr_threaded *threaded, const int *piece, int from, int end, int *chain,
+                      int chains)
 {
   int loose = 0, step = from < end ? 1 : -1;
   for (int k = from; k != end; k += step) {
@@ -134,15 +141,19 @@ thr_status thr_plan_chains(const thr_plan *plan, int needles, thr_chains *chains
   *chains = (thr_chains){0};
   for (int c = 0; c < plan->n_cords; c++)
     most = plan->cord[c].n_passes > most ? plan->cord[c].n_passes : most;
-  int *order = thr_calloc((size_t)plan->n_cords + 1, sizeof *order), *piece = thr_calloc((size_t)most + 1, sizeof *piece),
+  int *order = thr_calloc((size_t)plan->n_cords + 1, sizeof *order),
+      *piece = thr_calloc((size_t)most + 1, sizeof *piece),
       *chain = thr_calloc((size_t)most + 1, sizeof *chain);
-  thr_status st = order && piece && chain ? thr_threaded_init(&threaded, &plan->frame, plan->options.joint, err) : thr_nomem(err);
+  thr_status st = order && piece && chain
+                      ? thr_threaded_init(&threaded, &plan->frame, plan->options.joint, err)
+                      : thr_nomem(err);
   if (!st) thr_plan_work(plan, order);
   for (int i = 0; i < plan->n_cords && !st; i++) {
     const thr_cord *cord = &plan->cord[order[i]];
     int n = thr_cord_pieces(&plan->frame, plan->options.joint, cord, piece);
     int fold = thr_cord_fold(&plan->frame, needles, cord);
-    *chains = thr_chains_together(*chains, thr_chains_of(chain, thr_threaded_try(&threaded, piece, n, fold, chain)));
+    *chains = thr_chains_together(
+        *chains, thr_chains_of(chain, thr_threaded_try(&threaded, piece, n, fold, chain)));
     thr_threaded_keep(&threaded, piece, n);
   }
   thr_threaded_destroy(&threaded);

@@ -1,4 +1,6 @@
-/* Channels: the ways of the passes through the nodes, that is, with solid joints, through the pieces that a maker holds. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Channels: the ways of the passes through the nodes, that is, with solid joints, through the
+ * pieces that a maker holds. */
 #include "graph/plan/plan_measures.h"
 
 #include "graph/vector.h"
@@ -17,9 +19,10 @@ static void unit(const thr_frame *frame, int h, double d[3])
     d[k] = length > 0 ? d[k] / length : 0;
 }
 
-/* The direction in which the arms spread least: that of the least eigenvalue of the sum of their directions' outer products, by
- * power iteration on what that sum lacks to its trace. Starts at right angles to two arms, so that it is exact for arms in a
- * plane. All zeros if the arms are in one line. */
+/* The direction in which the arms spread least: that of the least eigenvalue of the sum of their
+ * directions' outer products, by power iteration on what that sum lacks to its trace. Starts at
+ * right angles to two arms, so that it is exact for arms in a plane. All zeros if the arms are in
+ * one line. */
 static void find_normal(const thr_frame *frame, int v, double normal[3])
 {
   enum { ROUNDS = 100 };
@@ -84,7 +87,8 @@ static void sort_arms(const thr_frame *frame, int v, const double normal[3], arm
     unit(frame, frame->half[frame->first[v] + i], d);
     double x = thr_dot(d, along), y = thr_dot(d, across);
     bool flat = x * x + y * y > 1e-18;
-    arms[i] = (arm){flat ? nearbyint(atan2(y, x) * 1e9) / 1e9 : 0, frame->half[frame->first[v] + i]};
+    arms[i] =
+        (arm){flat ? nearbyint(atan2(y, x) * 1e9) / 1e9 : 0, frame->half[frame->first[v] + i]};
   }
   qsort(arms, (size_t)degree, sizeof *arms, by_angle);
 }
@@ -107,16 +111,20 @@ thr_status thr_channels_around(const thr_frame *frame, int *around, thr_err *err
 /* ---- the channels ---- */
 
 /* Calls put for every channel of the plan, by cord and pass. */
-static void each_channel(const thr_plan *plan, void (*put)(thr_channels *, int node, thr_channel), thr_channels *to)
+static void each_channel(const thr_plan *plan, void (*put)(thr_channels *, int node, thr_channel),
+                         thr_channels *to)
 {
   const thr_frame *frame = &plan->frame;
   for (int c = 0; c < plan->n_cords; c++) {
     const thr_cord *cord = &plan->cord[c];
     int n = cord->n_passes, turns = thr_cord_turns(&plan->options, cord);
-    if (turns < n) put(to, thr_tail(frame, cord->half[0]), (thr_channel){.cord = c, .pass = -1, .in = -1, .out = cord->half[0]});
+    if (turns < n)
+      put(to, thr_tail(frame, cord->half[0]),
+          (thr_channel){.cord = c, .pass = -1, .in = -1, .out = cord->half[0]});
     for (int k = 0; k < n; k++) {
       int arm_in = cord->half[k] ^ 1, arm_out = k < turns ? cord->half[(k + 1) % n] : -1;
-      put(to, thr_tail(frame, arm_in), (thr_channel){.cord = c, .pass = k, .in = arm_in, .out = arm_out});
+      put(to, thr_tail(frame, arm_in),
+          (thr_channel){.cord = c, .pass = k, .in = arm_in, .out = arm_out});
     }
   }
 }
@@ -133,7 +141,8 @@ static void add_channel(thr_channels *to, int node, thr_channel channel)
   to->channel[to->first[node + 1]++] = channel;
 }
 
-/* Is x on the way from a to b around the node, between them? rank: places of half-edges around it. */
+/* Is x on the way from a to b around the node, between them? rank: places of half-edges around it.
+ */
 static bool between(int x, int a, int b)
 {
   return a < b ? x > a && x < b : x > a || x < b;
@@ -171,7 +180,8 @@ thr_status thr_channels_make(thr_channels *channels, const thr_plan *plan, thr_e
   channels->channel = thr_calloc((size_t)total, sizeof *channels->channel);
   int *around = thr_calloc(2 * (size_t)frame->n_edges, sizeof *around);
   channels->rank = thr_calloc(2 * (size_t)frame->n_edges, sizeof *channels->rank);
-  thr_status st = channels->first && channels->channel && around && channels->rank ? THR_OK : thr_nomem(err);
+  thr_status st =
+      channels->first && channels->channel && around && channels->rank ? THR_OK : thr_nomem(err);
   if (!st) st = thr_channels_around(frame, around, err);
   if (st) goto done;
   each_channel(plan, count_channel, channels);

@@ -1,15 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Passes that edges need where several different cords are to pass each of them.
  *
- * A bridge parts its component in two. A cord that passes it an odd number of times has an end on either side; every other cord
- * that passes it does so twice at least. So N different cords of which at most k have an end on either side make 2 N - k passes,
- * if k is below N: 2 N of closed cords.
+ * A bridge parts its component in two. A cord that passes it an odd number of times has an end on
+ * either side; every other cord that passes it does so twice at least. So N different cords of
+ * which at most k have an end on either side make 2 N - k passes, if k is below N: 2 N of closed
+ * cords.
  *
  * Example: the tail of a kite, two different closed cords: four passes. */
 #include "graph/plan/request.h"
 
 #include <stdlib.h>
 
-/* Cord ends that there may be at a node; where they are not counted, as many as all cords of a component have. */
+/* Cord ends that there may be at a node; where they are not counted, as many as all cords of a
+ * component have. */
 static long ends_at(const thr_frame *frame, const thr_request *options, int v)
 {
   if (options->ends == THR_ENDS_CLOSED) return 0;
@@ -17,7 +20,8 @@ static long ends_at(const thr_frame *frame, const thr_request *options, int v)
   return thr_plan_end_allowed(frame, options, v) ? 2L * options->cords : 0;
 }
 
-/* A spanning tree of every component, breadth first: order[n_nodes], and over which half-edge each node was reached (-1: a root).
+/* A spanning tree of every component, breadth first: order[n_nodes], and over which half-edge each
+ * node was reached (-1: a root).
  */
 static void span(const thr_frame *frame, int *order, int *via, bool *reached)
 {
@@ -45,14 +49,17 @@ static void sum_below(const thr_frame *frame, const int *order, const int *via, 
 }
 
 /* Raises needs[n_edges] where they are bridges; are any higher then? */
-static thr_status raise_bridges(const thr_frame *frame, const thr_request *options, int *needs, bool *more, thr_err *err)
+static thr_status raise_bridges(const thr_frame *frame, const thr_request *options, int *needs,
+                                bool *more, thr_err *err)
 {
   const size_t n = (size_t)frame->n_nodes;
   thr_scratch own = {0};
-  int *order = thr_scratch_array(&own, n, sizeof *order), *via = thr_scratch_array(&own, n, sizeof *via);
+  int *order = thr_scratch_array(&own, n, sizeof *order),
+      *via = thr_scratch_array(&own, n, sizeof *via);
   bool *reached = thr_scratch_array(&own, n, sizeof *reached),
        *bridge = thr_scratch_array(&own, (size_t)frame->n_edges, sizeof *bridge);
-  long *below = thr_scratch_array(&own, n, sizeof *below), *all = thr_scratch_array(&own, n, sizeof *all);
+  long *below = thr_scratch_array(&own, n, sizeof *below),
+       *all = thr_scratch_array(&own, n, sizeof *all);
   thr_status st = thr_scratch_check(&own, err);
   *more = false;
   if (!st) st = thr_frame_bridges(frame, bridge, err);
@@ -74,7 +81,8 @@ static thr_status raise_bridges(const thr_frame *frame, const thr_request *optio
   return st;
 }
 
-thr_status thr_distinct_needs(const thr_frame *frame, const thr_request *options, int **needs, thr_err *err)
+thr_status thr_distinct_needs(const thr_frame *frame, const thr_request *options, int **needs,
+                              thr_err *err)
 {
   bool more = false;
   *needs = NULL;

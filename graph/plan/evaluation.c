@@ -1,5 +1,6 @@
-/* What `thread eval` found out about a plan, in the form that is kept in plan.json: the eval methods fill it, drawings show it,
- * the checker verifies that it is consistent with the plan. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What `thread eval` found out about a plan, in the form that is kept in plan.json: the eval
+ * methods fill it, drawings show it, the checker verifies that it is consistent with the plan. */
 
 #include "graph/plan/schedule.h"
 
@@ -76,17 +77,19 @@ bool thr_evaluation_range(const thr_evaluation *evaluation, double range[2])
 
 void thr_tension_colour(const double range[2], double tension, char hex[8])
 {
-  /* Equal steps in the Oklab space (B. Ottosson, 2020), lightness 0.87 to 0.28, yellow over red to violet: lightness alone tells
-   * the order, so that it is read without colour vision too. */
-  static const int stop[][3] = {{243, 211, 80}, {238, 176, 50}, {227, 142, 36}, {211, 110, 39}, {190, 79, 49},
-                                {165, 51, 57},  {138, 23, 62},  {106, 5, 64},   {75, 2, 58}};
+  /* Equal steps in the Oklab space (B. Ottosson, 2020), lightness 0.87 to 0.28, yellow over red to
+   * violet: lightness alone tells the order, so that it is read without colour vision too. */
+  static const int stop[][3] = {{243, 211, 80}, {238, 176, 50}, {227, 142, 36},
+                                {211, 110, 39}, {190, 79, 49},  {165, 51, 57},
+                                {138, 23, 62},  {106, 5, 64},   {75, 2, 58}};
   enum { LAST = sizeof stop / sizeof *stop - 1 };
   double span = log(range[1] / range[0]), at = span > 0 ? LAST * log(tension / range[0]) / span : 0;
   at = isfinite(at) ? fmin(fmax(at, 0), LAST) : 0;
   int i = at < LAST ? (int)at : LAST - 1, rgb[3];
   for (int c = 0; c < 3; c++)
     rgb[c] = (int)nearbyint(stop[i][c] + (at - i) * (stop[i + 1][c] - stop[i][c]));
-  snprintf(hex, 8, "#%02x%02x%02x", (unsigned)rgb[0] & 255, (unsigned)rgb[1] & 255, (unsigned)rgb[2] & 255);
+  snprintf(hex, 8, "#%02x%02x%02x", (unsigned)rgb[0] & 255, (unsigned)rgb[1] & 255,
+           (unsigned)rgb[2] & 255);
 }
 
 /* ---- writing ---- */
@@ -114,7 +117,8 @@ static void put_tension(thr_writer *writer, const thr_eval_cord *cord, const dou
   thr_write_close(writer);
 }
 
-static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const double range[2], bool exponents)
+static void put_cord(thr_writer *writer, const thr_eval_cord *cord, int i, const double range[2],
+                     bool exponents)
 {
   char id[12];
   thr_cord_id(i, id);
@@ -146,7 +150,8 @@ void thr_evaluation_write(const thr_evaluation *evaluation, thr_writer *writer, 
   thr_evaluation_range(evaluation, range);
   thr_write_object(writer, key);
   thr_write_string(writer, "method", thr_method_name(evaluation->method));
-  if (evaluation->method == THR_CAPSTAN) thr_write_string(writer, "law", thr_law_name(evaluation->law));
+  if (evaluation->method == THR_CAPSTAN)
+    thr_write_string(writer, "law", thr_law_name(evaluation->law));
   thr_write_line(writer, 2);
   thr_physics_write(&evaluation->physics, writer, "physics");
   thr_write_line(writer, 2);
@@ -199,16 +204,21 @@ static thr_status only_members(const reader *r, const thr_json *object, const ch
 
 static thr_status get_double(const reader *r, const thr_json *object, const char *key, double *out)
 {
-  return thr_json_number(thr_json_get(object, key), out) ? THR_OK : bad(r, key, "missing or not a finite number");
+  return thr_json_number(thr_json_get(object, key), out)
+             ? THR_OK
+             : bad(r, key, "missing or not a finite number");
 }
 
-static thr_status get_int(const reader *r, const thr_json *object, const char *key, int64_t high, int64_t *out)
+static thr_status get_int(const reader *r, const thr_json *object, const char *key, int64_t high,
+                          int64_t *out)
 {
   if (thr_json_int(thr_json_get(object, key), out) && *out >= 0 && *out <= high) return THR_OK;
-  return thr_fail(r->err, THR_EVIOLATED, "%s.%s: missing or not an integer from 0 to %" PRId64, r->place, key, high);
+  return thr_fail(r->err, THR_EVIOLATED, "%s.%s: missing or not an integer from 0 to %" PRId64,
+                  r->place, key, high);
 }
 
-static thr_status get_word(const reader *r, const thr_json *object, const char *key, const char *const *word, int n, int *out)
+static thr_status get_word(const reader *r, const thr_json *object, const char *key,
+                           const char *const *word, int n, int *out)
 {
   const char *value = thr_json_string(thr_json_get(object, key));
   for (*out = 0; value && *out < n; ++*out)
@@ -217,12 +227,15 @@ static thr_status get_word(const reader *r, const thr_json *object, const char *
   return bad(r, key, value ? "an unknown word" : "missing or not text");
 }
 
-/* A colour may differ by one step of 255: the logarithm is not the same to the last bit everywhere. */
+/* A colour may differ by one step of 255: the logarithm is not the same to the last bit everywhere.
+ */
 static bool same_colour(const char *a, const char *b)
 {
   unsigned x[3], y[3];
   if (!a || strlen(a) != 7 || a[strspn(a, "#0123456789abcdef")]) return false;
-  if (sscanf(a, "#%2x%2x%2x", &x[0], &x[1], &x[2]) != 3 || sscanf(b, "#%2x%2x%2x", &y[0], &y[1], &y[2]) != 3) return false;
+  if (sscanf(a, "#%2x%2x%2x", &x[0], &x[1], &x[2]) != 3 ||
+      sscanf(b, "#%2x%2x%2x", &y[0], &y[1], &y[2]) != 3)
+    return false;
   for (int i = 0; i < 3; i++)
     if (x[i] > y[i] + 1 || y[i] > x[i] + 1) return false;
   return true;
@@ -230,10 +243,13 @@ static bool same_colour(const char *a, const char *b)
 
 static thr_status read_tension(const reader *r, const thr_json *object, thr_eval_cord *cord)
 {
-  const thr_json *list = thr_json_get(object, "tension"), *colours = thr_json_get(object, "colours");
+  const thr_json *list = thr_json_get(object, "tension"),
+                 *colours = thr_json_get(object, "colours");
   int n = thr_json_size(list);
-  if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1) return bad(r, "tension", "missing or empty");
-  if (thr_json_typeof(colours) != THR_JSON_ARRAY || thr_json_size(colours) != n) return bad(r, "colours", "not one per tension");
+  if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1)
+    return bad(r, "tension", "missing or empty");
+  if (thr_json_typeof(colours) != THR_JSON_ARRAY || thr_json_size(colours) != n)
+    return bad(r, "colours", "not one per tension");
   if (!(cord->tension = thr_calloc((size_t)n, sizeof *cord->tension))) return thr_nomem(r->err);
   cord->n_passes = n;
   for (int k = 0; k < n; k++)
@@ -243,11 +259,13 @@ static thr_status read_tension(const reader *r, const thr_json *object, thr_eval
 }
 
 /* Reads a list of n numbers from 0 on into *number; NULL if the member is not there. */
-static thr_status read_numbers(const reader *r, const thr_json *object, const char *key, int n, double **number)
+static thr_status read_numbers(const reader *r, const thr_json *object, const char *key, int n,
+                               double **number)
 {
   const thr_json *list = thr_json_get(object, key);
   if (!list) return THR_OK;
-  if (thr_json_typeof(list) != THR_JSON_ARRAY || thr_json_size(list) != n) return bad(r, key, "not one per pass or turn");
+  if (thr_json_typeof(list) != THR_JSON_ARRAY || thr_json_size(list) != n)
+    return bad(r, key, "not one per pass or turn");
   if (!(*number = thr_calloc((size_t)n + 1, sizeof **number))) return thr_nomem(r->err);
   for (int k = 0; k < n; k++)
     if (!thr_json_number(thr_json_at(list, k), &(*number)[k]) || !((*number)[k] >= 0))
@@ -257,9 +275,10 @@ static thr_status read_numbers(const reader *r, const thr_json *object, const ch
 
 static thr_status read_cord(const reader *r, const thr_json *object, int i, thr_eval_cord *cord)
 {
-  static const char *const all[] = {"id",      "known",     "pull",  "turning",  "taut_turning", "force",   "other_force",
-                                    "loss",    "work",      "error", "slackest", "refused",      "tension", "tension_most",
-                                    "colours", "exponents", NULL};
+  static const char *const all[] = {
+      "id",      "known",     "pull",  "turning",  "taut_turning", "force",   "other_force",
+      "loss",    "work",      "error", "slackest", "refused",      "tension", "tension_most",
+      "colours", "exponents", NULL};
   static const char *const unknown[] = {"id", "known", "pull", NULL};
   char name[12];
   thr_cord_id(i, name);
@@ -268,7 +287,8 @@ static thr_status read_cord(const reader *r, const thr_json *object, int i, thr_
   const int pull = thr_pull_named(thr_json_string(thr_json_get(object, "pull")));
   int64_t slackest = 0, refused = 0;
   if (!id || strcmp(id, name) != 0) return bad(r, "id", "not the plan's cord with this number");
-  if (thr_json_typeof(known) != THR_JSON_BOOL) return bad(r, "known", "missing; expected true or false");
+  if (thr_json_typeof(known) != THR_JSON_BOOL)
+    return bad(r, "known", "missing; expected true or false");
   cord->known = thr_json_true(known);
   thr_status st = only_members(r, object, cord->known ? all : unknown);
   if (!st && pull < 0) st = bad(r, "pull", "missing or an unknown word");
@@ -299,19 +319,22 @@ static thr_status read_cords(const reader *r, const thr_json *object, thr_evalua
   const thr_json *list = thr_json_get(object, "cords");
   int n = thr_json_size(list);
   if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1) return bad(r, "cords", "missing or empty");
-  if (!(evaluation->cord = thr_calloc((size_t)n, sizeof *evaluation->cord))) return thr_nomem(r->err);
+  if (!(evaluation->cord = thr_calloc((size_t)n, sizeof *evaluation->cord)))
+    return thr_nomem(r->err);
   evaluation->n_cords = n;
   for (int i = 0; i < n; i++) {
     char place[256];
     snprintf(place, sizeof place, "%.200s.cords[%d]", r->place, i);
-    thr_status st = read_cord(&(reader){place, r->err}, thr_json_at(list, i), i, &evaluation->cord[i]);
+    thr_status st =
+        read_cord(&(reader){place, r->err}, thr_json_at(list, i), i, &evaluation->cord[i]);
     if (st) return st;
   }
   return THR_OK;
 }
 
 /* Scale and colours are no members of the record: they must follow from the tensions. */
-static thr_status check_colours(const reader *r, const thr_json *object, const thr_evaluation *evaluation)
+static thr_status check_colours(const reader *r, const thr_json *object,
+                                const thr_evaluation *evaluation)
 {
   static const char *const known[] = {"low", "high", NULL};
   double range[2], stated[2];
@@ -321,14 +344,17 @@ static thr_status check_colours(const reader *r, const thr_json *object, const t
   if (!st) st = get_double(r, scale, "high", &stated[1]);
   if (st) return st;
   thr_evaluation_range(evaluation, range);
-  if (stated[0] != range[0] || stated[1] != range[1]) return bad(r, "scale", "not the least and largest tension");
+  if (stated[0] != range[0] || stated[1] != range[1])
+    return bad(r, "scale", "not the least and largest tension");
   for (int i = 0; i < evaluation->n_cords; i++) {
     const thr_json *colours = thr_json_get(thr_json_at(cords, i), "colours");
     for (int k = 0; evaluation->cord[i].known && k < evaluation->cord[i].n_passes; k++) {
       char hex[8];
       thr_tension_colour(range, evaluation->cord[i].tension[k], hex);
       if (!same_colour(thr_json_string(thr_json_at(colours, k)), hex))
-        return thr_fail(r->err, THR_EVIOLATED, "%s.cords[%d].colours[%d]: expected %s for this tension", r->place, i, k, hex);
+        return thr_fail(r->err, THR_EVIOLATED,
+                        "%s.cords[%d].colours[%d]: expected %s for this tension", r->place, i, k,
+                        hex);
     }
   }
   return THR_OK;
@@ -339,7 +365,8 @@ static thr_status read_standing(const reader *r, const thr_json *object, thr_eva
   const thr_json *value = thr_json_get(object, "structure");
   char place[256];
   if (!value) return THR_OK;
-  if (evaluation->method != THR_STRUCTURE) return bad(r, "structure", "only the method structure finds it");
+  if (evaluation->method != THR_STRUCTURE)
+    return bad(r, "structure", "only the method structure finds it");
   snprintf(place, sizeof place, "%.200s.structure", r->place);
   return thr_standing_from_json(&evaluation->standing, value, evaluation->n_cords, place, r->err);
 }
@@ -349,10 +376,15 @@ static thr_status read_schedule(const reader *r, const thr_json *object, thr_eva
   const thr_json *list = thr_json_get(object, "schedule");
   char place[256];
   snprintf(place, sizeof place, "%.200s.schedule", r->place);
-  thr_status st = list ? thr_schedule_from_json(&evaluation->schedule, list, evaluation->n_cords, place, r->err) : THR_OK;
+  thr_status st =
+      list ? thr_schedule_from_json(&evaluation->schedule, list, evaluation->n_cords, place, r->err)
+           : THR_OK;
   for (int i = 0; i < evaluation->n_cords && !st; i++)
-    if (evaluation->cord[i].known && thr_evaluation_exponents(evaluation) != (evaluation->cord[i].exponent != NULL))
-      st = bad(r, "cords", "exponents come with a schedule, or with turns of the tight cord, of all cords that are known");
+    if (evaluation->cord[i].known &&
+        thr_evaluation_exponents(evaluation) != (evaluation->cord[i].exponent != NULL))
+      st = bad(r, "cords",
+               "exponents come with a schedule, or with turns of the tight cord, of all cords that "
+               "are known");
   for (int i = 0; i < evaluation->n_cords && !st && !list; i++)
     if (evaluation->cord[i].most) st = bad(r, "cords", "tension_most comes with a schedule");
   return st;
@@ -360,8 +392,9 @@ static thr_status read_schedule(const reader *r, const thr_json *object, thr_eva
 
 static thr_status read_members(const reader *r, const thr_json *object, thr_evaluation *evaluation)
 {
-  static const char *const known[] = {"method", "law",    "physics", "seed",  "time_step", "iterations", "largest",
-                                      "total",  "seated", "scale",   "cords", "schedule",  "structure",  NULL};
+  static const char *const known[] = {"method",     "law",      "physics",   "seed",   "time_step",
+                                      "iterations", "largest",  "total",     "seated", "scale",
+                                      "cords",      "schedule", "structure", NULL};
   char place[256];
   int method = 0, law = 0;
   int64_t seed = 0;
@@ -374,8 +407,10 @@ static thr_status read_members(const reader *r, const thr_json *object, thr_eval
   else if (thr_json_get(object, "law"))
     st = bad(r, "law", "only the method capstan goes by a law");
   if (st) return st;
-  *evaluation =
-      (thr_evaluation){.present = true, .method = (thr_method)method, .law = (thr_law)law, .physics = thr_physics_default()};
+  *evaluation = (thr_evaluation){.present = true,
+                                 .method = (thr_method)method,
+                                 .law = (thr_law)law,
+                                 .physics = thr_physics_default()};
   snprintf(place, sizeof place, "%.200s.physics", r->place);
   if (thr_physics_from_json(&evaluation->physics, thr_json_get(object, "physics"), place, &found))
     return thr_fail(r->err, THR_EVIOLATED, "%s", found.text);
@@ -386,19 +421,22 @@ static thr_status read_members(const reader *r, const thr_json *object, thr_eval
   if ((st = get_double(r, object, "largest", &evaluation->largest))) return st;
   if ((st = get_double(r, object, "total", &evaluation->total))) return st;
   evaluation->seated_known = thr_json_get(object, "seated") != NULL;
-  if (evaluation->seated_known && (st = get_double(r, object, "seated", &evaluation->seated))) return st;
+  if (evaluation->seated_known && (st = get_double(r, object, "seated", &evaluation->seated)))
+    return st;
   if ((st = read_cords(r, object, evaluation))) return st;
   if ((st = read_standing(r, object, evaluation))) return st;
   if ((st = read_schedule(r, object, evaluation))) return st;
   return check_colours(r, object, evaluation);
 }
 
-thr_status thr_evaluation_from_json(thr_evaluation *evaluation, const thr_json *object, const char *place, thr_err *err)
+thr_status thr_evaluation_from_json(thr_evaluation *evaluation, const thr_json *object,
+                                    const char *place, thr_err *err)
 {
   thr_evaluation read = {0};
   const reader r = {place, err};
-  thr_status st = thr_json_typeof(object) == THR_JSON_OBJECT ? read_members(&r, object, &read)
-                                                             : thr_fail(err, THR_EVIOLATED, "%s: not an object", place);
+  thr_status st = thr_json_typeof(object) == THR_JSON_OBJECT
+                      ? read_members(&r, object, &read)
+                      : thr_fail(err, THR_EVIOLATED, "%s: not an object", place);
   if (st) thr_evaluation_destroy(&read);
   *evaluation = read;
   return st;

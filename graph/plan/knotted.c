@@ -1,18 +1,21 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Computes the most that a knotted cord resists a movement of the pieces by tightening.
  *
- * Pass k presses its two pieces together with a tension T_k, and gain_k is what each newton beyond the least one resists. The
- * tensions may be any between least_k and most_k that friction holds: those of two neighbouring passes differ by the factor
- * exp(exponent) of the turn between them at most. The largest sum of gain_k (T_k - least_k) is found by a dynamic programme
- * along the cord, whose value is a concave, piecewise linear function of the tension of the last pass.
+ * Pass k presses its two pieces together with a tension T_k, and gain_k is what each newton beyond
+ * the least one resists. The tensions may be any between least_k and most_k that friction holds:
+ * those of two neighbouring passes differ by the factor exp(exponent) of the turn between them at
+ * most. The largest sum of gain_k (T_k - least_k) is found by a dynamic programme along the cord,
+ * whose value is a concave, piecewise linear function of the tension of the last pass.
  *
- * Example: two passes of at least 1 N, gains 2 and -1, no more than 5 N: the first one has 5 N, and the second, behind a turn
- * that holds a factor of 2, has to have 2.5 N. 2 x 4 - 1 x 1.5 = 6.5. */
+ * Example: two passes of at least 1 N, gains 2 and -1, no more than 5 N: the first one has 5 N, and
+ * the second, behind a turn that holds a factor of 2, has to have 2.5 N. 2 x 4 - 1 x 1.5 = 6.5. */
 #include "graph/plan/plan_measures.h"
 
 #include <math.h>
 
-/* Lets the tension change at a turn: what was best at T is so from T / factor to T * factor. Corners left of the maximum go down
- * by the factor, those right of it go up, and the maximum becomes a level piece. Returns the number of corners. */
+/* Lets the tension change at a turn: what was best at T is so from T / factor to T * factor.
+ * Corners left of the maximum go down by the factor, those right of it go up, and the maximum
+ * becomes a level piece. Returns the number of corners. */
 static int spread(double (*point)[2], int n, double factor)
 {
   int best = 0;
@@ -40,11 +43,14 @@ static double value_at(const double (*point)[2], int n, double t)
   return point[i - 1][1] + part * (point[i][1] - point[i - 1][1]);
 }
 
-/* Leaves the part of the function between two tensions. Where rounding leaves nothing of it, its end stands for it. */
+/* Leaves the part of the function between two tensions. Where rounding leaves nothing of it, its
+ * end stands for it. */
 static int clip(double (*point)[2], int n, double low, double high)
 {
-  const double first = fmin(fmax(low, point[0][0]), point[n - 1][0]), last = fmax(first, fmin(high, point[n - 1][0]));
-  const double at_first = value_at((const double(*)[2])point, n, first), at_last = value_at((const double(*)[2])point, n, last);
+  const double first = fmin(fmax(low, point[0][0]), point[n - 1][0]),
+               last = fmax(first, fmin(high, point[n - 1][0]));
+  const double at_first = value_at((const double(*)[2])point, n, first),
+               at_last = value_at((const double(*)[2])point, n, last);
   int kept = 0;
   for (int i = 0; i < n; i++) {
     if (point[i][0] <= first || point[i][0] >= last) continue;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Computes the least pull that seats every pass of a cord whose ends are both pulled.
  *
  * A pass has to be reached from one end only. So there is always one turn that the cord slides over
@@ -88,7 +89,8 @@ thr_parting thr_least_pull_of(const double *sum, const int *half, int n_passes)
   int first = -1;
   for (int k = 0; k < last; k++) {
     const thr_parting other = part_at(sum, 0, last, k);
-    if (thr_parting_larger(&other) > most || fmin(other.start, other.end) > least + rounding) continue;
+    if (thr_parting_larger(&other) > most || fmin(other.start, other.end) > least + rounding)
+      continue;
     if (first < 0 || !comes_first(half, n_passes, first, k)) first = k;
   }
   return first < 0 ? best : part_at(sum, 0, last, first);

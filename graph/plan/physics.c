@@ -1,5 +1,7 @@
-/* What the simulation is told about cord and beads: friction, sizes, weights. One table (thr_physics_fields) drives the
- * command line, the config file and plan.json, so that a quantity is named, bounded and explained once.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the simulation is told about cord and beads: friction, sizes, weights. One table
+ * (thr_physics_fields) drives the command line, the config file and plan.json, so that a quantity
+ * is named, bounded and explained once.
  *
  * Physical quantities: one table of fields, presets, JSON, and what follows from the framework. */
 #include "graph/plan/physics.h"
@@ -34,34 +36,46 @@ enum {
 #define FIELD(name) #name, offsetof(thr_physics, name)
 const thr_physics_field thr_physics_fields[] = {
     [MU] = {FIELD(mu), 0, 2, false, false, "", "friction coefficient, cord on bead"},
-    [MU_LOW] = {FIELD(mu_low), 0, 2, false, false, "", "lower end of the band of mu (0: half of mu)"},
-    [MU_HIGH] = {FIELD(mu_high), 0, 3, false, false, "", "upper end of the band of mu (0: one and a half mu)"},
+    [MU_LOW] = {FIELD(mu_low), 0, 2, false, false, "",
+                "lower end of the band of mu (0: half of mu)"},
+    [MU_HIGH] = {FIELD(mu_high), 0, 3, false, false, "",
+                 "upper end of the band of mu (0: one and a half mu)"},
     [MU_BEAD] = {FIELD(mu_bead), 0, 2, false, false, "", "friction coefficient, bead on bead"},
-    [MU_GROUND] = {FIELD(mu_ground), 0, 2, false, false, "", "friction coefficient, foot on ground"},
-    [CORD_DIAMETER] = {FIELD(cord_diameter), 0, 1e9, false, false, "mm",
-                       "thickness of the cord (0: 1/20 of the median edge, at most 1/4 of the shortest)"},
-    [BORE] = {FIELD(bore), 0, 1e9, false, false, "mm", "inner diameter of the channels (0: twice the cord)"},
+    [MU_GROUND] = {FIELD(mu_ground), 0, 2, false, false, "",
+                   "friction coefficient, foot on ground"},
+    [CORD_DIAMETER] =
+        {FIELD(cord_diameter), 0, 1e9, false, false, "mm",
+         "thickness of the cord (0: 1/20 of the median edge, at most 1/4 of the shortest)"},
+    [BORE] = {FIELD(bore), 0, 1e9, false, false, "mm",
+              "inner diameter of the channels (0: twice the cord)"},
     [BEAD_DIAMETER] = {FIELD(bead_diameter), 0, 1e9, false, false, "mm",
                        "width of a bead's arm (0: 0.35 of the median edge, at least 1.5 bores)"},
     [DENSITY] = {FIELD(density), 0, 25, false, false, "g/cm3", "density of the beads' material"},
-    [BEAD_MASS] = {FIELD(bead_mass), 0, 1e9, false, false, "g", "mass of every bead (0: density x volume)"},
-    [SEATING] = {FIELD(seating), 0, 1e9, true, false, "N", "tension that must reach the slackest point of every cord"},
+    [BEAD_MASS] = {FIELD(bead_mass), 0, 1e9, false, false, "g",
+                   "mass of every bead (0: density x volume)"},
+    [SEATING] = {FIELD(seating), 0, 1e9, true, false, "N",
+                 "tension that must reach the slackest point of every cord"},
     [GRAVITY] = {FIELD(gravity), 0, 1000, false, false, "m/s2", "gravity"},
-    [WOBBLE] = {FIELD(wobble), 0, 10, false, true, "rad/m", "turning for every metre of cord, beside its turns (0: none)"},
+    [WOBBLE] = {FIELD(wobble), 0, 10, false, true, "rad/m",
+                "turning for every metre of cord, beside its turns (0: none)"},
     [MU_POWER] = {FIELD(mu_power), 0, 1, false, true, "",
                   "friction grows with load^N, N below 1: mu falls with tension (0: it does not)"},
     [MU_TENSION] = {FIELD(mu_tension), 0, 1e9, false, true, "N",
                     "tension at which mu holds, with mu_power (0: the seating tension)"},
-    [STIFFNESS] = {FIELD(stiffness), 0, 1e12, false, true, "N", "stiffness EA of the cord (0: not known)"},
-    [BEAD_STRENGTH] = {FIELD(bead_strength), 0, 1e6, false, true, "MPa", "pressure that a bead's face bears (0: not known)"},
+    [STIFFNESS] = {FIELD(stiffness), 0, 1e12, false, true, "N",
+                   "stiffness EA of the cord (0: not known)"},
+    [BEAD_STRENGTH] = {FIELD(bead_strength), 0, 1e6, false, true, "MPa",
+                       "pressure that a bead's face bears (0: not known)"},
 };
 const int thr_physics_n_fields = (int)(sizeof thr_physics_fields / sizeof *thr_physics_fields);
 
 #define COMMON .seating = 1, .gravity = 9.80665
 const thr_physics_preset thr_physics_presets[] = {
     {"pla-cotton",
-     "Printed PLA beads, cotton cord. Density 1.24 g/cm3: usual in makers' data sheets. mu: estimate, no "
-     "measurement of cotton on PLA found; the band is wide (polyester yarn on its own package: 0.23 to 0.48, "
+     "Printed PLA beads, cotton cord. Density 1.24 g/cm3: usual in makers' data sheets. mu: "
+     "estimate, no "
+     "measurement of cotton on PLA found; the band is wide (polyester yarn on its own package: "
+     "0.23 to 0.48, "
      "Textile Research Journal 70, 2000). mu_bead, mu_ground: estimates.",
      {.preset = "pla-cotton",
       .mu = 0.25,
@@ -72,11 +86,14 @@ const thr_physics_preset thr_physics_presets[] = {
       .density = 1.24,
       COMMON}},
     {"pla-braid",
-     "Printed PLA beads, braided polyethylene (fishing line). mu: 0.16 and 0.23, from what a 12-strand UHMWPE rope keeps over "
+     "Printed PLA beads, braided polyethylene (fishing line). mu: 0.16 and 0.23, from what a "
+     "12-strand UHMWPE rope keeps over "
      "one "
-     "and two metal carabiners of 10 mm (60 % over 180 degrees, 48 % over both: tests of the Hownot2 workshop); none found on "
+     "and two metal carabiners of 10 mm (60 % over 180 degrees, 48 % over both: tests of the "
+     "Hownot2 workshop); none found on "
      "PLA, "
-     "the band is wider. Density 1.24 g/cm3: usual in makers' data sheets. mu_bead, mu_ground: estimates.",
+     "the band is wider. Density 1.24 g/cm3: usual in makers' data sheets. mu_bead, mu_ground: "
+     "estimates.",
      {.preset = "pla-braid",
       .mu = 0.18,
       .mu_low = 0.1,
@@ -86,9 +103,11 @@ const thr_physics_preset thr_physics_presets[] = {
       .density = 1.24,
       COMMON}},
     {"pla-monofilament",
-     "Printed PLA beads, nylon monofilament. mu: estimate, no measurement on PLA found; thread friction depends on speed, angle, "
+     "Printed PLA beads, nylon monofilament. mu: estimate, no measurement on PLA found; thread "
+     "friction depends on speed, angle, "
      "load "
-     "and humidity (Zunic-Lojen and Gersak, Int. J. of Clothing Science and Technology 15, 2003), nylon takes up water: the band "
+     "and humidity (Zunic-Lojen and Gersak, Int. J. of Clothing Science and Technology 15, 2003), "
+     "nylon takes up water: the band "
      "is "
      "wide. Density as above. mu_bead, mu_ground: estimates.",
      {.preset = "pla-monofilament",
@@ -100,9 +119,11 @@ const thr_physics_preset thr_physics_presets[] = {
       .density = 1.24,
       COMMON}},
     {"pla-waxed",
-     "Printed PLA beads, waxed polyester cord. mu: estimate; polyester yarn on its own package 0.23 to 0.48 (Textile Research "
+     "Printed PLA beads, waxed polyester cord. mu: estimate; polyester yarn on its own package "
+     "0.23 to 0.48 (Textile Research "
      "Journal "
-     "70, 2000), wax lowers it (Zunic-Lojen and Gersak 2003), by how much on PLA is not known. Density as above. mu_bead, "
+     "70, 2000), wax lowers it (Zunic-Lojen and Gersak 2003), by how much on PLA is not known. "
+     "Density as above. mu_bead, "
      "mu_ground: "
      "estimates.",
      {.preset = "pla-waxed",
@@ -114,9 +135,11 @@ const thr_physics_preset thr_physics_presets[] = {
       .density = 1.24,
       COMMON}},
     {"pla-elastic",
-     "Printed PLA beads, elastic cord with a woven sheath. mu: estimate, as of polyester yarn (0.23 to 0.48, Textile Research "
+     "Printed PLA beads, elastic cord with a woven sheath. mu: estimate, as of polyester yarn "
+     "(0.23 to 0.48, Textile Research "
      "Journal "
-     "70, 2000); the sheath opens as it is stretched: the band is wide. Density as above. mu_bead, mu_ground: estimates.",
+     "70, 2000); the sheath opens as it is stretched: the band is wide. Density as above. mu_bead, "
+     "mu_ground: estimates.",
      {.preset = "pla-elastic",
       .mu = 0.3,
       .mu_low = 0.15,
@@ -126,9 +149,12 @@ const thr_physics_preset thr_physics_presets[] = {
       .density = 1.24,
       COMMON}},
     {"eps-nylon",
-     "Expanded polystyrene blocks, nylon cord. Density 0.02 g/cm3: blocks of 0.015 to 0.035 are usual (Khan and "
-     "Meguid, Int. J. of Geosynthetics and Ground Engineering 4, 2018). mu_bead 0.5: moulded or wire-cut EPS on "
-     "EPS (technical note \"Friction\" of the EPS geofoam industry, undated). mu: estimate, no measurement found, "
+     "Expanded polystyrene blocks, nylon cord. Density 0.02 g/cm3: blocks of 0.015 to 0.035 are "
+     "usual (Khan and "
+     "Meguid, Int. J. of Geosynthetics and Ground Engineering 4, 2018). mu_bead 0.5: moulded or "
+     "wire-cut EPS on "
+     "EPS (technical note \"Friction\" of the EPS geofoam industry, undated). mu: estimate, no "
+     "measurement found, "
      "the band is wide. mu_ground: estimate.",
      {.preset = "eps-nylon",
       .mu = 0.3,
@@ -139,10 +165,14 @@ const thr_physics_preset thr_physics_presets[] = {
       .density = 0.02,
       COMMON}},
     {"wood-paracord",
-     "Pine beads, paracord 550. mu 0.28 to 0.31: one hobby measurement on a pine roller by the capstan formula "
-     "(\"Measurement of the coefficient of friction for the capstan equation\", forum of the International Guild "
-     "of Knot Tyers, 2021); the band is wider, an estimate for other woods. Diameter 4 mm: 5/32 inch, common for "
-     "type III. mu_bead 0.24: Scots pine, end grain on end grain, static (0.12 along the grain: Aira and others, "
+     "Pine beads, paracord 550. mu 0.28 to 0.31: one hobby measurement on a pine roller by the "
+     "capstan formula "
+     "(\"Measurement of the coefficient of friction for the capstan equation\", forum of the "
+     "International Guild "
+     "of Knot Tyers, 2021); the band is wider, an estimate for other woods. Diameter 4 mm: 5/32 "
+     "inch, common for "
+     "type III. mu_bead 0.24: Scots pine, end grain on end grain, static (0.12 along the grain: "
+     "Aira and others, "
      "Materiales de Construccion 64, 2014). mu_ground, density: estimates.",
      {.preset = "wood-paracord",
       .mu = 0.3,
@@ -195,7 +225,8 @@ static const thr_physics_preset *find_preset(const char *name)
 static void drop_preset_band(thr_physics *physics)
 {
   const thr_physics_preset *from = find_preset(physics->preset);
-  if (!from || physics->mu_low != from->physics.mu_low || physics->mu_high != from->physics.mu_high) return;
+  if (!from || physics->mu_low != from->physics.mu_low || physics->mu_high != from->physics.mu_high)
+    return;
   physics->mu_low = physics->mu_high = 0;
 }
 
@@ -204,12 +235,14 @@ static void describe_range(const thr_physics_field *field, char *text, size_t n)
 {
   const char *space = *field->unit ? " " : "";
   if (field->positive)
-    snprintf(text, n, "expected more than %g%s%s, up to %g%s%s", field->low, space, field->unit, field->high, space, field->unit);
+    snprintf(text, n, "expected more than %g%s%s, up to %g%s%s", field->low, space, field->unit,
+             field->high, space, field->unit);
   else
     snprintf(text, n, "expected %g to %g%s%s", field->low, field->high, space, field->unit);
 }
 
-thr_status thr_physics_set(thr_physics *physics, const thr_physics_field *field, double value, thr_err *err)
+thr_status thr_physics_set(thr_physics *physics, const thr_physics_field *field, double value,
+                           thr_err *err)
 {
   if (!(value >= field->low && value <= field->high) || (field->positive && !(value > 0))) {
     char range[96];
@@ -233,7 +266,8 @@ thr_status thr_physics_set_preset(thr_physics *physics, const char *name, thr_er
     size_t n = strlen(known);
     snprintf(known + n, sizeof known - n, "%s%s", i ? ", " : "", thr_physics_presets[i].name);
   }
-  return thr_fail(err, THR_EINPUT, "preset: there is none called %.60s; expected one of %s", name, known);
+  return thr_fail(err, THR_EINPUT, "preset: there is none called %.60s; expected one of %s", name,
+                  known);
 }
 
 /* ---- JSON ---- */
@@ -247,9 +281,12 @@ static thr_status only_fields(const thr_json *object, thr_err *err)
     bool text = strcmp(key, "preset") == 0 || strcmp(key, "note") == 0;
     const thr_physics_field *field = thr_physics_find(key);
     if (!text && field && strcmp(field->key, key) != 0)
-      return thr_fail(err, THR_EINPUT, "%.60s: no such quantity; did you mean %s?", key, field->key);
+      return thr_fail(err, THR_EINPUT, "%.60s: no such quantity; did you mean %s?", key,
+                      field->key);
     if (!text && !field)
-      return thr_fail(err, THR_EINPUT, "%.60s: no such quantity; `thread eval --help` lists them (here with _ for -)", key);
+      return thr_fail(
+          err, THR_EINPUT,
+          "%.60s: no such quantity; `thread eval --help` lists them (here with _ for -)", key);
     if (text && !thr_json_string(value)) return thr_fail(err, THR_EINPUT, "%s: not text", key);
   }
   return THR_OK;
@@ -257,7 +294,8 @@ static thr_status only_fields(const thr_json *object, thr_err *err)
 
 static thr_status set_from_json(thr_physics *physics, const thr_json *object, thr_err *err)
 {
-  if (thr_json_typeof(object) != THR_JSON_OBJECT) return thr_fail(err, THR_EINPUT, "not an object; expected {\"mu\": 0.2, ..}");
+  if (thr_json_typeof(object) != THR_JSON_OBJECT)
+    return thr_fail(err, THR_EINPUT, "not an object; expected {\"mu\": 0.2, ..}");
   thr_status st = only_fields(object, err);
   const char *preset = thr_json_string(thr_json_get(object, "preset"));
   if (!st && preset) st = thr_physics_set_preset(physics, preset, err);
@@ -268,13 +306,15 @@ static thr_status set_from_json(thr_physics *physics, const thr_json *object, th
     char range[96];
     if (!v) continue;
     describe_range(field, range, sizeof range);
-    st = thr_json_number(v, &value) ? thr_physics_set(physics, field, value + 0.0, err) /* -0.0 is 0 */
-                                    : thr_fail(err, THR_EINPUT, "%s: not a finite number; %s", field->key, range);
+    st = thr_json_number(v, &value)
+             ? thr_physics_set(physics, field, value + 0.0, err) /* -0.0 is 0 */
+             : thr_fail(err, THR_EINPUT, "%s: not a finite number; %s", field->key, range);
   }
   return st;
 }
 
-thr_status thr_physics_from_json(thr_physics *physics, const thr_json *object, const char *place, thr_err *err)
+thr_status thr_physics_from_json(thr_physics *physics, const thr_json *object, const char *place,
+                                 thr_err *err)
 {
   thr_physics read = *physics;
   thr_err found = {0};
@@ -303,7 +343,8 @@ void thr_physics_write(const thr_physics *physics, thr_writer *writer, const cha
   if (*physics->preset) thr_write_string(writer, "preset", physics->preset);
   for (int i = 0; i < thr_physics_n_fields; i++)
     if (!thr_physics_fields[i].optional || thr_physics_get(physics, &thr_physics_fields[i]) != 0)
-      thr_write_number(writer, thr_physics_fields[i].key, thr_physics_get(physics, &thr_physics_fields[i]));
+      thr_write_number(writer, thr_physics_fields[i].key,
+                       thr_physics_get(physics, &thr_physics_fields[i]));
   thr_write_close(writer);
 }
 
@@ -334,8 +375,10 @@ static thr_status measure_edges(const thr_frame *frame, double mm, edges *out, t
   out->median = length[frame->n_edges / 2];
   free(length);
   if (out->shortest >= 1e-6 && out->median <= 1e8) return THR_OK;
-  return thr_fail(err, THR_EINPUT, "edges from %g mm, half of them over %g mm, are no beads' size; set the units with --units",
-                  out->shortest, out->median);
+  return thr_fail(
+      err, THR_EINPUT,
+      "edges from %g mm, half of them over %g mm, are no beads' size; set the units with --units",
+      out->shortest, out->median);
 }
 
 /* Nine decimals: half of 0.2 and one and a half times 0.2 print as 0.1 and 0.3. */
@@ -351,23 +394,31 @@ static void fill_in(thr_physics *physics, const edges *e)
   if (physics->mu_power > 0 && physics->mu_tension == 0) physics->mu_tension = physics->seating;
   if (physics->cord_diameter == 0) physics->cord_diameter = fmin(e->median / 20, e->shortest / 4);
   if (physics->bore == 0) physics->bore = THR_BORE_CORDS * physics->cord_diameter;
-  if (physics->bead_diameter == 0) physics->bead_diameter = fmax(0.35 * e->median, 1.5 * physics->bore);
+  if (physics->bead_diameter == 0)
+    physics->bead_diameter = fmax(0.35 * e->median, 1.5 * physics->bore);
 }
 
-static thr_status check_sizes(const thr_physics *physics, const thr_frame *frame, const edges *e, thr_err *err)
+static thr_status check_sizes(const thr_physics *physics, const thr_frame *frame, const edges *e,
+                              thr_err *err)
 {
   if (!(physics->bore > physics->cord_diameter))
-    return thr_fail(err, THR_EINPUT, "bore: a cord of %g mm does not fit into %g mm; raise --bore or lower --cord-diameter",
-                    physics->cord_diameter, physics->bore);
+    return thr_fail(
+        err, THR_EINPUT,
+        "bore: a cord of %g mm does not fit into %g mm; raise --bore or lower --cord-diameter",
+        physics->cord_diameter, physics->bore);
   if (!(physics->bead_diameter > physics->bore))
-    return thr_fail(err, THR_EINPUT, "bead_diameter: %g mm leaves no wall round a bore of %g mm; raise it or lower --bore",
-                    physics->bead_diameter, physics->bore);
+    return thr_fail(
+        err, THR_EINPUT,
+        "bead_diameter: %g mm leaves no wall round a bore of %g mm; raise it or lower --bore",
+        physics->bead_diameter, physics->bore);
   if (!(e->shortest > physics->bore)) {
     const int *end = frame->edge[e->shortest_edge];
     return thr_fail(err, THR_EINPUT,
-                    "edge %d (nodes %.40s and %.40s) is %g mm long, shorter than the bore of %g mm; set the framework's --units, "
+                    "edge %d (nodes %.40s and %.40s) is %g mm long, shorter than the bore of %g "
+                    "mm; set the framework's --units, "
                     "or lower --bore or --cord-diameter",
-                    e->shortest_edge, frame->name[end[0]], frame->name[end[1]], e->shortest, physics->bore);
+                    e->shortest_edge, frame->name[end[0]], frame->name[end[1]], e->shortest,
+                    physics->bore);
   }
   return THR_OK;
 }
@@ -376,7 +427,8 @@ static thr_status check_values(const thr_physics *physics, thr_err *err)
 {
   thr_physics copy = *physics;
   for (int i = 0; i < thr_physics_n_fields; i++) {
-    thr_status st = thr_physics_set(&copy, &thr_physics_fields[i], thr_physics_get(physics, &thr_physics_fields[i]), err);
+    thr_status st = thr_physics_set(&copy, &thr_physics_fields[i],
+                                    thr_physics_get(physics, &thr_physics_fields[i]), err);
     if (st) return st;
   }
   if (physics->density == 0 && physics->bead_mass == 0)
@@ -384,7 +436,8 @@ static thr_status check_values(const thr_physics *physics, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_physics_resolve(const thr_physics *physics, const thr_frame *frame, thr_physics *out, thr_err *err)
+thr_status thr_physics_resolve(const thr_physics *physics, const thr_frame *frame, thr_physics *out,
+                               thr_err *err)
 {
   thr_physics r = *physics;
   edges e;
@@ -399,8 +452,9 @@ thr_status thr_physics_resolve(const thr_physics *physics, const thr_frame *fram
   fill_in(&r, &e);
   if ((st = check_sizes(&r, frame, &e, err))) return st;
   if (!(r.mu_low <= r.mu && r.mu <= r.mu_high))
-    return thr_fail(err, THR_EINPUT, "mu_low: the band %g to %g does not hold mu = %g; set --mu-low and --mu-high", r.mu_low,
-                    r.mu_high, r.mu);
+    return thr_fail(err, THR_EINPUT,
+                    "mu_low: the band %g to %g does not hold mu = %g; set --mu-low and --mu-high",
+                    r.mu_low, r.mu_high, r.mu);
   *out = r;
   return THR_OK;
 }

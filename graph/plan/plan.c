@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plans: names, ends, turning angles, metrics. */
 #include "graph/plan/plan.h"
 #include "graph/angle.h"
@@ -89,7 +90,8 @@ void thr_plan_destroy(thr_plan *plan)
   *plan = (thr_plan){0};
 }
 
-thr_status thr_plan_request(thr_plan *plan, const thr_frame *frame, const thr_request *options, thr_err *err)
+thr_status thr_plan_request(thr_plan *plan, const thr_frame *frame, const thr_request *options,
+                            thr_err *err)
 {
   thr_status st = thr_frame_copy(&plan->frame, frame, err);
   if (st) return st;
@@ -98,11 +100,13 @@ thr_status thr_plan_request(thr_plan *plan, const thr_frame *frame, const thr_re
   plan->options.end_node = NULL;
   plan->options.end_count = NULL;
   if (options->end_node) {
-    if (!(plan->options.end_node = thr_calloc(n, sizeof *plan->options.end_node))) return thr_nomem(err);
+    if (!(plan->options.end_node = thr_calloc(n, sizeof *plan->options.end_node)))
+      return thr_nomem(err);
     memcpy(plan->options.end_node, options->end_node, n * sizeof *plan->options.end_node);
   }
   if (options->end_count) {
-    if (!(plan->options.end_count = thr_calloc(n, sizeof *plan->options.end_count))) return thr_nomem(err);
+    if (!(plan->options.end_count = thr_calloc(n, sizeof *plan->options.end_count)))
+      return thr_nomem(err);
     memcpy(plan->options.end_count, options->end_count, n * sizeof *plan->options.end_count);
   }
   return THR_OK;
@@ -162,7 +166,8 @@ double thr_plan_unit(const thr_frame *frame)
   }
   if (unit > 0) unit = longest / round(longest / unit);
   for (int e = 0; e < frame->n_edges; e++)
-    if (fabs(frame->length[e] - unit * round(frame->length[e] / unit)) > 1e-10 * frame->length[e]) return 0;
+    if (fabs(frame->length[e] - unit * round(frame->length[e] / unit)) > 1e-10 * frame->length[e])
+      return 0;
   return unit;
 }
 
@@ -238,7 +243,8 @@ double thr_cord_turning(const thr_frame *frame, const thr_cord *cord, bool with_
   thr_turns turns = thr_turns_begin(frame, cord->half[0]);
   for (int i = 0; i + 1 < cord->n_passes; i++)
     sum += thr_turns_next(&turns, cord->half[i + 1]);
-  if (with_closure && cord->closed) sum += thr_turn_angle(frame, cord->half[cord->n_passes - 1], cord->half[0]);
+  if (with_closure && cord->closed)
+    sum += thr_turn_angle(frame, cord->half[cord->n_passes - 1], cord->half[0]);
   return sum;
 }
 
@@ -266,7 +272,8 @@ int thr_plan_turns_over(const thr_plan *plan, double angle)
   for (int i = 0; i < plan->n_cords; i++) {
     const thr_cord *cord = &plan->cord[i];
     for (int k = 0; k < thr_cord_turns(&plan->options, cord); k++)
-      n += thr_turn_over(thr_turn_angle(&plan->frame, cord->half[k], cord->half[(k + 1) % cord->n_passes]), angle);
+      n += thr_turn_over(
+          thr_turn_angle(&plan->frame, cord->half[k], cord->half[(k + 1) % cord->n_passes]), angle);
   }
   return n;
 }
@@ -281,7 +288,8 @@ double thr_turns_price(const thr_frame *frame, thr_turn_cost cost, const int *ha
 
 double thr_cord_price(const thr_frame *frame, const thr_request *options, const thr_cord *cord)
 {
-  return thr_turns_price(frame, options->turning.cost, cord->half, cord->n_passes, thr_cord_turns(options, cord));
+  return thr_turns_price(frame, options->turning.cost, cord->half, cord->n_passes,
+                         thr_cord_turns(options, cord));
 }
 
 double thr_cord_pulled_turning(const thr_frame *frame, const thr_cord *cord)
@@ -331,15 +339,19 @@ double thr_cords_pulled_turnings(const thr_frame *frame, const thr_cord *cord, i
   return fmax(0, most);
 }
 
-bool thr_cords_within_pull(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n)
+bool thr_cords_within_pull(const thr_frame *frame, const thr_request *options, const thr_cord *cord,
+                           int n)
 {
   const double rounding = 1e-10; /* a tenth of the checker's */
   const double most = thr_request_most_pulled(options);
-  return isinf(most) || thr_cords_pulled_turning(frame, cord, n) <= most + rounding * (most + 1 / options->physics.mu);
+  return isinf(most) || thr_cords_pulled_turning(frame, cord, n) <=
+                            most + rounding * (most + 1 / options->physics.mu);
 }
 
-/* met[n_edges]: number of the last cord over the edge, from 1, and how many cords there were; zeros to begin with. */
-static void measure_distinct(const thr_request *options, const thr_cord *cord, int number, int (*met)[2], thr_metrics *metrics)
+/* met[n_edges]: number of the last cord over the edge, from 1, and how many cords there were; zeros
+ * to begin with. */
+static void measure_distinct(const thr_request *options, const thr_cord *cord, int number,
+                             int (*met)[2], thr_metrics *metrics)
 {
   for (int i = 0; i < cord->n_passes && options->distinct > 0; i++) {
     int *edge = met[cord->half[i] >> 1];
@@ -363,14 +375,15 @@ void thr_cords_only(const thr_frame *frame, const thr_cord *cord, int n, int *on
     if (only[e] == NONE) only[e] = SEVERAL;
 }
 
-static void measure_cord(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int *passes,
-                         thr_metrics *metrics)
+static void measure_cord(const thr_frame *frame, const thr_request *options, const thr_cord *cord,
+                         int *passes, thr_metrics *metrics)
 {
   double turning = 0;
   metrics->length += thr_cord_length(frame, cord);
   metrics->passes += cord->n_passes;
   for (int i = 0; i < cord->n_passes; i++)
-    if (++passes[cord->half[i] >> 1] > metrics->most_passes) metrics->most_passes = passes[cord->half[i] >> 1];
+    if (++passes[cord->half[i] >> 1] > metrics->most_passes)
+      metrics->most_passes = passes[cord->half[i] >> 1];
   thr_turns turns = thr_turns_begin(frame, cord->half[0]);
   for (int i = 0; i < thr_cord_turns(options, cord); i++) {
     int next = cord->half[i + 1 < cord->n_passes ? i + 1 : 0];
@@ -383,11 +396,12 @@ static void measure_cord(const thr_frame *frame, const thr_request *options, con
   if (turning > metrics->max_turning) metrics->max_turning = turning;
 }
 
-thr_status thr_plan_measure(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
-                            thr_metrics *metrics, thr_err *err)
+thr_status thr_plan_measure(const thr_frame *frame, const thr_request *options,
+                            const thr_cord *cord, int n_cords, thr_metrics *metrics, thr_err *err)
 {
   *metrics = (thr_metrics){0};
-  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes), (*met)[2] = thr_calloc((size_t)frame->n_edges, sizeof *met);
+  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes),
+      (*met)[2] = thr_calloc((size_t)frame->n_edges, sizeof *met);
   if (!passes || !met) {
     free(passes);
     free(met);
@@ -400,7 +414,9 @@ thr_status thr_plan_measure(const thr_frame *frame, const thr_request *options, 
   for (int e = 0; e < frame->n_edges; e++) {
     int cover = thr_plan_cover(frame, options, e);
     metrics->base_length += cover * frame->length[e];
-    metrics->overlap += (passes[e] - cover) * frame->length[e]; /* not a difference of two sums: exactly 0 without overlap */
+    metrics->overlap +=
+        (passes[e] - cover) *
+        frame->length[e]; /* not a difference of two sums: exactly 0 without overlap */
   }
   free(passes);
   free(met);
@@ -425,6 +441,7 @@ double thr_plan_gap(const thr_plan *plan)
   if (thr_wants_length(&plan->options))
     return gap_of(length->present, length->optimal, plan->metrics.length, length->lower_bound);
   if (thr_wants_largest(&plan->options))
-    return gap_of(turning->present, turning->largest_optimal, turning->largest, turning->largest_bound);
+    return gap_of(turning->present, turning->largest_optimal, turning->largest,
+                  turning->largest_bound);
   return gap_of(turning->present, turning->optimal, turning->price, turning->lower_bound);
 }

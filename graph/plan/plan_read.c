@@ -1,4 +1,6 @@
-/* plan.json, read: docs/plan-format.md is the schema. Every accessor fails with "file: place: what". */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* plan.json, read: docs/plan-format.md is the schema. Every accessor fails with "file: place:
+ * what". */
 #include "graph/io/read.h"
 #include "graph/plan/plan_fields.h"
 
@@ -8,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static thr_status read_nodes(const thr_field_reader *field_reader, const thr_json *object, thr_draft *draft)
+static thr_status read_nodes(const thr_field_reader *field_reader, const thr_json *object,
+                             thr_draft *draft)
 {
   const thr_json *nodes, *names = thr_json_get(object, "names");
   thr_status st = thr_field_need(field_reader, object, "nodes", THR_JSON_ARRAY, &nodes);
@@ -21,15 +24,18 @@ static thr_status read_nodes(const thr_field_reader *field_reader, const thr_jso
     const thr_json *p = thr_json_at(nodes, v);
     double x[3];
     if (thr_json_size(p) != 3 || !thr_json_numbers(p, 3, x))
-      return thr_fail(field_reader->err, THR_EINPUT, "%s: framework.nodes[%d]: not three finite numbers", field_reader->name, v);
+      return thr_fail(field_reader->err, THR_EINPUT,
+                      "%s: framework.nodes[%d]: not three finite numbers", field_reader->name, v);
     const char *name = thr_json_string(thr_json_at(names, v));
     if (names && !name)
-      return thr_fail(field_reader->err, THR_EINPUT, "%s: framework.names[%d]: not text", field_reader->name, v);
+      return thr_fail(field_reader->err, THR_EINPUT, "%s: framework.names[%d]: not text",
+                      field_reader->name, v);
     if ((st = thr_draft_add_node(draft, x, name, false, field_reader->err))) return st;
   }
   assert(draft->node);
   const thr_json *feet = thr_json_get(object, "feet");
-  if (feet && thr_json_typeof(feet) != THR_JSON_ARRAY) return thr_field_bad(field_reader, "framework.feet", "not a list");
+  if (feet && thr_json_typeof(feet) != THR_JSON_ARRAY)
+    return thr_field_bad(field_reader, "framework.feet", "not a list");
   for (int i = 0, v = 0; i < thr_json_size(feet); i++) {
     if ((st = thr_field_index(field_reader, feet, i, n, "framework.feet", &v))) return st;
     draft->node[v].foot = true;
@@ -38,16 +44,18 @@ static thr_status read_nodes(const thr_field_reader *field_reader, const thr_jso
 }
 
 /* A list of the framework with one entry per edge, if it is there. */
-static thr_status edge_list(const thr_field_reader *field_reader, const thr_json *object, const char *key, int n,
-                            const thr_json **list)
+static thr_status edge_list(const thr_field_reader *field_reader, const thr_json *object,
+                            const char *key, int n, const thr_json **list)
 {
   *list = thr_json_get(object, key);
   if (!*list || thr_json_size(*list) == n) return THR_OK;
-  return thr_fail(field_reader->err, field_reader->code, "%s: framework.%s: not one per edge", field_reader->name, key);
+  return thr_fail(field_reader->err, field_reader->code, "%s: framework.%s: not one per edge",
+                  field_reader->name, key);
 }
 
 /* The two nodes of edge e. The place is written only for who has to read it. */
-static thr_status read_ends(const thr_field_reader *field_reader, const thr_json *pair, int e, int n_nodes, int end[2])
+static thr_status read_ends(const thr_field_reader *field_reader, const thr_json *pair, int e,
+                            int n_nodes, int end[2])
 {
   char place[48];
   if (thr_json_indices(pair, 2, n_nodes, end)) return THR_OK;
@@ -55,7 +63,8 @@ static thr_status read_ends(const thr_field_reader *field_reader, const thr_json
   return thr_field_indices(field_reader, pair, 2, n_nodes, place, end);
 }
 
-static thr_status read_edges(const thr_field_reader *field_reader, const thr_json *object, thr_draft *draft)
+static thr_status read_edges(const thr_field_reader *field_reader, const thr_json *object,
+                             thr_draft *draft)
 {
   const thr_json *edges, *lengths = NULL, *covers = NULL, *capacities = NULL;
   thr_status st = thr_field_need(field_reader, object, "edges", THR_JSON_ARRAY, &edges);
@@ -69,39 +78,48 @@ static thr_status read_edges(const thr_field_reader *field_reader, const thr_jso
     thr_err why = {0};
     if ((st = read_ends(field_reader, thr_json_at(edges, e), e, draft->n_nodes, end))) return st;
     if (lengths && (!thr_json_number(thr_json_at(lengths, e), &length) || !(length > 0)))
-      return thr_fail(field_reader->err, THR_EINPUT, "%s: framework.lengths[%d]: not a positive number", field_reader->name, e);
+      return thr_fail(field_reader->err, THR_EINPUT,
+                      "%s: framework.lengths[%d]: not a positive number", field_reader->name, e);
     if ((st = thr_draft_add_edge(draft, end[0], end[1], length, field_reader->err))) return st;
-    if ((covers || capacities) && (st = thr_json_edge_passes(draft, thr_json_at(covers, e), thr_json_at(capacities, e), &why)))
+    if ((covers || capacities) && (st = thr_json_edge_passes(draft, thr_json_at(covers, e),
+                                                             thr_json_at(capacities, e), &why)))
       return thr_fail(field_reader->err, st, "%s: framework: %s", field_reader->name, why.text);
   }
   return THR_OK;
 }
 
-static thr_status read_units(const thr_field_reader *field_reader, const thr_json *value, thr_draft *draft)
+static thr_status read_units(const thr_field_reader *field_reader, const thr_json *value,
+                             thr_draft *draft)
 {
   thr_err why = {0};
   if (!value) return THR_OK;
   if (!thr_json_string(value)) return thr_field_bad(field_reader, "framework.units", "not text");
-  return thr_draft_set_units(draft, thr_json_string(value), &why) ? thr_field_bad(field_reader, "framework.units", why.text)
-                                                                  : THR_OK;
+  return thr_draft_set_units(draft, thr_json_string(value), &why)
+             ? thr_field_bad(field_reader, "framework.units", why.text)
+             : THR_OK;
 }
 
-static thr_status read_hash(const thr_field_reader *field_reader, const thr_json *object, const thr_frame *frame)
+static thr_status read_hash(const thr_field_reader *field_reader, const thr_json *object,
+                            const thr_frame *frame)
 {
   char hash[20];
   const char *stated = thr_json_string(thr_json_get(object, "hash"));
   snprintf(hash, sizeof hash, "%016" PRIx64, thr_frame_hash(frame));
   if (stated && strcmp(stated, hash) == 0) return THR_OK;
-  return thr_fail(field_reader->err, THR_EVIOLATED,
-                  "%s: framework.hash: the framework is not the one that was planned (its hash is %s)", field_reader->name, hash);
+  return thr_fail(
+      field_reader->err, THR_EVIOLATED,
+      "%s: framework.hash: the framework is not the one that was planned (its hash is %s)",
+      field_reader->name, hash);
 }
 
 /* Of a draft that is to be the known framework, that; else the draft's own. */
-static thr_status take_frame(const thr_field_reader *field_reader, const thr_draft *draft, thr_frame *known, thr_frame *frame)
+static thr_status take_frame(const thr_field_reader *field_reader, const thr_draft *draft,
+                             thr_frame *known, thr_frame *frame)
 {
   thr_read_report report = {0};
   thr_err why = {0};
-  if (known && !thr_draft_says(draft, known)) return thr_field_bad(field_reader, "framework", "is not the one that was written");
+  if (known && !thr_draft_says(draft, known))
+    return thr_field_bad(field_reader, "framework", "is not the one that was written");
   if (known) {
     *frame = *known;
     *known = (thr_frame){0};
@@ -111,10 +129,12 @@ static thr_status take_frame(const thr_field_reader *field_reader, const thr_dra
   if (st) return thr_fail(field_reader->err, st, "%s: framework: %s", field_reader->name, why.text);
   return frame->n_nodes == draft->n_nodes && frame->n_edges == draft->n_edges
              ? THR_OK
-             : thr_field_bad(field_reader, "framework", "has coincident nodes, isolated nodes, or an edge twice");
+             : thr_field_bad(field_reader, "framework",
+                             "has coincident nodes, isolated nodes, or an edge twice");
 }
 
-static thr_status read_frame(const thr_field_reader *field_reader, const thr_json *doc, thr_frame *known, thr_frame *frame)
+static thr_status read_frame(const thr_field_reader *field_reader, const thr_json *doc,
+                             thr_frame *known, thr_frame *frame)
 {
   const thr_json *object;
   thr_draft draft = {0};
@@ -123,17 +143,18 @@ static thr_status read_frame(const thr_field_reader *field_reader, const thr_jso
   if ((st = read_nodes(field_reader, object, &draft))) goto done;
   if ((st = read_edges(field_reader, object, &draft))) goto done;
   if ((st = read_units(field_reader, thr_json_get(object, "units"), &draft))) goto done;
-  if (!(st = take_frame(field_reader, &draft, known, frame))) st = read_hash(field_reader, object, frame);
+  if (!(st = take_frame(field_reader, &draft, known, frame)))
+    st = read_hash(field_reader, object, frame);
 done:
   if (st) thr_frame_destroy(frame);
   thr_draft_destroy(&draft);
   return st;
 }
 
-/* Pass k of a cord runs over edge *half, which becomes a half-edge, from node a to node b. What a hand-edited plan gets wrong
- * first, so say it well. */
-static thr_status half_edge(const thr_field_reader *field_reader, const thr_frame *frame, const char *id, int k, int a, int b,
-                            int *half)
+/* Pass k of a cord runs over edge *half, which becomes a half-edge, from node a to node b. What a
+ * hand-edited plan gets wrong first, so say it well. */
+static thr_status half_edge(const thr_field_reader *field_reader, const thr_frame *frame,
+                            const char *id, int k, int a, int b, int *half)
 {
   const int e = *half;
   for (int s = 0; s < 2; s++)
@@ -141,14 +162,16 @@ static thr_status half_edge(const thr_field_reader *field_reader, const thr_fram
       *half = 2 * e + s;
       return THR_OK;
     }
-  return thr_fail(field_reader->err, field_reader->code,
-                  "%s: cord %s, pass %d: edge %d joins nodes %d and %d, but the cord goes from %d to %d", field_reader->name, id,
-                  k + 1, e, frame->edge[e][0], frame->edge[e][1], a, b);
+  return thr_fail(
+      field_reader->err, field_reader->code,
+      "%s: cord %s, pass %d: edge %d joins nodes %d and %d, but the cord goes from %d to %d",
+      field_reader->name, id, k + 1, e, frame->edge[e][0], frame->edge[e][1], a, b);
 }
 
 /* The passes of a cord of n, which has one node more. */
-static thr_status read_passes(const thr_field_reader *field_reader, const thr_json *nodes, const thr_json *edges, int n,
-                              const thr_frame *frame, int i, thr_cord *cord)
+static thr_status read_passes(const thr_field_reader *field_reader, const thr_json *nodes,
+                              const thr_json *edges, int n, const thr_frame *frame, int i,
+                              thr_cord *cord)
 {
   char place[40];
   int *node = thr_calloc((size_t)n + 1, sizeof *node);
@@ -163,16 +186,19 @@ static thr_status read_passes(const thr_field_reader *field_reader, const thr_js
   return st;
 }
 
-static thr_status read_cord(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame, int i,
-                            thr_cord *cord)
+static thr_status read_cord(const thr_field_reader *field_reader, const thr_json *value,
+                            const thr_frame *frame, int i, thr_cord *cord)
 {
   const thr_json *nodes, *edges, *id, *closed;
   thr_status st = thr_field_need(field_reader, value, "id", THR_JSON_STRING, &id);
   if (st) return st;
-  if (strlen(thr_json_string(id)) >= sizeof cord->id) return thr_field_bad(field_reader, "cords: id", "longer than 11 letters");
+  if (strlen(thr_json_string(id)) >= sizeof cord->id)
+    return thr_field_bad(field_reader, "cords: id", "longer than 11 letters");
   snprintf(cord->id, sizeof cord->id, "%s", thr_json_string(id));
   thr_text_clean(cord->id);
-  if ((st = thr_field_int(field_reader, value, "component", 0, frame->n_nodes - 1, &cord->component))) return st;
+  if ((st = thr_field_int(field_reader, value, "component", 0, frame->n_nodes - 1,
+                          &cord->component)))
+    return st;
   if ((st = thr_field_need(field_reader, value, "closed", THR_JSON_BOOL, &closed))) return st;
   if ((st = thr_field_need(field_reader, value, "nodes", THR_JSON_ARRAY, &nodes))) return st;
   if ((st = thr_field_need(field_reader, value, "edges", THR_JSON_ARRAY, &edges))) return st;
@@ -181,30 +207,35 @@ static thr_status read_cord(const thr_field_reader *field_reader, const thr_json
   char place[40];
   if (n < 1 || thr_json_size(nodes) != n + 1) {
     snprintf(place, sizeof place, "cords[%d]", i);
-    return thr_field_bad(field_reader, place, "needs at least one edge, and one node more than edges");
+    return thr_field_bad(field_reader, place,
+                         "needs at least one edge, and one node more than edges");
   }
-  if (!(cord->half = thr_calloc((size_t)n, sizeof *cord->half))) return thr_nomem(field_reader->err);
+  if (!(cord->half = thr_calloc((size_t)n, sizeof *cord->half)))
+    return thr_nomem(field_reader->err);
   cord->n_passes = n;
   return read_passes(field_reader, nodes, edges, n, frame, i, cord);
 }
 
-static thr_status read_cords(const thr_field_reader *field_reader, const thr_json *doc, thr_plan *plan)
+static thr_status read_cords(const thr_field_reader *field_reader, const thr_json *doc,
+                             thr_plan *plan)
 {
   const thr_json *list;
   thr_status st = thr_field_need(field_reader, doc, "cords", THR_JSON_ARRAY, &list);
   if (st) return st;
   int n = thr_json_size(list);
   if (n < 1) return thr_field_bad(field_reader, "cords", "empty; a plan has at least one cord");
-  if (!(plan->cord = thr_calloc((size_t)n, sizeof *plan->cord))) return thr_nomem(field_reader->err);
+  if (!(plan->cord = thr_calloc((size_t)n, sizeof *plan->cord)))
+    return thr_nomem(field_reader->err);
   plan->n_cords = n;
   for (int i = 0; i < n; i++)
-    if ((st = read_cord(field_reader, thr_json_at(list, i), &plan->frame, i, &plan->cord[i]))) return st;
+    if ((st = read_cord(field_reader, thr_json_at(list, i), &plan->frame, i, &plan->cord[i])))
+      return st;
   return THR_OK;
 }
 
 /* A list of images of all nodes, one list of indices each. */
-static thr_status read_images(const thr_field_reader *field_reader, const thr_json *object, const char *key, int n_nodes,
-                              int **image, int *count)
+static thr_status read_images(const thr_field_reader *field_reader, const thr_json *object,
+                              const char *key, int n_nodes, int **image, int *count)
 {
   const thr_json *list;
   char place[48];
@@ -214,46 +245,54 @@ static thr_status read_images(const thr_field_reader *field_reader, const thr_js
   snprintf(place, sizeof place, "symmetry.%s", key);
   for (int i = 0; i < n; i++)
     if (thr_json_size(thr_json_at(list, i)) != n_nodes)
-      return thr_fail(field_reader->err, field_reader->code, "%s: %s[%d]: not one image per node", field_reader->name, place, i);
-  if (!(*image = thr_calloc((size_t)n * (size_t)n_nodes, sizeof **image))) return thr_nomem(field_reader->err);
+      return thr_fail(field_reader->err, field_reader->code, "%s: %s[%d]: not one image per node",
+                      field_reader->name, place, i);
+  if (!(*image = thr_calloc((size_t)n * (size_t)n_nodes, sizeof **image)))
+    return thr_nomem(field_reader->err);
   *count = n;
   for (int i = 0; i < n; i++) {
     snprintf(place, sizeof place, "symmetry.%s[%d]", key, i);
-    st = thr_field_indices(field_reader, thr_json_at(list, i), n_nodes, n_nodes, place, *image + (size_t)i * (size_t)n_nodes);
+    st = thr_field_indices(field_reader, thr_json_at(list, i), n_nodes, n_nodes, place,
+                           *image + (size_t)i * (size_t)n_nodes);
     if (st) return st;
   }
   return THR_OK;
 }
 
-static thr_status read_copies(const thr_field_reader *field_reader, const thr_json *object, const thr_plan *plan,
-                              thr_symmetry_record *record)
+static thr_status read_copies(const thr_field_reader *field_reader, const thr_json *object,
+                              const thr_plan *plan, thr_symmetry_record *record)
 {
   static const char *const known[] = {"of", "image", NULL};
   const thr_json *list;
   thr_status st = thr_field_need(field_reader, object, "cords", THR_JSON_ARRAY, &list);
   if (st) return st;
-  if (thr_json_size(list) != plan->n_cords) return thr_field_bad(field_reader, "symmetry.cords", "not one per cord of the plan");
+  if (thr_json_size(list) != plan->n_cords)
+    return thr_field_bad(field_reader, "symmetry.cords", "not one per cord of the plan");
   record->unique = thr_calloc((size_t)plan->n_cords, sizeof *record->unique);
   record->element = thr_calloc((size_t)plan->n_cords, sizeof *record->element);
   if (!record->unique || !record->element) return thr_nomem(field_reader->err);
   for (int i = 0; i < plan->n_cords && !st; i++) {
     const thr_json *value = thr_json_at(list, i);
     st = thr_field_only(field_reader, value, "symmetry.cords", known);
-    if (!st) st = thr_field_int(field_reader, value, "of", 0, plan->n_cords - 1, &record->unique[i]);
-    if (!st) st = thr_field_int(field_reader, value, "image", 0, record->n_images - 1, &record->element[i]);
+    if (!st)
+      st = thr_field_int(field_reader, value, "of", 0, plan->n_cords - 1, &record->unique[i]);
+    if (!st)
+      st =
+          thr_field_int(field_reader, value, "image", 0, record->n_images - 1, &record->element[i]);
   }
   return st;
 }
 
 /* There with the objective that asks for it, and nowhere else. */
-static thr_status read_symmetry(const thr_field_reader *field_reader, const thr_json *doc, const thr_plan *plan,
-                                thr_symmetry_record *record)
+static thr_status read_symmetry(const thr_field_reader *field_reader, const thr_json *doc,
+                                const thr_plan *plan, thr_symmetry_record *record)
 {
   static const char *const known[] = {"order", "name",     "generators",   "images", "cords",
                                       "steps", "retraced", "unique_paths", NULL};
   const thr_json *value = thr_json_get(doc, "symmetry"), *name;
   if (!thr_wants_symmetry(&plan->options))
-    return value ? thr_field_bad(field_reader, "symmetry", "only plans with this objective have it") : THR_OK;
+    return value ? thr_field_bad(field_reader, "symmetry", "only plans with this objective have it")
+                 : THR_OK;
   thr_status st = thr_field_need(field_reader, doc, "symmetry", THR_JSON_OBJECT, &value);
   if (!st) st = thr_field_only(field_reader, value, "symmetry", known);
   if (!st) st = thr_field_int(field_reader, value, "order", 1, 1024, &record->order);
@@ -264,37 +303,48 @@ static thr_status read_symmetry(const thr_field_reader *field_reader, const thr_
   snprintf(record->name, sizeof record->name, "%s", thr_json_string(name));
   thr_text_clean(record->name);
   record->present = true;
-  st = read_images(field_reader, value, "generators", plan->frame.n_nodes, &record->generator, &record->n_generators);
-  if (!st) st = read_images(field_reader, value, "images", plan->frame.n_nodes, &record->image, &record->n_images);
+  st = read_images(field_reader, value, "generators", plan->frame.n_nodes, &record->generator,
+                   &record->n_generators);
+  if (!st)
+    st = read_images(field_reader, value, "images", plan->frame.n_nodes, &record->image,
+                     &record->n_images);
   if (!st) st = read_copies(field_reader, value, plan, record);
   if (!st) st = thr_field_double(field_reader, value, "steps", &record->steps);
   const thr_json *retraced = thr_json_get(value, "retraced");
   if (!st && retraced && thr_json_typeof(retraced) != THR_JSON_BOOL)
     return thr_field_bad(field_reader, "symmetry.retraced", "not true or false");
   record->retraced = retraced && thr_json_true(retraced);
-  if (!st) st = thr_field_int(field_reader, value, "unique_paths", 1, plan->n_cords, &record->unique_paths);
+  if (!st)
+    st =
+        thr_field_int(field_reader, value, "unique_paths", 1, plan->n_cords, &record->unique_paths);
   return st;
 }
 
-static thr_status read_metrics(const thr_field_reader *field_reader, const thr_json *doc, thr_plan *plan)
+static thr_status read_metrics(const thr_field_reader *field_reader, const thr_json *doc,
+                               thr_plan *plan)
 {
   thr_metrics *metrics = &plan->metrics;
   const thr_json *value;
-  static const char *const known[] = {"length",    "base_length", "overlap",     "passes",     "most_passes", "distinct",
-                                      "crossings", "turning",     "max_turning", "worst_turn", "u_turns",     NULL};
+  static const char *const known[] = {"length",      "base_length", "overlap",   "passes",
+                                      "most_passes", "distinct",    "crossings", "turning",
+                                      "max_turning", "worst_turn",  "u_turns",   NULL};
   thr_status st = thr_field_need(field_reader, doc, "metrics", THR_JSON_OBJECT, &value);
   if (!st) st = thr_field_only(field_reader, value, "metrics", known);
   if (st) return st;
   if ((st = thr_field_double(field_reader, value, "length", &metrics->length))) return st;
   if ((st = thr_field_double(field_reader, value, "base_length", &metrics->base_length))) return st;
   if ((st = thr_field_double(field_reader, value, "overlap", &metrics->overlap))) return st;
-  if ((st = thr_field_int(field_reader, value, "passes", 0, INT32_MAX, &metrics->passes))) return st;
-  if ((st = thr_field_int(field_reader, value, "most_passes", 0, INT32_MAX, &metrics->most_passes))) return st;
+  if ((st = thr_field_int(field_reader, value, "passes", 0, INT32_MAX, &metrics->passes)))
+    return st;
+  if ((st = thr_field_int(field_reader, value, "most_passes", 0, INT32_MAX, &metrics->most_passes)))
+    return st;
   if ((plan->options.distinct > 0) != (thr_json_get(value, "distinct") != NULL))
     return thr_field_bad(field_reader, "metrics.distinct", "goes with options.distinct");
-  if (plan->options.distinct > 0 && (st = thr_field_int(field_reader, value, "distinct", 0, INT32_MAX, &metrics->distinct)))
+  if (plan->options.distinct > 0 &&
+      (st = thr_field_int(field_reader, value, "distinct", 0, INT32_MAX, &metrics->distinct)))
     return st;
-  if ((plan->options.crossings != THR_CROSSINGS_ALLOW) != (thr_json_get(value, "crossings") != NULL))
+  if ((plan->options.crossings != THR_CROSSINGS_ALLOW) !=
+      (thr_json_get(value, "crossings") != NULL))
     return thr_field_bad(field_reader, "metrics.crossings", "goes with options.crossings");
   if (plan->options.crossings != THR_CROSSINGS_ALLOW &&
       (st = thr_field_int(field_reader, value, "crossings", 0, INT32_MAX, &metrics->crossings)))
@@ -306,7 +356,8 @@ static thr_status read_metrics(const thr_field_reader *field_reader, const thr_j
 }
 
 /* One record per cord, one tension per pass: then code that reads them needs no other look. */
-static thr_status read_evaluation(const thr_field_reader *field_reader, const thr_json *doc, thr_plan *plan)
+static thr_status read_evaluation(const thr_field_reader *field_reader, const thr_json *doc,
+                                  thr_plan *plan)
 {
   char place[256];
   const thr_json *value = thr_json_get(doc, "evaluation");
@@ -320,14 +371,15 @@ static thr_status read_evaluation(const thr_field_reader *field_reader, const th
   for (int i = 0; i < evaluation->n_cords; i++) {
     if (evaluation->cord[i].known && evaluation->cord[i].n_passes != plan->cord[i].n_passes)
       return thr_fail(field_reader->err, field_reader->code,
-                      "%s: evaluation.cords[%d].tension: not one per pass of the cord (%d)", field_reader->name, i,
-                      plan->cord[i].n_passes);
+                      "%s: evaluation.cords[%d].tension: not one per pass of the cord (%d)",
+                      field_reader->name, i, plan->cord[i].n_passes);
     evaluation->cord[i].n_passes = plan->cord[i].n_passes;
   }
   return THR_OK;
 }
 
-static thr_status read_document(thr_field_reader *field_reader, const thr_json *doc, thr_frame *known, thr_plan *plan)
+static thr_status read_document(thr_field_reader *field_reader, const thr_json *doc,
+                                thr_frame *known, thr_plan *plan)
 {
   const char *format = thr_json_string(thr_json_get(doc, "format"));
   int version;
@@ -336,10 +388,13 @@ static thr_status read_document(thr_field_reader *field_reader, const thr_json *
   thr_status st = thr_field_int(field_reader, doc, "version", 1, INT32_MAX, &version);
   if (st) return st;
   if (version > 2)
-    return thr_field_bad(field_reader, "version", "written by a newer version of thread; this one reads versions 1 and 2");
+    return thr_field_bad(field_reader, "version",
+                         "written by a newer version of thread; this one reads versions 1 and 2");
   const char *generator = thr_json_string(thr_json_get(doc, "generator"));
-  if (!generator && thr_json_get(doc, "generator")) return thr_field_bad(field_reader, "generator", "not text");
-  if (!(plan->generator = thr_strdup(generator ? generator : ""))) return thr_nomem(field_reader->err);
+  if (!generator && thr_json_get(doc, "generator"))
+    return thr_field_bad(field_reader, "generator", "not text");
+  if (!(plan->generator = thr_strdup(generator ? generator : "")))
+    return thr_nomem(field_reader->err);
   thr_text_clean(plan->generator);
   if ((st = read_frame(field_reader, doc, known, &plan->frame))) return st;
   if ((st = thr_plan_read_options(field_reader, doc, &plan->frame, &plan->options))) return st;
@@ -352,16 +407,20 @@ static thr_status read_document(thr_field_reader *field_reader, const thr_json *
   return thr_plan_read_proofs(field_reader, doc, plan);
 }
 
-/* Takes over the document, and says of it whether it is a plan; known: of this framework, which becomes the plan's, or NULL. */
-static thr_status take_document(thr_json *doc, const char *name, thr_frame *known, int without, thr_plan *plan, thr_err *err)
+/* Takes over the document, and says of it whether it is a plan; known: of this framework, which
+ * becomes the plan's, or NULL. */
+static thr_status take_document(thr_json *doc, const char *name, thr_frame *known, int without,
+                                thr_plan *plan, thr_err *err)
 {
-  thr_status st = read_document(&(thr_field_reader){name, THR_EINPUT, err, without}, doc, known, plan);
+  thr_status st =
+      read_document(&(thr_field_reader){name, THR_EINPUT, err, without}, doc, known, plan);
   thr_json_destroy(doc);
   if (st) thr_plan_destroy(plan);
   return st;
 }
 
-thr_status thr_plan_parse_without(thr_plan *plan, const char *text, size_t n, const char *name, int claims, thr_err *err)
+thr_status thr_plan_parse_without(thr_plan *plan, const char *text, size_t n, const char *name,
+                                  int claims, thr_err *err)
 {
   thr_json *doc;
   *plan = (thr_plan){0};
@@ -369,12 +428,14 @@ thr_status thr_plan_parse_without(thr_plan *plan, const char *text, size_t n, co
   return st ? st : take_document(doc, name, NULL, claims, plan, err);
 }
 
-thr_status thr_plan_parse(thr_plan *plan, const char *text, size_t n, const char *name, thr_err *err)
+thr_status thr_plan_parse(thr_plan *plan, const char *text, size_t n, const char *name,
+                          thr_err *err)
 {
   return thr_plan_parse_without(plan, text, n, name, 0, err);
 }
 
-thr_status thr_plan_parse_back(thr_plan *plan, const char *text, size_t n, const char *name, thr_err *err)
+thr_status thr_plan_parse_back(thr_plan *plan, const char *text, size_t n, const char *name,
+                               thr_err *err)
 {
   thr_json *doc;
   thr_frame known = plan->frame;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* plan.json, read: proofs. */
 #include "graph/angle.h"
 #include "graph/framework/components.h"
@@ -12,8 +13,8 @@ static const char *status_name(int i)
   return i ? "optimal" : "bound";
 }
 
-static thr_status read_cut(const thr_field_reader *field_reader, const thr_json *value, int i, int n_cuts, const thr_frame *frame,
-                           thr_cut *cut)
+static thr_status read_cut(const thr_field_reader *field_reader, const thr_json *value, int i,
+                           int n_cuts, const thr_frame *frame, thr_cut *cut)
 {
   static const char *const known[] = {"value", "nodes", "parent", NULL};
   const thr_json *nodes;
@@ -22,57 +23,74 @@ static thr_status read_cut(const thr_field_reader *field_reader, const thr_json 
     st = thr_field_int64(field_reader, value, "value", INT64_MIN, INT64_MAX,
                          &cut->value); /* the checker says what a negative one means */
   cut->parent = -1;
-  if (!st && thr_json_get(value, "parent")) st = thr_field_int(field_reader, value, "parent", i + 1, n_cuts - 1, &cut->parent);
+  if (!st && thr_json_get(value, "parent"))
+    st = thr_field_int(field_reader, value, "parent", i + 1, n_cuts - 1, &cut->parent);
   if (!st) st = thr_field_need(field_reader, value, "nodes", THR_JSON_ARRAY, &nodes);
   if (st) return st;
   int n = thr_json_size(nodes);
   if (!(cut->node = thr_calloc((size_t)n, sizeof *cut->node))) return thr_nomem(field_reader->err);
   cut->n_nodes = n;
   for (int j = 0; j < n; j++)
-    if ((st = thr_field_index(field_reader, nodes, j, frame->n_nodes, "proof.length.certificate: cuts: nodes", &cut->node[j])))
+    if ((st = thr_field_index(field_reader, nodes, j, frame->n_nodes,
+                              "proof.length.certificate: cuts: nodes", &cut->node[j])))
       return st;
   return THR_OK;
 }
 
-static thr_status read_prices(const thr_field_reader *field_reader, const thr_json *value, thr_certificate *certificate)
+static thr_status read_prices(const thr_field_reader *field_reader, const thr_json *value,
+                              thr_certificate *certificate)
 {
   const thr_json *list;
   thr_status st = thr_field_need(field_reader, value, "place_prices", THR_JSON_ARRAY, &list);
   if (st) return st;
   int n = thr_json_size(list);
-  if (!(certificate->place_price = thr_calloc((size_t)n, sizeof *certificate->place_price))) return thr_nomem(field_reader->err);
+  if (!(certificate->place_price = thr_calloc((size_t)n, sizeof *certificate->place_price)))
+    return thr_nomem(field_reader->err);
   certificate->n_prices = n;
   for (int i = 0; i < n; i++)
-    if (!thr_json_int(thr_json_at(list, i), &certificate->place_price[i])) /* the checker says what a negative one means */
-      return thr_field_bad(field_reader, "proof.length.certificate: place_prices", "not all are integers");
+    if (!thr_json_int(
+            thr_json_at(list, i),
+            &certificate->place_price[i])) /* the checker says what a negative one means */
+      return thr_field_bad(field_reader, "proof.length.certificate: place_prices",
+                           "not all are integers");
   return THR_OK;
 }
 
-static thr_status read_certificate(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
-                                   thr_certificate *certificate)
+static thr_status read_certificate(const thr_field_reader *field_reader, const thr_json *value,
+                                   const thr_frame *frame, thr_certificate *certificate)
 {
   static const char *const known[] = {"component", "scale", "denominator",  "end_price", "join",
                                       "sum",       "cuts",  "place_prices", NULL};
   const thr_json *cuts;
   thr_status st = thr_field_only(field_reader, value, "proof.length.certificate", known);
-  if (!st) st = thr_field_int(field_reader, value, "component", 0, frame->n_nodes - 1, &certificate->component);
+  if (!st)
+    st = thr_field_int(field_reader, value, "component", 0, frame->n_nodes - 1,
+                       &certificate->component);
   if (!st) st = thr_field_double(field_reader, value, "scale", &certificate->scale);
-  if (!st) st = thr_field_int64(field_reader, value, "denominator", 1, INT64_C(1) << 40, &certificate->denominator);
-  if (!st) st = thr_field_int64(field_reader, value, "end_price", 0, INT64_MAX, &certificate->end_price);
-  if (!st) st = thr_field_int64(field_reader, value, "join", 0, INT64_C(1) << 60, &certificate->join);
+  if (!st)
+    st = thr_field_int64(field_reader, value, "denominator", 1, INT64_C(1) << 40,
+                         &certificate->denominator);
+  if (!st)
+    st = thr_field_int64(field_reader, value, "end_price", 0, INT64_MAX, &certificate->end_price);
+  if (!st)
+    st = thr_field_int64(field_reader, value, "join", 0, INT64_C(1) << 60, &certificate->join);
   if (!st) st = thr_field_int64(field_reader, value, "sum", 0, INT64_MAX, &certificate->sum);
-  if (!st && thr_json_get(value, "place_prices")) st = read_prices(field_reader, value, certificate);
+  if (!st && thr_json_get(value, "place_prices"))
+    st = read_prices(field_reader, value, certificate);
   if (!st) st = thr_field_need(field_reader, value, "cuts", THR_JSON_ARRAY, &cuts);
   if (st) return st;
   int n = thr_json_size(cuts);
-  if (!(certificate->cut = thr_calloc((size_t)n, sizeof *certificate->cut))) return thr_nomem(field_reader->err);
+  if (!(certificate->cut = thr_calloc((size_t)n, sizeof *certificate->cut)))
+    return thr_nomem(field_reader->err);
   certificate->n_cuts = n;
   for (int i = 0; i < n; i++)
-    if ((st = read_cut(field_reader, thr_json_at(cuts, i), i, n, frame, &certificate->cut[i]))) return st;
+    if ((st = read_cut(field_reader, thr_json_at(cuts, i), i, n, frame, &certificate->cut[i])))
+      return st;
   return THR_OK;
 }
 
-static thr_status get_status(const thr_field_reader *field_reader, const thr_json *value, const char *place, bool *optimal)
+static thr_status get_status(const thr_field_reader *field_reader, const thr_json *value,
+                             const char *place, bool *optimal)
 {
   int status;
   thr_status st = thr_field_name(field_reader, value, place, "status", 2, status_name, &status);
@@ -81,20 +99,24 @@ static thr_status get_status(const thr_field_reader *field_reader, const thr_jso
 }
 
 /* "open", or nothing: then the limit on the length that the options set is one that is proved. */
-static thr_status read_slack(const thr_field_reader *field_reader, const thr_json *value, bool *open)
+static thr_status read_slack(const thr_field_reader *field_reader, const thr_json *value,
+                             bool *open)
 {
   const thr_json *slack = thr_json_get(value, "slack");
   const char *word = thr_json_string(slack);
-  if (slack && (!word || strcmp(word, "open") != 0)) return thr_field_bad(field_reader, "proof.length.slack", "not \"open\"");
+  if (slack && (!word || strcmp(word, "open") != 0))
+    return thr_field_bad(field_reader, "proof.length.slack", "not \"open\"");
   *open = slack != NULL;
   return THR_OK;
 }
 
-static thr_status read_length_proof(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
-                                    thr_length_proof *proof)
+static thr_status read_length_proof(const thr_field_reader *field_reader, const thr_json *value,
+                                    const thr_frame *frame, thr_length_proof *proof)
 {
-  static const char *const solid[] = {"status", "lower_bound", "slack", "gap", "method", "certificate", "walks", NULL};
-  static const char *const tube[] = {"status", "lower_bound", "slack", "gap", "method", "proof", NULL};
+  static const char *const solid[] = {"status", "lower_bound", "slack", "gap",
+                                      "method", "certificate", "walks", NULL};
+  static const char *const tube[] = {"status", "lower_bound", "slack", "gap",
+                                     "method", "proof",       NULL};
   const thr_json *list, *tied = thr_json_get(value, "proof");
   char place[256];
   thr_status st = thr_field_only(field_reader, value, "proof.length", tied ? tube : solid);
@@ -110,25 +132,32 @@ static thr_status read_length_proof(const thr_field_reader *field_reader, const 
   if (!st) st = thr_field_need(field_reader, value, "certificate", THR_JSON_ARRAY, &list);
   if (st) return st;
   int n = thr_json_size(list);
-  if (!(proof->certificate = thr_calloc((size_t)n, sizeof *proof->certificate))) return thr_nomem(field_reader->err);
+  if (!(proof->certificate = thr_calloc((size_t)n, sizeof *proof->certificate)))
+    return thr_nomem(field_reader->err);
   proof->n_certificates = n;
   for (int i = 0; i < n; i++)
-    if ((st = read_certificate(field_reader, thr_json_at(list, i), frame, &proof->certificate[i]))) return st;
+    if ((st = read_certificate(field_reader, thr_json_at(list, i), frame, &proof->certificate[i])))
+      return st;
   snprintf(place, sizeof place, "%.200s: proof.length.walks", field_reader->name);
-  return thr_walk_proof_from_json(&proof->pulled, frame, NULL, thr_json_get(value, "walks"), place, field_reader->err);
+  return thr_walk_proof_from_json(&proof->pulled, frame, NULL, thr_json_get(value, "walks"), place,
+                                  field_reader->err);
 }
 
-/* Reads what a turn counts for at most, which may be left out. place: of the object, for messages. */
-static thr_status read_free_turn(const thr_field_reader *field_reader, const thr_json *value, const char *place, int64_t *cut)
+/* Reads what a turn counts for at most, which may be left out. place: of the object, for messages.
+ */
+static thr_status read_free_turn(const thr_field_reader *field_reader, const thr_json *value,
+                                 const char *place, int64_t *cut)
 {
   const int64_t most = (int64_t)floor(ldexp(THR_PI, THR_TURNING_BITS));
   const thr_json *stated = thr_json_get(value, "cut");
   if (stated && (!thr_json_int(stated, cut) || *cut < 1 || *cut > most))
-    return thr_field_bad(field_reader, place, "not a turn of at most 180 degrees in units of 2^-44");
+    return thr_field_bad(field_reader, place,
+                         "not a turn of at most 180 degrees in units of 2^-44");
   return THR_OK;
 }
 
-static thr_status read_largest(const thr_field_reader *field_reader, const thr_json *object, thr_turning_claim *claim)
+static thr_status read_largest(const thr_field_reader *field_reader, const thr_json *object,
+                               thr_turning_claim *claim)
 {
   static const char *const known[] = {"status", "price", "lower_bound", "cut", NULL};
   const thr_json *value;
@@ -140,11 +169,12 @@ static thr_status read_largest(const thr_field_reader *field_reader, const thr_j
   return st ? st : read_free_turn(field_reader, value, "proof.turning.largest.cut", &claim->cut);
 }
 
-static thr_status read_turning_claim(const thr_field_reader *field_reader, const thr_json *value, const thr_frame *frame,
-                                     thr_turning_claim *claim)
+static thr_status read_turning_claim(const thr_field_reader *field_reader, const thr_json *value,
+                                     const thr_frame *frame, thr_turning_claim *claim)
 {
-  static const char *const known[] = {"status",       "price",  "lower_bound", "gap", "pairing_bound", "largest", "most_passes",
-                                      "length_limit", "method", "proof",       NULL};
+  static const char *const known[] = {"status",        "price",   "lower_bound", "gap",
+                                      "pairing_bound", "largest", "most_passes", "length_limit",
+                                      "method",        "proof",   NULL};
   char place[256];
   thr_status st = thr_field_only(field_reader, value, "proof.turning", known);
   if (!st) st = get_status(field_reader, value, "proof.turning", &claim->optimal);
@@ -154,16 +184,19 @@ static thr_status read_turning_claim(const thr_field_reader *field_reader, const
   if (!st && thr_json_get(value, "pairing_bound"))
     st = thr_field_amount(field_reader, value, "pairing_bound", &claim->pairing_bound);
   if (!st) st = read_largest(field_reader, value, claim);
-  if (!st) st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
+  if (!st)
+    st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
   if (!st) st = thr_field_or_null(field_reader, value, "length_limit", &claim->length_limit);
   if (st) return st;
   snprintf(place, sizeof place, "%.200s: proof.turning.proof", field_reader->name);
   claim->present = true;
-  return thr_turning_proof_from_json(&claim->tree, frame, thr_json_get(value, "proof"), place, field_reader->err);
+  return thr_turning_proof_from_json(&claim->tree, frame, thr_json_get(value, "proof"), place,
+                                     field_reader->err);
 }
 
-static thr_status read_cords_claim(const thr_field_reader *field_reader, const thr_json *object, const thr_frame *frame,
-                                   thr_cords_claim *claim, thr_walk_proof *walks)
+static thr_status read_cords_claim(const thr_field_reader *field_reader, const thr_json *object,
+                                   const thr_frame *frame, thr_cords_claim *claim,
+                                   thr_walk_proof *walks)
 {
   static const char *const known[] = {"longest", "fewest", "walks", "sets", NULL},
                            *const of_longest[] = {"status", "length", "lower_bound", NULL},
@@ -178,7 +211,9 @@ static thr_status read_cords_claim(const thr_field_reader *field_reader, const t
   if (!st) claim->present = true;
   char place[256];
   snprintf(place, sizeof place, "%.200s: proof.cords.walks", field_reader->name);
-  if (!st) st = thr_walk_proof_from_json(walks, frame, "length", thr_json_get(object, "walks"), place, field_reader->err);
+  if (!st)
+    st = thr_walk_proof_from_json(walks, frame, "length", thr_json_get(object, "walks"), place,
+                                  field_reader->err);
   const thr_json *sets = thr_json_get(object, "sets");
   if (!st && sets && (thr_json_typeof(sets) != THR_JSON_BOOL || !thr_json_true(sets)))
     st = thr_field_bad(field_reader, "proof.cords.sets", "true, or left out");
@@ -190,8 +225,8 @@ static thr_status read_cords_claim(const thr_field_reader *field_reader, const t
 }
 
 /* Reads what every claim of the number of cords has, of the whole or of a part. */
-static thr_status read_fewest(const thr_field_reader *field_reader, const thr_json *value, const char *name,
-                              const char *const *known, thr_pull_claim *claim)
+static thr_status read_fewest(const thr_field_reader *field_reader, const thr_json *value,
+                              const char *name, const char *const *known, thr_pull_claim *claim)
 {
   thr_status st = thr_field_only(field_reader, value, name, known);
   if (!st) st = get_status(field_reader, value, name, &claim->optimal);
@@ -200,19 +235,27 @@ static thr_status read_fewest(const thr_field_reader *field_reader, const thr_js
   return st;
 }
 
-static thr_status read_pull_claim(const thr_field_reader *field_reader, const thr_json *value, const char *name,
-                                  const thr_frame *frame, thr_pull_claim *claim)
+static thr_status read_pull_claim(const thr_field_reader *field_reader, const thr_json *value,
+                                  const char *name, const thr_frame *frame, thr_pull_claim *claim)
 {
-  static const char *const by_tree[] = {"status", "lower_bound", "excluded", "most_passes", "cut", "proof", NULL};
+  static const char *const by_tree[] = {"status", "lower_bound", "excluded", "most_passes",
+                                        "cut",    "proof",       NULL};
   static const char *const by_walks[] = {"status", "lower_bound", "excluded", "walks", NULL};
   static const char *const by_edges[] = {"status", "lower_bound", "excluded", NULL};
   const thr_json *proof = thr_json_get(value, "proof"), *walks = thr_json_get(value, "walks");
   char place[256], cut[64];
-  thr_status st = read_fewest(field_reader, value, name, walks ? by_walks : proof ? by_tree : by_edges, claim);
+  thr_status st = read_fewest(field_reader, value, name,
+                              walks   ? by_walks
+                              : proof ? by_tree
+                                      : by_edges,
+                              claim);
   if (st || (!proof && !walks && !thr_json_get(value, "excluded"))) return st;
   st = thr_field_int(field_reader, value, "excluded", 1, THR_MOST_CORDS, &claim->excluded);
   snprintf(place, sizeof place, "%.200s: %.32s.walks", field_reader->name, name);
-  if (st || walks) return st ? st : thr_walk_proof_from_json(&claim->walks, frame, NULL, walks, place, field_reader->err);
+  if (st || walks)
+    return st ? st
+              : thr_walk_proof_from_json(&claim->walks, frame, NULL, walks, place,
+                                         field_reader->err);
   if (!proof) return THR_OK;
   st = thr_field_int(field_reader, value, "most_passes", 1, INT32_MAX, &claim->most_passes);
   snprintf(cut, sizeof cut, "%.32s.cut", name);
@@ -223,21 +266,24 @@ static thr_status read_pull_claim(const thr_field_reader *field_reader, const th
 }
 
 /* Of every component, in order. */
-static thr_status read_pull_parts(const thr_field_reader *field_reader, const thr_json *list, const thr_plan *plan,
-                                  thr_pull_claim *claim)
+static thr_status read_pull_parts(const thr_field_reader *field_reader, const thr_json *list,
+                                  const thr_plan *plan, thr_pull_claim *claim)
 {
   thr_components components;
   thr_status st = thr_components_init(&components, &plan->frame, &plan->options, field_reader->err);
   const int n = st ? 0 : components.n;
   if (!st && (plan->options.old_pull || n > THR_MOST_PULL_PARTS || thr_json_size(list) != n))
-    st = thr_field_bad(field_reader, "proof.pull.parts", "one for each of at most 100 components, with version 2");
-  if (!st && !(claim->part = thr_calloc((size_t)n, sizeof *claim->part))) st = thr_nomem(field_reader->err);
+    st = thr_field_bad(field_reader, "proof.pull.parts",
+                       "one for each of at most 100 components, with version 2");
+  if (!st && !(claim->part = thr_calloc((size_t)n, sizeof *claim->part)))
+    st = thr_nomem(field_reader->err);
   for (int k = 0; k < n && !st; k++) {
     char name[64];
     const thr_json *part = thr_json_at(list, k);
     thr_plan alone;
     snprintf(name, sizeof name, "proof.pull.parts[%d]", k);
-    if (thr_json_typeof(part) != THR_JSON_OBJECT) st = thr_field_bad(field_reader, name, "an object");
+    if (thr_json_typeof(part) != THR_JSON_OBJECT)
+      st = thr_field_bad(field_reader, name, "an object");
     if (!st) st = thr_component_take(&components, k, &alone, field_reader->err);
     if (st) break;
     claim->n_parts = k + 1;
@@ -251,19 +297,22 @@ static thr_status read_pull_parts(const thr_field_reader *field_reader, const th
 }
 
 /* Of the whole, or of its components. */
-static thr_status read_whole_pull_claim(const thr_field_reader *field_reader, const thr_json *value, thr_plan *plan)
+static thr_status read_whole_pull_claim(const thr_field_reader *field_reader, const thr_json *value,
+                                        thr_plan *plan)
 {
   static const char *const by_parts[] = {"status", "lower_bound", "parts", NULL};
   thr_pull_claim *claim = &plan->pull_claim;
   const thr_json *parts;
-  if (!thr_json_get(value, "parts")) return read_pull_claim(field_reader, value, "proof.pull", &plan->frame, claim);
+  if (!thr_json_get(value, "parts"))
+    return read_pull_claim(field_reader, value, "proof.pull", &plan->frame, claim);
   thr_status st = read_fewest(field_reader, value, "proof.pull", by_parts, claim);
   if (!st) st = thr_field_need(field_reader, value, "parts", THR_JSON_ARRAY, &parts);
   return st ? st : read_pull_parts(field_reader, parts, plan, claim);
 }
 
-/* What a plan of version 1 proves within its limit on the pull is about cords that a pass parts, and is not verified any more:
- * the fewest cords; the length, if that rests on walks within the pull, and a turning that is limited by such a length. */
+/* What a plan of version 1 proves within its limit on the pull is about cords that a pass parts,
+ * and is not verified any more: the fewest cords; the length, if that rests on walks within the
+ * pull, and a turning that is limited by such a length. */
 static void leave_out_older_pull(thr_plan *plan)
 {
   const bool by_walks = plan->proof.present && plan->proof.pulled.unit > 0;
@@ -274,21 +323,30 @@ static void leave_out_older_pull(thr_plan *plan)
   if (plan->turning.length_limit >= 0) plan->turning.present = false;
 }
 
-/* A proof says that nothing with the plan's options is better: one of turning goes with the objective that asks for it. */
-thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_json *doc, thr_plan *plan)
+/* A proof says that nothing with the plan's options is better: one of turning goes with the
+ * objective that asks for it. */
+thr_status thr_plan_read_proofs(const thr_field_reader *field_reader, const thr_json *doc,
+                                thr_plan *plan)
 {
-  static const char *const of_length[] = {"length", "cords", "pull", NULL}, *const of_turning[] = {"length", "cords", "pull",
-                                                                                                   "turning", NULL};
+  static const char *const of_length[] = {"length", "cords", "pull", NULL}, *const of_turning[] = {
+                                                                                "length", "cords",
+                                                                                "pull", "turning",
+                                                                                NULL};
   const int without = field_reader->without;
   const thr_json *all;
   thr_status st = thr_field_need(field_reader, doc, "proof", THR_JSON_OBJECT, &all);
-  if (!st) st = thr_field_only(field_reader, all, "proof", thr_wants_turning(&plan->options) ? of_turning : of_length);
+  if (!st)
+    st = thr_field_only(field_reader, all, "proof",
+                        thr_wants_turning(&plan->options) ? of_turning : of_length);
   const thr_json *length = thr_json_get(all, "length"), *turning = thr_json_get(all, "turning"),
                  *cords = thr_json_get(all, "cords"), *pull = thr_json_get(all, "pull");
-  if (!st && length && !(without & THR_CLAIM_LENGTH)) st = read_length_proof(field_reader, length, &plan->frame, &plan->proof);
+  if (!st && length && !(without & THR_CLAIM_LENGTH))
+    st = read_length_proof(field_reader, length, &plan->frame, &plan->proof);
   if (!st && cords && !(without & THR_CLAIM_CORDS))
-    st = read_cords_claim(field_reader, cords, &plan->frame, &plan->cords_claim, &plan->proof.walks);
-  if (!st && pull && !(without & THR_CLAIM_PULL)) st = read_whole_pull_claim(field_reader, pull, plan);
+    st =
+        read_cords_claim(field_reader, cords, &plan->frame, &plan->cords_claim, &plan->proof.walks);
+  if (!st && pull && !(without & THR_CLAIM_PULL))
+    st = read_whole_pull_claim(field_reader, pull, plan);
   if (!st && turning && !(without & THR_CLAIM_TURNING))
     st = read_turning_claim(field_reader, turning, &plan->frame, &plan->turning);
   if (!st && plan->options.old_pull) leave_out_older_pull(plan);

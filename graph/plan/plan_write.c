@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* plan.json, written: docs/plan-format.md is the schema. */
 #include "graph/plan/plan_fields.h"
 
@@ -185,7 +186,8 @@ static void put_metrics(thr_writer *writer, const thr_plan *plan)
   thr_write_int(writer, "most_passes", metrics->most_passes);
   if (plan->options.distinct > 0) thr_write_int(writer, "distinct", metrics->distinct);
   thr_write_line(writer, 2);
-  if (plan->options.crossings != THR_CROSSINGS_ALLOW) thr_write_int(writer, "crossings", metrics->crossings);
+  if (plan->options.crossings != THR_CROSSINGS_ALLOW)
+    thr_write_int(writer, "crossings", metrics->crossings);
   thr_write_number(writer, "turning", metrics->turning);
   thr_write_number(writer, "max_turning", metrics->max_turning);
   thr_write_number(writer, "worst_turn", metrics->worst_turn);
@@ -217,7 +219,8 @@ static void put_certificate(thr_writer *writer, const thr_certificate *certifica
     thr_write_object(writer, NULL);
     thr_write_int(writer, "value", certificate->cut[k].value);
     thr_write_ints(writer, "nodes", certificate->cut[k].node, certificate->cut[k].n_nodes);
-    if (certificate->cut[k].parent >= 0) thr_write_int(writer, "parent", certificate->cut[k].parent);
+    if (certificate->cut[k].parent >= 0)
+      thr_write_int(writer, "parent", certificate->cut[k].parent);
     thr_write_close(writer);
   }
   thr_write_close(writer);
@@ -277,7 +280,8 @@ static void put_turning_proof(thr_writer *writer, const thr_plan *plan)
   thr_write_int(writer, "most_passes", claim->most_passes);
   put_or_null(writer, "length_limit", claim->length_limit);
   thr_write_line(writer, 2);
-  thr_write_string(writer, "method", "multipliers of odd sets, groups and partitions over a tree of branchings");
+  thr_write_string(writer, "method",
+                   "multipliers of odd sets, groups and partitions over a tree of branchings");
   thr_write_line(writer, 2);
   thr_turning_proof_write(&claim->tree, &plan->frame, writer, "proof");
   thr_write_close(writer);
@@ -303,7 +307,8 @@ static void put_cords_claim(thr_writer *writer, const thr_plan *plan)
   thr_write_close(writer);
 }
 
-static void put_pull_claim(thr_writer *writer, const char *name, const thr_pull_claim *claim, const thr_frame *frame)
+static void put_pull_claim(thr_writer *writer, const char *name, const thr_pull_claim *claim,
+                           const thr_frame *frame)
 {
   thr_write_line(writer, 2);
   thr_write_object(writer, name);

@@ -1,10 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How far pieces can shift where their bores are wider than the cord (thesis, Fig. 14).
  *
- * Two bores that a cord goes through may lie askew by bore - cord at the gap between them, whatever the direction across. In a
- * row of pieces this adds up from gap to gap; in a framework, where one way holds the other, it is the most that the shortest row
- * of gaps from a foot allows.
+ * Two bores that a cord goes through may lie askew by bore - cord at the gap between them, whatever
+ * the direction across. In a row of pieces this adds up from gap to gap; in a framework, where one
+ * way holds the other, it is the most that the shortest row of gaps from a foot allows.
  *
- * Example: 10 pieces out from a wall, cord 1 mm in bores of 1.5 mm: the last one may hang 5 mm low. */
+ * Example: 10 pieces out from a wall, cord 1 mm in bores of 1.5 mm: the last one may hang 5 mm low.
+ */
 #include "graph/plan/physics.h"
 
 #include "graph/scratch.h"
@@ -30,11 +32,13 @@ static int start_at_feet(const thr_frame *frame, int *queue, int *distance)
   return n;
 }
 
-thr_status thr_play_find(const thr_frame *frame, const thr_physics *physics, thr_play *out, thr_err *err)
+thr_status thr_play_find(const thr_frame *frame, const thr_physics *physics, thr_play *out,
+                         thr_err *err)
 {
   thr_scratch own = {0};
   const size_t nodes = (size_t)frame->n_nodes;
-  int *queue = thr_scratch_array(&own, nodes, sizeof *queue), *distance = thr_scratch_array(&own, nodes, sizeof *distance);
+  int *queue = thr_scratch_array(&own, nodes, sizeof *queue),
+      *distance = thr_scratch_array(&own, nodes, sizeof *distance);
   thr_status st = thr_scratch_check(&own, err);
   *out = (thr_play){.gap = physics->bore - physics->cord_diameter, .piece = -1};
   int n = st ? 0 : start_at_feet(frame, queue, distance);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which end of a cord is pulled. */
 #include "graph/plan/physics.h"
 

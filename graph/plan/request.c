@@ -1,7 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The request: what a plan is asked to be, and what it is to have little of, first, second, ...
  *
  *   thr_request o = thr_request_default();
- *   thr_aims_parse("length+5%,turning:sine", &o, &err)   at most 5 % above the least length, and of that the least turning
+ *   thr_aims_parse("length+5%,turning:sine", &o, &err)   at most 5 % above the least length, and of
+ * that the least turning
  *
  * What is asked of a plan: lists of aims, names, and what options and framework say together. */
 #include "graph/plan/request.h"
@@ -31,11 +33,14 @@ thr_request thr_request_default(void)
 
 const thr_aims thr_aims_shortest = {1, {THR_AIM_LENGTH}};
 const thr_aims thr_aims_straightest = {1, {THR_AIM_TURNING}};
-const thr_aims thr_aims_symmetric = {THR_N_AIMS, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
+const thr_aims thr_aims_symmetric = {
+    THR_N_AIMS, {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
 
 thr_aims thr_aims_of(thr_objective objective)
 {
-  return objective == THR_SYMMETRY ? thr_aims_symmetric : objective == THR_TORTUOSITY ? thr_aims_straightest : thr_aims_shortest;
+  return objective == THR_SYMMETRY     ? thr_aims_symmetric
+         : objective == THR_TORTUOSITY ? thr_aims_straightest
+                                       : thr_aims_shortest;
 }
 
 bool thr_aims_have(const thr_request *options, thr_aim aim)
@@ -47,8 +52,10 @@ bool thr_aims_have(const thr_request *options, thr_aim aim)
 
 thr_objective thr_aims_objective(const thr_request *options)
 {
-  if (thr_aims_have(options, THR_AIM_STEPS) || thr_aims_have(options, THR_AIM_PATHS)) return THR_SYMMETRY;
-  return thr_aims_have(options, THR_AIM_TURNING) || thr_wants_largest(options) ? THR_TORTUOSITY : THR_LENGTH;
+  if (thr_aims_have(options, THR_AIM_STEPS) || thr_aims_have(options, THR_AIM_PATHS))
+    return THR_SYMMETRY;
+  return thr_aims_have(options, THR_AIM_TURNING) || thr_wants_largest(options) ? THR_TORTUOSITY
+                                                                               : THR_LENGTH;
 }
 
 bool thr_wants_length(const thr_request *options)
@@ -139,18 +146,23 @@ static thr_status read_aim(char *word, list *l, thr_err *err)
     aim++;
   if (aim == THR_ALL_AIMS)
     return thr_fail(err, THR_EINPUT,
-                    "\"%s\" is no aim; there are length, longest, turning, max-turning, pull, overlap, steps, paths", word);
+                    "\"%s\" is no aim; there are length, longest, turning, max-turning, pull, "
+                    "overlap, steps, paths",
+                    word);
   if (l->named[aim]) return thr_fail(err, THR_EINPUT, "%s is there twice", word);
   l->named[aim] = true;
   l->aims.aim[l->aims.n++] = (thr_aim)aim;
   if (mark == '+') {
     if (aim != THR_AIM_LENGTH || !read_slack(more, &l->slack))
-      return thr_fail(err, THR_EINPUT, "%s+%s: only length takes a percentage, from 0 to 1e+06, like length+5%%", word, more);
+      return thr_fail(err, THR_EINPUT,
+                      "%s+%s: only length takes a percentage, from 0 to 1e+06, like length+5%%",
+                      word, more);
     l->limited = true;
   }
   if (mark != ':') return THR_OK;
   if ((aim != THR_AIM_TURNING && aim != THR_AIM_MAX_TURNING) || !read_cost(more, &l->cost))
-    return thr_fail(err, THR_EINPUT, "%s:%s: only turning and max-turning take a cost: " THR_TURN_COSTS, word, more);
+    return thr_fail(err, THR_EINPUT,
+                    "%s:%s: only turning and max-turning take a cost: " THR_TURN_COSTS, word, more);
   l->priced = true;
   return THR_OK;
 }
@@ -191,11 +203,15 @@ static void rename_aim(list *l, thr_aim from, thr_aim to)
 static thr_status settle_symmetric(list *l, thr_request *options, thr_err *err)
 {
   if (l->named[THR_AIM_MAX_TURNING] || l->named[THR_AIM_PULL])
-    return thr_fail(err, THR_EINPUT, "symmetric plans, which steps and paths ask for, do not know %s: copies turn alike",
-                    thr_aim_name(l->named[THR_AIM_PULL] ? THR_AIM_PULL : THR_AIM_MAX_TURNING));
+    return thr_fail(
+        err, THR_EINPUT,
+        "symmetric plans, which steps and paths ask for, do not know %s: copies turn alike",
+        thr_aim_name(l->named[THR_AIM_PULL] ? THR_AIM_PULL : THR_AIM_MAX_TURNING));
   if (l->named[THR_AIM_LONGEST] && l->aims.aim[0] != THR_AIM_LONGEST)
     return thr_fail(err, THR_EINPUT, "longest comes before the other aims of a symmetric plan");
-  if (l->priced) return thr_fail(err, THR_EINPUT, "of symmetric plans the turning is that of its angles: no cost of turns");
+  if (l->priced)
+    return thr_fail(err, THR_EINPUT,
+                    "of symmetric plans the turning is that of its angles: no cost of turns");
   rename_aim(l, THR_AIM_LENGTH, THR_AIM_OVERLAP);
   options->aims = l->aims;
   l->aims = (thr_aims){l->named[THR_AIM_LONGEST], {THR_AIM_LONGEST}};
@@ -211,7 +227,8 @@ static thr_status settle_turning(list *l, thr_err *err)
     return thr_fail(err, THR_EINPUT, "one of turning, max-turning and pull, not both");
   thr_aim last = l->aims.aim[l->aims.n - 1];
   if (last == THR_AIM_LENGTH || last == THR_AIM_LONGEST)
-    return thr_fail(err, THR_EINPUT, "%s comes before turning, max-turning and pull", thr_aim_name(last));
+    return thr_fail(err, THR_EINPUT, "%s comes before turning, max-turning and pull",
+                    thr_aim_name(last));
   if (take_out(&l->aims, THR_AIM_LENGTH) && l->slack < 0) l->slack = 0;
   return THR_OK;
 }
@@ -220,18 +237,22 @@ static thr_status settle_length(list *l, thr_err *err)
 {
   if (!l->named[THR_AIM_LENGTH]) l->aims.aim[l->aims.n++] = THR_AIM_LENGTH;
   if (l->named[THR_AIM_LONGEST] && l->aims.aim[0] != THR_AIM_LONGEST)
-    return thr_fail(err, THR_EINPUT, "longest comes before length: the shortest longest cord, and then the least length");
+    return thr_fail(
+        err, THR_EINPUT,
+        "longest comes before length: the shortest longest cord, and then the least length");
   return THR_OK;
 }
 
 static thr_status settle(list *l, thr_request *options, thr_err *err)
 {
   bool symmetric = l->named[THR_AIM_STEPS] || l->named[THR_AIM_PATHS];
-  bool turning = !symmetric && (l->named[THR_AIM_TURNING] || l->named[THR_AIM_MAX_TURNING] || l->named[THR_AIM_PULL]);
+  bool turning = !symmetric && (l->named[THR_AIM_TURNING] || l->named[THR_AIM_MAX_TURNING] ||
+                                l->named[THR_AIM_PULL]);
   if (l->named[THR_AIM_LENGTH] && l->named[THR_AIM_OVERLAP])
     return thr_fail(err, THR_EINPUT, "length and overlap are the same aim");
   if (l->limited && !turning)
-    return thr_fail(err, THR_EINPUT, "length+%g%%: cord beyond the least length is for turning, max-turning or pull",
+    return thr_fail(err, THR_EINPUT,
+                    "length+%g%%: cord beyond the least length is for turning, max-turning or pull",
                     100 * l->slack);
   if (symmetric) return settle_symmetric(l, options, err);
   rename_aim(l, THR_AIM_OVERLAP, THR_AIM_LENGTH);
@@ -253,14 +274,16 @@ thr_status thr_aims_parse(const char *text, thr_request *options, thr_err *err)
 
 void thr_aims_write(const thr_request *options, thr_text *out)
 {
-  bool turning = thr_wants_turning(options), limited = turning && options->turning.length_slack >= 0;
+  bool turning = thr_wants_turning(options),
+       limited = turning && options->turning.length_slack >= 0;
   if (limited && options->turning.length_slack > 0)
     thr_text_printf(out, "length+%.15g%%,", 100 * options->turning.length_slack);
   else if (limited)
     thr_text_append(out, "length,");
   for (int i = 0; i < options->aims.n; i++) {
     thr_text_printf(out, i ? ",%s" : "%s", thr_aim_name(options->aims.aim[i]));
-    if (turning && options->aims.aim[i] != THR_AIM_LONGEST && options->turning.cost != THR_TURN_ANGLE)
+    if (turning && options->aims.aim[i] != THR_AIM_LONGEST &&
+        options->turning.cost != THR_TURN_ANGLE)
       thr_text_printf(out, ":%s", thr_turn_cost_name(options->turning.cost));
   }
 }
@@ -281,7 +304,8 @@ const char *thr_tour_name(int t)
 
 const char *thr_aim_name(int a)
 {
-  static const char *const name[] = {"overlap", "steps", "paths", "turning", "length", "longest", "max-turning", "pull"};
+  static const char *const name[] = {"overlap", "steps",   "paths",       "turning",
+                                     "length",  "longest", "max-turning", "pull"};
   return name[a];
 }
 
@@ -298,7 +322,8 @@ const char *thr_minimize_name(int i)
 
 const char *thr_largest_name(const thr_request *options)
 {
-  return thr_wants_pull(options) ? "the largest turning before an end that is pulled" : "the largest turning of a cord";
+  return thr_wants_pull(options) ? "the largest turning before an end that is pulled"
+                                 : "the largest turning of a cord";
 }
 
 const char *thr_pairings_name(int p)
@@ -325,19 +350,22 @@ const char *thr_crossings_name(int c)
 
 const char *thr_order_name(int o)
 {
-  static const char *const name[] = {[THR_ORDER_PLANNED] = "planned", [THR_ORDER_STARTS] = "starts", [THR_ORDER_HAND] = "hand"};
+  static const char *const name[] = {
+      [THR_ORDER_PLANNED] = "planned", [THR_ORDER_STARTS] = "starts", [THR_ORDER_HAND] = "hand"};
   return name[o];
 }
 
 const char *thr_engine_name(int e)
 {
-  static const char *const name[] = {[THR_ENGINE_AUTO] = "auto", [THR_ENGINE_LP] = "lp", [THR_ENGINE_MATCHING] = "matching"};
+  static const char *const name[] = {
+      [THR_ENGINE_AUTO] = "auto", [THR_ENGINE_LP] = "lp", [THR_ENGINE_MATCHING] = "matching"};
   return name[e];
 }
 
 const char *thr_confirm_name(int c)
 {
-  static const char *const name[] = {[THR_CONFIRM_AUTO] = "auto", [THR_CONFIRM_ALWAYS] = "always", [THR_CONFIRM_NEVER] = "never"};
+  static const char *const name[] = {
+      [THR_CONFIRM_AUTO] = "auto", [THR_CONFIRM_ALWAYS] = "always", [THR_CONFIRM_NEVER] = "never"};
   return name[c];
 }
 
@@ -367,7 +395,8 @@ int thr_plan_cords_least(const thr_request *options)
 
 bool thr_plan_fewest_first(const thr_request *options)
 {
-  return options->max_length > 0 && thr_plan_counted(options) && options->cords_least < options->cords;
+  return options->max_length > 0 && thr_plan_counted(options) &&
+         options->cords_least < options->cords;
 }
 
 double thr_request_most_pulled(const thr_request *options)
@@ -386,9 +415,11 @@ bool thr_request_alike(const thr_frame *frame, const thr_request *options, thr_r
   *one = *options;
   one->cover = one->cords = one->cords_least = 1;
   one->distinct = 0;
-  return options->distinct > 0 && !thr_wants_symmetry(options) && options->distinct == options->cords &&
-         options->cords == options->cords_least && options->distinct == options->cover && !frame->cover && !frame->capacity &&
-         options->capacity == 0 && options->joint == THR_JOINT_SOLID && options->ends != THR_ENDS_COUNTS;
+  return options->distinct > 0 && !thr_wants_symmetry(options) &&
+         options->distinct == options->cords && options->cords == options->cords_least &&
+         options->distinct == options->cover && !frame->cover && !frame->capacity &&
+         options->capacity == 0 && options->joint == THR_JOINT_SOLID &&
+         options->ends != THR_ENDS_COUNTS;
 }
 
 bool thr_plan_end_allowed(const thr_frame *frame, const thr_request *options, int v)

@@ -1,14 +1,18 @@
-/* The table of a request: every member of `options` in plan.json, with its kind, its range and its place in thr_request.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of a request: every member of `options` in plan.json, with its kind, its range and its
+ * place in thr_request.
  *
- * From this one table plan.json is written and read (graph/plan/request_fields.c), and `thread plan` takes its options that are
- * numbers or words (cli/args/request_args.c). A new wish that is a number or a word is one row here; what it does is the
- * planner's, and what it means is the checker's.
+ * From this one table plan.json is written and read (graph/plan/request_fields.c), and `thread
+ * plan` takes its options that are numbers or words (cli/args/request_args.c). A new wish that is a
+ * number or a word is one row here; what it does is the planner's, and what it means is the
+ * checker's.
  *
  *   {"cover", .kind = THR_ASKS_COUNT, AT(cover), .low = 1, .high = 100, .always = true}
  *
  * writes and reads "cover": 2, and makes `--cover 0` a usage error.
  *
- * The members of `options` in plan.json: one table, and one loop each that writes and reads it (docs/plan-format.md). */
+ * The members of `options` in plan.json: one table, and one loop each that writes and reads it
+ * (docs/plan-format.md). */
 #include "graph/plan/plan_fields.h"
 
 #include <limits.h>
@@ -23,11 +27,13 @@ static void write_objective(thr_writer *writer, const thr_plan *plan)
   thr_write_string(writer, "objective", thr_objective_name(thr_aims_objective(&plan->options)));
 }
 
-/* Reads which kind of plan was asked for. What is minimized first, second, .. follows from `turning` or `symmetry`. */
+/* Reads which kind of plan was asked for. What is minimized first, second, .. follows from
+ * `turning` or `symmetry`. */
 static thr_status read_objective(thr_request_reader *r, const thr_json *object)
 {
   int objective;
-  thr_status st = thr_field_name(r->fields, object, "options", "objective", THR_N_OBJECTIVES, thr_objective_name, &objective);
+  thr_status st = thr_field_name(r->fields, object, "options", "objective", THR_N_OBJECTIVES,
+                                 thr_objective_name, &objective);
   if (!st) {
     r->request->aims = thr_aims_of((thr_objective)objective);
   }
@@ -55,14 +61,16 @@ static thr_status read_cords(thr_request_reader *r, const thr_json *object)
 
   /* A number: exactly so many. */
   if (!value || thr_json_typeof(value) != THR_JSON_OBJECT) {
-    thr_status st = thr_field_int(r->fields, object, "cords", 1, THR_MOST_CORDS, &r->request->cords);
+    thr_status st =
+        thr_field_int(r->fields, object, "cords", 1, THR_MOST_CORDS, &r->request->cords);
     r->request->cords_least = r->request->cords;
     return st;
   }
 
   thr_status st = thr_field_only(r->fields, value, "options.cords", known);
   if (!st) st = thr_field_int(r->fields, value, "most", 1, THR_MOST_CORDS, &r->request->cords);
-  if (!st) st = thr_field_int(r->fields, value, "least", 1, r->request->cords, &r->request->cords_least);
+  if (!st)
+    st = thr_field_int(r->fields, value, "least", 1, r->request->cords, &r->request->cords_least);
   return st;
 }
 
@@ -74,11 +82,14 @@ static void write_balance(thr_writer *writer, const thr_plan *plan)
 }
 
 /* Reads a member that is true or false, and may be left out: false. */
-static thr_status read_yes(const thr_field_reader *reader, const thr_json *object, const char *key, const char *place, bool *yes)
+static thr_status read_yes(const thr_field_reader *reader, const thr_json *object, const char *key,
+                           const char *place, bool *yes)
 {
   const thr_json *value = thr_json_get(object, key);
   *yes = value && thr_json_true(value);
-  return value && thr_json_typeof(value) != THR_JSON_BOOL ? thr_field_bad(reader, place, "not true or false") : THR_OK;
+  return value && thr_json_typeof(value) != THR_JSON_BOOL
+             ? thr_field_bad(reader, place, "not true or false")
+             : THR_OK;
 }
 
 /* Writes where cord ends may be, or how many there are at each node. */
@@ -108,35 +119,45 @@ static void write_ends(thr_writer *writer, const thr_plan *plan)
   }
 }
 
-static thr_status read_end_nodes(const thr_field_reader *reader, const thr_json *object, const thr_frame *frame, bool **end_node)
+static thr_status read_end_nodes(const thr_field_reader *reader, const thr_json *object,
+                                 const thr_frame *frame, bool **end_node)
 {
   const thr_json *list;
   thr_status st = thr_field_need(reader, object, "end_nodes", THR_JSON_ARRAY, &list);
   if (st) return st;
-  if (!(*end_node = thr_calloc((size_t)frame->n_nodes, sizeof **end_node))) return thr_nomem(reader->err);
+  if (!(*end_node = thr_calloc((size_t)frame->n_nodes, sizeof **end_node)))
+    return thr_nomem(reader->err);
   for (int i = 0, node = 0; i < thr_json_size(list); i++) {
-    if ((st = thr_field_index(reader, list, i, frame->n_nodes, "options.end_nodes", &node))) return st;
+    if ((st = thr_field_index(reader, list, i, frame->n_nodes, "options.end_nodes", &node)))
+      return st;
     (*end_node)[node] = true;
   }
   return THR_OK;
 }
 
 /* Reads pairs of a node and the number of cord ends there. */
-static thr_status read_end_counts(const thr_field_reader *reader, const thr_json *object, const thr_frame *frame, int **end_count)
+static thr_status read_end_counts(const thr_field_reader *reader, const thr_json *object,
+                                  const thr_frame *frame, int **end_count)
 {
   const thr_json *list;
   thr_status st = thr_field_need(reader, object, "end_counts", THR_JSON_ARRAY, &list);
   if (st) return st;
-  if (!(*end_count = thr_calloc((size_t)frame->n_nodes, sizeof **end_count))) return thr_nomem(reader->err);
+  if (!(*end_count = thr_calloc((size_t)frame->n_nodes, sizeof **end_count)))
+    return thr_nomem(reader->err);
   for (int i = 0; i < thr_json_size(list); i++) {
     const thr_json *pair = thr_json_at(list, i);
     int64_t count;
     int node = 0;
-    if (thr_json_size(pair) != 2) return thr_field_bad(reader, "options.end_counts", "not pairs of a node and a number");
-    if ((st = thr_field_index(reader, pair, 0, frame->n_nodes, "options.end_counts", &node))) return st;
-    if (!thr_json_int(thr_json_at(pair, 1), &count) || count < 1 || count > 2 * THR_MOST_CORDS || (*end_count)[node] > 0)
-      return thr_fail(reader->err, reader->code, "%s: options.end_counts[%d]: not a number from 1 to %d, or the node comes twice",
-                      reader->name, i, 2 * THR_MOST_CORDS);
+    if (thr_json_size(pair) != 2)
+      return thr_field_bad(reader, "options.end_counts", "not pairs of a node and a number");
+    if ((st = thr_field_index(reader, pair, 0, frame->n_nodes, "options.end_counts", &node)))
+      return st;
+    if (!thr_json_int(thr_json_at(pair, 1), &count) || count < 1 || count > 2 * THR_MOST_CORDS ||
+        (*end_count)[node] > 0)
+      return thr_fail(
+          reader->err, reader->code,
+          "%s: options.end_counts[%d]: not a number from 1 to %d, or the node comes twice",
+          reader->name, i, 2 * THR_MOST_CORDS);
     (*end_count)[node] = (int)count;
   }
   return THR_OK;
@@ -145,7 +166,8 @@ static thr_status read_end_counts(const thr_field_reader *reader, const thr_json
 static thr_status read_ends(thr_request_reader *r, const thr_json *object)
 {
   int kind;
-  thr_status st = thr_field_name(r->fields, object, "options", "ends", THR_ENDS_COUNTS + 1, thr_ends_name, &kind);
+  thr_status st = thr_field_name(r->fields, object, "options", "ends", THR_ENDS_COUNTS + 1,
+                                 thr_ends_name, &kind);
   if (st) return st;
   r->request->ends = (thr_ends)kind;
 
@@ -154,20 +176,25 @@ static thr_status read_ends(thr_request_reader *r, const thr_json *object)
     return thr_field_bad(r->fields, "options.end_nodes", "only with ends `nodes`");
   if (thr_json_get(object, "end_counts") && r->request->ends != THR_ENDS_COUNTS)
     return thr_field_bad(r->fields, "options.end_counts", "only with ends `counts`");
-  if (r->request->ends == THR_ENDS_NODES) return read_end_nodes(r->fields, object, r->frame, &r->request->end_node);
-  return r->request->ends == THR_ENDS_COUNTS ? read_end_counts(r->fields, object, r->frame, &r->request->end_count) : THR_OK;
+  if (r->request->ends == THR_ENDS_NODES)
+    return read_end_nodes(r->fields, object, r->frame, &r->request->end_node);
+  return r->request->ends == THR_ENDS_COUNTS
+             ? read_end_counts(r->fields, object, r->frame, &r->request->end_count)
+             : THR_OK;
 }
 
 static void write_minimize(thr_writer *writer, const thr_plan *plan)
 {
   const thr_request *request = &plan->options;
-  thr_write_string(writer, "minimize", thr_minimize_name(thr_wants_largest(request) + thr_wants_pull(request)));
+  thr_write_string(writer, "minimize",
+                   thr_minimize_name(thr_wants_largest(request) + thr_wants_pull(request)));
 }
 
 static thr_status read_minimize(thr_request_reader *r, const thr_json *object)
 {
   int aim;
-  thr_status st = thr_field_name(r->fields, object, "options.turning", "minimize", THR_N_MINIMIZE, thr_minimize_name, &aim);
+  thr_status st = thr_field_name(r->fields, object, "options.turning", "minimize", THR_N_MINIMIZE,
+                                 thr_minimize_name, &aim);
   if (!st) {
     r->request->aims = (thr_aims){1, {thr_minimize_aim(aim)}};
   }
@@ -191,7 +218,8 @@ static thr_status read_group(thr_request_reader *r, const thr_json *object)
   const char *name = thr_json_string(value);
   const bool is_null = value && thr_json_typeof(value) == THR_JSON_NULL;
   if (!is_null && (!name || !*name || strlen(name) >= sizeof r->request->symmetry.group))
-    return thr_field_bad(r->fields, "options.symmetry.group", "neither null nor a text of 1 to 15 bytes");
+    return thr_field_bad(r->fields, "options.symmetry.group",
+                         "neither null nor a text of 1 to 15 bytes");
   snprintf(group, sizeof r->request->symmetry.group, "%s", name ? name : "");
   thr_text_clean(group);
   return THR_OK;
@@ -206,7 +234,8 @@ static void write_counted(thr_writer *writer, const thr_plan *plan)
 
 static thr_status read_counted(thr_request_reader *r, const thr_json *object)
 {
-  return read_yes(r->fields, object, "counted", "options.symmetry.counted", &r->request->symmetry.counted);
+  return read_yes(r->fields, object, "counted", "options.symmetry.counted",
+                  &r->request->symmetry.counted);
 }
 
 static void write_prefer(thr_writer *writer, const thr_plan *plan)
@@ -226,10 +255,13 @@ static thr_status read_prefer(thr_request_reader *r, const thr_json *object)
   bool named[THR_N_AIMS] = {false};
   const thr_json *list;
   thr_status st = thr_field_need(r->fields, object, "prefer", THR_JSON_ARRAY, &list);
-  if (!st && thr_json_size(list) != THR_N_AIMS) return thr_field_bad(r->fields, "options.symmetry.prefer", "not four aims");
+  if (!st && thr_json_size(list) != THR_N_AIMS)
+    return thr_field_bad(r->fields, "options.symmetry.prefer", "not four aims");
   for (int i = 0, aim = 0; i < THR_N_AIMS && !st; i++) {
-    st = thr_field_name_of(r->fields, thr_json_at(list, i), "options.symmetry", "prefer", THR_N_AIMS, thr_aim_name, &aim);
-    if (!st && named[aim]) return thr_field_bad(r->fields, "options.symmetry.prefer", "names one aim twice");
+    st = thr_field_name_of(r->fields, thr_json_at(list, i), "options.symmetry", "prefer",
+                           THR_N_AIMS, thr_aim_name, &aim);
+    if (!st && named[aim])
+      return thr_field_bad(r->fields, "options.symmetry.prefer", "names one aim twice");
     named[aim] = true;
     r->request->aims.aim[i] = (thr_aim)aim;
   }
@@ -247,10 +279,12 @@ static thr_status read_physics(thr_request_reader *r, const thr_json *object)
 {
   char place[256];
   snprintf(place, sizeof place, "%.200s: options.physics", r->fields->name);
-  return thr_physics_from_json(&r->request->physics, thr_json_get(object, "physics"), place, r->fields->err);
+  return thr_physics_from_json(&r->request->physics, thr_json_get(object, "physics"), place,
+                               r->fields->err);
 }
 
-/* Members of their own that are of one objective only; the rows that are in them follow from the table. */
+/* Members of their own that are of one objective only; the rows that are in them follow from the
+ * table. */
 static void write_turning(thr_writer *writer, const thr_plan *plan);
 static void write_symmetry(thr_writer *writer, const thr_plan *plan);
 static thr_status read_turning(thr_request_reader *r, const thr_json *object);
@@ -268,7 +302,8 @@ static thr_status read_symmetry(thr_request_reader *r, const thr_json *object);
 
 /* In the order in which plan.json has them. */
 const thr_request_field thr_request_fields[] = {
-    {"objective", .kind = THR_ASKS_OTHER, .write = write_objective}, /* read first: thr_plan_read_options */
+    {"objective", .kind = THR_ASKS_OTHER,
+     .write = write_objective}, /* read first: thr_plan_read_options */
     {"joint", WORD(thr_joint_name, 2), AT(joint), .always = true},
     {"cover", COUNT, AT(cover), .low = 1, .high = 100, .always = true},
     {"capacity", COUNT, AT(capacity), .low = 1, .high = INT32_MAX},
@@ -276,21 +311,24 @@ const thr_request_field thr_request_fields[] = {
     {"cords", OTHER(cords), .always = true},
     {"max_length", AMOUNT, AT(max_length), .low = TINY, .high = INFINITY},
     {"max_pull", AMOUNT, AT(max_pull), .low = 1, .high = INFINITY},
-    {"balance", .kind = THR_ASKS_OTHER, .write = write_balance}, /* read last: thr_plan_read_options */
+    {"balance", .kind = THR_ASKS_OTHER,
+     .write = write_balance}, /* read last: thr_plan_read_options */
     {"ends", OTHER(ends), .always = true},
     {"end_nodes", .kind = THR_ASKS_OTHER},  /* with ends */
     {"end_counts", .kind = THR_ASKS_OTHER}, /* with ends */
     {"turning", OTHER(turning)},
-    {"cost", .option = "turn-cost", .in = "turning", WORD(thr_turn_cost_name, THR_N_TURN_COSTS), AT(turning.cost),
+    {"cost", .option = "turn-cost", .in = "turning", WORD(thr_turn_cost_name, THR_N_TURN_COSTS),
+     AT(turning.cost), .always = true},
+    {"length_slack", .in = "turning", AMOUNT_OR_NULL, AT(turning.length_slack), .high = INFINITY,
      .always = true},
-    {"length_slack", .in = "turning", AMOUNT_OR_NULL, AT(turning.length_slack), .high = INFINITY, .always = true},
     {"minimize", .in = "turning", OTHER(minimize), .always = true},
     {"tour", .in = "turning", WORD(thr_tour_name, THR_N_TOURS), AT(turning.tour), .always = true},
     {"pairings", .in = "turning", WORD(thr_pairings_name, 2), AT(turning.pairings), .always = true},
     {"nodes", .in = "turning", COUNT, AT(turning.nodes), .low = 1, .high = INT32_MAX},
     {"symmetry", OTHER(symmetry)},
     {"group", .in = "symmetry", OTHER(group), .always = true},
-    {"geometric", .in = "symmetry", AMOUNT_OR_NULL, AT(symmetry.geometric), .high = INFINITY, .always = true},
+    {"geometric", .in = "symmetry", AMOUNT_OR_NULL, AT(symmetry.geometric), .high = INFINITY,
+     .always = true},
     {"counted", .in = "symmetry", OTHER(counted)},
     {"prefer", .in = "symmetry", OTHER(prefer), .always = true},
     {"order", WORD(thr_order_name, THR_N_ORDERS), AT(order)},
@@ -304,7 +342,8 @@ const thr_request_field thr_request_fields[] = {
 };
 const int thr_request_n_fields = (int)(sizeof thr_request_fields / sizeof *thr_request_fields);
 
-/* What a plan that does not say it had: an order of work as it was planned, since older plans had no other. */
+/* What a plan that does not say it had: an order of work as it was planned, since older plans had
+ * no other. */
 static thr_request unsaid(void)
 {
   thr_request request = thr_request_default();
@@ -339,14 +378,16 @@ static bool same_place(const char *a, const char *b)
 }
 
 /* Writes a number or a word, unless it is the default and may be left out. */
-static void write_value(thr_writer *writer, const thr_request_field *field, thr_request *request, thr_request *usual)
+static void write_value(thr_writer *writer, const thr_request_field *field, thr_request *request,
+                        thr_request *usual)
 {
   const void *value = thr_request_value(request, field), *other = thr_request_value(usual, field);
   const bool is_integer = field->kind == THR_ASKS_COUNT || field->kind == THR_ASKS_WORD;
   const int count = is_integer ? *(const int *)value : 0;
   const double amount = is_integer ? 0 : *(const double *)value;
 
-  const bool is_default = is_integer ? count == *(const int *)other : amount == *(const double *)other;
+  const bool is_default =
+      is_integer ? count == *(const int *)other : amount == *(const double *)other;
   if (is_default && !field->always) return;
 
   if (field->kind == THR_ASKS_COUNT) {
@@ -412,7 +453,8 @@ void thr_request_write(thr_writer *writer, const thr_plan *plan)
 
 /* ---- reading ---- */
 
-static thr_status read_value(thr_request_reader *r, const thr_json *object, const char *place, const thr_request_field *field)
+static thr_status read_value(thr_request_reader *r, const thr_json *object, const char *place,
+                             const thr_request_field *field)
 {
   void *value = thr_request_value(r->request, field);
   double *amount = value;
@@ -434,11 +476,14 @@ static thr_status read_value(thr_request_reader *r, const thr_json *object, cons
   const bool is_null = field->kind == THR_ASKS_AMOUNT_OR_NULL && *amount < 0;
   if (st || is_null || (*amount >= field->low && *amount <= field->high)) return st;
   snprintf(member, sizeof member, "%s.%s", place, field->key);
-  return thr_field_bad(r->fields, member, *amount > field->high ? "too large" : *amount == 0 ? "not above 0" : "too small");
+  return thr_field_bad(r->fields, member,
+                       *amount > field->high ? "too large"
+                       : *amount == 0        ? "not above 0"
+                                             : "too small");
 }
 
-/* Reads the rows of `options`, or of one of its members. A member that the table does not know, or that belongs to another
- * objective, is refused: it may be a wish that nobody checks. */
+/* Reads the rows of `options`, or of one of its members. A member that the table does not know, or
+ * that belongs to another objective, is refused: it may be a wish that nobody checks. */
 static thr_status read_rows(thr_request_reader *r, const thr_json *object, const char *in)
 {
   const thr_objective objective = thr_aims_objective(r->request);
@@ -466,7 +511,8 @@ static thr_status read_rows(thr_request_reader *r, const thr_json *object, const
   /* What is left out keeps its default, unless it is always there. */
   for (int i = 0; i < thr_request_n_fields && !st; i++) {
     const thr_request_field *field = &thr_request_fields[i];
-    if (!same_place(field->in, in) || (!field->always && !thr_json_get(object, field->key))) continue;
+    if (!same_place(field->in, in) || (!field->always && !thr_json_get(object, field->key)))
+      continue;
     if (field->kind != THR_ASKS_OTHER) {
       st = read_value(r, object, place, field);
     } else if (field->read) {
@@ -496,10 +542,12 @@ static thr_status read_symmetry(thr_request_reader *r, const thr_json *object)
 /* Refuses what does not go together. */
 static thr_status check_together(const thr_field_reader *reader, const thr_request *request)
 {
-  if (request->distinct > request->cover) return thr_field_bad(reader, "options.distinct", "more than cover");
+  if (request->distinct > request->cover)
+    return thr_field_bad(reader, "options.distinct", "more than cover");
   if (request->distinct > (thr_plan_counted(request) ? request->cords_least : request->cords))
     return thr_field_bad(reader, "options.distinct", "more than the cords");
-  if (request->distinct > 0 && thr_wants_turning(request) && request->turning.tour != THR_TOUR_LEAST)
+  if (request->distinct > 0 && thr_wants_turning(request) &&
+      request->turning.tour != THR_TOUR_LEAST)
     return thr_field_bad(reader, "options.distinct", "not with a classical tour");
   if (request->crossings != THR_CROSSINGS_ALLOW && request->joint == THR_JOINT_TUBE)
     return thr_field_bad(reader, "options.crossings", "goes with solid joints");
@@ -508,8 +556,8 @@ static thr_status check_together(const thr_field_reader *reader, const thr_reque
   return THR_OK;
 }
 
-thr_status thr_plan_read_options(const thr_field_reader *reader, const thr_json *doc, const thr_frame *frame,
-                                 thr_request *request)
+thr_status thr_plan_read_options(const thr_field_reader *reader, const thr_json *doc,
+                                 const thr_frame *frame, thr_request *request)
 {
   const thr_json *object;
   bool balance = false;
@@ -529,7 +577,8 @@ thr_status thr_plan_read_options(const thr_field_reader *reader, const thr_json 
   /* The longest cord comes before all other aims. */
   if (!st) st = read_yes(reader, object, "balance", "options.balance", &balance);
   if (!st && balance) {
-    memmove(&request->aims.aim[1], request->aims.aim, (size_t)request->aims.n++ * sizeof *request->aims.aim);
+    memmove(&request->aims.aim[1], request->aims.aim,
+            (size_t)request->aims.n++ * sizeof *request->aims.aim);
     request->aims.aim[0] = THR_AIM_LONGEST;
   }
   return st ? st : check_together(reader, request);

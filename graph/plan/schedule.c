@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The steps of a schedule, and their member of plan.json. */
 #include "graph/plan/schedule.h"
 
@@ -15,7 +16,8 @@ const char *thr_deed_name(int deed)
 
 thr_status thr_schedule_add(thr_schedule *schedule, const thr_schedule_step *step, thr_err *err)
 {
-  thr_status st = thr_grow(&schedule->step, schedule->n, &schedule->room, sizeof *schedule->step, err);
+  thr_status st =
+      thr_grow(&schedule->step, schedule->n, &schedule->room, sizeof *schedule->step, err);
   if (!st) schedule->step[schedule->n++] = *step;
   return st;
 }
@@ -147,31 +149,39 @@ static const char *read_step(const thr_json *object, int n_cords, thr_schedule_s
   double pass;
   const int deed = word_of(thr_json_get(object, "do"), thr_deed_name, THR_N_DEEDS),
             end = word_of(thr_json_get(object, "end"), end_name, THR_PULL_NONE);
-  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
-  *step = (thr_schedule_step){.cord = cord_of(thr_json_string(thr_json_get(object, "cord")), n_cords)};
+  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known))
+    return "not an object with known members";
+  *step =
+      (thr_schedule_step){.cord = cord_of(thr_json_string(thr_json_get(object, "cord")), n_cords)};
   if (step->cord < 0) return "cord: there is no such cord";
   if (deed < 0) return "do: expected pull, grip, release, knot or none";
-  if (deed == THR_DEED_NONE ? thr_json_get(object, "end") != NULL : end < 0) return "end: expected start, end or both";
+  if (deed == THR_DEED_NONE ? thr_json_get(object, "end") != NULL : end < 0)
+    return "end: expected start, end or both";
   step->deed = (thr_deed)deed;
   step->end = deed == THR_DEED_NONE ? THR_PULL_BOTH : (thr_pull)end;
   if (!number_if(object, "pass", deed == THR_DEED_GRIP, &pass) || pass != floor(pass) || pass > 1e9)
     return "pass: not that of a grip";
-  if (!number_if(object, "force", has_force((thr_deed)deed), &step->force)) return "force: not a number of newtons for this";
-  if (!number_if(object, "slip", deed == THR_DEED_KNOT, &step->slip)) return "slip: not a length for this";
+  if (!number_if(object, "force", has_force((thr_deed)deed), &step->force))
+    return "force: not a number of newtons for this";
+  if (!number_if(object, "slip", deed == THR_DEED_KNOT, &step->slip))
+    return "slip: not a length for this";
   step->pass = (int)pass;
   return NULL;
 }
 
-thr_status thr_schedule_from_json(thr_schedule *schedule, const thr_json *array, int n_cords, const char *place, thr_err *err)
+thr_status thr_schedule_from_json(thr_schedule *schedule, const thr_json *array, int n_cords,
+                                  const char *place, thr_err *err)
 {
   const int n = thr_json_size(array);
   *schedule = (thr_schedule){0};
-  if (thr_json_typeof(array) != THR_JSON_ARRAY || n < 1) return thr_fail(err, THR_EVIOLATED, "%s: not a list of steps", place);
+  if (thr_json_typeof(array) != THR_JSON_ARRAY || n < 1)
+    return thr_fail(err, THR_EVIOLATED, "%s: not a list of steps", place);
   thr_status st = THR_OK;
   for (int k = 0; k < n && !st; k++) {
     thr_schedule_step step;
     const char *wrong = read_step(thr_json_at(array, k), n_cords, &step);
-    st = wrong ? thr_fail(err, THR_EVIOLATED, "%s[%d]: %s", place, k, wrong) : thr_schedule_add(schedule, &step, err);
+    st = wrong ? thr_fail(err, THR_EVIOLATED, "%s[%d]: %s", place, k, wrong)
+               : thr_schedule_add(schedule, &step, err);
   }
   for (int i = 0; i < n_cords && !st; i++)
     if (thr_schedule_slack(schedule, i) && thr_schedule_steps(schedule, i) > 1)

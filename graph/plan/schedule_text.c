@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Schedules as text: what somebody types, and what is printed. */
 #include "graph/io/read_parts.h"
 #include "graph/plan/schedule.h"
@@ -14,7 +15,8 @@ typedef struct {
 
 static thr_status expected(const reader *r, thr_span found, const char *what)
 {
-  if (found.n == 0) return thr_scan_fail(r->scan, r->err, "the step ends where %s is expected", what);
+  if (found.n == 0)
+    return thr_scan_fail(r->scan, r->err, "the step ends where %s is expected", what);
   return thr_scan_fail(r->scan, r->err, "%.*s: expected %s", thr_span_width(found), found.s, what);
 }
 
@@ -31,7 +33,8 @@ static thr_status read_end(const reader *r, thr_span word, thr_pull *end)
 static thr_status read_amount(const reader *r, thr_span word, const char *what, double *out)
 {
   const double most = 1e12;
-  return thr_span_number(word, false, out) && *out >= 0 && *out <= most ? THR_OK : expected(r, word, what);
+  return thr_span_number(word, false, out) && *out >= 0 && *out <= most ? THR_OK
+                                                                        : expected(r, word, what);
 }
 
 /* The node with this name, or -1. */
@@ -45,18 +48,22 @@ static int node_of(const thr_frame *frame, thr_span word)
 }
 
 /* The pass of the cord along the edge between two nodes. */
-static thr_status pass_between(const reader *r, const thr_cord *cord, thr_span from, thr_span to, int *pass)
+static thr_status pass_between(const reader *r, const thr_cord *cord, thr_span from, thr_span to,
+                               int *pass)
 {
   const thr_frame *frame = &r->plan->frame;
-  const int a = node_of(frame, from), b = node_of(frame, to), edge = a >= 0 && b >= 0 ? thr_frame_edge_between(frame, a, b) : -1;
+  const int a = node_of(frame, from), b = node_of(frame, to),
+            edge = a >= 0 && b >= 0 ? thr_frame_edge_between(frame, a, b) : -1;
   int times = 0;
   if (a < 0) return expected(r, from, "the number of a pass, or the names of two nodes");
   if (b < 0) return expected(r, to, "the name of a second node");
   for (int k = 0; k < cord->n_passes; k++)
     if (cord->half[k] >> 1 == edge && times++ == 0) *pass = k;
   if (times == 1) return THR_OK;
-  return thr_scan_fail(r->scan, r->err, "cord %s runs %s between %.*s and %.*s; give the number of the pass in steps.txt",
-                       cord->id, times ? "more than once" : "nowhere", thr_span_width(from), from.s, thr_span_width(to), to.s);
+  return thr_scan_fail(
+      r->scan, r->err,
+      "cord %s runs %s between %.*s and %.*s; give the number of the pass in steps.txt", cord->id,
+      times ? "more than once" : "nowhere", thr_span_width(from), from.s, thr_span_width(to), to.s);
 }
 
 static thr_status read_pass(reader *r, const thr_cord *cord, int *pass)
@@ -64,8 +71,8 @@ static thr_status read_pass(reader *r, const thr_cord *cord, int *pass)
   thr_span word = thr_span_word(&r->rest);
   if (!thr_span_int(word, pass)) return pass_between(r, cord, word, thr_span_word(&r->rest), pass);
   if (*pass < 1 || *pass > cord->n_passes)
-    return thr_scan_fail(r->scan, r->err, "pass %.*s: cord %s has passes 1 to %d", thr_span_width(word), word.s, cord->id,
-                         cord->n_passes);
+    return thr_scan_fail(r->scan, r->err, "pass %.*s: cord %s has passes 1 to %d",
+                         thr_span_width(word), word.s, cord->id, cord->n_passes);
   --*pass;
   return THR_OK;
 }
@@ -89,7 +96,8 @@ static thr_status read_deed(reader *r, const thr_cord *cord, thr_schedule_step *
   if (step->deed == THR_DEED_NONE) return THR_OK;
   thr_status st = read_end(r, thr_span_word(&r->rest), &step->end);
   if (st) return st;
-  if (step->deed != THR_DEED_KNOT) return read_amount(r, thr_span_word(&r->rest), "a force in newton", &step->force);
+  if (step->deed != THR_DEED_KNOT)
+    return read_amount(r, thr_span_word(&r->rest), "a force in newton", &step->force);
   thr_span slip = thr_span_word(&r->rest);
   return slip.n ? read_amount(r, slip, "the slip of the knot in mm", &step->slip) : THR_OK;
 }
@@ -107,7 +115,8 @@ static thr_status read_for_cord(reader *r, int cord, int deed, thr_schedule *sch
 static thr_status read_step(reader *r, thr_span text, thr_schedule *schedule)
 {
   const char *colon = memchr(text.s, ':', text.n);
-  if (!colon) return expected(r, text, "a cord, a colon and what is done to it, as in \"A: pull both 20\"");
+  if (!colon)
+    return expected(r, text, "a cord, a colon and what is done to it, as in \"A: pull both 20\"");
   thr_span who = thr_span_trim((thr_span){text.s, (size_t)(colon - text.s)});
   thr_span words = {colon + 1, (size_t)(text.s + text.n - colon - 1)}, verb = thr_span_word(&words);
   int deed = 0, found = 0;
@@ -122,8 +131,8 @@ static thr_status read_step(reader *r, thr_span text, thr_schedule *schedule)
     st = read_for_cord(r, i, deed, schedule);
   }
   if (st || found) return st;
-  return thr_scan_fail(r->scan, r->err, "%.*s: the plan has no such cord; its cords are A to %s", thr_span_width(who), who.s,
-                       r->plan->cord[r->plan->n_cords - 1].id);
+  return thr_scan_fail(r->scan, r->err, "%.*s: the plan has no such cord; its cords are A to %s",
+                       thr_span_width(who), who.s, r->plan->cord[r->plan->n_cords - 1].id);
 }
 
 /* The steps of a line, between semicolons. */
@@ -143,8 +152,8 @@ static thr_status read_line(reader *r, thr_span line, thr_schedule *schedule)
   return st;
 }
 
-thr_status thr_schedule_parse(thr_schedule *schedule, const thr_plan *plan, const char *text, size_t n, const char *name,
-                              thr_err *err)
+thr_status thr_schedule_parse(thr_schedule *schedule, const thr_plan *plan, const char *text,
+                              size_t n, const char *name, thr_err *err)
 {
   thr_scan scan;
   thr_span line;
@@ -155,9 +164,11 @@ thr_status thr_schedule_parse(thr_schedule *schedule, const thr_plan *plan, cons
     st = read_line(&r, line, schedule);
   for (int i = 0; i < plan->n_cords && !st; i++)
     if (thr_schedule_slack(schedule, i) && thr_schedule_steps(schedule, i) > 1)
-      st = thr_fail(err, THR_EINPUT, "%s: cord %s: none is a cord's only step: it stays slack", name, plan->cord[i].id);
+      st = thr_fail(err, THR_EINPUT, "%s: cord %s: none is a cord's only step: it stays slack",
+                    name, plan->cord[i].id);
   if (!st && schedule->n == 0)
-    st = thr_fail(err, THR_EINPUT, "%s: no step in it; expected for instance \"A: pull both 20\"", name);
+    st = thr_fail(err, THR_EINPUT, "%s: no step in it; expected for instance \"A: pull both 20\"",
+                  name);
   return st;
 }
 

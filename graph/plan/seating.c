@@ -1,12 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Which gaps between adjacent pieces the cords close.
  *
- * A gap counts as seated when its passes press the two pieces together with the seating tension or more, all passes added. While
- * a cord is being drawn in by a pull P at its ends, pass k has P x the largest of the losses between it and a pulled end, so the
- * pull that seats a gap is seating / (sum of these factors), in closed form. This says when the faces meet, not which shape the
- * pieces have before they do.
+ * A gap counts as seated when its passes press the two pieces together with the seating tension or
+ * more, all passes added. While a cord is being drawn in by a pull P at its ends, pass k has P x
+ * the largest of the losses between it and a pulled end, so the pull that seats a gap is seating /
+ * (sum of these factors), in closed form. This says when the faces meet, not which shape the pieces
+ * have before they do.
  *
- * Example: seating tension 1 N, a cord of two passes with a turn that halves the tension, pulled at its start: the first gap is
- * seated at 1 N, the second at 2 N. */
+ * Example: seating tension 1 N, a cord of two passes with a turn that halves the tension, pulled at
+ * its start: the first gap is seated at 1 N, the second at 2 N. */
 #include "graph/plan/plan_measures.h"
 
 #include <math.h>
@@ -40,7 +42,8 @@ static thr_status make_arrays(int n_edges, bool **passed, double **press, thr_er
   return thr_nomem(err);
 }
 
-thr_status thr_seating_fraction(const thr_frame *frame, const thr_cord *cord, thr_evaluation *evaluation, thr_err *err)
+thr_status thr_seating_fraction(const thr_frame *frame, const thr_cord *cord,
+                                thr_evaluation *evaluation, thr_err *err)
 {
   bool *passed;
   double *press;
@@ -64,9 +67,10 @@ thr_status thr_seating_fraction(const thr_frame *frame, const thr_cord *cord, th
   return THR_OK;
 }
 
-/* Adds to every gap what pulls at the cord's pulled ends press it with, pull[edge] for that of the edge. */
-static void press_of(const thr_cord *cord, const thr_eval_cord *known, const thr_friction *friction, const double *pull,
-                     double *press)
+/* Adds to every gap what pulls at the cord's pulled ends press it with, pull[edge] for that of the
+ * edge. */
+static void press_of(const thr_cord *cord, const thr_eval_cord *known, const thr_friction *friction,
+                     const double *pull, double *press)
 {
   const int n = cord->n_passes;
   const bool start = known->pull == THR_PULL_START || known->pull == THR_PULL_BOTH;
@@ -83,8 +87,8 @@ static void press_of(const thr_cord *cord, const thr_eval_cord *known, const thr
 }
 
 /* The same of the cord `only`, or of all, into press from 0. */
-static void press_all(const thr_cord *cord, const thr_evaluation *evaluation, int only, int n_edges, const double *pull,
-                      double *press)
+static void press_all(const thr_cord *cord, const thr_evaluation *evaluation, int only, int n_edges,
+                      const double *pull, double *press)
 {
   const thr_friction friction = thr_friction_of(&evaluation->physics);
   for (int e = 0; e < n_edges; e++)
@@ -94,9 +98,10 @@ static void press_all(const thr_cord *cord, const thr_evaluation *evaluation, in
       press_of(&cord[i], &evaluation->cord[i], &friction, pull, press);
 }
 
-/* Where the press is no multiple of the pull: all gaps by halves at once, between nothing and what is enough for each of them. */
-static void halve(const thr_cord *cord, const thr_evaluation *evaluation, int only, int n_edges, double *pull, double *press,
-                  double *low)
+/* Where the press is no multiple of the pull: all gaps by halves at once, between nothing and what
+ * is enough for each of them. */
+static void halve(const thr_cord *cord, const thr_evaluation *evaluation, int only, int n_edges,
+                  double *pull, double *press, double *low)
 {
   const double seating = evaluation->physics.seating;
   double *high = low + n_edges, *middle = high + n_edges;
@@ -121,8 +126,9 @@ static int by_size(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-thr_status thr_seating_pulls(const thr_frame *frame, const thr_cord *cord, const thr_evaluation *evaluation, int only,
-                             double *pull, int *n_gaps, thr_err *err)
+thr_status thr_seating_pulls(const thr_frame *frame, const thr_cord *cord,
+                             const thr_evaluation *evaluation, int only, double *pull, int *n_gaps,
+                             thr_err *err)
 {
   const int n_edges = frame->n_edges;
   const bool by_factors = thr_friction_of(&evaluation->physics).power == 1;
@@ -140,7 +146,8 @@ thr_status thr_seating_pulls(const thr_frame *frame, const thr_cord *cord, const
     pull[e] = by_factors ? 1 : evaluation->largest; /* seats every gap that a pulled cord passes */
   press_all(cord, evaluation, only, n_edges, pull, press);
   for (int e = 0; e < n_edges; e++)
-    pull[e] = press[e] > 0 ? (by_factors ? evaluation->physics.seating / press[e] : pull[e]) : INFINITY;
+    pull[e] =
+        press[e] > 0 ? (by_factors ? evaluation->physics.seating / press[e] : pull[e]) : INFINITY;
   if (!by_factors) halve(cord, evaluation, only, n_edges, pull, press, work);
   for (int e = 0; e < n_edges; e++)
     if (passed[e]) pull[(*n_gaps)++] = pull[e];

@@ -1,8 +1,10 @@
-/* What the limit analysis found of a structure, in the form that is kept in plan.json: what acts on it, what was asked, and the
- * mechanisms that prove the answers. The checker adds up the powers of each mechanism itself (graph/check/check_standing.c).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the limit analysis found of a structure, in the form that is kept in plan.json: what acts on
+ * it, what was asked, and the mechanisms that prove the answers. The checker adds up the powers of
+ * each mechanism itself (graph/check/check_standing.c).
  *
- * Example: "pulled at both ends while it is drawn in, nothing holds it below 4.14 N", with the velocities of all beads by which
- * it then falls. */
+ * Example: "pulled at both ends while it is drawn in, nothing holds it below 4.14 N", with the
+ * velocities of all beads by which it then falls. */
 #include "graph/plan/evaluation.h"
 
 #include "graph/angle.h"
@@ -13,8 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const asked_name[] = {"holding", "equal",         "any_state", "after",   "loaded",
-                                         "carried", "carried_after", "stretch",   "tightest"};
+static const char *const asked_name[] = {"holding",       "equal",   "any_state",
+                                         "after",         "loaded",  "carried",
+                                         "carried_after", "stretch", "tightest"};
 
 const char *thr_asked_name(int asked)
 {
@@ -28,8 +31,8 @@ bool thr_asked_of_load(thr_asked asked)
 
 bool thr_asked_after(thr_asked asked)
 {
-  return asked == THR_ASKED_AFTER || asked == THR_ASKED_CARRIED_AFTER || asked == THR_ASKED_STRETCH ||
-         asked == THR_ASKED_TIGHTEST;
+  return asked == THR_ASKED_AFTER || asked == THR_ASKED_CARRIED_AFTER ||
+         asked == THR_ASKED_STRETCH || asked == THR_ASKED_TIGHTEST;
 }
 
 void thr_standing_destroy(thr_standing *standing)
@@ -54,7 +57,8 @@ static void put_answer(thr_writer *writer, const thr_answer *answer)
   thr_write_string(writer, "asked", thr_asked_name(answer->asked));
   if (answer->asked == THR_ASKED_CARRIED) thr_write_number(writer, "pull", answer->pull);
   if (isfinite(answer->found)) thr_write_number(writer, "found", answer->found);
-  if (answer->n_beads > 0 && answer->resists >= 0) thr_write_number(writer, "resists", answer->resists);
+  if (answer->n_beads > 0 && answer->resists >= 0)
+    thr_write_number(writer, "resists", answer->resists);
   if (answer->n_beads > 0) {
     thr_write_number(writer, "proved", answer->proved);
     thr_write_row(writer, "mechanism");
@@ -174,21 +178,26 @@ static const char *read_mechanism(const thr_json *list, thr_answer *answer)
 /* What is wrong; "": no memory. */
 static const char *read_answer(const thr_json *object, thr_answer *answer)
 {
-  static const char *const known[] = {"asked", "pull", "found", "resists", "proved", "mechanism", NULL};
-  const thr_json *proved = thr_json_get(object, "proved"), *mechanism = thr_json_get(object, "mechanism");
+  static const char *const known[] = {"asked",  "pull",      "found", "resists",
+                                      "proved", "mechanism", NULL};
+  const thr_json *proved = thr_json_get(object, "proved"),
+                 *mechanism = thr_json_get(object, "mechanism");
   const int asked = word_of(thr_json_get(object, "asked"), asked_name, THR_N_ASKED);
-  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
+  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known))
+    return "not an object with known members";
   if (asked < 0) return "asked: an unknown word";
   *answer = (thr_answer){.asked = (thr_asked)asked, .found = INFINITY, .resists = -1};
   if (thr_asked_of_load(answer->asked) && !proved) answer->proved = INFINITY;
-  if ((asked == THR_ASKED_CARRIED) != (thr_json_get(object, "pull") != NULL)) return "pull: with carried, and only with it";
+  if ((asked == THR_ASKED_CARRIED) != (thr_json_get(object, "pull") != NULL))
+    return "pull: with carried, and only with it";
   if (!amount(object, "pull", false, &answer->pull)) return "pull: not a number from 0 on";
   if (!amount(object, "found", false, &answer->found)) return "found: not a number from 0 on";
   if (thr_json_get(object, "resists") && (asked != THR_ASKED_STRETCH || !proved))
     return "resists: only with a stretch that is proved";
   if (!amount(object, "resists", false, &answer->resists)) return "resists: not a number from 0 on";
   if (!amount(object, "proved", false, &answer->proved)) return "proved: not a number from 0 on";
-  if ((proved != NULL) != (mechanism != NULL)) return "mechanism: with what it proves, and only with it";
+  if ((proved != NULL) != (mechanism != NULL))
+    return "mechanism: with what it proves, and only with it";
   return mechanism ? read_mechanism(mechanism, answer) : NULL;
 }
 
@@ -199,9 +208,11 @@ static const char *read_still(const thr_json *object, thr_posed *still)
   const thr_json *poses = thr_json_get(object, "poses");
   const int n = thr_json_size(poses);
   int64_t seated;
-  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
+  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known))
+    return "not an object with known members";
   if (!amount(object, "pull", true, &still->pull)) return "pull: not a number from 0 on";
-  if (!amount(object, "counterweight", true, &still->counterweight)) return "counterweight: not a number from 0 on";
+  if (!amount(object, "counterweight", true, &still->counterweight))
+    return "counterweight: not a number from 0 on";
   if (!thr_json_int(thr_json_get(object, "seated"), &seated) || seated < 0 || seated > INT32_MAX)
     return "seated: not a number of gaps";
   still->seated = (int)seated;
@@ -216,9 +227,12 @@ static const char *read_load(const thr_json *object, thr_load *load)
   static const char *const known[] = {"node", "force", NULL};
   const thr_json *force = thr_json_get(object, "force");
   int64_t node;
-  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
-  if (!thr_json_int(thr_json_get(object, "node"), &node) || node < 0 || node > INT32_MAX) return "node: not a number of a node";
-  if (thr_json_size(force) != 3 || !thr_json_numbers(force, 3, load->force)) return "force: not three numbers";
+  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known))
+    return "not an object with known members";
+  if (!thr_json_int(thr_json_get(object, "node"), &node) || node < 0 || node > INT32_MAX)
+    return "node: not a number of a node";
+  if (thr_json_size(force) != 3 || !thr_json_numbers(force, 3, load->force))
+    return "force: not three numbers";
   load->node = (int)node;
   return NULL;
 }
@@ -227,9 +241,12 @@ static const char *read_drawn(const thr_json *object, thr_drawn *drawn)
 {
   static const char *const known[] = {"pull", "slackest", NULL};
   int64_t slackest;
-  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known)) return "not an object with known members";
-  if ((drawn->pull = thr_pull_named(thr_json_string(thr_json_get(object, "pull")))) < 0) return "pull: an unknown word";
-  if (!thr_json_int(thr_json_get(object, "slackest"), &slackest) || slackest < 0 || slackest > INT32_MAX)
+  if (thr_json_typeof(object) != THR_JSON_OBJECT || thr_json_unknown(object, known))
+    return "not an object with known members";
+  if ((drawn->pull = thr_pull_named(thr_json_string(thr_json_get(object, "pull")))) < 0)
+    return "pull: an unknown word";
+  if (!thr_json_int(thr_json_get(object, "slackest"), &slackest) || slackest < 0 ||
+      slackest > INT32_MAX)
     return "slackest: not a number of a pass";
   drawn->slackest = (int)slackest;
   return NULL;
@@ -251,7 +268,8 @@ static thr_status read_stills(const reader *r, const thr_json *list, thr_standin
 {
   const int n = thr_json_size(list);
   if (!list) return THR_OK;
-  if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1) return bad(r, "stills", -1, "not a list of stills");
+  if (thr_json_typeof(list) != THR_JSON_ARRAY || n < 1)
+    return bad(r, "stills", -1, "not a list of stills");
   standing->still = thr_calloc((size_t)n, sizeof *standing->still);
   if (!standing->still) return thr_nomem(r->err);
   while (standing->n_stills < n) {
@@ -268,30 +286,36 @@ static thr_status read_lists(const reader *r, const thr_json *object, thr_standi
                  *answers = thr_json_get(object, "answers");
   const char *what = NULL;
   const int n_loads = thr_json_size(loads), n_answers = thr_json_size(answers);
-  if (loads && (thr_json_typeof(loads) != THR_JSON_ARRAY || n_loads < 1)) return bad(r, "loads", -1, "not a list of loads");
+  if (loads && (thr_json_typeof(loads) != THR_JSON_ARRAY || n_loads < 1))
+    return bad(r, "loads", -1, "not a list of loads");
   if (thr_json_typeof(drawn) != THR_JSON_ARRAY || thr_json_size(drawn) != standing->n_cords)
     return bad(r, "drawn", -1, "not one per cord");
-  if (thr_json_typeof(answers) != THR_JSON_ARRAY || n_answers < 1) return bad(r, "answers", -1, "missing or empty");
+  if (thr_json_typeof(answers) != THR_JSON_ARRAY || n_answers < 1)
+    return bad(r, "answers", -1, "missing or empty");
   standing->load = thr_calloc((size_t)n_loads + 1, sizeof *standing->load);
   standing->drawn = thr_calloc((size_t)standing->n_cords, sizeof *standing->drawn);
   standing->answer = thr_calloc((size_t)n_answers, sizeof *standing->answer);
   if (!standing->load || !standing->drawn || !standing->answer) return thr_nomem(r->err);
   for (; standing->n_loads < n_loads; standing->n_loads++)
-    if ((what = read_load(thr_json_at(loads, standing->n_loads), &standing->load[standing->n_loads])))
+    if ((what =
+             read_load(thr_json_at(loads, standing->n_loads), &standing->load[standing->n_loads])))
       return bad(r, "loads", standing->n_loads, what);
   for (int i = 0; i < standing->n_cords; i++)
-    if ((what = read_drawn(thr_json_at(drawn, i), &standing->drawn[i]))) return bad(r, "drawn", i, what);
+    if ((what = read_drawn(thr_json_at(drawn, i), &standing->drawn[i])))
+      return bad(r, "drawn", i, what);
   while (standing->n_answers < n_answers) {
     const int i = standing->n_answers++;
-    if ((what = read_answer(thr_json_at(answers, i), &standing->answer[i]))) return bad(r, "answers", i, what);
+    if ((what = read_answer(thr_json_at(answers, i), &standing->answer[i])))
+      return bad(r, "answers", i, what);
   }
   return THR_OK;
 }
 
 static thr_status read_members(const reader *r, const thr_json *object, thr_standing *standing)
 {
-  static const char *const known[] = {"model",    "clamped", "taut",  "tilt",   "azimuth", "strength",
-                                      "let_down", "loads",   "drawn", "stills", "answers", NULL};
+  static const char *const known[] = {"model",   "clamped",  "taut",     "tilt",
+                                      "azimuth", "strength", "let_down", "loads",
+                                      "drawn",   "stills",   "answers",  NULL};
   const char *key = thr_json_unknown(object, known);
   if (key) return bad(r, key, -1, "this version does not know it and cannot check it");
   const thr_json *model = thr_json_get(object, "model");
@@ -299,26 +323,33 @@ static thr_status read_members(const reader *r, const thr_json *object, thr_stan
   if (model && (!thr_json_int(model, &number) || number < 1 || number > THR_STANDING_MODEL))
     return bad(r, "model", -1, "not 1 or 2");
   standing->model = (int)number;
-  if (thr_json_typeof(thr_json_get(object, "clamped")) != THR_JSON_BOOL) return bad(r, "clamped", -1, "expected true or false");
-  if (thr_json_typeof(thr_json_get(object, "taut")) != THR_JSON_BOOL) return bad(r, "taut", -1, "expected true or false");
+  if (thr_json_typeof(thr_json_get(object, "clamped")) != THR_JSON_BOOL)
+    return bad(r, "clamped", -1, "expected true or false");
+  if (thr_json_typeof(thr_json_get(object, "taut")) != THR_JSON_BOOL)
+    return bad(r, "taut", -1, "expected true or false");
   standing->clamped = thr_json_true(thr_json_get(object, "clamped"));
   standing->taut = thr_json_true(thr_json_get(object, "taut"));
   if (!amount(object, "tilt", true, &standing->tilt) || !(standing->tilt < THR_PI / 2))
     return bad(r, "tilt", -1, "not an angle from 0 to a right one");
-  if (!thr_json_number(thr_json_get(object, "azimuth"), &standing->azimuth)) return bad(r, "azimuth", -1, "not a finite number");
+  if (!thr_json_number(thr_json_get(object, "azimuth"), &standing->azimuth))
+    return bad(r, "azimuth", -1, "not a finite number");
   standing->azimuth += 0.0; /* -0.0 is 0 */
-  if (!amount(object, "strength", false, &standing->strength)) return bad(r, "strength", -1, "not a number from 0 on");
-  if (!amount(object, "let_down", false, &standing->let_down)) return bad(r, "let_down", -1, "not a number from 0 on");
+  if (!amount(object, "strength", false, &standing->strength))
+    return bad(r, "strength", -1, "not a number from 0 on");
+  if (!amount(object, "let_down", false, &standing->let_down))
+    return bad(r, "let_down", -1, "not a number from 0 on");
   thr_status st = read_stills(r, thr_json_get(object, "stills"), standing);
   return st ? st : read_lists(r, object, standing);
 }
 
-thr_status thr_standing_from_json(thr_standing *standing, const thr_json *object, int n_cords, const char *place, thr_err *err)
+thr_status thr_standing_from_json(thr_standing *standing, const thr_json *object, int n_cords,
+                                  const char *place, thr_err *err)
 {
   const reader r = {place, err};
   *standing = (thr_standing){.present = true, .let_down = NAN, .n_cords = n_cords};
-  thr_status st = thr_json_typeof(object) == THR_JSON_OBJECT ? read_members(&r, object, standing)
-                                                             : thr_fail(err, THR_EVIOLATED, "%s: not an object", place);
+  thr_status st = thr_json_typeof(object) == THR_JSON_OBJECT
+                      ? read_members(&r, object, standing)
+                      : thr_fail(err, THR_EVIOLATED, "%s: not an object", place);
   if (st) thr_standing_destroy(standing);
   return st;
 }

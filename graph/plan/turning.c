@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Prices of turns, and the columns of the turning model. */
 #include "graph/plan/plan.h"
 #include "graph/angle.h"
@@ -23,15 +24,16 @@ static double from_a_quarter(double angle)
   return angle >= THR_PI / 2 - 1e-6;
 }
 
-/* Is the turn one of 90 degrees or more, to 1e-6 rad? Then its cosine is at most sin 1e-6: in . out <= 0, or its square at most
- * 1e-12 |in|^2 |out|^2. */
+/* Is the turn one of 90 degrees or more, to 1e-6 rad? Then its cosine is at most sin 1e-6: in . out
+ * <= 0, or its square at most 1e-12 |in|^2 |out|^2. */
 static bool is_step(const thr_frame *frame, int in, int out)
 {
   double a[3], b[3];
   thr_direction(frame, in, a);
   thr_direction(frame, out, b);
   double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  double squares = (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+  double squares =
+      (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]) * (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
   return dot <= 0 || dot * dot <= 1e-12 * squares;
 }
 
@@ -50,9 +52,10 @@ static bool is_back(const thr_frame *frame, int in, int out)
 static const struct {
   const char *name;
   double (*of)(double angle);
-  bool (*counts)(const thr_frame *frame, int in, int out); /* which turns cost 1, the others 0; NULL: the angle says the price */
-  double closed;                                           /* of a closed cord at least: a closed curve in space turns by 2 pi
-                                                              (Fenchel 1929), and sin(x / 2) >= x / pi up to pi */
+  bool (*counts)(const thr_frame *frame, int in,
+                 int out); /* which turns cost 1, the others 0; NULL: the angle says the price */
+  double closed;           /* of a closed cord at least: a closed curve in space turns by 2 pi
+                              (Fenchel 1929), and sin(x / 2) >= x / pi up to pi */
 } costs[THR_N_TURN_COSTS] = {
     [THR_TURN_ANGLE] = {"angle", its_angle, NULL, 2 * THR_PI},
     [THR_TURN_SINE] = {"sine", half_sine, NULL, 2},
@@ -78,7 +81,8 @@ bool thr_turn_counted(thr_turn_cost cost)
 double thr_turn_price(const thr_frame *frame, thr_turn_cost cost, int in, int out)
 {
   if (in == (out ^ 1)) return thr_turn_cost_of(cost, THR_PI);
-  return thr_turn_counted(cost) ? costs[cost].counts(frame, in, out) : thr_turn_cost_of(cost, thr_turn_angle(frame, in, out));
+  return thr_turn_counted(cost) ? costs[cost].counts(frame, in, out)
+                                : thr_turn_cost_of(cost, thr_turn_angle(frame, in, out));
 }
 
 double thr_turn_closed(thr_turn_cost cost)
@@ -123,8 +127,8 @@ static int64_t weight_of(double price)
 
 int thr_turning_column(const thr_turning_columns *turning_columns, int a, int b)
 {
-  int v = thr_tail(turning_columns->f, a), d = thr_degree(turning_columns->f, v), i = turning_columns->position[a],
-      j = turning_columns->position[b];
+  int v = thr_tail(turning_columns->f, a), d = thr_degree(turning_columns->f, v),
+      i = turning_columns->position[a], j = turning_columns->position[b];
   if (i > j) {
     int larger = i;
     i = j;
@@ -136,19 +140,24 @@ int thr_turning_column(const thr_turning_columns *turning_columns, int a, int b)
 bool thr_turning_open(const thr_turning_columns *turning_columns, int component)
 {
   for (int v = 0; v < turning_columns->f->n_nodes; v++)
-    if (turning_columns->component[v] == component && turning_columns->supply[turning_columns->end_group[v]][1] > 0) return true;
+    if (turning_columns->component[v] == component &&
+        turning_columns->supply[turning_columns->end_group[v]][1] > 0)
+      return true;
   return false;
 }
 
 int thr_turning_most(const thr_turning_columns *turning_columns, int column)
 {
-  int a = turning_columns->half[column][0] >> 1, b = turning_columns->half[column][1] >> 1; /* edges; b < 0 of an end */
+  int a = turning_columns->half[column][0] >> 1,
+      b = turning_columns->half[column][1] >> 1; /* edges; b < 0 of an end */
   if (column < turning_columns->first_extra)
-    return turning_columns->most[a] < turning_columns->most[b] ? turning_columns->most[a] : turning_columns->most[b];
-  if (column < turning_columns->first_end) return turning_columns->most[a] - turning_columns->cover[a];
+    return turning_columns->most[a] < turning_columns->most[b] ? turning_columns->most[a]
+                                                               : turning_columns->most[b];
+  if (column < turning_columns->first_end)
+    return turning_columns->most[a] - turning_columns->cover[a];
   if (column >= turning_columns->first_back) return turning_columns->most[a] / 2;
-  int ends =
-      turning_columns->supply[turning_columns->end_group[thr_tail(turning_columns->f, turning_columns->half[column][0])]][1];
+  int ends = turning_columns->supply[turning_columns->end_group[thr_tail(
+      turning_columns->f, turning_columns->half[column][0])]][1];
   return ends < turning_columns->most[a] ? ends : turning_columns->most[a];
 }
 
@@ -227,15 +236,17 @@ static void fill_lengths(thr_turning_columns *turning_columns)
 {
   double longest = longest_edge(turning_columns->f);
   for (int e = 0; e < turning_columns->f->n_edges; e++)
-    turning_columns->length[e] = (int64_t)floor(ldexp(turning_columns->f->length[e] / longest, THR_LENGTH_BITS));
+    turning_columns->length[e] =
+        (int64_t)floor(ldexp(turning_columns->f->length[e] / longest, THR_LENGTH_BITS));
 }
 
 void thr_turning_limit(thr_turning_columns *turning_columns)
 {
   double longest = longest_edge(turning_columns->f),
          limit = ceil(ldexp(turning_columns->task->extra_limit / longest, THR_LENGTH_BITS)) + 1;
-  turning_columns->extra_limit =
-      turning_columns->task->extra_limit < 0 || limit > 4e18 ? -1 : (int64_t)limit; /* so far above that it limits nothing */
+  turning_columns->extra_limit = turning_columns->task->extra_limit < 0 || limit > 4e18
+                                     ? -1
+                                     : (int64_t)limit; /* so far above that it limits nothing */
 }
 
 /* Numbers the columns. Turns are counted in 64 bits: a node of 100,000 edges has 5e9 of them. */
@@ -249,8 +260,9 @@ static thr_status count_columns(thr_turning_columns *turning_columns, thr_err *e
     turning_columns->pair_first[v] = (int)turns;
     turns += (int64_t)d * (d - 1) / 2;
     if (turns > INT_MAX / 8)
-      return thr_fail(err, THR_EINPUT, "more than %d possible turns at the nodes; node %s alone has %d edges", INT_MAX / 8,
-                      frame->name[v], d);
+      return thr_fail(err, THR_EINPUT,
+                      "more than %d possible turns at the nodes; node %s alone has %d edges",
+                      INT_MAX / 8, frame->name[v], d);
     ends += turning_columns->task->end_allowed && turning_columns->task->end_allowed[v] ? d : 0;
     backs += turns_back(turning_columns->task, d) ? d : 0;
     for (int i = 0; i < d; i++)
@@ -265,14 +277,17 @@ static thr_status count_columns(thr_turning_columns *turning_columns, thr_err *e
 
 static thr_status check_task(const thr_turning_task *turning_task, thr_err *err)
 {
-  if (turning_task->cover < 1 || turning_task->most_passes < turning_task->cover || turning_task->most_passes > 1000000 ||
-      turning_task->cords < 1 || turning_task->cords > 1000000)
+  if (turning_task->cover < 1 || turning_task->most_passes < turning_task->cover ||
+      turning_task->most_passes > 1000000 || turning_task->cords < 1 ||
+      turning_task->cords > 1000000)
     return thr_fail(err, THR_EINPUT,
-                    "cover %d, at most %d passes, %d cords: need 1 <= cover <= passes <= 1000000, 1 <= cords <= 1000000",
+                    "cover %d, at most %d passes, %d cords: need 1 <= cover <= passes <= 1000000, "
+                    "1 <= cords <= 1000000",
                     turning_task->cover, turning_task->most_passes, turning_task->cords);
-  if (turning_task->cords_least < 0 || turning_task->cords_least > turning_task->cords || turning_task->capacity < 0)
-    return thr_fail(err, THR_EINPUT, "at least %d cords of at most %d, %d passes at most", turning_task->cords_least,
-                    turning_task->cords, turning_task->capacity);
+  if (turning_task->cords_least < 0 || turning_task->cords_least > turning_task->cords ||
+      turning_task->capacity < 0)
+    return thr_fail(err, THR_EINPUT, "at least %d cords of at most %d, %d passes at most",
+                    turning_task->cords_least, turning_task->cords, turning_task->capacity);
   if (!(turning_task->price_per_length >= 0) || !isfinite(turning_task->price_per_length) ||
       !(turning_task->extra_limit < INFINITY))
     return thr_fail(err, THR_EINPUT, "the price per length must be 0 or more, and finite");
@@ -285,54 +300,70 @@ static thr_status fill_limits(thr_turning_columns *turning_columns, thr_err *err
   const thr_frame *frame = turning_columns->f;
   const thr_turning_task *turning_task = turning_columns->task;
   const thr_request options = {.cover = turning_task->cover, .capacity = turning_task->capacity};
-  turning_columns->n_ends = turning_task->end_count ? frame->n_nodes : turning_columns->n_components;
-  turning_columns->supply =
-      thr_scratch_array(&turning_columns->own, (size_t)turning_columns->n_ends, sizeof *turning_columns->supply);
+  turning_columns->n_ends =
+      turning_task->end_count ? frame->n_nodes : turning_columns->n_components;
+  turning_columns->supply = thr_scratch_array(
+      &turning_columns->own, (size_t)turning_columns->n_ends, sizeof *turning_columns->supply);
   if (!turning_columns->supply) return thr_nomem(err);
   for (int e = 0; e < frame->n_edges; e++) {
     int capacity = thr_plan_capacity(frame, &options, e);
     turning_columns->cover[e] = thr_plan_cover(frame, &options, e);
-    turning_columns->most[e] = capacity < turning_task->most_passes ? capacity : turning_task->most_passes;
+    turning_columns->most[e] =
+        capacity < turning_task->most_passes ? capacity : turning_task->most_passes;
     if (turning_columns->cover[e] > turning_columns->most[e])
       return thr_fail(err, capacity < turning_columns->cover[e] ? THR_EINFEASIBLE : THR_EINPUT,
-                      "edge %s-%s needs %d passes, but has room for %d", frame->name[frame->edge[e][0]],
-                      frame->name[frame->edge[e][1]], turning_columns->cover[e], turning_columns->most[e]);
+                      "edge %s-%s needs %d passes, but has room for %d",
+                      frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]],
+                      turning_columns->cover[e], turning_columns->most[e]);
   }
   for (int v = 0; v < frame->n_nodes; v++) {
     turning_columns->end_group[v] = turning_task->end_count ? v : turning_columns->component[v];
-    if (turning_task->end_count) turning_columns->supply[v][0] = turning_columns->supply[v][1] = turning_task->end_count[v];
+    if (turning_task->end_count)
+      turning_columns->supply[v][0] = turning_columns->supply[v][1] = turning_task->end_count[v];
   }
-  for (int k = 0; k < turning_columns->n_ends && turning_task->end_allowed && !turning_task->end_count; k++) {
-    turning_columns->supply[k][0] = 2 * (turning_task->cords_least ? turning_task->cords_least : turning_task->cords);
+  for (int k = 0;
+       k < turning_columns->n_ends && turning_task->end_allowed && !turning_task->end_count; k++) {
+    turning_columns->supply[k][0] =
+        2 * (turning_task->cords_least ? turning_task->cords_least : turning_task->cords);
     turning_columns->supply[k][1] = 2 * turning_task->cords;
   }
   return THR_OK;
 }
 
-thr_status thr_turning_columns_init(thr_turning_columns *turning_columns, const thr_frame *frame, const thr_turning_task *task,
-                                    thr_err *err)
+thr_status thr_turning_columns_init(thr_turning_columns *turning_columns, const thr_frame *frame,
+                                    const thr_turning_task *task, thr_err *err)
 {
   size_t n = (size_t)frame->n_nodes, m = (size_t)frame->n_edges;
   *turning_columns = (thr_turning_columns){.f = frame, .task = task};
   thr_status st = check_task(task, err);
   if (st) return st;
-  turning_columns->component = thr_scratch_array(&turning_columns->own, n, sizeof *turning_columns->component);
-  turning_columns->pair_first = thr_scratch_array(&turning_columns->own, n, sizeof *turning_columns->pair_first);
-  turning_columns->position = thr_scratch_array(&turning_columns->own, 2 * m, sizeof *turning_columns->position);
-  turning_columns->end_column = thr_scratch_array(&turning_columns->own, 2 * m, sizeof *turning_columns->end_column);
-  turning_columns->end_group = thr_scratch_array(&turning_columns->own, n, sizeof *turning_columns->end_group);
-  turning_columns->cover = thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->cover);
-  turning_columns->most = thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->most);
-  turning_columns->length = thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->length);
+  turning_columns->component =
+      thr_scratch_array(&turning_columns->own, n, sizeof *turning_columns->component);
+  turning_columns->pair_first =
+      thr_scratch_array(&turning_columns->own, n, sizeof *turning_columns->pair_first);
+  turning_columns->position =
+      thr_scratch_array(&turning_columns->own, 2 * m, sizeof *turning_columns->position);
+  turning_columns->end_column =
+      thr_scratch_array(&turning_columns->own, 2 * m, sizeof *turning_columns->end_column);
+  turning_columns->end_group =
+      thr_scratch_array(&turning_columns->own, n, sizeof *turning_columns->end_group);
+  turning_columns->cover =
+      thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->cover);
+  turning_columns->most =
+      thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->most);
+  turning_columns->length =
+      thr_scratch_array(&turning_columns->own, m, sizeof *turning_columns->length);
   st = thr_scratch_check(&turning_columns->own, err);
-  if (!st) st = thr_frame_components(frame, turning_columns->component, &turning_columns->n_components, err);
+  if (!st)
+    st = thr_frame_components(frame, turning_columns->component, &turning_columns->n_components,
+                              err);
   if (!st) st = fill_limits(turning_columns, err);
   if (!st) st = count_columns(turning_columns, err);
   if (!st) {
-    turning_columns->half =
-        thr_scratch_array(&turning_columns->own, (size_t)turning_columns->n_columns, sizeof *turning_columns->half);
-    turning_columns->weight =
-        thr_scratch_array(&turning_columns->own, (size_t)turning_columns->n_columns, sizeof *turning_columns->weight);
+    turning_columns->half = thr_scratch_array(
+        &turning_columns->own, (size_t)turning_columns->n_columns, sizeof *turning_columns->half);
+    turning_columns->weight = thr_scratch_array(
+        &turning_columns->own, (size_t)turning_columns->n_columns, sizeof *turning_columns->weight);
     st = thr_scratch_check(&turning_columns->own, err);
   }
   for (size_t e = 0; e < m && !st; e++)

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The turning proof as JSON: docs/plan-format.md. */
 #include "graph/plan/turning_proof.h"
 
@@ -41,7 +42,8 @@ static void put_sets(thr_writer *writer, const char *key, const thr_turning_set 
   thr_write_close(writer);
 }
 
-static void put_partitions(thr_writer *writer, const char *key, const thr_turning_partition *partition, int n, int n_edges)
+static void put_partitions(thr_writer *writer, const char *key,
+                           const thr_turning_partition *partition, int n, int n_edges)
 {
   begin_list(writer, key);
   for (int i = 0; i < n; i++) {
@@ -59,13 +61,15 @@ static void put_junctions(thr_writer *writer, const thr_turning_dual *dual, cons
     const thr_turning_junction *turning_junction = &dual->junction[i];
     begin_item(writer, turning_junction->value);
     thr_write_int(writer, "node", turning_junction->node);
-    thr_write_ints(writer, "blocks", turning_junction->block, thr_degree(frame, turning_junction->node));
+    thr_write_ints(writer, "blocks", turning_junction->block,
+                   thr_degree(frame, turning_junction->node));
     thr_write_close(writer);
   }
   thr_write_close(writer);
 }
 
-static void put_dual(thr_writer *writer, const thr_turning_dual *dual, const thr_frame *frame, int n_ends)
+static void put_dual(thr_writer *writer, const thr_turning_dual *dual, const thr_frame *frame,
+                     int n_ends)
 {
   thr_write_object(writer, NULL);
   put_multipliers(writer, "potentials", dual->potential, 2 * frame->n_edges);
@@ -97,14 +101,16 @@ static void put_node(thr_writer *writer, const thr_turning_node *node)
 }
 
 /* A proof with none has no member for them. */
-static void put_symmetries(thr_writer *writer, const thr_turning_proof *proof, const thr_frame *frame)
+static void put_symmetries(thr_writer *writer, const thr_turning_proof *proof,
+                           const thr_frame *frame)
 {
   if (proof->n_symmetries == 0) return;
   thr_write_line(writer, 3);
   thr_write_array(writer, "symmetries");
   for (int i = 0; i < proof->n_symmetries; i++) {
     thr_write_line(writer, 4);
-    thr_write_ints(writer, NULL, proof->symmetry + (size_t)i * (size_t)frame->n_edges, frame->n_edges);
+    thr_write_ints(writer, NULL, proof->symmetry + (size_t)i * (size_t)frame->n_edges,
+                   frame->n_edges);
   }
   thr_write_close(writer);
 }
@@ -124,7 +130,8 @@ static void put_memory(thr_writer *writer, const thr_walk_proof *walks)
   thr_write_close(writer);
 }
 
-void thr_walk_proof_write(const thr_walk_proof *walks, const thr_frame *frame, const char *all, thr_writer *writer)
+void thr_walk_proof_write(const thr_walk_proof *walks, const thr_frame *frame, const char *all,
+                          thr_writer *writer)
 {
   if (walks->unit == 0) return;
   thr_write_line(writer, 3);
@@ -140,7 +147,8 @@ void thr_walk_proof_write(const thr_walk_proof *walks, const thr_frame *frame, c
   thr_write_close(writer);
 }
 
-void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *frame, thr_writer *writer, const char *key)
+void thr_turning_proof_write(const thr_turning_proof *proof, const thr_frame *frame,
+                             thr_writer *writer, const char *key)
 {
   thr_write_object(writer, key);
   thr_write_array(writer, "tree");
@@ -178,31 +186,37 @@ static thr_status bad(const reader *r, const char *key, const char *what)
 /* Exactly the members named, and no other. known ends with NULL. */
 static thr_status only_members(const reader *r, const thr_json *object, const char *const *known)
 {
-  if (thr_json_typeof(object) != THR_JSON_OBJECT) return thr_fail(r->err, THR_EVIOLATED, "%s: expected an object", r->place);
+  if (thr_json_typeof(object) != THR_JSON_OBJECT)
+    return thr_fail(r->err, THR_EVIOLATED, "%s: expected an object", r->place);
   for (int i = 0; known[i]; i++)
     if (!thr_json_get(object, known[i])) return bad(r, known[i], "missing");
   const char *key = thr_json_unknown(object, known);
   return key ? bad(r, key, "this version does not know it and cannot check it") : THR_OK;
 }
 
-static thr_status get_int(const reader *r, const thr_json *value, const char *key, int64_t low, int64_t high, int64_t *out)
+static thr_status get_int(const reader *r, const thr_json *value, const char *key, int64_t low,
+                          int64_t high, int64_t *out)
 {
   if (thr_json_int(value, out) && *out >= low && *out <= high) return THR_OK;
-  return thr_fail(r->err, THR_EVIOLATED, "%s.%s: not an integer from %" PRId64 " to %" PRId64, r->place, key, low, high);
+  return thr_fail(r->err, THR_EVIOLATED, "%s.%s: not an integer from %" PRId64 " to %" PRId64,
+                  r->place, key, low, high);
 }
 
-static thr_status get_array(const reader *r, const thr_json *object, const char *key, const thr_json **list)
+static thr_status get_array(const reader *r, const thr_json *object, const char *key,
+                            const thr_json **list)
 {
   *list = thr_json_get(object, key);
   return thr_json_typeof(*list) == THR_JSON_ARRAY ? THR_OK : bad(r, key, "not a list");
 }
 
-static thr_status read_multipliers(const reader *r, const thr_json *object, const char *key, int n, int64_t **out)
+static thr_status read_multipliers(const reader *r, const thr_json *object, const char *key, int n,
+                                   int64_t **out)
 {
   const thr_json *list;
   thr_status st = get_array(r, object, key, &list);
   if (st) return st;
-  if (thr_json_size(list) != n) return thr_fail(r->err, THR_EVIOLATED, "%s.%s: expected %d numbers", r->place, key, n);
+  if (thr_json_size(list) != n)
+    return thr_fail(r->err, THR_EVIOLATED, "%s.%s: expected %d numbers", r->place, key, n);
   if (!(*out = thr_calloc((size_t)n, sizeof **out))) return thr_nomem(r->err);
   for (int i = 0; i < n && !st; i++)
     st = get_int(r, thr_json_at(list, i), key, INT64_MIN, INT64_MAX, &(*out)[i]);
@@ -210,7 +224,8 @@ static thr_status read_multipliers(const reader *r, const thr_json *object, cons
 }
 
 /* A list of integers from 0 to limit - 1. */
-static thr_status read_ints(const reader *r, const thr_json *list, const char *key, int limit, int *out)
+static thr_status read_ints(const reader *r, const thr_json *list, const char *key, int limit,
+                            int *out)
 {
   thr_status st = THR_OK;
   for (int i = 0; i < thr_json_size(list) && !st; i++) {
@@ -221,7 +236,8 @@ static thr_status read_ints(const reader *r, const thr_json *list, const char *k
   return st;
 }
 
-static thr_status read_set(const reader *r, const thr_json *value, const char *key, int limit, thr_turning_set *set)
+static thr_status read_set(const reader *r, const thr_json *value, const char *key, int limit,
+                           thr_turning_set *set)
 {
   static const char *const known[] = {"value", "members", NULL};
   const thr_json *list;
@@ -235,8 +251,8 @@ static thr_status read_set(const reader *r, const thr_json *value, const char *k
   return read_ints(r, list, key, limit, set->member);
 }
 
-static thr_status read_sets(const reader *r, const thr_json *object, const char *key, int limit, int *count,
-                            thr_turning_set **out)
+static thr_status read_sets(const reader *r, const thr_json *object, const char *key, int limit,
+                            int *count, thr_turning_set **out)
 {
   const thr_json *list;
   thr_status st = get_array(r, object, key, &list);
@@ -249,7 +265,8 @@ static thr_status read_sets(const reader *r, const thr_json *object, const char 
   return st;
 }
 
-static thr_status read_partition(const reader *r, const thr_json *value, thr_turning_partition *partition)
+static thr_status read_partition(const reader *r, const thr_json *value,
+                                 thr_turning_partition *partition)
 {
   static const char *const known[] = {"value", "blocks", NULL};
   const thr_json *list = NULL;
@@ -258,12 +275,13 @@ static thr_status read_partition(const reader *r, const thr_json *value, thr_tur
   if (!st) st = get_int(r, thr_json_get(value, "value"), "value", 0, INT64_MAX, &partition->value);
   if (!st) st = get_array(r, value, "blocks", &list);
   if (!st && thr_json_size(list) != m) st = bad(r, "blocks", "not one per edge");
-  if (!st && !(partition->block = thr_calloc((size_t)m, sizeof *partition->block))) st = thr_nomem(r->err);
+  if (!st && !(partition->block = thr_calloc((size_t)m, sizeof *partition->block)))
+    st = thr_nomem(r->err);
   return st ? st : read_ints(r, list, "blocks", m, partition->block);
 }
 
-static thr_status read_partitions(const reader *r, const thr_json *object, const char *key, int *count,
-                                  thr_turning_partition **out)
+static thr_status read_partitions(const reader *r, const thr_json *object, const char *key,
+                                  int *count, thr_turning_partition **out)
 {
   const thr_json *list;
   thr_status st = get_array(r, object, key, &list);
@@ -276,20 +294,23 @@ static thr_status read_partitions(const reader *r, const thr_json *object, const
   return st;
 }
 
-static thr_status read_junction(const reader *r, const thr_json *value, thr_turning_junction *turning_junction)
+static thr_status read_junction(const reader *r, const thr_json *value,
+                                thr_turning_junction *turning_junction)
 {
   static const char *const known[] = {"value", "node", "blocks", NULL};
   const thr_json *list = NULL;
   int64_t node = 0;
   thr_status st = only_members(r, value, known);
-  if (!st) st = get_int(r, thr_json_get(value, "value"), "value", 0, INT64_MAX, &turning_junction->value);
+  if (!st)
+    st = get_int(r, thr_json_get(value, "value"), "value", 0, INT64_MAX, &turning_junction->value);
   if (!st) st = get_int(r, thr_json_get(value, "node"), "node", 0, r->f->n_nodes - 1, &node);
   if (!st) st = get_array(r, value, "blocks", &list);
   if (st) return st;
   turning_junction->node = (int)node;
   int d = thr_degree(r->f, turning_junction->node);
   if (thr_json_size(list) != d) return bad(r, "blocks", "not one per edge of the node");
-  if (!(turning_junction->block = thr_calloc((size_t)d, sizeof *turning_junction->block))) return thr_nomem(r->err);
+  if (!(turning_junction->block = thr_calloc((size_t)d, sizeof *turning_junction->block)))
+    return thr_nomem(r->err);
   return read_ints(r, list, "blocks", d, turning_junction->block);
 }
 
@@ -322,7 +343,8 @@ static thr_status read_dual(const reader *r, const thr_json *value, thr_turning_
   if (!st) st = read_sets(r, value, "odd_sets", 2 * m + r->n_ends, &dual->n_odd, &dual->odd);
   if (!st) st = read_sets(r, value, "groups", m, &dual->n_groups, &dual->group);
   if (!st) st = read_partitions(r, value, "partitions", &dual->n_partitions, &dual->partition);
-  if (!st && thr_json_get(value, "ranks")) st = read_partitions(r, value, "ranks", &dual->n_ranks, &dual->rank);
+  if (!st && thr_json_get(value, "ranks"))
+    st = read_partitions(r, value, "ranks", &dual->n_ranks, &dual->rank);
   if (!st) st = read_junctions(r, value, dual);
   return st;
 }
@@ -341,7 +363,9 @@ static thr_status read_orbit(const reader *r, const thr_json *value, thr_turning
 
 static thr_status read_node(const reader *r, const thr_json *value, thr_turning_node *node)
 {
-  static const char *const inner[] = {"low", "high", "a", "b", "value", NULL}, *const leaf[] = {"multipliers", NULL};
+  static const char *const inner[] = {"low", "high", "a", "b", "value", NULL}, *const leaf[] = {
+                                                                                   "multipliers",
+                                                                                   NULL};
   static const char *const at_once[] = {"low", "high", "a", "b", "value", "orbit", NULL};
   int64_t number[5] = {0};
   bool is_leaf = thr_json_get(value, "multipliers") != NULL;
@@ -349,13 +373,14 @@ static thr_status read_node(const reader *r, const thr_json *value, thr_turning_
   thr_status st = only_members(r, value, thr_json_get(value, "orbit") && !is_leaf ? at_once : key);
   for (int i = 0; key[i] && !st; i++)
     st = get_int(r, thr_json_get(value, key[i]), key[i], i == 3 ? -1 : 0, INT_MAX, &number[i]);
-  if (!st && !is_leaf && (number[0] == 0 || number[1] == 0)) return bad(r, "low", "a branch needs two nodes below it");
+  if (!st && !is_leaf && (number[0] == 0 || number[1] == 0))
+    return bad(r, "low", "a branch needs two nodes below it");
   *node = (thr_turning_node){.dual = -1};
   if (is_leaf)
     node->dual = (int)number[0];
   else
-    node->low = (int)number[0], node->high = (int)number[1], node->a = (int)number[2], node->b = (int)number[3],
-    node->value = (int)number[4];
+    node->low = (int)number[0], node->high = (int)number[1], node->a = (int)number[2],
+    node->b = (int)number[3], node->value = (int)number[4];
   return st || is_leaf ? st : read_orbit(r, value, node);
 }
 
@@ -367,11 +392,13 @@ static thr_status read_symmetries(reader *r, const thr_json *value, thr_turning_
   thr_status st = get_array(r, value, "symmetries", &list);
   if (st) return st;
   int n = thr_json_size(list);
-  if (!(proof->symmetry = thr_calloc((size_t)n * (size_t)m, sizeof *proof->symmetry))) return thr_nomem(r->err);
+  if (!(proof->symmetry = thr_calloc((size_t)n * (size_t)m, sizeof *proof->symmetry)))
+    return thr_nomem(r->err);
   proof->n_symmetries = r->n_symmetries = n;
   for (int i = 0; i < n && !st; i++) {
     const thr_json *image = thr_json_at(list, i);
-    if (thr_json_typeof(image) != THR_JSON_ARRAY || thr_json_size(image) != m) return bad(r, "symmetries", "not one per edge");
+    if (thr_json_typeof(image) != THR_JSON_ARRAY || thr_json_size(image) != m)
+      return bad(r, "symmetries", "not one per edge");
     st = read_ints(r, image, "symmetries", 2 * m, proof->symmetry + (size_t)i * (size_t)m);
   }
   return st;
@@ -404,11 +431,12 @@ static thr_status read_memory(const reader *r, const thr_json *value, thr_walk_p
   return st;
 }
 
-thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *frame, const char *all, const thr_json *value,
-                                    const char *place, thr_err *err)
+thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *frame, const char *all,
+                                    const thr_json *value, const char *place, thr_err *err)
 {
   const bool remembers = value && thr_json_get(value, "memory");
-  const char *known[] = {"unit", "units", all ? all : "bits", "edges", "nodes", remembers ? "memory" : NULL, NULL};
+  const char *known[] = {
+      "unit", "units", all ? all : "bits", "edges", "nodes", remembers ? "memory" : NULL, NULL};
   const reader r = {.place = place, .f = frame, .err = err};
   int64_t units = 0, bits = 0;
   *walks = (thr_walk_proof){.pulled = value && !all};
@@ -417,7 +445,8 @@ thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *fram
   if (!st) st = get_int(&r, thr_json_get(value, "unit"), "unit", 1, INT64_MAX, &walks->unit);
   if (!st) st = get_int(&r, thr_json_get(value, "units"), "units", 0, INT_MAX - 2, &units);
   if (!st && all) st = get_int(&r, thr_json_get(value, all), all, 0, INT64_MAX, &walks->all);
-  if (!st && !all) st = get_int(&r, thr_json_get(value, "bits"), "bits", 0, THR_TURNING_BITS, &bits);
+  if (!st && !all)
+    st = get_int(&r, thr_json_get(value, "bits"), "bits", 0, THR_TURNING_BITS, &bits);
   if (!st) st = read_multipliers(&r, value, "edges", frame->n_edges, &walks->edge);
   if (!st) st = read_multipliers(&r, value, "nodes", frame->n_nodes, &walks->node);
   if (!st) st = read_memory(&r, value, walks);
@@ -427,8 +456,8 @@ thr_status thr_walk_proof_from_json(thr_walk_proof *walks, const thr_frame *fram
   return st;
 }
 
-thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame *frame, const thr_json *value, const char *place,
-                                       thr_err *err)
+thr_status thr_turning_proof_from_json(thr_turning_proof *proof, const thr_frame *frame,
+                                       const thr_json *value, const char *place, thr_err *err)
 {
   static const char *const optional[] = {"symmetries", "walks"};
   const char *known[5] = {"tree", "multipliers"};

@@ -1,6 +1,9 @@
-/* One job in a child process, with an answer of any size: for libraries that may crash, end the program or take no heed of time.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One job in a child process, with an answer of any size: for libraries that may crash, end the
+ * program or take no heed of time.
  *
- * One child process and the messages that it sends: answers, progress, and the end with its status. */
+ * One child process and the messages that it sends: answers, progress, and the end with its status.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/process.h"
 
@@ -15,8 +18,8 @@
 static const double WATCH = 0.1;     /* s between two looks at the limits */
 static const double GRACE = 1.0 / 3; /* s that a child has to stop by itself */
 
-/* Kinds of messages. Bytes: the answer, what is being done, or the text of a failure; value: best and bound, the part done, or
- * the work left; code: the status. */
+/* Kinds of messages. Bytes: the answer, what is being done, or the text of a failure; value: best
+ * and bound, the part done, or the work left; code: the status. */
 enum { ANSWER, PROGRESS, ADVANCE, END };
 
 struct thr_sender {
@@ -37,20 +40,25 @@ static void stop(int signal_number)
 thr_status thr_child_send(thr_sender *to, const thr_text *answer, thr_err *err)
 {
   if (answer->failed) return thr_nomem(err);
-  if (thr_message_send(to->fd, (thr_message){.kind = ANSWER, .length = answer->length}, answer->data)) return THR_OK;
+  if (thr_message_send(to->fd, (thr_message){.kind = ANSWER, .length = answer->length},
+                       answer->data))
+    return THR_OK;
   return thr_fail(err, THR_ESOLVER, "a worker cannot send its answer: %s", strerror(errno));
 }
 
 static void post_progress(void *user, const char *what, double best, double bound)
 {
   const thr_sender *to = user;
-  thr_message_send(to->fd, (thr_message){.kind = PROGRESS, .length = strlen(what), .value = {best, bound}}, what);
+  thr_message_send(to->fd,
+                   (thr_message){.kind = PROGRESS, .length = strlen(what), .value = {best, bound}},
+                   what);
 }
 
 static void post_advance(void *user, const char *what, double done)
 {
   const thr_sender *to = user;
-  thr_message_send(to->fd, (thr_message){.kind = ADVANCE, .length = strlen(what), .value = {done}}, what);
+  thr_message_send(to->fd, (thr_message){.kind = ADVANCE, .length = strlen(what), .value = {done}},
+                   what);
 }
 
 typedef struct {
@@ -79,8 +87,10 @@ static bool run_job(void *user, int fd)
   sigemptyset(&ask.sa_mask);
   sigaction(SIGUSR1, &ask, NULL);
   thr_status st = t->child->run(t->child->user, &limits, &to, &err);
-  return thr_message_send(fd, (thr_message){.kind = END, .length = strlen(err.text), .value = {work}, .code = (int32_t)st},
-                          err.text);
+  return thr_message_send(
+      fd,
+      (thr_message){.kind = END, .length = strlen(err.text), .value = {work}, .code = (int32_t)st},
+      err.text);
 }
 
 /* ---- the parent ---- */
@@ -102,7 +112,8 @@ static void take(void *user, const thr_message *h, const char *bytes)
   parent *p = user;
   const thr_limits *l = p->limits;
   char what[200];
-  snprintf(what, sizeof what, "%.*s", h->length < sizeof what ? (int)h->length : (int)sizeof what - 1, bytes);
+  snprintf(what, sizeof what, "%.*s",
+           h->length < sizeof what ? (int)h->length : (int)sizeof what - 1, bytes);
   if (h->kind == PROGRESS) l->progress(l->user, what, h->value[0], h->value[1]);
   if (h->kind == ADVANCE) l->advance(l->user, what, h->value[0]);
   if (h->kind == ANSWER) {
@@ -149,14 +160,17 @@ static thr_status judge(parent *p, bool stopped, thr_err *err)
   if (p->arrived.failed || p->answer->failed) return thr_nomem(err);
   if (!stopped) return thr_fail(err, THR_ELIMIT, "%s: stopped before it was done", p->child->what);
   if (p->stuck)
-    return thr_fail(err, THR_ESOLVER, "%s: its process waited for itself (memory ran out in a library)", p->child->what);
+    return thr_fail(err, THR_ESOLVER,
+                    "%s: its process waited for itself (memory ran out in a library)",
+                    p->child->what);
   if (p->ended) return p->status ? thr_fail(err, p->status, "%s", p->end.text) : THR_OK;
   snprintf(who, sizeof who, "%s: its process", p->child->what);
   thr_status st = thr_process_end(&p->process, who, p->child->advice, err);
   return st ? st : thr_fail(err, THR_ESOLVER, "%s: its process sent too little", p->child->what);
 }
 
-static thr_status run_once(const thr_child *c, const thr_limits *limits, thr_text *answer, bool *stuck, thr_err *err)
+static thr_status run_once(const thr_child *c, const thr_limits *limits, thr_text *answer,
+                           bool *stuck, thr_err *err)
 {
   parent p = {.child = c, .limits = limits, .answer = answer};
   task t = {c, limits};
@@ -178,9 +192,10 @@ enum { MOST_BIRTHS = 4 };
 enum { MOST_BIRTHS = 2 };
 #endif
 
-/* A child of a process with several threads may be born with a lock that another thread held (under sanitizers, say), and wait
- * for it for ever: then another one is born. */
-thr_status thr_child_run(const thr_child *c, const thr_limits *limits, thr_text *answer, thr_err *err)
+/* A child of a process with several threads may be born with a lock that another thread held (under
+ * sanitizers, say), and wait for it for ever: then another one is born. */
+thr_status thr_child_run(const thr_child *c, const thr_limits *limits, thr_text *answer,
+                         thr_err *err)
 {
   thr_err why = {0};
   bool stuck = true;

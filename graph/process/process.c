@@ -1,6 +1,8 @@
-/* A child process that cannot harm its parent: what it prints is kept from the terminal, Ctrl-C is left to the parent, and it
- * dies when the parent dies. Everything that runs in a child is started here (graph/process/workers.c, graph/process/child.c),
- * but for commands as a whole (cli/guard.c). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A child process that cannot harm its parent: what it prints is kept from the terminal, Ctrl-C is
+ * left to the parent, and it dies when the parent dies. Everything that runs in a child is started
+ * here (graph/process/workers.c, graph/process/child.c), but for commands as a whole (cli/guard.c).
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/process.h"
 
@@ -18,10 +20,13 @@
 
 enum { READ = 0, WRITE = 1 }; /* ends of a pipe */
 enum { FIRST_FREE = 3 };      /* descriptors below are standard input, output and error */
-enum { SENT = 113 };          /* exit code of a child that has sent everything, other than a library's exit(0) */
-enum { BLOCK = 1 << 16 };     /* bytes read at once */
-/* Looks without any work in between. A child of a sanitizer's build is born with its allocator locked every so often (fork does
- * not wait for other threads there), and nothing else sleeps so long in the tests. */
+enum {
+  SENT = 113
+}; /* exit code of a child that has sent everything, other than a library's exit(0) */
+enum { BLOCK = 1 << 16 }; /* bytes read at once */
+/* Looks without any work in between. A child of a sanitizer's build is born with its allocator
+ * locked every so often (fork does not wait for other threads there), and nothing else sleeps so
+ * long in the tests. */
 #if defined __SANITIZE_ADDRESS__
 enum { STUCK = 30 };
 #else
@@ -46,7 +51,8 @@ bool thr_message_send(int fd, thr_message m, const char *bytes)
 }
 
 /* Hands over the messages that have arrived whole. */
-static void take_all(thr_text *arrived, void (*take)(void *user, const thr_message *m, const char *bytes), void *user)
+static void take_all(thr_text *arrived,
+                     void (*take)(void *user, const thr_message *m, const char *bytes), void *user)
 {
   size_t at = 0;
   thr_message m;
@@ -61,7 +67,8 @@ static void take_all(thr_text *arrived, void (*take)(void *user, const thr_messa
   memmove(arrived->data, arrived->data + at, arrived->length);
 }
 
-ssize_t thr_messages_receive(int fd, thr_text *arrived, void (*take)(void *user, const thr_message *m, const char *bytes),
+ssize_t thr_messages_receive(int fd, thr_text *arrived,
+                             void (*take)(void *user, const thr_message *m, const char *bytes),
                              void *user)
 {
   static _Thread_local char block[BLOCK];
@@ -83,23 +90,27 @@ static void leave_signals_to_parent(const sigset_t *mask)
   sigprocmask(SIG_SETMASK, mask, NULL);
 }
 
-/* What a library prints goes into the words, and so does what exit() would flush of the parent's buffers. A full pipe drops the
- * rest. The result's descriptor moves up if it lies where standard output was closed. */
+/* What a library prints goes into the words, and so does what exit() would flush of the parent's
+ * buffers. A full pipe drops the rest. The result's descriptor moves up if it lies where standard
+ * output was closed. */
 static bool keep_quiet(int *result, int words)
 {
   if (*result < FIRST_FREE) *result = fcntl(*result, F_DUPFD, FIRST_FREE);
   if (words < FIRST_FREE) words = fcntl(words, F_DUPFD, FIRST_FREE);
-  return *result >= 0 && words >= 0 && fcntl(words, F_SETFL, O_NONBLOCK) == 0 && dup2(words, 1) >= 0 && dup2(words, 2) >= 0;
+  return *result >= 0 && words >= 0 && fcntl(words, F_SETFL, O_NONBLOCK) == 0 &&
+         dup2(words, 1) >= 0 && dup2(words, 2) >= 0;
 }
 
-/* A parent that died before the kernel knew that its death is to end this process is no longer the parent. */
+/* A parent that died before the kernel knew that its death is to end this process is no longer the
+ * parent. */
 void thr_process_die_with(pid_t parent)
 {
   if (prctl(PR_SET_PDEATHSIG, SIGKILL) != 0 || getppid() != parent) _exit(1);
 }
 
 /* Never returns. */
-static void run_child(bool (*run)(void *user, int fd), void *user, pid_t parent, const sigset_t *mask, int fd, int words)
+static void run_child(bool (*run)(void *user, int fd), void *user, pid_t parent,
+                      const sigset_t *mask, int fd, int words)
 {
   thr_process_die_with(parent);
   leave_signals_to_parent(mask);
@@ -118,16 +129,19 @@ static bool open_pipes(int result[2], int words[2])
   return false;
 }
 
-/* One start at a time: a child of another thread would keep the pipe open that this one is to close. */
+/* One start at a time: a child of another thread would keep the pipe open that this one is to
+ * close. */
 static pthread_mutex_t starting = PTHREAD_MUTEX_INITIALIZER;
 
-static thr_status start(thr_process *process, bool (*run)(void *user, int fd), void *user, thr_err *err)
+static thr_status start(thr_process *process, bool (*run)(void *user, int fd), void *user,
+                        thr_err *err)
 {
   int result[2], words[2];
   sigset_t all, old;
   const pid_t parent = getpid();
   if (!open_pipes(result, words))
-    return thr_fail(err, THR_ESOLVER, "cannot start a worker: %s; close other programs", strerror(errno));
+    return thr_fail(err, THR_ESOLVER, "cannot start a worker: %s; close other programs",
+                    strerror(errno));
   sigfillset(&all);
   sigprocmask(SIG_BLOCK, &all, &old); /* or a signal would run the parent's handler in the child */
   pid_t pid = fork();
@@ -147,11 +161,13 @@ static thr_status start(thr_process *process, bool (*run)(void *user, int fd), v
   }
   close(result[READ]);
   close(words[READ]);
-  return thr_fail(err, THR_ESOLVER, "cannot start a worker: %s; close other programs or ask for fewer processes",
+  return thr_fail(err, THR_ESOLVER,
+                  "cannot start a worker: %s; close other programs or ask for fewer processes",
                   strerror(reason));
 }
 
-thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int fd), void *user, thr_err *err)
+thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int fd), void *user,
+                             thr_err *err)
 {
   pthread_mutex_lock(&starting);
   thr_status st = start(process, run, user, err);
@@ -163,7 +179,8 @@ thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int f
 static void first_line(int words, char *line, size_t size)
 {
   char said[1024];
-  fcntl(words, F_SETFL, O_NONBLOCK); /* a process that the child started may still hold the other end */
+  fcntl(words, F_SETFL,
+        O_NONBLOCK); /* a process that the child started may still hold the other end */
   ssize_t n = read(words, said, sizeof said - 1);
   said[n > 0 ? n : 0] = '\0';
   const char *s = said;
@@ -190,13 +207,15 @@ thr_status thr_process_end(thr_process *process, const char *who, const char *ad
 {
   char line[200];
   int status = reap(process, line, sizeof line);
-  const char *opening = *line ? " (it said: " : "", *closing = *line ? ")" : "", *comma = advice ? "; " : "";
+  const char *opening = *line ? " (it said: " : "", *closing = *line ? ")" : "",
+             *comma = advice ? "; " : "";
   if (!advice) advice = "";
   if (status != -1 && WIFSIGNALED(status))
-    return thr_fail(err, THR_ESOLVER, "%s died of signal %d (%s)%s%s%s%s%s", who, WTERMSIG(status), strsignal(WTERMSIG(status)),
-                    opening, line, closing, comma, advice);
+    return thr_fail(err, THR_ESOLVER, "%s died of signal %d (%s)%s%s%s%s%s", who, WTERMSIG(status),
+                    strsignal(WTERMSIG(status)), opening, line, closing, comma, advice);
   if (status == -1 || WEXITSTATUS(status) != SENT)
-    return thr_fail(err, THR_ESOLVER, "%s ended without a result%s%s%s%s%s", who, opening, line, closing, comma, advice);
+    return thr_fail(err, THR_ESOLVER, "%s ended without a result%s%s%s%s%s", who, opening, line,
+                    closing, comma, advice);
   return THR_OK;
 }
 
@@ -209,7 +228,8 @@ static double cpu_time(pid_t pid)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Does it sleep, rather than wait for a processor? The third field of the file, after a name in brackets. */
+/* Does it sleep, rather than wait for a processor? The third field of the file, after a name in
+ * brackets. */
 static bool sleeps(pid_t pid)
 {
   char path[40], line[200] = "";

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Processes: children with limits, and libraries that are loaded when they are needed. */
 #ifndef THR_PROCESS_H
 #define THR_PROCESS_H
@@ -8,8 +9,8 @@
 
 #include <sys/types.h>
 
-/* ---- process.c: A child process that cannot harm its parent: what it prints is kept from the terminal, Ctrl-C is left to the
- * parent, and it dies when the parent dies. */
+/* ---- process.c: A child process that cannot harm its parent: what it prints is kept from the
+ * terminal, Ctrl-C is left to the parent, and it dies when the parent dies. */
 
 /* {0} is valid: no child. */
 typedef struct {
@@ -20,9 +21,11 @@ typedef struct {
   double cpu;
 } thr_process;
 
-/* Forks. The child calls run(user, fd) and ends; nothing else of the program runs in it, neither buffered output nor exit
- * handlers of the parent. run returns whether its writing succeeded. THR_ESOLVER if the system gives no pipe or process. */
-thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int fd), void *user, thr_err *err) THR_MUST_CHECK;
+/* Forks. The child calls run(user, fd) and ends; nothing else of the program runs in it, neither
+ * buffered output nor exit handlers of the parent. run returns whether its writing succeeded.
+ * THR_ESOLVER if the system gives no pipe or process. */
+thr_status thr_process_start(thr_process *process, bool (*run)(void *user, int fd), void *user,
+                             thr_err *err) THR_MUST_CHECK;
 
 /* Writes n bytes, in spite of signals. */
 bool thr_process_send(int fd, const char *data, size_t n);
@@ -36,39 +39,43 @@ typedef struct {
 
 bool thr_message_send(int fd, thr_message m, const char *bytes);
 
-/* Reads what lies in the pipe, 64 KB at most, and hands over the messages that have arrived whole; `arrived` keeps what has not.
- * As read() returns; 0: the other end is closed. */
-ssize_t thr_messages_receive(int fd, thr_text *arrived, void (*take)(void *user, const thr_message *m, const char *bytes),
+/* Reads what lies in the pipe, 64 KB at most, and hands over the messages that have arrived whole;
+ * `arrived` keeps what has not. As read() returns; 0: the other end is closed. */
+ssize_t thr_messages_receive(int fd, thr_text *arrived,
+                             void (*take)(void *user, const thr_message *m, const char *bytes),
                              void *user);
 
-/* Waits for the end, closes the pipes and leaves *process empty. THR_ESOLVER if the child did not end by run returning true: the
- * text begins with `who`, says the signal and what was printed, and ends with `advice` (NULL: none). */
+/* Waits for the end, closes the pipes and leaves *process empty. THR_ESOLVER if the child did not
+ * end by run returning true: the text begins with `who`, says the signal and what was printed, and
+ * ends with `advice` (NULL: none). */
 thr_status thr_process_end(thr_process *process, const char *who, const char *advice, thr_err *err);
 
-/* In a child: it is killed when its parent dies, whose process it was told; at once if that is dead already. */
+/* In a child: it is killed when its parent dies, whose process it was told; at once if that is dead
+ * already. */
 void thr_process_die_with(pid_t parent);
 
-/* What a process has to end by itself after it should have begun to: so many seconds and as much of its own processor time, so
- * that a busy machine does not kill it before its word is out. {0} is valid: it shall go on. */
+/* What a process has to end by itself after it should have begun to: so many seconds and as much of
+ * its own processor time, so that a busy machine does not kill it before its word is out. {0} is
+ * valid: it shall go on. */
 typedef struct {
   double from;        /* thr_clock() at which it is to begin; 0 = never */
   double begun, used; /* its processor time then, and at the last look, s; 0 before */
   double idle_from;   /* thr_clock() at which that last grew */
 } thr_grace;
 
-/* Is it over? At the latest after five times `seconds`; at once when it has done nothing but sleep for so long. To be called
- * every 0.1 s or so. */
+/* Is it over? At the latest after five times `seconds`; at once when it has done nothing but sleep
+ * for so long. To be called every 0.1 s or so. */
 bool thr_grace_over(thr_grace *grace, pid_t pid, double seconds);
 
-/* Has it slept without any work for some 20 s (3 s under sanitizers) of such calls, one every 0.1 s? A library that waits for
- * itself where memory is out while it holds a lock never ends. */
+/* Has it slept without any work for some 20 s (3 s under sanitizers) of such calls, one every 0.1
+ * s? A library that waits for itself where memory is out while it holds a lock never ends. */
 bool thr_process_stuck(thr_process *process);
 
 /* Ends it at once, whatever it does, and closes the pipes; nothing if there is no child. */
 void thr_process_kill(thr_process *process);
 
-/* ---- child.c: One job in a child process, with an answer of any size: for libraries that may crash, end the program or take
- * no heed of time. */
+/* ---- child.c: One job in a child process, with an answer of any size: for libraries that may
+ * crash, end the program or take no heed of time. */
 
 /* The child's way to its parent. */
 typedef struct thr_sender thr_sender;
@@ -76,33 +83,39 @@ typedef struct thr_sender thr_sender;
 typedef struct {
   const char *what;   /* messages begin with it, e.g. "sheets.pdf" */
   const char *advice; /* what to do if the child dies, ends its message; NULL: nothing known */
-  /* Runs in the child, with the deadline, progress and work of the parent's limits; an interrupt of the parent's reaches it too.
-   * What it sends last is the answer. Returns a failure, whose text is carried back, or THR_ELIMIT with the best so far sent. */
+  /* Runs in the child, with the deadline, progress and work of the parent's limits; an interrupt of
+   * the parent's reaches it too. What it sends last is the answer. Returns a failure, whose text is
+   * carried back, or THR_ELIMIT with the best so far sent. */
   thr_status (*run)(void *user, const thr_limits *limits, thr_sender *to, thr_err *err);
   void *user;
 } thr_child;
 
-/* In the child: all bytes of `answer` in place of what was sent before. Sent now and then, it is the best so far that the parent
- * has when it must end the child. Fails if the text failed (THR_ENOMEM) or the parent no longer listens (THR_ESOLVER). */
+/* In the child: all bytes of `answer` in place of what was sent before. Sent now and then, it is
+ * the best so far that the parent has when it must end the child. Fails if the text failed
+ * (THR_ENOMEM) or the parent no longer listens (THR_ESOLVER). */
 thr_status thr_child_send(thr_sender *to, const thr_text *answer, thr_err *err) THR_MUST_CHECK;
 
-/* Runs the job and waits. At the deadline or an interrupt the child is asked to stop and killed a third of a second later:
- * THR_ELIMIT. A child that dies is THR_ESOLVER. Whatever the status, *answer (empty before) holds what was sent last and arrived
- * whole, of length 0 if there is none; the caller frees it. What the child took of limits->work is taken here, unless it was
- * killed or died. */
-thr_status thr_child_run(const thr_child *child, const thr_limits *limits, thr_text *answer, thr_err *err) THR_MUST_CHECK;
+/* Runs the job and waits. At the deadline or an interrupt the child is asked to stop and killed a
+ * third of a second later: THR_ELIMIT. A child that dies is THR_ESOLVER. Whatever the status,
+ * *answer (empty before) holds what was sent last and arrived whole, of length 0 if there is none;
+ * the caller frees it. What the child took of limits->work is taken here, unless it was killed or
+ * died. */
+thr_status thr_child_run(const thr_child *child, const thr_limits *limits, thr_text *answer,
+                         thr_err *err) THR_MUST_CHECK;
 
-/* ---- lazy.c: Libraries that few commands need are loaded when one of their functions is first called: what starts `thread
- * check` is small. */
+/* ---- lazy.c: Libraries that few commands need are loaded when one of their functions is first
+ * called: what starts `thread check` is small. */
 
 typedef struct {
   const char *name;
   void *pointer;        /* address of a pointer to a function, which receives that of this name */
-  void (*linked)(void); /* the function, where the library is linked with the program (THR_LINKED); else NULL */
+  void (*linked)(void); /* the function, where the library is linked with the program (THR_LINKED);
+                           else NULL */
 } thr_lazy_symbol;
 
 /* For a list of functions  #define FUNCTIONS(F) F(one) F(two):
- * struct { FUNCTIONS(THR_LAZY_POINTER) bool loaded; } lib, and the symbols {FUNCTIONS(THR_LAZY_SYMBOL)} that fill it. */
+ * struct { FUNCTIONS(THR_LAZY_POINTER) bool loaded; } lib, and the symbols
+ * {FUNCTIONS(THR_LAZY_SYMBOL)} that fill it. */
 #define THR_LAZY_POINTER(f) __typeof__(f) *(f);
 #ifdef THR_LINKED
 #define THR_LAZY_SYMBOL(f) {#f, &lib.f, (void (*)(void))(f)},
@@ -110,9 +123,10 @@ typedef struct {
 #define THR_LAZY_SYMBOL(f) {#f, &lib.f, NULL},
 #endif
 
-/* Unless *loaded, loads a library by the name that the run-time linker knows it by (libz.so.1) and fills the pointers, from
- * it and from the libraries that it needs itself. What is loaded stays. THR_ESOLVER with the linker's reason and what to do. A
- * few ms. */
-thr_status thr_lazy_load(bool *loaded, const char *library, const thr_lazy_symbol *symbol, size_t n, thr_err *err) THR_MUST_CHECK;
+/* Unless *loaded, loads a library by the name that the run-time linker knows it by (libz.so.1) and
+ * fills the pointers, from it and from the libraries that it needs itself. What is loaded stays.
+ * THR_ESOLVER with the linker's reason and what to do. A few ms. */
+thr_status thr_lazy_load(bool *loaded, const char *library, const thr_lazy_symbol *symbol, size_t n,
+                         thr_err *err) THR_MUST_CHECK;
 
 #endif

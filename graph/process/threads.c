@@ -1,13 +1,17 @@
-/* Independent jobs in threads of this process; each writes to its own place, so that the outcome is the same whatever the number
- * of threads. Jobs that may crash or must be ended from outside go into forked processes instead (graph/process/workers.c,
- * child.c): threads share what a library breaks.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Independent jobs in threads of this process; each writes to its own place, so that the outcome is
+ * the same whatever the number of threads. Jobs that may crash or must be ended from outside go
+ * into forked processes instead (graph/process/workers.c, child.c): threads share what a library
+ * breaks.
  *
  *   thr_limits limits = {.threads = 2};
- *   st = thr_threads_run(n_rows, solve_row, rows, &limits, &err);   solve_row(rows, 0, ..) .. solve_row(rows, n_rows - 1, ..)
+ *   st = thr_threads_run(n_rows, solve_row, rows, &limits, &err);   solve_row(rows, 0, ..) ..
+ * solve_row(rows, n_rows - 1, ..)
  *
- * What libraries allow: an igraph with thread-local storage, nauty's sparse functions and Bullet are used from any thread, each
- * with its own objects. GLPK's environment is the thread's, and a programme lives and dies in the thread that made it: jobs that
- * keep one from run to run need a team. fontconfig is called in a child only. */
+ * What libraries allow: an igraph with thread-local storage, nauty's sparse functions and Bullet
+ * are used from any thread, each with its own objects. GLPK's environment is the thread's, and a
+ * programme lives and dies in the thread that made it: jobs that keep one from run to run need a
+ * team. fontconfig is called in a child only. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/threads.h"
 #include "graph/plan/plan.h"
@@ -42,8 +46,9 @@ struct thr_team {
 
 /* ---- one at a time under sanitizers ---- */
 
-/* A job may fork. The address sanitizer's allocator does not wait for other threads at a fork, as malloc does: a child could be
- * born with a lock that another thread holds, and wait or spin for ever. So one thread works at a time there. */
+/* A job may fork. The address sanitizer's allocator does not wait for other threads at a fork, as
+ * malloc does: a child could be born with a lock that another thread holds, and wait or spin for
+ * ever. So one thread works at a time there. */
 #if defined __SANITIZE_ADDRESS__
 static pthread_mutex_t turn = PTHREAD_MUTEX_INITIALIZER;
 
@@ -86,7 +91,8 @@ static void advance(void *user, const char *what, double done)
   pthread_mutex_unlock(&team->speak);
 }
 
-static void found(void *user, const struct thr_cord *cord, int n_cords, const struct thr_symmetry_record *symmetry)
+static void found(void *user, const struct thr_cord *cord, int n_cords,
+                  const struct thr_symmetry_record *symmetry)
 {
   thr_team *team = user;
   pthread_mutex_lock(&team->speak);
@@ -158,10 +164,16 @@ static void *wait_and_work(void *user)
 
 thr_status thr_team_create(thr_team **out, int most, const thr_limits *limits, thr_err *err)
 {
-  const int allowed = limits->work || most < 1 ? 1 : limits->threads, wanted = allowed <= 1 ? 1 : allowed < most ? allowed : most;
+  const int allowed = limits->work || most < 1 ? 1 : limits->threads, wanted = allowed <= 1 ? 1
+                                                                               : allowed < most
+                                                                                   ? allowed
+                                                                                   : most;
   thr_team *team = *out = thr_calloc(1, sizeof *team);
   if (!team) return thr_nomem(err);
-  *team = (thr_team){.outer = limits, .own = *limits, .n = 1, .member = thr_calloc((size_t)wanted, sizeof *team->member)};
+  *team = (thr_team){.outer = limits,
+                     .own = *limits,
+                     .n = 1,
+                     .member = thr_calloc((size_t)wanted, sizeof *team->member)};
   team->own.threads = 1;
   team->own.user = team;
   team->own.progress = limits->progress ? progress : NULL;
@@ -216,7 +228,8 @@ thr_status thr_team_run(thr_team *team, int n_jobs, thr_threads_job *run, void *
   do_jobs(team, 0);
   pthread_mutex_lock(&team->lock);
   wait_for_others(team);
-  return team->failed < INT_MAX ? thr_fail(err, team->failure.code, "%s", team->failure.text) : THR_OK;
+  return team->failed < INT_MAX ? thr_fail(err, team->failure.code, "%s", team->failure.text)
+                                : THR_OK;
 }
 
 /* ---- whichever is free ---- */
@@ -237,7 +250,8 @@ static int take(queue *q)
   return job;
 }
 
-/* A thread's job of the team: as many of the queue as it comes to, the caller's beginning with job 0. */
+/* A thread's job of the team: as many of the queue as it comes to, the caller's beginning with job
+ * 0. */
 static thr_status take_jobs(void *user, int number, const thr_limits *limits, thr_err *err)
 {
   queue *q = user;
@@ -248,13 +262,15 @@ static thr_status take_jobs(void *user, int number, const thr_limits *limits, th
   return THR_OK;
 }
 
-thr_status thr_team_share(thr_team *team, int n_jobs, thr_threads_job *run, void *user, thr_err *err)
+thr_status thr_team_share(thr_team *team, int n_jobs, thr_threads_job *run, void *user,
+                          thr_err *err)
 {
   queue q = {.team = team, .run = run, .user = user, .n_jobs = n_jobs, .next = 1};
   return thr_team_run(team, team->n, take_jobs, &q, err);
 }
 
-thr_status thr_threads_run(int n_jobs, thr_threads_job *run, void *user, const thr_limits *limits, thr_err *err)
+thr_status thr_threads_run(int n_jobs, thr_threads_job *run, void *user, const thr_limits *limits,
+                           thr_err *err)
 {
   thr_team *team;
   thr_status st = thr_team_create(&team, n_jobs, limits, err);
@@ -278,7 +294,8 @@ static thr_status run_counted(void *user, int job, const thr_limits *limits, thr
   return c->run(c->user, job, &own, err);
 }
 
-thr_status thr_threads_beside(int n_jobs, thr_threads_job *run, void *user, const thr_limits *limits, thr_err *err)
+thr_status thr_threads_beside(int n_jobs, thr_threads_job *run, void *user,
+                              const thr_limits *limits, thr_err *err)
 {
   if (!limits->work) return thr_threads_run(n_jobs, run, user, limits, err);
   counted c = {.run = run, .user = user};

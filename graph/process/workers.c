@@ -1,4 +1,6 @@
-/* Independent jobs in forked processes; results in fixed order, whatever the number of processes. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Independent jobs in forked processes; results in fixed order, whatever the number of processes.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/threads.h"
 #include "graph/process/process.h"
@@ -103,7 +105,8 @@ static void end_job(pool *p, slot *s)
   p->finished[s->job] = true;
   p->n_finished++;
   if (p->work->done) p->work->done(p->work->user, s->job, result);
-  if (p->limits->advance) p->limits->advance(p->limits->user, p->work->what, (double)p->n_finished / p->work->n_jobs);
+  if (p->limits->advance)
+    p->limits->advance(p->limits->user, p->work->what, (double)p->n_finished / p->work->n_jobs);
 }
 
 static void receive(pool *p, slot *s)
@@ -123,7 +126,8 @@ static void serve(pool *p)
 {
   nfds_t n = 0;
   for (int i = 0; i < p->n_slots; i++)
-    if (p->slot[i].process.pid) p->watch[n++] = (struct pollfd){.fd = p->slot[i].process.pipe, .events = POLLIN};
+    if (p->slot[i].process.pid)
+      p->watch[n++] = (struct pollfd){.fd = p->slot[i].process.pipe, .events = POLLIN};
   if (poll(p->watch, n, (int)ceil(1000 * thr_limits_left(p->limits, WATCH))) <= 0) return;
   for (nfds_t k = 0; k < n; k++)
     for (int i = 0; i < p->n_slots && p->watch[k].revents; i++)
@@ -141,10 +145,12 @@ static int running(const pool *p)
   return n;
 }
 
-/* Starts jobs in order while there are free slots. Too few processes or pipes is only a failure if none is left to wait for. */
+/* Starts jobs in order while there are free slots. Too few processes or pipes is only a failure if
+ * none is left to wait for. */
 static thr_status fill_slots(pool *p, thr_err *err)
 {
-  for (int i = 0; i < p->n_slots && p->next < p->work->n_jobs && p->failed == p->work->n_jobs; i++) {
+  for (int i = 0; i < p->n_slots && p->next < p->work->n_jobs && p->failed == p->work->n_jobs;
+       i++) {
     if (p->slot[i].process.pid) continue;
     thr_err reason = {0};
     thr_status st = start(p, &p->slot[i], &reason);
@@ -158,9 +164,11 @@ static thr_status run_pool(pool *p, thr_err *err)
 {
   const int n_jobs = p->work->n_jobs;
   for (;;) {
-    if (p->n_finished < n_jobs && thr_limits_left(p->limits, 1) <= 0) { /* what waiting takes is no work */
+    if (p->n_finished < n_jobs &&
+        thr_limits_left(p->limits, 1) <= 0) { /* what waiting takes is no work */
       kill_from(p, 0);
-      return thr_fail(err, THR_ELIMIT, "%s: stopped after %d of %d", p->work->what, p->n_finished, n_jobs);
+      return thr_fail(err, THR_ELIMIT, "%s: stopped after %d of %d", p->work->what, p->n_finished,
+                      n_jobs);
     }
     thr_status st = fill_slots(p, err);
     if (st) return st;
@@ -172,8 +180,8 @@ static thr_status run_pool(pool *p, thr_err *err)
   return thr_fail(err, p->failure->code, "%s", p->failure->text);
 }
 
-thr_status thr_workers_run(const thr_work *w, int processes, const thr_limits *limits, void *results, bool *finished,
-                           thr_err *err)
+thr_status thr_workers_run(const thr_work *w, int processes, const thr_limits *limits,
+                           void *results, bool *finished, thr_err *err)
 {
   thr_err failure = {0};
   int n_slots = processes < 1 ? 1 : processes < w->n_jobs ? processes : w->n_jobs;

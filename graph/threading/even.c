@@ -1,5 +1,7 @@
-/* Exchanges that even out the totals of a threading's cords: the sum of their 8th powers, in which the largest counts most, is
- * made small by descent and by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Exchanges that even out the totals of a threading's cords: the sum of their 8th powers, in which
+ * the largest counts most, is made small by descent and by simulated annealing (S. Kirkpatrick, C.
+ * D. Gelatt & M. P. Vecchi 1983). */
 #include "graph/threading/threading.h"
 #include "graph/random.h"
 
@@ -65,12 +67,14 @@ static bool change_tails(thr_evener *evener, const thr_place *p, const thr_place
 {
   thr_broken old = {0};
   const double tails[2] = {price(evener, p->in, q->out), price(evener, q->in, p->out)};
-  if (better(evener, p->cord, q->cord, p->before + tails[0] + after(evener, q), q->before + tails[1] + after(evener, p))) {
+  if (better(evener, p->cord, q->cord, p->before + tails[0] + after(evener, q),
+             q->before + tails[1] + after(evener, p))) {
     thr_threading_pair(evener->t, p->in, q->out, q->in, p->out, &old);
     if (thr_threading_keep(evener->t, &old)) return true;
   }
   const double heads[2] = {price(evener, p->in, q->in), price(evener, p->out, q->out)};
-  if (!better(evener, p->cord, q->cord, p->before + heads[0] + q->before, after(evener, p) + heads[1] + after(evener, q)))
+  if (!better(evener, p->cord, q->cord, p->before + heads[0] + q->before,
+              after(evener, p) + heads[1] + after(evener, q)))
     return false;
   thr_threading_pair(evener->t, p->in, q->in, p->out, q->out, &old);
   return thr_threading_keep(evener->t, &old);
@@ -79,12 +83,14 @@ static bool change_tails(thr_evener *evener, const thr_place *p, const thr_place
 static bool run_backwards(thr_evener *evener, const thr_place *p, const thr_place *q)
 {
   thr_broken old = {0};
-  if (price(evener, p->in, q->in) + price(evener, p->out, q->out) >= p->price + q->price - 1e-9) return false;
+  if (price(evener, p->in, q->in) + price(evener, p->out, q->out) >= p->price + q->price - 1e-9)
+    return false;
   thr_threading_pair(evener->t, p->in, q->in, p->out, q->out, &old);
   return thr_threading_keep(evener->t, &old);
 }
 
-/* The part between p and q (of one cord, p first) as a circuit, joined to another cord where they meet. */
+/* The part between p and q (of one cord, p first) as a circuit, joined to another cord where they
+ * meet. */
 static bool hand_over(thr_evener *evener, const thr_place *p, const thr_place *q)
 {
   thr_threading *threading = evener->t;
@@ -105,7 +111,8 @@ static bool hand_over(thr_evener *evener, const thr_place *p, const thr_place *q
       double turned = price(evener, z->in, m->in) + price(evener, m->out, z->out);
       if (!better(evener, k, z->cord, rest, base + fmin(same, turned))) continue;
       thr_threading_pair(threading, q->in, p->out, p->in, q->out, &old);
-      thr_threading_pair(threading, z->in, same <= turned ? m->out : m->in, z->out, same <= turned ? m->in : m->out, &old);
+      thr_threading_pair(threading, z->in, same <= turned ? m->out : m->in, z->out,
+                         same <= turned ? m->in : m->out, &old);
       if (thr_threading_keep(threading, &old)) return true;
     }
   }
@@ -117,7 +124,8 @@ static bool exchange_at(thr_evener *evener, int v)
 {
   const thr_threading *threading = evener->t;
   const thr_multigraph *multigraph = threading->g;
-  for (int i = multigraph->first[v]; i < multigraph->first[v + 1] && !thr_limits_stop(evener->limits); i++)
+  for (int i = multigraph->first[v];
+       i < multigraph->first[v + 1] && !thr_limits_stop(evener->limits); i++)
     for (int k = i + 1; k < multigraph->first[v + 1]; k++) {
       const thr_place *p = &threading->place[threading->at[multigraph->dart[i]]],
                       *q = &threading->place[threading->at[multigraph->dart[k]]];
@@ -151,7 +159,8 @@ void thr_evener_even(thr_evener *evener)
 
 /* ---- annealing ---- */
 
-/* Pairs to be made, and what that makes of the totals of one cord or two; n_cords 0: that is found out by following them all. */
+/* Pairs to be made, and what that makes of the totals of one cord or two; n_cords 0: that is found
+ * out by following them all. */
 typedef struct {
   int n, n_cords;
   thr_exchange x[2];
@@ -172,15 +181,20 @@ static bool add_exchange(const thr_evener *evener, change *c, int i, int k, bool
 static int other_at_node(thr_evener *evener, int i)
 {
   const thr_multigraph *multigraph = evener->t->g;
-  int v = multigraph->tail[evener->t->place[i].in], n = multigraph->first[v + 1] - multigraph->first[v];
-  int k = evener->t->at[multigraph->dart[multigraph->first[v] + thr_random_below(&evener->state, n)]];
+  int v = multigraph->tail[evener->t->place[i].in],
+      n = multigraph->first[v + 1] - multigraph->first[v];
+  int k =
+      evener->t->at[multigraph->dart[multigraph->first[v] + thr_random_below(&evener->state, n)]];
   return k == i ? -1 : k;
 }
 
-/* Two open cords that meet in places p and q go on as the other does, or as it did before, turned round. */
-static void measure_tails(const thr_evener *evener, change *c, const thr_place *p, const thr_place *q, bool crossed)
+/* Two open cords that meet in places p and q go on as the other does, or as it did before, turned
+ * round. */
+static void measure_tails(const thr_evener *evener, change *c, const thr_place *p,
+                          const thr_place *q, bool crossed)
 {
-  const double here[2] = {price(evener, p->in, crossed ? q->in : q->out), price(evener, p->out, crossed ? q->out : q->in)};
+  const double here[2] = {price(evener, p->in, crossed ? q->in : q->out),
+                          price(evener, p->out, crossed ? q->out : q->in)};
   c->n_cords = 2;
   c->cord[0] = p->cord;
   c->cord[1] = q->cord;
@@ -188,8 +202,10 @@ static void measure_tails(const thr_evener *evener, change *c, const thr_place *
   c->total[1] = after(evener, p) + here[1] + (crossed ? after(evener, q) : q->before);
 }
 
-/* The part between places p and q of one cord is cut off, and joined elsewhere to place z, of the same cord or another. */
-static void measure_part(const thr_evener *evener, change *c, const thr_place *p, const thr_place *q, const thr_place *z)
+/* The part between places p and q of one cord is cut off, and joined elsewhere to place z, of the
+ * same cord or another. */
+static void measure_part(const thr_evener *evener, change *c, const thr_place *p,
+                         const thr_place *q, const thr_place *z)
 {
   const double *total = evener->t->total;
   double inside = q->before - p->before - p->price,
@@ -203,8 +219,9 @@ static void measure_part(const thr_evener *evener, change *c, const thr_place *p
   c->total[1] = total[z->cord] + part;
 }
 
-/* Two cords joined into one circuit are cut apart again somewhere else, and a part that an exchange of places p and q cuts off
- * one cord is joined to another cord or elsewhere. false: nothing found. */
+/* Two cords joined into one circuit are cut apart again somewhere else, and a part that an exchange
+ * of places p and q cuts off one cord is joined to another cord or elsewhere. false: nothing found.
+ */
 static bool put_right(thr_evener *evener, change *c, int p, int q)
 {
   enum { TRIES = 8 };
@@ -219,11 +236,14 @@ static bool put_right(thr_evener *evener, change *c, int p, int q)
       to = threading->first[cord + 1];
     }
     if (to - from < 2) return false;
-    int m = from + 1 + thr_random_below(&evener->state, to - from - 1), z = other_at_node(evener, m);
+    int m = from + 1 + thr_random_below(&evener->state, to - from - 1),
+        z = other_at_node(evener, m);
     if (z < 0 || m == p || m == q || z == p || z == q) continue;
-    if (joined ? place[z].cord != place[p].cord && place[z].cord != place[q].cord : z > from && z < to) continue;
-    bool crossed =
-        joined ? place[m].cord != place[z].cord && thr_random_below(&evener->state, 2) : thr_random_below(&evener->state, 2);
+    if (joined ? place[z].cord != place[p].cord && place[z].cord != place[q].cord
+               : z > from && z < to)
+      continue;
+    bool crossed = joined ? place[m].cord != place[z].cord && thr_random_below(&evener->state, 2)
+                          : thr_random_below(&evener->state, 2);
     if (!add_exchange(evener, c, m, z, crossed)) continue;
     if (!joined) measure_part(evener, c, &place[p], &place[q], &place[z]);
     return true;
@@ -231,7 +251,8 @@ static bool put_right(thr_evener *evener, change *c, int p, int q)
   return false;
 }
 
-/* A change at random at a place that keeps the number of cords, if thr_evener_follow says so; false: none. */
+/* A change at random at a place that keeps the number of cords, if thr_evener_follow says so;
+ * false: none. */
 static bool propose(thr_evener *evener, int p, change *c)
 {
   int q = other_at_node(evener, p);
@@ -313,7 +334,8 @@ void thr_evener_anneal(thr_evener *evener, int steps, double bound, int *best)
   memcpy(best, evener->t->mate, bytes);
   for (int i = 0; i < steps && evener->t->n_places > 1; i++) {
     if (i % 64 == 0) {
-      if (thr_limits_stop(evener->limits) || thr_evener_largest(evener) <= bound * (1 + 1e-9)) break;
+      if (thr_limits_stop(evener->limits) || thr_evener_largest(evener) <= bound * (1 + 1e-9))
+        break;
       heat = hot * pow(cold / hot, (double)i / steps);
     }
     try_change(evener, heat, &now);

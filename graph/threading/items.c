@@ -1,11 +1,14 @@
-/* A small framework of one component as walks that collect items (graph/threading/subsets.c): states are its half-edges.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A small framework of one component as walks that collect items (graph/threading/subsets.c):
+ * states are its half-edges.
  *
- * Items: each pass that an edge needs, and a cord end wherever ends are counted. What ties so many choices together that a table
- * for all would be large comes in only where cords were found that do without:
+ * Items: each pass that an edge needs, and a cord end wherever ends are counted. What ties so many
+ * choices together that a table for all would be large comes in only where cords were found that do
+ * without:
  * - capacities: then each pass that the edge may have is an item, collected once;
- * - cuts of tube joints: of the edges at a node some, the others, and as an item any turn between these and those. Where cords
- *   never end a node of three edges needs none: each edge turns to another.
- * Without them the table's cords cost no more than any others. */
+ * - cuts of tube joints: of the edges at a node some, the others, and as an item any turn between
+ * these and those. Where cords never end a node of three edges needs none: each edge turns to
+ * another. Without them the table's cords cost no more than any others. */
 #include "graph/disjoint.h"
 #include "graph/plan/turning_proof.h"
 #include "graph/threading/threading.h"
@@ -52,18 +55,21 @@ static uint32_t add_items(thr_items *items, int n)
   return ((UINT32_C(1) << n) - 1) << first;
 }
 
-/* Is a cut between one end of the edge and the others there among the items? Then that holds its first pass. */
+/* Is a cut between one end of the edge and the others there among the items? Then that holds its
+ * first pass. */
 static bool is_cut_off(const thr_items *items, int i)
 {
   for (int c = 0; c < items->n_cuts; c++)
-    if (items->cut[c] == UINT64_C(1) << (2 * i) || items->cut[c] == UINT64_C(2) << (2 * i)) return true;
+    if (items->cut[c] == UINT64_C(1) << (2 * i) || items->cut[c] == UINT64_C(2) << (2 * i))
+      return true;
   return false;
 }
 
 static void add_passes(thr_items *items)
 {
   for (int i = 0; i < items->n_edges; i++) {
-    const int cover = thr_plan_cover(items->f, items->o, i), capacity = thr_plan_capacity(items->f, items->o, i);
+    const int cover = thr_plan_cover(items->f, items->o, i),
+              capacity = thr_plan_capacity(items->f, items->o, i);
     const bool counts = items->full >> i & 1;
     items->pass[i] = 0;
     if (!counts && cover == 1 && is_cut_off(items, i)) continue;
@@ -91,7 +97,8 @@ static void add_ends(thr_items *items)
 
 /* ---- steps ---- */
 
-static thr_status add(thr_subsets_step **list, int *n, int *room, thr_subsets_step step, thr_err *err)
+static thr_status add(thr_subsets_step **list, int *n, int *room, thr_subsets_step step,
+                      thr_err *err)
 {
   thr_status st = thr_grow(list, *n, room, sizeof **list, err);
   if (!st) (*list)[(*n)++] = step;
@@ -139,7 +146,8 @@ static thr_status add_steps(thr_items *items, thr_err *err)
   for (int in = 0; in < 2 * items->n_edges; in++)
     for (int out = 0; out < 2 * items->n_edges && !st; out++) {
       const double cost = turn_cost(items, in, out) + pass_cost(items, out);
-      const thr_subsets_step step = {in, out, cost, turn_items(items, in, out), {items->pass[out >> 1], 0}};
+      const thr_subsets_step step = {
+          in, out, cost, turn_items(items, in, out), {items->pass[out >> 1], 0}};
       if (may_turn(items, in, out)) st = add(&items->m.step, &items->m.n_steps, &room, step, err);
     }
   return st;
@@ -152,7 +160,8 @@ static thr_status add_starts(thr_items *items, thr_err *err)
   thr_status st = THR_OK;
   for (int state = 0; state < 2 * items->n_edges && !st; state += items->m.closed ? 2 : 1) {
     const int v = tail_of(items, state);
-    const thr_subsets_step start = {-1, state, pass_cost(items, state), 0, {items->pass[state >> 1], items->end[v]}};
+    const thr_subsets_step start = {
+        -1, state, pass_cost(items, state), 0, {items->pass[state >> 1], items->end[v]}};
     if (items->m.closed || thr_plan_end_allowed(items->f, items->o, v))
       st = add(&items->m.start, &items->m.n_starts, &room, start, err);
   }
@@ -165,7 +174,8 @@ static thr_status add_closings(thr_items *items, thr_err *err)
   thr_status st = THR_OK;
   for (int in = 0; in < 2 * items->n_edges; in++)
     for (int out = 0; out <= in && !st; out += 2) {
-      const thr_subsets_step end = {in, out, turn_cost(items, in, out), turn_items(items, in, out), {0, 0}};
+      const thr_subsets_step end = {
+          in, out, turn_cost(items, in, out), turn_items(items, in, out), {0, 0}};
       if (may_turn(items, in, out)) st = add(&items->m.end, &items->m.n_ends, &room, end, err);
     }
   return st;
@@ -178,7 +188,8 @@ static thr_status add_open_ends(thr_items *items, thr_err *err)
   for (int state = 0; state < 2 * items->n_edges && !st; state++) {
     const int v = tail_of(items, state ^ 1);
     const thr_subsets_step end = {state, -1, 0, 0, {items->end[v], 0}};
-    if (thr_plan_end_allowed(items->f, items->o, v)) st = add(&items->m.end, &items->m.n_ends, &room, end, err);
+    if (thr_plan_end_allowed(items->f, items->o, v))
+      st = add(&items->m.end, &items->m.n_ends, &room, end, err);
   }
   return st;
 }
@@ -186,7 +197,8 @@ static thr_status add_open_ends(thr_items *items, thr_err *err)
 thr_status thr_items_model(thr_items *items, bool *small, thr_err *err)
 {
   forget_model(items);
-  items->m = (thr_subsets_model){.n_states = 2 * items->n_edges, .closed = items->o->ends == THR_ENDS_CLOSED};
+  items->m = (thr_subsets_model){.n_states = 2 * items->n_edges,
+                                 .closed = items->o->ends == THR_ENDS_CLOSED};
   *small = items->pass != NULL;
   if (!*small) return THR_OK;
   add_cuts(items);
@@ -202,8 +214,8 @@ thr_status thr_items_model(thr_items *items, bool *small, thr_err *err)
 /* ---- what walks miss ---- */
 
 /* Edges with more passes than their capacity, 1 << i. */
-static thr_status find_full(const thr_items *items, int n_walks, int *const *state, const int *n_passes, uint32_t *full,
-                            thr_err *err)
+static thr_status find_full(const thr_items *items, int n_walks, int *const *state,
+                            const int *n_passes, uint32_t *full, thr_err *err)
 {
   int *passes = thr_calloc((size_t)items->n_edges, sizeof *passes);
   if (!passes) return thr_nomem(err);
@@ -217,7 +229,8 @@ static thr_status find_full(const thr_items *items, int n_walks, int *const *sta
   return THR_OK;
 }
 
-/* At every node that is not tied, a cut around its smallest part: part[2 * n_edges] disjoint sets. False: all are tied. */
+/* At every node that is not tied, a cut around its smallest part: part[2 * n_edges] disjoint sets.
+ * False: all are tied. */
 static bool add_missing(thr_items *items, int *part)
 {
   const int n = 2 * items->n_edges;
@@ -229,7 +242,8 @@ static bool add_missing(thr_items *items, int *part)
       uint64_t one = 0;
       int size = 0;
       for (int b = 0; b < n && tail_of(items, a) == v; b++) {
-        if (tail_of(items, b) != v || thr_disjoint_find(part, a) != thr_disjoint_find(part, b)) continue;
+        if (tail_of(items, b) != v || thr_disjoint_find(part, a) != thr_disjoint_find(part, b))
+          continue;
         one |= UINT64_C(1) << b;
         size++;
       }
@@ -244,7 +258,8 @@ static bool add_missing(thr_items *items, int *part)
   return any;
 }
 
-static thr_status tie(thr_items *items, int n_walks, int *const *state, const int *n_passes, bool *keep, thr_err *err)
+static thr_status tie(thr_items *items, int n_walks, int *const *state, const int *n_passes,
+                      bool *keep, thr_err *err)
 {
   const int n = 2 * items->n_edges;
   int *part = thr_calloc((size_t)n, sizeof *part);
@@ -253,14 +268,15 @@ static thr_status tie(thr_items *items, int n_walks, int *const *state, const in
     part[a] = a;
   for (int i = 0; i < n_walks; i++)
     for (int j = 0; j < n_passes[i]; j++)
-      if (j > 0 || items->m.closed) thr_disjoint_join(part, state[i][j > 0 ? j - 1 : n_passes[i] - 1] ^ 1, state[i][j]);
+      if (j > 0 || items->m.closed)
+        thr_disjoint_join(part, state[i][j > 0 ? j - 1 : n_passes[i] - 1] ^ 1, state[i][j]);
   *keep = !add_missing(items, part);
   free(part);
   return THR_OK;
 }
 
-thr_status thr_items_refine(thr_items *items, int n_walks, int *const *state, const int *n_passes, bool *keep, bool *more,
-                            thr_err *err)
+thr_status thr_items_refine(thr_items *items, int n_walks, int *const *state, const int *n_passes,
+                            bool *keep, bool *more, thr_err *err)
 {
   bool tied = true;
   uint32_t full;
@@ -290,7 +306,8 @@ static thr_status make_room(thr_items *items, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_request *options, bool turning, thr_err *err)
+thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_request *options,
+                          bool turning, thr_err *err)
 {
   *items = (thr_items){.f = frame, .o = options, .turning = turning};
   thr_status st = make_room(items, err);

@@ -1,5 +1,6 @@
-/* The junction graph of every node (graph/plan/plan_measures.h) while it is still open which cord takes which passes: the turns
- * of all walks, counted, so that a change of turns can be tried. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The junction graph of every node (graph/plan/plan_measures.h) while it is still open which cord
+ * takes which passes: the turns of all walks, counted, so that a change of turns can be tried. */
 #include "graph/threading/threading.h"
 
 #include <stdlib.h>
@@ -18,7 +19,8 @@ void thr_junction_graphs_destroy(thr_junction_graphs *graphs)
 static void count_turn(thr_junction_graphs *graphs, int in, int out, int by)
 {
   int v = thr_tail(graphs->f, out);
-  size_t d = (size_t)thr_degree(graphs->f, v), a = (size_t)graphs->place[in ^ 1], b = (size_t)graphs->place[out];
+  size_t d = (size_t)thr_degree(graphs->f, v), a = (size_t)graphs->place[in ^ 1],
+         b = (size_t)graphs->place[out];
   graphs->count[graphs->first[v] + a * d + b] += by;
   if (a != b) graphs->count[graphs->first[v] + b * d + a] += by;
 }
@@ -32,13 +34,15 @@ static void count_walks(thr_junction_graphs *graphs, const thr_walks *walks)
   }
 }
 
-thr_status thr_junction_graphs_init(thr_junction_graphs *graphs, const thr_frame *frame, const thr_walks *walks, thr_err *err)
+thr_status thr_junction_graphs_init(thr_junction_graphs *graphs, const thr_frame *frame,
+                                    const thr_walks *walks, thr_err *err)
 {
   size_t sum = 0;
   int most = 1;
-  *graphs = (thr_junction_graphs){.f = frame,
-                                  .first = thr_calloc((size_t)frame->n_nodes, sizeof *graphs->first),
-                                  .place = thr_calloc(2 * (size_t)frame->n_edges, sizeof *graphs->place)};
+  *graphs =
+      (thr_junction_graphs){.f = frame,
+                            .first = thr_calloc((size_t)frame->n_nodes, sizeof *graphs->first),
+                            .place = thr_calloc(2 * (size_t)frame->n_edges, sizeof *graphs->place)};
   for (int v = 0; v < frame->n_nodes && graphs->first && graphs->place; v++) {
     int d = thr_degree(frame, v);
     graphs->first[v] = sum;

@@ -1,5 +1,6 @@
-/* The passes of a plan as a multigraph: one copy of an edge per pass, plus a virtual edge between each two cord ends, so
- * that every degree is even and a threading is a set of closed circuits. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The passes of a plan as a multigraph: one copy of an edge per pass, plus a virtual edge between
+ * each two cord ends, so that every degree is even and a threading is a set of closed circuits. */
 #include "graph/threading/euler.h"
 
 #include <limits.h>
@@ -13,14 +14,15 @@ static void add_copy(thr_multigraph *multigraph, int *n, int half, int a, int b)
   multigraph->tail[(*n)++] = b;
 }
 
-thr_status thr_multigraph_init(thr_multigraph *multigraph, const thr_frame *frame, int n_more, const int *passes,
-                               const int (*end)[2], int n_ends, thr_err *err)
+thr_status thr_multigraph_init(thr_multigraph *multigraph, const thr_frame *frame, int n_more,
+                               const int *passes, const int (*end)[2], int n_ends, thr_err *err)
 {
   *multigraph = (thr_multigraph){0};
   int64_t copies = n_ends;
   for (int e = 0; e < frame->n_edges; e++)
     copies += passes[e];
-  if (copies > INT_MAX / 4) return thr_fail(err, THR_EINPUT, "more than %d passes; use a smaller --cover", INT_MAX / 4);
+  if (copies > INT_MAX / 4)
+    return thr_fail(err, THR_EINPUT, "more than %d passes; use a smaller --cover", INT_MAX / 4);
   size_t n_darts = 2 * (size_t)copies;
   thr_multigraph m = {.n_darts = (int)n_darts, .n_nodes = frame->n_nodes + n_more};
   m.half = thr_calloc(n_darts, sizeof *m.half);
@@ -37,7 +39,8 @@ thr_status thr_multigraph_init(thr_multigraph *multigraph, const thr_frame *fram
       add_copy(&m, &n, 2 * e, frame->edge[e][0], frame->edge[e][1]);
   for (int i = 0; i < n_ends; i++)
     add_copy(&m, &n, -1, end[i][0], end[i][1]);
-  /* Counting sort by tail; the array is shifted by one place so that filling leaves first[] right. */
+  /* Counting sort by tail; the array is shifted by one place so that filling leaves first[] right.
+   */
   for (int d = 0; d < n; d++)
     m.first[m.tail[d] + 2]++;
   for (int v = 1; v <= m.n_nodes; v++)

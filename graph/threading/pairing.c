@@ -1,7 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pairing the passes at one node: minimum-weight perfect matching of n points under any prices.
  *
- * Up to 16 points by dynamic programming over subsets: best(S) = min over j of price(i, j) + best(S - {i, j}), i the lowest
- * point of S; beyond, point i with i + n / 2, then exchanges of two pairs while any saves.
+ * Up to 16 points by dynamic programming over subsets: best(S) = min over j of price(i, j) + best(S
+ * - {i, j}), i the lowest point of S; beyond, point i with i + n / 2, then exchanges of two pairs
+ * while any saves.
  *
  * Example: four passes straight across each other are paired with their opposites, at price 0. */
 #include "graph/threading/euler.h"
@@ -25,8 +27,8 @@ static int size_of(unsigned s)
   return n;
 }
 
-/* Is subset s left when lowest points are paired off, one after the other, with any others? Then all points below its lowest are
- * gone, and with each of them at most one more. */
+/* Is subset s left when lowest points are paired off, one after the other, with any others? Then
+ * all points below its lowest are gone, and with each of them at most one more. */
 static bool is_left(int n, unsigned s, int low)
 {
   int gone = n - size_of(s);
@@ -72,7 +74,8 @@ static bool exchange_pairs(int n, const double *price, int *mate)
       int b = mate[a], d = mate[c];
       if (b == c) continue;
       double old = price[a * n + b] + price[c * n + d];
-      double straight = price[a * n + c] + price[b * n + d], cross = price[a * n + d] + price[b * n + c];
+      double straight = price[a * n + c] + price[b * n + d],
+             cross = price[a * n + d] + price[b * n + c];
       if (fmin(straight, cross) >= old - 1e-9 * (1 + fabs(old))) continue;
       thr_set_pair(mate, a, straight <= cross ? c : d);
       thr_set_pair(mate, b, straight <= cross ? d : c);

@@ -1,6 +1,8 @@
-/* All cords of a small framework of one component at once, exactly: shortest or turning least, together or the worst of them, or
- * as few as a limit allows. A table over subsets (graph/threading/subsets.c) of what cords collect (graph/threading/items.c),
- * again with more items as long as the cords that it finds do not keep to all that was asked.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* All cords of a small framework of one component at once, exactly: shortest or turning least,
+ * together or the worst of them, or as few as a limit allows. A table over subsets
+ * (graph/threading/subsets.c) of what cords collect (graph/threading/items.c), again with more
+ * items as long as the cords that it finds do not keep to all that was asked.
  *
  * Example: a ring of six edges of length 1, two open cords, ends anywhere: both are 3 long. */
 #include "graph/threading/threading.h"
@@ -34,7 +36,8 @@ static bool is_better(const thr_small_ask *ask, int n, double dearest, double su
 }
 
 /* n cords, as states. */
-static thr_status take_cords(thr_subsets *subsets, int n, thr_small_cords *out, double *dearest, thr_err *err)
+static thr_status take_cords(thr_subsets *subsets, int n, thr_small_cords *out, double *dearest,
+                             thr_err *err)
 {
   thr_status st = THR_OK;
   *dearest = 0;
@@ -51,10 +54,12 @@ static thr_status take_cords(thr_subsets *subsets, int n, thr_small_cords *out, 
 
 typedef enum { NOT_KNOWN, NONE_BETTER, BETTER, MORE_COUNTS } verdict;
 
-/* Of the model as it is: out receives what is better than the known cords. *work: what tables may still take, and what is left.
+/* Of the model as it is: out receives what is better than the known cords. *work: what tables may
+ * still take, and what is left.
  */
-static thr_status solve(const thr_subsets_model *subsets_model, const thr_small_ask *ask, const thr_limits *limits, double *work,
-                        thr_small_cords *out, verdict *v, thr_err *err)
+static thr_status solve(const thr_subsets_model *subsets_model, const thr_small_ask *ask,
+                        const thr_limits *limits, double *work, thr_small_cords *out, verdict *v,
+                        thr_err *err)
 {
   thr_subsets *subsets;
   const double rounding = ask->turning ? 1e-9 : 0;
@@ -65,7 +70,8 @@ static thr_status solve(const thr_subsets_model *subsets_model, const thr_small_
   if (ask->even) st = thr_subsets_dearest(subsets, ask->least, ask->most, &limit, err);
   if (!st && ask->even && isinf(limit)) n = 0;
   if (!st && !isnan(limit) && n < 0)
-    st = thr_subsets_find(subsets, ask->least, ask->most, ask->limit < INFINITY, limit * (1 + 1e-12) + rounding, &n, &sum, err);
+    st = thr_subsets_find(subsets, ask->least, ask->most, ask->limit < INFINITY,
+                          limit * (1 + 1e-12) + rounding, &n, &sum, err);
   if (!st && n >= 0) *v = NONE_BETTER;
   if (!st && n > 0) {
     st = take_cords(subsets, n, out, &dearest, err);
@@ -75,8 +81,8 @@ static thr_status solve(const thr_subsets_model *subsets_model, const thr_small_
   return st;
 }
 
-static thr_status try_items(thr_items *items, const thr_small_ask *ask, const thr_limits *limits, double *work,
-                            thr_small_cords *out, verdict *v, thr_err *err)
+static thr_status try_items(thr_items *items, const thr_small_ask *ask, const thr_limits *limits,
+                            double *work, thr_small_cords *out, verdict *v, thr_err *err)
 {
   bool small, keep, more;
   *v = NOT_KNOWN;
@@ -88,8 +94,9 @@ static thr_status try_items(thr_items *items, const thr_small_ask *ask, const th
   return st;
 }
 
-thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *options, const thr_small_ask *ask,
-                                const thr_limits *limits, thr_small_cords *out, bool *certain, thr_err *err)
+thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *options,
+                                const thr_small_ask *ask, const thr_limits *limits,
+                                thr_small_cords *out, bool *certain, thr_err *err)
 {
   thr_items items;
   thr_err why = {0};

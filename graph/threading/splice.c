@@ -1,11 +1,13 @@
-/* Walks cut into sections that are joined anew. Whatever is done to walks, to cut one, join two, exchange parts of them, turn a
- * part round or lead one over further passes, is a list of sections:
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Walks cut into sections that are joined anew. Whatever is done to walks, to cut one, join two,
+ * exchange parts of them, turn a part round or lead one over further passes, is a list of sections:
  *
  *   thr_splice s = thr_splice_of(true, &w->walk[a], &w->walk[b]);          two closed walks
- *   thr_splice_put(&s, 0, 0, i, false);                                    the first one as far as its pass number i,
- *   thr_splice_put(&s, 1, 0, w->walk[b].n, true);                          the other one backwards,
- *   thr_splice_put(&s, 0, i, w->walk[a].n, false);                         and the rest of the first:
- *   st = thr_splice_make(&s, f, w, a, b, NULL, NULL, err);                 one walk, number a */
+ *   thr_splice_put(&s, 0, 0, i, false);                                    the first one as far as
+ * its pass number i, thr_splice_put(&s, 1, 0, w->walk[b].n, true);                          the
+ * other one backwards, thr_splice_put(&s, 0, i, w->walk[a].n, false);                         and
+ * the rest of the first: st = thr_splice_make(&s, f, w, a, b, NULL, NULL, err);                 one
+ * walk, number a */
 #include "graph/threading/threading.h"
 
 #include <stdlib.h>
@@ -69,7 +71,8 @@ static bool closing_stays(const thr_splice *splice, int i)
 {
   int b = before(splice, i), row = splice->section[i].row;
   return b != i && splice->section[b].row == row && splice->section[i].from == 0 &&
-         splice->section[b].end == splice->row[row].n && !splice->section[i].backwards && !splice->section[b].backwards;
+         splice->section[b].end == splice->row[row].n && !splice->section[i].backwards &&
+         !splice->section[b].backwards;
 }
 
 thr_turn_change thr_splice_turns(const thr_splice *splice)
@@ -86,7 +89,8 @@ thr_turn_change thr_splice_turns(const thr_splice *splice)
   }
   for (int i = 0; i < splice->n; i++)
     if (splice->cyclic ? !closing_stays(splice, i) : !begins(splice, i))
-      thr_turn_change_note(&change, half_at(splice, before(splice, i), true), half_at(splice, i, false), 1);
+      thr_turn_change_note(&change, half_at(splice, before(splice, i), true),
+                           half_at(splice, i, false), 1);
   return change;
 }
 
@@ -96,7 +100,8 @@ static void make_turns(const thr_splice *splice, thr_junction_graphs *ties)
   thr_junction_graphs_make(ties, &change);
   for (int i = 0; i < splice->n; i++) {
     const int *half = splice->row[splice->section[i].row].half;
-    for (int k = splice->section[i].from + 1; splice->row[splice->section[i].row].added && k < splice->section[i].end; k++) {
+    for (int k = splice->section[i].from + 1;
+         splice->row[splice->section[i].row].added && k < splice->section[i].end; k++) {
       change.n = 0;
       thr_turn_change_note(&change, half[k - 1], half[k], 1);
       thr_junction_graphs_make(ties, &change);
@@ -107,7 +112,8 @@ static void make_turns(const thr_splice *splice, thr_junction_graphs *ties)
 /* ---- walks ---- */
 
 /* The walk of sections i .. end - 1. */
-static thr_status join(const thr_splice *splice, const thr_frame *frame, int i, int end, thr_walk *out, thr_err *err)
+static thr_status join(const thr_splice *splice, const thr_frame *frame, int i, int end,
+                       thr_walk *out, thr_err *err)
 {
   *out = (thr_walk){.cyclic = splice->cyclic};
   int n = 0;
@@ -131,8 +137,8 @@ static void take_place(thr_walk *old, const thr_walk *new)
   *old = *new;
 }
 
-thr_status thr_splice_make(const thr_splice *splice, const thr_frame *frame, thr_walks *walks, int a, int b,
-                           thr_junction_graphs *ties, int *passes, thr_err *err)
+thr_status thr_splice_make(const thr_splice *splice, const thr_frame *frame, thr_walks *walks,
+                           int a, int b, thr_junction_graphs *ties, int *passes, thr_err *err)
 {
   thr_walk one = {0}, two = {0};
   int first = splice->first > 0 ? splice->first : splice->n;
@@ -145,7 +151,8 @@ thr_status thr_splice_make(const thr_splice *splice, const thr_frame *frame, thr
   }
   if (ties) make_turns(splice, ties);
   for (int i = 0; i < splice->n; i++)
-    for (int k = splice->section[i].from; splice->row[splice->section[i].row].added && k < splice->section[i].end; k++)
+    for (int k = splice->section[i].from;
+         splice->row[splice->section[i].row].added && k < splice->section[i].end; k++)
       passes[splice->row[splice->section[i].row].half[k] >> 1]++;
   take_place(&walks->walk[a], &one);
   if (b >= 0) take_place(&walks->walk[b], two.half ? &two : &walks->walk[walks->n_walks - 1]);

@@ -1,21 +1,24 @@
-/* The cheapest walks of a small component, exactly, by a table over subsets of what they have to collect together.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cheapest walks of a small component, exactly, by a table over subsets of what they have to
+ * collect together.
  *
- * A walk goes from state to state; every step has a cost and collects items. With half-edges as states, items are the passes that
- * edges need, turns that tie a node, or cord ends.
- *   f[S] = least cost of one walk that collects the items S: sets only grow, so they are settled in ascending order, and the
- *          states at each by Dijkstra's method;
- *   g_k[S] = min f[T] + g_(k-1)[S - T], or min max(f[T], g_(k-1)[S - T]), over the parts T of S that hold one item of it.
- * That is Held and Karp's method for the travelling salesman (1962), with walks instead of steps once more.
+ * A walk goes from state to state; every step has a cost and collects items. With half-edges as
+ * states, items are the passes that edges need, turns that tie a node, or cord ends. f[S] = least
+ * cost of one walk that collects the items S: sets only grow, so they are settled in ascending
+ * order, and the states at each by Dijkstra's method; g_k[S] = min f[T] + g_(k-1)[S - T], or min
+ * max(f[T], g_(k-1)[S - T]), over the parts T of S that hold one item of it. That is Held and
+ * Karp's method for the travelling salesman (1962), with walks instead of steps once more.
  *
- * Example: a path of two edges, 1 and 2 long, walks from anywhere to anywhere. f[{a}] = 1, f[{b}] = 2, f[{a, b}] = 3. Two walks
- * are together 3 long, the longer one 2. */
+ * Example: a path of two edges, 1 and 2 long, walks from anywhere to anywhere. f[{a}] = 1, f[{b}] =
+ * 2, f[{a, b}] = 3. Two walks are together 3 long, the longer one 2. */
 #include "graph/threading/threading.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* An entry is a set of items and a state: row[set] * n_states + state. Of groups only sets of the first items have a row. */
+/* An entry is a set of items and a state: row[set] * n_states + state. Of groups only sets of the
+ * first items have a row. */
 struct thr_subsets {
   const thr_subsets_model *m;
   const thr_limits *limits;
@@ -36,7 +39,8 @@ struct thr_subsets {
   double *g;        /* [n_levels * n_sets] */
   double *work;     /* left */
   int n_parts;
-  uint32_t *part; /* [n_parts] of what was found last: the items of every walk that is not the cheapest of all */
+  uint32_t *part; /* [n_parts] of what was found last: the items of every walk that is not the
+                     cheapest of all */
 };
 
 void thr_subsets_destroy(thr_subsets *subsets)
@@ -80,7 +84,8 @@ static int entry_of(const thr_subsets *subsets, uint32_t set, int state)
 }
 
 /* *set with what the step collects. False: it is all collected. */
-static bool collect(const thr_subsets_model *subsets_model, const thr_subsets_step *step, uint32_t *set)
+static bool collect(const thr_subsets_model *subsets_model, const thr_subsets_step *step,
+                    uint32_t *set)
 {
   for (int i = 0; i < 2; i++) {
     const uint32_t left = step->one_of[i] & ~*set;
@@ -110,8 +115,10 @@ static void leave(thr_subsets *subsets, const int *first, uint32_t set, int stat
   const int entry = entry_of(subsets, set, state);
   for (int i = first[state]; i < first[state + 1]; i++) {
     uint32_t all = set;
-    if (in_run(subsets, subsets_model->step[i].to) && collect(subsets_model, &subsets_model->step[i], &all))
-      reach(subsets, all, subsets_model->step[i].to, subsets->cost[entry] + subsets_model->step[i].cost, entry);
+    if (in_run(subsets, subsets_model->step[i].to) &&
+        collect(subsets_model, &subsets_model->step[i], &all))
+      reach(subsets, all, subsets_model->step[i].to,
+            subsets->cost[entry] + subsets_model->step[i].cost, entry);
   }
 }
 
@@ -139,7 +146,8 @@ static void finish(thr_subsets *subsets, uint32_t set)
     const thr_subsets_step *subsets_step = &subsets_model->end[i];
     const int entry = entry_of(subsets, set, subsets_step->from);
     uint32_t all = set;
-    if ((subsets_model->closed && subsets_step->to != subsets->run) || !collect(subsets_model, subsets_step, &all) ||
+    if ((subsets_model->closed && subsets_step->to != subsets->run) ||
+        !collect(subsets_model, subsets_step, &all) ||
         subsets->cost[entry] + subsets_step->cost >= subsets->f[all])
       continue;
     subsets->f[all] = subsets->cost[entry] + subsets_step->cost;
@@ -155,7 +163,8 @@ static bool make_run(thr_subsets *subsets, int run, const int *first, bool *done
   subsets->run = run;
   for (int i = 0; i < subsets_model->n_starts; i++) {
     uint32_t set = 0;
-    if ((!subsets_model->closed || subsets_model->start[i].to == run) && collect(subsets_model, &subsets_model->start[i], &set))
+    if ((!subsets_model->closed || subsets_model->start[i].to == run) &&
+        collect(subsets_model, &subsets_model->start[i], &set))
       reach(subsets, set, subsets_model->start[i].to, subsets_model->start[i].cost, -1);
   }
   for (uint32_t set = 0; set < subsets->n_sets; set++) {
@@ -177,7 +186,8 @@ static void take_larger(thr_subsets *subsets)
   for (int i = 0; i < subsets->m->n_items; i++) {
     const uint32_t item = UINT32_C(1) << i;
     for (uint32_t set = 0; set < subsets->n_sets; set++) {
-      if ((set & item) || (subsets->m->once & item) || subsets->f[set | item] >= subsets->f[set]) continue;
+      if ((set & item) || (subsets->m->once & item) || subsets->f[set | item] >= subsets->f[set])
+        continue;
       subsets->f[set] = subsets->f[set | item];
       subsets->like[set] = subsets->like[set | item];
     }
@@ -224,18 +234,21 @@ static thr_status number_sets(thr_subsets *subsets, thr_err *err)
   return THR_OK;
 }
 
-/* A last item of a group that is required wholly: what is left of the group has the same row without it. */
+/* A last item of a group that is required wholly: what is left of the group has the same row
+ * without it. */
 static void choose_item(thr_subsets *subsets)
 {
   const thr_subsets_model *subsets_model = subsets->m;
   for (int i = 0; i < subsets_model->n_items && !subsets->item; i++)
-    if ((subsets_model->required >> i & 1) && (i + 1 == subsets_model->n_items || subsets_model->first[i + 1] == i + 1))
+    if ((subsets_model->required >> i & 1) &&
+        (i + 1 == subsets_model->n_items || subsets_model->first[i + 1] == i + 1))
       subsets->item = UINT32_C(1) << i;
 }
 
 static thr_status make_table(thr_subsets *subsets, bool *all, thr_err *err)
 {
-  const size_t n = subsets->n_sets, entries = (size_t)subsets->n_rows * (size_t)subsets->m->n_states;
+  const size_t n = subsets->n_sets,
+               entries = (size_t)subsets->n_rows * (size_t)subsets->m->n_states;
   subsets->cost = thr_calloc(entries, sizeof *subsets->cost);
   subsets->before = thr_calloc(entries, sizeof *subsets->before);
   subsets->reached = thr_calloc((size_t)subsets->n_rows, sizeof *subsets->reached);
@@ -243,8 +256,8 @@ static thr_status make_table(thr_subsets *subsets, bool *all, thr_err *err)
   subsets->last = thr_calloc(n, sizeof *subsets->last);
   subsets->own_run = thr_calloc(n, sizeof *subsets->own_run);
   subsets->like = thr_calloc(n, sizeof *subsets->like);
-  if (!subsets->cost || !subsets->before || !subsets->reached || !subsets->f || !subsets->last || !subsets->own_run ||
-      !subsets->like)
+  if (!subsets->cost || !subsets->before || !subsets->reached || !subsets->f || !subsets->last ||
+      !subsets->own_run || !subsets->like)
     return thr_nomem(err);
   for (size_t i = 0; i < n; i++)
     subsets->f[i] = INFINITY;
@@ -253,8 +266,8 @@ static thr_status make_table(thr_subsets *subsets, bool *all, thr_err *err)
   return st;
 }
 
-thr_status thr_subsets_create(const thr_subsets_model *subsets_model, const thr_limits *limits, double *work, thr_subsets **out,
-                              thr_err *err)
+thr_status thr_subsets_create(const thr_subsets_model *subsets_model, const thr_limits *limits,
+                              double *work, thr_subsets **out, thr_err *err)
 {
   const double most_entries = 1e7;
   bool all = false;
@@ -262,7 +275,10 @@ thr_status thr_subsets_create(const thr_subsets_model *subsets_model, const thr_
   if (subsets_model->n_items > THR_SUBSETS_MOST_ITEMS) return THR_OK;
   thr_subsets *subsets = thr_calloc(1, sizeof *subsets);
   if (!subsets) return thr_nomem(err);
-  *subsets = (thr_subsets){.m = subsets_model, .limits = limits, .n_sets = UINT32_C(1) << subsets_model->n_items, .work = work};
+  *subsets = (thr_subsets){.m = subsets_model,
+                           .limits = limits,
+                           .n_sets = UINT32_C(1) << subsets_model->n_items,
+                           .work = work};
   thr_status st = number_sets(subsets, err);
   choose_item(subsets);
   const double entries = (double)subsets->n_rows * subsets_model->n_states;
@@ -282,8 +298,10 @@ typedef struct {
   double limit; /* of each */
 } measure;
 
-/* g_k of a set, from the level below. *part: the walk's that holds this one item of it (none of no items). */
-static double best_part(const thr_subsets *subsets, measure by, const double *below, uint32_t set, uint32_t item, uint32_t *part)
+/* g_k of a set, from the level below. *part: the walk's that holds this one item of it (none of no
+ * items). */
+static double best_part(const thr_subsets *subsets, measure by, const double *below, uint32_t set,
+                        uint32_t item, uint32_t *part)
 {
   const uint32_t rest = set ^ item;
   double best = INFINITY;
@@ -330,7 +348,7 @@ static bool fill(thr_subsets *subsets, measure by, int k)
     if (subsets->row[set] < 0) /* fewer in number, so that is known */
       *g = level(subsets, k)[subsets->plain[set]];
     else
-      *g = k > 1                         ? best_part(subsets, by, level(subsets, k - 1), set, lowest(set), &part)
+      *g = k > 1 ? best_part(subsets, by, level(subsets, k - 1), set, lowest(set), &part)
            : subsets->f[set] <= by.limit ? subsets->f[set]
                                          : INFINITY;
   }
@@ -351,9 +369,9 @@ static double least(const thr_subsets *subsets, measure by, int k, uint32_t *all
   double best = INFINITY;
   for (uint32_t more = others;; more = (more - 1) & others) {
     const bool plain = subsets->row[required | more] >= 0;
-    double cost =
-        plain ? best_part(subsets, by, level(subsets, k - 1), required | more, first_item(subsets, required | more), &part)
-              : INFINITY;
+    double cost = plain ? best_part(subsets, by, level(subsets, k - 1), required | more,
+                                    first_item(subsets, required | more), &part)
+                        : INFINITY;
     if (cost < best) {
       best = cost;
       *all = required | more;
@@ -368,7 +386,8 @@ static int walks_with_items(const thr_subsets *subsets, int n)
   return n < subsets->m->n_items ? n : subsets->m->n_items;
 }
 
-thr_status thr_subsets_dearest(thr_subsets *subsets, int at_least, int most, double *cost, thr_err *err)
+thr_status thr_subsets_dearest(thr_subsets *subsets, int at_least, int most, double *cost,
+                               thr_err *err)
 {
   const measure by = {false, INFINITY};
   const int levels = walks_with_items(subsets, most);
@@ -396,13 +415,15 @@ static thr_status find_parts(thr_subsets *subsets, measure by, int k, uint32_t s
   subsets->part = thr_calloc((size_t)k, sizeof *subsets->part);
   if (!subsets->part) return thr_nomem(err);
   for (int i = 0; i < k; i++) {
-    best_part(subsets, by, level(subsets, k - 1 - i), set, i ? lowest(set) : first_item(subsets, set), &subsets->part[i]);
+    best_part(subsets, by, level(subsets, k - 1 - i), set,
+              i ? lowest(set) : first_item(subsets, set), &subsets->part[i]);
     set &= ~subsets->part[i];
   }
   return THR_OK;
 }
 
-/* Is there a walk of this cost for each item? Where all may be had again, there are enough walks then, else too few. */
+/* Is there a walk of this cost for each item? Where all may be had again, there are enough walks
+ * then, else too few. */
 static bool each_fits(const thr_subsets *subsets, double limit)
 {
   bool fits = true;
@@ -411,8 +432,8 @@ static bool each_fits(const thr_subsets *subsets, double limit)
   return fits;
 }
 
-thr_status thr_subsets_find(thr_subsets *subsets, int at_least, int most, bool fewest, double limit, int *n, double *cost,
-                            thr_err *err)
+thr_status thr_subsets_find(thr_subsets *subsets, int at_least, int most, bool fewest, double limit,
+                            int *n, double *cost, thr_err *err)
 {
   const measure by = {true, limit};
   const int levels = walks_with_items(subsets, most);
@@ -440,7 +461,8 @@ thr_status thr_subsets_find(thr_subsets *subsets, int at_least, int most, bool f
   return st || !best_k ? st : find_parts(subsets, by, best_k, best_set, err);
 }
 
-thr_status thr_subsets_walk(thr_subsets *subsets, int i, int **state, int *n, double *cost, thr_err *err)
+thr_status thr_subsets_walk(thr_subsets *subsets, int i, int **state, int *n, double *cost,
+                            thr_err *err)
 {
   const uint32_t set = subsets->like[i < subsets->n_parts ? subsets->part[i] : 0];
   const int run = subsets->own_run[set];

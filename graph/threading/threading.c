@@ -1,22 +1,28 @@
-/* A threading while it is changed: the passes as half-edges (graph/threading/multigraph.c), which of them continues into which at
- * every node (its transition system), the cords that this makes, in order, with running sums of a price, and exchanges of pairs
- * that are tried and taken back. What turns cost, and whether cords must tie every node, is handed in.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A threading while it is changed: the passes as half-edges (graph/threading/multigraph.c), which
+ * of them continues into which at every node (its transition system), the cords that this makes, in
+ * order, with running sums of a price, and exchanges of pairs that are tried and taken back. What
+ * turns cost, and whether cords must tie every node, is handed in.
  *
  *   thr_threading_init(&t, f, &g, mate, price, of, false, err);
  *   thr_threading_follow(&t, INT_MAX);                                    t.n_cords, t.total[0], ..
  *   thr_exchange x = thr_threading_exchange(&t, i, k, true);              x.extra, x.change
  *   if (thr_threading_allows(&t, &x)) thr_threading_make(&t, &x, NULL);   then follow again
  *
- * Walks (graph/threading/walks.c), cut into sections and joined anew (graph/threading/splice.c), are a second view of the same,
- * with a conversion either way: thr_walks_follow, thr_transition_walk. Why there are two:
- * - Here the passes are given, and any two pairs of a node can be exchanged. All cords are followed again afterwards, in time
- *   proportional to all passes: 0.16 ms for 14,160 of them. Searches for little turning exchange pairs and nothing else.
- * - Searches for short and even cords also add passes (detours, chords, circuits) and take some off. Half-edges would have to be
- *   numbered again each time; of walks only those at hand change: 0.001 to 0.007 ms for two of 40 or of 5 with those passes.
- * - Joining closed walks by pairs (thr_transition_join) was tried: 30 lines less, but of 258 plans four were better (even or
- *   limited lengths of closed cords) and four worse, two of which lost their proof that no fewer cords do.
- * Two more structures are no threadings: the turns of one node, counted (tortuosity/tie/tie.h), have no cords, and symmetric
- * strands (symmetry/lift/strands.c) are orbits of half-edges, paired by elements of a group. */
+ * Walks (graph/threading/walks.c), cut into sections and joined anew (graph/threading/splice.c),
+ * are a second view of the same, with a conversion either way: thr_walks_follow,
+ * thr_transition_walk. Why there are two:
+ * - Here the passes are given, and any two pairs of a node can be exchanged. All cords are followed
+ * again afterwards, in time proportional to all passes: 0.16 ms for 14,160 of them. Searches for
+ * little turning exchange pairs and nothing else.
+ * - Searches for short and even cords also add passes (detours, chords, circuits) and take some
+ * off. Half-edges would have to be numbered again each time; of walks only those at hand change:
+ * 0.001 to 0.007 ms for two of 40 or of 5 with those passes.
+ * - Joining closed walks by pairs (thr_transition_join) was tried: 30 lines less, but of 258 plans
+ * four were better (even or limited lengths of closed cords) and four worse, two of which lost
+ * their proof that no fewer cords do. Two more structures are no threadings: the turns of one node,
+ * counted (tortuosity/tie/tie.h), have no cords, and symmetric strands (symmetry/lift/strands.c)
+ * are orbits of half-edges, paired by elements of a group. */
 #include "graph/threading/threading.h"
 #include "graph/disjoint.h"
 
@@ -32,17 +38,22 @@ void thr_threading_destroy(thr_threading *threading)
   free(threading->parent);
 }
 
-thr_status thr_threading_init(thr_threading *threading, const thr_frame *frame, const thr_multigraph *multigraph, int *mate,
-                              thr_pair_price *price, const void *of, bool tied, thr_err *err)
+thr_status thr_threading_init(thr_threading *threading, const thr_frame *frame,
+                              const thr_multigraph *multigraph, int *mate, thr_pair_price *price,
+                              const void *of, bool tied, thr_err *err)
 {
   size_t passes = (size_t)multigraph->n_darts / 2; /* no fewer than cords, or places */
-  *threading = (thr_threading){.f = frame, .g = multigraph, .mate = mate, .price = price, .of = of, .tied = tied};
+  *threading = (thr_threading){
+      .f = frame, .g = multigraph, .mate = mate, .price = price, .of = of, .tied = tied};
   threading->first = thr_calloc(passes + 1, sizeof *threading->first);
   threading->place = thr_calloc(passes, sizeof *threading->place);
   threading->at = thr_calloc((size_t)multigraph->n_darts, sizeof *threading->at);
   threading->total = thr_calloc(passes, sizeof *threading->total);
   threading->parent = thr_calloc((size_t)frame->n_edges, sizeof *threading->parent);
-  return threading->first && threading->place && threading->at && threading->total && threading->parent ? THR_OK : thr_nomem(err);
+  return threading->first && threading->place && threading->at && threading->total &&
+                 threading->parent
+             ? THR_OK
+             : thr_nomem(err);
 }
 
 /* ---- tracing ---- */
@@ -61,7 +72,8 @@ static void follow_cord(thr_threading *threading, int start)
   if (threading->mate[start] < 0) threading->at[start] = END;
   for (int next; (next = threading->mate[d ^ 1]) >= 0; d = next) {
     thr_place *p = &threading->place[threading->n_places];
-    *p = (thr_place){k, threading->n_places - first, d ^ 1, next, sum, price_of(threading, d ^ 1, next)};
+    *p = (thr_place){k,   threading->n_places - first,     d ^ 1, next,
+                     sum, price_of(threading, d ^ 1, next)};
     threading->at[p->in] = threading->at[p->out] = threading->n_places++;
     sum += p->price;
     if (next == start) break;
@@ -81,7 +93,8 @@ bool thr_threading_follow(thr_threading *threading, int most)
       follow_cord(threading, multigraph->dart[i]);
   bool all = threading->n_cords <= most;
   for (int d = 0; d < multigraph->n_darts && all; d++)
-    if (threading->at[d] == NOT_SEEN && (all = threading->n_cords < most)) follow_cord(threading, d);
+    if (threading->at[d] == NOT_SEEN && (all = threading->n_cords < most))
+      follow_cord(threading, d);
   threading->first[threading->n_cords] = threading->n_places;
   return all;
 }
@@ -127,7 +140,8 @@ bool thr_threading_tied(const thr_threading *threading, int v)
   for (int i = multigraph->first[v]; i < multigraph->first[v + 1] && apart > 0; i++) {
     int a = multigraph->dart[i], b = threading->mate[a];
     if (b > a && multigraph->half[a] >= 0 && multigraph->half[b] >= 0)
-      apart -= thr_disjoint_join(threading->parent, multigraph->half[a] >> 1, multigraph->half[b] >> 1);
+      apart -=
+          thr_disjoint_join(threading->parent, multigraph->half[a] >> 1, multigraph->half[b] >> 1);
   }
   return apart == 0;
 }
@@ -166,8 +180,12 @@ thr_exchange thr_threading_exchange(const thr_threading *threading, int i, int k
 {
   const thr_place *p = &threading->place[i], *q = &threading->place[k];
   int b = crossed ? q->in : q->out, d = crossed ? q->out : q->in, change = crossed ? 0 : 1;
-  if (p->cord != q->cord) change = thr_threading_closed(threading, p->cord) || thr_threading_closed(threading, q->cord) ? -1 : 0;
-  double old = p->price + q->price, now = price_of(threading, p->in, b) + price_of(threading, p->out, d);
+  if (p->cord != q->cord)
+    change = thr_threading_closed(threading, p->cord) || thr_threading_closed(threading, q->cord)
+                 ? -1
+                 : 0;
+  double old = p->price + q->price,
+         now = price_of(threading, p->in, b) + price_of(threading, p->out, d);
   return (thr_exchange){{p->in, b, p->out, d}, now - old, change};
 }
 
@@ -187,7 +205,8 @@ bool thr_threading_allows(thr_threading *threading, const thr_exchange *x)
   return true;
 }
 
-void thr_threading_descend(const thr_threading *threading, const thr_limits *limits, thr_node_improve *improve, void *of)
+void thr_threading_descend(const thr_threading *threading, const thr_limits *limits,
+                           thr_node_improve *improve, void *of)
 {
   for (bool changed = true; changed;) {
     changed = false;

@@ -1,13 +1,16 @@
-/* Threadings as objects that change: turns at nodes, cords from them, exchanges, walks and sets of walks. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Threadings as objects that change: turns at nodes, cords from them, exchanges, walks and sets of
+ * walks. */
 #ifndef THR_THREADING_H
 #define THR_THREADING_H
 
 #include "graph/limits.h"
 #include "graph/threading/euler.h"
 
-/* ---- threading.c: A threading while it is changed: the passes as half-edges (graph/threading/multigraph.c), which of them
- * continues into which at every node (its transition system), the cords that this makes, in order, with running sums of a
- * price, and exchanges of pairs that are tried and taken back. */
+/* ---- threading.c: A threading while it is changed: the passes as half-edges
+ * (graph/threading/multigraph.c), which of them continues into which at every node (its transition
+ * system), the cords that this makes, in order, with running sums of a price, and exchanges of
+ * pairs that are tried and taken back. */
 
 /* What is not to be done at any price. */
 #define THR_FORBIDDEN 1e9
@@ -25,7 +28,8 @@ typedef struct {
 typedef struct {
   const thr_frame *f;
   const thr_multigraph *g;
-  int *mate;             /* [n_darts] as in graph/threading/transition.c; -1 where a cord ends. These three are borrowed. */
+  int *mate; /* [n_darts] as in graph/threading/transition.c; -1 where a cord ends. These three are
+                borrowed. */
   thr_pair_price *price; /* of(a, b); NULL: all 0 */
   const void *of;
   bool tied;        /* cords must tie every node (graph/plan/plan_measures.h) */
@@ -39,15 +43,18 @@ typedef struct {
 } thr_threading;
 
 /* Nothing is followed yet. On failure threading is to be destroyed too. */
-thr_status thr_threading_init(thr_threading *threading, const thr_frame *frame, const thr_multigraph *multigraph, int *mate,
-                              thr_pair_price *price, const void *of, bool tied, thr_err *err) THR_MUST_CHECK;
+thr_status thr_threading_init(thr_threading *threading, const thr_frame *frame,
+                              const thr_multigraph *multigraph, int *mate, thr_pair_price *price,
+                              const void *of, bool tied, thr_err *err) THR_MUST_CHECK;
 void thr_threading_destroy(thr_threading *threading);
 
-/* All places from the pairs: open cords from the lower of their last half-edges, in that order, then closed ones from their
- * lowest. false: there are more than most cords, not all of which are followed. O(darts). */
+/* All places from the pairs: open cords from the lower of their last half-edges, in that order,
+ * then closed ones from their lowest. false: there are more than most cords, not all of which are
+ * followed. O(darts). */
 bool thr_threading_follow(thr_threading *threading, int most);
 
-/* The same half-edges without an order: cord[n_darts] receives the number of the cord of each. Returns how many cords there are.
+/* The same half-edges without an order: cord[n_darts] receives the number of the cord of each.
+ * Returns how many cords there are.
  */
 int thr_threading_label(const thr_multigraph *multigraph, const int *mate, int *cord);
 
@@ -68,7 +75,8 @@ typedef struct {
   int n, pair[4][2];
 } thr_broken;
 
-/* Pairs a with b and c with d, where a and b were paired with c and d, in either order. old: notes what they were (NULL: no). */
+/* Pairs a with b and c with d, where a and b were paired with c and d, in either order. old: notes
+ * what they were (NULL: no). */
 void thr_threading_pair(thr_threading *threading, int a, int b, int c, int d, thr_broken *old);
 void thr_threading_take_back(thr_threading *threading, thr_broken *old);
 
@@ -82,8 +90,9 @@ typedef struct {
   int change;   /* cords more: 1 cuts a closed one off, -1 joins one to another */
 } thr_exchange;
 
-/* crossed: arriving with arriving, which runs a part of one cord the other way round; else arriving with leaving, which cuts it
- * in two. Two open cords exchange their ends; others become one, either way. */
+/* crossed: arriving with arriving, which runs a part of one cord the other way round; else arriving
+ * with leaving, which cuts it in two. Two open cords exchange their ends; others become one, either
+ * way. */
 thr_exchange thr_threading_exchange(const thr_threading *threading, int i, int k, bool crossed);
 
 /* Is nothing forbidden by it, and does its node stay tied if it must be? */
@@ -96,47 +105,54 @@ void thr_threading_make(thr_threading *threading, const thr_exchange *x, thr_bro
 typedef bool thr_node_improve(void *of, int v);
 
 /* Descent: node by node, until a look at all of them improves nothing or the limits stop it. */
-void thr_threading_descend(const thr_threading *threading, const thr_limits *limits, thr_node_improve *improve, void *of);
+void thr_threading_descend(const thr_threading *threading, const thr_limits *limits,
+                           thr_node_improve *improve, void *of);
 
 /* ---- transition.c: Transition systems: at every node, which pass continues into which. */
 
-/* mate[d] of dart d is the dart at the same node that the cord leaves by when it arrives against d (along d ^ 1);
- * mate[mate[d]] = d. Array of n_darts, owned by the caller. */
+/* mate[d] of dart d is the dart at the same node that the cord leaves by when it arrives against d
+ * (along d ^ 1); mate[mate[d]] = d. Array of n_darts, owned by the caller. */
 
-/* Price of continuing from dart a to dart b at their node: the turning angle in rad (0 for a cord end), and
- * THR_U_TURN_PRICE more for a U-turn or for joining two cord ends, which would leave a cord without a pass. */
+/* Price of continuing from dart a to dart b at their node: the turning angle in rad (0 for a cord
+ * end), and THR_U_TURN_PRICE more for a U-turn or for joining two cord ends, which would leave a
+ * cord without a pass. */
 #define THR_U_TURN_PRICE 1000.0
 
-/* Pairs the darts at every node. Up to 12 darts: least total price, by dynamic programming over subsets, so a node has
- * a U-turn only where no pairing is without one. More darts: no U-turn where one can be avoided, price not minimized;
- * linear. Every degree must be even (THR_EINPUT otherwise). four[n_nodes], if it is not NULL, receives for thr_transition_join
- * the prices of the three pairings at nodes with four darts, which most nodes of shells have. */
-thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, double (*four)[3],
-                               thr_err *err) THR_MUST_CHECK;
+/* Pairs the darts at every node. Up to 12 darts: least total price, by dynamic programming over
+ * subsets, so a node has a U-turn only where no pairing is without one. More darts: no U-turn where
+ * one can be avoided, price not minimized; linear. Every degree must be even (THR_EINPUT
+ * otherwise). four[n_nodes], if it is not NULL, receives for thr_transition_join the prices of the
+ * three pairings at nodes with four darts, which most nodes of shells have. */
+thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *multigraph, int *mate,
+                               double (*four)[3], thr_err *err) THR_MUST_CHECK;
 
-/* Exchanges pairs (a b)(c d) -> (a c)(b d) or (a d)(b c) at nodes where two circuits meet, cheapest first, until each
- * component of the multigraph is one circuit. Adds no U-turn where the pairs at hand have none:
- * if both new pairings had one, an old pair would have been one. Stops earlier where no more than `enough` circuits are left
- * (0: at no number). O(p log p) a round for p pairs of pairs, few rounds. four: as thr_transition_pair left it, or NULL. */
-thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, const double (*four)[3],
-                               int enough, thr_err *err) THR_MUST_CHECK;
+/* Exchanges pairs (a b)(c d) -> (a c)(b d) or (a d)(b c) at nodes where two circuits meet, cheapest
+ * first, until each component of the multigraph is one circuit. Adds no U-turn where the pairs at
+ * hand have none: if both new pairings had one, an old pair would have been one. Stops earlier
+ * where no more than `enough` circuits are left (0: at no number). O(p log p) a round for p pairs
+ * of pairs, few rounds. four: as thr_transition_pair left it, or NULL. */
+thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate,
+                               const double (*four)[3], int enough, thr_err *err) THR_MUST_CHECK;
 
-/* Where two passes of one edge are in different sets of circuits, exchanges their partners at one node, which joins the sets: the
- * same turns, fewer circuits. circuit[n_darts], which parent's disjoint sets are of. Near-linear. */
-void thr_transition_join_equal(const thr_multigraph *multigraph, const int *circuit, int *parent, int *mate);
+/* Where two passes of one edge are in different sets of circuits, exchanges their partners at one
+ * node, which joins the sets: the same turns, fewer circuits. circuit[n_darts], which parent's
+ * disjoint sets are of. Near-linear. */
+void thr_transition_join_equal(const thr_multigraph *multigraph, const int *circuit, int *parent,
+                               int *mate);
 
-/* The other way round: pairs as walks run, the passes of each being the next copies of their edges; the ends of an open one are
- * the next virtual edges at its nodes. next[n_edges + n_nodes]: their first darts, as thr_transition_copies says. Linear. */
+/* The other way round: pairs as walks run, the passes of each being the next copies of their edges;
+ * the ends of an open one are the next virtual edges at its nodes. next[n_edges + n_nodes]: their
+ * first darts, as thr_transition_copies says. Linear. */
 void thr_transition_copies(const thr_frame *frame, const thr_multigraph *multigraph, int *next);
-void thr_transition_walk(const thr_frame *frame, const thr_multigraph *multigraph, const int *half, int n, bool open, int *next,
-                         int *mate);
+void thr_transition_walk(const thr_frame *frame, const thr_multigraph *multigraph, const int *half,
+                         int n, bool open, int *next, int *mate);
 
-/* The cord from dart start on, until it comes back there or ends (mate < 0): its darts into out, room for n_darts / 2, *count how
- * many. Linear. */
+/* The cord from dart start on, until it comes back there or ends (mate < 0): its darts into out,
+ * room for n_darts / 2, *count how many. Linear. */
 void thr_transition_trace(const int *mate, int start, int *out, int *count);
 
-/* ---- walks.c: Walks through the passes of a framework (graph theory's: consecutive half-edges, an edge as often as it
- * comes), while it is still open which cord takes which. */
+/* ---- walks.c: Walks through the passes of a framework (graph theory's: consecutive half-edges, an
+ * edge as often as it comes), while it is still open which cord takes which. */
 
 /* Consecutive half-edges. */
 typedef struct {
@@ -152,28 +168,33 @@ typedef struct {
 
 void thr_walks_destroy(thr_walks *walks);
 
-/* As few walks as pass every edge passes[e] times, edges with passes being one component, paired for little turning: a cyclic one
- * where all nodes have an even number of passes, else open ones between those that have not. Near-linear in passes. */
-thr_status thr_walks_trace(const thr_frame *frame, const int *passes, thr_walks *out, thr_err *err) THR_MUST_CHECK;
+/* As few walks as pass every edge passes[e] times, edges with passes being one component, paired
+ * for little turning: a cyclic one where all nodes have an even number of passes, else open ones
+ * between those that have not. Near-linear in passes. */
+thr_status thr_walks_trace(const thr_frame *frame, const int *passes, thr_walks *out,
+                           thr_err *err) THR_MUST_CHECK;
 
-/* Appends the circuits of a transition system (graph/threading/transition.c): those with virtual edges first, which are cut
- * there; each from its lowest dart. Linear. */
-thr_status thr_walks_follow(thr_walks *walks, const thr_frame *frame, const thr_multigraph *multigraph, const int *mate,
+/* Appends the circuits of a transition system (graph/threading/transition.c): those with virtual
+ * edges first, which are cut there; each from its lowest dart. Linear. */
+thr_status thr_walks_follow(thr_walks *walks, const thr_frame *frame,
+                            const thr_multigraph *multigraph, const int *mate,
                             thr_err *err) THR_MUST_CHECK;
 
 /* Appends a walk, which is taken over, or released on failure. Its length is worked out. */
-thr_status thr_walks_add(thr_walks *walks, const thr_frame *frame, thr_walk walk, thr_err *err) THR_MUST_CHECK;
+thr_status thr_walks_add(thr_walks *walks, const thr_frame *frame, thr_walk walk,
+                         thr_err *err) THR_MUST_CHECK;
 
 /* Appends a copy of half[n]. */
-thr_status thr_walks_copy(thr_walks *walks, const thr_frame *frame, const int *half, int n, bool cyclic,
-                          thr_err *err) THR_MUST_CHECK;
+thr_status thr_walks_copy(thr_walks *walks, const thr_frame *frame, const int *half, int n,
+                          bool cyclic, thr_err *err) THR_MUST_CHECK;
 
 /* The number of passes that the walks make of each edge is added to passes[n_edges]. */
 void thr_walks_count(const thr_walks *walks, int *passes);
 
 double thr_walk_length(const thr_frame *frame, const int *half, int n);
 
-/* Of all walks; the number of the longest, the first of equals, and its length, 0 if there are none. */
+/* Of all walks; the number of the longest, the first of equals, and its length, 0 if there are
+ * none. */
 double thr_walks_length(const thr_walks *walks);
 int thr_walks_longest(const thr_walks *walks);
 double thr_walks_most(const thr_walks *walks);
@@ -196,8 +217,8 @@ thr_status thr_walk_rotate(thr_walk *w, int at, thr_err *err) THR_MUST_CHECK;
 /* Price of going on from half-edge in with out: the turn in rad, and much more for a turn back. */
 double thr_walk_turn(const thr_frame *frame, int in, int out);
 
-/* The visits that walks pay to nodes, walk by walk, at positions 0 .. n of each; the last position of a cyclic one is listed, but
- * is no visit. */
+/* The visits that walks pay to nodes, walk by walk, at positions 0 .. n of each; the last position
+ * of a cyclic one is listed, but is no visit. */
 typedef struct {
   const thr_frame *f;
   const thr_walk *w; /* the first walk */
@@ -210,22 +231,24 @@ typedef struct {
   bool own;    /* first is owned */
 } thr_walk_visits;
 
-/* Of walks w[0 .. n_walks - 1]. first: [n_nodes] of -1, borrowed and changed until thr_walk_visits_forget; NULL: one of its own.
- * O(positions), and O(nodes) for one of its own. */
-thr_status thr_walk_visits_init(thr_walk_visits *visits, const thr_frame *frame, const thr_walk *w, int n_walks, int *first,
-                                thr_err *err) THR_MUST_CHECK;
+/* Of walks w[0 .. n_walks - 1]. first: [n_nodes] of -1, borrowed and changed until
+ * thr_walk_visits_forget; NULL: one of its own. O(positions), and O(nodes) for one of its own. */
+thr_status thr_walk_visits_init(thr_walk_visits *visits, const thr_frame *frame, const thr_walk *w,
+                                int n_walks, int *first, thr_err *err) THR_MUST_CHECK;
 void thr_walk_visits_forget(const thr_walk_visits *visits);
 void thr_walk_visits_destroy(thr_walk_visits *visits);
 
-/* Moves the walks into cords: open ones from their lower end, cyclic ones from where closing leaves out most
- * (graph/threading/tour.c). On failure there are none. */
-thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n_cords,
-                           thr_err *err) THR_MUST_CHECK;
+/* Moves the walks into cords: open ones from their lower end, cyclic ones from where closing leaves
+ * out most (graph/threading/tour.c). On failure there are none. */
+thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_request *options,
+                           thr_cord **cord, int *n_cords, thr_err *err) THR_MUST_CHECK;
 
-/* ---- junction_graphs.c: The junction graph of every node (graph/plan/plan_measures.h) while it is still open which cord takes
- * which passes: the turns of all walks, counted, so that a change of turns can be tried. */
+/* ---- junction_graphs.c: The junction graph of every node (graph/plan/plan_measures.h) while it is
+ * still open which cord takes which passes: the turns of all walks, counted, so that a change of
+ * turns can be tried. */
 
-/* count[first[v] + a * degree + b]: turns between the half-edges number a and b of node v, in both orders. */
+/* count[first[v] + a * degree + b]: turns between the half-edges number a and b of node v, in both
+ * orders. */
 typedef struct {
   const thr_frame *f;
   size_t *first; /* [n_nodes] owned */
@@ -235,9 +258,10 @@ typedef struct {
   bool *seen;    /* [largest degree] owned */
 } thr_junction_graphs;
 
-/* The turns of the walks, with those that close cyclic ones. O(passes + sum of the squares of the degrees), also in memory. */
-thr_status thr_junction_graphs_init(thr_junction_graphs *graphs, const thr_frame *frame, const thr_walks *walks,
-                                    thr_err *err) THR_MUST_CHECK;
+/* The turns of the walks, with those that close cyclic ones. O(passes + sum of the squares of the
+ * degrees), also in memory. */
+thr_status thr_junction_graphs_init(thr_junction_graphs *graphs, const thr_frame *frame,
+                                    const thr_walks *walks, thr_err *err) THR_MUST_CHECK;
 void thr_junction_graphs_destroy(thr_junction_graphs *graphs);
 
 /* Turns that come and go; at most THR_MOST_CHANGED. */
@@ -253,7 +277,8 @@ typedef struct {
 /* in or out < 0: a cord end, where nothing turns. */
 void thr_turn_change_note(thr_turn_change *change, int in, int out, int by);
 
-/* Does every node that the change is about stay tied (one that was not before is no worse for it), and does nothing turn back? */
+/* Does every node that the change is about stay tied (one that was not before is no worse for it),
+ * and does nothing turn back? */
 bool thr_junction_graphs_allow(thr_junction_graphs *graphs, const thr_turn_change *change);
 void thr_junction_graphs_make(thr_junction_graphs *graphs, const thr_turn_change *change);
 
@@ -272,7 +297,8 @@ typedef struct {
     int row, from, end;
     bool backwards;
   } section[THR_MOST_SECTIONS];
-  int n, first; /* the first walk afterwards is section[0 .. first - 1], the second the others; first 0: there is one walk only */
+  int n, first; /* the first walk afterwards is section[0 .. first - 1], the second the others;
+                   first 0: there is one walk only */
 } thr_splice;
 
 /* From one walk, or two (b NULL: one). Its third row, or its second, may be set to new passes. */
@@ -290,17 +316,21 @@ void thr_splice_next(thr_splice *splice);
 /* Turns where the rows are cut, and where sections meet; those inside new passes are left out. */
 thr_turn_change thr_splice_turns(const thr_splice *splice);
 
-/* The walk or walks afterwards take the place of walks a and b of walks; b < 0: the second is added, and where there is no second
- * one, b is removed and its number is that of the last. ties: gets and loses the turns (NULL ok); passes[n_edges]: gets the new
- * passes (NULL where there are none). On failure nothing has changed. */
-thr_status thr_splice_make(const thr_splice *splice, const thr_frame *frame, thr_walks *walks, int a, int b,
-                           thr_junction_graphs *ties, int *passes, thr_err *err) THR_MUST_CHECK;
+/* The walk or walks afterwards take the place of walks a and b of walks; b < 0: the second is
+ * added, and where there is no second one, b is removed and its number is that of the last. ties:
+ * gets and loses the turns (NULL ok); passes[n_edges]: gets the new passes (NULL where there are
+ * none). On failure nothing has changed. */
+thr_status thr_splice_make(const thr_splice *splice, const thr_frame *frame, thr_walks *walks,
+                           int a, int b, thr_junction_graphs *ties, int *passes,
+                           thr_err *err) THR_MUST_CHECK;
 
 /* Open walk number i keeps its passes before number at; the others become a new walk, the last. */
-thr_status thr_splice_cut(thr_walks *walks, const thr_frame *frame, int i, int at, thr_err *err) THR_MUST_CHECK;
+thr_status thr_splice_cut(thr_walks *walks, const thr_frame *frame, int i, int at,
+                          thr_err *err) THR_MUST_CHECK;
 
-/* ---- even.c: Exchanges that even out the totals of a threading's cords: the sum of their 8th powers, in which the largest
- * counts most, is made small by descent and by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983). */
+/* ---- even.c: Exchanges that even out the totals of a threading's cords: the sum of their 8th
+ * powers, in which the largest counts most, is made small by descent and by simulated annealing (S.
+ * Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983). */
 
 typedef struct {
   thr_threading *t; /* borrowed; all its cords are open, or all closed */
@@ -310,27 +340,31 @@ typedef struct {
   uint64_t state; /* of the random numbers */
 } thr_evener;
 
-/* Follows all cords again. false: there are circuits that are no cords, or not as many cords. O(darts). */
+/* Follows all cords again. false: there are circuits that are no cords, or not as many cords.
+ * O(darts). */
 bool thr_evener_follow(thr_evener *evener);
 
 double thr_evener_value(const thr_evener *evener);
 double thr_evener_largest(const thr_evener *evener);
 
-/* Exchanges that lower the value, until none does or the limits stop it: tails and heads of two open cords that meet at a node,
- * parts run the other way round, parts cut off one cord and joined to another. */
+/* Exchanges that lower the value, until none does or the limits stop it: tails and heads of two
+ * open cords that meet at a node, parts run the other way round, parts cut off one cord and joined
+ * to another. */
 void thr_evener_even(thr_evener *evener);
 
-/* One change at random, at this place among others, that keeps the number of cords if *old is not empty and thr_evener_follow,
- * which is to be called next, says so. Else the pairs are to be taken back, and followed again. */
+/* One change at random, at this place among others, that keeps the number of cords if *old is not
+ * empty and thr_evener_follow, which is to be called next, says so. Else the pairs are to be taken
+ * back, and followed again. */
 void thr_evener_propose(thr_evener *evener, int place, thr_broken *old);
 
-/* The same at random, so many steps, and some that raise the value, with falling probability; ends at the best that it came by,
- * or where the largest total is at the bound. What most changes make of the totals is known from running sums: O(1) a step that
- * is not taken, O(darts) one that is. best: [n_darts] scratch. */
+/* The same at random, so many steps, and some that raise the value, with falling probability; ends
+ * at the best that it came by, or where the largest total is at the bound. What most changes make
+ * of the totals is known from running sums: O(1) a step that is not taken, O(darts) one that is.
+ * best: [n_darts] scratch. */
 void thr_evener_anneal(thr_evener *evener, int steps, double bound, int *best);
 
-/* ---- subsets.c: The cheapest walks of a small component, exactly, by a table over subsets of what they have to collect
- * together. */
+/* ---- subsets.c: The cheapest walks of a small component, exactly, by a table over subsets of what
+ * they have to collect together. */
 
 enum { THR_SUBSETS_MOST_ITEMS = 20 };
 
@@ -338,44 +372,53 @@ typedef struct {
   int from, to; /* states */
   double cost;  /* >= 0 */
   uint32_t gains;
-  uint32_t one_of[2]; /* and one more of each of these groups; 0 = none. All are there: only if they may be had again */
+  uint32_t one_of[2]; /* and one more of each of these groups; 0 = none. All are there: only if they
+                         may be had again */
 } thr_subsets_step;
 
-/* Walks begin with a start (its from means nothing) and end with an end. Open ones: any start, any end (its to means nothing).
- * Closed ones, which may be turned round: the start is of the lowest state that they visit, and the end leads back to that. */
+/* Walks begin with a start (its from means nothing) and end with an end. Open ones: any start, any
+ * end (its to means nothing). Closed ones, which may be turned round: the start is of the lowest
+ * state that they visit, and the end leads back to that. */
 typedef struct {
   int n_states, n_items;
   bool closed;
-  int first[THR_SUBSETS_MOST_ITEMS]; /* the items like item i are from item first[i] on, one after the other: a group */
-  uint32_t once;                     /* items that are collected at most once, by all walks together: of groups all or none */
-  uint32_t required;                 /* items that all walks together have to collect, one at least; of groups the first ones */
+  int first[THR_SUBSETS_MOST_ITEMS]; /* the items like item i are from item first[i] on, one after
+                                        the other: a group */
+  uint32_t once; /* items that are collected at most once, by all walks together: of groups all or
+                    none */
+  uint32_t required; /* items that all walks together have to collect, one at least; of groups the
+                        first ones */
   int n_steps, n_starts, n_ends;
   thr_subsets_step *step, *start, *end; /* steps by ascending from */
 } thr_subsets_model;
 
 typedef struct thr_subsets thr_subsets;
 
-/* Fills f of the model, which is borrowed. *work: how often states and parts of sets may be looked at, which this and the
- * functions below take from. *subsets is NULL if that or the limits stopped it, or there are more than 10 million sets and
- * states: 18 items have room for 38 states. 12 bytes each. */
-thr_status thr_subsets_create(const thr_subsets_model *subsets_model, const thr_limits *limits, double *work,
-                              thr_subsets **subsets, thr_err *err) THR_MUST_CHECK;
+/* Fills f of the model, which is borrowed. *work: how often states and parts of sets may be looked
+ * at, which this and the functions below take from. *subsets is NULL if that or the limits stopped
+ * it, or there are more than 10 million sets and states: 18 items have room for 38 states. 12 bytes
+ * each. */
+thr_status thr_subsets_create(const thr_subsets_model *subsets_model, const thr_limits *limits,
+                              double *work, thr_subsets **subsets, thr_err *err) THR_MUST_CHECK;
 void thr_subsets_destroy(thr_subsets *subsets);
 
-/* Least cost of the dearest of least .. most walks that collect enough together; INFINITY: there are none, NAN: too long to find
- * out. */
-thr_status thr_subsets_dearest(thr_subsets *subsets, int least, int most, double *cost, thr_err *err) THR_MUST_CHECK;
+/* Least cost of the dearest of least .. most walks that collect enough together; INFINITY: there
+ * are none, NAN: too long to find out. */
+thr_status thr_subsets_dearest(thr_subsets *subsets, int least, int most, double *cost,
+                               thr_err *err) THR_MUST_CHECK;
 
-/* The cheapest least .. most walks together of which none costs more than limit; fewest: as few as there are in the first place.
- * *n = 0: there are none, -1: too long to find out. */
-thr_status thr_subsets_find(thr_subsets *subsets, int least, int most, bool fewest, double limit, int *n, double *cost,
+/* The cheapest least .. most walks together of which none costs more than limit; fewest: as few as
+ * there are in the first place. *n = 0: there are none, -1: too long to find out. */
+thr_status thr_subsets_find(thr_subsets *subsets, int least, int most, bool fewest, double limit,
+                            int *n, double *cost, thr_err *err) THR_MUST_CHECK;
+
+/* States of walk i of those found last, and its cost: *state is the caller's to free. THR_ELIMIT:
+ * stopped. */
+thr_status thr_subsets_walk(thr_subsets *subsets, int i, int **state, int *n, double *cost,
                             thr_err *err) THR_MUST_CHECK;
 
-/* States of walk i of those found last, and its cost: *state is the caller's to free. THR_ELIMIT: stopped. */
-thr_status thr_subsets_walk(thr_subsets *subsets, int i, int **state, int *n, double *cost, thr_err *err) THR_MUST_CHECK;
-
-/* ---- items.c: A small framework of one component as walks that collect items (graph/threading/subsets.c): states are its
- * half-edges. */
+/* ---- items.c: A small framework of one component as walks that collect items
+ * (graph/threading/subsets.c): states are its half-edges. */
 
 typedef struct {
   const thr_frame *f;
@@ -393,20 +436,20 @@ typedef struct {
 
 /* Without capacities or cuts. With turning U-turns are only at nodes with one edge, with tube
  * joints nowhere. */
-thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_request *options, bool turning,
-                          thr_err *err) THR_MUST_CHECK;
+thr_status thr_items_init(thr_items *items, const thr_frame *frame, const thr_request *options,
+                          bool turning, thr_err *err) THR_MUST_CHECK;
 void thr_items_destroy(thr_items *items);
 
 /* Makes the model. *small false: it has too many items. */
 thr_status thr_items_model(thr_items *items, bool *small, thr_err *err) THR_MUST_CHECK;
 
-/* Of walks of such a model, n_passes[i] states each. *keep: they keep the capacities and tie the nodes. Else what they miss
- * counts from now on; *more: there was something to add. */
-thr_status thr_items_refine(thr_items *items, int n_walks, int *const *state, const int *n_passes, bool *keep, bool *more,
-                            thr_err *err) THR_MUST_CHECK;
+/* Of walks of such a model, n_passes[i] states each. *keep: they keep the capacities and tie the
+ * nodes. Else what they miss counts from now on; *more: there was something to add. */
+thr_status thr_items_refine(thr_items *items, int n_walks, int *const *state, const int *n_passes,
+                            bool *keep, bool *more, thr_err *err) THR_MUST_CHECK;
 
-/* ---- small_cords.c: All cords of a small framework of one component at once, exactly: shortest or turning least, together or
- * the worst of them, or as few as a limit allows. */
+/* ---- small_cords.c: All cords of a small framework of one component at once, exactly: shortest or
+ * turning least, together or the worst of them, or as few as a limit allows. */
 
 /* Cost is length, or with turning the price of turns (options.turning.cost). */
 typedef struct {
@@ -426,9 +469,11 @@ typedef struct {
 void thr_small_cords_destroy(thr_small_cords *cords);
 
 /* Of the options ends, covers, capacities and joint. out: cords that are better than those
- * known, and as asked for; else none. *certain: nothing is better than those or, without them, than the known ones; or there
- * are none at all. Not certain: too many items, or stopped by the limits. */
-thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *options, const thr_small_ask *ask,
-                                const thr_limits *limits, thr_small_cords *out, bool *certain, thr_err *err) THR_MUST_CHECK;
+ * known, and as asked for; else none. *certain: nothing is better than those or, without them, than
+ * the known ones; or there are none at all. Not certain: too many items, or stopped by the limits.
+ */
+thr_status thr_small_cords_find(const thr_frame *frame, const thr_request *options,
+                                const thr_small_ask *ask, const thr_limits *limits,
+                                thr_small_cords *out, bool *certain, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,10 +1,13 @@
-/* From edge multiplicities and ends to one cord, through the walk that graph/threading/walks.c traces. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From edge multiplicities and ends to one cord, through the walk that graph/threading/walks.c
+ * traces. */
 #include "graph/angle.h"
 #include "graph/threading/threading.h"
 
 #include <stdlib.h>
 
-static int best_start(const thr_frame *frame, const thr_request *options, const int *half, int n, int only)
+static int best_start(const thr_frame *frame, const thr_request *options, const int *half, int n,
+                      int only)
 {
   int best = 0;
   double best_score = -1;
@@ -28,19 +31,22 @@ int thr_tour_start(const thr_frame *frame, const thr_request *options, const int
 }
 
 /* Takes the only walk of walks as a cord with these ends. */
-static thr_status take_cord(const thr_frame *frame, const thr_request *options, thr_walks *walks, const int ends[2],
-                            thr_cord *cord, thr_err *err)
+static thr_status take_cord(const thr_frame *frame, const thr_request *options, thr_walks *walks,
+                            const int ends[2], thr_cord *cord, thr_err *err)
 {
   thr_walk *walk = walks->walk;
   thr_status st = THR_OK;
   bool closed = ends[0] == ends[1];
   int start = thr_walk_node(frame, walk, 0), end = thr_walk_node(frame, walk, walk->n);
-  bool fit = closed ? walk->cyclic : !walk->cyclic && start + end == ends[0] + ends[1] && (start == ends[0] || end == ends[0]);
+  bool fit = closed ? walk->cyclic
+                    : !walk->cyclic && start + end == ends[0] + ends[1] &&
+                          (start == ends[0] || end == ends[0]);
   if (walks->n_walks > 1 || !fit)
     return thr_fail(err, THR_EINPUT, "node %s has an odd number of passes and ends",
                     frame->name[walk->cyclic || end == ends[0] || end == ends[1] ? start : end]);
   if (!closed && start != ends[0]) thr_walk_reverse(walk->half, walk->n);
-  if (closed) st = thr_walk_rotate(walk, best_start(frame, options, walk->half, walk->n, ends[0]), err);
+  if (closed)
+    st = thr_walk_rotate(walk, best_start(frame, options, walk->half, walk->n, ends[0]), err);
   if (st) return st;
   *cord = (thr_cord){.closed = closed, .n_passes = walk->n, .half = walk->half};
   thr_cord_id(0, cord->id);
@@ -48,8 +54,8 @@ static thr_status take_cord(const thr_frame *frame, const thr_request *options, 
   return THR_OK;
 }
 
-thr_status thr_tour_cord(const thr_frame *frame, const thr_request *options, const int *passes, const int ends[2], thr_cord *cord,
-                         thr_err *err)
+thr_status thr_tour_cord(const thr_frame *frame, const thr_request *options, const int *passes,
+                         const int ends[2], thr_cord *cord, thr_err *err)
 {
   thr_walks walks;
   *cord = (thr_cord){0};

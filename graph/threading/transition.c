@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Transition systems: at every node, which pass continues into which.
  *
  * Pairing at nodes, joining circuits by exchanging pairs (Kotzig 1968), and pairs from walks. */
@@ -11,9 +12,10 @@
 
 enum { EXACT_DARTS = 12 }; /* largest node paired at least price: 2^12 subsets */
 
-/* price[n * n]: of pairing each of at most EXACT_DARTS darts with each other. The angle between two passes at a node is what two
- * ways out of it lack of half a turn. */
-static void price_pairs(const thr_frame *frame, const thr_multigraph *multigraph, const int *dart, int n, double *price)
+/* price[n * n]: of pairing each of at most EXACT_DARTS darts with each other. The angle between two
+ * passes at a node is what two ways out of it lack of half a turn. */
+static void price_pairs(const thr_frame *frame, const thr_multigraph *multigraph, const int *dart,
+                        int n, double *price)
 {
   double out[EXACT_DARTS][3], in[EXACT_DARTS][3];
   for (int i = 0; i < n; i++) {
@@ -23,28 +25,32 @@ static void price_pairs(const thr_frame *frame, const thr_multigraph *multigraph
       in[i][k] = -out[i][k];
     for (int j = 0; j < i; j++) {
       const int other = multigraph->half[dart[j]];
-      price[i * n + j] = (half == other ? THR_U_TURN_PRICE : 0) + (half < 0 || other < 0 ? 0 : thr_angle_between(in[j], out[i]));
+      price[i * n + j] = (half == other ? THR_U_TURN_PRICE : 0) +
+                         (half < 0 || other < 0 ? 0 : thr_angle_between(in[j], out[i]));
       price[j * n + i] = price[i * n + j];
     }
   }
 }
 
-/* Four darts, of which there are three pairings: total[j - 1] is the price of the one that pairs the first dart with number j.
- * The first of the cheapest is taken. */
-static void pair_four(const thr_frame *frame, const thr_multigraph *multigraph, const int *dart, double total[3], int *mate)
+/* Four darts, of which there are three pairings: total[j - 1] is the price of the one that pairs
+ * the first dart with number j. The first of the cheapest is taken. */
+static void pair_four(const thr_frame *frame, const thr_multigraph *multigraph, const int *dart,
+                      double total[3], int *mate)
 {
   double price[4][4];
   price_pairs(frame, multigraph, dart, 4, price[0]);
   total[0] = price[0][1] + price[2][3];
   total[1] = price[0][2] + price[1][3];
   total[2] = price[0][3] + price[1][2];
-  const int best = total[1] < total[0] ? (total[2] < total[1] ? 3 : 2) : (total[2] < total[0] ? 3 : 1), other = best == 1 ? 2 : 1;
+  const int best =
+                total[1] < total[0] ? (total[2] < total[1] ? 3 : 2) : (total[2] < total[0] ? 3 : 1),
+            other = best == 1 ? 2 : 1;
   thr_set_pair(mate, dart[0], dart[best]);
   thr_set_pair(mate, dart[other], dart[6 - best - other]);
 }
 
-static thr_status pair_exactly(const thr_frame *frame, const thr_multigraph *multigraph, const int *dart, int n, int *mate,
-                               thr_err *err)
+static thr_status pair_exactly(const thr_frame *frame, const thr_multigraph *multigraph,
+                               const int *dart, int n, int *mate, thr_err *err)
 {
   double price[EXACT_DARTS * EXACT_DARTS];
   int pair[EXACT_DARTS];
@@ -57,23 +63,25 @@ static thr_status pair_exactly(const thr_frame *frame, const thr_multigraph *mul
   return st;
 }
 
-/* Darts grouped by edge (copies of an edge are consecutive): dart i with dart i + n/2 differ in edge unless one edge has
- * more than half of all darts, and then U-turns are unavoidable. */
+/* Darts grouped by edge (copies of an edge are consecutive): dart i with dart i + n/2 differ in
+ * edge unless one edge has more than half of all darts, and then U-turns are unavoidable. */
 static void pair_by_halves(const int *dart, int n, int *mate)
 {
   for (int i = 0; i < n / 2; i++)
     thr_set_pair(mate, dart[i], dart[i + n / 2]);
 }
 
-thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, double (*four)[3],
-                               thr_err *err)
+thr_status thr_transition_pair(const thr_frame *frame, const thr_multigraph *multigraph, int *mate,
+                               double (*four)[3], thr_err *err)
 {
   double unused[3] = {0};
   thr_status st = THR_OK;
   for (int v = 0; v < multigraph->n_nodes && !st; v++) {
     const int *dart = multigraph->dart + multigraph->first[v];
     int n = multigraph->first[v + 1] - multigraph->first[v];
-    if (n % 2) return thr_fail(err, THR_EINPUT, "node %s has an odd number (%d) of passes and ends", frame->name[v], n);
+    if (n % 2)
+      return thr_fail(err, THR_EINPUT, "node %s has an odd number (%d) of passes and ends",
+                      frame->name[v], n);
     if (n == 2)
       thr_set_pair(mate, dart[0], dart[1]);
     else if (n == 4)
@@ -101,7 +109,8 @@ void thr_transition_trace(const int *mate, int start, int *out, int *count)
 typedef struct {
   double extra; /* price of the new pairs less that of the old */
   int a, c;     /* one dart of each pair; a < c */
-  bool cross;   /* new pairs (a d)(b c) instead of (a c)(b d), where b = mate of a and d = mate of c */
+  bool
+      cross; /* new pairs (a d)(b c) instead of (a c)(b d), where b = mate of a and d = mate of c */
 } exchange;
 
 typedef struct {
@@ -117,18 +126,21 @@ static int by_extra(const void *pa, const void *pb)
   return (x->c > y->c) - (x->c < y->c);
 }
 
-static exchange cheaper_exchange(int a, int c, double old, double straight_total, double cross_total)
+static exchange cheaper_exchange(int a, int c, double old, double straight_total,
+                                 double cross_total)
 {
   double straight = straight_total - old, cross = cross_total - old;
   return (exchange){straight <= cross ? straight : cross, a, c, cross < straight};
 }
 
-static exchange best_exchange(const thr_frame *frame, const thr_multigraph *multigraph, const int *mate, int a, int c)
+static exchange best_exchange(const thr_frame *frame, const thr_multigraph *multigraph,
+                              const int *mate, int a, int c)
 {
   const int dart[] = {a, mate[a], c, mate[c]};
   double price[4][4];
   price_pairs(frame, multigraph, dart, 4, price[0]);
-  return cheaper_exchange(a, c, price[0][1] + price[2][3], price[0][2] + price[1][3], price[0][3] + price[1][2]);
+  return cheaper_exchange(a, c, price[0][1] + price[2][3], price[0][2] + price[1][3],
+                          price[0][3] + price[1][2]);
 }
 
 /* The same at a node with four darts, the first of them a, from the prices of their pairings. */
@@ -141,9 +153,11 @@ static exchange best_of_four(const int *dart, const double total[3], const int *
   return cheaper_exchange(dart[0], c, by_partner[0], by_partner[1], by_partner[2]);
 }
 
-/* Exchanges between different circuits at node v: all of them at a small node; at a large one each pair with the next. */
-static thr_status collect(const thr_frame *frame, const thr_multigraph *multigraph, const int *mate, const double (*four)[3],
-                          const int *circuit, int v, exchanges *x, thr_err *err)
+/* Exchanges between different circuits at node v: all of them at a small node; at a large one each
+ * pair with the next. */
+static thr_status collect(const thr_frame *frame, const thr_multigraph *multigraph, const int *mate,
+                          const double (*four)[3], const int *circuit, int v, exchanges *x,
+                          thr_err *err)
 {
   int n = multigraph->first[v + 1] - multigraph->first[v];
   const int *dart = multigraph->dart + multigraph->first[v];
@@ -155,16 +169,19 @@ static thr_status collect(const thr_frame *frame, const thr_multigraph *multigra
       if (circuit[dart[i]] == circuit[dart[j]]) continue;
       thr_status st = thr_grow(&x->list, x->count, &x->capacity, sizeof *x->list, err);
       if (st) return st;
-      x->list[x->count++] =
-          four && n == 4 ? best_of_four(dart, four[v], mate, dart[j]) : best_exchange(frame, multigraph, mate, dart[i], dart[j]);
+      x->list[x->count++] = four && n == 4
+                                ? best_of_four(dart, four[v], mate, dart[j])
+                                : best_exchange(frame, multigraph, mate, dart[i], dart[j]);
     }
   }
   return THR_OK;
 }
 
-/* Applies one round of Kruskal's rule over exchanges, `most` of them at most; a pair takes part in at most one exchange a round.
+/* Applies one round of Kruskal's rule over exchanges, `most` of them at most; a pair takes part in
+ * at most one exchange a round.
  */
-static int apply_cheapest(exchanges *x, int *mate, const int *circuit, int *parent, bool *moved, int most)
+static int apply_cheapest(exchanges *x, int *mate, const int *circuit, int *parent, bool *moved,
+                          int most)
 {
   int applied = 0;
   if (x->count) qsort(x->list, (size_t)x->count, sizeof *x->list, by_extra);
@@ -180,8 +197,8 @@ static int apply_cheapest(exchanges *x, int *mate, const int *circuit, int *pare
   return applied;
 }
 
-thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate, const double (*four)[3],
-                               int enough, thr_err *err)
+thr_status thr_transition_join(const thr_frame *frame, const thr_multigraph *multigraph, int *mate,
+                               const double (*four)[3], int enough, thr_err *err)
 {
   thr_status st = THR_OK;
   int left;
@@ -210,7 +227,8 @@ done:
   return st;
 }
 
-void thr_transition_join_equal(const thr_multigraph *multigraph, const int *circuit, int *parent, int *mate)
+void thr_transition_join_equal(const thr_multigraph *multigraph, const int *circuit, int *parent,
+                               int *mate)
 {
   for (int d = 0; d + 2 < multigraph->n_darts; d += 2) {
     if (multigraph->half[d] < 0 || multigraph->half[d] != multigraph->half[d + 2] ||
@@ -227,7 +245,8 @@ void thr_transition_join_equal(const thr_multigraph *multigraph, const int *circ
 void thr_transition_copies(const thr_frame *frame, const thr_multigraph *multigraph, int *next)
 {
   for (int d = multigraph->n_darts - 2; d >= 0; d -= 2)
-    next[multigraph->half[d] >= 0 ? multigraph->half[d] >> 1 : frame->n_edges + multigraph->tail[d]] = d;
+    next[multigraph->half[d] >= 0 ? multigraph->half[d] >> 1
+                                  : frame->n_edges + multigraph->tail[d]] = d;
 }
 
 /* The next number is taken. */
@@ -237,8 +256,8 @@ static int take(int *next, int i)
   return next[i] - 2;
 }
 
-void thr_transition_walk(const thr_frame *frame, const thr_multigraph *multigraph, const int *half, int n, bool open, int *next,
-                         int *mate)
+void thr_transition_walk(const thr_frame *frame, const thr_multigraph *multigraph, const int *half,
+                         int n, bool open, int *next, int *mate)
 {
   int first = -1, last = open ? take(next, frame->n_edges + thr_tail(frame, half[0])) : -1;
   for (int i = 0; i < n; i++) {
@@ -247,5 +266,6 @@ void thr_transition_walk(const thr_frame *frame, const thr_multigraph *multigrap
     if (last >= 0) thr_set_pair(mate, last, d);
     last = d ^ 1;
   }
-  thr_set_pair(mate, last, open ? take(next, frame->n_edges + thr_head(frame, half[n - 1])) : first);
+  thr_set_pair(mate, last,
+               open ? take(next, frame->n_edges + thr_head(frame, half[n - 1])) : first);
 }

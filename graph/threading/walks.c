@@ -1,5 +1,6 @@
-/* Walks through the passes of a framework (graph theory's: consecutive half-edges, an edge as often as it comes), while it is
- * still open which cord takes which. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Walks through the passes of a framework (graph theory's: consecutive half-edges, an edge as often
+ * as it comes), while it is still open which cord takes which. */
 #include "graph/threading/threading.h"
 
 #include <stdlib.h>
@@ -44,7 +45,8 @@ double thr_walks_most(const thr_walks *walks)
 
 thr_status thr_walks_add(thr_walks *walks, const thr_frame *frame, thr_walk walk, thr_err *err)
 {
-  thr_status st = thr_grow(&walks->walk, walks->n_walks, &walks->capacity, sizeof *walks->walk, err);
+  thr_status st =
+      thr_grow(&walks->walk, walks->n_walks, &walks->capacity, sizeof *walks->walk, err);
   if (st) {
     free(walk.half);
     return st;
@@ -54,7 +56,8 @@ thr_status thr_walks_add(thr_walks *walks, const thr_frame *frame, thr_walk walk
   return THR_OK;
 }
 
-thr_status thr_walks_copy(thr_walks *walks, const thr_frame *frame, const int *half, int n, bool cyclic, thr_err *err)
+thr_status thr_walks_copy(thr_walks *walks, const thr_frame *frame, const int *half, int n,
+                          bool cyclic, thr_err *err)
 {
   thr_walk new = {n, thr_calloc((size_t)n, sizeof *new.half), 0, cyclic};
   if (!new.half) return thr_nomem(err);
@@ -90,8 +93,8 @@ static int pair_odd_nodes(const thr_frame *frame, const int *passes, int (*pair)
 }
 
 /* Cuts the circuit dart[0 .. n-1], which starts with a virtual dart if it has any, at those. */
-static thr_status break_circuit(const thr_frame *frame, const thr_multigraph *multigraph, const int *dart, int n, thr_walks *out,
-                                thr_err *err)
+static thr_status break_circuit(const thr_frame *frame, const thr_multigraph *multigraph,
+                                const int *dart, int n, thr_walks *out, thr_err *err)
 {
   thr_status st = THR_OK;
   bool cyclic = multigraph->half[dart[0]] >= 0;
@@ -108,8 +111,8 @@ static thr_status break_circuit(const thr_frame *frame, const thr_multigraph *mu
   return st;
 }
 
-thr_status thr_walks_follow(thr_walks *walks, const thr_frame *frame, const thr_multigraph *multigraph, const int *mate,
-                            thr_err *err)
+thr_status thr_walks_follow(thr_walks *walks, const thr_frame *frame,
+                            const thr_multigraph *multigraph, const int *mate, thr_err *err)
 {
   int *walk = thr_calloc((size_t)multigraph->n_darts, sizeof *walk), n;
   bool *seen = thr_calloc((size_t)multigraph->n_darts, sizeof *seen);
@@ -134,8 +137,8 @@ thr_status thr_walks_trace(const thr_frame *frame, const int *passes, thr_walks 
   double(*four)[3] = NULL;
   *out = (thr_walks){0};
   if (!pair) return thr_nomem(err);
-  thr_status st =
-      thr_multigraph_init(&multigraph, frame, 0, passes, (const int(*)[2])pair, pair_odd_nodes(frame, passes, pair), err);
+  thr_status st = thr_multigraph_init(&multigraph, frame, 0, passes, (const int(*)[2])pair,
+                                      pair_odd_nodes(frame, passes, pair), err);
   if (!st && !(mate = thr_calloc((size_t)multigraph.n_darts, sizeof *mate))) st = thr_nomem(err);
   if (!st && !(four = thr_calloc((size_t)frame->n_nodes, sizeof *four))) st = thr_nomem(err);
   if (!st) st = thr_transition_pair(frame, &multigraph, mate, four, err);
@@ -183,8 +186,8 @@ static void list_walk(thr_walk_visits *visits, int i)
   }
 }
 
-thr_status thr_walk_visits_init(thr_walk_visits *visits, const thr_frame *frame, const thr_walk *walk, int n_walks, int *first,
-                                thr_err *err)
+thr_status thr_walk_visits_init(thr_walk_visits *visits, const thr_frame *frame,
+                                const thr_walk *walk, int n_walks, int *first, thr_err *err)
 {
   size_t n = (size_t)n_walks, nodes = (size_t)frame->n_nodes;
   for (int i = 0; i < n_walks; i++)
@@ -240,19 +243,22 @@ void thr_walk_reverse(int *half, int n)
 }
 
 /* As a closed cord if it comes back. */
-static thr_status make_cord(thr_walk *walk, const thr_frame *frame, const thr_request *options, thr_cord *cord, thr_err *err)
+static thr_status make_cord(thr_walk *walk, const thr_frame *frame, const thr_request *options,
+                            thr_cord *cord, thr_err *err)
 {
   int start = thr_tail(frame, walk->half[0]), end = thr_head(frame, walk->half[walk->n - 1]);
   if (start > end) thr_walk_reverse(walk->half, walk->n);
-  thr_status st = walk->cyclic ? thr_walk_rotate(walk, thr_tour_start(frame, options, walk->half, walk->n), err) : THR_OK;
+  thr_status st =
+      walk->cyclic ? thr_walk_rotate(walk, thr_tour_start(frame, options, walk->half, walk->n), err)
+                   : THR_OK;
   if (st) return st;
   *cord = (thr_cord){.closed = start == end, .n_passes = walk->n, .half = walk->half};
   walk->half = NULL;
   return THR_OK;
 }
 
-thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_request *options, thr_cord **cord, int *n_cords,
-                           thr_err *err)
+thr_status thr_walks_cords(thr_walks *walks, const thr_frame *frame, const thr_request *options,
+                           thr_cord **cord, int *n_cords, thr_err *err)
 {
   const int n = walks->n_walks;
   *n_cords = 0;

@@ -1,8 +1,11 @@
-/* Evening out the cords: exchanges until the longest cannot be made shorter (D. Ahr & G. Reinelt, "A tabu search
- * algorithm for the min-max k-Chinese postman problem", Computers & Operations Research 33, 2006, for closed tours from one
- * depot; here cords end where they may, and share nodes).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Evening out the cords: exchanges until the longest cannot be made shorter (D. Ahr & G. Reinelt,
+ * "A tabu search algorithm for the min-max k-Chinese postman problem", Computers & Operations
+ * Research 33, 2006, for closed tours from one depot; here cords end where they may, and share
+ * nodes).
  *
- * Minimize the longest of K cords; no plan is below the total divided by K, or the least cord that passes any one edge.
+ * Minimize the longest of K cords; no plan is below the total divided by K, or the least cord that
+ * passes any one edge.
  *
  * Example: cords of 3 and 9 that share a node exchange their tails and become 6 and 6. */
 #include "graph/random.h"
@@ -16,7 +19,8 @@ enum {
   STEPS_PER_PASS = 1200, /* what the search may cost without getting anywhere */
   STEPS_LEAST = 300000,  /* small ones get this much */
   FEW_WALKS = 16,        /* more of them get more */
-  PARTNERS = 12          /* shorter walks that a walk is compared with while it cannot be made shorter otherwise */
+  PARTNERS =
+      12 /* shorter walks that a walk is compared with while it cannot be made shorter otherwise */
 };
 
 static bool stop(const thr_balance *balance)
@@ -35,8 +39,8 @@ static bool done(const thr_balance *balance)
   return most <= balance->goal || most <= mean(&balance->s->walks) * (1 + 1e-12);
 }
 
-/* What the longer of two walks must fall below for an exchange to be worth it: a part of what is too much, so that a few
- * exchanges lead to the end. */
+/* What the longer of two walks must fall below for an exchange to be worth it: a part of what is
+ * too much, so that a few exchanges lead to the end. */
 static double worth(const thr_balance *balance, double length)
 {
   double too_much = fmax(length - fmax(balance->goal, mean(&balance->s->walks)), 0);
@@ -84,18 +88,22 @@ static bool meets(thr_balance *balance, int q)
   return i <= walk->n;
 }
 
-/* The best exchange of walk p with a shorter one; two tries with cyclic ones, which meet at a random node. */
-static thr_status exchange_with_shorter(thr_balance *balance, const ranked *order, int p, bool *made, thr_err *err)
+/* The best exchange of walk p with a shorter one; two tries with cyclic ones, which meet at a
+ * random node. */
+static thr_status exchange_with_shorter(thr_balance *balance, const ranked *order, int p,
+                                        bool *made, thr_err *err)
 {
   thr_balance_exchange best = {.longer = worth(balance, balance->s->walks.walk[p].length)};
   int with = -1, tries = balance->s->walks.walk[p].cyclic ? 2 : 1;
   thr_status st = THR_OK;
   stamp(balance, p);
-  for (int k = balance->s->walks.n_walks - 1; k >= 0 && order[k].walk != p && !st && balance->steps > 0; k--)
+  for (int k = balance->s->walks.n_walks - 1;
+       k >= 0 && order[k].walk != p && !st && balance->steps > 0; k--)
     for (int t = meets(balance, order[k].walk) ? 0 : tries; t < tries && !st; t++) {
       thr_balance_exchange x;
       int q = order[k].walk;
-      if (balance->s->walks.walk[p].cyclic && with >= 0) continue; /* only the last one found is at hand */
+      if (balance->s->walks.walk[p].cyclic && with >= 0)
+        continue; /* only the last one found is at hand */
       st = thr_balance_find(balance, p, q, &x, err);
       if (st || x.longer >= best.longer) continue;
       best = x;
@@ -106,8 +114,8 @@ static thr_status exchange_with_shorter(thr_balance *balance, const ranked *orde
   return *made ? thr_balance_make(balance, p, with, &best, err) : st;
 }
 
-/* Every walk exchanges with shorter ones, again and again: each exchange takes a part of what is too much, so that they come to
- * an end, and is worth going on for as long again. */
+/* Every walk exchanges with shorter ones, again and again: each exchange takes a part of what is
+ * too much, so that they come to an end, and is worth going on for as long again. */
 static thr_status sweep(thr_balance *balance, ranked *order, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -135,7 +143,8 @@ static thr_status shuffle(thr_balance *balance, const ranked *order, thr_err *er
   return st;
 }
 
-/* Walks that are longer than the mean, which others must be made shorter for, too: the longest may only meet such. */
+/* Walks that are longer than the mean, which others must be made shorter for, too: the longest may
+ * only meet such. */
 static int too_long(const thr_balance *balance, const ranked *order)
 {
   const double middle = fmax(balance->goal, mean(&balance->s->walks)) * (1 + 1e-9);
@@ -145,28 +154,33 @@ static int too_long(const thr_balance *balance, const ranked *order)
   return n;
 }
 
-/* Detours from one of the walks that are too long to some shorter ones: those that come next in *turn, which goes through all
- * pairs, the shortest walk first. */
-static thr_status detour(thr_balance *balance, const ranked *order, int *turn, bool *made, thr_err *err)
+/* Detours from one of the walks that are too long to some shorter ones: those that come next in
+ * *turn, which goes through all pairs, the shortest walk first. */
+static thr_status detour(thr_balance *balance, const ranked *order, int *turn, bool *made,
+                         thr_err *err)
 {
   const int n = balance->s->walks.n_walks, longer = too_long(balance, order);
   thr_status st = THR_OK;
   *made = false;
-  for (int tried = 0; longer > 0 && tried < PARTNERS && !*made && !st && !stop(balance); tried++, ++*turn) {
+  for (int tried = 0; longer > 0 && tried < PARTNERS && !*made && !st && !stop(balance);
+       tried++, ++*turn) {
     const int i = *turn % longer, k = n - 1 - *turn / longer % (n - 1), p = order[i].walk;
     if (k <= i) continue;
-    st = thr_balance_detour(balance, p, order[k].walk, worth(balance, balance->s->walks.walk[p].length), made, err);
+    st = thr_balance_detour(balance, p, order[k].walk,
+                            worth(balance, balance->s->walks.walk[p].length), made, err);
   }
   return st;
 }
 
-/* Rounds of shuffles and exchanges; after some in vain detours, until all of them were in vain, too. */
+/* Rounds of shuffles and exchanges; after some in vain detours, until all of them were in vain,
+ * too. */
 static thr_status search(thr_balance *balance, ranked *order, thr_err *err)
 {
   enum { IN_VAIN = 24, STUCK = 20 };
   const int n = balance->s->walks.n_walks;
   thr_status st = sweep(balance, order, err);
-  for (int vain = 0, stuck = 0, turn = 0; (stuck < STUCK || turn < n * (n - 1)) && !st && !stop(balance) && !done(balance);) {
+  for (int vain = 0, stuck = 0, turn = 0;
+       (stuck < STUCK || turn < n * (n - 1)) && !st && !stop(balance) && !done(balance);) {
     double most = thr_walks_most(&balance->s->walks);
     bool made = false, detours = vain == IN_VAIN;
     rank(&balance->s->walks, order);
@@ -191,7 +205,8 @@ thr_status thr_balance_walks(thr_decomposition *decomposition, double goal, thr_
   for (int i = 0; i < walks->n_walks; i++)
     all += walks->walk[i].n;
   thr_balance balance = {.s = decomposition, .goal = goal, .random = 1};
-  balance.steps = balance.budget = STEPS_LEAST + STEPS_PER_PASS * all * (1 + walks->n_walks / FEW_WALKS);
+  balance.steps = balance.budget =
+      STEPS_LEAST + STEPS_PER_PASS * all * (1 + walks->n_walks / FEW_WALKS);
   balance.first = thr_calloc(n, sizeof *balance.first);
   balance.stamp = thr_calloc(n, sizeof *balance.stamp);
   ranked *order = thr_calloc((size_t)walks->n_walks, sizeof *order);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exchanges between two walks over nodes that both visit: no pass is added. */
 #include "graph/random.h"
 #include "lp/length/postman_parts.h"
@@ -6,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static thr_status visits_of(const thr_balance *balance, const thr_walk *walk, thr_walk_visits *visits, thr_err *err)
+static thr_status visits_of(const thr_balance *balance, const thr_walk *walk,
+                            thr_walk_visits *visits, thr_err *err)
 {
   return thr_walk_visits_init(visits, balance->s->f, walk, 1, balance->first, err);
 }
@@ -72,7 +74,8 @@ static void put_exchange(thr_splice *splice, const thr_balance_exchange *x)
   }
 }
 
-/* What asking about the joints of a change costs beyond the usual: nodes of very many edges are walked through. */
+/* What asking about the joints of a change costs beyond the usual: nodes of very many edges are
+ * walked through. */
 static int64_t hub_steps(const thr_balance *balance, const thr_turn_change *change)
 {
   enum { USUAL = 64 };
@@ -84,9 +87,10 @@ static int64_t hub_steps(const thr_balance *balance, const thr_turn_change *chan
   return steps;
 }
 
-/* The better of two, if the joints allow it. With joints to ask about this is what takes the time. */
-static void offer(thr_balance *balance, const thr_walk *walk, const thr_walk *q, thr_balance_exchange x,
-                  thr_balance_exchange *best)
+/* The better of two, if the joints allow it. With joints to ask about this is what takes the time.
+ */
+static void offer(thr_balance *balance, const thr_walk *walk, const thr_walk *q,
+                  thr_balance_exchange x, thr_balance_exchange *best)
 {
   if (x.longer >= best->longer) return;
   if (balance->ties) {
@@ -102,33 +106,41 @@ static void offer(thr_balance *balance, const thr_walk *walk, const thr_walk *q,
 
 /* ---- open walks: tails, sections, common ends ---- */
 
-/* TAILS: p[0, i) q[j, ..) and q[0, j) p[i, ..). CROSS: p[0, i) and q[0, j) backwards, p[i, ..) backwards and q[j, ..). */
-static void offer_tails(thr_balance *balance, const thr_walk_visits *visits, int i, const thr_walk_visits *walk_visits, int j,
-                        thr_balance_exchange *best)
+/* TAILS: p[0, i) q[j, ..) and q[0, j) p[i, ..). CROSS: p[0, i) and q[0, j) backwards, p[i, ..)
+ * backwards and q[j, ..). */
+static void offer_tails(thr_balance *balance, const thr_walk_visits *visits, int i,
+                        const thr_walk_visits *walk_visits, int j, thr_balance_exchange *best)
 {
   int np = visits->w->n, nq = walk_visits->w->n;
-  double all = visits->sum[np] + walk_visits->sum[nq], tails = visits->sum[i] + walk_visits->sum[nq] - walk_visits->sum[j],
+  double all = visits->sum[np] + walk_visits->sum[nq],
+         tails = visits->sum[i] + walk_visits->sum[nq] - walk_visits->sum[j],
          cross = visits->sum[i] + walk_visits->sum[j];
   if (i + nq - j > 0 && j + np - i > 0)
-    offer(balance, visits->w, walk_visits->w, (thr_balance_exchange){THR_BALANCE_TAILS, fmax(tails, all - tails), i, j, 0}, best);
+    offer(balance, visits->w, walk_visits->w,
+          (thr_balance_exchange){THR_BALANCE_TAILS, fmax(tails, all - tails), i, j, 0}, best);
   if (i + j > 0 && np - i + nq - j > 0)
-    offer(balance, visits->w, walk_visits->w, (thr_balance_exchange){THR_BALANCE_CROSS, fmax(cross, all - cross), i, j, 0}, best);
+    offer(balance, visits->w, walk_visits->w,
+          (thr_balance_exchange){THR_BALANCE_CROSS, fmax(cross, all - cross), i, j, 0}, best);
 }
 
 /* GIVE: the closed section p[i, j) goes into walk_visits before its position k. */
-static void offer_sections(thr_balance *balance, const thr_walk_visits *visits, int j, const thr_walk_visits *walk_visits, int k,
-                           thr_balance_exchange *best)
+static void offer_sections(thr_balance *balance, const thr_walk_visits *visits, int j,
+                           const thr_walk_visits *walk_visits, int k, thr_balance_exchange *best)
 {
   double all = visits->sum[visits->w->n] + walk_visits->sum[walk_visits->w->n];
-  for (int i = visits->next[j], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = visits->next[i], seen++) {
+  for (int i = visits->next[j], seen = 0; i >= 0 && seen < THR_MOST_VISITS;
+       i = visits->next[i], seen++) {
     double left = visits->sum[visits->w->n] - (visits->sum[j] - visits->sum[i]);
     if (j - i < visits->w->n)
-      offer(balance, visits->w, walk_visits->w, (thr_balance_exchange){THR_BALANCE_GIVE, fmax(left, all - left), i, j, k}, best);
+      offer(balance, visits->w, walk_visits->w,
+            (thr_balance_exchange){THR_BALANCE_GIVE, fmax(left, all - left), i, j, k}, best);
   }
 }
 
-/* Position at of visits and walk_visits in a row, each turned round if its bit of k is set: which walk, and where in it. */
-static int in_row(const thr_walk_visits *visits, const thr_walk_visits *walk_visits, int k, int at, const thr_walk_visits **which)
+/* Position at of visits and walk_visits in a row, each turned round if its bit of k is set: which
+ * walk, and where in it. */
+static int in_row(const thr_walk_visits *visits, const thr_walk_visits *walk_visits, int k, int at,
+                  const thr_walk_visits **which)
 {
   *which = at <= visits->w->n ? visits : walk_visits;
   if (at > visits->w->n) at -= visits->w->n;
@@ -136,28 +148,33 @@ static int in_row(const thr_walk_visits *visits, const thr_walk_visits *walk_vis
   return turned ? (*which)->w->n - at : at;
 }
 
-/* JOIN: two walks with an end at one node become one there, which is cut where ends are allowed, at i. */
-static void offer_joins(thr_balance *balance, const thr_walk_visits *visits, const thr_walk_visits *walk_visits,
-                        thr_balance_exchange *best)
+/* JOIN: two walks with an end at one node become one there, which is cut where ends are allowed, at
+ * i. */
+static void offer_joins(thr_balance *balance, const thr_walk_visits *visits,
+                        const thr_walk_visits *walk_visits, thr_balance_exchange *best)
 {
   const thr_frame *frame = balance->s->f;
   int np = visits->w->n, nq = walk_visits->w->n;
   for (int k = 0; k < 4; k++) {
-    if (thr_walk_node(frame, visits->w, k & 1 ? 0 : np) != thr_walk_node(frame, walk_visits->w, k & 2 ? nq : 0)) continue;
+    if (thr_walk_node(frame, visits->w, k & 1 ? 0 : np) !=
+        thr_walk_node(frame, walk_visits->w, k & 2 ? nq : 0))
+      continue;
     double all = visits->sum[np] + walk_visits->sum[nq];
     for (int at = 1; at < np + nq; at++) {
       const thr_walk_visits *which;
       int i = in_row(visits, walk_visits, k, at, &which);
       if (!thr_plan_end_allowed(frame, balance->s->o, thr_walk_node(frame, which->w, i))) continue;
-      double part = (which == visits ? k & 1 : k & 2) ? which->sum[which->w->n] - which->sum[i] : which->sum[i];
+      double part = (which == visits ? k & 1 : k & 2) ? which->sum[which->w->n] - which->sum[i]
+                                                      : which->sum[i];
       if (which == walk_visits) part += visits->sum[np];
-      offer(balance, visits->w, walk_visits->w, (thr_balance_exchange){THR_BALANCE_JOIN, fmax(part, all - part), at, 0, k}, best);
+      offer(balance, visits->w, walk_visits->w,
+            (thr_balance_exchange){THR_BALANCE_JOIN, fmax(part, all - part), at, 0, k}, best);
     }
   }
 }
 
-static thr_status find_open(thr_balance *balance, const thr_walk *walk, const thr_walk *w, thr_balance_exchange *best,
-                            thr_err *err)
+static thr_status find_open(thr_balance *balance, const thr_walk *walk, const thr_walk *w,
+                            thr_balance_exchange *best, thr_err *err)
 {
   const thr_frame *frame = balance->s->f;
   int *at_q = balance->merged; /* the last visit of q at each position of visits */
@@ -182,7 +199,8 @@ static thr_status find_open(thr_balance *balance, const thr_walk *walk, const th
 /* ---- cyclic walks: merged at a node of both, and split at another ---- */
 
 /* A visit of both, any: with the numbers of the passes in walk and q; *j -1: there is none. */
-static thr_status common_visit(thr_balance *balance, const thr_walk *walk, const thr_walk *q, int *i, int *j, thr_err *err)
+static thr_status common_visit(thr_balance *balance, const thr_walk *walk, const thr_walk *q,
+                               int *i, int *j, thr_err *err)
 {
   thr_walk_visits visits;
   int from = (int)(thr_random(&balance->random) % (uint64_t)walk->n);
@@ -199,8 +217,8 @@ static thr_status common_visit(thr_balance *balance, const thr_walk *walk, const
 }
 
 /* SECTION: merged[i, j) and the rest. */
-static thr_status find_cyclic(thr_balance *balance, const thr_walk *walk, const thr_walk *q, thr_balance_exchange *best,
-                              thr_err *err)
+static thr_status find_cyclic(thr_balance *balance, const thr_walk *walk, const thr_walk *q,
+                              thr_balance_exchange *best, thr_err *err)
 {
   int i, j, np = walk->n, nq = q->n;
   thr_status st = common_visit(balance, walk, q, &i, &j, err);
@@ -216,9 +234,12 @@ static thr_status find_cyclic(thr_balance *balance, const thr_walk *walk, const 
   if ((st = visits_of(balance, &all, &visits, err))) return st;
   thr_walk_visits_forget(&visits);
   for (j = 1; j < all.n; j++)
-    for (int seen = 0, e = visits.next[j]; e >= 0 && seen < THR_MOST_VISITS; e = visits.next[e], seen++) {
+    for (int seen = 0, e = visits.next[j]; e >= 0 && seen < THR_MOST_VISITS;
+         e = visits.next[e], seen++) {
       double part = visits.sum[j] - visits.sum[e];
-      offer(balance, &one, &other, (thr_balance_exchange){THR_BALANCE_SECTION, fmax(part, visits.sum[all.n] - part), e, j, 0},
+      offer(balance, &one, &other,
+            (thr_balance_exchange){THR_BALANCE_SECTION, fmax(part, visits.sum[all.n] - part), e, j,
+                                   0},
             best);
     }
   thr_walk_visits_destroy(&visits);
@@ -236,19 +257,22 @@ static thr_status make_room(thr_balance *balance, int n, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_balance_find(thr_balance *balance, int p, int q, thr_balance_exchange *best, thr_err *err)
+thr_status thr_balance_find(thr_balance *balance, int p, int q, thr_balance_exchange *best,
+                            thr_err *err)
 {
   const thr_walk *walk = &balance->s->walks.walk[p], *y = &balance->s->walks.walk[q];
   *best = (thr_balance_exchange){.longer = INFINITY};
   balance->steps -= walk->n + y->n;
   thr_status st = make_room(balance, walk->n + y->n + 1, err);
   if (st) return st;
-  return walk->cyclic ? find_cyclic(balance, walk, y, best, err) : find_open(balance, walk, y, best, err);
+  return walk->cyclic ? find_cyclic(balance, walk, y, best, err)
+                      : find_open(balance, walk, y, best, err);
 }
 
 /* ---- making it ---- */
 
-thr_status thr_balance_make(thr_balance *balance, int p, int q, const thr_balance_exchange *x, thr_err *err)
+thr_status thr_balance_make(thr_balance *balance, int p, int q, const thr_balance_exchange *x,
+                            thr_err *err)
 {
   thr_walk walk = balance->s->walks.walk[p], w = balance->s->walks.walk[q];
   if (walk.cyclic) {
@@ -257,7 +281,8 @@ thr_status thr_balance_make(thr_balance *balance, int p, int q, const thr_balanc
   }
   thr_splice splice = thr_splice_of(walk.cyclic, &walk, &w);
   put_exchange(&splice, x);
-  return thr_splice_make(&splice, balance->s->f, &balance->s->walks, p, q, balance->ties, NULL, err);
+  return thr_splice_make(&splice, balance->s->f, &balance->s->walks, p, q, balance->ties, NULL,
+                         err);
 }
 
 /* The closed section i .. j - 1 of walk the other way round. */

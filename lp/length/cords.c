@@ -1,7 +1,10 @@
-/* The shortest plan with any number of cords: passes (lp/length/postman.h), shared out among cords (lp/length/decomposition.c,
- * lp/length/balance.c); for a length limit with more and more cords until none is longer.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The shortest plan with any number of cords: passes (lp/length/postman.h), shared out among cords
+ * (lp/length/decomposition.c, lp/length/balance.c); for a length limit with more and more cords
+ * until none is longer.
  *
- * Example: a framework of 12 m of passes, no cord longer than 5 m: three cords at least, ceil(12 / 5).
+ * Example: a framework of 12 m of passes, no cord longer than 5 m: three cords at least, ceil(12 /
+ * 5).
  *
  * Passes, room for ends, walks, cords; once, or for more and more cords until none is too long. */
 #include "graph/check/check.h"
@@ -14,7 +17,8 @@
 
 /* ---- sharing out ---- */
 
-/* A closed cord through its passes again: its ends are where they were, where leaving out a turn saves most. */
+/* A closed cord through its passes again: its ends are where they were, where leaving out a turn
+ * saves most. */
 static thr_status open_again(const thr_decomposition *x, thr_walk *walk, int node, thr_err *err)
 {
   int best = -1;
@@ -29,8 +33,8 @@ static thr_status open_again(const thr_decomposition *x, thr_walk *walk, int nod
   return thr_walk_rotate(walk, best, err);
 }
 
-/* Evening out takes the passes of a cord in any order: the same passes again with little turning. Each cord costs a look at the
- * whole framework; many cords of a large one stay as they are. */
+/* Evening out takes the passes of a cord in any order: the same passes again with little turning.
+ * Each cord costs a look at the whole framework; many cords of a large one stay as they are. */
 static thr_status straighten(thr_decomposition *x, int *passes, thr_err *err)
 {
   const double most = 1e8;
@@ -88,16 +92,21 @@ static double most_passes(const thr_decomposition *x)
 static thr_status make_more(thr_decomposition *x, int n, thr_err *err)
 {
   bool certain, found;
-  thr_status st = thr_decomposition_table(x, &(thr_decomposition_ask){n, n, false, INFINITY}, &certain, err);
+  thr_status st =
+      thr_decomposition_table(x, &(thr_decomposition_ask){n, n, false, INFINITY}, &certain, err);
   x->least &= certain;
   found = x->walks.n_walks >= n;
   if (!st && !found && !certain) st = thr_decomposition_more(x, n, &found, err);
   if (st || found) return st;
   if (certain || 2.0 * n > most_passes(x))
-    return thr_fail(err, THR_EINFEASIBLE, "the component with node %s cannot hold %d closed cords: the capacities leave no room",
-                    x->f->name[0], n);
-  return thr_fail(err, THR_ELIMIT, "the component with node %s: did not find %d closed cords; the capacities leave little room",
-                  x->f->name[0], n);
+    return thr_fail(
+        err, THR_EINFEASIBLE,
+        "the component with node %s cannot hold %d closed cords: the capacities leave no room",
+        x->f->name[0], n);
+  return thr_fail(
+      err, THR_ELIMIT,
+      "the component with node %s: did not find %d closed cords; the capacities leave little room",
+      x->f->name[0], n);
 }
 
 /* n closed cords from the circuit. scratch[n_edges]. */
@@ -113,13 +122,16 @@ static thr_status make_closed(thr_decomposition *x, int n, bool even, int *scrat
 }
 
 /* n walks through the passes. */
-static thr_status share_out(thr_decomposition *x, int n, const thr_certificate *certificate, bool even, double goal, thr_err *err)
+static thr_status share_out(thr_decomposition *x, int n, const thr_certificate *certificate,
+                            bool even, double goal, thr_err *err)
 {
   int *passes = thr_calloc((size_t)x->f->n_edges, sizeof *passes);
   thr_status st = passes ? thr_decomposition_places(x, n, certificate, err) : thr_nomem(err);
   thr_walks_destroy(&x->walks);
   if (!st) st = thr_walks_trace(x->f, x->passes, &x->walks, err);
-  if (!st) st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, n, even, passes, err) : thr_decomposition_cut(x, n, even, err);
+  if (!st)
+    st = x->o->ends == THR_ENDS_CLOSED ? make_closed(x, n, even, passes, err)
+                                       : thr_decomposition_cut(x, n, even, err);
   if (!st && even) st = tell(x, err);
   if (!st && even) st = thr_decomposition_even(x, goal, err);
   if (!st && even) st = straighten(x, passes, err);
@@ -155,7 +167,9 @@ static int choose_number(const thr_decomposition *x)
   if (options->ends == THR_ENDS_COUNTS) return counted_cords(x);
   if (!thr_wants_balance(options)) return options->cords_least;
   int room = most_cords(x);
-  return room < options->cords_least ? options->cords_least : room < options->cords ? room : options->cords;
+  return room < options->cords_least ? options->cords_least
+         : room < options->cords     ? room
+                                     : options->cords;
 }
 
 /* ---- no cord longer than a limit ---- */
@@ -188,17 +202,20 @@ thr_status thr_cords_reach(const thr_frame *frame, const thr_request *options, t
     }
     double least = (closed ? 0 : w.far[end[0]]) + frame->length[e] + w.far[end[1]];
     if (!thr_decomposition_within(least, limit))
-      st = thr_fail(
-          err, THR_EINFEASIBLE, "no cord of at most %g %s can pass the edge between nodes %s and %s: %s over it takes %g %s",
-          limit, frame->units, frame->name[end[0]], frame->name[end[1]],
-          closed ? "the shortest circuit" : "the shortest path between places where cords may end", least, frame->units);
+      st = thr_fail(err, THR_EINFEASIBLE,
+                    "no cord of at most %g %s can pass the edge between nodes %s and %s: %s over "
+                    "it takes %g %s",
+                    limit, frame->units, frame->name[end[0]], frame->name[end[1]],
+                    closed ? "the shortest circuit"
+                           : "the shortest path between places where cords may end",
+                    least, frame->units);
   }
   thr_paths_destroy(&w);
   return st;
 }
 
-thr_status thr_cords_grow(thr_decomposition *decomposition, double length, thr_cords_try *try_number, void *with, bool *done,
-                          thr_err *err)
+thr_status thr_cords_grow(thr_decomposition *decomposition, double length,
+                          thr_cords_try *try_number, void *with, bool *done, thr_err *err)
 {
   enum { IN_SINGLE_STEPS = 12 };
   const int most = decomposition->o->cords;
@@ -207,7 +224,8 @@ thr_status thr_cords_grow(thr_decomposition *decomposition, double length, thr_c
   if (least < n && decomposition->o->ends != THR_ENDS_COUNTS)
     n = least > decomposition->o->cords_least ? (int)least : decomposition->o->cords_least;
   thr_status st = thr_cords_reach(decomposition->f, decomposition->o, err);
-  /* Larger steps where many numbers are too small; no more where the table has said that none is right. */
+  /* Larger steps where many numbers are too small; no more where the table has said that none is
+   * right. */
   for (int tried = 0, step = 1; !st && !*done && !decomposition->none && n <= most; n += step) {
     st = try_number(decomposition, with, n, done, err);
     if (++tried > IN_SINGLE_STEPS && n < most) step = 2 * step < most - n ? 2 * step : most - n;
@@ -215,7 +233,8 @@ thr_status thr_cords_grow(thr_decomposition *decomposition, double length, thr_c
   return st;
 }
 
-/* The shortest passes of as many cords as there are walks at last; few: the certificate of the largest number that is ruled out.
+/* The shortest passes of as many cords as there are walks at last; few: the certificate of the
+ * largest number that is ruled out.
  */
 typedef struct {
   thr_shortest *best;
@@ -230,7 +249,8 @@ static void swap_certificates(thr_certificate *a, thr_certificate *b)
 }
 
 /* Of at most n cords; *found false: full edges make more of them end. */
-static thr_status shortest_of(const thr_decomposition *x, int n, thr_shortest *shortest, bool *found, thr_err *err)
+static thr_status shortest_of(const thr_decomposition *x, int n, thr_shortest *shortest,
+                              bool *found, thr_err *err)
 {
   thr_request options = *x->o;
   thr_err why = {0};
@@ -241,11 +261,13 @@ static thr_status shortest_of(const thr_decomposition *x, int n, thr_shortest *s
 }
 
 /* The certificate of as many cords as were found. */
-static thr_status take_certificate(const thr_decomposition *x, growing *g, int n, thr_certificate *made, thr_err *err)
+static thr_status take_certificate(const thr_decomposition *x, growing *g, int n,
+                                   thr_certificate *made, thr_err *err)
 {
   thr_shortest other = {0};
   bool found = false;
-  thr_status st = x->walks.n_walks == n ? THR_OK : shortest_of(x, x->walks.n_walks, &other, &found, err);
+  thr_status st =
+      x->walks.n_walks == n ? THR_OK : shortest_of(x, x->walks.n_walks, &other, &found, err);
   swap_certificates(&g->best->certificate[0], found ? &other.certificate[0] : made);
   thr_shortest_destroy(&other);
   return st;
@@ -275,20 +297,28 @@ static thr_status try_number(thr_decomposition *x, void *with, int n, bool *done
 static thr_status none_found(const thr_decomposition *x, double least, thr_err *err)
 {
   const int most = x->o->cords;
-  const char *cords = most == 1 ? "cord" : "cords", *units = x->f->units, *up_to = x->o->cords_least == most ? "" : "up to ";
+  const char *cords = most == 1 ? "cord" : "cords", *units = x->f->units,
+             *up_to = x->o->cords_least == most ? "" : "up to ";
   double limit = x->o->max_length;
   if (least > most * limit * (1 + 1e-9))
-    return thr_fail(err, THR_EINFEASIBLE, "the component with node %s needs %g %s of cord: %d %s of at most %g %s are too few",
-                    x->f->name[0], least, units, most, cords, limit, units);
+    return thr_fail(
+        err, THR_EINFEASIBLE,
+        "the component with node %s needs %g %s of cord: %d %s of at most %g %s are too few",
+        x->f->name[0], least, units, most, cords, limit, units);
   if (x->none)
-    return thr_fail(err, THR_EINFEASIBLE, "the component with node %s: of %s%d %s one is longer than %g %s (all were tried)",
-                    x->f->name[0], up_to, most, cords, limit, units);
+    return thr_fail(
+        err, THR_EINFEASIBLE,
+        "the component with node %s: of %s%d %s one is longer than %g %s (all were tried)",
+        x->f->name[0], up_to, most, cords, limit, units);
   if (x->walks.n_walks == 0)
-    return thr_fail(err, THR_ELIMIT, "the component with node %s: did not find %s%d %s with none longer than %g %s",
+    return thr_fail(err, THR_ELIMIT,
+                    "the component with node %s: did not find %s%d %s with none longer than %g %s",
                     x->f->name[0], up_to, most, cords, limit, units);
   return thr_fail(err, THR_ELIMIT,
-                  "the component with node %s: did not find %s%d %s with none longer than %g %s, but one of %g %s", x->f->name[0],
-                  up_to, most, cords, limit, units, thr_walks_most(&x->walks), units);
+                  "the component with node %s: did not find %s%d %s with none longer than %g %s, "
+                  "but one of %g %s",
+                  x->f->name[0], up_to, most, cords, limit, units, thr_walks_most(&x->walks),
+                  units);
 }
 
 /* g->best holds the shortest passes with most cords, which are the shortest of all. */
@@ -309,11 +339,13 @@ static thr_status make(thr_decomposition *x, growing *g, thr_err *err)
   return share_out(x, choose_number(x), g->best->certificate, thr_wants_balance(x->o), 0, err);
 }
 
-static thr_status fail_above(thr_err *err, const char *what, double value, double bound, const char *why, const char *colon)
+static thr_status fail_above(thr_err *err, const char *what, double value, double bound,
+                             const char *why, const char *colon)
 {
-  if (!(bound > 0)) return thr_fail(err, THR_ELIMIT, "%s%snothing is proved of how short they can be", why, colon);
-  return thr_fail(err, THR_ELIMIT, "%s%s%s at most %.3g %% above the shortest possible (proved)", why, colon, what,
-                  thr_percent_above(value, bound));
+  if (!(bound > 0))
+    return thr_fail(err, THR_ELIMIT, "%s%snothing is proved of how short they can be", why, colon);
+  return thr_fail(err, THR_ELIMIT, "%s%s%s at most %.3g %% above the shortest possible (proved)",
+                  why, colon, what, thr_percent_above(value, bound));
 }
 
 thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_err *err)
@@ -323,20 +355,24 @@ thr_status thr_cords_judge(const thr_plan *plan, const thr_err *unproved, thr_er
   const char *why = unproved->code ? unproved->text : "", *colon = unproved->code ? ": " : "";
   if (thr_wants_balance(options) && !claim->longest_optimal)
     return fail_above(err, "the longest cord is", claim->longest, claim->longest_bound, why, colon);
-  if (!thr_wants_balance(options) && options->max_length > 0 && claim->fewest && !claim->fewest_optimal)
-    return thr_fail(err, THR_ELIMIT, "%s%sat least %d cords are needed; these are %d", why, colon, claim->fewest, plan->n_cords);
+  if (!thr_wants_balance(options) && options->max_length > 0 && claim->fewest &&
+      !claim->fewest_optimal)
+    return thr_fail(err, THR_ELIMIT, "%s%sat least %d cords are needed; these are %d", why, colon,
+                    claim->fewest, plan->n_cords);
 
   /* As few cords as a limit on the length takes are to be the shortest ones of that number, too. */
   if (thr_wants_balance(options) || plan->proof.optimal) return THR_OK;
-  return fail_above(err, "the cords are", plan->metrics.length, plan->proof.lower_bound, why, colon);
+  return fail_above(err, "the cords are", plan->metrics.length, plan->proof.lower_bound, why,
+                    colon);
 }
 
 static thr_status judge_length(thr_plan *plan, thr_err *err)
 {
   thr_length_proof *proof = &plan->proof;
   thr_err found = {0};
-  thr_status st = thr_check_length_proof(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
-                                         proof->n_certificates, &proof->optimal, &proof->lower_bound, &found);
+  thr_status st = thr_check_length_proof(&plan->frame, &plan->options, plan->cord, plan->n_cords,
+                                         proof->certificate, proof->n_certificates, &proof->optimal,
+                                         &proof->lower_bound, &found);
   proof->gap = (plan->metrics.length - proof->lower_bound) / plan->metrics.length;
   return thr_check_own(st, &found, err);
 }
@@ -353,16 +389,18 @@ static thr_status prove_places(const thr_decomposition *x, thr_plan *plan, thr_e
   return judge_length(plan, err);
 }
 
-/* Where the certificate of as many cords as there are does not rule out fewer, the one that does. */
+/* Where the certificate of as many cords as there are does not rule out fewer, the one that does.
+ */
 static thr_status prove_number(thr_plan *plan, thr_certificate *few, thr_err *err)
 {
   thr_length_proof *proof = &plan->proof;
   thr_cords_claim claim;
-  if (!plan->cords_claim.fewest || plan->cords_claim.fewest_optimal || few->scale == 0) return THR_OK;
+  if (!plan->cords_claim.fewest || plan->cords_claim.fewest_optimal || few->scale == 0)
+    return THR_OK;
   few->join = proof->certificate[0].join;
   swap_certificates(&proof->certificate[0], few);
-  thr_status st = thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords, proof->certificate,
-                                  proof->n_certificates, NULL, &claim, err);
+  thr_status st = thr_check_cords(&plan->frame, &plan->options, plan->cord, plan->n_cords,
+                                  proof->certificate, proof->n_certificates, NULL, &claim, err);
   if (!st && claim.fewest > plan->cords_claim.fewest)
     plan->cords_claim = claim;
   else
@@ -375,16 +413,18 @@ static thr_status prove(const thr_decomposition *x, thr_plan *plan, growing *g, 
   const thr_frame *frame = &plan->frame;
   const thr_request *options = &plan->options;
   thr_status st = thr_plan_measure(frame, options, plan->cord, plan->n_cords, &plan->metrics, err);
-  if (!st) st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, g->best, &plan->proof, err);
+  if (!st)
+    st = thr_postman_prove(frame, options, plan->cord, plan->n_cords, g->best, &plan->proof, err);
   if (!st) st = prove_places(x, plan, err);
   if (!st)
-    st = thr_check_cords(frame, options, plan->cord, plan->n_cords, plan->proof.certificate, plan->proof.n_certificates, NULL,
-                         &plan->cords_claim, err);
+    st = thr_check_cords(frame, options, plan->cord, plan->n_cords, plan->proof.certificate,
+                         plan->proof.n_certificates, NULL, &plan->cords_claim, err);
   return st ? st : prove_number(plan, &g->few, err);
 }
 
-thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                          thr_cords_word *word, thr_err *err)
+thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options,
+                          const thr_limits *limits, thr_plan *plan, thr_cords_word *word,
+                          thr_err *err)
 {
   thr_shortest shortest = {0};
   growing g = {.best = &shortest};
@@ -399,7 +439,8 @@ thr_status thr_cords_plan(const thr_frame *frame, const thr_request *options, co
   thr_status st = thr_plan_request(plan, frame, options, err);
   if (!st) st = thr_decomposition_init(&x, &plan->frame, &plan->options, limits, err);
   if (!st) st = make(&x, &g, err);
-  if (!st) st = thr_walks_cords(&x.walks, &plan->frame, &plan->options, &plan->cord, &plan->n_cords, err);
+  if (!st)
+    st = thr_walks_cords(&x.walks, &plan->frame, &plan->options, &plan->cord, &plan->n_cords, err);
   if (!st) st = prove(&x, plan, &g, err);
   if (word) *word = (thr_cords_word){x.least, x.certain && thr_wants_balance(options)};
   if (st)

@@ -1,4 +1,6 @@
-/* Cords of limited length at once: what there is before a search has found any. Internal to lp/ and whoever keeps the best. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cords of limited length at once: what there is before a search has found any. Internal to lp/ and
+ * whoever keeps the best. */
 #include "lp/length/postman.h"
 
 #include <math.h>
@@ -60,12 +62,13 @@ static thr_status begin_at(cutting *x, int v, thr_err *err)
   return st ? st : thr_paths_spread(&x->home, x->o, NULL, 0, x->o->max_length, NULL, err);
 }
 
-/* Where the section of tour walk that begins at pass `from` ends: after the last pass that still has to be made with which the
- * cord is no longer than it may be; `from`: there is none. */
+/* Where the section of tour walk that begins at pass `from` ends: after the last pass that still
+ * has to be made with which the cord is no longer than it may be; `from`: there is none. */
 static int section_end(const cutting *x, const thr_walk *walk, int from)
 {
   const thr_frame *frame = x->f;
-  double most = x->o->max_length * (1 + 1e-12), length = x->home.far[thr_walk_node(frame, walk, from)];
+  double most = x->o->max_length * (1 + 1e-12),
+         length = x->home.far[thr_walk_node(frame, walk, from)];
   int end = from;
   for (int i = from; i < walk->n && length <= most; i++) {
     int e = walk->half[i] >> 1;
@@ -79,7 +82,8 @@ static int section_end(const cutting *x, const thr_walk *walk, int from)
 static thr_status add_cord(cutting *x, const thr_walk *walk, int from, int end, thr_err *err)
 {
   int a = thr_walk_node(x->f, walk, from), b = thr_walk_node(x->f, walk, end);
-  int n_to = thr_paths_back(&x->home, a, -1, NULL), n_back = thr_paths_back(&x->home, b, -1, NULL), section = end - from;
+  int n_to = thr_paths_back(&x->home, a, -1, NULL), n_back = thr_paths_back(&x->home, b, -1, NULL),
+      section = end - from;
   thr_walk cord = {n_to + section + n_back, NULL, 0, closed_cords(x)};
   if (!(cord.half = thr_calloc((size_t)cord.n, sizeof *cord.half))) return thr_nomem(err);
   thr_paths_to(&x->home, a, cord.half);
@@ -108,8 +112,8 @@ static thr_status cut(cutting *x, bool *found, thr_err *err)
   return st;
 }
 
-thr_status thr_cut_tour(const thr_frame *frame, const thr_request *options, const int *passes, thr_cord **cord, int *n_cords,
-                        thr_err *err)
+thr_status thr_cut_tour(const thr_frame *frame, const thr_request *options, const int *passes,
+                        thr_cord **cord, int *n_cords, thr_err *err)
 {
   cutting x = {.f = frame, .o = options};
   bool found = false;

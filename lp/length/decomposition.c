@@ -1,7 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How the passes of a component are shared out among several cords (docs/method.md).
  *
- * Open cords: one walk, cut where cords may end, costs nothing. Closed cords: a walk that comes twice past a node falls into two
- * there; where no node is passed twice, further passes make more circuits.
+ * Open cords: one walk, cut where cords may end, costs nothing. Closed cords: a walk that comes
+ * twice past a node falls into two there; where no node is passed twice, further passes make more
+ * circuits.
  *
  * Example: a figure of eight, two closed cords: cut at its middle. */
 #include "lp/length/postman_parts.h"
@@ -10,10 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-thr_status thr_decomposition_init(thr_decomposition *decomposition, const thr_frame *frame, const thr_request *options,
-                                  const thr_limits *limits, thr_err *err)
+thr_status thr_decomposition_init(thr_decomposition *decomposition, const thr_frame *frame,
+                                  const thr_request *options, const thr_limits *limits,
+                                  thr_err *err)
 {
-  *decomposition = (thr_decomposition){.f = frame, .o = options, .limits = limits, .least = true, .certain = true};
+  *decomposition = (thr_decomposition){
+      .f = frame, .o = options, .limits = limits, .least = true, .certain = true};
   decomposition->passes = thr_calloc((size_t)frame->n_edges, sizeof *decomposition->passes);
   return decomposition->passes ? THR_OK : thr_nomem(err);
 }
@@ -61,7 +65,9 @@ static thr_status count_cuts(places *p, int *cuts, thr_err *err)
   }
   for (int v = 0; v < frame->n_nodes; v++) {
     if (p->left[v] < 0 || p->left[v] % 2)
-      return thr_fail(err, THR_ESOLVER, "the passes do not leave as many ends at node %s as asked for", frame->name[v]);
+      return thr_fail(err, THR_ESOLVER,
+                      "the passes do not leave as many ends at node %s as asked for",
+                      frame->name[v]);
     p->left[v] /= 2;
     *cuts += p->left[v];
   }
@@ -79,7 +85,8 @@ static thr_status find_places(places *p, thr_err *err)
       if (!may_cut(p, v)) continue;
       thr_status st = thr_grow(&p->list, p->n, &p->capacity, sizeof *p->list, err);
       if (st) return st;
-      p->list[p->n++] = (place){thr_walk_turn(frame, thr_walk_before(x, at), x->half[at]), i, at, v};
+      p->list[p->n++] =
+          (place){thr_walk_turn(frame, thr_walk_before(x, at), x->half[at]), i, at, v};
     }
   }
   return THR_OK;
@@ -88,7 +95,8 @@ static thr_status find_places(places *p, thr_err *err)
 static int by_turn(const void *pa, const void *pb)
 {
   const place *a = pa, *b = pb;
-  if (fabs(a->turn - b->turn) > 1e-9) return a->turn > b->turn ? -1 : 1; /* equal ones in order, whatever the rounding */
+  if (fabs(a->turn - b->turn) > 1e-9)
+    return a->turn > b->turn ? -1 : 1; /* equal ones in order, whatever the rounding */
   if (a->walk != b->walk) return a->walk < b->walk ? -1 : 1;
   return (a->at > b->at) - (a->at < b->at);
 }
@@ -125,7 +133,8 @@ static thr_status cut_all(places *p, thr_err *err)
 static thr_status too_few(const places *p, int wanted, thr_err *err)
 {
   const thr_frame *frame = p->s->f;
-  return thr_fail(err, THR_EINFEASIBLE, "the component with node %s has too few places for the ends of %d cords",
+  return thr_fail(err, THR_EINFEASIBLE,
+                  "the component with node %s has too few places for the ends of %d cords",
                   frame->name[thr_tail(frame, p->w->walk[0].half[0])], wanted);
 }
 
@@ -145,7 +154,8 @@ static thr_status cut_sharpest(places *p, int cuts, int wanted, thr_err *err)
   return cut_all(p, err);
 }
 
-/* Where an open walk is cut into the most equal parts; 0 = nowhere. A cyclic one: where it may be opened; -1 = nowhere. */
+/* Where an open walk is cut into the most equal parts; 0 = nowhere. A cyclic one: where it may be
+ * opened; -1 = nowhere. */
 static int middle(const places *p, const thr_walk *x)
 {
   double sum = 0, best = INFINITY;
@@ -200,7 +210,8 @@ thr_status thr_decomposition_cut(thr_decomposition *decomposition, int n, bool e
     open += !walks->walk[i].cyclic;
   if (counts) st = count_cuts(&p, &cuts, err);
   if (!counts && n > open) cuts = n - open;
-  if (!st && cuts) st = even && !counts ? cut_longest(&p, cuts, n, err) : cut_sharpest(&p, cuts, open + cuts, err);
+  if (!st && cuts)
+    st = even && !counts ? cut_longest(&p, cuts, n, err) : cut_sharpest(&p, cuts, open + cuts, err);
   free(p.left);
   free(p.list);
   return st;
@@ -208,19 +219,24 @@ thr_status thr_decomposition_cut(thr_decomposition *decomposition, int n, bool e
 
 /* ---- evening out ---- */
 
-/* What the table knows better, where the framework is small. With a goal only if it was missed, and then the fewest cords. */
+/* What the table knows better, where the framework is small. With a goal only if it was missed, and
+ * then the fewest cords. */
 static thr_status make_exact(thr_decomposition *decomposition, double goal, thr_err *err)
 {
   const thr_request *options = decomposition->o;
   bool certain, counts = options->ends == THR_ENDS_COUNTS;
   const int n = decomposition->walks.n_walks;
-  thr_decomposition_ask ask = {counts ? n : options->cords_least, counts ? n : options->cords, true, INFINITY};
-  if (goal > 0 && (decomposition->asked || thr_decomposition_within(thr_walks_most(&decomposition->walks), goal))) return THR_OK;
+  thr_decomposition_ask ask = {counts ? n : options->cords_least, counts ? n : options->cords, true,
+                               INFINITY};
+  if (goal > 0 && (decomposition->asked ||
+                   thr_decomposition_within(thr_walks_most(&decomposition->walks), goal)))
+    return THR_OK;
   if (goal > 0) ask = (thr_decomposition_ask){ask.least, ask.most, false, goal};
   decomposition->asked = goal > 0;
   thr_status st = thr_decomposition_table(decomposition, &ask, &certain, err);
   decomposition->certain &= certain;
-  decomposition->none = goal > 0 && certain && !thr_decomposition_within(thr_walks_most(&decomposition->walks), goal);
+  decomposition->none =
+      goal > 0 && certain && !thr_decomposition_within(thr_walks_most(&decomposition->walks), goal);
   return st;
 }
 

@@ -1,4 +1,6 @@
-/* More closed cords than circuits: walks are split along a path between two of their nodes, which both halves pass. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* More closed cords than circuits: walks are split along a path between two of their nodes, which
+ * both halves pass. */
 #include "lp/length/postman.h"
 
 #include <math.h>
@@ -11,9 +13,10 @@ typedef struct {
   int from, end;
 } chord;
 
-/* The paths from the node before each pass of walk to its other nodes, over edges with room for two more passes. */
-static thr_status best_chord(thr_paths *x, const thr_decomposition *decomposition, const thr_walk *walk, chord *best,
-                             thr_err *err)
+/* The paths from the node before each pass of walk to its other nodes, over edges with room for two
+ * more passes. */
+static thr_status best_chord(thr_paths *x, const thr_decomposition *decomposition,
+                             const thr_walk *walk, chord *best, thr_err *err)
 {
   thr_status st = THR_OK;
   *best = (chord){walk->length * (1 - 1e-9), 0, 0};
@@ -21,18 +24,21 @@ static thr_status best_chord(thr_paths *x, const thr_decomposition *decompositio
     double part = 0;
     thr_paths_clear(x);
     st = thr_paths_start(x, thr_walk_node(decomposition->f, walk, i), err);
-    if (!st) st = thr_paths_spread(x, decomposition->o, decomposition->passes, 2, walk->length / 2, NULL, err);
+    if (!st)
+      st = thr_paths_spread(x, decomposition->o, decomposition->passes, 2, walk->length / 2, NULL,
+                            err);
     for (int j = i + 1; j < walk->n && !st; j++) {
       part += decomposition->f->length[walk->half[j - 1] >> 1];
-      double longer = fmax(part, walk->length - part) + x->far[thr_walk_node(decomposition->f, walk, j)];
+      double longer =
+          fmax(part, walk->length - part) + x->far[thr_walk_node(decomposition->f, walk, j)];
       if (longer < best->longer) *best = (chord){longer, i, j};
     }
   }
   return st;
 }
 
-thr_status thr_decomposition_chord(thr_decomposition *decomposition, int i, int from, int end, const int *path, int n,
-                                   thr_junction_graphs *ties, thr_err *err)
+thr_status thr_decomposition_chord(thr_decomposition *decomposition, int i, int from, int end,
+                                   const int *path, int n, thr_junction_graphs *ties, thr_err *err)
 {
   const thr_walk *old = &decomposition->walks.walk[i];
   thr_splice splice = thr_splice_of(true, old, NULL);
@@ -43,11 +49,13 @@ thr_status thr_decomposition_chord(thr_decomposition *decomposition, int i, int 
   thr_splice_next(&splice);
   thr_splice_put(&splice, 0, from, end, false);
   thr_splice_put(&splice, 1, 0, n, true);
-  return thr_splice_make(&splice, decomposition->f, &decomposition->walks, i, -1, ties, decomposition->passes, err);
+  return thr_splice_make(&splice, decomposition->f, &decomposition->walks, i, -1, ties,
+                         decomposition->passes, err);
 }
 
 /* Walk i and a new one become the halves. */
-static thr_status split(thr_paths *x, thr_decomposition *decomposition, int i, const chord *c, thr_err *err)
+static thr_status split(thr_paths *x, thr_decomposition *decomposition, int i, const chord *c,
+                        thr_err *err)
 {
   const thr_walks *walks = &decomposition->walks;
   const thr_frame *frame = decomposition->f;
@@ -55,14 +63,17 @@ static thr_status split(thr_paths *x, thr_decomposition *decomposition, int i, c
   if (!path) return thr_nomem(err);
   thr_paths_clear(x);
   thr_status st = thr_paths_start(x, thr_walk_node(frame, &walks->walk[i], c->from), err);
-  if (!st) st = thr_paths_spread(x, decomposition->o, decomposition->passes, 2, walks->walk[i].length / 2, NULL, err);
+  if (!st)
+    st = thr_paths_spread(x, decomposition->o, decomposition->passes, 2, walks->walk[i].length / 2,
+                          NULL, err);
   int n = st ? 0 : thr_paths_to(x, thr_walk_node(frame, &walks->walk[i], c->end), path);
   if (!st) st = thr_decomposition_chord(decomposition, i, c->from, c->end, path, n, NULL, err);
   free(path);
   return st;
 }
 
-/* Walk i becomes a walk there and back over every edge that it passes, if that is shorter; *made: it was, and there was room. */
+/* Walk i becomes a walk there and back over every edge that it passes, if that is shorter; *made:
+ * it was, and there was room. */
 static thr_status dissolve(thr_decomposition *decomposition, int i, int n, bool *made, thr_err *err)
 {
   const thr_frame *frame = decomposition->f;
@@ -73,7 +84,8 @@ static thr_status dissolve(thr_decomposition *decomposition, int i, int n, bool 
   *made = size > 1 && walks->n_walks + size - 1 <= n;
   for (int k = 0; k < size && *made; k++) {
     int e = walk->half[k] >> 1;
-    *made = 2 * frame->length[e] < walk->length * (1 - 1e-9) && thr_plan_capacity(frame, decomposition->o, e) > passes[e];
+    *made = 2 * frame->length[e] < walk->length * (1 - 1e-9) &&
+            thr_plan_capacity(frame, decomposition->o, e) > passes[e];
   }
   if (!*made) return THR_OK;
   thr_status st = THR_OK;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Extra passes where cord ends need more of them: a perfect matching of ports. */
 #include "graph/check/check.h"
 #include "graph/scratch.h"
@@ -7,20 +8,21 @@
 
 enum { MOST_EDGES = 2000000 }; /* of a matching */
 
-/* Every possible extra pass has a port at each of its nodes: the two are matched with each other if the pass is made, else each
- * with a core of its group. A group of p ports that needs d passes, or 2, 4, .. more, has p - d cores, which may be matched
- * with each other. A group is a node; or all nodes where cords may end, if ends are free to be at any of them. */
+/* Every possible extra pass has a port at each of its nodes: the two are matched with each other if
+ * the pass is made, else each with a core of its group. A group of p ports that needs d passes, or
+ * 2, 4, .. more, has p - d cores, which may be matched with each other. A group is a node; or all
+ * nodes where cords may end, if ends are free to be at any of them. */
 typedef struct {
   const thr_decomposition *s;
   const thr_certificate *c;
   thr_scratch own; /* the arrays */
   int n_groups;
-  int *group; /* [n_nodes] */
-  int *need;  /* [n_groups] d */
-  int *first,
-      *top;     /* [n_groups + 1] ports of a group are first .. first + n_ports - 1, then cores to the next first; next port */
-  int *n_ports; /* [n_groups] */
-  int *copies;  /* [n_edges] possible extra passes */
+  int *group;       /* [n_nodes] */
+  int *need;        /* [n_groups] d */
+  int *first, *top; /* [n_groups + 1] ports of a group are first .. first + n_ports - 1, then cores
+                       to the next first; next port */
+  int *n_ports;     /* [n_groups] */
+  int *copies;      /* [n_edges] possible extra passes */
   int n_edges, n_passes;
   int (*edge)[2]; /* the passes come first */
   int64_t *weight;
@@ -48,7 +50,8 @@ static bool enough_places(const thr_decomposition *decomposition, int n)
   for (int v = 0; v < decomposition->f->n_nodes; v++) {
     if (!thr_plan_end_allowed(decomposition->f, decomposition->o, v)) continue;
     int at = passes_at(decomposition->f, decomposition->passes, v);
-    if (decomposition->o->ends == THR_ENDS_COUNTS && at < decomposition->o->end_count[v]) return false;
+    if (decomposition->o->ends == THR_ENDS_COUNTS && at < decomposition->o->end_count[v])
+      return false;
     if (free_places < INT_MAX / 2) free_places += at;
   }
   return decomposition->o->ends == THR_ENDS_COUNTS || free_places >= 2 * n;
@@ -84,7 +87,8 @@ static thr_status count_ports(ports *p, thr_err *err)
   for (int e = 0; e < decomposition->f->n_edges; e++) {
     int a = p->group[decomposition->f->edge[e][0]], b = p->group[decomposition->f->edge[e][1]];
     int most = a == b ? (p->need[a] + 1) / 2 : p->need[a] > p->need[b] ? p->need[a] : p->need[b];
-    int room = thr_plan_capacity(decomposition->f, decomposition->o, e) - thr_plan_cover(decomposition->f, decomposition->o, e);
+    int room = thr_plan_capacity(decomposition->f, decomposition->o, e) -
+               thr_plan_cover(decomposition->f, decomposition->o, e);
     if (most < 1) most = 1;
     p->copies[e] = most < room ? most : room;
     p->n_ports[a] += p->copies[e];
@@ -96,7 +100,9 @@ static thr_status count_ports(ports *p, thr_err *err)
     if (cores >= 0) edges += cores * p->n_ports[g] + cores * (cores - 1) / 2;
   }
   if (edges + p->n_passes > MOST_EDGES)
-    return thr_fail(err, THR_ELIMIT, "too many ends, at nodes with too many edges, to find the shortest extra passes for them");
+    return thr_fail(
+        err, THR_ELIMIT,
+        "too many ends, at nodes with too many edges, to find the shortest extra passes for them");
   p->n_edges = (int)edges + p->n_passes;
   return THR_OK;
 }
@@ -107,8 +113,10 @@ static thr_status no_room(const ports *p, int g, thr_err *err)
   while (p->group[v] != g)
     v++;
   return thr_fail(err, THR_EINFEASIBLE,
-                  "the edges at node %s%s have no room for enough passes: their capacity allows fewer cord ends than asked for",
-                  p->s->f->name[v], p->s->o->ends == THR_ENDS_COUNTS ? "" : " and wherever else its cords may end");
+                  "the edges at node %s%s have no room for enough passes: their capacity allows "
+                  "fewer cord ends than asked for",
+                  p->s->f->name[v],
+                  p->s->o->ends == THR_ENDS_COUNTS ? "" : " and wherever else its cords may end");
 }
 
 static void add_edge(ports *p, int *n, int a, int b, int64_t weight)
@@ -168,7 +176,8 @@ static void take(const ports *p, const thr_matching *matching, thr_decomposition
   }
 }
 
-thr_status thr_decomposition_places(thr_decomposition *decomposition, int n, const thr_certificate *certificate, thr_err *err)
+thr_status thr_decomposition_places(thr_decomposition *decomposition, int n,
+                                    const thr_certificate *certificate, thr_err *err)
 {
   ports p = {.s = decomposition, .c = certificate};
   thr_matching matching = {0};
@@ -176,13 +185,15 @@ thr_status thr_decomposition_places(thr_decomposition *decomposition, int n, con
   thr_err why = {0};
   thr_status st = ports_init(&p, n, &why);
   if (!st) {
-    thr_matching_problem problem = {p.first[p.n_groups], p.n_edges, (const int(*)[2])p.edge, p.weight};
+    thr_matching_problem problem = {p.first[p.n_groups], p.n_edges, (const int(*)[2])p.edge,
+                                    p.weight};
     st = thr_matching_solve(&problem, decomposition->limits, &matching, &why);
     if (st == THR_EINFEASIBLE) why = (thr_err){0};
   }
   if (!st) take(&p, &matching, decomposition);
   if (st == THR_EINFEASIBLE && !why.code)
-    thr_fail(&why, st, "the capacities of the edges leave no room for as many cord ends as asked for");
+    thr_fail(&why, st,
+             "the capacities of the edges leave no room for as many cord ends as asked for");
   if (st) thr_fail(err, st, "%s", why.text);
   thr_matching_destroy(&matching);
   thr_scratch_free(&p.own);

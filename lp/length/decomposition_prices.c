@@ -1,7 +1,10 @@
-/* Proof that cords need as many passes as they have beyond a shortest join, by prices of places (graph/plan/plan_measures.h).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Proof that cords need as many passes as they have beyond a shortest join, by prices of places
+ * (graph/plan/plan_measures.h).
  *
- * Let every pass at a node where a cord may end be worth p, a place for its end, as if it made the edge lighter, and let 2 K
- * such places cost 2 K p: the least join at these prices, put together, is a bound for K cords, and the best p is searched for.
+ * Let every pass at a node where a cord may end be worth p, a place for its end, as if it made the
+ * edge lighter, and let 2 K such places cost 2 K p: the least join at these prices, put together,
+ * is a bound for K cords, and the best p is searched for.
  *
  * Example: docs/method.md, "Several cords". */
 #include "graph/check/check.h"
@@ -25,9 +28,10 @@ typedef struct {
   bool closed, counts;
   int64_t unit; /* parts of a weight that prices are whole numbers of */
   int n_edges, n_nodes;
-  int *loop;                 /* [n_edges] shortest loops over edges */
-  int *local;                /* [n_nodes] the node; where ends are free, n_nodes for all where they may be */
-  int *part, *place;         /* [n_nodes + 1] disjoint sets joined by edges with room; position of a node in its part's problem */
+  int *loop;  /* [n_edges] shortest loops over edges */
+  int *local; /* [n_nodes] the node; where ends are free, n_nodes for all where they may be */
+  int *part, *place; /* [n_nodes + 1] disjoint sets joined by edges with room; position of a node in
+                        its part's problem */
   thr_certificate *c, trial; /* trial: the certificate at a price */
   thr_wide bound;            /* of c, in units of 1/denominator of it */
 } pricing;
@@ -68,7 +72,8 @@ static thr_status pricing_init(pricing *p, thr_err *err)
   thr_status st = thr_scratch_check(&p->own, err);
   if (st) return st;
   for (int v = 0; v < p->n_nodes; v++)
-    p->local[v] = !p->closed && !p->counts && thr_plan_end_allowed(frame, p->s->o, v) ? p->n_nodes : v;
+    p->local[v] =
+        !p->closed && !p->counts && thr_plan_end_allowed(frame, p->s->o, v) ? p->n_nodes : v;
   for (int v = 0; v <= p->n_nodes; v++)
     p->part[v] = v;
   for (int e = 0; e < p->n_edges; e++)
@@ -102,11 +107,13 @@ static thr_priced edge_at(const pricing *p, int e)
     if (p->counts || v == p->n_nodes) of += certificate->place_price[p->counts ? v : 0];
   }
   return thr_prices_edge(p->s->f, p->s->o, e,
-                         (thr_wide)thr_certificate_weight(p->s->f, certificate, e) * certificate->denominator, of, p->loop[e]);
+                         (thr_wide)thr_certificate_weight(p->s->f, certificate, e) *
+                             certificate->denominator,
+                         of, p->loop[e]);
 }
 
-/* The highest price at which no edge is cheaper the more it is passed; or all that there is to be had. *usual: where to look
- * first. */
+/* The highest price at which no edge is cheaper the more it is passed; or all that there is to be
+ * had. *usual: where to look first. */
 static int64_t highest_price(const pricing *p, int64_t *usual)
 {
   double sum = 1, most = INFINITY, heaviest = 1;
@@ -178,7 +185,9 @@ static thr_status take_cuts(pricing *p, const problem *q, thr_tjoin *tjoin, thr_
     st = thr_cuts_avoid_last(&cuts, err);
     if (!st) st = thr_cuts_nest(&cuts, err);
   }
-  thr_cut *all = st ? NULL : thr_realloc(certificate->cut, (size_t)certificate->n_cuts + (size_t)cuts.n, sizeof *all);
+  thr_cut *all =
+      st ? NULL
+         : thr_realloc(certificate->cut, (size_t)certificate->n_cuts + (size_t)cuts.n, sizeof *all);
   if (!st && !all) st = thr_nomem(err);
   if (all) certificate->cut = all;
   for (int i = 0; i < cuts.n && !st; i++) {
@@ -199,7 +208,8 @@ static thr_status take_cuts(pricing *p, const problem *q, thr_tjoin *tjoin, thr_
 }
 
 /* in_join[n_edges] receives the part's join. *stopped: the limits did. */
-static thr_status solve_part(pricing *p, int part, const bool *odd, bool *in_join, bool *stopped, thr_err *err)
+static thr_status solve_part(pricing *p, int part, const bool *odd, bool *in_join, bool *stopped,
+                             thr_err *err)
 {
   problem q;
   thr_tjoin t = {0};
@@ -246,7 +256,8 @@ static void count_odd(const pricing *p, bool *odd, thr_wide *bound)
   odd[p->n_nodes] = sum; /* free: what makes the number even */
 }
 
-/* Weight and places of the passes that cost least at the trial's prices: a bound linear in the prices. */
+/* Weight and places of the passes that cost least at the trial's prices: a bound linear in the
+ * prices. */
 static void measure(const pricing *p, const bool *in_join, double *weight, double *places)
 {
   *weight = 0;
@@ -258,20 +269,21 @@ static void measure(const pricing *p, const bool *in_join, double *weight, doubl
     n += thr_plan_cover(p->s->f, p->s->o, e);
     for (int s = 0; s < 2 && p->counts; s++)
       places[p->local[p->s->f->edge[e][s]]] += n;
-    if (!p->counts) places[0] += p->closed ? n - n % 2 + n % 2 * 2.0 / p->loop[e] : n * (double)ends_of(p, e);
+    if (!p->counts)
+      places[0] += p->closed ? n - n % 2 + n % 2 * 2.0 / p->loop[e] : n * (double)ends_of(p, e);
   }
 }
 
 /* The bound at prices[n], in units; certificate becomes the trial where that is better. */
-static thr_status try_prices(pricing *p, const int64_t *price, int n_prices, double *weight, double *places, bool *stopped,
-                             thr_err *err)
+static thr_status try_prices(pricing *p, const int64_t *price, int n_prices, double *weight,
+                             double *places, bool *stopped, thr_err *err)
 {
   thr_certificate *certificate = &p->trial;
   size_t n = (size_t)p->n_nodes + 1, m = (size_t)p->n_edges;
   bool *odd = thr_calloc(n, sizeof *odd), *in_join = thr_calloc(m, sizeof *in_join);
   thr_certificate_destroy(certificate);
-  *certificate =
-      (thr_certificate){p->c->component, p->c->scale, p->unit * THR_DUAL_DENOMINATOR, .join = p->c->join, .n_prices = n_prices};
+  *certificate = (thr_certificate){p->c->component, p->c->scale, p->unit * THR_DUAL_DENOMINATOR,
+                                   .join = p->c->join, .n_prices = n_prices};
   certificate->place_price = thr_calloc((size_t)n_prices, sizeof *certificate->place_price);
   thr_status st = odd && in_join && certificate->place_price ? THR_OK : thr_nomem(err);
   if (!st) {
@@ -303,8 +315,8 @@ static bool proved(const pricing *p)
 
 /* ---- the best price ---- */
 
-/* Where the lines of too few and of enough places meet is the highest bound that they allow: a price that keeps it is the best,
- * any other shows a new line. */
+/* Where the lines of too few and of enough places meet is the highest bound that they allow: a
+ * price that keeps it is the best, any other shows a new line. */
 static thr_status search(pricing *p, thr_err *err)
 {
   const double need = 2.0 * p->s->o->cords_least;
@@ -319,7 +331,9 @@ static thr_status search(pricing *p, thr_err *err)
     high = high < top / 2 ? 2 * high : top;
     st = try_prices(p, &high, 1, &many.weight, &many.places, &stopped, err);
   }
-  for (int round = 0; !st && !stopped && few.places < need && many.places > need && !proved(p) && round < MOST_ROUNDS; round++) {
+  for (int round = 0; !st && !stopped && few.places < need && many.places > need && !proved(p) &&
+                      round < MOST_ROUNDS;
+       round++) {
     double price = (many.weight - few.weight) / (many.places - few.places);
     int64_t next = (int64_t)nearbyint(price * (double)p->unit);
     if (next <= low || next >= high) break;
@@ -336,7 +350,8 @@ static thr_status search(pricing *p, thr_err *err)
   return st;
 }
 
-/* Ends given at nodes: prices of those whose edges need fewer passes than there are ends, by a programme. */
+/* Ends given at nodes: prices of those whose edges need fewer passes than there are ends, by a
+ * programme. */
 typedef struct {
   pricing *p;
   thr_scratch own;   /* the arrays */
@@ -380,7 +395,8 @@ static thr_status build(programme *q, thr_err *err)
 {
   const pricing *p = q->p;
   const thr_frame *frame = p->s->f;
-  double *cost = thr_calloc((size_t)q->n + 1, sizeof *cost), *upper = thr_calloc((size_t)q->n + 1, sizeof *upper);
+  double *cost = thr_calloc((size_t)q->n + 1, sizeof *cost),
+         *upper = thr_calloc((size_t)q->n + 1, sizeof *upper);
   thr_status st = cost && upper ? THR_OK : thr_nomem(err);
   int64_t usual;
   for (int i = 0; i <= q->n && !st; i++)
@@ -395,7 +411,8 @@ static thr_status build(programme *q, thr_err *err)
       n += q->column[n] >= 0;
     }
     if (n > 0 && thr_plan_capacity(frame, p->s->o, e) == INT_MAX)
-      st = thr_lp_add_row(q->lp, n, q->column, q->value, -(double)thr_certificate_weight(frame, p->c, e), err);
+      st = thr_lp_add_row(q->lp, n, q->column, q->value,
+                          -(double)thr_certificate_weight(frame, p->c, e), err);
   }
   free(cost);
   free(upper);
@@ -432,7 +449,8 @@ static void take_prices(programme *q, int64_t *price)
   }
 }
 
-/* Kelley's method: the programme's prices show passes that hold the bound below what it hopes, until they do not. */
+/* Kelley's method: the programme's prices show passes that hold the bound below what it hopes,
+ * until they do not. */
 static thr_status search_each(pricing *p, thr_err *err)
 {
   programme q = {.p = p};
@@ -463,7 +481,8 @@ static thr_status search_each(pricing *p, thr_err *err)
   return st;
 }
 
-thr_status thr_decomposition_prices(const thr_decomposition *decomposition, int cords, thr_certificate *certificate, thr_err *err)
+thr_status thr_decomposition_prices(const thr_decomposition *decomposition, int cords,
+                                    thr_certificate *certificate, thr_err *err)
 {
   thr_limits quiet = *decomposition->limits; /* a bound at a price is not one on the weight */
   quiet.progress = NULL;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The cords of a small framework by a table over subsets (graph/threading/small_cords.c): exact. */
 #include "lp/length/postman.h"
 
@@ -11,7 +12,8 @@ static thr_status take(thr_decomposition *decomposition, thr_small_cords *cords,
   thr_walks new = {0};
   thr_status st = THR_OK;
   for (int i = 0; i < cords->n && !st; i++) {
-    thr_walk walk = {cords->n_passes[i], cords->half[i], 0, decomposition->o->ends == THR_ENDS_CLOSED};
+    thr_walk walk = {cords->n_passes[i], cords->half[i], 0,
+                     decomposition->o->ends == THR_ENDS_CLOSED};
     cords->half[i] = NULL;
     st = thr_walks_add(&new, frame, walk, err);
   }
@@ -26,14 +28,21 @@ static thr_status take(thr_decomposition *decomposition, thr_small_cords *cords,
   return THR_OK;
 }
 
-thr_status thr_decomposition_table(thr_decomposition *decomposition, const thr_decomposition_ask *ask, bool *certain,
-                                   thr_err *err)
+thr_status thr_decomposition_table(thr_decomposition *decomposition,
+                                   const thr_decomposition_ask *ask, bool *certain, thr_err *err)
 {
   const thr_walks *walks = &decomposition->walks;
   thr_small_cords cords;
-  const thr_small_ask all = {
-      ask->least, ask->most, false, ask->even, ask->limit, walks->n_walks, thr_walks_most(walks), thr_walks_length(walks)};
-  thr_status st = thr_small_cords_find(decomposition->f, decomposition->o, &all, decomposition->limits, &cords, certain, err);
+  const thr_small_ask all = {ask->least,
+                             ask->most,
+                             false,
+                             ask->even,
+                             ask->limit,
+                             walks->n_walks,
+                             thr_walks_most(walks),
+                             thr_walks_length(walks)};
+  thr_status st = thr_small_cords_find(decomposition->f, decomposition->o, &all,
+                                       decomposition->limits, &cords, certain, err);
   if (!st && cords.n > 0) st = take(decomposition, &cords, err);
   thr_small_cords_destroy(&cords);
   return st;

@@ -1,4 +1,6 @@
-/* More closed cords for tube joints: other orders of the same passes, then pairs of passes, or a cord round a short circuit. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* More closed cords for tube joints: other orders of the same passes, then pairs of passes, or a
+ * cord round a short circuit. */
 #include "lp/length/postman_parts.h"
 
 #include <math.h>
@@ -33,32 +35,39 @@ static thr_status split_shuffled(splitting *x, int n, thr_err *err)
 
 /* ---- two more passes of one edge ---- */
 
-/* Between passes from .. end - 1 of a walk and the rest of it: there by half-edge half, and back. */
+/* Between passes from .. end - 1 of a walk and the rest of it: there by half-edge half, and back.
+ */
 typedef struct {
   double price;
   int walk, from, end, half;
 } chord;
 
-/* The visits must not pass the edge: a cord would turn back. Then both halves tie what the walk tied. */
+/* The visits must not pass the edge: a cord would turn back. Then both halves tie what the walk
+ * tied. */
 static bool passes_at(const thr_walk *x, int at, int e)
 {
   return x->half[at] >> 1 == e || thr_walk_before(x, at) >> 1 == e;
 }
 
 /* Chords over half-edge h, between visits of one walk. */
-static void offer_chords(const splitting *x, const thr_walk_visits *visits, int only, int h, chord *best)
+static void offer_chords(const splitting *x, const thr_walk_visits *visits, int only, int h,
+                         chord *best)
 {
   const thr_frame *frame = x->s->f;
-  for (int i = visits->first[thr_tail(frame, h)], seen = 0; i >= 0 && seen < THR_MOST_VISITS; i = visits->next[i], seen++) {
+  for (int i = visits->first[thr_tail(frame, h)], seen = 0; i >= 0 && seen < THR_MOST_VISITS;
+       i = visits->next[i], seen++) {
     const thr_walk *y = &x->s->walks.walk[visits->walk[i]];
     if ((only >= 0 && visits->walk[i] != only) || passes_at(y, visits->at[i], h >> 1)) continue;
     for (int j = visits->first[thr_head(frame, h)], others = 0; j >= 0 && others < THR_MOST_VISITS;
          j = visits->next[j], others++) {
-      if (visits->walk[j] != visits->walk[i] || visits->at[j] < visits->at[i] || passes_at(y, visits->at[j], h >> 1)) continue;
+      if (visits->walk[j] != visits->walk[i] || visits->at[j] < visits->at[i] ||
+          passes_at(y, visits->at[j], h >> 1))
+        continue;
       double part = thr_walk_length(frame, y->half + visits->at[i], visits->at[j] - visits->at[i]);
       double price = x->even ? fmax(part, y->length - part) : 0;
       price += frame->length[h >> 1];
-      if (price < best->price) *best = (chord){price, visits->walk[i], visits->at[i], visits->at[j], h};
+      if (price < best->price)
+        *best = (chord){price, visits->walk[i], visits->at[i], visits->at[j], h};
     }
   }
 }
@@ -69,10 +78,12 @@ static thr_status best_chord(const splitting *x, chord *best, thr_err *err)
   const thr_frame *frame = x->s->f;
   *best = (chord){.price = INFINITY};
   const int only = x->even ? thr_walks_longest(&x->s->walks) : -1;
-  thr_status st = thr_walk_visits_init(&visits, frame, x->s->walks.walk, x->s->walks.n_walks, NULL, err);
+  thr_status st =
+      thr_walk_visits_init(&visits, frame, x->s->walks.walk, x->s->walks.n_walks, NULL, err);
   if (st) return st;
   for (int h = 0; h < 2 * frame->n_edges; h++)
-    if (x->s->passes[h >> 1] <= thr_plan_capacity(frame, x->s->o, h >> 1) - 2 && (x->even || frame->length[h >> 1] < best->price))
+    if (x->s->passes[h >> 1] <= thr_plan_capacity(frame, x->s->o, h >> 1) - 2 &&
+        (x->even || frame->length[h >> 1] < best->price))
       offer_chords(x, &visits, only, h, best);
   thr_walk_visits_destroy(&visits);
   return THR_OK;
@@ -107,8 +118,8 @@ static bool on_way(const thr_paths *g, int v, int e)
   return g->over[v] >= 0 && g->over[v] >> 1 == e;
 }
 
-/* The shortest circuit with room for one more pass: of the paths from every node, two that leave it differently and nearly meet.
- * In large frameworks from some nodes only. */
+/* The shortest circuit with room for one more pass: of the paths from every node, two that leave it
+ * differently and nearly meet. In large frameworks from some nodes only. */
 static thr_status best_circuit(const splitting *x, thr_paths *g, circuit *best, thr_err *err)
 {
   const double most = 5e7; /* edges looked at */
@@ -122,7 +133,8 @@ static thr_status best_circuit(const splitting *x, thr_paths *g, circuit *best, 
       int a = frame->edge[e][0], b = frame->edge[e][1];
       double length = g->far[a] + g->far[b] + frame->length[e];
       if (!(length < best->length) || on_way(g, a, e) || on_way(g, b, e)) continue;
-      if (x->s->passes[e] < thr_plan_capacity(frame, x->s->o, e) && leaves_by(g, a) != leaves_by(g, b))
+      if (x->s->passes[e] < thr_plan_capacity(frame, x->s->o, e) &&
+          leaves_by(g, a) != leaves_by(g, b))
         *best = (circuit){length, v, e};
     }
   }
@@ -155,7 +167,8 @@ static bool must_more(const splitting *x, int n)
   return x->s->walks.n_walks < (x->even && x->s->o->cords_least < n ? x->s->o->cords_least : n);
 }
 
-/* One more walk, for few more passes. *made: there was room, and it must be or makes the longest shorter. */
+/* One more walk, for few more passes. *made: there was room, and it must be or makes the longest
+ * shorter. */
 static thr_status add_one(splitting *x, thr_paths *g, int n, bool *made, thr_err *err)
 {
   chord c;
@@ -163,14 +176,16 @@ static thr_status add_one(splitting *x, thr_paths *g, int n, bool *made, thr_err
   thr_status st = best_chord(x, &c, err);
   if (!st && must_more(x, n)) st = best_circuit(x, g, &round, err);
   if (st) return st;
-  bool cut = must_more(x, n) ? c.price < INFINITY && 2 * x->s->f->length[c.half >> 1] <= round.length
-                             : c.price < thr_walks_most(&x->s->walks) * (1 - 1e-9);
+  bool cut = must_more(x, n)
+                 ? c.price < INFINITY && 2 * x->s->f->length[c.half >> 1] <= round.length
+                 : c.price < thr_walks_most(&x->s->walks) * (1 - 1e-9);
   *made = cut || round.length < INFINITY;
   if (cut) return thr_decomposition_chord(x->s, c.walk, c.from, c.end, &c.half, 1, &x->ties, err);
   return *made ? add_circuit(x, g, &round, err) : THR_OK;
 }
 
-thr_status thr_decomposition_tied(thr_decomposition *decomposition, int n, bool even, bool *found, thr_err *err)
+thr_status thr_decomposition_tied(thr_decomposition *decomposition, int n, bool even, bool *found,
+                                  thr_err *err)
 {
   const thr_walks *walks = &decomposition->walks;
   thr_paths g = {0};

@@ -1,10 +1,12 @@
-/* Route Inspection: the shortest cord that covers a framework (thesis, chapter 5 "Length"; Edmonds & Johnson 1973).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Route Inspection: the shortest cord that covers a framework (thesis, chapter 5 "Length"; Edmonds
+ * & Johnson 1973).
  *
- * Length = cover x sum of all lengths + a minimum T-join of the nodes that these passes leave odd. K cords have 2 K ends, which
- * may take odd nodes out of T (lp/tjoin/endjoin.c).
+ * Length = cover x sum of all lengths + a minimum T-join of the nodes that these passes leave odd.
+ * K cords have 2 K ends, which may take odd nodes out of T (lp/tjoin/endjoin.c).
  *
- * Example: a square with one diagonal of length d: two odd nodes. Closed: 4 + 2 d, the diagonal twice; with two ends there: 4 +
- * d. */
+ * Example: a square with one diagonal of length d: two odd nodes. Closed: 4 + 2 d, the diagonal
+ * twice; with two ends there: 4 + d. */
 #include "lp/length/postman.h"
 #include "graph/check/check.h"
 #include "graph/disjoint.h"
@@ -16,8 +18,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Sum of the integer weights of a component with n edges: 2^44 to 2^45, and at least 2^30 an edge, so that all roundings together
- * stay below 1e-9 of the sum; at most 2^49, so that sums of multipliers fit 64 bits. */
+/* Sum of the integer weights of a component with n edges: 2^44 to 2^45, and at least 2^30 an edge,
+ * so that all roundings together stay below 1e-9 of the sum; at most 2^49, so that sums of
+ * multipliers fit 64 bits. */
 static double weight_sum(int n)
 {
   return fmin(fmax(35184372088832.0, 2147483648.0 * n), 562949953421312.0);
@@ -28,15 +31,15 @@ typedef struct {
   const thr_request *o;
   const thr_limits *limits;
   int n_components;
-  thr_scratch own;              /* what is no result */
-  int *component;               /* [n_nodes] */
-  int *edge_start, *edge;       /* edges of component k: edge[edge_start[k] .. edge_start[k + 1] - 1] */
-  int *part;                    /* [n_nodes] disjoint sets: nodes that edges with room for an extra pass join */
-  int *domain;                  /* [n_nodes] disjoint sets: parts of a component where cords may end count as one */
-  int *start, *node;            /* nodes of domain d: node[start[d] .. start[d + 1] - 1] */
-  int *local;                   /* [n_nodes] position within the domain */
-  int n_domains;                /* by lowest node */
-  bool *odd;                    /* [n_nodes] is the number of passes that its edges need, and of its ends, if given? */
+  thr_scratch own;        /* what is no result */
+  int *component;         /* [n_nodes] */
+  int *edge_start, *edge; /* edges of component k: edge[edge_start[k] .. edge_start[k + 1] - 1] */
+  int *part;   /* [n_nodes] disjoint sets: nodes that edges with room for an extra pass join */
+  int *domain; /* [n_nodes] disjoint sets: parts of a component where cords may end count as one */
+  int *start, *node; /* nodes of domain d: node[start[d] .. start[d + 1] - 1] */
+  int *local;        /* [n_nodes] position within the domain */
+  int n_domains;     /* by lowest node */
+  bool *odd; /* [n_nodes] is the number of passes that its edges need, and of its ends, if given? */
   int *passes;                  /* [n_edges] result */
   thr_certificate *certificate; /* [n_components] result */
   thr_confirmations confirmed;  /* result */
@@ -46,7 +49,8 @@ typedef struct {
 static thr_confirmations *counter(postman *m)
 {
   m->confirmed.always = m->o->confirm == THR_CONFIRM_ALWAYS;
-  bool asked = m->o->confirm != THR_CONFIRM_NEVER && thr_wants_length(m->o) && m->o->joint == THR_JOINT_SOLID;
+  bool asked = m->o->confirm != THR_CONFIRM_NEVER && thr_wants_length(m->o) &&
+               m->o->joint == THR_JOINT_SOLID;
   return asked ? &m->confirmed : NULL;
 }
 
@@ -71,8 +75,8 @@ typedef struct {
   int *frame_edge; /* [n_edges] */
 } instance;
 
-/* Greatest length that all lengths are whole multiples of, as far as Euclid's algorithm can tell; remainders far below the
- * shortest length count as none. */
+/* Greatest length that all lengths are whole multiples of, as far as Euclid's algorithm can tell;
+ * remainders far below the shortest length count as none. */
 static double common_measure(const thr_frame *frame, const int *edge, int n)
 {
   double measure = frame->length[edge[0]], shortest = measure;
@@ -88,9 +92,10 @@ static double common_measure(const thr_frame *frame, const int *edge, int n)
   return measure;
 }
 
-/* A scale under which lengths round to integers. If the lengths have a common measure (all beads equal: the normal case; or
- * whole millimetres), it is the unit: then ties are exact and weights small. Otherwise a power of 2 that gives the weights
- * their sum: powers of 2 keep exact what is exact. */
+/* A scale under which lengths round to integers. If the lengths have a common measure (all beads
+ * equal: the normal case; or whole millimetres), it is the unit: then ties are exact and weights
+ * small. Otherwise a power of 2 that gives the weights their sum: powers of 2 keep exact what is
+ * exact. */
 static double choose_scale(const thr_frame *frame, const int *edge, int n)
 {
   double sum = 0, units = 0, measure = common_measure(frame, edge, n), most = weight_sum(n);
@@ -107,9 +112,10 @@ static double choose_scale(const thr_frame *frame, const int *edge, int n)
   return scale;
 }
 
-/* No two nodes of a part are further apart than twice this: the longest path from its first node in a breadth-first tree, of all
- * parts of the domain. */
-static thr_status radius(const postman *m, int d, const thr_certificate *c, int64_t *longest, thr_err *err)
+/* No two nodes of a part are further apart than twice this: the longest path from its first node in
+ * a breadth-first tree, of all parts of the domain. */
+static thr_status radius(const postman *m, int d, const thr_certificate *c, int64_t *longest,
+                         thr_err *err)
 {
   int first = m->start[d], n = m->start[d + 1] - first;
   int *queue = thr_calloc((size_t)n, sizeof *queue);
@@ -139,7 +145,8 @@ static thr_status radius(const postman *m, int d, const thr_certificate *c, int6
   return st;
 }
 
-static thr_status instance_init(const postman *m, int d, const thr_certificate *c, instance *in, thr_err *err)
+static thr_status instance_init(const postman *m, int d, const thr_certificate *c, instance *in,
+                                thr_err *err)
 {
   const thr_frame *frame = m->f;
   int first = m->start[d], halves = 0;
@@ -169,8 +176,10 @@ static thr_status instance_init(const postman *m, int d, const thr_certificate *
   return THR_OK;
 }
 
-/* Adds cuts over the nodes of domain d, which are moved, to the certificate; times: their values in its units. */
-static thr_status take_cuts(const postman *m, int d, thr_cut **cut, int *n, int64_t times, thr_certificate *c, thr_err *err)
+/* Adds cuts over the nodes of domain d, which are moved, to the certificate; times: their values in
+ * its units. */
+static thr_status take_cuts(const postman *m, int d, thr_cut **cut, int *n, int64_t times,
+                            thr_certificate *c, thr_err *err)
 {
   thr_cut *all = thr_realloc(c->cut, (size_t)c->n_cuts + (size_t)*n, sizeof *all);
   if (!all) return thr_nomem(err);
@@ -181,7 +190,8 @@ static thr_status take_cuts(const postman *m, int d, thr_cut **cut, int *n, int6
     to->value *= times;
     if (to->parent >= 0) to->parent += c->n_cuts;
     for (int j = 0; j < to->n_nodes; j++)
-      to->node[j] = m->node[m->start[d] + to->node[j]]; /* nodes ascend within a domain: still sorted */
+      to->node[j] =
+          m->node[m->start[d] + to->node[j]]; /* nodes ascend within a domain: still sorted */
     c->sum += to->value;
   }
   c->n_cuts += *n;
@@ -201,28 +211,34 @@ static void take_join(postman *m, const instance *in, const bool *in_join, thr_c
     }
 }
 
-static thr_status solve_closed(postman *m, int d, const instance *in, thr_certificate *c, thr_err *err)
+static thr_status solve_closed(postman *m, int d, const instance *in, thr_certificate *c,
+                               thr_err *err)
 {
   thr_tjoin tjoin;
-  thr_tjoin_problem tjoin_problem = {in->n_nodes, in->n_edges, (const int(*)[2])in->edge, in->weight, in->odd, 0};
-  thr_status st = thr_tjoin_minimum(&tjoin_problem, m->o->engine, m->limits, &tjoin, err), taken = THR_OK;
+  thr_tjoin_problem tjoin_problem = {in->n_nodes, in->n_edges, (const int(*)[2])in->edge,
+                                     in->weight,  in->odd,     0};
+  thr_status st = thr_tjoin_minimum(&tjoin_problem, m->o->engine, m->limits, &tjoin, err),
+             taken = THR_OK;
   if (!st) st = thr_confirmations_add(counter(m), &tjoin_problem, &tjoin, err);
   if (!st || st == THR_ELIMIT) {
     take_join(m, in, tjoin.in_join, c);
-    taken = take_cuts(m, d, &tjoin.cut, &tjoin.n_cuts, c->denominator / THR_DUAL_DENOMINATOR, c, err);
+    taken =
+        take_cuts(m, d, &tjoin.cut, &tjoin.n_cuts, c->denominator / THR_DUAL_DENOMINATOR, c, err);
   }
   thr_tjoin_destroy(&tjoin);
   return taken ? taken : st;
 }
 
-static thr_status solve_open(postman *m, int d, const instance *in, thr_certificate *c, thr_err *err)
+static thr_status solve_open(postman *m, int d, const instance *in, thr_certificate *c,
+                             thr_err *err)
 {
   thr_endjoin endjoin = {0};
-  thr_endjoin_problem endjoin_problem = {.graph = {in->n_nodes, in->n_edges, (const int(*)[2])in->edge, in->weight, in->odd, 0},
-                                         .end_allowed = in->end_allowed,
-                                         .engine = m->o->engine,
-                                         .count = counter(m),
-                                         .n_ends = 2 * m->o->cords};
+  thr_endjoin_problem endjoin_problem = {
+      .graph = {in->n_nodes, in->n_edges, (const int(*)[2])in->edge, in->weight, in->odd, 0},
+      .end_allowed = in->end_allowed,
+      .engine = m->o->engine,
+      .count = counter(m),
+      .n_ends = 2 * m->o->cords};
   thr_status st = radius(m, d, c, &endjoin_problem.far, err), taken = THR_OK;
   endjoin_problem.far++;
   if (!st) st = thr_endjoin_solve(&endjoin_problem, m->limits, &endjoin, err);
@@ -256,8 +272,10 @@ static thr_status check_room(const postman *m, thr_err *err)
   for (int e = 0; e < frame->n_edges; e++) {
     int least = thr_plan_cover(frame, m->o, e), most = thr_plan_capacity(frame, m->o, e);
     if (least > most)
-      return thr_fail(err, THR_EINFEASIBLE, "edge %s-%s needs %d passes, but only %d fit; lower --cover or raise its capacity",
-                      frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]], least, most);
+      return thr_fail(
+          err, THR_EINFEASIBLE,
+          "edge %s-%s needs %d passes, but only %d fit; lower --cover or raise its capacity",
+          frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]], least, most);
   }
   return THR_OK;
 }
@@ -267,15 +285,19 @@ static thr_status no_room(const postman *m, int part, const char *why, thr_err *
 {
   const thr_frame *frame = m->f;
   int e = 0;
-  while (e + 1 < frame->n_edges && (m->part[frame->edge[e][0]] == part) == (m->part[frame->edge[e][1]] == part))
+  while (e + 1 < frame->n_edges &&
+         (m->part[frame->edge[e][0]] == part) == (m->part[frame->edge[e][1]] == part))
     e++;
   return thr_fail(err, THR_EINFEASIBLE,
-                  "edge %s-%s is full with %d %s, as is every edge out of the part with node %s, which needs one more pass %s",
-                  frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]], thr_plan_cover(frame, m->o, e),
+                  "edge %s-%s is full with %d %s, as is every edge out of the part with node %s, "
+                  "which needs one more pass %s",
+                  frame->name[frame->edge[e][0]], frame->name[frame->edge[e][1]],
+                  thr_plan_cover(frame, m->o, e),
                   thr_plan_cover(frame, m->o, e) == 1 ? "pass" : "passes", frame->name[part], why);
 }
 
-/* Extra passes cannot leave a part: where the odd nodes in it are odd in number, a cord has to end. */
+/* Extra passes cannot leave a part: where the odd nodes in it are odd in number, a cord has to end.
+ */
 static thr_status check_parts(const postman *m, thr_err *err)
 {
   const thr_frame *frame = m->f;
@@ -304,23 +326,28 @@ static thr_status check_parts(const postman *m, thr_err *err)
 static thr_status check_ends(const postman *m, thr_err *err)
 {
   const thr_frame *frame = m->f;
-  int *ends = thr_calloc((size_t)m->n_components, sizeof *ends), *first = thr_calloc((size_t)m->n_components, sizeof *first);
+  int *ends = thr_calloc((size_t)m->n_components, sizeof *ends),
+      *first = thr_calloc((size_t)m->n_components, sizeof *first);
   thr_status st = ends && first ? THR_OK : thr_nomem(err);
   for (int v = frame->n_nodes - 1; v >= 0 && !st; v--) {
     first[m->component[v]] = v;
-    ends[m->component[v]] += m->o->ends == THR_ENDS_COUNTS ? m->o->end_count[v] : thr_plan_end_allowed(frame, m->o, v);
+    ends[m->component[v]] +=
+        m->o->ends == THR_ENDS_COUNTS ? m->o->end_count[v] : thr_plan_end_allowed(frame, m->o, v);
   }
   for (int k = 0; k < m->n_components && !st; k++) {
     const char *name = frame->name[first[k]];
     if (ends[k] == 0)
       st = thr_fail(err, THR_EINFEASIBLE,
-                    "the component with node %s has no node where a cord may end; name one with --feet (try --feet lowest) or "
+                    "the component with node %s has no node where a cord may end; name one with "
+                    "--feet (try --feet lowest) or "
                     "--ends, or use "
                     "--ends closed",
                     name);
-    else if (m->o->ends == THR_ENDS_COUNTS && (ends[k] % 2 || ends[k] / 2 > m->o->cords || ends[k] / 2 < m->o->cords_least))
-      st = thr_fail(err, THR_EINFEASIBLE, "the component with node %s: %d cord ends do not make %d %s; each has two", name,
-                    ends[k], m->o->cords, m->o->cords == 1 ? "cord" : "cords");
+    else if (m->o->ends == THR_ENDS_COUNTS &&
+             (ends[k] % 2 || ends[k] / 2 > m->o->cords || ends[k] / 2 < m->o->cords_least))
+      st = thr_fail(err, THR_EINFEASIBLE,
+                    "the component with node %s: %d cord ends do not make %d %s; each has two",
+                    name, ends[k], m->o->cords, m->o->cords == 1 ? "cord" : "cords");
   }
   free(ends);
   free(first);
@@ -337,8 +364,8 @@ static void postman_destroy(postman *m)
   thr_scratch_free(&m->own);
 }
 
-/* Counting sort of items by key, from start[keys + 2], which is all 0: shifted by one place so that filling leaves the starts
- * right. */
+/* Counting sort of items by key, from start[keys + 2], which is all 0: shifted by one place so that
+ * filling leaves the starts right. */
 static void group(int n_items, const int *key, int n_keys, int *start, int *item)
 {
   for (int i = 0; i < n_items; i++)
@@ -397,7 +424,8 @@ static void start_certificates(postman *m)
     thr_certificate *c = &m->certificate[k];
     c->component = k;
     c->denominator = ends_free(m) ? 2 * THR_DUAL_DENOMINATOR : THR_DUAL_DENOMINATOR;
-    c->scale = choose_scale(m->f, m->edge + m->edge_start[k], m->edge_start[k + 1] - m->edge_start[k]);
+    c->scale =
+        choose_scale(m->f, m->edge + m->edge_start[k], m->edge_start[k + 1] - m->edge_start[k]);
   }
 }
 
@@ -407,7 +435,9 @@ static thr_status postman_init(postman *m, thr_err *err)
   size_t most = (size_t)(frame->n_nodes > frame->n_edges ? frame->n_nodes : frame->n_edges);
   int *key = thr_calloc(most, sizeof *key);
   m->component = thr_scratch_array(&m->own, (size_t)frame->n_nodes, sizeof *m->component);
-  thr_status st = key && m->component ? thr_frame_components(frame, m->component, &m->n_components, err) : thr_nomem(err);
+  thr_status st = key && m->component
+                      ? thr_frame_components(frame, m->component, &m->n_components, err)
+                      : thr_nomem(err);
   if (!st) st = postman_allocate(m, err);
   if (!st) {
     for (int e = 0; e < frame->n_edges; e++)
@@ -434,19 +464,22 @@ static thr_status postman_init(postman *m, thr_err *err)
 static thr_status judge(postman *m, thr_shortest *out, thr_err *err)
 {
   thr_err found = {0};
-  *out = (thr_shortest){
-      .passes = m->passes, .n_certificates = m->n_components, .certificate = m->certificate, .confirmed = m->confirmed};
+  *out = (thr_shortest){.passes = m->passes,
+                        .n_certificates = m->n_components,
+                        .certificate = m->certificate,
+                        .confirmed = m->confirmed};
   m->passes = NULL;
   m->certificate = NULL;
   for (int e = 0; e < m->f->n_edges; e++)
     out->length += out->passes[e] * m->f->length[e];
-  return thr_check_own(thr_check_length_of_passes(m->f, m->o, out->passes, out->certificate, out->n_certificates, &out->optimal,
+  return thr_check_own(thr_check_length_of_passes(m->f, m->o, out->passes, out->certificate,
+                                                  out->n_certificates, &out->optimal,
                                                   &out->lower_bound, &found),
                        &found, err);
 }
 
-thr_status thr_postman_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_shortest *out,
-                                thr_err *err)
+thr_status thr_postman_shortest(const thr_frame *frame, const thr_request *options,
+                                const thr_limits *limits, thr_shortest *out, thr_err *err)
 {
   postman m = {.f = frame, .o = options, .limits = limits};
   *out = (thr_shortest){0};

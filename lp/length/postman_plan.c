@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Passes -> ends -> cords -> plan, and its proof. */
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
@@ -7,16 +8,19 @@
 #include <stdlib.h>
 
 /* The certificates' joins: what these cords weigh beyond the cover. */
-static thr_status weigh_joins(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
-                              thr_shortest *shortest, thr_err *err)
+static thr_status weigh_joins(const thr_frame *frame, const thr_request *options,
+                              const thr_cord *cord, int n_cords, thr_shortest *shortest,
+                              thr_err *err)
 {
   int n_components, *component = thr_calloc((size_t)frame->n_nodes, sizeof *component);
-  thr_status st = component ? thr_frame_components(frame, component, &n_components, err) : thr_nomem(err);
+  thr_status st =
+      component ? thr_frame_components(frame, component, &n_components, err) : thr_nomem(err);
   for (int k = 0; k < shortest->n_certificates; k++)
     shortest->certificate[k].join = 0;
   for (int e = 0; e < frame->n_edges && !st; e++) {
     thr_certificate *certificate = &shortest->certificate[component[frame->edge[e][0]]];
-    certificate->join -= thr_plan_cover(frame, options, e) * thr_certificate_weight(frame, certificate, e);
+    certificate->join -=
+        thr_plan_cover(frame, options, e) * thr_certificate_weight(frame, certificate, e);
   }
   for (int i = 0; i < n_cords && !st; i++)
     for (int k = 0; k < cord[i].n_passes; k++) {
@@ -27,13 +31,15 @@ static thr_status weigh_joins(const thr_frame *frame, const thr_request *options
   return st;
 }
 
-thr_status thr_postman_prove(const thr_frame *frame, const thr_request *options, const thr_cord *cord, int n_cords,
-                             thr_shortest *shortest, thr_length_proof *proof, thr_err *err)
+thr_status thr_postman_prove(const thr_frame *frame, const thr_request *options,
+                             const thr_cord *cord, int n_cords, thr_shortest *shortest,
+                             thr_length_proof *proof, thr_err *err)
 {
   thr_err found = {0};
   double length = 0;
-  *proof =
-      (thr_length_proof){.present = true, .confirmed = shortest->confirmed.confirmed, .unconfirmed = shortest->confirmed.skipped};
+  *proof = (thr_length_proof){.present = true,
+                              .confirmed = shortest->confirmed.confirmed,
+                              .unconfirmed = shortest->confirmed.skipped};
   thr_status st = weigh_joins(frame, options, cord, n_cords, shortest, err);
   if (st) return st;
   proof->certificate = shortest->certificate;
@@ -42,8 +48,9 @@ thr_status thr_postman_prove(const thr_frame *frame, const thr_request *options,
   shortest->n_certificates = 0;
   for (int i = 0; i < n_cords; i++)
     length += thr_cord_length(frame, &cord[i]);
-  st = thr_check_own(thr_check_length_proof(frame, options, cord, n_cords, proof->certificate, proof->n_certificates,
-                                            &proof->optimal, &proof->lower_bound, &found),
+  st = thr_check_own(thr_check_length_proof(frame, options, cord, n_cords, proof->certificate,
+                                            proof->n_certificates, &proof->optimal,
+                                            &proof->lower_bound, &found),
                      &found, err);
   proof->gap = (length - proof->lower_bound) / length;
   return st;
@@ -63,8 +70,8 @@ static void find_ends(const thr_frame *frame, const int *passes, int *end)
   }
 }
 
-static thr_status make_cord(const thr_frame *frame, const thr_request *options, const int *passes, thr_cord **cord, int *n_cords,
-                            thr_err *err)
+static thr_status make_cord(const thr_frame *frame, const thr_request *options, const int *passes,
+                            thr_cord **cord, int *n_cords, thr_err *err)
 {
   int end[2];
   find_ends(frame, passes, end);
@@ -78,30 +85,38 @@ static thr_status make_cord(const thr_frame *frame, const thr_request *options, 
   return st;
 }
 
-thr_status thr_postman_cords(const thr_frame *frame, const thr_request *options, const int *passes, thr_cord **cord, int *n_cords,
-                             thr_err *err)
+thr_status thr_postman_cords(const thr_frame *frame, const thr_request *options, const int *passes,
+                             thr_cord **cord, int *n_cords, thr_err *err)
 {
   return thr_components_cords(frame, options, passes, make_cord, cord, n_cords, err);
 }
 
 /* Cords through the passes; then metrics, and the proof as far as the checker follows it. */
-static thr_status assemble(const thr_frame *frame, const thr_request *options, thr_shortest *shortest, thr_plan *plan,
-                           thr_err *err)
+static thr_status assemble(const thr_frame *frame, const thr_request *options,
+                           thr_shortest *shortest, thr_plan *plan, thr_err *err)
 {
   thr_status st = thr_plan_request(plan, frame, options, err);
-  if (!st) st = thr_postman_cords(&plan->frame, &plan->options, shortest->passes, &plan->cord, &plan->n_cords, err);
-  if (!st) st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics, err);
-  if (!st) st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, shortest, &plan->proof, err);
+  if (!st)
+    st = thr_postman_cords(&plan->frame, &plan->options, shortest->passes, &plan->cord,
+                           &plan->n_cords, err);
+  if (!st)
+    st = thr_plan_measure(&plan->frame, &plan->options, plan->cord, plan->n_cords, &plan->metrics,
+                          err);
+  if (!st)
+    st = thr_postman_prove(&plan->frame, &plan->options, plan->cord, plan->n_cords, shortest,
+                           &plan->proof, err);
   return st;
 }
 
-thr_status thr_postman_plan(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_plan *plan,
-                            thr_err *err)
+thr_status thr_postman_plan(const thr_frame *frame, const thr_request *options,
+                            const thr_limits *limits, thr_plan *plan, thr_err *err)
 {
   thr_shortest shortest = {0};
   thr_err local = {0};
   *plan = (thr_plan){0};
-  if (options->cords > 1) return thr_fail(err, THR_EINPUT, "--cords above 1 needs --objective tortuosity in this version");
+  if (options->cords > 1)
+    return thr_fail(err, THR_EINPUT,
+                    "--cords above 1 needs --objective tortuosity in this version");
   thr_status proved = thr_postman_shortest(frame, options, limits, &shortest, &local), st = THR_OK;
   if (!proved || proved == THR_ELIMIT) st = assemble(frame, options, &shortest, plan, err);
   if (!st && proved) st = thr_fail(err, proved, "%s", local.text);

@@ -1,4 +1,6 @@
-/* Shortest paths from some nodes of a framework (Dijkstra), where there is room for a cord. Internal to lp/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shortest paths from some nodes of a framework (Dijkstra), where there is room for a cord.
+ * Internal to lp/. */
 #include "lp/length/postman.h"
 
 #include <math.h>
@@ -44,14 +46,15 @@ thr_status thr_paths_start(thr_paths *x, int v, thr_err *err)
   return reach(x, v, 0, -1, err);
 }
 
-thr_status thr_paths_spread(thr_paths *x, const thr_request *options, const int *passes, int room, double most, int64_t *steps,
-                            thr_err *err)
+thr_status thr_paths_spread(thr_paths *x, const thr_request *options, const int *passes, int room,
+                            double most, int64_t *steps, thr_err *err)
 {
   const thr_frame *frame = x->f;
   thr_status st = THR_OK;
   while (x->queue.count > 0 && !st) {
     thr_queued at = thr_queue_pop(&x->queue);
-    if (-at.key > (int64_t)(x->far[at.place] / x->unit)) continue; /* a shorter path was found since */
+    if (-at.key > (int64_t)(x->far[at.place] / x->unit))
+      continue; /* a shorter path was found since */
     if (steps) *steps -= 4;
     for (int i = frame->first[at.place]; i < frame->first[at.place + 1] && !st; i++) {
       int h = frame->half[i], e = h >> 1;

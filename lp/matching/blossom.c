@@ -1,15 +1,18 @@
-/* Minimum-weight perfect matching in a sparse graph, with its proof: Edmonds' primal-dual method (J. Edmonds, "Maximum matching
- * and a polyhedron with 0,1-vertices", J. Res. NBS 69B, 1965), all alternating trees at once, on a half-integral start (D.
- * Applegate & W. Cook, "Solving large-scale matching problems", DIMACS 12, 1993; V. Kolmogorov, "Blossom V", Math. Prog. Comp.
- * 1, 2009). Exact: all numbers are 64-bit integers.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Minimum-weight perfect matching in a sparse graph, with its proof: Edmonds' primal-dual method
+ * (J. Edmonds, "Maximum matching and a polyhedron with 0,1-vertices", J. Res. NBS 69B, 1965), all
+ * alternating trees at once, on a half-integral start (D. Applegate & W. Cook, "Solving large-scale
+ * matching problems", DIMACS 12, 1993; V. Kolmogorov, "Blossom V", Math. Prog. Comp. 1, 2009).
+ * Exact: all numbers are 64-bit integers.
  *
- * Least sum of w(e) over matchings M = greatest sum of y(v) + sum of z(B) over odd sets B with z(B) >= 0, where for every edge
- * uv: y(u) + y(v) + sum of z(B) over the B that uv leaves <= w(uv).
+ * Least sum of w(e) over matchings M = greatest sum of y(v) + sum of z(B) over odd sets B with z(B)
+ * >= 0, where for every edge uv: y(u) + y(v) + sum of z(B) over the B that uv leaves <= w(uv).
  *
- * Example: a square 0-1-2-3 with weights 1, 5, 1, 5 round it. The matching is 01 and 23 with weight 2; y = 1/2 at every node
- * proves it, since both edges of weight 1 are tight and 1/2 + 1/2 <= 5.
+ * Example: a square 0-1-2-3 with weights 1, 5, 1, 5 round it. The matching is 01 and 23 with weight
+ * 2; y = 1/2 at every node proves it, since both edges of weight 1 are tight and 1/2 + 1/2 <= 5.
  *
- * Minimum-weight perfect matching: from the problem to the state, the start, the searches, and back to matching and duals. */
+ * Minimum-weight perfect matching: from the problem to the state, the start, the searches, and back
+ * to matching and duals. */
 #include "lp/matching/blossom_parts.h"
 
 #include <limits.h>
@@ -31,13 +34,14 @@ static void state_destroy(thr_matching_state *matching_state)
 static thr_status check_problem(const thr_matching_problem *matching_problem, thr_err *err)
 {
   if (matching_problem->n_nodes > INT_MAX / 2 || matching_problem->n_edges > INT_MAX / 2)
-    return thr_fail(err, THR_EINPUT, "%d nodes and %d pairs are too many to be matched", matching_problem->n_nodes,
-                    matching_problem->n_edges);
+    return thr_fail(err, THR_EINPUT, "%d nodes and %d pairs are too many to be matched",
+                    matching_problem->n_nodes, matching_problem->n_edges);
   for (int e = 0; e < matching_problem->n_edges; e++) {
     const int *end = matching_problem->edge[e];
-    if (end[0] < 0 || end[0] >= matching_problem->n_nodes || end[1] < 0 || end[1] >= matching_problem->n_nodes ||
-        end[0] == end[1])
-      return thr_fail(err, THR_EINPUT, "pair %d joins nodes %d and %d of %d", e, end[0], end[1], matching_problem->n_nodes);
+    if (end[0] < 0 || end[0] >= matching_problem->n_nodes || end[1] < 0 ||
+        end[1] >= matching_problem->n_nodes || end[0] == end[1])
+      return thr_fail(err, THR_EINPUT, "pair %d joins nodes %d and %d of %d", e, end[0], end[1],
+                      matching_problem->n_nodes);
     if (matching_problem->weight[e] < 0 || matching_problem->weight[e] > THR_MATCHING_WEIGHT_MOST)
       return thr_fail(err, THR_EINPUT, "pair %d has a weight that is not in 0 .. 2^53", e);
   }
@@ -50,16 +54,19 @@ static thr_status state_create(thr_matching_state **out, int n_nodes, thr_err *e
   thr_matching_state *matching_state = *out = thr_calloc(1, sizeof *matching_state);
   if (!matching_state) return thr_nomem(err);
   matching_state->n_nodes = n_nodes;
-  matching_state->first_arc = thr_scratch_array(&matching_state->own, n + 1, sizeof *matching_state->first_arc);
+  matching_state->first_arc =
+      thr_scratch_array(&matching_state->own, n + 1, sizeof *matching_state->first_arc);
   matching_state->node = thr_scratch_array(&matching_state->own, n, sizeof *matching_state->node);
   matching_state->b = thr_scratch_array(&matching_state->own, n + n / 2, sizeof *matching_state->b);
-  matching_state->spare = thr_scratch_array(&matching_state->own, n / 2, sizeof *matching_state->spare);
+  matching_state->spare =
+      thr_scratch_array(&matching_state->own, n / 2, sizeof *matching_state->spare);
   matching_state->tree = thr_scratch_array(&matching_state->own, n, sizeof *matching_state->tree);
   thr_status st = thr_scratch_check(&matching_state->own, err);
   if (st) return st;
   for (int v = 0; v < n_nodes; v++) {
     matching_state->node[v] = (blossom_node){.up = ~v, .next = -1};
-    matching_state->b[v] = (blossom){.match = -1, .parent = -1, .child = -1, .size = 1, .first = v, .last = v, .root = v};
+    matching_state->b[v] = (blossom){
+        .match = -1, .parent = -1, .child = -1, .size = 1, .first = v, .last = v, .root = v};
   }
   for (int b = n_nodes + n_nodes / 2 - 1; b >= n_nodes; b--) {
     matching_state->b[b].child = -1;
@@ -72,7 +79,8 @@ static thr_status state_create(thr_matching_state **out, int n_nodes, thr_err *e
 static const double seconds_per_edge = 5e-7;
 
 /* Points the state at a problem with its number of nodes: arcs by node. */
-static thr_status state_set_problem(thr_matching_state *matching_state, const thr_matching_problem *matching_problem,
+static thr_status state_set_problem(thr_matching_state *matching_state,
+                                    const thr_matching_problem *matching_problem,
                                     const thr_limits *limits, thr_err *err)
 {
   int n_darts = 2 * matching_problem->n_edges;
@@ -85,7 +93,8 @@ static thr_status state_set_problem(thr_matching_state *matching_state, const th
   matching_state->err = err;
   matching_state->n_edges = matching_problem->n_edges;
   matching_state->tail = matching_problem->n_edges ? &matching_problem->edge[0][0] : NULL;
-  memset(matching_state->first_arc, 0, ((size_t)matching_state->n_nodes + 1) * sizeof *matching_state->first_arc);
+  memset(matching_state->first_arc, 0,
+         ((size_t)matching_state->n_nodes + 1) * sizeof *matching_state->first_arc);
   for (int d = 0; d < n_darts; d++)
     matching_state->first_arc[matching_state->tail[d]]++;
   for (int v = 0; v < matching_state->n_nodes; v++)
@@ -101,8 +110,8 @@ static thr_status state_set_problem(thr_matching_state *matching_state, const th
 
 /* ---- the result ---- */
 
-/* Matches all that top blossom b contains. A matched dart is that of each blossom round its tail up to the one in whose cycle it
- * was chosen, so each blossom is come by once. */
+/* Matches all that top blossom b contains. A matched dart is that of each blossom round its tail up
+ * to the one in whose cycle it was chosen, so each blossom is come by once. */
 static void match_within(thr_matching_state *matching_state, int b, int *stack)
 {
   int n = 0;
@@ -146,23 +155,28 @@ static thr_status take_result(thr_matching *matching, thr_err *err)
   thr_matching_state *matching_state = matching->state;
   size_t n = (size_t)matching_state->n_nodes;
   thr_scratch own = {0};
-  int *order = thr_scratch_array(&own, n / 2, sizeof *order), *number = thr_scratch_array(&own, n + n / 2, sizeof *number);
+  int *order = thr_scratch_array(&own, n / 2, sizeof *order),
+      *number = thr_scratch_array(&own, n + n / 2, sizeof *number);
   matching->mate = thr_scratch_array(&matching->own, n, sizeof *matching->mate);
   matching->mate_edge = thr_scratch_array(&matching->own, n, sizeof *matching->mate_edge);
   matching->dual = thr_scratch_array(&matching->own, n, sizeof *matching->dual);
-  matching->blossom_parent = thr_scratch_array(&matching->own, n / 2, sizeof *matching->blossom_parent);
+  matching->blossom_parent =
+      thr_scratch_array(&matching->own, n / 2, sizeof *matching->blossom_parent);
   matching->node_blossom = thr_scratch_array(&matching->own, n, sizeof *matching->node_blossom);
   matching->blossom_dual = thr_scratch_array(&matching->own, n / 2, sizeof *matching->blossom_dual);
   thr_status st = thr_scratch_check(&own, err);
   if (!st) st = thr_scratch_check(&matching->own, err);
   if (st) goto done;
-  for (int b = matching_state->n_nodes; b < matching_state->n_nodes + matching_state->n_nodes / 2; b++)
-    if (matching_state->b[b].child >= 0 && is_top(matching_state, b)) match_within(matching_state, b, order);
+  for (int b = matching_state->n_nodes; b < matching_state->n_nodes + matching_state->n_nodes / 2;
+       b++)
+    if (matching_state->b[b].child >= 0 && is_top(matching_state, b))
+      match_within(matching_state, b, order);
   int count = list_blossoms(matching_state, order), left = 0;
   for (int i = 0; i < count; i++)
     left += matching_state->b[order[i]].dual > 0;
   matching->n_blossoms = left;
-  for (int i = 0; i < count; i++) { /* number: of the innermost one with a dual that is or contains it, plus 1 */
+  for (int i = 0; i < count;
+       i++) { /* number: of the innermost one with a dual that is or contains it, plus 1 */
     const blossom *x = &matching_state->b[order[i]];
     int outside = x->parent < 0 ? 0 : number[x->parent];
     number[order[i]] = outside;
@@ -184,8 +198,9 @@ done:
   return st;
 }
 
-thr_status thr_matching_near(const thr_matching_problem *matching_problem, const int64_t *dual, const int *mate,
-                             const thr_limits *limits, thr_matching *out, thr_err *err)
+thr_status thr_matching_near(const thr_matching_problem *matching_problem, const int64_t *dual,
+                             const int *mate, const thr_limits *limits, thr_matching *out,
+                             thr_err *err)
 {
   *out = (thr_matching){0};
   thr_status st = check_problem(matching_problem, err);
@@ -200,21 +215,23 @@ thr_status thr_matching_near(const thr_matching_problem *matching_problem, const
   return st;
 }
 
-thr_status thr_matching_solve(const thr_matching_problem *matching_problem, const thr_limits *limits, thr_matching *out,
-                              thr_err *err)
+thr_status thr_matching_solve(const thr_matching_problem *matching_problem,
+                              const thr_limits *limits, thr_matching *out, thr_err *err)
 {
   return thr_matching_near(matching_problem, NULL, NULL, limits, out, err);
 }
 
-thr_status thr_matching_again(const thr_matching_problem *matching_problem, const thr_limits *limits, thr_matching *matching,
-                              thr_err *err)
+thr_status thr_matching_again(const thr_matching_problem *matching_problem,
+                              const thr_limits *limits, thr_matching *matching, thr_err *err)
 {
   thr_matching_state *matching_state = matching->state;
   if (!matching_state) return thr_matching_solve(matching_problem, limits, matching, err);
   thr_status st = check_problem(matching_problem, err);
   int known = matching_state->n_edges;
-  if (!st && (matching_problem->n_nodes != matching_state->n_nodes || matching_problem->n_edges < known))
-    st = thr_fail(err, THR_EINPUT, "a matching goes on with the same nodes and pairs, and more pairs");
+  if (!st &&
+      (matching_problem->n_nodes != matching_state->n_nodes || matching_problem->n_edges < known))
+    st = thr_fail(err, THR_EINPUT,
+                  "a matching goes on with the same nodes and pairs, and more pairs");
   if (!st) st = state_set_problem(matching_state, matching_problem, limits, err);
   for (int e = known; e < matching_problem->n_edges && !st; e++)
     st = thr_blossom_make_room(matching_state, e);

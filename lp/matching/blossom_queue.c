@@ -1,6 +1,8 @@
-/* The events of a search: a radix heap (Ahuja, Mehlhorn, Orlin and Tarjan, "Faster algorithms for the shortest path problem", J.
- * ACM 37, 1990), for no event is due before the one that led to it. Bucket 0 has what is due at s->queue_time, bucket k what
- * differs from that time in bit k - 1 and no higher one. Moving a bucket down reads memory in order; a heap does not. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The events of a search: a radix heap (Ahuja, Mehlhorn, Orlin and Tarjan, "Faster algorithms for
+ * the shortest path problem", J. ACM 37, 1990), for no event is due before the one that led to it.
+ * Bucket 0 has what is due at s->queue_time, bucket k what differs from that time in bit k - 1 and
+ * no higher one. Moving a bucket down reads memory in order; a heap does not. */
 #include "lp/matching/blossom_parts.h"
 
 static int bucket_of(const thr_matching_state *matching_state, int64_t time)
@@ -14,7 +16,8 @@ static void put(thr_matching_state *matching_state, blossom_event e)
   int k = bucket_of(matching_state, e.time);
   blossom_bucket *to = &matching_state->bucket[k];
   if (to->count == to->capacity && !matching_state->status)
-    matching_state->status = thr_grow(&to->event, to->count, &to->capacity, sizeof e, matching_state->err);
+    matching_state->status =
+        thr_grow(&to->event, to->count, &to->capacity, sizeof e, matching_state->err);
   if (matching_state->status) return;
   to->event[to->count++] = e;
   matching_state->filled |= UINT64_C(1) << k;
@@ -42,7 +45,8 @@ int64_t thr_blossom_due(thr_matching_state *matching_state)
     for (int i = 0; i < count; i++)
       put(matching_state, from->event[i]);
   }
-  return matching_state->queue_time < matching_state->end_time ? matching_state->queue_time : matching_state->end_time;
+  return matching_state->queue_time < matching_state->end_time ? matching_state->queue_time
+                                                               : matching_state->end_time;
 }
 
 int thr_blossom_pop(thr_matching_state *matching_state)

@@ -1,4 +1,6 @@
-/* The searches: one tree at a time for the half-integral matching, all trees at once for the matching. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The searches: one tree at a time for the half-integral matching, all trees at once for the
+ * matching. */
 #include "lp/matching/blossom_parts.h"
 
 enum { STEPS_BETWEEN_LIMITS = 1 << 13 };
@@ -10,15 +12,19 @@ static thr_status pass_time(thr_matching_state *matching_state, int64_t time)
 {
   if (matching_state->status) return matching_state->status;
   if (matching_state->n_trees &&
-      time - matching_state->time > (BLOSSOM_TOTAL_MOST - matching_state->total) / matching_state->n_trees) {
-    if (time == INT64_MAX || (wide)matching_state->heaviest * (matching_state->n_nodes / 2) < BLOSSOM_TOTAL_MOST)
+      time - matching_state->time >
+          (BLOSSOM_TOTAL_MOST - matching_state->total) / matching_state->n_trees) {
+    if (time == INT64_MAX ||
+        (wide)matching_state->heaviest * (matching_state->n_nodes / 2) < BLOSSOM_TOTAL_MOST)
       return thr_blossom_infeasible(matching_state);
     return thr_blossom_too_large(matching_state);
   }
   matching_state->total += matching_state->n_trees * (time - matching_state->time);
   matching_state->time = time;
-  if (matching_state->steps++ % STEPS_BETWEEN_LIMITS == 0 && thr_limits_stop(matching_state->limits))
-    return thr_fail(matching_state->err, THR_ELIMIT, "stopped early, before the matching was complete");
+  if (matching_state->steps++ % STEPS_BETWEEN_LIMITS == 0 &&
+      thr_limits_stop(matching_state->limits))
+    return thr_fail(matching_state->err, THR_ELIMIT,
+                    "stopped early, before the matching was complete");
   return THR_OK;
 }
 
@@ -42,12 +48,14 @@ static void fell(thr_matching_state *matching_state, int tree)
 
 static void finish_half(thr_matching_state *matching_state)
 {
-  int dart = matching_state->end_dart, end = top_of_node(matching_state, matching_state->tail[dart ^ 1]);
+  int dart = matching_state->end_dart,
+      end = top_of_node(matching_state, matching_state->tail[dart ^ 1]);
   bool cycle = matching_state->b[end].label == OUTER;
   if (cycle) {
     thr_blossom_change_pairs(matching_state, thr_blossom_shrink(matching_state, dart), -1);
   } else {
-    thr_blossom_change_pairs(matching_state, top_of_node(matching_state, matching_state->tail[dart]), dart);
+    thr_blossom_change_pairs(matching_state,
+                             top_of_node(matching_state, matching_state->tail[dart]), dart);
     matching_state->b[end].match = dart ^ 1;
   }
   fell(matching_state, 0);
@@ -64,7 +72,8 @@ static thr_status search_half(thr_matching_state *matching_state, int root)
     if (st) return st;
     if (due == matching_state->end_time) break;
     int dart = thr_blossom_pop(matching_state);
-    if (matching_state->b[matching_state->tail[dart ^ 1]].label == FREE) thr_blossom_attach(matching_state, dart);
+    if (matching_state->b[matching_state->tail[dart ^ 1]].label == FREE)
+      thr_blossom_attach(matching_state, dart);
   }
   finish_half(matching_state);
   return THR_OK;
@@ -75,7 +84,8 @@ thr_status thr_blossom_match_halves(thr_matching_state *matching_state)
   thr_status st = THR_OK;
   matching_state->half_integral = true;
   for (int v = 0; v < matching_state->n_nodes && !st; v++)
-    if (top_of_node(matching_state, v) == v && matching_state->b[v].match < 0) st = search_half(matching_state, v);
+    if (top_of_node(matching_state, v) == v && matching_state->b[v].match < 0)
+      st = search_half(matching_state, v);
   matching_state->half_integral = false;
   return st;
 }
@@ -91,7 +101,8 @@ static void look_back_from(thr_matching_state *matching_state, int tree)
 /* Along a dart an outer blossom has met another, of another tree or exposed without a tree. */
 static void join_trees(thr_matching_state *matching_state, int from, int to, int dart)
 {
-  int first = matching_state->b[from].tree, second = matching_state->b[to].label == OUTER ? matching_state->b[to].tree : -1;
+  int first = matching_state->b[from].tree,
+      second = matching_state->b[to].label == OUTER ? matching_state->b[to].tree : -1;
   thr_blossom_change_pairs(matching_state, from, dart);
   thr_blossom_change_pairs(matching_state, to, dart ^ 1);
   fell(matching_state, first);
@@ -123,10 +134,11 @@ static void follow(thr_matching_state *matching_state, int dart)
   int from = top_of_node(matching_state, matching_state->tail[dart]),
       to = top_of_node(matching_state, matching_state->tail[dart ^ 1]);
   /* labels may have changed since the event was queued; if so, another one was */
-  if (from == to || matching_state->b[from].label != OUTER || matching_state->b[to].label == INNER ||
-      gap_of(matching_state, dart, to))
+  if (from == to || matching_state->b[from].label != OUTER ||
+      matching_state->b[to].label == INNER || gap_of(matching_state, dart, to))
     return;
-  if (matching_state->b[to].label == OUTER && matching_state->b[to].tree == matching_state->b[from].tree)
+  if (matching_state->b[to].label == OUTER &&
+      matching_state->b[to].tree == matching_state->b[from].tree)
     shrink(matching_state, dart);
   else if (matching_state->b[to].label == OUTER || matching_state->b[to].match < 0)
     join_trees(matching_state, from, to, dart);
@@ -144,7 +156,8 @@ static void change_blossom(thr_matching_state *matching_state, int b)
     thr_blossom_expand(matching_state, b);
 }
 
-/* Times are whole when all trees have moats of one parity: the roots with odd moats wait till the others are odd, too. */
+/* Times are whole when all trees have moats of one parity: the roots with odd moats wait till the
+ * others are odd, too. */
 static void queue_roots(thr_matching_state *matching_state)
 {
   for (int b = matching_state->n_nodes + matching_state->n_nodes / 2 - 1; b >= 0; b--) {

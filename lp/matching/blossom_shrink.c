@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blossoms made of odd cycles, and opened again. */
 #include "lp/matching/blossom_parts.h"
 
@@ -11,7 +12,8 @@ static int above(thr_matching_state *matching_state, int b)
   return top_of_node(matching_state, matching_state->tail[matching_state->b[inner].entry]);
 }
 
-/* The lowest outer blossom on both paths to the root. In turns, so that it takes no longer than the cycle it closes. */
+/* The lowest outer blossom on both paths to the root. In turns, so that it takes no longer than the
+ * cycle it closes. */
 static int lowest_common(thr_matching_state *matching_state, int a, int b)
 {
   matching_state->stamp++;
@@ -27,7 +29,8 @@ static int lowest_common(thr_matching_state *matching_state, int a, int b)
   }
 }
 
-/* Takes a blossom out of its tree and puts it before next in a cycle; its nodes are as those of outer ones from now on. */
+/* Takes a blossom out of its tree and puts it before next in a cycle; its nodes are as those of
+ * outer ones from now on. */
 static void link_child(thr_matching_state *matching_state, int c, int next, int link)
 {
   blossom *x = &matching_state->b[c];
@@ -66,12 +69,15 @@ static void link_cycle(thr_matching_state *matching_state, int dart, int common)
 
 int thr_blossom_shrink(thr_matching_state *matching_state, int dart)
 {
-  int common = lowest_common(matching_state, top_of_node(matching_state, matching_state->tail[dart]),
-                             top_of_node(matching_state, matching_state->tail[dart ^ 1]));
+  int common =
+      lowest_common(matching_state, top_of_node(matching_state, matching_state->tail[dart]),
+                    top_of_node(matching_state, matching_state->tail[dart ^ 1]));
   int b = matching_state->spare[--matching_state->n_spare], c = common, largest = common;
   link_cycle(matching_state, dart, common);
-  matching_state->b[b] = (blossom){
-      .match = matching_state->b[common].match, .parent = -1, .child = common, .first = matching_state->b[common].first};
+  matching_state->b[b] = (blossom){.match = matching_state->b[common].match,
+                                   .parent = -1,
+                                   .child = common,
+                                   .first = matching_state->b[common].first};
   do {
     blossom *x = &matching_state->b[c];
     x->parent = b;
@@ -87,7 +93,8 @@ int thr_blossom_shrink(thr_matching_state *matching_state, int dart)
   } while (c != common);
   matching_state->b[b].root = matching_state->b[largest].root;
   matching_state->node[matching_state->b[b].root].up = ~b;
-  matching_state->b[b].offset = matching_state->time; /* its nodes are as those of outer blossoms already */
+  matching_state->b[b].offset =
+      matching_state->time; /* its nodes are as those of outer blossoms already */
   thr_blossom_make_outer(matching_state, b, matching_state->b[common].tree);
   return b;
 }
@@ -144,13 +151,16 @@ static void reverse_cycle(thr_matching_state *matching_state, int start)
 
 void thr_blossom_expand(thr_matching_state *matching_state, int b)
 {
-  int entry = matching_state->b[b].entry, match = matching_state->b[b].match, tree = matching_state->b[b].tree;
+  int entry = matching_state->b[b].entry, match = matching_state->b[b].match,
+      tree = matching_state->b[b].tree;
   thr_blossom_leave(matching_state, b);
   thr_blossom_open(matching_state, b);
   int base = top_of_node(matching_state, matching_state->tail[match]),
       in = top_of_node(matching_state, matching_state->tail[entry ^ 1]);
-  /* the tree goes round the side where its alternation fits, the children on the other side are free */
-  if (in != base && matching_state->b[in].match != matching_state->b[in].link) reverse_cycle(matching_state, in);
+  /* the tree goes round the side where its alternation fits, the children on the other side are
+   * free */
+  if (in != base && matching_state->b[in].match != matching_state->b[in].link)
+    reverse_cycle(matching_state, in);
   for (int c = matching_state->b[base].next; c != in; c = matching_state->b[c].next)
     thr_blossom_look_back(matching_state, c);
   for (int c = in, dart = entry;;) { /* the list of the tree takes the place of the cycle's */

@@ -1,16 +1,20 @@
-/* Where the searches begin: greedy duals, or those of an earlier matching made fit for new edges. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Where the searches begin: greedy duals, or those of an earlier matching made fit for new edges.
+ */
 #include "lp/matching/blossom_parts.h"
 
 #include <math.h>
 
 thr_status thr_blossom_infeasible(const thr_matching_state *matching_state)
 {
-  return thr_fail(matching_state->err, THR_EINFEASIBLE, "the %d nodes have no perfect matching", matching_state->n_nodes);
+  return thr_fail(matching_state->err, THR_EINFEASIBLE, "the %d nodes have no perfect matching",
+                  matching_state->n_nodes);
 }
 
 thr_status thr_blossom_too_large(const thr_matching_state *matching_state)
 {
-  return thr_fail(matching_state->err, THR_EINPUT, "the weights to be matched are too large for exact 64-bit sums");
+  return thr_fail(matching_state->err, THR_EINPUT,
+                  "the weights to be matched are too large for exact 64-bit sums");
 }
 
 /* ---- from nothing ---- */
@@ -33,7 +37,8 @@ static int64_t gap_of(const thr_matching_state *matching_state, int v, const blo
   return arc->weight - matching_state->node[v].moat - matching_state->node[arc->head].moat;
 }
 
-/* Every node keeps the dual that it had, less what its edges are loaded too much, and its mate where their edge is tight. */
+/* Every node keeps the dual that it had, less what its edges are loaded too much, and its mate
+ * where their edge is tight. */
 static void take_over(thr_matching_state *matching_state, const int64_t *dual, const int *mate)
 {
   for (int v = 0; v < matching_state->n_nodes; v++)
@@ -46,14 +51,17 @@ static void take_over(thr_matching_state *matching_state, const int64_t *dual, c
   for (int v = 0; v < matching_state->n_nodes; v++)
     for (int k = matching_state->first_arc[v]; k < matching_state->first_arc[v + 1]; k++) {
       const blossom_arc *arc = &matching_state->arc[k];
-      if (arc->head != mate[v] || matching_state->b[v].match >= 0 || matching_state->b[arc->head].match >= 0) continue;
+      if (arc->head != mate[v] || matching_state->b[v].match >= 0 ||
+          matching_state->b[arc->head].match >= 0)
+        continue;
       if (gap_of(matching_state, v, arc) != 0) continue;
       matching_state->b[v].match = arc->dart;
       matching_state->b[arc->head].match = arc->dart ^ 1;
     }
 }
 
-/* Nodes without a mate, one after the other, are raised till an edge is tight, and matched over it if they can be. */
+/* Nodes without a mate, one after the other, are raised till an edge is tight, and matched over it
+ * if they can be. */
 static void raise_exposed(thr_matching_state *matching_state)
 {
   for (int v = 0; v < matching_state->n_nodes; v++) {
@@ -75,7 +83,8 @@ static void raise_exposed(thr_matching_state *matching_state)
   }
 }
 
-thr_status thr_blossom_start(thr_matching_state *matching_state, const int64_t *dual, const int *mate)
+thr_status thr_blossom_start(thr_matching_state *matching_state, const int64_t *dual,
+                             const int *mate)
 {
   double total = 0;
   thr_status st = THR_OK;
@@ -107,8 +116,9 @@ static int depth_of(const thr_matching_state *matching_state, int b)
 /* By how much the moats of two nodes load an edge between them: blossoms round both do not. */
 static int64_t load_between(thr_matching_state *matching_state, int u, int v)
 {
-  int64_t load = matching_state->node[u].moat + matching_state->b[top_of_node(matching_state, u)].offset +
-                 matching_state->node[v].moat + matching_state->b[top_of_node(matching_state, v)].offset;
+  int64_t load =
+      matching_state->node[u].moat + matching_state->b[top_of_node(matching_state, u)].offset +
+      matching_state->node[v].moat + matching_state->b[top_of_node(matching_state, v)].offset;
   for (int more = depth_of(matching_state, u) - depth_of(matching_state, v); u != v;) {
     if (more >= 0) u = matching_state->b[u].parent;
     if (more <= 0) v = matching_state->b[v].parent;
@@ -124,7 +134,8 @@ static void lower(thr_matching_state *matching_state, int b, int64_t amount)
 {
   blossom *x = &matching_state->b[b];
   if (amount == 0) return;
-  if (x->match >= 0) matching_state->b[top_of_node(matching_state, matching_state->tail[x->match ^ 1])].match = -1;
+  if (x->match >= 0)
+    matching_state->b[top_of_node(matching_state, matching_state->tail[x->match ^ 1])].match = -1;
   x->match = -1;
   x->dual -= amount;
   x->offset -= amount;
@@ -135,21 +146,26 @@ thr_status thr_blossom_make_room(thr_matching_state *matching_state, int edge)
 {
   int u = matching_state->p->edge[edge][0], v = matching_state->p->edge[edge][1];
   int64_t excess = load_between(matching_state, u, v) - 2 * matching_state->p->weight[edge];
-  if (depth_of(matching_state, v) < depth_of(matching_state, u)) { /* from here on u is the one to yield */
+  if (depth_of(matching_state, v) <
+      depth_of(matching_state, u)) { /* from here on u is the one to yield */
     int other = u;
     u = v;
     v = other;
   }
   if (excess > 0)
     for (int b = u; matching_state->b[b].parent >= 0; b = matching_state->b[b].parent)
-      matching_state->b[matching_state->b[b].parent].child = b; /* when opened without a partner, that one has none */
+      matching_state->b[matching_state->b[b].parent].child =
+          b; /* when opened without a partner, that one has none */
   while (excess > 0) {
     int top = top_of_node(matching_state, u);
     bool between = top != top_of_node(matching_state, v);
-    int64_t amount = top == u || (between && matching_state->b[top].dual > excess) ? excess : matching_state->b[top].dual;
+    int64_t amount = top == u || (between && matching_state->b[top].dual > excess)
+                         ? excess
+                         : matching_state->b[top].dual;
     lower(matching_state, top, amount);
     if (between) excess -= amount;
     if (excess > 0) thr_blossom_open(matching_state, top);
   }
-  return matching_state->total < -BLOSSOM_TOTAL_MOST ? thr_blossom_too_large(matching_state) : THR_OK;
+  return matching_state->total < -BLOSSOM_TOTAL_MOST ? thr_blossom_too_large(matching_state)
+                                                     : THR_OK;
 }

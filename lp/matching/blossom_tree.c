@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Alternating trees: who is in them and what they see. */
 #include "lp/matching/blossom_parts.h"
 
@@ -38,7 +39,8 @@ void thr_blossom_make_outer(thr_matching_state *matching_state, int b, int tree)
   blossom *x = &matching_state->b[b];
   int64_t change = x->offset - matching_state->time;
   for (int v = x->first; change;
-       v = matching_state->node[v].next) { /* no offset: so it can become part of a larger one as it is */
+       v = matching_state->node[v]
+               .next) { /* no offset: so it can become part of a larger one as it is */
     matching_state->node[v].moat += change;
     if (v == x->last) break;
   }
@@ -79,7 +81,8 @@ void thr_blossom_look_out(thr_matching_state *matching_state, int b, int top)
       const blossom *x = &matching_state->b[other];
       if (other == top || x->label == INNER) continue;
       int64_t gap = arc->weight - moat - matching_state->node[arc->head].moat - x->offset;
-      int64_t time = matching_state->time + (x->label == OUTER ? (gap - matching_state->time) / 2 : gap);
+      int64_t time =
+          matching_state->time + (x->label == OUTER ? (gap - matching_state->time) / 2 : gap);
       if (matching_state->half_integral && (x->label == OUTER || x->match < 0))
         foresee_end(matching_state, time, arc->dart);
       else
@@ -92,11 +95,14 @@ void thr_blossom_look_out(thr_matching_state *matching_state, int b, int top)
 void thr_blossom_look_back(thr_matching_state *matching_state, int b)
 {
   for (int v = matching_state->b[b].first;; v = matching_state->node[v].next) {
-    int64_t moat = matching_state->node[v].moat + matching_state->b[b].offset + matching_state->time;
+    int64_t moat =
+        matching_state->node[v].moat + matching_state->b[b].offset + matching_state->time;
     for (int k = matching_state->first_arc[v]; k < matching_state->first_arc[v + 1]; k++) {
       const blossom_arc *arc = &matching_state->arc[k];
       if (matching_state->b[top_of_node(matching_state, arc->head)].label != OUTER) continue;
-      thr_blossom_push(matching_state, matching_state->time + arc->weight - moat - matching_state->node[arc->head].moat,
+      thr_blossom_push(matching_state,
+                       matching_state->time + arc->weight - moat -
+                           matching_state->node[arc->head].moat,
                        arc->dart ^ 1);
     }
     if (v == matching_state->b[b].last) break;

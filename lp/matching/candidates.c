@@ -1,10 +1,13 @@
-/* Pairs of odd places that a lightest perfect matching may use, and the shortest paths between them. Internal to lp/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pairs of odd places that a lightest perfect matching may use, and the shortest paths between
+ * them. Internal to lp/.
  *
- * For every odd place the nearest others by a truncated Dijkstra search; every two whose cells of the Voronoi diagram touch (an
- * edge between the cells gives the path); and the edges of a spanning tree of these, so that all can be paired.
+ * For every odd place the nearest others by a truncated Dijkstra search; every two whose cells of
+ * the Voronoi diagram touch (an edge between the cells gives the path); and the edges of a spanning
+ * tree of these, so that all can be paired.
  *
- * Example: odd places at 0, 1, 5 and 6 of a line are candidates (0, 1), (1, 5) and (5, 6); (0, 6) is not, and pricing
- * (lp/matching/moat.c) shows that it is not needed. */
+ * Example: odd places at 0, 1, 5 and 6 of a line are candidates (0, 1), (1, 5) and (5, 6); (0, 6)
+ * is not, and pricing (lp/matching/moat.c) shows that it is not needed. */
 #include "lp/matching/blossom_parts.h"
 #include "graph/disjoint.h"
 
@@ -58,7 +61,8 @@ thr_status thr_pairs_tidy(thr_pairs *pairs, int from, int n_odd, thr_err *err)
 {
   thr_scratch own = {0};
   int n = pairs->count - from;
-  pair *a = thr_scratch_array(&own, (size_t)n, sizeof *a), *b = thr_scratch_array(&own, (size_t)n, sizeof *b);
+  pair *a = thr_scratch_array(&own, (size_t)n, sizeof *a),
+       *b = thr_scratch_array(&own, (size_t)n, sizeof *b);
   int *start = thr_scratch_array(&own, (size_t)n_odd + 1, sizeof *start);
   thr_status st = thr_scratch_check(&own, err);
   if (st) goto done;
@@ -82,7 +86,8 @@ done:
 
 /* ---- the diagram ---- */
 
-thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t floor, thr_flood *flood, thr_err *err)
+thr_status thr_flood_run(const thr_network *net, const int64_t *start, int64_t floor,
+                         thr_flood *flood, thr_err *err)
 {
   size_t n = (size_t)net->n_places;
   thr_queue queue = {0};
@@ -130,7 +135,7 @@ void thr_flood_destroy(thr_flood *flood)
 enum {
   NEAREST = 13,      /* others that a search looks for; those as far as the last come along .. */
   NEAREST_MOST = 20, /* .. up to so many */
-  SETTLED_MOST = 96  /* places that it settles: where odd places are rare, the diagram does better */
+  SETTLED_MOST = 96 /* places that it settles: where odd places are rare, the diagram does better */
 };
 
 typedef struct {
@@ -179,13 +184,15 @@ static thr_status find_near(near_search *s, int i, int64_t *reach, thr_err *err)
     thr_queued at = thr_queue_pop(&s->queue);
     int j = net->number[at.place];
     if (at.key != s->near[at.place]) continue;
-    if (settled++ == SETTLED_MOST || (found >= NEAREST && (at.key < last || found == NEAREST_MOST))) break;
+    if (settled++ == SETTLED_MOST || (found >= NEAREST && (at.key < last || found == NEAREST_MOST)))
+      break;
     if (j >= 0) {
       found++;
       last = at.key;
       if (j > i || !found_from(s, j, i)) st = thr_pairs_add(&s->pairs, i, j, -at.key, err);
     }
-    if (!st && net->first[at.place + 1] - net->first[at.place] < THR_HUB_DEGREE) st = relax(s, i + 1, at, err);
+    if (!st && net->first[at.place + 1] - net->first[at.place] < THR_HUB_DEGREE)
+      st = relax(s, i + 1, at, err);
   }
   s->first[i + 1] = s->pairs.count;
   reach[i] = found < NEAREST ? INT64_MAX : -2 * last;
@@ -198,14 +205,15 @@ static thr_status add_rest(near_search *s, const thr_pairs *more, thr_err *err)
   thr_status st = THR_OK;
   for (int k = 0; k < more->count && !st; k++) {
     int i = more->end[k][0], j = more->end[k][1];
-    if (!found_from(s, i, j) && !found_from(s, j, i)) st = thr_pairs_add(&s->pairs, i, j, more->weight[k], err);
+    if (!found_from(s, i, j) && !found_from(s, j, i))
+      st = thr_pairs_add(&s->pairs, i, j, more->weight[k], err);
   }
   return st;
 }
 
 /* The pairs of `more`, and those of odd places with those near them, once each. */
-static thr_status merge_near(const thr_network *net, const thr_limits *limits, const thr_pairs *more, thr_pairs *pairs,
-                             int64_t *reach, thr_err *err)
+static thr_status merge_near(const thr_network *net, const thr_limits *limits,
+                             const thr_pairs *more, thr_pairs *pairs, int64_t *reach, thr_err *err)
 {
   enum { SEARCHES_BETWEEN_LIMITS = 1 << 10 };
   near_search s = {.net = net,
@@ -215,7 +223,8 @@ static thr_status merge_near(const thr_network *net, const thr_limits *limits, c
   thr_status st = s.near && s.touched && s.first ? THR_OK : thr_nomem(err);
   for (int i = 0; i < net->n_odd && !st; i++) {
     bool stop = i % SEARCHES_BETWEEN_LIMITS == 0 && thr_limits_stop(limits);
-    st = stop ? thr_fail(err, THR_ELIMIT, "stopped early, before all pairs were found") : find_near(&s, i, reach, err);
+    st = stop ? thr_fail(err, THR_ELIMIT, "stopped early, before all pairs were found")
+              : find_near(&s, i, reach, err);
   }
   if (!st) st = add_rest(&s, more, err);
   free(s.near);
@@ -237,8 +246,8 @@ static thr_status add_neighbours(const thr_network *net, thr_pairs *pairs, thr_e
     for (int k = net->first[v]; k < net->first[v + 1] && !st; k++) {
       int w = net->arc[k].head;
       if (v < w && flood.root[v] != flood.root[w])
-        st =
-            thr_pairs_add(pairs, flood.root[v], flood.root[w], net->arc[k].weight - flood.depth[v] / 2 - flood.depth[w] / 2, err);
+        st = thr_pairs_add(pairs, flood.root[v], flood.root[w],
+                           net->arc[k].weight - flood.depth[v] / 2 - flood.depth[w] / 2, err);
     }
   free(start);
   thr_flood_destroy(&flood);
@@ -253,15 +262,16 @@ static int by_weight(const void *pa, const void *pb)
   return (a->end[1] > b->end[1]) - (a->end[1] < b->end[1]);
 }
 
-/* Each odd place: edges of the tree there, their xor (of a leaf it is the only one), and who is carried here unpaired from how
- * far. */
+/* Each odd place: edges of the tree there, their xor (of a leaf it is the only one), and who is
+ * carried here unpaired from how far. */
 typedef struct {
   int degree, across, guest;
   int64_t way;
 } tree_node;
 
 /* From the leaves inwards: what comes unpaired to a place is paired with what waits there. */
-static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, thr_pairs *pairs, thr_err *err)
+static thr_status pair_up(const pair *edge, tree_node *node, int *stack, int n, thr_pairs *pairs,
+                          thr_err *err)
 {
   int top = 0;
   thr_status st = THR_OK;
@@ -309,13 +319,15 @@ static thr_status add_fallback(thr_pairs *pairs, int n_odd, thr_err *err)
       node[edge[k].end[s]].across ^= (int)k;
     }
   }
-  st = pair_up(edge, node, parent, n_odd, pairs, err); /* parent has served and is as long as the stack */
+  st = pair_up(edge, node, parent, n_odd, pairs,
+               err); /* parent has served and is as long as the stack */
 done:
   thr_scratch_free(&own);
   return st;
 }
 
-thr_status thr_candidates_find(const thr_network *net, const thr_limits *limits, thr_pairs *pairs, int64_t *reach, thr_err *err)
+thr_status thr_candidates_find(const thr_network *net, const thr_limits *limits, thr_pairs *pairs,
+                               int64_t *reach, thr_err *err)
 {
   thr_pairs wide = {0};
   *pairs = (thr_pairs){0};

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pairs over hubs. */
 #include "graph/random.h"
 #include "lp/matching/blossom_parts.h"
@@ -61,7 +62,8 @@ static void shuffle(int *list, int n, uint64_t *random)
   }
 }
 
-thr_status thr_hubs_pairs(const thr_hubs *hubs, const int64_t *reach, uint64_t *random, thr_pairs *pairs, thr_err *err)
+thr_status thr_hubs_pairs(const thr_hubs *hubs, const int64_t *reach, uint64_t *random,
+                          thr_pairs *pairs, thr_err *err)
 {
   if (hubs->count == 0) return THR_OK;
   int *list = thr_calloc((size_t)hubs->n_odd, sizeof *list);

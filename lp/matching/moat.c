@@ -1,13 +1,15 @@
-/* Minimum T-join by matching: the odd nodes are paired along shortest paths, and the duals of the matching are moats round them
- * (Edmonds & Johnson 1973; pricing: M. Groetschel & O. Holland, "Solving matching problems with linear programming", Math. Prog.
- * 33, 1985). The engine for large frameworks; lp/tjoin/tjoin.h is the other one.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Minimum T-join by matching: the odd nodes are paired along shortest paths, and the duals of the
+ * matching are moats round them (Edmonds & Johnson 1973; pricing: M. Groetschel & O. Holland,
+ * "Solving matching problems with linear programming", Math. Prog. 33, 1985). The engine for large
+ * frameworks; lp/tjoin/tjoin.h is the other one.
  *
- * Length of the join = sum over odd sets S of the width of the moat round S, where over every edge the widths of the moats that
- * it crosses add up to no more than its weight. A pair that was left out is needed only if it is closer than the moats of its
- * two places are wide in sum.
+ * Length of the join = sum over odd sets S of the width of the moat round S, where over every edge
+ * the widths of the moats that it crosses add up to no more than its weight. A pair that was left
+ * out is needed only if it is closer than the moats of its two places are wide in sum.
  *
- * Example: a path of edges 2, 3, 2 with all four nodes odd: moats of width 1 round each node lie within both edges of 2, and the
- * join is these two edges, 4 long.
+ * Example: a path of edges 2, 3, 2 with all four nodes odd: moats of width 1 round each node lie
+ * within both edges of 2, and the join is these two edges, 4 long.
  *
  * Rounds of matching and pricing until the moats overload no edge; then the join and its cuts. */
 #include "lp/matching/blossom_parts.h"
@@ -57,14 +59,17 @@ static thr_status solver_init(solver *s, const thr_tjoin_problem *tjoin_problem,
 
 /* ---- pricing ---- */
 
-/* Some new pairs are taken in faster than all are matched anew; many, above all between equals, are not. */
+/* Some new pairs are taken in faster than all are matched anew; many, above all between equals, are
+ * not. */
 static thr_status match(solver *s, thr_err *err)
 {
   enum { ODD_PER_NEW_PAIR = 20 };
-  thr_matching_problem matching_problem = {s->net.n_odd, s->pairs.count, (const int(*)[2])s->pairs.end, s->pairs.weight};
+  thr_matching_problem matching_problem = {s->net.n_odd, s->pairs.count,
+                                           (const int(*)[2])s->pairs.end, s->pairs.weight};
   int added = s->pairs.count - s->matched;
   s->matched = s->pairs.count;
-  if (added <= s->net.n_odd / ODD_PER_NEW_PAIR) return thr_matching_again(&matching_problem, s->limits, &s->matching, err);
+  if (added <= s->net.n_odd / ODD_PER_NEW_PAIR)
+    return thr_matching_again(&matching_problem, s->limits, &s->matching, err);
   thr_matching_destroy(&s->matching);
   return thr_matching_solve(&matching_problem, s->limits, &s->matching, err);
 }
@@ -82,22 +87,27 @@ static int64_t way_from_root(const solver *s, int v)
   return (s->start[s->flood.root[v]] - s->flood.depth[v]) / 2;
 }
 
-/* A pair whose duals are too large for its weight. Where a negative dual was raised on the way, they may be so only since then;
- * but then they are too large for one of the pairs with the mate of i or j, over i or j. */
+/* A pair whose duals are too large for its weight. Where a negative dual was raised on the way,
+ * they may be so only since then; but then they are too large for one of the pairs with the mate of
+ * i or j, over i or j. */
 static thr_status add_violated(solver *s, int i, int j, int64_t weight, thr_err *err)
 {
   const thr_matching *m = &s->matching;
   int other[2] = {s->raised[i] ? m->mate[i] : i, s->raised[j] ? m->mate[j] : j};
-  int64_t more[2] = {other[0] == i ? 0 : s->pairs.weight[m->mate_edge[i]], other[1] == j ? 0 : s->pairs.weight[m->mate_edge[j]]};
+  int64_t more[2] = {other[0] == i ? 0 : s->pairs.weight[m->mate_edge[i]],
+                     other[1] == j ? 0 : s->pairs.weight[m->mate_edge[j]]};
   thr_status st = thr_pairs_add(&s->pairs, i, j, weight, err);
-  if (!st && more[0] && other[0] != j) st = thr_pairs_add(&s->pairs, other[0], j, weight + more[0], err);
-  if (!st && more[1] && other[1] != i) st = thr_pairs_add(&s->pairs, i, other[1], weight + more[1], err);
+  if (!st && more[0] && other[0] != j)
+    st = thr_pairs_add(&s->pairs, other[0], j, weight + more[0], err);
+  if (!st && more[1] && other[1] != i)
+    st = thr_pairs_add(&s->pairs, i, other[1], weight + more[1], err);
   if (!st && more[0] && more[1] && other[0] != other[1])
     st = thr_pairs_add(&s->pairs, other[0], other[1], weight + more[0] + more[1], err);
   return st;
 }
 
-/* Where two moats that hold different odd places overlap along an arc, their roots are too near each other. */
+/* Where two moats that hold different odd places overlap along an arc, their roots are too near
+ * each other. */
 static thr_status price_arc(solver *s, int v, const thr_arc *arc, thr_err *err)
 {
   const thr_flood *f = &s->flood;
@@ -123,32 +133,37 @@ static thr_status price(solver *s, thr_err *err)
   for (int v = 0; v < net->n_places && !st; v++)
     for (int k = net->first[v]; k < net->first[v + 1] && !st; k++)
       st = price_arc(s, v, &net->arc[k], err);
-  if (!st && s->pairs.count > before) st = thr_hubs_pairs(&s->hubs, s->start, &s->random, &s->pairs, err);
+  if (!st && s->pairs.count > before)
+    st = thr_hubs_pairs(&s->hubs, s->start, &s->random, &s->pairs, err);
   return st ? st : thr_pairs_tidy(&s->pairs, before, net->n_odd, err);
 }
 
-enum { ROUNDS_MOST = 1000 }; /* a few are needed; without end they would be only if pricing were wrong */
+enum {
+  ROUNDS_MOST = 1000
+}; /* a few are needed; without end they would be only if pricing were wrong */
 
 static thr_status solve_rounds(solver *s, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int before = -1, round = 0; before < s->pairs.count && !st; round++) {
     before = s->pairs.count;
-    if (round == ROUNDS_MOST) return thr_fail(err, THR_ESOLVER, "pricing does not end; please report this framework");
+    if (round == ROUNDS_MOST)
+      return thr_fail(err, THR_ESOLVER, "pricing does not end; please report this framework");
     if ((st = match(s, err))) return st;
     thr_nest_destroy(&s->nest);
     st = thr_nest_init(&s->nest, s->net.n_odd, &s->matching, s->raised, err);
     if (!st) st = flood(s, err);
     if (!st) st = price(s, err);
-    if (!st && s->limits->progress) s->limits->progress(s->limits->user, "matching", (double)s->matching.weight, 0);
+    if (!st && s->limits->progress)
+      s->limits->progress(s->limits->user, "matching", (double)s->matching.weight, 0);
   }
   return st;
 }
 
 /* ---- the join ---- */
 
-/* Search for a shortest way between two mates through the flood: outwards from both, to where the moats meet. On it every edge is
- * loaded with its whole weight. */
+/* Search for a shortest way between two mates through the flood: outwards from both, to where the
+ * moats meet. On it every edge is loaded with its whole weight. */
 typedef struct {
   const thr_network *net;
   const thr_flood *f;
@@ -214,7 +229,8 @@ static bool join_mates(way_search *s, int search, int i, int k, int64_t shared)
     for (int a = net->first[v]; a < net->first[v + 1]; a++) {
       int w = net->arc[a].head;
       int64_t out = depth[v] - 2 * net->arc[a].weight;
-      if (s->reached[w] == search && depth[w] > shared && out == 2 * shared - depth[w]) { /* they meet within an edge */
+      if (s->reached[w] == search && depth[w] > shared &&
+          out == 2 * shared - depth[w]) { /* they meet within an edge */
         toggle_back(s, s->came, w, first);
         toggle_back(s, s->came_too, v, second);
         s->in_join[net->arc[a].edge] ^= true;
@@ -238,12 +254,14 @@ static thr_status join_all(const solver *s, bool *in_join, thr_err *err)
   w.came = thr_calloc(n, sizeof *w.came);
   w.came_too = thr_calloc(n, sizeof *w.came_too);
   w.stack = thr_calloc(n, sizeof *w.stack);
-  thr_status st = w.reached && w.reached_too && w.came && w.came_too && w.stack ? THR_OK : thr_nomem(err);
+  thr_status st =
+      w.reached && w.reached_too && w.came && w.came_too && w.stack ? THR_OK : thr_nomem(err);
   for (int i = 0; i < s->net.n_odd && !st; i++) {
     int k = s->matching.mate[i];
     if (k < i) continue;
     if (!join_mates(&w, i + 1, i, k, thr_nest_shared_depth(&s->nest, i, k)))
-      st = thr_fail(err, THR_ESOLVER, "matched odd nodes have no way of the weight that their moats say");
+      st = thr_fail(err, THR_ESOLVER,
+                    "matched odd nodes have no way of the weight that their moats say");
   }
   free(w.reached);
   free(w.reached_too);
@@ -266,7 +284,8 @@ static thr_status take_result(solver *s, thr_tjoin *out, thr_err *err)
 {
   thr_status st = join_all(s, out->in_join, err);
   if (!st) st = thr_network_mend(&s->net, false, out->in_join, err);
-  if (!st && s->net.n_odd) st = thr_nest_cuts(&s->nest, &s->net, &s->flood, &out->cut, &out->n_cuts, &out->sum, err);
+  if (!st && s->net.n_odd)
+    st = thr_nest_cuts(&s->nest, &s->net, &s->flood, &out->cut, &out->n_cuts, &out->sum, err);
   if (st) return st;
   weigh(s->net.p, out);
   assert(out->sum == out->length * THR_DUAL_DENOMINATOR);
@@ -274,8 +293,8 @@ static thr_status take_result(solver *s, thr_tjoin *out, thr_err *err)
   return THR_OK;
 }
 
-/* Stopped: the join of a lightest spanning tree, and balls as wide as half the way to the nearest other odd place (the candidates
- * know that). */
+/* Stopped: the join of a lightest spanning tree, and balls as wide as half the way to the nearest
+ * other odd place (the candidates know that). */
 static thr_status take_quick_result(solver *s, thr_tjoin *out, thr_err *err)
 {
   for (int i = 0; i < s->net.n_odd; i++)
@@ -288,7 +307,8 @@ static thr_status take_quick_result(solver *s, thr_tjoin *out, thr_err *err)
   thr_nest_destroy(&s->nest);
   thr_status st = thr_nest_of_balls(&s->nest, s->net.n_odd, s->start, err);
   if (!st) st = flood(s, err);
-  if (!st) st = thr_nest_cuts(&s->nest, &s->net, &s->flood, &out->cut, &out->n_cuts, &out->sum, err);
+  if (!st)
+    st = thr_nest_cuts(&s->nest, &s->net, &s->flood, &out->cut, &out->n_cuts, &out->sum, err);
   if (!st) st = thr_network_mend(&s->net, true, out->in_join, err);
   if (st) return st;
   weigh(s->net.p, out);
@@ -314,16 +334,19 @@ static thr_status check_weights(const thr_tjoin_problem *tjoin_problem, thr_err 
 {
   bool fits;
   thr_status st = thr_moat_fits(tjoin_problem, &fits, err);
-  return st || fits ? st : thr_fail(err, THR_EINPUT, "weights are too large for exact sums of 64 bits");
+  return st || fits ? st
+                    : thr_fail(err, THR_EINPUT, "weights are too large for exact sums of 64 bits");
 }
 
-thr_status thr_moat_solve(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_tjoin *out, thr_err *err)
+thr_status thr_moat_solve(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits,
+                          thr_tjoin *out, thr_err *err)
 {
   solver s = {.limits = limits};
   thr_err stopped = {0};
   *out = (thr_tjoin){0};
   thr_status st = check_weights(tjoin_problem, err), limit = THR_OK;
-  if (!st && !(out->in_join = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *out->in_join))) st = thr_nomem(err);
+  if (!st && !(out->in_join = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *out->in_join)))
+    st = thr_nomem(err);
   if (!st) st = solver_init(&s, tjoin_problem, &stopped);
   if (!st && s.net.n_odd) st = solve_rounds(&s, &stopped);
   if (!st) {

@@ -1,12 +1,13 @@
-/* The duals of a matching as nested moats: every odd place, and every blossom, is a set with a moat of some width round it.
- * Internal to lp/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The duals of a matching as nested moats: every odd place, and every blossom, is a set with a moat
+ * of some width round it. Internal to lp/.
  *
- * The depth of a place is the sum of the widths of the moats round it; two places can be paired at no loss if their depths add
- * up to their distance. A negative width of a single place is taken from the moats round the place and its mate, which leaves
- * every such sum as it is.
+ * The depth of a place is the sum of the widths of the moats round it; two places can be paired at
+ * no loss if their depths add up to their distance. A negative width of a single place is taken
+ * from the moats round the place and its mate, which leaves every such sum as it is.
  *
- * Example: three odd places at distance 2 from each other in a blossom have width 1 each, and the moat of the blossom comes on
- * top of that. */
+ * Example: three odd places at distance 2 from each other in a blossom have width 1 each, and the
+ * moat of the blossom comes on top of that. */
 #include "lp/matching/blossom_parts.h"
 #include "graph/sort.h"
 
@@ -33,15 +34,19 @@ void thr_nest_destroy(thr_nest *nest)
   *nest = (thr_nest){0};
 }
 
-/* Levels and jumps: a set jumps as far as its parent's jump if that jump and the one after are as long as each other, else to its
- * parent (E. W. Myers, "An applicative random-access stack", Inf. Proc. Letters 17, 1983). */
+/* Levels and jumps: a set jumps as far as its parent's jump if that jump and the one after are as
+ * long as each other, else to its parent (E. W. Myers, "An applicative random-access stack", Inf.
+ * Proc. Letters 17, 1983). */
 static void link_up(thr_nest *nest)
 {
   for (int s = nest->n_sets - 1; s >= 0; s--) {
-    int up = nest->parent[s], far = up < 0 ? -1 : nest->jump[up], farther = far < 0 ? -1 : nest->jump[far];
+    int up = nest->parent[s], far = up < 0 ? -1 : nest->jump[up],
+        farther = far < 0 ? -1 : nest->jump[far];
     nest->jump[s] = up;
     nest->level[s] = up < 0 ? 0 : nest->level[up] + 1;
-    if (farther >= 0 && nest->level[up] - nest->level[far] == nest->level[far] - nest->level[farther]) nest->jump[s] = farther;
+    if (farther >= 0 &&
+        nest->level[up] - nest->level[far] == nest->level[far] - nest->level[farther])
+      nest->jump[s] = farther;
   }
 }
 
@@ -68,7 +73,8 @@ static void take(thr_nest *nest, int set, int64_t *missing)
   *missing -= part;
 }
 
-/* The sets around i that do not hold its mate k, then those of k. chain[n_sets] is scratch space. */
+/* The sets around i that do not hold its mate k, then those of k. chain[n_sets] is scratch space.
+ */
 static void raise_width(thr_nest *nest, int i, int k, int *chain)
 {
   int64_t missing = -nest->width[i];
@@ -90,7 +96,8 @@ static void find_depths(thr_nest *nest)
   }
 }
 
-thr_status thr_nest_init(thr_nest *nest, int n_odd, const thr_matching *matching, bool *raised, thr_err *err)
+thr_status thr_nest_init(thr_nest *nest, int n_odd, const thr_matching *matching, bool *raised,
+                         thr_err *err)
 {
   thr_status st = allocate(nest, n_odd, matching->n_blossoms, err);
   if (st) return st;
@@ -145,11 +152,12 @@ typedef struct {
   thr_scratch own;   /* all arrays but the cuts */
   int *set;          /* [n_places] in whose moat a place lies */
   int *first, *list; /* places of set s, deepest first: list[first[s] .. first[s + 1] - 1] */
-  int *first_node;   /* [n_places + 1] nodes of place v: node[first_node[v] .. first_node[v + 1] - 1] */
-  int *node;         /* [p->n_nodes] */
-  int *open;         /* [n_sets] last of the cuts that still wait for the one around them, or -1 */
-  int *last_open;    /* [n_sets] end of that list */
-  int *waiting;      /* [cuts] the next in it, or -1 */
+  int *first_node; /* [n_places + 1] nodes of place v: node[first_node[v] .. first_node[v + 1] - 1]
+                    */
+  int *node;       /* [p->n_nodes] */
+  int *open;       /* [n_sets] last of the cuts that still wait for the one around them, or -1 */
+  int *last_open;  /* [n_sets] end of that list */
+  int *waiting;    /* [cuts] the next in it, or -1 */
   thr_cut *cut;
   int n_cuts, capacity;
   int64_t sum;
@@ -166,7 +174,8 @@ static thr_status cutter_init(cutter *c, thr_err *err)
   c->node = thr_scratch_array(&c->own, nodes, sizeof *c->node);
   c->open = thr_scratch_array(&c->own, sets, sizeof *c->open);
   c->last_open = thr_scratch_array(&c->own, sets, sizeof *c->last_open);
-  size_t most = (size_t)c->f->n_reached + sets; /* each cut is the first of a set or ends above a place */
+  size_t most =
+      (size_t)c->f->n_reached + sets; /* each cut is the first of a set or ends above a place */
   c->capacity = (int)most;
   c->cut = thr_calloc(most, sizeof *c->cut);
   c->waiting = thr_scratch_array(&c->own, most, sizeof *c->waiting);
@@ -216,7 +225,9 @@ static thr_status add_cut(cutter *c, int s, int from, int end, int64_t width, th
   for (int i = from; i < end; i++)
     n += c->first_node[c->list[i] + 1] - c->first_node[c->list[i]];
   thr_cut *cut = &c->cut[k];
-  *cut = (thr_cut){.parent = -1, .node = thr_calloc((size_t)n, sizeof *cut->node), .value = width * (THR_DUAL_DENOMINATOR / 2)};
+  *cut = (thr_cut){.parent = -1,
+                   .node = thr_calloc((size_t)n, sizeof *cut->node),
+                   .value = width * (THR_DUAL_DENOMINATOR / 2)};
   if (!cut->node) return thr_nomem(err);
   c->n_cuts++;
   c->sum += cut->value;
@@ -257,8 +268,8 @@ static void hand_on(cutter *c, int s)
   c->open[up] = c->open[s];
 }
 
-thr_status thr_nest_cuts(const thr_nest *nest, const thr_network *net, const thr_flood *flood, thr_cut **cut, int *n_cuts,
-                         int64_t *sum, thr_err *err)
+thr_status thr_nest_cuts(const thr_nest *nest, const thr_network *net, const thr_flood *flood,
+                         thr_cut **cut, int *n_cuts, int64_t *sum, thr_err *err)
 {
   cutter c = {.nest = nest, .net = net, .f = flood};
   thr_status st = cutter_init(&c, err);

@@ -1,10 +1,12 @@
-/* A T-join problem made ready for shortest paths: adjacency in one block, edges of weight 0 contracted. Internal to lp/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A T-join problem made ready for shortest paths: adjacency in one block, edges of weight 0
+ * contracted. Internal to lp/.
  *
- * A contracted place is odd if it holds an odd number of odd nodes; joins of the contracted graph and of the whole one have the
- * same weight.
+ * A contracted place is odd if it holds an odd number of odd nodes; joins of the contracted graph
+ * and of the whole one have the same weight.
  *
- * Example: in a triangle with weights 0, 3 and 4 the ends of the first edge become one place, with two arcs of weight 3 and 4 to
- * the third node. */
+ * Example: in a triangle with weights 0, 3 and 4 the ends of the first edge become one place, with
+ * two arcs of weight 3 and 4 to the third node. */
 #include "lp/matching/blossom.h"
 #include "graph/disjoint.h"
 
@@ -18,7 +20,8 @@ static void number_places(thr_network *net, int *parent)
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
     parent[v] = v;
   for (int e = 0; e < tjoin_problem->n_edges; e++)
-    if (tjoin_problem->weight[e] == 0) thr_disjoint_join(parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
+    if (tjoin_problem->weight[e] == 0)
+      thr_disjoint_join(parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
   for (int v = 0; v < tjoin_problem->n_nodes; v++) {
     int root = thr_disjoint_find(parent, v); /* the lowest */
     net->place[v] = root == v ? net->n_places++ : net->place[root];
@@ -93,11 +96,12 @@ void thr_network_destroy(thr_network *net)
 
 /* ---- mending a join ---- */
 
-/* A forest as its edges at each node, taken from the leaves inwards: a node with the wrong parity passes that on. */
+/* A forest as its edges at each node, taken from the leaves inwards: a node with the wrong parity
+ * passes that on. */
 typedef struct {
   int *degree, *stack; /* [n_nodes] */
-  int *across;         /* [n_nodes] xor of the forest's edges at a node: of a leaf it is the only one */
-  bool *wrong;         /* [n_nodes] parity of the join is not that of T */
+  int *across; /* [n_nodes] xor of the forest's edges at a node: of a leaf it is the only one */
+  bool *wrong; /* [n_nodes] parity of the join is not that of T */
 } forest;
 
 typedef struct {
@@ -112,8 +116,10 @@ static int by_weight(const void *pa, const void *pb)
   return (a->edge > b->edge) - (a->edge < b->edge);
 }
 
-/* A lightest spanning forest, of all edges or of those of weight 0. *edge is allocated, *n of them. */
-static thr_status find_forest(const thr_tjoin_problem *tjoin_problem, bool any_weight, int **edge, int *n, thr_err *err)
+/* A lightest spanning forest, of all edges or of those of weight 0. *edge is allocated, *n of them.
+ */
+static thr_status find_forest(const thr_tjoin_problem *tjoin_problem, bool any_weight, int **edge,
+                              int *n, thr_err *err)
 {
   int *parent = thr_calloc((size_t)tjoin_problem->n_nodes, sizeof *parent), count = 0;
   weighed *list = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *list);
@@ -123,7 +129,8 @@ static thr_status find_forest(const thr_tjoin_problem *tjoin_problem, bool any_w
   for (int v = 0; v < tjoin_problem->n_nodes && !st; v++)
     parent[v] = v;
   for (int e = 0; e < tjoin_problem->n_edges && !st; e++)
-    if (any_weight || tjoin_problem->weight[e] == 0) list[count++] = (weighed){tjoin_problem->weight[e], e};
+    if (any_weight || tjoin_problem->weight[e] == 0)
+      list[count++] = (weighed){tjoin_problem->weight[e], e};
   if (!st) qsort(list, (size_t)count, sizeof *list, by_weight);
   for (int k = 0; k < count && !st; k++) {
     const int *end = tjoin_problem->edge[list[k].edge];
@@ -134,7 +141,8 @@ static thr_status find_forest(const thr_tjoin_problem *tjoin_problem, bool any_w
   return st;
 }
 
-thr_status thr_network_tree_weight(const thr_tjoin_problem *tjoin_problem, double *weight, thr_err *err)
+thr_status thr_network_tree_weight(const thr_tjoin_problem *tjoin_problem, double *weight,
+                                   thr_err *err)
 {
   int *edge, n;
   *weight = 0;
@@ -145,11 +153,13 @@ thr_status thr_network_tree_weight(const thr_tjoin_problem *tjoin_problem, doubl
   return st;
 }
 
-static void stand(const thr_tjoin_problem *tjoin_problem, const bool *in_join, const int *edge, int n, forest *f)
+static void stand(const thr_tjoin_problem *tjoin_problem, const bool *in_join, const int *edge,
+                  int n, forest *f)
 {
   memcpy(f->wrong, tjoin_problem->odd, (size_t)tjoin_problem->n_nodes * sizeof *f->wrong);
   for (int e = 0; e < tjoin_problem->n_edges; e++)
-    if (in_join[e]) f->wrong[tjoin_problem->edge[e][0]] ^= true, f->wrong[tjoin_problem->edge[e][1]] ^= true;
+    if (in_join[e])
+      f->wrong[tjoin_problem->edge[e][0]] ^= true, f->wrong[tjoin_problem->edge[e][1]] ^= true;
   for (int k = 0; k < n; k++)
     for (int i = 0; i < 2; i++) {
       int v = tjoin_problem->edge[edge[k]][i];
@@ -199,7 +209,8 @@ thr_status thr_network_mend(const thr_network *net, bool any_weight, bool *in_jo
 
 thr_status thr_queue_push(thr_queue *q, thr_queued in, thr_err *err)
 {
-  thr_status st = q->count < q->capacity ? THR_OK : thr_grow(&q->entry, q->count, &q->capacity, sizeof in, err);
+  thr_status st =
+      q->count < q->capacity ? THR_OK : thr_grow(&q->entry, q->count, &q->capacity, sizeof in, err);
   if (st) return st;
   int at = q->count++;
   for (int above; at > 0 && q->entry[above = (at - 1) / 4].key < in.key; at = above)

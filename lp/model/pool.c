@@ -1,13 +1,15 @@
-/* The rows of a relaxation that separation has found: sum value x[column] >= lower (a pool of cuts).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rows of a relaxation that separation has found: sum value x[column] >= lower (a pool of
+ * cuts).
  *
- * After Padberg & Rinaldi, SIAM Review 33, 1991. The pool says whether a point x violates a row, knows a row that it has already,
- * and forgets rows that have been slack for long. It solves nothing: its rows may stand in a linear programme (lp/model/search.c)
- * or be prices of a Lagrangian relaxation.
+ * After Padberg & Rinaldi, SIAM Review 33, 1991. The pool says whether a point x violates a row,
+ * knows a row that it has already, and forgets rows that have been slack for long. It solves
+ * nothing: its rows may stand in a linear programme (lp/model/search.c) or be prices of a
+ * Lagrangian relaxation.
  *
- * A row is put together column by column and then added, or only if a point violates it and the pool has none like it:
- *   thr_pool_put(pool, 3, 1);
- *   thr_pool_put(pool, 7, 1);
- *   st = thr_pool_offer(pool, (thr_row){.lower = 1}, x, 1e-6, &added, err);   x[3] + x[7] >= 1 */
+ * A row is put together column by column and then added, or only if a point violates it and the
+ * pool has none like it: thr_pool_put(pool, 3, 1); thr_pool_put(pool, 7, 1); st =
+ * thr_pool_offer(pool, (thr_row){.lower = 1}, x, 1e-6, &added, err);   x[3] + x[7] >= 1 */
 #include "lp/model/tree.h"
 
 #include <math.h>
@@ -120,7 +122,8 @@ static uint64_t name_draft(const thr_pool *p, double lower)
 {
   uint64_t name = mix(1, word_of(lower));
   for (int i = 0; i < p->n_draft; i++)
-    if (p->sum[p->draft[i]] != 0) name = mix(mix(name, (uint64_t)p->draft[i]), word_of(p->sum[p->draft[i]]));
+    if (p->sum[p->draft[i]] != 0)
+      name = mix(mix(name, (uint64_t)p->draft[i]), word_of(p->sum[p->draft[i]]));
   return name ? name : 1;
 }
 
@@ -150,8 +153,10 @@ thr_status thr_pool_add(thr_pool *p, thr_row row, thr_err *err)
   if (!row.name) row.name = name_draft(p, row.lower);
   row.member = NULL;
   thr_status st = thr_grow(&p->row, p->count, &p->capacity, sizeof *p->row, err);
-  if (!st && member && !(row.member = thr_calloc((size_t)row.n_members, sizeof *member))) st = thr_nomem(err);
-  if (!st && row.n_members > 0 && member) memcpy(row.member, member, (size_t)row.n_members * sizeof *member);
+  if (!st && member && !(row.member = thr_calloc((size_t)row.n_members, sizeof *member)))
+    st = thr_nomem(err);
+  if (!st && row.n_members > 0 && member)
+    memcpy(row.member, member, (size_t)row.n_members * sizeof *member);
   if (!st) st = fill_row(p, &row, err);
   if (!st) st = remember(p, row.name, err);
   if (st)
@@ -162,7 +167,8 @@ thr_status thr_pool_add(thr_pool *p, thr_row row, thr_err *err)
   return st;
 }
 
-thr_status thr_pool_offer(thr_pool *p, thr_row row, const double *x, double tolerance, int *added, thr_err *err)
+thr_status thr_pool_offer(thr_pool *p, thr_row row, const double *x, double tolerance, int *added,
+                          thr_err *err)
 {
   double sum = 0;
   for (int i = 0; i < p->n_draft; i++)
@@ -222,7 +228,8 @@ void thr_pool_drop(thr_pool *p, const bool *drop)
   name_all(p);
 }
 
-thr_status thr_pool_keep_violated(thr_pool *p, int first, const double *x, double tolerance, int *added, thr_err *err)
+thr_status thr_pool_keep_violated(thr_pool *p, int first, const double *x, double tolerance,
+                                  int *added, thr_err *err)
 {
   int kept = 0, found = p->count - first;
   bool *drop = thr_calloc((size_t)p->count, sizeof *drop);

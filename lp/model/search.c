@@ -1,9 +1,11 @@
-/* Rounds of cutting: a linear programme is solved, its optimum is looked at, and rows that it violates are added, until there are
- * none or the bound suffices.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rounds of cutting: a linear programme is solved, its optimum is looked at, and rows that it
+ * violates are added, until there are none or the bound suffices.
  *
- * Dantzig, Fulkerson & Johnson, Operations Research 2, 1954; at every node of a tree of bounds (lp/model/tree.h) it is branch and
- * cut (Padberg & Rinaldi, SIAM Review 33, 1991). What finds rows is handed in, the cheap before the dear, and so is what is made
- * of an optimum: a solution near it, a proof from its multipliers, the judgement that its bound suffices.
+ * Dantzig, Fulkerson & Johnson, Operations Research 2, 1954; at every node of a tree of bounds
+ * (lp/model/tree.h) it is branch and cut (Padberg & Rinaldi, SIAM Review 33, 1991). What finds rows
+ * is handed in, the cheap before the dear, and so is what is made of an optimum: a solution near
+ * it, a proof from its multipliers, the judgement that its bound suffices.
  *
  *   thr_search_init(&s, n, x, &err);             and s.lp, a programme of those columns
  *   thr_search_use(&s, find_some, user, 0);
@@ -60,7 +62,8 @@ thr_status thr_search_load(thr_search *s, thr_err *err)
   return st;
 }
 
-/* Takes over what the last solve has left: of an unfinished one, too, as any multipliers can be made a proof. */
+/* Takes over what the last solve has left: of an unfinished one, too, as any multipliers can be
+ * made a proof. */
 static thr_status read_point(thr_search *s, thr_err *err)
 {
   double *dual = thr_realloc(s->dual, (size_t)thr_lp_rows(s->lp), sizeof *dual);
@@ -73,7 +76,8 @@ static thr_status read_point(thr_search *s, thr_err *err)
   return THR_OK;
 }
 
-static thr_status solve(thr_search *s, const thr_search_calls *calls, const thr_limits *limits, thr_err *err)
+static thr_status solve(thr_search *s, const thr_search_calls *calls, const thr_limits *limits,
+                        thr_err *err)
 {
   thr_status st = THR_OK;
   s->outcome = THR_LP_OPTIMAL;
@@ -81,14 +85,18 @@ static thr_status solve(thr_search *s, const thr_search_calls *calls, const thr_
   s->bare = false;
   if (!st) st = thr_search_load(s, err);
   if (!st && s->outcome == THR_LP_OPTIMAL)
-    st = calls->solve ? calls->solve(calls->user, limits, &s->outcome, err) : thr_lp_solve(s->lp, limits, &s->outcome, err);
+    st = calls->solve ? calls->solve(calls->user, limits, &s->outcome, err)
+                      : thr_lp_solve(s->lp, limits, &s->outcome, err);
   if (st) return st;
   if (s->outcome == THR_LP_OPTIMAL || s->outcome == THR_LP_STOPPED) return read_point(s, err);
-  return calls->name ? thr_fail(err, THR_ESOLVER, "GLPK found no optimum of %s, which always has one", calls->name) : THR_OK;
+  return calls->name ? thr_fail(err, THR_ESOLVER,
+                                "GLPK found no optimum of %s, which always has one", calls->name)
+                     : THR_OK;
 }
 
-/* Drops rows whose slack has been basic for a while, so that the linear programme stays small. Only after the bound has
- * risen: where it stands still (ties), the same rows would come back for ever. */
+/* Drops rows whose slack has been basic for a while, so that the linear programme stays small. Only
+ * after the bound has risen: where it stands still (ties), the same rows would come back for ever.
+ */
 static thr_status drop_idle(thr_search *s, int patience, thr_err *err)
 {
   thr_row *row = s->pool.row;
@@ -122,7 +130,8 @@ static thr_status separate(thr_search *s, const thr_limits *limits, int *added, 
   return st;
 }
 
-thr_status thr_search_rounds(thr_search *s, const thr_search_calls *calls, const thr_limits *limits, thr_err *err)
+thr_status thr_search_rounds(thr_search *s, const thr_search_calls *calls, const thr_limits *limits,
+                             thr_err *err)
 {
   for (int round = 1, added = 1; added > 0; round++) {
     s->whole = s->enough = false;

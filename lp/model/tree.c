@@ -1,19 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Branch and bound, best bound first, over whatever bounds are handed in.
  *
- * Land & Doig, Econometrica 28, 1960; Dakin, Computer Journal 8, 1965. A node of the tree is a set of solutions: those that keep
- * the decisions  x[column] <= value  or  x[column] >= value + 1  on the way from the root to it. A function says what they are
- * worth at least, by a linear programme, a matching or an ascent, and which column to decide on next. A node whose bound reaches
- * what the best solution known is worth is closed: nothing below it is looked at. So  least open bound <= optimum <= best known,
- * and when all are closed the best known is the optimum.
+ * Land & Doig, Econometrica 28, 1960; Dakin, Computer Journal 8, 1965. A node of the tree is a set
+ * of solutions: those that keep the decisions  x[column] <= value  or  x[column] >= value + 1  on
+ * the way from the root to it. A function says what they are worth at least, by a linear programme,
+ * a matching or an ascent, and which column to decide on next. A node whose bound reaches what the
+ * best solution known is worth is closed: nothing below it is looked at. So  least open bound <=
+ * optimum <= best known, and when all are closed the best known is the optimum.
  *
- * Solutions may have images of the same worth. Where the image of a decision is as good as that, one side decides for all images
- * at once (orbital branching: Ostrowski, Linderoth, Rossi & Smriglio, Math. Programming 126, 2011).
+ * Solutions may have images of the same worth. Where the image of a decision is as good as that,
+ * one side decides for all images at once (orbital branching: Ostrowski, Linderoth, Rossi &
+ * Smriglio, Math. Programming 126, 2011).
  *
- * The node of least bound comes first; of equal ones the deepest, then the youngest, then the side that was preferred. Several
- * may be solved at once, each in a place of its own, so that they can be given to threads: how many depends on the tree alone.
- *   thr_tree_init(&tree, n, least, most, &err);
- *   thr_tree_run(&tree, &calls, &err);   whose solve sets tree.node[node].bound, and tree.enough when it finds a solution
- *   if (!tree.stopped) ..                nothing is worth less than tree.enough */
+ * The node of least bound comes first; of equal ones the deepest, then the youngest, then the side
+ * that was preferred. Several may be solved at once, each in a place of its own, so that they can
+ * be given to threads: how many depends on the tree alone. thr_tree_init(&tree, n, least, most,
+ * &err); thr_tree_run(&tree, &calls, &err);   whose solve sets tree.node[node].bound, and
+ * tree.enough when it finds a solution if (!tree.stopped) ..                nothing is worth less
+ * than tree.enough */
 #include "lp/model/tree.h"
 
 #include <limits.h>
@@ -21,7 +25,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-thr_status thr_tree_init(thr_tree *t, int n_columns, const int *least, const int *most, thr_err *err)
+thr_status thr_tree_init(thr_tree *t, int n_columns, const int *least, const int *most,
+                         thr_err *err)
 {
   size_t n = (size_t)n_columns;
   *t = (thr_tree){.n_columns = n_columns, .enough = INFINITY, .most_nodes = INT_MAX};
@@ -74,7 +79,8 @@ static bool before(const thr_tree *t, int a, int b)
   double x = rounded(t, node->bound), y = rounded(t, q->bound);
   if (x != y) return x < y;
   if (node->depth != q->depth) return node->depth > q->depth;
-  return (a - 1) / 2 == (b - 1) / 2 ? node->first : a > b; /* nodes 2 k + 1 and 2 k + 2 are siblings */
+  return (a - 1) / 2 == (b - 1) / 2 ? node->first
+                                    : a > b; /* nodes 2 k + 1 and 2 k + 2 are siblings */
 }
 
 static thr_status push(thr_tree *t, int node, thr_err *err)
@@ -154,7 +160,8 @@ static void narrow(const thr_tree *t, thr_tree_place *place, int node)
 }
 
 /* Puts those bounds in force. */
-static thr_status set_along(const thr_tree *t, const thr_tree_calls *calls, thr_tree_place *place, int node, thr_err *err)
+static thr_status set_along(const thr_tree *t, const thr_tree_calls *calls, thr_tree_place *place,
+                            int node, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int k = node; k > 0 && !st; k = t->node[k].parent)
@@ -168,7 +175,8 @@ static thr_status set_along(const thr_tree *t, const thr_tree_calls *calls, thr_
   return st;
 }
 
-thr_status thr_tree_enter_at(const thr_tree *t, const thr_tree_calls *calls, thr_tree_place *place, int node, thr_err *err)
+thr_status thr_tree_enter_at(const thr_tree *t, const thr_tree_calls *calls, thr_tree_place *place,
+                             int node, thr_err *err)
 {
   widen(t, place, place->at);
   widen(t, place, node);
@@ -206,7 +214,8 @@ static thr_status split(thr_tree *t, int node, thr_tree_branch branch, thr_err *
                              .proof = parent->proof};
     parent->child[side] = t->n_nodes++;
     if (side == 0 && branch.n_also > 0) {
-      if (!(child->also = thr_calloc((size_t)branch.n_also, sizeof *child->also))) return thr_nomem(err);
+      if (!(child->also = thr_calloc((size_t)branch.n_also, sizeof *child->also)))
+        return thr_nomem(err);
       memcpy(child->also, branch.also, (size_t)branch.n_also * sizeof *child->also);
       child->n_also = branch.n_also;
     }
@@ -225,7 +234,8 @@ static void take(thr_tree *t, bool several)
   t->n_solved += t->n_taken;
 }
 
-static thr_status solve_taken(thr_tree *t, const thr_tree_calls *calls, thr_tree_branch *branch, thr_err *err)
+static thr_status solve_taken(thr_tree *t, const thr_tree_calls *calls, thr_tree_branch *branch,
+                              thr_err *err)
 {
   if (t->n_taken > 1) return calls->solve_all(calls->user, t->n_taken, t->taken, branch, err);
   thr_status st = thr_tree_enter(t, calls, t->taken[0], err);
@@ -244,7 +254,8 @@ thr_status thr_tree_run(thr_tree *t, const thr_tree_calls *calls, thr_err *err)
       branch[i] = (thr_tree_branch){.column = -1};
     st = solve_taken(t, calls, branch, err);
     for (int i = 0; i < t->n_taken && !st && !t->stopped; i++)
-      if (branch[i].column >= 0 && !thr_tree_closed(t, t->taken[i])) st = split(t, t->taken[i], branch[i], err);
+      if (branch[i].column >= 0 && !thr_tree_closed(t, t->taken[i]))
+        st = split(t, t->taken[i], branch[i], err);
   }
   return st;
 }

@@ -1,5 +1,7 @@
-/* A sparse matrix as dense bundles: consecutive columns with the same rows, such as the forces at the four corners of a face,
- * which act on the same two beads. Products with it read no index but those of the bundles' rows.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A sparse matrix as dense bundles: consecutive columns with the same rows, such as the forces at
+ * the four corners of a face, which act on the same two beads. Products with it read no index but
+ * those of the bundles' rows.
  *
  * Example: columns with rows {0, 2}, {0, 2}, {1}: two bundles. */
 #include "lp/solver/solver.h"
@@ -8,7 +10,9 @@
 
 #include <string.h>
 
-enum { USUAL = 12 /* rows and columns of a face between two beads: loops of that length are unrolled */ };
+enum {
+  USUAL = 12 /* rows and columns of a face between two beads: loops of that length are unrolled */
+};
 
 static int rows_of(const thr_columns *a, int j)
 {
@@ -17,8 +21,8 @@ static int rows_of(const thr_columns *a, int j)
 
 static bool alike(const thr_columns *a, int j, int k)
 {
-  return rows_of(a, j) == rows_of(a, k) &&
-         !memcmp(a->row + a->start[j], a->row + a->start[k], (size_t)rows_of(a, j) * sizeof *a->row);
+  return rows_of(a, j) == rows_of(a, k) && !memcmp(a->row + a->start[j], a->row + a->start[k],
+                                                   (size_t)rows_of(a, j) * sizeof *a->row);
 }
 
 /* Where bundles begin, into column[]; their number. */
@@ -46,7 +50,8 @@ static thr_status allocate(thr_bundles *b, const thr_columns *a, thr_err *err)
   b->at = thr_scratch_array(&b->own, n, sizeof *b->at);
   b->value = thr_scratch_array(&b->own, entries, sizeof *b->value);
   b->across = thr_scratch_array(&b->own, entries, sizeof *b->across);
-  b->part = thr_scratch_array(&b->own, (size_t)b->most_rows + (size_t)b->most_wide, sizeof *b->part);
+  b->part =
+      thr_scratch_array(&b->own, (size_t)b->most_rows + (size_t)b->most_wide, sizeof *b->part);
   return thr_scratch_check(&b->own, err);
 }
 
@@ -71,7 +76,8 @@ void thr_bundles_refill(thr_bundles *b, const thr_columns *a)
     memcpy(b->value + at, value, (size_t)high * (size_t)wide * sizeof *value);
     for (int k = 0; k < wide; k++)
       for (int i = 0; i < high; i++)
-        b->across[at + (size_t)i * (size_t)wide + (size_t)k] = value[(size_t)k * (size_t)high + (size_t)i];
+        b->across[at + (size_t)i * (size_t)wide + (size_t)k] =
+            value[(size_t)k * (size_t)high + (size_t)i];
   }
 }
 
@@ -97,7 +103,8 @@ void thr_bundles_destroy(thr_bundles *b)
 }
 
 /* sum[n] = sum over k of from[k * n + i] * factor[k]. */
-THR_INLINE void add_up(double *restrict sum, const double *restrict from, const double *restrict factor, int n_k, int n)
+THR_INLINE void add_up(double *restrict sum, const double *restrict from,
+                       const double *restrict factor, int n_k, int n)
 {
   for (int i = 0; i < n; i++)
     sum[i] = 0;

@@ -1,14 +1,17 @@
-/* Linear programmes over second-order cones by a primal-dual interior point method: Yu. E. Nesterov & M. J. Todd, "Primal-dual
- * interior-point methods for self-scaled cones", SIAM J. Optimization 8, 1998, with S. Mehrotra's predictor and corrector as of
- * L. Vandenberghe, "The CVXOPT linear and quadratic cone program solvers", 2010.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Linear programmes over second-order cones by a primal-dual interior point method: Yu. E. Nesterov
+ * & M. J. Todd, "Primal-dual interior-point methods for self-scaled cones", SIAM J. Optimization 8,
+ * 1998, with S. Mehrotra's predictor and corrector as of L. Vandenberghe, "The CVXOPT linear and
+ * quadratic cone program solvers", 2010.
  *
- * Minimize c x with A x = b, x in K: every step solves (A W W A^T) dy = r (lp/solver/normal.c), where W is what maps the dual
- * values of a cone and its primal ones to the same point.
+ * Minimize c x with A x = b, x in K: every step solves (A W W A^T) dy = r (lp/solver/normal.c),
+ * where W is what maps the dual values of a cone and its primal ones to the same point.
  *
  * Example: minimize x0 with x1 = 3, x2 = 4, x0 >= |(x1, x2)|: 5.
  *
- * Notation: x, z primal and dual values, y row multipliers, d* their steps, p, q what is missing in A x = rhs and
- * A^T y + z = cost; l = W z = W^-1 x. Products of cones are Jordan's: a o b = (a b, a0 b1 + b0 a1, a0 b2 + b0 a2). */
+ * Notation: x, z primal and dual values, y row multipliers, d* their steps, p, q what is missing in
+ * A x = rhs and A^T y + z = cost; l = W z = W^-1 x. Products of cones are Jordan's: a o b = (a b,
+ * a0 b1 + b0 a1, a0 b2 + b0 a2). */
 
 #include "lp/solver/solver_parts.h"
 
@@ -17,7 +20,8 @@
 #include <string.h>
 
 enum { MOST_ITERATIONS = 60, PATIENCE = 5 };
-static const double NOTHING = 1e-6 /* an objective below that is 0 */, SHORT = 0.99 /* of the way to the boundary */,
+static const double NOTHING = 1e-6 /* an objective below that is 0 */,
+                    SHORT = 0.99 /* of the way to the boundary */,
                     FAR = 0.5; /* as long as it is that far off the error may grow */
 
 typedef struct {
@@ -30,11 +34,11 @@ typedef struct {
   const thr_bundles *a;
   int m, n, n_cones;
   point at, step;
-  double *p, *q;                     /* what is missing */
-  double *l, *g;                     /* [n] scaled point; right side of the step */
-  double *scaled;                    /* [n] W dz of the first step */
-  double *w;                         /* W: six numbers for each cone (00 01 02 11 12 22), one for each of the rest .. */
-  double *ww;                        /* .. and W W */
+  double *p, *q;  /* what is missing */
+  double *l, *g;  /* [n] scaled point; right side of the step */
+  double *scaled; /* [n] W dz of the first step */
+  double *w;  /* W: six numbers for each cone (00 01 02 11 12 22), one for each of the rest .. */
+  double *ww; /* .. and W W */
   double *rows, *rise, *way, *force; /* scratch */
   thr_scratch own;                   /* the arrays */
 } state;
@@ -52,7 +56,8 @@ static thr_status state_make(state *s, thr_err *err)
     points[i]->z = array(s, s->n);
     points[i]->y = array(s, s->m);
   }
-  double **of_columns[] = {&s->q, &s->l, &s->g, &s->scaled, &s->force}, **of_rows[] = {&s->p, &s->rows, &s->rise, &s->way};
+  double **of_columns[] = {&s->q, &s->l, &s->g, &s->scaled, &s->force},
+         **of_rows[] = {&s->p, &s->rows, &s->rise, &s->way};
   for (size_t i = 0; i < sizeof of_columns / sizeof *of_columns; i++)
     *of_columns[i] = array(s, s->n);
   for (size_t i = 0; i < sizeof of_rows / sizeof *of_rows; i++)
@@ -92,14 +97,18 @@ static void apply(const state *s, const double *m, const double *from, double *t
     to[j] = m[j + 3 * s->n_cones] * from[j];
 }
 
-/* W of Nesterov & Todd: eta (v0 v^T; v I + v v^T / (1 + v0)) with v half way between x and the mirror image of z. */
+/* W of Nesterov & Todd: eta (v0 v^T; v I + v v^T / (1 + v0)) with v half way between x and the
+ * mirror image of z. */
 static void scale_cone(const double *x, const double *z, double *w, double *ww, double *l)
 {
   const double of_x = sqrt(inner(x)), of_z = sqrt(inner(z));
-  const double both = (x[0] * z[0] + x[1] * z[1] + x[2] * z[2]) / (of_x * of_z), half = 1 / sqrt(2 * (1 + both));
-  const double eta = sqrt(of_x / of_z), v1 = (x[1] / of_x - z[1] / of_z) * half, v2 = (x[2] / of_x - z[2] / of_z) * half;
+  const double both = (x[0] * z[0] + x[1] * z[1] + x[2] * z[2]) / (of_x * of_z),
+               half = 1 / sqrt(2 * (1 + both));
+  const double eta = sqrt(of_x / of_z), v1 = (x[1] / of_x - z[1] / of_z) * half,
+               v2 = (x[2] / of_x - z[2] / of_z) * half;
   const double v0 = sqrt(1 + v1 * v1 + v2 * v2), part = eta / (1 + v0), square = eta * eta;
-  const double six[6] = {eta * v0, eta * v1, eta * v2, eta + part * v1 * v1, part * v1 * v2, eta + part * v2 * v2};
+  const double six[6] = {
+      eta * v0, eta * v1, eta * v2, eta + part * v1 * v1, part * v1 * v2, eta + part * v2 * v2};
   const double its[6] = {square * (1 + 2 * (v1 * v1 + v2 * v2)),
                          2 * square * v0 * v1,
                          2 * square * v0 * v2,
@@ -128,7 +137,8 @@ static void scale(state *s)
 /* How far x may go along d: the least root of inner(x + t d) = a t^2 + 2 b t + c. */
 static double reach_cone(const double *x, const double *d)
 {
-  const double a = d[0] * d[0] - d[1] * d[1] - d[2] * d[2], b = x[0] * d[0] - x[1] * d[1] - x[2] * d[2], c = inner(x);
+  const double a = d[0] * d[0] - d[1] * d[1] - d[2] * d[2],
+               b = x[0] * d[0] - x[1] * d[1] - x[2] * d[2], c = inner(x);
   const double square = b * b - a * c;
   if (a >= 0 && (b >= 0 || square < 0)) return INFINITY;
   return c / (sqrt(fmax(0, square)) - b);
@@ -194,7 +204,8 @@ static void newton(state *s)
   for (int j = 0; j < s->n; j++)
     s->g[j] -= d->x[j];
   apply(s, s->w, s->g, d->x);
-  make_up(s, fmax(0.2 * s->e->met * thr_sums_largest(s->e->rhs, s->m), 0.1 * thr_sums_largest(s->p, s->m)));
+  make_up(s, fmax(0.2 * s->e->met * thr_sums_largest(s->e->rhs, s->m),
+                  0.1 * thr_sums_largest(s->p, s->m)));
 }
 
 static double closeness(const state *s, double along_x, double along_z)
@@ -209,7 +220,9 @@ static double closeness(const state *s, double along_x, double along_z)
 static void corrected(const double *l, const double *u, double target, double *g)
 {
   const double v[3] = {-l[0] - u[0], -l[1] - u[1], -l[2] - u[2]};
-  double r[3] = {target - l[0] * l[0] - l[1] * l[1] - l[2] * l[2] - (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]), 0, 0};
+  double r[3] = {target - l[0] * l[0] - l[1] * l[1] - l[2] * l[2] -
+                     (u[0] * v[0] + u[1] * v[1] + u[2] * v[2]),
+                 0, 0};
   for (int k = 1; k < 3; k++)
     r[k] = -2 * l[0] * l[k] - (u[0] * v[k] + v[0] * u[k]);
   g[0] = (l[0] * r[0] - l[1] * r[1] - l[2] * r[2]) / inner(l);
@@ -217,7 +230,8 @@ static void corrected(const double *l, const double *u, double target, double *g
   g[2] = (r[2] - g[0] * l[2]) / l[0];
 }
 
-/* Towards the optimum first, to see how far that goes; then with a share of centring and the curvature seen. */
+/* Towards the optimum first, to see how far that goes; then with a share of centring and the
+ * curvature seen. */
 static void predict_and_correct(state *s)
 {
   int j = 0;
@@ -249,11 +263,13 @@ static void advance(state *s)
 
 /* ---- the way ---- */
 
-/* x as it is given; z is its inverse, as on the path to the optimum, where the gap is ten times the objective. */
+/* x as it is given; z is its inverse, as on the path to the optimum, where the gap is ten times the
+ * objective. */
 static void start(state *s)
 {
   const double times = 10, *x = s->e->start;
-  const double target = times * fabs(thr_sums_product(s->e->cost, x, s->n)) / (s->n - 2 * s->n_cones);
+  const double target =
+      times * fabs(thr_sums_product(s->e->cost, x, s->n)) / (s->n - 2 * s->n_cones);
   point *at = &s->at;
   int j = 0;
   memcpy(at->x, x, (size_t)s->n * sizeof *x);
@@ -286,7 +302,8 @@ static quality measure(state *s)
     s->q[j] = e->cost[j] - at->z[j] - s->q[j];
   const double primal = thr_sums_product(e->cost, at->x, s->n);
   quality k = {.dual = thr_sums_product(e->rhs, at->y, s->m),
-               .missing_z = thr_sums_largest(s->q, s->n) / (DBL_MIN + thr_sums_largest(e->cost, s->n))};
+               .missing_z =
+                   thr_sums_largest(s->q, s->n) / (DBL_MIN + thr_sums_largest(e->cost, s->n))};
   const double gap = fabs(primal - k.dual) / (NOTHING + fmax(fabs(primal), fabs(k.dual)));
   k.error = fmax(gap, fmax(missing_x * e->goal / e->met, k.missing_z));
   return k;
@@ -298,9 +315,11 @@ static void run(state *s, const thr_limits *limits, thr_interior *out)
   start(s);
   out->error = INFINITY;
   out->outcome = THR_LP_UNDECIDED;
-  for (out->iterations = 0; out->iterations < MOST_ITERATIONS && since < PATIENCE; out->iterations++) {
+  for (out->iterations = 0; out->iterations < MOST_ITERATIONS && since < PATIENCE;
+       out->iterations++) {
     const quality k = measure(s);
-    if (!isfinite(k.error + k.dual) || !(closeness(s, 0, 0) > 0)) return; /* rounding: outside a cone */
+    if (!isfinite(k.error + k.dual) || !(closeness(s, 0, 0) > 0))
+      return; /* rounding: outside a cone */
     since = k.error < out->error || k.error > FAR ? 0 : since + 1;
     if (k.error < out->error) {
       out->error = k.error;
@@ -321,9 +340,13 @@ static void run(state *s, const thr_limits *limits, thr_interior *out)
   }
 }
 
-thr_status thr_cones_solve(const thr_cone_equations *equations, const thr_limits *limits, thr_interior *out, thr_err *err)
+thr_status thr_cones_solve(const thr_cone_equations *equations, const thr_limits *limits,
+                           thr_interior *out, thr_err *err)
 {
-  state s = {.e = equations, .m = equations->a.n_rows, .n = equations->a.n_columns, .n_cones = equations->n_cones};
+  state s = {.e = equations,
+             .m = equations->a.n_rows,
+             .n = equations->a.n_columns,
+             .n_cones = equations->n_cones};
   thr_status st = state_make(&s, err);
   if (!st) run(&s, limits, out);
   thr_normal_destroy(s.normal);

@@ -1,6 +1,7 @@
-/* Products of dense columns, which a processor does fastest: what a block of the factors brings to others (lp/solver/normal.c).
- * Columns are `apart` numbers apart. Every sum is added up in one fixed order, whatever the processor has, so that the digits are
- * the same on every machine.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Products of dense columns, which a processor does fastest: what a block of the factors brings to
+ * others (lp/solver/normal.c). Columns are `apart` numbers apart. Every sum is added up in one
+ * fixed order, whatever the processor has, so that the digits are the same on every machine.
  *
  * Example: columns (1 2) and (3 4) with factors 5 and 6 bring (23 34). */
 #include "lp/solver/solver_parts.h"
@@ -11,8 +12,8 @@
 
 enum { LANES = 4, TILE = 8 /* rows, whose sums stay in registers */ };
 
-THR_INLINE void tile(double *restrict to, const double *restrict from, const double *restrict factor, size_t apart, int n_k,
-                     size_t n, int n_q)
+THR_INLINE void tile(double *restrict to, const double *restrict from,
+                     const double *restrict factor, size_t apart, int n_k, size_t n, int n_q)
 {
   double sum[THR_DENSE_MOST][TILE] = {{0}};
   for (int k = 0; k < n_k; k++, from += apart, factor += apart)
@@ -23,7 +24,8 @@ THR_INLINE void tile(double *restrict to, const double *restrict from, const dou
     memcpy(to + (size_t)q * n, sum[q], sizeof sum[q]);
 }
 
-THR_INLINE void product(double *to, const double *from, const double *factor, size_t apart, int n_k, size_t n, int n_q)
+THR_INLINE void product(double *to, const double *from, const double *factor, size_t apart, int n_k,
+                        size_t n, int n_q)
 {
   size_t i = 0;
   for (; i + TILE <= n; i += TILE)
@@ -38,7 +40,8 @@ THR_INLINE void product(double *to, const double *from, const double *factor, si
   }
 }
 
-THR_WIDE void thr_dense_product(double *to, const double *from, const double *factor, size_t apart, int n_k, size_t n, int n_q)
+THR_WIDE void thr_dense_product(double *to, const double *from, const double *factor, size_t apart,
+                                int n_k, size_t n, int n_q)
 {
   switch (n_q) {
   case 1: product(to, from, factor, apart, n_k, n, 1); break;
@@ -48,8 +51,8 @@ THR_WIDE void thr_dense_product(double *to, const double *from, const double *fa
   }
 }
 
-THR_INLINE void take(double *restrict to, const double *restrict from, size_t apart, const double *restrict factor, int n_q,
-                     size_t n)
+THR_INLINE void take(double *restrict to, const double *restrict from, size_t apart,
+                     const double *restrict factor, int n_q, size_t n)
 {
   double f[THR_DENSE_MOST];
   for (int q = 0; q < n_q; q++)
@@ -62,7 +65,8 @@ THR_INLINE void take(double *restrict to, const double *restrict from, size_t ap
   }
 }
 
-THR_WIDE void thr_dense_take(double *to, const double *from, size_t apart, const double *factor, int n_q, size_t n)
+THR_WIDE void thr_dense_take(double *to, const double *from, size_t apart, const double *factor,
+                             int n_q, size_t n)
 {
   switch (n_q) {
   case 1: take(to, from, apart, factor, 1, n); break;
@@ -72,8 +76,8 @@ THR_WIDE void thr_dense_take(double *to, const double *from, size_t apart, const
   }
 }
 
-THR_INLINE void sums(double *restrict sum, const double *restrict from, size_t apart, const double *restrict with, int n_q,
-                     size_t n)
+THR_INLINE void sums(double *restrict sum, const double *restrict from, size_t apart,
+                     const double *restrict with, int n_q, size_t n)
 {
   double part[THR_DENSE_MOST][LANES] = {{0}};
   size_t i = 0;
@@ -88,7 +92,8 @@ THR_INLINE void sums(double *restrict sum, const double *restrict from, size_t a
   }
 }
 
-THR_WIDE void thr_dense_sums(double *sum, const double *from, size_t apart, const double *with, int n_q, size_t n)
+THR_WIDE void thr_dense_sums(double *sum, const double *from, size_t apart, const double *with,
+                             int n_q, size_t n)
 {
   switch (n_q) {
   case 1: sums(sum, from, apart, with, 1, n); break;

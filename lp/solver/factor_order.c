@@ -1,11 +1,15 @@
-/* Order and pattern of the factors of A A^T, by blocks: consecutive columns of the factor with the same rows below them
- * (supernodes: J. W. H. Liu, E. G. Ng & B. W. Peyton, SIAM J. Matrix Anal. Appl. 14, 1993). Least degree (W. F. Tinney &
- * J. W. Walker, 1967) takes rows with the same neighbours as one, such as the six rows of a bead; blocks follow each other as
- * children and parents do, and are joined where that stores few zeros.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Order and pattern of the factors of A A^T, by blocks: consecutive columns of the factor with the
+ * same rows below them (supernodes: J. W. H. Liu, E. G. Ng & B. W. Peyton, SIAM J. Matrix Anal.
+ * Appl. 14, 1993). Least degree (W. F. Tinney & J. W. Walker, 1967) takes rows with the same
+ * neighbours as one, such as the six rows of a bead; blocks follow each other as children and
+ * parents do, and are joined where that stores few zeros.
  *
- * Example: A A^T with the rows {0, 1} and {1, 2} joined: 0 and 2 go before 1, and no entry is added.
+ * Example: A A^T with the rows {0, 1} and {1, 2} joined: 0 and 2 go before 1, and no entry is
+ * added.
  *
- * Least degree by explicit elimination: what is left of a group's neighbours when it goes is its column of the factor. */
+ * Least degree by explicit elimination: what is left of a group's neighbours when it goes is its
+ * column of the factor. */
 #include "lp/solver/solver_parts.h"
 
 #include "graph/sort.h"
@@ -61,8 +65,10 @@ static thr_status list_neighbours(const thr_columns *a, set *row, thr_err *err)
 {
   const size_t m = (size_t)a->n_rows, entries = (size_t)a->start[a->n_columns];
   thr_scratch own = {0};
-  int *by_start = thr_scratch_array(&own, m + 1, sizeof *by_start), *column = thr_scratch_array(&own, entries, sizeof *column);
-  int *seen = thr_scratch_array(&own, m, sizeof *seen), *list = thr_scratch_array(&own, m, sizeof *list);
+  int *by_start = thr_scratch_array(&own, m + 1, sizeof *by_start),
+      *column = thr_scratch_array(&own, entries, sizeof *column);
+  int *seen = thr_scratch_array(&own, m, sizeof *seen),
+      *list = thr_scratch_array(&own, m, sizeof *list);
   thr_status st = thr_scratch_check(&own, err);
   if (!st) list_columns(a, by_start, column);
   for (int i = 0; i < a->n_rows && !st; i++) {
@@ -89,7 +95,8 @@ static void form_groups(elimination *e, const set *row)
     e->group[i] = -1;
     for (int k = 0; k < row[i].count && row[i].item[k] < i && e->group[i] < 0; k++) {
       const set *other = &row[row[i].item[k]];
-      if (other->count == row[i].count && !memcmp(other->item, row[i].item, (size_t)row[i].count * sizeof *row[i].item))
+      if (other->count == row[i].count &&
+          !memcmp(other->item, row[i].item, (size_t)row[i].count * sizeof *row[i].item))
         e->group[i] = e->group[row[i].item[k]];
     }
     if (e->group[i] < 0) e->group[i] = e->n_groups++;
@@ -97,7 +104,8 @@ static void form_groups(elimination *e, const set *row)
   }
 }
 
-/* From the neighbours of each group's lowest row, which ascend by rows: so do the groups, once doubles are gone. */
+/* From the neighbours of each group's lowest row, which ascend by rows: so do the groups, once
+ * doubles are gone. */
 static thr_status list_groups(elimination *e, const set *row, int *seen, thr_err *err)
 {
   for (int i = 0; i < e->a->n_rows; i++) {
@@ -139,7 +147,8 @@ static thr_status merge(set *sets, int u, int v, int *room, thr_err *err)
   const set *a = &sets[u], *b = &sets[v];
   int n = 0, i = 0, k = 0;
   while (i < a->count || k < b->count) {
-    const int next = k == b->count || (i < a->count && a->item[i] <= b->item[k]) ? a->item[i] : b->item[k];
+    const int next =
+        k == b->count || (i < a->count && a->item[i] <= b->item[k]) ? a->item[i] : b->item[k];
     if (i < a->count && a->item[i] == next) i++;
     if (k < b->count && b->item[k] == next) k++;
     if (next != u && next != v) room[n++] = next;
@@ -222,13 +231,16 @@ static thr_status eliminate(elimination *e, thr_err *err)
   return st;
 }
 
-/* Children before their parents, with nothing between a group and its last child: the factor stays the same. */
+/* Children before their parents, with nothing between a group and its last child: the factor stays
+ * the same. */
 static thr_status order_by_tree(elimination *e, thr_err *err)
 {
   const size_t n = (size_t)e->n_groups;
   thr_scratch own = {0};
-  int *by_rank = thr_scratch_array(&own, n, sizeof *by_rank), *child = thr_scratch_array(&own, n, sizeof *child);
-  int *sibling = thr_scratch_array(&own, n, sizeof *sibling), *stack = thr_scratch_array(&own, n, sizeof *stack);
+  int *by_rank = thr_scratch_array(&own, n, sizeof *by_rank),
+      *child = thr_scratch_array(&own, n, sizeof *child);
+  int *sibling = thr_scratch_array(&own, n, sizeof *sibling),
+      *stack = thr_scratch_array(&own, n, sizeof *stack);
   thr_status st = thr_scratch_check(&own, err);
   if (st) {
     thr_scratch_free(&own);
@@ -330,7 +342,8 @@ static thr_status set_blocks(const elimination *e, thr_factor_order *order, thr_
     order->n_blocks = form_blocks(e, last);
     for (int b = 0; b < order->n_blocks; b++)
       entries += (size_t)rows_of(e, &e->next_to[e->order[last[b]]]);
-    order->first = thr_scratch_array(&order->own, (size_t)order->n_blocks + 1, sizeof *order->first);
+    order->first =
+        thr_scratch_array(&order->own, (size_t)order->n_blocks + 1, sizeof *order->first);
     order->end = thr_scratch_array(&order->own, (size_t)order->n_blocks + 1, sizeof *order->end);
     order->below = thr_scratch_array(&order->own, entries, sizeof *order->below);
     st = thr_scratch_check(&order->own, err);

@@ -1,13 +1,15 @@
-/* Large sparse linear programmes by a primal-dual interior point method: predictor and corrector (S. Mehrotra, SIAM J.
- * Optimization 2, 1992), further correctors (J. Gondzio, Comp. Optimization and Applications 6, 1996).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Large sparse linear programmes by a primal-dual interior point method: predictor and corrector
+ * (S. Mehrotra, SIAM J. Optimization 2, 1992), further correctors (J. Gondzio, Comp. Optimization
+ * and Applications 6, 1996).
  *
- * Minimize c x with A x = b, x >= 0: Newton's method on A x = b, A^T y + z = c, x z = target, with the target going to 0; every
- * step solves (A D A^T) dy = r with D = x / z (lp/solver/normal.c).
+ * Minimize c x with A x = b, x >= 0: Newton's method on A x = b, A^T y + z = c, x z = target, with
+ * the target going to 0; every step solves (A D A^T) dy = r with D = x / z (lp/solver/normal.c).
  *
  * Example: minimize x + 2 y with x + y = 1 ends at x = 1, y = 0 with the dual value 1.
  *
- * Notation: x, z primal values and reduced costs, y row multipliers, d* their steps, p, q, r what is missing in
- * A x = rhs,  A^T y + z = cost,  x z = target. */
+ * Notation: x, z primal values and reduced costs, y row multipliers, d* their steps, p, q, r what
+ * is missing in A x = rhs,  A^T y + z = cost,  x z = target. */
 
 #include "lp/solver/solver_parts.h"
 
@@ -17,9 +19,11 @@
 #include <string.h>
 
 enum { MOST_ITERATIONS = 200, PATIENCE = 6, MOST_CORRECTORS = 3 };
-static const double GOAL = 1e-8, MET = 1e-6 /* the equations, however rough the goal, unless the caller says more */,
-                    NOTHING = 1e-6, /* an objective below that is 0 */
-    WARM = 0.05;                    /* gap at which a point is kept as a start for others */
+static const double
+    GOAL = 1e-8,
+    MET = 1e-6 /* the equations, however rough the goal, unless the caller says more */,
+    NOTHING = 1e-6, /* an objective below that is 0 */
+    WARM = 0.05;    /* gap at which a point is kept as a start for others */
 
 typedef struct {
   double *x, *y, *z;
@@ -117,8 +121,8 @@ static double missing(state *s, const double *p, const double *components)
   return thr_sums_largest(s->rows, s->m);
 }
 
-/* The next direction of conjugate gradients with the factors as the preconditioner (M. R. Hestenes & E. Stiefel, 1952), into
- * s->way. before: what the last round returned, INFINITY at first. */
+/* The next direction of conjugate gradients with the factors as the preconditioner (M. R. Hestenes
+ * & E. Stiefel, 1952), into s->way. before: what the last round returned, INFINITY at first. */
 static double turn(state *s, double before)
 {
   thr_normal_solve(s->normal, s->rows, s->rise);
@@ -146,13 +150,15 @@ static void make_up(state *s, const double *p, double enough, point *d)
   }
 }
 
-/* Step that answers p, q, r: A dx = p, A^T dy + dz = q, z dx + x dz = r. Near the optimum x / z spans twenty powers of ten and
- * the factors are rough: what A dx lacks is made up for as far as the next point needs it. */
+/* Step that answers p, q, r: A dx = p, A^T dy + dz = q, z dx + x dz = r. Near the optimum x / z
+ * spans twenty powers of ten and the factors are rough: what A dx lacks is made up for as far as
+ * the next point needs it. */
 static void newton(state *s, const double *p, const double *q, const double *r, point *d)
 {
   const point *at = &s->at;
   const double share = s->e->met > 0 ? 0.2 : 0.01; /* of what may be missing at last */
-  const double enough = fmax(share * s->goal / s->unmet * thr_sums_largest(s->e->rhs, s->m), 0.1 * thr_sums_largest(s->p, s->m));
+  const double enough = fmax(share * s->goal / s->unmet * thr_sums_largest(s->e->rhs, s->m),
+                             0.1 * thr_sums_largest(s->p, s->m));
   memset(d->y, 0, (size_t)s->m * sizeof *d->y);
   for (int j = 0; j < s->n; j++) {
     d->z[j] = q ? q[j] : 0;
@@ -172,7 +178,8 @@ static double reach(const double *a, const double *d, int n)
   return most;
 }
 
-/* Mehrotra's start: the least x that meets the equations, the least z, both moved to be positive. */
+/* Mehrotra's start: the least x that meets the equations, the least z, both moved to be positive.
+ */
 static void start(state *s)
 {
   point *at = &s->at;
@@ -255,7 +262,8 @@ static quality measure(state *s)
   transposed(s, at->y, s->q);
   for (int j = 0; j < s->n; j++)
     s->q[j] = equations->cost[j] - at->z[j] - s->q[j];
-  quality k = {.primal = thr_sums_product(equations->cost, at->x, s->n), .dual = thr_sums_product(equations->rhs, at->y, s->m)};
+  quality k = {.primal = thr_sums_product(equations->cost, at->x, s->n),
+               .dual = thr_sums_product(equations->rhs, at->y, s->m)};
   k.missing[0] = thr_sums_largest(s->p, s->m) / (DBL_MIN + thr_sums_largest(equations->rhs, s->m));
   k.missing[1] = thr_sums_largest(s->q, s->n) / (DBL_MIN + thr_sums_largest(equations->cost, s->n));
   k.gap = fabs(k.primal - k.dual) / (NOTHING + fmax(fabs(k.primal), fabs(k.dual)));
@@ -271,7 +279,8 @@ static double closeness(const state *s, double along_x, double along_z)
   return sum / s->n;
 }
 
-/* Towards the optimum first, to see how far that goes; then with a share of centring and the curvature seen. */
+/* Towards the optimum first, to see how far that goes; then with a share of centring and the
+ * curvature seen. */
 static double predict_and_correct(state *s)
 {
   point *at = &s->at, *d = &s->step;
@@ -287,7 +296,8 @@ static double predict_and_correct(state *s)
   return target;
 }
 
-/* Where the gap is closed but the equations are not met: towards the middle only, with longer steps. */
+/* Where the gap is closed but the equations are not met: towards the middle only, with longer
+ * steps. */
 static double meet(state *s)
 {
   point *at = &s->at;
@@ -298,7 +308,8 @@ static double meet(state *s)
   return target;
 }
 
-/* Corrects products x z that a longer step would leave far from the target; kept only if the step gets longer. */
+/* Corrects products x z that a longer step would leave far from the target; kept only if the step
+ * gets longer. */
 static bool correct_again(state *s, double target)
 {
   const double least = 0.1, most = 10, further = 0.1;
@@ -329,7 +340,8 @@ static void advance(state *s)
 {
   point *at = &s->at, *d = &s->step;
   const double margin = 0.995;
-  double along_x = fmin(1, margin * reach(at->x, d->x, s->n)), along_z = fmin(1, margin * reach(at->z, d->z, s->n));
+  double along_x = fmin(1, margin * reach(at->x, d->x, s->n)),
+         along_z = fmin(1, margin * reach(at->z, d->z, s->n));
   for (int j = 0; j < s->n; j++) {
     at->x[j] += along_x * d->x[j];
     at->z[j] += along_z * d->z[j];
@@ -338,7 +350,8 @@ static void advance(state *s)
     at->y[i] += along_z * d->y[i];
 }
 
-/* Keeps the best: rounding spoils x first, while y still gets better. Returns true as long as anything does. */
+/* Keeps the best: rounding spoils x first, while y still gets better. Returns true as long as
+ * anything does. */
 static bool keep(const state *s, const quality *k, double *bound, thr_interior *out)
 {
   bool better_x = k->error < out->error, better_y = k->missing[1] < 1e-9 && k->dual > *bound;
@@ -346,7 +359,8 @@ static bool keep(const state *s, const quality *k, double *bound, thr_interior *
     out->error = k->error;
     memcpy(out->x, s->at.x, (size_t)s->n * sizeof *out->x);
   }
-  if (better_y || (better_x && !isfinite(*bound))) memcpy(out->dual, s->at.y, (size_t)s->m * sizeof *out->dual);
+  if (better_y || (better_x && !isfinite(*bound)))
+    memcpy(out->dual, s->at.y, (size_t)s->m * sizeof *out->dual);
   bool rises = better_y && !(k->dual - *bound < GOAL * (NOTHING + fabs(k->dual)));
   if (better_y) *bound = k->dual;
   return better_x || rises;
@@ -359,7 +373,8 @@ static void run(state *s, const thr_limits *limits, thr_interior *out)
   if (!start_warm(s)) start(s);
   out->error = INFINITY;
   out->outcome = THR_LP_UNDECIDED;
-  for (out->iterations = 0; out->iterations < MOST_ITERATIONS && since < PATIENCE; out->iterations++) {
+  for (out->iterations = 0; out->iterations < MOST_ITERATIONS && since < PATIENCE;
+       out->iterations++) {
     quality k = measure(s);
     if (!isfinite(k.error)) return;
     if (s->e->warm && k.gap > WARM) keep_warm(s);
@@ -382,7 +397,8 @@ static void run(state *s, const thr_limits *limits, thr_interior *out)
   }
 }
 
-thr_status thr_interior_solve(const thr_equations *equations, const thr_limits *limits, thr_interior *out, thr_err *err)
+thr_status thr_interior_solve(const thr_equations *equations, const thr_limits *limits,
+                              thr_interior *out, thr_err *err)
 {
   state s = {.e = equations,
              .rays = {.n_cones = equations->n_cones,

@@ -1,6 +1,8 @@
-/* The only file that knows GLPK. GLPK aborts on misuse and when memory runs out: every call runs under guarded(), whose
- * error hook jumps out. After that GLPK's environment must be freed, which kills every problem of the process; each
- * thr_lp remembers in which generation of the environment it was born. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The only file that knows GLPK. GLPK aborts on misuse and when memory runs out: every call runs
+ * under guarded(), whose error hook jumps out. After that GLPK's environment must be freed, which
+ * kills every problem of the process; each thr_lp remembers in which generation of the environment
+ * it was born. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/process/process.h"
 #include "graph/text.h"
@@ -19,7 +21,8 @@ struct thr_lp {
   int generation;
   bool primal;   /* the next solve starts from a basis that was set */
   bool integer;  /* the last solve was by branch and bound, whose results GLPK keeps apart */
-  double *exact; /* the numbers of the last solve if that was in a child, exact or by branch and bound, else NULL; owned */
+  double *exact; /* the numbers of the last solve if that was in a child, exact or by branch and
+                    bound, else NULL; owned */
 };
 
 /* Of the thread, as GLPK's environment is. */
@@ -45,7 +48,8 @@ static void jump_out(void *unused)
   longjmp(escape, 1);
 }
 
-/* GLPK's environment belongs to the thread that made it, and nobody else frees it: it goes with the thread. */
+/* GLPK's environment belongs to the thread that made it, and nobody else frees it: it goes with the
+ * thread. */
 static pthread_key_t thread_end;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static bool has_key;
@@ -65,11 +69,12 @@ static void free_with_the_thread(void)
 {
   static const bool used = true;
   pthread_once(&once, make_key);
-  if (has_key && !pthread_getspecific(thread_end)) pthread_setspecific(thread_end, &used); /* without memory for it, it is kept */
+  if (has_key && !pthread_getspecific(thread_end))
+    pthread_setspecific(thread_end, &used); /* without memory for it, it is kept */
 }
 
-/* Runs call(argument) with GLPK's aborts turned into THR_ESOLVER. The hooks are set anew each time because igraph,
- * which shares the library, may have set its own. */
+/* Runs call(argument) with GLPK's aborts turned into THR_ESOLVER. The hooks are set anew each time
+ * because igraph, which shares the library, may have set its own. */
 static thr_status guarded(void (*call)(void *), void *argument, thr_err *err)
 {
   message[0] = '\0';
@@ -124,7 +129,8 @@ static void do_create(void *argument)
   glp_std_basis(p);
 }
 
-thr_status thr_lp_create(thr_lp **lp, int n_columns, const double *cost, const double *upper, thr_err *err)
+thr_status thr_lp_create(thr_lp **lp, int n_columns, const double *cost, const double *upper,
+                         thr_err *err)
 {
   *lp = NULL;
   thr_lp *made = thr_calloc(1, sizeof *made);
@@ -214,12 +220,14 @@ static void do_create_equations(void *argument)
   glp_std_basis(p);
 }
 
-thr_status thr_lp_create_equations(thr_lp **lp, int n_rows, const double *rhs, int n_columns, const double *cost,
-                                   const bool *free_columns, const int *start, const int *row, const double *value, thr_err *err)
+thr_status thr_lp_create_equations(thr_lp **lp, int n_rows, const double *rhs, int n_columns,
+                                   const double *cost, const bool *free_columns, const int *start,
+                                   const int *row, const double *value, thr_err *err)
 {
   *lp = NULL;
   thr_lp *made = thr_calloc(1, sizeof *made);
-  equations_call c = {made, n_rows, n_columns, rhs, cost, value, free_columns, start, row, NULL, NULL};
+  equations_call c = {made,         n_rows, n_columns, rhs,  cost, value,
+                      free_columns, start,  row,       NULL, NULL};
   int longest = 0;
   for (int j = 0; j < n_columns; j++)
     if (start[j + 1] - start[j] > longest) longest = start[j + 1] - start[j];
@@ -254,12 +262,14 @@ static void do_add_row(void *argument)
   glp_set_mat_row(c->problem, row, c->n, c->index, c->value);
 }
 
-thr_status thr_lp_add_row(thr_lp *lp, int n, const int *column, const double *value, double lower, thr_err *err)
+thr_status thr_lp_add_row(thr_lp *lp, int n, const int *column, const double *value, double lower,
+                          thr_err *err)
 {
   thr_status st = check_alive(lp, err);
   forget_exact(lp);
   if (st) return st;
-  row_call c = {lp->problem, n, thr_calloc((size_t)n + 1, sizeof(int)), thr_calloc((size_t)n + 1, sizeof(double)), lower};
+  row_call c = {lp->problem, n, thr_calloc((size_t)n + 1, sizeof(int)),
+                thr_calloc((size_t)n + 1, sizeof(double)), lower};
   if (!c.index || !c.value) {
     st = thr_nomem(err);
     goto done;
@@ -325,7 +335,8 @@ static void do_set_basis(void *argument)
     glp_set_col_stat(c->problem, j, c->column[j - 1] ? GLP_BS : GLP_NL);
 }
 
-thr_status thr_lp_set_basis(thr_lp *lp, const bool *row_basic, const bool *column_basic, thr_err *err)
+thr_status thr_lp_set_basis(thr_lp *lp, const bool *row_basic, const bool *column_basic,
+                            thr_err *err)
 {
   thr_status st = check_alive(lp, err);
   basis_call c = {lp->problem, row_basic, column_basic};
@@ -379,9 +390,10 @@ thr_status thr_lp_set_costs(thr_lp *lp, const double *cost, thr_err *err)
 
 /* ---- solving ---- */
 
-/* Pivots before the first look at the clock and the interrupt flag. Counted, not timed: where a slice ends changes the path that
- * the method takes, and the same input must give the same plan on a slow machine as on a fast one. Every next slice is twice as
- * long: where one ends GLPK takes back the perturbed costs that lead it out of a degenerate corner. */
+/* Pivots before the first look at the clock and the interrupt flag. Counted, not timed: where a
+ * slice ends changes the path that the method takes, and the same input must give the same plan on
+ * a slow machine as on a fast one. Every next slice is twice as long: where one ends GLPK takes
+ * back the perturbed costs that lead it out of a degenerate corner. */
 enum { SLICE = 500 };
 
 typedef struct {
@@ -398,10 +410,12 @@ static void do_solve(void *argument)
   glp_smcp options;
   glp_init_smcp(&options);
   options.msg_lev = GLP_MSG_OFF;
-  options.meth = c->primal ? GLP_PRIMAL : GLP_DUALP; /* after new rows the basis stays dual feasible */
+  options.meth =
+      c->primal ? GLP_PRIMAL : GLP_DUALP; /* after new rows the basis stays dual feasible */
   options.it_lim = c->slice;
   if (c->left < 1e6) options.tm_lim = 1 + (int)(1000 * c->left);
-  options.tol_dj = 1e-9; /* the duals become certificates: GLPK's 1e-7 is too coarse to close them */
+  options.tol_dj =
+      1e-9; /* the duals become certificates: GLPK's 1e-7 is too coarse to close them */
   c->code = c->exact ? glp_exact(c->problem, &options) : glp_simplex(c->problem, &options);
 }
 
@@ -420,17 +434,19 @@ static thr_lp_outcome outcome_of(glp_prob *problem)
   }
 }
 
-/* Takes pivots from the work that is left: of a small programme one takes as long as 3000 rows and columns do, of a dense one
- * longer. */
+/* Takes pivots from the work that is left: of a small programme one takes as long as 3000 rows and
+ * columns do, of a dense one longer. */
 static void spend(const thr_limits *limits, glp_prob *p, int pivots)
 {
   enum { SMALL = 3000 };
   const double each = 1e-8, of_entry = 3e-10; /* s for a row or a column, and for what is not 0 */
-  const double size = SMALL + glp_get_num_rows(p) + glp_get_num_cols(p), entries = glp_get_num_nz(p);
+  const double size = SMALL + glp_get_num_rows(p) + glp_get_num_cols(p),
+               entries = glp_get_num_nz(p);
   thr_limits_spend(limits, pivots * (each * size + of_entry * entries));
 }
 
-static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp_outcome *outcome,
+                        thr_err *err)
 {
   *outcome = THR_LP_STOPPED;
   thr_status st = check_alive(lp, err);
@@ -438,7 +454,12 @@ static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp
   forget_exact(lp);
   for (int restarts = 0, slice = SLICE; !st; slice = slice < INT_MAX / 2 ? 2 * slice : slice) {
     if (thr_limits_stop(limits)) return THR_OK;
-    solve_call c = {lp->problem, exact, lp->primal || restarts > 0, slice, thr_limits_left(limits, INFINITY), 0};
+    solve_call c = {lp->problem,
+                    exact,
+                    lp->primal || restarts > 0,
+                    slice,
+                    thr_limits_left(limits, INFINITY),
+                    0};
     int before = glp_get_it_cnt(lp->problem);
     if ((st = guarded(do_solve, &c, err))) return st;
     spend(limits, lp->problem, glp_get_it_cnt(lp->problem) - before);
@@ -448,8 +469,10 @@ static thr_status solve(thr_lp *lp, bool exact, const thr_limits *limits, thr_lp
       return THR_OK;
     }
     if (c.code == GLP_EITLIM || c.code == GLP_ETMLIM) continue;
-    if (restarts++) return thr_fail(err, THR_ESOLVER, "GLPK's simplex method failed (code %d)", c.code);
-    /* A singular basis is refused, not repaired; and the dual method calls an unbounded problem undecided. */
+    if (restarts++)
+      return thr_fail(err, THR_ESOLVER, "GLPK's simplex method failed (code %d)", c.code);
+    /* A singular basis is refused, not repaired; and the dual method calls an unbounded problem
+     * undecided. */
     st = guarded(do_reset_basis, lp->problem, err);
   }
   return st;
@@ -460,7 +483,8 @@ thr_status thr_lp_solve(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *ou
   return solve(lp, false, limits, outcome, err);
 }
 
-thr_status thr_lp_solve_exact_here(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+thr_status thr_lp_solve_exact_here(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome,
+                                   thr_err *err)
 {
   return solve(lp, true, limits, outcome, err);
 }
@@ -472,7 +496,8 @@ typedef struct {
   int code;
 } integer_call;
 
-/* Where to branch is found by a row of the tableau for every fractional column, each of which takes all entries of the matrix. */
+/* Where to branch is found by a row of the tableau for every fractional column, each of which takes
+ * all entries of the matrix. */
 static void spend_on_branching(const thr_limits *limits, glp_prob *p, glp_tree *tree)
 {
   const double each = 3e-9; /* s for an entry */
@@ -506,7 +531,8 @@ static void do_integer(void *argument)
   c->code = glp_intopt(c->problem, &options);
 }
 
-static thr_status solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+static thr_status solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome,
+                                thr_err *err)
 {
   *outcome = THR_LP_STOPPED;
   thr_status st = check_alive(lp, err);
@@ -532,7 +558,8 @@ static size_t count_numbers(const thr_lp *lp)
 }
 
 /* They, and a byte for each row and column that says where it stands in the basis. */
-static thr_status put_solution(const thr_lp *lp, thr_lp_outcome outcome, thr_text *text, thr_err *err)
+static thr_status put_solution(const thr_lp *lp, thr_lp_outcome outcome, thr_text *text,
+                               thr_err *err)
 {
   int n = glp_get_num_cols(lp->problem), m = glp_get_num_rows(lp->problem);
   double *number = thr_calloc(count_numbers(lp), sizeof *number);
@@ -544,7 +571,8 @@ static thr_status put_solution(const thr_lp *lp, thr_lp_outcome outcome, thr_tex
   thr_text_append_bytes(text, (const char *)number, count_numbers(lp) * sizeof *number);
   free(number);
   for (int i = 1; i <= m + n; i++) {
-    const char stand = (char)(i <= m ? glp_get_row_stat(lp->problem, i) : glp_get_col_stat(lp->problem, i - m));
+    const char stand =
+        (char)(i <= m ? glp_get_row_stat(lp->problem, i) : glp_get_col_stat(lp->problem, i - m));
     thr_text_append_bytes(text, &stand, 1);
   }
   return text->failed ? thr_nomem(err) : THR_OK;
@@ -582,7 +610,8 @@ static void do_stand(void *argument)
     glp_set_col_stat(c->problem, j + 1, c->stand[m + j]);
 }
 
-static thr_status take_solution(thr_lp *lp, const thr_text *text, thr_lp_outcome *outcome, thr_err *err)
+static thr_status take_solution(thr_lp *lp, const thr_text *text, thr_lp_outcome *outcome,
+                                thr_err *err)
 {
   size_t n = count_numbers(lp);
   double *number = thr_calloc(n, sizeof *number);
@@ -601,7 +630,8 @@ static thr_status take_solution(thr_lp *lp, const thr_text *text, thr_lp_outcome
   return THR_OK;
 }
 
-static thr_status solve_in_child(child_job job, const char *what, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+static thr_status solve_in_child(child_job job, const char *what, const thr_limits *limits,
+                                 thr_lp_outcome *outcome, thr_err *err)
 {
   const thr_child child = {.what = what, .run = solve_and_send, .user = &job};
   thr_lp *lp = job.lp;
@@ -621,17 +651,21 @@ static thr_status solve_in_child(child_job job, const char *what, const thr_limi
   return st;
 }
 
-thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+thr_status thr_lp_solve_exact(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome,
+                              thr_err *err)
 {
-  return solve_in_child((child_job){lp, thr_lp_solve_exact_here}, "GLPK's exact method", limits, outcome, err);
+  return solve_in_child((child_job){lp, thr_lp_solve_exact_here}, "GLPK's exact method", limits,
+                        outcome, err);
 }
 
-/* The programmes at the tree's nodes are solved without a limit, and may go round in circles. Where nobody sets limits, there is
- * nothing to end. */
-thr_status thr_lp_solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+/* The programmes at the tree's nodes are solved without a limit, and may go round in circles. Where
+ * nobody sets limits, there is nothing to end. */
+thr_status thr_lp_solve_integer(thr_lp *lp, const thr_limits *limits, thr_lp_outcome *outcome,
+                                thr_err *err)
 {
   if (limits->deadline == 0 && !limits->interrupted) return solve_integer(lp, limits, outcome, err);
-  return solve_in_child((child_job){lp, solve_integer}, "GLPK's branch and bound", limits, outcome, err);
+  return solve_in_child((child_job){lp, solve_integer}, "GLPK's branch and bound", limits, outcome,
+                        err);
 }
 
 void thr_lp_primal(const thr_lp *lp, double *x)
@@ -645,7 +679,8 @@ void thr_lp_primal(const thr_lp *lp, double *x)
 void thr_lp_dual(const thr_lp *lp, double *dual)
 {
   int m = glp_get_num_rows(lp->problem);
-  if (lp->exact) memcpy(dual, lp->exact + VALUES + glp_get_num_cols(lp->problem), (size_t)m * sizeof *dual);
+  if (lp->exact)
+    memcpy(dual, lp->exact + VALUES + glp_get_num_cols(lp->problem), (size_t)m * sizeof *dual);
   for (int i = 1; i <= m && !lp->exact; i++)
     dual[i - 1] = glp_get_row_dual(lp->problem, i);
 }
@@ -669,7 +704,8 @@ thr_status thr_lp_proved(const thr_lp *lp, double most, double *bound, thr_err *
 {
   glp_prob *p = lp->problem;
   int n = glp_get_num_cols(p), *index = thr_calloc((size_t)n + 1, sizeof *index);
-  double *value = thr_calloc((size_t)n + 1, sizeof *value), *reduced = thr_calloc((size_t)n + 1, sizeof *reduced), sum = 0;
+  double *value = thr_calloc((size_t)n + 1, sizeof *value),
+         *reduced = thr_calloc((size_t)n + 1, sizeof *reduced), sum = 0;
   thr_status st = index && value && reduced ? THR_OK : thr_nomem(err);
   for (int j = 1; j <= n && !st; j++)
     reduced[j] = glp_get_obj_coef(p, j);
@@ -682,7 +718,9 @@ thr_status thr_lp_proved(const thr_lp *lp, double most, double *bound, thr_err *
   }
   for (int j = 1; j <= n && !st; j++) {
     int kind = glp_get_col_type(p, j); /* columns: lower bounds, some with upper ones or fixed */
-    double upper = kind == GLP_LO ? most : kind == GLP_FX ? glp_get_col_lb(p, j) : glp_get_col_ub(p, j);
+    double upper = kind == GLP_LO   ? most
+                   : kind == GLP_FX ? glp_get_col_lb(p, j)
+                                    : glp_get_col_ub(p, j);
     sum += reduced[j] * (reduced[j] > 0 ? glp_get_col_lb(p, j) : upper);
   }
   if (!st) *bound = sum;

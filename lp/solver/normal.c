@@ -1,14 +1,18 @@
-/* Normal equations (A W A^T) y = r of a sparse matrix A and a positive W, diagonal but for blocks of three: what an interior
- * point method solves at every step. Sparse Cholesky factors in an order found once (lp/solver/factor_order.c).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Normal equations (A W A^T) y = r of a sparse matrix A and a positive W, diagonal but for blocks
+ * of three: what an interior point method solves at every step. Sparse Cholesky factors in an order
+ * found once (lp/solver/factor_order.c).
  *
- * A W A^T = L L^T; L y' = r, then L^T y = y'. The factors are the program's own and not CHOLMOD's: the same digits on every
- * machine and in a browser, dense work that does not wait for a fast BLAS, and rows that depend on others are left out. They are
- * those of A W A^T with a little more on the diagonal.
+ * A W A^T = L L^T; L y' = r, then L^T y = y'. The factors are the program's own and not CHOLMOD's:
+ * the same digits on every machine and in a browser, dense work that does not wait for a fast BLAS,
+ * and rows that depend on others are left out. They are those of A W A^T with a little more on the
+ * diagonal.
  *
  * Example: A = (1 1), W = diag(2, 3), r = 10: 5 y = 10, y = 2.
  *
- * Factors by blocks of columns with the same rows below them: dense work, which a processor does fastest (supernodal, looking
- * left: a block takes off what the blocks before it bring, when its turn comes). */
+ * Factors by blocks of columns with the same rows below them: dense work, which a processor does
+ * fastest (supernodal, looking left: a block takes off what the blocks before it bring, when its
+ * turn comes). */
 #include "graph/wide.h"
 #include "lp/solver/solver_parts.h"
 
@@ -16,9 +20,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows whose pivot is that small a part of what it was before others were taken off depend on others, at the first weights: they
- * are left out. At all weights the diagonal gets LEAST of itself more: what is smaller is rounding, and would leave pivots of any
- * sign. Callers improve the solution. */
+/* Rows whose pivot is that small a part of what it was before others were taken off depend on
+ * others, at the first weights: they are left out. At all weights the diagonal gets LEAST of itself
+ * more: what is smaller is rounding, and would leave pivots of any sign. Callers improve the
+ * solution. */
 static const double DEPENDS = 1e-12, LEAST = 1e-15;
 
 enum { STRIP = THR_DENSE_MOST /* columns that are worked on together */ };
@@ -27,7 +32,8 @@ struct thr_normal {
   thr_factor_order order;
   thr_bundles a;
   int n_threes;
-  size_t *to;       /* where a bundle's products of two rows are added in value: its rows, each with those from it on */
+  size_t *to; /* where a bundle's products of two rows are added in value: its rows, each with those
+                 from it on */
   double *weighed;  /* [most rows x most columns of a bundle] A W */
   double *sum;      /* [most rows of a bundle] */
   size_t *panel;    /* [n_blocks + 1] where its columns begin in value */
@@ -62,7 +68,8 @@ static size_t height(const thr_factor_order *o, int block)
 static size_t entry_of(const thr_normal *normal, int one, int other)
 {
   const thr_factor_order *o = &normal->order;
-  const int early = one < other ? one : other, late = one < other ? other : one, block = normal->block_of[early];
+  const int early = one < other ? one : other, late = one < other ? other : one,
+            block = normal->block_of[early];
   size_t low = o->end[block], high = o->end[block + 1], row = (size_t)(late - o->first[block]);
   if (late >= o->first[block + 1]) {
     while (high - low > 1) {
@@ -104,7 +111,8 @@ static thr_status allocate(thr_normal *normal, thr_err *err)
     pairs += high * (high + 1) / 2;
   }
   normal->to = thr_scratch_array(&normal->own, pairs, sizeof *normal->to);
-  normal->weighed = thr_scratch_array(&normal->own, (size_t)a->most_rows * (size_t)a->most_wide, sizeof *normal->weighed);
+  normal->weighed = thr_scratch_array(&normal->own, (size_t)a->most_rows * (size_t)a->most_wide,
+                                      sizeof *normal->weighed);
   normal->sum = thr_scratch_array(&normal->own, (size_t)a->most_rows, sizeof *normal->sum);
   normal->value = thr_scratch_array(&normal->own, values, sizeof *normal->value);
   normal->update = thr_scratch_array(&normal->own, STRIP * most, sizeof *normal->update);
@@ -163,7 +171,8 @@ const thr_bundles *thr_normal_bundles(const thr_normal *normal)
 /* ---- A W A^T ---- */
 
 /* A W of a bundle whose columns are weighed three by three, n rows each. */
-THR_INLINE void weigh_threes(double *restrict to, const double *restrict from, const double *restrict w, int wide, int n)
+THR_INLINE void weigh_threes(double *restrict to, const double *restrict from,
+                             const double *restrict w, int wide, int n)
 {
   for (int k = 0; k < wide; k += 3, w += 6, from += 3 * n, to += 3 * n)
     for (int i = 0; i < n; i++) {
@@ -174,7 +183,8 @@ THR_INLINE void weigh_threes(double *restrict to, const double *restrict from, c
     }
 }
 
-THR_INLINE void weigh_each(double *restrict to, const double *restrict from, const double *restrict w, int wide, int n)
+THR_INLINE void weigh_each(double *restrict to, const double *restrict from,
+                           const double *restrict w, int wide, int n)
 {
   for (int k = 0; k < wide; k++)
     for (int i = 0; i < n; i++)
@@ -182,7 +192,8 @@ THR_INLINE void weigh_each(double *restrict to, const double *restrict from, con
 }
 
 /* sum[n] = sum over columns of weighed[column] x factor[row of the column]. */
-THR_INLINE void mix(double *restrict sum, const double *restrict weighed, const double *restrict factor, int wide, int n)
+THR_INLINE void mix(double *restrict sum, const double *restrict weighed,
+                    const double *restrict factor, int wide, int n)
 {
   for (int i = 0; i < n; i++)
     sum[i] = 0;
@@ -192,7 +203,8 @@ THR_INLINE void mix(double *restrict sum, const double *restrict weighed, const 
 }
 
 /* Adds the bundle's A W A^T, from each row on. */
-THR_INLINE void add_bundle(thr_normal *normal, int g, const double *w, bool threes, int wide, int n, const size_t **to)
+THR_INLINE void add_bundle(thr_normal *normal, int g, const double *w, bool threes, int wide, int n,
+                           const size_t **to)
 {
   const double *from = normal->a.value + normal->a.at[g];
   double *value = normal->value, *sum = normal->sum;
@@ -207,7 +219,9 @@ THR_INLINE void add_bundle(thr_normal *normal, int g, const double *w, bool thre
   }
 }
 
-enum { USUAL = 12 /* rows and columns of a face between two beads: loops of that length are unrolled */ };
+enum {
+  USUAL = 12 /* rows and columns of a face between two beads: loops of that length are unrolled */
+};
 
 /* A W A^T, and its diagonal. */
 THR_WIDE static void load(thr_normal *normal, const double *weights)
@@ -216,7 +230,8 @@ THR_WIDE static void load(thr_normal *normal, const double *weights)
   const size_t *to = normal->to;
   memset(normal->value, 0, normal->panel[o->n_blocks] * sizeof *normal->value);
   for (int g = 0; g < normal->a.n_bundles; g++) {
-    const int j = normal->a.column[g], wide = normal->a.column[g + 1] - j, n = normal->a.first[g + 1] - normal->a.first[g];
+    const int j = normal->a.column[g], wide = normal->a.column[g + 1] - j,
+              n = normal->a.first[g + 1] - normal->a.first[g];
     const bool threes = j < 3 * normal->n_threes;
     const double *w = weights + (threes ? 2 * j : j + 3 * normal->n_threes);
     if (threes && wide == USUAL && n == USUAL)
@@ -243,15 +258,20 @@ THR_WIDE static void factor_panel(thr_normal *normal, int block)
   for (int begin = 0; begin < n; begin += STRIP) {
     const int end = begin + STRIP < n ? begin + STRIP : n;
     const size_t left = rows - (size_t)begin;
-    if (begin > 0) thr_dense_product(normal->update, panel + begin, panel + begin, rows, begin, left, end - begin);
+    if (begin > 0)
+      thr_dense_product(normal->update, panel + begin, panel + begin, rows, begin, left,
+                        end - begin);
     for (int j = begin; j < end; j++) {
-      double *column = panel + (size_t)j * rows, pivot, whole = normal->whole[first + j], factor[STRIP];
+      double *column = panel + (size_t)j * rows, pivot, whole = normal->whole[first + j],
+             factor[STRIP];
       const double *brought = normal->update + (size_t)(j - begin) * left;
       for (size_t i = (size_t)j; i < rows && begin > 0; i++)
         column[i] -= brought[i - (size_t)begin];
       for (int k = begin; k < j; k++)
         factor[k - begin] = panel[(size_t)k * rows + (size_t)j];
-      if (j > begin) thr_dense_take(column + j, panel + (size_t)begin * rows + j, rows, factor, j - begin, rows - (size_t)j);
+      if (j > begin)
+        thr_dense_take(column + j, panel + (size_t)begin * rows + j, rows, factor, j - begin,
+                       rows - (size_t)j);
       if (!normal->known) normal->depends[first + j] = !(column[j] > DEPENDS * whole);
       pivot = normal->depends[first + j] ? 0 : sqrt(fmax(column[j], LEAST * whole));
       column[j] = pivot;
@@ -275,7 +295,8 @@ static void enlist(thr_normal *normal, int block)
 THR_WIDE static void bring(thr_normal *normal, int from, int to)
 {
   const thr_factor_order *o = &normal->order;
-  const size_t rows = height(o, from), rows_to = height(o, to), begin = normal->at[from], end = o->end[from + 1];
+  const size_t rows = height(o, from), rows_to = height(o, to), begin = normal->at[from],
+               end = o->end[from + 1];
   const size_t above = (size_t)width(o, from) + (begin - o->end[from]);
   const double *panel = normal->value + normal->panel[from] + above;
   const int *below = o->below + begin;
@@ -291,7 +312,8 @@ THR_WIDE static void bring(thr_normal *normal, int from, int to)
     thr_dense_product(normal->update, panel + c, panel + c, rows, width(o, from), n, strip);
     for (int q = 0; q < strip; q++) {
       const double *brought = normal->update + (size_t)q * n;
-      double *column = normal->value + normal->panel[to] + (size_t)(below[c + (size_t)q] - o->first[to]) * rows_to;
+      double *column = normal->value + normal->panel[to] +
+                       (size_t)(below[c + (size_t)q] - o->first[to]) * rows_to;
       for (size_t i = (size_t)q; i < n; i++)
         column[at[c + i]] -= brought[i];
     }
@@ -342,7 +364,8 @@ THR_WIDE static void solve_down(const thr_normal *normal, double *w)
         for (int i = j + 1; i < end; i++)
           part[i] -= column[i] * part[j];
       }
-      thr_dense_take(part + end, panel + (size_t)begin * rows + end, rows, part + begin, end - begin, rows - (size_t)end);
+      thr_dense_take(part + end, panel + (size_t)begin * rows + end, rows, part + begin,
+                     end - begin, rows - (size_t)end);
     }
     memcpy(own, part, (size_t)n * sizeof *part);
     for (size_t i = 0; i < left; i++)
@@ -365,7 +388,8 @@ THR_WIDE static void solve_up(const thr_normal *normal, double *w)
       part[(size_t)n + i] = w[below[i]];
     for (int end = n; end > 0; end = (end - 1) / STRIP * STRIP) {
       const int begin = (end - 1) / STRIP * STRIP;
-      thr_dense_sums(sum, panel + (size_t)begin * rows + end, rows, part + end, end - begin, rows - (size_t)end);
+      thr_dense_sums(sum, panel + (size_t)begin * rows + end, rows, part + end, end - begin,
+                     rows - (size_t)end);
       for (int j = end - 1; j >= begin; j--) {
         const double *column = panel + (size_t)j * rows;
         double all = part[j] - sum[j - begin];

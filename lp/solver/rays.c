@@ -1,5 +1,7 @@
-/* Cones whose forces are mixtures of rays: columns of a programme that are A = G R, where a cone's rays span three directions
- * only. The programme's unknowns are what each ray is used for; its equations see the three components of their sum.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cones whose forces are mixtures of rays: columns of a programme that are A = G R, where a cone's
+ * rays span three directions only. The programme's unknowns are what each ray is used for; its
+ * equations see the three components of their sum.
  *
  * Example: the rays (1, 1, 0) and (1, -1, 0), used 2 and 3 times, give the force (5, -1, 0). */
 #include "lp/solver/solver.h"
@@ -68,7 +70,8 @@ THR_WIDE void thr_rays_weigh(const thr_rays *r, const double *d, double *w)
   memcpy(w, d, (size_t)r->n_plain * sizeof *w);
 }
 
-/* Every ray's share is added up by itself: what the sum is does not depend on how many are added at a time. */
+/* Every ray's share is added up by itself: what the sum is does not depend on how many are added at
+ * a time. */
 THR_INLINE double power(const thr_rays *r, const double *d, const double *u, int n_rays)
 {
   double share[MOST_RAYS] = {0}, sum = 0;
@@ -92,8 +95,8 @@ THR_WIDE double thr_rays_power(const thr_rays *r, const double *d, const double 
   return r->n_rays == USUAL ? power(r, d, u, USUAL) : power(r, d, u, r->n_rays);
 }
 
-THR_INLINE void move(const thr_rays *r, const double *d, const double *u, double step, double *restrict x, double *restrict z,
-                     double *restrict v, int n_rays)
+THR_INLINE void move(const thr_rays *r, const double *d, const double *u, double step,
+                     double *restrict x, double *restrict z, double *restrict v, int n_rays)
 {
   for (int i = 0; i < r->n_cones; i++, u += 3, v += 3, d += n_rays, x += n_rays, z += n_rays) {
     const double(*ray)[3] = rays_of(r, i), u0 = step * u[0], u1 = step * u[1], u2 = step * u[2];
@@ -116,7 +119,8 @@ THR_INLINE void move(const thr_rays *r, const double *d, const double *u, double
   }
 }
 
-THR_WIDE void thr_rays_move(const thr_rays *r, const double *d, const double *u, double step, double *x, double *z, double *v)
+THR_WIDE void thr_rays_move(const thr_rays *r, const double *d, const double *u, double step,
+                            double *x, double *z, double *v)
 {
   if (r->n_rays == USUAL)
     move(r, d, u, step, x, z, v, USUAL);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the files of lp/solver/ share: dense and sparse factors, exact sums. */
 #ifndef THR_SOLVER_PARTS_H
 #define THR_SOLVER_PARTS_H
@@ -7,20 +8,26 @@
 #include <math.h>
 #include <stddef.h>
 
-/* ---- dense.c: Products of dense columns, which a processor does fastest: what a block of the factors brings to others
- * (lp/solver/normal.c). */
+/* ---- dense.c: Products of dense columns, which a processor does fastest: what a block of the
+ * factors brings to others (lp/solver/normal.c). */
 
 enum { THR_DENSE_MOST = 4 };
 
-/* to[q * n + i] = sum over k of from[k * apart + i] * factor[k * apart + q], i < n, for n_q columns, at most THR_DENSE_MOST. */
-void thr_dense_product(double *to, const double *from, const double *factor, size_t apart, int n_k, size_t n, int n_q);
-/* to[i] -= sum over q of from[q * apart + i] * factor[q], for n_q columns, at most THR_DENSE_MOST. */
-void thr_dense_take(double *to, const double *from, size_t apart, const double *factor, int n_q, size_t n);
+/* to[q * n + i] = sum over k of from[k * apart + i] * factor[k * apart + q], i < n, for n_q
+ * columns, at most THR_DENSE_MOST. */
+void thr_dense_product(double *to, const double *from, const double *factor, size_t apart, int n_k,
+                       size_t n, int n_q);
+/* to[i] -= sum over q of from[q * apart + i] * factor[q], for n_q columns, at most THR_DENSE_MOST.
+ */
+void thr_dense_take(double *to, const double *from, size_t apart, const double *factor, int n_q,
+                    size_t n);
 /* sum[q] = sum over i of from[q * apart + i] * with[i], for n_q columns, at most THR_DENSE_MOST. */
-void thr_dense_sums(double *sum, const double *from, size_t apart, const double *with, int n_q, size_t n);
+void thr_dense_sums(double *sum, const double *from, size_t apart, const double *with, int n_q,
+                    size_t n);
 
-/* ---- factor_order.c: Order and pattern of the factors of A A^T, by blocks: consecutive columns of the factor with the same
- * rows below them (supernodes: J. W. H. Liu, E. G. Ng & B. W. Peyton, SIAM J. Matrix Anal. */
+/* ---- factor_order.c: Order and pattern of the factors of A A^T, by blocks: consecutive columns of
+ * the factor with the same rows below them (supernodes: J. W. H. Liu, E. G. Ng & B. W. Peyton, SIAM
+ * J. Matrix Anal. */
 
 typedef struct {
   int n_rows, n_blocks;
@@ -32,7 +39,8 @@ typedef struct {
 } thr_factor_order;
 
 /* O(sum of squares of the factor's columns, by groups of rows). */
-thr_status thr_factor_order_make(thr_factor_order *order, const thr_columns *a, thr_err *err) THR_MUST_CHECK;
+thr_status thr_factor_order_make(thr_factor_order *order, const thr_columns *a,
+                                 thr_err *err) THR_MUST_CHECK;
 void thr_factor_order_destroy(thr_factor_order *order);
 
 /* ---- What the interior point methods add up. */

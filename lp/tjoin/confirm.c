@@ -1,5 +1,7 @@
-/* The linear programmes on the cuts of finished T-joins, solved by GLPK from the joins. Its exact method computes with GMP, which
- * ends the program when memory runs out, and takes no heed of time within a pivot: all are solved in one child process. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The linear programmes on the cuts of finished T-joins, solved by GLPK from the joins. Its exact
+ * method computes with GMP, which ends the program when memory runs out, and takes no heed of time
+ * within a pivot: all are solved in one child process. */
 #include "graph/process/process.h"
 #include "graph/text.h"
 #include "lp/solver/lp.h"
@@ -30,7 +32,8 @@ void thr_confirmations_destroy(thr_confirmations *confirmations)
   confirmations->n_jobs = confirmations->capacity = 0;
 }
 
-thr_status thr_confirmations_add(thr_confirmations *confirmations, const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin,
+thr_status thr_confirmations_add(thr_confirmations *confirmations,
+                                 const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin,
                                  thr_err *err)
 {
   if (!confirmations) return THR_OK;
@@ -38,15 +41,19 @@ thr_status thr_confirmations_add(thr_confirmations *confirmations, const thr_tjo
     confirmations->confirmed++;
     return THR_OK;
   }
-  if (tjoin->n_cuts == 0 || (!confirmations->always && tjoin_problem->n_edges > THR_CONFIRM_EDGES)) {
+  if (tjoin->n_cuts == 0 ||
+      (!confirmations->always && tjoin_problem->n_edges > THR_CONFIRM_EDGES)) {
     confirmations->skipped++;
     return THR_OK;
   }
-  thr_status st = thr_grow(&confirmations->job, confirmations->n_jobs, &confirmations->capacity, sizeof *confirmations->job, err);
+  thr_status st = thr_grow(&confirmations->job, confirmations->n_jobs, &confirmations->capacity,
+                           sizeof *confirmations->job, err);
   if (st) return st;
   thr_confirm_job confirm_job = {.n_edges = tjoin_problem->n_edges, .length = tjoin->length};
   confirm_job.weight = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *confirm_job.weight);
-  st = confirm_job.weight ? thr_cut_programme_init(&confirm_job.programme, tjoin_problem, tjoin, err) : thr_nomem(err);
+  st = confirm_job.weight
+           ? thr_cut_programme_init(&confirm_job.programme, tjoin_problem, tjoin, err)
+           : thr_nomem(err);
   if (st) {
     free(confirm_job.weight);
     return st;
@@ -59,12 +66,13 @@ thr_status thr_confirmations_add(thr_confirmations *confirmations, const thr_tjo
 
 /* ---- in the child ---- */
 
-static thr_status solve_on_cuts(const thr_confirm_job *confirm_job, const thr_limits *limits, thr_lp_outcome *outcome,
-                                double *value, thr_err *err)
+static thr_status solve_on_cuts(const thr_confirm_job *confirm_job, const thr_limits *limits,
+                                thr_lp_outcome *outcome, double *value, thr_err *err)
 {
   const thr_cut_programme *cut_programme = &confirm_job->programme;
   double *cost = thr_calloc((size_t)cut_programme->n_columns, sizeof *cost), sum = 0;
-  bool *slack = thr_calloc((size_t)cut_programme->n_rows, sizeof *slack); /* none: they are columns */
+  bool *slack =
+      thr_calloc((size_t)cut_programme->n_rows, sizeof *slack); /* none: they are columns */
   thr_lp *lp = NULL;
   *outcome = THR_LP_STOPPED;
   thr_status st = cost && slack ? THR_OK : thr_nomem(err);
@@ -73,8 +81,9 @@ static thr_status solve_on_cuts(const thr_confirm_job *confirm_job, const thr_li
   for (int e = 0; e < confirm_job->n_edges && !st; e++)
     cost[e] = confirm_job->weight[e] * confirm_job->n_edges / sum; /* about 1 */
   if (!st)
-    st = thr_lp_create_equations(&lp, cut_programme->n_rows, cut_programme->rhs, cut_programme->n_columns, cost, NULL,
-                                 cut_programme->start, cut_programme->row, cut_programme->value, err);
+    st = thr_lp_create_equations(&lp, cut_programme->n_rows, cut_programme->rhs,
+                                 cut_programme->n_columns, cost, NULL, cut_programme->start,
+                                 cut_programme->row, cut_programme->value, err);
   if (!st) st = thr_lp_set_basis(lp, slack, cut_programme->basic, err);
   if (!st) st = thr_lp_solve(lp, limits, outcome, err);
   if (!st) memcpy(cost, confirm_job->weight, (size_t)confirm_job->n_edges * sizeof *cost);
@@ -92,22 +101,26 @@ typedef struct {
   bool refuted; /* the next one */
 } verdicts;
 
-static thr_status confirm(const thr_confirm_job *confirm_job, const thr_limits *limits, verdicts *v, thr_err *err)
+static thr_status confirm(const thr_confirm_job *confirm_job, const thr_limits *limits, verdicts *v,
+                          thr_err *err)
 {
   thr_lp_outcome outcome;
   thr_err failure = {0};
   double value = 0;
   thr_status st = solve_on_cuts(confirm_job, limits, &outcome, &value, &failure);
   if (st == THR_ENOMEM) return thr_nomem(err);
-  if (st || outcome == THR_LP_STOPPED || outcome == THR_LP_UNDECIDED) { /* a library's failure says nothing about the join */
+  if (st || outcome == THR_LP_STOPPED ||
+      outcome == THR_LP_UNDECIDED) { /* a library's failure says nothing about the join */
     v->skipped++;
     return THR_OK;
   }
-  v->refuted = outcome != THR_LP_OPTIMAL || value > (double)confirm_job->length || value <= (double)confirm_job->length - 1;
+  v->refuted = outcome != THR_LP_OPTIMAL || value > (double)confirm_job->length ||
+               value <= (double)confirm_job->length - 1;
   if (v->refuted)
     return thr_fail(err, THR_ESOLVER,
-                    "GLPK's exact method finds %.17g on the cuts of a join that weighs %.17g; please report this", value,
-                    (double)confirm_job->length);
+                    "GLPK's exact method finds %.17g on the cuts of a join that weighs %.17g; "
+                    "please report this",
+                    value, (double)confirm_job->length);
   v->confirmed++;
   return THR_OK;
 }
@@ -135,14 +148,17 @@ static thr_status confirm_all(void *user, const thr_limits *limits, thr_sender *
 
 /* ---- in the parent ---- */
 
-thr_status thr_confirmations_run(thr_confirmations *confirmations, const thr_limits *limits, thr_err *err)
+thr_status thr_confirmations_run(thr_confirmations *confirmations, const thr_limits *limits,
+                                 thr_err *err)
 {
   if (!confirmations || confirmations->n_jobs == 0) return THR_OK;
-  const thr_child child = {.what = "GLPK's exact method", .run = confirm_all, .user = confirmations};
+  const thr_child child = {
+      .what = "GLPK's exact method", .run = confirm_all, .user = confirmations};
   thr_text answer = {0};
   thr_err failure = {0};
   verdicts v = {0};
-  thr_status st = thr_limits_stop(limits) ? THR_ELIMIT : thr_child_run(&child, limits, &answer, &failure);
+  thr_status st =
+      thr_limits_stop(limits) ? THR_ELIMIT : thr_child_run(&child, limits, &answer, &failure);
   if (answer.length == sizeof v) memcpy(&v, answer.data, sizeof v);
   thr_text_destroy(&answer);
   confirmations->confirmed += v.confirmed;
@@ -152,8 +168,8 @@ thr_status thr_confirmations_run(thr_confirmations *confirmations, const thr_lim
   return THR_OK; /* a child that died or was stopped has confirmed what it had confirmed */
 }
 
-thr_status thr_tjoin_confirm(const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin, const thr_limits *limits,
-                             thr_confirmation *out, thr_err *err)
+thr_status thr_tjoin_confirm(const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin,
+                             const thr_limits *limits, thr_confirmation *out, thr_err *err)
 {
   thr_confirmations confirmations = {.always = true};
   *out = THR_CONFIRM_SKIPPED;

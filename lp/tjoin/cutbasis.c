@@ -1,14 +1,16 @@
-/* The cuts of a T-join as a linear programme, and a basis of it from the join, so that GLPK needs few pivots to confirm the
- * optimum. Internal to lp/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cuts of a T-join as a linear programme, and a basis of it from the join, so that GLPK needs
+ * few pivots to confirm the optimum. Internal to lp/.
  *
  * Minimize the sum of w(e) x(e) with x(edges that leave S) >= 1 for every set S among the cuts.
  *
- * Example: one odd set S with two edges of weight 2 and 3 leaving it: the row x1 + x2 >= 1, basic x1 = 1.
+ * Example: one odd set S with two edges of weight 2 and 3 leaving it: the row x1 + x2 >= 1, basic
+ * x1 = 1.
  *
  * Writes the programme of a T-join's cuts, and chooses a basis from the join.
  *
- * A cut's equation is its own less those of the cuts right inside of it: an edge that leaves a set and the sets within it at one
- * node then stands in the equation of the innermost set only. */
+ * A cut's equation is its own less those of the cuts right inside of it: an edge that leaves a set
+ * and the sets within it at one node then stands in the equation of the innermost set only. */
 #include "lp/tjoin/tjoin.h"
 #include "graph/scratch.h"
 
@@ -19,9 +21,10 @@
 typedef struct {
   const thr_tjoin_problem *p;
   const thr_tjoin *t;
-  int *tree;          /* [n_cuts] the outermost cut round it, or itself */
-  int *first, *holds; /* cuts that name node v: holds[first[v] .. first[v + 1] - 1], in one tree each */
-  thr_scratch own;    /* the arrays */
+  int *tree; /* [n_cuts] the outermost cut round it, or itself */
+  int *first,
+      *holds; /* cuts that name node v: holds[first[v] .. first[v + 1] - 1], in one tree each */
+  thr_scratch own; /* the arrays */
 } places;
 
 static void places_destroy(places *s)
@@ -29,7 +32,8 @@ static void places_destroy(places *s)
   thr_scratch_free(&s->own);
 }
 
-static thr_status places_init(places *s, const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin, thr_err *err)
+static thr_status places_init(places *s, const thr_tjoin_problem *tjoin_problem,
+                              const thr_tjoin *tjoin, thr_err *err)
 {
   size_t n = (size_t)tjoin_problem->n_nodes, named = 0;
   *s = (places){.p = tjoin_problem, .t = tjoin};
@@ -60,8 +64,8 @@ static int place_in(const places *s, int v, int tree)
   return -1;
 }
 
-/* Of the k-th tree that names an end of edge e: the cuts that do so, -1 for an end that it does not name; a tree that came
- * before: -1 for both. False: there are not so many. */
+/* Of the k-th tree that names an end of edge e: the cuts that do so, -1 for an end that it does not
+ * name; a tree that came before: -1 for both. False: there are not so many. */
 static bool ends_in_tree(const places *s, int e, int k, int at[2])
 {
   int u = s->p->edge[e][0], v = s->p->edge[e][1], of_u = s->first[u + 1] - s->first[u];
@@ -73,7 +77,8 @@ static bool ends_in_tree(const places *s, int e, int k, int at[2])
   return true;
 }
 
-/* One step on the way between the cuts at[0] and at[1] (-1: outside), out of the inner one, which it returns. */
+/* One step on the way between the cuts at[0] and at[1] (-1: outside), out of the inner one, which
+ * it returns. */
 static int step_out(const thr_cut *cut, int at[2])
 {
   bool second = at[0] < 0 || (at[1] >= 0 && at[1] < at[0]); /* parents come later */
@@ -90,7 +95,8 @@ static void add_entry(thr_cut_programme *cut_programme, int *n, int row, double 
   cut_programme->value[(*n)++] = value;
 }
 
-/* An edge stands in the equations of the innermost cuts that it leaves, at either end, and of the one that holds all of them. */
+/* An edge stands in the equations of the innermost cuts that it leaves, at either end, and of the
+ * one that holds all of them. */
 static void add_edge(thr_cut_programme *cut_programme, const places *s, int e, int *n)
 {
   int at[2];
@@ -116,10 +122,12 @@ static thr_status columns_init(thr_cut_programme *cut_programme, const places *s
     for (int i = 0; i < 2; i++)
       most += 3 * (size_t)(s->first[s->p->edge[e][i] + 1] - s->first[s->p->edge[e][i]]);
   cut_programme->rhs = thr_calloc((size_t)cut_programme->n_rows, sizeof *cut_programme->rhs);
-  cut_programme->start = thr_calloc((size_t)cut_programme->n_columns + 1, sizeof *cut_programme->start);
+  cut_programme->start =
+      thr_calloc((size_t)cut_programme->n_columns + 1, sizeof *cut_programme->start);
   cut_programme->row = thr_calloc(most, sizeof *cut_programme->row);
   cut_programme->value = thr_calloc(most, sizeof *cut_programme->value);
-  if (!cut_programme->rhs || !cut_programme->start || !cut_programme->row || !cut_programme->value) return thr_nomem(err);
+  if (!cut_programme->rhs || !cut_programme->start || !cut_programme->row || !cut_programme->value)
+    return thr_nomem(err);
   for (int e = 0; e < s->p->n_edges; e++) {
     add_edge(cut_programme, s, e, &n);
     cut_programme->start[e + 1] = n;
@@ -138,13 +146,15 @@ static thr_status columns_init(thr_cut_programme *cut_programme, const places *s
 
 /* ---- the basis ---- */
 
-/* Marks as basic every edge of the join that leaves a cut which no other edge of the join leaves, one edge for such a cut, and
- * the slacks of all other cuts. Such a matrix is not singular: in the rows of the basic edges there is no other basic column. */
+/* Marks as basic every edge of the join that leaves a cut which no other edge of the join leaves,
+ * one edge for such a cut, and the slacks of all other cuts. Such a matrix is not singular: in the
+ * rows of the basic edges there is no other basic column. */
 static thr_status choose_basis(const places *s, bool *edge, bool *slack, thr_err *err)
 {
   thr_scratch own = {0};
   size_t n = (size_t)s->t->n_cuts;
-  int *joined = thr_scratch_array(&own, n, sizeof *joined), *by = thr_scratch_array(&own, n, sizeof *by), at[2];
+  int *joined = thr_scratch_array(&own, n, sizeof *joined),
+      *by = thr_scratch_array(&own, n, sizeof *by), at[2];
   thr_status st = thr_scratch_check(&own, err);
   for (int e = 0; e < s->p->n_edges && !st; e++)
     for (int k = 0; s->t->in_join[e] && ends_in_tree(s, e, k, at); k++)
@@ -171,16 +181,19 @@ void thr_cut_programme_destroy(thr_cut_programme *cut_programme)
   *cut_programme = (thr_cut_programme){0};
 }
 
-thr_status thr_cut_programme_init(thr_cut_programme *cut_programme, const thr_tjoin_problem *tjoin_problem,
-                                  const thr_tjoin *tjoin, thr_err *err)
+thr_status thr_cut_programme_init(thr_cut_programme *cut_programme,
+                                  const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin,
+                                  thr_err *err)
 {
   places s;
-  *cut_programme = (thr_cut_programme){.n_rows = tjoin->n_cuts, .n_columns = tjoin_problem->n_edges + tjoin->n_cuts};
+  *cut_programme = (thr_cut_programme){.n_rows = tjoin->n_cuts,
+                                       .n_columns = tjoin_problem->n_edges + tjoin->n_cuts};
   cut_programme->basic = thr_calloc((size_t)cut_programme->n_columns, sizeof *cut_programme->basic);
   thr_status st = places_init(&s, tjoin_problem, tjoin, err);
   if (!st && !cut_programme->basic) st = thr_nomem(err);
   if (!st) st = columns_init(cut_programme, &s, err);
-  if (!st) st = choose_basis(&s, cut_programme->basic, cut_programme->basic + tjoin_problem->n_edges, err);
+  if (!st)
+    st = choose_basis(&s, cut_programme->basic, cut_programme->basic + tjoin_problem->n_edges, err);
   places_destroy(&s);
   if (st) thr_cut_programme_destroy(cut_programme);
   return st;

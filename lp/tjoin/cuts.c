@@ -1,9 +1,13 @@
-/* Forests of cuts (graph/plan/plan.h, thr_cut): nesting sets in each other, and changing the side of a cut. Internal to lp/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Forests of cuts (graph/plan/plan.h, thr_cut): nesting sets in each other, and changing the side
+ * of a cut. Internal to lp/.
  *
- * Each cut lists only the nodes that no set inside it has; the whole set is the list with those of all sets inside. A set and
- * its complement have the same cut, so any set may be replaced by the nodes outside of it.
+ * Each cut lists only the nodes that no set inside it has; the whole set is the list with those of
+ * all sets inside. A set and its complement have the same cut, so any set may be replaced by the
+ * nodes outside of it.
  *
- * Example: {0, 1, 2} round {0} is kept as the cut {0} and, outside it, the cut with the list 1, 2. */
+ * Example: {0, 1, 2} round {0} is kept as the cut {0} and, outside it, the cut with the list 1, 2.
+ */
 #include "lp/tjoin/tjoin.h"
 #include "graph/scratch.h"
 #include "graph/sort.h"
@@ -74,10 +78,11 @@ static int smaller_first(const void *pa, const void *pb)
 
 /* Trees are those given. Arrays of n cuts but for outer. */
 typedef struct {
-  int *root, *first, *next; /* of a cut; at a root, the first cut of its tree; the next one of the same tree, or -1 */
+  int *root, *first, *next; /* of a cut; at a root, the first cut of its tree; the next one of the
+                               same tree, or -1 */
   int *total;               /* at a root, nodes of the tree */
   int *met, *met_by;        /* at a root, own nodes of the cut met_by that are in its tree */
-  int *outer;               /* [n_nodes] root of the last tree that was looked at and holds the node, -1 = none */
+  int *outer; /* [n_nodes] root of the last tree that was looked at and holds the node, -1 = none */
   tree *by_size;
   thr_scratch own; /* the arrays */
 } nesting;
@@ -116,7 +121,8 @@ static thr_status nesting_init(nesting *s, const thr_cuts *cuts, thr_err *err)
   return st;
 }
 
-/* Trees all of whose nodes are own nodes of this cut, and in no tree looked at later, become its children. */
+/* Trees all of whose nodes are own nodes of this cut, and in no tree looked at later, become its
+ * children. */
 static void adopt(thr_cuts *cuts, nesting *s, int to)
 {
   thr_cut *cut = &cuts->cut[to];
@@ -157,7 +163,8 @@ thr_status thr_cuts_nest(thr_cuts *cuts, thr_err *err)
 /* ---- the other side ---- */
 
 /* Marks all nodes of the tree as member; list of its cuts by next, as in nesting. */
-static void mark_tree(const thr_cuts *cuts, const nesting *s, int root, bool member, bool *is_member)
+static void mark_tree(const thr_cuts *cuts, const nesting *s, int root, bool member,
+                      bool *is_member)
 {
   for (int i = s->first[root]; i >= 0; i = s->next[i])
     for (int j = 0; j < cuts->cut[i].n_nodes; j++)
@@ -165,7 +172,8 @@ static void mark_tree(const thr_cuts *cuts, const nesting *s, int root, bool mem
 }
 
 /* The nodes outside of the tree. */
-static thr_status outside(const thr_cuts *cuts, const nesting *s, int root, bool *is_member, thr_cut *out, thr_err *err)
+static thr_status outside(const thr_cuts *cuts, const nesting *s, int root, bool *is_member,
+                          thr_cut *out, thr_err *err)
 {
   out->node = thr_calloc((size_t)(cuts->n_nodes - s->total[root]), sizeof *out->node);
   if (!out->node) return thr_nomem(err);
@@ -217,13 +225,14 @@ static thr_status chains_init(chains *h, const thr_cuts *cuts, const nesting *s,
   return THR_OK;
 }
 
-/* They become B1 .. Bk, where Bi is all but Ai: Bk in .. in B1. What is in A(i+1) but not in Ai, own nodes and children, is in Bi
- * but not in B(i+1); what is in A1 is in none. */
+/* They become B1 .. Bk, where Bi is all but Ai: Bk in .. in B1. What is in A(i+1) but not in Ai,
+ * own nodes and children, is in Bi but not in B(i+1); what is in A1 is in none. */
 static void turn_chains(thr_cuts *cuts, chains *h)
 {
   for (int i = 0; i < cuts->n; i++) {
     thr_cut *cut = &cuts->cut[i];
-    if (!h->holds[i] && cut->parent >= 0 && h->holds[cut->parent]) cut->parent = h->inner[cut->parent];
+    if (!h->holds[i] && cut->parent >= 0 && h->holds[cut->parent])
+      cut->parent = h->inner[cut->parent];
   }
   for (int lowest = 0; lowest < cuts->n; lowest++) {
     if (!h->holds[lowest] || h->inner[lowest] >= 0) continue;
@@ -253,14 +262,17 @@ thr_status thr_cuts_avoid_last(thr_cuts *cuts, thr_err *err)
 
 /* ---- fewer cuts ---- */
 
-/* Appends the nodes of the dropped cuts to to[i], the next cut round i that stays. more[n] is all 0. */
-static thr_status pass_nodes_on(thr_cuts *cuts, const bool *drop, const int *to, int *more, thr_err *err)
+/* Appends the nodes of the dropped cuts to to[i], the next cut round i that stays. more[n] is all
+ * 0. */
+static thr_status pass_nodes_on(thr_cuts *cuts, const bool *drop, const int *to, int *more,
+                                thr_err *err)
 {
   for (int i = 0; i < cuts->n; i++)
     if (drop[i] && to[i] >= 0) more[to[i]] += cuts->cut[i].n_nodes;
   for (int i = 0; i < cuts->n; i++) {
     if (more[i] == 0) continue;
-    int *node = thr_realloc(cuts->cut[i].node, (size_t)cuts->cut[i].n_nodes + (size_t)more[i], sizeof *node);
+    int *node = thr_realloc(cuts->cut[i].node, (size_t)cuts->cut[i].n_nodes + (size_t)more[i],
+                            sizeof *node);
     if (!node) return thr_nomem(err);
     cuts->cut[i].node = node;
   }

@@ -1,12 +1,14 @@
-/* Minimum T-join that may leave a limited number of odd nodes to cord ends: where the ends of several cords go.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Minimum T-join that may leave a limited number of odd nodes to cord ends: where the ends of
+ * several cords go.
  *
- * Let w(q) be the least weight of joins if every end costs q more. The number of ends falls as q rises, and the least weight
- * with exactly n ends is the maximum over q of w(q) - n q: a concave function, so q is found by bisection (Lagrange; the
- * differences of joins are circuits that change the number by two, so the maximum has no gap). The ends are edges to a hub, one
- * more node.
+ * Let w(q) be the least weight of joins if every end costs q more. The number of ends falls as q
+ * rises, and the least weight with exactly n ends is the maximum over q of w(q) - n q: a concave
+ * function, so q is found by bisection (Lagrange; the differences of joins are circuits that change
+ * the number by two, so the maximum has no gap). The ends are edges to a hub, one more node.
  *
- * Example: a star with four leaves, all odd, ends allowed at the leaves. Four ends need no further pass; with two ends the two
- * shortest edges are passed twice. */
+ * Example: a star with four leaves, all odd, ends allowed at the leaves. Four ends need no further
+ * pass; with two ends the two shortest edges are passed twice. */
 #include "lp/tjoin/tjoin.h"
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
@@ -16,7 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A join at a price. Weights are doubled, so that the price at which two ends more pay is an integer. */
+/* A join at a price. Weights are doubled, so that the price at which two ends more pay is an
+ * integer. */
 typedef struct {
   int64_t price, weight; /* of the join without its hub edges */
   int n_ends;
@@ -27,9 +30,10 @@ typedef struct {
 typedef struct {
   const thr_endjoin_problem *p;
   const thr_limits *limits;
-  thr_scratch own;   /* the arrays */
-  int hub, n_edges;  /* edges of the graph, then one to the hub from every node where ends are allowed */
-  int n_pieces;      /* of the graph without the hub */
+  thr_scratch own; /* the arrays */
+  int hub,
+      n_edges;  /* edges of the graph, then one to the hub from every node where ends are allowed */
+  int n_pieces; /* of the graph without the hub */
   int *end_of_piece; /* [n_pieces] one of its edges to the hub */
   int (*edge)[2];
   int64_t *weight;
@@ -105,17 +109,19 @@ static thr_status solve_at(search *s, int64_t price, point *at, thr_err *err)
   *at = (point){.price = price};
   for (int e = s->p->graph.n_edges; e < s->n_edges; e++)
     s->weight[e] = price;
-  thr_tjoin_problem tjoin_problem = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
+  thr_tjoin_problem tjoin_problem = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge,
+                                     s->weight,  s->odd,     0};
   thr_status st = thr_tjoin_minimum(&tjoin_problem, s->p->engine, s->limits, &at->t, err);
   if (!st || st == THR_ELIMIT) weigh(s, at);
   return st;
 }
 
-/* A join with the fewest ends: as if a cord could end in every component of the graph at its first node for it only. Of a
- * connected graph it is the lightest closed one. */
+/* A join with the fewest ends: as if a cord could end in every component of the graph at its first
+ * node for it only. Of a connected graph it is the lightest closed one. */
 static thr_status solve_fewest(search *s, point *at, thr_err *err)
 {
-  int m = s->p->graph.n_edges, n_pieces = s->n_pieces, (*edge)[2] = thr_calloc((size_t)m + (size_t)n_pieces, sizeof *edge);
+  int m = s->p->graph.n_edges, n_pieces = s->n_pieces,
+      (*edge)[2] = thr_calloc((size_t)m + (size_t)n_pieces, sizeof *edge);
   int64_t *weight = thr_calloc((size_t)m + (size_t)n_pieces, sizeof *weight);
   *at = (point){.price = 2 * s->p->far, .no_hub = true};
   thr_status st = edge && weight ? THR_OK : thr_nomem(err), limit = THR_OK;
@@ -124,7 +130,8 @@ static thr_status solve_fewest(search *s, point *at, thr_err *err)
     memcpy(weight, s->weight, (size_t)m * sizeof *weight);
     for (int i = 0; i < n_pieces; i++)
       memcpy(edge[m + i], s->edge[s->end_of_piece[i]], sizeof *edge);
-    thr_tjoin_problem tjoin_problem = {s->hub + 1, m + n_pieces, (const int(*)[2])edge, weight, s->odd, 0};
+    thr_tjoin_problem tjoin_problem = {s->hub + 1, m + n_pieces, (const int(*)[2])edge,
+                                       weight,     s->odd,       0};
     limit = thr_tjoin_minimum(&tjoin_problem, s->p->engine, s->limits, &at->t, err);
     if (limit && limit != THR_ELIMIT) st = limit;
   }
@@ -157,8 +164,9 @@ static bool optimal_at(const point *at, const point *other)
   return at->weight + other->price * at->n_ends == other->weight + other->price * other->n_ends;
 }
 
-/* The price to try next: the slope between the two points, where a convex function has a corner if there is one. As long as there
- * are many ends too many, and matching them over the hub is slow: where the number would be right if its logarithm fell evenly.
+/* The price to try next: the slope between the two points, where a convex function has a corner if
+ * there is one. As long as there are many ends too many, and matching them over the hub is slow:
+ * where the number would be right if its logarithm fell evenly.
  */
 static int64_t next_price(const search *s, int round)
 {
@@ -174,8 +182,9 @@ static int64_t next_price(const search *s, int round)
   return price >= few->price ? few->price - 1 : price <= many->price ? many->price + 1 : price;
 }
 
-/* Raises the price of too many ends and lowers that of few until they are 1 apart, or equal, or few has as many as allowed; each
- * keeps being optimal at its price. *same: the point whose cuts prove the number allowed, if one does. */
+/* Raises the price of too many ends and lowers that of few until they are 1 apart, or equal, or few
+ * has as many as allowed; each keeps being optimal at its price. *same: the point whose cuts prove
+ * the number allowed, if one does. */
 static thr_status close_in(search *s, const point **same, thr_err *err)
 {
   point *few = &s->few, *many = &s->many;
@@ -203,12 +212,14 @@ static thr_status close_in(search *s, const point **same, thr_err *err)
 
 /* The edges that only one of the two joins has: an even number at every node. */
 typedef struct {
-  int *first, *incident, *next; /* those at v: incident[first[v] .. first[v + 1] - 1]; the next one to look at */
-  bool *used;                   /* [n_edges] also those that both or none have */
+  int *first, *incident,
+      *next;  /* those at v: incident[first[v] .. first[v + 1] - 1]; the next one to look at */
+  bool *used; /* [n_edges] also those that both or none have */
   int n_trails, n_steps;
-  int *start, *step; /* trail i, from the hub back to it: edges step[start[i] .. start[i + 1] - 1] */
-  int64_t *change;   /* [n_trails] of the weight, if few takes over the trail */
-  thr_scratch own;   /* the arrays */
+  int *start,
+      *step;       /* trail i, from the hub back to it: edges step[start[i] .. start[i + 1] - 1] */
+  int64_t *change; /* [n_trails] of the weight, if few takes over the trail */
+  thr_scratch own; /* the arrays */
 } difference;
 
 static void difference_destroy(difference *d)
@@ -276,8 +287,9 @@ static void find_trails(difference *d, const search *s)
   }
 }
 
-/* few takes over as many trails as it may, those first that save most: as both joins are optimal at prices at most 1 apart, a
- * trail saves the one price twice or the other. *last: whether one of the others was needed, too. */
+/* few takes over as many trails as it may, those first that save most: as both joins are optimal at
+ * prices at most 1 apart, a trail saves the one price twice or the other. *last: whether one of the
+ * others was needed, too. */
 static thr_status take_over(search *s, bool *last, thr_err *err)
 {
   difference d;
@@ -300,7 +312,8 @@ static thr_status take_over(search *s, bool *last, thr_err *err)
 /* ---- the result ---- */
 
 /* Sets of the graph alone, and the price that they ask for. */
-static thr_status finish(const thr_endjoin_problem *endjoin_problem, thr_cuts *cuts, thr_endjoin *out, thr_err *err)
+static thr_status finish(const thr_endjoin_problem *endjoin_problem, thr_cuts *cuts,
+                         thr_endjoin *out, thr_err *err)
 {
   int64_t *held = thr_calloc((size_t)cuts->n_nodes, sizeof *held);
   thr_status st = held ? thr_cuts_avoid_last(cuts, err) : thr_nomem(err);
@@ -315,8 +328,8 @@ static thr_status finish(const thr_endjoin_problem *endjoin_problem, thr_cuts *c
 }
 
 /* Moves the cuts of tjoin into out, which holds the join already. */
-static thr_status take_cuts(const thr_endjoin_problem *endjoin_problem, int n_nodes, thr_tjoin *tjoin, thr_endjoin *out,
-                            thr_err *err)
+static thr_status take_cuts(const thr_endjoin_problem *endjoin_problem, int n_nodes,
+                            thr_tjoin *tjoin, thr_endjoin *out, thr_err *err)
 {
   thr_cuts cuts = {tjoin->n_cuts, n_nodes, tjoin->cut};
   tjoin->cut = NULL;
@@ -333,7 +346,8 @@ static thr_status confirm(search *s, const point *at, thr_err *err)
 {
   for (int e = s->p->graph.n_edges; e < s->n_edges; e++)
     s->weight[e] = at->price;
-  thr_tjoin_problem tjoin_problem = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge, s->weight, s->odd, 0};
+  thr_tjoin_problem tjoin_problem = {s->hub + 1, s->n_edges, (const int(*)[2])s->edge,
+                                     s->weight,  s->odd,     0};
   return at->no_hub ? THR_OK : thr_confirmations_add(s->p->count, &tjoin_problem, &at->t, err);
 }
 
@@ -356,7 +370,8 @@ static thr_status take_best(search *s, thr_endjoin *out, thr_err *err)
   return take(s, &s->few, better ? &s->few : &s->many, out, err);
 }
 
-/* The lightest join without ends is optimal at the price that its cuts ask: the values of the sets round a node. */
+/* The lightest join without ends is optimal at the price that its cuts ask: the values of the sets
+ * round a node. */
 static thr_status lower_closed_price(search *s, thr_err *err)
 {
   int64_t *held = thr_calloc((size_t)s->hub + 1, sizeof *held), most = 0;
@@ -365,7 +380,8 @@ static thr_status lower_closed_price(search *s, thr_err *err)
   for (int v = 0; v < s->hub && !st; v++)
     if (s->p->end_allowed[v] && held[v] > most) most = held[v];
   free(held);
-  if (!st && most / THR_DUAL_DENOMINATOR + 1 < s->few.price) s->few.price = most / THR_DUAL_DENOMINATOR + 1;
+  if (!st && most / THR_DUAL_DENOMINATOR + 1 < s->few.price)
+    s->few.price = most / THR_DUAL_DENOMINATOR + 1;
   return st;
 }
 
@@ -410,9 +426,10 @@ static thr_status run(search *s, thr_endjoin *out, thr_err *err)
 
 /* ---- two ends ---- */
 
-/* The cuts of a join with two leaves a and b, the last nodes, as cuts with a hub, both being the same. The leaves are alike, so
- * every set with only one of them can be had once with each, at half the value; and then {a} and {b} alone at these values load
- * no edge more. These two need not be kept: as cuts with a price they say nothing. */
+/* The cuts of a join with two leaves a and b, the last nodes, as cuts with a hub, both being the
+ * same. The leaves are alike, so every set with only one of them can be had once with each, at half
+ * the value; and then {a} and {b} alone at these values load no edge more. These two need not be
+ * kept: as cuts with a price they say nothing. */
 static thr_status join_leaves(thr_cuts *cuts, thr_err *err)
 {
   const int a = cuts->n_nodes - 2, b = a + 1;
@@ -438,7 +455,8 @@ static thr_status join_leaves(thr_cuts *cuts, thr_err *err)
   return st;
 }
 
-/* s has the graph and its hub edges: a copy of these for the other leaf, and one between the two. */
+/* s has the graph and its hub edges: a copy of these for the other leaf, and one between the two.
+ */
 static thr_status solve_two(search *s, thr_endjoin *out, thr_err *err)
 {
   const thr_tjoin_problem *tjoin_problem = &s->p->graph;
@@ -483,7 +501,8 @@ static thr_status solve_two(search *s, thr_endjoin *out, thr_err *err)
   return st ? st : limit;
 }
 
-thr_status thr_endjoin_solve(const thr_endjoin_problem *endjoin_problem, const thr_limits *limits, thr_endjoin *out, thr_err *err)
+thr_status thr_endjoin_solve(const thr_endjoin_problem *endjoin_problem, const thr_limits *limits,
+                             thr_endjoin *out, thr_err *err)
 {
   thr_limits quiet = *limits; /* bounds at a price are none on the join */
   quiet.progress = NULL;

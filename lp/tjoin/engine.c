@@ -1,12 +1,14 @@
-/* Solves minimum T-join problems by one of two engines, and asks GLPK whether the result is the minimum.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Solves minimum T-join problems by one of two engines, and asks GLPK whether the result is the
+ * minimum.
  *
- * Matching (lp/matching/moat.c) is the engine, unless the user asks for the linear programme (lp/tjoin/tjoin.h) or the weights
- * are too large for whole numbers of 64 bits. */
+ * Matching (lp/matching/moat.c) is the engine, unless the user asks for the linear programme
+ * (lp/tjoin/tjoin.h) or the weights are too large for whole numbers of 64 bits. */
 #include "lp/tjoin/tjoin.h"
 #include "lp/matching/blossom.h"
 
-thr_status thr_tjoin_minimum(const thr_tjoin_problem *tjoin_problem, thr_engine engine, const thr_limits *limits, thr_tjoin *out,
-                             thr_err *err)
+thr_status thr_tjoin_minimum(const thr_tjoin_problem *tjoin_problem, thr_engine engine,
+                             const thr_limits *limits, thr_tjoin *out, thr_err *err)
 {
   *out = (thr_tjoin){0};
 

@@ -1,13 +1,16 @@
-/* Finding odd sets that a fractional point violates: sets S of nodes, an odd number of them odd, with x(edges that leave S) < 1.
- * Heuristically by moats (a ball round every odd component of the support), exactly by a Gomory-Hu tree (Padberg & Rao,
- * Mathematics of Operations Research 7, 1982): of a tree of minimum cuts the lightest edge with an odd number of odd nodes on
- * its sides. Every set becomes a row of a pool, its members those of the row:
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finding odd sets that a fractional point violates: sets S of nodes, an odd number of them odd,
+ * with x(edges that leave S) < 1. Heuristically by moats (a ball round every odd component of the
+ * support), exactly by a Gomory-Hu tree (Padberg & Rao, Mathematics of Operations Research 7,
+ * 1982): of a tree of minimum cuts the lightest edge with an odd number of odd nodes on its sides.
+ * Every set becomes a row of a pool, its members those of the row:
  *
- *   thr_oddcuts odd = {.graph = &graph, .x = x, .reduced_cost = cost, .threshold = {1e-6, 0.5}, .pool = &pool};
- *   thr_search_use(&search, thr_oddcuts_moats, &odd, 0);
- *   thr_search_use(&search, thr_oddcuts_exact, &odd, THR_FALLBACK);
+ *   thr_oddcuts odd = {.graph = &graph, .x = x, .reduced_cost = cost, .threshold = {1e-6, 0.5},
+ * .pool = &pool}; thr_search_use(&search, thr_oddcuts_moats, &odd, 0); thr_search_use(&search,
+ * thr_oddcuts_exact, &odd, THR_FALLBACK);
  *
- * Example: a triangle of odd nodes with x = 1/2 on its edges and 0 on the others that leave it breaks the row of the triangle. */
+ * Example: a triangle of odd nodes with x = 1/2 on its edges and 0 on the others that leave it
+ * breaks the row of the triangle. */
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
 #include "graph/random.h"
@@ -19,11 +22,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double tolerance = 1e-6; /* on x, far below the 1/2 and 1/3 that vertices of these polyhedra show */
+static const double tolerance =
+    1e-6; /* on x, far below the 1/2 and 1/3 that vertices of these polyhedra show */
 
 /* ---- graph ---- */
 
-thr_status thr_oddcut_graph_init(thr_oddcut_graph *graph, const thr_tjoin_problem *tjoin_problem, thr_err *err)
+thr_status thr_oddcut_graph_init(thr_oddcut_graph *graph, const thr_tjoin_problem *tjoin_problem,
+                                 thr_err *err)
 {
   size_t n = (size_t)tjoin_problem->n_nodes;
   uint64_t state = 1;
@@ -65,7 +70,8 @@ static int other_end(const thr_tjoin_problem *tjoin_problem, int e, int v)
 
 /* ---- rows ---- */
 
-/* Puts the edges that leave the n nodes marked in graph->member; returns the right side of their row. */
+/* Puts the edges that leave the n nodes marked in graph->member; returns the right side of their
+ * row. */
 static double put_crossing(const thr_oddcut_graph *graph, thr_pool *pool, const int *node, int n)
 {
   double lower = 1;
@@ -81,8 +87,10 @@ static double put_crossing(const thr_oddcut_graph *graph, thr_pool *pool, const 
   return lower;
 }
 
-/* The row of the marked nodes, whose members are their side or, if that is smaller, the other; ascending. */
-static thr_status add_row(const thr_oddcut_graph *graph, thr_pool *pool, const int *node, int n, uint64_t name, thr_err *err)
+/* The row of the marked nodes, whose members are their side or, if that is smaller, the other;
+ * ascending. */
+static thr_status add_row(const thr_oddcut_graph *graph, thr_pool *pool, const int *node, int n,
+                          uint64_t name, thr_err *err)
 {
   const int all = graph->p->n_nodes;
   bool flip = 2 * n > all || (2 * n == all && graph->member[0]);
@@ -95,12 +103,14 @@ static thr_status add_row(const thr_oddcut_graph *graph, thr_pool *pool, const i
     thr_sort_ints(side, (size_t)n);
   }
   double lower = put_crossing(graph, pool, node, n);
-  thr_status st = thr_pool_add(pool, (thr_row){.name = name, .lower = lower, .member = side, .n_members = size}, err);
+  thr_status st = thr_pool_add(
+      pool, (thr_row){.name = name, .lower = lower, .member = side, .n_members = size}, err);
   free(side);
   return st;
 }
 
-thr_status thr_oddcut_add(const thr_oddcut_graph *graph, thr_pool *pool, const int *node, int n, thr_err *err)
+thr_status thr_oddcut_add(const thr_oddcut_graph *graph, thr_pool *pool, const int *node, int n,
+                          thr_err *err)
 {
   uint64_t name = 0;
   bool odd = false;
@@ -157,7 +167,8 @@ static reached pop(queue *q)
   return top;
 }
 
-/* Dijkstra from all odd components at once: owner[v] = component whose ball reaches v first, order = nodes by distance. */
+/* Dijkstra from all odd components at once: owner[v] = component whose ball reaches v first, order
+ * = nodes by distance. */
 typedef struct {
   double *distance; /* [n] */
   int *owner;       /* [n] root of the component that reaches v, -1 = none */
@@ -169,7 +180,8 @@ typedef struct {
   thr_scratch own; /* the arrays */
 } voronoi;
 
-static void grow_balls(const thr_oddcut_graph *graph, const double *reduced_cost, int *parent, voronoi *z)
+static void grow_balls(const thr_oddcut_graph *graph, const double *reduced_cost, int *parent,
+                       voronoi *z)
 {
   const thr_tjoin_problem *tjoin_problem = graph->p;
   queue q = {z->heap, 0};
@@ -199,7 +211,8 @@ static void grow_balls(const thr_oddcut_graph *graph, const double *reduced_cost
 }
 
 /* Balls may touch but not overlap: half the shortest path between two owners bounds both radii. */
-static void bound_radii(const thr_tjoin_problem *tjoin_problem, const double *reduced_cost, voronoi *z)
+static void bound_radii(const thr_tjoin_problem *tjoin_problem, const double *reduced_cost,
+                        voronoi *z)
 {
   for (int e = 0; e < tjoin_problem->n_edges; e++) {
     int a = tjoin_problem->edge[e][0], b = tjoin_problem->edge[e][1];
@@ -212,9 +225,10 @@ static void bound_radii(const thr_tjoin_problem *tjoin_problem, const double *re
   }
 }
 
-/* For one owner, nodes come in order of distance: each prefix that ends before a farther node is a ball. */
-static thr_status add_balls(const thr_oddcut_graph *graph, const voronoi *z, const int *start, const int *by_owner,
-                            thr_pool *pool, thr_err *err)
+/* For one owner, nodes come in order of distance: each prefix that ends before a farther node is a
+ * ball. */
+static thr_status add_balls(const thr_oddcut_graph *graph, const voronoi *z, const int *start,
+                            const int *by_owner, thr_pool *pool, thr_err *err)
 {
   thr_status st = THR_OK;
   int *prefix = thr_calloc((size_t)graph->p->n_nodes, sizeof *prefix);
@@ -222,7 +236,8 @@ static thr_status add_balls(const thr_oddcut_graph *graph, const voronoi *z, con
   for (int root = 0; root < graph->p->n_nodes && !st; root++) {
     const int *node = by_owner + start[root];
     int n = start[root + 1] - start[root];
-    double near = 1e-9 * (1 + z->radius[root]); /* distances this close are one: edges inside even components cost rounding */
+    double near = 1e-9 * (1 + z->radius[root]); /* distances this close are one: edges inside even
+                                                   components cost rounding */
     for (int i = 0; i < n && !st; i++) {
       prefix[i] = node[i];
       double next = i + 1 < n ? z->distance[node[i + 1]] : INFINITY;
@@ -252,22 +267,25 @@ static void voronoi_destroy(voronoi *z)
 }
 
 /* Components of {e : x_e > threshold}; x NULL: single nodes. */
-static void components(const thr_tjoin_problem *tjoin_problem, const double *x, double threshold, int *parent)
+static void components(const thr_tjoin_problem *tjoin_problem, const double *x, double threshold,
+                       int *parent)
 {
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
     parent[v] = v;
   for (int e = 0; x && e < tjoin_problem->n_edges; e++)
-    if (x[e] > threshold) thr_disjoint_join(parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
+    if (x[e] > threshold)
+      thr_disjoint_join(parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
 }
 
-thr_status thr_oddcut_moats(const thr_oddcut_graph *graph, const double *x, double threshold, const double *reduced_cost,
-                            thr_pool *pool, thr_err *err)
+thr_status thr_oddcut_moats(const thr_oddcut_graph *graph, const double *x, double threshold,
+                            const double *reduced_cost, thr_pool *pool, thr_err *err)
 {
   thr_scratch own = {0};
   const thr_tjoin_problem *tjoin_problem = graph->p;
   size_t n = (size_t)tjoin_problem->n_nodes;
   voronoi z = {0};
-  int *parent = thr_scratch_array(&own, n, sizeof *parent), *start = thr_scratch_array(&own, n + 2, sizeof *start),
+  int *parent = thr_scratch_array(&own, n, sizeof *parent),
+      *start = thr_scratch_array(&own, n + 2, sizeof *start),
       *by_owner = thr_scratch_array(&own, n, sizeof *by_owner);
   thr_status st = thr_scratch_check(&own, err);
   if (!st) st = voronoi_init(&z, tjoin_problem, err);
@@ -324,9 +342,10 @@ static thr_status shrunk_init(shrunk *s, int n, int m, thr_err *err)
   return thr_scratch_check(&s->own, err);
 }
 
-/* Adds the side of tree edge i, in framework nodes: those whose shrunk node is still joined to tree[i][0]. */
-static thr_status add_side(const thr_oddcut_graph *graph, const shrunk *s, int i, const int *node, const int *shrunk_of, int n,
-                           int *list, thr_pool *pool, thr_err *err)
+/* Adds the side of tree edge i, in framework nodes: those whose shrunk node is still joined to
+ * tree[i][0]. */
+static thr_status add_side(const thr_oddcut_graph *graph, const shrunk *s, int i, const int *node,
+                           const int *shrunk_of, int n, int *list, thr_pool *pool, thr_err *err)
 {
   for (int v = 0; v < s->n; v++)
     s->parent[v] = v;
@@ -338,20 +357,24 @@ static thr_status add_side(const thr_oddcut_graph *graph, const shrunk *s, int i
   return thr_oddcut_add(graph, pool, list, count, err); /* ignores an even side */
 }
 
-/* node[0 .. n-1] is one component of the support; block[v] its contracted group; shrunk_of and list are scratch. */
-static thr_status separate_component(const thr_oddcut_graph *graph, const double *x, const int *node, int n, int *block,
-                                     int *shrunk_of, int *list, thr_pool *pool, thr_err *err)
+/* node[0 .. n-1] is one component of the support; block[v] its contracted group; shrunk_of and list
+ * are scratch. */
+static thr_status separate_component(const thr_oddcut_graph *graph, const double *x,
+                                     const int *node, int n, int *block, int *shrunk_of, int *list,
+                                     thr_pool *pool, thr_err *err)
 {
   const thr_tjoin_problem *tjoin_problem = graph->p;
   shrunk s;
   int ids = 0, degrees = 0;
   for (int i = 0; i < n; i++) {
     int root = thr_disjoint_find(block, node[i]);
-    if (root == node[i]) shrunk_of[root] = ids++; /* a root is the lowest of its block, and node[] ascends */
+    if (root == node[i])
+      shrunk_of[root] = ids++; /* a root is the lowest of its block, and node[] ascends */
     shrunk_of[node[i]] = shrunk_of[root];
     degrees += graph->first[node[i] + 1] - graph->first[node[i]];
   }
-  /* The component itself, crossed by nothing: moats miss it where a tight edge of x = 0 leaves it. */
+  /* The component itself, crossed by nothing: moats miss it where a tight edge of x = 0 leaves it.
+   */
   if (n > 0) memcpy(list, node, (size_t)n * sizeof *list);
   thr_status st = thr_oddcut_add(graph, pool, list, n, err); /* ignores an even one */
   if (st || ids < 2) return st;
@@ -372,14 +395,17 @@ static thr_status separate_component(const thr_oddcut_graph *graph, const double
   return st;
 }
 
-thr_status thr_oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_pool *pool, thr_err *err)
+thr_status thr_oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_pool *pool,
+                            thr_err *err)
 {
   const thr_tjoin_problem *tjoin_problem = graph->p;
   size_t n = (size_t)tjoin_problem->n_nodes;
   thr_scratch own = {0};
-  int *parent = thr_scratch_array(&own, n, sizeof *parent), *block = thr_scratch_array(&own, n, sizeof *block),
+  int *parent = thr_scratch_array(&own, n, sizeof *parent),
+      *block = thr_scratch_array(&own, n, sizeof *block),
       *shrunk_of = thr_scratch_array(&own, n, sizeof *shrunk_of);
-  int *list = thr_scratch_array(&own, n, sizeof *list), *start = thr_scratch_array(&own, n + 2, sizeof *start),
+  int *list = thr_scratch_array(&own, n, sizeof *list),
+      *start = thr_scratch_array(&own, n + 2, sizeof *start),
       *node = thr_scratch_array(&own, n, sizeof *node);
   thr_status st = thr_scratch_check(&own, err);
   if (st) goto done;
@@ -392,7 +418,8 @@ thr_status thr_oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
     node[start[thr_disjoint_find(parent, v) + 1]++] = v;
   for (int root = 0; root < tjoin_problem->n_nodes && !st; root++)
-    st = separate_component(graph, x, node + start[root], start[root + 1] - start[root], block, shrunk_of, list, pool, err);
+    st = separate_component(graph, x, node + start[root], start[root + 1] - start[root], block,
+                            shrunk_of, list, pool, err);
 done:
   thr_scratch_free(&own);
   return st;
@@ -403,7 +430,8 @@ done:
 /* Keeps the rows from number `first` on that count. */
 static thr_status keep(const thr_oddcuts *odd, int first, int *added, thr_err *err)
 {
-  if (odd->point) return thr_pool_keep_violated(odd->pool, first, odd->point, tolerance, added, err);
+  if (odd->point)
+    return thr_pool_keep_violated(odd->pool, first, odd->point, tolerance, added, err);
   *added += odd->pool->count - first;
   return THR_OK;
 }

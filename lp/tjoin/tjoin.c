@@ -1,12 +1,16 @@
-/* Minimum T-join by linear programming over odd cuts (Edmonds & Johnson 1973; separation: Padberg & Rao 1982).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Minimum T-join by linear programming over odd cuts (Edmonds & Johnson 1973; separation: Padberg &
+ * Rao 1982).
  *
- * Minimize the sum of w(e) x(e) with x(edges that leave S) >= 1 for every set S with an odd number of nodes of T; the corners of
- * this polyhedron are T-joins, and its dual, a packing of odd cuts, is the proof.
+ * Minimize the sum of w(e) x(e) with x(edges that leave S) >= 1 for every set S with an odd number
+ * of nodes of T; the corners of this polyhedron are T-joins, and its dual, a packing of odd cuts,
+ * is the proof.
  *
- * Example: a cycle of four edges of weight 1 with two opposite odd nodes: both halves are T-joins of weight 2, and moats of
- * width 1 round each odd node prove it.
+ * Example: a cycle of four edges of weight 1 with two opposite odd nodes: both halves are T-joins
+ * of weight 2, and moats of width 1 round each odd node prove it.
  *
- * The cutting-plane loop: solve, separate, round to a join, turn the dual into an exact certificate. */
+ * The cutting-plane loop: solve, separate, round to a join, turn the dual into an exact
+ * certificate. */
 #include "lp/tjoin/tjoin.h"
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
@@ -16,7 +20,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-__extension__ typedef __int128 wide; /* sums of cut values times weights pass 64 bits on hostile inputs */
+__extension__ typedef __int128
+    wide; /* sums of cut values times weights pass 64 bits on hostile inputs */
 
 typedef struct {
   const thr_tjoin_problem *p;
@@ -24,11 +29,12 @@ typedef struct {
   thr_oddcut_graph graph;
   thr_oddcuts odd;
   thr_search search;
-  bool exact;                            /* GLPK's exact method, with the weights themselves as costs? */
-  double unit;                           /* costs of the linear programme = weights / unit, so that they are about 1 */
+  bool exact;  /* GLPK's exact method, with the weights themselves as costs? */
+  double unit; /* costs of the linear programme = weights / unit, so that they are about 1 */
   double *cost, *x, *reduced_cost, *key; /* [n_edges] */
-  double *whole;       /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no integers */
-  int64_t *value;      /* [search.pool.count] multipliers as integers that load no edge too much */
+  double *whole;  /* [n_edges] the weights themselves: GLPK's exact method rounds costs that are no
+                     integers */
+  int64_t *value; /* [search.pool.count] multipliers as integers that load no edge too much */
   int *order, *parent; /* [n_edges], [n_nodes] scratch of the rounding */
   bool *tree_join;     /* [n_edges] */
   bool *leaf_used;     /* [n_leaves] */
@@ -37,7 +43,8 @@ typedef struct {
   thr_scratch own; /* the arrays */
 } solver;
 
-static thr_status solver_init(solver *s, const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_err *err)
+static thr_status solver_init(solver *s, const thr_tjoin_problem *tjoin_problem,
+                              const thr_limits *limits, thr_err *err)
 {
   size_t n = (size_t)tjoin_problem->n_nodes, m = (size_t)tjoin_problem->n_edges;
   *s = (solver){.p = tjoin_problem, .limits = limits};
@@ -101,7 +108,8 @@ static int by_key(const void *pa, const void *pb)
   return (a > b) - (a < b);
 }
 
-/* Marks in s->tree_join the edges of a spanning tree, cheapest keys first (a leaf joined to a leaf stays apart). */
+/* Marks in s->tree_join the edges of a spanning tree, cheapest keys first (a leaf joined to a leaf
+ * stays apart). */
 static void spanning_tree(solver *s)
 {
   const thr_tjoin_problem *tjoin_problem = s->p;
@@ -117,20 +125,25 @@ static void spanning_tree(solver *s)
     s->parent[v] = v;
   for (int i = 0; i < tjoin_problem->n_edges; i++) {
     int e = s->order[i], a = tjoin_problem->edge[e][0], b = tjoin_problem->edge[e][1];
-    if ((a >= first_leaf && s->leaf_used[a - first_leaf]) || (b >= first_leaf && s->leaf_used[b - first_leaf])) continue;
+    if ((a >= first_leaf && s->leaf_used[a - first_leaf]) ||
+        (b >= first_leaf && s->leaf_used[b - first_leaf]))
+      continue;
     if (a >= first_leaf) s->leaf_used[a - first_leaf] = true;
     if (b >= first_leaf) s->leaf_used[b - first_leaf] = true;
-    s->tree_join[e] = thr_disjoint_join(s->parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
+    s->tree_join[e] =
+        thr_disjoint_join(s->parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
   }
 }
 
-/* Keeps of the tree the edges that separate an odd number of odd nodes: the only T-join in it. Leaves inwards. */
+/* Keeps of the tree the edges that separate an odd number of odd nodes: the only T-join in it.
+ * Leaves inwards. */
 static thr_status prune_tree(solver *s, thr_err *err)
 {
   thr_scratch own = {0};
   const thr_tjoin_problem *tjoin_problem = s->p;
   size_t n = (size_t)tjoin_problem->n_nodes;
-  int *degree = thr_scratch_array(&own, n, sizeof *degree), *stack = thr_scratch_array(&own, n, sizeof *stack), top = 0;
+  int *degree = thr_scratch_array(&own, n, sizeof *degree),
+      *stack = thr_scratch_array(&own, n, sizeof *stack), top = 0;
   bool *odd = thr_scratch_array(&own, n, sizeof *odd),
        *done = thr_scratch_array(&own, (size_t)tjoin_problem->n_edges, sizeof *done);
   thr_status st = thr_scratch_check(&own, err);
@@ -146,7 +159,8 @@ static thr_status prune_tree(solver *s, thr_err *err)
     for (int k = s->graph.first[v]; k < s->graph.first[v + 1]; k++) {
       int e = s->graph.incident[k];
       if (!s->tree_join[e] || done[e]) continue;
-      int w = tjoin_problem->edge[e][0] == v ? tjoin_problem->edge[e][1] : tjoin_problem->edge[e][0];
+      int w =
+          tjoin_problem->edge[e][0] == v ? tjoin_problem->edge[e][1] : tjoin_problem->edge[e][0];
       done[e] = true;
       if (odd[v])
         odd[w] = !odd[w];
@@ -178,7 +192,8 @@ static thr_status try_tree(solver *s, thr_err *err)
   return THR_OK;
 }
 
-/* Two roundings: of the point x (all 0 at the start), and of the dual, whose tight edges hold every shortest join. */
+/* Two roundings: of the point x (all 0 at the start), and of the dual, whose tight edges hold every
+ * shortest join. */
 static thr_status round_to_join(solver *s, thr_err *err)
 {
   int m = s->p->n_edges;
@@ -192,9 +207,10 @@ static thr_status round_to_join(solver *s, thr_err *err)
 
 /* ---- the dual as integers ---- */
 
-/* value = dual in units of 1/denominator of a weight, rounded down; then whatever still overloads an edge is taken back
- * from the cuts over it, and what slack is left is given out again: to cuts in use, or with greedy to any cut in turn.
- * dual: [search.pool.count], NULL = all 0. Fills s->value, returns their sum. */
+/* value = dual in units of 1/denominator of a weight, rounded down; then whatever still overloads
+ * an edge is taken back from the cuts over it, and what slack is left is given out again: to cuts
+ * in use, or with greedy to any cut in turn. dual: [search.pool.count], NULL = all 0. Fills
+ * s->value, returns their sum. */
 static int64_t integer_dual(solver *s, const double *dual, bool greedy)
 {
   const thr_tjoin_problem *tjoin_problem = s->p;
@@ -239,7 +255,8 @@ static thr_status store_cuts(solver *s, int64_t sum, thr_err *err)
     const thr_row *r = &pool->row[i];
     if (s->value[i] == 0) continue;
     thr_cut *to = &best->cut[best->n_cuts];
-    *to = (thr_cut){-1, r->n_members, thr_calloc((size_t)r->n_members, sizeof *to->node), s->value[i]};
+    *to = (thr_cut){-1, r->n_members, thr_calloc((size_t)r->n_members, sizeof *to->node),
+                    s->value[i]};
     if (!to->node) return thr_nomem(err);
     best->n_cuts++;
     memcpy(to->node, r->member, (size_t)r->n_members * sizeof *to->node);
@@ -248,7 +265,8 @@ static thr_status store_cuts(solver *s, int64_t sum, thr_err *err)
   return THR_OK;
 }
 
-/* Turns multipliers of the rows into a certificate and keeps it if its bound is the best; sets best.optimal. */
+/* Turns multipliers of the rows into a certificate and keeps it if its bound is the best; sets
+ * best.optimal. */
 static thr_status certify(solver *s, const double *dual, bool greedy, thr_err *err)
 {
   int64_t *value = thr_realloc(s->value, (size_t)s->search.pool.count, sizeof *value);
@@ -267,10 +285,12 @@ static void report(const solver *s, const char *what)
 {
   if (!s->limits->progress) return;
   double denominator = THR_DUAL_DENOMINATOR;
-  s->limits->progress(s->limits->user, what, (double)s->best.length, (double)s->best.sum / denominator);
+  s->limits->progress(s->limits->user, what, (double)s->best.length,
+                      (double)s->best.sum / denominator);
 }
 
-/* The exact method needs costs that are integers: the multipliers are brought back to those of s->cost. */
+/* The exact method needs costs that are integers: the multipliers are brought back to those of
+ * s->cost. */
 static void reduce_costs(solver *s)
 {
   thr_search *search = &s->search;
@@ -293,7 +313,8 @@ static thr_status look(void *user, thr_err *err)
   return st;
 }
 
-static thr_status solve_exact(void *user, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+static thr_status solve_exact(void *user, const thr_limits *limits, thr_lp_outcome *outcome,
+                              thr_err *err)
 {
   solver *s = user;
   thr_status st = thr_lp_set_costs(s->search.lp, s->whole, err);
@@ -309,9 +330,9 @@ static thr_status start(solver *s, thr_err *err)
   return st ? st : certify(s, NULL, true, err);
 }
 
-/* Until bound and join meet, separation finds nothing, or the limits stop it. The inexact method cannot tell joins apart whose
- * weights differ by a unit, and so may stop at a point that looks integral: the exact one goes on from there, with cuts of its
- * own. */
+/* Until bound and join meet, separation finds nothing, or the limits stop it. The inexact method
+ * cannot tell joins apart whose weights differ by a unit, and so may stop at a point that looks
+ * integral: the exact one goes on from there, with cuts of its own. */
 static thr_status solve(solver *s, thr_err *err)
 {
   enum { PATIENCE = 6 };
@@ -332,12 +353,16 @@ static thr_status run(solver *s, thr_err *err)
   st = solve(s, &failure);
   if (st == THR_ENOMEM) return thr_nomem(err);
   if (s->best.optimal) return THR_OK;
-  if (st) return thr_fail(err, THR_ELIMIT, "%s", failure.text); /* join and bound stay good whatever a library does */
+  if (st)
+    return thr_fail(err, THR_ELIMIT, "%s",
+                    failure.text); /* join and bound stay good whatever a library does */
   if (s->search.outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped early");
-  return thr_fail(err, THR_ELIMIT, "the odd-cut bound and the best join do not meet; please report this framework");
+  return thr_fail(err, THR_ELIMIT,
+                  "the odd-cut bound and the best join do not meet; please report this framework");
 }
 
-thr_status thr_tjoin_solve(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_tjoin *out, thr_err *err)
+thr_status thr_tjoin_solve(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits,
+                           thr_tjoin *out, thr_err *err)
 {
   solver s;
   *out = (thr_tjoin){0};

@@ -1,10 +1,12 @@
-/* The best symmetric cover for one group: how many orbits of each type of copies, turns, ends and folds
- * (symmetry/group/quotient.c), as an integer programme.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The best symmetric cover for one group: how many orbits of each type of copies, turns, ends and
+ * folds (symmetry/group/quotient.c), as an integer programme.
  *
- * Minimize overlap, then steps, then paths, subject to: every edge orbit is passed often enough, the turns and ends of every
- * dart type use up its darts, and what is chosen hangs together.
+ * Minimize overlap, then steps, then paths, subject to: every edge orbit is passed often enough,
+ * the turns and ends of every dart type use up its darts, and what is chosen hangs together.
  *
- * Example: a ring of six edges under C6: one orbit of copies and one of turns make one closed cord. */
+ * Example: a ring of six edges under C6: one orbit of copies and one of turns make one closed cord.
+ */
 #include "symmetry/cover/cover_parts.h"
 
 #include <math.h>
@@ -25,18 +27,20 @@ static thr_status check_ends(const thr_programme *p, thr_err *err)
   const thr_quotient *quotient = p->q;
   int count = 0, *component = thr_calloc((size_t)quotient->f->n_nodes, sizeof *component);
   bool *has_end = thr_calloc((size_t)quotient->f->n_nodes, sizeof *has_end);
-  thr_status st = component && has_end ? thr_frame_components(quotient->f, component, &count, err) : thr_nomem(err);
+  thr_status st = component && has_end ? thr_frame_components(quotient->f, component, &count, err)
+                                       : thr_nomem(err);
   for (int d = 0; d < quotient->n_darts && !st; d++) {
     if (p->most[p->first_end + d] == 0) continue;
     for (int i = 0; i < quotient->h->order; i++)
-      has_end[component[thr_tail(
-          quotient->f, quotient->half_image[(size_t)i * 2 * (size_t)quotient->f->n_edges + (size_t)quotient->dart[d].half])]] =
-          true;
+      has_end[component[thr_tail(quotient->f,
+                                 quotient->half_image[(size_t)i * 2 * (size_t)quotient->f->n_edges +
+                                                      (size_t)quotient->dart[d].half])]] = true;
   }
   for (int v = 0; v < quotient->f->n_nodes && p->open && !st; v++)
     if (!has_end[component[v]])
-      st = thr_fail(err, THR_EINFEASIBLE, "no cord may end in the component of node %s, with ends %s", quotient->f->name[v],
-                    thr_ends_name(p->o->ends));
+      st = thr_fail(err, THR_EINFEASIBLE,
+                    "no cord may end in the component of node %s, with ends %s",
+                    quotient->f->name[v], thr_ends_name(p->o->ends));
   free(component);
   free(has_end);
   return st;
@@ -51,13 +55,15 @@ static thr_status hand_over(thr_cover_search *s, thr_cover *out, thr_err *err)
   s->bound[THR_AIM_TURNING] = fmax(s->bound[THR_AIM_TURNING], quick);
   memcpy(out->value, s->worth, sizeof out->value);
   for (int a = 0; a < THR_N_AIMS; a++)
-    out->bound[a] = fmin(s->bound[a], s->worth[a]); /* a later aim may win by rounding in an earlier one */
+    out->bound[a] =
+        fmin(s->bound[a], s->worth[a]); /* a later aim may win by rounding in an earlier one */
   out->copies = thr_calloc((size_t)quotient->n_copies, sizeof *out->copies);
   out->pairs = thr_calloc((size_t)quotient->n_pairs, sizeof *out->pairs);
   out->ends = thr_calloc((size_t)quotient->n_darts, sizeof *out->ends);
   if (!out->copies || !out->pairs || !out->ends) return thr_nomem(err);
   memcpy(out->copies, s->best, (size_t)quotient->n_copies * sizeof *s->best);
-  if (quotient->n_pairs > 0) memcpy(out->pairs, s->best + s->p->first_pair, (size_t)quotient->n_pairs * sizeof *s->best);
+  if (quotient->n_pairs > 0)
+    memcpy(out->pairs, s->best + s->p->first_pair, (size_t)quotient->n_pairs * sizeof *s->best);
   memcpy(out->ends, s->best + s->p->first_end, (size_t)quotient->n_darts * sizeof *s->best);
   return THR_OK;
 }
@@ -70,7 +76,8 @@ static thr_status offer_joined(thr_cover_search *s, thr_err *err)
   return st ? st : thr_cover_search_offer(s, err);
 }
 
-/* The best so far with its turns as cheap as they can be and joined again, and then by exchanges that leave it whole. */
+/* The best so far with its turns as cheap as they can be and joined again, and then by exchanges
+ * that leave it whole. */
 static thr_status offer_improved(thr_cover_search *s, thr_err *err)
 {
   const thr_limits limits = thr_limits_part(s->limits, 0.5);
@@ -82,14 +89,16 @@ static thr_status offer_improved(thr_cover_search *s, thr_err *err)
   return st ? st : thr_cover_search_offer(s, err);
 }
 
-/* Lifts a start with tube joints, for which it gets more copies where need be; *failed as thr_contraction_lift has it. */
-static thr_status lift_tied(thr_cover_search *s, thr_contraction *contraction, const bool *barred, int *small, int *failed,
-                            thr_err *err)
+/* Lifts a start with tube joints, for which it gets more copies where need be; *failed as
+ * thr_contraction_lift has it. */
+static thr_status lift_tied(thr_cover_search *s, thr_contraction *contraction, const bool *barred,
+                            int *small, int *failed, thr_err *err)
 {
   enum { ROUNDS = 8 };
   const thr_ties *ties = s->p->ties;
   bool *loose = thr_calloc((size_t)ties->n, sizeof *loose), enough = true;
-  thr_status st = loose ? thr_contraction_fasten(contraction, barred, NULL, small, &enough, err) : thr_nomem(err);
+  thr_status st = loose ? thr_contraction_fasten(contraction, barred, NULL, small, &enough, err)
+                        : thr_nomem(err);
   *failed = 1;
   for (int round = 0; round < ROUNDS && enough && *failed && !st; round++) {
     memset(contraction->keep, 0, (size_t)s->p->q->n_darts * sizeof *contraction->keep);
@@ -104,8 +113,8 @@ static thr_status lift_tied(thr_cover_search *s, thr_contraction *contraction, c
   return st;
 }
 
-static thr_status try_start(thr_cover_search *s, thr_contraction *contraction, thr_contraction_kind kind, const bool *barred,
-                            int *small, thr_err *err)
+static thr_status try_start(thr_cover_search *s, thr_contraction *contraction,
+                            thr_contraction_kind kind, const bool *barred, int *small, thr_err *err)
 {
   bool made;
   int failed = 0;
@@ -131,8 +140,9 @@ static bool is_freest(const thr_programme *p, int copy)
   return true;
 }
 
-/* Bars the copies in sets of s->other that need an end and have none, the freest excepted; if there are none of them, or all is
- * asked for, all but the freest. *more: are any barred that were not? */
+/* Bars the copies in sets of s->other that need an end and have none, the freest excepted; if there
+ * are none of them, or all is asked for, all but the freest. *more: are any barred that were not?
+ */
 static thr_status bar(thr_cover_search *s, bool all, bool *barred, bool *more, thr_err *err)
 {
   const thr_programme *p = s->p;
@@ -151,8 +161,9 @@ static thr_status bar(thr_cover_search *s, bool all, bool *barred, bool *more, t
   return st;
 }
 
-/* Covers that need no programme: with the least copies; where cords would be closed that may not be, with freer ones there; and
- * if need be, which serves always, with the freest twice. The best is improved. */
+/* Covers that need no programme: with the least copies; where cords would be closed that may not
+ * be, with freer ones there; and if need be, which serves always, with the freest twice. The best
+ * is improved. */
 static thr_status start(thr_cover_search *s, thr_err *err)
 {
   const thr_programme *p = s->p;
@@ -161,8 +172,10 @@ static thr_status start(thr_cover_search *s, thr_err *err)
   if (st) return st;
   int *small = thr_calloc((size_t)contraction.p.n, sizeof *small);
   bool *barred = thr_calloc((size_t)p->first_pair, sizeof *barred);
-  st = small && barred ? try_start(s, &contraction, THR_CONTRACTION_LEAST, barred, small, err) : thr_nomem(err);
-  for (bool more = !s->found || (p->open && !thr_cover_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP]));
+  st = small && barred ? try_start(s, &contraction, THR_CONTRACTION_LEAST, barred, small, err)
+                       : thr_nomem(err);
+  for (bool more = !s->found || (p->open && !thr_cover_search_beaten(s, THR_AIM_OVERLAP,
+                                                                     s->bound[THR_AIM_OVERLAP]));
        more && !st;) {
     st = try_start(s, &contraction, THR_CONTRACTION_PLAIN, barred, small, err);
     more = !s->valid;
@@ -188,11 +201,13 @@ static thr_status bound_ties(thr_cover_search *s, thr_err *err)
 {
   static const thr_aim tie[] = {THR_AIM_STEPS, THR_AIM_PATHS};
   thr_status st = THR_OK;
-  if (s->p->o->prefer[0] != THR_AIM_OVERLAP || !thr_cover_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP]))
+  if (s->p->o->prefer[0] != THR_AIM_OVERLAP ||
+      !thr_cover_search_beaten(s, THR_AIM_OVERLAP, s->bound[THR_AIM_OVERLAP]))
     return THR_OK;
   for (size_t k = 0; k < sizeof tie / sizeof *tie && !st; k++)
     if (!thr_cover_search_beaten(s, tie[k], s->bound[tie[k]]))
-      st = thr_bounds_tie(s->p, tie[k], s->worth[THR_AIM_OVERLAP], s->limits, &s->bound[tie[k]], err);
+      st = thr_bounds_tie(s->p, tie[k], s->worth[THR_AIM_OVERLAP], s->limits, &s->bound[tie[k]],
+                          err);
   return st;
 }
 
@@ -206,9 +221,11 @@ static void take_bounds(thr_cover_search *s, const thr_cover_search *small, int 
   }
 }
 
-/* What the best so far turns at least, with the aims before turning as they are, in half the time that is left. small: a search
- * of the contraction, whose programme goes on if it keeps no aim lower than that. */
-static thr_status bound_turning(thr_cover_search *s, const thr_contraction *contraction, thr_cover_search *small, thr_err *err)
+/* What the best so far turns at least, with the aims before turning as they are, in half the time
+ * that is left. small: a search of the contraction, whose programme goes on if it keeps no aim
+ * lower than that. */
+static thr_status bound_turning(thr_cover_search *s, const thr_contraction *contraction,
+                                thr_cover_search *small, thr_err *err)
 {
   const thr_limits limits = thr_limits_part(s->limits, 0.5);
   thr_relaxation own = {0};
@@ -217,14 +234,16 @@ static thr_status bound_turning(thr_cover_search *s, const thr_contraction *cont
     thr_aim aim = s->p->o->prefer[k];
     fits = fits && s->worth[aim] <= small->worth[aim] + thr_programme_tolerance(s->p, aim);
   }
-  thr_status st = thr_turning_bound(contraction, fits ? &small->r : &own, fits ? small->kept : 0, s->best, s->worth, &limits,
-                                    &s->bound[THR_AIM_TURNING], err);
+  thr_status st = thr_turning_bound(contraction, fits ? &small->r : &own, fits ? small->kept : 0,
+                                    s->best, s->worth, &limits, &s->bound[THR_AIM_TURNING], err);
   thr_relaxation_destroy(&own);
   return st == THR_ELIMIT ? THR_OK : st;
 }
 
-/* What is known of the whole programme: the best cover, and bounds, which hold for the contracted one, too. */
-static thr_status begin_with(thr_cover_search *small, const thr_cover_search *s, const thr_contraction *contraction, thr_err *err)
+/* What is known of the whole programme: the best cover, and bounds, which hold for the contracted
+ * one, too. */
+static thr_status begin_with(thr_cover_search *small, const thr_cover_search *s,
+                             const thr_contraction *contraction, thr_err *err)
 {
   bool same = true; /* are the aims before at their least for certain? */
   for (int k = 0; k < THR_N_AIMS && same && s->p->o->prefer[k] != THR_AIM_TURNING; k++) {
@@ -237,7 +256,8 @@ static thr_status begin_with(thr_cover_search *small, const thr_cover_search *s,
   return thr_cover_search_offer(small, err);
 }
 
-/* How many aims come before turning; a quick search leaves out what comes after steps, and paths. */
+/* How many aims come before turning; a quick search leaves out what comes after steps, and paths.
+ */
 static int aims_before_turning(const thr_cover_options *options)
 {
   int all = 0, quick = 0;
@@ -246,7 +266,8 @@ static int aims_before_turning(const thr_cover_options *options)
   return options->quick ? quick : all;
 }
 
-/* The aims before turning in the contracted programme, whose cells are left as they are where its solution cannot be lifted. */
+/* The aims before turning in the contracted programme, whose cells are left as they are where its
+ * solution cannot be lifted. */
 static thr_status search_contracted(thr_cover_search *s, thr_err *err)
 {
   static const double part = 0.7; /* of the time: the rest is for lifting and for turning */
@@ -265,7 +286,8 @@ static thr_status search_contracted(thr_cover_search *s, thr_err *err)
     thr_status searched = st ? st : thr_cover_search_aims(&small, n, err);
     if (searched && searched != THR_ELIMIT) st = searched;
     failed = 0;
-    if (!st && small.found) st = thr_contraction_lift(&contraction, small.best, s->other, &failed, err);
+    if (!st && small.found)
+      st = thr_contraction_lift(&contraction, small.best, s->other, &failed, err);
     if (!st && small.found && !failed) st = offer_joined(s, err);
     if (!st && !failed) take_bounds(s, &small, n);
     if (!st && !failed && s->found && !quick) st = bound_turning(s, &contraction, &small, err);
@@ -277,7 +299,8 @@ static thr_status search_contracted(thr_cover_search *s, thr_err *err)
   return st;
 }
 
-/* All aims in the whole programme. If that ends early with a cover that the bound on turning does not hold for, it gets one. */
+/* All aims in the whole programme. If that ends early with a cover that the bound on turning does
+ * not hold for, it gets one. */
 static thr_status search_whole(thr_cover_search *s, thr_err *err)
 {
   static const double part = 0.8;
@@ -310,7 +333,8 @@ static thr_status begin(thr_cover_search *s, const thr_cover *known, thr_err *er
   }
   memcpy(s->bound, known->bound, sizeof s->bound);
   memcpy(s->other, known->copies, (size_t)quotient->n_copies * sizeof *s->other);
-  if (quotient->n_pairs > 0) memcpy(s->other + s->p->first_pair, known->pairs, (size_t)quotient->n_pairs * sizeof *s->other);
+  if (quotient->n_pairs > 0)
+    memcpy(s->other + s->p->first_pair, known->pairs, (size_t)quotient->n_pairs * sizeof *s->other);
   memcpy(s->other + s->p->first_end, known->ends, (size_t)quotient->n_darts * sizeof *s->other);
   st = thr_cover_search_offer(s, err);
   return !st && s->found && !s->p->o->quick ? offer_improved(s, err) : st;
@@ -320,13 +344,15 @@ static thr_status begin(thr_cover_search *s, const thr_cover *known, thr_err *er
 static thr_status stopped(const thr_cover_search *s, const char *what, thr_err *err)
 {
   const thr_limits *limits = s->limits;
-  const char *why = limits->interrupted && *limits->interrupted ? "the search was stopped before it could"
-                    : limits->work                              ? "the work allowed was too little to"
-                                                                : "the time was too short to";
+  const char *why = limits->interrupted && *limits->interrupted
+                        ? "the search was stopped before it could"
+                    : limits->work ? "the work allowed was too little to"
+                                   : "the time was too short to";
   return thr_fail(err, THR_ELIMIT, "%s %s", why, what);
 }
 
-static thr_status search_all(thr_cover_search *s, const thr_cover *known, thr_cover *out, thr_err *err)
+static thr_status search_all(thr_cover_search *s, const thr_cover *known, thr_cover *out,
+                             thr_err *err)
 {
   thr_status st = begin(s, known, err);
   if (!st) st = search_contracted(s, err);
@@ -342,8 +368,8 @@ static thr_status search_all(thr_cover_search *s, const thr_cover *known, thr_co
   return stopped(s, "prove that no symmetric cover is better", err);
 }
 
-thr_status thr_cover_improve(const thr_quotient *quotient, const thr_cover_options *options, const thr_limits *limits,
-                             thr_cover *known, thr_err *err)
+thr_status thr_cover_improve(const thr_quotient *quotient, const thr_cover_options *options,
+                             const thr_limits *limits, thr_cover *known, thr_err *err)
 {
   thr_programme p = {0};
   thr_cover cover = {0};
@@ -364,8 +390,8 @@ thr_status thr_cover_improve(const thr_quotient *quotient, const thr_cover_optio
   return st;
 }
 
-thr_status thr_cover_find(const thr_quotient *quotient, const thr_cover_options *options, const thr_limits *limits,
-                          thr_cover *out, thr_err *err)
+thr_status thr_cover_find(const thr_quotient *quotient, const thr_cover_options *options,
+                          const thr_limits *limits, thr_cover *out, thr_err *err)
 {
   *out = (thr_cover){0};
   return thr_cover_improve(quotient, options, limits, out, err);

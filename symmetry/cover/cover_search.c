@@ -1,5 +1,7 @@
-/* The search for the best whole solution of a programme (symmetry/cover/programme.c), aim by aim: when one is settled, or its
- * time is up, its value becomes a row and the next is minimized. Internal.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The search for the best whole solution of a programme (symmetry/cover/programme.c), aim by aim:
+ * when one is settled, or its time is up, its value becomes a row and the next is minimized.
+ * Internal.
  *
  * Example: the least overlap is 0; then, with overlap 0 as a row, the fewest steps. */
 #include "symmetry/cover/cover_parts.h"
@@ -16,7 +18,8 @@ void thr_cover_search_destroy(thr_cover_search *s)
   free(s->other);
 }
 
-thr_status thr_cover_search_init(thr_cover_search *s, const thr_programme *p, const thr_limits *limits, thr_err *err)
+thr_status thr_cover_search_init(thr_cover_search *s, const thr_programme *p,
+                                 const thr_limits *limits, thr_err *err)
 {
   *s = (thr_cover_search){.p = p, .limits = limits};
   s->best = thr_calloc((size_t)p->n, sizeof *s->best);
@@ -27,13 +30,15 @@ thr_status thr_cover_search_init(thr_cover_search *s, const thr_programme *p, co
   return thr_nomem(err);
 }
 
-/* Is this more in an aim before turning, so that a bound on turning that keeps those aims may not hold for it? */
+/* Is this more in an aim before turning, so that a bound on turning that keeps those aims may not
+ * hold for it? */
 static bool loosens(const thr_cover_search *s, const double *worth)
 {
   const thr_aim *prefer = s->p->o->prefer;
   bool more = false;
   for (int k = 0; prefer[k] != THR_AIM_TURNING; k++)
-    more = more || worth[prefer[k]] > s->worth[prefer[k]] + thr_programme_tolerance(s->p, prefer[k]);
+    more =
+        more || worth[prefer[k]] > s->worth[prefer[k]] + thr_programme_tolerance(s->p, prefer[k]);
   return more;
 }
 
@@ -88,16 +93,20 @@ static thr_status look(void *user, thr_err *err)
 }
 
 /* With whole columns only, by GLPK's own branch and bound. */
-static thr_status solve_integer(void *user, const thr_limits *limits, thr_lp_outcome *outcome, thr_err *err)
+static thr_status solve_integer(void *user, const thr_limits *limits, thr_lp_outcome *outcome,
+                                thr_err *err)
 {
   const aim_search *a = user;
   thr_status st = thr_lp_solve(a->s->r.search.lp, limits, outcome, err);
-  return st || *outcome != THR_LP_OPTIMAL ? st : thr_lp_solve_integer(a->s->r.search.lp, limits, outcome, err);
+  return st || *outcome != THR_LP_OPTIMAL
+             ? st
+             : thr_lp_solve_integer(a->s->r.search.lp, limits, outcome, err);
 }
 
-/* Solves a node with all rows that its optima violate, integer: its whole ones. *open: it is to be branched on. THR_ELIMIT:
- * stopped. */
-static thr_status solve_node(aim_search *a, const thr_limits *limits, bool integer, bool *open, thr_err *err)
+/* Solves a node with all rows that its optima violate, integer: its whole ones. *open: it is to be
+ * branched on. THR_ELIMIT: stopped. */
+static thr_status solve_node(aim_search *a, const thr_limits *limits, bool integer, bool *open,
+                             thr_err *err)
 {
   thr_search *search = &a->s->r.search;
   const thr_search_calls calls = {.user = a, .solve = integer ? solve_integer : NULL, .look = look};
@@ -106,8 +115,8 @@ static thr_status solve_node(aim_search *a, const thr_limits *limits, bool integ
   return !st && search->outcome == THR_LP_STOPPED ? THR_ELIMIT : st;
 }
 
-/* The root once more, by GLPK, in half the time that is left: where ties leave many equally good points, its branching finds
- * whole ones sooner. */
+/* The root once more, by GLPK, in half the time that is left: where ties leave many equally good
+ * points, its branching finds whole ones sooner. */
 static thr_status solve_whole(aim_search *a, bool *open, thr_err *err)
 {
   const thr_limits half = thr_limits_part(a->s->limits, 0.5);
@@ -135,10 +144,12 @@ static double enough(const thr_cover_search *s, thr_aim aim)
 static thr_status set_bounds(void *user, int column, int low, int high, thr_err *err)
 {
   aim_search *a = user;
-  return thr_lp_set_bounds(a->s->r.search.lp, column, low, high == THR_TREE_ANY ? (double)INFINITY : high, err);
+  return thr_lp_set_bounds(a->s->r.search.lp, column, low,
+                           high == THR_TREE_ANY ? (double)INFINITY : high, err);
 }
 
-/* A node's bound and its whole points; then the column to branch on, first towards the side that it is nearer to. */
+/* A node's bound and its whole points; then the column to branch on, first towards the side that it
+ * is nearer to. */
 static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err)
 {
   aim_search *a = user;
@@ -172,7 +183,8 @@ static thr_status init_tree(aim_search *a, thr_err *err)
   return st;
 }
 
-/* Minimizes one aim by branch and cut. THR_ELIMIT: stopped; the bounds on columns are as before in any case. */
+/* Minimizes one aim by branch and cut. THR_ELIMIT: stopped; the bounds on columns are as before in
+ * any case. */
 static thr_status minimize(thr_cover_search *s, int number, thr_err *err)
 {
   aim_search a = {.s = s, .aim = s->p->o->prefer[number]};
@@ -183,8 +195,11 @@ static thr_status minimize(thr_cover_search *s, int number, thr_err *err)
   if (!st) st = thr_tree_run(&a.tree, &calls, err);
   if (!st && a.tree.stopped) st = THR_ELIMIT;
   if (!st && !s->found)
-    st = thr_fail(err, THR_EINFEASIBLE, "found no threading with ends %s%s that is symmetric under this group of order %d",
-                  thr_ends_name(s->p->o->ends), s->p->o->tube ? " that ties every joint" : "", s->p->q->h->order);
+    st =
+        thr_fail(err, THR_EINFEASIBLE,
+                 "found no threading with ends %s%s that is symmetric under this group of order %d",
+                 thr_ends_name(s->p->o->ends), s->p->o->tube ? " that ties every joint" : "",
+                 s->p->q->h->order);
   if (!st) s->bound[a.aim] = s->worth[a.aim];
   if (!st || st == THR_ELIMIT) {
     thr_status moved = thr_tree_enter(&a.tree, &calls, 0, err);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exchanges at the nodes of a whole solution: sets are joined, turning gets less. */
 #include "graph/disjoint.h"
 #include "symmetry/cover/cover.h"
@@ -18,7 +19,8 @@ static int pair_between(const thr_programme *p, int a, int b, bool self)
   for (int k = p->first[a]; k < p->first[a + 1]; k++) {
     const thr_pair_type *pair_type = &p->q->pair[p->incident[k]];
     int j = p->first_pair + p->incident[k];
-    if (p->most[j] == 0 || pair_type->self != self || pair_type->dart[0] + pair_type->dart[1] != a + b ||
+    if (p->most[j] == 0 || pair_type->self != self ||
+        pair_type->dart[0] + pair_type->dart[1] != a + b ||
         (pair_type->dart[0] != a && pair_type->dart[1] != a))
       continue;
     if (best < 0 || p->cost[THR_AIM_TURNING][j] < p->cost[THR_AIM_TURNING][best]) best = j;
@@ -34,7 +36,8 @@ static void apply(const exchange *x, int sign, int *value)
   }
 }
 
-/* Enough of what is taken out; and where joints are tied, the node stays so if it was. parent: [p->ties->most] scratch. */
+/* Enough of what is taken out; and where joints are tied, the node stays so if it was. parent:
+ * [p->ties->most] scratch. */
 static bool possible(const thr_programme *p, const exchange *x, int *value, int *parent)
 {
   if (value[x->out[0]] <= 0 || value[x->out[1]] <= (x->out[0] == x->out[1])) return false;
@@ -72,7 +75,8 @@ static thr_status visitor_init(visitor *v, thr_err *err)
   return v->parent ? THR_OK : thr_nomem(err);
 }
 
-static bool offer(visitor *v, int out0, int out1, int in0, int in1, int a, int c, thr_err *err, thr_status *st)
+static bool offer(visitor *v, int out0, int out1, int in0, int in1, int a, int c, thr_err *err,
+                  thr_status *st)
 {
   const double *cost = v->p->cost[THR_AIM_TURNING];
   if (in0 < 0 || in1 < 0) return true;
@@ -90,11 +94,13 @@ static bool against(visitor *v, int j, int a, int b, int c, thr_err *err, thr_st
     int y = p->first_pair + p->incident[k];
     const thr_pair_type *pair_type = &p->q->pair[p->incident[k]];
     if (v->value[y] <= 0) continue;
-    int in =
-        pair_type->self ? pair_between(p, b, b, true) : pair_between(p, b, pair_type->dart[0] + pair_type->dart[1] - c, false);
+    int in = pair_type->self
+                 ? pair_between(p, b, b, true)
+                 : pair_between(p, b, pair_type->dart[0] + pair_type->dart[1] - c, false);
     if (!offer(v, j, y, with, in, a, c, err, st)) return false;
   }
-  return v->value[end] <= 0 || p->most[p->first_end + b] == 0 || offer(v, j, end, with, p->first_end + b, a, c, err, st);
+  return v->value[end] <= 0 || p->most[p->first_end + b] == 0 ||
+         offer(v, j, end, with, p->first_end + b, a, c, err, st);
 }
 
 /* Visits the exchanges of a turn with what meets it. */
@@ -148,8 +154,10 @@ static int by_turning(const void *a, const void *b)
 static void join_sets(visitor *v, const exchange *x)
 {
   thr_programme_parts *programme_parts = &v->parts;
-  int a = thr_disjoint_find(programme_parts->root, x->type[0]), b = thr_disjoint_find(programme_parts->root, x->type[1]);
-  if (a == b || !possible(v->p, x, v->value, v->parent) || (!in_need(v, a) && !in_need(v, b))) return;
+  int a = thr_disjoint_find(programme_parts->root, x->type[0]),
+      b = thr_disjoint_find(programme_parts->root, x->type[1]);
+  if (a == b || !possible(v->p, x, v->value, v->parent) || (!in_need(v, a) && !in_need(v, b)))
+    return;
   int terminals = programme_parts->terminals[a] + programme_parts->terminals[b],
       ends = programme_parts->ends[a] + programme_parts->ends[b];
   apply(x, 1, v->value);
@@ -167,8 +175,9 @@ static int count_in_need(const visitor *v)
   return n;
 }
 
-/* A set without terminals stays connected when a turn in it is broken up: its sets join for certain. One with folds may fall
- * apart, and leave as many sets in need as before: then this ends. */
+/* A set without terminals stays connected when a turn in it is broken up: its sets join for
+ * certain. One with folds may fall apart, and leave as many sets in need as before: then this ends.
+ */
 thr_status thr_programme_mend(const thr_programme *p, int *value, thr_err *err)
 {
   visitor v = {.visit = collect, .p = p, .value = value};
@@ -205,7 +214,9 @@ thr_status thr_programme_open(const thr_programme *p, int *value, thr_err *err)
     const int *d = p->q->pair[y].dart;
     int root = programme_parts->root[d[0]], star = p->ties ? p->ties->star[d[0]] : -1,
         end[2] = {p->first_end + d[0], p->first_end + d[1]};
-    if (value[p->first_pair + y] == 0 || p->q->pair[y].self || programme_parts->ends[root] > 0 || p->most[end[0]] == 0) continue;
+    if (value[p->first_pair + y] == 0 || p->q->pair[y].self || programme_parts->ends[root] > 0 ||
+        p->most[end[0]] == 0)
+      continue;
     value[p->first_pair + y]--;
     if (star >= 0 && !thr_ties_tied(p->ties, star, value + p->first_pair, v.parent)) {
       value[p->first_pair + y]++;
@@ -238,7 +249,8 @@ static void take_cheapest(visitor *v)
   const thr_programme *p = v->p;
   for (int y = 0; y < p->q->n_pairs; y++) {
     const thr_pair_type *pair_type = &p->q->pair[y];
-    int from = p->first_pair + y, to = pair_between(p, pair_type->dart[0], pair_type->dart[1], pair_type->self),
+    int from = p->first_pair + y,
+        to = pair_between(p, pair_type->dart[0], pair_type->dart[1], pair_type->self),
         moved = v->value[from];
     int star = p->ties ? p->ties->star[pair_type->dart[0]] : -1;
     if (moved == 0 || to < 0 || to == from) continue;
@@ -251,7 +263,8 @@ static void take_cheapest(visitor *v)
   }
 }
 
-thr_status thr_programme_straighten(const thr_programme *p, const thr_limits *limits, int *value, thr_err *err)
+thr_status thr_programme_straighten(const thr_programme *p, const thr_limits *limits, int *value,
+                                    thr_err *err)
 {
   visitor v = {.visit = take, .p = p, .value = value, .better = true};
   thr_status st = visitor_init(&v, err);
@@ -283,7 +296,8 @@ static bool improve(visitor *v, const exchange *x, thr_err *err, thr_status *st)
   return !*st;
 }
 
-thr_status thr_programme_improve(const thr_programme *p, const thr_limits *limits, int *value, thr_err *err)
+thr_status thr_programme_improve(const thr_programme *p, const thr_limits *limits, int *value,
+                                 thr_err *err)
 {
   visitor v = {.visit = improve, .p = p, .value = value, .limits = limits, .better = true};
   bool valid = true;
@@ -311,9 +325,15 @@ static bool attempt(visitor *v, const exchange *x, thr_err *err, thr_status *st)
 }
 
 thr_status thr_programme_attempt(const thr_programme *p, int *value, bool level,
-                                 thr_status (*attempt_one)(void *user, thr_err *err), void *user, thr_err *err)
+                                 thr_status (*attempt_one)(void *user, thr_err *err), void *user,
+                                 thr_err *err)
 {
-  visitor v = {.visit = attempt, .p = p, .value = value, .level = level, .attempt = attempt_one, .user = user};
+  visitor v = {.visit = attempt,
+               .p = p,
+               .value = value,
+               .level = level,
+               .attempt = attempt_one,
+               .user = user};
   thr_status st = visitor_init(&v, err);
   for (int y = 0; y < p->q->n_pairs && !st; y++)
     if (value[p->first_pair + y] > 0) st = visit_turn(&v, y, err);

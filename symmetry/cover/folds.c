@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Folds that outnumber the ends they could be led to: a flow. */
 #include "graph/scratch.h"
 #include "symmetry/cover/cover.h"
@@ -6,7 +7,8 @@
 
 static const double least_flow = 1e-6;
 
-/* Flows from folds to ends. Nodes: 2 * d the copies' side of dart type d, 2 * d + 1 the turns' side. */
+/* Flows from folds to ends. Nodes: 2 * d the copies' side of dart type d, 2 * d + 1 the turns'
+ * side. */
 typedef struct {
   int n, m;
   int (*edge)[2];
@@ -94,8 +96,8 @@ static void push(network *w, int v)
   }
 }
 
-/* More flow along a shortest path (Edmonds & Karp 1972); false if there is none, then arrived marks what the folds left over
- * reach. */
+/* More flow along a shortest path (Edmonds & Karp 1972); false if there is none, then arrived marks
+ * what the folds left over reach. */
 static bool augment(network *w)
 {
   int head = 0, tail = 0;
@@ -119,8 +121,8 @@ static bool augment(network *w)
   return false;
 }
 
-thr_status thr_programme_folds(const thr_programme *p, const double *value, bool *copy_side, bool *pair_side, bool *found,
-                               thr_err *err)
+thr_status thr_programme_folds(const thr_programme *p, const double *value, bool *copy_side,
+                               bool *pair_side, bool *found, thr_err *err)
 {
   network w = {0};
   thr_status st = network_init(&w, p, err);

@@ -1,9 +1,13 @@
-/* Trails between two folds done away with: every trail is given a direction, with all folds at beginnings.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Trails between two folds done away with: every trail is given a direction, with all folds at
+ * beginnings.
  *
- * The network's nodes are the two sides of every dart type, that of the copies and that of the turns; its edges are the orbits of
- * copies, of turns and of darts (which lead from one side to the other), the folds (from a source) and the cord ends (to a sink).
- * If each fold has a path of its own to a cord end (a maximum flow, Ford & Fulkerson 1956), what is left over is even at every
- * node and falls into circuits. At a type then as many copies arrive as turns lead away, so that they can be matched. */
+ * The network's nodes are the two sides of every dart type, that of the copies and that of the
+ * turns; its edges are the orbits of copies, of turns and of darts (which lead from one side to the
+ * other), the folds (from a source) and the cord ends (to a sink). If each fold has a path of its
+ * own to a cord end (a maximum flow, Ford & Fulkerson 1956), what is left over is even at every
+ * node and falls into circuits. At a type then as many copies arrive as turns lead away, so that
+ * they can be matched. */
 #include "graph/status.h"
 #include "symmetry/lift/lift.h"
 
@@ -15,8 +19,9 @@ typedef struct {
   int to;     /* 0 or 1: directed towards that end; -1: not directed */
 } arc;
 
-/* Arcs: o the orbit's own from side to side, n_orbits + o its copy, 2 * n_orbits + o its turn; those of a copy or turn of two
- * orbits stand with the lower one, the other place is empty (both ends -1). */
+/* Arcs: o the orbit's own from side to side, n_orbits + o its copy, 2 * n_orbits + o its turn;
+ * those of a copy or turn of two orbits stand with the lower one, the other place is empty (both
+ * ends -1). */
 typedef struct {
   const thr_strands *s;
   int source, sink, n_nodes, n_arcs;
@@ -38,10 +43,12 @@ static void make_arcs(network *w)
 {
   const thr_strands *strands = w->s;
   for (int o = 0; o < strands->n_orbits; o++) {
-    int copies = 2 * strands->type[o], turns = copies + 1, other = strands->other[o], partner = strands->partner[o];
+    int copies = 2 * strands->type[o], turns = copies + 1, other = strands->other[o],
+        partner = strands->partner[o];
     const arc none = {{-1, -1}, -1};
     w->arc[o] = (arc){{copies, turns}, -1};
-    w->arc[strands->n_orbits + o] = other < o ? none : (arc){{other == o ? w->source : copies, 2 * strands->type[other]}, -1};
+    w->arc[strands->n_orbits + o] =
+        other < o ? none : (arc){{other == o ? w->source : copies, 2 * strands->type[other]}, -1};
     arc turn = none;
     if (partner < 0) turn = (arc){{turns, w->sink}, -1};
     if (partner == o) turn = (arc){{w->source, turns}, -1};
@@ -52,8 +59,10 @@ static void make_arcs(network *w)
 
 static thr_status network_init(network *w, const thr_strands *strands, thr_err *err)
 {
-  *w = (network){
-      .s = strands, .source = 2 * strands->q->n_darts, .sink = 2 * strands->q->n_darts + 1, .n_arcs = 3 * strands->n_orbits};
+  *w = (network){.s = strands,
+                 .source = 2 * strands->q->n_darts,
+                 .sink = 2 * strands->q->n_darts + 1,
+                 .n_arcs = 3 * strands->n_orbits};
   w->n_nodes = w->sink + 1;
   w->arc = thr_calloc((size_t)w->n_arcs, sizeof *w->arc);
   w->first = thr_calloc((size_t)w->n_nodes + 2, sizeof *w->first);
@@ -77,7 +86,8 @@ static int far_end(const arc *a, int v)
   return a->end[0] == v;
 }
 
-/* One more path from the source to the sink, against directed arcs if need be; false if there is none. */
+/* One more path from the source to the sink, against directed arcs if need be; false if there is
+ * none. */
 static bool augment(network *w)
 {
   int head = 0, tail = 0;
@@ -105,7 +115,8 @@ static bool augment(network *w)
   return true;
 }
 
-/* Directs what is left: from any node along arcs without direction until there is none, which is where the walk began. */
+/* Directs what is left: from any node along arcs without direction until there is none, which is
+ * where the walk began. */
 static void direct_circuits(network *w)
 {
   int *next = w->came;
@@ -133,8 +144,9 @@ static bool leads_away(const network *w, int o)
   return partner >= 0 && partner <= o ? w->arc[2 * n + partner].to == 0 : w->arc[2 * n + o].to == 1;
 }
 
-/* Orbits that arrive where their turn arrives, too, change places with those of their type where both lead away. waiting: first
- * of a type that has no such partner yet; next: [n_orbits] the one after it. */
+/* Orbits that arrive where their turn arrives, too, change places with those of their type where
+ * both lead away. waiting: first of a type that has no such partner yet; next: [n_orbits] the one
+ * after it. */
 static void match(const network *w, thr_strands *strands, int *wrong, int *next)
 {
   int *waiting = w->queue;
@@ -161,8 +173,10 @@ static thr_status direct(network *w, thr_err *err)
   for (int i = w->first[w->source]; i < w->first[w->source + 1]; i++) {
     int a = w->list[i], o = a % w->s->n_orbits;
     if (w->arc[a].to < 0)
-      return thr_fail(err, THR_ESOLVER, "the cords over edge %d and its images would be closed, where ends are asked for",
-                      w->s->q->dart[w->s->type[o]].half >> 1);
+      return thr_fail(
+          err, THR_ESOLVER,
+          "the cords over edge %d and its images would be closed, where ends are asked for",
+          w->s->q->dart[w->s->type[o]].half >> 1);
   }
   direct_circuits(w);
   return THR_OK;
@@ -171,7 +185,8 @@ static thr_status direct(network *w, thr_err *err)
 thr_status thr_strands_open(thr_strands *strands, thr_err *err)
 {
   network w;
-  int *wrong = thr_calloc((size_t)strands->n_orbits, sizeof *wrong), *next = thr_calloc((size_t)strands->n_orbits, sizeof *next);
+  int *wrong = thr_calloc((size_t)strands->n_orbits, sizeof *wrong),
+      *next = thr_calloc((size_t)strands->n_orbits, sizeof *next);
   thr_status st = network_init(&w, strands, err);
   if (!st && (!wrong || !next)) st = thr_nomem(err);
   if (!st) st = direct(&w, err);

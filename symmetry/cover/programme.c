@@ -1,9 +1,13 @@
-/* The columns of the integer programme of symmetry/cover/cover.h, what they cost, and what a whole solution is worth. Internal.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The columns of the integer programme of symmetry/cover/cover.h, what they cost, and what a whole
+ * solution is worth. Internal.
  *
- * A column is a number of orbits; its cost in an aim is what one orbit adds to overlap, steps, paths or turning. Every value of
- * an aim is a constant plus a multiple of its unit, so that a bound may be rounded up to the next one.
+ * A column is a number of orbits; its cost in an aim is what one orbit adds to overlap, steps,
+ * paths or turning. Every value of an aim is a constant plus a multiple of its unit, so that a
+ * bound may be rounded up to the next one.
  *
- * Example: an orbit of three copies of an edge of length 2 that is covered already adds 6 to the overlap. */
+ * Example: an orbit of three copies of an edge of length 2 that is covered already adds 6 to the
+ * overlap. */
 #include "symmetry/cover/cover.h"
 #include "graph/disjoint.h"
 
@@ -37,9 +41,11 @@ static thr_status find_node_orbits(thr_programme *p, thr_err *err)
   }
   for (int v = 0; v < n; v++)
     if (thr_programme_end_allowed(p, v) != thr_programme_end_allowed(p, p->node_orbit[v]))
-      return thr_fail(err, THR_EINPUT, "the group moves node %s, where cords may end, to node %s, where they may not",
-                      quotient->f->name[thr_programme_end_allowed(p, v) ? v : p->node_orbit[v]],
-                      quotient->f->name[thr_programme_end_allowed(p, v) ? p->node_orbit[v] : v]);
+      return thr_fail(
+          err, THR_EINPUT,
+          "the group moves node %s, where cords may end, to node %s, where they may not",
+          quotient->f->name[thr_programme_end_allowed(p, v) ? v : p->node_orbit[v]],
+          quotient->f->name[thr_programme_end_allowed(p, v) ? p->node_orbit[v] : v]);
   return THR_OK;
 }
 
@@ -48,11 +54,13 @@ static thr_status find_passes(thr_programme *p, thr_err *err)
 {
   const thr_quotient *quotient = p->q;
   for (int e = 0; e < quotient->f->n_edges; e++) {
-    int orbit = quotient->edge_orbit[e], cover = p->o->edge_cover ? p->o->edge_cover[e] : p->o->cover;
+    int orbit = quotient->edge_orbit[e],
+        cover = p->o->edge_cover ? p->o->edge_cover[e] : p->o->cover;
     int capacity = p->o->edge_capacity ? p->o->edge_capacity[e] : INT_MAX;
     bool first = p->cover[orbit] == 0;
     if (!first && (p->cover[orbit] != cover || p->capacity[orbit] != capacity))
-      return thr_fail(err, THR_EINPUT, "the group moves edge %d to one that needs, or may have, other passes", e);
+      return thr_fail(err, THR_EINPUT,
+                      "the group moves edge %d to one that needs, or may have, other passes", e);
     p->cover[orbit] = cover;
     p->capacity[orbit] = capacity;
   }
@@ -64,8 +72,10 @@ static void fill_copies(thr_programme *p)
   const thr_quotient *quotient = p->q;
   for (int c = 0; c < quotient->n_copies; c++) {
     const thr_copy_type *type = &quotient->copy[c];
-    int most = 2 * p->cover[type->edge_orbit] + 2, fit = p->capacity[type->edge_orbit] / type->passes;
-    for (int i = 0; i < 2 && p->o->tube; i++) /* one less than its tubes: so many kinds of turns can tie a node */
+    int most = 2 * p->cover[type->edge_orbit] + 2,
+        fit = p->capacity[type->edge_orbit] / type->passes;
+    for (int i = 0; i < 2 && p->o->tube;
+         i++) /* one less than its tubes: so many kinds of turns can tie a node */
       most += 2 * (thr_degree(quotient->f, quotient->f->edge[type->edge][i]) - 1);
     p->most[c] = fit < most ? fit : most;
     p->join[c][0] = type->dart[0];
@@ -95,7 +105,8 @@ static void fill_darts(thr_programme *p)
   const thr_quotient *quotient = p->q;
   for (int d = 0; d < quotient->n_darts; d++) {
     int t = p->first_end + d, z = p->first_circle + d;
-    p->most[t] = thr_programme_end_allowed(p, thr_tail(quotient->f, quotient->dart[d].half)) ? -1 : 0;
+    p->most[t] =
+        thr_programme_end_allowed(p, thr_tail(quotient->f, quotient->dart[d].half)) ? -1 : 0;
     p->most[z] = !p->open;
     p->join[t][0] = p->join[z][0] = p->join[z][1] = d;
     p->join[t][1] = quotient->n_darts;
@@ -133,7 +144,8 @@ static thr_status allocate(thr_programme *p, thr_err *err)
   p->first = thr_calloc((size_t)p->q->n_darts + 2, sizeof *p->first);
   p->incident = thr_calloc(2 * (size_t)p->q->n_pairs, sizeof *p->incident);
   p->node_orbit = thr_calloc((size_t)p->q->f->n_nodes, sizeof *p->node_orbit);
-  bool all = p->cover && p->capacity && p->least && p->most && p->join && p->first && p->incident && p->node_orbit;
+  bool all = p->cover && p->capacity && p->least && p->most && p->join && p->first && p->incident &&
+             p->node_orbit;
   for (int a = 0; a < THR_N_AIMS; a++)
     all = (p->cost[a] = thr_calloc(n, sizeof *p->cost[a])) && all;
   return all ? THR_OK : thr_nomem(err);
@@ -156,7 +168,8 @@ static double common_unit(const double *cost, int n, double scale)
   return unit;
 }
 
-thr_status thr_programme_init(thr_programme *p, const thr_quotient *quotient, const thr_cover_options *options, thr_err *err)
+thr_status thr_programme_init(thr_programme *p, const thr_quotient *quotient,
+                              const thr_cover_options *options, thr_err *err)
 {
   *p = (thr_programme){.q = quotient, .o = options, .open = thr_cover_all_open(options)};
   p->first_pair = quotient->n_copies;
@@ -173,7 +186,8 @@ thr_status thr_programme_init(thr_programme *p, const thr_quotient *quotient, co
     list_pairs(p);
     st = thr_programme_rule_out(p, err);
   }
-  for (int j = p->first_pair; j < p->first_end && !st; j++) /* turns that no cover has are of no weight in units and scales */
+  for (int j = p->first_pair; j < p->first_end && !st;
+       j++) /* turns that no cover has are of no weight in units and scales */
     if (p->most[j] == 0) p->cost[THR_AIM_TURNING][j] = 0;
   if (st) {
     thr_programme_destroy(p);
@@ -185,7 +199,9 @@ thr_status thr_programme_init(thr_programme *p, const thr_quotient *quotient, co
     for (int j = 0; j < p->n; j++)
       p->scale[a] = fmax(p->scale[a], p->cost[a][j]);
     if (p->scale[a] == 0) p->scale[a] = 1;
-    p->unit[a] = a == THR_AIM_PATHS ? 1 : common_unit(p->cost[a], p->n, p->scale[a]); /* terminals come in twos */
+    p->unit[a] = a == THR_AIM_PATHS
+                     ? 1
+                     : common_unit(p->cost[a], p->n, p->scale[a]); /* terminals come in twos */
   }
   return THR_OK;
 }
@@ -227,22 +243,27 @@ bool thr_programme_loop(const thr_programme *p, int dart)
 {
   for (int k = p->first[dart]; k < p->first[dart + 1]; k++) {
     const thr_pair_type *type = &p->q->pair[p->incident[k]];
-    if (!type->self && type->dart[0] == type->dart[1] && p->most[p->first_pair + p->incident[k]] != 0) return true;
+    if (!type->self && type->dart[0] == type->dart[1] &&
+        p->most[p->first_pair + p->incident[k]] != 0)
+      return true;
   }
   return false;
 }
 
 /* ---- connected sets ---- */
 
-thr_status thr_programme_parts_init(thr_programme_parts *programme_parts, const thr_programme *p, thr_err *err)
+thr_status thr_programme_parts_init(thr_programme_parts *programme_parts, const thr_programme *p,
+                                    thr_err *err)
 {
   size_t n = (size_t)p->q->n_darts;
   programme_parts->root = thr_calloc(n, sizeof *programme_parts->root);
   programme_parts->terminals = thr_calloc(n, sizeof *programme_parts->terminals);
   programme_parts->ends = thr_calloc(n, sizeof *programme_parts->ends);
   programme_parts->copies = thr_calloc(n, sizeof *programme_parts->copies);
-  return programme_parts->root && programme_parts->terminals && programme_parts->ends && programme_parts->copies ? THR_OK
-                                                                                                                 : thr_nomem(err);
+  return programme_parts->root && programme_parts->terminals && programme_parts->ends &&
+                 programme_parts->copies
+             ? THR_OK
+             : thr_nomem(err);
 }
 
 void thr_programme_parts_destroy(thr_programme_parts *programme_parts)
@@ -254,7 +275,8 @@ void thr_programme_parts_destroy(thr_programme_parts *programme_parts)
   *programme_parts = (thr_programme_parts){0};
 }
 
-void thr_programme_parts_find(thr_programme_parts *programme_parts, const thr_programme *p, const int *value)
+void thr_programme_parts_find(thr_programme_parts *programme_parts, const thr_programme *p,
+                              const int *value)
 {
   int n = p->q->n_darts;
   for (int d = 0; d < n; d++) {
@@ -262,7 +284,8 @@ void thr_programme_parts_find(thr_programme_parts *programme_parts, const thr_pr
     programme_parts->terminals[d] = programme_parts->ends[d] = programme_parts->copies[d] = 0;
   }
   for (int j = 0; j < p->first_end; j++)
-    if (value[j] > 0 && !thr_programme_terminal(p, j)) thr_disjoint_join(programme_parts->root, p->join[j][0], p->join[j][1]);
+    if (value[j] > 0 && !thr_programme_terminal(p, j))
+      thr_disjoint_join(programme_parts->root, p->join[j][0], p->join[j][1]);
   for (int j = 0; j < p->first_circle; j++) {
     int root = thr_disjoint_find(programme_parts->root, p->join[j][0]);
     if (thr_programme_terminal(p, j)) programme_parts->terminals[root] += value[j];
@@ -277,7 +300,8 @@ void thr_programme_parts_find(thr_programme_parts *programme_parts, const thr_pr
 
 /* ---- worth ---- */
 
-static const double worth_tolerance = 4e-6; /* in parts of the largest cost: several times that of the relaxation's rows */
+static const double worth_tolerance =
+    4e-6; /* in parts of the largest cost: several times that of the relaxation's rows */
 
 double thr_programme_tolerance(const thr_programme *p, thr_aim aim)
 {
@@ -306,7 +330,8 @@ static bool fits_capacity(const thr_programme *p, const int *value)
   bool fits = true;
   for (int c = 0, end; c < quotient->n_copies; c = end) {
     long passes = 0;
-    for (end = c; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[c].edge; end++)
+    for (end = c; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[c].edge;
+         end++)
       passes += (long)value[end] * quotient->copy[end].passes;
     fits = fits && passes <= p->capacity[quotient->copy[c].edge_orbit];
   }
@@ -333,13 +358,16 @@ static thr_status all_tied(const thr_programme *p, const int *value, bool *valid
   return THR_OK;
 }
 
-thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS], bool *valid, thr_err *err)
+thr_status thr_programme_value(const thr_programme *p, const int *value, double worth[THR_N_AIMS],
+                               bool *valid, thr_err *err)
 {
   size_t n = (size_t)p->q->n_darts;
   thr_programme_parts programme_parts = {0};
-  bool *copy_side = thr_calloc(n, sizeof *copy_side), *pair_side = thr_calloc(n, sizeof *pair_side), unmatched = false;
+  bool *copy_side = thr_calloc(n, sizeof *copy_side), *pair_side = thr_calloc(n, sizeof *pair_side),
+       unmatched = false;
   double *x = thr_calloc((size_t)p->n, sizeof *x);
-  thr_status st = copy_side && pair_side && x ? thr_programme_parts_init(&programme_parts, p, err) : thr_nomem(err);
+  thr_status st = copy_side && pair_side && x ? thr_programme_parts_init(&programme_parts, p, err)
+                                              : thr_nomem(err);
   for (int a = 0; a < THR_N_AIMS; a++) {
     worth[a] = p->constant[a];
     for (int j = 0; j < p->first_circle; j++)

@@ -1,9 +1,12 @@
-/* The linear programme over the columns of symmetry/cover/programme.c, with rows added as a point violates them (branch and cut:
- * M. Padberg & G. Rinaldi, SIAM Review 33, 1991). Internal.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The linear programme over the columns of symmetry/cover/programme.c, with rows added as a point
+ * violates them (branch and cut: M. Padberg & G. Rinaldi, SIAM Review 33, 1991). Internal.
  *
- * The rows hold for every cover, whatever the bounds in force: odd sets, ties, connected sets, sets with too many folds.
+ * The rows hold for every cover, whatever the bounds in force: odd sets, ties, connected sets, sets
+ * with too many folds.
  *
- * Example: copies over two edge orbits that share a node but no turn there break the row that asks for one. */
+ * Example: copies over two edge orbits that share a node but no turn there break the row that asks
+ * for one. */
 #include "symmetry/cover/cover_parts.h"
 #include "graph/scratch.h"
 #include "lp/solver/lp.h"
@@ -17,7 +20,8 @@ static const double tolerance = 1e-6; /* of rows */
 static const double fraction = 1e-5;  /* less is whole */
 static const double slack = 1e-7;     /* of an aim that is kept, in parts of its largest cost */
 
-/* Nodes of a graph in which odd sets are looked for exactly; beyond, a cut tree takes longer than branching. */
+/* Nodes of a graph in which odd sets are looked for exactly; beyond, a cut tree takes longer than
+ * branching. */
 enum { MOST_EXACT = 4000 };
 
 /* ---- rows ---- */
@@ -28,9 +32,11 @@ thr_status thr_relaxation_add_row(thr_relaxation *relaxation, double lower, thr_
   return st ? st : thr_programme_check_time(relaxation->p);
 }
 
-thr_status thr_relaxation_add_violated(thr_relaxation *relaxation, double lower, int *added, thr_err *err)
+thr_status thr_relaxation_add_violated(thr_relaxation *relaxation, double lower, int *added,
+                                       thr_err *err)
 {
-  thr_status st = thr_pool_offer(&relaxation->search.pool, (thr_row){.lower = lower}, relaxation->x, tolerance, added, err);
+  thr_status st = thr_pool_offer(&relaxation->search.pool, (thr_row){.lower = lower}, relaxation->x,
+                                 tolerance, added, err);
   return st ? st : thr_programme_check_time(relaxation->p);
 }
 
@@ -40,7 +46,8 @@ static thr_status create_equations(thr_relaxation *relaxation, thr_err *err)
   const thr_programme *p = relaxation->p;
   thr_scratch own = {0};
   int darts = p->q->n_darts, n = 0;
-  int columns = p->n + relaxation->extra, *start = thr_scratch_array(&own, (size_t)columns + 1, sizeof *start),
+  int columns = p->n + relaxation->extra,
+      *start = thr_scratch_array(&own, (size_t)columns + 1, sizeof *start),
       *row = thr_scratch_array(&own, 2 * (size_t)p->n, sizeof *row);
   double *value = thr_scratch_array(&own, 2 * (size_t)p->n, sizeof *value),
          *rhs = thr_scratch_array(&own, (size_t)darts, sizeof *rhs);
@@ -61,10 +68,13 @@ static thr_status create_equations(thr_relaxation *relaxation, thr_err *err)
   }
   for (int j = p->n; j < columns && !st; j++)
     start[j + 1] = n;
-  if (!st) st = thr_lp_create_equations(&relaxation->search.lp, darts, rhs, columns, relaxation->x, NULL, start, row, value, err);
+  if (!st)
+    st = thr_lp_create_equations(&relaxation->search.lp, darts, rhs, columns, relaxation->x, NULL,
+                                 start, row, value, err);
   thr_scratch_free(&own);
   for (int j = 0; j < p->n && !st; j++)
-    st = thr_lp_set_bounds(relaxation->search.lp, j, p->least[j], p->most[j] < 0 ? (double)INFINITY : p->most[j], err);
+    st = thr_lp_set_bounds(relaxation->search.lp, j, p->least[j],
+                           p->most[j] < 0 ? (double)INFINITY : p->most[j], err);
   return st;
 }
 
@@ -87,7 +97,8 @@ static thr_status add_cover_rows(thr_relaxation *relaxation, thr_err *err)
         capacity = relaxation->p->capacity[quotient->copy[c].edge_orbit];
     if (end == c + 1) continue; /* a bound instead */
     for (int k = c; k < end; k++)
-      thr_pool_put(&relaxation->search.pool, k, quotient->copy[k].passes < cover ? quotient->copy[k].passes : cover);
+      thr_pool_put(&relaxation->search.pool, k,
+                   quotient->copy[k].passes < cover ? quotient->copy[k].passes : cover);
     st = thr_relaxation_add_row(relaxation, cover, err);
     if (st || capacity == INT_MAX) continue;
     for (int k = c; k < end; k++)
@@ -128,7 +139,8 @@ static int only_odd(const thr_quotient *quotient, int first, int end)
   return n == 1 && end > first + 1 ? odd : -1;
 }
 
-static void add_edge(thr_relaxation *relaxation, int (*edge)[2], int a, int b, int column, bool surplus)
+static void add_edge(thr_relaxation *relaxation, int (*edge)[2], int a, int b, int column,
+                     bool surplus)
 {
   int m = relaxation->problem.n_edges++;
   edge[m][0] = a;
@@ -137,22 +149,27 @@ static void add_edge(thr_relaxation *relaxation, int (*edge)[2], int a, int b, i
   relaxation->surplus[m] = surplus;
 }
 
-/* Summed over the equations of a set of dart types, every column inside counts evenly: so do those that cross, together. A copy
- * column counts as its surplus over its bound: bounds make sets odd, and then at least 1 crosses. Where one of several copy types
- * of an edge orbit has an odd number of passes, that column and the orbit's surplus over the cover differ in parity by the cover:
- * its edge gets a node in its middle, so that a cut can cross either half (as with the upper bounds of Padberg & Rao 1982). */
+/* Summed over the equations of a set of dart types, every column inside counts evenly: so do those
+ * that cross, together. A copy column counts as its surplus over its bound: bounds make sets odd,
+ * and then at least 1 crosses. Where one of several copy types of an edge orbit has an odd number
+ * of passes, that column and the orbit's surplus over the cover differ in parity by the cover: its
+ * edge gets a node in its middle, so that a cut can cross either half (as with the upper bounds of
+ * Padberg & Rao 1982). */
 static void fill_graph(thr_relaxation *relaxation, int (*edge)[2], bool *odd)
 {
   const thr_programme *p = relaxation->p;
   const thr_quotient *quotient = p->q;
   for (int j = quotient->n_copies; j < p->first_circle; j++)
-    if (p->join[j][0] != p->join[j][1] && p->most[j] != 0) add_edge(relaxation, edge, p->join[j][0], p->join[j][1], j, false);
+    if (p->join[j][0] != p->join[j][1] && p->most[j] != 0)
+      add_edge(relaxation, edge, p->join[j][0], p->join[j][1], j, false);
   for (int c = 0, end; c < quotient->n_copies; c = end) {
     end = end_of_orbit(quotient, c);
     int split = only_odd(quotient, c, end);
-    if (split >= 0 && p->least[split] > 0) split = -1; /* the others are ruled out: it has a bound instead */
+    if (split >= 0 && p->least[split] > 0)
+      split = -1; /* the others are ruled out: it has a bound instead */
     for (int k = c; k < end; k++) {
-      int a = p->join[k][0], b = p->join[k][1], shift = k == split ? p->cover[quotient->copy[k].edge_orbit] : p->least[k];
+      int a = p->join[k][0], b = p->join[k][1],
+          shift = k == split ? p->cover[quotient->copy[k].edge_orbit] : p->least[k];
       if (a == b) continue;
       if (k == split) {
         int middle = relaxation->problem.n_nodes++;
@@ -189,12 +206,14 @@ static thr_status init_graph(thr_relaxation *relaxation, thr_err *err)
   size_t most = (size_t)p->n + (size_t)p->q->n_copies;
   int(*edge)[2] = thr_calloc(most, sizeof *edge);
   bool *odd = thr_calloc(most + 1, sizeof *odd);
-  relaxation->problem = (thr_tjoin_problem){.n_nodes = p->q->n_darts + 1, .edge = (const int(*)[2])edge, .odd = odd};
+  relaxation->problem =
+      (thr_tjoin_problem){.n_nodes = p->q->n_darts + 1, .edge = (const int(*)[2])edge, .odd = odd};
   relaxation->column = thr_calloc(most, sizeof *relaxation->column);
   relaxation->weight = thr_calloc(most, sizeof *relaxation->weight);
   relaxation->metric = thr_calloc(most, sizeof *relaxation->metric);
   relaxation->surplus = thr_calloc(most, sizeof *relaxation->surplus);
-  if (!edge || !odd || !relaxation->column || !relaxation->weight || !relaxation->metric || !relaxation->surplus)
+  if (!edge || !odd || !relaxation->column || !relaxation->weight || !relaxation->metric ||
+      !relaxation->surplus)
     return thr_nomem(err);
   fill_graph(relaxation, edge, odd);
   thr_status st = thr_oddcut_graph_init(&relaxation->graph, &relaxation->problem, err);
@@ -220,14 +239,17 @@ static double weigh(const thr_relaxation *relaxation, int edge)
   return fmax(0, sum - relaxation->p->cover[quotient->copy[j].edge_orbit]);
 }
 
-/* The first sets: balls round the nodes, as far as their turns join their dart types, with odd numbers of darts. */
+/* The first sets: balls round the nodes, as far as their turns join their dart types, with odd
+ * numbers of darts. */
 static thr_status add_first_sets(thr_relaxation *relaxation, const thr_limits *limits, thr_err *err)
 {
   int added = 0;
   for (int k = 0; k < relaxation->problem.n_edges; k++) {
     int j = relaxation->column[k];
-    relaxation->weight[k] = j >= relaxation->p->first_pair && !thr_programme_terminal(relaxation->p, j);
-    relaxation->metric[k] = relaxation->p->cost[THR_AIM_OVERLAP][j] / relaxation->p->scale[THR_AIM_OVERLAP];
+    relaxation->weight[k] =
+        j >= relaxation->p->first_pair && !thr_programme_terminal(relaxation->p, j);
+    relaxation->metric[k] =
+        relaxation->p->cost[THR_AIM_OVERLAP][j] / relaxation->p->scale[THR_AIM_OVERLAP];
   }
   for (int j = 0; j < relaxation->p->n; j++) /* every odd set is violated */
     relaxation->x[j] = relaxation->p->least[j];
@@ -267,9 +289,11 @@ static void put_leaving(thr_relaxation *relaxation, const bool *inside, double f
   }
 }
 
-/* Where c is used with a dart in the set, its trail leaves the set or ends in it twice, unless the set holds a circle. c is used
- * for certain if no other copy type of its edge orbit, outside the set, is; or else as much as x[c] / U. */
-static thr_status add_connected(thr_relaxation *relaxation, const bool *inside, int c, int *added, thr_err *err)
+/* Where c is used with a dart in the set, its trail leaves the set or ends in it twice, unless the
+ * set holds a circle. c is used for certain if no other copy type of its edge orbit, outside the
+ * set, is; or else as much as x[c] / U. */
+static thr_status add_connected(thr_relaxation *relaxation, const bool *inside, int c, int *added,
+                                thr_err *err)
 {
   const thr_programme *p = relaxation->p;
   const thr_quotient *quotient = p->q;
@@ -278,8 +302,10 @@ static thr_status add_connected(thr_relaxation *relaxation, const bool *inside, 
     put_leaving(relaxation, inside, 1);
     for (int d = 0; d < quotient->n_darts; d++)
       if (inside[d]) thr_pool_put(&relaxation->search.pool, p->first_circle + d, 2);
-    for (int k = start_of_orbit(quotient, c), end = end_of_orbit(quotient, k); k < end && !weak; k++)
-      if (!inside[quotient->copy[k].dart[0]] && (quotient->copy[k].fold || !inside[quotient->copy[k].dart[1]]))
+    for (int k = start_of_orbit(quotient, c), end = end_of_orbit(quotient, k); k < end && !weak;
+         k++)
+      if (!inside[quotient->copy[k].dart[0]] &&
+          (quotient->copy[k].fold || !inside[quotient->copy[k].dart[1]]))
         thr_pool_put(&relaxation->search.pool, k, 2);
     if (weak) thr_pool_put(&relaxation->search.pool, c, -2.0 / p->most[c]);
     thr_status st = thr_relaxation_add_violated(relaxation, weak ? 0 : 2, added, err);
@@ -310,11 +336,15 @@ static thr_status find_connected(void *user, int *added, thr_err *err)
       copy[d] = -1;
     for (int c = 0; c < quotient->n_copies; c++) {
       int root = programme_parts.root[quotient->copy[c].dart[0]];
-      if (support[c] && (copy[root] < 0 || relaxation->x[c] > relaxation->x[copy[root]] + tolerance)) copy[root] = c;
+      if (support[c] &&
+          (copy[root] < 0 || relaxation->x[c] > relaxation->x[copy[root]] + tolerance))
+        copy[root] = c;
     }
   }
   for (int root = 0; root < quotient->n_darts && !st; root++) {
-    if (programme_parts.root[root] != root || (p->open ? programme_parts.ends : programme_parts.terminals)[root] > 0) continue;
+    if (programme_parts.root[root] != root ||
+        (p->open ? programme_parts.ends : programme_parts.terminals)[root] > 0)
+      continue;
     for (int d = 0; d < quotient->n_darts; d++)
       inside[d] = programme_parts.root[d] == root;
     st = add_connected(relaxation, inside, copy[root], added, err);
@@ -328,13 +358,15 @@ static thr_status find_connected(void *user, int *added, thr_err *err)
   return st;
 }
 
-/* Every fold's trail ends in the set of thr_programme_folds or leaves it, over a copy, a turn or from copy to turn. */
+/* Every fold's trail ends in the set of thr_programme_folds or leaves it, over a copy, a turn or
+ * from copy to turn. */
 static thr_status find_folds(void *user, int *added, thr_err *err)
 {
   thr_relaxation *relaxation = user;
   const thr_programme *p = relaxation->p;
   size_t n = (size_t)p->q->n_darts;
-  bool *copy_side = thr_calloc(n, sizeof *copy_side), *pair_side = thr_calloc(n, sizeof *pair_side), found = false;
+  bool *copy_side = thr_calloc(n, sizeof *copy_side), *pair_side = thr_calloc(n, sizeof *pair_side),
+       found = false;
   thr_status st = copy_side && pair_side ? THR_OK : thr_nomem(err);
   if (!st) st = thr_programme_folds(p, relaxation->x, copy_side, pair_side, &found, err);
   for (int j = 0; j < p->first_circle && found && !st; j++) {
@@ -346,7 +378,8 @@ static thr_status find_folds(void *user, int *added, thr_err *err)
       thr_pool_put(&relaxation->search.pool, j, inside[a] != inside[b]);
     for (int i = 0; i < 2 && j < p->first_pair; i++)
       if (p->join[j][i] < p->q->n_darts)
-        thr_pool_put(&relaxation->search.pool, j, copy_side[p->join[j][i]] != pair_side[p->join[j][i]]);
+        thr_pool_put(&relaxation->search.pool, j,
+                     copy_side[p->join[j][i]] != pair_side[p->join[j][i]]);
   }
   if (found && !st) st = thr_relaxation_add_violated(relaxation, 0, added, err);
   free(copy_side);
@@ -366,8 +399,8 @@ static void use_separators(thr_relaxation *relaxation)
   if (relaxation->p->open) thr_search_use(search, find_folds, relaxation, THR_FALLBACK);
 }
 
-thr_status thr_relaxation_init(thr_relaxation *relaxation, const thr_programme *p, int extra, const thr_limits *limits,
-                               thr_err *err)
+thr_status thr_relaxation_init(thr_relaxation *relaxation, const thr_programme *p, int extra,
+                               const thr_limits *limits, thr_err *err)
 {
   *relaxation = (thr_relaxation){.p = p, .extra = extra};
   relaxation->x = thr_calloc((size_t)p->n + (size_t)extra, sizeof *relaxation->x);
@@ -419,24 +452,29 @@ thr_status thr_relaxation_fix(thr_relaxation *relaxation, double value, thr_err 
   double scale = p->scale[relaxation->aim];
   for (int j = 0; j < p->n; j++)
     thr_pool_put(&relaxation->search.pool, j, -p->cost[relaxation->aim][j] / scale);
-  return thr_relaxation_add_row(relaxation, -(value - p->constant[relaxation->aim]) / scale - slack, err);
+  return thr_relaxation_add_row(relaxation, -(value - p->constant[relaxation->aim]) / scale - slack,
+                                err);
 }
 
 void thr_relaxation_look(thr_relaxation *relaxation)
 {
   const thr_programme *p = relaxation->p;
   thr_search *search = &relaxation->search;
-  relaxation->objective =
-      thr_programme_round(p, relaxation->aim, search->objective * p->scale[relaxation->aim] + p->constant[relaxation->aim]);
+  relaxation->objective = thr_programme_round(p, relaxation->aim,
+                                              search->objective * p->scale[relaxation->aim] +
+                                                  p->constant[relaxation->aim]);
   search->whole = thr_tree_undecided(relaxation->x, 0, p->n, fraction, NULL) < 0;
 }
 
 int thr_relaxation_branch(const thr_relaxation *relaxation)
 {
   const thr_programme *p = relaxation->p;
-  const int range[][2] = {
-      {0, p->first_pair}, {p->first_end, p->first_circle}, {p->first_pair, p->first_end}, {p->first_circle, p->n}};
-  int j = thr_tree_undecided(relaxation->x, 0, p->first_pair, fraction, p->least); /* what the odd sets know least of */
+  const int range[][2] = {{0, p->first_pair},
+                          {p->first_end, p->first_circle},
+                          {p->first_pair, p->first_end},
+                          {p->first_circle, p->n}};
+  int j = thr_tree_undecided(relaxation->x, 0, p->first_pair, fraction,
+                             p->least); /* what the odd sets know least of */
   for (int k = 0; k < 4 && j < 0; k++)
     j = thr_tree_undecided(relaxation->x, range[k][0], range[k][1], fraction, NULL);
   return j;

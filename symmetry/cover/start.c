@@ -1,4 +1,6 @@
-/* Covers that need no programme: copies, made even by a least join, and ends where they cannot turn. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Covers that need no programme: copies, made even by a least join, and ends where they cannot
+ * turn. */
 #include "graph/disjoint.h"
 #include "lp/tjoin/tjoin.h"
 #include "symmetry/cover/cover.h"
@@ -18,7 +20,8 @@ static int needed(const thr_programme *p, int copy, int *over)
   return n;
 }
 
-/* Orbits of the freest copies with which every dart type that they have occurs 2 * ((cover + 1) / 2) times. */
+/* Orbits of the freest copies with which every dart type that they have occurs 2 * ((cover + 1) /
+ * 2) times. */
 static int evenly(const thr_programme *p, int copy)
 {
   const thr_copy_type *type = &p->q->copy[copy];
@@ -26,20 +29,25 @@ static int evenly(const thr_programme *p, int copy)
   return !type->fold && type->dart[0] == type->dart[1] ? half : 2 * half;
 }
 
-/* One copy type for every edge orbit: that with least overlap, without folds if possible, or else the freest. False if capacities
- * leave none of this kind. */
-static bool take_copies(const thr_contraction *contraction, thr_contraction_kind kind, const bool *barred, int *small)
+/* One copy type for every edge orbit: that with least overlap, without folds if possible, or else
+ * the freest. False if capacities leave none of this kind. */
+static bool take_copies(const thr_contraction *contraction, thr_contraction_kind kind,
+                        const bool *barred, int *small)
 {
   const thr_programme *p = contraction->whole;
   const thr_quotient *quotient = p->q;
   for (int k = 0, end; k < quotient->n_copies; k = end) {
     int best = -1, over, least = 0;
-    for (end = k; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[k].edge; end++) {
-      if (p->most[end] == 0 || barred[end] || (kind != THR_CONTRACTION_LEAST && quotient->copy[end].fold)) continue;
+    for (end = k; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[k].edge;
+         end++) {
+      if (p->most[end] == 0 || barred[end] ||
+          (kind != THR_CONTRACTION_LEAST && quotient->copy[end].fold))
+        continue;
       needed(p, end, &over);
       bool better = best < 0 || quotient->copy[end].passes > quotient->copy[best].passes;
       if (best >= 0 && kind != THR_CONTRACTION_TWICE)
-        better = over < least || (over == least && quotient->copy[best].fold && !quotient->copy[end].fold);
+        better = over < least ||
+                 (over == least && quotient->copy[best].fold && !quotient->copy[end].fold);
       if (!better) continue;
       best = end;
       least = over;
@@ -68,11 +76,14 @@ static double take_certain(const thr_programme *p, const double *part, int *smal
     worth += part[a] * p->constant[a];
   for (int k = 0, end; k < quotient->n_copies; k = end) {
     double least = (double)INFINITY;
-    for (end = k; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[k].edge; end++) {
+    for (end = k; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[k].edge;
+         end++) {
       small[end] = p->least[end];
       double pass = price(p, part, end) / quotient->copy[end].passes;
       if (p->most[end] != 0)
-        least = fmin(least, fmax(p->cover[p->q->copy[end].edge_orbit], small[end] * quotient->copy[end].passes) * pass);
+        least = fmin(least, fmax(p->cover[p->q->copy[end].edge_orbit],
+                                 small[end] * quotient->copy[end].passes) *
+                                pass);
     }
     worth += least;
   }
@@ -87,7 +98,8 @@ typedef struct {
   int (*edge)[2];
   int64_t *weight;
   bool *odd;
-  int *column; /* [problem.n_edges] -1: it makes the graph connected; as a bridge with even sides no least join has it */
+  int *column; /* [problem.n_edges] -1: it makes the graph connected; as a bridge with even sides no
+                  least join has it */
   int *parent; /* [problem.n_nodes] */
   bool *rest;  /* [problem.n_nodes] by lowest node of a part: is the number of its odd nodes odd? */
   double unit; /* overlap that a weight of 1 stands for, or a little more */
@@ -117,7 +129,8 @@ typedef struct {
   double part[THR_N_AIMS]; /* of the aims that count */
   const bool *barred;      /* [first_pair] copy types that it may not have, or NULL */
   bool folds;              /* may it have folds? */
-  bool certain; /* where an edge orbit has several copy types they cost nothing: one more of one may be one less of another */
+  bool certain; /* where an edge orbit has several copy types they cost nothing: one more of one may
+                   be one less of another */
 } request;
 
 static double request_price(const request *r, const thr_programme *p, int j)
@@ -129,7 +142,8 @@ static void choose_unit(join *g, const request *r, const thr_programme *p)
 {
   const double most = 0x1p48;
   double sum = 0;
-  bool alone = r->part[THR_AIM_OVERLAP] == 1 && r->part[THR_AIM_STEPS] == 0 && r->part[THR_AIM_PATHS] == 0;
+  bool alone =
+      r->part[THR_AIM_OVERLAP] == 1 && r->part[THR_AIM_STEPS] == 0 && r->part[THR_AIM_PATHS] == 0;
   for (int j = 0; j < p->first_circle; j++)
     sum += request_price(r, p, j);
   g->unit = p->unit[THR_AIM_OVERLAP];
@@ -146,8 +160,10 @@ static thr_status join_init(join *g, const thr_programme *p, thr_err *err)
   g->column = thr_calloc(most, sizeof *g->column);
   g->parent = thr_calloc(n, sizeof *g->parent);
   g->rest = thr_calloc(n, sizeof *g->rest);
-  if (!g->edge || !g->weight || !g->odd || !g->column || !g->parent || !g->rest) return thr_nomem(err);
-  g->problem = (thr_tjoin_problem){.n_nodes = (int)n, .edge = (const int(*)[2])g->edge, .weight = g->weight, .odd = g->odd};
+  if (!g->edge || !g->weight || !g->odd || !g->column || !g->parent || !g->rest)
+    return thr_nomem(err);
+  g->problem = (thr_tjoin_problem){
+      .n_nodes = (int)n, .edge = (const int(*)[2])g->edge, .weight = g->weight, .odd = g->odd};
   return THR_OK;
 }
 
@@ -174,9 +190,10 @@ static void fill_join(join *g, const request *r, const thr_programme *p, const i
   g->rest[top] = false;
 }
 
-/* Adds the least join to small; *found = false if there is none. *least: what any such join is worth at least. */
-static thr_status add_join(const request *r, const thr_programme *p, const thr_limits *limits, int *small, bool *found,
-                           double *least, thr_err *err)
+/* Adds the least join to small; *found = false if there is none. *least: what any such join is
+ * worth at least. */
+static thr_status add_join(const request *r, const thr_programme *p, const thr_limits *limits,
+                           int *small, bool *found, double *least, thr_err *err)
 {
   join g;
   thr_tjoin tjoin = {0};
@@ -193,7 +210,8 @@ static thr_status add_join(const request *r, const thr_programme *p, const thr_l
   if (!st && *found && any) {
     thr_err why = {0};
     st = thr_tjoin_minimum(&g.problem, THR_ENGINE_AUTO, limits, &tjoin, &why);
-    st = st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text) : THR_OK; /* the best so far will do */
+    st = st && st != THR_ELIMIT ? thr_fail(err, st, "%s", why.text)
+                                : THR_OK; /* the best so far will do */
     *least = (double)tjoin.sum / THR_DUAL_DENOMINATOR * g.unit;
   }
   for (int e = 0; tjoin.in_join && e < g.problem.n_edges; e++)
@@ -205,24 +223,27 @@ static thr_status add_join(const request *r, const thr_programme *p, const thr_l
 
 /* ---- ends where no turn is left ---- */
 
-/* Column of the contracted programme in which a dart orbit of type d may end: a cord end, or a self pair unless every cord is to
- * be open (it might lack an end then); -1 = none. */
+/* Column of the contracted programme in which a dart orbit of type d may end: a cord end, or a self
+ * pair unless every cord is to be open (it might lack an end then); -1 = none. */
 static int terminal_of(const thr_contraction *contraction, int d)
 {
   const thr_programme *whole = contraction->whole, *p = &contraction->p;
   int cell = contraction->becomes[d];
   if (whole->most[whole->first_end + d] != 0) return p->first_end + cell;
   for (int k = whole->first[d]; k < whole->first[d + 1] && !whole->open; k++) {
-    if (!whole->q->pair[whole->incident[k]].self || whole->most[whole->first_pair + whole->incident[k]] == 0) continue;
+    if (!whole->q->pair[whole->incident[k]].self ||
+        whole->most[whole->first_pair + whole->incident[k]] == 0)
+      continue;
     for (int i = p->first[cell]; i < p->first[cell + 1]; i++)
       if (p->q->pair[p->incident[i]].self) return p->first_pair + p->incident[i];
   }
   return -1;
 }
 
-/* Dart orbits that outnumber all others of their cell cannot turn: they end, where they may; *found = false if some may not.
- * Those of the whole programme. */
-static thr_status end_surplus(const thr_contraction *contraction, int *small, bool *found, thr_err *err)
+/* Dart orbits that outnumber all others of their cell cannot turn: they end, where they may; *found
+ * = false if some may not. Those of the whole programme. */
+static thr_status end_surplus(const thr_contraction *contraction, int *small, bool *found,
+                              thr_err *err)
 {
   const thr_programme *whole = contraction->whole, *p = &contraction->p;
   const thr_quotient *quotient = whole->q;
@@ -255,17 +276,20 @@ static thr_status end_surplus(const thr_contraction *contraction, int *small, bo
 
 /* ---- all ---- */
 
-thr_status thr_contraction_start(const thr_contraction *contraction, thr_contraction_kind kind, const bool *barred,
-                                 const thr_limits *limits, int *small, bool *found, thr_err *err)
+thr_status thr_contraction_start(const thr_contraction *contraction, thr_contraction_kind kind,
+                                 const bool *barred, const thr_limits *limits, int *small,
+                                 bool *found, thr_err *err)
 {
-  request r = {.part = {[THR_AIM_OVERLAP] = 1}, .barred = barred, .folds = kind == THR_CONTRACTION_LEAST};
+  request r = {
+      .part = {[THR_AIM_OVERLAP] = 1}, .barred = barred, .folds = kind == THR_CONTRACTION_LEAST};
   r.part[THR_AIM_STEPS] = thr_contraction_tie(contraction, THR_AIM_STEPS);
   r.part[THR_AIM_PATHS] = thr_contraction_tie(contraction, THR_AIM_PATHS) / 16;
   double least;
   thr_status st = THR_OK;
   memset(small, 0, (size_t)contraction->p.n * sizeof *small);
   *found = take_copies(contraction, kind, barred, small);
-  if (*found && kind != THR_CONTRACTION_TWICE) st = add_join(&r, &contraction->p, limits, small, found, &least, err);
+  if (*found && kind != THR_CONTRACTION_TWICE)
+    st = add_join(&r, &contraction->p, limits, small, found, &least, err);
   if (!st && *found) st = end_surplus(contraction, small, found, err);
   for (int k = 0; k < contraction->p.first_pair && !st; k++)
     *found = *found && small[k] <= contraction->p.most[k];
@@ -277,8 +301,8 @@ double thr_contraction_tie(const thr_contraction *contraction, thr_aim aim)
   return 1e-5 * contraction->p.scale[THR_AIM_OVERLAP] / contraction->p.scale[aim];
 }
 
-thr_status thr_contraction_bound(const thr_contraction *contraction, thr_aim tie, const thr_limits *limits, double *bound,
-                                 thr_err *err)
+thr_status thr_contraction_bound(const thr_contraction *contraction, thr_aim tie,
+                                 const thr_limits *limits, double *bound, thr_err *err)
 {
   request r = {.part = {[THR_AIM_OVERLAP] = 1}, .folds = true, .certain = true};
   bool found;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows of the relaxation that hold for tube joints. */
 #include "symmetry/cover/cover_parts.h"
 
@@ -12,7 +13,8 @@ static void put_blocks(thr_relaxation *relaxation, int star, const int *block, i
   const thr_ties *ties = relaxation->p->ties;
   for (int i = ties->first[star]; i < ties->first[star + 1]; i++) {
     int y = ties->pair[i], turns = thr_ties_between(ties, y, block);
-    thr_pool_put(&relaxation->search.pool, relaxation->p->first_pair + y, turns < blocks - 1 ? turns : blocks - 1);
+    thr_pool_put(&relaxation->search.pool, relaxation->p->first_pair + y,
+                 turns < blocks - 1 ? turns : blocks - 1);
   }
 }
 
@@ -32,7 +34,8 @@ thr_status thr_relaxation_tie_first(thr_relaxation *relaxation, thr_err *err)
   return st;
 }
 
-/* The two blocks with the fewest turns between them, each column counted once. block: as in thr_ties_between. */
+/* The two blocks with the fewest turns between them, each column counted once. block: as in
+ * thr_ties_between. */
 static bool find_cut(const thr_relaxation *relaxation, int star, int *block, int *best)
 {
   const thr_ties *ties = relaxation->p->ties;
@@ -54,19 +57,22 @@ static bool find_cut(const thr_relaxation *relaxation, int star, int *block, int
   return found;
 }
 
-static thr_status tie_star(thr_relaxation *relaxation, int star, int *block, int *best, int *added, thr_err *err)
+static thr_status tie_star(thr_relaxation *relaxation, int star, int *block, int *best, int *added,
+                           thr_err *err)
 {
   static const double threshold[] = {1e-6, 0.3, 0.51};
   const thr_ties *ties = relaxation->p->ties;
   thr_status st = THR_OK;
   int before = *added;
   for (size_t k = 0; k < sizeof threshold / sizeof *threshold && *added == before && !st; k++) {
-    int blocks = thr_ties_blocks(ties, star, relaxation->x + relaxation->p->first_pair, threshold[k], block);
+    int blocks =
+        thr_ties_blocks(ties, star, relaxation->x + relaxation->p->first_pair, threshold[k], block);
     if (blocks < 2) continue;
     put_blocks(relaxation, star, block, blocks);
     st = thr_relaxation_add_violated(relaxation, blocks - 1, added, err);
   }
-  if (st || *added > before || relaxation->search.whole || ties->degree[star] > FEW || !find_cut(relaxation, star, block, best))
+  if (st || *added > before || relaxation->search.whole || ties->degree[star] > FEW ||
+      !find_cut(relaxation, star, block, best))
     return st;
   put_blocks(relaxation, star, best, 2);
   return thr_relaxation_add_violated(relaxation, 1, added, err);
@@ -77,7 +83,8 @@ thr_status thr_relaxation_tie(void *user, int *added, thr_err *err)
   thr_relaxation *relaxation = user;
   const thr_ties *ties = relaxation->p->ties;
   thr_status st = THR_OK;
-  int *block = thr_calloc((size_t)ties->most, sizeof *block), *best = thr_calloc((size_t)ties->most, sizeof *best);
+  int *block = thr_calloc((size_t)ties->most, sizeof *block),
+      *best = thr_calloc((size_t)ties->most, sizeof *best);
   if (!block || !best) st = thr_nomem(err);
   for (int i = 0; i < ties->n && !st; i++)
     st = tie_star(relaxation, i, block, best, added, err);

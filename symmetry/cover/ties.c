@@ -1,9 +1,11 @@
-/* Tube joints (graph/plan/plan_measures.h) in the programme of a symmetric cover: at every node the turns, as edges between its
- * tubes, connect them all. Internal.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tube joints (graph/plan/plan_measures.h) in the programme of a symmetric cover: at every node the
+ * turns, as edges between its tubes, connect them all. Internal.
  *
- * A symmetric threading ties all nodes of an orbit or none, so one node stands for each: its star. A turn column joins, there,
- * every two tubes that one of its turns goes between. Where it is not known which (symmetry/cover/contraction.c), its turns are
- * only counted: between b blocks of tubes there are b - 1. */
+ * A symmetric threading ties all nodes of an orbit or none, so one node stands for each: its star.
+ * A turn column joins, there, every two tubes that one of its turns goes between. Where it is not
+ * known which (symmetry/cover/contraction.c), its turns are only counted: between b blocks of tubes
+ * there are b - 1. */
 #include "graph/disjoint.h"
 #include "symmetry/cover/cover.h"
 
@@ -36,13 +38,15 @@ static thr_status allocate(thr_ties *ties, const thr_quotient *quotient, thr_err
   ties->pair = thr_calloc(pairs, sizeof *ties->pair);
   ties->turns = thr_calloc(pairs, sizeof *ties->turns);
   ties->join = thr_calloc(pairs + 1, sizeof *ties->join);
-  return ties->node && ties->degree && ties->nodes && ties->star && ties->first && ties->pair && ties->turns && ties->join
+  return ties->node && ties->degree && ties->nodes && ties->star && ties->first && ties->pair &&
+                 ties->turns && ties->join
              ? THR_OK
              : thr_nomem(err);
 }
 
 /* of_node: [n_nodes] scratch. */
-static void number_stars(thr_ties *ties, const thr_quotient *quotient, const int *node_orbit, int *of_node)
+static void number_stars(thr_ties *ties, const thr_quotient *quotient, const int *node_orbit,
+                         int *of_node)
 {
   const thr_frame *frame = quotient->f;
   for (int v = 0; v < frame->n_nodes; v++) {
@@ -71,11 +75,13 @@ static void list_pairs(thr_ties *ties, const thr_quotient *quotient)
   for (int i = 1; i <= ties->n; i++)
     ties->first[i + 1] += ties->first[i];
   for (int y = 0; y < quotient->n_pairs; y++)
-    if (ties->star[quotient->pair[y].dart[0]] >= 0) ties->pair[ties->first[ties->star[quotient->pair[y].dart[0]] + 1]++] = y;
+    if (ties->star[quotient->pair[y].dart[0]] >= 0)
+      ties->pair[ties->first[ties->star[quotient->pair[y].dart[0]] + 1]++] = y;
 }
 
 /* All but the links. */
-static thr_status find_stars(thr_ties *ties, const thr_quotient *quotient, const int *node_orbit, thr_err *err)
+static thr_status find_stars(thr_ties *ties, const thr_quotient *quotient, const int *node_orbit,
+                             thr_err *err)
 {
   *ties = (thr_ties){0};
   thr_status st = allocate(ties, quotient, err);
@@ -112,7 +118,8 @@ static thr_status add_link(thr_ties *ties, int y, int a, int b, int *capacity, t
   return THR_OK;
 }
 
-thr_status thr_ties_init(thr_ties *ties, const thr_quotient *quotient, const int *node_orbit, thr_err *err)
+thr_status thr_ties_init(thr_ties *ties, const thr_quotient *quotient, const int *node_orbit,
+                         thr_err *err)
 {
   const thr_frame *frame = quotient->f;
   int capacity = 0;
@@ -124,15 +131,17 @@ thr_status thr_ties_init(thr_ties *ties, const thr_quotient *quotient, const int
     for (int i = 0; i < quotient->h->order && star >= 0 && !st; i++) {
       const int *to = &quotient->half_image[(size_t)i * 2 * (size_t)frame->n_edges];
       if (thr_tail(frame, to[type->half[0]]) != ties->node[star]) continue;
-      st = add_link(ties, y, place_of(frame, to[type->half[0]]), place_of(frame, to[type->half[1]]), &capacity, err);
+      st = add_link(ties, y, place_of(frame, to[type->half[0]]), place_of(frame, to[type->half[1]]),
+                    &capacity, err);
     }
   }
   if (st) thr_ties_destroy(ties);
   return st;
 }
 
-thr_status thr_ties_contract(thr_ties *ties, const thr_ties *whole, int whole_pairs, const thr_quotient *quotient,
-                             const int *node_orbit, const int *pair, const bool *keep, thr_err *err)
+thr_status thr_ties_contract(thr_ties *ties, const thr_ties *whole, int whole_pairs,
+                             const thr_quotient *quotient, const int *node_orbit, const int *pair,
+                             const bool *keep, thr_err *err)
 {
   int capacity = 0;
   thr_status st = find_stars(ties, quotient, node_orbit, err);
@@ -171,7 +180,8 @@ int thr_ties_between(const thr_ties *ties, int y, const int *block)
   int n = 0, links = ties->join[y + 1] - ties->join[y];
   for (int k = ties->join[y]; k < ties->join[y + 1]; k++)
     n += block[ties->link[k][0]] != block[ties->link[k][1]];
-  return n * (ties->turns[y] / links); /* as many turns for each link: they are images of each other */
+  return n *
+         (ties->turns[y] / links); /* as many turns for each link: they are images of each other */
 }
 
 bool thr_ties_tied(const thr_ties *ties, int star, const int *value, int *parent)
@@ -181,7 +191,8 @@ bool thr_ties_tied(const thr_ties *ties, int star, const int *value, int *parent
     parent[i] = i;
   for (int i = ties->first[star]; i < ties->first[star + 1] && missing > 0; i++) {
     int y = ties->pair[i];
-    if (value[y] > 0 && ties->join[y] == ties->join[y + 1]) missing -= (long)value[y] * ties->turns[y];
+    if (value[y] > 0 && ties->join[y] == ties->join[y + 1])
+      missing -= (long)value[y] * ties->turns[y];
     for (int k = ties->join[y]; k < ties->join[y + 1] && value[y] > 0; k++)
       missing -= thr_disjoint_join(parent, ties->link[k][0], ties->link[k][1]);
   }

@@ -1,7 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* How much the cords of a symmetric cover turn at least, known early and at any time. Internal.
  *
- * Both bounds take the nodes apart. What the turns in one cell (symmetry/cover/contraction.c) cost at least is a convex function
- * of how often each of its dart types is used and of how many trails end there. */
+ * Both bounds take the nodes apart. What the turns in one cell (symmetry/cover/contraction.c) cost
+ * at least is a convex function of how often each of its dart types is used and of how many trails
+ * end there. */
 #include "symmetry/cover/cover_parts.h"
 #include "graph/scratch.h"
 #include "lp/solver/lp.h"
@@ -30,7 +32,8 @@ static bool may_end(const thr_programme *p, int d)
   return p->most[p->first_end + d] != 0;
 }
 
-/* The most that u[d] can be with the others as they are; without a turn or an end, where no trail can go, more than any price. */
+/* The most that u[d] can be with the others as they are; without a turn or an end, where no trail
+ * can go, more than any price. */
 static double room_for(const thr_programme *p, const double *u, int d)
 {
   double room = INFINITY;
@@ -39,7 +42,9 @@ static double room_for(const thr_programme *p, const double *u, int d)
     double price = p->cost[THR_AIM_TURNING][p->first_pair + p->incident[k]];
     if (!allowed(p, p->incident[k])) continue;
     if (!pair_type->self)
-      price = pair_type->dart[0] == pair_type->dart[1] ? price / 2 : price - u[pair_type->dart[0] + pair_type->dart[1] - d];
+      price = pair_type->dart[0] == pair_type->dart[1]
+                  ? price / 2
+                  : price - u[pair_type->dart[0] + pair_type->dart[1] - d];
     room = fmin(room, price);
   }
   if (isinf(room)) return may_end(p, d) ? 0 : 10 * p->scale[THR_AIM_TURNING];
@@ -52,24 +57,29 @@ static void start_ascent(const thr_programme *p, bool free_ends, double *u)
   for (int d = 0; d < p->q->n_darts; d++) {
     double least = INFINITY;
     for (int k = p->first[d]; k < p->first[d + 1]; k++)
-      if (allowed(p, p->incident[k])) least = fmin(least, p->cost[THR_AIM_TURNING][p->first_pair + p->incident[k]] / 2);
+      if (allowed(p, p->incident[k]))
+        least = fmin(least, p->cost[THR_AIM_TURNING][p->first_pair + p->incident[k]] / 2);
     u[d] = isinf(least) || (free_ends && may_end(p, d)) ? 0 : least;
   }
 }
 
-/* What the copies pay at least: u is of their darts. Of several copy types of an edge orbit any mixture that covers it. */
+/* What the copies pay at least: u is of their darts. Of several copy types of an edge orbit any
+ * mixture that covers it. */
 static double paid(const thr_programme *p, const double *u)
 {
   const thr_quotient *quotient = p->q;
   double sum = 0;
   for (int c = 0, end; c < quotient->n_copies; c = end) {
     double alone = 0, mixed = INFINITY;
-    for (end = c; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[c].edge; end++) {
+    for (end = c; end < quotient->n_copies && quotient->copy[end].edge == quotient->copy[c].edge;
+         end++) {
       const thr_copy_type *copy_type = &quotient->copy[end];
       double price = u[copy_type->dart[0]] + (copy_type->fold ? 0 : u[copy_type->dart[1]]);
       alone = price * p->least[end];
       int cover = p->cover[copy_type->edge_orbit];
-      if (p->most[end] != 0) mixed = fmin(mixed, price * cover / (copy_type->passes < cover ? copy_type->passes : cover));
+      if (p->most[end] != 0)
+        mixed =
+            fmin(mixed, price * cover / (copy_type->passes < cover ? copy_type->passes : cover));
     }
     sum += end == c + 1 ? alone : mixed;
   }
@@ -100,7 +110,8 @@ static double made_safe(const thr_programme *p, double value)
   return unit > 0 ? unit * ceil(value / unit - 1e-4) : value;
 }
 
-thr_status thr_turning_quick_bound(const thr_programme *p, const double worth[THR_N_AIMS], double *bound, thr_err *err)
+thr_status thr_turning_quick_bound(const thr_programme *p, const double worth[THR_N_AIMS],
+                                   double *bound, thr_err *err)
 {
   double *u = thr_calloc((size_t)p->q->n_darts, sizeof *u), value;
   if (!u) return thr_nomem(err);
@@ -120,8 +131,10 @@ thr_status thr_turning_quick_bound(const thr_programme *p, const double worth[TH
 /* Dart types and turns of the contracted cells, cell by cell. */
 typedef struct {
   const thr_contraction *c;
-  thr_relaxation *r; /* of the contraction; extra columns: what the cell with that dart type costs, in parts of the scale */
-  double most;       /* what no column without an upper bound has more of in a cover that turns less than the known one */
+  thr_relaxation *r; /* of the contraction; extra columns: what the cell with that dart type costs,
+                        in parts of the scale */
+  double most; /* what no column without an upper bound has more of in a cover that turns less than
+                  the known one */
   int n;
   int *type, *first_type; /* type[first_type[i] .. first_type[i + 1] - 1] */
   int *pair, *first_pair;
@@ -137,7 +150,8 @@ typedef struct {
   thr_scratch own; /* the arrays */
 } master;
 
-/* Lists members by number, in[i] = -1: not at all. Those of number k: list[first[k] .. first[k + 1] - 1]; first[n + 2] is zero */
+/* Lists members by number, in[i] = -1: not at all. Those of number k: list[first[k] .. first[k + 1]
+ * - 1]; first[n + 2] is zero */
 static void bucket(int count, const int *in, int n, int *first, int *list)
 {
   for (int i = 0; i < count; i++)
@@ -162,7 +176,9 @@ static thr_status list_cells(master *m, thr_err *err)
   m->first_pair = thr_scratch_array(&m->own, darts + 2, sizeof *m->first_pair);
   thr_status st = number && cell ? thr_scratch_check(&m->own, err) : thr_nomem(err);
   for (int d = 0; d < p->q->n_darts && !st; d++)
-    number[d] = m->c->keep[m->c->root[d]] ? -1 : m->c->root[d] == d ? m->n++ : number[m->c->root[d]];
+    number[d] = m->c->keep[m->c->root[d]] ? -1
+                : m->c->root[d] == d      ? m->n++
+                                          : number[m->c->root[d]];
   for (int y = 0; y < p->q->n_pairs && !st; y++)
     cell[y] = allowed(p, y) ? number[p->q->pair[y].dart[0]] : -1;
   if (!st) {
@@ -192,12 +208,14 @@ static thr_status list_copies(master *m, thr_err *err)
   return st;
 }
 
-/* Rows of a cell: its types, its ends, its self pairs; columns: its turns, ends by type, and two artificial ones per row. */
+/* Rows of a cell: its types, its ends, its self pairs; columns: its turns, ends by type, and two
+ * artificial ones per row. */
 static thr_status make_room(master *m, thr_err *err)
 {
   size_t rows = 0, columns = 0;
   for (int i = 0; i < m->n; i++) {
-    size_t types = (size_t)(m->first_type[i + 1] - m->first_type[i]), pairs = (size_t)(m->first_pair[i + 1] - m->first_pair[i]);
+    size_t types = (size_t)(m->first_type[i + 1] - m->first_type[i]),
+           pairs = (size_t)(m->first_pair[i + 1] - m->first_pair[i]);
     if (types + 2 > rows) rows = types + 2;
     if (pairs + types + 2 * (types + 2) > columns) columns = pairs + types + 2 * (types + 2);
   }
@@ -246,8 +264,9 @@ static thr_status find_most(master *m, const double *worth, thr_err *err)
   return THR_OK;
 }
 
-static thr_status master_init(master *m, const thr_contraction *contraction, thr_relaxation *relaxation, int kept,
-                              const double *worth, const thr_limits *limits, thr_err *err)
+static thr_status master_init(master *m, const thr_contraction *contraction,
+                              thr_relaxation *relaxation, int kept, const double *worth,
+                              const thr_limits *limits, thr_err *err)
 {
   const thr_aim *prefer = contraction->whole->o->prefer;
   *m = (master){.c = contraction, .r = relaxation, .limits = limits};
@@ -255,7 +274,8 @@ static thr_status master_init(master *m, const thr_contraction *contraction, thr
   if (!st) st = list_copies(m, err);
   if (!st) st = make_room(m, err);
   if (!st) st = find_most(m, worth, err);
-  if (!st && !relaxation->p) st = thr_relaxation_init(relaxation, &contraction->p, contraction->p.q->n_darts, limits, err);
+  if (!st && !relaxation->p)
+    st = thr_relaxation_init(relaxation, &contraction->p, contraction->p.q->n_darts, limits, err);
   for (int k = kept; !st && prefer[k] != THR_AIM_TURNING; k++) {
     st = thr_relaxation_aim(relaxation, prefer[k], err);
     if (!st) st = thr_relaxation_fix(relaxation, worth[prefer[k]], err);
@@ -283,7 +303,8 @@ static int put(master *m, int n, int row, double value)
   return n + 1;
 }
 
-/* What a cell's own programme gives: multipliers of its types (shift), of ends and of self pairs (before scaling). */
+/* What a cell's own programme gives: multipliers of its types (shift), of ends and of self pairs
+ * (before scaling). */
 typedef struct {
   double ends, self;
 } terminals;
@@ -330,8 +351,10 @@ static void make_feasible(master *m, int columns, int rows)
     m->dual[r] -= above;
 }
 
-/* Solves cell i at the point in m->used, with so many ends and self pairs. *value: what the multipliers say. */
-static thr_status solve_cell(master *m, int i, terminals at, double *value, terminals *mu, thr_err *err)
+/* Solves cell i at the point in m->used, with so many ends and self pairs. *value: what the
+ * multipliers say. */
+static thr_status solve_cell(master *m, int i, terminals at, double *value, terminals *mu,
+                             thr_err *err)
 {
   int first = m->first_type[i], types = m->first_type[i + 1] - first, columns = fill_cell(m, i);
   thr_lp *lp = NULL;
@@ -340,7 +363,8 @@ static thr_status solve_cell(master *m, int i, terminals at, double *value, term
     m->rhs[k] = m->used[m->type[first + k]];
   m->rhs[types] = at.ends;
   m->rhs[types + 1] = at.self;
-  thr_status st = thr_lp_create_equations(&lp, types + 2, m->rhs, columns, m->cost, NULL, m->start, m->row, m->value, err);
+  thr_status st = thr_lp_create_equations(&lp, types + 2, m->rhs, columns, m->cost, NULL, m->start,
+                                          m->row, m->value, err);
   if (!st) st = thr_lp_solve(lp, m->limits, &outcome, err);
   if (!st && outcome != THR_LP_OPTIMAL) st = THR_ELIMIT; /* it always has an optimum */
   if (!st) {
@@ -393,7 +417,9 @@ static thr_status add_cuts(master *m, const double *x, int *added, thr_err *err)
     double value;
     terminals mu;
     st = thr_limits_stop(m->limits) ? THR_ELIMIT : THR_OK;
-    if (!st) st = solve_cell(m, i, (terminals){x[small->first_end + d], self < 0 ? 0 : x[self]}, &value, &mu, err);
+    if (!st)
+      st = solve_cell(m, i, (terminals){x[small->first_end + d], self < 0 ? 0 : x[self]}, &value,
+                      &mu, err);
     if (st || value / scale <= x[small->n + d] + 1e-6) continue;
     st = add_cut(m, i, mu, err);
     ++*added;
@@ -447,11 +473,13 @@ static thr_status raise_bound(master *m, thr_err *err)
   return !st && search->outcome == THR_LP_STOPPED ? THR_ELIMIT : st;
 }
 
-/* The last basis with the columns of the cells whose cuts are the last rows: those hold with equality at the known cover. */
+/* The last basis with the columns of the cells whose cuts are the last rows: those hold with
+ * equality at the known cover. */
 static thr_status start_basis(master *m, int cuts, const bool *cut, thr_err *err)
 {
   int rows = thr_lp_rows(m->r->search.lp), n = m->c->p.n + m->r->extra;
-  bool *row = thr_calloc((size_t)rows, sizeof *row), *column = thr_calloc((size_t)n, sizeof *column);
+  bool *row = thr_calloc((size_t)rows, sizeof *row),
+       *column = thr_calloc((size_t)n, sizeof *column);
   thr_status st = row && column ? THR_OK : thr_nomem(err);
   for (int i = 0; i < rows - cuts && !st; i++)
     row[i] = thr_lp_row_basic(m->r->search.lp, i);
@@ -463,7 +491,8 @@ static thr_status start_basis(master *m, int cuts, const bool *cut, thr_err *err
   return st;
 }
 
-/* Every cell's cut that the multipliers of the quick bound give: no programme whose columns cost that much says less. */
+/* Every cell's cut that the multipliers of the quick bound give: no programme whose columns cost
+ * that much says less. */
 static thr_status add_quick_cuts(master *m, thr_err *err)
 {
   const thr_programme *p = m->c->whole;
@@ -502,8 +531,9 @@ static thr_status add_first_cuts(master *m, const int *cover, bool solved, thr_e
   return st;
 }
 
-thr_status thr_turning_bound(const thr_contraction *contraction, thr_relaxation *relaxation, int kept, const int *cover,
-                             const double worth[THR_N_AIMS], const thr_limits *limits, double *bound, thr_err *err)
+thr_status thr_turning_bound(const thr_contraction *contraction, thr_relaxation *relaxation,
+                             int kept, const int *cover, const double worth[THR_N_AIMS],
+                             const thr_limits *limits, double *bound, thr_err *err)
 {
   bool solved = relaxation->p;
   master m;

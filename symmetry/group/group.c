@@ -1,7 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A finite permutation group with all its elements listed, and its subgroups up to conjugacy.
  *
- * Elements are found breadth first from the generators, with a table of products; subgroups by extension: each one is extended
- * by one more element, and one of each class of conjugates is kept (J. Neubueser 1960).
+ * Elements are found breadth first from the generators, with a table of products; subgroups by
+ * extension: each one is extended by one more element, and one of each class of conjugates is kept
+ * (J. Neubueser 1960).
  *
  * Example: the eight elements of the square's group have 10 subgroups in 8 classes. */
 #include "symmetry/group/group.h"
@@ -11,8 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The elements in order of discovery, found again by their hash. Every element but the first is an earlier one times a generator,
- * which gives the product table without multiplying out: g * (h * s) = (g * h) * s. */
+/* The elements in order of discovery, found again by their hash. Every element but the first is an
+ * earlier one times a generator, which gives the product table without multiplying out: g * (h * s)
+ * = (g * h) * s. */
 typedef struct {
   int degree, cap, n_generators;
   const int *generator;
@@ -38,7 +41,8 @@ static uint64_t hash_of(const int *image, int degree)
   return h ^ h >> 32;
 }
 
-/* Number of the element in the row after the last, which becomes a new one if it is none of the others. */
+/* Number of the element in the row after the last, which becomes a new one if it is none of the
+ * others. */
 static int number_last(listing *l)
 {
   size_t bytes = (size_t)l->degree * sizeof *l->image;
@@ -96,7 +100,8 @@ static thr_status list_elements(listing *l, thr_err *err)
       for (int x = 0; x < l->degree; x++)
         last[x] = then[first[x]];
       int h = number_last(l);
-      if (l->order > l->cap) return thr_fail(err, THR_ELIMIT, "the group has more than %d elements", l->cap);
+      if (l->order > l->cap)
+        return thr_fail(err, THR_ELIMIT, "the group has more than %d elements", l->cap);
       l->times[(size_t)g * (size_t)l->n_generators + (size_t)s] = h;
       if (h < before) continue;
       l->from[h] = g;
@@ -135,13 +140,16 @@ static void fill_orders(thr_group *group)
 static thr_status tabulate(listing *l, thr_group *group, thr_err *err)
 {
   size_t order = (size_t)l->order;
-  int *listed = thr_scratch_array(&l->own, order, sizeof *listed), *number = thr_scratch_array(&l->own, order, sizeof *number);
+  int *listed = thr_scratch_array(&l->own, order, sizeof *listed),
+      *number = thr_scratch_array(&l->own, order, sizeof *number);
   *group = (thr_group){.degree = l->degree, .order = l->order, .image = l->image};
   l->image = NULL;
   group->product = thr_calloc(order * order, sizeof *group->product);
   group->inverse = thr_calloc(order, sizeof *group->inverse);
   group->power_order = thr_calloc(order, sizeof *group->power_order);
-  thr_status st = group->product && group->inverse && group->power_order ? thr_scratch_check(&l->own, err) : thr_nomem(err);
+  thr_status st = group->product && group->inverse && group->power_order
+                      ? thr_scratch_check(&l->own, err)
+                      : thr_nomem(err);
   if (!st) st = thr_rows_sort(group->image, group->order, group->degree, listed, err);
   if (!st) {
     for (int a = 0; a < group->order; a++)
@@ -164,13 +172,15 @@ static thr_status check_generators(int degree, const int *generator, int n, thr_
       good = y >= 0 && y < degree && !hit[y];
       if (good) hit[y] = true;
     }
-    if (!good) thr_fail(err, THR_EINPUT, "generator %d is not a permutation of %d points", s, degree);
+    if (!good)
+      thr_fail(err, THR_EINPUT, "generator %d is not a permutation of %d points", s, degree);
   }
   free(hit);
   return good ? THR_OK : THR_EINPUT;
 }
 
-thr_status thr_group_generate(int degree, const int *generator, int n_generators, int cap, thr_group *out, thr_err *err)
+thr_status thr_group_generate(int degree, const int *generator, int n_generators, int cap,
+                              thr_group *out, thr_err *err)
 {
   listing l = {.degree = degree, .generator = generator, .n_generators = n_generators};
   thr_group group = {0};

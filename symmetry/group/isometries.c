@@ -1,5 +1,7 @@
-/* Isometries of a framework from its coordinates: two reference nodes may go to few places, and where they go fixes the motion up
- * to a mirror; every such motion is refined by Procrustes analysis and verified on all nodes and edges. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Isometries of a framework from its coordinates: two reference nodes may go to few places, and
+ * where they go fixes the motion up to a mirror; every such motion is refined by Procrustes
+ * analysis and verified on all nodes and edges. */
 #include "graph/scratch.h"
 #include "graph/vector.h"
 #include "symmetry/group/group.h"
@@ -11,12 +13,15 @@
 
 enum {
   ROUNDS = 8, /* of matching and refining: two or three suffice unless nodes crowd */
-  TRIES = 4   /* motions that send every node near another but match otherwise, for each isometry allowed */
+  TRIES = 4   /* motions that send every node near another but match otherwise, for each isometry
+                 allowed */
 };
-/* Nodes moved and nodes near them: about a second. A count and not a time, so that the result is always the same. */
+/* Nodes moved and nodes near them: about a second. A count and not a time, so that the result is
+ * always the same. */
 static const int64_t MOST_WORK = INT64_C(1) << 28;
 
-/* A node as it may be mistaken for others: by kind (colour, degree and foot) and distance from the centroid. */
+/* A node as it may be mistaken for others: by kind (colour, degree and foot) and distance from the
+ * centroid. */
 typedef struct {
   int64_t kind;
   int node;
@@ -29,19 +34,20 @@ typedef struct {
   const thr_automorphism_options *colours;
   double tolerance; /* in parts of size, of every node */
   double centroid[3], size;
-  thr_scratch own;              /* the arrays */
-  double (*x)[3];               /* [n_nodes] from the centroid, in parts of size */
-  double *radius, most;         /* [n_nodes] and the largest */
-  int64_t *kind;                /* [n_nodes] */
-  likeness *like;               /* [n_nodes] by kind and radius */
-  int first, second;            /* reference nodes; second < 0: all on a line */
-  double loose;                 /* how far a motion from two references may be off at any node */
-  int side, *cell_first, *cell; /* side^3 cells; their nodes: cell[cell_first[c] .. cell_first[c + 1] - 1] */
-  int *image, *next;            /* [n_nodes] of the motion at hand */
-  bool *hit;                    /* [n_nodes] */
-  int *found, count, capacity;  /* [count * n_nodes] */
-  int tried;                    /* motions that sent every node near another, as none before */
-  int64_t work;                 /* see MOST_WORK */
+  thr_scratch own;      /* the arrays */
+  double (*x)[3];       /* [n_nodes] from the centroid, in parts of size */
+  double *radius, most; /* [n_nodes] and the largest */
+  int64_t *kind;        /* [n_nodes] */
+  likeness *like;       /* [n_nodes] by kind and radius */
+  int first, second;    /* reference nodes; second < 0: all on a line */
+  double loose;         /* how far a motion from two references may be off at any node */
+  int side, *cell_first,
+      *cell;         /* side^3 cells; their nodes: cell[cell_first[c] .. cell_first[c + 1] - 1] */
+  int *image, *next; /* [n_nodes] of the motion at hand */
+  bool *hit;         /* [n_nodes] */
+  int *found, count, capacity; /* [count * n_nodes] */
+  int tried;                   /* motions that sent every node near another, as none before */
+  int64_t work;                /* see MOST_WORK */
 } search;
 
 static int by_likeness(const void *a, const void *b)
@@ -88,7 +94,8 @@ static double off_line(const search *s, int u, int v)
   return sqrt(thr_dot(c, c)) / s->radius[u];
 }
 
-/* The references: with the fewest places among those that are far enough out to fix the motion well. */
+/* The references: with the fewest places among those that are far enough out to fix the motion
+ * well. */
 static void choose_references(search *s)
 {
   int n = s->f->n_nodes, best = -1;
@@ -190,7 +197,8 @@ static int nearest(search *s, const double x[3], int64_t kind)
       for (int k = row[low[2]]; k < row[high[2] + 1]; k++) { /* cells of a row stand together */
         int v = s->cell[k];
         if (s->kind[v] != kind) continue;
-        double d[3] = {x[0] - s->x[v][0], x[1] - s->x[v][1], x[2] - s->x[v][2]}, square = thr_dot(d, d);
+        double d[3] = {x[0] - s->x[v][0], x[1] - s->x[v][1], x[2] - s->x[v][2]},
+               square = thr_dot(d, d);
         if (square > least || (square == least && best >= 0)) continue;
         least = square;
         best = v;
@@ -228,7 +236,9 @@ static bool is_automorphism(search *s)
   for (int e = 0; e < frame->n_edges; e++) {
     int to = thr_edge_joining(frame, s->image[frame->edge[e][0]], s->image[frame->edge[e][1]]);
     s->work++;
-    if (to < 0 || (s->colours->edge_colour && s->colours->edge_colour[to] != s->colours->edge_colour[e])) return false;
+    if (to < 0 ||
+        (s->colours->edge_colour && s->colours->edge_colour[to] != s->colours->edge_colour[e]))
+      return false;
   }
   return true;
 }
@@ -253,7 +263,8 @@ static thr_status keep(search *s, int cap, thr_err *err)
 
 static thr_status too_many(const search *s, thr_err *err)
 {
-  return thr_fail(err, THR_ELIMIT, "tolerance %g is too large for nodes so near to each other: too many motions fit",
+  return thr_fail(err, THR_ELIMIT,
+                  "tolerance %g is too large for nodes so near to each other: too many motions fit",
                   s->tolerance);
 }
 
@@ -288,7 +299,8 @@ static bool base_of(const double *a, const double *b, double base[3][3])
   return true;
 }
 
-/* The motion that takes the references' base to another, and the one that is mirrored at the plane of both besides. */
+/* The motion that takes the references' base to another, and the one that is mirrored at the plane
+ * of both besides. */
 static thr_status try_bases(search *s, double from[3][3], double to[3][3], int cap, thr_err *err)
 {
   thr_status st = THR_OK;
@@ -323,7 +335,8 @@ static thr_status try_all(search *s, int cap, thr_err *err)
 {
   double from[3][3], to[3][3];
   const double *a = s->x[s->first], *b = s->x[s->second];
-  int first_end, second_end, first = places(s, s->first, &first_end), second = places(s, s->second, &second_end);
+  int first_end, second_end, first = places(s, s->first, &first_end),
+                             second = places(s, s->second, &second_end);
   thr_status st = THR_OK;
   if (!base_of(a, b, from)) return THR_OK;
   for (int i = first; i < first_end && !st; i++)
@@ -336,11 +349,15 @@ static thr_status try_all(search *s, int cap, thr_err *err)
   return st;
 }
 
-thr_status thr_isometries_find(const thr_frame *frame, const thr_automorphism_options *colours, double tolerance, int cap,
-                               const thr_limits *limits, int **out, int *count, thr_err *err)
+thr_status thr_isometries_find(const thr_frame *frame, const thr_automorphism_options *colours,
+                               double tolerance, int cap, const thr_limits *limits, int **out,
+                               int *count, thr_err *err)
 {
   const thr_automorphism_options none = {0};
-  search s = {.f = frame, .limits = limits, .colours = colours ? colours : &none, .tolerance = tolerance + THR_ISOMETRY_ROUNDING};
+  search s = {.f = frame,
+              .limits = limits,
+              .colours = colours ? colours : &none,
+              .tolerance = tolerance + THR_ISOMETRY_ROUNDING};
   *out = NULL;
   *count = 0;
   thr_status st = search_init(&s, err);
@@ -358,8 +375,8 @@ thr_status thr_isometries_find(const thr_frame *frame, const thr_automorphism_op
 
 /* ---- the isometries among listed automorphisms ---- */
 
-thr_status thr_isometries_among(const thr_frame *frame, const int *image, int n, double tolerance, int **out, int *count,
-                                thr_err *err)
+thr_status thr_isometries_among(const thr_frame *frame, const int *image, int n, double tolerance,
+                                int **out, int *count, thr_err *err)
 {
   size_t row = (size_t)frame->n_nodes;
   *count = 0;
@@ -397,7 +414,8 @@ thr_status thr_length_colours(const thr_frame *frame, double tolerance, int *col
   for (int e = 0; e < frame->n_edges; e++)
     m[e] = (measured){frame->length[e], e};
   qsort(m, (size_t)frame->n_edges, sizeof *m, by_length);
-  double step = 2 * (tolerance + 2 * THR_ISOMETRY_ROUNDING) * size; /* an isometry moves either end by the tolerance at most */
+  double step = 2 * (tolerance + 2 * THR_ISOMETRY_ROUNDING) *
+                size; /* an isometry moves either end by the tolerance at most */
   for (int i = 0, last = 0; i < frame->n_edges; i++) {
     last += i > 0 && m[i].length - m[i - 1].length > step;
     colour[m[i].edge] = last;

@@ -1,12 +1,15 @@
-/* What an automorphism is in space: the best rigid motion or reflection that moves the nodes to their images, and what that is
- * called.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What an automorphism is in space: the best rigid motion or reflection that moves the nodes to
+ * their images, and what that is called.
  *
- * The orthogonal R with the least sum of |R x(v) - x(p(v))|^2 (Procrustes analysis, Schoenemann 1966): from the singular value
- * decomposition X^T Y = U S V^T, R = V U^T. The trace of R says the angle, its determinant whether it reflects.
+ * The orthogonal R with the least sum of |R x(v) - x(p(v))|^2 (Procrustes analysis, Schoenemann
+ * 1966): from the singular value decomposition X^T Y = U S V^T, R = V U^T. The trace of R says the
+ * angle, its determinant whether it reflects.
  *
  * Example: R with determinant 1 and trace -1 turns by 180 degrees: C2.
  *
- * Procrustes analysis of automorphisms, their names, and the name of the point group that they make. */
+ * Procrustes analysis of automorphisms, their names, and the name of the point group that they
+ * make. */
 #include "graph/angle.h"
 #include "graph/vector.h"
 #include "symmetry/group/group.h"
@@ -15,8 +18,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Least k > 0 such that the permutation's k-th power is the identity: of points that one cycle moves, its length, and the least
- * common multiple of those. Marks nothing: a cycle is counted at its lowest point. */
+/* Least k > 0 such that the permutation's k-th power is the identity: of points that one cycle
+ * moves, its length, and the least common multiple of those. Marks nothing: a cycle is counted at
+ * its lowest point. */
 static int order_of(const int *image, int n)
 {
   long long order = 1;
@@ -37,7 +41,8 @@ static int order_of(const int *image, int n)
   return (int)order;
 }
 
-/* Unit axis of a proper rotation, from its symmetric part: cos I + (1 - cos) a a^T. Its largest component is positive. */
+/* Unit axis of a proper rotation, from its symmetric part: cos I + (1 - cos) a a^T. Its largest
+ * component is positive. */
 static void axis_of(double rotation[3][3], double cosine, double axis[3])
 {
   double column[3], best = 0; /* stays 0 for the identity, which has no axis */
@@ -59,7 +64,8 @@ static void axis_of(double rotation[3][3], double cosine, double axis[3])
     axis[i] *= sign;
 }
 
-/* Axis, and angle in (-pi, pi]: of the rotation if q is one, else of the rotation that follows the mirror across the axis. */
+/* Axis, and angle in (-pi, pi]: of the rotation if q is one, else of the rotation that follows the
+ * mirror across the axis. */
 static void decompose(double q[3][3], bool proper, double axis[3], double *angle)
 {
   double r[3][3];
@@ -88,14 +94,15 @@ static void name_turn(thr_isometry *isometry, char letter, int part, int of)
     snprintf(isometry->name, sizeof isometry->name, "%c%d^%d", letter, of / d, part / d);
 }
 
-/* A q whose order^th power is not near the identity, or an earlier power is, only looks like an isometry: nodes that lie within
- * the tolerance of each other change places. */
+/* A q whose order^th power is not near the identity, or an earlier power is, only looks like an
+ * isometry: nodes that lie within the tolerance of each other change places. */
 static void classify(thr_isometry *isometry, double q[3][3], bool proper)
 {
   int order = isometry->order;
   double angle;
   decompose(q, proper, isometry->axis, &angle);
-  int part = (int)lround(fabs(angle) * order / (2 * THR_PI)), d = common_divisor(order, part), own = order / d;
+  int part = (int)lround(fabs(angle) * order / (2 * THR_PI)), d = common_divisor(order, part),
+      own = order / d;
   if (!proper && own % 2 == 1) own *= 2;
   if (own != order) return;
   double snapped = copysign(2 * THR_PI * part / order, angle);
@@ -173,7 +180,10 @@ static void name_cyclic(const census *c, char name[16])
 
 static void name_dihedral(const census *c, char name[16])
 {
-  snprintf(name, 16, "D%d%s", c->principal, !c->improper ? "" : c->mirrors > c->principal ? "h" : "d");
+  snprintf(name, 16, "D%d%s", c->principal,
+           !c->improper                ? ""
+           : c->mirrors > c->principal ? "h"
+                                       : "d");
 }
 
 static void name_polyhedral(const census *c, char name[16])

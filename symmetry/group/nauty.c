@@ -1,8 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Automorphisms by Traces (McKay & Piperno 2014). The only file that knows nauty.
  *
- * nauty's callback has no user pointer and its failures end the program: one target at a time in a thread, and alloc_error, which
- * nauty calls when memory runs out, is replaced by a jump back (the program's definition goes before the shared library's).
- * Sparse nauty itself is not used: it overruns its buffers on stars. */
+ * nauty's callback has no user pointer and its failures end the program: one target at a time in a
+ * thread, and alloc_error, which nauty calls when memory runs out, is replaced by a jump back (the
+ * program's definition goes before the shared library's). Sparse nauty itself is not used: it
+ * overruns its buffers on stars. */
 #include "graph/disjoint.h"
 #include "symmetry/group/group.h"
 
@@ -14,9 +16,11 @@
 
 enum {
   MOST_IMAGES = 1 << 26, /* in all generators: a quarter of a gigabyte */
-  BYTES_PER_POINT = 1024 /* that Traces may use; measured: up to 230 on grids, tubes, spheres, trees and random graphs */
+  BYTES_PER_POINT = 1024 /* that Traces may use; measured: up to 230 on grids, tubes, spheres, trees
+                            and random graphs */
 };
-static const long SEED = 1; /* of nauty's random Schreier-Sims: generators are the same on every call */
+static const long SEED =
+    1; /* of nauty's random Schreier-Sims: generators are the same on every call */
 
 typedef struct {
   thr_automorphisms *out;
@@ -88,7 +92,8 @@ static int colour_of(const int *colour, int i)
   return colour ? colour[i] : 0;
 }
 
-static thr_status fill_colours(coloured *c, const thr_frame *frame, const thr_automorphism_options *options, thr_err *err)
+static thr_status fill_colours(coloured *c, const thr_frame *frame,
+                               const thr_automorphism_options *options, thr_err *err)
 {
   point *p = thr_calloc((size_t)c->n, sizeof *p);
   if (!p) return thr_nomem(err);
@@ -114,7 +119,8 @@ static void fill_graph(coloured *c, const thr_frame *frame)
     c->graph.v[v] = at;
     c->graph.d[v] = thr_degree(frame, v);
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
-      c->graph.e[at++] = c->n > frame->n_nodes ? frame->n_nodes + (frame->half[i] >> 1) : thr_head(frame, frame->half[i]);
+      c->graph.e[at++] = c->n > frame->n_nodes ? frame->n_nodes + (frame->half[i] >> 1)
+                                               : thr_head(frame, frame->half[i]);
   }
   for (int i = frame->n_nodes; i < c->n; i++) {
     c->graph.v[i] = at;
@@ -133,7 +139,8 @@ static bool all_equal(const int *colour, int n)
   return true;
 }
 
-static thr_status coloured_init(coloured *c, const thr_frame *frame, const thr_automorphism_options *options, thr_err *err)
+static thr_status coloured_init(coloured *c, const thr_frame *frame,
+                                const thr_automorphism_options *options, thr_err *err)
 {
   bool subdivide = options->edge_colour && !all_equal(options->edge_colour, frame->n_edges);
   SG_INIT(c->graph);
@@ -148,7 +155,8 @@ static thr_status coloured_init(coloured *c, const thr_frame *frame, const thr_a
   c->lab = thr_calloc((size_t)c->n, sizeof *c->lab);
   c->ptn = thr_calloc((size_t)c->n, sizeof *c->ptn);
   c->orbits = thr_calloc((size_t)c->n, sizeof *c->orbits);
-  if (!c->graph.v || !c->graph.d || !c->graph.e || !c->lab || !c->ptn || !c->orbits) return thr_nomem(err);
+  if (!c->graph.v || !c->graph.d || !c->graph.e || !c->lab || !c->ptn || !c->orbits)
+    return thr_nomem(err);
   fill_graph(c, frame);
   return fill_colours(c, frame, options, err);
 }
@@ -161,7 +169,8 @@ static bool enough_memory(const coloured *c)
   return probe != NULL;
 }
 
-/* Traces leaves what it was working on behind when it jumps out: its tables are released, its search tree is lost. */
+/* Traces leaves what it was working on behind when it jumps out: its tables are released, its
+ * search tree is lost. */
 static thr_status run_traces(coloured *c, collector *k, thr_err *err)
 {
   TracesStats stats = {0};
@@ -179,16 +188,19 @@ static thr_status run_traces(coloured *c, collector *k, thr_err *err)
   }
   ran_init(SEED);
   Traces(&c->graph, c->lab, c->ptn, c->orbits, &options, &stats, NULL);
-  if (stats.errstatus) return thr_fail(err, THR_ESOLVER, "nauty: Traces gave up with status %d", stats.errstatus);
+  if (stats.errstatus)
+    return thr_fail(err, THR_ESOLVER, "nauty: Traces gave up with status %d", stats.errstatus);
   if (k->status == THR_ELIMIT)
-    return thr_fail(err, THR_ELIMIT, "the group of %d nodes has too many generators to hold", k->out->n);
+    return thr_fail(err, THR_ELIMIT, "the group of %d nodes has too many generators to hold",
+                    k->out->n);
   if (k->status) return thr_nomem(err);
   k->out->mantissa = stats.grpsize1;
   k->out->exponent = stats.grpsize2;
   return THR_OK;
 }
 
-/* nauty takes powers of ten out as soon as it can: back where the order is an integer that a double holds. */
+/* nauty takes powers of ten out as soon as it can: back where the order is an integer that a double
+ * holds. */
 static void normalize_order(thr_automorphisms *a)
 {
   double order = a->mantissa * pow(10, a->exponent);
@@ -211,8 +223,8 @@ thr_status thr_automorphisms_orbits(thr_automorphisms *a, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_automorphisms_find(const thr_frame *frame, const thr_automorphism_options *options, thr_automorphisms *out,
-                                  thr_err *err)
+thr_status thr_automorphisms_find(const thr_frame *frame, const thr_automorphism_options *options,
+                                  thr_automorphisms *out, thr_err *err)
 {
   coloured c = {0};
   thr_automorphisms a = {.n = frame->n_nodes, .mantissa = 1};

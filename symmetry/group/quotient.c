@@ -1,16 +1,22 @@
-/* Threadings that a group H of automorphisms maps to themselves, counted by orbits (docs/method.md).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Threadings that a group H of automorphisms maps to themselves, counted by orbits
+ * (docs/method.md).
  *
- * A symmetric threading is an H-set of copies (passes) over the edges with an H-invariant pairing of their darts (a dart is one
- * end of a copy) at the nodes. Fewer conditions are wrong: an H-invariant T-join with even degrees need not have an invariant
- * pairing. copy type (e, K)  an orbit of copies over the orbit of edge e; K <= H_e, up to conjugacy in H_e, maps one copy to
- * itself. It adds [H_e : K] passes to e. If an element of K turns e round, the copy is a fold: its trail is mapped to its
- * reverse. dart type (h, S)  an orbit of darts over half-edge h with stabilizer S <= H_h. A copy type without fold has two dart
- * orbits, of types (h, K) and (h ^ 1, K); with a fold one, of type (h, S) with S = the elements of K that do not turn e round.
- *   pair type         an orbit of turns at a node: darts a, b with equal stabilizers over half-edges of one node; over one
- * half-edge the cord turns back into its edge. If some g in H_v maps a to b, a pair within one dart orbit (a "self" pair) needs
- * such a g that also maps b to a; it folds the trail at the node. Two different dart orbits of one type can be paired in any
- * case. The stabilizer of a dart is that of all its trail (the layer): a trail over an edge in a mirror, passed by one fixed
- * copy, stays in the mirror. In the quotient a trail's orbit is a path between two terminals (cord end or fold) or a circle. */
+ * A symmetric threading is an H-set of copies (passes) over the edges with an H-invariant pairing
+ * of their darts (a dart is one end of a copy) at the nodes. Fewer conditions are wrong: an
+ * H-invariant T-join with even degrees need not have an invariant pairing. copy type (e, K)  an
+ * orbit of copies over the orbit of edge e; K <= H_e, up to conjugacy in H_e, maps one copy to
+ * itself. It adds [H_e : K] passes to e. If an element of K turns e round, the copy is a fold: its
+ * trail is mapped to its reverse. dart type (h, S)  an orbit of darts over half-edge h with
+ * stabilizer S <= H_h. A copy type without fold has two dart orbits, of types (h, K) and (h ^ 1,
+ * K); with a fold one, of type (h, S) with S = the elements of K that do not turn e round. pair
+ * type         an orbit of turns at a node: darts a, b with equal stabilizers over half-edges of
+ * one node; over one half-edge the cord turns back into its edge. If some g in H_v maps a to b, a
+ * pair within one dart orbit (a "self" pair) needs such a g that also maps b to a; it folds the
+ * trail at the node. Two different dart orbits of one type can be paired in any case. The
+ * stabilizer of a dart is that of all its trail (the layer): a trail over an edge in a mirror,
+ * passed by one fixed copy, stays in the mirror. In the quotient a trail's orbit is a path between
+ * two terminals (cord end or fold) or a circle. */
 #include "symmetry/group/group.h"
 #include "graph/scratch.h"
 
@@ -53,7 +59,9 @@ static int conjugated(const thr_group *group, int by, int a)
 
 static thr_status too_many(const build *b, thr_err *err)
 {
-  return thr_fail(err, THR_ELIMIT, "a group of order %d makes more than %d types of passes and turns", b->q->h->order, b->most);
+  return thr_fail(err, THR_ELIMIT,
+                  "a group of order %d makes more than %d types of passes and turns",
+                  b->q->h->order, b->most);
 }
 
 static bool full(const build *b)
@@ -63,8 +71,9 @@ static bool full(const build *b)
 
 static thr_status check_time(const build *b, thr_err *err)
 {
-  return thr_limits_stop(b->limits) ? thr_fail(err, THR_ELIMIT, "the time was too short for the types of passes and turns")
-                                    : THR_OK;
+  return thr_limits_stop(b->limits)
+             ? thr_fail(err, THR_ELIMIT, "the time was too short for the types of passes and turns")
+             : THR_OK;
 }
 
 /* ---- images and orbits ---- */
@@ -80,15 +89,19 @@ static thr_status map_halves(const build *b, thr_err *err)
   thr_quotient *quotient = b->q;
   const thr_frame *frame = quotient->f;
   size_t halves = 2 * (size_t)frame->n_edges;
-  quotient->half_image = thr_calloc((size_t)quotient->h->order * halves, sizeof *quotient->half_image);
+  quotient->half_image =
+      thr_calloc((size_t)quotient->h->order * halves, sizeof *quotient->half_image);
   if (!quotient->half_image) return thr_nomem(err);
   for (int i = 0; i < quotient->h->order; i++) {
     thr_status st = check_time(b, err);
     if (st) return st;
-    const int *to = &quotient->group->image[(size_t)quotient->h->element[i] * (size_t)quotient->group->degree];
+    const int *to =
+        &quotient->group->image[(size_t)quotient->h->element[i] * (size_t)quotient->group->degree];
     for (int h = 0; h < 2 * frame->n_edges; h += 2) {
       int half = half_between(frame, to[thr_tail(frame, h)], to[thr_head(frame, h)]);
-      if (half < 0) return thr_fail(err, THR_EINPUT, "element %d of the group is no automorphism", quotient->h->element[i]);
+      if (half < 0)
+        return thr_fail(err, THR_EINPUT, "element %d of the group is no automorphism",
+                        quotient->h->element[i]);
       quotient->half_image[(size_t)i * halves + (size_t)h] = half;
       quotient->half_image[(size_t)i * halves + (size_t)h + 1] = half ^ 1;
     }
@@ -102,7 +115,8 @@ static thr_status find_edge_orbits(thr_quotient *quotient, thr_err *err)
   quotient->edge_orbit = thr_calloc(m, sizeof *quotient->edge_orbit);
   quotient->orbit_size = thr_calloc(m, sizeof *quotient->orbit_size);
   quotient->orbit_length = thr_calloc(m, sizeof *quotient->orbit_length);
-  if (!quotient->edge_orbit || !quotient->orbit_size || !quotient->orbit_length) return thr_nomem(err);
+  if (!quotient->edge_orbit || !quotient->orbit_size || !quotient->orbit_length)
+    return thr_nomem(err);
   memset(quotient->edge_orbit, -1, m * sizeof *quotient->edge_orbit);
   for (int e = 0; e < quotient->f->n_edges; e++) {
     if (quotient->edge_orbit[e] >= 0) continue;
@@ -157,8 +171,8 @@ static bool holds_exactly(const bool *set, int order, const thr_subgroup *subgro
   return n == subgroup->order;
 }
 
-/* Leaves the least conjugate of subgroup in b->least, by elements that move half to where no element moves it lower (half < 0: by
- * any element). Returns that lowest image. */
+/* Leaves the least conjugate of subgroup in b->least, by elements that move half to where no
+ * element moves it lower (half < 0: by any element). Returns that lowest image. */
 static int least_conjugate(const build *b, int half, const thr_subgroup *subgroup)
 {
   const thr_quotient *quotient = b->q;
@@ -170,7 +184,8 @@ static int least_conjugate(const build *b, int half, const thr_subgroup *subgrou
     if (half >= 0 && image(quotient, i, half) != lowest) continue;
     if (!first && subgroup->order == 1) break;
     mark_conjugate(quotient->group, quotient->h->element[i], subgroup, b->set);
-    if (first || less_set(b->set, b->least, order)) memcpy(b->least, b->set, (size_t)order * sizeof *b->least);
+    if (first || less_set(b->set, b->least, order))
+      memcpy(b->least, b->set, (size_t)order * sizeof *b->least);
     first = false;
   }
   return lowest;
@@ -178,7 +193,8 @@ static int least_conjugate(const build *b, int half, const thr_subgroup *subgrou
 
 /* ---- darts ---- */
 
-/* Type of the dart (half, s), or -1; leaves the canonical stabilizer in b->least and its half-edge in *lowest. */
+/* Type of the dart (half, s), or -1; leaves the canonical stabilizer in b->least and its half-edge
+ * in *lowest. */
 static int find_dart(const build *b, int half, const thr_subgroup *subgroup, int *lowest)
 {
   *lowest = least_conjugate(b, half, subgroup);
@@ -194,13 +210,15 @@ static thr_status find_layer(build *b, const thr_subgroup *subgroup, int *layer,
   least_conjugate(b, -1, subgroup);
   for (*layer = 0; *layer < quotient->n_layers; ++*layer)
     if (holds_exactly(b->least, order, &b->s_class[*layer])) return THR_OK;
-  thr_status st = thr_grow(&b->s_class, quotient->n_layers, &b->classes_capacity, sizeof *b->s_class, err);
+  thr_status st =
+      thr_grow(&b->s_class, quotient->n_layers, &b->classes_capacity, sizeof *b->s_class, err);
   if (!st) st = collect(b->least, order, &b->s_class[quotient->n_layers], err);
   if (!st) quotient->n_layers++;
   return st;
 }
 
-static thr_status add_dart(build *b, int half, const thr_subgroup *subgroup, int *dart, thr_err *err)
+static thr_status add_dart(build *b, int half, const thr_subgroup *subgroup, int *dart,
+                           thr_err *err)
 {
   thr_quotient *quotient = b->q;
   int lowest;
@@ -211,8 +229,10 @@ static thr_status add_dart(build *b, int half, const thr_subgroup *subgroup, int
   if (full(b)) return too_many(b, err);
   assert(subgroup->order > 0);
   thr_dart_type made = {.half = lowest, .darts = quotient->h->order / subgroup->order};
-  st = thr_grow(&quotient->dart, quotient->n_darts, &b->darts_capacity, sizeof *quotient->dart, err);
-  if (!st) st = thr_grow(&b->before, quotient->n_darts, &b->before_capacity, sizeof *b->before, err);
+  st =
+      thr_grow(&quotient->dart, quotient->n_darts, &b->darts_capacity, sizeof *quotient->dart, err);
+  if (!st)
+    st = thr_grow(&b->before, quotient->n_darts, &b->before_capacity, sizeof *b->before, err);
   if (!st) st = collect(b->least, quotient->group->order, &made.stabilizer, err);
   if (!st) st = find_layer(b, &made.stabilizer, &made.layer, err);
   if (st) {
@@ -228,8 +248,10 @@ static thr_status add_dart(build *b, int half, const thr_subgroup *subgroup, int
 
 /* ---- copies ---- */
 
-/* The elements of H that map edge e to itself, as a group of their own: element k of it is (*element)[k]. */
-static thr_status edge_stabilizer(const build *b, int e, thr_group *own, int **element, thr_err *err)
+/* The elements of H that map edge e to itself, as a group of their own: element k of it is
+ * (*element)[k]. */
+static thr_status edge_stabilizer(const build *b, int e, thr_group *own, int **element,
+                                  thr_err *err)
 {
   const thr_quotient *quotient = b->q;
   int n = 0, *number = thr_calloc((size_t)quotient->group->order, sizeof *number);
@@ -257,12 +279,14 @@ static thr_status edge_stabilizer(const build *b, int e, thr_group *own, int **e
 }
 
 /* The elements of subgroup that do not turn edge e round. */
-static thr_status keepers(const build *b, int e, const thr_subgroup *subgroup, thr_subgroup *out, thr_err *err)
+static thr_status keepers(const build *b, int e, const thr_subgroup *subgroup, thr_subgroup *out,
+                          thr_err *err)
 {
   *out = (thr_subgroup){0, thr_calloc((size_t)subgroup->order, sizeof(int))};
   if (!out->element) return thr_nomem(err);
   for (int i = 0; i < subgroup->order; i++)
-    if (image(b->q, b->position[subgroup->element[i]], 2 * e) == 2 * e) out->element[out->order++] = subgroup->element[i];
+    if (image(b->q, b->position[subgroup->element[i]], 2 * e) == 2 * e)
+      out->element[out->order++] = subgroup->element[i];
   return THR_OK;
 }
 
@@ -281,7 +305,9 @@ static thr_status add_copy(build *b, int e, int stabilizers, thr_subgroup *subgr
   thr_subgroup s = {0};
   *subgroup = (thr_subgroup){0};
   thr_status st = full(b) ? too_many(b, err) : keepers(b, e, &copy_type.stabilizer, &s, err);
-  if (!st) st = thr_grow(&quotient->copy, quotient->n_copies, &b->copies_capacity, sizeof *quotient->copy, err);
+  if (!st)
+    st = thr_grow(&quotient->copy, quotient->n_copies, &b->copies_capacity, sizeof *quotient->copy,
+                  err);
   if (!st) st = add_dart(b, 2 * e, &s, &copy_type.dart[0], err);
   copy_type.fold = s.order < copy_type.stabilizer.order;
   if (!st && !copy_type.fold) st = add_dart(b, 2 * e + 1, &s, &copy_type.dart[1], err);
@@ -325,7 +351,8 @@ static int by_half(const void *a, const void *b)
 {
   const thr_dart_type *dart_type = &((const numbered *)a)->type, *q = &((const numbered *)b)->type;
   if (dart_type->half != q->half) return dart_type->half < q->half ? -1 : 1;
-  if (dart_type->stabilizer.order != q->stabilizer.order) return dart_type->stabilizer.order > q->stabilizer.order ? -1 : 1;
+  if (dart_type->stabilizer.order != q->stabilizer.order)
+    return dart_type->stabilizer.order > q->stabilizer.order ? -1 : 1;
   for (int k = 0; k < dart_type->stabilizer.order; k++)
     if (dart_type->stabilizer.element[k] != q->stabilizer.element[k])
       return dart_type->stabilizer.element[k] < q->stabilizer.element[k] ? -1 : 1;
@@ -370,7 +397,8 @@ static thr_status sort_darts(build *b, thr_err *err)
     }
     for (int c = 0; c < quotient->n_copies; c++)
       for (int i = 0; i < 2; i++)
-        if (quotient->copy[c].dart[i] >= 0) quotient->copy[c].dart[i] = becomes[quotient->copy[c].dart[i]];
+        if (quotient->copy[c].dart[i] >= 0)
+          quotient->copy[c].dart[i] = becomes[quotient->copy[c].dart[i]];
     number_layers(quotient, becomes);
   }
   free(list);
@@ -392,7 +420,9 @@ static bool normalizes(const build *b, int i, const thr_subgroup *subgroup)
 {
   const thr_quotient *quotient = b->q;
   for (int k = 0; k < subgroup->order; k++)
-    if (!thr_subgroup_has(subgroup, conjugated(quotient->group, quotient->h->element[i], subgroup->element[k]))) return false;
+    if (!thr_subgroup_has(
+            subgroup, conjugated(quotient->group, quotient->h->element[i], subgroup->element[k])))
+      return false;
   return true;
 }
 
@@ -406,21 +436,24 @@ static int lowest_by_normal(const build *b, int half)
   return lowest;
 }
 
-/* An element that exchanges the darts (a, s) and (b2, s), without being in subgroup itself; -1 = none. */
+/* An element that exchanges the darts (a, s) and (b2, s), without being in subgroup itself; -1 =
+ * none. */
 static int find_exchange(const build *b, int a, int b2, const thr_subgroup *subgroup)
 {
   const thr_quotient *quotient = b->q;
   for (int k = 0; k < b->n_at; k++) {
     int i = b->at[k], g = quotient->h->element[i];
-    if (image(quotient, i, a) == b2 && image(quotient, i, b2) == a && !thr_subgroup_has(subgroup, g) &&
+    if (image(quotient, i, a) == b2 && image(quotient, i, b2) == a &&
+        !thr_subgroup_has(subgroup, g) &&
         thr_subgroup_has(subgroup, product(quotient->group, g, g)) && normalizes(b, i, subgroup))
       return g;
   }
   return -1;
 }
 
-/* Is the turn from half-edge a to b2, both with stabilizer subgroup and of one type, to be listed as seen from a? The turn seen
- * the other way round is the same one: the lower of the two stands for both. */
+/* Is the turn from half-edge a to b2, both with stabilizer subgroup and of one type, to be listed
+ * as seen from a? The turn seen the other way round is the same one: the lower of the two stands
+ * for both. */
 static bool lower_side(const build *b, int a, int b2, const thr_subgroup *subgroup)
 {
   for (int k = 0; k < b->n_at; k++)
@@ -433,9 +466,12 @@ static thr_status add_pair(build *b, int d, int other, int half, int element, th
 {
   thr_quotient *quotient = b->q;
   if (full(b)) return too_many(b, err);
-  thr_status st = thr_grow(&quotient->pair, quotient->n_pairs, &b->pairs_capacity, sizeof *quotient->pair, err);
+  thr_status st =
+      thr_grow(&quotient->pair, quotient->n_pairs, &b->pairs_capacity, sizeof *quotient->pair, err);
   if (st) return st;
-  thr_pair_type pair_type = {{d, other}, {quotient->dart[d].half, half}, element >= 0, quotient->dart[d].darts, 0, element};
+  thr_pair_type pair_type = {
+      {d, other}, {quotient->dart[d].half, half}, element >= 0, quotient->dart[d].darts, 0,
+      element};
   if (pair_type.self) pair_type.turns /= 2;
   pair_type.angle = mean_angle(quotient, pair_type.half[0], half);
   quotient->pair[quotient->n_pairs++] = pair_type;
@@ -475,8 +511,8 @@ static thr_status add_pairs(build *b, int d, thr_err *err)
 static int by_darts(const void *a, const void *b)
 {
   const thr_pair_type *pair_type = a, *q = b;
-  int key[4] = {pair_type->dart[0] - q->dart[0], pair_type->dart[1] - q->dart[1], pair_type->half[1] - q->half[1],
-                pair_type->self - q->self};
+  int key[4] = {pair_type->dart[0] - q->dart[0], pair_type->dart[1] - q->dart[1],
+                pair_type->half[1] - q->half[1], pair_type->self - q->self};
   for (int i = 0; i < 4; i++)
     if (key[i] != 0) return key[i];
   return 0;
@@ -511,14 +547,16 @@ static void build_destroy(build *b)
   free(b->before);
 }
 
-thr_status thr_quotient_make(thr_quotient *quotient, const thr_frame *frame, const thr_group *group, const thr_subgroup *subgroup,
-                             int most, const thr_limits *limits, thr_err *err)
+thr_status thr_quotient_make(thr_quotient *quotient, const thr_frame *frame, const thr_group *group,
+                             const thr_subgroup *subgroup, int most, const thr_limits *limits,
+                             thr_err *err)
 {
   *quotient = (thr_quotient){.f = frame, .group = group, .h = subgroup};
   build b = {.q = quotient, .limits = limits, .most = most};
   if (group->degree != frame->n_nodes) {
     *quotient = (thr_quotient){0};
-    thr_fail(err, THR_EINPUT, "the group permutes %d nodes, the framework has %d", group->degree, frame->n_nodes);
+    thr_fail(err, THR_EINPUT, "the group permutes %d nodes, the framework has %d", group->degree,
+             frame->n_nodes);
     return THR_EINPUT;
   }
   thr_status st = build_init(&b, err);
@@ -532,14 +570,15 @@ thr_status thr_quotient_make(thr_quotient *quotient, const thr_frame *frame, con
   if (!st) st = sort_darts(&b, err);
   for (int d = 0; d < quotient->n_darts && !st; d++)
     st = add_pairs(&b, d, err);
-  if (!st && quotient->n_pairs > 0) qsort(quotient->pair, (size_t)quotient->n_pairs, sizeof *quotient->pair, by_darts);
+  if (!st && quotient->n_pairs > 0)
+    qsort(quotient->pair, (size_t)quotient->n_pairs, sizeof *quotient->pair, by_darts);
   build_destroy(&b);
   if (st) thr_quotient_destroy(quotient);
   return st;
 }
 
-thr_status thr_quotient_init(thr_quotient *quotient, const thr_frame *frame, const thr_group *group, const thr_subgroup *subgroup,
-                             int most, thr_err *err)
+thr_status thr_quotient_init(thr_quotient *quotient, const thr_frame *frame, const thr_group *group,
+                             const thr_subgroup *subgroup, int most, thr_err *err)
 {
   const thr_limits none = {0};
   return thr_quotient_make(quotient, frame, group, subgroup, most, &none, err);

@@ -1,4 +1,6 @@
-/* Permutations as rows of images, in lexicographic order, so that equal ones are found by bisection.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Permutations as rows of images, in lexicographic order, so that equal ones are found by
+ * bisection.
  *
  * Example: (0 1 2), (1 0 2), (2 0 1) stand in this order. */
 #include "symmetry/group/groups.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Subgroups of a listed group, and all of them up to conjugacy by extension (Neubueser 1960). */
 #include "symmetry/group/group.h"
 
@@ -34,8 +35,9 @@ static int product(const thr_group *group, int a, int b)
   return group->product[(size_t)a * (size_t)group->order + (size_t)b];
 }
 
-/* Adds everything that the generators make. s holds the identity alone or, with the last generator left out of the list, a group
- * that the others generate: then only cosets of it are added. O(order of the result * generators). */
+/* Adds everything that the generators make. s holds the identity alone or, with the last generator
+ * left out of the list, a group that the others generate: then only cosets of it are added. O(order
+ * of the result * generators). */
 static void close_set(const thr_group *group, set *s, const int *generator, int n)
 {
   int member[THR_GROUP_CAP], count = 0, core[THR_GROUP_CAP], n_core = 0;
@@ -59,7 +61,8 @@ static set trivial(void)
   return s;
 }
 
-static thr_status copy_elements(const thr_group *group, const set *s, thr_subgroup *out, thr_err *err)
+static thr_status copy_elements(const thr_group *group, const set *s, thr_subgroup *out,
+                                thr_err *err)
 {
   int n = 0;
   *out = (thr_subgroup){.order = s->order, .element = thr_calloc((size_t)s->order, sizeof(int))};
@@ -92,7 +95,8 @@ bool thr_subgroup_has(const thr_subgroup *subgroup, int element)
 }
 
 /* Each generator at least doubles the order, so that ten reach the cap. */
-static int few_generators(const thr_group *group, const int *element, int n, int generator[MOST_GENERATORS])
+static int few_generators(const thr_group *group, const int *element, int n,
+                          int generator[MOST_GENERATORS])
 {
   set made = trivial();
   int count = 0;
@@ -184,7 +188,9 @@ static int compare(const set *a, const set *b)
   if (a->order != b->order) return a->order > b->order ? -1 : 1;
   for (int i = 0; i < WORDS; i++) {
     uint64_t differ = a->bit[i] ^ b->bit[i];
-    if (differ) return a->bit[i] & (differ & -differ) ? -1 : 1; /* has the lowest element in which they differ */
+    if (differ)
+      return a->bit[i] & (differ & -differ) ? -1
+                                            : 1; /* has the lowest element in which they differ */
   }
   return 0;
 }
@@ -255,7 +261,8 @@ static thr_status hand_over(atlas *t, thr_subgroup_classes *out, thr_err *err)
   return st;
 }
 
-thr_status thr_subgroup_classes_find(const thr_group *group, int most, thr_subgroup_classes *out, thr_err *err)
+thr_status thr_subgroup_classes_find(const thr_group *group, int most, thr_subgroup_classes *out,
+                                     thr_err *err)
 {
   atlas t = {.g = group, .most = most < 1 ? 1 : most};
   thr_subgroup_classes classes = {.complete = true};

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Automorphisms in a child process, which can be ended: nauty takes no heed of time. */
 #include "graph/process/process.h"
 #include "graph/text.h"
@@ -11,8 +12,8 @@ typedef struct {
   const thr_automorphism_options *o;
 } job;
 
-/* What comes before the generators: of each how many nodes it moves, and these with their images. Generators of large groups move
- * few, and all their images would be a quarter of a gigabyte. */
+/* What comes before the generators: of each how many nodes it moves, and these with their images.
+ * Generators of large groups move few, and all their images would be a quarter of a gigabyte. */
 typedef struct {
   int n_generators, exponent;
   double mantissa;
@@ -25,7 +26,8 @@ static void put_generator(thr_text *text, const int *image, int n)
     moved += image[v] != v;
   thr_text_append_bytes(text, (const char *)&moved, sizeof moved);
   for (int v = 0; v < n; v++)
-    if (image[v] != v) thr_text_append_bytes(text, (const char *)(const int[]){v, image[v]}, 2 * sizeof v);
+    if (image[v] != v)
+      thr_text_append_bytes(text, (const char *)(const int[]){v, image[v]}, 2 * sizeof v);
 }
 
 /* Fills image[n] from what put_generator wrote; returns what follows. */
@@ -62,11 +64,15 @@ static thr_status run(void *user, const thr_limits *limits, thr_sender *to, thr_
 }
 
 /* The answer of the child; an empty one is the identity alone. */
-static thr_status take(const thr_text *text, const thr_frame *frame, thr_automorphisms *out, thr_err *err)
+static thr_status take(const thr_text *text, const thr_frame *frame, thr_automorphisms *out,
+                       thr_err *err)
 {
   head h = {0, 0, 1};
   if (text->length) memcpy(&h, text->data, sizeof h);
-  thr_automorphisms a = {.n = frame->n_nodes, .n_generators = h.n_generators, .mantissa = h.mantissa, .exponent = h.exponent};
+  thr_automorphisms a = {.n = frame->n_nodes,
+                         .n_generators = h.n_generators,
+                         .mantissa = h.mantissa,
+                         .exponent = h.exponent};
   size_t n = (size_t)a.n;
   const char *data = text->data + (text->length ? sizeof h : 0);
   a.generator = thr_calloc((size_t)h.n_generators * n, sizeof *a.generator);
@@ -78,8 +84,9 @@ static thr_status take(const thr_text *text, const thr_frame *frame, thr_automor
   return st;
 }
 
-thr_status thr_automorphisms_within(const thr_frame *frame, const thr_automorphism_options *options, const thr_limits *limits,
-                                    bool *all, thr_automorphisms *out, thr_err *err)
+thr_status thr_automorphisms_within(const thr_frame *frame, const thr_automorphism_options *options,
+                                    const thr_limits *limits, bool *all, thr_automorphisms *out,
+                                    thr_err *err)
 {
   job j = {frame, options};
   const thr_child child = {.what = "automorphisms", .run = run, .user = &j};
@@ -87,7 +94,8 @@ thr_status thr_automorphisms_within(const thr_frame *frame, const thr_automorphi
   thr_err why = {0};
   *all = true;
   *out = (thr_automorphisms){0};
-  if (limits->deadline == 0 && !limits->interrupted) return thr_automorphisms_find(frame, options, out, err);
+  if (limits->deadline == 0 && !limits->interrupted)
+    return thr_automorphisms_find(frame, options, out, err);
   thr_status st = thr_child_run(&child, limits, &answer, &why);
   *all = !(st == THR_ELIMIT && thr_limits_stop(limits));
   st = st && *all ? thr_fail(err, st, "%s", why.text) : take(&answer, frame, out, err);

@@ -1,8 +1,10 @@
-/* Cords of a symmetric cover that keep to what is asked of cords and not of covers: how many there are in a component, and how
- * long they are. The cover's passes stay; its turns and ends change, orbit by orbit, so that what is made stays symmetric.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cords of a symmetric cover that keep to what is asked of cords and not of covers: how many there
+ * are in a component, and how long they are. The cover's passes stay; its turns and ends change,
+ * orbit by orbit, so that what is made stays symmetric.
  *
- * Example: a ring of six edges under C3 is one closed cord. For three cords with ends anywhere an orbit of three turns becomes
- * ends. */
+ * Example: a ring of six edges under C3 is one closed cord. For three cords with ends anywhere an
+ * orbit of three turns becomes ends. */
 #include "symmetry/lift/lift.h"
 #include "symmetry/cover/cover_parts.h"
 
@@ -16,8 +18,9 @@ enum { MOST_TRIALS = 128 }; /* for each change */
 
 bool thr_keep_asked(const thr_request *request)
 {
-  return thr_wants_symmetry(request) && (request->symmetry.counted || request->max_length > 0 || request->max_pull > 0 ||
-                                         request->distinct > 0 || thr_wants_balance(request));
+  return thr_wants_symmetry(request) &&
+         (request->symmetry.counted || request->max_length > 0 || request->max_pull > 0 ||
+          request->distinct > 0 || thr_wants_balance(request));
 }
 
 static double length_beyond(const thr_request *request, double length)
@@ -27,7 +30,8 @@ static double length_beyond(const thr_request *request, double length)
 }
 
 /* In parts of the turning that the pull may overcome; of straight cords in rad. */
-static double turning_beyond(const thr_frame *frame, const thr_request *request, const thr_cord *cord)
+static double turning_beyond(const thr_frame *frame, const thr_request *request,
+                             const thr_cord *cord)
 {
   double limit = thr_request_most_pulled(request);
   if (thr_cords_within_pull(frame, request, cord, 1)) return 0;
@@ -35,17 +39,18 @@ static double turning_beyond(const thr_frame *frame, const thr_request *request,
   return limit > 0 ? turning / limit - 1 : turning;
 }
 
-/* Cords too few and too many, in all components together, and different ones that edges lack; the sum of the parts by which cords
- * are too long or need too much pull, and the longest. */
+/* Cords too few and too many, in all components together, and different ones that edges lack; the
+ * sum of the parts by which cords are too long or need too much pull, and the longest. */
 typedef struct {
   int few, many, lacking;
   double beyond, longest;
 } excess;
 
-static thr_status count_lacking(const thr_frame *frame, int distinct, const thr_cord *cord, int n_cords, int *lacking,
-                                thr_err *err)
+static thr_status count_lacking(const thr_frame *frame, int distinct, const thr_cord *cord,
+                                int n_cords, int *lacking, thr_err *err)
 {
-  int *last = thr_calloc((size_t)frame->n_edges, sizeof *last); /* the number of the last cord that came by, from 1 */
+  int *last = thr_calloc((size_t)frame->n_edges,
+                         sizeof *last); /* the number of the last cord that came by, from 1 */
   if (!last) return thr_nomem(err);
   *lacking = distinct * frame->n_edges;
   int *met = thr_calloc((size_t)frame->n_edges, sizeof *met);
@@ -62,8 +67,9 @@ static thr_status count_lacking(const thr_frame *frame, int distinct, const thr_
   return done ? THR_OK : thr_nomem(err);
 }
 
-static thr_status find_excess(const thr_frame *frame, const thr_request *request, const int *component, const thr_cord *cord,
-                              int n_cords, excess *out, thr_err *err)
+static thr_status find_excess(const thr_frame *frame, const thr_request *request,
+                              const int *component, const thr_cord *cord, int n_cords, excess *out,
+                              thr_err *err)
 {
   int *count = thr_calloc((size_t)frame->n_nodes, sizeof *count), components = 0;
   *out = (excess){0};
@@ -81,7 +87,9 @@ static thr_status find_excess(const thr_frame *frame, const thr_request *request
     if (count[k] > request->cords) out->many += count[k] - request->cords;
   }
   free(count);
-  return request->distinct > 0 ? count_lacking(frame, request->distinct, cord, n_cords, &out->lacking, err) : THR_OK;
+  return request->distinct > 0
+             ? count_lacking(frame, request->distinct, cord, n_cords, &out->lacking, err)
+             : THR_OK;
 }
 
 static bool keeps(const excess *x)
@@ -89,7 +97,8 @@ static bool keeps(const excess *x)
   return x->few == 0 && x->many == 0 && x->lacking == 0 && x->beyond == 0;
 }
 
-bool thr_keep_does(const thr_frame *frame, const thr_request *request, const int *component, const thr_cord *cord, int n_cords)
+bool thr_keep_does(const thr_frame *frame, const thr_request *request, const int *component,
+                   const thr_cord *cord, int n_cords)
 {
   excess x;
   return find_excess(frame, request, component, cord, n_cords, &x, NULL) == THR_OK && keeps(&x);
@@ -100,7 +109,8 @@ int thr_keep_fewest(const thr_quotient *quotient, const int *component)
   const thr_frame *frame = quotient->f;
   int fewest = 1, order = quotient->h->order;
   for (int e = 0; e < frame->n_edges; e++) {
-    int fixed = 0, same = 0; /* elements that leave a half-edge (the identity is one), and the component, where they are */
+    int fixed = 0, same = 0; /* elements that leave a half-edge (the identity is one), and the
+                                component, where they are */
     for (int i = 0; i < order; i++) {
       int half = quotient->half_image[(size_t)i * 2 * (size_t)frame->n_edges + 2 * (size_t)e];
       fixed += half == 2 * e;
@@ -121,8 +131,10 @@ typedef struct {
   const int *component;
   thr_cover_options how;
   thr_programme p;
-  int *value, *best, *base; /* [p.n] of the trial, of the best so far, and of what the trials differ from */
-  bool counting; /* trials are only counted: n of them; then those are made that are spread evenly, at being the next */
+  int *value, *best,
+      *base;     /* [p.n] of the trial, of the best so far, and of what the trials differ from */
+  bool counting; /* trials are only counted: n of them; then those are made that are spread evenly,
+                    at being the next */
   long n, at;
   bool found, better;
   excess x;
@@ -152,9 +164,11 @@ static void keeper_destroy(keeper *k)
 static bool is_better(const keeper *k, const excess *x, const double *worth)
 {
   if (!k->found) return true;
-  double a = x->few + x->many + x->lacking + x->beyond, b = k->x.few + k->x.many + k->x.lacking + k->x.beyond;
+  double a = x->few + x->many + x->lacking + x->beyond,
+         b = k->x.few + k->x.many + k->x.lacking + k->x.beyond;
   if (fabs(a - b) > 1e-9) return a < b;
-  if (thr_wants_balance(k->o) && fabs(x->longest - k->x.longest) > 1e-9 * x->longest) return x->longest < k->x.longest;
+  if (thr_wants_balance(k->o) && fabs(x->longest - k->x.longest) > 1e-9 * x->longest)
+    return x->longest < k->x.longest;
   return thr_programme_compare(&k->p, worth, k->worth) < 0;
 }
 
@@ -167,12 +181,14 @@ static thr_status try_value(keeper *k, thr_err *err)
   thr_cord *cord = NULL;
   int n = 0;
   thr_symmetry_record record = {0};
-  const thr_cover cover = {.copies = k->value, .pairs = k->value + k->p.first_pair, .ends = k->value + k->p.first_end};
+  const thr_cover cover = {
+      .copies = k->value, .pairs = k->value + k->p.first_pair, .ends = k->value + k->p.first_end};
   thr_status st = thr_programme_value(&k->p, k->value, worth, &valid, err);
   if (st || !valid) return st;
   st = thr_cover_cords(k->q, &k->how, &cover, &cord, &n, &record, &(thr_err){0});
-  if (st) return st == THR_ENOMEM ? thr_nomem(err) : THR_OK;              /* no cords of this kind */
-  worth[THR_AIM_PATHS] = fmax(worth[THR_AIM_PATHS], record.unique_paths); /* circles that could be joined may be apart */
+  if (st) return st == THR_ENOMEM ? thr_nomem(err) : THR_OK; /* no cords of this kind */
+  worth[THR_AIM_PATHS] = fmax(worth[THR_AIM_PATHS],
+                              record.unique_paths); /* circles that could be joined may be apart */
   st = find_excess(k->q->f, k->o, k->component, cord, n, &x, err);
   if (!st && is_better(k, &x, worth)) {
     drop_cords(k);
@@ -219,13 +235,15 @@ static bool can_swap(const keeper *k, int y, int sign)
   const int *ends = k->base + k->p.first_end, *d = type->dart;
   if (sign > 0) return k->base[k->p.first_pair + y] > 0 && k->p.most[k->p.first_end + d[0]] != 0;
   if (k->p.most[k->p.first_pair + y] == 0) return false;
-  return type->self ? ends[d[0]] > 0 : d[0] == d[1] ? ends[d[0]] > 1 : ends[d[0]] > 0 && ends[d[1]] > 0;
+  return type->self     ? ends[d[0]] > 0
+         : d[0] == d[1] ? ends[d[0]] > 1
+                        : ends[d[0]] > 0 && ends[d[1]] > 0;
 }
 
 /* ---- more cords ---- */
 
-/* How an orbit of copies goes on at one of its dart types: its cord ends there, or turns back into its own image or a second
- * orbit. */
+/* How an orbit of copies goes on at one of its dart types: its cord ends there, or turns back into
+ * its own image or a second orbit. */
 typedef enum { STOP, FOLD, BACK, N_WAYS } way;
 
 /* Returns the column of dart type d for a way, or -1 if there is none. */
@@ -235,19 +253,22 @@ static int column_of(const keeper *k, int d, way w)
   if (w == STOP) return p->most[p->first_end + d] != 0 ? p->first_end + d : -1;
   for (int i = p->first[d]; i < p->first[d + 1]; i++) {
     const thr_pair_type *type = &k->q->pair[p->incident[i]];
-    const bool back = type->half[0] == type->half[1] && type->dart[0] == d && (type->self || type->dart[1] == d);
-    if (back && type->self == (w == FOLD) && p->most[p->first_pair + p->incident[i]] != 0) return p->first_pair + p->incident[i];
+    const bool back =
+        type->half[0] == type->half[1] && type->dart[0] == d && (type->self || type->dart[1] == d);
+    if (back && type->self == (w == FOLD) && p->most[p->first_pair + p->incident[i]] != 0)
+      return p->first_pair + p->incident[i];
   }
   return -1;
 }
 
-/* Tries one more orbit of cords over copies of type c alone, which go on in these ways at both ends: two orbits of copies where
- * one turns back into the other. */
+/* Tries one more orbit of cords over copies of type c alone, which go on in these ways at both
+ * ends: two orbits of copies where one turns back into the other. */
 static thr_status attempt_more(keeper *k, int c, way first, way second, thr_err *err)
 {
   const thr_copy_type *type = &k->q->copy[c];
   const way ways[2] = {first, second};
-  const int n = type->dart[1] < 0 ? 1 : 2, times = first == BACK || (n == 2 && second == BACK) ? 2 : 1;
+  const int n = type->dart[1] < 0 ? 1 : 2,
+            times = first == BACK || (n == 2 && second == BACK) ? 2 : 1;
   int column[2];
   if (k->p.most[c] >= 0 && k->base[c] + times > k->p.most[c]) return THR_OK;
   for (int i = 0; i < n; i++)
@@ -268,7 +289,8 @@ static thr_status attempt_additions(keeper *k, thr_err *err)
   thr_status st = THR_OK;
   for (int c = 0; c < k->q->n_copies && k->x.few > 0; c++)
     for (int w = 0; w < N_WAYS * N_WAYS && !st; w++)
-      if (k->q->copy[c].dart[1] >= 0 || w < N_WAYS) st = attempt_more(k, c, (way)(w % N_WAYS), (way)(w / N_WAYS), err);
+      if (k->q->copy[c].dart[1] >= 0 || w < N_WAYS)
+        st = attempt_more(k, c, (way)(w % N_WAYS), (way)(w / N_WAYS), err);
   return st;
 }
 
@@ -292,7 +314,8 @@ static int modes_of(const keeper *k)
   return k->p.open ? 1 : 2;
 }
 
-/* One orbit of turns or ends changed: the best of the trials, spread evenly over all if they are too many. */
+/* One orbit of turns or ends changed: the best of the trials, spread evenly over all if they are
+ * too many. */
 static thr_status change_one(keeper *k, thr_err *err)
 {
   memcpy(k->base, k->best, (size_t)k->p.n * sizeof *k->base);
@@ -323,7 +346,8 @@ static thr_status search(keeper *k, thr_err *err)
 
 /* ---- the cover of the cords ---- */
 
-/* Values of the cords. A bound holds with the aims before it no higher than they were; where one is, what is known of any. */
+/* Values of the cords. A bound holds with the aims before it no higher than they were; where one
+ * is, what is known of any. */
 static thr_status restate(const keeper *k, thr_cover *cover, thr_err *err)
 {
   double quick;
@@ -333,13 +357,16 @@ static thr_status restate(const keeper *k, thr_cover *cover, thr_err *err)
     thr_aim aim = k->how.prefer[i];
     if (!same) cover->bound[aim] = aim == THR_AIM_TURNING ? quick : aim == THR_AIM_PATHS;
     if (k->worth[aim] > cover->value[aim] + thr_programme_tolerance(&k->p, aim)) same = false;
-    at_bounds = at_bounds && k->worth[aim] <= cover->bound[aim] + thr_programme_tolerance(&k->p, aim);
+    at_bounds =
+        at_bounds && k->worth[aim] <= cover->bound[aim] + thr_programme_tolerance(&k->p, aim);
     cover->value[aim] = k->worth[aim];
     cover->bound[aim] = fmin(cover->bound[aim], cover->value[aim]);
   }
   cover->optimal = cover->optimal && at_bounds;
-  if (cover->copies && k->q->n_copies > 0) memcpy(cover->copies, k->best, (size_t)k->q->n_copies * sizeof *k->best);
-  if (k->q->n_pairs > 0) memcpy(cover->pairs, k->best + k->p.first_pair, (size_t)k->q->n_pairs * sizeof *k->best);
+  if (cover->copies && k->q->n_copies > 0)
+    memcpy(cover->copies, k->best, (size_t)k->q->n_copies * sizeof *k->best);
+  if (k->q->n_pairs > 0)
+    memcpy(cover->pairs, k->best + k->p.first_pair, (size_t)k->q->n_pairs * sizeof *k->best);
   memcpy(cover->ends, k->best + k->p.first_end, (size_t)k->q->n_darts * sizeof *k->best);
   return st;
 }
@@ -354,18 +381,22 @@ static thr_status keeper_init(keeper *k, const thr_cover *cover, thr_err *err)
   k->base = thr_calloc((size_t)k->p.n, sizeof *k->base);
   if (!k->value || !k->best || !k->base) return thr_nomem(err);
   memcpy(k->value, cover->copies, (size_t)k->q->n_copies * sizeof *k->value);
-  if (k->q->n_pairs > 0) memcpy(k->value + k->p.first_pair, cover->pairs, (size_t)k->q->n_pairs * sizeof *k->value);
+  if (k->q->n_pairs > 0)
+    memcpy(k->value + k->p.first_pair, cover->pairs, (size_t)k->q->n_pairs * sizeof *k->value);
   memcpy(k->value + k->p.first_end, cover->ends, (size_t)k->q->n_darts * sizeof *k->value);
   return THR_OK;
 }
 
-thr_status thr_keep_cords(const thr_quotient *quotient, const thr_cover_options *options, const thr_request *request,
-                          const thr_limits *limits, thr_cover *cover, thr_cord **cord, int *n_cords, thr_symmetry_record *record,
-                          bool *kept, thr_err *err)
+thr_status thr_keep_cords(const thr_quotient *quotient, const thr_cover_options *options,
+                          const thr_request *request, const thr_limits *limits, thr_cover *cover,
+                          thr_cord **cord, int *n_cords, thr_symmetry_record *record, bool *kept,
+                          thr_err *err)
 {
   int n, *component = thr_calloc((size_t)quotient->f->n_nodes, sizeof *component);
-  keeper k = {.q = quotient, .o = request, .limits = limits, .component = component, .how = *options};
-  thr_status st = component ? thr_frame_components(quotient->f, component, &n, err) : thr_nomem(err);
+  keeper k = {
+      .q = quotient, .o = request, .limits = limits, .component = component, .how = *options};
+  thr_status st =
+      component ? thr_frame_components(quotient->f, component, &n, err) : thr_nomem(err);
   if (!st) st = keeper_init(&k, cover, err);
   if (!st) st = search(&k, err);
   if (!st && !k.found) st = thr_fail(err, THR_ESOLVER, "no cords can be made of the cover");

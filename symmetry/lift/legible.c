@@ -1,8 +1,10 @@
-/* Cords of a symmetric cover that are read in fewer instructions (graph/plan/reading.c), with every aim at the value it has: two
- * turns of a node, in all their images, exchange their partners where that turns no more.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cords of a symmetric cover that are read in fewer instructions (graph/plan/reading.c), with every
+ * aim at the value it has: two turns of a node, in all their images, exchange their partners where
+ * that turns no more.
  *
- * Example: two stairs over a grid that go right and then up here, up and then right there, become stairs that are one the other
- * moved along, which is read once. */
+ * Example: two stairs over a grid that go right and then up here, up and then right there, become
+ * stairs that are one the other moved along, which is read once. */
 #include "graph/plan/plan_measures.h"
 #include "symmetry/lift/lift.h"
 
@@ -50,7 +52,11 @@ static void threading_destroy(thr_lifted *t)
 
 static int count_instructions(const reader *r, const thr_lifted *t)
 {
-  const thr_plan plan = {.frame = *r->q->f, .options = *r->o, .cord = t->cord, .n_cords = t->n_cords, .symmetry = t->record};
+  const thr_plan plan = {.frame = *r->q->f,
+                         .options = *r->o,
+                         .cord = t->cord,
+                         .n_cords = t->n_cords,
+                         .symmetry = t->record};
   return thr_reading_of(&plan).instructions;
 }
 
@@ -74,7 +80,8 @@ static bool stays(const reader *r, const thr_lifted *t)
 {
   const level x = level_of(r, t);
   return x.cords == r->most.cords && x.paths == r->most.paths && at_most(x.steps, r->most.steps) &&
-         at_most(x.turning, r->most.turning) && at_most(x.pulled, r->most.pulled) && at_most(x.longest, r->most.longest) &&
+         at_most(x.turning, r->most.turning) && at_most(x.pulled, r->most.pulled) &&
+         at_most(x.longest, r->most.longest) &&
          (!thr_keep_asked(r->o) || thr_keep_does(r->q->f, r->o, r->component, t->cord, t->n_cords));
 }
 
@@ -84,7 +91,8 @@ static thr_status try_value(reader *r, thr_err *err)
   double worth[THR_N_AIMS];
   bool valid;
   thr_lifted t = {0};
-  const thr_cover cover = {.copies = r->value, .pairs = r->value + r->p.first_pair, .ends = r->value + r->p.first_end};
+  const thr_cover cover = {
+      .copies = r->value, .pairs = r->value + r->p.first_pair, .ends = r->value + r->p.first_end};
   thr_status st = thr_programme_value(&r->p, r->value, worth, &valid, err);
   if (st || !valid || thr_programme_compare(&r->p, worth, r->worth) > 0) return st;
   r->traced += r->passes;
@@ -128,7 +136,8 @@ static thr_status reader_init(reader *r, const thr_cover *cover, thr_err *err)
   int components;
   bool valid;
   r->component = thr_calloc((size_t)q->f->n_nodes, sizeof *r->component);
-  thr_status st = r->component ? thr_frame_components(q->f, r->component, &components, err) : thr_nomem(err);
+  thr_status st =
+      r->component ? thr_frame_components(q->f, r->component, &components, err) : thr_nomem(err);
   if (!st) st = thr_programme_init(&r->p, q, r->how, err);
   if (!st && r->how->tube) st = thr_programme_tie(&r->p, err);
   if (st) return st;
@@ -136,7 +145,8 @@ static thr_status reader_init(reader *r, const thr_cover *cover, thr_err *err)
   r->best = thr_calloc((size_t)r->p.n, sizeof *r->best);
   if (!r->value || !r->best) return thr_nomem(err);
   memcpy(r->best, cover->copies, (size_t)q->n_copies * sizeof *r->best);
-  if (q->n_pairs > 0) memcpy(r->best + r->p.first_pair, cover->pairs, (size_t)q->n_pairs * sizeof *r->best);
+  if (q->n_pairs > 0)
+    memcpy(r->best + r->p.first_pair, cover->pairs, (size_t)q->n_pairs * sizeof *r->best);
   memcpy(r->best + r->p.first_end, cover->ends, (size_t)q->n_darts * sizeof *r->best);
   for (int i = 0; i < r->now->n_cords; i++)
     r->passes += r->now->cord[i].n_passes;
@@ -145,15 +155,17 @@ static thr_status reader_init(reader *r, const thr_cover *cover, thr_err *err)
   return thr_programme_value(&r->p, r->best, r->worth, &valid, err);
 }
 
-thr_status thr_legible_cords(const thr_quotient *quotient, const thr_cover_options *options, const thr_request *request,
-                             const thr_limits *limits, thr_cover *cover, thr_lifted *threading, int *instructions, thr_err *err)
+thr_status thr_legible_cords(const thr_quotient *quotient, const thr_cover_options *options,
+                             const thr_request *request, const thr_limits *limits, thr_cover *cover,
+                             thr_lifted *threading, int *instructions, thr_err *err)
 {
   reader r = {.q = quotient, .how = options, .o = request, .limits = limits, .now = threading};
   thr_status st = reader_init(&r, cover, err);
   if (!st) st = search(&r, err);
   if (!st) {
     memcpy(cover->copies, r.best, (size_t)quotient->n_copies * sizeof *r.best);
-    if (quotient->n_pairs > 0) memcpy(cover->pairs, r.best + r.p.first_pair, (size_t)quotient->n_pairs * sizeof *r.best);
+    if (quotient->n_pairs > 0)
+      memcpy(cover->pairs, r.best + r.p.first_pair, (size_t)quotient->n_pairs * sizeof *r.best);
     memcpy(cover->ends, r.best + r.p.first_end, (size_t)quotient->n_darts * sizeof *r.best);
     *instructions = r.instructions;
   }

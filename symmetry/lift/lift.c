@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Solutions of a contraction with turns, and the other way round. */
 #include "graph/disjoint.h"
 #include "graph/status.h"
@@ -10,12 +11,13 @@
 /* Dart orbits of the cells that are still to be led on. */
 typedef struct {
   const thr_contraction *c;
-  int *value;         /* of the whole programme */
-  int *left;          /* [n_darts] */
-  int *first, *types; /* dart types of the cell with lowest type d: types[first[d] .. first[d + 1] - 1] */
-  int *selves;        /* [n_darts] by lowest type: self pairs that are still to be taken */
-  bool *failed;       /* [n_darts] by lowest type */
-  int n, *type;       /* of the cell at hand */
+  int *value; /* of the whole programme */
+  int *left;  /* [n_darts] */
+  int *first,
+      *types;   /* dart types of the cell with lowest type d: types[first[d] .. first[d + 1] - 1] */
+  int *selves;  /* [n_darts] by lowest type: self pairs that are still to be taken */
+  bool *failed; /* [n_darts] by lowest type */
+  int n, *type; /* of the cell at hand */
   int *parent, *next; /* [ties->most] tubes of the star at hand, joined so far; scratch */
   bool stopped;       /* by the limits */
 } lifting;
@@ -31,10 +33,12 @@ static void lifting_destroy(lifting *x)
   free(x->next);
 }
 
-static thr_status lifting_init(lifting *x, const thr_contraction *contraction, const int *small, int *value, thr_err *err)
+static thr_status lifting_init(lifting *x, const thr_contraction *contraction, const int *small,
+                               int *value, thr_err *err)
 {
   const thr_quotient *quotient = contraction->whole->q;
-  size_t n = (size_t)quotient->n_darts, tubes = contraction->whole->ties ? (size_t)contraction->whole->ties->most : 0;
+  size_t n = (size_t)quotient->n_darts,
+         tubes = contraction->whole->ties ? (size_t)contraction->whole->ties->most : 0;
   *x = (lifting){.c = contraction, .value = value, .left = thr_calloc(n, sizeof *x->left)};
   x->first = thr_calloc(n + 2, sizeof *x->first);
   x->types = thr_calloc(n, sizeof *x->types);
@@ -42,7 +46,8 @@ static thr_status lifting_init(lifting *x, const thr_contraction *contraction, c
   x->failed = thr_calloc(n, sizeof *x->failed);
   x->parent = thr_calloc(tubes, sizeof *x->parent);
   x->next = thr_calloc(tubes, sizeof *x->next);
-  if (!x->left || !x->first || !x->types || !x->selves || !x->failed || !x->parent || !x->next) return thr_nomem(err);
+  if (!x->left || !x->first || !x->types || !x->selves || !x->failed || !x->parent || !x->next)
+    return thr_nomem(err);
   memset(value, 0, (size_t)contraction->whole->n * sizeof *value);
   for (int k = 0; k < quotient->n_copies; k++) {
     value[k] = small[k];
@@ -76,11 +81,13 @@ static int most_left(const lifting *x)
 {
   int best = -1;
   for (int i = 0; i < x->n; i++)
-    if (x->left[x->type[i]] > 0 && (best < 0 || x->left[x->type[i]] > x->left[best])) best = x->type[i];
+    if (x->left[x->type[i]] > 0 && (best < 0 || x->left[x->type[i]] > x->left[best]))
+      best = x->type[i];
   return best;
 }
 
-/* Returns the column that ends one of the trails of type d, a cord end or the cheapest self pair, or -1 if there is none. */
+/* Returns the column that ends one of the trails of type d, a cord end or the cheapest self pair,
+ * or -1 if there is none. */
 static int terminal_of(const thr_programme *p, int d, bool self)
 {
   const double *cost = p->cost[THR_AIM_TURNING];
@@ -88,7 +95,8 @@ static int terminal_of(const thr_programme *p, int d, bool self)
   if (!self) return p->most[p->first_end + d] != 0 ? p->first_end + d : -1;
   for (int k = p->first[d]; k < p->first[d + 1]; k++) {
     const int j = p->first_pair + p->incident[k];
-    if (p->q->pair[p->incident[k]].self && p->most[j] != 0 && (best < 0 || cost[j] < cost[best])) best = j;
+    if (p->q->pair[p->incident[k]].self && p->most[j] != 0 && (best < 0 || cost[j] < cost[best]))
+      best = j;
   }
   return best;
 }
@@ -101,7 +109,9 @@ static bool take_terminals(lifting *x, bool self, int count)
     int best = -1;
     for (int i = 0; i < x->n; i++) {
       int d = x->type[i];
-      if (x->left[d] > 0 && terminal_of(p, d, self) >= 0 && (best < 0 || x->left[d] > x->left[best])) best = d;
+      if (x->left[d] > 0 && terminal_of(p, d, self) >= 0 &&
+          (best < 0 || x->left[d] > x->left[best]))
+        best = d;
     }
     if (best < 0) return false;
     x->value[terminal_of(p, best, self)]++;
@@ -110,14 +120,16 @@ static bool take_terminals(lifting *x, bool self, int count)
   return true;
 }
 
-/* Can the rest be paired: does no type without a turn to itself have more than the others together? */
+/* Can the rest be paired: does no type without a turn to itself have more than the others together?
+ */
 static bool can_go_on(const lifting *x)
 {
   int sum = 0, selves = x->selves[x->c->root[x->type[0]]];
   for (int i = 0; i < x->n; i++)
     sum += x->left[x->type[i]];
   for (int i = 0; i < x->n; i++)
-    if (2 * x->left[x->type[i]] > sum + selves && !thr_programme_loop(x->c->whole, x->type[i])) return false;
+    if (2 * x->left[x->type[i]] > sum + selves && !thr_programme_loop(x->c->whole, x->type[i]))
+      return false;
   return (sum - selves) % 2 == 0;
 }
 
@@ -148,7 +160,8 @@ static bool pair_one(lifting *x, int a)
   int best = -1;
   for (int k = p->first[a]; k < p->first[a + 1]; k++) {
     int j = p->first_pair + p->incident[k];
-    if (p->q->pair[p->incident[k]].self || !is_left(x, j) || (best >= 0 && cost[j] >= cost[best])) continue;
+    if (p->q->pair[p->incident[k]].self || !is_left(x, j) || (best >= 0 && cost[j] >= cost[best]))
+      continue;
     use(x, j, 1);
     if (can_go_on(x)) best = j;
     use(x, j, -1);
@@ -193,7 +206,8 @@ static int join_tubes(const thr_ties *ties, int y, int *parent)
   return n;
 }
 
-/* May turn y be used with what is left: can all blocks of tubes still be joined, and the rest be paired? */
+/* May turn y be used with what is left: can all blocks of tubes still be joined, and the rest be
+ * paired? */
 static bool leaves_room(lifting *x, int star, int y)
 {
   const thr_programme *p = x->c->whole;
@@ -208,7 +222,8 @@ static bool leaves_room(lifting *x, int star, int y)
   for (int i = ties->first[star]; i < ties->first[star + 1] && good && blocks > 1; i++) {
     int other = ties->pair[i], j = p->first_pair + other;
     if (cell_kept(x->c, other) || !is_left(x, j)) continue;
-    for (int k = ties->join[other]; k < ties->join[other + 1]; k++) { /* -1 - root: this block can be joined */
+    for (int k = ties->join[other]; k < ties->join[other + 1];
+         k++) { /* -1 - root: this block can be joined */
       int a = ties->link[k][0], b = ties->link[k][1];
       while (x->next[a] >= 0 && x->next[a] != a)
         a = x->next[a];
@@ -231,13 +246,15 @@ static int count_joins(lifting *x, int star, int y)
   const thr_ties *ties = x->c->whole->ties;
   bool any = false;
   for (int k = ties->join[y]; k < ties->join[y + 1]; k++)
-    any = any || thr_disjoint_find(x->parent, ties->link[k][0]) != thr_disjoint_find(x->parent, ties->link[k][1]);
+    any = any || thr_disjoint_find(x->parent, ties->link[k][0]) !=
+                     thr_disjoint_find(x->parent, ties->link[k][1]);
   if (!any) return 0;
   memcpy(x->next, x->parent, (size_t)ties->degree[star] * sizeof *x->next);
   return join_tubes(ties, y, x->next);
 }
 
-/* Joins the tubes of a star with turns of the cells that are not kept: those that join most, of several the cheapest. */
+/* Joins the tubes of a star with turns of the cells that are not kept: those that join most, of
+ * several the cheapest. */
 static void tie_star(lifting *x, int star, const int *small)
 {
   const thr_contraction *contraction = x->c;
@@ -248,7 +265,8 @@ static void tie_star(lifting *x, int star, const int *small)
     x->parent[i] = i;
   for (int i = ties->first[star]; i < ties->first[star + 1]; i++) {
     int y = ties->pair[i];
-    if ((cell_kept(contraction, y) ? small[contraction->p.first_pair + contraction->pair[y]] : x->value[p->first_pair + y]) > 0)
+    if ((cell_kept(contraction, y) ? small[contraction->p.first_pair + contraction->pair[y]]
+                                   : x->value[p->first_pair + y]) > 0)
       join_tubes(ties, y, x->parent);
   }
   for (int best = 0; best >= 0;) {
@@ -299,10 +317,12 @@ static void copy_kept(const thr_contraction *contraction, const int *small, int 
   const thr_quotient *quotient = contraction->whole->q;
   for (int y = 0; y < quotient->n_pairs; y++)
     if (contraction->keep[contraction->root[quotient->pair[y].dart[0]]])
-      value[contraction->whole->first_pair + y] = small[contraction->p.first_pair + contraction->pair[y]];
+      value[contraction->whole->first_pair + y] =
+          small[contraction->p.first_pair + contraction->pair[y]];
   for (int d = 0; d < quotient->n_darts; d++)
     if (contraction->keep[contraction->root[d]])
-      value[contraction->whole->first_end + d] = small[contraction->p.first_end + contraction->becomes[d]];
+      value[contraction->whole->first_end + d] =
+          small[contraction->p.first_end + contraction->becomes[d]];
 }
 
 void thr_contraction_lower(const thr_contraction *contraction, const int *value, int *small)
@@ -312,14 +332,18 @@ void thr_contraction_lower(const thr_contraction *contraction, const int *value,
   memcpy(small, value, (size_t)quotient->n_copies * sizeof *small);
   for (int y = 0; y < quotient->n_pairs; y++)
     if (contraction->pair[y] >= 0)
-      small[contraction->p.first_pair + contraction->pair[y]] += value[contraction->whole->first_pair + y];
+      small[contraction->p.first_pair + contraction->pair[y]] +=
+          value[contraction->whole->first_pair + y];
   for (int d = 0; d < quotient->n_darts; d++)
-    small[contraction->p.first_end + contraction->becomes[d]] += value[contraction->whole->first_end + d];
+    small[contraction->p.first_end + contraction->becomes[d]] +=
+        value[contraction->whole->first_end + d];
 }
 
-thr_status thr_contraction_lift(thr_contraction *contraction, const int *small, int *value, int *kept, thr_err *err)
+thr_status thr_contraction_lift(thr_contraction *contraction, const int *small, int *value,
+                                int *kept, thr_err *err)
 {
-  const int n = contraction->whole->q->n_darts, stars = contraction->whole->ties ? contraction->whole->ties->n : 0;
+  const int n = contraction->whole->q->n_darts,
+            stars = contraction->whole->ties ? contraction->whole->ties->n : 0;
   lifting x;
   *kept = 0;
   thr_status st = lifting_init(&x, contraction, small, value, err);

@@ -1,10 +1,12 @@
-/* A symmetric cover made concrete: orbits of darts as cosets of their stabilizers, linked over the edges and at the nodes
- * (symmetry/group/quotient.c), and followed from end to end.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A symmetric cover made concrete: orbits of darts as cosets of their stabilizers, linked over the
+ * edges and at the nodes (symmetry/group/quotient.c), and followed from end to end.
  *
- * The copies of a dart type with stabilizer S are the cosets gS; an element maps gS to hgS. A link is an element: which coset of
- * the one orbit the first coset of the other continues into.
+ * The copies of a dart type with stabilizer S are the cosets gS; an element maps gS to hgS. A link
+ * is an element: which coset of the one orbit the first coset of the other continues into.
  *
- * Example: under C4 with trivial stabilizers an orbit has four darts 1, g, g^2, g^3; linked by g they make one closed cord. */
+ * Example: under C4 with trivial stabilizers an orbit has four darts 1, g, g^2, g^3; linked by g
+ * they make one closed cord. */
 #include "symmetry/lift/lift.h"
 #include "graph/disjoint.h"
 
@@ -27,19 +29,24 @@ static int half_image(const thr_quotient *quotient, int place, int h)
 }
 
 /* Is t a t^-1 = b, for subgroups of one order? */
-static bool conjugates(const thr_quotient *quotient, int t, const thr_subgroup *a, const thr_subgroup *b)
+static bool conjugates(const thr_quotient *quotient, int t, const thr_subgroup *a,
+                       const thr_subgroup *b)
 {
   for (int i = 0; i < a->order; i++)
-    if (!thr_subgroup_has(b, product(quotient, product(quotient, t, a->element[i]), inverse(quotient, t)))) return false;
+    if (!thr_subgroup_has(
+            b, product(quotient, product(quotient, t, a->element[i]), inverse(quotient, t))))
+      return false;
   return true;
 }
 
 /* Lowest element of H that takes half-edge a with stabilizer A to b with B; -1 if none does. */
-static int carrier(const thr_quotient *quotient, int a, const thr_subgroup *A, int b, const thr_subgroup *B)
+static int carrier(const thr_quotient *quotient, int a, const thr_subgroup *A, int b,
+                   const thr_subgroup *B)
 {
   if (A->order != B->order) return -1;
   for (int i = 0; i < quotient->h->order; i++)
-    if (half_image(quotient, i, a) == b && conjugates(quotient, quotient->h->element[i], A, B)) return quotient->h->element[i];
+    if (half_image(quotient, i, a) == b && conjugates(quotient, quotient->h->element[i], A, B))
+      return quotient->h->element[i];
   return -1;
 }
 
@@ -47,14 +54,16 @@ static int carrier(const thr_quotient *quotient, int a, const thr_subgroup *A, i
 
 static int coset_of(const thr_strands *strands, int type, int x)
 {
-  return strands->coset[(size_t)strands->row[type] * (size_t)strands->q->h->order + (size_t)strands->place[x]];
+  return strands->coset[(size_t)strands->row[type] * (size_t)strands->q->h->order +
+                        (size_t)strands->place[x]];
 }
 
 /* Element of the coset that dart d is. */
 static int element_of(const thr_strands *strands, int d)
 {
   int o = strands->orbit[d];
-  return strands->chosen[(size_t)strands->row[strands->type[o]] * (size_t)strands->q->h->order + (size_t)(d - strands->first[o])];
+  return strands->chosen[(size_t)strands->row[strands->type[o]] * (size_t)strands->q->h->order +
+                         (size_t)(d - strands->first[o])];
 }
 
 static int dart_of(const thr_strands *strands, int o, int x)
@@ -64,13 +73,15 @@ static int dart_of(const thr_strands *strands, int o, int x)
 
 int thr_strands_half(const thr_strands *strands, int d)
 {
-  return half_image(strands->q, strands->place[element_of(strands, d)], strands->q->dart[strands->type[strands->orbit[d]]].half);
+  return half_image(strands->q, strands->place[element_of(strands, d)],
+                    strands->q->dart[strands->type[strands->orbit[d]]].half);
 }
 
 int thr_strands_across(const thr_strands *strands, int d)
 {
   int o = strands->orbit[d];
-  return dart_of(strands, strands->other[o], product(strands->q, element_of(strands, d), strands->over[o]));
+  return dart_of(strands, strands->other[o],
+                 product(strands->q, element_of(strands, d), strands->over[o]));
 }
 
 int thr_strands_mate(const thr_strands *strands, int d)
@@ -78,7 +89,8 @@ int thr_strands_mate(const thr_strands *strands, int d)
   int o = strands->orbit[d];
   return strands->partner[o] < 0
              ? -1
-             : dart_of(strands, strands->partner[o], product(strands->q, element_of(strands, d), strands->turn[o]));
+             : dart_of(strands, strands->partner[o],
+                       product(strands->q, element_of(strands, d), strands->turn[o]));
 }
 
 int thr_strands_image(const thr_strands *strands, int x, int d)
@@ -161,13 +173,14 @@ static int turner(const thr_strands *strands, const thr_copy_type *type)
 {
   int i = 0;
   while (i + 1 < type->stabilizer.order &&
-         half_image(strands->q, strands->place[type->stabilizer.element[i]], 2 * type->edge) == 2 * type->edge)
+         half_image(strands->q, strands->place[type->stabilizer.element[i]], 2 * type->edge) ==
+             2 * type->edge)
     i++;
   return type->stabilizer.element[i];
 }
 
-/* Lowest element of H that takes the copy's end at half-edge 2 e to the representative of its type. Of a fold, whose K turns the
- * half-edge round, S goes into K. */
+/* Lowest element of H that takes the copy's end at half-edge 2 e to the representative of its type.
+ * Of a fold, whose K turns the half-edge round, S goes into K. */
 static int fold_carrier(const thr_quotient *quotient, const thr_copy_type *type)
 {
   const thr_dart_type *dart_type = &quotient->dart[type->dart[0]];
@@ -175,24 +188,29 @@ static int fold_carrier(const thr_quotient *quotient, const thr_copy_type *type)
     int x = quotient->h->element[i];
     bool fits = half_image(quotient, i, 2 * type->edge) == dart_type->half;
     for (int k = 0; k < dart_type->stabilizer.order && fits; k++)
-      fits = thr_subgroup_has(&type->stabilizer,
-                              product(quotient, product(quotient, inverse(quotient, x), dart_type->stabilizer.element[k]), x));
+      fits = thr_subgroup_has(
+          &type->stabilizer,
+          product(quotient,
+                  product(quotient, inverse(quotient, x), dart_type->stabilizer.element[k]), x));
     if (fits) return x;
   }
   return -1;
 }
 
-/* Elements over of the two dart orbits of a copy type. The dart at end i of the copy K is the coset of t[i]^-1, where t[i] takes
- * it to its type's representative. */
-static thr_status link_copy(const thr_strands *strands, const thr_copy_type *type, int over[2], thr_err *err)
+/* Elements over of the two dart orbits of a copy type. The dart at end i of the copy K is the coset
+ * of t[i]^-1, where t[i] takes it to its type's representative. */
+static thr_status link_copy(const thr_strands *strands, const thr_copy_type *type, int over[2],
+                            thr_err *err)
 {
   const thr_quotient *quotient = strands->q;
   int t[2], back;
   for (int i = 0; i < 2; i++) {
     const thr_dart_type *dart_type = &quotient->dart[type->dart[type->fold ? 0 : i]];
     t[i] = type->fold ? fold_carrier(quotient, type)
-                      : carrier(quotient, 2 * type->edge + i, &type->stabilizer, dart_type->half, &dart_type->stabilizer);
-    if (t[i] < 0) return thr_fail(err, THR_ESOLVER, "edge %d: its darts are not of their types", type->edge);
+                      : carrier(quotient, 2 * type->edge + i, &type->stabilizer, dart_type->half,
+                                &dart_type->stabilizer);
+    if (t[i] < 0)
+      return thr_fail(err, THR_ESOLVER, "edge %d: its darts are not of their types", type->edge);
   }
   back = inverse(quotient, t[1]);
   if (type->fold) back = product(quotient, turner(strands, type), back);
@@ -213,8 +231,10 @@ static thr_status orbits_init(thr_strands *strands, const thr_cover *cover, thr_
   strands->over = thr_calloc(n, sizeof *strands->over);
   strands->partner = thr_calloc(n, sizeof *strands->partner);
   strands->turn = thr_calloc(n, sizeof *strands->turn);
-  return strands->type && strands->first && strands->other && strands->over && strands->partner && strands->turn ? THR_OK
-                                                                                                                 : thr_nomem(err);
+  return strands->type && strands->first && strands->other && strands->over && strands->partner &&
+                 strands->turn
+             ? THR_OK
+             : thr_nomem(err);
 }
 
 static thr_status make_orbits(thr_strands *strands, const thr_cover *cover, thr_err *err)
@@ -235,7 +255,8 @@ static thr_status make_orbits(thr_strands *strands, const thr_cover *cover, thr_
     strands->first[o + 1] = strands->first[o] + quotient->dart[strands->type[o]].darts;
   if (st) return st;
   strands->n_darts = strands->first[strands->n_orbits];
-  if (!(strands->orbit = thr_calloc((size_t)strands->n_darts, sizeof *strands->orbit))) return thr_nomem(err);
+  if (!(strands->orbit = thr_calloc((size_t)strands->n_darts, sizeof *strands->orbit)))
+    return thr_nomem(err);
   for (int o = 0; o < strands->n_orbits; o++)
     for (int d = strands->first[o]; d < strands->first[o + 1]; d++)
       strands->orbit[d] = o;
@@ -284,12 +305,14 @@ static int pair_element(const thr_quotient *quotient, const thr_pair_type *type)
   return carrier(quotient, b->half, &b->stabilizer, type->half[1], &a->stabilizer);
 }
 
-static thr_status pair_orbits(thr_strands *strands, type_lists *unpaired, const thr_pair_type *type, int count, thr_err *err)
+static thr_status pair_orbits(thr_strands *strands, type_lists *unpaired, const thr_pair_type *type,
+                              int count, thr_err *err)
 {
   int turn = count > 0 ? pair_element(strands->q, type) : 0;
   for (int k = 0; k < count; k++) {
     int a = take(unpaired, type->dart[0]), b = type->self ? a : take(unpaired, type->dart[1]);
-    if (turn < 0 || a < 0 || b < 0) return thr_fail(err, THR_ESOLVER, "a turn of the cover joins no two of its passes");
+    if (turn < 0 || a < 0 || b < 0)
+      return thr_fail(err, THR_ESOLVER, "a turn of the cover joins no two of its passes");
     strands->partner[a] = b;
     strands->turn[a] = turn;
     strands->partner[b] = a;
@@ -310,7 +333,8 @@ static thr_status make_pairs(thr_strands *strands, const thr_cover *cover, thr_e
     for (int o = take(&unpaired, t); o >= 0; o = take(&unpaired, t), ends++)
       strands->partner[o] = -1;
     if (ends != cover->ends[t])
-      st = thr_fail(err, THR_ESOLVER, "a cover with %d cord ends of a kind instead of %d", ends, cover->ends[t]);
+      st = thr_fail(err, THR_ESOLVER, "a cover with %d cord ends of a kind instead of %d", ends,
+                    cover->ends[t]);
   }
   type_lists_destroy(&unpaired);
   return st;
@@ -318,7 +342,8 @@ static thr_status make_pairs(thr_strands *strands, const thr_cover *cover, thr_e
 
 /* ---- trails of the quotient ---- */
 
-/* Trails as sets of orbits (union-find), with how many of their two terminals are cord ends and how many folds. */
+/* Trails as sets of orbits (union-find), with how many of their two terminals are cord ends and how
+ * many folds. */
 typedef struct {
   int *parent, *ends, *folds; /* [n_orbits] the counts at roots */
 } trails;
@@ -331,7 +356,8 @@ static int root(const trails *t, int o)
 /* The counts of both stay with the root. */
 static void join(trails *t, int a, int b)
 {
-  int ra = root(t, a), rb = root(t, b), ends = t->ends[ra] + t->ends[rb], folds = t->folds[ra] + t->folds[rb];
+  int ra = root(t, a), rb = root(t, b), ends = t->ends[ra] + t->ends[rb],
+      folds = t->folds[ra] + t->folds[rb];
   if (!thr_disjoint_join(t->parent, ra, rb)) return;
   t->ends[root(t, ra)] = ends;
   t->folds[root(t, ra)] = folds;
@@ -386,7 +412,9 @@ static thr_status all_have_ends(const thr_strands *strands, const trails *t, thr
   for (int o = 0; o < strands->n_orbits; o++)
     if (t->ends[root(t, o)] == 0) {
       int e = strands->q->dart[strands->type[o]].half >> 1;
-      return thr_fail(err, THR_ESOLVER, "the cords over edge %d and its images would be closed, where ends are asked for", e);
+      return thr_fail(
+          err, THR_ESOLVER,
+          "the cords over edge %d and its images would be closed, where ends are asked for", e);
     }
   return THR_OK;
 }
@@ -402,16 +430,20 @@ static int walk_length(const thr_strands *strands, int start)
   return n;
 }
 
-/* Could orbit o be paired by this element instead, at the same two half-edges? A fold must stay one. */
+/* Could orbit o be paired by this element instead, at the same two half-edges? A fold must stay
+ * one. */
 static bool may_turn(const thr_strands *strands, int o, int turn)
 {
   const thr_quotient *quotient = strands->q;
-  const thr_dart_type *a = &quotient->dart[strands->type[o]], *b = &quotient->dart[strands->type[strands->partner[o]]];
-  if (half_image(quotient, strands->place[turn], b->half) != half_image(quotient, strands->place[strands->turn[o]], b->half))
+  const thr_dart_type *a = &quotient->dart[strands->type[o]],
+                      *b = &quotient->dart[strands->type[strands->partner[o]]];
+  if (half_image(quotient, strands->place[turn], b->half) !=
+      half_image(quotient, strands->place[strands->turn[o]], b->half))
     return false;
   if (!conjugates(quotient, turn, &b->stabilizer, &a->stabilizer)) return false;
   return strands->partner[o] != o ||
-         (!thr_subgroup_has(&a->stabilizer, turn) && thr_subgroup_has(&a->stabilizer, product(quotient, turn, turn)));
+         (!thr_subgroup_has(&a->stabilizer, turn) &&
+          thr_subgroup_has(&a->stabilizer, product(quotient, turn, turn)));
 }
 
 static void set_turn(thr_strands *strands, int o, int turn)
@@ -420,8 +452,8 @@ static void set_turn(thr_strands *strands, int o, int turn)
   if (strands->partner[o] != o) strands->turn[strands->partner[o]] = inverse(strands->q, turn);
 }
 
-/* Of the partners that orbit o has in the other orbit at the same half-edge, takes the one with the longest cord; least > 0: with
- * the shortest of so many passes or more. */
+/* Of the partners that orbit o has in the other orbit at the same half-edge, takes the one with the
+ * longest cord; least > 0: with the shortest of so many passes or more. */
 static void turn_best(thr_strands *strands, int o, int start, int least, int *best)
 {
   const thr_quotient *quotient = strands->q;
@@ -429,7 +461,9 @@ static void turn_best(thr_strands *strands, int o, int start, int least, int *be
   size_t row = (size_t)strands->row[type] * (size_t)quotient->h->order;
   for (int k = 0; k < quotient->dart[type].darts; k++) {
     int turn = strands->chosen[row + (size_t)k];
-    if (coset_of(strands, type, turn) == coset_of(strands, type, kept) || !may_turn(strands, o, turn)) continue;
+    if (coset_of(strands, type, turn) == coset_of(strands, type, kept) ||
+        !may_turn(strands, o, turn))
+      continue;
     set_turn(strands, o, turn);
     int length = walk_length(strands, strands->first[start]);
     if (least > 0 ? length >= least && length < *best : length > *best) {
@@ -466,7 +500,8 @@ static int darts_within(const thr_strands *strands, int o, const int *component,
 }
 
 /* Passes, or the ends of open cords, that the trail from orbit start has in this component. */
-static int passes_within(const thr_strands *strands, const trails *t, int start, const int *component, int within, int *ends)
+static int passes_within(const thr_strands *strands, const trails *t, int start,
+                         const int *component, int within, int *ends)
 {
   int darts = 0;
   *ends = 0;
@@ -479,12 +514,15 @@ static int passes_within(const thr_strands *strands, const trails *t, int start,
   return darts / 2;
 }
 
-/* Makes the cords of every trail without ends as many as can be, with all others at most so many in a component. */
+/* Makes the cords of every trail without ends as many as can be, with all others at most so many in
+ * a component. */
 static void shorten_cords(thr_strands *strands, const trails *t, const int *component, int most)
 {
   for (int start = 0; start < strands->n_orbits; start++) {
     if (root(t, start) != start || t->ends[start]) continue;
-    int own = 0, ends, others = 0, within = component[thr_tail(strands->q->f, thr_strands_half(strands, strands->first[start]))];
+    int own = 0, ends, others = 0,
+        within =
+            component[thr_tail(strands->q->f, thr_strands_half(strands, strands->first[start]))];
     for (int o = 0; o < strands->n_orbits; o++) {
       if (root(t, o) != o) continue;
       int passes = passes_within(strands, t, o, component, within, &ends);
@@ -497,7 +535,8 @@ static void shorten_cords(thr_strands *strands, const trails *t, const int *comp
   }
 }
 
-static thr_status arrange(thr_strands *strands, bool all_open, const int *component, int most, thr_err *err)
+static thr_status arrange(thr_strands *strands, bool all_open, const int *component, int most,
+                          thr_err *err)
 {
   size_t n = (size_t)strands->n_orbits;
   trails t = {0};
@@ -522,8 +561,9 @@ static thr_status arrange(thr_strands *strands, bool all_open, const int *compon
   return st;
 }
 
-thr_status thr_strands_init(thr_strands *strands, const thr_quotient *quotient, const thr_cover *cover, bool all_open,
-                            const int *component, int most, thr_err *err)
+thr_status thr_strands_init(thr_strands *strands, const thr_quotient *quotient,
+                            const thr_cover *cover, bool all_open, const int *component, int most,
+                            thr_err *err)
 {
   *strands = (thr_strands){.q = quotient};
   thr_status st = make_tables(strands, cover, err);

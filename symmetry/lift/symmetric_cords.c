@@ -1,4 +1,6 @@
-/* The cords of a symmetric cover, copies as images of their unique paths, and the record that says so. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cords of a symmetric cover, copies as images of their unique paths, and the record that says
+ * so. */
 #include "graph/threading/euler.h"
 #include "symmetry/lift/lift.h"
 
@@ -34,7 +36,8 @@ static int half_image(const tracer *t, int x, int h)
 /* ---- equal cords ---- */
 
 /* Is b what x makes of cord a, from pass `shift` of b on, forward or backward? */
-static bool matches(const tracer *t, const traced *a, int x, const traced *b, int shift, bool reverse)
+static bool matches(const tracer *t, const traced *a, int x, const traced *b, int shift,
+                    bool reverse)
 {
   int n = a->n_passes;
   for (int i = 0; i < n; i++) {
@@ -44,8 +47,8 @@ static bool matches(const tracer *t, const traced *a, int x, const traced *b, in
   return true;
 }
 
-/* Returns in how many ways x maps cord a to b as a path in the framework: forward or reversed, one that runs round from any
- * start. Stops counting at `enough`. */
+/* Returns in how many ways x maps cord a to b as a path in the framework: forward or reversed, one
+ * that runs round from any start. Stops counting at `enough`. */
 static int ways(const tracer *t, const traced *a, int x, const traced *b, int enough)
 {
   int n = a->n_passes, found = 0;
@@ -72,8 +75,9 @@ static bool fixes(const tracer *t, const traced *a, int x)
   return true;
 }
 
-/* Returns what has to be learned of a unique path: its passes and, unless it runs round, the steps of its two ends, over the
- * number of elements of H that map it to itself. Those that fix all its nodes do so alike. */
+/* Returns what has to be learned of a unique path: its passes and, unless it runs round, the steps
+ * of its two ends, over the number of elements of H that map it to itself. Those that fix all its
+ * nodes do so alike. */
 static double steps_of(const tracer *t, const traced *a)
 {
   const thr_subgroup *subgroup = t->s.q->h;
@@ -98,7 +102,8 @@ static int trace(tracer *t, int d)
   return n;
 }
 
-/* Turns the walk of a closed cord so that it starts where it turns most: its two ends come out there instead of turning. */
+/* Turns the walk of a closed cord so that it starts where it turns most: its two ends come out
+ * there instead of turning. */
 static void start_sharpest(tracer *t, int n)
 {
   for (int i = 0; i < n; i++)
@@ -128,7 +133,8 @@ static thr_status add_cord(tracer *t, const int *walk, int n, int x, thr_err *er
   return THR_OK;
 }
 
-/* The last cord runs as the image of unique path `of` under x does, and now starts and ends as that does, too. */
+/* The last cord runs as the image of unique path `of` under x does, and now starts and ends as that
+ * does, too. */
 static void make_image(tracer *t, int of, int x)
 {
   traced *last = &t->cord[t->n_cords - 1];
@@ -139,7 +145,8 @@ static void make_image(tracer *t, int of, int x)
   last->element = x;
 }
 
-/* The last cord, the first of its orbit: a copy of an earlier unique path that runs through the same nodes, or a new one. */
+/* The last cord, the first of its orbit: a copy of an earlier unique path that runs through the
+ * same nodes, or a new one. */
 static thr_status classify_last(tracer *t, thr_err *err)
 {
   traced *last = &t->cord[t->n_cords - 1];
@@ -161,7 +168,8 @@ static thr_status add_given(tracer *t, const thr_cord *cord, thr_err *err)
 {
   thr_status st = thr_grow(&t->cord, t->n_cords, &t->capacity, sizeof *t->cord, err);
   if (st) return st;
-  traced c = {.half = thr_calloc((size_t)cord->n_passes, sizeof *c.half), .n_passes = cord->n_passes};
+  traced c = {.half = thr_calloc((size_t)cord->n_passes, sizeof *c.half),
+              .n_passes = cord->n_passes};
   if (!c.half) return thr_nomem(err);
   memcpy(c.half, cord->half, (size_t)cord->n_passes * sizeof *c.half);
   c.closed = cord->closed;
@@ -185,12 +193,16 @@ static thr_status add_orbit(tracer *t, int d, bool open, thr_err *err)
     int x = quotient->h->element[i];
     if (t->walked[thr_strands_image(&t->s, x, t->walk[0])]) continue;
     st = add_cord(t, t->walk, n, x, err);
-    if (!st) make_image(t, of, quotient->group->product[(size_t)x * (size_t)quotient->group->order + (size_t)element]);
+    if (!st)
+      make_image(
+          t, of,
+          quotient->group->product[(size_t)x * (size_t)quotient->group->order + (size_t)element]);
   }
   return st;
 }
 
-/* Where cords are looked for: component by component, first from the ends of open ones, by node and half-edge. */
+/* Where cords are looked for: component by component, first from the ends of open ones, by node and
+ * half-edge. */
 typedef struct {
   int component, inner, tail, half, dart;
 } beginning;
@@ -198,7 +210,8 @@ typedef struct {
 static int by_place(const void *a, const void *b)
 {
   const beginning *p = a, *q = b;
-  const int x[] = {p->component, p->inner, p->tail, p->half, p->dart}, y[] = {q->component, q->inner, q->tail, q->half, q->dart};
+  const int x[] = {p->component, p->inner, p->tail, p->half, p->dart},
+            y[] = {q->component, q->inner, q->tail, q->half, q->dart};
   for (int i = 0; i < 5; i++)
     if (x[i] != y[i]) return x[i] < y[i] ? -1 : 1;
   return 0;
@@ -235,14 +248,16 @@ static void tracer_destroy(tracer *t)
   thr_strands_destroy(&t->s);
 }
 
-static thr_status tracer_init(tracer *t, const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *cover,
+static thr_status tracer_init(tracer *t, const thr_quotient *quotient,
+                              const thr_cover_options *options, const thr_cover *cover,
                               const int *component, thr_err *err)
 {
   *t = (tracer){.f = quotient->f,
                 .open = thr_cover_all_open(options),
                 .end_steps = thr_cover_steps_of_end(options),
                 .component = component};
-  thr_status st = thr_strands_init(&t->s, quotient, cover, t->open, component, options->most_closed, err);
+  thr_status st =
+      thr_strands_init(&t->s, quotient, cover, t->open, component, options->most_closed, err);
   if (st) return st;
   size_t n = (size_t)t->s.n_darts;
   t->walked = thr_calloc(n, sizeof *t->walked);
@@ -251,8 +266,9 @@ static thr_status tracer_init(tracer *t, const thr_quotient *quotient, const thr
   return t->walked && t->walk && t->scratch ? THR_OK : thr_nomem(err);
 }
 
-/* Cords by component, otherwise in the order in which they were found: place[i] of the i-th one found. A unique path, which
- * starts in the lowest of the components that its orbit reaches, stays the first of its kind. */
+/* Cords by component, otherwise in the order in which they were found: place[i] of the i-th one
+ * found. A unique path, which starts in the lowest of the components that its orbit reaches, stays
+ * the first of its kind. */
 static thr_status order_cords(const tracer *t, int n_components, int **place, thr_err *err)
 {
   int *start = thr_calloc((size_t)n_components + 1, sizeof *start);
@@ -275,7 +291,8 @@ static void copy_image(const thr_quotient *quotient, int x, int *to)
 }
 
 /* Generators of H, and the elements that make copies: number[x] becomes the image's number. */
-static thr_status record_elements(const tracer *t, int *number, thr_symmetry_record *record, thr_err *err)
+static thr_status record_elements(const tracer *t, int *number, thr_symmetry_record *record,
+                                  thr_err *err)
 {
   const thr_quotient *quotient = t->s.q;
   size_t n = (size_t)quotient->f->n_nodes;
@@ -298,7 +315,8 @@ static thr_status record_elements(const tracer *t, int *number, thr_symmetry_rec
   return THR_OK;
 }
 
-static thr_status make_record(const tracer *t, const int *place, thr_symmetry_record *record, thr_err *err)
+static thr_status make_record(const tracer *t, const int *place, thr_symmetry_record *record,
+                              thr_err *err)
 {
   size_t n = (size_t)t->n_cords;
   int *number = thr_calloc((size_t)t->s.q->group->order, sizeof *number);
@@ -312,9 +330,11 @@ static thr_status make_record(const tracer *t, const int *place, thr_symmetry_re
   }
   for (int u = 0; u < t->n_unique && !st; u++) {
     const traced *path = &t->cord[t->unique[u]];
-    const bool turns_back = path->round && path->half[0] >> 1 == path->half[path->n_passes - 1] >> 1;
+    const bool turns_back =
+        path->round && path->half[0] >> 1 == path->half[path->n_passes - 1] >> 1;
     record->steps += steps_of(t, path);
-    record->retraced = record->retraced || (turns_back && t->end_steps > 0) || ways(t, path, 0, path, 2) > 1;
+    record->retraced =
+        record->retraced || (turns_back && t->end_steps > 0) || ways(t, path, 0, path, 2) > 1;
   }
   record->unique_paths = t->n_unique;
   record->present = true;
@@ -329,22 +349,28 @@ static thr_status make_cords(tracer *t, const int *place, thr_cord **cord, thr_e
   for (int i = 0; i < t->n_cords; i++) {
     traced *from = &t->cord[i];
     thr_cord *to = &(*cord)[place[i]];
-    *to = (thr_cord){.component = from->component, .closed = from->closed, .n_passes = from->n_passes, .half = from->half};
+    *to = (thr_cord){.component = from->component,
+                     .closed = from->closed,
+                     .n_passes = from->n_passes,
+                     .half = from->half};
     thr_cord_id(place[i], to->id);
     from->half = NULL;
   }
   return THR_OK;
 }
 
-thr_status thr_cover_cords(const thr_quotient *quotient, const thr_cover_options *options, const thr_cover *cover,
-                           thr_cord **cord, int *n_cords, thr_symmetry_record *record, thr_err *err)
+thr_status thr_cover_cords(const thr_quotient *quotient, const thr_cover_options *options,
+                           const thr_cover *cover, thr_cord **cord, int *n_cords,
+                           thr_symmetry_record *record, thr_err *err)
 {
-  int n_components, *place = NULL, *component = thr_calloc((size_t)quotient->f->n_nodes, sizeof *component);
+  int n_components, *place = NULL,
+                    *component = thr_calloc((size_t)quotient->f->n_nodes, sizeof *component);
   tracer t = {0};
   *cord = NULL;
   *n_cords = 0;
   *record = (thr_symmetry_record){0};
-  thr_status st = component ? thr_frame_components(quotient->f, component, &n_components, err) : thr_nomem(err);
+  thr_status st =
+      component ? thr_frame_components(quotient->f, component, &n_components, err) : thr_nomem(err);
   if (!st) st = tracer_init(&t, quotient, options, cover, component, err);
   if (!st) st = trace_all(&t, err);
   if (!st) st = order_cords(&t, n_components, &place, err);
@@ -358,8 +384,9 @@ thr_status thr_cover_cords(const thr_quotient *quotient, const thr_cover_options
   return st;
 }
 
-thr_status thr_cords_alone(const thr_frame *frame, const thr_cover_options *options, const thr_cord *cord, int n_cords,
-                           thr_symmetry_record *record, thr_err *err)
+thr_status thr_cords_alone(const thr_frame *frame, const thr_cover_options *options,
+                           const thr_cord *cord, int n_cords, thr_symmetry_record *record,
+                           thr_err *err)
 {
   int identity = 0;
   const thr_subgroup alone = {1, &identity};

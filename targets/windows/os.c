@@ -1,5 +1,6 @@
-/* graph/os.h and targets/host.h for Windows. The program's manifest makes UTF-8 the code page of all names (Windows 10, version
- * 1903, and later), so the functions that take bytes do. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* graph/os.h and targets/host.h for Windows. The program's manifest makes UTF-8 the code page of
+ * all names (Windows 10, version 1903, and later), so the functions that take bytes do. */
 #include "graph/os.h"
 #include "graph/status.h"
 #include "targets/host.h"
@@ -53,7 +54,8 @@ bool thr_os_is_folder(const char *path)
 bool thr_os_is_file(const char *path)
 {
   const DWORD is = attributes_of(path);
-  return is != INVALID_FILE_ATTRIBUTES && !(is & (FILE_ATTRIBUTE_DIRECTORY | FILE_ATTRIBUTE_DEVICE));
+  return is != INVALID_FILE_ATTRIBUTES &&
+         !(is & (FILE_ATTRIBUTE_DIRECTORY | FILE_ATTRIBUTE_DEVICE));
 }
 
 bool thr_os_is_no_file(const char *path)
@@ -101,7 +103,8 @@ bool thr_os_remove_folder(const char *path)
 /* What the system calls a file that is there: false if none is, or it is no file. */
 static bool identity_of(const char *path, BY_HANDLE_FILE_INFORMATION *is)
 {
-  HANDLE file = CreateFileA(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL, OPEN_EXISTING, 0, NULL);
+  HANDLE file = CreateFileA(path, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL,
+                            OPEN_EXISTING, 0, NULL);
   if (file == INVALID_HANDLE_VALUE) return false;
   const bool found = GetFileType(file) == FILE_TYPE_DISK && GetFileInformationByHandle(file, is);
   CloseHandle(file);
@@ -114,10 +117,12 @@ bool thr_os_is_same_file(const char *a, const char *b)
   char whole_a[MAX_PATH], whole_b[MAX_PATH];
   const bool has_a = identity_of(a, &x), has_b = identity_of(b, &y);
   if (has_a && has_b)
-    return x.dwVolumeSerialNumber == y.dwVolumeSerialNumber && x.nFileIndexHigh == y.nFileIndexHigh &&
-           x.nFileIndexLow == y.nFileIndexLow;
-  const DWORD n = GetFullPathNameA(a, MAX_PATH, whole_a, NULL), m = GetFullPathNameA(b, MAX_PATH, whole_b, NULL);
-  return !has_a && !has_b && n > 0 && n < MAX_PATH && m > 0 && m < MAX_PATH && _stricmp(whole_a, whole_b) == 0;
+    return x.dwVolumeSerialNumber == y.dwVolumeSerialNumber &&
+           x.nFileIndexHigh == y.nFileIndexHigh && x.nFileIndexLow == y.nFileIndexLow;
+  const DWORD n = GetFullPathNameA(a, MAX_PATH, whole_a, NULL),
+              m = GetFullPathNameA(b, MAX_PATH, whole_b, NULL);
+  return !has_a && !has_b && n > 0 && n < MAX_PATH && m > 0 && m < MAX_PATH &&
+         _stricmp(whole_a, whole_b) == 0;
 }
 
 void thr_os_cache_folder(char *path, size_t size)
@@ -134,14 +139,16 @@ static bool write_all(HANDLE file, const char *data, size_t n)
   const size_t most = (size_t)1 << 30;
   DWORD written = 0;
   for (; n > 0; data += written, n -= written)
-    if (!WriteFile(file, data, (DWORD)(n < most ? n : most), &written, NULL) || written == 0) return false;
+    if (!WriteFile(file, data, (DWORD)(n < most ? n : most), &written, NULL) || written == 0)
+      return false;
   return true;
 }
 
 /* Opens, writes, waits for the disk and closes. */
 static bool write_to(const char *path, DWORD how, bool on_disk, const char *data, size_t n)
 {
-  HANDLE file = CreateFileA(path, GENERIC_WRITE, FILE_SHARE_READ, NULL, how, FILE_ATTRIBUTE_NORMAL, NULL);
+  HANDLE file =
+      CreateFileA(path, GENERIC_WRITE, FILE_SHARE_READ, NULL, how, FILE_ATTRIBUTE_NORMAL, NULL);
   DWORD why = GetLastError();
   if (file == INVALID_HANDLE_VALUE) {
     set_errno(why);
@@ -154,7 +161,8 @@ static bool write_to(const char *path, DWORD how, bool on_disk, const char *data
   return done;
 }
 
-/* A file that is read only is not replaced, as elsewhere. The temporary file's name is this process's own. */
+/* A file that is read only is not replaced, as elsewhere. The temporary file's name is this
+ * process's own. */
 static bool replace_file(const char *path, const char *data, size_t n)
 {
   enum { NAME = 32 };
@@ -181,7 +189,8 @@ static bool replace_file(const char *path, const char *data, size_t n)
 /* Is it a device, as NUL or CON, or a pipe? */
 static bool is_device(const char *path)
 {
-  HANDLE file = CreateFileA(path, GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE, NULL, OPEN_EXISTING, 0, NULL);
+  HANDLE file = CreateFileA(path, GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE, NULL,
+                            OPEN_EXISTING, 0, NULL);
   if (file == INVALID_HANDLE_VALUE) return false;
   const DWORD type = GetFileType(file);
   CloseHandle(file);
@@ -195,8 +204,10 @@ bool thr_os_write(const char *path, const char *data, size_t n)
     errno = EACCES;
     return false;
   }
-  const bool link = is != INVALID_FILE_ATTRIBUTES && (is & FILE_ATTRIBUTE_REPARSE_POINT); /* stays one */
-  if (link || is_device(path)) return write_to(path, link ? TRUNCATE_EXISTING : OPEN_EXISTING, link, data, n);
+  const bool link =
+      is != INVALID_FILE_ATTRIBUTES && (is & FILE_ATTRIBUTE_REPARSE_POINT); /* stays one */
+  if (link || is_device(path))
+    return write_to(path, link ? TRUNCATE_EXISTING : OPEN_EXISTING, link, data, n);
   return replace_file(path, data, n);
 }
 
@@ -239,7 +250,8 @@ int thr_os_read_small(const char *path, char *data, int size)
 
 static void (*stop)(int signal);
 
-/* Ctrl-C comes in a thread of the system's, Ctrl-Break too; the window's end gives the program some seconds. */
+/* Ctrl-C comes in a thread of the system's, Ctrl-Break too; the window's end gives the program some
+ * seconds. */
 static BOOL WINAPI on_console(DWORD event)
 {
   (void)event;
@@ -295,7 +307,8 @@ void host_bound_memory(double bytes)
   if (!job && bytes > 0) {
     job = CreateJobObjectA(NULL, NULL);
     if (job && !AssignProcessToJobObject(job, GetCurrentProcess())) {
-      CloseHandle(job); /* another one, which does not allow it, has the process: it has its own bounds */
+      CloseHandle(
+          job); /* another one, which does not allow it, has the process: it has its own bounds */
       job = NULL;
     }
   }

@@ -1,5 +1,6 @@
-/* What the reader fuzzers share: a draft that was read must weld into a sound framework that survives being written and
- * read again. Broken invariants abort. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the reader fuzzers share: a draft that was read must weld into a sound framework that
+ * survives being written and read again. Broken invariants abort. */
 #ifndef THR_FUZZ_H
 #define THR_FUZZ_H
 
@@ -35,7 +36,8 @@ static void check_frame(const thr_frame *f, const thr_read_report *r)
   }
   MUST(degrees == 2 * f->n_edges && f->n_edges > 0);
   for (int e = 0; e < f->n_edges; e++) {
-    MUST(f->edge[e][0] >= 0 && f->edge[e][0] < f->n_nodes && f->edge[e][1] >= 0 && f->edge[e][1] < f->n_nodes);
+    MUST(f->edge[e][0] >= 0 && f->edge[e][0] < f->n_nodes && f->edge[e][1] >= 0 &&
+         f->edge[e][1] < f->n_nodes);
     MUST(f->edge[e][0] != f->edge[e][1]);
     MUST(isfinite(f->length[e]) && f->length[e] > 0);
   }
@@ -43,8 +45,8 @@ static void check_frame(const thr_frame *f, const thr_read_report *r)
   MUST(r->edges_read == f->n_edges + r->duplicate_edges + r->zero_length_edges);
 }
 
-/* Writes, reads and compares: JSON keeps all, OBJ all but names, CSV the edges. The tolerance is that of the
- * first reading: the default one depends on the edges that are left, and may grow. */
+/* Writes, reads and compares: JSON keeps all, OBJ all but names, CSV the edges. The tolerance is
+ * that of the first reading: the default one depends on the edges that are left, and may grow. */
 static void check_round_trip(const thr_frame *f, double tolerance, const thr_format *format)
 {
   thr_text text = {0};
@@ -59,7 +61,8 @@ static void check_round_trip(const thr_frame *f, double tolerance, const thr_for
   if (format != thr_format_named("csv")) MUST(thr_frame_hash(&g) == thr_frame_hash(f));
   MUST(!g.cover == !f->cover && !g.capacity == !f->capacity);
   for (int e = 0; e < f->n_edges; e++)
-    MUST((!f->cover || g.cover[e] == f->cover[e]) && (!f->capacity || g.capacity[e] == f->capacity[e]));
+    MUST((!f->cover || g.cover[e] == f->cover[e]) &&
+         (!f->capacity || g.capacity[e] == f->capacity[e]));
   MUST(memcmp(g.length, f->length, (size_t)f->n_edges * sizeof *f->length) == 0);
   if (format != thr_format_named("csv")) MUST(strcmp(f->units, g.units) == 0);
   if (format == thr_format_named("json") || format == thr_format_named("graphml")) {
@@ -89,7 +92,8 @@ static void check_nearly(thr_frame *f)
 static void check_draft(thr_status st, thr_draft *d, thr_read_report *r, const thr_err *err)
 {
   thr_frame f = {0};
-  MUST(st == THR_OK || ((st == THR_EINPUT) && err->code == st && err->text[0] && d->n_nodes == 0 && d->n_edges == 0));
+  MUST(st == THR_OK || ((st == THR_EINPUT) && err->code == st && err->text[0] && d->n_nodes == 0 &&
+                        d->n_edges == 0));
   if (st == THR_OK && thr_draft_build(d, -1, &f, r, NULL) == THR_OK) {
     check_frame(&f, r);
     check_round_trip(&f, r->weld_tolerance, thr_format_named("json"));

@@ -1,5 +1,6 @@
-/* Fuzzes the reader of cached joints: the input as a whole file, and as the values of one whose key and checksum are right. What
- * is read must be finite, and write the same file again. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzzes the reader of cached joints: the input as a whole file, and as the values of one whose key
+ * and checksum are right. What is read must be finite, and write the same file again. */
 #include "eval/joint/joint.h"
 #include "fuzz.h"
 #include "graph/text.h"
@@ -14,10 +15,13 @@ static void read_back(const thr_text *file, const thr_text *key)
     MUST(r.status == 7);
     return;
   }
-  MUST(isfinite(r.ratio) && isfinite(r.drift) && isfinite(r.scatter) && isfinite(r.taut) && isfinite(r.steps));
-  MUST(r.status == THR_DRAG_SETTLED || r.status == THR_DRAG_UNSETTLED || r.status == THR_DRAG_OUT_OF_RANGE);
+  MUST(isfinite(r.ratio) && isfinite(r.drift) && isfinite(r.scatter) && isfinite(r.taut) &&
+       isfinite(r.steps));
+  MUST(r.status == THR_DRAG_SETTLED || r.status == THR_DRAG_UNSETTLED ||
+       r.status == THR_DRAG_OUT_OF_RANGE);
   thr_cache_write(key, &r, &again);
-  MUST(!again.failed && again.length == file->length && memcmp(again.data, file->data, again.length) == 0);
+  MUST(!again.failed && again.length == file->length &&
+       memcmp(again.data, file->data, again.length) == 0);
   thr_text_destroy(&again);
 }
 

@@ -1,4 +1,6 @@
-/* Fuzzes the CSV reader: one table, and a pair of tables if the byte | stands somewhere; and the guess of the format. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzzes the CSV reader: one table, and a pair of tables if the byte | stands somewhere; and the
+ * guess of the format. */
 #include "fuzz.h"
 #include "graph/framework/frame.h"
 #include "graph/io/read.h"

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fuzzes the glTF reader. */
 #include "fuzz.h"
 #include "graph/io/read.h"

@@ -1,5 +1,7 @@
-/* Fuzzes the reader of physics (config files, options.physics of plans) and what is made of it: what parses is in range, survives
- * being written and read again, and resolves against a framework to sizes that fit, or is refused. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzzes the reader of physics (config files, options.physics of plans) and what is made of it:
+ * what parses is in range, survives being written and read again, and resolves against a framework
+ * to sizes that fit, or is refused. */
 #include "graph/framework/frame.h"
 #include "graph/io/json.h"
 #include "graph/io/writer.h"
@@ -39,7 +41,8 @@ static bool same(const thr_physics *a, const thr_physics *b)
 {
   bool equal = strcmp(a->preset, b->preset) == 0;
   for (int i = 0; i < thr_physics_n_fields; i++)
-    equal &= thr_physics_get(a, &thr_physics_fields[i]) == thr_physics_get(b, &thr_physics_fields[i]);
+    equal &=
+        thr_physics_get(a, &thr_physics_fields[i]) == thr_physics_get(b, &thr_physics_fields[i]);
   return equal;
 }
 
@@ -68,7 +71,8 @@ static void must_resolve(const thr_physics *p)
   double xyz[4][3] = {{0, 0, 0}, {10, 0, 0}, {10, 20, 0}, {10, 20, 40}};
   int edge[3][2] = {{0, 1}, {1, 2}, {2, 3}};
   char *name[4] = {"a", "b", "c", "d"};
-  const thr_frame f = {.n_nodes = 4, .n_edges = 3, .xyz = xyz, .edge = edge, .name = name, .units = "mm"};
+  const thr_frame f = {
+      .n_nodes = 4, .n_edges = 3, .xyz = xyz, .edge = edge, .name = name, .units = "mm"};
   thr_physics r, again;
   thr_err err = {0};
   thr_status st = thr_physics_resolve(p, &f, &r, &err);

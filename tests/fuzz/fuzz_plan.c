@@ -1,5 +1,7 @@
-/* Fuzzes the reader of plans and the checker: what parses is checked without a crash, and is written and read again as the
- * same bytes with the same verdict. What the checker lets through is evaluated as well. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fuzzes the reader of plans and the checker: what parses is checked without a crash, and is
+ * written and read again as the same bytes with the same verdict. What the checker lets through is
+ * evaluated as well. */
 #include "eval/eval.h"
 #include "graph/check/check.h"
 #include "graph/limits.h"
@@ -78,7 +80,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   thr_plan p;
   thr_err err = {0};
   thr_status st = thr_plan_parse(&p, (const char *)data, size, "fuzz", &err);
-  MUST(st == THR_OK || ((st == THR_EINPUT || st == THR_EVIOLATED) && one_line(&err) && !p.cord && !p.frame.xyz));
+  MUST(st == THR_OK ||
+       ((st == THR_EINPUT || st == THR_EVIOLATED) && one_line(&err) && !p.cord && !p.frame.xyz));
   if (st == THR_OK) {
     must_be_sound(&p);
     st = thr_check_plan(&p, &err);

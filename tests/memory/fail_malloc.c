@@ -1,7 +1,10 @@
-/* For LD_PRELOAD: allocations that fail, told apart by the calls that lead to them. All of a process and of the children that it
- * forks share a file that outlives them, FAIL_FILE (a `record`; empty to begin with). Every distinct stack of calls is noted
- * there when it first allocates. FAIL_STACK=hash (hexadecimal): the first allocation with this stack fails, and with FAIL_ON=1
- * every later one of any stack; FAIL_FROM=n: looked for after n allocations only, which is faster. Needs glibc. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* For LD_PRELOAD: allocations that fail, told apart by the calls that lead to them. All of a
+ * process and of the children that it forks share a file that outlives them, FAIL_FILE (a `record`;
+ * empty to begin with). Every distinct stack of calls is noted there when it first allocates.
+ * FAIL_STACK=hash (hexadecimal): the first allocation with this stack fails, and with FAIL_ON=1
+ * every later one of any stack; FAIL_FROM=n: looked for after n allocations only, which is faster.
+ * Needs glibc. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -49,11 +52,14 @@ static uint64_t mix(uint64_t h, uint64_t x)
 
 __attribute__((constructor)) static void begin(void)
 {
-  const char *path = getenv("FAIL_FILE"), *stack = getenv("FAIL_STACK"), *from = getenv("FAIL_FROM");
+  const char *path = getenv("FAIL_FILE"), *stack = getenv("FAIL_STACK"),
+             *from = getenv("FAIL_FROM");
   void *once[1];
   int fd = path ? open(path, O_RDWR | O_CLOEXEC) : -1;
   if (fd < 0) return;
-  void *page = ftruncate(fd, sizeof *shared) ? MAP_FAILED : mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
+  void *page = ftruncate(fd, sizeof *shared)
+                   ? MAP_FAILED
+                   : mmap(NULL, sizeof *shared, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
   close(fd);
   backtrace(once, 1); /* loads what it needs */
   fail_stack = stack ? strtoull(stack, NULL, 16) : 0;
@@ -96,7 +102,8 @@ static uint64_t hash_of_stack(void)
 
 static void note(uint64_t stack, int64_t before)
 {
-  for (size_t i = stack % (2 * MOST_STACKS), tried = 0; tried < 2 * MOST_STACKS; i = (i + 1) % (2 * MOST_STACKS), tried++) {
+  for (size_t i = stack % (2 * MOST_STACKS), tried = 0; tried < 2 * MOST_STACKS;
+       i = (i + 1) % (2 * MOST_STACKS), tried++) {
     uint64_t there = 0;
     if (atomic_compare_exchange_strong(&shared->known[i], &there, stack)) {
       int64_t at = atomic_fetch_add(&shared->stacks, 1);

@@ -1,5 +1,7 @@
-/* An adversary of the checker: certificates that hill climbing looks for on small frameworks, to have a bound accepted that is
- * above the truth. The truth comes from trying all choices (tests/truth.h). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* An adversary of the checker: certificates that hill climbing looks for on small frameworks, to
+ * have a bound accepted that is above the truth. The truth comes from trying all choices
+ * (tests/truth.h). */
 #include "graph/check/check.h"
 #include "graph/plan/plan_measures.h"
 #include "lp/length/postman.h"
@@ -55,7 +57,8 @@ static thr_frame frame_of(rng *r)
 {
   thr_frame f;
   if (rng_below(r, 4) == 0) {
-    thr_frame a = small_frame(r, rng_between(r, 2, 4), 1), b = small_frame(r, rng_between(r, 2, 4), 1);
+    thr_frame a = small_frame(r, rng_between(r, 2, 4), 1),
+              b = small_frame(r, rng_between(r, 2, 4), 1);
     f = side_by_side(&a, &b);
     thr_frame_destroy(&a);
     thr_frame_destroy(&b);
@@ -87,7 +90,9 @@ static void choose_options(rng *r, request *q)
   *o = options_for((thr_ends)rng_below(r, 5), rng_between(r, 1, 2));
   want(o, rng_below(r, 4) ? "length" : "steps");
   o->cords = many[rng_below(r, 7)];
-  o->cords_least = rng_below(r, 3) == 0 ? 1 : rng_below(r, 2) ? o->cords : rng_between(r, 1, o->cords);
+  o->cords_least = rng_below(r, 3) == 0 ? 1
+                   : rng_below(r, 2)    ? o->cords
+                                        : rng_between(r, 1, o->cords);
   o->capacity = rng_below(r, 6) ? 0 : rng_between(r, 3, 9);
   for (int v = 0; v < q->f.n_nodes; v++) {
     q->end_node[v] = rng_below(r, 2);
@@ -98,7 +103,8 @@ static void choose_options(rng *r, request *q)
   if (o->ends == THR_ENDS_COUNTS) o->end_count = q->end_count;
 }
 
-/* The numbers of ends in the components are even, not 0, and no more than the options' cords have. */
+/* The numbers of ends in the components are even, not 0, and no more than the options' cords have.
+ */
 static bool counts_fit(const request *q)
 {
   int ends[TRUTH_NODES] = {0};
@@ -132,7 +138,8 @@ static void request_make(rng *r, request *q)
     ck_assert_int_eq(thr_frame_components(&q->f, q->component, &q->n_components, NULL), THR_OK);
     if (q->o.ends == THR_ENDS_COUNTS && !counts_fit(q)) continue;
     if (q->f.n_edges > TRUTH_EDGES) continue;
-    thr_request asked = q->o; /* of a symmetric plan the number of cords is not asked for, but came out */
+    thr_request asked =
+        q->o; /* of a symmetric plan the number of cords is not asked for, but came out */
     if (thr_wants_symmetry(&q->o)) asked.cords_least = 1;
     bool fits = true;
     for (int e = 0; e < q->f.n_edges; e++)
@@ -153,12 +160,13 @@ static bool free_ends(const request *q)
 
 enum { CUTS = 10, PIECES = 2 };
 
-/* Of one component: what is free to choose. Multipliers follow: each set in turn takes the part `share` of what its edges and
- * nodes have left; then tamper is added to one of them. */
+/* Of one component: what is free to choose. Multipliers follow: each set in turn takes the part
+ * `share` of what its edges and nodes have left; then tamper is added to one of them. */
 typedef struct {
   double scale;
   int64_t denominator, end_price, price[TRUTH_NODES];
-  bool prices, even; /* are there prices of places? Are sets with an even number of odd nodes left in? */
+  bool prices,
+      even; /* are there prices of places? Are sets with an even number of odd nodes left in? */
   int n_cuts;
   unsigned set[CUTS];
   double share[CUTS];
@@ -168,7 +176,7 @@ typedef struct {
 typedef struct {
   choice of[PIECES];
   int more[TRUTH_EDGES]; /* pairs of passes that the plan has beside those which must be */
-  int filler;            /* edge that gets the pairs without which there is no place for the cords */
+  int filler; /* edge that gets the pairs without which there is no place for the cords */
 } candidate;
 
 /* A choice, worked out. */
@@ -196,15 +204,18 @@ static int64_t price_at(const request *q, const choice *x, int v)
 static void work_out_limits(const request *q, const choice *x, int k, worked *w)
 {
   for (int v = 0; v < q->f.n_nodes; v++) {
-    w->held[v] = free_ends(q) && thr_plan_end_allowed(&q->f, &q->o, v) ? x->end_price : (thr_wide)1 << 100;
-    if (q->component[v] == k && q->o.ends == THR_ENDS_COUNTS) w->odd ^= (unsigned)(q->end_count[v] % 2) << v;
+    w->held[v] =
+        free_ends(q) && thr_plan_end_allowed(&q->f, &q->o, v) ? x->end_price : (thr_wide)1 << 100;
+    if (q->component[v] == k && q->o.ends == THR_ENDS_COUNTS)
+      w->odd ^= (unsigned)(q->end_count[v] % 2) << v;
   }
   for (int e = 0; e < q->f.n_edges; e++) {
     const int *end = q->f.edge[e];
     if (q->component[end[0]] != k) continue;
     thr_wide of = (thr_wide)price_at(q, x, end[0]) + price_at(q, x, end[1]);
     if (q->o.ends == THR_ENDS_CLOSED) of = x->prices ? x->price[0] : 0;
-    thr_priced p = thr_prices_edge(&q->f, &q->o, e, weight_of(q, x, e), of, x->prices ? q->loop[e] : 2);
+    thr_priced p =
+        thr_prices_edge(&q->f, &q->o, e, weight_of(q, x, e), of, x->prices ? q->loop[e] : 2);
     bool turned = (thr_plan_cover(&q->f, &q->o, e) % 2) ^ (p.room && x->prices && p.odd < p.even);
     w->left[e] = !p.room ? (thr_wide)1 << 100 : p.odd > p.even ? p.odd - p.even : p.even - p.odd;
     if (turned) w->odd ^= 1u << end[0] ^ 1u << end[1];
@@ -216,7 +227,8 @@ static void load(const request *q, const choice *x, int i, worked *w)
 {
   thr_wide most = INT64_C(1) << 58;
   for (int e = 0; e < q->f.n_edges; e++)
-    if ((x->set[i] >> q->f.edge[e][0] ^ x->set[i] >> q->f.edge[e][1]) & 1u && w->left[e] < most) most = w->left[e];
+    if ((x->set[i] >> q->f.edge[e][0] ^ x->set[i] >> q->f.edge[e][1]) & 1u && w->left[e] < most)
+      most = w->left[e];
   for (int v = 0; v < q->f.n_nodes; v++)
     if (x->set[i] >> v & 1u && w->held[v] < most) most = w->held[v];
   int64_t value = x->share[i] >= 1 ? (int64_t)most : (int64_t)(x->share[i] * (double)most);
@@ -237,7 +249,10 @@ static bool is_odd(unsigned set)
 
 static void work_out(const request *q, const choice *x, int k, const int *passes, worked *w)
 {
-  *w = (worked){.c = {.component = k, .scale = x->scale, .denominator = x->denominator, .end_price = x->end_price}};
+  *w = (worked){.c = {.component = k,
+                      .scale = x->scale,
+                      .denominator = x->denominator,
+                      .end_price = x->end_price}};
   work_out_limits(q, x, k, w);
   w->c.cut = w->cut;
   w->c.place_price = w->price;
@@ -251,14 +266,16 @@ static void work_out(const request *q, const choice *x, int k, const int *passes
     w->c.sum += w->cut[i].value;
   for (int e = 0; e < q->f.n_edges; e++)
     if (q->component[q->f.edge[e][0]] == k)
-      w->c.join += (int64_t)nearbyint(q->f.length[e] * x->scale) * (passes[e] - thr_plan_cover(&q->f, &q->o, e));
+      w->c.join += (int64_t)nearbyint(q->f.length[e] * x->scale) *
+                   (passes[e] - thr_plan_cover(&q->f, &q->o, e));
 }
 
 /* ---- the search ---- */
 
 static void choice_make(rng *r, const request *q, int k, choice *x)
 {
-  *x = (choice){.scale = rng_below(r, 2) ? 1 : pow(10, rng_between(r, -6, 9)), .denominator = 1 + rng_below(r, 1000)};
+  *x = (choice){.scale = rng_below(r, 2) ? 1 : pow(10, rng_between(r, -6, 9)),
+                .denominator = 1 + rng_below(r, 1000)};
   x->prices = rng_below(r, 2);
   for (x->n_cuts = 0; x->n_cuts < CUTS; x->n_cuts++) {
     x->share[x->n_cuts] = 1;
@@ -270,7 +287,8 @@ static void choice_make(rng *r, const request *q, int k, choice *x)
 /* A scale at which an edge's weight is about to be rounded up. */
 static double scale_about(rng *r, const request *q)
 {
-  double length = q->f.length[rng_below(r, q->f.n_edges)], weight = rng_below(r, 4) ? rng_below(r, 4) : pow(10, rng_below(r, 10));
+  double length = q->f.length[rng_below(r, q->f.n_edges)],
+         weight = rng_below(r, 4) ? rng_below(r, 4) : pow(10, rng_below(r, 10));
   return (floor(weight) + 0.5) / length * (1 + pow(10, -rng_between(r, 2, 14)));
 }
 
@@ -317,18 +335,23 @@ static void change(rng *r, const void *target, void *what)
   choice *x = &c->of[k];
   switch (rng_below(r, 8)) {
   case 0: change_scale(r, q, x); break;
-  case 1: x->denominator = 1 + (int64_t)fmin(1e12, (double)x->denominator * attack_factor(r)); break;
+  case 1:
+    x->denominator = 1 + (int64_t)fmin(1e12, (double)x->denominator * attack_factor(r));
+    break;
   case 2:
     if (free_ends(q) || rng_below(r, 50) == 0) change_price(r, q, x, &x->end_price);
     break;
   case 3:
-  case 4: change_price(r, q, x, &x->price[q->o.ends == THR_ENDS_COUNTS ? rng_below(r, q->f.n_nodes) : 0]); break;
+  case 4:
+    change_price(r, q, x, &x->price[q->o.ends == THR_ENDS_COUNTS ? rng_below(r, q->f.n_nodes) : 0]);
+    break;
   case 5: c->more[e] = rng_below(r, 3) ? 0 : rng_below(r, 2) ? 1 : rng_below(r, 1000); break;
   case 6:
     if (rng_below(r, 4) == 0) x->prices = !x->prices;
     if (rng_below(r, 2) == 0) c->filler = e;
     if (rng_below(r, 8) == 0) x->even = !x->even;
-    if (rng_below(r, 8) == 0) x->tamper = rng_below(r, 2) ? rng_between(r, -1, 1) : attack_integer(r);
+    if (rng_below(r, 8) == 0)
+      x->tamper = rng_below(r, 2) ? rng_between(r, -1, 1) : attack_integer(r);
     break;
   default: change_cut(r, q, k, x);
   }
@@ -339,7 +362,8 @@ static int room_of(const request *q, const int *passes, int e)
   return thr_plan_capacity(&q->f, &q->o, e) - passes[e];
 }
 
-/* Pairs of passes that are missing for the cords: in component k, or at node v if numbers of ends are given. */
+/* Pairs of passes that are missing for the cords: in component k, or at node v if numbers of ends
+ * are given. */
 static int pairs_missing(const request *q, const int *passes, int k, int v)
 {
   int places = 0, cords = thr_wants_symmetry(&q->o) ? 1 : q->o.cords_least;
@@ -359,12 +383,15 @@ static int pairs_missing(const request *q, const int *passes, int k, int v)
 static void fill(const request *q, int filler, int k, int v, int *passes)
 {
   for (int i = 0; i < q->f.n_edges; i++) {
-    int e = (filler + i) % q->f.n_edges, missing = pairs_missing(q, passes, k, v), room = room_of(q, passes, e) / 2;
+    int e = (filler + i) % q->f.n_edges, missing = pairs_missing(q, passes, k, v),
+        room = room_of(q, passes, e) / 2;
     const int *end = q->f.edge[e];
     bool of_use = q->o.ends == THR_ENDS_COUNTS ? end[0] == v || end[1] == v
-                                               : q->o.ends == THR_ENDS_CLOSED || thr_plan_end_allowed(&q->f, &q->o, end[0]) ||
+                                               : q->o.ends == THR_ENDS_CLOSED ||
+                                                     thr_plan_end_allowed(&q->f, &q->o, end[0]) ||
                                                      thr_plan_end_allowed(&q->f, &q->o, end[1]);
-    if (missing > 0 && of_use && q->component[end[0]] == k) passes[e] += 2 * (missing < room ? missing : room);
+    if (missing > 0 && of_use && q->component[end[0]] == k)
+      passes[e] += 2 * (missing < room ? missing : room);
   }
 }
 
@@ -375,7 +402,8 @@ static void passes_of(const request *q, const candidate *c, int *passes)
   for (int e = 0; e < q->f.n_edges; e++) {
     int cover = thr_plan_cover(&q->f, &q->o, e);
     passes[e] = cover + (q->passes[e] - cover) % 2;
-    passes[e] += 2 * (c->more[e] < room_of(q, passes, e) / 2 ? c->more[e] : room_of(q, passes, e) / 2);
+    passes[e] +=
+        2 * (c->more[e] < room_of(q, passes, e) / 2 ? c->more[e] : room_of(q, passes, e) / 2);
   }
   for (int v = 0; v < q->f.n_nodes; v++)
     fill(q, c->filler, q->component[v], v, passes);
@@ -399,7 +427,8 @@ static double judge_length(const void *target, const void *what)
     work_out(q, &c->of[k], k, passes, &w[k]);
     certificate[k] = w[k].c;
   }
-  thr_status st = thr_check_length_of_passes(&q->f, &q->o, passes, certificate, q->n_components, &optimal, &bound, NULL);
+  thr_status st = thr_check_length_of_passes(&q->f, &q->o, passes, certificate, q->n_components,
+                                             &optimal, &bound, NULL);
   if (st) return -INFINITY;
   for (int e = 0; e < q->f.n_edges; e++) {
     double scale = c->of[q->component[q->f.edge[e][0]]].scale;
@@ -407,22 +436,26 @@ static double judge_length(const void *target, const void *what)
     rounding += fabs(q->f.length[e] - nearbyint(q->f.length[e] * scale) / scale);
   }
   double above = (optimal ? fmax(length, bound) : bound) / q->least - 1;
-  return bound > q->base * (1 + 1e-12) ? above : above - fmin(1, rounding / q->base); /* rounding may have eaten up a bound */
+  return bound > q->base * (1 + 1e-12)
+             ? above
+             : above - fmin(1, rounding / q->base); /* rounding may have eaten up a bound */
 }
 
 static const attack_kind of_length = {sizeof(candidate), change, judge_length, 3e-9};
 
 static void say_hole(const request *q, const candidate *c, double above)
 {
-  printf("hole: %.17g above %.17g, ends %d, cords %d..%d, cover %d, capacity %d, objective %d\n", above, q->least, (int)q->o.ends,
-         q->o.cords_least, q->o.cords, q->o.cover, q->o.capacity, (int)thr_aims_objective(&q->o));
+  printf("hole: %.17g above %.17g, ends %d, cords %d..%d, cover %d, capacity %d, objective %d\n",
+         above, q->least, (int)q->o.ends, q->o.cords_least, q->o.cords, q->o.cover, q->o.capacity,
+         (int)thr_aims_objective(&q->o));
   for (int e = 0; e < q->f.n_edges; e++)
-    printf("  edge %d-%d %.17g cover %d capacity %d shortest %d more %d\n", q->f.edge[e][0], q->f.edge[e][1], q->f.length[e],
-           thr_plan_cover(&q->f, &q->o, e), thr_plan_capacity(&q->f, &q->o, e), q->passes[e], c->more[e]);
+    printf("  edge %d-%d %.17g cover %d capacity %d shortest %d more %d\n", q->f.edge[e][0],
+           q->f.edge[e][1], q->f.length[e], thr_plan_cover(&q->f, &q->o, e),
+           thr_plan_capacity(&q->f, &q->o, e), q->passes[e], c->more[e]);
   for (int k = 0; k < q->n_components; k++) {
     const choice *x = &c->of[k];
-    printf("  scale %.17g denominator %lld end price %lld prices %d: %lld ..\n", x->scale, (long long)x->denominator,
-           (long long)x->end_price, x->prices, (long long)x->price[0]);
+    printf("  scale %.17g denominator %lld end price %lld prices %d: %lld ..\n", x->scale,
+           (long long)x->denominator, (long long)x->end_price, x->prices, (long long)x->price[0]);
   }
 }
 
@@ -507,8 +540,8 @@ static int cords_in(const asked *a, int k)
   return n;
 }
 
-/* The longest cord and the number of cords of one component, for every number that the options allow; *length: the least of no
- * more cords than the plan has there. */
+/* The longest cord and the number of cords of one component, for every number that the options
+ * allow; *length: the least of no more cords than the plan has there. */
 static void find_truth_of_piece(asked *a, int k, int least, double *length)
 {
   const request *q = &a->q;
@@ -561,18 +594,21 @@ static void lengthen(rng *r, asked *a)
     for (int i = 0; i < p->n_cords; i++)
       for (int k = 0; k < p->cord[i].n_passes; k++)
         passes += p->cord[i].half[k] >> 1 == c->half[at] >> 1;
-    int room = (thr_plan_capacity(&a->q.f, &a->q.o, c->half[at] >> 1) - passes) / 2, times = rng_between(r, 1, 3);
+    int room = (thr_plan_capacity(&a->q.f, &a->q.o, c->half[at] >> 1) - passes) / 2,
+        times = rng_between(r, 1, 3);
     add_detour(c, at, times < room ? times : room > 0 ? room : 0);
   }
 }
 
-/* A symmetric plan whose group is the identity: every cord is a unique path. Passes are learned and, where they may be anywhere,
- * ends. That is less if the cord is the same read from another pass on or backward: all such ways are tried. */
+/* A symmetric plan whose group is the identity: every cord is a unique path. Passes are learned
+ * and, where they may be anywhere, ends. That is less if the cord is the same read from another
+ * pass on or backward: all such ways are tried. */
 static double steps_of(const asked *a, const thr_cord *c)
 {
   const thr_request *o = &a->q.o;
   bool back_there = c->half[0] >> 1 == c->half[c->n_passes - 1] >> 1;
-  bool round = c->closed && (o->ends == THR_ENDS_CLOSED || (o->ends == THR_ENDS_ANY && !back_there));
+  bool round =
+      c->closed && (o->ends == THR_ENDS_CLOSED || (o->ends == THR_ENDS_ANY && !back_there));
   int n = c->n_passes, ways = 0;
   for (int back = 0; back < 2; back++)
     for (int from = 0; from < (round ? n : 1); from++) {
@@ -588,7 +624,8 @@ static void make_symmetric(asked *a)
 {
   thr_plan *p = &a->plan;
   thr_symmetry_record *s = &p->symmetry;
-  *s = (thr_symmetry_record){.present = true, .order = 1, .n_images = 1, .unique_paths = p->n_cords};
+  *s =
+      (thr_symmetry_record){.present = true, .order = 1, .n_images = 1, .unique_paths = p->n_cords};
   s->image = calloc((size_t)p->frame.n_nodes, sizeof *s->image);
   s->unique = calloc((size_t)p->n_cords, sizeof *s->unique);
   s->element = calloc((size_t)p->n_cords, sizeof *s->element);
@@ -614,7 +651,8 @@ static bool run_alike(const thr_plan *p)
   return false;
 }
 
-/* Of component 1, the cords of a plan with fewer: in a symmetric plan the number may be another in each. */
+/* Of component 1, the cords of a plan with fewer: in a symmetric plan the number may be another in
+ * each. */
 static void mix(asked *a, thr_plan *fewer)
 {
   thr_plan *p = &a->plan;
@@ -688,9 +726,11 @@ static bool plan_and_mix(rng *r, asked *a)
 {
   const request *q = &a->q;
   thr_plan fewer = {0};
-  bool counts = q->o.ends == THR_ENDS_COUNTS, fits = q->f.n_edges / q->n_components <= 4 && (!counts || counts_fit(q));
+  bool counts = q->o.ends == THR_ENDS_COUNTS,
+       fits = q->f.n_edges / q->n_components <= 4 && (!counts || counts_fit(q));
   if (!fits || !plan_cords(q, q->o.cords, &a->plan)) return false;
-  if (q->n_components == 1 || counts || !plan_cords(q, rng_between(r, 1, q->o.cords), &fewer)) return true;
+  if (q->n_components == 1 || counts || !plan_cords(q, rng_between(r, 1, q->o.cords), &fewer))
+    return true;
   if (fewer.n_cords < a->plan.n_cords) want(&a->q.o, "overlap,steps");
   if (fewer.n_cords < a->plan.n_cords) mix(a, &fewer);
   thr_plan_destroy(&fewer);
@@ -717,12 +757,15 @@ static bool asked_make(rng *r, asked *a)
   a->plan.options.cords_least = q->o.cords_least;
   a->plan.options.max_length = q->o.max_length;
   a->plan.options.turning.length_slack = q->o.turning.length_slack;
-  ck_assert_int_eq(thr_plan_measure(&q->f, &q->o, a->plan.cord, a->plan.n_cords, &a->plan.metrics, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_plan_measure(&q->f, &q->o, a->plan.cord, a->plan.n_cords, &a->plan.metrics, NULL),
+      THR_OK);
   double few_length = 0;
   q->least = truth_length(&q->f, &true_options, NULL);
   for (int k = 0; k < q->n_components && q->o.ends != THR_ENDS_COUNTS; k++)
     find_truth_of_piece(a, k, true_options.cords_least, &few_length);
-  if (q->o.max_length > 0 && q->o.cords_least < q->o.cords && thr_plan_counted(&q->o)) q->least = few_length;
+  if (q->o.max_length > 0 && q->o.cords_least < q->o.cords && thr_plan_counted(&q->o))
+    q->least = few_length;
   if (q->o.ends == THR_ENDS_COUNTS) find_witnesses(a);
   memset(q->passes, 0, sizeof q->passes);
   for (int i = 0; i < a->plan.n_cords; i++)
@@ -747,9 +790,12 @@ static thr_status state(thr_plan *p, int raise)
   static const double part[] = {0, 9e-10, 1e-8, 3e-7, 1e-4};
   thr_length_proof *l = &p->proof;
   thr_cords_claim *c = &p->cords_claim;
-  thr_status st = thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, l->certificate, l->n_certificates,
-                                         &l->optimal, &l->lower_bound, NULL);
-  if (!st) st = thr_check_cords(&p->frame, &p->options, p->cord, p->n_cords, l->certificate, l->n_certificates, NULL, c, NULL);
+  thr_status st =
+      thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, l->certificate,
+                             l->n_certificates, &l->optimal, &l->lower_bound, NULL);
+  if (!st)
+    st = thr_check_cords(&p->frame, &p->options, p->cord, p->n_cords, l->certificate,
+                         l->n_certificates, NULL, c, NULL);
   if (!l->optimal) l->lower_bound *= 1 + part[raise];
   if (!c->longest_optimal) c->longest_bound *= 1 + part[raise];
   if (raise == 4 && c->fewest > 0) c->fewest++;
@@ -771,7 +817,8 @@ static thr_status forge(const asked *a, const claim *c, forgery *x)
     work_out(&a->q, &c->c.of[k], k, a->q.passes, &x->w[k]);
     x->certificate[k] = x->w[k].c;
   }
-  x->plan.proof = (thr_length_proof){.present = true, .n_certificates = a->q.n_components, .certificate = x->certificate};
+  x->plan.proof = (thr_length_proof){
+      .present = true, .n_certificates = a->q.n_components, .certificate = x->certificate};
   return state(&x->plan, c->raise);
 }
 
@@ -782,7 +829,8 @@ static double judge_claim(const void *target, const void *what)
   forgery x;
   if (forge(a, c, &x) || thr_check_plan(&x.plan, NULL)) return -INFINITY;
   const thr_plan p = x.plan;
-  double above = p.proof.lower_bound / a->q.least - 1, longest = p.cords_claim.longest_bound / a->longest - 1;
+  double above = p.proof.lower_bound / a->q.least - 1,
+         longest = p.cords_claim.longest_bound / a->longest - 1;
   bool within = p.metrics.length <= (1 + p.options.turning.length_slack) * a->q.least * (1 + 4e-9);
   if (p.cords_claim.fewest > a->fewest || (thr_wants_turning(&p.options) && !within)) return 1;
   return fmax(above, longest);
@@ -792,8 +840,8 @@ static const attack_kind of_claims = {sizeof(claim), change_claim, judge_claim, 
 
 static void say_false_claim(const asked *a, const claim *c)
 {
-  printf("longest %.17g, fewest %d, %d cords, %d components, max_length %.17g, raise %d\n", a->longest, a->fewest,
-         a->plan.n_cords, a->q.n_components, a->q.o.max_length, c->raise);
+  printf("longest %.17g, fewest %d, %d cords, %d components, max_length %.17g, raise %d\n",
+         a->longest, a->fewest, a->plan.n_cords, a->q.n_components, a->q.o.max_length, c->raise);
   say_hole(&a->q, &c->c, judge_claim(a, c));
   const char *path = getenv("THREAD_ADVERSARY_PLAN");
   FILE *file = path ? fopen(path, "w") : NULL;
@@ -832,12 +880,15 @@ END_TEST
 
 /* ---- single forgeries ---- */
 
-/* Two edges of 0.51 and 1 and 1,000 closed cords: pairs of passes over the short edge are the shortest. The weights of both are 1
- * at scale 1, so that at the price of a whole weight passes over either cost the same: each adds its rounding to the bound. */
+/* Two edges of 0.51 and 1 and 1,000 closed cords: pairs of passes over the short edge are the
+ * shortest. The weights of both are 1 at scale 1, so that at the price of a whole weight passes
+ * over either cost the same: each adds its rounding to the bound. */
 START_TEST(rounding_counts_for_every_pass_of_any_plan)
 {
-  request q = {.f = path_make(3), .o = options_for(THR_ENDS_CLOSED, 1), .n_components = 1, .base = 1.51};
-  candidate c = {.of = {{.scale = 1, .denominator = 1000, .prices = true, .price = {1000}}}, .filler = 1};
+  request q = {
+      .f = path_make(3), .o = options_for(THR_ENDS_CLOSED, 1), .n_components = 1, .base = 1.51};
+  candidate c = {.of = {{.scale = 1, .denominator = 1000, .prices = true, .price = {1000}}},
+                 .filler = 1};
   attack_tally tally = {.name = "forgery", .best = -INFINITY};
   rng r = rng_make(attack_seed());
   q.f.length[0] = 0.51;
@@ -852,20 +903,27 @@ START_TEST(rounding_counts_for_every_pass_of_any_plan)
 }
 END_TEST
 
-/* A stem in a mirror, and two arms that it exchanges: the cord in the stem stays as it is under the mirror, which is no reason to
- * learn half of it only; of the one from arm to arm half is enough. */
+/* A stem in a mirror, and two arms that it exchanges: the cord in the stem stays as it is under the
+ * mirror, which is no reason to learn half of it only; of the one from arm to arm half is enough.
+ */
 START_TEST(what_a_mirror_keeps_is_learned_whole)
 {
   static const double xyz[][3] = {{0, 0, 0}, {0, 0, 1}, {1, 0, 2}, {-1, 0, 2}};
   static const int edge[][2] = {{0, 1}, {1, 2}, {1, 3}};
-  int stem[] = {0}, arms[] = {3, 4}, mirror[] = {0, 1, 3, 2}, identity[] = {0, 1, 2, 3}, unique[] = {0, 1}, element[] = {0, 0};
-  thr_cord cord[] = {{.id = "A", .n_passes = 1, .half = stem}, {.id = "B", .n_passes = 2, .half = arms}};
-  thr_plan p = {
-      .frame = frame_make(4, xyz, 3, edge, NULL, NULL), .options = options_for(THR_ENDS_ANY, 1), .n_cords = 2, .cord = cord};
+  int stem[] = {0}, arms[] = {3, 4}, mirror[] = {0, 1, 3, 2}, identity[] = {0, 1, 2, 3},
+      unique[] = {0, 1}, element[] = {0, 0};
+  thr_cord cord[] = {{.id = "A", .n_passes = 1, .half = stem},
+                     {.id = "B", .n_passes = 2, .half = arms}};
+  thr_plan p = {.frame = frame_make(4, xyz, 3, edge, NULL, NULL),
+                .options = options_for(THR_ENDS_ANY, 1),
+                .n_cords = 2,
+                .cord = cord};
   want(&p.options, "overlap,steps");
   p.options.cords = p.options.cords_least = 2;
-  p.symmetry = (thr_symmetry_record){.present = true, .order = 2, .n_generators = 1, .generator = mirror, .n_images = 1};
-  p.symmetry.image = identity, p.symmetry.unique = unique, p.symmetry.element = element, p.symmetry.unique_paths = 2;
+  p.symmetry = (thr_symmetry_record){
+      .present = true, .order = 2, .n_generators = 1, .generator = mirror, .n_images = 1};
+  p.symmetry.image = identity, p.symmetry.unique = unique, p.symmetry.element = element,
+  p.symmetry.unique_paths = 2;
   ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, cord, 2, &p.metrics, NULL), THR_OK);
   for (int half_steps = 1; half_steps <= 12; half_steps++) {
     p.symmetry.steps = half_steps / 2.0;

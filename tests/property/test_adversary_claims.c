@@ -1,5 +1,7 @@
-/* The adversary of test_adversary_turning.c against the claims of whole plans: of the turning, in all and of the cord that turns
- * most, and of length, longest cord and fewest cords with tube joints. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The adversary of test_adversary_turning.c against the claims of whole plans: of the turning, in
+ * all and of the cord that turns most, and of length, longest cord and fewest cords with tube
+ * joints. */
 #include "graph/check/check.h"
 #include "graph/limits.h"
 #include "graph/plan/plan_measures.h"
@@ -72,7 +74,8 @@ static void find_prices_of_plans(target *t)
     }
 }
 
-/* The shortest cords, which turn more than they must, as a plan for the least turning of a range of numbers of cords. */
+/* The shortest cords, which turn more than they must, as a plan for the least turning of a range of
+ * numbers of cords. */
 static bool claim_target_make(rng *r, target *t)
 {
   thr_request o;
@@ -82,8 +85,10 @@ static bool claim_target_make(rng *r, target *t)
   o.joint = THR_JOINT_SOLID;
   want(&o, "length");
   o.turning.length_slack = -1;
-  bool fits = o.ends != THR_ENDS_COUNTS && f.n_edges <= (target_pieces(&f) > 1 ? EDGES : TRUTH_TABLE_EDGES);
-  thr_status st = fits ? length_plan(&f, &o, &(thr_limits){0}, &t->plan, NULL, NULL) : THR_EINFEASIBLE;
+  bool fits =
+      o.ends != THR_ENDS_COUNTS && f.n_edges <= (target_pieces(&f) > 1 ? EDGES : TRUTH_TABLE_EDGES);
+  thr_status st =
+      fits ? length_plan(&f, &o, &(thr_limits){0}, &t->plan, NULL, NULL) : THR_EINFEASIBLE;
   thr_frame_destroy(&f);
   if (st && st != THR_ELIMIT) return false;
   thr_plan *p = &t->plan;
@@ -120,7 +125,8 @@ static thr_status state(thr_plan *p, const claim *c)
   static const double part[] = {0, 9e-10, 1e-8, 3e-7, 1e-4};
   thr_turning_claim said = {.present = true, .length_limit = -1, .tree = scratch.proof};
   said.most_passes = thr_turning_most_passes(&p->frame, p->options.cover) + c->more_passes;
-  thr_status st = thr_check_turning(&p->frame, &p->options, p->cord, p->n_cords, &said, &p->turning, NULL);
+  thr_status st =
+      thr_check_turning(&p->frame, &p->options, p->cord, p->n_cords, &said, &p->turning, NULL);
   thr_turning_claim *t = &p->turning;
   t->tree = scratch.proof;
   if (!t->optimal) t->lower_bound *= 1 + part[c->raise];
@@ -156,9 +162,11 @@ START_TEST(no_claim_of_turning_is_above_the_truth)
     take_proof_of_so_many(&t, &c->c);
     bool hole = attack_climb(&r, &of_claims, &t, c, STEPS, &tally);
     if (hole && tally.holes < MOST_SAID)
-      printf("hole: seed %lld, %g above %.17Lg or %.17Lg: ends %d, cords %d..%d (%d), cost %d, raise %d\n", (long long)seed,
-             judge_claim(&t, c), t.least, t.largest, (int)t.plan.options.ends, t.plan.options.cords_least, t.plan.options.cords,
-             t.plan.n_cords, (int)t.plan.options.turning.cost, c->raise);
+      printf("hole: seed %lld, %g above %.17Lg or %.17Lg: ends %d, cords %d..%d (%d), cost %d, "
+             "raise %d\n",
+             (long long)seed, judge_claim(&t, c), t.least, t.largest, (int)t.plan.options.ends,
+             t.plan.options.cords_least, t.plan.options.cords, t.plan.n_cords,
+             (int)t.plan.options.turning.cost, c->raise);
     free(c);
     target_destroy(&t);
   }
@@ -170,14 +178,16 @@ END_TEST
 
 /* ---- claims of tied plans ---- */
 
-/* A framework with tube joints, one component or two, whose plan states options that it was not made for. */
+/* A framework with tube joints, one component or two, whose plan states options that it was not
+ * made for. */
 typedef struct {
   target t;       /* least: length of the shortest cords found */
   double longest; /* the least length found of the longest cord */
   int fewest;     /* fewest cords found, none longer than allowed */
 } tied_target;
 
-static bool tied_plan(const thr_frame *f, const thr_request *o, int cords, bool balance, thr_plan *p)
+static bool tied_plan(const thr_frame *f, const thr_request *o, int cords, bool balance,
+                      thr_plan *p)
 {
   thr_request exactly = *o;
   thr_limits limits = {.deadline = thr_clock() + 5};
@@ -207,7 +217,8 @@ static void find_witnesses(tied_target *x, const thr_frame *f, const thr_request
       if (!tied_plan(f, o, n, balance, &p)) continue;
       x->t.least = fminl(x->t.least, p.metrics.length);
       x->longest = fmin(x->longest, longest_of(&p));
-      if (longest_of(&p) <= o->max_length * (1 + 1e-9) && p.n_cords < x->fewest) x->fewest = p.n_cords;
+      if (longest_of(&p) <= o->max_length * (1 + 1e-9) && p.n_cords < x->fewest)
+        x->fewest = p.n_cords;
       thr_plan_destroy(&p);
     }
 }
@@ -219,13 +230,14 @@ static bool tied_target_make(rng *r, tied_target *x)
   target *t = &x->t;
   thr_frame f = target_frame(r);
   target_options(r, t, &f, &o);
-  bool fits =
-      o.ends != THR_ENDS_COUNTS && o.ends != THR_ENDS_NODES && f.n_edges <= EDGES && tied_plan(&f, &o, o.cords, false, &t->plan);
+  bool fits = o.ends != THR_ENDS_COUNTS && o.ends != THR_ENDS_NODES && f.n_edges <= EDGES &&
+              tied_plan(&f, &o, o.cords, false, &t->plan);
   if (fits) {
     t->n_ends = target_pieces(&f);
     o.cords_least = rng_between(r, 1, o.cords);
     o.cords = rng_between(r, o.cords, MOST_CORDS);
-    if (rng_below(r, 4)) o.max_length = longest_of(&t->plan) * (rng_below(r, 2) ? 1 : 1 + rng_unit(r));
+    if (rng_below(r, 4))
+      o.max_length = longest_of(&t->plan) * (rng_below(r, 2) ? 1 : 1 + rng_unit(r));
     want(&t->plan.options, rng_below(r, 3) ? "length" : "turning");
     t->plan.options.turning.length_slack = -1;
     t->plan.options.cords = o.cords;
@@ -241,7 +253,8 @@ static thr_status state_tied(thr_plan *p, const claim *c)
 {
   thr_cords_claim *said = &p->cords_claim;
   p->proof = (thr_length_proof){.present = true, .tied = scratch.proof};
-  thr_status st = thr_check_tied_cords(&p->frame, &p->options, p->cord, p->n_cords, &scratch.proof, said, NULL);
+  thr_status st =
+      thr_check_tied_cords(&p->frame, &p->options, p->cord, p->n_cords, &scratch.proof, said, NULL);
   if (!st) st = thr_tied_least(&p->frame, &p->options, &scratch.proof, &p->proof.lower_bound, NULL);
   p->proof.lower_bound *= 1 + 9e-10 * c->raise;
   if (!said->longest_optimal) said->longest_bound *= 1 + 9e-10 * c->raise;
@@ -256,7 +269,8 @@ static double judge_tied(const void *what, const void *of)
   thr_plan p = x->t.plan;
   candidate_build(&x->t, &c->c, &scratch);
   if (state_tied(&p, c) || thr_check_plan(&p, NULL)) return -INFINITY;
-  double above = (double)(p.proof.lower_bound / x->t.least - 1), longest = p.cords_claim.longest_bound / x->longest - 1;
+  double above = (double)(p.proof.lower_bound / x->t.least - 1),
+         longest = p.cords_claim.longest_bound / x->longest - 1;
   return p.cords_claim.fewest > x->fewest ? 1 : fmax(above, longest);
 }
 
@@ -280,10 +294,11 @@ START_TEST(no_claim_of_a_tied_plan_is_above_the_truth)
     candidate_take_own(&x.t, &c->c);
     bool hole = attack_climb(&r, &of_tied_claims, &x, c, STEPS, &tally);
     if (hole && tally.holes < MOST_SAID)
-      printf(
-          "hole: seed %lld, %g above %.17Lg, longest %.17g, fewest %d: ends %d, cords %d..%d (%d), max_length %.17g, raise %d\n",
-          (long long)seed, judge_tied(&x, c), x.t.least, x.longest, x.fewest, (int)x.t.plan.options.ends,
-          x.t.plan.options.cords_least, x.t.plan.options.cords, x.t.plan.n_cords, x.t.plan.options.max_length, c->raise);
+      printf("hole: seed %lld, %g above %.17Lg, longest %.17g, fewest %d: ends %d, cords %d..%d "
+             "(%d), max_length %.17g, raise %d\n",
+             (long long)seed, judge_tied(&x, c), x.t.least, x.longest, x.fewest,
+             (int)x.t.plan.options.ends, x.t.plan.options.cords_least, x.t.plan.options.cords,
+             x.t.plan.n_cords, x.t.plan.options.max_length, c->raise);
     free(c);
     target_destroy(&x.t);
   }

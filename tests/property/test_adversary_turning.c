@@ -1,6 +1,8 @@
-/* The adversary of test_adversary.c against proofs of turning and of tied length: trees of multipliers on small frameworks,
- * looked for by hill climbing from nothing and from the program's own proofs, to prove more than is true. Of prices the truth is
- * exact (tests/truth.h), so that even the last bit of the rounding counts. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The adversary of test_adversary.c against proofs of turning and of tied length: trees of
+ * multipliers on small frameworks, looked for by hill climbing from nothing and from the program's
+ * own proofs, to prove more than is true. Of prices the truth is exact (tests/truth.h), so that
+ * even the last bit of the rounding counts. */
 #include "graph/plan/plan_measures.h"
 #include "graph/plan/turning_proof.h"
 #include "lp/model/tree.h"
@@ -25,8 +27,9 @@ static double judge(const void *what, const void *of)
   double bound;
   candidate_build(t, of, &scratch);
   const thr_plan *p = &t->plan;
-  thr_status st = t->tied ? thr_tied_least(&p->frame, &p->options, &scratch.proof, &bound, NULL)
-                          : thr_turning_proof_check(&p->frame, &t->task, &scratch.proof, &bound, NULL);
+  thr_status st = t->tied
+                      ? thr_tied_least(&p->frame, &p->options, &scratch.proof, &bound, NULL)
+                      : thr_turning_proof_check(&p->frame, &t->task, &scratch.proof, &bound, NULL);
   if (st) return -INFINITY;
   return (double)((bound - t->least) / (t->least + !t->tied));
 }
@@ -49,9 +52,10 @@ static void attack(bool tied, long most, attack_tally *tally)
       if (again == 1) *c = (candidate){.n_nodes = 1};
       bool hole = attack_climb(&r, tied ? &of_tied : &of_turning, &t, c, STEPS, tally);
       if (hole && tally->holes < MOST_SAID)
-        printf("hole: seed %lld, %g above %.17Lg: ends %d, cords %d, joint %d, cost %d, %d edges\n", (long long)seed,
-               judge(&t, c), t.least, (int)t.plan.options.ends, t.plan.options.cords, (int)t.plan.options.joint,
-               (int)t.plan.options.turning.cost, t.plan.frame.n_edges);
+        printf("hole: seed %lld, %g above %.17Lg: ends %d, cords %d, joint %d, cost %d, %d edges\n",
+               (long long)seed, judge(&t, c), t.least, (int)t.plan.options.ends,
+               t.plan.options.cords, (int)t.plan.options.joint, (int)t.plan.options.turning.cost,
+               t.plan.frame.n_edges);
       free(c);
     }
     target_destroy(&t);
@@ -61,8 +65,8 @@ static void attack(bool tied, long most, attack_tally *tally)
 
 /* ---- orbits that hide the least ---- */
 
-/* A random tree with random orbits, of which most hide plans and some hide the cheapest: climbing finds no multipliers for those,
- * so linear programmes give the best of every leaf. */
+/* A random tree with random orbits, of which most hide plans and some hide the cheapest: climbing
+ * finds no multipliers for those, so linear programmes give the best of every leaf. */
 typedef struct {
   const target *t;
   thr_turning_columns columns;
@@ -109,7 +113,8 @@ static void choose_tree(rng *r, hidden *x)
 static int column_at(const thr_turning_columns *c, int a, int b)
 {
   for (int j = 0; j < c->n_columns; j++)
-    if ((c->half[j][0] == a && c->half[j][1] == b) || (c->half[j][0] == b && c->half[j][1] == a)) return j;
+    if ((c->half[j][0] == a && c->half[j][1] == b) || (c->half[j][0] == b && c->half[j][1] == a))
+      return j;
   return -1;
 }
 
@@ -117,7 +122,8 @@ static int column_at(const thr_turning_columns *c, int a, int b)
 static int moved_column(const hidden *x, const int *image, int j)
 {
   const int *half = x->columns.half[j];
-  const int a = image[half[0] >> 1] ^ (half[0] & 1), b = half[1] < 0 ? -1 : image[half[1] >> 1] ^ (half[1] & 1);
+  const int a = image[half[0] >> 1] ^ (half[0] & 1),
+            b = half[1] < 0 ? -1 : image[half[1] >> 1] ^ (half[1] & 1);
   return column_at(&x->columns, a, b);
 }
 
@@ -188,7 +194,8 @@ static void hide(rng *r, const target *t, attack_tally *tally)
         thr_turning_dual_destroy(&x.leaf[c->node[i].dual]);
         solve_leaf(&x, i, &none, &x.leaf[c->node[i].dual]);
       }
-      ck_assert_int_eq(thr_turning_proof_check(&t->plan.frame, &t->task, &scratch.proof, &bound, NULL), THR_OK);
+      ck_assert_int_eq(
+          thr_turning_proof_check(&t->plan.frame, &t->task, &scratch.proof, &bound, NULL), THR_OK);
       const double above = (double)((bound - t->least) / (t->least + 1));
       tally->accepted++;
       tally->holes += above > 1e-15;

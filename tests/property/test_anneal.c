@@ -1,5 +1,6 @@
-/* Annealed cords of random small frameworks: what they are, and how often they are the best there are, against an exhaustive
- * search over walks. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Annealed cords of random small frameworks: what they are, and how often they are the best there
+ * are, against an exhaustive search over walks. */
 #include "graph/framework/components.h"
 #include "graph/framework/make.h"
 #include "graph/plan/turning_proof.h"
@@ -26,7 +27,8 @@ typedef struct {
 static asked ask(int i, int nodes, int extra)
 {
   rng r = rng_make((uint64_t)i + 1);
-  asked a = {.f = random_frame(&r, nodes, extra, LENGTHS_RANDOM), .measure = i % 2 ? THR_WALK_LENGTH : THR_WALK_TURNING};
+  asked a = {.f = random_frame(&r, nodes, extra, LENGTHS_RANDOM),
+             .measure = i % 2 ? THR_WALK_LENGTH : THR_WALK_TURNING};
   const thr_ends ends[] = {THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_CLOSED};
   thr_err err = {0};
   thr_limits limits = {.deadline = thr_clock() + 2};
@@ -48,7 +50,8 @@ static void forget(asked *a)
   free(a->end_allowed);
 }
 
-/* Price of a cord, turn by turn or pass by pass; a turn back at a node with other edges is counted in *backs. */
+/* Price of a cord, turn by turn or pass by pass; a turn back at a node with other edges is counted
+ * in *backs. */
 static double price_of(const asked *a, const thr_cord *cord, int *backs)
 {
   const bool closed = a->o.ends == THR_ENDS_CLOSED;
@@ -79,12 +82,14 @@ static void assert_kept(const asked *a)
   int passes[64] = {0};
   for (int i = 0; i < a->plan.n_cords; i++) {
     const thr_cord *cord = &a->plan.cord[i];
-    const int start = thr_tail(&a->f, cord->half[0]), end = thr_head(&a->f, cord->half[cord->n_passes - 1]);
+    const int start = thr_tail(&a->f, cord->half[0]),
+              end = thr_head(&a->f, cord->half[cord->n_passes - 1]);
     ck_assert_int_gt(cord->n_passes, 0);
     for (int k = 0; k < cord->n_passes; k++)
       passes[cord->half[k] >> 1]++;
     ck_assert_int_eq(cord->closed, start == end);
-    if (a->o.ends != THR_ENDS_CLOSED) ck_assert(walks_may_end(&a->f, &a->o, start) && walks_may_end(&a->f, &a->o, end));
+    if (a->o.ends != THR_ENDS_CLOSED)
+      ck_assert(walks_may_end(&a->f, &a->o, start) && walks_may_end(&a->f, &a->o, end));
   }
   for (int e = 0; e < a->f.n_edges; e++) {
     ck_assert_int_ge(passes[e], walks_cover(&a->f, &a->o, e));
@@ -98,9 +103,13 @@ static bool anneal(asked *a, int steps, double enough)
   thr_err err = {0};
   bool better;
   ck_assert_int_eq(thr_turning_columns_init(&a->columns, &a->f, &a->task, &err), THR_OK);
-  const thr_anneal_task task = {
-      .measure = a->measure, .steps = steps, .rounds = 2, .near = a->measure == THR_WALK_TURNING, .enough = enough};
-  thr_status st = thr_anneal(&a->columns, &task, &limits, a->plan.cord, a->plan.n_cords, &better, &err);
+  const thr_anneal_task task = {.measure = a->measure,
+                                .steps = steps,
+                                .rounds = 2,
+                                .near = a->measure == THR_WALK_TURNING,
+                                .enough = enough};
+  thr_status st =
+      thr_anneal(&a->columns, &task, &limits, a->plan.cord, a->plan.n_cords, &better, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   return better;
 }
@@ -137,9 +146,11 @@ END_TEST
 /* Is there a plan whose dearest cord costs at most so much? */
 static bool may_cost(const asked *a, const walks_piece *w, double limit)
 {
-  double *cost = calloc((size_t)w->n_states, sizeof *cost), *next = calloc((size_t)w->n_states, sizeof *next);
+  double *cost = calloc((size_t)w->n_states, sizeof *cost),
+         *next = calloc((size_t)w->n_states, sizeof *next);
   ck_assert(cost && next);
-  const walks_weights weights = a->measure == THR_WALK_LENGTH ? (walks_weights){.length = 1} : (walks_weights){.turn = 1};
+  const walks_weights weights =
+      a->measure == THR_WALK_LENGTH ? (walks_weights){.length = 1} : (walks_weights){.turn = 1};
   walks_begin(w, cost);
   for (int i = 0; i < a->plan.n_cords; i++) {
     walks_one_more(w, weights, limit, cost, next);
@@ -204,16 +215,21 @@ START_TEST(threads_change_nothing)
   thr_cord *cord[2] = {NULL, NULL};
   ck_assert_int_eq(thr_turning_columns_init(&a.columns, &a.f, &a.task, &err), THR_OK);
   for (int k = 0; k < 2 && a.plan.n_cords > 0; k++) {
-    const thr_anneal_task task = {
-        .measure = a.measure, .steps = 3000, .first = 1, .rounds = 3, .near = a.measure == THR_WALK_TURNING};
+    const thr_anneal_task task = {.measure = a.measure,
+                                  .steps = 3000,
+                                  .first = 1,
+                                  .rounds = 3,
+                                  .near = a.measure == THR_WALK_TURNING};
     const thr_limits limits = {.threads = 1 + k};
     bool better;
     ck_assert_int_eq(thr_cords_copy(a.plan.cord, a.plan.n_cords, &cord[k], &err), THR_OK);
-    ck_assert_int_eq(thr_anneal(&a.columns, &task, &limits, cord[k], a.plan.n_cords, &better, &err), THR_OK);
+    ck_assert_int_eq(thr_anneal(&a.columns, &task, &limits, cord[k], a.plan.n_cords, &better, &err),
+                     THR_OK);
   }
   for (int i = 0; i < a.plan.n_cords; i++) {
     ck_assert_int_eq(cord[0][i].n_passes, cord[1][i].n_passes);
-    ck_assert_mem_eq(cord[0][i].half, cord[1][i].half, (size_t)cord[0][i].n_passes * sizeof *cord[0][i].half);
+    ck_assert_mem_eq(cord[0][i].half, cord[1][i].half,
+                     (size_t)cord[0][i].n_passes * sizeof *cord[0][i].half);
   }
   for (int k = 0; k < 2; k++)
     thr_cords_destroy(cord[k], cord[k] ? a.plan.n_cords : 0);

@@ -1,5 +1,6 @@
-/* Annealed turns and passes of random frameworks: that they stay what a cord is, and that they turn as little as an exhaustive
- * search over walks finds. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Annealed turns and passes of random frameworks: that they stay what a cord is, and that they turn
+ * as little as an exhaustive search over walks finds. */
 #include "graph/framework/make.h"
 #include "graph/plan/turning_proof.h"
 #include "tests/frameworks.h"
@@ -30,14 +31,17 @@ static asked *ask(thr_frame f, bool open, double slack)
   thr_join j;
   const size_t n = (size_t)f.n_nodes;
   int *passes = calloc((size_t)f.n_edges, sizeof *passes);
-  ck_assert(a && passes && (a->may_end = calloc(n, sizeof *a->may_end)) && (a->ends = calloc(n, sizeof *a->ends)));
+  ck_assert(a && passes && (a->may_end = calloc(n, sizeof *a->may_end)) &&
+            (a->ends = calloc(n, sizeof *a->ends)));
   a->f = f;
-  a->task = (thr_turning_task){.cover = 1, .most_passes = thr_turning_most_passes(&f, 1), .cords = 1, .extra_limit = -1};
+  a->task = (thr_turning_task){
+      .cover = 1, .most_passes = thr_turning_most_passes(&f, 1), .cords = 1, .extra_limit = -1};
   for (int v = 0; v < f.n_nodes; v++)
     a->may_end[v] = true;
   if (open) a->task.end_allowed = a->may_end;
   ck_assert_int_eq(thr_turning_columns_init(&a->c, &a->f, &a->task, &err), THR_OK);
-  ck_assert_int_eq(thr_extra_passes(&a->c, a->f.length, NULL, false, &limits, passes, a->ends, &err), THR_OK);
+  ck_assert_int_eq(
+      thr_extra_passes(&a->c, a->f.length, NULL, false, &limits, passes, a->ends, &err), THR_OK);
   if (slack >= 0) a->task.extra_limit = thr_extra_length(&a->c, passes) + slack;
   thr_turning_limit(&a->c);
   ck_assert_int_eq(thr_join_init(&j, &a->c, passes, a->ends, &err), THR_OK);
@@ -69,7 +73,8 @@ static double price_of(const asked *a)
   return sum;
 }
 
-/* Every half-edge has as many turns and ends as its edge has passes; ends are where they were; nothing is left out. */
+/* Every half-edge has as many turns and ends as its edge has passes; ends are where they were;
+ * nothing is left out. */
 static void assert_equations(const asked *a)
 {
   const int m2 = 2 * a->f.n_edges;
@@ -77,7 +82,8 @@ static void assert_equations(const asked *a)
   ck_assert_int_le(m2, 64);
   for (int j = 0; j < a->c.n_columns; j++) {
     ck_assert_int_ge(a->x[j], 0);
-    const bool extra = j >= a->c.first_extra && j < a->c.first_end, end = j >= a->c.first_end && j < a->c.first_back;
+    const bool extra = j >= a->c.first_extra && j < a->c.first_end,
+               end = j >= a->c.first_end && j < a->c.first_back;
     for (int side = 0; side < (end ? 1 : 2); side++)
       at[a->c.half[j][side]] += extra ? -a->x[j] : a->x[j];
     if (end) ends[a->f.edge[a->c.half[j][0] / 2][a->c.half[j][0] % 2]] += a->x[j];
@@ -95,7 +101,8 @@ static void assert_one_cord(const asked *a)
     set[e] = e;
   for (int j = 0; j < a->c.first_extra; j++)
     if (a->x[j] > 0)
-      for (int e = 0, from = set[a->c.half[j][0] / 2], to = set[a->c.half[j][1] / 2]; e < a->f.n_edges; e++)
+      for (int e = 0, from = set[a->c.half[j][0] / 2], to = set[a->c.half[j][1] / 2];
+           e < a->f.n_edges; e++)
         if (set[e] == from) set[e] = to;
   for (int e = 0; e < a->f.n_edges; e++)
     ck_assert_int_eq(set[e], set[0]);
@@ -110,7 +117,8 @@ static void assert_length(const asked *a)
 }
 
 /* With the short cycles that it needs. */
-static thr_status try_anneal(asked *a, bool again, int steps, uint64_t seed, bool *better, thr_err *err)
+static thr_status try_anneal(asked *a, bool again, int steps, uint64_t seed, bool *better,
+                             thr_err *err)
 {
   const thr_limits limits = {0};
   thr_short_cycles cycles;
@@ -169,7 +177,8 @@ static double least(const asked *a)
   walks_piece w;
   if (a->task.end_allowed) o.end_count = a->ends;
   ck_assert(walks_piece_init(&w, &a->f, &o, 0, BACK_AT_LEAVES, THR_TURN_ANGLE, INFINITY, 4000000));
-  double *none = calloc((size_t)w.n_states, sizeof *none), *one = calloc((size_t)w.n_states, sizeof *one);
+  double *none = calloc((size_t)w.n_states, sizeof *none),
+         *one = calloc((size_t)w.n_states, sizeof *one);
   ck_assert(none && one);
   walks_begin(&w, none);
   walks_one_more(&w, (walks_weights){.turn = 1}, -1, none, one);
@@ -228,9 +237,10 @@ END_TEST
 START_TEST(other_tasks_are_not_for_it)
 {
   thr_frame f = solid_make(CUBE);
-  const thr_turning_task tasks[] = {{.cover = 1, .most_passes = 8, .cords = 2, .extra_limit = -1},
-                                    {.cover = 1, .most_passes = 8, .cords = 1, .extra_limit = -1, .tube = true},
-                                    {.cover = 1, .most_passes = 8, .cords = 1, .extra_limit = -1}};
+  const thr_turning_task tasks[] = {
+      {.cover = 1, .most_passes = 8, .cords = 2, .extra_limit = -1},
+      {.cover = 1, .most_passes = 8, .cords = 1, .extra_limit = -1, .tube = true},
+      {.cover = 1, .most_passes = 8, .cords = 1, .extra_limit = -1}};
   for (int i = 0; i < 3; i++) {
     thr_turning_columns c;
     ck_assert_int_eq(thr_turning_columns_init(&c, &f, &tasks[i], NULL), THR_OK);

@@ -1,4 +1,6 @@
-/* Lightest perfect matchings against all perfect matchings on small graphs; on larger ones the duals are the proof. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lightest perfect matchings against all perfect matchings on small graphs; on larger ones the
+ * duals are the proof. */
 #include "tests/matchings.h"
 #include "graph/limits.h"
 
@@ -66,7 +68,8 @@ START_TEST(random_ones_are_proven)
 }
 END_TEST
 
-/* A square grid with holes, all weights 1 .. most, diagonals here and there; the pairs that make it feasible are expensive. */
+/* A square grid with holes, all weights 1 .. most, diagonals here and there; the pairs that make it
+ * feasible are expensive. */
 static void join_grid(instance *g, rng *r, int side, int most)
 {
   g->n_nodes = side * side;
@@ -74,7 +77,8 @@ static void join_grid(instance *g, rng *r, int side, int most)
     int x = v % side, y = v / side;
     if (x + 1 < side && rng_below(r, 8)) join(g, v, v + 1, rng_between(r, 1, most));
     if (y + 1 < side && rng_below(r, 8)) join(g, v, v + side, rng_between(r, 1, most));
-    if (x + 1 < side && y + 1 < side && !rng_below(r, 4)) join(g, v, v + side + 1, rng_between(r, 1, most));
+    if (x + 1 < side && y + 1 < side && !rng_below(r, 4))
+      join(g, v, v + side + 1, rng_between(r, 1, most));
   }
   for (int v = 0; v + 1 < side * side; v++)
     join(g, v, v + 1, (int64_t)most * rng_between(r, 2, side));
@@ -92,7 +96,8 @@ START_TEST(grids_are_proven)
 }
 END_TEST
 
-/* Triangles of triangles of .. : odd sets within odd sets, each leaving by edges of ten times the weight; two of them joined. */
+/* Triangles of triangles of .. : odd sets within odd sets, each leaving by edges of ten times the
+ * weight; two of them joined. */
 static int join_nest(instance *g, rng *r, int levels, int first, int64_t weight)
 {
   if (levels == 0) return first + 1;
@@ -111,10 +116,12 @@ START_TEST(nested_blossoms_are_proven)
   rng r = rng_make((uint64_t)_i + 300);
   for (int levels = 1; levels <= 6; levels++) {
     instance *g = instance_create(0);
-    int middle = join_nest(g, &r, levels, 0, 10000000), end = join_nest(g, &r, levels, middle, 10000000);
+    int middle = join_nest(g, &r, levels, 0, 10000000),
+        end = join_nest(g, &r, levels, middle, 10000000);
     g->n_nodes = end;
     for (int i = 0; i < 3; i++)
-      join(g, rng_below(&r, middle), rng_between(&r, middle, end - 1), 100000000 + rng_below(&r, 9));
+      join(g, rng_below(&r, middle), rng_between(&r, middle, end - 1),
+           100000000 + rng_below(&r, 9));
     solve_and_prove(g);
     free(g);
   }

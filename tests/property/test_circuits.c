@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Several closed cords in every component against enumeration over all pairings of all passes. */
 #include "graph/angle.h"
 #include "graph/framework/make.h"
@@ -31,7 +32,9 @@ typedef struct {
 static double turn_price(const oracle *o, int a, int b)
 {
   int ha = o->half[a], hb = o->half[b];
-  if (ha == hb) return thr_degree(o->f, thr_tail(o->f, ha)) == 1 ? thr_turn_cost_of(o->task->cost, THR_PI) : (double)INFINITY;
+  if (ha == hb)
+    return thr_degree(o->f, thr_tail(o->f, ha)) == 1 ? thr_turn_cost_of(o->task->cost, THR_PI)
+                                                     : (double)INFINITY;
   return thr_turn_cost_of(o->task->cost, thr_turn_angle(o->f, ha ^ 1, hb));
 }
 
@@ -101,7 +104,10 @@ static void try_passes(oracle *o, int e, double extra)
 /* The least price below most, or most. */
 static double least_by_enumeration(const thr_frame *f, const thr_turning_task *t, double most)
 {
-  oracle o = {.f = f, .task = t, .best = most, .component = calloc((size_t)f->n_nodes, sizeof *o.component)};
+  oracle o = {.f = f,
+              .task = t,
+              .best = most,
+              .component = calloc((size_t)f->n_nodes, sizeof *o.component)};
   ck_assert_int_eq(thr_frame_components(f, o.component, &o.n_components, NULL), THR_OK);
   try_passes(&o, 0, 0);
   free(o.component);
@@ -144,7 +150,8 @@ static bool is_shortest(const thr_frame *f, const thr_least *l)
   return t.extra_limit < 0 || isinf(least_by_enumeration(f, &t, INFINITY));
 }
 
-/* Never below the least of all, never a bound above it, never a false claim; how often it is all that can be had is counted. */
+/* Never below the least of all, never a bound above it, never a false claim; how often it is all
+ * that can be had is counted. */
 static void compare(const thr_frame *f, const thr_least_options *o, tally *t)
 {
   thr_least l;
@@ -192,7 +199,9 @@ START_TEST(several_closed_cords_are_least)
   tally t = {0};
   for (int k = 0; k < 24; k++) {
     int n = rng_between(&r, 4, 6), cover = 1 + (k % 6 == 0);
-    thr_frame f = random_frame(&r, n, cover > 1 ? rng_between(&r, 0, 4 - n / 2) : rng_between(&r, 9 - n, 14 - n), LENGTHS_EUCLID);
+    thr_frame f = random_frame(
+        &r, n, cover > 1 ? rng_between(&r, 0, 4 - n / 2) : rng_between(&r, 9 - n, 14 - n),
+        LENGTHS_EUCLID);
     thr_least_options o = closed_cords(&r, 2 + k % 2, cover);
     if (cover > 1) o.most_passes = cover;
     if (f.n_edges * o.cover <= 12) compare(&f, &o, &t);
@@ -205,14 +214,15 @@ START_TEST(several_closed_cords_are_least)
 }
 END_TEST
 
-/* The cords of every component are its own: one may have fewer circuits in its cheapest pairings than are asked for, the other
- * more. */
+/* The cords of every component are its own: one may have fewer circuits in its cheapest pairings
+ * than are asked for, the other more. */
 START_TEST(every_component_has_its_cords)
 {
   rng r = rng_make((uint64_t)_i + 1);
   tally t = {0};
   for (int k = 0; k < 4; k++) {
-    thr_frame a = k % 2 ? ring_make(3) : path_make(2), b = random_frame(&r, 4, 3, LENGTHS_EUCLID), f = side_by_side(&a, &b);
+    thr_frame a = k % 2 ? ring_make(3) : path_make(2), b = random_frame(&r, 4, 3, LENGTHS_EUCLID),
+              f = side_by_side(&a, &b);
     thr_least_options o = closed_cords(&r, 2, 1);
     o.most_passes = 4 - k % 2;
     o.length_slack = -1;
@@ -242,7 +252,8 @@ static thr_least solve(const thr_frame *f, int cords, bool closes)
 START_TEST(known_answers)
 {
   thr_frame f = solid_make(OCTAHEDRON);
-  static const double degrees[] = {1200, 1140, 1080, 1440}; /* three loops alone: 1080; each one less 60 more; four triangles */
+  static const double degrees[] = {
+      1200, 1140, 1080, 1440}; /* three loops alone: 1080; each one less 60 more; four triangles */
   for (int k = 0; k < 4; k++) {
     thr_least l = solve(&f, k + 1, k < 3);
     assert_cords(&f, &l);
@@ -250,7 +261,8 @@ START_TEST(known_answers)
     thr_least_destroy(&l);
   }
   thr_frame_destroy(&f);
-  f = solid_make(TETRAHEDRON); /* its four triangles: no closed cord turns less than once round (Fenchel 1929) */
+  f = solid_make(TETRAHEDRON); /* its four triangles: no closed cord turns less than once round
+                                  (Fenchel 1929) */
   thr_least faces = solve(&f, 4, false);
   ck_assert_double_eq_tol(faces.price, 8 * THR_PI, 1e-6);
   thr_least_destroy(&faces);
@@ -278,13 +290,15 @@ START_TEST(too_many_cords_are_refused)
   o.cords = 2;
   o.most_passes = 3; /* twice there and back needs 4 */
   ck_assert_int_eq(thr_least_turning(&f, &o, &limits, &l, &err), THR_EINFEASIBLE);
-  assert_one_line(&err, "no plan with 2 closed cords in every component and at most 3 passes of every edge was found");
+  assert_one_line(&err, "no plan with 2 closed cords in every component and at most 3 passes of "
+                        "every edge was found");
   ck_assert_ptr_null(l.cord);
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* Proved at the root; evened out they are as many, and no cord turns less than its share of the bound. */
+/* Proved at the root; evened out they are as many, and no cord turns less than its share of the
+ * bound. */
 START_TEST(domes_are_proved_and_evened_out)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 8, 0);
@@ -319,17 +333,19 @@ START_TEST(running_out_of_memory_leaves_nothing)
     thr_err err = {0};
     thr_alloc_fail_at(k);
     st = thr_least_turning(&f, &o, &limits, &l, &err);
-    if (!st && !_i) st = thr_max_turning_improve(&f, 0, &(thr_limits){.deadline = 1e-9}, &l, &m, &err);
+    if (!st && !_i)
+      st = thr_max_turning_improve(&f, 0, &(thr_limits){.deadline = 1e-9}, &l, &m, &err);
     thr_alloc_fail_at(0);
-    ck_assert_msg(st == THR_OK || st == THR_ENOMEM || (_i && st == THR_ELIMIT), "allocation %ld: %d %s", k, (int)st, err.text);
+    ck_assert_msg(st == THR_OK || st == THR_ENOMEM || (_i && st == THR_ELIMIT),
+                  "allocation %ld: %d %s", k, (int)st, err.text);
     thr_least_destroy(&l);
   }
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* A partition row holds for closed cords only, and its right side depends on their number: what proves 1200 degrees for one
- * cord of the octahedron proves 1140 for two. */
+/* A partition row holds for closed cords only, and its right side depends on their number: what
+ * proves 1200 degrees for one cord of the octahedron proves 1140 for two. */
 START_TEST(more_cords_need_fewer_connections)
 {
   thr_frame f = solid_make(OCTAHEDRON);

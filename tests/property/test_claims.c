@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is claimed of rows must hold for threadings as plans count them, whatever comes first. */
 #include "symmetry/cover/cover.h"
 #include "symmetry/cover/cover_parts.h"
@@ -31,7 +32,8 @@ static const thr_aim orders[ORDERS][THR_N_AIMS] = {
 };
 
 /* What a plan counts of a cover. */
-static void count(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, double has[THR_N_AIMS])
+static void count(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c,
+                  double has[THR_N_AIMS])
 {
   thr_request plan = options_for(o->ends, o->cover);
   thr_cord *cord;
@@ -60,18 +62,20 @@ static void thread_twice(const thr_quotient *q, thr_cover *c)
 }
 
 /* Is another threading, of which a plan counts has, above all that is claimed of those like c's? */
-static void assert_above(const thr_cover_options *o, const thr_claims *claims, const double c[THR_N_AIMS],
-                         const double has[THR_N_AIMS])
+static void assert_above(const thr_cover_options *o, const thr_claims *claims,
+                         const double c[THR_N_AIMS], const double has[THR_N_AIMS])
 {
   for (int k = 0; k < THR_N_AIMS; k++) {
     thr_aim a = o->prefer[k];
-    ck_assert_msg(has[a] >= claims->least[a] - 1e-5, "ends %s, cover %d, first %s: %s %g, claimed at least %g",
-                  thr_ends_name(o->ends), o->cover, thr_aim_name(o->prefer[0]), thr_aim_name(a), has[a], claims->least[a]);
+    ck_assert_msg(has[a] >= claims->least[a] - 1e-5,
+                  "ends %s, cover %d, first %s: %s %g, claimed at least %g", thr_ends_name(o->ends),
+                  o->cover, thr_aim_name(o->prefer[0]), thr_aim_name(a), has[a], claims->least[a]);
     if (has[a] > c[a] + 1e-6) return; /* the rest is claimed of threadings with no more of this */
   }
 }
 
-/* The claims of the best cover of each order of aims, against the best of every other order, and half of it threaded twice. */
+/* The claims of the best cover of each order of aims, against the best of every other order, and
+ * half of it threaded twice. */
 static void compare_orders(const thr_quotient *q, thr_ends ends, int cover)
 {
   thr_cover c[ORDERS + 1];
@@ -107,7 +111,8 @@ START_TEST(claims_leave_room_for_other_orders)
   setting s = setting_make(100, shape_number(_i));
   for (int k = 0; k < s.classes.n; k++) {
     thr_quotient q;
-    ck_assert_int_eq(thr_quotient_init(&q, &s.f, &s.g, &s.classes.subgroup[k], 10000, NULL), THR_OK);
+    ck_assert_int_eq(thr_quotient_init(&q, &s.f, &s.g, &s.classes.subgroup[k], 10000, NULL),
+                     THR_OK);
     for (int cover = 1; cover <= 2; cover++) {
       compare_orders(&q, THR_ENDS_CLOSED, cover);
       compare_orders(&q, THR_ENDS_ANY, cover);

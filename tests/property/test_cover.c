@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Symmetric covers against exhaustive search and against published figures. */
 #include "graph/framework/make.h"
 #include "graph/plan/plan_measures.h"
@@ -18,7 +19,7 @@
 typedef struct {
   int compared, beyond; /* covers */
   int bounds, near;     /* bounds on turning; within 1 % of the optimum */
-  int repeats, exact;   /* where cords may run alike; otherwise, claims of the least turning itself */
+  int repeats, exact; /* where cords may run alike; otherwise, claims of the least turning itself */
 } tally;
 
 /* Most passes of a cover over one edge. */
@@ -33,8 +34,10 @@ static int passes_of(const thr_quotient *q, const thr_cover *c)
   return most;
 }
 
-/* The bounds on turning by themselves, from the best cover on: whole, and stopped after some microseconds. */
-static void check_turning_bounds(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, bool all, tally *n)
+/* The bounds on turning by themselves, from the best cover on: whole, and stopped after some
+ * microseconds. */
+static void check_turning_bounds(const thr_quotient *q, const thr_cover_options *o,
+                                 const thr_cover *c, bool all, tally *n)
 {
   thr_programme p;
   thr_contraction k;
@@ -54,8 +57,11 @@ static void check_turning_bounds(const thr_quotient *q, const thr_cover_options 
     double bound = 0;
     thr_status st = thr_turning_bound(&k, &r, 0, cover, c->value, &limits, &bound, NULL);
     ck_assert(st == THR_OK || (st == THR_ELIMIT && limits.deadline > 0));
-    ck_assert_msg(bound <= best + 1e-6 * (1 + best), "bound %g after %d microseconds, optimum %g", bound, micro, best);
-    if (st == THR_OK) ck_assert_msg(all || bound >= quick - 1e-4, "bound %g, at once %g, optimum %g", bound, quick, best);
+    ck_assert_msg(bound <= best + 1e-6 * (1 + best), "bound %g after %d microseconds, optimum %g",
+                  bound, micro, best);
+    if (st == THR_OK)
+      ck_assert_msg(all || bound >= quick - 1e-4, "bound %g, at once %g, optimum %g", bound, quick,
+                    best);
     if (limits.deadline == 0) n->bounds++;
     if (limits.deadline == 0 && bound > 0.99 * best - 1e-6) n->near++;
     thr_relaxation_destroy(&r);
@@ -65,7 +71,8 @@ static void check_turning_bounds(const thr_quotient *q, const thr_cover_options 
   thr_programme_destroy(&p);
 }
 
-/* Searches stopped after some microseconds: what they find and say must leave room for the best cover. */
+/* Searches stopped after some microseconds: what they find and say must leave room for the best
+ * cover. */
 static void check_stopped(const thr_quotient *q, const thr_cover_options *o, const double *best)
 {
   for (int micro = 20; micro < 20000; micro *= 3) {
@@ -76,18 +83,19 @@ static void check_stopped(const thr_quotient *q, const thr_cover_options *o, con
     ck_assert(st == THR_OK || st == THR_ELIMIT);
     for (int k = 0; k < THR_N_AIMS && fits; k++) {
       thr_aim a = o->prefer[k];
-      ck_assert_msg(c.bound[a] <= best[a] + 1e-4, "%s: bound %g after %d microseconds, best %g", thr_aim_name(a), c.bound[a],
-                    micro, best[a]);
-      fits = best[a] <= c.value[a] + 1e-4; /* a bound is for the aims before at most at their values */
+      ck_assert_msg(c.bound[a] <= best[a] + 1e-4, "%s: bound %g after %d microseconds, best %g",
+                    thr_aim_name(a), c.bound[a], micro, best[a]);
+      fits =
+          best[a] <= c.value[a] + 1e-4; /* a bound is for the aims before at most at their values */
     }
     thr_cover_destroy(&c);
   }
 }
 
-/* Is this cover's threading, as a plan counts it, at least what is claimed of all that have no more in the aims before? Returns
- * its learned steps. */
-static double check_claim(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, const thr_claims *claims,
-                          const double has[THR_N_AIMS])
+/* Is this cover's threading, as a plan counts it, at least what is claimed of all that have no more
+ * in the aims before? Returns its learned steps. */
+static double check_claim(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c,
+                          const thr_claims *claims, const double has[THR_N_AIMS])
 {
   thr_request plan = options_for(o->ends, o->cover);
   thr_cord *cord;
@@ -99,8 +107,9 @@ static double check_claim(const thr_quotient *q, const thr_cover_options *o, con
   const double counted[] = {m.overlap, record.steps, record.unique_paths, m.turning};
   for (int k = 0; k < THR_N_AIMS; k++) {
     thr_aim a = o->prefer[k];
-    ck_assert_msg(counted[a] >= claims->least[a] - 1e-5, "ends %s, cover %d, order %d: %s %g, claimed at least %g",
-                  thr_ends_name(o->ends), o->cover, q->h->order, thr_aim_name(a), counted[a], claims->least[a]);
+    ck_assert_msg(counted[a] >= claims->least[a] - 1e-5,
+                  "ends %s, cover %d, order %d: %s %g, claimed at least %g", thr_ends_name(o->ends),
+                  o->cover, q->h->order, thr_aim_name(a), counted[a], claims->least[a]);
     if (has && counted[a] > has[a] + 1e-6) break;
   }
   thr_cords_destroy(cord, n);
@@ -108,19 +117,23 @@ static double check_claim(const thr_quotient *q, const thr_cover_options *o, con
   return counted[THR_AIM_STEPS];
 }
 
-/* What is claimed of the best cover c: against its own threading, those that other aims make, and the best for half the passes
- * threaded twice, whose cords all run alike. */
-static void check_claims(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c, double turning, tally *n)
+/* What is claimed of the best cover c: against its own threading, those that other aims make, and
+ * the best for half the passes threaded twice, whose cords all run alike. */
+static void check_claims(const thr_quotient *q, const thr_cover_options *o, const thr_cover *c,
+                         double turning, tally *n)
 {
-  static const thr_aim orders[][THR_N_AIMS] = {{THR_AIM_OVERLAP, THR_AIM_TURNING, THR_AIM_PATHS, THR_AIM_STEPS},
-                                               {THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_STEPS, THR_AIM_TURNING},
-                                               {THR_AIM_STEPS, THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_TURNING}};
+  static const thr_aim orders[][THR_N_AIMS] = {
+      {THR_AIM_OVERLAP, THR_AIM_TURNING, THR_AIM_PATHS, THR_AIM_STEPS},
+      {THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_STEPS, THR_AIM_TURNING},
+      {THR_AIM_STEPS, THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_TURNING}};
   thr_claims claims = {.retraces = false};
   const double steps = check_claim(q, o, c, &claims, NULL);
   ck_assert_int_eq(thr_claims_make(q, o, c, steps, &claims, NULL), THR_OK);
   (void)check_claim(q, o, c, &claims, NULL);
-  ck_assert_msg(claims.least[THR_AIM_TURNING] <= turning + 1e-5, "ends %s, cover %d, order %d: at least %g claimed, there is %g",
-                thr_ends_name(o->ends), o->cover, q->h->order, claims.least[THR_AIM_TURNING], turning);
+  ck_assert_msg(claims.least[THR_AIM_TURNING] <= turning + 1e-5,
+                "ends %s, cover %d, order %d: at least %g claimed, there is %g",
+                thr_ends_name(o->ends), o->cover, q->h->order, claims.least[THR_AIM_TURNING],
+                turning);
   n->repeats += claims.repeats;
   n->exact += !claims.repeats && claims.least[THR_AIM_TURNING] > turning - 1e-4;
   for (int k = 0; k < 4; k++) {
@@ -154,15 +167,16 @@ static void check_ties(const thr_quotient *q, const thr_cover_options *o, const 
   thr_symmetry_record record;
   bool tied[MOST_NODES];
   ck_assert_int_eq(thr_cover_cords(q, o, c, &cord, &n, &record, NULL), THR_OK);
-  ck_assert_int_eq(thr_junction_tied(q->f, cord, n, o->ends == THR_ENDS_CLOSED, tied, NULL), THR_OK);
+  ck_assert_int_eq(thr_junction_tied(q->f, cord, n, o->ends == THR_ENDS_CLOSED, tied, NULL),
+                   THR_OK);
   for (int v = 0; v < q->f->n_nodes; v++)
     ck_assert_msg(tied[v], "ends %s, order %d: node %d", thr_ends_name(o->ends), q->h->order, v);
   thr_cords_destroy(cord, n);
   thr_symmetry_record_destroy(&record);
 }
 
-static void compare_with_exhaustion(const example *t, const thr_frame *f, const thr_group *g, const thr_subgroup *h,
-                                    const thr_cover_options *o, tally *n)
+static void compare_with_exhaustion(const example *t, const thr_frame *f, const thr_group *g,
+                                    const thr_subgroup *h, const thr_cover_options *o, tally *n)
 {
   static exhaustive x;
   thr_quotient q;
@@ -180,12 +194,14 @@ static void compare_with_exhaustion(const example *t, const thr_frame *f, const 
     goto done;
   }
   ck_assert_msg(st == (x.found ? THR_OK : THR_EINFEASIBLE),
-                "%s, order %d, ends %s, cover %d, capacity %d: status %d (%s), found %d", t->name, h->order,
-                thr_ends_name(o->ends), o->cover, o->edge_capacity ? o->edge_capacity[0] : 0, st, err.text, x.found);
+                "%s, order %d, ends %s, cover %d, capacity %d: status %d (%s), found %d", t->name,
+                h->order, thr_ends_name(o->ends), o->cover,
+                o->edge_capacity ? o->edge_capacity[0] : 0, st, err.text, x.found);
   for (int a = 0; a < THR_N_AIMS && !st; a++)
     ck_assert_msg(fabs(c.value[a] - x.best[a]) < 1e-4 && fabs(c.bound[a] - c.value[a]) < 1e-4,
-                  "%s, order %d, ends %s, cover %d%s: %s %g, bound %g, by exhaustion %g", t->name, h->order,
-                  thr_ends_name(o->ends), o->cover, o->tube ? ", tied" : "", thr_aim_name(a), c.value[a], c.bound[a], x.best[a]);
+                  "%s, order %d, ends %s, cover %d%s: %s %g, bound %g, by exhaustion %g", t->name,
+                  h->order, thr_ends_name(o->ends), o->cover, o->tube ? ", tied" : "",
+                  thr_aim_name(a), c.value[a], c.bound[a], x.best[a]);
   if (!st && o->tube) check_ties(&q, o, &c);
   if (!st) {
     check_turning_bounds(&q, o, &c, false, n);
@@ -212,7 +228,8 @@ START_TEST(covers_match_exhaustion)
     for (int k = 0; k < classes.n; k++)
       for (int cover = 1; cover <= 2; cover++) {
         thr_cover_options o = cover_options((thr_ends)ends, cover);
-        if (classes.subgroup[k].order <= 48) compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
+        if (classes.subgroup[k].order <= 48)
+          compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
       }
     thr_subgroup_classes_destroy(&classes);
     thr_group_destroy(&g);
@@ -244,7 +261,8 @@ START_TEST(tied_covers_match_exhaustion)
         if (most == 2) o.edge_capacity = capacity;
         for (int e = 0; e < f.n_edges; e++)
           capacity[e] = most;
-        if (classes.subgroup[k].order <= 48) compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
+        if (classes.subgroup[k].order <= 48)
+          compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
       }
     thr_subgroup_classes_destroy(&classes);
     thr_group_destroy(&g);
@@ -275,7 +293,8 @@ START_TEST(capacities_match_exhaustion)
           needed[e] = 1;
           capacity[e] = most;
         }
-        if (classes.subgroup[k].order <= 48) compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
+        if (classes.subgroup[k].order <= 48)
+          compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
       }
     thr_subgroup_classes_destroy(&classes);
     thr_group_destroy(&g);
@@ -286,11 +305,11 @@ START_TEST(capacities_match_exhaustion)
 }
 END_TEST
 
-/* At most so many cords: the bounds of the limited cover hold, and what is made of it keeps to the number; where it is said to be
- * optimal it is. Where a path reads the same backward its steps are others than the cover's (test_symmetric_walks.c counts so),
- * and what comes after them is open. */
-static void compare_cords(const example *t, const thr_frame *f, const thr_group *g, const thr_subgroup *h, thr_ends ends,
-                          int cords, tally *n)
+/* At most so many cords: the bounds of the limited cover hold, and what is made of it keeps to the
+ * number; where it is said to be optimal it is. Where a path reads the same backward its steps are
+ * others than the cover's (test_symmetric_walks.c counts so), and what comes after them is open. */
+static void compare_cords(const example *t, const thr_frame *f, const thr_group *g,
+                          const thr_subgroup *h, thr_ends ends, int cords, tally *n)
 {
   static exhaustive x;
   thr_cover_options o = cover_options(ends, 1);
@@ -313,16 +332,20 @@ static void compare_cords(const example *t, const thr_frame *f, const thr_group 
   thr_status st = known ? thr_cover_find(&q, &o, &limits, &c, NULL) : THR_ELIMIT;
   if (!st) st = thr_keep_cords(&q, &o, &asked, &limits, &c, &cord, &n_cords, &record, &kept, NULL);
   const bool beyond = !st && passes_of(&q, &c) > exhaustive_most_passes(&x);
-  if (known && st) ck_assert_msg(!x.found, "%s, order %d, %d cords: there are some", t->name, h->order, cords);
+  if (known && st)
+    ck_assert_msg(!x.found, "%s, order %d, %d cords: there are some", t->name, h->order, cords);
   if (known && !st && !beyond) {
     const double worth[] = {c.value[THR_AIM_OVERLAP], record.steps, record.unique_paths};
-    ck_assert_msg(!x.found || c.bound[THR_AIM_OVERLAP] <= x.best[THR_AIM_OVERLAP] + 1e-4, "%s, order %d, %d cords: bound %g, %g",
-                  t->name, h->order, cords, c.bound[THR_AIM_OVERLAP], x.best[THR_AIM_OVERLAP]);
+    ck_assert_msg(!x.found || c.bound[THR_AIM_OVERLAP] <= x.best[THR_AIM_OVERLAP] + 1e-4,
+                  "%s, order %d, %d cords: bound %g, %g", t->name, h->order, cords,
+                  c.bound[THR_AIM_OVERLAP], x.best[THR_AIM_OVERLAP]);
     ck_assert(!kept || (x.found && n_cords <= cords));
-    const int counted = record.steps > c.value[THR_AIM_STEPS] + 1e-6 ? THR_AIM_STEPS : THR_AIM_TURNING;
+    const int counted =
+        record.steps > c.value[THR_AIM_STEPS] + 1e-6 ? THR_AIM_STEPS : THR_AIM_TURNING;
     for (int a = 0; a < counted && kept && c.optimal; a++)
-      ck_assert_msg(fabs(worth[a] - x.best[a]) < 1e-4, "%s, order %d, ends %s, %d cords: %s %g, by exhaustion %g", t->name,
-                    h->order, thr_ends_name(ends), cords, thr_aim_name((thr_aim)a), worth[a], x.best[a]);
+      ck_assert_msg(fabs(worth[a] - x.best[a]) < 1e-4,
+                    "%s, order %d, ends %s, %d cords: %s %g, by exhaustion %g", t->name, h->order,
+                    thr_ends_name(ends), cords, thr_aim_name((thr_aim)a), worth[a], x.best[a]);
     n->compared++;
     n->near += kept;
     n->bounds += x.found;
@@ -350,7 +373,8 @@ START_TEST(limited_ends_match_exhaustion)
         thr_cover_options o = cover_options((thr_ends)ends, 1);
         o.most_ends = 2 * most;
         if (classes.subgroup[k].order > 48) continue;
-        if (most == 1 && ends == THR_ENDS_ANY) compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
+        if (most == 1 && ends == THR_ENDS_ANY)
+          compare_with_exhaustion(t, &f, &g, &classes.subgroup[k], &o, &n);
         compare_cords(t, &f, &g, &classes.subgroup[k], (thr_ends)ends, most, &cords);
       }
     thr_subgroup_classes_destroy(&classes);
@@ -380,8 +404,8 @@ START_TEST(covers_by_edge)
     thr_cover c;
     thr_err err;
     ck_assert_int_eq(thr_quotient_init(&q, &f, &g, &classes.subgroup[k], 10000, NULL), THR_OK);
-    bool keeps = q.edge_orbit[0] != q.edge_orbit[1] && q.edge_orbit[0] != q.edge_orbit[3] && q.edge_orbit[2] != q.edge_orbit[1] &&
-                 q.edge_orbit[2] != q.edge_orbit[3];
+    bool keeps = q.edge_orbit[0] != q.edge_orbit[1] && q.edge_orbit[0] != q.edge_orbit[3] &&
+                 q.edge_orbit[2] != q.edge_orbit[1] && q.edge_orbit[2] != q.edge_orbit[3];
     thr_status st = thr_cover_find(&q, &o, &limits, &c, &err);
     /* closed cords go round the square: as often over every edge */
     ck_assert_msg(st == (keeps ? THR_OK : THR_EINPUT), "status %d, %s", st, err.text);

@@ -1,4 +1,6 @@
-/* Symmetric covers of frameworks whose figures are published, and route inspection as the cover under the trivial group. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Symmetric covers of frameworks whose figures are published, and route inspection as the cover
+ * under the trivial group. */
 #include "graph/framework/make.h"
 #include "graph/plan/plan_measures.h"
 #include "symmetry/cover/cover.h"
@@ -13,7 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rings of n nodes, each ring turned by half a step, with diagonals only; the lowest are the feet. */
+/* Rings of n nodes, each ring turned by half a step, with diagonals only; the lowest are the feet.
+ */
 static thr_frame diagonal_tube(int n, int rings)
 {
   thr_draft d = {0};
@@ -27,7 +30,8 @@ static thr_frame diagonal_tube(int n, int rings)
   for (int r = 0; r + 1 < rings; r++)
     for (int i = 0; i < n; i++) {
       ck_assert_int_eq(thr_draft_add_edge(&d, r * n + i, (r + 1) * n + i, 0, NULL), THR_OK);
-      ck_assert_int_eq(thr_draft_add_edge(&d, r * n + i, (r + 1) * n + (i + n - 1) % n, 0, NULL), THR_OK);
+      ck_assert_int_eq(thr_draft_add_edge(&d, r * n + i, (r + 1) * n + (i + n - 1) % n, 0, NULL),
+                       THR_OK);
     }
   ck_assert_int_eq(thr_draft_build(&d, -1, &f, &report, NULL), THR_OK);
   thr_draft_destroy(&d);
@@ -51,7 +55,8 @@ static void expect(thr_frame f, const row *list, int n)
   thr_group g;
   thr_subgroup_classes classes;
   ck_assert_int_eq(thr_automorphisms_find(&f, &plain, &a, NULL), THR_OK);
-  ck_assert_int_eq(thr_group_generate(f.n_nodes, a.generator, a.n_generators, THR_GROUP_CAP, &g, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_group_generate(f.n_nodes, a.generator, a.n_generators, THR_GROUP_CAP, &g, NULL), THR_OK);
   ck_assert_int_eq(thr_subgroup_classes_find(&g, 1000, &classes, NULL), THR_OK);
   for (int i = 0; i < n; i++) {
     bool hit = false;
@@ -63,7 +68,8 @@ static void expect(thr_frame f, const row *list, int n)
         thr_isometry_of(&f, &g.image[h->element[x] * g.degree], 0.01, &element[x]);
       thr_point_group_name(element, h->order, name);
       free(element);
-      if (h->order != list[i].order || (list[i].group && strcmp(name, list[i].group) != 0)) continue;
+      if (h->order != list[i].order || (list[i].group && strcmp(name, list[i].group) != 0))
+        continue;
       thr_cover_options o = cover_options(list[i].ends, list[i].cover);
       thr_limits limits = {.deadline = thr_clock() + 60};
       thr_quotient q;
@@ -71,13 +77,15 @@ static void expect(thr_frame f, const row *list, int n)
       ck_assert_int_eq(thr_quotient_init(&q, &f, &g, h, 100000, NULL), THR_OK);
       ck_assert_int_eq(thr_cover_find(&q, &o, &limits, &c, NULL), THR_OK);
       double overlap = 100 * c.value[THR_AIM_OVERLAP] / (o.cover * thr_frame_total_length(&f));
-      hit = fabs(overlap - list[i].overlap) < 0.1 && fabs(c.value[THR_AIM_STEPS] - list[i].steps) < 1e-9 &&
+      hit = fabs(overlap - list[i].overlap) < 0.1 &&
+            fabs(c.value[THR_AIM_STEPS] - list[i].steps) < 1e-9 &&
             fabs(c.value[THR_AIM_PATHS] - list[i].paths) < 1e-9 && c.optimal;
       thr_cover_destroy(&c);
       thr_quotient_destroy(&q);
     }
     ck_assert_msg(hit, "order %d %s: no overlap of %g %% with %g steps in %d paths", list[i].order,
-                  list[i].group ? list[i].group : "", list[i].overlap, list[i].steps, list[i].paths);
+                  list[i].group ? list[i].group : "", list[i].overlap, list[i].steps,
+                  list[i].paths);
   }
   thr_subgroup_classes_destroy(&classes);
   thr_group_destroy(&g);
@@ -85,12 +93,13 @@ static void expect(thr_frame f, const row *list, int n)
   thr_frame_destroy(&f);
 }
 
-#define EXPECT(frame, ...) expect(frame, (const row[]){__VA_ARGS__}, (int)(sizeof((const row[]){__VA_ARGS__}) / sizeof(row)))
+#define EXPECT(frame, ...)                                                                         \
+  expect(frame, (const row[]){__VA_ARGS__}, (int)(sizeof((const row[]){__VA_ARGS__}) / sizeof(row)))
 
 START_TEST(domes)
 {
-  EXPECT(shape_make(THR_MAKE_DOME, 6, 0), {4, "C2v", THR_ENDS_FEET, 1, 13.0, 17, 1}, {4, "C4", THR_ENDS_FEET, 1, 13.0, 17, 1},
-         {8, "C4v", THR_ENDS_FEET, 1, 20.3, 9, 2});
+  EXPECT(shape_make(THR_MAKE_DOME, 6, 0), {4, "C2v", THR_ENDS_FEET, 1, 13.0, 17, 1},
+         {4, "C4", THR_ENDS_FEET, 1, 13.0, 17, 1}, {8, "C4v", THR_ENDS_FEET, 1, 20.3, 9, 2});
   EXPECT(shape_make(THR_MAKE_DOME, 8, 0), {8, "C4v", THR_ENDS_FEET, 2, 0, 28, 1});
   EXPECT(shape_make(THR_MAKE_DOME, 20, 0), {4, "C4", THR_ENDS_FEET, 1, 4.7, 199, 1});
   EXPECT(diagonal_tube(12, 7), {24, "C12v", THR_ENDS_FEET, 1, 0, 6, 1});
@@ -99,9 +108,11 @@ END_TEST
 
 START_TEST(solids)
 {
-  EXPECT(solid_make(CUBE), {48, "Oh", THR_ENDS_CLOSED, 1, 100, 0.5, 1}, {16, NULL, THR_ENDS_CLOSED, 1, 33.33, 1, 1});
+  EXPECT(solid_make(CUBE), {48, "Oh", THR_ENDS_CLOSED, 1, 100, 0.5, 1},
+         {16, NULL, THR_ENDS_CLOSED, 1, 33.33, 1, 1});
   EXPECT(truncated_icosahedron(), {120, "Ih", THR_ENDS_CLOSED, 1, 33.33, 1, 1});
-  EXPECT(shape_make(THR_MAKE_SPHERE, 3, 0), {12, "T", THR_ENDS_CLOSED, 1, 6.2, 24, 1}, {60, "I", THR_ENDS_CLOSED, 1, 30.9, 6, 1});
+  EXPECT(shape_make(THR_MAKE_SPHERE, 3, 0), {12, "T", THR_ENDS_CLOSED, 1, 6.2, 24, 1},
+         {60, "I", THR_ENDS_CLOSED, 1, 30.9, 6, 1});
 }
 END_TEST
 
@@ -111,15 +122,19 @@ START_TEST(large_sphere)
 }
 END_TEST
 
-/* Without symmetry the overlap is that of Route Inspection: least extra cord by matching odd nodes. */
+/* Without symmetry the overlap is that of Route Inspection: least extra cord by matching odd nodes.
+ */
 START_TEST(trivial_group_is_route_inspection)
 {
   rng r = rng_make(31);
   for (int i = 0; i < 60; i++) {
-    thr_frame f = random_frame(&r, rng_between(&r, 4, 16), rng_between(&r, 0, 14), (length_kind)(i % LENGTH_KINDS));
+    thr_frame f = random_frame(&r, rng_between(&r, 4, 16), rng_between(&r, 0, 14),
+                               (length_kind)(i % LENGTH_KINDS));
     thr_request plan = options_for(THR_ENDS_CLOSED, 1 + i % 2);
     thr_cover_options o = {
-        .cover = plan.cover, .ends = THR_ENDS_CLOSED, .prefer = {THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_STEPS, THR_AIM_TURNING}};
+        .cover = plan.cover,
+        .ends = THR_ENDS_CLOSED,
+        .prefer = {THR_AIM_OVERLAP, THR_AIM_PATHS, THR_AIM_STEPS, THR_AIM_TURNING}};
     thr_limits limits = {.deadline = thr_clock() + 2};
     thr_group g;
     thr_quotient q;

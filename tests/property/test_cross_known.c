@@ -1,5 +1,6 @@
-/* The whole program on frameworks and options that were wrong once, and on kinds of frameworks that chance seldom makes, against
- * exhaustive search over walks (tests/judging.h). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The whole program on frameworks and options that were wrong once, and on kinds of frameworks that
+ * chance seldom makes, against exhaustive search over walks (tests/judging.h). */
 #include "tests/judging.h"
 #include "tests/crossing.h"
 #include "tests/frameworks.h"
@@ -27,12 +28,15 @@ typedef struct {
 #define AIM(what) .aims = {1, {THR_AIM_##what}}
 
 static const known_case known[] = {
-    /* The shortest passes need a full edge, or turn back: the slack was measured from them, and no plan found. */
+    /* The shortest passes need a full edge, or turn back: the slack was measured from them, and no
+       plan found. */
     {"[71.06,75.96,42.594],[49.682,21.57,50.028],[98.593,81.205,36.736]",
      "[0,1],[0,2],[1,2]",
      "\"lengths\": [25.495,70.003,13.585], \"covers\": [1,1,3]",
-     "--objective tortuosity --capacity 3 --length-slack 10 --turn-cost step --minimize max-turning --ends any",
-     {AIM(MAX_TURNING), CAPACITY(3), CORDS(1, 1), TURNING(0.1, THR_TURN_STEP), .ends = THR_ENDS_ANY},
+     "--objective tortuosity --capacity 3 --length-slack 10 --turn-cost step --minimize "
+     "max-turning --ends any",
+     {AIM(MAX_TURNING), CAPACITY(3), CORDS(1, 1), TURNING(0.1, THR_TURN_STEP),
+      .ends = THR_ENDS_ANY},
      {0}},
     {"[74,95,11],[86,98,6],[17,31,32]",
      "[1,0],[2,0]",
@@ -45,20 +49,30 @@ static const known_case known[] = {
      "[1,0],[2,1],[1,3],[3,0]",
      "\"capacities\": [1,null,3,null]",
      "--objective tortuosity --capacity 1 --length-slack 0 --tour fleury --ends any",
-     {AIM(TURNING), CAPACITY(1), CORDS(1, 1), .turning = {.tour = THR_TOUR_FLEURY}, .ends = THR_ENDS_ANY},
+     {AIM(TURNING), CAPACITY(1), CORDS(1, 1), .turning = {.tour = THR_TOUR_FLEURY},
+      .ends = THR_ENDS_ANY},
      {0}},
     /* One number of cords was tried for all pieces. */
     {"[0,0,0],[40,0,0],[80,0,0],[400,0,0],[440,0,0]",
      "[0,1],[1,2],[3,4]",
      "\"feet\": [0,1,2,3,4]",
      "--joint tube --cover 2 --capacity 2 --balance --cords 1..3 --ends feet",
-     {.joint = THR_JOINT_TUBE, .cover = 2, CAPACITY(2), AIM(LONGEST), CORDS(1, 3), .ends = THR_ENDS_FEET},
+     {.joint = THR_JOINT_TUBE,
+      .cover = 2,
+      CAPACITY(2),
+      AIM(LONGEST),
+      CORDS(1, 3),
+      .ends = THR_ENDS_FEET},
      {0}},
     {"[0,0,0],[40,0,0],[80,0,0],[450,0,0],[375,43,0],[375,-43,0]",
      "[1,0],[1,2],[4,3],[4,5],[3,5]",
      "\"lengths\": [10,10,10,10,10], \"capacities\": [2,1,null,null,2], \"feet\": [0,2,3,4]",
      "--joint tube --capacity 3 --cords auto --max-length 39.5 --ends feet",
-     {.joint = THR_JOINT_TUBE, CAPACITY(3), CORDS(1, 1000), .max_length = 39.5, .ends = THR_ENDS_FEET},
+     {.joint = THR_JOINT_TUBE,
+      CAPACITY(3),
+      CORDS(1, 1000),
+      .max_length = 39.5,
+      .ends = THR_ENDS_FEET},
      {0}},
     {"[12,8,77],[24,84,13],[6,93,69],[406,8,31],[473,2,27],[435,34,7],[403,37,76]",
      "[0,1],[0,2],[2,1],[3,4],[3,5],[6,3],[6,5],[4,5],[6,4]",
@@ -123,15 +137,17 @@ START_TEST(symmetric_pieces_have_numbers_of_their_own)
   snprintf(path, sizeof path, "%s/frame.json", judging_folder);
   for (int v = 0; v < 7; v++) {
     size_t n = strlen(nodes);
-    snprintf(nodes + n, sizeof nodes - n, "%s[%d,%d,%d]", v ? "," : "", (v < 4 ? 0 : 400) + rng_below(&r, 101),
-             rng_below(&r, 101), rng_below(&r, 101));
+    snprintf(nodes + n, sizeof nodes - n, "%s[%d,%d,%d]", v ? "," : "",
+             (v < 4 ? 0 : 400) + rng_below(&r, 101), rng_below(&r, 101), rng_below(&r, 101));
   }
-  write_frame(path, nodes, "[0,1],[0,2],[0,3],[1,2],[1,3],[2,3],[4,5],[5,6],[6,4]", "\"feet\": [0,1,4,5]");
+  write_frame(path, nodes, "[0,1],[0,2],[0,3],[1,2],[1,3],[2,3],[4,5],[5,6],[6,4]",
+              "\"feet\": [0,1,4,5]");
   want(&o, "overlap,steps");
   o.joint = THR_JOINT_TUBE;
   o.ends = _i % 2 ? THR_ENDS_ANY : THR_ENDS_FEET;
   judge_given(path, &o,
-              _i % 2 ? "--objective symmetry --joint tube --ends any" : "--objective symmetry --joint tube --ends feet");
+              _i % 2 ? "--objective symmetry --joint tube --ends any"
+                     : "--objective symmetry --joint tube --ends feet");
   judging_end();
 }
 END_TEST
@@ -156,19 +172,21 @@ static void right_angle(rng *r, double x[3], double y[3])
   }
 }
 
-/* A star of three or four spokes, most pairs of which turn by 90 degrees less 1e-6, give or take some of the last digits: whoever
- * prices steps must price all of them alike. */
+/* A star of three or four spokes, most pairs of which turn by 90 degrees less 1e-6, give or take
+ * some of the last digits: whoever prices steps must price all of them alike. */
 START_TEST(steps_at_their_threshold)
 {
   enum { SPOKES = 4 };
   rng r = rng_make((uint64_t)_i + 1);
   thr_request o = thr_request_default();
   char path[128], nodes[600] = "[0,0,0]";
-  double x[3], y[3], size = 1 + 99 * rng_unit(&r), angle = acos(0) - 1e-6 * (1 + 1e-10 * rng_between(&r, -3, 3));
+  double x[3], y[3], size = 1 + 99 * rng_unit(&r),
+                     angle = acos(0) - 1e-6 * (1 + 1e-10 * rng_between(&r, -3, 3));
   judging_begin(self);
   snprintf(path, sizeof path, "%s/frame.json", judging_folder);
   right_angle(&r, x, y);
-  for (int k = 0; k < SPOKES; k++) { /* those of even number are opposite to each other, as are the others */
+  for (int k = 0; k < SPOKES;
+       k++) { /* those of even number are opposite to each other, as are the others */
     double at[3];
     for (int i = 0; i < 3; i++)
       at[i] = (k < 2 ? size : -size) * (k % 2 ? sin(angle) * y[i] - cos(angle) * x[i] : x[i]);

@@ -1,4 +1,6 @@
-/* The longest of several cords against all ways to share out passes in small frameworks; what must hold in larger ones. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The longest of several cords against all ways to share out passes in small frameworks; what must
+ * hold in larger ones. */
 #include "lp/length/postman.h"
 #include "tests/frameworks.h"
 #include "tests/oracles.h"
@@ -14,8 +16,8 @@ enum { EDGES = 5, MOST = 3, CHOICES = 1024 }; /* passes of an edge by one cord: 
 
 /* ---- the oracle ---- */
 
-/* A choice of passes is one cord's if it is connected, and odd at no node or at two where it may end, or even and somewhere where
- * it may end. */
+/* A choice of passes is one cord's if it is connected, and odd at no node or at two where it may
+ * end, or even and somewhere where it may end. */
 static bool is_cord(const thr_frame *f, const thr_request *o, const int *passes)
 {
   int at[EDGES + 1] = {0}, part[EDGES + 1], odd = 0, joined = 1;
@@ -138,7 +140,8 @@ START_TEST(two_cords_of_small_ones_are_even)
 }
 END_TEST
 
-/* The fewest cords of a limited length: no fewer are claimed impossible than are, and one, two or more are needed as they are. */
+/* The fewest cords of a limited length: no fewer are claimed impossible than are, and one, two or
+ * more are needed as they are. */
 START_TEST(small_ones_need_as_few_cords_as_the_oracle)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
@@ -160,7 +163,8 @@ START_TEST(small_ones_need_as_few_cords_as_the_oracle)
       ck_assert_int_gt(p.n_cords, 0); /* a table knows whether there are any */
       o.cords = p.n_cords;            /* the length is compared with that of as many */
       const walks_weights none_longer = {.length = 1, .longest = o.max_length * (1 + 1e-9)};
-      ck_assert_double_le(p.proof.lower_bound, walks_least_of(&f, &o, p.n_cords, none_longer) * (1 + 1e-9));
+      ck_assert_double_le(p.proof.lower_bound,
+                          walks_least_of(&f, &o, p.n_cords, none_longer) * (1 + 1e-9));
       ck_assert_double_le(longest_of(&p), o.max_length * (1 + 1e-9));
       ck_assert_int_le(p.cords_claim.fewest, p.n_cords);
       ck_assert_int_le(p.cords_claim.fewest, few < 3 ? few : p.n_cords);
@@ -187,7 +191,8 @@ static int total_passes(const thr_plan *p)
   return sum;
 }
 
-/* Where cords share many nodes they come out even, at the length of all together; the same in every run. */
+/* Where cords share many nodes they come out even, at the length of all together; the same in every
+ * run. */
 START_TEST(cords_of_grids_are_even)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES};
@@ -225,7 +230,8 @@ START_TEST(cords_of_grids_are_even)
 }
 END_TEST
 
-/* A long corridor with its feet at one end: every cord must come from there and go back, so one has to take it all. */
+/* A long corridor with its feet at one end: every cord must come from there and go back, so one has
+ * to take it all. */
 START_TEST(a_corridor_is_a_forced_detour)
 {
   thr_frame f = path_make(12);
@@ -247,10 +253,12 @@ START_TEST(a_corridor_is_a_forced_detour)
 }
 END_TEST
 
-/* Far from each other, two cords cannot be even without passes from one to the other: the search adds them. */
+/* Far from each other, two cords cannot be even without passes from one to the other: the search
+ * adds them. */
 START_TEST(detours_and_moved_ends_even_out)
 {
-  const double xyz[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {3, 0, 0}, {3, 1, 0}, {2, 1, 0}};
+  const double xyz[][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                           {2, 0, 0}, {3, 0, 0}, {3, 1, 0}, {2, 1, 0}};
   const int edge[][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {1, 4}, {4, 5}, {5, 6}, {6, 7}, {7, 4}};
   const double length[] = {10, 10, 10, 10, 1, 2, 2, 2, 2};
   thr_frame f = frame_make(8, xyz, 9, edge, length, NULL);

@@ -1,5 +1,6 @@
-/* Several different cords over every edge, against all choices of the edges that each cord passes; and what the checker makes of
- * claims about them. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Several different cords over every edge, against all choices of the edges that each cord passes;
+ * and what the checker makes of claims about them. */
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
@@ -22,8 +23,8 @@
 
 enum { MOST_EDGES = 6, SETS = 1 << MOST_EDGES, MOST_NODES = 7 };
 
-/* least[set]: of one cord over all these edges and perhaps others, closed or between nodes where one may end, turning back
- * anywhere. (Bellman's iteration over node and set, from every node.) */
+/* least[set]: of one cord over all these edges and perhaps others, closed or between nodes where
+ * one may end, turning back anywhere. (Bellman's iteration over node and set, from every node.) */
 static void least_of_one(const thr_frame *f, const thr_request *o, double *least)
 {
   const bool closed = o->ends == THR_ENDS_CLOSED;
@@ -40,7 +41,8 @@ static void least_of_one(const thr_frame *f, const thr_request *o, double *least
       changed = false;
       for (int h = 0; h < 2 * f->n_edges; h++)
         for (int set = 0; set < sets; set++) {
-          double length = far[thr_tail(f, h)][set] + f->length[h >> 1], *to = &far[thr_head(f, h)][set | 1 << (h >> 1)];
+          double length = far[thr_tail(f, h)][set] + f->length[h >> 1],
+                 *to = &far[thr_head(f, h)][set | 1 << (h >> 1)];
           if (length >= *to - 1e-12) continue;
           *to = length;
           changed = true;
@@ -53,9 +55,10 @@ static void least_of_one(const thr_frame *f, const thr_request *o, double *least
   }
 }
 
-/* The least length of so many cords, from set `from` downwards, that pass edge e lacks[e] times more at least; or, if longest,
- * the length of the longest. */
-static double least_of_all(int n_edges, const double *least, bool longest, int cords, int from, const int *lacks)
+/* The least length of so many cords, from set `from` downwards, that pass edge e lacks[e] times
+ * more at least; or, if longest, the length of the longest. */
+static double least_of_all(int n_edges, const double *least, bool longest, int cords, int from,
+                           const int *lacks)
 {
   double best = INFINITY;
   bool done = true;
@@ -151,7 +154,8 @@ START_TEST(plans_are_the_truth)
 }
 END_TEST
 
-/* Bridges need more passes of closed cords than those of different ones; then a tree's least length is always proved. */
+/* Bridges need more passes of closed cords than those of different ones; then a tree's least length
+ * is always proved. */
 START_TEST(trees_are_proved)
 {
   rng r = rng_make((uint64_t)_i + 1);
@@ -170,7 +174,8 @@ START_TEST(trees_are_proved)
 }
 END_TEST
 
-/* Passes that a bridge is said to need are those of some cords, and no fewer do: the least length where it alone has one. */
+/* Passes that a bridge is said to need are those of some cords, and no fewer do: the least length
+ * where it alone has one. */
 START_TEST(bridges_need_what_is_said)
 {
   rng r = rng_make((uint64_t)_i + 400);
@@ -207,7 +212,9 @@ static void change_certificate(rng *r, thr_certificate *c)
   default: break;
   }
   for (int i = 0; i < c->n_cuts; i++)
-    if (rng_below(r, 2)) c->cut[i].value = llabs(c->cut[i].value + (int64_t)(by * rng_unit(r) * (double)(1 + c->cut[i].value)));
+    if (rng_below(r, 2))
+      c->cut[i].value =
+          llabs(c->cut[i].value + (int64_t)(by * rng_unit(r) * (double)(1 + c->cut[i].value)));
   c->sum = 0;
   for (int i = 0; i < c->n_cuts; i++)
     c->sum += c->cut[i].value;
@@ -254,7 +261,8 @@ START_TEST(even_cords_are_the_truth)
     int nodes = rng_between(&r, 3, 5);
     thr_frame f = random_frame(&r, nodes, rng_below(&r, MOST_EDGES - nodes + 2), LENGTHS_RANDOM);
     const int distinct = 2 + (i % 5 == 0);
-    thr_request o = asked(distinct, distinct + rng_below(&r, 3), i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, "longest,length");
+    thr_request o = asked(distinct, distinct + rng_below(&r, 3),
+                          i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, "longest,length");
     double least = truth_of(&f, &o, true, o.cords);
     thr_plan p = made(&f, &o);
     ck_assert_int_eq(p.metrics.distinct, f.n_edges);
@@ -270,14 +278,16 @@ START_TEST(even_cords_are_the_truth)
 }
 END_TEST
 
-/* A plan whose longest cord is longer than that of another is not said to be the best, whatever it says. */
+/* A plan whose longest cord is longer than that of another is not said to be the best, whatever it
+ * says. */
 START_TEST(longer_cords_are_not_the_truth)
 {
   int longer = 0;
   for (int i = 0; i < 10; i++) {
     rng r = rng_make((uint64_t)i + 300);
     thr_frame f = random_frame(&r, rng_between(&r, 4, 5), 2, LENGTHS_RANDOM);
-    thr_request o = asked(2, 4, i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, "length"), even = asked(2, 4, o.ends, "longest,length");
+    thr_request o = asked(2, 4, i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, "length"),
+                even = asked(2, 4, o.ends, "longest,length");
     const double least = truth_of(&f, &o, true, o.cords);
     thr_plan p = made(&f, &o);
     ck_assert_int_eq(p.metrics.distinct, f.n_edges);
@@ -324,7 +334,8 @@ START_TEST(short_cords_are_few)
     int fewest = fewest_within(&f, &o);
     thr_status st = thr_plan_make(&f, &o, &(thr_limits){0}, &p, NULL, &err);
     feasible += fewest < INT_MAX;
-    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || (st == THR_EINFEASIBLE && fewest == INT_MAX), "%s", err.text);
+    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || (st == THR_EINFEASIBLE && fewest == INT_MAX),
+                  "%s", err.text);
     if (p.n_cords > 0) {
       assert_plan_sound(&p);
       ck_assert_int_le(p.cords_claim.fewest, fewest);
@@ -412,7 +423,8 @@ START_TEST(the_least_needs_all_edges)
   ck_assert_int_eq(thr_plan_make(&f, &o, &(thr_limits){0}, &p, NULL, NULL), THR_OK);
   ck_assert(p.proof.optimal);
   p.options.distinct = 2;
-  ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL),
+                   THR_OK);
   ck_assert_int_eq(p.metrics.distinct, edges_met(&p));
   if (p.metrics.distinct < f.n_edges) {
     assert_violated(&p, "optimal");
@@ -555,14 +567,15 @@ START_TEST(no_forged_claim_of_different_cords_is_accepted)
     rng r = rng_make(seed);
     const int nodes = rng_between(&r, 3, 5), distinct = rng_between(&r, 2, 3);
     thr_frame f = random_frame(&r, nodes, rng_below(&r, MOST_EDGES - nodes + 2), LENGTHS_RANDOM);
-    thr_request o = asked(distinct, distinct + rng_below(&r, 3), rng_below(&r, 2) ? THR_ENDS_ANY : THR_ENDS_CLOSED,
+    thr_request o = asked(distinct, distinct + rng_below(&r, 3),
+                          rng_below(&r, 2) ? THR_ENDS_ANY : THR_ENDS_CLOSED,
                           rng_below(&r, 2) ? "length" : "longest");
     thr_plan p = made(&f, &o);
     forgery x;
     for (int again = 0; again < 3 && forge(&p, &x); again++)
       if (attack_climb(&r, &of_forgeries, &p, &x, STEPS, &tally))
-        printf("seed %ld: %g above the truth, %d cords, %d different\n", (long)seed, judge_forgery(&p, &x), x.plan.n_cords,
-               x.plan.options.distinct);
+        printf("seed %ld: %g above the truth, %d cords, %d different\n", (long)seed,
+               judge_forgery(&p, &x), x.plan.n_cords, x.plan.options.distinct);
     thr_plan_destroy(&p);
     thr_frame_destroy(&f);
   }

@@ -1,5 +1,6 @@
-/* Cords that turn evenly, tied cords that turn least, and given numbers of ends that differ from piece to piece, of random small
- * frameworks against every choice of passes, ends and pairs. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cords that turn evenly, tied cords that turn least, and given numbers of ends that differ from
+ * piece to piece, of random small frameworks against every choice of passes, ends and pairs. */
 #include "graph/framework/make.h"
 #include "graph/plan/turning_proof.h"
 #include "planner/planner.h"
@@ -15,7 +16,8 @@
 
 enum { MOST_EDGES = 10, MOST_NODES = 8, MOST_POINTS = 64, MOST_CORDS = 8, MOST_STEPS = 40000000 };
 
-/* Points are what is paired: the two sides of every pass (2 p and 2 p + 1, at the nodes where it leaves), then the cord ends. */
+/* Points are what is paired: the two sides of every pass (2 p and 2 p + 1, at the nodes where it
+ * leaves), then the cord ends. */
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
@@ -50,7 +52,8 @@ static bool node_tied(const oracle *w, int v)
   for (unsigned next = first; next != reached;) {
     reached = next;
     for (int a = 0; a < w->n_sides; a++)
-      if (w->node[a] == v && w->mate[a] < w->n_sides && next >> (w->half[a] >> 1) & 1u) next |= 1u << (w->half[w->mate[a]] >> 1);
+      if (w->node[a] == v && w->mate[a] < w->n_sides && next >> (w->half[a] >> 1) & 1u)
+        next |= 1u << (w->half[w->mate[a]] >> 1);
   }
   return reached == all;
 }
@@ -95,18 +98,22 @@ static bool fresh(const oracle *w, int side)
   return w->mate[side] < 0 && w->mate[side ^ 1] < 0;
 }
 
-/* Was the point before b, which is like it, tried as the mate of a? Ends at a node are alike, and so are passes of an edge of
- * which nothing is paired yet. */
+/* Was the point before b, which is like it, tried as the mate of a? Ends at a node are alike, and
+ * so are passes of an edge of which nothing is paired yet. */
 static bool tried(const oracle *w, int a, int b)
 {
-  if (b >= w->n_sides) return b - 1 >= w->n_sides && w->node[b - 1] == w->node[b] && w->mate[b - 1] < 0;
-  return b >= 2 && w->half[b - 2] == w->half[b] && a >> 1 != (b - 2) >> 1 && fresh(w, b) && fresh(w, b - 2);
+  if (b >= w->n_sides)
+    return b - 1 >= w->n_sides && w->node[b - 1] == w->node[b] && w->mate[b - 1] < 0;
+  return b >= 2 && w->half[b - 2] == w->half[b] && a >> 1 != (b - 2) >> 1 && fresh(w, b) &&
+         fresh(w, b - 2);
 }
 
 /* Pairs what has no mate, node by node. */
 static void pair_points(oracle *w, double price)
 {
-  int cords = w->o->ends == THR_ENDS_CLOSED ? w->o->cords * w->n_components : (w->n_points - w->n_sides) / 2, a = -1;
+  int cords = w->o->ends == THR_ENDS_CLOSED ? w->o->cords * w->n_components
+                                            : (w->n_points - w->n_sides) / 2,
+      a = -1;
   if (price / (w->largest ? cords : 1) >= w->best - 1e-9) return;
   ck_assert_int_lt(++w->steps, MOST_STEPS);
   for (int v = 0; v < w->f->n_nodes && a < 0; v++) {
@@ -119,7 +126,9 @@ static void pair_points(oracle *w, double price)
     return;
   }
   for (int b = a + 1; b < w->n_points; b++) {
-    double more = w->node[b] != w->node[a] || w->mate[b] >= 0 || tried(w, a, b) ? (double)INFINITY : pair_price(w, a, b);
+    double more = w->node[b] != w->node[a] || w->mate[b] >= 0 || tried(w, a, b)
+                      ? (double)INFINITY
+                      : pair_price(w, a, b);
     if (isinf(more)) continue;
     w->mate[a] = b;
     w->mate[b] = a;
@@ -152,7 +161,8 @@ static void pair_all(oracle *w)
     int at = -2 * w->ends[v]; /* passes that turn */
     for (int i = 0; i < w->n_points; i++)
       at += w->node[i] == v;
-    if (at % 2 || at < 0 || (w->o->joint == THR_JOINT_TUBE && at < 2 * (thr_degree(w->f, v) - 1))) return;
+    if (at % 2 || at < 0 || (w->o->joint == THR_JOINT_TUBE && at < 2 * (thr_degree(w->f, v) - 1)))
+      return;
   }
   pair_points(w, 0);
 }
@@ -183,7 +193,8 @@ static void choose_passes(oracle *w, int e, double length)
   if (length > w->most_length * (1 + 1e-9)) return;
   if (e == w->f->n_edges) {
     int left[MOST_NODES] = {0};
-    for (int k = 0; k < w->n_components && w->o->ends != THR_ENDS_CLOSED && w->o->ends != THR_ENDS_COUNTS; k++)
+    for (int k = 0;
+         k < w->n_components && w->o->ends != THR_ENDS_CLOSED && w->o->ends != THR_ENDS_COUNTS; k++)
       left[k] = 2 * w->o->cords;
     for (int v = 0; v < w->f->n_nodes && w->o->ends == THR_ENDS_COUNTS; v++)
       left[w->component[v]] += w->o->end_count[v];
@@ -198,10 +209,15 @@ static void choose_passes(oracle *w, int e, double length)
 }
 
 /* Least price of all turns, or of those of the cord that turns most, below `below`; or below. */
-static double least_by_enumeration(const thr_frame *f, const thr_request *o, bool largest, int most_extra, double most_length,
-                                   double below)
+static double least_by_enumeration(const thr_frame *f, const thr_request *o, bool largest,
+                                   int most_extra, double most_length, double below)
 {
-  oracle w = {.f = f, .o = o, .largest = largest, .most_extra = most_extra, .most_length = most_length, .best = below};
+  oracle w = {.f = f,
+              .o = o,
+              .largest = largest,
+              .most_extra = most_extra,
+              .most_length = most_length,
+              .best = below};
   ck_assert(f->n_edges <= MOST_EDGES && f->n_nodes <= MOST_NODES);
   ck_assert_int_eq(thr_frame_components(f, w.component, &w.n_components, NULL), THR_OK);
   choose_passes(&w, 0, 0);
@@ -214,7 +230,8 @@ typedef struct {
   int asked, found, possible, least, optimal;
 } tally;
 
-/* Never below the least of all, never a bound above it, never a false claim; how often the plan is the least is counted. */
+/* Never below the least of all, never a bound above it, never a false claim; how often the plan is
+ * the least is counted. */
 static void compare(const thr_frame *f, const thr_request *o, int most_extra, tally *t)
 {
   const thr_limits none = {0};
@@ -225,7 +242,8 @@ static void compare(const thr_frame *f, const thr_request *o, int most_extra, ta
   t->asked++;
   if (st == THR_EINFEASIBLE) {
     assert_one_line(&err, NULL);
-    if (o->turning.length_slack < 0) t->possible += isfinite(least_by_enumeration(f, o, largest, most_extra, INFINITY, INFINITY));
+    if (o->turning.length_slack < 0)
+      t->possible += isfinite(least_by_enumeration(f, o, largest, most_extra, INFINITY, INFINITY));
     return;
   }
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
@@ -236,7 +254,8 @@ static void compare(const thr_frame *f, const thr_request *o, int most_extra, ta
     thr_plan_destroy(&p);
     return;
   }
-  double value = largest ? p.turning.largest : p.turning.price, bound = largest ? p.turning.largest_bound : p.turning.lower_bound;
+  double value = largest ? p.turning.largest : p.turning.price,
+         bound = largest ? p.turning.largest_bound : p.turning.lower_bound;
   double limit = p.turning.length_limit < 0 ? (double)INFINITY : p.turning.length_limit;
   double least = least_by_enumeration(f, o, largest, most_extra, limit, value + 1e-3);
   bool optimal = largest ? p.turning.largest_optimal : p.turning.optimal;
@@ -273,7 +292,8 @@ START_TEST(cords_are_least)
   for (int k = 0; k < 48; k++) {
     thr_frame f = random_frame(&r, rng_between(&r, 3, 4), rng_between(&r, 1, 2), LENGTHS_EUCLID);
     bool largest = k % 4 > 0;
-    thr_request o = request(&r, k % 5 ? THR_JOINT_TUBE : THR_JOINT_SOLID, kind[_i % 3], 1 + k % 3, largest);
+    thr_request o =
+        request(&r, k % 5 ? THR_JOINT_TUBE : THR_JOINT_SOLID, kind[_i % 3], 1 + k % 3, largest);
     compare(&f, &o, 2, &t);
     thr_frame_destroy(&f);
   }
@@ -284,7 +304,8 @@ START_TEST(cords_are_least)
 }
 END_TEST
 
-/* A tree of n nodes on the points of a lattice, each a step from another; neighbours are joined now and then, too. */
+/* A tree of n nodes on the points of a lattice, each a step from another; neighbours are joined now
+ * and then, too. */
 static thr_frame lattice_frame(rng *r, int n)
 {
   double xyz[MOST_NODES][3] = {{0}};
@@ -300,7 +321,8 @@ static thr_frame lattice_frame(rng *r, int n)
     edge[m][0] = from;
     edge[m++][1] = v;
     for (int u = 0; u < v; u++) {
-      const double apart = fabs(xyz[u][0] - xyz[v][0]) + fabs(xyz[u][1] - xyz[v][1]) + fabs(xyz[u][2] - xyz[v][2]);
+      const double apart =
+          fabs(xyz[u][0] - xyz[v][0]) + fabs(xyz[u][1] - xyz[v][1]) + fabs(xyz[u][2] - xyz[v][2]);
       if (u == from || apart > 10 || rng_below(r, 2)) continue;
       edge[m][0] = u;
       edge[m++][1] = v;
@@ -333,9 +355,11 @@ START_TEST(given_ends_in_every_piece)
   rng r = rng_make((uint64_t)_i + 100);
   tally t = {0};
   for (int k = 0; k < 8; k++) {
-    thr_frame a = k % 2 ? ring_make(3) : path_make(3), b = random_frame(&r, 3, 1, LENGTHS_EUCLID), f = side_by_side(&a, &b);
+    thr_frame a = k % 2 ? ring_make(3) : path_make(3), b = random_frame(&r, 3, 1, LENGTHS_EUCLID),
+              f = side_by_side(&a, &b);
     int end_count[MOST_NODES] = {0}, cords[2] = {1 + k / 4 % 2, 1 + k / 2 % 2};
-    thr_request o = request(&r, k % 3 ? THR_JOINT_SOLID : THR_JOINT_TUBE, THR_ENDS_COUNTS, 1, _i % 2);
+    thr_request o =
+        request(&r, k % 3 ? THR_JOINT_SOLID : THR_JOINT_TUBE, THR_ENDS_COUNTS, 1, _i % 2);
     for (int n = 2 * cords[0]; n > 0; n--)
       end_count[k % 2 ? rng_below(&r, 3) : 2 * (n % 2)]++;
     for (int n = 2 * cords[1]; n > 0; n--)
@@ -367,13 +391,15 @@ static thr_plan solve(const thr_frame *f, const thr_request *o)
   return p;
 }
 
-/* Tied domes: as many cords as asked for, none turns less than its share of the bound, and what is made small is not larger than
- * where the sum is; four cords, one from each side, attain the bound. */
+/* Tied domes: as many cords as asked for, none turns less than its share of the bound, and what is
+ * made small is not larger than where the sum is; four cords, one from each side, attain the bound.
+ */
 START_TEST(domes_are_tied_and_evened_out)
 {
   rng r = rng_make(1);
   thr_frame f = shape_make(THR_MAKE_DOME, 4, 0);
-  thr_request o = request(&r, THR_JOINT_TUBE, _i < 4 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1 + _i % 4, false);
+  thr_request o =
+      request(&r, THR_JOINT_TUBE, _i < 4 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1 + _i % 4, false);
   o.turning.cost = THR_TURN_ANGLE;
   o.turning.length_slack = -1;
   thr_plan sum = solve(&f, &o);
@@ -451,7 +477,8 @@ START_TEST(running_out_of_memory_leaves_nothing)
     thr_alloc_fail_at(k);
     st = thr_tortuosity_plan(&f, &o, &none, &p, &err);
     thr_alloc_fail_at(0);
-    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
+    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_ENOMEM,
+                  "allocation %ld: status %d, %s", k, (int)st, err.text);
     ck_assert(st != THR_ENOMEM || (!p.cord && !p.turning.tree.node));
     thr_plan_destroy(&p);
   }

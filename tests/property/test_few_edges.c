@@ -1,4 +1,6 @@
-/* Several cords through few edges, by the checker's tables, against all numbers of passes of all cords (tests/truth.h). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Several cords through few edges, by the checker's tables, against all numbers of passes of all
+ * cords (tests/truth.h). */
 #include "graph/angle.h"
 #include "graph/check/check_parts.h"
 #include "graph/check/edge_sets.h"
@@ -32,8 +34,12 @@ START_TEST(tables_are_true)
     int component[8] = {0};
     thr_few_edges by_length, by_turning;
     truth_table table = truth_table_make(&f, &o, 3);
-    ck_assert_int_eq(thr_few_edges_init(&by_length, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL), THR_OK);
-    ck_assert_int_eq(thr_few_edges_init(&by_turning, &f, &o, component, 0, true, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+    ck_assert_int_eq(
+        thr_few_edges_init(&by_length, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL),
+        THR_OK);
+    ck_assert_int_eq(
+        thr_few_edges_init(&by_turning, &f, &o, component, 0, true, INFINITY, THR_FEW_SETS, NULL),
+        THR_OK);
     for (int n = 1; n <= MOST_CORDS; n++) {
       double longest, dearest, sum, range, least = INFINITY;
       long double price = truth_price(&table, n, true, -1), all = truth_price(&table, n, false, -1);
@@ -41,7 +47,8 @@ START_TEST(tables_are_true)
       ck_assert_int_eq(thr_few_edges_dearest(&by_turning, n, &dearest, NULL), THR_OK);
       ck_assert_int_eq(thr_few_edges_sum(&by_turning, n, n, &sum, NULL), THR_OK);
       ck_assert_double_eq_tol(longest, truth_longest(&table, n), 1e-9 * longest);
-      if (price < INFINITY || dearest < INFINITY) ck_assert_double_eq_tol(dearest, (double)price, 1e-9);
+      if (price < INFINITY || dearest < INFINITY)
+        ck_assert_double_eq_tol(dearest, (double)price, 1e-9);
       if (all < INFINITY || sum < INFINITY) ck_assert_double_eq_tol(sum, (double)all, 1e-9);
       for (int k = n; k <= MOST_CORDS; k++)
         least = fmin(least, (double)truth_price(&table, k, false, -1));
@@ -57,8 +64,8 @@ START_TEST(tables_are_true)
 END_TEST
 
 /* What was chosen are cords: between ends, or closed, none above the limit, and over all edges. */
-static void assert_cords(const thr_frame *f, const thr_request *o, const thr_short_cords *cords, const int *chosen, int n,
-                         double limit)
+static void assert_cords(const thr_frame *f, const thr_request *o, const thr_short_cords *cords,
+                         const int *chosen, int n, double limit)
 {
   bool seen[32] = {false};
   for (int k = 0; k < n; k++) {
@@ -66,7 +73,9 @@ static void assert_cords(const thr_frame *f, const thr_request *o, const thr_sho
     if (chosen[k] < 0) continue;
     ck_assert_int_eq(thr_short_cords_walk(cords, chosen[k], &cord, NULL), THR_OK);
     const int from = thr_cord_start(f, &cord), to = thr_cord_end(f, &cord);
-    ck_assert(o->ends == THR_ENDS_CLOSED ? from == to : thr_plan_end_allowed(f, o, from) && thr_plan_end_allowed(f, o, to));
+    ck_assert(o->ends == THR_ENDS_CLOSED
+                  ? from == to
+                  : thr_plan_end_allowed(f, o, from) && thr_plan_end_allowed(f, o, to));
     ck_assert_double_le(thr_cord_length(f, &cord), limit * (1 + 1e-9));
     for (int i = 0; i < cord.n_passes; i++) {
       ck_assert(i == 0 || thr_head(f, cord.half[i - 1]) == thr_tail(f, cord.half[i]));
@@ -78,25 +87,30 @@ static void assert_cords(const thr_frame *f, const thr_request *o, const thr_sho
     ck_assert(seen[e]);
 }
 
-/* Sets found from walk to walk: the longest cord is that of the table over all sets, above a limit and below it. */
+/* Sets found from walk to walk: the longest cord is that of the table over all sets, above a limit
+ * and below it. */
 START_TEST(short_cords_are_those_of_the_table)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
   rng r = rng_make((uint64_t)_i + 277);
   int component[16] = {0}, chosen[6];
-  thr_frame f = random_frame(&r, rng_between(&r, 2, 13), rng_below(&r, 5), (length_kind)rng_below(&r, LENGTH_KINDS));
+  thr_frame f = random_frame(&r, rng_between(&r, 2, 13), rng_below(&r, 5),
+                             (length_kind)rng_below(&r, LENGTH_KINDS));
   thr_request o = options_for(ends[_i % 3], 1);
   const int n = o.cords = o.cords_least = rng_between(&r, 1, 6);
   double least, proved, found;
   thr_few_edges few;
   thr_short_cords cords;
-  ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_few_edges_init(&few, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL), THR_OK);
   ck_assert_int_eq(thr_few_edges_dearest(&few, n, &least, NULL), THR_OK);
   ck_assert(few.n == f.n_edges && isfinite(least));
   const double limit = least * (1 + rng_unit(&r));
   ck_assert_int_eq(thr_short_cords_init(&cords, &f, &o, limit, NULL, NULL), THR_OK);
   ck_assert_int_gt(cords.n, 0);
-  ck_assert_int_eq(thr_short_cords_longest(&cords, n, rng_below(&r, 2) ? limit : 0, chosen, &proved, &found, NULL), THR_OK);
+  ck_assert_int_eq(thr_short_cords_longest(&cords, n, rng_below(&r, 2) ? limit : 0, chosen, &proved,
+                                           &found, NULL),
+                   THR_OK);
   ck_assert_double_eq_tol(proved, least, 1e-9 * least);
   ck_assert_double_eq(found, proved);
   assert_cords(&f, &o, &cords, chosen, n, found);
@@ -111,7 +125,8 @@ START_TEST(short_cords_are_those_of_the_table)
 }
 END_TEST
 
-/* What cuts round the feet prove is no more than the table over all sets has, and often more than the least length shared out. */
+/* What cuts round the feet prove is no more than the table over all sets has, and often more than
+ * the least length shared out. */
 START_TEST(ways_in_are_no_longer_than_the_table)
 {
   const int examples = share_of(400);
@@ -119,20 +134,24 @@ START_TEST(ways_in_are_no_longer_than_the_table)
   for (int i = 0; i < examples; i++) {
     rng r = rng_make((uint64_t)i + 377);
     int component[16] = {0};
-    thr_frame f = random_frame(&r, rng_between(&r, 3, 9), rng_below(&r, 4), (length_kind)rng_below(&r, LENGTH_KINDS));
+    thr_frame f = random_frame(&r, rng_between(&r, 3, 9), rng_below(&r, 4),
+                               (length_kind)rng_below(&r, LENGTH_KINDS));
     thr_request o = options_for(THR_ENDS_FEET, 1);
     thr_few_edges few;
     thr_plan p;
     for (int v = 0; v < f.n_nodes; v++)
       f.foot[v] = v == 0 || (v == 1 && i % 2);
     o.cords = o.cords_least = rng_between(&r, 1, 6);
-    ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+    ck_assert_int_eq(
+        thr_few_edges_init(&few, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL),
+        THR_OK);
     const thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, NULL);
     ck_assert(st == THR_OK || st == THR_ELIMIT);
     if (p.proof.n_certificates == 1) {
       double longest, least;
       ck_assert_int_eq(thr_few_edges_dearest(&few, o.cords, &least, NULL), THR_OK);
-      ck_assert_int_eq(thr_ways_in(&f, &o, component, 0, o.cords, p.proof.certificate, &longest, NULL), THR_OK);
+      ck_assert_int_eq(
+          thr_ways_in(&f, &o, component, 0, o.cords, p.proof.certificate, &longest, NULL), THR_OK);
       ck_assert_double_le(longest, least * (1 + 1e-9));
       more += longest > p.proof.lower_bound / o.cords * (1 + 1e-6);
     }
@@ -144,12 +163,15 @@ START_TEST(ways_in_are_no_longer_than_the_table)
 }
 END_TEST
 
-/* Two feet 8 apart, and a stalk of length 3 from one to two triangles of length 4: of three cords one passes the edge between the
- * feet, and two go up the stalk and round a triangle, which makes 10. If all went up, the longest would have 34 / 3. */
+/* Two feet 8 apart, and a stalk of length 3 from one to two triangles of length 4: of three cords
+ * one passes the edge between the feet, and two go up the stalk and round a triangle, which
+ * makes 10. If all went up, the longest would have 34 / 3. */
 START_TEST(one_cord_may_stay_at_the_feet)
 {
-  static const double xyz[7][3] = {{0, 0, 0}, {8, 0, 0}, {0, 0, 3}, {1, 0, 4}, {0, 1, 4}, {-1, 0, 4}, {0, -1, 4}};
-  static const int edge[8][2] = {{0, 1}, {0, 2}, {2, 3}, {3, 4}, {4, 2}, {2, 5}, {5, 6}, {6, 2}}, feet[] = {0, 1, -1};
+  static const double xyz[7][3] = {{0, 0, 0}, {8, 0, 0},  {0, 0, 3}, {1, 0, 4},
+                                   {0, 1, 4}, {-1, 0, 4}, {0, -1, 4}};
+  static const int edge[8][2] = {{0, 1}, {0, 2}, {2, 3}, {3, 4}, {4, 2}, {2, 5}, {5, 6}, {6, 2}},
+                   feet[] = {0, 1, -1};
   static const double length[8] = {8, 3, 1, 2, 1, 1, 2, 1};
   int component[7] = {0};
   thr_frame f = frame_make(7, xyz, 8, edge, length, feet);
@@ -159,14 +181,16 @@ START_TEST(one_cord_may_stay_at_the_feet)
   o.cords = o.cords_least = 3;
   ck_assert_int_eq(length_plan(&f, &o, &(thr_limits){0}, &p, NULL, NULL), THR_OK);
   ck_assert_int_eq(p.proof.n_certificates, 1);
-  ck_assert_int_eq(thr_ways_in(&f, &o, component, 0, 3, p.proof.certificate, &longest, NULL), THR_OK);
+  ck_assert_int_eq(thr_ways_in(&f, &o, component, 0, 3, p.proof.certificate, &longest, NULL),
+                   THR_OK);
   ck_assert_double_eq_tol(longest, 10, 1e-9);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* A plan may say that all sets were tried; what that proves is found out again, and nothing above it is taken. */
+/* A plan may say that all sets were tried; what that proves is found out again, and nothing above
+ * it is taken. */
 START_TEST(all_sets_prove_no_more_than_is_true)
 {
   thr_frame f = grid_make(4, 4);
@@ -196,7 +220,8 @@ START_TEST(running_out_of_memory_gives_no_answer)
   thr_frame f = grid_make(3, 3);
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_few_edges few;
-  ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_few_edges_init(&few, &f, &o, component, 0, false, INFINITY, THR_FEW_SETS, NULL), THR_OK);
   for (int kind = 0; kind < 2; kind++) {
     thr_status st = THR_ENOMEM;
     for (long k = 1; st != THR_OK; k++) {
@@ -246,18 +271,20 @@ START_TEST(bounds_are_of_all_pieces)
 }
 END_TEST
 
-/* Of more edges, by length or by turning: against the planner's table, which is another one (graph/threading/small_cords.c); and
- * with a limit. */
+/* Of more edges, by length or by turning: against the planner's table, which is another one
+ * (graph/threading/small_cords.c); and with a limit. */
 START_TEST(larger_ones_are_those_of_the_planner)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
   rng r = rng_make((uint64_t)_i + 77);
   int component[16] = {0};
-  thr_frame f = random_frame(&r, rng_between(&r, 14, 16), rng_below(&r, 3), LENGTHS_EUCLID); /* 13 to 17 edges */
+  thr_frame f = random_frame(&r, rng_between(&r, 14, 16), rng_below(&r, 3),
+                             LENGTHS_EUCLID); /* 13 to 17 edges */
   thr_request o = options_for(ends[_i % 3], 1);
   const bool turning = rng_below(&r, 2);
   const int cords = rng_between(&r, 2, 5);
-  const thr_small_ask ask = {.least = cords, .most = cords, .turning = turning, .even = true, .limit = INFINITY};
+  const thr_small_ask ask = {
+      .least = cords, .most = cords, .turning = turning, .even = true, .limit = INFINITY};
   const thr_limits limits = {0};
   thr_small_cords best;
   thr_few_edges few;
@@ -269,7 +296,9 @@ START_TEST(larger_ones_are_those_of_the_planner)
     least = fmax(least, turning ? thr_cord_price(&f, &o, &cord) : thr_cord_length(&f, &cord));
   }
   ck_assert(certain && f.n_edges > THR_FEW_SUMMED);
-  ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, turning, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_few_edges_init(&few, &f, &o, component, 0, turning, INFINITY, THR_FEW_SETS, NULL),
+      THR_OK);
   ck_assert_int_eq(few.n, f.n_edges);
   ck_assert_int_eq(thr_few_edges_dearest(&few, cords, &dearest, NULL), THR_OK);
   if (best.n > 0) ck_assert_double_eq_tol(dearest, least, 1e-9);
@@ -277,7 +306,8 @@ START_TEST(larger_ones_are_those_of_the_planner)
   thr_few_edges_destroy(&few);
   for (int below = 0; below < 2 && best.n > 0 && dearest > 1e-3; below++) {
     double limit = dearest * (below ? 1 - 1e-6 : 1 + 1e-6);
-    ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, turning, limit, THR_FEW_SETS, NULL), THR_OK);
+    ck_assert_int_eq(
+        thr_few_edges_init(&few, &f, &o, component, 0, turning, limit, THR_FEW_SETS, NULL), THR_OK);
     ck_assert_int_eq(thr_few_edges_dearest(&few, cords, &other, NULL), THR_OK);
     ck_assert(below ? isinf(other) : other == dearest);
     thr_few_edges_destroy(&few);
@@ -287,26 +317,32 @@ START_TEST(larger_ones_are_those_of_the_planner)
 }
 END_TEST
 
-/* Different cords over every edge: one over each is the table above, by another way; as many as there are cords pass all edges;
- * and what is found in between is what it is said to be, no cheaper with more over every edge. */
+/* Different cords over every edge: one over each is the table above, by another way; as many as
+ * there are cords pass all edges; and what is found in between is what it is said to be, no cheaper
+ * with more over every edge. */
 START_TEST(different_ones_are_true)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
   enum { CORDS = 4 };
   rng r = rng_make((uint64_t)_i + 177);
   int component[16] = {0};
-  thr_frame f = random_frame(&r, rng_between(&r, 8, 14), rng_below(&r, 4), LENGTHS_EUCLID); /* up to 17 edges */
+  thr_frame f = random_frame(&r, rng_between(&r, 8, 14), rng_below(&r, 4),
+                             LENGTHS_EUCLID); /* up to 17 edges */
   thr_request o = options_for(ends[_i % 3], 1);
   const bool turning = rng_below(&r, 2);
   double before = 0, once;
   thr_few_edges few;
-  ck_assert_int_eq(thr_few_edges_init(&few, &f, &o, component, 0, turning, INFINITY, THR_FEW_SETS, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_few_edges_init(&few, &f, &o, component, 0, turning, INFINITY, THR_FEW_SETS, NULL),
+      THR_OK);
   ck_assert_int_eq(thr_few_edges_dearest(&few, CORDS, &once, NULL), THR_OK);
   for (int each = 1; each <= CORDS; each++) {
     double proved, found;
     unsigned set[CORDS];
     const double known = rng_below(&r, 2) ? 0 : before;
-    ck_assert_int_eq(thr_few_edges_different_dearest(&few, each, CORDS, known, set, &proved, &found, NULL), THR_OK);
+    ck_assert_int_eq(
+        thr_few_edges_different_dearest(&few, each, CORDS, known, set, &proved, &found, NULL),
+        THR_OK);
     ck_assert(proved == found && proved >= before);
     ck_assert(each > 1 || proved == once);
     ck_assert(each < CORDS || proved == few.one[(1u << few.n) - 1]);
@@ -325,13 +361,15 @@ START_TEST(different_ones_are_true)
 }
 END_TEST
 
-/* As many cords as there are edges and more, closed or not: all plans are proved, and truly the shortest. */
+/* As many cords as there are edges and more, closed or not: all plans are proved, and truly the
+ * shortest. */
 START_TEST(lengths_of_many_cords_are_proved)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
   rng r = rng_make((uint64_t)_i + 500);
   for (int i = 0; i < 3; i++) {
-    thr_frame f = random_frame(&r, rng_between(&r, 2, 5), rng_below(&r, 4), (length_kind)rng_below(&r, LENGTH_KINDS));
+    thr_frame f = random_frame(&r, rng_between(&r, 2, 5), rng_below(&r, 4),
+                               (length_kind)rng_below(&r, LENGTH_KINDS));
     thr_request o = options_for(ends[i], 1);
     thr_plan p;
     o.cords = o.cords_least = rng_between(&r, 2, f.n_edges + 3);

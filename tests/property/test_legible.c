@@ -1,4 +1,6 @@
-/* Instructions of the rows of the table of symmetries, against all threadings that turn out the same in every aim. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Instructions of the rows of the table of symmetries, against all threadings that turn out the
+ * same in every aim. */
 #include "graph/plan/plan_measures.h"
 #include "symmetry/symmetry.h"
 #include "tests/frameworks.h"
@@ -11,7 +13,8 @@
 
 enum { MOST_HALVES = 26, MOST_ORDER = 48 };
 
-/* Every edge is passed once: a threading is a partner for every half-edge that leaves a node, or none where a cord ends. */
+/* Every edge is passed once: a threading is a partner for every half-edge that leaves a node, or
+ * none where a cord ends. */
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
@@ -53,7 +56,8 @@ static int follow(exhaustive *x, int *on)
   return n;
 }
 
-/* A closed cord of ends anywhere comes out where it turns most, as the program's do: that turn is none. */
+/* A closed cord of ends anywhere comes out where it turns most, as the program's do: that turn is
+ * none. */
 static void start_sharpest(exhaustive *x, thr_cord *c)
 {
   int start = 0, n = c->n_passes, turned[MOST_HALVES];
@@ -73,7 +77,8 @@ static void find_copies(exhaustive *x, int n, const int *on)
   for (int i = 0; i < n; i++)
     x->unique[i] = -1;
   for (int i = 0; i < n; i++)
-    for (int g = 0; g < x->row->order; g++) { /* element 0 is the identity: a path is its own first copy */
+    for (int g = 0; g < x->row->order;
+         g++) { /* element 0 is the identity: a path is its own first copy */
       const int other = on[x->image[g][x->cord[i].half[0]] >> 1];
       if (x->unique[i] >= 0 && x->unique[i] != i) break;
       if (x->unique[other] >= 0) continue;
@@ -120,14 +125,16 @@ static void weigh(exhaustive *x)
   if (paths != x->row->record.unique_paths || fabs(steps - x->row->record.steps) > 1e-6) return;
   if (turning > x->row->metrics.turning + 1e-6) return;
   if (thr_cords_pulled_turning(x->f, x->cord, n) > x->row->pulled + 1e-6) return;
-  thr_plan p = {.frame = *x->f, .options = *x->o, .cord = x->cord, .n_cords = n, .symmetry = x->record};
+  thr_plan p = {
+      .frame = *x->f, .options = *x->o, .cord = x->cord, .n_cords = n, .symmetry = x->record};
   p.symmetry.unique = x->unique;
   p.symmetry.element = x->element;
   const int instructions = thr_reading_of(&p).instructions;
   if (x->least < 0 || instructions < x->least) x->least = instructions;
 }
 
-/* Gives the images of a the images of b as partners (-2: ends); false if that contradicts what is there. */
+/* Gives the images of a the images of b as partners (-2: ends); false if that contradicts what is
+ * there. */
 static bool pair_all(exhaustive *x, int a, int b)
 {
   for (int g = 0; g < x->row->order; g++) {
@@ -154,7 +161,9 @@ static void choose_partners(exhaustive *x)
   memcpy(before, x->partner, sizeof before);
   const bool end = x->o->ends == THR_ENDS_ANY;
   for (int b = end ? -2 : 0; b < n; b++) {
-    if (b == -1 || b == a || (b >= 0 && (x->partner[b] != -1 || thr_tail(x->f, b) != thr_tail(x->f, a)))) continue;
+    if (b == -1 || b == a ||
+        (b >= 0 && (x->partner[b] != -1 || thr_tail(x->f, b) != thr_tail(x->f, a))))
+      continue;
     if (pair_all(x, a, b)) choose_partners(x);
     memcpy(x->partner, before, sizeof before);
   }
@@ -169,7 +178,8 @@ static void try_all(exhaustive *x, const thr_symmetries *t)
   x->record.n_images = x->row->order;
   x->record.image = calloc((size_t)(x->row->order * n), sizeof(int));
   for (int g = 0; g < x->row->order; g++) {
-    memcpy(x->record.image + g * n, all->image + x->row->elements.element[g] * n, (size_t)n * sizeof(int));
+    memcpy(x->record.image + g * n, all->image + x->row->elements.element[g] * n,
+           (size_t)n * sizeof(int));
     for (int h = 0; h < 2 * x->f->n_edges; h++)
       x->image[g][h] = image_of(x->f, x->record.image + g * n, h);
   }
@@ -181,7 +191,8 @@ static void try_all(exhaustive *x, const thr_symmetries *t)
 }
 
 typedef struct {
-  int rows, least, read, could; /* rows compared; with the fewest instructions; instructions in all, of theirs and the fewest */
+  int rows, least, read, could; /* rows compared; with the fewest instructions; instructions in all,
+                                   of theirs and the fewest */
 } tally;
 
 static void compare_rows(thr_frame f, thr_ends ends, tally *sum)
@@ -196,8 +207,9 @@ static void compare_rows(thr_frame f, thr_ends ends, tally *sum)
     exhaustive x = {.f = &f, .o = &o, .row = &t.row[i]};
     if (x.row->n_cords == 0 || x.row->metrics.overlap > 1e-9 || x.row->order > MOST_ORDER) continue;
     try_all(&x, &t);
-    ck_assert_msg(x.least >= 0 && x.least <= x.row->instructions, "%d of %d edges, order %d: %d instructions, of all %d", i,
-                  f.n_edges, x.row->order, x.row->instructions, x.least);
+    ck_assert_msg(x.least >= 0 && x.least <= x.row->instructions,
+                  "%d of %d edges, order %d: %d instructions, of all %d", i, f.n_edges,
+                  x.row->order, x.row->instructions, x.least);
     sum->rows++;
     sum->least += x.least == x.row->instructions;
     sum->read += x.row->instructions;
@@ -221,8 +233,9 @@ START_TEST(few_threadings_of_the_same_aims_are_read_in_fewer_instructions)
   compare_rows(no_feet(solid_make(OCTAHEDRON)), THR_ENDS_CLOSED, &sum);
   compare_rows(wheel_make(4), THR_ENDS_ANY, &sum);
   compare_rows(triangles_make(4), THR_ENDS_CLOSED, &sum);
-  ck_assert_msg(sum.rows >= 150 && 100 * sum.least >= 96 * sum.rows, "%d of %d rows have the fewest instructions, %d of %d",
-                sum.least, sum.rows, sum.read, sum.could);
+  ck_assert_msg(sum.rows >= 150 && 100 * sum.least >= 96 * sum.rows,
+                "%d of %d rows have the fewest instructions, %d of %d", sum.least, sum.rows,
+                sum.read, sum.could);
 }
 END_TEST
 

@@ -1,4 +1,6 @@
-/* Shortest plans under every combination of cover, capacity, ends and number of cords, against all choices of extra passes. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shortest plans under every combination of cover, capacity, ends and number of cords, against all
+ * choices of extra passes. */
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
 #include "tests/frameworks.h"
@@ -18,7 +20,8 @@ typedef struct {
   const thr_frame *f;
   const thr_request *o;
   int passes[EDGES];
-  signed char *circuits; /* [PASSES^EDGES] most circuits that these passes fall into, -1 = not known */
+  signed char
+      *circuits; /* [PASSES^EDGES] most circuits that these passes fall into, -1 = not known */
 } oracle;
 
 static int number_of(const oracle *x)
@@ -31,7 +34,8 @@ static int number_of(const oracle *x)
 
 static int most_circuits(oracle *x);
 
-/* Goes on from node at to the goal by passes that are left, through no node twice: the most circuits with this one. */
+/* Goes on from node at to the goal by passes that are left, through no node twice: the most
+ * circuits with this one. */
 static int close_circuit(oracle *x, int at, int goal, unsigned visited)
 {
   int best = -100;
@@ -49,7 +53,8 @@ static int close_circuit(oracle *x, int at, int goal, unsigned visited)
   return best;
 }
 
-/* Of x->passes, which are even at every node: the first pass that is left is in one of the circuits. */
+/* Of x->passes, which are even at every node: the first pass that is left is in one of the
+ * circuits. */
 static int most_circuits(oracle *x)
 {
   int e = 0, key = number_of(x);
@@ -67,8 +72,8 @@ static int most_circuits(oracle *x)
   return best;
 }
 
-/* Do the passes hold as many cords as asked for? With ends allowed: at every node as many ends as passes at most, and an odd
- * number of ends where the passes are odd in number. */
+/* Do the passes hold as many cords as asked for? With ends allowed: at every node as many ends as
+ * passes at most, and an odd number of ends where the passes are odd in number. */
 static bool holds(oracle *x)
 {
   const thr_frame *f = x->f;
@@ -78,8 +83,8 @@ static bool holds(oracle *x)
     for (int s = 0; s < 2; s++)
       at[f->edge[e][s]] += x->passes[e];
   for (int v = 0; v < f->n_nodes; v++) {
-    bool here =
-        o->ends == THR_ENDS_ANY || (o->ends == THR_ENDS_FEET && f->foot[v]) || (o->ends == THR_ENDS_NODES && o->end_node[v]);
+    bool here = o->ends == THR_ENDS_ANY || (o->ends == THR_ENDS_FEET && f->foot[v]) ||
+                (o->ends == THR_ENDS_NODES && o->end_node[v]);
     if (o->ends == THR_ENDS_COUNTS) {
       if (at[v] < o->end_count[v] || (at[v] - o->end_count[v]) % 2) return false;
       continue;
@@ -156,10 +161,12 @@ static void choose_passes(rng *r, instance *x)
 
 static void choose(rng *r, instance *x)
 {
-  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS};
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES,
+                                  THR_ENDS_COUNTS};
   *x = (instance){0};
   int n = rng_between(r, 2, NODES), extra = rng_below(r, 4);
-  x->f = random_frame(r, n, extra < EDGES - n + 1 ? extra : EDGES - n + 1, (length_kind)rng_below(r, LENGTH_KINDS));
+  x->f = random_frame(r, n, extra < EDGES - n + 1 ? extra : EDGES - n + 1,
+                      (length_kind)rng_below(r, LENGTH_KINDS));
   x->o = options_for(ends[rng_below(r, 5)], 1);
   choose_passes(r, x);
   x->o.cords = rng_between(r, 1, 4);
@@ -196,28 +203,33 @@ static int most_extra(const thr_plan *p)
   return most;
 }
 
-/* What the checker makes of the plan's certificate, as it is now, is true. Returns whether it accepts it. */
+/* What the checker makes of the plan's certificate, as it is now, is true. Returns whether it
+ * accepts it. */
 static bool bound_is_true(const thr_plan *p, double least)
 {
   bool optimal;
   double bound;
-  thr_status st =
-      thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, p->proof.certificate, 1, &optimal, &bound, NULL);
+  thr_status st = thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords,
+                                         p->proof.certificate, 1, &optimal, &bound, NULL);
   ck_assert(st == THR_OK || st == THR_EVIOLATED);
   if (!st) ck_assert_double_le(bound, least * (1 + 1e-9));
   if (!st && optimal) ck_assert_double_le(p->metrics.length, least * (1 + 1e-9));
   return !st;
 }
 
-/* Certificates that were tampered with are refused, or prove no more than what is true. Returns how many prices were accepted. */
+/* Certificates that were tampered with are refused, or prove no more than what is true. Returns how
+ * many prices were accepted. */
 static int tamper(rng *r, thr_plan *p, double least)
 {
   thr_certificate *c = &p->proof.certificate[0], kept = *c;
   int n = p->options.ends == THR_ENDS_COUNTS ? p->frame.n_nodes : 1, accepted = 0;
-  int64_t price[NODES] = {0}, weight = thr_certificate_weight(&p->frame, c, rng_below(r, p->frame.n_edges)) * c->denominator;
+  int64_t price[NODES] = {0},
+          weight =
+              thr_certificate_weight(&p->frame, c, rng_below(r, p->frame.n_edges)) * c->denominator;
   for (int i = 0; i < 4 && c->n_cuts + c->n_prices > 0; i++) {
     int which = rng_below(r, c->n_cuts + c->n_prices);
-    int64_t *one = which < c->n_cuts ? &c->cut[which].value : &c->place_price[which - c->n_cuts], was = *one;
+    int64_t *one = which < c->n_cuts ? &c->cut[which].value : &c->place_price[which - c->n_cuts],
+            was = *one;
     int64_t change = (int64_t)((rng_unit(r) - 0.3) * (double)weight);
     *one += change;
     if (which < c->n_cuts) c->sum += change;
@@ -225,7 +237,8 @@ static int tamper(rng *r, thr_plan *p, double least)
     *one = was;
     c->sum = kept.sum;
   }
-  *c = (thr_certificate){kept.component, kept.scale, kept.denominator, .join = kept.join, .n_prices = n, .place_price = price};
+  *c = (thr_certificate){kept.component,    kept.scale,    kept.denominator,
+                         .join = kept.join, .n_prices = n, .place_price = price};
   for (int i = 0; i < 4; i++) {
     for (int v = 0; v < n; v++)
       price[v] = rng_below(r, 3) ? (int64_t)(rng_unit(r) * (double)weight) : 0;
@@ -254,12 +267,15 @@ static void compare(rng *r, instance *x, signed char *circuits, int *accepted)
   assert_counts(&p);
   assert_plan_sound(&p);
   bool same = fabs(p.metrics.length - least) <= 1e-9 * least;
-  ck_assert_msg(same || (most_extra(&p) > EXTRA && p.metrics.length < least), "%.17g, but %.17g will do; ends %s, cords %d to %d",
-                p.metrics.length, least, thr_ends_name(o->ends), o->cords_least, o->cords);
-  if (p.proof.optimal) ck_assert_double_eq_tol(p.proof.lower_bound, p.metrics.length, 1e-9 * p.metrics.length);
+  ck_assert_msg(same || (most_extra(&p) > EXTRA && p.metrics.length < least),
+                "%.17g, but %.17g will do; ends %s, cords %d to %d", p.metrics.length, least,
+                thr_ends_name(o->ends), o->cords_least, o->cords);
+  if (p.proof.optimal)
+    ck_assert_double_eq_tol(p.proof.lower_bound, p.metrics.length, 1e-9 * p.metrics.length);
   ck_assert_double_le(p.proof.lower_bound, p.metrics.length * (1 + 1e-9));
-  ck_assert_msg(p.proof.optimal || o->ends == THR_ENDS_CLOSED, "not proved; ends %s, cords %d to %d", thr_ends_name(o->ends),
-                o->cords_least, o->cords);
+  ck_assert_msg(p.proof.optimal || o->ends == THR_ENDS_CLOSED,
+                "not proved; ends %s, cords %d to %d", thr_ends_name(o->ends), o->cords_least,
+                o->cords);
   if (same) *accepted += tamper(r, &p, least);
   thr_plan_destroy(&p);
 }

@@ -1,5 +1,6 @@
-/* Minimum T-joins of random graphs: both engines against each other and against all subsets; every certificate is checked here,
- * by sums of 128 bits. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Minimum T-joins of random graphs: both engines against each other and against all subsets; every
+ * certificate is checked here, by sums of 128 bits. */
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "lp/matching/blossom.h"
@@ -53,8 +54,11 @@ static void add(graph *g, int a, int b, int64_t weight)
 
 static thr_tjoin_problem problem_of(const graph *g)
 {
-  return (thr_tjoin_problem){
-      .n_nodes = g->n, .n_edges = g->m, .edge = (const int(*)[2])g->edge, .weight = g->weight, .odd = g->odd};
+  return (thr_tjoin_problem){.n_nodes = g->n,
+                             .n_edges = g->m,
+                             .edge = (const int(*)[2])g->edge,
+                             .weight = g->weight,
+                             .odd = g->odd};
 }
 
 /* T: as the degrees are, or at random. */
@@ -70,7 +74,13 @@ static void choose_odd(rng *r, graph *g, bool degrees)
   if (count % 2) g->odd[last] = false;
 }
 
-typedef enum { WEIGHTS_ONE, WEIGHTS_WITH_ZERO, WEIGHTS_SMALL, WEIGHTS_WIDE, WEIGHT_KINDS } weight_kind;
+typedef enum {
+  WEIGHTS_ONE,
+  WEIGHTS_WITH_ZERO,
+  WEIGHTS_SMALL,
+  WEIGHTS_WIDE,
+  WEIGHT_KINDS
+} weight_kind;
 
 static int64_t draw_weight(rng *r, weight_kind kind)
 {
@@ -82,9 +92,18 @@ static int64_t draw_weight(rng *r, weight_kind kind)
   }
 }
 
-typedef enum { SHAPE_SPARSE, SHAPE_DENSE, SHAPE_CHAINS, SHAPE_TREE, SHAPE_GRID, SHAPE_HUB, SHAPES } shape_kind;
+typedef enum {
+  SHAPE_SPARSE,
+  SHAPE_DENSE,
+  SHAPE_CHAINS,
+  SHAPE_TREE,
+  SHAPE_GRID,
+  SHAPE_HUB,
+  SHAPES
+} shape_kind;
 
-/* A random tree, further edges (perhaps parallel ones), edges divided into chains, a hub joined to many nodes. */
+/* A random tree, further edges (perhaps parallel ones), edges divided into chains, a hub joined to
+ * many nodes. */
 static graph draw_graph(rng *r, int n, shape_kind shape, weight_kind weights)
 {
   int chains = shape == SHAPE_CHAINS ? n : 0, hub = shape == SHAPE_HUB, side = 2;
@@ -95,7 +114,8 @@ static graph draw_graph(rng *r, int n, shape_kind shape, weight_kind weights)
   }
   graph g = graph_make(n + chains + hub);
   for (int v = 1; v < n && shape != SHAPE_GRID; v++)
-    add(&g, shape == SHAPE_HUB && v > 4 ? v - rng_between(r, 1, 4) : rng_below(r, v), v, draw_weight(r, weights));
+    add(&g, shape == SHAPE_HUB && v > 4 ? v - rng_between(r, 1, 4) : rng_below(r, v), v,
+        draw_weight(r, weights));
   for (int v = 0; v < n && shape == SHAPE_GRID; v++) {
     if (v % side < side - 1) add(&g, v, v + 1, draw_weight(r, weights));
     if (v + side < n) add(&g, v, v + side, draw_weight(r, weights));
@@ -156,7 +176,8 @@ static void assert_is_join(const graph *g, const thr_tjoin *t)
   free(parity);
 }
 
-/* Marks in has[n_cuts * n] what each cut holds, and asserts that children are disjoint and before their parents. */
+/* Marks in has[n_cuts * n] what each cut holds, and asserts that children are disjoint and before
+ * their parents. */
 static void spread_sets(const graph *g, const thr_tjoin *t, bool *has)
 {
   for (int i = 0; i < t->n_cuts; i++) {
@@ -181,7 +202,8 @@ static void spread_sets(const graph *g, const thr_tjoin *t, bool *has)
   }
 }
 
-/* Every set odd, no edge overloaded; returns the sum of the values, in units of 1 / THR_DUAL_DENOMINATOR. */
+/* Every set odd, no edge overloaded; returns the sum of the values, in units of 1 /
+ * THR_DUAL_DENOMINATOR. */
 static wide proven(const graph *g, const thr_tjoin *t)
 {
   bool *has = calloc((size_t)t->n_cuts * (size_t)g->n + 1, sizeof *has);
@@ -224,7 +246,8 @@ static thr_tjoin solve(const graph *g, way by)
   thr_tjoin_problem p = problem_of(g);
   thr_tjoin t = {0};
   thr_err err = {0};
-  thr_status st = by == BY_LP ? thr_tjoin_solve(&p, &no_limit, &t, &err) : thr_moat_solve(&p, &no_limit, &t, &err);
+  thr_status st = by == BY_LP ? thr_tjoin_solve(&p, &no_limit, &t, &err)
+                              : thr_moat_solve(&p, &no_limit, &t, &err);
   ck_assert_msg(st == THR_OK, "way %d: %s", by, err.text);
   return t;
 }
@@ -246,7 +269,8 @@ START_TEST(small_ones_match_all_subsets)
 {
   rng r = rng_make((uint64_t)_i + 1);
   for (int k = 0; k < 120; k++) {
-    graph g = draw_graph(&r, rng_between(&r, 2, 6), (shape_kind)(k % SHAPES), (weight_kind)(k / SHAPES % WEIGHT_KINDS));
+    graph g = draw_graph(&r, rng_between(&r, 2, 6), (shape_kind)(k % SHAPES),
+                         (weight_kind)(k / SHAPES % WEIGHT_KINDS));
     if (g.m <= 17) assert_all_ways(&g, least_by_subsets(&g));
     graph_destroy(&g);
   }
@@ -257,7 +281,8 @@ START_TEST(medium_ones_agree)
 {
   rng r = rng_make((uint64_t)_i + 1000);
   for (int k = 0; k < 48; k++) {
-    graph g = draw_graph(&r, rng_between(&r, 7, 60), (shape_kind)(k % SHAPES), (weight_kind)(k / SHAPES % WEIGHT_KINDS));
+    graph g = draw_graph(&r, rng_between(&r, 7, 60), (shape_kind)(k % SHAPES),
+                         (weight_kind)(k / SHAPES % WEIGHT_KINDS));
     assert_all_ways(&g, INT64_MAX);
     graph_destroy(&g);
   }
@@ -268,7 +293,8 @@ END_TEST
 START_TEST(larger_ones_are_proved)
 {
   rng r = rng_make((uint64_t)_i + 2000);
-  graph g = draw_graph(&r, rng_between(&r, 300, 900), (shape_kind)(_i % SHAPES), (weight_kind)(_i / SHAPES % WEIGHT_KINDS));
+  graph g = draw_graph(&r, rng_between(&r, 300, 900), (shape_kind)(_i % SHAPES),
+                       (weight_kind)(_i / SHAPES % WEIGHT_KINDS));
   thr_tjoin t = solve(&g, BY_MATCHING);
   assert_optimal(&g, &t, t.length);
   thr_tjoin_destroy(&t);
@@ -279,7 +305,8 @@ END_TEST
 START_TEST(same_input_gives_the_same_join)
 {
   rng r = rng_make((uint64_t)_i + 3000);
-  graph g = draw_graph(&r, 200, (shape_kind)(_i % SHAPES), (weight_kind)(_i / SHAPES % WEIGHT_KINDS));
+  graph g =
+      draw_graph(&r, 200, (shape_kind)(_i % SHAPES), (weight_kind)(_i / SHAPES % WEIGHT_KINDS));
   thr_tjoin a = solve(&g, BY_MATCHING), b = solve(&g, BY_MATCHING);
   ck_assert_int_eq(memcmp(a.in_join, b.in_join, (size_t)g.m * sizeof *a.in_join), 0);
   ck_assert_int_eq(a.n_cuts, b.n_cuts);
@@ -327,7 +354,8 @@ START_TEST(every_allocation_fails_once)
     thr_tjoin t;
     thr_err err = {0};
     thr_alloc_fail_at(k);
-    st = _i % 2 ? thr_moat_solve(&p, &no_limit, &t, &err) : thr_tjoin_solve(&p, &no_limit, &t, &err);
+    st =
+        _i % 2 ? thr_moat_solve(&p, &no_limit, &t, &err) : thr_tjoin_solve(&p, &no_limit, &t, &err);
     thr_alloc_fail_at(0);
     if (st) ck_assert_msg(st == THR_ENOMEM, "allocation %ld: %s", k, err.text);
     if (st) ck_assert(!t.in_join && !t.cut);
@@ -340,7 +368,9 @@ END_TEST
 START_TEST(too_large_weights_are_refused_or_go_to_the_other_engine)
 {
   graph g = graph_make(3);
-  add(&g, 0, 1, _i ? THR_MOAT_WEIGHTS_MOST + 1 : THR_MOAT_WEIGHTS_MOST); /* too large by itself, or with the other one */
+  add(&g, 0, 1,
+      _i ? THR_MOAT_WEIGHTS_MOST + 1
+         : THR_MOAT_WEIGHTS_MOST); /* too large by itself, or with the other one */
   add(&g, 1, 2, _i ? 5 : THR_MOAT_WEIGHTS_MOST);
   add(&g, 2, 0, _i ? 5 : THR_MOAT_WEIGHTS_MOST);
   g.odd[0] = g.odd[1] = true;
@@ -381,7 +411,8 @@ START_TEST(glpk_confirms_what_is_optimal_and_nothing_else)
 {
   rng r = rng_make((uint64_t)_i + 5000);
   for (int k = 0; k < 2 * SHAPES; k++) {
-    graph g = draw_graph(&r, rng_between(&r, 5, 80), (shape_kind)(k % SHAPES), (weight_kind)(_i % WEIGHT_KINDS));
+    graph g = draw_graph(&r, rng_between(&r, 5, 80), (shape_kind)(k % SHAPES),
+                         (weight_kind)(_i % WEIGHT_KINDS));
     thr_tjoin_problem p = problem_of(&g);
     for (way by = BY_LP; by < WAYS; by++) {
       thr_tjoin t = solve(&g, by);
@@ -390,7 +421,8 @@ START_TEST(glpk_confirms_what_is_optimal_and_nothing_else)
       ck_assert_msg(thr_tjoin_confirm(&p, &t, &no_limit, &said, &err) == THR_OK, "%s", err.text);
       ck_assert_int_eq(said, THR_CONFIRMED);
       t.length += 1 + rng_below(&r, 5);
-      if (t.n_cuts) ck_assert_int_eq(thr_tjoin_confirm(&p, &t, &no_limit, &said, &err), THR_ESOLVER);
+      if (t.n_cuts)
+        ck_assert_int_eq(thr_tjoin_confirm(&p, &t, &no_limit, &said, &err), THR_ESOLVER);
       thr_tjoin_destroy(&t);
     }
     graph_destroy(&g);
@@ -400,7 +432,8 @@ END_TEST
 
 /* ---- the programme on the cuts, and its basis ---- */
 
-/* An equation and those of all cuts inside of its own add up to: the edges that leave the set, less the slack, are 1. */
+/* An equation and those of all cuts inside of its own add up to: the edges that leave the set, less
+ * the slack, are 1. */
 static void assert_adds_up_to_cuts(const graph *g, const thr_tjoin *t, const thr_cut_programme *c)
 {
   size_t rows = (size_t)c->n_rows, columns = (size_t)c->n_columns, n = (size_t)g->n;
@@ -414,9 +447,11 @@ static void assert_adds_up_to_cuts(const graph *g, const thr_tjoin *t, const thr
   for (size_t i = 0; i < rows; i++) { /* children come first */
     rhs[i] += c->rhs[i];
     for (size_t j = 0; j < columns; j++) {
-      bool leaves = j < (size_t)g->m && has[i * n + (size_t)g->edge[j][0]] != has[i * n + (size_t)g->edge[j][1]];
+      bool leaves = j < (size_t)g->m &&
+                    has[i * n + (size_t)g->edge[j][0]] != has[i * n + (size_t)g->edge[j][1]];
       ck_assert(sum[i * columns + j] == (j == (size_t)g->m + i ? -1 : leaves));
-      if (t->cut[i].parent >= 0) sum[(size_t)t->cut[i].parent * columns + j] += sum[i * columns + j];
+      if (t->cut[i].parent >= 0)
+        sum[(size_t)t->cut[i].parent * columns + j] += sum[i * columns + j];
     }
     ck_assert(rhs[i] == 1);
     if (t->cut[i].parent >= 0) rhs[t->cut[i].parent] += rhs[i];
@@ -493,7 +528,8 @@ START_TEST(the_programme_on_the_cuts_starts_at_the_join)
 {
   rng r = rng_make((uint64_t)_i + 6000);
   for (int k = 0; k < 2 * SHAPES; k++) {
-    graph g = draw_graph(&r, rng_between(&r, 5, 40), (shape_kind)(k % SHAPES), (weight_kind)(_i % WEIGHT_KINDS));
+    graph g = draw_graph(&r, rng_between(&r, 5, 40), (shape_kind)(k % SHAPES),
+                         (weight_kind)(_i % WEIGHT_KINDS));
     thr_tjoin_problem p = problem_of(&g);
     for (way by = BY_LP; by < WAYS; by++) {
       thr_tjoin t = solve(&g, by);
@@ -522,7 +558,9 @@ START_TEST(every_allocation_of_a_confirmation_fails_once)
     thr_alloc_fail_at(k);
     st = thr_tjoin_confirm(&p, &t, &no_limit, &said, &err);
     thr_alloc_fail_at(0);
-    if (st) ck_assert_msg(st == THR_ENOMEM && said == THR_CONFIRM_SKIPPED, "allocation %ld: %s", k, err.text);
+    if (st)
+      ck_assert_msg(st == THR_ENOMEM && said == THR_CONFIRM_SKIPPED, "allocation %ld: %s", k,
+                    err.text);
   }
   ck_assert_int_eq(said, THR_CONFIRMED);
   thr_tjoin_destroy(&t);
@@ -530,14 +568,17 @@ START_TEST(every_allocation_of_a_confirmation_fails_once)
 }
 END_TEST
 
-/* Place 0 in a blossom of width 3 in one of width 4, its mate 1 in one of width 6, the mate itself 2 wide. What place 0 lacks
- * comes from its own blossoms from inside out, then from the mate's from outside in. */
+/* Place 0 in a blossom of width 3 in one of width 4, its mate 1 in one of width 6, the mate itself
+ * 2 wide. What place 0 lacks comes from its own blossoms from inside out, then from the mate's from
+ * outside in. */
 START_TEST(a_negative_width_is_taken_from_the_moats_between_mates)
 {
   static const struct {
-    int64_t lacking, width[5]; /* of place 0, 1, blossom 0 round place 0, 1 round 0, 2 round place 1 */
-  } table[] = {{0, {0, 2, 3, 4, 6}}, {2, {0, 2, 1, 4, 6}}, {3, {0, 2, 0, 4, 6}},  {5, {0, 2, 0, 2, 6}},
-               {7, {0, 2, 0, 0, 6}}, {9, {0, 2, 0, 0, 4}}, {14, {0, 1, 0, 0, 0}}, {15, {0, 0, 0, 0, 0}}};
+    int64_t lacking,
+        width[5]; /* of place 0, 1, blossom 0 round place 0, 1 round 0, 2 round place 1 */
+  } table[] = {{0, {0, 2, 3, 4, 6}},  {2, {0, 2, 1, 4, 6}}, {3, {0, 2, 0, 4, 6}},
+               {5, {0, 2, 0, 2, 6}},  {7, {0, 2, 0, 0, 6}}, {9, {0, 2, 0, 0, 4}},
+               {14, {0, 1, 0, 0, 0}}, {15, {0, 0, 0, 0, 0}}};
   int mate[2] = {1, 0}, node_blossom[2] = {0, 2}, parent[3] = {1, -1, -1};
   int64_t blossom_dual[3] = {3, 4, 6};
   for (size_t k = 0; k < sizeof table / sizeof *table; k++) {

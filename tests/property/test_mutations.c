@@ -1,5 +1,7 @@
-/* The checker against altered plans. Alterations of cords and metrics must always be caught; a certificate may be altered
- * into another valid one, so there the verdict is compared with plain sums, and with what is known to be shortest. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The checker against altered plans. Alterations of cords and metrics must always be caught; a
+ * certificate may be altered into another valid one, so there the verdict is compared with plain
+ * sums, and with what is known to be shortest. */
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
 #include "tests/frameworks.h"
@@ -15,7 +17,8 @@
 
 enum { SMALL = 8, FRAMES = 16 };
 
-/* The i-th framework that is altered: solids, several components, random ones; small ones have at most 8 nodes. */
+/* The i-th framework that is altered: solids, several components, random ones; small ones have at
+ * most 8 nodes. */
 static thr_frame example(int i)
 {
   rng r = rng_make((uint64_t)i + 1);
@@ -31,7 +34,9 @@ static thr_frame example(int i)
   case 8: return grid_make(5, 4);
   case 9: return frame_load("data/conmech/tower_3D.json", NULL);
   case 10: return frame_load("data/assembly-instances/klein_bottle_trail.json", NULL);
-  default: return random_frame(&r, rng_between(&r, 3, 25), rng_below(&r, 25), (length_kind)(i % LENGTH_KINDS));
+  default:
+    return random_frame(&r, rng_between(&r, 3, 25), rng_below(&r, 25),
+                        (length_kind)(i % LENGTH_KINDS));
   }
 }
 
@@ -50,12 +55,14 @@ static thr_plan example_plan(int i)
 
 /* ---- numbers in the text ---- */
 
-/* Calls for every number from the k-th mark on to the next ']': where it starts, and how long it is. */
+/* Calls for every number from the k-th mark on to the next ']': where it starts, and how long it
+ * is. */
 typedef struct {
   size_t at, length;
 } token;
 
-static int tokens_after(const char *text, const char *section, const char *key, int k, token *list, int room)
+static int tokens_after(const char *text, const char *section, const char *key, int k, token *list,
+                        int room)
 {
   const char *s = strstr(text, section);
   for (int i = 0; i <= k && s; i++)
@@ -94,7 +101,8 @@ static void replace_token(const thr_text *t, token at, int value)
   free(out);
 }
 
-/* Every number of a list in every cord becomes every other on small plans; on larger ones some become some. */
+/* Every number of a list in every cord becomes every other on small plans; on larger ones some
+ * become some. */
 static void alter_lists(rng *r, const thr_plan *p, const char *key, int limit)
 {
   thr_text t = plan_text(p);
@@ -135,7 +143,8 @@ static void assert_plan_caught(const thr_plan *p, const char *what)
   assert_one_line(&err, NULL);
   err = (thr_err){0};
   st = judge_plan(p, &err);
-  ck_assert_msg(st == THR_EVIOLATED || st == THR_EINPUT, "status %d after %s, by way of JSON", (int)st, what);
+  ck_assert_msg(st == THR_EVIOLATED || st == THR_EINPUT, "status %d after %s, by way of JSON",
+                (int)st, what);
   assert_one_line(&err, NULL);
 }
 
@@ -213,7 +222,8 @@ END_TEST
 static void alter_real(thr_plan *p, double *x, const char *what)
 {
   double kept = *x;
-  const double other[] = {kept + 1e-5, kept - 1e-5, kept * 2 + 1, -kept - 1, kept * (1 + 1e-6) + 1e-6, 1e300};
+  const double other[] = {
+      kept + 1e-5, kept - 1e-5, kept * 2 + 1, -kept - 1, kept * (1 + 1e-6) + 1e-6, 1e300};
   for (size_t i = 0; i < sizeof other / sizeof *other; i++) {
     *x = other[i];
     if (fabs(kept) > 1e3 && i < 2) continue;
@@ -259,7 +269,8 @@ END_TEST
 
 /* ---- certificates ---- */
 
-/* The plan is shortest, and says so: the checker must agree if and only if plain sums do, and must never prove more. */
+/* The plan is shortest, and says so: the checker must agree if and only if plain sums do, and must
+ * never prove more. */
 static void compare_verdicts(const thr_plan *p, const char *what)
 {
   bool optimal;
@@ -267,21 +278,29 @@ static void compare_verdicts(const thr_plan *p, const char *what)
   thr_err err = {0};
   int expected = verdict_by_sums(p);
   thr_status whole = thr_check_plan(p, &err);
-  ck_assert_msg(whole == (expected == 2 ? THR_OK : THR_EVIOLATED), "status %d, but the sums say %d after %s: %s", (int)whole,
-                expected, what, err.text);
+  ck_assert_msg(whole == (expected == 2 ? THR_OK : THR_EVIOLATED),
+                "status %d, but the sums say %d after %s: %s", (int)whole, expected, what,
+                err.text);
   if (whole) assert_one_line(&err, expected ? "proof" : "certificate");
-  thr_status st = thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, p->proof.certificate,
-                                         p->proof.n_certificates, &optimal, &bound, NULL);
+  thr_status st =
+      thr_check_length_proof(&p->frame, &p->options, p->cord, p->n_cords, p->proof.certificate,
+                             p->proof.n_certificates, &optimal, &bound, NULL);
   ck_assert_int_eq(st, expected ? THR_OK : THR_EVIOLATED);
   if (st) return;
   ck_assert_int_eq(optimal, expected == 2);
-  ck_assert(bound <= p->metrics.length * (1 + 1e-9) && bound >= p->metrics.base_length * (1 - 1e-9));
+  ck_assert(bound <= p->metrics.length * (1 + 1e-9) &&
+            bound >= p->metrics.base_length * (1 - 1e-9));
 }
 
 static void alter_values(rng *r, thr_plan *p, thr_certificate *c)
 {
-  const int64_t step[] = {
-      1, -1, c->denominator, -c->denominator, INT64_C(1) << 40, rng_between(r, -100000, 100000), -INT64_MAX / 2};
+  const int64_t step[] = {1,
+                          -1,
+                          c->denominator,
+                          -c->denominator,
+                          INT64_C(1) << 40,
+                          rng_between(r, -100000, 100000),
+                          -INT64_MAX / 2};
   for (int i = 0; i<c->n_cuts; i += c->n_cuts> 30 ? 5 : 1)
     for (size_t k = 0; k < sizeof step / sizeof *step; k++) {
       int64_t value = c->cut[i].value, sum = c->sum;
@@ -338,7 +357,8 @@ static int64_t weigh_join(const thr_plan *p, const thr_certificate *c)
   int *component = calloc((size_t)p->frame.n_nodes, sizeof *component), count;
   ck_assert(component && thr_frame_components(&p->frame, component, &count, NULL) == THR_OK);
   for (int e = 0; e < p->frame.n_edges; e++)
-    if (component[p->frame.edge[e][0]] == c->component) join -= p->options.cover * thr_certificate_weight(&p->frame, c, e);
+    if (component[p->frame.edge[e][0]] == c->component)
+      join -= p->options.cover * thr_certificate_weight(&p->frame, c, e);
   free(component);
   return join;
 }
@@ -412,14 +432,17 @@ static void replace_cuts(rng *r, thr_plan *p, thr_certificate *c)
   c->sum = 0;
   for (int i = 0; i < CUTS; i++) {
     int up = rng_between(r, i, CUTS - 1);
-    cut[i] = (thr_cut){.parent = up > i ? up : -1, .node = calloc((size_t)n, sizeof(int)), .value = rng_between(r, 1, 3)};
+    cut[i] = (thr_cut){.parent = up > i ? up : -1,
+                       .node = calloc((size_t)n, sizeof(int)),
+                       .value = rng_between(r, 1, 3)};
     ck_assert(cut[i].node != NULL);
     for (int k = rng_between(r, 1, 6); k > 0; k--)
       toggle(&cut[i], rng_below(r, n));
     c->sum += cut[i].value;
   }
   c->denominator = rng_between(r, 1, 4);
-  for (c->end_price = 0; c->end_price < 24; c->end_price++) /* small enough for the loads to matter */
+  for (c->end_price = 0; c->end_price < 24;
+       c->end_price++) /* small enough for the loads to matter */
     compare_verdicts(p, "replacing all sets");
   for (int i = 0; i < CUTS; i++)
     free(cut[i].node);
@@ -430,8 +453,9 @@ START_TEST(any_number_and_set_with_several_cords)
 {
   static const thr_ends ends[] = {THR_ENDS_ANY, THR_ENDS_FEET};
   rng r = rng_make((uint64_t)_i);
-  int which = 11 + _i % 5;                                          /* the random ones */
-  thr_frame f = _i % 7 ? example(which) : solid_make(DODECAHEDRON); /* too many edges for all sets of them */
+  int which = 11 + _i % 5; /* the random ones */
+  thr_frame f =
+      _i % 7 ? example(which) : solid_make(DODECAHEDRON); /* too many edges for all sets of them */
   thr_request o = options_for(_i % 7 ? ends[_i % 2] : THR_ENDS_ANY, 1);
   o.cords = 2 + _i % 3;
   thr_plan p = plan_of_cords(&f, &o);
@@ -469,7 +493,8 @@ static void add_detour(rng *r, thr_plan *p)
   free(c->half);
   c->half = half;
   c->n_passes += 2;
-  ck_assert_int_eq(thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL),
+                   THR_OK);
 }
 
 START_TEST(a_longer_cord_is_never_proved)
@@ -495,8 +520,9 @@ START_TEST(a_longer_cord_is_never_proved)
     assert_plan_caught(&p, "a detour and a forged bound");
     bool optimal;
     double bound;
-    thr_status st = thr_check_length_proof(&p.frame, &p.options, p.cord, p.n_cords, p.proof.certificate, p.proof.n_certificates,
-                                           &optimal, &bound, NULL);
+    thr_status st =
+        thr_check_length_proof(&p.frame, &p.options, p.cord, p.n_cords, p.proof.certificate,
+                               p.proof.n_certificates, &optimal, &bound, NULL);
     ck_assert(st == THR_EVIOLATED || (!optimal && bound <= shortest * (1 + 1e-9)));
     if (st) continue;
     p.proof.optimal = false; /* said honestly, it passes */

@@ -1,5 +1,7 @@
-/* What a drawing nearly says, on random frameworks in a square lattice: where edges cross and which nodes lie on edges is decided
- * there by signs of integers; nodes drawn twice at a hair's breadth are known from the making. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a drawing nearly says, on random frameworks in a square lattice: where edges cross and which
+ * nodes lie on edges is decided there by signs of integers; nodes drawn twice at a hair's breadth
+ * are known from the making. */
 #include "graph/framework/frame.h"
 #include "tests/support.h"
 
@@ -63,8 +65,10 @@ static bool lies_on(const lattice *l, int v, int e)
 
 static bool cross(const lattice *l, int e, int f)
 {
-  const point a = l->at[l->edge[e][0]], b = l->at[l->edge[e][1]], c = l->at[l->edge[f][0]], d = l->at[l->edge[f][1]];
-  return sign(turn(a, b, c)) * sign(turn(a, b, d)) < 0 && sign(turn(c, d, a)) * sign(turn(c, d, b)) < 0;
+  const point a = l->at[l->edge[e][0]], b = l->at[l->edge[e][1]], c = l->at[l->edge[f][0]],
+              d = l->at[l->edge[f][1]];
+  return sign(turn(a, b, c)) * sign(turn(a, b, d)) < 0 &&
+         sign(turn(c, d, a)) * sign(turn(c, d, b)) < 0;
 }
 
 static int count_on_edges(const lattice *l)
@@ -85,13 +89,16 @@ static int count_crossings(const lattice *l)
   return n;
 }
 
-/* The lattice in space, turned and moved; some ends of edges get a node of their own a ten-thousandth away. */
+/* The lattice in space, turned and moved; some ends of edges get a node of their own a
+ * ten-thousandth away. */
 static thr_frame build(const lattice *l, bool torn, int *n_torn)
 {
   thr_draft d = {0};
   thr_frame f;
   thr_read_report r = {0};
-  bool kept[2 * EDGES] = {false}, done[2 * EDGES] = {false}; /* some edge ends at the node itself; another was torn off */
+  bool kept[2 * EDGES] = {false},
+                done[2 * EDGES] = {
+                    false}; /* some edge ends at the node itself; another was torn off */
   *n_torn = 0;
   for (int v = 0; v < l->n_nodes; v++) {
     const double xyz[3] = {0.6 * l->at[v].x + 7, 0.8 * l->at[v].x - 3, l->at[v].y};
@@ -136,7 +143,8 @@ START_TEST(finds_what_signs_of_integers_say)
 }
 END_TEST
 
-/* Afterwards no node lies on an edge; what a cut adds is a part more, unless that part was an edge already. */
+/* Afterwards no node lies on an edge; what a cut adds is a part more, unless that part was an edge
+ * already. */
 START_TEST(cuts_edges_at_the_nodes_on_them)
 {
   srand((unsigned)_i + 1);

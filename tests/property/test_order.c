@@ -1,4 +1,6 @@
-/* The order of work against all starts, directions and orders of cords; and what it leaves as it was. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The order of work against all starts, directions and orders of cords; and what it leaves as it
+ * was. */
 #include "graph/check/check.h"
 #include "graph/framework/make.h"
 #include "graph/limits.h"
@@ -27,8 +29,8 @@ static bool is_less(loose a, loose b)
   return a.longest != b.longest ? a.longest < b.longest : a.squares < b.squares;
 }
 
-/* What a piece is to the needle that comes to it: the next one, one that holds the cord where the needle begins, or the next one
- * after another needle's last. */
+/* What a piece is to the needle that comes to it: the next one, one that holds the cord where the
+ * needle begins, or the next one after another needle's last. */
 enum { NEXT, HOLDS, OTHER_NEEDLE };
 
 static void end_chain(loose *all, int *chain)
@@ -55,7 +57,8 @@ static loose follow(const int *piece, int n, const int *what)
 }
 
 /* Appends the passes of a cord, one needle after the other, as pieces. */
-static void append(const thr_frame *f, const thr_request *o, const thr_cord *c, int *piece, int *what, int *count)
+static void append(const thr_frame *f, const thr_request *o, const thr_cord *c, int *piece,
+                   int *what, int *count)
 {
   bool tube = o->joint == THR_JOINT_TUBE;
   int n = c->n_passes, fold = 0;
@@ -70,7 +73,9 @@ static void append(const thr_frame *f, const thr_request *o, const thr_cord *c, 
     least = fmin(least, off);
   }
   for (int k = fold; k < n + !tube; k++) {
-    piece[*count] = tube ? c->half[k] >> 1 : k < n ? thr_tail(f, c->half[k]) : thr_head(f, c->half[n - 1]);
+    piece[*count] = tube    ? c->half[k] >> 1
+                    : k < n ? thr_tail(f, c->half[k])
+                            : thr_head(f, c->half[n - 1]);
     what[(*count)++] = k == fold ? HOLDS : NEXT;
   }
   for (int k = fold - 1; k >= 0; k--) {
@@ -148,7 +153,9 @@ static void try_cord(search *s, int c)
     bool turns = cord->closed && p->options.ends == THR_ENDS_CLOSED, feet = turns && has_feet(s, c);
     for (int k = 0; k < (turns ? cord->n_passes : 1); k++) {
       for (int back = 0; back < 2; back++) {
-        if (!turns || (is_within(s, c) && (!feet || p->frame.foot[thr_cord_start(&p->frame, cord)]))) try_cord(s, c + 1);
+        if (!turns ||
+            (is_within(s, c) && (!feet || p->frame.foot[thr_cord_start(&p->frame, cord)])))
+          try_cord(s, c + 1);
         turn_round(cord);
       }
       if (turns) turn_on(cord);
@@ -179,8 +186,8 @@ static int ascending(const void *a, const void *b)
 /* Passes of every edge, ends of every node. */
 static void assert_same_passes(const thr_plan *a, const thr_plan *b)
 {
-  int most = a->metrics.passes, *one = calloc((size_t)most, sizeof *one), *other = calloc((size_t)most, sizeof *other), n = 0,
-      m = 0;
+  int most = a->metrics.passes, *one = calloc((size_t)most, sizeof *one),
+      *other = calloc((size_t)most, sizeof *other), n = 0, m = 0;
   ck_assert_int_eq(a->n_cords, b->n_cords);
   for (int c = 0; c < a->n_cords; c++)
     for (int k = 0; k < a->cord[c].n_passes; k++)
@@ -200,7 +207,8 @@ static void assert_same_passes(const thr_plan *a, const thr_plan *b)
 static thr_plan planned(rng *r, int round)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
-  thr_frame f = random_frame(r, rng_between(r, 4, 8), rng_between(r, 1, 6), (length_kind)(round % LENGTH_KINDS));
+  thr_frame f = random_frame(r, rng_between(r, 4, 8), rng_between(r, 1, 6),
+                             (length_kind)(round % LENGTH_KINDS));
   thr_request o = options_for(ends[rng_below(r, 4)], rng_between(r, 1, 3));
   thr_plan p = {0};
   for (int v = 0; v < f.n_nodes; v++)
@@ -211,7 +219,9 @@ static thr_plan planned(rng *r, int round)
   o.joint = rng_below(r, 3) ? THR_JOINT_SOLID : THR_JOINT_TUBE;
   if (rng_below(r, 3) == 0) want(&o, "turning");
   o.order = THR_ORDER_PLANNED;
-  if (thr_plan_make(&f, &o, &(thr_limits){.deadline = thr_clock() + 5}, &p, NULL, NULL) && p.n_cords == 0) thr_plan_destroy(&p);
+  if (thr_plan_make(&f, &o, &(thr_limits){.deadline = thr_clock() + 5}, &p, NULL, NULL) &&
+      p.n_cords == 0)
+    thr_plan_destroy(&p);
   if (p.n_cords == 3 && p.metrics.passes > 24) thr_plan_destroy(&p); /* too many ways to try */
   thr_frame_destroy(&f);
   return p;
@@ -249,7 +259,8 @@ END_TEST
 START_TEST(chains_and_pull_of_every_start)
 {
   rng r = rng_make(1000 + (uint64_t)_i);
-  thr_frame f = random_frame(&r, rng_between(&r, 8, 30), rng_between(&r, 4, 30), (length_kind)(_i % LENGTH_KINDS));
+  thr_frame f = random_frame(&r, rng_between(&r, 8, 30), rng_between(&r, 4, 30),
+                             (length_kind)(_i % LENGTH_KINDS));
   thr_request o = options_for(THR_ENDS_CLOSED, rng_between(&r, 1, 2));
   o.needles = rng_between(&r, 1, 2);
   o.order = THR_ORDER_PLANNED;
@@ -278,14 +289,18 @@ START_TEST(chains_and_pull_of_every_start)
 }
 END_TEST
 
-/* Frameworks whose chains stay long by any start: the same passes, by a tenth more turning at most. */
+/* Frameworks whose chains stay long by any start: the same passes, by a tenth more turning at most.
+ */
 START_TEST(parts_run_otherwise_keep_passes_and_room)
 {
   static const struct {
     thr_shape shape;
     int size, longest;
-  } cases[] = {
-      {THR_MAKE_DOME, 7, 8}, {THR_MAKE_TUBE, 12, 10}, {THR_MAKE_DOME, 6, 10}, {THR_MAKE_DOME, 12, 18}, {THR_MAKE_SPHERE, 2, 7}};
+  } cases[] = {{THR_MAKE_DOME, 7, 8},
+               {THR_MAKE_TUBE, 12, 10},
+               {THR_MAKE_DOME, 6, 10},
+               {THR_MAKE_DOME, 12, 18},
+               {THR_MAKE_SPHERE, 2, 7}};
   for (int needles = 1; needles <= 2; needles++) {
     thr_frame f = shape_make(cases[_i].shape, cases[_i].size, 7);
     thr_request o = thr_request_default();
@@ -299,7 +314,8 @@ START_TEST(parts_run_otherwise_keep_passes_and_room)
     ck_assert_int_le(now.longest, cases[_i].longest);
     ck_assert_int_le(now.longest, loose_of(&p).longest);
     ck_assert_double_le(q.metrics.turning, 1.1 * p.metrics.turning * (1 + 1e-9));
-    ck_assert_double_le(thr_cord_pulled_turning(&f, &q.cord[0]), 1.1 * thr_cord_pulled_turning(&f, &p.cord[0]) * (1 + 1e-9));
+    ck_assert_double_le(thr_cord_pulled_turning(&f, &q.cord[0]),
+                        1.1 * thr_cord_pulled_turning(&f, &p.cord[0]) * (1 + 1e-9));
     ck_assert_int_le(q.metrics.u_turns, p.metrics.u_turns);
     assert_same_passes(&p, &q);
     assert_plan_sound(&q);
@@ -310,15 +326,17 @@ START_TEST(parts_run_otherwise_keep_passes_and_room)
 }
 END_TEST
 
-/* By default a twentieth more at most, nothing where little turning is the aim; what a hand holds well stays as it was found. */
+/* By default a twentieth more at most, nothing where little turning is the aim; what a hand holds
+ * well stays as it was found. */
 START_TEST(little_is_paid_for_where_cords_begin)
 {
   static const struct {
     thr_shape shape;
     int size, longest;
     const char *aims;
-  } cases[] = {{THR_MAKE_DOME, 7, 9, "length"},   {THR_MAKE_TUBE, 12, 10, "length"},  {THR_MAKE_SPHERE, 2, 7, "length"},
-               {THR_MAKE_DOME, 7, 11, "turning"}, {THR_MAKE_TUBE, 12, 10, "turning"}, {THR_MAKE_DOME, 4, 9, "length"},
+  } cases[] = {{THR_MAKE_DOME, 7, 9, "length"},    {THR_MAKE_TUBE, 12, 10, "length"},
+               {THR_MAKE_SPHERE, 2, 7, "length"},  {THR_MAKE_DOME, 7, 11, "turning"},
+               {THR_MAKE_TUBE, 12, 10, "turning"}, {THR_MAKE_DOME, 4, 9, "length"},
                {THR_MAKE_DOME, 12, 22, "length"}};
   for (int needles = 0; needles <= 2; needles++) {
     thr_frame f = shape_make(cases[_i].shape, cases[_i].size, 7);
@@ -334,12 +352,14 @@ START_TEST(little_is_paid_for_where_cords_begin)
     loose before = loose_of(&p), now = loose_of(&q);
     ck_assert_int_le(now.longest, cases[_i].longest + 2 * (needles == 1));
     if (before.longest <= 8)
-      ck_assert_mem_eq(p.cord[0].half, q.cord[0].half, (size_t)p.cord[0].n_passes * sizeof *p.cord[0].half);
+      ck_assert_mem_eq(p.cord[0].half, q.cord[0].half,
+                       (size_t)p.cord[0].n_passes * sizeof *p.cord[0].half);
     else
       ck_assert_int_le(now.longest, before.longest);
     const double most = (strcmp(cases[_i].aims, "length") == 0 ? 1.05 : 1) * (1 + 1e-9);
     ck_assert_double_le(q.metrics.turning, most * p.metrics.turning);
-    ck_assert_double_le(thr_cord_pulled_turning(&f, &q.cord[0]), most * thr_cord_pulled_turning(&f, &p.cord[0]));
+    ck_assert_double_le(thr_cord_pulled_turning(&f, &q.cord[0]),
+                        most * thr_cord_pulled_turning(&f, &p.cord[0]));
     ck_assert_int_le(q.metrics.u_turns, p.metrics.u_turns);
     assert_same_passes(&p, &q);
     assert_plan_sound(&q);

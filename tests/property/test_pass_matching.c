@@ -1,6 +1,8 @@
-/* The matching of passes against its own proof: whole numbers that keep all equations, and multipliers whose bound, by the
- * checker's arithmetic, is what they cost. That proves both, for whatever prices, covers and ends. (Where edges are full the
- * proof has no row for it, and the bound may be less.) */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The matching of passes against its own proof: whole numbers that keep all equations, and
+ * multipliers whose bound, by the checker's arithmetic, is what they cost. That proves both, for
+ * whatever prices, covers and ends. (Where edges are full the proof has no row for it, and the
+ * bound may be less.) */
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
@@ -44,7 +46,8 @@ static void choose_ends(rng *r, instance *x, int kind)
 
 static void instance_make(rng *r, instance *x, int kind)
 {
-  *x = (instance){.frame = random_frame(r, rng_between(r, 3, 16), rng_between(r, 0, 24), LENGTHS_EUCLID)};
+  *x = (instance){
+      .frame = random_frame(r, rng_between(r, 3, 16), rng_between(r, 0, 24), LENGTHS_EUCLID)};
   x->task = (thr_turning_task){.cover = rng_between(r, 1, 4), .extra_limit = -1};
   x->task.cost = (thr_turn_cost)rng_below(r, 2);
   if (rng_below(r, 3) == 0) { /* edges of their own covers */
@@ -56,7 +59,8 @@ static void instance_make(rng *r, instance *x, int kind)
   if (rng_below(r, 3) == 0) x->task.capacity = rng_between(r, 4, 6);
   choose_ends(r, x, kind);
   thr_err err = {0};
-  ck_assert_msg(thr_turning_columns_init(&x->c, &x->frame, &x->task, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_turning_columns_init(&x->c, &x->frame, &x->task, &err) == THR_OK, "%s",
+                err.text);
 }
 
 static void instance_destroy(instance *x)
@@ -68,11 +72,13 @@ static void instance_destroy(instance *x)
 /* Every equation by definition. */
 static void assert_kept(const thr_turning_columns *c, const int *x)
 {
-  int m = c->f->n_edges, *sum = calloc(2 * (size_t)m, sizeof *sum), *ends = calloc((size_t)c->n_ends, sizeof *ends);
+  int m = c->f->n_edges, *sum = calloc(2 * (size_t)m, sizeof *sum),
+      *ends = calloc((size_t)c->n_ends, sizeof *ends);
   ck_assert_ptr_nonnull(sum);
   ck_assert_ptr_nonnull(ends);
   for (int j = 0; j < c->n_columns; j++) {
-    int a = c->half[j][0], b = c->half[j][1], sign = j >= c->first_extra && j < c->first_end ? -1 : 1;
+    int a = c->half[j][0], b = c->half[j][1],
+        sign = j >= c->first_extra && j < c->first_end ? -1 : 1;
     ck_assert_int_ge(x[j], 0);
     ck_assert_int_le(x[j], thr_turning_most(c, j));
     sum[a] += sign * x[j];
@@ -107,7 +113,8 @@ static bool solve_and_compare(thr_pass_matching *passes, int64_t *price)
     for (int j = 0; j < c->n_columns; j++)
       sum += x[j] * ldexp((double)price[j], -THR_TURNING_BITS);
     c->weight = price;
-    ck_assert_msg(thr_turning_dual_bound(c, &dual, NULL, NULL, &bound, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_turning_dual_bound(c, &dual, NULL, NULL, &bound, &err) == THR_OK, "%s",
+                  err.text);
     c->weight = own;
     double proved = ldexp((double)bound, -THR_TURNING_BITS);
     ck_assert_double_le(proved, sum + 1e-8);
@@ -134,7 +141,8 @@ START_TEST(matchings_are_proved_by_their_moats)
     ck_assert(found || x.task.capacity > 0 || x.task.end_count);
     if (!found) break;
     for (int j = 0; j < x.c.n_columns; j++)
-      if (rng_below(&r, 3) == 0) price[j] += (int64_t)((rng_unit(&r) - 0.4) * ldexp(1, THR_TURNING_BITS));
+      if (rng_below(&r, 3) == 0)
+        price[j] += (int64_t)((rng_unit(&r) - 0.4) * ldexp(1, THR_TURNING_BITS));
   }
   thr_pass_matching_destroy(&passes);
   free(price);
@@ -176,7 +184,8 @@ START_TEST(few_rounds_are_enough)
     for (int k = 0; k < 3; k++)
       x.frame.xyz[v][k] += 0.8 * (rng_unit(&r) - 0.5);
   }
-  x.task = (thr_turning_task){.cover = 1, .most_passes = 8, .cords = 1 + _i % 3, .extra_limit = -1, .end_allowed = all};
+  x.task = (thr_turning_task){
+      .cover = 1, .most_passes = 8, .cords = 1 + _i % 3, .extra_limit = -1, .end_allowed = all};
   ck_assert_int_eq(thr_turning_columns_init(&x.c, &x.frame, &x.task, NULL), THR_OK);
   thr_pass_matching passes;
   ck_assert_int_eq(thr_pass_matching_init(&passes, &x.c, NULL), THR_OK);

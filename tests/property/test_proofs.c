@@ -1,5 +1,7 @@
-/* Certificates that no solver would make, on small frameworks of one or two pieces with requests of every kind: the checker takes
- * one if and only if plain sums over sets do, and what it takes proves no more than is true of all subsets of edges. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Certificates that no solver would make, on small frameworks of one or two pieces with requests of
+ * every kind: the checker takes one if and only if plain sums over sets do, and what it takes
+ * proves no more than is true of all subsets of edges. */
 #include "tests/support.h"
 #include "tests/frameworks.h"
 #include "tests/oracles.h"
@@ -10,7 +12,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 3000, PIECES = 2, NODES = 6, EDGES = 10, CUTS = 7, MOST_NODES = PIECES * NODES, MOST_EDGES = PIECES * EDGES };
+enum {
+  ROUNDS = 3000,
+  PIECES = 2,
+  NODES = 6,
+  EDGES = 10,
+  CUTS = 7,
+  MOST_NODES = PIECES * NODES,
+  MOST_EDGES = PIECES * EDGES
+};
 __extension__ typedef __int128 wide;
 
 /* A framework with its pieces, each a framework too. */
@@ -61,8 +71,11 @@ static void unite(request *q)
   if (capacities) q->whole.capacity = calloc((size_t)m, sizeof(int));
   for (int k = 0; k < q->n_pieces; k++)
     for (int e = 0; e < q->piece[k].n_edges; e++) {
-      if (covers) q->whole.cover[q->first_edge[k] + e] = q->piece[k].cover ? q->piece[k].cover[e] : 1;
-      if (capacities) q->whole.capacity[q->first_edge[k] + e] = q->piece[k].capacity ? q->piece[k].capacity[e] : 0;
+      if (covers)
+        q->whole.cover[q->first_edge[k] + e] = q->piece[k].cover ? q->piece[k].cover[e] : 1;
+      if (capacities)
+        q->whole.capacity[q->first_edge[k] + e] =
+            q->piece[k].capacity ? q->piece[k].capacity[e] : 0;
     }
 }
 
@@ -85,7 +98,8 @@ static bool free_ends(const request *q)
 
 static bool allowed(const request *q, int v)
 {
-  return q->o.ends == THR_ENDS_ANY || (q->o.ends == THR_ENDS_FEET ? q->whole.foot[v] : q->end_node[v]);
+  return q->o.ends == THR_ENDS_ANY ||
+         (q->o.ends == THR_ENDS_FEET ? q->whole.foot[v] : q->end_node[v]);
 }
 
 static int piece_of(const request *q, int v)
@@ -98,7 +112,8 @@ static bool odd_at(const request *q, int v, const int *passes)
 {
   int sum = q->o.ends == THR_ENDS_COUNTS ? q->end_count[v] : 0;
   for (int e = 0; e < q->whole.n_edges; e++)
-    if (q->whole.edge[e][0] == v || q->whole.edge[e][1] == v) sum += passes ? passes[e] : need(q, e);
+    if (q->whole.edge[e][0] == v || q->whole.edge[e][1] == v)
+      sum += passes ? passes[e] : need(q, e);
   return sum % 2;
 }
 
@@ -108,7 +123,9 @@ static bool cords_fit(const request *q)
   for (int e = 0; e < q->whole.n_edges; e++)
     if (q->passes[e] < need(q, e) || q->passes[e] > need(q, e) + room(q, e)) return false;
   for (int v = 0; v < q->whole.n_nodes; v++)
-    if (odd_at(q, v, q->passes) && (!free_ends(q) || !allowed(q, v) || ++odd[piece_of(q, v)] > 2 * q->o.cords)) return false;
+    if (odd_at(q, v, q->passes) &&
+        (!free_ends(q) || !allowed(q, v) || ++odd[piece_of(q, v)] > 2 * q->o.cords))
+      return false;
   return true;
 }
 
@@ -133,11 +150,14 @@ static void request_destroy(request *q)
 
 static void request_make(rng *r, request *q)
 {
-  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS};
-  *q = (request){.n_pieces = 1 + (rng_below(r, 4) == 0), .o = options_for(ends[rng_below(r, 5)], rng_between(r, 1, 3))};
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES,
+                                  THR_ENDS_COUNTS};
+  *q = (request){.n_pieces = 1 + (rng_below(r, 4) == 0),
+                 .o = options_for(ends[rng_below(r, 5)], rng_between(r, 1, 3))};
   for (int k = 0; k < q->n_pieces; k++) {
     thr_frame *f = &q->piece[k];
-    *f = random_frame(r, rng_between(r, 2, NODES), rng_below(r, 5), (length_kind)rng_below(r, LENGTH_KINDS));
+    *f = random_frame(r, rng_between(r, 2, NODES), rng_below(r, 5),
+                      (length_kind)rng_below(r, LENGTH_KINDS));
     ck_assert_int_le(f->n_edges, EDGES);
     f->cover = passes_list(r, f->n_edges, rng_below(r, 2));
     f->capacity = passes_list(r, f->n_edges, 2 * rng_below(r, 2));
@@ -177,7 +197,8 @@ static wide load_of(const request *q, const proof *p, int e)
 {
   wide load = 0;
   for (int i = 0; i < p->c.n_cuts; i++)
-    if ((p->set[i] >> q->whole.edge[e][0] ^ p->set[i] >> q->whole.edge[e][1]) & 1) load += p->cut[i].value;
+    if ((p->set[i] >> q->whole.edge[e][0] ^ p->set[i] >> q->whole.edge[e][1]) & 1)
+      load += p->cut[i].value;
   return load;
 }
 
@@ -215,7 +236,8 @@ static void choose_sets(rng *r, const request *q, proof *p, int piece)
   p->c.n_cuts = rng_below(r, CUTS + 1);
   uint32_t of_tree[CUTS] = {0};
   for (int i = p->c.n_cuts - 1; i >= 0; i--) { /* parents first, so that a tree's nodes are known */
-    int up = rng_below(r, 3) && i + 1 < p->c.n_cuts ? rng_between(r, i + 1, p->c.n_cuts - 1) : -1, root = i;
+    int up = rng_below(r, 3) && i + 1 < p->c.n_cuts ? rng_between(r, i + 1, p->c.n_cuts - 1) : -1,
+        root = i;
     p->cut[i] = (thr_cut){.parent = up, .node = p->node[i]};
     while (p->cut[root].parent >= 0)
       root = p->cut[root].parent;
@@ -234,7 +256,8 @@ static void choose_sets(rng *r, const request *q, proof *p, int piece)
     int root = i;
     while (p->cut[root].parent >= 0)
       root = p->cut[root].parent;
-    for (int k = rng_below(r, 40); k > 0 && !odd_set(q, p->set[i]); k--) { /* mend the parity with a node of no set */
+    for (int k = rng_below(r, 40); k > 0 && !odd_set(q, p->set[i]);
+         k--) { /* mend the parity with a node of no set */
       int v = rng_between(r, from, to - 1);
       if (of_tree[root] >> v & 1 || !odd_at(q, v, NULL)) continue;
       of_tree[root] |= UINT32_C(1) << v;
@@ -254,11 +277,15 @@ static void proof_make(rng *r, const request *q, proof *p, int piece)
   static const double scale[] = {1, 1, 2, 1000, 0.25, 1e-3, 1 << 20, 1e15};
   static const int64_t denominator[] = {1, 1, 2, 3, 4096, INT64_C(1) << 40};
   memset(p, 0, sizeof *p);
-  p->c = (thr_certificate){
-      .component = piece, .cut = p->cut, .scale = scale[rng_below(r, 8)], .denominator = denominator[rng_below(r, 6)]};
+  p->c = (thr_certificate){.component = piece,
+                           .cut = p->cut,
+                           .scale = scale[rng_below(r, 8)],
+                           .denominator = denominator[rng_below(r, 6)]};
   if (p->c.scale > 1e6) p->c.denominator = rng_between(r, 1, 3);
   choose_sets(r, q, p, piece);
-  double price = free_ends(q) || rng_below(r, 50) == 0 ? rng_below(r, 4) * 0.5 * p->c.scale * (double)p->c.denominator : 0;
+  double price = free_ends(q) || rng_below(r, 50) == 0
+                     ? rng_below(r, 4) * 0.5 * p->c.scale * (double)p->c.denominator
+                     : 0;
   p->c.end_price = price < 1e15 ? (int64_t)price * rng_between(r, 1, 3) : 0;
   bool sound = rng_below(r, 3) > 0;
   for (int rounds = 0; rounds < 3; rounds++)
@@ -306,7 +333,8 @@ static bool holds(const request *q, const proof *p, int piece)
   if (slack_of(q, p, ~UINT32_C(0)) < 0) return false; /* of ends: no edge leaves all nodes */
   for (int e = q->first_edge[piece]; e < q->first_edge[piece + 1]; e++) {
     join += (wide)weight_of(q, p, e) * (q->passes[e] - need(q, e));
-    if (room(q, e) > 0 && load_of(q, p, e) > (wide)weight_of(q, p, e) * p->c.denominator) return false;
+    if (room(q, e) > 0 && load_of(q, p, e) > (wide)weight_of(q, p, e) * p->c.denominator)
+      return false;
   }
   return sum == p->c.sum && join == p->c.join && (free_ends(q) || p->c.end_price == 0);
 }
@@ -328,10 +356,13 @@ static void compare(const request *q, const proof *p, const double *least, int *
     length += q->passes[e] * q->whole.length[e];
     shortest += need(q, e) * q->whole.length[e];
   }
-  thr_status st = thr_check_length_of_passes(&q->whole, &q->o, q->passes, c, q->n_pieces, &optimal, &bound, &err);
-  ck_assert_msg(st == (expected ? THR_OK : THR_EVIOLATED), "status %d, sums say %d: %s", (int)st, expected, err.text);
+  thr_status st = thr_check_length_of_passes(&q->whole, &q->o, q->passes, c, q->n_pieces, &optimal,
+                                             &bound, &err);
+  ck_assert_msg(st == (expected ? THR_OK : THR_EVIOLATED), "status %d, sums say %d: %s", (int)st,
+                expected, err.text);
   if (st) return;
-  ck_assert_msg(bound <= shortest * (1 + 3e-9), "%.17g is said to be proved, but %.17g is enough", bound, shortest);
+  ck_assert_msg(bound <= shortest * (1 + 3e-9), "%.17g is said to be proved, but %.17g is enough",
+                bound, shortest);
   ck_assert(!optimal || length <= shortest * (1 + 3e-9));
   ++*taken;
   *tight += bound >= shortest * (1 - 1e-9) && length > shortest * (1 + 1e-9);

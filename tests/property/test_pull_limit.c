@@ -1,4 +1,6 @@
-/* The fewest cords within a limit on the pull: plans against all sets of cords of small frameworks, and forged claims. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The fewest cords within a limit on the pull: plans against all sets of cords of small frameworks,
+ * and forged claims. */
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
@@ -67,7 +69,8 @@ static void grow(const thr_request *o, int home)
     const int v = thr_head(f, at.half);
     for (int k = f->first[v]; k < f->first[v + 1]; k++) {
       const int h = f->half[k];
-      const part next = {at.set | 1 << (h >> 1), h, at.length + f->length[h >> 1], at.turning + thr_turn_angle(f, at.half, h)};
+      const part next = {at.set | 1 << (h >> 1), h, at.length + f->length[h >> 1],
+                         at.turning + thr_turn_angle(f, at.half, h)};
       if (next.turning > side.most || is_dominated(&next)) continue;
       ck_assert_int_lt(side.n, 200000);
       side.label[side.n++] = next;
@@ -75,7 +78,8 @@ static void grow(const thr_request *o, int home)
   }
 }
 
-/* Takes the cords whose two sides, of those listed, meet at some node: the turn there is cut, and passed by neither end. */
+/* Takes the cords whose two sides, of those listed, meet at some node: the turn there is cut, and
+ * passed by neither end. */
 static void join_sides(double shortest[SETS])
 {
   static double length[NODES][SETS];
@@ -92,7 +96,8 @@ static void join_sides(double shortest[SETS])
         shortest[a | b] = fmin(shortest[a | b], length[v][a] + length[v][b]);
 }
 
-/* shortest[set]: length of the shortest cord within the pull over all edges of the set, INFINITY: there is none. */
+/* shortest[set]: length of the shortest cord within the pull over all edges of the set, INFINITY:
+ * there is none. */
 static void shortest_cords(const thr_frame *f, const thr_request *o, double shortest[SETS])
 {
   const bool closed = o->ends == THR_ENDS_CLOSED;
@@ -169,7 +174,8 @@ static double least_length(const thr_plan *p)
 /* false: too large to try. */
 static bool instance_make(rng *r, instance *x)
 {
-  static const char *const aims[] = {"length", "turning", "max-turning", "longest,length", "turning:sine"};
+  static const char *const aims[] = {"length", "turning", "max-turning", "longest,length",
+                                     "turning:sine"};
   *x = (instance){.frame = random_frame(r, rng_between(r, 2, 5), rng_below(r, 3), LENGTHS_EUCLID)};
   bool small = x->frame.n_edges <= TRUTH_TABLE_EDGES;
   static const thr_ends ends[] = {THR_ENDS_ANY, THR_ENDS_NODES, THR_ENDS_CLOSED};
@@ -190,7 +196,8 @@ static double pull_of(const thr_frame *f, const thr_cord *cord, double mu)
   for (int free = 0; free + 1 < cord->n_passes; free++) {
     double pull[2] = {1, 1};
     for (int k = 0; k + 1 < cord->n_passes; k++)
-      if (k != free) pull[k > free] *= exp(mu * thr_turn_angle(f, cord->half[k], cord->half[k + 1]));
+      if (k != free)
+        pull[k > free] *= exp(mu * thr_turn_angle(f, cord->half[k], cord->half[k + 1]));
     least = fmin(least, fmax(pull[0], pull[1]));
   }
   return least;
@@ -209,8 +216,10 @@ static double other_pull(const thr_plan *p, double mu)
     for (int free = 0; free + 1 < cord->n_passes; free++) {
       double pull[2] = {1, 1};
       for (int k = 0; k + 1 < cord->n_passes; k++)
-        if (k != free) pull[k > free] *= exp(mu * thr_turn_angle(&p->frame, cord->half[k], cord->half[k + 1]));
-      if (fmax(pull[0], pull[1]) <= larger * (1 + 1e-12)) other = fmin(other, fmin(pull[0], pull[1]));
+        if (k != free)
+          pull[k > free] *= exp(mu * thr_turn_angle(&p->frame, cord->half[k], cord->half[k + 1]));
+      if (fmax(pull[0], pull[1]) <= larger * (1 + 1e-12))
+        other = fmin(other, fmin(pull[0], pull[1]));
     }
   }
   return other;
@@ -239,7 +248,8 @@ START_TEST(plans_keep_to_the_pull_and_claim_what_is_true)
       for (int i = 0; i < p.n_cords; i++) {
         double pull = pull_of(&x.frame, &p.cord[i], x.o.physics.mu);
         ck_assert_double_le(pull, x.o.max_pull * (1 + 1e-8));
-        ck_assert_double_eq_tol(exp(x.o.physics.mu * thr_cord_pulled_turning(&x.frame, &p.cord[i])), pull, 1e-9 * pull);
+        ck_assert_double_eq_tol(exp(x.o.physics.mu * thr_cord_pulled_turning(&x.frame, &p.cord[i])),
+                                pull, 1e-9 * pull);
       }
     }
     thr_plan_destroy(&p);
@@ -268,7 +278,8 @@ static bool is_possible(const instance *x, double turning)
   return fewest_possible(x, &o) <= x->o.cords;
 }
 
-/* What is proved of the largest pull holds for all cords that turn back anywhere, and the plan is one of them. */
+/* What is proved of the largest pull holds for all cords that turn back anywhere, and the plan is
+ * one of them. */
 START_TEST(the_least_pull_is_bounded)
 {
   rng r = rng_make((uint64_t)_i + 9000);
@@ -286,8 +297,10 @@ START_TEST(the_least_pull_is_bounded)
         largest = fmax(largest, pull_of(&x.frame, &p.cord[i], x.o.physics.mu));
       ck_assert_double_eq_tol(largest, exp(x.o.physics.mu * found), 1e-9 * largest);
       double other = 0;
-      ck_assert_double_eq_tol(thr_cords_pulled_turnings(&x.frame, p.cord, p.n_cords, &other), found, 1e-9 * (1 + found));
-      ck_assert_double_eq_tol(exp(x.o.physics.mu * other), other_pull(&p, x.o.physics.mu), 1e-9 * largest);
+      ck_assert_double_eq_tol(thr_cords_pulled_turnings(&x.frame, p.cord, p.n_cords, &other), found,
+                              1e-9 * (1 + found));
+      ck_assert_double_eq_tol(exp(x.o.physics.mu * other), other_pull(&p, x.o.physics.mu),
+                              1e-9 * largest);
       ck_assert_double_le(bound, found + 1e-9);
       ck_assert(is_possible(&x, found));
       ck_assert(bound <= 1e-6 || !is_possible(&x, bound * (1 - 1e-7) - 1e-7));
@@ -310,7 +323,8 @@ END_TEST
 static void forge_walks(rng *r, const thr_plan *p, thr_walk_proof *walks)
 {
   if (!walks->unit) return;
-  int64_t *price = rng_below(r, 2) ? &walks->edge[rng_below(r, p->frame.n_edges)] : &walks->node[rng_below(r, p->frame.n_nodes)];
+  int64_t *price = rng_below(r, 2) ? &walks->edge[rng_below(r, p->frame.n_edges)]
+                                   : &walks->node[rng_below(r, p->frame.n_nodes)];
   switch (rng_below(r, 5)) {
   case 0: *price += *price / 8 * rng_between(r, -4, 4); break;
   case 1: *price = rng_below(r, 2) ? 0 : *price + (INT64_C(1) << rng_below(r, 40)); break;
@@ -335,7 +349,8 @@ static void save(const thr_walk_proof *walks, const thr_frame *f, int64_t *price
     price[EDGES + v] = walks->node[v];
 }
 
-static void restore(thr_walk_proof *walks, const thr_walk_proof *from, const thr_frame *f, const int64_t *price)
+static void restore(thr_walk_proof *walks, const thr_walk_proof *from, const thr_frame *f,
+                    const int64_t *price)
 {
   if (from->unit) *walks = *from;
   for (int e = 0; e < f->n_edges && from->unit; e++)
@@ -365,11 +380,15 @@ START_TEST(no_forged_claim_is_verified)
       for (int k = rng_between(&r, 1, 3); k > 0; k--)
         switch (rng_below(&r, 9)) {
         case 8: p.pull_claim.cut = p.pull_claim.cut * rng_between(&r, 1, 16) / 8; break;
-        case 6: forge_walks(&r, &p, p.pull_claim.walks.unit ? &p.pull_claim.walks : &p.proof.pulled); break;
+        case 6:
+          forge_walks(&r, &p, p.pull_claim.walks.unit ? &p.pull_claim.walks : &p.proof.pulled);
+          break;
         case 7: forge_length(&r, &p); break;
         case 0: p.pull_claim.fewest += rng_between(&r, -1, 2); break;
         case 1: p.pull_claim.excluded = rng_between(&r, 1, MOST); break;
-        case 2: p.options.max_pull = fmax(1, p.options.max_pull * (1 + (rng_unit(&r) - .5) * .2)); break;
+        case 2:
+          p.options.max_pull = fmax(1, p.options.max_pull * (1 + (rng_unit(&r) - .5) * .2));
+          break;
         case 3: p.options.cords_least = rng_between(&r, 1, p.options.cords); break;
         case 4: p.pull_claim.most_passes += rng_between(&r, -4, 4); break;
         default: p.pull_claim.optimal = rng_below(&r, 2);
@@ -378,9 +397,11 @@ START_TEST(no_forged_claim_is_verified)
         int least = p.options.cords_least, fewest = fewest_possible(&x, &p.options);
         ck_assert_int_le(p.pull_claim.fewest, fewest > least ? fewest : least);
         ck_assert(!p.pull_claim.optimal || p.pull_claim.fewest == p.n_cords);
-        if (p.proof.present) ck_assert_double_le(p.proof.lower_bound, least_length(&p) * (1 + 1e-8));
+        if (p.proof.present)
+          ck_assert_double_le(p.proof.lower_bound, least_length(&p) * (1 + 1e-8));
         for (int k = 0; k < p.n_cords; k++)
-          ck_assert_double_le(pull_of(&x.frame, &p.cord[k], x.o.physics.mu), p.options.max_pull * (1 + 1e-8));
+          ck_assert_double_le(pull_of(&x.frame, &p.cord[k], x.o.physics.mu),
+                              p.options.max_pull * (1 + 1e-8));
       }
       p.options = asked;
       restore(&p.proof.pulled, &proof.pulled, &x.frame, price[0]);
@@ -416,7 +437,8 @@ START_TEST(no_forged_least_pull_is_verified)
         default: p.turning.largest_optimal = rng_below(&r, 2);
         }
       const double bound = p.turning.largest_bound;
-      if (thr_check_plan(&p, NULL) == THR_OK) ck_assert(bound <= 1e-6 || !is_possible(&x, bound * (1 - 1e-7) - 1e-7));
+      if (thr_check_plan(&p, NULL) == THR_OK)
+        ck_assert(bound <= 1e-6 || !is_possible(&x, bound * (1 - 1e-7) - 1e-7));
       restore(&p.turning.tree.walks, &claim.tree.walks, &x.frame, price);
       p.turning = claim;
     }
@@ -428,8 +450,10 @@ END_TEST
 
 /* ---- several components ---- */
 
-/* Two instances of one request as a framework of two components, some of whose nodes may have ends. */
-static bool instances_make(rng *r, instance both[2], thr_frame *frame, bool *end_node, thr_request *o)
+/* Two instances of one request as a framework of two components, some of whose nodes may have ends.
+ */
+static bool instances_make(rng *r, instance both[2], thr_frame *frame, bool *end_node,
+                           thr_request *o)
 {
   const bool small[2] = {instance_make(r, &both[0]), instance_make(r, &both[1])};
   *frame = side_by_side(&both[0].frame, &both[1].frame);
@@ -488,7 +512,8 @@ START_TEST(every_component_has_as_few_as_it_takes)
       ck_assert_int_eq(p.pull_claim.n_parts, 2);
     }
     for (int i = 0; i < 40 && p.n_cords > 0; i++) {
-      const thr_pull_claim kept[2] = {p.pull_claim.part[0], p.pull_claim.part[1]}, claim = p.pull_claim;
+      const thr_pull_claim kept[2] = {p.pull_claim.part[0], p.pull_claim.part[1]},
+                           claim = p.pull_claim;
       p.turning.present = p.cords_claim.present = p.proof.present = false;
       for (int k = rng_between(&r, 1, 3); k > 0; k--)
         forge_parts(&r, &p.pull_claim);

@@ -1,4 +1,6 @@
-/* The least turning of frameworks whose optima are known from other programs (docs/method.md), in degrees. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The least turning of frameworks whose optima are known from other programs (docs/method.md), in
+ * degrees. */
 #include "graph/angle.h"
 #include "graph/framework/make.h"
 #include "graph/limits.h"
@@ -16,8 +18,9 @@ static const double DEGREE = THR_PI / 180;
 
 /* ---- frameworks ---- */
 
-/* Helices that cross round a cylinder of radius 1: rings of n nodes, every other one turned by half a step, joined by diagonals
- * only. Rings are half a step of arc apart, so that unrolled the meshes are squares. */
+/* Helices that cross round a cylinder of radius 1: rings of n nodes, every other one turned by half
+ * a step, joined by diagonals only. Rings are half a step of arc apart, so that unrolled the meshes
+ * are squares. */
 static thr_frame helix_tube(int n, int rings)
 {
   const double step = 2 * acos(-1) / n;
@@ -39,7 +42,8 @@ static thr_frame helix_tube(int n, int rings)
     edge[m][0] = v;
     edge[m++][1] = (ring + 1) * n + beside;
   }
-  thr_frame f = frame_make(n * rings, (const double(*)[3])xyz, m, (const int(*)[2])edge, NULL, NULL);
+  thr_frame f =
+      frame_make(n * rings, (const double(*)[3])xyz, m, (const int(*)[2])edge, NULL, NULL);
   free(xyz);
   free(edge);
   return f;
@@ -47,7 +51,8 @@ static thr_frame helix_tube(int n, int rings)
 
 /* ---- what they cost ---- */
 
-/* One closed cord, as the program searches for it: with the symmetries; slack as in thr_least_options. Releases f. */
+/* One closed cord, as the program searches for it: with the symmetries; slack as in
+ * thr_least_options. Releases f. */
 static thr_least solve(thr_frame *f, double slack, int most_nodes)
 {
   const thr_limits none = {0};
@@ -89,7 +94,8 @@ START_TEST(crossing_helices)
 }
 END_TEST
 
-/* Straight on at inner nodes, the forced turn at the rims: two circuits, whose sum is the bound of the nodes alone. */
+/* Straight on at inner nodes, the forced turn at the rims: two circuits, whose sum is the bound of
+ * the nodes alone. */
 START_TEST(crossing_helices_node_by_node)
 {
   thr_frame f = helix_tube(24, 15);
@@ -113,7 +119,8 @@ START_TEST(crossing_helices_node_by_node)
 }
 END_TEST
 
-/* All edges being equal, many sets of extra passes are shortest; with one of them fixed first it is 7728. */
+/* All edges being equal, many sets of extra passes are shortest; with one of them fixed first it is
+ * 7728. */
 START_TEST(passes_and_turns_together)
 {
   expect_proved(truncated_icosahedron(), -1, 7200, 1e-6);

@@ -1,4 +1,6 @@
-/* Every row of the table of symmetries, made a plan, written, read and checked, is what the row said of it. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every row of the table of symmetries, made a plan, written, read and checked, is what the row
+ * said of it. */
 #include "tests/symmetric.h"
 #include "graph/check/check.h"
 #include "symmetry/symmetry.h"
@@ -36,8 +38,8 @@ static void check_bounds(const thr_symmetry_row *row)
                                   [THR_AIM_TURNING] = row->metrics.turning};
   for (int a = 0; a < THR_N_AIMS; a++) {
     double rounding = 1e-5 * fmax(1, has[a]);
-    ck_assert_msg(has[a] >= row->bound[a] - rounding, "order %d, %s: %g, but at least %g", row->order, thr_aim_name(a), has[a],
-                  row->bound[a]);
+    ck_assert_msg(has[a] >= row->bound[a] - rounding, "order %d, %s: %g, but at least %g",
+                  row->order, thr_aim_name(a), has[a], row->bound[a]);
     ck_assert(row->why.code || has[a] <= row->bound[a] + rounding);
   }
 }
@@ -50,8 +52,10 @@ static void check_plan_of_row(const thr_symmetry_row *row, const thr_plan *p)
   ck_assert(r->order == row->order && strcmp(r->name, row->name) == 0);
   ck_assert(r->steps == row->record.steps && r->unique_paths == row->record.unique_paths);
   ck_assert_int_eq(p->n_cords, row->n_cords);
-  ck_assert(p->metrics.overlap == row->metrics.overlap && p->metrics.turning == row->metrics.turning);
-  ck_assert(p->metrics.max_turning == row->metrics.max_turning && p->metrics.passes == row->metrics.passes);
+  ck_assert(p->metrics.overlap == row->metrics.overlap &&
+            p->metrics.turning == row->metrics.turning);
+  ck_assert(p->metrics.max_turning == row->metrics.max_turning &&
+            p->metrics.passes == row->metrics.passes);
   for (int u = 0; u < p->n_cords; u++) {
     int copies = 0;
     for (int i = 0; i < p->n_cords; i++)
@@ -72,12 +76,14 @@ static void check_alone(const thr_frame *f, thr_request o, int number, const thr
   ck_assert_int_ne(thr_symmetries_find(f, &o, false, &none, &t, NULL), THR_ENOMEM);
   ck_assert_int_eq(t.chosen, number - 1);
   const thr_symmetry_row *alone = &t.row[t.chosen];
-  ck_assert(alone->metrics.overlap == row->metrics.overlap && alone->metrics.turning == row->metrics.turning);
+  ck_assert(alone->metrics.overlap == row->metrics.overlap &&
+            alone->metrics.turning == row->metrics.turning);
   ck_assert(alone->record.steps == row->record.steps && alone->n_cords == row->n_cords);
   thr_symmetries_destroy(&t);
 }
 
-/* What is left out when only the choice is wanted could not be chosen: the table of all rows has the same. */
+/* What is left out when only the choice is wanted could not be chosen: the table of all rows has
+ * the same. */
 static void check_choice(const thr_frame *f, const thr_request *o, const thr_symmetries *all)
 {
   const thr_limits none = {0};
@@ -91,10 +97,12 @@ static void check_choice(const thr_frame *f, const thr_request *o, const thr_sym
     ck_assert((t.row[i].n_cords == 0) == (t.row[i].behind > 0));
     if (!t.row[i].behind) continue;
     ck_assert(t.row[t.row[i].behind - 1].n_cords > 0);
-    ck_assert(all->within ? row->metrics.length > within || row->record.steps > best->record.steps - 1e-9
-                          : row->metrics.overlap > best->metrics.overlap);
+    ck_assert(all->within
+                  ? row->metrics.length > within || row->record.steps > best->record.steps - 1e-9
+                  : row->metrics.overlap > best->metrics.overlap);
   }
-  ck_assert(t.row[t.chosen].metrics.turning == best->metrics.turning && t.row[t.chosen].record.steps == best->record.steps);
+  ck_assert(t.row[t.chosen].metrics.turning == best->metrics.turning &&
+            t.row[t.chosen].record.steps == best->record.steps);
   thr_symmetries_destroy(&t);
 }
 

@@ -1,5 +1,6 @@
-/* Lengths with covers, capacities and ends of every kind against all subsets of edges; what is said of several cords against all
- * ways to share small frameworks out. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lengths with covers, capacities and ends of every kind against all subsets of edges; what is said
+ * of several cords against all ways to share small frameworks out. */
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
 #include "tests/frameworks.h"
@@ -20,7 +21,8 @@ static void furnish(rng *r, thr_frame *f)
   if (rng_below(r, 3)) f->capacity = calloc((size_t)f->n_edges, sizeof *f->capacity);
   for (int e = 0; e < f->n_edges; e++) {
     if (f->cover) f->cover[e] = rng_between(r, 1, 3);
-    if (f->capacity) f->capacity[e] = rng_below(r, 3) ? 0 : rng_between(r, f->cover ? f->cover[e] : 1, 5);
+    if (f->capacity)
+      f->capacity[e] = rng_below(r, 3) ? 0 : rng_between(r, f->cover ? f->cover[e] : 1, 5);
   }
 }
 
@@ -28,7 +30,9 @@ static bool fits(const thr_frame *f, const thr_request *o)
 {
   for (int e = 0; e < f->n_edges; e++) {
     int need = f->cover && f->cover[e] > o->cover ? f->cover[e] : o->cover;
-    if ((f->capacity && f->capacity[e] && f->capacity[e] < need) || (o->capacity && o->capacity < need)) return false;
+    if ((f->capacity && f->capacity[e] && f->capacity[e] < need) ||
+        (o->capacity && o->capacity < need))
+      return false;
   }
   return true;
 }
@@ -42,22 +46,26 @@ static double need_length(const thr_frame *f, const thr_request *o)
 }
 
 /* For every number of ends the certificate's bound is true. */
-static void assert_bounds(const thr_frame *f, thr_request o, const thr_certificate *c, double tolerance)
+static void assert_bounds(const thr_frame *f, thr_request o, const thr_certificate *c,
+                          double tolerance)
 {
   if (o.ends == THR_ENDS_CLOSED || o.ends == THR_ENDS_COUNTS) return;
   for (o.cords = 1; o.cords <= 5; o.cords++) {
     double least = least_extra_by_subsets(f, &o),
-           proved = ((double)c->sum - 2.0 * o.cords * (double)c->end_price) / (double)c->denominator / c->scale;
+           proved = ((double)c->sum - 2.0 * o.cords * (double)c->end_price) /
+                    (double)c->denominator / c->scale;
     ck_assert_double_le(proved, least + tolerance);
   }
 }
 
 START_TEST(every_kind_of_request)
 {
-  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS};
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES,
+                                  THR_ENDS_COUNTS};
   rng r = rng_make((uint64_t)_i);
   for (int round = 0; round < 10; round++) {
-    thr_frame f = random_frame(&r, rng_between(&r, 2, 7), rng_below(&r, 5), (length_kind)(round % LENGTH_KINDS));
+    thr_frame f = random_frame(&r, rng_between(&r, 2, 7), rng_below(&r, 5),
+                               (length_kind)(round % LENGTH_KINDS));
     thr_request o = options_for(ends[_i % 5], rng_between(&r, 1, 4));
     bool end_node[7] = {false};
     int end_count[7] = {0}, sum = 0;
@@ -147,7 +155,8 @@ static bool one_cord(const thr_frame *f, const thr_request *o, const int *passes
   return any && odd <= 2;
 }
 
-/* The shortest longest cord of exactly k, by trying all ways to give every edge 0 to 2 passes of each. */
+/* The shortest longest cord of exactly k, by trying all ways to give every edge 0 to 2 passes of
+ * each. */
 static double least_longest(const thr_frame *f, const thr_request *o, int k)
 {
   int choice[8] = {0}, choices = k == 1 ? 3 : k == 2 ? 9 : 27, passes[3][8];
@@ -197,8 +206,10 @@ START_TEST(bounds_on_several_cords_are_true)
   ck_assert_int_eq(thr_postman_shortest(&f, &p.options, &(thr_limits){0}, &s, NULL), THR_OK);
   thr_certificate_destroy(&p.proof.certificate[0]);
   free(p.proof.certificate);
-  ck_assert_int_eq(thr_postman_prove(&f, &p.options, p.cord, p.n_cords, &s, &p.proof, &err), THR_OK);
-  st = thr_check_cords(&f, &p.options, p.cord, p.n_cords, p.proof.certificate, 1, NULL, &p.cords_claim, &err);
+  ck_assert_int_eq(thr_postman_prove(&f, &p.options, p.cord, p.n_cords, &s, &p.proof, &err),
+                   THR_OK);
+  st = thr_check_cords(&f, &p.options, p.cord, p.n_cords, p.proof.certificate, 1, NULL,
+                       &p.cords_claim, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   int fewest = 1;
   double best = INFINITY;

@@ -1,4 +1,6 @@
-/* Shortest cords of random frameworks against two oracles that know no linear programming, and what must not change. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Shortest cords of random frameworks against two oracles that know no linear programming, and what
+ * must not change. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
@@ -29,7 +31,8 @@ static void assert_proved(const thr_plan *p, double extra)
   assert_plan_sound(p);
 }
 
-static void compare_all_ends(rng *r, const thr_frame *f, double (*oracle)(const thr_frame *, const thr_request *))
+static void compare_all_ends(rng *r, const thr_frame *f,
+                             double (*oracle)(const thr_frame *, const thr_request *))
 {
   bool end_node[64] = {false};
   for (int k = rng_between(r, 1, 4); k > 0; k--)
@@ -60,7 +63,8 @@ START_TEST(medium_ones_match_a_matching)
   rng r = rng_make((uint64_t)_i + 1000);
   for (int k = 0; k < 8; k++) {
     int n = rng_between(&r, 10, 60);
-    thr_frame f = random_frame_few_odd(&r, n, rng_below(&r, 2 * n), (length_kind)(k % LENGTH_KINDS), k == 0 ? 16 : 12);
+    thr_frame f = random_frame_few_odd(&r, n, rng_below(&r, 2 * n), (length_kind)(k % LENGTH_KINDS),
+                                       k == 0 ? 16 : 12);
     compare_all_ends(&r, &f, least_extra_by_matching);
     thr_frame_destroy(&f);
   }
@@ -71,10 +75,12 @@ START_TEST(oracles_agree)
 {
   rng r = rng_make((uint64_t)_i + 2000);
   for (int k = 0; k < 20; k++) {
-    thr_frame f = random_frame(&r, rng_between(&r, 2, 8), rng_below(&r, 5), (length_kind)(k % LENGTH_KINDS));
+    thr_frame f =
+        random_frame(&r, rng_between(&r, 2, 8), rng_below(&r, 5), (length_kind)(k % LENGTH_KINDS));
     for (int i = 0; i < 3; i++) {
       thr_request o = options_for(all_ends[i], 1 + k % 3);
-      ck_assert_double_eq_tol(least_extra_by_subsets(&f, &o), least_extra_by_matching(&f, &o), 1e-9);
+      ck_assert_double_eq_tol(least_extra_by_subsets(&f, &o), least_extra_by_matching(&f, &o),
+                              1e-9);
     }
     thr_frame_destroy(&f);
   }
@@ -83,7 +89,8 @@ END_TEST
 
 /* ---- several cords in a component ---- */
 
-static void compare_cords(rng *r, const thr_frame *f, double (*oracle)(const thr_frame *, const thr_request *))
+static void compare_cords(rng *r, const thr_frame *f,
+                          double (*oracle)(const thr_frame *, const thr_request *))
 {
   bool end_node[64] = {false};
   for (int k = rng_between(r, 1, 9); k > 0; k--)
@@ -97,14 +104,18 @@ static void compare_cords(rng *r, const thr_frame *f, double (*oracle)(const thr
       thr_err err = {0};
       o.cords = cords;
       if (all_ends[i] == THR_ENDS_NODES) o.end_node = end_node;
-      ck_assert_msg(thr_postman_shortest(f, &o, &(thr_limits){0}, &s, &err) == THR_OK && s.optimal, "%s", err.text);
+      ck_assert_msg(thr_postman_shortest(f, &o, &(thr_limits){0}, &s, &err) == THR_OK && s.optimal,
+                    "%s", err.text);
       ck_assert_double_eq_tol(s.length, base + oracle(f, &o), 1e-9 * base);
       ck_assert_double_eq(s.lower_bound, s.length);
-      s.passes[0]++; /* an odd number at both its nodes: too many ends, or the certificate does not fit */
-      ck_assert_int_eq(thr_check_length_of_passes(f, &o, s.passes, s.certificate, s.n_certificates, &optimal, &bound, NULL),
+      s.passes[0]++; /* an odd number at both its nodes: too many ends, or the certificate does not
+                        fit */
+      ck_assert_int_eq(thr_check_length_of_passes(f, &o, s.passes, s.certificate, s.n_certificates,
+                                                  &optimal, &bound, NULL),
                        THR_EVIOLATED);
       s.passes[0] = 0;
-      ck_assert_int_eq(thr_check_length_of_passes(f, &o, s.passes, s.certificate, s.n_certificates, &optimal, &bound, NULL),
+      ck_assert_int_eq(thr_check_length_of_passes(f, &o, s.passes, s.certificate, s.n_certificates,
+                                                  &optimal, &bound, NULL),
                        THR_EVIOLATED);
       thr_shortest_destroy(&s);
     }
@@ -127,19 +138,22 @@ START_TEST(cords_of_medium_ones_match_a_matching)
   rng r = rng_make((uint64_t)_i + 8000);
   for (int k = 0; k < 5; k++) {
     int n = rng_between(&r, 10, 60);
-    thr_frame f = random_frame_few_odd(&r, n, rng_below(&r, 2 * n), (length_kind)(k % LENGTH_KINDS), 14);
+    thr_frame f =
+        random_frame_few_odd(&r, n, rng_below(&r, 2 * n), (length_kind)(k % LENGTH_KINDS), 14);
     compare_cords(&r, &f, least_extra_by_matching);
     thr_frame_destroy(&f);
   }
 }
 END_TEST
 
-/* Free ends of a framework with 2 q odd nodes: q cords and more need no extra pass, however many they are. */
+/* Free ends of a framework with 2 q odd nodes: q cords and more need no extra pass, however many
+ * they are. */
 START_TEST(enough_cords_need_no_extra_pass)
 {
   static const int many[] = {0, 1, 5, 50};
   rng r = rng_make((uint64_t)_i + 9000);
-  thr_frame f = random_frame(&r, rng_between(&r, 4, 20), rng_below(&r, 20), (length_kind)(_i % LENGTH_KINDS));
+  thr_frame f =
+      random_frame(&r, rng_between(&r, 4, 20), rng_below(&r, 20), (length_kind)(_i % LENGTH_KINDS));
   int odd = 0;
   for (int v = 0; v < f.n_nodes; v++)
     odd += thr_degree(&f, v) % 2;
@@ -169,7 +183,8 @@ static void add_detour(thr_plan *p)
   c->n_passes += 2;
 }
 
-/* A plan that is longer than need be gets the shortest length as its bound: with equal beads to the last digit. */
+/* A plan that is longer than need be gets the shortest length as its bound: with equal beads to the
+ * last digit. */
 START_TEST(a_longer_plan_is_bounded_by_the_shortest)
 {
   rng r = rng_make((uint64_t)_i + 10000);
@@ -185,8 +200,11 @@ START_TEST(a_longer_plan_is_bounded_by_the_shortest)
     thr_err err = {0};
     add_detour(&p);
     p.proof = (thr_length_proof){0};
-    ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
-    ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err) == THR_OK, "%s", err.text);
+    ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL),
+                     THR_OK);
+    ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err) ==
+                      THR_OK,
+                  "%s", err.text);
     ck_assert(!p.proof.optimal && s.certificate == NULL);
     ck_assert_double_eq_tol(p.metrics.length, least + 2 * bead, 1e-12 * least);
     ck_assert_double_eq_tol(p.proof.lower_bound, least, 1e-12 * least);
@@ -227,7 +245,8 @@ START_TEST(names_and_order_do_not_matter)
 {
   rng r = rng_make((uint64_t)_i + 3000);
   int to[40];
-  thr_frame f = random_frame(&r, rng_between(&r, 5, 40), rng_below(&r, 50), (length_kind)(_i % LENGTH_KINDS));
+  thr_frame f =
+      random_frame(&r, rng_between(&r, 5, 40), rng_below(&r, 50), (length_kind)(_i % LENGTH_KINDS));
   thr_frame g = shuffled_frame(&r, &f, to);
   for (int i = 0; i < 3; i++) {
     double length = length_of(&f, all_ends[i], 1);
@@ -251,7 +270,8 @@ static thr_frame moved(const thr_frame *f, double a, double b, double s, double 
     xyz[v][1] = s * (cos(b) * y - sin(b) * p[2]) - shift;
     xyz[v][2] = s * (sin(b) * y + cos(b) * p[2]) + 2 * shift;
   }
-  g = frame_make(f->n_nodes, (const double(*)[3])xyz, f->n_edges, (const int(*)[2])f->edge, NULL, NULL);
+  g = frame_make(f->n_nodes, (const double(*)[3])xyz, f->n_edges, (const int(*)[2])f->edge, NULL,
+                 NULL);
   memcpy(g.foot, f->foot, (size_t)f->n_nodes * sizeof *g.foot);
   free(xyz);
   return g;
@@ -276,11 +296,14 @@ END_TEST
 START_TEST(more_freedom_is_never_longer)
 {
   rng r = rng_make((uint64_t)_i + 5000);
-  thr_frame f = random_frame(&r, rng_between(&r, 3, 50), rng_below(&r, 60), (length_kind)(_i % LENGTH_KINDS));
-  double closed = length_of(&f, THR_ENDS_CLOSED, 1), feet = length_of(&f, THR_ENDS_FEET, 1), any = length_of(&f, THR_ENDS_ANY, 1);
+  thr_frame f =
+      random_frame(&r, rng_between(&r, 3, 50), rng_below(&r, 60), (length_kind)(_i % LENGTH_KINDS));
+  double closed = length_of(&f, THR_ENDS_CLOSED, 1), feet = length_of(&f, THR_ENDS_FEET, 1),
+         any = length_of(&f, THR_ENDS_ANY, 1);
   double total = thr_frame_total_length(&f), twice = length_of(&f, THR_ENDS_CLOSED, 2),
          thrice = length_of(&f, THR_ENDS_CLOSED, 3);
-  ck_assert(any <= feet * (1 + 1e-9) && feet <= closed * (1 + 1e-9) && closed <= 2 * total * (1 + 1e-9));
+  ck_assert(any <= feet * (1 + 1e-9) && feet <= closed * (1 + 1e-9) &&
+            closed <= 2 * total * (1 + 1e-9));
   ck_assert_double_eq_tol(twice, 2 * total, 1e-9 * total);
   ck_assert_double_eq_tol(thrice, closed + 2 * total, 1e-9 * total);
   thr_frame_destroy(&f);
@@ -290,7 +313,8 @@ END_TEST
 START_TEST(same_input_gives_the_same_bytes)
 {
   rng r = rng_make((uint64_t)_i + 6000);
-  thr_frame f = random_frame(&r, 60, 70, (length_kind)(_i % LENGTH_KINDS)), other = random_frame(&r, 30, 30, LENGTHS_RANDOM);
+  thr_frame f = random_frame(&r, 60, 70, (length_kind)(_i % LENGTH_KINDS)),
+            other = random_frame(&r, 30, 30, LENGTHS_RANDOM);
   thr_plan p = plan_simple(&f, all_ends[_i % 3], 1), between = plan_simple(&other, THR_ENDS_ANY, 1),
            q = plan_simple(&f, all_ends[_i % 3], 1);
   thr_text a = plan_text(&p), b = plan_text(&q);
@@ -319,8 +343,10 @@ static void assert_file_is_solved(const char *path)
     thr_limits none = {0};
     thr_err err = {0};
     thr_status st = thr_postman_plan(&f, &o, &none, &p, &err);
-    if (st == THR_EINFEASIBLE && all_ends[i] == THR_ENDS_FEET) continue; /* a component without feet: said so */
-    ck_assert_msg(st == THR_OK && p.proof.optimal, "%s, ends %s: %s", path, thr_ends_name(all_ends[i]), err.text);
+    if (st == THR_EINFEASIBLE && all_ends[i] == THR_ENDS_FEET)
+      continue; /* a component without feet: said so */
+    ck_assert_msg(st == THR_OK && p.proof.optimal, "%s, ends %s: %s", path,
+                  thr_ends_name(all_ends[i]), err.text);
     ck_assert(all_ends[i] != THR_ENDS_FEET || feet);
     ck_assert_double_eq(p.proof.lower_bound, p.metrics.length);
     ck_assert_int_eq(p.metrics.u_turns, forced_u_turns(&p));
@@ -341,7 +367,8 @@ static int solve_folder(const char *folder)
     struct stat info;
     const char *name = list[i]->d_name, *dot = strrchr(name, '.');
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    bool framework = dot && (!strcmp(dot, ".json") || !strcmp(dot, ".obj") || (!strcmp(dot, ".csv") && !strstr(name, "edges")));
+    bool framework = dot && (!strcmp(dot, ".json") || !strcmp(dot, ".obj") ||
+                             (!strcmp(dot, ".csv") && !strstr(name, "edges")));
     if (name[0] != '.' && stat(path, &info) == 0) {
       if (S_ISDIR(info.st_mode)) {
         solved += solve_folder(path);

@@ -1,5 +1,7 @@
-/* Cords of small components by a table over subsets, against all walks (tests/walks.h): length and turning, together and the
- * dearest, the fewest under a limit, for all ends, covers, capacities and joints. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cords of small components by a table over subsets, against all walks (tests/walks.h): length and
+ * turning, together and the dearest, the fewest under a limit, for all ends, covers, capacities and
+ * joints. */
 #include "graph/threading/threading.h"
 #include "tests/frameworks.h"
 #include "tests/plans.h"
@@ -42,10 +44,12 @@ static void random_ends(rng *r, example *x)
 /* *known false: too large for the oracle. */
 static example random_example(rng *r, bool *known)
 {
-  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET, THR_ENDS_NODES, THR_ENDS_COUNTS};
+  static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_CLOSED, THR_ENDS_ANY,
+                                  THR_ENDS_FEET,   THR_ENDS_NODES,  THR_ENDS_COUNTS};
   const bool tube = rng_below(r, 3) == 0;
   int nodes = rng_between(r, tube ? 3 : 2, 5);
-  example x = {.f = random_frame(r, nodes, rng_below(r, 8 - nodes), (length_kind)rng_below(r, LENGTH_KINDS))};
+  example x = {.f = random_frame(r, nodes, rng_below(r, 8 - nodes),
+                                 (length_kind)rng_below(r, LENGTH_KINDS))};
   x.o = options_for(ends[rng_below(r, 6)], rng_below(r, 4) ? 1 : 2);
   x.o.joint = tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
   x.o.capacity = rng_below(r, 3) ? 0 : x.o.cover + rng_below(r, 3);
@@ -71,7 +75,8 @@ static void example_destroy(example *x)
 static void all_least(const example *x, int most, double limit, double *least)
 {
   const walks_weights by = {.length = !x->turning, .turn = x->turning};
-  double *in = calloc((size_t)x->w.n_states, sizeof *in), *out = calloc((size_t)x->w.n_states, sizeof *out);
+  double *in = calloc((size_t)x->w.n_states, sizeof *in),
+         *out = calloc((size_t)x->w.n_states, sizeof *out);
   ck_assert(in != NULL && out != NULL);
   walks_begin(&x->w, in);
   for (int n = 1; n <= most; n++) {
@@ -99,9 +104,11 @@ static double cost_of(const example *x, const int *half, int n)
   double cost = 0;
   const bool closed = x->o.ends == THR_ENDS_CLOSED;
   for (int i = 0; i < n; i++) {
-    ck_assert(i + 1 < n || closed ? thr_head(&x->f, half[i]) == thr_tail(&x->f, half[(i + 1) % n]) : true);
+    ck_assert(i + 1 < n || closed ? thr_head(&x->f, half[i]) == thr_tail(&x->f, half[(i + 1) % n])
+                                  : true);
     if (!x->turning) cost += x->f.length[half[i] >> 1];
-    if (x->turning && (i + 1 < n || closed)) cost += walks_price(&x->f, x->o.turning.cost, half[i], half[(i + 1) % n]);
+    if (x->turning && (i + 1 < n || closed))
+      cost += walks_price(&x->f, x->o.turning.cost, half[i], half[(i + 1) % n]);
   }
   return cost;
 }
@@ -157,7 +164,8 @@ static bool ask_for(const example *x, thr_small_ask ask, thr_small_cords *out)
 {
   bool certain;
   ask.turning = x->turning;
-  ck_assert_int_eq(thr_small_cords_find(&x->f, &x->o, &ask, &(thr_limits){0}, out, &certain, NULL), THR_OK);
+  ck_assert_int_eq(thr_small_cords_find(&x->f, &x->o, &ask, &(thr_limits){0}, out, &certain, NULL),
+                   THR_OK);
   return certain;
 }
 
@@ -167,7 +175,8 @@ static bool compare_sum(const example *x)
 {
   thr_small_cords c;
   double least[MOST_CORDS + 1], dearest, sum;
-  if (!ask_for(x, (thr_small_ask){.least = x->cords, .most = x->cords, .limit = INFINITY}, &c)) return false;
+  if (!ask_for(x, (thr_small_ask){.least = x->cords, .most = x->cords, .limit = INFINITY}, &c))
+    return false;
   all_least(x, x->cords, -1, least);
   ck_assert_int_eq(c.n, isfinite(least[x->cords]) ? x->cords : 0);
   if (c.n) {
@@ -260,8 +269,8 @@ START_TEST(every_allocation_may_fail)
 }
 END_TEST
 
-/* A cube has 12 edges, more than the walks of the oracle. All 8 nodes are odd, four stay so where two cords end: two edges are
- * passed twice. */
+/* A cube has 12 edges, more than the walks of the oracle. All 8 nodes are odd, four stay so where
+ * two cords end: two edges are passed twice. */
 START_TEST(a_cube_and_two_cords_by_hand)
 {
   thr_frame f = solid_make(CUBE);
@@ -269,7 +278,8 @@ START_TEST(a_cube_and_two_cords_by_hand)
   thr_small_cords c;
   bool certain;
   const thr_small_ask ask = {.least = 2, .most = 2, .even = true, .limit = INFINITY};
-  ck_assert_int_eq(thr_small_cords_find(&f, &o, &ask, &(thr_limits){0}, &c, &certain, NULL), THR_OK);
+  ck_assert_int_eq(thr_small_cords_find(&f, &o, &ask, &(thr_limits){0}, &c, &certain, NULL),
+                   THR_OK);
   ck_assert(certain && c.n == 2);
   ck_assert_int_eq(c.n_passes[0] + c.n_passes[1], 14);
   ck_assert_int_eq(c.n_passes[0], 7);

@@ -1,9 +1,12 @@
-/* What is claimed of symmetric threadings, against all sets of walks that a group maps to themselves.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is claimed of symmetric threadings, against all sets of walks that a group maps to
+ * themselves.
  *
- * A symmetric threading, as docs/plan-format.md defines it, is a multiset of orbits of walks. So the best one is that of a
- * knapsack: every orbit adds passes to the orbits of edges, cords, steps, a path and turning. The walks are those of a few
- * passes, which turn back anywhere; what is found so is a threading, so that nothing better may be called impossible. No code is
- * shared with symmetry/. */
+ * A symmetric threading, as docs/plan-format.md defines it, is a multiset of orbits of walks. So
+ * the best one is that of a knapsack: every orbit adds passes to the orbits of edges, cords, steps,
+ * a path and turning. The walks are those of a few passes, which turn back anywhere; what is found
+ * so is a threading, so that nothing better may be called impossible. No code is shared with
+ * symmetry/. */
 #include "planner/planner.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/group/group.h"
@@ -41,7 +44,8 @@ typedef struct {
 
 /* ---- orders ---- */
 
-/* Returns -1 or 1 where a is better or worse in the first aim in which the two differ, and that aim's place. */
+/* Returns -1 or 1 where a is better or worse in the first aim in which the two differ, and that
+ * aim's place. */
 static int compare(const oracle *x, const double *a, const double *b, int *place)
 {
   for (int k = 0; k < THR_N_AIMS; k++) {
@@ -72,7 +76,8 @@ static int count_maps(const oracle *x, const int *walk, int n, bool round)
   for (int g = 0; g < x->order; g++) {
     bool any = false;
     for (int start = 0; start < n && !any; start++)
-      any = round        ? is_same(walk, n, x->image[g], start, false, true) || is_same(walk, n, x->image[g], start, true, true)
+      any = round ? is_same(walk, n, x->image[g], start, false, true) ||
+                        is_same(walk, n, x->image[g], start, true, true)
             : start == 0 ? is_same(walk, n, x->image[g], 0, false, false)
                          : start == n - 1 && is_same(walk, n, x->image[g], start, true, false);
     maps += any;
@@ -127,13 +132,14 @@ static void add_walk(oracle *x, const int *walk, int passes)
     if (made.passes[k] > x->most) return;
     made.cost[THR_AIM_OVERLAP] += made.passes[k] * x->length[k];
   }
-  made.cost[THR_AIM_STEPS] =
-      (passes + (x->o->ends == THR_ENDS_ANY && !round ? 2.0 : 0.0)) * count_fixing(x, walk, passes + 1) / elements;
+  made.cost[THR_AIM_STEPS] = (passes + (x->o->ends == THR_ENDS_ANY && !round ? 2.0 : 0.0)) *
+                             count_fixing(x, walk, passes + 1) / elements;
   for (int g = 0; g < x->order; g++)
     made.cost[THR_AIM_TURNING] += turning_of(x, walk, passes, x->image[g]) * made.cords / x->order;
   for (int i = 0; i < x->n_items; i++) {
     item *known = &x->item[i];
-    if (known->cords != made.cords || memcmp(known->passes, made.passes, sizeof made.passes) != 0) continue;
+    if (known->cords != made.cords || memcmp(known->passes, made.passes, sizeof made.passes) != 0)
+      continue;
     if (compare(x, made.cost, known->cost, &place) < 0) *known = made;
     return;
   }
@@ -150,7 +156,8 @@ static void extend(oracle *x, int *walk, int passes, int longest, int *passed)
 {
   const thr_frame *f = x->f;
   const int at = walk[passes];
-  if (passes > 0 && may_end(x, at) && (x->o->ends != THR_ENDS_CLOSED || at == walk[0])) add_walk(x, walk, passes);
+  if (passes > 0 && may_end(x, at) && (x->o->ends != THR_ENDS_CLOSED || at == walk[0]))
+    add_walk(x, walk, passes);
   if (passes == longest || x->n_walks++ > WALKS) return;
   for (int k = f->first[at]; k < f->first[at + 1]; k++) {
     const int e = f->half[k] >> 1;
@@ -164,7 +171,8 @@ static void extend(oracle *x, int *walk, int passes, int longest, int *passed)
 
 /* ---- threadings ---- */
 
-static void oracle_init(oracle *x, const thr_frame *f, const thr_request *o, const thr_group *g, const thr_subgroup *h)
+static void oracle_init(oracle *x, const thr_frame *f, const thr_request *o, const thr_group *g,
+                        const thr_subgroup *h)
 {
   int walk[LONGEST + 1], passed[EDGES] = {0};
   *x = (oracle){.f = f, .o = o, .order = h->order};
@@ -176,7 +184,8 @@ static void oracle_init(oracle *x, const thr_frame *f, const thr_request *o, con
     x->base += o->cover * f->length[e];
     if (x->orbit[e] >= 0) continue;
     for (int i = 0; i < h->order; i++) {
-      const int to = thr_frame_edge_between(f, x->image[i][f->edge[e][0]], x->image[i][f->edge[e][1]]);
+      const int to =
+          thr_frame_edge_between(f, x->image[i][f->edge[e][0]], x->image[i][f->edge[e][1]]);
       if (x->orbit[to] >= 0) continue;
       x->orbit[to] = x->n_orbits;
       x->size[x->n_orbits]++;
@@ -185,7 +194,8 @@ static void oracle_init(oracle *x, const thr_frame *f, const thr_request *o, con
     x->n_orbits++;
   }
   x->most = o->cover + (x->n_orbits > 5 ? 1 : x->n_orbits > 4 ? 2 : 3);
-  for (int longest = 2; longest <= LONGEST && x->n_walks < WALKS; longest++) { /* short ones first, if they are too many */
+  for (int longest = 2; longest <= LONGEST && x->n_walks < WALKS;
+       longest++) { /* short ones first, if they are too many */
     x->n_walks = 0;
     if (longest < LONGEST && longest != 4) continue;
     for (walk[0] = 0; walk[0] < f->n_nodes; walk[0]++)
@@ -232,7 +242,8 @@ static void fill(oracle *x, bool counted)
   }
 }
 
-/* Returns the best complete threading, of so many cords (0: any number; then filled so), or NULL. */
+/* Returns the best complete threading, of so many cords (0: any number; then filled so), or NULL.
+ */
 static const double *best_of(const oracle *x, int number)
 {
   const double *found = NULL;
@@ -253,12 +264,14 @@ static const double *best_of(const oracle *x, int number)
 
 static thr_frame make_frame(int i)
 {
-  static const double square[NODES][3] = {{0, 0, 0}, {0, 10, 0}, {10, 0, 0}, {10, 10, 0}, {0, 5, 0}, {10, 5, 0}};
+  static const double square[NODES][3] = {{0, 0, 0},   {0, 10, 0}, {10, 0, 0},
+                                          {10, 10, 0}, {0, 5, 0},  {10, 5, 0}};
   static const int h[][2] = {{0, 4}, {1, 4}, {4, 5}, {2, 5}, {3, 5}};
   if (i == 0) return frame_make(6, square, 5, h, NULL, (const int[]){0, 1, 2, 3, 4, 5, -1});
   rng r = rng_make(977 + (uint64_t)i);
   double xyz[NODES][3], length[EDGES];
-  int edge[EDGES][2], feet[NODES + 1], degree[NODES] = {0}, m = 0, n_feet = 0, n = rng_between(&r, 2, NODES);
+  int edge[EDGES][2], feet[NODES + 1], degree[NODES] = {0}, m = 0, n_feet = 0,
+                                       n = rng_between(&r, 2, NODES);
   const int kind = rng_below(&r, 3), where = rng_below(&r, 4), hub = rng_below(&r, 2);
   for (int v = 0; v < n; v++) {
     for (int k = 0; k < 3; k++)
@@ -277,39 +290,47 @@ static thr_frame make_frame(int i)
     degree[edge[e][0]]++, degree[edge[e][1]]++;
   }
   for (int v = 0; v < n; v++)
-    if (where == 0 || (where == 1 && degree[v] == 1) || (where == 2 && degree[v] > 1) || (where == 3 && rng_below(&r, 2)))
+    if (where == 0 || (where == 1 && degree[v] == 1) || (where == 2 && degree[v] > 1) ||
+        (where == 3 && rng_below(&r, 2)))
       feet[n_feet++] = v;
   if (n_feet == 0) feet[n_feet++] = 0;
   feet[n_feet] = -1;
-  return frame_make(n, (const double(*)[3])xyz, m, (const int(*)[2])edge, kind == 0 ? NULL : length, feet);
+  return frame_make(n, (const double(*)[3])xyz, m, (const int(*)[2])edge, kind == 0 ? NULL : length,
+                    feet);
 }
 
 /* ---- comparison ---- */
 
-/* exact: optimal, and the best of short walks; worse: than that; none: no threading was found; missed: though there is one. */
+/* exact: optimal, and the best of short walks; worse: than that; none: no threading was found;
+ * missed: though there is one. */
 typedef struct {
   int rows, optimal, exact, worse, none, missed, impossible;
 } tally;
 
 /* Returns in words what is compared. */
-static const char *describe(char text[200], const thr_request *o, const thr_symmetries *t, int number, int frame)
+static const char *describe(char text[200], const thr_request *o, const thr_symmetries *t,
+                            int number, int frame)
 {
   thr_aim order[THR_N_AIMS];
   thr_aims_order(o, order);
-  snprintf(text, 200, "frame %d, ends %s, cords %d, cover %d, first %s, row %d of order %d", frame, thr_ends_name(o->ends),
-           o->symmetry.counted ? o->cords : 0, o->cover, thr_aim_name(order[0]), number + 1, t->row[number].order);
+  snprintf(text, 200, "frame %d, ends %s, cords %d, cover %d, first %s, row %d of order %d", frame,
+           thr_ends_name(o->ends), o->symmetry.counted ? o->cords : 0, o->cover,
+           thr_aim_name(order[0]), number + 1, t->row[number].order);
   return text;
 }
 
-/* What is said of a row leaves room for the best threading, if there is one (NULL: none of short walks). */
-static void check_row(const oracle *x, const thr_symmetry_row *row, const double *best, const char *what, tally *n)
+/* What is said of a row leaves room for the best threading, if there is one (NULL: none of short
+ * walks). */
+static void check_row(const oracle *x, const thr_symmetry_row *row, const double *best,
+                      const char *what, tally *n)
 {
   int place, order = best ? compare(x, best, row->value, &place) : 1;
   n->rows++;
   n->none += row->n_cords == 0;
   n->impossible += row->why.code == THR_EINFEASIBLE;
   n->missed += row->n_cords == 0 && best;
-  ck_assert_msg(row->why.code != THR_EINFEASIBLE || !best, "%s: called impossible (%s)", what, row->why.text);
+  ck_assert_msg(row->why.code != THR_EINFEASIBLE || !best, "%s: called impossible (%s)", what,
+                row->why.text);
   if (row->n_cords == 0) return;
   n->optimal += row->why.code == THR_OK;
   n->exact += order == 0 && row->why.code == THR_OK;
@@ -317,12 +338,14 @@ static void check_row(const oracle *x, const thr_symmetry_row *row, const double
   if (order >= 0) return;
   const thr_aim aim = x->prefer[place];
   ck_assert_msg(row->why.code != THR_OK && row->bound[aim] <= best[aim] + 1e-5 * (1 + best[aim]),
-                "%s: %s %g, said to be at least %g%s, but there is %g", what, thr_aim_name(aim), row->value[aim], row->bound[aim],
-                row->why.code ? "" : " (optimal)", best[aim]);
+                "%s: %s %g, said to be at least %g%s, but there is %g", what, thr_aim_name(aim),
+                row->value[aim], row->bound[aim], row->why.code ? "" : " (optimal)", best[aim]);
 }
 
-/* A row that is left out, because another is chosen in any case, has no threading that would be chosen before that. */
-static void check_left_out(const oracle *x, const thr_symmetries *t, const double *best, const char *what)
+/* A row that is left out, because another is chosen in any case, has no threading that would be
+ * chosen before that. */
+static void check_left_out(const oracle *x, const thr_symmetries *t, const double *best,
+                           const char *what)
 {
   const thr_symmetry_row *chosen = &t->row[t->chosen];
   if (!best || x->prefer[0] != THR_AIM_OVERLAP || x->prefer[1] != THR_AIM_STEPS) return;
@@ -330,7 +353,8 @@ static void check_left_out(const oracle *x, const thr_symmetries *t, const doubl
   if (t->within && best[THR_AIM_OVERLAP] > within + 1e-6) return;
   ck_assert_msg(t->within ? best[THR_AIM_STEPS] >= chosen->record.steps - 1e-6
                           : best[THR_AIM_OVERLAP] >= chosen->metrics.overlap - 1e-6,
-                "%s: left out, but there are %g steps, overlap %g", what, best[THR_AIM_STEPS], best[THR_AIM_OVERLAP]);
+                "%s: left out, but there are %g steps, overlap %g", what, best[THR_AIM_STEPS],
+                best[THR_AIM_OVERLAP]);
 }
 
 /* All rows of the table, and those that are left out where only the choice is asked for. */
@@ -354,15 +378,16 @@ static void check_table(const thr_frame *f, const thr_request *o, int number, in
     if (found) memcpy(best, found, sizeof best);
     best[THR_AIM_OVERLAP] -= x.base;
     check_row(&x, &all.row[i], found ? best : NULL, describe(what, o, &all, i, frame), n);
-    if (choice.n > i && choice.row[i].behind) check_left_out(&x, &choice, found ? best : NULL, what);
+    if (choice.n > i && choice.row[i].behind)
+      check_left_out(&x, &choice, found ? best : NULL, what);
     oracle_destroy(&x);
   }
   thr_symmetries_destroy(&all);
   thr_symmetries_destroy(&choice);
 }
 
-/* With the identity alone the plan serves the aims, in their order, no worse than the cords of least length do; and what is said
- * of it leaves room for all walks. */
+/* With the identity alone the plan serves the aims, in their order, no worse than the cords of
+ * least length do; and what is said of it leaves room for all walks. */
 static void check_identity(const thr_frame *f, thr_request o, int number, int frame, tally *n)
 {
   const thr_limits limits = {.deadline = thr_clock() + 20};
@@ -383,8 +408,10 @@ static void check_identity(const thr_frame *f, thr_request o, int number, int fr
     double best[THR_N_AIMS] = {0};
     thr_symmetry_record record;
     ck_assert_int_eq(thr_cords_alone(f, &how, other.cord, other.n_cords, &record, NULL), THR_OK);
-    const double has[] = {plan.metrics.overlap, plan.symmetry.steps, plan.symmetry.unique_paths, plan.metrics.turning};
-    const double least[] = {other.metrics.overlap, record.steps, record.unique_paths, other.metrics.turning};
+    const double has[] = {plan.metrics.overlap, plan.symmetry.steps, plan.symmetry.unique_paths,
+                          plan.metrics.turning};
+    const double least[] = {other.metrics.overlap, record.steps, record.unique_paths,
+                            other.metrics.turning};
     ck_assert_int_eq(t->chosen, t->n - 1);
     describe(what, &o, t, t->chosen, frame);
     oracle_init(&x, f, &o, &t->group[t->row[t->chosen].group].all, &(thr_subgroup){1, &identity});
@@ -393,9 +420,11 @@ static void check_identity(const thr_frame *f, thr_request o, int number, int fr
     if (found) memcpy(best, found, sizeof best);
     best[THR_AIM_OVERLAP] -= x.base;
     check_row(&x, &t->row[t->chosen], found ? best : NULL, what, n);
-    ck_assert_msg(compare(&x, least, has, &place) >= 0, "%s: %s %g, but the shortest cords have %g", what,
-                  thr_aim_name(x.prefer[place]), has[x.prefer[place]], least[x.prefer[place]]);
-    ck_assert_msg(compare(&x, has, t->row[t->chosen].value, &place) == 0, "%s: the plan is not what its row says", what);
+    ck_assert_msg(compare(&x, least, has, &place) >= 0, "%s: %s %g, but the shortest cords have %g",
+                  what, thr_aim_name(x.prefer[place]), has[x.prefer[place]],
+                  least[x.prefer[place]]);
+    ck_assert_msg(compare(&x, has, t->row[t->chosen].value, &place) == 0,
+                  "%s: the plan is not what its row says", what);
     oracle_destroy(&x);
     thr_symmetry_record_destroy(&record);
   }
@@ -426,8 +455,9 @@ START_TEST(rows_leave_room_for_all_walks)
     }
   }
   if (getenv("THREAD_WALKS_FRAMES"))
-    printf("frame %d: %d rows, %d optimal, %d of them found, %d better, %d none, %d missed, %d impossible\n", _i, n.rows,
-           n.optimal, n.exact, n.worse, n.none, n.missed, n.impossible);
+    printf("frame %d: %d rows, %d optimal, %d of them found, %d better, %d none, %d missed, %d "
+           "impossible\n",
+           _i, n.rows, n.optimal, n.exact, n.worse, n.none, n.missed, n.impossible);
   thr_frame_destroy(&f);
 }
 END_TEST

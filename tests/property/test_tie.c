@@ -1,5 +1,6 @@
-/* Tied nodes: the turns of one against all turns, walks against prices from scratch, the ascent's bound against enumeration's
- * optimum in a linear programme with all rows. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tied nodes: the turns of one against all turns, walks against prices from scratch, the ascent's
+ * bound against enumeration's optimum in a linear programme with all rows. */
 #include "graph/limits.h"
 #include "graph/plan/turning_proof.h"
 #include "lp/solver/lp.h"
@@ -78,7 +79,8 @@ static void assert_pairs(const thr_knot *k, const world *w)
     ck_assert_int_ne(a, b);
     used[a]++;
     used[b]++;
-    if (a < k->d && b < k->d) price += weight(&w->c, thr_turning_column(&w->c, w->f.half[a], w->f.half[b]));
+    if (a < k->d && b < k->d)
+      price += weight(&w->c, thr_turning_column(&w->c, w->f.half[a], w->f.half[b]));
   }
   for (int i = 0; i < k->d; i++)
     ck_assert_int_eq(used[i], w->passes[w->f.half[i] >> 1]);
@@ -164,7 +166,9 @@ START_TEST(walks_change_what_they_say)
     world w;
     thr_walker walk;
     bool found;
-    world_make(&w, i % 3 ? random_frame(&r, rng_between(&r, 5, 9), 8, LENGTHS_EUCLID) : grid_make(3, 4), 1, true, -1);
+    world_make(&w,
+               i % 3 ? random_frame(&r, rng_between(&r, 5, 9), 8, LENGTHS_EUCLID) : grid_make(3, 4),
+               1, true, -1);
     ck_assert_int_eq(thr_tie_round(&w.c, NULL, w.passes, w.ends, &found, NULL), THR_OK);
     if (!found) {
       world_destroy(&w);
@@ -232,12 +236,15 @@ static void add_divisions(divider *g, int k, int n)
   int count = 0;
   for (int i = 0; i < g->d; i++)
     for (int j = i + 1; j < g->d; j++)
-      if (g->block[i] != g->block[j]) g->column[count++] = thr_turning_column(g->c, half[i], half[j]);
+      if (g->block[i] != g->block[j])
+        g->column[count++] = thr_turning_column(g->c, half[i], half[j]);
   if (n > 1) ck_assert_int_eq(thr_lp_add_row(g->lp, count, g->column, NULL, n - 1, NULL), THR_OK);
 }
 
-/* Sum over both half-edges of edge e: passes there less sign * what turns at the other one; <= and >= make them equal. */
-static void add_balance(const thr_turning_columns *c, thr_lp *lp, int e, double sign, int *column, double *value)
+/* Sum over both half-edges of edge e: passes there less sign * what turns at the other one; <= and
+ * >= make them equal. */
+static void add_balance(const thr_turning_columns *c, thr_lp *lp, int e, double sign, int *column,
+                        double *value)
 {
   const thr_frame *f = c->f;
   int n = 0;
@@ -255,7 +262,8 @@ static void add_balance(const thr_turning_columns *c, thr_lp *lp, int e, double 
 /* Closed cords, cover 1: the linear programme of turns alone with every row that ties a node. */
 static double tied_optimum(const thr_turning_columns *c)
 {
-  double *cost = calloc((size_t)c->first_extra, sizeof *cost), *value = calloc((size_t)c->first_extra, sizeof *value);
+  double *cost = calloc((size_t)c->first_extra, sizeof *cost),
+         *value = calloc((size_t)c->first_extra, sizeof *value);
   divider g = {.c = c, .column = calloc((size_t)c->first_extra, sizeof *g.column)};
   thr_lp_outcome outcome;
   for (int j = 0; j < c->first_extra; j++)
@@ -285,7 +293,8 @@ static double ascent_bound(const thr_turning_columns *c, const thr_limits *limit
   thr_turning_dual d;
   int64_t bound;
   thr_err err = {0};
-  int *low = calloc((size_t)c->n_columns, sizeof *low), *high = calloc((size_t)c->n_columns, sizeof *high);
+  int *low = calloc((size_t)c->n_columns, sizeof *low),
+      *high = calloc((size_t)c->n_columns, sizeof *high);
   double *mean = calloc((size_t)c->n_columns, sizeof *mean);
   for (int j = 0; j < c->n_columns; j++)
     high[j] = thr_turning_most(c, j);
@@ -328,7 +337,8 @@ START_TEST(ascent_comes_near_the_programme)
 }
 END_TEST
 
-/* With ends, covers and a limit on the length: never above the price of passes that keep to them; and a bound without any time.
+/* With ends, covers and a limit on the length: never above the price of passes that keep to them;
+ * and a bound without any time.
  */
 START_TEST(ascent_stays_below_plans)
 {
@@ -338,7 +348,8 @@ START_TEST(ascent_stays_below_plans)
     world w;
     bool found;
     double slack = rng_below(&r, 2) ? -1 : 60;
-    world_make(&w, random_frame(&r, rng_between(&r, 4, 8), 6, LENGTHS_EQUAL), rng_between(&r, 1, 2), rng_below(&r, 2), slack);
+    world_make(&w, random_frame(&r, rng_between(&r, 4, 8), 6, LENGTHS_EQUAL), rng_between(&r, 1, 2),
+               rng_below(&r, 2), slack);
     w.task.cords_least = 1;
     thr_turning_columns_destroy(&w.c);
     ck_assert_int_eq(thr_turning_columns_init(&w.c, &w.f, &w.task, NULL), THR_OK);

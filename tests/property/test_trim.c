@@ -1,4 +1,6 @@
-/* Passes at the ends of cords that other cords make already: what is left off is the most that can be, against all choices. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Passes at the ends of cords that other cords make already: what is left off is the most that can
+ * be, against all choices. */
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
@@ -33,7 +35,8 @@ static bool walk_at_random(rng *r, const thr_plan *plan, thr_cord *cord)
   return true;
 }
 
-/* Tries all pieces of cord i and later ones; spare: passes that edges can do without. Returns the most length left off. */
+/* Tries all pieces of cord i and later ones; spare: passes that edges can do without. Returns the
+ * most length left off. */
 static double most_left_off(const thr_plan *plan, int i, int *spare)
 {
   const thr_frame *frame = &plan->frame;
@@ -43,7 +46,9 @@ static double most_left_off(const thr_plan *plan, int i, int *spare)
   for (int a = 0; a < cord->n_passes; a++)
     for (int b = a + 1; b <= cord->n_passes; b++) {
       const int start = thr_tail(frame, cord->half[a]), end = thr_head(frame, cord->half[b - 1]);
-      if (!thr_plan_end_allowed(frame, &plan->options, start) || !thr_plan_end_allowed(frame, &plan->options, end)) continue;
+      if (!thr_plan_end_allowed(frame, &plan->options, start) ||
+          !thr_plan_end_allowed(frame, &plan->options, end))
+        continue;
       double length = 0;
       bool fits = true;
       for (int k = 0; k < cord->n_passes; k++)
@@ -61,7 +66,8 @@ static double most_left_off(const thr_plan *plan, int i, int *spare)
 START_TEST(leaves_off_as_much_as_can_be)
 {
   rng r = rng_make((uint64_t)_i + 1);
-  thr_frame frame = random_frame(&r, rng_between(&r, 2, 4), rng_below(&r, 3), (length_kind)rng_below(&r, LENGTH_KINDS));
+  thr_frame frame = random_frame(&r, rng_between(&r, 2, 4), rng_below(&r, 3),
+                                 (length_kind)rng_below(&r, LENGTH_KINDS));
   thr_request request = options_for(rng_below(&r, 2) ? THR_ENDS_ANY : THR_ENDS_FEET, 1);
   thr_plan plan = {0};
   int spare[64] = {0}, after[64] = {0};

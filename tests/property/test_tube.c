@@ -1,4 +1,6 @@
-/* The shortest cords for tube joints against all passes and all turns of small frameworks, and against published values. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The shortest cords for tube joints against all passes and all turns of small frameworks, and
+ * against published values. */
 #include "graph/plan/plan_measures.h"
 #include "graph/plan/turning_proof.h"
 #include "planner/planner.h"
@@ -16,7 +18,8 @@ enum { MORE = 3, MOST_EDGES = 8, MOST_NODES = 8, MOST_ENDS = 6, MOST_DEGREE = MO
 typedef struct {
   const thr_frame *f;
   const thr_request *o;
-  double *known[MOST_NODES]; /* price of tying a node by extra passes and ends; < 0: not yet looked at */
+  double *known[MOST_NODES]; /* price of tying a node by extra passes and ends; < 0: not yet looked
+                                at */
   int passes[MOST_EDGES], component[MOST_NODES], n_components;
   bool turns; /* least price of the turns, not least length */
   double most_length, best;
@@ -32,7 +35,8 @@ static double tie(oracle *w, int v, int ends)
     k.left[i] = w->passes[h >> 1];
     name = name * (MORE + 1) + w->passes[h >> 1] - thr_plan_cover(f, w->o, h >> 1);
     for (int j = i + 1; j < k.d && w->turns; j++)
-      k.price[i][j] = thr_turn_cost_of(w->o->turning.cost, thr_turn_angle(f, h ^ 1, f->half[f->first[v] + j]));
+      k.price[i][j] =
+          thr_turn_cost_of(w->o->turning.cost, thr_turn_angle(f, h ^ 1, f->half[f->first[v] + j]));
   }
   k.left[k.d] = ends;
   double *known = &w->known[v][name];
@@ -59,7 +63,8 @@ static double price_of_passes(oracle *w)
         next[z] = INFINITY;
       for (int z = fewest; z <= most; z++)
         for (int sum = 0; sum + z <= MOST; sum++)
-          if (by_ends[sum] < INFINITY) next[sum + z] = fmin(next[sum + z], by_ends[sum] + tie(w, v, z));
+          if (by_ends[sum] < INFINITY)
+            next[sum + z] = fmin(next[sum + z], by_ends[sum] + tie(w, v, z));
       memcpy(by_ends, next, sizeof by_ends);
     }
     for (int z = 0; z <= MOST; z++) {
@@ -87,9 +92,11 @@ static void try_passes(oracle *w, int e, double length)
   }
 }
 
-/* The least length, or price of turns within a length, with at most MORE extra passes of every edge; INFINITY if there is none.
+/* The least length, or price of turns within a length, with at most MORE extra passes of every
+ * edge; INFINITY if there is none.
  */
-static double least_by_enumeration(const thr_frame *f, const thr_request *o, bool turns, double most_length)
+static double least_by_enumeration(const thr_frame *f, const thr_request *o, bool turns,
+                                   double most_length)
 {
   oracle w = {.f = f, .o = o, .turns = turns, .most_length = most_length, .best = INFINITY};
   ck_assert(f->n_edges <= MOST_EDGES && f->n_nodes <= MOST_NODES);
@@ -153,7 +160,8 @@ static void compare_turning(const thr_frame *f, thr_request *o, tally *t)
   want(o, "turning");
   o->cords_least = o->cords;
   double shortest = least_by_enumeration(f, o, false, INFINITY);
-  double least = least_by_enumeration(f, o, true, o->turning.length_slack < 0 ? INFINITY : shortest);
+  double least =
+      least_by_enumeration(f, o, true, o->turning.length_slack < 0 ? INFINITY : shortest);
   thr_status st = thr_tortuosity_plan(f, o, &none, &p, &err);
   if (st == THR_EINFEASIBLE) {
     ck_assert_msg(isinf(least), "%s; but there is one of price %g", err.text, least);
@@ -202,7 +210,8 @@ START_TEST(shortest_by_enumeration)
   tally t = {0};
   for (int i = 0; i < EACH; i++) {
     int n = rng_between(&r, 3, 5);
-    thr_frame f = random_frame(&r, n, rng_between(&r, 1, 7 - n + 1), (length_kind)rng_below(&r, LENGTH_KINDS));
+    thr_frame f = random_frame(&r, n, rng_between(&r, 1, 7 - n + 1),
+                               (length_kind)rng_below(&r, LENGTH_KINDS));
     thr_request o = {0};
     if (f.n_edges <= 7 && small_degrees(&f, 4)) {
       random_options(&r, &f, &o);
@@ -222,7 +231,8 @@ START_TEST(least_turning_by_enumeration)
   rng r = rng_make(1700 + (uint64_t)_i);
   tally t = {0};
   for (int i = 0; i < EACH; i++) {
-    thr_frame f = random_frame(&r, rng_between(&r, 3, 4), rng_between(&r, 1, 3), (length_kind)rng_below(&r, LENGTH_KINDS));
+    thr_frame f = random_frame(&r, rng_between(&r, 3, 4), rng_between(&r, 1, 3),
+                               (length_kind)rng_below(&r, LENGTH_KINDS));
     thr_request o = {0};
     random_options(&r, &f, &o);
     if (o.ends == THR_ENDS_CLOSED || o.ends == THR_ENDS_COUNTS) o.cords = 1;
@@ -254,7 +264,8 @@ static thr_plan shortest(const thr_frame *f, thr_ends ends, int cover)
   return p;
 }
 
-/* Graph Threading of the solids: two passes of a third of the edges where three meet, half more where four do. */
+/* Graph Threading of the solids: two passes of a third of the edges where three meet, half more
+ * where four do. */
 START_TEST(solids)
 {
   static const double ratio[] = {4.0 / 3, 4.0 / 3, 1.5, 4.0 / 3, 1.6};
@@ -352,10 +363,12 @@ START_TEST(altered_proofs_prove_no_more)
       if (d->n_junctions) d->junction[rng_below(&r, d->n_junctions)].value += by;
       break;
     case 2:
-      if (d->n_junctions) d->junction[rng_below(&r, d->n_junctions)].block[rng_below(&r, 4)] = rng_between(&r, -1, 4);
+      if (d->n_junctions)
+        d->junction[rng_below(&r, d->n_junctions)].block[rng_below(&r, 4)] = rng_between(&r, -1, 4);
       break;
     default:
-      if (d->n_junctions) d->junction[rng_below(&r, d->n_junctions)].node = rng_between(&r, -1, f.n_nodes);
+      if (d->n_junctions)
+        d->junction[rng_below(&r, d->n_junctions)].node = rng_between(&r, -1, f.n_nodes);
       break;
     }
     thr_status st = thr_tied_least(&f, &o, &q.proof.tied, &least, NULL);
@@ -411,7 +424,8 @@ START_TEST(every_allocation_fails_once)
     thr_plan p = {0};
     thr_err err = {0};
     thr_alloc_fail_at(++k);
-    st = thr_wants_length(&o) ? length_plan(&f, &o, &none, &p, NULL, &err) : thr_tortuosity_plan(&f, &o, &none, &p, &err);
+    st = thr_wants_length(&o) ? length_plan(&f, &o, &none, &p, NULL, &err)
+                              : thr_tortuosity_plan(&f, &o, &none, &p, &err);
     thr_alloc_fail_at(0);
     ck_assert_msg(!st || st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
     ck_assert(!st || (!p.cord && !p.proof.tied.node));

@@ -1,4 +1,6 @@
-/* Several cords for tube joints against all ways to choose them in small frameworks; what must hold in larger ones. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Several cords for tube joints against all ways to choose them in small frameworks; what must hold
+ * in larger ones. */
 #include "tests/frameworks.h"
 #include "tests/plans.h"
 #include "tests/support.h"
@@ -12,7 +14,8 @@ enum { EDGES = 6, NODES = 6, MOST = 3, PASSES = 11, SHAPES = 60000, TABLE = 1 <<
 
 /* ---- the oracle: all that one cord can be ---- */
 
-/* Passes of the edges, the pairs of half-edges between which it turns as bits, and its ends if their numbers are given. */
+/* Passes of the edges, the pairs of half-edges between which it turns as bits, and its ends if
+ * their numbers are given. */
 typedef struct {
   int passes[EDGES];
   uint64_t turns;
@@ -124,7 +127,8 @@ static bool tied(const shapes *x, uint64_t turns)
       before = seen;
       for (int a = 0; a < d; a++)
         for (int b = 0; b < d; b++)
-          if (a != b && (seen >> a & 1u) && turns >> x->pair[half[a]][half[b]] & 1u) seen |= 1u << b;
+          if (a != b && (seen >> a & 1u) && turns >> x->pair[half[a]][half[b]] & 1u)
+            seen |= 1u << b;
     }
     if (seen != (1u << d) - 1) return false;
   }
@@ -164,7 +168,8 @@ static void choose(choice *c, int left, int from, const shape *sum)
   for (int i = from; i < x->n; i++) {
     const shape *s = &x->list[i];
     shape next = *sum;
-    if (c->together ? sum->length + left * s->length >= c->best : s->length >= c->best) return; /* they are in order */
+    if (c->together ? sum->length + left * s->length >= c->best : s->length >= c->best)
+      return; /* they are in order */
     next.length = c->together ? sum->length + s->length : s->length;
     next.turns |= s->turns;
     bool fits = true;
@@ -180,7 +185,8 @@ static void choose(choice *c, int left, int from, const shape *sum)
   }
 }
 
-/* The least length of n cords together, or of the longest; INFINITY: there are none of so few passes. */
+/* The least length of n cords together, or of the longest; INFINITY: there are none of so few
+ * passes. */
 static double least(const shapes *x, int n, bool together)
 {
   choice c = {.x = x, .together = together, .best = INFINITY};
@@ -203,8 +209,8 @@ static thr_frame small_frame(rng *r, const thr_request *o)
 {
   for (;;) {
     int n = rng_between(r, 3, 4), most = o->cover == 1 ? 5 : 4;
-    thr_frame f =
-        random_frame(r, n, rng_between(r, o->ends == THR_ENDS_CLOSED, EDGES - n), (length_kind)rng_below(r, LENGTH_KINDS));
+    thr_frame f = random_frame(r, n, rng_between(r, o->ends == THR_ENDS_CLOSED, EDGES - n),
+                               (length_kind)rng_below(r, LENGTH_KINDS));
     bool leaf = o->ends == THR_ENDS_CLOSED && has_leaf(&f) && rng_below(r, 8);
     if (f.n_edges <= most && !leaf) return f;
     thr_frame_destroy(&f);
@@ -376,7 +382,8 @@ static void compare_limited(const thr_frame *f, thr_request *o, double part, tal
   double longest[2] = {least(&x, 1, false), least(&x, 2, false)};
   free(x.list);
   if (isinf(longest[1])) return;
-  o->max_length = isinf(longest[0]) ? longest[1] * (0.9 + 0.2 * part) : longest[1] + (longest[0] * 1.05 - longest[1]) * part;
+  o->max_length = isinf(longest[0]) ? longest[1] * (0.9 + 0.2 * part)
+                                    : longest[1] + (longest[0] * 1.05 - longest[1]) * part;
   if (part > 0.9) o->max_length = longest[1] * (1 + tolerance);
   int few = longest[0] <= o->max_length ? 1 : longest[1] <= o->max_length ? 2 : 3;
   thr_status st = length_plan(f, o, &(thr_limits){0}, &p, NULL, &err);
@@ -450,7 +457,8 @@ static thr_frame uneven_grid(int w, int h, uint64_t seed)
   return f;
 }
 
-/* Tied cords share many passes: they come out even, at hardly more than the shortest length; the same in every run. */
+/* Tied cords share many passes: they come out even, at hardly more than the shortest length; the
+ * same in every run. */
 START_TEST(cords_of_grids_are_even)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
@@ -478,7 +486,8 @@ START_TEST(cords_of_grids_are_even)
 }
 END_TEST
 
-/* Half of all at most: two closed cords at least, three or four where the bound leaves no room for two. */
+/* Half of all at most: two closed cords at least, three or four where the bound leaves no room for
+ * two. */
 START_TEST(cords_of_grids_keep_to_a_limit)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
@@ -502,7 +511,8 @@ END_TEST
 /* Two pieces: the proof is one of both, and each has as many cords as it takes. */
 START_TEST(pieces_have_cords_of_their_own)
 {
-  thr_frame one = uneven_grid(5, 5, 3), other = uneven_grid(3, 3, 4), f = side_by_side(&one, &other);
+  thr_frame one = uneven_grid(5, 5, 3), other = uneven_grid(3, 3, 4),
+            f = side_by_side(&one, &other);
   thr_request o = options_for(_i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, 1);
   thr_plan p;
   thr_err err = {0};
@@ -529,11 +539,12 @@ END_TEST
 
 /* ---- memory ---- */
 
-/* Each of the first thousand; of the many after those, which loops make again and again, one in every hundredth of what is
- * behind. */
+/* Each of the first thousand; of the many after those, which loops make again and again, one in
+ * every hundredth of what is behind. */
 START_TEST(every_allocation_may_fail)
 {
-  thr_frame ring = ring_make(3), path = path_make(3), wheel = wheel_make(3), grid = grid_make(3, 3), pieces = triangles_make(2);
+  thr_frame ring = ring_make(3), path = path_make(3), wheel = wheel_make(3), grid = grid_make(3, 3),
+            pieces = triangles_make(2);
   const thr_frame *f = _i == 0   ? &ring
                        : _i == 1 ? &path
                        : _i == 2 ? &wheel
@@ -551,7 +562,8 @@ START_TEST(every_allocation_may_fail)
     thr_alloc_fail_at(k);
     st = length_plan(f, &o, &(thr_limits){0}, &p, NULL, &err);
     thr_alloc_fail_at(0);
-    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_ENOMEM, "allocation %ld: %s", k, err.text);
+    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_ENOMEM, "allocation %ld: %s", k,
+                  err.text);
     ck_assert(st != THR_ENOMEM || (!p.cord && p.n_cords == 0 && !p.proof.tied.node));
     thr_plan_destroy(&p);
   }

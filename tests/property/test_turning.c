@@ -1,4 +1,6 @@
-/* The least turning of random small frameworks against enumeration, its proof under alteration, and what must not change. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The least turning of random small frameworks against enumeration, its proof under alteration, and
+ * what must not change. */
 #include "graph/angle.h"
 #include "graph/framework/make.h"
 #include "graph/io/json.h"
@@ -22,7 +24,8 @@
 
 enum { MOST_EDGES = 12, MOST_NODES = 8, MOST_OPTIONS = 6000 };
 
-/* One way of pairing what arrives at a node: its price, and which edges it links (bit b of link[a]). */
+/* One way of pairing what arrives at a node: its price, and which edges it links (bit b of
+ * link[a]). */
 typedef struct {
   double price;
   unsigned link[MOST_EDGES];
@@ -40,7 +43,8 @@ typedef struct {
   double best;
 } oracle;
 
-/* Do the links hang together: all edges in one piece if closed or one cord, else every piece with an end? */
+/* Do the links hang together: all edges in one piece if closed or one cord, else every piece with
+ * an end? */
 static bool hangs_together(const oracle *o, const node_option *const *chosen)
 {
   const thr_frame *f = o->f;
@@ -74,7 +78,8 @@ static void combine(oracle *o, int v, double price, const node_option **chosen)
   }
 }
 
-/* Pairs what is left of the edges at v, the first edge with something left first. left[i] counts by position at v. */
+/* Pairs what is left of the edges at v, the first edge with something left first. left[i] counts by
+ * position at v. */
 static void pair_node(oracle *o, int v, int *left, node_option *made)
 {
   const thr_frame *f = o->f;
@@ -90,7 +95,8 @@ static void pair_node(oracle *o, int v, int *left, node_option *made)
   for (int k = i; k < d; k++) {
     if (k == i ? d > 1 || left[i] < 2 : left[k] == 0) continue;
     node_option next = *made;
-    next.price += k == i ? thr_turn_cost_of(o->cost, THR_PI) : thr_turn_cost_of(o->cost, thr_turn_angle(f, half[i] ^ 1, half[k]));
+    next.price += k == i ? thr_turn_cost_of(o->cost, THR_PI)
+                         : thr_turn_cost_of(o->cost, thr_turn_angle(f, half[i] ^ 1, half[k]));
     next.link[half[i] >> 1] |= 1u << (half[k] >> 1);
     left[i]--;
     left[k]--;
@@ -177,7 +183,11 @@ static void try_passes(oracle *o, const thr_turning_task *t, double extra, int e
 /* The least price below most, or most. */
 static double least_by_enumeration(const thr_frame *f, const thr_turning_task *t, double most)
 {
-  oracle o = {.f = f, .cost = t->cost, .cords = t->end_allowed ? t->cords : 0, .count = t->end_count, .best = most};
+  oracle o = {.f = f,
+              .cost = t->cost,
+              .cords = t->end_allowed ? t->cords : 0,
+              .count = t->end_count,
+              .best = most};
   ck_assert_int_le(f->n_edges, MOST_EDGES);
   ck_assert_int_le(f->n_nodes, MOST_NODES);
   for (int v = 0; v < f->n_nodes; v++)
@@ -205,7 +215,8 @@ static void assert_cords(const thr_frame *f, const thr_least *l)
       if (next == (c->half[k] ^ 1)) ck_assert_int_eq(thr_degree(f, thr_tail(f, next)), 1);
       price += thr_turn_cost_of(l->task.cost, thr_turn_angle(f, c->half[k], next));
     }
-    ck_assert(!open || (l->task.end_allowed[thr_cord_start(f, c)] && l->task.end_allowed[thr_cord_end(f, c)]));
+    ck_assert(!open || (l->task.end_allowed[thr_cord_start(f, c)] &&
+                        l->task.end_allowed[thr_cord_end(f, c)]));
   }
   for (int e = 0; e < f->n_edges; e++)
     ck_assert(passes[e] >= l->task.cover && passes[e] <= l->task.most_passes);
@@ -245,7 +256,8 @@ static void compare(rng *r, const thr_frame *f, int cover, int more, int cords)
       continue;
     }
     assert_cords(f, &l);
-    double least = least_by_enumeration(f, &l.task, l.price + 1e-3); /* has to find the plan's price itself */
+    double least =
+        least_by_enumeration(f, &l.task, l.price + 1e-3); /* has to find the plan's price itself */
     ck_assert_double_eq_tol(l.price, least, 1e-6);
     ck_assert(l.optimal);
     ck_assert_double_ge(l.bound, least - 1e-6);
@@ -310,7 +322,8 @@ START_TEST(least_is_least_of_all_with_limits_of_edges)
     } else {
       ck_assert_msg(st == THR_EINFEASIBLE || st == THR_ELIMIT, "%s", err.text);
     }
-    if (st == THR_ELIMIT) ck_assert_double_le(l.bound, least_by_enumeration(&f, &l.task, l.price + 1e-3) + 1e-6);
+    if (st == THR_ELIMIT)
+      ck_assert_double_le(l.bound, least_by_enumeration(&f, &l.task, l.price + 1e-3) + 1e-6);
     thr_least_destroy(&l);
     thr_frame_destroy(&f);
   }
@@ -330,7 +343,8 @@ START_TEST(least_is_least_of_all_at_a_node_of_six)
     for (; m < 6; m++)
       edge[m][0] = 0, edge[m][1] = m + 1;
     for (int step = rng_between(&r, 1, 2), first = 1; m < 9; m++, first += step == 1 ? 2 : 1)
-      edge[m][0] = first, edge[m][1] = step == 1 ? first + 1 : first + 3; /* beside each other, or across */
+      edge[m][0] = first,
+      edge[m][1] = step == 1 ? first + 1 : first + 3; /* beside each other, or across */
     thr_frame f = frame_make(7, (const double(*)[3])xyz, m, (const int(*)[2])edge, NULL, feet);
     compare(&r, &f, 1, 1, 1);
     thr_frame_destroy(&f);
@@ -360,7 +374,8 @@ START_TEST(known_answers)
   f = path_make(4); /* there and back */
   expect_degrees(&f, 360);
   thr_frame_destroy(&f);
-  f = solid_make(CUBE); /* 8 nodes of 4 passes, two right angles and more; no straight way through */
+  f = solid_make(
+      CUBE); /* 8 nodes of 4 passes, two right angles and more; no straight way through */
   expect_degrees(&f, 16 * 90);
   thr_frame_destroy(&f);
 }
@@ -420,7 +435,8 @@ static double least_single_circuit(thr_join *j, int v, double price, double best
   return best;
 }
 
-/* Exact where no node has more than 4 passes; elsewhere one circuit that is no cheaper, and exchanges make it no dearer. */
+/* Exact where no node has more than 4 passes; elsewhere one circuit that is no cheaper, and
+ * exchanges make it no dearer. */
 START_TEST(greedy_matches_enumeration_up_to_four_passes)
 {
   rng r = rng_make((uint64_t)_i + 1);
@@ -432,7 +448,8 @@ START_TEST(greedy_matches_enumeration_up_to_four_passes)
     thr_join j, all;
     int passes[32], ends[32], most = 0;
     ck_assert_int_eq(thr_turning_columns_init(&c, &f, &task, NULL), THR_OK);
-    ck_assert_int_eq(thr_extra_passes(&c, f.length, NULL, false, &limits, passes, ends, NULL), THR_OK);
+    ck_assert_int_eq(thr_extra_passes(&c, f.length, NULL, false, &limits, passes, ends, NULL),
+                     THR_OK);
     ck_assert_int_eq(thr_join_init(&j, &c, passes, ends, NULL), THR_OK);
     ck_assert_int_eq(thr_join_init(&all, &c, passes, ends, NULL), THR_OK);
     for (int v = 0; v < f.n_nodes; v++)
@@ -528,7 +545,8 @@ START_TEST(running_out_of_memory_leaves_nothing)
   thr_limits limits = {0};
   if (_i) o.ends = THR_ENDS_ANY, o.cords = 2;
   thr_status st = THR_ENOMEM;
-  for (long k = 1; st != THR_OK; k += 1 + _i * k / 32) { /* several cords: thousands of allocations */
+  for (long k = 1; st != THR_OK;
+       k += 1 + _i * k / 32) { /* several cords: thousands of allocations */
     thr_least l;
     thr_max_turning m;
     thr_err err = {0};
@@ -577,12 +595,13 @@ START_TEST(two_pieces_have_a_cord_each)
 }
 END_TEST
 
-/* Without a linear programme the bound is the matching's: three rings of 1080 degrees, of which one cord turns by 1200. Of any
- * framework it is one. */
+/* Without a linear programme the bound is the matching's: three rings of 1080 degrees, of which one
+ * cord turns by 1200. Of any framework it is one. */
 START_TEST(a_matching_proves_without_a_programme)
 {
   rng r = rng_make((uint64_t)_i + 1);
-  thr_frame f = _i ? random_frame(&r, rng_between(&r, 4, 9), rng_between(&r, 4, 12), LENGTHS_EUCLID) : solid_make(OCTAHEDRON);
+  thr_frame f = _i ? random_frame(&r, rng_between(&r, 4, 9), rng_between(&r, 4, 12), LENGTHS_EUCLID)
+                   : solid_make(OCTAHEDRON);
   thr_least_options o = thr_least_options_default();
   thr_limits limits = {0};
   thr_err err = {0};
@@ -636,7 +655,9 @@ static void move_frame(rng *r, thr_frame *f)
       x[i] = f->xyz[v][i], along += x[i] * axis[i];
     for (int i = 0; i < 3; i++) {
       double cross = axis[(i + 1) % 3] * x[(i + 2) % 3] - axis[(i + 2) % 3] * x[(i + 1) % 3];
-      f->xyz[v][i] = scale * (x[i] * cos(angle) + cross * sin(angle) + axis[i] * along * (1 - cos(angle))) + 3 * (i + 1);
+      f->xyz[v][i] =
+          scale * (x[i] * cos(angle) + cross * sin(angle) + axis[i] * along * (1 - cos(angle))) +
+          3 * (i + 1);
     }
   }
   for (int e = 0; e < f->n_edges; e++)
@@ -813,10 +834,12 @@ static const char *const false_json[] = {
     "{\"tree\": [], \"multipliers\": [], \"more\": 1}",
     "{\"tree\": [1], \"multipliers\": []}",
     "{\"tree\": [{}], \"multipliers\": []}",
-    "{\"tree\": [{\"low\": 1, \"high\": 0, \"a\": 0, \"b\": 1, \"value\": 0}], \"multipliers\": []}",
+    "{\"tree\": [{\"low\": 1, \"high\": 0, \"a\": 0, \"b\": 1, \"value\": 0}], \"multipliers\": "
+    "[]}",
     "{\"tree\": [{\"multipliers\": -1}], \"multipliers\": []}",
     "{\"tree\": [{\"multipliers\": 0}], \"multipliers\": [{}]}",
-    "{\"tree\": [{\"multipliers\": 0}], \"multipliers\": [{\"potentials\": [], \"ends\": [0], \"length\": 0, \"odd_sets\": [], "
+    "{\"tree\": [{\"multipliers\": 0}], \"multipliers\": [{\"potentials\": [], \"ends\": [0], "
+    "\"length\": 0, \"odd_sets\": [], "
     "\"groups\": [], \"partitions\": []}]}",
 };
 
@@ -825,7 +848,8 @@ START_TEST(false_json_is_refused)
   thr_frame f = ring_make(3);
   thr_json *doc;
   thr_turning_proof p;
-  ck_assert_int_eq(thr_json_parse(&doc, false_json[_i], strlen(false_json[_i]), "proof", NULL), THR_OK);
+  ck_assert_int_eq(thr_json_parse(&doc, false_json[_i], strlen(false_json[_i]), "proof", NULL),
+                   THR_OK);
   thr_err err = {0};
   ck_assert_int_eq(thr_turning_proof_from_json(&p, &f, doc, "proof", &err), THR_EVIOLATED);
   assert_one_line(&err, "proof");

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What random multipliers and trees prove, against the rows of turning_rows.h added up. */
 #include "graph/plan/turning_proof.h"
 #include "tests/frameworks.h"
@@ -15,7 +16,8 @@ static void fill_task(rng *r, model *m)
   static const int cover[] = {1, 1, 2, 3};
   thr_turning_task *t = &m->task;
   int ends = rng_below(r, 4);
-  *t = (thr_turning_task){.cover = cover[rng_below(r, 4)], .cords = 1 + rng_below(r, 3), .tube = rng_below(r, 3) == 0};
+  *t = (thr_turning_task){
+      .cover = cover[rng_below(r, 4)], .cords = 1 + rng_below(r, 3), .tube = rng_below(r, 3) == 0};
   t->most_passes = t->cover + 2 + rng_below(r, 9);
   if (rng_below(r, 2)) t->capacity = t->cover + 2 + rng_below(r, 5);
   t->cost = (thr_turn_cost)rng_below(r, THR_N_TURN_COSTS);
@@ -29,7 +31,8 @@ static void fill_task(rng *r, model *m)
   if (ends != 3) return;
   t->end_count = m->end_count;
   for (int v = 0; v < m->frame.n_nodes; v++)
-    m->end_count[v] = (v == 0 || v == m->frame.n_nodes - 1) + (m->end_allowed[v] ? rng_below(r, 3) : 0);
+    m->end_count[v] =
+        (v == 0 || v == m->frame.n_nodes - 1) + (m->end_allowed[v] ? rng_below(r, 3) : 0);
 }
 
 static void model_make(rng *r, model *m)
@@ -84,7 +87,8 @@ static bool odd_set(const model *m, const thr_turning_set *s)
 {
   int sum = 0, darts = 2 * m->frame.n_edges;
   for (int i = 0; i < s->n; i++)
-    sum += s->member[i] < darts ? rows_cover(m, s->member[i] / 2) : rows_supply(m, s->member[i] - darts, true);
+    sum += s->member[i] < darts ? rows_cover(m, s->member[i] / 2)
+                                : rows_supply(m, s->member[i] - darts, true);
   return sum % 2;
 }
 
@@ -122,7 +126,8 @@ static thr_turning_partition random_partition(rng *r, const model *m)
 
 static thr_turning_junction random_junction(rng *r, const model *m)
 {
-  thr_turning_junction p = {.node = rng_below(r, m->frame.n_nodes), .value = random_value(r, false)};
+  thr_turning_junction p = {.node = rng_below(r, m->frame.n_nodes),
+                            .value = random_value(r, false)};
   int d = thr_degree(&m->frame, p.node);
   p.block = calloc((size_t)d, sizeof(int));
   for (int i = 0; i < d; i++)
@@ -168,12 +173,14 @@ static thr_turning_dual random_dual(rng *r, const model *m)
 
 /* ---- leaves ---- */
 
-/* The bound of the library is the exact one, rounded down once for the limit on the length and once for each column with it. */
+/* The bound of the library is the exact one, rounded down once for the limit on the length and once
+ * for each column with it. */
 static void assert_bound(const model *m, const thr_turning_dual *d, const int *low, const int *high)
 {
   int64_t bound;
   thr_err err = {0};
-  ck_assert_msg(thr_turning_dual_bound(&m->columns, d, low, high, &bound, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_turning_dual_bound(&m->columns, d, low, high, &bound, &err) == THR_OK, "%s",
+                err.text);
   wide exact = rows_bound(m, d, low, high, -1), one = (wide)1 << THR_LENGTH_BITS, slack = 0;
   for (int j = 0; j < m->columns.n_columns; j++)
     if (m->column[j].kind == EXTRA) slack += high[j];
@@ -200,8 +207,8 @@ START_TEST(leaves_prove_what_their_rows_add_up_to)
 }
 END_TEST
 
-/* A box that a plan cannot be in proves anything; without a box it is the widest one; and multipliers that hold no more prove
- * nothing. */
+/* A box that a plan cannot be in proves anything; without a box it is the widest one; and
+ * multipliers that hold no more prove nothing. */
 START_TEST(boxes_may_be_empty_or_missing)
 {
   static model m;
@@ -221,7 +228,8 @@ START_TEST(boxes_may_be_empty_or_missing)
     m.low[j] = 0;
   }
   d.length = -1;
-  ck_assert_int_eq(thr_turning_dual_bound(&m.columns, &d, m.low, m.high, &bound, NULL), THR_EVIOLATED);
+  ck_assert_int_eq(thr_turning_dual_bound(&m.columns, &d, m.low, m.high, &bound, NULL),
+                   THR_EVIOLATED);
   ck_assert_int_eq(bound, INT64_MIN);
   thr_turning_dual_destroy(&d);
   model_destroy(&m);
@@ -230,7 +238,8 @@ END_TEST
 
 /* ---- trees ---- */
 
-/* Exact bound of the tree at node i, whose box is low .. high, of a component or all (-1); the box is left as it was. */
+/* Exact bound of the tree at node i, whose box is low .. high, of a component or all (-1); the box
+ * is left as it was. */
 static wide tree_bound(model *m, const thr_turning_proof *p, int i, int piece)
 {
   const thr_turning_node *n = &p->node[i];
@@ -252,14 +261,15 @@ static wide tree_bound(model *m, const thr_turning_proof *p, int i, int piece)
   return first < second ? first : second;
 }
 
-/* Multipliers of a closed task that leave every price 0 or more, so that each leaf proves something: half-edges take up to half
- * of the cheapest turn that they are in. */
+/* Multipliers of a closed task that leave every price 0 or more, so that each leaf proves
+ * something: half-edges take up to half of the cheapest turn that they are in. */
 static void make_gentle(rng *r, const model *m, thr_turning_dual *d)
 {
   for (int h = 0; h < 2 * m->frame.n_edges; h++) {
     int64_t least = (int64_t)1 << 44;
     for (int j = 0; j < m->columns.n_columns; j++)
-      if (m->column[j].kind != EXTRA && (m->column[j].a == h || m->column[j].b == h) && m->column[j].weight < least)
+      if (m->column[j].kind != EXTRA && (m->column[j].a == h || m->column[j].b == h) &&
+          m->column[j].weight < least)
         least = m->column[j].weight;
     d->potential[h] = least / (2 + rng_below(r, 3));
   }
@@ -275,8 +285,8 @@ static void make_gentle(rng *r, const model *m, thr_turning_dual *d)
     d->junction[i].value = 0;
 }
 
-/* Three branches, sometimes on one column: the root, one of its children, and the other or a child's own; four leaves, some of
- * them alike. */
+/* Three branches, sometimes on one column: the root, one of its children, and the other or a
+ * child's own; four leaves, some of them alike. */
 START_TEST(trees_prove_their_worst_leaf)
 {
   static model m;
@@ -299,13 +309,15 @@ START_TEST(trees_prove_their_worst_leaf)
   }
   for (int i = 1; i < 7; i++)
     node[i].dual = rng_below(&r, 3);
-  thr_turning_proof p = {.n_nodes = 7, .n_duals = 3, .n_ends = m.columns.n_ends, .node = node, .dual = dual};
+  thr_turning_proof p = {
+      .n_nodes = 7, .n_duals = 3, .n_ends = m.columns.n_ends, .node = node, .dual = dual};
   for (int j = 0; j < m.columns.n_columns; j++)
     m.low[j] = 0, m.high[j] = m.column[j].most;
   wide exact = tree_bound(&m, &p, 0, -1) >> THR_LENGTH_BITS;
   double bound, bound_of[2];
   thr_err err = {0};
-  ck_assert_msg(thr_turning_proof_check_columns(&m.columns, &p, &bound, bound_of, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_turning_proof_check_columns(&m.columns, &p, &bound, bound_of, &err) == THR_OK,
+                "%s", err.text);
   ck_assert_double_eq(bound, exact > 0 ? (double)exact / 17592186044416.0 : 0);
   for (int k = 0; k < m.n_components; k++) {
     exact = tree_bound(&m, &p, 0, k) >> THR_LENGTH_BITS;

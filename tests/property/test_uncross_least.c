@@ -1,5 +1,6 @@
-/* Closed cords without crossing channels, against every shorter way to lead as many: walks over every number of passes, which
- * may not cross what went before. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Closed cords without crossing channels, against every shorter way to lead as many: walks over
+ * every number of passes, which may not cross what went before. */
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
@@ -36,7 +37,9 @@ static bool clashes(const oracle *o, int a, int b)
 {
   for (int i = 0; i < o->n; i++) {
     const int c = o->channel[i][0], d = o->channel[i][1];
-    if (thr_tail(o->f, c) != thr_tail(o->f, a) || a == b || c == d || a == c || a == d || b == c || b == d) continue;
+    if (thr_tail(o->f, c) != thr_tail(o->f, a) || a == b || c == d || a == c || a == d || b == c ||
+        b == d)
+      continue;
     if (between(o, c, a, b) != between(o, d, a, b)) return true;
   }
   return false;
@@ -111,7 +114,8 @@ START_TEST(closed_cords_are_as_short_as_without_crossings_they_can_be)
   rng r = rng_make((uint64_t)_i + 1);
   const int n = rng_between(&r, 4, 5);
   thr_err err = {0};
-  thr_frame f = random_frame(&r, n, MOST_EDGES + 1 - n, _i % 2 ? LENGTHS_EUCLID : LENGTHS_SMALL_INTEGERS);
+  thr_frame f =
+      random_frame(&r, n, MOST_EDGES + 1 - n, _i % 2 ? LENGTHS_EUCLID : LENGTHS_SMALL_INTEGERS);
   thr_request request = thr_request_default();
   request.crossings = THR_CROSSINGS_FORBID;
   request.cords = request.cords_least = rng_between(&r, 2, 4);
@@ -133,7 +137,8 @@ START_TEST(closed_cords_are_as_short_as_without_crossings_they_can_be)
     once[e] = 1;
     least += f.length[e];
   }
-  ck_assert_msg(!is_shorter(&o, once, 0, least), "example %d: %d cords are %g long, and need not be", _i, request.cords,
+  ck_assert_msg(!is_shorter(&o, once, 0, least),
+                "example %d: %d cords are %g long, and need not be", _i, request.cords,
                 plan.metrics.length);
   thr_plan_destroy(&plan);
   thr_frame_destroy(&f);

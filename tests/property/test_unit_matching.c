@@ -1,5 +1,7 @@
-/* The matching of units against its own proof: passes with which every node can be tied, and multipliers whose bound, by the
- * checker's arithmetic, is what they cost. That proves both, for whatever lengths and covers. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The matching of units against its own proof: passes with which every node can be tied, and
+ * multipliers whose bound, by the checker's arithmetic, is what they cost. That proves both, for
+ * whatever lengths and covers. */
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
 #include "graph/plan/plan_measures.h"
@@ -24,12 +26,14 @@ typedef struct {
 
 static void instance_make(instance *x, int cover)
 {
-  const thr_request request = {.cover = cover, .cords = 1, .ends = THR_ENDS_CLOSED, .joint = THR_JOINT_TUBE};
+  const thr_request request = {
+      .cover = cover, .cords = 1, .ends = THR_ENDS_CLOSED, .joint = THR_JOINT_TUBE};
   thr_err err = {0};
   x->end_allowed = calloc((size_t)x->frame.n_nodes, sizeof *x->end_allowed);
   ck_assert_ptr_nonnull(x->end_allowed);
   thr_tied_task(&x->frame, &request, x->end_allowed, &x->task);
-  ck_assert_msg(thr_turning_columns_init(&x->c, &x->frame, &x->task, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_turning_columns_init(&x->c, &x->frame, &x->task, &err) == THR_OK, "%s",
+                err.text);
 }
 
 static void instance_destroy(instance *x)
@@ -49,7 +53,8 @@ static bool solve_and_compare(const instance *x)
   bool found, tied = true;
   int *passes = calloc((size_t)x->frame.n_edges, sizeof *passes);
   ck_assert_ptr_nonnull(passes);
-  ck_assert_msg(thr_unit_matching(c, &no_limit, passes, &dual, &found, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_unit_matching(c, &no_limit, passes, &dual, &found, &err) == THR_OK, "%s",
+                err.text);
   ck_assert(found);
   for (int v = 0; v < x->frame.n_nodes; v++)
     tied &= thr_tie_need(c, v, passes, NULL) == 0;
@@ -57,9 +62,11 @@ static bool solve_and_compare(const instance *x)
   int64_t bound;
   for (int e = 0; e < x->frame.n_edges; e++) {
     ck_assert_int_ge(passes[e], c->cover[e]);
-    sum += (passes[e] - c->cover[e]) * ldexp((double)c->weight[c->first_extra + e], -THR_TURNING_BITS);
+    sum +=
+        (passes[e] - c->cover[e]) * ldexp((double)c->weight[c->first_extra + e], -THR_TURNING_BITS);
   }
-  ck_assert_msg(thr_turning_dual_bound(c, &dual, NULL, NULL, &bound, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_turning_dual_bound(c, &dual, NULL, NULL, &bound, &err) == THR_OK, "%s",
+                err.text);
   double proved = ldexp((double)bound, -THR_TURNING_BITS);
   if (tied) ck_assert_double_le(proved, sum + 1e-8);
   bool exact = tied && proved >= sum - 1e-8;
@@ -80,7 +87,8 @@ static thr_frame frame_without_leaves(rng *r, length_kind kind)
   }
 }
 
-/* Lengths of all kinds: short edges are where one of a node gets as many passes as all others together. */
+/* Lengths of all kinds: short edges are where one of a node gets as many passes as all others
+ * together. */
 START_TEST(equal_covers_are_proved_exactly)
 {
   rng r = rng_make((uint64_t)_i + 1);
@@ -91,8 +99,9 @@ START_TEST(equal_covers_are_proved_exactly)
 }
 END_TEST
 
-/* Where covers differ, an edge with more passes than all others of its node is not the matching's business at nodes of three
- * edges and more: what it proves is never too much, and sometimes all. */
+/* Where covers differ, an edge with more passes than all others of its node is not the matching's
+ * business at nodes of three edges and more: what it proves is never too much, and sometimes all.
+ */
 START_TEST(other_covers_are_bounded)
 {
   int exact = 0;
@@ -111,7 +120,8 @@ START_TEST(other_covers_are_bounded)
 }
 END_TEST
 
-/* A ladder of squares, where every second node of either side must take more than it asks for: duals below 0 bring spare units.
+/* A ladder of squares, where every second node of either side must take more than it asks for:
+ * duals below 0 bring spare units.
  */
 START_TEST(regular_frameworks_are_proved_exactly)
 {

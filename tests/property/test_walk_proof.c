@@ -1,6 +1,8 @@
-/* Bounds on the cord that turns most, by single edges and by prices of walks, and on the longest cord by prices of walks, against
- * all sets of cords of small frameworks, open and closed. The prices are the programme's, or changed at random to prove more, and
- * the best walk is looked for by trying, too. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Bounds on the cord that turns most, by single edges and by prices of walks, and on the longest
+ * cord by prices of walks, against all sets of cords of small frameworks, open and closed. The
+ * prices are the programme's, or changed at random to prove more, and the best walk is looked for
+ * by trying, too. */
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/plan.h"
@@ -55,12 +57,15 @@ static bool instance_make(rng *r, instance *x)
                                .end_allowed = x->closed ? NULL : x->end_allowed,
                                .cost = x->o.turning.cost,
                                .extra_limit = -1};
-  ck_assert_msg(thr_turning_columns_init(&x->c, &x->frame, &x->task, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_turning_columns_init(&x->c, &x->frame, &x->task, &err) == THR_OK, "%s",
+                err.text);
   if (small) {
     truth_table table = truth_table_make(&x->frame, &x->o, x->o.cover == 1 ? 3 : 2);
     bool length = x->measure == THR_WALK_LENGTH;
-    x->largest = length ? truth_longest(&table, x->o.cords) : (double)truth_price(&table, x->o.cords, true, -1);
-    x->least = length ? truth_length(&x->frame, &x->o, NULL) : (double)truth_price(&table, x->o.cords, false, -1);
+    x->largest = length ? truth_longest(&table, x->o.cords)
+                        : (double)truth_price(&table, x->o.cords, true, -1);
+    x->least = length ? truth_length(&x->frame, &x->o, NULL)
+                      : (double)truth_price(&table, x->o.cords, false, -1);
     truth_table_destroy(&table);
   }
   return small && x->largest < INFINITY && x->least < INFINITY;
@@ -87,10 +92,12 @@ static int place_after(const instance *x, int half)
 /* Changes a place, or all at random, or none. */
 static void change_memory(rng *r, const instance *x, memories *m)
 {
-  const int kind = rng_below(r, 8), places = x->measure == THR_WALK_LENGTH ? x->frame.n_nodes : 2 * x->frame.n_edges;
+  const int kind = rng_below(r, 8),
+            places = x->measure == THR_WALK_LENGTH ? x->frame.n_nodes : 2 * x->frame.n_edges;
   for (int e = 0; e < x->frame.n_edges && kind == 0; e++)
     m->at[e] = rng_below(r, 2) ? 0 : (uint32_t)rng_below(r, 1 << (places < 30 ? places : 30));
-  if (kind > 0 && kind < 5) m->at[rng_below(r, x->frame.n_edges)] ^= (uint32_t)1 << rng_below(r, places);
+  if (kind > 0 && kind < 5)
+    m->at[rng_below(r, x->frame.n_edges)] ^= (uint32_t)1 << rng_below(r, places);
 }
 
 /* The lists that say so. */
@@ -131,8 +138,10 @@ START_TEST(no_bound_is_above_the_truth)
   if (found && st != THR_EINFEASIBLE) {
     const double near = 1e-9 * (1 + x.largest);
     bool length = x.measure == THR_WALK_LENGTH;
-    ck_assert_double_le(length ? p.cords_claim.longest_bound : p.turning.largest_bound, x.largest + near);
-    ck_assert_double_ge(length ? thr_cords_longest(&x.frame, p.cord, p.n_cords) : p.turning.largest, x.largest - near);
+    ck_assert_double_le(length ? p.cords_claim.longest_bound : p.turning.largest_bound,
+                        x.largest + near);
+    ck_assert_double_ge(length ? thr_cords_longest(&x.frame, p.cord, p.n_cords) : p.turning.largest,
+                        x.largest - near);
     ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
   }
   if (st != THR_EINFEASIBLE) thr_plan_destroy(&p);
@@ -151,7 +160,9 @@ START_TEST(no_prices_prove_more_than_is_true)
     int64_t edge[2 * NODES] = {0}, node[NODES] = {0}, kept_edge[2 * NODES], kept_node[NODES];
     const int exponent = thr_walk_exponent(&x.frame, x.measure), most_units = x.closed ? 30 : 60;
     thr_walk_proof proof = {
-        .unit = 1 + (int64_t)(ldexp(x.largest + .01, exponent) / rng_between(&r, 2, most_units)), .edge = edge, .node = node};
+        .unit = 1 + (int64_t)(ldexp(x.largest + .01, exponent) / rng_between(&r, 2, most_units)),
+        .edge = edge,
+        .node = node};
     memories memory = {0}, kept_memory;
     double best = 0;
     int proofs = 0;
@@ -167,15 +178,21 @@ START_TEST(no_prices_prove_more_than_is_true)
         case 2: proof.all = rng_below(&r, 3) ? rng_below(&r, 12) : 0; break;
         case 3:
           proof.unit =
-              rng_below(&r, 50) ? 1 + (int64_t)fmod((double)proof.unit * rng_between(&r, 50, 80) / 64, 1e15) : attack_integer(&r);
+              rng_below(&r, 50)
+                  ? 1 + (int64_t)fmod((double)proof.unit * rng_between(&r, 50, 80) / 64, 1e15)
+                  : attack_integer(&r);
           break;
-        case 4: edge[rng_below(&r, x.frame.n_edges)] = rng_below(&r, 200) ? rng_below(&r, 9) : attack_integer(&r); break;
+        case 4:
+          edge[rng_below(&r, x.frame.n_edges)] =
+              rng_below(&r, 200) ? rng_below(&r, 9) : attack_integer(&r);
+          break;
         case 5: change_memory(&r, &x, &memory); break;
         default: edge[rng_below(&r, x.frame.n_edges)] = 0;
         }
       write_memory(&x, &memory, &proof);
       double bound = 0;
-      thr_status st = thr_walk_proof_check(&x.c, x.measure, &proof, x.o.cords, x.least, &bound, NULL);
+      thr_status st =
+          thr_walk_proof_check(&x.c, x.measure, &proof, x.o.cords, x.least, &bound, NULL);
       ck_assert(st == THR_OK || st == THR_EVIOLATED);
       ck_assert_double_le(bound, x.largest + 1e-9 * (1 + x.largest));
       proofs += st == THR_OK;
@@ -196,10 +213,11 @@ END_TEST
 
 /* ---- the recursion ---- */
 
-/* Most that a walk is worth from half-edge d on, which was passed just now, and of which it remembers the known edges; closed
- * ones end with the pass of first, which is the lowest edge of theirs, or at its node, which is the lowest. By trying them all,
- * up to so many more passes. */
-static int64_t try_walks(const instance *x, const thr_walk_proof *p, int first, int d, uint32_t known, int units, int depth)
+/* Most that a walk is worth from half-edge d on, which was passed just now, and of which it
+ * remembers the known edges; closed ones end with the pass of first, which is the lowest edge of
+ * theirs, or at its node, which is the lowest. By trying them all, up to so many more passes. */
+static int64_t try_walks(const instance *x, const thr_walk_proof *p, int first, int d,
+                         uint32_t known, int units, int depth)
 {
   const thr_frame *f = &x->frame;
   const int exponent = thr_walk_exponent(f, x->measure);
@@ -212,13 +230,17 @@ static int64_t try_walks(const instance *x, const thr_walk_proof *p, int first, 
     int h = f->half[i];
     if (h == (d ^ 1) && thr_degree(f, v) > 1 && !length) continue;
     if (x->closed && (length ? thr_head(f, h) < thr_tail(f, first) : h >> 1 < first >> 1)) continue;
-    double size = ldexp(length ? f->length[h >> 1] : thr_turn_price(f, x->o.turning.cost, d, h), exponent);
+    double size =
+        ldexp(length ? f->length[h >> 1] : thr_turn_price(f, x->o.turning.cost, d, h), exponent);
     int left = units - (int)((int64_t)floor(size) / p->unit);
     if (left < 0) continue;
-    int64_t all = (int64_t)ceil(ldexp((double)p->all * (length ? ceil(size) : floor(size)), -THR_TURNING_BITS));
-    int64_t pass = (known >> (h >> 1) & 1 ? 0 : p->edge[h >> 1]) + p->node[v] + p->node[thr_head(f, h)];
+    int64_t all = (int64_t)ceil(
+        ldexp((double)p->all * (length ? ceil(size) : floor(size)), -THR_TURNING_BITS));
+    int64_t pass =
+        (known >> (h >> 1) & 1 ? 0 : p->edge[h >> 1]) + p->node[v] + p->node[thr_head(f, h)];
     if (x->closed && !length && h == first && all + pass > best) best = all + pass;
-    int64_t here = all + pass + try_walks(x, p, first, h, known_after(x, p, known, h), left, depth - 1);
+    int64_t here =
+        all + pass + try_walks(x, p, first, h, known_after(x, p, known, h), left, depth - 1);
     if (here > best) best = here;
   }
   return best;
@@ -244,7 +266,8 @@ static int64_t try_all(const instance *x, const thr_walk_proof *p, int depth)
       here += (int64_t)ceil(ldexp((double)p->all * ceil(size), -THR_TURNING_BITS));
     }
     if (counts_last) here = 0;
-    if (left >= 0) here += try_walks(x, p, h, h, counts_last ? 0 : known_after(x, p, 0, h), left, depth);
+    if (left >= 0)
+      here += try_walks(x, p, h, h, counts_last ? 0 : known_after(x, p, 0, h), left, depth);
     if (left >= 0 && here > best) best = here;
   }
   return best;
@@ -268,8 +291,13 @@ START_TEST(the_best_walk_is_found)
   double shortest = INFINITY;
   for (int e = 0; e < x.frame.n_edges; e++)
     shortest = fmin(shortest, x.frame.length[e]);
-  thr_walk_proof p = {.unit = INT64_C(1) << (THR_TURNING_BITS - 5), .units = rng_below(&r, 90), .edge = edge, .node = node};
-  if (length) p.unit = (int64_t)ldexp(shortest * rng_between(&r, 1, 4) / 4, thr_walk_exponent(&x.frame, x.measure));
+  thr_walk_proof p = {.unit = INT64_C(1) << (THR_TURNING_BITS - 5),
+                      .units = rng_below(&r, 90),
+                      .edge = edge,
+                      .node = node};
+  if (length)
+    p.unit = (int64_t)ldexp(shortest * rng_between(&r, 1, 4) / 4,
+                            thr_walk_exponent(&x.frame, x.measure));
   if (length) p.units = rng_below(&r, 8);
   p.all = rng_below(&r, 30);
   memories memory = {0};
@@ -277,12 +305,14 @@ START_TEST(the_best_walk_is_found)
     change_memory(&r, &x, &memory);
   write_memory(&x, &memory, &p);
   thr_walk_steps steps;
-  if (thr_walk_steps_init(&steps, &x.c, x.measure, 0, p.unit, NULL) == THR_OK) { /* else turns of nothing go in a circle */
+  if (thr_walk_steps_init(&steps, &x.c, x.measure, 0, p.unit, NULL) ==
+      THR_OK) { /* else turns of nothing go in a circle */
     enum { DEPTH = 10 };
     ck_assert_int_eq(thr_walk_steps_remember(&steps, p.memory, p.n_memories, NULL), THR_OK);
     int64_t *value = calloc((size_t)thr_walk_levels(p.units) * (size_t)steps.n, sizeof *value);
     ck_assert_int_eq(thr_walk_steps_price(&steps, &p, NULL), THR_OK);
-    int64_t best = try_all(&x, &p, DEPTH), found = thr_walk_best(&steps, p.units, thr_walk_levels(p.units), value);
+    int64_t best = try_all(&x, &p, DEPTH),
+            found = thr_walk_best(&steps, p.units, thr_walk_levels(p.units), value);
     ck_assert_int_ge(found, best); /* which has eleven passes at most */
     const int levels = thr_walk_few_levels(&steps, p.units);
     ck_assert_int_le(levels, thr_walk_levels(p.units));

@@ -1,5 +1,7 @@
-/* JSON texts on standard input, each after its length in four bytes, as thr_json_parse reads them: one line each, for
- * tests/second/read_json.py. A line is the value with strings in hexadecimal and numbers as %a, or "error". */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* JSON texts on standard input, each after its length in four bytes, as thr_json_parse reads them:
+ * one line each, for tests/second/read_json.py. A line is the value with strings in hexadecimal and
+ * numbers as %a, or "error". */
 #include "graph/io/json.h"
 #include "graph/status.h"
 

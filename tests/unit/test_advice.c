@@ -1,4 +1,6 @@
-/* Advice: pulls from turning, cords cut evenly against every other way of cutting them, the choice, and the picture. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Advice: pulls from turning, cords cut evenly against every other way of cutting them, the choice,
+ * and the picture. */
 #include "diagram/overview/charts.h"
 #include "eval/eval.h"
 #include "graph/angle.h"
@@ -46,7 +48,8 @@ START_TEST(pulls_are_those_of_the_closed_form)
   options.physics = thr_physics_default();
   options.physics.mu = 0.05 + 0.5 * rng_unit(&r);
   options.physics.seating = 0.5 + rng_unit(&r);
-  ck_assert_int_eq(thr_eval_plan(&f, &cord, 1, THR_CAPSTAN, &options, &(thr_limits){0}, &eval, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_eval_plan(&f, &cord, 1, THR_CAPSTAN, &options, &(thr_limits){0}, &eval, NULL), THR_OK);
   thr_advice_pulls(&eval.record.physics, thr_cord_pulled_turning(&f, &cord), pull);
   ck_assert_double_eq_tol(pull[THR_ADVICE_MU], eval.record.largest, 1e-9 * eval.record.largest);
   ck_assert_double_eq_tol(pull[THR_ADVICE_LOW], eval.band[0], 1e-9 * eval.band[0]);
@@ -57,22 +60,27 @@ START_TEST(pulls_are_those_of_the_closed_form)
 }
 END_TEST
 
-/* Least largest turning of the parts of passes first .. last of a cord in exactly so many, by trying every first cut. */
-static double least_cut(const thr_frame *f, const thr_request *request, const thr_cord *cord, int first, int parts)
+/* Least largest turning of the parts of passes first .. last of a cord in exactly so many, by
+ * trying every first cut. */
+static double least_cut(const thr_frame *f, const thr_request *request, const thr_cord *cord,
+                        int first, int parts)
 {
   thr_cord part = {.n_passes = 0, .half = cord->half + first};
   double least = INFINITY;
   for (int last = first; last + parts <= cord->n_passes; last++) {
     bool end = last + 1 == cord->n_passes;
     part.n_passes = last + 1 - first;
-    if ((parts == 1) != end || (!end && !thr_plan_end_allowed(f, request, thr_head(f, cord->half[last])))) continue;
+    if ((parts == 1) != end ||
+        (!end && !thr_plan_end_allowed(f, request, thr_head(f, cord->half[last]))))
+      continue;
     double rest = parts == 1 ? 0 : least_cut(f, request, cord, last + 1, parts - 1);
     least = fmin(least, fmax(thr_cord_turning(f, &part, false), rest));
   }
   return least;
 }
 
-/* The parts make up the cord again, there are as many as asked for, and no other cuts leave less on the worst. */
+/* The parts make up the cord again, there are as many as asked for, and no other cuts leave less on
+ * the worst. */
 START_TEST(cords_are_cut_as_evenly_as_can_be)
 {
   rng r = rng_make((uint64_t)_i + 1000);
@@ -110,7 +118,9 @@ END_TEST
 
 static thr_advice advice_of(int n, const thr_advice_row *row)
 {
-  thr_advice advice = {.physics = {.mu = 0.2, .mu_low = 0.1, .mu_high = 0.3, .seating = 1}, .hand = 10, .base_length = 90};
+  thr_advice advice = {.physics = {.mu = 0.2, .mu_low = 0.1, .mu_high = 0.3, .seating = 1},
+                       .hand = 10,
+                       .base_length = 90};
   advice.n = n;
   advice.row = thr_calloc((size_t)n, sizeof *advice.row);
   ck_assert_ptr_nonnull(advice.row);
@@ -120,11 +130,12 @@ static thr_advice advice_of(int n, const thr_advice_row *row)
 
 START_TEST(the_fewest_at_the_feet_are_chosen)
 {
-  const thr_advice_row row[] = {{.cords = 3, .ends = THR_ENDS_ANY, .length = 100, .pull = {2, 4, 8}},
-                                {.cords = 4, .ends = THR_ENDS_FEET, .length = 110, .pull = {2, 4, 9}},
-                                {.cords = 8, .ends = THR_ENDS_FEET, .length = 110, .pull = {2, 3.9, 8}},
-                                {.cords = 2, .ends = THR_ENDS_FEET, .length = 110, .pull = {3, 12, 40}},
-                                {.cords = 6, .ends = THR_ENDS_FEET, .length = 100, .pull = {1.5, 2, 3}}};
+  const thr_advice_row row[] = {
+      {.cords = 3, .ends = THR_ENDS_ANY, .length = 100, .pull = {2, 4, 8}},
+      {.cords = 4, .ends = THR_ENDS_FEET, .length = 110, .pull = {2, 4, 9}},
+      {.cords = 8, .ends = THR_ENDS_FEET, .length = 110, .pull = {2, 3.9, 8}},
+      {.cords = 2, .ends = THR_ENDS_FEET, .length = 110, .pull = {3, 12, 40}},
+      {.cords = 6, .ends = THR_ENDS_FEET, .length = 100, .pull = {1.5, 2, 3}}};
   thr_advice advice = advice_of(5, row);
   thr_advice_settle(&advice);
   ck_assert_int_eq(advice.n, 4); /* 8 cords buy nothing that 6 do not */
@@ -142,11 +153,13 @@ START_TEST(the_fewest_at_the_feet_are_chosen)
   thr_advice_settle(&advice);
   ck_assert_int_eq(advice.chosen, -1);
   thr_advice_destroy(&advice);
-  const thr_advice_row far[] = {{.cords = 3, .ends = THR_ENDS_ANY, .length = 100, .pull = {2, 4, 8}},
-                                {.cords = 4, .ends = THR_ENDS_FEET, .length = 160, .pull = {2, 4, 9}}};
+  const thr_advice_row far[] = {
+      {.cords = 3, .ends = THR_ENDS_ANY, .length = 100, .pull = {2, 4, 8}},
+      {.cords = 4, .ends = THR_ENDS_FEET, .length = 160, .pull = {2, 4, 9}}};
   advice = advice_of(2, far);
   thr_advice_settle(&advice);
-  ck_assert(advice.row[advice.chosen].ends == THR_ENDS_ANY); /* ends at the feet take more than half as much cord again */
+  ck_assert(advice.row[advice.chosen].ends ==
+            THR_ENDS_ANY); /* ends at the feet take more than half as much cord again */
   thr_advice_destroy(&advice);
 }
 END_TEST
@@ -158,20 +171,26 @@ static void check_advice(const thr_frame *f, const thr_advice *advice)
   for (int i = 0; i < advice->n; i++) {
     const thr_advice_row *row = &advice->row[i];
     ck_assert_int_ge(row->passes, f->n_edges);
-    ck_assert(row->steps >= 1 && row->steps <= row->passes * (row->ends == THR_ENDS_ANY ? 3 : 1)); /* two ends to a pass */
+    ck_assert(row->steps >= 1 &&
+              row->steps <=
+                  row->passes * (row->ends == THR_ENDS_ANY ? 3 : 1)); /* two ends to a pass */
     ck_assert_double_ge(row->length, advice->base_length * (1 - 1e-12));
     ck_assert_double_le(row->longest, row->length);
     ck_assert_double_ge(row->turning, row->bound * (1 - 1e-9));
-    ck_assert_double_le(row->pull[THR_ADVICE_MU], advice->physics.seating * exp(advice->physics.mu * row->turning) * (1 + 1e-9));
-    ck_assert(row->pull[THR_ADVICE_LOW] <= row->pull[THR_ADVICE_MU] && row->pull[THR_ADVICE_MU] <= row->pull[THR_ADVICE_HIGH]);
-    if (advice->chosen >= 0 && row->ends == advice->row[advice->chosen].ends && row->cords < advice->row[advice->chosen].cords)
+    ck_assert_double_le(row->pull[THR_ADVICE_MU], advice->physics.seating *
+                                                      exp(advice->physics.mu * row->turning) *
+                                                      (1 + 1e-9));
+    ck_assert(row->pull[THR_ADVICE_LOW] <= row->pull[THR_ADVICE_MU] &&
+              row->pull[THR_ADVICE_MU] <= row->pull[THR_ADVICE_HIGH]);
+    if (advice->chosen >= 0 && row->ends == advice->row[advice->chosen].ends &&
+        row->cords < advice->row[advice->chosen].cords)
       ck_assert_double_gt(row->pull[THR_ADVICE_HIGH], advice->hand);
   }
   if (advice->chosen >= 0) ck_assert(thr_advice_within(advice, &advice->row[advice->chosen]));
 }
 
-/* Through a straight path from its foot and back is one turn of pi, which neither end slides over; from end to end none; a ring
- * turns by 2 pi. */
+/* Through a straight path from its foot and back is one turn of pi, which neither end slides over;
+ * from end to end none; a ring turns by 2 pi. */
 START_TEST(known_frameworks)
 {
   const thr_request request = thr_request_default();
@@ -182,7 +201,8 @@ START_TEST(known_frameworks)
   check_advice(&f, &advice);
   ck_assert(advice.complete);
   ck_assert_int_eq(advice.row[advice.chosen].cords, 1);
-  ck_assert_double_eq_tol(advice.row[advice.chosen].pull[THR_ADVICE_MU], 1, 1e-9); /* from its foot and back */
+  ck_assert_double_eq_tol(advice.row[advice.chosen].pull[THR_ADVICE_MU], 1,
+                          1e-9); /* from its foot and back */
   ck_assert_int_eq(advice.row[advice.n - 1].ends, THR_ENDS_ANY);
   ck_assert_double_eq_tol(advice.row[advice.n - 1].pull[THR_ADVICE_MU], 1, 1e-9);
   thr_advice_destroy(&advice);
@@ -198,7 +218,8 @@ START_TEST(known_frameworks)
 }
 END_TEST
 
-/* Knowing the shortest plan changes nothing: the last line of `thread plan` recommends what `thread advise` does. */
+/* Knowing the shortest plan changes nothing: the last line of `thread plan` recommends what `thread
+ * advise` does. */
 START_TEST(advice_for_random_frameworks)
 {
   rng r = rng_make((uint64_t)_i + 5000);
@@ -217,7 +238,8 @@ START_TEST(advice_for_random_frameworks)
   for (int i = 0; i < advice.n; i++) {
     ck_assert_int_eq(again.row[i].cords, advice.row[i].cords);
     ck_assert_int_eq(again.row[i].ends, advice.row[i].ends);
-    ck_assert(again.row[i].length == advice.row[i].length && again.row[i].turning == advice.row[i].turning);
+    ck_assert(again.row[i].length == advice.row[i].length &&
+              again.row[i].turning == advice.row[i].turning);
   }
   thr_advice_destroy(&advice);
   thr_advice_destroy(&again);
@@ -226,7 +248,8 @@ START_TEST(advice_for_random_frameworks)
 }
 END_TEST
 
-/* Of a framework that is too large for searches the shortest cord is cut: every row has as much cord. */
+/* Of a framework that is too large for searches the shortest cord is cut: every row has as much
+ * cord. */
 START_TEST(large_frameworks_are_cut)
 {
   const thr_request request = thr_request_default();
@@ -263,31 +286,36 @@ static double chosen_x(const svg_tree *t)
 {
   for (int i = 0; i < t->n; i++) {
     char d[256];
-    if (svg_has_class(t, i, "chosen-line") && svg_attribute(t, i, "d", d)) return strtod(d + 1, NULL);
+    if (svg_has_class(t, i, "chosen-line") && svg_attribute(t, i, "d", d))
+      return strtod(d + 1, NULL);
   }
   return -1;
 }
 
-/* Up to 48 columns with pulls beyond any axis: texts stay on the sheet, off each other, and those over a line off the line that
- * marks a column. */
+/* Up to 48 columns with pulls beyond any axis: texts stay on the sheet, off each other, and those
+ * over a line off the line that marks a column. */
 START_TEST(pictures_are_well_formed_and_texts_lie_apart)
 {
   enum { MOST = 20 };
-  static const int cords[MOST] = {1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 28, 32, 36, 40, 44, 46, 47, 48};
+  static const int cords[MOST] = {1,  2,  3,  4,  5,  6,  7,  8,  12, 16,
+                                  20, 24, 28, 32, 36, 40, 44, 46, 47, 48};
   thr_advice_row row[MOST];
   thr_text svg = {0};
   int n = 1 + _i % MOST;
   for (int i = 0; i < n; i++) {
     double turning = 60.0 * (1 + _i) / cords[i];
-    row[i] = (thr_advice_row){.cords = cords[i], .ends = THR_ENDS_ANY, .length = 100 - i, .turning = turning};
-    thr_advice_pulls(&(thr_physics){.mu = 0.2, .mu_low = 0.1, .mu_high = 0.3, .seating = 1}, turning / 2, row[i].pull);
+    row[i] = (thr_advice_row){
+        .cords = cords[i], .ends = THR_ENDS_ANY, .length = 100 - i, .turning = turning};
+    thr_advice_pulls(&(thr_physics){.mu = 0.2, .mu_low = 0.1, .mu_high = 0.3, .seating = 1},
+                     turning / 2, row[i].pull);
   }
   thr_advice advice = advice_of(n, row);
   thr_advice_settle(&advice);
   const thr_advice_chart chart = {
       .name = "a <long> name, a long name, a long name, a long name, a long name, a long name",
       .units = "mm",
-      .command = "thread plan a_name_without_any_blank_that_is_longer_than_the_sheet_is_wide_and_so_has_to_be_"
+      .command = "thread plan "
+                 "a_name_without_any_blank_that_is_longer_than_the_sheet_is_wide_and_so_has_to_be_"
                  "broken_somewhere_all_the_same.json --cords 12 --ends any"};
   ck_assert_int_eq(thr_advice_svg(&advice, &chart, &svg, NULL), THR_OK);
   svg_tree t = svg_parse(svg.data);
@@ -298,7 +326,8 @@ START_TEST(pictures_are_well_formed_and_texts_lie_apart)
     double box[4], other[4];
     if (strcmp(t.element[i].name, "text") != 0) continue;
     svg_box(&t, i, box);
-    ck_assert_msg(box[0] >= 0 && box[2] <= t.width && box[1] >= 0 && box[3] <= t.height, "%s", t.element[i].text);
+    ck_assert_msg(box[0] >= 0 && box[2] <= t.width && box[1] >= 0 && box[3] <= t.height, "%s",
+                  t.element[i].text);
     if (svg_has_class(&t, i, "halo")) ck_assert(marked < box[0] || marked > box[2]);
     for (int j = 0; j < i; j++) {
       if (strcmp(t.element[j].name, "text") != 0) continue;

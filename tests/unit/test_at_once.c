@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cords without a search: sound on every framework that they are for, and none on others. */
 #include "graph/check/check.h"
 #include "graph/framework/components.h"
@@ -16,11 +17,13 @@ static int made(thr_component_cords *make, const thr_frame *f, const thr_request
 {
   thr_plan p = {.frame = *f, .options = *o};
   thr_err err = {0};
-  ck_assert_msg(thr_components_cords(f, o, NULL, make, &p.cord, &p.n_cords, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_components_cords(f, o, NULL, make, &p.cord, &p.n_cords, &err) == THR_OK, "%s",
+                err.text);
   int n = p.n_cords;
   if (n > 0) {
     for (int i = 0; i < n; i++)
-      ck_assert(o->max_length == 0 || thr_cord_length(f, &p.cord[i]) <= o->max_length * (1 + 1e-12));
+      ck_assert(o->max_length == 0 ||
+                thr_cord_length(f, &p.cord[i]) <= o->max_length * (1 + 1e-12));
     ck_assert(thr_plan_measure(f, o, p.cord, n, &p.metrics, &err) == THR_OK);
     ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
   }
@@ -57,7 +60,8 @@ START_TEST(cords_that_tie)
   int components = _i == 2 ? 4 : 1;
   for (int cover = 1; cover <= 3; cover++)
     for (int cords = 1; cords <= 3; cords++) {
-      thr_request closed = asked(THR_JOINT_TUBE, THR_ENDS_CLOSED, cords, 0), open = asked(THR_JOINT_TUBE, THR_ENDS_ANY, cords, 0);
+      thr_request closed = asked(THR_JOINT_TUBE, THR_ENDS_CLOSED, cords, 0),
+                  open = asked(THR_JOINT_TUBE, THR_ENDS_ANY, cords, 0);
       closed.cover = open.cover = cover;
       ck_assert_int_eq(made(thr_tube_first, &f, &closed), cords * components);
       ck_assert_int_eq(made(thr_tube_first, &f, &open), cords * components);

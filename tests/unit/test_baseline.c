@@ -1,4 +1,6 @@
-/* The classical tours against a second Fleury on counts of passes, pairings by enumeration, and the shortest length. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The classical tours against a second Fleury on counts of passes, pairings by enumeration, and the
+ * shortest length. */
 #include "graph/framework/make.h"
 #include "lp/length/postman.h"
 #include "tests/frameworks.h"
@@ -26,15 +28,18 @@ static thr_least tour_make(const thr_frame *f, thr_ends ends, int cover, thr_tou
   thr_least l;
   o.ends = ends;
   o.cover = cover;
-  ck_assert_msg(thr_postman_shortest(f, &shortest, &(thr_limits){0}, &s, &err) == THR_OK, "%s", err.text);
-  ck_assert_msg(thr_baseline_tour(f, &o, tour, ignore, s.passes, &l, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_postman_shortest(f, &shortest, &(thr_limits){0}, &s, &err) == THR_OK, "%s",
+                err.text);
+  ck_assert_msg(thr_baseline_tour(f, &o, tour, ignore, s.passes, &l, &err) == THR_OK, "%s",
+                err.text);
   thr_shortest_destroy(&s);
   return l;
 }
 
 /* ---- what holds for every tour ---- */
 
-/* Walks that hang together, close where they must, and pass every edge often enough; returns their length. */
+/* Walks that hang together, close where they must, and pass every edge often enough; returns their
+ * length. */
 static double assert_tours(const thr_frame *f, const thr_least *l, thr_ends ends, int cover)
 {
   int seen[MOST_EDGES] = {0};
@@ -54,7 +59,8 @@ static double assert_tours(const thr_frame *f, const thr_least *l, thr_ends ends
       ck_assert_int_eq(thr_head(f, last), thr_tail(f, c->half[0]));
       turning += thr_turn_angle(f, last, c->half[0]);
     }
-    if (ends == THR_ENDS_FEET) ck_assert(f->foot[thr_tail(f, c->half[0])] && f->foot[thr_head(f, last)]);
+    if (ends == THR_ENDS_FEET)
+      ck_assert(f->foot[thr_tail(f, c->half[0])] && f->foot[thr_head(f, last)]);
   }
   for (int e = 0; e < f->n_edges; e++)
     ck_assert_int_ge(seen[e], cover);
@@ -75,7 +81,8 @@ START_TEST(tours_have_the_shortest_length)
     for (int k = 0; k < 4; k++) {
       thr_least l = tour_make(&f, (thr_ends)ends, cover, tours[k / 2], k % 2);
       ck_assert_int_eq(l.n_cords, 1);
-      ck_assert_double_eq_tol(assert_tours(&f, &l, (thr_ends)ends, cover), shortest, 1e-9 * shortest);
+      ck_assert_double_eq_tol(assert_tours(&f, &l, (thr_ends)ends, cover), shortest,
+                              1e-9 * shortest);
       thr_least_destroy(&l);
     }
   }
@@ -99,7 +106,8 @@ END_TEST
 
 /* ---- a second Fleury ---- */
 
-/* left[e] passes of edge e are not walked yet. partner[h] is the half-edge that goes with h at its node, or partner is NULL. */
+/* left[e] passes of edge e are not walked yet. partner[h] is the half-edge that goes with h at its
+ * node, or partner is NULL. */
 typedef struct {
   const thr_frame *f;
   const int *partner;
@@ -136,15 +144,20 @@ static bool is_bridge(counted *c, int h)
   return fewer;
 }
 
-/* The pass that Fleury's rule takes after arriving over half-edge h: no bridge unless nothing else is left. */
+/* The pass that Fleury's rule takes after arriving over half-edge h: no bridge unless nothing else
+ * is left. */
 static int next_by_rule(counted *c, int h)
 {
   int v = thr_head(c->f, h), best = -1, n = left_at(c, v);
   double least = INFINITY;
   for (int i = c->f->first[v]; i < c->f->first[v + 1]; i++) {
     int next = c->f->half[i];
-    double rank = !c->partner ? i : next == c->partner[h ^ 1] ? -1 : next == (h ^ 1) ? 1e9 : thr_turn_angle(c->f, h, next);
-    if (c->left[next >> 1] && (n == 1 || !is_bridge(c, next)) && rank < least) least = rank, best = next;
+    double rank = !c->partner                 ? i
+                  : next == c->partner[h ^ 1] ? -1
+                  : next == (h ^ 1)           ? 1e9
+                                              : thr_turn_angle(c->f, h, next);
+    if (c->left[next >> 1] && (n == 1 || !is_bridge(c, next)) && rank < least)
+      least = rank, best = next;
   }
   return best;
 }
@@ -199,8 +212,10 @@ END_TEST
 
 /* ---- pairings by enumeration ---- */
 
-/* Cheapest pairing of the half-edges at v that have no partner yet; best takes over partner where it is cheaper. */
-static double pair_at(const thr_frame *f, int v, int *partner, double price, double least, int *best)
+/* Cheapest pairing of the half-edges at v that have no partner yet; best takes over partner where
+ * it is cheaper. */
+static double pair_at(const thr_frame *f, int v, int *partner, double price, double least,
+                      int *best)
 {
   int a = -1;
   const int *half = f->half + f->first[v];
@@ -222,7 +237,8 @@ static double pair_at(const thr_frame *f, int v, int *partner, double price, dou
   return least;
 }
 
-/* partner[2 * n_edges] in the cheapest pairings of a framework with even nodes; the price of all. */
+/* partner[2 * n_edges] in the cheapest pairings of a framework with even nodes; the price of all.
+ */
 static double pair_all(const thr_frame *f, int *partner)
 {
   int free_half[2 * MOST_EDGES];
@@ -258,7 +274,8 @@ static int turns_off(const thr_cord *c, const int *partner)
 static thr_frame even_frame(rng *r)
 {
   for (;;) {
-    thr_frame f = random_frame_few_odd(r, rng_between(r, 5, 9), rng_between(r, 2, 12), LENGTHS_EUCLID, 0);
+    thr_frame f =
+        random_frame_few_odd(r, rng_between(r, 5, 9), rng_between(r, 2, 12), LENGTHS_EUCLID, 0);
     bool fits = f.n_edges <= MOST_EDGES;
     for (int v = 0; v < f.n_nodes; v++)
       fits &= thr_degree(&f, v) % 2 == 0 && thr_degree(&f, v) <= 8;
@@ -267,8 +284,9 @@ static thr_frame even_frame(rng *r)
   }
 }
 
-/* Fleury walks as the rule says. Where the pairings are one circuit, both tours are that circuit and attain the bound; elsewhere
- * Hierholzer changes at most two pairs for each circuit that it splices in. */
+/* Fleury walks as the rule says. Where the pairings are one circuit, both tours are that circuit
+ * and attain the bound; elsewhere Hierholzer changes at most two pairs for each circuit that it
+ * splices in. */
 START_TEST(tours_keep_to_the_pairings)
 {
   rng r = rng_make((uint64_t)_i + 100);

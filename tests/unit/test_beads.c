@@ -1,4 +1,6 @@
-/* Beads: faces, masses against counted volumes, feet, and cords that pull nothing away as a whole. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Beads: faces, masses against counted volumes, feet, and cords that pull nothing away as a whole.
+ */
 #include "eval/structure/beads.h"
 #include "graph/angle.h"
 #include "graph/plan/physics.h"
@@ -72,7 +74,8 @@ START_TEST(row_of_beads)
 }
 END_TEST
 
-/* Volume and mass centre of the arms' union, by counting small cubes: exact, as the arms end between cubes. */
+/* Volume and mass centre of the arms' union, by counting small cubes: exact, as the arms end
+ * between cubes. */
 static double count_cubes(const double (*arm)[3], int n, double width, double centre[3])
 {
   enum { PER_UNIT = 20, REACH = 21 };
@@ -100,7 +103,8 @@ static double count_cubes(const double (*arm)[3], int n, double width, double ce
 
 START_TEST(square_joints_weigh_their_volume)
 {
-  static const double direction[6][3] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  static const double direction[6][3] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
+                                         {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
   double xyz[7][3] = {{0}};
   int edge[6][2], arms = _i;
   for (int i = 0; i < arms; i++) {
@@ -109,8 +113,9 @@ START_TEST(square_joints_weigh_their_volume)
     edge[i][0] = i % 2 ? i + 1 : 0;
     edge[i][1] = i % 2 ? 0 : i + 1;
   }
-  thr_frame f =
-      in_units(frame_make(arms + 1, (const double(*)[3])xyz, arms, (const int(*)[2])edge, NULL, (const int[2]){0, -1}), "m");
+  thr_frame f = in_units(frame_make(arms + 1, (const double(*)[3])xyz, arms, (const int(*)[2])edge,
+                                    NULL, (const int[2]){0, -1}),
+                         "m");
   thr_physics p = physics_of(400, 0);
   thr_beads b = beads_of(&f, &p);
   double centre[3], volume = count_cubes(direction, arms, 0.4, centre);
@@ -137,9 +142,10 @@ START_TEST(faces_are_squares_across_the_middle)
     const double *from = b.centre[f.edge[e][0]], *to = b.centre[f.edge[e][1]];
     ck_assert_double_eq_tol(distance(from, b.middle[e]), distance(to, b.middle[e]), 1e-12);
     ck_assert_double_eq_tol(distance(from, to), 2 * distance(from, b.middle[e]), 1e-12);
-    ck_assert_double_eq_tol(
-        distance(from, to),
-        b.axis[e][0] * (to[0] - from[0]) + b.axis[e][1] * (to[1] - from[1]) + b.axis[e][2] * (to[2] - from[2]), 1e-12);
+    ck_assert_double_eq_tol(distance(from, to),
+                            b.axis[e][0] * (to[0] - from[0]) + b.axis[e][1] * (to[1] - from[1]) +
+                                b.axis[e][2] * (to[2] - from[2]),
+                            1e-12);
     double level = INFINITY;
     for (int i = 0; i < 4; i++) {
       const double *c = b.corner[e][i], *next = b.corner[e][(i + 1) % 4];
@@ -196,11 +202,14 @@ START_TEST(feet_stand_on_their_own_ground)
   thr_beads b = beads_of(&f, &p);
   ck_assert(b.n_feet == 2 && b.foot[0] == 0 && b.foot[1] == 2);
   for (int i = 0; i < 2; i++)
-    for (int k = 0; k < THR_FOOT_POINTS; k++) { /* the lower foot's ground is z = 0, the other's 3 mm higher */
+    for (int k = 0; k < THR_FOOT_POINTS;
+         k++) { /* the lower foot's ground is z = 0, the other's 3 mm higher */
       ck_assert_double_eq_tol(b.foot_point[i][k][2], 3e-3 * i, 1e-15);
-      ck_assert_double_eq_tol(hypot(b.foot_point[i][k][0] - 20e-3 * i, b.foot_point[i][k][1]), 1e-3, 1e-15);
-      ck_assert_double_eq_tol(distance(b.foot_point[i][k], b.foot_point[i][(k + 1) % THR_FOOT_POINTS]),
-                              2e-3 * sin(THR_PI / THR_FOOT_POINTS), 1e-15);
+      ck_assert_double_eq_tol(hypot(b.foot_point[i][k][0] - 20e-3 * i, b.foot_point[i][k][1]), 1e-3,
+                              1e-15);
+      ck_assert_double_eq_tol(
+          distance(b.foot_point[i][k], b.foot_point[i][(k + 1) % THR_FOOT_POINTS]),
+          2e-3 * sin(THR_PI / THR_FOOT_POINTS), 1e-15);
     }
   ck_assert_double_eq_tol(b.centre[0][2], 1e-3, 1e-15);
   const bool fixed[4] = {false, true, false, false};
@@ -242,8 +251,9 @@ START_TEST(nonsense_is_refused)
   static const struct {
     double width, bore, density;
     const char *units, *word;
-  } wrong[] = {{0, 0, 1, "mm", "bead_diameter"}, {NAN, 1, 1, "mm", "bead_diameter"}, {2, 2, 1, "mm", "bore"},
-               {2, -1, 1, "mm", "bore"},         {2, 1, 0, "mm", "density"},         {2, 1, 1, "furlong", "furlong"}};
+  } wrong[] = {{0, 0, 1, "mm", "bead_diameter"}, {NAN, 1, 1, "mm", "bead_diameter"},
+               {2, 2, 1, "mm", "bore"},          {2, -1, 1, "mm", "bore"},
+               {2, 1, 0, "mm", "density"},       {2, 1, 1, "furlong", "furlong"}};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     thr_frame f = in_units(path_make(3), wrong[i].units);
     thr_physics p = physics_of(wrong[i].width, wrong[i].bore);

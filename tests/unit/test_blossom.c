@@ -1,4 +1,6 @@
-/* The matching engine on known answers, on requests without one, and on what a caller may do to it. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The matching engine on known answers, on requests without one, and on what a caller may do to it.
+ */
 #include "tests/matchings.h"
 #include "graph/limits.h"
 
@@ -47,7 +49,8 @@ START_TEST(nothing_and_one_pair)
 }
 END_TEST
 
-/* Two triangles of weight 2 and a bridge of weight 9: every node has 1, the two blossoms share the 7 that are left. */
+/* Two triangles of weight 2 and a bridge of weight 9: every node has 1, the two blossoms share the
+ * 7 that are left. */
 START_TEST(two_triangles)
 {
   static instance g = {.n_nodes = 6};
@@ -72,7 +75,8 @@ START_TEST(petersen_graph)
     join(&g, 5 + v, 5 + (v + 2) % 5, 1);
     join(&g, v, 5 + v, 4);
   }
-  /* the matchings are the five spokes and, for each spoke, that spoke with two outer and two inner edges */
+  /* the matchings are the five spokes and, for each spoke, that spoke with two outer and two inner
+   * edges */
   assert_weight(&g, 8);
 }
 END_TEST
@@ -156,8 +160,8 @@ START_TEST(sums_just_not_too_large)
 }
 END_TEST
 
-/* Too large, where only the search finds it out: triangles of no weight in pairs, with a bridge of the largest between. 128
- * halves of that are 2^60. */
+/* Too large, where only the search finds it out: triangles of no weight in pairs, with a bridge of
+ * the largest between. 128 halves of that are 2^60. */
 START_TEST(sums_too_large_on_the_way)
 {
   for (int pairs = 32; pairs <= 128; pairs += 96) {

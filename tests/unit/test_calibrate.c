@@ -1,4 +1,6 @@
-/* Friction from weights, and the piece that they hang from: what went in by the capstan law comes out; the mesh is closed. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction from weights, and the piece that they hang from: what went in by the capstan law comes
+ * out; the mesh is closed. */
 #include "diagram/export/paper.h"
 #include "eval/cord/calibrate.h"
 #include "graph/angle.h"
@@ -11,7 +13,8 @@
 START_TEST(capstan_law_is_undone)
 {
   const double mu = 0.05 + 0.1 * _i, angle = THR_PI / 2;
-  const thr_weighing w[] = {{200, 200 * exp(mu * angle), 200 * exp(-mu * angle)}, {5, 5 * exp(mu * angle), 5 * exp(-mu * angle)}};
+  const thr_weighing w[] = {{200, 200 * exp(mu * angle), 200 * exp(-mu * angle)},
+                            {5, 5 * exp(mu * angle), 5 * exp(-mu * angle)}};
   thr_fitted_friction found;
   thr_err err = {0};
   ck_assert_msg(thr_calibrate(w, 2, angle, 0, &found, &err) == THR_OK, "%s", err.text);
@@ -39,7 +42,8 @@ END_TEST
 
 START_TEST(nonsense_is_refused)
 {
-  static const thr_weighing bad[] = {{5, 4, 3}, {5, 6, 5.5}, {5, 6, 0}, {0, 1, 0}, {-1, 2, -2}, {5, INFINITY, 1}, {NAN, 2, 1}};
+  static const thr_weighing bad[] = {{5, 4, 3},   {5, 6, 5.5},      {5, 6, 0},  {0, 1, 0},
+                                     {-1, 2, -2}, {5, INFINITY, 1}, {NAN, 2, 1}};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     thr_fitted_friction found;
     thr_err err = {0};
@@ -52,7 +56,8 @@ END_TEST
 /* A board that is tilted by atan(mu) lets a piece slide; the band has every slide and a degree. */
 START_TEST(a_tilted_board_tells_friction)
 {
-  const double mu = 0.1 + 0.15 * _i, angle[] = {atan(mu), atan(mu), atan(2 * mu)}, degree = THR_PI / 180;
+  const double mu = 0.1 + 0.15 * _i, angle[] = {atan(mu), atan(mu), atan(2 * mu)},
+               degree = THR_PI / 180;
   thr_fitted_friction found;
   thr_err err = {0};
   ck_assert_int_eq(thr_calibrate_tilt(angle, 2, 0, &found, &err), THR_OK);
@@ -71,7 +76,8 @@ START_TEST(a_tilted_board_tells_friction)
 }
 END_TEST
 
-/* Every edge of a triangle is that of one other, the other way round, and what is inside is arms less bore. */
+/* Every edge of a triangle is that of one other, the other way round, and what is inside is arms
+ * less bore. */
 START_TEST(mesh_is_closed)
 {
   enum { MOST = 200 };
@@ -89,13 +95,17 @@ START_TEST(mesh_is_closed)
   }
   for (int i = 0; i < n; i++) {
     const double *a = p[i][0], *b = p[i][1], *c = p[i][2];
-    volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6;
+    volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+               a[2] * (b[0] * c[1] - b[1] * c[0])) /
+              6;
     for (int k = 0; k < 3; k++) {
       int same = 0, back = 0;
       for (int j = 0; j < n; j++)
         for (int l = 0; l < 3; l++) {
-          same += !memcmp(p[i][k], p[j][l], sizeof *p[i]) && !memcmp(p[i][(k + 1) % 3], p[j][(l + 1) % 3], sizeof *p[i]);
-          back += !memcmp(p[i][k], p[j][(l + 1) % 3], sizeof *p[i]) && !memcmp(p[i][(k + 1) % 3], p[j][l], sizeof *p[i]);
+          same += !memcmp(p[i][k], p[j][l], sizeof *p[i]) &&
+                  !memcmp(p[i][(k + 1) % 3], p[j][(l + 1) % 3], sizeof *p[i]);
+          back += !memcmp(p[i][k], p[j][(l + 1) % 3], sizeof *p[i]) &&
+                  !memcmp(p[i][(k + 1) % 3], p[j][l], sizeof *p[i]);
         }
       ck_assert(same == 1 && back == 1);
     }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Views of steps in space: what is claimed of a view is measured anew from its projection. */
 #include "diagram/space/camera.h"
 #include "graph/vector.h"
@@ -110,7 +111,8 @@ START_TEST(a_flat_part_is_seen_from_its_front)
   thr_camera_scene scene = {.n = 8, .pitch = 10};
   const double size[2] = {186, 120};
   for (int i = 0; i < 8; i++) {
-    const double from[3] = {10 * ((i + 1) / 2), 0, 10 * (i / 2)}, to[3] = {10 * ((i + 2) / 2), 0, 10 * ((i + 1) / 2)};
+    const double from[3] = {10 * ((i + 1) / 2), 0, 10 * (i / 2)},
+                 to[3] = {10 * ((i + 2) / 2), 0, 10 * ((i + 1) / 2)};
     for (int k = 0; k < 3; k++) {
       scene.from[i][k] = from[k];
       scene.to[i][k] = to[k];

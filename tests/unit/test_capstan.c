@@ -1,4 +1,6 @@
-/* Method capstan: closed forms of both laws, symmetry, the best slackest pass by trying all, refusals. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Method capstan: closed forms of both laws, symmetry, the best slackest pass by trying all,
+ * refusals. */
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
 #include "graph/angle.h"
@@ -23,17 +25,20 @@ static thr_eval_options options_of(thr_pull pull, double mu, double seating)
   return o;
 }
 
-static thr_evaluation eval_with(const thr_frame *f, const thr_cord *cord, int n, const thr_eval_options *o)
+static thr_evaluation eval_with(const thr_frame *f, const thr_cord *cord, int n,
+                                const thr_eval_options *o)
 {
   thr_eval e;
   thr_err err = {0};
   thr_limits none = {0};
-  ck_assert_msg(thr_eval_plan(f, cord, n, THR_CAPSTAN, o, &none, &e, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_eval_plan(f, cord, n, THR_CAPSTAN, o, &none, &e, &err) == THR_OK, "%s",
+                err.text);
   ck_assert(e.complete && e.error == 0 && e.refused == 0);
   return e.record;
 }
 
-static thr_evaluation eval(const thr_frame *f, const thr_cord *cord, int n, thr_pull pull, double mu, double seating)
+static thr_evaluation eval(const thr_frame *f, const thr_cord *cord, int n, thr_pull pull,
+                           double mu, double seating)
 {
   thr_eval_options o = options_of(pull, mu, seating);
   return eval_with(f, cord, n, &o);
@@ -93,15 +98,16 @@ START_TEST(no_friction_is_no_loss)
 }
 END_TEST
 
-/* A closed regular n-gon turns n - 1 times inside the cord: with both ends pulled, one turn in the middle is slid over by
- * neither, and the n - 2 others are shared. */
+/* A closed regular n-gon turns n - 1 times inside the cord: with both ends pulled, one turn in the
+ * middle is slid over by neither, and the n - 2 others are shared. */
 START_TEST(ring_pulled_at_both_ends_is_symmetric)
 {
   for (int n = 3; n < 12; n++) {
     thr_frame f = ring_make(n);
     thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
     thr_evaluation c = eval(&f, p.cord, 1, THR_PULL_BOTH, 0.2, 1);
-    double turn = 2 * THR_PI / n, far = (double)((n - 1) / 2) * turn, near = (double)((n - 2) / 2) * turn;
+    double turn = 2 * THR_PI / n, far = (double)((n - 1) / 2) * turn,
+           near = (double)((n - 2) / 2) * turn;
     ck_assert_double_eq_tol(c.cord[0].turning, (n - 1) * turn, 1e-9);
     ck_assert_double_eq_tol(c.cord[0].force, exp(0.2 * far), 1e-9);
     ck_assert_double_eq_tol(c.cord[0].other_force, exp(0.2 * near), 1e-9);
@@ -115,7 +121,8 @@ END_TEST
 
 /* ---- the profile by itself ---- */
 
-/* What pass k holds of the tension of the slackest; from there on the end's pull reaches passes from from_end on. */
+/* What pass k holds of the tension of the slackest; from there on the end's pull reaches passes
+ * from from_end on. */
 static double held(const double *exponent, int slackest, int from_end, int k)
 {
   double sum = 0;
@@ -124,8 +131,8 @@ static double held(const double *exponent, int slackest, int from_end, int k)
   return exp(sum);
 }
 
-/* Four turns; between two pulled ends neither slides over the second: 0.5 and 0.5 on its sides. What lies round the exponents
- * is none of them. */
+/* Four turns; between two pulled ends neither slides over the second: 0.5 and 0.5 on its sides.
+ * What lies round the exponents is none of them. */
 START_TEST(profile_is_filled_from_its_exponents_alone)
 {
   static const double row[] = {1000, 0.5, 0.1, 0.2, 0.3, 1000, 1000}, *exponent = row + 1;
@@ -133,17 +140,23 @@ START_TEST(profile_is_filled_from_its_exponents_alone)
     thr_pull pull;
     int slackest;
     double force, other;
-  } table[] = {{THR_PULL_START, 4, 1.1, -INFINITY}, {THR_PULL_END, 0, 1.1, -INFINITY}, {THR_PULL_BOTH, 1, 0.5, 0.5}};
+  } table[] = {{THR_PULL_START, 4, 1.1, -INFINITY},
+               {THR_PULL_END, 0, 1.1, -INFINITY},
+               {THR_PULL_BOTH, 1, 0.5, 0.5}};
   for (int i = 0; i < 3; i++) {
     int half[5] = {0};
     const thr_cord cord = {.id = "A", .n_passes = 5, .half = half};
     thr_eval_cord c = {.n_passes = -1, .pull = THR_PULL_BOTH};
     thr_err err = {0};
-    ck_assert_msg(thr_profile_cord(&c, &cord, exponent, table[i].pull, 4, &amontons, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_profile_cord(&c, &cord, exponent, table[i].pull, 4, &amontons, &err) ==
+                      THR_OK,
+                  "%s", err.text);
     ck_assert(c.n_passes == 5 && c.pull == table[i].pull && c.slackest == table[i].slackest);
     for (int k = 0; k < 5; k++)
-      ck_assert_double_eq_tol(
-          c.tension[k], 4 * held(exponent, table[i].slackest, table[i].slackest + (table[i].pull == THR_PULL_BOTH), k), 1e-12);
+      ck_assert_double_eq_tol(c.tension[k],
+                              4 * held(exponent, table[i].slackest,
+                                       table[i].slackest + (table[i].pull == THR_PULL_BOTH), k),
+                              1e-12);
     double force = 4 * exp(table[i].force), other = 4 * exp(table[i].other);
     ck_assert_double_eq_tol(c.force, force, 1e-12);
     ck_assert_double_eq_tol(c.other_force, other, 1e-12);
@@ -171,15 +184,18 @@ START_TEST(slackest_of_a_straight_cord_is_in_its_middle)
 }
 END_TEST
 
-/* Two turns would do: the one behind the pass of the lower edge parts the cord, whichever end is called the start. */
+/* Two turns would do: the one behind the pass of the lower edge parts the cord, whichever end is
+ * called the start. */
 START_TEST(slackest_pass_does_not_depend_on_the_direction)
 {
   static const double exponent[] = {1, 2, 2, 1};
   int half[] = {0, 2, 4, 6, 8}, back[] = {9, 7, 5, 3, 1};
-  const thr_cord one = {.id = "A", .n_passes = 5, .half = half}, other = {.id = "A", .n_passes = 5, .half = back};
+  const thr_cord one = {.id = "A", .n_passes = 5, .half = half},
+                 other = {.id = "A", .n_passes = 5, .half = back};
   thr_eval_cord c = {0}, d = {0};
   ck_assert_int_eq(thr_profile_cord(&c, &one, exponent, THR_PULL_BOTH, 1, &amontons, NULL), THR_OK);
-  ck_assert_int_eq(thr_profile_cord(&d, &other, exponent, THR_PULL_BOTH, 1, &amontons, NULL), THR_OK);
+  ck_assert_int_eq(thr_profile_cord(&d, &other, exponent, THR_PULL_BOTH, 1, &amontons, NULL),
+                   THR_OK);
   ck_assert_int_eq(c.slackest, 1);
   ck_assert_int_eq(d.slackest, 2);
   for (int k = 0; k < 5; k++)
@@ -195,8 +211,10 @@ START_TEST(cord_that_is_not_pulled_is_slack)
   int half[3] = {0};
   const thr_cord cord = {.id = "A", .n_passes = 3, .half = half};
   thr_eval_cord c = {0};
-  ck_assert_int_eq(thr_profile_cord(&c, &cord, exponent, THR_PULL_NONE, 5, &amontons, NULL), THR_OK);
-  ck_assert(c.pull == THR_PULL_NONE && c.force == 0 && c.other_force == 0 && c.work == 0 && c.loss == 0);
+  ck_assert_int_eq(thr_profile_cord(&c, &cord, exponent, THR_PULL_NONE, 5, &amontons, NULL),
+                   THR_OK);
+  ck_assert(c.pull == THR_PULL_NONE && c.force == 0 && c.other_force == 0 && c.work == 0 &&
+            c.loss == 0);
   ck_assert(c.tension[0] == 0 && c.tension[1] == 0 && c.tension[2] == 0);
   free(c.tension);
 }
@@ -209,17 +227,19 @@ START_TEST(profile_refuses_what_no_number_holds)
     double exponent[2], seating;
     thr_pull pull;
     bool good;
-  } table[] = {
-      {{350, 350}, 1, THR_PULL_START, true},   {{350, 350}, 1, THR_PULL_END, true},     {{350, 350.25}, 1, THR_PULL_START, false},
-      {{350, 350.25}, 1, THR_PULL_END, false}, {{350, 349.5}, 1, THR_PULL_START, true}, {{350, 349.5}, 1, THR_PULL_END, true},
-      {{700, 700}, 1, THR_PULL_BOTH, true},    {{0, 700}, 1e5, THR_PULL_START, false},  {{0, 700}, 1e5, THR_PULL_END, false},
-      {{700.25, 0}, 1, THR_PULL_START, false}, {{0, 700.25}, 1, THR_PULL_END, false},   {{700, 700}, 1e5, THR_PULL_BOTH, false}};
+  } table[] = {{{350, 350}, 1, THR_PULL_START, true},     {{350, 350}, 1, THR_PULL_END, true},
+               {{350, 350.25}, 1, THR_PULL_START, false}, {{350, 350.25}, 1, THR_PULL_END, false},
+               {{350, 349.5}, 1, THR_PULL_START, true},   {{350, 349.5}, 1, THR_PULL_END, true},
+               {{700, 700}, 1, THR_PULL_BOTH, true},      {{0, 700}, 1e5, THR_PULL_START, false},
+               {{0, 700}, 1e5, THR_PULL_END, false},      {{700.25, 0}, 1, THR_PULL_START, false},
+               {{0, 700.25}, 1, THR_PULL_END, false},     {{700, 700}, 1e5, THR_PULL_BOTH, false}};
   for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
     int half[3] = {0};
     const thr_cord cord = {.id = "A7", .n_passes = 3, .half = half};
     thr_eval_cord c = {0};
     thr_err err = {0};
-    thr_status st = thr_profile_cord(&c, &cord, table[i].exponent, table[i].pull, table[i].seating, &amontons, &err);
+    thr_status st = thr_profile_cord(&c, &cord, table[i].exponent, table[i].pull, table[i].seating,
+                                     &amontons, &err);
     ck_assert_msg(st == (table[i].good ? THR_OK : THR_EINPUT), "case %zu: %d", i, (int)st);
     if (st) assert_one_line(&err, "A7");
     ck_assert(!st == (c.tension != NULL));
@@ -252,12 +272,14 @@ START_TEST(both_ends_choose_the_best_parting)
   ck_assert_double_eq_tol(force_with(&f, cord, 0.1, c.cord[0].slackest), best, 1e-9 * best);
   for (int k = 0; k < cord->n_passes; k++) { /* falls to the slackest, then rises; seating there */
     ck_assert(c.cord[0].tension[k] >= 1);
-    if (k == c.cord[0].slackest || k == c.cord[0].slackest + 1) ck_assert_double_eq(c.cord[0].tension[k], 1);
+    if (k == c.cord[0].slackest || k == c.cord[0].slackest + 1)
+      ck_assert_double_eq(c.cord[0].tension[k], 1);
     if (k)
       ck_assert(k <= c.cord[0].slackest ? c.cord[0].tension[k] <= c.cord[0].tension[k - 1]
                                         : c.cord[0].tension[k] >= c.cord[0].tension[k - 1]);
   }
-  ck_assert_double_eq_tol(fmax(c.cord[0].tension[0], c.cord[0].tension[cord->n_passes - 1]), best, 1e-9 * best);
+  ck_assert_double_eq_tol(fmax(c.cord[0].tension[0], c.cord[0].tension[cord->n_passes - 1]), best,
+                          1e-9 * best);
   thr_evaluation_destroy(&c);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
@@ -300,7 +322,8 @@ END_TEST
 START_TEST(mitre_law_refuses_a_turn_that_it_cannot_describe)
 {
   thr_frame f = path_make(3);
-  thr_plan p = plan_simple(&f, THR_ENDS_FEET, 1); /* there and back: a U-turn, mu sin(pi / 2) = mu */
+  thr_plan p =
+      plan_simple(&f, THR_ENDS_FEET, 1); /* there and back: a U-turn, mu sin(pi / 2) = mu */
   thr_eval_options o = options_of(THR_PULL_START, 0.99, 1);
   o.law = THR_LAW_MITRE;
   thr_evaluation c = eval_with(&f, p.cord, 1, &o);
@@ -346,7 +369,8 @@ START_TEST(band_is_what_other_mu_give)
 }
 END_TEST
 
-/* With the other mu of the band the mitre law has no answer, or no number holds the pull: that end is infinite, the rest stands.
+/* With the other mu of the band the mitre law has no answer, or no number holds the pull: that end
+ * is infinite, the rest stands.
  */
 START_TEST(band_is_infinite_where_no_pull_would_do)
 {
@@ -364,7 +388,8 @@ START_TEST(band_is_infinite_where_no_pull_would_do)
   ck_assert_double_eq_tol(e.record.largest, 1 / (1 - 0.5), 1e-12);
   ck_assert(isinf(e.band[1]));
   thr_eval_destroy(&e);
-  for (int i = 0; i < 300; i++) /* over one edge to and fro: 299 turns of pi, mu 0.7 is e^658, mu 0.9 e^846 */
+  for (int i = 0; i < 300;
+       i++) /* over one edge to and fro: 299 turns of pi, mu 0.7 is e^658, mu 0.9 e^846 */
     half[i] = i % 2;
   thr_cord cord = {.id = "A", .n_passes = 300, .half = half};
   o = options_of(THR_PULL_START, 0.7, 1);
@@ -389,7 +414,8 @@ START_TEST(interrupt_leaves_what_is_complete)
   thr_limits limits = {.interrupted = &interrupted};
   thr_eval e;
   thr_err err = {0};
-  ck_assert_int_eq(thr_eval_plan(&f, p.cord, p.n_cords, THR_CAPSTAN, &o, &limits, &e, &err), THR_ELIMIT);
+  ck_assert_int_eq(thr_eval_plan(&f, p.cord, p.n_cords, THR_CAPSTAN, &o, &limits, &e, &err),
+                   THR_ELIMIT);
   assert_one_line(&err, "0 of 3");
   ck_assert(!e.complete && !e.record.cord[0].known);
   thr_eval_destroy(&e);

@@ -1,5 +1,6 @@
-/* The checker against forged plans: each claim, altered once, is caught and named. Random alterations are in
- * tests/property/test_mutations.c. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The checker against forged plans: each claim, altered once, is caught and named. Random
+ * alterations are in tests/property/test_mutations.c. */
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
 #include "tests/frameworks.h"
@@ -27,7 +28,8 @@ static void fixture_destroy(fixture *x)
   thr_frame_destroy(&x->frame);
 }
 
-/* A plan that is sound but longer than need be: the closed cord first goes along its first edge and back. */
+/* A plan that is sound but longer than need be: the closed cord first goes along its first edge and
+ * back. */
 static void add_detour(thr_plan *p)
 {
   thr_cord *c = &p->cord[0];
@@ -38,8 +40,10 @@ static void add_detour(thr_plan *p)
   free(c->half);
   c->half = half;
   c->n_passes += 2;
-  ck_assert_int_eq(thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL), THR_OK);
-  p->proof.certificate[0].join += 2 * thr_certificate_weight(&p->frame, &p->proof.certificate[0], half[0] / 2);
+  ck_assert_int_eq(thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL),
+                   THR_OK);
+  p->proof.certificate[0].join +=
+      2 * thr_certificate_weight(&p->frame, &p->proof.certificate[0], half[0] / 2);
 }
 
 static void drop_cuts(thr_certificate *c)
@@ -93,8 +97,9 @@ START_TEST(scale_that_rounds_all_away_proves_nothing)
 }
 END_TEST
 
-/* A ring with a chord that costs next to nothing: passed to and fro it weighs nothing under a coarse scale, and each pass
- * rounds once more. Neither may pass for a proof, whichever edge the chord is. */
+/* A ring with a chord that costs next to nothing: passed to and fro it weighs nothing under a
+ * coarse scale, and each pass rounds once more. Neither may pass for a proof, whichever edge the
+ * chord is. */
 START_TEST(passes_without_weight_prove_nothing)
 {
   static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -104,7 +109,8 @@ START_TEST(passes_without_weight_prove_nothing)
     memcpy(edge[4], edge[chord], sizeof edge[4]);
     edge[chord][0] = 0, edge[chord][1] = 2;
     length[chord] = 9e-9;
-    fixture x = fixture_make(frame_make(4, xyz, 5, (const int(*)[2])edge, length, NULL), THR_ENDS_CLOSED);
+    fixture x =
+        fixture_make(frame_make(4, xyz, 5, (const int(*)[2])edge, length, NULL), THR_ENDS_CLOSED);
     thr_plan *p = &x.plan;
     thr_certificate *c = &p->proof.certificate[0];
     assert_holds(p);
@@ -134,7 +140,8 @@ START_TEST(angles_do_not_depend_on_size)
   for (size_t i = 0; i < sizeof size / sizeof *size; i++) {
     double a = size[i], xyz[4][3] = {{0, 0, 0}, {a, 0, 0}, {a, a, 0}, {0, a, 0}};
     static const int edge[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
-    fixture x = fixture_make(frame_make(4, (const double(*)[3])xyz, 4, edge, NULL, NULL), THR_ENDS_CLOSED);
+    fixture x =
+        fixture_make(frame_make(4, (const double(*)[3])xyz, 4, edge, NULL, NULL), THR_ENDS_CLOSED);
     ck_assert_double_eq_tol(x.plan.metrics.turning, 6.283185307179586, 1e-12);
     assert_holds(&x.plan);
     x.plan.metrics.turning = x.plan.metrics.max_turning = 0;
@@ -167,7 +174,8 @@ START_TEST(forged_cords)
   memcpy(c->id, "B", 2);
   assert_violated(p, "called B");
   *c = kept;
-  c->n_passes--; /* the last pass is the only one over its edge, or the cord ends elsewhere than it says */
+  c->n_passes--; /* the last pass is the only one over its edge, or the cord ends elsewhere than it
+                    says */
   assert_violated(p, NULL);
   *c = kept;
   c->half++, c->n_passes--;
@@ -327,7 +335,8 @@ START_TEST(nodes_twice_in_a_tree)
   fixture x = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
   thr_certificate *c = &x.plan.proof.certificate[0], kept = *c;
   int a[] = {0}, b[] = {0, 1}, d[] = {0, 1};
-  thr_cut cut[2] = {{1, 1, a, 1}, {-1, 2, b, 1}}, three[3] = {{2, 1, a, 0}, {2, 1, a, 0}, {-1, 1, d, 0}};
+  thr_cut cut[2] = {{1, 1, a, 1}, {-1, 2, b, 1}},
+          three[3] = {{2, 1, a, 0}, {2, 1, a, 0}, {-1, 1, d, 0}};
   c->cut = cut;
   c->n_cuts = 2;
   c->sum = 2;
@@ -341,10 +350,12 @@ START_TEST(nodes_twice_in_a_tree)
 }
 END_TEST
 
-/* Of a price that is too low the sets round an end are too many, of one too high they prove too little. */
+/* Of a price that is too low the sets round an end are too many, of one too high they prove too
+ * little. */
 START_TEST(forged_end_price)
 {
-  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_ANY), closed = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
+  fixture x = fixture_make(solid_make(CUBE), THR_ENDS_ANY),
+          closed = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
   thr_certificate *c = &x.plan.proof.certificate[0];
   int64_t kept = c->end_price;
   ck_assert_int_gt(kept, 0);
@@ -375,7 +386,8 @@ START_TEST(forged_numbers)
   static const double scale[] = {0, -1, 1e300, 2, 0.5};
   for (size_t i = 0; i < sizeof scale / sizeof *scale; i++) {
     c->scale = i < 3 ? scale[i] : kept.scale * scale[i];
-    assert_violated(p, i < 4 ? "component 0" : NULL); /* lengths of 1 may still weigh 1: then the rounding shows */
+    assert_violated(p, i < 4 ? "component 0"
+                             : NULL); /* lengths of 1 may still weigh 1: then the rounding shows */
   }
   *c = kept;
   c->denominator *= 2;
@@ -404,9 +416,11 @@ START_TEST(each_metric_counts)
   fixture x = fixture_make(solid_make(CUBE), THR_ENDS_CLOSED);
   thr_plan *p = &x.plan;
   thr_metrics kept = p->metrics, *m = &p->metrics;
-  double *real[] = {&m->length, &m->base_length, &m->overlap, &m->turning, &m->max_turning, &m->worst_turn};
-  static const char *const real_name[] = {"metrics.length",  "metrics.base_length", "metrics.overlap",
-                                          "metrics.turning", "metrics.max_turning", "metrics.worst_turn"};
+  double *real[] = {&m->length,  &m->base_length, &m->overlap,
+                    &m->turning, &m->max_turning, &m->worst_turn};
+  static const char *const real_name[] = {"metrics.length",      "metrics.base_length",
+                                          "metrics.overlap",     "metrics.turning",
+                                          "metrics.max_turning", "metrics.worst_turn"};
   for (int i = 0; i < 6; i++)
     for (int k = 0; k < 4; k++) {
       *m = kept;
@@ -414,7 +428,8 @@ START_TEST(each_metric_counts)
       assert_violated(p, real_name[i]);
     }
   int *whole[] = {&m->passes, &m->most_passes, &m->u_turns};
-  static const char *const whole_name[] = {"metrics.passes", "metrics.most_passes", "metrics.u_turns"};
+  static const char *const whole_name[] = {"metrics.passes", "metrics.most_passes",
+                                           "metrics.u_turns"};
   for (int i = 0; i < 3; i++)
     for (int k = -1; k < 2; k += 2) {
       *m = kept;
@@ -429,7 +444,8 @@ START_TEST(each_metric_counts)
 }
 END_TEST
 
-/* Without a proof of length only a plan for the least turning has to have as many cords as asked for. */
+/* Without a proof of length only a plan for the least turning has to have as many cords as asked
+ * for. */
 START_TEST(cords_without_a_proof)
 {
   fixture x = fixture_make(triangles_make(2), THR_ENDS_ANY);
@@ -447,7 +463,8 @@ END_TEST
 /* Only where closed cords are asked for does a cord turn where it closes. */
 START_TEST(the_turn_where_a_cord_closes)
 {
-  fixture x = fixture_make(ring_make(6), THR_ENDS_CLOSED), y = fixture_make(ring_make(6), THR_ENDS_ANY);
+  fixture x = fixture_make(ring_make(6), THR_ENDS_CLOSED),
+          y = fixture_make(ring_make(6), THR_ENDS_ANY);
   ck_assert(x.plan.cord[0].closed && y.plan.cord[0].closed);
   ck_assert_double_eq_tol(x.plan.metrics.turning, 6.283185307179586, 1e-12);
   ck_assert_double_eq_tol(y.plan.metrics.turning, 6.283185307179586 * 5 / 6, 1e-12);
@@ -472,19 +489,23 @@ START_TEST(passes_without_cords)
   o.cords = 2;
   ck_assert_int_eq(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, NULL), THR_OK);
   s.passes[3]++;
-  ck_assert_int_eq(thr_check_length_of_passes(&f, &o, s.passes, s.certificate, 1, &optimal, &bound, &err), THR_EVIOLATED);
+  ck_assert_int_eq(
+      thr_check_length_of_passes(&f, &o, s.passes, s.certificate, 1, &optimal, &bound, &err),
+      THR_EVIOLATED);
   assert_one_line(&err, "no cord can end there");
   s.passes[3] = 0;
   err = (thr_err){0};
-  ck_assert_int_eq(thr_check_length_of_passes(&f, &o, s.passes, s.certificate, 1, &optimal, &bound, &err), THR_EVIOLATED);
+  ck_assert_int_eq(
+      thr_check_length_of_passes(&f, &o, s.passes, s.certificate, 1, &optimal, &bound, &err),
+      THR_EVIOLATED);
   assert_one_line(&err, "0 of 1 passes");
   thr_shortest_destroy(&s);
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* A path there and back needs every edge twice: the sets {0}, {0, 1}, {0, 1, 2}, .. prove it, each round the one before. They are
- * checked and stored in about linear time and space. */
+/* A path there and back needs every edge twice: the sets {0}, {0, 1}, {0, 1, 2}, .. prove it, each
+ * round the one before. They are checked and stored in about linear time and space. */
 START_TEST(many_nested_sets)
 {
   enum { N = 20001 };
@@ -494,7 +515,8 @@ START_TEST(many_nested_sets)
   ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
   p.n_cords = 1;
   p.cord = calloc(1, sizeof *p.cord);
-  *p.cord = (thr_cord){.id = "A", .closed = true, .n_passes = 2 * (N - 1), .half = calloc(2 * (N - 1), sizeof(int))};
+  *p.cord = (thr_cord){
+      .id = "A", .closed = true, .n_passes = 2 * (N - 1), .half = calloc(2 * (N - 1), sizeof(int))};
   for (int e = 0; e < N - 1; e++) {
     p.cord->half[e] = 2 * e;
     p.cord->half[2 * (N - 1) - 1 - e] = 2 * e + 1;
@@ -506,8 +528,12 @@ START_TEST(many_nested_sets)
                                .n_certificates = 1,
                                .certificate = calloc(1, sizeof(thr_certificate))};
   thr_certificate *c = p.proof.certificate;
-  *c = (thr_certificate){
-      .scale = 1, .denominator = 1, .join = N - 1, .sum = N - 1, .n_cuts = N - 1, .cut = calloc(N - 1, sizeof(thr_cut))};
+  *c = (thr_certificate){.scale = 1,
+                         .denominator = 1,
+                         .join = N - 1,
+                         .sum = N - 1,
+                         .n_cuts = N - 1,
+                         .cut = calloc(N - 1, sizeof(thr_cut))};
   for (int i = 0; i < N - 1; i++) {
     c->cut[i] = (thr_cut){i + 1 < N - 1 ? i + 1 : -1, 1, calloc(1, sizeof(int)), 1};
     c->cut[i].node[0] = i;

@@ -1,4 +1,6 @@
-/* Claims about several cords in the checker: how short the longest can be, how few there can be, how they are counted. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Claims about several cords in the checker: how short the longest can be, how few there can be,
+ * how they are counted. */
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
 #include "tests/frameworks.h"
@@ -12,9 +14,10 @@
 
 /* ---- several cords ---- */
 
-/* Shortest distances by Floyd and Warshall, and the longest of: what edge must be gone over from end to end or round; the cord
- * that all need, shared out; in whole units, if lengths have one. */
-static double longest_by_definition(const thr_frame *f, const thr_request *o, double base, int most, double unit)
+/* Shortest distances by Floyd and Warshall, and the longest of: what edge must be gone over from
+ * end to end or round; the cord that all need, shared out; in whole units, if lengths have one. */
+static double longest_by_definition(const thr_frame *f, const thr_request *o, double base, int most,
+                                    double unit)
 {
   double far[22][22], bound = base / most;
   for (int a = 0; a < f->n_nodes; a++)
@@ -45,7 +48,8 @@ START_TEST(the_longest_cord_has_its_detour)
   static const length_kind kinds[] = {LENGTHS_RANDOM, LENGTHS_SMALL_INTEGERS, LENGTHS_EUCLID};
   rng r = rng_make((uint64_t)_i + 1);
   length_kind kind = kinds[_i % 3];
-  thr_frame f = random_frame(&r, rng_between(&r, 20, 22), rng_below(&r, 9), kind); /* more edges than all sets are tried of */
+  thr_frame f = random_frame(&r, rng_between(&r, 20, 22), rng_below(&r, 9),
+                             kind); /* more edges than all sets are tried of */
   thr_request o = options_for(ends[_i / 3 % 3], 1 + rng_below(&r, 2));
   o.cords = 1 + rng_below(&r, 6);
   o.cords_least = 1 + rng_below(&r, o.cords);
@@ -54,13 +58,15 @@ START_TEST(the_longest_cord_has_its_detour)
   thr_err err = {0};
   thr_status st = length_plan(&f, &o, &(thr_limits){0}, &p, NULL, &err);
   if (st == THR_OK || st == THR_ELIMIT) {
-    ck_assert_msg(thr_check_cords(&f, &o, p.cord, p.n_cords, NULL, 0, NULL, &found, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_check_cords(&f, &o, p.cord, p.n_cords, NULL, 0, NULL, &found, &err) == THR_OK,
+                  "%s", err.text);
     double longest = 0, base = 0;
     for (int i = 0; i < p.n_cords; i++)
       longest = fmax(longest, thr_cord_length(&f, &p.cord[i]));
     for (int e = 0; e < f.n_edges; e++)
       base += o.cover * f.length[e];
-    double bound = longest_by_definition(&f, &o, base, o.cords, kind == LENGTHS_SMALL_INTEGERS ? thr_plan_unit(&f) : 0);
+    double bound = longest_by_definition(&f, &o, base, o.cords,
+                                         kind == LENGTHS_SMALL_INTEGERS ? thr_plan_unit(&f) : 0);
     ck_assert_double_eq_tol(found.longest, longest, 1e-9);
     ck_assert_double_eq_tol(found.longest_bound, fmin(longest, bound), 1e-9);
     ck_assert_int_eq(found.longest_optimal, bound > longest - 1e-9 * longest);
@@ -71,7 +77,8 @@ START_TEST(the_longest_cord_has_its_detour)
 }
 END_TEST
 
-/* Every edge there and back by a cord of its own, on complete graphs where the way round is often shorter than an edge. */
+/* Every edge there and back by a cord of its own, on complete graphs where the way round is often
+ * shorter than an edge. */
 START_TEST(the_longest_closed_cord_has_its_detour)
 {
   rng r = rng_make((uint64_t)_i + 1);
@@ -97,13 +104,15 @@ START_TEST(the_longest_closed_cord_has_its_detour)
   thr_cords_claim found;
   ck_assert_int_eq(thr_check_cords(&f, &o, cord, m, NULL, 0, NULL, &found, NULL), THR_OK);
   ck_assert_double_eq_tol(found.longest, longest, 1e-12);
-  ck_assert_double_eq_tol(found.longest_bound, fmin(longest, longest_by_definition(&f, &o, base, m, 0)), 1e-9);
+  ck_assert_double_eq_tol(found.longest_bound,
+                          fmin(longest, longest_by_definition(&f, &o, base, m, 0)), 1e-9);
   thr_cords_destroy(cord, m);
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* Three cords there and back share a chain of 1, 1 and 5: that over the last edge has 10, whatever comes before it. */
+/* Three cords there and back share a chain of 1, 1 and 5: that over the last edge has 10, whatever
+ * comes before it. */
 START_TEST(the_worst_edge_may_be_the_last)
 {
   static const double length[3] = {1, 1, 5};
@@ -122,8 +131,8 @@ START_TEST(the_worst_edge_may_be_the_last)
 }
 END_TEST
 
-/* A bound of 5 and a little more is 6 where all lengths are whole, unless the little is rounding: a verdict about one cord there
- * and back on a chain 1, 2. */
+/* A bound of 5 and a little more is 6 where all lengths are whole, unless the little is rounding: a
+ * verdict about one cord there and back on a chain 1, 2. */
 START_TEST(bounds_are_whole_numbers_of_the_unit)
 {
   static const double length[2] = {1, 2};
@@ -139,7 +148,8 @@ START_TEST(bounds_are_whole_numbers_of_the_unit)
     thr_request o = options_for(THR_ENDS_CLOSED, 1);
     const thr_check_verdict verdict = {.extra = cases[i].bound - 3};
     thr_cords_claim found;
-    ck_assert_int_eq(thr_check_several(&f, &o, &w, &cord, 1, &c, &verdict, NULL, NULL, &found, NULL), THR_OK);
+    ck_assert_int_eq(
+        thr_check_several(&f, &o, &w, &cord, 1, &c, &verdict, NULL, NULL, &found, NULL), THR_OK);
     ck_assert_double_eq_tol(found.longest_bound, cases[i].whole, 1e-12);
   }
   thr_frame_destroy(&f);
@@ -149,7 +159,8 @@ END_TEST
 /* Lengths have a common step, or none. */
 START_TEST(cords_have_whole_numbers_of_the_unit)
 {
-  static const double whole[] = {6, 10, 15}, half[] = {1.5, 2.5, 4}, none[] = {1, 1.4142135623730951, 2};
+  static const double whole[] = {6, 10, 15}, half[] = {1.5, 2.5, 4},
+                      none[] = {1, 1.4142135623730951, 2};
   const struct {
     const double *length;
     double unit;
@@ -162,7 +173,8 @@ START_TEST(cords_have_whole_numbers_of_the_unit)
 }
 END_TEST
 
-/* Two cords there and back on a chain 1, 2: no fewer are allowed where they may have so much; the framework needs 6 in all. */
+/* Two cords there and back on a chain 1, 2: no fewer are allowed where they may have so much; the
+ * framework needs 6 in all. */
 START_TEST(the_fewest_cords_have_room)
 {
   static const double length[2] = {1, 2};
@@ -189,7 +201,8 @@ START_TEST(the_fewest_cords_have_room)
     thr_cords_claim found;
     thr_err err = {0};
     o.max_length = cases[i].most;
-    ck_assert_msg(thr_check_cords(&f, &o, cord, 2, &c, 1, NULL, &found, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_check_cords(&f, &o, cord, 2, &c, 1, NULL, &found, &err) == THR_OK, "%s",
+                  err.text);
     ck_assert_int_eq(found.fewest, cases[i].fewest);
     ck_assert_int_eq(found.fewest_optimal, cases[i].fewest == 2);
   }
@@ -206,7 +219,8 @@ START_TEST(the_fewest_cords_have_room)
 }
 END_TEST
 
-/* Four cords through a cube's twelve edges, three each: eight ends leave no edge to be passed twice, fewer would. */
+/* Four cords through a cube's twelve edges, three each: eight ends leave no edge to be passed
+ * twice, fewer would. */
 START_TEST(ends_pay_for_extra_passes)
 {
   thr_frame f = solid_make(CUBE);
@@ -216,14 +230,17 @@ START_TEST(ends_pay_for_extra_passes)
   thr_cords_claim found;
   thr_err err = {0};
   ck_assert_double_eq_tol(p.metrics.length, 12, 1e-9);
-  ck_assert_msg(thr_check_cords(&f, &o, p.cord, 4, p.proof.certificate, 1, NULL, &found, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_check_cords(&f, &o, p.cord, 4, p.proof.certificate, 1, NULL, &found, &err) ==
+                    THR_OK,
+                "%s", err.text);
   ck_assert_double_eq_tol(found.longest_bound, 3, 1e-9);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* All nodes of a tetrahedron are odd, and one end at each leaves no edge to be passed twice: two cords share six edges. */
+/* All nodes of a tetrahedron are odd, and one end at each leaves no edge to be passed twice: two
+ * cords share six edges. */
 START_TEST(given_ends_are_those_of_half_as_many_cords)
 {
   int end_count[4] = {1, 1, 1, 1}, half[2][3];
@@ -243,7 +260,8 @@ START_TEST(given_ends_are_those_of_half_as_many_cords)
   o.cords = o.cords_least = 2;
   thr_cords_claim found;
   thr_err err = {0};
-  ck_assert_msg(thr_check_cords(&f, &o, cord, 2, NULL, 0, NULL, &found, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_check_cords(&f, &o, cord, 2, NULL, 0, NULL, &found, &err) == THR_OK, "%s",
+                err.text);
   ck_assert_double_eq_tol(found.longest_bound, 3 * f.length[0], 1e-9);
   ck_assert(found.longest_optimal);
   thr_frame_destroy(&f);
@@ -274,7 +292,8 @@ START_TEST(cords_are_counted_for_claims)
 }
 END_TEST
 
-/* Two edges, together as long as rounding lets a cord of 1 be, which then is enough; and longer by as little as can be. */
+/* Two edges, together as long as rounding lets a cord of 1 be, which then is enough; and longer by
+ * as little as can be. */
 START_TEST(a_cord_may_be_as_long_as_rounding_lets_it)
 {
   const double most = 1 + 2e-9;
@@ -282,7 +301,8 @@ START_TEST(a_cord_may_be_as_long_as_rounding_lets_it)
     double length[2] = {most / 2, most / 2};
     thr_frame f = chain_make(2, length);
     int half[2] = {0, 2};
-    thr_cord cord[2] = {{.id = "A", .n_passes = 1, .half = half}, {.id = "B", .n_passes = 1, .half = half + 1}};
+    thr_cord cord[2] = {{.id = "A", .n_passes = 1, .half = half},
+                        {.id = "B", .n_passes = 1, .half = half + 1}};
     thr_request o = options_for(THR_ENDS_ANY, 1);
     thr_cords_claim found;
     o.cords = 2, o.cords_least = 1;
@@ -296,8 +316,8 @@ START_TEST(a_cord_may_be_as_long_as_rounding_lets_it)
 }
 END_TEST
 
-/* Cords that end anywhere on a star with six legs of 1: K of them leave 6 - 2 K tips that are no ends, each of which costs an
- * extra pass. As multipliers: 1 for every tip, 1 for every end. */
+/* Cords that end anywhere on a star with six legs of 1: K of them leave 6 - 2 K tips that are no
+ * ends, each of which costs an extra pass. As multipliers: 1 for every tip, 1 for every end. */
 START_TEST(fewer_cords_have_fewer_ends)
 {
   static const struct {
@@ -319,14 +339,16 @@ START_TEST(fewer_cords_have_fewer_ends)
     cord[i] = (thr_cord){.n_passes = 2, .half = half[i]};
     thr_cord_id(i, cord[i].id);
   }
-  const thr_certificate c = {.scale = 1, .denominator = 1, .sum = 6, .end_price = 1, .n_cuts = 6, .cut = cut};
+  const thr_certificate c = {
+      .scale = 1, .denominator = 1, .sum = 6, .end_price = 1, .n_cuts = 6, .cut = cut};
   thr_request o = options_for(THR_ENDS_ANY, 1);
   o.cords = 3, o.cords_least = 1;
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     thr_cords_claim found;
     thr_err err = {0};
     o.max_length = cases[i].most;
-    ck_assert_msg(thr_check_cords(&f, &o, cord, 3, &c, 1, NULL, &found, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_check_cords(&f, &o, cord, 3, &c, 1, NULL, &found, &err) == THR_OK, "%s",
+                  err.text);
     ck_assert_int_eq(found.fewest, cases[i].fewest);
     ck_assert_double_eq_tol(found.longest_bound, 2, 1e-9);
     ck_assert(found.longest_optimal);
@@ -343,7 +365,8 @@ START_TEST(weak_proofs_bound_the_longest)
   int half[4] = {0, 2, 3, 1};
   const thr_cord cord = {.id = "A", .closed = true, .n_passes = 4, .half = half};
   thr_cut cut = {-1, 1, (int[]){0}, 1};
-  const thr_certificate c = {.scale = 1, .denominator = 1, .join = 2, .sum = 1, .n_cuts = 1, .cut = &cut};
+  const thr_certificate c = {
+      .scale = 1, .denominator = 1, .join = 2, .sum = 1, .n_cuts = 1, .cut = &cut};
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_cords_claim found;
   ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, &c, 1, NULL, &found, NULL), THR_OK);
@@ -354,19 +377,24 @@ START_TEST(weak_proofs_bound_the_longest)
 }
 END_TEST
 
-/* No proof that holds proves more than a plan has. Of verdicts that are said to, and of more cord than the options allow, the
- * checker tells: one cord there and back on a chain, which needs half of it. */
+/* No proof that holds proves more than a plan has. Of verdicts that are said to, and of more cord
+ * than the options allow, the checker tells: one cord there and back on a chain, which needs half
+ * of it. */
 START_TEST(bounds_beyond_the_plan_are_refused)
 {
   static const double length[2] = {1, 1.4142135623730951}, all = 2.4142135623730951;
   static const struct {
     double part, most;
     const char *said;
-  } cases[] = {{2 + 0.9e-9, 0, NULL},
-               {2 + 2.2e-9, 0, "the longest cord of any plan would have"},
-               {3, 0, "the longest cord of any plan would have 7.24264068712 or more, but this plan's has 4.82842712475"},
-               {1, 2, "any plan would have 3 cords or more, but this one has 1"}, /* there and back over one edge is more */
-               {1, 5, NULL}};
+  } cases[] = {
+      {2 + 0.9e-9, 0, NULL},
+      {2 + 2.2e-9, 0, "the longest cord of any plan would have"},
+      {3, 0,
+       "the longest cord of any plan would have 7.24264068712 or more, but this plan's has "
+       "4.82842712475"},
+      {1, 2, "any plan would have 3 cords or more, but this one has 1"}, /* there and back over one
+                                                                            edge is more */
+      {1, 5, NULL}};
   thr_frame f = chain_make(2, length);
   int half[4] = {0, 2, 3, 1}, component[3] = {0}, passes[2] = {2, 2}, cords[1] = {1};
   const thr_cord cord = {.id = "A", .closed = true, .n_passes = 4, .half = half};
@@ -403,7 +431,8 @@ START_TEST(symmetric_cords_are_counted_where_most_are)
       cord[i] = (thr_cord){.closed = true, .component = component, .n_passes = 3, .half = half[i]};
       thr_cord_id(i, cord[i].id);
     }
-    thr_certificate c[2] = {{.scale = 1, .denominator = 1}, {.component = 1, .scale = 1, .denominator = 1}};
+    thr_certificate c[2] = {{.scale = 1, .denominator = 1},
+                            {.component = 1, .scale = 1, .denominator = 1}};
     c[most].join = 3;
     for (int cords = 1; cords <= 3; cords++) {
       thr_request o = options_for(THR_ENDS_CLOSED, 1);
@@ -415,7 +444,8 @@ START_TEST(symmetric_cords_are_counted_where_most_are)
       thr_status st = thr_check_length_proof(&f, &o, cord, 3, c, 2, &optimal, &bound, &err);
       ck_assert_msg(st == (cords == 2 ? THR_OK : THR_EVIOLATED), "%s", err.text);
       char said[64];
-      snprintf(said, sizeof said, "component %d: has 2 cords; the plan's options say %d", most, cords);
+      snprintf(said, sizeof said, "component %d: has 2 cords; the plan's options say %d", most,
+               cords);
       if (st) assert_one_line(&err, said);
       ck_assert(!st || !strstr(err.text, " to "));
     }

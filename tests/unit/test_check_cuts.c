@@ -1,4 +1,6 @@
-/* Certificates of length in the checker: prices and cuts added up another way, and certificates that are none. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Certificates of length in the checker: prices and cuts added up another way, and certificates
+ * that are none. */
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
 #include "graph/framework/frame.h"
@@ -16,8 +18,8 @@
 
 /* ---- prices ---- */
 
-/* Price of the places that n passes of an edge are: one for each pass; closed, two for each pair, and of the other passes as many
- * as make a loop for every two places, rounded up. */
+/* Price of the places that n passes of an edge are: one for each pass; closed, two for each pair,
+ * and of the other passes as many as make a loop for every two places, rounded up. */
 static int64_t places_price(bool closed, int64_t of, int loop, int n)
 {
   if (!closed) return of * n;
@@ -25,7 +27,8 @@ static int64_t places_price(bool closed, int64_t of, int loop, int n)
   return 2 * of * (n / 2) + left / loop + (left % loop > 0);
 }
 
-/* Against every number of extra passes that there is room for, or the first few if there is no end. */
+/* Against every number of extra passes that there is room for, or the first few if there is no end.
+ */
 START_TEST(edges_at_their_price)
 {
   rng r = rng_make((uint64_t)_i + 1);
@@ -34,7 +37,8 @@ START_TEST(edges_at_their_price)
     bool closed = rng_below(&r, 2), limited = rng_below(&r, 3) > 0;
     thr_request o = options_for(closed ? THR_ENDS_CLOSED : THR_ENDS_FEET, 1 + rng_below(&r, 4));
     int room = rng_below(&r, 6), loop = rng_between(&r, 2, 10);
-    int64_t weight = rng_below(&r, 20), of = rng_below(&r, 5) ? rng_below(&r, 30) : weight, best[2] = {INT64_MAX, INT64_MAX};
+    int64_t weight = rng_below(&r, 20), of = rng_below(&r, 5) ? rng_below(&r, 30) : weight,
+            best[2] = {INT64_MAX, INT64_MAX};
     if (limited) o.capacity = o.cover + room;
     thr_priced p = thr_prices_edge(&f, &o, 0, weight, of, loop);
     int64_t held = places_price(closed, of, loop, o.cover);
@@ -50,7 +54,9 @@ START_TEST(edges_at_their_price)
       ck_assert_int_eq((int64_t)(i ? p.odd : p.even), best[i]);
       ck_assert_int_eq(p.passes[i] % 2, i);
       ck_assert_int_le(p.passes[i], limited ? room : 9);
-      ck_assert_int_eq(weight * p.passes[i] - places_price(closed, of, loop, o.cover + p.passes[i]) + held, best[i]);
+      ck_assert_int_eq(weight * p.passes[i] -
+                           places_price(closed, of, loop, o.cover + p.passes[i]) + held,
+                       best[i]);
     }
   }
   thr_request o = options_for(THR_ENDS_COUNTS, 1);
@@ -63,8 +69,9 @@ START_TEST(edges_at_their_price)
 }
 END_TEST
 
-/* Nested odd sets of nodes of a complete graph, all of whose nodes are odd. The sum of the multipliers of the sets that hold one
- * end of an edge, added up set by set, may be as much as its weight, and no more. */
+/* Nested odd sets of nodes of a complete graph, all of whose nodes are odd. The sum of the
+ * multipliers of the sets that hold one end of an edge, added up set by set, may be as much as its
+ * weight, and no more. */
 START_TEST(cuts_add_up_over_edges)
 {
   enum { N = 8, EDGES = N * (N - 1) / 2 };
@@ -133,8 +140,9 @@ START_TEST(cuts_add_up_over_edges)
 }
 END_TEST
 
-/* Where a place costs 13 and a pass 10, as many passes of edge 0 as fit are cheapest: two more or three. One less costs 3 more,
- * and so much may cuts over the edge add up to: round node 0, if two more leave it odd; round node 1, if three make it odd. */
+/* Where a place costs 13 and a pass 10, as many passes of edge 0 as fit are cheapest: two more or
+ * three. One less costs 3 more, and so much may cuts over the edge add up to: round node 0, if two
+ * more leave it odd; round node 1, if three make it odd. */
 START_TEST(cuts_add_up_at_prices)
 {
   static const double length[2] = {1, 1};
@@ -194,7 +202,8 @@ START_TEST(nodes_of_cuts_ascend)
 }
 END_TEST
 
-/* Three edges by themselves: in none of them may a cut round an end have more than the price of an end. */
+/* Three edges by themselves: in none of them may a cut round an end have more than the price of an
+ * end. */
 START_TEST(end_prices_hold_in_every_component)
 {
   double xyz[6][3] = {{0}};
@@ -214,8 +223,13 @@ START_TEST(end_prices_hold_in_every_component)
       bool here = dear >= 0 && dear / 2 == i;
       node[i] = here ? dear : 2 * i;
       cut[i] = (thr_cut){-1, 1, &node[i], here ? 2 : 1};
-      c[i] = (thr_certificate){
-          .component = i, .scale = 10, .denominator = 1, .sum = cut[i].value, .end_price = 1, .n_cuts = 1, .cut = &cut[i]};
+      c[i] = (thr_certificate){.component = i,
+                               .scale = 10,
+                               .denominator = 1,
+                               .sum = cut[i].value,
+                               .end_price = 1,
+                               .n_cuts = 1,
+                               .cut = &cut[i]};
     }
     thr_status st = thr_check_length_of_passes(&f, &o, passes, c, 3, &optimal, &bound, &err);
     ck_assert_msg(st == (dear < 0 ? THR_OK : THR_EVIOLATED), "%s", err.text);
@@ -227,8 +241,9 @@ START_TEST(end_prices_hold_in_every_component)
 }
 END_TEST
 
-/* Two cords there and back over one edge. At a price of 0.8 of the weight for each of their places a second pass of the edge
- * pays, so that both of its nodes are even; at none, they are odd, and either may be cut off. */
+/* Two cords there and back over one edge. At a price of 0.8 of the weight for each of their places
+ * a second pass of the edge pays, so that both of its nodes are even; at none, they are odd, and
+ * either may be cut off. */
 START_TEST(prices_change_the_parity_of_both_nodes)
 {
   static const double length[1] = {1};
@@ -241,7 +256,8 @@ START_TEST(prices_change_the_parity_of_both_nodes)
   for (int v = 0; v < 2; v++)
     for (int64_t price = 0; price <= 8; price += 8) {
       thr_cut cut = {-1, 1, &v, 1};
-      thr_certificate c = {.scale = 10, .denominator = 1, .join = 30, .sum = 1, .n_cuts = 1, .cut = &cut};
+      thr_certificate c = {
+          .scale = 10, .denominator = 1, .join = 30, .sum = 1, .n_cuts = 1, .cut = &cut};
       c.n_prices = 1, c.place_price = &price;
       bool optimal;
       double bound;
@@ -255,7 +271,8 @@ START_TEST(prices_change_the_parity_of_both_nodes)
 }
 END_TEST
 
-/* Passes that one closed cord can run through are no two cords', whose places are worth more than these passes weigh. */
+/* Passes that one closed cord can run through are no two cords', whose places are worth more than
+ * these passes weigh. */
 START_TEST(bounds_above_the_passes_are_refused)
 {
   static const double length[1] = {1};
@@ -264,7 +281,8 @@ START_TEST(bounds_above_the_passes_are_refused)
   for (int cords = 1; cords <= 2; cords++) {
     thr_request o = options_for(THR_ENDS_CLOSED, 1);
     int64_t price = 1;
-    const thr_certificate c = {.scale = 1, .denominator = 1, .join = 1, .n_prices = 1, .place_price = &price};
+    const thr_certificate c = {
+        .scale = 1, .denominator = 1, .join = 1, .n_prices = 1, .place_price = &price};
     bool optimal;
     double bound;
     thr_err err = {0};
@@ -280,7 +298,8 @@ END_TEST
 /* Three edges by themselves, there and back: each certificate weighs what its own component has. */
 START_TEST(certificates_weigh_their_own_component)
 {
-  static const double xyz[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 9, 0}, {2, 9, 0}, {0, 18, 0}, {4, 18, 0}};
+  static const double xyz[6][3] = {{0, 0, 0}, {1, 0, 0},  {0, 9, 0},
+                                   {2, 9, 0}, {0, 18, 0}, {4, 18, 0}};
   static const int edge[3][2] = {{0, 1}, {2, 3}, {4, 5}}, passes[3] = {2, 2, 2};
   thr_frame f = frame_make(6, xyz, 3, edge, NULL, NULL);
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
@@ -317,8 +336,9 @@ START_TEST(certificates_have_a_scale)
     double scale;
     int64_t denominator;
     const char *said;
-  } cases[] = {{1, 1, NULL},       {0, 1, "positive"},  {-1, 1, "positive"},        {NAN, 1, "positive"},
-               {1, 0, "positive"}, {1, -1, "positive"}, {INFINITY, 1, "too large"}, {1e18, 1, "too large"}};
+  } cases[] = {
+      {1, 1, NULL},       {0, 1, "positive"},  {-1, 1, "positive"},        {NAN, 1, "positive"},
+      {1, 0, "positive"}, {1, -1, "positive"}, {INFINITY, 1, "too large"}, {1e18, 1, "too large"}};
   static const double length[1] = {1};
   thr_frame f = chain_make(1, length);
   thr_cord *cord = calloc(1, sizeof *cord);
@@ -327,7 +347,10 @@ START_TEST(certificates_have_a_scale)
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     int64_t price = 0;
-    thr_certificate c = {.scale = cases[i].scale, .denominator = cases[i].denominator, .join = 1, .place_price = &price};
+    thr_certificate c = {.scale = cases[i].scale,
+                         .denominator = cases[i].denominator,
+                         .join = 1,
+                         .place_price = &price};
     for (c.n_prices = 0; c.n_prices < 2; c.n_prices++) {
       bool optimal;
       double bound;
@@ -355,7 +378,8 @@ START_TEST(proofs_are_those_of_the_joint)
   ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 1, &p.metrics, NULL), THR_OK);
   thr_cut cut = {-1, 1, (int[]){0}, 1};
   thr_certificate c = {.scale = 1, .denominator = 1, .join = 1, .sum = 1, .n_cuts = 1, .cut = &cut};
-  p.proof = (thr_length_proof){.present = true, .optimal = true, .lower_bound = 2, .n_certificates = 1, .certificate = &c};
+  p.proof = (thr_length_proof){
+      .present = true, .optimal = true, .lower_bound = 2, .n_certificates = 1, .certificate = &c};
   thr_err err = {0};
   ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
   p.proof.tied.n_nodes = 1;
@@ -367,10 +391,12 @@ START_TEST(proofs_are_those_of_the_joint)
 }
 END_TEST
 
-/* A ring with an edge so short that it weighs nothing, and a tail, which is passed twice: that is optimal all the same. */
+/* A ring with an edge so short that it weighs nothing, and a tail, which is passed twice: that is
+ * optimal all the same. */
 START_TEST(weightless_edges_passed_once_cost_nothing)
 {
-  static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 0.3, 0}, {-1, 0, 0}}, length[4] = {1, 0.3, 1, 1};
+  static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 0.3, 0}, {-1, 0, 0}},
+                      length[4] = {1, 0.3, 1, 1};
   static const int edge[4][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}};
   thr_frame f = frame_make(4, xyz, 4, edge, length, NULL);
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
@@ -380,11 +406,13 @@ START_TEST(weightless_edges_passed_once_cost_nothing)
   bool optimal;
   double bound;
   thr_err err = {0};
-  ck_assert_msg(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err) == THR_OK,
+                "%s", err.text);
   ck_assert(optimal);
   ck_assert_double_eq_tol(bound, 4.3, 1e-12);
   passes[1] = 3; /* more of it than is needed, which no weight shows */
-  ck_assert_msg(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err) == THR_OK,
+                "%s", err.text);
   ck_assert(!optimal);
   ck_assert_double_eq_tol(bound, 4.3, 1e-12);
   thr_frame_destroy(&f);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What rounding takes off a bound in the checker, worked out another way. */
 #include "graph/angle.h"
 #include "graph/check/check.h"
@@ -12,7 +13,8 @@
 
 /* ---- rounding ---- */
 
-/* Closed cords on a chain run there and back: every edge needs a pair of passes, and every cord one. */
+/* Closed cords on a chain run there and back: every edge needs a pair of passes, and every cord
+ * one. */
 static double least_of_chain(const double *length, int n, int cords)
 {
   double sum = 0, shortest = INFINITY;
@@ -23,8 +25,8 @@ static double least_of_chain(const double *length, int n, int cords)
   return sum + 2 * shortest * (cords > n ? cords - n : 0);
 }
 
-/* The best bound of certificates without cuts, of a plan with so many cords on a chain: those that no edge needs run over edge
- * `over`. */
+/* The best bound of certificates without cuts, of a plan with so many cords on a chain: those that
+ * no edge needs run over edge `over`. */
 static double best_bound(const double *length, int n, int cords, double scale, int cover, int over)
 {
   thr_frame f = chain_make(n, length);
@@ -46,7 +48,9 @@ static double best_bound(const double *length, int n, int cords, double scale, i
     thr_err err = {0};
     thr_status st = thr_check_length_proof(&f, &o, cord, cords, &c, 1, &optimal, &bound, &err);
     if (st) {
-      ck_assert_msg(st == THR_EVIOLATED && (strstr(err.text, "bound") || strstr(err.text, "cheaper")), "%s", err.text);
+      ck_assert_msg(st == THR_EVIOLATED &&
+                        (strstr(err.text, "bound") || strstr(err.text, "cheaper")),
+                    "%s", err.text);
     } else {
       ck_assert_double_le(bound, least_of_chain(length, n, cords) * (1 + 1e-12));
       best = fmax(best, bound);
@@ -67,7 +71,8 @@ START_TEST(rounding_is_charged_for_every_cord)
         for (int over = 0; over < 2; over++)
           best_bound(length, 2, cords, ldexp(1, k), cover, over);
       /* weights that are the lengths prove what is true */
-      ck_assert_double_eq_tol(best_bound(even, 2, cords, 1, cover, 1), least_of_chain(even, 2, cords) - (cover < 2), 2);
+      ck_assert_double_eq_tol(best_bound(even, 2, cords, 1, cover, 1),
+                              least_of_chain(even, 2, cords) - (cover < 2), 2);
     }
 }
 END_TEST
@@ -87,8 +92,8 @@ START_TEST(rounding_never_adds_to_a_bound)
 END_TEST
 
 /* What the certificate alone proves: of few edges all sets would prove more. */
-static void judge_certificate(const thr_frame *f, const thr_request *o, const thr_cord *cord, int n, const thr_certificate *c,
-                              bool *optimal, double *bound)
+static void judge_certificate(const thr_frame *f, const thr_request *o, const thr_cord *cord, int n,
+                              const thr_certificate *c, bool *optimal, double *bound)
 {
   thr_check_walked walked;
   thr_check_verdict *verdict;
@@ -97,13 +102,15 @@ static void judge_certificate(const thr_frame *f, const thr_request *o, const th
     length += thr_cord_length(f, &cord[i]);
   ck_assert_int_eq(thr_check_walked_from(&walked, f, o, cord, n, NULL), THR_OK);
   ck_assert_int_eq(thr_check_judge(f, o, &walked, c, 1, &verdict, NULL), THR_OK);
-  ck_assert_int_eq(thr_check_sum_verdicts(f, o, &walked, 0, verdict, NULL, length, optimal, bound, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_check_sum_verdicts(f, o, &walked, 0, verdict, NULL, length, optimal, bound, NULL),
+      THR_OK);
   free(verdict);
   thr_check_walked_destroy(&walked);
 }
 
-/* Two cords over one edge there and back, and an odd cut round its end: without prices one pass more is all that a shortest plan
- * may have, so the rounding of 0.51 to 1 is taken off once. */
+/* Two cords over one edge there and back, and an odd cut round its end: without prices one pass
+ * more is all that a shortest plan may have, so the rounding of 0.51 to 1 is taken off once. */
 START_TEST(rounding_is_charged_once_without_prices)
 {
   static const double length[1] = {0.51};
@@ -117,21 +124,25 @@ START_TEST(rounding_is_charged_once_without_prices)
     thr_request o = options_for(THR_ENDS_CLOSED, cover);
     thr_cut cut = {-1, 1, (int[]){0}, 1};
     int64_t price = 0;
-    thr_certificate c = {.scale = 1, .denominator = 1, .join = 4 - cover, .sum = 1, .n_cuts = 1, .cut = &cut};
+    thr_certificate c = {
+        .scale = 1, .denominator = 1, .join = 4 - cover, .sum = 1, .n_cuts = 1, .cut = &cut};
     o.cords = o.cords_least = 2;
     judge_certificate(&f, &o, cord, 2, &c, &optimal, &bound);
     ck_assert_double_eq_tol(bound, 0.51 * (cover + 1), 1e-12);
     ck_assert_int_eq(optimal, cover == 3);
-    c.n_prices = 1, c.place_price = &price; /* then twice the cords less the cover, and at least once */
+    c.n_prices = 1,
+    c.place_price = &price; /* then twice the cords less the cover, and at least once */
     judge_certificate(&f, &o, cord, 2, &c, &optimal, &bound);
-    ck_assert_double_eq_tol(bound, cover == 3 ? 0.51 * 4 : 0.51, 1e-12); /* 1 - 3 * 0.49 is nothing */
+    ck_assert_double_eq_tol(bound, cover == 3 ? 0.51 * 4 : 0.51,
+                            1e-12); /* 1 - 3 * 0.49 is nothing */
   }
   thr_cords_destroy(cord, n);
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* With prices a shortest plan may have twice the cords less the cover: 0.9 weighs 1, and a tenth is taken off for each of them.
+/* With prices a shortest plan may have twice the cords less the cover: 0.9 weighs 1, and a tenth is
+ * taken off for each of them.
  */
 START_TEST(rounding_is_charged_for_twice_the_cords_less_the_cover)
 {
@@ -158,14 +169,16 @@ START_TEST(rounding_is_charged_for_twice_the_cords_less_the_cover)
       double bound;
       judge_certificate(&f, &o, cord, cords, &c, &optimal, &bound);
       ck_assert_int_eq(optimal, 2 * cords - cover == 1);
-      ck_assert_double_eq_tol(bound, optimal ? 0.9 * 4 : 0.9 * cover + 1 - 0.1 * (2 * cords - cover), 1e-8);
+      ck_assert_double_eq_tol(
+          bound, optimal ? 0.9 * 4 : 0.9 * cover + 1 - 0.1 * (2 * cords - cover), 1e-8);
       thr_cords_destroy(cord, n);
     }
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* One cord, six passes over an edge that needs three: a pass more would do, whatever the certificate's prices are. */
+/* One cord, six passes over an edge that needs three: a pass more would do, whatever the
+ * certificate's prices are. */
 START_TEST(one_cord_is_charged_for_one_pass)
 {
   static const double length[1] = {0.51};
@@ -174,8 +187,14 @@ START_TEST(one_cord_is_charged_for_one_pass)
   thr_request o = options_for(THR_ENDS_CLOSED, 3);
   thr_cut cut = {-1, 1, (int[]){0}, 1};
   int64_t price = 0;
-  thr_certificate c = {
-      .scale = 1, .denominator = 1, .join = 3, .sum = 1, .n_cuts = 1, .cut = &cut, .n_prices = 1, .place_price = &price};
+  thr_certificate c = {.scale = 1,
+                       .denominator = 1,
+                       .join = 3,
+                       .sum = 1,
+                       .n_cuts = 1,
+                       .cut = &cut,
+                       .n_prices = 1,
+                       .place_price = &price};
   bool optimal;
   double bound;
   ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, NULL), THR_OK);
@@ -185,8 +204,8 @@ START_TEST(one_cord_is_charged_for_one_pass)
 }
 END_TEST
 
-/* A ring with a tail: the tail is passed twice. Every edge rounds up by a part of 4e-10, which together is far more than the part
- * of 5e-10 of the tail that may be taken off instead. */
+/* A ring with a tail: the tail is passed twice. Every edge rounds up by a part of 4e-10, which
+ * together is far more than the part of 5e-10 of the tail that may be taken off instead. */
 START_TEST(rounding_of_what_is_passed_once_costs_little)
 {
   enum { N = 200 };
@@ -201,7 +220,8 @@ START_TEST(rounding_of_what_is_passed_once_costs_little)
   half[N] = 2 * N, half[N + 1] = 2 * N + 1;
   for (int e = 0; e <= N; e++)
     length[e] = 1 - 4e-10;
-  thr_frame f = frame_make(N + 1, (const double(*)[3])xyz, N + 1, (const int(*)[2])edge, length, NULL);
+  thr_frame f =
+      frame_make(N + 1, (const double(*)[3])xyz, N + 1, (const int(*)[2])edge, length, NULL);
   thr_cord cord = {.id = "A", .closed = true, .n_passes = N + 2, .half = half};
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_cut cut = {-1, 1, (int[]){N}, 1};
@@ -213,7 +233,8 @@ START_TEST(rounding_of_what_is_passed_once_costs_little)
     for (int e = 0; e <= N; e++)
       least += f.length[e] = 1 - part[k];
     least += fmax(1 - (N + 1) * part[k], 1 - 5e-10 - (N + 1) * fmax(0, part[k] - 5e-10));
-    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, NULL), THR_OK);
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, NULL),
+                     THR_OK);
     ck_assert_int_eq(optimal, k < 2); /* within 1e-9 of the framework's length */
     if (!optimal) ck_assert_double_eq_tol(bound, least, 1e-10);
   }
@@ -231,21 +252,25 @@ START_TEST(optimal_is_within_a_billionth)
     thr_cord cord = {.id = "A", .closed = true, .n_passes = 2, .half = (int[]){0, 1}};
     thr_request o = options_for(THR_ENDS_CLOSED, 1);
     thr_cut cut = {-1, 1, (int[]){0}, 1};
-    thr_certificate c = {.scale = 1, .denominator = 1, .join = 1, .sum = 1, .n_cuts = 1, .cut = &cut};
+    thr_certificate c = {
+        .scale = 1, .denominator = 1, .join = 1, .sum = 1, .n_cuts = 1, .cut = &cut};
     bool optimal;
-    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, NULL), THR_OK);
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, NULL),
+                     THR_OK);
     ck_assert_int_eq(optimal, k);
     ck_assert_double_eq_tol(bound, k ? 2 * length[0] : length[0] + 1, 1e-15 + 1e-12);
     thr_err err = {0};
     c.scale = 2e18;
-    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, &err), THR_EVIOLATED);
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, &cord, 1, &c, 1, &optimal, &bound, &err),
+                     THR_EVIOLATED);
     assert_one_line(&err, "scale is too large");
     thr_frame_destroy(&f);
   }
 }
 END_TEST
 
-/* A ring and a tail of 1e9 in all. The tail weighs 4 of 5, which leaves a gap of a billionth exactly. */
+/* A ring and a tail of 1e9 in all. The tail weighs 4 of 5, which leaves a gap of a billionth
+ * exactly. */
 START_TEST(a_gap_of_a_billionth_is_allowed)
 {
   static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}};
@@ -255,11 +280,13 @@ START_TEST(a_gap_of_a_billionth_is_allowed)
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
   for (int k = 0; k < 2; k++) {
     thr_cut cut = {-1, 1, (int[]){3}, 2};
-    const thr_certificate c = {.scale = 0.5, .denominator = 1, .join = 2, .sum = 2, .n_cuts = 1, .cut = &cut};
+    const thr_certificate c = {
+        .scale = 0.5, .denominator = 1, .join = 2, .sum = 2, .n_cuts = 1, .cut = &cut};
     bool optimal;
     double bound;
     f.length[0] -= k;
-    ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, NULL), THR_OK);
+    ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, NULL),
+                     THR_OK);
     ck_assert_int_eq(optimal, k == 0);
   }
   thr_frame_destroy(&f);

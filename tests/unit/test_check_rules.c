@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rules of the checker about a plan as a whole, and that no claim outlives a failure before it. */
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
@@ -31,13 +32,17 @@ START_TEST(failures_are_not_forgotten)
     thr_status expected = k ? THR_EVIOLATED : THR_OK;
     thr_turning_proof tied = {0};
     thr_cords_claim found;
-    ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, proof, 1, &optimal, &bound, NULL), expected);
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, proof, 1, &optimal, &bound, NULL),
+                     expected);
     ck_assert_int_eq(thr_check_cords(&f, &o, cord, 2, proof, 1, NULL, &found, NULL), expected);
     ck_assert_int_eq(found.present, k == 0);
-    ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, 2, &tied, &found, NULL), THR_EVIOLATED); /* that proof is empty */
-    ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, NULL, 0, &optimal, &bound, NULL), THR_EVIOLATED);
+    ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, 2, &tied, &found, NULL),
+                     THR_EVIOLATED); /* that proof is empty */
+    ck_assert_int_eq(thr_check_length_proof(&f, &o, cord, 2, NULL, 0, &optimal, &bound, NULL),
+                     THR_EVIOLATED);
     if (k != 2 && k != 3)
-      ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, proof, 1, &optimal, &bound, NULL), expected);
+      ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, proof, 1, &optimal, &bound, NULL),
+                       expected);
   }
   thr_cords_destroy(cord, 2);
   thr_frame_destroy(&f);
@@ -62,7 +67,8 @@ START_TEST(every_edge_is_covered_and_has_room)
       thr_status st = thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err);
       ck_assert_msg(st == (e < 0 ? THR_OK : THR_EVIOLATED), "%s", err.text);
       char said[96];
-      snprintf(said, sizeof said, "edge %d (nodes %d and %d): %s", e, e, e + 1, more < 0 ? "0 of 2" : "4 passes, but only 3");
+      snprintf(said, sizeof said, "edge %d (nodes %d and %d): %s", e, e, e + 1,
+               more < 0 ? "0 of 2" : "4 passes, but only 3");
       if (st) assert_one_line(&err, said);
     }
   thr_frame_destroy(&f);
@@ -84,8 +90,11 @@ START_TEST(cords_end_where_they_may_and_are_no_longer)
       for (int v = 0; v < 3; v++)
         f.foot[v] = v == foot + 1; /* node 2 */
       o.max_length = foot < 0 ? 0.7 : 0.75;
-      ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, NULL, 0, NULL, &found, &err), THR_EVIOLATED);
-      assert_one_line(&err, foot < 0 ? "0.75 long; the plan's options allow 0.7" : back ? "ends at node 0" : "starts at node 0");
+      ck_assert_int_eq(thr_check_cords(&f, &o, &cord, 1, NULL, 0, NULL, &found, &err),
+                       THR_EVIOLATED);
+      assert_one_line(&err, foot < 0 ? "0.75 long; the plan's options allow 0.7"
+                            : back   ? "ends at node 0"
+                                     : "starts at node 0");
     }
   const thr_cord cord = {.id = "A", .n_passes = 2, .half = half[0]};
   thr_request o = options_for(THR_ENDS_ANY, 1);
@@ -97,7 +106,8 @@ START_TEST(cords_end_where_they_may_and_are_no_longer)
 }
 END_TEST
 
-/* So many odd nodes as there are cord ends in a component, and no more; given ends have the parity of their passes. */
+/* So many odd nodes as there are cord ends in a component, and no more; given ends have the parity
+ * of their passes. */
 START_TEST(passes_leave_ends_for_the_cords)
 {
   thr_frame f = star_make(4); /* the tips are odd, the hub is even */
@@ -115,14 +125,17 @@ START_TEST(passes_leave_ends_for_the_cords)
   thr_certificate c = {.scale = 1, .denominator = 1};
   o.cords = o.cords_least = 2;
   o.end_count = end_count;
-  ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, NULL), THR_OK);
+  ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, NULL),
+                   THR_OK);
   end_count[1] = 2, end_count[0] = 1;
-  ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, NULL), THR_EVIOLATED);
+  ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, NULL),
+                   THR_EVIOLATED);
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* An edge passed once, and an end where a foot is: the other of its nodes is odd, and no cord ends there. */
+/* An edge passed once, and an end where a foot is: the other of its nodes is odd, and no cord ends
+ * there. */
 START_TEST(every_odd_node_has_an_end)
 {
   static const double length[1] = {1};
@@ -135,7 +148,8 @@ START_TEST(every_odd_node_has_an_end)
     double bound;
     thr_err err = {0};
     f.foot[foot] = true, f.foot[!foot] = false;
-    ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err), THR_EVIOLATED);
+    ck_assert_int_eq(thr_check_length_of_passes(&f, &o, passes, &c, 1, &optimal, &bound, &err),
+                     THR_EVIOLATED);
     assert_one_line(&err, foot ? "node 0: 1 passes" : "node 1: 1 passes");
   }
   thr_frame_destroy(&f);

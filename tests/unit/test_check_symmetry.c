@@ -1,4 +1,6 @@
-/* The checker's part for symmetry against groups made of matrices, and against readings of cords that are counted one by one. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The checker's part for symmetry against groups made of matrices, and against readings of cords
+ * that are counted one by one. */
 #include "graph/angle.h"
 #include "graph/check/check_parts.h"
 #include "graph/framework/frame.h"
@@ -29,10 +31,14 @@ static void turn(double part, bool mirror, matrix m)
   memcpy(m, (matrix){{c, -s, 0}, {s, c, 0}, {0, 0, mirror ? -1 : 1}}, sizeof(matrix));
 }
 
-static matrix mirror_x = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, mirror_z = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
-              half_x = {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, half_z = {{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
-              third = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, invert = {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
-              diagonal = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}}, quarter = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+static matrix mirror_x = {{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+              mirror_z = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}},
+              half_x = {{1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+              half_z = {{-1, 0, 0}, {0, -1, 0}, {0, 0, 1}},
+              third = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}},
+              invert = {{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+              diagonal = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+              quarter = {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
 
 static void add(point_group *g, matrix m)
 {
@@ -55,9 +61,10 @@ enum { N_GROUPS = 36 };
 /* The generators are those of the textbooks; orders are multiplied out from them below. */
 static point_group group_number(int i)
 {
-  static const char *const name[N_GROUPS] = {"C1",  "Cs", "Ci",  "T",  "Td", "Th",  "O",   "Oh",  "I",   "Ih",  "C2",  "C3",
-                                             "C4",  "C6", "S4",  "S6", "S8", "C2v", "C3v", "C4v", "C6v", "C2h", "C3h", "C4h",
-                                             "C6h", "C9", "C9v", "D2", "D3", "D4",  "D6",  "D2h", "D3h", "D4h", "D2d", "D3d"};
+  static const char *const name[N_GROUPS] = {
+      "C1",  "Cs", "Ci",  "T",  "Td", "Th",  "O",   "Oh",  "I",   "Ih",  "C2",  "C3",
+      "C4",  "C6", "S4",  "S6", "S8", "C2v", "C3v", "C4v", "C6v", "C2h", "C3h", "C4h",
+      "C6h", "C9", "C9v", "D2", "D3", "D4",  "D6",  "D2h", "D3h", "D4h", "D2d", "D3d"};
   point_group g = {.name = name[i]};
   matrix m;
   if (i < 10) {
@@ -95,7 +102,8 @@ static void apply(matrix m, const double p[3], double out[3])
     out[i] = m[i][0] * p[0] + m[i][1] * p[1] + m[i][2] * p[2];
 }
 
-/* All images of a point that no motion keeps, each joined to each, and of another so that no motion but the group's fits. */
+/* All images of a point that no motion keeps, each joined to each, and of another so that no motion
+ * but the group's fits. */
 static thr_plan plan_of_group(point_group *g)
 {
   static double xyz[MOST][3];
@@ -134,7 +142,8 @@ static thr_plan plan_of_group(point_group *g)
   p.frame = frame_make(n, (const double(*)[3])moved, m, (const int(*)[2])edge, NULL, NULL);
   want(&p.options, "overlap,steps");
   p.options.symmetry.geometric = -1;
-  p.symmetry = (thr_symmetry_record){.present = true, .order = g->order, .n_generators = g->n_generators, .n_images = 1};
+  p.symmetry = (thr_symmetry_record){
+      .present = true, .order = g->order, .n_generators = g->n_generators, .n_images = 1};
   p.symmetry.generator = calloc(MOST * MOST_GENERATORS, sizeof(int));
   p.symmetry.image = calloc(MOST, sizeof(int));
   for (int v = 0; v < n; v++) {
@@ -190,14 +199,18 @@ START_TEST(groups_have_one_name)
   for (int k = 0; k < N_GROUPS; k++) {
     const char *name = group_number(k).name;
     thr_status st = name_it(&p, name, &err);
-    ck_assert_msg(st == (k == _i ? THR_OK : THR_EVIOLATED), "%s called %s: %s", g.name, name, err.text);
+    ck_assert_msg(st == (k == _i ? THR_OK : THR_EVIOLATED), "%s called %s: %s", g.name, name,
+                  err.text);
   }
-  static const char *const alias[][2] = {{"C2", "D1"},   {"Cs", "C1v"},  {"Cs", "C1h"}, {"Ci", "S2"},
-                                         {"C2v", "D1h"}, {"C2h", "D1d"}, {"D2", "D2"}};
+  static const char *const alias[][2] = {{"C2", "D1"}, {"Cs", "C1v"},  {"Cs", "C1h"},
+                                         {"Ci", "S2"}, {"C2v", "D1h"}, {"C2h", "D1d"},
+                                         {"D2", "D2"}};
   for (size_t k = 0; k < sizeof alias / sizeof *alias; k++) /* axes of one turn are none */
-    ck_assert_int_eq(name_it(&p, alias[k][1], &err), strcmp(g.name, alias[k][0]) == 0 ? THR_OK : THR_EVIOLATED);
-  static const char *const nonsense[] = {"C",   "C0", "C1x", "Cx", "D",  "D2x", "T1",   "Oi",   "S3",     "S5",     "S4v", "C01",
-                                         "C2d", "S0", "Cv",  "Ds", "Is", "C-2", "C2vv", "D2dd", "C99999", "C1024h", "t",   "Tdd"};
+    ck_assert_int_eq(name_it(&p, alias[k][1], &err),
+                     strcmp(g.name, alias[k][0]) == 0 ? THR_OK : THR_EVIOLATED);
+  static const char *const nonsense[] = {
+      "C",   "C0", "C1x", "Cx", "D",  "D2x", "T1",   "Oi",   "S3",     "S5",     "S4v", "C01",
+      "C2d", "S0", "Cv",  "Ds", "Is", "C-2", "C2vv", "D2dd", "C99999", "C1024h", "t",   "Tdd"};
   for (size_t k = 0; k < sizeof nonsense / sizeof *nonsense; k++)
     ck_assert_int_eq(name_it(&p, nonsense[k], &err), THR_EVIOLATED);
   ck_assert_int_eq(name_it(&p, "", &err), THR_OK);
@@ -211,8 +224,8 @@ START_TEST(groups_have_one_name)
 }
 END_TEST
 
-/* A bipyramid on a triangle, turned by a third of a turn and mirrored: its tips are back after two, its corners after three, and
- * all after six. */
+/* A bipyramid on a triangle, turned by a third of a turn and mirrored: its tips are back after two,
+ * its corners after three, and all after six. */
 START_TEST(orders_are_those_of_all_cycles)
 {
   double xyz[5][3] = {{0, 0, 1}, {0, 0, -1}};
@@ -225,8 +238,12 @@ START_TEST(orders_are_those_of_all_cycles)
   for (int v = 0; v < 5; v++)
     f.foot[v] = false;
   thr_plan p = plan_with(f, THR_ENDS_CLOSED, 0, NULL);
-  p.symmetry =
-      (thr_symmetry_record){.present = true, .order = 6, .n_generators = 1, .generator = six, .n_images = 1, .image = same};
+  p.symmetry = (thr_symmetry_record){.present = true,
+                                     .order = 6,
+                                     .n_generators = 1,
+                                     .generator = six,
+                                     .n_images = 1,
+                                     .image = same};
   thr_err err;
   ck_assert_msg(name_it(&p, "C3h", &err) == THR_OK, "%s", err.text);
   ck_assert_int_eq(name_it(&p, "C6", &err), THR_EVIOLATED);
@@ -234,23 +251,30 @@ START_TEST(orders_are_those_of_all_cycles)
 }
 END_TEST
 
-/* A square may be turned over or mirrored, which is the same in its plane; but five of its motions are of order 2, not three. */
+/* A square may be turned over or mirrored, which is the same in its plane; but five of its motions
+ * are of order 2, not three. */
 START_TEST(names_of_flat_frameworks)
 {
   static const struct {
     const char *name;
     bool holds;
-  } cases[] = {{"C4v", true}, {"D4", true}, {"D2d", true}, {"C4h", false}, {"D2h", false}, {"C8", false}};
+  } cases[] = {{"C4v", true},  {"D4", true},   {"D2d", true},
+               {"C4h", false}, {"D2h", false}, {"C8", false}};
   thr_frame f = ring_make(4);
   int generator[8] = {1, 2, 3, 0, 0, 3, 2, 1}, same[4] = {0, 1, 2, 3};
   for (int v = 0; v < 4; v++)
     f.foot[v] = false;
   thr_plan p = plan_with(f, THR_ENDS_CLOSED, 0, NULL);
-  p.symmetry =
-      (thr_symmetry_record){.present = true, .order = 8, .n_generators = 2, .generator = generator, .n_images = 1, .image = same};
+  p.symmetry = (thr_symmetry_record){.present = true,
+                                     .order = 8,
+                                     .n_generators = 2,
+                                     .generator = generator,
+                                     .n_images = 1,
+                                     .image = same};
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
     thr_err err;
-    ck_assert_msg(name_it(&p, cases[k].name, &err) == (cases[k].holds ? THR_OK : THR_EVIOLATED), "%s", cases[k].name);
+    ck_assert_msg(name_it(&p, cases[k].name, &err) == (cases[k].holds ? THR_OK : THR_EVIOLATED),
+                  "%s", cases[k].name);
   }
   thr_frame_destroy(&f);
 }
@@ -269,11 +293,13 @@ START_TEST(rings_turn_in_as_many_ways_as_they_have_nodes)
       next[v] = (v + 1) % n;
       same[v] = v;
     }
-    p.symmetry = (thr_symmetry_record){.present = true, .n_generators = 1, .generator = next, .n_images = 1, .image = same};
+    p.symmetry = (thr_symmetry_record){
+        .present = true, .n_generators = 1, .generator = next, .n_images = 1, .image = same};
     for (int off = -1; off <= 1; off++) {
       thr_err err;
       p.symmetry.order = n + off;
-      ck_assert_msg(name_it(&p, "", &err) == (off ? THR_EVIOLATED : THR_OK), "%d, stated %d: %s", n, n + off, err.text);
+      ck_assert_msg(name_it(&p, "", &err) == (off ? THR_EVIOLATED : THR_OK), "%d, stated %d: %s", n,
+                    n + off, err.text);
     }
     free(next);
     free(same);
@@ -296,10 +322,15 @@ START_TEST(groups_have_1024_elements_at_most)
       same[v] = v;
     }
     p.options.symmetry.geometric = 0; /* but for rounding */
-    p.symmetry =
-        (thr_symmetry_record){.present = true, .order = n, .n_generators = 1, .generator = next, .n_images = 1, .image = same};
+    p.symmetry = (thr_symmetry_record){.present = true,
+                                       .order = n,
+                                       .n_generators = 1,
+                                       .generator = next,
+                                       .n_images = 1,
+                                       .image = same};
     thr_err err;
-    ck_assert_msg(name_it(&p, "", &err) == (n > 1024 ? THR_EVIOLATED : THR_OK), "%d: %s", n, err.text);
+    ck_assert_msg(name_it(&p, "", &err) == (n > 1024 ? THR_EVIOLATED : THR_OK), "%d: %s", n,
+                  err.text);
     if (n > 1024) assert_one_line(&err, "expected 1 to 1024");
     if (n == 1024) ck_assert_int_eq(name_it(&p, "C1024", &err), THR_OK);
     free(next);
@@ -319,15 +350,20 @@ START_TEST(spokes_are_permuted_in_all_ways)
   thr_plan p = plan_with(f, THR_ENDS_CLOSED, 0, NULL);
   for (int order = 719; order <= 721; order++) {
     thr_err err;
-    p.symmetry = (thr_symmetry_record){
-        .present = true, .order = order, .n_generators = 2, .generator = generator, .n_images = 1, .image = same};
+    p.symmetry = (thr_symmetry_record){.present = true,
+                                       .order = order,
+                                       .n_generators = 2,
+                                       .generator = generator,
+                                       .n_images = 1,
+                                       .image = same};
     ck_assert_int_eq(name_it(&p, "", &err), order == 720 ? THR_OK : THR_EVIOLATED);
   }
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* The first node moved by so much of the framework's size: a name holds up to 5 %, a tolerance of one's own up to that. */
+/* The first node moved by so much of the framework's size: a name holds up to 5 %, a tolerance of
+ * one's own up to that. */
 START_TEST(names_are_those_of_isometries)
 {
   static const char *const names[] = {"Td", "O", "Oh", "Ih"};
@@ -355,7 +391,8 @@ START_TEST(names_are_those_of_isometries)
 }
 END_TEST
 
-/* Names hold up to 5 %, and tolerances of one's own as far as they go, but for rounding: a mirror that a node is moved off. */
+/* Names hold up to 5 %, and tolerances of one's own as far as they go, but for rounding: a mirror
+ * that a node is moved off. */
 START_TEST(limits_of_isometries_are_sharp)
 {
   point_group g = group_number(1);
@@ -368,7 +405,8 @@ START_TEST(limits_of_isometries_are_sharp)
   thr_err err;
   thr_motion m;
   for (int k = 0; k < 3; k++) {
-    for (low = 0, high = 10; nextafter(low, high) < high;) { /* so far off that the residual is what it should be */
+    for (low = 0, high = 10;
+         nextafter(low, high) < high;) { /* so far off that the residual is what it should be */
       double middle = (low + high) / 2;
       p.frame.xyz[0][2] = kept + middle;
       thr_procrustes(&p.frame, p.symmetry.generator, &m);
@@ -428,9 +466,11 @@ static int count_readings(const int *walk, int n)
   return count;
 }
 
-static thr_cord cord_of(const thr_frame *f, int number, const int *walk, int n, int first, int start, bool back)
+static thr_cord cord_of(const thr_frame *f, int number, const int *walk, int n, int first,
+                        int start, bool back)
 {
-  thr_cord c = {.closed = true, .component = number, .n_passes = n, .half = calloc((size_t)n, sizeof(int))};
+  thr_cord c = {
+      .closed = true, .component = number, .n_passes = n, .half = calloc((size_t)n, sizeof(int))};
   for (int i = 0; i < n; i++) {
     int a = first + walk[((back ? start - i : start + i) % n + n) % n];
     int b = first + walk[((back ? start - i - 1 : start + i + 1) % n + n) % n];
@@ -441,8 +481,8 @@ static thr_cord cord_of(const thr_frame *f, int number, const int *walk, int n, 
   return c;
 }
 
-/* Two tetrahedra, a cord round each, from anywhere and either way: one is the image of the other when they are exchanged. What is
- * learned is one reading of it. */
+/* Two tetrahedra, a cord round each, from anywhere and either way: one is the image of the other
+ * when they are exchanged. What is learned is one reading of it. */
 START_TEST(copies_may_start_anywhere_and_run_backward)
 {
   rng r = rng_make((uint64_t)_i + 1);
@@ -454,8 +494,9 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
                       cord_of(&two, 1, walk, n, 4, rng_below(&r, n), rng_below(&r, 2))};
   thr_plan p = plan_with(two, THR_ENDS_CLOSED, 2, cord);
   int unique[2] = {0, 0}, element[2] = {0, 1};
-  p.symmetry =
-      (thr_symmetry_record){true, 2, "", 1, exchange, 2, same, unique, element, (double)n / count_readings(walk, n), 1, false};
+  p.symmetry = (thr_symmetry_record){
+      true, 2,    "", 1, exchange, 2, same, unique, element, (double)n / count_readings(walk, n),
+      1,    false};
   assert_symmetry(&p, NULL);
   p.symmetry.steps *= 1 + 2e-9;
   ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
@@ -464,7 +505,8 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
   ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
   p.symmetry.unique_paths = 1;
   static const int wrong[][2] = {{-1, 1}, {2, 1}, {0, -1}, {0, 2}, {0, 0}, {1, 0}, {1, 1}};
-  for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) { /* no such cord, no such image, not that image, not a copy */
+  for (size_t k = 0; k < sizeof wrong / sizeof *wrong;
+       k++) { /* no such cord, no such image, not that image, not a copy */
     unique[1] = wrong[k][0], element[1] = wrong[k][1];
     ck_assert_int_eq(thr_check_symmetry(&p, NULL), THR_EVIOLATED);
   }
@@ -494,12 +536,17 @@ START_TEST(copies_may_start_anywhere_and_run_backward)
 }
 END_TEST
 
-/* Walks that read backward as they do forward at some places, or repeat all but a node, or almost all of a part. */
+/* Walks that read backward as they do forward at some places, or repeat all but a node, or almost
+ * all of a part. */
 START_TEST(walks_are_learned_whole)
 {
-  static const int walk[][12] =
-      {{0, 1, 2, 0, 3},          {0, 1, 3, 0, 2, 1}, {0, 1, 0, 2, 3, 2, 1, 0, 2, 3}, {0, 1, 0, 2, 0, 3, 2, 1, 0, 2, 0, 3},
-       {0, 1, 2, 3, 0, 1, 2, 3}, {0, 1, 2, 1},       {0, 1, 2, 0, 1, 2, 0, 1, 2, 1}},
+  static const int walk[][12] = {{0, 1, 2, 0, 3},
+                                 {0, 1, 3, 0, 2, 1},
+                                 {0, 1, 0, 2, 3, 2, 1, 0, 2, 3},
+                                 {0, 1, 0, 2, 0, 3, 2, 1, 0, 2, 0, 3},
+                                 {0, 1, 2, 3, 0, 1, 2, 3},
+                                 {0, 1, 2, 1},
+                                 {0, 1, 2, 0, 1, 2, 0, 1, 2, 1}},
                    length[] = {5, 6, 10, 12, 8, 4, 10};
   thr_frame f = solid_make(TETRAHEDRON);
   int same[CORNERS] = {0, 1, 2, 3}, zero = 0;
@@ -508,7 +555,8 @@ START_TEST(walks_are_learned_whole)
       int n = length[k], readings = count_readings(walk[k], n);
       thr_cord cord = cord_of(&f, 0, walk[k], n, 0, start / 2, start % 2);
       thr_plan p = plan_with(f, THR_ENDS_CLOSED, 1, &cord);
-      p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, &zero, &zero, (double)n / readings, 1, false};
+      p.symmetry = (thr_symmetry_record){
+          true, 1, "", 0, same, 1, same, &zero, &zero, (double)n / readings, 1, false};
       assert_symmetry(&p, NULL);
       free(cord.half);
     }
@@ -516,22 +564,26 @@ START_TEST(walks_are_learned_whole)
 }
 END_TEST
 
-/* One spoke, and that spoke and another: the longer one is no copy of the shorter, nor the other way round. */
+/* One spoke, and that spoke and another: the longer one is no copy of the shorter, nor the other
+ * way round. */
 START_TEST(copies_are_as_long)
 {
   thr_frame f = path_make(3);
   int half[2] = {0, 2}, same[3] = {0, 1, 2}, unique[2] = {0, 0}, which[2] = {0, 0};
   for (int k = 0; k < 2; k++) {
-    thr_cord cord[2] = {{.id = "A", .n_passes = 1 + k, .half = half}, {.id = "B", .n_passes = 2 - k, .half = half}};
+    thr_cord cord[2] = {{.id = "A", .n_passes = 1 + k, .half = half},
+                        {.id = "B", .n_passes = 2 - k, .half = half}};
     thr_plan p = plan_with(f, THR_ENDS_ANY, 2, cord);
-    p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1 + k, 1, false};
+    p.symmetry =
+        (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1 + k, 1, false};
     assert_symmetry(&p, "cord B is not image 0 of cord A");
   }
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* Two spokes of a star whose hub has any number: their paths differ in one node, the first or the last of them. */
+/* Two spokes of a star whose hub has any number: their paths differ in one node, the first or the
+ * last of them. */
 START_TEST(copies_come_to_the_same_nodes)
 {
   static const double xyz[3][3] = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}};
@@ -539,7 +591,8 @@ START_TEST(copies_come_to_the_same_nodes)
     int edge[2][2] = {{(hub + 1) % 3, hub}, {(hub + 2) % 3, hub}};
     thr_frame f = frame_make(3, xyz, 2, (const int(*)[2])edge, NULL, NULL);
     int half[2] = {0, 2}, same[3] = {0, 1, 2}, unique[2] = {0, 0}, which[2] = {0, 0};
-    thr_cord cord[2] = {{.id = "A", .n_passes = 1, .half = half}, {.id = "B", .n_passes = 1, .half = half + 1}};
+    thr_cord cord[2] = {{.id = "A", .n_passes = 1, .half = half},
+                        {.id = "B", .n_passes = 1, .half = half + 1}};
     thr_plan p = plan_with(f, THR_ENDS_ANY, 2, cord);
     p.symmetry = (thr_symmetry_record){true, 1, "", 0, same, 1, same, unique, which, 1, 1, false};
     assert_symmetry(&p, "cord B is not image 0 of cord A");
@@ -548,14 +601,16 @@ START_TEST(copies_come_to_the_same_nodes)
 }
 END_TEST
 
-/* A fork whose tines are exchanged: that keeps the nodes of the cord over its handle, and not those of a cord over a tine. */
+/* A fork whose tines are exchanged: that keeps the nodes of the cord over its handle, and not those
+ * of a cord over a tine. */
 START_TEST(what_is_kept_is_learned_whole)
 {
   static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {2, -1, 0}};
   static const int edge[3][2] = {{0, 1}, {2, 1}, {3, 1}};
   for (int back = 0; back < 2; back++) {
     thr_frame f = frame_make(4, xyz, 3, edge, NULL, NULL);
-    int half[3] = {back, 2 + back, 4 + back}, exchange[4] = {0, 1, 3, 2}, image[8] = {0, 1, 2, 3, 0, 1, 3, 2};
+    int half[3] = {back, 2 + back, 4 + back}, exchange[4] = {0, 1, 3, 2},
+        image[8] = {0, 1, 2, 3, 0, 1, 3, 2};
     int unique[3] = {0, 1, 1}, which[3] = {0, 0, 1};
     thr_cord cord[3];
     for (int i = 0; i < 3; i++) {
@@ -565,14 +620,16 @@ START_TEST(what_is_kept_is_learned_whole)
     for (int v = 0; v < 4; v++)
       f.foot[v] = false;
     thr_plan p = plan_with(f, THR_ENDS_ANY, 3, cord);
-    p.symmetry = (thr_symmetry_record){true, 2, "", 1, exchange, 2, image, unique, which, 6, 2, false};
+    p.symmetry =
+        (thr_symmetry_record){true, 2, "", 1, exchange, 2, image, unique, which, 6, 2, false};
     assert_symmetry(&p, NULL);
     thr_frame_destroy(&f);
   }
 }
 END_TEST
 
-/* A cord round a triangle is its own image in every turn, but is said to be image 0. Without the cord the group is still judged.
+/* A cord round a triangle is its own image in every turn, but is said to be image 0. Without the
+ * cord the group is still judged.
  */
 START_TEST(a_unique_path_is_its_own_image_0)
 {
@@ -596,7 +653,8 @@ START_TEST(a_unique_path_is_its_own_image_0)
 }
 END_TEST
 
-/* One cord over two spokes of a star, of which a half turn makes the other two: it permutes no cords. Either order of nodes. */
+/* One cord over two spokes of a star, of which a half turn makes the other two: it permutes no
+ * cords. Either order of nodes. */
 START_TEST(cords_are_permuted)
 {
   thr_frame f = star_make(4);
@@ -606,18 +664,21 @@ START_TEST(cords_are_permuted)
     int half[2] = {k ? 5 : 1, k ? 6 : 2};
     thr_cord cord = {.id = "A", .n_passes = 2, .half = half};
     thr_plan p = plan_with(f, THR_ENDS_ANY, 1, &cord);
-    p.symmetry = (thr_symmetry_record){true, 2, "", 1, half_turn, 1, same, &zero, &zero, 2, 1, false};
+    p.symmetry =
+        (thr_symmetry_record){true, 2, "", 1, half_turn, 1, same, &zero, &zero, 2, 1, false};
     assert_symmetry(&p, "symmetry.generators[0]: takes");
   }
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* A cord over each spoke of a star, which a third of a turn permutes: all are copies of the first, and not of each other. */
+/* A cord over each spoke of a star, which a third of a turn permutes: all are copies of the first,
+ * and not of each other. */
 START_TEST(copies_are_of_unique_paths)
 {
   thr_frame f = star_make(3);
-  int third_turn[4] = {0, 2, 3, 1}, image[12] = {0, 1, 2, 3, 0, 2, 3, 1, 0, 3, 1, 2}, half[3] = {0, 2, 4};
+  int third_turn[4] = {0, 2, 3, 1}, image[12] = {0, 1, 2, 3, 0, 2, 3, 1, 0, 3, 1, 2},
+      half[3] = {0, 2, 4};
   int unique[3] = {0, 0, 0}, which[3] = {0, 1, 2};
   thr_cord cord[3];
   for (int i = 0; i < 3; i++) {
@@ -663,7 +724,8 @@ START_TEST(an_open_cord_is_no_copy_of_a_closed_one)
     int e = thr_frame_edge_between(&f, k, (k + 1) % 3);
     half[k] = 2 * e + (f.edge[e][1] == k);
   }
-  thr_cord cord[2] = {{.id = "A", .closed = true, .n_passes = 3, .half = half}, {.id = "B", .n_passes = 2, .half = half}};
+  thr_cord cord[2] = {{.id = "A", .closed = true, .n_passes = 3, .half = half},
+                      {.id = "B", .n_passes = 2, .half = half}};
   thr_plan p = plan_with(f, THR_ENDS_ANY, 2, cord);
   p.symmetry = (thr_symmetry_record){.present = true,
                                      .order = 1,
@@ -683,7 +745,8 @@ START_TEST(an_open_cord_is_no_copy_of_a_closed_one)
 }
 END_TEST
 
-/* On a star with any hub: no node goes to where another one goes, or to none, by the first generator or the second. */
+/* On a star with any hub: no node goes to where another one goes, or to none, by the first
+ * generator or the second. */
 START_TEST(no_two_nodes_go_to_one)
 {
   static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}, {1, 3, 0}};
@@ -707,13 +770,16 @@ START_TEST(no_two_nodes_go_to_one)
                                            .image = generator};
         thr_err err;
         ck_assert_int_eq(name_it(&p, "", &err), to == v ? THR_OK : THR_EVIOLATED);
-        if (to != v) assert_one_line(&err, second ? "generators[1]: not a permutation" : "generators[0]: not a permutation");
+        if (to != v)
+          assert_one_line(&err, second ? "generators[1]: not a permutation"
+                                       : "generators[0]: not a permutation");
         thr_frame_destroy(&f);
       }
 }
 END_TEST
 
-/* Turning the numbers of a path takes one of its edges to where there is none, whichever number that edge has. */
+/* Turning the numbers of a path takes one of its edges to where there is none, whichever number
+ * that edge has. */
 START_TEST(every_edge_goes_to_an_edge)
 {
   static const double xyz[3][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
@@ -724,8 +790,12 @@ START_TEST(every_edge_goes_to_an_edge)
     thr_plan p = plan_with(f, THR_ENDS_ANY, 0, NULL);
     for (int v = 0; v < 3; v++)
       f.foot[v] = false;
-    p.symmetry = (thr_symmetry_record){
-        .present = true, .order = 3, .n_generators = 1, .generator = turned[k / 2], .n_images = 1, .image = same};
+    p.symmetry = (thr_symmetry_record){.present = true,
+                                       .order = 3,
+                                       .n_generators = 1,
+                                       .generator = turned[k / 2],
+                                       .n_images = 1,
+                                       .image = same};
     thr_err err;
     ck_assert_int_eq(name_it(&p, "", &err), THR_EVIOLATED);
     assert_one_line(&err, "which no edge joins");

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tube joints in the checker: which nodes are tied, and what proofs of tied length prove. */
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
@@ -13,7 +14,8 @@
 
 /* ---- tube joints ---- */
 
-/* Two triangles that share node 0: neither a cord round each nor one round both ties all four edges there. */
+/* Two triangles that share node 0: neither a cord round each nor one round both ties all four edges
+ * there. */
 START_TEST(tube_joints_are_tied)
 {
   static const double xyz[5][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}};
@@ -34,7 +36,8 @@ START_TEST(tube_joints_are_tied)
   p.n_cords = 2;
   ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 2, &p.metrics, NULL), THR_OK);
   assert_violated(&p, "node 0: the cords do not tie");
-  p.n_cords = 1; /* once through all: 2 -> 3 and 4 -> 1 at node 0, which ties 0-2 to 0-3 and 0-4 to 0-1, and not these pairs */
+  p.n_cords = 1; /* once through all: 2 -> 3 and 4 -> 1 at node 0, which ties 0-2 to 0-3 and 0-4 to
+                    0-1, and not these pairs */
   memcpy(p.cord[0].half, half, sizeof half);
   p.cord[0].n_passes = 6;
   ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, 1, &p.metrics, NULL), THR_OK);
@@ -95,8 +98,10 @@ START_TEST(no_cord_of_tube_joints_turns_back_first)
 }
 END_TEST
 
-/* Is every edge at the node joined to every other by turns of the cords? By spreading from the first until nothing is new. */
-static bool tied_by_turns(const thr_frame *f, const thr_cord *cord, int n_cords, bool closing, int v)
+/* Is every edge at the node joined to every other by turns of the cords? By spreading from the
+ * first until nothing is new. */
+static bool tied_by_turns(const thr_frame *f, const thr_cord *cord, int n_cords, bool closing,
+                          int v)
 {
   bool reached[64] = {false}, more = true;
   reached[f->half[f->first[v]] / 2] = true;
@@ -140,7 +145,8 @@ START_TEST(nodes_are_tied_by_turns)
 }
 END_TEST
 
-/* What a proof of length with tube joints is about; and with multipliers that prove an extra pass of edge 0. */
+/* What a proof of length with tube joints is about; and with multipliers that prove an extra pass
+ * of edge 0. */
 START_TEST(proofs_of_tied_length_are_about_the_plan)
 {
   static const double length[3] = {2, 3, 1};
@@ -150,7 +156,10 @@ START_TEST(proofs_of_tied_length_are_about_the_plan)
   int count[4] = {1, 0, 0, 1};
   f.foot[0] = true;
   for (int k = 0; k < 3; k++) {
-    thr_request o = options_for(k == 0 ? THR_ENDS_CLOSED : k == 1 ? THR_ENDS_FEET : THR_ENDS_COUNTS, 2);
+    thr_request o = options_for(k == 0   ? THR_ENDS_CLOSED
+                                : k == 1 ? THR_ENDS_FEET
+                                         : THR_ENDS_COUNTS,
+                                2);
     o.cords = 3, o.cords_least = 2, o.capacity = 9;
     if (k == 2) o.end_count = count;
     thr_tied_task(&f, &o, allowed, &t);
@@ -186,8 +195,8 @@ START_TEST(proofs_of_tied_length_are_about_the_plan)
   int member[1] = {0};
   thr_turning_set odd = {1, member, (int64_t)1 << 43};
   dual.odd = &odd, dual.n_odd = 1;
-  o.ends =
-      THR_ENDS_CLOSED; /* nothing but an extra pass leaves half-edge 0, alone at its node: 2 * 0.5 a pass, and 0.5 is taken */
+  o.ends = THR_ENDS_CLOSED; /* nothing but an extra pass leaves half-edge 0, alone at its node: 2 *
+                               0.5 a pass, and 0.5 is taken */
   ck_assert_int_eq(thr_tied_least(&f, &o, &proof, &least, NULL), THR_OK);
   ck_assert_double_eq_tol(least, 6 + 0.5 / 0.5, 1e-9);
   odd.value = -1;
@@ -197,7 +206,8 @@ START_TEST(proofs_of_tied_length_are_about_the_plan)
 }
 END_TEST
 
-/* An edge costs its part of all length, times their number; but no edge more than 5,000. Whatever the unit of length is. */
+/* An edge costs its part of all length, times their number; but no edge more than 5,000. Whatever
+ * the unit of length is. */
 START_TEST(prices_of_tied_length_are_moderate)
 {
   enum { N = 6000 };
@@ -220,9 +230,10 @@ START_TEST(prices_of_tied_length_are_moderate)
 }
 END_TEST
 
-/* A chain of four edges of about 1, tied at three nodes, with K cords that end anywhere: twice the passes less twice the turns,
- * of which there are three or more, are 2 K ends, so that there are K + 3 passes or more. As multipliers: half of the weight of a
- * pass for the ends, less as much for every half-edge, twice it for every junction. Cords of two edges at most: three are needed,
+/* A chain of four edges of about 1, tied at three nodes, with K cords that end anywhere: twice the
+ * passes less twice the turns, of which there are three or more, are 2 K ends, so that there are K
+ * + 3 passes or more. As multipliers: half of the weight of a pass for the ends, less as much for
+ * every half-edge, twice it for every junction. Cords of two edges at most: three are needed,
  * though two would be long enough for every edge once. */
 START_TEST(the_fewest_cords_of_tube_joints)
 {
@@ -235,11 +246,14 @@ START_TEST(the_fewest_cords_of_tube_joints)
     cord[i] = (thr_cord){.n_passes = 2, .half = half[i]};
     thr_cord_id(i, cord[i].id);
   }
-  int64_t unit = (int64_t)floor(ldexp(4 / all, THR_TURNING_BITS)) / 2, potential[8], ends[1] = {unit};
+  int64_t unit = (int64_t)floor(ldexp(4 / all, THR_TURNING_BITS)) / 2, potential[8],
+          ends[1] = {unit};
   for (int h = 0; h < 8; h++)
     potential[h] = -unit;
-  thr_turning_junction junction[3] = {{1, block, 2 * unit}, {2, block, 2 * unit}, {3, block, 2 * unit}};
-  thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 3, .junction = junction};
+  thr_turning_junction junction[3] = {
+      {1, block, 2 * unit}, {2, block, 2 * unit}, {3, block, 2 * unit}};
+  thr_turning_dual dual = {
+      .potential = potential, .ends = ends, .n_junctions = 3, .junction = junction};
   thr_turning_node leaf = {0};
   thr_turning_proof proof = {.n_nodes = 1, .n_duals = 1, .n_ends = 1, .node = &leaf, .dual = &dual};
   thr_request o = options_for(THR_ENDS_ANY, 1);
@@ -250,11 +264,15 @@ START_TEST(the_fewest_cords_of_tube_joints)
   for (int most = 3; most <= 5; most++)
     for (int least = 1; least <= 3; least++) {
       o.cords = most, o.cords_least = least;
-      ck_assert_msg(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err) == THR_OK, "%s", err.text);
+      ck_assert_msg(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err) == THR_OK, "%s",
+                    err.text);
       ck_assert_double_eq_tol(found.longest, 2.0018, 1e-12);
-      double two = most == 3 ? 2.0003 : 0; /* three cords: one has two edges; this all sets of edges show */
-      ck_assert_double_eq_tol(found.longest_bound, fmax(fmax(1.0011, two), (all + least - 1) / most), 1e-9);
-      ck_assert_int_eq(found.fewest, least < most ? 3 : 0); /* asked for exactly, they are not claimed */
+      double two =
+          most == 3 ? 2.0003 : 0; /* three cords: one has two edges; this all sets of edges show */
+      ck_assert_double_eq_tol(found.longest_bound,
+                              fmax(fmax(1.0011, two), (all + least - 1) / most), 1e-9);
+      ck_assert_int_eq(found.fewest,
+                       least < most ? 3 : 0); /* asked for exactly, they are not claimed */
       ck_assert_int_eq(found.fewest_optimal, least < most);
     }
   o.max_length = 0;
@@ -271,9 +289,10 @@ START_TEST(the_fewest_cords_of_tube_joints)
 }
 END_TEST
 
-/* A star of four legs, tied at its hub by three turns: at every tip the cords end that pass there, so that there are six passes,
- * and three cords. As multipliers: a large one off the ends, which fewer cords have too few of, and what it takes for the
- * junction to give that back. Two cords of 3 would be long enough for the passes. */
+/* A star of four legs, tied at its hub by three turns: at every tip the cords end that pass there,
+ * so that there are six passes, and three cords. As multipliers: a large one off the ends, which
+ * fewer cords have too few of, and what it takes for the junction to give that back. Two cords of 3
+ * would be long enough for the passes. */
 START_TEST(cords_have_too_few_ends_for_the_tips)
 {
   static const double size[] = {1, 0.25};
@@ -294,16 +313,19 @@ START_TEST(cords_have_too_few_ends_for_the_tips)
       thr_cord_id(i, cord[i].id);
     }
     thr_turning_junction junction = {0, block, 4 * one};
-    thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 1, .junction = &junction};
+    thr_turning_dual dual = {
+        .potential = potential, .ends = ends, .n_junctions = 1, .junction = &junction};
     thr_turning_node leaf = {0};
-    thr_turning_proof proof = {.n_nodes = 1, .n_duals = 1, .n_ends = 1, .node = &leaf, .dual = &dual};
+    thr_turning_proof proof = {
+        .n_nodes = 1, .n_duals = 1, .n_ends = 1, .node = &leaf, .dual = &dual};
     thr_request o = options_for(THR_ENDS_ANY, 1);
     thr_cords_claim found;
     thr_err err = {0};
     o.joint = THR_JOINT_TUBE;
     o.cords = 3, o.cords_least = 1;
     o.max_length = 3 * size[k];
-    ck_assert_msg(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_check_tied_cords(&f, &o, cord, 3, &proof, &found, &err) == THR_OK, "%s",
+                  err.text);
     ck_assert_int_eq(found.fewest, 3);
     ck_assert_double_eq_tol(found.longest_bound, 2 * size[k], 1e-9);
     thr_frame_destroy(&f);
@@ -311,8 +333,9 @@ START_TEST(cords_have_too_few_ends_for_the_tips)
 }
 END_TEST
 
-/* Two chains of four edges, with three cords each: K cords or more in each of them have 2 (4 + K - 1) or so together, and so many
- * cords of the greatest length hold that. What may be too few cords for one component says nothing about two. */
+/* Two chains of four edges, with three cords each: K cords or more in each of them have 2 (4 + K -
+ * 1) or so together, and so many cords of the greatest length hold that. What may be too few cords
+ * for one component says nothing about two. */
 START_TEST(the_fewest_cords_of_two_components)
 {
   static const double length[8] = {1, 1.0003, 1.0007, 1.0011, 1, 1.0003, 1.0007, 1.0011};
@@ -342,13 +365,15 @@ START_TEST(the_fewest_cords_of_two_components)
     cord[i] = (thr_cord){.component = i / 3, .n_passes = 2, .half = half[i]};
     thr_cord_id(i, cord[i].id);
   }
-  int64_t unit = (int64_t)floor(ldexp(4 / all, THR_TURNING_BITS)) / 2, potential[16], ends[2] = {unit, unit};
+  int64_t unit = (int64_t)floor(ldexp(4 / all, THR_TURNING_BITS)) / 2, potential[16],
+          ends[2] = {unit, unit};
   for (int h = 0; h < 16; h++)
     potential[h] = -unit;
   thr_turning_junction junction[6];
   for (int i = 0; i < 6; i++)
     junction[i] = (thr_turning_junction){i + 1 + 2 * (i / 3), block, 2 * unit};
-  thr_turning_dual dual = {.potential = potential, .ends = ends, .n_junctions = 6, .junction = junction};
+  thr_turning_dual dual = {
+      .potential = potential, .ends = ends, .n_junctions = 6, .junction = junction};
   thr_turning_node leaf = {0};
   thr_turning_proof proof = {.n_nodes = 1, .n_duals = 1, .n_ends = 2, .node = &leaf, .dual = &dual};
   thr_request o = options_for(THR_ENDS_ANY, 1);
@@ -359,15 +384,17 @@ START_TEST(the_fewest_cords_of_two_components)
     thr_err err = {0};
     o.cords_least = cases[i].least;
     o.max_length = cases[i].most;
-    ck_assert_msg(thr_check_tied_cords(&f, &o, cord, 6, &proof, &found, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_check_tied_cords(&f, &o, cord, 6, &proof, &found, &err) == THR_OK, "%s",
+                  err.text);
     ck_assert_int_eq(found.fewest, cases[i].fewest);
   }
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* Cords of 2 over a chain of 1, 1, 1 and 1; a tree that proves no more than that every edge is passed once. Two cords of 2 are
- * enough, and of 2 less a rounding; and a tree that proves nothing fails, however few cords there may be. */
+/* Cords of 2 over a chain of 1, 1, 1 and 1; a tree that proves no more than that every edge is
+ * passed once. Two cords of 2 are enough, and of 2 less a rounding; and a tree that proves nothing
+ * fails, however few cords there may be. */
 START_TEST(rounding_needs_no_cord_more)
 {
   static const double length[4] = {1, 1, 1, 1};
@@ -397,13 +424,15 @@ START_TEST(rounding_needs_no_cord_more)
     ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, n - 1, &proof, &found, NULL), THR_OK);
     ck_assert_int_eq(found.fewest, 2);
     dual.n_junctions = 1;
-    ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, n - 1, &proof, &found, NULL), THR_EVIOLATED);
+    ck_assert_int_eq(thr_check_tied_cords(&f, &o, cord, n - 1, &proof, &found, NULL),
+                     THR_EVIOLATED);
     thr_frame_destroy(&f);
   }
 }
 END_TEST
 
-/* The same of two cords on two edges, over both and over the first: the multipliers take so much of what a pass of that costs. */
+/* The same of two cords on two edges, over both and over the first: the multipliers take so much of
+ * what a pass of that costs. */
 typedef struct {
   thr_plan plan;
   int64_t potential[4], ends[1];
@@ -419,7 +448,8 @@ static void tied_pair_make(tied_pair *x, const double *length, double part)
   thr_frame f = chain_make(2, length);
   thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_plan *p = &x->plan;
-  int64_t unit = (int64_t)floor(ldexp(part * (2 / (length[0] + length[1]) * length[0]), THR_TURNING_BITS)) / 2;
+  int64_t unit =
+      (int64_t)floor(ldexp(part * (2 / (length[0] + length[1]) * length[0]), THR_TURNING_BITS)) / 2;
   *x = (tied_pair){.potential = {-unit, -unit, -unit, -unit}, .ends = {unit}, .block = {0, 1}};
   f.length[0] = length[0], f.length[1] = length[1];
   o.joint = THR_JOINT_TUBE;
@@ -433,12 +463,14 @@ static void tied_pair_make(tied_pair *x, const double *length, double part)
     thr_cord_id(i, p->cord[i].id);
   }
   x->junction = (thr_turning_junction){1, x->block, 2 * unit};
-  x->dual = (thr_turning_dual){.potential = x->potential, .ends = x->ends, .n_junctions = 1, .junction = &x->junction};
+  x->dual = (thr_turning_dual){
+      .potential = x->potential, .ends = x->ends, .n_junctions = 1, .junction = &x->junction};
   ck_assert_int_eq(thr_plan_measure(&f, &o, p->cord, 2, &p->metrics, NULL), THR_OK);
-  p->proof = (thr_length_proof){.present = true,
-                                .optimal = true,
-                                .lower_bound = p->metrics.length,
-                                .tied = {.n_nodes = 1, .n_duals = 1, .n_ends = 1, .node = &x->leaf, .dual = &x->dual}};
+  p->proof = (thr_length_proof){
+      .present = true,
+      .optimal = true,
+      .lower_bound = p->metrics.length,
+      .tied = {.n_nodes = 1, .n_duals = 1, .n_ends = 1, .node = &x->leaf, .dual = &x->dual}};
   thr_frame_destroy(&f);
 }
 

@@ -1,5 +1,6 @@
-/* What the checker finds out about turning and says of claims about it: trees whose bound is known, every number of a claim
- * changed. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the checker finds out about turning and says of claims about it: trees whose bound is known,
+ * every number of a claim changed. */
 #include "graph/angle.h"
 #include "graph/check/check.h"
 #include "graph/check/check_parts.h"
@@ -43,8 +44,11 @@ static void add_cord(thr_plan *p, const int *node)
 static void empty_tree(thr_plan *p, int n_ends)
 {
   thr_turning_proof *t = &p->turning.tree;
-  *t = (thr_turning_proof){
-      .n_nodes = 1, .n_duals = 1, .n_ends = n_ends, .node = calloc(1, sizeof *t->node), .dual = calloc(1, sizeof *t->dual)};
+  *t = (thr_turning_proof){.n_nodes = 1,
+                           .n_duals = 1,
+                           .n_ends = n_ends,
+                           .node = calloc(1, sizeof *t->node),
+                           .dual = calloc(1, sizeof *t->dual)};
   t->dual->potential = calloc(2 * (size_t)p->frame.n_edges, sizeof(int64_t));
   t->dual->ends = calloc((size_t)n_ends, sizeof(int64_t));
   ck_assert(t->dual->potential && t->dual->ends);
@@ -62,7 +66,8 @@ static thr_plan plan_begin(thr_frame f, thr_ends ends, int cords, thr_turn_cost 
   o.turning.length_slack = -1;
   ck_assert_int_eq(thr_frame_components(&f, component, &n, NULL), THR_OK);
   ck_assert_int_eq(thr_plan_request(&p, &f, &o, NULL), THR_OK);
-  p.turning = (thr_turning_claim){.present = true, .most_passes = thr_turning_most_passes(&f, 1), .length_limit = -1};
+  p.turning = (thr_turning_claim){
+      .present = true, .most_passes = thr_turning_most_passes(&f, 1), .length_limit = -1};
   p.generator = thr_strdup("by hand");
   empty_tree(&p, n);
   thr_frame_destroy(&f);
@@ -97,17 +102,20 @@ static void state(thr_plan *p)
   thr_turning_proof tree = p->turning.tree;
   p->turning = found_of(p);
   p->turning.tree = tree;
-  ck_assert_int_eq(thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL),
+                   THR_OK);
   assert_holds(p);
 }
 
-/* Unit spokes at these angles, in a plane that is askew, and away from the origin. Node 0 is the hub. */
+/* Unit spokes at these angles, in a plane that is askew, and away from the origin. Node 0 is the
+ * hub. */
 static thr_frame fan_make(int n, const double *angle)
 {
   double xyz[MOST_WALK][3] = {{1, 2, 3}};
   int edge[MOST_WALK][2];
   for (int i = 0; i < n; i++) {
-    xyz[i + 1][0] = 1 + cos(angle[i]), xyz[i + 1][1] = 2 + 0.6 * sin(angle[i]), xyz[i + 1][2] = 3 + 0.8 * sin(angle[i]);
+    xyz[i + 1][0] = 1 + cos(angle[i]), xyz[i + 1][1] = 2 + 0.6 * sin(angle[i]),
+            xyz[i + 1][2] = 3 + 0.8 * sin(angle[i]);
     edge[i][0] = 0, edge[i][1] = i + 1;
   }
   return frame_make(n + 1, (const double(*)[3])xyz, n, (const int(*)[2])edge, NULL, NULL);
@@ -118,7 +126,8 @@ static thr_frame fan_make(int n, const double *angle)
 /* A bent path, its cord there and back: a quarter twice, and two U-turns at the ends. */
 START_TEST(turns_are_added_up)
 {
-  static const double angle[2] = {0, THR_PI / 2}, price[][2] = {{3 * THR_PI, THR_PI / 2}, {2 + 2 * HALF, HALF}, {4, 1}, {2, 0}};
+  static const double angle[2] = {0, THR_PI / 2},
+                      price[][2] = {{3 * THR_PI, THR_PI / 2}, {2 + 2 * HALF, HALF}, {4, 1}, {2, 0}};
   for (int cost = 0; cost < THR_N_TURN_COSTS; cost++) {
     thr_plan closed = plan_begin(fan_make(2, angle), THR_ENDS_CLOSED, 1, (thr_turn_cost)cost);
     add_cord(&closed, (int[]){1, 0, 2, 0, 1, -1});
@@ -153,7 +162,8 @@ START_TEST(cords_turn_back_only_at_nodes_with_one_edge)
 }
 END_TEST
 
-/* One edge, to and fro: as many passes as the proof is about, and a cord as long as it may be, but no more. */
+/* One edge, to and fro: as many passes as the proof is about, and a cord as long as it may be, but
+ * no more. */
 START_TEST(cords_are_of_the_kind_that_the_proof_is_about)
 {
   thr_plan p = plan_begin(path_make(2), THR_ENDS_CLOSED, 1, THR_TURN_ANGLE);
@@ -235,7 +245,8 @@ END_TEST
 
 /* ---- what the tree proves ---- */
 
-/* A bend by so much must be turned: its half-edges' potentials, half of the price each, prove that. */
+/* A bend by so much must be turned: its half-edges' potentials, half of the price each, prove that.
+ */
 static thr_plan bend_make(double turn, thr_turn_cost cost, int64_t weight)
 {
   const double angle[2] = {0, THR_PI - turn};
@@ -270,11 +281,15 @@ START_TEST(bends_prove_what_they_cost)
     int64_t down = (int64_t)floor(ldexp(turn[i], THR_TURNING_BITS));
     for (int more = -1; more <= 1; more++) {
       thr_plan p = bend_make(turn[i], THR_TURN_ANGLE, down + more);
-      thr_turning_task task = {
-          .cover = 1, .most_passes = 8, .cords = 1, .end_allowed = (bool[]){false, true, true}, .extra_limit = -1};
+      thr_turning_task task = {.cover = 1,
+                               .most_passes = 8,
+                               .cords = 1,
+                               .end_allowed = (bool[]){false, true, true},
+                               .extra_limit = -1};
       double bound;
       task.end_count = p.options.end_count;
-      ck_assert_int_eq(thr_turning_proof_check(&p.frame, &task, &p.turning.tree, &bound, NULL), THR_OK);
+      ck_assert_int_eq(thr_turning_proof_check(&p.frame, &task, &p.turning.tree, &bound, NULL),
+                       THR_OK);
       ck_assert_double_le(bound, turn[i]);
       ck_assert_double_ge(bound, turn[i] - ldexp(12, -THR_TURNING_BITS));
       ck_assert(found_of(&p).optimal);
@@ -305,7 +320,8 @@ START_TEST(bounds_are_optimal_within_rounding)
 }
 END_TEST
 
-/* A bound above the turns of the plan itself is no bound: here of two closed cords, where the plan has one. */
+/* A bound above the turns of the plan itself is no bound: here of two closed cords, where the plan
+ * has one. */
 START_TEST(no_tree_proves_more_than_the_plan_turns)
 {
   thr_plan p = plan_begin(ring_make(5), THR_ENDS_CLOSED, 2, THR_TURN_ANGLE);
@@ -315,9 +331,10 @@ START_TEST(no_tree_proves_more_than_the_plan_turns)
 }
 END_TEST
 
-/* Cords from tip to tip of a bend, and as many along a straight chain, of too many edges for all sets to be tried. The ends at
- * the bend's tips, paid by half a turn each, prove all turns; a bound within 2e-9 of a U-turn for each pass is optimal, and more
- * passes of an edge than twice those that it needs do not widen that. */
+/* Cords from tip to tip of a bend, and as many along a straight chain, of too many edges for all
+ * sets to be tried. The ends at the bend's tips, paid by half a turn each, prove all turns; a bound
+ * within 2e-9 of a U-turn for each pass is optimal, and more passes of an edge than twice those
+ * that it needs do not widen that. */
 START_TEST(rounding_is_that_of_twice_the_passes_needed)
 {
   enum { CHAIN = 14 };
@@ -329,9 +346,11 @@ START_TEST(rounding_is_that_of_twice_the_passes_needed)
   for (int i = 0; i < 3; i++)
     for (int cover = 1; cover <= 2; cover++)
       for (int cords = 2; cords <= 4; cords++) {
-        int ends[3 + CHAIN] = {0, cords, cords}, counted = (cords < 2 * cover ? cords : 2 * cover) * (2 + CHAIN - 1);
+        int ends[3 + CHAIN] = {0, cords, cords},
+                     counted = (cords < 2 * cover ? cords : 2 * cover) * (2 + CHAIN - 1);
         thr_frame bend = fan_make(2, angle), chain = path_make(CHAIN);
-        thr_plan p = plan_begin(side_by_side(&bend, &chain), THR_ENDS_COUNTS, cords, THR_TURN_ANGLE);
+        thr_plan p =
+            plan_begin(side_by_side(&bend, &chain), THR_ENDS_COUNTS, cords, THR_TURN_ANGLE);
         ends[3] = ends[3 + CHAIN - 1] = cords;
         p.options.end_count = ends;
         p.options.cover = cover;
@@ -370,13 +389,15 @@ static void scale(thr_frame *f, double by)
     f->length[e] *= by;
 }
 
-/* Three spokes that all but coincide, and one opposite to them: unless that one is passed three times, two of the three turn into
- * each other, which is a step. Half a step for each of the three, less half of one for the fourth, prove it, if the length takes
- * back what extra passes of the fourth save: 1 - (limit - 4) / 2. Without a limit they prove nothing. */
+/* Three spokes that all but coincide, and one opposite to them: unless that one is passed three
+ * times, two of the three turn into each other, which is a step. Half a step for each of the three,
+ * less half of one for the fourth, prove it, if the length takes back what extra passes of the
+ * fourth save: 1 - (limit - 4) / 2. Without a limit they prove nothing. */
 START_TEST(limits_on_the_length_prove_turns)
 {
   static const double angle[4] = {-0.1, 0, 0.1, THR_PI}, size[] = {1 / 16.0, 1, 3};
-  static const double limit[][2] = {{4, 1}, {4.5, 0.75}, {5, 0.5}, {6, 0}, {-1, 0}}; /* and the bound */
+  static const double limit[][2] = {
+      {4, 1}, {4.5, 0.75}, {5, 0.5}, {6, 0}, {-1, 0}}; /* and the bound */
   bool allowed[5] = {false, true, true, true, true};
   for (int k = 0; k < 3; k++)
     for (size_t i = 0; i < sizeof limit / sizeof *limit; i++) {
@@ -402,8 +423,9 @@ START_TEST(limits_on_the_length_prove_turns)
 }
 END_TEST
 
-/* Three cords along one edge, with as many ends at both: three passes there must be, so a limit that is less by rounding, which
- * is let through, and large multipliers would prove turns where nothing turns. The limit is no less than the cords. */
+/* Three cords along one edge, with as many ends at both: three passes there must be, so a limit
+ * that is less by rounding, which is let through, and large multipliers would prove turns where
+ * nothing turns. The limit is no less than the cords. */
 START_TEST(a_limit_just_below_the_cords_proves_nothing)
 {
   static const double size[] = {1 / 16.0, 1, 3};
@@ -434,8 +456,9 @@ START_TEST(a_limit_just_below_the_cords_proves_nothing)
 }
 END_TEST
 
-/* Branches on the one turn of a bend, one below the other: the narrowest bounds count, in whichever order they come. Multipliers
- * above the price need the turn to be made at most once, those that ask for passes need it to be made four times. */
+/* Branches on the one turn of a bend, one below the other: the narrowest bounds count, in whichever
+ * order they come. Multipliers above the price need the turn to be made at most once, those that
+ * ask for passes need it to be made four times. */
 START_TEST(branches_on_one_turn_narrow_it)
 {
   static const struct {
@@ -458,11 +481,13 @@ START_TEST(branches_on_one_turn_narrow_it)
                                       .value = tree[k][i].value,
                                       .dual = tree[k][i].dual};
     for (int d = 1; d < 3; d++) {
-      t->dual[d] = (thr_turning_dual){.potential = calloc(4, sizeof(int64_t)), .ends = calloc(3, sizeof(int64_t))};
+      t->dual[d] = (thr_turning_dual){.potential = calloc(4, sizeof(int64_t)),
+                                      .ends = calloc(3, sizeof(int64_t))};
       ck_assert(t->dual[d].potential && t->dual[d].ends);
     }
     t->dual[2].potential[0] = -((int64_t)1 << (THR_TURNING_BITS - 1));
-    if (k == 2) t->dual[1].potential[0] = t->dual[1].potential[2] = (int64_t)1 << (THR_TURNING_BITS - 1);
+    if (k == 2)
+      t->dual[1].potential[0] = t->dual[1].potential[2] = (int64_t)1 << (THR_TURNING_BITS - 1);
     thr_turning_claim found = found_of(&p);
     ck_assert_double_eq_tol(found.lower_bound, 1, 1e-9);
     ck_assert(found.optimal);
@@ -491,11 +516,12 @@ START_TEST(ends_are_where_the_options_allow_them)
 }
 END_TEST
 
-/* A closed cord turns round once, whatever the tree says; with prices sin(angle / 2) it pays 2; steps and U-turns it may need
- * none. */
+/* A closed cord turns round once, whatever the tree says; with prices sin(angle / 2) it pays 2;
+ * steps and U-turns it may need none. */
 START_TEST(closed_cords_turn_round)
 {
-  static const double least[] = {2 * THR_PI, 2, 0, 0}, round[] = {2 * THR_PI, 3 * 0.86602540378443864676, 3, 0};
+  static const double least[] = {2 * THR_PI, 2, 0, 0},
+                      round[] = {2 * THR_PI, 3 * 0.86602540378443864676, 3, 0};
   for (int cost = 0; cost < THR_N_TURN_COSTS; cost++)
     for (int cords = 1; cords <= 2; cords++) {
       thr_plan p = plan_begin(triangles_make(2), THR_ENDS_CLOSED, cords, (thr_turn_cost)cost);
@@ -504,7 +530,9 @@ START_TEST(closed_cords_turn_round)
         add_cord(&p, (int[]){3, 4, 5, 3, -1});
       }
       thr_turning_claim found = found_of(&p);
-      double known = cords > 1 ? round[cost] : least[cost]; /* of several cords through few edges all sets are tried */
+      double known = cords > 1
+                         ? round[cost]
+                         : least[cost]; /* of several cords through few edges all sets are tried */
       bool optimal = known >= round[cost] - 1e-9;
       ck_assert_double_eq_tol(found.price, 2 * cords * round[cost], 1e-9);
       ck_assert_double_eq_tol(found.lower_bound, 2 * cords * known, 1e-9);
@@ -530,7 +558,8 @@ END_TEST
 /* Steps are those of one definition, on either side of the quarter. */
 START_TEST(steps_begin_at_a_quarter_less_a_millionth)
 {
-  static const double turn[] = {THR_PI / 2 - 1.1e-6, THR_PI / 2 - 0.9e-6, THR_PI / 2, THR_PI / 2 + 1e-5, 3, 1};
+  static const double turn[] = {
+      THR_PI / 2 - 1.1e-6, THR_PI / 2 - 0.9e-6, THR_PI / 2, THR_PI / 2 + 1e-5, 3, 1};
   static const int step[] = {0, 1, 1, 1, 1, 0};
   ck_assert_double_eq(thr_turn_cost_of(THR_TURN_STEP, THR_PI / 2 - 1e-6), 1);
   for (int i = 0; i < 6; i++) {
@@ -548,7 +577,8 @@ END_TEST
 START_TEST(steps_have_one_definition)
 {
   for (int i = -200; i <= 200; i++) {
-    thr_plan p = bend_make(THR_PI / 2 - 1e-6 + i * 1e-17 * (1 << abs(i) % 8), THR_TURN_STEP, (int64_t)1 << THR_TURNING_BITS);
+    thr_plan p = bend_make(THR_PI / 2 - 1e-6 + i * 1e-17 * (1 << abs(i) % 8), THR_TURN_STEP,
+                           (int64_t)1 << THR_TURNING_BITS);
     double step = thr_turn_price(&p.frame, THR_TURN_STEP, p.cord[0].half[0], p.cord[0].half[1]);
     thr_turning_claim found = found_of(&p);
     ck_assert_double_eq(found.price, step);
@@ -663,17 +693,20 @@ START_TEST(limits_let_in_what_the_options_allow)
   p.options.turning.length_slack = 0.5;
   assert_holds(&p); /* the claim is about plans of any length */
   p.turning.length_limit = 3;
-  ck_assert_int_eq(thr_check_turning_claim(&p, 2, NULL), THR_EVIOLATED); /* nothing says that 2 is the least */
+  ck_assert_int_eq(thr_check_turning_claim(&p, 2, NULL),
+                   THR_EVIOLATED); /* nothing says that 2 is the least */
   p.proof.present = true;
   static const struct {
     double limit, least;
     bool holds;
-  } cases[] = {{3, 2, true}, {4, 2, true},    {3 - 1e-11, 2, true}, {3 - 1e-9, 2, false}, {2, 2, false},
-               {3, 1, true}, {3, 2.1, false}, {0, 2, false},        {-1, 2, true}};
+  } cases[] = {{3, 2, true},         {4, 2, true},  {3 - 1e-11, 2, true},
+               {3 - 1e-9, 2, false}, {2, 2, false}, {3, 1, true},
+               {3, 2.1, false},      {0, 2, false}, {-1, 2, true}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     thr_err err = {0};
     p.turning.length_limit = cases[i].limit;
-    ck_assert_int_eq(thr_check_turning_claim(&p, cases[i].least, &err), cases[i].holds ? THR_OK : THR_EVIOLATED);
+    ck_assert_int_eq(thr_check_turning_claim(&p, cases[i].least, &err),
+                     cases[i].holds ? THR_OK : THR_EVIOLATED);
     if (!cases[i].holds) assert_one_line(&err, "shuts out");
   }
   thr_err err = {0};
@@ -681,7 +714,8 @@ START_TEST(limits_let_in_what_the_options_allow)
   ck_assert_int_eq(thr_check_turning_claim(&p, 0, &err), THR_EVIOLATED);
   assert_one_line(&err, "2 long");
   thr_certificate c = {.scale = 1, .denominator = 1}; /* every edge once: 2 */
-  p.proof = (thr_length_proof){.present = true, .optimal = true, .lower_bound = 2, .n_certificates = 1, .certificate = &c};
+  p.proof = (thr_length_proof){
+      .present = true, .optimal = true, .lower_bound = 2, .n_certificates = 1, .certificate = &c};
   for (p.turning.length_limit = 2; p.turning.length_limit <= 3; p.turning.length_limit++) {
     err = (thr_err){0};
     thr_status st = thr_check_plan(&p, &err);

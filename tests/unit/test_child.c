@@ -1,4 +1,6 @@
-/* One job in a child process: answers of any size, the best so far, deaths, limits, and no child that outlives its parent. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One job in a child process: answers of any size, the best so far, deaths, limits, and no child
+ * that outlives its parent. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/limits.h"
 #include "graph/process/process.h"
@@ -32,10 +34,12 @@ static thr_status send_bytes(thr_sender *to, size_t n, thr_err *err)
 
 static thr_status send_word(thr_sender *to, const char *word, thr_err *err)
 {
-  return thr_child_send(to, &(thr_text){.data = (char *)(uintptr_t)word, .length = strlen(word)}, err);
+  return thr_child_send(to, &(thr_text){.data = (char *)(uintptr_t)word, .length = strlen(word)},
+                        err);
 }
 
-static thr_status send_many_bytes(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
+static thr_status send_many_bytes(void *user, const thr_limits *limits, thr_sender *to,
+                                  thr_err *err)
 {
   (void)limits;
   thr_status st = send_bytes(to, 1000, err); /* replaced */
@@ -100,7 +104,8 @@ static const struct {
   const char *text;
 } harms[] = {
     {REFUSE, THR_EINFEASIBLE, "cannot be done"},
-    {CRASH, THR_ESOLVER, "harm: its process died of signal 6 (Aborted) (it said: library: no memory); do without"},
+    {CRASH, THR_ESOLVER,
+     "harm: its process died of signal 6 (Aborted) (it said: library: no memory); do without"},
     {LEAVE, THR_ESOLVER, "harm: its process ended without a result (it said: bye); do without"},
 };
 
@@ -215,8 +220,12 @@ START_TEST(progress_and_work_come_back)
   seen s = {0};
   double work = 100;
   thr_child c = {.what = "sum", .run = tell_progress};
-  thr_limits limits = {
-      .work = &work, .work_kept = 10, .brief = true, .progress = note_progress, .advance = note_advance, .user = &s};
+  thr_limits limits = {.work = &work,
+                       .work_kept = 10,
+                       .brief = true,
+                       .progress = note_progress,
+                       .advance = note_advance,
+                       .user = &s};
   thr_text answer = {0};
   ck_assert_int_eq(thr_child_run(&c, &limits, &answer, NULL), THR_OK);
   ck_assert_str_eq(answer.data, "done");
@@ -236,16 +245,19 @@ static thr_status take_no_heed(void *user, const thr_limits *limits, thr_sender 
   return send_word(to, "third", err);
 }
 
-static thr_status stop_when_asked(void *user, const thr_limits *limits, thr_sender *to, thr_err *err)
+static thr_status stop_when_asked(void *user, const thr_limits *limits, thr_sender *to,
+                                  thr_err *err)
 {
   (void)user;
   while (!thr_limits_stop(limits))
     pause_ms(1);
-  return send_word(to, "own last word", err) ? err->code : thr_fail(err, THR_ELIMIT, "stopped by itself");
+  return send_word(to, "own last word", err) ? err->code
+                                             : thr_fail(err, THR_ELIMIT, "stopped by itself");
 }
 
 /* With an interrupt after 0.2 s, or a deadline then. */
-static void assert_stops(const thr_child *c, bool by_interrupt, const char *wanted, const char *word)
+static void assert_stops(const thr_child *c, bool by_interrupt, const char *wanted,
+                         const char *word)
 {
   thr_limits limits = {.interrupted = &interrupted};
   thr_text answer = {0};
@@ -273,13 +285,15 @@ static void assert_stops(const thr_child *c, bool by_interrupt, const char *want
 
 START_TEST(a_child_that_takes_no_heed_is_killed)
 {
-  assert_stops(&(thr_child){.what = "sleep", .run = take_no_heed}, _i, "second", "sleep: stopped before it was done");
+  assert_stops(&(thr_child){.what = "sleep", .run = take_no_heed}, _i, "second",
+               "sleep: stopped before it was done");
 }
 END_TEST
 
 START_TEST(a_child_may_stop_by_itself)
 {
-  assert_stops(&(thr_child){.what = "wait", .run = stop_when_asked}, _i, "own last word", "stopped by itself");
+  assert_stops(&(thr_child){.what = "wait", .run = stop_when_asked}, _i, "own last word",
+               "stopped by itself");
 }
 END_TEST
 

@@ -1,5 +1,6 @@
-/* The picture of a comparison: bars, points and bands as high as the numbers say, texts apart and on the sheet; what the frontier
- * is. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The picture of a comparison: bars, points and bands as high as the numbers say, texts apart and
+ * on the sheet; what the frontier is. */
 #include "diagram/overview/charts.h"
 #include "graph/limits.h"
 #include "graph/plan/advice.h"
@@ -28,14 +29,16 @@ typedef struct {
 
 static sample sample_make(rng *r, int n)
 {
-  static const char letters[] = "a_long/name of-a.plan without_an_end_that_has_to_be_broken_somewhere_all_the_same_";
+  static const char letters[] =
+      "a_long/name of-a.plan without_an_end_that_has_to_be_broken_somewhere_all_the_same_";
   sample s = {.n = n, .f = ring_make(12)};
   for (int i = 0; i < n; i++) {
     thr_request request = thr_request_default();
     request.ends = THR_ENDS_ANY;
     request.cords = request.cords_least = 1 + rng_below(r, 6);
     request.cover = 1 + rng_below(r, 2);
-    ck_assert_int_eq(thr_plan_make(&s.f, &request, &(thr_limits){0}, &s.plan[i], NULL, NULL), THR_OK);
+    ck_assert_int_eq(thr_plan_make(&s.f, &request, &(thr_limits){0}, &s.plan[i], NULL, NULL),
+                     THR_OK);
     snprintf(s.name[i], sizeof s.name[i], "%.*s%d.json", rng_below(r, 80), letters, i);
   }
   return s;
@@ -46,8 +49,10 @@ static void fill_columns(sample *s, rng *r)
 {
   for (int i = 0; i < s->n; i++) {
     double pull = exp(9 * rng_unit(r)), band = exp(0.1 + 2 * rng_unit(r));
-    s->column[i] = (thr_compare_column){
-        .name = s->name[i], .plan = &s->plan[i], .pull = {fmax(1, pull / band), pull, pull * band}, .frontier = rng_below(r, 2)};
+    s->column[i] = (thr_compare_column){.name = s->name[i],
+                                        .plan = &s->plan[i],
+                                        .pull = {fmax(1, pull / band), pull, pull * band},
+                                        .frontier = rng_below(r, 2)};
   }
 }
 
@@ -65,7 +70,8 @@ static int find(const svg_tree *t, int group, const char *word)
   return -1;
 }
 
-/* What the drawing of plan i says, mm: cord and what the edges need of it, number of cords, y of the pull, and of its band. */
+/* What the drawing of plan i says, mm: cord and what the edges need of it, number of cords, y of
+ * the pull, and of its band. */
 typedef struct {
   double cord, base, count, pull, high, low;
 } heights;
@@ -106,15 +112,20 @@ START_TEST(what_is_drawn_is_to_scale)
   for (int i = 1; i < s.n; i++) {
     heights h = read_column(&t, &s, i);
     const thr_metrics *mine = &s.plan[i].metrics, *other = &s.plan[0].metrics;
-    ck_assert_double_eq_tol(h.cord * other->length, first.cord * mine->length, 0.012 * (mine->length + other->length));
-    ck_assert_double_eq_tol(h.base * other->length, first.cord * fmin(mine->base_length, mine->length),
+    ck_assert_double_eq_tol(h.cord * other->length, first.cord * mine->length,
+                            0.012 * (mine->length + other->length));
+    ck_assert_double_eq_tol(h.base * other->length,
+                            first.cord * fmin(mine->base_length, mine->length),
                             0.012 * (mine->length + other->length));
     ck_assert_double_eq_tol(h.count * s.plan[0].n_cords, first.count * s.plan[i].n_cords,
                             0.012 * (s.plan[i].n_cords + s.plan[0].n_cords));
     /* one scale for all pulls and bands */
-    double mm = (first.low - first.high) / log(c[0].pull[THR_ADVICE_HIGH] / c[0].pull[THR_ADVICE_LOW]);
-    ck_assert_double_eq_tol(first.pull - h.pull, mm * log(c[i].pull[THR_ADVICE_MU] / c[0].pull[THR_ADVICE_MU]), 0.5);
-    ck_assert_double_eq_tol(h.low - h.high, mm * log(c[i].pull[THR_ADVICE_HIGH] / c[i].pull[THR_ADVICE_LOW]), 0.5);
+    double mm =
+        (first.low - first.high) / log(c[0].pull[THR_ADVICE_HIGH] / c[0].pull[THR_ADVICE_LOW]);
+    ck_assert_double_eq_tol(first.pull - h.pull,
+                            mm * log(c[i].pull[THR_ADVICE_MU] / c[0].pull[THR_ADVICE_MU]), 0.5);
+    ck_assert_double_eq_tol(h.low - h.high,
+                            mm * log(c[i].pull[THR_ADVICE_HIGH] / c[i].pull[THR_ADVICE_LOW]), 0.5);
   }
   svg_tree_destroy(&t);
   thr_text_destroy(&svg);
@@ -123,7 +134,8 @@ START_TEST(what_is_drawn_is_to_scale)
 }
 END_TEST
 
-/* Names are whole, whatever their length: their lines, put together, are the name but for blanks. */
+/* Names are whole, whatever their length: their lines, put together, are the name but for blanks.
+ */
 static void check_name(const svg_tree *t, const char *name)
 {
   char all[20000] = "", wanted[200] = "";
@@ -146,18 +158,22 @@ START_TEST(texts_lie_apart_and_on_the_sheet)
   if (_i % 3 == 0) s.column[0].pull[THR_ADVICE_HIGH] = INFINITY;
   if (_i % 5 == 0) s.column[0].pull[THR_ADVICE_MU] = s.column[0].pull[THR_ADVICE_HIGH] = INFINITY;
   ck_assert_int_eq(
-      thr_compare_svg(s.column, s.n, "Pull at both ends of every cord, so that 1 N is left where it is slackest.", &svg, NULL),
+      thr_compare_svg(s.column, s.n,
+                      "Pull at both ends of every cord, so that 1 N is left where it is slackest.",
+                      &svg, NULL),
       THR_OK);
   svg_tree t = svg_parse(svg.data);
   for (int i = 0; i < t.n; i++) {
     if (strcmp(t.element[i].name, "text") != 0) continue;
     ck_assert_double_ge(svg_number(&t, i, "font-size"), 7 * 25.4 / 72);
     svg_box(&t, i, box);
-    ck_assert_msg(box[0] > 0 && box[1] > 0 && box[2] < t.width && box[3] < t.height, "%s leaves the sheet", t.element[i].text);
+    ck_assert_msg(box[0] > 0 && box[1] > 0 && box[2] < t.width && box[3] < t.height,
+                  "%s leaves the sheet", t.element[i].text);
     for (int k = 0; k < i; k++) {
       if (strcmp(t.element[k].name, "text") != 0) continue;
       svg_box(&t, k, other);
-      ck_assert_msg(!svg_overlap(box, other, 0), "%s lies on %s", t.element[i].text, t.element[k].text);
+      ck_assert_msg(!svg_overlap(box, other, 0), "%s lies on %s", t.element[i].text,
+                    t.element[k].text);
     }
   }
   for (int i = 0; i < s.n; i++)
@@ -168,7 +184,8 @@ START_TEST(texts_lie_apart_and_on_the_sheet)
 }
 END_TEST
 
-/* The frontier by its definition over all pairs: nobody on it is beaten, everybody off it is, by somebody on it. */
+/* The frontier by its definition over all pairs: nobody on it is beaten, everybody off it is, by
+ * somebody on it. */
 START_TEST(the_frontier_is_what_nobody_beats)
 {
   rng r = rng_make((uint64_t)_i);
@@ -185,11 +202,13 @@ START_TEST(the_frontier_is_what_nobody_beats)
   for (int i = 0; i < 9; i++) {
     bool better = false;
     for (int k = 0; k < 9; k++)
-      better |= on[k] && p[k].cords <= p[i].cords && p[k].length <= p[i].length && p[k].pull <= p[i].pull &&
+      better |= on[k] && p[k].cords <= p[i].cords && p[k].length <= p[i].length &&
+                p[k].pull <= p[i].pull &&
                 (p[k].cords < p[i].cords || p[k].length < p[i].length || p[k].pull < p[i].pull);
     ck_assert(on[i] != better);
   }
-  ck_assert(!thr_price_beats(&(thr_price){1, 1, NAN}, &p[0]) && !thr_price_beats(&p[0], &(thr_price){9, 9, NAN}));
+  ck_assert(!thr_price_beats(&(thr_price){1, 1, NAN}, &p[0]) &&
+            !thr_price_beats(&p[0], &(thr_price){9, 9, NAN}));
 }
 END_TEST
 

@@ -1,12 +1,15 @@
-/* One step of bodies in contact, eval/joint/contacts.h: what statics and the law of sliding say of boxes; and of bodies thrown
- * together at random that the answer meets the conditions that only the best one meets (the problem is convex). */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One step of bodies in contact, eval/joint/contacts.h: what statics and the law of sliding say of
+ * boxes; and of bodies thrown together at random that the answer meets the conditions that only the
+ * best one meets (the problem is convex). */
 #include "eval/joint/contacts.h"
 #include "tests/support.h"
 
 #include <math.h>
 #include <string.h>
 
-/* A body of mass m, without spin, on one contact whose normal is z, that is to gain what keeps it from `velocity`. */
+/* A body of mass m, without spin, on one contact whose normal is z, that is to gain what keeps it
+ * from `velocity`. */
 static thr_cone_contact on_ground(const double velocity[3], double mu)
 {
   thr_cone_contact c = {.body = {0, -1}, .mu = mu};
@@ -23,7 +26,9 @@ static void solve(int n_bodies, const double (*mass)[2], int n_contacts, thr_con
   thr_contacts *cones;
   thr_err err = {0};
   ck_assert_int_eq(thr_contacts_create(&cones, &err), THR_OK);
-  ck_assert_msg(thr_contacts_solve(cones, n_bodies, mass, n_contacts, contact, 1e-12, 1000, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_contacts_solve(cones, n_bodies, mass, n_contacts, contact, 1e-12, 1000, &err) ==
+                    THR_OK,
+                "%s", err.text);
   thr_contacts_destroy(cones);
 }
 
@@ -38,8 +43,8 @@ START_TEST(what_lies_within_its_cone_stops)
 }
 END_TEST
 
-/* Sideways at 1 and down at 0.6, mu 0.5: the velocity after it has the slope mu up. With an impulse n (1, -mu) per mass:
- * n - 0.6 = mu (1 - mu n), n = (0.6 + mu) / (1 + mu^2) = 0.88. */
+/* Sideways at 1 and down at 0.6, mu 0.5: the velocity after it has the slope mu up. With an impulse
+ * n (1, -mu) per mass: n - 0.6 = mu (1 - mu n), n = (0.6 + mu) / (1 + mu^2) = 0.88. */
 START_TEST(what_slides_opens_by_mu_times_its_slide)
 {
   thr_cone_contact c = on_ground((const double[3]){1, 0, -0.6}, 0.5);
@@ -64,7 +69,8 @@ END_TEST
 
 enum { BODIES = 6, CONTACTS = 24 };
 
-/* There is a change of velocities with which all contacts part, so that no impulse need be boundless. */
+/* There is a change of velocities with which all contacts part, so that no impulse need be
+ * boundless. */
 static void throw_together(rng *r, double mass[BODIES][2], thr_cone_contact *contact)
 {
   double part[6 * BODIES];
@@ -83,7 +89,8 @@ static void throw_together(rng *r, double mass[BODIES][2], thr_cone_contact *con
       for (int j = 0; j < 12; j++) {
         const double velocity = 2 * rng_unit(r) - 1;
         contact[i].jacobian[k][j / 6][j % 6] = velocity;
-        if (contact[i].body[j / 6] >= 0) contact[i].target[k] += velocity * part[6 * contact[i].body[j / 6] + j % 6];
+        if (contact[i].body[j / 6] >= 0)
+          contact[i].target[k] += velocity * part[6 * contact[i].body[j / 6] + j % 6];
       }
       contact[i].impulse[k] = rng_unit(r);
     }
@@ -98,8 +105,9 @@ static void apply(const double mass[BODIES][2], const thr_cone_contact *contact,
     for (int side = 0; side < 2; side++)
       for (int j = 0; j < 6 && contact[i].body[side] >= 0; j++)
         for (int k = 0; k < 3; k++)
-          change[6 * contact[i].body[side] + j] +=
-              contact[i].jacobian[k][side][j] * contact[i].impulse[k] / mass[contact[i].body[side]][j >= 3];
+          change[6 * contact[i].body[side] + j] += contact[i].jacobian[k][side][j] *
+                                                   contact[i].impulse[k] /
+                                                   mass[contact[i].body[side]][j >= 3];
 }
 
 /* Impulses in their cones, what they leave in the duals, and the two at right angles. */
@@ -113,7 +121,8 @@ static void assert_best(const double mass[BODIES][2], const thr_cone_contact *co
     for (int k = 0; k < 3; k++) {
       left[k] = -c->target[k];
       for (int j = 0; j < 12; j++)
-        if (c->body[j / 6] >= 0) left[k] += c->jacobian[k][j / 6][j % 6] * change[6 * c->body[j / 6] + j % 6];
+        if (c->body[j / 6] >= 0)
+          left[k] += c->jacobian[k][j / 6][j % 6] * change[6 * c->body[j / 6] + j % 6];
       product += left[k] * c->impulse[k];
     }
     ck_assert_double_ge(c->mu * c->impulse[0] + 1e-9, hypot(c->impulse[1], c->impulse[2]));
@@ -133,7 +142,9 @@ START_TEST(the_answer_is_the_best)
     thr_cone_contact contact[CONTACTS];
     throw_together(&r, mass, contact);
     for (int pass = 0; pass < 2; pass++) {
-      ck_assert_int_eq(thr_contacts_solve(cones, BODIES, (const double(*)[2])mass, CONTACTS, contact, 1e-11, 1000, NULL), THR_OK);
+      ck_assert_int_eq(thr_contacts_solve(cones, BODIES, (const double(*)[2])mass, CONTACTS,
+                                          contact, 1e-11, 1000, NULL),
+                       THR_OK);
       assert_best((const double(*)[2])mass, contact);
       for (int i = 0; i < CONTACTS; i++)
         for (int k = 0; k < 3; k++) {

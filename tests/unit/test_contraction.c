@@ -1,5 +1,6 @@
-/* Starts, contraction and exchanges of symmetric covers: every solution put into the equations by hand, least joins against
- * exhaustive search, turning against what a cross must have. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Starts, contraction and exchanges of symmetric covers: every solution put into the equations by
+ * hand, least joins against exhaustive search, turning against what a cross must have. */
 #include "symmetry/cover/cover.h"
 #include "symmetry/cover/cover_parts.h"
 #include "symmetry/group/group.h"
@@ -27,7 +28,8 @@ typedef struct {
 
 static void task_init(task *t, const setting *s, int row, const thr_cover_options *o)
 {
-  ck_assert_int_eq(thr_quotient_init(&t->q, &s->f, &s->g, &s->classes.subgroup[row], 100000, NULL), THR_OK);
+  ck_assert_int_eq(thr_quotient_init(&t->q, &s->f, &s->g, &s->classes.subgroup[row], 100000, NULL),
+                   THR_OK);
   ck_assert_int_eq(thr_programme_init(&t->p, &t->q, o, NULL), THR_OK);
   ck_assert_int_eq(thr_contraction_init(&t->c, &t->p, true, NULL), THR_OK);
   t->small = thr_calloc((size_t)t->c.p.n, sizeof(int));
@@ -54,8 +56,8 @@ static bool may_end(const thr_frame *f, thr_ends ends, int v)
   return ends == THR_ENDS_ANY || (ends == THR_ENDS_FEET && f->foot[v]);
 }
 
-/* From the types alone: every dart orbit turns or ends once, every edge has its passes, ends are where they may be, and U-turns
- * where they may not. Returns the overlap. */
+/* From the types alone: every dart orbit turns or ends once, every edge has its passes, ends are
+ * where they may be, and U-turns where they may not. Returns the overlap. */
 static double assert_solves(const task *t, const thr_cover_options *o)
 {
   const thr_quotient *q = &t->q;
@@ -64,7 +66,8 @@ static double assert_solves(const task *t, const thr_cover_options *o)
   for (int d = 0; d < q->n_darts; d++) {
     int sum = -ends[d];
     for (int c = 0; c < q->n_copies; c++)
-      sum += copies[c] * ((q->copy[c].dart[0] == d) + (!q->copy[c].fold && q->copy[c].dart[1] == d));
+      sum +=
+          copies[c] * ((q->copy[c].dart[0] == d) + (!q->copy[c].fold && q->copy[c].dart[1] == d));
     for (int y = 0; y < q->n_pairs; y++)
       sum -= turns[y] * ((q->pair[y].dart[0] == d) + (!q->pair[y].self && q->pair[y].dart[1] == d));
     ck_assert_int_eq(sum, 0);
@@ -93,7 +96,8 @@ static double turning_of(const task *t)
   return sum;
 }
 
-/* Sets of dart types that copies and turns join, and how many of them have no end (closed cords allowed: no terminal). */
+/* Sets of dart types that copies and turns join, and how many of them have no end (closed cords
+ * allowed: no terminal). */
 static int in_need(const task *t, const thr_cover_options *o)
 {
   int n = t->q.n_darts, need = 0, *set = thr_calloc((size_t)n, sizeof *set);
@@ -113,7 +117,8 @@ static int in_need(const task *t, const thr_cover_options *o)
     int set_of = set[t->p.join[j][0]];
     if (t->value[j] == 0) continue;
     used[set_of] = true;
-    if (j >= t->p.first_end || (o->ends != THR_ENDS_FEET && t->p.join[j][1] == n)) has[set_of] = true;
+    if (j >= t->p.first_end || (o->ends != THR_ENDS_FEET && t->p.join[j][1] == n))
+      has[set_of] = true;
   }
   for (int d = 0; d < n; d++)
     need += used[d] && !has[d];
@@ -125,11 +130,14 @@ static int in_need(const task *t, const thr_cover_options *o)
 
 /* ---- frameworks ---- */
 
-static thr_frame ring_with_leaves(void) /* a triangle with two leaves at each corner; the feet are three leaves */
+static thr_frame ring_with_leaves(
+    void) /* a triangle with two leaves at each corner; the feet are three leaves */
 {
   static const double xyz[9][3] = {{0, 0, 0}, {4, 0, 0},   {2, 3, 0},  {-1, 0, 1}, {5, 0, 1},
                                    {2, 4, 1}, {-1, 0, -1}, {5, 0, -1}, {2, 4, -1}};
-  static const int edge[9][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 4}, {2, 5}, {0, 6}, {1, 7}, {2, 8}}, feet[] = {3, 4, 5, -1};
+  static const int edge[9][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 4},
+                                 {2, 5}, {0, 6}, {1, 7}, {2, 8}},
+                   feet[] = {3, 4, 5, -1};
   return frame_make(9, xyz, 9, edge, NULL, feet);
 }
 
@@ -151,8 +159,9 @@ static thr_frame shape(int k)
 
 /* ---- tests ---- */
 
-/* Exchanges keep the equations and the overlap; mended and opened solutions lack no more than before, improved ones are no worse
- * and count as what they are. *valid: can it be made concrete? */
+/* Exchanges keep the equations and the overlap; mended and opened solutions lack no more than
+ * before, improved ones are no worse and count as what they are. *valid: can it be made concrete?
+ */
 static void assert_exchanges(task *t, const thr_cover_options *o, double overlap, bool *valid)
 {
   double worth[THR_N_AIMS], after[THR_N_AIMS];
@@ -180,14 +189,16 @@ static bool start(task *t, thr_contraction_kind kind)
 {
   bool found;
   int kept = 0;
-  ck_assert_int_eq(thr_contraction_start(&t->c, kind, t->barred, &none, t->small, &found, NULL), THR_OK);
+  ck_assert_int_eq(thr_contraction_start(&t->c, kind, t->barred, &none, t->small, &found, NULL),
+                   THR_OK);
   if (found) ck_assert_int_eq(thr_contraction_lift(&t->c, t->small, t->value, &kept, NULL), THR_OK);
   memset(t->c.keep, 0, (size_t)t->q.n_darts * sizeof *t->c.keep);
   return found && kept == 0;
 }
 
-/* The last kind of start serves always: a cover under every group with every kind of end. The others, where there are any, solve
- * the equations, have no less overlap than is proved, and are what they were when contracted again. */
+/* The last kind of start serves always: a cover under every group with every kind of end. The
+ * others, where there are any, solve the equations, have no less overlap than is proved, and are
+ * what they were when contracted again. */
 START_TEST(starts_are_covers)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
@@ -208,7 +219,8 @@ START_TEST(starts_are_covers)
       ck_assert_double_ge(overlap, bound - 1e-9);
       thr_contraction_lower(&t.c, t.value, t.again);
       for (int j = 0; j < t.c.p.first_circle; j++)
-        if (j < t.c.p.first_pair || thr_programme_terminal(&t.c.p, j)) ck_assert_int_eq(t.again[j], t.small[j]);
+        if (j < t.c.p.first_pair || thr_programme_terminal(&t.c.p, j))
+          ck_assert_int_eq(t.again[j], t.small[j]);
       assert_exchanges(&t, &o, overlap, &valid);
     }
     ck_assert_msg(valid, "shape %d, run %d: the last start cannot be made concrete", _i, run);
@@ -218,13 +230,15 @@ START_TEST(starts_are_covers)
 }
 END_TEST
 
-/* Without symmetry the start is a least join, as exhaustive search finds it, and so is the bound. */
+/* Without symmetry the start is a least join, as exhaustive search finds it, and so is the bound.
+ */
 START_TEST(starts_are_least_joins)
 {
   static const thr_ends ends[] = {THR_ENDS_CLOSED, THR_ENDS_ANY, THR_ENDS_FEET};
   rng r = rng_make(500 + (uint64_t)_i);
   for (int run = 0; run < 30; run++) {
-    setting s = setting_make(40, random_frame(&r, rng_between(&r, 3, 8), 6, (length_kind)(run % LENGTH_KINDS)));
+    setting s = setting_make(
+        40, random_frame(&r, rng_between(&r, 3, 8), 6, (length_kind)(run % LENGTH_KINDS)));
     const thr_cover_options o = cover_options(ends[_i], 1 + run % 2);
     thr_request by_hand = options_for(ends[_i], o.cover);
     by_hand.cords = 8; /* no more ends than nodes are of use */
@@ -242,12 +256,14 @@ START_TEST(starts_are_least_joins)
 }
 END_TEST
 
-/* Bounds on steps and paths of covers of least overlap, against what least joins have. A prism has nine edges and six odd nodes:
- * three rungs more join them, twelve steps, one path. */
+/* Bounds on steps and paths of covers of least overlap, against what least joins have. A prism has
+ * nine edges and six odd nodes: three rungs more join them, twelve steps, one path. */
 START_TEST(ties)
 {
-  static const double xyz[6][3] = {{0, 0, 0}, {9, 0, 0}, {4, 8, 0}, {0, 0, 2}, {9, 0, 2}, {4, 8, 2}};
-  static const int edge[9][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+  static const double xyz[6][3] = {{0, 0, 0}, {9, 0, 0}, {4, 8, 0},
+                                   {0, 0, 2}, {9, 0, 2}, {4, 8, 2}};
+  static const int edge[9][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5},
+                                 {5, 3}, {0, 3}, {1, 4}, {2, 5}};
   setting s = setting_make(40, frame_make(6, xyz, 9, edge, NULL, NULL));
   const thr_cover_options o = cover_options(THR_ENDS_CLOSED, 1);
   task t;
@@ -262,7 +278,8 @@ START_TEST(ties)
   task_destroy(&t);
   setting_destroy(&s);
 
-  s = setting_make(40, triangles_make(3)); /* three paths, or one under a group that exchanges the triangles */
+  s = setting_make(
+      40, triangles_make(3)); /* three paths, or one under a group that exchanges the triangles */
   for (int row = 0; row < s.classes.n; row += s.classes.n - 1) {
     task_init(&t, &s, row, &o);
     paths = 0;

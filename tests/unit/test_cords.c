@@ -1,4 +1,6 @@
-/* Cords of symmetric covers: for every class of subgroups of small frameworks, plans that the checker agrees with. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cords of symmetric covers: for every class of subgroups of small frameworks, plans that the
+ * checker agrees with. */
 #include "graph/check/check.h"
 #include "symmetry/cover/cover.h"
 #include "symmetry/group/group.h"
@@ -52,7 +54,8 @@ static thr_frame frame_number(int i)
 enum { N_FRAMES = 14 };
 
 /* A plan of the cords, whose arrays it takes over. */
-static thr_plan plan_of(const thr_frame *f, const thr_cover_options *c, thr_cord *cord, int n_cords, thr_symmetry_record *r)
+static thr_plan plan_of(const thr_frame *f, const thr_cover_options *c, thr_cord *cord, int n_cords,
+                        thr_symmetry_record *r)
 {
   thr_plan p = {0};
   thr_request o = options_for(c->ends, c->cover);
@@ -105,12 +108,15 @@ static void assert_passes(const thr_plan *p, const thr_quotient *q, const thr_co
   free(passes);
 }
 
-/* Checks the values that the cover promises. Cords that run alike count once in a record, and what is read both ways twice. */
+/* Checks the values that the cover promises. Cords that run alike count once in a record, and what
+ * is read both ways twice. */
 static void assert_values(const thr_plan *p, const thr_cover *c, thr_ends ends)
 {
   ck_assert_double_eq_tol(p->metrics.overlap, c->value[THR_AIM_OVERLAP], 1e-6);
-  if (ends != THR_ENDS_ANY) ck_assert_double_eq_tol(p->metrics.turning, c->value[THR_AIM_TURNING], 1e-6);
-  ck_assert_double_le(p->symmetry.steps, (p->symmetry.retraced ? 2 : 1) * c->value[THR_AIM_STEPS] + 1e-6);
+  if (ends != THR_ENDS_ANY)
+    ck_assert_double_eq_tol(p->metrics.turning, c->value[THR_AIM_TURNING], 1e-6);
+  ck_assert_double_le(p->symmetry.steps,
+                      (p->symmetry.retraced ? 2 : 1) * c->value[THR_AIM_STEPS] + 1e-6);
   ck_assert_double_le(p->symmetry.unique_paths, c->value[THR_AIM_PATHS] + 1e-6);
 }
 
@@ -136,24 +142,26 @@ static bool try_group(const setting *s, int k, const thr_cover_options *o)
   thr_cover c;
   thr_err err = {0};
   thr_limits none = {0};
-  ck_assert_int_eq(thr_quotient_init(&q, &s->f, &s->g, &s->classes.subgroup[k], MOST_TYPES, &err), THR_OK);
+  ck_assert_int_eq(thr_quotient_init(&q, &s->f, &s->g, &s->classes.subgroup[k], MOST_TYPES, &err),
+                   THR_OK);
   thr_status st = thr_cover_find(&q, o, &none, &c, &err);
-  ck_assert_msg(st == THR_OK || st == THR_EINFEASIBLE, "class %d, %s: %s", k, thr_ends_name(o->ends), err.text);
+  ck_assert_msg(st == THR_OK || st == THR_EINFEASIBLE, "class %d, %s: %s", k,
+                thr_ends_name(o->ends), err.text);
   if (!st) {
     thr_cord *cord, *again;
     int n_cords, n_again;
     thr_symmetry_record r, r_again;
     st = thr_cover_cords(&q, o, &c, &cord, &n_cords, &r, &err);
-    ck_assert_msg(st == THR_OK, "class %d of order %d, %s, cover %d: %s", k, q.h->order, thr_ends_name(o->ends), o->cover,
-                  err.text);
+    ck_assert_msg(st == THR_OK, "class %d of order %d, %s, cover %d: %s", k, q.h->order,
+                  thr_ends_name(o->ends), o->cover, err.text);
     ck_assert_int_eq(thr_cover_cords(&q, o, &c, &again, &n_again, &r_again, NULL), THR_OK);
     ck_assert_int_eq(n_cords, n_again);
     assert_same_cords(cord, again, n_cords);
     cords_destroy(again, n_again);
     thr_symmetry_record_destroy(&r_again);
     thr_plan p = plan_of(&s->f, o, cord, n_cords, &r);
-    ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "class %d of order %d, %s, cover %d: %s", k, q.h->order,
-                  thr_ends_name(o->ends), o->cover, err.text);
+    ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "class %d of order %d, %s, cover %d: %s", k,
+                  q.h->order, thr_ends_name(o->ends), o->cover, err.text);
     assert_plan_sound(&p);
     assert_images(&p);
     assert_passes(&p, &q, &c);
@@ -214,7 +222,8 @@ static thr_plan whole_group_plan(thr_frame frame, thr_ends ends, int cover)
   thr_cord *cord;
   int n;
   thr_symmetry_record r;
-  ck_assert_int_eq(thr_quotient_init(&q, &s.f, &s.g, &s.classes.subgroup[0], MOST_TYPES, NULL), THR_OK);
+  ck_assert_int_eq(thr_quotient_init(&q, &s.f, &s.g, &s.classes.subgroup[0], MOST_TYPES, NULL),
+                   THR_OK);
   ck_assert_msg(thr_cover_find(&q, &o, &none, &c, &err) == THR_OK, "%s", err.text);
   ck_assert_msg(thr_cover_cords(&q, &o, &c, &cord, &n, &r, &err) == THR_OK, "%s", err.text);
   thr_plan p = plan_of(&s.f, &o, cord, n, &r);
@@ -227,17 +236,23 @@ static thr_plan whole_group_plan(thr_frame frame, thr_ends ends, int cover)
 /* MATHS: unique paths x copies, learned steps. */
 START_TEST(known_covers_have_known_cords)
 {
-  thr_plan p = whole_group_plan(no_feet(solid_make(CUBE)), THR_ENDS_CLOSED, 1); /* O_h: round every face */
-  ck_assert(p.symmetry.order == 48 && p.symmetry.unique_paths == 1 && p.n_cords == 6 && p.symmetry.steps == 0.5);
+  thr_plan p =
+      whole_group_plan(no_feet(solid_make(CUBE)), THR_ENDS_CLOSED, 1); /* O_h: round every face */
+  ck_assert(p.symmetry.order == 48 && p.symmetry.unique_paths == 1 && p.n_cords == 6 &&
+            p.symmetry.steps == 0.5);
   thr_plan_destroy(&p);
   p = whole_group_plan(truncated_icosahedron(), THR_ENDS_CLOSED, 1); /* I_h: round every hexagon */
-  ck_assert(p.symmetry.order == 120 && p.symmetry.unique_paths == 1 && p.n_cords == 20 && p.symmetry.steps == 1);
+  ck_assert(p.symmetry.order == 120 && p.symmetry.unique_paths == 1 && p.n_cords == 20 &&
+            p.symmetry.steps == 1);
   thr_plan_destroy(&p);
-  p = whole_group_plan(grid_make(6, 6), THR_ENDS_FEET, 1); /* the thesis's two unique paths, eight copies */
-  ck_assert(p.symmetry.order == 8 && p.symmetry.unique_paths == 2 && p.n_cords == 8 && p.symmetry.steps == 9);
+  p = whole_group_plan(grid_make(6, 6), THR_ENDS_FEET,
+                       1); /* the thesis's two unique paths, eight copies */
+  ck_assert(p.symmetry.order == 8 && p.symmetry.unique_paths == 2 && p.n_cords == 8 &&
+            p.symmetry.steps == 9);
   thr_plan_destroy(&p);
   p = whole_group_plan(grid_make(8, 8), THR_ENDS_FEET, 2);
-  ck_assert(p.symmetry.order == 8 && p.symmetry.unique_paths == 1 && p.n_cords == 8 && p.symmetry.steps == 28);
+  ck_assert(p.symmetry.order == 8 && p.symmetry.unique_paths == 1 && p.n_cords == 8 &&
+            p.symmetry.steps == 28);
   ck_assert_double_eq(p.metrics.overlap, 0);
   thr_plan_destroy(&p);
 }
@@ -247,12 +262,14 @@ END_TEST
 START_TEST(wrong_covers_are_refused)
 {
   setting s = setting_make(1000, grid_make(4, 4));
-  thr_cover_options closed = cover_options(THR_ENDS_CLOSED, 1), feet = cover_options(THR_ENDS_FEET, 1);
+  thr_cover_options closed = cover_options(THR_ENDS_CLOSED, 1),
+                    feet = cover_options(THR_ENDS_FEET, 1);
   thr_limits none = {0};
   for (int k = 0; k < s.classes.n; k++) {
     thr_quotient q;
     thr_cover c;
-    ck_assert_int_eq(thr_quotient_init(&q, &s.f, &s.g, &s.classes.subgroup[k], MOST_TYPES, NULL), THR_OK);
+    ck_assert_int_eq(thr_quotient_init(&q, &s.f, &s.g, &s.classes.subgroup[k], MOST_TYPES, NULL),
+                     THR_OK);
     ck_assert_int_eq(thr_cover_find(&q, &closed, &none, &c, NULL), THR_OK);
     for (int i = -1; i < q.n_copies + q.n_pairs + q.n_darts; i++) {
       thr_cord *cord;
@@ -264,7 +281,8 @@ START_TEST(wrong_covers_are_refused)
                    : i < q.n_copies + q.n_pairs ? &c.pairs[i - q.n_copies]
                                                 : &c.ends[i - q.n_copies - q.n_pairs];
       if (count) ++*count;
-      ck_assert_int_eq(thr_cover_cords(&q, count ? &closed : &feet, &c, &cord, &n, &r, &err), THR_ESOLVER);
+      ck_assert_int_eq(thr_cover_cords(&q, count ? &closed : &feet, &c, &cord, &n, &r, &err),
+                       THR_ESOLVER);
       assert_one_line(&err, count ? "cover" : "would be closed");
       ck_assert(!cord && n == 0 && !r.unique && !r.image);
       if (count) --*count;
@@ -283,7 +301,8 @@ START_TEST(every_failed_allocation_is_reported)
   thr_limits none = {0};
   thr_quotient q;
   thr_cover c;
-  ck_assert_int_eq(thr_quotient_init(&q, &s.f, &s.g, &s.classes.subgroup[0], MOST_TYPES, NULL), THR_OK);
+  ck_assert_int_eq(thr_quotient_init(&q, &s.f, &s.g, &s.classes.subgroup[0], MOST_TYPES, NULL),
+                   THR_OK);
   thr_status found = thr_cover_find(&q, &o, &none, &c, NULL);
   for (long k = 1; !found; k++) {
     thr_cord *cord;

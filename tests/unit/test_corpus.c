@@ -1,4 +1,6 @@
-/* The seeds of the fuzzers. A seed that its reader refuses leads no fuzzer to what lies behind, and nobody would notice. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The seeds of the fuzzers. A seed that its reader refuses leads no fuzzer to what lies behind, and
+ * nobody would notice. */
 #include "tests/support.h"
 #include "tests/plans.h"
 #include "graph/check/check.h"

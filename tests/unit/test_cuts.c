@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Forests of cuts against their sets written out. */
 #include "graph/plan/plan.h"
 #include "lp/tjoin/tjoin.h"
@@ -21,7 +22,8 @@ static int by_set(const void *pa, const void *pb)
   return (a->value > b->value) - (a->value < b->value);
 }
 
-/* The sets, sorted; asserts that children come first, that own nodes ascend, and that no node is twice in a tree. */
+/* The sets, sorted; asserts that children come first, that own nodes ascend, and that no node is
+ * twice in a tree. */
 static int written_out(const thr_cuts *c, valued *out)
 {
   for (int i = 0; i < c->n; i++)
@@ -30,7 +32,8 @@ static int written_out(const thr_cuts *c, valued *out)
     const thr_cut *cut = &c->cut[i];
     uint32_t own = 0;
     for (int j = 0; j < cut->n_nodes; j++) {
-      ck_assert(cut->node[j] >= 0 && cut->node[j] < c->n_nodes && (j == 0 || cut->node[j] > cut->node[j - 1]));
+      ck_assert(cut->node[j] >= 0 && cut->node[j] < c->n_nodes &&
+                (j == 0 || cut->node[j] > cut->node[j - 1]));
       own |= UINT32_C(1) << cut->node[j];
     }
     ck_assert_uint_eq(out[i].set & own, 0);
@@ -58,7 +61,8 @@ static void assert_same_sets(const thr_cuts *c, valued *expected, int n)
 static void add_set(thr_cuts *c, uint32_t set, int64_t value)
 {
   thr_cut *cut = &c->cut[c->n++];
-  *cut = (thr_cut){.parent = -1, .node = calloc((size_t)c->n_nodes, sizeof *cut->node), .value = value};
+  *cut = (thr_cut){
+      .parent = -1, .node = calloc((size_t)c->n_nodes, sizeof *cut->node), .value = value};
   ck_assert(cut->node != NULL);
   for (int v = 0; v < c->n_nodes; v++)
     if (set >> v & 1) cut->node[cut->n_nodes++] = v;

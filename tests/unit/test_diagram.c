@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Diagrams: layouts measured and chosen, and the overview picture read back from its SVG text. */
 #include "diagram/layout/layout.h"
 #include "diagram/overview/overview.h"
@@ -75,7 +76,8 @@ static bool has_point_edges(const thr_frame *f)
 
 /* ---- reading the SVG ---- */
 
-/* Is the text well-formed: tags balanced, attributes quoted, only the five entities, printable characters? */
+/* Is the text well-formed: tags balanced, attributes quoted, only the five entities, printable
+ * characters? */
 static bool well_formed(const char *s)
 {
   char stack[64][32];
@@ -173,12 +175,15 @@ static void assert_ids(const thr_plan *p, const char *svg)
     for (int i = 0; i < p->cord[c].n_passes; i++) {
       const char *key = want;
       snprintf(want, sizeof want, "%s-%d", p->cord[c].id, i + 1);
-      ck_assert_msg(bsearch(&key, id, (size_t)n, sizeof *id, by_text) != NULL, "pass %s is not drawn", want);
+      ck_assert_msg(bsearch(&key, id, (size_t)n, sizeof *id, by_text) != NULL,
+                    "pass %s is not drawn", want);
     }
-  for (int i = 0; i < (p->options.joint == THR_JOINT_SOLID ? p->frame.n_nodes : p->frame.n_edges); i++) {
+  for (int i = 0; i < (p->options.joint == THR_JOINT_SOLID ? p->frame.n_nodes : p->frame.n_edges);
+       i++) {
     const char *key = want;
     snprintf(want, sizeof want, "piece-%d", i);
-    ck_assert_msg(bsearch(&key, id, (size_t)n, sizeof *id, by_text) != NULL, "%s is not drawn", want);
+    ck_assert_msg(bsearch(&key, id, (size_t)n, sizeof *id, by_text) != NULL, "%s is not drawn",
+                  want);
   }
   free_list(id, n);
 }
@@ -208,18 +213,22 @@ static int assert_pills_apart(const char *svg)
   find_group(svg, "numbers", &from, &to);
   to = strstr(from, "<g id=\"legend\""); /* the key shows a pill too */
   ck_assert_ptr_nonnull(to);
-  for (const char *s = strstr(from, "class=\"pill\""); s && s < to && n < MAX_FOUND; s = strstr(s + 1, "class=\"pill\"")) {
+  for (const char *s = strstr(from, "class=\"pill\""); s && s < to && n < MAX_FOUND;
+       s = strstr(s + 1, "class=\"pill\"")) {
     double x = attribute(s, "x"), y = attribute(s, "y");
-    pill[n][0] = x, pill[n][1] = y, pill[n][2] = x + attribute(s, "width"), pill[n++][3] = y + attribute(s, "height");
+    pill[n][0] = x, pill[n][1] = y, pill[n][2] = x + attribute(s, "width"),
+    pill[n++][3] = y + attribute(s, "height");
   }
   for (int i = 0; i < n; i++)
     for (int j = 0; j < i; j++)
-      ck_assert_msg(pill[i][2] <= pill[j][0] || pill[j][2] <= pill[i][0] || pill[i][3] <= pill[j][1] || pill[j][3] <= pill[i][1],
+      ck_assert_msg(pill[i][2] <= pill[j][0] || pill[j][2] <= pill[i][0] ||
+                        pill[i][3] <= pill[j][1] || pill[j][3] <= pill[i][1],
                     "numbers %d and %d overlap", i, j);
   return n;
 }
 
-/* Every colour of a legend swatch is one that its cord is drawn in, and every pass's colour is in the legend. */
+/* Every colour of a legend swatch is one that its cord is drawn in, and every pass's colour is in
+ * the legend. */
 static void assert_legend_true(const thr_plan *p, const char *svg)
 {
   for (int c = 0; c < p->n_cords; c++) {
@@ -235,11 +244,14 @@ static void assert_legend_true(const thr_plan *p, const char *svg)
       ck_assert_msg(used && used < to, "cord %s is never %s", p->cord[c].id, colour);
     }
     ck_assert_int_gt(swatches, 0);
-    for (const char *s = strstr(from, "\" stroke=\"#"); s && s < to; s = strstr(s + 1, "\" stroke=\"#")) {
+    for (const char *s = strstr(from, "\" stroke=\"#"); s && s < to;
+         s = strstr(s + 1, "\" stroke=\"#")) {
       char want[100];
-      bool rim = s - from >= 3 && !strncmp(s - 3, "rim", 3); /* a dark line round a pale one: in its swatch too */
+      bool rim = s - from >= 3 &&
+                 !strncmp(s - 3, "rim", 3); /* a dark line round a pale one: in its swatch too */
       snprintf(want, sizeof want, "%s%.7s", rim ? "class=\"rim\" stroke=\"" : key, s + 10);
-      ck_assert_msg(strstr(rim ? strstr(svg, key) : svg, want) != NULL, "%s is missing in the legend", want);
+      ck_assert_msg(strstr(rim ? strstr(svg, key) : svg, want) != NULL,
+                    "%s is missing in the legend", want);
     }
   }
 }
@@ -252,7 +264,8 @@ static void assert_signs_apart(const char *svg)
   const char *from, *to;
   int n = 0;
   find_group(svg, "sharp-turns", &from, &to);
-  for (const char *s = strstr(from, "class=\"sharp\""); s && s < to; s = strstr(s + 1, "class=\"sharp\"")) {
+  for (const char *s = strstr(from, "class=\"sharp\""); s && s < to;
+       s = strstr(s + 1, "class=\"sharp\"")) {
     double x, top, half;
     ck_assert_int_lt(n, MOST);
     ck_assert_int_eq(sscanf(s, "class=\"sharp\" d=\"M%lf %lfl%lf", &x, &top, &half), 3);
@@ -260,11 +273,14 @@ static void assert_signs_apart(const char *svg)
   }
   for (int i = 0; i < n; i++) {
     for (int j = 0; j < i; j++)
-      ck_assert_double_ge(fmax(fabs(sign[i][0] - sign[j][0]), fabs(sign[i][1] - sign[j][1])), 2 * sign[i][2] - 0.03);
+      ck_assert_double_ge(fmax(fabs(sign[i][0] - sign[j][0]), fabs(sign[i][1] - sign[j][1])),
+                          2 * sign[i][2] - 0.03);
     find_group(svg, "numbers", &from, &to);
     to = strstr(from, "<g id=\"legend\"");
-    for (const char *s = strstr(from, "class=\"pill\""); s && s < to; s = strstr(s + 1, "class=\"pill\"")) {
-      double wide = 0.5 * attribute(s, "width"), high = 0.5 * attribute(s, "height"), reach = sign[i][2] - 0.03;
+    for (const char *s = strstr(from, "class=\"pill\""); s && s < to;
+         s = strstr(s + 1, "class=\"pill\"")) {
+      double wide = 0.5 * attribute(s, "width"), high = 0.5 * attribute(s, "height"),
+             reach = sign[i][2] - 0.03;
       ck_assert(fabs(attribute(s, "x") + wide - sign[i][0]) >= wide + reach ||
                 fabs(attribute(s, "y") + high - sign[i][1]) >= high + reach);
     }
@@ -274,7 +290,8 @@ static void assert_signs_apart(const char *svg)
 /* With turning shown: every inner pass has two coloured pieces, an end without a turn one. */
 static void assert_turning_sound(const thr_plan *p)
 {
-  thr_text svg = coloured_picture(p, THR_COLOUR_TURNING), again = coloured_picture(p, THR_COLOUR_TURNING);
+  thr_text svg = coloured_picture(p, THR_COLOUR_TURNING),
+           again = coloured_picture(p, THR_COLOUR_TURNING);
   assert_same_text(&svg, &again);
   ck_assert(well_formed(svg.data));
   ck_assert_ptr_null(strstr(svg.data, "nan"));
@@ -285,7 +302,8 @@ static void assert_turning_sound(const thr_plan *p)
   assert_signs_apart(svg.data);
   int pieces = 0, turns = 0;
   const char *legend = strstr(svg.data, "<g id=\"legend\"");
-  for (const char *s = strstr(svg.data, "class=\"turn\""); s && s < legend; s = strstr(s + 1, "class=\"turn\""))
+  for (const char *s = strstr(svg.data, "class=\"turn\""); s && s < legend;
+       s = strstr(s + 1, "class=\"turn\""))
     pieces++;
   for (int c = 0; c < p->n_cords; c++)
     turns += p->options.ends == THR_ENDS_CLOSED ? p->cord[c].n_passes : p->cord[c].n_passes - 1;
@@ -332,8 +350,8 @@ static bool has_id(const char *svg, const char *prefix, const char *cord, int pa
   return strstr(svg, key) != NULL;
 }
 
-/* Unique paths have hues in their order, a number on every pass and cover their copies, which are pale, without numbers and with
- * few arrows. */
+/* Unique paths have hues in their order, a number on every pass and cover their copies, which are
+ * pale, without numbers and with few arrows. */
 START_TEST(copies_are_pale)
 {
   thr_plan p = symmetric_dome(_i ? "C4" : "");
@@ -353,10 +371,12 @@ START_TEST(copies_are_pale)
     snprintf(id, sizeof id, "cord-%s", p.cord[c].id);
     find_group(svg.data, id, &from, &to);
     bool copy = unique[c] != c;
-    ck_assert_int_eq(strstr(from, "class=\"copy\"") == from + strlen("<g id=\"\" ") + strlen(id), copy);
+    ck_assert_int_eq(strstr(from, "class=\"copy\"") == from + strlen("<g id=\"\" ") + strlen(id),
+                     copy);
     const char *stroke = strstr(from, " stroke=\"") + 9;
     ck_assert_int_eq(strncmp(stroke, copy ? pale : strong, 7), 0);
-    for (const char *s = strstr(from, "class=\"arrow\""); s && s < to; s = strstr(s + 1, "class=\"arrow\""))
+    for (const char *s = strstr(from, "class=\"arrow\""); s && s < to;
+         s = strstr(s + 1, "class=\"arrow\""))
       arrows++;
     ck_assert_int_eq(arrows, copy ? (n + 3) / 4 : n);
     for (int k = 1; k <= n; k++)
@@ -375,7 +395,8 @@ START_TEST(copies_are_pale)
 }
 END_TEST
 
-/* The legend has a line per copy, with the words that are given for it; of very many copies a part. */
+/* The legend has a line per copy, with the words that are given for it; of very many copies a part.
+ */
 START_TEST(the_legend_says_how_paths_repeat)
 {
   thr_plan p = symmetric_dome("C4");
@@ -444,9 +465,12 @@ START_TEST(many_shapes_are_drawn_soundly)
   static const struct {
     thr_shape shape;
     int size, rings, cover;
-  } table[] = {{THR_MAKE_DOME, 12, 0, 1},  {THR_MAKE_DOME, 2, 0, 1},     {THR_MAKE_DOME, 5, 0, 4},     {THR_MAKE_TUBE, 10, 5, 1},
-               {THR_MAKE_SPHERE, 2, 0, 1}, {THR_MAKE_GEODESIC, 3, 0, 1}, {THR_MAKE_HONEYCOMB, 3, 0, 2}};
-  thr_plan p = shape_plan(table[_i].shape, table[_i].size, table[_i].rings, THR_ENDS_CLOSED, table[_i].cover);
+  } table[] = {{THR_MAKE_DOME, 12, 0, 1},    {THR_MAKE_DOME, 2, 0, 1},
+               {THR_MAKE_DOME, 5, 0, 4},     {THR_MAKE_TUBE, 10, 5, 1},
+               {THR_MAKE_SPHERE, 2, 0, 1},   {THR_MAKE_GEODESIC, 3, 0, 1},
+               {THR_MAKE_HONEYCOMB, 3, 0, 2}};
+  thr_plan p = shape_plan(table[_i].shape, table[_i].size, table[_i].rings, THR_ENDS_CLOSED,
+                          table[_i].cover);
   assert_picture_sound(&p);
   thr_text svg = picture(&p);
   assert_pills_apart(svg.data);
@@ -476,8 +500,10 @@ END_TEST
 START_TEST(odd_frameworks_do_not_crash)
 {
   rng r = rng_make(71);
-  thr_frame f[] = {path_make(2),           path_make(40),     ring_make(3),     star_make(90),
-                   wheel_make(12),         triangles_make(9), solid_make(CUBE), random_frame(&r, 30, 60, LENGTHS_EUCLID),
+  thr_frame f[] = {path_make(2),           path_make(40),
+                   ring_make(3),           star_make(90),
+                   wheel_make(12),         triangles_make(9),
+                   solid_make(CUBE),       random_frame(&r, 30, 60, LENGTHS_EUCLID),
                    solid_make(ICOSAHEDRON)};
   for (int i = 0; i < 9; i++) {
     for (int turned = 0; turned < 2; turned++) {
@@ -522,7 +548,10 @@ START_TEST(numbers_thin_out_with_the_pitch)
   static const struct {
     double pitch;
     const char *words;
-  } table[] = {{20, "Every pass is numbered"}, {12, "Every 5th pass"}, {8, "Every 10th pass"}, {3, "Every 50th pass"}};
+  } table[] = {{20, "Every pass is numbered"},
+               {12, "Every 5th pass"},
+               {8, "Every 10th pass"},
+               {3, "Every 50th pass"}};
   for (int i = 0; i < 4; i++) {
     thr_overview_options o = thr_overview_options_default();
     thr_text svg = {0};
@@ -611,7 +640,8 @@ static double turn(const double *a, const double *b, const double *c)
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Proper crossings by testing all pairs; *close tells of a pair that is so near to touching that opinions may differ. */
+/* Proper crossings by testing all pairs; *close tells of a pair that is so near to touching that
+ * opinions may differ. */
 static long crossings_by_pairs(const thr_frame *f, const thr_layout *l, bool *close)
 {
   long count = 0;
@@ -630,7 +660,8 @@ static long crossings_by_pairs(const thr_frame *f, const thr_layout *l, bool *cl
       const double *end[4] = {c, h, a, b}, *from[4] = {a, a, c, c}, *to[4] = {b, b, h, h};
       for (int i = 0; i < 4; i++) {
         double dx = to[i][0] - from[i][0], dy = to[i][1] - from[i][1];
-        double s = ((end[i][0] - from[i][0]) * dx + (end[i][1] - from[i][1]) * dy) / (dx * dx + dy * dy);
+        double s =
+            ((end[i][0] - from[i][0]) * dx + (end[i][1] - from[i][1]) * dy) / (dx * dx + dy * dy);
         s = s < 0 ? 0 : s > 1 ? 1 : s;
         *close |= hypot(from[i][0] + s * dx - end[i][0], from[i][1] + s * dy - end[i][1]) < near;
       }
@@ -644,7 +675,8 @@ static bool has_fold(const thr_frame *f, const thr_layout *l)
   for (int v = 0; v < f->n_nodes; v++)
     for (int i = f->first[v]; i < f->first[v + 1]; i++)
       for (int j = f->first[v]; j < i; j++) {
-        const double *o = l->xy[v], *a = l->xy[thr_head(f, f->half[i])], *b = l->xy[thr_head(f, f->half[j])];
+        const double *o = l->xy[v], *a = l->xy[thr_head(f, f->half[i])],
+                     *b = l->xy[thr_head(f, f->half[j])];
         double dot = (a[0] - o[0]) * (b[0] - o[0]) + (a[1] - o[1]) * (b[1] - o[1]);
         if (dot > 0 && fabs(turn(o, a, b)) < 0.02 * dot) return true;
         if (hypot(a[0] - o[0], a[1] - o[1]) < 0.021 * l->median) return true;
@@ -686,9 +718,12 @@ START_TEST(shapes_find_a_layout_without_crossings)
     thr_shape shape;
     int size, rings;
     thr_layout_kind kind;
-  } table[] = {{THR_MAKE_DOME, 7, 0, THR_LAYOUT_PLAN},        {THR_MAKE_HONEYCOMB, 4, 0, THR_LAYOUT_PLAN},
-               {THR_MAKE_TUBE, 12, 7, THR_LAYOUT_UNROLLED_Z}, {THR_MAKE_GEODESIC, 4, 0, THR_LAYOUT_UNROLLED_Z},
-               {THR_MAKE_SPHERE, 2, 0, THR_LAYOUT_PANELS},    {THR_MAKE_SPHERE, 5, 0, THR_LAYOUT_PANELS}};
+  } table[] = {{THR_MAKE_DOME, 7, 0, THR_LAYOUT_PLAN},
+               {THR_MAKE_HONEYCOMB, 4, 0, THR_LAYOUT_PLAN},
+               {THR_MAKE_TUBE, 12, 7, THR_LAYOUT_UNROLLED_Z},
+               {THR_MAKE_GEODESIC, 4, 0, THR_LAYOUT_UNROLLED_Z},
+               {THR_MAKE_SPHERE, 2, 0, THR_LAYOUT_PANELS},
+               {THR_MAKE_SPHERE, 5, 0, THR_LAYOUT_PANELS}};
   thr_frame f = shape_make(table[_i].shape, table[_i].size, table[_i].rings);
   thr_layout l = {0};
   ck_assert_int_eq(thr_layout_choose(&l, &f, NULL, 0, NULL), THR_OK);
@@ -702,8 +737,10 @@ END_TEST
 
 START_TEST(layouts_show_the_outside)
 {
-  /* a triangle at the crown, counter-clockwise from above, stays so in every layout seen from above */
-  static const thr_layout_kind kinds[] = {THR_LAYOUT_PLAN, THR_LAYOUT_UNROLLED_Z, THR_LAYOUT_SPREAD, THR_LAYOUT_PLANE};
+  /* a triangle at the crown, counter-clockwise from above, stays so in every layout seen from above
+   */
+  static const thr_layout_kind kinds[] = {THR_LAYOUT_PLAN, THR_LAYOUT_UNROLLED_Z, THR_LAYOUT_SPREAD,
+                                          THR_LAYOUT_PLANE};
   thr_frame f = shape_make(THR_MAKE_GEODESIC, 3, 0);
   int top = 0;
   for (int v = 0; v < f.n_nodes; v++)
@@ -714,7 +751,9 @@ START_TEST(layouts_show_the_outside)
     for (int i = f.first[top]; i + 1 < f.first[top + 1]; i++) {
       int a = thr_head(&f, f.half[i]), b = thr_head(&f, f.half[i + 1]);
       double above = turn(f.xyz[top], f.xyz[a], f.xyz[b]);
-      if (fabs(above) > 1e-6) ck_assert_msg(above * turn(l.xy[top], l.xy[a], l.xy[b]) > 0, "mirrored: layout %d", (int)kinds[k]);
+      if (fabs(above) > 1e-6)
+        ck_assert_msg(above * turn(l.xy[top], l.xy[a], l.xy[b]) > 0, "mirrored: layout %d",
+                      (int)kinds[k]);
     }
     thr_layout_destroy(&l);
   }

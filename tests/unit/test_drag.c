@@ -1,4 +1,6 @@
-/* A cord dragged in Bullet: the capstan law as oracle, the taut path of a zigzag in closed form, same bits, range and refusals.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A cord dragged in Bullet: the capstan law as oracle, the taut path of a zigzag in closed form,
+ * same bits, range and refusals.
  */
 #include "eval/joint/joint.h"
 #include "graph/angle.h"
@@ -12,7 +14,14 @@ static const double DEGREE = THR_PI / 180;
 
 static thr_drag joint(const double *turn, double mu)
 {
-  return (thr_drag){.n_turns = 1, .turn = turn, .bore = 2, .mu = mu, .seed = 1, .time_step = 1, .iterations = 1, .spacing = 1};
+  return (thr_drag){.n_turns = 1,
+                    .turn = turn,
+                    .bore = 2,
+                    .mu = mu,
+                    .seed = 1,
+                    .time_step = 1,
+                    .iterations = 1,
+                    .spacing = 1};
 }
 
 static thr_drag_result measure(const thr_drag *d)
@@ -29,8 +38,10 @@ static void assert_capstan(const thr_drag *d, double tolerance)
   double turn = d->turn[0], law = exp(d->mu * turn);
   thr_drag_result r = measure(d);
   ck_assert_int_eq(r.status, THR_DRAG_SETTLED);
-  ck_assert_msg(fabs(r.ratio / law - 1) <= tolerance, "%g degrees, mu %g: %.6f, exp %.6f", turn / DEGREE, d->mu, r.ratio, law);
-  ck_assert_msg(fabs(r.ratio / law - 1) <= thr_drag_error(d, &r), "error said to be %g", thr_drag_error(d, &r));
+  ck_assert_msg(fabs(r.ratio / law - 1) <= tolerance, "%g degrees, mu %g: %.6f, exp %.6f",
+                turn / DEGREE, d->mu, r.ratio, law);
+  ck_assert_msg(fabs(r.ratio / law - 1) <= thr_drag_error(d, &r), "error said to be %g",
+                thr_drag_error(d, &r));
   ck_assert_double_eq_tol(r.taut, turn, 0.1 * DEGREE);
   ck_assert(fabs(r.drift) < 0.005 && r.scatter < 0.0025 && r.steps > 0);
 }
@@ -63,7 +74,8 @@ START_TEST(joints_obey_the_capstan_law)
 }
 END_TEST
 
-/* Another start, finer steps and more iterations change no more than is reported, and half a per mille for the length of steps.
+/* Another start, finer steps and more iterations change no more than is reported, and half a per
+ * mille for the length of steps.
  */
 START_TEST(result_does_not_hang_on_the_protocol)
 {
@@ -76,7 +88,8 @@ START_TEST(result_does_not_hang_on_the_protocol)
   thr_drag_result r = measure(&d);
   ck_assert(r.ratio != first.ratio);
   double error = fmin(0.002, thr_drag_error(&d, &first) + thr_drag_error(&d, &r));
-  ck_assert_msg(fabs(r.ratio / first.ratio - 1) <= error, "%.6f, %.6f, error %g", first.ratio, r.ratio, error);
+  ck_assert_msg(fabs(r.ratio / first.ratio - 1) <= error, "%.6f, %.6f, error %g", first.ratio,
+                r.ratio, error);
 }
 END_TEST
 
@@ -85,13 +98,14 @@ START_TEST(same_input_gives_the_same_bits)
   double turn = 45 * DEGREE;
   thr_drag d = joint(&turn, 0.3);
   thr_drag_result a = measure(&d), b = measure(&d);
-  ck_assert(a.status == b.status && a.ratio == b.ratio && a.drift == b.drift && a.scatter == b.scatter && a.taut == b.taut &&
-            a.steps == b.steps);
+  ck_assert(a.status == b.status && a.ratio == b.ratio && a.drift == b.drift &&
+            a.scatter == b.scatter && a.taut == b.taut && a.steps == b.steps);
 }
 END_TEST
 
-/* A plane zigzag of equal turns: the cord touches the inner edges, which lie bore / cos(theta / 2) off the axes' corners. Between
- * two edges it is the inner tangent of two circles of the cord's radius; at the ends it is parallel to the channels. */
+/* A plane zigzag of equal turns: the cord touches the inner edges, which lie bore / cos(theta / 2)
+ * off the axes' corners. Between two edges it is the inner tangent of two circles of the cord's
+ * radius; at the ends it is parallel to the channels. */
 START_TEST(zigzag_cuts_corners)
 {
   enum { TURNS = 3 };
@@ -106,15 +120,18 @@ START_TEST(zigzag_cuts_corners)
   double slope = atan2(y, x) + asin(2 / hypot(x, y));
   double taut = 2 * (theta / 2 + slope) + (TURNS - 2) * 2 * slope;
   ck_assert_int_eq(r.status, THR_DRAG_SETTLED);
-  ck_assert_msg(fabs(r.taut / taut - 1) < 0.01, "turned %.2f degrees, %.2f expected", r.taut / DEGREE, taut / DEGREE);
-  ck_assert_msg(fabs(r.ratio / exp(mu * taut) - 1) < 0.01, "%.5f, exp %.5f", r.ratio, exp(mu * taut));
+  ck_assert_msg(fabs(r.taut / taut - 1) < 0.01, "turned %.2f degrees, %.2f expected",
+                r.taut / DEGREE, taut / DEGREE);
+  ck_assert_msg(fabs(r.ratio / exp(mu * taut) - 1) < 0.01, "%.5f, exp %.5f", r.ratio,
+                exp(mu * taut));
 }
 END_TEST
 
 /* 2 acos(1 / bore): below it the law holds, beyond it the cord wedges and loses more. */
 START_TEST(tight_bores_wedge)
 {
-  double bore = 1.3, round = thr_drag_round_turn(bore), below = round - 4 * DEGREE, beyond = round + 20 * DEGREE;
+  double bore = 1.3, round = thr_drag_round_turn(bore), below = round - 4 * DEGREE,
+         beyond = round + 20 * DEGREE;
   ck_assert_double_eq_tol(thr_drag_round_turn(2), 120 * DEGREE, 1e-12);
   thr_drag d = joint(&below, 0.3);
   d.bore = bore;
@@ -192,7 +209,8 @@ START_TEST(what_was_not_validated_is_not_measured)
 }
 END_TEST
 
-/* Ten times the validated step: the chain shakes. A number is there all the same, but it says that it is none. */
+/* Ten times the validated step: the chain shakes. A number is there all the same, but it says that
+ * it is none. */
 START_TEST(steps_too_long_never_settle)
 {
   double turn = 90 * DEGREE;
@@ -259,9 +277,11 @@ END_TEST
 
 START_TEST(protocol_names_its_numbers)
 {
-  static const char *words[] = {"spheres 0.2", "density", "speed", "iterations", "sides", "margin", "settle", "average"};
+  static const char *words[] = {"spheres 0.2", "density", "speed",  "iterations",
+                                "sides",       "margin",  "settle", "average"};
   for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-    ck_assert_msg(strstr(thr_drag_protocol(), words[i]) != NULL, "%s: %s", words[i], thr_drag_protocol());
+    ck_assert_msg(strstr(thr_drag_protocol(), words[i]) != NULL, "%s: %s", words[i],
+                  thr_drag_protocol());
 }
 END_TEST
 

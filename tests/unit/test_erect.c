@@ -1,5 +1,6 @@
-/* How structures come up: what stands without a cord comes up by itself, stills are what they say, nonsense is refused, and equal
- * input gives equal bits. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How structures come up: what stands without a cord comes up by itself, stills are what they say,
+ * nonsense is refused, and equal input gives equal bits. */
 #include "eval/structure/beads.h"
 
 #include "graph/framework/frame.h"
@@ -32,7 +33,8 @@ static column column_of(const double direction[3])
   for (int i = 0; i < 4; i++)
     for (int k = 0; k < 3; k++)
       xyz[i][k] = 0.4 * i * direction[k];
-  c.frame = frame_make(4, (const double(*)[3])xyz, 3, (const int[][2]){{0, 1}, {1, 2}, {2, 3}}, NULL, NULL);
+  c.frame = frame_make(4, (const double(*)[3])xyz, 3, (const int[][2]){{0, 1}, {1, 2}, {2, 3}},
+                       NULL, NULL);
   memcpy(c.frame.units, "m", 2);
   c.physics.bead_diameter = 120;
   c.physics.bore = 10;
@@ -50,7 +52,8 @@ static void column_destroy(column *c)
 static thr_status run(const column *c, double pull, thr_erect *out, thr_err *err)
 {
   const thr_erect_options o = {.pull = pull, .time_step = 1, .iterations = 1, .seed = 1};
-  return thr_erect_run(&c->beads, &c->frame, &c->cord, 1, (const double *const[]){EVEN}, &c->physics, &o, NULL, out, err);
+  return thr_erect_run(&c->beads, &c->frame, &c->cord, 1, (const double *const[]){EVEN},
+                       &c->physics, &o, NULL, out, err);
 }
 
 static thr_erect erect_of(const column *c, double pull)
@@ -62,13 +65,15 @@ static thr_erect erect_of(const column *c, double pull)
   return e;
 }
 
-/* What needs no cord is never down: no counterweight, all faces closed from the start, as high as drawn. */
+/* What needs no cord is never down: no counterweight, all faces closed from the start, as high as
+ * drawn. */
 START_TEST(what_stands_comes_up_by_itself)
 {
   column c = column_of((const double[]){0, 0, 1});
   thr_erect e = erect_of(&c, 10 * c.beads.mass[1]);
   ck_assert(e.lift == 0);
-  ck_assert_double_eq_tol(e.weight, 9.81 * (c.beads.mass[1] + c.beads.mass[2] + c.beads.mass[3]), 0.01 * e.weight);
+  ck_assert_double_eq_tol(e.weight, 9.81 * (c.beads.mass[1] + c.beads.mass[2] + c.beads.mass[3]),
+                          0.01 * e.weight);
   for (int i = 0; i < THR_ERECT_STILLS; i++) {
     ck_assert_int_eq(e.still[i].closed, 3);
     ck_assert_double_eq_tol(e.still[i].height, e.drawn, 0.01 * e.drawn);
@@ -78,8 +83,9 @@ START_TEST(what_stands_comes_up_by_itself)
 }
 END_TEST
 
-/* A cantilever hangs down from its wall under a slack cord and is drawn straight again: against its weight if the cord draws hard
- * enough, or else with a counterweight. Moments about the lower edge: weight x arm = pull x half the width. */
+/* A cantilever hangs down from its wall under a slack cord and is drawn straight again: against its
+ * weight if the cord draws hard enough, or else with a counterweight. Moments about the lower edge:
+ * weight x arm = pull x half the width. */
 START_TEST(a_cantilever_is_drawn_up)
 {
   column c = column_of((const double[]){1, 0, 0});

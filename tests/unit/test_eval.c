@@ -1,5 +1,7 @@
-/* The contract of thr_eval_plan (eval/eval.h), for every method alike. A joint takes a second to measure, so that all joints are
- * kept in one folder for the run of this program, and the shape that the simulations see has one turn. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The contract of thr_eval_plan (eval/eval.h), for every method alike. A joint takes a second to
+ * measure, so that all joints are kept in one folder for the run of this program, and the shape
+ * that the simulations see has one turn. */
 #define _POSIX_C_SOURCE 200809L
 #include "eval/eval.h"
 #include "graph/io/writer.h"
@@ -19,11 +21,13 @@
 static char cache[] = "/tmp/thread-test-XXXXXX";
 static const thr_limits none;
 
-/* n posts, each with a short arm: one turn of 90 degrees, and a structure that holds only if its cord is tight. */
+/* n posts, each with a short arm: one turn of 90 degrees, and a structure that holds only if its
+ * cord is tight. */
 static thr_frame post_make(int n)
 {
   double(*xyz)[3] = calloc((size_t)(3 * n), sizeof *xyz);
-  int(*edge)[2] = calloc((size_t)(2 * n), sizeof *edge), *feet = calloc((size_t)n + 1, sizeof *feet);
+  int(*edge)[2] = calloc((size_t)(2 * n), sizeof *edge),
+  *feet = calloc((size_t)n + 1, sizeof *feet);
   ck_assert(xyz && edge && feet);
   for (int i = 0; i < n; i++) {
     const double post[3][3] = {{3 * i, 0, 0}, {3 * i, 0, 1}, {3 * i + 0.5, 0, 1}};
@@ -35,7 +39,8 @@ static thr_frame post_make(int n)
     feet[i] = 3 * i;
   }
   feet[n] = -1;
-  thr_frame f = frame_make(3 * n, (const double(*)[3])xyz, 2 * n, (const int(*)[2])edge, NULL, feet);
+  thr_frame f =
+      frame_make(3 * n, (const double(*)[3])xyz, 2 * n, (const int(*)[2])edge, NULL, feet);
   memcpy(f.units, "cm", 3);
   free(xyz);
   free(edge);
@@ -57,7 +62,8 @@ static thr_eval eval(const thr_plan *p, thr_method method, const thr_eval_option
   thr_err err = {0};
   thr_status st = thr_eval_plan(&p->frame, p->cord, p->n_cords, method, o, &none, &e, &err);
   ck_assert_msg(st == THR_OK, "method %s: %s", thr_method_name(method), err.text);
-  ck_assert(e.complete && e.record.present && e.record.method == method && e.record.n_cords == p->n_cords);
+  ck_assert(e.complete && e.record.present && e.record.method == method &&
+            e.record.n_cords == p->n_cords);
   return e;
 }
 
@@ -70,27 +76,35 @@ static double sum_of_turns(const thr_frame *f, const thr_cord *c)
 }
 
 /* What holds of a cord's record whatever the method. */
-static void assert_cord_sound(const thr_frame *f, const thr_cord *cord, const thr_evaluation *r, const thr_eval_cord *c)
+static void assert_cord_sound(const thr_frame *f, const thr_cord *cord, const thr_evaluation *r,
+                              const thr_eval_cord *c)
 {
-  double start = c->tension[0], end = c->tension[cord->n_passes - 1], least = c->tension[c->slackest];
+  double start = c->tension[0], end = c->tension[cord->n_passes - 1],
+         least = c->tension[c->slackest];
   ck_assert(c->known && c->n_passes == cord->n_passes);
   ck_assert_double_eq_tol(c->turning, sum_of_turns(f, cord), 1e-12);
   ck_assert(c->taut_turning >= 0 && c->taut_turning <= c->turning + 1e-9 && c->error >= 0);
   for (int k = 0; k < c->n_passes; k++)
     ck_assert_double_ge(c->tension[k], least);
   if (r->method != THR_STRUCTURE) ck_assert_double_eq(least, r->physics.seating);
-  ck_assert_double_eq(c->force, c->pull == THR_PULL_START ? start : c->pull == THR_PULL_END ? end : fmax(start, end));
+  ck_assert_double_eq(c->force, c->pull == THR_PULL_START ? start
+                                : c->pull == THR_PULL_END ? end
+                                                          : fmax(start, end));
   ck_assert_double_eq(c->other_force, c->pull == THR_PULL_BOTH ? fmin(start, end) : 0);
   ck_assert_double_eq(c->work, c->force + c->other_force);
   ck_assert_double_eq_tol(c->loss, 1 - least / c->force, 1e-12);
   if (r->method == THR_STRUCTURE) return;
   double decades = log(c->force / least), expected = r->physics.mu * c->taut_turning;
   if (c->pull == THR_PULL_BOTH) decades += log(c->other_force / least);
-  if (c->pull == THR_PULL_BOTH && c->n_passes > 1) /* neither end slides over the turn behind the slackest pass */
-    expected -= r->method == THR_JOINT ? c->exponent[c->slackest]
-                                       : r->physics.mu * thr_turn_angle(f, cord->half[c->slackest], cord->half[c->slackest + 1]);
-  ck_assert_double_eq_tol(decades, expected,
-                          1e-12 + (r->method == THR_JOINT ? 0.01 * r->physics.mu * c->taut_turning + c->error : 0));
+  if (c->pull == THR_PULL_BOTH &&
+      c->n_passes > 1) /* neither end slides over the turn behind the slackest pass */
+    expected -= r->method == THR_JOINT
+                    ? c->exponent[c->slackest]
+                    : r->physics.mu *
+                          thr_turn_angle(f, cord->half[c->slackest], cord->half[c->slackest + 1]);
+  ck_assert_double_eq_tol(
+      decades, expected,
+      1e-12 + (r->method == THR_JOINT ? 0.01 * r->physics.mu * c->taut_turning + c->error : 0));
 }
 
 START_TEST(records_are_sound_whichever_end_is_pulled)
@@ -103,12 +117,14 @@ START_TEST(records_are_sound_whichever_end_is_pulled)
   o.physics.seating = 3;
   thr_eval e = eval(&p, method, &o);
   const thr_evaluation *r = &e.record;
-  ck_assert(r->cord[0].pull == o.pull && r->seed == o.seed && r->physics.seating == 3 && r->physics.bore > 0);
+  ck_assert(r->cord[0].pull == o.pull && r->seed == o.seed && r->physics.seating == 3 &&
+            r->physics.bore > 0);
   assert_cord_sound(&f, p.cord, r, r->cord);
   ck_assert_double_eq(r->largest, r->cord[0].force);
   ck_assert_double_eq(r->total, r->cord[0].work);
   ck_assert_double_eq(e.error, r->cord[0].error);
-  double slack = e.error + (method == THR_STRUCTURE ? 1e-6 : 1e-12); /* of the linear programme, of rounding */
+  double slack =
+      e.error + (method == THR_STRUCTURE ? 1e-6 : 1e-12); /* of the linear programme, of rounding */
   ck_assert(e.band[0] <= r->largest * (1 + slack) && r->largest <= e.band[1] * (1 + slack));
   p.evaluation = e.record; /* and the checker agrees, after JSON too */
   e.record = (thr_evaluation){0};
@@ -134,7 +150,8 @@ START_TEST(every_cord_can_be_pulled_its_own_way)
     assert_cord_sound(&f, &p.cord[i], &e.record, &e.record.cord[i]);
   if (_i != THR_STRUCTURE) ck_assert_double_eq(e.record.cord[0].force, all.record.cord[0].force);
   ck_assert_double_eq(e.record.largest, fmax(e.record.cord[0].force, e.record.cord[1].force));
-  ck_assert_double_eq_tol(e.record.total, e.record.cord[0].work + e.record.cord[1].work, 1e-12 * e.record.total);
+  ck_assert_double_eq_tol(e.record.total, e.record.cord[0].work + e.record.cord[1].work,
+                          1e-12 * e.record.total);
   thr_eval_destroy(&all);
   thr_eval_destroy(&e);
   thr_plan_destroy(&p);
@@ -164,10 +181,12 @@ START_TEST(more_friction_is_never_less_pull)
 }
 END_TEST
 
-/* Twice the seating tension is twice the seating pull; twice the weight, by gravity or by mass, is twice the holding pull. */
+/* Twice the seating tension is twice the seating pull; twice the weight, by gravity or by mass, is
+ * twice the holding pull. */
 START_TEST(pull_is_proportional)
 {
-  static const char *const seating[] = {"seating", NULL}, *const weight[] = {"gravity", "density", NULL};
+  static const char *const seating[] = {"seating", NULL}, *const weight[] = {"gravity", "density",
+                                                                             NULL};
   thr_frame f = post_make(1);
   thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
   thr_eval_options o = options();
@@ -176,7 +195,8 @@ START_TEST(pull_is_proportional)
   for (const char *const *key = _i == THR_STRUCTURE ? weight : seating; *key; key++) {
     const thr_physics_field *field = thr_physics_find(*key);
     o = options();
-    ck_assert_int_eq(thr_physics_set(&o.physics, field, 2 * thr_physics_get(&o.physics, field), NULL), THR_OK);
+    ck_assert_int_eq(
+        thr_physics_set(&o.physics, field, 2 * thr_physics_get(&o.physics, field), NULL), THR_OK);
     thr_eval twice = eval(&p, (thr_method)_i, &o);
     double tolerance = (_i == THR_STRUCTURE ? 1e-6 : 1e-12) * twice.record.largest;
     ck_assert_double_eq_tol(twice.record.largest, 2 * once.record.largest, tolerance);
@@ -195,7 +215,8 @@ static void assert_same_bits(const thr_eval *a, const thr_eval *b)
   thr_evaluation_write(&a->record, &(thr_writer){.out = &x}, NULL); /* all digits */
   thr_evaluation_write(&b->record, &(thr_writer){.out = &y}, NULL);
   assert_same_text(&x, &y);
-  ck_assert(memcmp(a->band, b->band, sizeof a->band) == 0 && a->error == b->error && a->refused == b->refused);
+  ck_assert(memcmp(a->band, b->band, sizeof a->band) == 0 && a->error == b->error &&
+            a->refused == b->refused);
   ck_assert_int_eq(a->refused, a->refused_sharp + a->refused_outside + a->refused_unsettled);
   thr_text_destroy(&x);
   thr_text_destroy(&y);
@@ -233,7 +254,8 @@ START_TEST(dynamics_give_the_same_bits)
   thr_eval a = eval(&p, THR_STRUCTURE, &o), b = eval(&p, THR_STRUCTURE, &o);
   assert_same_bits(&a, &b);
   ck_assert(a.settle.present && a.settle.n_beads == 3 && b.settle.n_beads == 3);
-  ck_assert(a.settle.status == b.settle.status && a.settle.fall == b.settle.fall && a.settle.drift == b.settle.drift);
+  ck_assert(a.settle.status == b.settle.status && a.settle.fall == b.settle.fall &&
+            a.settle.drift == b.settle.drift);
   ck_assert(memcmp(a.settle.before, b.settle.before, 3 * sizeof *a.settle.before) == 0);
   ck_assert(memcmp(a.settle.after, b.settle.after, 3 * sizeof *a.settle.after) == 0);
   thr_eval_destroy(&a);
@@ -303,9 +325,10 @@ START_TEST(absurd_options_are_refused)
   static const struct {
     void (*spoil)(thr_eval_options *);
     const char *word;
-  } wrong[] = {{spoil_mu, "mu"},          {spoil_mu_large, "mu"},        {spoil_mu_nan, "mu"},   {spoil_seating, "seating"},
-               {spoil_bore, "bore"},      {spoil_bead, "bead_diameter"}, {spoil_edge, "edge 1"}, {spoil_mass, "density"},
-               {spoil_step, "time step"}, {spoil_iterations, "iter"},    {spoil_start, "start"}, {spoil_processes, "processes"},
+  } wrong[] = {{spoil_mu, "mu"},           {spoil_mu_large, "mu"},  {spoil_mu_nan, "mu"},
+               {spoil_seating, "seating"}, {spoil_bore, "bore"},    {spoil_bead, "bead_diameter"},
+               {spoil_edge, "edge 1"},     {spoil_mass, "density"}, {spoil_step, "time step"},
+               {spoil_iterations, "iter"}, {spoil_start, "start"},  {spoil_processes, "processes"},
                {spoil_seed, "seed"}};
   thr_frame f = post_make(1);
   thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
@@ -361,13 +384,15 @@ static void interrupt(void *user, const char *what, double done)
   interrupted_later = 1;
 }
 
-/* Two cords to and fro on one edge each, pulled with 1.2e308 N, and one with turns to measure: stopped in between, the first two
- * are known, though their sum is not a number. */
+/* Two cords to and fro on one edge each, pulled with 1.2e308 N, and one with turns to measure:
+ * stopped in between, the first two are known, though their sum is not a number. */
 START_TEST(a_stop_is_a_stop_whatever_the_sum)
 {
   enum { PASSES = 121 };
-  const double at[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 5, 0}, {1, 5, 0}, {0, 9, 0}, {1, 9, 0}, {1.5, 10, 0}, {3, 10, 2}};
-  thr_frame f = frame_make(8, at, 5, (const int[5][2]){{0, 1}, {2, 3}, {4, 5}, {5, 6}, {6, 7}}, NULL, NULL);
+  const double at[8][3] = {{0, 0, 0}, {1, 0, 0}, {0, 5, 0},    {1, 5, 0},
+                           {0, 9, 0}, {1, 9, 0}, {1.5, 10, 0}, {3, 10, 2}};
+  thr_frame f =
+      frame_make(8, at, 5, (const int[5][2]){{0, 1}, {2, 3}, {4, 5}, {5, 6}, {6, 7}}, NULL, NULL);
   int half[2][PASSES];
   for (int k = 0; k < PASSES; k++) {
     half[0][k] = k % 2;
@@ -387,9 +412,11 @@ START_TEST(a_stop_is_a_stop_whatever_the_sum)
   thr_status st = thr_eval_plan(&f, cord, 3, THR_JOINT, &o, &limits, &e, &err);
   ck_assert_msg(st == THR_ELIMIT, "status %d: %s", (int)st, err.text);
   assert_one_line(&err, "stopped");
-  ck_assert(!e.complete && e.record.cord[0].known && e.record.cord[1].known && !e.record.cord[2].known);
+  ck_assert(!e.complete && e.record.cord[0].known && e.record.cord[1].known &&
+            !e.record.cord[2].known);
   ck_assert_double_eq_tol(e.record.largest, 1.2e308, 1e298);
-  ck_assert(e.record.total == INFINITY && e.refused == 2 * (PASSES - 1) && e.refused == e.refused_sharp);
+  ck_assert(e.record.total == INFINITY && e.refused == 2 * (PASSES - 1) &&
+            e.refused == e.refused_sharp);
   thr_eval_destroy(&e);
   err = (thr_err){0};
   ck_assert_int_eq(thr_eval_plan(&f, cord, 2, THR_CAPSTAN, &o, &none, &e, &err), THR_EINPUT);
@@ -398,7 +425,8 @@ START_TEST(a_stop_is_a_stop_whatever_the_sum)
 }
 END_TEST
 
-/* Bullet takes steps ten times too long: no joint settles, and closed forms alone are not passed off as a simulation. */
+/* Bullet takes steps ten times too long: no joint settles, and closed forms alone are not passed
+ * off as a simulation. */
 START_TEST(unsettled_joints_are_not_a_simulation)
 {
   thr_frame f = post_make(1);
@@ -425,7 +453,8 @@ START_TEST(an_interrupt_leaves_what_is_complete)
   thr_eval e;
   thr_err err = {0};
   thr_status st = thr_eval_plan(&f, p.cord, p.n_cords, (thr_method)_i, &o, &stopped, &e, &err);
-  ck_assert_msg(st == THR_ELIMIT || (st == THR_OK && e.complete), "status %d: %s", (int)st, err.text);
+  ck_assert_msg(st == THR_ELIMIT || (st == THR_OK && e.complete), "status %d: %s", (int)st,
+                err.text);
   if (st) assert_one_line(&err, NULL);
   ck_assert(e.record.present && e.record.n_cords == 2);
   for (int i = 0; i < 2; i++) {
@@ -434,7 +463,8 @@ START_TEST(an_interrupt_leaves_what_is_complete)
     if (c->known)
       assert_cord_sound(&f, &p.cord[i], &e.record, c);
     else
-      ck_assert(!e.complete && c->tension == NULL && c->force == 0 && c->work == 0 && c->turning == 0 && c->error == 0);
+      ck_assert(!e.complete && c->tension == NULL && c->force == 0 && c->work == 0 &&
+                c->turning == 0 && c->error == 0);
   }
   thr_eval_destroy(&e);
   thr_eval_destroy(&e);

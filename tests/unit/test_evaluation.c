@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The record of an evaluation: colours, sums, JSON there and back, and what the checker sees. */
 #include "eval/eval.h"
 #include "graph/check/check.h"
@@ -36,8 +37,8 @@ static void oklab(const double rgb[3], double lab[3])
   lab[2] = 0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s;
 }
 
-/* Equal ratios of tension are equal steps to the eye, from pale to dark, also to one that confuses red and green (matrix of
- * Vienot, Brettel and Mollon, 1999, deuteranopia). */
+/* Equal ratios of tension are equal steps to the eye, from pale to dark, also to one that confuses
+ * red and green (matrix of Vienot, Brettel and Mollon, 1999, deuteranopia). */
 START_TEST(colours_are_even_and_ordered)
 {
   enum { N = 17 };
@@ -54,7 +55,8 @@ START_TEST(colours_are_even_and_ordered)
     double dark[3];
     oklab(seen, dark);
     if (i > 0) {
-      double step = sqrt(pow(lab[0] - last[0], 2) + pow(lab[1] - last[1], 2) + pow(lab[2] - last[2], 2));
+      double step =
+          sqrt(pow(lab[0] - last[0], 2) + pow(lab[1] - last[1], 2) + pow(lab[2] - last[2], 2));
       ck_assert_double_lt(lab[0], last[0]);
       ck_assert_double_lt(dark[0], last_dark);
       least = fmin(least, step);
@@ -88,9 +90,10 @@ END_TEST
 START_TEST(sums_and_range)
 {
   double a[] = {3, 1, 2}, b[] = {5};
-  thr_eval_cord cord[] = {{.known = true, .n_passes = 3, .force = 3, .other_force = 2, .tension = a},
-                          {.known = false, .n_passes = 7},
-                          {.known = true, .n_passes = 1, .force = 5, .tension = b}};
+  thr_eval_cord cord[] = {
+      {.known = true, .n_passes = 3, .force = 3, .other_force = 2, .tension = a},
+      {.known = false, .n_passes = 7},
+      {.known = true, .n_passes = 1, .force = 5, .tension = b}};
   thr_evaluation e = {.n_cords = 3, .cord = cord};
   double range[2];
   thr_evaluation_sum(&e);
@@ -117,7 +120,8 @@ static thr_plan evaluated_plan(const thr_frame *f, thr_ends ends, thr_pull pull,
   o.law = law;
   o.seed = UINT64_C(1) << 53;
   o.physics.seating = 2.5;
-  ck_assert_msg(thr_eval_plan(f, p.cord, p.n_cords, THR_CAPSTAN, &o, &none, &e, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_eval_plan(f, p.cord, p.n_cords, THR_CAPSTAN, &o, &none, &e, &err) == THR_OK,
+                "%s", err.text);
   p.evaluation = e.record;
   return p;
 }
@@ -126,20 +130,26 @@ START_TEST(an_evaluation_survives_json)
 {
   static const solid shape[] = {TETRAHEDRON, OCTAHEDRON, DODECAHEDRON};
   thr_frame f = solid_make(shape[_i % 3]);
-  thr_plan p = evaluated_plan(&f, _i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED, (thr_pull)(_i % THR_PULL_NONE), (thr_law)(_i / 3 % 2));
+  thr_plan p = evaluated_plan(&f, _i % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED,
+                              (thr_pull)(_i % THR_PULL_NONE), (thr_law)(_i / 3 % 2));
   assert_plan_sound(&p);
   thr_text t = plan_text(&p);
   thr_plan q = plan_from(t.data);
   const thr_evaluation *a = &p.evaluation, *b = &q.evaluation;
-  ck_assert(b->present && b->method == a->method && b->law == a->law && b->seed == a->seed && b->time_step == a->time_step);
-  ck_assert(b->iterations == a->iterations && b->largest == a->largest && b->total == a->total && b->n_cords == a->n_cords);
+  ck_assert(b->present && b->method == a->method && b->law == a->law && b->seed == a->seed &&
+            b->time_step == a->time_step);
+  ck_assert(b->iterations == a->iterations && b->largest == a->largest && b->total == a->total &&
+            b->n_cords == a->n_cords);
   ck_assert(a->seated_known && b->seated_known && b->seated == a->seated && a->seated == 1);
   ck_assert(memcmp(&b->physics, &a->physics, sizeof a->physics) == 0);
   for (int i = 0; i < a->n_cords; i++) {
     const thr_eval_cord *c = &a->cord[i], *d = &b->cord[i];
-    ck_assert(d->known && d->pull == c->pull && d->n_passes == c->n_passes && d->turning == c->turning);
-    ck_assert(d->taut_turning == c->taut_turning && d->force == c->force && d->other_force == c->other_force);
-    ck_assert(d->loss == c->loss && d->work == c->work && d->slackest == c->slackest && d->refused == 0 && d->error == 0);
+    ck_assert(d->known && d->pull == c->pull && d->n_passes == c->n_passes &&
+              d->turning == c->turning);
+    ck_assert(d->taut_turning == c->taut_turning && d->force == c->force &&
+              d->other_force == c->other_force);
+    ck_assert(d->loss == c->loss && d->work == c->work && d->slackest == c->slackest &&
+              d->refused == 0 && d->error == 0);
     ck_assert(memcmp(d->tension, c->tension, (size_t)c->n_passes * sizeof *c->tension) == 0);
   }
   thr_text_destroy(&t);
@@ -164,7 +174,8 @@ START_TEST(an_unfinished_evaluation_survives_json)
   assert_plan_sound(&p);
   thr_text t = plan_text(&p);
   thr_plan q = plan_from(t.data);
-  ck_assert(!q.evaluation.cord[1].known && q.evaluation.cord[1].tension == NULL && q.evaluation.cord[1].n_passes == 3);
+  ck_assert(!q.evaluation.cord[1].known && q.evaluation.cord[1].tension == NULL &&
+            q.evaluation.cord[1].n_passes == 3);
   ck_assert(q.evaluation.cord[2].known && q.evaluation.total == p.evaluation.total);
   thr_text_destroy(&t);
   thr_plan_destroy(&p);
@@ -178,12 +189,12 @@ typedef struct {
   void (*alter)(thr_evaluation *e);
 } alteration;
 
-#define ALTER(name, statement)                                                                                                   \
-  static void name(thr_evaluation *e)                                                                                            \
-  {                                                                                                                              \
-    thr_eval_cord *c = &e->cord[0];                                                                                              \
-    statement;                                                                                                                   \
-    (void)c;                                                                                                                     \
+#define ALTER(name, statement)                                                                     \
+  static void name(thr_evaluation *e)                                                              \
+  {                                                                                                \
+    thr_eval_cord *c = &e->cord[0];                                                                \
+    statement;                                                                                     \
+    (void)c;                                                                                       \
   }
 ALTER(more_force, c->force *= 1.001)
 ALTER(more_other_force, c->other_force *= 1.001)
@@ -244,7 +255,8 @@ START_TEST(the_checker_sees_every_alteration)
 }
 END_TEST
 
-/* All numbers agree with each other and with the law, but another slackest pass would need less pull. */
+/* All numbers agree with each other and with the law, but another slackest pass would need less
+ * pull. */
 START_TEST(the_checker_sees_a_slackest_pass_that_is_not_best)
 {
   thr_frame f = ring_make(12);
@@ -280,7 +292,8 @@ START_TEST(the_checker_rounds_the_turning_of_straight_cords)
 }
 END_TEST
 
-/* Pulled at its start only, a cord may do anything behind its slackest pass but be slacker; forces may be small, or none. */
+/* Pulled at its start only, a cord may do anything behind its slackest pass but be slacker; forces
+ * may be small, or none. */
 START_TEST(the_checker_takes_any_tension_behind_the_slackest_pass)
 {
   thr_frame f = solid_make(OCTAHEDRON);
@@ -351,9 +364,9 @@ START_TEST(the_checker_takes_any_tension_before_the_slackest_pass)
 }
 END_TEST
 
-/* A cord that turns by 0.5 + d, 0.3, 0.3 and 0.5: parted behind pass 2 it needs least, behind pass 3 as much and the friction of
- * d. Both that and the tension of a pass, as a logarithm, may differ by 1e-9 of 1 and what is lost on the whole way; the loss by
- * 1e-9. */
+/* A cord that turns by 0.5 + d, 0.3, 0.3 and 0.5: parted behind pass 2 it needs least, behind pass
+ * 3 as much and the friction of d. Both that and the tension of a pass, as a logarithm, may differ
+ * by 1e-9 of 1 and what is lost on the whole way; the loss by 1e-9. */
 START_TEST(the_checker_rounds_what_the_law_gives)
 {
   const double mu = 0.2, lost = mu * 1.6, tolerance = 1e-9 * (1 + lost), part = _i ? 1.1 : 0.9;
@@ -440,7 +453,8 @@ START_TEST(nonsense_in_json_is_refused)
       {"\"tension\": [2.5", "\"tension\": [-2.5", "cords[0].tension[0]"},
       {"\"colours\": [\"#", "\"colours\": [\"", "cords[0].colours[0]"},
       {"\"colours\": [\"#f", "\"colours\": [\"#0", "cords[0].colours[0]"},
-      {"\"physics\": {\"mu\": 0.2, \"mu_low\": 0.1", "\"physics\": {\"mu\": -1, \"mu_low\": 0.1", "evaluation.physics: mu"},
+      {"\"physics\": {\"mu\": 0.2, \"mu_low\": 0.1", "\"physics\": {\"mu\": -1, \"mu_low\": 0.1",
+       "evaluation.physics: mu"},
       {"\"evaluation\": {", "\"evaluation\": 3, \"old\": {", "evaluation: not an object"},
   };
   thr_frame f = path_make(4);
@@ -458,7 +472,8 @@ START_TEST(nonsense_in_json_is_refused)
     thr_text_append(&altered, wrong[i].to);
     thr_text_append(&altered, from + strlen(wrong[i].from));
     thr_status st = thr_plan_parse(&q, altered.data, altered.length, "plan", &err);
-    ck_assert_msg(st == THR_EVIOLATED || (st == THR_EINPUT && !*wrong[i].word), "%s: %d", wrong[i].to, (int)st);
+    ck_assert_msg(st == THR_EVIOLATED || (st == THR_EINPUT && !*wrong[i].word), "%s: %d",
+                  wrong[i].to, (int)st);
     assert_one_line(&err, wrong[i].word);
     ck_assert(q.cord == NULL && q.evaluation.cord == NULL && !q.evaluation.present);
     thr_text_destroy(&altered);
@@ -477,7 +492,8 @@ int main(void)
   ADD_TEST(s, 10, sums_and_range);
   ADD_LOOP(s, 10, an_evaluation_survives_json, 0, 12);
   ADD_TEST(s, 10, an_unfinished_evaluation_survives_json);
-  ADD_LOOP(s, 10, the_checker_sees_every_alteration, 0, (int)(sizeof alterations / sizeof *alterations));
+  ADD_LOOP(s, 10, the_checker_sees_every_alteration, 0,
+           (int)(sizeof alterations / sizeof *alterations));
   ADD_TEST(s, 10, the_checker_sees_a_slackest_pass_that_is_not_best);
   ADD_TEST(s, 10, the_checker_rounds_the_turning_of_straight_cords);
   ADD_TEST(s, 10, the_checker_takes_any_tension_behind_the_slackest_pass);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The floor: status and error text, checked allocation, growing text, JSON reading. */
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support.h"
@@ -20,7 +21,8 @@
 START_TEST(numbers_are_sorted)
 {
   int whole[] = {3, INT_MIN, 7, 3, INT_MAX, -1}, in_order[] = {INT_MIN, -1, 3, 3, 7, INT_MAX};
-  double real[] = {0.5, -INFINITY, 1e300, -0.25, 0.5}, real_in_order[] = {-INFINITY, -0.25, 0.5, 0.5, 1e300};
+  double real[] = {0.5, -INFINITY, 1e300, -0.25, 0.5},
+         real_in_order[] = {-INFINITY, -0.25, 0.5, 0.5, 1e300};
   thr_sort_ints(whole, 6);
   thr_sort_doubles(real, 5);
   thr_sort_ints(NULL, 0);
@@ -101,7 +103,8 @@ END_TEST
 
 /* ---- text ---- */
 
-/* With the k-th allocation failing: an array that is missing, all after it missing too, and said once. */
+/* With the k-th allocation failing: an array that is missing, all after it missing too, and said
+ * once. */
 START_TEST(scratch_is_checked_once)
 {
   for (int k = 1; k <= 4; k++) {
@@ -109,7 +112,8 @@ START_TEST(scratch_is_checked_once)
     thr_err err = {0};
     thr_alloc_fail_once(k);
     int *some = thr_scratch_array(&own, 10, sizeof *some);
-    double *none = thr_scratch_array(&own, 0, sizeof *none), *more = thr_scratch_array(&own, 1000, sizeof *more);
+    double *none = thr_scratch_array(&own, 0, sizeof *none),
+           *more = thr_scratch_array(&own, 1000, sizeof *more);
     thr_alloc_fail_at(0);
     ck_assert(!some == (k == 1) && !none == (k <= 2) && !more == (k <= 3));
     ck_assert_int_eq(thr_scratch_check(&own, &err), k <= 3 ? THR_ENOMEM : THR_OK);
@@ -136,7 +140,8 @@ START_TEST(doubles_are_short_and_read_back)
   static const struct {
     double value;
     const char *digits;
-  } known[] = {{0.1, "0.1"}, {-0.0, "0"}, {1e21, "1e+21"}, {1.0 / 3, "0.3333333333333333"}, {5e-324, "5e-324"}, {12, "12"}};
+  } known[] = {{0.1, "0.1"},       {-0.0, "0"}, {1e21, "1e+21"}, {1.0 / 3, "0.3333333333333333"},
+               {5e-324, "5e-324"}, {12, "12"}};
   for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
     thr_text t = {0};
     thr_text_double(&t, known[i].value);
@@ -154,14 +159,16 @@ START_TEST(doubles_are_short_and_read_back)
 }
 END_TEST
 
-/* Oracle: the C library's %g with as few digits from 15 on as read back. Powers of two are left out: the doubles below are nearer
- * than those above, and a number of fewer digits that reads back need not be the nearest of as many. */
+/* Oracle: the C library's %g with as few digits from 15 on as read back. Powers of two are left
+ * out: the doubles below are nearer than those above, and a number of fewer digits that reads back
+ * need not be the nearest of as many. */
 START_TEST(doubles_are_written_as_by_percent_g)
 {
   rng r = rng_make(2);
   for (int i = 0; i < 20000; i++) {
     char digits[40];
-    double unit = rng_unit(&r) - 0.5, x = i % 2 ? ldexp(unit, rng_between(&r, -60, 80)) : rng_between(&r, -100000, 100000) / 1e3;
+    double unit = rng_unit(&r) - 0.5, x = i % 2 ? ldexp(unit, rng_between(&r, -60, 80))
+                                                : rng_between(&r, -100000, 100000) / 1e3;
     int precision = 15;
     while (snprintf(digits, sizeof digits, "%.*g", precision, x), strtod(digits, NULL) != x)
       precision++;
@@ -178,9 +185,14 @@ END_TEST
 
 START_TEST(numbers_beyond_doubles)
 {
-  static const char *const none[] = {"1e400", "-1e400", "1e99999999999999999999", "1234e306", "12e9223372036854775807"};
-  static const char *const nothing[] = {
-      "1e-400", "0.000e999", "-0", "0e99999999999999999999", "1e-99999999999999999999", "0.01e-9223372036854775807"};
+  static const char *const none[] = {"1e400", "-1e400", "1e99999999999999999999", "1234e306",
+                                     "12e9223372036854775807"};
+  static const char *const nothing[] = {"1e-400",
+                                        "0.000e999",
+                                        "-0",
+                                        "0e99999999999999999999",
+                                        "1e-99999999999999999999",
+                                        "0.01e-9223372036854775807"};
   double x;
   for (size_t i = 0; i < sizeof none / sizeof *none; i++)
     ck_assert_msg(!thr_number_parse(none[i], strlen(none[i]), &x), "%s", none[i]);
@@ -216,8 +228,9 @@ static int encode(uint32_t code, char out[5])
 
 START_TEST(every_letter_is_kept_or_a_blank)
 {
-  static const uint32_t control[][2] = {{1, 0x1f},        {0x7f, 0x9f},     {0x61c, 0x61c},  {0x200e, 0x200f},
-                                        {0x2028, 0x202e}, {0x2066, 0x2069}, {0xfffe, 0xffff}};
+  static const uint32_t control[][2] = {{1, 0x1f},        {0x7f, 0x9f},     {0x61c, 0x61c},
+                                        {0x200e, 0x200f}, {0x2028, 0x202e}, {0x2066, 0x2069},
+                                        {0xfffe, 0xffff}};
   for (uint32_t code = 1; code < 0x110000; code++) {
     char letter[5], text[8];
     if (code >= 0xd800 && code < 0xe000) continue;
@@ -228,7 +241,8 @@ START_TEST(every_letter_is_kept_or_a_blank)
     snprintf(text, sizeof text, "a%sb", letter);
     ck_assert(thr_text_is_utf8(letter, strlen(letter)));
     thr_text_clean(text);
-    ck_assert_msg(memcmp(text + 1, harmful ? " " : letter, harmful ? 1 : strlen(letter)) == 0 && text[strlen(text) - 1] == 'b',
+    ck_assert_msg(memcmp(text + 1, harmful ? " " : letter, harmful ? 1 : strlen(letter)) == 0 &&
+                      text[strlen(text) - 1] == 'b',
                   "U+%04X", (unsigned)code);
   }
 }
@@ -296,7 +310,8 @@ END_TEST
 START_TEST(any_bytes_make_json)
 {
   rng r = rng_make(5);
-  static const char *const piece[] = {"\xe2\x80\xae", "\xe2\x80\xa8", "\xc2\x85", "\"", "\\", "\xf0\x9f\xa7\xb5", "\x7f", "\n"};
+  static const char *const piece[] = {"\xe2\x80\xae", "\xe2\x80\xa8",     "\xc2\x85", "\"",
+                                      "\\",           "\xf0\x9f\xa7\xb5", "\x7f",     "\n"};
   for (int i = 0; i < 20000; i++) {
     char raw[64] = "";
     for (int n = rng_between(&r, 0, 12); n > 0; n--) {
@@ -309,8 +324,10 @@ START_TEST(any_bytes_make_json)
     thr_text_append(&t, "[");
     thr_text_json_string(&t, raw);
     thr_text_append(&t, "]");
-    ck_assert_msg(thr_json_parse(&doc, t.data, t.length, "t", &err) == THR_OK, "%s: %s", err.text, t.data);
-    if (thr_text_is_utf8(raw, strlen(raw))) ck_assert_str_eq(thr_json_string(thr_json_at(doc, 0)), raw);
+    ck_assert_msg(thr_json_parse(&doc, t.data, t.length, "t", &err) == THR_OK, "%s: %s", err.text,
+                  t.data);
+    if (thr_text_is_utf8(raw, strlen(raw)))
+      ck_assert_str_eq(thr_json_string(thr_json_at(doc, 0)), raw);
     thr_json_destroy(doc);
     char once[64], twice[64];
     strcpy(once, raw);
@@ -423,11 +440,15 @@ START_TEST(json_is_written)
   thr_text loose = {0}, compact = {0};
   put_document(&(thr_writer){.out = &loose});
   put_document(&(thr_writer){.out = &compact, .compact = true});
-  ck_assert_str_eq(loose.data,
-                   "{\n  \"list\": [1,-2], \"half\": 0.5, \"none\": null,\n  \"rows\": [[true,null], [false,null], {}], "
-                   "\"a\\u000akey\": \"a \\\"b\\\"\", \"hash\": \"0000000000000abc\", \"three\": 3.00\n}");
-  ck_assert_str_eq(compact.data, "{\n  \"list\":[1,-2],\"half\":0.5,\"none\":null,\n  \"rows\":[[true,null],[false,null],{}],"
-                                 "\"a\\u000akey\":\"a \\\"b\\\"\",\"hash\":\"0000000000000abc\",\"three\":3.00\n}");
+  ck_assert_str_eq(
+      loose.data,
+      "{\n  \"list\": [1,-2], \"half\": 0.5, \"none\": null,\n  \"rows\": [[true,null], "
+      "[false,null], {}], "
+      "\"a\\u000akey\": \"a \\\"b\\\"\", \"hash\": \"0000000000000abc\", \"three\": 3.00\n}");
+  ck_assert_str_eq(
+      compact.data,
+      "{\n  \"list\":[1,-2],\"half\":0.5,\"none\":null,\n  \"rows\":[[true,null],[false,null],{}],"
+      "\"a\\u000akey\":\"a \\\"b\\\"\",\"hash\":\"0000000000000abc\",\"three\":3.00\n}");
   thr_text_destroy(&loose);
   thr_text_destroy(&compact);
 }
@@ -453,7 +474,8 @@ END_TEST
 
 START_TEST(json_values_are_read)
 {
-  thr_json *doc = parse("\xef\xbb\xbf{\"z\": [1, 2.0, 2.5, \"x\", true, null], \"a\": 9223372036854775807}");
+  thr_json *doc =
+      parse("\xef\xbb\xbf{\"z\": [1, 2.0, 2.5, \"x\", true, null], \"a\": 9223372036854775807}");
   const thr_json *list = thr_json_get(doc, "z"), *value;
   int64_t whole;
   double x;
@@ -477,11 +499,13 @@ START_TEST(json_absent_is_harmless)
 {
   int64_t whole;
   double x;
-  ck_assert(thr_json_get(NULL, "a") == NULL && thr_json_at(NULL, 0) == NULL && thr_json_string(NULL) == NULL);
+  ck_assert(thr_json_get(NULL, "a") == NULL && thr_json_at(NULL, 0) == NULL &&
+            thr_json_string(NULL) == NULL);
   ck_assert(!thr_json_int(NULL, &whole) && !thr_json_number(NULL, &x) && !thr_json_true(NULL));
   ck_assert(thr_json_typeof(NULL) == THR_JSON_NULL && thr_json_size(NULL) == 0);
   thr_json *doc = parse("[1]");
-  ck_assert(thr_json_get(doc, "a") == NULL && thr_json_at(doc, 1) == NULL && thr_json_at(doc, -1) == NULL);
+  ck_assert(thr_json_get(doc, "a") == NULL && thr_json_at(doc, 1) == NULL &&
+            thr_json_at(doc, -1) == NULL);
   thr_json_destroy(doc);
   thr_json_destroy(NULL);
 }
@@ -567,13 +591,16 @@ START_TEST(json_grammar)
 }
 END_TEST
 
-/* Whole numbers in a slot and beyond it, lists of few and many values, letters of one to four bytes as escapes. */
+/* Whole numbers in a slot and beyond it, lists of few and many values, letters of one to four bytes
+ * as escapes. */
 START_TEST(json_values_of_every_size)
 {
-  static const int64_t bounds[] = {(INT64_C(1) << 47) - 1, INT64_C(1) << 47, -(INT64_C(1) << 47) - 1, INT64_MIN, INT64_MAX};
-  thr_json *doc =
-      parse("[[140737488355327, 140737488355328, -140737488355329, -9223372036854775808, 9223372036854775807],"
-            " [0,1,2,3,4,5,6,7,8,9,10,11,12,13], [0,1,2,3,4,5,6,7,8,9,10,11,12,13,14], \"\\u0041\\u00e4\\u20AC\\ud83e\\uddf5\"]");
+  static const int64_t bounds[] = {(INT64_C(1) << 47) - 1, INT64_C(1) << 47,
+                                   -(INT64_C(1) << 47) - 1, INT64_MIN, INT64_MAX};
+  thr_json *doc = parse("[[140737488355327, 140737488355328, -140737488355329, "
+                        "-9223372036854775808, 9223372036854775807],"
+                        " [0,1,2,3,4,5,6,7,8,9,10,11,12,13], [0,1,2,3,4,5,6,7,8,9,10,11,12,13,14], "
+                        "\"\\u0041\\u00e4\\u20AC\\ud83e\\uddf5\"]");
   int64_t whole;
   for (int i = 0; i < 5; i++)
     ck_assert(thr_json_int(thr_json_at(thr_json_at(doc, 0), i), &whole) && whole == bounds[i]);
@@ -607,14 +634,17 @@ START_TEST(json_objects_of_many_members)
     const thr_json *value;
     int64_t number;
     for (int i = 0; i < n; i++) {
-      ck_assert(thr_json_next(doc, &iter, &key, &value) && atoi(key + 1) == 17 * i % 41 && thr_json_get(doc, key) == value);
+      ck_assert(thr_json_next(doc, &iter, &key, &value) && atoi(key + 1) == 17 * i % 41 &&
+                thr_json_get(doc, key) == value);
       ck_assert(thr_json_int(thr_json_get(value, "number"), &number) && number == i);
     }
-    ck_assert(!thr_json_next(doc, &iter, &key, &value) && !thr_json_get(doc, "k") && !thr_json_get(doc, "z"));
+    ck_assert(!thr_json_next(doc, &iter, &key, &value) && !thr_json_get(doc, "k") &&
+              !thr_json_get(doc, "z"));
     thr_json_destroy(doc);
     text.data[--text.length] = '\0';
     thr_text_printf(&text, "%s\n\"k0\": 0}", n ? "," : "");
-    ck_assert_int_eq(thr_json_parse(&doc, text.data, text.length, "file", &err), n ? THR_EINPUT : THR_OK);
+    ck_assert_int_eq(thr_json_parse(&doc, text.data, text.length, "file", &err),
+                     n ? THR_EINPUT : THR_OK);
     char place[24];
     snprintf(place, sizeof place, "file:%d:2: ", n + 2);
     if (n) assert_one_line(&err, place);
@@ -626,12 +656,14 @@ END_TEST
 
 START_TEST(json_errors_name_the_place)
 {
-  static const char *const wrong[] = {"{\"a\": 1,\n \"a\": 2}", "[1,\n2", "[1] x", "", "{\"a\": 1e999}", "\xff",
-                                      "[99999999999999999999]"};
+  static const char *const wrong[] = {
+      "{\"a\": 1,\n \"a\": 2}", "[1,\n2", "[1] x", "", "{\"a\": 1e999}", "\xff",
+      "[99999999999999999999]"};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     thr_json *doc;
     thr_err err = {0};
-    ck_assert_int_eq(thr_json_parse(&doc, wrong[i], strlen(wrong[i]), "file.json", &err), THR_EINPUT);
+    ck_assert_int_eq(thr_json_parse(&doc, wrong[i], strlen(wrong[i]), "file.json", &err),
+                     THR_EINPUT);
     assert_one_line(&err, i < 2 ? "file.json:2:" : "file.json:1:");
     ck_assert(doc == NULL);
   }

@@ -1,4 +1,6 @@
-/* Drafts, welding and the framework: small cases with known answers, and every allocation failing once. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Drafts, welding and the framework: small cases with known answers, and every allocation failing
+ * once. */
 #include "graph/framework/frame.h"
 #include "graph/status.h"
 #include "tests/support.h"
@@ -57,7 +59,8 @@ START_TEST(welds_the_lowest_index)
   thr_read_report r = {0};
   node(&d, 0, 0, 0);
   node(&d, 6, 0, 0);
-  ck_assert_int_eq(thr_draft_add_node(&d, (double[3]){6.000000000000001, 0, 0}, "late", true, NULL), THR_OK);
+  ck_assert_int_eq(thr_draft_add_node(&d, (double[3]){6.000000000000001, 0, 0}, "late", true, NULL),
+                   THR_OK);
   node(&d, 6, 8, 0);
   node(&d, 1, 1, 1); /* no edge */
   edge(&d, 0, 1);
@@ -137,7 +140,8 @@ static void weld_by_all_pairs(const double (*x)[3], int n, double tolerance, int
   }
 }
 
-/* Points close together, far apart, on top of each other and all in one plane across the direction that they are sorted by. */
+/* Points close together, far apart, on top of each other and all in one plane across the direction
+ * that they are sorted by. */
 START_TEST(welds_what_all_pairs_weld)
 {
   enum { N = 90 };
@@ -149,7 +153,8 @@ START_TEST(welds_what_all_pairs_weld)
   thr_read_report report = {0};
   for (int v = 0; v < N; v++) {
     for (int k = 0; k < 3; k++)
-      x[v][k] = rng_below(&r, 4) ? rng_below(&r, 5) + 0.04 * rng_below(&r, 3) : spread * rng_unit(&r);
+      x[v][k] =
+          rng_below(&r, 4) ? rng_below(&r, 5) + 0.04 * rng_below(&r, 3) : spread * rng_unit(&r);
     if (_i % 4 == 3) x[v][2] = -(0.6324 * x[v][0] + 0.5477 * x[v][1]) / 0.5478;
     node(&d, x[v][0], x[v][1], x[v][2]);
   }
@@ -188,8 +193,8 @@ START_TEST(two_nodes_of_one_name_are_found)
 }
 END_TEST
 
-/* Random multigraphs. Oracle: for all pairs of nodes the different lengths between them; the shortest is kept, or all, where each
- * longer one is two edges and one more node. */
+/* Random multigraphs. Oracle: for all pairs of nodes the different lengths between them; the
+ * shortest is kept, or all, where each longer one is two edges and one more node. */
 START_TEST(of_parallel_edges_the_shortest_or_all_are_kept)
 {
   enum { N = 5, M = 20, LENGTHS = 4 };
@@ -262,7 +267,8 @@ START_TEST(refuses_bad_drafts)
   thr_frame f;
   thr_err err = {0};
   ck_assert_int_eq(thr_draft_add_node(&d, (double[3]){0, NAN, 0}, NULL, false, NULL), THR_EINPUT);
-  ck_assert_int_eq(thr_draft_add_node(&d, (double[3]){0, 0, INFINITY}, NULL, false, NULL), THR_EINPUT);
+  ck_assert_int_eq(thr_draft_add_node(&d, (double[3]){0, 0, INFINITY}, NULL, false, NULL),
+                   THR_EINPUT);
   ck_assert_int_eq(thr_draft_build(&d, -1, &f, &r, &err), THR_EINPUT);
   ck_assert_ptr_nonnull(strstr(err.text, "no edge"));
   node(&d, 0, 0, 0);
@@ -330,7 +336,8 @@ END_TEST
 /* Two triangles joined by an edge, and a separate path of two edges. */
 START_TEST(components_and_bridges)
 {
-  static const int pair[][2] = {{0, 1}, {1, 2}, {2, 0}, {2, 3}, {3, 4}, {4, 5}, {5, 3}, {6, 7}, {7, 8}};
+  static const int pair[][2] = {{0, 1}, {1, 2}, {2, 0}, {2, 3}, {3, 4},
+                                {4, 5}, {5, 3}, {6, 7}, {7, 8}};
   thr_draft d = {0};
   thr_read_report r = {0};
   for (int v = 0; v < 9; v++)
@@ -351,7 +358,8 @@ START_TEST(components_and_bridges)
 }
 END_TEST
 
-/* Independent oracle for random graphs: an edge is a bridge if there is one component more without it. */
+/* Independent oracle for random graphs: an edge is a bridge if there is one component more without
+ * it. */
 START_TEST(bridges_agree_with_deletion)
 {
   srand(5);

@@ -1,5 +1,6 @@
-/* Friction that grows with a power of the load: against the differential equation, step by step, and what follows for pulls,
- * schedules and grips. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Friction that grows with a power of the load: against the differential equation, step by step,
+ * and what follows for pulls, schedules and grips. */
 #include "eval/eval.h"
 #include "graph/angle.h"
 #include "graph/limits.h"
@@ -18,7 +19,8 @@
 
 enum { N = 9 };
 
-/* dT / dx = T0^(1-n) T^n along `exponent` = mu x angle, backwards where that is negative; Runge and Kutta, 2,000 steps. */
+/* dT / dx = T0^(1-n) T^n along `exponent` = mu x angle, backwards where that is negative; Runge and
+ * Kutta, 2,000 steps. */
 static double integrated(double power, double at, double tension, double exponent)
 {
   enum { STEPS = 2000 };
@@ -39,11 +41,14 @@ START_TEST(turns_obey_the_differential_equation)
   rng r = rng_make((uint64_t)_i);
   const thr_friction f = {.power = 0.5 + 0.49 * rng_unit(&r), .at = 0.2 + 5 * rng_unit(&r)};
   const double tension = 0.5 + 20 * rng_unit(&r), exponent = 2 * rng_unit(&r);
-  const double more = thr_friction_more(&f, tension, exponent), less = thr_friction_less(&f, tension, exponent);
+  const double more = thr_friction_more(&f, tension, exponent),
+               less = thr_friction_less(&f, tension, exponent);
   ck_assert_double_eq_tol(more, integrated(f.power, f.at, tension, exponent), 1e-7 * more);
   ck_assert_double_eq_tol(less, integrated(f.power, f.at, tension, -exponent), 1e-6 * tension);
-  ck_assert_double_eq_tol(thr_friction_exponent(&f, more, tension), exponent, 1e-9 * (1 + exponent));
-  ck_assert_double_lt(more / tension, exp(exponent) * fmax(1, pow(f.at / tension, 1 - f.power)) * (1 + 1e-12));
+  ck_assert_double_eq_tol(thr_friction_exponent(&f, more, tension), exponent,
+                          1e-9 * (1 + exponent));
+  ck_assert_double_lt(more / tension,
+                      exp(exponent) * fmax(1, pow(f.at / tension, 1 - f.power)) * (1 + 1e-12));
 }
 END_TEST
 
@@ -54,7 +59,8 @@ START_TEST(the_capstan_law_is_its_end)
   physics.mu_power = _i ? 1 : 0;
   physics.mu_tension = 3;
   const thr_friction f = thr_friction_of(&physics), near = {.power = 1 - 1e-9, .at = 3};
-  ck_assert(thr_friction_more(&f, 2.5, 1.25) == 2.5 * exp(1.25) && thr_friction_less(&f, 2.5, 1.25) == 2.5 * exp(-1.25));
+  ck_assert(thr_friction_more(&f, 2.5, 1.25) == 2.5 * exp(1.25) &&
+            thr_friction_less(&f, 2.5, 1.25) == 2.5 * exp(-1.25));
   ck_assert_double_eq_tol(thr_friction_more(&near, 2.5, 1.25), 2.5 * exp(1.25), 1e-7);
   ck_assert_double_eq_tol(thr_friction_less(&near, 2.5, 1.25), 2.5 * exp(-1.25), 1e-7);
 }
@@ -130,20 +136,25 @@ START_TEST(a_pull_is_what_every_turn_asks_for)
   const thr_eval_cord *c = &e.record.cord[0];
   const double *t = c->tension;
   ck_assert_double_eq_tol(t[c->slackest], 1, 1e-12);
-  for (int k = c->slackest + (o.pull == THR_PULL_BOTH); k + 1 < N; k++) /* neither end slides over the turn between */
-    ck_assert_double_eq_tol(t[k + 1], integrated(o.physics.mu_power, o.physics.mu_tension, t[k], 0.3 * angle(&z, k)),
-                            1e-7 * t[k]);
+  for (int k = c->slackest + (o.pull == THR_PULL_BOTH); k + 1 < N;
+       k++) /* neither end slides over the turn between */
+    ck_assert_double_eq_tol(
+        t[k + 1], integrated(o.physics.mu_power, o.physics.mu_tension, t[k], 0.3 * angle(&z, k)),
+        1e-7 * t[k]);
   for (int k = c->slackest; k > 0; k--)
-    ck_assert_double_eq_tol(t[k - 1], integrated(o.physics.mu_power, o.physics.mu_tension, t[k], 0.3 * angle(&z, k - 1)),
-                            1e-7 * t[k]);
+    ck_assert_double_eq_tol(
+        t[k - 1],
+        integrated(o.physics.mu_power, o.physics.mu_tension, t[k], 0.3 * angle(&z, k - 1)),
+        1e-7 * t[k]);
   thr_eval_destroy(&e);
   thr_frame_destroy(&z.f);
 }
 END_TEST
 
-/* What a schedule leaves: the least state above what is pulled, the largest below what is let down, turn by turn until nothing
- * changes, with tensions to the power 1 - n. */
-static void oracle(const zigzag *z, const thr_physics *p, const thr_schedule_step *s, double *tension)
+/* What a schedule leaves: the least state above what is pulled, the largest below what is let down,
+ * turn by turn until nothing changes, with tensions to the power 1 - n. */
+static void oracle(const zigzag *z, const thr_physics *p, const thr_schedule_step *s,
+                   double *tension)
 {
   const double m = 1 - p->mu_power;
   const bool raise = s->deed == THR_DEED_PULL;
@@ -154,9 +165,11 @@ static void oracle(const zigzag *z, const thr_physics *p, const thr_schedule_ste
   for (int round = 0; round < 2 * N; round++)
     for (int k = 0; k + 1 < N; k++)
       for (int way = 0; way < 2; way++) {
-        const double step = m * p->mu * angle(z, k) * pow(p->mu_tension, m), from = pow(tension[k + way], m);
+        const double step = m * p->mu * angle(z, k) * pow(p->mu_tension, m),
+                     from = pow(tension[k + way], m);
         double *to = &tension[k + 1 - way];
-        *to = raise ? fmax(*to, pow(fmax(0, from - step), 1 / m)) : fmin(*to, pow(from + step, 1 / m));
+        *to = raise ? fmax(*to, pow(fmax(0, from - step), 1 / m))
+                    : fmin(*to, pow(from + step, 1 / m));
       }
 }
 
@@ -170,8 +183,9 @@ START_TEST(schedules_leave_what_the_turns_allow)
   thr_eval e;
   double tension[N] = {0};
   for (int i = 0; i < 5; i++) {
-    const thr_schedule_step s = {
-        .deed = i % 2 ? THR_DEED_RELEASE : THR_DEED_PULL, .end = (thr_pull)rng_below(&r, 3), .force = 0.1 + 20 * rng_unit(&r)};
+    const thr_schedule_step s = {.deed = i % 2 ? THR_DEED_RELEASE : THR_DEED_PULL,
+                                 .end = (thr_pull)rng_below(&r, 3),
+                                 .force = 0.1 + 20 * rng_unit(&r)};
     ck_assert_int_eq(thr_schedule_add(&schedule, &s, NULL), THR_OK);
     oracle(&z, &o.physics, &s, tension);
   }
@@ -185,7 +199,8 @@ START_TEST(schedules_leave_what_the_turns_allow)
 }
 END_TEST
 
-/* Fewest pulls of at most `hand`, by trying all sets of grips: each part from the seating tension by integration. */
+/* Fewest pulls of at most `hand`, by trying all sets of grips: each part from the seating tension
+ * by integration. */
 static int fewest_pulls(const zigzag *z, const thr_physics *p, double hand)
 {
   int best = N + 1;
@@ -197,7 +212,8 @@ static int fewest_pulls(const zigzag *z, const thr_physics *p, double hand)
       if (set >> k & 1) pulls++, part = 0; /* nobody slides over the turn at the grip */
       worst = fmax(worst, part);
     }
-    if (pulls < best && integrated(p->mu_power, p->mu_tension, p->seating, worst) <= hand) best = pulls;
+    if (pulls < best && integrated(p->mu_power, p->mu_tension, p->seating, worst) <= hand)
+      best = pulls;
   }
   return best;
 }
@@ -215,7 +231,8 @@ START_TEST(grips_are_as_few_as_any)
   ck_assert_int_eq(evaluate(&z, &o, &e), THR_OK);
   ck_assert_int_eq(thr_schedule_grips(&e.record.schedule, 0) + 1, fewest);
   for (int k = 0; k < N; k++)
-    ck_assert(e.record.cord[0].tension[k] >= 1 - 1e-9 && e.record.cord[0].tension[k] <= o.hand * (1 + 1e-9));
+    ck_assert(e.record.cord[0].tension[k] >= 1 - 1e-9 &&
+              e.record.cord[0].tension[k] <= o.hand * (1 + 1e-9));
   thr_eval_destroy(&e);
   thr_frame_destroy(&z.f);
 }
@@ -241,7 +258,8 @@ START_TEST(gaps_are_seated_by_what_reaches_them)
   for (int k = 0; k + 1 < N; k++)
     total += 0.3 * angle(&z, k);
   for (int k = 0; k < N; k++) {
-    expected[k] = integrated(o.physics.mu_power, o.physics.mu_tension, 1, fmin(before, total - before));
+    expected[k] =
+        integrated(o.physics.mu_power, o.physics.mu_tension, 1, fmin(before, total - before));
     if (k + 1 < N) before += 0.3 * angle(&z, k);
   }
   qsort(expected, N, sizeof *expected, by_size);

@@ -1,4 +1,6 @@
-/* The picture of the frontier: circles and bands where the numbers say, texts apart and on the sheet. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The picture of the frontier: circles and bands where the numbers say, texts apart and on the
+ * sheet. */
 #include "diagram/overview/charts.h"
 #include "graph/plan/advice.h"
 #include "graph/plan/physics.h"
@@ -23,14 +25,14 @@ static thr_frontier_chart chart_make(rng *r, int n, thr_frontier_mark mark[MOST]
     length *= 1 + 0.1 * rng_unit(r) * rng_unit(r);
     turning *= 0.9 + 0.1 * rng_unit(r);
   }
-  return (thr_frontier_chart){
-      .name = "a_name_without_any_blank_that_is_longer_than_the_sheet_is_wide_and_so_has_to_be_broken_all_the_"
-              "same_and_once_more",
-      .units = "mm",
-      .physics = &physics,
-      .shortest = mark[0].length,
-      .n = n,
-      .mark = mark};
+  return (thr_frontier_chart){.name = "a_name_without_any_blank_that_is_longer_than_the_sheet_is_"
+                                      "wide_and_so_has_to_be_broken_all_the_"
+                                      "same_and_once_more",
+                              .units = "mm",
+                              .physics = &physics,
+                              .shortest = mark[0].length,
+                              .n = n,
+                              .mark = mark};
 }
 
 /* The circle of a point, and the band drawn about it. */
@@ -61,19 +63,24 @@ START_TEST(points_and_bands_are_to_scale)
   ck_assert_str_eq(svg.data, again.data);
   svg_tree t = svg_parse(svg.data);
   int first = circle_of(&t, 0), last = circle_of(&t, n - 1);
-  double wide = (svg_number(&t, last, "cx") - svg_number(&t, first, "cx")) / (mark[n - 1].length - mark[0].length);
-  double mm = svg_number(&t, band_of(&t, 0), "height") / log(mark[0].pull[THR_ADVICE_HIGH] / mark[0].pull[THR_ADVICE_LOW]);
+  double wide = (svg_number(&t, last, "cx") - svg_number(&t, first, "cx")) /
+                (mark[n - 1].length - mark[0].length);
+  double mm = svg_number(&t, band_of(&t, 0), "height") /
+              log(mark[0].pull[THR_ADVICE_HIGH] / mark[0].pull[THR_ADVICE_LOW]);
   for (int i = 0; i < n; i++) {
     int circle = circle_of(&t, i), band = band_of(&t, i);
     double y = svg_number(&t, circle, "cy");
-    ck_assert_double_eq_tol(svg_number(&t, circle, "cx") - svg_number(&t, first, "cx"), wide * (mark[i].length - mark[0].length),
-                            0.03);
-    ck_assert_double_eq_tol(y - svg_number(&t, first, "cy"), mm * log(mark[0].pull[THR_ADVICE_MU] / mark[i].pull[THR_ADVICE_MU]),
+    ck_assert_double_eq_tol(svg_number(&t, circle, "cx") - svg_number(&t, first, "cx"),
+                            wide * (mark[i].length - mark[0].length), 0.03);
+    ck_assert_double_eq_tol(y - svg_number(&t, first, "cy"),
+                            mm * log(mark[0].pull[THR_ADVICE_MU] / mark[i].pull[THR_ADVICE_MU]),
                             0.1);
-    ck_assert_double_eq_tol(y - svg_number(&t, band, "y"), mm * log(mark[i].pull[THR_ADVICE_HIGH] / mark[i].pull[THR_ADVICE_MU]),
+    ck_assert_double_eq_tol(y - svg_number(&t, band, "y"),
+                            mm * log(mark[i].pull[THR_ADVICE_HIGH] / mark[i].pull[THR_ADVICE_MU]),
                             0.1);
     ck_assert_double_eq_tol(svg_number(&t, band, "height"),
-                            mm * log(mark[i].pull[THR_ADVICE_HIGH] / mark[i].pull[THR_ADVICE_LOW]), 0.1);
+                            mm * log(mark[i].pull[THR_ADVICE_HIGH] / mark[i].pull[THR_ADVICE_LOW]),
+                            0.1);
     ck_assert(svg_has_class(&t, circle, "proved") == mark[i].proved);
   }
   svg_tree_destroy(&t);
@@ -98,11 +105,13 @@ START_TEST(texts_lie_apart_and_on_the_sheet)
     if (strcmp(t.element[i].name, "text") != 0 || !t.element[i].text[0]) continue;
     ck_assert_double_ge(svg_number(&t, i, "font-size"), 7 * 25.4 / 72);
     svg_box(&t, i, box);
-    ck_assert_msg(box[0] > 0 && box[1] > 0 && box[2] < t.width && box[3] < t.height, "%s leaves the sheet", t.element[i].text);
+    ck_assert_msg(box[0] > 0 && box[1] > 0 && box[2] < t.width && box[3] < t.height,
+                  "%s leaves the sheet", t.element[i].text);
     for (int k = 0; k < i; k++) {
       if (strcmp(t.element[k].name, "text") != 0 || !t.element[k].text[0]) continue;
       svg_box(&t, k, other);
-      ck_assert_msg(!svg_overlap(box, other, 0), "%s lies on %s", t.element[i].text, t.element[k].text);
+      ck_assert_msg(!svg_overlap(box, other, 0), "%s lies on %s", t.element[i].text,
+                    t.element[k].text);
     }
   }
   svg_tree_destroy(&t);

@@ -1,5 +1,6 @@
-/* Automorphism groups by nauty against closed forms, igraph and all permutations; listed groups against their axioms; subgroups
- * against published counts and all subsets. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Automorphism groups by nauty against closed forms, igraph and all permutations; listed groups
+ * against their axioms; subgroups against published counts and all subsets. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
@@ -28,7 +29,8 @@ static thr_automorphisms find(const thr_frame *f, const int *node_colour, const 
 static char *digits_of(const thr_frame *f, const int *node_colour, const int *edge_colour)
 {
   int n = f->n_nodes, m = f->n_edges;
-  int *colour = calloc((size_t)(n + m), sizeof *colour), (*edge)[2] = calloc(2 * (size_t)m, sizeof *edge);
+  int *colour = calloc((size_t)(n + m), sizeof *colour),
+      (*edge)[2] = calloc(2 * (size_t)m, sizeof *edge);
   char *digits;
   ck_assert(colour && edge);
   for (int v = 0; v < n; v++)
@@ -39,18 +41,22 @@ static char *digits_of(const thr_frame *f, const int *node_colour, const int *ed
     edge[2 * e + 1][0] = n + e, edge[2 * e + 1][1] = f->edge[e][1];
   }
   if (edge_colour)
-    ck_assert_int_eq(thr_automorphism_count(n + m, 2 * m, (const int(*)[2])edge, colour, &digits, NULL), THR_OK);
+    ck_assert_int_eq(
+        thr_automorphism_count(n + m, 2 * m, (const int(*)[2])edge, colour, &digits, NULL), THR_OK);
   else
-    ck_assert_int_eq(thr_automorphism_count(n, m, (const int(*)[2])f->edge, colour, &digits, NULL), THR_OK);
+    ck_assert_int_eq(thr_automorphism_count(n, m, (const int(*)[2])f->edge, colour, &digits, NULL),
+                     THR_OK);
   free(colour);
   free(edge);
   return digits;
 }
 
-/* Generators that keep the framework, orbits that are theirs, the order that igraph says, and the same on a second call. */
+/* Generators that keep the framework, orbits that are theirs, the order that igraph says, and the
+ * same on a second call. */
 static double order_checked(const thr_frame *f, const int *node_colour, const int *edge_colour)
 {
-  thr_automorphisms a = find(f, node_colour, edge_colour), again = find(f, node_colour, edge_colour);
+  thr_automorphisms a = find(f, node_colour, edge_colour),
+                    again = find(f, node_colour, edge_colour);
   size_t bytes = (size_t)a.n * (size_t)a.n_generators * sizeof *a.generator;
   char *digits = digits_of(f, node_colour, edge_colour), text[32];
   for (int g = 0; g < a.n_generators; g++) {
@@ -73,7 +79,8 @@ static double order_checked(const thr_frame *f, const int *node_colour, const in
   ck_assert(bytes == 0 || memcmp(a.generator, again.generator, bytes) == 0);
   if (order <= THR_GROUP_CAP) {
     thr_group g;
-    ck_assert_int_eq(thr_group_generate(a.n, a.generator, a.n_generators, THR_GROUP_CAP, &g, NULL), THR_OK);
+    ck_assert_int_eq(thr_group_generate(a.n, a.generator, a.n_generators, THR_GROUP_CAP, &g, NULL),
+                     THR_OK);
     ck_assert_double_eq(g.order, order);
     thr_group_destroy(&g);
   }
@@ -107,7 +114,8 @@ START_TEST(orders_of_solids_and_shapes)
 }
 END_TEST
 
-/* Ring times path: 2n turns and mirrors of the ring, and upside down unless the lowest ring is the feet; the cube has more. */
+/* Ring times path: 2n turns and mirrors of the ring, and upside down unless the lowest ring is the
+ * feet; the cube has more. */
 START_TEST(orders_of_tubes)
 {
   for (int n = 3; n <= 12; n++)
@@ -180,7 +188,8 @@ static int count_permutations(const thr_frame *f, const int *edge_colour, int *i
   for (int v = fixed; v < n; v++) {
     int swap = image[fixed];
     image[fixed] = image[v], image[v] = swap;
-    if (f->foot[image[fixed]] == f->foot[fixed]) count += count_permutations(f, edge_colour, image, fixed + 1);
+    if (f->foot[image[fixed]] == f->foot[fixed])
+      count += count_permutations(f, edge_colour, image, fixed + 1);
     image[v] = image[fixed], image[fixed] = swap;
   }
   return count;
@@ -214,7 +223,8 @@ END_TEST
 START_TEST(renumbering)
 {
   rng r = rng_make(5);
-  thr_frame all[] = {shape_make(THR_MAKE_GEODESIC, 3, 0), shape_make(THR_MAKE_TUBE, 6, 4), solid_make(CUBE), triangles_make(3)};
+  thr_frame all[] = {shape_make(THR_MAKE_GEODESIC, 3, 0), shape_make(THR_MAKE_TUBE, 6, 4),
+                     solid_make(CUBE), triangles_make(3)};
   for (int k = 0; k < 4; k++) {
     int *to = calloc((size_t)all[k].n_nodes, sizeof *to);
     thr_frame g = shuffled_frame(&r, &all[k], to);
@@ -249,7 +259,8 @@ START_TEST(node_and_edge_colours)
 }
 END_TEST
 
-static void expect_length_order(double a, double b, double c, double shear, double tolerance, int colours, double order)
+static void expect_length_order(double a, double b, double c, double shear, double tolerance,
+                                int colours, double order)
 {
   thr_frame f = box_make(a, b, c, shear);
   int colour[12], most = 0;
@@ -261,7 +272,8 @@ static void expect_length_order(double a, double b, double c, double shear, doub
   thr_frame_destroy(&f);
 }
 
-/* Boxes: what keeps three, two or one edge length. Sheared along its diagonal a cube has fewer isometries, but equal edges. */
+/* Boxes: what keeps three, two or one edge length. Sheared along its diagonal a cube has fewer
+ * isometries, but equal edges. */
 START_TEST(edge_lengths_are_colours)
 {
   expect_length_order(1, 1, 1, 0, 0, 1, 48);
@@ -269,7 +281,8 @@ START_TEST(edge_lengths_are_colours)
   expect_length_order(3, 1, 2, 0, 0.01, 3, 8);
   expect_length_order(3, 1, 2, 0, 0, 3, 8);
   expect_length_order(1, 1, 1, 0.2, 0, 1, 48);
-  /* 1, 1.1, 1.2 about a size of 0.95: one after the other within 2 * 0.06 of it, the first and the last only by the second */
+  /* 1, 1.1, 1.2 about a size of 0.95: one after the other within 2 * 0.06 of it, the first and the
+   * last only by the second */
   expect_length_order(1, 1.1, 1.2, 0, 0.06, 1, 48);
   expect_length_order(1, 1.1, 1.2, 0, 0.05, 3, 8);
   expect_length_order(1, 1.1, 1.3, 0, 0.06, 2, 16);
@@ -307,7 +320,8 @@ START_TEST(found_within_limits)
     ck_assert(a.mantissa == here.mantissa && a.exponent == here.exponent);
     thr_automorphisms_destroy(&a);
     ck_assert_int_eq(thr_automorphisms_within(frames[i], &o, &over, &all, &a, NULL), THR_OK);
-    ck_assert(all || (a.n_generators == 0 && a.mantissa == 1)); /* a child may be faster than its parent looks */
+    ck_assert(all || (a.n_generators == 0 &&
+                      a.mantissa == 1)); /* a child may be faster than its parent looks */
     thr_automorphisms_destroy(&a);
     thr_automorphisms_destroy(&here);
   }
@@ -353,7 +367,8 @@ static thr_group generate(int degree, const int *generator, int n)
 {
   thr_group g;
   thr_err err = {0};
-  ck_assert_msg(thr_group_generate(degree, generator, n, THR_GROUP_CAP, &g, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_group_generate(degree, generator, n, THR_GROUP_CAP, &g, &err) == THR_OK, "%s",
+                err.text);
   return g;
 }
 
@@ -396,7 +411,8 @@ static thr_group abelian_group(int factors, const int *length)
     degree += length[k];
   for (int k = 0, first = 0; k < factors; first += length[k++])
     for (int x = 0; x < degree; x++)
-      generator[k * degree + x] = x < first || x >= first + length[k] ? x : first + (x - first + 1) % length[k];
+      generator[k * degree + x] =
+          x < first || x >= first + length[k] ? x : first + (x - first + 1) % length[k];
   return generate(degree, generator, factors);
 }
 
@@ -416,7 +432,8 @@ static void assert_group(const thr_group *g)
 {
   for (int a = 0; a < g->order; a++) {
     const int *image = &g->image[a * g->degree];
-    ck_assert(a == 0 || memcmp(&g->image[(a - 1) * g->degree], image, (size_t)g->degree * sizeof *image) != 0);
+    ck_assert(a == 0 || memcmp(&g->image[(a - 1) * g->degree], image,
+                               (size_t)g->degree * sizeof *image) != 0);
     for (int x = 0; x < g->degree && a; x++) {
       int before = g->image[(a - 1) * g->degree + x];
       if (before == image[x]) continue;
@@ -425,7 +442,8 @@ static void assert_group(const thr_group *g)
     }
     for (int b = 0; b < g->order; b++)
       for (int x = 0; x < g->degree; x++)
-        ck_assert_int_eq(g->image[times(g, a, b) * g->degree + x], image[g->image[b * g->degree + x]]);
+        ck_assert_int_eq(g->image[times(g, a, b) * g->degree + x],
+                         image[g->image[b * g->degree + x]]);
     ck_assert_int_eq(times(g, a, g->inverse[a]), 0);
     int power = 0;
     for (int k = 1; k <= g->power_order[a]; k++) {
@@ -459,7 +477,8 @@ END_TEST
 
 START_TEST(refused_groups)
 {
-  static const int seven[14] = {1, 2, 3, 4, 5, 6, 0, 1, 0, 2, 3, 4, 5, 6}, twice[3] = {0, 1, 1}, far[3] = {0, 1, 3};
+  static const int seven[14] = {1, 2, 3, 4, 5, 6, 0, 1, 0, 2, 3, 4, 5, 6}, twice[3] = {0, 1, 1},
+                   far[3] = {0, 1, 3};
   thr_group g;
   thr_err err = {0};
   ck_assert_int_eq(thr_group_generate(7, seven, 2, THR_GROUP_CAP, &g, &err), THR_ELIMIT);
@@ -535,8 +554,8 @@ static thr_subgroup conjugate(const thr_group *g, const thr_subgroup *s, int b)
   return c;
 }
 
-/* Sums of classes and subgroups; every representative the least of its class, whose size is the index of the normalizer, and no
- * two classes the same. */
+/* Sums of classes and subgroups; every representative the least of its class, whose size is the
+ * index of the normalizer, and no two classes the same. */
 static void count_subgroups(const thr_group *g, int *classes, int *subgroups)
 {
   thr_subgroup_classes c;
@@ -641,7 +660,8 @@ START_TEST(all_subsets_of_small_groups)
 }
 END_TEST
 
-/* With too few classes allowed, what is there is sound, and the least and the whole are among it. */
+/* With too few classes allowed, what is there is sound, and the least and the whole are among it.
+ */
 START_TEST(capped_classes)
 {
   thr_group g = symmetric_group(5);
@@ -676,8 +696,8 @@ END_TEST
 
 /* ---- memory ---- */
 
-static thr_status run(const thr_frame *f, const int *edge_colour, thr_automorphisms *a, thr_group *g, thr_subgroup_classes *c,
-                      thr_err *err)
+static thr_status run(const thr_frame *f, const int *edge_colour, thr_automorphisms *a,
+                      thr_group *g, thr_subgroup_classes *c, thr_err *err)
 {
   thr_automorphism_options o = {NULL, edge_colour};
   thr_status st = thr_automorphisms_find(f, &o, a, err);

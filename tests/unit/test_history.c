@@ -1,5 +1,7 @@
-/* Tensions after pulls, grips, releases and knots: against the least and the largest state that the turns allow and the elastic
- * one, found turn by turn; grips against all sets of grips; schedules as text; what the checker says of other tensions.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tensions after pulls, grips, releases and knots: against the least and the largest state that the
+ * turns allow and the elastic one, found turn by turn; grips against all sets of grips; schedules
+ * as text; what the checker says of other tensions.
  */
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
@@ -59,7 +61,8 @@ static thr_eval evaluate(const zigzag *z, const thr_eval_options *o)
   thr_eval e;
   thr_err err = {0};
   const thr_limits none = {0};
-  ck_assert_msg(thr_eval_plan(&z->f, &z->cord, 1, THR_CAPSTAN, o, &none, &e, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_eval_plan(&z->f, &z->cord, 1, THR_CAPSTAN, o, &none, &e, &err) == THR_OK, "%s",
+                err.text);
   return e;
 }
 
@@ -81,15 +84,16 @@ static void hold_all(model *m, bool raise)
       for (int way = 0; way < 2 && k != m->kept; way++) {
         const int from = k + way, to = k + 1 - way;
         const double bound = m->tension[from] * exp(raise ? -m->exponent[k] : m->exponent[k]);
-        if (raise ? m->tension[to] >= bound * (1 - 1e-15) : m->tension[to] <= bound * (1 + 1e-15)) continue;
+        if (raise ? m->tension[to] >= bound * (1 - 1e-15) : m->tension[to] <= bound * (1 + 1e-15))
+          continue;
         m->tension[to] = bound;
         changed = true;
       }
   }
 }
 
-/* Lets the cord slip over one turn after the other, each time as far as that turn asks for: cord that one pass gives the other
- * takes. */
+/* Lets the cord slip over one turn after the other, each time as far as that turn asks for: cord
+ * that one pass gives the other takes. */
 static void slip_all(model *m)
 {
   for (bool changed = true; changed;) {
@@ -178,17 +182,22 @@ static void assert_held(int n, const double *tension, const double *exponent)
   }
 }
 
-static void assert_model(int n, const thr_eval *plain, const double *length, const thr_schedule *schedule, kind which,
-                         const double *tension)
+static void assert_model(int n, const thr_eval *plain, const double *length,
+                         const thr_schedule *schedule, kind which, const double *tension)
 {
-  model m = {
-      .n = n, .kept = -1, .free_start = true, .free_end = true, .exponent = plain->record.cord[0].exponent, .length = length};
+  model m = {.n = n,
+             .kept = -1,
+             .free_start = true,
+             .free_end = true,
+             .exponent = plain->record.cord[0].exponent,
+             .length = length};
   for (int k = 0; k < schedule->n; k++)
     oracle_step(&m, &schedule->step[k], which);
   m.kept = -1;
   settle(&m, which);
   for (int k = 0; k < n; k++)
-    ck_assert_double_eq_tol(tension[k], m.tension[k], (which == ELASTIC ? 1e-6 : 1e-9) * (1e-3 + m.tension[k]));
+    ck_assert_double_eq_tol(tension[k], m.tension[k],
+                            (which == ELASTIC ? 1e-6 : 1e-9) * (1e-3 + m.tension[k]));
 }
 
 START_TEST(any_schedule_leaves_what_the_turns_allow)
@@ -215,7 +224,9 @@ START_TEST(any_schedule_leaves_what_the_turns_allow)
     assert_model(n, &plain, z.f.length, &schedule, known ? ELASTIC : LEAST, cord->tension);
     if (known) ck_assert_ptr_null(cord->most);
     if (cord->most) assert_held(n, cord->most, cord->exponent);
-    if (!known) assert_model(n, &plain, z.f.length, &schedule, LARGEST, cord->most ? cord->most : cord->tension);
+    if (!known)
+      assert_model(n, &plain, z.f.length, &schedule, LARGEST,
+                   cord->most ? cord->most : cord->tension);
     ck_assert_double_eq(cord->force, hardest);
     thr_eval_destroy(&e);
   }
@@ -225,8 +236,8 @@ START_TEST(any_schedule_leaves_what_the_turns_allow)
 }
 END_TEST
 
-/* Turns of ln 2; a grip of 8 N at the second pass is let go when the end is pulled with 2 N: 4, 8, 1, 2 N become 4, 2, 1, 2 at
- * least and 4, 8, 4, 2 at most. */
+/* Turns of ln 2; a grip of 8 N at the second pass is let go when the end is pulled with 2 N: 4, 8,
+ * 1, 2 N become 4, 2, 1, 2 at least and 4, 8, 4, 2 at most. */
 START_TEST(a_grip_that_is_let_go_slips)
 {
   double xyz[5][3] = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {20, 10, 0}, {20, 20, 0}};
@@ -248,7 +259,8 @@ START_TEST(a_grip_that_is_let_go_slips)
     ck_assert_double_eq_tol(open.record.cord[0].tension[k], least[k], 1e-12);
     ck_assert_double_eq_tol(open.record.cord[0].most[k], most[k], 1e-12);
   }
-  /* 4, 8, 1, 2: over the turn in the middle 8 + 1 become 6 + 3, which the turn behind holds against 2. */
+  /* 4, 8, 1, 2: over the turn in the middle 8 + 1 become 6 + 3, which the turn behind holds
+   * against 2. */
   ck_assert_double_eq_tol(known.record.cord[0].tension[1], 6, 1e-12);
   ck_assert_double_eq_tol(known.record.cord[0].tension[2], 3, 1e-12);
   thr_eval_destroy(&open);
@@ -263,9 +275,10 @@ START_TEST(free_ends_keep_nothing)
   rng r = rng_make((uint64_t)_i);
   zigzag z;
   zigzag_make(&z, &r, 12);
-  thr_schedule_step step[] = {{.deed = THR_DEED_GRIP, .end = (thr_pull)(_i % 3), .pass = rng_below(&r, 12), .force = 200},
-                              {.deed = THR_DEED_PULL, .end = THR_PULL_BOTH, .force = 10},
-                              {.deed = THR_DEED_PULL, .end = THR_PULL_BOTH, .force = 8}};
+  thr_schedule_step step[] = {
+      {.deed = THR_DEED_GRIP, .end = (thr_pull)(_i % 3), .pass = rng_below(&r, 12), .force = 200},
+      {.deed = THR_DEED_PULL, .end = THR_PULL_BOTH, .force = 10},
+      {.deed = THR_DEED_PULL, .end = THR_PULL_BOTH, .force = 8}};
   thr_schedule schedule = {1, 1, step};
   thr_eval_options o = options_at(0.2);
   o.schedule = &schedule;
@@ -283,7 +296,8 @@ START_TEST(free_ends_keep_nothing)
 }
 END_TEST
 
-/* A knot that slips makes the cord shorter by just that much: the integral of force over EA before and after. */
+/* A knot that slips makes the cord shorter by just that much: the integral of force over EA before
+ * and after. */
 START_TEST(a_knot_gives_back_its_slip)
 {
   rng r = rng_make((uint64_t)_i);
@@ -291,8 +305,9 @@ START_TEST(a_knot_gives_back_its_slip)
   const int n = rng_between(&r, 2, MOST);
   zigzag_make(&z, &r, n);
   const double stiffness = 2000;
-  thr_schedule_step step[] = {{.deed = THR_DEED_PULL, .end = THR_PULL_BOTH, .force = 30},
-                              {.deed = THR_DEED_KNOT, .end = (thr_pull)(_i % 3), .slip = 0.3 * rng_unit(&r)}};
+  thr_schedule_step step[] = {
+      {.deed = THR_DEED_PULL, .end = THR_PULL_BOTH, .force = 30},
+      {.deed = THR_DEED_KNOT, .end = (thr_pull)(_i % 3), .slip = 0.3 * rng_unit(&r)}};
   thr_schedule before = {1, 1, step}, after = {2, 2, step};
   thr_eval_options o = options_at(0.2);
   o.physics.stiffness = stiffness;
@@ -320,7 +335,8 @@ END_TEST
 
 /* ---- grips ---- */
 
-/* Does a grip of the set (bit k: at pass k, drawn from the start), each with so much, the end and perhaps the start leave 1 N? */
+/* Does a grip of the set (bit k: at pass k, drawn from the start), each with so much, the end and
+ * perhaps the start leave 1 N? */
 static bool seats(int n, const double *exponent, unsigned set, bool pull_start, double force)
 {
   model m = {.n = n, .kept = -1, .exponent = exponent};
@@ -340,7 +356,8 @@ static int brute_grips(int n, const double *exponent, bool pull_start, double ha
   *largest = hand;
   for (unsigned set = 0; set < 1U << n; set++) {
     const int grips = __builtin_popcount(set);
-    if (grips > best || !seats(n, exponent, set, pull_start, grips < best ? hand : *largest)) continue;
+    if (grips > best || !seats(n, exponent, set, pull_start, grips < best ? hand : *largest))
+      continue;
     double low = 1, high = grips < best ? hand : *largest;
     while (high - low > 1e-12 * high) {
       const double middle = (low + high) / 2;
@@ -389,7 +406,8 @@ START_TEST(grips_are_as_few_as_any_set_of_them)
 }
 END_TEST
 
-/* Wobble costs as much as turning by so many radians: mu x wobble x metres between the middles of the passes. */
+/* Wobble costs as much as turning by so many radians: mu x wobble x metres between the middles of
+ * the passes. */
 START_TEST(wobble_turns_with_the_length)
 {
   rng r = rng_make((uint64_t)_i);
@@ -401,7 +419,8 @@ START_TEST(wobble_turns_with_the_length)
   thr_eval wobbly = evaluate(&z, &o);
   for (int k = 0; k < 5; k++) {
     const double metres = (z.f.length[k] + z.f.length[k + 1]) / 2000;
-    ck_assert_double_eq_tol(wobbly.record.cord[0].exponent[k] - straight.record.cord[0].exponent[k], 0.2 * 3 * metres, 1e-12);
+    ck_assert_double_eq_tol(wobbly.record.cord[0].exponent[k] - straight.record.cord[0].exponent[k],
+                            0.2 * 3 * metres, 1e-12);
   }
   thr_eval_destroy(&straight);
   thr_eval_destroy(&wobbly);
@@ -423,13 +442,16 @@ START_TEST(text_becomes_steps)
   thr_plan plan = plan_number(0);
   thr_schedule s;
   thr_err err = {0};
-  ck_assert_msg(parse(&plan, "# first\nall: pull both 40; A: release end 5\nA: grip 3 20 from start\nA : knot both 0.5;;\n", &s,
-                      &err) == THR_OK,
+  ck_assert_msg(parse(&plan,
+                      "# first\nall: pull both 40; A: release end 5\nA: grip 3 20 from start\nA : "
+                      "knot both 0.5;;\n",
+                      &s, &err) == THR_OK,
                 "%s", err.text);
   ck_assert_int_eq(s.n, 3 + plan.n_cords);
   const thr_schedule_step *last = &s.step[s.n - 1], *grip = &s.step[s.n - 2];
   ck_assert(last->deed == THR_DEED_KNOT && last->slip == 0.5 && last->end == THR_PULL_BOTH);
-  ck_assert(grip->deed == THR_DEED_GRIP && grip->pass == 2 && grip->force == 20 && grip->end == THR_PULL_START);
+  ck_assert(grip->deed == THR_DEED_GRIP && grip->pass == 2 && grip->force == 20 &&
+            grip->end == THR_PULL_START);
   thr_schedule_destroy(&s);
   thr_plan_destroy(&plan);
 }
@@ -484,10 +506,14 @@ START_TEST(other_tensions_are_refused)
   o.physics = plan.options.physics;
   o.physics.stiffness = 1000;
   snprintf(plan.frame.units, sizeof plan.frame.units, "mm");
-  ck_assert_int_eq(parse(&plan, "all: pull both 40; A: grip 4 60; A: release end 5; A: knot start 0.001", &schedule, &err),
+  ck_assert_int_eq(parse(&plan,
+                         "all: pull both 40; A: grip 4 60; A: release end 5; A: knot start 0.001",
+                         &schedule, &err),
                    THR_OK);
   o.schedule = &schedule;
-  ck_assert_msg(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_CAPSTAN, &o, &none, &e, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_CAPSTAN, &o, &none, &e,
+                              &err) == THR_OK,
+                "%s", err.text);
   plan.evaluation = e.record;
   ck_assert_msg(verdict(&plan, &err) == THR_OK, "%s", err.text);
   for (int k = 0; k < plan.cord[0].n_passes; k++) {

@@ -1,5 +1,6 @@
-/* Holding pull: closed forms of cantilever and friction, a plain programme solved by simplex, the mechanism checked as a
- * mechanism. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Holding pull: closed forms of cantilever and friction, a plain programme solved by simplex, the
+ * mechanism checked as a mechanism. */
 #include "eval/structure/beads.h"
 #include "graph/angle.h"
 #include "graph/plan/physics.h"
@@ -38,8 +39,10 @@ static thr_physics physics_of(double width, double mu)
                        .gravity = 10};
 }
 
-/* Adds a force of so many newtons along a direction at a point to a bead's wrench about its mass centre. */
-static void add_force(const thr_beads *b, int bead, double newtons, const double *direction, const double *at, double *wrench)
+/* Adds a force of so many newtons along a direction at a point to a bead's wrench about its mass
+ * centre. */
+static void add_force(const thr_beads *b, int bead, double newtons, const double *direction,
+                      const double *at, double *wrench)
 {
   double lever[3];
   for (int k = 0; k < 3; k++)
@@ -52,7 +55,8 @@ static void add_force(const thr_beads *b, int bead, double newtons, const double
 }
 
 /* Every pass draws its two beads together with 1 N, along its edge. */
-static void add_cord(const thr_beads *b, const thr_frame *f, const thr_cord *cord, double (*wrench)[6])
+static void add_cord(const thr_beads *b, const thr_frame *f, const thr_cord *cord,
+                     double (*wrench)[6])
 {
   for (int k = 0; k < cord->n_passes; k++) {
     int e = cord->half[k] / 2, from = f->edge[e][0], to = f->edge[e][1];
@@ -62,7 +66,8 @@ static void add_cord(const thr_beads *b, const thr_frame *f, const thr_cord *cor
 }
 
 /* Takes the frame over. Every cord has tension 1 throughout. */
-static model model_make(thr_frame frame, thr_physics physics, const bool *fixed, const thr_cord *cord, int n_cords)
+static model model_make(thr_frame frame, thr_physics physics, const bool *fixed,
+                        const thr_cord *cord, int n_cords)
 {
   model m = {.frame = frame, .physics = physics};
   thr_err err = {0};
@@ -97,13 +102,15 @@ static thr_holding hold(const model *m)
 {
   thr_holding h;
   thr_err err = {0};
-  thr_status st = thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, &no_limit, &h, &err);
+  thr_status st =
+      thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, &no_limit, &h, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   ck_assert(h.present);
   return h;
 }
 
-/* n beads in a row with spacing h, turned about the vertical by azimuth, one cord through all, bead 0 held. */
+/* n beads in a row with spacing h, turned about the vertical by azimuth, one cord through all, bead
+ * 0 held. */
 static model cantilever(int n, double h, double width, double mu, double azimuth)
 {
   double(*xyz)[3] = calloc((size_t)n, sizeof *xyz);
@@ -130,8 +137,8 @@ static model cantilever(int n, double h, double width, double mu, double azimuth
 
 /* ---- closed forms ---- */
 
-/* The part beyond the held bead turns about the lower edge of its first face, half a width below the cord. Inner beads weigh in
- * at their nodes, the last one, a lone arm, in the middle of it. */
+/* The part beyond the held bead turns about the lower edge of its first face, half a width below
+ * the cord. Inner beads weigh in at their nodes, the last one, a lone arm, in the middle of it. */
 static double overturning(int n, double h, double width, double weight)
 {
   double moment = weight * ((n - 1) * h - 0.25 * h - 0.5 * h);
@@ -175,9 +182,9 @@ START_TEST(play_of_the_bore_lowers_what_is_proved)
 }
 END_TEST
 
-/* Every face of a knotted cantilever needs what holds up the beads beyond it; what its cord lacks it has to gain by stretching,
- * and friction passes that on, less at every turn. A cord that does not bear the most that a face needs breaks, and that is
- * proved. */
+/* Every face of a knotted cantilever needs what holds up the beads beyond it; what its cord lacks
+ * it has to gain by stretching, and friction passes that on, less at every turn. A cord that does
+ * not bear the most that a face needs breaks, and that is proved. */
 START_TEST(knotted_cords_stretch_by_what_they_lack)
 {
   static const double turn[] = {0, 0.1, 0.7};
@@ -190,7 +197,8 @@ START_TEST(knotted_cords_stretch_by_what_they_lack)
         for (int e = 0; e < n - 1; e++) {
           needed[e] = tension;
           for (int f = 0; f < n - 1; f++)
-            needed[e] = fmax(needed[e], overturning(n - f, 20, 8, 0.1) * exp(-turn[i % 3] * abs(e - f)));
+            needed[e] =
+                fmax(needed[e], overturning(n - f, 20, 8, 0.1) * exp(-turn[i % 3] * abs(e - f)));
           exact += 0.02 * (needed[e] - tension);
           m.press[e] = tension;
           rise[e] = (thr_rise){e, tension, 0.02, e + 1 < n - 1 ? turn[i % 3] : -1};
@@ -200,10 +208,11 @@ START_TEST(knotted_cords_stretch_by_what_they_lack)
         m.beads.strength = i < 3 ? 0 : i < 6 ? 1.01 * most : 0.99 * most;
         thr_holding h;
         thr_err err = {0};
-        thr_status st = thr_holding_stretch(&m.beads, &m.frame, &m.physics, m.press, &no_limit, &h, more, &err);
+        thr_status st =
+            thr_holding_stretch(&m.beads, &m.frame, &m.physics, m.press, &no_limit, &h, more, &err);
         if (m.beads.strength > 0 && m.beads.strength < most && tension < m.beads.strength) {
-          ck_assert_msg(st == THR_EINFEASIBLE, "%d %g %d: %s (strength %g most %g)", n, tension, i, err.text, m.beads.strength,
-                        most);
+          ck_assert_msg(st == THR_EINFEASIBLE, "%d %g %d: %s (strength %g most %g)", n, tension, i,
+                        err.text, m.beads.strength, most);
           ck_assert(h.velocity != NULL);
         } else {
           ck_assert_msg(st == THR_OK, "%s", err.text);
@@ -218,11 +227,13 @@ START_TEST(knotted_cords_stretch_by_what_they_lack)
 }
 END_TEST
 
-/* Tensions that span up to 16 powers of ten: at every face the cord must hold up what hangs beyond it. */
+/* Tensions that span up to 16 powers of ten: at every face the cord must hold up what hangs beyond
+ * it. */
 START_TEST(each_face_holds_what_hangs_beyond_it)
 {
-  static const double press[][4] = {{1, 1e-3, 1e-6, 1e-9}, {1e-9, 1e-6, 1e-3, 1}, {1, 1e-16, 1, 1e-8},
-                                    {1, 1e-4, 1e-12, 1},   {1e-13, 1, 1, 1},      {1e-2, 1, 1e-5, 1e-15}};
+  static const double press[][4] = {{1, 1e-3, 1e-6, 1e-9}, {1e-9, 1e-6, 1e-3, 1},
+                                    {1, 1e-16, 1, 1e-8},   {1, 1e-4, 1e-12, 1},
+                                    {1e-13, 1, 1, 1},      {1e-2, 1, 1e-5, 1e-15}};
   for (size_t i = 0; i < sizeof press / sizeof *press; i++)
     for (double azimuth = 0; azimuth < 2; azimuth += 0.7) {
       model m = cantilever(5, 20, 8, 2, azimuth);
@@ -243,8 +254,8 @@ START_TEST(each_face_holds_what_hangs_beyond_it)
 }
 END_TEST
 
-/* Thesis, Fig. 12: with the length and weight of what hangs out given, the number of beads does not matter, the width does:
- * weight x length / width, as of a uniform beam. */
+/* Thesis, Fig. 12: with the length and weight of what hangs out given, the number of beads does not
+ * matter, the width does: weight x length / width, as of a uniform beam. */
 START_TEST(cantilever_scales_as_in_the_thesis)
 {
   const double length = 600, mass = 0.6;
@@ -284,7 +295,8 @@ END_TEST
 START_TEST(what_stands_needs_no_pull)
 {
   const double xyz[4][3] = {{0, 0, 0}, {0, 0, 30}, {0, 0, 55}, {0, 0, 90}};
-  thr_frame f = frame_make(4, xyz, 3, (const int[3][2]){{0, 1}, {2, 1}, {2, 3}}, NULL, (const int[]){0, -1});
+  thr_frame f =
+      frame_make(4, xyz, 3, (const int[3][2]){{0, 1}, {2, 1}, {2, 3}}, NULL, (const int[]){0, -1});
   thr_cord cord = {.id = "A", .n_passes = 3, .half = (int[]){0, 3, 4}};
   model m = model_make(f, physics_of(8, 0.3), NULL, &cord, 1);
   thr_holding h = hold(&m);
@@ -304,7 +316,9 @@ static void assert_hopeless(model *m, const char *node)
   thr_holding h;
   char word[40];
   snprintf(word, sizeof word, "node %s ", node);
-  ck_assert_int_eq(thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, &no_limit, &h, &err), THR_EINFEASIBLE);
+  ck_assert_int_eq(
+      thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, &no_limit, &h, &err),
+      THR_EINFEASIBLE);
   assert_one_line(&err, word);
   ck_assert(!h.present && h.velocity == NULL);
   model_destroy(m);
@@ -324,7 +338,8 @@ START_TEST(hopeless_structures_name_a_bead)
   const double four[4][3] = {{0, 0, 0}, {20, 0, 0}, {40, 0, 0}, {60, 0, 0}};
   thr_frame g = frame_make(4, four, 3, (const int[3][2]){{0, 1}, {1, 2}, {2, 3}}, NULL, NULL);
   cord = (thr_cord){.id = "A", .n_passes = 2, .half = (int[]){0, 2}};
-  model faint = model_make(g, physics_of(8, 0.4), (const bool[]){true, false, false, false}, &cord, 1);
+  model faint =
+      model_make(g, physics_of(8, 0.4), (const bool[]){true, false, false, false}, &cord, 1);
   faint.press[1] = 1e-15;
   assert_hopeless(&faint, "3");
 }
@@ -337,7 +352,9 @@ START_TEST(stops_when_told)
   model m = cantilever(5, 20, 8, 1, 0);
   thr_err err = {0};
   thr_holding h;
-  ck_assert_int_eq(thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &limits, &h, &err), THR_ELIMIT);
+  ck_assert_int_eq(
+      thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &limits, &h, &err),
+      THR_ELIMIT);
   assert_one_line(&err, "stopped");
   ck_assert(!h.present && h.velocity == NULL);
   model_destroy(&m);
@@ -370,7 +387,8 @@ END_TEST
 
 /* ---- random structures ---- */
 
-/* A random framework over the ground, drawn together by a cord along each edge; some have a bead held instead of feet. */
+/* A random framework over the ground, drawn together by a cord along each edge; some have a bead
+ * held instead of feet. */
 static model random_model(uint64_t seed, int most_beads)
 {
   rng r = rng_make(seed);
@@ -401,7 +419,8 @@ static void cross(const double a[3], const double b[3], double out[3])
     out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-static void velocity_at(const model *m, const thr_holding *h, int bead, const double at[3], double out[3])
+static void velocity_at(const model *m, const thr_holding *h, int bead, const double at[3],
+                        double out[3])
 {
   double lever[3];
   for (int k = 0; k < 3; k++)
@@ -411,7 +430,8 @@ static void velocity_at(const model *m, const thr_holding *h, int bead, const do
     out[k] += h->velocity[bead][k];
 }
 
-/* Contacts open at least mu times as fast as they slide (true cones), by more than rounding nowhere less. */
+/* Contacts open at least mu times as fast as they slide (true cones), by more than rounding nowhere
+ * less. */
 static void assert_opens(const double apart[3], const double normal[3], double mu)
 {
   double open = 0, all = 0;
@@ -422,7 +442,8 @@ static void assert_opens(const double apart[3], const double normal[3], double m
   ck_assert_msg(open >= mu * sqrt(all) - 1e-9, "opens with %g, slides with %g", open, sqrt(all));
 }
 
-/* The proof: a mechanism of the true friction cones in which the weights' power is lower x what the cords resist per newton. */
+/* The proof: a mechanism of the true friction cones in which the weights' power is lower x what the
+ * cords resist per newton. */
 static void assert_proved(const model *m, const thr_holding *h)
 {
   const thr_beads *b = &m->beads;
@@ -457,7 +478,8 @@ START_TEST(bounds_are_proved_and_close)
   model m = random_model((uint64_t)_i + 1, 12);
   thr_holding h;
   thr_err err = {0};
-  thr_status st = thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &h, &err);
+  thr_status st =
+      thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &h, &err);
   if (st == THR_OK) {
     ck_assert(h.lower <= h.upper * (1 + 1e-6) + 1e-9);
     ck_assert(h.residual < 1e-12);
@@ -478,7 +500,8 @@ typedef struct {
   int row[4096 * 12], start[4097], n;
 } plain;
 
-static void push(plain *p, const model *m, int bead, const double force[3], const double at[3], double sign)
+static void push(plain *p, const model *m, int bead, const double force[3], const double at[3],
+                 double sign)
 {
   double lever[3], moment[3];
   if (bead < 0 || m->beads.fixed[bead]) return;
@@ -492,8 +515,8 @@ static void push(plain *p, const model *m, int bead, const double force[3], cons
 }
 
 /* Rays of a pyramid of eight edges, the first of which lies along u, square to the normal. */
-static void add_point(plain *p, const model *m, int bead, int other, const double at[3], const double normal[3],
-                      const double u[3], double mu)
+static void add_point(plain *p, const model *m, int bead, int other, const double at[3],
+                      const double normal[3], const double u[3], double mu)
 {
   double v[3];
   cross(normal, u, v);
@@ -517,9 +540,9 @@ static void node_wrench(const thr_beads *b, int bead, const double force[3], dou
   add_force(b, bead, size, direction, b->centre[bead], wrench);
 }
 
-/* All columns at once, the unknown in one: the least pull, INFINITY if there is none, or, with a load, how many times so much is
- * carried at that pull, -INFINITY if it does not stand, INFINITY if no multiple is too much. Feet stand on polygons in their
- * discs, or round them. */
+/* All columns at once, the unknown in one: the least pull, INFINITY if there is none, or, with a
+ * load, how many times so much is carried at that pull, -INFINITY if it does not stand, INFINITY if
+ * no multiple is too much. Feet stand on polygons in their discs, or round them. */
 static double by_simplex(const model *m, bool round, const double (*load)[3], double pull)
 {
   static const double up[3] = {0, 0, 1};
@@ -532,12 +555,14 @@ static double by_simplex(const model *m, bool round, const double (*load)[3], do
       double side[3];
       for (int k = 0; k < 3; k++)
         side[k] = (b->corner[e][1][k] - b->corner[e][0][k]) / b->width;
-      add_point(p, m, m->frame.edge[e][1], m->frame.edge[e][0], b->corner[e][i], b->axis[e], side, m->physics.mu_bead);
+      add_point(p, m, m->frame.edge[e][1], m->frame.edge[e][0], b->corner[e][i], b->axis[e], side,
+                m->physics.mu_bead);
     }
   for (int j = 0; j < b->n_feet; j++)
     for (int i = 0; i < THR_FOOT_POINTS; i++) {
       const double *foot = b->centre[b->foot[j]], *on_edge = b->foot_point[j][i];
-      const double at[3] = {foot[0] + times * (on_edge[0] - foot[0]), foot[1] + times * (on_edge[1] - foot[1]), on_edge[2]};
+      const double at[3] = {foot[0] + times * (on_edge[0] - foot[0]),
+                            foot[1] + times * (on_edge[1] - foot[1]), on_edge[2]};
       add_point(p, m, b->foot[j], -1, at, up, b->level, m->physics.mu_ground);
     }
   p->start[p->n + 1] = p->start[p->n];
@@ -557,12 +582,15 @@ static double by_simplex(const model *m, bool round, const double (*load)[3], do
   thr_lp *lp;
   thr_lp_outcome outcome;
   thr_err err = {0};
-  ck_assert_msg(thr_lp_create_equations(&lp, 6 * b->n_beads, p->rhs, p->n, p->cost, NULL, p->start, p->row, p->value, &err) ==
-                    THR_OK,
+  ck_assert_msg(thr_lp_create_equations(&lp, 6 * b->n_beads, p->rhs, p->n, p->cost, NULL, p->start,
+                                        p->row, p->value, &err) == THR_OK,
                 "%s", err.text);
   ck_assert_msg(thr_lp_solve(lp, &no_limit, &outcome, &err) == THR_OK, "%s", err.text);
   double found = outcome == THR_LP_OPTIMAL ? thr_lp_objective(lp) : INFINITY;
-  if (load) found = outcome == THR_LP_OPTIMAL ? -found : outcome == THR_LP_INFEASIBLE ? -INFINITY : INFINITY;
+  if (load)
+    found = outcome == THR_LP_OPTIMAL      ? -found
+            : outcome == THR_LP_INFEASIBLE ? -INFINITY
+                                           : INFINITY;
   thr_lp_destroy(lp);
   free(p);
   return found;
@@ -586,14 +614,16 @@ START_TEST(loads_equal_a_plain_programme_by_simplex)
   thr_carry carry = {0};
   thr_err err = {0};
   double load[64][3] = {{0}};
-  if (thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &h, NULL) == THR_OK && isfinite(h.upper)) {
+  if (thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &h, NULL) ==
+          THR_OK &&
+      isfinite(h.upper)) {
     const double pull = fmax(1.5 * h.upper, 0.1);
     random_load(&m, &r, load);
     double *press = calloc((size_t)m.frame.n_edges, sizeof *press);
     for (int e = 0; e < m.frame.n_edges; e++)
       press[e] = pull * m.press[e];
-    thr_status st =
-        thr_holding_carry(&m.beads, &m.frame, &m.physics, press, (const double(*)[3])load, true, &no_limit, &carry, &err);
+    thr_status st = thr_holding_carry(&m.beads, &m.frame, &m.physics, press,
+                                      (const double(*)[3])load, true, &no_limit, &carry, &err);
     double carried = by_simplex(&m, false, (const double(*)[3])load, pull);
     m.physics.mu_bead /= cos(THR_PI / 8);
     m.physics.mu_ground /= cos(THR_PI / 8);
@@ -614,23 +644,25 @@ START_TEST(loads_equal_a_plain_programme_by_simplex)
 }
 END_TEST
 
-/* At half the pull that holds it without the load, a load is carried in part if it helps, else not at all: what is said to be
- * carried by no part has no equilibrium by simplex. */
+/* At half the pull that holds it without the load, a load is carried in part if it helps, else not
+ * at all: what is said to be carried by no part has no equilibrium by simplex. */
 START_TEST(loads_below_the_holding_pull_are_decided_as_by_simplex)
 {
   model m = random_model((uint64_t)_i + 1, 8);
   rng r = rng_make((uint64_t)_i + 900);
   thr_holding h = {0};
   double load[64][3] = {{0}};
-  if (thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, false, &no_limit, &h, NULL) == THR_OK && h.lower > 0) {
+  if (thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, false, &no_limit, &h, NULL) ==
+          THR_OK &&
+      h.lower > 0) {
     thr_carry carry = {0};
     thr_err err = {0};
     double *press = calloc((size_t)m.frame.n_edges, sizeof *press);
     random_load(&m, &r, load);
     for (int e = 0; e < m.frame.n_edges; e++)
       press[e] = 0.5 * h.lower * m.press[e];
-    thr_status st =
-        thr_holding_carry(&m.beads, &m.frame, &m.physics, press, (const double(*)[3])load, true, &no_limit, &carry, &err);
+    thr_status st = thr_holding_carry(&m.beads, &m.frame, &m.physics, press,
+                                      (const double(*)[3])load, true, &no_limit, &carry, &err);
     m.physics.mu_bead /= cos(THR_PI / 8);
     m.physics.mu_ground /= cos(THR_PI / 8);
     const double beyond = by_simplex(&m, true, (const double(*)[3])load, 0.5 * h.lower);
@@ -639,7 +671,8 @@ START_TEST(loads_below_the_holding_pull_are_decided_as_by_simplex)
     else if (st == THR_OK)
       ck_assert_double_eq_tol(carry.beyond, beyond, 2e-6 * beyond + 1e-7);
     else
-      ck_assert_msg(st == THR_ESOLVER && isinf(beyond) && beyond > 0, "not decided, where %g times are carried", beyond);
+      ck_assert_msg(st == THR_ESOLVER && isinf(beyond) && beyond > 0,
+                    "not decided, where %g times are carried", beyond);
     thr_carry_destroy(&carry);
     free(press);
   }
@@ -650,7 +683,8 @@ END_TEST
 
 static void assert_equals_simplex(model *m)
 {
-  double upper = by_simplex(m, false, NULL, 0), mu_bead = m->physics.mu_bead, mu_ground = m->physics.mu_ground;
+  double upper = by_simplex(m, false, NULL, 0), mu_bead = m->physics.mu_bead,
+         mu_ground = m->physics.mu_ground;
   m->physics.mu_bead /= cos(THR_PI / 8);
   m->physics.mu_ground /= cos(THR_PI / 8);
   double lower = by_simplex(m, true, NULL, 0);
@@ -658,7 +692,8 @@ static void assert_equals_simplex(model *m)
   m->physics.mu_ground = mu_ground;
   thr_holding h;
   thr_err err = {0};
-  thr_status st = thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, &no_limit, &h, &err);
+  thr_status st =
+      thr_holding_pull(&m->beads, &m->frame, &m->physics, m->press, true, &no_limit, &h, &err);
   if (isinf(lower)) {
     ck_assert_msg(st == THR_EINFEASIBLE, "lower %g N", h.lower);
   } else {
@@ -677,7 +712,8 @@ START_TEST(equals_a_plain_programme_by_simplex)
 }
 END_TEST
 
-/* Between beads that are held, contact forces may be as large as one likes: every case is decided all the same. */
+/* Between beads that are held, contact forces may be as large as one likes: every case is decided
+ * all the same. */
 START_TEST(many_held_beads_equal_a_plain_programme_by_simplex)
 {
   model m = random_model((uint64_t)_i + 1, 8);
@@ -708,18 +744,23 @@ START_TEST(a_row_between_held_ends_needs_no_pull)
 }
 END_TEST
 
-/* Whether any pull holds does not depend on how unevenly the cords press; less of it anywhere never needs less pull. */
+/* Whether any pull holds does not depend on how unevenly the cords press; less of it anywhere never
+ * needs less pull. */
 START_TEST(uneven_cords_decide_alike)
 {
   model m = random_model((uint64_t)_i + 1, 10);
   rng r = rng_make((uint64_t)_i + 99);
   thr_holding even, uneven;
   thr_err err = {0}, why = {0};
-  thr_status st = thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &even, &err);
+  thr_status st =
+      thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &even, &err);
   for (int e = 0; e < m.frame.n_edges; e++)
     m.press[e] = pow(10, -12 * rng_unit(&r));
-  ck_assert_int_eq(thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &uneven, &why), st);
-  if (st == THR_OK) ck_assert(uneven.lower >= even.lower * (1 - 1e-5) && uneven.upper >= uneven.lower * (1 - 1e-5));
+  ck_assert_int_eq(
+      thr_holding_pull(&m.beads, &m.frame, &m.physics, m.press, true, &no_limit, &uneven, &why),
+      st);
+  if (st == THR_OK)
+    ck_assert(uneven.lower >= even.lower * (1 - 1e-5) && uneven.upper >= uneven.lower * (1 - 1e-5));
   thr_holding_destroy(&even);
   thr_holding_destroy(&uneven);
   model_destroy(&m);
@@ -787,7 +828,8 @@ END_TEST
 
 START_TEST(mirrored_plans_pull_alike)
 {
-  static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-stairs.json", "data/dome7-snake.json"};
+  static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-stairs.json",
+                                      "data/dome7-snake.json"};
   for (int i = 0; i < 3; i++) {
     thr_plan p;
     thr_err err = {0};
@@ -811,7 +853,8 @@ START_TEST(same_bits_again)
 {
   model m = cantilever(9, 13, 6, 0.4, 1);
   thr_holding a = hold(&m), b = hold(&m);
-  ck_assert(memcmp(&a.lower, &b.lower, sizeof a.lower) == 0 && memcmp(&a.upper, &b.upper, sizeof a.upper) == 0);
+  ck_assert(memcmp(&a.lower, &b.lower, sizeof a.lower) == 0 &&
+            memcmp(&a.upper, &b.upper, sizeof a.upper) == 0);
   ck_assert(memcmp(a.velocity, b.velocity, (size_t)m.beads.n_beads * sizeof *a.velocity) == 0);
   thr_holding_destroy(&a);
   thr_holding_destroy(&b);

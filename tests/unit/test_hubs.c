@@ -1,4 +1,6 @@
-/* Nodes of any degree: what joining circuits at a hub costs, and plans of frameworks whose turns no programme holds. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Nodes of any degree: what joining circuits at a hub costs, and plans of frameworks whose turns no
+ * programme holds. */
 #include "graph/limits.h"
 #include "graph/plan/plan.h"
 #include "graph/plan/request.h"
@@ -15,7 +17,8 @@
 
 static thr_turning_task closed_task(const thr_frame *f)
 {
-  return (thr_turning_task){.cover = 1, .most_passes = thr_turning_most_passes(f, 1), .cords = 1, .extra_limit = -1};
+  return (thr_turning_task){
+      .cover = 1, .most_passes = thr_turning_most_passes(f, 1), .cords = 1, .extra_limit = -1};
 }
 
 /* n spokes of random directions from node 0. */
@@ -89,7 +92,8 @@ START_TEST(dense_frameworks_have_plans_and_bounds)
   thr_plan p;
   thr_status st = thr_tortuosity_plan(&f, &o, &limits, &p, &err);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
-  ck_assert_msg(st == THR_OK || strstr(err.text, "too many turns for a linear programme") != NULL, "%s", err.text);
+  ck_assert_msg(st == THR_OK || strstr(err.text, "too many turns for a linear programme") != NULL,
+                "%s", err.text);
   ck_assert(p.turning.present);
   ck_assert_double_ge(p.turning.lower_bound, 0.9 * p.turning.price);
   thr_plan_destroy(&p);

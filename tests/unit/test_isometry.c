@@ -1,4 +1,6 @@
-/* What automorphisms are in space, against the known classes of point groups; isometries from coordinates against nauty's group.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What automorphisms are in space, against the known classes of point groups; isometries from
+ * coordinates against nauty's group.
  */
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
@@ -25,7 +27,8 @@ static named_group name_elements(const thr_frame *f, double tolerance)
   thr_automorphisms a;
   named_group n;
   ck_assert_int_eq(thr_automorphisms_find(f, &o, &a, NULL), THR_OK);
-  ck_assert_int_eq(thr_group_generate(a.n, a.generator, a.n_generators, THR_GROUP_CAP, &n.g, NULL), THR_OK);
+  ck_assert_int_eq(thr_group_generate(a.n, a.generator, a.n_generators, THR_GROUP_CAP, &n.g, NULL),
+                   THR_OK);
   n.element = calloc((size_t)n.g.order, sizeof *n.element);
   ck_assert(n.element != NULL);
   for (int k = 0; k < n.g.order; k++)
@@ -49,7 +52,8 @@ static int count_named(const named_group *n, const char *name)
 }
 
 /* Where axis and angle, or the mirror or inversion, send a node must be where its image is. */
-static void assert_moves(const thr_frame *f, const int *image, const thr_isometry *o, double tolerance)
+static void assert_moves(const thr_frame *f, const int *image, const thr_isometry *o,
+                         double tolerance)
 {
   double c[3] = {0}, size = 0;
   for (int v = 0; v < f->n_nodes; v++)
@@ -69,7 +73,8 @@ static void assert_moves(const thr_frame *f, const int *image, const thr_isometr
     for (int i = 0; i < 3; i++) { /* Rodrigues; angle 0 for a mirror */
       double across = a[(i + 1) % 3] * x[(i + 2) % 3] - a[(i + 2) % 3] * x[(i + 1) % 3];
       turned[i] = x[i] * cosine + across * sine + a[i] * along * (1 - cosine);
-      if (o->kind == THR_ISO_MIRROR || o->kind == THR_ISO_ROTOREFLECTION) turned[i] -= 2 * a[i] * along;
+      if (o->kind == THR_ISO_MIRROR || o->kind == THR_ISO_ROTOREFLECTION)
+        turned[i] -= 2 * a[i] * along;
       if (o->kind == THR_ISO_INVERSION) turned[i] = -x[i];
       if (o->kind == THR_ISO_IDENTITY) turned[i] = x[i];
       off += pow(turned[i] - (f->xyz[image[v]][i] - c[i]), 2);
@@ -90,21 +95,24 @@ static void assert_sound(const thr_frame *f, const named_group *n, double tolera
     ck_assert_double_eq_tol(norm, turns || o->kind == THR_ISO_MIRROR, 1e-12);
     ck_assert(turns ? o->angle > -THR_PI && o->angle <= THR_PI && o->angle != 0 : o->angle == 0);
     for (int i = 0; i < 3; i++) /* the largest component is positive */
-      ck_assert(o->axis[i] > -1e-9 || fmax(fmax(o->axis[0], o->axis[1]), o->axis[2]) >= -o->axis[i] - 1e-9);
+      ck_assert(o->axis[i] > -1e-9 ||
+                fmax(fmax(o->axis[0], o->axis[1]), o->axis[2]) >= -o->axis[i] - 1e-9);
     assert_moves(f, &n->g.image[k * f->n_nodes], o, tolerance);
   }
 }
 
 /* ---- point groups ---- */
 
-static void expect_counts(thr_frame f, const char *group, int kinds, const char *const *name, const int *count)
+static void expect_counts(thr_frame f, const char *group, int kinds, const char *const *name,
+                          const int *count)
 {
   named_group n = name_elements(&f, 1e-6);
   char text[16];
   int all = 0;
   assert_sound(&f, &n, 1e-9);
   for (int i = 0; i < kinds; i++) {
-    ck_assert_msg(count_named(&n, name[i]) == count[i], "%s: %d of %s", group, count_named(&n, name[i]), name[i]);
+    ck_assert_msg(count_named(&n, name[i]) == count[i], "%s: %d of %s", group,
+                  count_named(&n, name[i]), name[i]);
     all += count[i];
   }
   ck_assert_int_eq(all, n.g.order);
@@ -120,7 +128,8 @@ static const thr_limits no_limits;
 
 START_TEST(classes_of_cubic_groups)
 {
-  static const char *const octahedral[] = {"identity", "C2", "C3", "C4", "inversion", "mirror", "S4", "S6"};
+  static const char *const octahedral[] = {"identity",  "C2",     "C3", "C4",
+                                           "inversion", "mirror", "S4", "S6"};
   static const int of_octahedral[] = {1, 9, 8, 6, 1, 9, 6, 8}; /* C2: 3 squares of C4, and 6 */
   static const char *const tetrahedral[] = {"identity", "C3", "C2", "S4", "mirror"};
   static const int of_tetrahedral[] = {1, 8, 3, 6, 6};
@@ -132,7 +141,8 @@ END_TEST
 
 START_TEST(classes_of_icosahedral_group)
 {
-  static const char *const name[] = {"identity", "C5", "C5^2", "C3", "C2", "inversion", "S10", "S10^3", "S6", "mirror"};
+  static const char *const name[] = {"identity",  "C5",  "C5^2",  "C3", "C2",
+                                     "inversion", "S10", "S10^3", "S6", "mirror"};
   static const int count[] = {1, 12, 12, 20, 15, 1, 12, 12, 20, 15};
   expect_counts(no_feet(solid_make(ICOSAHEDRON)), "Ih", 10, name, count);
   expect_counts(no_feet(solid_make(DODECAHEDRON)), "Ih", 10, name, count);
@@ -176,8 +186,8 @@ START_TEST(generated_frames)
 }
 END_TEST
 
-/* Antiprism of n: nodes of the upper ring over the gaps of the lower, turned on by twist, which leaves out half the edges
- * between. */
+/* Antiprism of n: nodes of the upper ring over the gaps of the lower, turned on by twist, which
+ * leaves out half the edges between. */
 static thr_frame antiprism(int n, double twist)
 {
   double xyz[40][3];
@@ -194,8 +204,9 @@ static thr_frame antiprism(int n, double twist)
   return no_feet(frame_make(2 * n, (const double(*)[3])xyz, m, (const int(*)[2])edge, NULL, NULL));
 }
 
-/* Groups without generators of their own: the subgroups of a larger one, told by their elements' names. The lists are
- * those of the International Tables for Crystallography, and of Altmann & Herzig for the others. */
+/* Groups without generators of their own: the subgroups of a larger one, told by their elements'
+ * names. The lists are those of the International Tables for Crystallography, and of Altmann &
+ * Herzig for the others. */
 static void expect_classes(thr_frame f, int names, const char *const *name)
 {
   named_group n = name_elements(&f, 1e-6);
@@ -226,13 +237,17 @@ static void expect_classes(thr_frame f, int names, const char *const *name)
 
 START_TEST(names_of_subgroups)
 {
-  static const char *const cubic[] = {"Oh", "O",   "Td",  "Th", "T",  "D4h", "D4", "C4v", "C4h", "D2d", "C4", "S4", "D2h",
-                                      "D2", "C2v", "C2h", "C2", "Cs", "Ci",  "C1", "D3d", "D3",  "C3v", "S6", "C3"};
-  static const char *const hexagonal[] = {"D6h", "D6", "C6v", "C6h", "C6",  "D3h", "D3d", "D3", "C3v", "C3h",
-                                          "S6",  "C3", "D2h", "D2",  "C2v", "C2h", "C2",  "Cs", "Ci",  "C1"};
-  static const char *const icosahedral[] = {"Ih",  "I",  "Th", "T",   "D5d", "D5",  "C5v", "S10", "C5", "D3d", "D3",
-                                            "C3v", "S6", "C3", "D2h", "D2",  "C2v", "C2h", "C2",  "Cs", "Ci",  "C1"};
-  static const char *const square[] = {"D4d", "D4", "C4v", "S8", "C4", "C2v", "D2", "C2", "Cs", "C1"};
+  static const char *const cubic[] = {"Oh",  "O",  "Td",  "Th",  "T",   "D4h", "D4",  "C4v", "C4h",
+                                      "D2d", "C4", "S4",  "D2h", "D2",  "C2v", "C2h", "C2",  "Cs",
+                                      "Ci",  "C1", "D3d", "D3",  "C3v", "S6",  "C3"};
+  static const char *const hexagonal[] = {"D6h", "D6",  "C6v", "C6h", "C6", "D3h", "D3d",
+                                          "D3",  "C3v", "C3h", "S6",  "C3", "D2h", "D2",
+                                          "C2v", "C2h", "C2",  "Cs",  "Ci", "C1"};
+  static const char *const icosahedral[] = {"Ih",  "I",   "Th", "T",   "D5d", "D5", "C5v", "S10",
+                                            "C5",  "D3d", "D3", "C3v", "S6",  "C3", "D2h", "D2",
+                                            "C2v", "C2h", "C2", "Cs",  "Ci",  "C1"};
+  static const char *const square[] = {"D4d", "D4", "C4v", "S8", "C4",
+                                       "C2v", "D2", "C2",  "Cs", "C1"};
   expect_classes(no_feet(solid_make(CUBE)), 25, cubic);
   expect_classes(no_feet(shape_make(THR_MAKE_TUBE, 6, 3)), 20, hexagonal);
   expect_classes(no_feet(solid_make(ICOSAHEDRON)), 22, icosahedral);
@@ -289,8 +304,8 @@ static thr_frame noisy(rng *r, const thr_frame *f, double sigma)
   return g;
 }
 
-/* Each residual is about the noise; the names stay. An image differs from a moved node by noise of twice the variance, in 3
- * directions. */
+/* Each residual is about the noise; the names stay. An image differs from a moved node by noise of
+ * twice the variance, in 3 directions. */
 START_TEST(noise_is_the_residual)
 {
   rng r = rng_make(77);
@@ -321,7 +336,8 @@ START_TEST(noise_is_the_residual)
 }
 END_TEST
 
-/* A square about a point far away, or tiny, or huge: its size and a quarter turn about its centre are known. */
+/* A square about a point far away, or tiny, or huge: its size and a quarter turn about its centre
+ * are known. */
 START_TEST(squares_turn_wherever_they_are)
 {
   static const struct {
@@ -333,7 +349,9 @@ START_TEST(squares_turn_wherever_they_are)
     const double scale = cases[k].scale, at = cases[k].at;
     for (int v = 0; v < 4; v++)
       for (int i = 0; i < 3; i++)
-        xyz[v][i] = at * (i + 1) + scale * (i == 0 ? (v == 0) - (v == 2) : i == 1 ? (v == 1) - (v == 3) : 0);
+        xyz[v][i] = at * (i + 1) + scale * (i == 0   ? (v == 0) - (v == 2)
+                                            : i == 1 ? (v == 1) - (v == 3)
+                                                     : 0);
     const thr_frame f = {.n_nodes = 4, .xyz = xyz};
     double centroid[3], size;
     thr_frame_extent(&f, centroid, &size);
@@ -351,14 +369,16 @@ START_TEST(squares_turn_wherever_they_are)
 }
 END_TEST
 
-/* Two nodes that nearly lie on a line, and two on another line at so small an angle to it: all go to the latter, or to its other
- * ends. What is found is orthogonal but for rounding, which a tilt near to it makes large. */
+/* Two nodes that nearly lie on a line, and two on another line at so small an angle to it: all go
+ * to the latter, or to its other ends. What is found is orthogonal but for rounding, which a tilt
+ * near to it makes large. */
 START_TEST(lines_are_tilted_by_rotations)
 {
   rng r = rng_make(77);
   double xyz[4][3], a[3], b[3];
   for (int k = 0; k < 400; k++) {
-    double tilt = pow(10, -4.5 - 10 * rng_unit(&r)), within = tilt > 1e-9 ? 2e-14 / tilt : 2 * tilt + 1e-14;
+    double tilt = pow(10, -4.5 - 10 * rng_unit(&r)),
+           within = tilt > 1e-9 ? 2e-14 / tilt : 2 * tilt + 1e-14;
     int back = k % 2, image[4] = {2 + back, 3 - back, 2 + back, 3 - back};
     for (int i = 0; i < 3; i++)
       a[i] = gauss(&r), b[i] = tilt * gauss(&r);
@@ -377,8 +397,8 @@ START_TEST(lines_are_tilted_by_rotations)
 }
 END_TEST
 
-/* Distances of the moved nodes from their images, by definition; and the motion is the nearest one, which leaves the correlation
- * symmetric, if it is not flat. */
+/* Distances of the moved nodes from their images, by definition; and the motion is the nearest one,
+ * which leaves the correlation symmetric, if it is not flat. */
 static void assert_nearest(const thr_frame *f, const int *image, const thr_motion *m)
 {
   double centroid[3], size, sum = 0, most = 0, left[3][3] = {{0}};
@@ -427,7 +447,8 @@ START_TEST(motions_are_orthogonal)
 }
 END_TEST
 
-/* A box of half the sides 1, 1 and so much: flat if that is less than a ten-thousandth. Seen from each of its sides. */
+/* A box of half the sides 1, 1 and so much: flat if that is less than a ten-thousandth. Seen from
+ * each of its sides. */
 START_TEST(flat_is_thinner_than_a_ten_thousandth)
 {
   static const double thin[] = {0, 1e-6, 0.9e-4, 1.1e-4, 1e-3, 1e-2, 1};
@@ -450,7 +471,8 @@ START_TEST(flat_is_thinner_than_a_ten_thousandth)
 }
 END_TEST
 
-/* Nodes on a line, in this direction or that: reversed by half a turn across it; all in one place, nothing moves. */
+/* Nodes on a line, in this direction or that: reversed by half a turn across it; all in one place,
+ * nothing moves. */
 START_TEST(lines_are_reversed_by_half_turns)
 {
   rng r = rng_make(5);
@@ -459,7 +481,9 @@ START_TEST(lines_are_reversed_by_half_turns)
   for (int k = 0; k < 40; k++) {
     double along[3];
     for (int i = 0; i < 3; i++)
-      along[i] = k == 39 ? 0 : k < 6 ? (k / 2 == i) * (k % 2 ? -1 : 1) : gauss(&r) * pow(10, -(k + i) % 4);
+      along[i] = k == 39 ? 0
+                 : k < 6 ? (k / 2 == i) * (k % 2 ? -1 : 1)
+                         : gauss(&r) * pow(10, -(k + i) % 4);
     for (int v = 0; v < 3; v++)
       for (int i = 0; i < 3; i++)
         xyz[v][i] = 3 - i + (v - 1) * along[i];
@@ -497,7 +521,8 @@ static thr_frame moved(rng *r, const thr_frame *f)
                     {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
   for (int v = 0; v < g.n_nodes; v++)
     for (int i = 0; i < 3; i++)
-      g.xyz[v][i] = scale * (m[i][0] * f->xyz[v][0] + m[i][1] * f->xyz[v][1] + m[i][2] * f->xyz[v][2] + 3 * i - 5);
+      g.xyz[v][i] = scale * (m[i][0] * f->xyz[v][0] + m[i][1] * f->xyz[v][1] +
+                             m[i][2] * f->xyz[v][2] + 3 * i - 5);
   return g;
 }
 
@@ -547,7 +572,8 @@ START_TEST(moving_changes_nothing)
 }
 END_TEST
 
-/* Warped more and more, a dome keeps its topological group and its elements get farther from isometries. */
+/* Warped more and more, a dome keeps its topological group and its elements get farther from
+ * isometries. */
 START_TEST(warping_raises_residuals)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 7, 0);
@@ -578,7 +604,8 @@ END_TEST
 START_TEST(exchanged_neighbours)
 {
   static const double xyz[5][3] = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, {10, 10, 3}, {10, 10, 3.001}};
-  static const int edge[6][2] = {{0, 1}, {0, 2}, {1, 3}, {1, 4}, {2, 3}, {2, 4}}, image[5] = {0, 1, 2, 4, 3};
+  static const int edge[6][2] = {{0, 1}, {0, 2}, {1, 3}, {1, 4}, {2, 3}, {2, 4}},
+                   image[5] = {0, 1, 2, 4, 3};
   thr_frame f = no_feet(frame_make(5, xyz, 6, edge, NULL, NULL));
   thr_isometry o;
   ck_assert(keeps_frame(&f, NULL, image));
@@ -592,14 +619,16 @@ END_TEST
 
 /* ---- isometries from coordinates ---- */
 
-/* The elements of the topological group whose every node comes within tolerance of its image, by the named isometry: rows. */
+/* The elements of the topological group whose every node comes within tolerance of its image, by
+ * the named isometry: rows. */
 static void assert_geometric_part(const thr_frame *f, double tolerance)
 {
   int *found, count, kept = 0;
   thr_err err = {0};
   named_group n = name_elements(f, tolerance);
-  ck_assert_msg(thr_isometries_find(f, NULL, tolerance, THR_GROUP_CAP, &no_limits, &found, &count, &err) == THR_OK, "%s",
-                err.text);
+  ck_assert_msg(thr_isometries_find(f, NULL, tolerance, THR_GROUP_CAP, &no_limits, &found, &count,
+                                    &err) == THR_OK,
+                "%s", err.text);
   for (int k = 0; k < n.g.order; k++) {
     const int *image = &n.g.image[k * f->n_nodes];
     if (n.element[k].kind == THR_ISO_NONE) continue;
@@ -608,8 +637,10 @@ static void assert_geometric_part(const thr_frame *f, double tolerance)
   }
   ck_assert_int_eq(kept, count);
   int *among, listed;
-  ck_assert_int_eq(thr_isometries_among(f, n.g.image, n.g.order, tolerance, &among, &listed, NULL), THR_OK);
-  ck_assert(listed == count && memcmp(among, found, (size_t)count * (size_t)f->n_nodes * sizeof *found) == 0);
+  ck_assert_int_eq(thr_isometries_among(f, n.g.image, n.g.order, tolerance, &among, &listed, NULL),
+                   THR_OK);
+  ck_assert(listed == count &&
+            memcmp(among, found, (size_t)count * (size_t)f->n_nodes * sizeof *found) == 0);
   free(among);
   free(found);
   named_group_destroy(&n);
@@ -635,9 +666,14 @@ START_TEST(isometries_within_tolerance)
   for (int k = 0; k < SAMPLES; k++) {
     thr_frame f = sample_frame(k), g = noisy(&r, &f, 1e-4 * thr_frame_diagonal(&f) / 3);
     int *found, *tight, count, few, *loose, many;
-    ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, THR_GROUP_CAP, &no_limits, &found, &count, NULL), THR_OK);
-    ck_assert_int_eq(thr_isometries_find(&g, NULL, 1e-6, THR_GROUP_CAP, &no_limits, &tight, &few, NULL), THR_OK);
-    ck_assert_int_eq(thr_isometries_find(&g, NULL, 1e-2, THR_GROUP_CAP, &no_limits, &loose, &many, NULL), THR_OK);
+    ck_assert_int_eq(
+        thr_isometries_find(&f, NULL, 1e-6, THR_GROUP_CAP, &no_limits, &found, &count, NULL),
+        THR_OK);
+    ck_assert_int_eq(
+        thr_isometries_find(&g, NULL, 1e-6, THR_GROUP_CAP, &no_limits, &tight, &few, NULL), THR_OK);
+    ck_assert_int_eq(
+        thr_isometries_find(&g, NULL, 1e-2, THR_GROUP_CAP, &no_limits, &loose, &many, NULL),
+        THR_OK);
     ck_assert_int_eq(few, 1);
     ck_assert_int_eq(many, count);
     ck_assert(memcmp(loose, found, (size_t)count * (size_t)f.n_nodes * sizeof *found) == 0);
@@ -650,12 +686,14 @@ START_TEST(isometries_within_tolerance)
 }
 END_TEST
 
-/* Are edges of one colour if, and only if, lengths lead from one to the other in steps that are small enough? */
+/* Are edges of one colour if, and only if, lengths lead from one to the other in steps that are
+ * small enough? */
 static void assert_linked(const thr_frame *f, const int *colour, double step)
 {
   for (int a = 0; a < f->n_edges; a++)
     for (int b = 0; b < f->n_edges; b++) {
-      double low = fmin(f->length[a], f->length[b]), high = fmax(f->length[a], f->length[b]), next = low;
+      double low = fmin(f->length[a], f->length[b]), high = fmax(f->length[a], f->length[b]),
+             next = low;
       do { /* as far as one step leads */
         low = next;
         for (int e = 0; e < f->n_edges; e++)
@@ -665,14 +703,16 @@ static void assert_linked(const thr_frame *f, const int *colour, double step)
     }
 }
 
-/* Every automorphism that takes all nodes as near as this keeps the colours of lengths, whatever the noise. */
+/* Every automorphism that takes all nodes as near as this keeps the colours of lengths, whatever
+ * the noise. */
 START_TEST(colours_of_lengths_lose_no_isometry)
 {
   rng r = rng_make(33);
   int kept = 0, lost = 0;
   for (int k = 0; k < 12 * SAMPLES; k++) {
     double tolerance = pow(10, -1 - 2 * rng_unit(&r)), centroid[3], size;
-    thr_frame f = sample_frame(k % SAMPLES), g = noisy(&r, &f, tolerance * rng_unit(&r) * thr_frame_diagonal(&f) / 4);
+    thr_frame f = sample_frame(k % SAMPLES),
+              g = noisy(&r, &f, tolerance * rng_unit(&r) * thr_frame_diagonal(&f) / 4);
     int *colour = calloc((size_t)g.n_edges, sizeof *colour);
     ck_assert(colour != NULL);
     named_group n = name_elements(&f, 1e-6);
@@ -729,7 +769,8 @@ START_TEST(isometries_by_all_permutations)
   for (int seed = 0; seed < 400; seed++) {
     rng r = rng_make(400 + (uint64_t)seed);
     double xyz[8][3];
-    int edge[28][2], image[8], n = 0, m = 0, count = 0, by_search, *found, height = rng_between(&r, 1, 2), feet[2] = {-1, -1};
+    int edge[28][2], image[8], n = 0, m = 0, count = 0, by_search, *found,
+                               height = rng_between(&r, 1, 2), feet[2] = {-1, -1};
     for (int cell = 0; cell < (seed % 3 ? 18 : 9) && n < 8; cell++) {
       if (rng_below(&r, 2)) continue;
       xyz[n][0] = cell % 3, xyz[n][1] = cell / 3 % 3, xyz[n++][2] = cell / 9 * height;
@@ -743,7 +784,8 @@ START_TEST(isometries_by_all_permutations)
     for (int v = 0; v < n; v++)
       image[v] = v;
     try_permutations(&f, image, 0, &count);
-    ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 100, &no_limits, &found, &by_search, NULL), THR_OK);
+    ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 100, &no_limits, &found, &by_search, NULL),
+                     THR_OK);
     ck_assert_int_eq(by_search, count);
     for (int k = 0; k < by_search; k++)
       ck_assert(keeps_frame(&f, NULL, &found[k * n]));
@@ -760,10 +802,12 @@ START_TEST(more_isometries_than_the_cap)
   thr_frame f = no_feet(solid_make(CUBE));
   int *found, count;
   thr_err err = {0};
-  ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 47, &no_limits, &found, &count, &err), THR_ELIMIT);
+  ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 47, &no_limits, &found, &count, &err),
+                   THR_ELIMIT);
   assert_one_line(&err, "47");
   ck_assert(!found && count == 0);
-  ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 48, &no_limits, &found, &count, NULL), THR_OK);
+  ck_assert_int_eq(thr_isometries_find(&f, NULL, 1e-6, 48, &no_limits, &found, &count, NULL),
+                   THR_OK);
   ck_assert_int_eq(count, 48);
   free(found);
   thr_frame_destroy(&f);
@@ -782,7 +826,8 @@ START_TEST(every_allocation_fails_once)
     st = thr_isometries_find(&f, NULL, 1e-6, THR_GROUP_CAP, &no_limits, &found, &count, &err);
     thr_alloc_fail_at(0);
     if (st)
-      ck_assert_msg(st == THR_ENOMEM && !found && count == 0, "allocation %ld: status %d, %s", k, (int)st, err.text);
+      ck_assert_msg(st == THR_ENOMEM && !found && count == 0, "allocation %ld: status %d, %s", k,
+                    (int)st, err.text);
     else
       ck_assert_int_eq(count, 120);
     free(found);

@@ -1,4 +1,6 @@
-/* Composing joints along taut cords, with friction laws that are known exactly in Bullet's place; and the cache of joints. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Composing joints along taut cords, with friction laws that are known exactly in Bullet's place;
+ * and the cache of joints. */
 #define _POSIX_C_SOURCE 200809L
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
@@ -23,31 +25,36 @@
 
 static thr_status settle_at(thr_drag_result *out, double exponent, double drift)
 {
-  *out = (thr_drag_result){.ratio = exp(exponent), .drift = drift, .scatter = drift / 2, .steps = 1};
+  *out =
+      (thr_drag_result){.ratio = exp(exponent), .drift = drift, .scatter = drift / 2, .steps = 1};
   return THR_OK;
 }
 
-static thr_status capstan_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
+static thr_status capstan_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out,
+                              thr_err *err)
 {
   (void)limits;
   (void)err;
   return settle_at(out, d->mu * d->turn[0], 0);
 }
 
-/* Friction that is a tenth more at sharp turns than at gentle ones, with some disorder by the seed. */
+/* Friction that is a tenth more at sharp turns than at gentle ones, with some disorder by the seed.
+ */
 static double bent_exponent(double mu, double turn)
 {
   return mu * turn * (1 + 0.1 * sin(turn));
 }
 
-static thr_status bent_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
+static thr_status bent_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out,
+                           thr_err *err)
 {
   (void)limits;
   (void)err;
   return settle_at(out, bent_exponent(d->mu, d->turn[0]), 1e-4);
 }
 
-static thr_status seeded_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
+static thr_status seeded_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out,
+                             thr_err *err)
 {
   (void)limits;
   (void)err;
@@ -55,7 +62,8 @@ static thr_status seeded_law(const thr_drag *d, const thr_limits *limits, thr_dr
 }
 
 /* Ratios a little below 1, as noise without friction gives. */
-static thr_status noise_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
+static thr_status noise_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out,
+                            thr_err *err)
 {
   (void)d;
   (void)limits;
@@ -63,21 +71,25 @@ static thr_status noise_law(const thr_drag *d, const thr_limits *limits, thr_dra
   return settle_at(out, -1e-5, 0);
 }
 
-static thr_status steady_below_80_degrees(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
+static thr_status steady_below_80_degrees(const thr_drag *d, const thr_limits *limits,
+                                          thr_drag_result *out, thr_err *err)
 {
   if (capstan_law(d, limits, out, err)) return THR_ESOLVER;
-  if (d->turn[0] > 80 * THR_PI / 180) *out = (thr_drag_result){.status = THR_DRAG_UNSETTLED, .ratio = 77};
+  if (d->turn[0] > 80 * THR_PI / 180)
+    *out = (thr_drag_result){.status = THR_DRAG_UNSETTLED, .ratio = 77};
   return THR_OK;
 }
 
-static thr_status out_of_range_from_80_degrees(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
+static thr_status out_of_range_from_80_degrees(const thr_drag *d, const thr_limits *limits,
+                                               thr_drag_result *out, thr_err *err)
 {
   if (capstan_law(d, limits, out, err)) return THR_ESOLVER;
   if (d->turn[0] > 80 * THR_PI / 180) *out = (thr_drag_result){.status = THR_DRAG_OUT_OF_RANGE};
   return THR_OK;
 }
 
-static thr_status never_steady(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
+static thr_status never_steady(const thr_drag *d, const thr_limits *limits, thr_drag_result *out,
+                               thr_err *err)
 {
   (void)d;
   (void)limits;
@@ -86,7 +98,8 @@ static thr_status never_steady(const thr_drag *d, const thr_limits *limits, thr_
   return THR_OK;
 }
 
-static thr_status nothing_in_range(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
+static thr_status nothing_in_range(const thr_drag *d, const thr_limits *limits,
+                                   thr_drag_result *out, thr_err *err)
 {
   (void)d;
   (void)limits;
@@ -95,7 +108,8 @@ static thr_status nothing_in_range(const thr_drag *d, const thr_limits *limits, 
   return THR_OK;
 }
 
-static thr_status failing_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
+static thr_status failing_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out,
+                              thr_err *err)
 {
   (void)d;
   (void)limits;
@@ -112,7 +126,8 @@ static void interrupt_after_one(void *user, const char *what, double done)
   if (done > 0) interrupted = 1;
 }
 
-static thr_status slow_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out, thr_err *err)
+static thr_status slow_law(const thr_drag *d, const thr_limits *limits, thr_drag_result *out,
+                           thr_err *err)
 {
   struct timespec wait = {.tv_nsec = 50000000};
   nanosleep(&wait, NULL);
@@ -147,23 +162,29 @@ static double drift_and_scatter(const thr_drag *d, const thr_drag_result *r)
   return fabs(r->drift) + fabs(r->scatter);
 }
 
-static thr_status compose(trial *t, const thr_frame *f, const thr_cord *cord, int n_cords, law measure, double largest)
+static thr_status compose(trial *t, const thr_frame *f, const thr_cord *cord, int n_cords,
+                          law measure, double largest)
 {
   t->err = (thr_err){0};
   t->e = (thr_eval){0};
-  ck_assert_msg(!thr_physics_resolve(&t->o.physics, f, &t->e.record.physics, &t->err), "%s", t->err.text);
+  ck_assert_msg(!thr_physics_resolve(&t->o.physics, f, &t->e.record.physics, &t->err), "%s",
+                t->err.text);
   t->e.record.cord = calloc((size_t)n_cords, sizeof *t->e.record.cord);
   t->e.record.n_cords = n_cords;
   for (int i = 0; i < n_cords; i++) {
     t->e.record.cord[i].n_passes = cord[i].n_passes;
     t->e.record.cord[i].pull = t->o.pull;
   }
-  thr_joint_source source = {
-      .measure = measure, .error = drift_and_scatter, .largest_turn = largest, .least_bore = t->least_bore, .largest_bore = 1e3};
+  thr_joint_source source = {.measure = measure,
+                             .error = drift_and_scatter,
+                             .largest_turn = largest,
+                             .least_bore = t->least_bore,
+                             .largest_bore = 1e3};
   return thr_joint_compose(f, cord, &t->o, &t->limits, &source, &t->e, &t->err);
 }
 
-static void must_compose(trial *t, const thr_frame *f, const thr_cord *cord, int n_cords, law measure)
+static void must_compose(trial *t, const thr_frame *f, const thr_cord *cord, int n_cords,
+                         law measure)
 {
   ck_assert_msg(!compose(t, f, cord, n_cords, measure, THR_PI), "%s", t->err.text);
 }
@@ -204,7 +225,8 @@ static double *taut_turns(const thr_frame *f, const thr_cord *c)
 START_TEST(the_capstan_law_comes_out_exactly)
 {
   thr_plan p = random_plan((uint64_t)_i + 1, 60);
-  double *turn = taut_turns(&p.frame, p.cord), sum = 0, nominal = thr_cord_turning(&p.frame, p.cord, false);
+  double *turn = taut_turns(&p.frame, p.cord), sum = 0,
+         nominal = thr_cord_turning(&p.frame, p.cord, false);
   for (int k = 0; k + 1 < p.cord[0].n_passes; k++)
     sum += turn[k];
   ck_assert_double_lt(sum, nominal);
@@ -218,14 +240,16 @@ START_TEST(the_capstan_law_comes_out_exactly)
   ck_assert_double_eq_tol(t.e.band[0], exp(0.05 * sum), 1e-9 * exp(0.05 * sum));
   ck_assert_double_eq_tol(t.e.band[1], exp(0.15 * sum), 1e-9 * exp(0.15 * sum));
   ck_assert_double_lt(c->error, 1e-9);
-  ck_assert(t.e.joints_cached == 0 && t.e.joints_unsettled == 0 && t.e.joints_measured > 5 && t.e.joints_measured <= 24);
+  ck_assert(t.e.joints_cached == 0 && t.e.joints_unsettled == 0 && t.e.joints_measured > 5 &&
+            t.e.joints_measured <= 24);
   thr_eval_destroy(&t.e);
   free(turn);
   thr_plan_destroy(&p);
 }
 END_TEST
 
-/* A law that is not linear is interpolated: within the error that is stated, which is no wild guess either. */
+/* A law that is not linear is interpolated: within the error that is stated, which is no wild guess
+ * either. */
 START_TEST(a_bent_law_stays_within_the_stated_error)
 {
   thr_plan p = random_plan((uint64_t)_i + 1, 60);
@@ -246,7 +270,8 @@ START_TEST(a_bent_law_stays_within_the_stated_error)
 }
 END_TEST
 
-/* One turn on the grid needs one joint; one between needs two and a third to judge by; a gentle one the first two. */
+/* One turn on the grid needs one joint; one between needs two and a third to judge by; a gentle one
+ * the first two. */
 START_TEST(only_what_is_needed_is_measured)
 {
   static const struct {
@@ -265,7 +290,8 @@ START_TEST(only_what_is_needed_is_measured)
     ck_assert_int_eq(t.e.joints_measured, turn[i].joints);
     ck_assert_double_eq_tol(log(c->force), bent_exponent(0.3, a), c->error + 1e-12);
     ck_assert_double_le(c->error, 0.004);
-    ck_assert((turn[i].joints == 3) == (t.e.interpolation >= 0)); /* without a third nothing was judged */
+    ck_assert((turn[i].joints == 3) ==
+              (t.e.interpolation >= 0)); /* without a third nothing was judged */
     ck_assert((turn[i].joints < 3) == isnan(t.e.interpolation));
     thr_eval_destroy(&t.e);
     thr_frame_destroy(&f);
@@ -273,7 +299,8 @@ START_TEST(only_what_is_needed_is_measured)
 }
 END_TEST
 
-/* A mitred turn of 90 degrees that the taut cord takes with less: friction per rad of the one, over the rad of the other. */
+/* A mitred turn of 90 degrees that the taut cord takes with less: friction per rad of the one, over
+ * the rad of the other. */
 START_TEST(friction_belongs_to_the_shape_of_the_joint)
 {
   const double at[3][3] = {{-1, 0, 0}, {0, 0, 0}, {0, 1, 0}};
@@ -284,8 +311,10 @@ START_TEST(friction_belongs_to_the_shape_of_the_joint)
     t.o.physics.bore = t.o.physics.cord_diameter + 2 * clearance;
     must_compose(&t, &f, &cord, 1, bent_law);
     const thr_eval_cord *c = &t.e.record.cord[0];
-    /* two lines that touch a circle of the cord's radius round the inner edge, which is one bore radius from both axes */
-    double bore = 0.025 + clearance, slope = atan2(bore, 1 - bore) - asin(0.025 / hypot(bore, 1 - bore));
+    /* two lines that touch a circle of the cord's radius round the inner edge, which is one bore
+     * radius from both axes */
+    double bore = 0.025 + clearance,
+           slope = atan2(bore, 1 - bore) - asin(0.025 / hypot(bore, 1 - bore));
     double taut = THR_PI / 2 - 2 * slope, rate = bent_exponent(0.2, THR_PI / 2) / (THR_PI / 2);
     ck_assert_double_eq_tol(c->taut_turning, taut, 1e-6);
     ck_assert_double_eq_tol(log(c->force), rate * taut, 1e-6);
@@ -313,11 +342,13 @@ static int turns_beyond(const thr_plan *p, const double *taut, double limit)
 {
   int n = 0;
   for (int k = 0; k + 1 < p->cord[0].n_passes; k++)
-    n += fmax(taut[k], thr_turn_angle(&p->frame, p->cord[0].half[k], p->cord[0].half[k + 1])) > limit;
+    n += fmax(taut[k], thr_turn_angle(&p->frame, p->cord[0].half[k], p->cord[0].half[k + 1])) >
+         limit;
   return n;
 }
 
-/* Joints above 80 degrees fail, which a turn needs from 75 on, the last angle of the grid before; or the source ends at 100. */
+/* Joints above 80 degrees fail, which a turn needs from 75 on, the last angle of the grid before;
+ * or the source ends at 100. */
 START_TEST(refused_turns_take_the_closed_form_and_are_counted)
 {
   const double grid = 75 * THR_PI / 180, end = 100 * THR_PI / 180;
@@ -338,13 +369,16 @@ START_TEST(refused_turns_take_the_closed_form_and_are_counted)
     sum += turn[k];
   for (size_t i = 0; i < sizeof expected / sizeof *expected; i++) {
     trial t = trial_make(0.1);
-    ck_assert_int_eq(compose(&t, &p.frame, p.cord, 1, expected[i].measure, expected[i].largest), THR_OK);
+    ck_assert_int_eq(compose(&t, &p.frame, p.cord, 1, expected[i].measure, expected[i].largest),
+                     THR_OK);
     ck_assert_int_eq(t.e.refused_sharp, expected[i].sharp);
     ck_assert_int_eq(t.e.refused_outside, expected[i].outside);
     ck_assert_int_eq(t.e.refused_unsettled, expected[i].unsettled);
-    ck_assert_int_eq(t.e.record.cord[0].refused, expected[i].sharp + expected[i].outside + expected[i].unsettled);
+    ck_assert_int_eq(t.e.record.cord[0].refused,
+                     expected[i].sharp + expected[i].outside + expected[i].unsettled);
     ck_assert((t.e.joints_unsettled > 0) == (expected[i].unsettled > 0));
-    ck_assert_double_lt(t.e.record.cord[0].error, 1e-9); /* of the other turns, which err by nothing */
+    ck_assert_double_lt(t.e.record.cord[0].error,
+                        1e-9); /* of the other turns, which err by nothing */
     ck_assert_double_eq_tol(log(t.e.record.cord[0].force), 0.1 * sum, 1e-9);
     thr_eval_destroy(&t.e);
   }
@@ -360,24 +394,28 @@ START_TEST(nothing_measured_is_an_error_with_advice)
     law measure;
     double largest;
     const char *why, *advice, *useless;
-  } trials[] = {
-      {nothing_in_range, 3.2, "19 out of range at bore / cord diameter = 2 and mu = 0.1", "a wider --bore", "--time-step"},
-      {never_steady, 3.2, "19 where the cord does not slide steadily", "a finer --time-step", "--bore"},
-      {capstan_law, 1e-3, "19 sharper than 0 degrees", "use --method capstan", "--mu"}};
+  } trials[] = {{nothing_in_range, 3.2, "19 out of range at bore / cord diameter = 2 and mu = 0.1",
+                 "a wider --bore", "--time-step"},
+                {never_steady, 3.2, "19 where the cord does not slide steadily",
+                 "a finer --time-step", "--bore"},
+                {capstan_law, 1e-3, "19 sharper than 0 degrees", "use --method capstan", "--mu"}};
   thr_plan p = random_plan(1, 20);
   const double at[3][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   thr_frame line = frame_make(3, at, 2, (const int[2][2]){{0, 1}, {1, 2}}, NULL, NULL);
   thr_cord cord = {.id = "A", .n_passes = 2, .half = (int[]){0, 2}};
   for (size_t i = 0; i < sizeof trials / sizeof *trials; i++) {
     trial t = trial_make(0.1);
-    ck_assert_int_eq(compose(&t, &p.frame, p.cord, 1, trials[i].measure, trials[i].largest), THR_EINPUT);
+    ck_assert_int_eq(compose(&t, &p.frame, p.cord, 1, trials[i].measure, trials[i].largest),
+                     THR_EINPUT);
     assert_one_line(&t.err, trials[i].why);
     assert_one_line(&t.err, trials[i].advice);
     assert_one_line(&t.err, "--method capstan");
     ck_assert_ptr_null(strstr(t.err.text, trials[i].useless));
     thr_eval_destroy(&t.e);
-    ck_assert_int_eq(compose(&t, &line, &cord, 1, trials[i].measure, trials[i].largest), THR_OK); /* nothing to measure */
-    ck_assert(t.e.record.cord[0].known && t.e.record.cord[0].refused == 0 && t.e.record.cord[0].force == 1);
+    ck_assert_int_eq(compose(&t, &line, &cord, 1, trials[i].measure, trials[i].largest),
+                     THR_OK); /* nothing to measure */
+    ck_assert(t.e.record.cord[0].known && t.e.record.cord[0].refused == 0 &&
+              t.e.record.cord[0].force == 1);
     thr_eval_destroy(&t.e);
   }
   thr_plan_destroy(&p);
@@ -432,7 +470,8 @@ static void assert_same_record(const thr_evaluation *a, const thr_evaluation *b)
   ck_assert_int_eq(a->n_cords, b->n_cords);
   for (int i = 0; i < a->n_cords; i++) {
     const thr_eval_cord *c = &a->cord[i], *d = &b->cord[i];
-    ck_assert(c->known && d->known && c->n_passes == d->n_passes && c->refused == d->refused && c->slackest == d->slackest);
+    ck_assert(c->known && d->known && c->n_passes == d->n_passes && c->refused == d->refused &&
+              c->slackest == d->slackest);
     ck_assert(c->force == d->force && c->error == d->error && c->taut_turning == d->taut_turning);
     ck_assert_mem_eq(c->tension, d->tension, (size_t)c->n_passes * sizeof *c->tension);
   }
@@ -465,7 +504,8 @@ START_TEST(processes_and_cache_change_no_bit)
   many.o.cache = path;
   must_compose(&one, &p.frame, p.cord, 1, seeded_law);
   must_compose(&many, &p.frame, p.cord, 1, seeded_law);
-  ck_assert(many.e.joints_measured == one.e.joints_measured && many.e.joints_cached == 0 && !many.e.cache_failed);
+  ck_assert(many.e.joints_measured == one.e.joints_measured && many.e.joints_cached == 0 &&
+            !many.e.cache_failed);
   assert_same_record(&one.e.record, &many.e.record);
   thr_eval_destroy(&many.e);
 
@@ -507,12 +547,16 @@ START_TEST(a_cache_that_cannot_be_written_is_reported_only)
 }
 END_TEST
 
-/* Two cords: a straight one, which needs no joint, and one that turns. Stopped after one joint, the first is known. */
+/* Two cords: a straight one, which needs no joint, and one that turns. Stopped after one joint, the
+ * first is known. */
 START_TEST(an_interrupt_leaves_what_is_complete)
 {
-  const double at[7][3] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 5, 0}, {1, 5, 0}, {1.5, 6, 0}, {3, 6, 2}};
-  thr_frame f = frame_make(7, at, 5, (const int[5][2]){{0, 1}, {1, 2}, {3, 4}, {4, 5}, {5, 6}}, NULL, NULL);
-  thr_cord cord[] = {{.id = "A", .n_passes = 2, .half = (int[]){0, 2}}, {.id = "B", .n_passes = 3, .half = (int[]){4, 6, 8}}};
+  const double at[7][3] = {{0, 0, 0}, {1, 0, 0},   {2, 0, 0}, {0, 5, 0},
+                           {1, 5, 0}, {1.5, 6, 0}, {3, 6, 2}};
+  thr_frame f =
+      frame_make(7, at, 5, (const int[5][2]){{0, 1}, {1, 2}, {3, 4}, {4, 5}, {5, 6}}, NULL, NULL);
+  thr_cord cord[] = {{.id = "A", .n_passes = 2, .half = (int[]){0, 2}},
+                     {.id = "B", .n_passes = 3, .half = (int[]){4, 6, 8}}};
   trial t = trial_make(0.2);
   t.limits = (thr_limits){.interrupted = &interrupted, .advance = interrupt_after_one};
   ck_assert_int_eq(compose(&t, &f, cord, 2, slow_law, THR_PI), THR_ELIMIT);
@@ -523,7 +567,8 @@ START_TEST(an_interrupt_leaves_what_is_complete)
   ck_assert(t.e.band[0] == 1 && t.e.band[1] == 1); /* of the same cords as the pulls */
   ck_assert(!t.e.record.cord[1].tension && t.e.record.cord[1].force == 0);
   thr_eval_destroy(&t.e);
-  ck_assert_int_eq(compose(&t, &f, cord, 2, capstan_law, THR_PI), THR_ELIMIT); /* already interrupted */
+  ck_assert_int_eq(compose(&t, &f, cord, 2, capstan_law, THR_PI),
+                   THR_ELIMIT); /* already interrupted */
   thr_eval_destroy(&t.e);
   interrupted = 0;
   t.limits = (thr_limits){.interrupted = &interrupted};
@@ -565,8 +610,12 @@ START_TEST(memory_that_runs_out_leaves_nothing)
     trial t = trial_make(0.2);
     t.o.cache = folder;
     t.e = (thr_eval){0};
-    thr_joint_source source = {.measure = capstan_law, .error = drift_and_scatter, .largest_turn = THR_PI, .largest_bore = 1e3};
-    ck_assert_int_eq(thr_physics_resolve(&t.o.physics, &p.frame, &t.e.record.physics, NULL), THR_OK);
+    thr_joint_source source = {.measure = capstan_law,
+                               .error = drift_and_scatter,
+                               .largest_turn = THR_PI,
+                               .largest_bore = 1e3};
+    ck_assert_int_eq(thr_physics_resolve(&t.o.physics, &p.frame, &t.e.record.physics, NULL),
+                     THR_OK);
     t.e.record.cord = calloc(1, sizeof *t.e.record.cord);
     t.e.record.n_cords = 1;
     thr_alloc_fail_at(k);
@@ -588,8 +637,14 @@ static const double quarter[] = {0.78539816339744828};
 
 static thr_drag some_drag(void)
 {
-  return (thr_drag){
-      .n_turns = 1, .turn = quarter, .bore = 2, .mu = 0.3, .seed = 1, .time_step = 1, .iterations = 1, .spacing = 1};
+  return (thr_drag){.n_turns = 1,
+                    .turn = quarter,
+                    .bore = 2,
+                    .mu = 0.3,
+                    .seed = 1,
+                    .time_step = 1,
+                    .iterations = 1,
+                    .spacing = 1};
 }
 
 static thr_drag_result some_result(rng *r)
@@ -604,8 +659,8 @@ static thr_drag_result some_result(rng *r)
 
 static bool same_result(const thr_drag_result *a, const thr_drag_result *b)
 {
-  return a->status == b->status && a->ratio == b->ratio && a->drift == b->drift && a->scatter == b->scatter &&
-         a->taut == b->taut && a->steps == b->steps;
+  return a->status == b->status && a->ratio == b->ratio && a->drift == b->drift &&
+         a->scatter == b->scatter && a->taut == b->taut && a->steps == b->steps;
 }
 
 START_TEST(a_file_reads_back_exactly_or_not_at_all)
@@ -616,7 +671,8 @@ START_TEST(a_file_reads_back_exactly_or_not_at_all)
   thr_text key = {0}, text = {0};
   thr_cache_key(&d, &key);
   thr_cache_write(&key, &r, &text);
-  ck_assert(!text.failed && thr_cache_parse(text.data, text.length, &key, &back) && same_result(&r, &back));
+  ck_assert(!text.failed && thr_cache_parse(text.data, text.length, &key, &back) &&
+            same_result(&r, &back));
   for (size_t n = 0; n < text.length; n++) /* truncated anywhere */
     ck_assert(!thr_cache_parse(text.data, n, &key, &back));
   for (size_t i = 0; i < text.length; i++) { /* any byte another */
@@ -709,7 +765,8 @@ START_TEST(a_damaged_folder_is_an_empty_one)
 
   thr_err err = {0};
   unlink(path);
-  ck_assert_int_eq(mkfifo(path, 0600), 0); /* neither reading nor writing may wait for somebody at the other end */
+  ck_assert_int_eq(mkfifo(path, 0600),
+                   0); /* neither reading nor writing may wait for somebody at the other end */
   ck_assert(!thr_cache_load(folder, &d, &back));
   ck_assert_int_eq(thr_cache_store(folder, &d, &r, &err), THR_EIO);
   assert_one_line(&err, "not a file");

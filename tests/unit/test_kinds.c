@@ -1,4 +1,6 @@
-/* Kinds of beads against turned, mirrored and renamed ones; bores against closed forms and areas. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Kinds of beads against turned, mirrored and renamed ones; bores against closed forms and areas.
+ */
 #include "diagram/tables/kinds.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
@@ -41,12 +43,17 @@ static int count_kinds(const int *of, int n)
   return most;
 }
 
-/* Of these shapes it is known: bodies with one kind of corner, and grids, whose beads have 2, 3 or 4 arms at right angles, and
- * with the straight ones of a ladder. */
+/* Of these shapes it is known: bodies with one kind of corner, and grids, whose beads have 2, 3 or
+ * 4 arms at right angles, and with the straight ones of a ladder. */
 START_TEST(known_kinds)
 {
-  thr_frame f[] = {solid_make(CUBE), solid_make(ICOSAHEDRON),      truncated_icosahedron(), grid_make(5, 4), ring_make(9),
-                   path_make(4),     star_make(THR_KINDS_ARMS + 1)};
+  thr_frame f[] = {solid_make(CUBE),
+                   solid_make(ICOSAHEDRON),
+                   truncated_icosahedron(),
+                   grid_make(5, 4),
+                   ring_make(9),
+                   path_make(4),
+                   star_make(THR_KINDS_ARMS + 1)};
   static const int nodes[] = {1, 1, 1, 3, 1, 2, 2};
   for (int i = 0; i < 7; i++) {
     kinds k = kinds_of(&f[i]);
@@ -91,8 +98,8 @@ static void turn(const double m[3][3], double *point)
   memcpy(point, to, sizeof to);
 }
 
-/* Hubs with arms at random: the second is the first turned and its arms renamed, the third its mirror image, one arm of the
- * fourth is longer by more than two tolerances. */
+/* Hubs with arms at random: the second is the first turned and its arms renamed, the third its
+ * mirror image, one arm of the fourth is longer by more than two tolerances. */
 START_TEST(turned_beads_are_alike_mirrored_ones_are_not)
 {
   enum { ARMS = 4, HUBS = 4 };
@@ -104,7 +111,9 @@ START_TEST(turned_beads_are_alike_mirrored_ones_are_not)
     for (int arm = 0; arm < ARMS; arm++) {
       double *p = xyz[hub * (ARMS + 1) + 1 + (hub == 1 ? (arm + 2) % ARMS : arm)];
       for (int i = 0; i < 3; i++)
-        p[i] = hub ? xyz[1 + arm][i] : i == arm ? 1 + 0.2 * i : -0.3 - 0.6 * rng_unit(&r) * (arm == 3);
+        p[i] = hub        ? xyz[1 + arm][i]
+               : i == arm ? 1 + 0.2 * i
+                          : -0.3 - 0.6 * rng_unit(&r) * (arm == 3);
       if (hub == 2) p[0] = -p[0];
       for (int i = 0; i < 3 && hub == 3 && arm == 0; i++)
         p[i] *= 1 + 6 * THR_KINDS_TOLERANCE;
@@ -116,7 +125,8 @@ START_TEST(turned_beads_are_alike_mirrored_ones_are_not)
   for (int hub = 1; hub < HUBS; hub++) /* apart from each other */
     for (int v = 0; v <= ARMS; v++)
       xyz[hub * (ARMS + 1) + v][0] += 10 * hub;
-  thr_frame f = frame_make(HUBS * (ARMS + 1), (const double(*)[3])xyz, HUBS * ARMS, (const int(*)[2])edge, NULL, NULL);
+  thr_frame f = frame_make(HUBS * (ARMS + 1), (const double(*)[3])xyz, HUBS * ARMS,
+                           (const int(*)[2])edge, NULL, NULL);
   kinds k = kinds_of(&f);
   ck_assert_int_eq(k.node[0], k.node[ARMS + 1]);
   ck_assert_int_ne(k.node[0], k.node[2 * (ARMS + 1)]);
@@ -155,7 +165,8 @@ END_TEST
 
 /* ---- bores ---- */
 
-/* The narrowest circles that hold equal circles, where that is proved (1 to 13 and 19): fewer cords are drawn through them. */
+/* The narrowest circles that hold equal circles, where that is proved (1 to 13 and 19): fewer cords
+ * are drawn through them. */
 START_TEST(drawn_cords_have_play)
 {
   const double ratio[][2] = {{1, 1},
@@ -174,7 +185,8 @@ START_TEST(drawn_cords_have_play)
 }
 END_TEST
 
-/* The sections of cords fill 53 % of a bore at most, of two 31 %, of more 40 %; and one cord more would fill more than that. */
+/* The sections of cords fill 53 % of a bore at most, of two 31 %, of more 40 %; and one cord more
+ * would fill more than that. */
 START_TEST(bores_are_filled_as_far_as_allowed)
 {
   for (double bore = 1; bore < 20; bore += 0.013) {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a knotted cord can resist by tightening, against every corner of the set of its tensions. */
 #include "graph/plan/plan_measures.h"
 #include "tests/support.h"
@@ -7,8 +8,8 @@
 
 enum { PASSES = 6, MOST = 400 };
 
-/* Lists the tensions that pass k has at some corner: a least or largest tension of some pass, changed by the factor of every
- * turn between, up or down. */
+/* Lists the tensions that pass k has at some corner: a least or largest tension of some pass,
+ * changed by the factor of every turn between, up or down. */
 static int corners(const thr_knotted_pass *pass, int n, int k, double *out)
 {
   int found = 0;
@@ -37,7 +38,8 @@ static double best_of_corners(const thr_knotted_pass *pass, int n)
       const double high = fmax(pass[k].least, pass[k].most), t = at[k][i];
       double before = k ? -INFINITY : 0;
       for (int j = 0; k && j < found[k - 1]; j++)
-        if (fabs(log(t / at[k - 1][j])) <= pass[k - 1].exponent + 1e-12) before = fmax(before, value[k - 1][j]);
+        if (fabs(log(t / at[k - 1][j])) <= pass[k - 1].exponent + 1e-12)
+          before = fmax(before, value[k - 1][j]);
       const bool fits = t >= pass[k].least * (1 - 1e-12) && t <= high * (1 + 1e-12);
       value[k][i] = fits ? before + pass[k].gain * (t - pass[k].least) : -INFINITY;
       if (k == n - 1) best = fmax(best, value[k][i]);

@@ -1,4 +1,6 @@
-/* Lanes by the geometry of the finished picture: which strands cross in a node is read from where they enter and leave it. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Lanes by the geometry of the finished picture: which strands cross in a node is read from where
+ * they enter and leave it. */
 #include "diagram/layout/layout.h"
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
@@ -68,17 +70,19 @@ static void reverse(picture *p, int c)
 static void draw(picture *p, int n_cords)
 {
   thr_err err = {0};
-  p->plan =
-      (thr_plan){.frame = frame_make(p->n_nodes, (const double(*)[3])p->xyz, p->n_edges, (const int(*)[2])p->edge, NULL, NULL),
-                 .n_cords = n_cords,
-                 .cord = p->cord};
+  p->plan = (thr_plan){.frame = frame_make(p->n_nodes, (const double(*)[3])p->xyz, p->n_edges,
+                                           (const int(*)[2])p->edge, NULL, NULL),
+                       .n_cords = n_cords,
+                       .cord = p->cord};
   p->plan.options.ends = THR_ENDS_ANY;
   for (int c = 0; c < n_cords; c++) {
     p->cord[c].half = p->half[c];
     thr_cord_id(c, p->cord[c].id);
   }
-  ck_assert_msg(thr_layout_make(&p->layout, &p->plan.frame, THR_LAYOUT_PLAN, &err) == THR_OK, "%s", err.text);
-  ck_assert_msg(thr_scene_build(&p->scene, &p->plan, &p->layout, 0, false, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_layout_make(&p->layout, &p->plan.frame, THR_LAYOUT_PLAN, &err) == THR_OK, "%s",
+                err.text);
+  ck_assert_msg(thr_scene_build(&p->scene, &p->plan, &p->layout, 0, false, &err) == THR_OK, "%s",
+                err.text);
 }
 
 static void picture_destroy(picture *p)
@@ -90,7 +94,8 @@ static void picture_destroy(picture *p)
 
 /* ---- what crosses ---- */
 
-/* Where a pass begins or ends on paper; passes a and b have changed places in their bead (-1: none). */
+/* Where a pass begins or ends on paper; passes a and b have changed places in their bead (-1:
+ * none). */
 static const double *end_of(const thr_scene *s, int i, bool end, int a, int b)
 {
   int other = i == a ? b : i == b ? a : i;
@@ -156,12 +161,13 @@ static void assert_lanes_are_taken_once(const thr_scene *s)
 
 /* ---- parallel runs ---- */
 
-/* Cords run side by side along a winding way of `length` edges, from n places fanned out at one end to n at the other: cord i
- * from the i-th from above to the place[i]-th. */
+/* Cords run side by side along a winding way of `length` edges, from n places fanned out at one end
+ * to n at the other: cord i from the i-th from above to the place[i]-th. */
 static void make_run(picture *p, rng *r, int length, int n, const int *place)
 {
   double x = 0, y = 0;
-  int way = add_node(p, x, y), m = length + 2 * n, ends[2 * MOST_NODES][2], order[2 * MOST_NODES], number[2 * MOST_NODES];
+  int way = add_node(p, x, y), m = length + 2 * n, ends[2 * MOST_NODES][2], order[2 * MOST_NODES],
+      number[2 * MOST_NODES];
   for (int i = 0; i < length; i++) {
     double a = 1.6 * rng_unit(r) - 0.8;
     int next = add_node(p, x += cos(a), y += sin(a));
@@ -171,7 +177,8 @@ static void make_run(picture *p, rng *r, int length, int n, const int *place)
     double a = THR_PI / 2 - THR_PI * (i % n + 0.5) / n;
     int end = i / n, hub = end ? way + length : way;
     ends[length + i][0] = hub;
-    ends[length + i][1] = add_node(p, p->xyz[hub][0] + (end ? 2 : -2) * cos(a), p->xyz[hub][1] + 2 * sin(a));
+    ends[length + i][1] =
+        add_node(p, p->xyz[hub][0] + (end ? 2 : -2) * cos(a), p->xyz[hub][1] + 2 * sin(a));
   }
   for (int i = 0; i < m; i++)
     order[i] = i;
@@ -203,14 +210,16 @@ START_TEST(parallel_cords_cross_only_if_they_change_sides)
   rng r = rng_make((uint64_t)_i + 1);
   for (int k = 0; k < 12; k++) {
     picture *p = calloc(1, sizeof *p);
-    int n = 2 + k % 4, length = rng_between(&r, 1, 100), place[MOST_CORDS] = {0, 1, 2, 3, 4, 5, 6, 7};
+    int n = 2 + k % 4, length = rng_between(&r, 1, 100),
+        place[MOST_CORDS] = {0, 1, 2, 3, 4, 5, 6, 7};
     rng_shuffle(&r, place, n);
     make_run(p, &r, length, n, place);
     for (int c = 0; c < n; c++)
       if (k % 3 == 1 || (n == 2 && rng_below(&r, 2))) reverse(p, c);
     draw(p, n);
     assert_lanes_are_taken_once(&p->scene);
-    ck_assert_msg(crossings(&p->scene) == inversions(place, n), "%d cords over %d edges: %d crossings, needed are %d", n, length,
+    ck_assert_msg(crossings(&p->scene) == inversions(place, n),
+                  "%d cords over %d edges: %d crossings, needed are %d", n, length,
                   crossings(&p->scene), inversions(place, n));
     picture_destroy(p);
     free(p);
@@ -245,7 +254,8 @@ static void make_wheel(picture *p, rng *r, bool star)
   }
 }
 
-/* A way of one to three edges, and cords over all of it or a part: their marks share what room there is beside a node. */
+/* A way of one to three edges, and cords over all of it or a part: their marks share what room
+ * there is beside a node. */
 static void make_way(picture *p, rng *r, int n_cords)
 {
   int length = rng_between(r, 1, 3);
@@ -266,22 +276,26 @@ static bool near_a_mark(const thr_scene *s, int v, double seen, double off)
   for (int c = 0; c < s->plan->n_cords; c++)
     for (int k = 0; k < 2; k++) {
       const thr_mark *m = &s->mark[c][k];
-      if (m->point == v && (!m->beside || fabs(remainder(seen - m->angle, 2 * THR_PI)) <= off)) return true;
+      if (m->point == v && (!m->beside || fabs(remainder(seen - m->angle, 2 * THR_PI)) <= off))
+        return true;
     }
   return false;
 }
 
-/* Does every lane reach its node nearer to its own bead's direction than to another's, or a mark's? Else what is seen there is no
- * order. */
+/* Does every lane reach its node nearer to its own bead's direction than to another's, or a mark's?
+ * Else what is seen there is no order. */
 static bool beads_are_apart(const thr_scene *s)
 {
   for (int i = 0; i < s->n_passes; i++)
     for (int k = 0; k < 2; k++) {
-      int h = s->pass[i].half ^ k, v = thr_tail(s->paper, h), first = s->paper->first[v], degree = thr_degree(s->paper, v);
+      int h = s->pass[i].half ^ k, v = thr_tail(s->paper, h), first = s->paper->first[v],
+          degree = thr_degree(s->paper, v);
       const double *at = k ? s->pass[i].to : s->pass[i].from;
-      double seen = atan2(at[1] - s->at[v][1], at[0] - s->at[v][0]), off = fabs(remainder(seen - s->angle[h], 2 * THR_PI));
+      double seen = atan2(at[1] - s->at[v][1], at[0] - s->at[v][0]),
+             off = fabs(remainder(seen - s->angle[h], 2 * THR_PI));
       for (int j = first; j < first + degree; j++)
-        if (s->around[j] != h && fabs(remainder(seen - s->angle[s->around[j]], 2 * THR_PI)) <= off) return false;
+        if (s->around[j] != h && fabs(remainder(seen - s->angle[s->around[j]], 2 * THR_PI)) <= off)
+          return false;
       if (near_a_mark(s, v, seen, off)) return false;
     }
   return true;
@@ -312,8 +326,10 @@ START_TEST(no_two_lanes_had_better_be_swapped)
       int now = crossings_at(s, end[0], -1, -1) + crossings_at(s, end[1], -1, -1);
       for (int i = s->first_on[e]; i < s->first_on[e + 1]; i++)
         for (int j = s->first_on[e]; j < i; j++) {
-          int then = crossings_at(s, end[0], s->on[i], s->on[j]) + crossings_at(s, end[1], s->on[i], s->on[j]);
-          ck_assert_msg(then >= now, "picture %d: lanes %d and %d of edge %d: %d crossings, %d when swapped", k,
+          int then = crossings_at(s, end[0], s->on[i], s->on[j]) +
+                     crossings_at(s, end[1], s->on[i], s->on[j]);
+          ck_assert_msg(then >= now,
+                        "picture %d: lanes %d and %d of edge %d: %d crossings, %d when swapped", k,
                         s->pass[s->on[i]].lane, s->pass[s->on[j]].lane, e, now, then);
         }
     }
@@ -323,7 +339,8 @@ START_TEST(no_two_lanes_had_better_be_swapped)
 }
 END_TEST
 
-/* More lanes in a bead, and ways through a node, than are compared: drawn all the same, each in its lane. */
+/* More lanes in a bead, and ways through a node, than are compared: drawn all the same, each in its
+ * lane. */
 START_TEST(very_many_lanes_are_numbered)
 {
   rng other = rng_make(8);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Libraries that are loaded when they are needed. */
 #include "graph/process/process.h"
 #include "tests/support.h"
@@ -29,8 +30,10 @@ START_TEST(what_is_missing_is_named)
 {
   thr_err err = {0};
   void *pointer;
-  const thr_lazy_symbol unknown[] = {{"cos", &pointer, NULL}, {"thread_has_no_such_function", &pointer, NULL}};
-  ck_assert_int_eq(thr_lazy_load(&lib.loaded, "libthread-nosuch.so.1", symbol, 2, &err), THR_ESOLVER);
+  const thr_lazy_symbol unknown[] = {{"cos", &pointer, NULL},
+                                     {"thread_has_no_such_function", &pointer, NULL}};
+  ck_assert_int_eq(thr_lazy_load(&lib.loaded, "libthread-nosuch.so.1", symbol, 2, &err),
+                   THR_ESOLVER);
   assert_one_line(&err, "the library libthread-nosuch.so.1 cannot be loaded");
   assert_one_line(&err, "install it");
   err = (thr_err){0};

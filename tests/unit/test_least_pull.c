@@ -1,4 +1,6 @@
-/* The least pull at both ends: both ways to compute it, against every turn that could be left out. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The least pull at both ends: both ways to compute it, against every turn that could be left out.
+ */
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/plan/physics.h"
@@ -10,7 +12,8 @@
 
 enum { MOST = 12 };
 
-/* Tries every turn of turn[n], counted from first on, and adds what is left to both ends anew each time. */
+/* Tries every turn of turn[n], counted from first on, and adds what is left to both ends anew each
+ * time. */
 static double by_force(const double *turn, int n)
 {
   double least = n > 0 ? INFINITY : 0;
@@ -75,7 +78,8 @@ START_TEST(cords_are_parted_at_a_turn)
     xyz[i + 1][0] = xyz[i][0] + cos(way[i]);
     xyz[i + 1][1] = xyz[i][1] + sin(way[i]);
   }
-  thr_frame f = frame_make(5, (const double(*)[3])xyz, 4, (const int[4][2]){{0, 1}, {1, 2}, {2, 3}, {3, 4}}, NULL, NULL);
+  thr_frame f = frame_make(5, (const double(*)[3])xyz, 4,
+                           (const int[4][2]){{0, 1}, {1, 2}, {2, 3}, {3, 4}}, NULL, NULL);
   for (int n = 1; n <= 4; n++) {
     static const double expected[] = {0, 0, THR_PI / 6, THR_PI / 3};
     const thr_cord cord = {.id = "A", .n_passes = n, .half = (int[]){0, 2, 4, 6}};
@@ -85,7 +89,8 @@ START_TEST(cords_are_parted_at_a_turn)
 }
 END_TEST
 
-/* The ends of a closed cord come out at one node: the turn there is slid over by nobody, and another one in its middle. */
+/* The ends of a closed cord come out at one node: the turn there is slid over by nobody, and
+ * another one in its middle. */
 START_TEST(closed_cord_saves_two_turns)
 {
   for (int n = 3; n < 12; n++) {

@@ -1,4 +1,6 @@
-/* Outlines of letters: as many closed curves as a letter has edges, holes against the rest, capitals as high as they are to be.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Outlines of letters: as many closed curves as a letter has edges, holes against the rest,
+ * capitals as high as they are to be.
  */
 #include "diagram/export/paper.h"
 #include "diagram/mat/emboss.h"
@@ -112,7 +114,8 @@ START_TEST(capitals_are_as_high_as_asked)
 }
 END_TEST
 
-/* Every piece has its name, none wider than the room on its hub or higher than that: a square as wide as an arm, 0.35 of 20 mm.
+/* Every piece has its name, none wider than the room on its hub or higher than that: a square as
+ * wide as an arm, 0.35 of 20 mm.
  */
 START_TEST(names_lie_on_their_pieces)
 {

@@ -1,4 +1,6 @@
-/* libthread as other programs see it: what include/thread.h promises, without a look at anything behind it. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* libthread as other programs see it: what include/thread.h promises, without a look at anything
+ * behind it. */
 #define _XOPEN_SOURCE 700
 #include "graph/status.h"
 #include "include/thread.h"
@@ -21,11 +23,13 @@ static thread_frame *square(void)
 {
   thread_frame *frame;
   thread_error err;
-  ck_assert_msg(thread_frame_make(4, square_xyz, 5, square_ends, NULL, &frame, &err) == THREAD_OK, "%s", err.text);
+  ck_assert_msg(thread_frame_make(4, square_xyz, 5, square_ends, NULL, &frame, &err) == THREAD_OK,
+                "%s", err.text);
   return frame;
 }
 
-static void assert_refused(thread_status st, thread_status want, const thread_error *err, const void *out, const char *word)
+static void assert_refused(thread_status st, thread_status want, const thread_error *err,
+                           const void *out, const char *word)
 {
   ck_assert_int_eq((int)st, (int)want);
   ck_assert_ptr_null(out);
@@ -38,11 +42,13 @@ static int edge_of(const thread_frame *frame, int a, int b)
   const int *ends;
   int n = thread_frame_edges(frame, &ends);
   for (int e = 0; e < n; e++)
-    if ((ends[2 * e] == a && ends[2 * e + 1] == b) || (ends[2 * e] == b && ends[2 * e + 1] == a)) return e;
+    if ((ends[2 * e] == a && ends[2 * e + 1] == b) || (ends[2 * e] == b && ends[2 * e + 1] == a))
+      return e;
   return -1;
 }
 
-/* Walks along all cords: every step is an edge, every edge is passed, and the steps are so long together. */
+/* Walks along all cords: every step is an edge, every edge is passed, and the steps are so long
+ * together. */
 static void assert_covers(const thread_plan *plan, double length)
 {
   const thread_frame *frame = thread_plan_frame(plan);
@@ -117,7 +123,8 @@ START_TEST(by_hand)
   int n = thread_plan_cord(plan, 0, &node);
   ck_assert(node[0] == 1 || node[0] == 3);
   ck_assert(node[n] == 1 || node[n] == 3);
-  assert_covers(plan, 240); /* 0-2 again, both ends at one of them: 50; an end at each would take 0-1 and 2-3 again: 60 */
+  assert_covers(plan, 240); /* 0-2 again, both ends at one of them: 50; an end at each would take
+                               0-1 and 2-3 again: 60 */
   thread_plan_free(plan);
   thread_frame_free(frame);
 }
@@ -166,7 +173,8 @@ START_TEST(frames_are_written_and_read)
     size_t n;
     snprintf(name, sizeof name, "x.%s", formats[i]);
     ck_assert_int_eq((int)thread_frame_write(frame, formats[i], &bytes, &n, &err), THREAD_OK);
-    ck_assert_msg(thread_frame_parse(bytes, n, name, NULL, &again, &err) == THREAD_OK, "%s", err.text);
+    ck_assert_msg(thread_frame_parse(bytes, n, name, NULL, &again, &err) == THREAD_OK, "%s",
+                  err.text);
     ck_assert_int_eq(thread_frame_nodes(again, &a), thread_frame_nodes(frame, &b));
     ck_assert_int_eq(thread_frame_edges(again, NULL), 5);
     ck_assert(memcmp(a, b, sizeof square_xyz) == 0);
@@ -188,9 +196,11 @@ START_TEST(notes_say_what_was_merged)
   thread_read_options o;
   thread_read_options_init(&o, sizeof o);
   o.scale = 2;
-  ck_assert_msg(thread_frame_parse(csv, strlen(csv), "a.csv", &o, &frame, &err) == THREAD_OK, "%s", err.text);
+  ck_assert_msg(thread_frame_parse(csv, strlen(csv), "a.csv", &o, &frame, &err) == THREAD_OK, "%s",
+                err.text);
   ck_assert_int_eq(thread_frame_edges(frame, NULL), 3);
-  ck_assert_ptr_nonnull(strstr(thread_frame_notes(frame), "1 edge that was there already dropped\n"));
+  ck_assert_ptr_nonnull(
+      strstr(thread_frame_notes(frame), "1 edge that was there already dropped\n"));
   ck_assert_ptr_nonnull(strstr(thread_frame_notes(frame), "2 separate components"));
   const double *xyz;
   thread_frame_nodes(frame, &xyz);
@@ -199,7 +209,8 @@ START_TEST(notes_say_what_was_merged)
   static const char cross[] = "0,0,0,20,0,0\n10,0,0,10,10,0\n"; /* a T whose bar is one edge */
   thread_read_options_init(&o, sizeof o);
   o.split = 1;
-  ck_assert_msg(thread_frame_parse(cross, strlen(cross), "t.csv", &o, &frame, &err) == THREAD_OK, "%s", err.text);
+  ck_assert_msg(thread_frame_parse(cross, strlen(cross), "t.csv", &o, &frame, &err) == THREAD_OK,
+                "%s", err.text);
   ck_assert_int_eq(thread_frame_edges(frame, NULL), 3);
   thread_frame_free(frame);
 }
@@ -215,21 +226,33 @@ START_TEST(what_is_wrong_is_said)
   thread_read_options r;
   const double twice[] = {0, 0, 0, 0, 0, 0};
   const int edge[] = {0, 1}, far[] = {0, 7}, doubled[] = {0, 1, 1, 0};
-  assert_refused(thread_frame_make(2, twice, 1, edge, NULL, &frame, &err), THREAD_BAD_INPUT, &err, frame, "");
-  assert_refused(thread_frame_make(2, square_xyz, 1, far, NULL, &frame, &err), THREAD_BAD_INPUT, &err, frame, "7");
-  assert_refused(thread_frame_make(2, square_xyz, 2, doubled, NULL, &frame, &err), THREAD_BAD_INPUT, &err, frame, "twice");
-  assert_refused(thread_frame_make(3, square_xyz, 1, edge, NULL, &frame, &err), THREAD_BAD_INPUT, &err, frame, "no edge");
-  assert_refused(thread_frame_make(2, square_xyz, 1, edge, "furlong", &frame, &err), THREAD_BAD_INPUT, &err, frame, "furlong");
-  assert_refused(thread_frame_make(0, NULL, 0, NULL, NULL, &frame, &err), THREAD_BAD_INPUT, &err, frame, "");
-  assert_refused(thread_frame_shape("cube", 0, &frame, &err), THREAD_BAD_INPUT, &err, frame, "cube");
-  assert_refused(thread_frame_shape("dome", 1, &frame, &err), THREAD_BAD_INPUT, &err, frame, "size");
-  assert_refused(thread_frame_read("no/such.obj", NULL, &frame, &err), THREAD_IO, &err, frame, "no/such.obj");
-  assert_refused(thread_frame_parse("v 1 2 x\n", 8, "a.obj", NULL, &frame, &err), THREAD_BAD_INPUT, &err, frame, "a.obj:1");
+  assert_refused(thread_frame_make(2, twice, 1, edge, NULL, &frame, &err), THREAD_BAD_INPUT, &err,
+                 frame, "");
+  assert_refused(thread_frame_make(2, square_xyz, 1, far, NULL, &frame, &err), THREAD_BAD_INPUT,
+                 &err, frame, "7");
+  assert_refused(thread_frame_make(2, square_xyz, 2, doubled, NULL, &frame, &err), THREAD_BAD_INPUT,
+                 &err, frame, "twice");
+  assert_refused(thread_frame_make(3, square_xyz, 1, edge, NULL, &frame, &err), THREAD_BAD_INPUT,
+                 &err, frame, "no edge");
+  assert_refused(thread_frame_make(2, square_xyz, 1, edge, "furlong", &frame, &err),
+                 THREAD_BAD_INPUT, &err, frame, "furlong");
+  assert_refused(thread_frame_make(0, NULL, 0, NULL, NULL, &frame, &err), THREAD_BAD_INPUT, &err,
+                 frame, "");
+  assert_refused(thread_frame_shape("cube", 0, &frame, &err), THREAD_BAD_INPUT, &err, frame,
+                 "cube");
+  assert_refused(thread_frame_shape("dome", 1, &frame, &err), THREAD_BAD_INPUT, &err, frame,
+                 "size");
+  assert_refused(thread_frame_read("no/such.obj", NULL, &frame, &err), THREAD_IO, &err, frame,
+                 "no/such.obj");
+  assert_refused(thread_frame_parse("v 1 2 x\n", 8, "a.obj", NULL, &frame, &err), THREAD_BAD_INPUT,
+                 &err, frame, "a.obj:1");
   thread_read_options_init(&r, sizeof r);
   r.up = 'x';
-  assert_refused(thread_frame_parse("0,1\n", 4, "a.csv", &r, &frame, &err), THREAD_BAD_INPUT, &err, frame, "up");
+  assert_refused(thread_frame_parse("0,1\n", 4, "a.csv", &r, &frame, &err), THREAD_BAD_INPUT, &err,
+                 frame, "up");
   memset(&o, 0, sizeof o); /* nobody called init */
-  assert_refused(thread_plan_make(good, &o, &plan, &err), THREAD_BAD_INPUT, &err, plan, "thread_plan_options_init");
+  assert_refused(thread_plan_make(good, &o, &plan, &err), THREAD_BAD_INPUT, &err, plan,
+                 "thread_plan_options_init");
   thread_plan_options_init(&o, sizeof o);
   o.aims = "beauty";
   assert_refused(thread_plan_make(good, &o, &plan, &err), THREAD_BAD_INPUT, &err, plan, "beauty");
@@ -251,13 +274,16 @@ START_TEST(what_is_wrong_is_said)
   o.gap = -1;
   o.cover = o.capacity = 1; /* the odd nodes need an extra pass */
   assert_refused(thread_plan_make(good, &o, &plan, &err), THREAD_INFEASIBLE, &err, plan, "");
-  assert_refused(thread_plan_parse("{}", 2, "p.json", &plan, &err), THREAD_BAD_INPUT, &err, plan, "p.json");
-  assert_refused(thread_frame_write(good, "step", &bytes, NULL, &err), THREAD_BAD_INPUT, &err, bytes, "step");
+  assert_refused(thread_plan_parse("{}", 2, "p.json", &plan, &err), THREAD_BAD_INPUT, &err, plan,
+                 "p.json");
+  assert_refused(thread_frame_write(good, "step", &bytes, NULL, &err), THREAD_BAD_INPUT, &err,
+                 bytes, "step");
   ck_assert_int_eq((int)thread_frame_set_feet(good, 1, (const int[]){4}, &err), THREAD_BAD_INPUT);
   ck_assert_int_eq((int)thread_frame_set_passes(good, 5, 1, 0, &err), THREAD_BAD_INPUT);
   ck_assert_int_eq((int)thread_frame_set_passes(good, 0, 2, 1, NULL), THREAD_BAD_INPUT);
   ck_assert_int_eq((int)thread_plan_make(good, NULL, &plan, NULL), THREAD_OK);
-  assert_refused(thread_draw(plan, "oil", &bytes, NULL, &err), THREAD_BAD_INPUT, &err, bytes, "oil");
+  assert_refused(thread_draw(plan, "oil", &bytes, NULL, &err), THREAD_BAD_INPUT, &err, bytes,
+                 "oil");
   ck_assert_int_eq((int)thread_eval(plan, "guess", 0, &err), THREAD_BAD_INPUT);
   thread_plan_free(plan);
   thread_frame_free(good);
@@ -285,7 +311,8 @@ START_TEST(programs_of_older_and_newer_headers_go_on_working)
   ck_assert_msg(thread_plan_make(frame, &older, &plan, &err) == THREAD_OK, "%s", err.text);
   assert_covers(plan, 240);
   memset(&part, 0xAA, sizeof part);
-  ck_assert_int_eq((int)thread_plan_summary(plan, &part, offsetof(thread_summary, bound), &err), THREAD_OK);
+  ck_assert_int_eq((int)thread_plan_summary(plan, &part, offsetof(thread_summary, bound), &err),
+                   THREAD_OK);
   ck_assert_double_eq_tol(part.length, 240, 1e-9);
   ck_assert_int_eq(part.passes, (int)0xAAAAAAAA);
   thread_plan_free(plan);
@@ -296,7 +323,8 @@ START_TEST(programs_of_older_and_newer_headers_go_on_working)
 }
 END_TEST
 
-/* The largest turning of four cords through a dome is not proved in a fifth of a second, but some bound is at hand. */
+/* The largest turning of four cords through a dome is not proved in a fifth of a second, but some
+ * bound is at hand. */
 START_TEST(a_gap_ends_a_search)
 {
   static const double gap[] = {0, 100};
@@ -415,8 +443,10 @@ static void *plan_a_dome(void *user)
   thread_frame *frame;
   thread_plan *plan;
   char **json = user;
-  if (thread_frame_shape("dome", 5, &frame, NULL) == THREAD_OK && thread_plan_make(frame, NULL, &plan, NULL) == THREAD_OK &&
-      thread_check(plan, NULL) == THREAD_OK && thread_plan_write(plan, json, NULL, NULL) == THREAD_OK) {
+  if (thread_frame_shape("dome", 5, &frame, NULL) == THREAD_OK &&
+      thread_plan_make(frame, NULL, &plan, NULL) == THREAD_OK &&
+      thread_check(plan, NULL) == THREAD_OK &&
+      thread_plan_write(plan, json, NULL, NULL) == THREAD_OK) {
     thread_plan_free(plan);
     thread_frame_free(frame);
   }
@@ -455,7 +485,8 @@ START_TEST(memory_may_run_out)
     if (!st) st = thread_plan_make(frame, NULL, &plan, &err);
     if (!st) st = thread_draw(plan, "cords.csv", &bytes, NULL, &err);
     thr_alloc_fail_at(0);
-    ck_assert_msg(st == THREAD_OK || st == THREAD_NO_MEMORY, "allocation %ld: %d %s", k, (int)st, err.text);
+    ck_assert_msg(st == THREAD_OK || st == THREAD_NO_MEMORY, "allocation %ld: %d %s", k, (int)st,
+                  err.text);
     ck_assert((st == THREAD_OK) == (bytes != NULL));
     thread_free(bytes);
     thread_plan_free(plan);

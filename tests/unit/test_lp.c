@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contract of the linear programming interface, and of the cut tree. */
 #include "graph/framework/frame.h"
 #include "graph/limits.h"
@@ -20,12 +21,14 @@ static thr_lp *tiny(void)
   const double cost[3] = {2, 3, 4};
   ck_assert_int_eq(thr_lp_create(&lp, 3, cost, NULL, NULL), THR_OK);
   ck_assert_int_eq(thr_lp_add_row(lp, 2, (const int[]){0, 1}, NULL, 3, NULL), THR_OK);
-  ck_assert_int_eq(thr_lp_add_row(lp, 2, (const int[]){1, 2}, (const double[]){1, 1}, 2, NULL), THR_OK);
+  ck_assert_int_eq(thr_lp_add_row(lp, 2, (const int[]){1, 2}, (const double[]){1, 1}, 2, NULL),
+                   THR_OK);
   ck_assert_int_eq(thr_lp_rows(lp), 2);
   return lp;
 }
 
-static void assert_solution(thr_lp *lp, int n, const double *x, int rows, const double *dual, double objective)
+static void assert_solution(thr_lp *lp, int n, const double *x, int rows, const double *dual,
+                            double objective)
 {
   double found[8];
   thr_lp_primal(lp, found);
@@ -41,7 +44,8 @@ static void assert_outcome(thr_lp *lp, bool exact, thr_lp_outcome expected)
 {
   thr_lp_outcome outcome;
   thr_err err = {0};
-  thr_status st = exact ? thr_lp_solve_exact(lp, &no_limit, &outcome, &err) : thr_lp_solve(lp, &no_limit, &outcome, &err);
+  thr_status st = exact ? thr_lp_solve_exact(lp, &no_limit, &outcome, &err)
+                        : thr_lp_solve(lp, &no_limit, &outcome, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   ck_assert_int_eq(outcome, expected);
 }
@@ -78,7 +82,8 @@ END_TEST
 START_TEST(costs_and_upper_bounds_count)
 {
   thr_lp *lp;
-  ck_assert_int_eq(thr_lp_create(&lp, 3, (const double[]){1, 2, 9}, (const double[]){1, 1.5, 0}, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_lp_create(&lp, 3, (const double[]){1, 2, 9}, (const double[]){1, 1.5, 0}, NULL), THR_OK);
   ck_assert_int_eq(thr_lp_add_row(lp, 3, (const int[]){0, 1, 2}, NULL, 2, NULL), THR_OK);
   assert_outcome(lp, false, THR_LP_OPTIMAL);
   assert_solution(lp, 3, (const double[]){1, 1, 0}, 1, (const double[]){2}, 3);
@@ -89,19 +94,24 @@ START_TEST(costs_and_upper_bounds_count)
 }
 END_TEST
 
-/* A feasible basis, one that is not, a singular one and one of the wrong size: all lead to the optimum. */
+/* A feasible basis, one that is not, a singular one and one of the wrong size: all lead to the
+ * optimum. */
 START_TEST(any_basis_may_be_set)
 {
   static const bool row[4][2] = {{false, false}, {true, true}, {false, false}, {false, false}};
-  static const bool column[4][3] = {{true, false, true}, {false, false, false}, {true, true, true}, {true, false, false}};
+  static const bool column[4][3] = {
+      {true, false, true}, {false, false, false}, {true, true, true}, {true, false, false}};
   for (int i = 0; i < 4; i++) {
     thr_lp *lp = tiny();
-    if (i == 2) ck_assert_int_eq(thr_lp_add_row(lp, 2, (const int[]){0, 1}, NULL, 3, NULL), THR_OK); /* row 0 again */
+    if (i == 2)
+      ck_assert_int_eq(thr_lp_add_row(lp, 2, (const int[]){0, 1}, NULL, 3, NULL),
+                       THR_OK); /* row 0 again */
     const bool rows[3] = {row[i][0], row[i][1], false};
     ck_assert_int_eq(thr_lp_set_basis(lp, rows, column[i], NULL), THR_OK);
     assert_outcome(lp, false, THR_LP_OPTIMAL);
     ck_assert_double_eq_tol(thr_lp_objective(lp), 8, 1e-9);
-    ck_assert(thr_lp_column_basic(lp, 0) && thr_lp_column_basic(lp, 1) && !thr_lp_column_basic(lp, 2));
+    ck_assert(thr_lp_column_basic(lp, 0) && thr_lp_column_basic(lp, 1) &&
+              !thr_lp_column_basic(lp, 2));
     thr_lp_destroy(lp);
   }
 }
@@ -137,8 +147,8 @@ START_TEST(limits_stop_and_solving_goes_on)
 }
 END_TEST
 
-/* Fewest nodes that cover disjoint triangles, two of each, by a tree that grows with the number of triangles: within so much
- * work. Returns what is left of it. */
+/* Fewest nodes that cover disjoint triangles, two of each, by a tree that grows with the number of
+ * triangles: within so much work. Returns what is left of it. */
 static double cover_triangles(int n, double work, thr_lp_outcome *outcome)
 {
   double one[30] = {0};
@@ -161,7 +171,8 @@ static double cover_triangles(int n, double work, thr_lp_outcome *outcome)
   return work;
 }
 
-/* Limited by work, not by time, a search ends at the same place in every run: with too little as with enough. */
+/* Limited by work, not by time, a search ends at the same place in every run: with too little as
+ * with enough. */
 START_TEST(work_stops_at_the_same_place)
 {
   const double enough = 1e3, spent = enough - cover_triangles(6, enough, &(thr_lp_outcome){0});
@@ -186,7 +197,8 @@ START_TEST(abort_becomes_a_status)
     thr_lp *lp = tiny(), *bystander = tiny();
     ck_assert_int_eq(thr_lp_add_row(lp, 2, wrong[i], NULL, 1, &err), THR_ESOLVER);
     assert_one_line(&err, "GLPK");
-    ck_assert_int_eq(thr_lp_solve(bystander, &no_limit, &outcome, &after), THR_ESOLVER); /* the environment is gone for all */
+    ck_assert_int_eq(thr_lp_solve(bystander, &no_limit, &outcome, &after),
+                     THR_ESOLVER); /* the environment is gone for all */
     ck_assert_int_eq(thr_lp_set_costs(lp, (const double[]){1, 1, 1}, NULL), THR_ESOLVER);
     ck_assert_int_eq(thr_lp_drop_rows(lp, (const bool[]){true, true}, NULL), THR_ESOLVER);
     ck_assert_int_eq(thr_lp_add_row(lp, 1, (const int[]){0}, NULL, 1, NULL), THR_ESOLVER);
@@ -238,7 +250,8 @@ START_TEST(random_covers_are_dual_pairs)
 }
 END_TEST
 
-/* Stopped after a while, or before a new cost is taken into account: what is proved leaves room for the optimum. */
+/* Stopped after a while, or before a new cost is taken into account: what is proved leaves room for
+ * the optimum. */
 START_TEST(what_is_proved_holds_at_any_time)
 {
   enum { N = 120, M = 200, MOST = 3 }; /* x = 1 covers everything */
@@ -279,17 +292,19 @@ END_TEST
 
 /* ---- equations ---- */
 
-/* x + y = 4, y + z + w = 3, z - w = 1 and w of any sign: z = 1 + w, y = 2 - 2w, x = 2 + 2w. The cost x + 2y + 3z + 4w = 9 + 5w
- * falls to w = -1, where x and z are 0. */
+/* x + y = 4, y + z + w = 3, z - w = 1 and w of any sign: z = 1 + w, y = 2 - 2w, x = 2 + 2w. The
+ * cost x + 2y + 3z + 4w = 9 + 5w falls to w = -1, where x and z are 0. */
 START_TEST(equations_with_a_free_column)
 {
-  static const double rhs[] = {4, 3, 1}, cost[] = {1, 2, 3, 4}, value[] = {1, 1, 1, 1, 1, 1, -1}, x[] = {0, 4, 0, -1};
+  static const double rhs[] = {4, 3, 1}, cost[] = {1, 2, 3, 4}, value[] = {1, 1, 1, 1, 1, 1, -1},
+                      x[] = {0, 4, 0, -1};
   static const int start[] = {0, 1, 3, 5, 7}, row[] = {0, 0, 1, 1, 2, 1, 2};
   thr_lp *lp;
   thr_err err = {0};
-  ck_assert_msg(
-      thr_lp_create_equations(&lp, 3, rhs, 4, cost, (const bool[]){false, false, false, true}, start, row, value, &err) == THR_OK,
-      "%s", err.text);
+  ck_assert_msg(thr_lp_create_equations(&lp, 3, rhs, 4, cost,
+                                        (const bool[]){false, false, false, true}, start, row,
+                                        value, &err) == THR_OK,
+                "%s", err.text);
   ck_assert_int_eq(thr_lp_rows(lp), 3);
   for (int exact = 0; exact < 2; exact++) {
     double dual[3], sum = 0;
@@ -314,12 +329,14 @@ START_TEST(equations_without_a_solution)
 {
   thr_lp *lp;
   const double rhs[] = {1, 2}, cost[] = {1}, value[] = {1, 1};
-  ck_assert_int_eq(thr_lp_create_equations(&lp, 2, rhs, 1, cost, NULL, (const int[]){0, 2}, (const int[]){0, 1}, value, NULL),
+  ck_assert_int_eq(thr_lp_create_equations(&lp, 2, rhs, 1, cost, NULL, (const int[]){0, 2},
+                                           (const int[]){0, 1}, value, NULL),
                    THR_OK);
   assert_outcome(lp, false, THR_LP_INFEASIBLE);
   thr_lp_destroy(lp);
   thr_err err = {0}; /* one row twice in a column */
-  ck_assert_int_eq(thr_lp_create_equations(&lp, 2, rhs, 1, cost, NULL, (const int[]){0, 2}, (const int[]){1, 1}, value, &err),
+  ck_assert_int_eq(thr_lp_create_equations(&lp, 2, rhs, 1, cost, NULL, (const int[]){0, 2},
+                                           (const int[]){1, 1}, value, &err),
                    THR_ESOLVER);
   assert_one_line(&err, "GLPK");
   ck_assert(lp == NULL);
@@ -335,7 +352,8 @@ typedef struct {
 
 static thr_interior interior(programme *p, const thr_limits *limits)
 {
-  const thr_equations e = {.a = {p->m, p->n, p->start, p->row, p->value}, .rhs = p->rhs, .cost = p->cost};
+  const thr_equations e = {
+      .a = {p->m, p->n, p->start, p->row, p->value}, .rhs = p->rhs, .cost = p->cost};
   thr_interior found = {.x = p->x, .dual = p->dual};
   thr_err err = {0};
   ck_assert_msg(thr_interior_solve(&e, limits, &found, &err) == THR_OK, "%s", err.text);
@@ -397,7 +415,8 @@ static void draw_columns(programme *p, rng *r)
 }
 
 /* Right sides of which a solution is known are met, with this error of the largest. */
-static void assert_solves(thr_normal *normal, int m, double dense[64][64], const double *weight, rng *r, double error)
+static void assert_solves(thr_normal *normal, int m, double dense[64][64], const double *weight,
+                          rng *r, double error)
 {
   double wanted[64], right[64] = {0}, found[64], most = 0;
   for (int i = 0; i < m; i++)
@@ -417,8 +436,8 @@ static void assert_solves(thr_normal *normal, int m, double dense[64][64], const
   }
 }
 
-/* Against the dense matrix, factored with other values and with weights of several sizes; what is asked for has a solution,
- * though rows may depend on each other. */
+/* Against the dense matrix, factored with other values and with weights of several sizes; what is
+ * asked for has a solution, though rows may depend on each other. */
 START_TEST(normal_equations_are_solved)
 {
   rng r = rng_make((uint64_t)_i + 500);
@@ -441,11 +460,13 @@ START_TEST(normal_equations_are_solved)
 }
 END_TEST
 
-/* Rows that depend on others have no part in the solution. What follows in the arrays is no column. */
+/* Rows that depend on others have no part in the solution. What follows in the arrays is no column.
+ */
 START_TEST(equal_rows_are_solved_once)
 {
   static const int start[] = {0, 2, 5, 6, 8}, row[] = {0, 2, 2, 1, 0, 1, 0, 1};
-  static const double value[] = {1, 1, 2, 3, 2, 5, 100, 100}, weight[] = {1, 0.5, 2, 9}, right[] = {3, 7, 3};
+  static const double value[] = {1, 1, 2, 3, 2, 5, 100, 100}, weight[] = {1, 0.5, 2, 9},
+                      right[] = {3, 7, 3};
   thr_columns a = {3, 3, start, row, value};
   thr_normal *normal;
   double y[4] = {0, 0, 0, 77}, z[4] = {0, 0, 0, 77}, back[4] = {0, 0, 0, 77};
@@ -466,7 +487,8 @@ START_TEST(equal_rows_are_solved_once)
 }
 END_TEST
 
-/* Columns three by three, with weights that are positive definite blocks: the dense matrix of the same, by definition. */
+/* Columns three by three, with weights that are positive definite blocks: the dense matrix of the
+ * same, by definition. */
 START_TEST(columns_are_weighed_three_by_three)
 {
   rng r = rng_make((uint64_t)_i + 900);
@@ -500,7 +522,8 @@ START_TEST(columns_are_weighed_three_by_three)
       for (int k = p.start[j]; k < p.start[j + 1]; k++)
         for (int q = p.start[l]; q < p.start[l + 1]; q++)
           dense[p.row[k]][p.row[q]] +=
-              p.value[k] * p.value[q] * (j / 3 < threes ? block[j / 3][j % 3][l % 3] : weight[3 * threes + j]);
+              p.value[k] * p.value[q] *
+              (j / 3 < threes ? block[j / 3][j % 3][l % 3] : weight[3 * threes + j]);
   const thr_columns a = {p.m, p.n, p.start, p.row, p.value};
   thr_normal *normal;
   ck_assert_int_eq(thr_normal_create(&normal, &a, threes, NULL), THR_OK);
@@ -514,7 +537,8 @@ START_TEST(dense_sums_are_right)
 {
   enum { MOST = 29, APART = 31, MOST_K = 6 };
   rng r = rng_make(7);
-  double from[APART * MOST_K + MOST], to[THR_DENSE_MOST * MOST], with[APART], factor[THR_DENSE_MOST];
+  double from[APART * MOST_K + MOST], to[THR_DENSE_MOST * MOST], with[APART],
+      factor[THR_DENSE_MOST];
   for (size_t i = 0; i < sizeof from / sizeof *from; i++)
     from[i] = 2 * rng_unit(&r) - 1;
   for (int i = 0; i < APART; i++)
@@ -548,7 +572,9 @@ START_TEST(dense_sums_are_right)
 }
 END_TEST
 
-enum { MOST_STEPS = 15 }; /* that small programmes like these take: a good start and good corrections take 5 to 10 */
+enum {
+  MOST_STEPS = 15
+}; /* that small programmes like these take: a good start and good corrections take 5 to 10 */
 
 /* Made from a solution: x and reduced costs of which one of each pair is 0. */
 START_TEST(interior_finds_the_optimum_it_was_made_from)
@@ -572,23 +598,26 @@ START_TEST(interior_finds_the_optimum_it_was_made_from)
     wanted += p.cost[j] * x;
   }
   thr_interior found = interior(&p, &no_limit);
-  ck_assert_msg(found.outcome == THR_LP_OPTIMAL && found.error < 1e-8, "error %g after %d", found.error, found.iterations);
+  ck_assert_msg(found.outcome == THR_LP_OPTIMAL && found.error < 1e-8, "error %g after %d",
+                found.error, found.iterations);
   ck_assert_int_le(found.iterations, MOST_STEPS);
   ck_assert_double_eq_tol(assert_optimal(&p), wanted, 1e-6 * (1 + fabs(wanted)));
 }
 END_TEST
 
-/* Cones of which each has its own directions: the same optimum as with a column for every ray, which another solver is asked. And
- * again from where it was on its way, with other costs. */
+/* Cones of which each has its own directions: the same optimum as with a column for every ray,
+ * which another solver is asked. And again from where it was on its way, with other costs. */
 START_TEST(cones_stand_for_their_rays)
 {
   enum { CONES = 12, RAYS = 5, REST = 8, ROWS = 10, N = CONES * RAYS + REST };
-  static const double ray[2 * RAYS][3] = {{1, 0.5, 0},   {1, -0.5, 0}, {1, 0, 0.5}, {1, 0, -0.5}, {1, 0.1, 0.1},
-                                          {1, 0.2, 0.1}, {1, -0.2, 0}, {1, 0, 0.3}, {1, 0, -0.1}, {1, 0, 0}};
+  static const double ray[2 * RAYS][3] = {{1, 0.5, 0},   {1, -0.5, 0},  {1, 0, 0.5},  {1, 0, -0.5},
+                                          {1, 0.1, 0.1}, {1, 0.2, 0.1}, {1, -0.2, 0}, {1, 0, 0.3},
+                                          {1, 0, -0.1},  {1, 0, 0}};
   rng r = rng_make((uint64_t)_i + 77);
   int start[3 * CONES + REST + 1] = {0}, row[(3 * CONES + REST) * ROWS], kind[CONES];
   int wide_start[N + 1] = {0}, wide_row[N * ROWS];
-  double value[(3 * CONES + REST) * ROWS], wide[N * ROWS], cost[N], rhs[ROWS] = {0}, x[N], dual[ROWS];
+  double value[(3 * CONES + REST) * ROWS], wide[N * ROWS], cost[N], rhs[ROWS] = {0}, x[N],
+                                                                    dual[ROWS];
   for (int j = 0; j < 3 * CONES + REST; j++) {
     start[j + 1] = (j + 1) * ROWS;
     for (int i = 0; i < ROWS; i++) {
@@ -626,7 +655,9 @@ START_TEST(cones_stand_for_their_rays)
     double primal = 0;
     ck_assert_int_eq(thr_interior_solve(&e, &no_limit, &found, &err), THR_OK);
     ck_assert_int_eq(found.outcome, THR_LP_OPTIMAL);
-    ck_assert_int_eq(thr_lp_create_equations(&lp, ROWS, rhs, N, cost, NULL, wide_start, wide_row, wide, &err), THR_OK);
+    ck_assert_int_eq(
+        thr_lp_create_equations(&lp, ROWS, rhs, N, cost, NULL, wide_start, wide_row, wide, &err),
+        THR_OK);
     assert_outcome(lp, false, THR_LP_OPTIMAL);
     for (int j = 0; j < N; j++)
       primal += cost[j] * x[j];
@@ -640,7 +671,8 @@ START_TEST(cones_stand_for_their_rays)
 }
 END_TEST
 
-/* A pair that is complementary in a cone: one of them within it and the other 0, or both on its boundary. */
+/* A pair that is complementary in a cone: one of them within it and the other 0, or both on its
+ * boundary. */
 static void complementary(rng *r, double x[3], double z[3])
 {
   const double angle = 6.28 * rng_unit(r), size = 0.5 + rng_unit(r), other = 0.5 + rng_unit(r);
@@ -653,13 +685,15 @@ static void complementary(rng *r, double x[3], double z[3])
   }
 }
 
-/* Made round a point and multipliers that prove each other optimal: x and z complementary, b = A x, c = A^T y + z. */
+/* Made round a point and multipliers that prove each other optimal: x and z complementary, b = A x,
+ * c = A^T y + z. */
 START_TEST(cones_find_a_planted_optimum)
 {
   enum { CONES = 9, REST = 6, ROWS = 8, N = 3 * CONES + REST };
   rng r = rng_make((uint64_t)_i + 5);
   int start[N + 1] = {0}, row[N * ROWS];
-  double value[N * ROWS], x[N], z[N], y[ROWS], cost[N], rhs[ROWS] = {0}, begin[N] = {0}, found_x[N], dual[ROWS];
+  double value[N * ROWS], x[N], z[N], y[ROWS], cost[N], rhs[ROWS] = {0}, begin[N] = {0}, found_x[N],
+                                                        dual[ROWS];
   for (int c = 0; c < CONES; c++) {
     complementary(&r, x + 3 * c, z + 3 * c);
     begin[3 * c] = 1;
@@ -681,8 +715,13 @@ START_TEST(cones_find_a_planted_optimum)
       cost[j] += value[j * ROWS + i] * y[i];
     }
   }
-  const thr_cone_equations e = {
-      .a = {ROWS, N, start, row, value}, .rhs = rhs, .cost = cost, .start = begin, .goal = 1e-7, .met = 1e-7, .n_cones = CONES};
+  const thr_cone_equations e = {.a = {ROWS, N, start, row, value},
+                                .rhs = rhs,
+                                .cost = cost,
+                                .start = begin,
+                                .goal = 1e-7,
+                                .met = 1e-7,
+                                .n_cones = CONES};
   thr_interior found = {.x = found_x, .dual = dual};
   double wanted = 0, primal = 0, proved = 0;
   ck_assert_int_eq(thr_cones_solve(&e, &no_limit, &found, NULL), THR_OK);
@@ -690,7 +729,8 @@ START_TEST(cones_find_a_planted_optimum)
   for (int j = 0; j < N; j++) {
     wanted += cost[j] * x[j];
     primal += cost[j] * found_x[j];
-    ck_assert(j >= 3 * CONES ? found_x[j] > 0 : j % 3 || found_x[j] > hypot(found_x[j + 1], found_x[j + 2]));
+    ck_assert(j >= 3 * CONES ? found_x[j] > 0
+                             : j % 3 || found_x[j] > hypot(found_x[j + 1], found_x[j + 2]));
   }
   for (int i = 0; i < ROWS; i++)
     proved += rhs[i] * dual[i];
@@ -699,7 +739,8 @@ START_TEST(cones_find_a_planted_optimum)
 }
 END_TEST
 
-/* A unit of flow through layers of nodes, all equations, of which one depends on the others: the shortest way, layer by layer. */
+/* A unit of flow through layers of nodes, all equations, of which one depends on the others: the
+ * shortest way, layer by layer. */
 START_TEST(interior_finds_the_shortest_way)
 {
   enum { LAYERS = 12, WIDTH = 5 };
@@ -721,7 +762,8 @@ START_TEST(interior_finds_the_shortest_way)
   p.rhs[0] = 1;
   p.rhs[p.m - 1] = -1;
   thr_interior found = interior(&p, &no_limit);
-  ck_assert_msg(found.outcome == THR_LP_OPTIMAL && found.error < 1e-8, "error %g after %d", found.error, found.iterations);
+  ck_assert_msg(found.outcome == THR_LP_OPTIMAL && found.error < 1e-8, "error %g after %d",
+                found.error, found.iterations);
   ck_assert_int_le(found.iterations, MOST_STEPS);
   ck_assert_double_eq_tol(assert_optimal(&p), way[p.m - 1], 1e-6);
 }
@@ -729,13 +771,26 @@ END_TEST
 
 START_TEST(interior_gives_up_and_stops)
 {
-  programme none = {.m = 2, .n = 1, .start = {0, 2}, .row = {0, 1}, .value = {1, 1}, .rhs = {1, 2}, .cost = {1}};
+  programme none = {
+      .m = 2, .n = 1, .start = {0, 2}, .row = {0, 1}, .value = {1, 1}, .rhs = {1, 2}, .cost = {1}};
   ck_assert_int_eq(interior(&none, &no_limit).outcome, THR_LP_UNDECIDED);
-  programme unbounded = {.m = 1, .n = 2, .start = {0, 1, 2}, .row = {0, 0}, .value = {1, -1}, .rhs = {1}, .cost = {-2, 1}};
+  programme unbounded = {.m = 1,
+                         .n = 2,
+                         .start = {0, 1, 2},
+                         .row = {0, 0},
+                         .value = {1, -1},
+                         .rhs = {1},
+                         .cost = {-2, 1}};
   ck_assert_int_eq(interior(&unbounded, &no_limit).outcome, THR_LP_UNDECIDED);
   volatile sig_atomic_t pressed = 1;
   thr_limits interrupt = {.interrupted = &pressed};
-  programme easy = {.m = 1, .n = 2, .start = {0, 1, 2}, .row = {0, 0}, .value = {1, 1}, .rhs = {1}, .cost = {2, 1}};
+  programme easy = {.m = 1,
+                    .n = 2,
+                    .start = {0, 1, 2},
+                    .row = {0, 0},
+                    .value = {1, 1},
+                    .rhs = {1},
+                    .cost = {2, 1}};
   ck_assert_int_eq(interior(&easy, &interrupt).outcome, THR_LP_STOPPED);
   ck_assert_int_eq(interior(&easy, &no_limit).outcome, THR_LP_OPTIMAL);
   ck_assert_double_eq_tol(assert_optimal(&easy), 1, 1e-7);
@@ -774,7 +829,8 @@ START_TEST(cut_tree_holds_all_minimum_cuts)
   double capacity[32], flow[8], least[9][9];
   for (int e = 0; e < f.n_edges; e++)
     capacity[e] = _i % 2 ? rng_unit(&r) : rng_below(&r, 4);
-  ck_assert_int_eq(thr_cut_tree(n, f.n_edges, (const int(*)[2])f.edge, capacity, tree, flow, NULL), THR_OK);
+  ck_assert_int_eq(thr_cut_tree(n, f.n_edges, (const int(*)[2])f.edge, capacity, tree, flow, NULL),
+                   THR_OK);
   for (int i = 0; i < n - 1; i++)
     ck_assert_double_eq_tol(cut_value(&f, capacity, side_of(n, tree, i)), flow[i], 1e-9);
   for (int a = 0; a < n; a++)
@@ -782,7 +838,8 @@ START_TEST(cut_tree_holds_all_minimum_cuts)
       double by_tree = INFINITY;
       least[a][b] = INFINITY;
       for (uint32_t s = 0; s < UINT32_C(1) << n; s++)
-        if ((s >> a & 1) && !(s >> b & 1)) least[a][b] = fmin(least[a][b], cut_value(&f, capacity, s));
+        if ((s >> a & 1) && !(s >> b & 1))
+          least[a][b] = fmin(least[a][b], cut_value(&f, capacity, s));
       for (int i = 0; i < n - 1; i++) {
         uint32_t s = side_of(n, tree, i);
         if ((s >> a ^ s >> b) & 1) by_tree = fmin(by_tree, flow[i]);
@@ -798,7 +855,9 @@ START_TEST(cut_tree_of_nonsense_is_a_status)
   thr_err err = {0};
   int tree[2][2];
   double flow[2];
-  ck_assert_int_eq(thr_cut_tree(3, 1, (const int[1][2]){{0, -1}}, (const double[]){1}, tree, flow, &err), THR_ESOLVER);
+  ck_assert_int_eq(
+      thr_cut_tree(3, 1, (const int[1][2]){{0, -1}}, (const double[]){1}, tree, flow, &err),
+      THR_ESOLVER);
   assert_one_line(&err, "igraph");
 }
 END_TEST
@@ -809,8 +868,9 @@ START_TEST(libraries_tell_their_versions)
 }
 END_TEST
 
-/* Twice the sum of 41 zeros and ones is to be 41: branch and bound has to try nearly all (R. Jeroslow, "Trivial integer programs
- * unsolvable by branch-and-bound", Math. Programming 6, 1974). */
+/* Twice the sum of 41 zeros and ones is to be 41: branch and bound has to try nearly all (R.
+ * Jeroslow, "Trivial integer programs unsolvable by branch-and-bound", Math. Programming 6, 1974).
+ */
 START_TEST(branch_and_bound_ends_in_time)
 {
   enum { N = 41 };
@@ -821,7 +881,8 @@ START_TEST(branch_and_bound_ends_in_time)
   for (int j = 0; j < N; j++)
     start[j] = j, row[j] = 0, two[j] = 2;
   start[N] = N;
-  ck_assert_int_eq(thr_lp_create_equations(&lp, 1, &odd, N, cost, NULL, start, row, two, NULL), THR_OK);
+  ck_assert_int_eq(thr_lp_create_equations(&lp, 1, &odd, N, cost, NULL, start, row, two, NULL),
+                   THR_OK);
   for (int j = 0; j < N; j++)
     ck_assert_int_eq(thr_lp_set_bounds(lp, j, 0, 1, NULL), THR_OK);
   const double begun = thr_clock();
@@ -835,8 +896,8 @@ START_TEST(branch_and_bound_ends_in_time)
 }
 END_TEST
 
-/* The same numbers from a child, which keeps limits, as without limits: least x + 1.5 y with 2 x + 3 y at least 7, in whole
- * numbers. */
+/* The same numbers from a child, which keeps limits, as without limits: least x + 1.5 y with 2 x +
+ * 3 y at least 7, in whole numbers. */
 START_TEST(branch_and_bound_in_a_child_is_the_same)
 {
   const double cost[2] = {1, 1.5}, value[2] = {2, 3};
@@ -856,7 +917,8 @@ START_TEST(branch_and_bound_in_a_child_is_the_same)
     ck_assert_double_eq_tol(thr_lp_objective(lp), 3.5, 1e-9); /* x = 2, y = 1 */
     ck_assert_double_eq_tol(x[0], 2, 1e-6);
     ck_assert_double_eq_tol(x[1], 1, 1e-6);
-    ck_assert_int_eq(thr_lp_solve(lp, &limits, &outcome, NULL), THR_OK); /* and goes on from there */
+    ck_assert_int_eq(thr_lp_solve(lp, &limits, &outcome, NULL),
+                     THR_OK); /* and goes on from there */
     ck_assert_double_eq_tol(thr_lp_objective(lp), 3.5, 1e-9);
     thr_lp_destroy(lp);
   }

@@ -1,4 +1,6 @@
-/* Generators: counts from closed forms, Euler characteristic, symmetry, lengths; data/dome7.json is the default dome. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Generators: counts from closed forms, Euler characteristic, symmetry, lengths; data/dome7.json is
+ * the default dome. */
 #include "graph/framework/frame.h"
 #include "graph/framework/make.h"
 #include "graph/io/read.h"
@@ -59,7 +61,8 @@ static void check_lowest_are_feet(const thr_frame *f)
 static int node_at(const thr_frame *f, double x, double y, double z, double tolerance)
 {
   for (int v = 0; v < f->n_nodes; v++)
-    if (fabs(f->xyz[v][0] - x) <= tolerance && fabs(f->xyz[v][1] - y) <= tolerance && fabs(f->xyz[v][2] - z) <= tolerance)
+    if (fabs(f->xyz[v][0] - x) <= tolerance && fabs(f->xyz[v][1] - y) <= tolerance &&
+        fabs(f->xyz[v][2] - z) <= tolerance)
       return v;
   return -1;
 }
@@ -101,7 +104,8 @@ END_TEST
 START_TEST(dome_rises_and_has_names)
 {
   thr_frame f = make(THR_MAKE_DOME, 7, 0, 20, 0.5);
-  int a1 = thr_frame_find(&f, "A1"), g7 = thr_frame_find(&f, "G7"), d4 = thr_frame_find(&f, "D4"), b1 = thr_frame_find(&f, "B1");
+  int a1 = thr_frame_find(&f, "A1"), g7 = thr_frame_find(&f, "G7"), d4 = thr_frame_find(&f, "D4"),
+      b1 = thr_frame_find(&f, "B1");
   ck_assert(f.foot[a1] && f.foot[g7] && !f.foot[d4]);
   ck_assert_double_eq(f.xyz[a1][0], -60);
   ck_assert_double_eq(f.xyz[g7][1], 60);
@@ -133,10 +137,13 @@ START_TEST(sphere)
     ck_assert_double_eq_tol(thr_frame_total_length(&f) / f.n_edges, 20, 1e-9);
     double radius = f.xyz[0][2];
     for (int v = 0; v < f.n_nodes; v++)
-      ck_assert_double_eq_tol(sqrt(f.xyz[v][0] * f.xyz[v][0] + f.xyz[v][1] * f.xyz[v][1] + f.xyz[v][2] * f.xyz[v][2]), radius,
-                              1e-9);
+      ck_assert_double_eq_tol(
+          sqrt(f.xyz[v][0] * f.xyz[v][0] + f.xyz[v][1] * f.xyz[v][1] + f.xyz[v][2] * f.xyz[v][2]),
+          radius, 1e-9);
     check_symmetry(&f, 5, 1e-9);
-    if (n == 1) ck_assert_double_eq_tol(radius, 20 * sin(0.4 * acos(-1)), 1e-9); /* icosahedron: edge / radius = 1 / sin 72 */
+    if (n == 1)
+      ck_assert_double_eq_tol(radius, 20 * sin(0.4 * acos(-1)),
+                              1e-9); /* icosahedron: edge / radius = 1 / sin 72 */
     thr_frame_destroy(&f);
   }
 }
@@ -201,10 +208,12 @@ END_TEST
 START_TEST(honeycomb)
 {
   for (int n = 1; n < 7; n++) {
-    thr_frame f = make(THR_MAKE_HONEYCOMB, n, 0, 20, 0.5), flat = make(THR_MAKE_HONEYCOMB, n, 0, 20, 0);
+    thr_frame f = make(THR_MAKE_HONEYCOMB, n, 0, 20, 0.5),
+              flat = make(THR_MAKE_HONEYCOMB, n, 0, 20, 0);
     ck_assert_int_eq(f.n_nodes, 6 * n * n);
     ck_assert_int_eq(f.n_edges, 9 * n * n - 3 * n);
-    ck_assert_int_eq(f.n_nodes - f.n_edges + 3 * n * (n - 1) + 1, 1); /* Euler, faces inside a disc */
+    ck_assert_int_eq(f.n_nodes - f.n_edges + 3 * n * (n - 1) + 1,
+                     1); /* Euler, faces inside a disc */
     ck_assert_int_eq(count_degree(&f, 2), 6 * n);
     ck_assert_int_eq(count_degree(&f, 3), f.n_nodes - 6 * n);
     ck_assert_int_eq(count_feet(&f), n == 1 ? 6 : 12);
@@ -224,12 +233,18 @@ START_TEST(refuses_sizes)
     thr_make_options o;
     const char *text;
   } bad[] = {
-      {{THR_MAKE_DOME, 1, 7, 20, 0.5}, "size"},      {{THR_MAKE_DOME, 1415, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_SPHERE, 0, 7, 20, 0.5}, "size"},    {{THR_MAKE_SPHERE, 448, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_GEODESIC, -3, 7, 20, 0.5}, "size"}, {{THR_MAKE_TUBE, 2, 7, 20, 0.5}, "size"},
-      {{THR_MAKE_TUBE, 12, 1, 20, 0.5}, "rings"},    {{THR_MAKE_TUBE, 1000, 2001, 20, 0.5}, "rings"},
-      {{THR_MAKE_HONEYCOMB, 0, 7, 20, 0.5}, "size"}, {{THR_MAKE_DOME, 7, 7, 0, 0.5}, "pitch"},
-      {{THR_MAKE_DOME, 7, 7, NAN, 0.5}, "pitch"},    {{THR_MAKE_DOME, 7, 7, 20, -1}, "rise"},
+      {{THR_MAKE_DOME, 1, 7, 20, 0.5}, "size"},
+      {{THR_MAKE_DOME, 1415, 7, 20, 0.5}, "size"},
+      {{THR_MAKE_SPHERE, 0, 7, 20, 0.5}, "size"},
+      {{THR_MAKE_SPHERE, 448, 7, 20, 0.5}, "size"},
+      {{THR_MAKE_GEODESIC, -3, 7, 20, 0.5}, "size"},
+      {{THR_MAKE_TUBE, 2, 7, 20, 0.5}, "size"},
+      {{THR_MAKE_TUBE, 12, 1, 20, 0.5}, "rings"},
+      {{THR_MAKE_TUBE, 1000, 2001, 20, 0.5}, "rings"},
+      {{THR_MAKE_HONEYCOMB, 0, 7, 20, 0.5}, "size"},
+      {{THR_MAKE_DOME, 7, 7, 0, 0.5}, "pitch"},
+      {{THR_MAKE_DOME, 7, 7, NAN, 0.5}, "pitch"},
+      {{THR_MAKE_DOME, 7, 7, 20, -1}, "rise"},
       {{THR_MAKE_DOME, 7, 7, 20, INFINITY}, "rise"},
   };
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

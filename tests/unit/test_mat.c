@@ -1,4 +1,6 @@
-/* The mat: true to size, no piece on another, every piece's name whole on a page, register marks of two pages on each other. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The mat: true to size, no piece on another, every piece's name whole on a page, register marks of
+ * two pages on each other. */
 #include "diagram/export/paper.h"
 #include "diagram/mat/mat.h"
 #include "graph/framework/make.h"
@@ -42,7 +44,8 @@ static thr_plan plan_of(thr_shape shape, int size, double pitch, bool tubes)
   for (int e = 0; e < f.n_edges; e++)
     f.length[e] *= pitch / 20;
   thr_plan p = plan_make(&f, &o);
-  p.options.joint = tubes ? THR_JOINT_TUBE : THR_JOINT_SOLID; /* whether it is tied is nothing to the mat */
+  p.options.joint =
+      tubes ? THR_JOINT_TUBE : THR_JOINT_SOLID; /* whether it is tied is nothing to the mat */
   thr_frame_destroy(&f);
   return p;
 }
@@ -95,8 +98,8 @@ START_TEST(every_piece_is_whole_at_its_middle_on_a_page)
       for (int i = 0; i < thr_mat_pages(mat) && !found; i++) {
         double corner[2];
         thr_mat_corner(mat, i, corner);
-        found = at[0] - room > corner[0] && at[0] + room < corner[0] + size[0] - 24 && at[1] - room > corner[1] &&
-                at[1] + room < corner[1] + size[1] - 24 - 39;
+        found = at[0] - room > corner[0] && at[0] + room < corner[0] + size[0] - 24 &&
+                at[1] - room > corner[1] && at[1] + room < corner[1] + size[1] - 24 - 39;
       }
       ck_assert(found);
     }

@@ -1,5 +1,7 @@
-/* Every allocation failing once, from the file to the pull force and back from plan.json: each time a clean THR_ENOMEM, and
- * nothing leaks (the sanitizer build looks). Allocations inside GLPK and igraph are their own. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Every allocation failing once, from the file to the pull force and back from plan.json: each time
+ * a clean THR_ENOMEM, and nothing leaks (the sanitizer build looks). Allocations inside GLPK and
+ * igraph are their own. */
 #include "eval/eval.h"
 #include "graph/check/check.h"
 #include "graph/io/read.h"
@@ -39,7 +41,8 @@ static thr_status run(work *w, const char *path, thr_ends ends, thr_err *err)
   bool end_node[64] = {true, true};
   if (ends == THR_ENDS_NODES) o.end_node = end_node;
   if ((st = thr_postman_plan(&w->frame, &o, &none, &w->plan, err))) return st;
-  st = thr_eval_plan(&w->plan.frame, w->plan.cord, w->plan.n_cords, THR_CAPSTAN, &pull, &none, &w->pull, err);
+  st = thr_eval_plan(&w->plan.frame, w->plan.cord, w->plan.n_cords, THR_CAPSTAN, &pull, &none,
+                     &w->pull, err);
   if (st) return st;
   w->plan.evaluation = w->pull.record;
   w->pull.record = (thr_evaluation){0};
@@ -53,10 +56,11 @@ static thr_status run(work *w, const char *path, thr_ends ends, thr_err *err)
 static void assert_empty_after_failure(const work *w)
 {
   if (!w->plan.cord)
-    ck_assert(!w->plan.frame.xyz && !w->plan.generator && !w->plan.proof.certificate && !w->plan.options.end_node);
+    ck_assert(!w->plan.frame.xyz && !w->plan.generator && !w->plan.proof.certificate &&
+              !w->plan.options.end_node);
   if (!w->back.cord)
-    ck_assert(!w->back.frame.xyz && !w->back.generator && !w->back.proof.certificate && !w->back.options.end_node &&
-              !w->back.evaluation.cord);
+    ck_assert(!w->back.frame.xyz && !w->back.generator && !w->back.proof.certificate &&
+              !w->back.options.end_node && !w->back.evaluation.cord);
   if (!w->pull.record.cord) ck_assert_int_eq(w->pull.record.n_cords, 0);
 }
 
@@ -76,7 +80,8 @@ START_TEST(every_allocation_fails_once)
   while (st) {
     work w = {0};
     thr_err err = {0};
-    k += 1 + k / 400; /* later ones are taken ever wider apart; test_read takes each of the readers' */
+    k += 1 +
+         k / 400; /* later ones are taken ever wider apart; test_read takes each of the readers' */
     thr_alloc_fail_at(k);
     st = run(&w, cases[_i].path, cases[_i].ends, &err);
     thr_alloc_fail_at(0);

@@ -1,5 +1,7 @@
-/* Meshes: PLY in its three encodings, OFF and STL with known counts, diagonals of flat faces, which way is up, and texts that are
- * cut or wrong. The cube: 8 corners, 12 edges, 6 faces of two triangles, so 6 diagonals; Euler: 8 - 18 + 12 = 2. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Meshes: PLY in its three encodings, OFF and STL with known counts, diagonals of flat faces, which
+ * way is up, and texts that are cut or wrong. The cube: 8 corners, 12 edges, 6 faces of two
+ * triangles, so 6 diagonals; Euler: 8 - 18 + 12 = 2. */
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/units.h"
@@ -13,14 +15,17 @@
 #include <string.h>
 #include <unistd.h>
 
-static const double corner[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
-static const int quad[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+static const double corner[8][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0},
+                                    {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
+static const int quad[6][4] = {{0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4},
+                               {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
 
 static void put_bytes(thr_text *t, const void *value, size_t n, bool big)
 {
   const char *b = value;
   for (size_t i = 0; i < n; i++)
-    thr_text_append_bytes(t, &b[big ? n - 1 - i : i], 1); /* the tests run where the least byte comes first */
+    thr_text_append_bytes(t, &b[big ? n - 1 - i : i],
+                          1); /* the tests run where the least byte comes first */
 }
 
 static void put_float(thr_text *t, double x, bool big)
@@ -48,15 +53,18 @@ static void triangle(int i, bool mixed, int out[3])
   }
 }
 
-/* faces before vertices, a property that nobody needs between the coordinates, an element of its own kind */
+/* faces before vertices, a property that nobody needs between the coordinates, an element of its
+ * own kind */
 static void put_ply(thr_text *t, const char *encoding)
 {
   const bool big = strstr(encoding, "big"), text = strcmp(encoding, "ascii") == 0;
-  thr_text_printf(t,
-                  "ply\nformat %s 1.0\ncomment units: cm\nelement face 6\nproperty list uchar int vertex_indices\n"
-                  "element vertex 8\nproperty float x\nproperty uchar red\nproperty float y\nproperty float z\n"
-                  "element material 1\nproperty list uint8 float shade\nend_header\n",
-                  encoding);
+  thr_text_printf(
+      t,
+      "ply\nformat %s 1.0\ncomment units: cm\nelement face 6\nproperty list uchar int "
+      "vertex_indices\n"
+      "element vertex 8\nproperty float x\nproperty uchar red\nproperty float y\nproperty float z\n"
+      "element material 1\nproperty list uint8 float shade\nend_header\n",
+      encoding);
   for (int f = 0; f < 6; f++) {
     if (text) thr_text_printf(t, "4 %d %d %d %d\n", quad[f][0], quad[f][1], quad[f][2], quad[f][3]);
     if (!text) thr_text_append_bytes(t, "\x04", 1);
@@ -88,7 +96,8 @@ static void put_off(thr_text *t)
   for (int v = 0; v < 8; v++)
     thr_text_printf(t, "%g %g %g 255 0 0 255\n", corner[v][0], corner[v][1], corner[v][2]);
   for (int f = 0; f < 6; f++)
-    thr_text_printf(t, "4  %d %d %d %d 0.5 0.5 1 # blue\n", quad[f][0], quad[f][1], quad[f][2], quad[f][3]);
+    thr_text_printf(t, "4  %d %d %d %d 0.5 0.5 1 # blue\n", quad[f][0], quad[f][1], quad[f][2],
+                    quad[f][3]);
 }
 
 static void put_stl(thr_text *t, bool binary, bool mixed)
@@ -107,11 +116,14 @@ static void put_stl(thr_text *t, bool binary, bool mixed)
     for (int k = 0; binary && k < 3; k++)
       put_float(t, 0, false);
     for (int j = 0; j < 3; j++) {
-      if (!binary) thr_text_printf(t, "   vertex %e %e %e\n", corner[c[j]][0], corner[c[j]][1], corner[c[j]][2]);
+      if (!binary)
+        thr_text_printf(t, "   vertex %e %e %e\n", corner[c[j]][0], corner[c[j]][1],
+                        corner[c[j]][2]);
       for (int k = 0; binary && k < 3; k++)
         put_float(t, corner[c[j]][k], false);
     }
-    thr_text_append_bytes(t, binary ? "\0\0" : "  endloop\n endfacet\n", binary ? 2 : strlen("  endloop\n endfacet\n"));
+    thr_text_append_bytes(t, binary ? "\0\0" : "  endloop\n endfacet\n",
+                          binary ? 2 : strlen("  endloop\n endfacet\n"));
   }
   if (!binary) thr_text_append(t, "endsolid cube\n");
 }
@@ -123,13 +135,15 @@ static thr_frame read_as(const thr_text *t, const char *name, double flat, thr_r
   thr_frame f = {0};
   thr_err err = {0};
   *r = (thr_read_report){0};
-  ck_assert_msg(thr_draft_parse(&d, r, t->data, t->length, name, NULL, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_draft_parse(&d, r, t->data, t->length, name, NULL, &err) == THR_OK, "%s",
+                err.text);
   ck_assert_msg(thr_draft_build(&d, -1, &f, r, &err) == THR_OK, "%s", err.text);
   thr_draft_destroy(&d);
   return f;
 }
 
-static void check_counts(const thr_text *t, const char *name, double flat, int n_edges, double total)
+static void check_counts(const thr_text *t, const char *name, double flat, int n_edges,
+                         double total)
 {
   thr_read_report r;
   thr_frame f = read_as(t, name, flat, &r);
@@ -185,13 +199,15 @@ static void check_refused(const char *text, const char *name, const char *messag
   thr_draft_destroy(&d);
 }
 
-/* An icosahedron of side 2 has the corners (0, +-1, +-phi) and those that turn into each other: 30 edges, of which all others are
- * at least 2 phi long. Scaled by phi/2 and moved it has sides of phi. */
+/* An icosahedron of side 2 has the corners (0, +-1, +-phi) and those that turn into each other: 30
+ * edges, of which all others are at least 2 phi long. Scaled by phi/2 and moved it has sides of
+ * phi. */
 START_TEST(vef_reads_the_golden_icosahedron)
 {
-  static const char *const head[] = {"vZome VEF 6 field golden\n",
-                                     "vZome VEF 10 field golden\nscale (1/2,0)\noffset 7 (1,1) (0,1) 5/2\n",
-                                     "vZome VEF 8 scale vector 9 (1/2,0) (1/2,0) (1/2,0)\n", ""};
+  static const char *const head[] = {
+      "vZome VEF 6 field golden\n",
+      "vZome VEF 10 field golden\nscale (1/2,0)\noffset 7 (1,1) (0,1) 5/2\n",
+      "vZome VEF 8 scale vector 9 (1/2,0) (1/2,0) (1/2,0)\n", ""};
   static const char *const term[] = {"(0,-1)", "(0,1)"}, *const long_term[] = {"(-1,0)", "(1,0)"};
   const double phi = (1 + sqrt(5)) / 2;
   for (int i = 0; i < 4; i++) {
@@ -205,7 +221,8 @@ START_TEST(vef_reads_the_golden_icosahedron)
       at[k][(k / 4 + 2) % 3] = k % 4 > 1 ? phi : -phi;
       x[(k / 4 + 1) % 3] = term[k % 2];
       x[(k / 4 + 2) % 3] = long_term[k % 4 > 1];
-      thr_text_printf(&t, "%s %s %s %s %s\n", i < 3 ? "(0,0)" : "", x[0], x[1], x[2], i < 3 ? "" : "(0,0)");
+      thr_text_printf(&t, "%s %s %s %s %s\n", i < 3 ? "(0,0)" : "", x[0], x[1], x[2],
+                      i < 3 ? "" : "(0,0)");
     }
     thr_text_append(&t, "\n30\n");
     for (int a = 0; a < 12; a++)
@@ -226,7 +243,8 @@ START_TEST(vef_reads_the_golden_icosahedron)
 }
 END_TEST
 
-/* One strut from the origin, of a length in closed form: the other fields, fractions, points in space and faces alone. */
+/* One strut from the origin, of a length in closed form: the other fields, fractions, points in
+ * space and faces alone. */
 START_TEST(vef_reads_other_fields)
 {
   static const struct {
@@ -239,7 +257,8 @@ START_TEST(vef_reads_other_fields)
       {"vZome VEF 7 field rational actual scale 10 2 0 0 0 0 0 0.3 2/5 0 1 0 1", 1, 5},
       {"vZome VEF 9 field heptagon dimension 3 2 0 0 0 (1,-1,2) 0 0 1 0 1", 1, 2.4450418679126287},
       {"vZome VEF 3 2 0 0 0 0 0 0 (0,3) 9 1 0 1", 1, 3},
-      {"4 # points\n0 0 0 # first\n20 0 0\n20 20 0\n0 20 5\n\n0\n\n1 # face\n4 0 1 2 3", 4, 20 + 20 + 2 * 20.615528128088304}};
+      {"4 # points\n0 0 0 # first\n20 0 0\n20 20 0\n0 20 5\n\n0\n\n1 # face\n4 0 1 2 3", 4,
+       20 + 20 + 2 * 20.615528128088304}};
   for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
     thr_text t = {0};
     thr_read_report r;
@@ -250,30 +269,38 @@ START_TEST(vef_reads_other_fields)
     thr_frame_destroy(&f);
     thr_text_destroy(&t);
   }
-  check_refused(
-      "vZome VEF 6 field snubDodec\n", "a.vef",
-      "a.vef:1: the field 'snubDodec' is not read; golden, rootTwo, rootThree, heptagon and rational are: export as OBJ or STL");
+  check_refused("vZome VEF 6 field snubDodec\n", "a.vef",
+                "a.vef:1: the field 'snubDodec' is not read; golden, rootTwo, rootThree, heptagon "
+                "and rational are: export as OBJ or STL");
   check_refused("vZome VEF 6 field golden\n2\n0 0 0 0\n0 (1,2,3) 0 0\n", "a.vef",
                 "a.vef:4: '(1,2,3)' is no number of the field golden");
-  check_refused("vZome VEF 6 field golden\n2\n0 0 0 0\n0 1/0 0 0\n", "a.vef", "a.vef:4: '1/0' is no number of the field golden");
-  check_refused("vZome VEF 6 field golden\n2\n0 0 0 0\n0 1\n", "a.vef", "a.vef:4: the file ends here; it is not whole");
-  check_refused("vZome VEF 9 dimension 6\n", "a.vef", "a.vef:1: points of three or four coordinates are read");
+  check_refused("vZome VEF 6 field golden\n2\n0 0 0 0\n0 1/0 0 0\n", "a.vef",
+                "a.vef:4: '1/0' is no number of the field golden");
+  check_refused("vZome VEF 6 field golden\n2\n0 0 0 0\n0 1\n", "a.vef",
+                "a.vef:4: the file ends here; it is not whole");
+  check_refused("vZome VEF 9 dimension 6\n", "a.vef",
+                "a.vef:1: points of three or four coordinates are read");
   check_refused("vZome VEF 6 1\n0 0 0 0\n1\n0 1\n", "a.vef",
                 "a.vef: a face or edge names vertex 1; there are 1, and the first is 0");
-  check_refused("vZome VEF 6 1\n0 0 0 0\n", "a.vef", "a.vef: no edges and no faces, only 1 points; export the struts or panels");
+  check_refused("vZome VEF 6 1\n0 0 0 0\n", "a.vef",
+                "a.vef: no edges and no faces, only 1 points; export the struts or panels");
 }
 END_TEST
 
-/* A binary STL whose length is not what its count says tells both numbers, be it cut, longer or miscounted. */
+/* A binary STL whose length is not what its count says tells both numbers, be it cut, longer or
+ * miscounted. */
 START_TEST(binary_stl_of_another_length_says_how_many_fit)
 {
   static const struct {
     int announced, bytes;
     const char *name, *message;
   } bad[] = {
-      {12, 84 + 12 * 50 + 7, "a.stl", "12 triangles; 12 fit into its 691 bytes, and 7 bytes are left"},
-      {12, 84 + 11 * 50 + 49, "a.stl", "12 triangles; 11 fit into its 683 bytes, and 49 bytes are left"},
-      {-1, 84 + 2 * 50, "a.stl", "4294967295 triangles; 2 fit into its 184 bytes, and 0 bytes are left"},
+      {12, 84 + 12 * 50 + 7, "a.stl",
+       "12 triangles; 12 fit into its 691 bytes, and 7 bytes are left"},
+      {12, 84 + 11 * 50 + 49, "a.stl",
+       "12 triangles; 11 fit into its 683 bytes, and 49 bytes are left"},
+      {-1, 84 + 2 * 50, "a.stl",
+       "4294967295 triangles; 2 fit into its 184 bytes, and 0 bytes are left"},
       {0, 84 + 50, "stdin", "0 triangles; 1 fit into its 134 bytes, and 0 bytes are left"},
   };
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -284,29 +311,37 @@ START_TEST(binary_stl_of_another_length_says_how_many_fit)
     char message[200];
     thr_text_append(&t, "solid of nothing");
     while (t.length < (size_t)bad[i].bytes)
-      thr_text_byte(&t, (char)(t.length >= 80 && t.length < 84 ? (unsigned)bad[i].announced >> 8 * (t.length - 80) : 0));
-    ck_assert_int_eq(thr_draft_parse(&d, &r, t.data, t.length, bad[i].name, NULL, &err), THR_EINPUT);
-    snprintf(message, sizeof message, "%s: this binary STL announces %s; export it again", bad[i].name, bad[i].message);
+      thr_text_byte(&t, (char)(t.length >= 80 && t.length < 84
+                                   ? (unsigned)bad[i].announced >> 8 * (t.length - 80)
+                                   : 0));
+    ck_assert_int_eq(thr_draft_parse(&d, &r, t.data, t.length, bad[i].name, NULL, &err),
+                     THR_EINPUT);
+    snprintf(message, sizeof message, "%s: this binary STL announces %s; export it again",
+             bad[i].name, bad[i].message);
     ck_assert_str_eq(err.text, message);
     thr_text_destroy(&t);
   }
 }
 END_TEST
 
-/* The word OFF or the number of edges may be missing, or all numbers stand in lines of their own; faces of one corner are points.
+/* The word OFF or the number of edges may be missing, or all numbers stand in lines of their own;
+ * faces of one corner are points.
  */
 START_TEST(off_begins_in_many_ways)
 {
-  static const char *const head[] = {"OFF\n4 3 5\n", "4 3 5\n",        "OFF\n4 3\n",   "# a\n\n4 3 # b\n\n",
-                                     "OFF 4 3 0\n",  "OFF\n4\n3\n5\n", "OFF\n4 3\n5\n"};
+  static const char *const head[] = {"OFF\n4 3 5\n",       "4 3 5\n",     "OFF\n4 3\n",
+                                     "# a\n\n4 3 # b\n\n", "OFF 4 3 0\n", "OFF\n4\n3\n5\n",
+                                     "OFF\n4 3\n5\n"};
   for (size_t i = 0; i < sizeof head / sizeof *head; i++) {
     thr_text t = {0};
     thr_read_report r;
     thr_text_append(&t, head[i]);
-    thr_text_append(&t, "0 0 0\n20 0 0 255 0 0\n20 20 0 # c\n0 20 5\n3 0 1 2\n3 0 2 3 9 9 9\n1 3\n\n");
+    thr_text_append(&t,
+                    "0 0 0\n20 0 0 255 0 0\n20 20 0 # c\n0 20 5\n3 0 1 2\n3 0 2 3 9 9 9\n1 3\n\n");
     thr_frame f = read_as(&t, "a.off", 0, &r);
     ck_assert_msg(f.n_nodes == 4 && f.n_edges == 5, "%s", head[i]);
-    ck_assert_double_eq_tol(thr_frame_total_length(&f), 20 + 20 + 20 * sqrt(2) + 2 * sqrt(425), 1e-9);
+    ck_assert_double_eq_tol(thr_frame_total_length(&f), 20 + 20 + 20 * sqrt(2) + 2 * sqrt(425),
+                            1e-9);
     ck_assert_int_eq(r.skipped_records, 1);
     thr_frame_destroy(&f);
     thr_text_destroy(&t);
@@ -314,15 +349,17 @@ START_TEST(off_begins_in_many_ways)
 }
 END_TEST
 
-/* A square of four nodes by what the elements are called and how they name nodes. Two triangles have five sides, as have the
- * strip 0 1 2 3 and, begun anew, the strips 0 1 2 and 2 3 0; an open polyline has three. */
+/* A square of four nodes by what the elements are called and how they name nodes. Two triangles
+ * have five sides, as have the strip 0 1 2 3 and, begun anew, the strips 0 1 2 and 2 3 0; an open
+ * polyline has three. */
 START_TEST(ply_has_many_words_for_edges)
 {
   static const struct {
     const char *element, *rows;
     int n_edges;
   } square[] = {{"edge 3\nproperty int vertex_1\nproperty int vertex_2", "0 1\n1 2\n2 3\n", 3},
-                {"edge 3\nproperty uint v1\nproperty float weight\nproperty uint v2", "0 9 1\n1 9 2\n2 9 3\n", 3},
+                {"edge 3\nproperty uint v1\nproperty float weight\nproperty uint v2",
+                 "0 9 1\n1 9 2\n2 9 3\n", 3},
                 {"edge 2\nproperty list uchar int vertex_indices", "2 0 1 3 1 2 3", 3},
                 {"polyline 1\nproperty list int int vertex_indices", "4 0 1 2 3", 3},
                 {"line 2\nproperty list uchar long vertex_index", "3 3 2 1\n2 1 0\n", 3},
@@ -333,12 +370,15 @@ START_TEST(ply_has_many_words_for_edges)
     thr_text t = {0};
     thr_read_report r;
     thr_text_printf(&t,
-                    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement %s\n"
+                    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float "
+                    "y\nproperty float z\nelement %s\n"
                     "end_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n%s",
                     square[i].element, square[i].rows);
     thr_frame f = read_as(&t, "stdin", 0, &r);
-    ck_assert_msg(f.n_edges == square[i].n_edges && f.n_nodes == 4, "%s: %d", square[i].element, f.n_edges);
-    ck_assert_double_eq_tol(thr_frame_total_length(&f), square[i].n_edges == 3 ? 3 : 4 + sqrt(2), 1e-12);
+    ck_assert_msg(f.n_edges == square[i].n_edges && f.n_nodes == 4, "%s: %d", square[i].element,
+                  f.n_edges);
+    ck_assert_double_eq_tol(thr_frame_total_length(&f), square[i].n_edges == 3 ? 3 : 4 + sqrt(2),
+                            1e-12);
     thr_frame_destroy(&f);
     thr_text_destroy(&t);
   }
@@ -347,7 +387,8 @@ START_TEST(ply_has_many_words_for_edges)
     thr_text t = {0};
     thr_read_report r;
     thr_text_printf(&t,
-                    "ply\nformat binary_%s_endian 1.0\nelement vertex 3\nproperty int64 x\nproperty long y\nproperty uint64 z\n"
+                    "ply\nformat binary_%s_endian 1.0\nelement vertex 3\nproperty int64 "
+                    "x\nproperty long y\nproperty uint64 z\n"
                     "element edge 2\nproperty uint64 vertex1\nproperty ulong vertex2\nend_header\n",
                     big ? "big" : "little");
     static const int number[13] = {0, 0, 0, -3, 4, 0, -3, 4, 2, 0, 1, 1, 2};
@@ -376,7 +417,8 @@ START_TEST(ply_tells_units_and_what_it_skips)
 }
 END_TEST
 
-/* Every beginning of a whole file is an error of one line, or (ascii, where only blanks were cut) the same framework. */
+/* Every beginning of a whole file is an error of one line, or (ascii, where only blanks were cut)
+ * the same framework. */
 START_TEST(what_is_cut_is_refused)
 {
   thr_text t = {0};
@@ -397,7 +439,8 @@ START_TEST(what_is_cut_is_refused)
     if (st) assert_one_line(&err, NULL);
     thr_draft_destroy(&d);
   }
-  /* what may go without being missed: all but the first digit of 0.25 and a line end; colour and comment of the last face */
+  /* what may go without being missed: all but the first digit of 0.25 and a line end; colour and
+   * comment of the last face */
   ck_assert_int_eq(whole, _i == 0 ? 4 : _i == 3 ? 18 : 0);
   thr_text_destroy(&t);
 }
@@ -408,23 +451,27 @@ START_TEST(errors_of_graphs_say_where)
   check_refused("<graphml>\n<graph>\n<node id='a'/>\n</graph></graphml>", "a.graphml",
                 "a.graphml:3: node 'a' has no x; nodes need attributes x, y and z");
   check_refused("<graphml>\n<graph\n", "a.graphml", "a.graphml:2: a tag is not closed");
-  check_refused("<svg>\n</svg>", "a.graphml",
-                "a.graphml: this is an SVG picture, which is no framework; export the model that it "
-                "shows as OBJ, DXF or JSON");
+  check_refused(
+      "<svg>\n</svg>", "a.graphml",
+      "a.graphml: this is an SVG picture, which is no framework; export the model that it "
+      "shows as OBJ, DXF or JSON");
 }
 END_TEST
 
 START_TEST(errors_of_gltf_say_where)
 {
   static const char head[] =
-      "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
+      "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{"
+      "\"attributes\":"
       "{\"POSITION\":0}}]}],\"accessors\":[{\"componentType\":5126,\"count\":3,\"bufferView\":0}],";
   static const struct {
     const char *rest, *message;
   } bad[] = {{"\"bufferViews\":[],\"buffers\":[]}", "a.gltf: bufferViews[0]: is not there"},
-             {"\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"uri\":\"data:;base64,AAAA\"}]}",
+             {"\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"buffers\":[{\"uri\":\"data:;"
+              "base64,AAAA\"}]}",
               "a.gltf: bufferViews[0]: is longer than its buffer"},
-             {"\"bufferViews\":[{\"buffer\":0,\"byteLength\":2}],\"buffers\":[{\"uri\":\"data:;base64,AAAA\"}]}",
+             {"\"bufferViews\":[{\"buffer\":0,\"byteLength\":2}],\"buffers\":[{\"uri\":\"data:;"
+              "base64,AAAA\"}]}",
               "a.gltf: accessors[0]: is longer than its bufferView"},
              {"\"bufferViews\":[],\"buffers\":[{\"uri\":\"../../etc/passwd\"}]}",
               "a.gltf: buffers[0]: lies elsewhere; put its file beside this one, or save as .glb"},
@@ -433,13 +480,18 @@ START_TEST(errors_of_gltf_say_where)
              {"\"bufferViews\":[],\"buffers\":[{\"uri\":\"%2fetc/passwd\"}]}",
               "a.gltf: buffers[0]: lies elsewhere; put its file beside this one, or save as .glb"},
              {"\"bufferViews\":[],\"buffers\":[{\"uri\":\"no%20%C3%A4.bin\"}]}",
-              "a.gltf: buffers[0]: its file 'no \xc3\xa4.bin', which should lie beside this one, cannot be read"},
+              "a.gltf: buffers[0]: its file 'no \xc3\xa4.bin', which should lie beside this one, "
+              "cannot be read"},
              {"\"bufferViews\":[],\"extensionsRequired\":[\"KHR_draco_mesh_compression\"]}",
-              "a.gltf: requires the extension KHR_draco_mesh_compression, which is not read; export without it"},
-             {"\"bufferViews\":[],\"extensionsRequired\":[\"ACME_bent\",\"KHR_materials_unlit\",\"EXT_meshopt_compression\",7]}",
-              "a.gltf: requires the extensions ACME_bent, EXT_meshopt_compression, (no name), which are not read; export without "
+              "a.gltf: requires the extension KHR_draco_mesh_compression, which is not read; "
+              "export without it"},
+             {"\"bufferViews\":[],\"extensionsRequired\":[\"ACME_bent\",\"KHR_materials_unlit\","
+              "\"EXT_meshopt_compression\",7]}",
+              "a.gltf: requires the extensions ACME_bent, EXT_meshopt_compression, (no name), "
+              "which are not read; export without "
               "them"},
-             {"\"bufferViews\":[],\"extensionsRequired\":\"ACME_bent\"}", "a.gltf: extensionsRequired: is no list of names"}};
+             {"\"bufferViews\":[],\"extensionsRequired\":\"ACME_bent\"}",
+              "a.gltf: extensionsRequired: is no list of names"}};
   for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
     thr_text t = {0};
     thr_text_append(&t, head);
@@ -450,12 +502,14 @@ START_TEST(errors_of_gltf_say_where)
 }
 END_TEST
 
-/* A glTF file with a strut from 0, 0, 0 to 1, 2, 2 as mesh 0 and what moves three instances of it: accessor 1 to 10, 0, 0 and
- * 0, 0, 20, 2 to 4 (bytes, shorts, floats) by 90 degrees about z and 180 about y, 5 to twice and thrice the size (in z alone), 6
- * as 1 but sparse and without the last one. The first instance stays. */
+/* A glTF file with a strut from 0, 0, 0 to 1, 2, 2 as mesh 0 and what moves three instances of it:
+ * accessor 1 to 10, 0, 0 and 0, 0, 20, 2 to 4 (bytes, shorts, floats) by 90 degrees about z and 180
+ * about y, 5 to twice and thrice the size (in z alone), 6 as 1 but sparse and without the last one.
+ * The first instance stays. */
 static thr_text put_strut(const char *nodes, const char *more)
 {
-  static const double translation[9] = {0, 0, 0, 10, 0, 0, 0, 0, 20}, scale[9] = {1, 1, 1, 2, 2, 2, 1, 1, 3},
+  static const double translation[9] = {0, 0, 0, 10, 0, 0, 0, 0, 20},
+                      scale[9] = {1, 1, 1, 2, 2, 2, 1, 1, 3},
                       rotation[12] = {0, 0, 0, 1, 0, 0, .70866, .70866, 0, 1, 0, 0};
   thr_text json = {0}, bytes = {0}, t = {0};
   for (int i = 0; i < 6; i++)
@@ -473,19 +527,26 @@ static thr_text put_strut(const char *nodes, const char *more)
   for (int i = 0; i < 9; i++)
     put_float(&bytes, scale[i], false);
   put_u32(&bytes, 1, false);
-  thr_text_printf(&json,
-                  "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[%s],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
-                  "\"mode\":1}]}],"
-                  "\"buffers\":[{\"byteLength\":%zu}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],\"accessors\":["
-                  "{\"bufferView\":0,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"},"
-                  "{\"bufferView\":0,\"byteOffset\":24,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
-                  "{\"bufferView\":0,\"byteOffset\":60,\"componentType\":5120,\"count\":3,\"type\":\"VEC4\",\"normalized\":true},"
-                  "{\"bufferView\":0,\"byteOffset\":72,\"componentType\":5122,\"count\":3,\"type\":\"VEC4\",\"normalized\":true},"
-                  "{\"bufferView\":0,\"byteOffset\":96,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"},"
-                  "{\"bufferView\":0,\"byteOffset\":144,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
-                  "{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":0,"
-                  "\"byteOffset\":180,\"componentType\":5125},\"values\":{\"bufferView\":0,\"byteOffset\":36}}}]%s}",
-                  nodes, bytes.length, bytes.length, more);
+  thr_text_printf(
+      &json,
+      "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[%s],\"meshes\":[{\"primitives\":[{"
+      "\"attributes\":{\"POSITION\":0},"
+      "\"mode\":1}]}],"
+      "\"buffers\":[{\"byteLength\":%zu}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":%zu}],"
+      "\"accessors\":["
+      "{\"bufferView\":0,\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"},"
+      "{\"bufferView\":0,\"byteOffset\":24,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+      "{\"bufferView\":0,\"byteOffset\":60,\"componentType\":5120,\"count\":3,\"type\":\"VEC4\","
+      "\"normalized\":true},"
+      "{\"bufferView\":0,\"byteOffset\":72,\"componentType\":5122,\"count\":3,\"type\":\"VEC4\","
+      "\"normalized\":true},"
+      "{\"bufferView\":0,\"byteOffset\":96,\"componentType\":5126,\"count\":3,\"type\":\"VEC4\"},"
+      "{\"bufferView\":0,\"byteOffset\":144,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},"
+      "{\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"sparse\":{\"count\":1,\"indices\":{"
+      "\"bufferView\":0,"
+      "\"byteOffset\":180,\"componentType\":5125},\"values\":{\"bufferView\":0,\"byteOffset\":36}}}"
+      "]%s}",
+      nodes, bytes.length, bytes.length, more);
   while (json.length % 4)
     thr_text_byte(&json, ' ');
   thr_text_append(&t, "glTF");
@@ -502,7 +563,8 @@ static thr_text put_strut(const char *nodes, const char *more)
   return t;
 }
 
-#define INSTANCES(attributes) "\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{" attributes "}}}"
+#define INSTANCES(attributes)                                                                      \
+  "\"mesh\":0,\"extensions\":{\"EXT_mesh_gpu_instancing\":{\"attributes\":{" attributes "}}}"
 
 /* Ends of the struts by hand, in the file's own axes. */
 START_TEST(gltf_has_instances_where_they_are_moved)
@@ -512,25 +574,38 @@ START_TEST(gltf_has_instances_where_they_are_moved)
     int n;
     double strut[4][6];
   } good[] = {
-      {"{" INSTANCES("\"TRANSLATION\":1") "}", 3, {{0, 0, 0, 1, 2, 2}, {10, 0, 0, 11, 2, 2}, {0, 0, 20, 1, 2, 22}}},
-      {"{" INSTANCES("\"ROTATION\":2") "}", 3, {{0, 0, 0, 1, 2, 2}, {0, 0, 0, -2, 1, 2}, {0, 0, 0, -1, 2, -2}}},
-      {"{" INSTANCES("\"ROTATION\":3") "}", 3, {{0, 0, 0, 1, 2, 2}, {0, 0, 0, -2, 1, 2}, {0, 0, 0, -1, 2, -2}}},
-      {"{" INSTANCES("\"ROTATION\":4") "}", 3, {{0, 0, 0, 1, 2, 2}, {0, 0, 0, -2, 1, 2}, {0, 0, 0, -1, 2, -2}}},
-      {"{" INSTANCES("\"SCALE\":5,\"_ID\":2") "}", 3, {{0, 0, 0, 1, 2, 2}, {0, 0, 0, 2, 4, 4}, {0, 0, 0, 1, 2, 6}}},
+      {"{" INSTANCES("\"TRANSLATION\":1") "}",
+       3,
+       {{0, 0, 0, 1, 2, 2}, {10, 0, 0, 11, 2, 2}, {0, 0, 20, 1, 2, 22}}},
+      {"{" INSTANCES("\"ROTATION\":2") "}",
+       3,
+       {{0, 0, 0, 1, 2, 2}, {0, 0, 0, -2, 1, 2}, {0, 0, 0, -1, 2, -2}}},
+      {"{" INSTANCES("\"ROTATION\":3") "}",
+       3,
+       {{0, 0, 0, 1, 2, 2}, {0, 0, 0, -2, 1, 2}, {0, 0, 0, -1, 2, -2}}},
+      {"{" INSTANCES("\"ROTATION\":4") "}",
+       3,
+       {{0, 0, 0, 1, 2, 2}, {0, 0, 0, -2, 1, 2}, {0, 0, 0, -1, 2, -2}}},
+      {"{" INSTANCES("\"SCALE\":5,\"_ID\":2") "}",
+       3,
+       {{0, 0, 0, 1, 2, 2}, {0, 0, 0, 2, 4, 4}, {0, 0, 0, 1, 2, 6}}},
       {"{" INSTANCES("\"TRANSLATION\":6") "}", 2, {{0, 0, 0, 1, 2, 2}, {10, 0, 0, 11, 2, 2}}},
       /* node 0 doubles and lifts all, node 1 takes x, y, z to x, -z, y; its child is there once */
-      {"{\"children\":[1],\"scale\":[2,2,2],\"translation\":[0,0,5]},{\"rotation\":[1,0,0,1],\"children\":[2]," INSTANCES(
+      {"{\"children\":[1],\"scale\":[2,2,2],\"translation\":[0,0,5]},{\"rotation\":[1,0,0,1],"
+       "\"children\":[2]," INSTANCES(
            "\"SCALE\":5,\"ROTATION\":2,\"TRANSLATION\":1") "},{\"mesh\":0,\"translation\":[0,0,1]}",
        4,
        {{0, 0, 5, 2, -4, 9}, {20, 0, 5, 12, -8, 9}, {0, -40, 5, -2, -28, 9}, {0, -2, 5, 2, -6, 9}}},
       /* two nodes, one of them by a matrix */
-      {"{\"matrix\":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,7,0,1]," INSTANCES("\"TRANSLATION\":6") "},{" INSTANCES(
-           "\"TRANSLATION\":6") "}",
+      {"{\"matrix\":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,7,0,1]," INSTANCES(
+           "\"TRANSLATION\":6") "},{" INSTANCES("\"TRANSLATION\":6") "}",
        4,
        {{0, 7, 0, 1, 9, 2}, {10, 7, 0, 11, 9, 2}, {0, 0, 0, 1, 2, 2}, {10, 0, 0, 11, 2, 2}}},
   };
   for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
-    thr_text t = put_strut(good[i].nodes, ",\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\",\"KHR_texture_transform\"]");
+    thr_text t = put_strut(
+        good[i].nodes,
+        ",\"extensionsRequired\":[\"EXT_mesh_gpu_instancing\",\"KHR_texture_transform\"]");
     thr_read_report r;
     thr_frame f = read_as(&t, "stdin", 0, &r);
     ck_assert_msg(f.n_edges == good[i].n, "%zu: %d", i, f.n_edges);
@@ -546,9 +621,10 @@ END_TEST
 START_TEST(gltf_instances_that_do_not_match_are_refused)
 {
   static const char *const bad[][2] = {
-      {"\"TRANSLATION\":1,\"SCALE\":0",
-       "nodes[0]: EXT_mesh_gpu_instancing has 3 instances by TRANSLATION and 2 by SCALE; export it again"},
-      {"\"SCALE\":5,\"_ID\":0", "nodes[0]: EXT_mesh_gpu_instancing has 3 instances by SCALE and 2 by _ID; export it again"},
+      {"\"TRANSLATION\":1,\"SCALE\":0", "nodes[0]: EXT_mesh_gpu_instancing has 3 instances by "
+                                        "TRANSLATION and 2 by SCALE; export it again"},
+      {"\"SCALE\":5,\"_ID\":0",
+       "nodes[0]: EXT_mesh_gpu_instancing has 3 instances by SCALE and 2 by _ID; export it again"},
       {"", "nodes[0]: EXT_mesh_gpu_instancing without attributes; export it again"},
       {"\"TRANSLATION\":9", "accessors[9]: is not there, or has no count"},
       {"\"ROTATION\":5", "accessors[5]: is of type VEC3; VEC4 is needed here"}};
@@ -567,7 +643,8 @@ START_TEST(gltf_instances_that_do_not_match_are_refused)
 }
 END_TEST
 
-/* The name of a buffer's file, and the uri that means it: decoded, or as it stands where a % is none of a uri. */
+/* The name of a buffer's file, and the uri that means it: decoded, or as it stands where a % is
+ * none of a uri. */
 START_TEST(gltf_buffers_are_found_by_decoded_names)
 {
   static const char *const names[][2] = {{"my dome", "my%20dome"},
@@ -587,9 +664,12 @@ START_TEST(gltf_buffers_are_found_by_decoded_names)
       put_float(&bytes, k < 3 ? 0 : k == 3 ? 1 : 2, false);
     ck_assert_int_eq(thr_text_write(&bytes, file, &err), THR_OK);
     thr_text_printf(&t,
-                    "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":"
-                    "{\"POSITION\":0},\"mode\":1}]}],\"accessors\":[{\"componentType\":5126,\"count\":2,\"bufferView\":0}],"
-                    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":24}],\"buffers\":[{\"uri\":\"%ld %s.bin\"}]}",
+                    "{\"asset\":{\"version\":\"2.0\"},\"nodes\":[{\"mesh\":0}],\"meshes\":[{"
+                    "\"primitives\":[{\"attributes\":"
+                    "{\"POSITION\":0},\"mode\":1}]}],\"accessors\":[{\"componentType\":5126,"
+                    "\"count\":2,\"bufferView\":0}],"
+                    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":24}],\"buffers\":[{\"uri\":\"%"
+                    "ld %s.bin\"}]}",
                     (long)getpid(), names[i][1]);
     thr_frame f = read_as(&t, "a.gltf", 0, &r);
     ck_assert_double_eq_tol(thr_frame_total_length(&f), 3, 1e-12);
@@ -606,60 +686,83 @@ static void check_accepted(const char *text, const char *name)
   thr_draft d = {0};
   thr_read_report r = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_draft_parse(&d, &r, text, strlen(text), name, NULL, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_draft_parse(&d, &r, text, strlen(text), name, NULL, &err) == THR_OK, "%s",
+                err.text);
   thr_draft_destroy(&d);
 }
 
 START_TEST(errors_say_where)
 {
-  check_refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n", "a.ply",
+  check_refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float "
+                "y\nend_header\n0 0\n",
+                "a.ply",
                 "a.ply: vertices need the properties x, y and z; export it again with them");
-  check_refused(
-      "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n"
-      "1 nan 0\n",
-      "a.ply", "a.ply:9: vertex 1: not a finite number");
-  check_refused("ply\nformat ascii 1.0\nelement vertex -2\n", "a.ply", "a.ply:3: an element needs a name and how many there are");
+  check_refused("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float "
+                "y\nproperty float z\nend_header\n0 0 0\n"
+                "1 nan 0\n",
+                "a.ply", "a.ply:9: vertex 1: not a finite number");
+  check_refused("ply\nformat ascii 1.0\nelement vertex -2\n", "a.ply",
+                "a.ply:3: an element needs a name and how many there are");
   check_refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\n", "a.ply",
-                "a.ply:4: a property is a type (char .. double, int8 .. float64) or a list of one, and a name");
-  check_refused("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nelement edge 1\n"
+                "a.ply:4: a property is a type (char .. double, int8 .. float64) or a list of one, "
+                "and a name");
+  check_refused("ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float "
+                "y\nproperty float z\nelement edge 1\n"
                 "property int vertex1\nproperty int vertex2\nend_header\n0 0 0\n1 0 0\n0 2\n",
                 "a.ply", "a.ply: a face or edge names vertex 2; there are 2, and the first is 0");
-  check_refused(
-      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
-      "a.ply", "a.ply: no edges and no faces, only 1 points; export the lines or the mesh");
-  /* what the header does not declare: at the end of rows, of the file, of bytes; a stream without rows is whole */
-#define HEAD(encoding)                                                                                                           \
-  "ply\nformat " encoding " 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float "        \
+  check_refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float "
+                "y\nproperty float z\nend_header\n0 0 0\n",
+                "a.ply",
+                "a.ply: no edges and no faces, only 1 points; export the lines or the mesh");
+  /* what the header does not declare: at the end of rows, of the file, of bytes; a stream without
+   * rows is whole */
+#define HEAD(encoding)                                                                             \
+  "ply\nformat " encoding                                                                          \
+  " 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float "  \
   "quality\n"
 #define EDGE "element edge 1\nproperty int vertex1\nproperty int vertex2\nend_header\n"
   check_refused(HEAD("ascii") EDGE "0 0 0 nan 7\n1 0 0 -inf 7\n0 1\n", "a.ply",
-                "a.ply:12: vertex 0: the row has 5 values, the header declares 4; correct the header or export again");
+                "a.ply:12: vertex 0: the row has 5 values, the header declares 4; correct the "
+                "header or export again");
   check_refused(HEAD("ascii") EDGE "0 0 0 1\n1 0 0 1\n\n0 1 255 255\n", "a.ply",
-                "a.ply:15: edge 0: the row has 4 values, the header declares 2; correct the header or export again");
-  check_refused(HEAD("ascii") EDGE "0 0 0 1 \n1 0 0 1 \n0 1 0.5 0 \n", "a.ply", /* blanks at ends of rows, as MeshLab writes */
-                "a.ply:14: edge 0: the row has 4 values, the header declares 2; correct the header or export again");
+                "a.ply:15: edge 0: the row has 4 values, the header declares 2; correct the header "
+                "or export again");
+  check_refused(HEAD("ascii") EDGE "0 0 0 1 \n1 0 0 1 \n0 1 0.5 0 \n",
+                "a.ply", /* blanks at ends of rows, as MeshLab writes */
+                "a.ply:14: edge 0: the row has 4 values, the header declares 2; correct the header "
+                "or export again");
   check_refused(HEAD("ascii") EDGE "0 0 0 1\n1 0 0 1\n0\n1\n\n2\n", "a.ply",
-                "a.ply:17: this is left after all that the header declares; correct the header or export again");
+                "a.ply:17: this is left after all that the header declares; correct the header or "
+                "export again");
   check_refused(HEAD("ascii") "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
                               "0 0 0 1\n1 0 0 1\n2 0 1 200 10 10\n2 1 0 200 10 10\n",
-                "a.ply", "a.ply:13: face 0: the row has 6 values, the header declares 3; correct the header or export again");
-  check_refused(HEAD("binary_little_endian") EDGE "aaaabbbbccccddddeeeeffffgggghhhhiiiijjjj..", "a.ply",
-                "a.ply: 2 bytes are left after the values that the header declares (2 vertex with 4, 1 edge with 2); correct the "
+                "a.ply",
+                "a.ply:13: face 0: the row has 6 values, the header declares 3; correct the header "
+                "or export again");
+  check_refused(HEAD("binary_little_endian") EDGE "aaaabbbbccccddddeeeeffffgggghhhhiiiijjjj..",
+                "a.ply",
+                "a.ply: 2 bytes are left after the values that the header declares (2 vertex with "
+                "4, 1 edge with 2); correct the "
                 "header or export again");
   check_accepted(HEAD("ascii") EDGE "\n0 0 0\nnan 20 0\n0 1.#QNAN 0\n\n1\n\n", "a.ply");
 #undef HEAD
 #undef EDGE
-  check_refused("OFF\n3 1\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n3 2 1 0\n", "a.off",
-                "a.off:7: this is left after 3 vertices and 1 faces; correct these numbers or export again");
-  check_refused("three\n", "a.off", "a.off:1: an OFF file in three dimensions begins with OFF, COFF or NOFF");
-  check_refused("OFF BINARY\n", "a.off", "a.off:1: binary OFF is not read; export it as text, or as PLY");
+  check_refused(
+      "OFF\n3 1\n0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n3 2 1 0\n", "a.off",
+      "a.off:7: this is left after 3 vertices and 1 faces; correct these numbers or export again");
+  check_refused("three\n", "a.off",
+                "a.off:1: an OFF file in three dimensions begins with OFF, COFF or NOFF");
+  check_refused("OFF BINARY\n", "a.off",
+                "a.off:1: binary OFF is not read; export it as text, or as PLY");
   check_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n1 1 0\n3 0 1 x\n", "a.off",
                 "a.off:6: 'x' is not a number of vertices, faces or corners");
   check_refused("solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nendfacet\n", "a.stl",
                 "a.stl:5: a facet needs three vertices, this one has 2; export triangles");
-  check_refused("solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendfacet\nfacet\nvertex 0 0 0\n", "a.stl",
-                "a.stl:8: the file ends inside a facet; it is not whole");
-  check_refused("solid a\nendsolid a\n", "a.stl", "a.stl: no triangles; this is an empty STL file, or none");
+  check_refused(
+      "solid a\nfacet\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendfacet\nfacet\nvertex 0 0 0\n",
+      "a.stl", "a.stl:8: the file ends inside a facet; it is not whole");
+  check_refused("solid a\nendsolid a\n", "a.stl",
+                "a.stl: no triangles; this is an empty STL file, or none");
 }
 END_TEST
 
@@ -668,13 +771,15 @@ START_TEST(foreign_formats_are_called_by_name)
   static const struct {
     const char *text, *message;
   } foreign[] = {
-      {"<svg xmlns='x'/>", "an SVG picture, which is no framework; export the model that it shows as OBJ, DXF or JSON"},
-      {"\n<?xml version='1.0'?>\n<note>", "XML, which is not read; export the lines or the mesh as OBJ, PLY, DXF, glTF or JSON"},
-      {"graph G {\n a -- b;\n",
-       "a Graphviz graph, which is not read; write GraphML or node-link JSON with networkx or igraph, each "
-       "node with x, y and z"},
-      {"ISO-10303-21;\nHEADER;\n",
-       "a STEP or IFC model, which is not read; export the lines or the mesh as OBJ, PLY, DXF, glTF or JSON"}};
+      {"<svg xmlns='x'/>",
+       "an SVG picture, which is no framework; export the model that it shows as OBJ, DXF or JSON"},
+      {"\n<?xml version='1.0'?>\n<note>",
+       "XML, which is not read; export the lines or the mesh as OBJ, PLY, DXF, glTF or JSON"},
+      {"graph G {\n a -- b;\n", "a Graphviz graph, which is not read; write GraphML or node-link "
+                                "JSON with networkx or igraph, each "
+                                "node with x, y and z"},
+      {"ISO-10303-21;\nHEADER;\n", "a STEP or IFC model, which is not read; export the lines or "
+                                   "the mesh as OBJ, PLY, DXF, glTF or JSON"}};
   for (size_t i = 0; i < sizeof foreign / sizeof *foreign; i++) {
     char message[200];
     snprintf(message, sizeof message, "stdin: this is %s", foreign[i].message);
@@ -685,7 +790,8 @@ END_TEST
 
 /* ---- files: which way is up, how large ---- */
 
-static thr_frame read_file(const char *text, const char *name, const thr_read_options *options, thr_read_report *r)
+static thr_frame read_file(const char *text, const char *name, const thr_read_options *options,
+                           thr_read_report *r)
 {
   thr_text t = {0};
   thr_frame f;
@@ -721,13 +827,15 @@ START_TEST(which_way_is_up)
 
   options = thr_read_options_default();
   f = read_file(TRIPOD, name, &options, &r);
-  ck_assert(r.up_from != THR_FROM_MAKER && r.lies); /* two nodes are lowest with z up, three that span a level with y up */
+  ck_assert(r.up_from != THR_FROM_MAKER &&
+            r.lies); /* two nodes are lowest with z up, three that span a level with y up */
   thr_frame_destroy(&f);
 
   options.up = THR_UP_Y;
   options.scale = 10;
   f = read_file("# units: cm\n" TRIPOD, name, &options, &r);
-  ck_assert(r.up_from != THR_FROM_MAKER && !r.lies && r.units_from != THR_FROM_NOBODY && f.xyz[3][2] == 30);
+  ck_assert(r.up_from != THR_FROM_MAKER && !r.lies && r.units_from != THR_FROM_NOBODY &&
+            f.xyz[3][2] == 30);
   ck_assert_double_eq_tol(thr_frame_total_length(&f), 10 * (sqrt(11) + 2 * sqrt(19)), 1e-9);
   thr_frame_destroy(&f);
 }
@@ -743,13 +851,15 @@ START_TEST(ply_round_trip)
   thr_err err = {0};
   thr_text t = {0};
   thr_read_options options = thr_read_options_default();
-  ck_assert_msg(thr_frame_read(&before, &r, files[_i], &options, NULL, 0, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_frame_read(&before, &r, files[_i], &options, NULL, 0, &err) == THR_OK, "%s",
+                err.text);
   thr_frame_write(&before, thr_format_named("ply"), &t);
   after = read_as(&t, "stdin", 0, &r);
   ck_assert_int_eq(after.n_nodes, before.n_nodes);
   ck_assert_int_eq(after.n_edges, before.n_edges);
   ck_assert_int_eq(memcmp(after.xyz, before.xyz, (size_t)before.n_nodes * sizeof *before.xyz), 0);
-  ck_assert_int_eq(memcmp(after.edge, before.edge, (size_t)before.n_edges * sizeof *before.edge), 0);
+  ck_assert_int_eq(memcmp(after.edge, before.edge, (size_t)before.n_edges * sizeof *before.edge),
+                   0);
   ck_assert_str_eq(after.units, before.units);
   thr_frame_destroy(&before);
   thr_frame_destroy(&after);
@@ -757,17 +867,20 @@ START_TEST(ply_round_trip)
 }
 END_TEST
 
-/* Made by ezdxf 0.18 with every kind of entity that is read, blocks in blocks, an array of them and an extrusion; ezdxf's own
- * decomposition of it has 62 points and 68 different sides. */
+/* Made by ezdxf 0.18 with every kind of entity that is read, blocks in blocks, an array of them and
+ * an extrusion; ezdxf's own decomposition of it has 62 points and 68 different sides. */
 START_TEST(drawing)
 {
   thr_frame f;
   thr_read_report r;
   thr_err err = {0};
   thr_read_options options = thr_read_options_default();
-  const double quarter = 5 * THR_PI; /* of a circle of radius 10, which is also half of one of radius 5 */
+  const double quarter =
+      5 * THR_PI; /* of a circle of radius 10, which is also half of one of radius 5 */
   int quarters = 0, splines = 0, ellipses = 0;
-  ck_assert_msg(thr_frame_read(&f, &r, "tests/formats/ezdxf-all.dxf", &options, NULL, 0, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_frame_read(&f, &r, "tests/formats/ezdxf-all.dxf", &options, NULL, 0, &err) ==
+                    THR_OK,
+                "%s", err.text);
   ck_assert_int_eq(f.n_nodes, 62);
   ck_assert_int_eq(f.n_edges, 68);
   ck_assert_str_eq(f.units, "mm");
@@ -775,7 +888,8 @@ START_TEST(drawing)
   for (int e = 0; e < f.n_edges; e++) {
     quarters += fabs(f.length[e] - quarter) < 1e-7;
     splines += fabs(f.length[e] - 23.110287536) < 1e-5; /* ezdxf's flattening to 1e-6 */
-    ellipses += fabs(f.length[e] - 24.2211205) < 1e-6;  /* half the perimeter 2 a E(3/4) = 48.4422411 with a = 10, b = 5 */
+    ellipses += fabs(f.length[e] - 24.2211205) <
+                1e-6; /* half the perimeter 2 a E(3/4) = 48.4422411 with a = 10, b = 5 */
   }
   ck_assert_int_eq(quarters, 2);
   ck_assert_int_eq(splines, 1);
@@ -801,27 +915,34 @@ static double length_of(const char *text)
 /* Lengths by hand. */
 START_TEST(drawings_of_many_makers)
 {
-  /* A polyline of two vertices at a height of 7 (code 30, or 38), and a line from there to the ground. */
-#define RAISED(code)                                                                                                             \
-  DXF("0\nPOLYLINE\n" code "\n7\n70\n0\n0\nVERTEX\n0\nVERTEX\n10\n3\n0\nSEQEND\n0\nLINE\n11\n0\n30\n7\n31\n0\n")
+  /* A polyline of two vertices at a height of 7 (code 30, or 38), and a line from there to the
+   * ground. */
+#define RAISED(code)                                                                               \
+  DXF("0\nPOLYLINE\n" code                                                                         \
+      "\n7\n70\n0\n0\nVERTEX\n0\nVERTEX\n10\n3\n0\nSEQEND\n0\nLINE\n11\n0\n30\n7\n31\n0\n")
   ck_assert_double_eq_tol(length_of(RAISED("30")), 10, 1e-12);
   ck_assert_double_eq_tol(length_of(RAISED("38")), 10, 1e-12);
 
-  /* Names of blocks in another letter case; where two differ in nothing else the one in the same case is meant. */
-#define RODS "0\nSECTION\n2\nBLOCKS\n" ROD("ROD\xc3\x84", "3") ROD("ab", "5") ROD("AB", "7") "0\nENDSEC\n"
+  /* Names of blocks in another letter case; where two differ in nothing else the one in the same
+   * case is meant. */
+#define RODS                                                                                       \
+  "0\nSECTION\n2\nBLOCKS\n" ROD("ROD\xc3\x84", "3") ROD("ab", "5") ROD("AB", "7") "0\nENDSEC\n"
   ck_assert_double_eq_tol(length_of(RODS DXF("0\nINSERT\n2\nRod\xc3\xa4\n")), 3, 1e-12);
   ck_assert_double_eq_tol(length_of(RODS DXF("0\nINSERT\n2\nab\n")), 5, 1e-12);
   ck_assert_double_eq_tol(length_of(RODS DXF("0\nINSERT\n2\nAB\n")), 7, 1e-12);
 
-  /* A smoothed mesh: 2 x 2 control points, and 2 x 3 points of its own density, 1 apart: 7 sides. */
+  /* A smoothed mesh: 2 x 2 control points, and 2 x 3 points of its own density, 1 apart: 7 sides.
+   */
 #define CONTROL "0\nVERTEX\n70\n80\n10\n99\n"
 #define FITTED(x, y) "0\nVERTEX\n70\n72\n10\n" x "\n20\n" y "\n"
   ck_assert_double_eq_tol(
-      length_of(DXF("0\nPOLYLINE\n70\n20\n71\n2\n72\n2\n73\n2\n74\n3\n75\n5\n" CONTROL CONTROL CONTROL CONTROL FITTED("0", "0")
-                        FITTED("1", "0") FITTED("2", "0") FITTED("0", "1") FITTED("1", "1") FITTED("2", "1") "0\nSEQEND\n")),
+      length_of(DXF("0\nPOLYLINE\n70\n20\n71\n2\n72\n2\n73\n2\n74\n3\n75\n5\n" CONTROL CONTROL
+                        CONTROL CONTROL FITTED("0", "0") FITTED("1", "0") FITTED("2", "0")
+                            FITTED("0", "1") FITTED("1", "1") FITTED("2", "1") "0\nSEQEND\n")),
       7, 1e-12);
 
-  /* A triangle of 3, 4 and 5, its third corner given once or twice: its side of 5 is hidden as the fourth one, 8 in code 70. */
+  /* A triangle of 3, 4 and 5, its third corner given once or twice: its side of 5 is hidden as the
+   * fourth one, 8 in code 70. */
 #define TRIANGLE(more) DXF("0\n3DFACE\n11\n4\n12\n4\n22\n3\n" more)
   ck_assert_double_eq_tol(length_of(TRIANGLE("70\n8\n")), 7, 1e-12);
   ck_assert_double_eq_tol(length_of(TRIANGLE("13\n4\n23\n3\n70\n8\n")), 7, 1e-12);
@@ -863,7 +984,8 @@ START_TEST(units_of_drawings)
     double size = 0;
     thr_read_report r;
     const thr_read_options options = thr_read_options_default();
-    snprintf(text, sizeof text, "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n%d\n0\nENDSEC\n%s", code, DXF("0\nLINE\n11\n7\n"));
+    snprintf(text, sizeof text, "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n%d\n0\nENDSEC\n%s", code,
+             DXF("0\nLINE\n11\n7\n"));
     thr_frame f = read_file(text, "a.dxf", &options, &r);
     const bool known = code > 0 && code < 25;
     ck_assert_int_eq(r.units_from, known ? THR_FROM_FILE : THR_FROM_NOBODY);
@@ -887,13 +1009,14 @@ static double perimeter(double a, double b)
   return 2 * THR_PI * sum / a;
 }
 
-#define DRAWN(block, insert) "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nB\n" block "0\nENDBLK\n0\nENDSEC\n" DXF(insert)
+#define DRAWN(block, insert)                                                                       \
+  "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nB\n" block "0\nENDBLK\n0\nENDSEC\n" DXF(insert)
 #define HALF "0\nARC\n40\n10\n50\n0\n51\n180\n"
 #define HALF_BULGE "0\nLWPOLYLINE\n10\n10\n20\n0\n42\n1\n10\n-10\n20\n0\n"
 #define CIRCLE "0\nLWPOLYLINE\n70\n1\n10\n10\n20\n0\n42\n1\n10\n-10\n20\n0\n42\n1\n"
-#define CUBIC(y)                                                                                                                 \
-  "0\nSPLINE\n71\n3\n40\n0\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n40\n1\n10\n0\n20\n0\n10\n1\n20\n" y "\n10\n4\n20\n" y      \
-  "\n10\n9\n20\n0\n"
+#define CUBIC(y)                                                                                   \
+  "0\nSPLINE\n71\n3\n40\n0\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n40\n1\n10\n0\n20\n0\n10\n1"  \
+  "\n20\n" y "\n10\n4\n20\n" y "\n10\n9\n20\n0\n"
 #define INSERTED(how) "0\nINSERT\n2\nB\n" how
 
 /* Curves of blocks that are scaled unevenly, mirrored, and turned in between. */
@@ -904,47 +1027,58 @@ START_TEST(curves_in_blocks)
   ck_assert_double_eq_tol(perimeter(10, 10), 20 * THR_PI, 1e-12);
   ck_assert_double_eq_tol(length_of(DRAWN(HALF, INSERTED("41\n1\n42\n3\n"))), half, 1e-7);
   ck_assert_double_eq_tol(length_of(DRAWN(HALF_BULGE, INSERTED("41\n1\n42\n3\n"))), half, 1e-7);
-  ck_assert_double_eq_tol(length_of(DRAWN(HALF, INSERTED("41\n-1\n42\n3\n43\n2\n50\n33\n"))), half, 1e-7);
+  ck_assert_double_eq_tol(length_of(DRAWN(HALF, INSERTED("41\n-1\n42\n3\n43\n2\n50\n33\n"))), half,
+                          1e-7);
   ck_assert_double_eq_tol(length_of(DRAWN(CIRCLE, INSERTED("41\n3\n42\n-1\n"))), 2 * half, 1e-7);
-  ck_assert_double_eq_tol(length_of(DRAWN(HALF, INSERTED("41\n-2\n42\n2\n43\n2\n"))), 20 * THR_PI, 1e-9);
-  ck_assert_double_eq_tol(length_of(DRAWN("0\nELLIPSE\n11\n10\n40\n0.001\n41\n0\n42\n3.14159265358979\n", INSERTED("42\n5\n"))),
-                          perimeter(10, 0.05) / 2, 1e-4);
-  ck_assert_double_eq_tol(length_of(DRAWN(CUBIC("2"), INSERTED("42\n3\n"))), length_of(DXF(CUBIC("6"))), 1e-9);
+  ck_assert_double_eq_tol(length_of(DRAWN(HALF, INSERTED("41\n-2\n42\n2\n43\n2\n"))), 20 * THR_PI,
+                          1e-9);
+  ck_assert_double_eq_tol(
+      length_of(DRAWN("0\nELLIPSE\n11\n10\n40\n0.001\n41\n0\n42\n3.14159265358979\n",
+                      INSERTED("42\n5\n"))),
+      perimeter(10, 0.05) / 2, 1e-4);
+  ck_assert_double_eq_tol(length_of(DRAWN(CUBIC("2"), INSERTED("42\n3\n"))),
+                          length_of(DXF(CUBIC("6"))), 1e-9);
 
   /* A straight cubic from 0 to 9 whose degree only its 8 knots tell. */
-  ck_assert_double_eq_tol(length_of(DXF("0\nSPLINE\n40\n0\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n40\n1\n"
-                                        "10\n0\n20\n0\n10\n1\n20\n0\n10\n4\n20\n0\n10\n9\n20\n0\n")),
-                          9, 1e-9);
+  ck_assert_double_eq_tol(
+      length_of(DXF("0\nSPLINE\n40\n0\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n40\n1\n"
+                    "10\n0\n20\n0\n10\n1\n20\n0\n10\n4\n20\n0\n10\n9\n20\n0\n")),
+      9, 1e-9);
 
   /* A block turned by 30 degrees in one that is drawn out, against 100,000 chords. */
   double chords = 0;
   const double c = cos(THR_PI / 6), s = sin(THR_PI / 6);
   for (int i = 0; i <= 100000; i++) {
     static double x, y;
-    const double t = THR_PI * i / 100000, u = 10 * cos(t), v = 10 * sin(t), newx = 4 * (c * u - s * v), newy = s * u + c * v;
+    const double t = THR_PI * i / 100000, u = 10 * cos(t), v = 10 * sin(t),
+                 newx = 4 * (c * u - s * v), newy = s * u + c * v;
     chords += i ? hypot(newx - x, newy - y) : 0;
     x = newx;
     y = newy;
   }
-  ck_assert_double_eq_tol(length_of("0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nA\n" HALF "0\nENDBLK\n0\nBLOCK\n2\nB\n"
-                                    "0\nINSERT\n2\nA\n50\n30\n0\nENDBLK\n0\nENDSEC\n" DXF(INSERTED("41\n4\n"))),
-                          chords, 1e-6);
+  ck_assert_double_eq_tol(
+      length_of("0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nA\n" HALF "0\nENDBLK\n0\nBLOCK\n2\nB\n"
+                "0\nINSERT\n2\nA\n50\n30\n0\nENDBLK\n0\nENDSEC\n" DXF(INSERTED("41\n4\n"))),
+      chords, 1e-6);
 }
 END_TEST
 
-/* Lines of 1, 2, 4, .. on layers that are shown, off and frozen, in the model and in blocks, so that the length says which were
- * read. As AutoCAD shows them: what is inserted on a frozen layer is hidden whole; on one that is off only its layer 0 is. */
+/* Lines of 1, 2, 4, .. on layers that are shown, off and frozen, in the model and in blocks, so
+ * that the length says which were read. As AutoCAD shows them: what is inserted on a frozen layer
+ * is hidden whole; on one that is off only its layer 0 is. */
 START_TEST(hidden_layers_of_drawings)
 {
 #define LAYER(name, flags, colour) "0\nLAYER\n2\n" name "\n70\n" flags "\n62\n" colour "\n"
-#define LAYERS                                                                                                                   \
-  "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n" LAYER("On", "4", "7") LAYER("Off", "0", "-7")                                    \
+#define LAYERS                                                                                     \
+  "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n" LAYER("On", "4", "7") LAYER("Off", "0", "-7")      \
       LAYER("Cold", "65", "7") "0\nENDTAB\n0\nENDSEC\n"
 #define LINE(layer, x, length) "0\nLINE\n8\n" layer "\n10\n" x "\n11\n" x "\n21\n" length "\n"
-#define ON(layer) DXF("0\nINSERT\n8\n" layer "\n2\nB\n" LINE("OFF", "10", "64") LINE("cold", "11", "128") LINE("0", "12", "256"))
-#define BLOCK                                                                                                                    \
-  "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nB\n" LINE("0", "1", "1") LINE("On", "2", "2") LINE("Off", "3", "4")                       \
-      LINE("Cold", "4", "8") "0\nENDBLK\n0\nENDSEC\n"
+#define ON(layer)                                                                                  \
+  DXF("0\nINSERT\n8\n" layer "\n2\nB\n" LINE("OFF", "10", "64") LINE("cold", "11", "128")          \
+          LINE("0", "12", "256"))
+#define BLOCK                                                                                      \
+  "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nB\n" LINE("0", "1", "1") LINE("On", "2", "2")               \
+      LINE("Off", "3", "4") LINE("Cold", "4", "8") "0\nENDBLK\n0\nENDSEC\n"
   static const struct {
     const char *text;
     double shown;
@@ -968,24 +1102,28 @@ START_TEST(hidden_layers_of_drawings)
     thr_frame_destroy(&f);
     options = (thr_read_options){.weld = -1, .scale = 1, .pick = "Cold"};
     if (i == 2) {
-      f = read_file(drawings[i].text, "a.dxf", &options, &r); /* what is picked by its name is read, hidden or not */
+      f = read_file(drawings[i].text, "a.dxf", &options,
+                    &r); /* what is picked by its name is read, hidden or not */
       ck_assert_double_eq(thr_frame_total_length(&f), 8);
       thr_frame_destroy(&f);
     }
   }
   thr_read_options plain = thr_read_options_default();
   thr_read_report report; /* an empty name is none of those that are hidden */
-  thr_frame nameless = read_file(LAYERS DXF(LINE("", "0", "1") LINE("Off", "0", "2")), "a.dxf", &plain, &report);
+  thr_frame nameless =
+      read_file(LAYERS DXF(LINE("", "0", "1") LINE("Off", "0", "2")), "a.dxf", &plain, &report);
   ck_assert_double_eq(thr_frame_total_length(&nameless), 1);
   thr_frame_destroy(&nameless);
-  check_refused(LAYERS DXF(LINE("Off", "0", "1")), "a.dxf", "a.dxf: all its edges are on hidden layers; --layers all reads them");
+  check_refused(LAYERS DXF(LINE("Off", "0", "1")), "a.dxf",
+                "a.dxf: all its edges are on hidden layers; --layers all reads them");
 }
 END_TEST
 
-/* A circle as an arc of 360 degrees, as an ellipse, and as a cubic that comes back: none leads from a node to another. */
-#define LOOPS                                                                                                                    \
-  "0\nARC\n40\n1\n50\n0\n51\n360\n0\nELLIPSE\n11\n2\n40\n0."                                                                     \
-  "5\n0\nSPLINE\n71\n3\n40\n0\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n"                                                       \
+/* A circle as an arc of 360 degrees, as an ellipse, and as a cubic that comes back: none leads from
+ * a node to another. */
+#define LOOPS                                                                                      \
+  "0\nARC\n40\n1\n50\n0\n51\n360\n0\nELLIPSE\n11\n2\n40\n0."                                       \
+  "5\n0\nSPLINE\n71\n3\n40\n0\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n"                         \
   "40\n1\n10\n0\n20\n0\n10\n1\n20\n9\n10\n4\n20\n9\n10\n0\n20\n0\n"
 
 START_TEST(closed_curves_are_counted)
@@ -999,13 +1137,15 @@ START_TEST(closed_curves_are_counted)
   ck_assert_str_eq(r.skipped_kind, "a closed curve");
   thr_frame_destroy(&f);
   check_refused(DXF(LOOPS), "a.dxf",
-                "a.dxf: no lines, polylines, faces or open curves in its model, but others: a closed curve; draw its edges as "
+                "a.dxf: no lines, polylines, faces or open curves in its model, but others: a "
+                "closed curve; draw its edges as "
                 "lines, or explode what has them");
 }
 END_TEST
 
-#define BLOCKS(more)                                                                                                             \
-  "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nA\n0\nTEXT\n0\nLINE\n60\n1\n0\nLINE\n11\n1\n0\nENDBLK\n" more "0\nENDSEC\n"
+#define BLOCKS(more)                                                                               \
+  "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\nA\n0\nTEXT\n0\nLINE\n60\n1\n0\nLINE\n11\n1\n0\nENDBLK"      \
+  "\n" more "0\nENDSEC\n"
 
 /* A block of a text, an invisible line and a line, and one of a text that nobody inserts. */
 START_TEST(records_are_counted_where_they_are_placed)
@@ -1013,48 +1153,61 @@ START_TEST(records_are_counted_where_they_are_placed)
   static const struct {
     const char *inserts;
     int times;
-  } drawings[] = {{DXF("0\nLINE\n11\n9\n"), 0}, {DXF("0\nINSERT\n2\nA\n"), 1}, {DXF("0\nINSERT\n2\nA\n70\n3\n44\n10\n"), 3}};
+  } drawings[] = {{DXF("0\nLINE\n11\n9\n"), 0},
+                  {DXF("0\nINSERT\n2\nA\n"), 1},
+                  {DXF("0\nINSERT\n2\nA\n70\n3\n44\n10\n"), 3}};
   for (size_t i = 0; i < sizeof drawings / sizeof *drawings; i++) {
     char text[2000];
     thr_read_report r;
     const thr_read_options options = thr_read_options_default();
-    snprintf(text, sizeof text, "%s%s", BLOCKS("0\nBLOCK\n2\nB\n0\nMTEXT\n0\nENDBLK\n"), drawings[i].inserts);
+    snprintf(text, sizeof text, "%s%s", BLOCKS("0\nBLOCK\n2\nB\n0\nMTEXT\n0\nENDBLK\n"),
+             drawings[i].inserts);
     thr_frame f = read_file(text, "a.dxf", &options, &r);
     ck_assert_int_eq(r.skipped_records, drawings[i].times);
     ck_assert_int_eq(r.unseen_records, drawings[i].times);
     ck_assert_str_eq(r.skipped_kind, drawings[i].times ? "TEXT" : "");
     thr_frame_destroy(&f);
   }
-  check_refused(
-      BLOCKS("") DXF(""), "a.dxf",
-      "a.dxf: no lines, polylines, faces or open curves in its model; draw its edges as lines, or explode what has them");
+  check_refused(BLOCKS("") DXF(""), "a.dxf",
+                "a.dxf: no lines, polylines, faces or open curves in its model; draw its edges as "
+                "lines, or explode what has them");
   check_refused(DXF("0\nLINE\n67\n1\n11\n1\n"), "a.dxf",
-                "a.dxf: no lines, polylines, faces or open curves in its model; what is on paper or marked invisible is not "
+                "a.dxf: no lines, polylines, faces or open curves in its model; what is on paper "
+                "or marked invisible is not "
                 "read; draw its edges as lines, or explode what has them");
 }
 END_TEST
 
 START_TEST(drawings_that_are_wrong)
 {
-  check_refused(
-      "", "a.dxf",
-      "a.dxf: no lines, polylines, faces or open curves in its model; draw its edges as lines, or explode what has them");
-  check_refused(DXF("0\nLINE\n10\nx\n"), "a.dxf", "a.dxf:6: this LINE has a value that is not a finite number");
+  check_refused("", "a.dxf",
+                "a.dxf: no lines, polylines, faces or open curves in its model; draw its edges as "
+                "lines, or explode what has them");
+  check_refused(DXF("0\nLINE\n10\nx\n"), "a.dxf",
+                "a.dxf:6: this LINE has a value that is not a finite number");
   check_refused(DXF("0\nINSERT\n2\nnobody\n"), "a.dxf",
-                "a.dxf: no lines, polylines, faces or open curves in its model; a block that is not in the file: nobody; draw "
+                "a.dxf: no lines, polylines, faces or open curves in its model; a block that is "
+                "not in the file: nobody; draw "
                 "its edges as lines, or explode what has them");
   check_refused(DXF("0\nTEXT\n1\nhello\n"), "a.dxf",
-                "a.dxf: no lines, polylines, faces or open curves in its model, but others: TEXT; draw its edges as lines, or "
+                "a.dxf: no lines, polylines, faces or open curves in its model, but others: TEXT; "
+                "draw its edges as lines, or "
                 "explode what has them");
   check_refused(DXF("0\nSPLINE\n71\n3\n10\n0\n20\n0\n10\n1\n20\n0\n"), "a.dxf",
-                "a.dxf: no lines, polylines, faces or open curves in its model, but others: SPLINE; draw its edges as lines, or "
+                "a.dxf: no lines, polylines, faces or open curves in its model, but others: "
+                "SPLINE; draw its edges as lines, or "
                 "explode what has them");
-  check_refused("0\nSECTION\n2\nBLOCKS\n" ROD("ROD", "1") ROD("Rod", "2") "0\nENDSEC\n" DXF("0\nINSERT\n2\nrod\n"), "a.dxf",
+  check_refused("0\nSECTION\n2\nBLOCKS\n" ROD("ROD", "1")
+                    ROD("Rod", "2") "0\nENDSEC\n" DXF("0\nINSERT\n2\nrod\n"),
+                "a.dxf",
                 "a.dxf: two blocks are called 'rod', and it is inserted; rename one of them");
-  check_refused("0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\na\n0\nINSERT\n2\na\n0\nENDBLK\n0\nENDSEC\n" DXF("0\nINSERT\n2\na\n"),
-                "a.dxf", "a.dxf: blocks are nested more than 16 deep, or inserted more than 1000000 times");
+  check_refused(
+      "0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\na\n0\nINSERT\n2\na\n0\nENDBLK\n0\nENDSEC\n" DXF(
+          "0\nINSERT\n2\na\n"),
+      "a.dxf", "a.dxf: blocks are nested more than 16 deep, or inserted more than 1000000 times");
   check_refused("0\nSECTION\n2\n", "a.dxf", "a.dxf:3: the file ends in the middle of a pair");
-  check_refused("AutoCAD Binary DXF\r\n\x1a", "a.dxf", "a.dxf: binary DXF is not read; export it as text");
+  check_refused("AutoCAD Binary DXF\r\n\x1a", "a.dxf",
+                "a.dxf: binary DXF is not read; export it as text");
 }
 END_TEST
 

@@ -1,4 +1,6 @@
-/* Rows, rounds and tree of lp/model/ against all whole points of small covering problems: minimize cost x, A x >= lower, 0 <= x
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rows, rounds and tree of lp/model/ against all whole points of small covering problems: minimize
+ * cost x, A x >= lower, 0 <= x
  * <= most.
  */
 #include "graph/limits.h"
@@ -87,7 +89,8 @@ static void assert_in_force(const search *s)
   }
 }
 
-/* The price of the least values; a solution if they cover, none if the most do not, else a column of a row that is short. */
+/* The price of the least values; a solution if they cover, none if the most do not, else a column
+ * of a row that is short. */
 static thr_status solve_by_least(void *user, int node, thr_tree_branch *branch, thr_err *err)
 {
   (void)err;
@@ -130,7 +133,9 @@ START_TEST(the_tree_finds_the_least_of_all_points)
   ck_assert_double_eq(s.tree.enough, least_price(&c));
   for (int i = 0; i < s.n_solved; i++) {
     const thr_tree_node *n = &s.tree.node[s.solved[i]];
-    if (n->parent >= 0) ck_assert_msg(s.tree.node[n->parent].bound < s.tree.enough, "a node below a closed one was solved");
+    if (n->parent >= 0)
+      ck_assert_msg(s.tree.node[n->parent].bound < s.tree.enough,
+                    "a node below a closed one was solved");
   }
   ck_assert_int_eq(thr_tree_enter(&s.tree, &calls, 0, NULL), THR_OK);
   assert_in_force(&s);
@@ -188,7 +193,8 @@ START_TEST(columns_that_are_alike_are_decided_at_once)
 {
   rng r = rng_make((uint64_t)_i);
   covering c = covering_make(&r);
-  const int from = _i % COLUMNS, apart = (_i / COLUMNS) % COLUMNS; /* all but one are like the first */
+  const int from = _i % COLUMNS,
+            apart = (_i / COLUMNS) % COLUMNS; /* all but one are like the first */
   for (int j = 0; j < COLUMNS; j++) {
     if (j == apart) continue;
     c.cost[j] = c.cost[from];
@@ -222,7 +228,8 @@ static thr_status solve_ties(void *user, int node, thr_tree_branch *branch, thr_
   search *s = user;
   s->solved[s->n_solved++] = node;
   s->tree.node[node].bound = 10.5 - 0.01 * s->n_solved;
-  if (s->tree.node[node].depth < 2) *branch = (thr_tree_branch){.column = s->tree.node[node].depth, .high = node == 0};
+  if (s->tree.node[node].depth < 2)
+    *branch = (thr_tree_branch){.column = s->tree.node[node].depth, .high = node == 0};
   return THR_OK;
 }
 
@@ -234,7 +241,8 @@ START_TEST(of_equal_bounds_the_deepest_the_youngest_the_preferred)
   s.tree.grain = 1;
   const thr_tree_calls calls = {&s, NULL, tell, solve_ties, NULL};
   ck_assert_int_eq(thr_tree_run(&s.tree, &calls, NULL), THR_OK);
-  const int expected[] = {0, 2, 3, 4, 1, 5, 6}; /* 1, 2 below the root, the high one first; then the low ones */
+  const int expected[] = {0, 2, 3, 4,
+                          1, 5, 6}; /* 1, 2 below the root, the high one first; then the low ones */
   ck_assert_int_eq(s.n_solved, 7);
   for (int i = 0; i < 7; i++)
     ck_assert_int_eq(s.solved[i], expected[i]);
@@ -265,14 +273,16 @@ static thr_status find(cutting *k, int parity, int *added, thr_err *err)
 {
   const covering *c = k->s.c;
   thr_status st = THR_OK;
-  for (int q = 0, before = *added, first = rng_below(&k->r, ROWS); q < ROWS && *added == before && !st; q++) {
+  for (int q = 0, before = *added, first = rng_below(&k->r, ROWS);
+       q < ROWS && *added == before && !st; q++) {
     int i = (first + q) % ROWS;
     if (i % 2 != parity) continue;
     for (int j = 0; j < COLUMNS; j++) {
       thr_pool_put(&k->cut.pool, j, c->row[i][j] + 1); /* in two steps, which must add up */
       thr_pool_put(&k->cut.pool, j, -1);
     }
-    st = thr_pool_offer(&k->cut.pool, (thr_row){.index = i, .lower = c->lower[i]}, k->x, 1e-6, added, err);
+    st = thr_pool_offer(&k->cut.pool, (thr_row){.index = i, .lower = c->lower[i]}, k->x, 1e-6,
+                        added, err);
   }
   return st;
 }
@@ -442,9 +452,12 @@ START_TEST(a_row_is_known_until_it_is_dropped)
   ck_assert_int_eq(p.count, 0); /* not violated */
   for (int twice = 0; twice < 2; twice++) {
     put_row(&p, 1, 2);
-    ck_assert_int_eq(thr_pool_offer(&p, (thr_row){.lower = 4, .member = set, .n_members = 2}, none, 1e-6, &added, NULL), THR_OK);
+    ck_assert_int_eq(thr_pool_offer(&p, (thr_row){.lower = 4, .member = set, .n_members = 2}, none,
+                                    1e-6, &added, NULL),
+                     THR_OK);
   }
-  ck_assert(added == 1 && p.count == 1 && p.row[0].n == 2 && p.row[0].column[0] == 2 && p.row[0].column[1] == 0);
+  ck_assert(added == 1 && p.count == 1 && p.row[0].n == 2 && p.row[0].column[0] == 2 &&
+            p.row[0].column[1] == 0);
   set[1] = 0; /* its own copy */
   ck_assert(p.row[0].n_members == 2 && p.row[0].member[1] == 9);
   ck_assert_double_eq(thr_row_sum(&p.row[0], enough), 6);

@@ -1,4 +1,6 @@
-/* What the words for copies say, against matrices whose geometry is known: x to the right, y to the back, z up. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the words for copies say, against matrices whose geometry is known: x to the right, y to the
+ * back, z up. */
 #include "graph/angle.h"
 #include "graph/plan/plan.h"
 #include "lib/handles.h"
@@ -31,7 +33,8 @@ static int moved(const thr_frame *f, const double q[3][3], int v)
   return -1;
 }
 
-/* A plan of which there is only what describing needs: cord k is image k of cord 0, and image 0 is the identity. */
+/* A plan of which there is only what describing needs: cord k is image k of cord 0, and image 0 is
+ * the identity. */
 static thr_plan plan_with(thr_frame f, int n)
 {
   thr_plan p = {.frame = f, .n_cords = n};
@@ -118,10 +121,14 @@ START_TEST(motions_of_a_cube)
       {{{0, 0, 1}, {0, 1, 0}, {1, 0, 0}}, "mirrored"},
       {{{-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}, "inverted (mirrored at the middle point)"},
       /* rotoreflections: the turn with its axis' coordinate negated */
-      {{{0, -1, 0}, {1, 0, 0}, {0, 0, -1}}, "mirrored upside down and turned by 90 degrees counter-clockwise from above"},
-      {{{0, 1, 0}, {-1, 0, 0}, {0, 0, -1}}, "mirrored upside down and turned by 90 degrees clockwise from above"},
-      {{{-1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, "mirrored left to right and turned by 90 degrees counter-clockwise from the right"},
-      {{{0, -1, 0}, {0, 0, -1}, {-1, 0, 0}}, "mirrored and turned by 60 degrees about a slanted axis"},
+      {{{0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
+       "mirrored upside down and turned by 90 degrees counter-clockwise from above"},
+      {{{0, 1, 0}, {-1, 0, 0}, {0, 0, -1}},
+       "mirrored upside down and turned by 90 degrees clockwise from above"},
+      {{{-1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
+       "mirrored left to right and turned by 90 degrees counter-clockwise from the right"},
+      {{{0, -1, 0}, {0, 0, -1}, {-1, 0, 0}},
+       "mirrored and turned by 60 degrees about a slanted axis"},
   };
   ck_assert_int_le((int)(sizeof k / sizeof *k), MOST_IMAGES);
   expect_words(centred(solid_make(CUBE)), k, sizeof k / sizeof *k);
@@ -136,13 +143,15 @@ START_TEST(turns_of_a_tube)
   const known made[3] = {
       {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}, "turned by 51.43 degrees counter-clockwise from above"},
       {{{c, s, 0}, {-s, c, 0}, {0, 0, 1}}, "turned by 51.43 degrees clockwise from above"},
-      {{{c, s, 0}, {-s, c, 0}, {0, 0, -1}}, "mirrored upside down and turned by 51.43 degrees clockwise from above"}};
+      {{{c, s, 0}, {-s, c, 0}, {0, 0, -1}},
+       "mirrored upside down and turned by 51.43 degrees clockwise from above"}};
   memcpy(k, made, sizeof k);
   expect_words(centred(shape_make(THR_MAKE_TUBE, 7, 2)), k, 3);
 }
 END_TEST
 
-/* A box whose edges differ: what turns a cube is no motion of it. And rows that are no permutation, as a plan may have. */
+/* A box whose edges differ: what turns a cube is no motion of it. And rows that are no permutation,
+ * as a plan may have. */
 START_TEST(no_motion_no_words)
 {
   thr_frame f = centred(solid_make(CUBE));

@@ -1,4 +1,6 @@
-/* The overview looked at as a maker does: parsed from its SVG and held against the plan and the framework. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The overview looked at as a maker does: parsed from its SVG and held against the plan and the
+ * framework. */
 #include "diagram/layout/layout.h"
 #include "diagram/overview/overview.h"
 #include "diagram/scene/scene.h"
@@ -79,14 +81,16 @@ static thr_frame random_planar(uint64_t seed, int w, int h)
   thr_frame f = {0};
   thr_read_report report = {0};
   for (int i = 0; i < w * h; i++) {
-    double xyz[3] = {20 * (i % w + 0.5 * rng_unit(&r)), 20 * (i / w + 0.5 * rng_unit(&r)), rng_unit(&r)};
+    double xyz[3] = {20 * (i % w + 0.5 * rng_unit(&r)), 20 * (i / w + 0.5 * rng_unit(&r)),
+                     rng_unit(&r)};
     ck_assert_int_eq(thr_draft_add_node(&d, xyz, NULL, false, NULL), THR_OK);
   }
   for (int i = 0; i < w * h; i++) {
     bool right = i % w + 1 < w, up = i + w < w * h;
     if (right) ck_assert_int_eq(thr_draft_add_edge(&d, i, i + 1, 0, NULL), THR_OK);
     if (up) ck_assert_int_eq(thr_draft_add_edge(&d, i, i + w, 0, NULL), THR_OK);
-    if (right && up && rng_below(&r, 3) == 0) ck_assert_int_eq(thr_draft_add_edge(&d, i, i + w + 1, 0, NULL), THR_OK);
+    if (right && up && rng_below(&r, 3) == 0)
+      ck_assert_int_eq(thr_draft_add_edge(&d, i, i + w + 1, 0, NULL), THR_OK);
   }
   ck_assert_int_eq(thr_draft_build(&d, 0, &f, &report, NULL), THR_OK);
   thr_draft_destroy(&d);
@@ -136,7 +140,8 @@ static stroke stroke_of(const view *v, int group)
   int path = child_by_class(&v->t, group, "cord");
   ck_assert_int_gt(path, 0);
   int n = svg_path(&v->t, path, letter, at, 9);
-  ck_assert_msg((n == 6 || n == 9) && strncmp(letter, "MCCCLLCCC", (size_t)n) == 0, "%d %.9s", n, letter);
+  ck_assert_msg((n == 6 || n == 9) && strncmp(letter, "MCCCLLCCC", (size_t)n) == 0, "%d %.9s", n,
+                letter);
   memcpy(s.start, at[0], sizeof s.start);
   memcpy(s.from, at[3], sizeof s.from);
   memcpy(s.to, at[5], sizeof s.to);
@@ -158,7 +163,8 @@ static int element_of_piece(const view *v, int piece)
   return i;
 }
 
-/* Is a point inside the outline of a solid piece, or within so much of it? By the winding of its polygons. */
+/* Is a point inside the outline of a solid piece, or within so much of it? By the winding of its
+ * polygons. */
 static bool in_outline(const view *v, int piece, const double at[2], double air)
 {
   enum { MOST = 400 };
@@ -182,7 +188,8 @@ static bool in_outline(const view *v, int piece, const double at[2], double air)
       double u[2] = {a[0] - at[0], a[1] - at[1]}, w[2] = {b[0] - at[0], b[1] - at[1]};
       angle += atan2(u[0] * w[1] - u[1] * w[0], u[0] * w[0] + u[1] * w[1]);
       double side[2] = {b[0] - a[0], b[1] - a[1]}, length2 = side[0] * side[0] + side[1] * side[1];
-      double part = length2 > 0 ? fmin(fmax(-(u[0] * side[0] + u[1] * side[1]) / length2, 0), 1) : 0;
+      double part =
+          length2 > 0 ? fmin(fmax(-(u[0] * side[0] + u[1] * side[1]) / length2, 0), 1) : 0;
       near |= hypot(u[0] + part * side[0], u[1] + part * side[1]) <= air;
     }
     if (fabs(angle) > 3) return true;
@@ -191,18 +198,21 @@ static bool in_outline(const view *v, int piece, const double at[2], double air)
 }
 
 /* A point in the coordinates of a tube: along it from its middle, and across; and half its size. */
-static void in_tube(const view *v, int e, const double at[2], double *along, double *across, double half[2])
+static void in_tube(const view *v, int e, const double at[2], double *along, double *across,
+                    double half[2])
 {
   int i = element_of_piece(v, e);
   const svg_element *b = &v->t.element[i];
-  double x = at[0] - b->shift[0], y = at[1] - b->shift[1], c = cos(b->angle * acos(-1) / 180), s = sin(b->angle * acos(-1) / 180);
+  double x = at[0] - b->shift[0], y = at[1] - b->shift[1], c = cos(b->angle * acos(-1) / 180),
+         s = sin(b->angle * acos(-1) / 180);
   *along = c * x + s * y;
   *across = c * y - s * x;
   half[0] = 0.5 * svg_number(&v->t, i, "width");
   half[1] = 0.5 * svg_number(&v->t, i, "height");
 }
 
-/* The lane of a pass runs inside its tube from the end at its tail to the end at its head, or from one solid piece to the next.
+/* The lane of a pass runs inside its tube from the end at its tail to the end at its head, or from
+ * one solid piece to the next.
  */
 static void assert_lane(const view *v, int h, const stroke *s)
 {
@@ -212,7 +222,8 @@ static void assert_lane(const view *v, int h, const stroke *s)
     const double *const at[2] = {s->from, s->to};
     for (int k = 0; k < 2; k++) {
       int node = k ? thr_head(&v->p.frame, h) : thr_tail(&v->p.frame, h);
-      ck_assert_msg(thr_degree(&v->p.frame, node) > 8 || in_outline(v, node, at[k], fmax(wide, 0.3)),
+      ck_assert_msg(thr_degree(&v->p.frame, node) > 8 ||
+                        in_outline(v, node, at[k], fmax(wide, 0.3)),
                     "half-edge %d runs beside piece %d at %g %g", h, node, at[k][0], at[k][1]);
     }
     return;
@@ -258,7 +269,8 @@ static void assert_pieces(const view *v)
 
 static void assert_at(const double a[2], const double b[2], double air)
 {
-  ck_assert_msg(hypot(a[0] - b[0], a[1] - b[1]) <= air, "(%g, %g) is not at (%g, %g)", a[0], a[1], b[0], b[1]);
+  ck_assert_msg(hypot(a[0] - b[0], a[1] - b[1]) <= air, "(%g, %g) is not at (%g, %g)", a[0], a[1],
+                b[0], b[1]);
 }
 
 static void middle_of(const view *v, int i, double at[2])
@@ -287,8 +299,10 @@ static bool over_seam(const view *v, int c, int k)
   return thr_head(paper_of(v), half[k - 1]) != thr_tail(paper_of(v), half[k]);
 }
 
-/* What is written where the cord goes over to the other panel before pass k (from 0); *seen counts labelled ones. */
-static void assert_seam(const view *v, int c, int k, const stroke *before, const stroke *now, int *seen)
+/* What is written where the cord goes over to the other panel before pass k (from 0); *seen counts
+ * labelled ones. */
+static void assert_seam(const view *v, int c, int k, const stroke *before, const stroke *now,
+                        int *seen)
 {
   const char *id = v->p.cord[c].id, *letter = v->p.n_cords > 1 ? id : "";
   char out[40], in[40], want[40];
@@ -315,7 +329,8 @@ static void assert_rim(const view *v, int group)
   char colour[256], dark[8], along[256], path[256];
   int rim = child_by_class(&v->t, group, "rim");
   ck_assert(svg_attribute(&v->t, group, "stroke", colour));
-  ck_assert_int_eq(rim > 0, !svg_has_class(&v->t, v->t.element[group].parent, "copy") && thr_palette_rim(colour, dark));
+  ck_assert_int_eq(rim > 0, !svg_has_class(&v->t, v->t.element[group].parent, "copy") &&
+                                thr_palette_rim(colour, dark));
   if (rim < 0) return;
   svg_attribute(&v->t, rim, "d", along);
   svg_attribute(&v->t, child_by_class(&v->t, group, "cord"), "d", path);
@@ -324,7 +339,8 @@ static void assert_rim(const view *v, int group)
   ck_assert_str_eq(colour, dark);
 }
 
-/* Every pass of a cord is drawn once, in order, in its lane, and goes on where the one before ends. */
+/* Every pass of a cord is drawn once, in order, in its lane, and goes on where the one before ends.
+ */
 static void assert_cord(const view *v, int c, int *seams, int *labelled)
 {
   const thr_cord *cord = &v->p.cord[c];
@@ -371,7 +387,8 @@ static void assert_passes(const view *v)
   if (!v->l.node) ck_assert_int_eq(seams, 0);
   if (v->l.node) ck_assert_int_gt(seams, 0);
   if (labelled < seams)
-    ck_assert(strstr(v->svg, " without a label for want of room") || strstr(v->svg, "the cord may go on in the other half"));
+    ck_assert(strstr(v->svg, " without a label for want of room") ||
+              strstr(v->svg, "the cord may go on in the other half"));
 }
 
 /* ---- what is written ---- */
@@ -411,9 +428,9 @@ static void assert_apart(const view *v)
   for (int i = 0; i < n; i++) {
     pills += w[i].kind == PILL;
     for (int j = 0; j < i; j++)
-      ck_assert_msg(!svg_overlap(w[i].box, w[j].box, -0.02), "<%s%s> covers <%s%s>", v->t.element[w[i].element].name,
-                    v->t.element[w[i].element].attributes, v->t.element[w[j].element].name,
-                    v->t.element[w[j].element].attributes);
+      ck_assert_msg(!svg_overlap(w[i].box, w[j].box, -0.02), "<%s%s> covers <%s%s>",
+                    v->t.element[w[i].element].name, v->t.element[w[i].element].attributes,
+                    v->t.element[w[j].element].name, v->t.element[w[j].element].attributes);
   }
   ck_assert_int_gt(pills, 0);
   free(w);
@@ -426,14 +443,15 @@ static void assert_legible(const view *v)
       double box[4];
       ck_assert_double_ge(svg_number(&v->t, i, "font-size"), 7 * POINT);
       svg_box(&v->t, i, box);
-      ck_assert_msg(box[0] >= 0 && box[1] >= 0 && box[2] <= v->t.width && box[3] <= v->t.height, "off the sheet: %s",
-                    v->t.element[i].text);
+      ck_assert_msg(box[0] >= 0 && box[1] >= 0 && box[2] <= v->t.width && box[3] <= v->t.height,
+                    "off the sheet: %s", v->t.element[i].text);
     }
   char box[256], want[256], width[256], height[256];
   svg_attribute(&v->t, 0, "viewBox", box);
   svg_attribute(&v->t, 0, "width", width);
   svg_attribute(&v->t, 0, "height", height);
-  snprintf(want, sizeof want, "0 0 %.*s %.*s", (int)strcspn(width, "m"), width, (int)strcspn(height, "m"), height);
+  snprintf(want, sizeof want, "0 0 %.*s %.*s", (int)strcspn(width, "m"), width,
+           (int)strcspn(height, "m"), height);
   ck_assert_str_eq(box, want); /* so sizes are mm */
 }
 
@@ -451,7 +469,8 @@ static void assert_named(const view *v)
   const thr_frame *f = &v->p.frame;
   int missing = 0, said = 0;
   thr_places grid;
-  ck_assert_int_eq(thr_places_find(&grid, f, (const double(*)[2])v->l.xy, v->l.median, NULL), THR_OK);
+  ck_assert_int_eq(thr_places_find(&grid, f, (const double(*)[2])v->l.xy, v->l.median, NULL),
+                   THR_OK);
   bool in_grid = thr_layout_to_scale(v->l.kind) && grid.n_columns;
   for (int n = 0; n < f->n_nodes; n++) {
     char name[48];
@@ -480,7 +499,8 @@ static bool right_of(const view *v, double middle, int i)
   return at[0] > middle;
 }
 
-/* Names on the seam are written once in each panel, and so are the two labels of a cord that crosses it. */
+/* Names on the seam are written once in each panel, and so are the two labels of a cord that
+ * crosses it. */
 static void assert_panels(const view *v)
 {
   int places = svg_by_id(&v->t, "places"), captions = 0;
@@ -496,7 +516,8 @@ static void assert_panels(const view *v)
     int sides[2] = {0, 0};
     thr_places_name(&(thr_places){0}, &v->p.frame, v->l.node[p], name);
     for (int i = places + 1; i < v->t.n && svg_inside(&v->t, i, places); i++)
-      if (strcmp(v->t.element[i].text, name) == 0 && svg_has_class(&v->t, i, "seam")) sides[right_of(v, middle, i)]++;
+      if (strcmp(v->t.element[i].text, name) == 0 && svg_has_class(&v->t, i, "seam"))
+        sides[right_of(v, middle, i)]++;
     ck_assert_int_eq(sides[0], sides[1]);
     ck_assert_int_le(sides[0], 1);
   }
@@ -540,7 +561,8 @@ START_TEST(the_dome_has_49_pieces_or_84_tubes)
     p.options.joint = tube ? THR_JOINT_TUBE : THR_JOINT_SOLID;
     view v = view_of(p, 0);
     assert_pieces(&v);
-    ck_assert_ptr_nonnull(strstr(v.svg, tube ? ">Cord A: 84 tubes, 96 passes<" : ">Cord A: 49 pieces, 96 passes<"));
+    ck_assert_ptr_nonnull(
+        strstr(v.svg, tube ? ">Cord A: 84 tubes, 96 passes<" : ">Cord A: 49 pieces, 96 passes<"));
     view_destroy(&v);
   }
 }
@@ -570,7 +592,8 @@ START_TEST(small_pictures_stay_legible)
 }
 END_TEST
 
-/* Of several cords each number begins with its cord's letter: grey and colour-blind readers need no colour. */
+/* Of several cords each number begins with its cord's letter: grey and colour-blind readers need no
+ * colour. */
 START_TEST(letters_tell_cords_apart)
 {
   view v = view_of(pieces_of(shape_make(THR_MAKE_DOME, 7, 0), 8), 0);
@@ -589,7 +612,8 @@ START_TEST(letters_tell_cords_apart)
 }
 END_TEST
 
-/* More passes than can be followed one by one: lines, in a file of bounded size that says what it leaves out. */
+/* More passes than can be followed one by one: lines, in a file of bounded size that says what it
+ * leaves out. */
 START_TEST(a_very_large_plan_is_lines)
 {
   thr_err err = {0};
@@ -598,7 +622,8 @@ START_TEST(a_very_large_plan_is_lines)
   thr_overview_options o = thr_overview_options_default();
   ck_assert_int_eq(thr_overview_svg(&p, &o, &svg, &err), THR_OK);
   ck_assert_uint_lt(svg.length, 3000000);
-  ck_assert(strstr(svg.data, "are left out") && strstr(svg.data, "<g id=\"cord-A\"") && strstr(svg.data, "id=\"ends\""));
+  ck_assert(strstr(svg.data, "are left out") && strstr(svg.data, "<g id=\"cord-A\"") &&
+            strstr(svg.data, "id=\"ends\""));
   ck_assert(!strstr(svg.data, "id=\"A-1\"") && !strstr(svg.data, "data-piece"));
   thr_text_destroy(&svg);
   thr_plan_destroy(&p);

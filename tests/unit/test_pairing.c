@@ -1,4 +1,6 @@
-/* Pairing at one node: subsets against enumeration and the matching engine, on random stars under every price. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Pairing at one node: subsets against enumeration and the matching engine, on random stars under
+ * every price. */
 #include "graph/plan/turning_proof.h"
 #include "graph/threading/euler.h"
 #include "tests/matchings.h"
@@ -17,7 +19,9 @@ static double least_by_enumeration(int n, const double *price, unsigned used)
     i++;
   if (i == n) return 0;
   for (int j = i + 1; j < n; j++)
-    if (!(used >> j & 1u)) least = fmin(least, price[i * n + j] + least_by_enumeration(n, price, used | 1u << i | 1u << j));
+    if (!(used >> j & 1u))
+      least =
+          fmin(least, price[i * n + j] + least_by_enumeration(n, price, used | 1u << i | 1u << j));
   return least;
 }
 
@@ -32,8 +36,8 @@ static double turn_between(const double *a, const double *b)
   return acos(fmax(-1, fmin(1, dot / sqrt(aa * bb))));
 }
 
-/* Prices between n darts of a random star of d spokes; a spoke may be passed several times, and turning back costs more than any
- * pairing without. */
+/* Prices between n darts of a random star of d spokes; a spoke may be passed several times, and
+ * turning back costs more than any pairing without. */
 static void random_star(rng *r, int n, thr_turn_cost cost, double *price)
 {
   double at[MOST][3];
@@ -46,7 +50,8 @@ static void random_star(rng *r, int n, thr_turn_cost cost, double *price)
   }
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++)
-      price[i * n + j] = spoke[i] == spoke[j] ? 1000 : thr_turn_cost_of(cost, turn_between(at[i], at[j]));
+      price[i * n + j] =
+          spoke[i] == spoke[j] ? 1000 : thr_turn_cost_of(cost, turn_between(at[i], at[j]));
 }
 
 static bool is_pairing(int n, const int *mate)
@@ -56,7 +61,8 @@ static bool is_pairing(int n, const int *mate)
   return true;
 }
 
-/* Fails the test with what went wrong in which case. Check writes every ck_assert to a pipe, too slow for a million cases. */
+/* Fails the test with what went wrong in which case. Check writes every ck_assert to a pipe, too
+ * slow for a million cases. */
 static void must_hold(bool holds, const char *what, int k)
 {
   if (!holds) ck_abort_msg("case %d: %s", k, what);
@@ -70,14 +76,16 @@ START_TEST(subsets_match_enumeration)
   for (int k = 0; k < share_of(30000); k++) {
     int n = 2 * rng_between(&r, 1, k % 20 ? 3 : 4);
     random_star(&r, n, (thr_turn_cost)(k % THR_N_TURN_COSTS), price);
-    must_hold(thr_pairing_best(n, price, mate, NULL) == THR_OK && is_pairing(n, mate), "no pairing", k);
-    must_hold(fabs(pairing_price(n, price, mate) - least_by_enumeration(n, price, 0)) <= 1e-9, "not the least", k);
+    must_hold(thr_pairing_best(n, price, mate, NULL) == THR_OK && is_pairing(n, mate), "no pairing",
+              k);
+    must_hold(fabs(pairing_price(n, price, mate) - least_by_enumeration(n, price, 0)) <= 1e-9,
+              "not the least", k);
   }
 }
 END_TEST
 
-/* Prices between the passes of a random node of 3 to 6 spokes: a third has every spoke passed twice, a third as few of them as
- * makes the number even, a third any. */
+/* Prices between the passes of a random node of 3 to 6 spokes: a third has every spoke passed
+ * twice, a third as few of them as makes the number even, a third any. */
 static int random_node(rng *r, thr_turn_cost cost, double *price)
 {
   double at[6][3], spoke_price[6][6];
@@ -95,7 +103,8 @@ static int random_node(rng *r, thr_turn_cost cost, double *price)
   }
   for (int i = 0; i < d; i++)
     for (int j = 0; j <= i; j++)
-      spoke_price[i][j] = spoke_price[j][i] = i == j ? 1000 : thr_turn_cost_of(cost, turn_between(at[i], at[j]));
+      spoke_price[i][j] = spoke_price[j][i] =
+          i == j ? 1000 : thr_turn_cost_of(cost, turn_between(at[i], at[j]));
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++)
       price[i * n + j] = spoke_price[spoke[i]][spoke[j]];
@@ -109,10 +118,13 @@ START_TEST(subsets_match_the_lightest_matching)
   double price[MOST * MOST];
   int mate[MOST];
   for (int k = 0; k < share_of(9000); k++) {
-    int n = k % 30 ? random_node(&r, (thr_turn_cost)_i, price) : 2 * rng_between(&r, 1, THR_PAIRING_EXACT / 2);
+    int n = k % 30 ? random_node(&r, (thr_turn_cost)_i, price)
+                   : 2 * rng_between(&r, 1, THR_PAIRING_EXACT / 2);
     if (k % 30 == 0) random_star(&r, n, (thr_turn_cost)_i, price);
-    must_hold(thr_pairing_best(n, price, mate, NULL) == THR_OK && is_pairing(n, mate), "no pairing", k);
-    must_hold(fabs(pairing_price(n, price, mate) - least_pairing(n, price)) <= 1e-9, "not the least", k);
+    must_hold(thr_pairing_best(n, price, mate, NULL) == THR_OK && is_pairing(n, mate), "no pairing",
+              k);
+    must_hold(fabs(pairing_price(n, price, mate) - least_pairing(n, price)) <= 1e-9,
+              "not the least", k);
   }
 }
 END_TEST

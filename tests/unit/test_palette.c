@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The palette in numbers, for eyes of every kind and for grey print. */
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
@@ -11,14 +12,21 @@
 
 typedef enum { NORMAL, PROTANOPIA, DEUTERANOPIA, TRITANOPIA, GREY, N_EYES } eyes;
 
-/* What people without one kind of cone see, in linear light: G. M. Machado, M. M. Oliveira, L. A. F. Fernandes, "A
- * physiologically-based model for simulation of color vision deficiency", IEEE Trans. Vis. Comput. Graph. 15(6), 2009, severity
+/* What people without one kind of cone see, in linear light: G. M. Machado, M. M. Oliveira, L. A.
+ * F. Fernandes, "A physiologically-based model for simulation of color vision deficiency", IEEE
+ * Trans. Vis. Comput. Graph. 15(6), 2009, severity
  * 1. Grey: the luminance of sRGB. */
 static const double SEEN[N_EYES][3][3] = {
     {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-    {{0.152286, 1.052583, -0.204868}, {0.114503, 0.786281, 0.099216}, {-0.003882, -0.048116, 1.051998}},
-    {{0.367322, 0.860646, -0.227968}, {0.280085, 0.672501, 0.047413}, {-0.011820, 0.042940, 0.968881}},
-    {{1.255528, -0.076749, -0.178779}, {-0.078411, 0.930809, 0.147602}, {0.004733, 0.691367, 0.303900}},
+    {{0.152286, 1.052583, -0.204868},
+     {0.114503, 0.786281, 0.099216},
+     {-0.003882, -0.048116, 1.051998}},
+    {{0.367322, 0.860646, -0.227968},
+     {0.280085, 0.672501, 0.047413},
+     {-0.011820, 0.042940, 0.968881}},
+    {{1.255528, -0.076749, -0.178779},
+     {-0.078411, 0.930809, 0.147602},
+     {0.004733, 0.691367, 0.303900}},
     {{0.2126, 0.7152, 0.0722}, {0.2126, 0.7152, 0.0722}, {0.2126, 0.7152, 0.0722}}};
 
 static void linear_of(const char *hex, double rgb[3])
@@ -72,10 +80,12 @@ static double deg(double x)
   return x * THR_PI / 180;
 }
 
-/* CIEDE2000 (CIE 142-2001), in the notation of G. Sharma, W. Wu, E. N. Dalal, Color Res. Appl. 30(1), 2005. */
+/* CIEDE2000 (CIE 142-2001), in the notation of G. Sharma, W. Wu, E. N. Dalal, Color Res. Appl.
+ * 30(1), 2005. */
 static double delta_e(const double p[3], const double q[3])
 {
-  double mean = 0.5 * (hypot(p[1], p[2]) + hypot(q[1], q[2])), g = 0.5 * (1 - sqrt(pow(mean, 7) / (pow(mean, 7) + pow(25, 7))));
+  double mean = 0.5 * (hypot(p[1], p[2]) + hypot(q[1], q[2])),
+         g = 0.5 * (1 - sqrt(pow(mean, 7) / (pow(mean, 7) + pow(25, 7))));
   double a1 = (1 + g) * p[1], a2 = (1 + g) * q[1], c1 = hypot(a1, p[2]), c2 = hypot(a2, q[2]);
   double h1 = hue(a1, p[2]), h2 = hue(a2, q[2]), dh = h2 - h1, hm = h1 + h2;
   if (c1 * c2 == 0) {
@@ -86,9 +96,12 @@ static double delta_e(const double p[3], const double q[3])
   }
   if (c1 * c2 != 0) hm *= 0.5;
   double big_h = 2 * sqrt(c1 * c2) * sin(0.5 * dh), lm = 0.5 * (p[0] + q[0]), cm = 0.5 * (c1 + c2);
-  double t = 1 - 0.17 * cos(hm - deg(30)) + 0.24 * cos(2 * hm) + 0.32 * cos(3 * hm + deg(6)) - 0.20 * cos(4 * hm - deg(63));
-  double sl = 1 + 0.015 * pow(lm - 50, 2) / sqrt(20 + pow(lm - 50, 2)), sc = 1 + 0.045 * cm, sh = 1 + 0.015 * cm * t;
-  double x = (hm * 180 / THR_PI - 275) / 25, rt = -sin(deg(60) * exp(-x * x)) * 2 * sqrt(pow(cm, 7) / (pow(cm, 7) + pow(25, 7)));
+  double t = 1 - 0.17 * cos(hm - deg(30)) + 0.24 * cos(2 * hm) + 0.32 * cos(3 * hm + deg(6)) -
+             0.20 * cos(4 * hm - deg(63));
+  double sl = 1 + 0.015 * pow(lm - 50, 2) / sqrt(20 + pow(lm - 50, 2)), sc = 1 + 0.045 * cm,
+         sh = 1 + 0.015 * cm * t;
+  double x = (hm * 180 / THR_PI - 275) / 25,
+         rt = -sin(deg(60) * exp(-x * x)) * 2 * sqrt(pow(cm, 7) / (pow(cm, 7) + pow(25, 7)));
   double l = (q[0] - p[0]) / sl, c = (c2 - c1) / sc, h = big_h / sh;
   return sqrt(l * l + c * c + h * h + rt * c * h);
 }
@@ -121,8 +134,9 @@ static double difference(const char *a, const char *b, eyes who)
   return delta_e(p, q);
 }
 
-/* Whatever the eyes, any two cords' colours differ by many times what is just seen (about 1). In grey they do not (sky blue and
- * orange: 0.6), so the overview has letters (see test_overview.c). */
+/* Whatever the eyes, any two cords' colours differ by many times what is just seen (about 1). In
+ * grey they do not (sky blue and orange: 0.6), so the overview has letters (see test_overview.c).
+ */
 START_TEST(colours_differ_to_all_eyes)
 {
   static const double least[GREY] = {22, 12, 12, 10.5};

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two panels of closed shells, the side that they show, and drawings by springs. */
 #include "diagram/layout/layout.h"
 #include "diagram/overview/overview_parts.h"
@@ -41,7 +42,8 @@ static thr_frame shell(int i)
 }
 enum { N_SHELLS = 7 };
 
-/* Every edge in one panel; the points of a node are two where edges of both panels meet, else one. */
+/* Every edge in one panel; the points of a node are two where edges of both panels meet, else one.
+ */
 START_TEST(panels_share_the_nodes_of_the_seam)
 {
   thr_frame f = shell(_i);
@@ -90,11 +92,13 @@ static void order_by(const double *angle, int n, int *next)
 }
 
 /* Directions of a point's edges, counter-clockwise: on paper, and in space seen from outside. */
-static void angles_at(const thr_frame *f, const thr_layout *l, int p, double *on_paper, double *outside)
+static void angles_at(const thr_frame *f, const thr_layout *l, int p, double *on_paper,
+                      double *outside)
 {
   const thr_frame *paper = thr_layout_paper(l, f);
   const double *o = f->xyz[l->node[p]];
-  double size = sqrt(o[0] * o[0] + o[1] * o[1] + o[2] * o[2]), out[3] = {o[0] / size, o[1] / size, o[2] / size};
+  double size = sqrt(o[0] * o[0] + o[1] * o[1] + o[2] * o[2]),
+         out[3] = {o[0] / size, o[1] / size, o[2] / size};
   double axis[3] = {fabs(out[0]) < 0.5, fabs(out[0]) >= 0.5, 0}, right[3], up[3];
   for (int k = 0; k < 3; k++)
     right[k] = axis[(k + 1) % 3] * out[(k + 2) % 3] - axis[(k + 2) % 3] * out[(k + 1) % 3];
@@ -112,7 +116,8 @@ static void angles_at(const thr_frame *f, const thr_layout *l, int p, double *on
   }
 }
 
-/* Edges follow each other around every point as they do around the node, seen from outside; in both panels. */
+/* Edges follow each other around every point as they do around the node, seen from outside; in both
+ * panels. */
 START_TEST(panels_show_the_outside)
 {
   thr_frame f = shell(_i);
@@ -139,12 +144,14 @@ START_TEST(panels_are_equidistant)
 {
   thr_frame f = shape_make(THR_MAKE_SPHERE, 8, 0);
   thr_layout l = layout_of(&f, THR_LAYOUT_PANELS);
-  double radius = sqrt(f.xyz[0][0] * f.xyz[0][0] + f.xyz[0][1] * f.xyz[0][1] + f.xyz[0][2] * f.xyz[0][2]);
+  double radius =
+      sqrt(f.xyz[0][0] * f.xyz[0][0] + f.xyz[0][1] * f.xyz[0][1] + f.xyz[0][2] * f.xyz[0][2]);
   for (int p = 0; p < l.n_points; p++) {
     int right = fabs(l.xy[p][0] - l.middle[1][0]) < fabs(l.xy[p][0] - l.middle[0][0]);
     double along = f.xyz[l.node[p]][l.axis] * (right ? -1 : 1);
     double arc = radius * acos(fmax(-1, fmin(1, along / radius)));
-    ck_assert_double_eq_tol(hypot(l.xy[p][0] - l.middle[right][0], l.xy[p][1] - l.middle[right][1]), arc, 1e-6 * radius);
+    ck_assert_double_eq_tol(hypot(l.xy[p][0] - l.middle[right][0], l.xy[p][1] - l.middle[right][1]),
+                            arc, 1e-6 * radius);
   }
   thr_layout_destroy(&l);
   thr_frame_destroy(&f);
@@ -156,7 +163,8 @@ START_TEST(panels_are_for_closed_shells)
 {
   for (int i = 0; i < N_SHELLS; i++) {
     thr_frame f = shell(i);
-    thr_layout best, panels = layout_of(&f, THR_LAYOUT_PANELS), spread = layout_of(&f, THR_LAYOUT_SPREAD);
+    thr_layout best, panels = layout_of(&f, THR_LAYOUT_PANELS),
+                     spread = layout_of(&f, THR_LAYOUT_SPREAD);
     ck_assert_int_eq(thr_layout_choose(&best, &f, NULL, 0, NULL), THR_OK);
     ck_assert_int_eq((int)best.crossings, 0);
     ck_assert_int_eq((int)panels.crossings, 0);
@@ -164,7 +172,8 @@ START_TEST(panels_are_for_closed_shells)
       ck_assert_int_eq(best.kind, THR_LAYOUT_PANELS);
       ck_assert_double_gt(best.ratio, 1.25 * spread.ratio);
     }
-    if (best.kind != THR_LAYOUT_PANELS) ck_assert_double_ge(best.ratio, fmin(0.5, panels.ratio / 1.25));
+    if (best.kind != THR_LAYOUT_PANELS)
+      ck_assert_double_ge(best.ratio, fmin(0.5, panels.ratio / 1.25));
     thr_layout_destroy(&best);
     thr_layout_destroy(&panels);
     thr_layout_destroy(&spread);
@@ -191,7 +200,8 @@ START_TEST(a_copy_is_the_same)
   ck_assert_int_eq(copy.n_points, l.n_points);
   ck_assert_int_eq(memcmp(copy.xy, l.xy, (size_t)l.n_points * sizeof *l.xy), 0);
   ck_assert_int_eq(memcmp(copy.node, l.node, (size_t)l.n_points * sizeof *l.node), 0);
-  ck_assert_int_eq(memcmp(copy.paper.half, l.paper.half, 2 * (size_t)f.n_edges * sizeof *l.paper.half), 0);
+  ck_assert_int_eq(
+      memcmp(copy.paper.half, l.paper.half, 2 * (size_t)f.n_edges * sizeof *l.paper.half), 0);
   thr_layout_destroy(&l);
   thr_layout_destroy(&copy);
   thr_frame_destroy(&f);
@@ -208,7 +218,9 @@ START_TEST(sides_are_known_on_the_seam)
   ck_assert(g.sides);
   for (int v = 0; v < f.n_nodes; v++) {
     const double *o = f.xyz[v], *n = g.outward[v];
-    ck_assert_double_gt((o[0] * n[0] + o[1] * n[1] + o[2] * n[2]) / sqrt(o[0] * o[0] + o[1] * o[1] + o[2] * o[2]), 0.8);
+    ck_assert_double_gt((o[0] * n[0] + o[1] * n[1] + o[2] * n[2]) /
+                            sqrt(o[0] * o[0] + o[1] * o[1] + o[2] * o[2]),
+                        0.8);
   }
   thr_guide_destroy(&g);
   thr_frame_destroy(&f);
@@ -225,7 +237,9 @@ static double (*springs(const thr_frame *f, bool circle))[2]
     xy[v][0] = v;
     xy[v][1] = 0.3 * (v % 3);
   }
-  ck_assert_int_eq(thr_kamada_kawai(f->n_nodes, f->n_edges, (const int(*)[2])f->edge, f->length, circle, xy, NULL), THR_OK);
+  ck_assert_int_eq(thr_kamada_kawai(f->n_nodes, f->n_edges, (const int(*)[2])f->edge, f->length,
+                                    circle, xy, NULL),
+                   THR_OK);
   return xy;
 }
 
@@ -241,7 +255,8 @@ START_TEST(a_path_is_drawn_straight)
     double way = 0;
     for (int b = a + 1; b < 6; b++) {
       way += length[b - 1];
-      ck_assert_double_eq_tol(hypot(xy[b][0] - xy[a][0], xy[b][1] - xy[a][1]) / unit, way, 0.02 * way);
+      ck_assert_double_eq_tol(hypot(xy[b][0] - xy[a][0], xy[b][1] - xy[a][1]) / unit, way,
+                              0.02 * way);
     }
   }
   free(xy);
@@ -261,17 +276,20 @@ START_TEST(a_ring_is_drawn_round)
   double radius = hypot(xy[0][0] - middle[0], xy[0][1] - middle[1]);
   ck_assert_double_gt(radius, 0.1);
   for (int v = 0; v < 9; v++)
-    ck_assert_double_eq_tol(hypot(xy[v][0] - middle[0], xy[v][1] - middle[1]), radius, 0.02 * radius);
+    ck_assert_double_eq_tol(hypot(xy[v][0] - middle[0], xy[v][1] - middle[1]), radius,
+                            0.02 * radius);
   free(xy);
   free(again);
   thr_frame_destroy(&f);
 }
 END_TEST
 
-/* Where every projection has crossings the springs are asked, and the choice is never worse than what they draw. */
+/* Where every projection has crossings the springs are asked, and the choice is never worse than
+ * what they draw. */
 START_TEST(springs_are_used_where_they_are_better)
 {
-  static const char *const path[] = {"data/assembly-instances/klein_bottle_trail.json", "data/assembly-instances/C_shape.json",
+  static const char *const path[] = {"data/assembly-instances/klein_bottle_trail.json",
+                                     "data/assembly-instances/C_shape.json",
                                      "data/conmech/tower_3D.json"};
   bool used = false;
   for (int i = 0; i < 3; i++) {

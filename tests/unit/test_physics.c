@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Physical quantities: ranges, presets, JSON there and back, sizes from the framework, refusals. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/framework/units.h"
@@ -39,14 +40,16 @@ static void assert_same(const thr_physics *a, const thr_physics *b)
 {
   ck_assert_str_eq(a->preset, b->preset);
   for (int i = 0; i < thr_physics_n_fields; i++)
-    ck_assert_msg(thr_physics_get(a, &thr_physics_fields[i]) == thr_physics_get(b, &thr_physics_fields[i]), "%s",
-                  thr_physics_fields[i].key);
+    ck_assert_msg(thr_physics_get(a, &thr_physics_fields[i]) ==
+                      thr_physics_get(b, &thr_physics_fields[i]),
+                  "%s", thr_physics_fields[i].key);
 }
 
 START_TEST(every_field_has_a_name_of_its_own)
 {
   thr_physics p = thr_physics_default();
-  ck_assert_int_eq(thr_physics_n_fields, (int)((sizeof p - sizeof p.preset) / sizeof(double))); /* none forgotten */
+  ck_assert_int_eq(thr_physics_n_fields,
+                   (int)((sizeof p - sizeof p.preset) / sizeof(double))); /* none forgotten */
   for (int i = 0; i < thr_physics_n_fields; i++) {
     const thr_physics_field *f = &thr_physics_fields[i];
     char dashed[40];
@@ -58,7 +61,8 @@ START_TEST(every_field_has_a_name_of_its_own)
     set(&p, f->key, f->high);
     ck_assert_double_eq(thr_physics_get(&p, f), f->high);
   }
-  ck_assert(!thr_physics_find("mu_") && !thr_physics_find("m") && !thr_physics_find("") && !thr_physics_find("mu-low-"));
+  ck_assert(!thr_physics_find("mu_") && !thr_physics_find("m") && !thr_physics_find("") &&
+            !thr_physics_find("mu-low-"));
 }
 END_TEST
 
@@ -66,7 +70,8 @@ START_TEST(values_out_of_range_are_refused)
 {
   for (int i = 0; i < thr_physics_n_fields; i++) {
     const thr_physics_field *f = &thr_physics_fields[i];
-    const double wrong[] = {NAN, INFINITY, -INFINITY, -1, nextafter(f->high, INFINITY), f->positive ? 0 : -1e-300};
+    const double wrong[] = {
+        NAN, INFINITY, -INFINITY, -1, nextafter(f->high, INFINITY), f->positive ? 0 : -1e-300};
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
       thr_physics p = thr_physics_default(), before = p;
       thr_err err = {0};
@@ -123,7 +128,9 @@ START_TEST(band_of_mu)
       {"{\"preset\": \"wood-paracord\"}", 0.2, 0.4},
       {"{\"mu\": 0.8, \"preset\": \"wood-paracord\"}", 0.4, 1.2},
       {"{\"mu\": 0.3, \"preset\": \"wood-paracord\"}", 0.2, 0.4},
-      {"{\"mu_low\": 0.7, \"mu\": 0.8, \"preset\": \"wood-paracord\", \"mu_high\": 0.9, \"note\": \"x\"}", 0.7, 0.9},
+      {"{\"mu_low\": 0.7, \"mu\": 0.8, \"preset\": \"wood-paracord\", \"mu_high\": 0.9, \"note\": "
+       "\"x\"}",
+       0.7, 0.9},
   };
   thr_frame f = solid_make(CUBE);
   memcpy(f.units, "m", 2);
@@ -131,9 +138,10 @@ START_TEST(band_of_mu)
     thr_physics p = thr_physics_default(), r;
     thr_err err = {0};
     ck_assert_msg(parse(&p, cases[i].text, &err) == THR_OK, "%s", err.text);
-    ck_assert_msg(thr_physics_resolve(&p, &f, &r, &err) == THR_OK, "%s: %s", cases[i].text, err.text);
-    ck_assert_msg(r.mu_low == cases[i].low && r.mu_high == cases[i].high, "%s: %.17g .. %.17g", cases[i].text, r.mu_low,
-                  r.mu_high);
+    ck_assert_msg(thr_physics_resolve(&p, &f, &r, &err) == THR_OK, "%s: %s", cases[i].text,
+                  err.text);
+    ck_assert_msg(r.mu_low == cases[i].low && r.mu_high == cases[i].high, "%s: %.17g .. %.17g",
+                  cases[i].text, r.mu_low, r.mu_high);
   }
   thr_physics p = thr_physics_default();
   ck_assert_int_eq(thr_physics_set_preset(&p, "wood-paracord", NULL), THR_OK);
@@ -148,9 +156,13 @@ START_TEST(json_there_and_back)
 {
   rng r = rng_make((uint64_t)_i);
   thr_physics p = thr_physics_default(), q = thr_physics_default();
-  if (_i % 2) ck_assert_int_eq(thr_physics_set_preset(&p, thr_physics_presets[_i % thr_physics_n_presets].name, NULL), THR_OK);
+  if (_i % 2)
+    ck_assert_int_eq(
+        thr_physics_set_preset(&p, thr_physics_presets[_i % thr_physics_n_presets].name, NULL),
+        THR_OK);
   for (int i = 0; i < thr_physics_n_fields; i++)
-    if (rng_below(&r, 2)) set(&p, thr_physics_fields[i].key, thr_physics_fields[i].high * (1 - rng_unit(&r)));
+    if (rng_below(&r, 2))
+      set(&p, thr_physics_fields[i].key, thr_physics_fields[i].high * (1 - rng_unit(&r)));
   thr_text t = {0};
   thr_err err = {0};
   thr_physics_write(&p, &(thr_writer){.out = &t}, NULL);
@@ -194,7 +206,8 @@ START_TEST(files_are_read)
   char path[] = "/tmp/thread-test-XXXXXX";
   int fd = mkstemp(path);
   ck_assert_int_ge(fd, 0);
-  static const char text[] = "{\"note\": \"measured by hand\",\n \"mu\": 0.35, \"cord_diameter\": 1.5}\n";
+  static const char text[] =
+      "{\"note\": \"measured by hand\",\n \"mu\": 0.35, \"cord_diameter\": 1.5}\n";
   ck_assert_int_eq(write(fd, text, sizeof text - 1), sizeof text - 1);
   close(fd);
   thr_physics p = thr_physics_default(), expected = p;
@@ -216,14 +229,17 @@ START_TEST(units)
   static const struct {
     const char *name;
     double mm;
-  } known[] = {{"mm", 1},     {"cm", 10},         {"m", 1000}, {"in", 25.4}, {"ft", 304.8}, {"meters", 1000}, {"millimetre", 1},
-               {"um", 0.001}, {"Microns", 0.001}, {"MM", 1},   {"km", 1e6},  {"dm", 100},   {"yards", 914.4}, {"Inch", 25.4}};
+  } known[] = {{"mm", 1},          {"cm", 10},       {"m", 1000},       {"in", 25.4},
+               {"ft", 304.8},      {"meters", 1000}, {"millimetre", 1}, {"um", 0.001},
+               {"Microns", 0.001}, {"MM", 1},        {"km", 1e6},       {"dm", 100},
+               {"yards", 914.4},   {"Inch", 25.4}};
   double mm;
   for (size_t i = 0; i < sizeof known / sizeof *known; i++) {
     ck_assert_int_eq(thr_units_in_mm(known[i].name, &mm, NULL), THR_OK);
     ck_assert_double_eq(mm, known[i].mm);
   }
-  static const char *const unknown[] = {"", "furlong", "unit", "mm ", "mm, verified", "m\n", "millimeterss"};
+  static const char *const unknown[] = {"",    "furlong",     "unit", "mm ", "mm, verified",
+                                        "m\n", "millimeterss"};
   for (size_t i = 0; i < sizeof unknown / sizeof *unknown; i++) {
     thr_err err = {0};
     ck_assert_int_eq(thr_units_in_mm(unknown[i], &mm, &err), THR_EINPUT);
@@ -235,8 +251,10 @@ END_TEST
 /* A path with edges of 1, 2, 4, 8 and 16 units: median 4, shortest 1. */
 static thr_frame uneven_path(void)
 {
-  static const double xyz[6][3] = {{0, 0, 0}, {8, 0, 0}, {8, 16, 0}, {8, 16, 1}, {12, 16, 1}, {12, 14, 1}};
-  return frame_make(6, xyz, 5, (const int[5][2]){{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}}, NULL, NULL);
+  static const double xyz[6][3] = {{0, 0, 0},  {8, 0, 0},   {8, 16, 0},
+                                   {8, 16, 1}, {12, 16, 1}, {12, 14, 1}};
+  return frame_make(6, xyz, 5, (const int[5][2]){{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}}, NULL,
+                    NULL);
 }
 
 START_TEST(sizes_come_from_the_framework)
@@ -275,7 +293,8 @@ START_TEST(sizes_that_are_left_open_always_fit)
   ck_assert_msg(thr_physics_resolve(&p, &f, &out, &err) == THR_OK, "%s", err.text);
   for (int e = 0; e < f.n_edges; e++) {
     const double *a = f.xyz[f.edge[e][0]], *b = f.xyz[f.edge[e][1]];
-    ck_assert_double_lt(out.bore, sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2)));
+    ck_assert_double_lt(out.bore,
+                        sqrt(pow(a[0] - b[0], 2) + pow(a[1] - b[1], 2) + pow(a[2] - b[2], 2)));
   }
   ck_assert(0 < out.cord_diameter && out.cord_diameter < out.bore && out.bore < out.bead_diameter);
   thr_frame_destroy(&f);

@@ -1,5 +1,7 @@
-/* The tension plot, the overview coloured by tension and by turning, and the still picture: heights against tensions, lightness
- * against angles, order against depth, rotated poses against a rotated framework. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The tension plot, the overview coloured by tension and by turning, and the still picture: heights
+ * against tensions, lightness against angles, order against depth, rotated poses against a rotated
+ * framework. */
 #include "diagram/overview/overview.h"
 #include "diagram/scene/scene.h"
 #include "graph/angle.h"
@@ -20,16 +22,20 @@
 
 static thr_plan path_plan(int n_passes, int n_cords)
 {
-  thr_plan p = {.frame = path_make(n_passes + 1), .n_cords = n_cords, .cord = thr_calloc((size_t)n_cords, sizeof(thr_cord))};
+  thr_plan p = {.frame = path_make(n_passes + 1),
+                .n_cords = n_cords,
+                .cord = thr_calloc((size_t)n_cords, sizeof(thr_cord))};
   thr_evaluation *e = &p.evaluation;
-  *e = (thr_evaluation){.present = true, .method = THR_JOINT, .physics = thr_physics_default(), .n_cords = n_cords};
+  *e = (thr_evaluation){
+      .present = true, .method = THR_JOINT, .physics = thr_physics_default(), .n_cords = n_cords};
   e->cord = thr_calloc((size_t)n_cords, sizeof *e->cord);
   ck_assert(p.cord && e->cord);
   for (int c = 0; c < n_cords; c++) {
     thr_cord_id(c, p.cord[c].id);
     p.cord[c].n_passes = n_passes;
     p.cord[c].half = thr_calloc((size_t)n_passes, sizeof(int));
-    e->cord[c] = (thr_eval_cord){.known = true, .pull = THR_PULL_START, .n_passes = n_passes, .slackest = n_passes - 1};
+    e->cord[c] = (thr_eval_cord){
+        .known = true, .pull = THR_PULL_START, .n_passes = n_passes, .slackest = n_passes - 1};
     e->cord[c].tension = thr_calloc((size_t)n_passes, sizeof(double));
     ck_assert(p.cord[c].half && e->cord[c].tension);
     for (int k = 0; k < n_passes; k++)
@@ -98,7 +104,8 @@ START_TEST(steps_are_as_high_as_the_logarithm)
     ck_assert_int_eq(heights(svg.data, c ? "B" : "A", y), 12);
     double mm_per_log = (y[11] - y[0]) / log(r->tension[0] / r->tension[11]);
     for (int k = 0; k < 12; k++)
-      ck_assert_double_eq_tol(y[11] - y[k], mm_per_log * log(r->tension[k] / r->tension[11]), 0.011);
+      ck_assert_double_eq_tol(y[11] - y[k], mm_per_log * log(r->tension[k] / r->tension[11]),
+                              0.011);
   }
   ck_assert_ptr_nonnull(strstr(svg.data, ">1000<"));
   ck_assert_ptr_nonnull(strstr(svg.data, "log scale"));
@@ -131,7 +138,8 @@ static double line_height(const char *svg, const char *word)
   return y;
 }
 
-/* The fan is as high as the tensions at both ends of the band, and the limits lie among them, on the scale of the line's steps.
+/* The fan is as high as the tensions at both ends of the band, and the limits lie among them, on
+ * the scale of the line's steps.
  */
 START_TEST(the_fan_and_the_limits_are_to_scale)
 {
@@ -153,8 +161,10 @@ START_TEST(the_fan_and_the_limits_are_to_scale)
   double mm_per_log = (y[N - 1] - y[0]) / log(40);
   ck_assert_int_eq(fan_heights(svg.data, "A", fan), 2 * N);
   for (int k = 0; k < N; k++) {
-    ck_assert_double_eq_tol(y[N - 1] - fan[k], mm_per_log * log(high.evaluation.cord[0].tension[k]), 0.02);
-    ck_assert_double_eq_tol(y[N - 1] - fan[N + k], mm_per_log * log(low.evaluation.cord[0].tension[N - 1 - k]), 0.02);
+    ck_assert_double_eq_tol(y[N - 1] - fan[k], mm_per_log * log(high.evaluation.cord[0].tension[k]),
+                            0.02);
+    ck_assert_double_eq_tol(y[N - 1] - fan[N + k],
+                            mm_per_log * log(low.evaluation.cord[0].tension[N - 1 - k]), 0.02);
   }
   ck_assert_double_eq_tol(y[N - 1] - line_height(svg.data, "strength"), mm_per_log * log(80), 0.02);
   ck_assert_double_eq_tol(y[N - 1] - line_height(svg.data, "hand"), mm_per_log * log(50), 0.02);
@@ -175,17 +185,21 @@ START_TEST(small_ratios_are_drawn_from_zero)
   thr_text svg = plot(&p);
   ck_assert_int_eq(heights(svg.data, "A", y), 5);
   const char *box = strstr(svg.data, "<rect class=\"axis\"");
-  ck_assert_int_eq(
-      sscanf(box, "<rect class=\"axis\" x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"", &x, &top, &width, &height), 4);
+  ck_assert_int_eq(sscanf(box,
+                          "<rect class=\"axis\" x=\"%lf\" y=\"%lf\" width=\"%lf\" height=\"%lf\"",
+                          &x, &top, &width, &height),
+                   4);
   for (int k = 0; k < 5; k++)
-    ck_assert_double_eq_tol((top + height - y[k]) / (top + height - y[4]), p.evaluation.cord[0].tension[k], 0.02);
+    ck_assert_double_eq_tol((top + height - y[k]) / (top + height - y[4]),
+                            p.evaluation.cord[0].tension[k], 0.02);
   ck_assert_ptr_null(strstr(svg.data, "log scale"));
   thr_text_destroy(&svg);
   thr_plan_destroy(&p);
 }
 END_TEST
 
-/* Every cord up to the limit has its group; beyond it the strongest do and a note tells the rest. */
+/* Every cord up to the limit has its group; beyond it the strongest do and a note tells the rest.
+ */
 START_TEST(many_cords)
 {
   static const int counts[] = {1, 6, 7, 48, 70};
@@ -205,7 +219,8 @@ START_TEST(many_cords)
       thr_cord_id(c, id);
       snprintf(group, sizeof group, "<g id=\"cord-%s\">", id);
       for (int k = 0; k < n; k++)
-        stronger += p.evaluation.cord[k].known && p.evaluation.cord[k].force > p.evaluation.cord[c].force;
+        stronger +=
+            p.evaluation.cord[k].known && p.evaluation.cord[k].force > p.evaluation.cord[c].force;
       bool shown = strstr(svg.data, group) != NULL;
       ck_assert_int_eq(shown, p.evaluation.cord[c].known && stronger < THR_TENSION_PANELS);
       found += shown;
@@ -334,10 +349,14 @@ START_TEST(overview_shows_tension)
   thr_frame f = grid_make(3, 2);
   thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
   thr_evaluation *e = &p.evaluation;
-  *e = (thr_evaluation){.present = true, .physics = thr_physics_default(), .n_cords = 1, .cord = thr_calloc(1, sizeof *e->cord)};
+  *e = (thr_evaluation){.present = true,
+                        .physics = thr_physics_default(),
+                        .n_cords = 1,
+                        .cord = thr_calloc(1, sizeof *e->cord)};
   ck_assert_ptr_nonnull(e->cord);
   int n = p.cord[0].n_passes;
-  e->cord[0] = (thr_eval_cord){.known = true, .n_passes = n, .tension = thr_calloc((size_t)n, sizeof(double))};
+  e->cord[0] = (thr_eval_cord){
+      .known = true, .n_passes = n, .tension = thr_calloc((size_t)n, sizeof(double))};
   ck_assert_ptr_nonnull(e->cord[0].tension);
   for (int k = 0; k < n; k++)
     e->cord[0].tension[k] = 1 + k;
@@ -374,14 +393,16 @@ static void light_of(const char *hex, double light[3])
   unsigned value[3];
   ck_assert_int_eq(sscanf(hex, "#%2x%2x%2x", &value[0], &value[1], &value[2]), 3);
   for (int i = 0; i < 3; i++)
-    light[i] = value[i] <= 10 ? value[i] / 255. / 12.92 : pow((value[i] / 255. + 0.055) / 1.055, 2.4);
+    light[i] =
+        value[i] <= 10 ? value[i] / 255. / 12.92 : pow((value[i] / 255. + 0.055) / 1.055, 2.4);
 }
 
 /* Oklab by way of CIE XYZ, as its author defines it. */
 static void oklab_of(const char *hex, double lab[3])
 {
-  static const double xyz_of[3][3] = {
-      {0.4124564, 0.3575761, 0.1804375}, {0.2126729, 0.7151522, 0.0721750}, {0.0193339, 0.1191920, 0.9503041}};
+  static const double xyz_of[3][3] = {{0.4124564, 0.3575761, 0.1804375},
+                                      {0.2126729, 0.7151522, 0.0721750},
+                                      {0.0193339, 0.1191920, 0.9503041}};
   static const double cone_of[3][3] = {{0.8189330101, 0.3618667424, -0.1288597137},
                                        {0.0329845436, 0.9293118715, 0.0361456387},
                                        {0.0482003018, 0.2643662691, 0.6338517070}};
@@ -404,15 +425,18 @@ static double lightness(double luminance)
   return 116 * cbrt(luminance) - 16;
 }
 
-/* Lightness as readers with normal vision, without red and without green cones see it (Vienot, Brettel, Mollon 1999). */
+/* Lightness as readers with normal vision, without red and without green cones see it (Vienot,
+ * Brettel, Mollon 1999). */
 static void lightness_seen(const char *hex, double seen[3])
 {
-  static const double sight[3][2] = {{0.2126729, 0.7151522}, {0.11238, 0.88762}, {0.29275, 0.70725}};
+  static const double sight[3][2] = {
+      {0.2126729, 0.7151522}, {0.11238, 0.88762}, {0.29275, 0.70725}};
   double light[3];
   light_of(hex, light);
   seen[0] = lightness(sight[0][0] * light[0] + sight[0][1] * light[1] + 0.0721750 * light[2]);
   for (int i = 1; i < 3; i++) { /* red and green fall together; blue stays */
-    double both = sight[i][0] * light[0] + sight[i][1] * light[1], rest = (i == 1 ? 0.00401 : -0.02234) * (light[0] - light[1]);
+    double both = sight[i][0] * light[0] + sight[i][1] * light[1],
+           rest = (i == 1 ? 0.00401 : -0.02234) * (light[0] - light[1]);
     seen[i] = lightness((sight[0][0] + sight[0][1]) * both + 0.0721750 * (rest + light[2]));
   }
 }
@@ -448,7 +472,8 @@ START_TEST(turns_have_even_colours)
 }
 END_TEST
 
-/* Copies have their cord's hue, are lighter than any cord and darker than a bead, for every reader. */
+/* Copies have their cord's hue, are lighter than any cord and darker than a bead, for every reader.
+ */
 START_TEST(pale_colours_stand_between_cords_and_beads)
 {
   double bead[3], strong[3], pale[3], lab[3], paler[3];
@@ -482,11 +507,14 @@ static thr_plan bent_plan(int n_turns, const int *degrees)
     edge[k][0] = k;
     edge[k][1] = k + 1;
   }
-  thr_plan p = {.n_cords = 1, .cord = thr_calloc(1, sizeof(thr_cord)), .options = thr_request_default()};
+  thr_plan p = {
+      .n_cords = 1, .cord = thr_calloc(1, sizeof(thr_cord)), .options = thr_request_default()};
   ck_assert_ptr_nonnull(p.cord);
-  p.frame = frame_make(n_turns + 2, (const double(*)[3])xyz, n_turns + 1, (const int(*)[2])edge, NULL, NULL);
+  p.frame = frame_make(n_turns + 2, (const double(*)[3])xyz, n_turns + 1, (const int(*)[2])edge,
+                       NULL, NULL);
   p.options.ends = THR_ENDS_ANY;
-  p.cord[0] = (thr_cord){.id = "A", .n_passes = n_turns + 1, .half = thr_calloc((size_t)n_turns + 1, sizeof(int))};
+  p.cord[0] = (thr_cord){
+      .id = "A", .n_passes = n_turns + 1, .half = thr_calloc((size_t)n_turns + 1, sizeof(int))};
   ck_assert_ptr_nonnull(p.cord[0].half);
   for (int k = 0; k <= n_turns; k++)
     p.cord[0].half[k] = 2 * k;
@@ -529,7 +557,8 @@ static int pieces_of(const char *svg, const char *pass, double angle[2], char da
   return n;
 }
 
-/* Both halves of every turn have its colour and meet; together they are the pass as it is drawn by cord. */
+/* Both halves of every turn have its colour and meet; together they are the pass as it is drawn by
+ * cord. */
 START_TEST(overview_shows_turning)
 {
   static const int degrees[] = {0, 30, 60, 90, 91, 120, 150, 17};
@@ -546,7 +575,9 @@ START_TEST(overview_shows_turning)
     if (k < TURNS) ck_assert_double_eq_tol(angle[inner], degrees[k], 1.5);
     snprintf(sharp, sizeof sharp, "\"t-A-%d\"", k + 1);
     ck_assert_int_eq(strstr(svg.data, sharp) != NULL, k > 0 && degrees[k - 1] > 90);
-    ck_assert_int_eq(sscanf(strstr(pass_colour(plain.data, id), "class=\"cord\""), "class=\"cord\" d=\"%299[^\"]", lane), 1);
+    ck_assert_int_eq(sscanf(strstr(pass_colour(plain.data, id), "class=\"cord\""),
+                            "class=\"cord\" d=\"%299[^\"]", lane),
+                     1);
     if (!inner) continue;
     ck_assert_int_eq(strncmp(lane, data[0], strcspn(data[0], "L")), 0); /* the curve */
     ck_assert_str_eq(strrchr(lane, 'L'), strrchr(data[1], 'L'));        /* the end of the lane */
@@ -563,7 +594,8 @@ START_TEST(overview_shows_turning)
     ck_assert_ptr_nonnull(strstr(strstr(svg.data, "id=\"turning-scale\""), label));
   }
   ck_assert(says(svg.data, "turn in a piece"));
-  ck_assert(says(svg.data, "558" DEGREE " of turning, sharpest turn 150" DEGREE ", 4 over 60" DEGREE ", 3 over 90" DEGREE));
+  ck_assert(says(svg.data, "558" DEGREE " of turning, sharpest turn 150" DEGREE ", 4 over 60" DEGREE
+                           ", 3 over 90" DEGREE));
   assert_legible(svg.data);
   thr_text_destroy(&svg);
   thr_text_destroy(&plain);
@@ -578,11 +610,18 @@ START_TEST(closing_turns)
     int corners;
     thr_ends ends;
     const char *words;
-  } table[] = {
-      {3, THR_ENDS_CLOSED, "360" DEGREE " of turning, sharpest turn 120" DEGREE ", 3 over 60" DEGREE ", 3 over 90" DEGREE},
-      {3, THR_ENDS_ANY, "240" DEGREE " of turning, sharpest turn 120" DEGREE ", 2 over 60" DEGREE ", 2 over 90" DEGREE},
-      {4, THR_ENDS_CLOSED, "360" DEGREE " of turning, sharpest turn 90" DEGREE ", 4 over 60" DEGREE ", 0 over 90" DEGREE},
-      {6, THR_ENDS_CLOSED, "360" DEGREE " of turning, sharpest turn 60" DEGREE ", 0 over 60" DEGREE ", 0 over 90" DEGREE}};
+  } table[] = {{3, THR_ENDS_CLOSED,
+                "360" DEGREE " of turning, sharpest turn 120" DEGREE ", 3 over 60" DEGREE
+                ", 3 over 90" DEGREE},
+               {3, THR_ENDS_ANY,
+                "240" DEGREE " of turning, sharpest turn 120" DEGREE ", 2 over 60" DEGREE
+                ", 2 over 90" DEGREE},
+               {4, THR_ENDS_CLOSED,
+                "360" DEGREE " of turning, sharpest turn 90" DEGREE ", 4 over 60" DEGREE
+                ", 0 over 90" DEGREE},
+               {6, THR_ENDS_CLOSED,
+                "360" DEGREE " of turning, sharpest turn 60" DEGREE ", 0 over 60" DEGREE
+                ", 0 over 90" DEGREE}};
   int n = table[_i].corners;
   bool closed = table[_i].ends == THR_ENDS_CLOSED;
   thr_frame f = ring_make(n);
@@ -612,7 +651,8 @@ START_TEST(closing_turns)
 }
 END_TEST
 
-/* Every cord keeps its colour beside those of its turns, and has its own sum; the sum of all is the plan's. */
+/* Every cord keeps its colour beside those of its turns, and has its own sum; the sum of all is the
+ * plan's. */
 START_TEST(turning_of_several_cords)
 {
   enum { CORDS = 3 };
@@ -635,12 +675,14 @@ START_TEST(turning_of_several_cords)
   thr_metrics m;
   ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, CORDS, &m, &err), THR_OK);
   ck_assert_double_eq_tol(m.turning * 180 / THR_PI, 600, 1e-9);
-  ck_assert(
-      says(svg.data, "All cords: 600" DEGREE " of turning, sharpest turn 120" DEGREE ", 5 over 60" DEGREE ", 5 over 90" DEGREE));
-  ck_assert_int_eq(
-      count(svg.data, ">240" DEGREE " of turning, sharpest turn 120" DEGREE ", 2 over 60" DEGREE ", 2 over 90" DEGREE "<"), 2);
-  ck_assert_int_eq(
-      count(svg.data, ">120" DEGREE " of turning, sharpest turn 120" DEGREE ", 1 over 60" DEGREE ", 1 over 90" DEGREE "<"), 1);
+  ck_assert(says(svg.data, "All cords: 600" DEGREE " of turning, sharpest turn 120" DEGREE
+                           ", 5 over 60" DEGREE ", 5 over 90" DEGREE));
+  ck_assert_int_eq(count(svg.data, ">240" DEGREE " of turning, sharpest turn 120" DEGREE
+                                   ", 2 over 60" DEGREE ", 2 over 90" DEGREE "<"),
+                   2);
+  ck_assert_int_eq(count(svg.data, ">120" DEGREE " of turning, sharpest turn 120" DEGREE
+                                   ", 1 over 60" DEGREE ", 1 over 90" DEGREE "<"),
+                   1);
   assert_legible(svg.data);
   thr_text_destroy(&svg);
   thr_plan_destroy(&p);
@@ -654,8 +696,10 @@ static thr_text still_of(const thr_frame *f, const double (*pose)[7], int first)
 {
   thr_text svg = {0};
   thr_err err = {0};
-  const thr_still_panel panel[] = {{"before", "Before: whole", pose}, {"after", "After: open", pose}};
-  const thr_still s = {.width = 0.3, .ground = -0.15, .n_panels = 2, .panel = panel, .first_bead = first};
+  const thr_still_panel panel[] = {{"before", "Before: whole", pose},
+                                   {"after", "After: open", pose}};
+  const thr_still s = {
+      .width = 0.3, .ground = -0.15, .n_panels = 2, .panel = panel, .first_bead = first};
   ck_assert_msg(thr_still_svg(f, &s, &svg, &err) == THR_OK, "%s", err.text);
   return svg;
 }
@@ -669,11 +713,14 @@ static void rest_poses(const thr_frame *f, double (*pose)[7])
   }
 }
 
-/* Two halves of one edge: of each box two sides face the eye, and of the two ends in the middle exactly one. */
+/* Two halves of one edge: of each box two sides face the eye, and of the two ends in the middle
+ * exactly one. */
 START_TEST(only_faces_that_can_be_seen)
 {
-  static const double ends[][2][3] = {
-      {{0, 0, 0}, {1, 0.3, 0.2}}, {{0, 0, 0}, {-1, 0.4, 0.1}}, {{1, 2, 3}, {1.1, 2.9, 2.4}}, {{0, 0, 0}, {0.2, 0.1, 1}}};
+  static const double ends[][2][3] = {{{0, 0, 0}, {1, 0.3, 0.2}},
+                                      {{0, 0, 0}, {-1, 0.4, 0.1}},
+                                      {{1, 2, 3}, {1.1, 2.9, 2.4}},
+                                      {{0, 0, 0}, {0.2, 0.1, 1}}};
   for (int i = 0; i < 4; i++) {
     thr_frame f = frame_make(2, ends[i], 1, (const int[][2]){{0, 1}}, NULL, NULL);
     double pose[2][7];
@@ -705,7 +752,8 @@ static int path_numbers(const char *svg, double *out, int most)
   return n;
 }
 
-/* A quarter turn about the vertical, once in the poses and once in the framework: arms are level either way. */
+/* A quarter turn about the vertical, once in the poses and once in the framework: arms are level
+ * either way. */
 START_TEST(poses_turn_beads)
 {
   enum { MOST = 8192 };
@@ -722,7 +770,8 @@ START_TEST(poses_turn_beads)
   memcpy(pose, rest, sizeof pose);
   for (int v = 0; v < 7; v++)
     pose[v][5] = pose[v][6] = sqrt(0.5);
-  thr_text turned = still_of(&f, (const double(*)[7])pose, 3), straight = still_of(&g, (const double(*)[7])rest, 3);
+  thr_text turned = still_of(&f, (const double(*)[7])pose, 3),
+           straight = still_of(&g, (const double(*)[7])rest, 3);
   int n = path_numbers(turned.data, a, MOST);
   ck_assert_int_eq(path_numbers(straight.data, b, MOST), n);
   ck_assert_int_gt(n, 200);
@@ -737,8 +786,8 @@ START_TEST(poses_turn_beads)
 }
 END_TEST
 
-/* Two bars, one in front of the other as seen from the eye (its direction: the plot's own faces tell by who is painted last when
- * they change places). */
+/* Two bars, one in front of the other as seen from the eye (its direction: the plot's own faces
+ * tell by who is painted last when they change places). */
 START_TEST(the_nearer_is_painted_last)
 {
   static const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, -3, 0}, {1, -3, 0}};
@@ -755,7 +804,8 @@ START_TEST(the_nearer_is_painted_last)
       memmove(colour[0], colour[1], sizeof colour[0] * 3);
       memcpy(colour[3], s + 12, 7);
     }
-    /* the eye stands at negative y: the last faces are those of the bar at y = -3, bead 2's red among them unless it is behind */
+    /* the eye stands at negative y: the last faces are those of the bar at y = -3, bead 2's red
+     * among them unless it is behind */
     int red = 0;
     for (int i = 0; i < 4; i++) {
       unsigned r, g, b;
@@ -774,7 +824,8 @@ START_TEST(still_refuses_nonsense)
   thr_frame f = path_make(3);
   double pose[3][7];
   rest_poses(&f, pose);
-  const thr_still_panel panel[] = {{"before", "Before", (const double(*)[7])pose}, {"after", "After", (const double(*)[7])pose}};
+  const thr_still_panel panel[] = {{"before", "Before", (const double(*)[7])pose},
+                                   {"after", "After", (const double(*)[7])pose}};
   thr_still s = {.width = 0.3, .n_panels = 2, .panel = panel, .first_bead = -1};
   thr_text svg = {0};
   for (int i = 0; i < 4; i++) {
@@ -797,7 +848,8 @@ START_TEST(allocations_may_fail)
   thr_plan p = path_plan(5, 9);
   double pose[6][7];
   rest_poses(&p.frame, pose);
-  const thr_still_panel panel[] = {{"before", "Before", (const double(*)[7])pose}, {"after", "After", (const double(*)[7])pose}};
+  const thr_still_panel panel[] = {{"before", "Before", (const double(*)[7])pose},
+                                   {"after", "After", (const double(*)[7])pose}};
   const thr_still still = {.width = 0.3, .n_panels = 2, .panel = panel, .first_bead = 1};
   thr_tension_options o = thr_tension_options_default();
   for (int c = 0; c < 9; c++)
@@ -809,7 +861,8 @@ START_TEST(allocations_may_fail)
       thr_text svg = {0};
       thr_err err = {0};
       thr_alloc_fail_at(++k);
-      st = picture ? thr_still_svg(&p.frame, &still, &svg, &err) : thr_tension_svg(&p, &o, &svg, &err);
+      st = picture ? thr_still_svg(&p.frame, &still, &svg, &err)
+                   : thr_tension_svg(&p, &o, &svg, &err);
       thr_alloc_fail_at(0);
       if (st) {
         ck_assert_int_eq(st, THR_ENOMEM);

@@ -1,4 +1,6 @@
-/* Plain words: no bound is promised that does not hold, and no force is far from the number that it stands for. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Plain words: no bound is promised that does not hold, and no force is far from the number that it
+ * stands for. */
 #include "cli/print/plain.c"
 #include "tests/support.h"
 
@@ -32,7 +34,9 @@ START_TEST(forces_read_back)
   plain_force(newton, out);
   double read = strtod(out, &rest);
   ck_assert_double_eq_tol(read, newton, newton >= 1e5 ? 0.05 * newton : 0.005 * newton);
-  if (newton < 1e6) ck_assert_double_eq_tol(strtod(strchr(rest, '(') + 1, NULL), newton / 9.80665, 0.052 * newton / 9.80665);
+  if (newton < 1e6)
+    ck_assert_double_eq_tol(strtod(strchr(rest, '(') + 1, NULL), newton / 9.80665,
+                            0.052 * newton / 9.80665);
 }
 END_TEST
 
@@ -46,7 +50,8 @@ START_TEST(proofs_round_up)
   plain_put_proof(&text, false, value, bound, "nothing shorter exists", "shortest possible");
   ck_assert_ptr_nonnull(text.data);
   ck_assert_ptr_nonnull(strstr(text.data, " % above the shortest possible (proved)"));
-  double percent = strtod(text.data + strlen("at most "), NULL), true_percent = 100 * (value / bound - 1);
+  double percent = strtod(text.data + strlen("at most "), NULL),
+         true_percent = 100 * (value / bound - 1);
   ck_assert_double_ge(percent, true_percent * (1 - 1e-6));
   ck_assert_double_le(percent, true_percent * 1.1 + 0.0101);
   ck_assert_int_eq(thr_not_proved(&err, "the length", value, bound), THR_ELIMIT);
@@ -61,7 +66,9 @@ START_TEST(what_is_not_known_is_not_promised)
   plain_put_proof(&text, true, 3, 3, "nothing shorter exists", "shortest possible");
   thr_text_append(&text, "; ");
   plain_put_proof(&text, false, 3, 0, "nothing shorter exists", "shortest possible");
-  ck_assert_str_eq(text.data, "proved: nothing shorter exists; how near that is to the shortest possible is not known");
+  ck_assert_str_eq(
+      text.data,
+      "proved: nothing shorter exists; how near that is to the shortest possible is not known");
   thr_text_destroy(&text);
 }
 END_TEST

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plans: names, turning angles, metrics, JSON and what it refuses. */
 #include "tests/support.h"
 #include "tests/frameworks.h"
@@ -70,7 +71,8 @@ START_TEST(path_there_and_back_is_measured)
   ck_assert_double_eq(p.metrics.base_length, 3);
   ck_assert_double_eq(p.metrics.overlap, 3);
   ck_assert_int_eq(p.metrics.most_passes, 2);
-  ck_assert_int_eq(p.metrics.u_turns, 1); /* at the far end; where both cord ends come out nothing turns */
+  ck_assert_int_eq(p.metrics.u_turns,
+                   1); /* at the far end; where both cord ends come out nothing turns */
   ck_assert_double_eq_tol(p.metrics.worst_turn, THR_PI, 1e-12);
   assert_plan_sound(&p);
   thr_plan_destroy(&p);
@@ -86,7 +88,9 @@ START_TEST(everything_survives_json)
 {
   rng r = rng_make((uint64_t)_i);
   thr_frame f = random_frame(&r, 8, 6, (length_kind)(_i % LENGTH_KINDS));
-  name_nodes(&f, (const char *const[]){NULL, NULL, NULL, "K\"no\\ten \xc3\xa4", NULL, NULL, NULL, NULL}, 8);
+  name_nodes(&f,
+             (const char *const[]){NULL, NULL, NULL, "K\"no\\ten \xc3\xa4", NULL, NULL, NULL, NULL},
+             8);
   memcpy(f.units, "in", 3);
   thr_request o = options_for(THR_ENDS_NODES, 3);
   bool end_node[8] = {false, true, true, false, false, false, true, false};
@@ -100,7 +104,8 @@ START_TEST(everything_survives_json)
   ck_assert_str_eq(q.frame.name[3], f.name[3]);
   ck_assert_str_eq(q.frame.units, "in");
   ck_assert(thr_frame_hash(&q.frame) == thr_frame_hash(&f) && q.frame.own_lengths == f.own_lengths);
-  ck_assert(q.options.physics.mu == o.physics.mu && q.options.time_limit == o.time_limit && q.options.cover == 3);
+  ck_assert(q.options.physics.mu == o.physics.mu && q.options.time_limit == o.time_limit &&
+            q.options.cover == 3);
   ck_assert(memcmp(q.options.end_node, end_node, sizeof end_node) == 0);
   ck_assert(memcmp(&q.metrics, &p.metrics, sizeof q.metrics) == 0);
   ck_assert(q.proof.optimal && q.proof.lower_bound == p.proof.lower_bound &&
@@ -239,8 +244,8 @@ START_TEST(nonsense_is_refused_with_its_place)
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     thr_err err = {0};
     char *text = replaced(t.data, wrong[i].mark, wrong[i].from, wrong[i].to);
-    ck_assert_msg(judge_text(text, strlen(text), &err) == wrong[i].status, "%s: status %d, %s", wrong[i].to, (int)err.code,
-                  err.text);
+    ck_assert_msg(judge_text(text, strlen(text), &err) == wrong[i].status, "%s: status %d, %s",
+                  wrong[i].to, (int)err.code, err.text);
     assert_one_line(&err, wrong[i].word);
     assert_one_line(&err, "plan:");
     free(text);
@@ -323,7 +328,8 @@ int main(void)
   ADD_TEST(s, 10, path_there_and_back_is_measured);
   ADD_LOOP(s, 10, everything_survives_json, 1, 9);
   ADD_TEST(s, 10, what_is_read_back_is_the_plan);
-  ADD_LOOP(s, 10, another_framework_is_not_read_back, 0, sizeof other_framework / sizeof *other_framework);
+  ADD_LOOP(s, 10, another_framework_is_not_read_back, 0,
+           sizeof other_framework / sizeof *other_framework);
   ADD_TEST(s, 10, nonsense_is_refused_with_its_place);
   ADD_TEST(s, 10, every_cut_short_text_is_refused);
   ADD_TEST(s, 10, plan_without_proof_is_a_plan);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plans made by the library alone, and the proofs that come with every one. */
 #define _XOPEN_SOURCE 700
 #include "graph/check/check.h"
@@ -31,12 +32,14 @@ START_TEST(plans_for_every_objective_are_written_and_read)
   thr_plan made = {0}, again;
   thr_text text = {0};
   thr_request o = thr_request_default();
-  ck_assert_msg(thr_frame_read(&f, &read, "data/dome7.json", &how, NULL, 0, &e) == THR_OK, "%s", e.text);
+  ck_assert_msg(thr_frame_read(&f, &read, "data/dome7.json", &how, NULL, 0, &e) == THR_OK, "%s",
+                e.text);
   want(&o, aims[_i]);
   const thr_status st = thr_plan_make(&f, &o, &limits, &made, NULL, &e);
   ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", e.text);
   thr_plan_write(&made, &text);
-  ck_assert_msg(thr_plan_parse(&again, text.data, text.length, "again", &e) == THR_OK, "%s", e.text);
+  ck_assert_msg(thr_plan_parse(&again, text.data, text.length, "again", &e) == THR_OK, "%s",
+                e.text);
   ck_assert_msg(thr_check_plan(&again, &e) == THR_OK, "%s", e.text);
   ck_assert_int_eq((int)thr_aims_objective(&again.options), _i);
   ck_assert(again.proof.present && again.proof.lower_bound > 0);
@@ -120,14 +123,16 @@ static bool turns_back(const thr_frame *f, const thr_plan *p)
   for (int i = 0; i < p->n_cords; i++) {
     const thr_cord *c = &p->cord[i];
     for (int k = p->options.ends != THR_ENDS_CLOSED; k < c->n_passes; k++)
-      if (c->half[k] == (c->half[(k + c->n_passes - 1) % c->n_passes] ^ 1) && thr_degree(f, thr_tail(f, c->half[k])) > 1)
+      if (c->half[k] == (c->half[(k + c->n_passes - 1) % c->n_passes] ^ 1) &&
+          thr_degree(f, thr_tail(f, c->half[k])) > 1)
         return true;
   }
   return false;
 }
 
-/* Turning of all cords of a plan within the limits; INFINITY if there is none, or if one of several cords turns back, as no plan
- * of the least turning may. (Of a single cord an exchange takes such turns away, and others do not cost more.) */
+/* Turning of all cords of a plan within the limits; INFINITY if there is none, or if one of several
+ * cords turns back, as no plan of the least turning may. (Of a single cord an exchange takes such
+ * turns away, and others do not cost more.) */
 static double turning_of(const thr_frame *f, const thr_request *o, const thr_limits *limits)
 {
   thr_plan p;
@@ -141,7 +146,8 @@ static double turning_of(const thr_frame *f, const thr_request *o, const thr_lim
   return turning;
 }
 
-/* Is the least turning, searched for without any time, no more than that of the tours and of the shortest cords? */
+/* Is the least turning, searched for without any time, no more than that of the tours and of the
+ * shortest cords? */
 static void assert_begins_with_all(const thr_frame *f, thr_ends ends, int cords, const char *name)
 {
   const thr_limits no_limit = {0}, no_time = {.deadline = thr_clock() - 1};
@@ -156,7 +162,9 @@ static void assert_begins_with_all(const thr_frame *f, thr_ends ends, int cords,
     least = fmin(least, turning_of(f, &o, &no_limit));
   }
   o.turning.tour = THR_TOUR_LEAST;
-  if (least < INFINITY) ck_assert_msg(turning_of(f, &o, &no_time) <= least + 1e-6, "%s, ends %d, %d cords", name, ends, cords);
+  if (least < INFINITY)
+    ck_assert_msg(turning_of(f, &o, &no_time) <= least + 1e-6, "%s, ends %d, %d cords", name, ends,
+                  cords);
 }
 
 static void assert_begins(const thr_frame *f, const char *name)
@@ -179,26 +187,28 @@ END_TEST
 
 START_TEST(turning_of_data_begins_so)
 {
-  static const char *const paths[] = {"data/dome7.json",
-                                      "data/dome7-stairs.json",
-                                      "data/assembly-instances/C_shape.json",
-                                      "data/assembly-instances/fandisk.json",
-                                      "data/assembly-instances/klein_bottle_trail.json",
-                                      "data/assembly-instances/robarch_tree_S.json",
-                                      "data/assembly-instances/semi_sphere.json",
-                                      "data/assembly-instances/topopt-100_S1_03-14-2019_w_layer.json",
-                                      "data/assembly-instances/voronoi_S1_03-14-2019_w_layer.json",
-                                      "data/conmech/four-frame.json",
-                                      "data/conmech/tower_3D.json",
-                                      "data/jax_fdm/barrel.obj",
-                                      "data/jax_fdm/creased_shell.json",
-                                      "data/jax_fdm/liew_dome.json",
-                                      "data/jax_fdm/monkey_saddle.json"};
+  static const char *const paths[] = {
+      "data/dome7.json",
+      "data/dome7-stairs.json",
+      "data/assembly-instances/C_shape.json",
+      "data/assembly-instances/fandisk.json",
+      "data/assembly-instances/klein_bottle_trail.json",
+      "data/assembly-instances/robarch_tree_S.json",
+      "data/assembly-instances/semi_sphere.json",
+      "data/assembly-instances/topopt-100_S1_03-14-2019_w_layer.json",
+      "data/assembly-instances/voronoi_S1_03-14-2019_w_layer.json",
+      "data/conmech/four-frame.json",
+      "data/conmech/tower_3D.json",
+      "data/jax_fdm/barrel.obj",
+      "data/jax_fdm/creased_shell.json",
+      "data/jax_fdm/liew_dome.json",
+      "data/jax_fdm/monkey_saddle.json"};
   const thr_read_options options = thr_read_options_default();
   thr_read_report report;
   thr_frame f;
   thr_err e = {0};
-  ck_assert_msg(thr_frame_read(&f, &report, paths[_i], &options, NULL, 0, &e) == THR_OK, "%s", e.text);
+  ck_assert_msg(thr_frame_read(&f, &report, paths[_i], &options, NULL, 0, &e) == THR_OK, "%s",
+                e.text);
   assert_begins(&f, paths[_i]);
   thr_frame_destroy(&f);
 }
@@ -243,12 +253,14 @@ START_TEST(time_is_shared_out)
   o.aims = thr_aims_straightest;
   ck_assert(thr_dispatch_work(&o) > 0 && thr_dispatch_patience(&o) > 1);
   o.gap = 0.01;
-  ck_assert(thr_dispatch_work(&o) == 0 && thr_dispatch_patience(&o) == 1); /* who asks for a gap waits for it */
+  ck_assert(thr_dispatch_work(&o) == 0 &&
+            thr_dispatch_patience(&o) == 1); /* who asks for a gap waits for it */
   o.gap = -1;
   o.aims = (thr_aims){1, {THR_AIM_MAX_TURNING}};
   o.cords = o.cords_least = 4;
   o.time_limit = 20;
-  ck_assert(thr_dispatch_work(&o) > 0 && thr_dispatch_work(&o) < 20 && thr_dispatch_patience(&o) > 1);
+  ck_assert(thr_dispatch_work(&o) > 0 && thr_dispatch_work(&o) < 20 &&
+            thr_dispatch_patience(&o) > 1);
   ck_assert_double_eq(thr_dispatch_search_seconds(10, false), 9.5);
   ck_assert_double_ge(thr_dispatch_search_seconds(1000, false), 997);
   for (int i = 0; i < THR_N_STEPS; i++) {
@@ -257,8 +269,10 @@ START_TEST(time_is_shared_out)
     const thr_limits share = thr_dispatch_share(&all, (thr_step)i);
     ck_assert(share.deadline > now + 1 && share.deadline < all.deadline);
     double work = 8; /* where it is counted, it alone is shared out */
-    const thr_limits counted = thr_limits_counted(&all, &work), part = thr_dispatch_share(&counted, (thr_step)i);
-    ck_assert(part.deadline == all.deadline && part.work == &work && part.work_kept > 0 && part.work_kept < work);
+    const thr_limits counted = thr_limits_counted(&all, &work),
+                     part = thr_dispatch_share(&counted, (thr_step)i);
+    ck_assert(part.deadline == all.deadline && part.work == &work && part.work_kept > 0 &&
+              part.work_kept < work);
   }
 }
 END_TEST
@@ -273,11 +287,13 @@ static void make_proved(thr_plan *plan, const char *aims_of_plan)
   const thr_limits limits = {.deadline = thr_clock() + 20};
   thr_err err = {0};
   want(&request, aims_of_plan);
-  ck_assert_msg(thr_plan_make(&frame, &request, &limits, plan, NULL, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_plan_make(&frame, &request, &limits, plan, NULL, &err) == THR_OK, "%s",
+                err.text);
   thr_frame_destroy(&frame);
 }
 
-/* The claims that thr_plan_confirm drops of the plan as it is; what is left passes the check, as it is written, too. */
+/* The claims that thr_plan_confirm drops of the plan as it is; what is left passes the check, as it
+ * is written, too. */
 static int dropped_of(thr_plan *plan)
 {
   thr_text text = {0};
@@ -289,7 +305,8 @@ static int dropped_of(thr_plan *plan)
   ck_assert_int_eq(thr_check_plan(plan, NULL), THR_OK);
   ck_assert_int_eq(thr_plan_parse(&again, text.data, text.length, "again", NULL), THR_OK);
   ck_assert_int_eq(thr_check_plan(&again, NULL), THR_OK);
-  ck_assert(again.turning.present == plan->turning.present && again.proof.present == plan->proof.present);
+  ck_assert(again.turning.present == plan->turning.present &&
+            again.proof.present == plan->proof.present);
   thr_plan_destroy(&again);
   thr_text_destroy(&text);
   return dropped;
@@ -306,12 +323,14 @@ START_TEST(what_does_not_hold_is_dropped_and_the_rest_is_kept)
   /* A negative multiplier, which is not read. */
   thr_turning_dual *dual = &plan.turning.tree.dual[0];
   dual->rank = calloc(1, sizeof *dual->rank);
-  dual->rank[0] = (thr_turning_partition){calloc((size_t)plan.frame.n_edges, sizeof *dual->rank->block), -1};
+  dual->rank[0] =
+      (thr_turning_partition){calloc((size_t)plan.frame.n_edges, sizeof *dual->rank->block), -1};
   dual->n_ranks = 1;
   ck_assert_int_eq(dropped_of(&plan), THR_CLAIM_TURNING);
   ck_assert(plan.proof.optimal && !plan.turning.present);
 
-  /* Multipliers that prove less than is claimed, by more than the angle that all turns are multiples of. */
+  /* Multipliers that prove less than is claimed, by more than the angle that all turns are
+   * multiples of. */
   thr_plan_destroy(&plan);
   make_proved(&plan, "turning");
   plan.turning.tree.dual[0].potential[0] -= INT64_C(1) << 46;
@@ -347,7 +366,8 @@ END_TEST
 int main(void)
 {
   Suite *s = suite_create("planner");
-  add_case(s, "objectives", 60, plans_for_every_objective_are_written_and_read, 0, THR_N_OBJECTIVES);
+  add_case(s, "objectives", 60, plans_for_every_objective_are_written_and_read, 0,
+           THR_N_OBJECTIVES);
   add_case(s, "proofs", 60, every_plan_comes_with_proofs, 0, 2 * THR_N_OBJECTIVES);
   add_case(s, "tours", 20, classical_tours_take_no_notice_of_time, 0, 4);
   add_case(s, "starts", 60, turning_begins_with_tours_and_the_shortest_cords, 0, 4);

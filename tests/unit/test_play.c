@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Play of pieces on a cord that is thinner than its bores. */
 #include "graph/plan/physics.h"
 #include "tests/frameworks.h"
@@ -11,12 +12,14 @@ static thr_play play_of(const thr_frame *frame)
   return play;
 }
 
-/* A row from its foot; a ring, whose far side is reached from both; two pieces of a framework, each from its own foot. */
+/* A row from its foot; a ring, whose far side is reached from both; two pieces of a framework, each
+ * from its own foot. */
 START_TEST(it_adds_up_from_the_nearest_foot)
 {
   thr_frame row = path_make(7), ring = ring_make(9), both = side_by_side(&row, &ring);
   const thr_play a = play_of(&row), b = play_of(&ring), c = play_of(&both);
-  ck_assert(a.gaps == row.n_nodes - 1 && a.piece == row.n_nodes - 1 && a.gap == 0.5 && a.most == 0.5 * a.gaps);
+  ck_assert(a.gaps == row.n_nodes - 1 && a.piece == row.n_nodes - 1 && a.gap == 0.5 &&
+            a.most == 0.5 * a.gaps);
   ck_assert(b.gaps == 4 && b.piece == 4 && b.most == 2);
   ck_assert(c.gaps == a.gaps && c.piece == a.piece);
   thr_frame_destroy(&row);

@@ -1,4 +1,6 @@
-/* The cords as lines: OBJ read back by the reader of frameworks and record by record, glTF decoded byte by byte. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cords as lines: OBJ read back by the reader of frameworks and record by record, glTF decoded
+ * byte by byte. */
 #include "diagram/scene/scene.h"
 #include "graph/io/json.h"
 #include "graph/io/read.h"
@@ -10,9 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef thr_status writer(const thr_plan *p, const thr_line_options *options, thr_text *out, thr_err *err);
+typedef thr_status writer(const thr_plan *p, const thr_line_options *options, thr_text *out,
+                          thr_err *err);
 static const thr_line_options plain, lanes = {.lanes = true}, upright = {.up_y = true};
-static writer *const writers[] = {thr_polylines_obj, thr_polylines_gltf, thr_polylines_dxf, thr_polylines_compas};
+static writer *const writers[] = {thr_polylines_obj, thr_polylines_gltf, thr_polylines_dxf,
+                                  thr_polylines_compas};
 enum { N_WRITERS = 4 };
 
 static thr_text text_of(const thr_plan *p, writer *write)
@@ -36,7 +40,8 @@ START_TEST(obj_is_read_back)
   thr_read_report report = {0};
   thr_frame f = {0};
   thr_err err = {0};
-  ck_assert_msg(thr_draft_parse(&d, &report, t.data, t.length, "cords.obj", NULL, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_draft_parse(&d, &report, t.data, t.length, "cords.obj", NULL, &err) == THR_OK,
+                "%s", err.text);
   ck_assert_int_eq(thr_draft_build(&d, 0, &f, &report, &err), THR_OK);
   ck_assert_int_eq(report.edges_read, p.metrics.passes);
   ck_assert_int_eq(f.n_nodes, p.frame.n_nodes);
@@ -59,13 +64,15 @@ static bool stands_at(const thr_plan *p, double (*vertex)[3], int i, int node)
   return memcmp(vertex[i - 1], p->frame.xyz[node], sizeof *vertex) == 0;
 }
 
-/* One object per cord, one record of two vertices per pass, in order and joined, none twice in an object. */
+/* One object per cord, one record of two vertices per pass, in order and joined, none twice in an
+ * object. */
 START_TEST(obj_has_the_passes_in_order)
 {
   thr_plan p = plan_number(_i);
   thr_text t = text_of(&p, thr_polylines_obj);
   const int most = p.frame.n_nodes + p.metrics.passes;
-  int c = -1, k = 0, a, b, used, n = 0, before = 0, (*line_of)[2] = calloc((size_t)p.metrics.passes, sizeof *line_of);
+  int c = -1, k = 0, a, b, used, n = 0, before = 0,
+      (*line_of)[2] = calloc((size_t)p.metrics.passes, sizeof *line_of);
   double(*vertex)[3] = calloc((size_t)most, sizeof *vertex);
   for (const char *line = t.data; *line; line = strchr(line, '\n') + 1) {
     char name[16];
@@ -75,7 +82,8 @@ START_TEST(obj_has_the_passes_in_order)
       k = 0;
     } else if (*line == 'v') {
       ck_assert_int_lt(n, most);
-      ck_assert_int_eq(sscanf(line, "v %lf %lf %lf", &vertex[n][0], &vertex[n][1], &vertex[n][2]), 3);
+      ck_assert_int_eq(sscanf(line, "v %lf %lf %lf", &vertex[n][0], &vertex[n][1], &vertex[n][2]),
+                       3);
       n++;
     } else if (*line == 'l') {
       ck_assert_int_eq(sscanf(line, "l %d %d%n", &a, &b, &used), 2);
@@ -86,7 +94,8 @@ START_TEST(obj_has_the_passes_in_order)
       ck_assert(stands_at(&p, vertex, a, thr_tail(&p.frame, p.cord[c].half[k])));
       ck_assert(stands_at(&p, vertex, b, thr_head(&p.frame, p.cord[c].half[k])));
       for (int i = 0; i < k; i++)
-        ck_assert((line_of[i][0] != a || line_of[i][1] != b) && (line_of[i][0] != b || line_of[i][1] != a));
+        ck_assert((line_of[i][0] != a || line_of[i][1] != b) &&
+                  (line_of[i][0] != b || line_of[i][1] != a));
       line_of[k][0] = a;
       line_of[k++][1] = before = b;
     } else
@@ -147,7 +156,8 @@ static unsigned char *decode(const char *s, size_t *n)
 
 static double float_at(const unsigned char *b)
 {
-  uint32_t bits = (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
+  uint32_t bits =
+      (uint32_t)b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
   float value;
   memcpy(&value, &bits, sizeof value);
   return (double)value;
@@ -155,13 +165,16 @@ static double float_at(const unsigned char *b)
 
 static int node_of(const thr_plan *p, int c, int k)
 {
-  return k < p->cord[c].n_passes ? thr_tail(&p->frame, p->cord[c].half[k]) : thr_head(&p->frame, p->cord[c].half[k - 1]);
+  return k < p->cord[c].n_passes ? thr_tail(&p->frame, p->cord[c].half[k])
+                                 : thr_head(&p->frame, p->cord[c].half[k - 1]);
 }
 
 /* The strip of cord c, wherever the document says that it lies; marks its bytes. */
-static void assert_strip(const thr_json *doc, const thr_plan *p, int c, double metres, const unsigned char *data, bool *taken)
+static void assert_strip(const thr_json *doc, const thr_plan *p, int c, double metres,
+                         const unsigned char *data, bool *taken)
 {
-  const thr_json *primitive = thr_json_at(member(doc, "meshes", integer(member(doc, "nodes", c, "mesh")), "primitives"), 0);
+  const thr_json *primitive =
+      thr_json_at(member(doc, "meshes", integer(member(doc, "nodes", c, "mesh")), "primitives"), 0);
   int accessor = integer(thr_json_get(thr_json_get(primitive, "attributes"), "POSITION"));
   int view = integer(member(doc, "accessors", accessor, "bufferView")),
       count = integer(member(doc, "accessors", accessor, "count"));
@@ -188,8 +201,10 @@ static void assert_strip(const thr_json *doc, const thr_plan *p, int c, double m
     }
   }
   for (int i = 0; i < 3; i++) {
-    ck_assert_double_eq(low[i], (double)(float)number(thr_json_at(member(doc, "accessors", accessor, "min"), i)));
-    ck_assert_double_eq(high[i], (double)(float)number(thr_json_at(member(doc, "accessors", accessor, "max"), i)));
+    ck_assert_double_eq(
+        low[i], (double)(float)number(thr_json_at(member(doc, "accessors", accessor, "min"), i)));
+    ck_assert_double_eq(
+        high[i], (double)(float)number(thr_json_at(member(doc, "accessors", accessor, "max"), i)));
   }
 }
 
@@ -198,7 +213,8 @@ static void assert_colour(const thr_json *doc, int c, const char *hex)
 {
   const thr_json *primitive = thr_json_at(member(doc, "meshes", c, "primitives"), 0);
   int material = integer(thr_json_get(primitive, "material"));
-  const thr_json *factor = thr_json_get(member(doc, "materials", material, "pbrMetallicRoughness"), "baseColorFactor");
+  const thr_json *factor =
+      thr_json_get(member(doc, "materials", material, "pbrMetallicRoughness"), "baseColorFactor");
   char text[8] = "#";
   for (int i = 0; i < 3; i++) {
     double light = number(thr_json_at(factor, i));
@@ -243,7 +259,8 @@ START_TEST(gltf_runs_through_the_nodes)
 }
 END_TEST
 
-/* Of a symmetric plan a path is strong and its copies are pale, in the path's hue; of others every cord has its own. */
+/* Of a symmetric plan a path is strong and its copies are pale, in the path's hue; of others every
+ * cord has its own. */
 START_TEST(colours_are_the_palettes)
 {
   thr_plan p = plan_number(_i ? 7 : 13);
@@ -314,7 +331,8 @@ START_TEST(dxf_runs_through_the_nodes)
     if (code == 8) snprintf(layer, sizeof layer, "cord-%s", p.cord[cord].id);
     if (code == 8) ck_assert_str_eq(value, layer);
     if (vertex && (code == 10 || code == 20 || code == 30)) {
-      const int v = k ? thr_head(&p.frame, p.cord[cord].half[k - 1]) : thr_cord_start(&p.frame, &p.cord[cord]);
+      const int v = k ? thr_head(&p.frame, p.cord[cord].half[k - 1])
+                      : thr_cord_start(&p.frame, &p.cord[cord]);
       axis = code / 10 - 1;
       ck_assert(strtod(value, NULL) == p.frame.xyz[v][axis]);
     }
@@ -343,7 +361,8 @@ START_TEST(compas_runs_through_the_nodes)
     ck_assert_int_eq(thr_json_size(points), p.cord[c].n_passes + 1);
     for (int k = 0; k <= p.cord[c].n_passes; k++) {
       double xyz[3];
-      const int v = k ? thr_head(&p.frame, p.cord[c].half[k - 1]) : thr_cord_start(&p.frame, &p.cord[c]);
+      const int v =
+          k ? thr_head(&p.frame, p.cord[c].half[k - 1]) : thr_cord_start(&p.frame, &p.cord[c]);
       ck_assert(thr_json_numbers(thr_json_at(points, k), 3, xyz));
       ck_assert(memcmp(xyz, p.frame.xyz[v], sizeof xyz) == 0);
     }
@@ -354,7 +373,8 @@ START_TEST(compas_runs_through_the_nodes)
 }
 END_TEST
 
-/* Of every pass the straight part in its lane, 70 % of its edge; no two of them coincide, and those of an edge are parallel. */
+/* Of every pass the straight part in its lane, 70 % of its edge; no two of them coincide, and those
+ * of an edge are parallel. */
 START_TEST(lanes_do_not_coincide)
 {
   thr_plan p = plan_number(_i);
@@ -370,7 +390,8 @@ START_TEST(lanes_do_not_coincide)
       const double *a = p.frame.xyz[thr_tail(&p.frame, h)], *b = p.frame.xyz[thr_head(&p.frame, h)];
       memcpy(part[n], l.point[1 + 2 * k], sizeof part[n]);
       for (int i = 0; i < 3; i++) /* along the pass, in its sense */
-        ck_assert_double_eq_tol(part[n][1][i] - part[n][0][i], 0.7 * (b[i] - a[i]), 1e-9 * (1 + fabs(b[i] - a[i])));
+        ck_assert_double_eq_tol(part[n][1][i] - part[n][0][i], 0.7 * (b[i] - a[i]),
+                                1e-9 * (1 + fabs(b[i] - a[i])));
       for (int j = 0; j < n; j++)
         for (int end = 0; end < 2; end++) {
           double apart = 0;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* T-joins and the shortest cord: known answers, data files, limits. */
 #include "graph/framework/make.h"
 #include "lp/length/postman.h"
@@ -68,7 +69,8 @@ START_TEST(trees_need_every_edge_twice)
   rng r = rng_make((uint64_t)_i + 1);
   thr_frame f = random_frame(&r, rng_between(&r, 2, 40), 0, (length_kind)(_i % LENGTH_KINDS));
   thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
-  ck_assert_double_eq_tol(p.metrics.length, 2 * thr_frame_total_length(&f), 1e-9 * p.metrics.length);
+  ck_assert_double_eq_tol(p.metrics.length, 2 * thr_frame_total_length(&f),
+                          1e-9 * p.metrics.length);
   ck_assert_int_eq(p.metrics.most_passes, 2);
   assert_plan_sound(&p);
   thr_plan_destroy(&p);
@@ -76,7 +78,8 @@ START_TEST(trees_need_every_edge_twice)
 }
 END_TEST
 
-/* A grid's odd nodes are the border's; for w = h = 2 k + 2, two neighbours at a time: k pairs a side. */
+/* A grid's odd nodes are the border's; for w = h = 2 k + 2, two neighbours at a time: k pairs a
+ * side. */
 START_TEST(grids_pair_their_border)
 {
   for (int k = 1; k < 9; k++) {
@@ -164,7 +167,8 @@ START_TEST(a_plan_for_the_length_has_one_cord_a_piece)
 }
 END_TEST
 
-/* A cube has 8 odd nodes; 2 K of them may be left to the ends of K cords, and each pair of the others costs an edge. */
+/* A cube has 8 odd nodes; 2 K of them may be left to the ends of K cords, and each pair of the
+ * others costs an edge. */
 START_TEST(cords_of_a_cube)
 {
   thr_frame f = solid_make(CUBE);
@@ -175,7 +179,8 @@ START_TEST(cords_of_a_cube)
     ck_assert_double_eq_tol(p.metrics.length, 12 + (cords < 4 ? 4 - cords : 0), 1e-12);
     ck_assert(p.proof.optimal);
     ck_assert_double_eq_tol(p.proof.lower_bound, p.metrics.length, 1e-12);
-    ck_assert_int_eq(p.proof.certificate[0].end_price > 0, cords < 4); /* 4 cords end at all the odd nodes */
+    ck_assert_int_eq(p.proof.certificate[0].end_price > 0,
+                     cords < 4); /* 4 cords end at all the odd nodes */
     assert_plan_sound(&p);
     thr_plan_destroy(&p);
   }
@@ -183,13 +188,14 @@ START_TEST(cords_of_a_cube)
 }
 END_TEST
 
-/* Prices that are no whole weight (equal beads), a search between prices, no price at all, one cord, and two parts that no extra
- * pass joins. */
+/* Prices that are no whole weight (equal beads), a search between prices, no price at all, one
+ * cord, and two parts that no extra pass joins. */
 START_TEST(every_allocation_with_ends_fails_once)
 {
   static const int cords[] = {2, 3, 4, 1, 1};
   rng r = rng_make(5);
-  thr_frame f = _i % 4 == 0 ? solid_make(CUBE) : random_frame(&r, 30, 30, _i == 2 ? LENGTHS_EQUAL : LENGTHS_RANDOM);
+  thr_frame f = _i % 4 == 0 ? solid_make(CUBE)
+                            : random_frame(&r, 30, 30, _i == 2 ? LENGTHS_EQUAL : LENGTHS_RANDOM);
   thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_status st = THR_ENOMEM;
   o.cords = cords[_i];
@@ -204,7 +210,8 @@ START_TEST(every_allocation_with_ends_fails_once)
     thr_alloc_fail_at(k);
     st = thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, &err);
     thr_alloc_fail_at(0);
-    ck_assert_msg(st == THR_OK || st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
+    ck_assert_msg(st == THR_OK || st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st,
+                  err.text);
     ck_assert(st ? !s.passes && !s.certificate : s.optimal);
     thr_shortest_destroy(&s);
   }
@@ -221,7 +228,8 @@ static thr_frame hard_frame(void)
   return random_frame(&r, 300, 300, LENGTHS_RANDOM);
 }
 
-static void assert_stopped_well(const thr_frame *f, const thr_request *o, const thr_limits *l, double best)
+static void assert_stopped_well(const thr_frame *f, const thr_request *o, const thr_limits *l,
+                                double best)
 {
   thr_plan p;
   thr_err err = {0};
@@ -246,7 +254,8 @@ START_TEST(passed_deadline_leaves_a_valid_plan)
   assert_stopped_well(&f, &o, &(thr_limits){.deadline = thr_clock() - 10}, best.metrics.length);
   assert_stopped_well(&f, &o, &(thr_limits){.interrupted = &pressed}, best.metrics.length);
   for (int ms = 1; ms < 40; ms += 3)
-    assert_stopped_well(&f, &o, &(thr_limits){.deadline = thr_clock() + ms / 1000.0}, best.metrics.length);
+    assert_stopped_well(&f, &o, &(thr_limits){.deadline = thr_clock() + ms / 1000.0},
+                        best.metrics.length);
   thr_plan_destroy(&best);
   thr_frame_destroy(&f);
 }
@@ -277,7 +286,8 @@ START_TEST(passed_deadline_leaves_valid_passes)
   ck_assert_int_eq(thr_postman_shortest(&f, &o, &(thr_limits){0}, &best, NULL), THR_OK);
   for (int ms = -1; ms < 200; ms = ms < 0 ? 1 : 2 * ms) {
     thr_err err = {0};
-    thr_status st = thr_postman_shortest(&f, &o, &(thr_limits){.deadline = thr_clock() + ms / 1000.0}, &s, &err);
+    thr_status st = thr_postman_shortest(
+        &f, &o, &(thr_limits){.deadline = thr_clock() + ms / 1000.0}, &s, &err);
     ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
     ck_assert_int_eq(st == THR_OK, s.optimal);
     ck_assert(s.length >= best.length * (1 - 1e-9) && s.lower_bound <= best.length * (1 + 1e-9));
@@ -294,7 +304,9 @@ START_TEST(interrupt_between_rounds_leaves_a_valid_plan)
   thr_request o = options_for(THR_ENDS_CLOSED, 1);
   thr_plan best = plan_make(&f, &o);
   watcher w = {.stop_after = _i + 1};
-  assert_stopped_well(&f, &o, &(thr_limits){.interrupted = &w.pressed, .progress = watch, .user = &w}, best.metrics.length);
+  assert_stopped_well(&f, &o,
+                      &(thr_limits){.interrupted = &w.pressed, .progress = watch, .user = &w},
+                      best.metrics.length);
   ck_assert_int_gt(w.calls, 0);
   thr_plan_destroy(&best);
   thr_frame_destroy(&f);
@@ -313,7 +325,8 @@ END_TEST
 
 /* ---- T-joins themselves ---- */
 
-/* The lightest subset of edges whose odd nodes are odd[], by trying all; and the solver's, with its cuts added up. */
+/* The lightest subset of edges whose odd nodes are odd[], by trying all; and the solver's, with its
+ * cuts added up. */
 START_TEST(joins_match_all_subsets)
 {
   rng r = rng_make((uint64_t)_i + 5);
@@ -323,7 +336,8 @@ START_TEST(joins_match_all_subsets)
   uint32_t wanted = 0;
   for (int e = 0; e < m; e++) {
     edge[e][1] = e < n - 1 ? e + 1 : rng_below(&r, n);
-    edge[e][0] = e < n - 1 ? rng_below(&r, e + 1) : (edge[e][1] + rng_between(&r, 1, n - 1)) % n; /* parallel ones too */
+    edge[e][0] = e < n - 1 ? rng_below(&r, e + 1)
+                           : (edge[e][1] + rng_between(&r, 1, n - 1)) % n; /* parallel ones too */
     weight[e] = _i % 3 ? rng_below(&r, 5) : rng_below(&r, 1000000000);
   }
   for (int k = rng_below(&r, n); k > 0; k--) {
@@ -336,10 +350,12 @@ START_TEST(joins_match_all_subsets)
     int64_t sum = 0;
     uint32_t left = wanted;
     for (int e = 0; e < m; e++)
-      if (s >> e & 1) sum += weight[e], left ^= UINT32_C(1) << edge[e][0] ^ UINT32_C(1) << edge[e][1];
+      if (s >> e & 1)
+        sum += weight[e], left ^= UINT32_C(1) << edge[e][0] ^ UINT32_C(1) << edge[e][1];
     if (left == 0 && sum < least) least = sum;
   }
-  thr_tjoin_problem p = {.n_nodes = n, .n_edges = m, .edge = (const int(*)[2])edge, .weight = weight, .odd = odd};
+  thr_tjoin_problem p = {
+      .n_nodes = n, .n_edges = m, .edge = (const int(*)[2])edge, .weight = weight, .odd = odd};
   thr_tjoin t;
   thr_err err = {0};
   thr_limits none = {0};
@@ -347,7 +363,8 @@ START_TEST(joins_match_all_subsets)
   int64_t length = 0, sum = 0, load[16] = {0};
   uint32_t side[64] = {0};
   for (int e = 0; e < m; e++)
-    if (t.in_join[e]) length += weight[e], wanted ^= UINT32_C(1) << edge[e][0] ^ UINT32_C(1) << edge[e][1];
+    if (t.in_join[e])
+      length += weight[e], wanted ^= UINT32_C(1) << edge[e][0] ^ UINT32_C(1) << edge[e][1];
   ck_assert_int_le(t.n_cuts, 64);
   for (int i = 0; i < t.n_cuts; i++) {
     int odds = 0, up = t.cut[i].parent;
@@ -392,7 +409,8 @@ START_TEST(ends_anywhere_in_a_large_framework)
     thr_err err = {0};
     o.confirm = THR_CONFIRM_NEVER;
     o.cords = o.cords_least = cords ? cords : 1;
-    ck_assert_msg(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_postman_shortest(&f, &o, &(thr_limits){0}, &s, &err) == THR_OK, "%s",
+                  err.text);
     ck_assert(s.optimal);
     ck_assert_double_lt(s.length, closed);
     ck_assert(s.confirmed.confirmed == 0 && s.confirmed.skipped == 0);

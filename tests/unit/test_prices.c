@@ -1,4 +1,6 @@
-/* Prices of places in certificates: loops, what the checker refuses, plans that need more places than a shortest join has. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Prices of places in certificates: loops, what the checker refuses, plans that need more places
+ * than a shortest join has. */
 #include "graph/check/check.h"
 #include "graph/check/edge_sets.h"
 #include "graph/plan/plan_measures.h"
@@ -14,7 +16,8 @@
 
 static void assert_loops(thr_frame f, int size)
 {
-  int *edge = thr_calloc((size_t)f.n_edges, sizeof *edge), *loop = thr_calloc((size_t)f.n_edges, sizeof *loop);
+  int *edge = thr_calloc((size_t)f.n_edges, sizeof *edge),
+      *loop = thr_calloc((size_t)f.n_edges, sizeof *loop);
   int *work = thr_calloc(2 * (size_t)f.n_nodes, sizeof *work);
   ck_assert(edge && loop && work);
   for (int e = 0; e < f.n_edges; e++)
@@ -49,7 +52,8 @@ START_TEST(loops_that_are_searched_in_vain)
 {
   enum { N = 4200 }; /* each search looks at all edges of the hub */
   thr_frame f = star_make(N);
-  int *edge = thr_calloc(N, sizeof *edge), *loop = thr_calloc(N, sizeof *loop), *work = thr_calloc(2 * (N + 1), sizeof *work);
+  int *edge = thr_calloc(N, sizeof *edge), *loop = thr_calloc(N, sizeof *loop),
+      *work = thr_calloc(2 * (N + 1), sizeof *work);
   ck_assert(edge && loop && work);
   for (int e = 0; e < N; e++)
     edge[e] = e;
@@ -78,10 +82,12 @@ static thr_plan plan_with(const thr_frame *f, thr_ends ends, int cords, int *end
   return p;
 }
 
-/* More edges than all sets of them are tried of (graph/check/few_edges.c): only then prices are the proof. */
+/* More edges than all sets of them are tried of (graph/check/few_edges.c): only then prices are the
+ * proof. */
 enum { EDGES = THR_FEW_SUMMED + 2 };
 
-/* K cords that end at the first node of a path: the first edge has 2K places there, and the last must be reached. */
+/* K cords that end at the first node of a path: the first edge has 2K places there, and the last
+ * must be reached. */
 START_TEST(cords_from_one_foot_take_a_pass_for_every_end)
 {
   thr_frame f = path_make(EDGES + 1);
@@ -112,7 +118,8 @@ START_TEST(places_are_where_the_ends_are)
   thr_frame f = path_make(4);
   int end_count[4] = {1, 0, 0, 5};
   f.foot[0] = false, f.foot[3] = true;
-  thr_plan p = plan_with(&f, THR_ENDS_FEET, 4, NULL), q = plan_with(&f, THR_ENDS_COUNTS, 3, end_count);
+  thr_plan p = plan_with(&f, THR_ENDS_FEET, 4, NULL),
+           q = plan_with(&f, THR_ENDS_COUNTS, 3, end_count);
   ck_assert_double_eq_tol(p.metrics.length, 12, 1e-9);
   ck_assert_double_eq_tol(q.metrics.length, 7, 1e-9);
   thr_plan_destroy(&p);
@@ -132,8 +139,8 @@ START_TEST(circuits_of_two_components)
 }
 END_TEST
 
-/* The octahedron falls into four triangles. One more circuit is a pair of passes over an edge; two more are a triangle passed
- * twice, which is then three circuits. */
+/* The octahedron falls into four triangles. One more circuit is a pair of passes over an edge; two
+ * more are a triangle passed twice, which is then three circuits. */
 START_TEST(circuits_of_an_octahedron)
 {
   static const int length[] = {12, 12, 12, 12, 14, 15, 17, 18};
@@ -159,7 +166,8 @@ START_TEST(forged_prices_are_refused)
   static const thr_ends ends[] = {THR_ENDS_FEET, THR_ENDS_COUNTS, THR_ENDS_CLOSED};
   thr_frame f = path_make(EDGES + 1);
   int end_count[EDGES + 1] = {6};
-  thr_plan p = plan_with(&f, ends[_i], _i == 2 ? EDGES + 3 : 3, ends[_i] == THR_ENDS_COUNTS ? end_count : NULL);
+  thr_plan p = plan_with(&f, ends[_i], _i == 2 ? EDGES + 3 : 3,
+                         ends[_i] == THR_ENDS_COUNTS ? end_count : NULL);
   thr_certificate *c = &p.proof.certificate[0];
   ck_assert_int_eq(c->n_prices, ends[_i] == THR_ENDS_COUNTS ? EDGES + 1 : 1);
   int64_t kept = c->place_price[0];

@@ -1,4 +1,6 @@
-/* Types of copies, darts and turns under a group: known cases, counts that must agree, limits, failing allocations. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Types of copies, darts and turns under a group: known cases, counts that must agree, limits,
+ * failing allocations. */
 #include "graph/framework/make.h"
 #include "graph/limits.h"
 #include "symmetry/cover/cover.h"
@@ -14,7 +16,8 @@ static thr_group whole_group(const thr_frame *f)
   thr_automorphisms a;
   thr_group g;
   ck_assert_int_eq(thr_automorphisms_find(f, &plain, &a, NULL), THR_OK);
-  ck_assert_int_eq(thr_group_generate(f->n_nodes, a.generator, a.n_generators, THR_GROUP_CAP, &g, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_group_generate(f->n_nodes, a.generator, a.n_generators, THR_GROUP_CAP, &g, NULL), THR_OK);
   thr_automorphisms_destroy(&a);
   return g;
 }
@@ -120,8 +123,9 @@ static thr_subgroup everything(const thr_group *g)
   return (thr_subgroup){g->order, all};
 }
 
-/* The stabilizer of an edge of the cube is Klein's group: identity, two mirrors, a half turn; the mirror across the edge and the
- * half turn turn it round. So there are five copy types, three of them folds; three at one dart each are of the free layer. */
+/* The stabilizer of an edge of the cube is Klein's group: identity, two mirrors, a half turn; the
+ * mirror across the edge and the half turn turn it round. So there are five copy types, three of
+ * them folds; three at one dart each are of the free layer. */
 START_TEST(cube_under_its_whole_group)
 {
   thr_frame f = solid_make(CUBE);
@@ -139,11 +143,12 @@ START_TEST(cube_under_its_whole_group)
   ck_assert_int_eq(free_copies, 3);
   ck_assert_int_eq(q.n_darts, 2); /* free, or kept by the mirror along the edge */
   ck_assert_int_eq(q.n_layers, 2);
-  /* Of the free ones: of two orbits, or within one by the mirror between the edges, and both back into the edge; of the others
-   * back into the edge. */
+  /* Of the free ones: of two orbits, or within one by the mirror between the edges, and both back
+   * into the edge; of the others back into the edge. */
   ck_assert_int_eq(q.n_pairs, 5);
   for (int y = 0; y < q.n_pairs; y++)
-    ck_assert_double_eq_tol(q.pair[y].angle, (q.pair[y].half[0] == q.pair[y].half[1] ? 2 : 1) * acos(0), 1e-12);
+    ck_assert_double_eq_tol(q.pair[y].angle,
+                            (q.pair[y].half[0] == q.pair[y].half[1] ? 2 : 1) * acos(0), 1e-12);
   thr_quotient_destroy(&q);
   thr_subgroup_destroy(&h);
   thr_group_destroy(&g);
@@ -151,7 +156,8 @@ START_TEST(cube_under_its_whole_group)
 }
 END_TEST
 
-/* Without symmetry: a type per edge and half-edge, a turn for every two edges at a node, and one back into each. */
+/* Without symmetry: a type per edge and half-edge, a turn for every two edges at a node, and one
+ * back into each. */
 START_TEST(trivial_group)
 {
   thr_frame f = grid_make(5, 4);
@@ -186,18 +192,21 @@ START_TEST(refusals)
   ck_assert_int_eq(thr_quotient_init(&q, &other, &g, &h, 100, &err), THR_EINPUT);
   assert_one_line(&err, "nodes");
   err = (thr_err){0};
-  ck_assert_int_eq(thr_quotient_init(&q, &f, &wrong, &all, 100, &err), THR_EINPUT); /* eight nodes too, other edges */
+  ck_assert_int_eq(thr_quotient_init(&q, &f, &wrong, &all, 100, &err),
+                   THR_EINPUT); /* eight nodes too, other edges */
   assert_one_line(&err, "automorphism");
 
   q = quotient_of(&f, &g, &h);
   bool end_node[8] = {true};
-  thr_cover_options o = {.cover = 1,
-                         .ends = THR_ENDS_NODES,
-                         .end_node = end_node,
-                         .prefer = {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
+  thr_cover_options o = {
+      .cover = 1,
+      .ends = THR_ENDS_NODES,
+      .end_node = end_node,
+      .prefer = {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
   thr_limits none = {0};
   err = (thr_err){0};
-  ck_assert_int_eq(thr_cover_find(&q, &o, &none, &c, &err), THR_EINPUT); /* the group moves the end to another node */
+  ck_assert_int_eq(thr_cover_find(&q, &o, &none, &c, &err),
+                   THR_EINPUT); /* the group moves the end to another node */
   assert_one_line(&err, "may not");
   o.ends = THR_ENDS_FEET;
   for (int v = 0; v < f.n_nodes; v++)
@@ -234,7 +243,9 @@ START_TEST(every_allocation_fails_once)
   thr_group g = whole_group(&f);
   thr_subgroup h = everything(&g);
   thr_cover_options o = {
-      .cover = 1, .ends = THR_ENDS_FEET, .prefer = {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
+      .cover = 1,
+      .ends = THR_ENDS_FEET,
+      .prefer = {THR_AIM_OVERLAP, THR_AIM_STEPS, THR_AIM_PATHS, THR_AIM_TURNING}};
   thr_limits none = {0};
   thr_status st = THR_ENOMEM;
   for (long k = 1; st; k++) {

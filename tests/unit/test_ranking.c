@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rankings: ties are what the intervals allow, and no more. */
 #include "cli/print/ranking.c"
 #include "graph/io/writer.h"
@@ -18,10 +19,12 @@ static ranking ranking_of(int n, const double (*interval)[3])
   return r;
 }
 
-/* An interval that reaches past its neighbours ties with each of them, and they are told apart all the same. */
+/* An interval that reaches past its neighbours ties with each of them, and they are told apart all
+ * the same. */
 START_TEST(a_wide_interval_ties_with_all_it_reaches)
 {
-  const double interval[4][3] = {{60.6, 100, 165}, {148.5, 150, 151.5}, {153.5, 155, 156.5}, {170, 171, 172}};
+  const double interval[4][3] = {
+      {60.6, 100, 165}, {148.5, 150, 151.5}, {153.5, 155, 156.5}, {170, 171, 172}};
   const int rank[4] = {1, 1, 2, 4};
   const char *const name[4] = {"wide", "b", "c", "d"};
   ranking r = ranking_of(4, interval);
@@ -29,7 +32,8 @@ START_TEST(a_wide_interval_ties_with_all_it_reaches)
   for (int i = 0; i < 4; i++)
     ck_assert_int_eq(r.rank[i], rank[i]);
   ranking_put_text(&r, name, &t);
-  ck_assert_ptr_nonnull(strstr(t.data, "2. c    155 N (153.5 .. 156.5 N)  tie with wide, within the error\n"));
+  ck_assert_ptr_nonnull(
+      strstr(t.data, "2. c    155 N (153.5 .. 156.5 N)  tie with wide, within the error\n"));
   ck_assert_ptr_nonnull(strstr(t.data, "4. d    171 N (170 .. 172 N)  more, beyond the error\n"));
   thr_text_destroy(&t);
   ranking_destroy(&r);
@@ -50,18 +54,21 @@ START_TEST(open_ends_and_unknown_plans)
     ck_assert_int_eq(r.rank[i], rank[i]);
   r.open = "why not";
   ranking_put_text(&r, name, &t);
-  ck_assert_ptr_nonnull(strstr(t.data, "2. a 10 N (at least 9 N: why not)  more, beyond the error\n"));
+  ck_assert_ptr_nonnull(
+      strstr(t.data, "2. a 10 N (at least 9 N: why not)  more, beyond the error\n"));
   ck_assert_ptr_nonnull(strstr(t.data, "2. c 50 N (49 .. 51 N)  tie, within the error\n"));
   ck_assert_ptr_nonnull(strstr(t.data, "-  b not known\n"));
   thr_text_destroy(&t);
   ranking_put_json(&r, name, &w);
-  ck_assert_ptr_nonnull(strstr(t.data, "{\"plan\": \"a\", \"value\": 10, \"low\": 9, \"high\": null, \"rank\": 2}"));
+  ck_assert_ptr_nonnull(
+      strstr(t.data, "{\"plan\": \"a\", \"value\": 10, \"low\": 9, \"high\": null, \"rank\": 2}"));
   thr_text_destroy(&t);
   ranking_destroy(&r);
 }
 END_TEST
 
-/* By the definition, from the intervals as they were drawn; and whoever comes later is nowhere surely less. */
+/* By the definition, from the intervals as they were drawn; and whoever comes later is nowhere
+ * surely less. */
 START_TEST(ranks_count_what_is_surely_less)
 {
   rng g = rng_make(7);
@@ -71,7 +78,8 @@ START_TEST(ranks_count_what_is_surely_less)
     for (int i = 0; i < n; i++) {
       interval[i][1] = 1 + rng_below(&g, 30);
       interval[i][0] = interval[i][1] - rng_below(&g, 4);
-      interval[i][2] = interval[i][1] + (rng_below(&g, 8) == 0 ? INFINITY : (double)rng_below(&g, 4));
+      interval[i][2] =
+          interval[i][1] + (rng_below(&g, 8) == 0 ? INFINITY : (double)rng_below(&g, 4));
     }
     ranking r = ranking_of(n, (const double(*)[3])interval);
     ck_assert_int_eq(r.n_ranked, n);
@@ -106,8 +114,10 @@ START_TEST(only_sure_orders_contradict)
 }
 END_TEST
 
-/* Of loads the most comes first, with its interval the right way round; and where there is proved to be none, it is last. */
-/* Plans that are surely apart and change places at an end of a band are told; ties may do what they like. */
+/* Of loads the most comes first, with its interval the right way round; and where there is proved
+ * to be none, it is last. */
+/* Plans that are surely apart and change places at an end of a band are told; ties may do what they
+ * like. */
 START_TEST(orders_over_a_band)
 {
   const double interval[4][3] = {{1, 1, 1}, {2, 2, 2}, {1.5, 2.5, 3.5}, {9, 9, 9}};
@@ -125,7 +135,9 @@ START_TEST(orders_over_a_band)
       r.end[2][i] = r.end[3][i] = i == 1 ? NAN : low[i];
     }
     ranking_put_bands(&r, name, at, &t);
-    ck_assert_str_eq(t.data, "     at q: b before a\n     at q: c before a\n     the same order at r and at s\n");
+    ck_assert_str_eq(
+        t.data,
+        "     at q: b before a\n     at q: c before a\n     the same order at r and at s\n");
     thr_text_destroy(&t);
     ranking_put_json(&r, name, &w);
     ck_assert_ptr_nonnull(strstr(t.data, most ? "\"band\": [-1, -5]" : "\"band\": [1, 5]"));
@@ -139,16 +151,19 @@ END_TEST
 
 START_TEST(the_most_first)
 {
-  const double most[2][3] = {{-4, -3, -3}, {-9, -8, -8}}, need[2][3] = {{INFINITY, INFINITY, INFINITY}, {1, 1, 2}};
+  const double most[2][3] = {{-4, -3, -3}, {-9, -8, -8}},
+               need[2][3] = {{INFINITY, INFINITY, INFINITY}, {1, 1, 2}};
   const char *const name[2] = {"a", "b"};
   ranking r = ranking_of(2, most), q = ranking_of(2, need);
   thr_text t = {0};
   r.most = true;
   ck_assert_int_eq(r.order[0], 1);
   ranking_put_text(&r, name, &t);
-  ck_assert_ptr_nonnull(strstr(t.data, "1. b 8 N (8 .. 9 N)\n  2. a 3 N (3 .. 4 N)  less, beyond the error\n"));
+  ck_assert_ptr_nonnull(
+      strstr(t.data, "1. b 8 N (8 .. 9 N)\n  2. a 3 N (3 .. 4 N)  less, beyond the error\n"));
   ranking_put_text(&q, name, &t);
-  ck_assert_ptr_nonnull(strstr(t.data, "1. b 1 N (1 .. 2 N)\n  2. a none, proved  more, beyond the error\n"));
+  ck_assert_ptr_nonnull(
+      strstr(t.data, "1. b 1 N (1 .. 2 N)\n  2. a none, proved  more, beyond the error\n"));
   thr_text_destroy(&t);
   ranking_destroy(&r);
   ranking_destroy(&q);

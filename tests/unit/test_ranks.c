@@ -1,4 +1,6 @@
-/* Connections counted exactly at nodes: forests against all sets of turns, and what they prove of a sphere. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Connections counted exactly at nodes: forests against all sets of turns, and what they prove of a
+ * sphere. */
 #include "graph/framework/frame.h"
 #include "graph/framework/make.h"
 #include "graph/limits.h"
@@ -151,7 +153,8 @@ static void shell_make(shell *s, int cords)
   ck_assert_int_eq(thr_turning_dual_init(&s->from, &s->c, NULL), THR_OK);
   ck_assert_int_eq(thr_turning_dual_init(&s->dual, &s->c, NULL), THR_OK);
   ck_assert_int_eq(thr_pass_matching_init(&passes, &s->c, NULL), THR_OK);
-  ck_assert_int_eq(thr_pass_matching_solve(&passes, s->c.weight, &none, s->x, &s->from, NULL), THR_OK);
+  ck_assert_int_eq(thr_pass_matching_solve(&passes, s->c.weight, &none, s->x, &s->from, NULL),
+                   THR_OK);
   thr_pass_matching_destroy(&passes);
 }
 
@@ -185,11 +188,12 @@ static void columns_of(const thr_frame *f, const int *node, double at[3][3])
     memcpy(at[i], f->xyz[node[i]], sizeof at[i]);
 }
 
-/* x = sum of t_i a_i; t by Cramer's rule. The three nodes and the centre of the sphere are in no plane. */
+/* x = sum of t_i a_i; t by Cramer's rule. The three nodes and the centre of the sphere are in no
+ * plane. */
 static void coordinates(double a[3][3], const double *x, double *t)
 {
-#define DET(p, q, r)                                                                                                             \
-  ((p)[0] * ((q)[1] * (r)[2] - (q)[2] * (r)[1]) - (p)[1] * ((q)[0] * (r)[2] - (q)[2] * (r)[0]) +                                 \
+#define DET(p, q, r)                                                                               \
+  ((p)[0] * ((q)[1] * (r)[2] - (q)[2] * (r)[1]) - (p)[1] * ((q)[0] * (r)[2] - (q)[2] * (r)[0]) +   \
    (p)[2] * ((q)[0] * (r)[1] - (q)[1] * (r)[0]))
   const double all = DET(a[0], a[1], a[2]);
   t[0] = DET(x, a[1], a[2]) / all;
@@ -201,16 +205,19 @@ static void coordinates(double a[3][3], const double *x, double *t)
 static int node_at(const thr_frame *f, const double *x)
 {
   for (int v = 0; v < f->n_nodes; v++)
-    if (fabs(f->xyz[v][0] - x[0]) + fabs(f->xyz[v][1] - x[1]) + fabs(f->xyz[v][2] - x[2]) < 1e-6) return v;
+    if (fabs(f->xyz[v][0] - x[0]) + fabs(f->xyz[v][1] - x[1]) + fabs(f->xyz[v][2] - x[2]) < 1e-6)
+      return v;
   return -1;
 }
 
 static double apart(const double *a, const double *b)
 {
-  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+              (a[2] - b[2]) * (a[2] - b[2]));
 }
 
-/* The images of all nodes when three are sent to three others; false: that is no motion onto itself. */
+/* The images of all nodes when three are sent to three others; false: that is no motion onto
+ * itself. */
 static bool send(const thr_frame *f, const int *from, const int *to, int *image)
 {
   double a[3][3], b[3][3];
@@ -228,8 +235,10 @@ static bool send(const thr_frame *f, const int *from, const int *to, int *image)
   return true;
 }
 
-/* All motions of the framework onto itself: those that send three nodes of a triangle to three of another, tried one by one. */
-static thr_status all_motions(const thr_frame *f, const thr_limits *limits, int **image, int *n, thr_err *err)
+/* All motions of the framework onto itself: those that send three nodes of a triangle to three of
+ * another, tried one by one. */
+static thr_status all_motions(const thr_frame *f, const thr_limits *limits, int **image, int *n,
+                              thr_err *err)
 {
   (void)limits;
   (void)err;
@@ -253,28 +262,31 @@ static double bound_by_orbits(shell *s, thr_orbits_motions *motions)
   thr_turning_dual_destroy(&s->dual);
   ck_assert_int_eq(thr_orbits_init(&orbits, &s->c, motions, &none, NULL), THR_OK);
   ck_assert_int_eq(thr_orbit_ranks(&s->c, &orbits, s->x, &none, &s->dual, &found, NULL), THR_OK);
-  if (found) ck_assert_int_eq(thr_turning_dual_bound(&s->c, &s->dual, NULL, NULL, &bound, NULL), THR_OK);
+  if (found)
+    ck_assert_int_eq(thr_turning_dual_bound(&s->c, &s->dual, NULL, NULL, &bound, NULL), THR_OK);
   ck_assert_int_eq(found, motions != NULL);
   thr_orbits_destroy(&orbits);
   return degrees(bound);
 }
 
-/* The optimum of the linear programme over all turns that the nodes may have, made symmetric by the same motions, with the rank
- * of the circuits and the groups that they are, is 5311.143037 degrees (HiGHS). */
+/* The optimum of the linear programme over all turns that the nodes may have, made symmetric by the
+ * same motions, with the rank of the circuits and the groups that they are, is 5311.143037 degrees
+ * (HiGHS). */
 START_TEST(orbits_prove_what_the_linear_programme_does)
 {
   shell s;
   shell_make(&s, 1);
   ck_assert_double_eq_tol(bound_by_orbits(&s, all_motions), 5311.143037, 1e-4);
   ck_assert_int_eq(s.dual.n_ranks, 1);
-  ck_assert_int_eq(s.dual.n_groups, 6); /* the great circles; the rest of the edges as a group proves nothing */
+  ck_assert_int_eq(s.dual.n_groups,
+                   6); /* the great circles; the rest of the edges as a group proves nothing */
   ck_assert_double_eq(bound_by_orbits(&s, NULL), 0);
   shell_destroy(&s);
 }
 END_TEST
 
-/* Wherever the clock stops the cutting planes, what they have proved so far is a proof that the checker takes: multipliers of
- * rows that are not equations are not negative, however little. */
+/* Wherever the clock stops the cutting planes, what they have proved so far is a proof that the
+ * checker takes: multipliers of rows that are not equations are not negative, however little. */
 START_TEST(stopped_at_any_round_the_proof_holds)
 {
   enum { MOST_ROUNDS = 60 };
@@ -293,7 +305,8 @@ START_TEST(stopped_at_any_round_the_proof_holds)
     thr_turning_dual_destroy(&s.dual);
     ck_assert_int_eq(thr_orbit_ranks(&s.c, &orbits, s.x, &some, &s.dual, &found, NULL), THR_OK);
     if (!found) continue;
-    ck_assert_msg(thr_turning_dual_bound(&s.c, &s.dual, NULL, NULL, &bound, &err) == THR_OK, "%d rounds: %s", rounds, err.text);
+    ck_assert_msg(thr_turning_dual_bound(&s.c, &s.dual, NULL, NULL, &bound, &err) == THR_OK,
+                  "%d rounds: %s", rounds, err.text);
     for (int i = 0; i < s.dual.n_ranks; i++)
       ck_assert_int_ge(s.dual.rank[i].value, 0);
   }
@@ -302,7 +315,8 @@ START_TEST(stopped_at_any_round_the_proof_holds)
 }
 END_TEST
 
-/* Multipliers that the checker refuses end no search: the node keeps those that it had, or multipliers of 0. */
+/* Multipliers that the checker refuses end no search: the node keeps those that it had, or
+ * multipliers of 0. */
 START_TEST(a_search_drops_multipliers_that_do_not_hold)
 {
   const thr_limits none = {0};
@@ -316,7 +330,8 @@ START_TEST(a_search_drops_multipliers_that_do_not_hold)
     const double before = branch.tree.node[0].bound;
     ck_assert_int_eq(thr_turning_dual_init(&wrong, &s.c, NULL), THR_OK);
     wrong.rank = calloc(1, sizeof *wrong.rank);
-    wrong.rank[0] = (thr_turning_partition){calloc((size_t)s.frame.n_edges, sizeof *wrong.rank->block), -1};
+    wrong.rank[0] =
+        (thr_turning_partition){calloc((size_t)s.frame.n_edges, sizeof *wrong.rank->block), -1};
     wrong.n_ranks = 1;
     ck_assert_int_eq(thr_branch_keep_dual(&branch, 0, wrong, NULL, NULL, NULL), THR_OK);
     ck_assert_int_ge(branch.tree.node[0].proof, 0);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a hand reads of a plan: instructions counted by hand. */
 #include "graph/plan/plan_measures.h"
 #include "tests/frameworks.h"
@@ -10,7 +11,8 @@
 
 enum { MOST_NODES = 80, MOST_CORDS = 4 };
 
-/* Cords through places that are all different nodes, but that a closed cord comes back to its first. */
+/* Cords through places that are all different nodes, but that a closed cord comes back to its
+ * first. */
 typedef struct {
   double xyz[MOST_NODES][3];
   int n, first[MOST_CORDS], last[MOST_CORDS];
@@ -46,7 +48,8 @@ static thr_reading read_with(const sketch *s, thr_ends ends, const thr_symmetry_
       cord[c].n_passes++;
     }
   }
-  thr_plan p = {.frame = frame_make(s->n, s->xyz, m, (const int(*)[2])edge, NULL, NULL), .options = options_for(ends, 1)};
+  thr_plan p = {.frame = frame_make(s->n, s->xyz, m, (const int(*)[2])edge, NULL, NULL),
+                .options = options_for(ends, 1)};
   for (int i = 0; i < m; i++) /* the frame may know an edge by another number */
     half[i] = 2 * thr_frame_edge_between(&p.frame, edge[i][0], edge[i][1]);
   for (int i = 0; i < m; i++)
@@ -62,8 +65,8 @@ static thr_reading read_with(const sketch *s, thr_ends ends, const thr_symmetry_
 static void assert_reads(const sketch *s, thr_ends ends, int instructions, int repeated, int moved)
 {
   const thr_reading r = read_with(s, ends, NULL);
-  ck_assert_msg(r.instructions == instructions && r.repeated == repeated && r.moved == moved, "%d instructions, %d, %d",
-                r.instructions, r.repeated, r.moved);
+  ck_assert_msg(r.instructions == instructions && r.repeated == repeated && r.moved == moved,
+                "%d instructions, %d, %d", r.instructions, r.repeated, r.moved);
 }
 
 static void stairs(sketch *s, double x, double y, int steps, double up)
@@ -108,7 +111,8 @@ START_TEST(rings_are_read_once_round)
 }
 END_TEST
 
-/* One step of the stairs is read, and how often it comes. Stairs that are once off are read to the end. */
+/* One step of the stairs is read, and how often it comes. Stairs that are once off are read to the
+ * end. */
 START_TEST(what_repeats_is_read_once)
 {
   sketch s = {0}, warped = {0};
@@ -126,7 +130,8 @@ START_TEST(what_repeats_is_read_once)
 }
 END_TEST
 
-/* Two more flights as the first, one of them from its other end: one instruction. A flight that goes down is another path. */
+/* Two more flights as the first, one of them from its other end: one instruction. A flight that
+ * goes down is another path. */
 START_TEST(what_is_moved_along_is_not_read_again)
 {
   sketch s = {0};
@@ -156,8 +161,9 @@ END_TEST
 
 /* ---- paths that a group maps to themselves ---- */
 
-static thr_reading read_with_group(const sketch *s, thr_ends ends, int n_generators, const int *generator, int n_images,
-                                   const int *image, int *unique, int *element)
+static thr_reading read_with_group(const sketch *s, thr_ends ends, int n_generators,
+                                   const int *generator, int n_images, const int *image,
+                                   int *unique, int *element)
 {
   const thr_symmetry_record record = {.present = true,
                                       .n_generators = n_generators,
@@ -178,7 +184,8 @@ static void star_ring(sketch *s, double x, int tips)
   }
 }
 
-/* A star of six tips: turned, tip and valley are read; mirrored, one edge. Without a group all twelve. */
+/* A star of six tips: turned, tip and valley are read; mirrored, one edge. Without a group all
+ * twelve. */
 START_TEST(a_star_is_read_for_one_tip)
 {
   enum { N = 12 };
@@ -201,8 +208,8 @@ START_TEST(a_star_is_read_for_one_tip)
 }
 END_TEST
 
-/* Two stars, and one element that takes the first to the second and, turned by a tip, back: only doing it twice maps a star to
- * itself. */
+/* Two stars, and one element that takes the first to the second and, turned by a tip, back: only
+ * doing it twice maps a star to itself. */
 START_TEST(what_turns_a_path_may_go_by_its_copy)
 {
   enum { N = 12 };
@@ -218,12 +225,14 @@ START_TEST(what_turns_a_path_may_go_by_its_copy)
     image[v] = v;
     image[2 * N + v] = generator[v];
   }
-  const thr_reading r = read_with_group(&s, THR_ENDS_CLOSED, 1, generator, 2, image, unique, element);
+  const thr_reading r =
+      read_with_group(&s, THR_ENDS_CLOSED, 1, generator, 2, image, unique, element);
   ck_assert_msg(r.instructions == 5 && r.mapped == 1 && r.moved == 0, "%d", r.instructions);
 }
 END_TEST
 
-/* A zigzag of six passes and five turns, mirrored at its middle: three passes and "back as you came"; of two ends one. */
+/* A zigzag of six passes and five turns, mirrored at its middle: three passes and "back as you
+ * came"; of two ends one. */
 START_TEST(an_open_path_is_read_to_its_middle)
 {
   enum { N = 7 };
@@ -237,9 +246,12 @@ START_TEST(an_open_path_is_read_to_its_middle)
     identity[v] = v;
   }
   assert_reads(&s, THR_ENDS_ANY, 8, 0, 0);
-  const thr_reading feet = read_with_group(&s, THR_ENDS_FEET, 1, generator, 1, identity, unique, element),
-                    any = read_with_group(&s, THR_ENDS_ANY, 1, generator, 1, identity, unique, element);
-  ck_assert_msg(feet.instructions == 4 && any.instructions == 5, "%d, %d", feet.instructions, any.instructions);
+  const thr_reading feet = read_with_group(&s, THR_ENDS_FEET, 1, generator, 1, identity, unique,
+                                           element),
+                    any = read_with_group(&s, THR_ENDS_ANY, 1, generator, 1, identity, unique,
+                                          element);
+  ck_assert_msg(feet.instructions == 4 && any.instructions == 5, "%d, %d", feet.instructions,
+                any.instructions);
 }
 END_TEST
 

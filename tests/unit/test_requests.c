@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a plan can ask for beside its objective: written, read back, and checked. */
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
@@ -9,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void set_cords(thr_plan *p, const thr_frame *f, const thr_request *o, int n, const int *const *node, const int *length)
+static void set_cords(thr_plan *p, const thr_frame *f, const thr_request *o, int n,
+                      const int *const *node, const int *length)
 {
   *p = (thr_plan){0};
   ck_assert_int_eq(thr_plan_request(p, f, o, NULL), THR_OK);
@@ -54,12 +56,16 @@ START_TEST(everything_asked_for_survives_json)
   q = plan_from(t.data);
   ck_assert(memcmp(q.frame.cover, f.cover, (size_t)f.n_edges * sizeof *f.cover) == 0);
   ck_assert(memcmp(q.frame.capacity, f.capacity, (size_t)f.n_edges * sizeof *f.capacity) == 0);
-  ck_assert(q.options.ends == THR_ENDS_COUNTS && memcmp(q.options.end_count, end_count, sizeof end_count) == 0);
-  ck_assert(q.options.capacity == 3 && q.options.cords_least == 2 && q.options.cords == 5 && thr_wants_balance(&q.options));
+  ck_assert(q.options.ends == THR_ENDS_COUNTS &&
+            memcmp(q.options.end_count, end_count, sizeof end_count) == 0);
+  ck_assert(q.options.capacity == 3 && q.options.cords_least == 2 && q.options.cords == 5 &&
+            thr_wants_balance(&q.options));
   ck_assert(q.options.max_length == 12.5 && q.options.joint == THR_JOINT_TUBE);
   ck_assert(q.options.engine == THR_ENGINE_LP && q.options.confirm == THR_CONFIRM_NEVER);
-  ck_assert(q.cords_claim.present && q.cords_claim.longest == 2 && q.cords_claim.longest_bound == 1.5);
-  ck_assert(q.cords_claim.longest_optimal && q.cords_claim.fewest == 7 && q.cords_claim.fewest_optimal);
+  ck_assert(q.cords_claim.present && q.cords_claim.longest == 2 &&
+            q.cords_claim.longest_bound == 1.5);
+  ck_assert(q.cords_claim.longest_optimal && q.cords_claim.fewest == 7 &&
+            q.cords_claim.fewest_optimal);
   thr_text again = plan_text(&q);
   assert_same_text(&t, &again);
   thr_text_destroy(&t);
@@ -128,10 +134,13 @@ START_TEST(nonsense_is_refused)
       {"\"nodes\": [0]", "\"nodes\": [0], \"parent\": -1", "parent"},
       {"\"nodes\": [0]", "\"nodes\": [0], \"child\": 2", "child"},
       {"\"proof\": {", "\"proof\": {\"cords\": {}, ", "longest"},
-      {"\"proof\": {", "\"proof\": {\"cords\": {\"longest\": {\"status\": \"bound\", \"length\": 1, \"lower_bound\": -1}}, ",
+      {"\"proof\": {",
+       "\"proof\": {\"cords\": {\"longest\": {\"status\": \"bound\", \"length\": 1, "
+       "\"lower_bound\": -1}}, ",
        "lower_bound"},
       {"\"proof\": {",
-       "\"proof\": {\"cords\": {\"longest\": {\"status\": \"bound\", \"length\": 1, \"lower_bound\": 1}, \"fewest\": "
+       "\"proof\": {\"cords\": {\"longest\": {\"status\": \"bound\", \"length\": 1, "
+       "\"lower_bound\": 1}, \"fewest\": "
        "{\"status\": "
        "\"bound\", \"lower_bound\": 0}}, ",
        "lower_bound"},
@@ -144,7 +153,8 @@ START_TEST(nonsense_is_refused)
 }
 END_TEST
 
-/* A cube's edges with one extra pass each over a perfect matching of its nodes: capacities, covers, ends. */
+/* A cube's edges with one extra pass each over a perfect matching of its nodes: capacities, covers,
+ * ends. */
 START_TEST(capacity_and_cover_of_edges)
 {
   thr_frame f = solid_make(CUBE);
@@ -220,18 +230,20 @@ START_TEST(cords_that_are_too_long)
 }
 END_TEST
 
-/* Two triangles with a corner in common, each passed twice. Twice from the one into the other at the same edges leaves that
- * corner in two; once at others ties it. */
+/* Two triangles with a corner in common, each passed twice. Twice from the one into the other at
+ * the same edges leaves that corner in two; once at others ties it. */
 START_TEST(tube_joints)
 {
   static const double xyz[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {3, 4}, {4, 0}};
-  static const int tied[] = {0, 1, 2, 0, 3, 4, 0, 1, 2, 0, 4, 3, 0}, loose[] = {0, 1, 2, 0, 3, 4, 0, 1, 2, 0, 3, 4, 0},
+  static const int tied[] = {0, 1, 2, 0, 3, 4, 0, 1, 2, 0, 4, 3, 0},
+                   loose[] = {0, 1, 2, 0, 3, 4, 0, 1, 2, 0, 3, 4, 0},
                    back[] = {0, 1, 2, 0, 2, 1, 0, 3, 4, 0, 4, 3, 0};
   static const struct {
     const int *walk;
     const char *word;
-  } plans[] = {{tied, NULL}, {loose, "node 0: the cords do not tie"}, {back, "turns back at node 0"}};
+  } plans[] = {
+      {tied, NULL}, {loose, "node 0: the cords do not tie"}, {back, "turns back at node 0"}};
   thr_frame f = frame_make(5, xyz, 6, edge, NULL, NULL);
   thr_request o = options_for(THR_ENDS_CLOSED, 2);
   for (int i = 0; i < 3; i++) {
@@ -267,7 +279,8 @@ static thr_plan two_squares(int n_cords)
   o.cords = n_cords;
   thr_plan p = plan_of_cords(&f, &o);
   thr_err err = {0};
-  thr_status st = thr_check_cords(&p.frame, &p.options, p.cord, p.n_cords, p.proof.certificate, 1, NULL, &p.cords_claim, &err);
+  thr_status st = thr_check_cords(&p.frame, &p.options, p.cord, p.n_cords, p.proof.certificate, 1,
+                                  NULL, &p.cords_claim, &err);
   ck_assert_msg(st == THR_OK, "%s", err.text);
   thr_frame_destroy(&f);
   return p;
@@ -321,12 +334,15 @@ START_TEST(a_claim_about_the_fewest)
     int least = (int)ceil(7 / longest - 1e-9);
     thr_err err = {0};
     thr_shortest s;
-    ck_assert_int_eq(thr_postman_shortest(&p.frame, &p.options, &(thr_limits){0}, &s, NULL), THR_OK);
+    ck_assert_int_eq(thr_postman_shortest(&p.frame, &p.options, &(thr_limits){0}, &s, NULL),
+                     THR_OK);
     thr_certificate_destroy(&p.proof.certificate[0]);
     free(p.proof.certificate);
-    ck_assert_int_eq(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err), THR_OK);
+    ck_assert_int_eq(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &s, &p.proof, &err),
+                     THR_OK);
     thr_shortest_destroy(&s);
-    ck_assert_int_eq(thr_check_cords(&p.frame, &p.options, p.cord, n, p.proof.certificate, 1, NULL, &p.cords_claim, &err),
+    ck_assert_int_eq(thr_check_cords(&p.frame, &p.options, p.cord, n, p.proof.certificate, 1, NULL,
+                                     &p.cords_claim, &err),
                      THR_OK);
     ck_assert_int_eq(p.cords_claim.fewest, least < n ? least : n);
     ck_assert_int_eq(p.cords_claim.fewest_optimal, p.cords_claim.fewest == n);
@@ -347,12 +363,16 @@ START_TEST(the_longest_forced_detour)
 {
   thr_frame f = path_make(6);
   for (int ends = 0; ends < 3; ends++) {
-    thr_request o = options_for(ends == 0 ? THR_ENDS_FEET : ends == 1 ? THR_ENDS_CLOSED : THR_ENDS_ANY, 1);
+    thr_request o = options_for(ends == 0   ? THR_ENDS_FEET
+                                : ends == 1 ? THR_ENDS_CLOSED
+                                            : THR_ENDS_ANY,
+                                1);
     thr_plan p = plan_make(&f, &o);
     p.options.cords = 10;
     thr_cords_claim found;
     thr_err err = {0};
-    ck_assert_int_eq(thr_check_cords(&f, &p.options, p.cord, p.n_cords, NULL, 0, NULL, &found, &err), THR_OK);
+    ck_assert_int_eq(
+        thr_check_cords(&f, &p.options, p.cord, p.n_cords, NULL, 0, NULL, &found, &err), THR_OK);
     ck_assert_double_eq_tol(found.longest_bound, ends == 0 ? 10 : ends == 1 ? 2 : 1, 1e-12);
     thr_plan_destroy(&p);
   }
@@ -369,7 +389,8 @@ START_TEST(every_allocation_of_the_check_fails_once)
     for (long k = 1; st; k++) {
       thr_cords_claim found;
       thr_alloc_fail_at(k);
-      st = thr_check_cords(&q->frame, &q->options, q->cord, q->n_cords, q->proof.certificate, 1, NULL, &found, NULL);
+      st = thr_check_cords(&q->frame, &q->options, q->cord, q->n_cords, q->proof.certificate, 1,
+                           NULL, &found, NULL);
       thr_alloc_fail_at(0);
       ck_assert(st == THR_OK || st == THR_ENOMEM);
     }
@@ -440,7 +461,8 @@ START_TEST(aims_are_read_and_written)
   ck_assert_str_eq(t.data, lists[_i].settled);
   ck_assert_int_eq(thr_aims_parse(t.data, &again, &err), THR_OK);
   ck_assert(memcmp(&again.aims, &o.aims, sizeof o.aims) == 0);
-  ck_assert(again.turning.cost == o.turning.cost && again.turning.length_slack == o.turning.length_slack);
+  ck_assert(again.turning.cost == o.turning.cost &&
+            again.turning.length_slack == o.turning.length_slack);
   ck_assert_int_eq(thr_wants_length(&o) + thr_wants_turning(&o) + thr_wants_symmetry(&o), 1);
   thr_text_destroy(&t);
 }

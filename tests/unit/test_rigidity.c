@@ -1,5 +1,6 @@
-/* Rigidity: closed forms, theorems (Cauchy and Dehn: convex triangulated spheres), and the rank of random frameworks with whole
- * coordinates by elimination modulo a prime. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rigidity: closed forms, theorems (Cauchy and Dehn: convex triangulated spheres), and the rank of
+ * random frameworks with whole coordinates by elimination modulo a prime. */
 #include "eval/structure/beads.h"
 #include "tests/frameworks.h"
 #include "tests/symmetric.h"
@@ -32,9 +33,10 @@ START_TEST(solids)
   check(solid_make(TETRAHEDRON), 0, 0, -1);
   check(solid_make(OCTAHEDRON), 0, 0, -1);
   check(solid_make(ICOSAHEDRON), 0, 0, -1);
-  check(solid_make(CUBE), 6, 0, -1);                   /* 24 - 12 - 6, no bar to spare */
-  check(solid_make(DODECAHEDRON), 24, 0, -1);          /* 60 - 30 - 6 */
-  check(shape_make(THR_MAKE_SPHERE, 4, 0), 0, 0, -1);  /* convex, triangulated: 3 n - 6 edges, rigid */
+  check(solid_make(CUBE), 6, 0, -1);          /* 24 - 12 - 6, no bar to spare */
+  check(solid_make(DODECAHEDRON), 24, 0, -1); /* 60 - 30 - 6 */
+  check(shape_make(THR_MAKE_SPHERE, 4, 0), 0, 0,
+        -1); /* convex, triangulated: 3 n - 6 edges, rigid */
   check(shape_make(THR_MAKE_SPHERE, 10, 0), 0, 0, -1); /* 1,002 nodes */
 }
 END_TEST
@@ -47,19 +49,22 @@ START_TEST(flat_and_straight)
   check(ring_make(4), 2, 0, 1); /* shears in its plane, folds out of it */
   check(ring_make(6), 6, 0, 3); /* 18 - 6 - 6; 12 - 6 - 3 */
   check(grid_make(4, 3), 3 * 12 - 17 - 6, 0, 2 * 12 - 17 - 3);
-  check(triangles_make(5), 0, 0, 0);                 /* each piece by itself */
-  check(wheel_make(6), 18 + 3 - 11 - 6, 12 - 11, 0); /* 7 nodes, 12 edges, in the plane 11 of them independent */
+  check(triangles_make(5), 0, 0, 0); /* each piece by itself */
+  check(wheel_make(6), 18 + 3 - 11 - 6, 12 - 11,
+        0); /* 7 nodes, 12 edges, in the plane 11 of them independent */
 }
 END_TEST
 
-/* Two bipyramids over a triangle that share their tips: 18 edges for 8 nodes, as many as a rigid framework needs, but each half
- * has one of its own too many and turns about the line through the tips. */
+/* Two bipyramids over a triangle that share their tips: 18 edges for 8 nodes, as many as a rigid
+ * framework needs, but each half has one of its own too many and turns about the line through the
+ * tips. */
 START_TEST(double_banana)
 {
   static const double xyz[8][3] = {{0, 0, 2},   {0, 0, -2},  {2, 1, 0},   {3, -1, .5},
                                    {1, 0, -.5}, {-2, 1, .3}, {-3, -1, 0}, {-1, 0, .4}};
-  static const int edge[18][2] = {{2, 3}, {3, 4}, {4, 2}, {0, 2}, {0, 3}, {0, 4}, {1, 2}, {1, 3}, {1, 4},
-                                  {5, 6}, {6, 7}, {7, 5}, {0, 5}, {0, 6}, {0, 7}, {1, 5}, {1, 6}, {1, 7}};
+  static const int edge[18][2] = {{2, 3}, {3, 4}, {4, 2}, {0, 2}, {0, 3}, {0, 4},
+                                  {1, 2}, {1, 3}, {1, 4}, {5, 6}, {6, 7}, {7, 5},
+                                  {0, 5}, {0, 6}, {0, 7}, {1, 5}, {1, 6}, {1, 7}};
   check(frame_make(8, xyz, 18, edge, NULL, NULL), 1, 1, -1);
 }
 END_TEST
@@ -81,7 +86,8 @@ START_TEST(feet_hold)
 }
 END_TEST
 
-/* Eight nodes of a regular octahedron's kind, one moved so far into a face's plane that rounding decides. */
+/* Eight nodes of a regular octahedron's kind, one moved so far into a face's plane that rounding
+ * decides. */
 START_TEST(close_calls_are_said)
 {
   double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.3, .3, 1e-7}};
@@ -106,8 +112,8 @@ static uint64_t power(uint64_t a, uint64_t n)
   return result;
 }
 
-/* Rank modulo a prime of the matrix with rows of coordinate differences: of whole coordinates it is the true rank, unless the
- * prime divides a minor. */
+/* Rank modulo a prime of the matrix with rows of coordinate differences: of whole coordinates it is
+ * the true rank, unless the prime divides a minor. */
 static int rank_modulo(const thr_frame *f)
 {
   int columns = 3 * f->n_nodes, rank = 0;
@@ -132,7 +138,8 @@ static int rank_modulo(const thr_frame *f)
     for (int e = rank + 1; e < f->n_edges; e++) {
       uint64_t factor = a[e * columns + j] * inverse % PRIME;
       for (int k = j; factor && k < columns; k++)
-        a[e * columns + k] = (a[e * columns + k] + (PRIME - factor) * a[rank * columns + k]) % PRIME;
+        a[e * columns + k] =
+            (a[e * columns + k] + (PRIME - factor) * a[rank * columns + k]) % PRIME;
     }
     rank++;
   }

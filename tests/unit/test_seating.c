@@ -1,4 +1,6 @@
-/* Gaps that are seated: closed forms, and what the tensions are once a cord was pulled by so much. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Gaps that are seated: closed forms, and what the tensions are once a cord was pulled by so much.
+ */
 #include "eval/eval.h"
 #include "graph/plan/evaluation.h"
 #include "graph/plan/physics.h"
@@ -11,7 +13,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-static thr_evaluation evaluated(const thr_frame *f, const thr_plan *p, thr_pull pull, const thr_schedule *schedule)
+static thr_evaluation evaluated(const thr_frame *f, const thr_plan *p, thr_pull pull,
+                                const thr_schedule *schedule)
 {
   thr_eval_options o = thr_eval_options_default();
   thr_limits none = {0};
@@ -19,7 +22,8 @@ static thr_evaluation evaluated(const thr_frame *f, const thr_plan *p, thr_pull 
   thr_err err = {0};
   o.pull = pull;
   o.schedule = schedule;
-  ck_assert_msg(thr_eval_plan(f, p->cord, p->n_cords, THR_CAPSTAN, &o, &none, &e, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_eval_plan(f, p->cord, p->n_cords, THR_CAPSTAN, &o, &none, &e, &err) == THR_OK,
+                "%s", err.text);
   return e.record;
 }
 
@@ -30,7 +34,8 @@ START_TEST(each_turn_needs_its_factor)
   const int edge[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 4}};
   thr_frame f = frame_make(5, xyz, 4, edge, NULL, NULL);
   thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
-  thr_evaluation e = evaluated(&f, &p, THR_PULL_START, NULL), both = evaluated(&f, &p, THR_PULL_BOTH, NULL);
+  thr_evaluation e = evaluated(&f, &p, THR_PULL_START, NULL),
+                 both = evaluated(&f, &p, THR_PULL_BOTH, NULL);
   double pull[4];
   int n;
   ck_assert(e.seated_known && e.seated == 1);
@@ -55,13 +60,17 @@ START_TEST(each_turn_needs_its_factor)
 END_TEST
 
 /* What part of the gaps is seated once the cord `only`, or every cord, was pulled by the force. */
-static double part_after(const thr_frame *f, const thr_plan *p, thr_pull end, int only, double force)
+static double part_after(const thr_frame *f, const thr_plan *p, thr_pull end, int only,
+                         double force)
 {
   thr_schedule schedule = {0};
   for (int i = 0; i < p->n_cords; i++) {
     const double with = only < 0 || i == only ? force : 1e-9; /* a schedule leaves no cord slack */
     ck_assert_int_eq(
-        thr_schedule_add(&schedule, &(thr_schedule_step){.deed = THR_DEED_PULL, .cord = i, .end = end, .force = with}, NULL),
+        thr_schedule_add(
+            &schedule,
+            &(thr_schedule_step){.deed = THR_DEED_PULL, .cord = i, .end = end, .force = with},
+            NULL),
         THR_OK);
   }
   thr_evaluation e = evaluated(f, p, THR_PULL_BOTH, &schedule);
@@ -72,7 +81,8 @@ static double part_after(const thr_frame *f, const thr_plan *p, thr_pull end, in
   return part;
 }
 
-/* Between two of the pulls the cords are pulled by what lies in the middle: tensions by the rules for schedules. */
+/* Between two of the pulls the cords are pulled by what lies in the middle: tensions by the rules
+ * for schedules. */
 START_TEST(pulled_by_so_much_so_many_gaps_are_seated)
 {
   rng r = rng_make((uint64_t)_i + 1);
@@ -89,8 +99,10 @@ START_TEST(pulled_by_so_much_so_many_gaps_are_seated)
     ck_assert_int_eq(n, f.n_edges);
     ck_assert_double_eq(part_after(&f, &p, end, only, 0.99 * pull[0]), 0);
     for (int i = 0; i < n && isfinite(pull[i]); i++) {
-      const double next = i + 1 < n ? pull[i + 1] : INFINITY, force = isfinite(next) ? (pull[i] + next) / 2 : 2 * pull[i];
-      if (next > pull[i] * (1 + 1e-6)) ck_assert_double_eq_tol(part_after(&f, &p, end, only, force), (double)(i + 1) / n, 1e-12);
+      const double next = i + 1 < n ? pull[i + 1] : INFINITY,
+                   force = isfinite(next) ? (pull[i] + next) / 2 : 2 * pull[i];
+      if (next > pull[i] * (1 + 1e-6))
+        ck_assert_double_eq_tol(part_after(&f, &p, end, only, force), (double)(i + 1) / n, 1e-12);
     }
   }
   free(pull);

@@ -1,5 +1,6 @@
-/* The structure in Bullet against statics: cantilevers fall at the newtons that moments say, what stands stands, what cannot be
- * simulated is refused, and equal input gives equal bits. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The structure in Bullet against statics: cantilevers fall at the newtons that moments say, what
+ * stands stands, what cannot be simulated is refused, and equal input gives equal bits. */
 #include "eval/structure/beads.h"
 #include "graph/limits.h"
 #include "graph/plan/physics.h"
@@ -21,7 +22,8 @@ typedef struct {
 
 static const double ALONG_X[3] = {1, 0, 0}, UP[3] = {0, 0, 1};
 
-/* n loose beads held out from a fixed one by a straight cord, or standing on it. Metres times scale. */
+/* n loose beads held out from a fixed one by a straight cord, or standing on it. Metres times
+ * scale. */
 static row row_of(int n, double length, double width, const double direction[3], double scale)
 {
   row r = {.physics = thr_physics_default(), .cord = {.id = "A", .n_passes = n}};
@@ -60,7 +62,8 @@ static void row_destroy(row *r)
   thr_frame_destroy(&r->frame);
 }
 
-/* Moments of what hangs beyond the first interface about its lower edge, from which the cord has half a width. */
+/* Moments of what hangs beyond the first interface about its lower edge, from which the cord has
+ * half a width. */
 static double statics(const row *r)
 {
   const double(*corner)[3] = (const double(*)[3])r->beads.corner[0];
@@ -73,13 +76,19 @@ static double statics(const row *r)
   double level = hypot(r->beads.axis[0][0], r->beads.axis[0][1]);
   for (int i = 1; i < r->beads.n_beads; i++)
     for (int k = 0; k < 2; k++)
-      moment += r->beads.mass[i] * r->physics.gravity * (r->beads.mass_centre[i][k] - edge[k]) * r->beads.axis[0][k] / level;
+      moment += r->beads.mass[i] * r->physics.gravity * (r->beads.mass_centre[i][k] - edge[k]) *
+                r->beads.axis[0][k] / level;
   return moment / (r->beads.width / 2);
 }
 
 static thr_settle_options options_of(double needed, double start)
 {
-  return (thr_settle_options){.least = needed, .equilibrium = needed, .start = start, .time_step = 1, .iterations = 1, .seed = 1};
+  return (thr_settle_options){.least = needed,
+                              .equilibrium = needed,
+                              .start = start,
+                              .time_step = 1,
+                              .iterations = 1,
+                              .seed = 1};
 }
 
 /* Nothing is known of the pull. */
@@ -95,14 +104,16 @@ static thr_settle run(const row *r, const thr_settle_options *o)
   const double *tension[1] = {r->tension};
   thr_settle s;
   thr_err err = {0};
-  ck_assert_msg(thr_settle_run(&r->beads, &r->frame, &r->cord, 1, tension, NULL, &r->physics, o, NULL, &s, &err) == THR_OK, "%s",
-                err.text);
+  ck_assert_msg(thr_settle_run(&r->beads, &r->frame, &r->cord, 1, tension, NULL, &r->physics, o,
+                               NULL, &s, &err) == THR_OK,
+                "%s", err.text);
   ck_assert(s.present && s.n_beads == r->beads.n_beads);
   return s;
 }
 
 /* Fall of a cantilever over what statics says, which its error covers. */
-static double fall_along(const double direction[3], int n, double length, double width, double start_factor)
+static double fall_along(const double direction[3], int n, double length, double width,
+                         double start_factor)
 {
   row r = row_of(n, length, width, direction, 1);
   double needed = statics(&r);
@@ -132,10 +143,12 @@ START_TEST(cantilever_falls_where_statics_says)
 }
 END_TEST
 
-/* The thesis's Fig. 12: the same row cut into more beads needs the same tension, half as wide twice as much. */
+/* The thesis's Fig. 12: the same row cut into more beads needs the same tension, half as wide twice
+ * as much. */
 START_TEST(cantilever_scales_as_statics)
 {
-  double few = fall(2, 1, 0.1, 0), more = fall(6, 1, 0.1, 0), wide = fall(3, 1, 0.2, 0), narrow = fall(3, 1, 0.05, 0);
+  double few = fall(2, 1, 0.1, 0), more = fall(6, 1, 0.1, 0), wide = fall(3, 1, 0.2, 0),
+         narrow = fall(3, 1, 0.05, 0);
   ck_assert_double_eq_tol(few, more, 0.02);
   ck_assert_double_eq_tol(wide, narrow, 0.02);
   ck_assert_double_eq_tol(few, narrow, 0.02);
@@ -148,7 +161,8 @@ START_TEST(start_does_not_matter)
 }
 END_TEST
 
-/* A cord that has kept less in some passes than the force at its ends would: the least of both is what draws. */
+/* A cord that has kept less in some passes than the force at its ends would: the least of both is
+ * what draws. */
 START_TEST(a_cord_that_is_let_down_keeps_what_it_had)
 {
   row r = row_of(3, 1, 0.1, ALONG_X, 1);
@@ -158,8 +172,9 @@ START_TEST(a_cord_that_is_let_down_keeps_what_it_had)
   o.start = 1.6 * needed;
   thr_settle s;
   thr_err err = {0};
-  ck_assert_msg(thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, most, &r.physics, &o, NULL, &s, &err) == THR_OK, "%s",
-                err.text);
+  ck_assert_msg(thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, most, &r.physics, &o, NULL,
+                               &s, &err) == THR_OK,
+                "%s", err.text);
   ck_assert_int_eq(s.status, THR_SETTLE_FELL);
   ck_assert_double_eq_tol(s.fall, needed / 2, 0.015 * needed);
   thr_settle_destroy(&s);
@@ -183,7 +198,8 @@ START_TEST(too_little_pull_never_settles)
   thr_settle s = run(&r, &o);
   ck_assert_int_eq(s.status, THR_SETTLE_NEVER_SETTLED);
   ck_assert(s.fall == 0 && s.error == 0 && s.effort > 1 && s.first_bead == 3);
-  ck_assert_double_ge(s.drift, 0.05 * 1000 * 0.4); /* moved at least the tolerance, of an edge of 0.4 m */
+  ck_assert_double_ge(s.drift,
+                      0.05 * 1000 * 0.4); /* moved at least the tolerance, of an edge of 0.4 m */
   thr_settle_destroy(&s);
   row_destroy(&r);
 }
@@ -207,8 +223,9 @@ START_TEST(what_stands_is_held)
 }
 END_TEST
 
-/* A fall more than a twentieth above a pull at which there is an equilibrium, or below one below which there is none, or that is
- * not known to a twentieth, is told as that, as is what stands where nothing holds it. Numbers are kept. */
+/* A fall more than a twentieth above a pull at which there is an equilibrium, or below one below
+ * which there is none, or that is not known to a twentieth, is told as that, as is what stands
+ * where nothing holds it. Numbers are kept. */
 START_TEST(what_contradicts_limit_analysis_is_told_as_such)
 {
   static const struct {
@@ -228,7 +245,11 @@ START_TEST(what_contradicts_limit_analysis_is_told_as_such)
            {THR_SETTLE_HELD, 0, 0, 0.9, 1, THR_SETTLE_LATE},
            {THR_SETTLE_TOO_LARGE, 0, 0, 0.9, 1, THR_SETTLE_TOO_LARGE}};
   for (size_t i = 0; i < sizeof c / sizeof *c; i++) {
-    thr_settle s = {.present = true, .status = c[i].status, .fall = c[i].fall, .error = c[i].error, .first_bead = 3};
+    thr_settle s = {.present = true,
+                    .status = c[i].status,
+                    .fall = c[i].fall,
+                    .error = c[i].error,
+                    .first_bead = 3};
     thr_settle_judge(&s, c[i].least, c[i].equilibrium);
     ck_assert_msg(s.status == c[i].judged, "case %zu", i);
     ck_assert(s.fall == c[i].fall && s.error == c[i].error && s.first_bead == 3);
@@ -248,13 +269,15 @@ START_TEST(nothing_falls_without_gravity)
 }
 END_TEST
 
-/* An arch of three beads on two feet: they slide apart when the cord no longer ties them, or never if the ground is rough. */
+/* An arch of three beads on two feet: they slide apart when the cord no longer ties them, or never
+ * if the ground is rough. */
 START_TEST(friction_of_the_ground_counts)
 {
   const double xyz[5][3] = {{-2, 0, 0}, {-1, 0, 0.8}, {0, 0, 1.1}, {1, 0, 0.8}, {2, 0, 0}};
   const int edge[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 4}};
   for (int i = 0; i < 2; i++) {
-    row r = {.frame = frame_make(5, xyz, 4, edge, NULL, (const int[]){0, 4, -1}), .physics = thr_physics_default()};
+    row r = {.frame = frame_make(5, xyz, 4, edge, NULL, (const int[]){0, 4, -1}),
+             .physics = thr_physics_default()};
     thr_err err = {0};
     memcpy(r.frame.units, "m", 2);
     r.physics.bead_diameter = 400;
@@ -278,13 +301,15 @@ static void assert_same(const thr_settle *a, const thr_settle *b, double scale)
 {
   ck_assert_int_eq(a->status, b->status);
   ck_assert_int_eq(a->first_bead, b->first_bead);
-  ck_assert(scale * scale * scale * a->fall == b->fall && scale * scale * scale * a->error == b->error);
+  ck_assert(scale * scale * scale * a->fall == b->fall &&
+            scale * scale * scale * a->error == b->error);
   ck_assert(scale * a->gap_before == b->gap_before && scale * a->gap_after == b->gap_after);
   ck_assert(scale * a->drift == b->drift);
   for (int v = 0; v < a->n_beads; v++)
     for (int k = 0; k < 7; k++) {
       double factor = k < 3 ? scale : 1;
-      ck_assert(factor * a->before[v][k] == b->before[v][k] && factor * a->after[v][k] == b->after[v][k]);
+      ck_assert(factor * a->before[v][k] == b->before[v][k] &&
+                factor * a->after[v][k] == b->after[v][k]);
     }
 }
 
@@ -305,7 +330,8 @@ START_TEST(same_bits_for_the_same_seed)
 }
 END_TEST
 
-/* A model four times as large, of the same material, under 64 times the pull: powers of two, so exactly. */
+/* A model four times as large, of the same material, under 64 times the pull: powers of two, so
+ * exactly. */
 START_TEST(scale_models_behave_alike)
 {
   row small = row_of(3, 1, 0.125, ALONG_X, 1), large = row_of(3, 1, 0.125, ALONG_X, 4);
@@ -357,13 +383,17 @@ START_TEST(interrupt_stops_and_leaves_nothing)
   thr_settle s;
   thr_err err = {0};
   interrupted = 0;
-  ck_assert_int_eq(thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, NULL, &r.physics, &o, &limits, &s, &err), THR_ELIMIT);
+  ck_assert_int_eq(thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, NULL, &r.physics, &o,
+                                  &limits, &s, &err),
+                   THR_ELIMIT);
   assert_one_line(&err, "stopped");
   ck_assert(!s.present && s.before == NULL && s.after == NULL);
   ck_assert_int_eq(w.calls, 5);
   interrupted = 0;
   w = (watch){0};
-  ck_assert_int_eq(thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, NULL, &r.physics, &o, &limits, &s, &err), THR_OK);
+  ck_assert_int_eq(thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, NULL, &r.physics, &o,
+                                  &limits, &s, &err),
+                   THR_OK);
   ck_assert(w.calls > 100 && w.last > 0.1);
   thr_settle_destroy(&s);
   row_destroy(&r);
@@ -374,23 +404,24 @@ START_TEST(nonsense_is_refused)
 {
   row r = row_of(2, 1, 0.1, ALONG_X, 1);
   const double *tension[1] = {r.tension};
-  const thr_settle_options wrong[] = {{.start = 0, .time_step = 1, .iterations = 1},
-                                      {.start = NAN, .time_step = 1, .iterations = 1},
-                                      {.start = INFINITY, .time_step = 1, .iterations = 1},
-                                      {.start = 1, .time_step = 0, .iterations = 1},
-                                      {.start = 1, .time_step = NAN, .iterations = 1},
-                                      {.start = 1, .time_step = 1, .iterations = 0},
-                                      {.start = 1, .time_step = 1, .iterations = 1e9},
-                                      {.start = 1, .time_step = 1e-9, .iterations = 1},
-                                      {.least = 2, .equilibrium = 1, .time_step = 1, .iterations = 1},
-                                      {.least = NAN, .equilibrium = 1, .time_step = 1, .iterations = 1},
-                                      {.least = -1, .equilibrium = 1, .time_step = 1, .iterations = 1},
-                                      {.least = 0, .equilibrium = INFINITY, .time_step = 1, .iterations = 1}};
+  const thr_settle_options wrong[] = {
+      {.start = 0, .time_step = 1, .iterations = 1},
+      {.start = NAN, .time_step = 1, .iterations = 1},
+      {.start = INFINITY, .time_step = 1, .iterations = 1},
+      {.start = 1, .time_step = 0, .iterations = 1},
+      {.start = 1, .time_step = NAN, .iterations = 1},
+      {.start = 1, .time_step = 1, .iterations = 0},
+      {.start = 1, .time_step = 1, .iterations = 1e9},
+      {.start = 1, .time_step = 1e-9, .iterations = 1},
+      {.least = 2, .equilibrium = 1, .time_step = 1, .iterations = 1},
+      {.least = NAN, .equilibrium = 1, .time_step = 1, .iterations = 1},
+      {.least = -1, .equilibrium = 1, .time_step = 1, .iterations = 1},
+      {.least = 0, .equilibrium = INFINITY, .time_step = 1, .iterations = 1}};
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     thr_settle s;
     thr_err err = {0};
-    ck_assert_msg(thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, NULL, &r.physics, &wrong[i], NULL, &s, &err) ==
-                      THR_EINPUT,
+    ck_assert_msg(thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, NULL, &r.physics,
+                                 &wrong[i], NULL, &s, &err) == THR_EINPUT,
                   "case %zu", i);
     assert_one_line(&err, "structure");
     ck_assert(!s.present && s.before == NULL);
@@ -411,7 +442,8 @@ START_TEST(memory_may_run_out_anywhere)
     thr_settle out;
     thr_err err = {0};
     thr_alloc_fail_at(++k);
-    s = thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, NULL, &r.physics, &o, NULL, &out, &err);
+    s = thr_settle_run(&r.beads, &r.frame, &r.cord, 1, tension, NULL, &r.physics, &o, NULL, &out,
+                       &err);
     thr_alloc_fail_at(0);
     ck_assert(s == THR_OK || (s == THR_ENOMEM && !out.present && out.after == NULL));
     thr_settle_destroy(&out);

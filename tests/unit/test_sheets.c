@@ -1,5 +1,7 @@
-/* Step sheets: the PDF's text as pdftotext finds it, read row by row back into half-edges and compared with the plan; sizes of
- * pages and letters; every pass of a step numbered in its picture. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Step sheets: the PDF's text as pdftotext finds it, read row by row back into half-edges and
+ * compared with the plan; sizes of pages and letters; every pass of a step numbered in its picture.
+ */
 #define _POSIX_C_SOURCE 200809L
 #include "diagram/export/paper.h"
 #include "diagram/overview/overview_parts.h"
@@ -72,7 +74,7 @@ typedef struct {
   int *cord, *row, *step; /* [pieces] where it was picked up: -1 = nowhere yet */
   char (*kind)[16];       /* [pieces] as the row calls it that picks it up; "" = none does */
   int now;                /* step that is read */
-  int at, due;            /* node where the needle is, and the one that it goes to next; -1 = not known */
+  int at, due; /* node where the needle is, and the one that it goes to next; -1 = not known */
 } reader;
 
 static reader reader_make(const thr_plan *p)
@@ -123,7 +125,8 @@ static int cord_named(const reader *r, const char *id, size_t n)
   ck_abort_msg("no cord is called %.*s", (int)n, id);
 }
 
-/* The needle goes over an edge as pass number k + 1 of cord c, forwards or (left needle) backwards. Returns its edge. */
+/* The needle goes over an edge as pass number k + 1 of cord c, forwards or (left needle) backwards.
+ * Returns its edge. */
 static int go(reader *r, int c, int k, bool forwards, int from, int to)
 {
   int e = thr_frame_edge_between(&r->p->frame, from, to);
@@ -169,7 +172,8 @@ static int read_name(const reader *r, const char **s, const char *followers)
   size_t longest = 0;
   for (int v = 0; v < r->p->frame.n_nodes; v++) {
     size_t n = strlen(r->guide.label[v]);
-    if (n <= longest || strncmp(r->guide.label[v], *s, n) != 0 || !strchr(followers, (*s)[n])) continue;
+    if (n <= longest || strncmp(r->guide.label[v], *s, n) != 0 || !strchr(followers, (*s)[n]))
+      continue;
     found = v;
     longest = n;
   }
@@ -202,8 +206,8 @@ static int read_new(reader *r, const char **s, int c, int row)
 {
   const char *open = strstr(*s, " ("), *colon = strstr(*s, ": "), *inside = open + 2;
   ck_assert_ptr_nonnull(colon);
-  bool alone = !open || open > colon || strncmp(inside, "an ", 3) == 0 || strncmp(inside, "a ", 2) == 0 ||
-               strncmp(inside, "with ", 5) == 0;
+  bool alone = !open || open > colon || strncmp(inside, "an ", 3) == 0 ||
+               strncmp(inside, "a ", 2) == 0 || strncmp(inside, "with ", 5) == 0;
   int piece = read_piece(r, alone ? s : &inside);
   if (!alone) snprintf(r->kind[piece], 16, "%.*s", (int)(open - *s), *s);
   *s = colon + 2;
@@ -211,8 +215,8 @@ static int read_new(reader *r, const char **s, int c, int row)
   return piece;
 }
 
-/* "F5, on cord A: ", "F5, on since step 3: ", "F5, your row 12: ", "F5, on the cord since its start: ": a piece that was taken
- * there.
+/* "F5, on cord A: ", "F5, on since step 3: ", "F5, your row 12: ", "F5, on the cord since its
+ * start: ": a piece that was taken there.
  */
 static int read_held(reader *r, const char **s, int c)
 {
@@ -241,7 +245,8 @@ static int read_held(reader *r, const char **s, int c)
   return piece;
 }
 
-/* "4 pick up X-10 (B5): in from A5, out to C5": with the piece before and the arm by which it was left, a pass. */
+/* "4 pick up X-10 (B5): in from A5, out to C5": with the piece before and the arm by which it was
+ * left, a pass. */
 static void read_row(reader *r, int c, const char *line, bool left)
 {
   const char *s = line;
@@ -276,7 +281,8 @@ static void read_row(reader *r, int c, const char *line, bool left)
   ck_assert_msg(*s == '\0' || strcmp(s, "here the end comes out") == 0, "%s", s);
 }
 
-/* "Check: the left needle comes out of foot F12 (node 3) and points at E12." Tubes: "comes out at F12; next E12." */
+/* "Check: the left needle comes out of foot F12 (node 3) and points at E12." Tubes: "comes out at
+ * F12; next E12." */
 static void read_check(reader *r, char *line)
 {
   char *word[MOST_WORDS], *out = strstr(line, r->solid ? "comes out of " : "comes out at ");
@@ -308,7 +314,8 @@ static int read_place(const reader *r, char *word, bool *held)
   return place_named(r, word);
 }
 
-/* "Cord B, left needle, passes 7-1: G1 to F1 (E1)": rest continues it until all places are there. Returns whether they are. */
+/* "Cord B, left needle, passes 7-1: G1 to F1 (E1)": rest continues it until all places are there.
+ * Returns whether they are. */
 static bool read_places(reader *r, const char *row)
 {
   int first, last;
@@ -364,7 +371,8 @@ static void split_rows(char *text)
     }
 }
 
-/* "12 Cord B (blue), left needle: passes 7-1 of 24": the number of the step, and what it is about. */
+/* "12 Cord B (blue), left needle: passes 7-1 of 24": the number of the step, and what it is about.
+ */
 static void read_heading(reader *r, const char *line, const char *title, int *cord, bool *left)
 {
   r->now = atoi(line);
@@ -407,14 +415,18 @@ static void read_text(reader *r, char *text)
   ck_assert_msg(!row[0] && !step[0], "%s%s", row, step);
 }
 
-/* Pieces of one kind, as the rows call them, have arms that are as long; a kind's letter is that of its arms. */
+/* Pieces of one kind, as the rows call them, have arms that are as long; a kind's letter is that of
+ * its arms. */
 static void assert_kinds(const reader *r)
 {
   const thr_frame *f = &r->p->frame;
   for (int a = 0; a < r->n_pieces; a++) {
     const char *kind = r->kind[a];
     if (!*kind || !r->solid) continue;
-    int arms = thr_degree(f, a), said = *kind == 'P' ? 1 : strchr("IL", *kind) ? 2 : strchr("TY", *kind) ? 3 : atoi(kind);
+    int arms = thr_degree(f, a), said = *kind == 'P'          ? 1
+                                        : strchr("IL", *kind) ? 2
+                                        : strchr("TY", *kind) ? 3
+                                                              : atoi(kind);
     ck_assert_int_eq(arms, *kind == 'X' ? 4 : said);
     for (int b = 0; b < a; b++)
       if (strcmp(kind, r->kind[b]) == 0) ck_assert_int_eq(arms, thr_degree(f, b));
@@ -463,8 +475,10 @@ static void assert_pages(const thr_text *pdf, int n_pages, double width, double 
   }
   ck_assert_int_eq(pages, n_pages);
   while (next_number(&s, "xMin=\"", &x0)) {
-    ck_assert(next_number(&s, "yMin=\"", &y0) && next_number(&s, "xMax=\"", &x1) && next_number(&s, "yMax=\"", &y1));
-    ck_assert_msg(x0 > 15 && x1 < w - 15 && y0 > 15 && y1 < h - 15, "a word at %g %g .. %g %g pt", x0, y0, x1, y1);
+    ck_assert(next_number(&s, "yMin=\"", &y0) && next_number(&s, "xMax=\"", &x1) &&
+              next_number(&s, "yMax=\"", &y1));
+    ck_assert_msg(x0 > 15 && x1 < w - 15 && y0 > 15 && y1 < h - 15, "a word at %g %g .. %g %g pt",
+                  x0, y0, x1, y1);
     ck_assert_msg(y1 - y0 > 7, "a word %g pt high", y1 - y0);
     words++;
   }
@@ -480,13 +494,14 @@ static void assert_letters(const thr_text *svg)
   while (next_number(&s, "font-size=\"", &size))
     least = size < least ? size : least;
   ck_assert_msg(least >= SEVEN_POINTS && least < 100, "letters of %g mm", least);
-  ck_assert(!strstr(svg->data, "scale(") && !strstr(svg->data, "matrix(") && !strstr(svg->data, "nan"));
+  ck_assert(!strstr(svg->data, "scale(") && !strstr(svg->data, "matrix(") &&
+            !strstr(svg->data, "nan"));
 }
 
 /* ---- pictures ---- */
 
-/* The picture that begins at view, and ends at end: the passes that its heading names have one number each in it, and no two
- * numbers overlap. */
+/* The picture that begins at view, and ends at end: the passes that its heading names have one
+ * number each in it, and no two numbers overlap. */
 static void assert_picture(const char *page, const char *view, const char *end)
 {
   enum { MOST = 64 };
@@ -500,23 +515,29 @@ static void assert_picture(const char *page, const char *view, const char *end)
   double x[MOST], y[MOST], w[MOST];
   read_range(strpbrk(of, "0123456789"), &first, &last);
   int low = first < last ? first : last, high = first < last ? last : first;
-  for (const char *s = strstr(view, "class=\"pill\""); s && s < end; s = strstr(s, "class=\"pill\"")) {
-    ck_assert(n < MOST && next_number(&s, "x=\"", &x[n]) && next_number(&s, "y=\"", &y[n]) && next_number(&s, "width=\"", &w[n]));
+  for (const char *s = strstr(view, "class=\"pill\""); s && s < end;
+       s = strstr(s, "class=\"pill\"")) {
+    ck_assert(n < MOST && next_number(&s, "x=\"", &x[n]) && next_number(&s, "y=\"", &y[n]) &&
+              next_number(&s, "width=\"", &w[n]));
     s = strstr(s, "<text");
     s = strchr(s, '>') + 1;
     s += strcspn(s, "0123456789");
     int number = atoi(s);
-    ck_assert_msg(number >= low && number <= high, "%d in a picture of passes %d-%d", number, low, high);
+    ck_assert_msg(number >= low && number <= high, "%d in a picture of passes %d-%d", number, low,
+                  high);
     ck_assert_int_eq(seen[number - low]++, 0);
     for (int i = 0; i < n; i++)
-      ck_assert_msg(x[i] + w[i] < x[n] + 0.01 || x[n] + w[n] < x[i] + 0.01 || y[i] + 3.49 < y[n] || y[n] + 3.49 < y[i],
-                    "numbers on each other among %d-%d: %g %g, %g %g", low, high, x[i], y[i], x[n], y[n]);
+      ck_assert_msg(x[i] + w[i] < x[n] + 0.01 || x[n] + w[n] < x[i] + 0.01 || y[i] + 3.49 < y[n] ||
+                        y[n] + 3.49 < y[i],
+                    "numbers on each other among %d-%d: %g %g, %g %g", low, high, x[i], y[i], x[n],
+                    y[n]);
     n++;
   }
   ck_assert_int_eq(n, high - low + 1);
 }
 
-/* Pictures of steps on a page. Each is wholly above the next step, and above the foot of the page. */
+/* Pictures of steps on a page. Each is wholly above the next step, and above the foot of the page.
+ */
 static int count_pictures(const thr_text *svg, double height)
 {
   static const char group[] = "<g class=\"view-", frame[] = "<clipPath ";
@@ -585,7 +606,8 @@ START_TEST(odd_plans_are_read_back)
   case 1: judge(plan_of(path_make(2), THR_ENDS_CLOSED, 1), false, THR_PAGE_A4); break;
   case 2: judge(plan_of(star_make(7), THR_ENDS_CLOSED, 1), true, THR_PAGE_A4); break;
   case 3: judge(plan_of(no_feet(ring_make(30)), THR_ENDS_CLOSED, 2), true, THR_PAGE_LETTER); break;
-  default: judge(plan_of(random_frame(&r, 14, 20, LENGTHS_RANDOM), THR_ENDS_ANY, 1), _i % 2, THR_PAGE_A4);
+  default:
+    judge(plan_of(random_frame(&r, 14, 20, LENGTHS_RANDOM), THR_ENDS_ANY, 1), _i % 2, THR_PAGE_A4);
   }
 }
 END_TEST
@@ -598,7 +620,8 @@ static void assert_sections(const thr_text *pdf, int n_pieces)
   char *text = told.data;
   for (char *line = strtok_r(text, "\n\f", &text); line; line = strtok_r(NULL, "\n\f", &text)) {
     if (strstr(line, " pieces to lay ready: ")) pieces += atoi(line);
-    if (!starts(line, "Section ") || !strstr(line, ": steps ") || strstr(line, "continued")) continue;
+    if (!starts(line, "Section ") || !strstr(line, ": steps ") || strstr(line, "continued"))
+      continue;
     ck_assert_int_eq(sscanf(strstr(line, ": steps "), ": steps %d to %d", &first, &end), 2);
     ck_assert_int_eq(first, last + 1);
     ck_assert_int_ge(end, first);
@@ -625,7 +648,8 @@ START_TEST(a_large_plan_is_read_back)
 }
 END_TEST
 
-/* What hands have to know beside the steps, and of this plan: how many pieces and cords, where one starts, where its feet are. */
+/* What hands have to know beside the steps, and of this plan: how many pieces and cords, where one
+ * starts, where its feet are. */
 START_TEST(making_is_told)
 {
   static const char *const said[] = {"stopper",
@@ -718,11 +742,13 @@ START_TEST(a_shell_is_seen_in_space)
   for (int i = 0; i < thr_sheets_pages(s); i++) {
     thr_text svg = {0};
     ck_assert_int_eq(thr_sheets_svg(s, i, &svg, NULL), THR_OK);
-    for (const char *view = strstr(svg.data, "<g class=\"view-"), *next; view; view = next, views++) {
+    for (const char *view = strstr(svg.data, "<g class=\"view-"), *next; view;
+         view = next, views++) {
       next = strstr(view + 1, "<g class=\"view-");
       ck_assert_int_eq(count_before(view, next, "<clipPath "), 1);
     }
-    ck_assert(!strstr(svg.data, ">from below<") || i == 0); /* the picture of the whole has two halves */
+    ck_assert(!strstr(svg.data, ">from below<") ||
+              i == 0); /* the picture of the whole has two halves */
     thr_text_destroy(&svg);
   }
   ck_assert_int_gt(views, 6);
@@ -731,7 +757,8 @@ START_TEST(a_shell_is_seen_in_space)
 }
 END_TEST
 
-/* A step ends behind a straight run, not within it, where the run is short enough: rows of seven. */
+/* A step ends behind a straight run, not within it, where the run is short enough: rows of seven.
+ */
 START_TEST(steps_end_where_the_cord_turns)
 {
   thr_plan p = plan_number(0);
@@ -746,7 +773,8 @@ START_TEST(steps_end_where_the_cord_turns)
     read_range(range + strlen(": passes "), &first, &last);
     const thr_cord *cord = &p.cord[0];
     if (last == cord->n_passes) continue;
-    ck_assert_msg(thr_turn_angle(&p.frame, cord->half[last - 1], cord->half[last]) > 0.6, "pass %d goes straight on", last);
+    ck_assert_msg(thr_turn_angle(&p.frame, cord->half[last - 1], cord->half[last]) > 0.6,
+                  "pass %d goes straight on", last);
     ends++;
   }
   ck_assert_int_gt(ends, 2);
@@ -784,7 +812,8 @@ static long after(long k)
 
 START_TEST(every_failing_allocation_is_reported)
 {
-  thr_plan p = _i ? symmetric_plan(solid_make(TETRAHEDRON), THR_ENDS_ANY, 1, "") : plan_of(path_make(2), THR_ENDS_ANY, 1);
+  thr_plan p = _i ? symmetric_plan(solid_make(TETRAHEDRON), THR_ENDS_ANY, 1, "")
+                  : plan_of(path_make(2), THR_ENDS_ANY, 1);
   thr_sheets_options o = thr_sheets_options_default();
   thr_status st = THR_ENOMEM;
   for (long k = 1; st; k = after(k)) {
@@ -799,7 +828,8 @@ START_TEST(every_failing_allocation_is_reported)
 }
 END_TEST
 
-/* Of the file alone, whose pages are laid out; and of both at once, now and then. Each finds fonts in a child process. */
+/* Of the file alone, whose pages are laid out; and of both at once, now and then. Each finds fonts
+ * in a child process. */
 START_TEST(every_failing_allocation_of_the_pdf_is_reported)
 {
   enum { BOTH = 97 };
@@ -811,7 +841,8 @@ START_TEST(every_failing_allocation_of_the_pdf_is_reported)
   for (long k = 1; st; k = _i ? k + BOTH : k < 40 ? k + 1 : k + 17) {
     thr_text pdf = {0};
     thr_alloc_fail_at(k);
-    st = _i ? thr_sheets_write(&p, &o, &none, &n, &pdf, NULL) : thr_sheets_pdf(s, &none, &pdf, NULL);
+    st =
+        _i ? thr_sheets_write(&p, &o, &none, &n, &pdf, NULL) : thr_sheets_pdf(s, &none, &pdf, NULL);
     thr_alloc_fail_at(0);
     ck_assert(st == THR_OK || (st == THR_ENOMEM && !pdf.length));
     thr_text_destroy(&pdf);

@@ -1,4 +1,6 @@
-/* What the limit analysis leaves in a plan: there and back as JSON, and what the checker believes of it. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the limit analysis leaves in a plan: there and back as JSON, and what the checker believes
+ * of it. */
 #include "eval/cord/profile.h"
 #include "eval/eval.h"
 #include "graph/check/check.h"
@@ -27,13 +29,15 @@ static thr_plan row_plan(thr_frame *frame)
   return plan_simple(frame, THR_ENDS_ANY, 1);
 }
 
-/* The second piece turns by the angle 1 a metre of its mass centre's way down, about the lower edge of the face at 50 mm. Its
- * mass centre is 25 mm beyond the face (its arm ends at its node: half of 50 mm), 10 mm above that edge. */
+/* The second piece turns by the angle 1 a metre of its mass centre's way down, about the lower edge
+ * of the face at 50 mm. Its mass centre is 25 mm beyond the face (its arm ends at its node: half of
+ * 50 mm), 10 mm above that edge. */
 static void turn_about_lower_edge(double velocity[2][6])
 {
   const double lever[3] = {0.025, 0, 0.010}, size = hypot(lever[0], lever[2]);
   memset(velocity, 0, 2 * sizeof *velocity);
-  velocity[1][4] = 1 / size; /* about y: what is above the edge goes forward, what is beyond it down */
+  velocity[1][4] =
+      1 / size; /* about y: what is above the edge goes forward, what is beyond it down */
   velocity[1][0] = lever[2] / size;
   velocity[1][2] = -lever[0] / size;
 }
@@ -43,13 +47,15 @@ static void claim(thr_plan *plan, double pull)
 {
   thr_evaluation *e = &plan->evaluation;
   thr_err err = {0};
-  *e = (thr_evaluation){.present = true, .method = THR_STRUCTURE, .time_step = 1, .iterations = 1, .n_cords = 1};
+  *e = (thr_evaluation){
+      .present = true, .method = THR_STRUCTURE, .time_step = 1, .iterations = 1, .n_cords = 1};
   thr_physics physics = thr_physics_default();
   physics.bead_diameter = 20;
   physics.bore = 2;
   physics.cord_diameter = 1;
   physics.bead_mass = 10;
-  ck_assert_msg(thr_physics_resolve(&physics, &plan->frame, &e->physics, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_physics_resolve(&physics, &plan->frame, &e->physics, &err) == THR_OK, "%s",
+                err.text);
   e->cord = calloc(1, sizeof *e->cord);
   e->cord[0] = (thr_eval_cord){.known = true,
                                .pull = THR_PULL_BOTH,
@@ -62,12 +68,16 @@ static void claim(thr_plan *plan, double pull)
   e->largest = pull;
   e->total = 2 * pull;
   thr_standing *s = &e->standing;
-  *s = (thr_standing){.present = true, .clamped = true, .let_down = NAN, .n_cords = 1, .n_answers = 1};
+  *s = (thr_standing){
+      .present = true, .clamped = true, .let_down = NAN, .n_cords = 1, .n_answers = 1};
   s->drawn = calloc(1, sizeof *s->drawn);
   s->drawn[0].pull = THR_PULL_BOTH;
   s->answer = calloc(1, sizeof *s->answer);
-  s->answer[0] = (thr_answer){
-      .asked = THR_ASKED_HOLDING, .proved = pull, .found = INFINITY, .n_beads = 2, .velocity = calloc(2, sizeof(double[6]))};
+  s->answer[0] = (thr_answer){.asked = THR_ASKED_HOLDING,
+                              .proved = pull,
+                              .found = INFINITY,
+                              .n_beads = 2,
+                              .velocity = calloc(2, sizeof(double[6]))};
   turn_about_lower_edge(s->answer[0].velocity);
 }
 
@@ -110,8 +120,8 @@ START_TEST(what_is_no_mechanism_proves_nothing)
 }
 END_TEST
 
-/* A mechanism that moves nothing but by rounding, or by so much less than what it does for nothing, proves nothing, however much
- * is claimed: two pieces on the ground, which hold. */
+/* A mechanism that moves nothing but by rounding, or by so much less than what it does for nothing,
+ * proves nothing, however much is claimed: two pieces on the ground, which hold. */
 START_TEST(no_mechanism_hides_in_a_tolerance)
 {
   static const double SLOW[] = {9e-13, 9e-14, 1e-13, 1e-9};
@@ -194,11 +204,13 @@ static thr_plan evaluated_plan(bool scheduled)
   options.dynamics = false;
   if (scheduled) {
     static const char text[] = "all: pull both 20; all: release both 5";
-    ck_assert_int_eq(thr_schedule_parse(&schedule, &plan, text, sizeof text - 1, "text", &err), THR_OK);
+    ck_assert_int_eq(thr_schedule_parse(&schedule, &plan, text, sizeof text - 1, "text", &err),
+                     THR_OK);
     options.schedule = &schedule;
   }
-  ck_assert_msg(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_STRUCTURE, &options, &none, &eval, &err) == THR_OK, "%s",
-                err.text);
+  ck_assert_msg(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_STRUCTURE, &options, &none,
+                              &eval, &err) == THR_OK,
+                "%s", err.text);
   (void)thr_plan_take_evaluation(&plan, &eval.record);
   thr_eval_destroy(&eval);
   thr_schedule_destroy(&schedule);
@@ -218,9 +230,11 @@ START_TEST(every_answer_is_believed_and_no_better_one)
     if (a->n_beads == 0) continue;
     const double was = a->proved, better = thr_asked_of_load(a->asked) ? 1 - 1e-6 : 1 + 1e-6;
     proved++;
-    a->found = INFINITY;      /* none was found */
-    a->proved = was / better; /* less is claimed: but for the first, whose tensions follow from it */
-    if (a->asked != THR_ASKED_HOLDING) ck_assert_msg(thr_check_plan(&plan, &err) == THR_OK, "%s", err.text);
+    a->found = INFINITY; /* none was found */
+    a->proved =
+        was / better; /* less is claimed: but for the first, whose tensions follow from it */
+    if (a->asked != THR_ASKED_HOLDING)
+      ck_assert_msg(thr_check_plan(&plan, &err) == THR_OK, "%s", err.text);
     a->proved = was * better;
     assert_violated(&plan, a->asked == THR_ASKED_HOLDING && _i == 0 ? "" : "the powers");
     a->proved = was;
@@ -236,13 +250,16 @@ START_TEST(answers_survive_json)
   thr_text text = plan_text(&plan), again;
   thr_plan back = plan_from(text.data);
   const thr_standing *a = &plan.evaluation.standing, *b = &back.evaluation.standing;
-  ck_assert(b->present && b->tilt == a->tilt && b->azimuth == a->azimuth && !b->clamped && !b->taut);
+  ck_assert(b->present && b->tilt == a->tilt && b->azimuth == a->azimuth && !b->clamped &&
+            !b->taut);
   ck_assert_int_eq(b->n_loads, 2);
   ck_assert_int_eq(b->n_answers, a->n_answers);
   for (int i = 0; i < a->n_answers; i++) {
     const thr_answer *c = &a->answer[i], *d = &b->answer[i];
-    ck_assert(d->asked == c->asked && d->pull == c->pull && d->proved == c->proved && d->found == c->found);
-    ck_assert(d->n_beads == c->n_beads && memcmp(d->velocity, c->velocity, (size_t)c->n_beads * sizeof *c->velocity) == 0);
+    ck_assert(d->asked == c->asked && d->pull == c->pull && d->proved == c->proved &&
+              d->found == c->found);
+    ck_assert(d->n_beads == c->n_beads &&
+              memcmp(d->velocity, c->velocity, (size_t)c->n_beads * sizeof *c->velocity) == 0);
   }
   again = plan_text(&back);
   ck_assert_str_eq(again.data, text.data);
@@ -257,7 +274,8 @@ END_TEST
 START_TEST(every_alteration_is_seen)
 {
   thr_plan plan;
-  ck_assert_int_eq(thr_plan_read(&plan, "tests/fuzz/corpus/plan/evaluation-structure.json", NULL), THR_OK);
+  ck_assert_int_eq(thr_plan_read(&plan, "tests/fuzz/corpus/plan/evaluation-structure.json", NULL),
+                   THR_OK);
   thr_evaluation *e = &plan.evaluation;
   thr_standing *s = &e->standing;
   switch (_i) {
@@ -280,7 +298,8 @@ START_TEST(every_alteration_is_seen)
 }
 END_TEST
 
-/* Turns of the tight cord are those of its shortest path, and the plan's exponents add up to them. */
+/* Turns of the tight cord are those of its shortest path, and the plan's exponents add up to them.
+ */
 START_TEST(tight_turns_are_those_of_the_tight_path)
 {
   thr_plan plan;
@@ -291,13 +310,15 @@ START_TEST(tight_turns_are_those_of_the_tight_path)
   ck_assert_int_eq(thr_plan_read(&plan, "data/dome7-stairs.json", NULL), THR_OK);
   options.taut = true;
   options.dynamics = false;
-  ck_assert_msg(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_STRUCTURE, &options, &none, &eval, &err) == THR_OK, "%s",
-                err.text);
+  ck_assert_msg(thr_eval_plan(&plan.frame, plan.cord, plan.n_cords, THR_STRUCTURE, &options, &none,
+                              &eval, &err) == THR_OK,
+                "%s", err.text);
   const thr_physics *physics = &eval.record.physics;
   for (int i = 0; i < plan.n_cords; i++) {
     double turn[32], sum = 0;
     ck_assert_int_eq(thr_taut_path(&plan.frame, &plan.cord[i], physics->cord_diameter / 2,
-                                   (physics->bore - physics->cord_diameter) / 2, turn, NULL, NULL, NULL),
+                                   (physics->bore - physics->cord_diameter) / 2, turn, NULL, NULL,
+                                   NULL),
                      THR_OK);
     for (int k = 0; k + 1 < plan.cord[i].n_passes; k++) {
       ck_assert_double_eq_tol(eval.record.cord[i].exponent[k], physics->mu * turn[k], 1e-12);

@@ -1,4 +1,6 @@
-/* The steps in words: read back row by row into half-edges and compared with the plan; sides against what is outside in space. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The steps in words: read back row by row into half-edges and compared with the plan; sides
+ * against what is outside in space. */
 #include "diagram/layout/layout.h"
 #include "diagram/overview/overview.h"
 #include "diagram/overview/overview_parts.h"
@@ -48,8 +50,9 @@ typedef struct {
   char (*label)[48]; /* [n_nodes] what the overview calls the nodes */
   const char *next;  /* text that is left */
   char line[MOST_LINE];
-  int *cord, *row; /* [pieces] where it was picked up: -1 = nowhere yet; row 0 = where the cord starts */
-  int **half;      /* [n_cords] as read back, or NULL */
+  int *cord,
+      *row;   /* [pieces] where it was picked up: -1 = nowhere yet; row 0 = where the cord starts */
+  int **half; /* [n_cords] as read back, or NULL */
 } reader;
 
 static int pieces_in(const thr_plan *p)
@@ -70,7 +73,8 @@ static reader reader_make(const thr_plan *p, const char *text)
     r.cord[i] = -1;
   ck_assert_int_eq(thr_layout_choose(&l, &p->frame, NULL, 0, NULL), THR_OK);
   if (thr_layout_to_scale(l.kind))
-    ck_assert_int_eq(thr_places_find(&places, &p->frame, (const double(*)[2])l.xy, l.median, NULL), THR_OK);
+    ck_assert_int_eq(thr_places_find(&places, &p->frame, (const double(*)[2])l.xy, l.median, NULL),
+                     THR_OK);
   for (int v = 0; v < p->frame.n_nodes; v++)
     thr_places_name(&places, &p->frame, v, r.label[v]);
   thr_places_destroy(&places);
@@ -88,7 +92,8 @@ static void reader_destroy(reader *r)
   free(r->label);
 }
 
-/* The next line with its continuations joined; false at the end. Each is at most 100 columns and ends without a blank. */
+/* The next line with its continuations joined; false at the end. Each is at most 100 columns and
+ * ends without a blank. */
 static bool next_line(reader *r)
 {
   size_t n = 0;
@@ -129,7 +134,8 @@ static int read_place(const reader *r, const char *text)
   text += foot ? 5 : 0;
   int v = read_node(r, &text);
   ck_assert_int_eq(r->p->frame.foot[v], foot);
-  if (strncmp(text, " (node ", 7) == 0) ck_assert_int_eq(strncmp(text + 7, r->p->frame.name[v], strlen(r->p->frame.name[v])), 0);
+  if (strncmp(text, " (node ", 7) == 0)
+    ck_assert_int_eq(strncmp(text + 7, r->p->frame.name[v], strlen(r->p->frame.name[v])), 0);
   return v;
 }
 
@@ -137,7 +143,8 @@ static int cord_of(const reader *r, const char *text)
 {
   size_t length = strcspn(text, ",: ");
   for (int c = 0; c < r->p->n_cords; c++)
-    if (strlen(r->p->cord[c].id) == length && strncmp(r->p->cord[c].id, text, length) == 0) return c;
+    if (strlen(r->p->cord[c].id) == length && strncmp(r->p->cord[c].id, text, length) == 0)
+      return c;
   ck_abort_msg("no such cord: %s", text);
   return -1;
 }
@@ -151,7 +158,8 @@ static int half_between(const thr_frame *f, int a, int b)
 
 /* ---- what a novice holds, who has the text alone ---- */
 
-/* The node whose label begins the text and is followed by one of these; the longest if there are several. *text moves behind it.
+/* The node whose label begins the text and is followed by one of these; the longest if there are
+ * several. *text moves behind it.
  */
 static int read_name(const reader *r, const char **text, const char *followers)
 {
@@ -159,7 +167,9 @@ static int read_name(const reader *r, const char **text, const char *followers)
   size_t longest = 0;
   for (int v = 0; v < r->p->frame.n_nodes; v++) {
     size_t length = strlen(r->label[v]);
-    if (length <= longest || strncmp(r->label[v], *text, length) != 0 || !strchr(followers, (*text)[length])) continue;
+    if (length <= longest || strncmp(r->label[v], *text, length) != 0 ||
+        !strchr(followers, (*text)[length]))
+      continue;
     found = v;
     longest = length;
   }
@@ -193,8 +203,10 @@ static int pick_up(reader *r, const char **text, int c, int row)
 {
   const char *open = strchr(*text, '('), *inside = open + 1;
   ck_assert_ptr_nonnull(open);
-  bool alone = strncmp(open, "(an ", 4) == 0 || strncmp(open, "(a ", 3) == 0 || strncmp(open, "(with ", 6) == 0;
-  if (!strstr(*text, " (") || strstr(*text, " (") > strstr(*text, ": ")) alone = true; /* a tube of its own kind */
+  bool alone = strncmp(open, "(an ", 4) == 0 || strncmp(open, "(a ", 3) == 0 ||
+               strncmp(open, "(with ", 6) == 0;
+  if (!strstr(*text, " (") || strstr(*text, " (") > strstr(*text, ": "))
+    alone = true; /* a tube of its own kind */
   int piece = read_piece(r, alone ? text : &inside);
   *text = strstr(alone ? *text : inside, ": ");
   ck_assert_ptr_nonnull(*text);
@@ -204,7 +216,8 @@ static int pick_up(reader *r, const char **text, int c, int row)
   return piece;
 }
 
-/* "F5, on cord A since its row 3", "F5, on the cord since its start": a piece that was picked up there. */
+/* "F5, on cord A since its row 3", "F5, on the cord since its start": a piece that was picked up
+ * there. */
 static int find_held(reader *r, const char **text, int c)
 {
   int piece = read_piece(r, text), cord = c;
@@ -222,8 +235,8 @@ static int find_held(reader *r, const char **text, int c)
   return piece;
 }
 
-/* One row of a cord, the n-th pass being the latest so far; from and due: the piece before and that whose arm the cord left by.
- * Fills half[n] if the row has a pass. */
+/* One row of a cord, the n-th pass being the latest so far; from and due: the piece before and that
+ * whose arm the cord left by. Fills half[n] if the row has a pass. */
 static void read_row(reader *r, int c, int *half, int *n, int *from, int *due)
 {
   const thr_frame *f = &r->p->frame;
@@ -303,14 +316,15 @@ static void thread_copy(reader *r, int c)
   }
 }
 
-/* "Cord B: the same, moved, threaded backwards, beginning with its pass 3: start at A1, first to A2, end at A6": the image of
- * what was read of its path, as the words say. */
+/* "Cord B: the same, moved, threaded backwards, beginning with its pass 3: start at A1, first to
+ * A2, end at A6": the image of what was read of its path, as the words say. */
 static void read_copy(reader *r)
 {
   const thr_frame *f = &r->p->frame;
   int c = cord_of(r, r->line + 9), u = r->p->symmetry.unique[c], n = r->p->cord[c].n_passes;
   const int *image = r->p->symmetry.image + r->p->symmetry.element[c] * f->n_nodes;
-  const char *how = strstr(r->line, "beginning with its pass "), *start = strstr(r->line, ": start at "), *first, *end;
+  const char *how = strstr(r->line, "beginning with its pass "),
+             *start = strstr(r->line, ": start at "), *first, *end;
   bool backward = strstr(r->line, ", threaded backwards") != NULL;
   int from = how ? atoi(how + 24) - 1 : backward ? n - 1 : 0;
   ck_assert(start && r->half[u]);
@@ -329,7 +343,8 @@ static void read_copy(reader *r)
   ck_assert_int_eq(read_place(r, end), thr_head(f, r->half[c][n - 1]));
 }
 
-/* Reads all; every cord of the plan must be there as it is. Returns how many copies were not listed. */
+/* Reads all; every cord of the plan must be there as it is. Returns how many copies were not
+ * listed. */
 static int assert_read_back(reader *r)
 {
   int copies = 0;
@@ -367,7 +382,8 @@ START_TEST(what_is_said_is_the_plan)
   for (int c = 0; c < p.n_cords; c++)
     listed += !p.symmetry.present || p.symmetry.unique[c] == c || !motion[c];
   ck_assert_int_eq(copies, p.n_cords - listed);
-  if (p.symmetry.present && _i % 2 == 0) ck_assert_int_eq(copies, p.n_cords - p.symmetry.unique_paths);
+  if (p.symmetry.present && _i % 2 == 0)
+    ck_assert_int_eq(copies, p.n_cords - p.symmetry.unique_paths);
   reader_destroy(&r);
   free(motion);
   thr_text_destroy(&t);
@@ -409,7 +425,8 @@ START_TEST(false_copies_are_listed)
   thr_plan p = plan_number(7);
   const char **motion = words_for(&p, 1000);
   for (int c = 0; c < p.n_cords; c++)
-    if (p.symmetry.unique[c] != c) p.symmetry.element[c] = (p.symmetry.element[c] + 1) % p.symmetry.n_images;
+    if (p.symmetry.unique[c] != c)
+      p.symmetry.element[c] = (p.symmetry.element[c] + 1) % p.symmetry.n_images;
   thr_text t = steps_of(&p, motion);
   reader r = reader_make(&p, t.data);
   ck_assert_int_eq(assert_read_back(&r), 0);
@@ -442,7 +459,8 @@ START_TEST(left_is_left_from_outside)
                {THR_MAKE_SPHERE, 2, 0, true},
                {THR_MAKE_SPHERE, 3, 0, true},
                {THR_MAKE_HONEYCOMB, 3, 0, false}};
-  thr_plan p = plan_of(shape_make(shape[_i].shape, shape[_i].size, shape[_i].rings), THR_ENDS_CLOSED, 1);
+  thr_plan p =
+      plan_of(shape_make(shape[_i].shape, shape[_i].size, shape[_i].rings), THR_ENDS_CLOSED, 1);
   const thr_frame *f = &p.frame;
   thr_guide guide;
   ck_assert_int_eq(thr_guide_make(&guide, f, NULL, NULL), THR_OK);
@@ -458,7 +476,8 @@ START_TEST(left_is_left_from_outside)
     }
     thr_cross(a, b, cross);
     outward_at(f, shape[_i].sphere, thr_tail(f, go), out);
-    ck_assert_msg((thr_dot(cross, out) > 0) == (way == THR_WAY_LEFT), "pass %d goes to the other side", k + 1);
+    ck_assert_msg((thr_dot(cross, out) > 0) == (way == THR_WAY_LEFT),
+                  "pass %d goes to the other side", k + 1);
     left += way == THR_WAY_LEFT;
     right += way == THR_WAY_RIGHT;
   }
@@ -504,11 +523,14 @@ START_TEST(mirrors_exchange_left_and_right)
     char key[32];
     thr_isometry iso;
     if (p.symmetry.unique[c] == c) continue;
-    thr_isometry_of(&p.frame, p.symmetry.image + p.symmetry.element[c] * p.frame.n_nodes, 1e-6, &iso);
+    thr_isometry_of(&p.frame, p.symmetry.image + p.symmetry.element[c] * p.frame.n_nodes, 1e-6,
+                    &iso);
     snprintf(key, sizeof key, "[ ] Cord %s: ", p.cord[c].id);
-    const char *line = strstr(t.data, key), *words = line ? strstr(line, "left and right turns exchanged") : NULL;
+    const char *line = strstr(t.data, key),
+               *words = line ? strstr(line, "left and right turns exchanged") : NULL;
     ck_assert_ptr_nonnull(line);
-    bool backward = strstr(line, "threaded backwards") && strstr(line, "threaded backwards") < strstr(line, "start at");
+    bool backward = strstr(line, "threaded backwards") &&
+                    strstr(line, "threaded backwards") < strstr(line, "start at");
     bool said = words && words < strstr(line, "start at");
     ck_assert_int_eq(said, iso.kind == THR_ISO_MIRROR && !backward);
     exchanged += said;
@@ -523,14 +545,15 @@ END_TEST
 /* Names with blanks are one word, equal names are told apart, and a long one is not broken. */
 START_TEST(names_stay_single_words)
 {
-  static const char *const name[] = {"(0, 1)", "x", "x", "a name of more than forty bytes is cut so that it fits",
+  static const char *const name[] = {"(0, 1)", "x", "x",
+                                     "a name of more than forty bytes is cut so that it fits",
                                      "\xC3\xA4 \xC3\xB6"};
   thr_frame f = ring_make(5);
   name_nodes(&f, name, 5);
   thr_plan p = plan_simple(&f, THR_ENDS_CLOSED, 1);
   thr_text t = steps_of(&p, NULL);
-  static const char *const label[] = {"(0,_1)", " x#1", " x#2", "(a_name_of_more_than_forty_bytes_is_cut_s",
-                                      " \xC3\xA4_\xC3\xB6"};
+  static const char *const label[] = {
+      "(0,_1)", " x#1", " x#2", "(a_name_of_more_than_forty_bytes_is_cut_s", " \xC3\xA4_\xC3\xB6"};
   for (int v = 0; v < 5; v++)
     ck_assert_msg(strstr(t.data, label[v]) != NULL, "%s is not in:\n%s", label[v], t.data);
   ck_assert_ptr_null(strstr(t.data, "cut_so"));

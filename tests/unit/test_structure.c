@@ -1,5 +1,6 @@
-/* The pull that the structures of whole plans need (method structure): larger loads and domes, rougher cords, other ways of
- * writing the same plan. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The pull that the structures of whole plans need (method structure): larger loads and domes,
+ * rougher cords, other ways of writing the same plan. */
 #include "eval/eval.h"
 #include "eval/structure/beads.h"
 #include "graph/angle.h"
@@ -28,16 +29,22 @@ static thr_eval eval_file(const char *path, double mu, double density)
   o.physics.mu = mu;
   o.physics.density = density;
   ck_assert_msg(thr_plan_read(&p, path, &err) == THR_OK, "%s", err.text);
-  ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, &err) == THR_OK, "%s", err.text);
-  for (int i = 0; i < p.n_cords; i++) { /* the capstan law between neighbouring passes, the pull at the harder end */
+  ck_assert_msg(
+      thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, &err) == THR_OK,
+      "%s", err.text);
+  for (int i = 0; i < p.n_cords;
+       i++) { /* the capstan law between neighbouring passes, the pull at the harder end */
     const thr_eval_cord *c = &e.record.cord[i];
     ck_assert(c->known && c->n_passes == p.cord[i].n_passes);
     ck_assert_double_eq_tol(c->force, e.holding.lower, 1e-12);
     ck_assert_double_eq_tol(fmax(c->tension[0], c->tension[c->n_passes - 1]), c->force, 1e-9);
     ck_assert_double_eq_tol(c->loss, 1 - c->tension[c->slackest] / c->force, 1e-12);
     for (int k = 0; k + 1 < c->n_passes; k++) {
-      double turn = k == c->slackest ? 0 : mu * thr_turn_angle(&p.frame, p.cord[i].half[k], p.cord[i].half[k + 1]);
-      double ratio = k < c->slackest ? c->tension[k] / c->tension[k + 1] : c->tension[k + 1] / c->tension[k];
+      double turn = k == c->slackest
+                        ? 0
+                        : mu * thr_turn_angle(&p.frame, p.cord[i].half[k], p.cord[i].half[k + 1]);
+      double ratio =
+          k < c->slackest ? c->tension[k] / c->tension[k + 1] : c->tension[k + 1] / c->tension[k];
       ck_assert_double_eq_tol(ratio, exp(turn), 1e-9 * ratio);
     }
   }
@@ -48,14 +55,16 @@ static thr_eval eval_file(const char *path, double mu, double density)
 
 START_TEST(straight_lines_pull_least)
 {
-  static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-stairs.json", "data/dome7-snake.json"};
+  static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-stairs.json",
+                                      "data/dome7-snake.json"};
   double before = 0;
   for (int i = 0; i < 3; i++) {
     thr_eval e = eval_file(plans[i], 0.2, 1), heavy = eval_file(plans[i], 0.2, 2);
     thr_eval low = eval_file(plans[i], 0.1, 1), high = eval_file(plans[i], 0.3, 1);
     ck_assert_msg(e.record.largest > 1.2 * before, "%s: %g N", plans[i], e.record.largest);
     before = e.record.largest;
-    ck_assert_double_eq_tol(heavy.record.largest, 2 * e.record.largest, 2e-6 * heavy.record.largest);
+    ck_assert_double_eq_tol(heavy.record.largest, 2 * e.record.largest,
+                            2e-6 * heavy.record.largest);
     ck_assert_double_eq(e.band[0], low.record.largest);
     ck_assert_double_eq(e.band[1], high.record.largest);
     thr_eval_destroy(&e);
@@ -71,14 +80,16 @@ static const thr_holding *holding_of(const thr_eval *e, int k)
   return k == 0 ? &e->holding : k == 1 ? &e->equal : &e->loosest;
 }
 
-/* Bores as tight as can be: what is proved takes cords anywhere in their bores, what is found in their middle. */
+/* Bores as tight as can be: what is proved takes cords anywhere in their bores, what is found in
+ * their middle. */
 static void make_tight(thr_eval_options *o)
 {
   o->physics.cord_diameter = 1;
   o->physics.bore = 1.00001;
 }
 
-/* The plan of a file twice: the second time with more rays, or with the other end of every second cord called the start. */
+/* The plan of a file twice: the second time with more rays, or with the other end of every second
+ * cord called the start. */
 static void eval_twice(const char *path, int rays, bool turned, thr_eval e[2])
 {
   thr_plan p;
@@ -91,8 +102,9 @@ static void eval_twice(const char *path, int rays, bool turned, thr_eval e[2])
     for (int i = 1; i < p.n_cords && turned && k == 1; i += 2)
       thr_walk_reverse(p.cord[i].half, p.cord[i].n_passes);
     o.rays = k ? rays : 0;
-    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k], &err) == THR_OK, "%s",
-                  err.text);
+    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k],
+                                &err) == THR_OK,
+                  "%s", err.text);
   }
   thr_plan_destroy(&p);
 }
@@ -106,7 +118,8 @@ START_TEST(more_rays_bring_the_bounds_closer)
   for (int k = 0; k < 3; k++) {
     const thr_holding *few = holding_of(&e[0], k), *many = holding_of(&e[1], k);
     ck_assert(few->lower <= many->lower * (1 + 1e-6) && many->upper <= few->upper * (1 + 1e-6));
-    ck_assert(many->lower <= many->upper && many->upper - many->lower < 0.2 * (few->upper - few->lower));
+    ck_assert(many->lower <= many->upper &&
+              many->upper - many->lower < 0.2 * (few->upper - few->lower));
   }
   thr_eval_destroy(&e[0]);
   thr_eval_destroy(&e[1]);
@@ -138,10 +151,12 @@ static thr_status eval_at(const thr_plan *p, double mu, double mu_high, thr_eval
   return thr_eval_plan(&p->frame, p->cord, p->n_cords, THR_STRUCTURE, &o, &no_limit, e, err);
 }
 
-/* Every face of these is pressed, so that a large enough pull holds them, however steeply the tensions fall. */
+/* Every face of these is pressed, so that a large enough pull holds them, however steeply the
+ * tensions fall. */
 START_TEST(rough_cords_are_never_hopeless)
 {
-  static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-stairs.json", "data/dome7-snake.json"};
+  static const char *const plans[] = {"data/dome7-lines.json", "data/dome7-stairs.json",
+                                      "data/dome7-snake.json"};
   thr_plan p;
   thr_err err = {0};
   ck_assert_msg(thr_plan_read(&p, plans[_i], &err) == THR_OK, "%s", err.text);
@@ -149,7 +164,8 @@ START_TEST(rough_cords_are_never_hopeless)
   for (double mu = 0.3; mu < 1.3; mu += 0.3) {
     thr_eval e;
     ck_assert_msg(eval_at(&p, mu, mu, &e, &err) == THR_OK, "mu %g: %s", mu, err.text);
-    ck_assert(e.holding.lower > before && e.holding.upper >= e.holding.lower && e.holding.residual < 1e-12);
+    ck_assert(e.holding.lower > before && e.holding.upper >= e.holding.lower &&
+              e.holding.residual < 1e-12);
     ck_assert_double_eq(e.band[1], e.holding.lower);
     before = e.holding.lower;
     thr_eval_destroy(&e);
@@ -166,8 +182,8 @@ static thr_plan dome_plan(int side, threading kind)
   return p;
 }
 
-/* Beyond 1,000 beads friction is that of cones: both bounds lie between those of pyramids of many rays, and near each other, but
- * for the polygons in and round the feet. */
+/* Beyond 1,000 beads friction is that of cones: both bounds lie between those of pyramids of many
+ * rays, and near each other, but for the polygons in and round the feet. */
 START_TEST(cones_lie_between_pyramids)
 {
   enum { SIDE = 32 };
@@ -179,13 +195,17 @@ START_TEST(cones_lie_between_pyramids)
   make_tight(&o);
   for (int k = 0; k < 2; k++) {
     o.rays = k ? 16 : 0;
-    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k], &err) == THR_OK, "%s",
-                  err.text);
+    ck_assert_msg(thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e[k],
+                                &err) == THR_OK,
+                  "%s", err.text);
   }
-  const thr_holding *cones[] = {&e[0].holding, &e[0].loosest}, *pyramids[] = {&e[1].holding, &e[1].loosest};
+  const thr_holding *cones[] = {&e[0].holding, &e[0].loosest},
+                    *pyramids[] = {&e[1].holding, &e[1].loosest};
   for (int k = 0; k < 2; k++) {
-    ck_assert(cones[k]->residual < 1e-12 && cones[k]->lower <= cones[k]->upper && cones[k]->upper < 1.002 * cones[k]->lower);
-    ck_assert(cones[k]->lower > 0.999 * pyramids[k]->lower && cones[k]->upper < 1.001 * pyramids[k]->upper);
+    ck_assert(cones[k]->residual < 1e-12 && cones[k]->lower <= cones[k]->upper &&
+              cones[k]->upper < 1.002 * cones[k]->lower);
+    ck_assert(cones[k]->lower > 0.999 * pyramids[k]->lower &&
+              cones[k]->upper < 1.001 * pyramids[k]->upper);
     ck_assert(cones[k]->upper - cones[k]->lower < 0.3 * (pyramids[k]->upper - pyramids[k]->lower));
   }
   thr_eval_destroy(&e[0]);
@@ -194,7 +214,8 @@ START_TEST(cones_lie_between_pyramids)
 }
 END_TEST
 
-/* Without friction between beads this one does not stand: told so, or not decided, but never that it does. */
+/* Without friction between beads this one does not stand: told so, or not decided, but never that
+ * it does. */
 START_TEST(large_domes_need_friction)
 {
   thr_eval_options o = thr_eval_options_default();
@@ -202,13 +223,15 @@ START_TEST(large_domes_need_friction)
   thr_eval e;
   o.dynamics = false;
   o.physics.mu_bead = 0;
-  const thr_status st = thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, NULL);
+  const thr_status st =
+      thr_eval_plan(&p.frame, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, NULL);
   ck_assert(st == THR_EINFEASIBLE || st == THR_ESOLVER);
   thr_plan_destroy(&p);
 }
 END_TEST
 
-/* Large enough that rounding leaves a gap between bound and equilibrium: the bound is then given, not withheld. */
+/* Large enough that rounding leaves a gap between bound and equilibrium: the bound is then given,
+ * not withheld. */
 START_TEST(large_domes_are_decided)
 {
   enum { SIDE = 20 };
@@ -223,11 +246,13 @@ START_TEST(large_domes_are_decided)
 }
 END_TEST
 
-/* A cord to and fro: at the rough end of the band its tensions span more than a number can hold. The answer stays. */
+/* A cord to and fro: at the rough end of the band its tensions span more than a number can hold.
+ * The answer stays. */
 START_TEST(too_rough_is_unknown)
 {
   const double xyz[3][3] = {{0, 0, 0}, {0, 0, 30}, {0, 0, 60}};
-  thr_frame f = frame_make(3, xyz, 2, (const int[2][2]){{0, 1}, {1, 2}}, NULL, (const int[]){0, -1});
+  thr_frame f =
+      frame_make(3, xyz, 2, (const int[2][2]){{0, 1}, {1, 2}}, NULL, (const int[]){0, -1});
   int half[200] = {0};
   for (int k = 1; k < 200; k++)
     half[k] = k % 2 ? 2 : 3;
@@ -246,19 +271,25 @@ END_TEST
 START_TEST(what_stands_has_no_forces)
 {
   const double xyz[3][3] = {{0, 0, 0}, {0, 0, 30}, {0, 0, 60}};
-  thr_frame f = frame_make(3, xyz, 2, (const int[2][2]){{0, 1}, {1, 2}}, NULL, (const int[]){0, -1});
+  thr_frame f =
+      frame_make(3, xyz, 2, (const int[2][2]){{0, 1}, {1, 2}}, NULL, (const int[]){0, -1});
   thr_plan p = plan_simple(&f, THR_ENDS_ANY, 1);
   thr_eval_options o = thr_eval_options_default();
   thr_eval e;
   thr_err err = {0};
-  ck_assert_msg(thr_eval_plan(&f, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, &err) == THR_OK, "%s", err.text);
-  ck_assert(e.record.largest == 0 && e.record.total == 0 && e.record.cord[0].loss == 0 && e.record.cord[0].tension[1] == 0);
+  ck_assert_msg(thr_eval_plan(&f, p.cord, p.n_cords, THR_STRUCTURE, &o, &no_limit, &e, &err) ==
+                    THR_OK,
+                "%s", err.text);
+  ck_assert(e.record.largest == 0 && e.record.total == 0 && e.record.cord[0].loss == 0 &&
+            e.record.cord[0].tension[1] == 0);
   ck_assert(e.holding.first_bead == -1 && !e.settle.present);
   thr_eval_destroy(&e);
   volatile sig_atomic_t pressed = 1;
   thr_limits interrupt = {.interrupted = &pressed};
-  ck_assert_int_eq(thr_eval_plan(&f, p.cord, p.n_cords, THR_STRUCTURE, &o, &interrupt, &e, &err), THR_ELIMIT);
-  ck_assert(!e.complete && !e.record.cord[0].known && e.record.cord[0].tension == NULL && !e.holding.present);
+  ck_assert_int_eq(thr_eval_plan(&f, p.cord, p.n_cords, THR_STRUCTURE, &o, &interrupt, &e, &err),
+                   THR_ELIMIT);
+  ck_assert(!e.complete && !e.record.cord[0].known && e.record.cord[0].tension == NULL &&
+            !e.holding.present);
   thr_eval_destroy(&e);
   thr_plan_destroy(&p);
   thr_frame_destroy(&f);

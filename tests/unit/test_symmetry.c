@@ -1,4 +1,6 @@
-/* The table of groups, the choice, and plans from it: published values, permutations followed node by node, the checker. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of groups, the choice, and plans from it: published values, permutations followed node
+ * by node, the checker. */
 #include "graph/check/check.h"
 #include "planner/planner.h"
 #include "symmetry/symmetry.h"
@@ -25,9 +27,11 @@ static thr_symmetries table_of(const thr_frame *f, const thr_request *o)
   thr_symmetries t;
   thr_err err = {0};
   thr_status st = thr_symmetries_find(f, o, false, &no_limits, &t, &err);
-  bool solved = st == THR_OK || st == THR_ELIMIT; /* the latter where plans count less than the programme */
+  bool solved =
+      st == THR_OK || st == THR_ELIMIT; /* the latter where plans count less than the programme */
   for (int i = 0; i < t.n && st == THR_ELIMIT; i++)
-    solved = solved && (t.row[i].why.code == THR_OK || (t.row[i].why.code == THR_ELIMIT && t.row[i].solved));
+    solved = solved &&
+             (t.row[i].why.code == THR_OK || (t.row[i].why.code == THR_ELIMIT && t.row[i].solved));
   ck_assert_msg(solved, "%s", err.text);
   return t;
 }
@@ -42,14 +46,16 @@ static bool is_image(const thr_frame *f, const int *image, const thr_cord *a, co
       bool same = true;
       for (int k = 0; k < n && same; k++) {
         int at = back ? (start + n - 1 - k) % n : (start + k) % n, h = b->half[at] ^ back;
-        same = image[thr_tail(f, a->half[k])] == thr_tail(f, h) && image[thr_head(f, a->half[k])] == thr_head(f, h);
+        same = image[thr_tail(f, a->half[k])] == thr_tail(f, h) &&
+               image[thr_head(f, a->half[k])] == thr_head(f, h);
       }
       if (same) return true;
     }
   return false;
 }
 
-/* Every element of the row's group is an automorphism and permutes the cords; the orbits are the unique paths. */
+/* Every element of the row's group is an automorphism and permutes the cords; the orbits are the
+ * unique paths. */
 static void check_row(const thr_frame *f, const thr_symmetries *t, const thr_symmetry_row *row)
 {
   const thr_group *g = &t->group[row->group].all;
@@ -86,9 +92,11 @@ static const thr_symmetry_row *row_of(const thr_symmetries *t, const char *name,
 static void expect(const thr_symmetry_row *row, double percent, int paths, int cords, double steps)
 {
   ck_assert_msg(fabs(100 * row->metrics.overlap / row->metrics.base_length - percent) < 0.15 &&
-                    row->record.unique_paths == paths && row->n_cords == cords && fabs(row->record.steps - steps) < 1e-9,
-                "%s: %.2f %%, %d paths, %d cords, %g steps", row->name, 100 * row->metrics.overlap / row->metrics.base_length,
-                row->record.unique_paths, row->n_cords, row->record.steps);
+                    row->record.unique_paths == paths && row->n_cords == cords &&
+                    fabs(row->record.steps - steps) < 1e-9,
+                "%s: %.2f %%, %d paths, %d cords, %g steps", row->name,
+                100 * row->metrics.overlap / row->metrics.base_length, row->record.unique_paths,
+                row->n_cords, row->record.steps);
 }
 
 /* The thesis's Fig. 15: two unique paths, eight copies. */
@@ -178,7 +186,9 @@ START_TEST(plans_pass_the_checker)
         for (int v = 0; v < f.n_nodes; v++)
           feet += f.foot[v];
         if (feet || ends != THR_ENDS_FEET) {
-          const thr_limits limits = {.deadline = thr_clock() + 4}; /* what is not proved by then must be sound all the same */
+          const thr_limits limits = {
+              .deadline =
+                  thr_clock() + 4}; /* what is not proved by then must be sound all the same */
           thr_status st = thr_symmetry_plan(&f, &o, &limits, &t, &p, &err);
           ck_assert_msg(st == THR_OK || st == THR_ELIMIT, "%s", err.text);
           check_choice(&t);
@@ -201,7 +211,8 @@ START_TEST(groups_by_number_and_name)
   thr_err err = {0};
   snprintf(o.symmetry.group, sizeof o.symmetry.group, "4");
   t = table_of(&f, &o);
-  ck_assert(t.chosen == 3 && t.n == 8 && t.row[3].n_cords == 4 && t.row[0].n_cords == 0 && !t.row[0].why.code);
+  ck_assert(t.chosen == 3 && t.n == 8 && t.row[3].n_cords == 4 && t.row[0].n_cords == 0 &&
+            !t.row[0].why.code);
   thr_symmetries_destroy(&t);
   snprintf(o.symmetry.group, sizeof o.symmetry.group, "C2v"); /* two classes: the better one */
   t = table_of(&f, &o);
@@ -231,7 +242,8 @@ START_TEST(noise)
   for (int i = 0; i < t.n; i++) { /* lengths are the old ones: the threadings must be, too */
     ck_assert_str_eq(t.row[i].name, true_table.row[i].name);
     ck_assert(fabs(t.row[i].metrics.overlap - true_table.row[i].metrics.overlap) < 1e-6);
-    ck_assert(t.row[i].record.steps == true_table.row[i].record.steps && t.row[i].n_cords == true_table.row[i].n_cords);
+    ck_assert(t.row[i].record.steps == true_table.row[i].record.steps &&
+              t.row[i].n_cords == true_table.row[i].n_cords);
   }
   ck_assert_int_eq(t.chosen, true_table.chosen);
   thr_symmetries_destroy(&t);
@@ -241,7 +253,8 @@ START_TEST(noise)
   thr_symmetries_destroy(&t);
   o.symmetry.geometric = 0.1;
   t = table_of(&f, &o);
-  ck_assert(t.n == 8 && t.mantissa == 8 && t.node_orbits == true_table.node_orbits && t.edge_orbits == true_table.edge_orbits);
+  ck_assert(t.n == 8 && t.mantissa == 8 && t.node_orbits == true_table.node_orbits &&
+            t.edge_orbits == true_table.edge_orbits);
   thr_symmetries_destroy(&t);
   thr_symmetries_destroy(&true_table);
   thr_frame_destroy(&f);
@@ -253,7 +266,8 @@ static void expect_shape(thr_frame f, const char *name, double isometries, doubl
   thr_request o = asked(THR_ENDS_CLOSED, 1);
   o.symmetry.geometric = 1e-3;
   thr_symmetries t = table_of(&f, &o);
-  ck_assert(t.listed && t.mantissa == isometries && t.keep_lengths[0] == keep_lengths && t.keep_lengths[1] == 0);
+  ck_assert(t.listed && t.mantissa == isometries && t.keep_lengths[0] == keep_lengths &&
+            t.keep_lengths[1] == 0);
   ck_assert_str_eq(t.row[0].name, name);
   ck_assert_int_eq(t.row[0].order, (int)isometries);
   for (int i = 0; i < t.n; i++)
@@ -276,7 +290,8 @@ START_TEST(shapes_of_the_cube)
 }
 END_TEST
 
-/* Only what keeps the allowed end nodes: a mirror of the dome if they are one corner, by either way to the group. */
+/* Only what keeps the allowed end nodes: a mirror of the dome if they are one corner, by either way
+ * to the group. */
 START_TEST(end_nodes_are_kept)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 5, 0);
@@ -305,18 +320,22 @@ START_TEST(huge_groups)
   thr_symmetries t = table_of(&f, &o);
   thr_plan p;
   thr_err err = {0};
-  ck_assert(t.mantissa == 40320 && !t.listed && strstr(t.note, "16 within 5 %") && t.row[0].order == 16);
+  ck_assert(t.mantissa == 40320 && !t.listed && strstr(t.note, "16 within 5 %") &&
+            t.row[0].order == 16);
   for (int i = 0; i < t.n; i++) {
     check_row(&f, &t, &t.row[i]);
     for (int k = 0; k < i; k++) /* no group twice */
       ck_assert(t.row[i].order != t.row[k].order || t.row[i].group != t.row[k].group ||
-                memcmp(t.row[i].elements.element, t.row[k].elements.element, (size_t)t.row[i].order * sizeof(int)) != 0);
+                memcmp(t.row[i].elements.element, t.row[k].elements.element,
+                       (size_t)t.row[i].order * sizeof(int)) != 0);
   }
-  ck_assert_msg(thr_symmetries_plan(&t, t.chosen, &f, &o, &no_limits, &p, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_symmetries_plan(&t, t.chosen, &f, &o, &no_limits, &p, &err) == THR_OK, "%s",
+                err.text);
   ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
   thr_plan_destroy(&p);
   thr_symmetries_destroy(&t);
-  o.symmetry.geometric = 1e-6; /* more keep the lengths than can be listed: looked for by coordinates */
+  o.symmetry.geometric =
+      1e-6; /* more keep the lengths than can be listed: looked for by coordinates */
   t = table_of(&f, &o);
   ck_assert(t.mantissa == 16 && t.listed && t.keep_lengths[0] == 40320);
   thr_symmetries_destroy(&t);
@@ -324,8 +343,9 @@ START_TEST(huge_groups)
 }
 END_TEST
 
-/* A square with mirrors across its edges: one closed cord, which cannot be opened at a corner without its image. It does not turn
- * where its ends come out, though the programme counts that turn: not all of what it says is proved. */
+/* A square with mirrors across its edges: one closed cord, which cannot be opened at a corner
+ * without its image. It does not turn where its ends come out, though the programme counts that
+ * turn: not all of what it says is proved. */
 START_TEST(closed_cords_do_not_turn_where_they_end)
 {
   const double xyz[4][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -422,7 +442,8 @@ START_TEST(no_node_for_an_end)
 }
 END_TEST
 
-/* Cords of one free orbit turn alike: what is least for the sum is least for the largest. A seed of another kind changes nothing.
+/* Cords of one free orbit turn alike: what is least for the sum is least for the largest. A seed of
+ * another kind changes nothing.
  */
 START_TEST(seeds_for_the_largest_turning)
 {
@@ -439,7 +460,8 @@ START_TEST(seeds_for_the_largest_turning)
   ck_assert_int_eq(thr_symmetries_even(&t, 8), -1); /* its cords are taken */
   want(&turning, "max-turning");
   turning.cords = 8;
-  ck_assert_msg(thr_tortuosity_plan_from(&f, &turning, &seed, &no_limits, &p, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_tortuosity_plan_from(&f, &turning, &seed, &no_limits, &p, &err) == THR_OK, "%s",
+                err.text);
   ck_assert(p.turning.largest_optimal && p.metrics.max_turning <= seed.metrics.max_turning + 1e-9);
   ck_assert_msg(thr_check_plan(&p, &err) == THR_OK, "%s", err.text);
   thr_plan_destroy(&p);

@@ -1,4 +1,6 @@
-/* Plans of symmetric threadings: known ones made by hand, what the checker says of every change to them, JSON. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Plans of symmetric threadings: known ones made by hand, what the checker says of every change to
+ * them, JSON. */
 #include "graph/check/check.h"
 #include "lp/length/postman.h"
 #include "tests/frameworks.h"
@@ -84,7 +86,8 @@ static thr_plan plan_known(const known *k)
   for (int i = 0; i < k->n_cords; i++) {
     r->unique[i] = k->unique[i];
     r->element[i] = k->element[i];
-    p.cord[p.n_cords++] = cord_of(&f, k->cord[k->unique[i]].node, r->image + (size_t)k->element[i] * n, i);
+    p.cord[p.n_cords++] =
+        cord_of(&f, k->cord[k->unique[i]].node, r->image + (size_t)k->element[i] * n, i);
   }
   ck_assert_int_eq(thr_plan_measure(&f, &o, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
   thr_frame_destroy(&f);
@@ -219,7 +222,23 @@ static const known plans[] = {
      ring_generator,
      identity},
     /* three passes and two ends, by half */
-    {"folded path", path4, THR_ENDS_ANY, 1, 1, 2, 1, 1, 1, 1, 2.5, "C2", {{{0, 1, 2, 3, -1}}}, {0}, {0}, end_for_end, identity},
+    {"folded path",
+     path4,
+     THR_ENDS_ANY,
+     1,
+     1,
+     2,
+     1,
+     1,
+     1,
+     1,
+     2.5,
+     "C2",
+     {{{0, 1, 2, 3, -1}}},
+     {0},
+     {0},
+     end_for_end,
+     identity},
     /* one cord in each of two pieces */
     {"two triangles",
      triangles2,
@@ -257,7 +276,23 @@ static const known plans[] = {
      identity,
      identity},
     /* a spoke there and back is its own reverse under the identity: one step */
-    {"star", star4, THR_ENDS_CLOSED, 2, 4, 4, 4, 1, 4, 1, 1, "C4", {{{0, 1, 0, -1}}}, {0}, {0, 1, 2, 3}, star_turn, star_turns},
+    {"star",
+     star4,
+     THR_ENDS_CLOSED,
+     2,
+     4,
+     4,
+     4,
+     1,
+     4,
+     1,
+     1,
+     "C4",
+     {{{0, 1, 0, -1}}},
+     {0},
+     {0, 1, 2, 3},
+     star_turn,
+     star_turns},
     /* a cord that goes round twice: what it repeats is learned once */
     {"one cord twice round",
      ring8,
@@ -294,7 +329,8 @@ static const known plans[] = {
      {0, 0},
      identity,
      identity},
-    /* a mirror keeps every node of the first cord, and turns the second round: only of that are the steps halved */
+    /* a mirror keeps every node of the first cord, and turns the second round: only of that are the
+       steps halved */
     {"bar and crossbar",
      star4,
      THR_ENDS_ANY,
@@ -341,12 +377,15 @@ START_TEST(known_plans_are_sound)
   thr_plan q = plan_from(t.data);
   size_t row = (size_t)p.frame.n_nodes * sizeof(int), cords = (size_t)p.n_cords * sizeof(int);
   const thr_symmetry_record *a = &p.symmetry, *b = &q.symmetry;
-  ck_assert(b->present && b->order == a->order && strcmp(b->name, a->name) == 0 && b->steps == a->steps);
-  ck_assert(b->n_generators == a->n_generators && b->n_images == a->n_images && b->unique_paths == a->unique_paths);
+  ck_assert(b->present && b->order == a->order && strcmp(b->name, a->name) == 0 &&
+            b->steps == a->steps);
+  ck_assert(b->n_generators == a->n_generators && b->n_images == a->n_images &&
+            b->unique_paths == a->unique_paths);
   ck_assert(memcmp(b->generator, a->generator, (size_t)a->n_generators * row) == 0);
   ck_assert(memcmp(b->image, a->image, (size_t)a->n_images * row) == 0);
   ck_assert(memcmp(b->unique, a->unique, cords) == 0 && memcmp(b->element, a->element, cords) == 0);
-  ck_assert(thr_wants_symmetry(&q.options) && q.options.symmetry.geometric < 0 && !q.options.symmetry.group[0]);
+  ck_assert(thr_wants_symmetry(&q.options) && q.options.symmetry.geometric < 0 &&
+            !q.options.symmetry.group[0]);
   thr_text_destroy(&t);
   thr_plan_destroy(&p);
   thr_plan_destroy(&q);
@@ -394,8 +433,9 @@ static void assert_seen(const thr_plan *p, const char *what, const char *word)
   assert_one_line(&err, word);
 }
 
-/* Every number of the record changed to every other in its range, one past it included: refused, unless the cord that it is about
- * is as good a copy by another image (a closed one which the group turns in itself). */
+/* Every number of the record changed to every other in its range, one past it included: refused,
+ * unless the cord that it is about is as good a copy by another image (a closed one which the group
+ * turns in itself). */
 static void change_each(thr_plan *p, int *value, int n, int low, int high, const char *what)
 {
   for (int i = 0; i < n; i++)
@@ -431,14 +471,16 @@ START_TEST(every_changed_number_is_refused)
 }
 END_TEST
 
-/* Of the names of order 4 those of groups with other elements, too: C2v, C2h, D2 and the like have no element of order 4. */
+/* Of the names of order 4 those of groups with other elements, too: C2v, C2h, D2 and the like have
+ * no element of order 4. */
 START_TEST(every_other_name_of_a_group_is_refused)
 {
   static const char *const alike[] = {"C4", "S4", ""};
-  static const char *const others[] = {"C2v", "C2h", "D2",  "D1h", "D1d", "C1",  "Cs",          "Ci",  "C3", "C8",
-                                       "C4v", "D4",  "D2d", "T",   "Td",  "Th",  "O",           "Oh",  "I",  "Ih",
-                                       "X4",  "C",   "C04", "C4 ", "C4x", "C+4", "c4",          "S4v", "4",  "C4vv",
-                                       "S3",  "D",   "Tv",  "C-4", "C 4", "D0d", "C99999999999"};
+  static const char *const others[] = {
+      "C2v", "C2h", "D2",  "D1h", "D1d", "C1",  "Cs",          "Ci",  "C3", "C8",
+      "C4v", "D4",  "D2d", "T",   "Td",  "Th",  "O",           "Oh",  "I",  "Ih",
+      "X4",  "C",   "C04", "C4 ", "C4x", "C+4", "c4",          "S4v", "4",  "C4vv",
+      "S3",  "D",   "Tv",  "C-4", "C 4", "D0d", "C99999999999"};
   thr_plan p = plan_known(&plans[0]);
   for (size_t i = 0; i < sizeof alike / sizeof *alike; i++) {
     snprintf(p.symmetry.name, sizeof p.symmetry.name, "%s", alike[i]);
@@ -476,8 +518,8 @@ static void warp(thr_plan *p, double by)
   ck_assert(!thr_plan_measure(&p->frame, &p->options, p->cord, p->n_cords, &p->metrics, NULL));
 }
 
-/* A point group's name claims isometries, roughly; --geometric claims them within its tolerance. An automorphism of the graph
- * alone may claim neither. */
+/* A point group's name claims isometries, roughly; --geometric claims them within its tolerance. An
+ * automorphism of the graph alone may claim neither. */
 START_TEST(names_and_tolerances_claim_isometries)
 {
   static const double by[] = {0, 1e-3, 1e2};
@@ -535,7 +577,8 @@ START_TEST(other_automorphisms_are_refused)
 }
 END_TEST
 
-/* Permutations that are none of the framework, and one that is, but takes cord A to where no cord runs. */
+/* Permutations that are none of the framework, and one that is, but takes cord A to where no cord
+ * runs. */
 START_TEST(other_permutations_are_refused)
 {
   thr_plan p = plan_known(&plans[0]);
@@ -548,8 +591,23 @@ START_TEST(other_permutations_are_refused)
       generator[a] = kept[a], generator[b] = kept[b];
     }
   thr_plan_destroy(&p);
-  known k = {"",     star4,  THR_ENDS_ANY, 1,       2, 2, 2, 1, 1, 2, 4, "", {{{1, 0, 3, -1}}, {{2, 0, 4, -1}}},
-             {0, 1}, {0, 0}, swap_tips,    identity};
+  known k = {"",
+             star4,
+             THR_ENDS_ANY,
+             1,
+             2,
+             2,
+             2,
+             1,
+             1,
+             2,
+             4,
+             "",
+             {{{1, 0, 3, -1}}, {{2, 0, 4, -1}}},
+             {0, 1},
+             {0, 0},
+             swap_tips,
+             identity};
   p = plan_known(&k);
   assert_seen(&p, "star", "symmetry.generators[0]: takes cord A to a path");
   thr_plan_destroy(&p);
@@ -571,7 +629,8 @@ START_TEST(smaller_group_has_more_unique_paths)
   r->unique_paths = 2;
   r->steps = 34;
   assert_plan_sound(&p);
-  int all[] = {0, 1, 2, 3}, none[] = {0, 0, 0, 0}; /* "all are unique", when the half turn says otherwise */
+  int all[] = {0, 1, 2, 3},
+      none[] = {0, 0, 0, 0}; /* "all are unique", when the half turn says otherwise */
   memcpy(r->unique, all, sizeof all);
   memcpy(r->element, none, sizeof none);
   r->unique_paths = 4;
@@ -581,7 +640,8 @@ START_TEST(smaller_group_has_more_unique_paths)
 }
 END_TEST
 
-/* The same threading, said differently: a cord from its other end, a closed one from another node. */
+/* The same threading, said differently: a cord from its other end, a closed one from another node.
+ */
 START_TEST(direction_and_start_do_not_matter)
 {
   thr_plan p = plan_known(&plans[0]);
@@ -604,7 +664,8 @@ START_TEST(direction_and_start_do_not_matter)
 }
 END_TEST
 
-/* Where ends are at chosen nodes the group maps ends to ends; where they may be anywhere a cord may come out at another node. */
+/* Where ends are at chosen nodes the group maps ends to ends; where they may be anywhere a cord may
+ * come out at another node. */
 START_TEST(start_matters_where_ends_are_chosen)
 {
   for (int chosen = 0; chosen < 2; chosen++) {
@@ -614,7 +675,8 @@ START_TEST(start_matters_where_ends_are_chosen)
     if (chosen) p.options.end_node = calloc((size_t)p.frame.n_nodes, sizeof *p.options.end_node);
     for (int v = 0; chosen && v < p.frame.n_nodes; v++)
       p.options.end_node[v] = true;
-    ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
+    ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL),
+                     THR_OK);
     assert_plan_sound(&p);
     int first = c->half[0];
     c->half[0] = c->half[1], c->half[1] = c->half[2], c->half[2] = first;
@@ -637,7 +699,8 @@ START_TEST(feet_and_end_nodes_are_kept)
   p.options.ends = THR_ENDS_NODES;
   p.options.end_node = calloc(36, sizeof *p.options.end_node);
   ck_assert(p.options.end_node != NULL);
-  p.options.end_node[0] = p.options.end_node[5] = p.options.end_node[30] = p.options.end_node[35] = true;
+  p.options.end_node[0] = p.options.end_node[5] = p.options.end_node[30] = p.options.end_node[35] =
+      true;
   assert_plan_sound(&p);
   p.options.end_node[14] = true;
   assert_seen(&p, "end node", "a cord may end at only one");
@@ -666,12 +729,17 @@ START_TEST(length_proof_bounds_the_plan)
   thr_limits none = {0};
   thr_shortest shortest;
   thr_err err = {0};
-  ck_assert_msg(thr_postman_shortest(&p.frame, &p.options, &none, &shortest, &err) == THR_OK, "%s", err.text);
-  ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &shortest, &p.proof, &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_postman_shortest(&p.frame, &p.options, &none, &shortest, &err) == THR_OK, "%s",
+                err.text);
+  ck_assert_msg(thr_postman_prove(&p.frame, &p.options, p.cord, p.n_cords, &shortest, &p.proof,
+                                  &err) == THR_OK,
+                "%s", err.text);
   thr_shortest_destroy(&shortest);
   assert_plan_sound(&p);
   ck_assert(p.proof.present && p.proof.lower_bound <= p.metrics.length);
-  if (_i == 0) ck_assert(p.proof.optimal && p.proof.lower_bound == 68); /* 16 odd nodes in neighbouring pairs, the feet apart */
+  if (_i == 0)
+    ck_assert(p.proof.optimal &&
+              p.proof.lower_bound == 68); /* 16 odd nodes in neighbouring pairs, the feet apart */
   thr_plan_destroy(&p);
 }
 END_TEST
@@ -700,8 +768,10 @@ START_TEST(nonsense_is_refused_with_its_place)
     const char *word;
   } wrong[] = {
       {"options", "\"symmetry\": {", "\"symmetries\": {", THR_EVIOLATED, "options.symmetries"},
-      {"options", "\"objective\": \"symmetry\"", "\"objective\": \"length\"", THR_EVIOLATED, "options.symmetry"},
-      {"options", "\"objective\": \"symmetry\"", "\"objective\": \"tortuosity\"", THR_EVIOLATED, "options.symmetry"},
+      {"options", "\"objective\": \"symmetry\"", "\"objective\": \"length\"", THR_EVIOLATED,
+       "options.symmetry"},
+      {"options", "\"objective\": \"symmetry\"", "\"objective\": \"tortuosity\"", THR_EVIOLATED,
+       "options.symmetry"},
       {"options", "\"group\": null, ", "", THR_EINPUT, "group"},
       {"options", "\"group\": null", "\"group\": \"\"", THR_EINPUT, "group"},
       {"options", "\"group\": null", "\"group\": 4", THR_EINPUT, "group"},
@@ -712,7 +782,8 @@ START_TEST(nonsense_is_refused_with_its_place)
       {"options", "\"steps\"", "\"overlap\"", THR_EINPUT, "prefer"},
       {"options", ", \"turning\"]", "]", THR_EINPUT, "prefer"},
       {"options", "\"turning\"]", "\"turning\"], \"more\": 1", THR_EVIOLATED, "more"},
-      {"cords", "\"symmetry\": {\"order\"", "\"other\": {\"order\"", THR_EVIOLATED, "symmetry: missing"},
+      {"cords", "\"symmetry\": {\"order\"", "\"other\": {\"order\"", THR_EVIOLATED,
+       "symmetry: missing"},
       {"\"order\"", "\"order\": 4", "\"order\": 0", THR_EVIOLATED, "order"},
       {"\"order\"", "\"order\": 4", "\"order\": 1025", THR_EVIOLATED, "order"},
       {"\"order\"", "\"order\": 4", "\"order\": 4.5", THR_EVIOLATED, "order"},
@@ -732,7 +803,8 @@ START_TEST(nonsense_is_refused_with_its_place)
       {"\"images\"", "\"image\": 1", "\"image\": 4", THR_EVIOLATED, "image"},
       {"\"images\"", "\"image\": 1", "\"image\": 2", THR_EVIOLATED, "symmetry.cords[1]"},
       {"\"images\"", "{\"of\": 0, \"image\": 0}, ", "", THR_EVIOLATED, "symmetry.cords"},
-      {"\"unique_paths\"", "\"unique_paths\": 1", "\"unique_paths\": 5", THR_EVIOLATED, "unique_paths"},
+      {"\"unique_paths\"", "\"unique_paths\": 1", "\"unique_paths\": 5", THR_EVIOLATED,
+       "unique_paths"},
       {"\"images\"", "\"steps\": 17", "\"steps\": 16", THR_EVIOLATED, "symmetry.steps"},
       {"\"images\"", "\"steps\": 17", "\"steps\": null", THR_EVIOLATED, "steps"},
   };
@@ -741,8 +813,8 @@ START_TEST(nonsense_is_refused_with_its_place)
   for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
     thr_err err = {0};
     char *text = replaced(t.data, wrong[i].mark, wrong[i].from, wrong[i].to);
-    ck_assert_msg(judge_text(text, strlen(text), &err) == wrong[i].status, "%s: status %d, %s", wrong[i].to, (int)err.code,
-                  err.text);
+    ck_assert_msg(judge_text(text, strlen(text), &err) == wrong[i].status, "%s: status %d, %s",
+                  wrong[i].to, (int)err.code, err.text);
     assert_one_line(&err, wrong[i].word);
     free(text);
   }
@@ -779,7 +851,8 @@ START_TEST(every_failed_allocation_is_reported)
     thr_status st = thr_plan_parse(&q, t.data, t.length, "plan", &err);
     if (!st) st = thr_check_plan(&q, &err);
     thr_alloc_fail_at(0);
-    ck_assert_msg(st == THR_OK || st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st, err.text);
+    ck_assert_msg(st == THR_OK || st == THR_ENOMEM, "allocation %ld: status %d, %s", k, (int)st,
+                  err.text);
     ck_assert(q.cord || (!q.symmetry.generator && !q.symmetry.unique));
     done = st == THR_OK;
     thr_plan_destroy(&q);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of a plan, read back and worked out again from its JSON and coordinates. */
 #include "diagram/tables/tables.h"
 #include "graph/angle.h"
@@ -83,16 +84,19 @@ static int integer(const csv *c, int row, const char *column)
 
 static void assert_says(const csv *c, int row, const char *column, const char *word)
 {
-  ck_assert_msg(strcmp(at(c, row, column), word) == 0, "row %d: %s is %s, not %s", row, column, at(c, row, column), word);
+  ck_assert_msg(strcmp(at(c, row, column), word) == 0, "row %d: %s is %s, not %s", row, column,
+                at(c, row, column), word);
 }
 
 typedef enum { STEPS, CORDS, BEADS, CHANNELS, N_TABLES } kind;
 
-static thr_status make(const thr_plan *p, kind k, const char *const *motion, thr_text *t, thr_err *err)
+static thr_status make(const thr_plan *p, kind k, const char *const *motion, thr_text *t,
+                       thr_err *err)
 {
   if (k == STEPS) return thr_table_steps(p, 0, 1, NULL, t, err);
   if (k == CHANNELS) return thr_table_channels(p, 0, NULL, t, err);
-  return k == CORDS ? thr_table_cords(p, motion, NULL, t, err) : thr_table_beads(p, 0, NULL, t, err);
+  return k == CORDS ? thr_table_cords(p, motion, NULL, t, err)
+                    : thr_table_beads(p, 0, NULL, t, err);
 }
 
 static csv table_of(const thr_plan *p, kind k, const char *const *motion)
@@ -132,7 +136,8 @@ static const thr_json *cord_of(const json_plan *j, const char *id)
 {
   const thr_json *cords = thr_json_get(j->doc, "cords");
   for (int c = 0; c < thr_json_size(cords); c++)
-    if (strcmp(thr_json_string(thr_json_get(thr_json_at(cords, c), "id")), id) == 0) return thr_json_at(cords, c);
+    if (strcmp(thr_json_string(thr_json_get(thr_json_at(cords, c), "id")), id) == 0)
+      return thr_json_at(cords, c);
   ck_abort_msg("no cord %s", id);
 }
 
@@ -186,13 +191,16 @@ static double turning_of(const json_plan *j, const thr_json *cord, bool closing)
   double sum = 0;
   for (int k = 2; k < n; k++)
     sum += bend(j, item(cord, "nodes", k - 2), item(cord, "nodes", k - 1), item(cord, "nodes", k));
-  return closing ? sum + bend(j, item(cord, "nodes", n - 2), item(cord, "nodes", 0), item(cord, "nodes", 1)) : sum;
+  return closing ? sum + bend(j, item(cord, "nodes", n - 2), item(cord, "nodes", 0),
+                              item(cord, "nodes", 1))
+                 : sum;
 }
 
 /* ---- steps ---- */
 
 /* The turn that a row tells, of a cord at its node k. */
-static void assert_turn(const csv *c, int row, const json_plan *j, const thr_json *cord, int k, bool flat)
+static void assert_turn(const csv *c, int row, const json_plan *j, const thr_json *cord, int k,
+                        bool flat)
 {
   int n = thr_json_size(thr_json_get(cord, "edges"));
   if (k == 0 || k == n) {
@@ -200,18 +208,21 @@ static void assert_turn(const csv *c, int row, const json_plan *j, const thr_jso
     assert_says(c, row, "degrees", "");
     return;
   }
-  int before = item(cord, "nodes", k - 1), at_node = item(cord, "nodes", k), to = item(cord, "nodes", k + 1);
+  int before = item(cord, "nodes", k - 1), at_node = item(cord, "nodes", k),
+      to = item(cord, "nodes", k + 1);
   double degrees = bend(j, before, at_node, to), in[3], out[3];
   ck_assert_double_eq_tol(number(c, row, "degrees"), degrees, 0.0051);
   ck_assert_int_eq(strcmp(at(c, row, "turn"), "back") == 0, before == to);
-  if (fabs(degrees - 15) > 1e-6) ck_assert_int_eq(strcmp(at(c, row, "turn"), "straight on") == 0, degrees < 15);
+  if (fabs(degrees - 15) > 1e-6)
+    ck_assert_int_eq(strcmp(at(c, row, "turn"), "straight on") == 0, degrees < 15);
   vector(j, before, at_node, in);
   vector(j, at_node, to, out);
-  if (flat && degrees > 15 && degrees < 165) assert_says(c, row, "turn", in[0] * out[1] - in[1] * out[0] > 0 ? "left" : "right");
+  if (flat && degrees > 15 && degrees < 165)
+    assert_says(c, row, "turn", in[0] * out[1] - in[1] * out[0] > 0 ? "left" : "right");
 }
 
-/* A row against the cord of the JSON: which piece, by which pass, how far, how it turns. Solid pieces turn the cord, between
- * tubes the node before does. */
+/* A row against the cord of the JSON: which piece, by which pass, how far, how it turns. Solid
+ * pieces turn the cord, between tubes the node before does. */
 static void assert_step(const csv *c, int row, const json_plan *j, bool rigid, bool flat)
 {
   const thr_json *cord = cord_of(j, at(c, row, "cord"));
@@ -233,7 +244,8 @@ static void assert_step(const csv *c, int row, const json_plan *j, bool rigid, b
   if (k > 1 || rigid) {
     assert_says(c, row - 1, "cord", at(c, row, "cord"));
     ck_assert_int_eq(integer(c, row - 1, "step"), k - 1);
-    ck_assert_double_eq_tol(used - number(c, row - 1, "used"), distance(j, from, to), 1e-6 * length);
+    ck_assert_double_eq_tol(used - number(c, row - 1, "used"), distance(j, from, to),
+                            1e-6 * length);
   }
 }
 
@@ -243,8 +255,8 @@ static int piece_of(const csv *c, int row, bool rigid)
   return integer(c, row, rigid ? "to_node" : "edge");
 }
 
-/* Visits and their words, by going through the rows once more; a piece has one name in all rows, and arms have that of the piece
- * that they face. */
+/* Visits and their words, by going through the rows once more; a piece has one name in all rows,
+ * and arms have that of the piece that they face. */
 static void assert_visits(const csv *c, const thr_plan *p, bool rigid)
 {
   int most = p->frame.n_nodes + p->frame.n_edges;
@@ -254,7 +266,10 @@ static void assert_visits(const csv *c, const thr_plan *p, bool rigid)
   for (int row = 1; row < c->n_rows; row++) {
     int i = piece_of(c, row, rigid), came = rigid ? 0 : integer(c, row, "from_node");
     ck_assert_int_eq(integer(c, row, "visit"), ++visits[i]);
-    assert_says(c, row, "how", visits[i] == 1 ? "pick up" : rigid || from[i] == came ? "through" : "back through");
+    assert_says(c, row, "how",
+                visits[i] == 1             ? "pick up"
+                : rigid || from[i] == came ? "through"
+                                           : "back through");
     from[i] = came;
     if (!label[i]) label[i] = at(c, row, "piece");
     assert_says(c, row, "piece", label[i]);
@@ -274,7 +289,8 @@ static void assert_visits(const csv *c, const thr_plan *p, bool rigid)
   free(label);
 }
 
-/* A copy's step is the image of its path's, by the record of the symmetry: the same edge, one way round or the other. */
+/* A copy's step is the image of its path's, by the record of the symmetry: the same edge, one way
+ * round or the other. */
 static void assert_copies(const csv *c, const thr_plan *p)
 {
   for (int row = 1; row < c->n_rows; row++) {
@@ -285,7 +301,8 @@ static void assert_copies(const csv *c, const thr_plan *p)
       path++;
     const thr_symmetry_record *r = &p->symmetry;
     ck_assert_int_eq(path, r->present ? r->unique[own] : own);
-    if (path == own || !integer(c, row, "step")) ck_assert_int_eq(integer(c, row, "path_step"), integer(c, row, "step"));
+    if (path == own || !integer(c, row, "step"))
+      ck_assert_int_eq(integer(c, row, "path_step"), integer(c, row, "step"));
     if (path == own || !integer(c, row, "step")) continue;
     const int *image = r->image + (size_t)r->element[own] * (size_t)p->frame.n_nodes;
     int h = p->cord[path].half[integer(c, row, "path_step") - 1];
@@ -317,8 +334,8 @@ START_TEST(steps_are_the_plan)
 }
 END_TEST
 
-/* The rows of a cord, from row on, against the plan: the right needle from the fold to the end, then the left one back from there
- * to the start. Returns the row after them. */
+/* The rows of a cord, from row on, against the plan: the right needle from the fold to the end,
+ * then the left one back from there to the start. Returns the row after them. */
 static int judge_needles(const csv *c, int row, const json_plan *j, bool rigid)
 {
   const thr_json *cord = cord_of(j, at(c, row, "cord"));
@@ -387,17 +404,21 @@ START_TEST(cords_are_cut_long_enough)
     const thr_json *cord = cord_of(&j, at(&c, row, "cord"));
     bool closing = p.options.ends == THR_ENDS_CLOSED;
     double length = length_of(&j, cord), turning = turning_of(&j, cord, closing);
-    double cut = number(&c, row, "length") + number(&c, row, "tails") + number(&c, row, "knots") + number(&c, row, "turns");
+    double cut = number(&c, row, "length") + number(&c, row, "tails") + number(&c, row, "knots") +
+                 number(&c, row, "turns");
     ck_assert_double_eq_tol(number(&c, row, "length"), length, 1e-6 * length);
     ck_assert_double_eq_tol(number(&c, row, "turning_degrees"), turning, 0.01);
     ck_assert_double_eq_tol(number(&c, row, "tails"), 2 * 150, 1e-9);
     ck_assert_double_eq_tol(number(&c, row, "knots"), 2 * 16.4 * 0.125, 1e-9);
-    ck_assert_double_eq_tol(number(&c, row, "turns"), (0.5 - 0.125) / 2 * turning * THR_PI / 180, 1e-6 * turning + 1e-12);
+    ck_assert_double_eq_tol(number(&c, row, "turns"), (0.5 - 0.125) / 2 * turning * THR_PI / 180,
+                            1e-6 * turning + 1e-12);
     ck_assert_double_eq_tol(number(&c, row, "cut"), cut, 1e-6 * cut);
     ck_assert_int_eq(integer(&c, row, "passes"), thr_json_size(thr_json_get(cord, "edges")));
     assert_says(&c, row, "closed", thr_json_true(thr_json_get(cord, "closed")) ? "yes" : "no");
-    assert_says(&c, row, "path", p.symmetry.present ? p.cord[p.symmetry.unique[row - 1]].id : p.cord[row - 1].id);
-    if (thr_json_true(thr_json_get(cord, "closed"))) assert_says(&c, row, "end", at(&c, row, "start"));
+    assert_says(&c, row, "path",
+                p.symmetry.present ? p.cord[p.symmetry.unique[row - 1]].id : p.cord[row - 1].id);
+    if (thr_json_true(thr_json_get(cord, "closed")))
+      assert_says(&c, row, "end", at(&c, row, "start"));
   }
   csv_destroy(&c);
   json_destroy(&j);
@@ -438,8 +459,8 @@ START_TEST(sizes_follow_the_units)
   mm.options.physics.cord_diameter = m.options.physics.cord_diameter = 1.5;
   snprintf(m.frame.units, sizeof m.frame.units, "m");
   snprintf(cubits.frame.units, sizeof cubits.frame.units, "cu,bi\nts");
-  csv a = table_of(&mm, CORDS, NULL), b = table_of(&m, CORDS, NULL), c = table_of(&cubits, CORDS, NULL),
-      d = table_of(&cubits, BEADS, NULL);
+  csv a = table_of(&mm, CORDS, NULL), b = table_of(&m, CORDS, NULL),
+      c = table_of(&cubits, CORDS, NULL), d = table_of(&cubits, BEADS, NULL);
   static const char *const known[] = {"tails", "knots", "turns"};
   for (int i = 0; i < 3; i++) {
     ck_assert_double_eq_tol(number(&a, 1, known[i]) / 1000, number(&b, 1, known[i]), 1e-8);
@@ -462,12 +483,14 @@ START_TEST(sizes_follow_the_units)
 }
 END_TEST
 
-/* What a spreadsheet would take for a formula gets an apostrophe; numbers with a sign stay numbers. */
+/* What a spreadsheet would take for a formula gets an apostrophe; numbers with a sign stay numbers.
+ */
 START_TEST(names_are_no_formulas)
 {
-  static const char *const name[][2] = {{"=1+1", "'=1+1"}, {"-12.5", "-12.5"},  {"@SUM(A1)", "'@SUM(A1)"}, {"+1e3", "+1e3"},
-                                        {"-", "'-"},       {"-2+3", "'-2+3"},   {"\t=x", "_=x"},           {"+1e999", "'+1e999"},
-                                        {"a=1", "a=1"},    {"-0x10", "'-0x10"}, {"=\"a\",b", "'=\"a\",b"}, {"-inf", "'-inf"}};
+  static const char *const name[][2] = {
+      {"=1+1", "'=1+1"}, {"-12.5", "-12.5"},  {"@SUM(A1)", "'@SUM(A1)"}, {"+1e3", "+1e3"},
+      {"-", "'-"},       {"-2+3", "'-2+3"},   {"\t=x", "_=x"},           {"+1e999", "'+1e999"},
+      {"a=1", "a=1"},    {"-0x10", "'-0x10"}, {"=\"a\",b", "'=\"a\",b"}, {"-inf", "'-inf"}};
   enum { N = sizeof name / sizeof *name };
   thr_frame f = path_make(N);
   const char *first[N];
@@ -496,18 +519,21 @@ static int count_in(const json_plan *j, const char *key, int number)
   int n = 0;
   for (int c = 0; c < thr_json_size(cords); c++) {
     const thr_json *cord = thr_json_at(cords, c), *list = thr_json_get(cord, key);
-    bool skip = strcmp(key, "nodes") == 0 && thr_json_true(thr_json_get(cord, "closed")); /* its end is its start */
+    bool skip = strcmp(key, "nodes") == 0 &&
+                thr_json_true(thr_json_get(cord, "closed")); /* its end is its start */
     for (int k = skip; k < thr_json_size(list); k++)
       n += item(cord, key, k) == number;
   }
   return n;
 }
 
-/* The bore of the evaluation, or wider where cords side by side would have no play in it: best[n - 1] diameters hold n of them.
+/* The bore of the evaluation, or wider where cords side by side would have no play in it: best[n -
+ * 1] diameters hold n of them.
  */
 static void assert_bore(const csv *c, int row, int passes, const thr_physics *sizes)
 {
-  static const double best[] = {1, 2, 2.1548, 2.4143, 2.7014, 3, 3}, fill[] = {0.53, 0.31, 0.4, 0.4, 0.4, 0.4, 0.4};
+  static const double best[] = {1, 2, 2.1548, 2.4143, 2.7014, 3, 3},
+                      fill[] = {0.53, 0.31, 0.4, 0.4, 0.4, 0.4, 0.4};
   double cords = number(c, row, "bore_cords"), mm = number(c, row, "bore_mm");
   ck_assert_int_le(passes, 7);
   ck_assert_double_ge(mm, sizes->bore - 1e-9);
@@ -525,7 +551,8 @@ static int words_of(const char *field, char word[][64], int most)
   return n;
 }
 
-/* What the arms of a piece face, and how many cords each holds. Names of these frames have no blanks. */
+/* What the arms of a piece face, and how many cords each holds. Names of these frames have no
+ * blanks. */
 static void assert_arms(const csv *c, int row, const json_plan *j, const thr_plan *p, int node)
 {
   const thr_frame *f = &p->frame;
@@ -561,7 +588,8 @@ START_TEST(solid_pieces_are_the_nodes)
   for (int row = 1; row < c.n_rows; row++) {
     double arms = 0;
     for (int e = 0; e < f->n_edges; e++)
-      if (f->edge[e][0] == row - 1 || f->edge[e][1] == row - 1) arms += distance(&j, f->edge[e][0], f->edge[e][1]) / 2;
+      if (f->edge[e][0] == row - 1 || f->edge[e][1] == row - 1)
+        arms += distance(&j, f->edge[e][0], f->edge[e][1]) / 2;
     ck_assert_int_eq(integer(&c, row, "number"), row - 1);
     ck_assert_int_eq(integer(&c, row, "visits"), count_in(&j, "nodes", row - 1));
     ck_assert_double_eq_tol(number(&c, row, "length"), arms, 1e-6);
@@ -608,7 +636,8 @@ START_TEST(arms_go_clockwise_from_the_top)
     const char *place = at(&c, row, "piece"), *faces = at(&c, row, "faces");
     if (strcmp(place, "B2") == 0) ck_assert_str_eq(faces, "B3 C2 B1 A2");
     if (strcmp(place, "A2") == 0) ck_assert_str_eq(faces, "A3 B2 A1");
-    if (strcmp(place, "B3") == 0) ck_assert(strcmp(faces, "C3 B2 A3") == 0 || strcmp(faces, "A3 C3 B2") == 0);
+    if (strcmp(place, "B3") == 0)
+      ck_assert(strcmp(faces, "C3 B2 A3") == 0 || strcmp(faces, "A3 C3 B2") == 0);
   }
   csv_destroy(&c);
   thr_plan_destroy(&p);
@@ -651,7 +680,8 @@ static bool rows_cross(const csv *c, const csv *pieces, const thr_frame *f, int 
       if (end[k] == end[i]) return false;
   }
   double base = bearing(f, v, end[0]), other = to_the_left(base, bearing(f, v, end[1]));
-  return (to_the_left(base, bearing(f, v, end[2])) < other) != (to_the_left(base, bearing(f, v, end[3])) < other);
+  return (to_the_left(base, bearing(f, v, end[2])) < other) !=
+         (to_the_left(base, bearing(f, v, end[3])) < other);
 }
 
 START_TEST(channels_are_the_plan)
@@ -664,12 +694,14 @@ START_TEST(channels_are_the_plan)
   ck_assert_int_eq(c.n_rows - 1, p.metrics.passes + (closed ? 0 : p.n_cords));
   for (int row = 1; row < c.n_rows; row++) {
     const thr_json *cord = cord_of(&j, at(&c, row, "cord"));
-    int k = integer(&c, row, "step"), n = thr_json_size(thr_json_get(cord, "edges")), v = item(cord, "nodes", k), crosses = 0;
+    int k = integer(&c, row, "step"), n = thr_json_size(thr_json_get(cord, "edges")),
+        v = item(cord, "nodes", k), crosses = 0;
     int next = k < n ? item(cord, "nodes", k + 1) : closed ? item(cord, "nodes", 1) : -1;
     ck_assert_int_eq(node_called(&pieces, at(&c, row, "piece")), v);
     ck_assert_int_eq(node_called(&pieces, at(&c, row, "in")), k ? item(cord, "nodes", k - 1) : -1);
     ck_assert_int_eq(node_called(&pieces, at(&c, row, "out")), next);
-    ck_assert_int_eq(integer(&c, row, "cords_in"), k ? count_in(&j, "edges", item(cord, "edges", k - 1)) : 0);
+    ck_assert_int_eq(integer(&c, row, "cords_in"),
+                     k ? count_in(&j, "edges", item(cord, "edges", k - 1)) : 0);
     for (int other = 1; other < c.n_rows; other++)
       if (other != row && strcmp(at(&c, row, "piece"), at(&c, other, "piece")) == 0)
         crosses += rows_cross(&c, &pieces, &p.frame, row, other);

@@ -1,4 +1,6 @@
-/* The taut path: closed forms by hand, a brute force that knows the openings only by distances to the channels' axes, symmetry.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The taut path: closed forms by hand, a brute force that knows the openings only by distances to
+ * the channels' axes, symmetry.
  */
 #include "eval/cord/profile.h"
 #include "graph/angle.h"
@@ -46,7 +48,9 @@ static result *pull_thick(const strung *s, double radius, double clearance)
 {
   result *r = calloc(1, sizeof *r);
   thr_err err = {0};
-  ck_assert_msg(!thr_taut_path(&s->frame, &s->cord, radius, clearance, r->turn, r->point, &r->length, &err), "%s", err.text);
+  ck_assert_msg(
+      !thr_taut_path(&s->frame, &s->cord, radius, clearance, r->turn, r->point, &r->length, &err),
+      "%s", err.text);
   for (int i = 0; i + 1 < s->cord.n_passes; i++)
     r->turning += r->turn[i];
   return r;
@@ -59,7 +63,8 @@ static result *pull_taut(const strung *s, double clearance)
 
 static double distance(const double a[3], const double b[3])
 {
-  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2]));
+  return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+              (a[2] - b[2]) * (a[2] - b[2]));
 }
 
 static void zigzag(int n, double edge, double turn, double (*at)[3])
@@ -121,7 +126,8 @@ START_TEST(without_clearance_it_is_the_centre_line)
   for (int k = 0; k < 2; k++) { /* a clearance of next to nothing moves it by next to nothing */
     result *t = pull_taut(&s, k * 1e-5);
     for (int i = 0; i < 29; i++)
-      ck_assert_double_eq_tol(t->turn[i], thr_turn_angle(&s.frame, 2 * i, 2 * i + 2), k ? 1e-3 : 1e-14);
+      ck_assert_double_eq_tol(t->turn[i], thr_turn_angle(&s.frame, 2 * i, 2 * i + 2),
+                              k ? 1e-3 : 1e-14);
     for (int i = 0; i <= 30; i++)
       ck_assert_double_lt(distance(t->point[i], at[i]), k ? 1e-3 : 1e-14);
     ck_assert_double_eq_tol(t->length, thr_cord_length(&s.frame, &s.cord), k ? 1e-2 : 1e-9);
@@ -131,13 +137,16 @@ START_TEST(without_clearance_it_is_the_centre_line)
 }
 END_TEST
 
-/* Two equal edges: the cord goes to the inside of the ellipse, or straight from end to end if that is inside it. */
+/* Two equal edges: the cord goes to the inside of the ellipse, or straight from end to end if that
+ * is inside it. */
 START_TEST(single_turn_by_hand)
 {
   for (int a = 0; a <= 10; a++)
     for (int b = 0; b < 6; b++) {
       double turn = a * THR_PI / 12, c = 0.02 * b, edge = 1, half = turn / 2;
-      const double at[3][3] = {{-edge * cos(half), -edge * sin(half), 1}, {0, 0, 1}, {edge * cos(half), -edge * sin(half), 1}};
+      const double at[3][3] = {{-edge * cos(half), -edge * sin(half), 1},
+                               {0, 0, 1},
+                               {edge * cos(half), -edge * sin(half), 1}};
       strung s = string_up(2, at);
       result *r = pull_taut(&s, c);
       double in = fmin(c / cos(half), edge * sin(half)), rest = edge * sin(half) - in;
@@ -159,7 +168,8 @@ START_TEST(long_zigzag_and_ring_by_hand)
     zigzag(401, 10, turn, at);
     strung s = string_up(401, (const double(*)[3])at);
     result *r = pull_taut(&s, 1);
-    ck_assert_double_eq_tol(r->turn[200], 2 * atan2(10 * sin(turn / 2) - 2 * in, 10 * cos(turn / 2)), 1e-9);
+    ck_assert_double_eq_tol(r->turn[200],
+                            2 * atan2(10 * sin(turn / 2) - 2 * in, 10 * cos(turn / 2)), 1e-9);
     free(r);
     unstring(&s);
   }
@@ -173,32 +183,36 @@ START_TEST(long_zigzag_and_ring_by_hand)
     strung s = string_up(401, (const double(*)[3])at);
     result *r = pull_taut(&s, 1);
     ck_assert_double_eq_tol(r->turn[200], 2 * THR_PI / sides, 1e-5);
-    ck_assert_double_eq_tol(distance(r->point[200], r->point[201]), 2 * (radius - 1 / cos(THR_PI / sides)) * sin(THR_PI / sides),
-                            1e-5);
+    ck_assert_double_eq_tol(distance(r->point[200], r->point[201]),
+                            2 * (radius - 1 / cos(THR_PI / sides)) * sin(THR_PI / sides), 1e-5);
     free(r);
     unstring(&s);
   }
 }
 END_TEST
 
-/* Angle to a channel's axis of a straight line that touches a circle of this radius round the bore's inner edge, dx along the
- * axis and dy across it from where the line begins or touches the next such circle the other way round. */
+/* Angle to a channel's axis of a straight line that touches a circle of this radius round the
+ * bore's inner edge, dx along the axis and dy across it from where the line begins or touches the
+ * next such circle the other way round. */
 static double slope(double dx, double dy, double touching)
 {
   return atan2(dy, dx) - asin(touching / hypot(dx, dy));
 }
 
-/* A thick cord in a plane is straight lines that touch circles of its radius round the inner edges. */
+/* A thick cord in a plane is straight lines that touch circles of its radius round the inner edges.
+ */
 START_TEST(thick_cord_in_a_plane_by_hand)
 {
   static double at[402][3];
   for (int a = 1; a <= 8; a++)
     for (double bore = 1.1; bore < 3; bore += 0.3) { /* radii; the cord's is 1 */
-      double turn = a * THR_PI / 12, edge = 2.6 * bore * tan(turn / 2) + 10, in = bore * tan(turn / 2);
+      double turn = a * THR_PI / 12, edge = 2.6 * bore * tan(turn / 2) + 10,
+             in = bore * tan(turn / 2);
       zigzag(401, edge, turn, at);
       strung s = string_up(401, (const double(*)[3])at), two = string_up(2, (const double(*)[3])at);
       result *r = pull_thick(&s, 1, bore - 1), *t = pull_thick(&two, 1, bore - 1);
-      ck_assert_double_eq_tol(r->turn[200], fmax(0, turn - 2 * slope(edge - 2 * in, 2 * bore, 2)), 1e-6);
+      ck_assert_double_eq_tol(r->turn[200], fmax(0, turn - 2 * slope(edge - 2 * in, 2 * bore, 2)),
+                              1e-6);
       ck_assert_double_eq_tol(t->turn[0], fmax(0, turn - 2 * slope(edge - in, bore, 1)), 1e-6);
       free(r);
       free(t);
@@ -253,7 +267,8 @@ START_TEST(u_turns_go_round_the_node)
   free(r);
   thr_frame_destroy(&f);
 
-  for (int k = 1; k < 12; k++) { /* nearly a U-turn: stays within the two beads, and still turns about as much */
+  for (int k = 1; k < 12;
+       k++) { /* nearly a U-turn: stays within the two beads, and still turns about as much */
     double off = pow(10, -k);
     const double sharp[3][3] = {{0, 0, 0}, {1, 0, 0}, {1 - cos(off), sin(off), 0}};
     s = string_up(2, sharp);
@@ -282,8 +297,8 @@ static double from_axis(const double p[3], const double a[3], const double b[3])
   return sqrt(across);
 }
 
-/* Two directions that span the mitre plane at node i: it holds the points as far before the node on the one axis as behind it on
- * the other. */
+/* Two directions that span the mitre plane at node i: it holds the points as far before the node on
+ * the one axis as behind it on the other. */
 static void mitre_plane(const double (*at)[3], int i, double x[3], double y[3])
 {
   double normal[3], before = distance(at[i - 1], at[i]), behind = distance(at[i], at[i + 1]);
@@ -302,8 +317,10 @@ static void mitre_plane(const double (*at)[3], int i, double x[3], double y[3])
     y[j] = (normal[(j + 1) % 3] * x[(j + 2) % 3] - normal[(j + 2) % 3] * x[(j + 1) % 3]) / norm;
 }
 
-/* Point of opening i in a direction of its plane, part of the way to where a channel's wall stops it. */
-static void point_in(const double (*at)[3], int i, double clearance, double angle, double part, double p[3])
+/* Point of opening i in a direction of its plane, part of the way to where a channel's wall stops
+ * it. */
+static void point_in(const double (*at)[3], int i, double clearance, double angle, double part,
+                     double p[3])
 {
   const double zero[3] = {0, 0, 0};
   double x[3], y[3], reach = 0;
@@ -312,7 +329,8 @@ static void point_in(const double (*at)[3], int i, double clearance, double angl
   for (double step = 64 * clearance; step > 1e-13 * clearance; step /= 2) {
     for (int k = 0; k < 3; k++)
       p[k] = at[i][k] + (reach + step) * (cos(angle) * x[k] + sin(angle) * y[k]) / norm;
-    if (from_axis(p, at[i - 1], at[i]) <= clearance && from_axis(p, at[i], at[i + 1]) <= clearance) reach += step;
+    if (from_axis(p, at[i - 1], at[i]) <= clearance && from_axis(p, at[i], at[i + 1]) <= clearance)
+      reach += step;
   }
   for (int k = 0; k < 3; k++)
     p[k] = at[i][k] + part * reach * (cos(angle) * x[k] + sin(angle) * y[k]) / norm;
@@ -382,7 +400,8 @@ START_TEST(turned_scaled_or_reversed_it_is_the_same)
 {
   rng random = rng_make((uint64_t)_i + 1);
   enum { N = 60 };
-  double at[N + 1][3], other[N + 1][3], scale = pow(10, rng_between(&random, -6, 6)), angle = 6 * rng_unit(&random);
+  double at[N + 1][3], other[N + 1][3], scale = pow(10, rng_between(&random, -6, 6)),
+                                        angle = 6 * rng_unit(&random);
   random_points(&random, N, 10, 2.5, at);
   for (int i = 0; i <= N; i++) {
     const double *q = at[N - i];
@@ -428,10 +447,12 @@ START_TEST(nonsense_is_refused)
   double turn[1], length;
   for (int i = 0; i < 3; i++) {
     thr_err err = {0};
-    ck_assert_int_eq(thr_taut_path(&s.frame, &s.cord, 0, wrong[i], turn, NULL, &length, &err), THR_EINPUT);
+    ck_assert_int_eq(thr_taut_path(&s.frame, &s.cord, 0, wrong[i], turn, NULL, &length, &err),
+                     THR_EINPUT);
     assert_one_line(&err, "clearance");
     err = (thr_err){0};
-    ck_assert_int_eq(thr_taut_path(&s.frame, &s.cord, wrong[i], 0.1, turn, NULL, &length, &err), THR_EINPUT);
+    ck_assert_int_eq(thr_taut_path(&s.frame, &s.cord, wrong[i], 0.1, turn, NULL, &length, &err),
+                     THR_EINPUT);
     assert_one_line(&err, "radius");
   }
   for (long k = 1;; k++) {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The example threadings in data/ are what tests/threadings.c makes, and hold. */
 #include "tests/support.h"
 #include "tests/frameworks.h"
@@ -29,13 +30,15 @@ START_TEST(file_is_what_is_made)
 }
 END_TEST
 
-/* In the flat grid a straight cord does not turn, a staircase turns a quarter at every inner node, a snake twice between lines.
+/* In the flat grid a straight cord does not turn, a staircase turns a quarter at every inner node,
+ * a snake twice between lines.
  */
 START_TEST(turning_on_a_flat_grid)
 {
   enum { N = 5 };
   thr_frame flat = grid_make(N, N);
-  const double quarters[N_THREADINGS] = {0, 0, 4 * (N - 1) + 1}; /* snake: and from rows to columns; stairs: below */
+  const double quarters[N_THREADINGS] = {
+      0, 0, 4 * (N - 1) + 1}; /* snake: and from rows to columns; stairs: below */
   for (int kind = 0; kind < N_THREADINGS; kind++) {
     thr_plan p = threading_make(&flat, N, (threading)kind);
     double expected = quarters[kind];

@@ -1,4 +1,6 @@
-/* Plans that are made in two threads at once are those that one thread makes; jobs in many threads come to what they do in one.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Plans that are made in two threads at once are those that one thread makes; jobs in many threads
+ * come to what they do in one.
  */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/framework/frame.h"
@@ -16,7 +18,8 @@
 #include <pthread.h>
 #include <string.h>
 
-/* What is planned: of every objective and joint, several cords, cut trees, symmetries, linear programmes in children. */
+/* What is planned: of every objective and joint, several cords, cut trees, symmetries, linear
+ * programmes in children. */
 static void request_number(int i, thr_frame *f, thr_request *o)
 {
   *o = thr_request_default();
@@ -28,7 +31,9 @@ static void request_number(int i, thr_frame *f, thr_request *o)
   case 1: o->aims = thr_aims_straightest; break;
   case 2: o->aims = thr_aims_symmetric; break;
   case 3: o->joint = THR_JOINT_TUBE; break;
-  default: o->cords = o->cords_least = 3; ck_assert_int_eq(thr_aims_parse("longest", o, NULL), THR_OK);
+  default:
+    o->cords = o->cords_least = 3;
+    ck_assert_int_eq(thr_aims_parse("longest", o, NULL), THR_OK);
   }
 }
 enum { N_REQUESTS = 10 };
@@ -155,7 +160,8 @@ START_TEST(work_beside_each_other_is_that_of_the_longest)
   left = 12;
   ck_assert_int_eq(thr_threads_beside(3, spend, &j, &limits, NULL), THR_OK);
   ck_assert_double_eq_tol(left, 9, 1e-12);
-  ck_assert(j.calls[0] == 2 && j.calls[1] == 2 && j.calls[2] == 1 && j.value[1] == 1 && j.value[2] == 0);
+  ck_assert(j.calls[0] == 2 && j.calls[1] == 2 && j.calls[2] == 1 && j.value[1] == 1 &&
+            j.value[2] == 0);
   limits.work = NULL;
   ck_assert_int_eq(thr_threads_beside(2, spend, &j, &limits, NULL), THR_OK);
   ck_assert(j.calls[1] == 3 && left == 9);
@@ -236,16 +242,18 @@ START_TEST(a_team_shares_jobs)
 }
 END_TEST
 
-/* Plans of a request in 1, 2 and 16 threads, as they are written with their proofs, are the same; *plan: one of them. most: work
- * that each may do, counted; 0: any. */
-static void plan_in_threads(const thr_frame *f, const thr_request *o, double most, thr_status expected, thr_plan *plan)
+/* Plans of a request in 1, 2 and 16 threads, as they are written with their proofs, are the same;
+ * *plan: one of them. most: work that each may do, counted; 0: any. */
+static void plan_in_threads(const thr_frame *f, const thr_request *o, double most,
+                            thr_status expected, thr_plan *plan)
 {
   static const int threads[] = {1, 2, 16};
   thr_text written[3] = {{0}, {0}, {0}};
   for (int k = 0; k < 3; k++) {
     double left = most;
     thr_limits limits = {.threads = threads[k]};
-    if (most > 0) limits = (thr_limits){.threads = threads[k], .work = &left, .deadline = thr_clock() + 1000};
+    if (most > 0)
+      limits = (thr_limits){.threads = threads[k], .work = &left, .deadline = thr_clock() + 1000};
     ck_assert_int_eq(thr_plan_make(f, o, &limits, plan, NULL, NULL), expected);
     ck_assert_double_le(left, .01);
     thr_plan_write(plan, &written[k]);
@@ -276,7 +284,8 @@ START_TEST(the_least_turning_does_not_depend_on_threads)
 }
 END_TEST
 
-/* Work ends the search for the cord that turns most, which anneals beside the programme over walks. */
+/* Work ends the search for the cord that turns most, which anneals beside the programme over walks.
+ */
 START_TEST(the_largest_turning_does_not_depend_on_threads)
 {
   thr_frame f = shape_make(THR_MAKE_DOME, 5, 0);
@@ -301,16 +310,20 @@ START_TEST(symmetries_do_not_depend_on_threads)
   o.aims = thr_aims_symmetric;
   o.ends = _i / 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED;
   for (int k = 0; k < 2; k++)
-    ck_assert_int_ne(thr_symmetries_find(&f, &o, false, &(thr_limits){.threads = k ? 3 : 1}, &table[k], NULL), THR_ENOMEM);
+    ck_assert_int_ne(
+        thr_symmetries_find(&f, &o, false, &(thr_limits){.threads = k ? 3 : 1}, &table[k], NULL),
+        THR_ENOMEM);
   ck_assert_int_gt(table[0].n, 2);
   ck_assert_int_eq(table[1].n, table[0].n);
   ck_assert_int_eq(table[1].chosen, table[0].chosen);
   for (int i = 0; i < table[0].n; i++) {
     const thr_symmetry_row *a = &table[0].row[i], *b = &table[1].row[i];
-    ck_assert(a->n_cords == b->n_cords && a->metrics.length == b->metrics.length && a->metrics.turning == b->metrics.turning);
+    ck_assert(a->n_cords == b->n_cords && a->metrics.length == b->metrics.length &&
+              a->metrics.turning == b->metrics.turning);
     for (int c = 0; c < a->n_cords; c++) {
       ck_assert_int_eq(a->cord[c].n_passes, b->cord[c].n_passes);
-      ck_assert_mem_eq(a->cord[c].half, b->cord[c].half, (size_t)a->cord[c].n_passes * sizeof *a->cord[c].half);
+      ck_assert_mem_eq(a->cord[c].half, b->cord[c].half,
+                       (size_t)a->cord[c].n_passes * sizeof *a->cord[c].half);
     }
   }
   for (int k = 0; k < 2; k++)

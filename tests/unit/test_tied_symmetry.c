@@ -1,5 +1,7 @@
-/* Symmetric threadings that tie tube joints: published lengths, the search without symmetry, the checker. That they are the best
- * under every group of small frameworks is shown in tests/property/test_cover.c. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Symmetric threadings that tie tube joints: published lengths, the search without symmetry, the
+ * checker. That they are the best under every group of small frameworks is shown in
+ * tests/property/test_cover.c. */
 #include "graph/check/check.h"
 #include "graph/plan/plan_measures.h"
 #include "symmetry/cover/cover.h"
@@ -32,7 +34,8 @@ static thr_symmetries table_of(const thr_frame *f, const thr_request *o, double 
   return t;
 }
 
-/* Every row with cords makes a plan that the checker accepts, in as many passes as ties need, and with no less than its bounds.
+/* Every row with cords makes a plan that the checker accepts, in as many passes as ties need, and
+ * with no less than its bounds.
  */
 static int check_rows(const thr_frame *f, const thr_request *o, thr_symmetries *t)
 {
@@ -56,7 +59,8 @@ static int check_rows(const thr_frame *f, const thr_request *o, thr_symmetries *
   return made;
 }
 
-/* Demaine, Kirkpatrick & Lin 2024: passes of the best threading of solids with edges of length 1, closed. */
+/* Demaine, Kirkpatrick & Lin 2024: passes of the best threading of solids with edges of length 1,
+ * closed. */
 START_TEST(published_lengths)
 {
   static const struct {
@@ -86,8 +90,11 @@ START_TEST(plans_pass_the_checker)
   static const struct {
     thr_shape shape;
     int size, rings;
-  } made[] = {
-      {THR_MAKE_DOME, 3, 0}, {THR_MAKE_DOME, 4, 0}, {THR_MAKE_TUBE, 3, 2}, {THR_MAKE_TUBE, 4, 3}, {THR_MAKE_GEODESIC, 2, 0}};
+  } made[] = {{THR_MAKE_DOME, 3, 0},
+              {THR_MAKE_DOME, 4, 0},
+              {THR_MAKE_TUBE, 3, 2},
+              {THR_MAKE_TUBE, 4, 3},
+              {THR_MAKE_GEODESIC, 2, 0}};
   thr_frame f = shape_make(made[_i].shape, made[_i].size, made[_i].rings);
   for (int ends = THR_ENDS_CLOSED; ends <= THR_ENDS_FEET; ends++) {
     thr_request o = tied((thr_ends)ends);
@@ -100,13 +107,15 @@ START_TEST(plans_pass_the_checker)
 }
 END_TEST
 
-/* What the shortest cords need without symmetry, by the search for tube joints, which shares no code with this one. */
+/* What the shortest cords need without symmetry, by the search for tube joints, which shares no
+ * code with this one. */
 START_TEST(shortest_is_that_of_the_other_search)
 {
   rng r = rng_make(5 + (unsigned)_i);
   int compared = 0;
   for (int run = 0; run < 12; run++) {
-    thr_frame f = random_frame(&r, rng_between(&r, 5, 9), rng_between(&r, 4, 9), (length_kind)(run % LENGTH_KINDS));
+    thr_frame f = random_frame(&r, rng_between(&r, 5, 9), rng_between(&r, 4, 9),
+                               (length_kind)(run % LENGTH_KINDS));
     thr_request o = tied(run % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED);
     const thr_limits limits = {.deadline = thr_clock() + 10};
     thr_tube best;
@@ -129,7 +138,8 @@ END_TEST
 
 static thr_cord round_from(const thr_frame *f, int start, const char *id)
 {
-  thr_cord c = {.closed = true, .n_passes = f->n_nodes, .half = calloc((size_t)f->n_nodes, sizeof *c.half)};
+  thr_cord c = {
+      .closed = true, .n_passes = f->n_nodes, .half = calloc((size_t)f->n_nodes, sizeof *c.half)};
   ck_assert(c.half != NULL);
   snprintf(c.id, sizeof c.id, "%s", id);
   for (int k = 0; k < f->n_nodes; k++) {
@@ -139,8 +149,9 @@ static thr_cord round_from(const thr_frame *f, int start, const char *id)
   return c;
 }
 
-/* A cord's end ties nothing, so that it matters where a closed cord comes out. Two cords go once round a square and come out at
- * opposite corners, each tying the other's: a half turn maps them to each other. Neither where they come out at neighbours. */
+/* A cord's end ties nothing, so that it matters where a closed cord comes out. Two cords go once
+ * round a square and come out at opposite corners, each tying the other's: a half turn maps them to
+ * each other. Neither where they come out at neighbours. */
 START_TEST(ends_are_mapped_to_ends)
 {
   static const int images[] = {0, 1, 2, 3, 2, 3, 0, 1};
@@ -162,13 +173,15 @@ START_TEST(ends_are_mapped_to_ends)
                                        .element = calloc(2, sizeof(int)),
                                        .steps = 6, /* four passes, two ends */
                                        .unique_paths = 1};
-    ck_assert(p.cord && p.symmetry.generator && p.symmetry.image && p.symmetry.unique && p.symmetry.element);
+    ck_assert(p.cord && p.symmetry.generator && p.symmetry.image && p.symmetry.unique &&
+              p.symmetry.element);
     memcpy(p.symmetry.generator, images + 4, 4 * sizeof *images);
     memcpy(p.symmetry.image, images, sizeof images);
     p.symmetry.element[1] = 1;
     p.cord[p.n_cords++] = round_from(&p.frame, 0, "A");
     p.cord[p.n_cords++] = round_from(&p.frame, start, "B");
-    ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL), THR_OK);
+    ck_assert_int_eq(thr_plan_measure(&p.frame, &p.options, p.cord, p.n_cords, &p.metrics, NULL),
+                     THR_OK);
     ck_assert_int_eq(thr_check_plan(&p, &err), start == 2 ? THR_OK : THR_EVIOLATED);
     ck_assert_msg(start == 2 || strstr(err.text, "symmetry"), "%s", err.text);
     thr_plan_destroy(&p);
@@ -184,12 +197,15 @@ START_TEST(what_cannot_be_tied_is_said)
   thr_request o = tied(THR_ENDS_CLOSED);
   thr_symmetries t;
   thr_err err = {0};
-  ck_assert_int_eq(thr_symmetries_find(&star, &o, false, &(thr_limits){0}, &t, &err), THR_EINFEASIBLE);
+  ck_assert_int_eq(thr_symmetries_find(&star, &o, false, &(thr_limits){0}, &t, &err),
+                   THR_EINFEASIBLE);
   ck_assert_msg(strstr(err.text, "one edge") != NULL, "%s", err.text);
-  o = tied(THR_ENDS_ANY); /* a cord's two ends tie nothing, and every edge of the ring has one pass */
+  o = tied(
+      THR_ENDS_ANY); /* a cord's two ends tie nothing, and every edge of the ring has one pass */
   o.capacity = 1;
   err = (thr_err){0};
-  ck_assert_int_eq(thr_symmetries_find(&ring, &o, false, &(thr_limits){0}, &t, &err), THR_EINFEASIBLE);
+  ck_assert_int_eq(thr_symmetries_find(&ring, &o, false, &(thr_limits){0}, &t, &err),
+                   THR_EINFEASIBLE);
   thr_frame_destroy(&star);
   thr_frame_destroy(&ring);
 }
@@ -208,12 +224,14 @@ START_TEST(stars_against_images)
     thr_ties t;
     const thr_subgroup *h = &s.classes.subgroup[k];
     ck_assert_int_eq(thr_quotient_init(&q, &s.f, &s.g, h, 100000, NULL), THR_OK);
-    int n = s.f.n_nodes, orbit[32], *value = calloc((size_t)q.n_pairs + 1, sizeof *value), parent[32];
+    int n = s.f.n_nodes, orbit[32], *value = calloc((size_t)q.n_pairs + 1, sizeof *value),
+        parent[32];
     ck_assert(value != NULL);
     for (int v = 0; v < n; v++) {
       orbit[v] = v;
       for (int i = 0; i < h->order; i++)
-        if (s.g.image[h->element[i] * n + v] < orbit[v]) orbit[v] = s.g.image[h->element[i] * n + v];
+        if (s.g.image[h->element[i] * n + v] < orbit[v])
+          orbit[v] = s.g.image[h->element[i] * n + v];
     }
     ck_assert_int_eq(thr_ties_init(&t, &q, orbit, NULL), THR_OK);
     for (int run = 0; run < 40; run++) {
@@ -263,7 +281,8 @@ START_TEST(every_allocation_fails_once)
     thr_alloc_fail_at(++k);
     st = thr_symmetry_plan(&f, &o, &(thr_limits){0}, &t, &p, &err);
     thr_alloc_fail_at(0);
-    ck_assert_msg(st == THR_OK || st == THR_ENOMEM || st == THR_ELIMIT, "allocation %d: status %d, %s", k, st, err.text);
+    ck_assert_msg(st == THR_OK || st == THR_ENOMEM || st == THR_ELIMIT,
+                  "allocation %d: status %d, %s", k, st, err.text);
     if (st == THR_ENOMEM) ck_assert(t.n == 0 && p.n_cords == 0);
     thr_plan_destroy(&p);
     thr_symmetries_destroy(&t);

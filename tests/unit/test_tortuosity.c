@@ -1,5 +1,6 @@
-/* The objective "tortuosity" as a whole: what the length slack is measured from, the trade-off, and what is said of a plan that
- * is not proved. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The objective "tortuosity" as a whole: what the length slack is measured from, the trade-off, and
+ * what is said of a plan that is not proved. */
 #include "graph/angle.h"
 #include "graph/check/check.h"
 #include "planner/planner.h"
@@ -30,9 +31,10 @@ typedef struct {
   double best;
 } oracle;
 
-/* So many passes hold 2 * cords ends if every node has a number of ends between what it needs (for parity, and as partners of an
- * edge with more passes than all others there) and its passes: then every node can be paired without U-turns, and cords that meet
- * can be joined or not as one likes. */
+/* So many passes hold 2 * cords ends if every node has a number of ends between what it needs (for
+ * parity, and as partners of an edge with more passes than all others there) and its passes: then
+ * every node can be paired without U-turns, and cords that meet can be joined or not as one likes.
+ */
 static bool holds_cords(const oracle *o)
 {
   int least = 0, most = 0;
@@ -82,7 +84,8 @@ START_TEST(slack_is_measured_from_the_shortest_open_cords)
     o.end_node = end;
     o.cords = rng_between(&r, 1, 4);
     o.length_slack = 0;
-    oracle best = {.f = &f, .end_allowed = end, .cords = o.cords, .most_passes = 8, .best = INFINITY};
+    oracle best = {
+        .f = &f, .end_allowed = end, .cords = o.cords, .most_passes = 8, .best = INFINITY};
     oracle crowds = best;
     crowds.crowds = true;
     try_passes(&best, 0, 0);
@@ -120,7 +123,8 @@ static thr_status make_plan(const thr_frame *f, int cords, double slack, thr_pla
   return thr_tortuosity_plan(f, &o, &limits, p, err);
 }
 
-/* By hand: along the bar and back, and from one of its ends to the leg's and back. Of few edges all sets of cords are tried. */
+/* By hand: along the bar and back, and from one of its ends to the leg's and back. Of few edges all
+ * sets of cords are tried. */
 START_TEST(several_cords_through_few_edges_are_proved)
 {
   thr_frame f = tee_make();
@@ -160,8 +164,9 @@ START_TEST(the_reason_why_it_is_not_proved)
 }
 END_TEST
 
-/* The shortest passes round a ring hold one closed cord. A second one turns back at both ends of an edge, which the search for
- * little turning does not know: the shortest cords are the plan, 3 + 2 long, and nothing is claimed of their turning. */
+/* The shortest passes round a ring hold one closed cord. A second one turns back at both ends of an
+ * edge, which the search for little turning does not know: the shortest cords are the plan, 3 + 2
+ * long, and nothing is claimed of their turning. */
 START_TEST(more_cords_than_the_shortest_passes_hold)
 {
   thr_frame f = ring_make(3);
@@ -236,7 +241,8 @@ START_TEST(running_out_of_memory_leaves_nothing)
     thr_alloc_fail_at(k);
     st = _i < 2 ? thr_least_turning(&f, &o, &limits, &l, &err) : sweep(&f, 2, &out, &err);
     thr_alloc_fail_at(0);
-    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_ENOMEM, "allocation %ld: %d %s", k, (int)st, err.text);
+    ck_assert_msg(st == THR_OK || st == THR_ELIMIT || st == THR_ENOMEM, "allocation %ld: %d %s", k,
+                  (int)st, err.text);
     ck_assert(st != THR_ENOMEM || (!l.cord && !out.point));
     thr_least_destroy(&l);
     thr_frontier_destroy(&out);
@@ -276,12 +282,13 @@ START_TEST(no_bound_is_reported_above_the_best_price)
 }
 END_TEST
 
-/* A cord turns back only where there is one edge: with closed cords at each of these nodes for every two passes, begun ones too;
- * two of them can be the ends of an open cord instead. */
+/* A cord turns back only where there is one edge: with closed cords at each of these nodes for
+ * every two passes, begun ones too; two of them can be the ends of an open cord instead. */
 START_TEST(fewest_u_turns)
 {
   rng r = rng_make((uint64_t)_i + 1);
-  thr_frame f = random_frame(&r, rng_between(&r, 4, 12), rng_below(&r, 6), (length_kind)(_i % LENGTH_KINDS));
+  thr_frame f =
+      random_frame(&r, rng_between(&r, 4, 12), rng_below(&r, 6), (length_kind)(_i % LENGTH_KINDS));
   int leaves = 0;
   for (int v = 0; v < f.n_nodes; v++)
     leaves += thr_degree(&f, v) == 1;
@@ -290,9 +297,11 @@ START_TEST(fewest_u_turns)
     thr_plan p;
     thr_err err = {0};
     ck_assert_int_eq(thr_aims_parse("turning:uturn", &o, &err), THR_OK);
-    ck_assert_msg(thr_tortuosity_plan(&f, &o, &(thr_limits){0}, &p, &err) == THR_OK, "%s", err.text);
+    ck_assert_msg(thr_tortuosity_plan(&f, &o, &(thr_limits){0}, &p, &err) == THR_OK, "%s",
+                  err.text);
     ck_assert(p.turning.optimal);
-    ck_assert_double_eq(p.turning.price, k < 3 ? leaves * ((k + 2) / 2) : leaves - (leaves < 2 ? leaves : 2));
+    ck_assert_double_eq(p.turning.price,
+                        k < 3 ? leaves * ((k + 2) / 2) : leaves - (leaves < 2 ? leaves : 2));
     ck_assert_double_eq(p.turning.price, p.metrics.u_turns);
     assert_plan_sound(&p);
     thr_plan_destroy(&p);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Multigraph, pairing, joining, tracing, and the cords made of them. */
 #include "graph/angle.h"
 #include "graph/threading/euler.h"
@@ -57,7 +58,8 @@ static void assert_pairing(const threading *t)
 static double price_of(const thr_frame *f, const thr_multigraph *g, int a, int b)
 {
   double price = g->half[a] == g->half[b] ? THR_U_TURN_PRICE : 0;
-  return g->half[a] < 0 || g->half[b] < 0 ? price : price + thr_turn_angle(f, g->half[a] ^ 1, g->half[b]);
+  return g->half[a] < 0 || g->half[b] < 0 ? price
+                                          : price + thr_turn_angle(f, g->half[a] ^ 1, g->half[b]);
 }
 
 static double price_at(const thr_frame *f, const threading *t, int v)
@@ -93,12 +95,14 @@ static int count_circuits(const threading *t)
 
 /* ---- oracles ---- */
 
-/* Cheapest perfect matching of n darts, by trying all; angle by acos of normalized vectors, not by the program's atan2. */
+/* Cheapest perfect matching of n darts, by trying all; angle by acos of normalized vectors, not by
+ * the program's atan2. */
 static double angle(const thr_frame *f, int a, int b)
 {
   double u[3], w[3], uw = 0, uu = 0, ww = 0;
   for (int i = 0; i < 3; i++) {
-    u[i] = f->xyz[f->edge[a / 2][a % 2]][i] - f->xyz[f->edge[a / 2][1 - a % 2]][i]; /* towards the node: against dart a */
+    u[i] = f->xyz[f->edge[a / 2][a % 2]][i] -
+           f->xyz[f->edge[a / 2][1 - a % 2]][i]; /* towards the node: against dart a */
     w[i] = f->xyz[f->edge[b / 2][1 - b % 2]][i] - f->xyz[f->edge[b / 2][b % 2]][i];
     uw += u[i] * w[i], uu += u[i] * u[i], ww += w[i] * w[i];
   }
@@ -126,7 +130,8 @@ static double cheapest(const thr_frame *f, const thr_multigraph *g, int *dart, i
   return best;
 }
 
-/* Passes that make every degree even: cover plus the edges of a spanning tree as needed. Leaves the two nodes of end odd. */
+/* Passes that make every degree even: cover plus the edges of a spanning tree as needed. Leaves the
+ * two nodes of end odd. */
 static int *even_passes(rng *r, const thr_frame *f, int cover, const int *end)
 {
   int *passes = constant(f->n_edges, cover), *odd = constant(f->n_nodes, 0);
@@ -152,7 +157,8 @@ START_TEST(multigraph_holds_every_pass)
 {
   rng r = rng_make((uint64_t)_i + 1);
   thr_frame f = random_frame(&r, 9, 8, LENGTHS_EUCLID);
-  int end[1][2] = {{2, 5}}, *passes = even_passes(&r, &f, 2, NULL), *copies = constant(f.n_edges, 0);
+  int end[1][2] = {{2, 5}}, *passes = even_passes(&r, &f, 2, NULL),
+      *copies = constant(f.n_edges, 0);
   thr_multigraph g;
   ck_assert_int_eq(thr_multigraph_init(&g, &f, 0, passes, (const int(*)[2])end, 1, NULL), THR_OK);
   for (int d = 0; d < g.n_darts; d++) {
@@ -195,13 +201,15 @@ START_TEST(small_nodes_are_paired_at_least_price)
 {
   rng r = rng_make((uint64_t)_i + 100);
   thr_frame f = random_frame(&r, rng_between(&r, 4, 9), rng_below(&r, 12), LENGTHS_EUCLID);
-  int end[1][2] = {{0, f.n_nodes - 1}}, *passes = even_passes(&r, &f, rng_between(&r, 1, 2), end[0]);
+  int end[1][2] = {{0, f.n_nodes - 1}},
+      *passes = even_passes(&r, &f, rng_between(&r, 1, 2), end[0]);
   threading t = thread_make(&f, passes, (const int(*)[2])end, 1);
   assert_pairing(&t);
   for (int v = 0; v < f.n_nodes; v++) {
     int n = t.g.first[v + 1] - t.g.first[v];
     if (n > 10) continue;
-    ck_assert_double_eq_tol(price_at(&f, &t, v), cheapest(&f, &t.g, t.g.dart + t.g.first[v], n), 1e-6);
+    ck_assert_double_eq_tol(price_at(&f, &t, v), cheapest(&f, &t.g, t.g.dart + t.g.first[v], n),
+                            1e-6);
   }
   thread_destroy(&t);
   thr_frame_destroy(&f);
@@ -312,10 +320,12 @@ static bool hangs_together(const thr_threading *t, int v)
   return all;
 }
 
-/* One exchange at random: what was said of it is what following the cords shows, and taken back it has not been. */
+/* One exchange at random: what was said of it is what following the cords shows, and taken back it
+ * has not been. */
 static void try_exchange(rng *r, thr_threading *t)
 {
-  int here[64], cords = t->n_cords, v = rng_below(r, t->f->n_nodes), n = thr_threading_places(t, v, here);
+  int here[64], cords = t->n_cords, v = rng_below(r, t->f->n_nodes),
+                n = thr_threading_places(t, v, here);
   double before = sum_of_totals(t);
   if (n < 2) return;
   int i = rng_below(r, n), k = (i + 1 + rng_below(r, n - 1)) % n;
@@ -337,18 +347,22 @@ START_TEST(exchanges_do_what_they_say)
 {
   rng r = rng_make((uint64_t)_i + 1100);
   thr_frame f = random_frame(&r, rng_between(&r, 3, 12), rng_below(&r, 12), LENGTHS_EUCLID);
-  int odd[2] = {0, rng_between(&r, 1, f.n_nodes - 1)}, ends[2][2] = {{odd[0], f.n_nodes}, {odd[1], f.n_nodes}};
+  int odd[2] = {0, rng_between(&r, 1, f.n_nodes - 1)},
+      ends[2][2] = {{odd[0], f.n_nodes}, {odd[1], f.n_nodes}};
   bool open = _i % 2;
   int *passes = even_passes(&r, &f, rng_between(&r, 1, 2), open ? odd : NULL);
   threading made = {.mate = NULL};
-  ck_assert_int_eq(thr_multigraph_init(&made.g, &f, 1, passes, (const int(*)[2])ends, open ? 2 : 0, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_multigraph_init(&made.g, &f, 1, passes, (const int(*)[2])ends, open ? 2 : 0, NULL),
+      THR_OK);
   made.mate = constant(made.g.n_darts, -1);
   ck_assert_int_eq(thr_transition_pair(&f, &made.g, made.mate, NULL, NULL), THR_OK);
   for (int i = made.g.first[f.n_nodes]; i < made.g.n_darts; i++)
     made.mate[made.g.dart[i]] = -1;
   priced p = {&f, &made.g};
   thr_threading t;
-  ck_assert_int_eq(thr_threading_init(&t, &f, &made.g, made.mate, turning_price, &p, true, NULL), THR_OK);
+  ck_assert_int_eq(thr_threading_init(&t, &f, &made.g, made.mate, turning_price, &p, true, NULL),
+                   THR_OK);
   ck_assert(thr_threading_follow(&t, INT_MAX));
   ck_assert(!thr_threading_closed(&t, 0) == open);
   int cords = t.n_cords;
@@ -403,7 +417,8 @@ static bool same_node(rng *r, const thr_frame *f, const thr_walk *x, int *i, int
   return false;
 }
 
-/* Cut in two at a node that it visits twice, over a further pass there and back, and joined again the other way round. */
+/* Cut in two at a node that it visits twice, over a further pass there and back, and joined again
+ * the other way round. */
 START_TEST(spliced_walks_keep_their_passes_and_count_their_turns)
 {
   rng r = rng_make((uint64_t)_i + 1300);
@@ -426,7 +441,9 @@ START_TEST(spliced_walks_keep_their_passes_and_count_their_turns)
   ck_assert_int_eq(w.n_walks, 2);
   assert_closed_walks(&f, &w, passes);
   assert_counted(&ties, &f, &w);
-  s = thr_splice_of(true, &w.walk[0], &w.walk[1]); /* walk 1 begins and ends at the node, so that its sections are one */
+  s = thr_splice_of(
+      true, &w.walk[0],
+      &w.walk[1]); /* walk 1 begins and ends at the node, so that its sections are one */
   thr_splice_put(&s, 0, 0, i, false);
   thr_splice_put(&s, 1, 0, w.walk[1].n, true);
   thr_splice_put(&s, 0, i, w.walk[0].n, false);
@@ -529,7 +546,8 @@ START_TEST(open_cord_runs_from_end_to_end)
   thr_request o = options_for(THR_ENDS_ANY, 1);
   thr_cord cord;
   ck_assert_int_eq(thr_tour_cord(&f, &o, passes, end, &cord, NULL), THR_OK);
-  ck_assert(!cord.closed && thr_cord_start(&f, &cord) == end[0] && thr_cord_end(&f, &cord) == end[1]);
+  ck_assert(!cord.closed && thr_cord_start(&f, &cord) == end[0] &&
+            thr_cord_end(&f, &cord) == end[1]);
   assert_uses_all(&f, passes, &cord, 1);
   free(cord.half);
   free(passes);

@@ -1,4 +1,6 @@
-/* Prices of turns in all directions, and the limits on passes and length that the columns of a turning bound have. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Prices of turns in all directions, and the limits on passes and length that the columns of a
+ * turning bound have. */
 #include "graph/angle.h"
 #include "graph/plan/turning_proof.h"
 #include "tests/frameworks.h"
@@ -9,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Turns in all directions and of all sizes, near the quarter and elsewhere: the step begins a millionth before it. */
+/* Turns in all directions and of all sizes, near the quarter and elsewhere: the step begins a
+ * millionth before it. */
 START_TEST(steps_are_the_same_in_all_directions)
 {
   rng r = rng_make((uint64_t)_i + 1);
@@ -17,11 +20,13 @@ START_TEST(steps_are_the_same_in_all_directions)
   for (int k = 0; k < 50; k++) {
     double a[3], b[3], along = 0, norm[2] = {0, 0}, xyz[3][3];
     for (int i = 0; i < 3; i++)
-      a[i] = rng_unit(&r) - 0.5, b[i] = rng_unit(&r) - 0.5, norm[0] += a[i] * a[i], along += a[i] * b[i];
+      a[i] = rng_unit(&r) - 0.5, b[i] = rng_unit(&r) - 0.5, norm[0] += a[i] * a[i],
+      along += a[i] * b[i];
     for (int i = 0; i < 3; i++)
       b[i] -= along / norm[0] * a[i], norm[1] += b[i] * b[i];
     static const double off[] = {-1.2e-6, -0.8e-6, 0, 0.5, -0.5, 1e-5};
-    double angle = 1.5707963267948966 + off[k % 6], in = size[_i % 4], out = size[k % 4] < in * 1e10 ? size[k % 4] : in;
+    double angle = 1.5707963267948966 + off[k % 6], in = size[_i % 4],
+           out = size[k % 4] < in * 1e10 ? size[k % 4] : in;
     if (out < in * 1e-10) out = in;
     for (int i = 0; i < 3; i++) {
       xyz[0][i] = -in * a[i] / sqrt(norm[0]);
@@ -51,8 +56,10 @@ START_TEST(limits_that_limit_nothing)
   const double most = ldexp(4e18, -THR_LENGTH_BITS);
   thr_frame f = path_make(3);
   for (int more = 0; more < 2; more++) {
-    const thr_turning_task task = {
-        .cover = 1, .most_passes = 8, .cords = 1, .extra_limit = more ? nextafter(most, INFINITY) : most};
+    const thr_turning_task task = {.cover = 1,
+                                   .most_passes = 8,
+                                   .cords = 1,
+                                   .extra_limit = more ? nextafter(most, INFINITY) : most};
     thr_turning_columns c;
     ck_assert_int_eq(thr_turning_columns_init(&c, &f, &task, NULL), THR_OK);
     ck_assert_int_eq(c.extra_limit, more ? -1 : INT64_C(4000000000000000000));

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Multipliers, trees and tasks that are no proof, or none that is allowed. */
 #include "graph/plan/turning_proof.h"
 #include "tests/frameworks.h"
@@ -7,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The square with a diagonal, and a triangle: two components. Closed cords, but end_allowed can be set. */
+/* The square with a diagonal, and a triangle: two components. Closed cords, but end_allowed can be
+ * set. */
 typedef struct {
   thr_frame frame;
   thr_turning_task task;
@@ -20,9 +22,11 @@ typedef struct {
 
 static void small_make(small *s)
 {
-  static const double xyz[7][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
+  static const double xyz[7][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                                   {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
   static const int edge[8][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}, {4, 5}, {5, 6}, {6, 4}};
-  *s = (small){.frame = frame_make(7, xyz, 8, edge, NULL, NULL), .task = {.cover = 1, .most_passes = 8, .cords = 1}};
+  *s = (small){.frame = frame_make(7, xyz, 8, edge, NULL, NULL),
+               .task = {.cover = 1, .most_passes = 8, .cords = 1}};
   memset(s->anywhere, true, sizeof s->anywhere);
   s->task.extra_limit = -1;
   s->dual.potential = s->potential;
@@ -31,7 +35,8 @@ static void small_make(small *s)
 
 static thr_status small_check(const small *s, thr_err *err)
 {
-  bool branches = s->node[0].low || s->node[0].high, twice = s->node[1].low > 2 || s->node[2].low > 2;
+  bool branches = s->node[0].low || s->node[0].high,
+       twice = s->node[1].low > 2 || s->node[2].low > 2;
   thr_turning_dual dual = s->dual;
   thr_turning_proof p = {.n_nodes = twice      ? 5
                                     : branches ? 3
@@ -101,7 +106,8 @@ START_TEST(sets_that_prove_nothing)
     s.task.cords = 2; /* one of them may be all that is in the group */
     if (!set[i].group) assert_small(&s, "several closed cords");
     s.task.end_allowed = s.anywhere;
-    if (!set[i].group || strstr("a whole component, two components", set[i].group)) assert_small(&s, NULL);
+    if (!set[i].group || strstr("a whole component, two components", set[i].group))
+      assert_small(&s, NULL);
     s.task.end_allowed = NULL, s.task.cords = 1, s.dual.n_groups = 0;
   }
   thr_frame_destroy(&s.frame);
@@ -140,7 +146,8 @@ START_TEST(partitions_that_prove_nothing)
       s.task.end_allowed = NULL;
     }
   }
-  thr_turning_columns c; /* 5 blocks of one component and 3 of the other: 4 + 2 connections, whatever the room held before */
+  thr_turning_columns c; /* 5 blocks of one component and 3 of the other: 4 + 2 connections,
+                            whatever the room held before */
   ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &s.task, NULL), THR_OK);
   int scratch[10];
   for (int i = 0; i < 10; i++)
@@ -242,9 +249,10 @@ START_TEST(trees_that_prove_nothing)
   static const struct {
     int a, b;
     const char *word;
-  } branch[] = {{0, 1, NULL},       {1, 0, NULL},       {15, 14, NULL},     {0, 7, NULL},        {0, 8, NULL},
-                {-1, 0, "nothing"}, {16, 0, "nothing"}, {0, 16, "nothing"}, {0, -1, "nothing"},  {0, -2, "nothing"},
-                {0, 0, "nothing"},  {0, 2, "nothing"},  {0, 12, "nothing"}, {15, 17, "nothing"}, {7, 7, "nothing"}};
+  } branch[] = {{0, 1, NULL},       {1, 0, NULL},        {15, 14, NULL},     {0, 7, NULL},
+                {0, 8, NULL},       {-1, 0, "nothing"},  {16, 0, "nothing"}, {0, 16, "nothing"},
+                {0, -1, "nothing"}, {0, -2, "nothing"},  {0, 0, "nothing"},  {0, 2, "nothing"},
+                {0, 12, "nothing"}, {15, 17, "nothing"}, {7, 7, "nothing"}};
   for (size_t i = 0; i < sizeof branch / sizeof *branch; i++) {
     s.node[0].a = branch[i].a, s.node[0].b = branch[i].b;
     assert_small(&s, branch[i].word);
@@ -252,8 +260,10 @@ START_TEST(trees_that_prove_nothing)
   s.node[0].a = 0, s.node[0].b = -1; /* an end, where one is allowed */
   s.task.end_allowed = s.anywhere;
   assert_small(&s, NULL);
-  static const int beyond[][2] = {{16, 17}, {17, 16}, {16, -1}, {16, 0}, {-1, -1}, {-1, -2}, {0, 16}};
-  for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) { /* numbers that half-edges after the last would have */
+  static const int beyond[][2] = {{16, 17}, {17, 16}, {16, -1}, {16, 0},
+                                  {-1, -1}, {-1, -2}, {0, 16}};
+  for (size_t i = 0; i < sizeof beyond / sizeof *beyond;
+       i++) { /* numbers that half-edges after the last would have */
     s.node[0].a = beyond[i][0], s.node[0].b = beyond[i][1];
     assert_small(&s, "nothing");
   }
@@ -280,7 +290,8 @@ START_TEST(trees_that_prove_nothing)
 }
 END_TEST
 
-/* Edges 0 .. 3 run round the square, edge 4 across it; its half turn swaps 0 with 2 and 1 with 3, and turns 4 round. */
+/* Edges 0 .. 3 run round the square, edge 4 across it; its half turn swaps 0 with 2 and 1 with 3,
+ * and turns 4 round. */
 static const int half_turn[8] = {4, 6, 0, 2, 9, 10, 12, 14};
 
 START_TEST(symmetries_that_map_no_plans_to_plans)
@@ -337,7 +348,8 @@ START_TEST(orbits_that_hide_plans)
   s.node[2].orbit = second;
   assert_small(&s, "an orbit");
   s.node[2] = (thr_turning_node){0};
-  s.node[1] = (thr_turning_node){.low = 3, .high = 4, .a = 2, .b = 3, .n_orbit = 1, .orbit = second};
+  s.node[1] =
+      (thr_turning_node){.low = 3, .high = 4, .a = 2, .b = 3, .n_orbit = 1, .orbit = second};
   assert_small(&s, NULL); /* edges 0 and 2 have no extra pass: the half turn keeps that */
   s.node[0].n_orbit = 0;
   assert_small(&s, "does not keep");
@@ -362,18 +374,25 @@ START_TEST(proofs_of_another_shape)
     int n_nodes, n_ends;
     bool potential, ends;
     const char *word;
-  } shape[] = {{1, 1, true, true, "sums of ends"},  {1, 3, true, true, "sums of ends"},    {0, 2, true, true, "no tree"},
-               {2, 2, true, true, "hangs nowhere"}, {1, 2, false, true, "no multipliers"}, {1, 2, true, false, "no multipliers"}};
+  } shape[] = {{1, 1, true, true, "sums of ends"},    {1, 3, true, true, "sums of ends"},
+               {0, 2, true, true, "no tree"},         {2, 2, true, true, "hangs nowhere"},
+               {1, 2, false, true, "no multipliers"}, {1, 2, true, false, "no multipliers"}};
   for (size_t i = 0; i < sizeof shape / sizeof *shape; i++) {
-    thr_turning_dual dual = {.potential = shape[i].potential ? s.potential : NULL, .ends = shape[i].ends ? s.ends : NULL};
-    thr_turning_proof p = {.n_nodes = shape[i].n_nodes, .n_duals = 1, .n_ends = shape[i].n_ends, .node = s.node, .dual = &dual};
+    thr_turning_dual dual = {.potential = shape[i].potential ? s.potential : NULL,
+                             .ends = shape[i].ends ? s.ends : NULL};
+    thr_turning_proof p = {.n_nodes = shape[i].n_nodes,
+                           .n_duals = 1,
+                           .n_ends = shape[i].n_ends,
+                           .node = s.node,
+                           .dual = &dual};
     ck_assert_int_eq(thr_turning_proof_check(&s.frame, &s.task, &p, &bound, &err), THR_EVIOLATED);
     assert_one_line(&err, shape[i].word);
     err = (thr_err){0};
   }
   thr_turning_set bad = {0, NULL, 1}; /* an empty set, in multipliers that no leaf has */
   thr_turning_dual dual[2] = {s.dual, s.dual};
-  thr_turning_proof nothing = {.n_nodes = 1, .n_duals = 2, .n_ends = 2, .node = s.node, .dual = dual};
+  thr_turning_proof nothing = {
+      .n_nodes = 1, .n_duals = 2, .n_ends = 2, .node = s.node, .dual = dual};
   thr_turning_columns c;
   dual[1].odd = &bad, dual[1].n_odd = 1;
   ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &s.task, NULL), THR_OK);
@@ -393,7 +412,8 @@ START_TEST(tasks_out_of_range)
   small s;
   thr_turning_columns c;
   small_make(&s);
-  const thr_turning_task good = {.cover = 1, .most_passes = 1000000, .cords = 1000000, .cords_least = 1000000};
+  const thr_turning_task good = {
+      .cover = 1, .most_passes = 1000000, .cords = 1000000, .cords_least = 1000000};
   ck_assert_int_eq(thr_turning_columns_init(&c, &s.frame, &good, NULL), THR_OK);
   ck_assert_int_eq(c.extra_limit, 1); /* a limit of 0, rounded up */
   thr_turning_columns_destroy(&c);

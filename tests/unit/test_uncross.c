@@ -1,4 +1,6 @@
-/* Channels that cross, led otherwise: counted by hand, the same passes, what the checker says of it. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Channels that cross, led otherwise: counted by hand, the same passes, what the checker says of
+ * it. */
 #include "graph/check/check.h"
 #include "graph/framework/frame.h"
 #include "graph/framework/make.h"
@@ -45,10 +47,12 @@ static int64_t crossings_of(const thr_plan *p)
   return n;
 }
 
-/* Two loops through one node, as an 8 that crosses itself: there is one other way, which does not. */
+/* Two loops through one node, as an 8 that crosses itself: there is one other way, which does not.
+ */
 START_TEST(an_eight_is_uncrossed)
 {
-  static const double xyz[5][3] = {{0, 0, 0}, {10, 10, 0}, {10, -10, 0}, {-10, 10, 0}, {-10, -10, 0}};
+  static const double xyz[5][3] = {
+      {0, 0, 0}, {10, 10, 0}, {10, -10, 0}, {-10, 10, 0}, {-10, -10, 0}};
   static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {3, 4}, {4, 0}};
   thr_frame f = frame_make(5, xyz, 6, edge, NULL, NULL);
   thr_plan p = made(&f, THR_CROSSINGS_FORBID, 1, THR_ENDS_CLOSED);
@@ -59,15 +63,19 @@ START_TEST(an_eight_is_uncrossed)
 }
 END_TEST
 
-/* A cord in each component needs no crossing, in domes, tubes, spheres and honeycombs, with one pass and with two. */
+/* A cord in each component needs no crossing, in domes, tubes, spheres and honeycombs, with one
+ * pass and with two. */
 START_TEST(one_cord_never_needs_a_crossing)
 {
-  static const thr_shape shape[] = {THR_MAKE_DOME, THR_MAKE_TUBE, THR_MAKE_SPHERE, THR_MAKE_HONEYCOMB};
+  static const thr_shape shape[] = {THR_MAKE_DOME, THR_MAKE_TUBE, THR_MAKE_SPHERE,
+                                    THR_MAKE_HONEYCOMB};
   thr_frame f = shape_make(shape[_i % 4], _i % 4 == 2 ? 2 : 6, 4);
   thr_ends ends = _i / 4 % 2 ? THR_ENDS_ANY : THR_ENDS_CLOSED;
   int cover = 1 + _i / 8;
-  thr_plan as_found = made(&f, THR_CROSSINGS_ALLOW, cover, ends), without = made(&f, THR_CROSSINGS_FORBID, cover, ends);
-  int *before = calloc((size_t)f.n_edges, sizeof *before), *after = calloc((size_t)f.n_edges, sizeof *after);
+  thr_plan as_found = made(&f, THR_CROSSINGS_ALLOW, cover, ends),
+           without = made(&f, THR_CROSSINGS_FORBID, cover, ends);
+  int *before = calloc((size_t)f.n_edges, sizeof *before),
+      *after = calloc((size_t)f.n_edges, sizeof *after);
   count_passes(&as_found, before);
   count_passes(&without, after);
   ck_assert(memcmp(before, after, (size_t)f.n_edges * sizeof *before) == 0);
@@ -84,10 +92,12 @@ START_TEST(one_cord_never_needs_a_crossing)
 }
 END_TEST
 
-/* Nor do several that are not closed: they exchange ends, and their order, by hand, brings none back. */
+/* Nor do several that are not closed: they exchange ends, and their order, by hand, brings none
+ * back. */
 START_TEST(open_cords_never_need_a_crossing)
 {
-  static const thr_shape shape[] = {THR_MAKE_DOME, THR_MAKE_TUBE, THR_MAKE_SPHERE, THR_MAKE_HONEYCOMB};
+  static const thr_shape shape[] = {THR_MAKE_DOME, THR_MAKE_TUBE, THR_MAKE_SPHERE,
+                                    THR_MAKE_HONEYCOMB};
   thr_err err = {0};
   thr_plan p, as_found;
   thr_frame f = shape_make(shape[_i % 4], _i % 4 == 2 ? 2 : 6, 4);
@@ -99,7 +109,8 @@ START_TEST(open_cords_never_need_a_crossing)
   o.crossings = THR_CROSSINGS_FORBID;
   ck_assert_msg(!thr_plan_make(&f, &o, &(thr_limits){0}, &p, NULL, &err), "%s", err.text);
   ck_assert_int_eq(p.n_cords, as_found.n_cords);
-  ck_assert_double_eq_tol(p.metrics.length, as_found.metrics.length, 1e-9 * as_found.metrics.length);
+  ck_assert_double_eq_tol(p.metrics.length, as_found.metrics.length,
+                          1e-9 * as_found.metrics.length);
   ck_assert_int_eq(crossings_of(&p), 0);
   ck_assert_int_eq(p.metrics.crossings, 0);
   ck_assert_msg(!thr_check_plan(&p, &err), "%s", err.text);
@@ -109,10 +120,12 @@ START_TEST(open_cords_never_need_a_crossing)
 }
 END_TEST
 
-/* Nor do several closed ones: where they cross they become one, which is cut elsewhere, along the same passes. */
+/* Nor do several closed ones: where they cross they become one, which is cut elsewhere, along the
+ * same passes. */
 START_TEST(closed_cords_never_need_a_crossing)
 {
-  static const thr_shape shape[] = {THR_MAKE_DOME, THR_MAKE_TUBE, THR_MAKE_SPHERE, THR_MAKE_HONEYCOMB};
+  static const thr_shape shape[] = {THR_MAKE_DOME, THR_MAKE_TUBE, THR_MAKE_SPHERE,
+                                    THR_MAKE_HONEYCOMB};
   thr_err err = {0};
   thr_frame f = shape_make(shape[_i % 4], _i % 4 == 2 ? 2 : 6, 4);
   thr_request o = thr_request_default();
@@ -121,7 +134,8 @@ START_TEST(closed_cords_never_need_a_crossing)
   ck_assert_msg(!thr_plan_make(&f, &o, &(thr_limits){0}, &as_found, NULL, &err), "%s", err.text);
   o.crossings = THR_CROSSINGS_FORBID;
   ck_assert_msg(!thr_plan_make(&f, &o, &(thr_limits){0}, &p, NULL, &err), "%s", err.text);
-  int *before = calloc((size_t)f.n_edges, sizeof *before), *after = calloc((size_t)f.n_edges, sizeof *after);
+  int *before = calloc((size_t)f.n_edges, sizeof *before),
+      *after = calloc((size_t)f.n_edges, sizeof *after);
   count_passes(&as_found, before);
   count_passes(&p, after);
   ck_assert(memcmp(before, after, (size_t)f.n_edges * sizeof *before) == 0);
@@ -138,7 +152,8 @@ START_TEST(closed_cords_never_need_a_crossing)
 }
 END_TEST
 
-/* A cord that turns least may have to turn more then: its bound stays, as it is one of any cords, and it says optimal no longer.
+/* A cord that turns least may have to turn more then: its bound stays, as it is one of any cords,
+ * and it says optimal no longer.
  */
 START_TEST(turning_is_judged_again)
 {
@@ -163,8 +178,8 @@ START_TEST(turning_is_judged_again)
 }
 END_TEST
 
-/* Even cords stay as even where crossings have a price, and may be less even where there must be none; either way their bound is
- * the one of any cords. */
+/* Even cords stay as even where crossings have a price, and may be less even where there must be
+ * none; either way their bound is the one of any cords. */
 START_TEST(even_cords_are_judged_again)
 {
   thr_err err = {0};
@@ -192,7 +207,8 @@ START_TEST(even_cords_are_judged_again)
 }
 END_TEST
 
-/* What a hand holds is looked for among channels that cross no more than before: a cord of the dome of 49 pieces. */
+/* What a hand holds is looked for among channels that cross no more than before: a cord of the dome
+ * of 49 pieces. */
 START_TEST(chains_stay_short_without_crossings)
 {
   thr_chains planned, ordered;
@@ -204,7 +220,8 @@ START_TEST(chains_stay_short_without_crossings)
     o.order = order;
     ck_assert_int_eq(thr_plan_make(&f, &o, &(thr_limits){0}, &p, NULL, NULL), THR_OK);
     ck_assert_int_eq(crossings_of(&p), 0);
-    ck_assert_int_eq(thr_plan_chains(&p, 0, order == THR_ORDER_PLANNED ? &planned : &ordered, NULL), THR_OK);
+    ck_assert_int_eq(thr_plan_chains(&p, 0, order == THR_ORDER_PLANNED ? &planned : &ordered, NULL),
+                     THR_OK);
     if (order != THR_ORDER_PLANNED) ck_assert_int_lt(ordered.longest, planned.longest);
     thr_plan_destroy(&p);
   }
@@ -213,7 +230,8 @@ START_TEST(chains_stay_short_without_crossings)
 }
 END_TEST
 
-/* Where the cords' crossings are forbidden and there are some, the checker says so, whatever the plan states. */
+/* Where the cords' crossings are forbidden and there are some, the checker says so, whatever the
+ * plan states. */
 START_TEST(forbidden_crossings_are_found)
 {
   thr_err err = {0};

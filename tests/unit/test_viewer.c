@@ -1,5 +1,7 @@
-/* The viewer's page: what is in it is read back with the JSON library and compared with the plan, names that could end the script
- * do not, and failures leave nothing behind. What the page does is tested in tests/viewer. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The viewer's page: what is in it is read back with the JSON library and compared with the plan,
+ * names that could end the script do not, and failures leave nothing behind. What the page does is
+ * tested in tests/viewer. */
 #include "diagram/export/paper.h"
 #include "graph/framework/make.h"
 #include "graph/io/json.h"
@@ -42,7 +44,9 @@ static thr_json *plan_in(const thr_text *page)
   ck_assert_uint_gt(page->length, before + after);
   ck_assert_mem_eq(page->data, thr_viewer_page, before);
   ck_assert_mem_eq(page->data + page->length - after, mark + strlen(THR_VIEWER_MARK), after);
-  ck_assert_msg(thr_json_parse(&doc, page->data + before, page->length - before - after, "page", &err) == THR_OK, "%s", err.text);
+  ck_assert_msg(thr_json_parse(&doc, page->data + before, page->length - before - after, "page",
+                               &err) == THR_OK,
+                "%s", err.text);
   return doc;
 }
 
@@ -71,8 +75,10 @@ static void assert_frame_kept(const thr_json *doc, const thr_frame *f)
     }
   for (int e = 0; e < f->n_edges; e++) {
     for (int i = 0; i < 2; i++)
-      ck_assert_int_eq((int)number(thr_json_at(thr_json_at(thr_json_get(doc, "edges"), e), i)), f->edge[e][i]);
-    ck_assert_double_eq_tol(number(thr_json_at(thr_json_get(doc, "lengths"), e)), f->length[e], 1e-6 * f->length[e]);
+      ck_assert_int_eq((int)number(thr_json_at(thr_json_at(thr_json_get(doc, "edges"), e), i)),
+                       f->edge[e][i]);
+    ck_assert_double_eq_tol(number(thr_json_at(thr_json_get(doc, "lengths"), e)), f->length[e],
+                            1e-6 * f->length[e]);
   }
 }
 
@@ -152,7 +158,8 @@ START_TEST(copies_are_named)
     bool unique = p.symmetry.unique[c] == c;
     paths += unique;
     ck_assert_int_eq((int)number(thr_json_get(cord, "of")), p.symmetry.unique[c]);
-    ck_assert_int_eq(strncmp(thr_json_string(thr_json_get(cord, "how")), ", moved", 7) == 0, !unique);
+    ck_assert_int_eq(strncmp(thr_json_string(thr_json_get(cord, "how")), ", moved", 7) == 0,
+                     !unique);
   }
   ck_assert_int_lt(paths, p.n_cords);
   ck_assert_int_eq((int)number(thr_json_get(doc, "paths")), paths);
@@ -171,7 +178,10 @@ static void evaluate(thr_plan *p, int n_passes)
   p->evaluation.cord = calloc((size_t)p->n_cords, sizeof *p->evaluation.cord);
   ck_assert_ptr_nonnull(p->evaluation.cord);
   thr_eval_cord *r = &p->evaluation.cord[0];
-  *r = (thr_eval_cord){.known = true, .n_passes = n_passes, .force = 8, .tension = calloc((size_t)n_passes, sizeof(double))};
+  *r = (thr_eval_cord){.known = true,
+                       .n_passes = n_passes,
+                       .force = 8,
+                       .tension = calloc((size_t)n_passes, sizeof(double))};
   ck_assert_ptr_nonnull(r->tension);
   for (int k = 0; k < n_passes; k++)
     r->tension[k] = ldexp(1, k % 4);
@@ -183,7 +193,8 @@ START_TEST(tension_has_colours_and_a_scale)
   evaluate(&p, p.cord[0].n_passes);
   thr_text page = page_of(&p, NULL);
   thr_json *doc = plan_in(&page);
-  const thr_json *scale = thr_json_get(doc, "scale"), *cord = thr_json_at(thr_json_get(doc, "cords"), 0);
+  const thr_json *scale = thr_json_get(doc, "scale"),
+                 *cord = thr_json_at(thr_json_get(doc, "cords"), 0);
   const thr_json *ramp = thr_json_get(scale, "ramp"), *taut = thr_json_get(cord, "taut");
   ck_assert_double_eq(number(thr_json_get(scale, "low")), 1);
   ck_assert_double_eq(number(thr_json_get(scale, "high")), 8);
@@ -191,7 +202,8 @@ START_TEST(tension_has_colours_and_a_scale)
   for (int k = 0; k < p.cord[0].n_passes; k++) {
     ck_assert_double_eq(number(thr_json_at(thr_json_get(cord, "tension"), k)), ldexp(1, k % 4));
     /* even over the logarithm: doubling is a third of the ramp */
-    assert_string(thr_json_at(taut, k), thr_json_string(thr_json_at(ramp, k % 4 * (thr_json_size(ramp) - 1) / 3)));
+    assert_string(thr_json_at(taut, k),
+                  thr_json_string(thr_json_at(ramp, k % 4 * (thr_json_size(ramp) - 1) / 3)));
   }
   thr_json_destroy(doc);
   thr_text_destroy(&page);
@@ -219,7 +231,8 @@ START_TEST(names_cannot_end_the_script)
     ck_assert(memcmp(at, "\xE2\x80\xA8", 3) != 0 && memcmp(at, "\xE2\x80\xA9", 3) != 0);
   for (int v = 0; v < 4; v++) {
     const char *place = thr_json_string(thr_json_at(thr_json_get(doc, "places"), v));
-    ck_assert_msg(strstr(place, v == 2 ? "a_b_" : bad[v]) != NULL, "%s", place); /* separators are cleaned away */
+    ck_assert_msg(strstr(place, v == 2 ? "a_b_" : bad[v]) != NULL, "%s",
+                  place); /* separators are cleaned away */
   }
   thr_json_destroy(doc);
   thr_text_destroy(&page);

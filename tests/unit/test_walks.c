@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The programme over walks: one price for all images. */
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
@@ -77,8 +78,8 @@ static kinds kinds_of(const instance *x, thr_orbits_motions *motions)
   return found;
 }
 
-/* All edges of a cube are alike. Seen from a corner, where alone cords may end, there are those at it, those at the opposite one
- * and the rest; and four kinds of corners by their distance. */
+/* All edges of a cube are alike. Seen from a corner, where alone cords may end, there are those at
+ * it, those at the opposite one and the rest; and four kinds of corners by their distance. */
 START_TEST(edges_of_a_cube_are_of_one_kind_or_of_three)
 {
   instance x;
@@ -98,8 +99,8 @@ START_TEST(edges_of_a_cube_are_of_one_kind_or_of_three)
 }
 END_TEST
 
-/* Motions keep the line through both, which is a diagonal of each: kinds as from a corner. Images in the other cube do not count,
- * as prices are those of one component. */
+/* Motions keep the line through both, which is a diagonal of each: kinds as from a corner. Images
+ * in the other cube do not count, as prices are those of one component. */
 START_TEST(two_cubes_have_kinds_of_their_own)
 {
   thr_frame cube = solid_make(CUBE);
@@ -146,8 +147,9 @@ static void example_make(example *e, int size, int cords)
   o.cords = o.cords_least = cords;
   want(&o, "length");
   ck_assert_int_eq(length_plan(&e->x.frame, &o, &e->none, &e->plan, NULL, NULL), THR_OK);
-  ck_assert_int_eq(
-      thr_walk_programme_init(&e->p, &e->x.columns, THR_WALK_TURNING, e->plan.cord, e->plan.n_cords, 0, &e->none, NULL), THR_OK);
+  ck_assert_int_eq(thr_walk_programme_init(&e->p, &e->x.columns, THR_WALK_TURNING, e->plan.cord,
+                                           e->plan.n_cords, 0, &e->none, NULL),
+                   THR_OK);
 }
 
 static void example_destroy(example *e)
@@ -177,7 +179,9 @@ START_TEST(one_price_for_all_images_proves_as_much)
   int edge[MOST], node[MOST];
   example_make(&own, 5, 3);
   example_make(&merged, 5, 3);
-  ck_assert_int_eq(thr_orbits_lowest(&merged.x.columns, thr_planner_motions, &merged.none, edge, node, NULL), THR_OK);
+  ck_assert_int_eq(
+      thr_orbits_lowest(&merged.x.columns, thr_planner_motions, &merged.none, edge, node, NULL),
+      THR_OK);
   ck_assert_int_eq(thr_walk_programme_merge(&merged.p, edge, node, NULL), THR_OK);
   ck_assert_int_lt(4 * merged.p.n_variables, own.p.n_variables);
   for (int i = 0; i < 3; i++) {

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The pool of processes: order, failures, crashes, signals, limits, and nothing left behind. */
 #define _POSIX_C_SOURCE 200809L
 #include "graph/limits.h"
@@ -54,7 +55,12 @@ static void note_advance(void *user, const char *what, double done)
 START_TEST(results_stand_in_order)
 {
   diary d = {.last = 0};
-  thr_work w = {.n_jobs = JOBS, .result_size = sizeof(double), .run = square, .done = note_done, .user = &d, .what = "squares"};
+  thr_work w = {.n_jobs = JOBS,
+                .result_size = sizeof(double),
+                .run = square,
+                .done = note_done,
+                .user = &d,
+                .what = "squares"};
   thr_limits limits = {.advance = note_advance, .user = &d};
   double results[JOBS];
   bool finished[JOBS];
@@ -99,8 +105,10 @@ static void ignore_alarm(int signal_number)
 
 START_TEST(large_results_arrive_whole_in_spite_of_signals)
 {
-  struct sigaction ring = {.sa_handler = ignore_alarm}; /* without SA_RESTART: every call may end with EINTR */
-  struct itimerval often = {.it_interval = {.tv_usec = 500}, .it_value = {.tv_usec = 500}}, off = {.it_value = {0}};
+  struct sigaction ring = {
+      .sa_handler = ignore_alarm}; /* without SA_RESTART: every call may end with EINTR */
+  struct itimerval often = {.it_interval = {.tv_usec = 500}, .it_value = {.tv_usec = 500}},
+                   off = {.it_value = {0}};
   thr_work w = {.n_jobs = 4, .result_size = LARGE, .run = fill_large, .what = "large"};
   thr_limits limits = {0};
   unsigned char *results = calloc(4, LARGE);
@@ -113,7 +121,8 @@ START_TEST(large_results_arrive_whole_in_spite_of_signals)
   ck_assert_msg(!st, "%s", err.text);
   for (int job = 0; job < 4; job++)
     for (int i = 0; i < LARGE; i++)
-      if (results[(size_t)job * LARGE + (size_t)i] != (unsigned char)(i * 31 + job)) ck_abort_msg("job %d, byte %d", job, i);
+      if (results[(size_t)job * LARGE + (size_t)i] != (unsigned char)(i * 31 + job))
+        ck_abort_msg("job %d, byte %d", job, i);
   free(results);
   assert_no_children();
 }
@@ -143,8 +152,12 @@ static thr_status come_to_harm(void *user, int job, void *result, thr_err *err)
 
 static thr_status run_harm(harm h, int processes, bool *finished, thr_err *err)
 {
-  thr_work w = {
-      .n_jobs = JOBS, .result_size = sizeof(double), .run = come_to_harm, .user = &h, .what = "harm", .advice = "take a walk"};
+  thr_work w = {.n_jobs = JOBS,
+                .result_size = sizeof(double),
+                .run = come_to_harm,
+                .user = &h,
+                .what = "harm",
+                .advice = "take a walk"};
   thr_limits limits = {0};
   double results[JOBS];
   thr_status st = thr_workers_run(&w, processes, &limits, results, finished, err);
@@ -254,7 +267,11 @@ START_TEST(an_interrupt_ends_all_children)
 {
   setpgid(0, 0);
   signal(SIGINT, interrupt);
-  thr_work w = {.n_jobs = 6, .result_size = sizeof(double), .run = sleep_long, .done = send_interrupt, .what = "sleep"};
+  thr_work w = {.n_jobs = 6,
+                .result_size = sizeof(double),
+                .run = sleep_long,
+                .done = send_interrupt,
+                .what = "sleep"};
   thr_limits limits = {.interrupted = &interrupted};
   double results[6];
   bool finished[6];

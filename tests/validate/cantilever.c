@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The thesis's Fig. 12: a row of beads held out from a wall by one straight cord. */
 #include "eval/structure/beads.h"
 #include "graph/framework/frame.h"
@@ -65,7 +66,8 @@ static double statics(const cantilever *c)
 {
   double moment = 0;
   for (int i = 1; i < c->beads.n_beads; i++)
-    moment += c->beads.mass[i] * c->physics.gravity * (c->beads.mass_centre[i][0] - c->beads.middle[0][0]);
+    moment += c->beads.mass[i] * c->physics.gravity *
+              (c->beads.mass_centre[i][0] - c->beads.middle[0][0]);
   return moment / (c->beads.width / 2);
 }
 
@@ -89,8 +91,11 @@ static thr_status measure(const cantilever *c, pulls *out, thr_err *err)
     thr_holding_press(&c->cord, 1, profile, press);
     st = thr_holding_pull(&c->beads, &c->frame, &c->physics, press, true, &none, &h, err);
   }
-  thr_settle_options o = {.least = h.lower, .equilibrium = h.upper, .time_step = 1, .iterations = 1, .seed = 1};
-  if (!st) st = thr_settle_run(&c->beads, &c->frame, &c->cord, 1, profile, NULL, &c->physics, &o, &none, &s, err);
+  thr_settle_options o = {
+      .least = h.lower, .equilibrium = h.upper, .time_step = 1, .iterations = 1, .seed = 1};
+  if (!st)
+    st = thr_settle_run(&c->beads, &c->frame, &c->cord, 1, profile, NULL, &c->physics, &o, &none,
+                        &s, err);
   *out = (pulls){statics(c), h.lower, h.upper, s.status == THR_SETTLE_FELL ? s.fall : NAN};
   thr_holding_destroy(&h);
   thr_settle_destroy(&s);
@@ -121,19 +126,23 @@ thr_status validate_cantilever(report *r, thr_err *err)
   for (int i = 0; i < N && !st; i++)
     st = one(v[i].n, v[i].width, &found[i], err);
   if (st) return st;
-  report_section(
-      r, "The thesis's Fig. 12: cantilever",
-      "A row of beads of the same total weight, held by one straight cord. The needed tension must not depend on the "
-      "number of beads, "
-      "and go as 1 / width. Newtons: limit analysis, and Bullet's falls, against moments about the lower edge at the "
-      "wall, of a cord in the middle of its bores. The play of a bore, half of bore less cord, lets it lie higher: below "
-      "the pull of that lever nothing holds the row.");
+  report_section(r, "The thesis's Fig. 12: cantilever",
+                 "A row of beads of the same total weight, held by one straight cord. The needed "
+                 "tension must not depend on the "
+                 "number of beads, "
+                 "and go as 1 / width. Newtons: limit analysis, and Bullet's falls, against "
+                 "moments about the lower edge at the "
+                 "wall, of a cord in the middle of its bores. The play of a bore, half of bore "
+                 "less cord, lets it lie higher: below "
+                 "the pull of that lever nothing holds the row.");
   for (int i = 0; i < N; i++) {
     char what[80];
     snprintf(what, sizeof what, "%d beads %g mm wide: an equilibrium from, N", v[i].n, v[i].width);
     report_relative(r, what, found[i].statics, found[i].upper, 1e-6);
-    snprintf(what, sizeof what, "%d beads %g mm wide: nothing holds it below, N", v[i].n, v[i].width);
-    report_relative(r, what, found[i].statics * v[i].width / (v[i].width + BORE - CORD), found[i].lower, 1e-6);
+    snprintf(what, sizeof what, "%d beads %g mm wide: nothing holds it below, N", v[i].n,
+             v[i].width);
+    report_relative(r, what, found[i].statics * v[i].width / (v[i].width + BORE - CORD),
+                    found[i].lower, 1e-6);
   }
   report_relative(r, "statics: 20 beads / 5 beads", 1, found[2].statics / found[0].statics, 0.02);
   report_relative(r, "statics: 14 mm / 28 mm", 2, found[3].statics / found[4].statics, 1e-6);

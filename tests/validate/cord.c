@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Whole cords of 20 turns in Bullet against joints composed along the taut path. */
 #include "eval/cord/profile.h"
 #include "graph/angle.h"
@@ -17,7 +18,8 @@ typedef struct {
   double nominal, taut; /* rad */
 } turning;
 
-/* The corners of the channels as nodes: the same course that the drag experiment builds, made here a second time. */
+/* The corners of the channels as nodes: the same course that the drag experiment builds, made here
+ * a second time. */
 static void corners(const drag_case *c, double (*xyz)[3])
 {
   double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
@@ -63,10 +65,15 @@ static thr_status find_turning(const drag_case *c, turning *out, thr_err *err)
 
 static drag_case make(int kind)
 {
-  drag_case c = {
-      .n = MOST_TURNS,
-      .drag = {
-          .segment = SEGMENT, .bore = BORE, .mu = 0.1, .seed = 1, .time_step = 1, .iterations = 1, .spacing = 1, .settle = 2}};
+  drag_case c = {.n = MOST_TURNS,
+                 .drag = {.segment = SEGMENT,
+                          .bore = BORE,
+                          .mu = 0.1,
+                          .seed = 1,
+                          .time_step = 1,
+                          .iterations = 1,
+                          .spacing = 1,
+                          .settle = 2}};
   uint64_t state = 12345;
   for (int i = 0; i < c.n; i++) {
     state = state * 6364136223846793005u + 1442695040888963407u;
@@ -76,7 +83,9 @@ static drag_case make(int kind)
     case 1: c.turn[i] = 30 * degree, c.twist[i] = i ? 180 * degree : 0; break;
     case 2: c.turn[i] = 30 * degree, c.twist[i] = 20 * degree; break; /* helix */
     case 3: c.turn[i] = 60 * degree, c.twist[i] = 45 * degree; break;
-    default: c.turn[i] = (30 + 50 * unit) * degree, c.twist[i] = (120 + 120 * fmod(unit * 97, 1)) * degree; break;
+    default:
+      c.turn[i] = (30 + 50 * unit) * degree, c.twist[i] = (120 + 120 * fmod(unit * 97, 1)) * degree;
+      break;
     }
   }
   return c;
@@ -84,8 +93,9 @@ static drag_case make(int kind)
 
 thr_status validate_cord(report *r, thr_err *err)
 {
-  static const char *const name[CORDS] = {"zigzag of 60 degrees", "zigzag of 30 degrees", "helix of 30 degrees",
-                                          "helix of 60 degrees", "random in space"};
+  static const char *const name[CORDS] = {"zigzag of 60 degrees", "zigzag of 30 degrees",
+                                          "helix of 30 degrees", "helix of 60 degrees",
+                                          "random in space"};
   drag_case c[CORDS];
   turning t[CORDS];
   thr_drag_result found[CORDS];
@@ -97,13 +107,14 @@ thr_status validate_cord(report *r, thr_err *err)
   if (!st) st = drags_run(c, CORDS, found, err);
   if (st) return st;
   report_section(r, "Cords of 20 turns",
-                 "Straight pieces of 10 cord radii, bore twice the cord, mu 0.1. Expected: exp(mu x turning of the taut path). "
+                 "Straight pieces of 10 cord radii, bore twice the cord, mu 0.1. Expected: exp(mu "
+                 "x turning of the taut path). "
                  "Cords that have "
                  "not settled are said and not judged.");
   for (int i = 0; i < CORDS; i++) {
     char what[120];
-    snprintf(what, sizeof what, "%s: %.0f degrees nominal, %.0f taut, %.0f seen in Bullet", name[i], t[i].nominal / degree,
-             t[i].taut / degree, found[i].taut / degree);
+    snprintf(what, sizeof what, "%s: %.0f degrees nominal, %.0f taut, %.0f seen in Bullet", name[i],
+             t[i].nominal / degree, t[i].taut / degree, found[i].taut / degree);
     if (found[i].status == THR_DRAG_SETTLED)
       report_relative(r, what, exp(c[i].drag.mu * t[i].taut), found[i].ratio, 0.15);
     else

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Many drag experiments at once, in forked processes. */
 #ifndef THR_DRAGS_H
 #define THR_DRAGS_H

@@ -1,4 +1,6 @@
-/* One joint in Bullet against the capstan law, and how the result moves with every number of the protocol. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One joint in Bullet against the capstan law, and how the result moves with every number of the
+ * protocol. */
 #include "tests/validate/drags.h"
 #include "graph/angle.h"
 
@@ -17,7 +19,12 @@ static drag_case joint_case(double degrees, double mu)
 {
   return (drag_case){.n = 1,
                      .turn = {degrees * degree},
-                     .drag = {.bore = round_bore(degrees), .mu = mu, .seed = 1, .time_step = 1, .iterations = 1, .spacing = 1}};
+                     .drag = {.bore = round_bore(degrees),
+                              .mu = mu,
+                              .seed = 1,
+                              .time_step = 1,
+                              .iterations = 1,
+                              .spacing = 1}};
 }
 
 static thr_status angles(report *r, thr_err *err)
@@ -30,10 +37,10 @@ static thr_status angles(report *r, thr_err *err)
     c[i] = joint_case(15 * (i / MUS + 1), mu[i % MUS]);
   thr_status st = drags_run(c, ANGLES * MUS, found, err);
   if (st) return st;
-  report_section(
-      r, "One joint: capstan ratio",
-      "A cord dragged over one mitred joint. Expected: exp(mu theta). The bore is twice the cord up to 120 degrees, 2.7 times at "
-      "135 and 4 times at 150: in a narrower one the cord wedges (below).");
+  report_section(r, "One joint: capstan ratio",
+                 "A cord dragged over one mitred joint. Expected: exp(mu theta). The bore is twice "
+                 "the cord up to 120 degrees, 2.7 times at "
+                 "135 and 4 times at 150: in a narrower one the cord wedges (below).");
   for (int i = 0; i < ANGLES * MUS; i++) {
     char what[80];
     snprintf(what, sizeof what, "%.0f degrees, mu %g", c[i].turn[0] / degree, c[i].drag.mu);
@@ -45,8 +52,8 @@ static thr_status angles(report *r, thr_err *err)
   return THR_OK;
 }
 
-/* The opening of a mitred bore is an ellipse; where its end is more pointed than the cord, the cord lies on two points of the
- * rim. */
+/* The opening of a mitred bore is an ellipse; where its end is more pointed than the cord, the cord
+ * lies on two points of the rim. */
 static thr_status wedged(report *r, thr_err *err)
 {
   static const struct {
@@ -64,16 +71,19 @@ static thr_status wedged(report *r, thr_err *err)
   thr_status st = drags_run(c, N, found, err);
   if (st) return st;
   report_section(r, "One joint: where the cord wedges",
-                 "mu 0.3. A cord wedges beyond 2 acos(1 / bore), bore in cord diameters, and then loses more than the capstan "
+                 "mu 0.3. A cord wedges beyond 2 acos(1 / bore), bore in cord diameters, and then "
+                 "loses more than the capstan "
                  "law. No closed form says "
-                 "how much; the ratio is shown as a part of exp(mu theta). Too deep a wedge, and turns beyond 150 degrees, must "
+                 "how much; the ratio is shown as a part of exp(mu theta). Too deep a wedge, and "
+                 "turns beyond 150 degrees, must "
                  "be refused.");
   for (int i = 0; i < N; i++) {
     char what[100];
     double part = found[i].ratio / exp(0.3 * c[i].turn[0]);
     snprintf(what, sizeof what, "%g degrees, bore %g", v[i].degrees, v[i].bore);
     if (v[i].refused)
-      report_holds(r, what, "refused", drag_status_name(found[i].status), found[i].status == THR_DRAG_OUT_OF_RANGE);
+      report_holds(r, what, "refused", drag_status_name(found[i].status),
+                   found[i].status == THR_DRAG_OUT_OF_RANGE);
     else if (c[i].turn[0] <= thr_drag_round_turn(v[i].bore))
       report_relative(r, what, 1, part, 0.01);
     else
@@ -91,7 +101,8 @@ static thr_status straight(report *r, thr_err *err)
     c[i] = joint_case(0, mu[i]);
   thr_status st = drags_run(c, 4, found, err);
   if (st) return st;
-  report_section(r, "Straight channel", "The same without a turn: the loss 1 - hold / drag in percent.");
+  report_section(r, "Straight channel",
+                 "The same without a turn: the loss 1 - hold / drag in percent.");
   for (int i = 0; i < 4; i++) {
     char what[80];
     snprintf(what, sizeof what, "loss in %%, mu %g", mu[i]);
@@ -127,7 +138,8 @@ static thr_status convergence(report *r, thr_err *err)
   }
   thr_status st = drags_run(c, N, found, err);
   if (st) return st;
-  report_section(r, "One joint: convergence", "90 degrees, mu 0.3: the ratio must stay as one number of the protocol changes.");
+  report_section(r, "One joint: convergence",
+                 "90 degrees, mu 0.3: the ratio must stay as one number of the protocol changes.");
   for (int i = 0; i < N; i++)
     report_relative(r, v[i].what, exp(0.3 * 90 * degree), found[i].ratio, 0.01);
   return THR_OK;

@@ -1,4 +1,6 @@
-/* make validate: docs/validation.md. Exit code 1 if a value is outside its bound. Usage: validate FILE [part] */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* make validate: docs/validation.md. Exit code 1 if a value is outside its bound. Usage: validate
+ * FILE [part] */
 #include "eval/joint/joint.h"
 #include "eval/joint/world.h"
 #include "tests/validate/validate.h"
@@ -25,7 +27,8 @@ int main(int argc, char **argv)
     return 2;
   }
   thr_text_printf(&r.text,
-                  "# Validation of the pull force\n\nWritten by `make validate`, which fails if a value is outside its bound. "
+                  "# Validation of the pull force\n\nWritten by `make validate`, which fails if a "
+                  "value is outside its bound. "
                   "Every case that was "
                   "run is shown.\nBullet %d.%02d, double precision. Protocol of the joint: %s.\n",
                   thr_bullet_version() / 100, thr_bullet_version() % 100, thr_drag_protocol());

@@ -1,4 +1,6 @@
-/* The thesis's Fig. 13: a mitred bead takes mu F sin(theta / 2) off the tension F. A different formula from the capstan law. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The thesis's Fig. 13: a mitred bead takes mu F sin(theta / 2) off the tension F. A different
+ * formula from the capstan law. */
 #include "eval/eval.h"
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
@@ -41,10 +43,12 @@ static thr_status one_turn(double angle, double mu, thr_law law, double *loss, t
 
 thr_status validate_mitre(report *r, thr_err *err)
 {
-  report_section(r, "The thesis's Fig. 13",
-                 "Loss at one mitred bead, as a part of mu F: sin(theta / 2), which the thesis gives as 71 % at 90 degrees. The "
-                 "capstan law's loss "
-                 "at the same joint stands below it: for small mu it is theta, more than twice as much.");
+  report_section(
+      r, "The thesis's Fig. 13",
+      "Loss at one mitred bead, as a part of mu F: sin(theta / 2), which the thesis gives as 71 % "
+      "at 90 degrees. The "
+      "capstan law's loss "
+      "at the same joint stands below it: for small mu it is theta, more than twice as much.");
   thr_status st = THR_OK;
   for (int i = 1; i <= 4 && !st; i++) {
     char what[80];

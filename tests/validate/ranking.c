@@ -1,4 +1,6 @@
-/* Three threadings of the 7x7 dome: the order of their pulls by every method and under varied settings of the simulation. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Three threadings of the 7x7 dome: the order of their pulls by every method and under varied
+ * settings of the simulation. */
 #include "eval/eval.h"
 #include "graph/limits.h"
 #include "graph/plan/evaluation.h"
@@ -54,8 +56,9 @@ static thr_status run(void *user, int i, void *result, thr_err *err)
   thr_limits none = {0};
   thr_status st = thr_eval_plan(&p->frame, p->cord, p->n_cords, s->method, &o, &none, &e, err);
   if (st) return st;
-  *(pulls *)result = (pulls){e.record.largest, e.holding.lower, e.holding.upper,
-                             e.settle.status == THR_SETTLE_FELL ? e.settle.fall : NAN, e.holding.residual};
+  *(pulls *)result =
+      (pulls){e.record.largest, e.holding.lower, e.holding.upper,
+              e.settle.status == THR_SETTLE_FELL ? e.settle.fall : NAN, e.holding.residual};
   thr_eval_destroy(&e);
   return THR_OK;
 }
@@ -74,19 +77,22 @@ static void judge(report *r, const char *what, const double value[PLANS])
 {
   char found[120];
   snprintf(found, sizeof found, "%.4g, %.4g, %.4g", value[0], value[1], value[2]);
-  report_holds(r, what, "lines < stairs < snake", found, value[0] < value[1] && value[1] < value[2]);
+  report_holds(r, what, "lines < stairs < snake", found,
+               value[0] < value[1] && value[1] < value[2]);
 }
 
 static void judge_all(report *r, pulls (*p)[PLANS])
 {
   double value[PLANS];
-  report_section(
-      r, "Three threadings of the 7x7 dome",
-      "data/dome7-lines.json, -stairs.json, -snake.json: 14 straight cords, 12 staircases, one snake. The order must "
-      "be the same by every "
-      "method and under every setting. Bullet's falls are in newtons and must lie where the limit analysis has them: within a "
-      "twentieth of the pulls below which nothing holds and at which an equilibrium exists (bench/falls.py, below, on more "
-      "plans).");
+  report_section(r, "Three threadings of the 7x7 dome",
+                 "data/dome7-lines.json, -stairs.json, -snake.json: 14 straight cords, 12 "
+                 "staircases, one snake. The order must "
+                 "be the same by every "
+                 "method and under every setting. Bullet's falls are in newtons and must lie where "
+                 "the limit analysis has them: within a "
+                 "twentieth of the pulls below which nothing holds and at which an equilibrium "
+                 "exists (bench/falls.py, below, on more "
+                 "plans).");
   for (int s = 0; s < SETTINGS; s++) {
     for (int i = 0; i < PLANS; i++)
       value[i] = settings[s].method == THR_STRUCTURE ? p[s][i].fall : p[s][i].largest;
@@ -103,7 +109,8 @@ static void judge_all(report *r, pulls (*p)[PLANS])
     char what[80];
     const pulls *q = &p[4][i];
     snprintf(what, sizeof what, "%s: Bullet's fall, N", name[i]);
-    report_relative(r, what, sqrt(q->lower * q->upper), q->fall, 1.05 * sqrt(q->upper / q->lower) - 1);
+    report_relative(r, what, sqrt(q->lower * q->upper), q->fall,
+                    1.05 * sqrt(q->upper / q->lower) - 1);
     snprintf(what, sizeof what, "%s: violation of the bound's proof", name[i]);
     report_at_most(r, what, p[s][i].residual, 1e-6);
   }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/validate/report.h"
 
 #include <math.h>
@@ -5,17 +6,19 @@
 
 void report_section(report *r, const char *title, const char *about)
 {
-  thr_text_printf(&r->text, "\n## %s\n\n%s\n\n| what | expected | found | error | bound | |\n|---|---|---|---|---|---|\n", title,
-                  about);
+  thr_text_printf(
+      &r->text,
+      "\n## %s\n\n%s\n\n| what | expected | found | error | bound | |\n|---|---|---|---|---|---|\n",
+      title, about);
 }
 
-static void row(report *r, const char *what, const char *expected, const char *found, const char *error, const char *bound,
-                bool holds)
+static void row(report *r, const char *what, const char *expected, const char *found,
+                const char *error, const char *bound, bool holds)
 {
   r->rows++;
   r->outside += !holds;
-  thr_text_printf(&r->text, "| %s | %s | %s | %s | %s | %s |\n", what, expected, found, error, bound,
-                  holds ? "ok" : "**OUTSIDE**");
+  thr_text_printf(&r->text, "| %s | %s | %s | %s | %s | %s |\n", what, expected, found, error,
+                  bound, holds ? "ok" : "**OUTSIDE**");
 }
 
 void report_relative(report *r, const char *what, double expected, double found, double bound)
@@ -54,6 +57,6 @@ void report_holds(report *r, const char *what, const char *expected, const char 
 
 void report_shown(report *r, const char *what, double expected, double found, const char *why)
 {
-  thr_text_printf(&r->text, "| %s | %.5g | %.5g | %+.3f %% | %s | shown |\n", what, expected, found, 100 * (found / expected - 1),
-                  why);
+  thr_text_printf(&r->text, "| %s | %.5g | %.5g | %+.3f %% | %s | shown |\n", what, expected, found,
+                  100 * (found / expected - 1), why);
 }

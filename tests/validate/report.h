@@ -1,4 +1,6 @@
-/* The report of `make validate`: Markdown tables of numbers next to their expectation, error and bound. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The report of `make validate`: Markdown tables of numbers next to their expectation, error and
+ * bound. */
 #ifndef THR_REPORT_H
 #define THR_REPORT_H
 

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Generators of the frameworks, written out as they are made. */
 #include "tests/watchdog/frames.h"
 #include "graph/angle.h"
@@ -91,14 +92,15 @@ static void pieces(FILE *to, int n, int k)
 {
   for (int i = 0; i < n; i++)
     for (int j = 0; j < k; j++)
-      node(to, 30 * (i % 60) + 10 * cos(2 * THR_PI * j / k), 30 * (double)(i / 60) + 10 * sin(2 * THR_PI * j / k), 0);
+      node(to, 30 * (i % 60) + 10 * cos(2 * THR_PI * j / k),
+           30 * (double)(i / 60) + 10 * sin(2 * THR_PI * j / k), 0);
   for (int i = 0; i < n; i++)
     for (int j = 0; j < (k == 2 ? 1 : k); j++)
       edge(to, i * k + j, i * k + (j + 1) % k);
 }
 
-/* Planar, with the mirrors and rotations of n spokes: a middle node, `rings` nodes on each spoke, and a ring through every second
- * of those, beginning with the outermost. */
+/* Planar, with the mirrors and rotations of n spokes: a middle node, `rings` nodes on each spoke,
+ * and a ring through every second of those, beginning with the outermost. */
 static void web(FILE *to, int n, int rings)
 {
   node(to, 0, 0, 0);

@@ -1,10 +1,14 @@
-/* Does every command end in its time? Runs the program on frameworks that were slow once, with --time-limit 2 and with signals at
- * random moments, and measures memory and processor time of it and all its children: a busy machine does not matter. Where cores
- * are free, several work at once: then the time by the clock counts if it is less.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Does every command end in its time? Runs the program on frameworks that were slow once, with
+ * --time-limit 2 and with signals at random moments, and measures memory and processor time of it
+ * and all its children: a busy machine does not matter. Where cores are free, several work at once:
+ * then the time by the clock counts if it is less.
  *
- *   watchdog PROGRAM FOLDER [--full] [--signals N] [WORD]   WORD: only cases with it in their name; FOLDER is for files
+ *   watchdog PROGRAM FOLDER [--full] [--signals N] [WORD]   WORD: only cases with it in their name;
+ * FOLDER is for files
  *
- * One line per case that fails, with all its words with -v in WORD's place; closes with "N passed, N failed". */
+ * One line per case that fails, with all its words with -v in WORD's place; closes with "N passed,
+ * N failed". */
 #define _GNU_SOURCE
 #include "tests/watchdog/frames.h"
 
@@ -22,12 +26,16 @@
 #include <time.h>
 #include <unistd.h>
 
-static const double cpu_limit = 3;    /* s, with --time-limit 2 */
-static const double draw_limit = 60;  /* the same with drawings, which are made whole, or until 200 MB are full */
-static const double plan_by = 1.2;    /* CPU s, with --time-limit 2: there is some plan after that, where others leave it .. */
-static const double time_used = 1.5;  /* s: .. if it was the time that ended the search, not the size of the problem */
+static const double cpu_limit = 3; /* s, with --time-limit 2 */
+static const double draw_limit =
+    60; /* the same with drawings, which are made whole, or until 200 MB are full */
+static const double plan_by =
+    1.2; /* CPU s, with --time-limit 2: there is some plan after that, where others leave it .. */
+static const double time_used =
+    1.5; /* s: .. if it was the time that ended the search, not the size of the problem */
 static const double after_signal = 1; /* s */
-static const double started = 0.05;   /* s: before, a signal may meet a process that is still being loaded */
+static const double started =
+    0.05; /* s: before, a signal may meet a process that is still being loaded */
 static const long memory_limit = 1L << 20; /* KiB */
 enum { MOST_WORDS = 40, TICK = 10 /* ms */ };
 
@@ -51,7 +59,8 @@ static double now(void)
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Processor time so far of the process and its living descendants, and what those have waited for. */
+/* Processor time so far of the process and its living descendants, and what those have waited for.
+ */
 static double cpu_of(pid_t pid)
 {
   char path[64], line[1024];
@@ -62,9 +71,10 @@ static double cpu_of(pid_t pid)
   char *end = fgets(line, sizeof line, in) ? strrchr(line, ')') : NULL;
   unsigned long user, system;
   long waited_user, waited_system;
-  if (end && sscanf(end + 1, " %*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu %ld %ld", &user, &system, &waited_user,
-                    &waited_system) == 4)
-    sum = (double)((long)user + (long)system + waited_user + waited_system) / (double)sysconf(_SC_CLK_TCK);
+  if (end && sscanf(end + 1, " %*c %*d %*d %*d %*d %*d %*u %*u %*u %*u %*u %lu %lu %ld %ld", &user,
+                    &system, &waited_user, &waited_system) == 4)
+    sum = (double)((long)user + (long)system + waited_user + waited_system) /
+          (double)sysconf(_SC_CLK_TCK);
   fclose(in);
   snprintf(path, sizeof path, "/proc/%d/task/%d/children", (int)pid, (int)pid);
   if ((in = fopen(path, "r"))) {
@@ -106,7 +116,8 @@ static void last_line(const char *log, char *out, size_t size)
   if (in) fclose(in);
 }
 
-/* Runs the program; with `signal` it gets that after `delay` s. Ended by force when it has used 3 s more than most. */
+/* Runs the program; with `signal` it gets that after `delay` s. Ended by force when it has used 3 s
+ * more than most. */
 static result run(char *const argv[], int signal, double delay, double most)
 {
   char log[1024];
@@ -126,7 +137,8 @@ static result run(char *const argv[], int signal, double delay, double most)
       r.cpu_at_signal = cpu_of(pid);
       kill(pid, signal);
     }
-    if (cpu_of(pid) > r.cpu_at_signal + most + 3 || now() - began > 60 + 10 * most) kill(-pid, SIGKILL);
+    if (cpu_of(pid) > r.cpu_at_signal + most + 3 || now() - began > 60 + 10 * most)
+      kill(-pid, SIGKILL);
     pid_t ended = wait4(pid, &status, WNOHANG, &u);
     done = ended == pid || (ended < 0 && errno != EINTR);
   }
@@ -149,8 +161,9 @@ static void report(const char *name, const char *what, const result *r)
   else
     passed++;
   if (!what && strcmp(only, "-v") != 0) return;
-  printf("%s  %-62s %5.2f CPU s %5.1f s %5ld MB  exit %d  %s%s%.200s\n", what ? "FAIL" : "ok  ", name, r->cpu, r->wall,
-         r->memory / 1024, r->code, what ? what : "", what ? ": " : "", what || r->code == 5 ? r->message : "");
+  printf("%s  %-62s %5.2f CPU s %5.1f s %5ld MB  exit %d  %s%s%.200s\n", what ? "FAIL" : "ok  ",
+         name, r->cpu, r->wall, r->memory / 1024, r->code, what ? what : "", what ? ": " : "",
+         what || r->code == 5 ? r->message : "");
   fflush(stdout);
 }
 
@@ -172,8 +185,10 @@ static const char *check(const char *plan, result *r)
 static const char *judge(const result *r, const char *plan, bool interrupted, double limit)
 {
   static char text[200];
-  const double cpu = interrupted ? r->cpu - r->cpu_at_signal : r->cpu, most = interrupted ? after_signal : limit;
-  const double used = fmin(cpu, interrupted ? cpu : r->wall); /* where cores are free, several work at once */
+  const double cpu = interrupted ? r->cpu - r->cpu_at_signal : r->cpu,
+               most = interrupted ? after_signal : limit;
+  const double used =
+      fmin(cpu, interrupted ? cpu : r->wall); /* where cores are free, several work at once */
   bool written = plan && is_there(plan);
   if (used > most) {
     snprintf(text, sizeof text, "%.2f CPU s%s", used, interrupted ? " after the signal" : "");
@@ -216,8 +231,8 @@ static bool takes_cords(const request *q, int cords)
 }
 
 /* argv of `thread plan`; frame and plan are paths. */
-static void plan_words(char *argv[MOST_WORDS], const char *frame, const char *plan, const request *q, bool tube, int cords,
-                       const char *limit)
+static void plan_words(char *argv[MOST_WORDS], const char *frame, const char *plan,
+                       const request *q, bool tube, int cords, const char *limit)
 {
   static char number[16];
   int n = 0;
@@ -232,7 +247,8 @@ static void plan_words(char *argv[MOST_WORDS], const char *frame, const char *pl
   argv[n] = NULL;
 }
 
-static void try_plan(const char *name, char *const argv[], const char *plan, int signal, double delay)
+static void try_plan(const char *name, char *const argv[], const char *plan, int signal,
+                     double delay)
 {
   result r, checked;
   unlink(plan);
@@ -242,12 +258,14 @@ static void try_plan(const char *name, char *const argv[], const char *plan, int
   report(name, what, &r);
 }
 
-/* The quick selection: of every selected frame some requests, each with another joint and number of cords. */
+/* The quick selection: of every selected frame some requests, each with another joint and number of
+ * cords. */
 static bool is_selected(int frame, int request_, bool tube, int cords)
 {
   if (!watchdog_frame_selected(frame) || !requests[request_].selected) return false;
   int turn = (frame + request_) % 4;
-  return tube == (turn % 2 == 1) && (cords > 1) == (turn >= 2 && takes_cords(&requests[request_], 3));
+  return tube == (turn % 2 == 1) &&
+         (cords > 1) == (turn >= 2 && takes_cords(&requests[request_], 3));
 }
 
 static void all_plans(bool full)
@@ -261,8 +279,8 @@ static void all_plans(bool full)
         for (int cords = 1; cords <= 3; cords += 2) {
           if (!takes_cords(&requests[q], cords)) continue;
           if (!full && !is_selected(f, q, tube, cords)) continue;
-          snprintf(name, sizeof name, "plan %s %s %s cords-%d", watchdog_frame_name(f), requests[q].name, tube ? "tube" : "solid",
-                   cords);
+          snprintf(name, sizeof name, "plan %s %s %s cords-%d", watchdog_frame_name(f),
+                   requests[q].name, tube ? "tube" : "solid", cords);
           if (only[0] != '-' && !strstr(name, only)) continue;
           plan_words(argv, frame, plan, &requests[q], tube, cords, "2");
           try_plan(name, argv, plan, 0, 0);
@@ -285,12 +303,15 @@ static void all_signals(int count)
   char frame[1024], plan[1024], name[200], *argv[MOST_WORDS];
   snprintf(plan, sizeof plan, "%s/plan.json", folder);
   for (int i = 0; i < count; i++) {
-    int f = (int)next_random((unsigned)watchdog_frames()), q = (int)next_random(N_REQUESTS), tube = (int)next_random(2);
-    int cords = takes_cords(&requests[q], 3) && (next_random(2) || !takes_cords(&requests[q], 1)) ? 3 : 1,
+    int f = (int)next_random((unsigned)watchdog_frames()), q = (int)next_random(N_REQUESTS),
+        tube = (int)next_random(2);
+    int cords = takes_cords(&requests[q], 3) && (next_random(2) || !takes_cords(&requests[q], 1))
+                    ? 3
+                    : 1,
         signal = next_random(2) ? SIGINT : SIGTERM;
     double delay = 0.02 + next_random(1000) / 1000. * next_random(1000) / 1000. * 3;
-    snprintf(name, sizeof name, "signal-%d %s %s %s cords-%d after %.2f s", signal, watchdog_frame_name(f), requests[q].name,
-             tube ? "tube" : "solid", cords, delay);
+    snprintf(name, sizeof name, "signal-%d %s %s %s cords-%d after %.2f s", signal,
+             watchdog_frame_name(f), requests[q].name, tube ? "tube" : "solid", cords, delay);
     if (only[0] != '-' && !strstr(name, only)) continue;
     snprintf(frame, sizeof frame, "%s/%s.obj", folder, watchdog_frame_name(f));
     plan_words(argv, frame, plan, &requests[q], tube, cords, "100");
@@ -325,18 +346,25 @@ static void other_commands(bool full)
     unlink(plan);
     snprintf(name, sizeof name, "plan-draw %s", watchdog_frame_name(f));
     try_words(name,
-              (const char *[]){"plan", frame, "-o", plan, "--draw", drawn, "-q", "--time-limit", "2", "--memory", "200MB", NULL},
+              (const char *[]){"plan", frame, "-o", plan, "--draw", drawn, "-q", "--time-limit",
+                               "2", "--memory", "200MB", NULL},
               draw_limit);
     snprintf(name, sizeof name, "draw %s", watchdog_frame_name(f));
     if (is_there(plan))
-      try_words(name, (const char *[]){"draw", plan, "-T", "all", "-o", drawn, "--time-limit", "2", NULL}, cpu_limit);
+      try_words(name,
+                (const char *[]){"draw", plan, "-T", "all", "-o", drawn, "--time-limit", "2", NULL},
+                cpu_limit);
     snprintf(name, sizeof name, "info %s", watchdog_frame_name(f));
-    if (full || f % 3 == 2) try_words(name, (const char *[]){"info", frame, "--time-limit", "2", NULL}, cpu_limit);
+    if (full || f % 3 == 2)
+      try_words(name, (const char *[]){"info", frame, "--time-limit", "2", NULL}, cpu_limit);
     snprintf(name, sizeof name, "symmetries %s", watchdog_frame_name(f));
-    if (full || f % 3 == 0) try_words(name, (const char *[]){"symmetries", frame, "--time-limit", "2", NULL}, cpu_limit);
+    if (full || f % 3 == 0)
+      try_words(name, (const char *[]){"symmetries", frame, "--time-limit", "2", NULL}, cpu_limit);
     snprintf(name, sizeof name, "symmetries-any-tube %s", watchdog_frame_name(f));
     if (full || f % 3 == 1)
-      try_words(name, (const char *[]){"symmetries", frame, "--ends", "any", "--joint", "tube", "--time-limit", "2", NULL},
+      try_words(name,
+                (const char *[]){"symmetries", frame, "--ends", "any", "--joint", "tube",
+                                 "--time-limit", "2", NULL},
                 cpu_limit);
   }
 }
@@ -346,19 +374,35 @@ static void other_commands(bool full)
 /* What libraries and the two processes of a command take beside what they allocate, KiB. */
 enum { BESIDE = 40 << 10 };
 
-/* With 60 MB a plan, perhaps of a search given up, or a message; and no process is larger than that. */
+/* With 60 MB a plan, perhaps of a search given up, or a message; and no process is larger than
+ * that. */
 static void little_memory(bool full)
 {
   char frame[1024], plan[1024], name[200];
   snprintf(plan, sizeof plan, "%s/little.json", folder);
   for (int f = 0; f < watchdog_frames(); f++)
     for (int tube = 0; tube < 2; tube++) {
-      snprintf(name, sizeof name, "memory-60MB %s %s", watchdog_frame_name(f), tube ? "tube" : "solid");
-      if ((!full && (!watchdog_frame_selected(f) || f % 3 != 1)) || (only[0] != '-' && !strstr(name, only))) continue;
+      snprintf(name, sizeof name, "memory-60MB %s %s", watchdog_frame_name(f),
+               tube ? "tube" : "solid");
+      if ((!full && (!watchdog_frame_selected(f) || f % 3 != 1)) ||
+          (only[0] != '-' && !strstr(name, only)))
+        continue;
       snprintf(frame, sizeof frame, "%s/%s.obj", folder, watchdog_frame_name(f));
       unlink(plan);
-      const char *const word[] = {program, "plan",     frame,  "-o",          plan,         "-q",      "--time-limit",
-                                  "2",     "--memory", "60MB", "--objective", "tortuosity", "--joint", tube ? "tube" : "solid",
+      const char *const word[] = {program,
+                                  "plan",
+                                  frame,
+                                  "-o",
+                                  plan,
+                                  "-q",
+                                  "--time-limit",
+                                  "2",
+                                  "--memory",
+                                  "60MB",
+                                  "--objective",
+                                  "tortuosity",
+                                  "--joint",
+                                  tube ? "tube" : "solid",
                                   NULL};
       result r = run((char *const *)(size_t)word, 0, 0, cpu_limit), checked;
       const char *what = judge(&r, plan, false, cpu_limit);

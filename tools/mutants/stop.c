@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Linked into the test programs that look for mutants. They end at the first assertion that fails (--wrap=_ck_assert_failed), and
  * behind every block of memory that calloc or realloc gives there is a margin of large numbers: whatever reads past the end of an
  * array gets an index, a length or a pointer that does not pass unnoticed, and not a zero by chance. */

@@ -1,9 +1,11 @@
-/* Cords evened out by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983) that changes their passes, too. What
- * exchanges of pairs (graph/threading/even.c) cannot do, it does: a part that other cords pass as well goes another way or is
- * left out, and an open cord ends elsewhere.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cords evened out by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983) that
+ * changes their passes, too. What exchanges of pairs (graph/threading/even.c) cannot do, it does: a
+ * part that other cords pass as well goes another way or is left out, and an open cord ends
+ * elsewhere.
  *
- * Example: a cord that turns by 400 degrees passes an edge that another one passes as well, with two turns of 90 degrees; it goes
- * straight on instead. */
+ * Example: a cord that turns by 400 degrees passes an edge that another one passes as well, with
+ * two turns of 90 degrees; it goes straight on instead. */
 #include "tortuosity/cords/anneal.h"
 #include "graph/framework/frame.h"
 #include "graph/process/threads.h"
@@ -18,7 +20,8 @@
 
 typedef struct {
   double best;       /* largest total of the best cords */
-  double part, heat; /* totals count as exp(total / part); of that sum a change may raise so much, more or less */
+  double part, heat; /* totals count as exp(total / part); of that sum a change may raise so much,
+                        more or less */
   bool near;         /* cycles stay near the best cords */
 } course;
 
@@ -28,9 +31,11 @@ static double fall(double first, double to, double done)
   return first * pow(to, done);
 }
 
-/* How far a cycle is, 0 to 1. At first all of a total counts nearly alike, so that cords turn little together, and at last only
- * the largest ones. The heat is a turn of a radian, or for lengths a part of part; it falls to a hundredth. Near the best cords
- * both stay where changes become rare but have not ended: a heat of 1 rad forgets them, and below .07 rad hardly any is taken. */
+/* How far a cycle is, 0 to 1. At first all of a total counts nearly alike, so that cords turn
+ * little together, and at last only the largest ones. The heat is a turn of a radian, or for
+ * lengths a part of part; it falls to a hundredth. Near the best cords both stay where changes
+ * become rare but have not ended: a heat of 1 rad forgets them, and below .07 rad hardly any is
+ * taken. */
 static void cool(course *at, thr_walk_measure measure, int number, double done)
 {
   const double hot = number % 2 ? 2 : .5;
@@ -46,7 +51,8 @@ static void cool(course *at, thr_walk_measure measure, int number, double done)
   }
 }
 
-/* Of a run with so many passes. Near the best cords many short ones find as much as a few long ones. */
+/* Of a run with so many passes. Near the best cords many short ones find as much as a few long
+ * ones. */
 static int cycles_of(const thr_anneal_task *task, bool near, int passes)
 {
   enum { FEW = 3, MANY = 10, STEPS = 4000 /* for a pass */ };
@@ -80,7 +86,8 @@ static bool is_taken(thr_annealer *x, const course *at, const thr_anneal_change 
   double rise = 0;
   for (int i = 0; i < change->n_cords; i++) {
     if (change->total[i] >= THR_FORBIDDEN) return false;
-    rise += exp((change->total[i] - at->best) / at->part) - exp((x->walk[change->cord[i]].total - at->best) / at->part);
+    rise += exp((change->total[i] - at->best) / at->part) -
+            exp((x->walk[change->cord[i]].total - at->best) / at->part);
   }
   return rise <= 0 || thr_random_unit(&x->state) < exp(-rise / at->heat);
 }
@@ -90,7 +97,8 @@ static thr_status step(thr_annealer *x, const course *at, bool *made, thr_err *e
 {
   int a = thr_random_below(&x->state, x->n_cords), b = thr_random_below(&x->state, x->n_cords);
   if (x->walk[b].total > x->walk[a].total) a = b;
-  const double kind = thr_random_unit(&x->state), exchanges = .82, drops = .83, ends = .92; /* kinds below that */
+  const double kind = thr_random_unit(&x->state), exchanges = .82, drops = .83,
+               ends = .92; /* kinds below that */
   thr_anneal_exchange exchange = {0};
   bool found;
   if (kind < exchanges)
@@ -117,7 +125,8 @@ static thr_status take_cords(const thr_annealer *x, thr_cord *cord, thr_err *err
     memcpy(half, walk->half, (size_t)walk->n * sizeof *half);
     cord[i].half = half;
     cord[i].n_passes = walk->n;
-    cord[i].closed = x->closed || thr_cord_start(x->c->f, &cord[i]) == thr_cord_end(x->c->f, &cord[i]);
+    cord[i].closed =
+        x->closed || thr_cord_start(x->c->f, &cord[i]) == thr_cord_end(x->c->f, &cord[i]);
   }
   return THR_OK;
 }
@@ -125,11 +134,14 @@ static thr_status take_cords(const thr_annealer *x, thr_cord *cord, thr_err *err
 /* Seconds, counted or by the clock; 0: any. */
 static double left_of(const thr_limits *limits)
 {
-  return limits->work ? thr_limits_work(limits) : limits->deadline > 0 ? limits->deadline - thr_clock() : 0;
+  return limits->work           ? thr_limits_work(limits)
+         : limits->deadline > 0 ? limits->deadline - thr_clock()
+                                : 0;
 }
 
-thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task, int number, const thr_limits *limits,
-                          thr_cord *cord, int n_cords, bool *better, thr_err *err)
+thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task,
+                          int number, const thr_limits *limits, thr_cord *cord, int n_cords,
+                          bool *better, thr_err *err)
 {
   enum { LOOK = 64 };
   const bool near = task->near && number % 2 == 0;
@@ -185,17 +197,20 @@ static thr_status run_one(void *user, int k, const thr_limits *limits, thr_err *
 {
   runs *r = user;
   const int number = r->round * RUNS + (r->task->alone ? r->round % RUNS : k);
-  return thr_anneal_run(r->columns, r->task, number, limits, r->cord[k], r->n_cords, &r->better[k], err);
+  return thr_anneal_run(r->columns, r->task, number, limits, r->cord[k], r->n_cords, &r->better[k],
+                        err);
 }
 
 static double dearest(const runs *r, const thr_cord *cord)
 {
   const thr_walk_measure measure = r->task->measure;
-  return thr_walk_price(r->columns, measure, &cord[thr_walk_dearest(r->columns, measure, cord, r->n_cords)]);
+  return thr_walk_price(r->columns, measure,
+                        &cord[thr_walk_dearest(r->columns, measure, cord, r->n_cords)]);
 }
 
 /* Runs from cord[n_cords], which become the best of theirs. */
-static thr_status run_round(runs *r, const thr_limits *limits, thr_cord *cord, bool *better, thr_err *err)
+static thr_status run_round(runs *r, const thr_limits *limits, thr_cord *cord, bool *better,
+                            thr_err *err)
 {
   const int n = r->task->alone ? 1 : RUNS;
   thr_status st = THR_OK;
@@ -218,13 +233,15 @@ static thr_status run_round(runs *r, const thr_limits *limits, thr_cord *cord, b
   return st;
 }
 
-thr_status thr_anneal(const thr_turning_columns *columns, const thr_anneal_task *task, const thr_limits *limits, thr_cord *cord,
-                      int n_cords, bool *better, thr_err *err)
+thr_status thr_anneal(const thr_turning_columns *columns, const thr_anneal_task *task,
+                      const thr_limits *limits, thr_cord *cord, int n_cords, bool *better,
+                      thr_err *err)
 {
   runs r = {.columns = columns, .task = task, .round = task->first, .n_cords = n_cords};
   thr_status st = THR_OK;
   *better = false;
-  for (int i = 0, vain = 0; i < task->rounds && vain < VAIN && !st && dearest(&r, cord) > task->enough; i++, r.round++) {
+  for (int i = 0, vain = 0;
+       i < task->rounds && vain < VAIN && !st && dearest(&r, cord) > task->enough; i++, r.round++) {
     bool fell;
     if (i > 0 && thr_limits_stop(limits)) break;
     st = run_round(&r, limits, cord, &fell, err);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Simulated annealing of cords by exchanges: of walks, of turns at nodes, of parts. */
 #ifndef THR_ANNEAL_H
 #define THR_ANNEAL_H
@@ -8,48 +9,55 @@
 
 #include <stdint.h>
 
-/* ---- anneal.c: Cords evened out by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983) that changes their
- * passes, too. */
+/* ---- anneal.c: Cords evened out by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P.
+ * Vecchi 1983) that changes their passes, too. */
 
 typedef struct {
   thr_walk_measure measure;
-  int steps; /* of a run at most: changes at random */
-  int first,
-      rounds;    /* number of the first round, whose random numbers are others than those of the rounds before; and how many */
-  bool alone;    /* one run in a round instead of two: this thread has no other beside it */
-  bool near;     /* of turnings: every second run stays near the best cords, again and again, where the others forget them */
+  int steps;         /* of a run at most: changes at random */
+  int first, rounds; /* number of the first round, whose random numbers are others than those of the
+                        rounds before; and how many */
+  bool alone;        /* one run in a round instead of two: this thread has no other beside it */
+  bool near; /* of turnings: every second run stays near the best cords, again and again, where the
+                others forget them */
   double enough; /* largest price or length that need not become less */
 } thr_anneal_task;
 
-/* Lowers the largest price of the turns of n_cords cords, or their largest length, and replaces them where it falls, as long as
- * it is above enough: in rounds of two runs each from the best so far (alone: of one; of lengths every second run begins hotter),
- * until all rounds are done, or several in turn were in vain, or the limits' time is up. Solid joints, and no given numbers of
- * ends at nodes. Every edge keeps the passes that the columns ask for, and has no more than they allow. *better: whether it fell.
- * A change that is not taken takes time that does not depend on the framework, one that is O(passes of two cords). */
-thr_status thr_anneal(const thr_turning_columns *columns, const thr_anneal_task *task, const thr_limits *limits, thr_cord *cord,
-                      int n_cords, bool *better, thr_err *err) THR_MUST_CHECK;
+/* Lowers the largest price of the turns of n_cords cords, or their largest length, and replaces
+ * them where it falls, as long as it is above enough: in rounds of two runs each from the best so
+ * far (alone: of one; of lengths every second run begins hotter), until all rounds are done, or
+ * several in turn were in vain, or the limits' time is up. Solid joints, and no given numbers of
+ * ends at nodes. Every edge keeps the passes that the columns ask for, and has no more than they
+ * allow. *better: whether it fell. A change that is not taken takes time that does not depend on
+ * the framework, one that is O(passes of two cords). */
+thr_status thr_anneal(const thr_turning_columns *columns, const thr_anneal_task *task,
+                      const thr_limits *limits, thr_cord *cord, int n_cords, bool *better,
+                      thr_err *err) THR_MUST_CHECK;
 
-/* ---- anneal_turns.c: Turns and extra passes changed together by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P.
- * Vecchi 1983), for the least turning of single cords. */
+/* ---- anneal_turns.c: Turns and extra passes changed together by simulated annealing (S.
+ * Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983), for the least turning of single cords. */
 
-/* Is it made for what is asked? Solid joints, one cord in every component, closed or open, turns that cost, and at most 64 edges
- * at a node. */
+/* Is it made for what is asked? Solid joints, one cord in every component, closed or open, turns
+ * that cost, and at most 64 edges at a node. */
 bool thr_anneal_turns_serves(const thr_turning_columns *columns);
 
-/* cycles: of these columns (thr_short_cycles_find). x[n_columns], whole numbers that keep the equations and hang together, is
- * replaced if something cheaper is found: in so many steps of one run with these random numbers, or when the limits stop it.
- * again: x was found by such a run, and the temperature begins so low that most of it stays. Cord ends stay at their nodes. A
- * step is O(length of a cycle * degree), and what it looks at to see whether all hangs together; memory O(columns). */
-thr_status thr_anneal_turns(const thr_turning_columns *columns, const thr_short_cycles *cycles, bool again, int64_t steps,
-                            uint64_t seed, const thr_limits *limits, int *x, bool *better, thr_err *err) THR_MUST_CHECK;
+/* cycles: of these columns (thr_short_cycles_find). x[n_columns], whole numbers that keep the
+ * equations and hang together, is replaced if something cheaper is found: in so many steps of one
+ * run with these random numbers, or when the limits stop it. again: x was found by such a run, and
+ * the temperature begins so low that most of it stays. Cord ends stay at their nodes. A step is
+ * O(length of a cycle * degree), and what it looks at to see whether all hangs together; memory
+ * O(columns). */
+thr_status thr_anneal_turns(const thr_turning_columns *columns, const thr_short_cycles *cycles,
+                            bool again, int64_t steps, uint64_t seed, const thr_limits *limits,
+                            int *x, bool *better, thr_err *err) THR_MUST_CHECK;
 
 /* ---- The walks that are annealed, and changes of them. Internal to tortuosity/. */
 
-/* A cord. An open one visits the nodes between its passes, number i ahead of pass i, for i = 1 .. n - 1; a closed one also ahead
- * of pass 0. */
+/* A cord. An open one visits the nodes between its passes, number i ahead of pass i, for i = 1 .. n
+ * - 1; a closed one also ahead of pass 0. */
 typedef struct {
   int n, room, *half, *slot; /* [room]; slot: of visit i, in the list of its node */
-  double *sum;               /* [room] price as far as into pass i; of a closed one from pass 0 on */
+  double *sum; /* [room] price as far as into pass i; of a closed one from pass 0 on */
   double total;
 } thr_anneal_walk;
 
@@ -71,23 +79,25 @@ typedef struct {
   bool closed;
   thr_scratch own; /* all but the walks' arrays */
   int n_cords;
-  thr_anneal_walk *walk;    /* [n_cords] */
-  int *pair_first;          /* [n_nodes] of the prices of the turns at a node */
-  double *price;            /* [sum of the squares of the degrees] by the numbers of both half-edges at their node */
-  double *end_price;        /* [n_edges] of a cord end; lengths are half those of the passes before and after a turn */
-  double noise;             /* of the prices of a route */
-  int *visit_first;         /* [n_nodes] of a node's visits */
-  int *n_visits;            /* [n_nodes] */
+  thr_anneal_walk *walk; /* [n_cords] */
+  int *pair_first;       /* [n_nodes] of the prices of the turns at a node */
+  double *price; /* [sum of the squares of the degrees] by the numbers of both half-edges at their
+                    node */
+  double *end_price; /* [n_edges] of a cord end; lengths are half those of the passes before and
+                        after a turn */
+  double noise;      /* of the prices of a route */
+  int *visit_first;  /* [n_nodes] of a node's visits */
+  int *n_visits;     /* [n_nodes] */
   thr_anneal_visit *visit;  /* as many as there may be passes */
   int *passes;              /* [n_edges] */
   int *count;               /* [n_edges] zeros: passes of what is looked at */
   double extra, most_extra; /* length of the passes beyond the covers, and how much it may be */
-  double *to_end;           /* [2 * n_edges] open: least price of the turns from a half-edge to an end; */
-  int *next;                /* [2 * n_edges] the half-edge after it on that way, -1: it ends there */
-  int room;                 /* of made, for each cord */
-  int *made[2];             /* what a change makes of its cords */
-  int *route, n_route;      /* [room] new passes */
-  double *reached;          /* [2 * n_edges] searches for routes */
+  double *to_end; /* [2 * n_edges] open: least price of the turns from a half-edge to an end; */
+  int *next;      /* [2 * n_edges] the half-edge after it on that way, -1: it ends there */
+  int room;       /* of made, for each cord */
+  int *made[2];   /* what a change makes of its cords */
+  int *route, n_route; /* [room] new passes */
+  double *reached;     /* [2 * n_edges] searches for routes */
   int *before, *hops, *stamp, *queue, search;
   uint64_t state; /* of the random numbers */
 } thr_annealer;
@@ -101,25 +111,33 @@ static inline double thr_anneal_turn(const thr_annealer *x, int in, int out)
   return x->price[x->pair_first[v] + c->position[in ^ 1] * degree + c->position[out]];
 }
 
-/* With the cords as walks. Random numbers begin at 1. On failure the annealer is to be destroyed too. O(passes + turns). */
-thr_status thr_annealer_init(thr_annealer *x, const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord,
-                             int n_cords, thr_err *err) THR_MUST_CHECK;
+/* With the cords as walks. Random numbers begin at 1. On failure the annealer is to be destroyed
+ * too. O(passes + turns). */
+thr_status thr_annealer_init(thr_annealer *x, const thr_turning_columns *columns,
+                             thr_walk_measure measure, const thr_cord *cord, int n_cords,
+                             thr_err *err) THR_MUST_CHECK;
 void thr_annealer_destroy(thr_annealer *x);
 
-/* Makes a change, unless edges would no longer keep to their covers and limits. O(passes of its cords). */
-thr_status thr_anneal_make(thr_annealer *x, const thr_anneal_change *change, thr_err *err) THR_MUST_CHECK;
+/* Makes a change, unless edges would no longer keep to their covers and limits. O(passes of its
+ * cords). */
+thr_status thr_anneal_make(thr_annealer *x, const thr_anneal_change *change,
+                           thr_err *err) THR_MUST_CHECK;
 
-/* Passes from .. end - 1 of half[], turned round if backwards, are put at the end of what is made of a change's cord i. */
-void thr_anneal_put(thr_annealer *x, thr_anneal_change *change, int i, const int *half, int from, int end, bool backwards);
+/* Passes from .. end - 1 of half[], turned round if backwards, are put at the end of what is made
+ * of a change's cord i. */
+void thr_anneal_put(thr_annealer *x, thr_anneal_change *change, int i, const int *half, int from,
+                    int end, bool backwards);
 
-/* What the passes that are made for cord i of a change turn by; THR_FORBIDDEN or more: they turn back. O(passes). */
+/* What the passes that are made for cord i of a change turn by; THR_FORBIDDEN or more: they turn
+ * back. O(passes). */
 double thr_anneal_total(const thr_annealer *x, const thr_anneal_change *change, int i);
 
 /* Are the passes from .. end - 1 of a cord covered without it, too? */
 bool thr_anneal_spare(thr_annealer *x, const thr_anneal_walk *walk, int from, int end);
 
-/* Each proposes a change of cord a and says whether there is one. Those of the first kind know its totals at once, and call
- * thr_anneal_build to put it together if it is taken; those of the second have done so. */
+/* Each proposes a change of cord a and says whether there is one. Those of the first kind know its
+ * totals at once, and call thr_anneal_build to put it together if it is taken; those of the second
+ * have done so. */
 typedef struct {
   thr_anneal_change change;
   enum { THR_ANNEAL_TAILS, THR_ANNEAL_REVERSE, THR_ANNEAL_LOOP, THR_ANNEAL_MIDDLES } kind;
@@ -136,10 +154,12 @@ bool thr_anneal_reroute(thr_annealer *x, int a, thr_anneal_change *change);
 /* A visit to a node, drawn from all; cord -1: there is none. */
 thr_anneal_visit thr_anneal_visit_at(thr_annealer *x, int node);
 
-/* One run of a task, with random numbers of its own. Of lengths odd ones begin hotter, and pass over more of what is good to get
- * there; of turnings even ones stay near the best cords if the task says so. */
-thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task, int number, const thr_limits *limits,
-                          thr_cord *cord, int n_cords, bool *better, thr_err *err) THR_MUST_CHECK;
+/* One run of a task, with random numbers of its own. Of lengths odd ones begin hotter, and pass
+ * over more of what is good to get there; of turnings even ones stay near the best cords if the
+ * task says so. */
+thr_status thr_anneal_run(const thr_turning_columns *columns, const thr_anneal_task *task,
+                          int number, const thr_limits *limits, thr_cord *cord, int n_cords,
+                          bool *better, thr_err *err) THR_MUST_CHECK;
 
 /* ---- anneal_turns_parts.c: What the annealing of turns is made of. */
 
@@ -150,7 +170,8 @@ typedef struct {
   const thr_turning_columns *c;
   thr_scratch own;
   int *x;             /* [n_columns] */
-  uint64_t *partners; /* [2 * n_edges] of a half-edge: those of its node, by position, that it has turns with */
+  uint64_t *partners; /* [2 * n_edges] of a half-edge: those of its node, by position, that it has
+                         turns with */
   double *cost;       /* [n_columns] */
   int64_t spare;      /* extra length that is left, in units of c->length; INT64_MAX = no limit */
   int n_changes, change[THR_TURN_CHANGES][2]; /* column, by how much, in this order */
@@ -159,20 +180,23 @@ typedef struct {
   int *label, *queue; /* [n_edges] source that an edge was reached from, -1 = none */
 } thr_turn_state;
 
-thr_status thr_turn_state_init(thr_turn_state *state, const thr_turning_columns *columns, const int *x,
-                               thr_err *err) THR_MUST_CHECK;
+thr_status thr_turn_state_init(thr_turn_state *state, const thr_turning_columns *columns,
+                               const int *x, thr_err *err) THR_MUST_CHECK;
 void thr_turn_state_destroy(thr_turn_state *state);
 
 /* The partner -1 is a cord's end. */
 static inline int thr_turn_state_column(const thr_turn_state *state, int a, int b)
 {
-  return a < 0 ? state->c->end_column[b] : b < 0 ? state->c->end_column[a] : thr_turning_column(state->c, a, b);
+  return a < 0   ? state->c->end_column[b]
+         : b < 0 ? state->c->end_column[a]
+                 : thr_turning_column(state->c, a, b);
 }
 
 void thr_turn_state_change(thr_turn_state *state, int column, int by);
 void thr_turn_state_undo(thr_turn_state *state);
 
-/* Into how many parts the edges of the turns that were changed fall. O(edges) at worst, few where they hang together. */
+/* Into how many parts the edges of the turns that were changed fall. O(edges) at worst, few where
+ * they hang together. */
 int thr_turn_parts(thr_turn_state *state);
 
 /* The same before the changes. */

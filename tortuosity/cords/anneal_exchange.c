@@ -1,4 +1,6 @@
-/* Changes that leave all passes as they are: what they make of the totals is known from running sums. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Changes that leave all passes as they are: what they make of the totals is known from running
+ * sums. */
 #include "graph/framework/frame.h"
 #include "graph/random.h"
 #include "tortuosity/cords/anneal.h"
@@ -17,7 +19,9 @@ static int after(const thr_annealer *x, const thr_anneal_walk *walk, int i)
 /* Price of a turn, or of an end. */
 static double turn(const thr_annealer *x, int in, int out)
 {
-  return in < 0 ? x->end_price[out >> 1] : out < 0 ? x->end_price[in >> 1] : thr_anneal_turn(x, in, out);
+  return in < 0    ? x->end_price[out >> 1]
+         : out < 0 ? x->end_price[in >> 1]
+                   : thr_anneal_turn(x, in, out);
 }
 
 /* Price of the turns between passes from .. end - 1. */
@@ -63,7 +67,8 @@ static bool draw_place(thr_annealer *x, int a, int node, thr_anneal_visit *at)
   return true;
 }
 
-/* Two open cords go on as the other one does; turned: the second parts of neither are those of the other. */
+/* Two open cords go on as the other one does; turned: the second parts of neither are those of the
+ * other. */
 static bool change_tails(thr_annealer *x, thr_anneal_exchange *e)
 {
   thr_anneal_change *change = &e->change;
@@ -102,15 +107,19 @@ static bool change_middles(thr_annealer *x, thr_anneal_exchange *e)
     e->i = i2 > i ? i : i2;
     e->j2 = j2 > j ? j2 : j;
     e->j = j2 > j ? j : j2;
-    const int ends_a[2] = {a->half[e->i], a->half[e->i2 - 1]}, ends_b[2] = {b->half[e->j], b->half[e->j2 - 1]};
-    const int new_a[2] = {e->turned ? ends_b[1] ^ 1 : ends_b[0], e->turned ? ends_b[0] ^ 1 : ends_b[1]};
-    const int new_b[2] = {e->turned ? ends_a[1] ^ 1 : ends_a[0], e->turned ? ends_a[0] ^ 1 : ends_a[1]};
+    const int ends_a[2] = {a->half[e->i], a->half[e->i2 - 1]},
+              ends_b[2] = {b->half[e->j], b->half[e->j2 - 1]};
+    const int new_a[2] = {e->turned ? ends_b[1] ^ 1 : ends_b[0],
+                          e->turned ? ends_b[0] ^ 1 : ends_b[1]};
+    const int new_b[2] = {e->turned ? ends_a[1] ^ 1 : ends_a[0],
+                          e->turned ? ends_a[0] ^ 1 : ends_a[1]};
     const double in_a = inside(a, e->i, e->i2), in_b = inside(b, e->j, e->j2);
-    const int from_a = before(x, a, e->i), to_a = after(x, a, e->i2), from_b = before(x, b, e->j), to_b = after(x, b, e->j2);
-    change->total[0] = a->total - in_a - turn(x, from_a, ends_a[0]) - turn(x, ends_a[1], to_a) + in_b +
-                       turn(x, from_a, new_a[0]) + turn(x, new_a[1], to_a);
-    change->total[1] = b->total - in_b - turn(x, from_b, ends_b[0]) - turn(x, ends_b[1], to_b) + in_a +
-                       turn(x, from_b, new_b[0]) + turn(x, new_b[1], to_b);
+    const int from_a = before(x, a, e->i), to_a = after(x, a, e->i2), from_b = before(x, b, e->j),
+              to_b = after(x, b, e->j2);
+    change->total[0] = a->total - in_a - turn(x, from_a, ends_a[0]) - turn(x, ends_a[1], to_a) +
+                       in_b + turn(x, from_a, new_a[0]) + turn(x, new_a[1], to_a);
+    change->total[1] = b->total - in_b - turn(x, from_b, ends_b[0]) - turn(x, ends_b[1], to_b) +
+                       in_a + turn(x, from_b, new_b[0]) + turn(x, new_b[1], to_b);
     return true;
   }
   return false;
@@ -120,10 +129,12 @@ static bool change_middles(thr_annealer *x, thr_anneal_exchange *e)
 static double without(const thr_annealer *x, const thr_anneal_walk *a, int i, int i2)
 {
   const int in = before(x, a, i), out = after(x, a, i2);
-  return a->total - inside(a, i, i2) - turn(x, in, a->half[i]) - turn(x, a->half[i2 - 1], out) + turn(x, in, out);
+  return a->total - inside(a, i, i2) - turn(x, in, a->half[i]) - turn(x, a->half[i2 - 1], out) +
+         turn(x, in, out);
 }
 
-/* A part that leads back to where it begins runs the other way round, or goes to another cord that meets it. */
+/* A part that leads back to where it begins runs the other way round, or goes to another cord that
+ * meets it. */
 static bool change_loop(thr_annealer *x, thr_anneal_exchange *e)
 {
   thr_anneal_change *change = &e->change;
@@ -132,10 +143,12 @@ static bool change_loop(thr_annealer *x, thr_anneal_exchange *e)
   e->i = i2 == i ? e->j : i;
   e->i2 = i2;
   change->n_cords = 1;
-  const int first = a->half[e->i], last = a->half[i2 - 1], in = before(x, a, e->i), out = after(x, a, i2);
+  const int first = a->half[e->i], last = a->half[i2 - 1], in = before(x, a, e->i),
+            out = after(x, a, i2);
   if (x->n_cords == 1 || thr_random_below(&x->state, 2)) {
     e->kind = THR_ANNEAL_REVERSE;
-    change->total[0] = a->total + turn(x, in, last ^ 1) + turn(x, first ^ 1, out) - turn(x, in, first) - turn(x, last, out);
+    change->total[0] = a->total + turn(x, in, last ^ 1) + turn(x, first ^ 1, out) -
+                       turn(x, in, first) - turn(x, last, out);
     return true;
   }
   e->kind = THR_ANNEAL_LOOP;
@@ -153,7 +166,8 @@ static bool change_loop(thr_annealer *x, thr_anneal_exchange *e)
   change->n_cords = 2;
   change->cord[1] = at.cord;
   change->total[0] = without(x, a, e->i, i2);
-  change->total[1] = b->total - turn(x, from, to) + loop + turn(x, from, e->turned ? leave ^ 1 : enter) +
+  change->total[1] = b->total - turn(x, from, to) + loop +
+                     turn(x, from, e->turned ? leave ^ 1 : enter) +
                      turn(x, e->turned ? enter ^ 1 : leave, to);
   return true;
 }
@@ -164,7 +178,8 @@ bool thr_anneal_exchanges(thr_annealer *x, int a, thr_anneal_exchange *e)
   const int first = x->closed ? 0 : 1;
   thr_anneal_visit at;
   if (walk->n < 2) return false;
-  const int i = first + thr_random_below(&x->state, walk->n - first), node = thr_tail(x->c->f, walk->half[i]);
+  const int i = first + thr_random_below(&x->state, walk->n - first),
+            node = thr_tail(x->c->f, walk->half[i]);
   *e = (thr_anneal_exchange){.i = i};
   if (x->closed)
     at = thr_anneal_visit_at(x, node);
@@ -205,8 +220,10 @@ static void build_loop(thr_annealer *x, thr_anneal_exchange *e)
   thr_anneal_put(x, change, 0, a->half, 0, e->i, false);
   thr_anneal_put(x, change, 0, a->half, e->i2, a->n, false);
   thr_anneal_put(x, change, 1, b->half, 0, e->j, false);
-  thr_anneal_put(x, change, 1, a->half, e->turned ? e->i : e->m, e->turned ? e->m : e->i2, e->turned);
-  thr_anneal_put(x, change, 1, a->half, e->turned ? e->m : e->i, e->turned ? e->i2 : e->m, e->turned);
+  thr_anneal_put(x, change, 1, a->half, e->turned ? e->i : e->m, e->turned ? e->m : e->i2,
+                 e->turned);
+  thr_anneal_put(x, change, 1, a->half, e->turned ? e->m : e->i, e->turned ? e->i2 : e->m,
+                 e->turned);
   thr_anneal_put(x, change, 1, b->half, e->j, b->n, false);
 }
 
@@ -225,8 +242,8 @@ void thr_anneal_build(thr_annealer *x, thr_anneal_exchange *e)
   }
   const bool middles = e->kind == THR_ANNEAL_MIDDLES;
   thr_anneal_put(x, change, 0, a->half, 0, e->i, false);
-  thr_anneal_put(x, change, 0, middles ? b->half : a->half, middles ? e->j : e->i, middles ? e->j2 : e->i2,
-                 middles ? e->turned : true);
+  thr_anneal_put(x, change, 0, middles ? b->half : a->half, middles ? e->j : e->i,
+                 middles ? e->j2 : e->i2, middles ? e->turned : true);
   thr_anneal_put(x, change, 0, a->half, e->i2, a->n, false);
   if (!middles) return;
   thr_anneal_put(x, change, 1, b->half, 0, e->j, false);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Changes of passes: what other cords pass as well goes another way, or is left out. */
 #include "graph/framework/frame.h"
 #include "graph/random.h"
@@ -25,7 +26,8 @@ bool thr_anneal_drop_loop(thr_annealer *x, int a, thr_anneal_change *change)
 }
 
 /* Are the n passes that are made, alike up to pass from, the walk itself? */
-static bool is_walk(const thr_annealer *x, const thr_anneal_walk *walk, int from, int n, bool backwards)
+static bool is_walk(const thr_annealer *x, const thr_anneal_walk *walk, int from, int n,
+                    bool backwards)
 {
   bool same = n == walk->n;
   for (int k = from; k < n && same; k++)
@@ -53,7 +55,8 @@ bool thr_anneal_end_elsewhere(thr_annealer *x, int a, thr_anneal_change *change)
   int n = spare + thr_random_below(&x->state, walk->n - spare + 1);
   if (thr_random_below(&x->state, 3) == 0) {
     const int v = thr_head(frame, made[n - 1]),
-              next = frame->half[frame->first[v] + thr_random_below(&x->state, thr_degree(frame, v))];
+              next =
+                  frame->half[frame->first[v] + thr_random_below(&x->state, thr_degree(frame, v))];
     if (thr_anneal_turn(x, made[n - 1], next) >= THR_FORBIDDEN) return false;
     made[n++] = next;
   }
@@ -90,8 +93,9 @@ static int take_cheapest(thr_annealer *x, int *n)
   return half;
 }
 
-/* A way of few passes between passes from and to, cheap but for chance, into route; n_route -1: none was found. Not the shortest
- * one: Dijkstra's method with prices that are disturbed, and at most so many half-edges settled. */
+/* A way of few passes between passes from and to, cheap but for chance, into route; n_route -1:
+ * none was found. Not the shortest one: Dijkstra's method with prices that are disturbed, and at
+ * most so many half-edges settled. */
 static void find_route(thr_annealer *x, int from, int to)
 {
   enum { MOST_SETTLED = 60, MOST_HOPS = 6 };
@@ -102,7 +106,8 @@ static void find_route(thr_annealer *x, int from, int to)
   reach(x, from, 0, -1, &n);
   for (int settled = 0; n > 0 && settled < MOST_SETTLED; settled++) {
     const int half = take_cheapest(x, &n), v = thr_head(frame, half), hops = x->hops[half];
-    if (v == thr_tail(frame, to) && thr_anneal_turn(x, half, to) < THR_FORBIDDEN && thr_random_below(&x->state, 3)) {
+    if (v == thr_tail(frame, to) && thr_anneal_turn(x, half, to) < THR_FORBIDDEN &&
+        thr_random_below(&x->state, 3)) {
       last = half;
       break;
     }
@@ -111,8 +116,10 @@ static void find_route(thr_annealer *x, int from, int to)
       const int next = frame->half[i];
       const double turn = thr_anneal_turn(x, half, next);
       if (turn >= THR_FORBIDDEN || x->stamp[next] == x->search) continue;
-      reach(x, next, x->reached[half] + turn * (1 + thr_random_unit(&x->state) / 2) + x->noise * thr_random_unit(&x->state), half,
-            &n);
+      reach(x, next,
+            x->reached[half] + turn * (1 + thr_random_unit(&x->state) / 2) +
+                x->noise * thr_random_unit(&x->state),
+            half, &n);
     }
   }
   if (last < 0) return;
@@ -132,7 +139,9 @@ bool thr_anneal_reroute(thr_annealer *x, int a, thr_anneal_change *change)
   if (!thr_anneal_spare(x, walk, i, j)) return false;
   find_route(x, walk->half[i - 1], walk->half[j]);
   if (x->n_route < 0 || walk->n + x->n_route > x->room) return false;
-  if (x->n_route == j - i && memcmp(x->route, walk->half + i, (size_t)(j - i) * sizeof *x->route) == 0) return false;
+  if (x->n_route == j - i &&
+      memcmp(x->route, walk->half + i, (size_t)(j - i) * sizeof *x->route) == 0)
+    return false;
   *change = (thr_anneal_change){.n_cords = 1, .cord = {a}};
   thr_anneal_put(x, change, 0, walk->half, 0, i, false);
   thr_anneal_put(x, change, 0, x->route, 0, x->n_route, false);

@@ -1,16 +1,18 @@
-/* Turns and extra passes changed together by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M. P. Vecchi 1983), for the
- * least turning of single cords.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Turns and extra passes changed together by simulated annealing (S. Kirkpatrick, C. D. Gelatt & M.
+ * P. Vecchi 1983), for the least turning of single cords.
  *
- * Passes over one edge are alike, so the counts of turns, extra passes and ends (graph/plan/turning_proof.h) are all there is to
- * change; they are cords if their turns join all edges of a component. Two kinds of change keep the equations of all half-edges:
+ * Passes over one edge are alike, so the counts of turns, extra passes and ends
+ * (graph/plan/turning_proof.h) are all there is to change; they are cords if their turns join all
+ * edges of a component. Two kinds of change keep the equations of all half-edges:
  * - at one node, turns (a b)(c d) become (a c)(b d);
- * - along a short cycle every edge gets an extra pass, or loses one that it has. At each of its nodes the new passes turn into
- *   one another, or into a turn that was there, (a b) becoming (a p)(q b); lost ones leave their partners to each other.
- * Parts that are apart are allowed for a time, at a price each that rises and falls until a fifth of the points hang
- * together.
+ * - along a short cycle every edge gets an extra pass, or loses one that it has. At each of its
+ * nodes the new passes turn into one another, or into a turn that was there, (a b) becoming (a p)(q
+ * b); lost ones leave their partners to each other. Parts that are apart are allowed for a time, at
+ * a price each that rises and falls until a fifth of the points hang together.
  *
- * Example: three rings of a sphere cross at 60 degrees. Exchanges join two of them by two turns of 60 degrees; an extra pass that
- * leaves one ring's line for another's joins them by one. */
+ * Example: three rings of a sphere cross at 60 degrees. Exchanges join two of them by two turns of
+ * 60 degrees; an extra pass that leaves one ring's line for another's joins them by one. */
 #include "graph/angle.h"
 #include "graph/framework/frame.h"
 #include "graph/random.h"
@@ -21,20 +23,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In rad, of turns that cost their angle: temperatures, and what a part that is apart costs. On spheres hotter ones took longer
- * to the same turning, and long runs were no better than short ones begun again, less hot, from what they found. */
-static const double hottest = 0.25, warm = 0.13, cold = 0.03, apart_first = 1.3, apart_least = 0.3, apart_most = 6;
+/* In rad, of turns that cost their angle: temperatures, and what a part that is apart costs. On
+ * spheres hotter ones took longer to the same turning, and long runs were no better than short ones
+ * begun again, less hot, from what they found. */
+static const double hottest = 0.25, warm = 0.13, cold = 0.03, apart_first = 1.3, apart_least = 0.3,
+                    apart_most = 6;
 static const double whole_share = 0.2; /* of the points that are to hang together */
 
 typedef struct {
   thr_turn_state s;
   const thr_short_cycles *cycles;
   uint64_t random;
-  double unit, hot, heat, price_apart; /* price of 1 rad; temperatures, first and now; price of a part */
-  int apart;                           /* parts above one in every component */
+  double unit, hot, heat,
+      price_apart; /* price of 1 rad; temperatures, first and now; price of a part */
+  int apart;       /* parts above one in every component */
   double value, best_value;
-  int *best;            /* [n_columns] */
-  int64_t steps, whole; /* since the price was changed last; of these without parts that are apart */
+  int *best; /* [n_columns] */
+  int64_t steps,
+      whole; /* since the price was changed last; of these without parts that are apart */
 } annealer;
 
 bool thr_anneal_turns_serves(const thr_turning_columns *c)
@@ -79,8 +85,8 @@ static bool exchange(annealer *an)
 /* One of the ways to change a node's turns: columns that lose and get a turn, -1 = none. */
 typedef struct {
   int less[2], more[2];
-  double value; /* the least is taken: what it costs, less a random amount at this temperature (Gumbel's), which draws each with
-                   the probability of Boltzmann's law */
+  double value; /* the least is taken: what it costs, less a random amount at this temperature
+                   (Gumbel's), which draws each with the probability of Boltzmann's law */
 } option;
 
 static void offer(annealer *an, option *best, int less, int less_too, int more, int more_too)
@@ -117,8 +123,12 @@ static void offer_both(annealer *an, int v, int p, int q, option *best)
       const int a = half_at(c->f, v, i), b = half_at(c->f, v, k);
       if (count(an, a, b) == 0) continue;
       const int old = thr_turn_state_column(&an->s, a, b);
-      if (a != p && b != q) offer(an, best, old, -1, thr_turn_state_column(&an->s, a, p), thr_turn_state_column(&an->s, b, q));
-      if (a != q && b != p) offer(an, best, old, -1, thr_turn_state_column(&an->s, a, q), thr_turn_state_column(&an->s, b, p));
+      if (a != p && b != q)
+        offer(an, best, old, -1, thr_turn_state_column(&an->s, a, p),
+              thr_turn_state_column(&an->s, b, q));
+      if (a != q && b != p)
+        offer(an, best, old, -1, thr_turn_state_column(&an->s, a, q),
+              thr_turn_state_column(&an->s, b, p));
     }
 }
 
@@ -144,7 +154,8 @@ static void offer_other(annealer *an, int v, int p, int q, option *best)
   for (int i = 0, d = thr_degree(c->f, v); i <= d; i++) {
     const int a = half_at(c->f, v, i);
     if (a != p && a != q && count(an, q, a) > 0)
-      offer(an, best, thr_turn_state_column(&an->s, q, a), -1, thr_turn_state_column(&an->s, p, a), -1);
+      offer(an, best, thr_turn_state_column(&an->s, q, a), -1, thr_turn_state_column(&an->s, p, a),
+            -1);
   }
 }
 
@@ -176,7 +187,8 @@ static bool go_round(annealer *an)
 {
   const thr_turning_columns *c = an->s.c;
   if (an->cycles->n == 0) return false;
-  const int i = thr_random_below(&an->random, an->cycles->n), *half = an->cycles->half + an->cycles->first[i];
+  const int i = thr_random_below(&an->random, an->cycles->n),
+            *half = an->cycles->half + an->cycles->first[i];
   const int n = an->cycles->first[i + 1] - an->cycles->first[i];
   int by[THR_CYCLE_MOST];
   for (int k = 0; k < n; k++)
@@ -204,7 +216,8 @@ static void step(annealer *an)
   thr_turn_state *s = &an->s;
   const bool changed = thr_random(&an->random) & 1 ? exchange(an) : go_round(an);
   if (!changed) return;
-  const double most = -an->heat * log(thr_random_unit(&an->random) + DBL_MIN); /* that a change may cost */
+  const double most =
+      -an->heat * log(thr_random_unit(&an->random) + DBL_MIN); /* that a change may cost */
   bool taken = s->gain - an->apart * an->price_apart <= most;
   int more = 0;
   if (taken) {
@@ -246,10 +259,12 @@ static void run(annealer *an, int64_t steps, const thr_limits *limits)
   }
 }
 
-thr_status thr_anneal_turns(const thr_turning_columns *c, const thr_short_cycles *cycles, bool again, int64_t steps,
-                            uint64_t seed, const thr_limits *limits, int *x, bool *better, thr_err *err)
+thr_status thr_anneal_turns(const thr_turning_columns *c, const thr_short_cycles *cycles,
+                            bool again, int64_t steps, uint64_t seed, const thr_limits *limits,
+                            int *x, bool *better, thr_err *err)
 {
-  annealer an = {.cycles = cycles, .random = seed, .unit = thr_turn_cost_of(c->task->cost, THR_PI) / THR_PI};
+  annealer an = {
+      .cycles = cycles, .random = seed, .unit = thr_turn_cost_of(c->task->cost, THR_PI) / THR_PI};
   an.price_apart = apart_first * an.unit;
   an.hot = (again ? warm : hottest) * an.unit;
   *better = false;

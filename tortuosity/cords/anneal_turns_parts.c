@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the annealing of turns is made of. Internal to tortuosity/cords/anneal_turns*.c. */
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
@@ -14,7 +15,8 @@ static void toggle(thr_turn_state *s, int a, int b)
   s->partners[b] ^= UINT64_C(1) << s->c->position[a];
 }
 
-thr_status thr_turn_state_init(thr_turn_state *s, const thr_turning_columns *c, const int *x, thr_err *err)
+thr_status thr_turn_state_init(thr_turn_state *s, const thr_turning_columns *c, const int *x,
+                               thr_err *err)
 {
   const size_t n = (size_t)c->n_columns, m = (size_t)c->f->n_edges;
   *s = (thr_turn_state){.c = c, .spare = c->extra_limit < 0 ? INT64_MAX : c->extra_limit};
@@ -47,7 +49,8 @@ static void add(thr_turn_state *s, int column, int by)
   const thr_turning_columns *c = s->c;
   const bool before = s->x[column] > 0;
   s->x[column] += by;
-  if (column < c->first_extra && before != (s->x[column] > 0)) toggle(s, c->half[column][0], c->half[column][1]);
+  if (column < c->first_extra && before != (s->x[column] > 0))
+    toggle(s, c->half[column][0], c->half[column][1]);
   if (c->extra_limit >= 0 && column >= c->first_extra && column < c->first_end)
     s->spare -= by * c->length[column - c->first_extra];
 }
@@ -76,7 +79,8 @@ enum { SOURCES = 2 * THR_TURN_CHANGES };
 typedef struct {
   thr_turn_state *s;
   int n, tail;                           /* edges that were begun with; in the queue */
-  int parent[SOURCES], waiting[SOURCES]; /* sets of those; edges of each set in the queue whose neighbours are not looked at */
+  int parent[SOURCES], waiting[SOURCES]; /* sets of those; edges of each set in the queue whose
+                                            neighbours are not looked at */
   int parts, live;                       /* sets; those with such edges */
 } flood;
 
@@ -97,7 +101,8 @@ static void begin(flood *f, int half)
 
 static void meet(flood *f, int a, int b)
 {
-  const int waiting = f->waiting[a = thr_disjoint_find(f->parent, a)], other = f->waiting[b = thr_disjoint_find(f->parent, b)];
+  const int waiting = f->waiting[a = thr_disjoint_find(f->parent, a)],
+            other = f->waiting[b = thr_disjoint_find(f->parent, b)];
   if (a == b) return;
   thr_disjoint_join(f->parent, a, b);
   f->waiting[a < b ? a : b] = waiting + other;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The walks while they are annealed: what is known of them, and how they are changed. */
 #include "graph/framework/frame.h"
 #include "graph/random.h"
@@ -49,7 +50,8 @@ static void sum_turns(const thr_annealer *x, thr_anneal_walk *walk)
   for (int i = 1; i < walk->n; i++)
     walk->sum[i] = walk->sum[i - 1] + thr_anneal_turn(x, walk->half[i - 1], walk->half[i]);
   const int last = walk->half[walk->n - 1];
-  walk->total = walk->sum[walk->n - 1] + (x->closed ? thr_anneal_turn(x, last, walk->half[0]) : x->end_price[last >> 1]);
+  walk->total = walk->sum[walk->n - 1] +
+                (x->closed ? thr_anneal_turn(x, last, walk->half[0]) : x->end_price[last >> 1]);
 }
 
 /* half[n] become cord number; closed ones begin anywhere, for changes to find other parts. */
@@ -93,9 +95,10 @@ static void fill_prices(thr_annealer *x)
     for (int i = 0; i < degree * degree; i++) {
       const int in = half[i / degree] ^ 1, out = half[i % degree];
       const bool back = in == (out ^ 1) && degree > 1;
-      x->price[x->pair_first[v] + i] = x->measure == THR_WALK_LENGTH ? (frame->length[in >> 1] + frame->length[out >> 1]) / 2
-                                       : back                        ? THR_FORBIDDEN
-                                                                     : thr_turn_price(frame, x->c->task->cost, in, out);
+      x->price[x->pair_first[v] + i] = x->measure == THR_WALK_LENGTH
+                                           ? (frame->length[in >> 1] + frame->length[out >> 1]) / 2
+                                       : back ? THR_FORBIDDEN
+                                              : thr_turn_price(frame, x->c->task->cost, in, out);
     }
   }
 }
@@ -128,7 +131,8 @@ static void find_ends(thr_annealer *x)
   memset(waits, 0, (size_t)m2 * sizeof *waits);
 }
 
-/* Visits that a node has at most, as its edges have no more passes than they may, or than they have. */
+/* Visits that a node has at most, as its edges have no more passes than they may, or than they
+ * have. */
 static size_t place_visits(thr_annealer *x, const int *now)
 {
   const thr_frame *frame = x->c->f;
@@ -183,11 +187,16 @@ static thr_status allocate(thr_annealer *x, const thr_cord *cord, thr_err *err)
   return thr_scratch_check(&x->own, err);
 }
 
-thr_status thr_annealer_init(thr_annealer *x, const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord,
-                             int n_cords, thr_err *err)
+thr_status thr_annealer_init(thr_annealer *x, const thr_turning_columns *columns,
+                             thr_walk_measure measure, const thr_cord *cord, int n_cords,
+                             thr_err *err)
 {
   const thr_frame *frame = columns->f;
-  *x = (thr_annealer){.c = columns, .measure = measure, .closed = !columns->task->end_allowed, .n_cords = n_cords, .state = 1};
+  *x = (thr_annealer){.c = columns,
+                      .measure = measure,
+                      .closed = !columns->task->end_allowed,
+                      .n_cords = n_cords,
+                      .state = 1};
   thr_status st = allocate(x, cord, err);
   if (st) return st;
   fill_prices(x);
@@ -199,7 +208,9 @@ thr_status thr_annealer_init(thr_annealer *x, const thr_turning_columns *columns
     note_visits(x, i);
     add_passes(x, cord[i].half, cord[i].n_passes, 1);
   }
-  x->most_extra = columns->task->extra_limit < 0 ? INFINITY : fmax(columns->task->extra_limit, x->extra) * (1 + 1e-12);
+  x->most_extra = columns->task->extra_limit < 0
+                      ? INFINITY
+                      : fmax(columns->task->extra_limit, x->extra) * (1 + 1e-12);
   if (!st && !x->closed) find_ends(x);
   return st;
 }
@@ -216,7 +227,8 @@ void thr_annealer_destroy(thr_annealer *x)
 
 /* ---- parts of changes ---- */
 
-void thr_anneal_put(thr_annealer *x, thr_anneal_change *change, int i, const int *half, int from, int end, bool backwards)
+void thr_anneal_put(thr_annealer *x, thr_anneal_change *change, int i, const int *half, int from,
+                    int end, bool backwards)
 {
   int *out = x->made[i] + change->n[i];
   for (int k = from; k < end; k++)
@@ -227,8 +239,8 @@ void thr_anneal_put(thr_annealer *x, thr_anneal_change *change, int i, const int
 double thr_anneal_total(const thr_annealer *x, const thr_anneal_change *change, int i)
 {
   const int n = change->n[i], *half = x->made[i];
-  double total =
-      x->closed ? thr_anneal_turn(x, half[n - 1], half[0]) : x->end_price[half[0] >> 1] + x->end_price[half[n - 1] >> 1];
+  double total = x->closed ? thr_anneal_turn(x, half[n - 1], half[0])
+                           : x->end_price[half[0] >> 1] + x->end_price[half[n - 1] >> 1];
   for (int k = 1; k < n; k++)
     total += thr_anneal_turn(x, half[k - 1], half[k]);
   return total;
@@ -252,8 +264,8 @@ thr_anneal_visit thr_anneal_visit_at(thr_annealer *x, int node)
   return x->visit[x->visit_first[node] + thr_random_below(&x->state, x->n_visits[node])];
 }
 
-/* Counts the passes of a change in place of those of its cords; false, and nothing is counted, where edges would no longer keep
- * to their covers and limits. */
+/* Counts the passes of a change in place of those of its cords; false, and nothing is counted,
+ * where edges would no longer keep to their covers and limits. */
 static bool recount_passes(thr_annealer *x, const thr_anneal_change *change)
 {
   const thr_turning_columns *c = x->c;

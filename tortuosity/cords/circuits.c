@@ -1,8 +1,9 @@
-/* A given number of closed cords in every component: circuits cut apart at nodes that one visits twice, and joined where two
- * meet.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A given number of closed cords in every component: circuits cut apart at nodes that one visits
+ * twice, and joined where two meet.
  *
- * Cutting at a node replaces turns (a b)(c d) by (a d)(c b), and one circuit becomes two; joining is the same exchange the other
- * way round.
+ * Cutting at a node replaces turns (a b)(c d) by (a d)(c b), and one circuit becomes two; joining
+ * is the same exchange the other way round.
  *
  * Example: a figure of eight is one circuit or two, by the exchange at its middle. */
 #include "graph/framework/frame.h"
@@ -63,7 +64,8 @@ static void make(circuits *s, const thr_exchange *x, thr_broken *old)
   follow(s);
 }
 
-/* Of n transitions, the step from one partner to the next: all pairs of a few, about PAIRS of very many. */
+/* Of n transitions, the step from one partner to the next: all pairs of a few, about PAIRS of very
+ * many. */
 static int partner_step(int n)
 {
   enum { PAIRS = 20000 };
@@ -78,12 +80,13 @@ static void consider_node(circuits *s, int v, int change, thr_exchange *best)
     for (int k = i + 1; k < n; k += step)
       for (int crossed = 0; crossed < 2; crossed++) {
         thr_exchange x = thr_threading_exchange(&s->t, s->list[i], s->list[k], crossed);
-        if (x.change == change && x.extra < best->extra - 1e-12 && thr_threading_allows(&s->t, &x)) *best = x;
+        if (x.change == change && x.extra < best->extra - 1e-12 && thr_threading_allows(&s->t, &x))
+          *best = x;
       }
 }
 
-/* The cheapest exchange in a component that changes the number of its circuits so, as far as the limits let it look; extra is
- * infinite if there is none. */
+/* The cheapest exchange in a component that changes the number of its circuits so, as far as the
+ * limits let it look; extra is infinite if there is none. */
 static thr_exchange cheapest(circuits *s, int component, int change)
 {
   const thr_turning_columns *turning_columns = s->j->c;
@@ -101,7 +104,8 @@ static void exchange_any(circuits *s, int component)
 {
   enum { TRIES = 20 };
   for (int k = 0; k < TRIES; k++) {
-    int i = (int)(thr_random(&s->state) % (uint64_t)s->t.n_places), v = s->t.g->tail[s->t.place[i].in];
+    int i = (int)(thr_random(&s->state) % (uint64_t)s->t.n_places),
+        v = s->t.g->tail[s->t.place[i].in];
     if (s->j->c->component[v] != component) continue;
     int n = thr_threading_places(&s->t, v, s->list);
     assert(n > 0); /* i is one of them */
@@ -114,7 +118,8 @@ static void exchange_any(circuits *s, int component)
   }
 }
 
-/* Until the component has so many circuits. Stopped, no more are joined or split than cords were asked for. */
+/* Until the component has so many circuits. Stopped, no more are joined or split than cords were
+ * asked for. */
 static bool reach(circuits *s, int component)
 {
   enum { SHAKES = 100 };
@@ -132,11 +137,13 @@ static bool reach(circuits *s, int component)
   }
 }
 
-/* One exchange at node v that saves and keeps the number, or one that saves with one anywhere that puts the number right. */
+/* One exchange at node v that saves and keeps the number, or one that saves with one anywhere that
+ * puts the number right. */
 static bool improve_at(void *of, int v)
 {
   circuits *s = of;
-  int component = s->j->c->component[v], n = thr_threading_places(&s->t, v, s->here), step = partner_step(n);
+  int component = s->j->c->component[v], n = thr_threading_places(&s->t, v, s->here),
+      step = partner_step(n);
   for (int i = 0; i < n && !thr_limits_stop(s->limits); i++)
     for (int k = i + 1; k < n; k += step)
       for (int crossed = 0; crossed < 2; crossed++) {
@@ -185,7 +192,8 @@ static void adder_destroy(adder *s)
   thr_walk_search_destroy(&s->walks);
 }
 
-static thr_status adder_init(adder *s, const thr_turning_columns *turning_columns, int *passes, int n_cords, thr_err *err)
+static thr_status adder_init(adder *s, const thr_turning_columns *turning_columns, int *passes,
+                             int n_cords, thr_err *err)
 {
   *s = (adder){.c = turning_columns, .n_cords = n_cords, .passes = passes};
   s->cord = thr_calloc((size_t)n_cords, sizeof *s->cord);
@@ -201,7 +209,8 @@ static double walk_price(const adder *s)
   if (!thr_walk_search_add(walk_search, s->passes)) return INFINITY;
   for (int i = 0; i < walk_search->n; i++) {
     int h = walk_search->half[i];
-    price += thr_turn_price(s->c->f, turning_task->cost, h, walk_search->half[(i + 1) % walk_search->n]) +
+    price += thr_turn_price(s->c->f, turning_task->cost, h,
+                            walk_search->half[(i + 1) % walk_search->n]) +
              turning_task->price_per_length * s->c->f->length[h >> 1];
     s->passes[h >> 1]--;
   }
@@ -221,7 +230,8 @@ static thr_status take_walk(adder *s, thr_err *err)
 }
 
 /* One more closed cord in the component. */
-static thr_status add_walk(adder *s, int component, const thr_limits *limits, bool *found, thr_err *err)
+static thr_status add_walk(adder *s, int component, const thr_limits *limits, bool *found,
+                           thr_err *err)
 {
   const thr_frame *frame = s->c->f;
   double least = INFINITY;
@@ -256,7 +266,8 @@ static thr_status copy_circuit(adder *s, const thr_threading *from, int k, thr_e
   return THR_OK;
 }
 
-thr_status thr_circuits_add(const thr_join *j, const thr_limits *limits, thr_join *out, int *passes, bool *found, thr_err *err)
+thr_status thr_circuits_add(const thr_join *j, const thr_limits *limits, thr_join *out, int *passes,
+                            bool *found, thr_err *err)
 {
   const thr_turning_columns *turning_columns = j->c;
   int cords = turning_columns->task->cords;
@@ -268,7 +279,8 @@ thr_status thr_circuits_add(const thr_join *j, const thr_limits *limits, thr_joi
   *found = !st;
   for (int k = 0; k < turning_columns->n_components && !st; k++)
     *found &= from.count[k] <= cords;
-  if (*found) st = adder_init(&s, turning_columns, passes, cords * turning_columns->n_components, err);
+  if (*found)
+    st = adder_init(&s, turning_columns, passes, cords * turning_columns->n_components, err);
   if (!st && *found) memset(passes, 0, (size_t)turning_columns->f->n_edges * sizeof *passes);
   for (int k = 0; k < from.t.n_cords && !st && *found; k++)
     st = copy_circuit(&s, &from.t, k, err);
@@ -281,7 +293,8 @@ thr_status thr_circuits_add(const thr_join *j, const thr_limits *limits, thr_joi
   return st;
 }
 
-/* A closed walk through each edge that too few go over yet, beginning with number first. Stops where one has no room. */
+/* A closed walk through each edge that too few go over yet, beginning with number first. Stops
+ * where one has no room. */
 static thr_status cover_edges(adder *s, int first, bool *found, thr_err *err)
 {
   const int m = s->c->f->n_edges, *cover = s->c->cover;
@@ -296,8 +309,8 @@ static thr_status cover_edges(adder *s, int first, bool *found, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_circuits_cover(const thr_turning_columns *turning_columns, int first, thr_join *out, int *passes, bool *found,
-                              thr_err *err)
+thr_status thr_circuits_cover(const thr_turning_columns *turning_columns, int first, thr_join *out,
+                              int *passes, bool *found, thr_err *err)
 {
   adder s;
   int most = 0;

@@ -1,7 +1,10 @@
-/* Different cords over every edge: which cord takes which passes is exchanged until every edge is passed by enough of them.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Different cords over every edge: which cord takes which passes is exchanged until every edge is
+ * passed by enough of them.
  *
- * Two passes of one cord hold no more of a bead than one; two cords hold planar faces together, three any faces (C. Nelson's
- * thesis). Example: two passes over every edge of a cube, its six faces as cords: two different cords over every edge. */
+ * Two passes of one cord hold no more of a bead than one; two cords hold planar faces together,
+ * three any faces (C. Nelson's thesis). Example: two passes over every edge of a cube, its six
+ * faces as cords: two different cords over every edge. */
 #include "graph/plan/physics.h"
 #include "graph/random.h"
 #include "tortuosity/cords/several.h"
@@ -22,7 +25,8 @@ typedef struct {
   int n_cords;
   int *met;          /* [n_cords] scratch: the last edge, from 1, that the cord was met at; owned */
   double *own;       /* [n_cords] scratch: lengths of the cords; owned */
-  int n_lack, *lack; /* half-edges of the multigraph over edges that lacked cords when they were counted last; owned */
+  int n_lack, *lack; /* half-edges of the multigraph over edges that lacked cords when they were
+                        counted last; owned */
   uint64_t state;
 } search;
 
@@ -60,14 +64,16 @@ static thr_status search_init(search *x, thr_err *err)
 
 /* ---- what cords are worth ---- */
 
-/* beyond: by which parts cords are longer, or need more pull, than allowed, added up. price: what the turns cost, by the aims of
- * all cords or of the dearest. smooth: what exchanges make small, rad. */
+/* beyond: by which parts cords are longer, or need more pull, than allowed, added up. price: what
+ * the turns cost, by the aims of all cords or of the dearest. smooth: what exchanges make small,
+ * rad. */
 typedef struct {
   int lacking; /* cords that edges lack */
   double beyond, longest, price, length, smooth;
 } worth;
 
-/* Cords that edges lack, and the lengths of all; the passes of an edge are next to each other in the multigraph. */
+/* Cords that edges lack, and the lengths of all; the passes of an edge are next to each other in
+ * the multigraph. */
 static int lacking(search *x, const thr_threading *t)
 {
   int sum = 0;
@@ -90,7 +96,8 @@ static int lacking(search *x, const thr_threading *t)
   return sum;
 }
 
-/* n values, smoothly like n times their largest: most of a p-norm is the largest, a small part the others. */
+/* n values, smoothly like n times their largest: most of a p-norm is the largest, a small part the
+ * others. */
 static double smoothed(double sum_of_powers, double most, int n)
 {
   enum { POWER = 8 };
@@ -106,10 +113,13 @@ static double power(double part)
 static double angle_at(const search *x, const thr_threading *t, const thr_place *place)
 {
   int in = t->g->half[place->in], out = t->g->half[place->out];
-  return x->task.cost == THR_TURN_ANGLE ? place->price : in < 0 || out < 0 ? 0 : thr_turn_angle(x->f, in ^ 1, out);
+  return x->task.cost == THR_TURN_ANGLE ? place->price
+         : in < 0 || out < 0            ? 0
+                                        : thr_turn_angle(x->f, in ^ 1, out);
 }
 
-/* What a pull has to overcome (thr_cord_pulled_turning); a closed cord begins where its turn is sharpest. */
+/* What a pull has to overcome (thr_cord_pulled_turning); a closed cord begins where its turn is
+ * sharpest. */
 static double pulled_turning(const search *x, const thr_threading *t, int k)
 {
   const int first = t->first[k], n = t->first[k + 1] - first;
@@ -126,7 +136,9 @@ static double pulled_turning(const search *x, const thr_threading *t, int k)
   if (closed) whole -= sharpest;
   thr_least_pull_walk walk = thr_least_pull_begin(whole);
   for (int i = closed; i < n; i++)
-    if (!thr_least_pull_next(&walk, angle_at(x, t, &t->place[first + (closed ? (start + i) % n : i)]))) break;
+    if (!thr_least_pull_next(&walk,
+                             angle_at(x, t, &t->place[first + (closed ? (start + i) % n : i)])))
+      break;
   return walk.larger;
 }
 
@@ -144,7 +156,8 @@ static double cord_beyond(const search *x, const thr_threading *t, int k)
 /* The worth of the threading is that of its cords; the length stays what it was. */
 static worth measure(search *x, const thr_threading *t, double length)
 {
-  static const double each = 20; /* rad that a cord of the mean length counts as, if the longest is to be short */
+  static const double each =
+      20; /* rad that a cord of the mean length counts as, if the longest is to be short */
   worth w = {.lacking = lacking(x, t), .length = length};
   double sum = 0, most = 0, turns = 0, lengths = 0;
   for (int k = 0; k < t->n_cords; k++) {
@@ -174,11 +187,13 @@ static int compare(double a, double b)
 static bool is_better(const search *x, worth a, worth b)
 {
   bool turning = thr_wants_turning(x->o);
-  int price = compare(a.price, b.price), length = compare(a.length, b.length), longest = compare(a.longest, b.longest);
+  int price = compare(a.price, b.price), length = compare(a.length, b.length),
+      longest = compare(a.longest, b.longest);
   if (a.beyond != b.beyond) return a.beyond < b.beyond;
   if (a.lacking != b.lacking) return a.lacking < b.lacking;
   if (thr_wants_balance(x->o) && longest) return longest < 0;
-  return (turning ? price : length) ? (turning ? price : length) < 0 : (turning ? length : price) < 0;
+  return (turning ? price : length) ? (turning ? price : length) < 0
+                                    : (turning ? length : price) < 0;
 }
 
 /* ---- annealing ---- */
@@ -191,8 +206,9 @@ static int choose_place(const search *x, thr_evener *evener)
   return any ? i : evener->t->at[x->lack[i]];
 }
 
-/* Exchanges at random; *now becomes the worth of the best pairs, which are there in the end. each: what a cord that an edge lacks
- * counts as, rad, or a cord that is longer than allowed by a twentieth. best: [n_darts] scratch. */
+/* Exchanges at random; *now becomes the worth of the best pairs, which are there in the end. each:
+ * what a cord that an edge lacks counts as, rad, or a cord that is longer than allowed by a
+ * twentieth. best: [n_darts] scratch. */
 static void anneal(search *x, thr_evener *evener, double each, int steps, int *best, worth *now)
 {
   static const double hot = 0.6, cold = 0.03; /* rad */
@@ -208,7 +224,8 @@ static void anneal(search *x, thr_evener *evener, double each, int steps, int *b
     if (old.n == 0) continue;
     bool cords = thr_evener_follow(evener);
     worth next = cords ? measure(x, t, now->length) : *now;
-    double more = next.smooth - now->smooth + each * (next.lacking - now->lacking) + 20 * each * (next.beyond - now->beyond);
+    double more = next.smooth - now->smooth + each * (next.lacking - now->lacking) +
+                  20 * each * (next.beyond - now->beyond);
     if (cords && (more <= 0 || thr_random_unit(&evener->state) < exp(-more / heat))) {
       *now = next;
       if (!is_better(x, *now, least)) continue;
@@ -233,16 +250,18 @@ static double length_of(const search *x, const thr_cord *cord)
   return sum;
 }
 
-/* Replaces cord[n_cords] by the best that exchanges lead to through the same passes, and says what they are worth. Cords that
- * turn back where the search does not stay as they are. */
-static thr_status exchange(search *x, double each, int steps, thr_cord *cord, worth *found, thr_err *err)
+/* Replaces cord[n_cords] by the best that exchanges lead to through the same passes, and says what
+ * they are worth. Cords that turn back where the search does not stay as they are. */
+static thr_status exchange(search *x, double each, int steps, thr_cord *cord, worth *found,
+                           thr_err *err)
 {
   thr_join j = {0};
   thr_threading threading = {0};
   thr_evener evener = {&threading, x->limits, x->n_cords, 1, thr_random(&x->state)};
   thr_cord *made = thr_calloc((size_t)x->n_cords, sizeof *made);
   int *best = NULL;
-  thr_status st = made ? thr_join_from_cords(&j, &x->columns, cord, x->n_cords, err) : thr_nomem(err);
+  thr_status st =
+      made ? thr_join_from_cords(&j, &x->columns, cord, x->n_cords, err) : thr_nomem(err);
   if (!st) st = thr_join_threading(&j, &threading, err);
   free(x->lack);
   x->lack = thr_calloc((size_t)j.g.n_darts, sizeof *x->lack);
@@ -293,7 +312,8 @@ static thr_status try_from(search *x, const thr_cord *from, int detours, record 
   worth found = worst;
   int done = 0;
   thr_status st = thr_cords_copy(from, x->n_cords, &cord, err);
-  if (!st && detours > 0) st = thr_distinct_detours(x->f, x->o, cord, x->n_cords, detours, &done, err);
+  if (!st && detours > 0)
+    st = thr_distinct_detours(x->f, x->o, cord, x->n_cords, detours, &done, err);
   int steps = st ? 0 : steps_for(cord, x->n_cords);
   if (!st) st = exchange(x, first * pow(2, tries % 4), steps, cord, &found, err);
   if (!st && found.lacking == 0) { /* the passes may be more than it takes now */
@@ -317,29 +337,41 @@ static bool has_faults(const record *best)
   return best->worth.lacking > 0 || best->worth.beyond > 0;
 }
 
-/* Tries through the passes as they are, then with few detours, then with as many as it takes; and whether fewer passes do. */
-static thr_status try_all(search *x, const thr_cord *start, const thr_cord *other, record *best, thr_err *err)
+/* Tries through the passes as they are, then with few detours, then with as many as it takes; and
+ * whether fewer passes do. */
+static thr_status try_all(search *x, const thr_cord *start, const thr_cord *other, record *best,
+                          thr_err *err)
 {
   enum { PLAIN = 6, DETOURS = 4, AGAIN = 4 };
   thr_status st = THR_OK;
   const bool aims = thr_wants_turning(x->o) || thr_wants_balance(x->o); /* that exchanges serve */
   int more = aims ? PLAIN : 0;
-  for (int i = 0; i < PLAIN + more && !st && !thr_limits_stop(x->limits) && (has_faults(best) || i < more); i++)
+  for (int i = 0;
+       i < PLAIN + more && !st && !thr_limits_stop(x->limits) && (has_faults(best) || i < more);
+       i++)
     st = try_from(x, i % 2 ? best->cord : start, 0, best, err);
   for (int i = 0; i < DETOURS && !st && !thr_limits_stop(x->limits) && has_faults(best); i++)
     st = try_from(x, best->cord, 1, best, err);
   if (!st && has_faults(best)) st = try_from(x, best->cord, INT_MAX, best, err);
   bool longer = has_faults(best) || best->worth.length > length_of(x, start) * (1 + 1e-9);
   if (!st && other && (longer || aims)) st = try_from(x, other, 0, best, err);
-  for (int i = 0; i < AGAIN && !st && !thr_limits_stop(x->limits) && best->worth.length > length_of(x, start) * (1 + 1e-9); i++)
+  for (int i = 0; i < AGAIN && !st && !thr_limits_stop(x->limits) &&
+                  best->worth.length > length_of(x, start) * (1 + 1e-9);
+       i++)
     st = try_from(x, best->cord, 0, best, err);
   return st;
 }
 
-thr_status thr_distinct_make(const thr_frame *frame, const thr_request *options, const thr_limits *limits, double length_limit,
-                             const thr_cord *other, thr_cord *cord, int n_cords, thr_err *err)
+thr_status thr_distinct_make(const thr_frame *frame, const thr_request *options,
+                             const thr_limits *limits, double length_limit, const thr_cord *other,
+                             thr_cord *cord, int n_cords, thr_err *err)
 {
-  search x = {.f = frame, .o = options, .limits = limits, .length_limit = length_limit, .n_cords = n_cords, .state = 1};
+  search x = {.f = frame,
+              .o = options,
+              .limits = limits,
+              .length_limit = length_limit,
+              .n_cords = n_cords,
+              .state = 1};
   record best = {.cord = cord, .worth = worst};
   thr_cord *start = NULL;
   thr_status st = thr_cords_copy(cord, n_cords, &start, err);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cords led over edges that lack them, and circuits left out that are no longer needed. */
 #include "tortuosity/cords/several.h"
 
@@ -10,12 +11,14 @@ typedef struct {
   const thr_request *o;
   thr_cord *cord;
   int n_cords, most_passes;
-  int *passes, *different; /* [n_edges] of all cords; how many there are; owned, as are all that follow */
-  int *own;                /* [n_edges] passes of one cord */
-  double *far[2];          /* [2 n_edges] from the edge on in both directions: least length up to this half-edge's end */
-  int *from[2];            /* [2 n_edges] half-edge before; -1 for the first */
-  int *queue;              /* [4 n_edges] half-edges that wait, or a detour */
-  bool *queued;            /* [2 n_edges] */
+  int *passes,
+      *different; /* [n_edges] of all cords; how many there are; owned, as are all that follow */
+  int *own;       /* [n_edges] passes of one cord */
+  double *far[2]; /* [2 n_edges] from the edge on in both directions: least length up to this
+                     half-edge's end */
+  int *from[2];   /* [2 n_edges] half-edge before; -1 for the first */
+  int *queue;     /* [4 n_edges] half-edges that wait, or a detour */
+  bool *queued;   /* [2 n_edges] */
 } cover;
 
 static void cover_destroy(cover *x)
@@ -66,12 +69,14 @@ static thr_status cover_init(cover *x, thr_err *err)
 /* May a cord go on from half-edge in with out? One that is below 0 is an end. */
 static bool goes_on(const cover *x, int in, int out)
 {
-  return in < 0 || out != (in ^ 1) || (thr_degree(x->f, thr_head(x->f, in)) == 1 && x->o->joint == THR_JOINT_SOLID);
+  return in < 0 || out != (in ^ 1) ||
+         (thr_degree(x->f, thr_head(x->f, in)) == 1 && x->o->joint == THR_JOINT_SOLID);
 }
 
 /* ---- detours ---- */
 
-/* Shortest walks from half-edge start on. (R. Bellman 1958, E. F. Moore 1959: a queue of what became shorter.) */
+/* Shortest walks from half-edge start on. (R. Bellman 1958, E. F. Moore 1959: a queue of what
+ * became shorter.) */
 static void reach(cover *x, int start, double *far, int *from)
 {
   const thr_frame *frame = x->f;
@@ -100,8 +105,8 @@ static void reach(cover *x, int start, double *far, int *from)
   }
 }
 
-/* A detour of a cord before its pass number at (n_passes: after the last): back along the walk to half-edge arrive[0], and on
- * along that to arrive[1], from side and the other side of the edge. */
+/* A detour of a cord before its pass number at (n_passes: after the last): back along the walk to
+ * half-edge arrive[0], and on along that to arrive[1], from side and the other side of the edge. */
 typedef struct {
   int cord, at, side, arrive[2];
   double length; /* INFINITY: none */
@@ -155,15 +160,22 @@ static void look_at(cover *x, int cord, int at, double edge, detour *best)
   const thr_frame *frame = x->f;
   const thr_cord *c = &x->cord[cord];
   bool cyclic = x->o->ends == THR_ENDS_CLOSED;
-  int in = at > 0 ? c->half[at - 1] : cyclic ? c->half[c->n_passes - 1] : -1, out = at < c->n_passes ? c->half[at] : -1;
-  int v = out >= 0 ? thr_tail(frame, out) : thr_head(frame, in), now = out >= 0 && !goes_on(x, in, out); /* turns back */
+  int in = at > 0   ? c->half[at - 1]
+           : cyclic ? c->half[c->n_passes - 1]
+                    : -1,
+      out = at < c->n_passes ? c->half[at] : -1;
+  int v = out >= 0 ? thr_tail(frame, out) : thr_head(frame, in),
+      now = out >= 0 && !goes_on(x, in, out); /* turns back */
   for (int side = 0; side < 2; side++)
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
       for (int k = frame->first[v]; k < frame->first[v + 1]; k++) {
         detour way = {cord, at, side, {frame->half[i] ^ 1, frame->half[k] ^ 1}, edge};
         way.length += x->far[side][way.arrive[0]] + x->far[!side][way.arrive[1]];
-        int back = !goes_on(x, in, way.arrive[0] ^ 1) + (out >= 0 && !goes_on(x, way.arrive[1], out));
-        if (back <= now && way.length < best->length * (1 - 1e-12) && has_room(x, &way) && may_part(x, in, out)) *best = way;
+        int back =
+            !goes_on(x, in, way.arrive[0] ^ 1) + (out >= 0 && !goes_on(x, way.arrive[1], out));
+        if (back <= now && way.length < best->length * (1 - 1e-12) && has_room(x, &way) &&
+            may_part(x, in, out))
+          *best = way;
       }
 }
 
@@ -202,8 +214,8 @@ static thr_status detour_over(cover *x, int e, bool *done, thr_err *err)
   return *done ? lead_over(x, &best, err) : THR_OK;
 }
 
-thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *options, thr_cord *cord, int n_cords, int most,
-                                int *done, thr_err *err)
+thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *options, thr_cord *cord,
+                                int n_cords, int most, int *done, thr_err *err)
 {
   cover x = {.f = frame, .o = options, .cord = cord, .n_cords = n_cords};
   thr_status st = cover_init(&x, err);
@@ -219,8 +231,8 @@ thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *optio
 
 /* ---- circuits ---- */
 
-/* Of the circuits that begin with pass number `from` the longest that nothing needs: the number of its passes, 0: none. own: the
- * passes of the cord. */
+/* Of the circuits that begin with pass number `from` the longest that nothing needs: the number of
+ * its passes, 0: none. own: the passes of the cord. */
 static int spare_from(cover *x, const thr_cord *cord, int from, double *length)
 {
   const int start = thr_tail(x->f, cord->half[from]), in = from > 0 ? cord->half[from - 1] : -1;
@@ -232,9 +244,11 @@ static int spare_from(cover *x, const thr_cord *cord, int from, double *length)
     x->passes[e]--;
     x->own[e]--;
     sum += x->f->length[e];
-    bool needed = x->passes[e] < thr_plan_cover(x->f, x->o, e) || (x->own[e] == 0 && x->different[e] <= x->o->distinct);
+    bool needed = x->passes[e] < thr_plan_cover(x->f, x->o, e) ||
+                  (x->own[e] == 0 && x->different[e] <= x->o->distinct);
     bool last = needed || k + 1 == cord->n_passes;
-    if (!needed && thr_head(x->f, cord->half[k]) == start && in >= 0 && out >= 0 && goes_on(x, in, out)) {
+    if (!needed && thr_head(x->f, cord->half[k]) == start && in >= 0 && out >= 0 &&
+        goes_on(x, in, out)) {
       best = k + 1 - from;
       *length = sum;
     }
@@ -264,13 +278,15 @@ static bool leave_out(cover *x, thr_cord *cord)
   count_cord(x, cord, -1);
   for (int k = at; k < at + n; k++)
     x->passes[cord->half[k] >> 1]--;
-  memmove(cord->half + at, cord->half + at + n, (size_t)(cord->n_passes - at - n) * sizeof *cord->half);
+  memmove(cord->half + at, cord->half + at + n,
+          (size_t)(cord->n_passes - at - n) * sizeof *cord->half);
   cord->n_passes -= n;
   count_cord(x, cord, 1);
   return true;
 }
 
-thr_status thr_distinct_shorten(const thr_frame *frame, const thr_request *options, thr_cord *cord, int n_cords, thr_err *err)
+thr_status thr_distinct_shorten(const thr_frame *frame, const thr_request *options, thr_cord *cord,
+                                int n_cords, thr_err *err)
 {
   cover x = {.f = frame, .o = options, .cord = cord, .n_cords = n_cords};
   if (options->joint == THR_JOINT_TUBE) return THR_OK;

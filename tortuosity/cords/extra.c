@@ -1,5 +1,7 @@
-/* Extra passes and ends of least weight under any prices of edges: where the search for the least turning starts, and how its
- * points are rounded. A minimum T-join (lp/tjoin/engine.c) with slots for the ends. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Extra passes and ends of least weight under any prices of edges: where the search for the least
+ * turning starts, and how its points are rounded. A minimum T-join (lp/tjoin/engine.c) with slots
+ * for the ends. */
 #include "graph/framework/frame.h"
 #include "lp/tjoin/tjoin.h"
 #include "tortuosity/cords/join.h"
@@ -17,7 +19,8 @@ double thr_extra_length(const thr_turning_columns *turning_columns, const int *p
   return sum;
 }
 
-/* The T-join problem of one component: its edges, then edges from slots to end nodes, then edges between slots. */
+/* The T-join problem of one component: its edges, then edges from slots to end nodes, then edges
+ * between slots. */
 typedef struct {
   const thr_turning_columns *c;
   int k, n_nodes, n_own, n_edges, n_slots;
@@ -38,14 +41,17 @@ static void instance_destroy(instance *in)
   free(in->odd);
 }
 
-static thr_status instance_init(instance *in, const thr_turning_columns *turning_columns, int k, bool given, thr_err *err)
+static thr_status instance_init(instance *in, const thr_turning_columns *turning_columns, int k,
+                                bool given, thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   size_t n = (size_t)frame->n_nodes;
   int allowed = 0;
   *in = (instance){.c = turning_columns,
                    .k = k,
-                   .n_slots = turning_columns->task->end_allowed && !given ? 2 * turning_columns->task->cords : 0};
+                   .n_slots = turning_columns->task->end_allowed && !given
+                                  ? 2 * turning_columns->task->cords
+                                  : 0};
   in->local = thr_calloc(n, sizeof *in->local);
   in->node = thr_calloc(n, sizeof *in->node);
   if (!in->local || !in->node) return thr_nomem(err);
@@ -56,15 +62,16 @@ static thr_status instance_init(instance *in, const thr_turning_columns *turning
     in->node[in->n_nodes++] = v;
   }
   if (in->n_slots && !allowed)
-    return thr_fail(
-        err, THR_EINFEASIBLE,
-        "the component with node %s has no node where a cord may end; name one with --feet (try --feet lowest) or --ends, or use "
-        "--ends closed",
-        frame->name[in->node[0]]);
+    return thr_fail(err, THR_EINFEASIBLE,
+                    "the component with node %s has no node where a cord may end; name one with "
+                    "--feet (try --feet lowest) or --ends, or use "
+                    "--ends closed",
+                    frame->name[in->node[0]]);
   for (int e = 0; e < frame->n_edges; e++)
     in->n_own += turning_columns->component[frame->edge[e][0]] == k;
   size_t edges = (size_t)in->n_own + (size_t)in->n_slots * ((size_t)allowed + (size_t)in->n_slots);
-  if (edges > (1u << 20)) return thr_fail(err, THR_EINPUT, "too many cords for so many nodes where they may end");
+  if (edges > (1u << 20))
+    return thr_fail(err, THR_EINPUT, "too many cords for so many nodes where they may end");
   in->edge = thr_calloc(edges, sizeof *in->edge);
   in->weight = thr_calloc(edges, sizeof *in->weight);
   in->what = thr_calloc(edges, sizeof *in->what);
@@ -89,13 +96,14 @@ static int covers_at(const thr_turning_columns *turning_columns, int v)
   return sum;
 }
 
-/* Weights add up to a power of 2 such that the slots' edges, each dearer than all of them, stay within what lp/tjoin/tjoin.h
- * takes. */
+/* Weights add up to a power of 2 such that the slots' edges, each dearer than all of them, stay
+ * within what lp/tjoin/tjoin.h takes. */
 static void fill(instance *in, const double *weight, const double *end_weight, const int *ends)
 {
   const thr_frame *frame = in->c->f;
   assert(in->edge && in->weight && in->what && in->odd);
-  const double whole = exp2(fmin(44, floor(50 - log2(2 + 2.0 * in->n_slots * (in->n_nodes + in->n_slots)))));
+  const double whole =
+      exp2(fmin(44, floor(50 - log2(2 + 2.0 * in->n_slots * (in->n_nodes + in->n_slots)))));
   double sum = 0, most = 0;
   int full = 0; /* edges with no room for an extra pass: each dearer than all others together */
   for (int e = 0; e < frame->n_edges; e++) {
@@ -113,13 +121,17 @@ static void fill(instance *in, const double *weight, const double *end_weight, c
       int h = frame->half[k];
       if (h % 2 == 0)
         add_edge(in, i, in->local[thr_head(frame, h)],
-                 (int64_t)nearbyint((in->c->most[h >> 1] > in->c->cover[h >> 1] ? weight[h >> 1] : dear) * scale), h >> 1);
+                 (int64_t)nearbyint(
+                     (in->c->most[h >> 1] > in->c->cover[h >> 1] ? weight[h >> 1] : dear) * scale),
+                 h >> 1);
     }
   int64_t slot = (int64_t)whole + 1;
   for (int s = 0; s < in->n_slots; s++) {
     for (int i = 0; i < in->n_nodes; i++)
       if (in->c->task->end_allowed[in->node[i]])
-        add_edge(in, i, in->n_nodes + s, slot + (end_weight && most > 0 ? (int64_t)(end_weight[in->node[i]] / most * 64) : 0),
+        add_edge(in, i, in->n_nodes + s,
+                 slot +
+                     (end_weight && most > 0 ? (int64_t)(end_weight[in->node[i]] / most * 64) : 0),
                  in->node[i]);
     for (int t = s + 1; t < in->n_slots; t++)
       add_edge(in, in->n_nodes + s, in->n_nodes + t, 2 * slot, -1);
@@ -135,13 +147,17 @@ static int closing_node(const instance *in, const double *end_weight)
   int best = -1;
   for (int i = 0; i < in->n_nodes; i++) {
     int v = in->node[i];
-    if (in->c->task->end_allowed[v] && (best < 0 || (end_weight && end_weight[v] < end_weight[best]))) best = v;
+    if (in->c->task->end_allowed[v] &&
+        (best < 0 || (end_weight && end_weight[v] < end_weight[best])))
+      best = v;
   }
   return best;
 }
 
-/* The least join, or, stopped, one that keeps the slots at one edge each, which the matching's quick join need not. */
-static thr_status solve_join(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits, thr_tjoin *tjoin, thr_err *err)
+/* The least join, or, stopped, one that keeps the slots at one edge each, which the matching's
+ * quick join need not. */
+static thr_status solve_join(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits,
+                             thr_tjoin *tjoin, thr_err *err)
 {
   thr_err stopped = {0};
   thr_limits quiet = *limits; /* the join's best and bound are not those of the turning */
@@ -155,17 +171,21 @@ static thr_status solve_join(const thr_tjoin_problem *tjoin_problem, const thr_l
   return st ? thr_fail(err, st, "%s", stopped.text) : THR_OK;
 }
 
-static thr_status solve_component(const thr_turning_columns *turning_columns, int k, const double *weight,
-                                  const double *end_weight, bool given, const thr_limits *limits, int *passes, int *ends,
-                                  thr_err *err)
+static thr_status solve_component(const thr_turning_columns *turning_columns, int k,
+                                  const double *weight, const double *end_weight, bool given,
+                                  const thr_limits *limits, int *passes, int *ends, thr_err *err)
 {
   instance in;
   thr_tjoin tjoin = {0};
   thr_status st = instance_init(&in, turning_columns, k, given, err);
   if (!st) {
     fill(&in, weight, end_weight, ends);
-    thr_tjoin_problem tjoin_problem = {
-        in.n_nodes + in.n_slots, in.n_edges, (const int(*)[2])in.edge, in.weight, in.odd, in.n_slots};
+    thr_tjoin_problem tjoin_problem = {in.n_nodes + in.n_slots,
+                                       in.n_edges,
+                                       (const int(*)[2])in.edge,
+                                       in.weight,
+                                       in.odd,
+                                       in.n_slots};
     st = solve_join(&tjoin_problem, limits, &tjoin, err);
   }
   for (int i = 0; !st && i < in.n_edges; i++) {
@@ -193,9 +213,10 @@ static int room_at(const thr_frame *frame, int v, const int *passes, const int *
   return room;
 }
 
-/* Moves two ends at a time, so that every node stays even, from where there are more than passes to the node with most room.
- * Returns how many have none; they are left out. */
-static int move_ends(const thr_turning_columns *turning_columns, int k, const int *passes, int *ends)
+/* Moves two ends at a time, so that every node stays even, from where there are more than passes to
+ * the node with most room. Returns how many have none; they are left out. */
+static int move_ends(const thr_turning_columns *turning_columns, int k, const int *passes,
+                     int *ends)
 {
   const thr_frame *frame = turning_columns->f;
   int homeless = 0;
@@ -219,9 +240,11 @@ static int move_ends(const thr_turning_columns *turning_columns, int k, const in
   return homeless;
 }
 
-/* No more ends at a node than passes: others have room, or there are more passes, along the shortest walk between nodes where
- * cords may end. Where none is left within most_passes there are ends too many, which no pairing holds. */
-static thr_status fit_ends(const thr_turning_columns *turning_columns, int k, int *passes, int *ends, thr_err *err)
+/* No more ends at a node than passes: others have room, or there are more passes, along the
+ * shortest walk between nodes where cords may end. Where none is left within most_passes there are
+ * ends too many, which no pairing holds. */
+static thr_status fit_ends(const thr_turning_columns *turning_columns, int k, int *passes,
+                           int *ends, thr_err *err)
 {
   int homeless = move_ends(turning_columns, k, passes, ends), last = -1;
   if (homeless == 0) return THR_OK;
@@ -240,8 +263,9 @@ static thr_status fit_ends(const thr_turning_columns *turning_columns, int k, in
   return st;
 }
 
-thr_status thr_extra_passes(const thr_turning_columns *turning_columns, const double *weight, const double *end_weight,
-                            bool given, const thr_limits *limits, int *passes, int *ends, thr_err *err)
+thr_status thr_extra_passes(const thr_turning_columns *turning_columns, const double *weight,
+                            const double *end_weight, bool given, const thr_limits *limits,
+                            int *passes, int *ends, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int e = 0; e < turning_columns->f->n_edges; e++)
@@ -252,7 +276,9 @@ thr_status thr_extra_passes(const thr_turning_columns *turning_columns, const do
     ends[v] = count ? count[v] : 0;
   for (int k = 0; k < turning_columns->n_components && !st; k++)
     st = solve_component(turning_columns, k, weight, end_weight, given, limits, passes, ends, err);
-  for (int k = 0; k < turning_columns->n_components && !st && turning_columns->task->end_allowed && !count; k++)
+  for (int k = 0;
+       k < turning_columns->n_components && !st && turning_columns->task->end_allowed && !count;
+       k++)
     st = fit_ends(turning_columns, k, passes, ends, err);
   return st;
 }

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bouchet's greedy on a multigraph of passes. */
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
@@ -19,12 +20,13 @@ typedef struct {
 
 typedef struct {
   thr_join *j;
-  int *place; /* [n_darts] number of a dart at its node */
-  int *link;  /* [n_darts] dart at the other end of the chain of passes that starts with this one; pairs made are inside chains */
-  int *stamp; /* [n_nodes] search that saw the node last */
-  int *class; /* [n_nodes] port whose search reached it */
-  int *queue; /* [n_nodes] */
-  int *spare; /* [n_components] pieces that the component may still fall into */
+  int *place;   /* [n_darts] number of a dart at its node */
+  int *link;    /* [n_darts] dart at the other end of the chain of passes that starts with this one;
+                   pairs made are inside chains */
+  int *stamp;   /* [n_nodes] search that saw the node last */
+  int *class;   /* [n_nodes] port whose search reached it */
+  int *queue;   /* [n_nodes] */
+  int *spare;   /* [n_components] pieces that the component may still fall into */
   int searches; /* so far */
   ranked *order;
   int most;        /* darts at a node */
@@ -80,19 +82,22 @@ static void fill_prices(greedy *s, const int *dart, int n)
 /* Price of the best exchange of pairs (a, b) and (c, d); *cross says which. */
 static double exchange_price(const double *price, int n, int a, int b, int c, int d, bool *cross)
 {
-  double straight = price[a * n + c] + price[b * n + d], crossed = price[a * n + d] + price[b * n + c];
+  double straight = price[a * n + c] + price[b * n + d],
+         crossed = price[a * n + d] + price[b * n + c];
   *cross = crossed < straight;
   return fmin(straight, crossed) - price[a * n + b] - price[c * n + d];
 }
 
-/* What the cheapest other pairing costs more, as far as one exchange goes (all of them at a node of 4). */
+/* What the cheapest other pairing costs more, as far as one exchange goes (all of them at a node of
+ * 4). */
 static double regret(const double *price, int n, const int *pair)
 {
   double least = INFINITY;
   bool cross;
   for (int a = 0; a < n; a++)
     for (int c = a + 1; c < n; c++)
-      if (pair[a] > a && pair[c] > c) least = fmin(least, exchange_price(price, n, a, pair[a], c, pair[c], &cross));
+      if (pair[a] > a && pair[c] > c)
+        least = fmin(least, exchange_price(price, n, a, pair[a], c, pair[c], &cross));
   return least;
 }
 
@@ -103,7 +108,8 @@ static int by_regret(const void *pa, const void *pb)
   return (a->node > b->node) - (a->node < b->node);
 }
 
-/* The cheapest pairing of node v, by itself, into pair; hubs come last, as if no other pairing of them cost more. */
+/* The cheapest pairing of node v, by itself, into pair; hubs come last, as if no other pairing of
+ * them cost more. */
 static thr_status pair_node(greedy *s, int v, thr_err *err)
 {
   const thr_multigraph *multigraph = &s->j->g;
@@ -137,8 +143,8 @@ static thr_status rank_nodes(greedy *s, thr_err *err)
   return st;
 }
 
-/* Joins in port[] the darts of v that hang together without v: a search from all of them at once, over chains, until they are one
- * or nothing is left to see. */
+/* Joins in port[] the darts of v that hang together without v: a search from all of them at once,
+ * over chains, until they are one or nothing is left to see. */
 static void find_ports(greedy *s, int v, const int *dart, int n)
 {
   const thr_multigraph *multigraph = &s->j->g;
@@ -187,8 +193,10 @@ static int join_pairs(greedy *s, int n, const int *pair)
   return left;
 }
 
-/* All pairings of the darts that are free in pair (-1), the cheapest of those that leave few enough pieces into best. */
-static void try_pairings(greedy *s, int n, int pieces, int *pair, double price, double *least, int *best)
+/* All pairings of the darts that are free in pair (-1), the cheapest of those that leave few enough
+ * pieces into best. */
+static void try_pairings(greedy *s, int n, int pieces, int *pair, double price, double *least,
+                         int *best)
 {
   int i = 0;
   if (price >= *least) return;
@@ -217,7 +225,9 @@ static void exchange_until_few(greedy *s, int n, int pieces)
     double least = INFINITY;
     for (int a = 0; a < n; a++)
       for (int c = a + 1; c < n; c++) {
-        if (s->pair[a] < a || s->pair[c] < c || thr_disjoint_find(s->trial, a) == thr_disjoint_find(s->trial, c)) continue;
+        if (s->pair[a] < a || s->pair[c] < c ||
+            thr_disjoint_find(s->trial, a) == thr_disjoint_find(s->trial, c))
+          continue;
         double extra = exchange_price(s->price, n, a, s->pair[a], c, s->pair[c], &cross);
         if (extra < least) least = extra, best_a = a, best_c = c, best_cross = cross;
       }
@@ -228,7 +238,8 @@ static void exchange_until_few(greedy *s, int n, int pieces)
   }
 }
 
-/* The cheapest pairing of the n darts of node v that leaves at most so many pieces, which the one in pair does not. */
+/* The cheapest pairing of the n darts of node v that leaves at most so many pieces, which the one
+ * in pair does not. */
 static void pair_joined(greedy *s, int v, int n, int pieces)
 {
   enum { ENUMERATED = 8 };
@@ -243,7 +254,8 @@ static void pair_joined(greedy *s, int v, int n, int pieces)
     exchange_until_few(s, n, pieces);
 }
 
-/* Gives node v the cheapest pairing that keeps enough connected, and joins the chains that it pairs. */
+/* Gives node v the cheapest pairing that keeps enough connected, and joins the chains that it
+ * pairs. */
 static void settle_node(greedy *s, int v)
 {
   const thr_multigraph *multigraph = &s->j->g;
@@ -267,8 +279,8 @@ static void settle_node(greedy *s, int v)
   }
 }
 
-/* Joins the circuits that hubs leave, until there are no more than `apart` besides one for each component. Meanwhile the ends are
- * paired at their nodes, so that open cords are circuits, too. */
+/* Joins the circuits that hubs leave, until there are no more than `apart` besides one for each
+ * component. Meanwhile the ends are paired at their nodes, so that open cords are circuits, too. */
 static thr_status join_at_hubs(thr_join *j, int apart, thr_err *err)
 {
   const thr_multigraph *multigraph = &j->g;
@@ -277,7 +289,8 @@ static thr_status join_at_hubs(thr_join *j, int apart, thr_err *err)
   for (int v = first; v < n; v++)
     for (int i = multigraph->first[v]; i + 1 < multigraph->first[v + 1]; i += 2)
       thr_set_pair(j->mate, multigraph->dart[i], multigraph->dart[i + 1]);
-  thr_status st = thr_transition_join(j->c->f, multigraph, j->mate, NULL, components * (1 + apart), err);
+  thr_status st =
+      thr_transition_join(j->c->f, multigraph, j->mate, NULL, components * (1 + apart), err);
   for (int i = multigraph->first[first]; i < multigraph->first[n]; i++)
     j->mate[multigraph->dart[i]] = -1;
   return st;

@@ -1,11 +1,14 @@
-/* Fewer turns by exchanges of pairs at the nodes that leave the cords whole: 2-opt and 3-opt on transitions (as S. Lin, Bell
- * System Technical Journal 44, 1965, on tours).
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Fewer turns by exchanges of pairs at the nodes that leave the cords whole: 2-opt and 3-opt on
+ * transitions (as S. Lin, Bell System Technical Journal 44, 1965, on tours).
  *
- * Turns (a b)(c d) at a node become (a c)(b d), with the part between run backwards, if the price falls.
+ * Turns (a b)(c d) at a node become (a c)(b d), with the part between run backwards, if the price
+ * falls.
  *
  * Example: a cord that turns by 90 degrees twice at a crossing goes straight on twice.
  *
- * Exchanges on a tour: reversals, and cuts that are joined elsewhere (2- and 3-opt on transitions). */
+ * Exchanges on a tour: reversals, and cuts that are joined elsewhere (2- and 3-opt on transitions).
+ */
 #include "tortuosity/cords/join.h"
 
 #include <math.h>
@@ -14,8 +17,8 @@
 
 static const double enough = 1e-9; /* smaller savings are rounding */
 
-/* Cord ends are paired at their node in the order of the cords, so that open cords make one circuit too; those pairs are never
- * exchanged. */
+/* Cord ends are paired at their node in the order of the cords, so that open cords make one circuit
+ * too; those pairs are never exchanged. */
 typedef struct {
   thr_join *j;
   thr_threading ring; /* its mates are owned: those of j, and pairs at the end nodes */
@@ -42,7 +45,8 @@ static thr_status tour_init(tour *t, thr_join *j, const thr_limits *limits, thr_
   return st || (t->ring.mate && t->here && t->list) ? st : thr_nomem(err);
 }
 
-/* Pairs the ends of cord after cord at end node v: the far end of one with the near end of the next. */
+/* Pairs the ends of cord after cord at end node v: the far end of one with the near end of the
+ * next. */
 static void close_ring(tour *t, int v)
 {
   const thr_multigraph *multigraph = &t->j->g;
@@ -77,7 +81,8 @@ static void make(tour *t, const thr_exchange *x)
   thr_set_pair(t->j->mate, x->made[2], x->made[3]);
 }
 
-/* Runs the part between two places of one node the other way round where that saves. true: the tour has changed. */
+/* Runs the part between two places of one node the other way round where that saves. true: the tour
+ * has changed. */
 static bool reverse_part(tour *t, int i, int k)
 {
   thr_exchange x = thr_threading_exchange(&t->ring, i, k, true);
@@ -86,7 +91,8 @@ static bool reverse_part(tour *t, int i, int k)
   return true;
 }
 
-/* The cheapest way to join the part i < .. < k, once cut off, to the rest again, at any node. The cut itself does not count. */
+/* The cheapest way to join the part i < .. < k, once cut off, to the rest again, at any node. The
+ * cut itself does not count. */
 static thr_exchange cheapest_joint(const tour *t, int i, int k, double most)
 {
   const thr_threading *threading = &t->ring;
@@ -104,7 +110,8 @@ static thr_exchange cheapest_joint(const tour *t, int i, int k, double most)
   return best;
 }
 
-/* Cuts the part between two places of one node off where that saves more than joining it again costs. */
+/* Cuts the part between two places of one node off where that saves more than joining it again
+ * costs. */
 static bool cut_and_join(tour *t, int i, int k)
 {
   thr_exchange x = thr_threading_exchange(&t->ring, i, k, false);

@@ -1,10 +1,13 @@
-/* Cords from passes and ends: pairings at the nodes, chosen so that all passes of a component hang together.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cords from passes and ends: pairings at the nodes, chosen so that all passes of a component hang
+ * together.
  *
- * Bouchet's greedy (Greedy algorithm and symmetric matroids, Math. Programming 38, 1987): nodes in order of regret, each with
- * the cheapest pairing that can still be completed; then exchanges join what is left apart.
+ * Bouchet's greedy (Greedy algorithm and symmetric matroids, Math. Programming 38, 1987): nodes in
+ * order of regret, each with the cheapest pairing that can still be completed; then exchanges join
+ * what is left apart.
  *
- * Example: at a crossing of two circuits the straight pairing leaves two; if nothing else joins them, the next cheapest is taken
- * there. */
+ * Example: at a crossing of two circuits the straight pairing leaves two; if nothing else joins
+ * them, the next cheapest is taken there. */
 #include "tortuosity/cords/join.h"
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
@@ -29,21 +32,24 @@ static int list_ends(const thr_turning_columns *turning_columns, const int *ends
   return n;
 }
 
-thr_status thr_join_init(thr_join *j, const thr_turning_columns *turning_columns, const int *passes, const int *ends,
-                         thr_err *err)
+thr_status thr_join_init(thr_join *j, const thr_turning_columns *turning_columns, const int *passes,
+                         const int *ends, thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   *j = (thr_join){.c = turning_columns};
-  int n = ends ? list_ends(turning_columns, ends, NULL) : 0, (*pair)[2] = thr_calloc((size_t)n, sizeof *pair);
+  int n = ends ? list_ends(turning_columns, ends, NULL) : 0,
+      (*pair)[2] = thr_calloc((size_t)n, sizeof *pair);
   if (!pair) return thr_nomem(err);
   if (ends) list_ends(turning_columns, ends, pair);
-  thr_status st = thr_multigraph_init(&j->g, frame, turning_columns->n_components, passes, (const int(*)[2])pair, n, err);
+  thr_status st = thr_multigraph_init(&j->g, frame, turning_columns->n_components, passes,
+                                      (const int(*)[2])pair, n, err);
   if (!st && !(j->mate = thr_calloc((size_t)j->g.n_darts, sizeof *j->mate))) st = thr_nomem(err);
   for (int d = 0; d < j->g.n_darts && !st; d++)
     j->mate[d] = -1;
   for (int v = 0; v < frame->n_nodes && !st; v++)
     if ((j->g.first[v + 1] - j->g.first[v]) % 2)
-      st = thr_fail(err, THR_EINPUT, "node %s has an odd number of passes and ends", frame->name[v]);
+      st =
+          thr_fail(err, THR_EINPUT, "node %s has an odd number of passes and ends", frame->name[v]);
   free(pair);
   if (st) thr_join_destroy(j);
   return st;
@@ -60,7 +66,9 @@ int thr_join_count(const thr_join *j)
   const int *first = j->g.first + j->c->f->n_nodes;
   int n = 0;
   for (int k = 0; k < j->c->n_components; k++)
-    n += thr_join_open(j, k) ? (first[k + 1] - first[k]) / 2 : j->c->task->end_allowed ? 1 : j->c->task->cords;
+    n += thr_join_open(j, k)       ? (first[k + 1] - first[k]) / 2
+         : j->c->task->end_allowed ? 1
+                                   : j->c->task->cords;
   return n;
 }
 
@@ -75,8 +83,12 @@ double thr_join_price(const thr_join *j, int a, int b)
 {
   int ha = j->g.half[a], hb = j->g.half[b];
   if (ha < 0 || hb < 0) return ha == hb ? thr_join_forbidden : 0;
-  if (ha != hb) return (double)j->c->weight[thr_turning_column(j->c, ha, hb)] * 0x1p-44; /* 2^-THR_TURNING_BITS */
-  return thr_degree(j->c->f, j->g.tail[a]) == 1 ? thr_turn_price(j->c->f, j->c->task->cost, ha ^ 1, ha) : thr_join_forbidden;
+  if (ha != hb)
+    return (double)j->c->weight[thr_turning_column(j->c, ha, hb)] *
+           0x1p-44; /* 2^-THR_TURNING_BITS */
+  return thr_degree(j->c->f, j->g.tail[a]) == 1
+             ? thr_turn_price(j->c->f, j->c->task->cost, ha ^ 1, ha)
+             : thr_join_forbidden;
 }
 
 static double pair_price(const void *of, int a, int b)
@@ -86,7 +98,8 @@ static double pair_price(const void *of, int a, int b)
 
 thr_status thr_join_threading(thr_join *j, thr_threading *threading, thr_err *err)
 {
-  return thr_threading_init(threading, j->c->f, &j->g, j->mate, pair_price, j, j->c->task->tube, err);
+  return thr_threading_init(threading, j->c->f, &j->g, j->mate, pair_price, j, j->c->task->tube,
+                            err);
 }
 
 void thr_join_measure(thr_join *j)
@@ -120,14 +133,16 @@ static void pair_columns(thr_join *j, const int *x, stock *s)
     for (int i = 0; i < x[k]; i++) {
       int half_a = turning_columns->half[k][0], half_b = turning_columns->half[k][1];
       int a = take(&s->head[half_a], s->next);
-      int b = take(half_b >= 0 ? &s->head[half_b] : &s->end_first[thr_tail(turning_columns->f, half_a)], s->next);
+      int b =
+          take(half_b >= 0 ? &s->head[half_b] : &s->end_first[thr_tail(turning_columns->f, half_a)],
+               s->next);
       if (a >= 0 && b >= 0) thr_set_pair(j->mate, a, b);
     }
   }
 }
 
-/* The open cords of a component are one set, and every closed one is its own: joins them over equal passes. Is a component one
- * set then? first: [n_components] scratch. */
+/* The open cords of a component are one set, and every closed one is its own: joins them over equal
+ * passes. Is a component one set then? first: [n_components] scratch. */
 static bool join_all(thr_join *j, const int *cord, int n_cords, int *parent, int *first)
 {
   const thr_turning_columns *turning_columns = j->c;
@@ -148,7 +163,8 @@ static bool join_all(thr_join *j, const int *cord, int n_cords, int *parent, int
   thr_transition_join_equal(&j->g, cord, parent, j->mate);
   for (int d = 0; d < j->g.n_darts && single; d++)
     if (j->g.tail[d] < turning_columns->f->n_nodes)
-      single = thr_disjoint_find(parent, cord[d]) == thr_disjoint_find(parent, first[turning_columns->component[j->g.tail[d]]]);
+      single = thr_disjoint_find(parent, cord[d]) ==
+               thr_disjoint_find(parent, first[turning_columns->component[j->g.tail[d]]]);
   return single;
 }
 
@@ -156,11 +172,13 @@ thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *er
 {
   const thr_frame *frame = j->c->f;
   size_t darts = (size_t)j->g.n_darts;
-  stock s = {thr_calloc(2 * (size_t)frame->n_edges, sizeof *s.head), thr_calloc(darts, sizeof *s.next),
+  stock s = {thr_calloc(2 * (size_t)frame->n_edges, sizeof *s.head),
+             thr_calloc(darts, sizeof *s.next),
              thr_calloc((size_t)frame->n_nodes, sizeof *s.end_first)};
   int *cord = thr_calloc(darts, sizeof *cord), *parent = thr_calloc(darts, sizeof *parent);
   int *first = thr_calloc((size_t)j->c->n_components, sizeof *first);
-  thr_status st = s.head && s.next && s.end_first && cord && parent && first ? THR_OK : thr_nomem(err);
+  thr_status st =
+      s.head && s.next && s.end_first && cord && parent && first ? THR_OK : thr_nomem(err);
   *single = false;
   if (!st) {
     for (int h = 0; h < 2 * frame->n_edges; h++)
@@ -175,7 +193,8 @@ thr_status thr_join_columns(thr_join *j, const int *x, bool *single, thr_err *er
     }
     pair_columns(j, x, &s);
     for (int d = 0; d < j->g.n_darts && !st; d++)
-      if (j->mate[d] < 0 && j->g.tail[d] < frame->n_nodes) st = thr_fail(err, THR_ESOLVER, "turns do not fit the passes");
+      if (j->mate[d] < 0 && j->g.tail[d] < frame->n_nodes)
+        st = thr_fail(err, THR_ESOLVER, "turns do not fit the passes");
   }
   if (!st) {
     *single = join_all(j, cord, thr_threading_label(&j->g, j->mate, cord), parent, first);
@@ -213,8 +232,8 @@ void thr_join_point(const thr_join *j, int *x)
 
 /* ---- tied ---- */
 
-thr_status thr_join_tie(thr_join *j, const thr_turning_columns *turning_columns, const int *passes, const int *ends, bool *found,
-                        thr_err *err)
+thr_status thr_join_tie(thr_join *j, const thr_turning_columns *turning_columns, const int *passes,
+                        const int *ends, bool *found, thr_err *err)
 {
   bool single;
   int *x = thr_calloc((size_t)turning_columns->n_columns, sizeof *x);
@@ -229,8 +248,8 @@ thr_status thr_join_tie(thr_join *j, const thr_turning_columns *turning_columns,
 
 /* ---- from cords ---- */
 
-thr_status thr_join_from_cords(thr_join *j, const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords,
-                               thr_err *err)
+thr_status thr_join_from_cords(thr_join *j, const thr_turning_columns *turning_columns,
+                               const thr_cord *cord, int n_cords, thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   size_t m = (size_t)frame->n_edges, n = (size_t)frame->n_nodes;

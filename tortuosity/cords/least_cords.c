@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Cords of a joined multigraph. */
 #include "graph/framework/frame.h"
 #include "tortuosity/cords/join.h"
@@ -14,12 +15,15 @@ static thr_status make_cord(const thr_threading *threading, int k, thr_cord *cor
   int n = threading->first[k + 1] - threading->first[k] - open;
   if (n < 1) return thr_fail(err, THR_ESOLVER, "a cord without a pass");
   if (!(cord->half = thr_calloc((size_t)n, sizeof *cord->half))) return thr_nomem(err);
-  for (int i = 0; i < n; i++) /* a closed one as it was traced: its first place comes after its first pass */
+  for (int i = 0; i < n;
+       i++) /* a closed one as it was traced: its first place comes after its first pass */
     cord->half[i] = threading->g->half[place[open ? i : (i + n - 1) % n].out];
   thr_walk walk = {n, cord->half, 0, !open};
-  if (open && thr_walk_node(frame, &walk, 0) > thr_walk_node(frame, &walk, n)) thr_walk_reverse(cord->half, n);
-  thr_status st =
-      open ? THR_OK : thr_walk_rotate(&walk, thr_tour_start(frame, NULL, cord->half, n), err); /* its ends come out there */
+  if (open && thr_walk_node(frame, &walk, 0) > thr_walk_node(frame, &walk, n))
+    thr_walk_reverse(cord->half, n);
+  thr_status st = open ? THR_OK
+                       : thr_walk_rotate(&walk, thr_tour_start(frame, NULL, cord->half, n),
+                                         err); /* its ends come out there */
   cord->half = walk.half;
   cord->n_passes = n;
   cord->closed = thr_walk_node(frame, &walk, 0) == thr_walk_node(frame, &walk, n);
@@ -27,13 +31,17 @@ static thr_status make_cord(const thr_threading *threading, int k, thr_cord *cor
 }
 
 /* Component by component. */
-static thr_status make_cords(const thr_threading *threading, const thr_turning_columns *turning_columns, thr_cord *cord,
+static thr_status make_cords(const thr_threading *threading,
+                             const thr_turning_columns *turning_columns, thr_cord *cord,
                              thr_err *err)
 {
   thr_status st = THR_OK;
   for (int component = 0, made = 0; component < turning_columns->n_components; component++)
     for (int k = 0; k < threading->n_cords && !st; k++) {
-      if (turning_columns->component[threading->g->tail[threading->place[threading->first[k]].in]] != component) continue;
+      if (turning_columns
+              ->component[threading->g->tail[threading->place[threading->first[k]].in]] !=
+          component)
+        continue;
       st = make_cord(threading, k, &cord[made], err);
       cord[made].component = component;
       thr_cord_id(made, cord[made].id);
@@ -50,7 +58,8 @@ thr_status thr_join_cords(const thr_join *j, thr_cord *cord, int n_cords, thr_er
   thr_status st = thr_join_threading(&same, &threading, err);
   if (!st) thr_threading_follow(&threading, INT_MAX);
   if (!st && threading.n_cords != n_cords)
-    st = thr_fail(err, THR_ESOLVER, "%d cords instead of the %d asked for", threading.n_cords, n_cords);
+    st = thr_fail(err, THR_ESOLVER, "%d cords instead of the %d asked for", threading.n_cords,
+                  n_cords);
   if (!st) st = make_cords(&threading, j->c, cord, err);
   thr_threading_destroy(&threading);
   for (int i = 0; st && i < n_cords; i++) {

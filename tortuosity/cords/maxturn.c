@@ -1,7 +1,9 @@
-/* The largest turning of any cord: what the hand feels with several cords, each pulled at both ends.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The largest turning of any cord: what the hand feels with several cords, each pulled at both
+ * ends.
  *
- * Minimize the largest of K sums whose total is at least T: no plan is below T / K. Exchanges make the sum of 8th powers small,
- * in which the largest counts most (graph/threading/even.c).
+ * Minimize the largest of K sums whose total is at least T: no plan is below T / K. Exchanges make
+ * the sum of 8th powers small, in which the largest counts most (graph/threading/even.c).
  *
  * Example: cords of 5 and 9 rad with a total of 14 cannot be better than 7 and 7. */
 #include "graph/angle.h"
@@ -21,7 +23,8 @@ typedef struct {
   const thr_turning_columns *c;
   const thr_limits *limits;
   double bound, scale;
-  double enough; /* rad that an end may have to overcome (thr_cord_pulled_turning); 0: the less the better */
+  double enough; /* rad that an end may have to overcome (thr_cord_pulled_turning); 0: the less the
+                    better */
   thr_join best;
   double largest, value; /* of best: the largest total, the sum of the powers */
   int *passes, *ends;
@@ -36,7 +39,9 @@ typedef struct {
 static void keep_better(search *x, thr_join *j, const thr_evener *evener)
 {
   double value = thr_evener_value(evener), largest = thr_evener_largest(evener);
-  if (largest > x->largest * (1 + 1e-12) || (largest >= x->largest * (1 - 1e-12) && value >= x->value * (1 - 1e-12))) return;
+  if (largest > x->largest * (1 + 1e-12) ||
+      (largest >= x->largest * (1 - 1e-12) && value >= x->value * (1 - 1e-12)))
+    return;
   thr_join_destroy(&x->best);
   x->best = *j;
   *j = (thr_join){0};
@@ -44,7 +49,8 @@ static void keep_better(search *x, thr_join *j, const thr_evener *evener)
   x->largest = largest;
 }
 
-/* Exchanges and annealing from j, which becomes the best or is released. Without steps it is taken as it is. */
+/* Exchanges and annealing from j, which becomes the best or is released. Without steps it is taken
+ * as it is. */
 static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
 {
   thr_threading threading;
@@ -65,22 +71,26 @@ static thr_status improve_from(search *x, thr_join *j, int steps, thr_err *err)
   return st;
 }
 
-/* The ends of the best cords; one of them moves to another node where it may be, or two to the same one. */
+/* The ends of the best cords; one of them moves to another node where it may be, or two to the same
+ * one. */
 static void move_ends(search *x)
 {
   const thr_turning_columns *turning_columns = x->c;
   const thr_multigraph *multigraph = &x->best.g;
-  int n = turning_columns->f->n_nodes, virtual_darts = multigraph->n_darts - multigraph->first[n], to = -1,
-      moves = 1 + thr_random_below(&x->state, 2);
+  int n = turning_columns->f->n_nodes, virtual_darts = multigraph->n_darts - multigraph->first[n],
+      to = -1, moves = 1 + thr_random_below(&x->state, 2);
   memset(x->ends, 0, (size_t)n * sizeof *x->ends);
   for (int d = 0; d < multigraph->n_darts; d += 2)
     if (multigraph->half[d] < 0) x->ends[multigraph->tail[d]]++;
   for (int i = 0; i < moves; i++) {
-    int end = multigraph->tail[multigraph->dart[multigraph->first[n] + thr_random_below(&x->state, virtual_darts)] ^ 1];
+    int end = multigraph->tail[multigraph->dart[multigraph->first[n] +
+                                                thr_random_below(&x->state, virtual_darts)] ^
+                               1];
     while (to < 0 || !turning_columns->task->end_allowed[to] ||
            (i == 0 && turning_columns->component[to] != turning_columns->component[end]))
       to = thr_random_below(&x->state, n);
-    if (x->ends[end] == 0 || turning_columns->component[to] != turning_columns->component[end]) continue;
+    if (x->ends[end] == 0 || turning_columns->component[to] != turning_columns->component[end])
+      continue;
     x->ends[end]--;
     x->ends[to]++;
   }
@@ -101,7 +111,8 @@ static void scatter_ends(search *x)
     }
 }
 
-/* Ends far apart, over all nodes where they may be or, if that is allowed, over the feet alone: often a symmetric choice. */
+/* Ends far apart, over all nodes where they may be or, if that is allowed, over the feet alone:
+ * often a symmetric choice. */
 static void spread_ends(search *x, bool at_feet)
 {
   const thr_frame *frame = x->c->f;
@@ -115,7 +126,8 @@ static void spread_ends(search *x, bool at_feet)
   thr_extra_spread_ends(&turning_columns, x->ends);
   for (int v = 0; v < frame->n_nodes; v++)
     total += x->ends[v];
-  if (total < 2 * task.cords * turning_columns.n_components) thr_extra_spread_ends(x->c, x->ends); /* a component without feet */
+  if (total < 2 * task.cords * turning_columns.n_components)
+    thr_extra_spread_ends(x->c, x->ends); /* a component without feet */
 }
 
 /* The shortest passes for x->ends, or nearly. */
@@ -124,25 +136,31 @@ static thr_status make_passes(search *x, bool shortest, thr_err *err)
   const thr_turning_columns *turning_columns = x->c;
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     x->weight[e] = turning_columns->f->length[e] * (shortest ? 1 : 1 + thr_random_unit(&x->state));
-  return thr_extra_passes(turning_columns, x->weight, NULL, turning_columns->task->end_allowed != NULL, x->limits, x->passes,
-                          x->ends, err);
+  return thr_extra_passes(turning_columns, x->weight, NULL,
+                          turning_columns->task->end_allowed != NULL, x->limits, x->passes, x->ends,
+                          err);
 }
 
-/* The same for tube joints: few passes with which every node can be tied, then others at which it turns less. */
+/* The same for tube joints: few passes with which every node can be tied, then others at which it
+ * turns less. */
 static thr_status make_tied_passes(search *x, bool shortest, bool *found, thr_err *err)
 {
   const thr_turning_columns *turning_columns = x->c;
   const thr_frame *frame = turning_columns->f;
   for (int e = 0; e < frame->n_edges; e++)
     x->point[turning_columns->first_extra + e] =
-        shortest ? 0 : thr_random_unit(&x->state) / 2 + (thr_random_below(&x->state, frame->n_edges) == 0);
+        shortest
+            ? 0
+            : thr_random_unit(&x->state) / 2 + (thr_random_below(&x->state, frame->n_edges) == 0);
   for (int v = 0; v < frame->n_nodes; v++) {
     int column = turning_columns->end_column[frame->half[frame->first[v]]];
     if (column >= 0) x->point[column] = x->ends[v];
   }
   thr_status st = thr_tie_round(turning_columns, x->point, x->passes, x->ends, found, err);
-  bool fewer_turns = *found && turning_columns->task->extra_limit != 0 && thr_random_below(&x->state, 2);
-  return st || !fewer_turns ? st : thr_tie_improve(turning_columns, x->limits, x->passes, x->ends, err);
+  bool fewer_turns =
+      *found && turning_columns->task->extra_limit != 0 && thr_random_below(&x->state, 2);
+  return st || !fewer_turns ? st
+                            : thr_tie_improve(turning_columns, x->limits, x->passes, x->ends, err);
 }
 
 static bool within_limits(const search *x)
@@ -159,8 +177,9 @@ static thr_status make_cords(const search *x, thr_join *j, bool *found, thr_err 
 {
   const thr_turning_task *turning_task = x->c->task;
   bool open = turning_task->end_allowed != NULL;
-  thr_status st = turning_task->tube ? thr_join_tie(j, x->c, x->passes, x->ends, found, err)
-                                     : thr_join_init(j, x->c, x->passes, open ? x->ends : NULL, err);
+  thr_status st = turning_task->tube
+                      ? thr_join_tie(j, x->c, x->passes, x->ends, found, err)
+                      : thr_join_init(j, x->c, x->passes, open ? x->ends : NULL, err);
   if (!st && !turning_task->tube) {
     st = thr_join_greedy(j, open ? 0 : turning_task->cords - 1, err);
     *found = !st;
@@ -176,7 +195,8 @@ static thr_status try_passes(search *x, bool shortest, int steps, thr_err *err)
 {
   thr_join j = {0};
   bool found = true;
-  thr_status st = x->c->task->tube ? make_tied_passes(x, shortest, &found, err) : make_passes(x, shortest, err);
+  thr_status st =
+      x->c->task->tube ? make_tied_passes(x, shortest, &found, err) : make_passes(x, shortest, err);
   if (st || !found || !within_limits(x)) return st;
   st = make_cords(x, &j, &found, err);
   if (!st && found) return improve_from(x, &j, steps, err);
@@ -184,7 +204,8 @@ static thr_status try_passes(search *x, bool shortest, int steps, thr_err *err)
   return st;
 }
 
-/* By how much a cord may turn if enough is to be enough: neither end slides over one turn, of 180 degrees at most. */
+/* By how much a cord may turn if enough is to be enough: neither end slides over one turn, of 180
+ * degrees at most. */
 static double most_turning(const search *x)
 {
   return x->enough > 0 ? 2 * x->enough + THR_PI : 0;
@@ -194,7 +215,8 @@ static double most_turning(const search *x)
 static thr_status is_enough(const search *x, double largest, bool *done, thr_err *err)
 {
   int n = thr_join_count(&x->best);
-  if (x->enough <= 0 || largest > most_turning(x) + THR_PI) return THR_OK; /* a closed cord's last turn does not count */
+  if (x->enough <= 0 || largest > most_turning(x) + THR_PI)
+    return THR_OK; /* a closed cord's last turn does not count */
   thr_cord *cord = thr_calloc((size_t)n, sizeof *cord);
   thr_status st = cord ? thr_join_cords(&x->best, cord, n, err) : thr_nomem(err);
   if (!st) *done = *done || thr_cords_pulled_turning(x->c->f, cord, n) <= x->enough;
@@ -210,7 +232,8 @@ static thr_status is_finished(const search *x, bool *done, thr_err *err)
   thr_evener evener = {&threading, x->limits, thr_join_count(&j), x->scale, 1};
   thr_status st = thr_join_threading(&j, &threading, err);
   if (!st) thr_evener_follow(&evener);
-  *done = st || evener.n_cords == 1 || thr_limits_stop(x->limits) || thr_evener_largest(&evener) <= x->bound * (1 + 1e-9);
+  *done = st || evener.n_cords == 1 || thr_limits_stop(x->limits) ||
+          thr_evener_largest(&evener) <= x->bound * (1 + 1e-9);
   double largest = st ? 0 : thr_evener_largest(&evener);
   thr_threading_destroy(&threading);
   return st || *done ? st : is_enough(x, largest, done, err);
@@ -236,8 +259,8 @@ static int steps_of(const search *x)
   return (int)fmax(2000, fmin(1000 * darts, 8e8 / darts));
 }
 
-/* From the plan itself; from other ends; and from the best of all these once more. Counted, not timed, so that the same input
- * gives the same cords. */
+/* From the plan itself; from other ends; and from the best of all these once more. Counted, not
+ * timed, so that the same input gives the same cords. */
 static thr_status run(search *x, thr_err *err)
 {
   enum { ROUNDS = 48, LAST = 2, MORE = 20000 };
@@ -269,7 +292,8 @@ static thr_status run(search *x, thr_err *err)
 }
 
 /* The cords of j take the place of the plan's. */
-static thr_status take_cords(const thr_frame *frame, const thr_join *j, thr_least *plan, thr_err *err)
+static thr_status take_cords(const thr_frame *frame, const thr_join *j, thr_least *plan,
+                             thr_err *err)
 {
   thr_least made = {.task = plan->task, .end_allowed = plan->end_allowed};
   thr_status st = thr_least_cords(frame, j, &made, err);
@@ -282,7 +306,8 @@ static thr_status take_cords(const thr_frame *frame, const thr_join *j, thr_leas
   plan->length = made.length;
   plan->price = made.price;
   plan->turning = made.turning;
-  thr_least_judge(plan, plan->open ? plan->open : "cords that turn most evenly may turn more together");
+  thr_least_judge(plan,
+                  plan->open ? plan->open : "cords that turn most evenly may turn more together");
   return THR_OK;
 }
 
@@ -322,8 +347,9 @@ static thr_status find_bounds(search *x, const thr_least *plan, thr_err *err)
   return st;
 }
 
-static thr_status search_init(search *x, const thr_turning_columns *turning_columns, const thr_limits *limits,
-                              const thr_least *plan, double largest, double bound, thr_err *err)
+static thr_status search_init(search *x, const thr_turning_columns *turning_columns,
+                              const thr_limits *limits, const thr_least *plan, double largest,
+                              double bound, thr_err *err)
 {
   size_t m = (size_t)turning_columns->f->n_edges;
   *x = (search){.c = turning_columns,
@@ -361,7 +387,8 @@ static thr_status find_cords(search *x, const thr_frame *frame, thr_least *plan,
   thr_status st = THR_OK;
   if (x->enough > 0 && x->bound > most_turning(x)) return THR_OK;
   if (x->bound < x->scale * (1 - 1e-9))
-    st = thr_max_turning_small(x->c, plan->cord, plan->n_cords, true, x->limits, &x->best, &found, err);
+    st = thr_max_turning_small(x->c, plan->cord, plan->n_cords, true, x->limits, &x->best, &found,
+                               err);
   if (!st && !found) st = run(x, err);
   return st ? st : keep_best(x, frame, plan, err);
 }
@@ -373,7 +400,8 @@ static bool is_timed(const search *x)
   return x->limits->deadline > 0 || x->limits->work;
 }
 
-/* May annealing go on beside something else? Where work is counted, as if there were a thread for it. */
+/* May annealing go on beside something else? Where work is counted, as if there were a thread for
+ * it. */
 static bool goes_beside(const search *x)
 {
   return x->limits->work || x->limits->threads > 1;
@@ -389,17 +417,21 @@ static thr_anneal_task annealing(const search *x, int first, int rounds)
                            .first = first,
                            .rounds = rounds,
                            .alone = is_timed(x) && !goes_beside(x),
-                           .enough = fmax(x->bound * (1 + near), 2 * x->enough)}; /* half of a cord's turning is always enough */
+                           .enough =
+                               fmax(x->bound * (1 + near),
+                                    2 * x->enough)}; /* half of a cord's turning is always enough */
 }
 
-static bool may_anneal(const search *x, const thr_frame *frame, const thr_least *plan, const thr_anneal_task *task)
+static bool may_anneal(const search *x, const thr_frame *frame, const thr_least *plan,
+                       const thr_anneal_task *task)
 {
   return plan->n_cords >= 2 && !x->limits->brief && !x->c->task->tube && !x->c->task->end_count &&
          largest_price(frame, plan) > task->enough;
 }
 
 /* The plan has these cords, evened out with so many steps, too, if they are better. */
-static thr_status consider(search *x, const thr_frame *frame, thr_least *plan, const thr_cord *cord, int steps, thr_err *err)
+static thr_status consider(search *x, const thr_frame *frame, thr_least *plan, const thr_cord *cord,
+                           int steps, thr_err *err)
 {
   thr_join j = {0};
   thr_status st = thr_join_from_cords(&j, x->c, cord, plan->n_cords, err);
@@ -408,8 +440,8 @@ static thr_status consider(search *x, const thr_frame *frame, thr_least *plan, c
 }
 
 /* The plan's cords annealed, in part of the time; at last not only from anywhere. */
-static thr_status anneal_cords(search *x, const thr_frame *frame, thr_least *plan, double part, int first, int rounds,
-                               thr_err *err)
+static thr_status anneal_cords(search *x, const thr_frame *frame, thr_least *plan, double part,
+                               int first, int rounds, thr_err *err)
 {
   const thr_limits share = thr_limits_part(x->limits, part);
   thr_anneal_task task = annealing(x, first, rounds);
@@ -440,18 +472,20 @@ static thr_status do_one(void *user, int job, const thr_limits *limits, thr_err 
   search *x = b->x;
   thr_least *plan = b->plan;
   if (job == 1) return thr_anneal(x->c, &b->task, limits, b->cooled, plan->n_cords, &b->fell, err);
-  const thr_walk_ask ask = {THR_WALK_TURNING, plan->cord, plan->n_cords, b->least, most_turning(x), x->motions};
+  const thr_walk_ask ask = {THR_WALK_TURNING, plan->cord,      plan->n_cords,
+                            b->least,         most_turning(x), x->motions};
   return thr_walk_bound(x->c, &ask, limits, &plan->proof.walks, &x->bound, &b->better, err);
 }
 
-/* The programme over walks: a higher bound, and cords that it chooses, evened out as the others were. Where another thread is
- * free in part of the time, it anneals. */
+/* The programme over walks: a higher bound, and cords that it chooses, evened out as the others
+ * were. Where another thread is free in part of the time, it anneals. */
 static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
 {
   const double first = .2, most = .7; /* parts of the time */
   const bool timed = is_timed(x);
   thr_status st = anneal_cords(x, frame, plan, first, 0, SHORT, err);
-  const thr_cord *dearest = &plan->cord[thr_walk_dearest(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords)];
+  const thr_cord *dearest =
+      &plan->cord[thr_walk_dearest(x->c, THR_WALK_TURNING, plan->cord, plan->n_cords)];
   beside b = {.x = x, .plan = plan, .task = annealing(x, SHORT, MANY)};
   const bool both = timed && goes_beside(x) && may_anneal(x, frame, plan, &b.task);
   const thr_limits share = both ? thr_limits_part(x->limits, most) : *x->limits;
@@ -460,19 +494,22 @@ static thr_status use_walks(search *x, const thr_frame *frame, thr_least *plan, 
   if (!st && both) st = thr_cords_copy(plan->cord, plan->n_cords, &b.cooled, err);
   if (!st) st = thr_threads_beside(both ? 2 : 1, do_one, &b, &share, err);
   if (!st && b.fell) st = consider(x, frame, plan, b.cooled, 0, err);
-  for (int steps = 0; steps >= 0 && !st && b.better; steps = steps ? -1 : steps_of(x)) /* as they are, and evened out */
+  for (int steps = 0; steps >= 0 && !st && b.better;
+       steps = steps ? -1 : steps_of(x)) /* as they are, and evened out */
     st = consider(x, frame, plan, b.better, steps, err);
   thr_cords_destroy(b.better, plan->n_cords);
   thr_cords_destroy(b.cooled, b.cooled ? plan->n_cords : 0);
-  if (!st) st = anneal_cords(x, frame, plan, 1, both ? SHORT + MANY : SHORT, timed ? MANY : SHORT, err);
+  if (!st)
+    st = anneal_cords(x, frame, plan, 1, both ? SHORT + MANY : SHORT, timed ? MANY : SHORT, err);
   return st;
 }
 
 typedef thr_status way(search *x, const thr_frame *frame, thr_least *plan, thr_err *err);
 
 /* out->bound: what is known already, 0 = nothing. */
-static thr_status improve(way *by, const thr_frame *frame, double enough, thr_orbits_motions *motions, const thr_limits *limits,
-                          thr_least *plan, thr_max_turning *out, thr_err *err)
+static thr_status improve(way *by, const thr_frame *frame, double enough,
+                          thr_orbits_motions *motions, const thr_limits *limits, thr_least *plan,
+                          thr_max_turning *out, thr_err *err)
 {
   thr_turning_columns turning_columns = {0};
   search x = {0};
@@ -480,7 +517,9 @@ static thr_status improve(way *by, const thr_frame *frame, double enough, thr_or
   thr_status st = thr_turning_columns_init(&turning_columns, frame, &plan->task, err);
   if (!st) st = thr_walk_forced(&turning_columns, false, &forced, err);
   out->bound = fmax(out->bound, forced);
-  if (!st) st = search_init(&x, &turning_columns, limits, plan, largest_price(frame, plan), out->bound, err);
+  if (!st)
+    st = search_init(&x, &turning_columns, limits, plan, largest_price(frame, plan), out->bound,
+                     err);
   x.enough = enough;
   x.motions = motions;
   if (!st) st = by(&x, frame, plan, err);
@@ -490,23 +529,24 @@ static thr_status improve(way *by, const thr_frame *frame, double enough, thr_or
   return st;
 }
 
-thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
-                                   thr_max_turning *out, thr_err *err)
+thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const thr_limits *limits,
+                                   thr_least *plan, thr_max_turning *out, thr_err *err)
 {
   *out = (thr_max_turning){0};
   return improve(find_cords, frame, enough, NULL, limits, plan, out, err);
 }
 
-thr_status thr_max_turning_walks(const thr_frame *frame, double enough, thr_orbits_motions *motions, const thr_limits *limits,
-                                 thr_least *plan, thr_max_turning *out, thr_err *err)
+thr_status thr_max_turning_walks(const thr_frame *frame, double enough, thr_orbits_motions *motions,
+                                 const thr_limits *limits, thr_least *plan, thr_max_turning *out,
+                                 thr_err *err)
 {
   return improve(use_walks, frame, enough, motions, limits, plan, out, err);
 }
 
 /* ---- the cord that is hardest to pull ---- */
 
-/* Computes what the harder of two pulled ends of cord k has to overcome, rad. A closed cord begins where it turns sharpest, as
- * thr_join_cords has it. */
+/* Computes what the harder of two pulled ends of cord k has to overcome, rad. A closed cord begins
+ * where it turns sharpest, as thr_join_cords has it. */
 static double pulled_turning(const thr_threading *t, int k)
 {
   const thr_place *place = t->place + t->first[k];
@@ -524,7 +564,8 @@ static double pulled_turning(const thr_threading *t, int k)
   return walk.larger;
 }
 
-/* The largest pulled turning of a cord, and a smooth measure of all of them, of which that makes up most. */
+/* The largest pulled turning of a cord, and a smooth measure of all of them, of which that makes up
+ * most. */
 typedef struct {
   double largest, norm;
 } hardness;
@@ -548,7 +589,8 @@ static bool is_easier(hardness a, hardness b)
   return a.norm < b.norm * (1 - rounding);
 }
 
-/* Changes pairs at random, so many times, and leaves the best that it came by. best: [n_darts] scratch. */
+/* Changes pairs at random, so many times, and leaves the best that it came by. best: [n_darts]
+ * scratch. */
 static void anneal_pulls(thr_evener *evener, int steps, int *best)
 {
   static const double hot = 0.3, cold = 0.01; /* rad */
@@ -564,7 +606,8 @@ static void anneal_pulls(thr_evener *evener, int steps, int *best)
     if (old.n == 0) continue;
     const bool cords = thr_evener_follow(evener);
     const hardness next = cords ? measure_pulls(t) : now;
-    if (cords && (next.norm <= now.norm || thr_random_unit(&evener->state) < exp((now.norm - next.norm) / heat))) {
+    if (cords && (next.norm <= now.norm ||
+                  thr_random_unit(&evener->state) < exp((now.norm - next.norm) / heat))) {
       now = next;
       if (!is_easier(now, least)) continue;
       least = now;
@@ -608,10 +651,12 @@ static thr_status ease_pulls(search *x, const thr_frame *frame, thr_least *plan,
   return st ? st : keep_best(x, frame, plan, err);
 }
 
-thr_status thr_max_turning_pull(const thr_frame *frame, const thr_limits *limits, thr_least *plan, thr_err *err)
+thr_status thr_max_turning_pull(const thr_frame *frame, const thr_limits *limits, thr_least *plan,
+                                thr_err *err)
 {
   thr_max_turning out = {0};
-  thr_limits quiet = *limits; /* counted by itself: what was searched before may have used up time and work */
+  thr_limits quiet =
+      *limits; /* counted by itself: what was searched before may have used up time and work */
   quiet.deadline = 0;
   quiet.work = NULL;
   return improve(ease_pulls, frame, 0, NULL, &quiet, plan, &out, err);
@@ -621,11 +666,13 @@ thr_status thr_max_turning_pull(const thr_frame *frame, const thr_limits *limits
 static thr_status use_table(search *x, const thr_frame *frame, thr_least *plan, thr_err *err)
 {
   bool found = false;
-  thr_status st = thr_max_turning_small(x->c, plan->cord, plan->n_cords, false, x->limits, &x->best, &found, err);
+  thr_status st = thr_max_turning_small(x->c, plan->cord, plan->n_cords, false, x->limits, &x->best,
+                                        &found, err);
   return st || !found ? st : keep_best(x, frame, plan, err);
 }
 
-thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits, thr_least *plan, thr_err *err)
+thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits,
+                                   thr_least *plan, thr_err *err)
 {
   thr_max_turning out = {0};
   return improve(use_table, frame, 0, NULL, limits, plan, &out, err);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The largest turning of any cord in small components, or that of all cords: exact, by the table of
  * graph/threading/small_cords.c. */
 #include "tortuosity/cords/several.h"
@@ -26,8 +27,8 @@ static void table_destroy(table *x)
   free(x->o.end_count);
 }
 
-static thr_status table_init(table *x, const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords,
-                             thr_err *err)
+static thr_status table_init(table *x, const thr_turning_columns *turning_columns,
+                             const thr_cord *cord, int n_cords, thr_err *err)
 {
   const thr_turning_task *turning_task = turning_columns->task;
   const size_t n = (size_t)turning_columns->f->n_nodes;
@@ -36,7 +37,9 @@ static thr_status table_init(table *x, const thr_turning_columns *turning_column
   x->o.cover = turning_task->cover;
   x->o.capacity = turning_task->capacity;
   x->o.turning.cost = turning_task->cost;
-  x->o.ends = turning_task->end_count ? THR_ENDS_COUNTS : turning_task->end_allowed ? THR_ENDS_NODES : THR_ENDS_CLOSED;
+  x->o.ends = turning_task->end_count     ? THR_ENDS_COUNTS
+              : turning_task->end_allowed ? THR_ENDS_NODES
+                                          : THR_ENDS_CLOSED;
   x->o.end_node = thr_calloc(n, sizeof *x->o.end_node);
   x->o.end_count = thr_calloc(n, sizeof *x->o.end_count);
   x->cord = thr_calloc((size_t)n_cords, sizeof *x->cord);
@@ -51,7 +54,8 @@ static thr_status table_init(table *x, const thr_turning_columns *turning_column
   return thr_components_init(&x->parts, turning_columns->f, &x->o, err);
 }
 
-static thr_status improve_component(table *x, int k, bool even, const thr_limits *limits, bool *certain, thr_err *err)
+static thr_status improve_component(table *x, int k, bool even, const thr_limits *limits,
+                                    bool *certain, thr_err *err)
 {
   thr_small_ask ask = {.turning = true, .even = even, .limit = INFINITY};
   for (int i = 0; i < x->n_cords; i++) {
@@ -87,16 +91,17 @@ static thr_status keep_limits(const table *x, bool *keep, thr_err *err)
   for (int i = 0; i < x->n_cords; i++)
     for (int j = 0; j < x->cord[i].n_passes; j++)
       passes[x->cord[i].half[j] >> 1]++;
-  *keep =
-      turning_columns->task->extra_limit < 0 || thr_extra_length(turning_columns, passes) <= turning_columns->task->extra_limit;
+  *keep = turning_columns->task->extra_limit < 0 ||
+          thr_extra_length(turning_columns, passes) <= turning_columns->task->extra_limit;
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     *keep &= passes[e] <= turning_columns->most[e];
   free(passes);
   return THR_OK;
 }
 
-thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords, bool even,
-                                 const thr_limits *limits, thr_join *j, bool *found, thr_err *err)
+thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, const thr_cord *cord,
+                                 int n_cords, bool even, const thr_limits *limits, thr_join *j,
+                                 bool *found, thr_err *err)
 {
   table x;
   thr_join new = {0};

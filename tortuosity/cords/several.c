@@ -1,5 +1,7 @@
-/* Plans with several closed cords in every component, to begin the search with: covers by short circuits, the same number of
- * passes everywhere, and in tiny frameworks all choices of extra passes. Internal to tortuosity/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Plans with several closed cords in every component, to begin the search with: covers by short
+ * circuits, the same number of passes everywhere, and in tiny frameworks all choices of extra
+ * passes. Internal to tortuosity/.
  *
  * Example: of a cube its six faces cover every edge twice, in six closed cords. */
 #include "tortuosity/cords/several.h"
@@ -7,12 +9,14 @@
 
 #include <stdlib.h>
 
-/* Where the shortest passes do not hold as many closed cords: the same even number over all edges, which holds many. */
+/* Where the shortest passes do not hold as many closed cords: the same even number over all edges,
+ * which holds many. */
 static thr_status even_passes(thr_branch *branch, int *passes, thr_err *err)
 {
   const thr_turning_task *turning_task = branch->c->task;
   thr_status st = THR_OK;
-  for (int n = turning_task->cover + turning_task->cover % 2; n <= turning_task->most_passes && !branch->found && !st; n += 2) {
+  for (int n = turning_task->cover + turning_task->cover % 2;
+       n <= turning_task->most_passes && !branch->found && !st; n += 2) {
     for (int e = 0; e < branch->c->f->n_edges; e++)
       passes[e] = n > branch->c->cover[e] ? n : branch->c->cover[e] + branch->c->cover[e] % 2;
     st = thr_branch_try(branch, passes, NULL, err);
@@ -20,7 +24,8 @@ static thr_status even_passes(thr_branch *branch, int *passes, thr_err *err)
   return st;
 }
 
-/* Short circuits through all edges, from edge number first on; fewer than asked for get more, more are joined. */
+/* Short circuits through all edges, from edge number first on; fewer than asked for get more, more
+ * are joined. */
 static thr_status try_cover(thr_branch *branch, int first, int *passes, thr_err *err)
 {
   thr_join few, j = {0};
@@ -95,7 +100,8 @@ thr_status thr_several_plans(thr_branch *branch, thr_err *err)
 {
   int *passes = thr_calloc((size_t)branch->c->f->n_edges, sizeof *passes);
   if (!passes) return thr_nomem(err);
-  thr_status st = branch->c->task->tube ? try_tied(branch, passes, err) : try_covers(branch, passes, err);
+  thr_status st =
+      branch->c->task->tube ? try_tied(branch, passes, err) : try_covers(branch, passes, err);
   if (!st) st = even_passes(branch, passes, err);
   if (!st) st = try_all_passes(branch, passes, err);
   free(passes);

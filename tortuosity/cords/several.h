@@ -1,4 +1,6 @@
-/* Several cords: chosen together, the one that turns most as little as possible, different from each other. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Several cords: chosen together, the one that turns most as little as possible, different from
+ * each other. */
 #ifndef THR_SEVERAL_H
 #define THR_SEVERAL_H
 
@@ -7,83 +9,102 @@
 #include "tortuosity/cords/join.h"
 #include "tortuosity/proof/branch.h"
 
-/* ---- several.c: Plans with several closed cords in every component, to begin the search with: covers by short circuits, the
- * same number of passes everywhere, and in tiny frameworks all choices of extra passes. */
+/* ---- several.c: Plans with several closed cords in every component, to begin the search with:
+ * covers by short circuits, the same number of passes everywhere, and in tiny frameworks all
+ * choices of extra passes. */
 
-/* Tries short circuits over all edges, from each edge on in small frameworks; where nothing is found the same even number of
- * passes over all edges; and in very small ones all choices of at most 3 extra passes of every edge. A framework of n edges that
- * is small takes n covers, each of O(n^2) exchanges at worst. With tube joints, whose nodes circuits alone do not tie, tied cords
- * take the place of the covers: of few passes, and the circuits missing through passes of their own. */
+/* Tries short circuits over all edges, from each edge on in small frameworks; where nothing is
+ * found the same even number of passes over all edges; and in very small ones all choices of at
+ * most 3 extra passes of every edge. A framework of n edges that is small takes n covers, each of
+ * O(n^2) exchanges at worst. With tube joints, whose nodes circuits alone do not tie, tied cords
+ * take the place of the covers: of few passes, and the circuits missing through passes of their
+ * own. */
 thr_status thr_several_plans(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
-/* ---- maxturn.c: The largest turning of any cord: what the hand feels with several cords, each pulled at both ends. */
+/* ---- maxturn.c: The largest turning of any cord: what the hand feels with several cords, each
+ * pulled at both ends. */
 
 typedef struct {
   double largest; /* price of the turns of the cord that turns most */
-  double bound;   /* no plan of the task has less: the proved least of a component's cords, shared out evenly, at least */
+  double bound; /* no plan of the task has less: the proved least of a component's cords, shared out
+                   evenly, at least */
 } thr_max_turning;
 
-/* Evens out the turning of the cords in plan: of small components exactly (tortuosity/cords/maxturn_small.c), else by
- * exchanges: tails and heads of two open cords that meet at a node, parts cut off one
- * cord and joined to another, parts run the other way round, ends moved to the other pass at their node; those that lower the sum
- * of the 8th powers of the cords' prices (so the largest counts most), and by simulated annealing a counted number at random. The
- * same from other ends, where the task allows them, and from other extra passes within its limits. With tube joints all of them
- * leave every node tied. Cords, prices, turning and
- * length of plan change; its proof (of the sum) still holds, its claim of optimality (of the sum) may not. Stops when the largest
- * is at the bound, when the count is used up, or by the limits (no error). The same input gives the same cords.
- * enough > 0, rad: it also stops as soon as that is no less than any cord's thr_cord_pulled_turning, or at once if some cord is
- * known to turn by more than twice that and 180 degrees. */
-thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const thr_limits *limits, thr_least *plan,
-                                   thr_max_turning *out, thr_err *err) THR_MUST_CHECK;
-
-/* What the programme over walks adds for open cords (tortuosity/cords/walk_bound.c): raises out->bound, of which plan.proof then
- * has the walks, and changes the cords if it finds better ones; also where the limits stop it. motions: near ones will do; NULL:
- * none. */
-thr_status thr_max_turning_walks(const thr_frame *frame, double enough, thr_orbits_motions *motions, const thr_limits *limits,
-                                 thr_least *plan, thr_max_turning *out, thr_err *err) THR_MUST_CHECK;
-
-/* Lowers what an end of the cord that is hardest to pull has to overcome (thr_cord_pulled_turning; closed cords begin where they
- * turn sharpest), by simulated annealing of exchanges that keep the passes; a counted number, whatever the limits but for an
- * interruption. The plan's cords stay where none are better. O(passes) a step. */
-thr_status thr_max_turning_pull(const thr_frame *frame, const thr_limits *limits, thr_least *plan, thr_err *err) THR_MUST_CHECK;
-
-/* Cords of small components that turn least together, where the plan's turn more: exactly, as thr_max_turning_improve does it. */
-thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits, thr_least *plan,
+/* Evens out the turning of the cords in plan: of small components exactly
+ * (tortuosity/cords/maxturn_small.c), else by exchanges: tails and heads of two open cords that
+ * meet at a node, parts cut off one cord and joined to another, parts run the other way round, ends
+ * moved to the other pass at their node; those that lower the sum of the 8th powers of the cords'
+ * prices (so the largest counts most), and by simulated annealing a counted number at random. The
+ * same from other ends, where the task allows them, and from other extra passes within its limits.
+ * With tube joints all of them leave every node tied. Cords, prices, turning and length of plan
+ * change; its proof (of the sum) still holds, its claim of optimality (of the sum) may not. Stops
+ * when the largest is at the bound, when the count is used up, or by the limits (no error). The
+ * same input gives the same cords. enough > 0, rad: it also stops as soon as that is no less than
+ * any cord's thr_cord_pulled_turning, or at once if some cord is known to turn by more than twice
+ * that and 180 degrees. */
+thr_status thr_max_turning_improve(const thr_frame *frame, double enough, const thr_limits *limits,
+                                   thr_least *plan, thr_max_turning *out,
                                    thr_err *err) THR_MUST_CHECK;
 
-/* ---- maxturn_small.c: The largest turning of any cord in small components, or that of all cords: exact, by the table of
- * graph/threading/small_cords.c. */
+/* What the programme over walks adds for open cords (tortuosity/cords/walk_bound.c): raises
+ * out->bound, of which plan.proof then has the walks, and changes the cords if it finds better
+ * ones; also where the limits stop it. motions: near ones will do; NULL: none. */
+thr_status thr_max_turning_walks(const thr_frame *frame, double enough, thr_orbits_motions *motions,
+                                 const thr_limits *limits, thr_least *plan, thr_max_turning *out,
+                                 thr_err *err) THR_MUST_CHECK;
 
-/* Cords of which the one that turns most turns least (even), or that turn least together, as many in every component as the
- * n_cords given ones are, which they are or improve. *found false: a component is too large, or the table's cords pass an edge
- * too often or are too long for the task; then j is as it was. */
-thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, const thr_cord *cord, int n_cords, bool even,
-                                 const thr_limits *limits, thr_join *j, bool *found, thr_err *err) THR_MUST_CHECK;
+/* Lowers what an end of the cord that is hardest to pull has to overcome (thr_cord_pulled_turning;
+ * closed cords begin where they turn sharpest), by simulated annealing of exchanges that keep the
+ * passes; a counted number, whatever the limits but for an interruption. The plan's cords stay
+ * where none are better. O(passes) a step. */
+thr_status thr_max_turning_pull(const thr_frame *frame, const thr_limits *limits, thr_least *plan,
+                                thr_err *err) THR_MUST_CHECK;
 
-/* ---- distinct.c: Different cords over every edge: which cord takes which passes is exchanged until every edge is passed by
- * enough of them. */
+/* Cords of small components that turn least together, where the plan's turn more: exactly, as
+ * thr_max_turning_improve does it. */
+thr_status thr_least_turning_small(const thr_frame *frame, const thr_limits *limits,
+                                   thr_least *plan, thr_err *err) THR_MUST_CHECK;
 
-/* Changes cord[n_cords], a plan of the options (whose array is owned) of just so many cords, so that more edges are passed by
- * options.distinct different cords: by exchanges at the nodes at random (simulated annealing), which keep the passes and serve
- * the aims, too; where that does not suffice, by detours over the edges that lack cords, as short as can be, and circuits that
- * are then no longer needed left out; and from other[n_cords] (NULL: none), another plan of the options. Cords that keep to the
- * options' greatest length and pull still do, and all together are not longer than length_limit (< 0: none) unless they were.
- * They stay a plan of the options, which is perhaps longer, and are as before where nothing better is found. Counted steps: the
- * same input gives the same cords, unless the limits stop it. */
-thr_status thr_distinct_make(const thr_frame *frame, const thr_request *options, const thr_limits *limits, double length_limit,
-                             const thr_cord *other, thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
+/* ---- maxturn_small.c: The largest turning of any cord in small components, or that of all cords:
+ * exact, by the table of graph/threading/small_cords.c. */
+
+/* Cords of which the one that turns most turns least (even), or that turn least together, as many
+ * in every component as the n_cords given ones are, which they are or improve. *found false: a
+ * component is too large, or the table's cords pass an edge too often or are too long for the task;
+ * then j is as it was. */
+thr_status thr_max_turning_small(const thr_turning_columns *turning_columns, const thr_cord *cord,
+                                 int n_cords, bool even, const thr_limits *limits, thr_join *j,
+                                 bool *found, thr_err *err) THR_MUST_CHECK;
+
+/* ---- distinct.c: Different cords over every edge: which cord takes which passes is exchanged
+ * until every edge is passed by enough of them. */
+
+/* Changes cord[n_cords], a plan of the options (whose array is owned) of just so many cords, so
+ * that more edges are passed by options.distinct different cords: by exchanges at the nodes at
+ * random (simulated annealing), which keep the passes and serve the aims, too; where that does not
+ * suffice, by detours over the edges that lack cords, as short as can be, and circuits that are
+ * then no longer needed left out; and from other[n_cords] (NULL: none), another plan of the
+ * options. Cords that keep to the options' greatest length and pull still do, and all together are
+ * not longer than length_limit (< 0: none) unless they were. They stay a plan of the options, which
+ * is perhaps longer, and are as before where nothing better is found. Counted steps: the same input
+ * gives the same cords, unless the limits stop it. */
+thr_status thr_distinct_make(const thr_frame *frame, const thr_request *options,
+                             const thr_limits *limits, double length_limit, const thr_cord *other,
+                             thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
 
 /* ---- What the files that look for different cords share. Private to them. */
 
-/* Detours of some cords of cord[n_cords] over edges that are passed by fewer than options.distinct different ones, at most so
- * many detours; *done how many there are. A detour leaves a cord at a node, turns back nowhere but at nodes with one edge, and
- * comes back there. Every one is a shortest for its edge. O(half-edges log half-edges + passes) each. */
-thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *options, thr_cord *cord, int n_cords, int most,
-                                int *done, thr_err *err) THR_MUST_CHECK;
+/* Detours of some cords of cord[n_cords] over edges that are passed by fewer than options.distinct
+ * different ones, at most so many detours; *done how many there are. A detour leaves a cord at a
+ * node, turns back nowhere but at nodes with one edge, and comes back there. Every one is a
+ * shortest for its edge. O(half-edges log half-edges + passes) each. */
+thr_status thr_distinct_detours(const thr_frame *frame, const thr_request *options, thr_cord *cord,
+                                int n_cords, int most, int *done, thr_err *err) THR_MUST_CHECK;
 
-/* Leaves out circuits between two visits of a cord to one node that neither cover nor distinct needs, the longest first. Nothing
- * of cords that tie joints. O(passes squared) of a cord for each. */
-thr_status thr_distinct_shorten(const thr_frame *frame, const thr_request *options, thr_cord *cord, int n_cords,
-                                thr_err *err) THR_MUST_CHECK;
+/* Leaves out circuits between two visits of a cord to one node that neither cover nor distinct
+ * needs, the longest first. Nothing of cords that tie joints. O(passes squared) of a cord for each.
+ */
+thr_status thr_distinct_shorten(const thr_frame *frame, const thr_request *options, thr_cord *cord,
+                                int n_cords, thr_err *err) THR_MUST_CHECK;
 
 #endif

@@ -1,10 +1,13 @@
-/* Whether a limit leaves too few walks, decided at prices near the middle of the best ones. Internal to tortuosity/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whether a limit leaves too few walks, decided at prices near the middle of the best ones.
+ * Internal to tortuosity/.
  *
- * The programme over walks that are known is solved by an interior point method, roughly at first, and its multipliers are the
- * prices at which more walks are looked for (primal-dual column generation: J. Gondzio, P. Gonzalez-Brevis & P. Munari, European
- * J. Operational Research 224, 2013). Corners of the programme, which the simplex method gives, swing from look to look: with
- * 12 cords on the creased shell (222 variables) they took 121 looks for what the middle gives in 78. Factors are dense: of many
- * variables they take longer than corners do. */
+ * The programme over walks that are known is solved by an interior point method, roughly at first,
+ * and its multipliers are the prices at which more walks are looked for (primal-dual column
+ * generation: J. Gondzio, P. Gonzalez-Brevis & P. Munari, European J. Operational Research 224,
+ * 2013). Corners of the programme, which the simplex method gives, swing from look to look: with 12
+ * cords on the creased shell (222 variables) they took 121 looks for what the middle gives in 78.
+ * Factors are dense: of many variables they take longer than corners do. */
 #include "tortuosity/cords/walk_model.h"
 #include "lp/solver/lp.h"
 #include "lp/solver/solver.h"
@@ -13,8 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The programme as equations: a column for every walk, then for every variable of the dual one for passes that no walk makes and
- * one for those that are too many. */
+/* The programme as equations: a column for every walk, then for every variable of the dual one for
+ * passes that no walk makes and one for those that are too many. */
 typedef struct {
   thr_scratch own;
   int n_columns, n_entries, *start, *row;
@@ -87,7 +90,8 @@ static thr_status keep_weights(thr_search *search, const double *x, thr_err *err
 static void spend(const thr_walk_programme *p, const equations *e, int iterations)
 {
   const double each = 1.6e-10, of_entry = 30, rows = p->n_variables;
-  thr_limits_spend(p->limits, each * iterations * (rows * rows * rows / 3 + of_entry * e->n_entries));
+  thr_limits_spend(p->limits,
+                   each * iterations * (rows * rows * rows / 3 + of_entry * e->n_entries));
 }
 
 /* The middle for the walks that are known: prices in p->x. */
@@ -98,15 +102,19 @@ static thr_status solve(centre *c, thr_err *err)
   equations e = {0};
   thr_status st = allocate(&e, p, err);
   if (!st) fill(&e, p);
-  c->found = (thr_interior){.x = thr_scratch_array(&e.own, (size_t)e.n_columns, sizeof *c->found.x),
-                            .dual = thr_scratch_array(&e.own, (size_t)p->n_variables, sizeof *c->found.dual)};
+  c->found = (thr_interior){
+      .x = thr_scratch_array(&e.own, (size_t)e.n_columns, sizeof *c->found.x),
+      .dual = thr_scratch_array(&e.own, (size_t)p->n_variables, sizeof *c->found.dual)};
   if (!st) st = thr_scratch_check(&e.own, err);
-  const thr_equations all = {
-      .a = {.n_rows = p->n_variables, .n_columns = e.n_columns, .start = e.start, .row = e.row, .value = e.value},
-      .rhs = p->right,
-      .cost = e.cost,
-      .goal = c->goal,
-      .met = met};
+  const thr_equations all = {.a = {.n_rows = p->n_variables,
+                                   .n_columns = e.n_columns,
+                                   .start = e.start,
+                                   .row = e.row,
+                                   .value = e.value},
+                             .rhs = p->right,
+                             .cost = e.cost,
+                             .goal = c->goal,
+                             .met = met};
   if (!st) st = thr_interior_solve(&all, p->limits, &c->found, err);
   if (!st) st = keep_weights(&p->search, c->found.x, err);
   c->needed = 0;
@@ -119,13 +127,15 @@ static thr_status solve(centre *c, thr_err *err)
   return st;
 }
 
-/* Walks that go with those of number first on: the passes of the best of these are worth nothing, and so on. */
+/* Walks that go with those of number first on: the passes of the best of these are worth nothing,
+ * and so on. */
 static thr_status look_beside(thr_walk_programme *p, int first, int *added, thr_err *err)
 {
   enum { TIMES = 4 };
   thr_status st = THR_OK;
   memcpy(p->try, p->x, (size_t)p->n_variables * sizeof *p->try);
-  for (int i = 0; i < TIMES && first < p->search.pool.count && !st && !thr_limits_stop(p->limits); i++) {
+  for (int i = 0; i < TIMES && first < p->search.pool.count && !st && !thr_limits_stop(p->limits);
+       i++) {
     const thr_row *row = &p->search.pool.row[first];
     for (int k = 0; k < row->n; k++)
       if (row->column[k] < p->n_edges) p->try[row->column[k]] = 0;
@@ -152,7 +162,8 @@ static bool is_decided(centre *c, int added)
 
 thr_status thr_walk_centre(thr_walk_programme *p, int most_looks, thr_err *err)
 {
-  const double rough = .1, far = 1.1; /* error of the first look; of the cords that are needed, times those that there are */
+  const double rough = .1, far = 1.1; /* error of the first look; of the cords that are needed,
+                                         times those that there are */
   centre c = {.p = p, .goal = rough};
   thr_status st = THR_OK;
   for (int i = 0; i < most_looks && !st && !thr_limits_stop(p->limits); i++) {
@@ -161,7 +172,8 @@ thr_status thr_walk_centre(thr_walk_programme *p, int most_looks, thr_err *err)
     st = solve(&c, err);
     if (!st) st = thr_walk_programme_find(p, &added, err);
     if (!st && is_decided(&c, added)) break;
-    if (!st && c.needed > far * p->cords && thr_walk_runs(&p->steps) == 1) st = look_beside(p, before, &added, err);
+    if (!st && c.needed > far * p->cords && thr_walk_runs(&p->steps) == 1)
+      st = look_beside(p, before, &added, err);
   }
   return st;
 }

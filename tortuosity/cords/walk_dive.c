@@ -1,4 +1,6 @@
-/* Cords that a programme over walks chooses: by diving, and among all its walks. Internal to tortuosity/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cords that a programme over walks chooses: by diving, and among all its walks. Internal to
+ * tortuosity/. */
 #include "graph/framework/frame.h"
 #include "graph/random.h"
 #include "lp/solver/lp.h"
@@ -41,12 +43,14 @@ static thr_status take(dive *d, const thr_row *row, thr_err *err)
   d->n_cords++;
   for (int k = 0; k < row->n; k++) {
     const int j = row->column[k];
-    if (!is_price_of_cord(d->p, j)) d->left[j] = fmax(0, d->left[j] + (row->value ? row->value[k] : 1));
+    if (!is_price_of_cord(d->p, j))
+      d->left[j] = fmax(0, d->left[j] + (row->value ? row->value[k] : 1));
   }
   return THR_OK;
 }
 
-/* Of the walks that serve, the one with the largest column; or any, drawn as often as its column says. -1: there is none. */
+/* Of the walks that serve, the one with the largest column; or any, drawn as often as its column
+ * says. -1: there is none. */
 static int choose_walk(dive *d)
 {
   const thr_search *search = &d->p->search;
@@ -112,12 +116,14 @@ static void take_off(dive *d, const thr_cord *cord)
     const int h = cord->half[i], end[] = {thr_tail(frame, h), thr_head(frame, h)};
     left[p->edge[h >> 1]] = fmax(0, left[p->edge[h >> 1]] - 1);
     for (int k = 0; k < 2; k++) {
-      const int j = p->node[end[k]], passes = 1 + (!p->steps.closed && i == (k ? cord->n_passes - 1 : 0));
+      const int j = p->node[end[k]],
+                passes = 1 + (!p->steps.closed && i == (k ? cord->n_passes - 1 : 0));
       if (j >= 0) left[j] = fmax(0, left[j] - passes);
     }
   }
   if (p->least > 0)
-    left[p->n_variables - 1] = fmax(0, left[p->n_variables - 1] - thr_walk_price(p->c, p->steps.measure, cord) / p->least);
+    left[p->n_variables - 1] =
+        fmax(0, left[p->n_variables - 1] - thr_walk_price(p->c, p->steps.measure, cord) / p->least);
 }
 
 /* Walks in a part of the time; where that ends it, those will do. */
@@ -129,7 +135,8 @@ static thr_status first_walks(thr_walk_programme *p, thr_err *err)
   p->limits = &share;
   thr_status st = thr_walk_programme_rounds(p, ROUNDS, err);
   p->limits = limits;
-  if (p->search.outcome == THR_LP_STOPPED && !thr_limits_stop(limits)) p->search.outcome = THR_LP_OPTIMAL;
+  if (p->search.outcome == THR_LP_STOPPED && !thr_limits_stop(limits))
+    p->search.outcome = THR_LP_OPTIMAL;
   return st;
 }
 
@@ -143,17 +150,21 @@ static thr_status run(dive *d, bool *found, thr_err *err)
     for (int j = 0; j < p->n_variables; j++)
       d->cost[j] = -d->left[j];
     st = thr_lp_set_costs(p->search.lp, d->cost, err);
-    if (!st) st = few && step == 0 ? first_walks(p, err) : thr_walk_programme_rounds(p, step ? ROUNDS : FIRST_ROUNDS, err);
+    if (!st)
+      st = few && step == 0 ? first_walks(p, err)
+                            : thr_walk_programme_rounds(p, step ? ROUNDS : FIRST_ROUNDS, err);
     if (st || p->search.outcome != THR_LP_OPTIMAL) break;
     if (!few && -p->search.objective > p->cords - d->n_cords + 1e-6) break;
     st = take_some(d, &taken, err);
   }
-  /* What is kept may do all that is needed before a walk is known: then there is none to fill up with. */
+  /* What is kept may do all that is needed before a walk is known: then there is none to fill up
+   * with. */
   *found = !st && is_covered(d) && (d->n_cords == p->cords || p->search.pool.count > 0);
   return *found && !few ? fill_up(d, &p->search.pool, err) : st;
 }
 
-thr_status thr_walk_dive(thr_walk_programme *p, int units, uint64_t *random, int kept, thr_cord *cord, bool *found, thr_err *err)
+thr_status thr_walk_dive(thr_walk_programme *p, int units, uint64_t *random, int kept,
+                         thr_cord *cord, bool *found, thr_err *err)
 {
   const double dear = p->per_cord > 0 ? p->dearest : 10; /* no pass goes without a walk */
   size_t n = (size_t)p->n_variables;
@@ -180,8 +191,10 @@ thr_status thr_walk_dive(thr_walk_programme *p, int units, uint64_t *random, int
 
 /* ---- among all walks ---- */
 
-/* Walks of at most so many units as columns, their number to be least; the edges' passes as rows. */
-static thr_status make_choice(const thr_walk_programme *p, const int *walk, int n, thr_lp **lp, thr_err *err)
+/* Walks of at most so many units as columns, their number to be least; the edges' passes as rows.
+ */
+static thr_status make_choice(const thr_walk_programme *p, const int *walk, int n, thr_lp **lp,
+                              thr_err *err)
 {
   double *cost = thr_calloc((size_t)n, sizeof *cost), *value = thr_calloc((size_t)n, sizeof *value);
   int *column = thr_calloc((size_t)n, sizeof *column);
@@ -207,7 +220,8 @@ static thr_status make_choice(const thr_walk_programme *p, const int *walk, int 
   return st;
 }
 
-thr_status thr_walk_choose(thr_walk_programme *p, int units, thr_cord *cord, bool *found, thr_err *err)
+thr_status thr_walk_choose(thr_walk_programme *p, int units, thr_cord *cord, bool *found,
+                           thr_err *err)
 {
   const double part = .1; /* of the time */
   const thr_limits share = thr_limits_part(p->limits, part);

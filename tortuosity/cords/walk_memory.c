@@ -1,4 +1,6 @@
-/* What the walks of a programme remember, so that they are not worth going round and round. Internal to tortuosity/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the walks of a programme remember, so that they are not worth going round and round.
+ * Internal to tortuosity/. */
 #include "graph/framework/frame.h"
 #include "tortuosity/cords/walk_model.h"
 
@@ -16,7 +18,8 @@ static const double most_pull_steps = 12e7; /* with a pull */
 /* ---- lists ---- */
 
 /* *to: a copy, the caller's. */
-static thr_status copy_memory(const thr_walk_memory *from, int n, thr_walk_memory **to, thr_err *err)
+static thr_status copy_memory(const thr_walk_memory *from, int n, thr_walk_memory **to,
+                              thr_err *err)
 {
   thr_walk_memory *made = thr_calloc((size_t)n, sizeof *made);
   for (int i = 0; i < n && made; i++) {
@@ -105,8 +108,8 @@ static int place_after(const thr_walk_programme *p, int half)
   return p->steps.measure == THR_WALK_LENGTH ? thr_head(p->c->f, half) : half;
 }
 
-/* Those of the walks in the last optimum, each from the last pass of an edge to the next; returns their number. last: [n_edges].
- * list: NULL, or as many. */
+/* Those of the walks in the last optimum, each from the last pass of an edge to the next; returns
+ * their number. last: [n_edges]. list: NULL, or as many. */
 static int find_rounds(const thr_walk_programme *p, int *last, around *list)
 {
   const thr_search *search = &p->search;
@@ -121,7 +124,8 @@ static int find_rounds(const thr_walk_programme *p, int *last, around *list)
       const int e = row->member[k] >> 1, before = last[e];
       last[e] = k;
       if (before < 0 || p->c->cover[e] != 1) continue;
-      if (list) list[n] = (around){.half = row->member, .from = before, .to = k, .weight = search->dual[i]};
+      if (list)
+        list[n] = (around){.half = row->member, .from = before, .to = k, .weight = search->dual[i]};
       n++;
     }
   }
@@ -137,7 +141,8 @@ static bool has_room(const thr_walk_programme *p, const around *round, const int
 }
 
 /* *added grows by the places at which its edge is remembered now, and was not. */
-static thr_status add_round(thr_walk_programme *p, const around *round, int *there, int *added, thr_err *err)
+static thr_status add_round(thr_walk_programme *p, const around *round, int *there, int *added,
+                            thr_err *err)
 {
   thr_walk_memory *list = list_of(p, round->half[round->from] >> 1);
   thr_status st = list ? THR_OK : thr_nomem(err);
@@ -156,7 +161,8 @@ static thr_status add_rounds(thr_walk_programme *p, int *added, thr_err *err)
 {
   thr_scratch own = {0};
   const size_t m = (size_t)p->c->f->n_edges, n = (size_t)p->c->f->n_nodes;
-  int *last = thr_scratch_array(&own, m, sizeof *last), *there = thr_scratch_array(&own, 2 * m + n, sizeof *there);
+  int *last = thr_scratch_array(&own, m, sizeof *last),
+      *there = thr_scratch_array(&own, 2 * m + n, sizeof *there);
   thr_status st = thr_scratch_check(&own, err);
   const int count = st ? 0 : find_rounds(p, last, NULL);
   around *list = thr_scratch_array(&own, (size_t)count, sizeof *list);
@@ -196,10 +202,12 @@ static thr_status make_steps(thr_walk_programme *p, thr_err *err)
   thr_walk_steps_destroy(&p->steps);
   p->steps = steps;
   st = thr_walk_steps_remember(&p->steps, p->memory, p->n_memories, &why);
-  if (st == THR_EVIOLATED || (!st && !has_table(p))) return thr_fail(err, THR_ELIMIT, "walks remember too much");
+  if (st == THR_EVIOLATED || (!st && !has_table(p)))
+    return thr_fail(err, THR_ELIMIT, "walks remember too much");
   if (st) return thr_fail(err, st, "%s", why.text);
-  int64_t *value =
-      thr_calloc((size_t)thr_walk_levels(p->most_units) * (size_t)p->steps.n * thr_walk_tables(measure), sizeof *value);
+  int64_t *value = thr_calloc((size_t)thr_walk_levels(p->most_units) * (size_t)p->steps.n *
+                                  thr_walk_tables(measure),
+                              sizeof *value);
   if (!value) return thr_nomem(err);
   free(p->value);
   p->value = value;
@@ -223,7 +231,8 @@ static thr_status count_anew(thr_walk_programme *p, thr_err *err)
 }
 
 /* Without what was added: there is no room. */
-static thr_status take_back(thr_walk_programme *p, thr_walk_memory **before, int n_before, thr_err *err)
+static thr_status take_back(thr_walk_programme *p, thr_walk_memory **before, int n_before,
+                            thr_err *err)
 {
   thr_walk_memory *more = p->memory;
   const int n_more = p->n_memories;

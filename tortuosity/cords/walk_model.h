@@ -1,5 +1,6 @@
-/* The walk model: columns are walks within a limit, measured by length, turning or pull; prices, bounds, dives and searches
- * around them. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The walk model: columns are walks within a limit, measured by length, turning or pull; prices,
+ * bounds, dives and searches around them. */
 #ifndef THR_WALK_MODEL_H
 #define THR_WALK_MODEL_H
 
@@ -15,31 +16,34 @@
 
 #include <stdint.h>
 
-/* ---- walk_bound.c: How much some cord has to turn, or how long it must be, and cords little above that: the programme over
- * walks. */
+/* ---- walk_bound.c: How much some cord has to turn, or how long it must be, and cords little above
+ * that: the programme over walks. */
 
 typedef struct {
   thr_walk_measure measure;
   const thr_cord *cord; /* [n_cords] */
   int n_cords;
-  double least;  /* proved: of the turning of all cords of the component of the dearest one, or their length */
-  double enough; /* > 0: asked is only whether some cord costs more; one limit is tried, and better cords are looked for just
-                    below it */
+  double least; /* proved: of the turning of all cords of the component of the dearest one, or their
+                   length */
+  double enough; /* > 0: asked is only whether some cord costs more; one limit is tried, and better
+                    cords are looked for just below it */
   thr_orbits_motions *motions; /* near ones will do; NULL: none */
 } thr_walk_ask;
 
-/* Raises *bound, on the turning of the cord that turns most, the pulled turning of the one that is hardest to pull, of which no
- * better cords are looked for, or the length of the longest, as far as the highest limit below which
- * the walks are too few: by bisection, in the component of that cord. proof receives the prices, if there are any; what it held
- * is released. *better, NULL at first, receives n_cords cords of which the dearest costs less, if the columns make some; the
- * caller's. Nothing is done for one cord in each component, or where places and units are more than the recursion takes in a
- * moment. A large framework that motions map onto itself is bounded by prices that are the same for all images; then no cords are
- * looked for. */
-thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_walk_ask *ask, const thr_limits *limits,
-                          thr_walk_proof *proof, double *bound, thr_cord **better, thr_err *err) THR_MUST_CHECK;
+/* Raises *bound, on the turning of the cord that turns most, the pulled turning of the one that is
+ * hardest to pull, of which no better cords are looked for, or the length of the longest, as far as
+ * the highest limit below which the walks are too few: by bisection, in the component of that cord.
+ * proof receives the prices, if there are any; what it held is released. *better, NULL at first,
+ * receives n_cords cords of which the dearest costs less, if the columns make some; the caller's.
+ * Nothing is done for one cord in each component, or where places and units are more than the
+ * recursion takes in a moment. A large framework that motions map onto itself is bounded by prices
+ * that are the same for all images; then no cords are looked for. */
+thr_status thr_walk_bound(const thr_turning_columns *columns, const thr_walk_ask *ask,
+                          const thr_limits *limits, thr_walk_proof *proof, double *bound,
+                          thr_cord **better, thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_programme.c: A linear programme over the walks that the cords of one component can be, below a limit on their
- * turning or their length. */
+/* ---- walk_programme.c: A linear programme over the walks that the cords of one component can be,
+ * below a limit on their turning or their length. */
 
 /* A first pass, and what the best walk from there is worth. */
 typedef struct {
@@ -58,147 +62,190 @@ typedef struct {
   thr_walk_memory *memory;       /* what the walks remember, as in a proof; owned */
   int64_t unit;                  /* of turning or length */
   int most_units;                /* that the table is for */
-  int n_variables, *edge, *node; /* [n_edges], [n_nodes] their variables, -1: none. The last one, if least > 0: of all */
+  int n_variables, *edge, *node; /* [n_edges], [n_nodes] their variables, -1: none. The last one, if
+                                    least > 0: of all */
   int n_edges;                   /* variables of edges, which come first */
-  bool lengths;             /* with a pull: walks cost their length, else each as much, and the last variable is a cord's price */
-  double *right, *upper;    /* [n_variables] the right sides: costs of the dual; and what a variable is at most */
-  double scale, longest;    /* of prices to the integers of a proof; with a pull 1 is the length of the longest edge */
-  double enough;            /* with a pull: a bound on the length that ends the search, or so few cords */
-  double dearest;           /* with a pull: price of a pass at most */
-  double per_cord;          /* with a pull, 0: the cords are as many as there may be; else what one of any number costs */
-  int units;                /* of the limit that is being tried */
-  bool to_exclude;          /* is the limit to be excluded, or are walks looked for? */
-  bool excluded;            /* it is, by the prices in trial */
+  bool lengths; /* with a pull: walks cost their length, else each as much, and the last variable is
+                   a cord's price */
+  double *right,
+      *upper; /* [n_variables] the right sides: costs of the dual; and what a variable is at most */
+  double scale, longest; /* of prices to the integers of a proof; with a pull 1 is the length of the
+                            longest edge */
+  double enough;   /* with a pull: a bound on the length that ends the search, or so few cords */
+  double dearest;  /* with a pull: price of a pass at most */
+  double per_cord; /* with a pull, 0: the cords are as many as there may be; else what one of any
+                      number costs */
+  int units;       /* of the limit that is being tried */
+  bool to_exclude; /* is the limit to be excluded, or are walks looked for? */
+  bool excluded;   /* it is, by the prices in trial */
   double *x, *middle, *try; /* [n_variables] the last optimum, the best so far, what is priced */
   int run;                  /* of the recursions, the one that was looked at last */
   double best;              /* number of cords that the best proves, or their length; 0: none yet */
-  int64_t *value;           /* [tables * steps.n * thr_walk_levels(most_units)] of the recursion; owned */
-  thr_walk_start *start;    /* [most first passes] in the order of their worth */
-  bool *passed;             /* [n_edges] by a walk that was found in this look at a recursion, or an image of it */
-  int *half;                /* a walk while it is traced */
+  int64_t *value; /* [tables * steps.n * thr_walk_levels(most_units)] of the recursion; owned */
+  thr_walk_start *start; /* [most first passes] in the order of their worth */
+  bool *passed; /* [n_edges] by a walk that was found in this look at a recursion, or an image of it
+                 */
+  int *half;    /* a walk while it is traced */
   thr_walk_proof trial;
   thr_search search; /* rows: index is the number of units, member the walk's half-edges in order */
   thr_pool walks;    /* of all limits so far */
 } thr_walk_programme;
 
-/* For the component of the cord that turns most, or is longest, with a unit of which most of its turns, or edges, are nearly
- * whole numbers. least: the proved least of the turning of that component's cords together, or of their length. THR_ELIMIT: too
- * large for the recursion. On failure programme is to be destroyed too. */
-thr_status thr_walk_programme_init(thr_walk_programme *programme, const thr_turning_columns *columns, thr_walk_measure measure,
-                                   const thr_cord *cord, int n_cords, double least, const thr_limits *limits,
-                                   thr_err *err) THR_MUST_CHECK;
+/* For the component of the cord that turns most, or is longest, with a unit of which most of its
+ * turns, or edges, are nearly whole numbers. least: the proved least of the turning of that
+ * component's cords together, or of their length. THR_ELIMIT: too large for the recursion. On
+ * failure programme is to be destroyed too. */
+thr_status thr_walk_programme_init(thr_walk_programme *programme,
+                                   const thr_turning_columns *columns, thr_walk_measure measure,
+                                   const thr_cord *cord, int n_cords, double least,
+                                   const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
-/* The same for all cords of a component within options.max_pull, as many as suffice; or if lengths count a given number: then a
- * variable more is the price of a cord, and walks cost their length. units are set. cord: of which one that pulls hardest says
- * what unit is used. */
-thr_status thr_walk_programme_init_pull(thr_walk_programme *programme, const thr_turning_columns *columns,
-                                        const thr_request *options, const thr_cord *cord, int n_cords, int component,
-                                        bool lengths, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+/* The same for all cords of a component within options.max_pull, as many as suffice; or if lengths
+ * count a given number: then a variable more is the price of a cord, and walks cost their length.
+ * units are set. cord: of which one that pulls hardest says what unit is used. */
+thr_status thr_walk_programme_init_pull(thr_walk_programme *programme,
+                                        const thr_turning_columns *columns,
+                                        const thr_request *options, const thr_cord *cord,
+                                        int n_cords, int component, bool lengths,
+                                        const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 void thr_walk_programme_destroy(thr_walk_programme *programme);
 
-/* What has the same edge[n_edges] or node[n_nodes], the lowest of each, has one price from now on (tortuosity/proof/orbits.c).
- * That proves as much where all are images of each other, and walks that are images of each other are one row; but cords cannot
- * be chosen from them. Before any walk is known. */
-thr_status thr_walk_programme_merge(thr_walk_programme *programme, const int *edge, const int *node, thr_err *err) THR_MUST_CHECK;
+/* What has the same edge[n_edges] or node[n_nodes], the lowest of each, has one price from now on
+ * (tortuosity/proof/orbits.c). That proves as much where all are images of each other, and walks
+ * that are images of each other are one row; but cords cannot be chosen from them. Before any walk
+ * is known. */
+thr_status thr_walk_programme_merge(thr_walk_programme *programme, const int *edge, const int *node,
+                                    thr_err *err) THR_MUST_CHECK;
 
 /* Price of so many units, rounded down. */
 double thr_walk_programme_price(const thr_walk_programme *programme, int units);
 
-/* Starts with the walks of at most so many units that are known. price: of a pass that no walk makes. */
-thr_status thr_walk_programme_begin(thr_walk_programme *programme, int units, double price, thr_err *err) THR_MUST_CHECK;
+/* Starts with the walks of at most so many units that are known. price: of a pass that no walk
+ * makes. */
+thr_status thr_walk_programme_begin(thr_walk_programme *programme, int units, double price,
+                                    thr_err *err) THR_MUST_CHECK;
 
 /* Adds the walk of a cord of the component. */
-thr_status thr_walk_programme_add(thr_walk_programme *programme, const thr_cord *cord, thr_err *err) THR_MUST_CHECK;
+thr_status thr_walk_programme_add(thr_walk_programme *programme, const thr_cord *cord,
+                                  thr_err *err) THR_MUST_CHECK;
 
-/* Adds walks, at most so many times, until the optimum knows all that it needs or the limit is excluded. */
-thr_status thr_walk_programme_rounds(thr_walk_programme *programme, int most_rounds, thr_err *err) THR_MUST_CHECK;
+/* Adds walks, at most so many times, until the optimum knows all that it needs or the limit is
+ * excluded. */
+thr_status thr_walk_programme_rounds(thr_walk_programme *programme, int most_rounds,
+                                     thr_err *err) THR_MUST_CHECK;
 
-/* Adds the walks that are worth most at prices x[n_variables], as far as the pool has none like them and the last optimum does
- * not know them, counted in *added. Where limits are to be excluded, what the prices prove: best, middle and excluded. Of closed
- * walks a look goes through the recursions only until it has some. */
-thr_status thr_walk_programme_look(thr_walk_programme *programme, const double *x, int *added, thr_err *err) THR_MUST_CHECK;
+/* Adds the walks that are worth most at prices x[n_variables], as far as the pool has none like
+ * them and the last optimum does not know them, counted in *added. Where limits are to be excluded,
+ * what the prices prove: best, middle and excluded. Of closed walks a look goes through the
+ * recursions only until it has some. */
+thr_status thr_walk_programme_look(thr_walk_programme *programme, const double *x, int *added,
+                                   thr_err *err) THR_MUST_CHECK;
 
-/* The same at prices between the last optimum, x, and the best so far; where these find none, at x. */
-thr_status thr_walk_programme_find(thr_walk_programme *programme, int *added, thr_err *err) THR_MUST_CHECK;
+/* The same at prices between the last optimum, x, and the best so far; where these find none, at x.
+ */
+thr_status thr_walk_programme_find(thr_walk_programme *programme, int *added,
+                                   thr_err *err) THR_MUST_CHECK;
 
-/* With a pull: from now on walks are only those that certainly keep to it, as many as one likes at that price each, in lengths of
- * the longest edge. */
+/* With a pull: from now on walks are only those that certainly keep to it, as many as one likes at
+ * that price each, in lengths of the longest edge. */
 void thr_walk_programme_round_up(thr_walk_programme *programme, double per_cord);
 
 /* The best prices so far become the trial. */
 thr_status thr_walk_programme_middle(thr_walk_programme *programme, thr_err *err) THR_MUST_CHECK;
 
-/* Puts together the row of a walk over n half-edges, which has to be added to the pool, without the passes that it knows of. */
-thr_row thr_walk_programme_row(const thr_walk_programme *programme, thr_pool *pool, const int *half, int n);
+/* Puts together the row of a walk over n half-edges, which has to be added to the pool, without the
+ * passes that it knows of. */
+thr_row thr_walk_programme_row(const thr_walk_programme *programme, thr_pool *pool, const int *half,
+                               int n);
 
 /* Keeps the walks for the next limit. */
 thr_status thr_walk_programme_end(thr_walk_programme *programme, thr_err *err) THR_MUST_CHECK;
 
 /* Price of the turns of a cord, its pulled turning, or its length; which one has most. */
-double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord);
-int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords);
+double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure,
+                      const thr_cord *cord);
+int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure,
+                     const thr_cord *cord, int n_cords);
 
-/* ---- walk_pull.c: How long all cords together must be if each keeps to a limit on the pull: the programme over walks. */
+/* ---- walk_pull.c: How long all cords together must be if each keeps to a limit on the pull: the
+ * programme over walks. */
 
-/* *bound: what the cords of a component have together at least, in units of length; 0: nothing was proved. proof, empty at first,
- * receives the prices that prove it. cord: of a plan within the pull. Nothing is done where places and units are more than the
- * recursion takes in a moment. */
-thr_status thr_walk_pull_length(const thr_turning_columns *columns, const thr_request *options, const thr_cord *cord, int n_cords,
-                                int component, const thr_limits *limits, thr_walk_proof *proof, double *bound,
+/* *bound: what the cords of a component have together at least, in units of length; 0: nothing was
+ * proved. proof, empty at first, receives the prices that prove it. cord: of a plan within the
+ * pull. Nothing is done where places and units are more than the recursion takes in a moment. */
+thr_status thr_walk_pull_length(const thr_turning_columns *columns, const thr_request *options,
+                                const thr_cord *cord, int n_cords, int component,
+                                const thr_limits *limits, thr_walk_proof *proof, double *bound,
                                 thr_err *err) THR_MUST_CHECK;
 
-/* Few cords of a component within options.max_pull, short ones where as few may be: by diving on the columns of a programme that
- * prices cords. some, of all components: any cords. cord[most] receives n cords without names; the caller's. *n is 0 if none
- * were found, or more than most. */
-thr_status thr_walk_pull_few(const thr_turning_columns *columns, const thr_request *options, const thr_cord *some, int n_some,
-                             int component, const thr_limits *limits, int most, thr_cord *cord, int *n,
+/* Few cords of a component within options.max_pull, short ones where as few may be: by diving on
+ * the columns of a programme that prices cords. some, of all components: any cords. cord[most]
+ * receives n cords without names; the caller's. *n is 0 if none were found, or more than most. */
+thr_status thr_walk_pull_few(const thr_turning_columns *columns, const thr_request *options,
+                             const thr_cord *some, int n_some, int component,
+                             const thr_limits *limits, int most, thr_cord *cord, int *n,
                              thr_err *err) THR_MUST_CHECK;
 
-/* *excluded: so many cords of the component, at most `cords`, are proved to be too few for options.max_pull; 0: none are that
- * were not known to be. proof, empty at first, receives the prices that prove it. cord: of a plan within the pull, or of any. */
-thr_status thr_walk_pull_too_few(const thr_turning_columns *columns, const thr_request *options, const thr_cord *cord,
-                                 int n_cords, int component, int known, int cords, const thr_limits *limits,
-                                 thr_walk_proof *proof, int *excluded, thr_err *err) THR_MUST_CHECK;
+/* *excluded: so many cords of the component, at most `cords`, are proved to be too few for
+ * options.max_pull; 0: none are that were not known to be. proof, empty at first, receives the
+ * prices that prove it. cord: of a plan within the pull, or of any. */
+thr_status thr_walk_pull_too_few(const thr_turning_columns *columns, const thr_request *options,
+                                 const thr_cord *cord, int n_cords, int component, int known,
+                                 int cords, const thr_limits *limits, thr_walk_proof *proof,
+                                 int *excluded, thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_centre.c: Whether a limit leaves too few walks, decided at prices near the middle of the best ones. */
+/* ---- walk_centre.c: Whether a limit leaves too few walks, decided at prices near the middle of
+ * the best ones. */
 
-/* Of a programme that has begun, and asks whether its limit is excluded: adds walks until it is, or until those that are known
- * are enough for the programme's cords; at most so many looks. programme->search then has the walks' weights. */
-thr_status thr_walk_centre(thr_walk_programme *programme, int most_looks, thr_err *err) THR_MUST_CHECK;
+/* Of a programme that has begun, and asks whether its limit is excluded: adds walks until it is, or
+ * until those that are known are enough for the programme's cords; at most so many looks.
+ * programme->search then has the walks' weights. */
+thr_status thr_walk_centre(thr_walk_programme *programme, int most_looks,
+                           thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_dive.c: Cords that a programme over walks chooses: by diving, and among all its walks. */
+/* ---- walk_dive.c: Cords that a programme over walks chooses: by diving, and among all its walks.
+ */
 
-/* Below so many units: columns of value 1 are fixed, or else the largest, or one drawn at random (NULL: none is), and what is
- * left is solved again with few new walks, until the edges have their passes. cord[programme->cords] receives the walks, *found
- * whether there were enough. kept: so many of them are there already, at the front of cord, and stay. The search is begun and
- * ended here. */
-thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *random, int kept, thr_cord *cord, bool *found,
-                         thr_err *err) THR_MUST_CHECK;
+/* Below so many units: columns of value 1 are fixed, or else the largest, or one drawn at random
+ * (NULL: none is), and what is left is solved again with few new walks, until the edges have their
+ * passes. cord[programme->cords] receives the walks, *found whether there were enough. kept: so
+ * many of them are there already, at the front of cord, and stay. The search is begun and ended
+ * here. */
+thr_status thr_walk_dive(thr_walk_programme *programme, int units, uint64_t *random, int kept,
+                         thr_cord *cord, bool *found, thr_err *err) THR_MUST_CHECK;
 
 /* The same by an integer programme over the walks that are known, in a part of the time. */
-thr_status thr_walk_choose(thr_walk_programme *programme, int units, thr_cord *cord, bool *found, thr_err *err) THR_MUST_CHECK;
+thr_status thr_walk_choose(thr_walk_programme *programme, int units, thr_cord *cord, bool *found,
+                           thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_memory.c: What the walks of a programme remember, so that they are not worth going round and round. */
+/* ---- walk_memory.c: What the walks of a programme remember, so that they are not worth going
+ * round and round. */
 
-/* Of the walks in the last optimum of a programme that has begun, the shortest rounds in which an edge is passed again are
- * remembered from now on; *grown: there were some, and there was room. The recursion and the known walks change with it. Takes
- * the place of thr_walk_programme_end. (R. Roberti & A. Mingozzi, Transportation Science 48, 2014.) */
-thr_status thr_walk_remember(thr_walk_programme *programme, bool *grown, thr_err *err) THR_MUST_CHECK;
+/* Of the walks in the last optimum of a programme that has begun, the shortest rounds in which an
+ * edge is passed again are remembered from now on; *grown: there were some, and there was room. The
+ * recursion and the known walks change with it. Takes the place of thr_walk_programme_end. (R.
+ * Roberti & A. Mingozzi, Transportation Science 48, 2014.) */
+thr_status thr_walk_remember(thr_walk_programme *programme, bool *grown,
+                             thr_err *err) THR_MUST_CHECK;
 
-/* The prices in trial, and what the walks remember, become the proof; what it held is released. trial is as after
- * thr_walk_programme_init. */
-thr_status thr_walk_take_proof(thr_walk_programme *programme, thr_walk_proof *proof, thr_err *err) THR_MUST_CHECK;
+/* The prices in trial, and what the walks remember, become the proof; what it held is released.
+ * trial is as after thr_walk_programme_init. */
+thr_status thr_walk_take_proof(thr_walk_programme *programme, thr_walk_proof *proof,
+                               thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_near.c: Cords near others: some of them are taken away, and a programme over walks chooses what takes their place. */
+/* ---- walk_near.c: Cords near others: some of them are taken away, and a programme over walks
+ * chooses what takes their place. */
 
-/* Lowers the price of the dearest of the cords of the programme's component, cord[programme->cords], which are replaced: that
- * cord and one to three that meet it are dived for anew, with the others kept, as long as that helps or the limits allow, and
- * until none costs more than enough (P. Shaw, "Using constraint programming and local search methods to solve vehicle routing
- * problems", CP 1998). *improved: some were. */
-thr_status thr_walk_near(thr_walk_programme *programme, double enough, thr_cord *cord, bool *improved,
-                         thr_err *err) THR_MUST_CHECK;
+/* Lowers the price of the dearest of the cords of the programme's component,
+ * cord[programme->cords], which are replaced: that cord and one to three that meet it are dived for
+ * anew, with the others kept, as long as that helps or the limits allow, and until none costs more
+ * than enough (P. Shaw, "Using constraint programming and local search methods to solve vehicle
+ * routing problems", CP 1998). *improved: some were. */
+thr_status thr_walk_near(thr_walk_programme *programme, double enough, thr_cord *cord,
+                         bool *improved, thr_err *err) THR_MUST_CHECK;
 
-/* ---- walk_search.c: Short walks that make one more cord: without U-turns but at nodes with one edge. */
+/* ---- walk_search.c: Short walks that make one more cord: without U-turns but at nodes with one
+ * edge. */
 
 typedef struct {
   const thr_turning_columns *c;
@@ -208,19 +255,22 @@ typedef struct {
   int *half, n; /* [2 * n_edges] the walk found last; n = 0: there is none */
 } thr_walk_search;
 
-thr_status thr_walk_search_init(thr_walk_search *walk_search, const thr_turning_columns *turning_columns,
+thr_status thr_walk_search_init(thr_walk_search *walk_search,
+                                const thr_turning_columns *turning_columns,
                                 thr_err *err) THR_MUST_CHECK;
 void thr_walk_search_destroy(thr_walk_search *walk_search);
 
 /* A closed walk of fewest edges through half-edge h. O(sum of the squares of the degrees). */
 void thr_walk_search_closed(thr_walk_search *walk_search, int h);
 
-/* The shortest walk of a component between nodes where cords may end, or back to the same one, over edges with less than
- * most_passes; with them its passes can be paired without U-turns if these could. It may turn back where other passes take its
- * own up. O(edges * sum of the squares of the degrees) at worst. */
+/* The shortest walk of a component between nodes where cords may end, or back to the same one, over
+ * edges with less than most_passes; with them its passes can be paired without U-turns if these
+ * could. It may turn back where other passes take its own up. O(edges * sum of the squares of the
+ * degrees) at worst. */
 void thr_walk_search_open(thr_walk_search *walk_search, int component, const int *passes);
 
-/* Adds the walk found last to passes[n_edges], if that leaves none above most_passes; says whether. */
+/* Adds the walk found last to passes[n_edges], if that leaves none above most_passes; says whether.
+ */
 bool thr_walk_search_add(const thr_walk_search *walk_search, int *passes);
 
 #endif

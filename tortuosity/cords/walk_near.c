@@ -1,5 +1,6 @@
-/* Cords near others: some of them are taken away, and a programme over walks chooses what takes their place. Internal to
- * tortuosity/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Cords near others: some of them are taken away, and a programme over walks chooses what takes
+ * their place. Internal to tortuosity/. */
 #include "graph/framework/frame.h"
 #include "graph/random.h"
 #include "tortuosity/cords/walk_model.h"
@@ -40,7 +41,8 @@ static void count_meetings(near *x, int with)
   const thr_frame *frame = x->p->c->f;
   memset(x->seen, 0, (size_t)frame->n_nodes * sizeof *x->seen);
   for (int k = 0; k < x->cord[with].n_passes; k++)
-    x->seen[thr_tail(frame, x->cord[with].half[k])] = x->seen[thr_head(frame, x->cord[with].half[k])] = true;
+    x->seen[thr_tail(frame, x->cord[with].half[k])] =
+        x->seen[thr_head(frame, x->cord[with].half[k])] = true;
   for (int i = 0; i < x->p->cords; i++) {
     x->meets[i] = 0;
     for (int k = 0; k < x->cord[i].n_passes; k++)
@@ -55,8 +57,8 @@ static void exchange(int *order, int i, int k)
   order[k] = at_i;
 }
 
-/* The dearest cord goes to the end of the order, before it anew - 1 others that meet it, drawn as often as they do and as there
- * is room below the dearest. Returns their number with it. */
+/* The dearest cord goes to the end of the order, before it anew - 1 others that meet it, drawn as
+ * often as they do and as there is room below the dearest. Returns their number with it. */
 static int choose(near *x, int anew)
 {
   const int n = x->p->cords, most = dearest(x);
@@ -121,12 +123,14 @@ static thr_status look(near *x, int anew, double part, bool draw, bool *better, 
   if ((anew = choose(x, anew)) < 2 && n > 1) return THR_OK;
   for (int i = 0; i < n - anew; i++)
     x->try[i] = x->cord[x->order[i]]; /* borrowed */
-  thr_status st = thr_walk_dive(x->p, limit_of(x, anew, part), draw ? &x->random : NULL, n - anew, x->try, &found, err);
+  thr_status st = thr_walk_dive(x->p, limit_of(x, anew, part), draw ? &x->random : NULL, n - anew,
+                                x->try, &found, err);
   if (!st && found) keep_better(x, anew, better);
   return st;
 }
 
-thr_status thr_walk_near(thr_walk_programme *p, double enough, thr_cord *cord, bool *improved, thr_err *err)
+thr_status thr_walk_near(thr_walk_programme *p, double enough, thr_cord *cord, bool *improved,
+                         thr_err *err)
 {
   static const double part[] = {.5, .8, .2, .95};
   near x = {.p = p, .cord = cord, .random = 1};

@@ -1,12 +1,15 @@
-/* A linear programme over the walks that the cords of one component can be, below a limit on their turning or their length.
- * Internal to tortuosity/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A linear programme over the walks that the cords of one component can be, below a limit on their
+ * turning or their length. Internal to tortuosity/.
  *
- * A column for every walk between nodes where cords may end, or every closed one, at the cost of 1: a cord. Every edge needs its
- * passes; at a node where their number is odd, passes and ends are one more; all cords together turn by the least that cords do,
- * or are as long as they must be. What is solved is the dual, whose variables are prices (graph/plan/walk_proof.h) and whose
- * rows, one for every walk, are found by the recursion that checks the proof (P. C. Gilmore & R. E. Gomory 1961). It goes by
- * prices between the last optimum and the best so far, where optima alone would swing (P. Wentges 1997); any prices give a valid
- * bound (A. A. Farley 1990), which ends most searches early. Optima are corners, by the simplex method, or near the middle
+ * A column for every walk between nodes where cords may end, or every closed one, at the cost of 1:
+ * a cord. Every edge needs its passes; at a node where their number is odd, passes and ends are one
+ * more; all cords together turn by the least that cords do, or are as long as they must be. What is
+ * solved is the dual, whose variables are prices (graph/plan/walk_proof.h) and whose rows, one for
+ * every walk, are found by the recursion that checks the proof (P. C. Gilmore & R. E. Gomory 1961).
+ * It goes by prices between the last optimum and the best so far, where optima alone would swing
+ * (P. Wentges 1997); any prices give a valid bound (A. A. Farley 1990), which ends most searches
+ * early. Optima are corners, by the simplex method, or near the middle
  * (tortuosity/cords/walk_centre.c). */
 #include "graph/framework/frame.h"
 #include "lp/solver/lp.h"
@@ -34,20 +37,24 @@ static const double most_pull_steps = 3e7; /* where they are about all cords, an
 static const double per_step = 1e-9;       /* seconds */
 
 /* What the pass after number k of a cord, or the first one for k = -1, adds to it. */
-static double pass_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int k)
+static double pass_price(const thr_turning_columns *columns, thr_walk_measure measure,
+                         const thr_cord *cord, int k)
 {
   int out = cord->half[(k + 1) % cord->n_passes];
   if (measure == THR_WALK_LENGTH) return columns->f->length[out >> 1];
   return k < 0 ? 0 : thr_turn_price(columns->f, columns->task->cost, cord->half[k], out);
 }
 
-/* Of the passes from number -1 on that have a price: closed cords turn where they close, too, if that is not at their ends. */
-static int priced_passes(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord)
+/* Of the passes from number -1 on that have a price: closed cords turn where they close, too, if
+ * that is not at their ends. */
+static int priced_passes(const thr_turning_columns *columns, thr_walk_measure measure,
+                         const thr_cord *cord)
 {
   return cord->n_passes - (measure != THR_WALK_TURNING || columns->task->end_allowed);
 }
 
-double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord)
+double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measure,
+                      const thr_cord *cord)
 {
   double price = 0;
   if (measure == THR_WALK_PULL) return thr_cord_pulled_turning(columns->f, cord);
@@ -56,7 +63,8 @@ double thr_walk_price(const thr_turning_columns *columns, thr_walk_measure measu
   return price;
 }
 
-int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord, int n_cords)
+int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measure,
+                     const thr_cord *cord, int n_cords)
 {
   double most = -1;
   int dearest = 0;
@@ -70,9 +78,11 @@ int thr_walk_dearest(const thr_turning_columns *columns, thr_walk_measure measur
 
 /* ---- set up ---- */
 
-/* A unit of which at most so many make up the whole, and of those up to twice as large the one of which most turns, or edges, of
- * the cord are nearly whole numbers; of lengths no longer than any edge. */
-static int64_t choose_unit(const thr_walk_programme *p, thr_walk_measure measure, const thr_cord *cord, double whole, int units)
+/* A unit of which at most so many make up the whole, and of those up to twice as large the one of
+ * which most turns, or edges, of the cord are nearly whole numbers; of lengths no longer than any
+ * edge. */
+static int64_t choose_unit(const thr_walk_programme *p, thr_walk_measure measure,
+                           const thr_cord *cord, double whole, int units)
 {
   enum { CANDIDATES = 256 };
   const thr_frame *frame = p->c->f;
@@ -107,11 +117,13 @@ static int most_units(const thr_turning_columns *columns, thr_walk_measure measu
   }
   double runs = columns->task->end_allowed ? 1 : length || pull ? nodes : halves / 2;
   double steps = pull ? most_pull_steps : most_steps;
-  double units = fmin(MOST_ENTRIES / (length ? nodes : halves), steps / ((length ? halves : squares) * runs));
+  double units =
+      fmin(MOST_ENTRIES / (length ? nodes : halves), steps / ((length ? halves : squares) * runs));
   return (int)fmin(units, MOST_UNITS);
 }
 
-/* The variable that the lowest of its images has, or a new one (of -1); more stands on its right side. */
+/* The variable that the lowest of its images has, or a new one (of -1); more stands on its right
+ * side. */
 static int number_of(thr_walk_programme *p, int lowest, double right)
 {
   const int j = lowest < 0 ? p->n_variables++ : lowest;
@@ -142,7 +154,8 @@ static void number_variables(thr_walk_programme *p, const int *edge, const int *
 
 static thr_status allocate(thr_walk_programme *p, thr_err *err)
 {
-  size_t n = (size_t)p->c->f->n_nodes, m = (size_t)p->c->f->n_edges, most = n + m + 1, places = (size_t)p->steps.n;
+  size_t n = (size_t)p->c->f->n_nodes, m = (size_t)p->c->f->n_edges, most = n + m + 1,
+         places = (size_t)p->steps.n;
   p->edge = thr_scratch_array(&p->own, m, sizeof *p->edge);
   p->node = thr_scratch_array(&p->own, n, sizeof *p->node);
   p->right = thr_scratch_array(&p->own, most, sizeof *p->right);
@@ -152,7 +165,8 @@ static thr_status allocate(thr_walk_programme *p, thr_err *err)
   p->middle = thr_scratch_array(&p->own, most, sizeof *p->middle);
   p->try = thr_scratch_array(&p->own, most, sizeof *p->try);
   p->start = thr_scratch_array(&p->own, MOST_STARTS, sizeof *p->start);
-  size_t entries = (size_t)thr_walk_levels(p->most_units) * places * thr_walk_tables(p->steps.measure);
+  size_t entries =
+      (size_t)thr_walk_levels(p->most_units) * places * thr_walk_tables(p->steps.measure);
   p->value = thr_calloc(entries, sizeof *p->value);
   p->half = thr_scratch_array(&p->own, entries, sizeof *p->half);
   p->trial.edge = thr_calloc(m, sizeof *p->trial.edge);
@@ -161,18 +175,23 @@ static thr_status allocate(thr_walk_programme *p, thr_err *err)
   return thr_scratch_check(&p->own, err);
 }
 
-static thr_status init(thr_walk_programme *p, const thr_turning_columns *columns, thr_walk_measure measure, const thr_cord *cord,
-                       int n_cords, const thr_cord *most, double whole, double least, bool lengths, const thr_limits *limits,
-                       thr_err *err)
+static thr_status init(thr_walk_programme *p, const thr_turning_columns *columns,
+                       thr_walk_measure measure, const thr_cord *cord, int n_cords,
+                       const thr_cord *most, double whole, double least, bool lengths,
+                       const thr_limits *limits, thr_err *err)
 {
   int component = columns->component[thr_tail(columns->f, most->half[0])], here = 0;
-  *p = (thr_walk_programme){.c = columns, .limits = limits, .component = component, .scale = one, .lengths = lengths};
+  *p = (thr_walk_programme){
+      .c = columns, .limits = limits, .component = component, .scale = one, .lengths = lengths};
   for (int i = 0; i < n_cords; i++)
     here += columns->component[thr_tail(columns->f, cord[i].half[0])] == component;
-  p->cords = !columns->task->end_count ? columns->task->cords : measure == THR_WALK_LENGTH ? here : n_cords;
+  p->cords = !columns->task->end_count    ? columns->task->cords
+             : measure == THR_WALK_LENGTH ? here
+                                          : n_cords;
   p->least = least * (1 - 1e-10);
   p->most_units = most_units(columns, measure, component);
-  if (p->most_units < FEWEST_UNITS) return thr_fail(err, THR_ELIMIT, "the component is too large for walks");
+  if (p->most_units < FEWEST_UNITS)
+    return thr_fail(err, THR_ELIMIT, "the component is too large for walks");
   p->unit = choose_unit(p, measure, most, whole, p->most_units - 1);
   thr_status st = thr_walk_steps_init(&p->steps, columns, measure, component, p->unit, err);
   if (st) return st == THR_EVIOLATED ? THR_ELIMIT : st;
@@ -183,14 +202,17 @@ static thr_status init(thr_walk_programme *p, const thr_turning_columns *columns
   return thr_pool_init(&p->walks, p->n_variables, err);
 }
 
-thr_status thr_walk_programme_init(thr_walk_programme *p, const thr_turning_columns *columns, thr_walk_measure measure,
-                                   const thr_cord *cord, int n_cords, double least, const thr_limits *limits, thr_err *err)
+thr_status thr_walk_programme_init(thr_walk_programme *p, const thr_turning_columns *columns,
+                                   thr_walk_measure measure, const thr_cord *cord, int n_cords,
+                                   double least, const thr_limits *limits, thr_err *err)
 {
   const thr_cord *most = &cord[thr_walk_dearest(columns, measure, cord, n_cords)];
-  return init(p, columns, measure, cord, n_cords, most, thr_walk_price(columns, measure, most), least, false, limits, err);
+  return init(p, columns, measure, cord, n_cords, most, thr_walk_price(columns, measure, most),
+              least, false, limits, err);
 }
 
-/* Prices, of which a pass costs at most most lengths of the longest edge, have as many bits as their sums leave room for. */
+/* Prices, of which a pass costs at most most lengths of the longest edge, have as many bits as
+ * their sums leave room for. */
 static void choose_bits(thr_walk_programme *p, double most)
 {
   const int all = 61; /* in 64 bits */
@@ -199,22 +221,26 @@ static void choose_bits(thr_walk_programme *p, double most)
   frexp(5 * most, &price); /* a pass, its nodes, an end, and a length */
   const int bits = all - price - passes;
   p->trial.bits = bits < THR_TURNING_BITS ? bits : THR_TURNING_BITS;
-  p->scale = ldexp(p->longest, thr_walk_exponent(p->c->f, THR_WALK_LENGTH) - THR_TURNING_BITS + p->trial.bits);
+  p->scale = ldexp(p->longest,
+                   thr_walk_exponent(p->c->f, THR_WALK_LENGTH) - THR_TURNING_BITS + p->trial.bits);
 }
 
-thr_status thr_walk_programme_init_pull(thr_walk_programme *p, const thr_turning_columns *columns, const thr_request *options,
-                                        const thr_cord *cord, int n_cords, int component, bool lengths, const thr_limits *limits,
-                                        thr_err *err)
+thr_status thr_walk_programme_init_pull(thr_walk_programme *p, const thr_turning_columns *columns,
+                                        const thr_request *options, const thr_cord *cord,
+                                        int n_cords, int component, bool lengths,
+                                        const thr_limits *limits, thr_err *err)
 {
   const thr_cord *most = NULL;
   for (int i = 0; i < n_cords; i++)
     if (columns->component[thr_tail(columns->f, cord[i].half[0])] == component &&
-        (!most || thr_walk_price(columns, THR_WALK_PULL, &cord[i]) > thr_walk_price(columns, THR_WALK_PULL, most)))
+        (!most || thr_walk_price(columns, THR_WALK_PULL, &cord[i]) >
+                      thr_walk_price(columns, THR_WALK_PULL, most)))
       most = &cord[i];
   *p = (thr_walk_programme){0};
   if (!most) return THR_ELIMIT;
   const double half = thr_request_most_pulled(options);
-  thr_status st = init(p, columns, THR_WALK_PULL, cord, n_cords, most, half, 0, lengths, limits, err);
+  thr_status st =
+      init(p, columns, THR_WALK_PULL, cord, n_cords, most, half, 0, lengths, limits, err);
   if (st) return st;
   p->units = thr_walk_pull_units(options, p->unit);
   for (int e = 0; e < columns->f->n_edges; e++)
@@ -226,7 +252,8 @@ thr_status thr_walk_programme_init_pull(thr_walk_programme *p, const thr_turning
   return THR_OK;
 }
 
-thr_status thr_walk_programme_merge(thr_walk_programme *p, const int *edge, const int *node, thr_err *err)
+thr_status thr_walk_programme_merge(thr_walk_programme *p, const int *edge, const int *node,
+                                    thr_err *err)
 {
   number_variables(p, edge, node);
   thr_pool_destroy(&p->walks);
@@ -263,7 +290,11 @@ static thr_status set_trial(thr_walk_programme *p, const double *x, thr_err *err
     p->trial.edge[e] = p->edge[e] >= 0 ? whole(x[p->edge[e]], p->scale) : 0;
   for (int v = 0; v < p->c->f->n_nodes; v++)
     p->trial.node[v] = p->node[v] >= 0 ? whole(x[p->node[v]], p->scale) : 0;
-  p->trial.all = p->least > 0 ? whole(ldexp(x[p->n_variables - 1] / p->least, THR_TURNING_BITS - p->steps.exponent), one) : 0;
+  p->trial.all =
+      p->least > 0
+          ? whole(ldexp(x[p->n_variables - 1] / p->least, THR_TURNING_BITS - p->steps.exponent),
+                  one)
+          : 0;
   p->trial.units = p->units;
   return thr_walk_steps_price(&p->steps, &p->trial, err);
 }
@@ -281,20 +312,23 @@ static const int64_t *table_of(const thr_walk_programme *p, bool last)
   return p->value + (last && p->steps.measure == THR_WALK_PULL ? entries : 0);
 }
 
-/* What a walk of a recursion is worth from place i on that goes no further there, or not before its cut turn; last: after that
- * turn, if a pull counts. */
+/* What a walk of a recursion is worth from place i on that goes no further there, or not before its
+ * cut turn; last: after that turn, if a pull counts. */
 static int64_t end_worth(const thr_walk_programme *p, int run, int i, bool last)
 {
   const thr_walk_steps *steps = &p->steps;
   if (!last) return steps->cut[i];
   if (!steps->closed) return steps->end[i];
-  bool home = steps->n_homes > 0 ? steps->group[i] == thr_tail(p->c->f, steps->begin[steps->from[run]].half)
-                                 : steps->spot[i] == steps->spot[steps->begin[run].to];
+  bool home = steps->n_homes > 0
+                  ? steps->group[i] == thr_tail(p->c->f, steps->begin[steps->from[run]].half)
+                  : steps->spot[i] == steps->spot[steps->begin[run].to];
   return home ? 0 : INT64_MIN;
 }
 
-/* The step that the best walk takes from place i with so many units left; NULL: it ends there, or its cut turn is there. */
-static const thr_walk_step *best_step(const thr_walk_programme *p, int run, int i, int units, bool last)
+/* The step that the best walk takes from place i with so many units left; NULL: it ends there, or
+ * its cut turn is there. */
+static const thr_walk_step *best_step(const thr_walk_programme *p, int run, int i, int units,
+                                      bool last)
 {
   const thr_walk_steps *steps = &p->steps;
   const int64_t *table = table_of(p, last);
@@ -319,7 +353,8 @@ static const thr_walk_step *cut_step(const thr_walk_programme *p, int run, int i
   const thr_walk_step *best = NULL;
   int64_t most = end_worth(p, run, i, true);
   for (int k = steps->first[i]; k < steps->first[i + 1]; k++) {
-    const int64_t on = table_of(p, true)[thr_walk_entry(steps->step[k].to, p->units, thr_walk_levels(p->units))];
+    const int64_t on =
+        table_of(p, true)[thr_walk_entry(steps->step[k].to, p->units, thr_walk_levels(p->units))];
     if (thr_walk_is_none(on) || on + steps->step[k].worth <= most) continue;
     most = on + steps->step[k].worth;
     best = &steps->step[k];
@@ -374,7 +409,8 @@ thr_row thr_walk_programme_row(const thr_walk_programme *p, thr_pool *pool, cons
 }
 
 typedef struct {
-  int n, units;  /* passes, in p->half; with a pull units are those of the larger side of the cut turn */
+  int n, units;  /* passes, in p->half; with a pull units are those of the larger side of the cut
+                    turn */
   double weight; /* of its turns, or its length */
 } traced;
 
@@ -404,11 +440,14 @@ static thr_row row_of(thr_walk_programme *p, const traced *walk)
 {
   thr_row row = thr_walk_programme_row(p, &p->search.pool, p->half, walk->n);
   row.index = walk->units;
-  if (p->least > 0) thr_pool_put(&p->search.pool, p->n_variables - 1, -ldexp(walk->weight, -p->steps.exponent) / p->least);
+  if (p->least > 0)
+    thr_pool_put(&p->search.pool, p->n_variables - 1,
+                 -ldexp(walk->weight, -p->steps.exponent) / p->least);
   return row;
 }
 
-/* Of a recursion, the first passes of the walks that are worth most, in that order; returns their number. */
+/* Of a recursion, the first passes of the walks that are worth most, in that order; returns their
+ * number. */
 static int sort_starts(thr_walk_programme *p, int run, int most)
 {
   const thr_walk_step *first;
@@ -434,26 +473,29 @@ static void judge_lengths(thr_walk_programme *p, const double *x, int64_t worth)
   p->excluded = bound >= p->enough * (1 - 1e-9);
 }
 
-/* What the best walk is said to be worth where none is: a small part of what a pass may cost, so that more cords are too few than
- * any plan has. */
+/* What the best walk is said to be worth where none is: a small part of what a pass may cost, so
+ * that more cords are too few than any plan has. */
 static double least_worth(const thr_walk_programme *p)
 {
   return 0x1p-12 * one * p->upper[0];
 }
 
-/* What these prices, of which a walk is worth so much at most, prove. Where none is worth anything they prove it at any scale. */
+/* What these prices, of which a walk is worth so much at most, prove. Where none is worth anything
+ * they prove it at any scale. */
 static void judge_prices(thr_walk_programme *p, const double *x, double worth)
 {
   const double scale = worth > least_worth(p) ? worth : one * p->upper[0];
   double needed = thr_walk_needed(&p->steps, &p->trial, p->least);
-  p->excluded = needed > p->cords * worth * (1 + 1e-9) && thr_walk_component(p->c, &p->trial) == p->component;
+  p->excluded =
+      needed > p->cords * worth * (1 + 1e-9) && thr_walk_component(p->c, &p->trial) == p->component;
   if (needed / worth <= p->best) return;
   p->best = needed / worth;
   for (int j = 0; j < p->n_variables; j++)
     p->middle[j] = x[j] * one / scale;
 }
 
-/* Notes the passes of a walk; are less than a tenth of them new? Then it is much like those of this look. */
+/* Notes the passes of a walk; are less than a tenth of them new? Then it is much like those of this
+ * look. */
 static bool is_like_others(thr_walk_programme *p, int n)
 {
   int old = 0;
@@ -465,12 +507,14 @@ static bool is_like_others(thr_walk_programme *p, int n)
   return false;
 }
 
-/* The walks of a recursion that are worth most, as far as the last optimum does not know them. *most: what any is worth. */
+/* The walks of a recursion that are worth most, as far as the last optimum does not know them.
+ * *most: what any is worth. */
 static thr_status price_run(thr_walk_programme *p, int run, int64_t *most, int *added, thr_err *err)
 {
   thr_status st = THR_OK;
   thr_walk_run(&p->steps, run, p->units, thr_walk_levels(p->units), p->value);
-  thr_limits_spend(p->limits, per_step * p->units * p->steps.first[p->steps.n] * (double)thr_walk_tables(p->steps.measure));
+  thr_limits_spend(p->limits, per_step * p->units * p->steps.first[p->steps.n] *
+                                  (double)thr_walk_tables(p->steps.measure));
   const int n = sort_starts(p, run, p->steps.closed ? 1 : MOST_STARTS);
   if (n > 0 && p->start[0].worth > *most) *most = p->start[0].worth;
   memset(p->passed, 0, (size_t)p->c->f->n_edges * sizeof *p->passed);
@@ -483,7 +527,8 @@ static thr_status price_run(thr_walk_programme *p, int run, int64_t *most, int *
   return st;
 }
 
-/* All recursions say what the prices prove; or those from where the last look ended until there are some walks. */
+/* All recursions say what the prices prove; or those from where the last look ended until there are
+ * some walks. */
 thr_status thr_walk_programme_look(thr_walk_programme *p, const double *x, int *added, thr_err *err)
 {
   thr_status st = set_trial(p, x, err);
@@ -548,11 +593,13 @@ static thr_status carry_walks(const thr_pool *from, int units, thr_pool *to, thr
     if (row->index > units || thr_pool_knows(to, row->name)) continue;
     for (int k = 0; k < row->n; k++)
       thr_pool_put(to, row->column[k], row->value ? row->value[k] : 1);
-    st = thr_pool_add(
-        to,
-        (thr_row){
-            .name = row->name, .index = row->index, .lower = row->lower, .n_members = row->n_members, .member = row->member},
-        err);
+    st = thr_pool_add(to,
+                      (thr_row){.name = row->name,
+                                .index = row->index,
+                                .lower = row->lower,
+                                .n_members = row->n_members,
+                                .member = row->member},
+                      err);
   }
   return st;
 }
@@ -569,7 +616,8 @@ thr_status thr_walk_programme_begin(thr_walk_programme *p, int units, double pri
     p->upper[j] = j + 1 == p->n_variables && p->least > 0 ? 2 * p->cords : price;
   }
   if (!st) st = thr_lp_create(&p->search.lp, p->n_variables, cost, p->upper, err);
-  if (!st && p->per_cord > 0) st = thr_lp_set_bounds(p->search.lp, p->n_variables - 1, p->per_cord, p->per_cord, err);
+  if (!st && p->per_cord > 0)
+    st = thr_lp_set_bounds(p->search.lp, p->n_variables - 1, p->per_cord, p->per_cord, err);
   if (!st) st = carry_walks(&p->walks, units, &p->search.pool, err);
   if (!st) thr_search_use(&p->search, find_walks, p, THR_SLOW);
   free(cost);
@@ -582,15 +630,18 @@ static thr_status look(void *user, thr_err *err)
   thr_walk_programme *p = user;
   const double value = -p->search.objective, near = 1e-9;
   (void)err;
-  const double most = p->enough > 0 ? p->enough : p->cords; /* of cords, where their number counts */
-  const bool enough = p->lengths ? p->best >= value * p->longest * (1 - near) : value <= most * (1 + near);
+  const double most =
+      p->enough > 0 ? p->enough : p->cords; /* of cords, where their number counts */
+  const bool enough =
+      p->lengths ? p->best >= value * p->longest * (1 - near) : value <= most * (1 + near);
   p->search.enough = p->to_exclude && p->search.outcome == THR_LP_OPTIMAL && enough;
   return THR_OK;
 }
 
 thr_status thr_walk_programme_add(thr_walk_programme *p, const thr_cord *cord, thr_err *err)
 {
-  return thr_pool_add(&p->search.pool, thr_walk_programme_row(p, &p->search.pool, cord->half, cord->n_passes), err);
+  return thr_pool_add(&p->search.pool,
+                      thr_walk_programme_row(p, &p->search.pool, cord->half, cord->n_passes), err);
 }
 
 thr_status thr_walk_programme_rounds(thr_walk_programme *p, int most_rounds, thr_err *err)

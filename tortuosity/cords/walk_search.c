@@ -1,11 +1,14 @@
-/* Short walks that make one more cord: without U-turns but at nodes with one edge. Internal to tortuosity/. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Short walks that make one more cord: without U-turns but at nodes with one edge. Internal to
+ * tortuosity/. */
 #include "graph/framework/frame.h"
 #include "tortuosity/cords/walk_model.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-thr_status thr_walk_search_init(thr_walk_search *walk_search, const thr_turning_columns *turning_columns, thr_err *err)
+thr_status thr_walk_search_init(thr_walk_search *walk_search,
+                                const thr_turning_columns *turning_columns, thr_err *err)
 {
   size_t darts = 2 * (size_t)turning_columns->f->n_edges;
   *walk_search = (thr_walk_search){.c = turning_columns};
@@ -14,8 +17,10 @@ thr_status thr_walk_search_init(thr_walk_search *walk_search, const thr_turning_
   walk_search->queue = thr_calloc(darts, sizeof *walk_search->queue);
   walk_search->length = thr_calloc(darts, sizeof *walk_search->length);
   walk_search->half = thr_calloc(darts, sizeof *walk_search->half);
-  return walk_search->by && walk_search->stamp && walk_search->queue && walk_search->length && walk_search->half ? THR_OK
-                                                                                                                 : thr_nomem(err);
+  return walk_search->by && walk_search->stamp && walk_search->queue && walk_search->length &&
+                 walk_search->half
+             ? THR_OK
+             : thr_nomem(err);
 }
 
 void thr_walk_search_destroy(thr_walk_search *walk_search)
@@ -78,7 +83,9 @@ static void reach(thr_walk_search *walk_search, int out, int in, double before)
   walk_search->by[out] = in;
   if (walk_search->stamp[out] == QUEUED) return;
   walk_search->stamp[out] = QUEUED;
-  walk_search->queue[(walk_search->head + walk_search->n_queued++) % (2 * walk_search->c->f->n_edges)] = out;
+  walk_search
+      ->queue[(walk_search->head + walk_search->n_queued++) % (2 * walk_search->c->f->n_edges)] =
+      out;
 }
 
 static int next_queued(thr_walk_search *walk_search)
@@ -90,8 +97,8 @@ static int next_queued(thr_walk_search *walk_search)
   return h;
 }
 
-/* May a walk turn back at the head of in, because the passes over the other edges there are enough to pair all over this one
- * with?
+/* May a walk turn back at the head of in, because the passes over the other edges there are enough
+ * to pair all over this one with?
  */
 static bool absorbs(const thr_frame *frame, const int *passes, int in)
 {
@@ -114,8 +121,8 @@ void thr_walk_search_open(thr_walk_search *walk_search, int component, const int
     walk_search->stamp[h] = 0;
   }
   for (int h = 0; h < 2 * frame->n_edges; h++)
-    if (walk_search->c->component[thr_tail(frame, h)] == component && turning_task->end_allowed[thr_tail(frame, h)] &&
-        passes[h >> 1] < most[h >> 1])
+    if (walk_search->c->component[thr_tail(frame, h)] == component &&
+        turning_task->end_allowed[thr_tail(frame, h)] && passes[h >> 1] < most[h >> 1])
       reach(walk_search, h, -1, 0);
   while (walk_search->n_queued > 0) {
     int in = next_queued(walk_search), v = thr_head(frame, in);
@@ -125,7 +132,8 @@ void thr_walk_search_open(thr_walk_search *walk_search, int component, const int
     }
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++) {
       int out = frame->half[i];
-      if (passes[out >> 1] < most[out >> 1] && (!turns_back(frame, in, out) || absorbs(frame, passes, in)))
+      if (passes[out >> 1] < most[out >> 1] &&
+          (!turns_back(frame, in, out) || absorbs(frame, passes, in)))
         reach(walk_search, out, in, walk_search->length[in]);
     }
   }

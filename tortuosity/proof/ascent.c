@@ -1,10 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A first bound for tube joints, without a linear programme. Internal to tortuosity/.
  *
- * Multipliers on the equations of the half-edges alone leave one problem per node: turns that tie its edges, each at its price
- * less the multipliers of its two half-edges. The cheapest are a minimum spanning tree, and what is cheaper than nothing as often
- * as it may be. The multipliers follow the mean of these solutions upwards (the volume algorithm: F. Barahona & R. Anbil, Math.
- * Programming 87, 2000); the limit on the length has one as well. As no number of turns is odd or even here, this comes near the
- * optimum of the linear programme without its odd rows. */
+ * Multipliers on the equations of the half-edges alone leave one problem per node: turns that tie
+ * its edges, each at its price less the multipliers of its two half-edges. The cheapest are a
+ * minimum spanning tree, and what is cheaper than nothing as often as it may be. The multipliers
+ * follow the mean of these solutions upwards (the volume algorithm: F. Barahona & R. Anbil, Math.
+ * Programming 87, 2000); the limit on the length has one as well. As no number of turns is odd or
+ * even here, this comes near the optimum of the linear programme without its odd rows. */
 #include "tortuosity/proof/relax_parts.h"
 #include "graph/angle.h"
 #include "graph/disjoint.h"
@@ -16,10 +18,11 @@
 enum { STEPS = 1000, PATIENCE = 20 };
 
 static const double first_step = 0.05, least_step = 1e-4, most_new = 0.1;
-static const double most_multiplier = 2000; /* where there is no plan, nothing else would stop them */
+static const double most_multiplier =
+    2000; /* where there is no plan, nothing else would stop them */
 
-/* Where the multipliers stand: shift[m], which one half-edge of an edge gets and the other one pays; both[m] >= 0, which both
- * get; and that of the length, >= 0. One component. */
+/* Where the multipliers stand: shift[m], which one half-edge of an edge gets and the other one
+ * pays; both[m] >= 0, which both get; and that of the length, >= 0. One component. */
 typedef struct {
   const thr_turning_columns *c;
   int m, n;              /* edges; multipliers: 2 * m + 1 */
@@ -33,7 +36,8 @@ typedef struct {
   double *ends;          /* [2 * m] of the passes of count, those that end */
   double *mean_ends;     /* [2 * m] */
   double *key;           /* [largest degree] of Prim's algorithm */
-  int *via, *end_at;     /* [largest degree] the same; [n_ends] half-edge where ends are worth most, -1 = none */
+  int *via, *end_at; /* [largest degree] the same; [n_ends] half-edge where ends are worth most, -1
+                        = none */
   double *room;
 } ascent;
 
@@ -47,8 +51,9 @@ static thr_status ascent_init(ascent *a, const thr_turning_columns *turning_colu
 {
   int m = turning_columns->f->n_edges, degree = thr_frame_largest_degree(turning_columns->f);
   *a = (ascent){.c = turning_columns, .m = m, .n = 2 * m + 1, .scale = 1 / sqrt(m)};
-  double *room = a->room =
-      thr_calloc((size_t)turning_columns->n_columns + 10 * (size_t)m + 4 * (size_t)a->n + (size_t)degree, sizeof *room);
+  double *room = a->room = thr_calloc((size_t)turning_columns->n_columns + 10 * (size_t)m +
+                                          4 * (size_t)a->n + (size_t)degree,
+                                      sizeof *room);
   a->via = thr_calloc((size_t)degree + (size_t)turning_columns->n_ends, sizeof *a->via);
   if (!room || !a->via) {
     ascent_destroy(a);
@@ -152,7 +157,8 @@ static double add_ends(ascent *a)
   for (int k = 0; k < turning_columns->n_ends; k++)
     a->end_at[k] = -1;
   for (int j = turning_columns->first_end; j < turning_columns->first_back; j++) {
-    int h = turning_columns->half[j][0], *at = &a->end_at[turning_columns->end_group[thr_tail(turning_columns->f, h)]];
+    int h = turning_columns->half[j][0],
+        *at = &a->end_at[turning_columns->end_group[thr_tail(turning_columns->f, h)]];
     if (*at < 0 || a->potential[h] > a->potential[*at]) *at = h;
   }
   for (int k = 0; k < turning_columns->n_ends; k++) {
@@ -171,14 +177,16 @@ static double bound_at(ascent *a, const double *u)
 {
   const thr_turning_columns *turning_columns = a->c;
   int m = a->m;
-  double value = set_potentials(a, u), longer = 0, limit = ldexp((double)turning_columns->extra_limit, -THR_LENGTH_BITS);
+  double value = set_potentials(a, u), longer = 0,
+         limit = ldexp((double)turning_columns->extra_limit, -THR_LENGTH_BITS);
   memset(a->count, 0, 2 * (size_t)m * sizeof *a->count);
   memset(a->ends, 0, 2 * (size_t)m * sizeof *a->ends);
   for (int v = 0; v < turning_columns->f->n_nodes; v++)
     value += add_tree(a, v);
   value += add_gains(a) + add_ends(a);
   for (int e = 0; e < m; e++) {
-    double forth = a->count[2 * e], back = a->count[2 * e + 1], few = 2 * turning_columns->cover[e] - forth - back;
+    double forth = a->count[2 * e], back = a->count[2 * e + 1],
+           few = 2 * turning_columns->cover[e] - forth - back;
     a->rise[e] = back - forth;
     a->rise[m + e] = few;
     longer -= few / 2 * length_of(a, e);
@@ -225,12 +233,14 @@ static void take_mean(ascent *a, double steep, double along)
 
 static void climb(ascent *a, double target, const thr_limits *limits)
 {
-  double value = bound_at(a, a->at), part = first_step, u_turn = thr_turn_cost_of(a->c->task->cost, THR_PI);
+  double value = bound_at(a, a->at), part = first_step,
+         u_turn = thr_turn_cost_of(a->c->task->cost, THR_PI);
   memcpy(a->uphill, a->rise, (size_t)a->n * sizeof *a->rise);
   memcpy(a->mean, a->count, 2 * (size_t)a->m * sizeof *a->count);
   memcpy(a->mean_ends, a->ends, 2 * (size_t)a->m * sizeof *a->ends);
   for (int i = 0, failed = 0; i < STEPS && value < target && !thr_limits_stop(limits); i++) {
-    double steep = product(a->uphill, a->uphill, a->n), hoped = fmax(0.1 * value, 0.01 * u_turn * a->m);
+    double steep = product(a->uphill, a->uphill, a->n),
+           hoped = fmax(0.1 * value, 0.01 * u_turn * a->m);
     if (steep < 1e-12) break;
     step(a, part, fmin(hoped, target - value), steep);
     double now = bound_at(a, a->at), along = product(a->uphill, a->rise, a->n);
@@ -262,27 +272,33 @@ static int by_price(const void *x, const void *y)
 }
 
 /* The edges in the parts of parent, as the block of a junction. */
-static thr_status keep_junction(thr_turning_dual *dual, int *capacity, int v, int degree, int *parent, int64_t value,
-                                thr_err *err)
+static thr_status keep_junction(thr_turning_dual *dual, int *capacity, int v, int degree,
+                                int *parent, int64_t value, thr_err *err)
 {
-  thr_status st = thr_grow(&dual->junction, dual->n_junctions, capacity, sizeof *dual->junction, err);
+  thr_status st =
+      thr_grow(&dual->junction, dual->n_junctions, capacity, sizeof *dual->junction, err);
   if (st) return st;
-  thr_turning_junction turning_junction = {v, thr_calloc((size_t)degree, sizeof *turning_junction.block), value};
+  thr_turning_junction turning_junction = {
+      v, thr_calloc((size_t)degree, sizeof *turning_junction.block), value};
   if (!turning_junction.block) return thr_nomem(err);
   thr_disjoint_number(parent, degree, turning_junction.block);
   dual->junction[dual->n_junctions++] = turning_junction;
   return THR_OK;
 }
 
-static int64_t left_of(const thr_turning_columns *turning_columns, const thr_turning_dual *dual, int g, int h)
+static int64_t left_of(const thr_turning_columns *turning_columns, const thr_turning_dual *dual,
+                       int g, int h)
 {
-  return turning_columns->weight[thr_turning_column(turning_columns, g, h)] - dual->potential[g] - dual->potential[h];
+  return turning_columns->weight[thr_turning_column(turning_columns, g, h)] - dual->potential[g] -
+         dual->potential[h];
 }
 
 /* Prim's tree at node v, its turns into list[degree - 1]. */
-static void find_tree(const thr_turning_columns *turning_columns, const thr_turning_dual *dual, int v, turn *list)
+static void find_tree(const thr_turning_columns *turning_columns, const thr_turning_dual *dual,
+                      int v, turn *list)
 {
-  const int *half = turning_columns->f->half + turning_columns->f->first[v], degree = thr_degree(turning_columns->f, v);
+  const int *half = turning_columns->f->half + turning_columns->f->first[v],
+            degree = thr_degree(turning_columns->f, v);
   for (int i = 1; i < degree; i++) /* from each that is not in the tree, the cheapest into it */
     list[i - 1] = (turn){left_of(turning_columns, dual, half[0], half[i]), 0, i};
   for (int joined = 0; joined < degree - 1; joined++) {
@@ -299,8 +315,9 @@ static void find_tree(const thr_turning_columns *turning_columns, const thr_turn
   }
 }
 
-/* Junctions of a node at most: all that its tree has prices, but where nodes of very many edges would make the proof slow to
- * check, which looks at all turns of a node for every junction there. */
+/* Junctions of a node at most: all that its tree has prices, but where nodes of very many edges
+ * would make the proof slow to check, which looks at all turns of a node for every junction there.
+ */
 static int most_junctions(const thr_frame *frame)
 {
   const double checked = 2e7;
@@ -311,9 +328,10 @@ static int most_junctions(const thr_frame *frame)
   return checked / turns > frame->n_edges ? frame->n_edges : (int)fmax(LEAST, checked / turns);
 }
 
-/* The cheapest tree at node v: what every part must still be joined for, from one price of the tree to a later one. */
-static thr_status prove_tree(const thr_turning_columns *turning_columns, thr_turning_dual *dual, int *capacity, int v, int most,
-                             turn *list, int *parent, thr_err *err)
+/* The cheapest tree at node v: what every part must still be joined for, from one price of the tree
+ * to a later one. */
+static thr_status prove_tree(const thr_turning_columns *turning_columns, thr_turning_dual *dual,
+                             int *capacity, int v, int most, turn *list, int *parent, thr_err *err)
 {
   const int degree = thr_degree(turning_columns->f, v), each = (degree - 2) / most + 1;
   int64_t paid = 0;
@@ -332,7 +350,8 @@ static thr_status prove_tree(const thr_turning_columns *turning_columns, thr_tur
   return st;
 }
 
-static thr_status prove_trees(const thr_turning_columns *turning_columns, thr_turning_dual *dual, thr_err *err)
+static thr_status prove_trees(const thr_turning_columns *turning_columns, thr_turning_dual *dual,
+                              thr_err *err)
 {
   size_t most = (size_t)thr_frame_largest_degree(turning_columns->f);
   int capacity = 0, junctions = most_junctions(turning_columns->f);
@@ -346,23 +365,29 @@ static thr_status prove_trees(const thr_turning_columns *turning_columns, thr_tu
   return st;
 }
 
-/* The potentials at best, the second of every edge such that its extra passes cost nothing or more. */
+/* The potentials at best, the second of every edge such that its extra passes cost nothing or more.
+ */
 static void round_potentials(ascent *a, thr_turning_dual *dual)
 {
   const thr_turning_columns *turning_columns = a->c;
   set_potentials(a, a->best);
-  dual->length = turning_columns->extra_limit < 0 ? 0 : thr_relax_whole(a->scale * a->best[2 * a->m]);
+  dual->length =
+      turning_columns->extra_limit < 0 ? 0 : thr_relax_whole(a->scale * a->best[2 * a->m]);
   for (int e = 0; e < a->m; e++) {
     int64_t longer = (int64_t)((double)dual->length * length_of(a, e));
     dual->potential[2 * e] = thr_relax_whole(a->potential[2 * e]);
     dual->potential[2 * e + 1] = thr_relax_whole(2 * a->best[a->m + e]) -
-                                 turning_columns->weight[turning_columns->first_extra + e] - longer - dual->potential[2 * e];
+                                 turning_columns->weight[turning_columns->first_extra + e] -
+                                 longer - dual->potential[2 * e];
   }
   for (int k = 0; k < turning_columns->n_ends; k++)
     a->end_at[k] = -1;
-  for (int j = turning_columns->first_end; j < turning_columns->first_back; j++) { /* no end is cheaper than nothing */
-    int h = turning_columns->half[j][0], k = turning_columns->end_group[thr_tail(turning_columns->f, h)];
-    if (a->end_at[k] < 0 || -dual->potential[h] < dual->ends[k]) dual->ends[k] = -dual->potential[h];
+  for (int j = turning_columns->first_end; j < turning_columns->first_back;
+       j++) { /* no end is cheaper than nothing */
+    int h = turning_columns->half[j][0],
+        k = turning_columns->end_group[thr_tail(turning_columns->f, h)];
+    if (a->end_at[k] < 0 || -dual->potential[h] < dual->ends[k])
+      dual->ends[k] = -dual->potential[h];
     a->end_at[k] = h;
   }
 }
@@ -372,13 +397,15 @@ static void fill_mean(const ascent *a, double *mean)
   const thr_turning_columns *turning_columns = a->c;
   memset(mean, 0, (size_t)turning_columns->n_columns * sizeof *mean);
   for (int e = 0; e < a->m; e++)
-    mean[turning_columns->first_extra + e] = fmax(0, (a->mean[2 * e] + a->mean[2 * e + 1]) / 2 - turning_columns->cover[e]);
+    mean[turning_columns->first_extra + e] =
+        fmax(0, (a->mean[2 * e] + a->mean[2 * e + 1]) / 2 - turning_columns->cover[e]);
   for (int j = turning_columns->first_end; j < turning_columns->first_back; j++)
     mean[j] = a->mean_ends[turning_columns->half[j][0]];
 }
 
-thr_status thr_ascent_run(const thr_turning_columns *turning_columns, double target, const thr_limits *limits,
-                          thr_turning_dual *dual, double *mean, thr_err *err)
+thr_status thr_ascent_run(const thr_turning_columns *turning_columns, double target,
+                          const thr_limits *limits, thr_turning_dual *dual, double *mean,
+                          thr_err *err)
 {
   ascent a;
   *dual = (thr_turning_dual){0};

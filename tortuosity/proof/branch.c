@@ -1,7 +1,10 @@
-/* Branch and cut over the turning relaxation (tortuosity/proof/relax.c) on the tree of lp/model/tree.h. Internal to tortuosity/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Branch and cut over the turning relaxation (tortuosity/proof/relax.c) on the tree of
+ * lp/model/tree.h. Internal to tortuosity/.
  *
- * A column that is fractional, x = 2.5, is decided to be at most 2 or at least 3; each leaf of the finished tree keeps integer
- * multipliers that prove its bound, and the least of these is the plan's.
+ * A column that is fractional, x = 2.5, is decided to be at most 2 or at least 3; each leaf of the
+ * finished tree keeps integer multipliers that prove its bound, and the least of these is the
+ * plan's.
  *
  * Example: bounds 10 and 12 of the two sides and a plan of price 11 leave one side open. */
 #include "graph/angle.h"
@@ -16,17 +19,22 @@
 
 static const double integral = 1e-6; /* what counts as a whole number */
 
-/* More turns than these, and more per edge, make a linear programme that is not solved in any time that anybody waits. */
+/* More turns than these, and more per edge, make a linear programme that is not solved in any time
+ * that anybody waits. */
 enum { DENSE = 200000, DENSE_PER_EDGE = 20 };
 
-/* Tying a node of more edges once takes seconds: it is not done again for a plan that may be better. */
+/* Tying a node of more edges once takes seconds: it is not done again for a plan that may be
+ * better. */
 enum { TIED_DEGREE = 1000 };
 
-thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turning_columns, int most_nodes,
-                           const thr_limits *limits, thr_err *err)
+thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turning_columns,
+                           int most_nodes, const thr_limits *limits, thr_err *err)
 {
   size_t n = (size_t)turning_columns->f->n_nodes, m = (size_t)turning_columns->f->n_edges;
-  const int room = 50 + 1000000 / turning_columns->f->n_edges; /* every leaf of the proof has two multipliers per edge */
+  const int room =
+      50 +
+      1000000 /
+          turning_columns->f->n_edges; /* every leaf of the proof has two multipliers per edge */
   *branch = (thr_branch){.c = turning_columns,
                          .limits = limits,
                          .most_nodes = most_nodes < room ? most_nodes : room,
@@ -42,7 +50,8 @@ thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turnin
   branch->whole = thr_calloc((size_t)turning_columns->n_columns, sizeof *branch->whole);
   branch->weight = thr_calloc(m, sizeof *branch->weight);
   branch->end_weight = thr_calloc(n, sizeof *branch->end_weight);
-  if (branch->passes && branch->ends && branch->whole && branch->weight && branch->end_weight) return THR_OK;
+  if (branch->passes && branch->ends && branch->whole && branch->weight && branch->end_weight)
+    return THR_OK;
   thr_branch_destroy(branch);
   return thr_nomem(err);
 }
@@ -72,18 +81,21 @@ static double base_price(const thr_turning_columns *turning_columns)
 {
   double sum = 0;
   for (int e = 0; e < turning_columns->f->n_edges; e++)
-    sum += turning_columns->cover[e] * (double)turning_columns->weight[turning_columns->first_extra + e];
+    sum += turning_columns->cover[e] *
+           (double)turning_columns->weight[turning_columns->first_extra + e];
   return sum;
 }
 
 int64_t thr_branch_tolerance(const thr_branch *branch)
 {
   double u_turn = thr_turn_cost_of(branch->c->task->cost, THR_PI);
-  if (branch->c->task->free_turns) return (int64_t)(0.3e-9 * ((double)branch->best_price + base_price(branch->c)));
+  if (branch->c->task->free_turns)
+    return (int64_t)(0.3e-9 * ((double)branch->best_price + base_price(branch->c)));
   return (int64_t)ldexp(1e-9 * u_turn * branch->best_passes, THR_TURNING_BITS);
 }
 
-/* Column to branch on: extras first, then ends, then the rest; the one nearest a half. -1: the point is whole. */
+/* Column to branch on: extras first, then ends, then the rest; the one nearest a half. -1: the
+ * point is whole. */
 static int most_fractional(const thr_relax *relax)
 {
   const thr_turning_columns *turning_columns = relax->c;
@@ -100,9 +112,11 @@ static int most_fractional(const thr_relax *relax)
 /* ---- nodes ---- */
 
 /* Keeps *dual, which is moved, for node i with what it proves there. */
-static thr_status keep_proved(thr_branch *branch, int i, thr_turning_dual *dual, int64_t bound, thr_err *err)
+static thr_status keep_proved(thr_branch *branch, int i, thr_turning_dual *dual, int64_t bound,
+                              thr_err *err)
 {
-  thr_status st = thr_grow(&branch->dual, branch->n_duals, &branch->duals_capacity, sizeof *branch->dual, err);
+  thr_status st =
+      thr_grow(&branch->dual, branch->n_duals, &branch->duals_capacity, sizeof *branch->dual, err);
   if (st) return st;
   branch->tree.node[i].bound = (double)bound;
   branch->tree.node[i].proof = branch->n_duals;
@@ -111,7 +125,8 @@ static thr_status keep_proved(thr_branch *branch, int i, thr_turning_dual *dual,
   return THR_OK;
 }
 
-thr_status thr_branch_keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low, const int *high, thr_err *err)
+thr_status thr_branch_keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low,
+                                const int *high, thr_err *err)
 {
   const double begun = thr_processor_clock();
   const bool first = branch->tree.node[i].proof < 0;
@@ -119,8 +134,8 @@ thr_status thr_branch_keep_dual(thr_branch *branch, int i, thr_turning_dual dual
   int64_t bound;
   thr_status st = thr_turning_dual_bound(branch->c, &dual, low, high, &bound, &refused);
 
-  /* A solver's rounding may leave multipliers that the checker refuses: they are dropped, and a node that has no others keeps
-   * multipliers of 0, which always hold. */
+  /* A solver's rounding may leave multipliers that the checker refuses: they are dropped, and a
+   * node that has no others keeps multipliers of 0, which always hold. */
   if (st == THR_EVIOLATED) {
     thr_turning_dual_destroy(&dual);
     if (!first) return THR_OK;
@@ -141,7 +156,9 @@ static thr_status certify(thr_branch *branch, int i, thr_err *err)
 {
   thr_turning_dual dual;
   thr_status st = thr_relax_dual(&branch->relax, &dual, err);
-  return st ? st : thr_branch_keep_dual(branch, i, dual, branch->tree.here.low, branch->tree.here.high, err);
+  return st ? st
+            : thr_branch_keep_dual(branch, i, dual, branch->tree.here.low, branch->tree.here.high,
+                                   err);
 }
 
 /* A node of this bound is proved. */
@@ -188,7 +205,8 @@ static thr_status climb(thr_branch *branch, int root, thr_err *err)
   bool found = false;
   double *mean = thr_calloc((size_t)branch->c->n_columns, sizeof *mean);
   const thr_limits half = thr_limits_part(branch->limits, branch->dense ? 0.5 : 1);
-  thr_status st = mean ? thr_ascent_run(branch->c, target, &half, &dual, mean, err) : thr_nomem(err);
+  thr_status st =
+      mean ? thr_ascent_run(branch->c, target, &half, &dual, mean, err) : thr_nomem(err);
   if (!st) st = thr_branch_keep_dual(branch, root, dual, NULL, NULL, err);
   bool more = !branch->found || (!closed(branch, root) && !thr_limits_stop(branch->limits) &&
                                  thr_frame_largest_degree(branch->c->f) <= TIED_DEGREE);
@@ -208,12 +226,14 @@ thr_status thr_branch_init_tree(thr_branch *branch, thr_err *err)
   return st;
 }
 
-/* Where every open node's bound is above the best price, or none is open, that price is the bound: a plan has it. */
+/* Where every open node's bound is above the best price, or none is open, that price is the bound:
+ * a plan has it. */
 static void report(const thr_branch *branch)
 {
   if (!branch->limits->progress) return;
   double least = fmin((double)branch->best_price, thr_tree_bound(&branch->tree));
-  branch->limits->progress(branch->limits->user, "turning", ldexp((double)branch->best_price, -THR_TURNING_BITS),
+  branch->limits->progress(branch->limits->user, "turning",
+                           ldexp((double)branch->best_price, -THR_TURNING_BITS),
                            ldexp(least, -THR_TURNING_BITS));
 }
 
@@ -246,8 +266,11 @@ static thr_status look(void *user, thr_err *err)
   bool solved = search->outcome == THR_LP_OPTIMAL;
   thr_relax_look(&branch->relax);
   branch->rounds++;
-  search->whole = solved && branch->relax.artificial < integral && most_fractional(&branch->relax) < 0;
-  thr_status st = search->whole ? thr_branch_try_whole(branch, err) : solved ? thr_branch_try_rounded(branch, err) : THR_OK;
+  search->whole =
+      solved && branch->relax.artificial < integral && most_fractional(&branch->relax) < 0;
+  thr_status st = search->whole ? thr_branch_try_whole(branch, err)
+                  : solved      ? thr_branch_try_rounded(branch, err)
+                                : THR_OK;
   search->enough = search->objective >= ldexp(enough(branch), -THR_TURNING_BITS);
   return st;
 }
@@ -256,14 +279,16 @@ static thr_status look(void *user, thr_err *err)
 thr_status thr_branch_solve_node(thr_branch *branch, int i, const thr_limits *limits, thr_err *err)
 {
   enum { MOST_ROUNDS = 13 };
-  const thr_search_calls calls = {.user = branch, .name = "a turning relaxation", .look = look, .most_rounds = MOST_ROUNDS};
+  const thr_search_calls calls = {
+      .user = branch, .name = "a turning relaxation", .look = look, .most_rounds = MOST_ROUNDS};
   thr_status st = thr_search_rounds(&branch->relax.search, &calls, limits, err);
   branch->tree.stopped |= branch->relax.search.outcome == THR_LP_STOPPED;
   return st ? st : certify(branch, i, err);
 }
 
-/* Tube joints: the relaxation of a large framework is not solved in the time that there is, and hardly better than the ascent; of
- * any it says little of where good plans are. So some rows, then annealing, then the rest of the rows. */
+/* Tube joints: the relaxation of a large framework is not solved in the time that there is, and
+ * hardly better than the ascent; of any it says little of where good plans are. So some rows, then
+ * annealing, then the rest of the rows. */
 static thr_status solve_tied_root(thr_branch *branch, int i, thr_err *err)
 {
   enum { ROUNDS = 3, LARGE = 5000 };
@@ -275,8 +300,9 @@ static thr_status solve_tied_root(thr_branch *branch, int i, thr_err *err)
   some = thr_limits_part(branch->limits, large ? 0.9 : 0.6);
   if (branch->found) st = thr_branch_anneal(branch, &some, ROUNDS, err);
   branch->tree.stopped = thr_limits_stop(branch->limits);
-  return st || !unsolved || branch->tree.stopped || closed(branch, i) ? st
-                                                                      : thr_branch_solve_node(branch, i, branch->limits, err);
+  return st || !unsolved || branch->tree.stopped || closed(branch, i)
+             ? st
+             : thr_branch_solve_node(branch, i, branch->limits, err);
 }
 
 /* With tube joints tied nodes connect all; of closed cords several need not. */
@@ -284,7 +310,8 @@ void thr_branch_use_separators(thr_relax *relax)
 {
   const thr_turning_task *turning_task = relax->c->task;
   thr_search *search = &relax->search;
-  const bool groups = !turning_task->tube && (turning_task->end_allowed || turning_task->cords == 1);
+  const bool groups =
+      !turning_task->tube && (turning_task->end_allowed || turning_task->cords == 1);
   if (relax->projected) {
     thr_search_use(search, thr_project_ends, relax, 0);
     thr_search_use(search, thr_project_sides, relax, 0);
@@ -293,7 +320,8 @@ void thr_branch_use_separators(thr_relax *relax)
   }
   if (groups) thr_search_use(search, thr_groups_separate, relax, 0);
   if (relax->any_odd) thr_search_use(search, thr_oddcuts_moats, &relax->odd, 0);
-  if (!turning_task->end_allowed && !turning_task->tube) thr_search_use(search, thr_partitions_separate, relax, THR_FALLBACK);
+  if (!turning_task->end_allowed && !turning_task->tube)
+    thr_search_use(search, thr_partitions_separate, relax, THR_FALLBACK);
 }
 
 thr_status thr_branch_set_bounds(void *user, int column, int low, int high, thr_err *err)
@@ -302,13 +330,13 @@ thr_status thr_branch_set_bounds(void *user, int column, int low, int high, thr_
   return thr_relax_set(&branch->relax, column, low, high, err);
 }
 
-/* Anneals the best plan, once, where the programme at the root and the first nodes of the tree left the gap wide: mostly they
- * close it in a small part of the time that annealing takes. */
+/* Anneals the best plan, once, where the programme at the root and the first nodes of the tree left
+ * the gap wide: mostly they close it in a small part of the time that annealing takes. */
 static thr_status anneal_later(thr_branch *branch, thr_err *err)
 {
   enum { FIRST_NODES = 31 };
-  if (branch->annealed || branch->tree.n_solved < FIRST_NODES || !branch->found || !is_wide(branch) ||
-      thr_branch_proved(branch) || !thr_anneal_turns_serves(branch->c))
+  if (branch->annealed || branch->tree.n_solved < FIRST_NODES || !branch->found ||
+      !is_wide(branch) || thr_branch_proved(branch) || !thr_anneal_turns_serves(branch->c))
     return THR_OK;
   const thr_limits some = thr_limits_part(branch->limits, 0.8);
   branch->annealed = true;
@@ -318,11 +346,13 @@ static thr_status anneal_later(thr_branch *branch, thr_err *err)
 static thr_status solve_root(thr_branch *branch, const thr_limits *limits, thr_err *err)
 {
   const thr_turning_task *task = branch->c->task;
-  return task->tube && !task->free_turns ? solve_tied_root(branch, 0, err) : thr_branch_solve_node(branch, 0, limits, err);
+  return task->tube && !task->free_turns ? solve_tied_root(branch, 0, err)
+                                         : thr_branch_solve_node(branch, 0, limits, err);
 }
 
-/* The limits less what comes after the search: the bounds of all multipliers are checked again, and the proof is written, which
- * takes WRITTEN times as long as those bounds took; more by the clock where others use the processor as well. */
+/* The limits less what comes after the search: the bounds of all multipliers are checked again, and
+ * the proof is written, which takes WRITTEN times as long as those bounds took; more by the clock
+ * where others use the processor as well. */
 static thr_limits limits_of_search(const thr_branch *branch)
 {
   enum { WRITTEN = 8 };
@@ -347,7 +377,8 @@ static thr_status choose(thr_branch *branch, int k, thr_tree_branch *out, thr_er
   thr_orbit_destroy(orbit);
   *out = (thr_tree_branch){.column = column};
   if (column < 0) return THR_OK;
-  thr_status st = thr_orbits_at(&branch->orbits, &branch->tree, &lane->tree.here, column, orbit, err);
+  thr_status st =
+      thr_orbits_at(&branch->orbits, &branch->tree, &lane->tree.here, column, orbit, err);
   out->value = (int)floor(lane->relax.x[column]);
   out->n_also = orbit->n;
   out->also = orbit->column;
@@ -357,7 +388,9 @@ static thr_status choose(thr_branch *branch, int k, thr_tree_branch *out, thr_er
 static thr_status find_symmetries(thr_branch *branch, thr_err *err)
 {
   const thr_limits search = limits_of_search(branch), some = thr_limits_part(&search, 0.05);
-  return branch->orbits.c ? THR_OK : thr_orbits_init(&branch->orbits, branch->c, branch->motions, &some, err);
+  return branch->orbits.c
+             ? THR_OK
+             : thr_orbits_init(&branch->orbits, branch->c, branch->motions, &some, err);
 }
 
 static thr_status count_ranks(thr_branch *branch, thr_err *err)
@@ -386,7 +419,8 @@ static thr_status solve(void *user, int i, thr_tree_branch *branch, thr_err *err
   return st ? st : choose(b, 0, branch, err);
 }
 
-static thr_status solve_all(void *user, int n, const int *node, thr_tree_branch *branch, thr_err *err)
+static thr_status solve_all(void *user, int n, const int *node, thr_tree_branch *branch,
+                            thr_err *err)
 {
   thr_branch *b = user;
   const thr_limits search = limits_of_search(b);
@@ -421,22 +455,27 @@ thr_status thr_branch_run(thr_branch *branch, thr_err *err)
 {
   const int root = 0;
   bool tied = branch->c->task->tube && !branch->c->task->free_turns;
-  double penalty = 10 + (branch->found ? ldexp((double)branch->best_price, -THR_TURNING_BITS) : 10 * covers(branch->c));
-  if (!branch->c->task->free_turns) penalty += 2 * branch->c->task->price_per_length * thr_frame_total_length(branch->c->f);
+  double penalty = 10 + (branch->found ? ldexp((double)branch->best_price, -THR_TURNING_BITS)
+                                       : 10 * covers(branch->c));
+  if (!branch->c->task->free_turns)
+    penalty += 2 * branch->c->task->price_per_length * thr_frame_total_length(branch->c->f);
   thr_status st = branch->tree.n_nodes ? THR_OK : thr_branch_begin(branch, err);
   if (!st && (branch->dense || branch->most_nodes == 0)) return settle_for_bound(branch, tied, err);
   if (!st && !tied && thr_branch_proved(branch)) return THR_OK;
-  if (!st) st = thr_relax_init(&branch->relax, branch->c, branch->projected, penalty, branch->limits, err);
+  if (!st)
+    st = thr_relax_init(&branch->relax, branch->c, branch->projected, penalty, branch->limits, err);
   if (!st) thr_branch_use_separators(&branch->relax);
   if (!st && tied) st = climb(branch, root, err);
-  /* With tube joints most of a node's work is rows that a copy of the programme has to find again. */
-  const thr_tree_calls calls = {branch, NULL, thr_branch_set_bounds, solve, branch->c->task->tube ? NULL : solve_all};
+  /* With tube joints most of a node's work is rows that a copy of the programme has to find again.
+   */
+  const thr_tree_calls calls = {branch, NULL, thr_branch_set_bounds, solve,
+                                branch->c->task->tube ? NULL : solve_all};
   branch->tree.enough = enough(branch);
   return st ? st : thr_tree_run(&branch->tree, &calls, err);
 }
 
-/* What the proof is to prove: what closes the search, or what all leaves prove but a thousandth of the gap, for which very many
- * leaves may be left out where the bound hardly rises. */
+/* What the proof is to prove: what closes the search, or what all leaves prove but a thousandth of
+ * the gap, for which very many leaves may be left out where the bound hardly rises. */
 static double worth_proving(const thr_branch *branch)
 {
   double target = optimum(branch), least = target;
@@ -445,7 +484,8 @@ static double worth_proving(const thr_branch *branch)
   return least - (branch->found ? (target - least) / 1000 : 0);
 }
 
-/* place[i]: number of node i in the proof, -1 = not needed, because a node above it proves enough. */
+/* place[i]: number of node i in the proof, -1 = not needed, because a node above it proves enough.
+ */
 static int place_nodes(const thr_tree *t, double enough, int *place)
 {
   int n = 0;
@@ -468,7 +508,8 @@ static thr_status no_bounds(void *user, int column, int low, int high, thr_err *
 }
 
 /* What node i of the tree decides. Symmetries are numbered as the tree has them. */
-static thr_status write_node(thr_branch *branch, int i, const int *place, thr_turning_node *out, thr_err *err)
+static thr_status write_node(thr_branch *branch, int i, const int *place, thr_turning_node *out,
+                             thr_err *err)
 {
   const thr_tree *t = &branch->tree;
   const thr_tree_node *node = &t->node[i], *child = &t->node[node->child[0]];
@@ -502,7 +543,8 @@ static thr_status write_symmetries(const thr_branch *branch, thr_turning_proof *
     for (int k = 0; k < proof->node[i].n_orbit; k++) {
       int *s = &proof->node[i].orbit[k];
       if (!number[*s]) {
-        memcpy(proof->symmetry + (size_t)proof->n_symmetries * m, branch->orbits.image + (size_t)*s * m, m * sizeof(int));
+        memcpy(proof->symmetry + (size_t)proof->n_symmetries * m,
+               branch->orbits.image + (size_t)*s * m, m * sizeof(int));
         number[*s] = ++proof->n_symmetries;
       }
       *s = number[*s] - 1;
@@ -511,7 +553,8 @@ static thr_status write_symmetries(const thr_branch *branch, thr_turning_proof *
   return st;
 }
 
-static void write_leaf(thr_branch *branch, int dual, int *moved, thr_turning_proof *proof, thr_turning_node *out)
+static void write_leaf(thr_branch *branch, int dual, int *moved, thr_turning_proof *proof,
+                       thr_turning_node *out)
 {
   if (!moved[dual]) {
     proof->dual[proof->n_duals] = branch->dual[dual];
@@ -527,7 +570,8 @@ thr_status thr_branch_proof(thr_branch *branch, thr_turning_proof *proof, thr_er
   const thr_tree *t = &branch->tree;
   proof->node = thr_calloc((size_t)t->n_nodes, sizeof *proof->node);
   proof->dual = thr_calloc((size_t)branch->n_duals, sizeof *proof->dual);
-  int *moved = thr_calloc((size_t)branch->n_duals, sizeof *moved), *place = thr_calloc((size_t)t->n_nodes, sizeof *place);
+  int *moved = thr_calloc((size_t)branch->n_duals, sizeof *moved),
+      *place = thr_calloc((size_t)t->n_nodes, sizeof *place);
   thr_status st = proof->node && proof->dual && moved && place ? THR_OK : thr_nomem(err);
   double needed = worth_proving(branch);
   if (!st) proof->n_nodes = place_nodes(t, needed, place);

@@ -1,4 +1,6 @@
-/* Branch and cut for the least turning of one cord or of closed ones: the relaxation, its separators, and the tree. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Branch and cut for the least turning of one cord or of closed ones: the relaxation, its
+ * separators, and the tree. */
 #ifndef THR_BRANCH_H
 #define THR_BRANCH_H
 
@@ -13,12 +15,14 @@
 #include "lp/tjoin/tjoin.h"
 #include "tortuosity/cords/join.h"
 
-/* ---- orbits.c: Which columns a tree decides on at once: images under the symmetries of the task that keep what was decided
- * before. */
+/* ---- orbits.c: Which columns a tree decides on at once: images under the symmetries of the task
+ * that keep what was decided before. */
 
-/* Whoever finds motions of a framework onto itself: *image, owned by the caller, receives the images of all nodes under *n of
- * them, [*n * n_nodes]; none if they are too many or it takes too long. */
-typedef thr_status thr_orbits_motions(const thr_frame *frame, const thr_limits *limits, int **image, int *n, thr_err *err);
+/* Whoever finds motions of a framework onto itself: *image, owned by the caller, receives the
+ * images of all nodes under *n of them, [*n * n_nodes]; none if they are too many or it takes too
+ * long. */
+typedef thr_status thr_orbits_motions(const thr_frame *frame, const thr_limits *limits, int **image,
+                                      int *n, thr_err *err);
 
 typedef struct {
   const thr_turning_columns *c;
@@ -32,26 +36,30 @@ typedef struct {
 } thr_orbit;
 
 /* motions NULL: there are none. O(motions * columns). */
-thr_status thr_orbits_init(thr_orbits *orbits, const thr_turning_columns *turning_columns, thr_orbits_motions *motions,
-                           const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+thr_status thr_orbits_init(thr_orbits *orbits, const thr_turning_columns *turning_columns,
+                           thr_orbits_motions *motions, const thr_limits *limits,
+                           thr_err *err) THR_MUST_CHECK;
 void thr_orbits_destroy(thr_orbits *orbits);
 
-/* The lowest edge and the lowest node of its component that each is mapped to, edge[n_edges] and node[n_nodes], by symmetries of
- * the task but for prices. As thr_orbits_init. */
-thr_status thr_orbits_lowest(const thr_turning_columns *turning_columns, thr_orbits_motions *motions, const thr_limits *limits,
-                             int *edge, int *node, thr_err *err) THR_MUST_CHECK;
+/* The lowest edge and the lowest node of its component that each is mapped to, edge[n_edges] and
+ * node[n_nodes], by symmetries of the task but for prices. As thr_orbits_init. */
+thr_status thr_orbits_lowest(const thr_turning_columns *turning_columns,
+                             thr_orbits_motions *motions, const thr_limits *limits, int *edge,
+                             int *node, thr_err *err) THR_MUST_CHECK;
 
-/* Of a column at a node of the tree that place is at. O(symmetries * columns decided above the node). */
-thr_status thr_orbits_at(const thr_orbits *orbits, const thr_tree *tree, const thr_tree_place *place, int column,
-                         thr_orbit *orbit, thr_err *err) THR_MUST_CHECK;
+/* Of a column at a node of the tree that place is at. O(symmetries * columns decided above the
+ * node). */
+thr_status thr_orbits_at(const thr_orbits *orbits, const thr_tree *tree,
+                         const thr_tree_place *place, int column, thr_orbit *orbit,
+                         thr_err *err) THR_MUST_CHECK;
 void thr_orbit_destroy(thr_orbit *orbit);
 
-/* ---- relax.c: The linear programme over the columns of graph/plan/turning_proof.h, with its odd, group, partition and
- * junction rows added as a point violates them. */
+/* ---- relax.c: The linear programme over the columns of graph/plan/turning_proof.h, with its odd,
+ * group, partition and junction rows added as a point violates them. */
 
 /* What a row is of (thr_row); its index and members. */
 typedef enum {
-  THR_RELAX_ODD,       /* members: the half-edges and ends of the set, without turns its nodes and ends */
+  THR_RELAX_ODD, /* members: the half-edges and ends of the set, without turns its nodes and ends */
   THR_RELAX_GROUP,     /* its edges, ascending */
   THR_RELAX_PARTITION, /* [n_edges] their blocks */
   THR_RELAX_JUNCTION,  /* of node index: [degree] blocks */
@@ -64,36 +72,41 @@ typedef enum {
 
 typedef struct {
   const thr_turning_columns *c;
-  thr_search
-      search; /* fixed rows: of half-edges, of ends, of the length limit; without turns its columns begin with the extra passes */
-  bool projected;            /* the programme has no turns */
-  int n_all;                 /* columns with the artificial ones, which keep every branch feasible at a price */
-  double *x;                 /* [n_all] of the last solve */
-  double artificial;         /* sum of the artificial columns */
-  bool any_odd;              /* is there an odd set at all? */
-  thr_tjoin_problem problem; /* the graph whose nodes are half-edges and ends, whose edges are columns */
+  thr_search search; /* fixed rows: of half-edges, of ends, of the length limit; without turns its
+                        columns begin with the extra passes */
+  bool projected;    /* the programme has no turns */
+  int n_all; /* columns with the artificial ones, which keep every branch feasible at a price */
+  double *x; /* [n_all] of the last solve */
+  double artificial; /* sum of the artificial columns */
+  bool any_odd;      /* is there an odd set at all? */
+  thr_tjoin_problem
+      problem; /* the graph whose nodes are half-edges and ends, whose edges are columns */
   thr_oddcut_graph graph;
   thr_oddcuts odd;
   double *reduced; /* [n_columns] costs that the rows leave */
 } thr_relax;
 
-/* penalty: price of one unit of an artificial column, more than any plan costs. projected: without turns, which must be free, and
- * with tube joints. */
-thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_columns, bool projected, double penalty,
-                          const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+/* penalty: price of one unit of an artificial column, more than any plan costs. projected: without
+ * turns, which must be free, and with tube joints. */
+thr_status thr_relax_init(thr_relax *relax, const thr_turning_columns *turning_columns,
+                          bool projected, double penalty, const thr_limits *limits,
+                          thr_err *err) THR_MUST_CHECK;
 void thr_relax_destroy(thr_relax *relax);
 
-/* The same programme with its rows and basis, of this thread (lp/solver/lp.h); without separators and a point. */
+/* The same programme with its rows and basis, of this thread (lp/solver/lp.h); without separators
+ * and a point. */
 thr_status thr_relax_copy(thr_relax *relax, const thr_relax *from, thr_err *err) THR_MUST_CHECK;
 
 /* Puts bounds on a column, for the next solve. */
-thr_status thr_relax_set(thr_relax *relax, int column, int low, int high, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_set(thr_relax *relax, int column, int low, int high,
+                         thr_err *err) THR_MUST_CHECK;
 
 /* After a solve, also one that the limits stopped: fills artificial and reduced. */
 void thr_relax_look(thr_relax *relax);
 
 /* The multipliers of the last solve as integers. Release with thr_turning_dual_destroy. */
-thr_status thr_relax_dual(const thr_relax *relax, thr_turning_dual *turning_dual, thr_err *err) THR_MUST_CHECK;
+thr_status thr_relax_dual(const thr_relax *relax, thr_turning_dual *turning_dual,
+                          thr_err *err) THR_MUST_CHECK;
 
 /* A multiplier in units of 2^-THR_TURNING_BITS; far below -1e4 or above 1e4 it would be useless. */
 int64_t thr_relax_whole(double value);
@@ -101,30 +114,34 @@ int64_t thr_relax_whole(double value);
 /* The linear programme of the equations alone, in tortuosity/proof/equations.c. */
 thr_status thr_relax_create(thr_relax *relax, double penalty, thr_err *err) THR_MUST_CHECK;
 
-/* Starts the simplex method where every node by itself has its cheapest turns, without extra passes and ends: most of what the
- * slack basis would need as many pivots for as there are rows. Where the limits stop it the basis is a worse one. */
+/* Starts the simplex method where every node by itself has its cheapest turns, without extra passes
+ * and ends: most of what the slack basis would need as many pivots for as there are rows. Where the
+ * limits stop it the basis is a worse one. */
 thr_status thr_relax_crash(thr_relax *relax, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 
-/* A separator, of a thr_relax, in tortuosity/proof/junctions.c: of every node the junction row that x violates most. */
+/* A separator, of a thr_relax, in tortuosity/proof/junctions.c: of every node the junction row that
+ * x violates most. */
 thr_status thr_junctions_separate(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
-/* A separator, of a thr_relax whose cords hang together, in tortuosity/proof/column_groups.c: connected components of the edges
- * under turns with x > 0. O(columns). */
+/* A separator, of a thr_relax whose cords hang together, in tortuosity/proof/column_groups.c:
+ * connected components of the edges under turns with x > 0. O(columns). */
 thr_status thr_groups_separate(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
-/* A separator, of a thr_relax, in tortuosity/proof/partition.c. Every node is given its cheapest pairing, or the one that x uses
- * most; what hangs together then are the blocks of a partition. Nodes are made whole again in order of how little another pairing
- * costs, so that there are as many partitions as different regrets, of which some tens are looked at. */
+/* A separator, of a thr_relax, in tortuosity/proof/partition.c. Every node is given its cheapest
+ * pairing, or the one that x uses most; what hangs together then are the blocks of a partition.
+ * Nodes are made whole again in order of how little another pairing costs, so that there are as
+ * many partitions as different regrets, of which some tens are looked at. */
 thr_status thr_partitions_separate(void *relax, int *added, thr_err *err) THR_MUST_CHECK;
 
-/* ---- branch.c: Branch and cut over the turning relaxation (tortuosity/proof/relax.c) on the tree of lp/model/tree.h.
- * Internal to tortuosity/. */
+/* ---- branch.c: Branch and cut over the turning relaxation (tortuosity/proof/relax.c) on the tree
+ * of lp/model/tree.h. Internal to tortuosity/. */
 
 typedef struct thr_branch {
   const thr_turning_columns *c;
   const thr_limits *limits;
   thr_relax relax;
-  thr_tree tree; /* bounds in units of 2^-THR_TURNING_BITS, proved by the dual of that number; empty before thr_branch_begin */
+  thr_tree tree; /* bounds in units of 2^-THR_TURNING_BITS, proved by the dual of that number; empty
+                    before thr_branch_begin */
   int most_nodes;
   int n_duals, duals_capacity;
   thr_turning_dual *dual;
@@ -133,7 +150,8 @@ typedef struct thr_branch {
   bool shortest;  /* of two plans the shorter one is the better, whatever it turns */
   bool found;
   thr_join best;      /* if found */
-  int64_t best_price; /* in units of 2^-THR_TURNING_BITS, with the price of the extra cord; INT64_MAX = none */
+  int64_t best_price; /* in units of 2^-THR_TURNING_BITS, with the price of the extra cord;
+                         INT64_MAX = none */
   int best_passes;
   double best_length;         /* of the extra passes */
   uint64_t tried;             /* name of the rounding tried last */
@@ -154,74 +172,92 @@ typedef struct thr_branch {
   struct thr_branch *lane; /* [THR_TREE_BATCH - 1] beside the search itself; owned, NULL at first */
 } thr_branch;
 
-thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turning_columns, int most_nodes,
-                           const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_init(thr_branch *branch, const thr_turning_columns *turning_columns,
+                           int most_nodes, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
 void thr_branch_destroy(thr_branch *branch);
 
 /* Cords for these passes and ends, kept if they are the best so far. */
-thr_status thr_branch_try(thr_branch *branch, const int *passes, const int *ends, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_try(thr_branch *branch, const int *passes, const int *ends,
+                          thr_err *err) THR_MUST_CHECK;
 
-/* Several closed cords in a component: circuits j, cut apart and joined until they are as many as asked for; the same. j is taken
- * over or released. */
-thr_status thr_branch_try_circuits(thr_branch *branch, thr_join *j, const int *passes, thr_err *err) THR_MUST_CHECK;
+/* Several closed cords in a component: circuits j, cut apart and joined until they are as many as
+ * asked for; the same. j is taken over or released. */
+thr_status thr_branch_try_circuits(thr_branch *branch, thr_join *j, const int *passes,
+                                   thr_err *err) THR_MUST_CHECK;
 
-/* Whole numbers x[n_columns] that keep all equations, if they hang together as they are, or joined over equal passes; the same.
+/* Whole numbers x[n_columns] that keep all equations, if they hang together as they are, or joined
+ * over equal passes; the same.
  */
 thr_status thr_branch_try_point(thr_branch *branch, const int *x, thr_err *err) THR_MUST_CHECK;
 
-/* The same, but circuits that are apart are joined by the cheapest exchanges, and improved by others: closed cords. Others are
- * tried as they are. */
+/* The same, but circuits that are apart are joined by the cheapest exchanges, and improved by
+ * others: closed cords. Others are tried as they are. */
 thr_status thr_branch_try_joined(thr_branch *branch, const int *x, thr_err *err) THR_MUST_CHECK;
 
 /* The cords of a plan, improved by exchanges; the same. */
-thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_try_cords(thr_branch *branch, const thr_cord *cord, int n_cords,
+                                thr_err *err) THR_MUST_CHECK;
 
-/* The plan of a point of whole numbers, if it hangs together; and, of any point, that of the extra passes and ends nearest to it
- * that a T-join or walks make. */
+/* The plan of a point of whole numbers, if it hangs together; and, of any point, that of the extra
+ * passes and ends nearest to it that a T-join or walks make. */
 thr_status thr_branch_try_whole(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 thr_status thr_branch_try_rounded(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
-/* The same whatever the time, of solid joints: without the turns back that there is another way for, and not improved. */
-thr_status thr_branch_try_start(thr_branch *branch, const thr_cord *cord, int n_cords, thr_err *err) THR_MUST_CHECK;
+/* The same whatever the time, of solid joints: without the turns back that there is another way
+ * for, and not improved. */
+thr_status thr_branch_try_start(thr_branch *branch, const thr_cord *cord, int n_cords,
+                                thr_err *err) THR_MUST_CHECK;
 
 /* Tube joints: from the best plan by annealing (tortuosity/tie/tie.h), kept if that turns less. */
-thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int rounds, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int rounds,
+                             thr_err *err) THR_MUST_CHECK;
 
-/* One cord, solid joints: from the best plan by annealing (tortuosity/cords/anneal_turns.c), several runs of a round at once, and
- * rounds until the limits' time is over or there were enough. There must be a plan. */
-thr_status thr_branch_anneal_turns(thr_branch *branch, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+/* One cord, solid joints: from the best plan by annealing (tortuosity/cords/anneal_turns.c),
+ * several runs of a round at once, and rounds until the limits' time is over or there were enough.
+ * There must be a plan. */
+thr_status thr_branch_anneal_turns(thr_branch *branch, const thr_limits *limits,
+                                   thr_err *err) THR_MUST_CHECK;
 
 /* The bound of a matching, and its plan: of all turns without connectedness, if that hangs together
- * (tortuosity/proof/branch_match.c); of the shortest closed cords with tube joints (tortuosity/proof/unit_matching.c). Others
- * begin without. thr_branch_run does it if nobody has. */
+ * (tortuosity/proof/branch_match.c); of the shortest closed cords with tube joints
+ * (tortuosity/proof/unit_matching.c). Others begin without. thr_branch_run does it if nobody has.
+ */
 thr_status thr_branch_begin(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 thr_status thr_branch_match(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
-/* Closed cords of a symmetric framework: a bound of the root by connections counted exactly at every node
- * (tortuosity/proof/orbit_ranks.c), if it is a better one. There must be a plan. */
-thr_status thr_branch_ranks(thr_branch *branch, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+/* Closed cords of a symmetric framework: a bound of the root by connections counted exactly at
+ * every node (tortuosity/proof/orbit_ranks.c), if it is a better one. There must be a plan. */
+thr_status thr_branch_ranks(thr_branch *branch, const thr_limits *limits,
+                            thr_err *err) THR_MUST_CHECK;
 
-/* Takes multipliers over, for node i of the tree if they prove more than it has while the columns are in this box (NULL: all). */
-thr_status thr_branch_keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low, const int *high,
-                                thr_err *err) THR_MUST_CHECK;
+/* Takes multipliers over, for node i of the tree if they prove more than it has while the columns
+ * are in this box (NULL: all). */
+thr_status thr_branch_keep_dual(thr_branch *branch, int i, thr_turning_dual dual, const int *low,
+                                const int *high, thr_err *err) THR_MUST_CHECK;
 
-/* Is the best plan found proved to be one, whatever gap is enough? And is it as near to the root's bound as is enough? */
+/* Is the best plan found proved to be one, whatever gap is enough? And is it as near to the root's
+ * bound as is enough? */
 bool thr_branch_is_least(const thr_branch *branch);
 bool thr_branch_proved(const thr_branch *branch);
 
 /* Until the tree is closed, or stopped. */
 thr_status thr_branch_run(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 
-/* Steps of the search that its lanes share: the tree's root; the separators of a relaxation; bounds on a column of a branch's
- * programme; and a node's bound and plans, whose decisions are in force there. */
+/* Steps of the search that its lanes share: the tree's root; the separators of a relaxation; bounds
+ * on a column of a branch's programme; and a node's bound and plans, whose decisions are in force
+ * there. */
 thr_status thr_branch_init_tree(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 void thr_branch_use_separators(thr_relax *relax);
-thr_status thr_branch_set_bounds(void *branch, int column, int low, int high, thr_err *err) THR_MUST_CHECK;
-thr_status thr_branch_solve_node(thr_branch *branch, int node, const thr_limits *limits, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_set_bounds(void *branch, int column, int low, int high,
+                                 thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_solve_node(thr_branch *branch, int node, const thr_limits *limits,
+                                 thr_err *err) THR_MUST_CHECK;
 
-/* Puts the decisions of n > 1 nodes in force, each in its lane, and solves them, in so many threads as the limits allow, until
- * the deadline (0 = none): bounds and plans are the same whatever their number. What the lanes' points are: thr_branch_lane. */
-thr_status thr_branch_solve_all(thr_branch *branch, int n, const int *node, double deadline, thr_err *err) THR_MUST_CHECK;
+/* Puts the decisions of n > 1 nodes in force, each in its lane, and solves them, in so many threads
+ * as the limits allow, until the deadline (0 = none): bounds and plans are the same whatever their
+ * number. What the lanes' points are: thr_branch_lane. */
+thr_status thr_branch_solve_all(thr_branch *branch, int n, const int *node, double deadline,
+                                thr_err *err) THR_MUST_CHECK;
 const thr_branch *thr_branch_lane(const thr_branch *branch, int lane);
 void thr_branch_close_lanes(thr_branch *branch);
 
@@ -232,12 +268,14 @@ thr_status thr_branch_gather(thr_branch *branch, thr_err *err) THR_MUST_CHECK;
 thr_status thr_branch_take(thr_branch *branch, thr_branch *from, thr_err *err) THR_MUST_CHECK;
 
 /* The tree with the multipliers of its leaves, which are moved. */
-thr_status thr_branch_proof(thr_branch *branch, thr_turning_proof *proof, thr_err *err) THR_MUST_CHECK;
+thr_status thr_branch_proof(thr_branch *branch, thr_turning_proof *proof,
+                            thr_err *err) THR_MUST_CHECK;
 
 /* How far bound and price may be apart and still count as equal. */
 int64_t thr_branch_tolerance(const thr_branch *branch);
 
-/* ---- least.c: The least turning: extra passes, ends and pairings chosen together (docs/method.md). */
+/* ---- least.c: The least turning: extra passes, ends and pairings chosen together
+ * (docs/method.md). */
 
 /* Cords of a plan. */
 typedef struct {
@@ -254,16 +292,18 @@ typedef struct {
   int cords;            /* in every component, exactly, unless the ends are counted; 0 = 1 */
   int most_passes;      /* of an edge; 0 = 4 * cover + 4 */
   thr_turn_cost cost;
-  double length_slack;     /* extra cord allowed above the shortest plan found, as a part of its length; < 0 = any length */
+  double length_slack; /* extra cord allowed above the shortest plan found, as a part of its length;
+                          < 0 = any length */
   double price_per_length; /* of extra cord, in the turns' price per unit of length */
   const thr_cord *start;   /* [n_start] a plan of the task to begin with; borrowed, NULL = none */
   int n_start;
-  const thr_least_start *also; /* [n_also] plans of solid joints that the result turns no more than, whatever the time; they may
-                                  turn back; borrowed */
+  const thr_least_start *also; /* [n_also] plans of solid joints that the result turns no more than,
+                                  whatever the time; they may turn back; borrowed */
   int n_also;
-  bool slack_from_start;       /* start is the shortest plan known: the shortest passes hold none */
-  int most_nodes;              /* of the branching tree; 1 = the root only, 0 = no linear programme */
-  thr_orbits_motions *motions; /* asked when a tree begins: its nodes then decide for all images of a column; NULL = none */
+  bool slack_from_start; /* start is the shortest plan known: the shortest passes hold none */
+  int most_nodes;        /* of the branching tree; 1 = the root only, 0 = no linear programme */
+  thr_orbits_motions *motions; /* asked when a tree begins: its nodes then decide for all images of
+                                  a column; NULL = none */
 } thr_least_options;
 
 thr_least_options thr_least_options_default(void);
@@ -273,33 +313,38 @@ typedef struct {
   bool *end_allowed;     /* [n_nodes] or NULL */
   int n_cords;
   thr_cord *cord; /* [n_cords] owned */
-  double price;   /* of all turns and extra cord; where a cord has both ends at one node, nothing turns there (closed: it does) */
+  double price;   /* of all turns and extra cord; where a cord has both ends at one node, nothing
+                     turns there (closed: it does) */
   double turning; /* rad, whatever the cost */
-  double length, shortest; /* of these cords; of the shortest plan found for the same options. The shortest passes may not hold so
-                              many cords: then those that a search without a limit finds count (docs/method.md) */
+  double length, shortest; /* of these cords; of the shortest plan found for the same options. The
+                              shortest passes may not hold so many cords: then those that a search
+                              without a limit finds count (docs/method.md) */
   double length_limit;     /* what the proof is restricted to; < 0 = none */
-  double bound;            /* no plan of the task has a lower price: what the check of the proof says */
-  bool optimal;            /* price and bound agree within 1e-9 of a U-turn per pass */
-  bool shortened;          /* of plans that turn as little it is a short one already */
-  const char *open;        /* why it is not proved; static text, NULL if optimal */
+  double bound;     /* no plan of the task has a lower price: what the check of the proof says */
+  bool optimal;     /* price and bound agree within 1e-9 of a U-turn per pass */
+  bool shortened;   /* of plans that turn as little it is a short one already */
+  const char *open; /* why it is not proved; static text, NULL if optimal */
   thr_turning_proof proof;
   int rounds; /* linear programmes solved */
 } thr_least;
 
-/* THR_OK: optimal. THR_ELIMIT: the limits or the size of the tree stopped it; out holds the best plan, its bound and the proof of
- * that. THR_EINFEASIBLE: no node for an end, or no plan within most_passes and
- * length found (with several closed cords that proves nothing). Otherwise out is empty. */
-thr_status thr_least_turning(const thr_frame *frame, const thr_least_options *options, const thr_limits *limits, thr_least *out,
-                             thr_err *err) THR_MUST_CHECK;
+/* THR_OK: optimal. THR_ELIMIT: the limits or the size of the tree stopped it; out holds the best
+ * plan, its bound and the proof of that. THR_EINFEASIBLE: no node for an end, or no plan within
+ * most_passes and length found (with several closed cords that proves nothing). Otherwise out is
+ * empty. */
+thr_status thr_least_turning(const thr_frame *frame, const thr_least_options *options,
+                             const thr_limits *limits, thr_least *out, thr_err *err) THR_MUST_CHECK;
 void thr_least_destroy(thr_least *least);
 
 /* Passes that the search takes: prices in units of 2^-THR_TURNING_BITS must add up in 64 bits. */
 extern const int thr_least_most_passes;
 
-/* Steps that other makers of cords share: the task of the options, and cords with price, turning and length from a joined
- * multigraph. */
-thr_status thr_least_task(const thr_frame *frame, const thr_least_options *options, thr_least *out, thr_err *err) THR_MUST_CHECK;
-thr_status thr_least_cords(const thr_frame *frame, const thr_join *j, thr_least *out, thr_err *err) THR_MUST_CHECK;
+/* Steps that other makers of cords share: the task of the options, and cords with price, turning
+ * and length from a joined multigraph. */
+thr_status thr_least_task(const thr_frame *frame, const thr_least_options *options, thr_least *out,
+                          thr_err *err) THR_MUST_CHECK;
+thr_status thr_least_cords(const thr_frame *frame, const thr_join *j, thr_least *out,
+                           thr_err *err) THR_MUST_CHECK;
 
 /* Sets optimal from price and bound, and open: why, if it is not. */
 void thr_least_judge(thr_least *least, const char *why);

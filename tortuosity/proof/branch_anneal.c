@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plans by annealing from the best one. */
 #include "graph/scratch.h"
 #include "tortuosity/cords/anneal.h"
@@ -26,8 +27,8 @@ static thr_status run_one(void *user, int k, const thr_limits *limits, thr_err *
   (void)limits;
   const thr_turning_columns *c = r->branch->c;
   const int64_t steps = (int64_t)PER_EDGE * c->f->n_edges + AT_LEAST;
-  return thr_anneal_turns(c, &r->cycles, r->round > 0, steps, (uint64_t)(r->round * RUNS + k), r->limits, r->x[k], &r->better[k],
-                          err);
+  return thr_anneal_turns(c, &r->cycles, r->round > 0, steps, (uint64_t)(r->round * RUNS + k),
+                          r->limits, r->x[k], &r->better[k], err);
 }
 
 static thr_status run_all(runs *r, thr_err *err)
@@ -44,7 +45,8 @@ static thr_status run_rounds(runs *r, thr_err *err)
 {
   thr_branch *branch = r->branch;
   thr_status st = THR_OK;
-  for (int vain = 0; vain < VAIN && !st && !thr_branch_proved(branch) && !thr_limits_stop(r->limits);) {
+  for (int vain = 0;
+       vain < VAIN && !st && !thr_branch_proved(branch) && !thr_limits_stop(r->limits);) {
     const int64_t before = branch->best_price;
     st = run_all(r, err);
     vain = branch->best_price < before ? 0 : vain + 1;

@@ -1,4 +1,6 @@
-/* Nodes that are solved at once, in lanes: the search itself, and copies of its programme in other threads. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Nodes that are solved at once, in lanes: the search itself, and copies of its programme in other
+ * threads. */
 #include "tortuosity/proof/branch.h"
 
 #include <stdlib.h>
@@ -10,7 +12,8 @@ typedef struct {
   double deadline;
 } batch;
 
-/* Lane 0 is the search. Another is a search without a tree but for its root, which stands for the node that is being solved. */
+/* Lane 0 is the search. Another is a search without a tree but for its root, which stands for the
+ * node that is being solved. */
 static thr_branch *lane_of(thr_branch *branch, int k)
 {
   return k > 0 ? &branch->lane[k - 1] : branch;
@@ -29,7 +32,8 @@ static thr_status fill_lane(thr_branch *lane, const thr_branch *branch, thr_err 
   return st;
 }
 
-/* A job of the team, while the search is left alone: the copy belongs to the thread that makes it. */
+/* A job of the team, while the search is left alone: the copy belongs to the thread that makes it.
+ */
 static thr_status open_lane(void *user, int k, const thr_limits *limits, thr_err *err)
 {
   thr_branch *branch = user, *lane = lane_of(branch, k);
@@ -52,7 +56,8 @@ static thr_status close_lane(void *user, int k, const thr_limits *limits, thr_er
 
 void thr_branch_close_lanes(thr_branch *branch)
 {
-  if (branch->lane && thr_team_run(branch->team, THR_TREE_BATCH, close_lane, branch, NULL)) return; /* it cannot fail */
+  if (branch->lane && thr_team_run(branch->team, THR_TREE_BATCH, close_lane, branch, NULL))
+    return; /* it cannot fail */
   thr_team_destroy(branch->team);
   free(branch->lane);
 }
@@ -72,7 +77,9 @@ static thr_status open_lanes(thr_branch *branch, int n, thr_err *err)
 {
   if (branch->lane && branch->lane[n - 2].c) return THR_OK;
   thr_status st = thr_branch_gather(branch, err);
-  if (!st && !branch->lane && !(branch->lane = thr_calloc(THR_TREE_BATCH - 1, sizeof *branch->lane))) st = thr_nomem(err);
+  if (!st && !branch->lane &&
+      !(branch->lane = thr_calloc(THR_TREE_BATCH - 1, sizeof *branch->lane)))
+    st = thr_nomem(err);
   return st ? st : thr_team_run(branch->team, n, open_lane, branch, err);
 }
 
@@ -108,7 +115,8 @@ static thr_status take_lane(thr_branch *branch, thr_branch *lane, int node, thr_
   branch->checking += lane->checking;
   lane->checking = 0;
   if (lane->n_duals > 0) {
-    st = thr_grow(&branch->dual, branch->n_duals, &branch->duals_capacity, sizeof *branch->dual, err);
+    st = thr_grow(&branch->dual, branch->n_duals, &branch->duals_capacity, sizeof *branch->dual,
+                  err);
     if (st) return st;
     branch->tree.node[node].bound = lane->tree.node[0].bound;
     branch->tree.node[node].proof = branch->n_duals;
@@ -118,7 +126,8 @@ static thr_status take_lane(thr_branch *branch, thr_branch *lane, int node, thr_
   return thr_branch_take(branch, lane, err);
 }
 
-thr_status thr_branch_solve_all(thr_branch *branch, int n, const int *node, double deadline, thr_err *err)
+thr_status thr_branch_solve_all(thr_branch *branch, int n, const int *node, double deadline,
+                                thr_err *err)
 {
   batch of = {branch, node, deadline};
   thr_status st = open_lanes(branch, n, err);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where the search begins: the least turning without connectedness. */
 #include "tortuosity/proof/relax_parts.h"
 
@@ -5,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of plans that turn equally little the shorter one: a price of extra passes that is far below the proof's tolerance, in units of
- * 2^-THR_TURNING_BITS per mean edge. */
+/* Of plans that turn equally little the shorter one: a price of extra passes that is far below the
+ * proof's tolerance, in units of 2^-THR_TURNING_BITS per mean edge. */
 enum { LENGTH_PRICE = 1024 };
 
 static void set_prices(const thr_turning_columns *c, int64_t *price)
@@ -14,11 +15,12 @@ static void set_prices(const thr_turning_columns *c, int64_t *price)
   double mean = thr_frame_total_length(c->f) / c->f->n_edges;
   memcpy(price, c->weight, (size_t)c->n_columns * sizeof *price);
   for (int e = 0; e < c->f->n_edges; e++)
-    price[c->first_extra + e] += (int64_t)nearbyint(LENGTH_PRICE * fmin(100, c->f->length[e] / mean));
+    price[c->first_extra + e] +=
+        (int64_t)nearbyint(LENGTH_PRICE * fmin(100, c->f->length[e] / mean));
 }
 
-/* Every pass pays half of the cheapest turn at its half-edge, and every end what that saves at most: where there is no time for
- * more. */
+/* Every pass pays half of the cheapest turn at its half-edge, and every end what that saves at
+ * most: where there is no time for more. */
 static void halve_cheapest(const thr_turning_columns *c, thr_turning_dual *dual)
 {
   for (int h = 0; h < 2 * c->f->n_edges; h++)
@@ -73,12 +75,14 @@ static void first_matching_destroy(first_matching *first)
 }
 
 /* On failure it is to be destroyed, too. */
-static thr_status first_matching_find(first_matching *first, const thr_turning_columns *c, const thr_limits *limits, thr_err *err)
+static thr_status first_matching_find(first_matching *first, const thr_turning_columns *c,
+                                      const thr_limits *limits, thr_err *err)
 {
   thr_err why = {0};
   *first = (first_matching){.x = thr_calloc((size_t)c->n_columns, sizeof *first->x),
                             .price = thr_calloc((size_t)c->n_columns, sizeof *first->price)};
-  thr_status st = first->x && first->price ? thr_turning_dual_init(&first->dual, c, err) : thr_nomem(err);
+  thr_status st =
+      first->x && first->price ? thr_turning_dual_init(&first->dual, c, err) : thr_nomem(err);
   if (!st) st = thr_pass_matching_init(&first->passes, c, err);
   if (st) return st;
   set_prices(c, first->price);
@@ -106,7 +110,8 @@ thr_status thr_branch_match(thr_branch *branch, thr_err *err)
 }
 
 /* Ranks for the parts of the first matching. */
-static thr_status count_ranks(thr_branch *branch, const int *x, const thr_limits *limits, thr_err *err)
+static thr_status count_ranks(thr_branch *branch, const int *x, const thr_limits *limits,
+                              thr_err *err)
 {
   thr_turning_dual dual;
   bool found;

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Plans from the points of the relaxation. */
 #include "graph/threading/euler.h"
 #include "graph/threading/threading.h"
@@ -14,7 +15,8 @@ static bool within_limits(const thr_turning_columns *turning_columns, const int 
   const thr_turning_task *turning_task = turning_columns->task;
   for (int e = 0; e < turning_columns->f->n_edges; e++)
     if (passes[e] > turning_columns->most[e]) return false;
-  return turning_task->extra_limit < 0 || thr_extra_length(turning_columns, passes) <= turning_task->extra_limit;
+  return turning_task->extra_limit < 0 ||
+         thr_extra_length(turning_columns, passes) <= turning_task->extra_limit;
 }
 
 /* Price of the extra passes, in units of 2^-THR_TURNING_BITS. */
@@ -159,7 +161,8 @@ static thr_status try_columns(thr_branch *branch, const int *passes, const int *
 static thr_status try_tied(thr_branch *branch, const int *passes, const int *ends, thr_err *err)
 {
   bool found;
-  if (price_of_passes(branch, passes) >= branch->best_price) return THR_OK; /* what turns cost comes on top */
+  if (price_of_passes(branch, passes) >= branch->best_price)
+    return THR_OK; /* what turns cost comes on top */
   thr_status st = thr_tie_pair(branch->c, passes, ends, branch->whole, &found, err);
   return st || !found ? st : try_columns(branch, passes, ends, err);
 }
@@ -249,9 +252,12 @@ thr_status thr_branch_anneal(thr_branch *branch, const thr_limits *limits, int r
 static thr_status round_tied(thr_branch *branch, thr_err *err)
 {
   bool found;
-  thr_status st = thr_tie_round(branch->c, branch->relax.x, branch->passes, branch->ends, &found, err);
-  bool now_and_then = (branch->rounds & (branch->rounds - 1)) == 0; /* it takes longer than most linear programmes */
-  if (!st && found && now_and_then && !branch->c->task->free_turns && within_limits(branch->c, branch->passes))
+  thr_status st =
+      thr_tie_round(branch->c, branch->relax.x, branch->passes, branch->ends, &found, err);
+  bool now_and_then = (branch->rounds & (branch->rounds - 1)) ==
+                      0; /* it takes longer than most linear programmes */
+  if (!st && found && now_and_then && !branch->c->task->free_turns &&
+      within_limits(branch->c, branch->passes))
     st = thr_tie_improve(branch->c, branch->limits, branch->passes, branch->ends, err);
   return st || !found ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }
@@ -271,7 +277,9 @@ static void take_point(thr_branch *branch, const int *x)
 thr_status thr_branch_try_point(thr_branch *branch, const int *x, thr_err *err)
 {
   take_point(branch, x);
-  return within_limits(branch->c, branch->passes) ? try_columns(branch, branch->passes, branch->ends, err) : THR_OK;
+  return within_limits(branch->c, branch->passes)
+             ? try_columns(branch, branch->passes, branch->ends, err)
+             : THR_OK;
 }
 
 thr_status thr_branch_try_joined(thr_branch *branch, const int *x, thr_err *err)
@@ -293,7 +301,8 @@ thr_status thr_branch_try_joined(thr_branch *branch, const int *x, thr_err *err)
   return st;
 }
 
-/* A point of whole numbers: its own pairs if they hang together; in any case the greedy for its passes and ends. */
+/* A point of whole numbers: its own pairs if they hang together; in any case the greedy for its
+ * passes and ends. */
 thr_status thr_branch_try_whole(thr_branch *branch, thr_err *err)
 {
   const thr_turning_columns *turning_columns = branch->c;
@@ -304,10 +313,13 @@ thr_status thr_branch_try_whole(thr_branch *branch, thr_err *err)
   take_point(branch, x);
   free(x);
   bool fit = !branch->projected && within_limits(turning_columns, branch->passes);
-  thr_status st = fit && turning_columns->task->tube ? thr_tie_holds(turning_columns, branch->whole, &fit, err) : THR_OK;
+  thr_status st = fit && turning_columns->task->tube
+                      ? thr_tie_holds(turning_columns, branch->whole, &fit, err)
+                      : THR_OK;
   if (!st && fit) st = try_columns(branch, branch->passes, branch->ends, err);
   if (!st && turning_columns->task->tube)
-    return round_tied(branch, err); /* nothing to round, but what bounds on columns keep from being even */
+    return round_tied(branch,
+                      err); /* nothing to round, but what bounds on columns keep from being even */
   return st ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }
 
@@ -324,13 +336,14 @@ thr_status thr_branch_try_rounded(thr_branch *branch, thr_err *err)
   for (int v = 0; v < turning_columns->f->n_nodes; v++)
     branch->end_weight[v] = 1;
   for (int k = turning_columns->first_end; k < turning_columns->first_back; k++) {
-    branch->end_weight[thr_tail(turning_columns->f, turning_columns->half[k][0])] -= fmin(1, branch->relax.x[k]) / 2;
+    branch->end_weight[thr_tail(turning_columns->f, turning_columns->half[k][0])] -=
+        fmin(1, branch->relax.x[k]) / 2;
     name = (name ^ (uint64_t)(branch->relax.x[k] * 4 + 0.5)) * UINT64_C(0x9e3779b97f4a7c15);
   }
   if (name == branch->tried) return THR_OK;
   branch->tried = name;
   if (turning_columns->task->tube) return round_tied(branch, err);
-  thr_status st = thr_extra_passes(turning_columns, branch->weight, branch->end_weight, false, branch->limits, branch->passes,
-                                   branch->ends, err);
+  thr_status st = thr_extra_passes(turning_columns, branch->weight, branch->end_weight, false,
+                                   branch->limits, branch->passes, branch->ends, err);
   return st ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }

@@ -1,9 +1,12 @@
-/* Separates groups of edges that a fractional point does not connect to the rest: components of its support.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Separates groups of edges that a fractional point does not connect to the rest: components of its
+ * support.
  *
- * Row of a group S of edges, not all of a component: a single closed cord leaves S at least twice; open cords leave it or end in
- * it.
+ * Row of a group S of edges, not all of a component: a single closed cord leaves S at least twice;
+ * open cords leave it or end in it.
  *
- * Example: two circuits that meet at a node without a turn from one to the other: each of them is a violated group. */
+ * Example: two circuits that meet at a node without a turn from one to the other: each of them is a
+ * violated group. */
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
 #include "graph/sort.h"
@@ -17,15 +20,20 @@ static const double tolerance = 1e-6;
 
 static int end_node(const thr_turning_columns *turning_columns, int column)
 {
-  return turning_columns->f->n_edges + turning_columns->component[thr_tail(turning_columns->f, turning_columns->half[column][0])];
+  return turning_columns->f->n_edges +
+         turning_columns->component[thr_tail(turning_columns->f, turning_columns->half[column][0])];
 }
 
-/* The two edges (or an edge and the ends of its component, numbered after the edges) that a column joins; false for others. */
+/* The two edges (or an edge and the ends of its component, numbered after the edges) that a column
+ * joins; false for others. */
 static bool joins(const thr_turning_columns *turning_columns, int j, int *a, int *b)
 {
-  if (j >= turning_columns->first_back || (j >= turning_columns->first_extra && j < turning_columns->first_end)) return false;
+  if (j >= turning_columns->first_back ||
+      (j >= turning_columns->first_extra && j < turning_columns->first_end))
+    return false;
   *a = turning_columns->half[j][0] >> 1;
-  *b = j < turning_columns->first_extra ? turning_columns->half[j][1] >> 1 : end_node(turning_columns, j);
+  *b = j < turning_columns->first_extra ? turning_columns->half[j][1] >> 1
+                                        : end_node(turning_columns, j);
   return true;
 }
 
@@ -40,8 +48,10 @@ static void put_crossing(thr_relax *relax, const int *edge, int n, const bool *i
     int h = 2 * edge[k / 2] + k % 2, v = thr_tail(frame, h);
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
       if (!inside[frame->half[i] >> 1])
-        thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, h, frame->half[i]), 1);
-    if (turning_columns->end_column[h] >= 0) thr_pool_put(&relax->search.pool, turning_columns->end_column[h], 1);
+        thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, h, frame->half[i]),
+                     1);
+    if (turning_columns->end_column[h] >= 0)
+      thr_pool_put(&relax->search.pool, turning_columns->end_column[h], 1);
   }
 }
 
@@ -80,7 +90,8 @@ thr_status thr_groups_separate(void *user, int *added, thr_err *err)
   for (int v = 0; v < n && !st; v++)
     parent[v] = v;
   for (int j = 0; j < turning_columns->first_back && !st; j++)
-    if (joins(turning_columns, j, &a, &b) && relax->x[j] > tolerance) thr_disjoint_join(parent, a, b);
+    if (joins(turning_columns, j, &a, &b) && relax->x[j] > tolerance)
+      thr_disjoint_join(parent, a, b);
   for (int e = 0; e < m && !st; e++) {
     int root = thr_disjoint_find(parent, e);
     start[root + 2]++;

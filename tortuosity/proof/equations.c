@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The equations of the turning relaxation, and a basis to start from. */
 #include "graph/scratch.h"
 #include "lp/solver/lp.h"
@@ -49,7 +50,8 @@ static void fill_matrix(const thr_relax *relax, double penalty, matrix *m)
 
 static thr_status matrix_init(matrix *m, const thr_relax *relax, double penalty, thr_err *err)
 {
-  size_t n = (size_t)relax->n_all, entries = 3 * (size_t)relax->c->n_columns + 2 * (size_t)relax->search.n_fixed;
+  size_t n = (size_t)relax->n_all,
+         entries = 3 * (size_t)relax->c->n_columns + 2 * (size_t)relax->search.n_fixed;
   *m = (matrix){0};
   m->start = thr_scratch_array(&m->own, n + 1, sizeof *m->start);
   m->row = thr_scratch_array(&m->own, entries, sizeof *m->row);
@@ -66,8 +68,8 @@ thr_status thr_relax_create(thr_relax *relax, double penalty, thr_err *err)
   matrix m;
   thr_status st = matrix_init(&m, relax, penalty, err);
   if (!st)
-    st = thr_lp_create_equations(&relax->search.lp, relax->search.n_fixed, m.rhs, relax->n_all, m.cost, NULL, m.start, m.row,
-                                 m.value, err);
+    st = thr_lp_create_equations(&relax->search.lp, relax->search.n_fixed, m.rhs, relax->n_all,
+                                 m.cost, NULL, m.start, m.row, m.value, err);
   thr_scratch_free(&m.own);
   return st;
 }
@@ -86,7 +88,8 @@ static thr_status crash_init(crash *k, const thr_relax *relax, thr_err *err)
   const thr_turning_columns *turning_columns = relax->c;
   size_t most = 1, turns;
   for (int v = 0; v < turning_columns->f->n_nodes; v++)
-    if ((size_t)thr_degree(turning_columns->f, v) > most) most = (size_t)thr_degree(turning_columns->f, v);
+    if ((size_t)thr_degree(turning_columns->f, v) > most)
+      most = (size_t)thr_degree(turning_columns->f, v);
   turns = most * most;
   *k = (crash){.r = relax};
   k->m.start = thr_scratch_array(&k->m.own, turns + 1, sizeof *k->m.start);
@@ -94,7 +97,8 @@ static thr_status crash_init(crash *k, const thr_relax *relax, thr_err *err)
   k->m.value = thr_scratch_array(&k->m.own, 2 * turns, sizeof *k->m.value);
   k->m.cost = thr_scratch_array(&k->m.own, turns, sizeof *k->m.cost);
   k->m.rhs = thr_scratch_array(&k->m.own, most, sizeof *k->m.rhs);
-  k->row_basic = thr_scratch_array(&k->m.own, (size_t)thr_lp_rows(relax->search.lp), sizeof *k->row_basic);
+  k->row_basic =
+      thr_scratch_array(&k->m.own, (size_t)thr_lp_rows(relax->search.lp), sizeof *k->row_basic);
   k->column_basic = thr_scratch_array(&k->m.own, (size_t)relax->n_all, sizeof *k->column_basic);
   k->back = thr_scratch_array(&k->m.own, 2 * (size_t)turning_columns->f->n_edges, sizeof *k->back);
   if (thr_scratch_check(&k->m.own, err)) return THR_ENOMEM;
@@ -103,7 +107,8 @@ static thr_status crash_init(crash *k, const thr_relax *relax, thr_err *err)
   return THR_OK;
 }
 
-/* The cheapest turns at node v without extra passes and ends: what is basic there is basic in the whole. */
+/* The cheapest turns at node v without extra passes and ends: what is basic there is basic in the
+ * whole. */
 static thr_status crash_node(crash *k, int v, const thr_limits *limits, thr_err *err)
 {
   const thr_turning_columns *turning_columns = k->r->c;
@@ -123,7 +128,8 @@ static thr_status crash_node(crash *k, int v, const thr_limits *limits, thr_err 
   k->m.start[n] = k->m.n;
   for (int i = 0; i < d; i++)
     k->m.rhs[i] = turning_columns->cover[half[i] >> 1];
-  thr_status st = thr_lp_create_equations(&lp, d, k->m.rhs, n, k->m.cost, NULL, k->m.start, k->m.row, k->m.value, err);
+  thr_status st = thr_lp_create_equations(&lp, d, k->m.rhs, n, k->m.cost, NULL, k->m.start,
+                                          k->m.row, k->m.value, err);
   if (!st) st = thr_lp_solve(lp, limits, &outcome, err);
   for (int i = 0; i < d && !st; i++)
     k->row_basic[half[i]] = thr_lp_row_basic(lp, i);
@@ -141,13 +147,15 @@ thr_status thr_relax_crash(thr_relax *relax, const thr_limits *limits, thr_err *
   thr_status st = crash_init(&k, relax, err);
   for (int v = 0; v < turning_columns->f->n_nodes && !st; v++)
     if (thr_degree(turning_columns->f, v) == 1 && turning_columns->task->tube)
-      k.column_basic[turning_columns->end_column[turning_columns->f->half[turning_columns->f->first[v]]]] =
+      k.column_basic[turning_columns
+                         ->end_column[turning_columns->f->half[turning_columns->f->first[v]]]] =
           true; /* all that can be there */
     else if (thr_degree(turning_columns->f, v) > 0)
       st = crash_node(&k, v, limits, err);
   for (int i = darts; !st && i < thr_lp_rows(relax->search.lp); i++)
     if (i < darts + turning_columns->n_ends && turning_columns->task->end_allowed)
-      k.column_basic[turning_columns->n_columns + 2 * i + 1] = true; /* no ends yet: the artificial column makes up for them */
+      k.column_basic[turning_columns->n_columns + 2 * i + 1] =
+          true; /* no ends yet: the artificial column makes up for them */
     else
       k.row_basic[i] = true;
   if (!st) st = thr_lp_set_basis(relax->search.lp, k.row_basic, k.column_basic, err);

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finding divisions of the edges at a node that a point does not tie. */
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
@@ -60,12 +61,14 @@ static void judge_parts(star *s, double threshold)
   judge(s, n, crossing);
 }
 
-/* Of the divisions of d edges into blocks the one with the fewest turns between blocks for its number of them: between[i * d +
- * k], i < k, turns between edges i and k. block[d] and *n_blocks receive it; *n_blocks is 0 if none is violated. For up to 7
- * edges all divisions, 877 at most; for more those into parts that hang together. */
+/* Of the divisions of d edges into blocks the one with the fewest turns between blocks for its
+ * number of them: between[i * d + k], i < k, turns between edges i and k. block[d] and *n_blocks
+ * receive it; *n_blocks is 0 if none is violated. For up to 7 edges all divisions, 877 at most; for
+ * more those into parts that hang together. */
 static thr_status find_worst(int d, const double *between, int *block, int *n_blocks, thr_err *err)
 {
-  static const double threshold[] = {1e-6, 0.2, 0.35, 0.51, 0.7, 0.99, INFINITY}; /* the last: single edges */
+  static const double threshold[] = {1e-6, 0.2,  0.35,    0.51,
+                                     0.7,  0.99, INFINITY}; /* the last: single edges */
   thr_scratch own = {0};
   star s = {.d = d, .between = between, .worst = block, .violation = 1e-6};
   s.block = thr_scratch_array(&own, (size_t)d, sizeof *s.block);
@@ -83,11 +86,14 @@ static thr_status find_worst(int d, const double *between, int *block, int *n_bl
 static thr_status add_junction(thr_relax *relax, int v, int *block, int n, int *added, thr_err *err)
 {
   const thr_turning_columns *turning_columns = relax->c;
-  const int *half = turning_columns->f->half + turning_columns->f->first[v], d = thr_degree(turning_columns->f, v);
+  const int *half = turning_columns->f->half + turning_columns->f->first[v],
+            d = thr_degree(turning_columns->f, v);
   for (int a = 0; a < d; a++)
     for (int b = a + 1; b < d; b++)
-      if (block[a] != block[b]) thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, half[a], half[b]), 1);
-  const thr_row row = {.kind = THR_RELAX_JUNCTION, .index = v, .lower = n - 1, .member = block, .n_members = d};
+      if (block[a] != block[b])
+        thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, half[a], half[b]), 1);
+  const thr_row row = {
+      .kind = THR_RELAX_JUNCTION, .index = v, .lower = n - 1, .member = block, .n_members = d};
   return thr_pool_offer(&relax->search.pool, row, relax->x, 1e-6, added, err);
 }
 
@@ -104,8 +110,8 @@ thr_status thr_junctions_separate(void *user, int *added, thr_err *err)
     int d = thr_degree(frame, v), blocks = 0;
     for (int i = 0; i < d; i++)
       for (int k = i + 1; k < d; k++)
-        between[i * d + k] =
-            relax->x[thr_turning_column(turning_columns, frame->half[frame->first[v] + i], frame->half[frame->first[v] + k])];
+        between[i * d + k] = relax->x[thr_turning_column(
+            turning_columns, frame->half[frame->first[v] + i], frame->half[frame->first[v] + k])];
     if (d > 1) st = find_worst(d, between, block, &blocks, err);
     if (!st && blocks > 1) st = add_junction(relax, v, block, blocks, added, err);
   }

@@ -1,9 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The least turning: extra passes, ends and pairings chosen together (docs/method.md).
  *
- * Minimize the sum of the prices of all turns (angle, sine or steps) over all threadings of the task; a first plan from least
- * joins, then branch and cut (tortuosity/proof/branch.h), then the integer proof, which is checked here once more.
+ * Minimize the sum of the prices of all turns (angle, sine or steps) over all threadings of the
+ * task; a first plan from least joins, then branch and cut (tortuosity/proof/branch.h), then the
+ * integer proof, which is checked here once more.
  *
- * Example: two edges in line turn by 0 with ends anywhere; closed, the cord turns back at both ends: 2 pi. */
+ * Example: two edges in line turn by 0 with ends anywhere; closed, the cord turns back at both
+ * ends: 2 pi. */
 #include "tortuosity/proof/branch.h"
 #include "graph/angle.h"
 #include "tortuosity/cords/several.h"
@@ -16,7 +19,8 @@
 
 thr_least_options thr_least_options_default(void)
 {
-  return (thr_least_options){.cover = 1, .ends = THR_ENDS_CLOSED, .length_slack = -1, .most_nodes = 10000};
+  return (thr_least_options){
+      .cover = 1, .ends = THR_ENDS_CLOSED, .length_slack = -1, .most_nodes = 10000};
 }
 
 void thr_least_destroy(thr_least *least)
@@ -29,29 +33,36 @@ void thr_least_destroy(thr_least *least)
 
 const int thr_least_most_passes = 100000;
 
-thr_status thr_least_task(const thr_frame *frame, const thr_least_options *options, thr_least *out, thr_err *err)
+thr_status thr_least_task(const thr_frame *frame, const thr_least_options *options, thr_least *out,
+                          thr_err *err)
 {
   int cords = options->cords ? options->cords : 1;
   if (options->cover > thr_least_most_passes / frame->n_edges)
-    return thr_fail(err, THR_EINPUT, "%d passes of %d edges are more than the %d that the search for the least turning takes",
-                    options->cover, frame->n_edges, thr_least_most_passes);
+    return thr_fail(
+        err, THR_EINPUT,
+        "%d passes of %d edges are more than the %d that the search for the least turning takes",
+        options->cover, frame->n_edges, thr_least_most_passes);
   if (options->ends != THR_ENDS_CLOSED) {
-    thr_request plan = {.ends = options->ends, .end_node = (bool *)options->end_node, .end_count = (int *)options->end_count};
-    if (!(out->end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *out->end_allowed))) return thr_nomem(err);
+    thr_request plan = {.ends = options->ends,
+                        .end_node = (bool *)options->end_node,
+                        .end_count = (int *)options->end_count};
+    if (!(out->end_allowed = thr_calloc((size_t)frame->n_nodes, sizeof *out->end_allowed)))
+      return thr_nomem(err);
     for (int v = 0; v < frame->n_nodes; v++)
       out->end_allowed[v] = thr_plan_end_allowed(frame, &plan, v);
   }
-  out->task = (thr_turning_task){.cover = options->cover,
-                                 .capacity = options->capacity,
-                                 .tube = options->tube,
-                                 .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
-                                 .most_passes =
-                                     options->most_passes ? options->most_passes : thr_turning_most_passes(frame, options->cover),
-                                 .cords = cords,
-                                 .end_allowed = out->end_allowed,
-                                 .cost = options->cost,
-                                 .price_per_length = options->price_per_length,
-                                 .extra_limit = -1};
+  out->task = (thr_turning_task){
+      .cover = options->cover,
+      .capacity = options->capacity,
+      .tube = options->tube,
+      .end_count = options->ends == THR_ENDS_COUNTS ? options->end_count : NULL,
+      .most_passes = options->most_passes ? options->most_passes
+                                          : thr_turning_most_passes(frame, options->cover),
+      .cords = cords,
+      .end_allowed = out->end_allowed,
+      .cost = options->cost,
+      .price_per_length = options->price_per_length,
+      .extra_limit = -1};
   return THR_OK;
 }
 
@@ -66,9 +77,11 @@ static thr_status take_start(const thr_branch *branch, thr_least_start *start, t
   return thr_join_cords(&branch->best, start->cord, n, err);
 }
 
-/* Several closed cords: the shortest passes if they hold them, or the shortest of all plans that the search begins with. */
-static thr_status find_several(const thr_turning_columns *turning_columns, const thr_limits *limits, const int *passes,
-                               thr_least_start *start, double *extra, thr_err *err)
+/* Several closed cords: the shortest passes if they hold them, or the shortest of all plans that
+ * the search begins with. */
+static thr_status find_several(const thr_turning_columns *turning_columns, const thr_limits *limits,
+                               const int *passes, thr_least_start *start, double *extra,
+                               thr_err *err)
 {
   thr_branch branch;
   thr_status st = thr_branch_init(&branch, turning_columns, 1, limits, err);
@@ -85,8 +98,9 @@ static thr_status find_several(const thr_turning_columns *turning_columns, const
 }
 
 /* Passes and ends of the cords to begin with. */
-static thr_status tied_passes(const thr_turning_columns *turning_columns, const thr_least_options *options, int *passes,
-                              int *ends, thr_err *err)
+static thr_status tied_passes(const thr_turning_columns *turning_columns,
+                              const thr_least_options *options, int *passes, int *ends,
+                              thr_err *err)
 {
   thr_status st = thr_tie_possible(turning_columns, err);
   memset(passes, 0, (size_t)turning_columns->f->n_edges * sizeof *passes);
@@ -101,7 +115,8 @@ static thr_status tied_passes(const thr_turning_columns *turning_columns, const 
   return st;
 }
 
-/* Are there passes for all ends? The shortest may leave a node with fewer than it is to have ends. */
+/* Are there passes for all ends? The shortest may leave a node with fewer than it is to have ends.
+ */
 static bool ends_fit(const thr_frame *frame, const int *passes, const int *ends)
 {
   for (int v = 0; v < frame->n_nodes; v++) {
@@ -113,21 +128,27 @@ static bool ends_fit(const thr_frame *frame, const int *passes, const int *ends)
   return true;
 }
 
-/* The shortest extra passes, and from the length of a plan with them, or nearly, the limit that the slack allows. */
-static thr_status find_shortest(thr_turning_columns *turning_columns, const thr_least_options *options, const thr_limits *limits,
-                                thr_least *out, int *passes, int *ends, thr_least_start *start, thr_err *err)
+/* The shortest extra passes, and from the length of a plan with them, or nearly, the limit that the
+ * slack allows. */
+static thr_status find_shortest(thr_turning_columns *turning_columns,
+                                const thr_least_options *options, const thr_limits *limits,
+                                thr_least *out, int *passes, int *ends, thr_least_start *start,
+                                thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   thr_status st = options->tube ? tied_passes(turning_columns, options, passes, ends, err)
-                                : thr_extra_passes(turning_columns, frame->length, NULL, false, limits, passes, ends, err);
-  double extra = st ? 0 : thr_extra_length(turning_columns, passes), base = thr_turning_base_length(frame, options->cover),
-         given = 0;
+                                : thr_extra_passes(turning_columns, frame->length, NULL, false,
+                                                   limits, passes, ends, err);
+  double extra = st ? 0 : thr_extra_length(turning_columns, passes),
+         base = thr_turning_base_length(frame, options->cover), given = 0;
   bool several = !out->end_allowed && out->task.cords > 1;
-  bool counts = options->n_start > 0 && (!several || options->n_start == out->task.cords * turning_columns->n_components);
+  bool counts = options->n_start > 0 &&
+                (!several || options->n_start == out->task.cords * turning_columns->n_components);
   if (!st && several) st = find_several(turning_columns, limits, passes, start, &extra, err);
   for (int i = 0; i < options->n_start; i++)
     given += thr_cord_length(frame, &options->start[i]);
-  counts &= options->slack_from_start || given < (base + extra) * (1 - 1e-9) || !ends_fit(frame, passes, ends);
+  counts &= options->slack_from_start || given < (base + extra) * (1 - 1e-9) ||
+            !ends_fit(frame, passes, ends);
   out->shortest = counts ? given : base + extra;
   out->length_limit = options->length_slack < 0 ? -1 : out->shortest * (1 + options->length_slack);
   out->task.extra_limit = thr_turning_extra_limit(frame, options->cover, out->length_limit);
@@ -136,22 +157,24 @@ static thr_status find_shortest(thr_turning_columns *turning_columns, const thr_
 }
 
 /* Other first plans: the shortest passes, the plan to begin with, and those for ends far apart. */
-static thr_status other_plans(thr_branch *branch, const thr_least_options *options, const thr_least_start *start, int *passes,
-                              int *ends, thr_err *err)
+static thr_status other_plans(thr_branch *branch, const thr_least_options *options,
+                              const thr_least_start *start, int *passes, int *ends, thr_err *err)
 {
   thr_status st = thr_branch_try(branch, passes, ends, err);
-  if (!st && options->start) st = thr_branch_try_cords(branch, options->start, options->n_start, err);
+  if (!st && options->start)
+    st = thr_branch_try_cords(branch, options->start, options->n_start, err);
   if (!st && start->n) st = thr_branch_try_cords(branch, start->cord, start->n, err);
   if (!st && branch->several) st = thr_several_plans(branch, err);
   if (st || !branch->c->task->end_allowed || options->tube || branch->c->task->end_count) return st;
   thr_extra_spread_ends(branch->c, ends);
-  st = thr_extra_passes(branch->c, branch->c->f->length, NULL, true, branch->limits, passes, ends, err);
+  st = thr_extra_passes(branch->c, branch->c->f->length, NULL, true, branch->limits, passes, ends,
+                        err);
   return st ? st : thr_branch_try(branch, passes, ends, err);
 }
 
 /* The same beside the plan of the matching, if there is one. */
-static thr_status first_plans(thr_branch *branch, const thr_least_options *options, const thr_least_start *start, int *passes,
-                              int *ends, thr_err *err)
+static thr_status first_plans(thr_branch *branch, const thr_least_options *options,
+                              const thr_least_start *start, int *passes, int *ends, thr_err *err)
 {
   if (thr_branch_is_least(branch)) return THR_OK;
   thr_status st = other_plans(branch, options, start, passes, ends, err);
@@ -173,7 +196,8 @@ static void measure(const thr_frame *frame, thr_least *out)
       out->price += thr_turn_price(frame, out->task.cost, c->half[k], next);
     }
   }
-  out->price += out->task.price_per_length * (out->length - thr_turning_base_length(frame, out->task.cover));
+  out->price +=
+      out->task.price_per_length * (out->length - thr_turning_base_length(frame, out->task.cover));
 }
 
 thr_status thr_least_cords(const thr_frame *frame, const thr_join *j, thr_least *out, thr_err *err)
@@ -189,9 +213,12 @@ thr_status thr_least_cords(const thr_frame *frame, const thr_join *j, thr_least 
 
 static const char *why_open(const thr_branch *branch)
 {
-  if (branch->dense) return "too many turns for a linear programme, so the bound does not ask that cords hang together";
+  if (branch->dense)
+    return "too many turns for a linear programme, so the bound does not ask that cords hang "
+           "together";
   if (branch->tree.stopped) return "stopped early";
-  return branch->several ? "what it costs to have no fewer cords is not part of the bound" : "rounding left a gap";
+  return branch->several ? "what it costs to have no fewer cords is not part of the bound"
+                         : "rounding left a gap";
 }
 
 void thr_least_judge(thr_least *least, const char *why)
@@ -200,7 +227,8 @@ void thr_least_judge(thr_least *least, const char *why)
   for (int i = 0; i < least->n_cords; i++)
     passes += least->cord[i].n_passes;
   /* twice what thr_branch_tolerance allows, for the roundings of the proof */
-  least->optimal = least->bound >= least->price - 2e-9 * thr_turn_cost_of(least->task.cost, THR_PI) * passes;
+  least->optimal =
+      least->bound >= least->price - 2e-9 * thr_turn_cost_of(least->task.cost, THR_PI) * passes;
   least->open = least->optimal ? NULL : why;
 }
 
@@ -213,7 +241,8 @@ static thr_status finish(const thr_frame *frame, thr_branch *branch, thr_least *
   if ((st = thr_branch_proof(branch, &out->proof, err))) return st;
   thr_err found = {0};
   st = thr_turning_proof_check_columns(branch->c, &out->proof, &out->bound, NULL, &found);
-  if (st == THR_EVIOLATED) return thr_fail(err, THR_ESOLVER, "the proof does not pass its own check: %s", found.text);
+  if (st == THR_EVIOLATED)
+    return thr_fail(err, THR_ESOLVER, "the proof does not pass its own check: %s", found.text);
   if (st) return thr_fail(err, st, "%s", found.text);
   thr_least_judge(out, why_open(branch));
   return THR_OK;
@@ -225,12 +254,15 @@ static thr_status not_found(const thr_branch *branch, thr_err *err)
   const thr_turning_task *turning_task = branch->c->task;
   if (branch->several)
     thr_fail(err, THR_EINFEASIBLE,
-             "no plan with %d closed cords in every component and at most %d passes of every edge was found; "
+             "no plan with %d closed cords in every component and at most %d passes of every edge "
+             "was found; "
              "ask for fewer cords, or allow more passes or more length",
              turning_task->cords, turning_task->most_passes);
   else
-    thr_fail(err, THR_EINFEASIBLE, "no plan with at most %d passes of every edge was found; allow more passes or more length",
-             turning_task->most_passes);
+    thr_fail(
+        err, THR_EINFEASIBLE,
+        "no plan with at most %d passes of every edge was found; allow more passes or more length",
+        turning_task->most_passes);
   return THR_EINFEASIBLE;
 }
 
@@ -242,8 +274,8 @@ static thr_status begin(thr_branch *branch, thr_err *err)
   return st ? thr_fail(err, st, "%s", why.text) : THR_OK;
 }
 
-/* Checks of the proof that follow the search, each of which goes through all turns as making the columns does, with tube joints
- * once for every junction; with a margin. */
+/* Checks of the proof that follow the search, each of which goes through all turns as making the
+ * columns does, with tube joints once for every junction; with a margin. */
 enum { CHECKS = 10, CHECKS_TIED = 20 };
 
 /* The limits less so many seconds, but half of what is left at most. */
@@ -254,15 +286,16 @@ static thr_limits without(const thr_limits *limits, double seconds)
   return less;
 }
 
-static thr_status search(const thr_frame *frame, const thr_least_options *options, const thr_limits *limits, thr_least *out,
-                         thr_err *err)
+static thr_status search(const thr_frame *frame, const thr_least_options *options,
+                         const thr_limits *limits, thr_least *out, thr_err *err)
 {
   thr_least made = {0};
   thr_turning_columns turning_columns = {0};
   thr_branch branch = {0};
   thr_least_start start = {0};
   *out = (thr_least){0};
-  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes), *ends = thr_calloc((size_t)frame->n_nodes, sizeof *ends);
+  int *passes = thr_calloc((size_t)frame->n_edges, sizeof *passes),
+      *ends = thr_calloc((size_t)frame->n_nodes, sizeof *ends);
   thr_status st = passes && ends ? thr_least_task(frame, options, &made, err) : thr_nomem(err);
   const double begun = thr_clock();
   thr_limits inner = *limits;
@@ -303,10 +336,11 @@ static double dear_length(const thr_frame *frame, int cover)
   return fmin(100, most / passes) * frame->n_edges / thr_frame_total_length(frame);
 }
 
-/* The shortest passes hold no such plan, as they would turn back or are full: the slack is measured from a plan of least length.
+/* The shortest passes hold no such plan, as they would turn back or are full: the slack is measured
+ * from a plan of least length.
  */
-static thr_status search_from_shortest(const thr_frame *frame, const thr_least_options *options, const thr_limits *limits,
-                                       thr_least *out, thr_err *err)
+static thr_status search_from_shortest(const thr_frame *frame, const thr_least_options *options,
+                                       const thr_limits *limits, thr_least *out, thr_err *err)
 {
   thr_least shortest;
   thr_least_options again = *options;
@@ -328,16 +362,18 @@ static thr_status search_from_shortest(const thr_frame *frame, const thr_least_o
 }
 
 /* Once more where the plan found is shorter than the one that its slack was measured from. */
-thr_status thr_least_turning(const thr_frame *frame, const thr_least_options *options, const thr_limits *limits, thr_least *out,
-                             thr_err *err)
+thr_status thr_least_turning(const thr_frame *frame, const thr_least_options *options,
+                             const thr_limits *limits, thr_least *out, thr_err *err)
 {
   thr_err found = {0};
   thr_status st = search(frame, options, limits, out, &found);
-  if (st == THR_EINFEASIBLE && options->length_slack >= 0 && !options->tube && !options->slack_from_start) {
+  if (st == THR_EINFEASIBLE && options->length_slack >= 0 && !options->tube &&
+      !options->slack_from_start) {
     found = (thr_err){0};
     st = search_from_shortest(frame, options, limits, out, &found);
   }
-  while ((!st || st == THR_ELIMIT) && options->length_slack >= 0 && out->length < out->shortest * (1 - 1e-9)) {
+  while ((!st || st == THR_ELIMIT) && options->length_slack >= 0 &&
+         out->length < out->shortest * (1 - 1e-9)) {
     thr_least_options again = *options;
     thr_least shorter = {0};
     again.start = out->cord;

@@ -1,5 +1,7 @@
-/* The cheapest turns of every half-edge at a node of any degree: what pairings and bounds there are chosen among first. Internal
- * to tortuosity/. One sweep over the node's columns, O(degree^2), with room for a few of each. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The cheapest turns of every half-edge at a node of any degree: what pairings and bounds there are
+ * chosen among first. Internal to tortuosity/. One sweep over the node's columns, O(degree^2), with
+ * room for a few of each. */
 #include "tortuosity/proof/relax_parts.h"
 
 #include <stdlib.h>
@@ -25,8 +27,8 @@ static void insert(thr_nearest *nearest, int i, int j, int64_t price)
   partner[at] = j;
 }
 
-thr_status thr_nearest_find(const thr_turning_columns *turning_columns, int v, const int64_t *price, int most, thr_nearest *out,
-                            thr_err *err)
+thr_status thr_nearest_find(const thr_turning_columns *turning_columns, int v, const int64_t *price,
+                            int most, thr_nearest *out, thr_err *err)
 {
   int d = thr_degree(turning_columns->f, v), column = turning_columns->pair_first[v];
   *out = (thr_nearest){.degree = d, .n = most < d ? most : d - 1};

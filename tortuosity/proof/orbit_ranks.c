@@ -1,13 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The best multipliers of ranks and groups where a framework is symmetric. Internal to tortuosity/.
  *
- * Of multipliers that prove a bound the mean of all images under the symmetries (tortuosity/proof/orbits.c) proves as much, as
- * the bound is concave. So it is enough to look for one number per orbit of half-edges, for one partition that no symmetry
- * changes, and for the orbits of its blocks, each of which is a group: some dozen numbers on a sphere of a thousand edges. What a
- * node is worth is the least over its forests (graph/plan/turning_proof.h), which come into the linear programme of these numbers
- * as they are found to be worth less than it says (cutting planes: J. E. Kelley, J. SIAM 8, 1960). Its optimum is that of the
- * linear programme over all forests.
+ * Of multipliers that prove a bound the mean of all images under the symmetries
+ * (tortuosity/proof/orbits.c) proves as much, as the bound is concave. So it is enough to look for
+ * one number per orbit of half-edges, for one partition that no symmetry changes, and for the
+ * orbits of its blocks, each of which is a group: some dozen numbers on a sphere of a thousand
+ * edges. What a node is worth is the least over its forests (graph/plan/turning_proof.h), which
+ * come into the linear programme of these numbers as they are found to be worth less than it says
+ * (cutting planes: J. E. Kelley, J. SIAM 8, 1960). Its optimum is that of the linear programme over
+ * all forests.
  *
- * Example: the sphere of 750 edges has 15 orbits of half-edges and falls into 25 circuits of 3 kinds: 13,499.7 degrees. */
+ * Example: the sphere of 750 edges has 15 orbits of half-edges and falls into 25 circuits of 3
+ * kinds: 13,499.7 degrees. */
 #include "graph/disjoint.h"
 #include "lp/solver/lp.h"
 #include "tortuosity/proof/relax_parts.h"
@@ -20,7 +24,8 @@ enum { ROUNDS = 400, MOST_NUMBERS = 400 };
 static const double most_value = 100;    /* rad, of any multiplier */
 static const double close_enough = 1e-9; /* of the bound, between it and the programme's optimum */
 
-/* The programme's columns: potentials of the orbits of half-edges, the rank, the orbits of blocks, what the nodes are worth. */
+/* The programme's columns: potentials of the orbits of half-edges, the rank, the orbits of blocks,
+ * what the nodes are worth. */
 typedef struct {
   const thr_turning_columns *c;
   const thr_orbits *orbits;
@@ -66,7 +71,8 @@ static void find_orbits(programme *p)
   }
 }
 
-/* Joins edges whose images under some symmetry are in one block, until none are apart. part: as connected by the matching. */
+/* Joins edges whose images under some symmetry are in one block, until none are apart. part: as
+ * connected by the matching. */
 static void find_blocks(programme *p, const int *part, int *of_part)
 {
   const int m = p->c->f->n_edges;
@@ -81,7 +87,8 @@ static void find_blocks(programme *p, const int *part, int *of_part)
     for (int s = 0; s < p->orbits->n; s++)
       for (int e = 0; e < m; e++) {
         const int other = thr_disjoint_find(p->block, e);
-        changed |= thr_disjoint_join(p->block, image_of(p, s, 2 * e) >> 1, image_of(p, s, 2 * other) >> 1);
+        changed |=
+            thr_disjoint_join(p->block, image_of(p, s, 2 * e) >> 1, image_of(p, s, 2 * other) >> 1);
       }
   }
   p->n_blocks = thr_disjoint_number(p->block, m, p->block);
@@ -179,8 +186,10 @@ static double least_forest(const programme *p, int v, const double *value, thr_r
   for (int a = 0; a < node.degree; a++) {
     block[0][a] = p->block[half[a] >> 1];
     for (int b = 0; b < a; b++) {
-      double left = price(p, thr_turning_column(c, half[a], half[b])) - value[p->half[half[a]]] - value[p->half[half[b]]];
-      if (block[0][a] != block[0][b]) left -= value[p->groups + p->kind[block[0][a]]] + value[p->groups + p->kind[block[0][b]]];
+      double left = price(p, thr_turning_column(c, half[a], half[b])) - value[p->half[half[a]]] -
+                    value[p->half[half[b]]];
+      if (block[0][a] != block[0][b])
+        left -= value[p->groups + p->kind[block[0][a]]] + value[p->groups + p->kind[block[0][b]]];
       node.price[a][b] = node.price[b][a] = (int64_t)fmax(0, ldexp(left, THR_TURNING_BITS));
     }
   }
@@ -189,7 +198,8 @@ static double least_forest(const programme *p, int v, const double *value, thr_r
   return worth;
 }
 
-/* A node is worth no more than what its forest costs; left in p->row: how often that has the rank. */
+/* A node is worth no more than what its forest costs; left in p->row: how often that has the rank.
+ */
 static thr_status add_forest(programme *p, int orbit, const thr_rank_turns *turns, thr_err *err)
 {
   const thr_frame *f = p->c->f;
@@ -227,7 +237,8 @@ static thr_status climb(programme *p, const thr_limits *limits, thr_err *err)
   double *at = thr_scratch_array(&p->own, (size_t)p->n, sizeof *at);
   thr_status st = thr_scratch_check(&p->own, err);
   double over = INFINITY, most = 0;
-  for (int round = 0; round < ROUNDS && !st && over > close_enough * most && !thr_limits_stop(limits); round++) {
+  for (int round = 0;
+       round < ROUNDS && !st && over > close_enough * most && !thr_limits_stop(limits); round++) {
     thr_lp_outcome outcome;
     if ((st = thr_lp_solve(p->lp, limits, &outcome, err)) || outcome != THR_LP_OPTIMAL) break;
     thr_lp_primal(p->lp, at);
@@ -268,10 +279,12 @@ static thr_status write_dual(const programme *p, thr_turning_dual *dual, thr_err
   const size_t m = (size_t)p->c->f->n_edges;
   for (int h = 0; h < 2 * (int)m; h++)
     dual->potential[h] = whole(p->best[p->half[h]]);
-  if (!(dual->rank = thr_calloc(1, sizeof *dual->rank)) || !(dual->rank->block = thr_calloc(m, sizeof *dual->rank->block)))
+  if (!(dual->rank = thr_calloc(1, sizeof *dual->rank)) ||
+      !(dual->rank->block = thr_calloc(m, sizeof *dual->rank->block)))
     return thr_nomem(err);
   dual->n_ranks = 1;
-  dual->rank->value = whole(fmax(0, p->best[p->rank])); /* a programme keeps to its limits but for its tolerance */
+  dual->rank->value =
+      whole(fmax(0, p->best[p->rank])); /* a programme keeps to its limits but for its tolerance */
   memcpy(dual->rank->block, p->block, m * sizeof *p->block);
   return write_groups(p, dual, err);
 }
@@ -290,7 +303,8 @@ static thr_status init(programme *p, const int *x, thr_err *err)
 {
   const thr_turning_columns *c = p->c;
   const size_t n = (size_t)c->f->n_nodes, m = (size_t)c->f->n_edges;
-  int *part = thr_scratch_array(&p->own, m, sizeof *part), *other = thr_scratch_array(&p->own, m + 1, sizeof *other);
+  int *part = thr_scratch_array(&p->own, m, sizeof *part),
+      *other = thr_scratch_array(&p->own, m + 1, sizeof *other);
   p->half = thr_scratch_array(&p->own, 2 * m, sizeof *p->half);
   p->node = thr_scratch_array(&p->own, n, sizeof *p->node);
   p->first = thr_scratch_array(&p->own, n, sizeof *p->first);
@@ -314,11 +328,13 @@ static thr_status init(programme *p, const int *x, thr_err *err)
   return thr_scratch_check(&p->own, err);
 }
 
-thr_status thr_orbit_ranks(const thr_turning_columns *c, const thr_orbits *orbits, const int *x, const thr_limits *limits,
-                           thr_turning_dual *dual, bool *found, thr_err *err)
+thr_status thr_orbit_ranks(const thr_turning_columns *c, const thr_orbits *orbits, const int *x,
+                           const thr_limits *limits, thr_turning_dual *dual, bool *found,
+                           thr_err *err)
 {
   programme p = {.c = c, .orbits = orbits};
-  const bool serves = !c->task->end_allowed && !c->task->tube && c->task->cords == 1 && c->n_components == 1;
+  const bool serves =
+      !c->task->end_allowed && !c->task->tube && c->task->cords == 1 && c->n_components == 1;
   *found = false;
   *dual = (thr_turning_dual){0};
   if (!serves || orbits->n == 0) return THR_OK;

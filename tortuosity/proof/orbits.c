@@ -1,11 +1,13 @@
-/* Which columns a tree decides on at once: images under the symmetries of the task that keep what was decided before. Internal to
- * tortuosity/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which columns a tree decides on at once: images under the symmetries of the task that keep what
+ * was decided before. Internal to tortuosity/.
  *
- * Decided with a column are its images at a node (graph/plan/turning_proof.h). Only symmetries count under which prices are
- * the same but for rounding, so that lowering them to the least of their images proves as much.
+ * Decided with a column are its images at a node (graph/plan/turning_proof.h). Only symmetries
+ * count under which prices are the same but for rounding, so that lowering them to the least of
+ * their images proves as much.
  *
- * Example: a dome of five alike sectors: the first decision is about five columns, and then mostly about two, left and right of
- * the mirror through the sector that was chosen. */
+ * Example: a dome of five alike sectors: the first decision is about five columns, and then mostly
+ * about two, left and right of the mirror through the sector that was chosen. */
 #include "tortuosity/proof/branch.h"
 
 #include <stdlib.h>
@@ -57,15 +59,17 @@ static thr_status choose(thr_orbits *orbits, const int *node, int n, bool priced
   if (!(orbits->image = thr_calloc((size_t)n * m, sizeof *orbits->image))) return thr_nomem(err);
   for (int i = 0; i < n && !st; i++) {
     int *image = orbits->image + (size_t)orbits->n * m;
-    bool yes = map_edges(frame, node + (size_t)i * (size_t)frame->n_nodes, image) && !is_identity(image, frame->n_edges);
+    bool yes = map_edges(frame, node + (size_t)i * (size_t)frame->n_nodes, image) &&
+               !is_identity(image, frame->n_edges);
     if (yes) st = thr_turning_symmetric(orbits->c, image, &yes, err);
     orbits->n += !st && yes && (!priced || keeps_prices(orbits->c, image));
   }
   return st;
 }
 
-static thr_status find(thr_orbits *orbits, const thr_turning_columns *turning_columns, thr_orbits_motions *motions, bool priced,
-                       const thr_limits *limits, thr_err *err)
+static thr_status find(thr_orbits *orbits, const thr_turning_columns *turning_columns,
+                       thr_orbits_motions *motions, bool priced, const thr_limits *limits,
+                       thr_err *err)
 {
   int *node = NULL, n = 0;
   *orbits = (thr_orbits){.c = turning_columns};
@@ -76,8 +80,8 @@ static thr_status find(thr_orbits *orbits, const thr_turning_columns *turning_co
   return st;
 }
 
-thr_status thr_orbits_init(thr_orbits *orbits, const thr_turning_columns *turning_columns, thr_orbits_motions *motions,
-                           const thr_limits *limits, thr_err *err)
+thr_status thr_orbits_init(thr_orbits *orbits, const thr_turning_columns *turning_columns,
+                           thr_orbits_motions *motions, const thr_limits *limits, thr_err *err)
 {
   return find(orbits, turning_columns, motions, true, limits, err);
 }
@@ -102,8 +106,9 @@ static void lower(const thr_turning_columns *columns, const int *image, int *edg
   }
 }
 
-thr_status thr_orbits_lowest(const thr_turning_columns *turning_columns, thr_orbits_motions *motions, const thr_limits *limits,
-                             int *edge, int *node, thr_err *err)
+thr_status thr_orbits_lowest(const thr_turning_columns *turning_columns,
+                             thr_orbits_motions *motions, const thr_limits *limits, int *edge,
+                             int *node, thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   thr_orbits orbits;
@@ -120,12 +125,14 @@ thr_status thr_orbits_lowest(const thr_turning_columns *turning_columns, thr_orb
 }
 
 /* Does it keep the bounds in force on all columns that are decided on the way to the root? */
-static bool keeps_bounds(const thr_orbits *orbits, const thr_tree *tree, const thr_tree_place *place, const int *image)
+static bool keeps_bounds(const thr_orbits *orbits, const thr_tree *tree,
+                         const thr_tree_place *place, const int *image)
 {
   for (int k = place->at; k > 0; k = tree->node[k].parent) {
     const thr_tree_node *node = &tree->node[k];
     for (int i = 0; i <= node->n_also; i++) {
-      const int j = i > 0 ? node->also[i - 1] : node->column, to = thr_turning_image(orbits->c, image, j);
+      const int j = i > 0 ? node->also[i - 1] : node->column,
+                to = thr_turning_image(orbits->c, image, j);
       if (place->low[to] != place->low[j] || place->high[to] != place->high[j]) return false;
     }
   }
@@ -139,8 +146,8 @@ static bool is_listed(const thr_orbit *orbit, int column)
   return false;
 }
 
-thr_status thr_orbits_at(const thr_orbits *orbits, const thr_tree *tree, const thr_tree_place *place, int column,
-                         thr_orbit *orbit, thr_err *err)
+thr_status thr_orbits_at(const thr_orbits *orbits, const thr_tree *tree,
+                         const thr_tree_place *place, int column, thr_orbit *orbit, thr_err *err)
 {
   *orbit = (thr_orbit){.column = thr_calloc((size_t)orbits->n, sizeof *orbit->column),
                        .symmetry = thr_calloc((size_t)orbits->n, sizeof *orbit->symmetry)};

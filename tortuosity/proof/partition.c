@@ -1,9 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds partitions of the edges into blocks that a point does not connect enough.
  *
- * Row: the connections that turns make between b blocks are at least b - K for K closed cords. Blocks are the circuits of the
- * cheapest pairings, merged by Kruskal's method (1956) along the least regrets. With the passes of an optimum and at most 4 at
- * every node, the partitions by price are all that prove it (A. Bouchet, Greedy algorithm and symmetric matroids, Math.
- * Programming 38, 1987).
+ * Row: the connections that turns make between b blocks are at least b - K for K closed cords.
+ * Blocks are the circuits of the cheapest pairings, merged by Kruskal's method (1956) along the
+ * least regrets. With the passes of an optimum and at most 4 at every node, the partitions by price
+ * are all that prove it (A. Bouchet, Greedy algorithm and symmetric matroids, Math. Programming 38,
+ * 1987).
  *
  * Example: three circuits need two connections to become one cord. */
 #include "graph/disjoint.h"
@@ -75,7 +77,9 @@ static double regret_of(const splitter *s, int n)
       int b = s->mate[a], d = s->mate[c];
       if (b < a || d < c) continue;
       double old = s->price[a * n + b] + s->price[c * n + d];
-      least = fmin(least, fmin(s->price[a * n + c] + s->price[b * n + d], s->price[a * n + d] + s->price[b * n + c]) - old);
+      least = fmin(least, fmin(s->price[a * n + c] + s->price[b * n + d],
+                               s->price[a * n + d] + s->price[b * n + c]) -
+                              old);
     }
   return least;
 }
@@ -94,10 +98,13 @@ static thr_status pair_node(splitter *s, int v, bool by_point, thr_err *err)
   if (n % 2 || n > THR_PAIRING_EXACT || thr_degree(frame, v) < 2) return THR_OK;
   for (int i = 0; i < n; i++)
     for (int k = 0; k < n; k++) {
-      int j = s->half[i] == s->half[k] ? -1 : thr_turning_column(turning_columns, s->half[i], s->half[k]);
-      s->price[i * n + k] = j < 0      ? 1e6
-                            : by_point ? 1 - s->r->x[j]
-                                       : ldexp((double)turning_columns->weight[j], -THR_TURNING_BITS);
+      int j = s->half[i] == s->half[k]
+                  ? -1
+                  : thr_turning_column(turning_columns, s->half[i], s->half[k]);
+      s->price[i * n + k] = j < 0 ? 1e6
+                            : by_point
+                                ? 1 - s->r->x[j]
+                                : ldexp((double)turning_columns->weight[j], -THR_TURNING_BITS);
     }
   thr_status st = thr_pairing_best(n, s->price, s->mate, err);
   if (st) return st;
@@ -117,7 +124,8 @@ static int by_regret(const void *pa, const void *pb)
   return (a->node > b->node) - (a->node < b->node);
 }
 
-/* Puts the coefficients of the row; returns how much less it asks for than the connections to make. even is scratch. */
+/* Puts the coefficients of the row; returns how much less it asks for than the connections to make.
+ * even is scratch. */
 static double put_partition(thr_relax *relax, const int *block, bool *even)
 {
   const thr_turning_columns *turning_columns = relax->c;
@@ -132,20 +140,27 @@ static double put_partition(thr_relax *relax, const int *block, bool *even)
     for (int i = 0; i < thr_degree(frame, v); i++) {
       for (int j = i + 1; j < thr_degree(frame, v); j++)
         if (block[half[i] >> 1] != block[half[j] >> 1])
-          thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, half[i], half[j]), share);
-      if (even[i]) thr_pool_put(&relax->search.pool, turning_columns->first_extra + (half[i] >> 1), share / 2);
+          thr_pool_put(&relax->search.pool, thr_turning_column(turning_columns, half[i], half[j]),
+                       share);
+      if (even[i])
+        thr_pool_put(&relax->search.pool, turning_columns->first_extra + (half[i] >> 1), share / 2);
     }
   }
   return less;
 }
 
-/* Adds the row of a partition (block as in graph/plan/turning_proof.h, which needs so many connections) if x violates it. */
-static thr_status add_partition(thr_relax *relax, int *block, int connections, int *added, thr_err *err)
+/* Adds the row of a partition (block as in graph/plan/turning_proof.h, which needs so many
+ * connections) if x violates it. */
+static thr_status add_partition(thr_relax *relax, int *block, int connections, int *added,
+                                thr_err *err)
 {
   bool *even = thr_calloc((size_t)relax->c->f->n_edges, sizeof *even);
   if (!even) return thr_nomem(err);
   double lower = connections - put_partition(relax, block, even);
-  const thr_row row = {.kind = THR_RELAX_PARTITION, .lower = lower, .member = block, .n_members = relax->c->f->n_edges};
+  const thr_row row = {.kind = THR_RELAX_PARTITION,
+                       .lower = lower,
+                       .member = block,
+                       .n_members = relax->c->f->n_edges};
   thr_status st = thr_pool_offer(&relax->search.pool, row, relax->x, 1e-4, added, err);
   free(even);
   return st;
@@ -182,7 +197,8 @@ static thr_status go_through(splitter *s, int *added, thr_err *err)
   for (int i = 0; i < n && more && !st; i++) {
     bool level = i == 0 || s->order[i].regret > s->order[i - 1].regret + 1e-9;
     waited++;
-    if (s->order[i].regret >= 0 && level && (waited >= step || i == 0 || s->order[i - 1].regret <= 1e-9)) {
+    if (s->order[i].regret >= 0 && level &&
+        (waited >= step || i == 0 || s->order[i - 1].regret <= 1e-9)) {
       st = offer(s, added, &more, err);
       waited = 0;
     }

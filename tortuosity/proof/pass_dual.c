@@ -1,9 +1,11 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From the moats of a matching of passes to the multipliers of the turning proof.
  *
- * Passes that must be made are alike, so a potential is the mean of their duals. A blossom that has all of them, of every
- * half-edge that it touches, is an odd set. Where it has only some of those of a half-edge h, the pass matched out of it is one
- * of these, and its row is no more than a part of the equation of h: then the potential takes its value, divided by the cover.
- * With cord ends it is the same. */
+ * Passes that must be made are alike, so a potential is the mean of their duals. A blossom that has
+ * all of them, of every half-edge that it touches, is an odd set. Where it has only some of those
+ * of a half-edge h, the pass matched out of it is one of these, and its row is no more than a part
+ * of the equation of h: then the potential takes its value, divided by the cover. With cord ends it
+ * is the same. */
 #include "graph/sort.h"
 #include "tortuosity/proof/relax_parts.h"
 
@@ -12,7 +14,8 @@
 
 /* ---- blossoms ---- */
 
-/* Each blossom is a part of a list of matching nodes: node[first[b]] .. node[first[b] + size[b] - 1]. */
+/* Each blossom is a part of a list of matching nodes: node[first[b]] .. node[first[b] + size[b] -
+ * 1]. */
 typedef struct {
   int *first, *size; /* [n_blossoms] */
   int *node;
@@ -72,7 +75,8 @@ static int take_set(sets *s, int n, int64_t value)
   return odd ? kept : 0;
 }
 
-static thr_status add_set(thr_turning_dual *dual, const int *member, int n, int64_t value, thr_err *err)
+static thr_status add_set(thr_turning_dual *dual, const int *member, int n, int64_t value,
+                          thr_err *err)
 {
   thr_turning_set *set = &dual->odd[dual->n_odd];
   if (!(set->member = thr_calloc((size_t)n, sizeof *set->member))) return thr_nomem(err);
@@ -84,7 +88,8 @@ static thr_status add_set(thr_turning_dual *dual, const int *member, int n, int6
   return THR_OK;
 }
 
-static thr_status take_sets(sets *s, const thr_matching *matching, const blossom_list *list, thr_turning_dual *dual, thr_err *err)
+static thr_status take_sets(sets *s, const thr_matching *matching, const blossom_list *list,
+                            thr_turning_dual *dual, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int b = 0; b < matching->n_blossoms && !st; b++) {
@@ -116,9 +121,11 @@ static void set_potentials(const sets *s, const thr_matching *matching, thr_turn
   }
 }
 
-/* Where a cord may turn back, two passes of half-edge h pay for it, which as duals may be unequal: two of the potential are made
- * no more than its price, and the odd set of h alone takes the rest. */
-static thr_status settle_backs(const thr_pass_matching *passes, const int64_t *price, thr_turning_dual *dual, thr_err *err)
+/* Where a cord may turn back, two passes of half-edge h pay for it, which as duals may be unequal:
+ * two of the potential are made no more than its price, and the odd set of h alone takes the rest.
+ */
+static thr_status settle_backs(const thr_pass_matching *passes, const int64_t *price,
+                               thr_turning_dual *dual, thr_err *err)
 {
   const thr_turning_columns *c = passes->c;
   thr_status st = THR_OK;
@@ -132,10 +139,11 @@ static thr_status settle_backs(const thr_pass_matching *passes, const int64_t *p
   return st;
 }
 
-thr_status thr_pass_dual(const thr_pass_matching *passes, const thr_matching *matching, const int64_t *price,
-                         thr_turning_dual *dual, thr_err *err)
+thr_status thr_pass_dual(const thr_pass_matching *passes, const thr_matching *matching,
+                         const int64_t *price, thr_turning_dual *dual, thr_err *err)
 {
-  size_t places = (size_t)passes->n_places, nodes = (size_t)passes->first[places], blossoms = (size_t)matching->n_blossoms,
+  size_t places = (size_t)passes->n_places, nodes = (size_t)passes->first[places],
+         blossoms = (size_t)matching->n_blossoms,
          backs = (size_t)(passes->c->n_columns - passes->c->first_back);
   thr_scratch own = {0};
   sets s = {.passes = passes,
@@ -148,7 +156,8 @@ thr_status thr_pass_dual(const thr_pass_matching *passes, const thr_matching *ma
                        .node = thr_scratch_array(&own, nodes, sizeof *list.node)};
   int *next = thr_scratch_array(&own, blossoms, sizeof *next);
   thr_status st = thr_scratch_check(&own, err);
-  thr_turning_set *odd = st ? NULL : thr_realloc(dual->odd, (size_t)dual->n_odd + blossoms + backs, sizeof *odd);
+  thr_turning_set *odd =
+      st ? NULL : thr_realloc(dual->odd, (size_t)dual->n_odd + blossoms + backs, sizeof *odd);
   if (!st && !odd) st = thr_nomem(err);
   if (odd) dual->odd = odd;
   for (int i = 0; i < passes->n_places && !st; i++)
@@ -164,13 +173,16 @@ thr_status thr_pass_dual(const thr_pass_matching *passes, const thr_matching *ma
 
 /* ---- what is left of prices ---- */
 
-/* Gives the turns from half-edge h to later members of the marked set the value back that both their half-edges pay. */
-static void give_back(const thr_turning_columns *c, int h, const thr_turning_set *set, const bool *member, int64_t *left)
+/* Gives the turns from half-edge h to later members of the marked set the value back that both
+ * their half-edges pay. */
+static void give_back(const thr_turning_columns *c, int h, const thr_turning_set *set,
+                      const bool *member, int64_t *left)
 {
   int v = thr_tail(c->f, h), halves = 2 * c->f->n_edges;
   if (set->n > thr_degree(c->f, v)) {
     for (int i = c->f->first[v]; i < c->f->first[v + 1]; i++)
-      if (c->f->half[i] > h && member[c->f->half[i]]) left[thr_turning_column(c, h, c->f->half[i])] += 2 * set->value;
+      if (c->f->half[i] > h && member[c->f->half[i]])
+        left[thr_turning_column(c, h, c->f->half[i])] += 2 * set->value;
     return;
   }
   for (int k = 0; k < set->n && set->member[k] < halves; k++)
@@ -178,26 +190,29 @@ static void give_back(const thr_turning_columns *c, int h, const thr_turning_set
       left[thr_turning_column(c, h, set->member[k])] += 2 * set->value;
 }
 
-/* Of the columns at the set's half-edges; open: nodes whose turns are asked for; paid[2 n_edges]: what all sets take off the
- * turns of a half-edge, those within a set too. */
-static void take_set_off(const thr_turning_columns *c, const thr_turning_set *set, const bool *member, const bool *open,
-                         int64_t *paid, int64_t *left)
+/* Of the columns at the set's half-edges; open: nodes whose turns are asked for; paid[2 n_edges]:
+ * what all sets take off the turns of a half-edge, those within a set too. */
+static void take_set_off(const thr_turning_columns *c, const thr_turning_set *set,
+                         const bool *member, const bool *open, int64_t *paid, int64_t *left)
 {
   int halves = 2 * c->f->n_edges;
   bool ends = set->member[set->n - 1] >= halves; /* members ascend */
   for (int j = c->first_end; ends && j < c->first_back; j++)
-    if (member[halves + c->end_group[thr_tail(c->f, c->half[j][0])]] && !member[c->half[j][0]]) left[j] -= set->value;
+    if (member[halves + c->end_group[thr_tail(c->f, c->half[j][0])]] && !member[c->half[j][0]])
+      left[j] -= set->value;
   for (int k = 0; k < set->n && set->member[k] < halves; k++) {
     int h = set->member[k], v = thr_tail(c->f, h);
     paid[h] += set->value;
     if (!member[h ^ 1]) left[c->first_extra + (h >> 1)] -= set->value;
     if (open[v]) give_back(c, h, set, member, left);
-    if (c->end_column[h] >= 0 && !member[halves + c->end_group[v]]) left[c->end_column[h]] -= set->value;
+    if (c->end_column[h] >= 0 && !member[halves + c->end_group[v]])
+      left[c->end_column[h]] -= set->value;
   }
 }
 
-thr_status thr_pass_left(const thr_pass_matching *passes, const int64_t *price, const thr_turning_dual *dual, int first_odd,
-                         bool all, int64_t *left, thr_err *err)
+thr_status thr_pass_left(const thr_pass_matching *passes, const int64_t *price,
+                         const thr_turning_dual *dual, int first_odd, bool all, int64_t *left,
+                         thr_err *err)
 {
   const thr_turning_columns *c = passes->c;
   thr_scratch own = {0};
@@ -207,7 +222,8 @@ thr_status thr_pass_left(const thr_pass_matching *passes, const int64_t *price, 
   thr_status st = thr_scratch_check(&own, err);
   for (int j = 0; j < c->first_back && !st; j++) {
     int a = c->half[j][0], b = c->half[j][1];
-    int64_t both = dual->potential[a] + (b >= 0 ? dual->potential[b] : dual->ends[c->end_group[thr_tail(c->f, a)]]);
+    int64_t both = dual->potential[a] +
+                   (b >= 0 ? dual->potential[b] : dual->ends[c->end_group[thr_tail(c->f, a)]]);
     left[j] = price[j] + (j >= c->first_extra && j < c->first_end ? both : -both);
     if (all || !passes->listed[j]) open[thr_tail(c->f, a)] = true;
   }

@@ -1,15 +1,19 @@
-/* The least turning without connectedness: one perfect matching over copies of passes. Internal to tortuosity/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The least turning without connectedness: one perfect matching over copies of passes. Internal to
+ * tortuosity/.
  *
- * Node (h, k) of the matching is pass k of half-edge h's edge at h's node. Two passes of different edges at one node may be
- * matched, which is a turn, at its price; passes k of an edge, k at least its cover, also end to end: then that pass is not made.
- * Every cord end is a node, too, that may be matched with a pass where it may be; those that need not be also two by two.
+ * Node (h, k) of the matching is pass k of half-edge h's edge at h's node. Two passes of different
+ * edges at one node may be matched, which is a turn, at its price; passes k of an edge, k at least
+ * its cover, also end to end: then that pass is not made. Every cord end is a node, too, that may
+ * be matched with a pass where it may be; those that need not be also two by two.
  *
- * The moats of a matching are the multipliers of the turning proof: that of (h, 0) is the potential of h, and a blossom is the
- * odd set of the half-edges whose pass 0 is in it (J. Edmonds 1965). So many copies are enough as the multipliers leave no extra
- * pass a negative price; more are added where they do, and so are turns and ends, of which the likely ones come first.
+ * The moats of a matching are the multipliers of the turning proof: that of (h, 0) is the potential
+ * of h, and a blossom is the odd set of the half-edges whose pass 0 is in it (J. Edmonds 1965). So
+ * many copies are enough as the multipliers leave no extra pass a negative price; more are added
+ * where they do, and so are turns and ends, of which the likely ones come first.
  *
- * Example: a square, closed: each half-edge (h, 0) is matched with the other one at its node; the copies (h, 1) stay end to
- * end. */
+ * Example: a square, closed: each half-edge (h, 0) is matched with the other one at its node; the
+ * copies (h, 1) stay end to end. */
 #include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
@@ -58,7 +62,8 @@ static void number_nodes(thr_pass_matching *passes)
 {
   int halves = 2 * passes->c->f->n_edges;
   for (int i = 0; i < passes->n_places; i++)
-    passes->first[i + 1] = passes->first[i] + (i < halves ? passes->copies[i >> 1] : passes->c->supply[i - halves][1]);
+    passes->first[i + 1] =
+        passes->first[i] + (i < halves ? passes->copies[i >> 1] : passes->c->supply[i - halves][1]);
 }
 
 /* The cheapest turns of every half-edge, or all where there are few. */
@@ -74,12 +79,14 @@ static thr_status list_turns(thr_pass_matching *passes, int v, thr_err *err)
   thr_status st = thr_nearest_find(c, v, c->weight, NEAREST, &nearest, err);
   for (int i = 0; i < d && !st; i++)
     for (int k = 0; k < nearest.n; k++)
-      passes->listed[thr_turning_column(c, half[i], half[nearest.partner[i * nearest.n + k]])] = true;
+      passes->listed[thr_turning_column(c, half[i], half[nearest.partner[i * nearest.n + k]])] =
+          true;
   if (!st) thr_nearest_destroy(&nearest);
   return st;
 }
 
-/* Ends at nodes whose passes without extra ones are odd, where ends save one; and wherever they are counted. */
+/* Ends at nodes whose passes without extra ones are odd, where ends save one; and wherever they are
+ * counted. */
 static void list_ends(thr_pass_matching *passes)
 {
   const thr_turning_columns *c = passes->c;
@@ -114,15 +121,18 @@ static int first_copies(const thr_turning_columns *c, int e)
   return copies < c->most[e] ? copies : c->most[e];
 }
 
-thr_status thr_pass_matching_init(thr_pass_matching *passes, const thr_turning_columns *turning_columns, thr_err *err)
+thr_status thr_pass_matching_init(thr_pass_matching *passes,
+                                  const thr_turning_columns *turning_columns, thr_err *err)
 {
   size_t m = (size_t)turning_columns->f->n_edges;
-  *passes = (thr_pass_matching){.c = turning_columns, .n_places = 2 * (int)m + turning_columns->n_ends};
+  *passes =
+      (thr_pass_matching){.c = turning_columns, .n_places = 2 * (int)m + turning_columns->n_ends};
   passes->open = thr_calloc(m, sizeof *passes->open);
   passes->copies = thr_calloc(m, sizeof *passes->copies);
   passes->first = thr_calloc((size_t)passes->n_places + 1, sizeof *passes->first);
   passes->listed = thr_calloc((size_t)turning_columns->n_columns, sizeof *passes->listed);
-  thr_status st = passes->open && passes->copies && passes->first && passes->listed ? THR_OK : thr_nomem(err);
+  thr_status st =
+      passes->open && passes->copies && passes->first && passes->listed ? THR_OK : thr_nomem(err);
   for (size_t e = 0; e < m && !st; e++)
     passes->open[e] = first_copies(turning_columns, (int)e);
   for (int v = 0; v < turning_columns->f->n_nodes && !st; v++)
@@ -142,9 +152,11 @@ static thr_status add_edge(thr_pass_matching *passes, int a, int b, int column, 
 {
   int same = passes->room, room = same, again = same;
   thr_status st = thr_grow(&passes->edge, passes->n_edges, &room, sizeof *passes->edge, err);
-  if (!st && room > same) st = thr_grow(&passes->column, passes->n_edges, &again, sizeof *passes->column, err);
+  if (!st && room > same)
+    st = thr_grow(&passes->column, passes->n_edges, &again, sizeof *passes->column, err);
   again = same;
-  if (!st && room > same) st = thr_grow(&passes->weight, passes->n_edges, &again, sizeof *passes->weight, err);
+  if (!st && room > same)
+    st = thr_grow(&passes->weight, passes->n_edges, &again, sizeof *passes->weight, err);
   if (st) return st;
   passes->room = room;
   passes->edge[passes->n_edges][0] = a;
@@ -158,16 +170,19 @@ static void places_of(const thr_pass_matching *passes, int j, int place[2])
 {
   const thr_turning_columns *c = passes->c;
   place[0] = c->half[j][0];
-  place[1] = c->half[j][1] >= 0 ? c->half[j][1] : 2 * c->f->n_edges + c->end_group[thr_tail(c->f, place[0])];
+  place[1] = c->half[j][1] >= 0 ? c->half[j][1]
+                                : 2 * c->f->n_edges + c->end_group[thr_tail(c->f, place[0])];
 }
 
 /* Passes of a place that may be matched with others so far. */
 static int open_nodes(const thr_pass_matching *passes, int place)
 {
-  return place < 2 * passes->c->f->n_edges ? passes->open[place >> 1] : passes->first[place + 1] - passes->first[place];
+  return place < 2 * passes->c->f->n_edges ? passes->open[place >> 1]
+                                           : passes->first[place + 1] - passes->first[place];
 }
 
-/* All pairs of open passes that a column stands for; of place `only` those from number `from` on (-1: all). */
+/* All pairs of open passes that a column stands for; of place `only` those from number `from` on
+ * (-1: all). */
 static thr_status add_column(thr_pass_matching *passes, int j, int only, int from, thr_err *err)
 {
   int place[2];
@@ -176,7 +191,8 @@ static thr_status add_column(thr_pass_matching *passes, int j, int only, int fro
   thr_status st = THR_OK;
   for (int k = place[0] == only && !back ? from : 0; k < open_nodes(passes, place[0]) && !st; k++)
     for (int l = place[1] == only ? from : 0; l < open_nodes(passes, place[1]) && !st; l++)
-      if (!back || l > k) st = add_edge(passes, passes->first[place[0]] + k, passes->first[place[1]] + l, j, err);
+      if (!back || l > k)
+        st = add_edge(passes, passes->first[place[0]] + k, passes->first[place[1]] + l, j, err);
   return st;
 }
 
@@ -185,7 +201,8 @@ static thr_status add_idle(thr_pass_matching *passes, int e, thr_err *err)
 {
   thr_status st = THR_OK;
   for (int k = passes->c->cover[e]; k < passes->copies[e] && !st; k++)
-    st = add_edge(passes, passes->first[2 * e] + k, passes->first[2 * e + 1] + k, passes->c->first_extra + e, err);
+    st = add_edge(passes, passes->first[2 * e] + k, passes->first[2 * e + 1] + k,
+                  passes->c->first_extra + e, err);
   return st;
 }
 
@@ -197,10 +214,12 @@ static thr_status build(thr_pass_matching *passes, thr_err *err)
   for (int e = 0; e < c->f->n_edges && !st; e++)
     st = add_idle(passes, e, err);
   for (int j = 0; j < c->n_columns && !st; j++)
-    if (passes->listed[j] && !(j >= c->first_extra && j < c->first_end)) st = add_column(passes, j, -1, 0, err);
+    if (passes->listed[j] && !(j >= c->first_extra && j < c->first_end))
+      st = add_column(passes, j, -1, 0, err);
   for (int k = 0; k < c->n_ends && !st; k++) {
     int place = 2 * c->f->n_edges + k;
-    for (int a = passes->first[place] + c->supply[k][0]; a + 1 < passes->first[place + 1] && !st; a += 2)
+    for (int a = passes->first[place] + c->supply[k][0]; a + 1 < passes->first[place + 1] && !st;
+         a += 2)
       st = add_edge(passes, a, a + 1, -1, err);
   }
   return st;
@@ -244,21 +263,25 @@ static bool weigh(thr_pass_matching *passes, const int64_t *price, int from)
 {
   bool fit = true;
   for (int i = from; i < passes->n_edges; i++) {
-    passes->weight[i] = shifted(price_of(passes->c, price, passes->column[i]), passes->bits) + passes->lift;
+    passes->weight[i] =
+        shifted(price_of(passes->c, price, passes->column[i]), passes->bits) + passes->lift;
     fit &= passes->weight[i] >= 0;
   }
   return fit;
 }
 
-/* What all nodes pay together when each pays for its cheapest edge, which is about what duals grow to. scratch: [nodes]. */
-static double pay_cheapest(const thr_pass_matching *passes, const int64_t *price, int64_t least, int64_t *scratch)
+/* What all nodes pay together when each pays for its cheapest edge, which is about what duals grow
+ * to. scratch: [nodes]. */
+static double pay_cheapest(const thr_pass_matching *passes, const int64_t *price, int64_t least,
+                           int64_t *scratch)
 {
   double sum = 0;
   for (int v = 0; v < n_nodes(passes); v++)
     scratch[v] = INT64_MAX;
   for (int i = 0; i < passes->n_edges; i++)
     for (int side = 0; side < 2; side++) {
-      int64_t p = price_of(passes->c, price, passes->column[i]) - least, *own = &scratch[passes->edge[i][side]];
+      int64_t p = price_of(passes->c, price, passes->column[i]) - least,
+              *own = &scratch[passes->edge[i][side]];
       if (p < *own) *own = p;
     }
   for (int v = 0; v < n_nodes(passes); v++)
@@ -266,7 +289,8 @@ static double pay_cheapest(const thr_pass_matching *passes, const int64_t *price
   return sum;
 }
 
-/* Weights are prices / 2^bits + lift, which makes none negative; with bits that keep all duals together far below 2^60. */
+/* Weights are prices / 2^bits + lift, which makes none negative; with bits that keep all duals
+ * together far below 2^60. */
 static void set_weights(thr_pass_matching *passes, const int64_t *price, int64_t *scratch)
 {
   int64_t least = 0, most = 0;
@@ -297,15 +321,19 @@ static thr_status keep(thr_pass_matching *passes, const thr_matching *matching, 
   if (!passes->dual || !passes->mate) return thr_nomem(err);
   for (int v = 0; v < n; v++) {
     int64_t own = matching->dual[v] - passes->lift;
-    passes->dual[v] = (own > most ? most : own < -most ? -most : own) * (INT64_C(1) << (passes->bits - 1));
+    passes->dual[v] = (own > most    ? most
+                       : own < -most ? -most
+                                     : own) *
+                      (INT64_C(1) << (passes->bits - 1));
     passes->mate[v] = matching->mate[v];
   }
   return THR_OK;
 }
 
-/* Moves duals and mates to nodes numbered anew after copies were added, which begin end to end with the dual of the copy before.
- * before: [n_places + 1] first as it was; moved: [nodes] scratch. */
-static void move_nodes(const thr_pass_matching *passes, const int *before, int *moved, int64_t *dual, int *mate)
+/* Moves duals and mates to nodes numbered anew after copies were added, which begin end to end with
+ * the dual of the copy before. before: [n_places + 1] first as it was; moved: [nodes] scratch. */
+static void move_nodes(const thr_pass_matching *passes, const int *before, int *moved,
+                       int64_t *dual, int *mate)
 {
   for (int i = 0; i < passes->n_places; i++)
     for (int k = 0; passes->first[i] + k < passes->first[i + 1]; k++) {
@@ -349,8 +377,8 @@ static thr_status renumber(thr_pass_matching *passes, thr_err *err)
 /* ---- the matching ---- */
 
 /* From the duals and mates of the last one, in a graph built anew. */
-static thr_status match_anew(thr_pass_matching *passes, const int64_t *price, const thr_limits *limits, thr_matching *out,
-                             thr_err *err)
+static thr_status match_anew(thr_pass_matching *passes, const int64_t *price,
+                             const thr_limits *limits, thr_matching *out, thr_err *err)
 {
   int n = n_nodes(passes);
   int64_t *dual = thr_calloc((size_t)n, sizeof *dual);
@@ -360,27 +388,32 @@ static thr_status match_anew(thr_pass_matching *passes, const int64_t *price, co
     set_weights(passes, price, dual);
     for (int v = 0; v < n && passes->dual; v++)
       dual[v] = shifted(passes->dual[v], passes->bits - 1) + passes->lift;
-    const thr_matching_problem problem = {n, passes->n_edges, (const int(*)[2])passes->edge, passes->weight};
+    const thr_matching_problem problem = {n, passes->n_edges, (const int(*)[2])passes->edge,
+                                          passes->weight};
     st = thr_matching_near(&problem, passes->dual ? dual : NULL, passes->mate, limits, out, err);
   }
   free(dual);
   return st;
 }
 
-/* With the edges that were added to it since, from number `known` on; anew if there is no matching, or there were few. */
-static thr_status match(thr_pass_matching *passes, const int64_t *price, int known, const thr_limits *limits, thr_matching *out,
-                        thr_err *err)
+/* With the edges that were added to it since, from number `known` on; anew if there is no matching,
+ * or there were few. */
+static thr_status match(thr_pass_matching *passes, const int64_t *price, int known,
+                        const thr_limits *limits, thr_matching *out, thr_err *err)
 {
   bool many = passes->n_edges - known > known / 2;
   passes->rounds++;
-  if (!out->state || many || !weigh(passes, price, known)) return match_anew(passes, price, limits, out, err);
-  const thr_matching_problem problem = {n_nodes(passes), passes->n_edges, (const int(*)[2])passes->edge, passes->weight};
+  if (!out->state || many || !weigh(passes, price, known))
+    return match_anew(passes, price, limits, out, err);
+  const thr_matching_problem problem = {n_nodes(passes), passes->n_edges,
+                                        (const int(*)[2])passes->edge, passes->weight};
   return thr_matching_again(&problem, limits, out, err);
 }
 
-/* Lists the turns at node v of least price left, `most` of every half-edge, that is below few. left: of those that are listed
- * INT64_MAX. */
-static thr_status list_cheapest(thr_pass_matching *passes, int v, int64_t *left, int64_t few, int most, bool *more, thr_err *err)
+/* Lists the turns at node v of least price left, `most` of every half-edge, that is below few.
+ * left: of those that are listed INT64_MAX. */
+static thr_status list_cheapest(thr_pass_matching *passes, int v, int64_t *left, int64_t few,
+                                int most, bool *more, thr_err *err)
 {
   const thr_turning_columns *c = passes->c;
   const int *half = c->f->half + c->f->first[v];
@@ -399,7 +432,8 @@ static thr_status list_cheapest(thr_pass_matching *passes, int v, int64_t *left,
 }
 
 /* The same at all nodes, and ends. */
-static thr_status list_more(thr_pass_matching *passes, int64_t *left, int64_t few, int most, bool *more, thr_err *err)
+static thr_status list_more(thr_pass_matching *passes, int64_t *left, int64_t few, int most,
+                            bool *more, thr_err *err)
 {
   const thr_turning_columns *c = passes->c;
   thr_status st = THR_OK;
@@ -415,11 +449,13 @@ static thr_status list_more(thr_pass_matching *passes, int64_t *left, int64_t fe
   return st;
 }
 
-/* Lists turns and ends that cost less than the multipliers pay for them, the cheapest of every half-edge, and, where there are no
- * such turns, opens copies of such extra passes. Without a matching (dual NULL) it lists the cheapest, twice as many every time,
- * and from the second time on opens copies, too. *fit: whether there are nodes for all. */
-static thr_status price_out(thr_pass_matching *passes, const int64_t *price, const thr_turning_dual *dual, int first_odd,
-                            bool *more, bool *fit, thr_err *err)
+/* Lists turns and ends that cost less than the multipliers pay for them, the cheapest of every
+ * half-edge, and, where there are no such turns, opens copies of such extra passes. Without a
+ * matching (dual NULL) it lists the cheapest, twice as many every time, and from the second time on
+ * opens copies, too. *fit: whether there are nodes for all. */
+static thr_status price_out(thr_pass_matching *passes, const int64_t *price,
+                            const thr_turning_dual *dual, int first_odd, bool *more, bool *fit,
+                            thr_err *err)
 {
   const thr_turning_columns *c = passes->c;
   thr_scratch own = {0};
@@ -432,9 +468,13 @@ static thr_status price_out(thr_pass_matching *passes, const int64_t *price, con
   *fit = true;
   if (!dual && passes->failed < MOST_FAILED) passes->failed++;
   if (!st) st = list_more(passes, left, few, dual ? NEAREST : NEAREST << passes->failed, more, err);
-  bool copies = dual ? !*more : !*more || passes->failed > 1; /* what new turns change may need no more copies */
+  bool copies =
+      dual ? !*more
+           : !*more || passes->failed > 1; /* what new turns change may need no more copies */
   for (int e = 0; e < c->f->n_edges && !st && copies; e++)
-    for (int k = 0; k < step_of(c, e) && passes->open[e] < c->most[e] && left[c->first_extra + e] < few && !st; k++) {
+    for (int k = 0;
+         k < step_of(c, e) && passes->open[e] < c->most[e] && left[c->first_extra + e] < few && !st;
+         k++) {
       *more = true;
       if (passes->open[e] < passes->copies[e])
         st = open_copy(passes, e, err);
@@ -462,8 +502,9 @@ static void count_columns(const thr_pass_matching *passes, const thr_matching *m
 }
 
 /* Half-edges whose multipliers pay too much for a turn or an end pay less. left, less: scratch. */
-static thr_status settle_turns(const thr_pass_matching *passes, const int64_t *price, thr_turning_dual *dual, int first_odd,
-                               int64_t *left, int64_t *less, thr_err *err)
+static thr_status settle_turns(const thr_pass_matching *passes, const int64_t *price,
+                               thr_turning_dual *dual, int first_odd, int64_t *left, int64_t *less,
+                               thr_err *err)
 {
   const thr_turning_columns *c = passes->c;
   thr_status st = thr_pass_left(passes, price, dual, first_odd, true, left, err);
@@ -477,10 +518,11 @@ static thr_status settle_turns(const thr_pass_matching *passes, const int64_t *p
   return st;
 }
 
-/* Odd sets that leave an extra pass a negative price pay less: that costs the bound no more than the extra passes, of which there
- * may be several. left: scratch. member: zeros. */
-static thr_status settle_sets(const thr_pass_matching *passes, const int64_t *price, thr_turning_dual *dual, int first_odd,
-                              int64_t *left, bool *member, thr_err *err)
+/* Odd sets that leave an extra pass a negative price pay less: that costs the bound no more than
+ * the extra passes, of which there may be several. left: scratch. member: zeros. */
+static thr_status settle_sets(const thr_pass_matching *passes, const int64_t *price,
+                              thr_turning_dual *dual, int first_odd, int64_t *left, bool *member,
+                              thr_err *err)
 {
   const thr_turning_columns *c = passes->c;
   const int halves = 2 * c->f->n_edges;
@@ -492,7 +534,8 @@ static thr_status settle_sets(const thr_pass_matching *passes, const int64_t *pr
       member[set->member[k]] = true;
     for (int k = 0; k < set->n && set->member[k] < halves; k++) {
       int h = set->member[k], e = h >> 1;
-      if (!member[h ^ 1] && c->most[e] > c->cover[e] && -left[c->first_extra + e] > over) over = -left[c->first_extra + e];
+      if (!member[h ^ 1] && c->most[e] > c->cover[e] && -left[c->first_extra + e] > over)
+        over = -left[c->first_extra + e];
     }
     if (over > set->value) over = set->value;
     set->value -= over;
@@ -505,8 +548,8 @@ static thr_status settle_sets(const thr_pass_matching *passes, const int64_t *pr
 }
 
 /* Where the matching is not to be made again, the multipliers are made to prove what they can. */
-static thr_status settle(const thr_pass_matching *passes, const int64_t *price, thr_turning_dual *dual, int first_odd,
-                         thr_err *err)
+static thr_status settle(const thr_pass_matching *passes, const int64_t *price,
+                         thr_turning_dual *dual, int first_odd, thr_err *err)
 {
   const thr_turning_columns *c = passes->c;
   thr_scratch own = {0};
@@ -521,8 +564,9 @@ static thr_status settle(const thr_pass_matching *passes, const int64_t *price, 
 }
 
 /* What a matching says, and what it lacks. */
-static thr_status take(thr_pass_matching *passes, const int64_t *price, const thr_matching *matching, int first_odd, int *x,
-                       thr_turning_dual *dual, bool *more, bool *fit, thr_err *err)
+static thr_status take(thr_pass_matching *passes, const int64_t *price,
+                       const thr_matching *matching, int first_odd, int *x, thr_turning_dual *dual,
+                       bool *more, bool *fit, thr_err *err)
 {
   thr_turning_dual_drop_odd(dual, first_odd);
   count_columns(passes, matching, x);
@@ -532,8 +576,9 @@ static thr_status take(thr_pass_matching *passes, const int64_t *price, const th
   return st ? st : price_out(passes, price, dual, first_odd, more, fit, err);
 }
 
-thr_status thr_pass_matching_solve(thr_pass_matching *passes, const int64_t *price, const thr_limits *limits, int *x,
-                                   thr_turning_dual *dual, thr_err *err)
+thr_status thr_pass_matching_solve(thr_pass_matching *passes, const int64_t *price,
+                                   const thr_limits *limits, int *x, thr_turning_dual *dual,
+                                   thr_err *err)
 {
   int first_odd = dual->n_odd, known = 0, round = 0;
   thr_matching matching = {0};

@@ -1,8 +1,10 @@
-/* The relaxation of tortuosity/proof/relax.c without its turns, for the shortest passes with tube joints: where turns cost
- * nothing, what they say about passes and ends is (tortuosity/tie/tie.h) at every node v with d edges: passes - ends >= 2 (d - 1)
- * (0 if d = 1); for every edge e there: the passes less ends of the others >= those of e; passes less ends of e >= 1, if d > 1;
- * passes and ends out of a set of nodes that has an odd number of covers: at least one extra pass or end. Internal to
- * tortuosity/: relax.c calls these for tasks with free turns. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The relaxation of tortuosity/proof/relax.c without its turns, for the shortest passes with tube
+ * joints: where turns cost nothing, what they say about passes and ends is (tortuosity/tie/tie.h)
+ * at every node v with d edges: passes - ends >= 2 (d - 1) (0 if d = 1); for every edge e there:
+ * the passes less ends of the others >= those of e; passes less ends of e >= 1, if d > 1; passes
+ * and ends out of a set of nodes that has an odd number of covers: at least one extra pass or end.
+ * Internal to tortuosity/: relax.c calls these for tasks with free turns. */
 #include "tortuosity/proof/relax_parts.h"
 #include "lp/solver/lp.h"
 
@@ -10,13 +12,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Puts passes less ends of half-edge h, times sign; returns what the passes that must be are of it. */
+/* Puts passes less ends of half-edge h, times sign; returns what the passes that must be are of it.
+ */
 static int put_half(thr_relax *relax, int h, int sign)
 {
   const thr_turning_columns *turning_columns = relax->c;
   thr_pool_put(&relax->search.pool, h >> 1, sign);
   if (turning_columns->end_column[h] >= 0)
-    thr_pool_put(&relax->search.pool, turning_columns->end_column[h] - turning_columns->first_extra, -sign);
+    thr_pool_put(&relax->search.pool, turning_columns->end_column[h] - turning_columns->first_extra,
+                 -sign);
   return sign * turning_columns->cover[h >> 1];
 }
 
@@ -25,10 +29,14 @@ static int put_row(thr_relax *relax, thr_relax_kind kind, int k)
 {
   const thr_turning_columns *turning_columns = relax->c;
   const thr_frame *frame = turning_columns->f;
-  int v = kind == THR_RELAX_SUM ? k : kind == THR_RELAX_SIDE ? thr_tail(frame, k) : -1, sign = kind == THR_RELAX_MOST ? -1 : 1;
+  int v = kind == THR_RELAX_SUM    ? k
+          : kind == THR_RELAX_SIDE ? thr_tail(frame, k)
+                                   : -1,
+      sign = kind == THR_RELAX_MOST ? -1 : 1;
   int lower = kind == THR_RELAX_SUM ? 2 * (thr_degree(frame, v) - 1) : kind == THR_RELAX_USE;
   for (int i = v < 0 ? 0 : frame->first[v]; v >= 0 && i < frame->first[v + 1]; i++)
-    lower -= put_half(relax, frame->half[i], kind == THR_RELAX_SIDE && frame->half[i] == k ? -1 : 1);
+    lower -=
+        put_half(relax, frame->half[i], kind == THR_RELAX_SIDE && frame->half[i] == k ? -1 : 1);
   if (kind == THR_RELAX_USE) lower -= put_half(relax, k, 1);
   if (kind != THR_RELAX_LEAST && kind != THR_RELAX_MOST) return lower;
   for (int j = turning_columns->first_end; j < turning_columns->first_back; j++)
@@ -41,7 +49,8 @@ static int put_row(thr_relax *relax, thr_relax_kind kind, int k)
 static thr_status add_row(thr_relax *relax, thr_relax_kind kind, int k, thr_err *err)
 {
   int lower = put_row(relax, kind, k);
-  return thr_pool_add(&relax->search.pool, (thr_row){.kind = (int)kind, .index = k, .lower = lower}, err);
+  return thr_pool_add(&relax->search.pool, (thr_row){.kind = (int)kind, .index = k, .lower = lower},
+                      err);
 }
 
 /* The same if x violates it. */
@@ -49,11 +58,14 @@ static thr_status offer_row(thr_relax *relax, thr_relax_kind kind, int k, int *a
 {
   const double tolerance = 1e-6, *x = relax->x + relax->c->first_extra;
   int lower = put_row(relax, kind, k);
-  return thr_pool_offer(&relax->search.pool, (thr_row){.kind = (int)kind, .index = k, .lower = lower}, x, tolerance, added, err);
+  return thr_pool_offer(&relax->search.pool,
+                        (thr_row){.kind = (int)kind, .index = k, .lower = lower}, x, tolerance,
+                        added, err);
 }
 
-/* The rows to begin with: of every node, of the edges at nodes with no more than two. Those of the ends come later: what ends
- * cost is known only from the other rows, and until then the simplex method tries them one after the other. */
+/* The rows to begin with: of every node, of the edges at nodes with no more than two. Those of the
+ * ends come later: what ends cost is known only from the other rows, and until then the simplex
+ * method tries them one after the other. */
 static thr_status first_rows(thr_relax *relax, thr_err *err)
 {
   const thr_frame *frame = relax->c->f;
@@ -73,7 +85,8 @@ thr_status thr_project_create(thr_relax *relax, double penalty, thr_err *err)
   double *cost = thr_calloc((size_t)n, sizeof *cost);
   if (!cost) return thr_nomem(err);
   for (int j = 0; j + 1 < n; j++)
-    cost[j] = ldexp((double)turning_columns->weight[turning_columns->first_extra + j], -THR_TURNING_BITS);
+    cost[j] =
+        ldexp((double)turning_columns->weight[turning_columns->first_extra + j], -THR_TURNING_BITS);
   cost[n - 1] = penalty;
   thr_status st = thr_lp_create(&relax->search.lp, n, cost, NULL, err);
   free(cost);
@@ -85,10 +98,12 @@ thr_status thr_project_graph(thr_relax *relax, thr_err *err)
 {
   const thr_turning_columns *turning_columns = relax->c;
   const thr_frame *frame = turning_columns->f;
-  int n = frame->n_nodes + turning_columns->n_ends, m = turning_columns->first_back - turning_columns->first_extra;
+  int n = frame->n_nodes + turning_columns->n_ends,
+      m = turning_columns->first_back - turning_columns->first_extra;
   int(*edge)[2] = thr_calloc((size_t)m, sizeof *edge);
   bool *odd = thr_calloc((size_t)n, sizeof *odd);
-  relax->problem = (thr_tjoin_problem){.n_nodes = n, .n_edges = m, .edge = (const int(*)[2])edge, .odd = odd};
+  relax->problem =
+      (thr_tjoin_problem){.n_nodes = n, .n_edges = m, .edge = (const int(*)[2])edge, .odd = odd};
   if (!edge || !odd) return thr_nomem(err);
   for (int e = 0; e < frame->n_edges; e++)
     for (int side = 0; side < 2; side++) {
@@ -117,7 +132,8 @@ thr_status thr_project_sides(void *user, int *added, thr_err *err)
   for (int h = 0; h < 2 * frame->n_edges && !st; h++) {
     int d = thr_degree(frame, thr_tail(frame, h));
     if (d > 2) st = offer_row(relax, THR_RELAX_SIDE, h, added, err);
-    if (!st && d > 1 && relax->c->end_column[h] >= 0) st = offer_row(relax, THR_RELAX_USE, h, added, err);
+    if (!st && d > 1 && relax->c->end_column[h] >= 0)
+      st = offer_row(relax, THR_RELAX_USE, h, added, err);
   }
   return st;
 }
@@ -136,8 +152,8 @@ thr_status thr_project_ends(void *user, int *added, thr_err *err)
 /* ---- multipliers ---- */
 
 /* The junction of half-edge h with all others of its node, or of all single ones (h < 0). */
-static thr_status add_junction(const thr_turning_columns *turning_columns, thr_turning_dual *dual, int v, int h, int64_t value,
-                               thr_err *err)
+static thr_status add_junction(const thr_turning_columns *turning_columns, thr_turning_dual *dual,
+                               int v, int h, int64_t value, thr_err *err)
 {
   int degree = thr_degree(turning_columns->f, v);
   if (degree < 2) return THR_OK;
@@ -151,7 +167,8 @@ static thr_status add_junction(const thr_turning_columns *turning_columns, thr_t
 }
 
 /* The half-edges of the set's nodes, and the ends in it. */
-static thr_status add_set(const thr_relax *relax, thr_turning_dual *dual, const thr_row *row, int64_t value, thr_err *err)
+static thr_status add_set(const thr_relax *relax, thr_turning_dual *dual, const thr_row *row,
+                          int64_t value, thr_err *err)
 {
   const thr_frame *frame = relax->c->f;
   bool *in = thr_calloc((size_t)relax->problem.n_nodes, sizeof *in);
@@ -172,7 +189,8 @@ static thr_status add_set(const thr_relax *relax, thr_turning_dual *dual, const 
   return to->member ? THR_OK : thr_nomem(err);
 }
 
-static thr_status add_multiplier(const thr_relax *relax, thr_turning_dual *dual, const thr_row *row, int64_t value, thr_err *err)
+static thr_status add_multiplier(const thr_relax *relax, thr_turning_dual *dual, const thr_row *row,
+                                 int64_t value, thr_err *err)
 {
   const thr_turning_columns *turning_columns = relax->c;
   const thr_frame *frame = turning_columns->f;
@@ -181,13 +199,17 @@ static thr_status add_multiplier(const thr_relax *relax, thr_turning_dual *dual,
   case THR_RELAX_LEAST: dual->ends[k] += value; return THR_OK;
   case THR_RELAX_MOST: dual->ends[k] -= value; return THR_OK;
   case THR_RELAX_ODD: return add_set(relax, dual, row, value, err);
-  case THR_RELAX_USE: dual->potential[k] -= value; return add_junction(turning_columns, dual, thr_tail(frame, k), k, value, err);
+  case THR_RELAX_USE:
+    dual->potential[k] -= value;
+    return add_junction(turning_columns, dual, thr_tail(frame, k), k, value, err);
   default: break;
   }
   v = row->kind == THR_RELAX_SUM ? k : thr_tail(frame, k);
   for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
-    dual->potential[frame->half[i]] -= row->kind == THR_RELAX_SIDE && frame->half[i] == k ? -value : value;
-  return row->kind == THR_RELAX_SUM ? add_junction(turning_columns, dual, v, -1, 2 * value, err) : THR_OK;
+    dual->potential[frame->half[i]] -=
+        row->kind == THR_RELAX_SIDE && frame->half[i] == k ? -value : value;
+  return row->kind == THR_RELAX_SUM ? add_junction(turning_columns, dual, v, -1, 2 * value, err)
+                                    : THR_OK;
 }
 
 thr_status thr_project_dual(const thr_relax *relax, thr_turning_dual *dual, thr_err *err)
@@ -200,7 +222,8 @@ thr_status thr_project_dual(const thr_relax *relax, thr_turning_dual *dual, thr_
   if (!dual->odd || !dual->junction) st = thr_nomem(err);
   for (int i = 0; i < relax->search.pool.count && !st; i++)
     if (thr_relax_whole(relax->search.dual[i]) > 0)
-      st = add_multiplier(relax, dual, &relax->search.pool.row[i], thr_relax_whole(relax->search.dual[i]), err);
+      st = add_multiplier(relax, dual, &relax->search.pool.row[i],
+                          thr_relax_whole(relax->search.dual[i]), err);
   if (st) thr_turning_dual_destroy(dual);
   return st;
 }

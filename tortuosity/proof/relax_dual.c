@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The multipliers of the turning relaxation as integers. */
 #include "tortuosity/proof/relax_parts.h"
 
@@ -26,7 +27,8 @@ static thr_status copy_cuts(const thr_relax *relax, thr_turning_dual *dual, thr_
     const thr_row *row = &relax->search.pool.row[i];
     if (value <= 0) continue;
     if (row->kind == THR_RELAX_ODD || row->kind == THR_RELAX_GROUP) {
-      thr_turning_set *to = row->kind == THR_RELAX_ODD ? &dual->odd[dual->n_odd++] : &dual->group[dual->n_groups++];
+      thr_turning_set *to =
+          row->kind == THR_RELAX_ODD ? &dual->odd[dual->n_odd++] : &dual->group[dual->n_groups++];
       *to = (thr_turning_set){.n = row->n_members, .value = value};
       st = copy_members(&to->member, row, err);
     } else if (row->kind == THR_RELAX_PARTITION) {
@@ -48,7 +50,8 @@ thr_status thr_relax_dual(const thr_relax *relax, thr_turning_dual *dual, thr_er
   int darts = 2 * turning_columns->f->n_edges, used[THR_RELAX_JUNCTION + 1] = {0};
   if (relax->projected) return thr_project_dual(relax, dual, err);
   for (int i = 0; i < relax->search.pool.count; i++)
-    used[relax->search.pool.row[i].kind] += thr_relax_whole(relax->search.dual[relax->search.n_fixed + i]) > 0;
+    used[relax->search.pool.row[i].kind] +=
+        thr_relax_whole(relax->search.dual[relax->search.n_fixed + i]) > 0;
   thr_status st = thr_turning_dual_init(dual, turning_columns, err);
   if (st) return st;
   dual->odd = thr_calloc((size_t)used[THR_RELAX_ODD], sizeof *dual->odd);

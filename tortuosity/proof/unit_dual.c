@@ -1,7 +1,9 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From the moats of a matching of units to the multipliers of the turning proof.
  *
- * The units of a node are alike, so that they pay the same, and a blossom that holds some of them only need not be there. What
- * spare units pay for the edges that they may take counts as well; so an edge may pay less than nothing where another pays more.
+ * The units of a node are alike, so that they pay the same, and a blossom that holds some of them
+ * only need not be there. What spare units pay for the edges that they may take counts as well; so
+ * an edge may pay less than nothing where another pays more.
  */
 #include "graph/sort.h"
 #include "tortuosity/proof/relax_parts.h"
@@ -20,11 +22,12 @@ static bool asks(const thr_units *u, int v)
 /* Are two spare units free to be left: in the same blossoms, and do they pay nothing for it? */
 static bool loose(const thr_matching *matching, int i)
 {
-  return matching->node_blossom[i] == matching->node_blossom[i + 1] && matching->dual[i] + matching->dual[i + 1] >= 0;
+  return matching->node_blossom[i] == matching->node_blossom[i + 1] &&
+         matching->dual[i] + matching->dual[i + 1] >= 0;
 }
 
-/* The units that stand for a node, first[v] <= *from < *end: those asked for, or a pair of spare ones, a loose one if there is
- * any. */
+/* The units that stand for a node, first[v] <= *from < *end: those asked for, or a pair of spare
+ * ones, a loose one if there is any. */
 static void typical_units(const thr_units *u, const thr_unit_layer *l, int v, int *from, int *end)
 {
   int spare = l->first[v] + l->asked[v];
@@ -36,12 +39,14 @@ static void typical_units(const thr_units *u, const thr_unit_layer *l, int v, in
   }
 }
 
-/* The innermost blossom round all units from a to b - 1, or -1; those round some of them only are marked in cut. at: [b - a]. */
+/* The innermost blossom round all units from a to b - 1, or -1; those round some of them only are
+ * marked in cut. at: [b - a]. */
 static int blossom_round(const thr_matching *matching, int a, int b, int *at, bool *cut)
 {
   for (int i = a; i < b; i++)
     at[i - a] = matching->node_blossom[i];
-  for (;;) { /* outwards, the innermost first: children come before parents, and -1 is outside of all */
+  for (;;) { /* outwards, the innermost first: children come before parents, and -1 is outside of
+                all */
     int least = at[0];
     bool same = true;
     for (int i = 1; i < b - a; i++) {
@@ -55,7 +60,8 @@ static int blossom_round(const thr_matching *matching, int a, int b, int *at, bo
   }
 }
 
-/* Sum of the duals of the blossoms that are round one of a and b only, or one of these. Those that cut a node do not count. */
+/* Sum of the duals of the blossoms that are round one of a and b only, or one of these. Those that
+ * cut a node do not count. */
 static int64_t between(const thr_matching *matching, const bool *cut, int a, int b)
 {
   int64_t sum = 0;
@@ -67,9 +73,9 @@ static int64_t between(const thr_matching *matching, const bool *cut, int a, int
   return sum;
 }
 
-/* Sets what passes over half-edge h pay at their node v: as much as the unit that pays most, if it were in the node's home. For
- * units asked for, all of them alike, a blossom that holds one and not another need not be there: the other pays as much as the
- * one with it. */
+/* Sets what passes over half-edge h pay at their node v: as much as the unit that pays most, if it
+ * were in the node's home. For units asked for, all of them alike, a blossom that holds one and not
+ * another need not be there: the other pays as much as the one with it. */
 static void settle(thr_units *u, const thr_unit_layer *l, const bool *cut, int h)
 {
   int v = thr_tail(u->c->f, h), from, end;
@@ -77,7 +83,8 @@ static void settle(thr_units *u, const thr_unit_layer *l, const bool *cut, int h
   typical_units(u, l, v, &from, &end);
   int64_t most = INT64_MIN;
   for (int i = from; i < (asks(u, v) && u->kinds[v] > 0 ? l->first[v + 1] : end); i++) {
-    int64_t paid = matching->dual[i] - (i < end ? 0 : between(matching, cut, u->home[v], matching->node_blossom[i]));
+    int64_t paid = matching->dual[i] -
+                   (i < end ? 0 : between(matching, cut, u->home[v], matching->node_blossom[i]));
     if (thr_unit_may_take(u, l, h, i) && paid > most) most = paid;
   }
   u->dual[h] = thr_degree(u->c->f, v) == 2 || asks(u, v) ? most : 0;
@@ -99,8 +106,8 @@ static thr_status settle_all(thr_units *u, const thr_unit_layer *l, bool *cut, t
   return THR_OK;
 }
 
-/* Pairs of spare units more where they may save: at a node that asks for units if two half-edges pay less than nothing together,
- * at others if no pair is loose. false: nowhere. */
+/* Pairs of spare units more where they may save: at a node that asks for units if two half-edges
+ * pay less than nothing together, at others if no pair is loose. false: nowhere. */
 static bool add_spares(thr_units *u, const thr_unit_layer *l)
 {
   const thr_frame *frame = u->c->f;
@@ -129,11 +136,12 @@ static int64_t value_of(const thr_units *u, int64_t dual)
 }
 
 /* The junction of the half-edges half[d] of a node where the first n are one block. */
-static thr_status add_junction(const thr_units *u, thr_turning_dual *dual, const int *half, int d, int n, int64_t value,
-                               thr_err *err)
+static thr_status add_junction(const thr_units *u, thr_turning_dual *dual, const int *half, int d,
+                               int n, int64_t value, thr_err *err)
 {
   thr_turning_junction *to = &dual->junction[dual->n_junctions];
-  *to = (thr_turning_junction){thr_tail(u->c->f, half[0]), thr_calloc((size_t)d, sizeof *to->block), value};
+  *to = (thr_turning_junction){thr_tail(u->c->f, half[0]), thr_calloc((size_t)d, sizeof *to->block),
+                               value};
   if (!to->block) return thr_nomem(err);
   for (int i = n; i < d; i++)
     to->block[u->c->position[half[i]]] = i - n + 1;
@@ -142,7 +150,8 @@ static thr_status add_junction(const thr_units *u, thr_turning_dual *dual, const
 }
 
 /* The odd set of all half-edges at a node. */
-static thr_status add_node_set(const thr_units *u, thr_turning_dual *dual, int v, int64_t value, thr_err *err)
+static thr_status add_node_set(const thr_units *u, thr_turning_dual *dual, int v, int64_t value,
+                               thr_err *err)
 {
   int d = thr_degree(u->c->f, v);
   thr_turning_set *to = &dual->odd[dual->n_odd];
@@ -154,16 +163,19 @@ static thr_status add_node_set(const thr_units *u, thr_turning_dual *dual, int v
   return THR_OK;
 }
 
-/* Potentials and junctions of a node: a turn is worth what both half-edges pay, and its turns hold at least a spanning tree,
- * which is worth least as a star round the half-edge that pays least. by_dual[d] is scratch. */
-static thr_status add_node(const thr_units *u, thr_turning_dual *dual, int v, int *by_dual, thr_err *err)
+/* Potentials and junctions of a node: a turn is worth what both half-edges pay, and its turns hold
+ * at least a spanning tree, which is worth least as a star round the half-edge that pays least.
+ * by_dual[d] is scratch. */
+static thr_status add_node(const thr_units *u, thr_turning_dual *dual, int v, int *by_dual,
+                           thr_err *err)
 {
   const int *half = u->c->f->half + u->c->f->first[v];
   int d = thr_degree(u->c->f, v);
   if (d == 0) return THR_OK;
   int64_t before = 0, first = value_of(u, u->dual[half[0]]);
   thr_status st = THR_OK;
-  if (d > 2 && thr_unit_covered(u->c, v)) return first > 0 ? add_node_set(u, dual, v, first, err) : THR_OK;
+  if (d > 2 && thr_unit_covered(u->c, v))
+    return first > 0 ? add_node_set(u, dual, v, first, err) : THR_OK;
   for (int i = 0, k; i < d; i++) {
     dual->potential[half[i]] = -value_of(u, u->dual[half[i]]);
     for (k = i; k > 0 && u->dual[by_dual[k - 1]] > u->dual[half[i]]; k--)
@@ -179,9 +191,10 @@ static thr_status add_node(const thr_units *u, thr_turning_dual *dual, int v, in
   return st;
 }
 
-/* Odd sets of the blossoms that cut no node, of all half-edges at the nodes in them. size, odd, set: [n_blossoms] scratch. */
-static thr_status add_sets(const thr_units *u, const thr_matching *matching, const bool *cut, int *size, bool *odd, int *set,
-                           thr_turning_dual *dual, thr_err *err)
+/* Odd sets of the blossoms that cut no node, of all half-edges at the nodes in them. size, odd,
+ * set: [n_blossoms] scratch. */
+static thr_status add_sets(const thr_units *u, const thr_matching *matching, const bool *cut,
+                           int *size, bool *odd, int *set, thr_turning_dual *dual, thr_err *err)
 {
   const thr_frame *frame = u->c->f;
   thr_status st = THR_OK;
@@ -193,8 +206,8 @@ static thr_status add_sets(const thr_units *u, const thr_matching *matching, con
   for (int b = 0; b < matching->n_blossoms && !st; b++) {
     set[b] = odd[b] && !cut[b] ? dual->n_odd++ : -1;
     if (set[b] < 0) continue;
-    dual->odd[set[b]] =
-        (thr_turning_set){.member = thr_calloc((size_t)size[b], sizeof(int)), .value = value_of(u, matching->blossom_dual[b])};
+    dual->odd[set[b]] = (thr_turning_set){.member = thr_calloc((size_t)size[b], sizeof(int)),
+                                          .value = value_of(u, matching->blossom_dual[b])};
     if (!dual->odd[set[b]].member) st = thr_nomem(err);
   }
   for (int h = 0; h < 2 * frame->n_edges && !st; h++)
@@ -203,13 +216,15 @@ static thr_status add_sets(const thr_units *u, const thr_matching *matching, con
   return st;
 }
 
-static thr_status make_dual(const thr_units *u, const thr_matching *matching, const bool *cut, thr_turning_dual *dual,
-                            thr_err *err)
+static thr_status make_dual(const thr_units *u, const thr_matching *matching, const bool *cut,
+                            thr_turning_dual *dual, thr_err *err)
 {
-  size_t n = (size_t)u->c->f->n_nodes, halves = 2 * (size_t)u->c->f->n_edges, blossoms = (size_t)matching->n_blossoms;
+  size_t n = (size_t)u->c->f->n_nodes, halves = 2 * (size_t)u->c->f->n_edges,
+         blossoms = (size_t)matching->n_blossoms;
   thr_scratch own = {0};
   int *by_dual = thr_scratch_array(&own, halves, sizeof *by_dual);
-  int *size = thr_scratch_array(&own, blossoms, sizeof *size), *set = thr_scratch_array(&own, blossoms, sizeof *set);
+  int *size = thr_scratch_array(&own, blossoms, sizeof *size),
+      *set = thr_scratch_array(&own, blossoms, sizeof *set);
   bool *odd = thr_scratch_array(&own, blossoms, sizeof *odd);
   thr_status st = thr_scratch_check(&own, err);
   if (!st) st = thr_turning_dual_init(dual, u->c, err);
@@ -223,7 +238,8 @@ static thr_status make_dual(const thr_units *u, const thr_matching *matching, co
   return st;
 }
 
-thr_status thr_unit_dual(thr_units *u, const thr_unit_layer *l, thr_turning_dual *dual, bool *more, thr_err *err)
+thr_status thr_unit_dual(thr_units *u, const thr_unit_layer *l, thr_turning_dual *dual, bool *more,
+                         thr_err *err)
 {
   bool *cut = thr_calloc((size_t)l->matching.n_blossoms, sizeof *cut);
   thr_status st = cut ? settle_all(u, l, cut, err) : thr_nomem(err);

@@ -1,24 +1,30 @@
-/* The shortest passes with tube joints, closed cords, as one perfect matching. Internal to tortuosity/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The shortest passes with tube joints, closed cords, as one perfect matching. Internal to
+ * tortuosity/.
  *
- * A node of d edges whose covers sum to C asks for 2 (d - 1) - C extra passes, or for as many as its parity needs, and then for
- * any number of pairs of them (tortuosity/tie/tie.h). Each that it asks for is a unit, a node of the matching; so are pairs of
- * spare units, which may be matched with each other for nothing. Units of neighbours may be matched at the length of the edge
- * between them: that is an extra pass over it (b-matching by copies of nodes, W. T. Tutte, "A short proof of the factor theorem
- * for finite graphs", Canad. J. Math. 6, 1954). No edge gets more passes than all others of a node together if the units of a
- * pair take different ones; so they do where covers are 1, and at nodes of two edges, whose passes must be equal.
+ * A node of d edges whose covers sum to C asks for 2 (d - 1) - C extra passes, or for as many as
+ * its parity needs, and then for any number of pairs of them (tortuosity/tie/tie.h). Each that it
+ * asks for is a unit, a node of the matching; so are pairs of spare units, which may be matched
+ * with each other for nothing. Units of neighbours may be matched at the length of the edge between
+ * them: that is an extra pass over it (b-matching by copies of nodes, W. T. Tutte, "A short proof
+ * of the factor theorem for finite graphs", Canad. J. Math. 6, 1954). No edge gets more passes than
+ * all others of a node together if the units of a pair take different ones; so they do where covers
+ * are 1, and at nodes of two edges, whose passes must be equal.
  *
- * The moats of the matching are multipliers of the turning proof: what the units of a node pay is the price of its passes, and a
- * blossom of whole nodes is an odd set. Spare units come in where these say that they may save.
+ * The moats of the matching are multipliers of the turning proof: what the units of a node pay is
+ * the price of its passes, and a blossom of whole nodes is an odd set. Spare units come in where
+ * these say that they may save.
  *
- * Example: an octahedron: four edges at every node, which asks for two passes; twelve units, six pairs of neighbours. */
+ * Example: an octahedron: four edges at every node, which asks for two passes; twelve units, six
+ * pairs of neighbours. */
 #include "tortuosity/proof/relax_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Of more and more spare units; those that begin anew before they have come to the finest level, which is enough to have most of
- * them. */
+/* Of more and more spare units; those that begin anew before they have come to the finest level,
+ * which is enough to have most of them. */
 enum { MOST_ROUNDS = 8, COARSE_ROUNDS = 2 };
 
 /* Pairs of units beyond which a linear programme, with a row for every node, is the faster way. */
@@ -53,8 +59,9 @@ static int extra_needed(const thr_turning_columns *c, int v)
   return thr_unit_covered(c, v) ? sum % 2 : 2 * (d - 1) - sum;
 }
 
-/* Where every edge is covered once, none gets more passes than all others together if the two units of a pair take different
- * edges: of any two there is a bit in which their places differ. Elsewhere others have passes to spare as a rule. */
+/* Where every edge is covered once, none gets more passes than all others together if the two units
+ * of a pair take different edges: of any two there is a bit in which their places differ. Elsewhere
+ * others have passes to spare as a rule. */
 static int kinds_at(const thr_turning_columns *c, int v)
 {
   int d = thr_degree(c->f, v), kinds = 0;
@@ -69,7 +76,8 @@ static void set_bits(thr_units *u)
   const thr_turning_columns *c = u->c;
   double most = 0;
   for (int e = 0; e < c->f->n_edges; e++)
-    most += (double)c->weight[c->first_extra + e] * (thr_degree(c->f, c->f->edge[e][0]) + thr_degree(c->f, c->f->edge[e][1]));
+    most += (double)c->weight[c->first_extra + e] *
+            (thr_degree(c->f, c->f->edge[e][0]) + thr_degree(c->f, c->f->edge[e][1]));
   u->bits = 1;
   while (ldexp(most, -u->bits) > 0x1p57)
     u->bits++;
@@ -136,7 +144,8 @@ static void add_pairs_over(const thr_units *u, thr_unit_layer *l, int e)
       if (thr_unit_may_take(u, l, 2 * e + 1, j)) add_pair(u, l, i, j, e);
 }
 
-/* Sets asked for a level: the same number or one more than what is needed shared out, and even in every component. */
+/* Sets asked for a level: the same number or one more than what is needed shared out, and even in
+ * every component. */
 static thr_status ask(const thr_units *u, int level, int *asked, thr_err *err)
 {
   const thr_turning_columns *c = u->c;
@@ -176,7 +185,8 @@ static thr_status layer_init(thr_unit_layer *l, const thr_units *u, int level, t
 {
   const thr_frame *frame = u->c->f;
   size_t n = (size_t)frame->n_nodes;
-  *l = (thr_unit_layer){.asked = thr_calloc(n, sizeof *l->asked), .first = thr_calloc(n + 1, sizeof *l->first)};
+  *l = (thr_unit_layer){.asked = thr_calloc(n, sizeof *l->asked),
+                        .first = thr_calloc(n + 1, sizeof *l->first)};
   if (!l->asked || !l->first) return thr_nomem(err);
   thr_status st = ask(u, level, l->asked, err);
   if (st) return st;
@@ -196,7 +206,8 @@ static thr_status layer_init(thr_unit_layer *l, const thr_units *u, int level, t
 
 /* ---- the matching ---- */
 
-/* The unit of the finer level that comes from unit i of node v in the coarser one, or the second of two such; -1: none. */
+/* The unit of the finer level that comes from unit i of node v in the coarser one, or the second of
+ * two such; -1: none. */
 static int image(const thr_unit_layer *coarse, const thr_unit_layer *fine, int v, int i, int twin)
 {
   int at = i - coarse->first[v], spare = at - coarse->asked[v];
@@ -204,16 +215,18 @@ static int image(const thr_unit_layer *coarse, const thr_unit_layer *fine, int v
   return 2 * at + twin < fine->asked[v] ? fine->first[v] + 2 * at + twin : -1;
 }
 
-/* Duals and mates of the finer level: each those of the unit where it comes from. node[coarse units]: where they are. */
-static void refine(const thr_units *u, const thr_unit_layer *coarse, const thr_unit_layer *fine, int *node, int64_t *dual,
-                   int *mate)
+/* Duals and mates of the finer level: each those of the unit where it comes from. node[coarse
+ * units]: where they are. */
+static void refine(const thr_units *u, const thr_unit_layer *coarse, const thr_unit_layer *fine,
+                   int *node, int64_t *dual, int *mate)
 {
   int n = u->c->f->n_nodes;
   for (int v = 0; v < n; v++)
     for (int i = coarse->first[v]; i < coarse->first[v + 1]; i++)
       node[i] = v;
   for (int i = 0; i < 2 * coarse->first[n]; i++) {
-    int own = i / 2, other = coarse->matching.mate[own], unit = image(coarse, fine, node[own], own, i % 2);
+    int own = i / 2, other = coarse->matching.mate[own],
+        unit = image(coarse, fine, node[own], own, i % 2);
     if (unit < 0) continue;
     dual[unit] = coarse->matching.dual[own];
     mate[unit] = image(coarse, fine, node[other], other, i % 2);
@@ -221,19 +234,22 @@ static void refine(const thr_units *u, const thr_unit_layer *coarse, const thr_u
 }
 
 /* Matches the units, from a coarser level unless that is empty. */
-static thr_status layer_match(thr_unit_layer *l, const thr_units *u, const thr_unit_layer *coarse, const thr_limits *limits,
-                              thr_err *err)
+static thr_status layer_match(thr_unit_layer *l, const thr_units *u, const thr_unit_layer *coarse,
+                              const thr_limits *limits, thr_err *err)
 {
   int n = u->c->f->n_nodes;
   bool begun = coarse->matching.mate;
-  const thr_matching_problem problem = {l->first[n], l->n_edges, (const int(*)[2])l->edge, l->weight};
+  const thr_matching_problem problem = {l->first[n], l->n_edges, (const int(*)[2])l->edge,
+                                        l->weight};
   thr_scratch own = {0};
   int *node = thr_scratch_array(&own, begun ? (size_t)coarse->first[n] : 0, sizeof *node);
   int *mate = thr_scratch_array(&own, (size_t)l->first[n], sizeof *mate);
   int64_t *dual = thr_scratch_array(&own, (size_t)l->first[n], sizeof *dual);
   thr_status st = thr_scratch_check(&own, err);
   if (!st && begun) refine(u, coarse, l, node, dual, mate);
-  if (!st) st = thr_matching_near(&problem, begun ? dual : NULL, begun ? mate : NULL, limits, &l->matching, err);
+  if (!st)
+    st = thr_matching_near(&problem, begun ? dual : NULL, begun ? mate : NULL, limits, &l->matching,
+                           err);
   thr_scratch_free(&own);
   return st;
 }
@@ -259,7 +275,8 @@ static void count_passes(const thr_units *u, const thr_unit_layer *l, int *passe
   const thr_matching *matching = &l->matching;
   memcpy(passes, u->c->cover, (size_t)u->c->f->n_edges * sizeof *passes);
   for (int i = 0; i < l->first[u->c->f->n_nodes]; i++)
-    if (i < matching->mate[i] && l->of[matching->mate_edge[i]] >= 0) passes[l->of[matching->mate_edge[i]]]++;
+    if (i < matching->mate[i] && l->of[matching->mate_edge[i]] >= 0)
+      passes[l->of[matching->mate_edge[i]]]++;
 }
 
 /* Spare units for every node that has none; where all have some, more for all. */
@@ -272,11 +289,12 @@ static void spare_everywhere(thr_units *u)
     u->spares[v] += all || u->spares[v] == 0;
 }
 
-/* The matching of a level, which begins with that of the coarser one in *l and takes its place. *matched false: there is none.
- * *more: pairs of spare units were added, and it is to be done again from the coarsest level. Of level 0: passes and multipliers,
- * in place of those before. */
-static thr_status match(thr_units *u, int level, const thr_limits *limits, thr_unit_layer *l, int *passes, thr_turning_dual *dual,
-                        bool *matched, bool *more, thr_err *err)
+/* The matching of a level, which begins with that of the coarser one in *l and takes its place.
+ * *matched false: there is none. *more: pairs of spare units were added, and it is to be done again
+ * from the coarsest level. Of level 0: passes and multipliers, in place of those before. */
+static thr_status match(thr_units *u, int level, const thr_limits *limits, thr_unit_layer *l,
+                        int *passes, thr_turning_dual *dual, bool *matched, bool *more,
+                        thr_err *err)
 {
   thr_unit_layer fine;
   thr_err why = {0};
@@ -296,8 +314,8 @@ static thr_status match(thr_units *u, int level, const thr_limits *limits, thr_u
   return thr_unit_dual(u, l, level == 0 ? dual : NULL, more, err);
 }
 
-thr_status thr_unit_matching(const thr_turning_columns *turning_columns, const thr_limits *limits, int *passes,
-                             thr_turning_dual *dual, bool *found, thr_err *err)
+thr_status thr_unit_matching(const thr_turning_columns *turning_columns, const thr_limits *limits,
+                             int *passes, thr_turning_dual *dual, bool *found, thr_err *err)
 {
   thr_units u;
   thr_unit_layer l = {0};

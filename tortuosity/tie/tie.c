@@ -1,18 +1,22 @@
-/* Tube joints (graph/plan/plan_measures.h): passes and ends for which every node can be tied, and the turns that tie it. Internal
- * to tortuosity/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tube joints (graph/plan/plan_measures.h): passes and ends for which every node can be tied, and
+ * the turns that tie it. Internal to tortuosity/.
  *
- * Which passes can be tied. At a node with d >= 2 edges let e have m_e passes of which t_e end there, z = sum t, M = sum m.
- * Turns that tie the edges and never go back are a connected multigraph without loops on them, in which e has m_e - t_e turns.
- * There is one, for some t, if and only if M - z is even and at least 2 (d - 1), and no 2 m_e is more than M + z (S. L. Hakimi,
- * "On realizability of a set of integers as degrees of the vertices of a linear graph", J. SIAM 10, 1962, for the degrees; two
- * parts of which one has a circuit are joined by exchanging two turns). At a node with one edge, m = z. */
+ * Which passes can be tied. At a node with d >= 2 edges let e have m_e passes of which t_e end
+ * there, z = sum t, M = sum m. Turns that tie the edges and never go back are a connected
+ * multigraph without loops on them, in which e has m_e - t_e turns. There is one, for some t, if
+ * and only if M - z is even and at least 2 (d - 1), and no 2 m_e is more than M + z (S. L. Hakimi,
+ * "On realizability of a set of integers as degrees of the vertices of a linear graph", J. SIAM 10,
+ * 1962, for the degrees; two parts of which one has a circuit are joined by exchanging two turns).
+ * At a node with one edge, m = z. */
 #include "tortuosity/tie/tie.h"
 #include "graph/disjoint.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-int thr_tie_need(const thr_turning_columns *turning_columns, int v, const int *passes, const int *ends)
+int thr_tie_need(const thr_turning_columns *turning_columns, int v, const int *passes,
+                 const int *ends)
 {
   const thr_frame *frame = turning_columns->f;
   int z = ends ? ends[v] : 0, sum = 0, most = 0;
@@ -21,7 +25,8 @@ int thr_tie_need(const thr_turning_columns *turning_columns, int v, const int *p
     sum += m;
     if (m > most) most = m;
   }
-  int few = 2 * (thr_degree(frame, v) - 1) + z - sum, many = 2 * most - sum - z, need = few > many ? few : many;
+  int few = 2 * (thr_degree(frame, v) - 1) + z - sum, many = 2 * most - sum - z,
+      need = few > many ? few : many;
   return need > 0 ? need : (sum + z) % 2;
 }
 
@@ -30,13 +35,16 @@ static thr_status check_room(const thr_turning_columns *turning_columns, thr_err
 {
   const thr_frame *frame = turning_columns->f;
   for (int v = 0; v < frame->n_nodes; v++) {
-    int64_t room = 0, needed = 2 * (thr_degree(frame, v) - 1) +
-                               (turning_columns->task->end_count ? turning_columns->task->end_count[v] : 0);
+    int64_t room = 0,
+            needed = 2 * (thr_degree(frame, v) - 1) +
+                     (turning_columns->task->end_count ? turning_columns->task->end_count[v] : 0);
     for (int i = frame->first[v]; i < frame->first[v + 1]; i++)
       room += turning_columns->most[frame->half[i] >> 1];
     if (room < needed)
-      return thr_fail(err, THR_EINFEASIBLE, "node %s: its edges have room for %d passes, but tying them together takes %d",
-                      frame->name[v], (int)room, (int)needed);
+      return thr_fail(
+          err, THR_EINFEASIBLE,
+          "node %s: its edges have room for %d passes, but tying them together takes %d",
+          frame->name[v], (int)room, (int)needed);
   }
   return THR_OK;
 }
@@ -44,22 +52,26 @@ static thr_status check_room(const thr_turning_columns *turning_columns, thr_err
 thr_status thr_tie_possible(const thr_turning_columns *turning_columns, thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
-  int *loose =
-      thr_calloc((size_t)turning_columns->n_ends, sizeof *loose); /* passes that end at nodes with one edge, by equation */
+  int *loose = thr_calloc((size_t)turning_columns->n_ends,
+                          sizeof *loose); /* passes that end at nodes with one edge, by equation */
   if (!loose) return thr_nomem(err);
   thr_status st = THR_OK;
   for (int v = 0; v < frame->n_nodes; v++)
     if (thr_degree(frame, v) == 1)
-      loose[turning_columns->end_group[v]] += turning_columns->cover[frame->half[frame->first[v]] >> 1];
+      loose[turning_columns->end_group[v]] +=
+          turning_columns->cover[frame->half[frame->first[v]] >> 1];
   for (int v = 0; v < frame->n_nodes && !st; v++) {
     int k = turning_columns->end_group[v];
     if (thr_degree(frame, v) != 1) continue;
     if (turning_columns->end_column[frame->half[frame->first[v]]] < 0)
-      st = thr_fail(err, THR_EINFEASIBLE, "node %s has one edge only: with tube joints a cord must end there, but none may",
-                    frame->name[v]);
+      st = thr_fail(
+          err, THR_EINFEASIBLE,
+          "node %s has one edge only: with tube joints a cord must end there, but none may",
+          frame->name[v]);
     else if (loose[k] > turning_columns->supply[k][1])
       st = thr_fail(err, THR_EINFEASIBLE,
-                    "nodes with one edge only, such as %s, take %d ends with tube joints, but there are no more than %d in their "
+                    "nodes with one edge only, such as %s, take %d ends with tube joints, but "
+                    "there are no more than %d in their "
                     "component; ask for more --cords",
                     frame->name[v], loose[k], turning_columns->supply[k][1]);
   }
@@ -67,7 +79,8 @@ thr_status thr_tie_possible(const thr_turning_columns *turning_columns, thr_err 
   return st ? st : check_room(turning_columns, err);
 }
 
-thr_status thr_tie_holds(const thr_turning_columns *turning_columns, const int *x, bool *tied, thr_err *err)
+thr_status thr_tie_holds(const thr_turning_columns *turning_columns, const int *x, bool *tied,
+                         thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   int *parent = thr_calloc(2 * (size_t)frame->n_edges, sizeof *parent), apart = 0;
@@ -77,14 +90,16 @@ thr_status thr_tie_holds(const thr_turning_columns *turning_columns, const int *
   for (int v = 0; v < frame->n_nodes; v++)
     apart += thr_degree(frame, v) - 1;
   for (int j = 0; j < turning_columns->first_extra; j++)
-    if (x[j] > 0) apart -= thr_disjoint_join(parent, turning_columns->half[j][0], turning_columns->half[j][1]);
+    if (x[j] > 0)
+      apart -= thr_disjoint_join(parent, turning_columns->half[j][0], turning_columns->half[j][1]);
   *tied = apart == 0;
   free(parent);
   return THR_OK;
 }
 
 /* As many ends as there must be? */
-static thr_status count_ends(const thr_turning_columns *turning_columns, const int *ends, bool *fit, thr_err *err)
+static thr_status count_ends(const thr_turning_columns *turning_columns, const int *ends, bool *fit,
+                             thr_err *err)
 {
   int *sum = thr_calloc((size_t)turning_columns->n_ends, sizeof *sum);
   if (!sum) return thr_nomem(err);
@@ -92,7 +107,9 @@ static thr_status count_ends(const thr_turning_columns *turning_columns, const i
   for (int v = 0; v < turning_columns->f->n_nodes; v++) {
     int n = ends ? ends[v] : 0;
     sum[turning_columns->end_group[v]] += n;
-    *fit &= n == 0 || turning_columns->end_column[turning_columns->f->half[turning_columns->f->first[v]]] >= 0;
+    *fit &=
+        n == 0 ||
+        turning_columns->end_column[turning_columns->f->half[turning_columns->f->first[v]]] >= 0;
   }
   for (int k = 0; k < turning_columns->n_ends; k++)
     *fit &= sum[k] >= turning_columns->supply[k][0] && sum[k] <= turning_columns->supply[k][1];
@@ -102,7 +119,8 @@ static thr_status count_ends(const thr_turning_columns *turning_columns, const i
 
 /* ---- all nodes ---- */
 
-static int count_knot(const thr_turning_columns *turning_columns, int v, const int *passes, const int *ends)
+static int count_knot(const thr_turning_columns *turning_columns, int v, const int *passes,
+                      const int *ends)
 {
   const thr_frame *frame = turning_columns->f;
   int n = ends ? ends[v] : 0;
@@ -123,8 +141,8 @@ static void count_turns(const thr_knot *knot, int *x)
   }
 }
 
-thr_status thr_tie_pair(const thr_turning_columns *turning_columns, const int *passes, const int *ends, int *x, bool *found,
-                        thr_err *err)
+thr_status thr_tie_pair(const thr_turning_columns *turning_columns, const int *passes,
+                        const int *ends, int *x, bool *found, thr_err *err)
 {
   const thr_frame *frame = turning_columns->f;
   thr_knot knot = {0};
@@ -137,7 +155,8 @@ thr_status thr_tie_pair(const thr_turning_columns *turning_columns, const int *p
   }
   if (st || !*found) return st;
   memset(x, 0, (size_t)turning_columns->first_extra * sizeof *x);
-  memset(x + turning_columns->first_end, 0, (size_t)(turning_columns->n_columns - turning_columns->first_end) * sizeof *x);
+  memset(x + turning_columns->first_end, 0,
+         (size_t)(turning_columns->n_columns - turning_columns->first_end) * sizeof *x);
   st = thr_knot_init(&knot, turning_columns, most, err);
   for (int v = 0; v < frame->n_nodes && !st && *found; v++) {
     *found = thr_knot_tie(&knot, v, passes, ends);

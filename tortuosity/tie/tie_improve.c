@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Local search over the passes of tied nodes, and annealing. */
 #include "graph/angle.h"
 #include "graph/random.h"
@@ -20,7 +21,8 @@ static void descend(thr_walker *w, const thr_limits *limits)
       thr_walker_search(w, step, saving);
       if (w->last >= 0) thr_walker_take(w);
       saved |= w->last >= 0;
-      if (step % 4 == 0) saved |= thr_walker_double(w, step >> 2, 1) || thr_walker_double(w, step >> 2, -1);
+      if (step % 4 == 0)
+        saved |= thr_walker_double(w, step >> 2, 1) || thr_walker_double(w, step >> 2, -1);
     }
     saved &= !thr_limits_stop(limits);
   }
@@ -46,7 +48,8 @@ static void restore(const best_plan *b, thr_walker *w)
   thr_walker_reset(w);
 }
 
-/* Walks from random edges, dearer ones now and then; temperatures as parts of what a U-turn costs. */
+/* Walks from random edges, dearer ones now and then; temperatures as parts of what a U-turn costs.
+ */
 static void cool(thr_walker *w, uint64_t *state, const thr_limits *limits, best_plan *best)
 {
   enum { VISITS = 10 }; /* of every step */
@@ -63,8 +66,8 @@ static void cool(thr_walker *w, uint64_t *state, const thr_limits *limits, best_
   }
 }
 
-static thr_status improve(const thr_turning_columns *turning_columns, const thr_limits *limits, int rounds, int *passes,
-                          int *ends, thr_err *err)
+static thr_status improve(const thr_turning_columns *turning_columns, const thr_limits *limits,
+                          int rounds, int *passes, int *ends, thr_err *err)
 {
   size_t m = (size_t)turning_columns->f->n_edges, n = (size_t)turning_columns->f->n_nodes;
   thr_walker w;
@@ -91,14 +94,14 @@ static thr_status improve(const thr_turning_columns *turning_columns, const thr_
   return THR_OK;
 }
 
-thr_status thr_tie_improve(const thr_turning_columns *turning_columns, const thr_limits *limits, int *passes, int *ends,
-                           thr_err *err)
+thr_status thr_tie_improve(const thr_turning_columns *turning_columns, const thr_limits *limits,
+                           int *passes, int *ends, thr_err *err)
 {
   return improve(turning_columns, limits, 0, passes, ends, err);
 }
 
-thr_status thr_tie_anneal(const thr_turning_columns *turning_columns, const thr_limits *limits, int rounds, int *passes,
-                          int *ends, thr_err *err)
+thr_status thr_tie_anneal(const thr_turning_columns *turning_columns, const thr_limits *limits,
+                          int rounds, int *passes, int *ends, thr_err *err)
 {
   return improve(turning_columns, limits, rounds, passes, ends, err);
 }

@@ -1,4 +1,6 @@
-/* Turns that tie one node: a spanning tree that keeps to the numbers of passes, the rest paired cheaply, then exchanges. */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Turns that tie one node: a spanning tree that keeps to the numbers of passes, the rest paired
+ * cheaply, then exchanges. */
 #include "graph/disjoint.h"
 #include "tortuosity/tie/tie.h"
 
@@ -6,7 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST = 5000, TRIPLES = 14 }; /* passes at a node; pairs up to which three of them are exchanged too */
+enum {
+  MOST = 5000,
+  TRIPLES = 14
+}; /* passes at a node; pairs up to which three of them are exchanged too */
 
 static const double forbidden = 1e6, saving = -1e-9;
 
@@ -41,7 +46,8 @@ static thr_status rank_turns(thr_knot *knot, thr_err *err)
     list[j] = (ranked){turning_columns->weight[j], j};
   for (int v = 0; v < turning_columns->f->n_nodes; v++) {
     int d = thr_degree(turning_columns->f, v);
-    qsort(list + turning_columns->pair_first[v], (size_t)d * (size_t)(d - 1) / 2, sizeof *list, by_weight);
+    qsort(list + turning_columns->pair_first[v], (size_t)d * (size_t)(d - 1) / 2, sizeof *list,
+          by_weight);
   }
   for (int j = 0; j < turning_columns->first_extra; j++)
     knot->order[j] = list[j].column;
@@ -49,14 +55,16 @@ static thr_status rank_turns(thr_knot *knot, thr_err *err)
   return THR_OK;
 }
 
-thr_status thr_knot_init(thr_knot *knot, const thr_turning_columns *turning_columns, int most, thr_err *err)
+thr_status thr_knot_init(thr_knot *knot, const thr_turning_columns *turning_columns, int most,
+                         thr_err *err)
 {
   int degree = 1;
   *knot = (thr_knot){.c = turning_columns, .most = most / 2, .at = -1};
   for (int v = 0; v < turning_columns->f->n_nodes; v++)
     if (thr_degree(turning_columns->f, v) > degree) degree = thr_degree(turning_columns->f, v);
   if (most > MOST || degree > MOST)
-    return thr_fail(err, THR_EINPUT, "a node with %d passes is too large to tie", most > degree ? most : degree);
+    return thr_fail(err, THR_EINPUT, "a node with %d passes is too large to tie",
+                    most > degree ? most : degree);
   size_t places = (size_t)degree + 1;
   knot->pair = thr_calloc((size_t)knot->most, sizeof *knot->pair);
   knot->parent = thr_calloc(3 * places, sizeof *knot->parent);
@@ -64,7 +72,8 @@ thr_status thr_knot_init(thr_knot *knot, const thr_turning_columns *turning_colu
   knot->room = knot->left + places;
   knot->order = thr_calloc((size_t)turning_columns->first_extra, sizeof *knot->order);
   knot->price = thr_calloc(places * places, sizeof *knot->price);
-  thr_status st = knot->pair && knot->parent && knot->order && knot->price ? rank_turns(knot, err) : thr_nomem(err);
+  thr_status st = knot->pair && knot->parent && knot->order && knot->price ? rank_turns(knot, err)
+                                                                           : thr_nomem(err);
   if (st) thr_knot_destroy(knot);
   return st;
 }
@@ -76,8 +85,9 @@ static void price_places(thr_knot *knot, int v)
   const int *half = turning_columns->f->half + turning_columns->f->first[v], d = knot->d;
   for (int i = 0; i < d; i++) {
     for (int j = i + 1; j < d; j++)
-      knot->price[i * (d + 1) + j] = knot->price[j * (d + 1) + i] =
-          ldexp((double)turning_columns->weight[thr_turning_column(turning_columns, half[i], half[j])], -THR_TURNING_BITS);
+      knot->price[i * (d + 1) + j] = knot->price[j * (d + 1) + i] = ldexp(
+          (double)turning_columns->weight[thr_turning_column(turning_columns, half[i], half[j])],
+          -THR_TURNING_BITS);
     knot->price[i * (d + 2)] = forbidden;
     knot->price[i * (d + 1) + d] = knot->price[d * (d + 1) + i] = 0;
   }
@@ -110,8 +120,8 @@ static void take_node(thr_knot *knot, int v, const int *passes, int ends)
   knot->left[knot->d] = ends;
 }
 
-/* Kruskal's tree, except that a part keeps a pass to be joined by until it is the last. The passes are enough for a tree, so a
- * part with two or more is there to join with. */
+/* Kruskal's tree, except that a part keeps a pass to be joined by until it is the last. The passes
+ * are enough for a tree, so a part with two or more is there to join with. */
 static void grow_tree(thr_knot *knot, int v)
 {
   const thr_turning_columns *turning_columns = knot->c;
@@ -131,12 +141,14 @@ static void grow_tree(thr_knot *knot, int v)
     }
 }
 
-/* Ends at the edges with most passes left; then cheapest first. What is left then goes back into its own edge, until exchanged.
+/* Ends at the edges with most passes left; then cheapest first. What is left then goes back into
+ * its own edge, until exchanged.
  */
 static void pair_rest(thr_knot *knot, int v)
 {
   const thr_turning_columns *turning_columns = knot->c;
-  const int *order = knot->order + turning_columns->pair_first[v], turns = knot->d * (knot->d - 1) / 2;
+  const int *order = knot->order + turning_columns->pair_first[v],
+            turns = knot->d * (knot->d - 1) / 2;
   while (knot->left[knot->d] > 0) {
     int most = knot->d;
     for (int i = knot->d - 1; i >= 0; i--)
@@ -158,7 +170,8 @@ static void pair_rest(thr_knot *knot, int v)
 
 static int connects(thr_knot *knot, thr_knot_pair knot_pair)
 {
-  return knot_pair.a != knot->d && knot_pair.b != knot->d && thr_disjoint_join(knot->parent, knot_pair.a, knot_pair.b);
+  return knot_pair.a != knot->d && knot_pair.b != knot->d &&
+         thr_disjoint_join(knot->parent, knot_pair.a, knot_pair.b);
 }
 
 /* Is the node tied with pairs `in` in the place of pairs `out`, n of each, out ascending? */
@@ -190,9 +203,13 @@ static bool exchange_two(thr_knot *knot, int i)
   int with = -1;
   for (int j = 0; j < knot->n; j++)
     for (int way = 0; way < 2; way++) {
-      thr_knot_pair q = turned(knot->pair[j], way), in[2] = {{knot_pair.a, q.a}, {knot_pair.b, q.b}};
-      double more = price_of(knot, in[0]) + price_of(knot, in[1]) - price_of(knot, knot_pair) - price_of(knot, q);
-      if (j == i || more >= best || !stays_tied(knot, 2, (const int[2]){i < j ? i : j, i < j ? j : i}, in)) continue;
+      thr_knot_pair q = turned(knot->pair[j], way),
+                    in[2] = {{knot_pair.a, q.a}, {knot_pair.b, q.b}};
+      double more = price_of(knot, in[0]) + price_of(knot, in[1]) - price_of(knot, knot_pair) -
+                    price_of(knot, q);
+      if (j == i || more >= best ||
+          !stays_tied(knot, 2, (const int[2]){i < j ? i : j, i < j ? j : i}, in))
+        continue;
       best = more;
       with = j;
       memcpy(better, in, sizeof better);
@@ -207,12 +224,14 @@ static bool exchange_two(thr_knot *knot, int i)
 static bool exchange_these(thr_knot *knot, const int *out)
 {
   const thr_knot_pair first = knot->pair[out[0]];
-  double before = price_of(knot, first) + price_of(knot, knot->pair[out[1]]) + price_of(knot, knot->pair[out[2]]);
+  double before = price_of(knot, first) + price_of(knot, knot->pair[out[1]]) +
+                  price_of(knot, knot->pair[out[2]]);
   for (int way = 0; way < 8; way++) {
     thr_knot_pair knot_pair = turned(first, way & 1), q = turned(knot->pair[out[1]], way & 2),
                   r = turned(knot->pair[out[2]], way & 4);
     thr_knot_pair in[3] = {{knot_pair.a, q.a}, {q.b, r.a}, {r.b, knot_pair.b}};
-    if (price_of(knot, in[0]) + price_of(knot, in[1]) + price_of(knot, in[2]) - before >= saving || !stays_tied(knot, 3, out, in))
+    if (price_of(knot, in[0]) + price_of(knot, in[1]) + price_of(knot, in[2]) - before >= saving ||
+        !stays_tied(knot, 3, out, in))
       continue;
     for (int i = 0; i < 3; i++)
       knot->pair[out[i]] = in[i];

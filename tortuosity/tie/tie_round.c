@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Passes that can be tied: walks between the nodes that need more of them. */
 #include "tortuosity/tie/tie.h"
 
@@ -15,8 +16,9 @@ typedef struct {
   int *passes, *ends, *sum; /* sum[v]: passes at a node */
   int *need;                /* [n_nodes] */
   double *weight;           /* [n_edges] of a pass */
-  double *length;           /* [2 * n_edges] of the shortest walk found that ends with the half-edge, if stamped */
-  int *by, *stamp;          /* [2 * n_edges] half-edge before, -1 = the first; search */
+  double *length;  /* [2 * n_edges] of the shortest walk found that ends with the half-edge, if
+                      stamped */
+  int *by, *stamp; /* [2 * n_edges] half-edge before, -1 = the first; search */
   int searches;
   int n_heap, heap_capacity;
   reached *heap;
@@ -33,7 +35,8 @@ static void router_destroy(router *r)
   free(r->heap);
 }
 
-static thr_status router_init(router *r, const thr_turning_columns *turning_columns, int *passes, int *ends, thr_err *err)
+static thr_status router_init(router *r, const thr_turning_columns *turning_columns, int *passes,
+                              int *ends, thr_err *err)
 {
   size_t n = (size_t)turning_columns->f->n_nodes, m = (size_t)turning_columns->f->n_edges;
   *r = (router){.c = turning_columns, .passes = passes, .ends = ends};
@@ -76,7 +79,8 @@ static reached pop(router *r)
   return top;
 }
 
-/* May more passes of edge e (how many: one that starts or ends at node v, or two that turn back there) leave v as it can be tied?
+/* May more passes of edge e (how many: one that starts or ends at node v, or two that turn back
+ * there) leave v as it can be tied?
  */
 static bool fits(const router *r, int v, int e, int more)
 {
@@ -91,7 +95,9 @@ static thr_status step(router *r, int v, int in, double before, thr_err *err)
   for (int i = frame->first[v]; i < frame->first[v + 1] && !st; i++) {
     int out = frame->half[i], e = out >> 1;
     bool back = in >= 0 && out == (in ^ 1);
-    if (r->passes[e] + 1 + back > r->c->most[e] || (in < 0 && !fits(r, v, e, 1)) || (back && !fits(r, v, e, 2))) continue;
+    if (r->passes[e] + 1 + back > r->c->most[e] || (in < 0 && !fits(r, v, e, 1)) ||
+        (back && !fits(r, v, e, 2)))
+      continue;
     st = push(r, out, in, before + r->weight[e], err);
   }
   return st;
@@ -168,8 +174,8 @@ static int end_wish(const router *r, const double *x, int v, double *wish)
   return whole > least ? whole : least;
 }
 
-/* Ends of the component or node k: the whole part of what x says, then where most of an end is left, until they are enough and
- * even. */
+/* Ends of the component or node k: the whole part of what x says, then where most of an end is
+ * left, until they are enough and even. */
 static void place_ends(router *r, const double *x, int k)
 {
   const thr_turning_columns *turning_columns = r->c;
@@ -207,7 +213,9 @@ static void start_at(router *r, const double *x)
   }
   for (int v = 0; v < frame->n_nodes; v++)
     r->ends[v] = turning_columns->task->end_count ? turning_columns->task->end_count[v] : 0;
-  for (int k = 0; k < turning_columns->n_ends && turning_columns->task->end_allowed && !turning_columns->task->end_count; k++)
+  for (int k = 0; k < turning_columns->n_ends && turning_columns->task->end_allowed &&
+                  !turning_columns->task->end_count;
+       k++)
     place_ends(r, x, k);
   for (int v = 0; v < frame->n_nodes; v++)
     r->need[v] = thr_tie_need(turning_columns, v, r->passes, r->ends);
@@ -221,21 +229,24 @@ static void spare(router *r)
     while (r->passes[e] >= turning_columns->cover[e] + 2) {
       r->passes[e] -= 2;
       update(r, e);
-      if (r->need[turning_columns->f->edge[e][0]] == 0 && r->need[turning_columns->f->edge[e][1]] == 0) continue;
+      if (r->need[turning_columns->f->edge[e][0]] == 0 &&
+          r->need[turning_columns->f->edge[e][1]] == 0)
+        continue;
       r->passes[e] += 2;
       update(r, e);
       break;
     }
 }
 
-thr_status thr_tie_round(const thr_turning_columns *turning_columns, const double *x, int *passes, int *ends, bool *found,
-                         thr_err *err)
+thr_status thr_tie_round(const thr_turning_columns *turning_columns, const double *x, int *passes,
+                         int *ends, bool *found, thr_err *err)
 {
   router r;
   thr_status st = router_init(&r, turning_columns, passes, ends, err);
   *found = true;
   if (!st) start_at(&r, x);
-  for (int v = 0; v < turning_columns->f->n_nodes && !st && *found; v++) /* nodes with few ways out first would be no better */
+  for (int v = 0; v < turning_columns->f->n_nodes && !st && *found;
+       v++) /* nodes with few ways out first would be no better */
     st = serve(&r, v, found, err);
   for (int v = 0; v < turning_columns->f->n_nodes && !st && *found; v++)
     *found = r.need[v] == 0;

@@ -1,9 +1,13 @@
-/* Closed walks along which one pass more or less over each edge changes the price of tied nodes. Internal to tortuosity/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Closed walks along which one pass more or less over each edge changes the price of tied nodes.
+ * Internal to tortuosity/.
  *
- * A walk passes no node twice, so the change is the sum over its nodes of what their two edges change together, which is exact as
- * far as the nodes' prices are. It may go once from the ends at one node to those at another: then an end moves. Of every closed
- * walk that saves, one of the places to start from has only negative sums on the way (S. Lin & B. W. Kernighan, "An effective
- * heuristic algorithm for the traveling-salesman problem", Operations Research 21, 1973): all others are left off. */
+ * A walk passes no node twice, so the change is the sum over its nodes of what their two edges
+ * change together, which is exact as far as the nodes' prices are. It may go once from the ends at
+ * one node to those at another: then an end moves. Of every closed walk that saves, one of the
+ * places to start from has only negative sums on the way (S. Lin & B. W. Kernighan, "An effective
+ * heuristic algorithm for the traveling-salesman problem", Operations Research 21, 1973): all
+ * others are left off. */
 #include "tortuosity/tie/tie.h"
 
 #include <math.h>
@@ -114,10 +118,12 @@ static int most_at_a_node(const thr_walker *w)
   return most;
 }
 
-thr_status thr_walker_init(thr_walker *w, const thr_turning_columns *turning_columns, int *passes, int *ends, thr_err *err)
+thr_status thr_walker_init(thr_walker *w, const thr_turning_columns *turning_columns, int *passes,
+                           int *ends, thr_err *err)
 {
   size_t n = (size_t)turning_columns->f->n_nodes,
-         steps = 4 * (size_t)turning_columns->f->n_edges + 2 * (size_t)turning_columns->n_ends + 2 * n;
+         steps =
+             4 * (size_t)turning_columns->f->n_edges + 2 * (size_t)turning_columns->n_ends + 2 * n;
   *w = (thr_walker){.c = turning_columns, .passes = passes, .ends = ends, .last = -1};
   w->price = thr_calloc(n, sizeof *w->price);
   w->known = thr_calloc((size_t)1 << KNOWN_BITS, sizeof *w->known);
@@ -127,7 +133,8 @@ thr_status thr_walker_init(thr_walker *w, const thr_turning_columns *turning_col
   w->label = thr_calloc(THR_WALK_LABELS, sizeof *w->label);
   bool all = w->price && w->known && w->first && w->seen && w->reached && w->label;
   if (all) all = (w->change = thr_calloc(place_tables(w), sizeof *w->change)) != NULL;
-  thr_status st = all ? thr_knot_init(&w->knot, turning_columns, most_at_a_node(w) + SPARE, err) : thr_nomem(err);
+  thr_status st = all ? thr_knot_init(&w->knot, turning_columns, most_at_a_node(w) + SPARE, err)
+                      : thr_nomem(err);
   if (st)
     thr_walker_destroy(w);
   else
@@ -203,7 +210,8 @@ static void reach(thr_walker *w, int before, int step, double gain, double longe
   if (worse || !(gain < w->saved) || w->n_labels == THR_WALK_LABELS) return;
   w->seen[step] = w->searches;
   w->reached[step] = gain;
-  w->label[w->n_labels++] = (thr_walk_label){gain, longer, step, before, w->label[before].depth + 1};
+  w->label[w->n_labels++] =
+      (thr_walk_label){gain, longer, step, before, w->label[before].depth + 1};
 }
 
 /* ---- the search ---- */
@@ -213,8 +221,11 @@ static void close_walk(thr_walker *w, int l, int v, int place)
 {
   const thr_turning_task *task = w->c->task;
   int begin = w->label[0].step;
-  double gain = w->label[l].gain + change_at(w, v, place, sign_of(w->label[l].step), w->c->position[begin >> 1], sign_of(begin));
-  if (!(gain < w->saved) || (task->extra_limit >= 0 && w->extra + w->label[l].longer > task->extra_limit)) return;
+  double gain = w->label[l].gain + change_at(w, v, place, sign_of(w->label[l].step),
+                                             w->c->position[begin >> 1], sign_of(begin));
+  if (!(gain < w->saved) ||
+      (task->extra_limit >= 0 && w->extra + w->label[l].longer > task->extra_limit))
+    return;
   w->saved = gain;
   w->last = l;
 }
@@ -230,7 +241,8 @@ static void step_from_node(thr_walker *w, int l, int v, int start)
     if (j == place || e == w->label[0].step >> 2 || (to != start && passed(w, l, to))) continue;
     for (int by = 1; by >= -1; by -= 2)
       if (room(w, e, by))
-        reach(w, l, 2 * h + (by < 0), from.gain + change_at(w, v, place, sign, j, by) + by * weight_of(w, e),
+        reach(w, l, 2 * h + (by < 0),
+              from.gain + change_at(w, v, place, sign, j, by) + by * weight_of(w, e),
               from.longer + by * frame->length[e]);
   }
   if (place == d || !may_end(w, v)) return;
@@ -247,9 +259,11 @@ static void step_from_ends(thr_walker *w, int l, int start)
 {
   const thr_turning_columns *turning_columns = w->c;
   const thr_walk_label from = w->label[l];
-  int n = turning_columns->f->n_nodes, group = (from.step - first_to_ends(w)) >> 1, by = -sign_of(from.step);
+  int n = turning_columns->f->n_nodes, group = (from.step - first_to_ends(w)) >> 1,
+      by = -sign_of(from.step);
   for (int i = 0, v = w->searches % n; i < n; i++, v = v + 1 < n ? v + 1 : 0)
-    if (turning_columns->end_group[v] == group && may_end(w, v) && w->ends[v] + by >= 0 && (v == start || !passed(w, l, v)))
+    if (turning_columns->end_group[v] == group && may_end(w, v) && w->ends[v] + by >= 0 &&
+        (v == start || !passed(w, l, v)))
       reach(w, l, first_from_ends(w) + 2 * v + (by < 0), from.gain, from.longer);
 }
 
@@ -261,7 +275,8 @@ void thr_walker_search(thr_walker *w, int step, double allowed)
   w->last = -1;
   w->saved = allowed;
   if (!room(w, e, sign_of(step))) return;
-  w->label[w->n_labels++] = (thr_walk_label){sign_of(step) * weight_of(w, e), sign_of(step) * w->c->f->length[e], step, -1, 0};
+  w->label[w->n_labels++] = (thr_walk_label){sign_of(step) * weight_of(w, e),
+                                             sign_of(step) * w->c->f->length[e], step, -1, 0};
   for (int l = 0; l < w->n_labels; l++) {
     int v = node_after(w, w->label[l].step);
     if (v == start)

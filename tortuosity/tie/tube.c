@@ -1,10 +1,13 @@
-/* The shortest cords for tube joints: Graph Threading (Demaine, Kirkpatrick & Lin, ITCS 2024) with ends, covers, capacities.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The shortest cords for tube joints: Graph Threading (Demaine, Kirkpatrick & Lin, ITCS 2024) with
+ * ends, covers, capacities.
  *
- * Minimize the length with, at every node of degree d: passes that arrive, less ends, at least 2 (d - 1), no edge with more of
- * them than all others together, and an even number; these are the passes whose node can be tied (tortuosity/tie/tie.h).
+ * Minimize the length with, at every node of degree d: passes that arrive, less ends, at least 2 (d
+ * - 1), no edge with more of them than all others together, and an even number; these are the
+ * passes whose node can be tied (tortuosity/tie/tie.h).
  *
- * Example: an octahedron: 6 passes arrive at every node of degree 4, so it takes 18 over its twelve edges, where solid joints
- * take 12.
+ * Example: an octahedron: 6 passes arrive at every node of degree 4, so it takes 18 over its twelve
+ * edges, where solid joints take 12.
  *
  * The shortest tied cords: a search without turns, then one with them where that leaves a gap. */
 #include "graph/plan/plan_measures.h"
@@ -30,7 +33,8 @@ static thr_status take_cords(const thr_join *j, thr_tube *tube, thr_err *err)
   tube->n_cords = n;
   tube->length = 0;
   tube->most_passes = 0;
-  for (int d = 0, same = 0; d < j->g.n_darts && j->g.half[d] >= 0; d += 2) { /* passes of an edge follow each other */
+  for (int d = 0, same = 0; d < j->g.n_darts && j->g.half[d] >= 0;
+       d += 2) { /* passes of an edge follow each other */
     same = d > 0 && j->g.half[d] == j->g.half[d - 2] ? same + 1 : 1;
     if (same > tube->most_passes) tube->most_passes = same;
   }
@@ -48,10 +52,11 @@ static thr_status begin(thr_branch *branch, const thr_tube *tube, thr_err *err)
   return st || !found ? st : thr_branch_try(branch, branch->passes, branch->ends, err);
 }
 
-/* One search, without turns or with them, from the cords in tube if there are any. Leaves its own in tube, and its proof if that
- * proves more. */
-static thr_status search(const thr_turning_columns *turning_columns, const thr_request *options, bool projected, int most_nodes,
-                         const thr_limits *limits, thr_tube *tube, thr_err *err)
+/* One search, without turns or with them, from the cords in tube if there are any. Leaves its own
+ * in tube, and its proof if that proves more. */
+static thr_status search(const thr_turning_columns *turning_columns, const thr_request *options,
+                         bool projected, int most_nodes, const thr_limits *limits, thr_tube *tube,
+                         thr_err *err)
 {
   thr_branch branch;
   thr_turning_proof proof = {0};
@@ -86,8 +91,9 @@ static bool proved(const thr_tube *tube)
   return tube->n_cords > 0 && tube->bound >= tube->length * (1 - 1e-9);
 }
 
-static thr_status search_both(const thr_turning_columns *turning_columns, const thr_request *options, const thr_limits *limits,
-                              thr_tube *tube, thr_err *err)
+static thr_status search_both(const thr_turning_columns *turning_columns,
+                              const thr_request *options, const thr_limits *limits, thr_tube *tube,
+                              thr_err *err)
 {
   enum { NODES = 400, LARGE = 2000 };
   thr_status st = thr_tie_possible(turning_columns, err);
@@ -97,7 +103,8 @@ static thr_status search_both(const thr_turning_columns *turning_columns, const 
   return st;
 }
 
-static thr_status only_begin(const thr_turning_columns *turning_columns, const thr_limits *limits, thr_tube *tube, thr_err *err)
+static thr_status only_begin(const thr_turning_columns *turning_columns, const thr_limits *limits,
+                             thr_tube *tube, thr_err *err)
 {
   thr_branch branch;
   thr_status st = thr_tie_possible(turning_columns, err);
@@ -110,8 +117,8 @@ static thr_status only_begin(const thr_turning_columns *turning_columns, const t
 }
 
 /* With a search, or without. */
-static thr_status make(const thr_frame *frame, const thr_request *options, bool searched, const thr_limits *limits, thr_tube *out,
-                       thr_err *err)
+static thr_status make(const thr_frame *frame, const thr_request *options, bool searched,
+                       const thr_limits *limits, thr_tube *out, thr_err *err)
 {
   thr_turning_columns turning_columns = {0};
   thr_turning_task task;
@@ -122,9 +129,11 @@ static thr_status make(const thr_frame *frame, const thr_request *options, bool 
   thr_tied_task(frame, options, end_allowed, &task);
   thr_status st = thr_turning_columns_init(&turning_columns, frame, &task, err);
   if (!st)
-    st = searched ? search_both(&turning_columns, options, limits, &tube, err) : only_begin(&turning_columns, limits, &tube, err);
+    st = searched ? search_both(&turning_columns, options, limits, &tube, err)
+                  : only_begin(&turning_columns, limits, &tube, err);
   if (!st && tube.n_cords == 0)
-    st = thr_fail(err, THR_EINFEASIBLE, "no cords were found that tie all joints; allow more passes, or ends elsewhere");
+    st = thr_fail(err, THR_EINFEASIBLE,
+                  "no cords were found that tie all joints; allow more passes, or ends elsewhere");
   if (st)
     thr_tube_destroy(&tube);
   else
@@ -134,20 +143,21 @@ static thr_status make(const thr_frame *frame, const thr_request *options, bool 
   return st;
 }
 
-thr_status thr_tube_shortest(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_tube *out,
-                             thr_err *err)
+thr_status thr_tube_shortest(const thr_frame *frame, const thr_request *options,
+                             const thr_limits *limits, thr_tube *out, thr_err *err)
 {
   *out = (thr_tube){0};
   if (options->ends == THR_ENDS_CLOSED && !thr_wants_length(options) && options->cords > 1)
     return thr_fail(err, THR_EINPUT,
-                    "tube joints take one closed cord in every component; let the cords end somewhere, or ask for one");
+                    "tube joints take one closed cord in every component; let the cords end "
+                    "somewhere, or ask for one");
   thr_status st = make(frame, options, true, limits, out, err);
   if (st || proved(out)) return st;
   return thr_not_proved(err, "the length", out->length, out->bound);
 }
 
-thr_status thr_tube_some(const thr_frame *frame, const thr_request *options, const thr_limits *limits, thr_tube *out,
-                         thr_err *err)
+thr_status thr_tube_some(const thr_frame *frame, const thr_request *options,
+                         const thr_limits *limits, thr_tube *out, thr_err *err)
 {
   return make(frame, options, false, limits, out, err);
 }
@@ -156,7 +166,10 @@ void thr_tube_prove(thr_tube *tube, double length, thr_length_proof *proof)
 {
   bool optimal = tube->bound >= length * (1 - 1e-9);
   double bound = optimal ? length : tube->bound;
-  *proof = (thr_length_proof){
-      .present = true, .optimal = optimal, .lower_bound = bound, .gap = (length - bound) / length, .tied = tube->proof};
+  *proof = (thr_length_proof){.present = true,
+                              .optimal = optimal,
+                              .lower_bound = bound,
+                              .gap = (length - bound) / length,
+                              .tied = tube->proof};
   tube->proof = (thr_turning_proof){0};
 }

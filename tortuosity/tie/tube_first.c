@@ -1,9 +1,12 @@
-/* Some cords for tube joints at once: what there is before a search has found any. Internal to tortuosity/.
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Some cords for tube joints at once: what there is before a search has found any. Internal to
+ * tortuosity/.
  *
- * Tied cords without a search. At every node each edge is followed by the next one, and the last by the first: a ring of turns,
- * which ties the node. Where two passes of one edge belong to different circuits, exchanging them behind the edge joins the
- * circuits and changes no turn; so there is one circuit. It may be opened once at every node, because a ring
- * without one turn is a path; more closed cords run around a short circuit. */
+ * Tied cords without a search. At every node each edge is followed by the next one, and the last by
+ * the first: a ring of turns, which ties the node. Where two passes of one edge belong to different
+ * circuits, exchanging them behind the edge joins the circuits and changes no turn; so there is one
+ * circuit. It may be opened once at every node, because a ring without one turn is a path; more
+ * closed cords run around a short circuit. */
 #include "tortuosity/tie/tie.h"
 #include "graph/threading/euler.h"
 #include "graph/threading/threading.h"
@@ -62,7 +65,8 @@ static bool is_possible(first *x)
   return true;
 }
 
-/* The darts of a node stand edge by edge: the second of every two of an edge goes on in the first of two of the next edge. */
+/* The darts of a node stand edge by edge: the second of every two of an edge goes on in the first
+ * of two of the next edge. */
 static void pair_in_rings(first *x)
 {
   const thr_multigraph *multigraph = &x->g;
@@ -78,7 +82,8 @@ static void pair_in_rings(first *x)
 
 static thr_status join_circuits(first *x, thr_err *err)
 {
-  int *circuit = thr_calloc((size_t)x->g.n_darts, sizeof *circuit), *parent = thr_calloc((size_t)x->g.n_darts, sizeof *parent);
+  int *circuit = thr_calloc((size_t)x->g.n_darts, sizeof *circuit),
+      *parent = thr_calloc((size_t)x->g.n_darts, sizeof *parent);
   thr_status st = circuit && parent ? THR_OK : thr_nomem(err);
   if (!st) {
     for (int k = thr_threading_label(&x->g, x->mate, circuit) - 1; k >= 0; k--)
@@ -151,8 +156,9 @@ static thr_status add_circuits(first *x, int n, thr_err *err)
 
 /* ---- open cords ---- */
 
-/* Where the piece of circuit w that begins at pass `from` ends: at the first place from length `least` on, or else the last place
- * up to length `most`. -1: nowhere. The circuit's end is a place. */
+/* Where the piece of circuit w that begins at pass `from` ends: at the first place from length
+ * `least` on, or else the last place up to length `most`. -1: nowhere. The circuit's end is a
+ * place. */
 static int next_place(const first *x, const thr_walk *w, int from, double least, double most)
 {
   int found = -1;
@@ -175,7 +181,8 @@ static thr_status cut_circuit(first *x, bool *found, thr_err *err)
   thr_walks *w = &x->walks;
   int start = 0;
   *found = false;
-  while (start < w->walk[0].n && !thr_plan_end_allowed(x->f, options, thr_walk_node(x->f, &w->walk[0], start)))
+  while (start < w->walk[0].n &&
+         !thr_plan_end_allowed(x->f, options, thr_walk_node(x->f, &w->walk[0], start)))
     start++;
   if (start == w->walk[0].n) return THR_OK;
   thr_status st = thr_walk_rotate(&w->walk[0], start, err);
@@ -194,8 +201,8 @@ static thr_status cut_circuit(first *x, bool *found, thr_err *err)
   return st;
 }
 
-thr_status thr_tube_first(const thr_frame *frame, const thr_request *options, const int *passes, thr_cord **cord, int *n_cords,
-                          thr_err *err)
+thr_status thr_tube_first(const thr_frame *frame, const thr_request *options, const int *passes,
+                          thr_cord **cord, int *n_cords, thr_err *err)
 {
   first x = {.f = frame, .o = options};
   bool found = true;
@@ -207,7 +214,9 @@ thr_status thr_tube_first(const thr_frame *frame, const thr_request *options, co
   if (!st) pair_in_rings(&x);
   if (!st) st = join_circuits(&x, err);
   if (!st) st = thr_walks_follow(&x.walks, frame, &x.g, x.mate, err);
-  if (!st) st = options->ends == THR_ENDS_CLOSED ? add_circuits(&x, options->cords_least - 1, err) : cut_circuit(&x, &found, err);
+  if (!st)
+    st = options->ends == THR_ENDS_CLOSED ? add_circuits(&x, options->cords_least - 1, err)
+                                          : cut_circuit(&x, &found, err);
   if (!st && found) st = thr_walks_cords(&x.walks, frame, options, cord, n_cords, err);
   first_destroy(&x);
   return st;

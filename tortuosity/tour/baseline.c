@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fleury (1883) and Hierholzer (1873) on the multigraph of passes. */
 #include "tortuosity/tour/baseline.h"
 #include "graph/plan/turning_proof.h"
@@ -109,8 +110,8 @@ static double rank_of(const walker *w, int d, int e)
   return e == w->partner[d ^ 1] ? -1 : thr_join_price(w->j, d ^ 1, e);
 }
 
-/* What Fleury walks after dart d, or -1: the first by rank, then in order, that is no bridge. No two of what is left at a node
- * are bridges, so two looks do. */
+/* What Fleury walks after dart d, or -1: the first by rank, then in order, that is no bridge. No
+ * two of what is left at a node are bridges, so two looks do. */
 static int next_but_bridges(walker *w, int d)
 {
   const thr_multigraph *multigraph = &w->j->g;
@@ -157,7 +158,8 @@ static thr_status pair_nodes(walker *w, thr_err *err)
   const thr_multigraph *multigraph = &w->j->g;
   int most = 0;
   for (int v = 0; v < multigraph->n_nodes; v++)
-    if (multigraph->first[v + 1] - multigraph->first[v] > most) most = multigraph->first[v + 1] - multigraph->first[v];
+    if (multigraph->first[v + 1] - multigraph->first[v] > most)
+      most = multigraph->first[v + 1] - multigraph->first[v];
   double *price = thr_scratch_array(&w->own, (size_t)most * (size_t)most, sizeof *price);
   int *mate = thr_scratch_array(&w->own, (size_t)most, sizeof *mate);
   w->partner = thr_scratch_array(&w->own, (size_t)multigraph->n_darts, sizeof *w->partner);
@@ -193,8 +195,8 @@ static thr_status walk_all(thr_join *j, thr_tour tour, bool ignore_pairings, thr
   return st;
 }
 
-/* Where the cords end: given, or where passes are odd in number, or, where they nowhere are, both at the first node that may
- * have them. Closed cords end nowhere. */
+/* Where the cords end: given, or where passes are odd in number, or, where they nowhere are, both
+ * at the first node that may have them. Closed cords end nowhere. */
 static void find_ends(const thr_turning_columns *turning_columns, const int *passes, int *ends)
 {
   const thr_frame *frame = turning_columns->f;
@@ -216,16 +218,20 @@ static void find_ends(const thr_turning_columns *turning_columns, const int *pas
   }
 }
 
-thr_status thr_baseline_tour(const thr_frame *frame, const thr_least_options *options, thr_tour tour, bool ignore_pairings,
-                             const int *passes, thr_least *out, thr_err *err)
+thr_status thr_baseline_tour(const thr_frame *frame, const thr_least_options *options,
+                             thr_tour tour, bool ignore_pairings, const int *passes, thr_least *out,
+                             thr_err *err)
 {
   thr_least made = {0};
   thr_turning_columns turning_columns = {0};
   thr_join j = {0};
   *out = (thr_least){0};
   if (tour != THR_TOUR_FLEURY && tour != THR_TOUR_HIERHOLZER)
-    return thr_fail(err, THR_EINPUT, "the least turning is no classical tour; name fleury or hierholzer");
-  if (options->cords > 1) return thr_fail(err, THR_EINPUT, "the classical tours make one cord per component; leave --cords out");
+    return thr_fail(err, THR_EINPUT,
+                    "the least turning is no classical tour; name fleury or hierholzer");
+  if (options->cords > 1)
+    return thr_fail(err, THR_EINPUT,
+                    "the classical tours make one cord per component; leave --cords out");
   int *ends = thr_calloc((size_t)frame->n_nodes, sizeof *ends);
   thr_status st = ends ? thr_least_task(frame, options, &made, err) : thr_nomem(err);
   if (!st) st = thr_turning_columns_init(&turning_columns, frame, &made.task, err);
