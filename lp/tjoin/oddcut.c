@@ -1,16 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finding odd sets that a fractional point violates: sets S of nodes, an odd number of them odd,
- * with x(edges that leave S) < 1. Heuristically by moats (a ball round every odd component of the
- * support), exactly by a Gomory-Hu tree (Padberg & Rao, Mathematics of Operations Research 7,
- * 1982): of a tree of minimum cuts the lightest edge with an odd number of odd nodes on its sides.
- * Every set becomes a row of a pool, its members those of the row:
+/* Separates odd-cut inequalities: finds sets S of nodes, with an odd number of odd nodes in them,
+ * that a fractional point x violates, x(edges that leave S) < 1. Every T-join satisfies these
+ * inequalities, because an odd set cannot be paired up inside.
  *
- *   thr_oddcuts odd = {.graph = &graph, .x = x, .reduced_cost = cost, .threshold = {1e-6, 0.5},
- * .pool = &pool}; thr_search_use(&search, thr_oddcuts_moats, &odd, 0); thr_search_use(&search,
- * thr_oddcuts_exact, &odd, THR_FALLBACK);
+ * The heuristic separation grows a ball round every odd component of the support until balls
+ * meet. The exact one computes a Gomory-Hu tree of the support (Padberg & Rao, Mathematics of
+ * Operations Research 7, 1982): among the edges of such a tree of minimum cuts with an odd number
+ * of odd nodes on either side, the lightest is a minimum odd cut. Every set becomes a row of a
+ * pool, with the nodes of its smaller side as the row's members:
  *
- * Example: a triangle of odd nodes with x = 1/2 on its edges and 0 on the others that leave it
- * breaks the row of the triangle. */
+ *   thr_oddcuts odd = {.graph = &graph, .x = x, .reduced_cost = cost, .threshold = {0.5},
+ *                      .pool = &pool};
+ *   thr_search_use(&search, thr_oddcuts_moats, &odd, 0);
+ *   thr_search_use(&search, thr_oddcuts_exact, &odd, THR_FALLBACK);
+ *
+ * Example: a triangle of odd nodes with x = 1/4 on the edges that leave it, one at each node, is
+ * violated, because 3/4 < 1. */
 #include "graph/disjoint.h"
 #include "graph/framework/frame.h"
 #include "graph/random.h"
@@ -22,8 +27,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double tolerance =
-    1e-6; /* on x, far below the 1/2 and 1/3 that vertices of these polyhedra show */
+/* On x; far below the 1/2 and 1/3 that vertices of these polyhedra show. */
+static const double tolerance = 1e-6;
 
 /* ---- graph ---- */
 
@@ -41,6 +46,8 @@ thr_status thr_oddcut_graph_init(thr_oddcut_graph *graph, const thr_tjoin_proble
     thr_oddcut_graph_destroy(graph);
     return thr_nomem(err);
   }
+
+  /* List the edges at every node: count them two places further on, add up, fill. */
   for (int e = 0; e < tjoin_problem->n_edges; e++)
     for (int i = 0; i < 2; i++)
       graph->first[tjoin_problem->edge[e][i] + 2]++;
@@ -49,6 +56,8 @@ thr_status thr_oddcut_graph_init(thr_oddcut_graph *graph, const thr_tjoin_proble
   for (int e = 0; e < tjoin_problem->n_edges; e++)
     for (int i = 0; i < 2; i++)
       graph->incident[graph->first[tjoin_problem->edge[e][i] + 1]++] = e;
+
+  /* A set is named by the xor of its members' random keys. */
   for (size_t v = 0; v < n; v++)
     graph->all ^= graph->key[v] = thr_random(&state);
   return THR_OK;
@@ -63,6 +72,7 @@ void thr_oddcut_graph_destroy(thr_oddcut_graph *graph)
   *graph = (thr_oddcut_graph){0};
 }
 
+/* Returns the end of edge e that is not v. */
 static int other_end(const thr_tjoin_problem *tjoin_problem, int e, int v)
 {
   return tjoin_problem->edge[e][0] == v ? tjoin_problem->edge[e][1] : tjoin_problem->edge[e][0];
@@ -74,6 +84,7 @@ static int other_end(const thr_tjoin_problem *tjoin_problem, int e, int v)
  * row. */
 static double put_crossing(const thr_oddcut_graph *graph, thr_pool *pool, const int *node, int n)
 {
+  /* Edges inside the set have both ends marked and are left out. */
   double lower = 1;
   for (int i = 0; i < n; i++)
     for (int k = graph->first[node[i]]; k < graph->first[node[i] + 1]; k++) {
@@ -87,21 +98,24 @@ static double put_crossing(const thr_oddcut_graph *graph, thr_pool *pool, const 
   return lower;
 }
 
-/* The row of the marked nodes, whose members are their side or, if that is smaller, the other;
- * ascending. */
+/* Adds the row of the marked nodes to the pool. Its members are the nodes of the smaller side of
+ * the cut, ascending; of equal sides the one without node 0. */
 static thr_status add_row(const thr_oddcut_graph *graph, thr_pool *pool, const int *node, int n,
                           uint64_t name, thr_err *err)
 {
-  const int all = graph->p->n_nodes;
-  bool flip = 2 * n > all || (2 * n == all && graph->member[0]);
-  int size = flip ? all - n : n, *side = thr_calloc((size_t)size, sizeof *side);
+  const int n_nodes = graph->p->n_nodes;
+  bool flip = 2 * n > n_nodes || (2 * n == n_nodes && graph->member[0]);
+  int size = flip ? n_nodes - n : n, *side = thr_calloc((size_t)size, sizeof *side);
   if (!side) return thr_nomem(err);
+
+  /* Copy the smaller side. */
   for (int v = 0, k = 0; flip && k < size; v++)
     if (!graph->member[v]) side[k++] = v;
   if (!flip) {
     memcpy(side, node, (size_t)n * sizeof *side);
     thr_sort_ints(side, (size_t)n);
   }
+
   double lower = put_crossing(graph, pool, node, n);
   thr_status st = thr_pool_add(
       pool, (thr_row){.name = name, .lower = lower, .member = side, .n_members = size}, err);
@@ -112,15 +126,20 @@ static thr_status add_row(const thr_oddcut_graph *graph, thr_pool *pool, const i
 thr_status thr_oddcut_add(const thr_oddcut_graph *graph, thr_pool *pool, const int *node, int n,
                           thr_err *err)
 {
+  /* Name the set and count its odd nodes. */
   uint64_t name = 0;
   bool odd = false;
   for (int i = 0; i < n; i++) {
     name ^= graph->key[node[i]];
     odd ^= graph->p->odd[node[i]];
   }
+
+  /* The set and its complement are one cut, which gets the smaller one of their names. */
   if (!odd) return THR_OK;
   if ((name ^ graph->all) < name) name ^= graph->all;
   if (thr_pool_knows(pool, name)) return THR_OK;
+
+  /* Mark the members for as long as the row is being put together. */
   for (int i = 0; i < n; i++)
     graph->member[node[i]] = true;
   thr_status st = add_row(graph, pool, node, n, name, err);
@@ -131,104 +150,122 @@ thr_status thr_oddcut_add(const thr_oddcut_graph *graph, thr_pool *pool, const i
 
 /* ---- moats ---- */
 
+/* A node with the length of a path to it. */
 typedef struct {
   double distance;
   int node;
-} reached;
+} reached_node;
 
+/* A binary heap, least distance first. */
 typedef struct {
-  reached *heap;
+  reached_node *heap;
   int count;
-} queue;
+} node_queue;
 
-static bool nearer(reached a, reached b)
+/* Orders by distance; ties go to the lower node, so that results do not depend on the heap. */
+static bool nearer(reached_node a, reached_node b)
 {
   return a.distance < b.distance || (a.distance == b.distance && a.node < b.node);
 }
 
-static void push(queue *q, reached r)
+static void push(node_queue *queue, reached_node entry)
 {
-  int i = q->count++;
-  for (; i > 0 && nearer(r, q->heap[(i - 1) / 2]); i = (i - 1) / 2)
-    q->heap[i] = q->heap[(i - 1) / 2];
-  q->heap[i] = r;
+  /* Move larger ancestors down until there is a place for the new entry. */
+  int i = queue->count++;
+  for (; i > 0 && nearer(entry, queue->heap[(i - 1) / 2]); i = (i - 1) / 2)
+    queue->heap[i] = queue->heap[(i - 1) / 2];
+  queue->heap[i] = entry;
 }
 
-static reached pop(queue *q)
+static reached_node pop(node_queue *queue)
 {
-  reached top = q->heap[0], last = q->heap[--q->count];
+  reached_node top = queue->heap[0], last = queue->heap[--queue->count];
+  /* Fill the hole at the top with smaller children until there is a place for the last entry. */
   int i = 0;
-  for (int child; (child = 2 * i + 1) < q->count; i = child) {
-    if (child + 1 < q->count && nearer(q->heap[child + 1], q->heap[child])) child++;
-    if (!nearer(q->heap[child], last)) break;
-    q->heap[i] = q->heap[child];
+  for (int child; (child = 2 * i + 1) < queue->count; i = child) {
+    if (child + 1 < queue->count && nearer(queue->heap[child + 1], queue->heap[child])) child++;
+    if (!nearer(queue->heap[child], last)) break;
+    queue->heap[i] = queue->heap[child];
   }
-  q->heap[i] = last;
+
+  queue->heap[i] = last;
   return top;
 }
 
-/* Dijkstra from all odd components at once: owner[v] = component whose ball reaches v first, order
- * = nodes by distance. */
+/* The Voronoi diagram of the odd components under the reduced costs, by Dijkstra's method from all
+ * of them at once. */
 typedef struct {
-  double *distance; /* [n] */
-  int *owner;       /* [n] root of the component that reaches v, -1 = none */
-  bool *odd_root;   /* [n] is the component with this root odd? */
-  double *radius;   /* [n] by root: how far its ball may grow */
-  int *order;       /* [n] nodes as settled */
-  int settled;
-  reached *heap;   /* [2 * n_edges + n] */
-  thr_scratch own; /* the arrays */
-} voronoi;
+  double *distance;   /* [n] to the nearest odd component */
+  int *owner;         /* [n] root of the component whose ball reaches the node first, -1 = none */
+  bool *odd_root;     /* [n] is the component with this root odd? */
+  double *radius;     /* [n] by root: how far its ball may grow */
+  int *order;         /* [settled] nodes by distance */
+  int settled;        /* number of nodes reached */
+  reached_node *heap; /* [2 * n_edges + n] */
+  thr_scratch own;    /* the arrays */
+} voronoi_diagram;
 
+/* Computes distances and owners of all nodes. */
 static void grow_balls(const thr_oddcut_graph *graph, const double *reduced_cost, int *parent,
-                       voronoi *z)
+                       voronoi_diagram *voronoi)
 {
   const thr_tjoin_problem *tjoin_problem = graph->p;
-  queue q = {z->heap, 0};
+  node_queue queue = {voronoi->heap, 0};
+
+  /* All nodes of odd components are at distance 0. */
   for (int v = 0; v < tjoin_problem->n_nodes; v++) {
     int root = thr_disjoint_find(parent, v);
-    z->owner[v] = z->odd_root[root] ? root : -1;
-    z->distance[v] = z->odd_root[root] ? 0 : INFINITY;
-    z->radius[v] = INFINITY;
-    if (z->odd_root[root]) push(&q, (reached){0, v});
+    voronoi->owner[v] = voronoi->odd_root[root] ? root : -1;
+    voronoi->distance[v] = voronoi->odd_root[root] ? 0 : INFINITY;
+    voronoi->radius[v] = INFINITY;
+    if (voronoi->odd_root[root]) push(&queue, (reached_node){0, v});
   }
-  z->settled = 0;
-  while (q.count) {
-    reached r = pop(&q);
-    int v = r.node;
-    if (r.distance > z->distance[v]) continue;
-    z->order[z->settled++] = v;
+
+  /* Settle nodes in order of distance. */
+  voronoi->settled = 0;
+  while (queue.count) {
+    reached_node nearest = pop(&queue);
+    int v = nearest.node;
+
+    /* An entry that a shorter path has overtaken is skipped. */
+    if (nearest.distance > voronoi->distance[v]) continue;
+    voronoi->order[voronoi->settled++] = v;
+
+    /* Relax the edges at v. Reduced costs may be negative by rounding. */
     for (int k = graph->first[v]; k < graph->first[v + 1]; k++) {
-      int e = graph->incident[k], w = other_end(tjoin_problem, e, v);
-      double through = r.distance + fmax(reduced_cost[e], 0);
-      if (through < z->distance[w]) {
-        z->distance[w] = through;
-        z->owner[w] = z->owner[v];
-        push(&q, (reached){through, w});
+      int e = graph->incident[k], other = other_end(tjoin_problem, e, v);
+      double through = nearest.distance + fmax(reduced_cost[e], 0);
+      if (through < voronoi->distance[other]) {
+        voronoi->distance[other] = through;
+        voronoi->owner[other] = voronoi->owner[v];
+        push(&queue, (reached_node){through, other});
       }
     }
   }
 }
 
-/* Balls may touch but not overlap: half the shortest path between two owners bounds both radii. */
+/* Bounds the radius of every ball so that balls may touch but not overlap: half the shortest
+ * path between two components is the most that either of them may grow. */
 static void bound_radii(const thr_tjoin_problem *tjoin_problem, const double *reduced_cost,
-                        voronoi *z)
+                        voronoi_diagram *voronoi)
 {
   for (int e = 0; e < tjoin_problem->n_edges; e++) {
-    int a = tjoin_problem->edge[e][0], b = tjoin_problem->edge[e][1];
-    if (z->owner[a] == z->owner[b] || z->owner[a] < 0 || z->owner[b] < 0) continue;
-    double half = (z->distance[a] + fmax(reduced_cost[e], 0) + z->distance[b]) / 2;
+    /* An edge between two cells closes a path between their components. */
+    int u = tjoin_problem->edge[e][0], v = tjoin_problem->edge[e][1];
+    if (voronoi->owner[u] == voronoi->owner[v] || voronoi->owner[u] < 0 || voronoi->owner[v] < 0)
+      continue;
+    double half = (voronoi->distance[u] + fmax(reduced_cost[e], 0) + voronoi->distance[v]) / 2;
     for (int i = 0; i < 2; i++) {
-      double *radius = &z->radius[z->owner[tjoin_problem->edge[e][i]]];
+      double *radius = &voronoi->radius[voronoi->owner[tjoin_problem->edge[e][i]]];
       if (half < *radius) *radius = half;
     }
   }
 }
 
-/* For one owner, nodes come in order of distance: each prefix that ends before a farther node is a
- * ball. */
-static thr_status add_balls(const thr_oddcut_graph *graph, const voronoi *z, const int *start,
-                            const int *by_owner, thr_pool *pool, thr_err *err)
+/* Adds the balls of every component as rows. The nodes of one owner come in order of distance,
+ * so that every prefix that ends before a node farther away is a ball. */
+static thr_status add_balls(const thr_oddcut_graph *graph, const voronoi_diagram *voronoi,
+                            const int *start, const int *by_owner, thr_pool *pool, thr_err *err)
 {
   thr_status st = THR_OK;
   int *prefix = thr_calloc((size_t)graph->p->n_nodes, sizeof *prefix);
@@ -236,37 +273,45 @@ static thr_status add_balls(const thr_oddcut_graph *graph, const voronoi *z, con
   for (int root = 0; root < graph->p->n_nodes && !st; root++) {
     const int *node = by_owner + start[root];
     int n = start[root + 1] - start[root];
-    double near = 1e-9 * (1 + z->radius[root]); /* distances this close are one: edges inside even
-                                                   components cost rounding */
+    /* Distances this close are equal: edges inside even components cost rounding. */
+    double near = 1e-9 * (1 + voronoi->radius[root]);
+
     for (int i = 0; i < n && !st; i++) {
       prefix[i] = node[i];
-      double next = i + 1 < n ? z->distance[node[i + 1]] : INFINITY;
-      if (z->distance[node[i]] > z->radius[root] + near) break;
-      if (next - z->distance[node[i]] > near) st = thr_oddcut_add(graph, pool, prefix, i + 1, err);
+      double next = i + 1 < n ? voronoi->distance[node[i + 1]] : INFINITY;
+
+      /* Stop at the radius; a node at the same distance as the next one ends no ball. */
+      if (voronoi->distance[node[i]] > voronoi->radius[root] + near) break;
+      if (next - voronoi->distance[node[i]] > near)
+        st = thr_oddcut_add(graph, pool, prefix, i + 1, err);
     }
   }
+
   free(prefix);
   return st;
 }
 
-static thr_status voronoi_init(voronoi *z, const thr_tjoin_problem *tjoin_problem, thr_err *err)
+/* Allocates the arrays for the nodes and edges of a problem. */
+static thr_status voronoi_init(voronoi_diagram *voronoi, const thr_tjoin_problem *tjoin_problem,
+                               thr_err *err)
 {
   size_t n = (size_t)tjoin_problem->n_nodes;
-  z->distance = thr_scratch_array(&z->own, n, sizeof *z->distance);
-  z->owner = thr_scratch_array(&z->own, n, sizeof *z->owner);
-  z->odd_root = thr_scratch_array(&z->own, n, sizeof *z->odd_root);
-  z->radius = thr_scratch_array(&z->own, n, sizeof *z->radius);
-  z->order = thr_scratch_array(&z->own, n, sizeof *z->order);
-  z->heap = thr_scratch_array(&z->own, 2 * (size_t)tjoin_problem->n_edges + n, sizeof *z->heap);
-  return thr_scratch_check(&z->own, err);
+  voronoi->distance = thr_scratch_array(&voronoi->own, n, sizeof *voronoi->distance);
+  voronoi->owner = thr_scratch_array(&voronoi->own, n, sizeof *voronoi->owner);
+  voronoi->odd_root = thr_scratch_array(&voronoi->own, n, sizeof *voronoi->odd_root);
+  voronoi->radius = thr_scratch_array(&voronoi->own, n, sizeof *voronoi->radius);
+  voronoi->order = thr_scratch_array(&voronoi->own, n, sizeof *voronoi->order);
+  voronoi->heap = thr_scratch_array(&voronoi->own, 2 * (size_t)tjoin_problem->n_edges + n,
+                                    sizeof *voronoi->heap);
+  return thr_scratch_check(&voronoi->own, err);
 }
 
-static void voronoi_destroy(voronoi *z)
+static void voronoi_destroy(voronoi_diagram *voronoi)
 {
-  thr_scratch_free(&z->own);
+  thr_scratch_free(&voronoi->own);
 }
 
-/* Components of {e : x_e > threshold}; x NULL: single nodes. */
+/* Joins the components of the support {e : x_e > threshold} in parent; x NULL: single nodes. */
 static void components(const thr_tjoin_problem *tjoin_problem, const double *x, double threshold,
                        int *parent)
 {
@@ -281,117 +326,144 @@ thr_status thr_oddcut_moats(const thr_oddcut_graph *graph, const double *x, doub
                             const double *reduced_cost, thr_pool *pool, thr_err *err)
 {
   thr_scratch own = {0};
+
   const thr_tjoin_problem *tjoin_problem = graph->p;
   size_t n = (size_t)tjoin_problem->n_nodes;
-  voronoi z = {0};
+  voronoi_diagram voronoi = {0};
   int *parent = thr_scratch_array(&own, n, sizeof *parent),
       *start = thr_scratch_array(&own, n + 2, sizeof *start),
       *by_owner = thr_scratch_array(&own, n, sizeof *by_owner);
   thr_status st = thr_scratch_check(&own, err);
-  if (!st) st = voronoi_init(&z, tjoin_problem, err);
+  if (!st) st = voronoi_init(&voronoi, tjoin_problem, err);
+
   if (st) goto done;
+
+  /* Find the odd components and grow their balls. */
   components(tjoin_problem, x, threshold, parent);
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
-    if (tjoin_problem->odd[v]) z.odd_root[thr_disjoint_find(parent, v)] ^= true;
-  grow_balls(graph, reduced_cost, parent, &z);
-  bound_radii(tjoin_problem, reduced_cost, &z);
-  for (int i = 0; i < z.settled; i++)
-    start[z.owner[z.order[i]] + 2]++;
+    if (tjoin_problem->odd[v]) voronoi.odd_root[thr_disjoint_find(parent, v)] ^= true;
+  grow_balls(graph, reduced_cost, parent, &voronoi);
+  bound_radii(tjoin_problem, reduced_cost, &voronoi);
+
+  /* Sort the nodes by owner and, for one owner, by distance (a counting sort). */
+  for (int i = 0; i < voronoi.settled; i++)
+    start[voronoi.owner[voronoi.order[i]] + 2]++;
   for (size_t v = 1; v <= n; v++)
     start[v + 1] += start[v];
-  for (int i = 0; i < z.settled; i++) {
-    int owner = z.owner[z.order[i]];
-    by_owner[start[owner + 1]++] = z.order[i];
+  for (int i = 0; i < voronoi.settled; i++) {
+    int owner = voronoi.owner[voronoi.order[i]];
+    by_owner[start[owner + 1]++] = voronoi.order[i];
   }
-  st = add_balls(graph, &z, start, by_owner, pool, err);
+
+  st = add_balls(graph, &voronoi, start, by_owner, pool, err);
 done:
-  voronoi_destroy(&z);
+  voronoi_destroy(&voronoi);
   thr_scratch_free(&own);
   return st;
 }
 
 /* ---- exact separation ---- */
 
-/* One component of the support, with edges of x >= 1 contracted. */
+/* One component of the support, with edges of x >= 1 contracted, and its Gomory-Hu tree. */
 typedef struct {
-  int n, m;
-  int (*edge)[2];
-  double *capacity;
-  int (*tree)[2];
-  double *flow;
-  int *parent;     /* disjoint sets over the tree without one edge */
-  bool *side;      /* [n] */
-  thr_scratch own; /* the arrays */
-} shrunk;
+  int n, m;         /* nodes and edges */
+  int (*edge)[2];   /* [m] */
+  double *capacity; /* [m] the x of an edge */
+  int (*tree)[2];   /* [n - 1] edges of the Gomory-Hu tree */
+  double *flow;     /* [n - 1] capacity of the minimum cut between their ends */
+  int *parent;      /* disjoint sets over the tree without one edge */
+  bool *side;       /* [n] */
+  thr_scratch own;  /* the arrays */
+} contracted_support;
 
-static void shrunk_destroy(shrunk *s)
+static void support_destroy(contracted_support *support)
 {
-  thr_scratch_free(&s->own);
+  thr_scratch_free(&support->own);
 }
 
-static thr_status shrunk_init(shrunk *s, int n, int m, thr_err *err)
+/* Allocates for n nodes and m edges. */
+static thr_status support_init(contracted_support *support, int n, int m, thr_err *err)
 {
   size_t nodes = (size_t)n, edges = (size_t)m;
-  *s = (shrunk){0};
-  s->edge = thr_scratch_array(&s->own, edges, sizeof *s->edge);
-  s->capacity = thr_scratch_array(&s->own, edges, sizeof *s->capacity);
-  s->tree = thr_scratch_array(&s->own, nodes, sizeof *s->tree);
-  s->flow = thr_scratch_array(&s->own, nodes, sizeof *s->flow);
-  s->parent = thr_scratch_array(&s->own, nodes, sizeof *s->parent);
-  s->side = thr_scratch_array(&s->own, nodes, sizeof *s->side);
-  return thr_scratch_check(&s->own, err);
+  *support = (contracted_support){0};
+  support->edge = thr_scratch_array(&support->own, edges, sizeof *support->edge);
+  support->capacity = thr_scratch_array(&support->own, edges, sizeof *support->capacity);
+  support->tree = thr_scratch_array(&support->own, nodes, sizeof *support->tree);
+  support->flow = thr_scratch_array(&support->own, nodes, sizeof *support->flow);
+  support->parent = thr_scratch_array(&support->own, nodes, sizeof *support->parent);
+  support->side = thr_scratch_array(&support->own, nodes, sizeof *support->side);
+  return thr_scratch_check(&support->own, err);
 }
 
-/* Adds the side of tree edge i, in framework nodes: those whose shrunk node is still joined to
- * tree[i][0]. */
-static thr_status add_side(const thr_oddcut_graph *graph, const shrunk *s, int i, const int *node,
-                           const int *shrunk_of, int n, int *list, thr_pool *pool, thr_err *err)
+/* Adds the set of framework nodes on one side of tree edge i: the nodes whose contracted node is
+ * still joined to tree[i][0] when the edge is taken out. Sets that are not odd are ignored. */
+static thr_status add_side(const thr_oddcut_graph *graph, const contracted_support *support, int i,
+                           const int *node, const int *contracted_of, int n, int *list,
+                           thr_pool *pool, thr_err *err)
 {
-  for (int v = 0; v < s->n; v++)
-    s->parent[v] = v;
-  for (int k = 0; k < s->n - 1; k++)
-    if (k != i) thr_disjoint_join(s->parent, s->tree[k][0], s->tree[k][1]);
-  int root = thr_disjoint_find(s->parent, s->tree[i][0]), count = 0;
+  /* Join the ends of all other tree edges. */
+  for (int v = 0; v < support->n; v++)
+    support->parent[v] = v;
+  for (int k = 0; k < support->n - 1; k++)
+    if (k != i) thr_disjoint_join(support->parent, support->tree[k][0], support->tree[k][1]);
+
+  /* Collect the nodes on the side of tree[i][0]. */
+  int root = thr_disjoint_find(support->parent, support->tree[i][0]), count = 0;
   for (int k = 0; k < n; k++)
-    if (thr_disjoint_find(s->parent, shrunk_of[node[k]]) == root) list[count++] = node[k];
-  return thr_oddcut_add(graph, pool, list, count, err); /* ignores an even side */
+    if (thr_disjoint_find(support->parent, contracted_of[node[k]]) == root) list[count++] = node[k];
+
+  return thr_oddcut_add(graph, pool, list, count, err);
 }
 
-/* node[0 .. n-1] is one component of the support; block[v] its contracted group; shrunk_of and list
- * are scratch. */
+/* Separates exactly in one component of the support, the nodes node[0 .. n - 1], ascending.
+ * block[v]: disjoint sets of the edges to be contracted. contracted_of and list are scratch
+ * space for n_nodes entries. */
 static thr_status separate_component(const thr_oddcut_graph *graph, const double *x,
-                                     const int *node, int n, int *block, int *shrunk_of, int *list,
-                                     thr_pool *pool, thr_err *err)
+                                     const int *node, int n, int *block, int *contracted_of,
+                                     int *list, thr_pool *pool, thr_err *err)
 {
   const thr_tjoin_problem *tjoin_problem = graph->p;
-  shrunk s;
+  contracted_support support;
   int ids = 0, degrees = 0;
+
+  /* Number the contracted nodes. A root is the lowest node of its block, so its number is known
+   * before the other nodes of the block ask for it. */
   for (int i = 0; i < n; i++) {
     int root = thr_disjoint_find(block, node[i]);
-    if (root == node[i])
-      shrunk_of[root] = ids++; /* a root is the lowest of its block, and node[] ascends */
-    shrunk_of[node[i]] = shrunk_of[root];
+    if (root == node[i]) contracted_of[root] = ids++;
+    contracted_of[node[i]] = contracted_of[root];
     degrees += graph->first[node[i] + 1] - graph->first[node[i]];
   }
-  /* The component itself, crossed by nothing: moats miss it where a tight edge of x = 0 leaves it.
-   */
+
+  /* The component itself is left by no edge of the support. Balls do not find it where an edge with
+   * x = 0 and reduced cost 0 leaves it. Even components are ignored. */
   if (n > 0) memcpy(list, node, (size_t)n * sizeof *list);
-  thr_status st = thr_oddcut_add(graph, pool, list, n, err); /* ignores an even one */
+  thr_status st = thr_oddcut_add(graph, pool, list, n, err);
+
   if (st || ids < 2) return st;
-  st = shrunk_init(&s, ids, degrees, err);
-  s.n = ids;
+
+  /* List the edges between contracted nodes, each once, with x as capacity. */
+  st = support_init(&support, ids, degrees, err);
+  support.n = ids;
   for (int i = 0; i < n && !st; i++)
     for (int k = graph->first[node[i]]; k < graph->first[node[i] + 1]; k++) {
-      int e = graph->incident[k], w = other_end(tjoin_problem, e, node[i]);
-      if (w < node[i] || x[e] <= tolerance || shrunk_of[node[i]] == shrunk_of[w]) continue;
-      s.edge[s.m][0] = shrunk_of[node[i]];
-      s.edge[s.m][1] = shrunk_of[w];
-      s.capacity[s.m++] = x[e];
+      int e = graph->incident[k], other = other_end(tjoin_problem, e, node[i]);
+      if (other < node[i] || x[e] <= tolerance || contracted_of[node[i]] == contracted_of[other])
+        continue;
+      support.edge[support.m][0] = contracted_of[node[i]];
+      support.edge[support.m][1] = contracted_of[other];
+      support.capacity[support.m++] = x[e];
     }
-  if (!st) st = thr_cut_tree(s.n, s.m, (const int(*)[2])s.edge, s.capacity, s.tree, s.flow, err);
-  for (int i = 0; i < s.n - 1 && !st; i++)
-    if (s.flow[i] < 1 - tolerance) st = add_side(graph, &s, i, node, shrunk_of, n, list, pool, err);
-  shrunk_destroy(&s);
+
+  /* A Gomory-Hu tree holds a minimum cut for every pair of nodes, and a minimum odd cut. */
+  if (!st)
+    st = thr_cut_tree(support.n, support.m, (const int(*)[2])support.edge, support.capacity,
+                      support.tree, support.flow, err);
+  for (int i = 0; i < support.n - 1 && !st; i++)
+    if (support.flow[i] < 1 - tolerance)
+      st = add_side(graph, &support, i, node, contracted_of, n, list, pool, err);
+
+  support_destroy(&support);
   return st;
 }
 
@@ -400,26 +472,34 @@ thr_status thr_oddcut_exact(const thr_oddcut_graph *graph, const double *x, thr_
 {
   const thr_tjoin_problem *tjoin_problem = graph->p;
   size_t n = (size_t)tjoin_problem->n_nodes;
+
   thr_scratch own = {0};
   int *parent = thr_scratch_array(&own, n, sizeof *parent),
       *block = thr_scratch_array(&own, n, sizeof *block),
-      *shrunk_of = thr_scratch_array(&own, n, sizeof *shrunk_of);
+      *contracted_of = thr_scratch_array(&own, n, sizeof *contracted_of);
   int *list = thr_scratch_array(&own, n, sizeof *list),
       *start = thr_scratch_array(&own, n + 2, sizeof *start),
       *node = thr_scratch_array(&own, n, sizeof *node);
+
   thr_status st = thr_scratch_check(&own, err);
   if (st) goto done;
+
+  /* Find the components of the support, and the blocks to be contracted: edges with x >= 1 lie
+   * in no violated cut. */
   components(tjoin_problem, x, tolerance, parent);
   components(tjoin_problem, x, 1 - tolerance, block);
+
+  /* Sort the nodes by component; within one they stay in ascending order. */
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
     start[thr_disjoint_find(parent, v) + 2]++;
   for (size_t v = 1; v <= n; v++)
     start[v + 1] += start[v];
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
     node[start[thr_disjoint_find(parent, v) + 1]++] = v;
+
   for (int root = 0; root < tjoin_problem->n_nodes && !st; root++)
     st = separate_component(graph, x, node + start[root], start[root + 1] - start[root], block,
-                            shrunk_of, list, pool, err);
+                            contracted_of, list, pool, err);
 done:
   thr_scratch_free(&own);
   return st;
@@ -427,7 +507,7 @@ done:
 
 /* ---- for a search ---- */
 
-/* Keeps the rows from number `first` on that count. */
+/* Counts the rows from number first on, and drops those that odd->point satisfies. */
 static thr_status keep(const thr_oddcuts *odd, int first, int *added, thr_err *err)
 {
   if (odd->point)
@@ -440,7 +520,10 @@ thr_status thr_oddcuts_moats(void *oddcuts, int *added, thr_err *err)
 {
   const thr_oddcuts *odd = oddcuts;
   const int n = sizeof odd->threshold / sizeof *odd->threshold, first = odd->pool->count;
+
   thr_status st = THR_OK;
+  /* Each further threshold leaves fewer edges in the support. The first one that gives rows is
+   * enough. */
   for (int i = 0; i < n && odd->threshold[i] > 0 && !st && odd->pool->count == first; i++) {
     st = thr_oddcut_moats(odd->graph, odd->x, odd->threshold[i], odd->reduced_cost, odd->pool, err);
     if (!st) st = keep(odd, first, added, err);

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Minimum T-join by linear programming over odd cuts (Edmonds & Johnson 1973; separation: Padberg &
- * Rao 1982).
+/* Computes a minimum T-join by linear programming over odd cuts (Edmonds & Johnson 1973;
+ * separation: Padberg & Rao 1982).
  *
- * Minimize the sum of w(e) x(e) with x(edges that leave S) >= 1 for every set S with an odd number
- * of nodes of T; the corners of this polyhedron are T-joins, and its dual, a packing of odd cuts,
- * is the proof.
+ * The programme minimizes the sum of w(e) x(e) with x >= 0 and x(edges that leave S) >= 1 for every
+ * set S with an odd number of nodes of T. The corners of this polyhedron are T-joins, and its dual,
+ * a packing of odd cuts, is the proof. There are exponentially many sets, so the cuts are added as
+ * they are violated: a round solves the programme, rounds its point to a T-join, turns its
+ * multipliers into cut values in exact integers, and separates (oddcut.c).
  *
  * Example: a cycle of four edges of weight 1 with two opposite odd nodes: both halves are T-joins
- * of weight 2, and moats of width 1 round each odd node prove it.
- *
- * The cutting-plane loop: solve, separate, round to a join, turn the dual into an exact
- * certificate. */
+ * of weight 2, and moats of width 1 round each odd node prove it. */
 #include "lp/tjoin/tjoin.h"
 #include "graph/disjoint.h"
 #include "graph/scratch.h"
@@ -20,11 +19,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-__extension__ typedef __int128
-    wide; /* sums of cut values times weights pass 64 bits on hostile inputs */
+/* Sums of cut values times weights pass 64 bits on hostile inputs. */
+__extension__ typedef __int128 wide;
 
 typedef struct {
-  const thr_tjoin_problem *p;
+  const thr_tjoin_problem *problem;
   const thr_limits *limits;
   thr_oddcut_graph graph;
   thr_oddcuts odd;
@@ -36,56 +35,65 @@ typedef struct {
                      integers */
   int64_t *value; /* [search.pool.count] multipliers as integers that load no edge too much */
   int *order, *parent; /* [n_edges], [n_nodes] scratch of the rounding */
-  bool *tree_join;     /* [n_edges] */
+  bool *tree_join;     /* [n_edges] the tree, then the join that is rounded to */
   bool *leaf_used;     /* [n_leaves] */
-  wide *slack;         /* [n_edges] */
-  thr_tjoin best;
-  thr_scratch own; /* the arrays */
-} solver;
+  wide *slack;         /* [n_edges] weight * THR_DUAL_DENOMINATOR less the values of the cuts */
+  thr_tjoin best;      /* the best join, and the cuts of the best bound */
+  thr_scratch own;     /* the arrays */
+} tjoin_solver;
 
-static thr_status solver_init(solver *s, const thr_tjoin_problem *tjoin_problem,
+/* Allocates, and sets up the linear programme without rows and its separators. */
+static thr_status solver_init(tjoin_solver *solver, const thr_tjoin_problem *tjoin_problem,
                               const thr_limits *limits, thr_err *err)
 {
-  size_t n = (size_t)tjoin_problem->n_nodes, m = (size_t)tjoin_problem->n_edges;
-  *s = (solver){.p = tjoin_problem, .limits = limits};
-  thr_status st = thr_oddcut_graph_init(&s->graph, tjoin_problem, err);
+  size_t n = (size_t)tjoin_problem->n_nodes, n_edges = (size_t)tjoin_problem->n_edges;
+  *solver = (tjoin_solver){.problem = tjoin_problem, .limits = limits};
+  thr_status st = thr_oddcut_graph_init(&solver->graph, tjoin_problem, err);
   if (st) return st;
-  s->cost = thr_scratch_array(&s->own, m, sizeof *s->cost);
-  s->whole = thr_scratch_array(&s->own, m, sizeof *s->whole);
-  s->x = thr_scratch_array(&s->own, m, sizeof *s->x);
-  s->reduced_cost = thr_scratch_array(&s->own, m, sizeof *s->reduced_cost);
-  s->key = thr_scratch_array(&s->own, m, sizeof *s->key);
-  s->order = thr_scratch_array(&s->own, m, sizeof *s->order);
-  s->parent = thr_scratch_array(&s->own, n, sizeof *s->parent);
-  s->tree_join = thr_scratch_array(&s->own, m, sizeof *s->tree_join);
-  s->leaf_used = thr_scratch_array(&s->own, (size_t)tjoin_problem->n_leaves, sizeof *s->leaf_used);
-  s->slack = thr_scratch_array(&s->own, m, sizeof *s->slack);
-  s->best.in_join = thr_calloc(m, sizeof *s->best.in_join);
-  s->best.length = INT64_MAX;
-  if (!s->best.in_join || thr_scratch_check(&s->own, err)) return thr_nomem(err);
-  if ((st = thr_search_init(&s->search, tjoin_problem->n_edges, s->x, err))) return st;
-  s->odd = (thr_oddcuts){.graph = &s->graph,
-                         .x = s->x,
-                         .reduced_cost = s->reduced_cost,
-                         .threshold = {1e-6, 0.2, 0.35, 0.51, 0.7},
-                         .pool = &s->search.pool};
-  thr_search_use(&s->search, thr_oddcuts_moats, &s->odd, 0);
-  thr_search_use(&s->search, thr_oddcuts_exact, &s->odd, THR_FALLBACK);
+
+  /* All arrays of the loop. */
+  solver->cost = thr_scratch_array(&solver->own, n_edges, sizeof *solver->cost);
+  solver->whole = thr_scratch_array(&solver->own, n_edges, sizeof *solver->whole);
+  solver->x = thr_scratch_array(&solver->own, n_edges, sizeof *solver->x);
+  solver->reduced_cost = thr_scratch_array(&solver->own, n_edges, sizeof *solver->reduced_cost);
+  solver->key = thr_scratch_array(&solver->own, n_edges, sizeof *solver->key);
+  solver->order = thr_scratch_array(&solver->own, n_edges, sizeof *solver->order);
+  solver->parent = thr_scratch_array(&solver->own, n, sizeof *solver->parent);
+  solver->tree_join = thr_scratch_array(&solver->own, n_edges, sizeof *solver->tree_join);
+  solver->leaf_used =
+      thr_scratch_array(&solver->own, (size_t)tjoin_problem->n_leaves, sizeof *solver->leaf_used);
+  solver->slack = thr_scratch_array(&solver->own, n_edges, sizeof *solver->slack);
+  solver->best.in_join = thr_calloc(n_edges, sizeof *solver->best.in_join);
+  solver->best.length = INT64_MAX;
+  if (!solver->best.in_join || thr_scratch_check(&solver->own, err)) return thr_nomem(err);
+
+  /* Moats are fast; the exact separation is asked where they find nothing. */
+  if ((st = thr_search_init(&solver->search, tjoin_problem->n_edges, solver->x, err))) return st;
+  solver->odd = (thr_oddcuts){.graph = &solver->graph,
+                              .x = solver->x,
+                              .reduced_cost = solver->reduced_cost,
+                              .threshold = {1e-6, 0.2, 0.35, 0.51, 0.7},
+                              .pool = &solver->search.pool};
+  thr_search_use(&solver->search, thr_oddcuts_moats, &solver->odd, 0);
+  thr_search_use(&solver->search, thr_oddcuts_exact, &solver->odd, THR_FALLBACK);
+
+  /* Scale the costs to a mean of 1. */
   double sum = 0;
-  for (size_t e = 0; e < m; e++)
-    sum += s->whole[e] = (double)tjoin_problem->weight[e];
-  s->unit = sum > 0 ? sum / (double)m : 1;
-  for (size_t e = 0; e < m; e++)
-    s->cost[e] = s->reduced_cost[e] = (double)tjoin_problem->weight[e] / s->unit;
-  return thr_lp_create(&s->search.lp, tjoin_problem->n_edges, s->cost, NULL, err);
+  for (size_t e = 0; e < n_edges; e++)
+    sum += solver->whole[e] = (double)tjoin_problem->weight[e];
+  solver->unit = sum > 0 ? sum / (double)n_edges : 1;
+  for (size_t e = 0; e < n_edges; e++)
+    solver->cost[e] = solver->reduced_cost[e] = (double)tjoin_problem->weight[e] / solver->unit;
+
+  return thr_lp_create(&solver->search.lp, tjoin_problem->n_edges, solver->cost, NULL, err);
 }
 
-static void solver_destroy(solver *s)
+static void solver_destroy(tjoin_solver *solver)
 {
-  thr_search_destroy(&s->search);
-  thr_oddcut_graph_destroy(&s->graph);
-  thr_scratch_free(&s->own);
-  free(s->value);
+  thr_search_destroy(&solver->search);
+  thr_oddcut_graph_destroy(&solver->graph);
+  thr_scratch_free(&solver->own);
+  free(solver->value);
 }
 
 void thr_tjoin_destroy(thr_tjoin *tjoin)
@@ -101,6 +109,7 @@ void thr_tjoin_destroy(thr_tjoin *tjoin)
 
 static _Thread_local const double *sort_key; /* qsort has no user pointer */
 
+/* Orders edges by sort_key, then by number. */
 static int by_key(const void *pa, const void *pb)
 {
   int a = *(const int *)pa, b = *(const int *)pb;
@@ -108,39 +117,43 @@ static int by_key(const void *pa, const void *pb)
   return (a > b) - (a < b);
 }
 
-/* Marks in s->tree_join the edges of a spanning tree, cheapest keys first (a leaf joined to a leaf
- * stays apart). */
-static void spanning_tree(solver *s)
+/* Marks in solver->tree_join the edges of a spanning tree of least keys (Kruskal). Every leaf
+ * gets one edge of the tree at most, so that its degree in the join is 1. */
+static void spanning_tree(tjoin_solver *solver)
 {
-  const thr_tjoin_problem *tjoin_problem = s->p;
+  const thr_tjoin_problem *tjoin_problem = solver->problem;
   int first_leaf = tjoin_problem->n_nodes - tjoin_problem->n_leaves;
+  /* Sort the edges by key. */
   for (int e = 0; e < tjoin_problem->n_edges; e++) {
-    s->order[e] = e;
-    s->tree_join[e] = false;
+    solver->order[e] = e;
+    solver->tree_join[e] = false;
   }
-  sort_key = s->key;
-  qsort(s->order, (size_t)tjoin_problem->n_edges, sizeof *s->order, by_key);
-  memset(s->leaf_used, 0, (size_t)tjoin_problem->n_leaves * sizeof *s->leaf_used);
+  sort_key = solver->key;
+  qsort(solver->order, (size_t)tjoin_problem->n_edges, sizeof *solver->order, by_key);
+
+  /* Take each edge that closes no circuit. */
+  memset(solver->leaf_used, 0, (size_t)tjoin_problem->n_leaves * sizeof *solver->leaf_used);
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
-    s->parent[v] = v;
+    solver->parent[v] = v;
   for (int i = 0; i < tjoin_problem->n_edges; i++) {
-    int e = s->order[i], a = tjoin_problem->edge[e][0], b = tjoin_problem->edge[e][1];
-    if ((a >= first_leaf && s->leaf_used[a - first_leaf]) ||
-        (b >= first_leaf && s->leaf_used[b - first_leaf]))
+    int e = solver->order[i], u = tjoin_problem->edge[e][0], v = tjoin_problem->edge[e][1];
+    if ((u >= first_leaf && solver->leaf_used[u - first_leaf]) ||
+        (v >= first_leaf && solver->leaf_used[v - first_leaf]))
       continue;
-    if (a >= first_leaf) s->leaf_used[a - first_leaf] = true;
-    if (b >= first_leaf) s->leaf_used[b - first_leaf] = true;
-    s->tree_join[e] =
-        thr_disjoint_join(s->parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
+    if (u >= first_leaf) solver->leaf_used[u - first_leaf] = true;
+    if (v >= first_leaf) solver->leaf_used[v - first_leaf] = true;
+    solver->tree_join[e] =
+        thr_disjoint_join(solver->parent, tjoin_problem->edge[e][0], tjoin_problem->edge[e][1]);
   }
 }
 
-/* Keeps of the tree the edges that separate an odd number of odd nodes: the only T-join in it.
- * Leaves inwards. */
-static thr_status prune_tree(solver *s, thr_err *err)
+/* Keeps of the tree the edges whose removal leaves an odd number of odd nodes on each side.
+ * These edges are the only T-join within the tree. Nodes are taken from the leaves of the tree
+ * inwards. */
+static thr_status prune_tree(tjoin_solver *solver, thr_err *err)
 {
   thr_scratch own = {0};
-  const thr_tjoin_problem *tjoin_problem = s->p;
+  const thr_tjoin_problem *tjoin_problem = solver->problem;
   size_t n = (size_t)tjoin_problem->n_nodes;
   int *degree = thr_scratch_array(&own, n, sizeof *degree),
       *stack = thr_scratch_array(&own, n, sizeof *stack), top = 0;
@@ -148,25 +161,31 @@ static thr_status prune_tree(solver *s, thr_err *err)
        *done = thr_scratch_array(&own, (size_t)tjoin_problem->n_edges, sizeof *done);
   thr_status st = thr_scratch_check(&own, err);
   if (st) goto done;
+
+  /* Count the edges of the tree at every node, and start with the leaves. */
   memcpy(odd, tjoin_problem->odd, n * sizeof *odd);
   for (int e = 0; e < tjoin_problem->n_edges; e++)
-    for (int i = 0; s->tree_join[e] && i < 2; i++)
+    for (int i = 0; solver->tree_join[e] && i < 2; i++)
       degree[tjoin_problem->edge[e][i]]++;
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
     if (degree[v] == 1) stack[top++] = v;
+
+  /* Cut off one leaf after the other. */
   while (top) {
     int v = stack[--top];
-    for (int k = s->graph.first[v]; k < s->graph.first[v + 1]; k++) {
-      int e = s->graph.incident[k];
-      if (!s->tree_join[e] || done[e]) continue;
-      int w =
+    for (int k = solver->graph.first[v]; k < solver->graph.first[v + 1]; k++) {
+      int e = solver->graph.incident[k];
+      if (!solver->tree_join[e] || done[e]) continue;
+      int other =
           tjoin_problem->edge[e][0] == v ? tjoin_problem->edge[e][1] : tjoin_problem->edge[e][0];
+
+      /* An odd leaf needs its edge, which changes the parity of the other end. */
       done[e] = true;
       if (odd[v])
-        odd[w] = !odd[w];
+        odd[other] = !odd[other];
       else
-        s->tree_join[e] = false;
-      if (--degree[w] == 1) stack[top++] = w;
+        solver->tree_join[e] = false;
+      if (--degree[other] == 1) stack[top++] = other;
       break;
     }
   }
@@ -175,188 +194,221 @@ done:
   return st;
 }
 
-/* Keeps the T-join of the spanning tree under s->key if it is the best so far. */
-static thr_status try_tree(solver *s, thr_err *err)
+/* Rounds by the spanning tree under solver->key, and keeps the T-join if it is the best so far. */
+static thr_status try_tree(tjoin_solver *solver, thr_err *err)
 {
-  const thr_tjoin_problem *tjoin_problem = s->p;
-  spanning_tree(s);
-  thr_status st = prune_tree(s, err);
+  const thr_tjoin_problem *tjoin_problem = solver->problem;
+  spanning_tree(solver);
+  thr_status st = prune_tree(solver, err);
   if (st) return st;
+
   int64_t length = 0;
   for (int e = 0; e < tjoin_problem->n_edges; e++)
-    if (s->tree_join[e]) length += tjoin_problem->weight[e];
-  if (length < s->best.length) {
-    s->best.length = length;
-    memcpy(s->best.in_join, s->tree_join, (size_t)tjoin_problem->n_edges * sizeof *s->tree_join);
+    if (solver->tree_join[e]) length += tjoin_problem->weight[e];
+
+  if (length < solver->best.length) {
+    solver->best.length = length;
+    memcpy(solver->best.in_join, solver->tree_join,
+           (size_t)tjoin_problem->n_edges * sizeof *solver->tree_join);
   }
   return THR_OK;
 }
 
-/* Two roundings: of the point x (all 0 at the start), and of the dual, whose tight edges hold every
- * shortest join. */
-static thr_status round_to_join(solver *s, thr_err *err)
+/* Rounds twice: by the point x (all 0 at the start), and by the dual, whose tight edges contain
+ * every minimum join once the dual is optimal. */
+static thr_status round_to_join(tjoin_solver *solver, thr_err *err)
 {
-  int m = s->p->n_edges;
-  for (int e = 0; e < m; e++)
-    s->key[e] = s->cost[e] * (1 - fmin(s->x[e], 1));
-  thr_status st = try_tree(s, err);
-  for (int e = 0; e < m; e++)
-    s->key[e] = fmax(s->reduced_cost[e], 0) + 1e-6 * s->key[e];
-  return st ? st : try_tree(s, err);
+  int n_edges = solver->problem->n_edges;
+  for (int e = 0; e < n_edges; e++)
+    solver->key[e] = solver->cost[e] * (1 - fmin(solver->x[e], 1));
+  thr_status st = try_tree(solver, err);
+
+  /* Among tight edges the point decides. */
+  for (int e = 0; e < n_edges; e++)
+    solver->key[e] = fmax(solver->reduced_cost[e], 0) + 1e-6 * solver->key[e];
+  return st ? st : try_tree(solver, err);
 }
 
 /* ---- the dual as integers ---- */
 
-/* value = dual in units of 1/denominator of a weight, rounded down; then whatever still overloads
- * an edge is taken back from the cuts over it, and what slack is left is given out again: to cuts
- * in use, or with greedy to any cut in turn. dual: [search.pool.count], NULL = all 0. Fills
- * s->value, returns their sum. */
-static int64_t integer_dual(solver *s, const double *dual, bool greedy)
+/* Fills solver->value with integer values of the rows that overload no edge, and returns their
+ * sum. dual[search.pool.count] in units of a cost, NULL = all 0. greedy: rows whose multiplier
+ * is 0 may get a value, too. */
+static int64_t integer_dual(tjoin_solver *solver, const double *dual, bool greedy)
 {
-  const thr_tjoin_problem *tjoin_problem = s->p;
-  const thr_pool *pool = &s->search.pool;
+  const thr_tjoin_problem *tjoin_problem = solver->problem;
+  const thr_pool *pool = &solver->search.pool;
+  /* Round the multipliers down, and compute the slack that they leave on every edge. */
   for (int e = 0; e < tjoin_problem->n_edges; e++)
-    s->slack[e] = (wide)tjoin_problem->weight[e] * THR_DUAL_DENOMINATOR;
+    solver->slack[e] = (wide)tjoin_problem->weight[e] * THR_DUAL_DENOMINATOR;
   for (int i = 0; i < pool->count; i++) {
-    double y = dual ? dual[i] * s->unit * THR_DUAL_DENOMINATOR : 0;
-    s->value[i] = y > 1 ? (int64_t)fmin(y, 4e18) : 0;
+    double scaled = dual ? dual[i] * solver->unit * THR_DUAL_DENOMINATOR : 0;
+    solver->value[i] = scaled > 1 ? (int64_t)fmin(scaled, 4e18) : 0;
     for (int k = 0; k < pool->row[i].n; k++)
-      s->slack[pool->row[i].column[k]] -= s->value[i];
+      solver->slack[pool->row[i].column[k]] -= solver->value[i];
   }
+
+  /* The first pass takes back what overloads an edge, the second hands out slack that is left. */
   wide sum = 0;
   for (int pass = 0; pass < 2; pass++) /* first take back, then give out */
     for (int i = 0; i < pool->count; i++) {
-      const thr_row *r = &pool->row[i];
-      wide least = s->slack[r->column[0]];
-      for (int k = 1; k < r->n; k++)
-        if (s->slack[r->column[k]] < least) least = s->slack[r->column[k]];
-      if (pass == 0 ? least >= 0 : least <= 0 || (s->value[i] == 0 && !greedy)) continue;
-      if (least < -(wide)s->value[i]) least = -(wide)s->value[i];
-      s->value[i] += (int64_t)least;
-      for (int k = 0; k < r->n; k++)
-        s->slack[r->column[k]] -= least;
+      const thr_row *row = &pool->row[i];
+      wide least = solver->slack[row->column[0]];
+      for (int k = 1; k < row->n; k++)
+        if (solver->slack[row->column[k]] < least) least = solver->slack[row->column[k]];
+      if (pass == 0 ? least >= 0 : least <= 0 || (solver->value[i] == 0 && !greedy)) continue;
+
+      /* Change the value by the least slack of the row's edges, but not below 0. */
+      if (least < -(wide)solver->value[i]) least = -(wide)solver->value[i];
+      solver->value[i] += (int64_t)least;
+      for (int k = 0; k < row->n; k++)
+        solver->slack[row->column[k]] -= least;
     }
+
   for (int i = 0; i < pool->count; i++)
-    sum += s->value[i];
+    sum += solver->value[i];
   return (int64_t)sum;
 }
 
-static thr_status store_cuts(solver *s, int64_t sum, thr_err *err)
+/* Replaces the cuts of the best bound by the rows with a value. */
+static thr_status store_cuts(tjoin_solver *solver, int64_t sum, thr_err *err)
 {
-  const thr_pool *pool = &s->search.pool;
-  thr_tjoin *best = &s->best;
+  const thr_pool *pool = &solver->search.pool;
+  thr_tjoin *best = &solver->best;
+  /* Release the cuts of the bound before. */
   for (int i = 0; i < best->n_cuts; i++)
     free(best->cut[i].node);
   free(best->cut);
   best->n_cuts = 0;
   best->cut = thr_calloc((size_t)pool->count, sizeof *best->cut);
   if (!best->cut) return thr_nomem(err);
+
+  /* Each row with a value becomes a cut of its members. */
   for (int i = 0; i < pool->count; i++) {
-    const thr_row *r = &pool->row[i];
-    if (s->value[i] == 0) continue;
-    thr_cut *to = &best->cut[best->n_cuts];
-    *to = (thr_cut){-1, r->n_members, thr_calloc((size_t)r->n_members, sizeof *to->node),
-                    s->value[i]};
-    if (!to->node) return thr_nomem(err);
+    const thr_row *row = &pool->row[i];
+    if (solver->value[i] == 0) continue;
+    thr_cut *cut = &best->cut[best->n_cuts];
+    *cut = (thr_cut){-1, row->n_members, thr_calloc((size_t)row->n_members, sizeof *cut->node),
+                     solver->value[i]};
+    if (!cut->node) return thr_nomem(err);
     best->n_cuts++;
-    memcpy(to->node, r->member, (size_t)r->n_members * sizeof *to->node);
+    memcpy(cut->node, row->member, (size_t)row->n_members * sizeof *cut->node);
   }
+
   best->sum = sum;
   return THR_OK;
 }
 
-/* Turns multipliers of the rows into a certificate and keeps it if its bound is the best; sets
- * best.optimal. */
-static thr_status certify(solver *s, const double *dual, bool greedy, thr_err *err)
+/* Turns multipliers of the rows into cuts with integer values, keeps them if their bound is the
+ * best so far, and sets best.optimal. */
+static thr_status certify(tjoin_solver *solver, const double *dual, bool greedy, thr_err *err)
 {
-  int64_t *value = thr_realloc(s->value, (size_t)s->search.pool.count, sizeof *value);
+  int64_t *value = thr_realloc(solver->value, (size_t)solver->search.pool.count, sizeof *value);
   if (!value) return thr_nomem(err);
-  s->value = value;
-  int64_t sum = integer_dual(s, dual, greedy);
+  solver->value = value;
+
+  int64_t sum = integer_dual(solver, dual, greedy);
   thr_status st = THR_OK;
-  if (sum > s->best.sum || s->best.n_cuts == 0) st = store_cuts(s, sum, err);
-  s->best.optimal = (wide)s->best.sum > ((wide)s->best.length - 1) * THR_DUAL_DENOMINATOR;
+
+  /* Weights are integers: a bound above length - 1 proves the join. */
+  if (sum > solver->best.sum || solver->best.n_cuts == 0) st = store_cuts(solver, sum, err);
+  solver->best.optimal =
+      (wide)solver->best.sum > ((wide)solver->best.length - 1) * THR_DUAL_DENOMINATOR;
+
   return st;
 }
 
 /* ---- the search ---- */
 
-static void report(const solver *s, const char *what)
+/* Reports the best join and bound. */
+static void report(const tjoin_solver *solver, const char *what)
 {
-  if (!s->limits->progress) return;
+  if (!solver->limits->progress) return;
   double denominator = THR_DUAL_DENOMINATOR;
-  s->limits->progress(s->limits->user, what, (double)s->best.length,
-                      (double)s->best.sum / denominator);
+  solver->limits->progress(solver->limits->user, what, (double)solver->best.length,
+                           (double)solver->best.sum / denominator);
 }
 
-/* The exact method needs costs that are integers: the multipliers are brought back to those of
- * s->cost. */
-static void reduce_costs(solver *s)
+/* Computes the reduced costs. The exact method works on the weights themselves, so its
+ * multipliers are scaled to the costs first. */
+static void reduce_costs(tjoin_solver *solver)
 {
-  thr_search *search = &s->search;
-  for (int i = 0; s->exact && i < search->pool.count; i++)
-    search->dual[i] *= 1 / s->unit;
-  memcpy(s->reduced_cost, s->cost, (size_t)s->p->n_edges * sizeof *s->cost);
+  thr_search *search = &solver->search;
+  for (int i = 0; solver->exact && i < search->pool.count; i++)
+    search->dual[i] *= 1 / solver->unit;
+
+  memcpy(solver->reduced_cost, solver->cost,
+         (size_t)solver->problem->n_edges * sizeof *solver->cost);
   for (int i = 0; i < search->pool.count; i++)
-    thr_row_charge(&search->pool.row[i], search->dual[i], s->reduced_cost);
+    thr_row_charge(&search->pool.row[i], search->dual[i], solver->reduced_cost);
 }
 
-/* Joins from the point, and what its multipliers prove: also of an unfinished solve. */
+/* Looks at a solved programme: rounds its point to joins, and computes the bound that its
+ * multipliers prove, which is valid even if the solve was not finished. */
 static thr_status look(void *user, thr_err *err)
 {
-  solver *s = user;
-  reduce_costs(s);
-  thr_status st = round_to_join(s, err);
-  if (!st) st = certify(s, s->search.dual, false, err);
-  if (!st) report(s, "odd cuts");
-  s->search.enough = s->best.optimal;
+  tjoin_solver *solver = user;
+  reduce_costs(solver);
+  thr_status st = round_to_join(solver, err);
+  if (!st) st = certify(solver, solver->search.dual, false, err);
+  if (!st) report(solver, "odd cuts");
+
+  solver->search.enough = solver->best.optimal;
   return st;
 }
 
+/* Solves the programme by GLPK's exact method on integer costs, and puts the scaled costs back. */
 static thr_status solve_exact(void *user, const thr_limits *limits, thr_lp_outcome *outcome,
                               thr_err *err)
 {
-  solver *s = user;
-  thr_status st = thr_lp_set_costs(s->search.lp, s->whole, err);
-  if (!st) st = thr_lp_solve_exact(s->search.lp, limits, outcome, err);
-  return st ? st : thr_lp_set_costs(s->search.lp, s->cost, err);
+  tjoin_solver *solver = user;
+  thr_status st = thr_lp_set_costs(solver->search.lp, solver->whole, err);
+  if (!st) st = thr_lp_solve_exact(solver->search.lp, limits, outcome, err);
+  return st ? st : thr_lp_set_costs(solver->search.lp, solver->cost, err);
 }
 
-/* Balls round the odd nodes, and what they prove before any linear programme is solved. */
-static thr_status start(solver *s, thr_err *err)
+/* Grows balls round the odd nodes, which give a first join and a first bound before any linear
+ * programme is solved. */
+static thr_status start(tjoin_solver *solver, thr_err *err)
 {
-  thr_status st = thr_oddcut_moats(&s->graph, NULL, 0, s->reduced_cost, &s->search.pool, err);
-  if (!st) st = round_to_join(s, err);
-  return st ? st : certify(s, NULL, true, err);
+  thr_status st =
+      thr_oddcut_moats(&solver->graph, NULL, 0, solver->reduced_cost, &solver->search.pool, err);
+  if (!st) st = round_to_join(solver, err);
+  return st ? st : certify(solver, NULL, true, err);
 }
 
-/* Until bound and join meet, separation finds nothing, or the limits stop it. The inexact method
- * cannot tell joins apart whose weights differ by a unit, and so may stop at a point that looks
- * integral: the exact one goes on from there, with cuts of its own. */
-static thr_status solve(solver *s, thr_err *err)
+/* Runs rounds until bound and join meet, separation finds nothing, or the limits stop them. In
+ * floating point, joins whose weights differ by one unit cannot be told apart, so that the
+ * rounds may end at an integral point before the bound is proved. The exact method then goes on
+ * with cuts of its own. */
+static thr_status solve(tjoin_solver *solver, thr_err *err)
 {
   enum { PATIENCE = 6 };
   static const char name[] = "an odd-cut relaxation";
-  const thr_search_calls calls = {.user = s, .name = name, .look = look, .patience = PATIENCE},
-                         exact = {.user = s, .name = name, .solve = solve_exact, .look = look};
-  thr_status st = thr_search_rounds(&s->search, &calls, s->limits, err);
-  if (st || s->best.optimal || s->search.outcome != THR_LP_OPTIMAL) return st;
-  s->exact = true;
-  return thr_search_rounds(&s->search, &exact, s->limits, err);
+  const thr_search_calls calls = {.user = solver, .name = name, .look = look, .patience = PATIENCE},
+                         exact = {.user = solver, .name = name, .solve = solve_exact, .look = look};
+
+  thr_status st = thr_search_rounds(&solver->search, &calls, solver->limits, err);
+  if (st || solver->best.optimal || solver->search.outcome != THR_LP_OPTIMAL) return st;
+
+  solver->exact = true;
+  return thr_search_rounds(&solver->search, &exact, solver->limits, err);
 }
 
-static thr_status run(solver *s, thr_err *err)
+/* Runs the algorithm; THR_ELIMIT if join and bound do not meet, both being valid all the same. */
+static thr_status run(tjoin_solver *solver, thr_err *err)
 {
+  /* The odd nodes' balls are often enough. */
   thr_err failure = {0};
-  thr_status st = start(s, err);
-  if (st || s->best.optimal) return st;
-  st = solve(s, &failure);
+  thr_status st = start(solver, err);
+  if (st || solver->best.optimal) return st;
+
+  /* A failure of the library leaves the best join and bound as they are. */
+  st = solve(solver, &failure);
   if (st == THR_ENOMEM) return thr_nomem(err);
-  if (s->best.optimal) return THR_OK;
-  if (st)
-    return thr_fail(err, THR_ELIMIT, "%s",
-                    failure.text); /* join and bound stay good whatever a library does */
-  if (s->search.outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped early");
+  if (solver->best.optimal) return THR_OK;
+  if (st) return thr_fail(err, THR_ELIMIT, "%s", failure.text);
+  if (solver->search.outcome == THR_LP_STOPPED) return thr_fail(err, THR_ELIMIT, "stopped early");
   return thr_fail(err, THR_ELIMIT,
                   "the odd-cut bound and the best join do not meet; please report this framework");
 }
@@ -364,25 +416,32 @@ static thr_status run(solver *s, thr_err *err)
 thr_status thr_tjoin_solve(const thr_tjoin_problem *tjoin_problem, const thr_limits *limits,
                            thr_tjoin *out, thr_err *err)
 {
-  solver s;
+  tjoin_solver solver;
   *out = (thr_tjoin){0};
+
   int n_odd = 0;
   for (int v = 0; v < tjoin_problem->n_nodes; v++)
     n_odd += tjoin_problem->odd[v];
-  if (n_odd == 0) { /* the empty join needs no proof */
+
+  /* The empty join needs no proof. */
+  if (n_odd == 0) {
     out->in_join = thr_calloc((size_t)tjoin_problem->n_edges, sizeof *out->in_join);
     out->optimal = true;
     return out->in_join ? THR_OK : thr_nomem(err);
   }
-  thr_status st = solver_init(&s, tjoin_problem, limits, err);
-  if (!st) st = run(&s, err);
+
+  thr_status st = solver_init(&solver, tjoin_problem, limits, err);
+  if (!st) st = run(&solver, err);
+
+  /* Nest the cuts into a forest, also if the limits stopped the work. */
   if (!st || st == THR_ELIMIT) {
-    thr_cuts forest = {s.best.n_cuts, tjoin_problem->n_nodes, s.best.cut};
+    thr_cuts forest = {solver.best.n_cuts, tjoin_problem->n_nodes, solver.best.cut};
     if (thr_cuts_nest(&forest, err)) st = THR_ENOMEM;
-    s.best.cut = forest.cut;
+    solver.best.cut = forest.cut;
   }
-  solver_destroy(&s);
-  if (st && st != THR_ELIMIT) thr_tjoin_destroy(&s.best);
-  *out = s.best;
+
+  solver_destroy(&solver);
+  if (st && st != THR_ELIMIT) thr_tjoin_destroy(&solver.best);
+  *out = solver.best;
   return st;
 }
