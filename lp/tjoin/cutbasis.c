@@ -1,87 +1,96 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The cuts of a T-join as a linear programme, and a basis of it from the join, so that GLPK needs
- * few pivots to confirm the optimum. Internal to lp/.
+/* Writes the cuts of a T-join as a linear programme, and chooses a basis from the join, so that
+ * GLPK needs few pivots to confirm the optimum.
  *
- * Minimize the sum of w(e) x(e) with x(edges that leave S) >= 1 for every set S among the cuts.
+ * The programme minimizes the sum of w(e) x(e) with x >= 0 and x(edges that leave S) - s = 1, s >=
+ * 0, for every set S among the cuts. From the equation of a cut those of its children are
+ * subtracted. An edge that leaves a set and sets within this set at one node then has an entry in
+ * the equation of the innermost set only, so that deeply nested cuts have few entries.
  *
- * Example: one odd set S with two edges of weight 2 and 3 leaving it: the row x1 + x2 >= 1, basic
- * x1 = 1.
- *
- * Writes the programme of a T-join's cuts, and chooses a basis from the join.
- *
- * A cut's equation is its own less those of the cuts right inside of it: an edge that leaves a set
- * and the sets within it at one node then stands in the equation of the innermost set only. */
+ * Example: one odd set S with two edges of weight 2 and 3 leaving it, the first one in the join:
+ * the equation x1 + x2 - s = 1, in which x1 is basic. */
 #include "lp/tjoin/tjoin.h"
 #include "graph/scratch.h"
 
 #include <stdlib.h>
 
-/* ---- where the nodes are ---- */
+/* ---- the cuts round a node ---- */
 
+/* For every node the cuts that list it, at most one in each tree of the forest. */
 typedef struct {
-  const thr_tjoin_problem *p;
-  const thr_tjoin *t;
-  int *tree; /* [n_cuts] the outermost cut round it, or itself */
-  int *first,
-      *holds; /* cuts that name node v: holds[first[v] .. first[v + 1] - 1], in one tree each */
-  thr_scratch own; /* the arrays */
-} places;
+  const thr_tjoin_problem *problem;
+  const thr_tjoin *join;
+  int *tree;          /* [n_cuts] root of the cut's tree */
+  int *first, *holds; /* cuts that list node v: holds[first[v] .. first[v + 1] - 1] */
+  thr_scratch own;    /* the arrays */
+} cut_index;
 
-static void places_destroy(places *s)
+static void index_destroy(cut_index *index)
 {
-  thr_scratch_free(&s->own);
+  thr_scratch_free(&index->own);
 }
 
-static thr_status places_init(places *s, const thr_tjoin_problem *tjoin_problem,
-                              const thr_tjoin *tjoin, thr_err *err)
+/* Fills the index; children must come before their parents. */
+static thr_status index_init(cut_index *index, const thr_tjoin_problem *tjoin_problem,
+                             const thr_tjoin *tjoin, thr_err *err)
 {
   size_t n = (size_t)tjoin_problem->n_nodes, named = 0;
-  *s = (places){.p = tjoin_problem, .t = tjoin};
-  s->tree = thr_scratch_array(&s->own, (size_t)tjoin->n_cuts, sizeof *s->tree);
-  s->first = thr_scratch_array(&s->own, n + 2, sizeof *s->first);
-  if (thr_scratch_check(&s->own, err)) return THR_ENOMEM;
+  *index = (cut_index){.problem = tjoin_problem, .join = tjoin};
+  index->tree = thr_scratch_array(&index->own, (size_t)tjoin->n_cuts, sizeof *index->tree);
+  index->first = thr_scratch_array(&index->own, n + 2, sizeof *index->first);
+  if (thr_scratch_check(&index->own, err)) return THR_ENOMEM;
+
+  /* Find the root of every cut, parents first, and count the cuts at every node. */
   for (int i = tjoin->n_cuts - 1; i >= 0; i--) {
-    s->tree[i] = tjoin->cut[i].parent < 0 ? i : s->tree[tjoin->cut[i].parent];
+    index->tree[i] = tjoin->cut[i].parent < 0 ? i : index->tree[tjoin->cut[i].parent];
     named += (size_t)tjoin->cut[i].n_nodes;
     for (int k = 0; k < tjoin->cut[i].n_nodes; k++)
-      s->first[tjoin->cut[i].node[k] + 2]++;
+      index->first[tjoin->cut[i].node[k] + 2]++;
   }
+
+  /* Sort the cuts by node. */
   for (size_t v = 1; v <= n; v++)
-    s->first[v + 1] += s->first[v];
-  s->holds = thr_scratch_array(&s->own, named, sizeof *s->holds);
-  if (thr_scratch_check(&s->own, err)) return THR_ENOMEM;
+    index->first[v + 1] += index->first[v];
+  index->holds = thr_scratch_array(&index->own, named, sizeof *index->holds);
+  if (thr_scratch_check(&index->own, err)) return THR_ENOMEM;
   for (int i = 0; i < tjoin->n_cuts; i++)
     for (int k = 0; k < tjoin->cut[i].n_nodes; k++)
-      s->holds[s->first[tjoin->cut[i].node[k] + 1]++] = i;
+      index->holds[index->first[tjoin->cut[i].node[k] + 1]++] = i;
   return THR_OK;
 }
 
-/* The cut of that tree that names node v, or -1. */
-static int place_in(const places *s, int v, int tree)
+/* Returns the cut of a tree that lists node v, or -1. */
+static int cut_in_tree(const cut_index *index, int v, int tree)
 {
-  for (int k = s->first[v]; k < s->first[v + 1]; k++)
-    if (s->tree[s->holds[k]] == tree) return s->holds[k];
+  for (int k = index->first[v]; k < index->first[v + 1]; k++)
+    if (index->tree[index->holds[k]] == tree) return index->holds[k];
   return -1;
 }
 
-/* Of the k-th tree that names an end of edge e: the cuts that do so, -1 for an end that it does not
- * name; a tree that came before: -1 for both. False: there are not so many. */
-static bool ends_in_tree(const places *s, int e, int k, int at[2])
+/* Computes where edge e lies in the k-th of the trees that list one of its ends: at[i] becomes
+ * the cut that lists end i, -1 if the tree does not list this end. Both are -1 if the tree came
+ * up at a smaller k. Returns false if there are fewer trees. */
+static bool ends_in_tree(const cut_index *index, int e, int k, int at[2])
 {
-  int u = s->p->edge[e][0], v = s->p->edge[e][1], of_u = s->first[u + 1] - s->first[u];
+  /* The trees at the first end come first, then the trees at the second one. */
+  int u = index->problem->edge[e][0], v = index->problem->edge[e][1],
+      of_u = index->first[u + 1] - index->first[u];
   bool second = k >= of_u;
-  if (second && k - of_u >= s->first[v + 1] - s->first[v]) return false;
-  at[second] = s->holds[second ? s->first[v] + k - of_u : s->first[u] + k];
-  at[!second] = place_in(s, second ? u : v, s->tree[at[second]]);
+  if (second && k - of_u >= index->first[v + 1] - index->first[v]) return false;
+  at[second] = index->holds[second ? index->first[v] + k - of_u : index->first[u] + k];
+  at[!second] = cut_in_tree(index, second ? u : v, index->tree[at[second]]);
+
+  /* A tree at both ends has come up at the first one. */
   if (second && at[0] >= 0) at[0] = at[1] = -1;
   return true;
 }
 
-/* One step on the way between the cuts at[0] and at[1] (-1: outside), out of the inner one, which
- * it returns. */
+/* Moves the inner one of the cuts at[0] and at[1] (-1: outside of all) to its parent, and
+ * returns this inner cut, which the edge leaves. Repeated until both are the same, this visits
+ * all cuts of the tree that the edge leaves. */
 static int step_out(const thr_cut *cut, int at[2])
 {
-  bool second = at[0] < 0 || (at[1] >= 0 && at[1] < at[0]); /* parents come later */
+  bool second = at[0] < 0 || (at[1] >= 0 && at[1] < at[0]); /* parents have higher numbers */
   int left = at[second];
   at[second] = cut[left].parent;
   return left;
@@ -89,38 +98,48 @@ static int step_out(const thr_cut *cut, int at[2])
 
 /* ---- columns ---- */
 
+/* Appends an entry to the column that is being written. */
 static void add_entry(thr_cut_programme *cut_programme, int *n, int row, double value)
 {
   cut_programme->row[*n] = row;
   cut_programme->value[(*n)++] = value;
 }
 
-/* An edge stands in the equations of the innermost cuts that it leaves, at either end, and of the
- * one that holds all of them. */
-static void add_edge(thr_cut_programme *cut_programme, const places *s, int e, int *n)
+/* Writes the column of an edge: in every tree an entry 1 at the innermost cuts that the edge
+ * leaves, one at either end, and as many times -1 at the innermost cut that holds both ends. */
+static void add_edge(thr_cut_programme *cut_programme, const cut_index *index, int e, int *n)
 {
   int at[2];
-  for (int k = 0; ends_in_tree(s, e, k, at); k++) {
+  for (int k = 0; ends_in_tree(index, e, k, at); k++) {
+    /* Find the innermost cut that holds both ends, or -1. */
     int inner[2] = {at[0], at[1]}, leaves = 0;
     while (at[0] != at[1])
-      step_out(s->t->cut, at);
+      step_out(index->join->cut, at);
+
+    /* An end listed by this very cut leaves nothing. */
     for (int i = 0; i < 2; i++) {
       if (inner[i] == at[0]) continue;
       add_entry(cut_programme, n, inner[i], 1);
       leaves++;
     }
+
     if (leaves > 0 && at[0] >= 0) add_entry(cut_programme, n, at[0], -leaves);
   }
 }
 
-static thr_status columns_init(thr_cut_programme *cut_programme, const places *s, thr_err *err)
+/* Writes all columns, of edges and of slacks, and the right sides. */
+static thr_status columns_init(thr_cut_programme *cut_programme, const cut_index *index,
+                               thr_err *err)
 {
-  const thr_cut *cut = s->t->cut;
+  const thr_cut *cut = index->join->cut;
   size_t most = 2 * (size_t)cut_programme->n_rows;
   int n = 0;
-  for (int e = 0; e < s->p->n_edges; e++)
+
+  /* An edge has at most three entries in a tree, a slack two. */
+  for (int e = 0; e < index->problem->n_edges; e++)
     for (int i = 0; i < 2; i++)
-      most += 3 * (size_t)(s->first[s->p->edge[e][i] + 1] - s->first[s->p->edge[e][i]]);
+      most += 3 * (size_t)(index->first[index->problem->edge[e][i] + 1] -
+                           index->first[index->problem->edge[e][i]]);
   cut_programme->rhs = thr_calloc((size_t)cut_programme->n_rows, sizeof *cut_programme->rhs);
   cut_programme->start =
       thr_calloc((size_t)cut_programme->n_columns + 1, sizeof *cut_programme->start);
@@ -128,10 +147,15 @@ static thr_status columns_init(thr_cut_programme *cut_programme, const places *s
   cut_programme->value = thr_calloc(most, sizeof *cut_programme->value);
   if (!cut_programme->rhs || !cut_programme->start || !cut_programme->row || !cut_programme->value)
     return thr_nomem(err);
-  for (int e = 0; e < s->p->n_edges; e++) {
-    add_edge(cut_programme, s, e, &n);
+
+  /* Columns of edges. */
+  for (int e = 0; e < index->problem->n_edges; e++) {
+    add_edge(cut_programme, index, e, &n);
     cut_programme->start[e + 1] = n;
   }
+
+  /* Columns of slacks: -1 in the own equation and, as this is subtracted there, 1 in the
+   * parent's. */
   for (int i = 0; i < cut_programme->n_rows; i++) {
     add_entry(cut_programme, &n, i, -1);
     cut_programme->rhs[i] += 1;
@@ -139,34 +163,40 @@ static thr_status columns_init(thr_cut_programme *cut_programme, const places *s
       add_entry(cut_programme, &n, cut[i].parent, 1);
       cut_programme->rhs[cut[i].parent] -= 1;
     }
-    cut_programme->start[s->p->n_edges + i + 1] = n;
+    cut_programme->start[index->problem->n_edges + i + 1] = n;
   }
   return THR_OK;
 }
 
 /* ---- the basis ---- */
 
-/* Marks as basic every edge of the join that leaves a cut which no other edge of the join leaves,
- * one edge for such a cut, and the slacks of all other cuts. Such a matrix is not singular: in the
- * rows of the basic edges there is no other basic column. */
-static thr_status choose_basis(const places *s, bool *edge, bool *slack, thr_err *err)
+/* Marks the columns of the basis: one edge of the join for every cut that only this edge of the
+ * join leaves, but no edge twice, and the slacks of all other cuts. The matrix is not singular:
+ * the equation x(edges that leave S) - s = 1 of a cut with a basic edge has no other basic
+ * column. */
+static thr_status choose_basis(const cut_index *index, bool *edge, bool *slack, thr_err *err)
 {
   thr_scratch own = {0};
-  size_t n = (size_t)s->t->n_cuts;
+  size_t n = (size_t)index->join->n_cuts;
   int *joined = thr_scratch_array(&own, n, sizeof *joined),
       *by = thr_scratch_array(&own, n, sizeof *by), at[2];
   thr_status st = thr_scratch_check(&own, err);
-  for (int e = 0; e < s->p->n_edges && !st; e++)
-    for (int k = 0; s->t->in_join[e] && ends_in_tree(s, e, k, at); k++)
+
+  /* Count the edges of the join that leave each cut, and remember one. */
+  for (int e = 0; e < index->problem->n_edges && !st; e++)
+    for (int k = 0; index->join->in_join[e] && ends_in_tree(index, e, k, at); k++)
       while (at[0] != at[1]) {
-        int left = step_out(s->t->cut, at);
+        int left = step_out(index->join->cut, at);
         joined[left]++;
         by[left] = e;
       }
-  for (int i = 0; i < s->t->n_cuts && !st; i++) {
+
+  /* An edge is basic for the first cut that it alone leaves. */
+  for (int i = 0; i < index->join->n_cuts && !st; i++) {
     slack[i] = joined[i] != 1 || edge[by[i]];
     if (!slack[i]) edge[by[i]] = true;
   }
+
   thr_scratch_free(&own);
   return st;
 }
@@ -185,16 +215,19 @@ thr_status thr_cut_programme_init(thr_cut_programme *cut_programme,
                                   const thr_tjoin_problem *tjoin_problem, const thr_tjoin *tjoin,
                                   thr_err *err)
 {
-  places s;
+  cut_index index;
   *cut_programme = (thr_cut_programme){.n_rows = tjoin->n_cuts,
                                        .n_columns = tjoin_problem->n_edges + tjoin->n_cuts};
   cut_programme->basic = thr_calloc((size_t)cut_programme->n_columns, sizeof *cut_programme->basic);
-  thr_status st = places_init(&s, tjoin_problem, tjoin, err);
+
+  thr_status st = index_init(&index, tjoin_problem, tjoin, err);
   if (!st && !cut_programme->basic) st = thr_nomem(err);
-  if (!st) st = columns_init(cut_programme, &s, err);
+  if (!st) st = columns_init(cut_programme, &index, err);
   if (!st)
-    st = choose_basis(&s, cut_programme->basic, cut_programme->basic + tjoin_problem->n_edges, err);
-  places_destroy(&s);
+    st = choose_basis(&index, cut_programme->basic, cut_programme->basic + tjoin_problem->n_edges,
+                      err);
+
+  index_destroy(&index);
   if (st) thr_cut_programme_destroy(cut_programme);
   return st;
 }

@@ -168,6 +168,7 @@ static bool nearer(reached_node a, reached_node b)
   return a.distance < b.distance || (a.distance == b.distance && a.node < b.node);
 }
 
+/* Puts a node into the queue. */
 static void push(node_queue *queue, reached_node entry)
 {
   /* Move larger ancestors down until there is a place for the new entry. */
@@ -177,6 +178,7 @@ static void push(node_queue *queue, reached_node entry)
   queue->heap[i] = entry;
 }
 
+/* Takes the nearest node out of the queue. */
 static reached_node pop(node_queue *queue)
 {
   reached_node top = queue->heap[0], last = queue->heap[--queue->count];
